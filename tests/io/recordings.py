@@ -10,6 +10,7 @@ from functools import cache
 from pathlib import Path
 
 import numpy as np
+import pytest
 from rosbags.interfaces import Nodetype
 from rosbags.rosbag1 import Writer as Writer1
 from rosbags.rosbag2 import CompressionFormat, CompressionMode, StoragePlugin
@@ -17,6 +18,7 @@ from rosbags.rosbag2 import Writer as Writer2
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
 import bayesmap as bm
+from bayesmap.io.logs import describe_log
 from bayesmap.io.ros.compression import zstd
 
 T0 = 1_700_000_000 * 10**9
@@ -306,3 +308,33 @@ def robot(
 def merged(*parts):
     """Several robots' messages in the order of receipt."""
     return sorted((message for part in parts for message in part), key=lambda message: message[2])
+
+
+def without(messages, topic):
+    """Return the messages on other topics."""
+    return [m for m in messages if m[0] != topic]
+
+
+def with_scans(messages, *scans):
+    """Return messages with other scans: time and LaserScan of each."""
+    return [*without(messages, "/scan"), *(("/scan", SCAN, t, scan) for t, scan in scans)]
+
+
+def refused(path, **options):
+    """Return the one sentence by which a log is refused; it begins with the path."""
+    with pytest.raises(bm.BadInput) as error:
+        describe_log(path, **options)
+    assert str(error.value).startswith(str(path))
+    assert "\n" not in str(error.value)
+    return str(error.value)
+
+
+def same(read, expected, *, timed=True, atol=1e-9):
+    """Check that scans are those expected; a yaw is compared as a direction, and stamps if they are known."""
+    np.testing.assert_allclose(read.poses[:, :2], expected.poses[:, :2], atol=atol)
+    np.testing.assert_allclose(np.exp(1j * read.poses[:, 2]), np.exp(1j * expected.poses[:, 2]), atol=atol)
+    np.testing.assert_array_equal(read.ranges_m, expected.ranges_m)
+    np.testing.assert_allclose(read.angles_rad, expected.angles_rad, atol=1e-6)  # single precision in the messages
+    if timed:
+        np.testing.assert_allclose(read.stamps_s, expected.stamps_s, atol=1e-6)
+    assert (read.min_range_m, read.max_range_m) == (expected.min_range_m, expected.max_range_m)

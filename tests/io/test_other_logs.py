@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from recordings import ANGLES, on, path_of, simulated
+from recordings import ANGLES, on, path_of, refused, simulated
 
 import bayesmap as bm
 from bayesmap.io.logs import describe_log, read_log
@@ -22,13 +22,6 @@ def equal(a, b):
     np.testing.assert_array_equal(a.ranges_m, b.ranges_m)
     np.testing.assert_allclose(a.stamps_s, b.stamps_s)
     assert (a.min_range_m, a.max_range_m) == (b.min_range_m, b.max_range_m)
-
-
-def refused(path, **options):
-    with pytest.raises(bm.BadInput) as error:
-        read_log(path, **options)
-    assert str(error.value).startswith(str(path))
-    return str(error.value)
 
 
 def written(path, text):

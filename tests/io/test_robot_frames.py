@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 import recordings as r
 
-import bayesmap as bm
 from bayesmap.io.contents import contents_of
 from bayesmap.io.logs import describe_log
 from bayesmap.io.ros.frames import Samples
@@ -36,13 +35,6 @@ def same(read, wanted, frame=(0.0, 0.0, 0.0)):
     np.testing.assert_allclose(read.poses[:, :2], places, atol=1e-9)
     np.testing.assert_allclose(np.exp(1j * read.poses[:, 2]), np.exp(1j * (wanted.poses[:, 2] - turn)), atol=1e-9)
     np.testing.assert_array_equal(read.ranges_m, wanted.ranges_m)
-
-
-def refused(path, **options):
-    with pytest.raises(bm.BadInput) as error:
-        describe_log(path, **options)
-    assert str(error.value).startswith(str(path))
-    return str(error.value)
 
 
 @pytest.mark.parametrize("writer", ["mcap", "rosbag1"])
@@ -99,7 +91,7 @@ def test_the_nearest_of_two_maps_over_the_sensor_is_taken(tmp_path):
 def test_namespaces_of_transforms_that_scans_have_not_are_to_be_chosen_from(tmp_path):
     robots = [r.robot(path=way(n), mount=mount(n), space=f"/laser{n}", tf_space=f"/robot{n}") for n in (1, 2)]
     file = r.written(tmp_path / "two", r.merged(*(messages for messages, _ in robots)))
-    message = refused(file, scan_topic="/laser2/scan")
+    message = r.refused(file, scan_topic="/laser2/scan")
     assert "differs between topics: /robot1/tf" in message
     assert "choose one with --pose-topic: /robot1/tf" in message
     assert "/robot2/tf (tf2_msgs" in message
@@ -146,7 +138,7 @@ def test_a_topic_that_tells_other_transforms_is_to_be_chosen_from(tmp_path):
     others = [m for m in r.robot(path=way(1), late=0.01)[0] if m[0] == "/tf"]
     others = [("/tf_other", *m[1:]) for m in others]
     file = r.written(tmp_path, r.merged(messages, others))
-    message = refused(file)
+    message = r.refused(file)
     assert "the transform odom -> base_link differs between topics: /tf says x " in message
     assert "choose one with --pose-topic: /tf (tf2_msgs/msg/TFMessage, 42 messages), /tf_other (" in message
     same(describe_log(file, pose_topic="/tf").scans, scans)
@@ -190,7 +182,7 @@ def test_a_transform_that_is_static_and_not_is_to_be_chosen(tmp_path, moving):
     messages, scans = r.robot()
     still = r.transform(0.0, "odom", "base_link", 1.0, 2.0, 0.5) if moving else r.transform(0.0, "map", "odom", 1, 2, 0)
     file = r.written(tmp_path, r.merged([("/tf_static", r.TF, 0.0, r.tf(still))], messages))
-    message = refused(file)
+    message = r.refused(file)
     assert f"the transform {'odom -> base_link' if moving else 'map -> odom'} differs between topics" in message
     assert "/tf_static says x 1 m, y 2 m" in message
     assert "--pose-topic: " in message
@@ -204,7 +196,7 @@ def test_two_publishers_of_odometry_are_refused_with_both_values(tmp_path, late,
     others = [m for m in r.robot(path=lambda t: r.path_of(t) + away, late=late)[0] if m[0] == "/tf"]
     others = [m for m in others if m[3]["transforms"][0]["child_frame_id"] == "base_link"]
     file = r.written(tmp_path, r.merged(messages, others))
-    message = refused(file)
+    message = r.refused(file)
     assert "the transform odom -> base_link on /tf goes to and fro between values that differ: at " in message
     assert "two publishers" in message
     assert "--pose-topic: /odom" in message
@@ -221,14 +213,14 @@ def test_two_publishers_of_the_map_leave_the_odometry(tmp_path):
     messages, _ = r.robot()
     others = [("/tf", r.TF, t + 0.1, r.tf(r.transform(t + 0.1, "map", "odom", 1.0, 1.0, 0.0))) for t in r.POSE_TIMES]
     file = r.written(tmp_path, r.merged(messages, others))
-    assert "map in a frame below it with --fixed-frame odom" in refused(file)
+    assert "map in a frame below it with --fixed-frame odom" in r.refused(file)
     assert describe_log(file, fixed_frame="odom").fixed_frame == "odom"
 
 
 def test_two_publishers_on_a_topic_of_poses_are_refused(tmp_path):
     messages, _ = r.robot(tf_poses=False, odom=True)
     others = [m for m in r.robot(tf_poses=False, odom=True, path=way(1), late=0.1)[0] if m[0] == "/odom"]
-    assert "odom -> base_link on /odom goes to and fro" in refused(r.written(tmp_path, r.merged(messages, others)))
+    assert "odom -> base_link on /odom goes to and fro" in r.refused(r.written(tmp_path, r.merged(messages, others)))
 
 
 def a_track(rng, samples, noise, late_s=0.0, away=(0.0, 0.0, 0.0)):
@@ -325,7 +317,7 @@ def test_a_run_without_poses_is_left_out_with_the_reason(tmp_path):
 def test_a_clock_that_starts_again_for_the_recorder_too_is_refused_as_such(tmp_path):
     """Recorded by the simulated clock itself, both runs are received at the same times."""
     parts = [r.robot(path=way(n), late=0.01 * n)[0] for n in (1, 2)]
-    assert "or the clock of the recording started again" in refused(r.written(tmp_path, r.merged(*parts)))
+    assert "or the clock of the recording started again" in r.refused(r.written(tmp_path, r.merged(*parts)))
 
 
 @pytest.mark.parametrize("seed", range(5))
@@ -335,6 +327,6 @@ def test_scans_that_come_late_are_sorted_and_make_no_run(tmp_path, seed):
     laser = [m for m in messages if m[0] == "/scan"]
     late = rng.permutation(len(laser)) if seed else np.roll(np.arange(len(laser)), 3)
     shuffled = [(*a[:2], b[2], a[3]) for a, b in zip([laser[i] for i in late], laser, strict=True)]
-    reading = describe_log(r.written(tmp_path, r.merged([m for m in messages if m[0] != "/scan"], shuffled)))
+    reading = describe_log(r.written(tmp_path, r.merged(r.without(messages, "/scan"), shuffled)))
     same(reading.scans, scans)
     assert any("all were sorted by time" in note for note in reading.notes)

@@ -15,21 +15,11 @@ from bayesmap.io.logs import describe_log, read_log
 from bayesmap.io.ros.compression import zstd
 
 
-def same(read, wanted, atol=1e-9):
-    np.testing.assert_allclose(read.poses[:, :2], wanted.poses[:, :2], atol=atol)
-    np.testing.assert_allclose(np.sin(read.poses[:, 2] - wanted.poses[:, 2]), 0, atol=atol)
-    np.testing.assert_allclose(np.cos(read.poses[:, 2] - wanted.poses[:, 2]), 1, atol=atol)
-    np.testing.assert_array_equal(read.ranges_m, wanted.ranges_m)
-    np.testing.assert_allclose(read.angles_rad, wanted.angles_rad, atol=1e-6)  # single precision in the messages
-    np.testing.assert_allclose(read.stamps_s, wanted.stamps_s, atol=1e-6)
-    assert (read.min_range_m, read.max_range_m) == (wanted.min_range_m, wanted.max_range_m)
-
-
 @pytest.mark.parametrize("writer", [*r.WRITERS, *r.COMPRESSED])
 def test_scans_and_poses_by_tf_are_those_that_were_simulated(tmp_path, writer):
     messages, scans = r.robot()
     reading = describe_log(r.written(tmp_path, messages, writer))
-    same(reading.scans, scans)
+    r.same(reading.scans, scans)
     assert reading.notes == ()
     assert (reading.pose_source, reading.fixed_frame, reading.sensor_frame) == ("/tf", "map", "laser")
     np.testing.assert_allclose(reading.laser_offset, r.MOUNT, atol=1e-9)
@@ -41,7 +31,7 @@ def test_scans_and_poses_by_tf_are_those_that_were_simulated(tmp_path, writer):
 def test_scans_and_poses_by_odometry_are_those_that_were_simulated(tmp_path, writer):
     messages, scans = r.robot(tf_poses=False, odom=True)
     reading = describe_log(r.written(tmp_path, messages, writer), pose_topic="/odom")
-    same(reading.scans, scans)
+    r.same(reading.scans, scans)
     assert reading.pose_source == "/odom"
     assert reading.notes == ()
 
@@ -49,7 +39,7 @@ def test_scans_and_poses_by_odometry_are_those_that_were_simulated(tmp_path, wri
 def test_the_only_topic_of_poses_is_found_without_being_named(tmp_path):
     messages, scans = r.robot(tf_poses=False, odom=True)
     reading = describe_log(r.written(tmp_path, messages))
-    same(reading.scans, scans)
+    r.same(reading.scans, scans)
     assert "poses were taken from /odom, the only topic of poses" in reading.notes[0]
 
 
@@ -61,7 +51,7 @@ def test_poses_of_a_body_without_a_name_are_taken_as_the_base_s(tmp_path, kind):
         told = told if kind == r.POSE else {"pose": told, "covariance": [0.0] * 36}
         messages.append(("/pose", kind, t, {"header": r.header(t, "map"), "pose": told}))
     reading = describe_log(r.written(tmp_path, messages), pose_topic="pose")
-    same(reading.scans, scans)
+    r.same(reading.scans, scans)
     assert "taken as that of 'base_link'" in reading.notes[0]
 
 
@@ -94,8 +84,7 @@ def test_the_posterior_of_a_recording_is_that_of_its_scans(tmp_path, writer):
 def test_readings_mean_what_rep_117_says(tmp_path):
     special = [math.inf, -math.inf, math.nan, 0.0, 0.05, 43.0, 42.0, 3.0]
     messages, _ = r.robot()
-    messages = [m for m in messages if m[0] != "/scan"]
-    messages.append(("/scan", r.SCAN, 1.0, r.laser(1.0, special, np.linspace(-1, 1, 8))))
+    messages = r.with_scans(messages, (1.0, r.laser(1.0, special, np.linspace(-1, 1, 8))))
     scans = read_log(r.written(tmp_path, messages))
     nan = math.nan
     np.testing.assert_array_equal(scans.ranges_m[0], [math.inf, -math.inf, nan, nan, nan, math.inf, 42.0, 3.0])
@@ -103,8 +92,7 @@ def test_readings_mean_what_rep_117_says(tmp_path):
 
 def test_a_driver_that_knows_no_infinity_writes_range_max_for_no_return(tmp_path):
     messages, _ = r.robot()
-    messages = [m for m in messages if m[0] != "/scan"]
-    messages.append(("/scan", r.SCAN, 1.0, r.laser(1.0, [0.0, 42.0, 43.0, 3.0], np.linspace(-1, 1, 4))))
+    messages = r.with_scans(messages, (1.0, r.laser(1.0, [0.0, 42.0, 43.0, 3.0], np.linspace(-1, 1, 4))))
     file = r.written(tmp_path, messages)
     np.testing.assert_array_equal(read_log(file).ranges_m[0], [math.nan, math.inf, math.inf, 3.0])
     np.testing.assert_array_equal(read_log(file, no_return=0).ranges_m[0], [math.inf, 42.0, math.inf, 3.0])
@@ -115,9 +103,9 @@ def test_readings_counted_off_by_one_are_accepted_with_a_note(tmp_path, beams):
     messages, scans = r.robot()
     rows = np.resize(np.where(np.isfinite(scans.ranges_m), scans.ranges_m, 2.0), (10, beams))
     step = r.ANGLES[1] - r.ANGLES[0]
-    messages = [m for m in messages if m[0] != "/scan"]
-    for t, row in zip(r.SCAN_TIMES, rows, strict=True):
-        messages.append(("/scan", r.SCAN, t, r.laser(t, row, r.ANGLES)))
+    messages = r.with_scans(
+        messages, *((t, r.laser(t, row, r.ANGLES)) for t, row in zip(r.SCAN_TIMES, rows, strict=True))
+    )
     reading = describe_log(r.written(tmp_path, messages))
     np.testing.assert_allclose(reading.scans.angles_rad, r.ANGLES[0] + step * np.arange(beams), atol=1e-6)
     assert "one beam " + ("more" if beams == 40 else "less") in reading.notes[0]
@@ -140,7 +128,7 @@ def test_readings_counted_off_by_one_are_accepted_with_a_note(tmp_path, beams):
 def test_beams_point_where_the_message_is_defined_to_say_and_what_contradicts_it_is_noted(
     tmp_path, first, step, beams, last, note
 ):
-    messages = [m for m in r.robot()[0] if m[0] != "/scan"]
+    messages = r.without(r.robot()[0], "/scan")
     for t in r.SCAN_TIMES:
         scan = r.laser(t, np.linspace(2.0, 3.0, beams), r.ANGLES)
         messages.append(("/scan", r.SCAN, t, {**scan, "angle_min": first, "angle_increment": step, "angle_max": last}))
@@ -155,9 +143,10 @@ def test_beams_point_where_the_message_is_defined_to_say_and_what_contradicts_it
 
 def test_a_scanner_that_turns_clockwise_sees_the_same_world(tmp_path):
     messages, scans = r.robot()
-    messages = [m for m in messages if m[0] != "/scan"]
-    for t, row in zip(r.SCAN_TIMES, scans.ranges_m, strict=True):
-        messages.append(("/scan", r.SCAN, t, r.laser(t, row[::-1], r.ANGLES[::-1])))
+    messages = r.with_scans(
+        messages,
+        *((t, r.laser(t, row[::-1], r.ANGLES[::-1])) for t, row in zip(r.SCAN_TIMES, scans.ranges_m, strict=True)),
+    )
     read = read_log(r.written(tmp_path, messages))
     assert (np.diff(read.angles_rad) < 0).all()
     order = np.argsort(read.angles_rad)
@@ -166,13 +155,13 @@ def test_a_scanner_that_turns_clockwise_sees_the_same_world(tmp_path):
 
 def test_a_scanner_mounted_upside_down_sees_the_same_world(tmp_path):
     messages, scans = r.robot(static=False)
-    messages = [m for m in messages if m[0] != "/scan"]
+    messages = r.without(messages, "/scan")
     mount = r.transform(0.0, "base_link", "laser", *r.MOUNT, roll=math.pi)
     messages.append(("/tf_static", r.TF, 0.0, r.tf(mount)))
     for t, row in zip(r.SCAN_TIMES, scans.ranges_m, strict=True):
         messages.append(("/scan", r.SCAN, t, r.laser(t, row[::-1], r.ANGLES)))  # the angles are symmetric
     reading = describe_log(r.written(tmp_path, messages))
-    same(reading.scans, bm.Scans(
+    r.same(reading.scans, bm.Scans(
         scans.poses, -r.ANGLES, scans.ranges_m[:, ::-1], 42.0, scans.min_range_m, stamps_s=scans.stamps_s
     ))  # fmt: skip
     assert "upside down" in reading.notes[-1]
@@ -190,9 +179,9 @@ def test_de_skewing_undoes_the_sensor_s_motion_during_a_scan(tmp_path):
     flat = poses.reshape(-1, 3) + [0, 0, 1] * np.tile(r.ANGLES, len(times))[:, None]
     exact = bm.ranges(walls, grid, flat, [0.0], 42.0).reshape(rays.shape)
     exact[exact == 42.0] = np.inf
-    messages = [m for m in r.robot()[0] if m[0] != "/scan"]
-    for t, row in zip(times, exact, strict=True):
-        messages.append(("/scan", r.SCAN, t, r.laser(t, row, r.ANGLES, ray_s=ray_s)))
+    messages = r.with_scans(
+        r.robot()[0], *((t, r.laser(t, row, r.ANGLES, ray_s=ray_s)) for t, row in zip(times, exact, strict=True))
+    )
     file = r.written(tmp_path, messages)
     still, moved = read_log(file), describe_log(file, deskew=True)
     assert moved.deskewed
@@ -235,10 +224,10 @@ def test_scans_without_a_pose_at_their_time_are_left_out(tmp_path):
 def test_stamps_out_of_order_are_sorted(tmp_path):
     messages, scans = r.robot()
     laser = [m for m in messages if m[0] == "/scan"]
-    others = [m for m in messages if m[0] != "/scan"]
+    others = r.without(messages, "/scan")
     shuffled = [(a[0], a[1], b[2], a[3]) for a, b in zip(reversed(laser), laser, strict=True)]
     reading = describe_log(r.written(tmp_path, sorted([*others, *shuffled], key=lambda m: m[2])))
-    same(reading.scans, scans)
+    r.same(reading.scans, scans)
     assert reading.reordered == 9
     assert "sorted by time" in reading.notes[0]
 
@@ -320,7 +309,7 @@ def test_several_files_of_a_recording_that_was_not_ended_are_one(tmp_path):
     for i, part in enumerate((messages[:30], messages[30:])):
         r.written(tmp_path / f"part{i}", part, "mcap").rename(folder / f"split_{i}.mcap")
     reading = describe_log(folder)
-    same(reading.scans, scans)
+    r.same(reading.scans, scans)
     assert "the folder has no metadata.yaml" in reading.notes[0]
 
 
@@ -332,11 +321,11 @@ def test_where_the_laser_sits_can_be_said_for_a_recording_that_does_not_know(tmp
             if topic == "/scan":
                 message["header"]["frame_id"] = "robot/base_link/lidar"
     if poses == "tf with another mount":
-        messages = [m for m in messages if m[0] != "/tf_static"]
+        messages = r.without(messages, "/tf_static")
         messages.insert(0, ("/tf_static", r.TF, 0.0, r.tf(r.transform(0.0, "base_link", "laser", 5.0, 5.0, 1.0))))
     path = r.written(tmp_path, messages)
     reading = describe_log(path, laser=r.MOUNT)
-    same(reading.scans, scans)
+    r.same(reading.scans, scans)
     np.testing.assert_allclose(reading.laser_offset, r.MOUNT)
     assert not any("taken as the sensor's" in note for note in reading.notes)
     if poses == "odom":
@@ -355,7 +344,7 @@ def test_on_which_of_two_robots_the_laser_sits_is_told_by_its_frame_or_asked(tmp
         else:
             message["header"]["frame_id"] = "one/lidar"
     messages.append(("/tf", r.TF, 4.9, r.tf(r.transform(4.9, "odom", "two/base_link", 5.0, 5.0, 1.0))))
-    same(describe_log(r.written(tmp_path, messages), laser=r.MOUNT).scans, scans)
+    r.same(describe_log(r.written(tmp_path, messages), laser=r.MOUNT).scans, scans)
     for topic, _, _, message in messages:
         if topic == "/scan":
             message["header"]["frame_id"] = "lidar"
@@ -370,7 +359,7 @@ def test_scans_alone_are_read_where_no_poses_are_needed(tmp_path, writer):
     with pytest.raises(bm.BadInput, match="bayesmap slam --no-odometry needs no poses"):
         describe_log(path)
     reading = describe_log(path, without_poses=True)
-    same(reading.scans, scans.at(np.zeros((len(scans), 3))))
+    r.same(reading.scans, scans.at(np.zeros((len(scans), 3))))
     assert (reading.posed, reading.pose_source, reading.notes) == (False, None, ())
 
 
@@ -396,7 +385,7 @@ def test_a_recording_packed_as_a_whole_is_read(tmp_path, writer, pack):
     messages, scans = r.robot()
     path = tmp_path / "packed"
     path.write_bytes(pack(r.written(tmp_path, messages, writer).read_bytes()))
-    same(read_log(path), scans)
+    r.same(read_log(path), scans)
 
 
 @pytest.mark.parametrize("ending", ["zstd", "zst"])
@@ -409,7 +398,7 @@ def test_packed_files_without_their_metadata_are_one_recording(tmp_path, writer,
         packed = r.written(tmp_path / f"part{i}", part, f"{writer}-file")
         packed.rename(folder / f"split_{i}.{writer}.{ending}")
     reading = describe_log(folder)
-    same(reading.scans, scans)
+    r.same(reading.scans, scans)
     assert "its 2 files were read" in reading.notes[0]
 
 
@@ -460,7 +449,7 @@ TF_FIELDS, TF_SUM = "geometry_msgs/TransformStamped[] transforms\n", "94810edda5
 def test_definitions_that_lack_parts_are_completed_by_those_of_ros(tmp_path, definitions):
     messages, scans = r.robot()
     reading = describe_log(r.written(tmp_path, messages, "rosbag1", definitions))
-    same(reading.scans, scans)
+    r.same(reading.scans, scans)
     assert reading.notes == ()
 
 
@@ -487,5 +476,5 @@ def test_index_records_are_as_long_as_they_count(tmp_path, skip):
     path = tmp_path / "2010.bag"
     path.write_bytes(content)
     reading = describe_log(path, skip_bad_lines=skip)
-    same(reading.scans, scans)
+    r.same(reading.scans, scans)
     assert reading.notes == ()

@@ -23,14 +23,6 @@ def whole(tmp_path_factory):
     return {writer: r.written(folder / writer, messages, writer) for writer in CONTAINERS}
 
 
-def refused(path, **options):
-    with pytest.raises(bm.BadInput) as error:
-        read_log(path, **options)
-    assert str(error.value).startswith(str(path))
-    assert "\n" not in str(error.value)
-    return str(error.value)
-
-
 def cut(whole, tmp_path, share):
     content = whole.read_bytes()
     path = tmp_path / whole.name
@@ -41,7 +33,7 @@ def cut(whole, tmp_path, share):
 @pytest.mark.parametrize("writer", CONTAINERS)
 def test_a_truncated_recording_is_refused_and_read_as_far_as_it_goes_on_request(whole, tmp_path, writer):
     path = cut(whole[writer], tmp_path, 0.7)
-    message = refused(path)
+    message = r.refused(path)
     assert "damaged or cut short" in message
     assert "--skip-bad-lines" in message
     try:
@@ -79,7 +71,7 @@ def test_an_unindexed_bag_is_read_on_request(whole, tmp_path, skip):
     if skip:
         assert len(read_log(path, skip_bad_lines=True)) == 10
     else:
-        assert "not indexed" in refused(path)
+        assert "not indexed" in r.refused(path)
 
 
 def test_a_recording_is_known_by_its_content_not_its_name(whole, tmp_path):
@@ -94,7 +86,7 @@ def test_a_recording_is_known_by_its_content_not_its_name(whole, tmp_path):
 def test_empty_recordings_are_refused(tmp_path, content, skip):
     path = tmp_path / "empty.bag"
     path.write_bytes(content)
-    refused(path, skip_bad_lines=skip)
+    r.refused(path, skip_bad_lines=skip)
 
 
 @pytest.mark.parametrize("version", ["1.0", "1.1", "1.2"])
@@ -102,7 +94,7 @@ def test_empty_recordings_are_refused(tmp_path, content, skip):
 def test_bags_of_earlier_formats_are_refused_with_the_remedy(whole, tmp_path, version, skip):
     path = tmp_path / "old.bag"
     path.write_bytes(whole["rosbag1"].read_bytes().replace(b"V2.0", f"V{version}".encode(), 1))
-    message = refused(path, skip_bad_lines=skip)
+    message = r.refused(path, skip_bad_lines=skip)
     assert f"format {version}" in message
     assert "rosbag fix" in message
 
@@ -110,9 +102,9 @@ def test_bags_of_earlier_formats_are_refused_with_the_remedy(whole, tmp_path, ve
 def test_a_packed_file_that_is_no_recording_is_refused_with_the_remedy(tmp_path):
     path = tmp_path / "robot.log.zst"
     path.write_bytes(zstd().compress(b"FLASER 3 1.0 2.0 1.5 0.1 0 0 0.1 0 0 1 host 1\n" * 20))
-    assert "compressed by zstd, and it holds no recording; unpack it: zstd -d" in refused(path)
+    assert "compressed by zstd, and it holds no recording; unpack it: zstd -d" in r.refused(path)
     path.write_bytes(path.read_bytes()[:9] + bytes(9))
-    assert "compressed by zstd, but damaged or cut short" in refused(path)
+    assert "compressed by zstd, but damaged or cut short" in r.refused(path)
 
 
 @pytest.mark.parametrize("writer", ["db3", "mcap"])
@@ -120,7 +112,7 @@ def test_a_packed_recording_that_breaks_off_is_read_as_far_as_it_goes_on_request
     content = r.packed(r.written(tmp_path, r.robot(odom=True)[0], writer).read_bytes())
     path = tmp_path / "cut.zst"
     path.write_bytes(content[: int(len(content) * 0.8)])
-    assert "compressed by zstd and cannot be unpacked to its end" in refused(path)
+    assert "compressed by zstd and cannot be unpacked to its end" in r.refused(path)
     try:
         told = describe_log(path, skip_bad_lines=True, pose_topic="/odom").notes[0]
     except bm.BadInput as problem:
@@ -136,30 +128,32 @@ def test_a_packed_message_that_is_damaged_is_named(tmp_path):
             "ON topic_id = topics.id WHERE name = '/scan' LIMIT 1)"
         )
     database.close()
-    assert "message 1 on /scan sensor_msgs/msg/LaserScan is compressed by zstd and cannot be unpacked" in refused(path)
+    assert "message 1 on /scan sensor_msgs/msg/LaserScan is compressed by zstd and cannot be unpacked" in r.refused(
+        path
+    )
     assert len(describe_log(path, skip_bad_lines=True).skipped) == 1
 
 
 def test_a_folder_that_is_no_recording_is_refused(tmp_path):
-    assert "metadata.yaml" in refused(tmp_path)
+    assert "metadata.yaml" in r.refused(tmp_path)
     (tmp_path / "metadata.yaml").write_text("rosbag2_bagfile_information: [")
-    refused(tmp_path)
-    refused(tmp_path, skip_bad_lines=True)
+    r.refused(tmp_path)
+    r.refused(tmp_path, skip_bad_lines=True)
 
 
 def test_a_missing_topic_is_answered_with_those_that_are_there(whole):
-    message = refused(whole["mcap"], scan_topic="/front/scan")
+    message = r.refused(whole["mcap"], scan_topic="/front/scan")
     assert "/scan (sensor_msgs/msg/LaserScan, 10 messages)" in message
-    message = refused(whole["mcap"], scan_topic="/odom")
+    message = r.refused(whole["mcap"], scan_topic="/odom")
     assert "it is a topic of nav_msgs/msg/Odometry" in message
-    message = refused(whole["mcap"], pose_topic="/amcl_pose")
+    message = r.refused(whole["mcap"], pose_topic="/amcl_pose")
     assert "/odom (nav_msgs/msg/Odometry, 21 messages)" in message
     assert "/tf (tf2_msgs/msg/TFMessage, 42 messages)" in message
 
 
 def test_a_recording_without_scans_lists_what_it_holds(tmp_path):
-    messages = [m for m in r.robot(odom=True)[0] if m[0] != "/scan"]
-    message = refused(r.written(tmp_path, messages))
+    messages = r.without(r.robot(odom=True)[0], "/scan")
+    message = r.refused(r.written(tmp_path, messages))
     assert "no topic holds sensor_msgs/msg/LaserScan or sensor_msgs/msg/Range" in message
     assert "/odom (nav_msgs/msg/Odometry" in message
 
@@ -168,20 +162,20 @@ def test_of_two_lasers_one_must_be_chosen(tmp_path):
     messages, _ = r.robot()
     rear = [("/rear", m[1], m[2], m[3]) for m in messages if m[0] == "/scan"][:4]
     path = r.written(tmp_path, sorted([*messages, *rear], key=lambda m: m[2]))
-    message = refused(path)
+    message = r.refused(path)
     assert "choose one with --scan-topic: /rear (" in message
     assert "/scan (" in message
     assert len(read_log(path, scan_topic="/rear")) == 4
 
 
 def test_without_a_chain_of_frames_the_known_ones_are_listed(tmp_path):
-    messages = [m for m in r.robot()[0] if m[0] != "/tf"]
-    message = refused(r.written(tmp_path, messages))
+    messages = r.without(r.robot()[0], "/tf")
+    message = r.refused(r.written(tmp_path, messages))
     assert "known frames: base_link, laser" in message
     assert "--fixed-frame" in message
     both = r.robot()[0]
     path = r.written(tmp_path / "both", both)
-    assert "the frame 'earth' is not known; known frames: base_link, laser, map, odom" in refused(
+    assert "the frame 'earth' is not known; known frames: base_link, laser, map, odom" in r.refused(
         path, fixed_frame="earth"
     )
 
@@ -189,14 +183,13 @@ def test_without_a_chain_of_frames_the_known_ones_are_listed(tmp_path):
 def test_several_topics_of_poses_are_listed_where_tf_does_not_help(tmp_path):
     messages, _ = r.robot(tf_poses=False, odom=True)
     messages += [("/wheels", *m[1:]) for m in messages if m[0] == "/odom"]
-    message = refused(r.written(tmp_path, sorted(messages, key=lambda m: m[2])))
+    message = r.refused(r.written(tmp_path, sorted(messages, key=lambda m: m[2])))
     assert "choose one with --pose-topic: there are /odom (" in message
 
 
 def test_poses_by_another_clock_are_noticed(tmp_path):
-    messages = [m for m in r.robot()[0] if m[0] != "/scan"]
-    messages.append(("/scan", r.SCAN, 1.0, r.laser(5000.0, [1.0] * 41, r.ANGLES)))
-    assert "are both by the same clock?" in refused(r.written(tmp_path, messages))
+    messages = r.with_scans(r.robot()[0], (1.0, r.laser(5000.0, [1.0] * 41, r.ANGLES)))
+    assert "are both by the same clock?" in r.refused(r.written(tmp_path, messages))
 
 
 def replaced(change, which=4):
@@ -226,7 +219,7 @@ def replaced(change, which=4):
 def test_a_scan_that_cannot_be_used_is_named_and_left_out_on_request(tmp_path, change, reason):
     messages, scans = replaced(change)
     path = r.written(tmp_path, messages)
-    message = refused(path)
+    message = r.refused(path)
     assert "message 5 on /scan" in message
     assert reason in message
     assert "--skip-bad-lines" in message
@@ -248,7 +241,7 @@ def test_a_pose_that_is_none_is_named(tmp_path, pose, reason):
     topic, kind, t, message = messages[at]
     messages[at] = (topic, kind, t, {**message, "pose": {**message["pose"], "pose": pose}})
     path = r.written(tmp_path, messages)
-    message = refused(path, pose_topic="/odom")
+    message = r.refused(path, pose_topic="/odom")
     assert "message 6 on /odom" in message
     assert reason in message
     assert len(read_log(path, pose_topic="/odom", skip_bad_lines=True)) == 10
@@ -261,20 +254,20 @@ def test_a_storm_of_nan_leaves_the_other_scans_and_one_of_all_scans_is_refused(t
     assert np.isnan(read.ranges_m[4]).all()
     np.testing.assert_array_equal(np.delete(read.ranges_m, 4, 0), np.delete(scans.ranges_m, 4, 0))
     every = [(*m[:3], {**m[3], "ranges": nothing}) if m[0] == "/scan" else m for m in messages]
-    assert "none of 410 readings in 10 scans is valid" in refused(r.written(tmp_path / "all", every))
+    assert "none of 410 readings in 10 scans is valid" in r.refused(r.written(tmp_path / "all", every))
 
 
 def test_a_sensor_on_its_side_is_refused(tmp_path):
     messages, _ = r.robot(static=False)
     side = r.transform(0.0, "base_link", "laser", *r.MOUNT, roll=math.pi / 2)
     path = r.written(tmp_path, [("/tf_static", r.TF, 0.0, r.tf(side)), *messages])
-    assert "is tilted by 90 degrees" in refused(path)
+    assert "is tilted by 90 degrees" in r.refused(path)
 
 
 def test_topics_mean_nothing_to_a_carmen_log(tmp_path):
     path = tmp_path / "robot.log"
     path.write_text("FLASER 3 1.0 2.0 1.5 0.1 0 0 0.1 0 0 1 host 1\n")
-    assert "a carmen file has no topics" in refused(path, scan_topic="/scan")
+    assert "a carmen file has no topics" in r.refused(path, scan_topic="/scan")
 
 
 def test_a_damaged_table_of_messages_is_read_as_far_as_it_goes(whole, tmp_path):
@@ -286,5 +279,5 @@ def test_a_damaged_table_of_messages_is_read_as_far_as_it_goes(whole, tmp_path):
             "ON topic_id = topics.id WHERE name = '/scan' LIMIT 1)"
         )
     database.close()
-    assert "message 1 on /scan" in refused(path)
+    assert "message 1 on /scan" in r.refused(path)
     assert len(describe_log(path, skip_bad_lines=True).skipped) == 1

@@ -20,27 +20,16 @@ from pathlib import Path
 from typing import Any
 
 from bayesmap.errors import BadInput
+from bayesmap.io.ros import records as raw
 from bayesmap.io.ros.compression import compression_of, first_bytes, unpack_file
 from bayesmap.io.ros.recording import Damaged, Message, Recording, Topic, messages_of, topics_of
-from bayesmap.io.ros.records import (
-    BAG_MAGIC,
-    INDEX_ENTRY_BYTES,
-    MCAP_MAGIC,
-    SQLITE_MAGIC,
-    OnDamage,
-    Read,
-    bag_records,
-    mcap_records,
-    refuse,
-    sqlite_records,
-)
 
-ReadRecords = Callable[[str | os.PathLike[str], OnDamage], Read]
+ReadRecords = Callable[[str | os.PathLike[str], raw.OnDamage], raw.Read]
 
 FORMATS: dict[str, tuple[bytes, ReadRecords]] = {
-    "rosbag1": (BAG_MAGIC, bag_records),
-    "rosbag2-sqlite3": (SQLITE_MAGIC, sqlite_records),
-    "mcap": (MCAP_MAGIC, mcap_records),
+    "rosbag1": (raw.BAG_MAGIC, raw.bag_records),
+    "rosbag2-sqlite3": (raw.SQLITE_MAGIC, raw.sqlite_records),
+    "mcap": (raw.MCAP_MAGIC, raw.mcap_records),
 }
 """Format, how its files begin, and what reads their records one by one."""
 
@@ -94,7 +83,7 @@ def _check_version(path: str | os.PathLike[str]) -> None:
     if Path(path).is_dir():
         return
     start = first_bytes(path, 16)
-    if not start.startswith(b"#ROSBAG V") or start.startswith(BAG_MAGIC):
+    if not start.startswith(b"#ROSBAG V") or start.startswith(raw.BAG_MAGIC):
         return
     version = start[len(b"#ROSBAG V") :].split(b"\n")[0].decode("ascii", "replace").strip()
     raise BadInput(
@@ -103,7 +92,7 @@ def _check_version(path: str | os.PathLike[str]) -> None:
     )
 
 
-def _at_hand(path: Path, stack: ExitStack, on_damage: OnDamage) -> Path:
+def _at_hand(path: Path, stack: ExitStack, on_damage: raw.OnDamage) -> Path:
     """Return a file that can be read as it is: the file, or an unpacked copy, which the stack removes."""
     with path.open("rb") as file:
         packed = compression_of(file.read(4)) is not None
@@ -136,7 +125,7 @@ def _whole(path: str | os.PathLike[str]) -> Recording:
     with ExitStack() as stack:
         parts = [
             _by_rosbags(at, container, _rosbags_reader(at, container), is_file=True)
-            for at in (_at_hand(file, stack, refuse) for file in files)
+            for at in (_at_hand(file, stack, raw.refuse) for file in files)
         ]
         return _joined(os.fspath(path), container, parts, notes, stack)
 
@@ -185,7 +174,7 @@ def _bag_reader() -> type:
                 header = Header.read(self.bio, RecordType.IDXDATA)
                 read_uint32(self.bio)
                 connection, count = header.get_uint32("conn"), header.get_uint32("count")
-                entries = struct.iter_unpack("<III", read_bytes(self.bio, count * INDEX_ENTRY_BYTES))
+                entries = struct.iter_unpack("<III", read_bytes(self.bio, count * raw.INDEX_ENTRY_BYTES))
                 indexes[connection] += [IndexData(s * 10**9 + ns, pos, offset) for s, ns, offset in entries]
 
     return BagReader
@@ -202,7 +191,7 @@ def _by_rosbags(
         if not by_records:
             raise
         try:
-            return _by_records(path, container, refuse, refuse)
+            return _by_records(path, container, raw.refuse, raw.refuse)
         except Damaged as damage:
             raise Damaged(str(damage) or str(problem)) from None
 
@@ -212,13 +201,13 @@ def _by_rosbags(
         except Damaged:
             if not by_records:
                 raise
-            return list(messages_of(mcap_records(path, refuse), topics, names))
+            return list(messages_of(raw.mcap_records(path, raw.refuse), topics, names))
 
     return Recording(os.fspath(path), container, topics, read, start_ns, end_ns)
 
 
 def _by_records(
-    path: str | os.PathLike[str], container: str, on_damage: OnDamage, on_damage_again: OnDamage
+    path: str | os.PathLike[str], container: str, on_damage: raw.OnDamage, on_damage_again: raw.OnDamage
 ) -> Recording:
     """Return a recording read record by record; damage is told once when it is opened, and again at each reading."""
     records = FORMATS[container][1]

@@ -18,27 +18,12 @@ from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
 from bayesmap.io.log_reading import Account, LogOptions, LogReading, SkippedLine
+from bayesmap.io.ros import poses as pose_sources
 from bayesmap.io.ros.clocks import ClockRun, clock_runs, joined_stamps
 from bayesmap.io.ros.containers import open_recording
 from bayesmap.io.ros.frames import Chain
 from bayesmap.io.ros.laser_messages import LaserMessage, LaserMessages, beams_of
 from bayesmap.io.ros.messages import TYPES, Bad, read_messages, scan_topic_of, scans_and_poses
-from bayesmap.io.ros.poses import (
-    POSE_TYPES,
-    PoseMessages,
-    PoseSource,
-    body_of,
-    by_topic,
-    by_transforms,
-    fixed_frame_of,
-    frame_trees,
-    link_of,
-    no_poses,
-    only_pose_topic,
-    pose_topic_of,
-    standing_still,
-    topics_of_type,
-)
 from bayesmap.io.ros.recording import Recording, Topic
 from bayesmap.space.rigid import planar, upright
 
@@ -72,7 +57,7 @@ def read_recording(path: str | os.PathLike[str], options: LogOptions) -> LogRead
         account.skipped.append(SkippedLine(number, reason, f"message on {on_topic}"))
 
     topic = scan_topic_of(recording, options.scan_topic)
-    pose_topic = None if options.pose_topic is None else pose_topic_of(recording, options.pose_topic)
+    pose_topic = None if options.pose_topic is None else pose_sources.pose_topic_of(recording, options.pose_topic)
     lasers, poses = scans_and_poses(recording, topic, pose_topic, bad)
     if not lasers.scans:
         raise BadInput(f"{name}: no message on {topic.name} can be used{_first(account.skipped)}")
@@ -147,7 +132,7 @@ class _Placed:
         notes: what a user should know.
     """
 
-    source: PoseSource
+    source: pose_sources.PoseSource
     scans: list[LaserMessage]
     stamps: NDArray[np.int64]
     rays: NDArray[np.int64]
@@ -229,7 +214,9 @@ def _ray_times(stamps: NDArray[np.int64], scans: list[LaserMessage], account: Ac
     return np.asarray(stamps[:, None] + np.rint(intervals[:, None] * 1e9 * rays).astype(np.int64))
 
 
-def _left_out(name: str, stamps: NDArray[np.int64], inside: NDArray[np.bool_], source: PoseSource) -> list[str]:
+def _left_out(
+    name: str, stamps: NDArray[np.int64], inside: NDArray[np.bool_], source: pose_sources.PoseSource
+) -> list[str]:
     """Return notes about the scans that are ``inside`` the time of the poses, and those that are not.
 
     Raises:
@@ -278,15 +265,20 @@ def _poses_of_rays(chain: Chain, rays: NDArray[np.int64]) -> NDArray[np.float64]
 
 
 def _only_topic(
-    recording: Recording, scan_topic: Topic, sensor: str, options: LogOptions, poses: PoseMessages, bad: Bad
+    recording: Recording,
+    scan_topic: Topic,
+    sensor: str,
+    options: LogOptions,
+    poses: pose_sources.PoseMessages,
+    bad: Bad,
 ) -> Topic | None:
     """Return the only topic of poses, with its messages read, if /tf does not help."""
-    only = only_pose_topic(recording, scan_topic.name)
+    only = pose_sources.only_pose_topic(recording, scan_topic.name)
     if only is None:
         return None
-    trees = frame_trees(poses, scan_topic.name, None)
-    body = sensor if options.laser is None else body_of(recording.path, trees, sensor)
-    if body is not None and any(fixed_frame_of(tree, body) is not None for tree in trees):
+    trees = pose_sources.frame_trees(poses, scan_topic.name, None)
+    body = sensor if options.laser is None else pose_sources.body_of(recording.path, trees, sensor)
+    if body is not None and any(pose_sources.fixed_frame_of(tree, body) is not None for tree in trees):
         return None
     read_messages(recording, [only], None, poses, bad)
     return only
@@ -294,29 +286,31 @@ def _only_topic(
 
 def _only_note(wanted: _Wanted, only: Topic) -> str:
     alone = "the only topic of poses"
-    if len(topics_of_type(wanted.recording, POSE_TYPES)) > 1:
+    if len(pose_sources.topics_of_type(wanted.recording, pose_sources.POSE_TYPES)) > 1:
         alone += f" in the namespace of {wanted.topic.name}"
     return f"/tf connects {wanted.sensor!r} with no fixed frame; poses were taken from {only.name}, {alone}"
 
 
-def _source(wanted: _Wanted, poses: PoseMessages, options: LogOptions) -> PoseSource:
+def _source(wanted: _Wanted, poses: pose_sources.PoseMessages, options: LogOptions) -> pose_sources.PoseSource:
     """Return where the sensor is: by the topic that was chosen, else by /tf.
 
     With ``laser`` the sensor is there on the robot's body, whatever /tf says.
     """
     recording, sensor, pose_topic, laser = wanted.recording, wanted.sensor, wanted.pose_topic, options.laser
-    trees = frame_trees(poses, wanted.topic.name, None if pose_topic is None else pose_topic.name)
+    trees = pose_sources.frame_trees(poses, wanted.topic.name, None if pose_topic is None else pose_topic.name)
     if options.without_poses:
-        return standing_still(trees, sensor)
-    if pose_topic is not None and pose_topic.type in POSE_TYPES:
-        return by_topic(recording, pose_topic, poses, trees, sensor, laser)
-    body = sensor if laser is None else body_of(recording.path, trees, sensor)
+        return pose_sources.standing_still(trees, sensor)
+    if pose_topic is not None and pose_topic.type in pose_sources.POSE_TYPES:
+        return pose_sources.by_topic(recording, pose_topic, poses, trees, sensor, laser)
+    body = sensor if laser is None else pose_sources.body_of(recording.path, trees, sensor)
     source = None
     if body is not None:
-        source = by_transforms(recording, trees, body, options.fixed_frame, chosen=pose_topic is not None)
+        source = pose_sources.by_transforms(recording, trees, body, options.fixed_frame, chosen=pose_topic is not None)
     if source is None:
-        raise no_poses(recording.path, trees[-1], sensor, topics_of_type(recording, POSE_TYPES))
-    return source if laser is None else replace(source, chain=Chain((*source.chain.links, link_of(laser))))
+        raise pose_sources.no_poses(
+            recording.path, trees[-1], sensor, pose_sources.topics_of_type(recording, pose_sources.POSE_TYPES)
+        )
+    return source if laser is None else replace(source, chain=Chain((*source.chain.links, pose_sources.link_of(laser))))
 
 
 def _odd(scans: list[LaserMessage]) -> list[str]:

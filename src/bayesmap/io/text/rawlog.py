@@ -23,20 +23,8 @@ from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
 from bayesmap.io.log_reading import Account, LogOptions, LogReading, SkippedLine
+from bayesmap.io.text import rawlog_objects as mrpt
 from bayesmap.io.text.lines import file_chunks
-from bayesmap.io.text.rawlog_objects import (
-    BY_ODOMETRY,
-    CLASS,
-    Header,
-    RawScan,
-    Reader,
-    Unknown,
-    header_at,
-    header_of,
-    motion_of,
-    odometry_of,
-    scan_of,
-)
 from bayesmap.space.planar import compose, interpolate
 from bayesmap.space.scans import side_by_side
 from bayesmap.space.time_order import SAME_S
@@ -50,7 +38,7 @@ COLLECTION = "CActionCollection"
 def starts_as_rawlog(path: Path) -> bool:
     """Return whether a file, gzipped or not, begins with an object of MRPT's."""
     try:
-        return header_at(next(file_chunks(path), b"")[:200], 0) is not None
+        return mrpt.header_at(next(file_chunks(path), b"")[:200], 0) is not None
     except BadInput:
         return False
 
@@ -120,30 +108,30 @@ class _Objects:
 
     def __init__(self, account: Account, data: bytes) -> None:
         self.account = account
-        self.scans: list[RawScan] = []
+        self.scans: list[mrpt.RawScan] = []
         self.odometry: dict[str, list[tuple[float, Floats]]] = {}
         self.source: str | None = None
         self.collections: list[list[tuple[int, Floats]]] = []
         self.read_until = 0
         self.latest: tuple[float, Floats] | None = None
-        for match in CLASS.finditer(data):
-            header = header_of(data, match)
+        for match in mrpt.CLASS.finditer(data):
+            header = mrpt.header_of(data, match)
             if header is None or header.data <= self.read_until or header.name.startswith("CPose"):
                 continue
             account.counts[header.name] += 1
             try:
-                self._take(Reader(data, header.data), header)
-            except (Unknown, struct.error) as problem:
-                reason = str(problem) if isinstance(problem, Unknown) else "is cut short"
+                self._take(mrpt.Reader(data, header.data), header)
+            except (mrpt.Unknown, struct.error) as problem:
+                reason = str(problem) if isinstance(problem, mrpt.Unknown) else "is cut short"
                 number = account.counts[header.name]
                 told = f"{header.name} (object {number} of its class, version {header.version}) {reason}"
                 if not account.options.skip_bad_lines:
                     raise BadInput(f"{account.name}: {told}; leave such objects out with --skip-bad-lines") from None
                 account.skipped.append(SkippedLine(number, told, f"{header.name} in the log"))
 
-    def _take(self, reader: Reader, header: Header) -> None:
+    def _take(self, reader: mrpt.Reader, header: mrpt.Header) -> None:
         if header.name == SCAN:
-            scan = scan_of(reader, header, len(self.collections))
+            scan = mrpt.scan_of(reader, header, len(self.collections))
             if self.latest is not None and scan.stamp_s is not None and abs(scan.stamp_s - self.latest[0]) < SAME_S:
                 scan = replace(scan, odometry=self.latest[1])
             self.scans.append(scan)
@@ -152,9 +140,9 @@ class _Objects:
         elif header.name == MOTION:
             if not self.collections:
                 self.collections.append([])
-            self.collections[-1].append(motion_of(reader, header))
+            self.collections[-1].append(mrpt.motion_of(reader, header))
         elif header.name == ODOMETRY:
-            label, stamp_s, pose = odometry_of(reader, header)
+            label, stamp_s, pose = mrpt.odometry_of(reader, header)
             if stamp_s is not None:
                 self.odometry.setdefault(label, []).append((stamp_s, pose))
                 self.latest = (stamp_s, pose)
@@ -162,14 +150,16 @@ class _Objects:
             return
         self.read_until = reader.at
 
-    def robot_poses(self, scans: list[RawScan], stamps_s: Floats | None) -> tuple[Floats | None, NDArray[np.bool_]]:
+    def robot_poses(
+        self, scans: list[mrpt.RawScan], stamps_s: Floats | None
+    ) -> tuple[Floats | None, NDArray[np.bool_]]:
         """Return where the robot was at each scan, (S, 3), or None, and for which scans that is known, (S,)."""
         everywhere = np.ones(len(scans), np.bool_)
         if any(self.collections):
             self.source = MOTION
             path = [np.zeros(3)]
             for motions in self.collections:
-                best = min(motions, key=lambda m: m[0] != BY_ODOMETRY, default=(0, np.zeros(3)))
+                best = min(motions, key=lambda m: m[0] != mrpt.BY_ODOMETRY, default=(0, np.zeros(3)))
                 path.append(compose(path[-1], best[1]))
             return np.array([path[scan.motions] for scan in scans]), everywhere
         if not self.odometry or stamps_s is None:
