@@ -92,11 +92,8 @@ class Guard:
     def knows(self, host: str) -> bool:
         """Whether that is a name, with port, of this server."""
         name, _, port = host.lower().rpartition(":")
-        if not name or (port != str(self.port) and not (port.endswith("]") or not port.isdigit())):
-            return False
-        if port != str(self.port):
-            return False
-        return name in self.names or (self.any_address and _is_address(name))
+        known = name in self.names or (self.any_address and _is_address(name))
+        return known and port == str(self.port)
 
 
 def _is_address(name: str) -> bool:
