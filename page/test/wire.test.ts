@@ -311,6 +311,14 @@ test("of a file's recording one scan is shown at a time", async () => {
   assert.deepEqual([[...at.ranges], [...then.ranges], [...then.hit], [...then.pose]], [[1, 2], [3, Infinity], [1, 0], [1.5, 0.5, 1]]);
 });
 
+test("a recording tells no return, too close and an invalid reading apart", async () => {
+  const scans = { ids: [1], pose: [[0.5, 0.5, 0]], angles: [0, 0, 0, Math.PI / 2], ranges: [["NaN", "-Infinity", 1.5, null]], hit: toBase64(packBits(Uint8Array.of(0, 0, 1, 0))) };
+  const { first, heard } = await played(await recording({ scans } as Partial<Recording>), { type: "inspect", x: 1, y: 0 });
+  const [, { ranges }] = first.find(([{ type }]) => type === "scan")!;
+  assert.deepEqual([...ranges], [NaN, -Infinity, 1.5, Infinity]);
+  assert.equal(heard[0][0].beams, 1); // nothing is known to have passed but the beam that ended behind
+});
+
 test("a recording without draws shows its mean where a draw is asked for", async () => {
   const { heard } = await played(await recording({ draws: undefined, log_joint: undefined, settings: undefined }), { type: "view", layer: "draw", chain: 0 });
   const [field, { p }] = heard.find(([{ type }]) => type === "field")!;

@@ -2,6 +2,7 @@
 
 import base64
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -67,3 +68,13 @@ def test_a_recording_holds_each_scan_s_beams(heard):
     assert [len(row) for row in found["angles"]] == [len(row) for row in found["ranges"]] == COUNT
     np.testing.assert_allclose(found["angles"][5], ANGLES[3:63], atol=1e-6)
     assert len(base64.b64decode(found["hit"])) == -(-sum(COUNT) // 8)
+
+
+def test_a_recording_tells_readings_of_four_kinds_apart(heard):
+    result = heard.engine._result
+    ranges = result.scene.scans.ranges_m.copy()
+    ranges[0, :3] = np.inf, -np.inf, np.nan
+    scene = replace(result.scene, scans=replace(result.scene.scans, ranges_m=ranges))
+    found = record(replace(result, scene=scene))["scans"]["ranges"][0]
+    assert found[:3] == [None, "-Infinity", "NaN"]
+    assert found[3:] == pytest.approx(ranges[0, 3 : len(found)], abs=1e-4)

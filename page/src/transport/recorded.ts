@@ -5,10 +5,12 @@ import type { MapDocument, Quantity, Transport, Verdict, View } from "../protoco
 import { deaf } from "./frame";
 
 type Rows = (number | null)[][];
+/** Metres; null is no return. */
+type Readings = (number | null | "-Infinity" | "NaN")[][];
 export type Recording = {
   version: 1;
   document: MapDocument;
-  scans: { ids: number[]; pose: Rows; angles: number[] | number[][]; ranges: Rows; exact?: Rows; hit: string };
+  scans: { ids: number[]; pose: Rows; angles: number[] | number[][]; ranges: Readings; exact?: Readings; hit: string };
   mean: string;
   observed: string;
   draws?: { chains: number; count: number; data: string };
@@ -27,8 +29,8 @@ export function recordedTransport(recording: Recording): Transport {
   let index = 0;
   let view: View = { layer: "mean", chain: 0, draw: null };
 
-  const rows = (values: Rows) => (oneByOne ? [values[index]] : values);
-  const floats = (values: Rows) => Float32Array.from(rows(values).flat(), (value) => value ?? Infinity);
+  const rows = <T>(values: T[][]) => (oneByOne ? [values[index]] : values);
+  const floats = (values: Readings) => Float32Array.from(rows(values).flat(), metres);
 
   // Beams are the same in all scans, or each scan has its own.
   const anglesOf = (scan: number) => (Array.isArray(scans.angles[scan]) ? scans.angles[scan] : scans.angles) as number[];
@@ -94,6 +96,8 @@ export function recordedTransport(recording: Recording): Transport {
   return transport;
 }
 
+const metres = (reading: Readings[number][number]) => (reading === null ? Infinity : Number(reading));
+
 /** One map of many packed ones, in 255ths. */
 function oneDraw(packed: Uint8Array, number: number, cells: number): Uint8Array {
   const first = number * cells;
@@ -101,7 +105,7 @@ function oneDraw(packed: Uint8Array, number: number, cells: number): Uint8Array 
 }
 
 /** How many beams pass through a cell before they end. */
-function beamsThrough({ grid }: MapDocument, angles: number[][], poses: Rows, ranges: Rows, x: number, y: number) {
+function beamsThrough({ grid }: MapDocument, angles: number[][], poses: Rows, ranges: Readings, x: number, y: number) {
   const { origin, resolution } = grid;
   const low = [origin[0] + x * resolution, origin[1] + y * resolution];
   let passing = 0;
@@ -111,7 +115,7 @@ function beamsThrough({ grid }: MapDocument, angles: number[][], poses: Rows, ra
       const [dx, dy] = [Math.cos(angle + yaw), Math.sin(angle + yaw)];
       const along = [(low[0] - px) / dx, (low[0] + resolution - px) / dx, (low[1] - py) / dy, (low[1] + resolution - py) / dy];
       const enter = Math.max(0, Math.min(along[0], along[1]), Math.min(along[2], along[3]));
-      const leave = Math.min(ranges[s][b] ?? Infinity, Math.max(along[0], along[1]), Math.max(along[2], along[3]));
+      const leave = Math.min(metres(ranges[s][b]), Math.max(along[0], along[1]), Math.max(along[2], along[3]));
       if (enter < leave) passing++;
     });
   });

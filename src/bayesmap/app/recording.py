@@ -124,10 +124,21 @@ def _scans(result: Result) -> dict[str, Any]:
         "ids": [scene.ids[i] for i in some],
         "pose": _numbers(scans.poses[some], 6),
         "angles": numbers if own else numbers[0],
-        "ranges": _numbers([row[has] for row, has in zip(scans.ranges_m[some], beams, strict=True)], DECIMALS_M),
-        "exact": _numbers(exact, DECIMALS_M),
+        "ranges": _readings(row[has] for row, has in zip(scans.ranges_m[some], beams, strict=True)),
+        "exact": _readings(exact),
         "hit": _text(np.packbits(hits(scene)[some][beams]).tobytes()),
     }
+
+
+def _readings(values: Iterable[NDArray[np.float64]]) -> list[list[float | str | None]]:
+    """Rows of ranges in metres: null for no return, "-Infinity" for too close, "NaN" for an invalid reading."""
+
+    def reading(value: float) -> float | str | None:
+        if math.isfinite(value):
+            return round(float(value), DECIMALS_M)
+        return None if value > 0 else "-Infinity" if value < 0 else "NaN"
+
+    return [[reading(value) for value in row] for row in values]
 
 
 def _numbers(values: Iterable[NDArray[np.float64]], decimals: int) -> list[list[float | None]]:
