@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Iterator
 from typing import Any
@@ -11,11 +12,12 @@ from numpy.typing import NDArray
 
 from bayesmap.app.deciding import maps_of
 from bayesmap.app.result import Result
-from bayesmap.app.scanning import Scene, fan, hits
+from bayesmap.app.scanning import Scene, hits
 from bayesmap.app.tasks import MoveGhost
 from bayesmap.errors import BadInput
 from bayesmap.posterior.predictor import MapStates, Predictor, ScanPredictor, fixed_maps
 from bayesmap.sensors.model import RangeLimits
+from bayesmap.space.beam_angles import fan
 
 MOST_DRAWS = 32
 HELD_BYTES = 192 << 20
@@ -54,7 +56,7 @@ class Ghost:
         predictor, draws = self._ready(result, task.coarse)
         document = result.document
         angles = (
-            fan(document.angles, document.fov) if document.simulated else result.scene.scans.angles_rad
+            fan(document.angles, math.degrees(document.fov)) if document.simulated else result.scene.scans.angles_rad
         )  # of a file those of its laser
         pose = (task.x, task.y, task.yaw)
         near = None if document.simulated else nearest_scan(result.scan_poses, pose, angles)

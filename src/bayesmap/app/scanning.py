@@ -20,6 +20,7 @@ from bayesmap.samplers.wall_problem import WallProblem
 from bayesmap.sensors.model import SensorModel
 from bayesmap.sensors.noise import AdditiveNoise, Gaussian
 from bayesmap.sim.forward import ranges
+from bayesmap.space.beam_angles import fan
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
 
@@ -102,13 +103,6 @@ class Scene:
         return other
 
 
-def fan(angles: int, fov_rad: float = 2 * math.pi) -> NDArray[np.float64]:
-    """Angles of a full turn, from ahead on, or of a fan about it, both ends included, (A,)."""
-    if fov_rad >= 2 * math.pi:
-        return np.arange(angles) * 2 * math.pi / angles
-    return np.linspace(-fov_rad / 2, fov_rad / 2, angles)
-
-
 def standard_noise(seed: int, sensor: int, angles: int) -> NDArray[np.float64]:
     """Standard normal numbers, (A,): that of a beam depends on the seed, the sensor and the beam's number alone."""
     return np.random.default_rng([seed, sensor, STREAM_NOISE]).standard_normal(angles)
@@ -117,7 +111,7 @@ def standard_noise(seed: int, sensor: int, angles: int) -> NDArray[np.float64]:
 def simulate_document(document: Document) -> tuple[Scans, NDArray[np.float64]]:
     """Scans of all sensors, and the noise-free ranges, (S, A); exact readings are those."""
     poses = np.array([(s.x, s.y, s.yaw) for s in document.sensors])
-    angles = fan(document.angles, document.fov)
+    angles = fan(document.angles, math.degrees(document.fov))
     exact = ranges(document.walls.cells, document.grid, poses, angles, document.max_range)
     noise = np.stack([standard_noise(document.seed, s.id, document.angles) for s in document.sensors])
     sigma_m = max(document.noise, SMALLEST_NOISE_M) if document.readings == "noisy" else 0.0

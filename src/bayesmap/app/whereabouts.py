@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from bayesmap.app.document import SMALLEST_NOISE_M, Document
 from bayesmap.app.result import Result
-from bayesmap.app.scanning import fan, hits
+from bayesmap.app.scanning import hits
 from bayesmap.app.tasks import Report, WhereAmI
 from bayesmap.errors import BadInput
 from bayesmap.localization.belief import PoseBelief
@@ -27,6 +27,7 @@ from bayesmap.localization.localize import localize
 from bayesmap.sensors.model import RangeLimits
 from bayesmap.sensors.noise import Gaussian
 from bayesmap.sim.forward import ranges
+from bayesmap.space.beam_angles import fan
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
 
@@ -112,7 +113,7 @@ def _typical_scans(document: Document) -> Scans:
         raise BadInput("the map has no free cell in which a robot could be")
     cells = free[rng.integers(len(free), size=TYPICAL)] + rng.random((TYPICAL, 2))
     poses = np.column_stack([np.array(grid.origin) + cells * grid.resolution, rng.uniform(-np.pi, np.pi, TYPICAL)])
-    angles = fan(document.angles, document.fov)
+    angles = fan(document.angles, math.degrees(document.fov))
     exact = ranges(document.walls.cells, grid, poses, angles, document.max_range)
     noisy = exact + _sigma_m(document) * rng.standard_normal(exact.shape)
     return Scans(poses, angles, np.where(exact < document.max_range, noisy, np.inf), max_range_m=document.max_range)
