@@ -1,7 +1,7 @@
 // What is asked of the posterior, and its answers: a path between two points, and where to look next.
 
 import type { Buffers, Message, Pair, Point } from "../protocol";
-import type { Session } from "./session";
+import type { Asker } from "./asker";
 import { sentence } from "./status";
 
 /** A path for a disc, and how probable it is that it touches nothing. */
@@ -38,7 +38,7 @@ export class Decisions {
   private askedPath = "";
   private askedViews = "";
 
-  constructor(private readonly session: Session) {}
+  constructor(private readonly session: Asker) {}
 
   /** The first point of a path, then the second, then the first of another. */
   point(place: Point) {

@@ -2,7 +2,7 @@
 
 import { inside } from "../geometry/cells";
 import type { Buffers, CellFacts, Message, Point } from "../protocol";
-import type { Session } from "./session";
+import type { Asker } from "./asker";
 
 /** The beams that say most, strongest first: from where to where (M, 2), metres, their nats, their numbers. */
 export type Spoken = { start: Float64Array; end: Float64Array; nats: Float64Array; scan: Float64Array; beam: Float64Array };
@@ -25,7 +25,7 @@ export class Evidence {
     return this.held && this.cell !== null;
   }
 
-  constructor(private readonly session: Session) {}
+  constructor(private readonly session: Asker) {}
 
   hold(on: boolean) {
     if (this.held === on) return;

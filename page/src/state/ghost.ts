@@ -2,7 +2,7 @@
 
 import { cellOf, inside } from "../geometry/cells";
 import type { Buffers, Message } from "../protocol";
-import type { Session } from "./session";
+import type { Asker } from "./asker";
 
 /** Metres and radians, world frame. */
 export type Pose = { x: number; y: number; yaw: number };
@@ -49,7 +49,7 @@ export class Ghost {
   private waiting = 0;
   private asked = "";
 
-  constructor(private readonly session: Session) {}
+  constructor(private readonly session: Asker) {}
 
   /** Takes it up. */
   hold(on: boolean) {

@@ -1,7 +1,7 @@
 // The reading under the pointer, and how it compares with its prediction.
 
 import type { Message, Point, Scan } from "../protocol";
-import type { Session } from "./session";
+import type { Asker } from "./asker";
 
 /** Metres and radians; null where infinite or unknown. */
 export type Comparison = {
@@ -36,7 +36,7 @@ export class Reading {
   version = 0;
   private timer = 0;
 
-  constructor(private readonly session: Session) {}
+  constructor(private readonly session: Asker) {}
 
   /** Follows the pointer, null where it has gone; `near_m` is how close to a reading it has to be. */
   point(place: Point | null, near_m: number) {

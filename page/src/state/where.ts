@@ -1,7 +1,7 @@
 // "Where am I?": the posterior of the pose of one scan, asked for again whenever the picture is another.
 
 import type { Buffers, Message } from "../protocol";
-import type { Session } from "./session";
+import type { Asker } from "./asker";
 
 /** One place where the robot may be: mean and covariance of x, y (metres) and yaw (radians), and how probable it is. */
 export type Place = { mean: number[]; covariance: number[][]; probability: number; sigma_m: number; sigma_rad: number };
@@ -35,7 +35,7 @@ export class Where {
   private asked = "";
   private waitingSince = 0;
 
-  constructor(private readonly session: Session) {}
+  constructor(private readonly session: Asker) {}
 
   /** Whether an answer is wanted, and of a drawn world for which sensor. */
   follow(wanted: boolean, sensor: number | null) {

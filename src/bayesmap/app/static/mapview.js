@@ -6,8 +6,8 @@ e);return new Uint8Array(await new Response(n).arrayBuffer())}var Uo=t=>Fi(t,new
 aw"));async function Oi(t){let e=await Ii(new TextEncoder().encode(JSON.stringify(t)));return"#m="+Oo(e).replace(/\+/g,"-").replace(/\//g,"_").replace(/=+$/,"")}async function wu(t){
 let e=/^#m=([\w-]+)$/.exec(t);return e&&JSON.parse(new TextDecoder().decode(await Uo(Vt(e[1]))))}var Go="The link's map cannot be read: copy the link again, who\
 le";async function Wo(){let t=await wu(location.hash).catch(()=>null),e=!t&&location.hash.startsWith("#m=");return t&&history.replaceState(null,"",location.pathname+
-location.search),{document:t,damaged:e}}var ne=(t,e,n)=>Math.min(n,Math.max(e,t)),Ot=({x:t,y:e},[n,o])=>t>=0&&e>=0&&t<n&&e<o,_e=(t,{resolution:e,origin:n})=>({x:(t.x-n[0])/e,y:(t.y-n[1])/e}),ar=(t,{resolution:e,
-origin:n})=>({x:n[0]+t.x*e,y:n[1]+t.y*e});function pn(t,e){let{x:n,y:o}=_e(t,e);return{x:Math.floor(n),y:Math.floor(o)}}var Gn=(t,e)=>ar({x:t.x+.5,y:t.y+.5},e);
+location.search),{document:t,damaged:e}}var ne=(t,e,n)=>Math.min(n,Math.max(e,t)),Ot=({x:t,y:e},[n,o])=>t>=0&&e>=0&&t<n&&e<o,Ae=(t,{resolution:e,origin:n})=>({x:(t.x-n[0])/e,y:(t.y-n[1])/e}),ar=(t,{resolution:e,
+origin:n})=>({x:n[0]+t.x*e,y:n[1]+t.y*e});function pn(t,e){let{x:n,y:o}=Ae(t,e);return{x:Math.floor(n),y:Math.floor(o)}}var Gn=(t,e)=>ar({x:t.x+.5,y:t.y+.5},e);
 function Ui(t,e){let n=[],o=Math.max(Math.abs(e.x-t.x),Math.abs(e.y-t.y));for(let s=0;s<=o;s++){let r=o?s/o:0;n.push({x:Math.round(t.x+r*(e.x-t.x)),y:Math.round(
 t.y+r*(e.y-t.y))})}return n}function Gi(t,[e,n]){let o=new Path2D,s=(r,i)=>r>=0&&r<e&&i>=0&&i<n?t[r*n+i]:0;for(let r=0;r<=e;r++)for(let i=0,a=-1;i<=n;i++){let l=i<
 n&&s(r-1,i)!==s(r,i);l&&a<0&&(a=i),!l&&a>=0&&(o.moveTo(r,a),o.lineTo(r,i),a=-1)}for(let r=0;r<=n;r++)for(let i=0,a=-1;i<=e;i++){let l=i<e&&s(i,r-1)!==s(i,r);l&&
@@ -25,7 +25,7 @@ if(!o)return;let s=e==="where there is room"?zi(o,n.walls):"world"in e?e.world:W
  sensors at most.`,"warning"):this.refuses(s)||(n.act({type:"sensor",op:"add",x:s.x,y:s.y,yaw:typeof e=="object"&&"world"in e?e.yaw??0:0}),this.hand.selected=Math.
 max(0,...o.sensors.map(r=>r.id))+1):n.say("There is no free cell for a sensor.","warning")}removeSensor(){let{sensor:e}=this.hand;e&&this.session.act({type:"sen\
 sor",op:"remove",id:e.id})}refuses(e){let{session:n}=this;if(!n.document)return!0;let o=pn(e,n.document.grid),s=this.isWall(o);return!s&&Ot(o,n.shape)?(n.status.
-text.startsWith("A sensor cannot")&&n.say("Ready"),!1):(n.say(s?"A sensor cannot stand in a wall.":"A sensor cannot stand outside the map.","warning"),!0)}};var _t=new Set(["pan","path","look","where","ghost","evidence"]),vu=120,Ho=class{constructor(e){this.session=e}tool="draw";selected=null;hover=null;cursor=null;busy=!1;announce=()=>{};describe=()=>"";gestures=Math.
+text.startsWith("A sensor cannot")&&n.say("Ready"),!1):(n.say(s?"A sensor cannot stand in a wall.":"A sensor cannot stand outside the map.","warning"),!0)}};var At=new Set(["pan","path","look","where","ghost","evidence"]),vu=120,Ho=class{constructor(e){this.session=e}tool="draw";selected=null;hover=null;cursor=null;busy=!1;announce=()=>{};describe=()=>"";gestures=Math.
 floor(Math.random()*2**30);asked=0;nextGesture(){return++this.gestures}get sensor(){let e=this.session.document?.sensors??[];return e.find(n=>n.id===this.selected)??
 e[0]??null}choose(e){this.tool=e,this.session.decisions.look(e==="look"),this.session.ghost.hold(e==="ghost"),this.session.evidence.hold(e==="evidence"),this.session.
 changed()}select(e){this.selected=e,this.session.changed()}point(e){let n=e&&Ot(e,this.session.shape)?e:null;n?.x===this.hover?.x&&n?.y===this.hover?.y||(this.hover=
@@ -38,7 +38,7 @@ y:i}=this.corner,a=ne(s*e,Math.min(this.width,this.height)/Math.max(...o)/3,Su),
 fitted=!1,this.settle(o)}pan(e,n,o){this.corner.x+=e,this.corner.y+=n,this.fitted=!1,this.settle(o)}toGrid(e,n){let{scale:o,x:s,y:r}=this.transform;return{x:(e.
 x-s)/o,y:n-(e.y-r)/o}}fromGrid(e,n){let{scale:o,x:s,y:r}=this.transform;return{x:s+e.x*o,y:r+(n-e.y)*o}}settle([e,n]){let{scale:o}=this.transform,s=ku;this.corner.
 x=ne(this.corner.x,s-e*o,this.width-s),this.corner.y=ne(this.corner.y,s-n*o,this.height-s),this.transform.x=Math.round(this.corner.x*this.ratio)/this.ratio,this.
-transform.y=Math.round(this.corner.y*this.ratio)/this.ratio}};var Vo=new Set(["path","look","evidence"]);function Bo(t,e,n,o){if(e.tool==="path")return t.decisions.point(o);if(e.tool==="evidence"&&t.document){let{x:p,y:d}=_e(
+transform.y=Math.round(this.corner.y*this.ratio)/this.ratio}};var Vo=new Set(["path","look","evidence"]);function Bo(t,e,n,o){if(e.tool==="path")return t.decisions.point(o);if(e.tool==="evidence"&&t.document){let{x:p,y:d}=Ae(
 o,t.document.grid);return t.evidence.pin({x:Math.floor(p),y:Math.floor(d)})}let s=t.decisions.nearest(o),{views:r}=t.decisions;if(s===null||!r)return;let[i,a,l]=r.
 pose.subarray(3*s,3*s+3),u=`${r.nats[s].toFixed(1)} nats`;t.editable?n.addSensor({world:{x:i,y:a},yaw:l}):t.say(`A scan from ${i.toFixed(2)}, ${a.toFixed(2)} m \
 would tell ${u}`)}var qi=[["D, E, S","draw, erase, sensor","drawn"],["P, G, L","pan, path, look next","asked"],["W, O, V","where am I, ghost, evidence of beams","asked"],["arrows",
@@ -59,11 +59,11 @@ shape),o.changed();else{let l=r.cursor??{x:Math.floor(i/2),y:Math.floor(a/2)},u=
 y:u.y+.5},a),d=(w,y,k)=>w-ne(w,y,k),f={x:d(p.x,Je.left+10,s.width-20),y:d(p.y,20,s.height-Je.bottom-10)};(f.x||f.y)&&s.pan(-f.x,-f.y,o.shape)}}space(e){let{session:n,
 hand:o,editor:s}=this;if(Vo.has(o.tool)&&n.document){o.cursor?Bo(n,o,s,Gn(o.cursor,n.document.grid)):this.arrow(0,0);return}if(n.editable){if(o.tool==="sensor"||
 o.tool==="where"){let r=n.document?.sensors??[],i=r.findIndex(a=>a.id===o.sensor?.id);o.select(r[(i+1)%Math.max(1,r.length)]?.id??null),o.selected!==null&&o.announce(
-`Sensor ${o.selected}`)}else if(!_t.has(o.tool)){o.cursor||this.arrow(0,0);let r=o.cursor,i=o.tool==="draw"&&!s.isWall(r);s.setWalls([r],i,o.nextGesture(),e),o.
+`Sensor ${o.selected}`)}else if(!At.has(o.tool)){o.cursor||this.arrow(0,0);let r=o.cursor,i=o.tool==="draw"&&!s.isWall(r);s.setWalls([r],i,o.nextGesture(),e),o.
 announce(i?"wall":"free")}}}},lr={d:"draw",e:"erase",s:"sensor",p:"pan",g:"path",l:"look",w:"where",o:"ghost",v:"evidence"},ji={m:"mean",n:"draw",h:"entropy"},Ki={
 "+":"in","=":"in","-":"out",0:"fit","?":"help"};function Yi(t,e,n){let o=t.composedPath()[0],s=o instanceof HTMLSelectElement||o instanceof HTMLInputElement&&/number|text/.
 test(o.type),r=t.key.toLowerCase();if((t.ctrlKey||t.metaKey)&&!t.altKey){if(s||r!=="z"&&r!=="y"||e.recorded)return;t.preventDefault(),e.act({type:r==="y"||t.shiftKey?
-"redo":"undo"});return}if(!(s||t.altKey)){if(lr[r]&&(e.editable||_t.has(lr[r])&&!e.recorded))n.tool(lr[r]);else if(ji[r])n.layer(r==="h"&&e.quantity.interval?"w\
+"redo":"undo"});return}if(!(s||t.altKey)){if(lr[r]&&(e.editable||At.has(lr[r])&&!e.recorded))n.tool(lr[r]);else if(ji[r])n.layer(r==="h"&&e.quantity.interval?"w\
 idth":ji[r]);else if(Ki[t.key])n.command(Ki[t.key]);else if(r==="r"&&!e.recorded)e.act({type:"run"});else if(t.key==="Escape"&&(e.running||e.working))e.act({type:"\
 cancel"});else return;t.preventDefault()}}var Ko=class{paints={};sheets;constructor(e,n){this.sheets=e.map((o,s)=>({layer:o,canvas:n[s],context:n[s].getContext("2d"),before:[]}));for(let{name:o}of e)this.
 paints[o]=0}paint(e){let{width:n,height:o,ratio:s,transform:r}=e.view;if(!n||!o)return;let i={width:Math.max(1,Math.ceil(n*s)),height:Math.max(1,Math.ceil(o*s))},
@@ -73,7 +73,7 @@ u,i),u.style.width=`${i.width/s}px`,u.style.height=`${i.height/s}px`),p.setTrans
 p.save(),d.paint(p,e),p.restore(),this.paints[d.name]++))}}};function Ne(t,{session:e,view:n}){let[o,s]=e.shape,{scale:r,x:i,y:a}=n.transform;t.beginPath(),t.rect(
 i,a,o*r,s*r),t.clip()}function fn(t,{halo:e},n,o){t.lineWidth=4,t.strokeStyle=e,t.stroke(),t.lineWidth=o,t.strokeStyle=n,t.stroke()}var cr='11px -apple-system, "Segoe UI", Roboto, "Noto Sans", "Liberation Sans", Arial, sans-serif';function Ut(t,e,n,o,s,r,i=!1){t.font=cr,t.textAlign=r,t.textBaseline=
 "middle",i&&(t.strokeStyle=s.halo,t.lineWidth=3,t.strokeText(e,n,o)),t.fillStyle=s.axis,t.fillText(e,n,o)}function ur({document:t,scan:e}){return t?t.source.kind==="simulation"||!e?t.sensors:Array.from({length:e.pose.length/3},(o,s)=>s).map(o=>({id:o,x:e.pose[3*o],y:e.
-pose[3*o+1],yaw:e.pose[3*o+2]})):[]}function Qt(t,e,n){let o=n.fromGrid(_e(t,e),e.shape[1]),s=ne(n.transform.scale*.42,7,13),r=s*2.6,i={x:o.x+r*Math.cos(t.yaw),
+pose[3*o+1],yaw:e.pose[3*o+2]})):[]}function Qt(t,e,n){let o=n.fromGrid(Ae(t,e),e.shape[1]),s=ne(n.transform.scale*.42,7,13),r=s*2.6,i={x:o.x+r*Math.cos(t.yaw),
 y:o.y-r*Math.sin(t.yaw)};return{point:o,size:s,handle:i}}function Ji(t,{session:e,view:n,look:o}){let s=e.document;if(!s)return;let{theme:r}=o,i=ur(e);t.lineJoin=
 "round";for(let a of i){let l=Qt(a,s.grid,n),{point:u,size:p}=l;a.id===o.selected&&Tu(t,l,o);let[d,f]=[Math.cos(a.yaw),-Math.sin(a.yaw)],w=(y,k)=>[u.x+p*(y*d-k*
 f),u.y+p*(y*f+k*d)];t.beginPath(),t.moveTo(...w(1.25,0)),t.lineTo(...w(-.9,.8)),t.lineTo(...w(-.45,0)),t.lineTo(...w(-.9,-.8)),t.closePath(),t.strokeStyle=r.halo,
@@ -90,7 +90,7 @@ n.x),y:Math.floor(n.y)}}metres(e,{grid:n}){return ar(this.view.toGrid(e,n.shape[
 e.pointerId);let r=this.at(e);if(this.fingers.set(e.pointerId,r),this.fingers.size===2)return this.begin({kind:"pinch",...this.spread()});if(this.gesture)return;
 if(e.button===0&&o.tool==="ghost")return this.begin(Zi(n.ghost,r,this.reach(e),s.grid,this.view)),this.dragGhost(e);if(e.button===0&&Vo.has(o.tool))return this.
 begin({kind:"pick",first:r});let i=o.tool==="where"&&n.editable&&e.button!==1?this.gripAt(r,e,s):null;if(i?.kind==="sensor")return o.select(i.id),this.begin(i);
-if(e.button===1||_t.has(o.tool)||!n.editable)return this.begin({kind:"pan",last:r});let a=this.gripAt(r,e,s);if(a)this.begin(a),a.kind==="sensor"&&o.select(a.id);else if(o.
+if(e.button===1||At.has(o.tool)||!n.editable)return this.begin({kind:"pan",last:r});let a=this.gripAt(r,e,s);if(a)this.begin(a),a.kind==="sensor"&&o.select(a.id);else if(o.
 tool==="sensor")e.shiftKey?this.editor.addSensor({world:this.metres(r,s)}):o.sensor&&(o.selected=o.sensor.id,this.begin({kind:"sensor",id:o.sensor.id,drag:o.nextGesture(),
 grip:{x:0,y:0}}),this.dragSensor(e));else{let l=o.tool==="draw"!==(e.button===2||e.shiftKey),u=this.cellAt(r),p=l&&this.editor.isWall(u);this.begin({kind:"strok\
 e",id:o.nextGesture(),wall:l,last:u,held:e,onWall:p}),e.pointerType!=="touch"?this.release():setTimeout(()=>this.release(),Eu)}}gripAt(e,n,o){let{hand:s,view:r}=this,
@@ -116,13 +116,13 @@ return;let n=this.canvas.getRootNode().activeElement===this.canvas;if(this.embed
 this.view.pan(-o*(e.deltaX||e.deltaY),0,this.session.shape):this.view.zoom(Math.exp(-o*e.deltaY*(e.ctrlKey?.01:.0016)),this.at(e),this.session.shape),this.session.
 changed()}stroke(e,n){let{session:o,gesture:s}=this;s?.kind==="stroke"&&(this.editor.setWalls(e,s.wall,s.id,n),o.status.level==="error"&&o.say("Ready"))}dragSensor(e){
 let{gesture:n,session:o}=this,{document:s}=o;if(n?.kind!=="sensor"||!s)return;this.hand.point(null);let r=s.sensors.find(l=>l.id===n.id),i=this.at(e),a=this.metres(
-{x:i.x+n.grip.x,y:i.y+n.grip.y},s);r&&this.editor.moveSensor(r,a,n.drag,e)}};var _u=5,Yo=class{name="cursor";depends({session:e,look:n}){return[n.hover?.x,n.hover?.y,n.cursor?.x,n.cursor?.y,e.shape[1]]}paint(e,{session:n,view:o,look:s}){
+{x:i.x+n.grip.x,y:i.y+n.grip.y},s);r&&this.editor.moveSensor(r,a,n.drag,e)}};var Au=5,Yo=class{name="cursor";depends({session:e,look:n}){return[n.hover?.x,n.hover?.y,n.cursor?.x,n.cursor?.y,e.shape[1]]}paint(e,{session:n,view:o,look:s}){
 let{theme:r}=s;e.beginPath(),e.rect(Je.left,0,o.width,o.height-Je.bottom),e.clip(),s.hover&&ea(e,s.hover,n.shape[1],o,r,r.axis,1.5),s.cursor&&ea(e,s.cursor,n.shape[1],
-o,r,r.ray,2.5)}};function ea(t,e,n,o,s,r,i){let{scale:a}=o.transform,l=o.fromGrid({x:e.x,y:e.y+1},n),u=Math.max(a,_u),[p,d]=[l.x-(u-a)/2,l.y-(u-a)/2];t.lineWidth=
-i+2,t.strokeStyle=s.halo,t.strokeRect(p,d,u,u),t.lineWidth=i,t.strokeStyle=r,t.strokeRect(p,d,u,u)}var Au={paper:[98,0,1],ink:[14,6,-24],unobserved:"#efe7d8",unobservedWall:"#d3c5aa",hatch:"#bfae92",truth:"#d55e00",ray:"#0072b2",noReturn:"#b0679a",sensor:"#00\
+o,r,r.ray,2.5)}};function ea(t,e,n,o,s,r,i){let{scale:a}=o.transform,l=o.fromGrid({x:e.x,y:e.y+1},n),u=Math.max(a,Au),[p,d]=[l.x-(u-a)/2,l.y-(u-a)/2];t.lineWidth=
+i+2,t.strokeStyle=s.halo,t.strokeRect(p,d,u,u),t.lineWidth=i,t.strokeStyle=r,t.strokeRect(p,d,u,u)}var _u={paper:[98,0,1],ink:[14,6,-24],unobserved:"#efe7d8",unobservedWall:"#d3c5aa",hatch:"#bfae92",truth:"#d55e00",ray:"#0072b2",noReturn:"#b0679a",sensor:"#00\
 9e73",draw:"#e69f00",ghost:"#7b52c9",belief:"#6a3fb5",halo:"#ffffff",lines:"rgba(20,30,60,.07)",frame:"#6b7078",axis:"#565d68",ground:"#f4f5f7"},Cu={paper:[17,0,
 -5],ink:[95,-2,6],unobserved:"#322d25",unobservedWall:"#5a503f",hatch:"#635843",truth:"#f08c3c",ray:"#56b4e9",noReturn:"#d99abf",sensor:"#2fcf9f",draw:"#ffb92e",
-ghost:"#b99cff",belief:"#c3a6ff",halo:"#10141a",lines:"rgba(220,230,255,.07)",frame:"#7d8694",axis:"#a3abb8",ground:"#12151a"},Zo={light:Au,dark:Cu},ta="00224e0\
+ghost:"#b99cff",belief:"#c3a6ff",halo:"#10141a",lines:"rgba(220,230,255,.07)",frame:"#7d8694",axis:"#a3abb8",ground:"#12151a"},Zo={light:_u,dark:Cu},ta="00224e0\
 02e6a1a386f32436d434e6c535a6d61656f6f70737d7c788c88789b9476aba072bcae6ccdbb63dec958f0d846fee838";function Lu([t,e,n]){let o=(t+16)/116,s=[.95047,1,1.08883],[r,i,
 a]=[o+e/500,o,o-n/200].map((l,u)=>(l>.20689655172413793?l**3:.12841854934601665*(l-.13793103448275862))*s[u]);return[3.2404542*r-1.5371385*i-.4985314*a,-.969266*
 r+1.8760108*i+.041556*a,.0556434*r-.2040259*i+1.0572252*a].map(l=>{let u=ne(l,0,1);return Math.round(255*(u<=.0031308?12.92*u:1.055*u**(1/2.4)-.055))})}var Jo=(t,e=1)=>[
@@ -132,14 +132,14 @@ t*16));return dr(Jo(ta,6*e),Jo(ta,6*e+6),t*16-e)}function na(t,e){let n=new Uint
 var pr=t=>`linear-gradient(90deg,${[0,.125,.25,.375,.5,.625,.75,.875,1].map(e=>`rgb(${t(e).map(Math.round)})`)})`;var Du=9,Nu=2.5,Hn=class{name="decisions";depends({session:e}){return[e.decisions.version,e.document?.grid.resolution]}shows({session:{decisions:e,document:n}}){
 return!!(n&&(e.start||e.looking&&e.views))}paint(e,n){let{session:o}=n;o.document&&(Ne(e,n),o.decisions.looking&&this.views(e,n),this.path(e,n))}views(e,{session:n,
 view:o,look:s}){let{views:r}=n.decisions,i=n.document?.grid;if(!r?.nats.length||!i)return;let[a,l]=[Math.min(...r.nats),Math.max(...r.nats)],u=ne(.38*r.spacing*
-o.transform.scale/i.resolution,Nu,Du),p=r.nats.indexOf(l);for(let d=0;d<r.nats.length;d++){let f=o.fromGrid(_e({x:r.pose[3*d],y:r.pose[3*d+1]},i),i.shape[1]);e.
+o.transform.scale/i.resolution,Nu,Du),p=r.nats.indexOf(l);for(let d=0;d<r.nats.length;d++){let f=o.fromGrid(Ae({x:r.pose[3*d],y:r.pose[3*d+1]},i),i.shape[1]);e.
 beginPath(),e.arc(f.x,f.y,u,0,2*Math.PI),e.fillStyle=`rgb(${zn(ne((r.nats[d]-a)/Math.max(l-a,1e-9),0,1)).map(Math.round)})`,e.fill(),d===p&&(e.lineWidth=2.5,e.strokeStyle=
 s.theme.truth,e.stroke())}}path(e,{session:n,view:o,look:s}){let{start:r,goal:i,path:a,radius:l}=n.decisions,u=n.document?.grid;if(!u||!r)return;let p=d=>o.fromGrid(
-_e(d,u),u.shape[1]);if(a){e.beginPath();for(let[d,f]of a.path){let w=p({x:d,y:f});e.lineTo(w.x,w.y)}e.lineJoin=e.lineCap="round",e.strokeStyle=a.within_risk?s.theme.
+Ae(d,u),u.shape[1]);if(a){e.beginPath();for(let[d,f]of a.path){let w=p({x:d,y:f});e.lineTo(w.x,w.y)}e.lineJoin=e.lineCap="round",e.strokeStyle=a.within_risk?s.theme.
 sensor:s.theme.truth,e.globalAlpha=.3,e.lineWidth=2*l*o.transform.scale/u.resolution,e.stroke(),e.globalAlpha=1,e.lineWidth=2,e.stroke()}for(let d of i?[r,i]:[r]){
 let{x:f,y:w}=p(d);e.beginPath(),e.arc(f,w,5,0,2*Math.PI),e.fillStyle=d===r?s.theme.sensor:s.theme.truth,e.fill(),e.lineWidth=2,e.strokeStyle=s.theme.halo,e.stroke()}}};var Ru=5,[$u,oa]=[.8,5],Fu=6,Qo=class{name="evidence";depends({session:e}){return[e.evidence.version,e.document?.grid.resolution,e.document?.grid.origin.join()]}shows({
 session:{evidence:e,document:n}}){return!!(e.cellShown&&n)}paint(e,n){let{session:o,view:s,look:r}=n,{cell:i,each:a}=o.evidence,l=o.document?.grid;if(!i||!l)return;
-Ne(e,n);let u=(k,M)=>s.fromGrid(_e({x:k,y:M},l),l.shape[1]),p=k=>[u(a.start[2*k],a.start[2*k+1]),u(a.end[2*k],a.end[2*k+1])],d=a?.nats.length??0;e.lineCap="roun\
+Ne(e,n);let u=(k,M)=>s.fromGrid(Ae({x:k,y:M},l),l.shape[1]),p=k=>[u(a.start[2*k],a.start[2*k+1]),u(a.end[2*k],a.end[2*k+1])],d=a?.nats.length??0;e.lineCap="roun\
 d";for(let k=d-1;k>=0;k--){let[M,T]=p(k),S=a.nats[k];e.beginPath(),e.moveTo(M.x,M.y),e.lineTo(T.x,T.y),e.globalAlpha=ne(.25+Math.abs(S)/2,0,.9),e.lineWidth=ne(oa*
 Math.sqrt(Math.abs(S)/Fu),$u,oa),e.strokeStyle=S>0?r.theme.ray:r.theme.truth,e.stroke()}e.globalAlpha=1;let{scale:f}=s.transform,w=s.fromGrid({x:i.x,y:i.y+1},l.
 shape[1]),y=Math.max(1,4-f/2);e.beginPath(),e.rect(w.x-y,w.y-y,f+2*y,f+2*y),fn(e,r.theme,r.theme.belief,2);for(let k=Math.min(Ru,d)-1;k>=0;k--){let[M,T]=p(k),S=.35+
@@ -162,8 +162,8 @@ r,i]=n.shape,{scale:a,x:l,y:u}=o.transform;e.beginPath();for(let p=1;p<r;p++)e.m
 l+r*a,u+p*a);e.strokeStyle=s.theme.lines,e.lineWidth=1,e.stroke()}};var Gu=[[1.25,0],[-.9,.8],[-.45,0],[-.9,-.8]],Bn=class{name="ghost";depends({session:e}){return[e.ghost.version,e.document?.grid.resolution,e.document?.max_range]}shows({
 session:{ghost:e,document:n}}){return!!(e.held&&e.pose&&n)}paint(e,n){let{ghost:o}=n.session;if(!(!o.held||!o.pose||!n.session.document)){if(Ne(e,n),o.fan){let s=this.
 fan(e,n,o.fan);o.fan.near&&this.near(e,n,o.fan,o.fan.near),e.fillStyle=n.look.theme.ghost,e.fill(s)}this.robot(e,n,o.pose)}}ends({session:e,view:n},o,s,r){let{grid:i,
-max_range:a}=e.document;return Array.from(s,(l,u)=>{let p=ne(r[u],0,a),d=o.yaw+l,f={x:o.x+p*Math.cos(d),y:o.y+p*Math.sin(d)};return n.fromGrid(_e(f,i),i.shape[1])})}fan(e,n,o){
-let{theme:s}=n.look,[r,i,a]=[o.low,o.median,o.high].map(y=>this.ends(n,o,o.angles,y)),{grid:l}=n.session.document,u=n.view.fromGrid(_e(o,l),l.shape[1]),p=new Path2D;
+max_range:a}=e.document;return Array.from(s,(l,u)=>{let p=ne(r[u],0,a),d=o.yaw+l,f={x:o.x+p*Math.cos(d),y:o.y+p*Math.sin(d)};return n.fromGrid(Ae(f,i),i.shape[1])})}fan(e,n,o){
+let{theme:s}=n.look,[r,i,a]=[o.low,o.median,o.high].map(y=>this.ends(n,o,o.angles,y)),{grid:l}=n.session.document,u=n.view.fromGrid(Ae(o,l),l.shape[1]),p=new Path2D;
 p.moveTo(u.x,u.y);for(let{x:y,y:k}of r)p.lineTo(y,k);p.closePath(),e.fillStyle=s.ghost,e.globalAlpha=.1,e.fill(p);let d=new Path2D,f=new Path2D,w=ne(n.view.transform.
 scale*.12,1.2,3);for(let y=0;y<r.length;y++)d.moveTo(r[y].x,r[y].y),d.lineTo(a[y].x,a[y].y),Number.isFinite(o.median[y])&&f.rect(i[y].x-w,i[y].y-w,2*w,2*w);return e.
 strokeStyle=s.ghost,e.lineCap="round",e.lineWidth=ne(n.view.transform.scale*.25,2,5),e.globalAlpha=.4,e.stroke(d),e.globalAlpha=1,f}near(e,n,o,{pose:s,ranges:r,
@@ -178,9 +178,9 @@ this.cells.canvas,p,d,a*u,l*u)}fill(e,n,o,s){let[r,i,a]=[1,3,5].map(u=>parseInt(
 n,o);for(let u=0,p=0;u<o;u++)for(let d=o-1-u;d<n*o;d+=o,p+=4)l.data.set([r,i,a,e.observed[d]?e.p[d]:0],p);this.cells.putImageData(l,0,0),this.drawn={field:e,colour:s}}};var Wu=46,zu=22;function Hu(t){let e=10**Math.floor(Math.log10(t));return e*([1,2,5].find(n=>n*e>=t)??10)}function sa(t,{session:e,view:n,look:o}){if(!e.document)
 return;let{theme:s}=o,{width:r,height:i}=n,{origin:a,resolution:l,shape:u}=e.document.grid,{scale:p,x:d,y:f}=n.transform,w=Hu(Wu/p*l),y=Math.min(f+u[1]*p,i-Je.bottom)+
 .5,k=Math.max(d,Je.left)-.5;t.fillStyle=s.ground,d<k&&t.fillRect(0,0,k,i+1),f+u[1]*p>y&&t.fillRect(0,y,r+1,i+1-y);let M=Math.max(0,-Math.floor(Math.log10(w)+1e-9));
-t.strokeStyle=s.frame,t.lineWidth=1,t.beginPath();let T=E=>Math.ceil(a[E]/w-1e-9)*w,S=E=>a[E]+u[E]*l+1e-9;for(let E=T(0);E<=S(0);E+=w){let _=d+(E-a[0])/l*p;_<k||
-_>r-4||(t.moveTo(_,y),t.lineTo(_,y+4),Ut(t,E.toFixed(M),_,y+12,s,"center"))}for(let E=T(1);E<=S(1);E+=w){let _=f+(u[1]-(E-a[1])/l)*p;_>y||_<4||(t.moveTo(k,_),t.
-lineTo(k-4,_),Ut(t,E.toFixed(M),k-7,_,s,"right"))}t.stroke(),Ut(t,"m",k-zu,y+12,s,"right")}var Kn=class{name="marks";edges=new Path2D;edgesOf=-1;depends({session:e,look:n}){let o=ur(e).flatMap(({id:i,x:a,y:l,yaw:u})=>[i,a,l,u]),{grid:s}=e.document??{},
+t.strokeStyle=s.frame,t.lineWidth=1,t.beginPath();let T=E=>Math.ceil(a[E]/w-1e-9)*w,S=E=>a[E]+u[E]*l+1e-9;for(let E=T(0);E<=S(0);E+=w){let A=d+(E-a[0])/l*p;A<k||
+A>r-4||(t.moveTo(A,y),t.lineTo(A,y+4),Ut(t,E.toFixed(M),A,y+12,s,"center"))}for(let E=T(1);E<=S(1);E+=w){let A=f+(u[1]-(E-a[1])/l)*p;A>y||A<4||(t.moveTo(k,A),t.
+lineTo(k-4,A),Ut(t,E.toFixed(M),k-7,A,s,"right"))}t.stroke(),Ut(t,"m",k-zu,y+12,s,"right")}var Kn=class{name="marks";edges=new Path2D;edgesOf=-1;depends({session:e,look:n}){let o=ur(e).flatMap(({id:i,x:a,y:l,yaw:u})=>[i,a,l,u]),{grid:s}=e.document??{},
 r=ra(e)&&n.truth&&e.wallsVersion;return[s&&[...s.shape,...s.origin,s.resolution].join(),r,n.selected,...o]}shows({session:e}){return e.document!==null}paint(e,n){
 let{session:o,view:s,look:r}=n;if(!o.document)return;let[i,a]=o.shape,{scale:l,x:u,y:p}=s.transform;r.truth&&ra(o)&&this.truth(e,n),e.strokeStyle=r.theme.frame,
 e.lineWidth=1,e.strokeRect(u-.5,p-.5,i*l+1,a*l+1),Ji(e,n),sa(e,n)}truth(e,n){let{session:o,view:s,look:r}=n,{scale:i,x:a,y:l}=s.transform;this.edgesOf!==o.wallsVersion&&
@@ -188,25 +188,25 @@ e.lineWidth=1,e.strokeRect(u-.5,p-.5,i*l+1,a*l+1),Ji(e,n),sa(e,n)}truth(e,n){let
 e.lineWidth=ne(i*.09,1,2.5)/i,e.stroke(this.edges),e.restore()}},ra=({document:t})=>t?.source.kind==="simulation";var Vu=600,Bu=1500,ju=65536,mr=.3,qn=class{name="rays";depends({session:e,look:n}){return[e.scan,e.document?.max_range,n.rays,n.readings,e.document?.scans_used]}shows({
 session:e,look:n}){return!!(e.scan&&e.document&&(n.rays||n.readings)&&!e.ghost.held&&!e.evidence.cellShown)}paint(e,n){let{session:o,view:s,look:r}=n,{scan:i,document:a}=o;
 if(!i||!a)return;Ne(e,n);let{scale:l}=s.transform,u=1/a.grid.resolution,p=a.grid.shape[1],d=i.angles.length,f=i.pose.length/3,w=Math.ceil(d*f/Bu),[y,k,M]=[new Path2D,
-new Path2D,new Path2D],T=d*f>Vu,S=new Map,E=ne(l*.1,1.3,4),_=a.scans_used??1/0,J=(i.index??0)<_?1:mr;for(let N=0;N<f;N++){let[Z,B,q]=i.pose.subarray(3*N,3*N+3),
-R=s.fromGrid(_e({x:Z,y:B},a.grid),p);for(let A=0;A<d;A++){let j=i.ranges[N*d+A],I=i.hit[N*d+A]===1,V=(I?j:a.max_range)*u*l,W=i.angles[A]+q,Y={x:R.x+V*Math.cos(W),
-y:R.y-V*Math.sin(W)},z=I?y:k;(N*d+A)%w===0&&(z.moveTo(R.x,R.y),z.lineTo(Y.x,Y.y)),I&&(T?S.set(Math.round(Y.x)*ju+Math.round(Y.y),Y):(M.moveTo(Y.x+E,Y.y),M.arc(Y.
+new Path2D,new Path2D],T=d*f>Vu,S=new Map,E=ne(l*.1,1.3,4),A=a.scans_used??1/0,J=(i.index??0)<A?1:mr;for(let N=0;N<f;N++){let[Z,B,q]=i.pose.subarray(3*N,3*N+3),
+R=s.fromGrid(Ae({x:Z,y:B},a.grid),p);for(let _=0;_<d;_++){let j=i.ranges[N*d+_],I=i.hit[N*d+_]===1,V=(I?j:a.max_range)*u*l,W=i.angles[_]+q,Y={x:R.x+V*Math.cos(W),
+y:R.y-V*Math.sin(W)},z=I?y:k;(N*d+_)%w===0&&(z.moveTo(R.x,R.y),z.lineTo(Y.x,Y.y)),I&&(T?S.set(Math.round(Y.x)*ju+Math.round(Y.y),Y):(M.moveTo(Y.x+E,Y.y),M.arc(Y.
 x,Y.y,E,0,2*Math.PI)))}}if(r.rays&&(e.lineWidth=1,e.globalAlpha=J*ne(28/Math.sqrt(d*f/w)/5,.07,.45),e.strokeStyle=r.theme.ray,e.stroke(y),e.strokeStyle=r.theme.
 noReturn,e.stroke(k),e.globalAlpha=1),r.readings){e.globalAlpha=J,e.fillStyle=r.theme.ray,e.fill(M);let N=1.8*E;for(let{x:Z,y:B}of S.values())e.fillRect(Z-N/2,B-
 N/2,N,N);e.globalAlpha=1}}};var Ku=2.5,wo=t=>t>=Ku,Yn=class{name="overlay";depends({session:e,look:n}){return[e.overlay,n.strokes,n.trajectory,e.document?.grid.resolution,e.document?.scans_used]}shows({
 session:e,look:n}){return!!(e.overlay&&e.document&&(n.strokes||n.trajectory))}paint(e,n){let{session:o,look:s}=n,{overlay:r,document:i}=o;!r||!i||(Ne(e,n),s.trajectory&&
 this.trajectory(e,n,r.trajectory),s.strokes&&wo(n.view.transform.scale)&&this.strokes(e,n,r.strokes))}trajectory(e,{session:n,view:o,look:s},r){let i=n.document?.
 grid;if(!i)return;let a=r.length/2,l=Math.min(a,n.document?.scans_used??a);e.strokeStyle=s.theme.sensor,e.lineWidth=1,e.lineJoin="round";for(let[u,p,d]of[[0,l,.6],
-[Math.max(0,l-1),a,.6*mr]]){e.beginPath();for(let f=u;f<p;f++){let w=o.fromGrid(_e({x:r[2*f],y:r[2*f+1]},i),i.shape[1]);e.lineTo(w.x,w.y)}e.globalAlpha=d,e.stroke()}
+[Math.max(0,l-1),a,.6*mr]]){e.beginPath();for(let f=u;f<p;f++){let w=o.fromGrid(Ae({x:r[2*f],y:r[2*f+1]},i),i.shape[1]);e.lineTo(w.x,w.y)}e.globalAlpha=d,e.stroke()}
 e.globalAlpha=1}strokes(e,{session:n,view:o,look:s},r){let i=n.document?.grid;if(i){e.beginPath();for(let a=0;a<r.length;a+=5){let[l,u,p,d]=r.subarray(a,a+4),[f,
-w]=[o.fromGrid(_e({x:l,y:u},i),i.shape[1]),o.fromGrid(_e({x:p,y:d},i),i.shape[1])];e.moveTo(f.x,f.y),e.lineTo(w.x,w.y)}e.strokeStyle=s.theme.ray,e.lineCap="roun\
+w]=[o.fromGrid(Ae({x:l,y:u},i),i.shape[1]),o.fromGrid(Ae({x:p,y:d},i),i.shape[1])];e.moveTo(f.x,f.y),e.lineTo(w.x,w.y)}e.strokeStyle=s.theme.ray,e.lineCap="roun\
 d",e.lineWidth=ne(o.transform.scale/5,.8,2.5),e.stroke()}}};var qu=2.2,es=7,[Yu,Ju]=[.03,.75],Zu=2.4477,ia=9,Jn=class{name="where";depends({session:e}){return[e.where.version,e.document?.grid.resolution,e.document?.grid.
 origin.join()]}shows({session:e}){return!!(e.where.found&&e.document)}paint(e,n){let{session:o}=n,{found:s}=o.where,r=o.document?.grid;if(!(!s||!r)){Ne(e,n),this.
 cloud(e,n,r);for(let i of s.modes)this.place(e,n,r,i,s.modes.length>1)}}cloud(e,{session:n,view:o,look:s},r){let{cloud:i,weight:a}=n.where.found,l=a[a.length-1]||
-1;e.strokeStyle=e.fillStyle=s.theme.belief,e.lineWidth=1.2;for(let u=0;u<a.length;u++){if(a[u]<Yu**2*l)continue;let[p,d,f]=i.subarray(3*u,3*u+3),w=o.fromGrid(_e(
+1;e.strokeStyle=e.fillStyle=s.theme.belief,e.lineWidth=1.2;for(let u=0;u<a.length;u++){if(a[u]<Yu**2*l)continue;let[p,d,f]=i.subarray(3*u,3*u+3),w=o.fromGrid(Ae(
 {x:p,y:d},r),r.shape[1]);e.globalAlpha=Ju*Math.sqrt(a[u]/l),e.beginPath(),e.arc(w.x,w.y,qu,0,2*Math.PI),e.fill(),e.beginPath(),e.moveTo(w.x,w.y),e.lineTo(w.x+es*
-Math.cos(f),w.y-es*Math.sin(f)),e.stroke()}e.globalAlpha=1}place(e,{view:n,look:o},s,r,i){let[a,l,u]=r.mean,p=n.fromGrid(_e({x:a,y:l},s),s.shape[1]),d=Zu*n.transform.
-scale/s.resolution,[[f,w],[,y]]=r.covariance,[k,M]=[(f+y)/2,Math.hypot((f-y)/2,w)],[T,S]=[k+M,k-M].map(_=>Math.max(ia,d*Math.sqrt(Math.max(_,0))));e.beginPath(),
+Math.cos(f),w.y-es*Math.sin(f)),e.stroke()}e.globalAlpha=1}place(e,{view:n,look:o},s,r,i){let[a,l,u]=r.mean,p=n.fromGrid(Ae({x:a,y:l},s),s.shape[1]),d=Zu*n.transform.
+scale/s.resolution,[[f,w],[,y]]=r.covariance,[k,M]=[(f+y)/2,Math.hypot((f-y)/2,w)],[T,S]=[k+M,k-M].map(A=>Math.max(ia,d*Math.sqrt(Math.max(A,0))));e.beginPath(),
 e.ellipse(p.x,p.y,T,S,-Math.atan2(2*w,f-y)/2,0,2*Math.PI);let E=ia+1;e.moveTo(p.x+E*Math.cos(u),p.y-E*Math.sin(u)),e.lineTo(p.x+(E+es)*Math.cos(u),p.y-(E+es)*Math.
 sin(u)),e.strokeStyle=o.theme.halo,e.lineWidth=4,e.stroke(),e.strokeStyle=o.theme.belief,e.lineWidth=2,e.stroke(),i&&Ut(e,gr(r.probability),p.x,p.y-S-9,o.theme,
 "center",!0)}},gr=t=>t>.995&&t<1?"over 99 %":t<.005?"under 1 %":`${Math.round(100*t)} %`;var aa=900,xo=2;function la({session:t,look:e}){let[n,o]=t.shape,s=new Wn;s.resize(aa,Math.round(ne(aa*o/n,300,1800)),xo),s.fit(t.shape);let r=document.createElement(
@@ -214,7 +214,7 @@ sin(u)),e.strokeStyle=o.theme.halo,e.lineWidth=4,e.stroke(),e.strokeStyle=o.them
 let a=[new Vn,new jn,new Yn,new qn,new Kn,new Hn,new Jn,new Bn],l={session:t,view:s,look:{...e,hover:null,cursor:null,selected:null}};for(let u of a)(u.shows?.(
 l)??!0)&&(i.save(),u.paint(i,l),i.restore());return new Promise(u=>r.toBlob(u))}var ts=class{name="reading";depends({session:e}){return[e.reading.version,e.document?.grid.resolution]}shows({session:{reading:e,document:n,scan:o,ghost:s}}){return!!(!s.
 held&&e.picked&&n&&o?.index===e.picked.scan)}paint(e,n){let{session:o,view:s,look:r}=n,{picked:i,found:a}=o.reading,{scan:l,document:u}=o;if(!i||!u||l?.index!==
-i.scan)return;Ne(e,n);let{grid:p,max_range:d}=u,f=M=>{let T={x:i.from.x+M*Math.cos(i.angle),y:i.from.y+M*Math.sin(i.angle)};return s.fromGrid(_e(T,p),p.shape[1])},
+i.scan)return;Ne(e,n);let{grid:p,max_range:d}=u,f=M=>{let T={x:i.from.x+M*Math.cos(i.angle),y:i.from.y+M*Math.sin(i.angle)};return s.fromGrid(Ae(T,p),p.shape[1])},
 w=(M,T,S,E)=>{e.beginPath(),e.moveTo(M.x,M.y),e.lineTo(T.x,T.y),e.lineWidth=S,e.strokeStyle=E,e.stroke()},y=l.hit[i.beam]===1,k=f(y?l.ranges[i.beam]:d);if(w(f(0),
 k,3,r.theme.halo),w(f(0),k,1.5,y?r.theme.ray:r.theme.noReturn),e.lineCap="butt",a){let M=(T,S)=>ne(T??S,0,d);if(w(f(M(a.low,0)),f(M(a.high,d)),6,r.theme.ghost),
 a.median!==null){let T=f(a.median),S={x:7*Math.sin(i.angle),y:7*Math.cos(i.angle)};w({x:T.x-S.x,y:T.y-S.y},{x:T.x+S.x,y:T.y+S.y},2.5,r.theme.ghost)}}y&&(e.beginPath(),
@@ -223,19 +223,19 @@ e.arc(k.x,k.y,4.5,0,2*Math.PI),e.fillStyle=r.theme.ray,e.fill(),e.lineWidth=2,e.
 e)!==n&&t.setAttribute(e,n)}var mn=t=>t.getRootNode().activeElement===t,Me=(t,e,n="")=>t==null||!Number.isFinite(t)?"–":t.toFixed(e)+n;function yr(t,e){let n=URL.
 createObjectURL(e);v("a",{href:n,download:t}).click(),setTimeout(()=>URL.revokeObjectURL(n),1e4)}var ca=[["draw","Draw","draw"],["erase","Erase","erase"],["sensor","Sensor","sensor"],["pan","Pan","pan"],["path","Path","path"],["look","Look next","look"],["w\
 here","Where am I?","where"],["ghost","Ghost","ghost"],["evidence","Evidence","evidence"]];function ua(t){let{hand:e,session:n}=t,o=t.segmented("Tool",ca,()=>n.
-editable||!n.document||_t.has(e.tool)?e.tool:"pan",s=>e.choose(s),s=>n.editable||_t.has(s)&&!n.recorded||s==="pan");return t.visible(o,()=>!n.recorded),ca.forEach(
-([s],r)=>{_t.has(s)||t.visible(o.children[r],()=>!n.document||n.editable)}),v("div",{className:"bar"},o,v("span",{className:"space"}),t.button("minus","Zoom out",
+editable||!n.document||At.has(e.tool)?e.tool:"pan",s=>e.choose(s),s=>n.editable||At.has(s)&&!n.recorded||s==="pan");return t.visible(o,()=>!n.recorded),ca.forEach(
+([s],r)=>{At.has(s)||t.visible(o.children[r],()=>!n.document||n.editable)}),v("div",{className:"bar"},o,v("span",{className:"space"}),t.button("minus","Zoom out",
 ()=>t.command("out"),{title:"Zoom out (−)"}),t.button("plus","Zoom in",()=>t.command("in"),{title:"Zoom in (+)"}),t.button("fit","Whole map",()=>t.command("fi\
 t"),{title:"Whole map (0)"}))}var Qu="uplot",Xu="u-hz",ed="u-vt",td="u-title",nd="u-wrap",od="u-under",sd="u-over",rd="u-axis",bn="u-off",id="u-select",ad="u-cursor-x",ld="u-cursor-y",cd="u-\
 cursor-pt",ud="u-legend",dd="u-live",hd="u-inline",pd="u-series",fd="u-marker",da="u-label",md="u-value",ko="width",So="height";var ha="bottom",Zn="left",br="right",$r="#000",pa=$r+"0",wr="mousemove",fa="mousedown",xr="mouseup",ma="mouseenter",ga="mouseleave",ya="dblclick",gd="resize",yd="\
 scroll",ba="change",is="dppxchange",Fr="--",so=typeof window<"u",Tr=so?document:null,Xn=so?window:null,bd=so?navigator:null,he,ns;function Pr(){let t=devicePixelRatio;
-he!=t&&(he=t,ns&&_r(ba,ns,Pr),ns=matchMedia(`(min-resolution: ${he-.001}dppx) and (max-resolution: ${he+.001}dppx)`),wn(ba,ns,Pr),Xn.dispatchEvent(new CustomEvent(
+he!=t&&(he=t,ns&&Ar(ba,ns,Pr),ns=matchMedia(`(min-resolution: ${he-.001}dppx) and (max-resolution: ${he+.001}dppx)`),wn(ba,ns,Pr),Xn.dispatchEvent(new CustomEvent(
 is)))}function ht(t,e){if(e!=null){let n=t.classList;!n.contains(e)&&n.add(e)}}function Er(t,e){let n=t.classList;n.contains(e)&&n.remove(e)}function Te(t,e,n){
-t.style[e]=n+"px"}function At(t,e,n,o){let s=Tr.createElement(t);return e!=null&&ht(s,e),n?.insertBefore(s,o),s}function vt(t,e){return At("div",t,e)}var wa=new WeakMap;
+t.style[e]=n+"px"}function _t(t,e,n,o){let s=Tr.createElement(t);return e!=null&&ht(s,e),n?.insertBefore(s,o),s}function vt(t,e){return _t("div",t,e)}var wa=new WeakMap;
 function Gt(t,e,n,o,s){let r="translate("+e+"px,"+n+"px)",i=wa.get(t);r!=i&&(t.style.transform=r,wa.set(t,r),e<0||n<0||e>o||n>s?ht(t,bn):Er(t,bn))}var xa=new WeakMap;
 function va(t,e,n){let o=e+n,s=xa.get(t);o!=s&&(xa.set(t,o),t.style.background=e,t.style.borderColor=n)}var ka=new WeakMap;function Sa(t,e,n,o){let s=e+""+n,r=ka.
 get(t);s!=r&&(ka.set(t,s),t.style.height=n+"px",t.style.width=e+"px",t.style.marginLeft=o?-e/2+"px":0,t.style.marginTop=o?-n/2+"px":0)}var Ir={passive:!0},wd={...Ir,
-capture:!0};function wn(t,e,n,o){e.addEventListener(t,n,o?wd:Ir)}function _r(t,e,n,o){e.removeEventListener(t,n,Ir)}so&&Pr();function Ct(t,e,n,o){let s;n=n||0,o=
+capture:!0};function wn(t,e,n,o){e.addEventListener(t,n,o?wd:Ir)}function Ar(t,e,n,o){e.removeEventListener(t,n,Ir)}so&&Pr();function Ct(t,e,n,o){let s;n=n||0,o=
 o||e.length-1;let r=o<=2147483647;for(;o-n>1;)s=r?n+o>>1:pt((n+o)/2),e[s]<t?n=s:o=s;return t-e[n]<=e[o]-t?n:o}function Za(t){return(n,o,s)=>{let r=-1,i=-1;for(let a=o;a<=
 s;a++)if(t(n[a])){r=a;break}for(let a=s;a>=o;a--)if(t(n[a])){i=a;break}return[r,i]}}var Qa=t=>t!=null,Xa=t=>t!=null&&t>0,cs=Za(Qa),xd=Za(Xa);function vd(t,e,n,o=0,s=!1){
 let r=s?xd:cs,i=s?Xa:Qa;[e,n]=r(t,e,n);let a=t[e],l=t[e];if(e>-1)if(o==1)a=t[e],l=t[n];else if(o==-1)a=t[n],l=t[e];else for(let u=e;u<=n;u++){let p=t[u];i(p)&&(p<
@@ -245,16 +245,16 @@ let s=us(t,e,n,o);return t==0&&(s[0]=0),e==0&&(s[1]=0),s}var Ur=.1,Ma={mode:3,pa
 n)?Ta(t,e,n):(To.pad=n,To.soft=o?0:null,To.mode=o?3:0,Ta(t,e,kd))}function ue(t,e){return t??e}function Sd(t,e,n){for(e=ue(e,0),n=ue(n,t.length-1);e<=n;){if(t[e]!=
 null)return!0;e++}return!1}function Ta(t,e,n){let o=n.min,s=n.max,r=ue(o.pad,0),i=ue(s.pad,0),a=ue(o.hard,-ge),l=ue(s.hard,ge),u=ue(o.soft,ge),p=ue(s.soft,-ge),
 d=ue(o.mode,0),f=ue(s.mode,0),w=e-t,y=Bt(w),k=nt(Ie(t),Ie(e)),M=Bt(k),T=Ie(M-y);(w<1e-24||T>10)&&(w=0,(t==0||e==0)&&(w=1e-24,d==2&&u!=ge&&(r=0),f==2&&p!=-ge&&(i=
-0)));let S=w||k||1e3,E=Bt(S),_=eo(10,pt(E)),J=S*(w==0?t==0?.1:1:r),N=ye(sl(t-J,_/10),24),Z=t>=u&&(d==1||d==3&&N<=u||d==2&&N>=u)?u:ge,B=nt(a,N<Z&&t>=Z?Z:Lt(Z,N)),
-q=S*(w==0?e==0?.1:1:i),R=ye(ds(e+q,_/10),24),A=e<=p&&(f==1||f==3&&R>=p||f==2&&R<=p)?p:-ge,j=Lt(l,R>A&&e<=A?A:nt(A,R));return B==j&&B==0&&(j=100),[B,j]}var Md=new Intl.
+0)));let S=w||k||1e3,E=Bt(S),A=eo(10,pt(E)),J=S*(w==0?t==0?.1:1:r),N=ye(sl(t-J,A/10),24),Z=t>=u&&(d==1||d==3&&N<=u||d==2&&N>=u)?u:ge,B=nt(a,N<Z&&t>=Z?Z:Lt(Z,N)),
+q=S*(w==0?e==0?.1:1:i),R=ye(ds(e+q,A/10),24),_=e<=p&&(f==1||f==3&&R>=p||f==2&&R<=p)?p:-ge,j=Lt(l,R>_&&e<=_?_:nt(_,R));return B==j&&B==0&&(j=100),[B,j]}var Md=new Intl.
 NumberFormat(so?bd.language:"en-US"),Gr=t=>Md.format(t),ft=Math,rs=ft.PI,Ie=ft.abs,pt=ft.floor,Fe=ft.round,kt=ft.ceil,Lt=ft.min,nt=ft.max,eo=ft.pow,Pa=ft.sign,Bt=ft.
-log10,el=ft.log2,Td=(t,e=1)=>ft.sinh(t)*e,vr=(t,e=1)=>ft.asinh(t/e),ge=1/0;function Ea(t){return(Bt((t^t>>31)-(t>>31))|0)+1}function Ar(t,e,n){return Lt(nt(t,e),
-n)}function tl(t){return typeof t=="function"}function se(t){return tl(t)?t:()=>t}var Pd=()=>{},nl=t=>t,ol=(t,e)=>e,Ed=t=>null,_a=t=>!0,Aa=(t,e)=>t==e,_d=/\.\d*?(?=9{6,}|0{6,})/gm,
-xn=t=>{if(il(t)||en.has(t))return t;let e=`${t}`,n=e.match(_d);if(n==null)return t;let o=n[0].length-1;if(e.indexOf("e-")!=-1){let[s,r]=e.split("e");return+`${xn(
+log10,el=ft.log2,Td=(t,e=1)=>ft.sinh(t)*e,vr=(t,e=1)=>ft.asinh(t/e),ge=1/0;function Ea(t){return(Bt((t^t>>31)-(t>>31))|0)+1}function _r(t,e,n){return Lt(nt(t,e),
+n)}function tl(t){return typeof t=="function"}function se(t){return tl(t)?t:()=>t}var Pd=()=>{},nl=t=>t,ol=(t,e)=>e,Ed=t=>null,Aa=t=>!0,_a=(t,e)=>t==e,Ad=/\.\d*?(?=9{6,}|0{6,})/gm,
+xn=t=>{if(il(t)||en.has(t))return t;let e=`${t}`,n=e.match(Ad);if(n==null)return t;let o=n[0].length-1;if(e.indexOf("e-")!=-1){let[s,r]=e.split("e");return+`${xn(
 s)}e${r}`}return ye(t,o)};function gn(t,e){return xn(ye(xn(t/e))*e)}function ds(t,e){return xn(kt(xn(t/e))*e)}function sl(t,e){return xn(pt(xn(t/e))*e)}function ye(t,e=0){
 if(il(t))return t;let n=10**e,o=t*n*(1+Number.EPSILON);return Fe(o)/n}var en=new Map;function rl(t){return((""+t).split(".")[1]||"").length}function Eo(t,e,n,o){
 let s=[],r=o.map(rl);for(let i=e;i<n;i++){let a=Ie(i),l=ye(eo(t,i),a);for(let u=0;u<o.length;u++){let p=t==10?+`${o[u]}e${i}`:o[u]*l,d=(i>=0?0:a)+(i>=r[u]?0:r[u]),
-f=t==10?p:ye(p,d);s.push(f),en.set(f,d)}}return s}var Po={},Wr=[],to=[null,null],Xt=Array.isArray,il=Number.isInteger,Ad=t=>t===void 0;function Ca(t){return typeof t==
+f=t==10?p:ye(p,d);s.push(f),en.set(f,d)}}return s}var Po={},Wr=[],to=[null,null],Xt=Array.isArray,il=Number.isInteger,_d=t=>t===void 0;function Ca(t){return typeof t==
 "string"}function hs(t){let e=!1;if(t!=null){let n=t.constructor;e=n==null||n==Object}return e}function Cd(t){return t!=null&&typeof t=="object"}var Ld=Object.getPrototypeOf(
 Uint8Array),al="__proto__";function no(t,e=hs){let n;if(Xt(t)){let o=t.find(s=>s!=null);if(Xt(o)||e(o)){n=Array(t.length);for(let s=0;s<t.length;s++)n[s]=no(t[s],
 e)}else n=t.slice()}else if(t instanceof Ld)n=t.slice();else if(e(t)){n={};for(let o in t)o!=al&&(n[o]=no(t[o],e))}else n=t;return n}function Re(t){let e=arguments;
@@ -282,14 +282,14 @@ dl),yn=qd.concat(hl),Hr=`
 s=o*24,r=s*30,i=s*365,l=(t==1?Eo(10,0,3,ls).filter(dl):Eo(10,-3,0,ls)).concat([e,e*5,e*10,e*15,e*30,n,n*5,n*10,n*15,n*30,o,o*2,o*3,o*4,o*6,o*8,o*12,s,s*2,s*3,s*
 4,s*5,s*6,s*7,s*8,s*9,s*10,s*15,r,r*2,r*3,r*4,r*6,i,i*2,i*5,i*10,i*25,i*50,i*100]),u=[[i,pl,pe,pe,pe,pe,pe,pe,1],[s*28,"{MMM}",La,pe,pe,pe,pe,pe,1],[s,fl,La,pe,
 pe,pe,pe,pe,1],[o,"{h}"+ml,os,pe,Mo,pe,pe,pe,1],[n,Qn,os,pe,Mo,pe,pe,pe,1],[e,Na,os+" "+Qn,pe,Mo+" "+Qn,pe,Da,pe,1],[t,Na+".{fff}",os+" "+Qn,pe,Mo+" "+Qn,pe,Da,
-pe,1]];function p(d){return(f,w,y,k,M,T)=>{let S=[],E=M>=i,_=M>=r&&M<i,J=d(y),N=ye(J*t,3),Z=kr(J.getFullYear(),E?0:J.getMonth(),_||E?1:J.getDate()),B=ye(Z*t,3);
-if(_||E){let q=_?M/r:0,R=E?M/i:0,A=N==B?N:ye(kr(Z.getFullYear()+R,Z.getMonth()+q,1)*t,3),j=new Date(Fe(A/t)),I=j.getFullYear(),V=j.getMonth();for(let W=0;A<=k;W++){
-let Y=kr(I+R*W,V+q*W,1),z=Y-d(ye(Y*t,3));A=ye((+Y+z)*t,3),A<=k&&S.push(A)}}else{let q=M>=s?s:M,R=pt(y)-pt(N),A=B+R+ds(N-B,q);S.push(A);let j=d(A),I=j.getHours()+
-j.getMinutes()/n+j.getSeconds()/o,V=M/o,W=f.axes[w]._space,Y=T/W;for(;A=ye(A+M,t==1?0:3),!(A>k);)if(V>1){let z=pt(ye(I+V,6))%24,re=d(A).getHours()-z;re>1&&(re=-1),
-A-=re*o,I=(I+V)%24;let le=S[S.length-1];ye((A-le)/M,3)*Y>=.7&&S.push(A)}else S.push(A)}return S}}return[l,u,p]}var[Zd,Qd,Xd]=gl(1),[eh,th,nh]=gl(.001);Eo(2,-53,
+pe,1]];function p(d){return(f,w,y,k,M,T)=>{let S=[],E=M>=i,A=M>=r&&M<i,J=d(y),N=ye(J*t,3),Z=kr(J.getFullYear(),E?0:J.getMonth(),A||E?1:J.getDate()),B=ye(Z*t,3);
+if(A||E){let q=A?M/r:0,R=E?M/i:0,_=N==B?N:ye(kr(Z.getFullYear()+R,Z.getMonth()+q,1)*t,3),j=new Date(Fe(_/t)),I=j.getFullYear(),V=j.getMonth();for(let W=0;_<=k;W++){
+let Y=kr(I+R*W,V+q*W,1),z=Y-d(ye(Y*t,3));_=ye((+Y+z)*t,3),_<=k&&S.push(_)}}else{let q=M>=s?s:M,R=pt(y)-pt(N),_=B+R+ds(N-B,q);S.push(_);let j=d(_),I=j.getHours()+
+j.getMinutes()/n+j.getSeconds()/o,V=M/o,W=f.axes[w]._space,Y=T/W;for(;_=ye(_+M,t==1?0:3),!(_>k);)if(V>1){let z=pt(ye(I+V,6))%24,re=d(_).getHours()-z;re>1&&(re=-1),
+_-=re*o,I=(I+V)%24;let le=S[S.length-1];ye((_-le)/M,3)*Y>=.7&&S.push(_)}else S.push(_)}return S}}return[l,u,p]}var[Zd,Qd,Xd]=gl(1),[eh,th,nh]=gl(.001);Eo(2,-53,
 53,[1]);function Ra(t,e){return t.map(n=>n.map((o,s)=>s==0||s==8||o==null?o:e(s==1||n[8]==0?o:n[1]+o)))}function $a(t,e){return(n,o,s,r,i)=>{let a=e.find(y=>i>=
-y[0])||e[e.length-1],l,u,p,d,f,w;return o.map(y=>{let k=t(y),M=k.getFullYear(),T=k.getMonth(),S=k.getDate(),E=k.getHours(),_=k.getMinutes(),J=k.getSeconds(),N=M!=
-l&&a[2]||T!=u&&a[3]||S!=p&&a[4]||E!=d&&a[5]||_!=f&&a[6]||J!=w&&a[7]||a[1];return l=M,u=T,p=S,d=E,f=_,w=J,N(k)})}}function oh(t,e){let n=zr(e);return(o,s,r,i,a)=>s.
+y[0])||e[e.length-1],l,u,p,d,f,w;return o.map(y=>{let k=t(y),M=k.getFullYear(),T=k.getMonth(),S=k.getDate(),E=k.getHours(),A=k.getMinutes(),J=k.getSeconds(),N=M!=
+l&&a[2]||T!=u&&a[3]||S!=p&&a[4]||E!=d&&a[5]||A!=f&&a[6]||J!=w&&a[7]||a[1];return l=M,u=T,p=S,d=E,f=A,w=J,N(k)})}}function oh(t,e){let n=zr(e);return(o,s,r,i,a)=>s.
 map(l=>n(t(l)))}function kr(t,e,n){return new Date(t,e,n)}function Fa(t,e){return e(t)}var sh="{YYYY}-{MM}-{DD} {h}:{mm}{aa}";function Ia(t,e){return(n,o,s,r)=>r==
 null?Fr:e(t(o))}function rh(t,e){let n=t.series[e];return n.width?n.stroke(t,e):n.points.width?n.points.stroke(t,e):null}function ih(t,e){return t.series[e].fill(
 t,e)}var ah={show:!0,live:!0,isolate:!1,mount:Pd,markers:{show:!0,width:2,stroke:rh,fill:ih,dash:"solid"},idx:null,idxs:null,values:[]};function lh(t,e){let n=t.
@@ -319,55 +319,55 @@ distr:1,log:10,asinh:1,min:null,max:null,dir:1,ori:0},Eh=Re({},Ml,{time:!1,ori:1
 push(o)},unsub(o){n.plots=n.plots.filter(s=>s!=o)},pub(o,s,r,i,a,l,u){for(let p=0;p<n.plots.length;p++)n.plots[p]!=s&&n.plots[p].pub(o,s,r,i,a,l,u)}},t!=null&&(Ba[t]=
 n)),n}var oo=1,Dr=2;function vn(t,e,n){let o=t.mode,s=t.series[e],r=o==2?t._data[e]:t._data,i=t.scales,a=t.bbox,l=r[0],u=o==2?r[1]:r[e],p=o==2?i[s.facets[0].scale]:
 i[t.series[0].scale],d=o==2?i[s.facets[1].scale]:i[s.scale],f=a.left,w=a.top,y=a.width,k=a.height,M=t.valToPosH,T=t.valToPosV;return p.ori==0?n(s,l,u,p,d,M,T,f,
-w,y,k,fs,ro,gs,El,Al):n(s,l,u,p,d,T,M,w,f,k,y,ms,io,qr,_l,Cl)}function jr(t,e){let n=0,o=0,s=ue(t.bands,Wr);for(let r=0;r<s.length;r++){let i=s[r];i.series[0]==
-e?n=i.dir:i.series[1]==e&&(i.dir==1?o|=1:o|=2)}return[n,o==1?-1:o==2?1:o==3?2:0]}function _h(t,e,n,o,s){let r=t.mode,i=t.series[e],a=r==2?i.facets[1].scale:i.scale,
+w,y,k,fs,ro,gs,El,_l):n(s,l,u,p,d,T,M,w,f,k,y,ms,io,qr,Al,Cl)}function jr(t,e){let n=0,o=0,s=ue(t.bands,Wr);for(let r=0;r<s.length;r++){let i=s[r];i.series[0]==
+e?n=i.dir:i.series[1]==e&&(i.dir==1?o|=1:o|=2)}return[n,o==1?-1:o==2?1:o==3?2:0]}function Ah(t,e,n,o,s){let r=t.mode,i=t.series[e],a=r==2?i.facets[1].scale:i.scale,
 l=t.scales[a];return s==-1?l.min:s==1?l.max:l.distr==3?l.dir==1?l.min:l.max:0}function jt(t,e,n,o,s,r){return vn(t,e,(i,a,l,u,p,d,f,w,y,k,M)=>{let T=i.pxRound,S=u.
-dir*(u.ori==0?1:-1),E=u.ori==0?ro:io,_,J;S==1?(_=n,J=o):(_=o,J=n);let N=T(d(a[_],u,k,w)),Z=T(f(l[_],p,M,y)),B=T(d(a[J],u,k,w)),q=T(f(r==1?p.max:p.min,p,M,y)),R=new Path2D(
+dir*(u.ori==0?1:-1),E=u.ori==0?ro:io,A,J;S==1?(A=n,J=o):(A=o,J=n);let N=T(d(a[A],u,k,w)),Z=T(f(l[A],p,M,y)),B=T(d(a[J],u,k,w)),q=T(f(r==1?p.max:p.min,p,M,y)),R=new Path2D(
 s);return E(R,B,q),E(R,N,q),E(R,N,Z),R})}function ps(t,e,n,o,s,r){let i=null;if(t.length>0){i=new Path2D;let a=e==0?gs:qr,l=n;for(let d=0;d<t.length;d++){let f=t[d];
-if(f[1]>f[0]){let w=f[0]-l;w>0&&a(i,l,o,w,o+r),l=f[1]}}let u=n+s-l,p=10;u>0&&a(i,l,o-p/2,u,o+r+p)}return i}function Ah(t,e,n){let o=t[t.length-1];o&&o[0]==e?o[1]=
+if(f[1]>f[0]){let w=f[0]-l;w>0&&a(i,l,o,w,o+r),l=f[1]}}let u=n+s-l,p=10;u>0&&a(i,l,o-p/2,u,o+r+p)}return i}function _h(t,e,n){let o=t[t.length-1];o&&o[0]==e?o[1]=
 n:t.push([e,n])}function Kr(t,e,n,o,s,r,i){let a=[],l=t.length;for(let u=s==1?n:o;u>=n&&u<=o;u+=s)if(e[u]===null){let d=u,f=u;if(s==1)for(;++u<=o&&e[u]===null;)
 f=u;else for(;--u>=n&&e[u]===null;)f=u;let w=r(t[d]),y=f==d?w:r(t[f]),k=d-s;w=i<=0&&k>=0&&k<l?r(t[k]):w;let T=f+s;y=i>=0&&T>=0&&T<l?r(t[T]):y,y>=w&&a.push([w,y])}
 return a}function ja(t){return t==0?nl:t==1?Fe:e=>gn(e,t)}function Pl(t){let e=t==0?fs:ms,n=t==0?(s,r,i,a,l,u)=>{s.arcTo(r,i,a,l,u)}:(s,r,i,a,l,u)=>{s.arcTo(i,r,
 l,a,u)},o=t==0?(s,r,i,a,l)=>{s.rect(r,i,a,l)}:(s,r,i,a,l)=>{s.rect(i,r,l,a)};return(s,r,i,a,l,u=0,p=0)=>{u==0&&p==0?o(s,r,i,a,l):(u=Lt(u,a/2,l/2),p=Lt(p,a/2,l/2),
 e(s,r+u,i),n(s,r+a,i,r+a,i+l,u),n(s,r+a,i+l,r,i+l,p),n(s,r,i+l,r,i,p),n(s,r,i,r+a,i,u),s.closePath())}}var fs=(t,e,n)=>{t.moveTo(e,n)},ms=(t,e,n)=>{t.moveTo(n,e)},
-ro=(t,e,n)=>{t.lineTo(e,n)},io=(t,e,n)=>{t.lineTo(n,e)},gs=Pl(0),qr=Pl(1),El=(t,e,n,o,s,r)=>{t.arc(e,n,o,s,r)},_l=(t,e,n,o,s,r)=>{t.arc(n,e,o,s,r)},Al=(t,e,n,o,s,r,i)=>{
+ro=(t,e,n)=>{t.lineTo(e,n)},io=(t,e,n)=>{t.lineTo(n,e)},gs=Pl(0),qr=Pl(1),El=(t,e,n,o,s,r)=>{t.arc(e,n,o,s,r)},Al=(t,e,n,o,s,r)=>{t.arc(n,e,o,s,r)},_l=(t,e,n,o,s,r,i)=>{
 t.bezierCurveTo(e,n,o,s,r,i)},Cl=(t,e,n,o,s,r,i)=>{t.bezierCurveTo(n,e,s,o,i,r)};function Ll(t){return(e,n,o,s,r)=>vn(e,n,(i,a,l,u,p,d,f,w,y,k,M)=>{let{pxRound:T,
-points:S}=i,E,_;u.ori==0?(E=fs,_=El):(E=ms,_=_l);let J=ye(S.width*he,3),N=(S.size-S.width)/2*he,Z=ye(N*2,3),B=new Path2D,q=new Path2D,{left:R,top:A,width:j,height:I}=e.
-bbox;gs(q,R-Z,A-Z,j+Z*2,I+Z*2);let V=W=>{if(l[W]!=null){let Y=T(d(a[W],u,k,w)),z=T(f(l[W],p,M,y));E(B,Y+N,z),_(B,Y,z,N,0,rs*2)}};if(r)r.forEach(V);else for(let W=o;W<=
+points:S}=i,E,A;u.ori==0?(E=fs,A=El):(E=ms,A=Al);let J=ye(S.width*he,3),N=(S.size-S.width)/2*he,Z=ye(N*2,3),B=new Path2D,q=new Path2D,{left:R,top:_,width:j,height:I}=e.
+bbox;gs(q,R-Z,_-Z,j+Z*2,I+Z*2);let V=W=>{if(l[W]!=null){let Y=T(d(a[W],u,k,w)),z=T(f(l[W],p,M,y));E(B,Y+N,z),A(B,Y,z,N,0,rs*2)}};if(r)r.forEach(V);else for(let W=o;W<=
 s;W++)V(W);return{stroke:J>0?B:null,fill:B,clip:q,flags:oo|Dr}})}function Dl(t){return(e,n,o,s,r,i)=>{o!=s&&(r!=o&&i!=o&&t(e,n,o),r!=s&&i!=s&&t(e,n,s),t(e,n,i))}}
 var Ch=Dl(ro),Lh=Dl(io);function Nl(t){let e=ue(t?.alignGaps,0);return(n,o,s,r)=>vn(n,o,(i,a,l,u,p,d,f,w,y,k,M)=>{[s,r]=cs(l,s,r);let T=i.pxRound,S=I=>T(d(I,u,k,
-w)),E=I=>T(f(I,p,M,y)),_,J;u.ori==0?(_=ro,J=Ch):(_=io,J=Lh);let N=u.dir*(u.ori==0?1:-1),Z={stroke:new Path2D,fill:null,clip:null,band:null,gaps:null,flags:oo},B=Z.
+w)),E=I=>T(f(I,p,M,y)),A,J;u.ori==0?(A=ro,J=Ch):(A=io,J=Lh);let N=u.dir*(u.ori==0?1:-1),Z={stroke:new Path2D,fill:null,clip:null,band:null,gaps:null,flags:oo},B=Z.
 stroke,q=!1;if(r-s>=k*4){let I=G=>n.posToVal(G,u.key,!0),V=null,W=null,Y,z,je,be=S(a[N==1?s:r]),re=S(a[s]),le=S(a[r]),ee=I(N==1?re+1:le-1);for(let G=N==1?s:r;G>=
-s&&G<=r;G+=N){let Ae=a[G],me=(N==1?Ae<ee:Ae>ee)?be:S(Ae),ae=l[G];me==be?ae!=null?(z=ae,V==null?(_(B,me,E(z)),Y=V=W=z):z<V?V=z:z>W&&(W=z)):ae===null&&(q=!0):(V!=
-null&&J(B,be,E(V),E(W),E(Y),E(z)),ae!=null?(z=ae,_(B,me,E(z)),V=W=Y=z):(V=W=null,ae===null&&(q=!0)),be=me,ee=I(be+N))}V!=null&&V!=W&&je!=be&&J(B,be,E(V),E(W),E(
-Y),E(z))}else for(let I=N==1?s:r;I>=s&&I<=r;I+=N){let V=l[I];V===null?q=!0:V!=null&&_(B,S(a[I]),E(V))}let[A,j]=jr(n,o);if(i.fill!=null||A!=0){let I=Z.fill=new Path2D(
-B),V=i.fillTo(n,o,i.min,i.max,A),W=E(V),Y=S(a[s]),z=S(a[r]);N==-1&&([z,Y]=[Y,z]),_(I,z,W),_(I,Y,W)}if(!i.spanGaps){let I=[];q&&I.push(...Kr(a,l,s,r,N,S,e)),Z.gaps=
+s&&G<=r;G+=N){let _e=a[G],me=(N==1?_e<ee:_e>ee)?be:S(_e),ae=l[G];me==be?ae!=null?(z=ae,V==null?(A(B,me,E(z)),Y=V=W=z):z<V?V=z:z>W&&(W=z)):ae===null&&(q=!0):(V!=
+null&&J(B,be,E(V),E(W),E(Y),E(z)),ae!=null?(z=ae,A(B,me,E(z)),V=W=Y=z):(V=W=null,ae===null&&(q=!0)),be=me,ee=I(be+N))}V!=null&&V!=W&&je!=be&&J(B,be,E(V),E(W),E(
+Y),E(z))}else for(let I=N==1?s:r;I>=s&&I<=r;I+=N){let V=l[I];V===null?q=!0:V!=null&&A(B,S(a[I]),E(V))}let[_,j]=jr(n,o);if(i.fill!=null||_!=0){let I=Z.fill=new Path2D(
+B),V=i.fillTo(n,o,i.min,i.max,_),W=E(V),Y=S(a[s]),z=S(a[r]);N==-1&&([z,Y]=[Y,z]),A(I,z,W),A(I,Y,W)}if(!i.spanGaps){let I=[];q&&I.push(...Kr(a,l,s,r,N,S,e)),Z.gaps=
 I=i.gaps(n,o,s,r,I),Z.clip=ps(I,u.ori,w,y,k,M)}return j!=0&&(Z.band=j==2?[jt(n,o,s,r,B,-1),jt(n,o,s,r,B,1)]:jt(n,o,s,r,B,j)),Z})}function Dh(t){let e=ue(t.align,
-1),n=ue(t.ascDesc,!1),o=ue(t.alignGaps,0),s=ue(t.extend,!1);return(r,i,a,l)=>vn(r,i,(u,p,d,f,w,y,k,M,T,S,E)=>{[a,l]=cs(d,a,l);let _=u.pxRound,{left:J,width:N}=r.
-bbox,Z=re=>_(y(re,f,S,M)),B=re=>_(k(re,w,E,T)),q=f.ori==0?ro:io,R={stroke:new Path2D,fill:null,clip:null,band:null,gaps:null,flags:oo},A=R.stroke,j=f.dir*(f.ori==
-0?1:-1),I=B(d[j==1?a:l]),V=Z(p[j==1?a:l]),W=V,Y=V;s&&e==-1&&(Y=J,q(A,Y,I)),q(A,V,I);for(let re=j==1?a:l;re>=a&&re<=l;re+=j){let le=d[re];if(le==null)continue;let ee=Z(
-p[re]),G=B(le);e==1?q(A,ee,I):q(A,W,G),q(A,ee,G),I=G,W=ee}let z=W;s&&e==1&&(z=J+N,q(A,z,I));let[je,be]=jr(r,i);if(u.fill!=null||je!=0){let re=R.fill=new Path2D(
-A),le=u.fillTo(r,i,u.min,u.max,je),ee=B(le);q(re,z,ee),q(re,Y,ee)}if(!u.spanGaps){let re=[];re.push(...Kr(p,d,a,l,j,Z,o));let le=u.width*he/2,ee=n||e==1?le:-le,
-G=n||e==-1?-le:le;re.forEach(Ae=>{Ae[0]+=ee,Ae[1]+=G}),R.gaps=re=u.gaps(r,i,a,l,re),R.clip=ps(re,f.ori,M,T,S,E)}return be!=0&&(R.band=be==2?[jt(r,i,a,l,A,-1),jt(
-r,i,a,l,A,1)]:jt(r,i,a,l,A,be)),R})}function Ka(t,e,n,o,s,r,i=ge){if(t.length>1){let a=null;for(let l=0,u=1/0;l<t.length;l++)if(e[l]!==void 0){if(a!=null){let p=Ie(
+1),n=ue(t.ascDesc,!1),o=ue(t.alignGaps,0),s=ue(t.extend,!1);return(r,i,a,l)=>vn(r,i,(u,p,d,f,w,y,k,M,T,S,E)=>{[a,l]=cs(d,a,l);let A=u.pxRound,{left:J,width:N}=r.
+bbox,Z=re=>A(y(re,f,S,M)),B=re=>A(k(re,w,E,T)),q=f.ori==0?ro:io,R={stroke:new Path2D,fill:null,clip:null,band:null,gaps:null,flags:oo},_=R.stroke,j=f.dir*(f.ori==
+0?1:-1),I=B(d[j==1?a:l]),V=Z(p[j==1?a:l]),W=V,Y=V;s&&e==-1&&(Y=J,q(_,Y,I)),q(_,V,I);for(let re=j==1?a:l;re>=a&&re<=l;re+=j){let le=d[re];if(le==null)continue;let ee=Z(
+p[re]),G=B(le);e==1?q(_,ee,I):q(_,W,G),q(_,ee,G),I=G,W=ee}let z=W;s&&e==1&&(z=J+N,q(_,z,I));let[je,be]=jr(r,i);if(u.fill!=null||je!=0){let re=R.fill=new Path2D(
+_),le=u.fillTo(r,i,u.min,u.max,je),ee=B(le);q(re,z,ee),q(re,Y,ee)}if(!u.spanGaps){let re=[];re.push(...Kr(p,d,a,l,j,Z,o));let le=u.width*he/2,ee=n||e==1?le:-le,
+G=n||e==-1?-le:le;re.forEach(_e=>{_e[0]+=ee,_e[1]+=G}),R.gaps=re=u.gaps(r,i,a,l,re),R.clip=ps(re,f.ori,M,T,S,E)}return be!=0&&(R.band=be==2?[jt(r,i,a,l,_,-1),jt(
+r,i,a,l,_,1)]:jt(r,i,a,l,_,be)),R})}function Ka(t,e,n,o,s,r,i=ge){if(t.length>1){let a=null;for(let l=0,u=1/0;l<t.length;l++)if(e[l]!==void 0){if(a!=null){let p=Ie(
 t[l]-t[a]);p<u&&(u=p,i=Ie(n(t[l],o,s,r)-n(t[a],o,s,r)))}a=l}}return i}function Nh(t){t=t||Po;let e=ue(t.size,[.6,ge,1]),n=t.align||0,o=t.gap||0,s=t.radius;s=s==
 null?[0,0]:typeof s=="number"?[s,0]:s;let r=se(s),i=1-e[0],a=ue(e[1],ge),l=ue(e[2],1),u=ue(t.disp,Po),p=ue(t.each,w=>{}),{fill:d,stroke:f}=u;return(w,y,k,M)=>vn(
-w,y,(T,S,E,_,J,N,Z,B,q,R,A)=>{let j=T.pxRound,I=n,V=o*he,W=a*he,Y=l*he,z,je;_.ori==0?[z,je]=r(w,y):[je,z]=r(w,y);let be=_.dir*(_.ori==0?1:-1),re=_.ori==0?gs:qr,
-le=_.ori==0?p:(O,we,$e,Mn,sn,Dt,rn)=>{p(O,we,$e,sn,Mn,rn,Dt)},ee=ue(w.bands,Wr).find(O=>O.series[0]==y),G=ee!=null?ee.dir:0,Ae=T.fillTo(w,y,T.min,T.max,G),Ue=j(
-Z(Ae,J,A,q)),me,ae,ot,st=R,Pe=j(T.width*he),St=!1,mt=null,K=null,ie=null,Ke=null;d!=null&&(Pe==0||f!=null)&&(St=!0,mt=d.values(w,y,k,M),K=new Map,new Set(mt).forEach(
+w,y,(T,S,E,A,J,N,Z,B,q,R,_)=>{let j=T.pxRound,I=n,V=o*he,W=a*he,Y=l*he,z,je;A.ori==0?[z,je]=r(w,y):[je,z]=r(w,y);let be=A.dir*(A.ori==0?1:-1),re=A.ori==0?gs:qr,
+le=A.ori==0?p:(O,we,$e,Mn,sn,Dt,rn)=>{p(O,we,$e,sn,Mn,rn,Dt)},ee=ue(w.bands,Wr).find(O=>O.series[0]==y),G=ee!=null?ee.dir:0,_e=T.fillTo(w,y,T.min,T.max,G),Ue=j(
+Z(_e,J,_,q)),me,ae,ot,st=R,Pe=j(T.width*he),St=!1,mt=null,K=null,ie=null,Ke=null;d!=null&&(Pe==0||f!=null)&&(St=!0,mt=d.values(w,y,k,M),K=new Map,new Set(mt).forEach(
 O=>{O!=null&&K.set(O,new Path2D)}),Pe>0&&(ie=f.values(w,y,k,M),Ke=new Map,new Set(ie).forEach(O=>{O!=null&&Ke.set(O,new Path2D)})));let{x0:Wt,size:lo}=u;if(Wt!=
-null&&lo!=null){I=1,S=Wt.values(w,y,k,M),Wt.unit==2&&(S=S.map($e=>w.posToVal(B+$e*R,_.key,!0)));let O=lo.values(w,y,k,M);lo.unit==2?ae=O[0]*R:ae=N(O[0],_,R,B)-N(
-0,_,R,B),st=Ka(S,E,N,_,R,B,st),ot=st-ae+V}else st=Ka(S,E,N,_,R,B,st),ot=st*i+V,ae=st-ot;ot<1&&(ot=0),Pe>=ae/2&&(Pe=0),ot<5&&(j=nl);let _o=ot>0,nn=st-ot-(_o?Pe:0);
-ae=j(Ar(nn,Y,W)),me=(I==0?ae/2:I==be?0:ae)-I*be*((I==0?V/2:0)+(_o?Pe/2:0));let Qe={stroke:null,fill:null,clip:null,band:null,gaps:null,flags:0},Sn=St?null:new Path2D,
+null&&lo!=null){I=1,S=Wt.values(w,y,k,M),Wt.unit==2&&(S=S.map($e=>w.posToVal(B+$e*R,A.key,!0)));let O=lo.values(w,y,k,M);lo.unit==2?ae=O[0]*R:ae=N(O[0],A,R,B)-N(
+0,A,R,B),st=Ka(S,E,N,A,R,B,st),ot=st-ae+V}else st=Ka(S,E,N,A,R,B,st),ot=st*i+V,ae=st-ot;ot<1&&(ot=0),Pe>=ae/2&&(Pe=0),ot<5&&(j=nl);let Ao=ot>0,nn=st-ot-(Ao?Pe:0);
+ae=j(_r(nn,Y,W)),me=(I==0?ae/2:I==be?0:ae)-I*be*((I==0?V/2:0)+(Ao?Pe/2:0));let Qe={stroke:null,fill:null,clip:null,band:null,gaps:null,flags:0},Sn=St?null:new Path2D,
 zt=null;if(ee!=null)zt=w.data[ee.series[1]];else{let{y0:O,y1:we}=u;O!=null&&we!=null&&(E=we.values(w,y,k,M),zt=O.values(w,y,k,M))}let on=z*ae,te=je*ae;for(let O=be==
-1?k:M;O>=k&&O<=M;O+=be){let we=E[O];if(we==null)continue;if(zt!=null){let rt=zt[O]??0;if(we-rt==0)continue;Ue=Z(rt,J,A,q)}let $e=_.distr!=2||u!=null?S[O]:O,Mn=N(
-$e,_,R,B),sn=Z(ue(we,Ae),J,A,q),Dt=j(Mn-me),rn=j(nt(sn,Ue)),at=j(Lt(sn,Ue)),gt=rn-at;if(we!=null){let rt=we<0?te:on,Mt=we<0?on:te;St?(Pe>0&&ie[O]!=null&&re(Ke.get(
+1?k:M;O>=k&&O<=M;O+=be){let we=E[O];if(we==null)continue;if(zt!=null){let rt=zt[O]??0;if(we-rt==0)continue;Ue=Z(rt,J,_,q)}let $e=A.distr!=2||u!=null?S[O]:O,Mn=N(
+$e,A,R,B),sn=Z(ue(we,_e),J,_,q),Dt=j(Mn-me),rn=j(nt(sn,Ue)),at=j(Lt(sn,Ue)),gt=rn-at;if(we!=null){let rt=we<0?te:on,Mt=we<0?on:te;St?(Pe>0&&ie[O]!=null&&re(Ke.get(
 ie[O]),Dt,at+pt(Pe/2),ae,nt(0,gt-Pe),rt,Mt),mt[O]!=null&&re(K.get(mt[O]),Dt,at+pt(Pe/2),ae,nt(0,gt-Pe),rt,Mt)):re(Sn,Dt,at+pt(Pe/2),ae,nt(0,gt-Pe),rt,Mt),le(w,y,
 O,Dt-Pe/2,at,ae+Pe,gt)}}return Pe>0?Qe.stroke=St?Ke:Sn:St||(Qe._fill=T.width==0?T._fill:T._stroke??T._fill,Qe.width=0),Qe.fill=St?K:Sn,Qe})}function Rh(t,e){let n=ue(
-e?.alignGaps,0);return(o,s,r,i)=>vn(o,s,(a,l,u,p,d,f,w,y,k,M,T)=>{[r,i]=cs(u,r,i);let S=a.pxRound,E=z=>S(f(z,p,M,y)),_=z=>S(w(z,d,T,k)),J,N,Z;p.ori==0?(J=fs,Z=ro,
-N=Al):(J=ms,Z=io,N=Cl);let B=p.dir*(p.ori==0?1:-1),q=E(l[B==1?r:i]),R=q,A=[],j=[];for(let z=B==1?r:i;z>=r&&z<=i;z+=B)if(u[z]!=null){let be=l[z],re=E(be);A.push(
-R=re),j.push(_(u[z]))}let I={stroke:t(A,j,J,Z,N,S),fill:null,clip:null,band:null,gaps:null,flags:oo},V=I.stroke,[W,Y]=jr(o,s);if(a.fill!=null||W!=0){let z=I.fill=
-new Path2D(V),je=a.fillTo(o,s,a.min,a.max,W),be=_(je);Z(z,R,be),Z(z,q,be)}if(!a.spanGaps){let z=[];z.push(...Kr(l,u,r,i,B,E,n)),I.gaps=z=a.gaps(o,s,r,i,z),I.clip=
+e?.alignGaps,0);return(o,s,r,i)=>vn(o,s,(a,l,u,p,d,f,w,y,k,M,T)=>{[r,i]=cs(u,r,i);let S=a.pxRound,E=z=>S(f(z,p,M,y)),A=z=>S(w(z,d,T,k)),J,N,Z;p.ori==0?(J=fs,Z=ro,
+N=_l):(J=ms,Z=io,N=Cl);let B=p.dir*(p.ori==0?1:-1),q=E(l[B==1?r:i]),R=q,_=[],j=[];for(let z=B==1?r:i;z>=r&&z<=i;z+=B)if(u[z]!=null){let be=l[z],re=E(be);_.push(
+R=re),j.push(A(u[z]))}let I={stroke:t(_,j,J,Z,N,S),fill:null,clip:null,band:null,gaps:null,flags:oo},V=I.stroke,[W,Y]=jr(o,s);if(a.fill!=null||W!=0){let z=I.fill=
+new Path2D(V),je=a.fillTo(o,s,a.min,a.max,W),be=A(je);Z(z,R,be),Z(z,q,be)}if(!a.spanGaps){let z=[];z.push(...Kr(l,u,r,i,B,E,n)),I.gaps=z=a.gaps(o,s,r,i,z),I.clip=
 ps(z,p.ori,y,k,M,T)}return Y!=0&&(I.band=Y==2?[jt(o,s,r,i,V,-1),jt(o,s,r,i,V,1)]:jt(o,s,r,i,V,Y)),I})}function $h(t){return Rh(Fh,t)}function Fh(t,e,n,o,s,r){let i=t.
 length;if(i<2)return null;let a=new Path2D;if(n(a,t[0],e[0]),i==2)o(a,t[1],e[1]);else{let l=Array(i),u=Array(i-1),p=Array(i-1),d=Array(i-1);for(let f=0;f<i-1;f++)
 p[f]=e[f+1]-e[f],d[f]=t[f+1]-t[f],u[f]=p[f]/d[f];l[0]=u[0];for(let f=1;f<i-1;f++)u[f]===0||u[f-1]===0||u[f-1]>0!=u[f]>0?l[f]=0:(l[f]=3*(d[f-1]+d[f])/((2*d[f]+d[f-
@@ -380,50 +380,50 @@ let r=nt(Ea(t),Ea(e)),i=e-t,a=Ct(s/o*i,n);do{let l=n[a],u=o*l/i;if(u>=s&&r+(l<5?
 n;return t=t.replace(/(\d+)px/,(o,s)=>(e=Fe((n=+s)*he))+"px"),[t,e,n]}function Bh(t){t.show&&[t.font,t.labelFont].forEach(e=>{let n=ye(e[2]*he,1);e[0]=e[0].replace(
 /[0-9.]+px/,n+"px"),e[1]=n})}function Oe(t,e,n){let o={mode:ue(t.mode,1)},s=o.mode;function r(c,h,m,g){let b=h.valToPct(c);return g+m*(h.dir==-1?1-b:b)}function i(c,h,m,g){
 let b=h.valToPct(c);return g+m*(h.dir==-1?b:1-b)}function a(c,h,m,g){return h.ori==0?r(c,h,m,g):i(c,h,m,g)}o.valToPosH=r,o.valToPosV=i;let l=!1;o.status=0;let u=o.
-root=vt(Qu);if(t.id!=null&&(u.id=t.id),ht(u,t.class),t.title){let c=vt(td,u);c.textContent=t.title}let p=At("canvas"),d=o.ctx=p.getContext("2d"),f=vt(nd,u);wn("\
+root=vt(Qu);if(t.id!=null&&(u.id=t.id),ht(u,t.class),t.title){let c=vt(td,u);c.textContent=t.title}let p=_t("canvas"),d=o.ctx=p.getContext("2d"),f=vt(nd,u);wn("\
 click",f,c=>{c.target===y&&(xe!=$n||Ee!=Fn)&&Ye.click(o,c)},!0);let w=o.under=vt(od,f);f.appendChild(p);let y=o.over=vt(sd,f);t=no(t);let k=+ue(t.pxAlign,1),M=ja(
 k);(t.plugins||[]).forEach(c=>{c.opts&&(t=c.opts(o,t)||t)});let T=t.ms||.001,S=o.series=s==1?Ya(t.series||[],Ua,Va,!1):Uh(t.series||[null],Ha),E=o.axes=Ya(t.axes||
-[],Oa,Wa,!0),_=o.scales={},J=o.bands=t.bands||[];J.forEach(c=>{c.fill=se(c.fill||null),c.dir=ue(c.dir,-1)});let N=s==2?S[1].facets[0].scale:S[0].scale,Z={axes:su,
+[],Oa,Wa,!0),A=o.scales={},J=o.bands=t.bands||[];J.forEach(c=>{c.fill=se(c.fill||null),c.dir=ue(c.dir,-1)});let N=s==2?S[1].facets[0].scale:S[0].scale,Z={axes:su,
 series:Xc},B=(t.drawOrder||["axes","series"]).map(c=>Z[c]);function q(c){let h=c.distr==3?m=>Bt(m>0?m:c.clamp(o,m,c.min,c.max,c.key)):c.distr==4?m=>vr(m,c.asinh):
-c.distr==100?m=>c.fwd(m):m=>m;return m=>{let g=h(m),{_min:b,_max:x}=c,P=x-b;return(g-b)/P}}function R(c){let h=_[c];if(h==null){let m=(t.scales||Po)[c]||Po;if(m.
-from!=null){R(m.from);let g=Re({},_[m.from],m,{key:c});g.valToPct=q(g),_[c]=g}else{h=_[c]=Re({},c==N?Ml:Eh,m),h.key=c;let g=h.time,b=h.range,x=Xt(b);if((c!=N||s==
+c.distr==100?m=>c.fwd(m):m=>m;return m=>{let g=h(m),{_min:b,_max:x}=c,P=x-b;return(g-b)/P}}function R(c){let h=A[c];if(h==null){let m=(t.scales||Po)[c]||Po;if(m.
+from!=null){R(m.from);let g=Re({},A[m.from],m,{key:c});g.valToPct=q(g),A[c]=g}else{h=A[c]=Re({},c==N?Ml:Eh,m),h.key=c;let g=h.time,b=h.range,x=Xt(b);if((c!=N||s==
 2&&!g)&&(x&&(b[0]==null||b[1]==null)&&(b={min:b[0]==null?Ma:{mode:1,hard:b[0],soft:b[0]},max:b[1]==null?Ma:{mode:1,hard:b[1],soft:b[1]}},x=!1),!x&&hs(b))){let P=b;
 b=(C,D,$)=>D==null?to:as(D,$,P)}h.range=se(b||(g?Gh:c==N?h.distr==3?zh:h.distr==4?Hh:Rl:h.distr==3?$l:h.distr==4?Fl:Wh)),h.auto=se(x?!1:h.auto),h.clamp=se(h.clamp||
-Ph),h._min=h._max=null,h.valToPct=q(h)}}}R("x"),R("y"),s==1&&S.forEach(c=>{R(c.scale)}),E.forEach(c=>{R(c.scale)});for(let c in t.scales)R(c);let A=_[N],j=A.distr,
-I,V;A.ori==0?(ht(u,Xu),I=r,V=i):(ht(u,ed),I=i,V=r);let W={};for(let c in _){let h=_[c];(h.min!=null||h.max!=null)&&(W[c]={min:h.min,max:h.max},h.min=h.max=null)}
+Ph),h._min=h._max=null,h.valToPct=q(h)}}}R("x"),R("y"),s==1&&S.forEach(c=>{R(c.scale)}),E.forEach(c=>{R(c.scale)});for(let c in t.scales)R(c);let _=A[N],j=_.distr,
+I,V;_.ori==0?(ht(u,Xu),I=r,V=i):(ht(u,ed),I=i,V=r);let W={};for(let c in A){let h=A[c];(h.min!=null||h.max!=null)&&(W[c]={min:h.min,max:h.max},h.min=h.max=null)}
 let Y=t.tzDate||(c=>new Date(Fe(c/T))),z=t.fmtDate||zr,je=T==1?Xd(Y):nh(Y),be=$a(Y,Ra(T==1?Qd:th,z)),re=Ia(Y,Fa(sh,z)),le=[],ee=o.legend=Re({},ah,t.legend),G=o.
-cursor=Re({},ph,{drag:{y:s==2}},t.cursor),Ae=ee.show,Ue=G.show,me=ee.markers;ee.idxs=le,me.width=se(me.width),me.dash=se(me.dash),me.stroke=se(me.stroke),me.fill=
-se(me.fill);let ae,ot,st,Pe=[],St=[],mt,K=!1,ie={};if(ee.live){let c=S[1]?S[1].values:null;K=c!=null,mt=K?c(o,1,0):{_:0};for(let h in mt)ie[h]=Fr}if(Ae)if(ae=At(
-"table",ud,u),st=At("tbody",null,ae),ee.mount(o,ae),K){ot=At("thead",null,ae,st);let c=At("tr",null,ot);At("th",null,c);for(var Ke in mt)At("th",da,c).textContent=
-Ke}else ht(ae,hd),ee.live&&ht(ae,dd);let Wt={show:!0},lo={show:!1};function _o(c,h){if(h==0&&(K||!ee.live||s==2))return to;let m=[],g=At("tr",pd,st,st.childNodes[h]);
-ht(g,c.class),c.show||ht(g,bn);let b=At("th",null,g);if(me.show){let C=vt(fd,b);if(h>0){let D=me.width(o,h);D&&(C.style.border=D+"px "+me.dash(o,h)+" "+me.stroke(
+cursor=Re({},ph,{drag:{y:s==2}},t.cursor),_e=ee.show,Ue=G.show,me=ee.markers;ee.idxs=le,me.width=se(me.width),me.dash=se(me.dash),me.stroke=se(me.stroke),me.fill=
+se(me.fill);let ae,ot,st,Pe=[],St=[],mt,K=!1,ie={};if(ee.live){let c=S[1]?S[1].values:null;K=c!=null,mt=K?c(o,1,0):{_:0};for(let h in mt)ie[h]=Fr}if(_e)if(ae=_t(
+"table",ud,u),st=_t("tbody",null,ae),ee.mount(o,ae),K){ot=_t("thead",null,ae,st);let c=_t("tr",null,ot);_t("th",null,c);for(var Ke in mt)_t("th",da,c).textContent=
+Ke}else ht(ae,hd),ee.live&&ht(ae,dd);let Wt={show:!0},lo={show:!1};function Ao(c,h){if(h==0&&(K||!ee.live||s==2))return to;let m=[],g=_t("tr",pd,st,st.childNodes[h]);
+ht(g,c.class),c.show||ht(g,bn);let b=_t("th",null,g);if(me.show){let C=vt(fd,b);if(h>0){let D=me.width(o,h);D&&(C.style.border=D+"px "+me.dash(o,h)+" "+me.stroke(
 o,h)),C.style.background=me.fill(o,h)}}let x=vt(da,b);c.label instanceof HTMLElement?x.appendChild(c.label):x.textContent=c.label,h>0&&(me.show||(x.style.color=
 c.width>0?me.stroke(o,h):me.fill(o,h)),Qe("click",b,C=>{if(G._lock)return;ln(C);let D=S.indexOf(c);if((C.ctrlKey||C.metaKey)!=ee.isolate){let $=S.some((F,U)=>U>
 0&&U!=D&&F.show);S.forEach((F,U)=>{U>0&&Rt(U,$?U==D?Wt:lo:Wt,!0,De.setSeries)})}else Rt(D,{show:!c.show},!0,De.setSeries)},!1),Pn&&Qe(ma,b,C=>{G._lock||(ln(C),Rt(
-S.indexOf(c),On,!0,De.setSeries))},!1));for(var P in mt){let C=At("td",md,g);C.textContent="--",m.push(C)}return[g,m]}let nn=new Map;function Qe(c,h,m,g=!0){let b=nn.
-get(h)||{},x=G.bind[c](o,h,m,g);x&&(wn(c,h,b[c]=x),nn.set(h,b))}function Sn(c,h,m){let g=nn.get(h)||{};for(let b in g)(c==null||b==c)&&(_r(b,h,g[b]),delete g[b]);
-c==null&&nn.delete(h)}let zt=0,on=0,te=0,O=0,we=0,$e=0,Mn=we,sn=$e,Dt=te,rn=O,at=0,gt=0,rt=0,Mt=0;o.bbox={};let Os=!1,Ao=!1,Tn=!1,an=!1,Co=!1,yt=!1;function Us(c,h,m){
-(m||c!=o.width||h!=o.height)&&ri(c,h),Ln(!1),Tn=!0,Ao=!0,Dn()}function ri(c,h){o.width=zt=te=c,o.height=on=O=h,we=$e=0,jc(),Kc();let m=o.bbox;at=m.left=gn(we*he,
+S.indexOf(c),On,!0,De.setSeries))},!1));for(var P in mt){let C=_t("td",md,g);C.textContent="--",m.push(C)}return[g,m]}let nn=new Map;function Qe(c,h,m,g=!0){let b=nn.
+get(h)||{},x=G.bind[c](o,h,m,g);x&&(wn(c,h,b[c]=x),nn.set(h,b))}function Sn(c,h,m){let g=nn.get(h)||{};for(let b in g)(c==null||b==c)&&(Ar(b,h,g[b]),delete g[b]);
+c==null&&nn.delete(h)}let zt=0,on=0,te=0,O=0,we=0,$e=0,Mn=we,sn=$e,Dt=te,rn=O,at=0,gt=0,rt=0,Mt=0;o.bbox={};let Os=!1,_o=!1,Tn=!1,an=!1,Co=!1,yt=!1;function Us(c,h,m){
+(m||c!=o.width||h!=o.height)&&ri(c,h),Ln(!1),Tn=!0,_o=!0,Dn()}function ri(c,h){o.width=zt=te=c,o.height=on=O=h,we=$e=0,jc(),Kc();let m=o.bbox;at=m.left=gn(we*he,
 .5),gt=m.top=gn($e*he,.5),rt=m.width=gn(te*he,.5),Mt=m.height=gn(O*he,.5)}let Hc=3;function Vc(){let c=!1,h=0;for(;!c;){h++;let m=nu(h),g=ou(h);c=h==Hc||m&&g,c||
-(ri(o.width,o.height),Ao=!0)}}function Bc({width:c,height:h}){Us(c,h)}o.setSize=Bc;function jc(){let c=!1,h=!1,m=!1,g=!1;E.forEach((b,x)=>{if(b.show&&b._show){let{
+(ri(o.width,o.height),_o=!0)}}function Bc({width:c,height:h}){Us(c,h)}o.setSize=Bc;function jc(){let c=!1,h=!1,m=!1,g=!1;E.forEach((b,x)=>{if(b.show&&b._show){let{
 side:P,_size:C}=b,D=P%2,$=b.label!=null?b.labelSize:0,F=C+$;F>0&&(D?(te-=F,P==3?(we+=F,g=!0):m=!0):(O-=F,P==0?($e+=F,c=!0):h=!0))}}),cn[0]=c,cn[1]=m,cn[2]=h,cn[3]=
 g,te-=Kt[1]+Kt[3],we+=Kt[3],O-=Kt[2]+Kt[0],$e+=Kt[0]}function Kc(){let c=we+te,h=$e+O,m=we,g=$e;function b(x,P){switch(x){case 1:return c+=P,c-P;case 2:return h+=
 P,h-P;case 3:return m-=P,m+P;case 0:return g-=P,g+P}}E.forEach((x,P)=>{if(x.show&&x._show){let C=x.side;x._pos=b(C,x._size),x.label!=null&&(x._lpos=b(C,x.labelSize))}})}
 if(G.dataIdx==null){let c=G.hover,h=c.skip=new Set(c.skip??[]);h.add(void 0);let m=c.prox=se(c.prox),g=c.bias??=0;G.dataIdx=(b,x,P,C)=>{if(x==0)return P;let D=P,
-$=m(b,x,P,C)??ge,F=$>=0&&$<ge,U=A.ori==0?te:O,X=G.left,de=e[0],ce=e[x];if(h.has(ce[P])){D=null;let oe=null,Q=null,H;if(g==0||g==-1)for(H=P;oe==null&&H-- >0;)h.has(
-ce[H])||(oe=H);if(g==0||g==1)for(H=P;Q==null&&H++<ce.length;)h.has(ce[H])||(Q=H);if(oe!=null||Q!=null)if(F){let ke=oe==null?-1/0:I(de[oe],A,U,0),Ce=Q==null?1/0:
-I(de[Q],A,U,0),Be=X-ke,fe=Ce-X;Be<=fe?Be<=$&&(D=oe):fe<=$&&(D=Q)}else D=Q==null?oe:oe==null?Q:P-oe<=Q-P?oe:Q}else F&&Ie(X-I(de[P],A,U,0))>$&&(D=null);return D}}
+$=m(b,x,P,C)??ge,F=$>=0&&$<ge,U=_.ori==0?te:O,X=G.left,de=e[0],ce=e[x];if(h.has(ce[P])){D=null;let oe=null,Q=null,H;if(g==0||g==-1)for(H=P;oe==null&&H-- >0;)h.has(
+ce[H])||(oe=H);if(g==0||g==1)for(H=P;Q==null&&H++<ce.length;)h.has(ce[H])||(Q=H);if(oe!=null||Q!=null)if(F){let ke=oe==null?-1/0:I(de[oe],_,U,0),Ce=Q==null?1/0:
+I(de[Q],_,U,0),Be=X-ke,fe=Ce-X;Be<=fe?Be<=$&&(D=oe):fe<=$&&(D=Q)}else D=Q==null?oe:oe==null?Q:P-oe<=Q-P?oe:Q}else F&&Ie(X-I(de[P],_,U,0))>$&&(D=null);return D}}
 let ln=c=>{G.event=c};G.idxs=le,G._lock=!1;let Ze=G.points;Ze.show=se(Ze.show),Ze.size=se(Ze.size),Ze.stroke=se(Ze.stroke),Ze.width=se(Ze.width),Ze.fill=se(Ze.fill);
-let Nt=o.focus=Re({},t.focus||{alpha:.3},G.focus),Pn=Nt.prox>=0,En=Pn&&Ze.one,bt=[],_n=[],An=[];function ii(c,h){let m=Ze.show(o,h);if(m instanceof HTMLElement)
-return ht(m,cd),ht(m,c.class),Gt(m,-10,-10,te,O),y.insertBefore(m,bt[h]),m}function ai(c,h){if(s==1||h>0){let m=s==1&&_[c.scale].time,g=c.value;c.value=m?Ca(g)?
-Ia(Y,Fa(g,z)):g||re:g||Sh,c.label=c.label||(m?mh:fh)}if(En||h>0){c.width=c.width==null?1:c.width,c.paths=c.paths||Ih||Ed,c.fillTo=se(c.fillTo||_h),c.pxAlign=+ue(
+let Nt=o.focus=Re({},t.focus||{alpha:.3},G.focus),Pn=Nt.prox>=0,En=Pn&&Ze.one,bt=[],An=[],_n=[];function ii(c,h){let m=Ze.show(o,h);if(m instanceof HTMLElement)
+return ht(m,cd),ht(m,c.class),Gt(m,-10,-10,te,O),y.insertBefore(m,bt[h]),m}function ai(c,h){if(s==1||h>0){let m=s==1&&A[c.scale].time,g=c.value;c.value=m?Ca(g)?
+Ia(Y,Fa(g,z)):g||re:g||Sh,c.label=c.label||(m?mh:fh)}if(En||h>0){c.width=c.width==null?1:c.width,c.paths=c.paths||Ih||Ed,c.fillTo=se(c.fillTo||Ah),c.pxAlign=+ue(
 c.pxAlign,k),c.pxRound=ja(c.pxAlign),c.stroke=se(c.stroke||null),c.fill=se(c.fill||null),c._stroke=c._fill=c._paths=c._focus=null;let m=Mh(nt(1,c.width),1),g=c.
 points=Re({},{size:m,width:nt(1,m*.2),stroke:c.stroke,space:m*2,paths:Oh,_stroke:null,_fill:null},c.points);g.show=se(g.show),g.filter=se(g.filter),g.fill=se(g.
-fill),g.stroke=se(g.stroke),g.paths=se(g.paths),g.pxAlign=c.pxAlign}if(Ae){let m=_o(c,h);Pe.splice(h,0,m[0]),St.splice(h,0,m[1]),ee.values.push(null)}if(Ue){le.
-splice(h,0,null);let m=null;En?h==0&&(m=ii(c,h)):h>0&&(m=ii(c,h)),bt.splice(h,0,m),_n.splice(h,0,0),An.splice(h,0,0)}Ve("addSeries",h)}function qc(c,h){h=h??S.length,
-c=s==1?Rr(c,h,Ua,Va):Rr(c,h,{},Ha),S.splice(h,0,c),ai(S[h],h)}o.addSeries=qc;function Yc(c){if(S.splice(c,1),Ae){ee.values.splice(c,1),St.splice(c,1);let h=Pe.splice(
-c,1)[0];Sn(null,h.firstChild),h.remove()}Ue&&(le.splice(c,1),bt.splice(c,1)[0].remove(),_n.splice(c,1),An.splice(c,1)),Ve("delSeries",c)}o.delSeries=Yc;let cn=[
-!1,!1,!1,!1];function Jc(c,h){if(c._show=c.show,c.show){let m=c.side%2,g=_[c.scale];g==null&&(c.scale=m?S[1].scale:N,g=_[c.scale]);let b=g.time;c.size=se(c.size),
+fill),g.stroke=se(g.stroke),g.paths=se(g.paths),g.pxAlign=c.pxAlign}if(_e){let m=Ao(c,h);Pe.splice(h,0,m[0]),St.splice(h,0,m[1]),ee.values.push(null)}if(Ue){le.
+splice(h,0,null);let m=null;En?h==0&&(m=ii(c,h)):h>0&&(m=ii(c,h)),bt.splice(h,0,m),An.splice(h,0,0),_n.splice(h,0,0)}Ve("addSeries",h)}function qc(c,h){h=h??S.length,
+c=s==1?Rr(c,h,Ua,Va):Rr(c,h,{},Ha),S.splice(h,0,c),ai(S[h],h)}o.addSeries=qc;function Yc(c){if(S.splice(c,1),_e){ee.values.splice(c,1),St.splice(c,1);let h=Pe.splice(
+c,1)[0];Sn(null,h.firstChild),h.remove()}Ue&&(le.splice(c,1),bt.splice(c,1)[0].remove(),An.splice(c,1),_n.splice(c,1)),Ve("delSeries",c)}o.delSeries=Yc;let cn=[
+!1,!1,!1,!1];function Jc(c,h){if(c._show=c.show,c.show){let m=c.side%2,g=A[c.scale];g==null&&(c.scale=m?S[1].scale:N,g=A[c.scale]);let b=g.time;c.size=se(c.size),
 c.space=se(c.space),c.rotate=se(c.rotate),Xt(c.incrs)&&c.incrs.forEach(P=>{!en.has(P)&&en.set(P,rl(P))}),c.incrs=se(c.incrs||(g.distr==2?Yd:b?T==1?Zd:eh:yn)),c.
 splits=se(c.splits||(b&&g.distr==1?je:g.distr==3?Cr:g.distr==4?bh:yh)),c.stroke=se(c.stroke),c.grid.stroke=se(c.grid.stroke),c.ticks.stroke=se(c.ticks.stroke),c.
 border.stroke=se(c.border.stroke);let x=c.values;c.values=Xt(x)&&!Xt(x[0])?se(x):b?Xt(x)?$a(Y,Ra(x,z)):Ca(x)?oh(Y,x):x||be:x||gh,c.filter=se(c.filter||(g.distr>=
@@ -432,23 +432,23 @@ c._values=null,c._size>0&&(cn[h]=!0,c._el=vt(rd,f))}}function co(c,h,m,g){let[b,
 1&&(b||P)&&($=h==1&&!x||h==3&&!C?Fe(Wa.size/2):0),$}let li=o.padding=(t.padding||[co,co,co,co]).map(c=>se(ue(c,co))),Kt=o._padding=li.map((c,h)=>c(o,h,cn,0)),qe,
 Ge=null,We=null,Lo=s==1?S[0].idxs:null,Tt=null,uo=!1;function ci(c,h){if(e=c??[],o.data=o._data=e,s==2){qe=0;for(let m=1;m<S.length;m++)qe+=e[m][0].length}else{
 e.length==0&&(o.data=o._data=e=[[]]),Tt=e[0],qe=Tt.length;let m=e;if(j==2){m=e.slice();let g=m[0]=Array(qe);for(let b=0;b<qe;b++)g[b]=b}o._data=e=m}if(Ln(!0),Ve(
-"setData"),j==2&&(Tn=!0),h!==!1){let m=A;m.auto(o,uo)?Gs():Yt(N,m.min,m.max),an=an||G.left>=0,yt=!0,Dn()}}o.setData=ci;function Gs(){uo=!0;let c,h;s==1&&(qe>0?(Ge=
-Lo[0]=0,We=Lo[1]=qe-1,c=e[0][Ge],h=e[0][We],j==2?(c=Ge,h=We):c==h&&(j==3?[c,h]=us(c,c,A.log,!1):j==4?[c,h]=Or(c,c,A.log,!1):A.time?h=c+Fe(86400/T):[c,h]=as(c,h,
+"setData"),j==2&&(Tn=!0),h!==!1){let m=_;m.auto(o,uo)?Gs():Yt(N,m.min,m.max),an=an||G.left>=0,yt=!0,Dn()}}o.setData=ci;function Gs(){uo=!0;let c,h;s==1&&(qe>0?(Ge=
+Lo[0]=0,We=Lo[1]=qe-1,c=e[0][Ge],h=e[0][We],j==2?(c=Ge,h=We):c==h&&(j==3?[c,h]=us(c,c,_.log,!1):j==4?[c,h]=Or(c,c,_.log,!1):_.time?h=c+Fe(86400/T):[c,h]=as(c,h,
 Ur,!0))):(Ge=Lo[0]=c=null,We=Lo[1]=h=null)),Yt(N,c,h)}let Do,Cn,Ws,zs,Hs,Vs,Bs,js,Ks,it;function ui(c,h,m,g,b,x){c??=pa,m??=Wr,g??="butt",b??=pa,x??="round",c!=
 Do&&(d.strokeStyle=Do=c),b!=Cn&&(d.fillStyle=Cn=b),h!=Ws&&(d.lineWidth=Ws=h),x!=Hs&&(d.lineJoin=Hs=x),g!=Vs&&(d.lineCap=Vs=g),m!=zs&&d.setLineDash(zs=m)}function di(c,h,m,g){
 h!=Cn&&(d.fillStyle=Cn=h),c!=Bs&&(d.font=Bs=c),m!=js&&(d.textAlign=js=m),g!=Ks&&(d.textBaseline=Ks=g)}function qs(c,h,m,g,b=0){if(g.length>0&&c.auto(o,uo)&&(h==
 null||h.min==null)){let x=ue(Ge,0),P=ue(We,g.length-1),C=m.min==null?vd(g,x,P,b,c.distr==3):[m.min,m.max];c.min=Lt(c.min,m.min=C[0]),c.max=nt(c.max,m.max=C[1])}}
-let hi={min:null,max:null};function Zc(){for(let g in _){let b=_[g];W[g]==null&&(b.min==null||W[N]!=null&&b.auto(o,uo))&&(W[g]=hi)}for(let g in _){let b=_[g];W[g]==
-null&&b.from!=null&&W[b.from]!=null&&(W[g]=hi)}W[N]!=null&&Ln(!0);let c={};for(let g in W){let b=W[g];if(b!=null){let x=c[g]=no(_[g],Cd);if(b.min!=null)Re(x,b);else if(g!=
+let hi={min:null,max:null};function Zc(){for(let g in A){let b=A[g];W[g]==null&&(b.min==null||W[N]!=null&&b.auto(o,uo))&&(W[g]=hi)}for(let g in A){let b=A[g];W[g]==
+null&&b.from!=null&&W[b.from]!=null&&(W[g]=hi)}W[N]!=null&&Ln(!0);let c={};for(let g in W){let b=W[g];if(b!=null){let x=c[g]=no(A[g],Cd);if(b.min!=null)Re(x,b);else if(g!=
 N||s==2)if(qe==0&&x.from==null){let P=x.range(o,null,null,g);x.min=P[0],x.max=P[1]}else x.min=ge,x.max=-ge}}if(qe>0){S.forEach((g,b)=>{if(s==1){let x=g.scale,P=W[x];
 if(P==null)return;let C=c[x];if(b==0){let D=C.range(o,C.min,C.max,x);C.min=D[0],C.max=D[1],Ge=Ct(C.min,e[0]),We=Ct(C.max,e[0]),We-Ge>1&&(e[0][Ge]<C.min&&Ge++,e[0][We]>
 C.max&&We--),g.min=Tt[Ge],g.max=Tt[We]}else g.show&&g.auto&&qs(C,P,g,e[b],g.sorted);g.idxs[0]=Ge,g.idxs[1]=We}else if(b>0&&g.show&&g.auto){let[x,P]=g.facets,C=x.
 scale,D=P.scale,[$,F]=e[b],U=c[C],X=c[D];U!=null&&qs(U,W[C],x,$,x.sorted),X!=null&&qs(X,W[D],P,F,P.sorted),g.min=P.min,g.max=P.max}});for(let g in c){let b=c[g],
 x=W[g];if(b.from==null&&(x==null||x.min==null)){let P=b.range(o,b.min==ge?null:b.min,b.max==-ge?null:b.max,g);b.min=P[0],b.max=P[1]}}}for(let g in c){let b=c[g];
 if(b.from!=null){let x=c[b.from];if(x.min==null)b.min=b.max=null;else{let P=b.range(o,x.min,x.max,g);b.min=P[0],b.max=P[1]}}}let h={},m=!1;for(let g in c){let b=c[g],
-x=_[g];if(x.min!=b.min||x.max!=b.max){x.min=b.min,x.max=b.max;let P=x.distr;x._min=P==3?Bt(x.min):P==4?vr(x.min,x.asinh):P==100?x.fwd(x.min):x.min,x._max=P==3?Bt(
+x=A[g];if(x.min!=b.min||x.max!=b.max){x.min=b.min,x.max=b.max;let P=x.distr;x._min=P==3?Bt(x.min):P==4?vr(x.min,x.asinh):P==100?x.fwd(x.min):x.min,x._max=P==3?Bt(
 x.max):P==4?vr(x.max,x.asinh):P==100?x.fwd(x.max):x.max,h[g]=m=!0}}if(m){S.forEach((g,b)=>{s==2?b>0&&h.y&&(g._paths=null):h[g.scale]&&(g._paths=null)});for(let g in h)
-Tn=!0,Ve("setScale",g);Ue&&G.left>=0&&(an=yt=!0)}for(let g in W)W[g]=null}function Qc(c){let h=Ar(Ge-1,0,qe-1),m=Ar(We+1,0,qe-1);for(;c[h]==null&&h>0;)h--;for(;c[m]==
+Tn=!0,Ve("setScale",g);Ue&&G.left>=0&&(an=yt=!0)}for(let g in W)W[g]=null}function Qc(c){let h=_r(Ge-1,0,qe-1),m=_r(We+1,0,qe-1);for(;c[h]==null&&h>0;)h--;for(;c[m]==
 null&&m<qe-1;)m++;return[h,m]}function Xc(){if(qe>0){let c=S.some(h=>h._focus)&&it!=Nt.alpha;c&&(d.globalAlpha=it=Nt.alpha),S.forEach((h,m)=>{if(m>0&&h.show&&(pi(
 m,!1),pi(m,!0),h._paths==null)){let g=it;it!=h.alpha&&(d.globalAlpha=it=h.alpha);let b=s==2?[0,e[m][0].length-1]:Qc(e[m]);h._paths=h.paths(o,m,b[0],b[1]),it!=g&&
 (d.globalAlpha=it=g)}}),S.forEach((h,m)=>{if(m>0&&h.show){let g=it;it!=h.alpha&&(d.globalAlpha=it=h.alpha),h._paths!=null&&fi(m,!1);{let b=h._paths!=null?h._paths.
@@ -464,14 +464,14 @@ No(c,x,h)):(Ro(b,P),No(c,x,h)),(D||$||U)&&d.restore()}function No(c,h,m){m>0&&(h
 stroke(h))}function Ro(c,h){h instanceof Map?h.forEach((m,g)=>{d.fillStyle=Cn=g,d.fill(m)}):h!=null&&c&&d.fill(h)}function tu(c,h,m,g){let b=E[c],x;if(g<=0)x=[0,
 0];else{let P=b._space=b.space(o,c,h,m,g),C=b._incrs=b.incrs(o,c,h,m,g,P);x=Vh(h,m,C,g,P)}return b._found=x}function Js(c,h,m,g,b,x,P,C,D,$){let F=P%2/2;k==1&&d.
 translate(F,F),ui(C,P,D,$,C),d.beginPath();let U,X,de,ce,oe=b+(g==0||g==3?-x:x);m==0?(X=b,ce=oe):(U=b,de=oe);for(let Q=0;Q<c.length;Q++)h[Q]!=null&&(m==0?U=de=c[Q]:
-X=ce=c[Q],d.moveTo(U,X),d.lineTo(de,ce));d.stroke(),k==1&&d.translate(-F,-F)}function nu(c){let h=!0;return E.forEach((m,g)=>{if(!m.show)return;let b=_[m.scale];
+X=ce=c[Q],d.moveTo(U,X),d.lineTo(de,ce));d.stroke(),k==1&&d.translate(-F,-F)}function nu(c){let h=!0;return E.forEach((m,g)=>{if(!m.show)return;let b=A[m.scale];
 if(b.min==null){m._show&&(h=!1,m._show=!1,Ln(!1));return}else m._show||(h=!1,m._show=!0,Ln(!1));let x=m.side,P=x%2,{min:C,max:D}=b,[$,F]=tu(g,C,D,P==0?te:O);if(F==
 0)return;let U=b.distr==2,X=m._splits=m.splits(o,g,C,D,$,F,U),de=b.distr==2?X.map(H=>Tt[H]):X,ce=b.distr==2?Tt[X[1]]-Tt[X[0]]:$,oe=m._values=m.values(o,m.filter(
 o,de,g,F,ce),g,F,ce);m._rotate=x==2?m.rotate(o,oe,g,F):0;let Q=m._size;m._size=kt(m.size(o,oe,g,c)),Q!=null&&m._size!=Q&&(h=!1)}),h}function ou(c){let h=!0;return li.
 forEach((m,g)=>{let b=m(o,g,cn,c);b!=Kt[g]&&(h=!1),Kt[g]=b}),h}function su(){for(let c=0;c<E.length;c++){let h=E[c];if(!h.show||!h._show)continue;let m=h.side,g=m%
 2,b,x,P=h.stroke(o,c),C=m==0||m==3?-1:1,[D,$]=h._found;if(h.label!=null){let et=h.labelGap*C,ut=Fe((h._lpos+et)*he);di(h.labelFont[0],P,"center",m==2?"top":ha),
 d.save(),g==1?(b=x=0,d.translate(ut,Fe(gt+Mt/2)),d.rotate((m==3?-rs:rs)/2)):(b=Fe(at+rt/2),x=ut);let hn=tl(h.label)?h.label(o,c,D,$):h.label;d.fillText(hn,b,x),
-d.restore()}if($==0)continue;let F=_[h.scale],U=g==0?rt:Mt,X=g==0?at:gt,de=h._splits,ce=F.distr==2?de.map(et=>Tt[et]):de,oe=F.distr==2?Tt[de[1]]-Tt[de[0]]:D,Q=h.
+d.restore()}if($==0)continue;let F=A[h.scale],U=g==0?rt:Mt,X=g==0?at:gt,de=h._splits,ce=F.distr==2?de.map(et=>Tt[et]):de,oe=F.distr==2?Tt[de[1]]-Tt[de[0]]:D,Q=h.
 ticks,H=h.border,ke=Q.show?Q.size:0,Ce=Fe(ke*he),Be=Fe((h.alignTo==2?h._size-ke-h.gap:h.gap)*he),fe=h._rotate*-rs/180,Le=M(h._pos*he),lt=(Ce+Be)*C,Xe=Le+lt;x=g==
 0?Xe:0,b=g==1?Xe:0;let wt=h.font[0],Pt=h.align==1?Zn:h.align==2?br:fe>0?Zn:fe<0?br:g==0?"center":m==3?br:Zn,Ft=fe||g==1?"middle":m==2?"top":ha;di(wt,P,Pt,Ft);let ct=h.
 font[1]*h.lineGap,xt=de.map(et=>M(a(et,F,U,X))),Et=h._values;for(let et=0;et<Et.length;et++){let ut=Et[et];if(ut!=null){g==0?b=xt[et]:x=xt[et],ut=""+ut;let hn=ut.
@@ -481,72 +481,72 @@ Ri,b,x+tt*ct)}}}Q.show&&Js(xt,Q.filter(o,ce,c,$,oe),g,m,Le,Ce,ye(Q.width*he,3),Q
 g==0?2:1,g==0?gt:at,g==0?Mt:rt,ye(It.width*he,3),It.stroke(o,c),It.dash,It.cap),H.show&&Js([Le],[1],g==0?1:0,g==0?1:2,g==1?gt:at,g==1?Mt:rt,ye(H.width*he,3),H.stroke(
 o,c),H.dash,H.cap)}Ve("drawAxes")}function Ln(c){S.forEach((h,m)=>{m>0&&(h._paths=null,c&&(s==1?(h.min=null,h.max=null):h.facets.forEach(g=>{g.min=null,g.max=null})))})}
 let $o=!1,Zs=!1,ho=[];function ru(){Zs=!1;for(let c=0;c<ho.length;c++)Ve(...ho[c]);ho.length=0}function Dn(){$o||(Id(gi),$o=!0)}function iu(c,h=!1){$o=!0,Zs=h,c(
-o),gi(),h&&ho.length>0&&queueMicrotask(ru)}o.batch=iu;function gi(){if(Os&&(Zc(),Os=!1),Tn&&(Vc(),Tn=!1),Ao){if(Te(w,Zn,we),Te(w,"top",$e),Te(w,ko,te),Te(w,So,O),
+o),gi(),h&&ho.length>0&&queueMicrotask(ru)}o.batch=iu;function gi(){if(Os&&(Zc(),Os=!1),Tn&&(Vc(),Tn=!1),_o){if(Te(w,Zn,we),Te(w,"top",$e),Te(w,ko,te),Te(w,So,O),
 Te(y,Zn,we),Te(y,"top",$e),Te(y,ko,te),Te(y,So,O),Te(f,ko,zt),Te(f,So,on),p.width=Fe(zt*he),p.height=Fe(on*he),E.forEach(({_el:c,_show:h,_size:m,_pos:g,side:b})=>{
 if(c!=null)if(h){let x=b===3||b===0?m:0,P=b%2==1;Te(c,P?"left":"top",g-x),Te(c,P?"width":"height",m),Te(c,P?"top":"left",P?$e:we),Te(c,P?"height":"width",P?O:te),
 Er(c,bn)}else ht(c,bn)}),Do=Cn=Ws=Hs=Vs=Bs=js=Ks=zs=null,it=1,mo(!0),we!=Mn||$e!=sn||te!=Dt||O!=rn){Ln(!1);let c=te/Dt,h=O/rn;if(Ue&&!an&&G.left>=0){G.left*=c,G.
-top*=h,Nn&&Gt(Nn,Fe(G.left),0,te,O),Rn&&Gt(Rn,0,Fe(G.top),te,O);for(let m=0;m<bt.length;m++){let g=bt[m];g!=null&&(_n[m]*=c,An[m]*=h,Gt(g,kt(_n[m]),kt(An[m]),te,
+top*=h,Nn&&Gt(Nn,Fe(G.left),0,te,O),Rn&&Gt(Rn,0,Fe(G.top),te,O);for(let m=0;m<bt.length;m++){let g=bt[m];g!=null&&(An[m]*=c,_n[m]*=h,Gt(g,kt(An[m]),kt(_n[m]),te,
 O))}}if(ve.show&&!Co&&ve.left>=0&&ve.width>0){ve.left*=c,ve.width*=c,ve.top*=h,ve.height*=h;for(let m in or)Te(In,m,ve[m])}Mn=we,sn=$e,Dt=te,rn=O}Ve("setSize"),
-Ao=!1}zt>0&&on>0&&(d.clearRect(0,0,p.width,p.height),Ve("drawClear"),B.forEach(c=>c()),Ve("draw")),ve.show&&Co&&(Fo(ve),Co=!1),Ue&&an&&(dn(null,!0,!1),an=!1),ee.
-show&&ee.live&&yt&&(tr(),yt=!1),l||(l=!0,o.status=1,Ve("ready")),uo=!1,$o=!1}o.redraw=(c,h)=>{Tn=h||!1,c!==!1?Yt(N,A.min,A.max):Dn()};function Qs(c,h){let m=_[c];
+_o=!1}zt>0&&on>0&&(d.clearRect(0,0,p.width,p.height),Ve("drawClear"),B.forEach(c=>c()),Ve("draw")),ve.show&&Co&&(Fo(ve),Co=!1),Ue&&an&&(dn(null,!0,!1),an=!1),ee.
+show&&ee.live&&yt&&(tr(),yt=!1),l||(l=!0,o.status=1,Ve("ready")),uo=!1,$o=!1}o.redraw=(c,h)=>{Tn=h||!1,c!==!1?Yt(N,_.min,_.max):Dn()};function Qs(c,h){let m=A[c];
 if(m.from==null){if(qe==0){let g=m.range(o,h.min,h.max,c);h.min=g[0],h.max=g[1]}if(h.min>h.max){let g=h.min;h.min=h.max,h.max=g}if(qe>1&&h.min!=null&&h.max!=null&&
 h.max-h.min<1e-16)return;c==N&&m.distr==2&&qe>0&&(h.min=Ct(h.min,e[0]),h.max=Ct(h.max,e[0]),h.min==h.max&&h.max++),W[c]=h,Os=!0,Dn()}}o.setScale=Qs;let Xs,er,Nn,
-Rn,yi,bi,$n,Fn,wi,xi,xe,Ee,qt=!1,Ye=G.drag,ze=Ye.x,He=Ye.y;Ue&&(G.x&&(Xs=vt(ad,y)),G.y&&(er=vt(ld,y)),A.ori==0?(Nn=Xs,Rn=er):(Nn=er,Rn=Xs),xe=G.left,Ee=G.top);let ve=o.
+Rn,yi,bi,$n,Fn,wi,xi,xe,Ee,qt=!1,Ye=G.drag,ze=Ye.x,He=Ye.y;Ue&&(G.x&&(Xs=vt(ad,y)),G.y&&(er=vt(ld,y)),_.ori==0?(Nn=Xs,Rn=er):(Nn=er,Rn=Xs),xe=G.left,Ee=G.top);let ve=o.
 select=Re({show:!0,over:!0,left:0,width:0,top:0,height:0},t.select),In=ve.show?vt(id,ve.over?y:w):null;function Fo(c,h){if(ve.show){for(let m in c)ve[m]=c[m],m in
-or&&Te(In,m,c[m]);h!==!1&&Ve("setSelect")}}o.setSelect=Fo;function au(c){if(S[c].show)Ae&&Er(Pe[c],bn);else if(Ae&&ht(Pe[c],bn),Ue){let m=En?bt[0]:bt[c];m!=null&&
+or&&Te(In,m,c[m]);h!==!1&&Ve("setSelect")}}o.setSelect=Fo;function au(c){if(S[c].show)_e&&Er(Pe[c],bn);else if(_e&&ht(Pe[c],bn),Ue){let m=En?bt[0]:bt[c];m!=null&&
 Gt(m,-10,-10,te,O)}}function Yt(c,h,m){Qs(c,{min:h,max:m})}function Rt(c,h,m,g){h.focus!=null&&hu(c),h.show!=null&&S.forEach((b,x)=>{x>0&&(c==x||c==null)&&(b.show=
 h.show,au(x),s==2?(Yt(b.facets[0].scale,null,null),Yt(b.facets[1].scale,null,null)):Yt(b.scale,null,null),Dn())}),m!==!1&&Ve("setSeries",c,h),g&&go("setSeries",
 o,c,h)}o.setSeries=Rt;function lu(c,h){Re(J[c],h)}function cu(c,h){c.fill=se(c.fill||null),c.dir=ue(c.dir,-1),h=h??J.length,J.splice(h,0,c)}function uu(c){c==null?
-J.length=0:J.splice(c,1)}o.addBand=cu,o.setBand=lu,o.delBand=uu;function du(c,h){S[c].alpha=h,Ue&&bt[c]!=null&&(bt[c].style.opacity=h),Ae&&Pe[c]&&(Pe[c].style.opacity=
+J.length=0:J.splice(c,1)}o.addBand=cu,o.setBand=lu,o.delBand=uu;function du(c,h){S[c].alpha=h,Ue&&bt[c]!=null&&(bt[c].style.opacity=h),_e&&Pe[c]&&(Pe[c].style.opacity=
 h)}let Ht,Jt,un,On={focus:!0};function hu(c){if(c!=un){let h=c==null,m=Nt.alpha!=1;S.forEach((g,b)=>{if(s==1||b>0){let x=h||b==0||b==c;g._focus=h?null:x,m&&du(b,
-x?1:Nt.alpha)}}),un=c,m&&Dn()}}Ae&&Pn&&Qe(ga,ae,c=>{G._lock||(ln(c),un!=null&&Rt(null,On,!0,De.setSeries))});function $t(c,h,m){let g=_[h];m&&(c=c/he-(g.ori==1?
+x?1:Nt.alpha)}}),un=c,m&&Dn()}}_e&&Pn&&Qe(ga,ae,c=>{G._lock||(ln(c),un!=null&&Rt(null,On,!0,De.setSeries))});function $t(c,h,m){let g=A[h];m&&(c=c/he-(g.ori==1?
 $e:we));let b=te;g.ori==1&&(b=O,c=b-c),g.dir==-1&&(c=b-c);let x=g._min,P=g._max,C=c/b,D=x+(P-x)*C,$=g.distr;return $==3?eo(10,D):$==4?Td(D,g.asinh):$==100?g.bwd(
-D):D}function pu(c,h){let m=$t(c,N,h);return Ct(m,e[0],Ge,We)}o.valToIdx=c=>Ct(c,e[0]),o.posToIdx=pu,o.posToVal=$t,o.valToPos=(c,h,m)=>_[h].ori==0?r(c,_[h],m?rt:
-te,m?at:0):i(c,_[h],m?Mt:O,m?gt:0),o.setCursor=(c,h,m)=>{xe=c.left,Ee=c.top,dn(null,h,m)};function vi(c,h){Te(In,Zn,ve.left=c),Te(In,ko,ve.width=h)}function ki(c,h){
-Te(In,"top",ve.top=c),Te(In,So,ve.height=h)}let po=A.ori==0?vi:ki,fo=A.ori==1?vi:ki;function fu(){if(Ae&&ee.live)for(let c=s==2?1:0;c<S.length;c++){if(c==0&&K)continue;
-let h=ee.values[c],m=0;for(let g in h)St[c][m++].firstChild.nodeValue=h[g]}}function tr(c,h){if(c!=null&&(c.idxs?c.idxs.forEach((m,g)=>{le[g]=m}):Ad(c.idx)||le.
-fill(c.idx),ee.idx=le[0]),Ae&&ee.live){for(let m=0;m<S.length;m++)(m>0||s==1&&!K)&&mu(m,le[m]);fu()}yt=!1,h!==!1&&Ve("setLegend")}o.setLegend=tr;function mu(c,h){
+D):D}function pu(c,h){let m=$t(c,N,h);return Ct(m,e[0],Ge,We)}o.valToIdx=c=>Ct(c,e[0]),o.posToIdx=pu,o.posToVal=$t,o.valToPos=(c,h,m)=>A[h].ori==0?r(c,A[h],m?rt:
+te,m?at:0):i(c,A[h],m?Mt:O,m?gt:0),o.setCursor=(c,h,m)=>{xe=c.left,Ee=c.top,dn(null,h,m)};function vi(c,h){Te(In,Zn,ve.left=c),Te(In,ko,ve.width=h)}function ki(c,h){
+Te(In,"top",ve.top=c),Te(In,So,ve.height=h)}let po=_.ori==0?vi:ki,fo=_.ori==1?vi:ki;function fu(){if(_e&&ee.live)for(let c=s==2?1:0;c<S.length;c++){if(c==0&&K)continue;
+let h=ee.values[c],m=0;for(let g in h)St[c][m++].firstChild.nodeValue=h[g]}}function tr(c,h){if(c!=null&&(c.idxs?c.idxs.forEach((m,g)=>{le[g]=m}):_d(c.idx)||le.
+fill(c.idx),ee.idx=le[0]),_e&&ee.live){for(let m=0;m<S.length;m++)(m>0||s==1&&!K)&&mu(m,le[m]);fu()}yt=!1,h!==!1&&Ve("setLegend")}o.setLegend=tr;function mu(c,h){
 let m=S[c],g=c==0&&j==2?Tt:e[c],b;K?b=m.values(o,c,h)??ie:(b=m.value(o,h==null?null:g[h],c,h),b=b==null?ie:{_:b}),ee.values[c]=b}function dn(c,h,m){wi=xe,xi=Ee,
-[xe,Ee]=G.move(o,xe,Ee),G.left=xe,G.top=Ee,Ue&&(Nn&&Gt(Nn,Fe(xe),0,te,O),Rn&&Gt(Rn,0,Fe(Ee),te,O));let g,b=Ge>We;Ht=ge,Jt=null;let x=A.ori==0?te:O,P=A.ori==1?te:
+[xe,Ee]=G.move(o,xe,Ee),G.left=xe,G.top=Ee,Ue&&(Nn&&Gt(Nn,Fe(xe),0,te,O),Rn&&Gt(Rn,0,Fe(Ee),te,O));let g,b=Ge>We;Ht=ge,Jt=null;let x=_.ori==0?te:O,P=_.ori==1?te:
 O;if(xe<0||qe==0||b){g=G.idx=null;for(let C=0;C<S.length;C++){let D=bt[C];D!=null&&Gt(D,-10,-10,te,O)}Pn&&Rt(null,On,!0,c==null&&De.setSeries),ee.live&&(le.fill(
-g),yt=!0)}else{let C,D,$;s==1&&(C=A.ori==0?xe:Ee,D=$t(C,N),g=G.idx=Ct(D,e[0],Ge,We),$=I(e[0][g],A,x,0));let F=-10,U=-10,X=0,de=0,ce=!0,oe="",Q="";for(let H=s==2?
+g),yt=!0)}else{let C,D,$;s==1&&(C=_.ori==0?xe:Ee,D=$t(C,N),g=G.idx=Ct(D,e[0],Ge,We),$=I(e[0][g],_,x,0));let F=-10,U=-10,X=0,de=0,ce=!0,oe="",Q="";for(let H=s==2?
 1:0;H<S.length;H++){let ke=S[H],Ce=le[H],Be=Ce==null?null:s==1?e[H][Ce]:e[H][1][Ce],fe=G.dataIdx(o,H,g,D),Le=fe==null?null:s==1?e[H][fe]:e[H][1][fe];if(yt=yt||Le!=
-Be||fe!=Ce,le[H]=fe,H>0&&ke.show){let lt=fe==null?-10:fe==g?$:I(s==1?e[0][fe]:e[H][0][fe],A,x,0),Xe=Le==null?-10:V(Le,s==1?_[ke.scale]:_[ke.facets[1].scale],P,0);
-if(Pn&&Le!=null){let wt=A.ori==1?xe:Ee,Pt=Ie(Nt.dist(o,H,fe,Xe,wt));if(Pt<Ht){let Ft=Nt.bias;if(Ft!=0){let ct=$t(wt,ke.scale),xt=Le>=0?1:-1,Et=ct>=0?1:-1;Et==xt&&
-(Et==1?Ft==1?Le>=ct:Le<=ct:Ft==1?Le<=ct:Le>=ct)&&(Ht=Pt,Jt=H)}else Ht=Pt,Jt=H}}if(yt||En){let wt,Pt;A.ori==0?(wt=lt,Pt=Xe):(wt=Xe,Pt=lt);let Ft,ct,xt,Et,It,et,ut=!0,
+Be||fe!=Ce,le[H]=fe,H>0&&ke.show){let lt=fe==null?-10:fe==g?$:I(s==1?e[0][fe]:e[H][0][fe],_,x,0),Xe=Le==null?-10:V(Le,s==1?A[ke.scale]:A[ke.facets[1].scale],P,0);
+if(Pn&&Le!=null){let wt=_.ori==1?xe:Ee,Pt=Ie(Nt.dist(o,H,fe,Xe,wt));if(Pt<Ht){let Ft=Nt.bias;if(Ft!=0){let ct=$t(wt,ke.scale),xt=Le>=0?1:-1,Et=ct>=0?1:-1;Et==xt&&
+(Et==1?Ft==1?Le>=ct:Le<=ct:Ft==1?Le<=ct:Le>=ct)&&(Ht=Pt,Jt=H)}else Ht=Pt,Jt=H}}if(yt||En){let wt,Pt;_.ori==0?(wt=lt,Pt=Xe):(wt=Xe,Pt=lt);let Ft,ct,xt,Et,It,et,ut=!0,
 hn=Ze.bbox;if(hn!=null){ut=!1;let tt=hn(o,H);xt=tt.left,Et=tt.top,Ft=tt.width,ct=tt.height}else xt=wt,Et=Pt,Ft=ct=Ze.size(o,H);if(et=Ze.fill(o,H),It=Ze.stroke(o,
-H),En)H==Jt&&Ht<=Nt.prox&&(F=xt,U=Et,X=Ft,de=ct,ce=ut,oe=et,Q=It);else{let tt=bt[H];tt!=null&&(_n[H]=xt,An[H]=Et,Sa(tt,Ft,ct,ut),va(tt,et,It),Gt(tt,kt(xt),kt(Et),
-te,O))}}}}if(En){let H=Nt.prox,ke=un==null?Ht<=H:Ht>H||Jt!=un;if(yt||ke){let Ce=bt[0];Ce!=null&&(_n[0]=F,An[0]=U,Sa(Ce,X,de,ce),va(Ce,oe,Q),Gt(Ce,kt(F),kt(U),te,
+H),En)H==Jt&&Ht<=Nt.prox&&(F=xt,U=Et,X=Ft,de=ct,ce=ut,oe=et,Q=It);else{let tt=bt[H];tt!=null&&(An[H]=xt,_n[H]=Et,Sa(tt,Ft,ct,ut),va(tt,et,It),Gt(tt,kt(xt),kt(Et),
+te,O))}}}}if(En){let H=Nt.prox,ke=un==null?Ht<=H:Ht>H||Jt!=un;if(yt||ke){let Ce=bt[0];Ce!=null&&(An[0]=F,_n[0]=U,Sa(Ce,X,de,ce),va(Ce,oe,Q),Gt(Ce,kt(F),kt(U),te,
 O))}}}if(ve.show&&qt)if(c!=null){let[C,D]=De.scales,[$,F]=De.match,[U,X]=c.cursor.sync.scales,de=c.cursor.drag;if(ze=de._x,He=de._y,ze||He){let{left:ce,top:oe,width:Q,
-height:H}=c.select,ke=c.scales[U].ori,Ce=c.posToVal,Be,fe,Le,lt,Xe,wt=C!=null&&$(C,U),Pt=D!=null&&F(D,X);wt&&ze?(ke==0?(Be=ce,fe=Q):(Be=oe,fe=H),Le=_[C],lt=I(Ce(
-Be,U),Le,x,0),Xe=I(Ce(Be+fe,U),Le,x,0),po(Lt(lt,Xe),Ie(Xe-lt))):po(0,x),Pt&&He?(ke==1?(Be=ce,fe=Q):(Be=oe,fe=H),Le=_[D],lt=V(Ce(Be,X),Le,P,0),Xe=V(Ce(Be+fe,X),Le,
-P,0),fo(Lt(lt,Xe),Ie(Xe-lt))):fo(0,P)}else sr()}else{let C=Ie(wi-yi),D=Ie(xi-bi);if(A.ori==1){let X=C;C=D,D=X}ze=Ye.x&&C>=Ye.dist,He=Ye.y&&D>=Ye.dist;let $=Ye.uni;
-$!=null?ze&&He&&(ze=C>=$,He=D>=$,!ze&&!He&&(D>C?He=!0:ze=!0)):Ye.x&&Ye.y&&(ze||He)&&(ze=He=!0);let F,U;ze&&(A.ori==0?(F=$n,U=xe):(F=Fn,U=Ee),po(Lt(F,U),Ie(U-F)),
-He||fo(0,P)),He&&(A.ori==1?(F=$n,U=xe):(F=Fn,U=Ee),fo(Lt(F,U),Ie(U-F)),ze||po(0,x)),!ze&&!He&&(po(0,0),fo(0,0))}if(Ye._x=ze,Ye._y=He,c==null){if(m){if(Ni!=null){
-let[C,D]=De.scales;De.values[0]=C!=null?$t(A.ori==0?xe:Ee,C):null,De.values[1]=D!=null?$t(A.ori==1?xe:Ee,D):null}go(wr,o,xe,Ee,te,O,g)}if(Pn){let C=m&&De.setSeries,
+height:H}=c.select,ke=c.scales[U].ori,Ce=c.posToVal,Be,fe,Le,lt,Xe,wt=C!=null&&$(C,U),Pt=D!=null&&F(D,X);wt&&ze?(ke==0?(Be=ce,fe=Q):(Be=oe,fe=H),Le=A[C],lt=I(Ce(
+Be,U),Le,x,0),Xe=I(Ce(Be+fe,U),Le,x,0),po(Lt(lt,Xe),Ie(Xe-lt))):po(0,x),Pt&&He?(ke==1?(Be=ce,fe=Q):(Be=oe,fe=H),Le=A[D],lt=V(Ce(Be,X),Le,P,0),Xe=V(Ce(Be+fe,X),Le,
+P,0),fo(Lt(lt,Xe),Ie(Xe-lt))):fo(0,P)}else sr()}else{let C=Ie(wi-yi),D=Ie(xi-bi);if(_.ori==1){let X=C;C=D,D=X}ze=Ye.x&&C>=Ye.dist,He=Ye.y&&D>=Ye.dist;let $=Ye.uni;
+$!=null?ze&&He&&(ze=C>=$,He=D>=$,!ze&&!He&&(D>C?He=!0:ze=!0)):Ye.x&&Ye.y&&(ze||He)&&(ze=He=!0);let F,U;ze&&(_.ori==0?(F=$n,U=xe):(F=Fn,U=Ee),po(Lt(F,U),Ie(U-F)),
+He||fo(0,P)),He&&(_.ori==1?(F=$n,U=xe):(F=Fn,U=Ee),fo(Lt(F,U),Ie(U-F)),ze||po(0,x)),!ze&&!He&&(po(0,0),fo(0,0))}if(Ye._x=ze,Ye._y=He,c==null){if(m){if(Ni!=null){
+let[C,D]=De.scales;De.values[0]=C!=null?$t(_.ori==0?xe:Ee,C):null,De.values[1]=D!=null?$t(_.ori==1?xe:Ee,D):null}go(wr,o,xe,Ee,te,O,g)}if(Pn){let C=m&&De.setSeries,
 D=Nt.prox;un==null?Ht<=D&&Rt(Jt,On,!0,C):Ht>D?Rt(null,On,!0,C):Jt!=un&&Rt(Jt,On,!0,C)}}yt&&(ee.idx=g,tr()),h!==!1&&Ve("setCursor")}let Zt=null;Object.defineProperty(
 o,"rect",{get(){return Zt==null&&mo(!1),Zt}});function mo(c=!1){c?Zt=null:(Zt=y.getBoundingClientRect(),Ve("syncRect",Zt))}function Si(c,h,m,g,b,x,P){G._lock||qt&&
 c!=null&&c.movementX==0&&c.movementY==0||(nr(c,h,m,g,b,x,P,!1,c!=null),c!=null?dn(null,!0,!0):dn(h,!0,!1))}function nr(c,h,m,g,b,x,P,C,D){if(Zt==null&&mo(!1),ln(
 c),c!=null)m=c.clientX-Zt.left,g=c.clientY-Zt.top;else{if(m<0||g<0){xe=-10,Ee=-10;return}let[$,F]=De.scales,U=h.cursor.sync,[X,de]=U.values,[ce,oe]=U.scales,[Q,
-H]=De.match,ke=h.axes[0].side%2==1,Ce=A.ori==0?te:O,Be=A.ori==1?te:O,fe=ke?x:b,Le=ke?b:x,lt=ke?g:m,Xe=ke?m:g;if(ce!=null?m=Q($,ce)?a(X,_[$],Ce,0):-10:m=Ce*(lt/fe),
-oe!=null?g=H(F,oe)?a(de,_[F],Be,0):-10:g=Be*(Xe/Le),A.ori==1){let wt=m;m=g,g=wt}}D&&(h==null||h.cursor.event.type==wr)&&((m<=1||m>=te-1)&&(m=gn(m,te)),(g<=1||g>=
-O-1)&&(g=gn(g,O))),C?(yi=m,bi=g,[$n,Fn]=G.move(o,m,g)):(xe=m,Ee=g)}let or={width:0,height:0,left:0,top:0};function sr(){Fo(or,!1)}let Mi,Ti,Pi,Ei;function _i(c,h,m,g,b,x,P){
-qt=!0,ze=He=Ye._x=Ye._y=!1,nr(c,h,m,g,b,x,P,!0,!1),c!=null&&(Qe(xr,Tr,Ai,!1),go(fa,o,$n,Fn,te,O,null));let{left:C,top:D,width:$,height:F}=ve;Mi=C,Ti=D,Pi=$,Ei=F}
-function Ai(c,h,m,g,b,x,P){qt=Ye._x=Ye._y=!1,nr(c,h,m,g,b,x,P,!1,!0);let{left:C,top:D,width:$,height:F}=ve,U=$>0||F>0,X=Mi!=C||Ti!=D||Pi!=$||Ei!=F;if(U&&X&&Fo(ve),
-Ye.setScale&&U&&X){let de=C,ce=$,oe=D,Q=F;if(A.ori==1&&(de=D,ce=F,oe=C,Q=$),ze&&Yt(N,$t(de,N),$t(de+ce,N)),He)for(let H in _){let ke=_[H];H!=N&&ke.from==null&&ke.
+H]=De.match,ke=h.axes[0].side%2==1,Ce=_.ori==0?te:O,Be=_.ori==1?te:O,fe=ke?x:b,Le=ke?b:x,lt=ke?g:m,Xe=ke?m:g;if(ce!=null?m=Q($,ce)?a(X,A[$],Ce,0):-10:m=Ce*(lt/fe),
+oe!=null?g=H(F,oe)?a(de,A[F],Be,0):-10:g=Be*(Xe/Le),_.ori==1){let wt=m;m=g,g=wt}}D&&(h==null||h.cursor.event.type==wr)&&((m<=1||m>=te-1)&&(m=gn(m,te)),(g<=1||g>=
+O-1)&&(g=gn(g,O))),C?(yi=m,bi=g,[$n,Fn]=G.move(o,m,g)):(xe=m,Ee=g)}let or={width:0,height:0,left:0,top:0};function sr(){Fo(or,!1)}let Mi,Ti,Pi,Ei;function Ai(c,h,m,g,b,x,P){
+qt=!0,ze=He=Ye._x=Ye._y=!1,nr(c,h,m,g,b,x,P,!0,!1),c!=null&&(Qe(xr,Tr,_i,!1),go(fa,o,$n,Fn,te,O,null));let{left:C,top:D,width:$,height:F}=ve;Mi=C,Ti=D,Pi=$,Ei=F}
+function _i(c,h,m,g,b,x,P){qt=Ye._x=Ye._y=!1,nr(c,h,m,g,b,x,P,!1,!0);let{left:C,top:D,width:$,height:F}=ve,U=$>0||F>0,X=Mi!=C||Ti!=D||Pi!=$||Ei!=F;if(U&&X&&Fo(ve),
+Ye.setScale&&U&&X){let de=C,ce=$,oe=D,Q=F;if(_.ori==1&&(de=D,ce=F,oe=C,Q=$),ze&&Yt(N,$t(de,N),$t(de+ce,N)),He)for(let H in A){let ke=A[H];H!=N&&ke.from==null&&ke.
 min!=ge&&Yt(H,$t(oe+Q,H),$t(oe,H))}sr()}else G.lock&&(G._lock=!G._lock,dn(h,!0,c!=null));c!=null&&(Sn(xr,Tr),go(xr,o,xe,Ee,te,O,null))}function gu(c,h,m,g,b,x,P){
-if(G._lock)return;ln(c);let C=qt;if(qt){let D=!0,$=!0,F=10,U,X;A.ori==0?(U=ze,X=He):(U=He,X=ze),U&&X&&(D=xe<=F||xe>=te-F,$=Ee<=F||Ee>=O-F),U&&D&&(xe=xe<$n?0:te),
+if(G._lock)return;ln(c);let C=qt;if(qt){let D=!0,$=!0,F=10,U,X;_.ori==0?(U=ze,X=He):(U=He,X=ze),U&&X&&(D=xe<=F||xe>=te-F,$=Ee<=F||Ee>=O-F),U&&D&&(xe=xe<$n?0:te),
 X&&$&&(Ee=Ee<Fn?0:O),dn(null,!0,!0),qt=!1}xe=-10,Ee=-10,le.fill(null),dn(null,!0,!0),C&&(qt=C)}function Ci(c,h,m,g,b,x,P){G._lock||(ln(c),Gs(),sr(),c!=null&&go(
-ya,o,xe,Ee,te,O,null))}function Li(){E.forEach(Bh),Us(o.width,o.height,!0)}wn(is,Xn,Li);let Un={};Un.mousedown=_i,Un.mousemove=Si,Un.mouseup=Ai,Un.dblclick=Ci,Un.
-setSeries=(c,h,m,g)=>{let b=De.match[2];m=b(o,h,m),m!=-1&&Rt(m,g,!0,!1)},Ue&&(Qe(fa,y,_i),Qe(wr,y,Si),Qe(ma,y,c=>{ln(c),mo(!1)}),Qe(ga,y,gu),Qe(ya,y,Ci),Nr.add(
+ya,o,xe,Ee,te,O,null))}function Li(){E.forEach(Bh),Us(o.width,o.height,!0)}wn(is,Xn,Li);let Un={};Un.mousedown=Ai,Un.mousemove=Si,Un.mouseup=_i,Un.dblclick=Ci,Un.
+setSeries=(c,h,m,g)=>{let b=De.match[2];m=b(o,h,m),m!=-1&&Rt(m,g,!0,!1)},Ue&&(Qe(fa,y,Ai),Qe(wr,y,Si),Qe(ma,y,c=>{ln(c),mo(!1)}),Qe(ga,y,gu),Qe(ya,y,Ci),Nr.add(
 o),o.syncRect=mo);let Io=o.hooks=t.hooks||{};function Ve(c,h,m){Zs?ho.push([c,h,m]):c in Io&&Io[c].forEach(g=>{g.call(null,o,h,m)})}(t.plugins||[]).forEach(c=>{
-for(let h in c.hooks)Io[h]=(Io[h]||[]).concat(c.hooks[h])});let Di=(c,h,m)=>m,De=Re({key:null,setSeries:!1,filters:{pub:_a,sub:_a},scales:[N,S[1]?S[1].scale:null],
-match:[Aa,Aa,Di],values:[null,null]},G.sync);De.match.length==2&&De.match.push(Di),G.sync=De;let Ni=De.key,rr=Tl(Ni);function go(c,h,m,g,b,x,P){De.filters.pub(c,
+for(let h in c.hooks)Io[h]=(Io[h]||[]).concat(c.hooks[h])});let Di=(c,h,m)=>m,De=Re({key:null,setSeries:!1,filters:{pub:Aa,sub:Aa},scales:[N,S[1]?S[1].scale:null],
+match:[_a,_a,Di],values:[null,null]},G.sync);De.match.length==2&&De.match.push(Di),G.sync=De;let Ni=De.key,rr=Tl(Ni);function go(c,h,m,g,b,x,P){De.filters.pub(c,
 h,m,g,b,x,P)&&rr.pub(c,h,m,g,b,x,P)}rr.sub(o);function yu(c,h,m,g,b,x,P){De.filters.sub(c,h,m,g,b,x,P)&&Un[c](null,h,m,g,b,x,P)}o.pub=yu;function bu(){rr.unsub(
-o),Nr.delete(o),nn.clear(),_r(is,Xn,Li),u.remove(),ae?.remove(),Ve("destroy")}o.destroy=bu;function ir(){Ve("init",t,e),ci(e||t.data,!1),W[N]?Qs(N,W[N]):Gs(),Co=
+o),Nr.delete(o),nn.clear(),Ar(is,Xn,Li),u.remove(),ae?.remove(),Ve("destroy")}o.destroy=bu;function ir(){Ve("init",t,e),ci(e||t.data,!1),W[N]?Qs(N,W[N]):Gs(),Co=
 ve.show&&(ve.width>0||ve.height>0),an=yt=!0,Us(t.width,t.height)}return S.forEach(ai),E.forEach(Jc),n?n instanceof HTMLElement?(n.appendChild(u),ir()):n(o,ir):ir(),
 o}Oe.assign=Re;Oe.fmtNum=Gr;Oe.rangeNum=as;Oe.rangeLog=us;Oe.rangeAsinh=Or;Oe.orient=vn;Oe.pxRatio=he;Oe.join=Fd;Oe.fmtDate=zr,Oe.tzDate=Kd;Oe.sync=Tl;{Oe.addGap=
-Ah,Oe.clipGaps=ps;let t=Oe.paths={points:Ll};t.linear=Nl,t.stepped=Dh,t.bars=Nh,t.spline=$h}var ys=128,Il=50,jh=.25,Kh=t=>[t.ray,t.truth,t.sensor,t.noReturn],qh=(t,e)=>Math.max(40,14+6.6*Math.max(0,...(e??[]).map(n=>n?.length??0))),Yh=({data:t})=>Math.
+_h,Oe.clipGaps=ps;let t=Oe.paths={points:Ll};t.linear=Nl,t.stepped=Dh,t.bars=Nh,t.spline=$h}var ys=128,Il=50,jh=.25,Kh=t=>[t.ray,t.truth,t.sensor,t.noReturn],qh=(t,e)=>Math.max(40,14+6.6*Math.max(0,...(e??[]).map(n=>n?.length??0))),Yh=({data:t})=>Math.
 max(10,4+3.3*(t?.[0]?.at(-1)??0).toLocaleString("en").length),bs=(t,e)=>({font:cr,size:e,stroke:()=>t().axis,grid:{stroke:()=>t().lines,width:1},ticks:{stroke:()=>t().
 frame,width:1,size:4}});function Ol(t,e,n){let o=null,s=null,r=()=>Math.floor(t.clientWidth);return new ResizeObserver(()=>o&&r()>0&&o.setSize({width:r(),height:ys})).
 observe(t),i=>r()<=0?null:((!o||i||s!==n())&&(o?.destroy(),o=e(),o.setSize({width:r(),height:ys}),s=n()),o)}function Ul(t,e){let{session:n}=t,o=v("div",{className:"\
@@ -665,11 +665,11 @@ source.kind==="log"),s}function nc(t){let{session:e}=t,n=v("input",{type:"range"
 scans??0,r=a=>{let l=Number(n.value);t.scrub(l>=s()?null:l,a)};n.addEventListener("input",()=>r(!0)),n.addEventListener("change",()=>{r(!1),t.endDrag()});let i=t.
 section("Log",v("div",{className:"player bare"},n,o));return t.visible(i,()=>e.document?.source.kind==="log"&&s()>1),t.each(()=>{let a=s(),l=e.document?.scans_used??
 a;L(n,"max",String(Math.max(1,a))),(!mn(n)||Number(n.value)!==l)&&L(n,"value",String(l));let u=l===a?`all ${a} scans`:`after ${l} of ${a}`;n.style.setProperty("\
---fill",`${100*(l-1)/Math.max(1,a-1)}%`),dt(n,"aria-valuetext",u),L(o,"textContent",u)}),i}var _p=20,Ap={importance:"particles",propagate:"rounds"},ks=({working:t,shown:e})=>t&&e?.method==="pilot";function oc(t,...e){let{session:n}=t,o=v("progress",{max:1,
+--fill",`${100*(l-1)/Math.max(1,a-1)}%`),dt(n,"aria-valuetext",u),L(o,"textContent",u)}),i}var Ap=20,_p={importance:"particles",propagate:"rounds"},ks=({working:t,shown:e})=>t&&e?.method==="pilot";function oc(t,...e){let{session:n}=t,o=v("progress",{max:1,
 value:0,"aria-label":"Progress"}),s=v("div",{className:"doing"});return t.each(()=>{let r=n.shown,{stage:i}=n,a=r?.generation!==n.generation&&(n.running||n.document?.
-source.kind==="log"),l=ks(n),u=i?i.done/i.of:r&&!a&&r.total>0&&(l||!r.approximate)?r.sweeps/r.total:0;L(o,"value",u);let p=n.remaining_s(),d=Ap[r?.method??""]??
+source.kind==="log"),l=ks(n),u=i?i.done/i.of:r&&!a&&r.total>0&&(l||!r.approximate)?r.sweeps/r.total:0;L(o,"value",u);let p=n.remaining_s(),d=_p[r?.method??""]??
 "sweeps",f=r&&!r.approximate&&r.total?`${r.sweeps} of ${r.total} ${d}`:"",w=p!==null?p<1?"less than 1 s left":`${Math.ceil(p)} s left`:n.running?"running":"",y=n.
-sampling||n.running||!r||r.sweeps>=r.total?"":"stopped";i?L(s,"textContent",`${i.text}: ${i.done} of ${i.of} ${i.of>_p?"scans":"rounds"}`):a?L(s,"textContent","\
+sampling||n.running||!r||r.sweeps>=r.total?"":"stopped";i?L(s,"textContent",`${i.text}: ${i.done} of ${i.of} ${i.of>Ap?"scans":"rounds"}`):a?L(s,"textContent","\
 Computing"):r&&l?L(s,"textContent",`Fitting the sensor: sweep ${r.sweeps} of ${r.total}`):L(s,"textContent",kn([f,w,f&&y].filter(Boolean).join(", "))||Cp(n))}),
 t.section("Posterior",Lp(t),o,s,Dp(t),Np(t),...e)}function Cp({shown:t,working:e}){return t?.method==="counts"?"Run infers where the robot was":t?.method==="pil\
 ot"?"Stopped while the sensor was fitted":e?"Computing":"No chain yet"}function Lp(t){let{session:e}=t,n=t.button("play","Run",()=>e.act({type:"run"}),{className:"\
@@ -825,7 +825,7 @@ map(([e,n])=>[e,Array.from(n)]));function lf({ghost:t}){let{held:e,pose:n,fan:o,
 near&&{...o.near}}}}var Sc="bayesmap-token",Qr="bayesmap-kept";function cf(t){try{return localStorage.getItem(t)}catch{return null}}function Xr(t,e){try{e===null?localStorage.removeItem(
 t):localStorage.setItem(t,e)}catch{}}function ei(t){t?.source.kind==="simulation"&&location.protocol.startsWith("http")&&Xr(Qr,JSON.stringify(t))}function Mc(){
 Xr(Qr,null)}function Tc(){let t=cf(Qr);try{return t&&JSON.parse(t)}catch{return null}}function Pc(t){t&&Xr(Sc,t)}function Ec(t){let e=n=>{n.key===Sc&&n.newValue&&
-t(n.newValue)};return window.addEventListener("storage",e),()=>window.removeEventListener("storage",e)}var ti=new Set(["walls","sensor","set","view","live"]),_c=({type:t,op:e})=>t==="sensor"?e!=="move":!ti.has(t),Ac="Not while the connection is lost: this needs t\
+t(n.newValue)};return window.addEventListener("storage",e),()=>window.removeEventListener("storage",e)}var ti=new Set(["walls","sensor","set","view","live"]),Ac=({type:t,op:e})=>t==="sensor"?e!=="move":!ti.has(t),_c="Not while the connection is lost: this needs t\
 he server";function Cc(t,e){let{document:n,walls:o}=t,s=n.grid.shape[1];if(e.type==="walls")for(let[r,i]of e.cells)o[r*s+i]=e.wall?1:0;else if(e.type==="set"){let{
 resolution:r,...i}=e.patch;Object.assign(n,i)}else if(e.type==="live")t.state={...t.state,live:e.on};else if(e.type==="view")t.view={layer:e.layer,chain:e.chain??
 t.view.chain,draw:e.draw??null};else if(e.type==="sensor"&&e.op==="move"){let r=n.sensors.find(i=>i.id===e.id);r&&Object.assign(r,{x:e.x,y:e.y,yaw:e.yaw})}}var uf=t=>kn(`${t.replace(/^(plan|path|explore): /,"")}.`),Es=class{constructor(e){this.session=e}start=null;goal=null;radius=.25;risk=.01;path=null;views=null;trouble="";viewTrouble="";version=0;looking=!1;askedPath="";askedViews="";point(e){
@@ -837,12 +837,12 @@ risk:r}=this,{shown:i}=e;if(!i||i.generation!==e.generation||e.recorded)return;l
 method==="propagate")&&a!==this.askedViews&&(this.askedViews=a,e.act({type:"views"}))}receive(e,n){let o=e.type==="undecided"?uf(e.text):"";e.of==="views"||e.type===
 "views"?this.viewTrouble=o:this.trouble=o,e.type==="path"&&(this.path=e),e.type==="views"&&this.looking&&(this.views={pose:n.pose,nats:n.nats,spacing:e.spacing}),
 e.type==="undecided"&&e.of==="path"&&(this.path=null),this.version++}nearest(e){let{views:n}=this;if(!n?.nats.length)return null;let[o,s]=[0,1/0];for(let r=0;r<
-n.nats.length;r++){let i=Math.hypot(n.pose[3*r]-e.x,n.pose[3*r+1]-e.y);i<s&&([o,s]=[r,i])}return o}};var _s=class{constructor(e){this.session=e}facts=null;cell=null;together=null;each=null;version=0;held=!1;asked="";get cellShown(){return this.held&&this.cell!==
+n.nats.length;r++){let i=Math.hypot(n.pose[3*r]-e.x,n.pose[3*r+1]-e.y);i<s&&([o,s]=[r,i])}return o}};var As=class{constructor(e){this.session=e}facts=null;cell=null;together=null;each=null;version=0;held=!1;asked="";get cellShown(){return this.held&&this.cell!==
 null}hold(e){this.held!==e&&(this.held=e,this.version++,this.ask())}pin(e){this.cell=Ot(e,this.session.shape)?e:null,this.together=this.each=null,this.asked="",
 this.version++,this.ask(),this.session.changed()}forget(){this.cell=this.together=this.each=this.facts=null,this.version++}ask(){let{session:e,cell:n}=this,{shown:o}=e;
 if(!this.held||!n||!o||o.generation!==e.generation||e.recorded)return;let s=`${o.generation} ${e.sampling} ${o.approximate} ${n.x} ${n.y}`;s!==this.asked&&(this.
 asked=s,e.act({type:"inspect",x:n.x,y:n.y,each:!0}))}receive(e,n){this.facts=e,!(!e.each||e.x!==this.cell?.x||e.y!==this.cell?.y)&&(this.together=this.facts,this.
-each=n.nats?n:null,this.version++)}};var df="(prefers-reduced-motion: reduce)",As=class{constructor(e){this.session=e}on=!1;mean=null;get still(){return matchMedia(df).matches}get under(){let{mean:e,
+each=n.nats?n:null,this.version++)}};var df="(prefers-reduced-motion: reduce)",_s=class{constructor(e){this.session=e}on=!1;mean=null;get still(){return matchMedia(df).matches}get under(){let{mean:e,
 session:n}=this,{shown:o}=n;return this.on&&e&&o?.layer==="draw"&&e.generation===o.generation&&e.p.length===o.p.length?e:null}get wantsMean(){return this.on&&this.
 mean?.generation!==this.session.generation}take(e){e.layer!=="draw"&&e.layer!=="width"&&(this.mean=e)}};var hf=2e3,pf=3e3,ff=2,Cs=class{constructor(e){this.session=e}held=!1;pose=null;fan=null;trouble="";version=0;answers=0;moving=!1;askedAt=-1/0;waiting=0;asked="";hold(e){
 this.held!==e&&(this.held=e,this.version++,this.ask(),this.session.changed())}move(e,n=!1){let{pose:o}=this;this.moving=n,this.pose={x:0,y:0,yaw:0,...o,...e},this.
@@ -865,7 +865,7 @@ scan:e,beam:n}){this.session.act({type:"beam",scan:e,beam:n}),this.timer=window.
 (clearTimeout(this.timer),this.picked=this.found=null,this.slow=!1,this.version++)}receive(e){let n=e;e.type==="undecided"?this.trouble=e.text:n.beam===this.picked?.
 beam&&n.scan===this.picked.scan&&(this.found=n),this.version++}};function mf({index:t,pose:e,angles:n,ranges:o,hit:s},r,i,a){if(t===null)return null;let l={x:e[0],
 y:e[1]},[u,p]=[-1,1/0];for(let d=0;d<n.length;d++){let[f,w]=[Math.cos(e[2]+n[d]),Math.sin(e[2]+n[d])],[y,k]=[r.x-l.x,r.y-l.y],M=y*f+k*w,T=s[d]?o[d]:a,S=s[d]?Math.
-hypot(y-T*f,k-T*w):1/0,E=M>0&&M<T?Math.abs(y*w-k*f):1/0,_=Math.min(S,i/2+2*E);_<p&&([u,p]=[d,_])}return p<i?{scan:t,beam:u,from:l,angle:e[2]+n[u]}:null}var Rs=class{constructor(e){this.session=e}found=null;trouble="";version=0;wanted=!1;sensor=null;asked="";waitingSince=0;follow(e,n){this.sensor=n,e!==this.wanted&&
+hypot(y-T*f,k-T*w):1/0,E=M>0&&M<T?Math.abs(y*w-k*f):1/0,A=Math.min(S,i/2+2*E);A<p&&([u,p]=[d,A])}return p<i?{scan:t,beam:u,from:l,angle:e[2]+n[u]}:null}var Rs=class{constructor(e){this.session=e}found=null;trouble="";version=0;wanted=!1;sensor=null;asked="";waitingSince=0;follow(e,n){this.sensor=n,e!==this.wanted&&
 (this.wanted=e,this.found=null,[this.trouble,this.asked,this.waitingSince]=["","",0],this.version++,this.session.changed()),e&&this.ask()}receive(e,n){if(this.waitingSince=
 0,!this.wanted)return;this.trouble=e.trouble??"";let{pose:o,weight:s}=n,{modes:r=[]}=e,i=r.filter(({probability:a},l)=>l===0||a>=.005);this.found=this.trouble?null:
 {...e,modes:i,cloud:o,weight:s},this.version++}ask(){let{session:e}=this,{shown:n,scan:o}=e;if(!n||e.recorded||e.worker!=="ready"||e.editable&&n.generation!==e.
@@ -874,7 +874,7 @@ asked||this.waitingSince&&i-this.waitingSince<5e3||([this.asked,this.waitingSinc
 {type:"where"}))}};var Lc=new Set(["inspect","path","views","where","ghost","beam"]),$s=class{constructor(e,n,o=null,s=null){this.transport=e;this.changed=n;this.adopt=o;this.notice=
 s;e.onmessage=(r,i)=>this.receive(r,i),e.onstatus=r=>this.onstatus(r)}connection={connected:!1};everConnected=!1;document=null;walls=new Uint8Array(0);wallsVersion=0;view={
 layer:"mean",chain:0,draw:null};state=null;scan=null;overlay=null;shown=null;lastStage=null;worker="starting";recorded=!1;generation=-1;acted=0;decisions=new Es(
-this);evidence=new _s(this);where=new Rs(this);ghost=new Cs(this);reading=new Ns(this);flicker=new As(this);status=new ws;progress=new Ds;latency=new Ls;counts={
+this);evidence=new As(this);where=new Rs(this);ghost=new Cs(this);reading=new Ns(this);flicker=new _s(this);status=new ws;progress=new Ds;latency=new Ls;counts={
 paints:0,stale:0};ondownload=()=>{};seq=0;next=null;pending=[];reported=-1;confirmedWalls={text:"",walls:this.walls};wallsAhead=!1;broughtAt=null;packed={version:-1,
 text:""};get shape(){return this.document?this.document.grid.shape:[1,1]}get editable(){return!this.recorded&&this.document?.source.kind==="simulation"}get running(){
 return this.connection.connected&&!!this.state?.running}get working(){return this.connection.connected&&!!this.state?.working}get layer(){let e=this.shown?.layer;
@@ -882,8 +882,8 @@ return e==="draw"||e==="width"?e:this.view.layer==="entropy"?"entropy":"mean"}ge
 return this.lastStage?.generation===this.shown?.generation}get draws(){return this.state?.draws??{chains:0,count:0}}get sampling(){let e=this.shown;return!!(e&&
 !e.approximate&&e.sweeps<e.total&&this.working)}get draw(){let e=Math.max(0,this.draws.count-1);return Math.min(e,this.view.draw??(this.shown?.layer==="draw"?this.
 shown.draw??e:e))}get hasDraws(){return this.draws.count>0||!this.recorded&&/auto|gibbs|block/.test(this.document?.method??"")}say(e,n="info"){this.status.say(e,
-n,this.acted),this.changed()}act(e,n){if(!this.document&&e.type!=="hello")return;if(!this.connection.connected&&this.everConnected&&!Lc.has(e.type)&&_c(e))return this.
-say(Ac,"warning");let o={...e,seq:++this.seq};Lc.has(e.type)||(this.acted=this.seq),ti.has(e.type)&&(this.pending.push(o),this.foresee(o)),n&&this.latency.sent(
+n,this.acted),this.changed()}act(e,n){if(!this.document&&e.type!=="hello")return;if(!this.connection.connected&&this.everConnected&&!Lc.has(e.type)&&Ac(e))return this.
+say(_c,"warning");let o={...e,seq:++this.seq};Lc.has(e.type)||(this.acted=this.seq),ti.has(e.type)&&(this.pending.push(o),this.foresee(o)),n&&this.latency.sent(
 o.seq,n),this.connection.connected?this.transport.send(o):this.everConnected&&ei(this.portableDocument()),this.changed()}bring(e){this.act(e?{type:"hello",document:e}:
 {type:"hello"}),this.broughtAt=e?this.seq:null}effectiveDocument(){return this.packed.version!==this.wallsVersion&&(this.packed={version:this.wallsVersion,text:Oo(
 $i(this.walls))}),this.document&&{...this.document,walls:this.packed.text}}portableDocument(){let e=this.effectiveDocument();return e&&(e.source.kind==="simulat\
@@ -1175,20 +1175,20 @@ app.style.setProperty(`--${f}`,w);this.dressed(this.choice==="auto"?"automatic":
 choice)}catch{}this.dress()}destroy(){this.media.removeEventListener("change",this.listen)}};function bf(){try{return localStorage.getItem($c)}catch{return null}}function Is(t,e,{embedded:n=!1,adopt:o=null,notice:s=null}={}){let r=t.shadowRoot??t.attachShadow({mode:"open"}),i=new CSSStyleSheet;i.replaceSync(Dc+Nc),r.adoptedStyleSheets=
 [i],t.toggleAttribute("data-embedded",n);let a=0,l=()=>{a||=requestAnimationFrame(me)},u=new $s(e,l,o,s);e.open();let p=new Wn,d=new Ho(u),f=new zo(u,d),w=new Ps(
 u),y=new Ts(u,d,f,ot,K=>w.showLayer(K),n),k=[new Vn,new jn,new Yn,new qn,new ts,new Qo,new Kn,new Hn,new Jn,new Bn,new Yo],M=k.map(({name:K})=>v("canvas",{className:K})),
-T=M[M.length-1];Object.assign(T,{tabIndex:0,role:"application"});let S=new Ko(k,M);new qo(T,u,p,d,f,n);let E=new jo(T,u,p,d,f),_={truth:!0,rays:!0,readings:!0,strokes:!0,
-trajectory:!0},J=ql(y),N=ua(y),Z={chip:lc(y),banner:cc(y)},B=v("main",{className:"stage"},...M,Z.chip,Z.banner),q=()=>G.theme,R=()=>p.transform.scale,A=Xl(y,q,R),
+T=M[M.length-1];Object.assign(T,{tabIndex:0,role:"application"});let S=new Ko(k,M);new qo(T,u,p,d,f,n);let E=new jo(T,u,p,d,f),A={truth:!0,rays:!0,readings:!0,strokes:!0,
+trajectory:!0},J=ql(y),N=ua(y),Z={chip:lc(y),banner:cc(y)},B=v("main",{className:"stage"},...M,Z.chip,Z.banner),q=()=>G.theme,R=()=>p.transform.scale,_=Xl(y,q,R),
 j=uc(y);T.setAttribute("aria-describedby",j.readout.id);let I=Vl(y),V={help:zl(y),new:Hl(y),share:I.dialog},[W,Y,z,je]=[pc(y),fc(y),mc(y),gc(y)],be=[Wl(y),vc(y),
-Kl(y),Bl(y),nc(y),oc(y,Ul(y,q),Gl(y,q)),bc(y),hc(y),yc(y,w,_,R),W,Y,dc(y),z,je],re=v("aside",{"aria-label":"Controls"},...be),le=()=>u.recorded||u.document?.source.
+Kl(y),Bl(y),nc(y),oc(y,Ul(y,q),Gl(y,q)),bc(y),hc(y),yc(y,w,A,R),W,Y,dc(y),z,je],re=v("aside",{"aria-label":"Controls"},...be),le=()=>u.recorded||u.document?.source.
 kind==="run";y.visible(W,()=>u.editable),y.visible(Y,()=>!le()),y.visible(z,()=>!le()),y.visible(je,()=>!le()),y.each(()=>{L(N,"inert",!u.document),L(re,"inert",
-!u.document)});let ee=v("div",{className:"app"},J.element,N,B,A,re,j.element,...Object.values(V));r.replaceChildren(ee);let G=new Fs(ee,K=>{J.nameTheme(K),l()}),
-Ae=()=>{let K=u.editable&&d.tool==="sensor"?d.sensor?.id??null:null;return{session:u,view:p,look:{theme:G.theme,..._,hover:d.hover,cursor:d.cursor,selected:K}}},
+!u.document)});let ee=v("div",{className:"app"},J.element,N,B,_,re,j.element,...Object.values(V));r.replaceChildren(ee);let G=new Fs(ee,K=>{J.nameTheme(K),l()}),
+_e=()=>{let K=u.editable&&d.tool==="sensor"?d.sensor?.id??null:null;return{session:u,view:p,look:{theme:G.theme,...A,hover:d.hover,cursor:d.cursor,selected:K}}},
 Ue="";function me(){a=0;let K=u.take();u.document&&String(u.shape)!==Ue&&(Ue=String(u.shape),p.fit(u.shape),d.cursor=d.hover=null,u.decisions.forget(),u.evidence.
-forget(),u.ghost.refit(),T.setAttribute("aria-label",`Map, ${u.shape[0]} by ${u.shape[1]} cells`)),S.paint(Ae()),K&&(u.painted(),w.step());let{x:ie,y:Ke}=p.transform;
-Z.chip.style.transform=`translate(${Math.max(ie,Je.left)}px, ${Math.max(Ke-28,6)}px)`,dt(T,"data-tool",u.editable||_t.has(d.tool)?d.tool:"pan"),y.refresh()}let ae=new ResizeObserver(
+forget(),u.ghost.refit(),T.setAttribute("aria-label",`Map, ${u.shape[0]} by ${u.shape[1]} cells`)),S.paint(_e()),K&&(u.painted(),w.step());let{x:ie,y:Ke}=p.transform;
+Z.chip.style.transform=`translate(${Math.max(ie,Je.left)}px, ${Math.max(Ke-28,6)}px)`,dt(T,"data-tool",u.editable||At.has(d.tool)?d.tool:"pan"),y.refresh()}let ae=new ResizeObserver(
 ()=>{let{width:K,height:ie}=B.getBoundingClientRect();!K||!ie||(p.resize(K,ie,devicePixelRatio||1),p.fitted&&p.fit(u.shape),cancelAnimationFrame(a),me())});ae.observe(
 B);async function ot(K){if(K==="in"||K==="out")p.zoom(K==="in"?1.4:1/1.4,p.middle,u.shape);else if(K==="fit")p.fit(u.shape);else if(K==="help")V.help.showModal();else if(K===
 "new")V.new.showModal();else if(K==="theme")G.next();else if(K==="add")E.addSensor();else if(K==="share"){let ie=u.portableDocument();ie&&I.show(location.origin+
-location.pathname+await Oi(ie))}else if(K==="export png"){let ie=await la(Ae());ie&&yr("bayesmap.png",ie),u.say("Saved bayesmap.png")}else K.startsWith("export ")&&
+location.pathname+await Oi(ie))}else if(K==="export png"){let ie=await la(_e());ie&&yr("bayesmap.png",ie),u.say("Saved bayesmap.png")}else K.startsWith("export ")&&
 u.act({type:"export",what:K.slice(7)});l()}u.ondownload=(K,ie,Ke)=>yr(K,new Blob([Ke],{type:ie}));let mt=[[n?t:window,"keydown",K=>{K.defaultPrevented||!u.document||
 Object.values(V).some(ie=>ie.open)||Yi(K,u,{tool:ie=>{d.choose(ie),E.focus()},layer:ie=>w.showLayer(ie),command:ot})}],[window,"online",()=>e.retry?.()],[window,
 "hashchange",async()=>{if(n)return;let{document:K,damaged:ie}=await Wo();K?u.bring(K):ie&&u.say(Go,"error")}]];for(let[K,ie,Ke]of mt)K.addEventListener(ie,Ke);return G.
@@ -1198,20 +1198,20 @@ u,p,S),cellToClient(K,ie){let Ke=T.getBoundingClientRect(),Wt=p.fromGrid({x:K+.5
 o[r]=new ni[i](t.slice(s,s+l)),s+=Math.ceil(l/Fc)*Fc}return[n,o]}function Oc(t,e){let n={};return(t.buffers??[]).forEach(({name:o,dtype:s},r)=>{let{buffer:i,byteOffset:a,
 byteLength:l}=e[r];n[o]=new ni[s](i.slice(a,a+l))}),n}function Uc(t){let{document:e,scans:n,settings:o={},log_joint:s=[]}=t,r=e.grid.shape[0]*e.grid.shape[1],i=t.draws?.count??0,a=e.source.kind!=="simulation",l=Vt(
 t.mean),u=Vt(t.observed),p=null,d=0,f={layer:"mean",chain:0,draw:null},w=R=>a?[R[d]]:R,y=R=>Float32Array.from(w(R).flat(),Gc),k=R=>Array.isArray(n.angles[R])?n.
-angles[R]:n.angles,M=[0];n.pose.forEach((R,A)=>M.push(M[A]+k(A).length));let T=yo(Vt(n.hit),M[n.pose.length]),S=()=>a?T.subarray(M[d],M[d+1]):T,E=Float32Array.from(
-s.flat()),_=(o.sweeps??i)/Math.max(1,i),J=Float32Array.from(s[0]??[],(R,A)=>(A+1)*_),N=R=>{let A={chains:t.draws?.chains??0,count:p?i:0},j={generation:1,can_undo:!1,
-can_redo:!1,live:!1,running:!1,working:!1};q.onmessage({type:"state",document:e,seq:R,...j,draws:A,view:f},{})},Z=()=>{let R=Float64Array.from(w(n.pose).flat(),
-Number),A={type:"scan",generation:1,ids:a?[d]:n.ids,index:a?d:null},j=n.exact?.length?y(n.exact):new Float32Array(0);q.onmessage(A,{pose:R,angles:Float32Array.from(
-k(d)),ranges:y(n.ranges),exact:j,hit:S()})},B=()=>{let R=f.layer==="draw"&&p?wf(p,f.chain*i+(f.draw??i-1),r):null,A=s[f.chain]?.[(f.layer==="draw"?f.draw:null)??
+angles[R]:n.angles,M=[0];n.pose.forEach((R,_)=>M.push(M[_]+k(_).length));let T=yo(Vt(n.hit),M[n.pose.length]),S=()=>a?T.subarray(M[d],M[d+1]):T,E=Float32Array.from(
+s.flat()),A=(o.sweeps??i)/Math.max(1,i),J=Float32Array.from(s[0]??[],(R,_)=>(_+1)*A),N=R=>{let _={chains:t.draws?.chains??0,count:p?i:0},j={generation:1,can_undo:!1,
+can_redo:!1,live:!1,running:!1,working:!1};q.onmessage({type:"state",document:e,seq:R,...j,draws:_,view:f},{})},Z=()=>{let R=Float64Array.from(w(n.pose).flat(),
+Number),_={type:"scan",generation:1,ids:a?[d]:n.ids,index:a?d:null},j=n.exact?.length?y(n.exact):new Float32Array(0);q.onmessage(_,{pose:R,angles:Float32Array.from(
+k(d)),ranges:y(n.ranges),exact:j,hit:S()})},B=()=>{let R=f.layer==="draw"&&p?wf(p,f.chain*i+(f.draw??i-1),r):null,_=s[f.chain]?.[(f.layer==="draw"?f.draw:null)??
 i-1]??null,j=R?{...f,draw:f.draw??i-1}:{layer:f.layer==="draw"?"mean":f.layer},I=o.sweeps??i,V={quantity:o.quantity,sweeps:I,total:I,ess:o.ess,rhat:o.rhat,verdict:o.
-verdict,log_joint:A},W=o.method??e.method,Y={p:R??l,observed:u,trace:E,traced:J};q.onmessage({type:"field",generation:1,...j,method:W,approximate:!1,...V},Y)},q={
+verdict,log_joint:_},W=o.method??e.method,Y={p:R??l,observed:u,trace:E,traced:J};q.onmessage({type:"field",generation:1,...j,method:W,approximate:!1,...V},Y)},q={
 ...ao(),open:()=>q.onstatus({connected:!0}),send:R=>{if(R.type==="hello"){if(q.onmessage({type:"welcome",version:1,recorded:!0},{}),N(R.seq),Z(),B(),!i||!t.draws)
-return;Uo(Vt(t.draws.data)).then(A=>{p=A,N(R.seq)})}else if(R.type==="view")f={layer:R.layer,chain:R.chain??f.chain,draw:R.draw??null},N(R.seq),B();else if(R.type===
-"scan")d=R.index,N(R.seq),Z();else if(R.type==="inspect"){let A=xf(e,w(n.pose).map((j,I)=>k(a?d:I)),w(n.pose),w(n.ranges),R.x,R.y);q.onmessage({type:"cell",x:R.
-x,y:R.y,beams:A},{})}},close:()=>{}};return q}var Gc=t=>t===null?1/0:Number(t);function wf(t,e,n){let o=e*n;return Uint8Array.from({length:n},(s,r)=>t[o+r>>3]>>
+return;Uo(Vt(t.draws.data)).then(_=>{p=_,N(R.seq)})}else if(R.type==="view")f={layer:R.layer,chain:R.chain??f.chain,draw:R.draw??null},N(R.seq),B();else if(R.type===
+"scan")d=R.index,N(R.seq),Z();else if(R.type==="inspect"){let _=xf(e,w(n.pose).map((j,I)=>k(a?d:I)),w(n.pose),w(n.ranges),R.x,R.y);q.onmessage({type:"cell",x:R.
+x,y:R.y,beams:_},{})}},close:()=>{}};return q}var Gc=t=>t===null?1/0:Number(t);function wf(t,e,n){let o=e*n;return Uint8Array.from({length:n},(s,r)=>t[o+r>>3]>>
 7-(o+r&7)&1?255:0)}function xf({grid:t},e,n,o,s,r){let{origin:i,resolution:a}=t,l=[i[0]+s*a,i[1]+r*a],u=0;return n.forEach((p,d)=>{let[f,w,y]=p.map(Number);e[d].
-forEach((k,M)=>{let[T,S]=[Math.cos(k+y),Math.sin(k+y)],E=[(l[0]-f)/T,(l[0]+a-f)/T,(l[1]-w)/S,(l[1]+a-w)/S],_=Math.max(0,Math.min(E[0],E[1]),Math.min(E[2],E[3])),
-J=Math.min(Gc(o[d][M]),Math.max(E[0],E[1]),Math.max(E[2],E[3]));_<J&&u++})}),u}var oi=250,vf=8e3;function Wc(t){let e=null,n=oi,o=0,s=!1;function r(){clearTimeout(o);let a=new URL("socket",t());a.protocol=a.protocol.replace("http","ws"),a.
+forEach((k,M)=>{let[T,S]=[Math.cos(k+y),Math.sin(k+y)],E=[(l[0]-f)/T,(l[0]+a-f)/T,(l[1]-w)/S,(l[1]+a-w)/S],A=Math.max(0,Math.min(E[0],E[1]),Math.min(E[2],E[3])),
+J=Math.min(Gc(o[d][M]),Math.max(E[0],E[1]),Math.max(E[2],E[3]));A<J&&u++})}),u}var oi=250,vf=8e3;function Wc(t){let e=null,n=oi,o=0,s=!1;function r(){clearTimeout(o);let a=new URL("socket",t());a.protocol=a.protocol.replace("http","ws"),a.
 search=t().search;let l=new WebSocket(a),u=!1;e=l,l.binaryType="arraybuffer",l.onopen=()=>{u=!0,n=oi,i.onstatus({connected:!0})},l.onmessage=({data:p})=>{typeof p==
 "string"?i.onmessage(JSON.parse(p),{}):i.onmessage(...Ic(p))},l.onclose=()=>{if(s||e!==l)return;o=window.setTimeout(r,n);let p={connected:!1,retryIn_ms:n};i.onstatus(
 p),u||kf(t()).then(d=>d&&e===l&&i.onstatus({...p,refused:d})),n=Math.min(vf,2*n)}}let i={...ao(),open:r,send:a=>{e?.readyState===WebSocket.OPEN&&e.send(JSON.stringify(
