@@ -7,12 +7,18 @@ import pytest
 from acted_engine import Heard
 
 import bayesmap as bm
-from bayesmap.app.chains import SMALLEST_HEADING_RAD, SMALLEST_POSE_M, chains_of_walls, pose_prior, pose_starts
 from bayesmap.app.document import Document, Sensor, WallMap
 from bayesmap.app.exports import export
-from bayesmap.app.scanning import simulate_document, simulated_scene
-from bayesmap.app.starting import starts
-from bayesmap.app.stream import POSE_CHAINS
+from bayesmap.app.scene import simulate_document, simulated_scene
+from bayesmap.app.shown.chains import (
+    POSE_CHAINS,
+    SMALLEST_HEADING_RAD,
+    SMALLEST_POSE_M,
+    chains_of_walls,
+    pose_prior,
+    pose_starts,
+    starts,
+)
 from bayesmap.app.worlds import tutorial_document
 from bayesmap.kernels.walls.table import trace
 from bayesmap.samplers.wall_problem import WallProblem

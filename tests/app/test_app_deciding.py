@@ -9,7 +9,7 @@ from acted_session import Acted
 
 from bayesmap.app.document import Refused, WallMap
 from bayesmap.app.messages import check
-from bayesmap.app.opened import opened_run
+from bayesmap.app.sources import opened_run
 from bayesmap.app.tasks import FindPath, FindViews
 from bayesmap.app.worlds import tutorial_document
 from bayesmap.posterior.decisions import path_is_free

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from bayesmap.app.document import BOUNDS, Document, Refused, Sensor, WallMap
 from bayesmap.app.parsing import parse_document, parse_simulation
-from bayesmap.app.scanning import simulate_document, standard_noise
+from bayesmap.app.scene import simulate_document, standard_noise
 from bayesmap.app.worlds import new_document, tutorial_document
 from bayesmap.space.grid import Grid
 

@@ -10,20 +10,20 @@ from acted_engine import Heard
 
 import bayesmap as bm
 from bayesmap.app.document import Document, Sensor, WallMap
-from bayesmap.app.judging import FEWEST_SWEEPS
-from bayesmap.app.preview import Preview
-from bayesmap.app.scanning import simulate_document, simulated_scene
+from bayesmap.app.scene import simulate_document, simulated_scene
+from bayesmap.app.shown.beliefs import Preview
+from bayesmap.app.shown.verdict import FEWEST_SWEEPS
 from bayesmap.app.tasks import Cancel, Inspect, View
 from bayesmap.app.worlds import new_document, tutorial_document
 from bayesmap.model import Model
-from bayesmap.run.chains import Schedule
 from bayesmap.run.runner import Job, run_chains
+from bayesmap.run.schedule import Schedule
+from bayesmap.samplers.exact import enumerate_maps
 from bayesmap.samplers.fit import PILOT_SWEEPS, first_sensor, fit
 from bayesmap.samplers.importance import sample_importance
+from bayesmap.samplers.problem import WallProblem
 from bayesmap.samplers.propagate import propagate
 from bayesmap.samplers.stop_gibbs import StopGibbs
-from bayesmap.samplers.wall_problem import WallProblem
-from bayesmap.samplers.without_chains import enumerate_maps
 from bayesmap.space.grid import Grid
 
 TINY = Document(
@@ -248,8 +248,8 @@ def test_inspecting_a_cell_counts_its_beams():
 
 
 def test_many_sweeps_of_a_large_map_are_thinned_to_fit():
-    from bayesmap.app.stream import DRAW_BYTES, Stream
-    from bayesmap.samplers.walls import Gibbs
+    from bayesmap.app.shown.chains import DRAW_BYTES, Stream
+    from bayesmap.samplers.gibbs import Gibbs
 
     document = new_document("blank", (500, 500), tutorial_document())
     scene = simulated_scene(document)

@@ -7,7 +7,7 @@ import pytest
 from acted_engine import Heard
 
 import bayesmap as bm
-from bayesmap.app.evidence import MOST_DRAWN, BeamRatios, strongest, summed, wall_ratios
+from bayesmap.app.answers.evidence import MOST_DRAWN, BeamRatios, strongest, summed, wall_ratios
 from bayesmap.app.tasks import Inspect
 from bayesmap.app.worlds import tutorial_document
 from bayesmap.kernels.walls.table import trace

@@ -13,8 +13,8 @@ import pytest
 from acted_engine import Heard
 
 import bayesmap as bm
-from bayesmap.app.opened import open_file
 from bayesmap.app.recording import run_to_html
+from bayesmap.app.sources import open_file
 from bayesmap.app.tasks import Export, ShowScan, View
 from bayesmap.app.worlds import tutorial_document
 from bayesmap.io.ros.maps import read_map

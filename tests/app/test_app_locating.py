@@ -10,15 +10,13 @@ from acted_engine import Heard
 from acted_session import Acted
 from poses.simulated import off, recording
 
-from bayesmap.app.adopting import adopted
-from bayesmap.app.along import MOST_SCANS, counted_map, grown, thinned
 from bayesmap.app.document import Refused
-from bayesmap.app.locating import ASK_TO_RUN
-from bayesmap.app.log_settings import with_resolution
-from bayesmap.app.opened import opened_log
+from bayesmap.app.edits import adopted, with_resolution
+from bayesmap.app.hit_maps import MOST_SCANS, counted_map, grown, thinned
 from bayesmap.app.parsing import parse_document
+from bayesmap.app.sources import opened_log
 from bayesmap.app.tasks import Cancel, Export, Infer, Inspect, Remember, ShowScan
-from bayesmap.app.trajectory_job import STAGES, TrajectoryJob, along, in_time
+from bayesmap.app.trajectory import ASK_TO_RUN, STAGES, TrajectoryJob, along, in_time
 from bayesmap.app.worlds import tutorial_document
 from bayesmap.space.grid import Grid
 

@@ -10,12 +10,11 @@ from building_log import ANGLES, room_scans
 
 import bayesmap as bm
 from bayesmap.app.document import Refused, Source
-from bayesmap.app.hit_counts import HitCounts, coarse_map
+from bayesmap.app.hit_maps import HitCounts, coarse_map
 from bayesmap.app.messages import check
-from bayesmap.app.opened import opened_log
-from bayesmap.app.opened_log import OpenedLog, first_beams
 from bayesmap.app.parsing import parse_document
-from bayesmap.app.scanning import hits
+from bayesmap.app.scene import hits
+from bayesmap.app.sources import OpenedLog, first_beams, opened_log
 from bayesmap.app.tasks import MoveGhost, ShowScan, View
 from bayesmap.app.worlds import new_document
 from bayesmap.cells.arrays import Draws
@@ -260,7 +259,7 @@ def test_surfaces_of_a_log_are_counted_first_then_shown_by_the_draws_of_the_chai
 
 
 def test_while_the_sensor_is_fitted_draws_intervals_and_surfaces_can_be_looked_at(log, monkeypatch):
-    monkeypatch.setattr("bayesmap.app.showing.OVERLAY_SECONDS", 0.0)
+    monkeypatch.setattr("bayesmap.app.display.OVERLAY_SECONDS", 0.0)
     document = replace(log.document, cells="surface", sweeps=3, grid=Grid.covering(log.scans, 0.2))
     heard = Heard(log)
     heard.engine._showing.due = lambda: True

@@ -5,7 +5,7 @@ import pytest
 from acted_engine import Heard
 
 import bayesmap as bm
-from bayesmap.app.opened import opened_run
+from bayesmap.app.sources import opened_run
 from bayesmap.app.tasks import View
 from bayesmap.app.worlds import tutorial_document
 

@@ -6,7 +6,7 @@ from acted_engine import Heard
 from building_log import ANGLES, room_run
 
 import bayesmap as bm
-from bayesmap.app.opened import opened_run
+from bayesmap.app.sources import opened_run
 from bayesmap.app.tasks import CompareBeam
 from bayesmap.posterior.predictor import ScanPredictor, predictor_of
 from bayesmap.sensors.model import RangeLimits

@@ -6,8 +6,8 @@ from acted_engine import Heard
 from building_log import room_run
 
 import bayesmap as bm
-from bayesmap.app.opened import opened_run
-from bayesmap.app.stop_evidence import log_ratios, one_beam_each
+from bayesmap.app.answers.evidence import log_ratios, one_beam_each
+from bayesmap.app.sources import opened_run
 from bayesmap.app.tasks import Inspect
 from bayesmap.kernels.rays import trace_rays
 from bayesmap.posterior.predictor import Predictor, fixed_maps

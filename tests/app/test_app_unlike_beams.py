@@ -10,8 +10,8 @@ from acted_engine import Heard
 from building_log import ANGLES, GRID, SENSOR, room_scans
 
 import bayesmap as bm
-from bayesmap.app.opened import opened_run
 from bayesmap.app.recording import record
+from bayesmap.app.sources import opened_run
 from bayesmap.app.tasks import CompareBeam, MoveGhost, ShowScan
 from bayesmap.space.scans import side_by_side
 

@@ -7,11 +7,11 @@ import pytest
 from acted_engine import Heard
 
 import bayesmap as bm
+from bayesmap.app.answers.whereabouts import Whereabouts, drawn_map
 from bayesmap.app.document import Sensor, WallMap
-from bayesmap.app.opened import opened_log, opened_run
-from bayesmap.app.result import Result
+from bayesmap.app.shown.result import Result
+from bayesmap.app.sources import opened_log, opened_run
 from bayesmap.app.tasks import Infer, ShowScan, WhereAmI
-from bayesmap.app.whereabouts import Whereabouts, drawn_map
 from bayesmap.app.worlds import tutorial_document
 
 PAGE = 7

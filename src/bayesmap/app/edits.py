@@ -10,6 +10,7 @@ import numpy as np
 
 from bayesmap.app.document import (
     FIXED_BY_FILE,
+    LARGEST_SIDE_OF_LOG,
     RESOLUTION,
     SCANS_USED,
     SENSORS,
@@ -18,10 +19,11 @@ from bayesmap.app.document import (
     Sensor,
     WallMap,
     check_stand,
+    settings_of,
     wrap,
 )
-from bayesmap.app.log_settings import with_resolution, with_scans_used
 from bayesmap.app.worlds import new_document
+from bayesmap.space.grid import Grid
 
 Message = Mapping[str, Any]
 Edit = Callable[[Document, Message], tuple[Document, str]]
@@ -125,3 +127,62 @@ def merged(before: Message, after: Message) -> Message | None:
     if after["type"] == "sensor" and before["op"] == after["op"] == "move" and before["id"] == after["id"]:
         return {**before, **after}
     return None
+
+
+def adopted(present: Document, brought: Document) -> Document:
+    """The document to show: a simulation is taken as it is; of one that shows the present file, its settings are.
+
+    Raises:
+        Refused: the two show different files, or one of them none.
+    """
+    if brought.simulated and present.simulated:
+        return brought
+    if brought.source == present.source:
+        # Where the trajectory is inferred, the map is as large as that turns out to be.
+        any_size = "odometry" in (brought.poses, present.poses)
+        shown, resolution_m = present, brought.grid.resolution
+        if brought.grid != present.grid and not (any_size and resolution_m == present.grid.resolution):
+            shown = with_resolution(present, resolution_m)
+        if any_size or brought.grid == shown.grid:
+            settings = {name: getattr(brought, name) for name in settings_of(present.source.kind)}
+            used = settings.pop(SCANS_USED, None)
+            return replace(shown if used is None else with_scans_used(shown, used), **settings)
+    raise Refused(f"this server shows {_named(present)}, not {_named(brought)}", _remedy(brought))
+
+
+def _named(document: Document) -> str:
+    return "a map that was drawn" if document.simulated else f"{document.source.name}"
+
+
+def _remedy(brought: Document) -> str:
+    return f"start bayesmap app {'without a file' if brought.simulated else f'with {brought.source.name}'}"
+
+
+def with_resolution(document: Document, resolution_m: float) -> Document:
+    """The same log on cells of another edge; the grid depends on the log and the edge alone.
+
+    Raises:
+        Refused: not a log, or cells so small that the map would have too many.
+    """
+    bounds = document.source.bounds
+    if document.source.kind != "log" or bounds is None:
+        raise Refused("only a log is shown on cells of any size")
+    grid = Grid.over(*bounds, resolution_m)
+    if max(grid.shape) > LARGEST_SIDE_OF_LOG:
+        least = max(high - low for low, high in zip(*bounds, strict=True)) / (LARGEST_SIDE_OF_LOG - 1)
+        raise Refused(
+            f"cells of {resolution_m:g} m make a map of {grid.shape[0]} x {grid.shape[1]} cells, more than "
+            f"{LARGEST_SIDE_OF_LOG} a side", f"give at least {least:.3f} m"
+        )  # fmt: skip
+    return document if grid == document.grid else replace(document, grid=grid, walls=WallMap.none(grid.shape))
+
+
+def with_scans_used(document: Document, scans: int | None) -> Document:
+    """The map of the first scans alone; of all of them where there are no more than that.
+
+    Raises:
+        Refused: not a log.
+    """
+    if document.source.kind != "log":
+        raise Refused("only of a log some of the scans can be left out")
+    return replace(document, scans_used=None if scans is None or scans >= document.source.scans else scans)

@@ -16,19 +16,16 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.app.answers import Answers, Now, exported
-from bayesmap.app.chains import chains_of_walls, pose_prior
+from bayesmap.app.answers.answers import Answers, Now, exported
+from bayesmap.app.display import OnReport, Showing
 from bayesmap.app.document import CHAIN_METHODS, Document
-from bayesmap.app.locating import Locating, Step
-from bayesmap.app.opened import Opened
-from bayesmap.app.opened_log import OpenedLog
-from bayesmap.app.pilot import Fitted, Pilot, depends_on, fit_by_pilot
-from bayesmap.app.preview import Preview
-from bayesmap.app.result import Result
-from bayesmap.app.scanning import Scene, same_readings, simulated_scene
-from bayesmap.app.showing import OnReport, Showing
-from bayesmap.app.starting import starts
-from bayesmap.app.stream import Stream
+from bayesmap.app.scene import Scene, same_readings, simulated_scene
+from bayesmap.app.shown.beliefs import Preview
+from bayesmap.app.shown.chains import Stream, chains_of_walls, pose_prior, starts
+from bayesmap.app.shown.particles import Weighing
+from bayesmap.app.shown.pilot import Fitted, Pilot, depends_on, fit_by_pilot
+from bayesmap.app.shown.result import Result
+from bayesmap.app.sources import Opened, OpenedLog
 from bayesmap.app.tasks import (
     Cancel,
     Export,
@@ -41,7 +38,7 @@ from bayesmap.app.tasks import (
     View,
     WhereAmI,
 )
-from bayesmap.app.weighing import Weighing
+from bayesmap.app.trajectory import Locating, Step
 from bayesmap.errors import BadInput
 
 PREVIEW_SECONDS = 0.015

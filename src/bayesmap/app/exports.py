@@ -13,8 +13,8 @@ from typing import Any
 import numpy as np
 
 from bayesmap.app.recording import to_html
-from bayesmap.app.result import COUNTS, HITS, Result
-from bayesmap.app.stream import CHAINS
+from bayesmap.app.shown.chains import CHAINS
+from bayesmap.app.shown.result import COUNTS, HITS, Result
 from bayesmap.errors import BadInput
 from bayesmap.posterior.posterior import posterior_of_chains, posterior_of_draws
 from bayesmap.result import Run

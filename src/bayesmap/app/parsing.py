@@ -37,7 +37,7 @@ def parse_document(value: object) -> Document:
     """The document of some JSON values that anybody may have sent.
 
     One that shows a file holds no walls and no sensors: it names the file, its grid and the settings that can be
-    changed, and `bayesmap.app.adopting` decides what becomes of it.
+    changed, and `bayesmap.app.edits` decides what becomes of it.
 
     Raises:
         Refused: anything that a document may not hold; the message names the key.

@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.app.result import LEVELS, Result
-from bayesmap.app.scanning import hits
+from bayesmap.app.scene import hits
+from bayesmap.app.shown.result import LEVELS, Result
 
 if TYPE_CHECKING:
     from bayesmap.result import Run
@@ -65,7 +65,7 @@ def to_html(result: Result) -> str:
 
 def run_to_html(run: Run, name: str = "run") -> str:
     """The same for a run of `bayesmap.infer`."""
-    from bayesmap.app.opened import opened_run
+    from bayesmap.app.sources import opened_run
 
     return to_html(opened_run(run, name).result())
 

@@ -12,11 +12,9 @@ from typing import Any
 
 from numpy.typing import NDArray
 
-from bayesmap.app.adopting import adopted
 from bayesmap.app.document import LIMITS, SCANS_USED, VERSION, Document, Refused
-from bayesmap.app.edits import EDITS, edit, gesture_of
-from bayesmap.app.history import History
-from bayesmap.app.pacing import From, Pace
+from bayesmap.app.edits import EDITS, adopted, edit, gesture_of
+from bayesmap.app.gestures import From, History, Pace
 from bayesmap.app.questions import QUESTIONS, question
 from bayesmap.app.tasks import OWN_LAYERS, Cancel, Export, Infer, Mode, Remember, Report, ShowScan, Task, View
 

@@ -171,7 +171,7 @@ class MapWidget(anywidget.AnyWidget):
 def _shown(run: Run | None, first: Document) -> Document:
     if run is None:
         return first
-    from bayesmap.app.opened import opened_run
+    from bayesmap.app.sources import opened_run
 
     return opened_run(run, "run").document
 

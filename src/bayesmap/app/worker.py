@@ -47,7 +47,7 @@ def serve(pipe: Connection, path: str | None, reading: dict[str, Any]) -> None:
     so that all kernels are loaded; or `unusable` where the file cannot be opened.
     """
     from bayesmap.app.engine import Engine
-    from bayesmap.app.opened import open_file
+    from bayesmap.app.sources import open_file
 
     report = Reporter(pipe)
     try:

@@ -8,11 +8,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.app.evidence import BeamRatios, strongest, summed, wall_ratios
-from bayesmap.app.ghost import Ghost
-from bayesmap.app.residual import beam_message
-from bayesmap.app.result import Result
-from bayesmap.app.scanning import Scene
+from bayesmap.app.answers.beam import beam_message
+from bayesmap.app.answers.evidence import BeamRatios, strongest, summed, wall_ratios
+from bayesmap.app.answers.ghost import Ghost
+from bayesmap.app.answers.whereabouts import Whereabouts
+from bayesmap.app.scene import Scene
+from bayesmap.app.shown.result import Result
 from bayesmap.app.tasks import (
     CompareBeam,
     Export,
@@ -24,7 +25,6 @@ from bayesmap.app.tasks import (
     Report,
     WhereAmI,
 )
-from bayesmap.app.whereabouts import Whereabouts
 from bayesmap.beams.table import BeamTable
 from bayesmap.errors import BadInput
 
@@ -82,7 +82,7 @@ class Answers:
         Raises:
             BadInput: there is none, and why.
         """
-        from bayesmap.app.deciding import path_message, views_message
+        from bayesmap.app.answers.decisions import path_message, views_message
 
         if result is None:
             raise BadInput("there is nothing to decide by yet")
@@ -116,7 +116,7 @@ def cell_message(
 
 def _said_of(result: Result, table: BeamTable, cell: int) -> BeamRatios | None:
     """What beams say of a cell; None where nothing can be said."""
-    from bayesmap.app.stop_evidence import stop_ratios
+    from bayesmap.app.answers.evidence import stop_ratios
 
     if result.prior.words.kind == "binary":
         return wall_ratios(table, result.mean().ravel(), cell)

@@ -6,11 +6,11 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import special
 
-from bayesmap.app.scanning import Touched, touched
-from bayesmap.kernels.walls.propagate import Beliefs
-from bayesmap.kernels.walls.reach import reach_frequency
+from bayesmap.app.scene import Touched, touched
+from bayesmap.kernels.beliefs import Beliefs
+from bayesmap.kernels.reach import reach_frequency
+from bayesmap.samplers.problem import WallProblem, log_odds
 from bayesmap.samplers.propagate import DAMPING, ROUNDS, Marginals
-from bayesmap.samplers.wall_problem import WallProblem, log_odds
 
 TOLERANCE = 1e-3
 THREADS_FROM_INCIDENCES = 200_000
@@ -63,5 +63,5 @@ class Preview:
         return seen.reshape(self.problem.table.grid.shape)
 
     def marginals(self) -> Marginals:
-        """What the rounds found, for `bayesmap.samplers.walls` and for a saved run."""
+        """What the rounds found, for `bayesmap.samplers.start` and for a saved run."""
         return Marginals(self.p_wall(), np.zeros(0), np.zeros(0), self.converged, self.converged, 0.0)

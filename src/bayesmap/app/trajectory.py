@@ -1,7 +1,8 @@
-"""`infer_trajectory` on a thread of its own, so that the worker goes on answering, and how far it is in pictures.
+"""Where a log's robot was: from raw odometry to the log along its inferred trajectory, with pictures of every stage.
 
-What the thread does not share with the worker's own thread needs no lock: it puts finished pictures into a queue.
-A job that is cancelled ends at its next sign of progress; another waits for that, so that they do not crowd each other.
+`infer_trajectory` works on a thread of its own, so that the worker goes on answering. What the thread does not share
+with the worker's own thread needs no lock: it puts finished pictures into a queue. A job that is cancelled ends at its
+next sign of progress; another waits for that, so that they do not crowd each other.
 """
 
 from __future__ import annotations
@@ -10,23 +11,28 @@ import queue
 import threading
 import time
 from collections.abc import Generator
-from dataclasses import dataclass
+from contextlib import closing
+from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.app.along import counted_map, grown
-from bayesmap.app.hit_counts import Counted
-from bayesmap.poses.pipeline import infer_trajectory
+from bayesmap.app.document import Document
+from bayesmap.app.hit_maps import Counted, counted_map, grown, scene_along
+from bayesmap.app.shown.result import COUNTS, Result
+from bayesmap.app.sources import OpenedLog, opened_log
+from bayesmap.app.tasks import Mode, Remember
+from bayesmap.poses.slam import infer_trajectory
 from bayesmap.poses.trajectory import Trajectory, calibrated
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
 
+ASK_TO_RUN = "The poses of this log look like raw odometry: Run infers where the robot was"
 PICTURE_SECONDS, PICTURE_SHARE = 0.25, 0.1
 """From one picture of a stage to the next, at least, and the share of the time that pictures may take."""
 
 WAIT_SECONDS = 0.02
-
 STAGES = {
     "reading": "Reading the scans",
     "front end": "Matching scan to scan",
@@ -139,7 +145,7 @@ class TrajectoryJob:
         if stage == self._told and stage != "loops" and began < self._next:
             return
         self._told = stage
-        scans = self._scans.at(poses[np.argsort(self._in_time)])
+        scans = self._scans.moved_to(poses[np.argsort(self._in_time)])
         self._grid = grown(self._grid, scans)
         self._looks.put(PathSoFar(stage, self._done, self._of, scans, self._grid, counted_map(scans, self._grid)))
         now = time.monotonic()
@@ -155,7 +161,7 @@ def in_time(scans: Scans) -> NDArray[np.intp]:
 
 def along(scans: Scans, found: Trajectory) -> Scans:
     """The scans at their inferred poses, with the angles between beams that were found, in the order of the log."""
-    there = scans.at(found.poses[np.argsort(found.order)])
+    there = scans.moved_to(found.poses[np.argsort(found.order)])
     return calibrated(there, found.calibration.angle_step_ratio)
 
 
@@ -167,3 +173,99 @@ def summary(scans: Scans, found: Trajectory) -> str:
     flagged = int(found.flagged.sum())
     doubt = f"; {flagged} scans stay badly explained" if flagged else ""
     return f"Trajectory inferred: odometry was off by up to {moved_m:.1f} m; loop closures: {closed}{doubt}"
+
+
+@dataclass(frozen=True, eq=False)
+class Step:
+    """What there is to show.
+
+    Attributes:
+        grid: of the map.
+        result: the map along the poses so far.
+        stage: the message `stage`, or None while nothing is inferred.
+        text: for the status line, or empty.
+    """
+
+    grid: Grid
+    result: Result
+    stage: dict[str, Any] | None = None
+    text: str = ""
+
+
+@dataclass(frozen=True, eq=False)
+class Said:
+    """Another report: its kind, and its fields."""
+
+    kind: str
+    fields: dict[str, Any]
+
+
+class Locating:
+    """The trajectory of one log.
+
+    Attributes:
+        log: as it was opened.
+        placed: the same along its inferred trajectory, once that is there.
+    """
+
+    def __init__(self, log: OpenedLog) -> None:
+        self.log = log
+        self.placed: OpenedLog | None = None
+
+    def log_of(self, document: Document) -> OpenedLog:
+        """The log that a document is inferred from: along its inferred trajectory, if that is asked for and there."""
+        return self.placed if document.from_odometry and self.placed is not None else self.log
+
+    def remember(self, known: Remember) -> None:
+        """Take over what was inferred before."""
+        self._place(replace(self.log.scans.moved_to(known.poses), angles_rad=known.angles_rad, own_angles_rad=None))
+
+    def steps(self, document: Document, mode: Mode) -> Generator[Step | Said | None, None, None]:
+        """What there is to show and to say until the log can be mapped; None while there is nothing new.
+
+        A "run" infers the trajectory, unless it is known already; "clear" forgets it; without it the map along the
+        poses of the log is shown, at once.
+
+        Raises:
+            BadInput: as `bayesmap.poses.slam.infer_trajectory`.
+        """
+        if mode == "clear" and self.placed is not None:
+            self.placed = None
+            yield Said("trajectory", {"found": None})
+        if self.placed is None and mode == "run":
+            yield from self._infer(document)
+        elif self.placed is None:
+            grid = self.log.on_cells(document).grid
+            counted = counted_map(self.log.scans.select(slice(document.scans_used)), grid)
+            yield _step(document, self.log.scans, grid, counted, None, ASK_TO_RUN)
+
+    def _infer(self, document: Document) -> Generator[Step | Said | None, None, None]:
+        scans, grid = self.log.scans, self.log.on_cells(document).grid
+        yield _step(document, scans, grid, counted_map(scans, grid), ("reading", 0, 1), STAGES["reading"])
+        job, named = TrajectoryJob(scans, grid), ""
+        with closing(job.looks()) as looks:
+            for look in looks:
+                if look is None:
+                    yield None
+                    continue
+                text = "" if look.stage == named else STAGES[look.stage]
+                named = look.stage
+                yield _step(document, look.scans, look.grid, look.counted, (look.stage, look.done, look.of), text)
+        assert job.found is not None
+        there = along(scans, job.found)
+        self._place(there)
+        own = there.own_angles_rad
+        yield Said("trajectory", {"found": Remember(there.poses, there.angles_rad if own is None else own)})
+        yield Said("status", {"text": summary(scans, job.found), "level": "info"})
+
+    def _place(self, scans: Scans) -> None:
+        self.placed = opened_log(scans, self.log.document.source.name)
+
+
+def _step(
+    document: Document, scans: Scans, grid: Grid, counted: Counted, at: tuple[str, int, int] | None, text: str
+) -> Step:
+    scene = scene_along(scans, grid, document.prior)
+    result = Result(scene, document.on_grid(grid), COUNTS, counted=counted)
+    stage = None if at is None else {"name": at[0], "text": STAGES[at[0]], "done": at[1], "of": at[2]}
+    return Step(grid, result, stage, text)

@@ -15,8 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.app.document import SMALLEST_NOISE_M, Document
-from bayesmap.app.result import Result
-from bayesmap.app.scanning import hits
+from bayesmap.app.scene import hits
+from bayesmap.app.shown.result import Result
 from bayesmap.app.tasks import Report, WhereAmI
 from bayesmap.errors import BadInput
 from bayesmap.localization.belief import PoseBelief

@@ -1,22 +1,31 @@
-"""Chains that are watched while they run: the library's runner in short steps, the running mean, the kept draws."""
+"""Chains that are watched while they run: where they start, the library's runner in short steps, the kept draws."""
 
 from __future__ import annotations
 
 import math
 import time
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.app.recent import joined
-from bayesmap.cells.arrays import Draws
+from bayesmap.app.document import CHAIN_METHODS, Document
+from bayesmap.app.scene import Scene
+from bayesmap.app.shown.beliefs import Preview
+from bayesmap.cells.draws import Draws
 from bayesmap.model import Model
+from bayesmap.poses.prior import PosePrior, Uncertain
 from bayesmap.posterior.diagnostics import bulk_ess, rhat
-from bayesmap.run.chains import Chains, Record, Schedule
+from bayesmap.run.chains import Chains, Record
 from bayesmap.run.runner import BUFFER_BYTES, no_draws, sweeps
+from bayesmap.run.schedule import Schedule
+from bayesmap.samplers.methods import sampler_of
+from bayesmap.samplers.problem import WallProblem
+from bayesmap.samplers.propagate import ROUNDS, Marginals
 from bayesmap.samplers.sampler import Problem, Sampler
+from bayesmap.samplers.start import Start, start_maps
+from bayesmap.samplers.with_poses import MovableSampler, PoseProblem, WithPoses
 
 CHAINS = 2
 POSE_CHAINS = 16
@@ -34,6 +43,16 @@ LOOKS = 32
 DIAGNOSIS_SHARE = 0.1
 """Of the time that diagnostics of the growing trace may take; they are those of every sweep, as of the last time."""
 
+RECENT, RECENT_BYTES = 200, 16 << 20
+"""Maps of each chain that are remembered where none are kept."""
+
+SMALLEST_POSE_M = 0.001
+SMALLEST_HEADING_RAD = math.radians(0.05)
+"""Where only one of the two is uncertain, the other is taken as known up to this: a density needs a width."""
+
+FARTHEST_SIGMAS = 4.0
+EVENLY = (0.7548776662466927, 0.5698402909980532)
+
 
 @dataclass(frozen=True)
 class Mixing:
@@ -42,6 +61,16 @@ class Mixing:
     rhat: float
     ess: float
     log_joint: float
+
+
+def joined(before: Draws | None, after: Draws, most: int = RECENT) -> Draws:
+    """The last draws of both, as many of each chain as are to be remembered and fit in `RECENT_BYTES`."""
+    one = sum(a[:, :1].nbytes for a in after.arrays.values())
+    last = min(most, max(1, RECENT_BYTES // max(one, 1)))
+    if before is None or before.index.keys() != after.index.keys():
+        before = replace(after, arrays={name: a[:, :0] for name, a in after.arrays.items()})
+    both = {name: np.concatenate([before.arrays[name], a], axis=1)[:, -last:] for name, a in after.arrays.items()}
+    return replace(after, arrays=both)
 
 
 class Stream:
@@ -121,7 +150,7 @@ class Stream:
 
     @property
     def recent(self) -> Draws:
-        """The last maps, kept or not; see `bayesmap.app.recent`."""
+        """The last maps, kept or not; see `bayesmap.app.shown.chains`."""
         return self._recent
 
     def mean(self) -> NDArray[np.float64]:
@@ -175,3 +204,77 @@ class Stream:
             n_incidences=self.problem.n_incidences,
             seconds={"trace": 0.0, "warm_start": 0.0, "sampling": self.seconds}, finished=self.done,
         )  # fmt: skip
+
+
+def pose_prior(document: Document) -> PosePrior | None:
+    """What is believed of the sensors' poses where they are uncertain and the method can take them so; else None."""
+    sigma_m, sigma_rad = document.pose_sigma, document.heading_sigma
+    if not document.simulated or document.sampler not in CHAIN_METHODS or not (sigma_m > 0 or sigma_rad > 0):
+        return None
+    return Uncertain(max(sigma_m, SMALLEST_POSE_M), max(sigma_rad, SMALLEST_HEADING_RAD))
+
+
+def pose_starts(document: Document, chains: int) -> NDArray[np.float64]:
+    """Poses of all sensors from which chains start: the document's, shifted by whole cells, (chains, S, 3).
+
+    A map and all its sensors can be shifted together by whole cells without a change of the likelihood (but for what
+    falls off the border), so that the posterior has a place at every such shift, as probable as the prior says: with S
+    sensors exp(-S s^2 / (2 sigma^2)). No chain gets from one to the next, hence they are dealt out in these shares;
+    between the cells walls do not fit, and chains that started there would take long to leave.
+    """
+    poses = np.array([(sensor.x, sensor.y, sensor.yaw) for sensor in document.sensors])
+    sigma = max(document.pose_sigma, SMALLEST_POSE_M) / math.sqrt(len(poses)) / document.grid.resolution
+    most = math.ceil(FARTHEST_SIGMAS * sigma)
+    cells = np.arange(-most, most + 1)
+    shares = np.cumsum(np.exp(-0.5 * (cells / sigma) ** 2))
+    # Points that fill the square evenly, however many are taken (the additive recurrence of Roberts, 2018).
+    points = (0.5 + np.outer(np.arange(chains), EVENLY)) % 1.0
+    shifts = cells[np.searchsorted(shares / shares[-1], points)] * document.grid.resolution
+    starts = np.repeat(poses[None], chains, axis=0)
+    starts[:, :, :2] += shifts[:, None]
+    return starts
+
+
+def chains_of_walls(scene: Scene, document: Document, begun: NDArray[np.bool_], *, keep: bool) -> Stream:
+    """Chains that start from these maps, one a chain, (chains, nx, ny).
+
+    Poses that are uncertain are sampled along with the walls, as in `bayesmap.infer(..., poses=Uncertain(...))`
+    without warm-up and with `pose_starts`.
+    """
+    walls = scene.problem
+    model = scene.model(walls.prior)
+    name = walls.prior.methods[document.sampler]
+    sampler, _ = sampler_of(name, walls.grid, document.order, begun, ROUNDS)  # type: ignore[arg-type]
+    poses = pose_prior(document)
+    if poses is None:
+        return Stream(model, sampler, walls, document.sweeps, document.seed, keep=keep)
+    model = replace(model, poses=poses)
+    joint = PoseProblem(model, walls.for_any_poses(), walls.device, walls.threads)
+    both = WithPoses(cast(MovableSampler, sampler), 0, pose_starts(document, POSE_CHAINS))
+    return Stream(model, both, joint, document.sweeps, document.seed, keep=keep)
+
+
+def starts(problem: WallProblem, document: Document, preview: Preview | None) -> NDArray[np.bool_]:
+    """One map a chain, (chains, nx, ny), that depends on the document alone.
+
+    "prior" and "empty" are what they say. "auto" is prior draws where there is no preview. After one, the first chain
+    of a simulation starts from what belief propagation says and the second from the empty map, and so on in turn:
+    chains that started alike would agree on a wrong answer long before they have left it. On a file, whose maps are
+    large, all start from belief propagation, with prior draws where it says nothing.
+    """
+    chains = CHAINS if pose_prior(document) is None else POSE_CHAINS
+
+    def maps(kind: Start, marginals: Marginals | None = None) -> NDArray[np.bool_]:
+        return start_maps(problem, kind, range(chains), document.seed, marginals)
+
+    if document.start == "empty":
+        return maps("zeros")
+    if document.start == "prior" or preview is None:
+        return maps("prior")
+    likely = maps("propagate", preview.marginals())
+    if not document.simulated:
+        return likely
+    likely[1::2] = False
+    if chains > CHAINS:  # a map that is shifted starts empty: the beliefs are those of another place
+        likely[(pose_starts(document, chains) != pose_starts(document, 1)).any(axis=(1, 2))] = False
+    return likely

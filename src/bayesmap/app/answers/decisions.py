@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.app.document import Document
-from bayesmap.app.result import Result
+from bayesmap.app.shown.result import Result
 from bayesmap.app.tasks import FindPath, FindViews
 from bayesmap.cells.arrays import Draws
 from bayesmap.cells.kind import CellPrior

@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.app.ghost import predictor_of_result
-from bayesmap.app.result import Result
+from bayesmap.app.answers.ghost import predictor_of_result
+from bayesmap.app.shown.result import Result
 from bayesmap.app.tasks import CompareBeam
 from bayesmap.beams.rays import Rays
 from bayesmap.posterior.predictor import CENTRAL_80, Predictor

@@ -11,12 +11,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.app.document import Document
-from bayesmap.app.hit_counts import Counted
-from bayesmap.app.judging import Verdict, difference, judge_chains, judge_particles
-from bayesmap.app.pilot import Pilot
-from bayesmap.app.preview import Preview
-from bayesmap.app.scanning import Scene
-from bayesmap.app.stream import Stream
+from bayesmap.app.hit_maps import Counted
+from bayesmap.app.scene import Scene
+from bayesmap.app.shown.beliefs import Preview
+from bayesmap.app.shown.chains import Stream
+from bayesmap.app.shown.pilot import Pilot
+from bayesmap.app.shown.verdict import Verdict, difference, judge_chains, judge_particles
 from bayesmap.app.tasks import OWN_LAYERS, View
 from bayesmap.cells.arrays import Draws
 from bayesmap.cells.kind import CellPrior

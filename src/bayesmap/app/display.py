@@ -6,8 +6,8 @@ import time
 from collections.abc import Callable
 from typing import Any
 
-from bayesmap.app.result import Result
-from bayesmap.app.scanning import Scene, rays
+from bayesmap.app.scene import Scene, rays
+from bayesmap.app.shown.result import Result
 from bayesmap.app.tasks import OWN_LAYERS, Infer, Report, View
 from bayesmap.space.grid import Grid
 

@@ -17,12 +17,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.app.document import Document
-from bayesmap.app.recent import joined
-from bayesmap.app.scanning import Scene
-from bayesmap.cells.arrays import Draws
+from bayesmap.app.scene import Scene
+from bayesmap.app.shown.chains import joined
+from bayesmap.cells.draws import Draws
 from bayesmap.cells.kinds import BUILT_IN
 from bayesmap.model import Model
-from bayesmap.samplers.fit import PILOT_SWEEPS, first_sensor, pilot_sweeps
+from bayesmap.samplers.fit import PILOT_SWEEPS, first_sensor, piloting
 from bayesmap.samplers.methods import sampler_of
 from bayesmap.samplers.propagate import ROUNDS
 from bayesmap.samplers.sampler import Keep
@@ -79,7 +79,7 @@ def fit_by_pilot(scene: Scene, document: Document, show: Callable[[Pilot], None]
     sampler, _ = sampler_of(prior.methods["gibbs"], model.grid, "radial", None, ROUNDS)
     problem = sampler.prepare(model, "cpu")
     yield
-    pilot = pilot_sweeps(problem, document.seed, PILOT_SWEEPS, keep=Keep(every=1))
+    pilot = piloting(problem, document.seed, PILOT_SWEEPS, keep=Keep(every=1))
     draws: Draws | None = None
     for sweep, (now, info) in enumerate(pilot, 1):
         problem, model = problem.under(now.sensor, now.prior), replace(model, sensor=now.sensor, cells=now.prior)

@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.app.deciding import maps_of
-from bayesmap.app.result import Result
-from bayesmap.app.scanning import Scene, hits
+from bayesmap.app.answers.decisions import maps_of
+from bayesmap.app.scene import Scene, hits
+from bayesmap.app.shown.result import Result
 from bayesmap.app.tasks import MoveGhost
 from bayesmap.errors import BadInput
 from bayesmap.posterior.predictor import MapStates, Predictor, ScanPredictor, fixed_maps
