@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from bayesmap.app import scene as scanning
-from bayesmap.app.document import Sensor
+from bayesmap.app.protocol.document import Sensor
 from bayesmap.app.scene import simulated_scene
 from bayesmap.app.shown.beliefs import Preview
 from bayesmap.app.worlds import new_document, tutorial_document

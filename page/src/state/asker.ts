@@ -1,6 +1,6 @@
 // What an answer about the posterior needs of the session: what is on show, and a way to ask.
 
-import type { Field, MapDocument, Message, Pair, Scan } from "../protocol";
+import type { Action, DrawCount, Field, MapDocument, Pair, Scan } from "../protocol";
 
 export interface Asker {
   readonly document: MapDocument | null;
@@ -10,7 +10,7 @@ export interface Asker {
   readonly scan: Scan | null;
   /** The newest generation that was seen. */
   readonly generation: number;
-  readonly draws: { chains: number; count: number };
+  readonly draws: DrawCount;
   /** Whether there is a chain on show, and it goes on. */
   readonly sampling: boolean;
   /** Whether the map is a drawn one, whose walls and sensors can be edited. */
@@ -18,8 +18,7 @@ export interface Asker {
   /** Whether the page plays a recording. */
   readonly recorded: boolean;
   readonly worker: string;
-  /** Sends a message. */
-  act(message: Message): void;
+  act(action: Action): void;
   /** Is called after every change of what is shown. */
   readonly changed: () => void;
 }

@@ -6,14 +6,14 @@ yet. A page paints one picture while the worker computes the next; where paintin
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Mapping
+from collections.abc import Hashable
 from dataclasses import dataclass, replace
-from typing import Any, Generic, TypeVar
+from typing import Generic, TypeVar
 
-from bayesmap.app.edits import EDITS, gesture_of, merged
+from bayesmap.app.edits import gesture_of, merged
+from bayesmap.app.protocol.actions import AnyAction
 
-Message = Mapping[str, Any]
-From = tuple[int, Message]
+From = tuple[int, AnyAction]
 T = TypeVar("T")
 DEPTH = 200
 
@@ -96,15 +96,14 @@ class Pace:
         self._waiting: From | None = None
         self._unpainted: dict[int, list[int]] = {}
 
-    def take(self, client: int, message: Message) -> list[From]:
-        """A message has come: what is to be applied now, in order."""
-        of_gesture = message["type"] in EDITS and gesture_of(message, client) is not None
-        if not of_gesture or not self._must_wait(client):
-            return [*self._let_go(), (client, message)]
-        before, self._waiting = self._waiting, (client, message)
+    def take(self, client: int, action: AnyAction) -> list[From]:
+        """Take an action; return what is to be applied now, in order."""
+        if gesture_of(action, client) is None or not self._must_wait(client):
+            return [*self._let_go(), (client, action)]
+        before, self._waiting = self._waiting, (client, action)
         if before is None:
             return []
-        one = merged(before[1], message) if before[0] == client else None
+        one = merged(before[1], action) if before[0] == client else None
         if one is None:
             return [before]
         self._waiting = client, one

@@ -6,12 +6,13 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.app.document import SMALLEST_NOISE_M, Document
+from bayesmap.app.protocol.document import SMALLEST_NOISE_M, Document
+from bayesmap.app.protocol.notices import Scan
+from bayesmap.app.protocol.tasks import Buffers
 from bayesmap.beams.table import BeamTable
 from bayesmap.cells.binary import BinaryWalls, Independent
 from bayesmap.cells.kind import CellPrior
@@ -112,7 +113,7 @@ def simulate_document(document: Document) -> tuple[Scans, NDArray[np.float64]]:
     """Scans of all sensors, and the noise-free ranges, (S, A); exact readings are those."""
     poses = np.array([(s.x, s.y, s.yaw) for s in document.sensors])
     angles = fan(document.angles, math.degrees(document.fov))
-    exact = ranges(document.walls.cells, document.grid, poses, angles, document.max_range)
+    exact = ranges(document.is_wall, document.grid, poses, angles, document.max_range)
     noise = np.stack([standard_noise(document.seed, s.id, document.angles) for s in document.sensors])
     sigma_m = max(document.noise, SMALLEST_NOISE_M) if document.readings == "noisy" else 0.0
     readings = exact + sigma_m * noise
@@ -195,14 +196,12 @@ def hits(scene: Scene) -> NDArray[np.bool_]:
     return np.asarray(np.isfinite(ranges_m) & (ranges_m < limit - BLUR_SIGMAS * blur))
 
 
-def rays(scene: Scene, scan: int | None) -> tuple[dict[str, Any], dict[str, NDArray[Any]]]:
-    """Header and buffers of the message `scan`: all scans of a simulation, one of a file."""
+def rays(scene: Scene, scan: int | None, generation: int) -> tuple[Scan, Buffers]:
+    """Make the message `scan`: all scans of a simulation, or one of a file."""
     some = slice(None) if scan is None else slice(scan, scan + 1)
-    header: dict[str, Any] = {"type": "scan", "ids": list(scene.ids[some])}
-    if scan is not None:
-        header |= {"index": scan, "ids": [scan + 1]}
+    ids = list(scene.ids) if scan is None else [scan + 1]
     exact = scene.exact_m[some] if len(scene.exact_m) else scene.exact_m
-    return header, {
+    return Scan(ids, scan, generation=generation), {
         "pose": scene.scans.poses[some],
         # Only the scans of a file have beams of their own, and those are sent one at a time.
         "angles": (scene.scans.angles_rad if scan is None else scene.scans.angles_by_scan()[scan]).astype(np.float32),

@@ -3,30 +3,36 @@
 from __future__ import annotations
 
 import json
+import math
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 from typing import Any, Protocol
 
 import numpy as np
+from numpy.typing import NDArray
 
-from bayesmap.app.document import (
+from bayesmap.app.protocol.document import (
     LARGEST_SIDE_OF_FILE,
     LARGEST_SIDE_OF_LOG,
     METHODS,
     Document,
     Refused,
     Source,
-    WallMap,
+    no_walls,
 )
-from bayesmap.app.hit_maps import Counted, HitCounts, coarse_map
-from bayesmap.app.parsing import parse_simulation
+from bayesmap.app.protocol.wire import parse_simulation
 from bayesmap.app.scene import Beams, Scene
-from bayesmap.app.shown.result import HITS, Result
+from bayesmap.app.shown.hit_maps import Counted, CountResult, HitCounts, coarse_map
+from bayesmap.app.shown.result import Figures, Result
+from bayesmap.app.shown.verdict import judge_chains
 from bayesmap.beams.table import BeamTable
 from bayesmap.cells.binary import Independent
+from bayesmap.cells.draws import Draws
+from bayesmap.cells.kind import CellPrior
 from bayesmap.cells.kinds import BUILT_IN
 from bayesmap.errors import BadInput
+from bayesmap.posterior.diagnostics import bulk_ess, rhat
 from bayesmap.result import Run, load
 from bayesmap.sensors.model import SensorModel
 from bayesmap.sensors.noise import Gaussian
@@ -77,7 +83,98 @@ class OpenedRun:
 
     def result(self) -> Result:
         """The run."""
-        return Result(self._scene, self.document, str(self.run.posterior.settings.get("method", "gibbs")), run=self.run)
+        return RunResult(self._scene, self.document, self.run)
+
+
+@dataclass(frozen=True, eq=False)
+class RunResult(Result):
+    """A saved run."""
+
+    run: Run
+
+    @property
+    def method(self) -> str:
+        """As the run's settings name it."""
+        return str(self.run.posterior.settings.get("method", "gibbs"))
+
+    @property
+    def prior(self) -> CellPrior:
+        """The run's."""
+        return self.run.posterior.prior
+
+    @property
+    def figures(self) -> Figures:
+        """Sweeps, and whether the chains agree, as far as the kept draws tell."""
+        sweeps, joint = self.run.posterior.sweep, self.run.log_joint
+        if not joint.size:
+            return Figures(sweeps, sweeps)
+        constant = np.ptp(joint) == 0
+        ess, r = (math.nan, math.nan) if constant else (bulk_ess(joint), rhat(joint))
+        verdict = judge_chains(r, ess, sweeps, None, over=True)
+        return Figures(sweeps, sweeps, ess, r, float(joint[:, -1].mean()), verdict)
+
+    @property
+    def kept(self) -> Draws | None:
+        """The run's draws."""
+        return self.run.posterior.draws if self.run.posterior.draws.count else None
+
+    @property
+    def origin(self) -> object:
+        """The run."""
+        return self.run
+
+    @property
+    def law(self) -> tuple[SensorModel, float]:
+        """The run's.
+
+        Raises:
+            BadInput: a sensor model that only the run's maker had.
+        """
+        if self.run.posterior.sensor is None:
+            raise BadInput("the run's sensor model is not one of bayesmap's, so nothing can be predicted")
+        return super().law
+
+    @cached_property
+    def _scan_poses(self) -> NDArray[np.float64]:
+        if not self.run.n_draws or "poses" not in self.run.posterior.draws.arrays:
+            return super().scan_poses
+        x, y, yaw = np.moveaxis(self.run.poses, -1, 0).reshape(3, -1, len(self.scene.scans))
+        heading = np.arctan2(np.sin(yaw).mean(axis=0), np.cos(yaw).mean(axis=0))
+        return np.column_stack([x.mean(axis=0), y.mean(axis=0), heading])
+
+    @property
+    def scan_poses(self) -> NDArray[np.float64]:
+        """Where the scans were taken, (S, 3): the mean over draws where poses were inferred."""
+        return self._scan_poses
+
+    def mean(self) -> NDArray[np.float64]:
+        """The run's, 0.5 where it says nothing."""
+        return np.nan_to_num(self.run.occupancy, nan=0.5)
+
+    def observed(self) -> NDArray[np.bool_]:
+        """The run's."""
+        return self.run.observed
+
+    def log_joint(self) -> NDArray[np.float64]:
+        """Of every kept draw, (chains, n)."""
+        return self.run.log_joint
+
+    def draw(self, chain: int | None, number: int | None) -> tuple[NDArray[Any], int, int] | None:
+        """Return a kept draw; without a number, or past the last, the last."""
+        if not self.run.n_draws:
+            return None
+        last = self.run.n_draws - 1
+        which = min(chain or 0, len(self.run.log_joint) - 1)
+        wanted = last if number is None else min(number, last)
+        return self.run.map_of(which, wanted), which, wanted
+
+    def as_run(self) -> Run:
+        """Return the run."""
+        return self.run
+
+    def write_map(self, target: Path) -> list[Path]:
+        """Write the run's map for map_server, by its own thresholds; return the files."""
+        return list(self.run.export(target))
 
 
 @dataclass(eq=False)
@@ -142,7 +239,7 @@ class OpenedLog:
         p_wall = coarse_map(counts, Independent(document.prior) if prior is None else prior, document.prior)
         shape = document.grid.shape
         counted = Counted(p_wall.reshape(shape), counts.any(axis=0).reshape(shape), prior)
-        return Result(self.scene(document), document, HITS, counted=counted)
+        return CountResult(self.scene(document), document, counted)
 
     def _of(self, grid: Grid) -> Traced:
         """The beams on a grid; those on the last one are kept."""
@@ -211,7 +308,7 @@ def opened_run(run: Run, name: str) -> OpenedRun:
         document,
         method=method if method in METHODS else "gibbs",
         order=settings.get("order") or "radial",  # cells of numbers have none
-        cells=run.posterior.prior.words.kind,
+        cells=run.posterior.prior.words.kind,  # type: ignore[arg-type]
         sweeps=max(1, min(100_000, int(run.posterior.sweep))),
         seed=min(2**31 - 1, int(settings.get("seed", 0))),
     )
@@ -233,9 +330,9 @@ def opened_log(scans: Scans, name: str) -> OpenedLog:
     if max(grid.shape) > LARGEST_SIDE_OF_LOG:
         grid = Grid.covering(scans, LOG_RESOLUTION_M * -(-max(grid.shape) // LARGEST_SIDE_OF_LOG))
     document = _document(grid, scans, Source("log", name, len(scans)), P_WALL)
-    poses = "odometry" if look_like_odometry(scans) else "logged"
     source = replace(document.source, bounds=bounds_m(scans))
-    return OpenedLog(replace(document, sweeps=LOG_SWEEPS, poses=poses, source=source), scans)
+    document = replace(document, sweeps=LOG_SWEEPS, source=source)
+    return OpenedLog(replace(document, poses="odometry") if look_like_odometry(scans) else document, scans)
 
 
 def _document(grid: Grid, scans: Scans, source: Source, prior: float) -> Document:
@@ -243,7 +340,7 @@ def _document(grid: Grid, scans: Scans, source: Source, prior: float) -> Documen
         raise BadInput(f"{source.name}: {grid.shape} cells are too many for the page, at most {LARGEST_SIDE_OF_FILE}")
     return Document(
         grid=grid,
-        walls=WallMap.none(grid.shape),
+        walls=no_walls(grid),
         sensors=(),
         prior=float(prior),
         angles=len(scans.angles_rad),

@@ -13,16 +13,15 @@ import time
 from collections.abc import Generator
 from contextlib import closing
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.app.document import Document
-from bayesmap.app.hit_maps import Counted, counted_map, grown, scene_along
-from bayesmap.app.shown.result import COUNTS, Result
+from bayesmap.app.protocol.document import Document
+from bayesmap.app.protocol.notices import Stage, Status
+from bayesmap.app.protocol.tasks import Infer, Located, Remember
+from bayesmap.app.shown.hit_maps import Counted, CountResult, counted_map, grown, scene_along
 from bayesmap.app.sources import OpenedLog, opened_log
-from bayesmap.app.tasks import Mode, Remember
 from bayesmap.poses.slam import infer_trajectory
 from bayesmap.poses.trajectory import Trajectory, calibrated
 from bayesmap.space.grid import Grid
@@ -182,25 +181,17 @@ class Step:
     Attributes:
         grid: of the map.
         result: the map along the poses so far.
-        stage: the message `stage`, or None while nothing is inferred.
+        stage: how far the inference is, or None while nothing is inferred.
         text: for the status line, or empty.
     """
 
     grid: Grid
-    result: Result
-    stage: dict[str, Any] | None = None
+    result: CountResult
+    stage: Stage | None = None
     text: str = ""
 
 
-@dataclass(frozen=True, eq=False)
-class Said:
-    """Another report: its kind, and its fields."""
-
-    kind: str
-    fields: dict[str, Any]
-
-
-class Locating:
+class Localization:
     """The trajectory of one log.
 
     Attributes:
@@ -220,7 +211,7 @@ class Locating:
         """Take over what was inferred before."""
         self._place(replace(self.log.scans.moved_to(known.poses), angles_rad=known.angles_rad, own_angles_rad=None))
 
-    def steps(self, document: Document, mode: Mode) -> Generator[Step | Said | None, None, None]:
+    def steps(self, task: Infer) -> Generator[Step | Located | Status | None, None, None]:
         """What there is to show and to say until the log can be mapped; None while there is nothing new.
 
         A "run" infers the trajectory, unless it is known already; "clear" forgets it; without it the map along the
@@ -229,19 +220,19 @@ class Locating:
         Raises:
             BadInput: as `bayesmap.poses.slam.infer_trajectory`.
         """
-        if mode == "clear" and self.placed is not None:
+        if task.mode == "clear" and self.placed is not None:
             self.placed = None
-            yield Said("trajectory", {"found": None})
-        if self.placed is None and mode == "run":
-            yield from self._infer(document)
+            yield Located(None, generation=task.generation)
+        if self.placed is None and task.mode == "run":
+            yield from self._infer(task)
         elif self.placed is None:
-            grid = self.log.on_cells(document).grid
-            counted = counted_map(self.log.scans.select(slice(document.scans_used)), grid)
-            yield _step(document, self.log.scans, grid, counted, None, ASK_TO_RUN)
+            grid = self.log.on_cells(task.document).grid
+            counted = counted_map(self.log.scans.select(slice(task.document.scans_used)), grid)
+            yield _step(task, self.log.scans, grid, counted, None, ASK_TO_RUN)
 
-    def _infer(self, document: Document) -> Generator[Step | Said | None, None, None]:
-        scans, grid = self.log.scans, self.log.on_cells(document).grid
-        yield _step(document, scans, grid, counted_map(scans, grid), ("reading", 0, 1), STAGES["reading"])
+    def _infer(self, task: Infer) -> Generator[Step | Located | Status | None, None, None]:
+        scans, grid = self.log.scans, self.log.on_cells(task.document).grid
+        yield _step(task, scans, grid, counted_map(scans, grid), ("reading", 0, 1), STAGES["reading"])
         job, named = TrajectoryJob(scans, grid), ""
         with closing(job.looks()) as looks:
             for look in looks:
@@ -250,22 +241,24 @@ class Locating:
                     continue
                 text = "" if look.stage == named else STAGES[look.stage]
                 named = look.stage
-                yield _step(document, look.scans, look.grid, look.counted, (look.stage, look.done, look.of), text)
+                yield _step(task, look.scans, look.grid, look.counted, (look.stage, look.done, look.of), text)
         assert job.found is not None
-        there = along(scans, job.found)
-        self._place(there)
-        own = there.own_angles_rad
-        yield Said("trajectory", {"found": Remember(there.poses, there.angles_rad if own is None else own)})
-        yield Said("status", {"text": summary(scans, job.found), "level": "info"})
+        placed = along(scans, job.found)
+        self._place(placed)
+        own = placed.own_angles_rad
+        known = Remember(placed.poses, placed.angles_rad if own is None else own)
+        yield Located(known, generation=task.generation)
+        yield Status(summary(scans, job.found), "info")
 
     def _place(self, scans: Scans) -> None:
         self.placed = opened_log(scans, self.log.document.source.name)
 
 
-def _step(
-    document: Document, scans: Scans, grid: Grid, counted: Counted, at: tuple[str, int, int] | None, text: str
-) -> Step:
-    scene = scene_along(scans, grid, document.prior)
-    result = Result(scene, document.on_grid(grid), COUNTS, counted=counted)
-    stage = None if at is None else {"name": at[0], "text": STAGES[at[0]], "done": at[1], "of": at[2]}
+def _step(task: Infer, scans: Scans, grid: Grid, counted: Counted, at: tuple[str, int, int] | None, text: str) -> Step:
+    scene = scene_along(scans, grid, task.document.prior)
+    result = CountResult(scene, task.document.on_grid(grid), counted, along_odometry=True)
+    stage = None
+    if at is not None:
+        name, done, of = at
+        stage = Stage(name, STAGES[name], done, of, generation=task.generation)
     return Step(grid, result, stage, text)

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import math
 from dataclasses import asdict
-from typing import Any
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.app.answers.ghost import predictor_of_result
+from bayesmap.app.protocol.actions import CompareBeam
+from bayesmap.app.protocol.notices import ComparedBeam, SurfaceOffset
 from bayesmap.app.shown.result import Result
-from bayesmap.app.tasks import CompareBeam
 from bayesmap.beams.rays import Rays
 from bayesmap.posterior.predictor import CENTRAL_80, Predictor
 from bayesmap.posterior.residuals import surface_offset
@@ -21,8 +22,8 @@ NEAR_CELLS = 2.0
 """A reading further than this from the mean of every surface on its beam, in cells, ended at none of them."""
 
 
-def beam_message(result: Result, task: CompareBeam) -> dict[str, Any]:
-    """Fields of the message `beam`.
+def compared_beam(result: Result, task: CompareBeam, generation: int) -> ComparedBeam:
+    """Compare a reading with its prediction.
 
     Raises:
         BadInput: there is nothing to predict from, or the sensor's law does not add up to one.
@@ -44,21 +45,22 @@ def beam_message(result: Result, task: CompareBeam) -> dict[str, Any]:
     low, median, high = range_quantiles(stops, np.array(CENTRAL_80), predictor.sensor)[0]
     found = forecast(rays, predictor.batches(rays.touched), predictor.sensor, predictor.hit_depth)
     reading = float(one.ranges_m[0, 0])
-    header = {
-        "scan": task.scan, "beam": task.beam, "draws": draws, "range": reading, "median": median, "low": low,
-        "high": high, "residual": reading - median, "nats": -found.log_density[0],
-        "no_return": found.p_no_return[0],
-    }  # fmt: skip
-    message: dict[str, Any] = {name: _finite(value) for name, value in header.items()}
-    message["draws"], message["scan"], message["beam"] = draws, task.scan, task.beam
-    message["reading"] = (
-        "hit" if math.isfinite(reading) else "none" if reading > 0 else "close" if reading < 0 else "bad"
-    )
     wall = None
     if math.isfinite(reading):
         weight, distance_m = stops.weight.astype(np.float64), stops.distance_m.astype(np.float64)
         wall = _wall(result, predictor, rays, weight, distance_m, reading)
-    return {**message, "wall": wall}
+    return ComparedBeam(
+        generation=generation, scan=task.scan, beam=task.beam, draws=draws, reading=_kind(reading),
+        range=_finite(reading), low=_finite(low), median=_finite(median), high=_finite(high),
+        residual=_finite(reading - median), nats=_finite(-found.log_density[0]),
+        no_return=_finite(found.p_no_return[0]), wall=wall,
+    )  # fmt: skip
+
+
+def _kind(reading_m: float) -> Literal["hit", "none", "close", "bad"]:
+    if math.isfinite(reading_m):
+        return "hit"
+    return "none" if reading_m > 0 else "close" if reading_m < 0 else "bad"
 
 
 def _finite(value: float) -> float | None:
@@ -72,7 +74,7 @@ def _wall(
     weight: NDArray[np.float64],
     distance_m: NDArray[np.float64],
     reading_m: float,
-) -> dict[str, float] | None:
+) -> SurfaceOffset | None:
     """The reading in the frame of the surface at which its beam most probably stopped; None where that is unknown."""
     surfaces = result.surfaces
     if surfaces is None or not rays.n_incidences:
@@ -89,4 +91,4 @@ def _wall(
     point = start + reading_m * rays.direction[0]
     if np.hypot(*(point - mean[number])) > NEAR_CELLS * predictor.grid.resolution:
         return None
-    return asdict(surface_offset(mean[number], covariance[number], point, start))
+    return SurfaceOffset(**asdict(surface_offset(mean[number], covariance[number], point, start)))

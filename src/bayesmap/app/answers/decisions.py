@@ -4,15 +4,16 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.app.document import Document
+from bayesmap.app.protocol.actions import FindPath
+from bayesmap.app.protocol.document import Document
+from bayesmap.app.protocol.notices import SafePath, Views
+from bayesmap.app.protocol.tasks import Buffers
 from bayesmap.app.shown.result import Result
-from bayesmap.app.tasks import FindPath, FindViews
-from bayesmap.cells.arrays import Draws
+from bayesmap.cells.draws import Draws
 from bayesmap.cells.kind import CellPrior
 from bayesmap.errors import BadInput
 from bayesmap.posterior.decisions import shortest_safe_path, typical_sigma_m
@@ -48,27 +49,23 @@ def maps_of(result: Result) -> Maps:
     raise BadInput("a path is judged by draws of the map, and there are none yet; run Gibbs")
 
 
-def path_message(result: Result, task: FindPath) -> dict[str, Any]:
-    """The message `path`: the shortest path that is safe enough, and the probability that it is free.
+def safe_path(result: Result, question: FindPath, generation: int) -> SafePath:
+    """Find the shortest path that is safe enough, and the probability that it is free.
 
     Raises:
         BadInput: no draws, or no path.
     """
-    route = shortest_safe_path(maps_of(result), task.start, task.goal, task.radius_m, task.risk)
-    return {
-        "path": route.path.tolist(),
-        "length_m": route.length_m,
-        "radius": task.radius_m,
-        "within_risk": route.within_risk,
-        "probability": route.free.probability,
-        "standard_error": route.free.standard_error,
-        "independent": route.free.independent,
-        "draws": int(route.free.blocked.size),
-    }
+    route = shortest_safe_path(maps_of(result), question.start, question.goal, question.radius, question.risk)
+    free = route.free
+    return SafePath(
+        generation=generation, path=route.path.tolist(), length_m=route.length_m, radius=question.radius,
+        within_risk=bool(route.within_risk), probability=free.probability, standard_error=free.standard_error,
+        independent=free.independent, draws=int(free.blocked.size),
+    )  # fmt: skip
 
 
-def views_message(result: Result, task: FindViews) -> tuple[dict[str, Any], dict[str, NDArray[Any]]]:
-    """Header and buffers of the message `views`: poses on a lattice of free places, and the nats expected from each.
+def views(result: Result, generation: int) -> tuple[Views, Buffers]:
+    """Find poses on a lattice of free places, and the nats expected from each.
 
     By the formula for independent cells and beams (`bayesmap.posterior.information.beam_information`).
 
@@ -91,7 +88,7 @@ def views_message(result: Result, task: FindViews) -> tuple[dict[str, Any], dict
     best = nats.argmax(axis=1)
     poses[:, 2] = turns[best]
     numbers = {"pose": poses.astype(np.float32), "nats": nats.max(axis=1).astype(np.float32)}
-    return {"spacing": spacing_m}, numbers
+    return Views(spacing_m, generation=generation), numbers
 
 
 def _lattice(

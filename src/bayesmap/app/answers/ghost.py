@@ -11,9 +11,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.app.answers.decisions import maps_of
+from bayesmap.app.protocol.actions import MoveGhost
+from bayesmap.app.protocol.notices import GhostScan, Near
+from bayesmap.app.protocol.tasks import Buffers
 from bayesmap.app.scene import Scene, hits
-from bayesmap.app.shown.result import Result
-from bayesmap.app.tasks import MoveGhost
+from bayesmap.app.shown.result import PriorResult, Result
 from bayesmap.errors import BadInput
 from bayesmap.posterior.predictor import MapStates, Predictor, ScanPredictor, fixed_maps
 from bayesmap.sensors.model import RangeLimits
@@ -36,7 +38,7 @@ LEAST_SHARED = 0.25
 """If it shares at least this part of its field of view."""
 
 
-class Ghost:
+class GhostPredictor:
     """Predicts scans by the result on show; its draws are put where kernels read them once for many questions."""
 
     def __init__(self) -> None:
@@ -46,51 +48,42 @@ class Ghost:
         self._few: ScanPredictor | None = None  # the same by `FEW_DRAWS`, once they have been asked for
         self._draws = 0
 
-    def answer(self, result: Result, task: MoveGhost) -> tuple[dict[str, Any], dict[str, NDArray[Any]]]:
-        """Header and buffers of the message `ghost`.
+    def answer(self, result: Result, question: MoveGhost, generation: int) -> tuple[GhostScan, Buffers]:
+        """Predict the scan of a pose, and find the scan that was taken nearest.
 
         Raises:
             BadInput: there is nothing to predict from, or the sensor's law does not add up to one.
         """
         began = time.perf_counter()
-        predictor, draws = self._ready(result, task.coarse)
-        document = result.document
-        angles = (
-            fan(document.angles, math.degrees(document.fov)) if document.simulated else result.scene.scans.angles_rad
-        )  # of a file those of its laser
-        pose = (task.x, task.y, task.yaw)
-        near = None if document.simulated else nearest_scan(result.scan_poses, pose, angles)
+        predictor, draws = self._ready(result, question.coarse)
+        document, scans = result.document, result.scene.scans
+        drawn = document.simulated
+        angles = fan(document.angles, math.degrees(document.fov)) if drawn else scans.angles_rad
+        pose = (question.x, question.y, question.yaw)
+        near = None if drawn else nearest_scan(result.scan_poses, pose, angles)
         if near is not None:
-            angles = result.scene.scans.angles_by_scan()[near["index"]]
+            angles = scans.angles_by_scan()[near.index]
         low, median, high = predictor.quantiles(pose, angles).T.astype(np.float32)
         buffers: dict[str, NDArray[Any]] = {
             "angles": angles.astype(np.float32), "low": low, "median": median, "high": high,
         }  # fmt: skip
-        header: dict[str, Any] = {
-            "x": task.x, "y": task.y, "yaw": task.yaw, "coarse": task.coarse, "draws": draws, "near": None,
-        }  # fmt: skip
         if near is not None:
-            header["near"] = near
-            buffers |= _taken(result.scene, result.scan_poses[near["index"]], near["index"])
-        header["milliseconds"] = round(1e3 * (time.perf_counter() - began), 1)
-        return header, buffers
+            buffers |= _taken(result.scene, result.scan_poses[near.index], near.index)
+        milliseconds = round(1e3 * (time.perf_counter() - began), 1)
+        return GhostScan(*pose, question.coarse, draws, near, milliseconds, generation=generation), buffers
 
     def _ready(self, result: Result, coarse: bool) -> tuple[ScanPredictor, int]:
-        """The predictor of a result, of which only some draws where those do, and how many draws are in it.
+        """Return the predictor of a result, of only some draws where those will do, and how many draws are in it.
 
         That of chains which go on is made anew now and then.
         """
-        stream, pilot = result.stream, result.pilot
-        made_of = (result.run, stream, None if pilot is None else result.scene)
-        of: object = next((part for part in made_of if part is not None), result)
-        sweep = stream.sweep if stream is not None else 0 if pilot is None else pilot.sweep
-        last = stream is not None and stream.done  # of what is done nothing is outdated
-        stale = sweep != self._sweep and (last or time.perf_counter() > self._until)
-        if self._predictor is None or of is not self._of or stale:
+        now = time.perf_counter()
+        stale = result.sweep != self._sweep and (result.ended or now > self._until)
+        if self._predictor is None or result.origin is not self._of or stale:
             predictor, self._draws = predictor_of_result(result)
             limits = RangeLimits(result.scene.scans.min_range_m, result.scene.scans.max_range_m)
-            self._predictor, self._few, self._of = ScanPredictor.of(predictor, limits), None, of
-            self._sweep, self._until = sweep, time.perf_counter() + STALE_SECONDS
+            self._predictor, self._few, self._of = ScanPredictor.of(predictor, limits), None, result.origin
+            self._sweep, self._until = result.sweep, time.perf_counter() + STALE_SECONDS
         if not coarse or self._draws <= FEW_DRAWS:
             return self._predictor, self._draws
         if self._few is None:
@@ -108,15 +101,11 @@ def predictor_of_result(result: Result) -> tuple[Predictor, int]:
     try:
         maps = maps_of(result)
     except BadInput:
-        if result.method == "none":
+        if isinstance(result, PriorResult):
             raise BadInput("there is nothing to predict from yet; run inference first") from None
         chances = result.mean().reshape(1, -1)
         return Predictor(grid, fixed_maps(chances), scene.sensor, scene.hit_depth), 0
-    sensor, depth = scene.sensor, scene.hit_depth
-    if result.run is not None and result.run.posterior.sensor is None:
-        raise BadInput("the run's sensor model is not one of bayesmap's, so nothing can be predicted")
-    if (chain := result.stream or result.pilot) is not None:
-        sensor, depth = chain.model.sensor, chain.model.hit_depth
+    sensor, depth = result.law
     one = grid.n_cells * (32 if maps.prior.has_surfaces else 4)
     some = maps.draws.thinned(int(np.clip(HELD_BYTES // one, maps.draws.chains, MOST_DRAWS)))
 
@@ -128,7 +117,7 @@ def predictor_of_result(result: Result) -> tuple[Predictor, int]:
 
 def nearest_scan(
     poses: NDArray[np.float64], pose: tuple[float, float, float], angles_rad: NDArray[np.float64]
-) -> dict[str, Any] | None:
+) -> Near | None:
     """The scan that was taken most nearly there: its index, how far away (metres) and turned by how much (radians).
 
     None where none was taken within `NEARBY_M` whose field of view shares `LEAST_SHARED` with the ghost's.
@@ -142,7 +131,7 @@ def nearest_scan(
     if not len(cost) or not np.isfinite(cost.min()):
         return None
     best = int(cost.argmin())
-    return {"index": best, "away": round(float(away[best]), 3), "turn": round(float(turn[best]), 4)}
+    return Near(best, round(float(away[best]), 3), round(float(turn[best]), 4))
 
 
 def _taken(scene: Scene, pose: NDArray[np.float64], index: int) -> dict[str, NDArray[Any]]:

@@ -9,15 +9,16 @@ from __future__ import annotations
 import math
 from collections.abc import Hashable
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.app.document import SMALLEST_NOISE_M, Document
+from bayesmap.app.protocol.actions import WhereAmI
+from bayesmap.app.protocol.document import SMALLEST_NOISE_M, Document
+from bayesmap.app.protocol.notices import Place, Whereabouts
+from bayesmap.app.protocol.tasks import Buffers
 from bayesmap.app.scene import hits
 from bayesmap.app.shown.result import Result
-from bayesmap.app.tasks import Report, WhereAmI
 from bayesmap.errors import BadInput
 from bayesmap.localization.belief import PoseBelief
 from bayesmap.localization.certain_map import locate
@@ -42,38 +43,41 @@ MOST_POSES = 1000
 """Of the cloud: those with the most weight."""
 
 
-class Whereabouts:
+class Locator:
     """Answers the question for one scan at a time; the map is made ready once."""
 
     def __init__(self) -> None:
         self._known: KnownMap | None = None
         self._of: Hashable = None
 
-    def answer(self, task: WhereAmI, result: Result | None, scan: int, generation: int) -> Report:
-        """The message `where`, with the cloud, or with the trouble that prevents it.
+    def answer(
+        self, question: WhereAmI, result: Result | None, scan: int, generation: int
+    ) -> tuple[Whereabouts, Buffers]:
+        """Find the places where a scan may have been taken, or say what prevents it.
 
         Args:
-            task: the question.
+            question: of a drawn world, about a sensor.
             result: what is shown.
-            scan: which one, of a file.
+            scan: index of the scan on show, of a file.
             generation: of the picture.
         """
-        header: dict[str, Any] = {"type": "where", "of": generation}
-        buffers: dict[str, NDArray[Any]] = {}
         try:
             if result is None:
                 raise BadInput("there is no map to be located in yet")
-            scans, seen = _scan_of(task, result, scan)
+            scans, name = _scan_of(question, result, scan)
             belief = _located(self._map(result), scans, result.document)
-            header |= {**seen, **described(belief), "pose": scans.poses[0].tolist()}
-            buffers = cloud(belief)
         except BadInput as error:
-            header["trouble"] = str(error).removeprefix("localize: ")
-        return Report(header, dict(buffers), task.client)
+            return Whereabouts(generation, trouble=str(error).removeprefix("localize: ")), {}
+        index, sensor = (None, name) if result.document.simulated else (name, None)
+        found = Whereabouts(
+            generation, sensor, index, scans.poses[0].tolist(), places(belief), float(belief.p_lost),
+            float(belief.nats_per_beam),
+        )  # fmt: skip
+        return found, cloud(belief)
 
     def _map(self, result: Result) -> KnownMap:
         document = result.document
-        of: Hashable = (id(result.run), id(result.stream))
+        of: Hashable = result.origin
         if document.simulated:
             of = (document.walls, document.grid, document.noise, document.max_range, document.angles, document.fov)
         if self._known is None or of != self._of:
@@ -88,7 +92,7 @@ def drawn_map(document: Document) -> KnownMap:
     Raises:
         BadInput: a world without a free cell.
     """
-    grid, walls = document.grid, document.walls.cells
+    grid, walls = document.grid, document.is_wall
     parts = max(1, math.ceil(grid.resolution / FINEST_M - 1e-9))
     parts = max(1, min(parts, math.isqrt(MOST_CELLS // grid.n_cells)))
     fine = np.repeat(np.repeat(walls, parts, axis=0), parts, axis=1).astype(np.float64)
@@ -108,13 +112,13 @@ def _typical_scans(document: Document) -> Scans:
     """What readings are like anywhere in a drawn world: a scan that could as well be from elsewhere tells nothing."""
     grid = document.grid
     rng = np.random.default_rng([document.seed, STREAM_TYPICAL])
-    free = np.argwhere(~document.walls.cells)
+    free = np.argwhere(~document.is_wall)
     if not len(free):
         raise BadInput("the map has no free cell in which a robot could be")
     cells = free[rng.integers(len(free), size=TYPICAL)] + rng.random((TYPICAL, 2))
     poses = np.column_stack([np.array(grid.origin) + cells * grid.resolution, rng.uniform(-np.pi, np.pi, TYPICAL)])
     angles = fan(document.angles, math.degrees(document.fov))
-    exact = ranges(document.walls.cells, grid, poses, angles, document.max_range)
+    exact = ranges(document.is_wall, grid, poses, angles, document.max_range)
     noisy = exact + _sigma_m(document) * rng.standard_normal(exact.shape)
     return Scans(poses, angles, np.where(exact < document.max_range, noisy, np.inf), max_range_m=document.max_range)
 
@@ -126,14 +130,14 @@ def _located(known: KnownMap, scans: Scans, document: Document) -> PoseBelief:
     return locate(known, scan, np.random.default_rng(document.seed))
 
 
-def described(belief: PoseBelief) -> dict[str, Any]:
-    """The places, with their probabilities, as JSON values."""
-    modes = []
+def places(belief: PoseBelief) -> list[Place]:
+    """Return the places where the robot may be, the likeliest first."""
+    found = []
     for mode in belief.modes:
         spread = np.linalg.eigvalsh(mode.covariance[:2, :2])[-1]
-        sigmas = {"sigma_m": float(np.sqrt(spread)), "sigma_rad": float(np.sqrt(mode.covariance[2, 2]))}
-        modes.append({**mode.as_json(), **sigmas})
-    return {"modes": modes, "p_lost": float(belief.p_lost), "nats_per_beam": float(belief.nats_per_beam)}
+        sigma_m, sigma_rad = float(np.sqrt(spread)), float(np.sqrt(mode.covariance[2, 2]))
+        found.append(Place(**mode.as_json(), sigma_m=sigma_m, sigma_rad=sigma_rad))
+    return found
 
 
 def cloud(belief: PoseBelief) -> dict[str, NDArray[np.float32]]:
@@ -142,23 +146,19 @@ def cloud(belief: PoseBelief) -> dict[str, NDArray[np.float32]]:
     return {"pose": belief.poses[some].astype(np.float32), "weight": belief.weights[some].astype(np.float32)}
 
 
-def _scan_of(task: WhereAmI, result: Result, scan: int) -> tuple[Scans, dict[str, Any]]:
-    """One scan, and how it is called."""
+def _scan_of(question: WhereAmI, result: Result, scan: int) -> tuple[Scans, int]:
+    """Return one scan, and its sensor's id in a drawn world, else its index."""
     scene = result.scene
     if not result.document.simulated:
-        return scene.scans.select(slice(scan, scan + 1)), {"index": scan}
-    row = scene.ids.index(task.sensor) if task.sensor in scene.ids else 0
+        return scene.scans.select(slice(scan, scan + 1)), scan
+    row = scene.ids.index(question.sensor) if question.sensor in scene.ids else 0
     one = scene.scans.select(slice(row, row + 1))
     # Readings at the longest range, which noise blurs, are beams that met nothing.
     readings = np.where(hits(scene)[[row]], one.ranges_m, np.inf)
-    return replace(one, ranges_m=readings), {"sensor": scene.ids[row]}
+    return replace(one, ranges_m=readings), scene.ids[row]
 
 
 def _inferred_map(result: Result) -> KnownMap:
-    from bayesmap.app.exports import as_run
-
-    if result.run is not None:
-        return KnownMap.of_run(result.run)
     if result.kept is None:
         raise BadInput("a scan is located by draws of the map, and none are kept yet; Run keeps them")
-    return KnownMap.of_run(as_run(result))
+    return KnownMap.of_run(result.as_run())

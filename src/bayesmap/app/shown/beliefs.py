@@ -2,15 +2,22 @@
 
 from __future__ import annotations
 
+import time
+from dataclasses import dataclass, replace
+
 import numpy as np
 from numpy.typing import NDArray
 from scipy import special
 
 from bayesmap.app.scene import Touched, touched
+from bayesmap.app.shown.result import CHAINS, SAVED_DRAWS, Figures, Result, settings_of_run
 from bayesmap.kernels.beliefs import Beliefs
 from bayesmap.kernels.reach import reach_frequency
+from bayesmap.posterior.from_chains import posterior_of_draws
+from bayesmap.result import Run
 from bayesmap.samplers.problem import WallProblem, log_odds
 from bayesmap.samplers.propagate import DAMPING, ROUNDS, Marginals
+from bayesmap.samplers.without_chains import Asked, found_by_beliefs
 
 TOLERANCE = 1e-3
 THREADS_FROM_INCIDENCES = 200_000
@@ -65,3 +72,41 @@ class Preview:
     def marginals(self) -> Marginals:
         """What the rounds found, for `bayesmap.samplers.start` and for a saved run."""
         return Marginals(self.p_wall(), np.zeros(0), np.zeros(0), self.converged, self.converged, 0.0)
+
+
+@dataclass(frozen=True, eq=False)
+class BeliefResult(Result):
+    """What belief propagation has found."""
+
+    preview: Preview
+
+    approximate = True
+
+    @property
+    def method(self) -> str:
+        """The name of belief propagation."""
+        return "propagate"
+
+    @property
+    def figures(self) -> Figures:
+        """Rounds done."""
+        return Figures(sweeps=self.preview.rounds)
+
+    def mean(self) -> NDArray[np.float64]:
+        """Approximate posterior wall probability, (nx, ny)."""
+        return self.preview.p_wall()
+
+    def observed(self) -> NDArray[np.bool_]:
+        """Cells that a beam reaches before the first likely wall, (nx, ny)."""
+        return self.preview.observed()
+
+    def as_run(self) -> Run:
+        """Return independent draws by the beliefs, as a run."""
+        problem, document = self.scene.problem, self.document
+        began = time.perf_counter()
+        asked = Asked(CHAINS, SAVED_DRAWS, document.seed, document.sweeps, self.preview.rounds)
+        found = found_by_beliefs(problem, asked, replace(self.preview.marginals(), finished=True))
+        model = self.scene.model(problem.prior)
+        settings = settings_of_run(self, model, chains=CHAINS, draws=SAVED_DRAWS, rounds=self.preview.rounds)
+        seconds = {"trace": 0.0, "total": time.perf_counter() - began}
+        return Run(posterior_of_draws(model, found, problem.n_incidences, settings, seconds))

@@ -10,13 +10,18 @@ from typing import Any, cast
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.app.document import CHAIN_METHODS, Document
+from bayesmap.app.protocol.document import CHAIN_METHODS, Document
 from bayesmap.app.scene import Scene
 from bayesmap.app.shown.beliefs import Preview
+from bayesmap.app.shown.result import CHAINS, Figures, Result, settings_of_run
+from bayesmap.app.shown.verdict import difference, judge_chains
 from bayesmap.cells.draws import Draws
+from bayesmap.cells.kind import CellPrior
 from bayesmap.model import Model
 from bayesmap.poses.prior import PosePrior, Uncertain
 from bayesmap.posterior.diagnostics import bulk_ess, rhat
+from bayesmap.posterior.from_chains import posterior_of_chains
+from bayesmap.result import Run
 from bayesmap.run.chains import Chains, Record
 from bayesmap.run.runner import BUFFER_BYTES, no_draws, sweeps
 from bayesmap.run.schedule import Schedule
@@ -26,8 +31,8 @@ from bayesmap.samplers.propagate import ROUNDS, Marginals
 from bayesmap.samplers.sampler import Problem, Sampler
 from bayesmap.samplers.start import Start, start_maps
 from bayesmap.samplers.with_poses import MovableSampler, PoseProblem, WithPoses
+from bayesmap.sensors.model import SensorModel
 
-CHAINS = 2
 POSE_CHAINS = 16
 """Where poses are uncertain: a map holds its sensors in place, so that each chain stays near where it started."""
 
@@ -278,3 +283,102 @@ def starts(problem: WallProblem, document: Document, preview: Preview | None) ->
     if chains > CHAINS:  # a map that is shifted starts empty: the beliefs are those of another place
         likely[(pose_starts(document, chains) != pose_starts(document, 1)).any(axis=(1, 2))] = False
     return likely
+
+
+@dataclass(frozen=True, eq=False)
+class ChainResult(Result):
+    """Chains as far as they are.
+
+    Attributes:
+        stream: the chains.
+        over: whether they were cancelled, and will not go on.
+    """
+
+    stream: Stream
+    over: bool = False
+
+    @property
+    def method(self) -> str:
+        """The document's."""
+        return self.document.method
+
+    @property
+    def prior(self) -> CellPrior:
+        """Under which they run."""
+        return self.stream.model.cells
+
+    @property
+    def figures(self) -> Figures:
+        """Sweeps done, and whether the chains agree."""
+        stream, mixing = self.stream, self.stream.mixing()
+        apart = difference(stream.means(), stream.observed())
+        over = self.over or stream.done
+        verdict = judge_chains(mixing.rhat, mixing.ess, stream.sweep, apart, over=over)
+        return Figures(stream.sweep, stream.total, mixing.ess, mixing.rhat, mixing.log_joint, verdict)
+
+    @property
+    def kept(self) -> Draws | None:
+        """The kept draws, if there are any."""
+        return self.stream.draws if self.stream.draws.count else None
+
+    @property
+    def at_hand(self) -> Draws | None:
+        """The kept draws, or the latest where none are kept."""
+        if self.kept is not None:
+            return self.kept
+        return self.stream.recent if self.stream.recent.count else None
+
+    @property
+    def origin(self) -> object:
+        """The chains."""
+        return self.stream
+
+    @property
+    def sweep(self) -> int:
+        """Sweeps done."""
+        return self.stream.sweep
+
+    @property
+    def ended(self) -> bool:
+        """Whether all sweeps are done."""
+        return self.stream.done
+
+    @property
+    def law(self) -> tuple[SensorModel, float]:
+        """Those of the model that is sampled."""
+        return self.stream.model.sensor, self.stream.model.hit_depth
+
+    def mean(self) -> NDArray[np.float64]:
+        """Mean over the counted maps, (nx, ny)."""
+        return self.stream.mean()
+
+    def observed(self) -> NDArray[np.bool_]:
+        """Cells of which a beam said something in at least half of the maps, (nx, ny)."""
+        return self.stream.observed()
+
+    def draw(self, chain: int | None, number: int | None) -> tuple[NDArray[Any], int, int]:
+        """Return a kept draw, or the latest."""
+        return self.stream.draw(chain, number)
+
+    def log_joint(self) -> NDArray[np.float64]:
+        """Of every sweep, (chains, sweeps)."""
+        return self.stream.log_joint()
+
+    def cancelled(self) -> Result:
+        """Return the chains as they are, to be judged as they are."""
+        return replace(self, over=True)
+
+    def as_run(self) -> Run:
+        """Return the kept draws as a run.
+
+        Raises:
+            BadInput: no draw was kept.
+        """
+        stream = self.stream
+        if self.kept is None:
+            return super().as_run()
+        count = stream.total // stream.thin
+        settings = settings_of_run(self, stream.model, chains=stream.n_chains, draws=count, thin=stream.thin)
+        chains = stream.chains()
+        total = {"total": chains.seconds["sampling"]}
+        return Run(posterior_of_chains(stream.model, chains, settings, total, None))

@@ -1,172 +1,190 @@
-"""What a job has found so far, and the field that shows it."""
+"""What has been found of a document so far: the interface of every method's result, and the prior."""
 
 from __future__ import annotations
 
 import math
-from dataclasses import asdict, dataclass
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
 from functools import cached_property
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.app.document import Document
-from bayesmap.app.hit_maps import Counted
+from bayesmap.app.protocol.document import Document
+from bayesmap.app.protocol.notices import DrawCount, Quantity, Verdict
 from bayesmap.app.scene import Scene
-from bayesmap.app.shown.beliefs import Preview
-from bayesmap.app.shown.chains import Stream
-from bayesmap.app.shown.pilot import Pilot
-from bayesmap.app.shown.verdict import Verdict, difference, judge_chains, judge_particles
-from bayesmap.app.tasks import OWN_LAYERS, View
-from bayesmap.cells.arrays import Draws
+from bayesmap.cells.draws import Draws
 from bayesmap.cells.kind import CellPrior
 from bayesmap.cells.kinds import BUILT_IN
-from bayesmap.posterior.diagnostics import bulk_ess
-from bayesmap.posterior.diagnostics import rhat as split_rhat
+from bayesmap.errors import BadInput
+from bayesmap.model import Model
 from bayesmap.result import Run
-from bayesmap.samplers.importance import Particles
+from bayesmap.run.resuming import RANDOM_STREAMS
+from bayesmap.sensors.describe import describe
+from bayesmap.sensors.model import SensorModel
 
 Floats = NDArray[np.float64]
-LEVELS = 255
-HITS, COUNTS = "hits", "counts"
-"""Methods of maps of hits and passes: along the poses that the map is to have, and along poses still in doubt."""
 
-APPROXIMATE = (HITS, COUNTS, "propagate", "pilot")
-"""Methods whose answers are quick and not the posterior's."""
-
-TRACED = 300
-FIRST_SWEEPS = 100
-"""Points of a trace that are sent with every picture: so many over all of it, and each of the first sweeps."""
+CHAINS = 2
+SAVED_DRAWS = 500
+"""Maps of each chain that are drawn for a run of a method without chains."""
 
 INTERVAL_DRAWS = 60
 """Draws of which intervals are made."""
 
-LEAST_REFLECTIVITY = 0.1
-"""Of surfaces that are drawn as strokes."""
 
-WEIGHT_BINS = 24
-MOST_NATS = 60.0
-"""Weights that are less than exp(-60) of the largest are counted there."""
+@dataclass(frozen=True)
+class Figures:
+    """How far a result is, and how good.
+
+    Attributes:
+        sweeps: done; rounds, or particles.
+        total: to be done.
+        ess: effective sample size of the log joint, or of the weights.
+        rhat: R-hat of the log joint.
+        log_joint: mean over the chains of its last value.
+        verdict: None where it is too early.
+    """
+
+    sweeps: int = 0
+    total: int = 0
+    ess: float = math.nan
+    rhat: float = math.nan
+    log_joint: float = math.nan
+    verdict: Verdict | None = None
+
+    def as_fields(self) -> dict[str, Any]:
+        """Return the fields of a message; what is not finite is None."""
+        numbers = {"ess": self.ess, "rhat": self.rhat, "log_joint": self.log_joint}
+        finite = {name: float(value) if math.isfinite(value) else None for name, value in numbers.items()}
+        return {"sweeps": self.sweeps, "total": self.total, **finite, "verdict": self.verdict}
 
 
 @dataclass(frozen=True, eq=False)
-class Result:
-    """One of: beliefs, a pilot, chains, weighted particles, a saved run, hits and passes, or nothing (the prior).
+class Result(ABC):
+    """What one method has found.
 
     Attributes:
         scene: the readings.
         document: what was asked.
-        method: what found it: a method's name, or "none".
-        total: of particles, those that are still to be weighed included.
-        counted: a map of hits and passes.
-        pilot: where the chain stands that fits the sensor.
-        over: whether chains were cancelled, and will not go on.
     """
 
     scene: Scene
     document: Document
-    method: str
-    preview: Preview | None = None
-    stream: Stream | None = None
-    particles: Particles | None = None
-    total: int = 0
-    run: Run | None = None
-    counted: Counted | None = None
-    pilot: Pilot | None = None
-    over: bool = False
 
-    def mean(self) -> NDArray[np.float64]:
-        """Posterior wall probability, (nx, ny)."""
-        if self.stream is not None:
-            return self.stream.mean()
-        if self.preview is not None:
-            return self.preview.p_wall()
-        if self.particles is not None:
-            return self.particles.occupancy()
-        if self.run is not None:
-            return np.nan_to_num(self.run.occupancy, nan=0.5)
-        if self.pilot is not None:
-            return self.pilot.mean
-        if self.counted is not None:
-            return self.counted.p_wall
-        return self.prior.mean_stop(self.scene.grid)
+    approximate = False
+    """Whether the method is quick and not the posterior's."""
 
+    @property
+    @abstractmethod
+    def method(self) -> str:
+        """What found it: a method's name."""
+
+    @abstractmethod
+    def mean(self) -> Floats:
+        """Posterior probability that a cell stops a beam, (nx, ny)."""
+
+    @abstractmethod
     def observed(self) -> NDArray[np.bool_]:
         """Cells that a beam reaches, (nx, ny)."""
-        if self.stream is not None:
-            return self.stream.observed()
-        if self.preview is not None:
-            return self.preview.observed()
-        if self.run is not None:
-            return self.run.observed
-        if self.pilot is not None:
-            return self.scene.problem.touched()
-        if self.counted is not None:
-            return self.counted.observed
-        if self.particles is not None:
-            from bayesmap.kernels.walls.reach import reach_frequency
-
-            return reach_frequency(self.scene.problem.table, self.mean()[None] > 0.5) > 0
-        return np.zeros(self.document.grid.shape, dtype=np.bool_)
-
-    @property
-    def kept(self) -> Draws | None:
-        """The kept maps, if this method has any."""
-        kept = self.stream.draws if self.stream is not None else None if self.run is None else self.run.posterior.draws
-        return kept if kept is not None and kept.count else None
-
-    @property
-    def at_hand(self) -> Draws | None:
-        """The kept maps, or the latest of chains that keep none."""
-        if self.kept is not None:
-            return self.kept
-        if self.pilot is not None:
-            return self.pilot.draws
-        return self.stream.recent if self.stream is not None and self.stream.recent.count else None
 
     @property
     def prior(self) -> CellPrior:
         """Of the cells on show: it has the words for them."""
-        if self.stream is not None:
-            return self.stream.model.cells
-        if self.pilot is not None:
-            return self.pilot.model.cells
-        if self.counted is not None and self.counted.prior is not None:
-            return self.counted.prior
-        if self.run is not None:
-            return self.run.posterior.prior
-        if self.method == "none" and self.document.cells != self.scene.prior.words.kind:
-            return BUILT_IN[self.document.cells]()  # fitted once there are chains
         return self.scene.prior
 
+    @property
+    def figures(self) -> Figures:
+        """How far the result is, and how good."""
+        return Figures()
+
+    @property
+    def kept(self) -> Draws | None:
+        """The kept draws, if there are any."""
+        return None
+
+    @property
+    def at_hand(self) -> Draws | None:
+        """The kept draws, or the latest of chains that keep none."""
+        return self.kept
+
+    @property
+    def averaged(self) -> int | None:
+        """The number of draws that the mean is made of, where the method says so."""
+        return None
+
+    def draw(self, chain: int | None, number: int | None) -> tuple[NDArray[Any], int, int] | None:
+        """Return one map, (nx, ny), its chain and its number; None where this method has none."""
+        return None
+
+    def log_joint(self) -> Floats:
+        """Log joint of every sweep or kept draw, (chains, n)."""
+        return np.zeros((0, 0))
+
+    @property
+    def log_weights(self) -> Floats | None:
+        """Log weights of particles, (n,), if there are any."""
+        return None
+
+    @property
+    def origin(self) -> object:
+        """What stays the same while chains go on."""
+        return self
+
+    @property
+    def sweep(self) -> int:
+        """Sweeps that chains have done."""
+        return 0
+
+    @property
+    def ended(self) -> bool:
+        """Whether chains have done their last sweep."""
+        return False
+
+    @property
+    def law(self) -> tuple[SensorModel, float]:
+        """The sensor model and the hit depth under which readings are predicted.
+
+        Raises:
+            BadInput: a sensor model that only the run's maker had.
+        """
+        return self.scene.sensor, self.scene.hit_depth
+
+    @property
+    def scan_poses(self) -> Floats:
+        """Where the scans were taken, (S, 3)."""
+        return self.scene.scans.poses
+
+    def cancelled(self) -> Result:
+        """Return the result of a job that will not go on."""
+        return self
+
+    def as_run(self) -> Run:
+        """Return the result as `bayesmap.infer` returns it.
+
+        Raises:
+            BadInput: a method without draws, or a chain of which none was kept.
+        """
+        raise BadInput("there are no draws to save; run inference first")
+
+    def write_map(self, target: Path) -> list[Path]:
+        """Write the map for map_server; return the files."""
+        from bayesmap.io.map_server import write_map
+
+        return list(write_map(target, np.clip(self.mean(), 0.0, 1.0), self.document.grid, self.observed()))
+
+    # What follows from these
+
     @cached_property
-    def width(self) -> NDArray[np.float64] | None:
+    def width(self) -> Floats | None:
         """Width of each cell's central 90 % interval, (nx, ny); None for walls, which have none, or without draws."""
         draws = self.at_hand
         if draws is None or not self.prior.has_interval:
             return None
         lower, upper = self.prior.interval(draws.thinned(INTERVAL_DRAWS), 0.9)
         return np.asarray(upper - lower)
-
-    def quantity(self) -> dict[str, Any]:
-        """What the numbers of the map are: the kind of cells, and the words for their mean and for one draw's."""
-        words = self.prior.words
-        return {"kind": words.kind, "mean": words.mean, "value": words.value, "interval": self.prior.has_interval}
-
-    def overlay(self) -> dict[str, NDArray[np.float32]] | None:
-        """What is drawn over a run or a log: surfaces as strokes, (U, 5), from x, y to x, y in metres with their
-        reflectivity; and the places of all scans, (S, 2). None for a simulation.
-        """
-        if self.document.simulated:
-            return None
-        strokes = np.zeros((0, 5), dtype=np.float32)
-        if self.surfaces is not None:
-            _, mean, covariance, reflectivity = self.surfaces
-            values, vectors = np.linalg.eigh(covariance)
-            half = 2.0 * np.sqrt(np.maximum(values[:, 1], 0.0))[:, None] * vectors[:, :, 1]
-            strokes = np.column_stack([mean - half, mean + half, reflectivity])
-            strokes = strokes[reflectivity >= LEAST_REFLECTIVITY].astype(np.float32)
-        return {"strokes": strokes, "trajectory": self.scan_poses[:, :2].astype(np.float32)}
 
     @cached_property
     def surfaces(self) -> tuple[NDArray[np.int32], Floats, Floats, Floats] | None:
@@ -179,123 +197,58 @@ class Result:
             return None
         return draws.index["surface_cell"], *self.prior.surfaces(draws)
 
-    @cached_property
-    def scan_poses(self) -> NDArray[np.float64]:
-        """Where the scans were taken, (S, 3): the mean over draws where poses were inferred."""
-        if self.run is None or not self.run.n_draws or "poses" not in self.run.posterior.draws.arrays:
-            return self.scene.scans.poses
-        x, y, yaw = np.moveaxis(self.run.poses, -1, 0).reshape(3, -1, len(self.scene.scans))
-        heading = np.arctan2(np.sin(yaw).mean(axis=0), np.cos(yaw).mean(axis=0))
-        return np.column_stack([x.mean(axis=0), y.mean(axis=0), heading])
+    @property
+    def quantity(self) -> Quantity:
+        """What the numbers of the map are."""
+        words = self.prior.words
+        return Quantity(words.kind, words.mean, words.value, self.prior.has_interval)
 
-    def draws(self) -> dict[str, int]:
-        """How many maps are kept: {"chains", "count"}."""
-        return (
-            {"chains": 0, "count": 0} if self.kept is None else {"chains": self.kept.chains, "count": self.kept.count}
-        )
+    @property
+    def draw_count(self) -> DrawCount:
+        """How many draws are kept."""
+        return DrawCount() if self.kept is None else DrawCount(self.kept.chains, self.kept.count)
 
+    @property
     def packed(self) -> NDArray[np.uint8]:
         """Kept maps of walls, (chains, count, bytes); none where a map's cells are numbers."""
         if self.kept is not None and self.kept.specs[0].storage == "bits":
             return self.kept.arrays[self.kept.specs[0].name]
         return np.zeros((0, 0, 0), dtype=np.uint8)
 
-    def log_joint(self) -> NDArray[np.float64]:
-        """Of every sweep or kept draw, (chains, n)."""
-        if self.stream is not None:
-            return self.stream.log_joint()
-        if self.run is not None:
-            return self.run.log_joint
-        return np.zeros((0, 0))
 
-    def draw(self, view: View) -> tuple[NDArray[Any], int, int] | None:
-        """One map of walls or of reflectivities, its chain and its number; None where this method has none."""
-        if self.stream is not None:
-            return self.stream.draw(view.chain, view.draw)
-        if self.run is not None and self.run.n_draws:
-            last = self.run.n_draws - 1
-            chain = min(view.chain or 0, len(self.run.log_joint) - 1)
-            number = last if view.draw is None else min(view.draw, last)
-            return self.run.map_of(chain, number), chain, number
-        if self.pilot is not None:
-            return self.pilot.model.cells.map_of(self.pilot.draws, 0, -1), 0, 0
-        return None
+@dataclass(frozen=True, eq=False)
+class PriorResult(Result):
+    """Nothing yet: the prior."""
 
-    def statistics(self) -> dict[str, Any]:
-        """Sweeps, effective sample size, R-hat, log joint and verdict of the field's header."""
-        sweeps, total, ess, rhat, joint = 0, 0, math.nan, math.nan, math.nan
-        verdict: Verdict | None = None
-        if self.stream is not None:
-            sweeps, total = self.stream.sweep, self.stream.total
-            mixing = self.stream.mixing()
-            ess, rhat, joint = mixing.ess, mixing.rhat, mixing.log_joint
-            apart = difference(self.stream.means(), self.stream.observed())
-            verdict = judge_chains(rhat, ess, sweeps, apart, over=self.over or self.stream.done)
-        elif self.preview is not None:
-            sweeps = self.preview.rounds
-        elif self.pilot is not None:
-            sweeps, total = self.pilot.sweep, self.pilot.total
-        elif self.particles is not None:
-            sweeps, total = len(self.particles.log_weights), self.total
-            ess = self.particles.effective_sample_size
-            verdict = judge_particles(ess)
-        elif self.run is not None:
-            sweeps = total = self.run.posterior.sweep
-            if self.run.log_joint.size:
-                joint = float(self.run.log_joint[:, -1].mean())
-                if np.ptp(self.run.log_joint) > 0:
-                    ess, rhat = bulk_ess(self.run.log_joint), split_rhat(self.run.log_joint)
-                verdict = judge_chains(rhat, ess, sweeps, None, over=True)
-        numbers = {"ess": ess, "rhat": rhat, "log_joint": joint}
-        finite = {name: float(value) if math.isfinite(value) else None for name, value in numbers.items()}
-        return {"sweeps": sweeps, "total": total, **finite, "verdict": None if verdict is None else asdict(verdict)}
+    @property
+    def method(self) -> str:
+        """None."""
+        return "none"
 
-    def trace(self) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
-        """Log joint of every chain, (chains, n), and the sweeps or kept draws that these are of, counted from 1, (n,).
+    @property
+    def prior(self) -> CellPrior:
+        """That of the kind of cells that is asked for; it is fitted once there are chains."""
+        other = self.document.cells != self.scene.prior.words.kind
+        return BUILT_IN[self.document.cells]() if other else self.scene.prior
 
-        The first sweeps are all there; the later ones are evenly spread.
-        """
-        joint = self.log_joint()
-        count = joint.shape[1]
-        later = np.linspace(1, count, min(count, TRACED)).round().astype(int) if count else np.zeros(0, dtype=int)
-        some = np.union1d(np.arange(1, min(count, FIRST_SWEEPS) + 1), later)
-        return joint[:, some - 1].astype(np.float32), some.astype(np.float32)
+    def mean(self) -> Floats:
+        """The prior's."""
+        return self.prior.mean_stop(self.scene.grid)
 
-    def weights(self) -> tuple[NDArray[np.float32], float] | None:
-        """How many particles weigh how much, or None without particles.
+    def observed(self) -> NDArray[np.bool_]:
+        """No cell."""
+        return np.zeros(self.document.grid.shape, dtype=np.bool_)
 
-        Counts in bins of equal width up to the largest log weight, and where the first begins, relative to it (nats).
-        """
-        if self.particles is None:
-            return None
-        below = self.particles.log_weights - self.particles.log_weights.max()
-        lowest = -float(min(MOST_NATS, max(1.0, -below.min())))
-        counts, _ = np.histogram(np.maximum(below, lowest), WEIGHT_BINS, (lowest, 0.0))
-        return counts.astype(np.float32), lowest
 
-    def field(self, view: View) -> tuple[dict[str, Any], dict[str, NDArray[Any]]]:
-        """Header and buffers of the message `field`, but for its generation and its time."""
-        trace, traced = self.trace()
-        header: dict[str, Any] = {
-            "layer": view.layer,
-            "method": self.method,
-            "approximate": self.method in APPROXIMATE,
-            **self.statistics(),
-            "draws": self.draws(),
-            "quantity": self.quantity(),
-        }
-        if self.pilot is not None:
-            header["averaged"] = self.pilot.draws.count
-        buffers: dict[str, NDArray[Any]] = {"trace": trace, "traced": traced}
-        if (weights := self.weights()) is not None:
-            buffers["weights"], header["lowest"] = weights
-        one = self.draw(view) if view.layer == "draw" else None
-        if one is not None:
-            drawn, header["chain"], header["draw"] = one
-            p = np.rint(drawn.astype(np.float32) * LEVELS).astype(np.uint8)
-        elif view.layer == "width" and self.width is not None:
-            p = np.rint(self.width * LEVELS).astype(np.uint8)
-        else:
-            header["layer"] = "mean" if view.layer in OWN_LAYERS else view.layer
-            p = np.rint(self.mean() * LEVELS).astype(np.uint8)
-        return header, {"p": p, "observed": np.packbits(self.observed().ravel()), **buffers}
+def settings_of_run(
+    result: Result, model: Model, *, chains: int, draws: int, thin: int = 1, rounds: int = 0
+) -> dict[str, Any]:
+    """Return the settings that a saved run has of `bayesmap.infer`."""
+    document = result.document
+    return {
+        "method": result.method, "order": document.order, "chains": chains, "warmup": 0, "draws": draws, "thin": thin,
+        "seed": document.seed, "start": "prior" if document.simulated else "propagate", "particles": document.sweeps,
+        "rounds": rounds, "hit_depth": model.hit_depth, "prior": model.cells.describe(),
+        "sensor": describe(model.sensor), "streams": RANDOM_STREAMS, "poses": model.poses.describe(),
+        "fingerprint": "made by the page",
+    }  # fmt: skip

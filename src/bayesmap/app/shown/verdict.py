@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
+from bayesmap.app.protocol.notices import Verdict
 from bayesmap.posterior.diagnostics import RHAT_LIMIT
-
-Level = Literal["good", "fair", "bad"]
 
 GOOD_RHAT = 1.01
 GOOD_ESS = 400.0
@@ -33,19 +31,6 @@ class Difference:
 
     by: float
     cell: tuple[int, int]
-
-
-@dataclass(frozen=True)
-class Verdict:
-    """What is to be thought of a result.
-
-    Attributes:
-        level: "good", "fair" or "bad".
-        why: in words.
-    """
-
-    level: Level
-    why: str
 
 
 def difference(means: NDArray[np.float64], among: NDArray[np.bool_]) -> Difference | None:

@@ -11,8 +11,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.app.document import LARGEST_SIDE_OF_FILE
+from bayesmap.app.protocol.document import LARGEST_SIDE_OF_FILE
 from bayesmap.app.scene import Beams, Scene
+from bayesmap.app.shown.result import Result
 from bayesmap.beams.table import BeamTable
 from bayesmap.cells.binary import Independent
 from bayesmap.cells.defaults import default_sensor
@@ -38,6 +39,39 @@ class Counted:
     p_wall: NDArray[np.float64]
     observed: NDArray[np.bool_]
     prior: CellPrior | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class CountResult(Result):
+    """A map of hits and passes.
+
+    Attributes:
+        counted: the map.
+        along_odometry: whether poses are still in doubt.
+    """
+
+    counted: Counted
+    along_odometry: bool = False
+
+    approximate = True
+
+    @property
+    def method(self) -> str:
+        """Return "counts" along poses that are still in doubt, else "hits"."""
+        return "counts" if self.along_odometry else "hits"
+
+    @property
+    def prior(self) -> CellPrior:
+        """Of the cells that are counted."""
+        return self.scene.prior if self.counted.prior is None else self.counted.prior
+
+    def mean(self) -> NDArray[np.float64]:
+        """As counts have it."""
+        return self.counted.p_wall
+
+    def observed(self) -> NDArray[np.bool_]:
+        """Cells that some beam passed or hit."""
+        return self.counted.observed
 
 
 class HitCounts:
