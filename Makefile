@@ -52,7 +52,8 @@ lint: .venv/dev           ## style and types; the page's too where there is npm
 docs: .venv/docs          ## the site, in build/site; it works without a network
 	NO_MKDOCS_2_WARNING=1 $(BIN)/python -m mkdocs build --strict
 
-page: page/node_modules   ## build the page's one file from its sources; node is needed for this alone
+page: .venv/core page/node_modules  ## build the page's one file from its sources; node is needed for this alone
+	$(BIN)/python page/write_messages.py
 	npm --prefix page run --silent check
 	npm --prefix page run --silent build
 

@@ -273,6 +273,36 @@ import numpy
     assert sorted(imported_modules(ast.parse(source), modules)) == [f"bayesmap.{letter}" for letter in "abcde"]
 
 
+IMPORTED = re.compile(r"""(?:\bfrom|\bimport)\s*\(?\s*"(\.[^"]+)\"""")
+
+
+def imported_scripts(path, paths):
+    """Return the TypeScript files that one imports, for types alone too: `./geometry/bits` is geometry/bits.ts."""
+    names = (path.parent / name for name in IMPORTED.findall(text(path)))
+    return {found for name in names if (found := Path(f"{name.resolve()}.ts")) in paths}
+
+
+def test_no_scripts_of_the_page_import_one_another():
+    paths = {path.resolve() for path in scripts_of_the_page() if path.suffix == ".ts"}
+    graph = {path: imported_scripts(path, paths) for path in paths}
+    assert not paths or sum(map(len, graph.values())) > len(paths)
+    assert [{path.name for path in circle} for circle in circles(graph)] == []
+
+
+def test_a_script_s_imports_are_found_wherever_they_stand(tmp_path):
+    (tmp_path / "a.ts").write_text("""import { b } from "./b";
+import type {
+  C,
+} from "./inner/c";
+import "./style.css";
+export { d } from "./d";
+import uplot from "uplot";
+const e = await import("./e");
+""")
+    paths = {tmp_path / name for name in ("a.ts", "b.ts", "inner/c.ts", "d.ts", "e.ts", "f.ts", "style.ts")}
+    assert imported_scripts(tmp_path / "a.ts", paths) == {tmp_path / n for n in ("b.ts", "inner/c.ts", "d.ts", "e.ts")}
+
+
 MOST_LINES = 500
 IDLE_NAMES = {"utils", "helpers", "manager", "misc", "common", "util", "helper"}
 

@@ -7,7 +7,9 @@ Run `python docs/tutorial/interactive.py` from the repository's root. It does wh
 from pathlib import Path
 
 from bayesmap.app.engine import Engine
-from bayesmap.app.tasks import Export, Infer, Report
+from bayesmap.app.protocol.actions import Export
+from bayesmap.app.protocol.notices import Download
+from bayesmap.app.protocol.tasks import Ask, Infer, Report
 from bayesmap.app.worlds import tutorial_document
 
 PAGE = Path(__file__).with_name("interactive.html")
@@ -20,8 +22,8 @@ def interactive_page() -> bytes:
     engine.take(Infer(1, tutorial_document(), "run"))
     while engine.busy:
         engine.advance()
-    engine.take(Export(1, "html"))
-    (download,) = (report for report in reports if report.header["type"] == "download")
+    engine.take(Ask(1, Export("html")))
+    (download,) = (report for report in reports if isinstance(report.message, Download))
     return bytes(download.buffers["data"])
 
 

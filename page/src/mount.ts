@@ -37,6 +37,7 @@ import { clearPanel, inferencePanel, modelPanel, sensorPanel } from "./panels/se
 import { Ui } from "./panels/ui";
 import { Player, scanPanel, viewPanel } from "./panels/view";
 import { wherePanel } from "./panels/where";
+import type { Export } from "./messages";
 import type { MapDocument, Transport } from "./protocol";
 import { snapshot } from "./snapshot";
 import { Session } from "./state/session";
@@ -175,7 +176,7 @@ export function mount(element: HTMLElement, transport: Transport, { embedded = f
       const blob = await picture(scene());
       if (blob) download("bayesmap.png", blob);
       session.say("Saved bayesmap.png");
-    } else if (what.startsWith("export ")) session.act({ type: "export", what: what.slice(7) });
+    } else if (what.startsWith("export ")) session.act({ type: "export", what: what.slice(7) as Export["what"] });
     schedule();
   }
   session.ondownload = (name, mime, data) => download(name, new Blob([data as Uint8Array<ArrayBuffer>], { type: mime }));

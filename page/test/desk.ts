@@ -10,8 +10,18 @@ import { Viewport } from "../src/layers/viewport";
 import { toBase64, packBits } from "../src/geometry/bits";
 import { Ui } from "../src/panels/ui";
 import { Player } from "../src/panels/view";
-import type { Buffers, Field, MapDocument, Message, Pair, Quantity, State, Transport } from "../src/protocol";
+import type { Action, Buffers, Field, Limits, MapDocument, Notice, Pair, Quantity, State, Transport } from "../src/protocol";
 import { Session } from "../src/state/session";
+
+/** A message of which a test looks at some fields. */
+export type Message = { type: string; [field: string]: any };
+
+/** As a server has them; where these are the library's, tests/app/test_page_logic.py passes the library's. */
+export const LIMITS: Limits = {
+  prior: [0, 1], noise: [0, 5], angles: [10, 1000], max_range: [0.1, 10000], fov: [Math.PI / 36, 2 * Math.PI], pose_sigma: [0, 2],
+  heading_sigma: [0, 0.6], sweeps: [1, 100000], seed: [0, 2 ** 31 - 1], radius: [0.001, 100], risk: [1e-6, 1 - 1e-6], side: [2, 500],
+  sensors: [1, 32], resolution: [0.02, 2], side_of_log: [1, 1000],
+};
 
 export const SHAPE: Pair = [21, 21];
 
@@ -24,13 +34,13 @@ export function aDocument(changes: Partial<MapDocument> = {}): MapDocument {
     sensors: [{ id: 1, x: 10, y: 10, yaw: 0 }],
     prior: 0.5, noise: 0.2, angles: 100, max_range: 42, fov: 2 * Math.PI, readings: "noisy",
     pose_sigma: 0, heading_sigma: 0, poses: "logged", cells: "binary",
-    method: "auto", order: "radial", start: "auto", sweeps: 1000, seed: 0, source: { kind: "simulation" },
+    method: "auto", order: "radial", start: "auto", sweeps: 1000, seed: 0, scans_used: null, source: { kind: "simulation", name: "", scans: 0, bounds: null },
     ...changes,
   };
 }
 
 export const LOG: Partial<MapDocument> = { walls: "", sensors: [], source: { kind: "log", name: "room.log", scans: 12, bounds: [[0, 0], [8, 6]] } };
-export const RUN: Partial<MapDocument> = { walls: "", sensors: [], source: { kind: "run", name: "run.nc", scans: 12 } };
+export const RUN: Partial<MapDocument> = { walls: "", sensors: [], source: { kind: "run", name: "run.nc", scans: 12, bounds: null } };
 
 /** Packed walls of some cells. */
 export function wallsOf(cells: Pair[], [nx, ny]: Pair = SHAPE) {
@@ -45,7 +55,7 @@ export class Desk {
   retries = 0;
   readonly transport: Transport = {
     onmessage: () => {}, onstatus: () => {}, open: () => {}, close: () => {},
-    send: (message) => void this.sent.push(message),
+    send: (action: Action) => void this.sent.push(action),
     retry: () => void this.retries++,
   };
   readonly commands: string[] = [];
@@ -77,7 +87,7 @@ export class Desk {
   /** The line is there: welcome, the state, and a picture. */
   connect() {
     this.transport.onstatus({ connected: true });
-    this.says("welcome", { recorded: false });
+    this.says("welcome", { limits: LIMITS, recorded: false });
     this.confirm();
     this.says("worker", { state: "ready" });
     this.view.fit(this.session.shape);
@@ -91,14 +101,14 @@ export class Desk {
 
   /** The server's message. */
   says(type: string, fields: object = {}, buffers: Buffers = {}) {
-    this.transport.onmessage({ type, ...fields }, buffers);
+    this.transport.onmessage({ type, ...fields } as Notice, buffers);
   }
 
   /** Confirms all that was sent, of a document with changes, which is a generation of its own. */
   confirm(changes: Partial<MapDocument> = {}, state: Partial<State> = {}) {
     this.document = { ...this.document, ...changes };
     const seq = this.session.acted;
-    const fixed = { can_undo: false, can_redo: false, live: true, running: false, working: false, draws: { chains: 0, count: 0 } };
+    const fixed = { can_undo: false, can_redo: false, live: true, running: false, working: false, draws: { chains: 0, count: 0 }, scan: 0, view: this.session.view };
     this.says("state", { document: structuredClone(this.document), generation: ++this.generation, seq, ...fixed, ...state });
   }
 

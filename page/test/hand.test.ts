@@ -82,7 +82,7 @@ test("the robot comes where the hand takes it, and the whole drag is one step", 
   desk.pointer("up", desk.at(7.2, 8.1));
   const { x, y, yaw } = desk.session.document!.sensors[0];
   assert(Math.abs(x - 7) < 1e-9 && Math.abs(y - 8) < 1e-9 && yaw === 0);
-  assert.equal(new Set(desk.asked("sensor").map(({ drag }) => drag)).size, 1);
+  assert.equal(new Set(desk.asked("move_sensor").map(({ drag }) => drag)).size, 1);
   // a press beside it brings it there
   desk.drag([[3, 3]]);
   assert(Math.hypot(desk.session.document!.sensors[0].x - 3, desk.session.document!.sensors[0].y - 3) < 1e-9);
@@ -94,10 +94,10 @@ test("the robot does not enter walls nor leave the map, and why is said until it
     desk.pointer("down", [10, 10]);
     desk.pointer("move", cell);
     assert.equal(desk.status, `A sensor cannot stand ${why}`);
-    assert.deepEqual(desk.asked("sensor"), []);
+    assert.deepEqual(desk.asked("move_sensor"), []);
     desk.pointer("move", [9, 10]);
     assert.equal(desk.status, "Ready");
-    assert.equal(desk.asked("sensor").length, 1);
+    assert.equal(desk.asked("move_sensor").length, 1);
   }
 });
 
@@ -119,8 +119,8 @@ test("of several sensors the nearest is taken, and Shift adds one where the hand
   desk.pointer("up", desk.at(10.35, 10));
   desk.sent.length = 0;
   desk.drag([[8, 5]], SHIFT);
-  const [added] = desk.asked("sensor");
-  assert.deepEqual([added.op, Math.round(added.x), Math.round(added.y), added.yaw], ["add", 8, 5, 0]);
+  const [added] = desk.asked("add_sensor");
+  assert.deepEqual([Math.round(added.x), Math.round(added.y), added.yaw], [8, 5, 0]);
   assert.equal(desk.hand.selected, 5); // the next number
 });
 
@@ -198,7 +198,7 @@ test("a finger reaches the robot from farther than a mouse", () => {
     const { x, y } = desk.at(10, 10);
     desk.pointer("down", { x: x + 20, y }, { pointerType: type });
     desk.pointer("move", { x: x + 90, y }, { pointerType: type });
-    assert.equal(desk.asked("sensor").length > 0, taken, type);
+    assert.equal(desk.asked("move_sensor").length > 0, taken, type);
   }
 });
 
@@ -219,11 +219,11 @@ test("a click on the map of views places a sensor there, and on a file's map say
   const drawn = holding("look");
   drawn.says("views", { spacing: 1 }, views);
   drawn.drag([[7, 9]]);
-  assert.deepEqual(drawn.asked("sensor"), [{ type: "sensor", op: "add", x: 8, y: 9, yaw: 1 }]);
+  assert.deepEqual(drawn.asked("add_sensor"), [{ type: "add_sensor", x: 8, y: 9, yaw: 1 }]);
   const file = holding("look", LOG);
   file.says("views", { spacing: 1 }, views);
   file.drag([[7, 9]]);
-  assert.deepEqual(file.asked("sensor"), []);
+  assert.deepEqual(file.asked("add_sensor"), []);
   assert.equal(file.status, "A scan from 8.00, 9.00 m would tell 7.0 nats");
 });
 

@@ -38,7 +38,7 @@ test("the robot is moved, turned, added and removed by keys", () => {
   assert(Math.abs(yaw - Math.PI / 12) < 1e-12);
   desk.key("a");
   desk.key("Delete");
-  assert.deepEqual(desk.asked("sensor").slice(-2).map(({ op }) => op), ["add", "remove"]);
+  assert.deepEqual(desk.sent.slice(-2).map(({ type }) => type), ["add_sensor", "remove_sensor"]);
 });
 
 test("Space takes the next sensor, and its name is said", () => {

@@ -14,7 +14,7 @@ import type { Ui } from "../src/panels/ui";
 import { scanPanel, viewPanel } from "../src/panels/view";
 import { ThemeChoice } from "../src/theme";
 import type { MapDocument, Quantity } from "../src/protocol";
-import { Desk, LOG, Panel, RUN, panel, SURFACES } from "./desk";
+import { Desk, LOG, Panel, RUN, panel, SURFACES, LIMITS } from "./desk";
 
 const patches = (desk: Desk) => desk.asked("set").map(({ patch }) => patch);
 const last = (desk: Desk) => patches(desk).at(-1);
@@ -74,6 +74,17 @@ test("numbers out of range are brought into it, and the limit is said until some
   }
 });
 
+test("limits are those that the server sent: in degrees what lies inside them", () => {
+  const [desk, poses] = panel(posesPanel);
+  poses.control("Yaw \u00b1, number").put("90", "change");
+  assert((last(desk) as any).heading_sigma <= LIMITS.heading_sigma[1]); // 0.6 rad, of which 34.3 degrees are shown
+  assert.equal(desk.status, "Yaw \u00b1 is at most 34.3");
+  desk.says("welcome", { limits: { ...LIMITS, heading_sigma: [0, Math.PI / 2], pose_sigma: [0, 7] } });
+  poses.control("Yaw \u00b1, number").put("89", "change");
+  assert(Math.abs((last(desk) as any).heading_sigma - (89 * Math.PI) / 180) < 1e-12);
+  assert.deepEqual([poses.control("Position \u00b1", "range").max, poses.control("Yaw \u00b1", "range").max], ["7", "90"]);
+});
+
 test("a field that was emptied, or holds no number, shows its number again and sends nothing", () => {
   const all: [(ui: Ui) => HTMLElement, string[]][] = [
     [modelPanel, NUMBERS.map(([label]) => label)],
@@ -87,7 +98,7 @@ test("a field that was emptied, or holds no number, shows its number again and s
       assert.notEqual(number, "", label);
       for (const text of ["", "-", "1e"]) found.control(label).put(text, "change");
       assert.equal(found.control(label).value, number, label);
-      assert.deepEqual([...desk.asked("set"), ...desk.asked("sensor")], [], label);
+      assert.deepEqual([...desk.asked("set"), ...desk.asked("move_sensor")], [], label);
     }
   }
 });
@@ -108,7 +119,7 @@ test("angles are in degrees on the page and in radians in the document", () => {
 test("a heading is any number of turns, and is shown where headings differ", () => {
   const [desk, sensors] = panel(sensorPanel, { fov: Math.PI });
   sensors.control("heading (\u00b0)").put("720090", "change");
-  assert(Math.abs(desk.asked("sensor")[0].yaw - Math.PI / 2) < 1e-9);
+  assert(Math.abs(desk.asked("move_sensor")[0].yaw - Math.PI / 2) < 1e-9);
   assert(sensors.sees("heading (\u00b0)"));
   assert(!panel(sensorPanel)[1].sees("heading (\u00b0)"));
 });
@@ -119,7 +130,7 @@ test("a place outside the map is refused at once", () => {
   assert.equal(desk.status, "A sensor cannot stand outside the map.");
   assert.equal(sensors.control("x (m)").value, "10");
   sensors.control("x (m)").put("4", "change");
-  assert.deepEqual(desk.asked("sensor").map(({ x, y }) => [x, y]), [[4, 10]]);
+  assert.deepEqual(desk.asked("move_sensor").map(({ x, y }) => [x, y]), [[4, 10]]);
 });
 
 test("the last sensor cannot be removed, and the list is of those there are", () => {
@@ -130,7 +141,7 @@ test("the last sensor cannot be removed, and the list is of those there are", ()
   sensors.control("Selected sensor").put("4", "change");
   assert.equal(desk.hand.selected, 4);
   sensors.control("Remove the sensor").click();
-  assert.deepEqual(desk.asked("sensor"), [{ type: "sensor", op: "remove", id: 4 }]);
+  assert.deepEqual(desk.asked("remove_sensor"), [{ type: "remove_sensor", id: 4 }]);
 });
 
 test("each method has the settings that it has use for, and its own word for a sweep", () => {
@@ -238,14 +249,14 @@ const named = (found: Panel) => found.find((one) => one.tagName === "ul")[0].inn
 test("the legend names what is on show, by the quantity's own words", () => {
   const [desk, found] = panel(themed);
   assert.match(named(found), /^P\(wall\) 0 1 true wall ray no return reading sensor unobserved/);
-  desk.state({ view: { layer: "entropy" } });
+  desk.state({ view: { layer: "entropy", chain: null, draw: null } });
   assert.match(named(found), /^entropy \(bit\)/);
   desk.field({ quantity: SURFACES });
-  desk.state({ view: { layer: "mean" } });
+  desk.state({ view: { layer: "mean", chain: null, draw: null } });
   assert.match(named(found), /^mean reflectivity/);
   desk.field({ quantity: SURFACES, layer: "draw" });
   assert.match(named(found), /^reflectivity/);
-  desk.state({ view: { layer: "width" } });
+  desk.state({ view: { layer: "width", chain: null, draw: null } });
   desk.field({ quantity: SURFACES, layer: "mean" }); // until there are intervals
   assert.match(named(found), /^mean reflectivity/);
   desk.field({ quantity: SURFACES, layer: "width" });

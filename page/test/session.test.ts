@@ -1,7 +1,7 @@
 import { browser } from "./dom";
 import assert from "node:assert/strict";
 import { mock, test } from "node:test";
-import type { Field, Message, Pair } from "../src/protocol";
+import type { Action, Field, Pair } from "../src/protocol";
 import { Latency } from "../src/state/latency";
 import { Progress } from "../src/state/progress";
 import { Status } from "../src/state/status";
@@ -23,7 +23,7 @@ test("edits that are on their way stay on top of a state that does not hold them
   desk.session.act({ type: "walls", cells: [[3, 3]], wall: true, stroke: 1 });
   const first = desk.session.acted;
   desk.session.act({ type: "set", patch: { prior: 0.2, resolution: 3 } });
-  desk.session.act({ type: "sensor", op: "move", id: 1, x: 8, y: 9, yaw: 1 });
+  desk.session.act({ type: "move_sensor", id: 1, x: 8, y: 9, yaw: 1 });
   desk.session.act({ type: "walls", cells: [[12, 4]], wall: false, stroke: 2 });
   desk.confirm({ walls: wallsOf([[3, 3], ...WALLS]) }, { seq: first });
   assert.deepEqual(desk.walls, [[3, 3], [12, 5]]);
@@ -37,15 +37,15 @@ test("edits that are on their way stay on top of a state that does not hold them
 
 test("an edit that is refused is taken back, and why is said with its remedy", () => {
   const desk = new Desk();
-  desk.session.act({ type: "sensor", op: "move", id: 1, x: 12, y: 5, yaw: 0 });
+  desk.session.act({ type: "move_sensor", id: 1, x: 12, y: 5, yaw: 0 });
   const refused = desk.session.acted;
   desk.session.act({ type: "walls", cells: [[3, 3]], wall: true, stroke: 1 });
-  desk.says("error", { text: "sensor 1 stands in a wall", remedy: "choose a free cell", refused: { seq: refused } });
+  desk.says("error", { text: "sensor 1 stands in a wall", remedy: "choose a free cell", seq: refused });
   assert.deepEqual(desk.session.document!.sensors[0].x, 10);
   assert.deepEqual(desk.walls, [[3, 3], ...WALLS]); // the other is still on its way
   assert.equal(desk.status, "Sensor 1 stands in a wall; choose a free cell");
   assert.equal(desk.session.status.level, "error");
-  desk.says("error", { text: "too many", refused: { seq: desk.session.acted } });
+  desk.says("error", { text: "too many", seq: desk.session.acted });
   assert.deepEqual(desk.walls, WALLS);
 });
 
@@ -117,7 +117,7 @@ test("a field of a chain that comes before the first state waits for it", () => 
 test("questions change nothing: no state confirms them", () => {
   const desk = new Desk();
   const { acted } = desk.session;
-  for (const type of ["inspect", "path", "views", "where", "ghost", "beam"]) desk.session.act({ type });
+  for (const type of ["inspect", "path", "views", "where", "ghost", "beam"]) desk.session.act({ type } as Action);
   assert.equal(desk.session.acted, acted);
   desk.session.act({ type: "undo" });
   assert.equal(desk.session.acted, acted + 7); // of one count with them
@@ -128,7 +128,7 @@ test("the view is the server's, but for one that is on its way", () => {
   desk.session.act({ type: "view", layer: "draw", chain: 1, draw: 4 });
   desk.confirm({}, { seq: desk.session.acted - 1, view: { layer: "mean", chain: 0, draw: null } });
   assert.deepEqual(desk.session.view, { layer: "draw", chain: 1, draw: 4 });
-  desk.confirm({}, { view: { layer: "entropy" } });
+  desk.confirm({}, { view: { layer: "entropy", chain: null, draw: null } });
   assert.deepEqual(desk.session.view, { layer: "entropy", chain: 0, draw: null });
 });
 
@@ -149,12 +149,12 @@ test("offline, walls and settings go on and travel at reconnection; what needs t
   assert.equal(desk.status, "Connection lost");
   assert.equal(desk.session.status.level, "error");
   desk.sent.length = 0;
-  for (const needs of [{ type: "undo" }, { type: "run" }, { type: "sensor", op: "add", x: 1, y: 1 }, { type: "sensor", op: "remove", id: 1 }, { type: "export", what: "run" }]) {
-    desk.session.act(needs);
+  for (const needs of [{ type: "undo" }, { type: "run" }, { type: "add_sensor", x: 1, y: 1 }, { type: "remove_sensor", id: 1 }, { type: "export", what: "run" }]) {
+    desk.session.act(needs as Action);
     assert.equal(desk.status, "Not while the connection is lost: this needs the server", JSON.stringify(needs));
   }
   desk.session.act({ type: "walls", cells: [[8, 8]], wall: true, stroke: 1 });
-  desk.session.act({ type: "sensor", op: "move", id: 1, x: 3, y: 3, yaw: 0 });
+  desk.session.act({ type: "move_sensor", id: 1, x: 3, y: 3, yaw: 0 });
   desk.session.act({ type: "set", patch: { prior: 0.25 } });
   assert.deepEqual(desk.walls, [[8, 8], ...WALLS]);
   assert.deepEqual(desk.sent, []);
@@ -182,7 +182,7 @@ test("of a file's map the server has the cells: settings travel alone, and nothi
 test("a page that looked at another layer looks at it again", () => {
   const desk = new Desk();
   desk.session.act({ type: "view", layer: "entropy" });
-  desk.confirm({}, { view: { layer: "entropy" } });
+  desk.confirm({}, { view: { layer: "entropy", chain: null, draw: null } });
   desk.cut();
   desk.sent.length = 0;
   desk.transport.onstatus({ connected: true });
@@ -206,7 +206,7 @@ test("a document that is brought along and is none gives way to the server's, an
   const [hello] = desk.sent;
   assert.equal(hello.document.grid, "none");
   desk.says("welcome", {});
-  desk.says("error", { text: "grid: not an object", refused: { seq: hello.seq } });
+  desk.says("error", { text: "grid: not an object", seq: hello.seq });
   assert.deepEqual(desk.asked("hello").at(-1), { type: "hello" });
   assert.equal(desk.status, "The map that was brought along cannot be shown: grid: not an object");
   desk.confirm();
@@ -413,7 +413,7 @@ test("the robot's place is asked for one question at a time, of the sensor in th
   where.follow(true, 1);
   assert.equal(asked(desk, "where"), 2); // its picture comes first
   desk.field();
-  desk.says("where", { trouble: "no draws yet" });
+  desk.says("where", { modes: [], trouble: "no draws yet" });
   assert.deepEqual([where.trouble, where.found], ["no draws yet", null]);
   where.follow(true, 1);
   assert.equal(asked(desk, "where"), 3);
@@ -495,6 +495,6 @@ test("a recording asks its session nothing", () => {
   session.evidence.pin({ x: 1, y: 1 });
   session.where.follow(true, null);
   desk.field();
-  assert.deepEqual(desk.sent.map((message: Message) => message.type), []);
+  assert.deepEqual(desk.sent.map(({ type }) => type), []);
   assert(!session.editable);
 });

@@ -226,7 +226,7 @@ test("a cell's beams in words, the strongest by name", () => {
     return found.text;
   };
   assert.match(said({ beams: 0 }), /no beam reaches it/);
-  assert.match(said({ beams: 2 }), /2 beams; there are no draws to ask/);
+  assert.match(said({ beams: 2, nats_for: null, nats_against: null }), /2 beams; there are no draws to ask/);
   const facts = { beams: 12, beams_for: 3, nats_for: 4.56, beams_against: 1, nats_against: 0.5 };
   const words = said(facts, [2.5, -1.25, 0, 0, 0, 0, 0, 0, 0, 0]);
   assert.match(words, /12 beams. For a wall \(blue\) 3, 4.6 nats; against \(orange\) 1, 0.5 nats/);
@@ -258,7 +258,7 @@ test("where the robot may be, in words", () => {
 
 test("a reading in words: along its beam, and across and along the wall that it met", () => {
   const wall = { across_m: -0.012, along_m: 0.5, thickness_m: 0.02, length_m: 2, incidence_rad: 0.7 };
-  const reading = { scan: 0, beam: 30, draws: 9, reading: "hit" as const, range: 2.345, low: 2.3, median: 2.36, high: null, residual: -0.0152, nats: 1, no_return: 0.01, wall };
+  const reading = { type: "beam" as const, generation: 1, scan: 0, beam: 30, draws: 9, reading: "hit" as const, range: 2.345, low: 2.3, median: 2.36, high: null, residual: -0.0152, nats: 1, no_return: 0.01, wall };
   assert.equal(
     readingWords(reading),
     "Beam 31 of scan 1 read 2.35 m, 1.5 cm shorter than the predicted median (median 2.36 m, 80 % between 2.30 m and no return). " +

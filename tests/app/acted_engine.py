@@ -1,7 +1,45 @@
 """An engine whose reports are kept."""
 
+import json
+from dataclasses import dataclass
+from functools import cached_property
+
 from bayesmap.app.engine import Engine
-from bayesmap.app.tasks import Infer
+from bayesmap.app.protocol.actions import Cancel, ShowScan
+from bayesmap.app.protocol.notices import Notice, View
+from bayesmap.app.protocol.tasks import Ask, Infer, Report, Show
+from bayesmap.app.protocol.wire import frame
+from bayesmap.app.shown.chains import ChainResult
+
+PAGE = 7
+"""The page that asks."""
+
+
+def header_of(message):
+    """A message as JSON values; of a signal its fields as they are."""
+    if isinstance(message, Notice):
+        return json.loads(frame(message, {}))
+    fields = {name: getattr(message, name) for name in message.__struct_fields__}
+    return {"type": type(message).__name__.lower(), **fields}
+
+
+@dataclass(frozen=True)
+class Said:
+    """A report, and what a test reads of it."""
+
+    report: Report
+
+    @cached_property
+    def header(self):
+        return header_of(self.report.message)
+
+    @property
+    def buffers(self):
+        return self.report.buffers
+
+    @property
+    def client(self):
+        return self.report.client
 
 
 class Heard:
@@ -9,7 +47,7 @@ class Heard:
 
     def __init__(self, opened=None):
         self.reports = []
-        self.engine = Engine(self.reports.append, opened)
+        self.engine = Engine(lambda report: self.reports.append(Said(report)), opened)
         self.generation = 0
 
     def infer(self, document, mode="live", *, steps=None, **options):
@@ -24,14 +62,15 @@ class Heard:
     def infer_until_chains_run(self, document):
         """Do a job until its chains have made a step; how many pieces come before depends on the machine."""
         self.infer(document, steps=0)
-        while self.engine._result is None or self.engine._result.stream is None:
+        while not isinstance(self.engine._result, ChainResult):
             assert self.engine.busy, "the job ended without chains"
             self.engine.advance()
 
-    def ask(self, task):
-        """Its answers to a question."""
+    def ask(self, question):
+        """Its answers to a page: to a question, to the wish to see another field or scan, or to stop."""
         before = len(self.reports)
-        self.engine.take(task)
+        asked = Show(PAGE, question) if isinstance(question, View) else Ask(PAGE, question)
+        self.engine.take(question if isinstance(question, Cancel | ShowScan) else asked)
         return self.reports[before:]
 
     def last(self, kind):

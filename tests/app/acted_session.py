@@ -1,11 +1,38 @@
 """A session with pages and a worker that exist on paper only."""
 
 import numpy as np
+from acted_engine import header_of
+from msgspec import structs
 
-from bayesmap.app.messages import check
-from bayesmap.app.session import Session, ToWorker, addressed
-from bayesmap.app.tasks import Infer, Report
+from bayesmap.app.protocol.notices import DrawCount, Field, Overlay, Quantity, Scan, Stage
+from bayesmap.app.protocol.tasks import Ask, Failed, Finished, Infer, Located, OnGrid, Ready, Report
+from bayesmap.app.protocol.wire import check
+from bayesmap.app.session import Session, ToWorker
 from bayesmap.app.worlds import tutorial_document
+
+WALLS = Quantity("binary", "P(wall)", "wall", False)
+
+
+def a_field(generation):
+    """A picture."""
+    return Field(
+        generation=generation, layer="mean", method="gibbs", approximate=False, sweeps=1, total=1, ess=None, rhat=None,
+        log_joint=None, verdict=None, draws=DrawCount(), quantity=WALLS, milliseconds=0.0,
+    )  # fmt: skip
+
+
+MADE = {
+    "ready": lambda generation, document=None: Ready(document),
+    "field": a_field,
+    "scan": lambda generation: Scan([1], generation=generation),
+    "overlay": lambda generation: Overlay(generation=generation),
+    "stage": lambda generation, text: Stage("loops", text, 0, 1, generation=generation),
+    "finished": lambda generation, draws: Finished(DrawCount(**draws), generation=generation),
+    "failed": lambda generation, text: Failed(text, generation=generation),
+    "grid": lambda generation, grid: OnGrid(grid, generation=generation),
+    "trajectory": lambda generation, found: Located(found, generation=generation),
+}
+"""Reports of the worker's, by what they are called here."""
 
 
 class Acted:
@@ -14,6 +41,7 @@ class Acted:
     def __init__(self, document=None):
         self.session = Session(tutorial_document() if document is None else document)
         self.sent, self.tasks, self.seq = [], [], 0
+        self.session.join(1)
         self.hear("ready", generation=None)
 
     def act(self, kind, client=1, **fields):
@@ -23,9 +51,8 @@ class Acted:
 
     def hear(self, kind, generation, **fields):
         """A worker's report."""
-        numbered = {} if generation is None else {"generation": generation}
         buffers = {"p": np.zeros((21, 21), np.uint8)} if kind == "field" else {}
-        return self.do(self.session.hear(Report({"type": kind, **numbered, **fields}, buffers)))
+        return self.do(self.session.hear(Report(MADE[kind](generation, **fields), buffers)))
 
     def do(self, effects, client=1):
         new = []
@@ -33,7 +60,7 @@ class Acted:
             if isinstance(effect, ToWorker):
                 self.tasks.append(effect.task)
             elif effect.client in (None, client):
-                new.append(addressed(effect.header, client))
+                new.append(header_of(effect.message))
         self.sent += new
         return new
 
@@ -50,6 +77,12 @@ class Acted:
     def inferred(self):
         """What the worker was asked to infer, in order."""
         return [task for task in self.tasks if isinstance(task, Infer)]
+
+    @property
+    def asked(self):
+        """Pages that asked, and what they asked the worker, without its number."""
+        asked = [task for task in self.tasks if isinstance(task, Ask)]
+        return [(task.client, structs.replace(task.question, seq=0)) for task in asked]
 
     @property
     def state(self):

@@ -9,7 +9,7 @@ from warm_worker import FORKS, Forked
 
 import bayesmap as bm
 from bayesmap.app import supervisor
-from bayesmap.app.parsing import parse_document
+from bayesmap.app.protocol.wire import parse_document
 
 
 @pytest.fixture(scope="session", autouse=True)

@@ -16,10 +16,9 @@ from PIL import Image
 
 from bayesmap.app import server as app_server
 from bayesmap.app.hub import Hub
-from bayesmap.app.messages import unframe
-from bayesmap.app.parsing import parse_document
-from bayesmap.app.preview import Preview
-from bayesmap.app.scanning import simulated_scene
+from bayesmap.app.protocol.wire import parse_document, unframe
+from bayesmap.app.scene import simulated_scene
+from bayesmap.app.shown.beliefs import Preview
 from bayesmap.app.worlds import tutorial_document
 
 BROWSERS = ("chromium-headless-shell", "chromium", "chromium-browser", "google-chrome")

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from websockets.sync.client import connect
 
-from bayesmap.app.messages import unframe
+from bayesmap.app.protocol.wire import unframe
 
 PATIENCE_S = 180.0
 SOURCE = Path(__file__).resolve().parents[2] / "src"

@@ -7,12 +7,18 @@ import pytest
 from acted_engine import Heard
 
 import bayesmap as bm
-from bayesmap.app.chains import SMALLEST_HEADING_RAD, SMALLEST_POSE_M, chains_of_walls, pose_prior, pose_starts
-from bayesmap.app.document import Document, Sensor, WallMap
 from bayesmap.app.exports import export
-from bayesmap.app.scanning import simulate_document, simulated_scene
-from bayesmap.app.starting import starts
-from bayesmap.app.stream import POSE_CHAINS
+from bayesmap.app.protocol.document import Document, Sensor, packed
+from bayesmap.app.scene import simulate_document, simulated_scene
+from bayesmap.app.shown.chains import (
+    POSE_CHAINS,
+    SMALLEST_HEADING_RAD,
+    SMALLEST_POSE_M,
+    chains_of_walls,
+    pose_prior,
+    pose_starts,
+    starts,
+)
 from bayesmap.app.worlds import tutorial_document
 from bayesmap.kernels.walls.table import trace
 from bayesmap.samplers.wall_problem import WallProblem
@@ -21,7 +27,7 @@ from bayesmap.space.grid import Grid
 
 TINY = Document(
     Grid((3, 3), 1.0, (-0.5, -0.5)),
-    WallMap(np.array([[0, 0, 1], [0, 0, 0], [1, 0, 1]], dtype=bool)),
+    packed(np.array([[0, 0, 1], [0, 0, 0], [1, 0, 1]], dtype=bool)),
     (Sensor(1, 0.1, 1.2, 0.3),),
     prior=0.3, noise=0.6, angles=12, max_range=6.0, sweeps=2500, seed=1,
 )  # fmt: skip
@@ -84,7 +90,7 @@ def test_maps_are_averaged_over_the_posterior_of_the_pose():
 
 
 def test_walls_blur_as_positions_become_uncertain_by_whole_cells():
-    drawn = tutorial_document().walls.cells
+    drawn = tutorial_document().is_wall
     sure = []
     for sigma_m in (0.0, 0.5, 1.0):
         heard = Heard()

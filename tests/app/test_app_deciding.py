@@ -6,16 +6,17 @@ import numpy as np
 import pytest
 from acted_engine import Heard
 from acted_session import Acted
+from msgspec import structs
 
-from bayesmap.app.document import Refused, WallMap
-from bayesmap.app.messages import check
-from bayesmap.app.opened import opened_run
-from bayesmap.app.tasks import FindPath, FindViews
+from bayesmap.app.protocol.actions import FindPath, FindViews
+from bayesmap.app.protocol.document import Refused, packed
+from bayesmap.app.protocol.wire import check
+from bayesmap.app.sources import opened_run
 from bayesmap.app.worlds import tutorial_document
 from bayesmap.posterior.decisions import path_is_free
 
 DOCUMENT = replace(tutorial_document(), sweeps=300)
-PATH = FindPath(7, (6.0, 15.0), (10.0, 14.0), 0.4, 0.05)
+PATH = FindPath((6.0, 15.0), (10.0, 14.0), 0.4, 0.05)
 
 
 def answered(heard, task):
@@ -56,7 +57,7 @@ def test_a_path_needs_draws():
 def test_where_no_way_leads_that_is_said():
     heard = Heard()
     heard.infer(DOCUMENT, "run")
-    header, _ = answered(heard, replace(PATH, goal=(900.0, 3.0)))
+    header, _ = answered(heard, structs.replace(PATH, goal=(900.0, 3.0)))
     assert header["type"] == "undecided"
     assert "outside" in header["text"]
 
@@ -64,7 +65,7 @@ def test_where_no_way_leads_that_is_said():
 def test_views_stand_where_it_is_free_and_tell_more_where_less_is_known():
     heard = Heard()
     _, field = heard.infer(DOCUMENT, "live")
-    header, buffers = answered(heard, FindViews(7))
+    header, buffers = answered(heard, FindViews())
     assert header["type"] == "views"
     assert header["spacing"] == 1.0
     pose, nats = buffers["pose"], buffers["nats"]
@@ -80,23 +81,22 @@ def test_a_large_map_has_no_more_places_than_can_be_told_apart():
     heard = Heard()
     walls = np.zeros((120, 80), dtype=bool)
     grid = replace(DOCUMENT.grid, shape=(120, 80))
-    document = replace(DOCUMENT, grid=grid, walls=WallMap(walls), max_range=60.0, sweeps=5)
+    document = replace(DOCUMENT, grid=grid, walls=packed(walls), max_range=60.0, sweeps=5)
     heard.infer(document, "live")
-    _, buffers = answered(heard, FindViews(7))
+    _, buffers = answered(heard, FindViews())
     assert 0 < len(buffers["nats"]) <= 400
 
 
 def test_a_saved_run_is_decided_by_too():
     heard = Heard()
     heard.infer(DOCUMENT, "run")
-    from bayesmap.app.exports import as_run
 
-    opened = opened_run(as_run(heard.engine._result), "run.nc")
+    opened = opened_run(heard.engine._result.as_run(), "run.nc")
     shown = Heard(opened)
     shown.infer(opened.document)
     header, _ = answered(shown, PATH)
     assert header["type"] == "path"
-    views, _ = answered(shown, FindViews(7))
+    views, _ = answered(shown, FindViews())
     assert views["type"] == "views"
 
 
@@ -106,7 +106,7 @@ def test_questions_change_nothing():
     acted.act("path", start=[0, 0], goal=[1.5, 2], radius=0.2, risk=0.1)
     acted.act("views")
     assert acted.session.generation == before
-    assert acted.tasks[-2:] == [FindPath(1, (0.0, 0.0), (1.5, 2.0), 0.2, 0.1), FindViews(1)]
+    assert acted.asked == [(1, FindPath((0.0, 0.0), (1.5, 2.0), 0.2, 0.1)), (1, FindViews())]
 
 
 @pytest.mark.parametrize(

@@ -9,10 +9,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from bayesmap.app.document import BOUNDS, Document, Refused, Sensor, WallMap
-from bayesmap.app.parsing import parse_document, parse_simulation
-from bayesmap.app.scanning import simulate_document, standard_noise
+from bayesmap.app.protocol.document import BOUNDS, Document, Refused, Sensor, packed
+from bayesmap.app.protocol.wire import parse_document, parse_simulation
+from bayesmap.app.scene import simulate_document, standard_noise
 from bayesmap.app.worlds import new_document, tutorial_document
+from bayesmap.sim.tutorial import TUTORIAL_GRID
 from bayesmap.space.grid import Grid
 
 
@@ -33,7 +34,7 @@ def documents(draw):
         cells[i, j] = False
     return Document(
         grid,
-        WallMap(cells),
+        packed(cells),
         sensors,
         prior=draw(st.floats(0, 1)),
         noise=draw(st.floats(0, 5)),
@@ -55,17 +56,24 @@ def test_a_document_goes_through_json_and_through_a_pipe_unchanged(document):
     assert pickle.loads(pickle.dumps(document)) == document
 
 
+def test_what_was_left_out_is_written_with_its_default():
+    left_out = {name: GOOD[name] for name in ("grid", "walls")}
+    assert parse_document({**left_out, "sensors": [{"id": 1, "x": 10, "y": 10}]}).to_json() == {
+        **Document(TUTORIAL_GRID, tutorial_document().walls, (Sensor(1, 10.0, 10.0),)).to_json()
+    }
+
+
 def test_walls_are_packed_as_the_page_s_description_says():
     cells = np.zeros((3, 4), dtype=bool)
     cells[0, 0] = cells[2, 3] = True  # bits 0 and 11 of 12
-    text = WallMap(cells).text
-    assert text == "gBA="  # 1000 0000 0001 0000
-    assert WallMap.parse(text, (3, 4)) == WallMap(cells)
+    document = Document(Grid((3, 4)), packed(cells), (Sensor(1, 0.5, 1.5),))
+    assert document.to_json()["walls"] == "gBA="  # 1000 0000 0001 0000
+    assert np.array_equal(parse_document(document.to_json()).is_wall, cells)
 
 
 def test_a_map_cannot_be_written_to():
     with pytest.raises(ValueError, match="read-only"):
-        tutorial_document().walls.cells[0, 0] = True
+        tutorial_document().is_wall[0, 0] = True
 
 
 GOOD = tutorial_document().to_json()
@@ -78,7 +86,7 @@ GOOD = tutorial_document().to_json()
         ("grid", None, "grid"),
         ("grid", {"shape": [1, 21]}, "shape"),
         ("grid", {"shape": [501, 21]}, "shape"),
-        ("grid", {"shape": [21.5, 21]}, "shape"),
+        ("grid", {"shape": [21.5, 21]}, "shape\\[0\\]: 21.5 is not a whole number"),
         ("grid", {"shape": [21, 21], "resolution": 0}, "resolution"),
         ("grid", {"shape": [21, 21], "origin": [1e300, 0]}, "origin"),
         ("walls", 5, "walls"),
@@ -87,19 +95,19 @@ GOOD = tutorial_document().to_json()
         ("sensors", [], "sensors"),
         ("sensors", [{"id": 1, "x": 10, "y": 10}] * 33, "sensors"),
         ("sensors", [{"id": 1, "x": 10, "y": 10}] * 2, "same id"),
-        ("sensors", [{"id": 1, "x": "10", "y": 10}], "sensor: x"),
+        ("sensors", [{"id": 1, "x": "10", "y": 10}], "sensors\\[0\\].x"),
         ("sensors", [{"id": 1, "x": 99, "y": 10}], "outside"),
         ("sensors", [{"id": 1, "x": 2, "y": 2}], "wall"),
         ("prior", True, "prior"),
         ("prior", 1.01, "prior"),
-        ("noise", -0.1, "noise"),
+        ("noise", -0.1, "noise \\(m\\): -0.1 is not a number from 0 to 5"),
         ("angles", 9, "angles"),
         ("angles", 10.5, "angles"),
         ("sweeps", 10**400, "sweeps"),
-        ("method", "exact", "method"),
+        ("method", "exact", "method: 'exact' is not one of auto, block, gibbs"),
         ("method", ["gibbs"], "method"),
         ("order", None, "order"),
-        ("source", {"kind": "log", "name": "/etc/passwd"}, "scans"),
+        ("source", {"kind": "log", "name": "/etc/passwd", "scans": -1}, "scans"),
         ("source", {"kind": "log", "name": "", "scans": 3}, "name"),
         ("source", {"kind": "folder"}, "kind"),
         ("fov", 7.0, "field of view"),
@@ -117,7 +125,7 @@ def test_a_document_of_a_file_names_it_and_holds_its_settings_alone():
     source = {"kind": "log", "name": "office.log", "scans": 7}
     found = parse_document({**GOOD, "source": source, "walls": "", "sensors": [], "prior": 0.25, "noise": 99})
     assert (found.source.name, found.source.scans, found.prior) == ("office.log", 7, 0.25)
-    assert not found.walls.cells.any()
+    assert not found.is_wall.any()
     with pytest.raises(Refused, match="file"):
         parse_simulation({**GOOD, "source": source})
 

@@ -6,29 +6,30 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from acted_engine import Heard
+from acted_engine import PAGE, Heard
 
 import bayesmap as bm
-from bayesmap.app.document import Document, Sensor, WallMap
-from bayesmap.app.judging import FEWEST_SWEEPS
-from bayesmap.app.preview import Preview
-from bayesmap.app.scanning import simulate_document, simulated_scene
-from bayesmap.app.tasks import Cancel, Inspect, View
+from bayesmap.app.protocol.actions import Cancel, Inspect
+from bayesmap.app.protocol.document import Document, Sensor, packed
+from bayesmap.app.protocol.notices import DrawCount, View
+from bayesmap.app.scene import simulate_document, simulated_scene
+from bayesmap.app.shown.beliefs import Preview
+from bayesmap.app.shown.verdict import FEWEST_SWEEPS
 from bayesmap.app.worlds import new_document, tutorial_document
 from bayesmap.model import Model
-from bayesmap.run.chains import Schedule
 from bayesmap.run.runner import Job, run_chains
+from bayesmap.run.schedule import Schedule
+from bayesmap.samplers.exact import enumerate_maps
 from bayesmap.samplers.fit import PILOT_SWEEPS, first_sensor, fit
 from bayesmap.samplers.importance import sample_importance
+from bayesmap.samplers.problem import WallProblem
 from bayesmap.samplers.propagate import propagate
 from bayesmap.samplers.stop_gibbs import StopGibbs
-from bayesmap.samplers.wall_problem import WallProblem
-from bayesmap.samplers.without_chains import enumerate_maps
 from bayesmap.space.grid import Grid
 
 TINY = Document(
     Grid((3, 3), 1.0, (-0.5, -0.5)),
-    WallMap(np.array([[0, 0, 1], [0, 0, 0], [1, 0, 1]], dtype=bool)),
+    packed(np.array([[0, 0, 1], [0, 0, 0], [1, 0, 1]], dtype=bool)),
     (Sensor(1, 0.1, 1.2, 0.3),),
     prior=0.3, noise=0.6, angles=12, max_range=6.0, sweeps=20_000, seed=1,
 )  # fmt: skip
@@ -102,7 +103,7 @@ def test_a_job_is_a_preview_and_then_chains_to_their_last_sweep():
     assert fields[0]["approximate"]
     assert fields[-1]["sweeps"] == fields[-1]["total"] == 1000
     assert 0.9 < fields[-1]["rhat"] < 1.1
-    assert heard.all("finished")[-1]["draws"] == {"chains": 0, "count": 0}
+    assert heard.all("finished")[-1]["draws"] == DrawCount(0, 0)
 
 
 def test_a_preview_alone_stops_there():
@@ -157,7 +158,7 @@ def test_cancel_keeps_the_partial_chain():
     heard.infer(replace(tutorial_document(), sweeps=100_000), "run", steps=6)
     heard.ask(Cancel())
     assert not heard.engine.busy
-    count = heard.all("finished")[-1]["draws"]["count"]
+    count = heard.all("finished")[-1]["draws"].count
     assert 0 < count < 100_000
     assert heard.ask(View("draw", 0, count - 1))[0].header["draw"] == count - 1
     assert heard.ask(Cancel()) == []
@@ -242,14 +243,14 @@ def test_the_scan_says_where_beams_truly_end():
 def test_inspecting_a_cell_counts_its_beams():
     heard = Heard()
     heard.infer(tutorial_document(), "preview")
-    assert heard.ask(Inspect(3, 10, 10))[0].header["beams"] == 100
-    (answer,) = heard.ask(Inspect(3, 999, 999))
-    assert (answer.client, answer.header["beams"]) == (3, 0)
+    assert heard.ask(Inspect(10, 10))[0].header["beams"] == 100
+    (answer,) = heard.ask(Inspect(999, 999))
+    assert (answer.client, answer.header["beams"]) == (PAGE, 0)
 
 
 def test_many_sweeps_of_a_large_map_are_thinned_to_fit():
-    from bayesmap.app.stream import DRAW_BYTES, Stream
-    from bayesmap.samplers.walls import Gibbs
+    from bayesmap.app.shown.chains import DRAW_BYTES, Stream
+    from bayesmap.samplers.gibbs import Gibbs
 
     document = new_document("blank", (500, 500), tutorial_document())
     scene = simulated_scene(document)

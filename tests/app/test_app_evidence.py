@@ -7,8 +7,8 @@ import pytest
 from acted_engine import Heard
 
 import bayesmap as bm
-from bayesmap.app.evidence import MOST_DRAWN, BeamRatios, strongest, summed, wall_ratios
-from bayesmap.app.tasks import Inspect
+from bayesmap.app.answers.evidence import MOST_DRAWN, BeamRatios, strongest, summed, wall_ratios
+from bayesmap.app.protocol.actions import Inspect
 from bayesmap.app.worlds import tutorial_document
 from bayesmap.kernels.walls.table import trace
 
@@ -47,7 +47,7 @@ def test_a_wall_is_spoken_for_and_floor_against():
     seen = np.unpackbits(field["observed"], count=441).reshape(21, 21).astype(bool)
     wall = tuple(np.argwhere(seen & (p == 255))[0].tolist())
     floor = 10, 12
-    of_wall, of_floor = (heard.ask(Inspect(3, *cell))[0].header for cell in (wall, floor))
+    of_wall, of_floor = (heard.ask(Inspect(*cell))[0].header for cell in (wall, floor))
     assert of_wall["nats_for"] > of_wall["nats_against"]
     assert of_floor["nats_against"] > of_floor["nats_for"] + 1
     assert of_floor["beams_for"] + of_floor["beams_against"] <= of_floor["beams"]
@@ -72,9 +72,9 @@ def test_the_beams_that_say_most_come_first_with_where_they_run():
 def test_each_beam_is_told_where_it_is_asked_for():
     heard = Heard()
     heard.infer(tutorial_document())
-    (together,) = heard.ask(Inspect(3, 10, 12))
+    (together,) = heard.ask(Inspect(10, 12))
     assert together.buffers == {}
-    (each,) = heard.ask(Inspect(3, 10, 12, each=True))
+    (each,) = heard.ask(Inspect(10, 12, each=True))
     assert {**each.header, "each": False} == together.header
     nats = each.buffers["nats"]
     assert nats[nats > 0].sum() == pytest.approx(each.header["nats_for"])

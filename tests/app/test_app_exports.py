@@ -10,12 +10,14 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from acted_engine import Heard
+from acted_engine import PAGE, Heard
 
 import bayesmap as bm
-from bayesmap.app.opened import open_file
+from bayesmap.app.protocol.actions import Export, ShowScan
+from bayesmap.app.protocol.document import Source
+from bayesmap.app.protocol.notices import DrawCount, View
 from bayesmap.app.recording import run_to_html
-from bayesmap.app.tasks import Export, ShowScan, View
+from bayesmap.app.sources import open_file
 from bayesmap.app.worlds import tutorial_document
 from bayesmap.io.ros.maps import read_map
 
@@ -28,8 +30,8 @@ def heard():
 
 
 def exported(heard, what):
-    (report,) = heard.ask(Export(1, what))
-    assert report.client == 1
+    (report,) = heard.ask(Export(what))
+    assert report.client == PAGE
     return report.header, report.buffers.get("data")
 
 
@@ -65,7 +67,7 @@ def exported_text(heard):
 def test_an_export_waits_for_the_first_picture():
     heard = Heard()
     heard.infer(tutorial_document(), steps=0)
-    assert heard.ask(Export(1, "map")) == []
+    assert heard.ask(Export("map")) == []
     while not heard.all("field"):
         assert heard.all("download") == []
         heard.engine.advance()
@@ -108,7 +110,7 @@ def test_a_saved_run_is_shown_with_its_draws_and_scans(heard, tmp_path):
     (tmp_path / "a.nc").write_bytes(exported(heard, "run")[1])
     run = bm.load(tmp_path / "a.nc")
     opened = open_file(str(tmp_path / "a.nc"))
-    assert opened.document.source.to_json() == {"kind": "run", "name": "a.nc", "scans": 1}
+    assert opened.document.source == Source("run", "a.nc", 1)
     shown = Heard(opened)
     header, buffers = shown.infer(opened.document)
     assert header["draws"] == {"chains": 2, "count": 1000}
@@ -173,7 +175,7 @@ def test_a_log_is_inferred_from_with_the_defaults_for_logs(tmp_path):
     assert scan.header["index"] == 2
     assert scan.buffers["pose"].shape == (1, 3)
     heard.infer(replace(opened.document, sweeps=4, prior=0.4), "run")
-    assert heard.all("finished")[-1]["draws"] == {"chains": 2, "count": 4}
+    assert heard.all("finished")[-1]["draws"] == DrawCount(2, 4)
 
 
 @pytest.mark.parametrize("name", ["none.nc", "none.log"])

@@ -8,16 +8,16 @@ from acted_engine import Heard
 from building_log import ANGLES, room_run, room_scans
 
 import bayesmap as bm
-from bayesmap.app.ghost import FEW_DRAWS, nearest_scan
-from bayesmap.app.opened import opened_run
-from bayesmap.app.tasks import MoveGhost
+from bayesmap.app.answers.ghost import FEW_DRAWS, nearest_scan
+from bayesmap.app.protocol.actions import MoveGhost
+from bayesmap.app.sources import opened_run
 from bayesmap.app.worlds import tutorial_document
 from bayesmap.posterior.predictor import ScanPredictor, predictor_of
 from bayesmap.sensors.model import RangeLimits
 
 
 def asked(heard, *pose, coarse=False):
-    (report,) = heard.ask(MoveGhost(7, *pose, coarse))
+    (report,) = heard.ask(MoveGhost(*pose, coarse))
     assert report.client == 7
     return report.header, report.buffers
 
@@ -92,12 +92,12 @@ def test_a_scan_taken_nearby_is_shown_beside_it(surfaces):
 def test_near_means_half_a_metre_and_a_shared_field_of_view():
     poses = np.array([[0.0, 0.0, 0.0], [0.3, 0.0, 3.0], [5.0, 5.0, 0.0]])
     half_turn = np.linspace(-np.pi / 2, np.pi / 2, 5)
-    assert nearest_scan(poses, (0.3, 0.0, 0.2), half_turn)["index"] == 0  # the nearer one looks the other way
-    assert nearest_scan(poses, (0.3, 0.0, 2.9), half_turn)["index"] == 1
+    assert nearest_scan(poses, (0.3, 0.0, 0.2), half_turn).index == 0  # the nearer one looks the other way
+    assert nearest_scan(poses, (0.3, 0.0, 2.9), half_turn).index == 1
     assert nearest_scan(poses, (0.0, 0.6, 0.0), half_turn) is None
     assert nearest_scan(poses, (5.0, 5.0, np.pi), half_turn) is None
     whole_turn = np.linspace(-np.pi, np.pi, 9)
-    assert nearest_scan(poses, (5.0, 5.0, np.pi), whole_turn)["index"] == 2
+    assert nearest_scan(poses, (5.0, 5.0, np.pi), whole_turn).index == 2
     assert nearest_scan(poses[:0], (0.0, 0.0, 0.0), half_turn) is None
 
 
@@ -130,7 +130,7 @@ def test_chains_rest_while_it_is_moved(monkeypatch):
 
 
 def test_its_draws_are_those_of_the_last_sweep_once_chains_are_done(monkeypatch):
-    monkeypatch.setattr("bayesmap.app.ghost.STALE_SECONDS", 60.0)
+    monkeypatch.setattr("bayesmap.app.answers.ghost.STALE_SECONDS", 60.0)
     heard = Heard()
     heard.infer_until_chains_run(replace(tutorial_document(), sweeps=2000))
     asked(heard, 6.0, 15.0, 0.0)

@@ -3,7 +3,7 @@
 from hypothesis import given
 from hypothesis import strategies as st
 
-from bayesmap.app.history import DEPTH, History
+from bayesmap.app.gestures import DEPTH, History
 
 ACTIONS = st.lists(
     st.one_of(

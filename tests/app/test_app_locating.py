@@ -10,15 +10,15 @@ from acted_engine import Heard
 from acted_session import Acted
 from poses.simulated import off, recording
 
-from bayesmap.app.adopting import adopted
-from bayesmap.app.along import MOST_SCANS, counted_map, grown, thinned
-from bayesmap.app.document import Refused
-from bayesmap.app.locating import ASK_TO_RUN
-from bayesmap.app.log_settings import with_resolution
-from bayesmap.app.opened import opened_log
-from bayesmap.app.parsing import parse_document
-from bayesmap.app.tasks import Cancel, Export, Infer, Inspect, Remember, ShowScan
-from bayesmap.app.trajectory_job import STAGES, TrajectoryJob, along, in_time
+from bayesmap.app.edits import adopted, with_resolution
+from bayesmap.app.protocol.actions import Cancel, Export, Inspect, ShowScan
+from bayesmap.app.protocol.document import Refused
+from bayesmap.app.protocol.notices import DrawCount
+from bayesmap.app.protocol.tasks import Infer, Remember
+from bayesmap.app.protocol.wire import parse_document
+from bayesmap.app.shown.hit_maps import MOST_SCANS, counted_map, grown, thinned
+from bayesmap.app.sources import opened_log
+from bayesmap.app.trajectory import ASK_TO_RUN, STAGES, TrajectoryJob, along, in_time
 from bayesmap.app.worlds import tutorial_document
 from bayesmap.space.grid import Grid
 
@@ -69,18 +69,18 @@ def test_before_run_the_log_is_shown_as_it_is():
     assert np.abs(buffers["p"] / 255 - counted.p_wall).max() <= 0.5 / 255 + 1e-9
     assert np.array_equal(np.unpackbits(buffers["observed"], count=counted.observed.size), counted.observed.ravel())
     assert np.allclose(heard.last("overlay")[1]["trajectory"], raw_scans().poses[:, :2], atol=1e-5)
-    assert heard.all("finished")[-1]["draws"]["count"] == 0
+    assert heard.all("finished")[-1]["draws"].count == 0
 
 
 def test_a_map_of_hits_can_be_asked_and_saved_but_is_no_run():
     heard = Heard(raw_log())
     heard.infer(raw_log().document)
-    (cell,) = heard.ask(Inspect(1, 5, 5))
+    (cell,) = heard.ask(Inspect(5, 5))
     assert cell.header["beams"] == 0
-    (refused,) = heard.ask(Export(1, "run"))
+    (refused,) = heard.ask(Export("run"))
     assert "run inference first" in refused.header["text"]
     for what in ("html", "map"):
-        (saved,) = heard.ask(Export(1, what))
+        (saved,) = heard.ask(Export(what))
         assert saved.header["type"] == "download"
 
 
@@ -108,15 +108,15 @@ def test_run_bends_the_trajectory_stage_by_stage_and_then_samples_the_cells(foun
     assert np.allclose(scans[-1].buffers["pose"][0, :2], turned[20], atol=0.05)
     fields = [header["method"] for header in found.all("field")]
     assert [method for method, _ in itertools.groupby(fields)] == ["counts", "propagate", "gibbs"]
-    assert kinds.count("trajectory") == 1
-    assert found.all("finished")[-1]["draws"] == {"chains": 2, "count": 3}
+    assert kinds.count("located") == 1
+    assert found.all("finished")[-1]["draws"] == DrawCount(2, 3)
 
 
 def test_the_map_sharpens(found):
     """Of the cells with a hit, the share whose log-odds say wall: beams pass through walls at wrong poses."""
     fields = [r for r in found.reports if r.header["type"] == "field" and r.header["method"] == "counts"]
-    grids = [header["grid"] for header in found.all("grid")]
-    placed = found.engine._locating.placed.scans
+    grids = [header["grid"] for header in found.all("ongrid")]
+    placed = found.engine._localization.placed.scans
     doubt = []
     for scans in (raw_scans(), placed):
         grid = Grid.covering(scans, 0.1)
@@ -130,12 +130,12 @@ def test_the_map_sharpens(found):
 def test_the_same_log_gives_the_same_bits_again(found):
     again = Heard(opened_log(raw_scans(), "raw.log"))
     field = again.infer(few_sweeps(), "run")
-    assert np.array_equal(again.engine._locating.placed.scans.poses, found.engine._locating.placed.scans.poses)
+    assert np.array_equal(again.engine._localization.placed.scans.poses, found.engine._localization.placed.scans.poses)
     assert np.array_equal(field[1]["p"], found.last("field")[1]["p"])
 
 
 def test_what_was_inferred_is_kept_and_told_to_the_next_worker(found):
-    known = found.all("trajectory")[0]["found"]
+    known = found.all("located")[0]["trajectory"]
     heard = Heard(raw_log())
     heard.engine.take(Remember(known.poses, known.angles_rad))
     field = heard.infer(few_sweeps(), "run")
@@ -147,7 +147,7 @@ def test_what_was_inferred_is_kept_and_told_to_the_next_worker(found):
     assert heard.engine._result.document.grid == raw_log().document.grid
     assert logged[1]["p"].shape == raw_log().document.grid.shape
     heard.infer(few_sweeps(), "clear")
-    assert heard.all("trajectory")[-1]["found"] is None
+    assert heard.all("located")[-1]["trajectory"] is None
     assert heard.last("field")[0]["method"] == "counts"
 
 
@@ -159,16 +159,16 @@ def test_a_log_that_was_located_is_mapped_on_cells_of_any_size_from_the_first_of
     raw = Grid.covering(raw_scans(), 0.2)
     assert coarse.grid == raw
     assert np.abs(buffers["p"] / 255 - counted_map(raw_scans().select(slice(40)), raw).p_wall).max() <= 0.5 / 255 + 1e-9
-    known = found.all("trajectory")[0]["found"]
+    known = found.all("located")[0]["trajectory"]
     heard.engine.take(Remember(known.poses, known.angles_rad))
-    placed = heard.engine._locating.placed.scans
+    placed = heard.engine._localization.placed.scans
     grid = Grid.covering(placed, 0.2)
     assert grid != raw
     for mode, method in (("coarse", "hits"), ("live", "gibbs")):
         header, buffers = heard.infer(coarse, mode)
         result = heard.engine._result
         assert header["method"] == result.method == method
-        assert heard.last("grid")[0]["grid"] == grid == result.document.grid
+        assert heard.last("ongrid")[0]["grid"] == grid == result.document.grid
         assert buffers["p"].shape == grid.shape
         assert len(result.scene.used_scans) == 40
         assert np.array_equal(result.scene.scans.poses, placed.poses)
@@ -190,7 +190,7 @@ def test_cancel_stops_at_any_stage_and_leaves_what_there_is(stage):
     assert heard.last("field")[0]["method"] == "counts"
     TrajectoryJob._last.join(20)
     assert not TrajectoryJob._last.is_alive()
-    assert heard.engine._locating.placed is None
+    assert heard.engine._localization.placed is None
 
 
 def test_another_job_takes_the_place_of_the_inference():

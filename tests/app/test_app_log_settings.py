@@ -9,14 +9,13 @@ from acted_session import Acted
 from building_log import ANGLES, room_scans
 
 import bayesmap as bm
-from bayesmap.app.document import Refused, Source
-from bayesmap.app.hit_counts import HitCounts, coarse_map
-from bayesmap.app.messages import check
-from bayesmap.app.opened import opened_log
-from bayesmap.app.opened_log import OpenedLog, first_beams
-from bayesmap.app.parsing import parse_document
-from bayesmap.app.scanning import hits
-from bayesmap.app.tasks import MoveGhost, ShowScan, View
+from bayesmap.app.protocol.actions import MoveGhost, ShowScan
+from bayesmap.app.protocol.document import Refused, Source
+from bayesmap.app.protocol.notices import View
+from bayesmap.app.protocol.wire import check, parse_document
+from bayesmap.app.scene import hits
+from bayesmap.app.shown.hit_maps import HitCounts, coarse_map
+from bayesmap.app.sources import OpenedLog, first_beams, opened_log
 from bayesmap.app.worlds import new_document
 from bayesmap.cells.arrays import Draws
 from bayesmap.samplers.fit import PILOT_SWEEPS, first_sensor, pilot_sweeps
@@ -228,7 +227,7 @@ def test_the_coarse_picture_is_made_of_counts_at_once(log, cells):
     p = buffers["p"].ravel() / 255
     often = counts[0] > 4
     assert p[often].mean() > p[observed & ~often].mean() + 0.3
-    heard.ask(View("draw", client=1))
+    heard.ask(View("draw"))
     assert heard.last("field")[0]["layer"] == "mean"  # there are no draws
     # surfaces that are on show are of other scans, and go
     assert [buffers["strokes"].size for _, buffers in heard.every("overlay")] == [0] * (cells == "surface")
@@ -237,7 +236,7 @@ def test_the_coarse_picture_is_made_of_counts_at_once(log, cells):
 def test_surfaces_of_a_log_are_counted_first_then_shown_by_the_draws_of_the_chain_that_fits_the_sensor(log):
     document = replace(log.document, cells="surface", sweeps=3, grid=Grid.covering(log.scans, 0.2))
     heard = Heard(log)
-    heard.engine._showing.due = lambda: True
+    heard.engine._display.due = lambda: True
     heard.infer(document, "run")
     methods = [f["method"] for f in heard.all("field")]
     assert methods == ["hits"] + ["pilot"] * 40 + ["gibbs"] * (len(methods) - 41)
@@ -260,23 +259,23 @@ def test_surfaces_of_a_log_are_counted_first_then_shown_by_the_draws_of_the_chai
 
 
 def test_while_the_sensor_is_fitted_draws_intervals_and_surfaces_can_be_looked_at(log, monkeypatch):
-    monkeypatch.setattr("bayesmap.app.showing.OVERLAY_SECONDS", 0.0)
+    monkeypatch.setattr("bayesmap.app.display.OVERLAY_SECONDS", 0.0)
     document = replace(log.document, cells="surface", sweeps=3, grid=Grid.covering(log.scans, 0.2))
     heard = Heard(log)
-    heard.engine._showing.due = lambda: True
+    heard.engine._display.due = lambda: True
     heard.infer(document, "run", steps=9)
     assert heard.last("field")[0]["method"] == "pilot"
-    heard.engine.take(View("draw", client=1))
+    heard.ask(View("draw"))
     header, drawn = heard.last("field")
     assert (header["layer"], header["chain"]) == ("draw", 0)
-    heard.engine.take(View("width", client=1))
+    heard.ask(View("width"))
     header, width = heard.last("field")
     assert header["layer"] == "width"
     assert width["p"].max() > 20
     assert not np.array_equal(drawn["p"], width["p"])
     header, buffers = heard.last("overlay")
     assert len(buffers["strokes"]) > 10
-    (ghost,) = heard.ask(MoveGhost(1, 1.5, 2.5, 0.3))
+    (ghost,) = heard.ask(MoveGhost(1.5, 2.5, 0.3))
     assert (ghost.header["type"], ghost.header["draws"]) == ("ghost", heard.all("field")[-1]["averaged"])
 
 
@@ -305,7 +304,7 @@ def test_a_cleared_inference_shows_the_prior_of_the_chosen_cells(log):
 def test_the_same_readings_are_fitted_once(log):
     document = replace(log.document, cells="surface", sweeps=3, grid=Grid.covering(log.scans, 0.2))
     heard = Heard(log)
-    heard.engine._showing.due = lambda: True
+    heard.engine._display.due = lambda: True
     _, first = heard.infer(document)
     heard.reports.clear()
     _, again = heard.infer(replace(document, sweeps=5), "run")

@@ -7,11 +7,11 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from bayesmap.app.document import Refused
-from bayesmap.app.messages import FIELDS, MAX_BYTES, check, frame, parse, seq_of, unframe
+from bayesmap.app.protocol.document import Refused
+from bayesmap.app.protocol.wire import ACTIONS, MAX_BYTES, check, frame, parse, seq_of, unframe
 
 JSON = st.recursive(
-    st.one_of(st.none(), st.booleans(), st.integers(), st.floats(), st.text(max_size=8), st.sampled_from([*FIELDS])),
+    st.one_of(st.none(), st.booleans(), st.integers(), st.floats(), st.text(max_size=8), st.sampled_from([*ACTIONS])),
     lambda inner: st.one_of(st.lists(inner, max_size=4), st.dictionaries(st.text(max_size=6), inner, max_size=4)),
     max_leaves=12,
 )
@@ -43,18 +43,18 @@ def test_random_text_is_refused(text):
     understood(text)
 
 
-@given(st.sampled_from([*FIELDS]), st.dictionaries(st.sampled_from(NAMES), JSON, max_size=6))
+@given(st.sampled_from([*ACTIONS]), st.dictionaries(st.sampled_from(NAMES), JSON, max_size=6))
 def test_random_fields_are_refused_or_make_a_message(kind, fields):
     message = understood(json.dumps({"type": kind, **fields}))
-    assert message is None or message["type"] == kind
+    assert message is None or message.__struct_config__.tag == kind
 
 
 GOOD = [
     {"type": "set", "patch": {"prior": 0.05, "method": "block"}, "drag": 3},
     {"type": "walls", "cells": [[1, 2], [3, 4]], "wall": True, "stroke": 1},
-    {"type": "sensor", "op": "add", "x": 1, "y": 2.5, "yaw": 0},
-    {"type": "sensor", "op": "move", "id": 1, "yaw": 1.5},
-    {"type": "sensor", "op": "remove", "id": 2},
+    {"type": "add_sensor", "x": 1, "y": 2.5, "yaw": 0},
+    {"type": "move_sensor", "id": 1, "yaw": 1.5},
+    {"type": "remove_sensor", "id": 2},
     {"type": "clear", "what": "inference"},
     {"type": "new", "shape": [500, 2], "world": "blank"},
     {"type": "view", "layer": "draw", "chain": None, "draw": 7},
@@ -65,7 +65,7 @@ GOOD = [
 
 @pytest.mark.parametrize("message", GOOD, ids=lambda m: m["type"])
 def test_good_messages_are_understood(message):
-    assert check({**message, "seq": 5})["seq"] == 5
+    assert check({**message, "seq": 5}).seq == 5
 
 
 @pytest.mark.parametrize(
@@ -75,15 +75,16 @@ def test_good_messages_are_understood(message):
         ({"type": "shutdown"}, "unknown type"),
         ({"type": "set", "patch": {"colour": 1}}, "colour"),
         ({"type": "set", "patch": {"prior": "0.5"}}, "prior"),
-        ({"type": "set", "patch": {}}, "patch"),
-        ({"type": "walls", "cells": [[1, 2.5]], "wall": True}, "pair"),
-        ({"type": "walls", "cells": [[-1, 2]], "wall": True}, "pair"),
-        ({"type": "walls", "cells": [[True, 2]], "wall": True}, "pair"),
+        ({"type": "set"}, "set.patch: missing"),
+        ({"type": "walls", "cells": [[1, 2.5]], "wall": True}, r"cells\[0\]\[1\]: 2.5 is not a whole number"),
+        ({"type": "walls", "cells": [[3, 4], [-1, 2]], "wall": True}, r"cells\[1\]\[0\]: -1 is not"),
+        ({"type": "walls", "cells": [[True, 2]], "wall": True}, r"cells\[0\]\[0\]: True"),
+        ({"type": "walls", "cells": [[1, 2, 3]], "wall": True}, "a list of 2"),
         ({"type": "walls", "cells": [], "wall": True}, "cells"),
         ({"type": "walls", "cells": [[1, 2]], "wall": 1}, "wall"),
-        ({"type": "sensor", "op": "move", "x": 1, "y": 1}, "id"),
-        ({"type": "sensor", "op": "move", "id": 1, "x": 1}, "y"),
-        ({"type": "sensor", "op": "teleport", "id": 1}, "op"),
+        ({"type": "move_sensor", "x": 1, "y": 1}, "id"),
+        ({"type": "add_sensor", "x": 1}, "y"),
+        ({"type": "move_sensor", "id": 1, "x": 1e7}, "x: 10000000.0 is not a number from -1,000,000 to 1,000,000"),
         ({"type": "new", "shape": [501, 21], "world": "blank"}, "shape"),
         ({"type": "view", "layer": "draw", "draw": -1}, "draw"),
         ({"type": "export", "what": "/etc/passwd"}, "what"),

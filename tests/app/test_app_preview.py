@@ -6,10 +6,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from bayesmap.app import scanning
-from bayesmap.app.document import Sensor
-from bayesmap.app.preview import Preview
-from bayesmap.app.scanning import simulated_scene
+from bayesmap.app import scene as scanning
+from bayesmap.app.protocol.document import Sensor
+from bayesmap.app.scene import simulated_scene
+from bayesmap.app.shown.beliefs import Preview
 from bayesmap.app.worlds import new_document, tutorial_document
 
 ROUNDS = 6

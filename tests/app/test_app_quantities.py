@@ -5,8 +5,8 @@ import pytest
 from acted_engine import Heard
 
 import bayesmap as bm
-from bayesmap.app.opened import opened_run
-from bayesmap.app.tasks import View
+from bayesmap.app.protocol.notices import View
+from bayesmap.app.sources import opened_run
 from bayesmap.app.worlds import tutorial_document
 
 SENSOR = bm.BeamMixture(bm.Gaussian(0.05), p_random=0.01, p_no_return=0.01)
@@ -45,13 +45,13 @@ def test_a_field_names_its_quantity(prior, kind, mean):
 
 def test_the_width_is_that_of_the_interval_and_walls_have_none():
     run, heard = shown(bm.Surface())
-    heard.ask(View("width", client=3))
+    heard.ask(View("width"))
     header, buffers = heard.last("field")
     lower, upper = run.interval(0.9)
     assert header["layer"] == "width"
     np.testing.assert_allclose(buffers["p"], 255 * (upper - lower), atol=0.51)
     _, walls = shown(bm.Independent(0.2))
-    walls.ask(View("width", client=3))
+    walls.ask(View("width"))
     assert walls.last("field")[0]["layer"] == "mean"
 
 

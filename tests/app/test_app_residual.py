@@ -2,21 +2,22 @@
 
 import numpy as np
 import pytest
-from acted_engine import Heard
+from acted_engine import PAGE, Heard
 from building_log import ANGLES, room_run
 
 import bayesmap as bm
-from bayesmap.app.opened import opened_run
-from bayesmap.app.tasks import CompareBeam
-from bayesmap.posterior.predictor import ScanPredictor, predictor_of
+from bayesmap.app.protocol.actions import CompareBeam
+from bayesmap.app.sources import opened_run
+from bayesmap.posterior.predicted_scan import ScanPredictor
+from bayesmap.posterior.predictor import predictor_of
 from bayesmap.sensors.model import RangeLimits
 
 
 def compared(run, scan, beam):
     heard = Heard(opened_run(run, "run.nc"))
     heard.infer(heard.engine._opened.document)
-    (report,) = heard.ask(CompareBeam(3, scan, beam))
-    assert report.client == 3
+    (report,) = heard.ask(CompareBeam(scan, beam))
+    assert report.client == PAGE
     assert report.header["type"] == "beam"
     return report.header
 

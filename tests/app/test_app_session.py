@@ -4,16 +4,18 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from acted_session import Acted
+from acted_session import Acted, a_field
 from hypothesis import given
 from hypothesis import strategies as st
 
-from bayesmap.app.tasks import Cancel, Export, Inspect, Report, ShowScan, View
+from bayesmap.app.protocol.actions import Cancel, Export, Inspect
+from bayesmap.app.protocol.notices import View
+from bayesmap.app.protocol.tasks import Report, Show
 from bayesmap.app.worlds import new_document, tutorial_document
 
 
 def walls_of(acted):
-    return acted.session.document.walls.cells
+    return acted.session.document.is_wall
 
 
 def test_hello_is_answered_by_the_state_and_what_was_seen_last():
@@ -54,10 +56,10 @@ def test_a_link_to_something_else_is_answered_by_what_to_start(brought):
 
 
 def of_a_log(name="office.log"):
-    from bayesmap.app.document import Source, WallMap
+    from bayesmap.app.protocol.document import Source, no_walls
 
     drawn = tutorial_document()
-    return replace(drawn, walls=WallMap.none(drawn.grid.shape), sensors=(), source=Source("log", name, 9))
+    return replace(drawn, walls=no_walls(drawn.grid), sensors=(), source=Source("log", name, 9))
 
 
 def json_of(document):
@@ -84,7 +86,7 @@ def test_a_stroke_is_one_step_of_undo():
 def test_a_drag_is_one_step_of_undo():
     acted = Acted()
     for i in range(4):
-        acted.act("sensor", op="move", id=1, x=10 + 0.1 * i, y=10, drag=8)
+        acted.act("move_sensor", id=1, x=10 + 0.1 * i, y=10, drag=8)
         acted.picture()
     acted.act("undo")
     assert acted.session.document.sensors[0].x == 10.0
@@ -95,7 +97,7 @@ def test_a_drag_is_one_step_of_undo():
 def test_a_sensor_cannot_go_into_a_wall_or_outside(x, y, named):
     acted = Acted()
     before, generation = acted.session.document, acted.session.generation
-    answers = acted.act("sensor", op="move", id=1, x=x, y=y, drag=1)
+    answers = acted.act("move_sensor", id=1, x=x, y=y, drag=1)
     assert [m["type"] for m in answers] == []  # the first picture is in flight: it waits
     acted.picture()
     assert named in acted.text
@@ -115,18 +117,18 @@ def test_a_wall_over_a_sensor_is_drawn_but_for_its_cell():
 def test_sensors_are_added_up_to_the_limit_and_removed_down_to_one():
     acted = Acted(new_document("blank", (40, 40), tutorial_document()))
     for i in range(40):
-        acted.act("sensor", op="add", x=i % 30, y=3)
+        acted.act("add_sensor", x=i % 30, y=3)
     assert len(acted.session.document.sensors) == 32
     assert "remove one" in acted.text
     for sensor in acted.session.document.sensors:
-        acted.act("sensor", op="remove", id=sensor.id)
+        acted.act("remove_sensor", id=sensor.id)
     assert len(acted.session.document.sensors) == 1
     assert "last sensor" in acted.text
 
 
 @pytest.mark.parametrize(
     "message",
-    [{"type": "walls", "cells": [[21, 0]], "wall": True, "stroke": 0}, {"type": "sensor", "op": "remove", "id": 9},
+    [{"type": "walls", "cells": [[21, 0]], "wall": True, "stroke": 0}, {"type": "remove_sensor", "id": 9},
      {"type": "undo"}, {"type": "redo"}, {"type": "scan", "index": 0}],
     ids=lambda m: m["type"],
 )  # fmt: skip
@@ -142,7 +144,7 @@ def test_what_cannot_be_done_changes_nothing(message):
 def test_edits_of_a_gesture_wait_for_the_picture_and_are_merged():
     acted = Acted()
     for i in range(1, 6):
-        acted.act("sensor", op="move", id=1, x=10 + 0.1 * i, y=10, drag=1)
+        acted.act("move_sensor", id=1, x=10 + 0.1 * i, y=10, drag=1)
     assert len(acted.inferred) == 1
     acted.picture()
     assert [task.document.sensors[0].x for task in acted.inferred[1:]] == [10.5]
@@ -152,7 +154,7 @@ def test_edits_of_a_gesture_wait_for_the_picture_and_are_merged():
 def dragged(acted, moves, paints=False):
     """A sensor is moved so often; the worker is done with each picture before the next move."""
     for i in range(moves):
-        acted.act("sensor", op="move", id=1, x=10 + 0.01 * (i + 1), y=10, drag=1)
+        acted.act("move_sensor", id=1, x=10 + 0.01 * (i + 1), y=10, drag=1)
         acted.picture()
         if paints:
             acted.painted()
@@ -212,7 +214,7 @@ def test_strokes_that_wait_lose_no_cell():
 
 def test_anything_else_applies_what_waits_first():
     acted = Acted()
-    acted.act("sensor", op="move", id=1, x=10.3, y=10, drag=1)
+    acted.act("move_sensor", id=1, x=10.3, y=10, drag=1)
     acted.act("set", patch={"prior": 0.2})
     document = acted.inferred[-1].document
     assert (document.sensors[0].x, document.prior) == (10.3, 0.2)
@@ -248,9 +250,9 @@ def test_the_state_says_whether_the_picture_is_to_change_yet():
 
 def test_cancel_lets_waiting_edits_go_on():
     acted = Acted()
-    acted.act("sensor", op="move", id=1, x=10.3, y=10, drag=1)
+    acted.act("move_sensor", id=1, x=10.3, y=10, drag=1)
     acted.act("cancel")  # which applies what waits, and so begins a picture
-    acted.act("sensor", op="move", id=1, x=10.4, y=10, drag=1)
+    acted.act("move_sensor", id=1, x=10.4, y=10, drag=1)
     acted.hear("finished", acted.session.generation, draws={"chains": 0, "count": 0})
     assert acted.inferred[-1].document.sensors[0].x == 10.4
 
@@ -262,8 +264,9 @@ def test_questions_go_to_the_worker():
     acted.act("view", layer="draw", chain=1, draw=5)
     acted.act("export", what="map")
     acted.act("cancel")
-    asked = [Inspect(1, 3, 4), Inspect(1, 3, 4, each=True)]
-    assert acted.tasks[-5:] == [*asked, View("draw", 1, 5, 1), Export(1, "map"), Cancel()]
+    assert acted.asked == [(1, Inspect(3, 4)), (1, Inspect(3, 4, each=True)), (1, Export("map"))]
+    assert Show(1, View("draw", 1, 5)) in acted.tasks
+    assert isinstance(acted.tasks[-1], Cancel)
     assert acted.state["view"] == {"layer": "draw", "chain": 1, "draw": 5}
 
 
@@ -277,12 +280,11 @@ def test_each_page_has_its_own_view():
     assert acted.state["view"] == {"layer": "draw", "chain": 0, "draw": 3}
     acted.act("cancel")
     assert acted.state["view"]["layer"] == "mean"  # as the first page sees it
-    report = Report({"type": "field", "generation": acted.session.generation}, {}, None)
-    assert [effect.client for effect in acted.session.hear(report)] == [1]
-    report = Report({"type": "field", "generation": acted.session.generation}, {}, 2)
-    assert [effect.client for effect in acted.session.hear(report)] == [2]
+    for client, pages in ((None, [1]), (2, [2])):
+        report = Report(a_field(acted.session.generation), {}, client)
+        assert [effect.client for effect in acted.session.hear(report)] == pages
     left = acted.session.leave(2)
-    assert left[0].task == View("mean", client=2)  # nobody is shown that draw any more
+    assert left[0].task == Show(2, View("mean"))  # nobody is shown that draw any more
 
 
 def test_a_page_undoes_its_own_steps_and_those_of_pages_that_have_gone():
@@ -303,7 +305,7 @@ def test_a_page_undoes_its_own_steps_and_those_of_pages_that_have_gone():
 def test_the_document_is_exported_without_the_worker():
     acted = Acted()
     assert acted.act("export", what="document")[0]["type"] == "download"
-    assert not any(isinstance(task, Export) for task in acted.tasks)
+    assert acted.asked == []
 
 
 def test_switching_live_off_leaves_the_preview():
@@ -323,12 +325,12 @@ def test_a_worker_that_died_is_given_everything_again():
     assert [m["type"] for m in lost] == ["worker", "status"]
     acted.hear("ready", None, document=None)
     assert acted.inferred[-1].document.prior == 0.1
-    assert acted.tasks[-2] == View("entropy", None, None, 1)
+    assert acted.tasks[-2] == Show(1, View("entropy"))
 
 
 def test_a_failure_of_the_worker_is_told_and_what_waits_goes_on():
     acted = Acted()
-    acted.act("sensor", op="move", id=1, x=10.3, y=10, drag=1)
+    acted.act("move_sensor", id=1, x=10.3, y=10, drag=1)
     acted.hear("failed", 1, text="too many beams")
     assert "too many beams" in [m.get("text") for m in acted.sent]
     assert acted.inferred[-1].document.sensors[0].x == 10.3
@@ -337,11 +339,11 @@ def test_a_failure_of_the_worker_is_told_and_what_waits_goes_on():
 def test_a_scan_of_a_file_can_be_chosen():
     from dataclasses import replace
 
-    from bayesmap.app.document import Source
+    from bayesmap.app.protocol.document import Source
 
     acted = Acted(replace(tutorial_document(), source=Source("log", "office.log", 3)))
     acted.act("scan", index=2)
-    assert acted.tasks[-1] == ShowScan(2)
+    assert acted.tasks[-1].index == 2
     acted.act("scan", index=3)
     assert "no scan 3" in acted.text
     acted.act("walls", cells=[[0, 0]], wall=True, stroke=1)
@@ -372,7 +374,7 @@ def test_no_page_is_sent_a_picture_older_than_a_state_that_it_has_seen(events):
     for kind, value in events:
         if kind == "move":
             at = 10 + 0.05 * value
-            acted.act("sensor", op="move", id=1, x=at, y=10, drag=1)
+            acted.act("move_sensor", id=1, x=at, y=10, drag=1)
         elif kind == "stroke":
             drawn.add(value)
             acted.act("walls", cells=[[0, value]], wall=True, stroke=1)
@@ -402,5 +404,5 @@ def test_no_page_is_sent_a_picture_older_than_a_state_that_it_has_seen(events):
     assert acted.inferred[-1].document == acted.session.document
     # Nothing that a hand did last is lost.
     assert at is None or acted.session.document.sensors[0].x == at
-    assert all(acted.session.document.walls.cells[0, y] for y in drawn)
+    assert all(acted.session.document.is_wall[0, y] for y in drawn)
     assert acted.state["seq"] == acted.seq

@@ -4,9 +4,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from bayesmap.app.preview import Preview
-from bayesmap.app.scanning import simulated_scene
-from bayesmap.app.starting import starts
+from bayesmap.app.scene import simulated_scene
+from bayesmap.app.shown.beliefs import Preview
+from bayesmap.app.shown.chains import starts
 from bayesmap.app.worlds import tutorial_document
 
 

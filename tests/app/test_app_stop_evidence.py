@@ -6,9 +6,9 @@ from acted_engine import Heard
 from building_log import room_run
 
 import bayesmap as bm
-from bayesmap.app.opened import opened_run
-from bayesmap.app.stop_evidence import log_ratios, one_beam_each
-from bayesmap.app.tasks import Inspect
+from bayesmap.app.answers.evidence import log_ratios, one_beam_each
+from bayesmap.app.protocol.actions import Inspect
+from bayesmap.app.sources import opened_run
 from bayesmap.kernels.rays import trace_rays
 from bayesmap.posterior.predictor import Predictor, fixed_maps
 
@@ -61,8 +61,8 @@ def shown(request):
 def test_the_wall_of_a_room_is_spoken_for_and_nobody_misses_anything_on_its_floor(shown):
     _, heard = shown
     # A single cell of the wall may be one that its neighbour's long surface would do without.
-    of_wall = [heard.ask(Inspect(3, 20, y))[0].header for y in range(2, 18)]
-    of_floor = heard.ask(Inspect(3, 10, 14))[0].header
+    of_wall = [heard.ask(Inspect(20, y))[0].header for y in range(2, 18)]
+    of_floor = heard.ask(Inspect(10, 14))[0].header
     assert sum(cell["nats_for"] - cell["nats_against"] for cell in of_wall) > 30
     assert max(cell["nats_for"] for cell in of_wall) > 5
     assert all(cell["beams_for"] + cell["beams_against"] <= cell["beams"] for cell in of_wall)
@@ -75,5 +75,5 @@ def test_a_cell_that_no_beam_reaches_has_none(shown):
     touched = np.zeros(run.grid.n_cells, dtype=bool)
     touched[heard.engine._scene.problem.table.cells] = True
     x, y = np.argwhere(~touched.reshape(run.grid.shape))[0].tolist()
-    found = heard.ask(Inspect(3, x, y))[0].header
+    found = heard.ask(Inspect(x, y))[0].header
     assert (found["beams"], found["nats_for"], found["nats_against"]) == (0, 0.0, 0.0)

@@ -7,8 +7,8 @@ import time
 
 import pytest
 
+from bayesmap.app.protocol.tasks import Alive, Ready, Report
 from bayesmap.app.supervisor import Supervisor
-from bayesmap.app.tasks import Report
 from bayesmap.app.worker import Reporter
 
 PATIENCE_S = 180.0
@@ -19,7 +19,7 @@ SILENCE_S = 4.0
 def test_a_worker_that_is_stopped_or_killed_is_replaced(what):
     ready, lost = threading.Semaphore(0), threading.Event()
     supervisor = Supervisor(
-        lambda report: ready.release() if report.header["type"] == "ready" else None, lost.set, silence_s=SILENCE_S
+        lambda report: ready.release() if isinstance(report.message, Ready) else None, lost.set, silence_s=SILENCE_S
     )
     supervisor.start()
     try:
@@ -51,9 +51,7 @@ def test_reports_of_several_threads_do_not_mix():
 
     pipe = Pipe()
     report = Reporter(pipe)
-    threads = [
-        threading.Thread(target=lambda: [report(Report({"type": "alive"})) for _ in range(20)]) for _ in range(4)
-    ]
+    threads = [threading.Thread(target=lambda: [report(Report(Alive())) for _ in range(20)]) for _ in range(4)]
     for thread in threads:
         thread.start()
     for thread in threads:

@@ -1,7 +1,7 @@
 """A run whose scans have beams of their own: each is shown, compared and recorded by its own angles."""
 
 import base64
-import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -9,9 +9,9 @@ from acted_engine import Heard
 from building_log import ANGLES, GRID, SENSOR, room_scans
 
 import bayesmap as bm
-from bayesmap.app.opened import opened_run
+from bayesmap.app.protocol.actions import CompareBeam, MoveGhost, ShowScan
 from bayesmap.app.recording import record
-from bayesmap.app.tasks import CompareBeam, MoveGhost, ShowScan
+from bayesmap.app.sources import opened_run
 from bayesmap.space.scans import side_by_side
 
 FIRST, COUNT = [0, 3, 7, 1] * 3, [91, 60, 75, 83] * 3
@@ -47,13 +47,13 @@ def test_a_scan_is_shown_with_its_own_beams(run, heard):
 
 def test_a_beam_is_compared_by_its_own_angle(run, heard):
     scan, beam = 5, 10
-    (report,) = heard.ask(CompareBeam(3, scan, beam))
+    (report,) = heard.ask(CompareBeam(scan, beam))
     assert report.header["range"] == pytest.approx(run.posterior.scans.ranges_m[scan, beam])
     assert abs(report.header["residual"]) < 0.3  # three degrees to the side the wall is elsewhere
 
 
 def test_the_ghost_beside_a_scan_has_its_beams(run, heard):
-    (report,) = heard.ask(MoveGhost(7, *run.posterior.scans.poses[5], False))
+    (report,) = heard.ask(MoveGhost(*run.posterior.scans.poses[5], False))
     assert report.header["near"]["index"] == 5
     angles, _ = run.posterior.scans.beams_of(5)
     n = len(angles)
@@ -63,7 +63,17 @@ def test_the_ghost_beside_a_scan_has_its_beams(run, heard):
 
 
 def test_a_recording_holds_each_scan_s_beams(heard):
-    found = json.loads(json.dumps(record(heard.engine._result)["scans"]))
-    assert [len(row) for row in found["angles"]] == [len(row) for row in found["ranges"]] == COUNT
-    np.testing.assert_allclose(found["angles"][5], ANGLES[3:63], atol=1e-6)
-    assert len(base64.b64decode(found["hit"])) == -(-sum(COUNT) // 8)
+    found = record(heard.engine._result).scans
+    assert [len(row) for row in found.angles] == [len(row) for row in found.ranges] == COUNT
+    np.testing.assert_allclose(found.angles[5], ANGLES[3:63], atol=1e-6)
+    assert len(base64.b64decode(found.hit)) == -(-sum(COUNT) // 8)
+
+
+def test_a_recording_tells_readings_of_four_kinds_apart(heard):
+    result = heard.engine._result
+    ranges = result.scene.scans.ranges_m.copy()
+    ranges[0, :3] = np.inf, -np.inf, np.nan
+    scene = replace(result.scene, scans=replace(result.scene.scans, ranges_m=ranges))
+    found = record(replace(result, scene=scene)).scans.ranges[0]
+    assert found[:3] == [None, "-Infinity", "NaN"]
+    assert found[3:] == pytest.approx(ranges[0, 3 : len(found)], abs=1e-4)

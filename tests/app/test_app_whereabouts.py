@@ -7,11 +7,11 @@ import pytest
 from acted_engine import Heard
 
 import bayesmap as bm
-from bayesmap.app.document import Sensor, WallMap
-from bayesmap.app.opened import opened_log, opened_run
-from bayesmap.app.result import Result
-from bayesmap.app.tasks import Infer, ShowScan, WhereAmI
-from bayesmap.app.whereabouts import Whereabouts, drawn_map
+from bayesmap.app.answers.whereabouts import Locator, drawn_map
+from bayesmap.app.protocol.actions import ShowScan, WhereAmI
+from bayesmap.app.protocol.document import Sensor, no_walls, packed
+from bayesmap.app.protocol.tasks import Infer
+from bayesmap.app.sources import RunResult, opened_log, opened_run
 from bayesmap.app.worlds import tutorial_document
 
 PAGE = 7
@@ -20,7 +20,7 @@ PAGE = 7
 def asked(document, sensor=1):
     heard = Heard()
     heard.infer(document, "preview")
-    (report,) = heard.ask(WhereAmI(PAGE, sensor))
+    (report,) = heard.ask(WhereAmI(sensor))
     assert report.client == PAGE
     return report
 
@@ -28,7 +28,7 @@ def asked(document, sensor=1):
 def square(**changes):
     walls = np.zeros((21, 21), dtype=bool)
     walls[4:17, [4, 16]] = walls[[4, 16], 4:17] = True
-    return replace(tutorial_document(), walls=WallMap(walls), noise=0.05, **changes)
+    return replace(tutorial_document(), walls=packed(walls), noise=0.05, **changes)
 
 
 def test_the_robot_of_the_tutorial_knows_where_it_is():
@@ -60,7 +60,7 @@ def test_each_sensor_is_asked_about_by_its_id():
 
 
 def test_a_world_of_nothing_leaves_it_open():
-    report = asked(replace(tutorial_document(), walls=WallMap.none((21, 21))))
+    report = asked(replace(tutorial_document(), walls=no_walls(tutorial_document().grid)))
     assert report.header["modes"][0]["sigma_m"] > 5.0
     assert report.header["p_lost"] < 0.1
 
@@ -75,7 +75,7 @@ def test_the_drawn_map_is_the_same_on_finer_cells():
     known = drawn_map(document)
     assert known.grid.resolution <= 0.125
     assert known.grid.extent_m == document.grid.extent_m
-    assert known.free.sum() * known.grid.resolution**2 == pytest.approx((~document.walls.cells).sum())
+    assert known.free.sum() * known.grid.resolution**2 == pytest.approx((~document.is_wall).sum())
 
 
 @pytest.fixture(scope="module")
@@ -95,10 +95,10 @@ def run():
 def test_the_scan_on_show_is_located_in_the_map_of_a_run(run):
     heard = Heard(opened_run(run, "run.nc"))
     heard.infer(heard.engine._opened.document, scan=3)
-    (first,) = heard.ask(WhereAmI(PAGE))
+    (first,) = heard.ask(WhereAmI())
     assert first.header["index"] == 3
     heard.ask(ShowScan(9))
-    (second,) = heard.ask(WhereAmI(PAGE))
+    (second,) = heard.ask(WhereAmI())
     assert second.header["index"] == 9
     for report, index in ((first, 3), (second, 9)):
         assert report.header["pose"] == run.posterior.scans.poses[index].tolist()
@@ -114,29 +114,29 @@ def test_a_scan_of_nowhere_is_lost(run):
     ranges_m = np.random.default_rng(3).permuted(run.posterior.scans.ranges_m, axis=1)
     elsewhere = replace(run.posterior.scans, ranges_m=ranges_m)
     result = opened.result()
-    result = Result(replace(result.scene, scans=elsewhere), result.document, "gibbs", run=run)
-    header = Whereabouts().answer(WhereAmI(PAGE), result, 0, 1).header
-    assert header["p_lost"] > 0.5
+    result = RunResult(replace(result.scene, scans=elsewhere), result.document, run)
+    notice, _ = Locator().answer(WhereAmI(), result, 0, 1)
+    assert notice.p_lost > 0.5
 
 
 def test_a_question_that_comes_with_an_edit_waits_for_its_picture():
     heard = Heard()
     heard.engine.take(Infer(1, tutorial_document(), "preview"))
-    assert heard.ask(WhereAmI(PAGE, 1)) == []
+    assert heard.ask(WhereAmI(1)) == []
     while heard.engine.busy:
         heard.engine.advance()
     assert heard.last("where")[0]["of"] == 1
-    assert "trouble" not in heard.last("where")[0]
+    assert heard.last("where")[0]["trouble"] == ""
 
 
 def test_why_there_is_no_answer(run):
     heard = Heard()
-    assert "no map" in heard.ask(WhereAmI(PAGE))[0].header["trouble"]
+    assert "no map" in heard.ask(WhereAmI())[0].header["trouble"]
     log = opened_log(run.posterior.scans, "x.log")
     heard = Heard(log)
     heard.infer(log.document, "preview")
-    assert "Run keeps them" in heard.ask(WhereAmI(PAGE))[0].header["trouble"]
+    assert "Run keeps them" in heard.ask(WhereAmI())[0].header["trouble"]
     heard.engine.take(Infer(9, replace(log.document, sweeps=5), "run"))
     while heard.engine.busy:
         heard.engine.advance()
-    assert "trouble" not in heard.ask(WhereAmI(PAGE))[0].header
+    assert heard.ask(WhereAmI())[0].header["trouble"] == ""

@@ -1,5 +1,6 @@
 """The widget without a browser: what its view would send, and what it would be sent."""
 
+import json
 import os
 import queue
 import threading
@@ -10,7 +11,8 @@ import pytest
 
 import bayesmap as bm
 from bayesmap.app import session
-from bayesmap.app.tasks import Report
+from bayesmap.app.protocol.notices import DrawCount
+from bayesmap.app.protocol.tasks import Finished, Report
 from bayesmap.app.worlds import new_document, tutorial_document
 
 pytest.importorskip("anywidget")
@@ -31,6 +33,7 @@ class View:
     def until(self, kind, like=lambda header: True):
         while True:
             header, buffers = self.inbox.get(timeout=PATIENCE_S)
+            header = json.loads(json.dumps(header))  # as the notebook sends it
             if header["type"] == kind and like(header):
                 arrays = {
                     entry["name"]: np.frombuffer(data, entry["dtype"]).reshape(entry["shape"])
@@ -81,7 +84,7 @@ def test_a_report_that_comes_while_an_edit_is_applied_waits_for_it(shown, monkey
     editing = threading.Thread(target=view.send, args=("walls",), kwargs={"cells": [[10, 12]], "wall": True})
     editing.start()
     begun.wait(PATIENCE_S)
-    done = {"type": "finished", "generation": view.widget.generation, "draws": {"chains": 1, "count": 1}}
+    done = Finished(DrawCount(1, 1), generation=view.widget.generation)
     view.widget._hear(Report(done))  # as a thread of the supervisor's calls it; it tells of the state
     editing.join()
     state, _ = view.until("state", lambda h: h["seq"] == view.seq)

@@ -7,7 +7,7 @@ import playwright.sync_api as playwright
 import pytest
 from page_driver import act, centre, colour_at, document, press_and_drag, propagated, settled, snapshot, until
 
-from bayesmap.app.evidence import strongest, summed, wall_ratios
+from bayesmap.app.answers.evidence import strongest, summed, wall_ratios
 
 BLUE, ORANGE = (0, 114, 178), (213, 94, 0)
 TOLD = "s.evidence.each && s.evidence.together.x === argument[0] && s.evidence.together.y === argument[1]"

@@ -9,10 +9,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from msgspec import to_builtins
 from page_driver import document, fragment
 
-from bayesmap.app.document import LIMITS
-from bayesmap.app.messages import frame
+from bayesmap.app.protocol.notices import LIMITS
+from bayesmap.app.protocol.wire import frame
 
 ROOT = Path(__file__).parents[2]
 PAGE = ROOT / "page"
@@ -31,7 +32,7 @@ def test_the_logic_of_the_page(tmp_path):
         "ranges": np.array([1.5, 0.25], dtype=np.float32),
     }
     library = {
-        "limits": LIMITS,
+        "limits": to_builtins(LIMITS),
         "frame": base64.b64encode(frame({"type": "field", "generation": 3}, buffers)).decode(),
         "buffers": {name: values.ravel().tolist() for name, values in buffers.items()},
         "document": document(prior=0.375),

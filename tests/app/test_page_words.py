@@ -7,7 +7,7 @@ import playwright.sync_api as playwright
 import pytest
 from page_driver import NEXT_FRAME, act, centre, document, propagated, settled, until
 
-from bayesmap.app.evidence import summed, wall_ratios
+from bayesmap.app.answers.evidence import summed, wall_ratios
 
 LABELS = """
 () => {

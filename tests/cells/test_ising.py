@@ -144,7 +144,7 @@ def test_runs_say_their_log_prior_and_come_back_from_files_and_go_on(p, method, 
 
 
 def test_its_runs_are_scored_drawn_exported_and_opened_on_the_page(tmp_path):
-    from bayesmap.app.opened import opened_run
+    from bayesmap.app.sources import opened_run
 
     case = make_case(12, prior=0.3, coupling=0.6, shape=(4, 4))
     run = bm.infer(case.scans, case.grid, prior=case.prior, sensor=case.sensor, chains=2, draws=30, warmup=5)

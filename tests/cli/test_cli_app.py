@@ -7,7 +7,7 @@ import signal
 import pytest
 from shell import PATIENCE_S, Listener, call, start
 
-from bayesmap.app.opened import open_file
+from bayesmap.app.sources import open_file
 
 
 @pytest.fixture

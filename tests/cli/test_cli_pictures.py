@@ -8,7 +8,6 @@ from PIL import Image
 from shell import call
 
 import bayesmap as bm
-from bayesmap.cli.simulate import fan
 from bayesmap.io.ros.maps import read_map
 
 
@@ -232,9 +231,3 @@ def test_simulate_worlds_from_files(tmp_path):
     )
     assert picture.exit_code == 0, picture.stderr
     assert call("simulate", "--world", drawing, "-o", tmp_path / "q.log").exit_code == 2
-
-
-def test_fans():
-    np.testing.assert_allclose(np.degrees(fan(180, 180.0)), np.arange(180) - 90)
-    np.testing.assert_allclose(np.degrees(fan(361, 180.0)), np.arange(361) / 2 - 90)
-    np.testing.assert_allclose(np.degrees(fan(4, 360.0)), [0, 90, 180, 270])

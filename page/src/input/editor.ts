@@ -2,7 +2,7 @@
 
 import { cellOf, inside } from "../geometry/cells";
 import { mostOpen, nearestFree } from "../geometry/room";
-import { LIMITS, type Pair, type Point, type Sensor } from "../protocol";
+import type { Pair, Point, Sensor } from "../protocol";
 import type { Session } from "../state/session";
 import type { Hand } from "./hand";
 
@@ -34,7 +34,7 @@ export class Editor {
   moveSensor(sensor: Sensor, place: { x?: number; y?: number; yaw?: number }, drag?: number, event?: Event) {
     const { x, y, yaw } = { ...sensor, ...place };
     if (this.refuses({ x, y })) return;
-    this.session.act({ type: "sensor", op: "move", id: sensor.id, x, y, yaw, drag }, event);
+    this.session.act({ type: "move_sensor", id: sensor.id, x, y, yaw, drag }, event);
   }
 
   /** Another sensor: at a place in metres, in the free cell nearest to a cell, or in the most open place. */
@@ -48,17 +48,18 @@ export class Editor {
         : "world" in where
           ? where.world
           : nearestFree(document, session.walls, where.near);
+    const most = session.limits?.sensors[1] ?? Infinity;
     if (!place) session.say("There is no free cell for a sensor.", "warning");
-    else if (document.sensors.length >= LIMITS.sensors) session.say(`There can be ${LIMITS.sensors} sensors at most.`, "warning");
+    else if (document.sensors.length >= most) session.say(`There can be ${most} sensors at most.`, "warning");
     else if (!this.refuses(place)) {
-      session.act({ type: "sensor", op: "add", x: place.x, y: place.y, yaw: typeof where === "object" && "world" in where ? (where.yaw ?? 0) : 0 });
+      session.act({ type: "add_sensor", x: place.x, y: place.y, yaw: typeof where === "object" && "world" in where ? (where.yaw ?? 0) : 0 });
       this.hand.selected = Math.max(0, ...document.sensors.map((sensor) => sensor.id)) + 1;
     }
   }
 
   removeSensor() {
     const { sensor } = this.hand;
-    if (sensor) this.session.act({ type: "sensor", op: "remove", id: sensor.id });
+    if (sensor) this.session.act({ type: "remove_sensor", id: sensor.id });
   }
 
   /** Says so where a sensor cannot stand. */

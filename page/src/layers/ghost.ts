@@ -1,7 +1,7 @@
 // The ghost: a fan between the ends of the 80 % interval of each beam, its medians, and the scan that was taken nearby.
 
 import { clamp, toCells } from "../geometry/cells";
-import type { Fan, Near, Pose } from "../state/ghost";
+import type { Fan, NearScan, Pose } from "../state/ghost";
 import { clipToMap, strokeOnHalo, type Layer, type Scene } from "./layer";
 import { placeOf } from "./sensors";
 
@@ -75,7 +75,7 @@ export class GhostLayer implements Layer {
   }
 
   /** The hits of a scan that was taken nearby, as rings beside the fan. */
-  private near(context: CanvasRenderingContext2D, scene: Scene, fan: Fan, { pose, ranges, hit }: Near) {
+  private near(context: CanvasRenderingContext2D, scene: Scene, fan: Fan, { pose, ranges, hit }: NearScan) {
     const { theme } = scene.look;
     const radius = clamp(scene.view.transform.scale * 0.14, 1.5, 4);
     const ends = this.ends(scene, { x: pose[0], y: pose[1], yaw: pose[2] }, fan.angles, ranges);

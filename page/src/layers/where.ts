@@ -2,7 +2,7 @@
 
 import { toCells } from "../geometry/cells";
 import type { Grid } from "../protocol";
-import type { Place } from "../state/where";
+import type { Place } from "../messages";
 import { clipToMap, type Layer, type Scene } from "./layer";
 import { write } from "./text";
 

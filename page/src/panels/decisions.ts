@@ -10,8 +10,8 @@ export function decisionsPanel(ui: Ui) {
   const numbers = h(
     "div",
     { className: "double" },
-    ui.numberInput("Robot's radius (m)", () => decisions.radius, (radius) => decisions.set({ radius }), { min: 0.01, max: 100, step: "any" }),
-    ui.numberInput("Highest risk", () => decisions.risk, (risk) => decisions.set({ risk }), { min: 0.0001, max: 0.99, step: "any" }),
+    ui.numberInput("Robot's radius (m)", () => decisions.radius, (radius) => decisions.set({ radius }), { step: "any", limits: "radius" }),
+    ui.numberInput("Highest risk", () => decisions.risk, (risk) => decisions.set({ risk }), { step: "any", limits: "risk" }),
   );
   const title = () => (hand.tool === "path" ? "Path" : "Where to look next");
   const section = ui.section("Decision", numbers, said);

@@ -1,12 +1,12 @@
 // Help, new map, share.
 
 import { KEYS, type KeysFor } from "../input/keys";
-import { LIMITS } from "../protocol";
+import type { New } from "../messages";
 import type { Session } from "../state/session";
 import { h, put } from "./dom";
 import type { Ui } from "./ui";
 
-const WORLDS = [
+const WORLDS: [New["world"], string][] = [
   ["tutorial", "the tutorial's map"],
   ["building", "a building"],
   ["blank", "blank"],
@@ -53,8 +53,9 @@ const KEYS_OF: Record<KeysFor, (session: Session) => boolean> = {
 };
 
 export function newDialog(ui: Ui) {
-  const size = () => h("input", { type: "number", min: LIMITS.cells[0], max: LIMITS.cells[1], step: 1, required: true, value: "21" });
+  const size = () => h("input", { type: "number", step: 1, required: true, value: "21" });
   const [width, height] = [size(), size()];
+  for (const field of [width, height]) ui.bounded(field, "side");
   const world = h("select", {});
   for (const [value, text] of WORLDS) world.append(h("option", { value, textContent: text }));
   world.addEventListener("change", () => {
@@ -69,7 +70,7 @@ export function newDialog(ui: Ui) {
     h("div", { className: "buttons end" }, h("button", { type: "submit", className: "primary", textContent: "Create" })),
   );
   form.addEventListener("submit", () => {
-    ui.session.act({ type: "new", shape: [Number(width.value), Number(height.value)], world: world.value });
+    ui.session.act({ type: "new", shape: [Number(width.value), Number(height.value)], world: world.value as New["world"] });
     ui.hand.selected = null;
   });
   return ui.dialog("New map", form);

@@ -36,7 +36,7 @@ function words({ evidence, quantity }: Session) {
   if (!together) return `${name}: asking its beams.`;
   if (!together.beams) return `${name}: no beam reaches it.`;
   const beams = together.beams === 1 ? "1 beam" : `${together.beams} beams`;
-  if (together.nats_for === undefined || together.nats_against === undefined) return `${name}: ${beams}; there are no draws to ask what they say.`;
+  if (together.nats_for === null || together.nats_against === null) return `${name}: ${beams}; there are no draws to ask what they say.`;
   const what = { binary: "a wall", surface: "its surface" }[quantity.kind] ?? "what is there";
   const silent = together.beams_for || together.beams_against ? "" : " None of them says anything.";
   return (

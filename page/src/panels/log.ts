@@ -1,6 +1,5 @@
 // Of a log: from how many of its scans the map is made, and on cells of which size.
 
-import { LIMITS } from "../protocol";
 import { focused, h, mark, put } from "./dom";
 import type { Ui } from "./ui";
 
@@ -18,9 +17,10 @@ export function cellSize(ui: Ui) {
     const [low, high] = source.bounds;
     const side = Math.max(high[0] - low[0], high[1] - low[1]);
     const sizes = [...new Set([...SIZES_M, grid.resolution])].sort((a, b) => a - b);
-    if (known !== sizes.join()) {
-      known = sizes.join();
-      const option = (size: number) => h("option", { value: String(size), textContent: words(size), disabled: side / size > LIMITS.side_of_log - 1 });
+    const [, most] = ui.limits("side_of_log");
+    if (known !== `${sizes} ${most}`) {
+      known = `${sizes} ${most}`;
+      const option = (size: number) => h("option", { value: String(size), textContent: words(size), disabled: side / size > most - 1 });
       select.replaceChildren(...sizes.map(option));
     }
     put(select, "value", String(grid.resolution));

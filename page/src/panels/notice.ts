@@ -1,7 +1,7 @@
 // What is said on and under the map: the chip, the banner, the status line and the read-out of a cell.
 
 import { centreOf, entropyBits } from "../geometry/cells";
-import { LIMITS, type Field, type MapDocument, type Point } from "../protocol";
+import type { Field, Patch, Point } from "../protocol";
 import type { Session } from "../state/session";
 import { h, mark, put } from "./dom";
 import { isFitting } from "./posterior";
@@ -64,12 +64,12 @@ function quick({ method, sweeps, total, averaged }: Field, working: boolean) {
 function tryRemedy(session: Session): { text: string; apply: () => void } | null {
   const { shown, document } = session;
   if (shown?.verdict?.level !== "bad" || !document || session.recorded || document.source.kind === "run") return null;
-  const set = (patch: Partial<MapDocument>) => () => session.act({ type: "set", patch });
+  const set = (patch: Patch) => () => session.act({ type: "set", patch });
   const few = shown.sweeps < FEWEST_SWEEPS;
   if (shown.method === "gibbs" && document.source.kind === "simulation" && !few) return { text: "try blocks", apply: set({ method: "block" }) };
   if (shown.method === "importance") return { text: "try Gibbs", apply: set({ method: "auto" }) };
   if (shown.sweeps < shown.total) return null; // it goes on, or was cancelled
-  const sweeps = Math.min(LIMITS.sweeps[1], Math.max(FEWEST_SWEEPS, 4 * document.sweeps));
+  const sweeps = Math.min(session.limits?.sweeps[1] ?? 0, Math.max(FEWEST_SWEEPS, 4 * document.sweeps));
   return sweeps > document.sweeps ? { text: `try ${sweeps} sweeps`, apply: set({ sweeps }) } : null;
 }
 
@@ -137,7 +137,7 @@ function describeCell(session: Session, cell: Point) {
     const beams = facts ? facts.beams : null;
     if (!shown.observed[i]) parts.push("unobserved");
     else if (beams !== null) parts.push(beams === 1 ? "1 beam" : `${beams} beams`);
-    if (shown.observed[i] && facts?.nats_for !== undefined && facts.nats_against !== undefined && beams) {
+    if (shown.observed[i] && facts && facts.nats_for !== null && facts.nats_against !== null && beams) {
       const what = { binary: "a wall", surface: "its surface" }[session.quantity.kind] ?? "what is there";
       parts.push(`for ${what} ${facts.beams_for}, ${facts.nats_for.toFixed(1)} nats`, `against ${facts.beams_against}, ${facts.nats_against.toFixed(1)} nats`);
     }

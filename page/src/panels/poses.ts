@@ -1,6 +1,5 @@
 // What is known of the poses: of a log whether they are raw odometry, of a drawn world how uncertain they are.
 
-import { LIMITS } from "../protocol";
 import { h, put } from "./dom";
 import type { Ui } from "./ui";
 
@@ -13,11 +12,9 @@ export function posesPanel(ui: Ui) {
   const poses = ui.select("Poses", POSES, () => session.document?.poses ?? "logged", (value) => ui.set({ poses: value }));
   poses.classList.add("wide");
   ui.visible(poses, isLog);
-  const [least_m, most_m] = LIMITS.pose_sigma;
-  const [least_deg, most_deg] = LIMITS.heading_sigma_deg;
   const uncertain = [
-    ui.slider("pose_sigma", () => "Position \u00b1", { low: least_m, high: most_m, step: 0.05, unit: " m" }),
-    ui.slider("heading_sigma", () => "Yaw \u00b1", { low: least_deg, high: most_deg, step: 0.5, unit: "\u00b0", scale: DEGREES }),
+    ui.slider("pose_sigma", () => "Position \u00b1", { step: 0.05, unit: " m" }),
+    ui.slider("heading_sigma", () => "Yaw \u00b1", { step: 0.5, unit: "\u00b0", scale: DEGREES }),
   ];
   for (const element of uncertain) ui.visible(element, () => session.editable);
   const remark = h("p", { className: "caption" });

@@ -1,6 +1,6 @@
 // The reading under the pointer, in words: along its beam, and across and along the wall that it met.
 
-import type { Comparison } from "../state/reading";
+import type { ComparedBeam } from "../messages";
 import { figure, h, put } from "./dom";
 import type { Ui } from "./ui";
 
@@ -23,7 +23,7 @@ export function readingPanel(ui: Ui) {
 }
 
 /** What is said of a reading. */
-export function readingWords({ scan, beam, reading, range, low, median, high, residual, no_return, wall }: Comparison) {
+export function readingWords({ scan, beam, reading, range, low, median, high, residual, no_return, wall }: ComparedBeam) {
   const name = `Beam ${beam + 1} of scan ${scan + 1}`;
   const end = (value: number | null, otherwise: string) => (value === null ? otherwise : `${figure(value, 2)} m`);
   const law = `median ${end(median, "no return")}, 80 % between ${end(low, "too close")} and ${end(high, "no return")}`;

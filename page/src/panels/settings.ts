@@ -1,6 +1,5 @@
 // Sensors, model, method: what the document holds besides the walls.
 
-import { LIMITS } from "../protocol";
 import { h, put } from "./dom";
 import { cellSize } from "./log";
 import type { Ui } from "./ui";
@@ -61,23 +60,21 @@ export function sensorPanel(ui: Ui) {
 
 export function modelPanel(ui: Ui) {
   const { session } = ui;
-  const [least, most] = LIMITS.max_range;
-  const [narrowest, widest] = LIMITS.fov_deg;
-  const range = ui.numberInput("Longest range (m)", () => session.document?.max_range ?? 0, (max_range) => ui.set({ max_range }), { min: least, max: most, step: "any" });
+  const range = ui.numberInput("Longest range (m)", () => session.document?.max_range ?? 0, (max_range) => ui.set({ max_range }), { step: "any", limits: "max_range" });
   const simulated = [
-    ui.slider("noise", () => "Noise (m)", { low: LIMITS.noise[0], high: LIMITS.noise[1], step: 0.01, unit: " m" }),
-    ui.slider("angles", () => "Angles", { low: LIMITS.angles[0], high: LIMITS.angles[1], step: 1, log: true }),
+    ui.slider("noise", () => "Noise (m)", { step: 0.01, unit: " m" }),
+    ui.slider("angles", () => "Angles", { step: 1, log: true }),
     range,
     ui.numberInput(
       "Field of view (\u00b0)",
       () => degrees(session.document?.fov ?? FULL_CIRCLE),
-      (value) => ui.set({ fov: value >= widest ? FULL_CIRCLE : (value * Math.PI) / 180 }),
-      { min: narrowest, max: widest, step: 5 },
+      (value) => ui.set({ fov: value >= 360 ? FULL_CIRCLE : (value * Math.PI) / 180 }),
+      { step: 5, limits: "fov", scale: 180 / Math.PI },
     ),
     ui.select("Readings", READINGS, () => session.document?.readings ?? "noisy", (readings) => ui.set({ readings })),
   ];
   for (const element of simulated) ui.visible(element, () => session.editable);
-  const prior = ui.slider("prior", () => "Prior P(wall)", { low: LIMITS.prior[0], high: LIMITS.prior[1], step: 0.01 });
+  const prior = ui.slider("prior", () => "Prior P(wall)", { step: 0.01 });
   const isWalls = () => (session.document?.cells ?? "binary") === "binary";
   ui.visible(prior, isWalls);
   const cells = ui.select("Cells", CELLS, () => session.document?.cells ?? "binary", (kind) => ui.set({ cells: kind }));
@@ -90,7 +87,6 @@ export function inferencePanel(ui: Ui) {
   const method = () => session.document?.method ?? "auto";
   const isWalls = () => (session.document?.cells ?? "binary") === "binary";
   const isChain = () => /auto|gibbs|block/.test(method());
-  const [least, most] = LIMITS.seed;
   const ofWalls = [
     ui.select("Method", METHODS, method, (value) => ui.set({ method: value })),
     ui.select("Order", ORDERS, () => session.document?.order ?? "radial", (order) => ui.set({ order }), () => method() === "gibbs" || method() === "auto"),
@@ -100,8 +96,8 @@ export function inferencePanel(ui: Ui) {
   return ui.section(
     "Inference",
     ...ofWalls,
-    ui.slider("sweeps", () => UNITS[method()] ?? "Sweeps", { low: LIMITS.sweeps[0], high: LIMITS.sweeps[1], step: 1, log: true }),
-    ui.numberInput("Seed", () => session.document?.seed ?? 0, (seed) => ui.set({ seed: Math.round(seed) }), { min: least, max: most, step: 1 }),
+    ui.slider("sweeps", () => UNITS[method()] ?? "Sweeps", { step: 1, log: true }),
+    ui.numberInput("Seed", () => session.document?.seed ?? 0, (seed) => ui.set({ seed: Math.round(seed) }), { step: 1, limits: "seed" }),
   );
 }
 

@@ -3,7 +3,7 @@
 import { clamp } from "../geometry/cells";
 import type { Editor } from "../input/editor";
 import type { Hand } from "../input/hand";
-import type { Layer, MapDocument, Pair } from "../protocol";
+import type { Layer, Limits, Pair, Patch } from "../protocol";
 import type { Session } from "../state/session";
 import { focused, h, mark, put } from "./dom";
 import { icon, type IconName } from "./icons";
@@ -11,7 +11,9 @@ import { icon, type IconName } from "./icons";
 let count = 0; // several pages may stand in one notebook
 
 type ButtonOptions = { className?: string; text?: string; when?: () => boolean; title?: string };
-type Range = { low: number; high: number; step: number; log?: boolean; unit?: string; scale?: number };
+/** `scale` is for people who read degrees where the document holds radians: the number on show is that many times the document's. */
+type Range = { step: number; log?: boolean; unit?: string; scale?: number };
+type NumberOptions = { step: number | "any"; limits?: keyof Limits; scale?: number };
 type SliderKey = "prior" | "noise" | "angles" | "sweeps" | "pose_sigma" | "heading_sigma";
 
 export class Ui {
@@ -41,7 +43,7 @@ export class Ui {
   }
 
   /** Changes settings; all changes of one slide are one step of undo. */
-  set(patch: Partial<MapDocument>) {
+  set(patch: Patch) {
     this.session.act({ type: "set", patch, drag: this.drag });
   }
 
@@ -52,6 +54,21 @@ export class Ui {
 
   endDrag() {
     this.drag++;
+  }
+
+  /** Smallest and largest value as the server has them; of another unit those tenths that lie inside. */
+  limits(key: keyof Limits, scale = 1): Pair {
+    const [low, high] = this.session.limits?.[key] ?? [1, 2];
+    return scale === 1 ? [low, high] : [Math.ceil(10 * low * scale - 1e-6) / 10, Math.floor(10 * high * scale + 1e-6) / 10];
+  }
+
+  /** Keeps a field's limits those of the server. */
+  bounded(field: HTMLInputElement, key: keyof Limits, scale = 1) {
+    this.each(() => {
+      const [low, high] = this.limits(key, scale);
+      put(field, "min", String(low));
+      put(field, "max", String(high));
+    });
   }
 
   /** Hides an element unless a condition holds. */
@@ -100,24 +117,33 @@ export class Ui {
   }
 
   /** A slider with a number beside it. */
-  slider(key: SliderKey, label: () => string, { low, high, step, log = false, unit = "", scale = 1 }: Range) {
+  slider(key: SliderKey, label: () => string, { step, log = false, unit = "", scale = 1 }: Range) {
     const id = `${this.prefix}-${key}`;
-    const toPosition = (v: number) => (log ? (1000 * Math.log(v / low)) / Math.log(high / low) : v);
+    const limits = () => this.limits(key, scale);
+    const toPosition = (v: number) => {
+      const [low, high] = limits();
+      return log ? (1000 * Math.log(v / low)) / Math.log(high / low) : v;
+    };
     const toValue = (t: number) => {
       if (!log) return t;
+      const [low, high] = limits();
       const value = low * (high / low) ** (t / 1000);
       const round = value < 100 ? 1 : 10 ** (Math.floor(Math.log10(value)) - 1);
       return clamp(Math.round(value / round) * round, low, high);
     };
-    // the document holds radians where people read degrees: the number on show is `scale` times that
-    const shown = () => (scale === 1 ? (this.session.document?.[key] ?? low) : Number(((this.session.document?.[key] ?? low / scale) * scale).toFixed(3)));
+    const shown = () => {
+      const value = this.session.document?.[key];
+      return value === undefined ? limits()[0] : scale === 1 ? value : Number((value * scale).toFixed(3));
+    };
     const text = h("label", { for: id });
-    const range = h("input", { type: "range", id, ...(log ? { min: 0, max: 1000, step: 1 } : { min: low, max: high, step }) });
-    const exact = h("input", { type: "number", min: String(low), max: String(high), step: String(step) });
+    const range = h("input", { type: "range", id, ...(log ? { min: 0, max: 1000, step: 1 } : { step }) });
+    const exact = h("input", { type: "number", step: String(step) });
+    if (!log) this.bounded(range, key, scale);
+    this.bounded(exact, key, scale);
     range.addEventListener("input", () => this.set({ [key]: toValue(Number(range.value)) / scale }));
     range.addEventListener("change", () => this.endDrag());
     exact.addEventListener("change", () => {
-      this.typed(exact, label(), [low, high], shown, (value) => this.set({ [key]: log ? Math.round(value) : value / scale }));
+      this.typed(exact, label(), limits(), shown, (value) => this.set({ [key]: log ? Math.round(value) : value / scale }));
       this.endDrag();
     });
     this.each(() => {
@@ -152,11 +178,12 @@ export class Ui {
     else if (value > high) this.session.say(`${label} is at most ${high}`, "warning");
   }
 
-  /** A number that is brought into its limits, `min` and `max` of the properties. */
-  numberInput(label: string, current: () => number, choose: (value: number) => void, properties: { [name: string]: any } = {}) {
-    const element = h("input", { type: "number", ...properties });
-    const { min = -Infinity, max = Infinity } = properties;
-    element.addEventListener("change", () => this.typed(element, label, [min, max], current, choose));
+  /** A number that is brought into its limits, where it has any. */
+  numberInput(label: string, current: () => number, choose: (value: number) => void, { step, limits, scale }: NumberOptions) {
+    const element = h("input", { type: "number", step: String(step) });
+    const within = (): Pair => (limits ? this.limits(limits, scale) : [-Infinity, Infinity]);
+    if (limits) this.bounded(element, limits, scale);
+    element.addEventListener("change", () => this.typed(element, label, within(), current, choose));
     this.each(() => {
       if (!focused(element)) put(element, "value", String(current()));
     });

@@ -1,7 +1,7 @@
 // "Where am I?" in words: how many places, how probable each is, how well it is known, or that the scan fits nowhere.
 
 import { percent } from "../layers/where";
-import type { Place, Whereabouts } from "../state/where";
+import type { Place, Whereabouts } from "../messages";
 import { h, put } from "./dom";
 import type { Ui } from "./ui";
 

@@ -1,20 +1,10 @@
 // What is asked of the posterior, and its answers: a path between two points, and where to look next.
 
-import type { Buffers, Message, Pair, Point } from "../protocol";
-import type { Session } from "./session";
+import type { SafePath, Undecided, Views as Spacing } from "../messages";
+import type { Buffers, Point } from "../protocol";
+import type { Asker } from "./asker";
 import { sentence } from "./status";
 
-/** A path for a disc, and how probable it is that it touches nothing. */
-export type Path = {
-  path: Pair[];
-  length_m: number;
-  radius: number;
-  within_risk: boolean;
-  probability: number;
-  standard_error: number;
-  independent: number;
-  draws: number;
-};
 /** Poses (n, 3) and the nats that one more scan from each is expected to tell. */
 export type Views = { pose: Float32Array; nats: Float32Array; spacing: number };
 
@@ -26,7 +16,7 @@ export class Decisions {
   goal: Point | null = null;
   radius = 0.25;
   risk = 0.01;
-  path: Path | null = null;
+  path: SafePath | null = null;
   views: Views | null = null;
   /** Why there is no path, and no map of where to look next. */
   trouble = "";
@@ -38,7 +28,7 @@ export class Decisions {
   private askedPath = "";
   private askedViews = "";
 
-  constructor(private readonly session: Session) {}
+  constructor(private readonly session: Asker) {}
 
   /** The first point of a path, then the second, then the first of another. */
   point(place: Point) {
@@ -89,15 +79,15 @@ export class Decisions {
     }
   }
 
-  receive(message: Message, buffers: Buffers) {
-    const text = message.type === "undecided" ? said(message.text) : "";
-    if (message.of === "views" || message.type === "views") this.viewTrouble = text;
+  receive(notice: SafePath | Spacing | Undecided, buffers: Buffers) {
+    const text = notice.type === "undecided" ? said(notice.text) : "";
+    const of = notice.type === "undecided" ? notice.of : notice.type;
+    if (of === "views") this.viewTrouble = text;
     else this.trouble = text;
-    if (message.type === "path") this.path = message as unknown as Path;
-    if (message.type === "views" && this.looking) {
-      this.views = { pose: buffers.pose as Float32Array, nats: buffers.nats as Float32Array, spacing: message.spacing };
-    }
-    if (message.type === "undecided" && message.of === "path") this.path = null;
+    if (notice.type === "path") this.path = notice;
+    else if (notice.type === "views" && this.looking) {
+      this.views = { pose: buffers.pose as Float32Array, nats: buffers.nats as Float32Array, spacing: notice.spacing };
+    } else if (of === "path") this.path = null;
     this.version++;
   }
 

@@ -1,8 +1,8 @@
 // What beams say of a cell: together of the one under the pointer, each by itself of the one that was clicked.
 
 import { inside } from "../geometry/cells";
-import type { Buffers, CellFacts, Message, Point } from "../protocol";
-import type { Session } from "./session";
+import type { Buffers, CellFacts, Point } from "../protocol";
+import type { Asker } from "./asker";
 
 /** The beams that say most, strongest first: from where to where (M, 2), metres, their nats, their numbers. */
 export type Spoken = { start: Float64Array; end: Float64Array; nats: Float64Array; scan: Float64Array; beam: Float64Array };
@@ -25,7 +25,7 @@ export class Evidence {
     return this.held && this.cell !== null;
   }
 
-  constructor(private readonly session: Session) {}
+  constructor(private readonly session: Asker) {}
 
   hold(on: boolean) {
     if (this.held === on) return;
@@ -60,9 +60,9 @@ export class Evidence {
     session.act({ type: "inspect", x: cell.x, y: cell.y, each: true });
   }
 
-  receive(message: Message, buffers: Buffers) {
-    this.facts = message as unknown as CellFacts;
-    if (!message.each || message.x !== this.cell?.x || message.y !== this.cell?.y) return;
+  receive(facts: CellFacts, buffers: Buffers) {
+    this.facts = facts;
+    if (!facts.each || facts.x !== this.cell?.x || facts.y !== this.cell?.y) return;
     this.together = this.facts;
     this.each = buffers.nats ? (buffers as unknown as Spoken) : null;
     this.version++;

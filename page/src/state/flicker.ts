@@ -1,7 +1,7 @@
 // Draws over the mean, one after the other: each is a map that the scans leave possible.
 
 import type { Field } from "../protocol";
-import type { Session } from "./session";
+import type { Asker } from "./asker";
 
 const REDUCED = "(prefers-reduced-motion: reduce)";
 
@@ -11,7 +11,7 @@ export class Flicker {
   /** The last mean of the present picture. */
   private mean: Field | null = null;
 
-  constructor(private readonly session: Session) {}
+  constructor(private readonly session: Asker) {}
 
   /** Whether who looks wants nothing to move by itself. */
   get still() {

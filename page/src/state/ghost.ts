@@ -1,25 +1,21 @@
 // A robot that is not there: where the hand has put it, and what its laser would read.
 
 import { cellOf, inside } from "../geometry/cells";
-import type { Buffers, Message } from "../protocol";
-import type { Session } from "./session";
+import type { GhostScan, Near, Undecided } from "../messages";
+import type { Buffers } from "../protocol";
+import type { Asker } from "./asker";
 
 /** Metres and radians, world frame. */
 export type Pose = { x: number; y: number; yaw: number };
-/** The scan that was taken nearest: how far away in metres, and turned by how much. */
-export type Near = { index: number; away: number; turn: number; pose: Float64Array; ranges: Float32Array; hit: Uint8Array };
+/** The scan that was taken nearest, and what it read. */
+export type NearScan = Near & { pose: Float64Array; ranges: Float32Array; hit: Uint8Array };
 /** Predictive median and central 80 % interval of each beam, metres; no return is infinite. */
-export type Fan = Pose & {
-  generation: number;
-  draws: number;
-  milliseconds: number;
-  /** By a few draws only, since the hand still moved. */
-  coarse: boolean;
+export type Fan = Omit<GhostScan, "type" | "near"> & {
   angles: Float32Array;
   low: Float32Array;
   median: Float32Array;
   high: Float32Array;
-  near: Near | null;
+  near: NearScan | null;
 };
 
 /** An answer that takes longer will not come: the worker was started again. */
@@ -49,7 +45,7 @@ export class Ghost {
   private waiting = 0;
   private asked = "";
 
-  constructor(private readonly session: Session) {}
+  constructor(private readonly session: Asker) {}
 
   /** Takes it up. */
   hold(on: boolean) {
@@ -107,13 +103,13 @@ export class Ghost {
     session.act({ type: "ghost", ...pose, coarse: this.moving });
   }
 
-  receive(message: Message, buffers: Buffers) {
+  receive(notice: GhostScan | Undecided, buffers: Buffers) {
     this.waiting = Math.max(0, this.waiting - 1);
-    this.trouble = message.type === "undecided" ? message.text : "";
-    if (message.type === "ghost") {
+    this.trouble = notice.type === "undecided" ? notice.text : "";
+    if (notice.type === "ghost") {
       const { angles, low, median, high, near_pose, near_ranges, near_hit } = buffers as any;
-      const near = message.near && { ...message.near, pose: near_pose, ranges: near_ranges, hit: near_hit };
-      const { x, y, yaw, generation, draws, coarse, milliseconds } = message as any;
+      const { x, y, yaw, generation, draws, coarse, milliseconds } = notice;
+      const near = notice.near && { ...notice.near, pose: near_pose, ranges: near_ranges, hit: near_hit };
       this.fan = { x, y, yaw, generation, draws, coarse, milliseconds, angles, low, median, high, near };
       this.answers++;
     } else this.fan = null;

@@ -1,23 +1,8 @@
 // The reading under the pointer, and how it compares with its prediction.
 
-import type { Message, Point, Scan } from "../protocol";
-import type { Session } from "./session";
-
-/** Metres and radians; null where infinite or unknown. */
-export type Comparison = {
-  scan: number;
-  beam: number;
-  draws: number;
-  reading: "hit" | "none" | "close" | "bad";
-  range: number | null;
-  low: number | null;
-  median: number | null;
-  high: number | null;
-  residual: number | null;
-  nats: number | null;
-  no_return: number | null;
-  wall: { across_m: number; along_m: number; thickness_m: number; length_m: number; incidence_rad: number } | null;
-};
+import type { ComparedBeam, Undecided } from "../messages";
+import type { Point, Scan } from "../protocol";
+import type { Asker } from "./asker";
 
 const REST_MS = 120;
 /** An answer that takes longer is being prepared: the first one after an installation is compiled. */
@@ -28,7 +13,7 @@ export type Picked = { scan: number; beam: number; from: Point; angle: number };
 
 export class Reading {
   picked: Picked | null = null;
-  found: Comparison | null = null;
+  found: ComparedBeam | null = null;
   trouble = "";
   /** Whether the answer is long in coming. */
   slow = false;
@@ -36,7 +21,7 @@ export class Reading {
   version = 0;
   private timer = 0;
 
-  constructor(private readonly session: Session) {}
+  constructor(private readonly session: Asker) {}
 
   /** Follows the pointer, null where it has gone; `near_m` is how close to a reading it has to be. */
   point(place: Point | null, near_m: number) {
@@ -71,10 +56,9 @@ export class Reading {
     this.version++;
   }
 
-  receive(message: Message) {
-    const found = message as unknown as Comparison;
-    if (message.type === "undecided") this.trouble = message.text;
-    else if (found.beam === this.picked?.beam && found.scan === this.picked.scan) this.found = found;
+  receive(notice: ComparedBeam | Undecided) {
+    if (notice.type === "undecided") this.trouble = notice.text;
+    else if (notice.beam === this.picked?.beam && notice.scan === this.picked.scan) this.found = notice;
     this.version++;
   }
 }

@@ -1,7 +1,10 @@
 // What the page knows: the document, the edits that are on their way, the newest field.
 
 import { fromBase64, packBits, toBase64, unpackBits } from "../geometry/bits";
-import type { Buffers, Connection, Field, Layer, MapDocument, Message, Overlay, Pair, Quantity, Scan, Stage, State, Transport, View } from "../protocol";
+import type { Field as Picture, Refusal, Scan as Readings } from "../messages";
+import type {
+  Action, Buffers, Connection, Field, Layer, Limits, MapDocument, Notice, Overlay, Pair, Quantity, Scan, Sent, Stage, State, Transport, View,
+} from "../protocol";
 import { forget, keep } from "./kept";
 import { FORESEEN, foresee, needsServer, NO_SERVER, type Foreseen } from "./foreseen";
 import { Decisions } from "./decisions";
@@ -14,7 +17,7 @@ import { Reading } from "./reading";
 import { Status, type Level } from "./status";
 import { Where } from "./where";
 
-const QUESTIONS = new Set(["inspect", "path", "views", "where", "ghost", "beam"]);
+const QUESTIONS = new Set<Action["type"]>(["inspect", "path", "views", "where", "ghost", "beam"]);
 
 /** It changes by `receive` and `act`, and calls `changed` after. */
 export class Session {
@@ -34,6 +37,8 @@ export class Session {
   /** Of the trajectory that was inferred last. */
   private lastStage: Stage | null = null;
   worker = "starting";
+  /** Of what can be set, as the server has them. */
+  limits: Limits | null = null;
   /** Whether the page plays a recording. */
   recorded = false;
   /** The newest generation that was seen. */
@@ -54,7 +59,7 @@ export class Session {
 
   private seq = 0;
   private next: Field | null = null;
-  private pending: Message[] = [];
+  private pending: Sent[] = [];
   /** The last generation whose painting was reported. */
   private reported = -1;
   private confirmedWalls = { text: "", walls: this.walls };
@@ -123,12 +128,12 @@ export class Session {
   }
 
   /** Sends an action; its effect shows at once. The pointer event that it came from is timed until its picture. */
-  act(message: Message, event?: Event) {
-    if (!this.document && message.type !== "hello") return;
-    if (!this.connection.connected && this.everConnected && !QUESTIONS.has(message.type) && needsServer(message)) return this.say(NO_SERVER, "warning");
-    const sent = { ...message, seq: ++this.seq };
-    if (!QUESTIONS.has(message.type)) this.acted = this.seq; // a question changes nothing, and no state confirms it
-    if (FORESEEN.has(message.type)) {
+  act(action: Action, event?: Event) {
+    if (!this.document && action.type !== "hello") return;
+    if (!this.connection.connected && this.everConnected && !QUESTIONS.has(action.type) && needsServer(action)) return this.say(NO_SERVER, "warning");
+    const sent = { ...action, seq: ++this.seq };
+    if (!QUESTIONS.has(action.type)) this.acted = this.seq; // a question changes nothing, and no state confirms it
+    if (FORESEEN.has(action.type)) {
       this.pending.push(sent);
       this.foresee(sent);
     }
@@ -206,80 +211,82 @@ export class Session {
     this.changed();
   }
 
-  private receive(message: Message, buffers: Buffers) {
-    switch (message.type) {
+  private receive(notice: Notice, buffers: Buffers) {
+    switch (notice.type) {
       case "welcome":
         this.generation = this.reported = -1;
-        this.recorded = Boolean(message.recorded);
+        this.limits = notice.limits;
+        this.recorded = notice.recorded;
         this.latency.forget();
         this.next = null;
         break;
       case "state":
-        this.receiveState(message as unknown as State);
+        this.receiveState(notice);
         break;
       case "scan":
-        if (message.generation >= this.generation) {
-          const { pose, angles, ranges, exact, hit } = buffers;
-          if (this.scan?.index !== message.index) this.reading.forget();
-          this.scan = { ids: message.ids ?? [], index: message.index ?? null, pose, angles, ranges, exact, hit };
-        }
+        if (notice.generation >= this.generation) this.receiveScan(notice, buffers);
         break;
       case "overlay":
         this.overlay = buffers as unknown as Overlay;
         break;
       case "field":
-        this.receiveField(message, buffers);
+        this.receiveField(notice, buffers);
         break;
       case "stage":
-        this.lastStage = message as unknown as Stage;
+        this.lastStage = notice;
         break;
       case "where":
-        this.where.receive(message, buffers);
+        this.where.receive(notice, buffers);
         break;
       case "cell":
-        this.evidence.receive(message, buffers);
+        this.evidence.receive(notice, buffers);
         break;
       case "path":
       case "views":
+        this.decisions.receive(notice, buffers);
+        break;
       case "ghost":
+        this.ghost.receive(notice, buffers);
+        break;
       case "beam":
+        this.reading.receive(notice);
+        break;
       case "undecided":
-        this.receiveAnswer(message, buffers);
+        if (notice.of === "ghost") this.ghost.receive(notice, buffers);
+        else if (notice.of === "beam") this.reading.receive(notice);
+        else this.decisions.receive(notice, buffers);
         break;
       case "status":
-        this.status.say(message.text, message.level ?? "info", this.acted);
+        this.status.say(notice.text, notice.level, this.acted);
         break;
       case "error":
-        this.receiveError(message);
+        this.receiveRefusal(notice);
         break;
       case "worker":
-        this.worker = message.state;
-        this.status.worker(message.state);
+        this.worker = notice.state;
+        this.status.worker(notice.state);
         break;
       case "download":
-        this.ondownload(message.name, message.mime, buffers.data as Uint8Array);
-        this.status.say(`Saved ${message.name}`, "info", this.acted);
+        this.ondownload(notice.name, notice.mime, buffers.data as Uint8Array);
+        this.status.say(`Saved ${notice.name}`, "info", this.acted);
         break;
     }
     this.changed();
   }
 
-  private receiveAnswer(message: Message, buffers: Buffers) {
-    const of = message.type === "undecided" ? message.of : message.type;
-    if (of === "ghost") this.ghost.receive(message, buffers);
-    else if (of === "beam") this.reading.receive(message);
-    else this.decisions.receive(message, buffers);
+  private receiveScan({ ids, index }: Readings, { pose, angles, ranges, exact, hit }: Buffers) {
+    if (this.scan?.index !== index) this.reading.forget();
+    this.scan = { ids, index, pose, angles, ranges, exact, hit };
   }
 
-  private receiveError(message: Message) {
-    const seq: number | null = message.refused?.seq ?? null;
+  private receiveRefusal({ seq, text, remedy }: Refusal) {
     const brought = seq !== null && seq === this.broughtAt;
     if (brought) {
       // the document that this page brought is none: it takes the server's
       this.broughtAt = null;
       this.act({ type: "hello" });
     }
-    const why = [message.text, message.remedy].filter(Boolean).join("; ");
+    const why = [text, remedy].filter(Boolean).join("; ");
     this.status.say(brought ? `The map that was brought along cannot be shown: ${why}` : why, "error", this.acted);
     this.pending = this.pending.filter((edit) => edit.seq !== seq);
     if (seq !== null) this.latency.refused(seq);
@@ -299,12 +306,12 @@ export class Session {
     this.rebuild();
   }
 
-  private receiveField(message: Message, buffers: Buffers) {
-    if (message.generation < this.generation) {
+  private receiveField(picture: Picture, buffers: Buffers) {
+    if (picture.generation < this.generation) {
       this.counts.stale++;
       return;
     }
-    this.generation = message.generation;
+    this.generation = picture.generation;
     const p = buffers.p as Uint8Array;
     const { trace, traced, weights } = buffers as { [name: string]: Float32Array };
     const bits = buffers.observed as Uint8Array;
@@ -312,7 +319,7 @@ export class Session {
     // most frames of a chain see the same cells
     const same = old && old.p.length === p.length && old.bits.every((byte, i) => byte === bits[i]);
     const seen = same ? { observed: old.observed, bits: old.bits } : { observed: unpackBits(bits, p.length), bits };
-    this.next = { ...(message as unknown as Field), p, trace, traced, weights, ...seen };
+    this.next = { ...picture, p, trace, traced, weights, ...seen };
     this.progress.hear(this.next);
   }
 
@@ -331,14 +338,14 @@ export class Session {
       this.wallsVersion++;
       this.wallsAhead = false;
     }
-    if (this.state.view && !this.pending.some((edit) => edit.type === "view")) {
+    if (!this.pending.some((edit) => edit.type === "view")) {
       const { layer, chain, draw } = this.state.view;
-      this.view = { layer: layer ?? "mean", chain: chain ?? 0, draw: draw ?? null };
+      this.view = { layer, chain: chain ?? 0, draw };
     }
     for (const edit of this.pending) this.foresee(edit);
   }
 
-  private foresee(edit: Message) {
+  private foresee(edit: Action) {
     if (!this.document || !this.state) return;
     foresee(this as Foreseen, edit);
     if (edit.type === "walls") {

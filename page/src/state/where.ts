@@ -1,23 +1,11 @@
 // "Where am I?": the posterior of the pose of one scan, asked for again whenever the picture is another.
 
-import type { Buffers, Message } from "../protocol";
-import type { Session } from "./session";
+import type { Whereabouts } from "../messages";
+import type { Buffers } from "../protocol";
+import type { Asker } from "./asker";
 
-/** One place where the robot may be: mean and covariance of x, y (metres) and yaw (radians), and how probable it is. */
-export type Place = { mean: number[]; covariance: number[][]; probability: number; sigma_m: number; sigma_rad: number };
-/** Where a scan may have been taken; `pose` is where it was, as the document or the file says. */
-export type Whereabouts = {
-  of: number;
-  sensor?: number;
-  index?: number;
-  modes: Place[];
-  p_lost: number;
-  nats_per_beam: number;
-  pose: number[];
-  /** (n, 3) and (n), the lightest first. */
-  cloud: Float32Array;
-  weight: Float32Array;
-};
+/** Where a scan may have been taken; its cloud (n, 3) and weights (n), the lightest first. */
+export type Located = Whereabouts & { cloud: Float32Array; weight: Float32Array };
 
 /** Less probable places are not worth words. */
 const LEAST = 0.005;
@@ -25,7 +13,7 @@ const LEAST = 0.005;
 const PATIENCE_MS = 5000;
 
 export class Where {
-  found: Whereabouts | null = null;
+  found: Located | null = null;
   /** Why there is no answer. */
   trouble = "";
   /** Counts what there is to paint anew. */
@@ -35,7 +23,7 @@ export class Where {
   private asked = "";
   private waitingSince = 0;
 
-  constructor(private readonly session: Session) {}
+  constructor(private readonly session: Asker) {}
 
   /** Whether an answer is wanted, and of a drawn world for which sensor. */
   follow(wanted: boolean, sensor: number | null) {
@@ -50,14 +38,13 @@ export class Where {
     if (wanted) this.ask();
   }
 
-  receive(message: Message, buffers: Buffers) {
+  receive(notice: Whereabouts, buffers: Buffers) {
     this.waitingSince = 0;
     if (!this.wanted) return;
-    this.trouble = message.trouble ?? "";
+    this.trouble = notice.trouble;
     const { pose: cloud, weight } = buffers as { [name: string]: Float32Array };
-    const { modes = [] } = message as unknown as Whereabouts;
-    const likely = modes.filter(({ probability }, i) => i === 0 || probability >= LEAST);
-    this.found = this.trouble ? null : { ...(message as unknown as Whereabouts), modes: likely, cloud, weight };
+    const modes = notice.modes.filter(({ probability }, i) => i === 0 || probability >= LEAST);
+    this.found = this.trouble ? null : { ...notice, modes, cloud, weight };
     this.version++;
   }
 

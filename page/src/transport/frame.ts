@@ -1,8 +1,10 @@
 // Messages on the wire.
 
-import type { Buffers, Message, Numbers, Transport } from "../protocol";
+import type { Buffers, Notice, Numbers, Transport } from "../protocol";
 
 type Entry = { name: string; dtype: string; shape: number[] };
+/** A message that says which buffers come with it. */
+export type WithBuffers = Notice & { buffers?: Entry[] };
 
 const ARRAYS: { [dtype: string]: { new (buffer: ArrayBuffer): Numbers; readonly BYTES_PER_ELEMENT: number } } = {
   uint8: Uint8Array,
@@ -15,12 +17,12 @@ const ALIGNMENT = 8;
 export const deaf = (): Pick<Transport, "onmessage" | "onstatus"> => ({ onmessage: () => {}, onstatus: () => {} });
 
 /** A binary frame: length, JSON, buffers padded to 8 bytes. */
-export function unpackFrame(frame: ArrayBuffer): [Message, Buffers] {
+export function unpackFrame(frame: ArrayBuffer): [Notice, Buffers] {
   const length = new DataView(frame).getUint32(0, true);
-  const message: Message = JSON.parse(new TextDecoder().decode(new Uint8Array(frame, 4, length)));
+  const message: WithBuffers = JSON.parse(new TextDecoder().decode(new Uint8Array(frame, 4, length)));
   const buffers: Buffers = {};
   let at = 4 + length;
-  for (const { name, dtype, shape } of message.buffers as Entry[]) {
+  for (const { name, dtype, shape } of message.buffers ?? []) {
     const size = shape.reduce((a, b) => a * b, 1) * ARRAYS[dtype].BYTES_PER_ELEMENT;
     buffers[name] = new ARRAYS[dtype](frame.slice(at, at + size));
     at += Math.ceil(size / ALIGNMENT) * ALIGNMENT;
@@ -29,9 +31,9 @@ export function unpackFrame(frame: ArrayBuffer): [Message, Buffers] {
 }
 
 /** Buffers that came beside their message. */
-export function unpackViews(message: Message, views: DataView[]): Buffers {
+export function unpackViews(message: WithBuffers, views: DataView[]): Buffers {
   const buffers: Buffers = {};
-  ((message.buffers ?? []) as Entry[]).forEach(({ name, dtype }, i) => {
+  (message.buffers ?? []).forEach(({ name, dtype }, i) => {
     const { buffer, byteOffset, byteLength } = views[i];
     buffers[name] = new ARRAYS[dtype](buffer.slice(byteOffset, byteOffset + byteLength) as ArrayBuffer);
   });

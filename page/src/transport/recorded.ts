@@ -1,25 +1,16 @@
 // A recording inside a page in one file (docs/app.md): answers as a session would.
 
 import { fromBase64, inflate, unpackBits } from "../geometry/bits";
-import type { MapDocument, Quantity, Transport, Verdict, View } from "../protocol";
+import type { MapDocument, Recording, Transport, View } from "../protocol";
 import { deaf } from "./frame";
 
-type Rows = (number | null)[][];
-export type Recording = {
-  version: 1;
-  document: MapDocument;
-  scans: { ids: number[]; pose: Rows; angles: number[] | number[][]; ranges: Rows; exact?: Rows; hit: string };
-  mean: string;
-  observed: string;
-  draws?: { chains: number; count: number; data: string };
-  log_joint?: number[][];
-  settings?: { method?: string; sweeps?: number; ess?: number | null; rhat?: number | null; verdict?: Verdict | null; quantity?: Quantity };
-};
+/** Metres; null is no return, "-Infinity" too close, "NaN" an invalid reading. */
+type Reading = Recording["scans"]["ranges"][number][number];
 
 export function recordedTransport(recording: Recording): Transport {
-  const { document, scans, settings = {}, log_joint = [] } = recording;
+  const { document, scans, settings, log_joint } = recording;
   const cells = document.grid.shape[0] * document.grid.shape[1];
-  const count = recording.draws?.count ?? 0;
+  const { chains, count } = recording.draws;
   const oneByOne = document.source.kind !== "simulation";
   const mean = fromBase64(recording.mean);
   const observed = fromBase64(recording.observed);
@@ -27,72 +18,77 @@ export function recordedTransport(recording: Recording): Transport {
   let index = 0;
   let view: View = { layer: "mean", chain: 0, draw: null };
 
-  const rows = (values: Rows) => (oneByOne ? [values[index]] : values);
-  const floats = (values: Rows) => Float32Array.from(rows(values).flat(), (value) => value ?? Infinity);
+  const rows = <T>(values: T[][]) => (oneByOne ? [values[index]] : values);
+  const floats = (values: Reading[][]) => Float32Array.from(rows(values).flat(), metres);
 
   // Beams are the same in all scans, or each scan has its own.
-  const anglesOf = (scan: number) => (Array.isArray(scans.angles[scan]) ? scans.angles[scan] : scans.angles) as number[];
+  const anglesOf = (scan: number) => scans.angles[scan] ?? scans.angles[0];
   const before = [0];
   scans.pose.forEach((_, scan) => before.push(before[scan] + anglesOf(scan).length));
   const allHits = unpackBits(fromBase64(scans.hit), before[scans.pose.length]);
   const hits = () => (oneByOne ? allHits.subarray(before[index], before[index + 1]) : allHits);
-  const trace = Float32Array.from(log_joint.flat());
-  const every = (settings.sweeps ?? count) / Math.max(1, count);
+  const trace = Float32Array.from(log_joint.flat(), Number);
+  const every = settings.sweeps / Math.max(1, count);
   const traced = Float32Array.from(log_joint[0] ?? [], (_, i) => (i + 1) * every);
+  const generation = 1;
+  const held = () => ({ chains, count: draws ? count : 0 });
 
-  const state = (seq: number) => {
-    const held = { chains: recording.draws?.chains ?? 0, count: draws ? count : 0 };
-    const fixed = { generation: 1, can_undo: false, can_redo: false, live: false, running: false, working: false };
-    transport.onmessage({ type: "state", document, seq, ...fixed, draws: held, view }, {});
+  const state = (seq = 0) => {
+    const fixed = { generation, can_undo: false, can_redo: false, live: false, running: false, working: false, scan: index };
+    transport.onmessage({ type: "state", document, seq, ...fixed, draws: held(), view }, {});
   };
   const scan = () => {
     const pose = Float64Array.from(rows(scans.pose).flat(), Number);
-    const message = { type: "scan", generation: 1, ids: oneByOne ? [index] : scans.ids, index: oneByOne ? index : null };
-    const exact = scans.exact?.length ? floats(scans.exact) : new Float32Array(0);
-    transport.onmessage(message, { pose, angles: Float32Array.from(anglesOf(index)), ranges: floats(scans.ranges), exact, hit: hits() });
+    const exact = scans.exact.length ? floats(scans.exact) : new Float32Array(0);
+    const buffers = { pose, angles: Float32Array.from(anglesOf(index)), ranges: floats(scans.ranges), exact, hit: hits() };
+    transport.onmessage({ type: "scan", generation, ids: oneByOne ? [index] : scans.ids, index: oneByOne ? index : null }, buffers);
   };
   const field = () => {
-    const drawn = view.layer === "draw" && draws ? oneDraw(draws, view.chain * count + (view.draw ?? count - 1), cells) : null;
-    const joint = log_joint[view.chain]?.[(view.layer === "draw" ? view.draw : null) ?? count - 1] ?? null;
-    const which = drawn ? { ...view, draw: view.draw ?? count - 1 } : { layer: view.layer === "draw" ? "mean" : view.layer };
-    const sweeps = settings.sweeps ?? count;
-    const figures = { quantity: settings.quantity, sweeps, total: sweeps, ess: settings.ess, rhat: settings.rhat, verdict: settings.verdict, log_joint: joint };
-    const method = settings.method ?? document.method;
-    const buffers = { p: drawn ?? mean, observed, trace, traced };
-    transport.onmessage({ type: "field", generation: 1, ...which, method, approximate: false, ...figures }, buffers);
+    const wished = view.layer === "draw";
+    const draw = (wished ? view.draw : null) ?? count - 1;
+    const drawn = wished && draws ? oneDraw(draws, view.chain * count + draw, cells) : null;
+    const { method, quantity, sweeps, ess, rhat, verdict } = settings;
+    const figures = { sweeps, total: sweeps, ess, rhat, verdict, log_joint: log_joint[view.chain]?.[draw] ?? null };
+    const which = drawn ? { layer: view.layer, chain: view.chain, draw } : { layer: wished ? "mean" : view.layer, chain: null, draw: null } as const;
+    const fixed = { generation, approximate: false, milliseconds: 0, averaged: null, lowest: null };
+    transport.onmessage({ type: "field", ...fixed, ...which, method, quantity, ...figures, draws: held() }, { p: drawn ?? mean, observed, trace, traced });
   };
 
   const transport: Transport = {
     ...deaf(),
     open: () => transport.onstatus({ connected: true }),
-    send: (message) => {
-      if (message.type === "hello") {
-        transport.onmessage({ type: "welcome", version: 1, recorded: true }, {});
-        state(message.seq);
+    send: (action) => {
+      if (action.type === "hello") {
+        transport.onmessage({ type: "welcome", version: 1, limits: null, recorded: true }, {});
+        state(action.seq);
         scan();
         field();
-        if (!count || !recording.draws) return;
+        if (!count) return;
         inflate(fromBase64(recording.draws.data)).then((bits) => {
           draws = bits;
-          state(message.seq);
+          state(action.seq);
         });
-      } else if (message.type === "view") {
-        view = { layer: message.layer, chain: message.chain ?? view.chain, draw: message.draw ?? null };
-        state(message.seq);
+      } else if (action.type === "view") {
+        view = { layer: action.layer, chain: action.chain ?? view.chain, draw: action.draw ?? null };
+        state(action.seq);
         field();
-      } else if (message.type === "scan") {
-        index = message.index;
-        state(message.seq);
+      } else if (action.type === "scan") {
+        index = action.index;
+        state(action.seq);
         scan();
-      } else if (message.type === "inspect") {
-        const beams = beamsThrough(document, rows(scans.pose).map((_, s) => anglesOf(oneByOne ? index : s)), rows(scans.pose), rows(scans.ranges), message.x, message.y);
-        transport.onmessage({ type: "cell", x: message.x, y: message.y, beams }, {});
+      } else if (action.type === "inspect") {
+        const { x, y } = action;
+        const beams = beamsThrough(document, rows(scans.pose).map((_, s) => anglesOf(oneByOne ? index : s)), rows(scans.pose), rows(scans.ranges), x, y);
+        const unknown = { beams_for: null, nats_for: null, beams_against: null, nats_against: null };
+        transport.onmessage({ type: "cell", x, y, each: false, beams, ...unknown }, {});
       }
     },
     close: () => {},
   };
   return transport;
 }
+
+const metres = (reading: Reading) => (reading === null ? Infinity : Number(reading));
 
 /** One map of many packed ones, in 255ths. */
 function oneDraw(packed: Uint8Array, number: number, cells: number): Uint8Array {
@@ -101,7 +97,7 @@ function oneDraw(packed: Uint8Array, number: number, cells: number): Uint8Array 
 }
 
 /** How many beams pass through a cell before they end. */
-function beamsThrough({ grid }: MapDocument, angles: number[][], poses: Rows, ranges: Rows, x: number, y: number) {
+function beamsThrough({ grid }: MapDocument, angles: number[][], poses: Recording["scans"]["pose"], ranges: Reading[][], x: number, y: number) {
   const { origin, resolution } = grid;
   const low = [origin[0] + x * resolution, origin[1] + y * resolution];
   let passing = 0;
@@ -111,7 +107,7 @@ function beamsThrough({ grid }: MapDocument, angles: number[][], poses: Rows, ra
       const [dx, dy] = [Math.cos(angle + yaw), Math.sin(angle + yaw)];
       const along = [(low[0] - px) / dx, (low[0] + resolution - px) / dx, (low[1] - py) / dy, (low[1] + resolution - py) / dy];
       const enter = Math.max(0, Math.min(along[0], along[1]), Math.min(along[2], along[3]));
-      const leave = Math.min(ranges[s][b] ?? Infinity, Math.max(along[0], along[1]), Math.max(along[2], along[3]));
+      const leave = Math.min(metres(ranges[s][b]), Math.max(along[0], along[1]), Math.max(along[2], along[3]));
       if (enter < leave) passing++;
     });
   });

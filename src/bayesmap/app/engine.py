@@ -14,34 +14,23 @@ from contextlib import closing
 from dataclasses import replace
 
 import numpy as np
+from msgspec import structs
 from numpy.typing import NDArray
 
-from bayesmap.app.answers import Answers, Now, exported
-from bayesmap.app.chains import chains_of_walls, pose_prior
-from bayesmap.app.document import CHAIN_METHODS, Document
-from bayesmap.app.locating import Locating, Step
-from bayesmap.app.opened import Opened
-from bayesmap.app.opened_log import OpenedLog
-from bayesmap.app.pilot import Fitted, Pilot, depends_on, fit_by_pilot
-from bayesmap.app.preview import Preview
-from bayesmap.app.result import Result
-from bayesmap.app.scanning import Scene, same_readings, simulated_scene
-from bayesmap.app.showing import OnReport, Showing
-from bayesmap.app.starting import starts
-from bayesmap.app.stream import Stream
-from bayesmap.app.tasks import (
-    Cancel,
-    Export,
-    Infer,
-    MoveGhost,
-    Question,
-    Remember,
-    ShowScan,
-    Task,
-    View,
-    WhereAmI,
-)
-from bayesmap.app.weighing import Weighing
+from bayesmap.app.answers.questions import Answers, Now, exported
+from bayesmap.app.display import Display, OnReport
+from bayesmap.app.protocol.actions import Cancel, Export, MoveGhost, ShowScan, WhereAmI
+from bayesmap.app.protocol.document import CHAIN_METHODS, Document
+from bayesmap.app.protocol.notices import Status
+from bayesmap.app.protocol.tasks import Ask, Failed, Infer, Remember, Show, Task
+from bayesmap.app.scene import Scene, same_readings, simulated_scene
+from bayesmap.app.shown.beliefs import BeliefResult, Preview
+from bayesmap.app.shown.chains import ChainResult, Stream, chains_of_walls, pose_prior, starts
+from bayesmap.app.shown.particles import ParticleResult, Weighing
+from bayesmap.app.shown.pilot import Fitted, PilotResult, depends_on, fit_by_pilot
+from bayesmap.app.shown.result import PriorResult, Result
+from bayesmap.app.sources import Opened, OpenedLog
+from bayesmap.app.trajectory import Localization, Step
 from bayesmap.errors import BadInput
 
 PREVIEW_SECONDS = 0.015
@@ -63,15 +52,15 @@ class Engine:
     def __init__(self, on_report: OnReport, opened: Opened | None = None) -> None:
         self._send = on_report
         self._opened = opened
-        self._locating = Locating(opened) if isinstance(opened, OpenedLog) else None
-        self._showing = Showing(on_report)
+        self._localization = Localization(opened) if isinstance(opened, OpenedLog) else None
+        self._display = Display(on_report)
         self._scan = 0
         self._job: Iterator[None] | None = None
         self._task: Infer | None = None
         self._scene: Scene | None = None
         self._scene_of: Document | None = None
         self._result: Result | None = None
-        self._wanted: list[Export | WhereAmI] = []  # before there was anything to export, or a map
+        self._waiting: list[Ask] = []  # before there was anything to export, or a map
         self._answers = Answers()
         self._fitted: tuple[Document, Fitted] | None = None  # by the last pilot
         self._rest_until = 0.0
@@ -85,27 +74,33 @@ class Engine:
         """Answer a question, or begin another job."""
         if isinstance(task, Infer):
             self._task, self._result, self._scan = task, None, task.scan
-            self._showing.begin(task)
+            self._display.begin(task)
             self._job = self._work(task)
         elif isinstance(task, Cancel):
             self._cancel()
-        elif isinstance(task, View):
-            self._showing.view(task, self._result)
+        elif isinstance(task, Show):
+            self._display.show(task, self._result)
         elif isinstance(task, ShowScan):
             self._scan = task.index
             if self._scene is not None and self._opened is not None:
-                self._showing.rays(self._scene, task.index)
-        elif isinstance(task, Export | WhereAmI) and self._result is None and self._job is not None:
-            self._wanted.append(task)
-        elif isinstance(task, Question):
-            now = Now(self._scene, self._result, self._scan, self._showing.generation)
-            self._send(self._answers.answer(task, now))
-            if isinstance(task, MoveGhost):
+                self._display.rays(self._scene, task.index)
+        elif isinstance(task, Ask):
+            self._ask(task)
+        elif isinstance(task, Remember) and self._localization is not None:
+            self._localization.remember(task)
+
+    def _ask(self, task: Ask) -> None:
+        """Answer a question; one that needs a result waits for the first."""
+        question = task.question
+        if isinstance(question, Export | WhereAmI) and self._result is None and self._job is not None:
+            self._waiting.append(task)
+        elif isinstance(question, Export):
+            self._send(exported(question, self._result, task.client))
+        else:
+            now = Now(self._scene, self._result, self._scan, self._display.generation)
+            self._send(self._answers.answer(question, now, task.client))
+            if isinstance(question, MoveGhost):
                 self._rest_until = time.perf_counter() + GHOST_SECONDS
-        elif isinstance(task, Remember) and self._locating is not None:
-            self._locating.remember(task)
-        elif isinstance(task, Export):
-            self._send(exported(task, self._result))
 
     def advance(self) -> None:
         """A piece of the job: some milliseconds on a small map, one round or sweep on the largest."""
@@ -123,14 +118,14 @@ class Engine:
         except Exception as error:  # a fault of ours: better reported than repeated by the next worker
             traceback.print_exc()
             self._fail(f"unexpected {type(error).__name__}: {error}")
-        if self._wanted and (self._result is not None or self._job is None):
-            wanted, self._wanted = self._wanted, []
-            for task in wanted:
+        if self._waiting and (self._result is not None or self._job is None):
+            waiting, self._waiting = self._waiting, []
+            for task in waiting:
                 self.take(task)
 
     def _fail(self, text: str) -> None:
         self._job = None
-        self._showing.report("failed", text=text)
+        self._display.report(Failed(text, generation=self._display.generation))
 
     # Jobs
 
@@ -139,24 +134,24 @@ class Engine:
         if document.source.kind == "run":
             assert self._opened is not None
             self._scene, self._scene_of = self._opened.scene(document), document
-            self._showing.rays(self._scene, task.scan)
+            self._display.rays(self._scene, task.scan)
             self._result = self._opened.result()
-            self._showing.frame(self._result)
-            self._showing.overlay(self._result)
-            self._showing.finished(self._result)
+            self._display.frame(self._result)
+            self._display.overlay(self._result)
+            self._display.finished(self._result)
             return
-        if document.from_odometry and not (yield from self._locate(task, document)):
+        if document.from_odometry and not (yield from self._localize(structs.replace(task, document=document))):
             return
         scene, document = self._readings(document)
-        self._showing.rays(scene, None if document.simulated else task.scan)
+        self._display.rays(scene, None if document.simulated else task.scan)
         if task.mode == "coarse":
             self._count(document)
-            self._showing.finished(self._result)
+            self._display.finished(self._result)
             return
-        self._showing.overlay(Result(scene, document, "none"))
+        self._display.overlay(PriorResult(scene, document))
         if task.mode == "clear":
-            self._result = Result(scene, document, "none")
-            self._showing.frame(self._result)
+            self._result = PriorResult(scene, document)
+            self._display.frame(self._result)
             return
         if document.cells != "binary":
             yield from self._sweep_fitted(scene, document, keep=task.mode == "run")
@@ -173,50 +168,50 @@ class Engine:
         quiet = task.mode != "preview" and pose_prior(document) is not None
         yield from self._propagate(scene, document, preview, quiet=quiet)
         if task.mode == "preview" or document.method not in CHAIN_METHODS:
-            self._showing.finished(self._result)
+            self._display.finished(self._result)
         else:
-            if not quiet and self._showing.elapsed_s() > PREVIEW_SECONDS / 2:
+            if not quiet and self._display.elapsed_s() > PREVIEW_SECONDS / 2:
                 yield from _pause(PAUSE_SECONDS)
             begun = starts(scene.problem, document, preview)
             yield from self._sweep(scene, document, begun, keep=task.mode == "run")
 
-    def _locate(self, task: Infer, document: Document) -> Generator[None, None, bool]:
+    def _localize(self, task: Infer) -> Generator[None, None, bool]:
         """Infer where a log's robot was, with pictures; whether that is known now."""
-        locating = self._locating
-        assert locating is not None
-        with closing(locating.steps(document, task.mode)) as steps:
+        localization = self._localization
+        assert localization is not None
+        with closing(localization.steps(task)) as steps:
             for step in steps:
                 if isinstance(step, Step):
                     self._step(step)
                 elif step is not None:
-                    self._showing.report(step.kind, **step.fields)
+                    self._display.report(step)
                 yield
-        if locating.placed is None:
-            self._showing.finished(self._result)
+        if localization.placed is None:
+            self._display.finished(self._result)
             return False
         self._result = None
         return True
 
     def _step(self, step: Step) -> None:
         """Show the map along the poses so far."""
-        self._showing.on_grid(step.grid)
+        self._display.on_grid(step.grid)
         self._result = step.result
         self._scene, self._scene_of = step.result.scene, None
         if step.stage is not None:
-            self._showing.report("stage", **step.stage)
+            self._display.report(step.stage)
         if step.text:
-            self._showing.report("status", text=step.text, level="info")
-        self._showing.rays(self._scene, self._scan)
-        self._showing.overlay(self._result)
-        self._showing.frame(self._result)
+            self._display.report(Status(step.text, "info"))
+        self._display.rays(self._scene, self._scan)
+        self._display.overlay(self._result)
+        self._display.frame(self._result)
 
     def _readings(self, document: Document) -> tuple[Scene, Document]:
         """The scene of a document, and the document on the scene's grid; what did not change is not made again."""
         new = document.simulated  # a map may be begun where a log was opened
-        log = None if new or self._locating is None else self._locating.log_of(document)
+        log = None if new or self._localization is None else self._localization.log_of(document)
         if log is not None:
             document = log.on_cells(document)
-        self._showing.on_grid(document.grid)
+        self._display.on_grid(document.grid)
         before = self._scene_of
         if self._scene is not None and before is not None and same_readings(before, document):
             scene = self._scene if before.prior == document.prior else self._scene.with_prior(document.prior)
@@ -227,27 +222,27 @@ class Engine:
 
     def _count(self, document: Document) -> None:
         """Show what counts of hits and passes say of a log, at once."""
-        assert self._locating is not None
-        self._result = self._locating.log_of(document).coarse(document)
+        assert self._localization is not None
+        self._result = self._localization.log_of(document).coarse(document)
         if self._result.prior.has_surfaces:  # those on show may be of other scans
-            self._showing.overlay(self._result)
-        self._showing.frame(self._result)
+            self._display.overlay(self._result)
+        self._display.frame(self._result)
 
     def _propagate(self, scene: Scene, document: Document, preview: Preview, *, quiet: bool) -> Iterator[None]:
         """Rounds until the picture's time is up, then the picture, then the rest of the rounds."""
         shown = -1
         while True:
-            enough = not quiet and preview.rounds >= FEWEST_ROUNDS and self._showing.elapsed_s() > PREVIEW_SECONDS
+            enough = not quiet and preview.rounds >= FEWEST_ROUNDS and self._display.elapsed_s() > PREVIEW_SECONDS
             last = preview.converged and not quiet
-            if last or (enough and (shown < 0 or self._showing.due())) or (shown >= 0 and self._showing.due()):
-                self._result = Result(scene, document, "propagate", preview=preview)
-                self._showing.frame(self._result)
+            if last or (enough and (shown < 0 or self._display.due())) or (shown >= 0 and self._display.due()):
+                self._result = BeliefResult(scene, document, preview)
+                self._display.frame(self._result)
                 shown = preview.rounds
             if preview.converged:
                 return
             preview.round()
             # Until the first picture is out, a small map's rounds are too short to ask for tasks between them.
-            if shown >= 0 or self._showing.elapsed_s() > PREVIEW_SECONDS:
+            if shown >= 0 or self._display.elapsed_s() > PREVIEW_SECONDS:
                 yield
 
     def _sweep(self, scene: Scene, document: Document, begun: NDArray[np.bool_], *, keep: bool) -> Iterator[None]:
@@ -261,10 +256,10 @@ class Engine:
             self._count(document)
         yield
 
-        def show(pilot: Pilot) -> None:
-            self._result = Result(scene, document, "pilot", pilot=pilot)
-            if self._showing.due():
-                self._showing.frame(self._result)
+        def show(pilot: PilotResult) -> None:
+            self._result = pilot
+            if self._display.due():
+                self._display.frame(pilot)
 
         if self._fitted is None or self._fitted[0] != depends_on(document):
             self._fitted = None  # first: two problems may not fit
@@ -279,12 +274,12 @@ class Engine:
             yield
             stream.advance()
             ended = stream.done
-            self._result = Result(scene, document, document.method, stream=stream)
-            if self._showing.due() or ended:
-                self._showing.frame(self._result)
+            self._result = ChainResult(scene, document, stream)
+            if self._display.due() or ended:
+                self._display.frame(self._result)
             if ended:
-                self._showing.overlay(self._result)
-        self._showing.finished(self._result)
+                self._display.overlay(self._result)
+        self._display.finished(self._result)
 
     def _weigh(self, scene: Scene, document: Document) -> Iterator[None]:
         """Importance sampling, with a frame now and then and one at the end."""
@@ -292,23 +287,22 @@ class Engine:
         while weighing.done < weighing.total:
             yield
             weighing.advance()
-            if self._showing.due() or weighing.done == weighing.total:
-                found = weighing.particles()
-                self._result = Result(scene, document, "importance", particles=found, total=weighing.total)
-                self._showing.frame(self._result)
-        self._showing.finished(self._result)
+            if self._display.due() or weighing.done == weighing.total:
+                self._result = ParticleResult(scene, document, weighing.particles(), weighing.total)
+                self._display.frame(self._result)
+        self._display.finished(self._result)
 
     def _cancel(self) -> None:
         """Stop the job; what there is stays and is shown once more. Where there is nothing yet, the preview is."""
         if self._job is None or self._task is None:
             return
         if self._result is None:
-            self._job = self._work(replace(self._task, mode="preview"))
+            self._job = self._work(structs.replace(self._task, mode="preview"))
             return
         self._job = None
-        self._result = replace(self._result, over=True)
-        self._showing.frame(self._result)
-        self._showing.finished(self._result)
+        self._result = self._result.cancelled()
+        self._display.frame(self._result)
+        self._display.finished(self._result)
 
 
 def _pause(seconds: float) -> Iterator[None]:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import base64
+import hashlib
 import ipaddress
 import secrets
 import socket
@@ -11,8 +13,6 @@ from urllib.parse import parse_qs, urlsplit
 from starlette.datastructures import MutableHeaders
 from starlette.responses import HTMLResponse, PlainTextResponse
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
-
-from bayesmap.app.door import PAGE, SCRIPT_HASH
 
 WRONG_TOKEN = "the token is missing or wrong: open the address that bayesmap app printed"
 HEADERS = {
@@ -26,6 +26,39 @@ HEADERS = {
     "Cross-Origin-Resource-Policy": "same-origin",
     "Cache-Control": "no-store",
 }
+SCRIPT = """
+const key = "bayesmap-token";
+const given = new URLSearchParams(location.search).get("token");
+let kept = null;
+try {
+  kept = localStorage.getItem(key);
+  if (kept === given) localStorage.removeItem(key);
+} catch {}
+if (kept && kept !== given) location.replace("/?token=" + encodeURIComponent(kept) + location.hash);
+if (location.hash) document.getElementById("link").hidden = false;
+"""
+
+PAGE = f"""<!doctype html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<meta name="color-scheme" content="light dark">
+<title>bayesmap</title>
+<link rel="icon" href="data:,">
+<style>body {{ max-width: 36em; margin: 12vh auto; padding: 0 1.5em; font: 16px/1.5 system-ui, sans-serif; }}</style>
+</head>
+<body>
+<h1>bayesmap</h1>
+<p>The token is missing or wrong: open the address that <code>bayesmap app</code> printed.</p>
+<p id="link" hidden>Then open this link again: its map is shown there.</p>
+<script>{SCRIPT}</script>
+</body>
+</html>
+"""
+
+SCRIPT_HASH = "sha256-" + base64.b64encode(hashlib.sha256(SCRIPT.encode()).digest()).decode()
+"""For the policy: this script and no other may run."""
 
 
 class Guard:
@@ -92,11 +125,8 @@ class Guard:
     def knows(self, host: str) -> bool:
         """Whether that is a name, with port, of this server."""
         name, _, port = host.lower().rpartition(":")
-        if not name or (port != str(self.port) and not (port.endswith("]") or not port.isdigit())):
-            return False
-        if port != str(self.port):
-            return False
-        return name in self.names or (self.any_address and _is_address(name))
+        known = name in self.names or (self.any_address and _is_address(name))
+        return known and port == str(self.port)
 
 
 def _is_address(name: str) -> bool:

@@ -8,14 +8,15 @@ from collections import deque
 from collections.abc import Mapping
 from typing import Any
 
-from bayesmap.app.document import Document, Refused
-from bayesmap.app.messages import Buffers, frame, parse, seq_of
-from bayesmap.app.session import Effects, Session, ToWorker, addressed, refusal
+from bayesmap.app.protocol.document import Document, Refused
+from bayesmap.app.protocol.notices import AnyNotice, Field, Scan, State
+from bayesmap.app.protocol.tasks import Buffers, Failed, Report, Unusable
+from bayesmap.app.protocol.wire import frame, parse, seq_of
+from bayesmap.app.session import Effects, Session, ToWorker, refusal
 from bayesmap.app.supervisor import Supervisor
-from bayesmap.app.tasks import Report
 from bayesmap.errors import BadInput
 
-REPLACED = ("field", "scan", "state")
+REPLACED = (Field, Scan, State)
 """Of these only the newest is of interest to a page that is slow to read."""
 
 
@@ -23,16 +24,16 @@ class Outbox:
     """What waits to be sent to one page."""
 
     def __init__(self) -> None:
-        self._waiting: deque[tuple[Mapping[str, Any], Buffers]] = deque()
+        self._waiting: deque[tuple[AnyNotice, Buffers]] = deque()
         self._some = asyncio.Event()
 
-    def put(self, header: Mapping[str, Any], buffers: Buffers) -> None:
+    def put(self, message: AnyNotice, buffers: Buffers) -> None:
         """Add a message; it takes the place of an older one of its kind where only the newest matters."""
-        if header["type"] in REPLACED:
-            kept = [entry for entry in self._waiting if entry[0]["type"] != header["type"]]
+        if isinstance(message, REPLACED):
+            kept = [entry for entry in self._waiting if type(entry[0]) is not type(message)]
             if len(kept) < len(self._waiting):
                 self._waiting = deque(kept)
-        self._waiting.append((header, buffers))
+        self._waiting.append((message, buffers))
         self._some.set()
 
     async def get(self) -> str | bytes:
@@ -90,15 +91,15 @@ class Hub:
     def receive(self, client: int, data: str | bytes) -> None:
         """A message as it came from a page."""
         try:
-            message = parse(data)
+            action = parse(data)
         except Refused as refused:
             self.refuse(client, refused, seq_of(data))
             return
-        self._do(self.session.receive(client, message))
+        self._do(self.session.receive(client, action))
 
     def refuse(self, client: int, refused: Refused, seq: int | None = None) -> None:
         """Report to a page that something was not understood."""
-        self._pages[client].put(refusal(refused, None, seq), {})
+        self._pages[client].put(refusal(refused, seq), {})
 
     def _do(self, effects: Effects) -> None:
         for effect in effects:
@@ -107,15 +108,15 @@ class Hub:
                 continue
             for client, outbox in self._pages.items():
                 if effect.client is None or effect.client == client:
-                    outbox.put(addressed(effect.header, client), effect.buffers)
+                    outbox.put(effect.message, effect.buffers)
 
     def _hear(self, report: Report) -> None:
-        if report.header["type"] == "unusable":
-            self._unusable = report.header["text"]
+        if isinstance(report.message, Unusable):
+            self._unusable = report.message.text
             self.pictured.set()
             return
         self._do(self.session.hear(report))
-        if report.header["type"] in ("field", "failed"):
+        if isinstance(report.message, Field | Failed):
             self.pictured.set()
 
     def _on_thread(self, report: Report) -> None:

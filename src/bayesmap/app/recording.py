@@ -3,18 +3,22 @@
 from __future__ import annotations
 
 import base64
-import json
 import math
 import zlib
 from collections.abc import Iterable
 from importlib import resources
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Literal
 
+import msgspec
 import numpy as np
+from msgspec import Struct
 from numpy.typing import NDArray
 
-from bayesmap.app.result import LEVELS, Result
-from bayesmap.app.scanning import hits
+from bayesmap.app.display import LEVELS
+from bayesmap.app.protocol.document import Document, plain
+from bayesmap.app.protocol.notices import Quantity, Verdict
+from bayesmap.app.scene import hits
+from bayesmap.app.shown.result import Result
 
 if TYPE_CHECKING:
     from bayesmap.result import Run
@@ -25,6 +29,65 @@ MOST_DRAWS = 1000
 MOST_DRAW_BYTES = 16 << 20
 MOST_RAYS = 2_000_000
 DECIMALS_M = 4
+
+Range = float | Literal["-Infinity", "NaN"] | None
+"""Metres; None is no return, "-Infinity" too close, "NaN" an invalid reading."""
+
+
+class RecordedScans(Struct, frozen=True):
+    """Scans, one a row; of a simulation one a sensor.
+
+    Attributes:
+        angles: of the beams: one row that all scans have, or a row a scan.
+        exact: where the beams truly end; no row for a file.
+        hit: base64 of packed bits (S, A).
+    """
+
+    ids: list[int]
+    pose: list[list[float | None]]
+    angles: list[list[float]]
+    ranges: list[list[Range]]
+    exact: list[list[Range]]
+    hit: str
+
+
+class RecordedDraws(Struct, frozen=True):
+    """Kept maps of walls: base64 of deflate-raw of packed bits, (chains, count, nx * ny) in one run."""
+
+    chains: int
+    count: int
+    data: str
+
+
+class RecordedFigures(Struct, frozen=True):
+    """What a field says beside its picture."""
+
+    method: str
+    quantity: Quantity
+    sweeps: int
+    ess: float | None
+    rhat: float | None
+    verdict: Verdict | None
+
+
+class Recording(Struct, frozen=True, kw_only=True):
+    """A result in a page in one file.
+
+    Attributes:
+        mean: base64 of uint8 (nx, ny), in 255ths.
+        observed: base64 of packed bits.
+        log_joint: of each draw, a row a chain.
+    """
+
+    version: Literal[1] = 1
+    document: Document
+    scans: RecordedScans
+    mean: str
+    observed: str
+    draws: RecordedDraws
+    log_joint: list[list[float | None]]
+    settings: RecordedFigures
+
 
 PAGE = """<!doctype html>
 <html lang="en">
@@ -59,47 +122,41 @@ def static(name: str) -> str:
 
 def to_html(result: Result) -> str:
     """A page that shows a result from its own file; it opens from a disk and reaches for nothing."""
-    recording = json.dumps(record(result), allow_nan=False, separators=(",", ":")).replace("</", "<\\/")
+    recording = msgspec.json.encode(record(result), enc_hook=plain).decode().replace("</", "<\\/")
     return PAGE.format(recording=recording, module=_text(_deflate(static("mapview.js").encode())))
 
 
 def run_to_html(run: Run, name: str = "run") -> str:
     """The same for a run of `bayesmap.infer`."""
-    from bayesmap.app.opened import opened_run
+    from bayesmap.app.sources import opened_run
 
     return to_html(opened_run(run, name).result())
 
 
-def record(result: Result) -> dict[str, Any]:
-    """What `recordedTransport` plays: document, scans, draws, mean, log joint and figures, as JSON values."""
-    statistics = result.statistics()
+def record(result: Result) -> Recording:
+    """Return what `recordedTransport` plays."""
+    figures = result.figures.as_fields()
     packed, joint = _thinned(result)
     chains, count = packed.shape[:2]
     shape = result.document.grid.shape
     bits = np.unpackbits(packed, axis=-1, count=shape[0] * shape[1])
-    return {
-        "version": 1,
-        "document": result.document.to_json(),
-        "scans": _scans(result),
-        "mean": _text(np.rint(result.mean() * LEVELS).astype(np.uint8).tobytes()),
-        "observed": _text(np.packbits(result.observed().ravel()).tobytes()),
-        "draws": {
-            "chains": chains if count else 0,
-            "count": count,
-            "data": _text(_deflate(np.packbits(bits.ravel()).tobytes())),
-        },
-        "log_joint": _numbers(joint, 2),
-        "settings": {
-            "method": result.method,
-            "quantity": result.quantity(),
-            **{name: statistics[name] for name in ("sweeps", "ess", "rhat", "verdict")},
-        },
-    }
+    draws = _text(_deflate(np.packbits(bits.ravel()).tobytes()))
+    return Recording(
+        document=result.document,
+        scans=_scans(result),
+        mean=_text(np.rint(result.mean() * LEVELS).astype(np.uint8).tobytes()),
+        observed=_text(np.packbits(result.observed().ravel()).tobytes()),
+        draws=RecordedDraws(chains if count else 0, count, draws),
+        log_joint=_numbers(joint, 2),
+        settings=RecordedFigures(
+            result.method, result.quantity, figures["sweeps"], figures["ess"], figures["rhat"], figures["verdict"]
+        ),
+    )
 
 
 def _thinned(result: Result) -> tuple[NDArray[np.uint8], NDArray[np.float64]]:
     """Draws, evenly spread over the kept ones, and their log joint, (chains, count)."""
-    packed, joint = result.packed(), result.log_joint()
+    packed, joint = result.packed, result.log_joint()
     chains, count, size = packed.shape
     if count == 0:
         return packed, np.zeros((chains, 0))
@@ -109,7 +166,7 @@ def _thinned(result: Result) -> tuple[NDArray[np.uint8], NDArray[np.float64]]:
     return packed[:, some], joint[:, np.minimum(some * every + every - 1, joint.shape[1] - 1)]
 
 
-def _scans(result: Result) -> dict[str, Any]:
+def _scans(result: Result) -> RecordedScans:
     """All scans; of a long log as many, evenly spread, as make a file of a few megabytes."""
     scene = result.scene
     scans = scene.scans
@@ -120,14 +177,25 @@ def _scans(result: Result) -> dict[str, Any]:
     own = scans.own_angles_rad is not None
     angles = [scans.beams_of(int(i))[0] for i in some] if own else [scans.angles_rad]
     numbers = [[round(float(angle), 7) for angle in row] for row in angles]
-    return {
-        "ids": [scene.ids[i] for i in some],
-        "pose": _numbers(scans.poses[some], 6),
-        "angles": numbers if own else numbers[0],
-        "ranges": _numbers([row[has] for row, has in zip(scans.ranges_m[some], beams, strict=True)], DECIMALS_M),
-        "exact": _numbers(exact, DECIMALS_M),
-        "hit": _text(np.packbits(hits(scene)[some][beams]).tobytes()),
-    }
+    return RecordedScans(
+        ids=[scene.ids[i] for i in some],
+        pose=_numbers(scans.poses[some], 6),
+        angles=numbers,
+        ranges=_readings(row[has] for row, has in zip(scans.ranges_m[some], beams, strict=True)),
+        exact=_readings(exact),
+        hit=_text(np.packbits(hits(scene)[some][beams]).tobytes()),
+    )
+
+
+def _readings(values: Iterable[NDArray[np.float64]]) -> list[list[Range]]:
+    """Rows of ranges in metres: null for no return, "-Infinity" for too close, "NaN" for an invalid reading."""
+
+    def reading(value: float) -> Range:
+        if math.isfinite(value):
+            return round(float(value), DECIMALS_M)
+        return None if value > 0 else "-Infinity" if value < 0 else "NaN"
+
+    return [[reading(value) for value in row] for row in values]
 
 
 def _numbers(values: Iterable[NDArray[np.float64]], decimals: int) -> list[list[float | None]]:

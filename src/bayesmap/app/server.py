@@ -18,10 +18,10 @@ from starlette.responses import HTMLResponse, Response
 from starlette.routing import Route, WebSocketRoute
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
-from bayesmap.app.document import Document, Refused
 from bayesmap.app.guard import Guard
 from bayesmap.app.hub import Hub, Outbox
-from bayesmap.app.messages import MAX_BYTES
+from bayesmap.app.protocol.document import Document, Refused
+from bayesmap.app.protocol.wire import MAX_BYTES
 from bayesmap.app.recording import static
 from bayesmap.errors import BadInput
 

@@ -1,27 +1,76 @@
 """The session: applies what pages ask for, decides what the worker does and what pages are sent. No sockets, no clocks.
 
-Edits of a gesture that arrive faster than pictures can be computed and painted are merged (`pacing.py`): so a fast hand
-sees every picture that there is time for, never starves, and never falls behind.
+Edits of a gesture that arrive faster than pictures can be computed and painted are merged (`gestures.py`): so a fast
+hand sees every picture that there is time for, never starves, and never falls behind.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from typing import Any
+from typing import Literal, get_args
 
-from numpy.typing import NDArray
+import msgspec
 
-from bayesmap.app.adopting import adopted
-from bayesmap.app.document import LIMITS, SCANS_USED, VERSION, Document, Refused
-from bayesmap.app.edits import EDITS, edit, gesture_of
-from bayesmap.app.history import History
-from bayesmap.app.pacing import From, Pace
-from bayesmap.app.questions import QUESTIONS, question
-from bayesmap.app.tasks import OWN_LAYERS, Cancel, Export, Infer, Mode, Remember, Report, ShowScan, Task, View
+from bayesmap.app.edits import adopted, edit, gesture_of
+from bayesmap.app.gestures import From, History, Pace
+from bayesmap.app.protocol.actions import (
+    AnyAction,
+    Cancel,
+    ChangeSettings,
+    Clear,
+    CompareBeam,
+    Edit,
+    Export,
+    Hello,
+    Inspect,
+    Live,
+    Painted,
+    Question,
+    Redo,
+    Run,
+    ShowScan,
+    ShowView,
+    Undo,
+    changes,
+)
+from bayesmap.app.protocol.document import VERSION, Document, Refused, plain
+from bayesmap.app.protocol.notices import (
+    LIMITS,
+    OWN_LAYERS,
+    AnyNotice,
+    Download,
+    DrawCount,
+    Field,
+    Overlay,
+    Refusal,
+    Scan,
+    State,
+    Status,
+    View,
+    Welcome,
+    Worker,
+)
+from bayesmap.app.protocol.tasks import (
+    Alive,
+    Ask,
+    Buffers,
+    Failed,
+    Finished,
+    Infer,
+    Located,
+    Mode,
+    OnGrid,
+    Ready,
+    Remember,
+    Report,
+    Show,
+    Task,
+    Unusable,
+)
+from bayesmap.app.protocol.wire import parse_document
 
-Message = Mapping[str, Any]
-REPLAYED = ("scan", "field", "overlay")
+QUESTIONS, EDITS = get_args(Question), get_args(Edit)
+REPLAYED = (Scan, Field, Overlay)
 """What a page that connects late is sent again."""
 
 
@@ -29,8 +78,8 @@ REPLAYED = ("scan", "field", "overlay")
 class ToPage:
     """A message to one page, or to all where client is None."""
 
-    header: dict[str, Any]
-    buffers: Mapping[str, NDArray[Any] | bytes] = field(default_factory=dict)
+    message: AnyNotice
+    buffers: Buffers = field(default_factory=dict)
     client: int | None = None
 
 
@@ -51,10 +100,12 @@ class Session:
     Attributes:
         history: of the document.
         generation: of the present picture; see docs/app.md.
-        live: whether edits restart Gibbs.
+        live: whether edits restart the chains.
         running: whether a run is under way.
         working: whether the picture is to change yet: chains go on, or are about to begin.
-        draws: {"chains", "count"} of the present result.
+        draws: of the present result.
+        scan: index of the scan on show, of a file.
+        worker_ready: whether there is a worker.
     """
 
     def __init__(self, document: Document) -> None:
@@ -62,14 +113,14 @@ class Session:
         self.generation = 0
         self.live = True
         self.running = self.working = False
-        self.draws = {"chains": 0, "count": 0}
-        self._views: dict[int, View] = {}  # of pages that are shown something else than the mean
+        self.draws = DrawCount()
         self.scan = 0
         self.worker_ready = False
+        self._views: dict[int, View] = {}  # of pages that are shown something else than the mean
         self._mode: Mode = "live"
         self._pace = Pace()
-        self._seqs: dict[int, int] = {}
-        self._last: dict[str, ToPage] = {}
+        self._seqs: dict[int, int] = {}  # of every page, the last action that was applied
+        self._last: dict[type, ToPage] = {}
         self._trajectory: Remember | None = None  # of a log, inferred; the next worker shall know it
 
     @property
@@ -79,89 +130,118 @@ class Session:
 
     # From pages
 
-    def receive(self, client: int, message: Message) -> Effects:
-        """Apply a checked message.
-
-        Returns:
-            What to do, in order.
-        """
-        kind = message["type"]
-        if kind in QUESTIONS:
-            return self._asked(client, message)
-        if kind == "painted":
-            self._pace.painted(client, message["generation"])
+    def receive(self, client: int, action: AnyAction) -> Effects:
+        """Apply an action; return what to do, in order."""
+        if isinstance(action, QUESTIONS):
+            try:
+                check_question(self.document, action)
+            except Refused as refusal:
+                return [_status(refusal.text, "warning", client)]
+            return [ToWorker(Ask(client, action))]
+        if isinstance(action, Painted):
+            self._pace.painted(client, action.generation)
             return self._apply(self._pace.due())
-        return self._apply(self._pace.take(client, message))
+        return self._apply(self._pace.take(client, action))
 
     def join(self, client: int) -> Effects:
         """A page has connected; it answers with hello."""
         self._seqs[client] = 0
         self._pace.forget(client)
-        mean: Effects = [ToWorker(View("mean", client=client))] if self._views.pop(client, None) is not None else []
-        welcome = {"type": "welcome", "version": VERSION, "limits": LIMITS, "base": ""}
-        worker = {"type": "worker", "state": "ready" if self.worker_ready else "starting"}
-        return [*mean, ToPage(welcome, {}, client), ToPage(worker, {}, client)]
+        worker = Worker("ready" if self.worker_ready else "starting")
+        return [*self._forget_view(client), ToPage(Welcome(VERSION, LIMITS), {}, client), ToPage(worker, {}, client)]
 
     def leave(self, client: int) -> Effects:
         """A page has gone: the worker need not draw for it any more, and anybody may undo its steps."""
         self._pace.forget(client)
         last = self._apply(self._pace.due())
         self._seqs.pop(client, None)
-        view = self._views.pop(client, None)
-        mean: Effects = [ToWorker(View("mean", client=client))] if view is not None else []
-        return [*last, *mean, self._state()]
+        return [*last, *self._forget_view(client), *self._states()]
 
-    def _apply(self, messages: list[From]) -> Effects:
-        return [effect for client, message in messages for effect in self._apply_one(client, message)]
+    def _forget_view(self, client: int) -> Effects:
+        shown = self._views.pop(client, None)
+        return [] if shown is None else [ToWorker(Show(client, View("mean")))]
 
-    def _apply_one(self, client: int, message: Message) -> Effects:
-        kind = message["type"]
-        self._seqs[client] = message["seq"]
+    def _apply(self, actions: list[From]) -> Effects:
+        return [effect for client, action in actions for effect in self._apply_one(client, action)]
+
+    def _apply_one(self, client: int, action: AnyAction) -> Effects:
+        self._seqs[client] = action.seq
         try:
-            if kind in EDITS and message.get("what") != "inference":
-                return self._edit(client, message)
-            effects: Effects = getattr(self, f"_on_{kind}")(client, message)
-            return effects
+            return self._applied(client, action)
         except Refused as refusal:
-            text = f"{refusal.text}; {refusal.remedy}" if refusal.remedy else refusal.text
-            return [self._status(text, "warning", client), self._state()]
+            return [_status(str(refusal), "warning", client), *self._states()]
 
-    def _edit(self, client: int, message: Message) -> Effects:
+    def _applied(self, client: int, action: AnyAction) -> Effects:
+        match action:
+            case Hello():
+                return self._hello(client, action)
+            case Clear(what="inference"):
+                return self._restart("clear")
+            case Undo():
+                return self._step(client, self.history.undo(), self.history.undoes, "undo")
+            case Redo():
+                return self._step(client, self.history.redo(), self.history.redoes, "redo")
+            case Run():
+                if self.document.source.kind == "run":
+                    raise Refused("a saved run is shown as it is", "begin a new map to run inference")
+                return self._restart("run")
+            case Cancel():
+                return [ToWorker(action), *self._states()]
+            case Live():
+                self.live = action.on
+                if self.running or self.document.source.kind == "run":
+                    return self._states()
+                return self._restart() if self.live else [ToWorker(Cancel()), *self._states()]
+            case ShowView():
+                self._views[client] = View(action.layer, action.chain, action.draw)
+                return [ToWorker(Show(client, self._views[client])), *self._states()]
+            case ShowScan():
+                scans = self.document.source.scans
+                if action.index >= scans:
+                    raise Refused(f"there is no scan {action.index}", f"there are {scans}, from 0" if scans else "")
+                self.scan = action.index
+                return [ToWorker(action), *self._states()]
+            case Export(what="document"):
+                data = msgspec.json.format(msgspec.json.encode(self.document, enc_hook=plain), indent=1) + b"\n"
+                return [ToPage(Download("document.json", "application/json"), {"data": data}, client)]
+            case Export():
+                return [ToWorker(Ask(client, action)), *self._states()]
+            case _:
+                assert isinstance(action, EDITS)
+                return self._edit(client, action)
+
+    def _edit(self, client: int, action: Edit) -> Effects:
         before = self.document
-        after, remark = edit(before, message)
-        self.history = self.history.push(after, gesture_of(message, client), client)
-        effects: Effects = [self._status(remark, "warning", client)] if remark else []
-        if SCANS_USED in message.get("patch", ()):
-            self.scan = (self.document.scans_used or self.document.source.scans) - 1
-        coarse = bool(message.get("coarse")) and self.document.source.kind == "log"
+        after, remark = edit(before, action)
+        self.history = self.history.push(after, gesture_of(action, client), client)
+        effects: Effects = [_status(remark, "warning", client)] if remark else []
+        coarse = False
+        if isinstance(action, ChangeSettings):
+            coarse = action.coarse and self.document.source.kind == "log"
+            if "scans_used" in changes(action.patch):
+                self.scan = (self.document.scans_used or self.document.source.scans) - 1
         let_go = self._mode == "coarse" and not coarse
         if self.document is before and not let_go:
-            return [*effects, self._state()]
+            return [*effects, *self._states()]
         return effects + self._restart("coarse" if coarse else None)
 
-    def _on_hello(self, client: int, message: Message) -> Effects:
+    def _hello(self, client: int, action: Hello) -> Effects:
         effects: Effects = []
-        document = message.get("document")
-        if document is not None:
+        if action.document is not None:
             try:
-                document = adopted(self.document, document)
-            except Refused as refusal:
-                effects.append(self._status(f"{refusal.text}; {refusal.remedy}", "warning", client))
+                brought = parse_document(action.document)
+            except Refused as refused:
+                return [ToPage(refusal(refused, action.seq), {}, client)]
+            try:
+                document = adopted(self.document, brought)
+            except Refused as refused:
+                effects.append(_status(str(refused), "warning", client))
             else:
                 self.history = self.history.push(document, author=client)
                 if self.document is document:
                     return self._restart()
-        effects.append(replace(self._state(), client=client))
+        effects.append(self._state(client))
         return effects + [replace(self._last[kind], client=client) for kind in REPLAYED if kind in self._last]
-
-    def _on_clear(self, client: int, message: Message) -> Effects:
-        return self._restart("clear")
-
-    def _on_undo(self, client: int, message: Message) -> Effects:
-        return self._step(client, self.history.undo(), self.history.undoes, "undo")
-
-    def _on_redo(self, client: int, message: Message) -> Effects:
-        return self._step(client, self.history.redo(), self.history.redoes, "redo")
 
     def _may_step(self, client: int, author: object) -> bool:
         """Whether the next step back or forth is this page's, or of one that has gone."""
@@ -169,109 +249,67 @@ class Session:
 
     def _step(self, client: int, history: History[Document], author: object, name: str) -> Effects:
         if history is self.history:
-            return [self._status(f"nothing to {name}", "info", client), self._state()]
+            return [_status(f"nothing to {name}", "info", client), *self._states()]
         if not self._may_step(client, author):
-            return [
-                self._status(f"the last step was made in another tab: {name} it there", "info", client),
-                self._state(),
-            ]
+            text = f"the last step was made in another tab: {name} it there"
+            return [_status(text, "info", client), *self._states()]
         self.history = history
         return self._restart()
-
-    def _on_run(self, client: int, message: Message) -> Effects:
-        if self.document.source.kind == "run":
-            raise Refused("a saved run is shown as it is", "begin a new map to run inference")
-        return self._restart("run")
-
-    def _on_cancel(self, client: int, message: Message) -> Effects:
-        return [ToWorker(Cancel()), self._state()]
-
-    def _on_live(self, client: int, message: Message) -> Effects:
-        self.live = message["on"]
-        if self.running or self.document.source.kind == "run":
-            return [self._state()]
-        return self._restart() if self.live else [ToWorker(Cancel()), self._state()]
-
-    def _on_view(self, client: int, message: Message) -> Effects:
-        self._views[client] = View(message["layer"], message.get("chain"), message.get("draw"), client)
-        return [ToWorker(self._views[client]), self._state()]
-
-    def _on_scan(self, client: int, message: Message) -> Effects:
-        scans = self.document.source.scans
-        if not 0 <= message["index"] < scans:
-            raise Refused(f"there is no scan {message['index']}", f"there are {scans}, from 0" if scans else "")
-        self.scan = message["index"]
-        return [ToWorker(ShowScan(self.scan)), self._state()]
-
-    def _on_export(self, client: int, message: Message) -> Effects:
-        if message["what"] != "document":
-            return [ToWorker(Export(client, message["what"])), self._state()]
-        import json
-
-        data = (json.dumps(self.document.to_json(), indent=1) + "\n").encode()
-        header = {"type": "download", "name": "document.json", "mime": "application/json"}
-        return [ToPage(header, {"data": data}, client), self._state()]
-
-    def _asked(self, client: int, message: Message) -> Effects:
-        """A question: it changes nothing, and no state confirms it."""
-        try:
-            return [ToWorker(question(self.document, client, message))]
-        except Refused as refusal:
-            return [self._status(refusal.text, "warning", client)]
 
     # From the worker
 
     def hear(self, report: Report) -> Effects:
-        """What a report of the worker's leads to; those of an older generation to nothing."""
-        header = report.header
-        kind = header["type"]
-        if kind == "ready":
-            return self._on_ready(header.get("document"))
-        if header.get("generation", self.generation) != self.generation:
+        """Return what a report of the worker's leads to; those of an older generation to nothing."""
+        message = report.message
+        if isinstance(message, Ready):
+            return self._ready(message.document)
+        if getattr(message, "generation", self.generation) != self.generation:
             return []
-        if kind == "finished":
-            self.running = self.working = False
-            self.draws = header["draws"]
-            return [self._state(), *self._picture_is_out()]
-        if kind == "failed":
-            self.running = self.working = False
-            return [self._status(header["text"], "error"), self._state(), *self._picture_is_out()]
-        if kind == "grid":
-            self.history = replace(self.history, present=self.document.on_grid(header["grid"]))
-            return [self._state()]
-        if kind == "trajectory":
-            self._trajectory = header["found"]
-            return []
-        message = ToPage(header, report.buffers, report.client)
-        if kind in REPLAYED and report.client is None:
-            self._last[kind] = message
-        return [*self._shown(message), *self._picture_is_out()] if kind == "field" else [message]
+        match message:
+            case Finished():
+                self.running = self.working = False
+                self.draws = message.draws
+                return [*self._states(), *self._picture_is_out()]
+            case Failed():
+                self.running = self.working = False
+                return [_status(message.text, "error"), *self._states(), *self._picture_is_out()]
+            case OnGrid():
+                self.history = replace(self.history, present=self.document.on_grid(message.grid))
+                return self._states()
+            case Located():
+                self._trajectory = message.trajectory
+                return []
+            case Alive() | Unusable():
+                return []
+        notice = ToPage(message, report.buffers, report.client)
+        if isinstance(message, REPLAYED) and report.client is None:
+            self._last[type(message)] = notice
+        return [*self._shown(notice), *self._picture_is_out()] if isinstance(message, Field) else [notice]
 
-    def _shown(self, field: ToPage) -> Effects:
+    def _shown(self, notice: ToPage) -> Effects:
         """A field goes to the page that asked for it, or to all but those that are shown a draw."""
         drawing = {client for client, view in self._views.items() if view.layer in OWN_LAYERS}
-        as_it_is = field.client is not None or not drawing
-        pages = [field.client] if as_it_is else [client for client in self._seqs if client not in drawing]
+        as_it_is = notice.client is not None or not drawing
+        pages = [notice.client] if as_it_is else [client for client in self._seqs if client not in drawing]
         for client in pages:
             self._pace.sent(client, self.generation)
-        return [replace(field, client=client) for client in pages]
+        return [replace(notice, client=client) for client in pages]
 
     def worker_lost(self) -> Effects:
         """The worker died; another is being started."""
         self.worker_ready = False
         text = "the worker stopped and is being restarted; the map is kept"
-        return [ToPage({"type": "worker", "state": "restarted"}), self._status(text, "warning")]
+        return [ToPage(Worker("restarted")), _status(text, "warning")]
 
-    def _on_ready(self, document: Document | None) -> Effects:
+    def _ready(self, document: Document | None) -> Effects:
         """A worker without a past: give it the document, or take that of the file that it has opened."""
         self.worker_ready = True
         if document is not None and self.generation == 0:
             self.history = History(document)
         known = () if self._trajectory is None else (self._trajectory,)
-        tasks = map(ToWorker, (*known, *self._views.values()))
-        ready: Effects = [ToPage({"type": "worker", "state": "ready"}), *tasks]
+        views = (Show(client, view) for client, view in self._views.items())
         again: Mode = "run" if self.running else self._mode if self._mode == "clear" else self._usual()
-        return [*ready, *self._restart(again)]
+        return [ToPage(Worker("ready")), *map(ToWorker, (*known, *views)), *self._restart(again)]
 
     def _picture_is_out(self) -> Effects:
         self._pace.computing = False
@@ -283,61 +321,56 @@ class Session:
         return "live" if self.live else "preview"
 
     def _restart(self, mode: Mode | None = None) -> Effects:
-        """A new generation."""
+        """Begin a new generation."""
         self.generation += 1
         self._mode = mode if mode is not None else self._usual()
         self.running, self.working = self._mode == "run", self._mode != "clear"
-        self.draws = {"chains": 0, "count": 0}
+        self.draws = DrawCount()
         self._pace.computing = True
-        self._last.pop("field", None)
+        self._last.pop(Field, None)
         if self.document.simulated:
-            self._last.pop("overlay", None)  # of the file that was shown before
+            self._last.pop(Overlay, None)  # of the file that was shown before
         self.scan = min(self.scan, max(0, self.document.source.scans - 1))
         task = Infer(self.generation, self.document, self._mode, self.scan)
         # The state first: a page must know of a generation before it sees the picture.
-        return [self._state(), ToWorker(task)]
+        return [*self._states(), ToWorker(task)]
 
-    def _state(self) -> ToPage:
-        """The present state, with the number of each page's last message in it: see `addressed`."""
-        header = {
-            "type": "state",
-            "document": self.document.to_json(),
-            "generation": self.generation,
-            "live": self.live,
-            "running": self.running,
-            "working": self.working,
-            "draws": self.draws,
-            "scan": self.scan,
-            "pages": {
-                client: {
-                    "seq": seq,
-                    "view": _as_json(self._views.get(client, View("mean"))),
-                    "can_undo": self.history.can_undo and self._may_step(client, self.history.undoes),
-                    "can_redo": self.history.can_redo and self._may_step(client, self.history.redoes),
-                }
-                for client, seq in self._seqs.items()
-            },
-        }
-        return ToPage(header)
+    def _states(self) -> Effects:
+        """The present state for every page."""
+        return [self._state(client) for client in self._seqs]
 
-    def _status(self, text: str, level: str, client: int | None = None) -> ToPage:
-        return ToPage({"type": "status", "text": text, "level": level}, {}, client)
+    def _state(self, client: int) -> ToPage:
+        """The present state as one page is to see it."""
+        state = State(
+            document=self.document, generation=self.generation, seq=self._seqs.get(client, 0),
+            can_undo=self.history.can_undo and self._may_step(client, self.history.undoes),
+            can_redo=self.history.can_redo and self._may_step(client, self.history.redoes),
+            live=self.live, running=self.running, working=self.working, draws=self.draws, scan=self.scan,
+            view=self._views.get(client, View("mean")),
+        )  # fmt: skip
+        return ToPage(state, {}, client)
 
 
-def addressed(header: Mapping[str, Any], client: int) -> Mapping[str, Any]:
-    """A message as one page is to see it: in a state, its own last message that was applied, its view, its undo."""
-    if header["type"] != "state":
-        return header
-    unknown = {"seq": 0, "view": _as_json(View("mean")), "can_undo": False, "can_redo": False}
-    own = header["pages"].get(client, unknown)
-    return {**{name: value for name, value in header.items() if name != "pages"}, **own}
+def check_question(document: Document, question: Question) -> None:
+    """Check that a question is about a cell or a beam that is there.
+
+    Raises:
+        Refused: it is not.
+    """
+    match question:
+        case Inspect():
+            if question.x >= document.grid.shape[0] or question.y >= document.grid.shape[1]:
+                raise Refused("inspect: a cell outside the map")
+        case CompareBeam():
+            scans = len(document.sensors) if document.simulated else document.source.scans
+            if question.scan >= scans or question.beam >= document.angles:
+                raise Refused(f"beam: there is no beam {question.beam} of scan {question.scan}")
 
 
-def _as_json(view: View) -> dict[str, Any]:
-    return {"layer": view.layer, "chain": view.chain, "draw": view.draw}
+def refusal(refused: Refused, seq: int | None = None) -> Refusal:
+    """Return the answer to a message that was not understood."""
+    return Refusal(refused.text, refused.remedy, seq)
 
 
-def refusal(refused: Refused, kind: str | None = None, seq: int | None = None) -> dict[str, Any]:
-    """The answer to a message that was not understood."""
-    named = {"type": kind, "seq": seq}
-    return {"type": "error", "text": refused.text, "remedy": refused.remedy, "refused": named}
+def _status(text: str, level: Literal["info", "warning", "error"], client: int | None = None) -> ToPage:
+    return ToPage(Status(text, level), {}, client)

@@ -14,7 +14,7 @@ from collections.abc import Callable, Mapping
 from multiprocessing.connection import Connection
 from typing import Any, Protocol
 
-from bayesmap.app.tasks import ALIVE_SECONDS, Infer, Report, Task
+from bayesmap.app.protocol.tasks import ALIVE_SECONDS, Alive, Infer, Report, Task, Unusable
 
 QUICK_DEATH_SECONDS = 5.0
 """A worker that lived no longer than this is not restarted at once, lest it die forever."""
@@ -122,10 +122,10 @@ class Supervisor:
                 while True:
                     report = pipe.recv()
                     self._heard = time.monotonic()
-                    if report.header["type"] == "alive":
+                    if isinstance(report.message, Alive):
                         continue
                     self._on_report(report)
-                    if report.header["type"] == "unusable":
+                    if isinstance(report.message, Unusable):
                         return
             if self._stopping.is_set():
                 return

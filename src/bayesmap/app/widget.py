@@ -10,13 +10,13 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
-from bayesmap.app.document import Document, Refused
-from bayesmap.app.messages import Buffers, as_array, check, seq_of
-from bayesmap.app.parsing import parse_simulation
+from bayesmap.app.protocol.document import Document, Refused
+from bayesmap.app.protocol.notices import AnyNotice
+from bayesmap.app.protocol.tasks import Buffers, Report, Unusable
+from bayesmap.app.protocol.wire import check, parse_simulation, seq_of, with_arrays
 from bayesmap.app.recording import run_to_html, static
-from bayesmap.app.session import Effects, Session, ToWorker, addressed, refusal
+from bayesmap.app.session import Effects, Session, ToWorker, refusal
 from bayesmap.app.supervisor import Supervisor
-from bayesmap.app.tasks import Report
 from bayesmap.app.worlds import tutorial_document
 from bayesmap.errors import BadInput
 from bayesmap.result import Run
@@ -124,11 +124,11 @@ class MapWidget(anywidget.AnyWidget):
             if isinstance(content, dict) and content.get("type") == "hello":
                 self._do(self._session.join(CLIENT))
             try:
-                message = check(content)
+                action = check(content)
             except Refused as refused:
-                self._post(refusal(refused, None, seq_of(content if isinstance(content, dict) else "")), {})
+                self._post(refusal(refused, seq_of(content if isinstance(content, dict) else {})), {})
                 return
-            self._do(self._session.receive(CLIENT, message))
+            self._do(self._session.receive(CLIENT, action))
 
     def _start(self) -> None:
         if self._supervisor is not None:
@@ -146,7 +146,7 @@ class MapWidget(anywidget.AnyWidget):
         self._supervisor.start()
 
     def _hear(self, report: Report) -> None:
-        if report.header["type"] != "unusable":
+        if not isinstance(report.message, Unusable):
             with self._one_at_a_time:
                 self._do(self._session.hear(report))
 
@@ -160,18 +160,17 @@ class MapWidget(anywidget.AnyWidget):
                 if self._supervisor is not None:
                     self._supervisor.send(effect.task)
             else:
-                self._post(addressed(effect.header, CLIENT), effect.buffers)
+                self._post(effect.message, effect.buffers)
 
-    def _post(self, header: Mapping[str, Any], buffers: Buffers) -> None:
-        arrays = {name: as_array(value) for name, value in buffers.items()}
-        listed = [{"name": name, "dtype": str(a.dtype), "shape": list(a.shape)} for name, a in arrays.items()]
-        self.send({**header, "buffers": listed}, [a.tobytes() for a in arrays.values()])
+    def _post(self, message: AnyNotice, buffers: Buffers) -> None:
+        header, arrays = with_arrays(message, buffers)
+        self.send(header, [array.tobytes() for array in arrays])
 
 
 def _shown(run: Run | None, first: Document) -> Document:
     if run is None:
         return first
-    from bayesmap.app.opened import opened_run
+    from bayesmap.app.sources import opened_run
 
     return opened_run(run, "run").document
 

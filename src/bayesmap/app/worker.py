@@ -12,7 +12,7 @@ import time
 from multiprocessing.connection import Connection
 from typing import Any
 
-from bayesmap.app.tasks import ALIVE_SECONDS, Infer, Report, Task
+from bayesmap.app.protocol.tasks import ALIVE_SECONDS, Alive, Infer, Ready, Report, Task, Unusable
 from bayesmap.errors import BadInput
 
 NICE = 10
@@ -34,7 +34,7 @@ class Reporter:
     def _live(self) -> None:
         with contextlib.suppress(OSError):
             while True:
-                self(Report({"type": "alive"}))
+                self(Report(Alive()))
                 time.sleep(ALIVE_SECONDS)
 
 
@@ -47,17 +47,17 @@ def serve(pipe: Connection, path: str | None, reading: dict[str, Any]) -> None:
     so that all kernels are loaded; or `unusable` where the file cannot be opened.
     """
     from bayesmap.app.engine import Engine
-    from bayesmap.app.opened import open_file
+    from bayesmap.app.sources import open_file
 
     report = Reporter(pipe)
     try:
         opened = open_file(path, **reading) if path is not None else None
     except (BadInput, OSError) as error:
-        report(Report({"type": "unusable", "text": str(error)}))
+        report(Report(Unusable(str(error))))
         return
     _warm()
     engine = Engine(report, opened)
-    report(Report({"type": "ready", "document": None if opened is None else opened.document}))
+    report(Report(Ready(None if opened is None else opened.document)))
     while True:
         tasks: list[Task] = []
         while pipe.poll(0 if engine.busy or tasks else None):
@@ -74,7 +74,6 @@ def _warm() -> None:
     from dataclasses import replace
 
     from bayesmap.app.engine import Engine
-    from bayesmap.app.tasks import Infer
     from bayesmap.app.worlds import tutorial_document
 
     engine = Engine(lambda report: None)

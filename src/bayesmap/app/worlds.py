@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.app.document import Document, Refused, Sensor, WallMap
+from bayesmap.app.protocol.actions import World
+from bayesmap.app.protocol.document import Document, Refused, Sensor, Source, packed
 from bayesmap.sim.tutorial import TUTORIAL_GRID, tutorial
 from bayesmap.space.grid import Grid
 
-WORLDS = ("blank", "tutorial", "building")
 BUILDING_NOISE_M = 0.05
 ROOM_CELLS = 6
 
@@ -18,17 +20,17 @@ def tutorial_document(seed: int = 0) -> Document:
     """The tutorial's map and robot."""
     walls, (x, y, yaw) = tutorial()
     return Document(
-        TUTORIAL_GRID, WallMap(walls), (Sensor(1, float(x), float(y), float(yaw)),), method="auto", seed=seed
+        TUTORIAL_GRID, packed(walls), (Sensor(1, float(x), float(y), float(yaw)),), method="auto", seed=seed
     )
 
 
-def new_document(world: str, shape: tuple[int, int], before: Document) -> Document:
+def new_document(world: World, shape: tuple[int, int], before: Document) -> Document:
     """Another map, with the settings of the document before as far as they fit.
 
     The sensor's range is twice the longer side, as in the tutorial: every beam can leave the map.
 
     Raises:
-        Refused: an unknown world, or a shape that it cannot have.
+        Refused: a shape that the world cannot have.
     """
     noise, sensor = 0.2, None
     if world == "blank":
@@ -37,29 +39,14 @@ def new_document(world: str, shape: tuple[int, int], before: Document) -> Docume
         (walls, robot), grid = tutorial(), Grid(shape, 1.0, (-0.5, -0.5))
         x, y = (at + (n - have) // 2 for at, n, have in zip(robot, shape, walls.shape, strict=False))
         walls, sensor = _centred(walls, shape), Sensor(1, float(x), float(y))
-    elif world == "building":
+    else:
         walls, grid = _floor(shape, before.seed)
         noise = BUILDING_NOISE_M
-    else:
-        raise Refused(f"new: no world {world!r}", f"there are: {', '.join(WORLDS)}")
-    return Document(
-        grid=grid,
-        walls=WallMap(walls),
+    return replace(
+        before, grid=grid, walls=packed(walls), source=Source(), scans_used=None, poses="logged", cells="binary",
         sensors=(_first_sensor(walls, grid) if sensor is None else sensor,),
-        prior=before.prior,
-        noise=noise,
-        angles=min(1000, max(10, before.angles)),
-        max_range=2.0 * max(shape) * grid.resolution,
-        fov=before.fov,
-        readings=before.readings,
-        pose_sigma=before.pose_sigma,
-        heading_sigma=before.heading_sigma,
-        method=before.method,
-        order=before.order,
-        start=before.start,
-        sweeps=before.sweeps,
-        seed=before.seed,
-    )
+        noise=noise, angles=min(1000, max(10, before.angles)), max_range=2.0 * max(shape) * grid.resolution,
+    )  # fmt: skip
 
 
 def _centred(walls: NDArray[np.bool_], shape: tuple[int, int]) -> NDArray[np.bool_]:

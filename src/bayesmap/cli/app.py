@@ -34,8 +34,8 @@ def command(call: Call, file: str | None, host: str, port: int, no_browser: bool
     if file is not None:
         need_file(file, f"a saved run (.nc), a document of the page (.json), or {LOG}", runs=True)
 
-    from bayesmap.app.opened import read_document
     from bayesmap.app.server import serve
+    from bayesmap.app.sources import read_document
     from bayesmap.app.worlds import tutorial_document
 
     first = tutorial_document(seed)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import asdict, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -21,7 +20,6 @@ if TYPE_CHECKING:
 
     from bayesmap.sim.odometry import OdometryNoise
 
-MAX_BEAMS = 100_000
 TURN_RAD_PER_S = 1.0
 """How fast a simulated robot turns."""
 
@@ -67,7 +65,6 @@ def command(call: Call, output: str | None, poses: tuple[str, ...], force: bool)
     world = world_of(values, poses)
     tutorial = world.is_tutorial
     beams = (100 if tutorial else 180) if values["angles"] is None else values["angles"]
-    angles = fan(beams, (360.0 if tutorial else 180.0) if values["fov"] is None else values["fov"])
     max_range_m = (42.0 if tutorial else 30.0) if values["max_range"] is None else values["max_range"]
 
     import numpy as np
@@ -75,7 +72,10 @@ def command(call: Call, output: str | None, poses: tuple[str, ...], force: bool)
     from bayesmap.io.ros.maps import write_map
     from bayesmap.io.text.carmen import write_carmen
     from bayesmap.sim.forward import simulate
+    from bayesmap.space.beam_angles import fan
     from bayesmap.space.planar import compose
+
+    angles = fan(beams, (360.0 if tutorial else 180.0) if values["fov"] is None else values["fov"])
 
     base = world.poses
     laser = compose(base, np.array(mount)) if any(mount) else base
@@ -154,27 +154,6 @@ def _write_truth(
 
 def _described(noise: OdometryNoise | None) -> dict[str, Any] | None:
     return None if noise is None else asdict(noise)
-
-
-def fan(beams: int, fov_deg: float) -> NDArray[np.float64]:
-    """Beam angles, from half the field of view on the right to the left.
-
-    An odd number of beams has one at each end, as lasers of 181 or 361 beams do; an even number leaves out the last,
-    as those of 180 or 360 do. A full circle starts straight ahead and never has its first beam twice.
-
-    Raises:
-        BadInput: fewer than two beams, or a field of view outside (0, 360] degrees.
-    """
-    import numpy as np
-
-    if not 2 <= beams <= MAX_BEAMS:
-        raise BadInput(f"angles: give 2 to {MAX_BEAMS:,} beams a scan, got {beams}")
-    if not 0 < fov_deg <= 360:
-        raise BadInput(f"fov: the field of view must lie in (0, 360] degrees, got {fov_deg:g}")
-    if fov_deg == 360:
-        return np.asarray(np.arange(beams) * 2 * math.pi / beams)
-    step = fov_deg / (beams - beams % 2)
-    return np.asarray(np.radians(step * np.arange(beams) - fov_deg / 2))
 
 
 def _stem(log: Path) -> str:

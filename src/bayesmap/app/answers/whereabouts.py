@@ -1,0 +1,164 @@
+"""Where am I? The posterior of the pose from which one scan was taken, over all places and headings of a map.
+
+In a drawn world the map is known and readings follow their law beam by beam, so that each beam counts in full. On a
+run, or a log that was run, the map is its posterior's draws, and beams count as `bayesmap.localization.known_map` says.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Hashable
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bayesmap.app.protocol.actions import WhereAmI
+from bayesmap.app.protocol.document import SMALLEST_NOISE_M, Document
+from bayesmap.app.protocol.notices import Place, Whereabouts
+from bayesmap.app.protocol.tasks import Buffers
+from bayesmap.app.scene import hits
+from bayesmap.app.shown.result import Result
+from bayesmap.errors import BadInput
+from bayesmap.localization.belief import PoseBelief
+from bayesmap.localization.certain_map import locate
+from bayesmap.localization.filter import Scan
+from bayesmap.localization.known_map import KnownMap
+from bayesmap.localization.localize import localize
+from bayesmap.sensors.model import RangeLimits
+from bayesmap.sensors.noise import Gaussian
+from bayesmap.sim.forward import ranges
+from bayesmap.space.beam_angles import fan
+from bayesmap.space.grid import Grid
+from bayesmap.space.scans import Scans
+
+FINEST_M = 0.125
+MOST_CELLS = 1_000_000
+"""A drawn map is searched on cells so fine, if they are not too many: a search tries the middles of cells."""
+
+TYPICAL, STREAM_TYPICAL = 100, 12
+"""Places from which typical scans of a drawn world are taken, and the stream of random numbers that chooses them."""
+
+MOST_POSES = 1000
+"""Of the cloud: those with the most weight."""
+
+
+class Locator:
+    """Answers the question for one scan at a time; the map is made ready once."""
+
+    def __init__(self) -> None:
+        self._known: KnownMap | None = None
+        self._of: Hashable = None
+
+    def answer(
+        self, question: WhereAmI, result: Result | None, scan: int, generation: int
+    ) -> tuple[Whereabouts, Buffers]:
+        """Find the places where a scan may have been taken, or say what prevents it.
+
+        Args:
+            question: of a drawn world, about a sensor.
+            result: what is shown.
+            scan: index of the scan on show, of a file.
+            generation: of the picture.
+        """
+        try:
+            if result is None:
+                raise BadInput("there is no map to be located in yet")
+            scans, name = _scan_of(question, result, scan)
+            belief = _located(self._map(result), scans, result.document)
+        except BadInput as error:
+            return Whereabouts(generation, trouble=str(error).removeprefix("localize: ")), {}
+        index, sensor = (None, name) if result.document.simulated else (name, None)
+        found = Whereabouts(
+            generation, sensor, index, scans.poses[0].tolist(), places(belief), float(belief.p_lost),
+            float(belief.nats_per_beam),
+        )  # fmt: skip
+        return found, cloud(belief)
+
+    def _map(self, result: Result) -> KnownMap:
+        document = result.document
+        of: Hashable = result.origin
+        if document.simulated:
+            of = (document.walls, document.grid, document.noise, document.max_range, document.angles, document.fov)
+        if self._known is None or of != self._of:
+            self._known = drawn_map(document) if document.simulated else _inferred_map(result)
+            self._of = of
+        return self._known
+
+
+def drawn_map(document: Document) -> KnownMap:
+    """The walls of a drawn world as a map to be located in.
+
+    Raises:
+        BadInput: a world without a free cell.
+    """
+    grid, walls = document.grid, document.is_wall
+    parts = max(1, math.ceil(grid.resolution / FINEST_M - 1e-9))
+    parts = max(1, min(parts, math.isqrt(MOST_CELLS // grid.n_cells)))
+    fine = np.repeat(np.repeat(walls, parts, axis=0), parts, axis=1).astype(np.float64)
+    shape = (fine.shape[0], fine.shape[1])
+    return KnownMap.of_draws(
+        fine.reshape(1, -1).astype(np.float32), Grid(shape, grid.resolution / parts, grid.origin),
+        Gaussian(_sigma_m(document)), _typical_scans(document), occupancy=fine,
+        observed=np.ones(shape, dtype=np.bool_), hit_depth=0.0, beam_weight=1.0,
+    )  # fmt: skip
+
+
+def _sigma_m(document: Document) -> float:
+    return max(document.noise, SMALLEST_NOISE_M)
+
+
+def _typical_scans(document: Document) -> Scans:
+    """What readings are like anywhere in a drawn world: a scan that could as well be from elsewhere tells nothing."""
+    grid = document.grid
+    rng = np.random.default_rng([document.seed, STREAM_TYPICAL])
+    free = np.argwhere(~document.is_wall)
+    if not len(free):
+        raise BadInput("the map has no free cell in which a robot could be")
+    cells = free[rng.integers(len(free), size=TYPICAL)] + rng.random((TYPICAL, 2))
+    poses = np.column_stack([np.array(grid.origin) + cells * grid.resolution, rng.uniform(-np.pi, np.pi, TYPICAL)])
+    angles = fan(document.angles, math.degrees(document.fov))
+    exact = ranges(document.is_wall, grid, poses, angles, document.max_range)
+    noisy = exact + _sigma_m(document) * rng.standard_normal(exact.shape)
+    return Scans(poses, angles, np.where(exact < document.max_range, noisy, np.inf), max_range_m=document.max_range)
+
+
+def _located(known: KnownMap, scans: Scans, document: Document) -> PoseBelief:
+    if not document.simulated:
+        return localize(known, scans, seed=document.seed).last
+    scan = Scan(scans.angles_rad, scans.ranges_m[0], RangeLimits(scans.min_range_m, scans.max_range_m))
+    return locate(known, scan, np.random.default_rng(document.seed))
+
+
+def places(belief: PoseBelief) -> list[Place]:
+    """Return the places where the robot may be, the likeliest first."""
+    found = []
+    for mode in belief.modes:
+        spread = np.linalg.eigvalsh(mode.covariance[:2, :2])[-1]
+        sigma_m, sigma_rad = float(np.sqrt(spread)), float(np.sqrt(mode.covariance[2, 2]))
+        found.append(Place(**mode.as_json(), sigma_m=sigma_m, sigma_rad=sigma_rad))
+    return found
+
+
+def cloud(belief: PoseBelief) -> dict[str, NDArray[np.float32]]:
+    """The heaviest poses, (n, 3), and their weights, (n,), lightest first."""
+    some = np.argsort(belief.weights, kind="stable")[-MOST_POSES:]
+    return {"pose": belief.poses[some].astype(np.float32), "weight": belief.weights[some].astype(np.float32)}
+
+
+def _scan_of(question: WhereAmI, result: Result, scan: int) -> tuple[Scans, int]:
+    """Return one scan, and its sensor's id in a drawn world, else its index."""
+    scene = result.scene
+    if not result.document.simulated:
+        return scene.scans.select(slice(scan, scan + 1)), scan
+    row = scene.ids.index(question.sensor) if question.sensor in scene.ids else 0
+    one = scene.scans.select(slice(row, row + 1))
+    # Readings at the longest range, which noise blurs, are beams that met nothing.
+    readings = np.where(hits(scene)[[row]], one.ranges_m, np.inf)
+    return replace(one, ranges_m=readings), scene.ids[row]
+
+
+def _inferred_map(result: Result) -> KnownMap:
+    if result.kept is None:
+        raise BadInput("a scan is located by draws of the map, and none are kept yet; Run keeps them")
+    return KnownMap.of_run(result.as_run())

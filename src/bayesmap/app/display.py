@@ -1,0 +1,172 @@
+"""What the worker shows pages of its job: fields, rays, what is drawn over them, and how far it is."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bayesmap.app.protocol.notices import OWN_LAYERS, AnyNotice, DrawCount, Field, Overlay, View
+from bayesmap.app.protocol.tasks import Buffers, Finished, Infer, OnGrid, Report, Show, Signal
+from bayesmap.app.scene import Scene, rays
+from bayesmap.app.shown.result import Result
+from bayesmap.space.grid import Grid
+
+FRAME_SECONDS = 0.08
+OVERLAY_SECONDS = 2.0
+"""Surfaces of chains that go on are drawn over their field so often."""
+
+LEVELS = 255
+TRACED = 300
+FIRST_SWEEPS = 100
+"""Points of a trace that are sent with every picture: so many over all of it, and each of the first sweeps."""
+
+LEAST_REFLECTIVITY = 0.1
+"""Of surfaces that are drawn as strokes."""
+
+WEIGHT_BINS = 24
+MOST_NATS = 60.0
+"""Weights that are less than exp(-60) of the largest are counted there."""
+
+OnReport = Callable[[Report], None]
+
+
+class Display:
+    """Makes reports of one job after another.
+
+    Attributes:
+        generation: of the present job.
+        grid: on which pages show it.
+    """
+
+    def __init__(self, on_report: OnReport) -> None:
+        self._send = on_report
+        self.generation, self.grid = -1, Grid((1, 1))
+        self._views: dict[int, View] = {}  # of pages that are shown a draw
+        self._began = 0.0
+        self._framed = self._overlaid = 0.0
+
+    def begin(self, task: Infer) -> None:
+        """Another job, from now on."""
+        self.generation, self.grid = task.generation, task.document.grid
+        self._began = time.perf_counter()
+
+    def show(self, task: Show, result: Result | None) -> None:
+        """A page looks at something else; it is sent that at once, if there is any."""
+        self._views.pop(task.client, None)
+        if task.view.layer in OWN_LAYERS:
+            self._views[task.client] = task.view
+        if result is not None:
+            self._field(task.view, result, task.client)
+
+    def report(self, message: AnyNotice | Signal, buffers: Buffers | None = None, client: int | None = None) -> None:
+        """Send any message."""
+        self._send(Report(message, buffers or {}, client))
+
+    def frame(self, result: Result) -> None:
+        """Send a field to every page."""
+        self._field(View("mean"), result, None)
+        for client, view in self._views.items():
+            self._field(view, result, client)
+        self._framed = time.perf_counter()
+        if result.prior.has_surfaces and self._framed - self._overlaid > OVERLAY_SECONDS:
+            self.overlay(result)
+
+    def _field(self, view: View, result: Result, client: int | None) -> None:
+        """Send a field to one page, or to all that are not shown a draw."""
+        self.report(*field_of(result, view, self.generation, round(1e3 * self.elapsed_s(), 1)), client)
+
+    def rays(self, scene: Scene, scan: int | None) -> None:
+        """Send the beams of one scan, or of all sensors."""
+        self.report(*rays(scene, scan, self.generation))
+
+    def overlay(self, result: Result) -> None:
+        """Send what is drawn over the field of a file."""
+        if not result.document.simulated:
+            trajectory = result.scan_poses[:, :2].astype(np.float32)
+            buffers = {"strokes": strokes_of(result), "trajectory": trajectory}
+            self.report(Overlay(generation=self.generation), buffers)
+            self._overlaid = time.perf_counter()
+
+    def on_grid(self, grid: Grid) -> None:
+        """From now on the map has other cells."""
+        if grid != self.grid:
+            self.grid = grid
+            self.report(OnGrid(grid, generation=self.generation))
+
+    def finished(self, result: Result | None) -> None:
+        """The job is done."""
+        draws = DrawCount() if result is None else result.draw_count
+        self.report(Finished(draws, generation=self.generation))
+
+    def elapsed_s(self) -> float:
+        """Return the seconds since the job began."""
+        return time.perf_counter() - self._began
+
+    def due(self) -> bool:
+        """Whether the last frame is so old that another is due."""
+        return time.perf_counter() - self._framed > FRAME_SECONDS
+
+
+def field_of(result: Result, view: View, generation: int, milliseconds: float) -> tuple[Field, Buffers]:
+    """Make the field that a page is shown; the mean, where a draw or an interval is wished for and there is none."""
+    layer, chain, number, lowest = view.layer, None, None, None
+    trace, traced = trace_of(result.log_joint())
+    buffers: dict[str, NDArray[np.generic]] = {"trace": trace, "traced": traced}
+    if result.log_weights is not None:
+        buffers["weights"], lowest = histogram(result.log_weights)
+    one = result.draw(view.chain, view.draw) if layer == "draw" else None
+    if one is not None:
+        numbers, chain, number = one
+    elif layer == "width" and result.width is not None:
+        numbers = result.width
+    else:
+        layer, numbers = "mean" if layer in OWN_LAYERS else layer, result.mean()
+    field = Field(
+        generation=generation, layer=layer, method=result.method, approximate=result.approximate,
+        **result.figures.as_fields(), draws=result.draw_count, quantity=result.quantity, milliseconds=milliseconds,
+        chain=chain, draw=number, averaged=result.averaged, lowest=lowest,
+    )  # fmt: skip
+    p = np.rint(numbers * np.float32(LEVELS)).astype(np.uint8)
+    return field, {"p": p, "observed": np.packbits(result.observed().ravel()), **buffers}
+
+
+def trace_of(log_joint: NDArray[np.float64]) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+    """Thin a trace.
+
+    Args:
+        log_joint: of every sweep or kept draw, (chains, n).
+
+    Returns:
+        The log joint at some sweeps, (chains, m), and these sweeps, counted from 1, (m,): each of the first, and later
+        ones that are evenly spread.
+    """
+    count = log_joint.shape[1]
+    later = np.linspace(1, count, min(count, TRACED)).round().astype(int) if count else np.zeros(0, dtype=int)
+    some = np.union1d(np.arange(1, min(count, FIRST_SWEEPS) + 1), later)
+    return log_joint[:, some - 1].astype(np.float32), some.astype(np.float32)
+
+
+def histogram(log_weights: NDArray[np.float64]) -> tuple[NDArray[np.float32], float]:
+    """Count how many particles weigh how much.
+
+    Returns:
+        Counts in bins of equal width up to the largest log weight, and where the first begins, relative to it (nats).
+    """
+    below = log_weights - log_weights.max()
+    lowest = -float(min(MOST_NATS, max(1.0, -below.min())))
+    counts, _ = np.histogram(np.maximum(below, lowest), WEIGHT_BINS, (lowest, 0.0))
+    return counts.astype(np.float32), lowest
+
+
+def strokes_of(result: Result) -> NDArray[np.float32]:
+    """Return surfaces as strokes, (U, 5), from x, y to x, y in metres with their reflectivity."""
+    if result.surfaces is None:
+        return np.zeros((0, 5), dtype=np.float32)
+    _, mean, covariance, reflectivity = result.surfaces
+    values, vectors = np.linalg.eigh(covariance)
+    half = 2.0 * np.sqrt(np.maximum(values[:, 1], 0.0))[:, None] * vectors[:, :, 1]
+    strokes = np.column_stack([mean - half, mean + half, reflectivity])
+    return strokes[reflectivity >= LEAST_REFLECTIVITY].astype(np.float32)

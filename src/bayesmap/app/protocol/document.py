@@ -1,0 +1,303 @@
+"""The document: everything that determines the picture. Its fields, units and limits are declared here once.
+
+Messages hold it as JSON, which `bayesmap.app.protocol.wire` reads. The page's types are written from these
+declarations, and the limits of the numbers are sent to every page that connects.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field, fields, replace
+from functools import cached_property
+from typing import Annotated, Any, Final, Literal, get_args, get_type_hints
+
+import msgspec
+import numpy as np
+from msgspec import Meta
+from numpy.typing import NDArray
+
+from bayesmap.errors import BadInput
+from bayesmap.space.grid import Grid
+
+VERSION: Final = 1
+CHAIN_METHODS = ("gibbs", "block")
+"""Methods that are Markov chains."""
+
+RARE_WALLS = 0.2
+"""Where walls are at most this probable a priori, or free cells, single-site moves seldom leave a wrong map: a wall has
+to go before its neighbour can come. Method "auto" then is 2 x 2 blocks."""
+
+SMALLEST_NOISE_M = 0.01
+"""A noise of 0 is taken as this: a density needs a width."""
+
+SIDE = (2, 500)
+LARGEST_SIDE_OF_FILE = 4000
+"""Cells along a side of a drawn map, and of a map that comes from a file."""
+
+LARGEST_SIDE_OF_LOG = 1000
+"""Cells along a side of a map that is inferred from a log."""
+
+SENSORS = (1, 32)
+RESOLUTIONS_M = (0.02, 2.0)
+"""Cell sizes that a page can choose for a log."""
+
+ANY_RESOLUTION_M = (1e-3, 1e3)
+LARGEST_COORDINATE_M = 1e6
+
+Kind = Literal["simulation", "run", "log"]
+Method = Literal["auto", "gibbs", "block", "propagate", "importance"]
+METHODS: tuple[str, ...] = get_args(Method)
+
+Id = Annotated[int, Meta(ge=1, lt=2**31)]
+Scans = Annotated[int, Meta(ge=0, le=10**9)]
+Metres = Annotated[float, Meta(ge=-LARGEST_COORDINATE_M, le=LARGEST_COORDINATE_M)]
+Radians = Annotated[float, Meta(ge=-1e3, le=1e3)]
+
+
+class Refused(BadInput):
+    """An action that is not done; nothing changed.
+
+    Attributes:
+        text: what was wrong.
+        remedy: what would be right, perhaps empty.
+    """
+
+    def __init__(self, text: str, remedy: str = "") -> None:
+        super().__init__(f"{text}; {remedy}" if remedy else text)
+        self.text = text
+        self.remedy = remedy
+
+
+@dataclass(frozen=True)
+class Sensor:
+    """The pose of a sensor: metres and radians, world frame. Its yaw is kept in [-pi, pi]."""
+
+    id: Id
+    x: Metres
+    y: Metres
+    yaw: Radians = 0.0
+
+    def __post_init__(self) -> None:
+        if abs(self.yaw) > math.pi:
+            object.__setattr__(self, "yaw", math.remainder(self.yaw, 2 * math.pi))
+
+
+@dataclass(frozen=True)
+class Source:
+    """The origin of the readings: simulated from the walls, or a file whose scans are shown.
+
+    Attributes:
+        kind: simulation, run or log.
+        name: the file's.
+        scans: the number of scans in the file.
+        bounds: for a log, corners of what its scans saw, metres. Grids of any resolution cover them.
+    """
+
+    kind: Kind = "simulation"
+    name: Annotated[str, Meta(max_length=300)] = ""
+    scans: Scans = 0
+    bounds: tuple[tuple[float, float], tuple[float, float]] | None = field(default=None, compare=False)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Settings:
+    """What sliders and choices of the page set.
+
+    Attributes:
+        prior: probability that a cell is a wall.
+        noise: standard deviation of a range, metres.
+        angles: beams a scan.
+        max_range: metres.
+        fov: field of view of every sensor, radians.
+        readings: with noise, or exact under the law that has the noise.
+        pose_sigma: standard deviation of every sensor's position, metres.
+        heading_sigma: standard deviation of every sensor's heading, radians.
+        poses: for a log, whether the robot was where the log says, or that is raw odometry.
+        cells: the kind of cells that a log is explained by, or that a run's maps are made of.
+        method: how the posterior is found; auto is block where walls or free cells are rare, else gibbs.
+        order: in which cells are visited by gibbs.
+        start: where chains start.
+        sweeps: of the chains, or the number of particles.
+        seed: of all random numbers.
+        scans_used: for a log, the number of its scans, from the first on, that make the map; null is all.
+    """
+
+    prior: Annotated[float, Meta(ge=0, le=1)] = 0.5
+    noise: Annotated[float, Meta(ge=0, le=5, title="noise (m)")] = 0.2
+    angles: Annotated[int, Meta(ge=10, le=1000)] = 100
+    max_range: Annotated[float, Meta(ge=0.1, le=10_000, title="longest range (m)")] = 42.0
+    fov: Annotated[float, Meta(ge=math.pi / 36, le=2 * math.pi, title="field of view (rad)")] = 2 * math.pi
+    readings: Literal["noisy", "exact"] = "noisy"
+    pose_sigma: Annotated[float, Meta(ge=0, le=2, title="uncertainty of the position (m)")] = 0.0
+    heading_sigma: Annotated[float, Meta(ge=0, le=0.6, title="uncertainty of the heading (rad)")] = 0.0
+    poses: Literal["logged", "odometry"] = "logged"
+    cells: Literal["binary", "reflectivity", "surface"] = "binary"
+    method: Method = "gibbs"
+    order: Literal["raster", "radial", "random"] = "radial"
+    start: Literal["auto", "prior", "empty"] = "auto"
+    sweeps: Annotated[int, Meta(ge=1, le=100_000)] = 1000
+    seed: Annotated[int, Meta(ge=0, lt=2**31)] = 0
+    scans_used: Annotated[int, Meta(ge=1, le=10**9, title="scans used")] | None = None
+
+
+SETTINGS = tuple(one.name for one in fields(Settings))
+FIXED_BY_FILE: Mapping[Kind, tuple[str, ...]] = {
+    "simulation": ("poses", "scans_used"),
+    "log": ("noise", "angles", "max_range", "fov", "readings", "pose_sigma", "heading_sigma"),
+    "run": SETTINGS,
+}
+"""Settings that a page cannot change: facts of the file, or settings that only a log has."""
+
+
+@dataclass(frozen=True)
+class Document(Settings):
+    """Everything that determines the picture.
+
+    Attributes:
+        grid: the cells.
+        walls: packed bits of the (nx, ny) map, C order (x * ny + y), most significant bit first; base64 in JSON.
+        sensors: empty where a file is shown.
+        source: where the readings come from.
+        version: of this description.
+    """
+
+    grid: Grid
+    walls: bytes
+    sensors: Annotated[tuple[Sensor, ...], Meta(max_length=SENSORS[1])]
+    source: Source = Source()
+    version: Literal[1] = VERSION
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Leave out what is worked out from the fields."""
+        return {one.name: getattr(self, one.name) for one in fields(self)}
+
+    @cached_property
+    def is_wall(self) -> NDArray[np.bool_]:
+        """Whether there is a wall in each cell, (nx, ny), read-only."""
+        bits = np.unpackbits(np.frombuffer(self.walls, dtype=np.uint8), count=self.grid.n_cells)
+        cells = bits.reshape(self.grid.shape).view(np.bool_)
+        cells.flags.writeable = False
+        return cells
+
+    @property
+    def simulated(self) -> bool:
+        """Whether the readings follow from walls and sensors."""
+        return self.source.kind == "simulation"
+
+    @property
+    def from_odometry(self) -> bool:
+        """Whether the trajectory is to be inferred before the map."""
+        return self.source.kind == "log" and self.poses == "odometry"
+
+    @property
+    def sampler(self) -> Method:
+        """The method, with "auto" resolved: single-site Gibbs, or blocks where walls are rare or everywhere."""
+        if self.method != "auto":
+            return self.method
+        return "block" if min(self.prior, 1 - self.prior) <= RARE_WALLS else "gibbs"
+
+    def sensor_cells(self) -> dict[tuple[int, int], int]:
+        """Return the cells in which sensors stand, with their ids."""
+        cells = {}
+        for sensor in self.sensors:
+            cell = self.grid.cell_at(sensor.x, sensor.y)
+            if cell is not None:
+                cells[cell] = sensor.id
+        return cells
+
+    def on_grid(self, grid: Grid) -> Document:
+        """Return the document on other cells, without walls."""
+        return self if self.grid == grid else replace(self, grid=grid).without_walls()
+
+    def without_walls(self) -> Document:
+        """Return the document with an empty map of its size."""
+        return replace(self, walls=no_walls(self.grid))
+
+    def with_walls(self, is_wall: NDArray[np.bool_]) -> Document:
+        """Return the document with another map, (nx, ny); this document where the map is the same."""
+        walls = packed(is_wall)
+        return self if walls == self.walls else replace(self, walls=walls)
+
+    def to_json(self) -> dict[str, Any]:
+        """Return the document as JSON values."""
+        values: dict[str, Any] = msgspec.json.decode(msgspec.json.encode(self, enc_hook=plain))
+        return values
+
+
+def plain(value: object) -> object:
+    """Return a number of NumPy as one of Python, for JSON."""
+    if isinstance(value, np.generic):
+        return value.item()
+    raise NotImplementedError
+
+
+def packed(is_wall: NDArray[np.bool_]) -> bytes:
+    """Pack a map, (nx, ny), eight cells a byte."""
+    return np.packbits(is_wall.ravel()).tobytes()
+
+
+def no_walls(grid: Grid) -> bytes:
+    """Return the packed map without walls."""
+    return bytes((grid.n_cells + 7) // 8)
+
+
+def settings_of(kind: Kind) -> tuple[str, ...]:
+    """Return the names of the settings that a page can change, for a source of a kind."""
+    return tuple(name for name in SETTINGS if name not in FIXED_BY_FILE[kind])
+
+
+def bounds_of(hint: object) -> tuple[float, float] | None:
+    """Return the smallest and the largest value of a number that is declared with limits; None for other types."""
+    (meta,) = getattr(hint, "__metadata__", None) or (None,)
+    return None if meta is None else (meta.ge, meta.lt - 1 if meta.le is None else meta.le)
+
+
+BOUNDS: Mapping[str, tuple[float, float]] = {
+    name: bounds
+    for name, hint in get_type_hints(Settings, include_extras=True).items()
+    if (bounds := bounds_of(hint)) is not None
+}
+"""Smallest and largest value of every number of the settings."""
+
+
+def check_document(document: Document) -> None:
+    """Check what no single field shows: sizes that belong together, sensors in free cells, a file's name.
+
+    Raises:
+        Refused: the document is not consistent.
+    """
+    grid = document.grid
+    most = SIDE if document.simulated else (1, LARGEST_SIDE_OF_FILE)
+    if not most[0] <= min(grid.shape) <= max(grid.shape) <= most[1]:
+        raise Refused(f"grid.shape: a map of {grid.shape} cells", f"give {most[0]} to {most[1]} cells a side")
+    if not ANY_RESOLUTION_M[0] <= grid.resolution <= ANY_RESOLUTION_M[1]:
+        raise Refused(f"grid.resolution: cells of {grid.resolution:g} m", "give 0.001 to 1000 m")
+    if max(map(abs, grid.origin)) > LARGEST_COORDINATE_M:
+        raise Refused(f"grid.origin: {grid.origin} m is too far away", "give at most a million metres")
+    if not document.simulated:
+        if not document.source.name:
+            raise Refused("source.name: a file without a name", "give the file's name")
+        return
+    if len(document.walls) != len(no_walls(grid)):
+        sizes = f"{len(document.walls)} bytes for {grid.shape[0]} x {grid.shape[1]} cells"
+        raise Refused(f"walls: {sizes}", f"send {len(no_walls(grid))}")
+    if len(document.sensors) < SENSORS[0]:
+        raise Refused("sensors: there is none", f"give {SENSORS[0]} to {SENSORS[1]}")
+    if len({sensor.id for sensor in document.sensors}) != len(document.sensors):
+        raise Refused("sensors: two have the same id", "number them from 1 on")
+    for sensor in document.sensors:
+        check_stand(document, sensor)
+
+
+def check_stand(document: Document, sensor: Sensor) -> None:
+    """Check that a sensor stands inside the grid and in a free cell.
+
+    Raises:
+        Refused: it does not.
+    """
+    cell = document.grid.cell_at(sensor.x, sensor.y)
+    if cell is None:
+        raise Refused(f"the sensor cannot stand outside the map, at ({sensor.x:.2f}, {sensor.y:.2f}) m")
+    if document.is_wall[cell]:
+        raise Refused(f"the sensor cannot stand in the wall at cell ({cell[0]}, {cell[1]})", "move it to a free cell")

@@ -1,0 +1,232 @@
+"""Messages on the wire: what anybody may have sent is read, or refused by name; arrays travel in frames."""
+
+from __future__ import annotations
+
+import json
+import re
+import struct
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any, TypeVar, get_args
+
+import msgspec
+import numpy as np
+from msgspec import ValidationError, inspect
+from numpy.typing import NDArray
+
+from bayesmap.app.protocol.actions import AnyAction
+from bayesmap.app.protocol.document import FIXED_BY_FILE, Document, Refused, Source, check_document, plain
+from bayesmap.app.protocol.tasks import Buffers
+
+MAX_BYTES = 1 << 20
+ALIGNMENT = 8
+ACTIONS: Mapping[str, type] = {str(kind.__struct_config__.tag): kind for kind in get_args(AnyAction)}
+T = TypeVar("T")
+
+
+def parse(data: str | bytes) -> AnyAction:
+    """Read a message of the page; fields that are not known are left out.
+
+    Raises:
+        Refused: too long, not JSON, of no known type, or with a field that does not fit.
+    """
+    if len(data) > MAX_BYTES or (isinstance(data, str) and len(data.encode("utf-8", "replace")) > MAX_BYTES):
+        raise Refused(f"a message of more than {MAX_BYTES:,} bytes", "send it in parts")
+    try:
+        return _ACTION.decode(data)
+    except ValidationError:
+        return check(_decoded(data))
+    except (msgspec.DecodeError, UnicodeEncodeError, RecursionError):
+        raise Refused("a message that is not JSON", "send one as in docs/app.md") from None
+
+
+def check(value: object) -> AnyAction:
+    """Read a message that is JSON values already.
+
+    Raises:
+        Refused: see `parse`.
+    """
+    if not isinstance(value, dict):
+        raise Refused("a message that is not an object", "send one as in docs/app.md")
+    kind = value.get("type")
+    if not isinstance(kind, str) or kind not in ACTIONS:
+        raise Refused(f"a message of unknown type {str(kind)[:40]!r}", f"there are: {', '.join(ACTIONS)}")
+    action: AnyAction = converted(value, ACTIONS[kind], kind)
+    return action
+
+
+def seq_of(data: str | bytes | Mapping[str, Any]) -> int | None:
+    """Return the number of a message that was refused, if it has one."""
+    value = data if isinstance(data, Mapping) else _decoded(data[:MAX_BYTES])
+    seq = value.get("seq") if isinstance(value, Mapping) else None
+    return seq if isinstance(seq, int) and not isinstance(seq, bool) and seq >= 0 else None
+
+
+def parse_document(value: object) -> Document:
+    """Read a document.
+
+    One that shows a file holds no walls and no sensors: it names the file, its grid and the settings that can be
+    changed, and `bayesmap.app.edits.adopted` decides what becomes of it.
+
+    Raises:
+        Refused: anything that a document may not hold; the message names the place.
+    """
+    if not isinstance(value, Mapping):
+        raise Refused("document: not an object", "send one as in docs/app.md")
+    source = converted(value.get("source", {}), Source, "source")
+    known = {name: held for name, held in value.items() if name not in FIXED_BY_FILE[source.kind]}
+    if source.kind != "simulation":
+        known |= {"walls": "", "sensors": []}
+    document = converted(known, Document)
+    # What is read holds no defaults of its own, and would be written without them.
+    document = replace(document, sensors=tuple(map(replace, document.sensors)), source=replace(document.source))
+    check_document(document)
+    return document if document.simulated else document.without_walls()
+
+
+def parse_simulation(value: object) -> Document:
+    """Read a document that shows no file.
+
+    Raises:
+        Refused: see `parse_document`; or it shows a file.
+    """
+    document = parse_document(value)
+    if not document.simulated:
+        raise Refused(f"document: shows the file {document.source.name}", "start bayesmap app with that file")
+    return document
+
+
+def converted(value: object, kind: type[T], place: str = "") -> T:
+    """Convert JSON values to a type of the protocol.
+
+    Args:
+        value: the values.
+        kind: the type.
+        place: what to call the whole in an error.
+
+    Raises:
+        Refused: a value that does not fit; the message names its place, and what would fit.
+    """
+    try:
+        return msgspec.convert(value, kind)
+    except (ValidationError, RecursionError) as error:
+        raise _explained(str(error), value, inspect.type_info(kind), place) from None
+
+
+def _explained(text: str, value: Any, kind: inspect.Type, place: str) -> Refused:
+    """Say in words of the page what is wrong: "noise (m): 7 is not a number from 0 to 5"."""
+    what, _, path = text.partition(" - at `$")
+    if not re.match("Expected|Invalid|Object|Number|Integer", what):
+        return Refused(what)  # by a type's own check
+    missing = re.fullmatch(r"Object missing required field `(\w+)`", what)
+    unknown = re.fullmatch(r"Object contains unknown field `(\w+)`", what)
+    steps: list[str | int] = [int(index) if index else name for name, index in _STEP.findall(path)]
+    title = ""
+    for step in [*steps, *(missing.groups() if missing else ())]:
+        field = next((one for one in _fields(kind) if one.encode_name == step), None)
+        kind, title = (_item(kind, step), "") if field is None else (field.type, _title(field.type))
+        place = f"{place}[{step}]" if isinstance(step, int) else title or ".".join(filter(None, (place, step)))
+        value = None if missing and step == missing[1] else value[step]
+    if missing:
+        return Refused(f"{place}: missing", f"give {_described(kind)}")
+    if unknown:
+        names = ", ".join(one.encode_name for one in _fields(kind))
+        return Refused(f"{place}: there is no {unknown[1]}", f"there are: {names}")
+    shown = repr(value)
+    return Refused(f"{place}: {shown if len(shown) <= 40 else shown[:37] + '...'} is not {_described(kind)}")
+
+
+def _fields(kind: inspect.Type) -> tuple[inspect.Field, ...]:
+    return getattr(_plain(kind), "fields", ())
+
+
+def _item(kind: inspect.Type, step: str | int) -> inspect.Type:
+    inner = _plain(kind)
+    return inner.item_types[int(step)] if isinstance(inner, inspect.TupleType) else getattr(inner, "item_type", inner)
+
+
+def _plain(kind: inspect.Type) -> inspect.Type:
+    """Return a type without its title, and and without null as another choice."""
+    if isinstance(kind, inspect.Metadata):
+        return _plain(kind.type)
+    if isinstance(kind, inspect.UnionType):
+        return _plain(next(one for one in kind.types if not isinstance(one, inspect.NoneType)))
+    return kind
+
+
+def _title(kind: inspect.Type) -> str:
+    if isinstance(kind, inspect.UnionType):
+        return "".join(map(_title, kind.types))
+    return str((kind.extra_json_schema or {}).get("title", "")) if isinstance(kind, inspect.Metadata) else ""
+
+
+def _described(kind: inspect.Type) -> str:
+    """Say what would fit."""
+    kind = _plain(kind)
+    if isinstance(kind, inspect.IntType | inspect.FloatType):
+        most = kind.le if kind.lt is None else kind.lt - 1
+        noun = "a whole number" if isinstance(kind, inspect.IntType) else "a number"
+        if kind.ge is None or most is None:
+            return noun
+        return f"{noun} from {kind.ge:,.7g} " + ("on" if most >= 2**31 - 1 else f"to {most:,.7g}")
+    if isinstance(kind, inspect.LiteralType):
+        return ("one of " if len(kind.values) > 1 else "") + ", ".join(map(str, kind.values))
+    if isinstance(kind, inspect.TupleType):
+        return f"a list of {len(kind.item_types)}, each {_described(kind.item_types[0])}"
+    if isinstance(kind, inspect.CollectionType):
+        least = f"{kind.min_length:,} to" if kind.min_length else "at most"
+        return f"a list of {least} {kind.max_length:,}" if kind.max_length else "a list"
+    names = {inspect.BoolType: "true or false", inspect.StrType: "a text", inspect.BytesType: "bytes in base64"}
+    return names.get(type(kind), "an object")
+
+
+_STEP = re.compile(r"\.(\w+)|\[(\d+)\]")
+_ACTION: msgspec.json.Decoder[AnyAction] = msgspec.json.Decoder(AnyAction)
+
+
+def _decoded(data: str | bytes) -> Any:
+    """Return JSON values; None for what is not JSON."""
+    try:
+        return json.loads(data)
+    except (ValueError, RecursionError):
+        return None
+
+
+def frame(message: object, buffers: Buffers) -> str | bytes:
+    """Return a message as it goes over the socket: text, or binary where it has buffers."""
+    if not buffers:
+        return msgspec.json.encode(message, enc_hook=plain).decode()
+    header, arrays = with_arrays(message, buffers)
+    text = msgspec.json.encode(header)
+    parts = [struct.pack("<I", len(text)), text]
+    for array in arrays:
+        raw = array.tobytes()
+        parts += [raw, b"\0" * (-len(raw) % ALIGNMENT)]
+    return b"".join(parts)
+
+
+def with_arrays(message: object, buffers: Buffers) -> tuple[dict[str, Any], list[NDArray[Any]]]:
+    """Return a message as JSON values that list its buffers, and the buffers, little-endian and contiguous."""
+    arrays = {name: _as_array(value) for name, value in buffers.items()}
+    listed = [{"name": name, "dtype": str(a.dtype), "shape": list(a.shape)} for name, a in arrays.items()]
+    return {**msgspec.to_builtins(message, enc_hook=plain), "buffers": listed}, list(arrays.values())
+
+
+def unframe(data: bytes) -> tuple[dict[str, Any], dict[str, NDArray[Any]]]:
+    """Take apart what `frame` made of a message with buffers."""
+    (length,) = struct.unpack_from("<I", data)
+    header = json.loads(data[4 : 4 + length])
+    at = 4 + length
+    buffers = {}
+    for entry in header.pop("buffers"):
+        count = int(np.prod(entry["shape"], dtype=np.int64))
+        array = np.frombuffer(data, dtype=np.dtype(entry["dtype"]).newbyteorder("<"), count=count, offset=at)
+        buffers[entry["name"]] = array.reshape(entry["shape"])
+        at += array.nbytes + -array.nbytes % ALIGNMENT
+    return header, buffers
+
+
+def _as_array(value: NDArray[Any] | bytes) -> NDArray[Any]:
+    if isinstance(value, bytes):
+        return np.frombuffer(value, dtype=np.uint8)
+    return np.ascontiguousarray(value, dtype=value.dtype.newbyteorder("<"))

@@ -1,0 +1,112 @@
+"""The answer while the hand is moving: belief propagation on the cells that beams touch."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import special
+
+from bayesmap.app.scene import Touched, touched
+from bayesmap.app.shown.result import CHAINS, SAVED_DRAWS, Figures, Result, settings_of_run
+from bayesmap.kernels.beliefs import Beliefs
+from bayesmap.kernels.reach import reach_frequency
+from bayesmap.posterior.from_chains import posterior_of_draws
+from bayesmap.result import Run
+from bayesmap.samplers.problem import WallProblem, log_odds
+from bayesmap.samplers.propagate import DAMPING, ROUNDS, Marginals
+from bayesmap.samplers.without_chains import Asked, found_by_beliefs
+
+TOLERANCE = 1e-3
+THREADS_FROM_INCIDENCES = 200_000
+"""Smaller tables leave the other cores to the page, which paints with them."""
+
+
+class Preview:
+    """Rounds of belief propagation as in `bayesmap.samplers.propagate`, one at a time.
+
+    Cells that no beam touches keep the prior exactly, so the rounds need not visit them: at 500 x 500 with one sensor
+    that is most of the map.
+
+    Attributes:
+        rounds: done so far.
+        converged: whether the last one changed no probability by more than the tolerance, or was the last allowed.
+    """
+
+    def __init__(self, problem: WallProblem) -> None:
+        self.problem = problem
+        self.part: Touched = touched(problem.table)
+        self.rounds = 0
+        self._threads = 1 if problem.table.n_incidences < THREADS_FROM_INCIDENCES else None
+        self._p = problem.p_wall[self.part.cells]
+        self._fixed = (self._p == 0) | (self._p == 1)
+        self.converged = len(self.part.cells) == 0 or bool(self._fixed.all())
+        if not self.converged:
+            self._beliefs = Beliefs(self.part.table, log_odds(self._p), problem.device)
+
+    def round(self) -> None:
+        """One more round."""
+        self._beliefs.round(DAMPING, self._threads)
+        before, p = self._p, special.expit(self._beliefs.log_odds())
+        self._p = np.where(self._fixed, before, p)
+        self.rounds += 1
+        change = float(np.abs(self._p - before).max())
+        self.converged = self.rounds >= ROUNDS or change < TOLERANCE
+
+    def p_wall(self) -> NDArray[np.float64]:
+        """Approximate posterior wall probability of every cell, (nx, ny)."""
+        p = self.problem.p_wall.copy()
+        p[self.part.cells] = self._p
+        return p.reshape(self.problem.table.grid.shape)
+
+    def observed(self) -> NDArray[np.bool_]:
+        """Cells that a beam reaches before the first likely wall, (nx, ny)."""
+        seen = np.zeros(self.problem.table.grid.n_cells, dtype=np.bool_)
+        if len(self.part.cells):
+            likely = (self._p > 0.5).reshape(1, *self.part.table.grid.shape)
+            seen[self.part.cells] = reach_frequency(self.part.table, likely).ravel() > 0
+        return seen.reshape(self.problem.table.grid.shape)
+
+    def marginals(self) -> Marginals:
+        """What the rounds found, for `bayesmap.samplers.start` and for a saved run."""
+        return Marginals(self.p_wall(), np.zeros(0), np.zeros(0), self.converged, self.converged, 0.0)
+
+
+@dataclass(frozen=True, eq=False)
+class BeliefResult(Result):
+    """What belief propagation has found."""
+
+    preview: Preview
+
+    approximate = True
+
+    @property
+    def method(self) -> str:
+        """The name of belief propagation."""
+        return "propagate"
+
+    @property
+    def figures(self) -> Figures:
+        """Rounds done."""
+        return Figures(sweeps=self.preview.rounds)
+
+    def mean(self) -> NDArray[np.float64]:
+        """Approximate posterior wall probability, (nx, ny)."""
+        return self.preview.p_wall()
+
+    def observed(self) -> NDArray[np.bool_]:
+        """Cells that a beam reaches before the first likely wall, (nx, ny)."""
+        return self.preview.observed()
+
+    def as_run(self) -> Run:
+        """Return independent draws by the beliefs, as a run."""
+        problem, document = self.scene.problem, self.document
+        began = time.perf_counter()
+        asked = Asked(CHAINS, SAVED_DRAWS, document.seed, document.sweeps, self.preview.rounds)
+        found = found_by_beliefs(problem, asked, replace(self.preview.marginals(), finished=True))
+        model = self.scene.model(problem.prior)
+        settings = settings_of_run(self, model, chains=CHAINS, draws=SAVED_DRAWS, rounds=self.preview.rounds)
+        seconds = {"trace": 0.0, "total": time.perf_counter() - began}
+        return Run(posterior_of_draws(model, found, problem.n_incidences, settings, seconds))

@@ -1,0 +1,349 @@
+"""Files that the page shows: a saved run, or a log from which the worker infers, on cells of any size."""
+
+from __future__ import annotations
+
+import json
+import math
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from pathlib import Path
+from typing import Any, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bayesmap.app.protocol.document import (
+    LARGEST_SIDE_OF_FILE,
+    LARGEST_SIDE_OF_LOG,
+    METHODS,
+    Document,
+    Refused,
+    Source,
+    no_walls,
+)
+from bayesmap.app.protocol.wire import parse_simulation
+from bayesmap.app.scene import Beams, Scene
+from bayesmap.app.shown.hit_maps import Counted, CountResult, HitCounts, coarse_map
+from bayesmap.app.shown.result import Figures, Result
+from bayesmap.app.shown.verdict import judge_chains
+from bayesmap.beams.table import BeamTable
+from bayesmap.cells.binary import Independent
+from bayesmap.cells.draws import Draws
+from bayesmap.cells.kind import CellPrior
+from bayesmap.cells.kinds import BUILT_IN
+from bayesmap.errors import BadInput
+from bayesmap.posterior.diagnostics import bulk_ess, rhat
+from bayesmap.result import Run, load
+from bayesmap.sensors.model import SensorModel
+from bayesmap.sensors.noise import Gaussian
+from bayesmap.space.grid import Grid, bounds_m
+from bayesmap.space.scans import Scans
+
+LOG_RESOLUTION_M = 0.1
+LOG_SWEEPS = 200
+
+
+class Opened(Protocol):
+    """A file: the document that shows it, its scene, and its result where it has one."""
+
+    @property
+    def document(self) -> Document:
+        """What is shown at first."""
+
+    def scene(self, document: Document) -> Scene:
+        """Readings and problem."""
+
+    def result(self) -> Result:
+        """What is shown without inference."""
+
+
+@dataclass(frozen=True, eq=False)
+class OpenedRun:
+    """A saved run, or one that is still in memory."""
+
+    document: Document
+    run: Run
+
+    def scene(self, document: Document) -> Scene:
+        """The run's readings; its beam table only counts beams."""
+        return self._scene
+
+    @cached_property
+    def _scene(self) -> Scene:
+        from bayesmap.kernels.walls.table import trace
+
+        posterior = self.run.posterior
+        sensor = posterior.sensor if posterior.sensor is not None else Gaussian(posterior.grid.resolution)
+        depth = float(posterior.settings.get("hit_depth", 0.0))
+        table = trace(posterior.scans, posterior.grid, sensor, hit_depth=depth)
+        ids = tuple(range(1, len(posterior.scans) + 1))
+        none = np.zeros((0, len(posterior.scans.angles_rad)))
+        prior = Independent(self.document.prior)
+        return Scene(posterior.scans, none, ids, sensor, posterior.grid, Beams.of(table), prior, depth)
+
+    def result(self) -> Result:
+        """The run."""
+        return RunResult(self._scene, self.document, self.run)
+
+
+@dataclass(frozen=True, eq=False)
+class RunResult(Result):
+    """A saved run."""
+
+    run: Run
+
+    @property
+    def method(self) -> str:
+        """As the run's settings name it."""
+        return str(self.run.posterior.settings.get("method", "gibbs"))
+
+    @property
+    def prior(self) -> CellPrior:
+        """The run's."""
+        return self.run.posterior.prior
+
+    @property
+    def figures(self) -> Figures:
+        """Sweeps, and whether the chains agree, as far as the kept draws tell."""
+        sweeps, joint = self.run.posterior.sweep, self.run.log_joint
+        if not joint.size:
+            return Figures(sweeps, sweeps)
+        constant = np.ptp(joint) == 0
+        ess, r = (math.nan, math.nan) if constant else (bulk_ess(joint), rhat(joint))
+        verdict = judge_chains(r, ess, sweeps, None, over=True)
+        return Figures(sweeps, sweeps, ess, r, float(joint[:, -1].mean()), verdict)
+
+    @property
+    def kept(self) -> Draws | None:
+        """The run's draws."""
+        return self.run.posterior.draws if self.run.posterior.draws.count else None
+
+    @property
+    def origin(self) -> object:
+        """The run."""
+        return self.run
+
+    @property
+    def law(self) -> tuple[SensorModel, float]:
+        """The run's.
+
+        Raises:
+            BadInput: a sensor model that only the run's maker had.
+        """
+        if self.run.posterior.sensor is None:
+            raise BadInput("the run's sensor model is not one of bayesmap's, so nothing can be predicted")
+        return super().law
+
+    @cached_property
+    def _scan_poses(self) -> NDArray[np.float64]:
+        if not self.run.n_draws or "poses" not in self.run.posterior.draws.arrays:
+            return super().scan_poses
+        x, y, yaw = np.moveaxis(self.run.poses, -1, 0).reshape(3, -1, len(self.scene.scans))
+        heading = np.arctan2(np.sin(yaw).mean(axis=0), np.cos(yaw).mean(axis=0))
+        return np.column_stack([x.mean(axis=0), y.mean(axis=0), heading])
+
+    @property
+    def scan_poses(self) -> NDArray[np.float64]:
+        """Where the scans were taken, (S, 3): the mean over draws where poses were inferred."""
+        return self._scan_poses
+
+    def mean(self) -> NDArray[np.float64]:
+        """The run's, 0.5 where it says nothing."""
+        return np.nan_to_num(self.run.occupancy, nan=0.5)
+
+    def observed(self) -> NDArray[np.bool_]:
+        """The run's."""
+        return self.run.observed
+
+    def log_joint(self) -> NDArray[np.float64]:
+        """Of every kept draw, (chains, n)."""
+        return self.run.log_joint
+
+    def draw(self, chain: int | None, number: int | None) -> tuple[NDArray[Any], int, int] | None:
+        """Return a kept draw; without a number, or past the last, the last."""
+        if not self.run.n_draws:
+            return None
+        last = self.run.n_draws - 1
+        which = min(chain or 0, len(self.run.log_joint) - 1)
+        wanted = last if number is None else min(number, last)
+        return self.run.map_of(which, wanted), which, wanted
+
+    def as_run(self) -> Run:
+        """Return the run."""
+        return self.run
+
+    def write_map(self, target: Path) -> list[Path]:
+        """Write the run's map for map_server, by its own thresholds; return the files."""
+        return list(self.run.export(target))
+
+
+@dataclass(eq=False)
+class Traced:
+    """All beams of a log on the cells of one grid.
+
+    Attributes:
+        grid: the cells.
+        sensor: the default for logs.
+        table: of all beams.
+        counts: of their hits, once they have been asked for.
+    """
+
+    grid: Grid
+    sensor: SensorModel
+    table: BeamTable
+    counts: HitCounts | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class OpenedLog:
+    """Scans of a log, with the defaults for logs."""
+
+    document: Document
+    scans: Scans
+    _traced: list[Traced] = field(default_factory=list, repr=False)
+
+    def on_cells(self, document: Document) -> Document:
+        """A document of this log on cells of its size that cover what the scans saw from where they stand here.
+
+        Where these would be too many, the cells are those that the log is first shown on.
+        """
+        own, bounds = self.document.grid, self.document.source.bounds
+        if bounds is None or document.grid.resolution == own.resolution:
+            return document.on_grid(own)
+        grid = Grid.over(*bounds, document.grid.resolution)
+        return document.on_grid(own if max(grid.shape) > LARGEST_SIDE_OF_LOG else grid)
+
+    def scene(self, document: Document) -> Scene:
+        """The first scans of the log under the document's prior; beams are traced once for each size of cells."""
+        traced = self._of(document.grid)
+        used, table = document.scans_used, traced.table
+        if used is not None:
+            table = first_beams(table, used * len(self.scans.angles_rad))
+        ids = tuple(range(1, len(self.scans) + 1))
+        none = np.zeros((0, len(self.scans.angles_rad)))
+        prior = Independent(document.prior)
+        beams = Beams.of(table)
+        return Scene(self.scans, none, ids, traced.sensor, document.grid, beams, prior, Independent.hit_depth, used)
+
+    def result(self) -> Result:
+        """A log has none."""
+        raise AssertionError("a log is inferred from")
+
+    def coarse(self, document: Document) -> Result:
+        """What counts of hits say of the first scans."""
+        traced = self._of(document.grid)
+        if traced.counts is None:
+            traced.counts = HitCounts(self.scans, traced.table)
+        counts = traced.counts.first(document.scans_used)
+        prior = None if document.cells == "binary" else BUILT_IN[document.cells]()
+        p_wall = coarse_map(counts, Independent(document.prior) if prior is None else prior, document.prior)
+        shape = document.grid.shape
+        counted = Counted(p_wall.reshape(shape), counts.any(axis=0).reshape(shape), prior)
+        return CountResult(self.scene(document), document, counted)
+
+    def _of(self, grid: Grid) -> Traced:
+        """The beams on a grid; those on the last one are kept."""
+        from bayesmap.cells.defaults import default_sensor
+        from bayesmap.kernels.trace import trace
+
+        if not self._traced or self._traced[0].grid != grid:
+            self._traced.clear()  # first: two tables may not fit
+            sensor = default_sensor(grid.resolution)
+            self._traced.append(Traced(grid, sensor, trace(self.scans, grid, sensor, hit_depth=Independent.hit_depth)))
+        return self._traced[0]
+
+
+def first_beams(table: BeamTable, beams: int) -> BeamTable:
+    """The first beams of a table; its arrays are shared."""
+    offsets = table.offsets[: beams + 1]
+    entries = slice(int(offsets[-1]))
+    return replace(
+        table, offsets=offsets, cells=table.cells[entries], loglik=table.loglik[entries], no_hit=table.no_hit[:beams]
+    )
+
+
+def read_document(path: str) -> Document:
+    """A document that the page exported (``.json``).
+
+    Raises:
+        BadInput: no JSON, or not a document; the message names the file.
+    """
+    try:
+        return parse_simulation(json.loads(Path(path).read_text(encoding="utf-8")))
+    except (OSError, ValueError, RecursionError) as error:
+        why = error.strerror if isinstance(error, OSError) else error if isinstance(error, Refused) else "not JSON"
+        raise BadInput(f"{path}: {why}; give a document that the page has exported") from None
+
+
+def open_file(path: str, **reading: Any) -> Opened:
+    """Open a saved run (``.nc``) or a log.
+
+    Args:
+        path: of the file.
+        reading: how a log is read, as `bayesmap.read_log` calls it.
+
+    Raises:
+        BadInput: no such file, or one that cannot be read as either.
+    """
+    if not Path(path).exists():
+        raise BadInput(f"{path}: no such file; give a saved run (.nc) or a log of range scans")
+    if path.endswith(".nc"):
+        return opened_run(load(path), Path(path).name)
+    from bayesmap.io.logs import read_log
+
+    return opened_log(read_log(path, **reading), Path(path).name)
+
+
+def opened_run(run: Run, name: str) -> OpenedRun:
+    """Show a run.
+
+    Raises:
+        BadInput: a map that is too large for the page.
+    """
+    settings, scans = run.posterior.settings, run.posterior.scans
+    p = settings.get("prior", {}).get("p_wall", 0.5)
+    method = settings.get("method")
+    document = _document(run.grid, scans, Source("run", name, len(scans)), p if isinstance(p, int | float) else 0.5)
+    document = replace(
+        document,
+        method=method if method in METHODS else "gibbs",
+        order=settings.get("order") or "radial",  # cells of numbers have none
+        cells=run.posterior.prior.words.kind,  # type: ignore[arg-type]
+        sweeps=max(1, min(100_000, int(run.posterior.sweep))),
+        seed=min(2**31 - 1, int(settings.get("seed", 0))),
+    )
+    return OpenedRun(document, run)
+
+
+def opened_log(scans: Scans, name: str) -> OpenedLog:
+    """Infer from a log, on cells of 10 cm, or larger where the map would have more than a thousand a side.
+
+    Poses that look like raw odometry are taken for it at first.
+
+    Raises:
+        BadInput: a log without scans.
+    """
+    from bayesmap.cells.kinds import P_WALL
+    from bayesmap.poses.log_checks import look_like_odometry
+
+    grid = Grid.covering(scans, LOG_RESOLUTION_M)
+    if max(grid.shape) > LARGEST_SIDE_OF_LOG:
+        grid = Grid.covering(scans, LOG_RESOLUTION_M * -(-max(grid.shape) // LARGEST_SIDE_OF_LOG))
+    document = _document(grid, scans, Source("log", name, len(scans)), P_WALL)
+    source = replace(document.source, bounds=bounds_m(scans))
+    document = replace(document, sweeps=LOG_SWEEPS, source=source)
+    return OpenedLog(replace(document, poses="odometry") if look_like_odometry(scans) else document, scans)
+
+
+def _document(grid: Grid, scans: Scans, source: Source, prior: float) -> Document:
+    if max(grid.shape) > LARGEST_SIDE_OF_FILE:
+        raise BadInput(f"{source.name}: {grid.shape} cells are too many for the page, at most {LARGEST_SIDE_OF_FILE}")
+    return Document(
+        grid=grid,
+        walls=no_walls(grid),
+        sensors=(),
+        prior=float(prior),
+        angles=len(scans.angles_rad),
+        max_range=scans.max_range_m,
+        source=source,
+    )

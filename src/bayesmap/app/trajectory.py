@@ -1,0 +1,264 @@
+"""Where a log's robot was: from raw odometry to the log along its inferred trajectory, with pictures of every stage.
+
+`infer_trajectory` works on a thread of its own, so that the worker goes on answering. What the thread does not share
+with the worker's own thread needs no lock: it puts finished pictures into a queue. A job that is cancelled ends at its
+next sign of progress; another waits for that, so that they do not crowd each other.
+"""
+
+from __future__ import annotations
+
+import queue
+import threading
+import time
+from collections.abc import Generator
+from contextlib import closing
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bayesmap.app.protocol.document import Document
+from bayesmap.app.protocol.notices import Stage, Status
+from bayesmap.app.protocol.tasks import Infer, Located, Remember
+from bayesmap.app.shown.hit_maps import Counted, CountResult, counted_map, grown, scene_along
+from bayesmap.app.sources import OpenedLog, opened_log
+from bayesmap.poses.slam import infer_trajectory
+from bayesmap.poses.trajectory import Trajectory, calibrated
+from bayesmap.space.grid import Grid
+from bayesmap.space.scans import Scans
+
+ASK_TO_RUN = "The poses of this log look like raw odometry: Run infers where the robot was"
+PICTURE_SECONDS, PICTURE_SHARE = 0.25, 0.1
+"""From one picture of a stage to the next, at least, and the share of the time that pictures may take."""
+
+WAIT_SECONDS = 0.02
+STAGES = {
+    "reading": "Reading the scans",
+    "front end": "Matching scan to scan",
+    "loops": "Closing loops",
+    "aligned": "Aligning the key scans",
+    "aligned-again": "Aligning again, with odometry corrected",
+    "rematch": "Matching each key scan anew",
+    "aligned-rematched": "Aligning after some were moved",
+    "placing": "Placing the other scans",
+}
+"""What stages are called, in their order."""
+
+
+@dataclass(frozen=True, eq=False)
+class PathSoFar:
+    """Where the robot was, as far as is known.
+
+    Attributes:
+        stage: its name, one of `STAGES`.
+        done: how far the stage is.
+        of: of how much.
+        scans: at their present poses, in the order of the log.
+        grid: of the map.
+        counted: the map along these poses.
+    """
+
+    stage: str
+    done: int
+    of: int
+    scans: Scans
+    grid: Grid
+    counted: Counted
+
+
+class Stopped(Exception):
+    """Nobody wants the trajectory any more."""
+
+
+class TrajectoryJob:
+    """One inference of a trajectory.
+
+    Attributes:
+        found: the trajectory, once it is there.
+        trouble: what ended the inference instead.
+    """
+
+    _last: threading.Thread | None = None  # of all jobs of the process
+
+    def __init__(self, scans: Scans, grid: Grid) -> None:
+        self.found: Trajectory | None = None
+        self.trouble: BaseException | None = None
+        self._scans, self._grid = scans, grid
+        self._in_time = in_time(scans)
+        self._looks: queue.SimpleQueue[PathSoFar] = queue.SimpleQueue()
+        self._stop = threading.Event()
+        self._told, self._done, self._of, self._next = "", 0, 1, 0.0
+        self._before = TrajectoryJob._last
+        self._thread = threading.Thread(target=self._run, name="bayesmap_trajectory", daemon=True)
+        TrajectoryJob._last = self._thread
+        self._thread.start()
+
+    def cancel(self) -> None:
+        """End it, at its next sign of progress."""
+        self._stop.set()
+
+    def looks(self) -> Generator[PathSoFar | None, None, None]:
+        """Pictures as they come, and None while there is none, until the inference has ended.
+
+        Raises:
+            BadInput: as `infer_trajectory`.
+        """
+        try:
+            while True:
+                alive = self._thread.is_alive()
+                try:
+                    yield self._looks.get(timeout=WAIT_SECONDS)
+                except queue.Empty:
+                    if not alive:
+                        break
+                    yield None
+        finally:
+            self.cancel()
+        if self.trouble is not None:
+            raise self.trouble
+
+    def _run(self) -> None:
+        if self._before is not None:
+            self._before.join()
+            self._before = None
+        try:
+            self._check()
+            self.found = infer_trajectory(self._scans, on_progress=self._on_progress, on_poses=self._on_poses)
+        except Stopped:
+            pass
+        except BaseException as trouble:
+            self.trouble = trouble
+
+    def _check(self) -> None:
+        if self._stop.is_set():
+            raise Stopped
+
+    def _on_progress(self, stage: str, done: int, of: int) -> None:
+        self._check()
+        self._done, self._of = done, of
+
+    def _on_poses(self, stage: str, poses: NDArray[np.float64]) -> None:
+        """A picture of every stage's beginning and of every round of loops, and of the others now and then."""
+        self._check()
+        began = time.monotonic()
+        if stage == self._told and stage != "loops" and began < self._next:
+            return
+        self._told = stage
+        scans = self._scans.moved_to(poses[np.argsort(self._in_time)])
+        self._grid = grown(self._grid, scans)
+        self._looks.put(PathSoFar(stage, self._done, self._of, scans, self._grid, counted_map(scans, self._grid)))
+        now = time.monotonic()
+        self._next = now + max(PICTURE_SECONDS, (now - began) / PICTURE_SHARE)
+
+
+def in_time(scans: Scans) -> NDArray[np.intp]:
+    """The order of time of the scans, as `infer_trajectory` takes them, (S,)."""
+    if scans.stamps_s is None:
+        return np.arange(len(scans))
+    return np.argsort(scans.stamps_s, kind="stable")
+
+
+def along(scans: Scans, found: Trajectory) -> Scans:
+    """The scans at their inferred poses, with the angles between beams that were found, in the order of the log."""
+    there = scans.moved_to(found.poses[np.argsort(found.order)])
+    return calibrated(there, found.calibration.angle_step_ratio)
+
+
+def summary(scans: Scans, found: Trajectory) -> str:
+    """What was found, in words."""
+    closed = len(found.closures)
+    off = scans.poses - found.poses[np.argsort(found.order)]
+    moved_m = float(np.hypot(off[:, 0], off[:, 1]).max())
+    flagged = int(found.flagged.sum())
+    doubt = f"; {flagged} scans stay badly explained" if flagged else ""
+    return f"Trajectory inferred: odometry was off by up to {moved_m:.1f} m; loop closures: {closed}{doubt}"
+
+
+@dataclass(frozen=True, eq=False)
+class Step:
+    """What there is to show.
+
+    Attributes:
+        grid: of the map.
+        result: the map along the poses so far.
+        stage: how far the inference is, or None while nothing is inferred.
+        text: for the status line, or empty.
+    """
+
+    grid: Grid
+    result: CountResult
+    stage: Stage | None = None
+    text: str = ""
+
+
+class Localization:
+    """The trajectory of one log.
+
+    Attributes:
+        log: as it was opened.
+        placed: the same along its inferred trajectory, once that is there.
+    """
+
+    def __init__(self, log: OpenedLog) -> None:
+        self.log = log
+        self.placed: OpenedLog | None = None
+
+    def log_of(self, document: Document) -> OpenedLog:
+        """The log that a document is inferred from: along its inferred trajectory, if that is asked for and there."""
+        return self.placed if document.from_odometry and self.placed is not None else self.log
+
+    def remember(self, known: Remember) -> None:
+        """Take over what was inferred before."""
+        self._place(replace(self.log.scans.moved_to(known.poses), angles_rad=known.angles_rad, own_angles_rad=None))
+
+    def steps(self, task: Infer) -> Generator[Step | Located | Status | None, None, None]:
+        """What there is to show and to say until the log can be mapped; None while there is nothing new.
+
+        A "run" infers the trajectory, unless it is known already; "clear" forgets it; without it the map along the
+        poses of the log is shown, at once.
+
+        Raises:
+            BadInput: as `bayesmap.poses.slam.infer_trajectory`.
+        """
+        if task.mode == "clear" and self.placed is not None:
+            self.placed = None
+            yield Located(None, generation=task.generation)
+        if self.placed is None and task.mode == "run":
+            yield from self._infer(task)
+        elif self.placed is None:
+            grid = self.log.on_cells(task.document).grid
+            counted = counted_map(self.log.scans.select(slice(task.document.scans_used)), grid)
+            yield _step(task, self.log.scans, grid, counted, None, ASK_TO_RUN)
+
+    def _infer(self, task: Infer) -> Generator[Step | Located | Status | None, None, None]:
+        scans, grid = self.log.scans, self.log.on_cells(task.document).grid
+        yield _step(task, scans, grid, counted_map(scans, grid), ("reading", 0, 1), STAGES["reading"])
+        job, named = TrajectoryJob(scans, grid), ""
+        with closing(job.looks()) as looks:
+            for look in looks:
+                if look is None:
+                    yield None
+                    continue
+                text = "" if look.stage == named else STAGES[look.stage]
+                named = look.stage
+                yield _step(task, look.scans, look.grid, look.counted, (look.stage, look.done, look.of), text)
+        assert job.found is not None
+        placed = along(scans, job.found)
+        self._place(placed)
+        own = placed.own_angles_rad
+        known = Remember(placed.poses, placed.angles_rad if own is None else own)
+        yield Located(known, generation=task.generation)
+        yield Status(summary(scans, job.found), "info")
+
+    def _place(self, scans: Scans) -> None:
+        self.placed = opened_log(scans, self.log.document.source.name)
+
+
+def _step(task: Infer, scans: Scans, grid: Grid, counted: Counted, at: tuple[str, int, int] | None, text: str) -> Step:
+    scene = scene_along(scans, grid, task.document.prior)
+    result = CountResult(scene, task.document.on_grid(grid), counted, along_odometry=True)
+    stage = None
+    if at is not None:
+        name, done, of = at
+        stage = Stage(name, STAGES[name], done, of, generation=task.generation)
+    return Step(grid, result, stage, text)
