@@ -27,8 +27,8 @@ from bayesmap.app.shown.hit_maps import Counted, CountResult, HitCounts, coarse_
 from bayesmap.app.shown.result import Figures, Result
 from bayesmap.app.shown.verdict import judge_chains
 from bayesmap.beams.table import BeamTable
+from bayesmap.cells.arrays import Draws
 from bayesmap.cells.binary import Independent
-from bayesmap.cells.draws import Draws
 from bayesmap.cells.kind import CellPrior
 from bayesmap.cells.kinds import BUILT_IN
 from bayesmap.errors import BadInput
@@ -243,7 +243,7 @@ class OpenedLog:
 
     def _of(self, grid: Grid) -> Traced:
         """The beams on a grid; those on the last one are kept."""
-        from bayesmap.cells.defaults import default_sensor
+        from bayesmap.cells.kinds import default_sensor
         from bayesmap.kernels.trace import trace
 
         if not self._traced or self._traced[0].grid != grid:

@@ -13,7 +13,7 @@ from bayesmap.app.protocol.document import Document
 from bayesmap.app.protocol.notices import SafePath, Views
 from bayesmap.app.protocol.tasks import Buffers
 from bayesmap.app.shown.result import Result
-from bayesmap.cells.draws import Draws
+from bayesmap.cells.arrays import Draws
 from bayesmap.cells.kind import CellPrior
 from bayesmap.errors import BadInput
 from bayesmap.posterior.decisions import shortest_safe_path, typical_sigma_m

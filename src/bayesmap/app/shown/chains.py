@@ -15,7 +15,7 @@ from bayesmap.app.scene import Scene
 from bayesmap.app.shown.beliefs import Preview
 from bayesmap.app.shown.result import CHAINS, Figures, Result, settings_of_run
 from bayesmap.app.shown.verdict import difference, judge_chains
-from bayesmap.cells.draws import Draws
+from bayesmap.cells.arrays import Draws
 from bayesmap.cells.kind import CellPrior
 from bayesmap.model import Model
 from bayesmap.poses.prior import PosePrior, Uncertain

@@ -16,8 +16,8 @@ from bayesmap.app.scene import Beams, Scene
 from bayesmap.app.shown.result import Result
 from bayesmap.beams.table import BeamTable
 from bayesmap.cells.binary import Independent
-from bayesmap.cells.defaults import default_sensor
 from bayesmap.cells.kind import CellPrior
+from bayesmap.cells.kinds import default_sensor
 from bayesmap.posterior.baselines import P_HIT, P_MISS, hit_ratio, log_odds, log_odds_as_usual
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans

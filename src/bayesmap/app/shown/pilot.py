@@ -20,7 +20,7 @@ from bayesmap.app.protocol.document import Document
 from bayesmap.app.scene import Scene
 from bayesmap.app.shown.chains import joined
 from bayesmap.app.shown.result import Figures, Result
-from bayesmap.cells.draws import Draws
+from bayesmap.cells.arrays import Draws
 from bayesmap.cells.kind import CellPrior
 from bayesmap.cells.kinds import BUILT_IN
 from bayesmap.model import Model

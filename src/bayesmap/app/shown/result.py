@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from bayesmap.app.protocol.document import Document
 from bayesmap.app.protocol.notices import DrawCount, Quantity, Verdict
 from bayesmap.app.scene import Scene
-from bayesmap.cells.draws import Draws
+from bayesmap.cells.arrays import Draws
 from bayesmap.cells.kind import CellPrior
 from bayesmap.cells.kinds import BUILT_IN
 from bayesmap.errors import BadInput
