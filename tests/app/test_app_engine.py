@@ -7,9 +7,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from acted_engine import PAGE, Heard
-from bayesmap.run.schedule import Schedule
-from bayesmap.samplers.exact import enumerate_maps
-from bayesmap.samplers.problem import WallProblem
 
 import bayesmap as bm
 from bayesmap.app.protocol.actions import Cancel, Inspect
@@ -20,11 +17,14 @@ from bayesmap.app.shown.beliefs import Preview
 from bayesmap.app.shown.verdict import FEWEST_SWEEPS
 from bayesmap.app.worlds import new_document, tutorial_document
 from bayesmap.model import Model
+from bayesmap.run.chains import Schedule
 from bayesmap.run.runner import Job, run_chains
 from bayesmap.samplers.fit import PILOT_SWEEPS, first_sensor, fit
 from bayesmap.samplers.importance import sample_importance
 from bayesmap.samplers.propagate import propagate
 from bayesmap.samplers.stop_gibbs import StopGibbs
+from bayesmap.samplers.wall_problem import WallProblem
+from bayesmap.samplers.without_chains import enumerate_maps
 from bayesmap.space.grid import Grid
 
 TINY = Document(
@@ -249,9 +249,8 @@ def test_inspecting_a_cell_counts_its_beams():
 
 
 def test_many_sweeps_of_a_large_map_are_thinned_to_fit():
-    from bayesmap.samplers.gibbs import Gibbs
-
     from bayesmap.app.shown.chains import DRAW_BYTES, Stream
+    from bayesmap.samplers.walls import Gibbs
 
     document = new_document("blank", (500, 500), tutorial_document())
     scene = simulated_scene(document)

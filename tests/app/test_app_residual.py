@@ -3,13 +3,12 @@
 import numpy as np
 import pytest
 from acted_engine import PAGE, Heard
-from bayesmap.posterior.predicted_scan import ScanPredictor
 from building_log import ANGLES, room_run
 
 import bayesmap as bm
 from bayesmap.app.protocol.actions import CompareBeam
 from bayesmap.app.sources import opened_run
-from bayesmap.posterior.predictor import predictor_of
+from bayesmap.posterior.predictor import ScanPredictor, predictor_of
 from bayesmap.sensors.model import RangeLimits
 
 

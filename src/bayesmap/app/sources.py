@@ -244,7 +244,7 @@ class OpenedLog:
     def _of(self, grid: Grid) -> Traced:
         """The beams on a grid; those on the last one are kept."""
         from bayesmap.cells.kinds import default_sensor
-        from bayesmap.kernels.trace import trace
+        from bayesmap.kernels.walls.table import trace
 
         if not self._traced or self._traced[0].grid != grid:
             self._traced.clear()  # first: two tables may not fit

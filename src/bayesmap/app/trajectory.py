@@ -144,7 +144,7 @@ class TrajectoryJob:
         if stage == self._told and stage != "loops" and began < self._next:
             return
         self._told = stage
-        scans = self._scans.moved_to(poses[np.argsort(self._in_time)])
+        scans = self._scans.at(poses[np.argsort(self._in_time)])
         self._grid = grown(self._grid, scans)
         self._looks.put(PathSoFar(stage, self._done, self._of, scans, self._grid, counted_map(scans, self._grid)))
         now = time.monotonic()
@@ -160,7 +160,7 @@ def in_time(scans: Scans) -> NDArray[np.intp]:
 
 def along(scans: Scans, found: Trajectory) -> Scans:
     """The scans at their inferred poses, with the angles between beams that were found, in the order of the log."""
-    there = scans.moved_to(found.poses[np.argsort(found.order)])
+    there = scans.at(found.poses[np.argsort(found.order)])
     return calibrated(there, found.calibration.angle_step_ratio)
 
 
@@ -209,7 +209,7 @@ class Localization:
 
     def remember(self, known: Remember) -> None:
         """Take over what was inferred before."""
-        self._place(replace(self.log.scans.moved_to(known.poses), angles_rad=known.angles_rad, own_angles_rad=None))
+        self._place(replace(self.log.scans.at(known.poses), angles_rad=known.angles_rad, own_angles_rad=None))
 
     def steps(self, task: Infer) -> Generator[Step | Located | Status | None, None, None]:
         """What there is to show and to say until the log can be mapped; None while there is nothing new.

@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from bayesmap.app.answers.ghost import predictor_of_result
 from bayesmap.app.shown.result import Result
 from bayesmap.beams.table import BeamTable
-from bayesmap.posterior.predictor import Maps, Predictor
+from bayesmap.posterior.predictor import MapStates, Predictor
 from bayesmap.space.scans import Scans
 
 MOST_BEAMS = 2000
@@ -174,7 +174,7 @@ def one_beam_each(scans: Scans, beams: NDArray[np.intp]) -> Scans:
 
 def log_ratios(predictor: Predictor, scans: Scans, cell: int) -> NDArray[np.float64]:
     """The log ratio above of each beam, nats, (B,); 0 for beams that do not reach the cell."""
-    from bayesmap.kernels.predict import log_densities
+    from bayesmap.kernels.predict.density import log_densities
     from bayesmap.kernels.rays import trace_rays
 
     if not scans.ranges_m.size:
@@ -190,7 +190,7 @@ def log_ratios(predictor: Predictor, scans: Scans, cell: int) -> NDArray[np.floa
     return np.nan_to_num(as_it_is - emptied)
 
 
-def _emptied(maps: Iterable[Maps], column: int) -> list[Maps]:
+def _emptied(maps: Iterable[MapStates], column: int) -> list[MapStates]:
     """The same maps with nothing in one of their cells."""
     found = [batch.copy() for batch in maps]
     for batch in found:

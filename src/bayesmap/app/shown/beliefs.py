@@ -11,13 +11,13 @@ from scipy import special
 
 from bayesmap.app.scene import Touched, touched
 from bayesmap.app.shown.result import CHAINS, SAVED_DRAWS, Figures, Result, settings_of_run
-from bayesmap.kernels.beliefs import Beliefs
-from bayesmap.kernels.reach import reach_frequency
-from bayesmap.posterior.from_chains import posterior_of_draws
+from bayesmap.kernels.walls.propagate import Beliefs
+from bayesmap.kernels.walls.reach import reach_frequency
+from bayesmap.posterior.posterior import posterior_of_draws
 from bayesmap.result import Run
-from bayesmap.samplers.problem import WallProblem, log_odds
 from bayesmap.samplers.propagate import DAMPING, ROUNDS, Marginals
-from bayesmap.samplers.without_chains import Asked, found_by_beliefs
+from bayesmap.samplers.wall_problem import WallProblem, log_odds
+from bayesmap.samplers.without_chains import DrawRequest, draws_by_beliefs
 
 TOLERANCE = 1e-3
 THREADS_FROM_INCIDENCES = 200_000
@@ -70,7 +70,7 @@ class Preview:
         return seen.reshape(self.problem.table.grid.shape)
 
     def marginals(self) -> Marginals:
-        """What the rounds found, for `bayesmap.samplers.start` and for a saved run."""
+        """What the rounds found, for `bayesmap.samplers.walls` and for a saved run."""
         return Marginals(self.p_wall(), np.zeros(0), np.zeros(0), self.converged, self.converged, 0.0)
 
 
@@ -104,8 +104,8 @@ class BeliefResult(Result):
         """Return independent draws by the beliefs, as a run."""
         problem, document = self.scene.problem, self.document
         began = time.perf_counter()
-        asked = Asked(CHAINS, SAVED_DRAWS, document.seed, document.sweeps, self.preview.rounds)
-        found = found_by_beliefs(problem, asked, replace(self.preview.marginals(), finished=True))
+        asked = DrawRequest(CHAINS, SAVED_DRAWS, document.seed, document.sweeps, self.preview.rounds)
+        found = draws_by_beliefs(problem, asked, replace(self.preview.marginals(), finished=True))
         model = self.scene.model(problem.prior)
         settings = settings_of_run(self, model, chains=CHAINS, draws=SAVED_DRAWS, rounds=self.preview.rounds)
         seconds = {"trace": 0.0, "total": time.perf_counter() - began}

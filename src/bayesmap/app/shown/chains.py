@@ -20,16 +20,15 @@ from bayesmap.cells.kind import CellPrior
 from bayesmap.model import Model
 from bayesmap.poses.prior import PosePrior, Uncertain
 from bayesmap.posterior.diagnostics import bulk_ess, rhat
-from bayesmap.posterior.from_chains import posterior_of_chains
+from bayesmap.posterior.posterior import posterior_of_chains
 from bayesmap.result import Run
-from bayesmap.run.chains import Chains, Record
+from bayesmap.run.chains import Chains, Record, Schedule
 from bayesmap.run.runner import BUFFER_BYTES, no_draws, sweeps
-from bayesmap.run.schedule import Schedule
 from bayesmap.samplers.methods import sampler_of
-from bayesmap.samplers.problem import WallProblem
 from bayesmap.samplers.propagate import ROUNDS, Marginals
 from bayesmap.samplers.sampler import Problem, Sampler
-from bayesmap.samplers.start import Start, start_maps
+from bayesmap.samplers.wall_problem import WallProblem
+from bayesmap.samplers.walls import Start, start_maps
 from bayesmap.samplers.with_poses import MovableSampler, PoseProblem, WithPoses
 from bayesmap.sensors.model import SensorModel
 
@@ -249,7 +248,7 @@ def chains_of_walls(scene: Scene, document: Document, begun: NDArray[np.bool_], 
     walls = scene.problem
     model = scene.model(walls.prior)
     name = walls.prior.methods[document.sampler]
-    sampler, _ = sampler_of(name, walls.grid, document.order, begun, ROUNDS)  # type: ignore[arg-type]
+    sampler, _ = sampler_of(name, walls.grid, document.order, begun, ROUNDS)
     poses = pose_prior(document)
     if poses is None:
         return Stream(model, sampler, walls, document.sweeps, document.seed, keep=keep)

@@ -11,15 +11,15 @@ from scipy import special
 
 from bayesmap.app.shown.result import CHAINS, SAVED_DRAWS, Figures, Result, settings_of_run
 from bayesmap.app.shown.verdict import judge_particles
-from bayesmap.kernels.importance import weigh
 from bayesmap.kernels.random import mix
-from bayesmap.kernels.reach import reach_frequency
-from bayesmap.posterior.from_chains import posterior_of_draws
+from bayesmap.kernels.walls.importance import weigh
+from bayesmap.kernels.walls.reach import reach_frequency
+from bayesmap.posterior.posterior import posterior_of_draws
 from bayesmap.result import Run
 from bayesmap.samplers.importance import Particles
-from bayesmap.samplers.problem import WallProblem
 from bayesmap.samplers.sampler import STREAM_PARTICLES
-from bayesmap.samplers.without_chains import Asked, found_by_importance
+from bayesmap.samplers.wall_problem import WallProblem
+from bayesmap.samplers.without_chains import DrawRequest, draws_by_importance
 
 PIECE_SECONDS = 0.015
 FIRST_PIECE = 64
@@ -106,8 +106,8 @@ class ParticleResult(Result):
         """Return draws by weight, as a run."""
         problem, document = self.scene.problem, self.document
         began = time.perf_counter()
-        asked = Asked(CHAINS, SAVED_DRAWS, document.seed, document.sweeps, 0)
-        found = found_by_importance(problem, asked, self.particles)
+        asked = DrawRequest(CHAINS, SAVED_DRAWS, document.seed, document.sweeps, 0)
+        found = draws_by_importance(problem, asked, self.particles)
         model = self.scene.model(problem.prior)
         settings = settings_of_run(self, model, chains=CHAINS, draws=SAVED_DRAWS)
         seconds = {"trace": 0.0, "total": time.perf_counter() - began}

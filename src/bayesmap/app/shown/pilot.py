@@ -24,7 +24,7 @@ from bayesmap.cells.arrays import Draws
 from bayesmap.cells.kind import CellPrior
 from bayesmap.cells.kinds import BUILT_IN
 from bayesmap.model import Model
-from bayesmap.samplers.fit import PILOT_SWEEPS, first_sensor, piloting
+from bayesmap.samplers.fit import PILOT_SWEEPS, first_sensor, pilot_sweeps
 from bayesmap.samplers.methods import sampler_of
 from bayesmap.samplers.propagate import ROUNDS
 from bayesmap.samplers.sampler import Keep
@@ -137,7 +137,7 @@ def fit_by_pilot(
     sampler, _ = sampler_of(prior.methods["gibbs"], model.grid, "radial", None, ROUNDS)
     problem = sampler.prepare(model, "cpu")
     yield
-    pilot = piloting(problem, document.seed, PILOT_SWEEPS, keep=Keep(every=1))
+    pilot = pilot_sweeps(problem, document.seed, PILOT_SWEEPS, keep=Keep(every=1))
     draws: Draws | None = None
     for sweep, (now, info) in enumerate(pilot, 1):
         problem, model = problem.under(now.sensor, now.prior), replace(model, sensor=now.sensor, cells=now.prior)

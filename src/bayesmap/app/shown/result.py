@@ -21,7 +21,7 @@ from bayesmap.cells.kinds import BUILT_IN
 from bayesmap.errors import BadInput
 from bayesmap.model import Model
 from bayesmap.result import Run
-from bayesmap.run.resuming import RANDOM_STREAMS
+from bayesmap.run.fingerprint import RANDOM_STREAMS
 from bayesmap.sensors.describe import describe
 from bayesmap.sensors.model import SensorModel
 
@@ -171,7 +171,7 @@ class Result(ABC):
 
     def write_map(self, target: Path) -> list[Path]:
         """Write the map for map_server; return the files."""
-        from bayesmap.io.map_server import write_map
+        from bayesmap.io.ros.maps import write_map
 
         return list(write_map(target, np.clip(self.mean(), 0.0, 1.0), self.document.grid, self.observed()))
 
