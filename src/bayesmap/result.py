@@ -60,7 +60,7 @@ class Run:
 
     @property
     def finished(self) -> bool:
-        """False if the run was stopped before all draws were there; `infer(..., resume=run)` goes on."""
+        """False if the run was stopped before all draws were there: `bayesmap.Checkpoints(resume=run)` goes on."""
         return self.posterior.finished
 
     @property

@@ -4,6 +4,7 @@ import signal
 
 import numpy as np
 import pytest
+from flat_options import grouped
 from oracle.enumeration import marginals
 from oracle.verdict import ALPHA, least_p_value
 from oracle.worlds import make_case
@@ -20,7 +21,7 @@ def case():
 
 
 def infer(case, **options):
-    return bm.infer(case.scans, case.grid, **{"prior": case.prior, "sensor": case.sensor, **options})
+    return bm.infer(case.scans, case.grid, **grouped(**{"prior": case.prior, "sensor": case.sensor, **options}))
 
 
 def assert_same_run(one, other):
@@ -123,7 +124,7 @@ def test_ctrl_c_during_the_warm_start_goes_on_to_the_same_end():
 
     part = bm.infer(scans, grid, on_progress=interrupt, **options)
     assert not part.finished
-    assert_same_run(bm.infer(scans, grid, resume=part, **options), whole)
+    assert_same_run(bm.infer(scans, grid, checkpoints=bm.Checkpoints(resume=part), **options), whole)
 
 
 def test_a_resumed_run_still_knows_its_warm_start(case, monkeypatch):
@@ -179,7 +180,14 @@ def test_a_run_made_with_other_arguments_is_not_resumed(case, change, message):
 def test_a_run_made_from_other_scans_is_not_resumed(case):
     saved = infer(case, draws=2)
     with pytest.raises(bm.BadInput, match="made with other scans or on another grid"):
-        bm.infer(case.scans.select(slice(0, 1)), case.grid, prior=case.prior, sensor=case.sensor, draws=2, resume=saved)
+        bm.infer(
+            case.scans.select(slice(0, 1)),
+            case.grid,
+            prior=case.prior,
+            sensor=case.sensor,
+            schedule=bm.Schedule(draws=2),
+            checkpoints=bm.Checkpoints(resume=saved),
+        )
 
 
 @pytest.mark.parametrize("method", ["gibbs", "block", "exact", "importance", "propagate"])

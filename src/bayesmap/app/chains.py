@@ -13,8 +13,7 @@ from bayesmap.app.document import CHAIN_METHODS, Document
 from bayesmap.app.scanning import Scene
 from bayesmap.app.stream import POSE_CHAINS, Stream
 from bayesmap.poses.prior import PosePrior, Uncertain
-from bayesmap.samplers.methods import sampler_of
-from bayesmap.samplers.propagate import ROUNDS
+from bayesmap.samplers.methods import Gibbs, sampler_of
 from bayesmap.samplers.with_poses import MovableSampler, PoseProblem, WithPoses
 
 SMALLEST_POSE_M = 0.001
@@ -63,7 +62,7 @@ def chains_of_walls(scene: Scene, document: Document, begun: NDArray[np.bool_], 
     walls = scene.problem
     model = scene.model(walls.prior)
     name = walls.prior.methods[document.sampler]
-    sampler, _ = sampler_of(name, walls.grid, document.order, begun, ROUNDS)  # type: ignore[arg-type]
+    sampler, _ = sampler_of(name, walls.grid, Gibbs(document.order, begun))  # type: ignore[arg-type]
     poses = pose_prior(document)
     if poses is None:
         return Stream(model, sampler, walls, document.sweeps, document.seed, keep=keep)

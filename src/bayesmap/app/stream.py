@@ -14,7 +14,7 @@ from bayesmap.app.recent import joined
 from bayesmap.cells.arrays import Draws
 from bayesmap.model import Model
 from bayesmap.posterior.diagnostics import bulk_ess, rhat
-from bayesmap.run.chains import Chains, Record, Schedule
+from bayesmap.run.chains import Chains, Record, SweepPlan
 from bayesmap.run.runner import BUFFER_BYTES, no_draws, sweeps
 from bayesmap.samplers.sampler import Problem, Sampler
 
@@ -66,8 +66,8 @@ class Stream:
         one = sum(spec.empty(self.n_chains, 1, empty.shape_of(spec)).nbytes for spec in empty.specs)
         self.thin = math.ceil(total * one / DRAW_BYTES) if keep else 1
         self.total = math.ceil(total / self.thin) * self.thin
-        schedule = Schedule(0, self.total // self.thin, self.thin)
-        self._record = Record(empty, schedule if keep else Schedule(0, 0), schedule.keep)
+        schedule = SweepPlan(0, self.total // self.thin, self.thin)
+        self._record = Record(empty, schedule if keep else SweepPlan(0, 0), schedule.keep)
         # At fixed sweeps: how long a step is depends on the machine, and the same actions make the same page.
         doubling = (2**k for k in range(self.total.bit_length()))
         self._look_at = {*doubling, *(self.total * k // LOOKS for k in range(1, LOOKS + 1))}

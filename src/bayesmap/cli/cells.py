@@ -8,7 +8,10 @@ from bayesmap.errors import BadInput
 
 if TYPE_CHECKING:
     from bayesmap.cells.kind import CellPrior
+    from bayesmap.samplers.methods import Method
     from bayesmap.sensors.model import SensorModel
+
+METHOD_OPTIONS = ("order", "start", "rounds", "particles")
 
 BINARY_DRAWS = 100
 """Draws of a chain over binary walls unless the user says otherwise."""
@@ -58,6 +61,14 @@ def sweeps_a_draw(values: dict[str, Any]) -> int:
     if values["thin"] is not None:
         return int(values["thin"])
     return BUILT_IN[values["cells"]].sweeps_a_draw if values["draws"] is None else 1
+
+
+def method_of(values: dict[str, Any]) -> Method:
+    """The method with its options."""
+    from bayesmap.samplers.methods import METHODS
+
+    kind = METHODS[values["method"]]
+    return kind(**{name: values[name] for name in METHOD_OPTIONS if name in kind.__dataclass_fields__})
 
 
 def prior_of(values: dict[str, Any]) -> CellPrior:

@@ -68,7 +68,10 @@ def _runs(console: Console, values: dict[str, Any]) -> dict[str, Run]:
     import numpy as np
 
     from bayesmap.api import infer
+    from bayesmap.arguments import Schedule, Where
     from bayesmap.cells.binary import Independent
+    from bayesmap.cells.kind import CellPrior
+    from bayesmap.samplers.methods import Block, Gibbs, Importance, Method
     from bayesmap.sensors.noise import Gaussian
     from bayesmap.sim.forward import simulate
     from bayesmap.sim.tutorial import TUTORIAL_GRID, tutorial
@@ -78,25 +81,21 @@ def _runs(console: Console, values: dict[str, Any]) -> dict[str, Run]:
     angles = np.arange(BEAMS) * 2 * np.pi / BEAMS
     console.detail(f"simulating {BEAMS} beams with noise of {SIGMA_M} m")
     scans = simulate(walls, TUTORIAL_GRID, pose, angles, sensor=sensor, max_range_m=MAX_RANGE_M, seed=seed)
-    common = {"seed": seed, "threads": values["threads"], "sensor": sensor}
-    sizes = {"chains": values["chains"], "warmup": values["warmup"], "draws": values["draws"]}
-    half, rare = Independent(0.5), Independent(0.05)
-    asked: dict[str, dict[str, Any]] = {
-        "gibbs": {"method": "gibbs", "prior": half, **sizes},
-        "block": {"method": "block", "prior": rare, **sizes},
-        "importance": {
-            "method": "importance",
-            "prior": half,
-            "particles": values["particles"],
-            "chains": 1,
-            "draws": 1000,
-        },
-        "film": {"method": "gibbs", "prior": half, "chains": 1, "warmup": 0, "draws": FILM_SWEEPS},
+    half, rare, where = Independent(0.5), Independent(0.05), Where(threads=values["threads"])
+    long = Schedule(values["chains"], values["warmup"], values["draws"])
+    asked: dict[str, tuple[CellPrior, Method, Schedule]] = {
+        "gibbs": (half, Gibbs(), long),
+        "block": (rare, Block(), long),
+        "importance": (half, Importance(values["particles"]), Schedule(chains=1, draws=1000)),
+        "film": (half, Gibbs(), Schedule(chains=1, warmup=0, draws=FILM_SWEEPS)),
     }
     runs: dict[str, Run] = {}
-    for name, arguments in asked.items():
+    for name, (prior, method, schedule) in asked.items():
         with progress(console, "compiling" if not runs else "tracing beams") as report:
-            runs[name] = infer(scans, TUTORIAL_GRID, on_progress=report, **common, **arguments)
+            runs[name] = infer(
+                scans, TUTORIAL_GRID, prior=prior, sensor=sensor, method=method, schedule=schedule, seed=seed,
+                where=where, on_progress=report,
+            )  # fmt: skip
         if not runs[name].finished:
             raise KeyboardInterrupt
     return runs

@@ -23,15 +23,9 @@ if TYPE_CHECKING:
     from bayesmap.api import Event
     from bayesmap.io.log_reading import LogReading
     from bayesmap.result import Run
-    from bayesmap.run.runner import Executor
+    from bayesmap.run.executor import Executor
     from bayesmap.sensors.model import SensorModel
     from bayesmap.space.scans import Scans
-
-PASSED_ON = (
-    "method", "order", "chains", "warmup", "draws", "thin", "seed", "start", "particles", "rounds", "hit_depth",
-    "threads", "device",
-)  # fmt: skip
-"""Settings that `bayesmap.infer` has under the same name."""
 
 DEFAULTS = {key.name: key.default for key in SECTIONS["infer"]}
 
@@ -208,7 +202,8 @@ def sample(
         on_event: called with how far the run is.
     """
     from bayesmap.api import Event, infer
-    from bayesmap.io.ros.maps import read_map
+    from bayesmap.arguments import Checkpoints, Schedule, Where
+    from bayesmap.io.ros.map_server import read_map
     from bayesmap.space.grid import Grid
 
     folder, values = task.folder, task.values
@@ -241,12 +236,13 @@ def sample(
             grid,
             prior=cells.prior_of(values),
             sensor=cells.sensor_for(values, task.sensor, grid.resolution),  # type: ignore[arg-type]
-            resume=saved,
+            method=cells.method_of(values),
+            schedule=Schedule(values["chains"], values["warmup"], values["draws"], values["thin"]),
+            seed=values["seed"],
+            hit_depth=values["hit_depth"],
+            where=Where(values["threads"], values["device"], executor),
+            checkpoints=Checkpoints(saved, on_checkpoint, values["checkpoint_every"]),
             on_progress=on_progress,
-            on_checkpoint=on_checkpoint,
-            checkpoint_every_s=values["checkpoint_every"],
-            executor=executor,
-            **{name: values[name] for name in PASSED_ON},
         )
     if run.finished or run.posterior.sweep > 0 or not folder.run.exists():
         folder.begin(toml)  # else there is nothing that could take an older run's place

@@ -139,6 +139,7 @@ def verdict(name: str, fit: Fitted, own: Score, placed: Placed) -> str:
 def infer_map(call: Call, placed: Placed, values: dict[str, Any]) -> Run:
     """The posterior over surfaces given a trajectory, from the training scans."""
     from bayesmap.api import infer
+    from bayesmap.arguments import Schedule, Where
     from bayesmap.cells.surface import Surface
     from bayesmap.space.grid import Grid
 
@@ -146,8 +147,8 @@ def infer_map(call: Call, placed: Placed, values: dict[str, Any]) -> Run:
     call.console.say(f"inferring a map of {grid.shape[0]} x {grid.shape[1]} cells from {len(placed.train):,} scans")
     with progress(call.console, "tracing beams") as on_progress:
         return infer(
-            placed.train, grid, prior=Surface(), sensor="fit", warmup=50, hit_depth=0.5, seed=values["seed"],
-            device=values["device"], on_progress=on_progress,
+            placed.train, grid, prior=Surface(), sensor="fit", schedule=Schedule(warmup=50), seed=values["seed"],
+            hit_depth=0.5, where=Where(device=values["device"]), on_progress=on_progress,
         )  # fmt: skip
 
 

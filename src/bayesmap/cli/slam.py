@@ -23,8 +23,6 @@ if TYPE_CHECKING:
     from bayesmap.poses.trajectory import Trajectory
     from bayesmap.result import Run
 
-PASSED_ON = ("chains", "warmup", "thin", "seed", "threads", "device", "hit_depth", "fast", "no_odometry")
-
 SHOWN = 3
 """Stretches of odometry in doubt that are named."""
 
@@ -110,6 +108,7 @@ def _check(console: Console, reading: LogReading, values: dict[str, Any]) -> Non
 
 
 def _slam(task: Task, reading: LogReading, saved: Run | None) -> Run:
+    from bayesmap.arguments import Checkpoints, Schedule, Where
     from bayesmap.from_odometry import slam
 
     folder, values = task.folder, task.values
@@ -133,13 +132,14 @@ def _slam(task: Task, reading: LogReading, saved: Run | None) -> Run:
             resolution=values["resolution"],
             prior=cells.prior_of(values),
             sensor=cells.sensor_for(values, task.sensor, values["resolution"]),  # type: ignore[arg-type]
-            draws=values["draws"],
-            checkpoint=_stages(folder),
-            resume=saved,
+            fast=values["fast"],
+            no_odometry=values["no_odometry"],
+            schedule=Schedule(values["chains"], values["warmup"], values["draws"], values["thin"]),
+            seed=values["seed"],
+            hit_depth=values["hit_depth"],
+            where=Where(values["threads"], values["device"]),
+            checkpoints=Checkpoints(saved, on_checkpoint, values["checkpoint_every"], _stages(folder)),
             on_progress=on_progress,
-            on_checkpoint=on_checkpoint,
-            checkpoint_every_s=values["checkpoint_every"],
-            **{name: values[name] for name in PASSED_ON},
         )
         if run.finished or run.posterior.sweep > 0:
             folder.begin(toml)  # one that had finished makes no sweep, of which it would be told

@@ -14,7 +14,7 @@ from bayesmap.samplers.sampler import Info, Keep, Snapshot
 
 
 @dataclass(frozen=True)
-class Schedule:
+class SweepPlan:
     """How long to run: ``warmup`` sweeps that are not kept, then ``draws`` maps, ``thin`` sweeps apart."""
 
     warmup: int
@@ -109,7 +109,7 @@ def join(parts: Sequence[Chains]) -> Chains:
 class Record:
     """Draws and traces of some chains, growing as they go."""
 
-    def __init__(self, empty: Draws, schedule: Schedule, keep: Keep, resume: Chains | None = None) -> None:
+    def __init__(self, empty: Draws, schedule: SweepPlan, keep: Keep, resume: Chains | None = None) -> None:
         """Room for the schedule's draws.
 
         Args:
