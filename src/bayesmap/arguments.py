@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from bayesmap.errors import BadInput, check_count
-from bayesmap.run.executor import Executor
+from bayesmap.run.runner import Executor
 
 if TYPE_CHECKING:
     from bayesmap.result import Run

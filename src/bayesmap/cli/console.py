@@ -1,4 +1,4 @@
-"""What a command prints: results on standard output, everything else on standard error."""
+"""What a command leaves: results on standard output, everything else on standard error, and its exit code."""
 
 from __future__ import annotations
 
@@ -12,6 +12,14 @@ from pathlib import Path
 from typing import Any, TextIO
 
 import click
+
+from bayesmap.cli.startup_interrupt import INTERRUPTED as INTERRUPTED
+
+FAILURE, BAD_INPUT, PROBLEMS = 1, 3, 4
+"""Exit codes, beside click's own 2 for usage, and `INTERRUPTED`."""
+
+VERBOSE = "bayesmap.verbose"
+"""Key of the click context under which a command says that it is verbose, for whoever prints its failure."""
 
 SCHEMA_VERSION = 1
 """Raised when a key of the JSON documents changes its meaning or disappears; new keys do not raise it."""

@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from bayesmap.cli.command import INTERRUPTED, PROBLEMS, Call, takes
-from bayesmap.cli.console import Console, as_json
+from bayesmap.cli.command import Call, takes
+from bayesmap.cli.console import INTERRUPTED, PROBLEMS, Console, as_json
 from bayesmap.cli.document import run_document
+from bayesmap.cli.keys import DemoSettings
 from bayesmap.cli.progress import progress
 from bayesmap.errors import BadInput
 
@@ -27,7 +28,7 @@ COLLAPSED = 10.0
 @takes("demo")
 @click.option("-o", "--output", metavar="DIR", default="runs/demo", help="Folder of results. [default: runs/demo]")
 @click.option("--force", is_flag=True, help="Write into DIR even if it holds a run that is no demo.")
-def command(call: Call, output: str, force: bool) -> None:
+def demo(call: Call[DemoSettings], output: str, force: bool) -> None:
     """Map the tutorial's building from one scan of 100 noisy beams.
 
     Three methods look at the same scan: single-site Gibbs with prior wall probability 0.5, 2 x 2 block Gibbs with
@@ -44,7 +45,7 @@ def command(call: Call, output: str, force: bool) -> None:
     except (FileExistsError, NotADirectoryError):
         raise BadInput(f"{folder}: not a folder; choose another with -o") from None
 
-    runs = _runs(call.console, call.values())
+    runs = _runs(call.console, call.settings())
     with progress(call.console, "drawing pictures and a film"):
         outputs = [*_pictures(runs, folder), folder / "demo.json"]
     main = runs["gibbs"]
@@ -59,11 +60,11 @@ def command(call: Call, output: str, force: bool) -> None:
     call.console.result(document, outputs)
     if not all(run.finished for run in runs.values()):
         click.get_current_context().exit(INTERRUPTED)
-    if call.values()["strict"] and document["problems"]:
+    if call.settings().strict and document["problems"]:
         click.get_current_context().exit(PROBLEMS)
 
 
-def _runs(console: Console, values: dict[str, Any]) -> dict[str, Run]:
+def _runs(console: Console, settings: DemoSettings) -> dict[str, Run]:
     """The same scan seen by each method; and a chain from its first sweep on, to be watched."""
     import numpy as np
 
@@ -77,16 +78,16 @@ def _runs(console: Console, values: dict[str, Any]) -> dict[str, Run]:
     from bayesmap.sim.tutorial import TUTORIAL_GRID, tutorial
 
     walls, pose = tutorial()
-    sensor, seed = Gaussian(SIGMA_M), values["seed"]
+    sensor, seed = Gaussian(SIGMA_M), settings.seed
     angles = np.arange(BEAMS) * 2 * np.pi / BEAMS
     console.detail(f"simulating {BEAMS} beams with noise of {SIGMA_M} m")
     scans = simulate(walls, TUTORIAL_GRID, pose, angles, sensor=sensor, max_range_m=MAX_RANGE_M, seed=seed)
-    half, rare, where = Independent(0.5), Independent(0.05), Where(threads=values["threads"])
-    long = Schedule(values["chains"], values["warmup"], values["draws"])
+    half, rare, where = Independent(0.5), Independent(0.05), Where(threads=settings.threads)
+    long = Schedule(settings.chains, settings.warmup, settings.draws)
     asked: dict[str, tuple[CellPrior, Method, Schedule]] = {
         "gibbs": (half, Gibbs(), long),
         "block": (rare, Block(), long),
-        "importance": (half, Importance(values["particles"]), Schedule(chains=1, draws=1000)),
+        "importance": (half, Importance(settings.particles), Schedule(chains=1, draws=1000)),
         "film": (half, Gibbs(), Schedule(chains=1, warmup=0, draws=FILM_SWEEPS)),
     }
     runs: dict[str, Run] = {}

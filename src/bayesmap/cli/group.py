@@ -14,8 +14,7 @@ from typing import Any
 import click
 
 from bayesmap.cli import startup_interrupt
-from bayesmap.cli.command import BAD_INPUT, FAILURE, INTERRUPTED, VERBOSE
-from bayesmap.cli.console import complain
+from bayesmap.cli.console import BAD_INPUT, FAILURE, INTERRUPTED, VERBOSE, complain
 from bayesmap.errors import BadInput
 from bayesmap.version import __version__
 
@@ -34,7 +33,10 @@ COMMANDS = {
     "app": "Draw walls, drag the robot, watch the posterior live.",
     "config": "Print the effective settings as TOML.",
 }
-"""In the order of use; each lives in the module of its name, loaded when it is called."""
+"""The commands in the order of use. Each is a function of its name, in the module of its name or in that of `HOMES`."""
+
+HOMES = {"plan": "decisions", "explore": "decisions", "export": "render", "config": "info"}
+"""The modules of commands that do not have one of their own."""
 
 EPILOG = """Results go to standard output, progress and messages to standard error. Exit codes: 0 fine, 1 failure,
 2 usage, 3 bad input, 4 with --strict: the diagnostics found a problem, 130 interrupted."""
@@ -59,7 +61,7 @@ class Commands(click.Group):
             near = difflib.get_close_matches(cmd_name, COMMANDS, n=1)
             hint = f"; did you mean {near[0]!r}?" if near else f"; there are: {', '.join(COMMANDS)}"
             raise click.UsageError(f"no such command {cmd_name!r}{hint}", ctx)
-        command = importlib.import_module(f"bayesmap.cli.{cmd_name}").command
+        command = getattr(importlib.import_module(f"bayesmap.cli.{HOMES.get(cmd_name, cmd_name)}"), cmd_name)
         assert isinstance(command, click.Command)
         command.name = cmd_name
         return command

@@ -5,21 +5,20 @@ from __future__ import annotations
 import itertools
 import json
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
-from bayesmap.cli import following
-from bayesmap.cli.command import INTERRUPTED, Call, takes
-from bayesmap.cli.console import write_out
-from bayesmap.cli.input_files import need_file
+from bayesmap.cli.command import Call, takes
+from bayesmap.cli.console import INTERRUPTED, Console, write_out
+from bayesmap.cli.keys import LocalizeSettings
+from bayesmap.cli.logs import is_map, need_file
 from bayesmap.cli.progress import share
-from bayesmap.cli.reading import options_of
-from bayesmap.cli.score_others import is_map
-from bayesmap.cli.typed_numbers import numbers_of
+from bayesmap.cli.translation import reading_of
+from bayesmap.cli.typed import numbers_of
 from bayesmap.errors import BadInput
 from bayesmap.version import __version__
 
@@ -51,8 +50,8 @@ ENDINGS = (".tum", ".mcap", ".bag", ".db3", ".jsonl")
 @click.option("--scans", "span", metavar="FIRST:LAST", help="Only these scans of the log, from 0; LAST is left out.")
 @click.option("--area", metavar="X0,X1,Y0,Y1", help="Also the probability of being in this rectangle, in metres.")
 @click.option("--force", is_flag=True, help="Replace an existing file.")
-def command(
-    call: Call,
+def localize(
+    call: Call[LocalizeSettings],
     run_file: str,
     log: str,
     output: str | None,
@@ -83,7 +82,7 @@ def command(
     A map of another program (map_server YAML) says nothing of the sensor or of its own errors: a law is fitted to those
     scans of LOG that are surely located under a wary one, and told. With --follow the wary law is taken.
     """
-    values = call.values()
+    settings = call.settings()
     from bayesmap.io.logs import describe_log
     from bayesmap.localization.localize import Localization, localize
 
@@ -91,28 +90,28 @@ def command(
         raise click.UsageError("--for says how long --follow waits: give both")
     target = None if output is None else _target(output, force)
     near, corners = _near(prior), _area(area)
-    live = follow and following.can_follow(call.console, log)
+    live = follow and can_follow(call.console, log)
     if not live:
         need_file(log, "the log whose scans are to be located", runs=False)
-    place = _Map.of(run_file, values)
-    seed = values["seed"]
+    place = _Map.of(run_file, settings)
+    seed = settings.seed
 
     def tell(number: int, belief: PoseBelief) -> bool:
         return write_out(json.dumps({"scan": number, **_answer(belief, corners)}, allow_nan=False) + "\n")
 
     interrupted = False
     if live:
-        to_come = following.scans_to_come(
-            call.console, log, values, place.max_range_live_m, span, idle_s, without_poses=independent
+        to_come = scans_to_come(
+            call.console, log, settings, place.max_range_live_m, span, idle_s, without_poses=independent
         )
         call.console.detail(f"{log}: waiting for scans")
         found_live = place.located_live(call, to_come, prior=near, independent=independent, seed=seed)
-        beliefs, interrupted = following.located(found_live, tell)
+        beliefs, interrupted = located(found_live, tell)
         if not beliefs:
             raise BadInput(f"{log}: it ended without a scan")
         found = Localization(tuple(beliefs))
     else:
-        reading = describe_log(log, max_range_m=place.max_range_m, **options_of(values), without_poses=independent)
+        reading = describe_log(log, max_range_m=place.max_range_m, **reading_of(settings), without_poses=independent)
         for note in reading.notes:
             call.console.say(f"{log}: {note}")
         scans = reading.scans
@@ -153,23 +152,23 @@ def command(
 class _Map:
     """The map of a run, or that of another program: its occupancy, NaN where unknown, and its grid."""
 
-    values: dict[str, Any]
+    settings: LocalizeSettings
     run: Run | None = None
     external: tuple[NDArray[np.float64], Grid] | None = None
 
     @classmethod
-    def of(cls, file: str, values: dict[str, Any]) -> _Map:
+    def of(cls, file: str, settings: LocalizeSettings) -> _Map:
         """Read it, by the ending of its name."""
         if is_map(file):
             from bayesmap.io.ros.maps import read_map
 
             need_file(file, "a saved run (.nc), or a map of map_server (.yaml)", runs=True)
-            return cls(values, external=read_map(file))
+            return cls(settings, external=read_map(file))
         from bayesmap.result import load
 
         if Path(file).suffix.lower() in IMAGES and Path(file).exists():
             raise BadInput(f"{file}: the image of a map; give the YAML file that names it and says where it lies")
-        return cls(values, run=load(file))
+        return cls(settings, run=load(file))
 
     @property
     def max_range_m(self) -> float | None:
@@ -185,23 +184,23 @@ class _Map:
         grid = self.external[1]
         return grid.resolution * math.hypot(*grid.shape)
 
-    def known(self, call: Call, scans: Scans, *, fit: bool = True) -> KnownMap:
+    def known(self, call: Call[LocalizeSettings], scans: Scans, *, fit: bool = True) -> KnownMap:
         """The map, ready to locate scans in; of another program's the law is fitted to them first."""
         from bayesmap.localization.external_map import external_map, fit_law
         from bayesmap.localization.known_map import KnownMap
 
-        how = {name: self.values[name] for name in ("beam_weight", "device")}
+        how: dict[str, Any] = {"beam_weight": self.settings.beam_weight, "device": self.settings.device}
         if self.run is not None:
             return KnownMap.of_run(self.run, **how)
         assert self.external is not None
         law = None
         if fit:
             with share(call.console, "fitting what the map means") as report:
-                law = fit_law(*self.external, scans, self.values["seed"], report)
+                law = fit_law(*self.external, scans, self.settings.seed, report)
             call.console.say(law.words())
         return external_map(*self.external, scans, law, **how)
 
-    def located_live(self, call: Call, scans: Iterator[Scans], **how: Any) -> Iterator[PoseBelief]:
+    def located_live(self, call: Call[LocalizeSettings], scans: Iterator[Scans], **how: Any) -> Iterator[PoseBelief]:
         """The posteriors of scans that are still to come: another program's map is taken by the assumed law."""
         from bayesmap.localization.localize import follow_live
 
@@ -293,3 +292,113 @@ def _slice(text: str | None, count: int) -> slice:
     if not range(count)[chosen]:
         raise BadInput(f"--scans {text}: none of the log's {count:,} scans is among them")
     return chosen
+
+
+RECORDED = ("scan_topic", "pose_topic", "fixed_frame")
+"""Settings that only recordings have."""
+
+
+def can_follow(console: Console, log: str) -> bool:
+    """Whether a log can be followed; if not, the user is told that it ends where it ends now."""
+    from bayesmap.io.live import STANDARD_INPUT, can_be_followed
+
+    if log not in STANDARD_INPUT:
+        need_file(log, "the log whose scans are to be located", runs=False, pipes=True)
+    if can_be_followed(log):
+        return True
+    console.warn(
+        f"{log}: only CARMEN logs and CSV tables can be followed while they are written, as text; of this file the "
+        "scans that it holds now are located"
+    )
+    return False
+
+
+def scans_to_come(
+    console: Console,
+    log: str,
+    settings: LocalizeSettings,
+    max_range_m: float,
+    span: str | None,
+    idle_s: float | None,
+    *,
+    without_poses: bool = False,
+) -> Iterator[Scans]:
+    """The scans of a log that can be followed, one at a time, as its settings say.
+
+    Args:
+        console: told of lines that are left out.
+        log: a file, a pipe, or "-".
+        settings: of the command.
+        max_range_m: of the run.
+        span: FIRST:LAST of the scans to come, or None for all.
+        idle_s: the end, when nothing has come for so long; None: wait on.
+        without_poses: whether tables without poses will do.
+
+    Raises:
+        BadInput: a setting that only recordings have.
+    """
+    from bayesmap.io.live import live_scans
+
+    for name in RECORDED:
+        value = getattr(settings, name)
+        if value is not None:
+            raise BadInput(f"{log}: --{name.replace('_', '-')} {value}: a text has no topics and no frames")
+    first, last = _ends(span)
+    scans = live_scans(
+        log,
+        max_range_m=max_range_m,
+        no_return=settings.no_return,
+        skip_bad_lines=settings.skip_bad_lines,
+        idle_s=idle_s,
+        on_skipped=lambda line, reason: console.say(f"{log}: line {line} left out: {reason}"),
+        laser=reading_of(settings)["laser"],
+        without_poses=without_poses,
+    )
+    return itertools.islice(_thinned(scans, settings.thin_scans), first, last)
+
+
+def located(beliefs: Iterable[PoseBelief], tell: Callable[[int, PoseBelief], bool]) -> tuple[list[PoseBelief], bool]:
+    """Take posteriors as they come, until there are no more, nobody listens, or Ctrl-C.
+
+    Args:
+        beliefs: one a scan.
+        tell: given each with its number; whether somebody listens.
+
+    Returns:
+        All of them, and whether Ctrl-C was the end.
+    """
+    found: list[PoseBelief] = []
+    try:
+        for number, belief in enumerate(beliefs):
+            found.append(belief)
+            if not tell(number, belief):
+                break
+    except KeyboardInterrupt:
+        if not found:
+            raise
+        return found, True
+    return found, False
+
+
+def _ends(span: str | None) -> tuple[int, int | None]:
+    first, colon, last = (span or ":").partition(":")
+    try:
+        ends = int(first or 0), int(last) if last else None
+    except ValueError:
+        colon = ""
+    if not colon or ends[0] < 0 or (ends[1] is not None and ends[1] <= ends[0]):
+        raise click.BadParameter(f"{span!r} is not FIRST:LAST of scans to come", param_hint="'--scans'")
+    return ends
+
+
+def _thinned(scans: Iterable[Scans], spacing_m: float) -> Iterator[Scans]:
+    """The first scan, and then each by which the robot has travelled so far since the last one kept."""
+    travelled_m, at = math.inf, None
+    for scan in scans:
+        x, y = scan.poses[0, :2]
+        if at is not None:
+            travelled_m += math.hypot(x - at[0], y - at[1])
+        at = (x, y)
+        if travelled_m >= spacing_m * (1 - 1e-9):
+            travelled_m = 0.0
+            yield scan

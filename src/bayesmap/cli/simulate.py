@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import math
-from dataclasses import asdict, replace
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
-from bayesmap.cli import odometry, sensors
 from bayesmap.cli.command import Call, takes
-from bayesmap.cli.world import pose_of, world_of
+from bayesmap.cli.keys import SimulateSettings
+from bayesmap.cli.logs import MAPS, is_map
+from bayesmap.cli.typed import ODOMETRY_HELP, SENSOR_HELP, odometry_of, pose_of, sensor_of
 from bayesmap.errors import BadInput
 from bayesmap.version import __version__
 
@@ -19,7 +21,9 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
+    from bayesmap.sensors.model import SensorModel
     from bayesmap.sim.odometry import OdometryNoise
+    from bayesmap.space.grid import Grid
 
 MAX_BEAMS = 100_000
 TURN_RAD_PER_S = 1.0
@@ -30,7 +34,7 @@ TURN_RAD_PER_S = 1.0
 @click.option("-o", "--output", metavar="LOG", help="The log, .log or .log.gz. [default: WORLD.log]")
 @click.option("--pose", "poses", metavar="X,Y,DEGREES", multiple=True, help="One scan from here; may be repeated.")
 @click.option("--force", is_flag=True, help="Replace existing files.")
-def command(call: Call, output: str | None, poses: tuple[str, ...], force: bool) -> None:
+def simulate(call: Call[SimulateSettings], output: str | None, poses: tuple[str, ...], force: bool) -> None:
     r"""Draw the scans of a robot in a known world, as a CARMEN log that infer reads.
 
     Beside LOG.log the truth is written as a map for nav2, LOG-truth.yaml. In a building the robot goes round
@@ -51,24 +55,24 @@ def command(call: Call, output: str | None, poses: tuple[str, ...], force: bool)
 
     {sensors}
     """
-    values = call.values()
-    log = Path(output or f"{Path(values['world']).stem}.log")
+    settings = call.settings()
+    log = Path(output or f"{Path(settings.world).stem}.log")
     if not {".log", ".gz"} & {log.suffix}:
         raise click.UsageError(f"-o {log}: the name of a log ends in .log or .log.gz")
     truth = log.with_name(f"{_stem(log)}-truth.yaml")
     trajectory, relations = truth.with_suffix(".tum"), log.with_name(f"{_stem(log)}.relations")
-    noise = odometry.odometry_of(values["odometry"])
+    noise = odometry_of(settings.odometry)
     written = [log, truth, truth.with_suffix(".pgm"), *([] if noise is None else [trajectory, relations])]
     existing = [path for path in written if path.exists()]
     if existing and not force:
         raise BadInput(f"{existing[0]}: exists already; --force replaces it, -o takes another name")
-    mount = pose_of(values["laser"], "--laser")
-    sensor = sensors.sensor_of(values["sensor"])
-    world = world_of(values, poses)
+    mount = pose_of(settings.laser, "--laser")
+    sensor = sensor_of(settings.sensor)
+    world = world_of(settings, poses)
     tutorial = world.is_tutorial
-    beams = (100 if tutorial else 180) if values["angles"] is None else values["angles"]
-    angles = fan(beams, (360.0 if tutorial else 180.0) if values["fov"] is None else values["fov"])
-    max_range_m = (42.0 if tutorial else 30.0) if values["max_range"] is None else values["max_range"]
+    beams = (100 if tutorial else 180) if settings.angles is None else settings.angles
+    angles = fan(beams, (360.0 if tutorial else 180.0) if settings.fov is None else settings.fov)
+    max_range_m = (42.0 if tutorial else 30.0) if settings.max_range is None else settings.max_range
 
     import numpy as np
 
@@ -86,27 +90,27 @@ def command(call: Call, output: str | None, poses: tuple[str, ...], force: bool)
         angles,
         sensor=sensor if sensor is not None else world.sensor(),
         max_range_m=max_range_m,
-        seed=values["seed"],
+        seed=settings.seed,
         opacity=world.opacity,
         typed=True,
     )
     if noise is not None:
         from bayesmap.sim.odometry import simulate_odometry, travel_times_s
 
-        stamps = travel_times_s(base, values["speed"], TURN_RAD_PER_S)
-        base = simulate_odometry(base, noise, stamps_s=stamps, seed=values["seed"])
+        stamps = travel_times_s(base, settings.speed, TURN_RAD_PER_S)
+        base = simulate_odometry(base, noise, stamps_s=stamps, seed=settings.seed)
         scans = replace(scans, poses=compose(base, np.array(mount)), stamps_s=stamps)
     log.parent.mkdir(parents=True, exist_ok=True)
     message = write_carmen(log, scans, base)
     outputs = [log, *write_map(truth, world.walls.astype(float), world.grid)]
     if noise is not None:
-        outputs += _write_truth(trajectory, relations, laser, world.poses, stamps, values["seed"])
+        outputs += _write_truth(trajectory, relations, laser, world.poses, stamps, settings.seed)
 
     from bayesmap.sensors.describe import describe
 
     document = {
         "version": __version__,
-        "world": values["world"],
+        "world": settings.world,
         "grid": {
             "shape": list(world.grid.shape),
             "resolution": world.grid.resolution,
@@ -120,12 +124,12 @@ def command(call: Call, output: str | None, poses: tuple[str, ...], force: bool)
         "sensor": describe(sensor if sensor is not None else world.sensor()),
         "odometry": _described(noise),
         "laser": list(mount),
-        "seed": values["seed"],
+        "seed": settings.seed,
         "outputs": {path.name: str(path) for path in outputs},
     }
     poses_are = "true poses" if noise is None else "raw odometry"
     call.console.say(
-        f"{log}: {len(scans):,} scans of {len(angles)} beams ({message}, {poses_are}) in {values['world']}, "
+        f"{log}: {len(scans):,} scans of {len(angles)} beams ({message}, {poses_are}) in {settings.world}, "
         f"{world.grid.shape[0]} x {world.grid.shape[1]} cells of {world.grid.resolution:g} m"
     )
     call.console.result(document, outputs)
@@ -181,4 +185,129 @@ def _stem(log: Path) -> str:
     return log.name.removesuffix(".gz").removesuffix(".log")
 
 
-command.help = (command.help or "").format(sensors=sensors.HELP, odometry=odometry.HELP)
+RARE = 1e-5
+"""How often a simulated laser reads nonsense: seldom, since one such reading far outside makes a map larger."""
+
+IMAGES = (".png", ".pgm", ".ppm", ".pbm", ".jpg", ".jpeg", ".bmp", ".gif", ".tif", ".tiff", ".webp")
+
+
+@dataclass(frozen=True, eq=False)
+class World:
+    """A world with a robot in it.
+
+    Attributes:
+        walls: shape (nx, ny).
+        grid: where the cells are.
+        poses: the robot's, (S, 3).
+        opacity: chance that a wall stops a beam, or None if all do.
+        is_tutorial: whether the tutorial's sensor is the default.
+    """
+
+    walls: NDArray[np.bool_]
+    grid: Grid
+    poses: NDArray[np.float64]
+    opacity: NDArray[np.float64] | None = None
+    is_tutorial: bool = False
+
+    def sensor(self) -> SensorModel:
+        """The sensor where none is named: the tutorial's noise with typed no-returns, or a good laser's."""
+        from bayesmap.cells.kinds import LASER_SIGMA_M, LASER_SIGMA_PER_M
+        from bayesmap.sensors.mixture import BeamMixture
+        from bayesmap.sensors.noise import Gaussian
+
+        if self.is_tutorial:
+            return BeamMixture(Gaussian(0.2), p_random=RARE, p_no_return=0.0, p_short=0.0)
+        return BeamMixture(Gaussian(LASER_SIGMA_M, LASER_SIGMA_PER_M), p_random=RARE)
+
+
+def world_of(settings: SimulateSettings, poses: Sequence[str]) -> World:
+    """The world that the settings of `simulate` name.
+
+    Args:
+        settings: of the command.
+        poses: as typed; none for the world's own.
+
+    Raises:
+        BadInput: a file that cannot be read as a world, a size or a pose that is not one.
+        click.UsageError: a file, but no pose.
+    """
+    name, resolution = settings.world, settings.resolution
+    given = [pose_of(text) for text in poses]
+    if name == "tutorial":
+        return _tutorial(resolution, given)
+    if name == "building":
+        return _building(settings, given)
+    path = Path(name)
+    if not path.is_file():
+        raise BadInput(
+            f"world {name!r}: no such file; give tutorial, building, or a drawing, picture or map_server YAML"
+        )
+    if not given:
+        raise click.UsageError(f"where is the robot in {name}? give --pose X,Y,DEGREES, once for each scan")
+    walls, grid = _from_file(path, resolution)
+    return World(walls, grid, _stack(given))
+
+
+def _tutorial(resolution: float | None, given: list[tuple[float, float, float]]) -> World:
+    from bayesmap.sim.tutorial import TUTORIAL_GRID, tutorial
+    from bayesmap.space.grid import Grid
+
+    walls, pose = tutorial()
+    poses = _stack(given) if given else pose[None]
+    grid = TUTORIAL_GRID
+    if resolution is not None and resolution != grid.resolution:
+        grid = Grid(grid.shape, resolution, (-resolution / 2, -resolution / 2))
+        poses = poses if given else poses * (resolution, resolution, 1.0)
+    return World(walls, grid, poses, is_tutorial=True)
+
+
+def _building(settings: SimulateSettings, given: list[tuple[float, float, float]]) -> World:
+    from bayesmap.sim.building import building
+    from bayesmap.sim.patrol import patrol
+
+    made = building(settings.seed, _size(settings.size), settings.resolution or 0.1)
+    poses = _stack(given) if given else patrol(made, settings.scans, settings.seed)
+    return World(made.walls, made.grid, poses, made.opacity)
+
+
+def _from_file(path: Path, resolution: float | None) -> tuple[NDArray[np.bool_], Grid]:
+    from bayesmap.io.image import from_image
+    from bayesmap.sim.drawing import from_text
+    from bayesmap.space.grid import Grid
+
+    if is_map(str(path)):
+        from bayesmap.io.ros.maps import read_map
+
+        occupancy, grid = read_map(path)
+        return occupancy > 0.5, grid if resolution is None else Grid(grid.shape, resolution, grid.origin)
+    if path.suffix.lower() in IMAGES:
+        walls = from_image(path)
+        return walls, Grid(walls.shape, resolution or 0.1)
+    try:
+        text = path.read_text(encoding="utf-8")
+    except UnicodeDecodeError:
+        raise BadInput(
+            f"{path}: neither a text drawing nor a file called {', '.join(IMAGES)} or {', '.join(MAPS)}"
+        ) from None
+    try:
+        walls = from_text(text)
+    except BadInput as problem:
+        raise BadInput(f"{path}: {problem}") from None
+    return walls, Grid(walls.shape, resolution or 1.0)
+
+
+def _stack(poses: list[tuple[float, float, float]]) -> NDArray[np.float64]:
+    import numpy as np
+
+    return np.array(poses, dtype=np.float64)
+
+
+def _size(text: str) -> tuple[float, float]:
+    try:
+        width, depth = (float(part) for part in text.lower().split("x"))
+    except ValueError:
+        raise BadInput(f"size {text!r}: give width and depth in metres, such as 30x20") from None
+    return width, depth
+
+
+simulate.help = (simulate.help or "").format(sensors=SENSOR_HELP, odometry=ODOMETRY_HELP)
