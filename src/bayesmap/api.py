@@ -245,17 +245,17 @@ class Inference:
 
     @property
     def kernel(self) -> str:
-        """What the kind of cells means by the method's name."""
+        """The sampler that the kind of cells means by the method's name."""
         return self.model.cells.methods[self.name]
 
     @property
     def device(self) -> str:
-        """Where kernels run."""
+        """The device on which kernels run."""
         return self.where.device
 
     @property
     def threads(self) -> int | None:
-        """Of the CPU; all cores if None."""
+        """Threads of the CPU; all cores if None."""
         return self.where.threads
 
     def _check_memory(self, executor: Executor) -> None:
@@ -265,7 +265,7 @@ class Inference:
             check_memory(self.model.grid, self.model.scans, self.model.cells.has_surfaces, here)
 
     def _sampler(self) -> tuple[Sampler[Any, Any] | None, dict[str, Any]]:
-        """The sampler of the chains, None for methods without; and its options as the settings say them."""
+        """Return the sampler of the chains, None for methods without; and its options as the settings say them."""
         if self.kernel in WITHOUT_CHAINS:
             return None, {"order": Gibbs.order, "start": default_start(self.model.grid)}
         method = cast(Gibbs, self.method)
@@ -275,7 +275,7 @@ class Inference:
         return WithPoses(cast(MovableSampler, sampler), self.plan.warmup, method.start_poses), options
 
     def _stopped(self, run: Run | None, settings: dict[str, Any]) -> Posterior | None:
-        """The run to go on with; None if there is none, or if it was stopped before its first sweep.
+        """Return the run to go on with; None if there is none, or if it was stopped before its first sweep.
 
         Raises:
             BadInput: it was made with other arguments.

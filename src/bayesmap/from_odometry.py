@@ -32,14 +32,14 @@ from bayesmap.space.scans import Scans
 Floats = NDArray[np.float64]
 
 P_SLIP = 0.01
-"""Chance that odometry says nothing of a motion. On Intel's log eight motions of 891 are off by 200 to 350 standard
-deviations (a pose is stated twice while the robot turns by 30 degrees): a normal law alone would turn the scans there
-until they contradict the walls."""
+"""Probability that odometry says nothing of a motion. In the Intel log eight motions of 891 are off by 200 to 350
+standard deviations, since a pose is stated twice while the robot turns by 30 degrees. A normal law alone would turn the
+scans there until they contradict the walls."""
 
 
 @dataclass(frozen=True, eq=False)
 class KeyScans:
-    """The scans that the map is made from, and what is believed of their poses.
+    """The scans that the map is made from, and the prior of their poses.
 
     Attributes:
         scans: the key scans at their most probable poses, beam angles calibrated.
@@ -53,7 +53,7 @@ class KeyScans:
 
 
 def key_scans(log: Scans, found: Trajectory, chains: int, seed: int) -> KeyScans:
-    """What the chains sample, from an approximation of the trajectory.
+    """Return what the chains sample, from an approximation of the trajectory.
 
     Args:
         log: the scans with raw odometry, in the order of the log.
@@ -72,7 +72,7 @@ def key_scans(log: Scans, found: Trajectory, chains: int, seed: int) -> KeyScans
 
 
 def _prior_of(found: Trajectory) -> PosePrior:
-    """Odometry between the key scans; where it says nothing, a robot may have gone anywhere nearby."""
+    """Return the prior of odometry between the key scans; without odometry a robot may have gone anywhere nearby."""
     relative = np.zeros((len(found.keys) - 1, 3))
     sigmas = relative + FREE
     factors = found.odometry

@@ -65,7 +65,7 @@ def demo(call: Call[DemoSettings], output: str, force: bool) -> None:
 
 
 def _runs(console: Console, settings: DemoSettings) -> dict[str, Run]:
-    """The same scan seen by each method; and a chain from its first sweep on, to be watched."""
+    """Infer the same scan by each method, and sample a chain from its first sweep on for the film."""
     import numpy as np
 
     from bayesmap.api import infer
@@ -103,7 +103,7 @@ def _runs(console: Console, settings: DemoSettings) -> dict[str, Run]:
 
 
 def _pictures(runs: dict[str, Run], folder: Path) -> list[Path]:
-    """Everything that is looked at, the run itself, and its map."""
+    """Write the pictures and the film, the run itself, and its map."""
     import numpy as np
 
     from bayesmap.sim.tutorial import tutorial
@@ -135,7 +135,7 @@ def _pictures(runs: dict[str, Run], folder: Path) -> list[Path]:
 
 
 def _in_short(run: Run) -> dict[str, Any]:
-    """What distinguishes the methods; the whole document is that of the first."""
+    """Return what distinguishes the methods; the whole document is that of the first."""
     kept = ("method", "prior", "chains", "warmup", "draws", "sweeps", "seconds", "microseconds_per_sweep", "log_joint")
     document = run_document(run)
     return {name: document[name] for name in (*kept, "log_evidence", "diagnostics", "problems")}
@@ -158,6 +158,6 @@ def _report(console: Console, runs: dict[str, Run], folder: Path) -> None:
     weights, size = runs["importance"].log_weights, runs["importance"].summary().effective_sample_size
     console.say(
         f"importance sampling:            {len(weights):,} particles, effective sample size "
-        f"{size:.1f}" + (": it collapsed, which is why the others are needed" if size < COLLAPSED else "")
+        f"{size:.1f}" + (": importance sampling has collapsed" if size < COLLAPSED else "")
     )
     console.say(f"pictures, the saved run and demo.json are in {folder}")

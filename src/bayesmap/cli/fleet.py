@@ -64,13 +64,13 @@ class Entry:
 
     @property
     def ready(self) -> Task[InferSettings]:
-        """The task of a log whose settings were checked."""
+        """Return the task of a log whose settings were checked."""
         assert self.task is not None
         return self.task
 
     @property
     def problems(self) -> list[str]:
-        """What the diagnostics found."""
+        """Return what the diagnostics found."""
         return [] if self.document is None else list(self.document["problems"])
 
     def fail(self, error: Exception, console: Console) -> None:
@@ -83,7 +83,7 @@ class Entry:
         console.warn(f"{self.log}: {self.error}")
 
     def as_json(self) -> dict[str, Any]:
-        """The entry of the table."""
+        """Return what the JSON document says of the log."""
         return {"log": self.log, "folder": str(self.path), "error": self.error, "run": self.document}
 
 
@@ -165,7 +165,7 @@ def _infer_here(entry: Entry, console: Console) -> bool:
 
 
 def table(entries: list[Entry]) -> Iterator[str]:
-    """What came out: a line for each log."""
+    """Yield the lines of the table: a heading, and a line for each log."""
     rows = [("log", "beams", "minutes", "R-hat", "held out", "folder, or what went wrong")]
     for entry in entries:
         if entry.document is None:
@@ -323,7 +323,7 @@ class RayFleet:
         self.running[remote.remote(task, self.readings[entry.log], before, self.mailbox)] = entry
 
     def _take_some(self) -> None:
-        """Wait a moment for what workers send, and for workers that end."""
+        """Wait a moment for what workers send and for workers that end, and keep what was sent."""
         from bayesmap.run.ray_executor import failed, outcome
 
         ended, _ = self.ray.wait(list(self.running), timeout=WAIT_S) if self.running else ([], None)
@@ -382,7 +382,7 @@ class RayFleet:
             self._take_some()
 
     def _progress(self, done: int, total: int) -> tuple[str, float]:
-        """What the bar says, and the share of all logs that is done."""
+        """Return the words of the bar, and the share of all logs that is done."""
         words, share = [f"{done} of {total} logs"], float(done)
         for entry in self.running.values():
             if (event := entry.event) is not None:

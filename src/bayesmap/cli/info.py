@@ -83,7 +83,7 @@ def _log(file: str) -> dict[str, Any]:
 
 
 def _lines(document: dict[str, Any]) -> list[str]:
-    """The document as a page of text."""
+    """Return the document as lines of text."""
     lines = [f"{document['path']}: {document['format']}"]
     if document.get("duration_s") is not None:
         lines[0] += f", {document['duration_s']:,.1f} s"
@@ -129,7 +129,7 @@ def _run_lines(run: dict[str, Any]) -> list[str]:
 
 
 def _sensor_words(sensor: dict[str, Any]) -> str:
-    """A beam mixture's numbers, as one would say them."""
+    """Describe the numbers of a beam mixture in words."""
     from bayesmap.sensors.describe import from_description
 
     model = from_description(sensor)
@@ -196,5 +196,5 @@ def config(call: Call[Settings]) -> None:
 
 
 def _as_json(value: Value) -> Value:
-    """JSON has no infinity: it becomes a text, which `--set` reads."""
+    """Return a value as JSON takes it: infinity becomes a text, which `--set` reads."""
     return str(value) if isinstance(value, float) and not math.isfinite(value) else value

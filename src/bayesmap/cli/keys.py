@@ -341,7 +341,7 @@ class Key:
 
     @property
     def flag(self) -> str:
-        """Such as ``--max-range``."""
+        """The flag, such as ``--max-range``."""
         return "--" + self.name.replace("_", "-")
 
     @property

@@ -172,7 +172,7 @@ def _document(
 
 
 def _cells(name: str, found: Score) -> tuple[str, ...]:
-    """A row of the table."""
+    """Return a row of the table."""
     shares = [f"{100 * c.share.value:.1f}" for c in found.coverage]
     width = next(c.median_width_m for c in found.coverage if c.level == 0.8)
     nats = f"{found.nats_per_beam:.3f} +- {found.nats_per_beam_error:.3f}"
@@ -203,7 +203,7 @@ def _print_table(rows: list[tuple[str, Score]]) -> None:
 
 
 def lines_of(found: TrajectoryScore, frame: str, *, exact: bool, of_run: bool) -> list[str]:
-    """The score as lines of text.
+    """Return the score of poses as lines of text.
 
     Args:
         found: the score.

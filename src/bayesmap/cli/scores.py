@@ -143,7 +143,7 @@ def _how(settings: ScoreSettings) -> dict[str, Any]:
 
 
 def _name(run: Run) -> str:
-    """Such as "surface posterior"."""
+    """Return the name of a run's map, such as "surface posterior"."""
     return f"{run.posterior.kind} posterior"
 
 

@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import click
 
@@ -22,12 +22,16 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from bayesmap.sensors.model import SensorModel
-    from bayesmap.sim.odometry import OdometryNoise
     from bayesmap.space.grid import Grid
 
 MAX_BEAMS = 100_000
 TURN_RAD_PER_S = 1.0
-"""How fast a simulated robot turns."""
+"""Turning rate of a simulated robot."""
+
+RARE = 1e-5
+"""Probability that a simulated laser reads nonsense: small, since one such reading far outside makes a map larger."""
+
+IMAGES = (".png", ".pgm", ".ppm", ".pbm", ".jpg", ".jpeg", ".bmp", ".gif", ".tif", ".tiff", ".webp")
 
 
 @takes("simulate")
@@ -56,73 +60,69 @@ def simulate(call: Call[SimulateSettings], output: str | None, poses: tuple[str,
     {sensors}
     """
     settings = call.settings()
+    # Check what was typed.
+    noise, mount = odometry_of(settings.odometry), pose_of(settings.laser, "--laser")
     log = Path(output or f"{Path(settings.world).stem}.log")
     if not {".log", ".gz"} & {log.suffix}:
         raise click.UsageError(f"-o {log}: the name of a log ends in .log or .log.gz")
-    truth = log.with_name(f"{_stem(log)}-truth.yaml")
-    trajectory, relations = truth.with_suffix(".tum"), log.with_name(f"{_stem(log)}.relations")
-    noise = odometry_of(settings.odometry)
+    stem = log.name.removesuffix(".gz").removesuffix(".log")
+    truth, relations = log.with_name(f"{stem}-truth.yaml"), log.with_name(f"{stem}.relations")
+    trajectory = truth.with_suffix(".tum")
     written = [log, truth, truth.with_suffix(".pgm"), *([] if noise is None else [trajectory, relations])]
     existing = [path for path in written if path.exists()]
     if existing and not force:
         raise BadInput(f"{existing[0]}: exists already; --force replaces it, -o takes another name")
-    mount = pose_of(settings.laser, "--laser")
-    sensor = sensor_of(settings.sensor)
+    typed_sensor = sensor_of(settings.sensor)
+    # Make the world and the sensor.
     world = world_of(settings, poses)
-    tutorial = world.is_tutorial
-    beams = (100 if tutorial else 180) if settings.angles is None else settings.angles
-    angles = fan(beams, (360.0 if tutorial else 180.0) if settings.fov is None else settings.fov)
-    max_range_m = (42.0 if tutorial else 30.0) if settings.max_range is None else settings.max_range
+    sensor = world.sensor() if typed_sensor is None else typed_sensor
+    max_range_m = world.max_range_m if settings.max_range is None else settings.max_range
+    angles = fan(
+        world.beams if settings.angles is None else settings.angles,
+        world.fov_deg if settings.fov is None else settings.fov,
+    )
 
     import numpy as np
 
     from bayesmap.io.ros.maps import write_map
     from bayesmap.io.text.carmen import write_carmen
-    from bayesmap.sim.forward import simulate
+    from bayesmap.sensors.describe import describe
+    from bayesmap.sim import forward
     from bayesmap.space.planar import compose
 
+    # Draw the scans.
     base = world.poses
     laser = compose(base, np.array(mount)) if any(mount) else base
-    scans = simulate(
-        world.walls,
-        world.grid,
-        laser,
-        angles,
-        sensor=sensor if sensor is not None else world.sensor(),
-        max_range_m=max_range_m,
-        seed=settings.seed,
-        opacity=world.opacity,
-        typed=True,
-    )
+    scans = forward.simulate(
+        world.walls, world.grid, laser, angles, sensor=sensor, max_range_m=max_range_m, seed=settings.seed,
+        opacity=world.opacity, typed=True,
+    )  # fmt: skip
+    # Draw what odometry reports, and let the log say that.
     if noise is not None:
         from bayesmap.sim.odometry import simulate_odometry, travel_times_s
 
-        stamps = travel_times_s(base, settings.speed, TURN_RAD_PER_S)
-        base = simulate_odometry(base, noise, stamps_s=stamps, seed=settings.seed)
-        scans = replace(scans, poses=compose(base, np.array(mount)), stamps_s=stamps)
+        stamps_s = travel_times_s(base, settings.speed, TURN_RAD_PER_S)
+        base = simulate_odometry(base, noise, stamps_s=stamps_s, seed=settings.seed)
+        scans = replace(scans, poses=compose(base, np.array(mount)), stamps_s=stamps_s)
+    # Write the log, and the truth beside it.
     log.parent.mkdir(parents=True, exist_ok=True)
     message = write_carmen(log, scans, base)
     outputs = [log, *write_map(truth, world.walls.astype(float), world.grid)]
     if noise is not None:
-        outputs += _write_truth(trajectory, relations, laser, world.poses, stamps, settings.seed)
-
-    from bayesmap.sensors.describe import describe
-
+        outputs += _write_truth(trajectory, relations, laser, world.poses, stamps_s, settings.seed)
+    # Print the result.
+    grid = world.grid
     document = {
         "version": __version__,
         "world": settings.world,
-        "grid": {
-            "shape": list(world.grid.shape),
-            "resolution": world.grid.resolution,
-            "origin": list(world.grid.origin),
-        },
+        "grid": {"shape": list(grid.shape), "resolution": grid.resolution, "origin": list(grid.origin)},
         "scans": len(scans),
         "beams": scans.n_beams,
         "readings": scans.counts(),
         "message": message,
         "max_range_m": max_range_m,
-        "sensor": describe(sensor if sensor is not None else world.sensor()),
-        "odometry": _described(noise),
+        "sensor": describe(sensor),
+        "odometry": None if noise is None else asdict(noise),
         "laser": list(mount),
         "seed": settings.seed,
         "outputs": {path.name: str(path) for path in outputs},
@@ -130,7 +130,7 @@ def simulate(call: Call[SimulateSettings], output: str | None, poses: tuple[str,
     poses_are = "true poses" if noise is None else "raw odometry"
     call.console.say(
         f"{log}: {len(scans):,} scans of {len(angles)} beams ({message}, {poses_are}) in {settings.world}, "
-        f"{world.grid.shape[0]} x {world.grid.shape[1]} cells of {world.grid.resolution:g} m"
+        f"{grid.shape[0]} x {grid.shape[1]} cells of {grid.resolution:g} m"
     )
     call.console.result(document, outputs)
 
@@ -156,12 +156,8 @@ def _write_truth(
     return outputs
 
 
-def _described(noise: OdometryNoise | None) -> dict[str, Any] | None:
-    return None if noise is None else asdict(noise)
-
-
 def fan(beams: int, fov_deg: float) -> NDArray[np.float64]:
-    """Beam angles, from half the field of view on the right to the left.
+    """Return beam angles, from half the field of view on the right to the left.
 
     An odd number of beams has one at each end, as lasers of 181 or 361 beams do; an even number leaves out the last,
     as those of 180 or 360 do. A full circle starts straight ahead and never has its first beam twice.
@@ -181,26 +177,17 @@ def fan(beams: int, fov_deg: float) -> NDArray[np.float64]:
     return np.asarray(np.radians(step * np.arange(beams) - fov_deg / 2))
 
 
-def _stem(log: Path) -> str:
-    return log.name.removesuffix(".gz").removesuffix(".log")
-
-
-RARE = 1e-5
-"""How often a simulated laser reads nonsense: seldom, since one such reading far outside makes a map larger."""
-
-IMAGES = (".png", ".pgm", ".ppm", ".pbm", ".jpg", ".jpeg", ".bmp", ".gif", ".tif", ".tiff", ".webp")
-
-
 @dataclass(frozen=True, eq=False)
 class World:
-    """A world with a robot in it.
+    """A world with a robot in it, and the laser that the robot has unless the user says otherwise.
 
     Attributes:
         walls: shape (nx, ny).
         grid: where the cells are.
-        poses: the robot's, (S, 3).
-        opacity: chance that a wall stops a beam, or None if all do.
-        is_tutorial: whether the tutorial's sensor is the default.
+        poses: of the robot, (S, 3).
+        opacity: probability that a wall stops a beam, or None if all do.
+        is_tutorial: whether it is the tutorial's world, with the tutorial's sensor.
+        beams, fov_deg, max_range_m: of the laser.
     """
 
     walls: NDArray[np.bool_]
@@ -208,9 +195,12 @@ class World:
     poses: NDArray[np.float64]
     opacity: NDArray[np.float64] | None = None
     is_tutorial: bool = False
+    beams: int = 180
+    fov_deg: float = 180.0
+    max_range_m: float = 30.0
 
     def sensor(self) -> SensorModel:
-        """The sensor where none is named: the tutorial's noise with typed no-returns, or a good laser's."""
+        """Return the sensor where none is named: the tutorial noise with typed no-returns, or that of a good laser."""
         from bayesmap.cells.kinds import LASER_SIGMA_M, LASER_SIGMA_PER_M
         from bayesmap.sensors.mixture import BeamMixture
         from bayesmap.sensors.noise import Gaussian
@@ -221,7 +211,7 @@ class World:
 
 
 def world_of(settings: SimulateSettings, poses: Sequence[str]) -> World:
-    """The world that the settings of `simulate` name.
+    """Return the world that the settings of `simulate` name.
 
     Args:
         settings: of the command.
@@ -232,41 +222,41 @@ def world_of(settings: SimulateSettings, poses: Sequence[str]) -> World:
         click.UsageError: a file, but no pose.
     """
     name, resolution = settings.world, settings.resolution
-    given = [pose_of(text) for text in poses]
+    typed = [pose_of(text) for text in poses]
     if name == "tutorial":
-        return _tutorial(resolution, given)
+        return _tutorial(resolution, typed)
     if name == "building":
-        return _building(settings, given)
+        return _building(settings, typed)
     path = Path(name)
     if not path.is_file():
         raise BadInput(
             f"world {name!r}: no such file; give tutorial, building, or a drawing, picture or map_server YAML"
         )
-    if not given:
+    if not typed:
         raise click.UsageError(f"where is the robot in {name}? give --pose X,Y,DEGREES, once for each scan")
     walls, grid = _from_file(path, resolution)
-    return World(walls, grid, _stack(given))
+    return World(walls, grid, _stack(typed))
 
 
-def _tutorial(resolution: float | None, given: list[tuple[float, float, float]]) -> World:
+def _tutorial(resolution: float | None, typed: list[tuple[float, float, float]]) -> World:
     from bayesmap.sim.tutorial import TUTORIAL_GRID, tutorial
     from bayesmap.space.grid import Grid
 
     walls, pose = tutorial()
-    poses = _stack(given) if given else pose[None]
+    poses = _stack(typed) if typed else pose[None]
     grid = TUTORIAL_GRID
     if resolution is not None and resolution != grid.resolution:
         grid = Grid(grid.shape, resolution, (-resolution / 2, -resolution / 2))
-        poses = poses if given else poses * (resolution, resolution, 1.0)
-    return World(walls, grid, poses, is_tutorial=True)
+        poses = poses if typed else poses * (resolution, resolution, 1.0)
+    return World(walls, grid, poses, is_tutorial=True, beams=100, fov_deg=360.0, max_range_m=42.0)
 
 
-def _building(settings: SimulateSettings, given: list[tuple[float, float, float]]) -> World:
+def _building(settings: SimulateSettings, typed: list[tuple[float, float, float]]) -> World:
     from bayesmap.sim.building import building
     from bayesmap.sim.patrol import patrol
 
     made = building(settings.seed, _size(settings.size), settings.resolution or 0.1)
-    poses = _stack(given) if given else patrol(made, settings.scans, settings.seed)
+    poses = _stack(typed) if typed else patrol(made, settings.scans, settings.seed)
     return World(made.walls, made.grid, poses, made.opacity)
 
 

@@ -92,7 +92,7 @@ def slam(call: Call[SlamSettings], log: str, output: str | None, resume: bool, f
 
 
 def _stages(folder: Folder) -> Path:
-    """Where the finished stages of the approximation are."""
+    """Return the folder of the finished stages of the approximation."""
     return folder.path / "stages"
 
 
@@ -105,7 +105,7 @@ def _check(console: Console, reading: LogReading, settings: SlamSettings) -> Non
     for doubt in found[:SHOWN]:
         console.warn(doubt)
     if len(found) > SHOWN:
-        console.warn(f"odometry stands still so in {len(found) - SHOWN:,} more stretches")
+        console.warn(f"odometry stands still like that in {len(found) - SHOWN:,} more stretches")
 
 
 def _slam(task: Task[SlamSettings], reading: LogReading, saved: Run | None) -> Run:
@@ -148,7 +148,7 @@ def _slam(task: Task[SlamSettings], reading: LogReading, saved: Run | None) -> R
 
 
 def _write_trajectory(folder: Folder, reading: LogReading, run: Run) -> list[Path]:
-    """The trajectory of all scans, its covariances and its pictures."""
+    """Write the trajectory of all scans, its covariances and its pictures."""
     from bayesmap.io.text.tum import covariances_path, write_covariances, write_trajectory
     from bayesmap.space.planar import between, compose
     from bayesmap.viz.figure import write_figure
@@ -187,7 +187,7 @@ def _write_trajectory(folder: Folder, reading: LogReading, run: Run) -> list[Pat
 
 
 def summary(run: Run) -> dict[str, Any]:
-    """What was found of the trajectory, as JSON values."""
+    """Return what was found of the trajectory, as JSON values."""
     import numpy as np
 
     found = run.trajectory
@@ -248,11 +248,11 @@ def _report(call: Call[SlamSettings], trajectory: dict[str, Any]) -> None:
     if sampled is not None and sampled["by_approximation"]:
         call.console.warn(
             f"the chains over poses have not mixed (R-hat up to {sampled['rhat_max']:.2f}, effective sample size from "
-            f"{sampled['ess_min']:.0f}): in scores and exports, too, poses and covariances are the approximation's"
+            f"{sampled['ess_min']:.0f}): poses and covariances are those of the approximation, in scores and exports too"
         )
     if trajectory["flagged"]:
         call.console.warn(
-            f"{len(trajectory['flagged'])} scans are badly explained by all others, their poses are not to be trusted: "
+            f"{len(trajectory['flagged'])} scans do not agree with all others; do not trust their poses: "
             f"{_first_of(trajectory['flagged'])}"
         )
     if trajectory["breaks"]:
@@ -270,10 +270,12 @@ def _report(call: Call[SlamSettings], trajectory: dict[str, Any]) -> None:
         call.console.warn(
             f"from scan {other['first']} to {other['last']} the trajectory hangs on one visit of places that look "
             f"alike: with probability {other['probability']:.2f} scan {other['last']} lies {other['off_m']:.1f} m and "
-            f"{other['off_degrees']:.0f} degrees elsewhere, as in loops.png; covariances hold both"
+            f"{other['off_degrees']:.0f} degrees elsewhere, as in loops.png; covariances cover both"
         )
     if len(trajectory["alternatives"]) > ALTERNATIVES_SHOWN:
-        call.console.warn(f"so it does in {len(trajectory['alternatives']) - ALTERNATIVES_SHOWN} more stretches")
+        call.console.warn(
+            f"{len(trajectory['alternatives']) - ALTERNATIVES_SHOWN} more alternatives are in summary.json"
+        )
 
 
 def _first_of(scans: list[int]) -> str:
