@@ -248,7 +248,8 @@ def _report(call: Call[SlamSettings], trajectory: dict[str, Any]) -> None:
     if sampled is not None and sampled["by_approximation"]:
         call.console.warn(
             f"the chains over poses have not mixed (R-hat up to {sampled['rhat_max']:.2f}, effective sample size from "
-            f"{sampled['ess_min']:.0f}): poses and covariances are those of the approximation, in scores and exports too"
+            f"{sampled['ess_min']:.0f}): poses and covariances are those of the approximation, also in scores and "
+            "exports"
         )
     if trajectory["flagged"]:
         call.console.warn(
