@@ -100,7 +100,7 @@ def main(arguments: list[str]) -> None:
     plain = {name: getattr(ray_executor._RayRun, name) for name in ("_share", "_note", "remote")}
     for name, options in jobs(log):
         spy = Spy(ray)
-        bm.infer(**options, chains=CHAINS, executor=bm.RayExecutor())
+        bm.infer(**options, schedule=bm.Schedule(chains=CHAINS), where=bm.Where(executor=bm.RayExecutor()))
         for attribute, function in plain.items():
             setattr(ray_executor._RayRun, attribute, function)
         executors = {"threads": None, "ray": bm.RayExecutor()}
@@ -108,7 +108,7 @@ def main(arguments: list[str]) -> None:
         for _ in range(REPEATS):
             for where, executor in executors.items():
                 began = time.perf_counter()
-                bm.infer(**options, chains=CHAINS, executor=executor)
+                bm.infer(**options, schedule=bm.Schedule(chains=CHAINS), where=bm.Where(executor=executor))
                 seconds[where].append(time.perf_counter() - began)
         threads, on_ray = min(seconds["threads"]), min(seconds["ray"])
         print(f"{name}: threads {threads:.2f} s, Ray {on_ray:.2f} s, {(on_ray - threads) / CHAINS:+.2f} s a chain")

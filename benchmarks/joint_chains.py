@@ -91,9 +91,15 @@ def enumerated(scans: bm.Scans, sensor: bm.SensorModel) -> Posterior:
 def sampled(scans: bm.Scans, sensor: bm.SensorModel, seed: int) -> tuple[Posterior, float]:
     """By four chains, and the largest R-hat of a pose."""
     run = bm.infer(
-        scans, GRID, prior=bm.Independent(P_WALL), sensor=sensor, poses=PRIOR, chains=4, warmup=500, draws=2000, thin=2,
-        seed=seed, hit_depth=0.0,
-    )  # fmt: skip
+        scans,
+        GRID,
+        prior=bm.Independent(P_WALL),
+        sensor=sensor,
+        poses=PRIOR,
+        schedule=bm.Schedule(chains=4, warmup=500, draws=2000, thin=2),
+        seed=seed,
+        hit_depth=0.0,
+    )
     off = run.poses - scans.poses
     off[..., 2] = wrapped(off[..., 2])
     worst = max(float(rhat(off[:, :, s, i])) for s in range(SCANS) for i in range(3))
@@ -125,7 +131,7 @@ def loop() -> None:
     seen = bm.simulate(made.walls, made.grid, truth, angles, sensor=bm.BeamMixture(bm.Gaussian(0.01)), max_range_m=12.0,
                        seed=1, typed=True)  # fmt: skip
     log = seen.at(bm.simulate_odometry(truth, bm.OdometryNoise(), seed=1))
-    run = bm.slam(log, resolution=0.1, chains=4, warmup=30, draws=50, seed=1)
+    run = bm.slam(log, resolution=0.1, schedule=bm.Schedule(chains=4, warmup=30, draws=50), seed=1)
     found = run.trajectory
     assert found is not None
     poses, keys = run.poses, found.keys

@@ -55,8 +55,14 @@ def map_without(scans: Scans, places: list[int], sensor: Any, prior: Surface, pa
     """Infer a map without the windows of these places, and save it whole or not at all."""
     index = np.arange(len(scans))
     kept = np.all([np.abs(index - (place + 5)) > 35 for place in places], axis=0)
-    made = bm.infer(scans.select(kept), Grid.covering(scans, RESOLUTION_M), prior=prior, sensor=sensor, warmup=12,
-                    draws=4, chains=2, seed=1)  # fmt: skip
+    made = bm.infer(
+        scans.select(kept),
+        Grid.covering(scans, RESOLUTION_M),
+        prior=prior,
+        sensor=sensor,
+        schedule=bm.Schedule(warmup=12, draws=4, chains=2),
+        seed=1,
+    )
     made.save(path.with_suffix(".part.nc"))
     path.with_suffix(".part.nc").rename(path)
 
@@ -93,8 +99,14 @@ def main() -> None:
     results, fitted = folder / "places.jsonl", folder / "fitted.nc"
     if not fitted.exists():
         train = scans.select(np.abs(np.arange(len(scans)) - 105) > 35)
-        made = bm.infer(train, Grid.covering(scans, RESOLUTION_M), prior=bm.Surface(), sensor="fit", warmup=4, draws=2,
-                        chains=1, seed=1)  # fmt: skip
+        made = bm.infer(
+            train,
+            Grid.covering(scans, RESOLUTION_M),
+            prior=bm.Surface(),
+            sensor="fit",
+            schedule=bm.Schedule(warmup=4, draws=2, chains=1),
+            seed=1,
+        )
         made.save(fitted)
     first = bm.load(fitted).posterior
     lines = results.read_text().splitlines() if results.exists() else []

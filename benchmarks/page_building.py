@@ -89,7 +89,13 @@ SCRUB = by_hand(
 def ghost(browser: Any, seconds: float) -> None:
     """Drags the ghost along the robot's own way through a run of surfaces."""
     scans = bm.read_log(str(LOG), max_range_m=MAX_RANGE_M)
-    run = bm.infer(scans, bm.Grid.covering(scans, 0.1), prior=bm.Surface(), sensor="fit", chains=2, warmup=10, draws=16)
+    run = bm.infer(
+        scans,
+        bm.Grid.covering(scans, 0.1),
+        prior=bm.Surface(),
+        sensor="fit",
+        schedule=bm.Schedule(chains=2, warmup=10, draws=16),
+    )
     with tempfile.TemporaryDirectory() as folder:
         path = str(Path(folder) / "run.nc")
         run.save(path)

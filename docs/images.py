@@ -7,9 +7,9 @@ import os
 from pathlib import Path
 
 import numpy as np
+from bayesmap.cli.pictures import log_odds_map
 
 import bayesmap as bm
-from bayesmap.cli.pictures import log_odds_map
 from bayesmap.sim.tutorial import TUTORIAL_GRID
 from bayesmap.viz.cells import window
 from bayesmap.viz.figure import write_figure
@@ -28,7 +28,7 @@ def building() -> None:
     """A few rooms of a real building at 10 cm: what log-odds make of the scans, and the posterior with its surfaces."""
     scans, _ = bm.read_log(LOG).limited(20.0).holdout(10)
     grid = bm.Grid.covering(scans, 0.1)
-    run = bm.infer(scans, grid, prior=bm.Surface(), sensor="fit", warmup=50, draws=50)
+    run = bm.infer(scans, grid, prior=bm.Surface(), sensor="fit", schedule=bm.Schedule(warmup=50, draws=50))
     part, cut = window(grid, *ROOMS)
     log_odds, seen = log_odds_map(run)
     maps = [
@@ -43,7 +43,7 @@ def building() -> None:
 def trajectory() -> None:
     """A building from raw odometry: what the robot reports, and the posterior of trajectory and map."""
     log = bm.read_log(ODOMETRY).limited(20.0)
-    run = bm.slam(log, fast=True, draws=30)
+    run = bm.slam(log, fast=True, schedule=bm.Schedule(draws=30))
     found = run.trajectory
     raw = log.select(found.order)
     some = raw.select(np.arange(0, len(raw), 4))

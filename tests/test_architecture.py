@@ -27,6 +27,7 @@ LEVELS = (
     {"posterior"},
     {"io", "viz", "localization"},
     {"result", "worlds"},
+    {"arguments"},
     {"api"},
     {"from_odometry"},
     {"app"},

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from flat_options import infer
 
 import bayesmap as bm
 import bayesmap.kernels
@@ -77,7 +78,7 @@ SHORT = {"chains": 8, "warmup": 2, "draws": 4, "thin": 1, "seed": 5}
 def inferred(device, prior, options):
     scans, grid, sensor = room()
     short = {} if options.get("method") in ("propagate",) else SHORT
-    return bm.infer(scans, grid, prior=prior, sensor=sensor, device=device, **short, **options)
+    return infer(scans, grid, prior=prior, sensor=sensor, device=device, **short, **options)
 
 
 @pytest.mark.parametrize("name", METHODS)

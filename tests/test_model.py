@@ -63,7 +63,9 @@ def test_reflectivities_and_surfaces_have_the_likelihood_of_the_definition(prior
 )
 def test_a_run_s_draw_is_a_state(prior):
     """Draws keep some cells only, in half precision; the others are as the prior has them."""
-    run = bm.infer(scans(2), GRID, prior=prior, sensor=SENSOR, chains=1, warmup=10, draws=3, hit_depth=DEPTH)
+    run = bm.infer(
+        scans(2), GRID, prior=prior, sensor=SENSOR, schedule=bm.Schedule(chains=1, warmup=10, draws=3), hit_depth=DEPTH
+    )
     model, draws = Model(scans(2), GRID, prior, SENSOR, hit_depth=DEPTH), run.posterior.draws
     for number in range(3):
         cells = draws.cells(0, number)

@@ -1,11 +1,13 @@
 """The names that users rely on (DESIGN section 5), and what they are told when their input cannot be used."""
 
+import inspect
 import os
 import subprocess
 import sys
 
 import numpy as np
 import pytest
+from flat_options import grouped
 
 import bayesmap as bm
 
@@ -22,7 +24,7 @@ def scans():
 
 @pytest.fixture(scope="module")
 def run(scans):
-    return bm.infer(scans, GRID, prior=PRIOR, sensor=SENSOR, chains=2, warmup=20, draws=30)
+    return bm.infer(scans, GRID, prior=PRIOR, sensor=SENSOR, schedule=bm.Schedule(chains=2, warmup=20, draws=30))
 
 
 def test_every_public_name_is_there_and_listed():
@@ -33,6 +35,70 @@ def test_every_public_name_is_there_and_listed():
         "StudentT", "infer", "load", "ranges", "read_log", "simulate", "worlds", "__version__",
     } <= set(bm.__all__)  # fmt: skip
     assert set(dir(bm)) >= set(bm.__all__)
+
+
+MOST_ARGUMENTS = 12
+NOT_FOR_USERS = {"KnownMap", "BadInput"}
+"""Classes that users do not make by their own constructors, which are not counted."""
+
+
+def public_functions():
+    """The public functions, constructors and methods, by name."""
+    for name in bm.__all__:
+        thing = getattr(bm, name)
+        if inspect.isclass(thing):
+            methods = inspect.getmembers(thing, lambda member: inspect.isfunction(member) or inspect.ismethod(member))
+            yield from ((f"{name}.{inner}", method) for inner, method in methods if not inner.startswith("_"))
+        if callable(thing) and name not in NOT_FOR_USERS:
+            yield name, thing
+
+
+def arguments_of(function):
+    """The names of a function's arguments."""
+    return [name for name in inspect.signature(function).parameters if name not in ("self", "cls")]
+
+
+def test_public_functions_take_at_most_a_dozen_arguments():
+    counts = {name: len(arguments_of(function)) for name, function in public_functions()}
+    assert {"infer", "slam", "Scans", "Run.plan"} <= set(counts)
+    assert {name: count for name, count in counts.items() if count > MOST_ARGUMENTS} == {}
+
+
+def test_a_long_list_of_arguments_would_be_noticed():
+    def long(a, b, c, d, e, f, *, g, h, i, j, k, l, **others):  # noqa: E741
+        """A dozen, and others."""
+
+    assert len(arguments_of(long)) == MOST_ARGUMENTS + 1
+
+
+def test_the_plain_call_needs_scans_and_a_grid_alone(scans):
+    """With the default prior, sensor and method it is the call that says them."""
+    short = bm.Schedule(chains=1, warmup=3, draws=2)
+    plain = bm.infer(scans, GRID, seed=1, schedule=short)
+    said = bm.infer(scans, GRID, prior=bm.Surface(), sensor="fit", method=bm.Gibbs(), seed=1, schedule=short)
+    np.testing.assert_array_equal(plain.draws, said.draws)
+
+
+@pytest.mark.parametrize(
+    ("make", "message"),
+    [
+        (lambda scans: bm.infer(scans, GRID, schedule=100), r"schedule must be one such as bm.Schedule\(\), got 100"),
+        (lambda scans: bm.infer(scans, GRID, where="cuda:0"), r"where must be one such as bm.Where\(\), got 'cuda:0'"),
+        (lambda scans: bm.infer(scans, GRID, checkpoints="run.nc"), r"checkpoints must be one such as bm.Checkpoints"),
+        (lambda scans: bm.slam(scans, where=8), r"slam: where must be one such as bm.Where\(\), got 8"),
+        (lambda scans: bm.infer(scans, GRID, method=bm.Block()), r"Surface has one method, 'gibbs', got Block\("),
+        (lambda scans: bm.infer(scans, GRID, method=bm.Gibbs), "Surface has one method, 'gibbs', got <class"),
+        (lambda scans: bm.Where(executor="ray"), r"executor must be one such as bm.RayExecutor\(\), .*got 'ray'"),
+        (lambda scans: bm.Where(executor=bm.RayExecutor), "executor must be one such as"),
+        (lambda scans: bm.Where(device=0), "device must be a name such as 'cpu' or 'cuda:0', got 0"),
+        (lambda scans: bm.Checkpoints(resume="run.nc"), r"resume must be a run, such as bm.load\('run.nc'\)"),
+        (lambda scans: bm.Checkpoints(save="run.nc"), "save must be a function that takes a run, got 'run.nc'"),
+        (lambda scans: bm.Checkpoints(every_s=-1), "every_s must be 0 or a positive number of seconds, got -1"),
+    ],
+)
+def test_values_that_group_arguments_are_checked(scans, make, message):
+    with pytest.raises(bm.BadInput, match=message):
+        make(scans)
 
 
 def test_what_is_not_public_is_not_there():
@@ -52,9 +118,14 @@ def test_the_readme_s_lines_run(tmp_path):
         poses=scans.poses, angles_rad=scans.angles_rad, ranges_m=scans.ranges_m, max_range_m=scans.max_range_m
     )
     run = bm.infer(
-        again, grid, prior=bm.Independent(0.5), sensor=bm.Gaussian(0.2), method="gibbs", order="radial", chains=4,
-        warmup=100, draws=1000, seed=0,
-    )  # fmt: skip
+        again,
+        grid,
+        prior=bm.Independent(0.5),
+        sensor=bm.Gaussian(0.2),
+        method=bm.Gibbs(order="radial"),
+        schedule=bm.Schedule(chains=4, warmup=100, draws=1000),
+        seed=0,
+    )
     assert run.occupancy.shape == (21, 21)
     assert run.draws.shape == (4, 1000, 21, 21)
     assert run.log_joint.shape == (4, 1000)
@@ -77,14 +148,17 @@ def test_plots_and_exports(run, tmp_path):
 
 
 def test_importance_has_weights_and_other_methods_say_that_they_have_none(scans, run):
-    weighted = bm.infer(scans, GRID, prior=PRIOR, sensor=SENSOR, method="importance", particles=500, draws=5)
+    weighted = bm.infer(
+        scans, GRID, prior=PRIOR, sensor=SENSOR, method=bm.Importance(particles=500), schedule=bm.Schedule(draws=5)
+    )
     assert np.exp(weighted.log_weights).sum() == pytest.approx(1.0)
     with pytest.raises(bm.BadInput, match="method 'gibbs' has no importance weights"):
         run.log_weights  # noqa: B018
 
 
 def infer(scans, **change):
-    return bm.infer(scans, **{"grid": GRID, "prior": PRIOR, "sensor": SENSOR, "draws": 2, "warmup": 0} | change)
+    flat = {"prior": PRIOR, "sensor": SENSOR, "draws": 2, "warmup": 0} | change
+    return bm.infer(scans, flat.pop("grid", GRID), **grouped(**flat))
 
 
 BAD = {

@@ -13,7 +13,7 @@ from bayesmap.cells.kinds import HIT_DEPTH, P_WALL, default_sensor
 from bayesmap.kernels.walls.propagate import Beliefs
 from bayesmap.kernels.walls.table import trace
 from bayesmap.samplers.wall_problem import WallProblem
-from bayesmap.samplers.walls import Gibbs
+from bayesmap.samplers.walls import WallGibbs
 from benchmarks.figure import Figure, best, timed
 from benchmarks.suites.tutorial import sweeps_of
 
@@ -70,7 +70,7 @@ def run(device: str, with_peers: bool) -> Iterator[Figure]:
 
     yield timed("building/propagation_round", one_round, unit="s", scale=1, repeats=9)
 
-    sweeps = sweeps_of(Gibbs("radial", "propagate"), problem, 10, settling=10)
+    sweeps = sweeps_of(WallGibbs("radial", "propagate"), problem, 10, settling=10)
     yield timed("building/gibbs_sweep", sweeps, unit="ms/sweep", scale=1e3)
     if device == "cpu":
         yield from whole_run()

@@ -18,7 +18,7 @@ from bayesmap.samplers.sampler import Sampler
 from bayesmap.samplers.stop_gibbs import StopGibbs
 from bayesmap.samplers.stop_problem import trace_stops
 from bayesmap.samplers.wall_problem import WallProblem
-from bayesmap.samplers.walls import BlockGibbs, Gibbs
+from bayesmap.samplers.walls import WallBlocks, WallGibbs
 from benchmarks.figure import Figure, rate
 from benchmarks.suites.building import LOG, MAX_RANGE_M, RESOLUTION_M
 from benchmarks.suites.tutorial import problem
@@ -50,9 +50,9 @@ def chain_sweeps(name: str, sampler: Sampler[Any, Any], of: Any, chains: int, se
 def run(device: str, with_peers: bool) -> Iterator[Figure]:
     """All figures of the suite; the building's need the recording."""
     for chains in ON_CPU if device == "cpu" else ON_GPU:
-        gibbs = Gibbs("radial", "zeros")
+        gibbs = WallGibbs("radial", "zeros")
         yield chain_sweeps(f"chains/tutorial_gibbs_{chains}", gibbs, problem(0.5, device), chains, 20)
-        block = BlockGibbs("raster", "zeros")
+        block = WallBlocks("raster", "zeros")
         yield chain_sweeps(f"chains/tutorial_block_{chains}", block, problem(0.05, device), chains, 20)
     if not LOG.exists():
         print(f"skipped: chains/building: {LOG} is not there (set BAYESMAP_DATA)", flush=True)
@@ -64,6 +64,6 @@ def run(device: str, with_peers: bool) -> Iterator[Figure]:
     sensor, surface = first_sensor(bm.Surface(), RESOLUTION_M), bm.Surface()
     stops = trace_stops(scans, grid, surface, sensor, device=device)
     for chains in BUILDING_ON_CPU if device == "cpu" else BUILDING_ON_GPU:
-        yield chain_sweeps(f"chains/building_gibbs_{chains}", Gibbs("radial", "propagate"), walls, chains, 3)
+        yield chain_sweeps(f"chains/building_gibbs_{chains}", WallGibbs("radial", "propagate"), walls, chains, 3)
         if chains <= BUILDING_ON_CPU[-1] or chains == BUILDING_ON_GPU[1]:
             yield chain_sweeps(f"chains/building_surfaces_{chains}", StopGibbs(0), stops, chains, 3)

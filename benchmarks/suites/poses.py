@@ -214,8 +214,14 @@ def localization(with_peers: bool = True, places: tuple[int, ...] = PLACES) -> I
     peers: list[tuple[Floats, Floats, float]] = []  # last pose, truth, seconds
     for place in places:
         train = scans.select(np.abs(np.arange(len(scans)) - (place + 5)) > 35)
-        made = bm.infer(train, Grid.covering(scans, RESOLUTION_M), prior=bm.Surface(), sensor="fit", warmup=40, draws=8,
-                        chains=2, seed=1)  # fmt: skip
+        made = bm.infer(
+            train,
+            Grid.covering(scans, RESOLUTION_M),
+            prior=bm.Surface(),
+            sensor="fit",
+            schedule=bm.Schedule(warmup=40, draws=8, chains=2),
+            seed=1,
+        )
         answers.append(located(KnownMap.of_run(made), scans, raw, place))
         if with_mrpt:
             some = np.arange(place, place + 10)

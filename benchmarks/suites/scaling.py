@@ -10,7 +10,7 @@ from bayesmap.samplers.fit import first_sensor
 from bayesmap.samplers.stop_gibbs import StopGibbs
 from bayesmap.samplers.stop_problem import trace_stops
 from bayesmap.samplers.wall_problem import WallProblem
-from bayesmap.samplers.walls import Gibbs
+from bayesmap.samplers.walls import WallGibbs
 from bayesmap.sim.tutorial import TUTORIAL_GRID
 from benchmarks.figure import Figure, derived, timed
 from benchmarks.suites.tutorial import SENSOR, sweep_time, sweeps_of
@@ -36,7 +36,7 @@ def walls_of_the_tutorial(device: str) -> Iterator[Figure]:
         scans = bm.simulate(walls, TUTORIAL_GRID, pose, angles, sensor=SENSOR, max_range_m=42.0, seed=0)
         table = trace(scans, TUTORIAL_GRID, SENSOR)
         problem = WallProblem(table, bm.Independent(0.5), scans.poses, device)
-        work = sweeps_of(Gibbs("radial", "zeros"), problem, 2_000_000 // beams)
+        work = sweeps_of(WallGibbs("radial", "zeros"), problem, 2_000_000 // beams)
         figure = sweep_time(f"scaling/{beams}_beams", work)
         figures.append(figure)
         yield figure

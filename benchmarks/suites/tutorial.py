@@ -12,7 +12,7 @@ from bayesmap.kernels.walls.table import trace
 from bayesmap.samplers.importance import sample_importance
 from bayesmap.samplers.sampler import Sampler
 from bayesmap.samplers.wall_problem import WallProblem
-from bayesmap.samplers.walls import BlockGibbs, Gibbs
+from bayesmap.samplers.walls import WallBlocks, WallGibbs
 from bayesmap.sim.tutorial import TUTORIAL_GRID
 from benchmarks.figure import Figure, rate, ratio, timed, timer
 from benchmarks.peer_runner import Unavailable, peer, tutorial_data
@@ -51,16 +51,16 @@ def sweep_time(name: str, work: Callable[[], int]) -> Figure:
 def run(device: str, with_peers: bool) -> Iterator[Figure]:
     """All figures of the suite."""
     likely, rare = problem(0.5, device), problem(0.05, device)
-    raster = sweeps_of(Gibbs("raster", "zeros"), likely, 20_000)
-    block = sweeps_of(BlockGibbs("raster", "zeros"), rare, 2_000)
+    raster = sweeps_of(WallGibbs("raster", "zeros"), likely, 20_000)
+    block = sweeps_of(WallBlocks("raster", "zeros"), rare, 2_000)
     yield sweep_time("tutorial/gibbs_raster", raster)
-    yield sweep_time("tutorial/gibbs_radial", sweeps_of(Gibbs("radial", "zeros"), likely, 20_000))
-    yield sweep_time("tutorial/gibbs_random", sweeps_of(Gibbs("random", "zeros"), likely, 10_000))
+    yield sweep_time("tutorial/gibbs_radial", sweeps_of(WallGibbs("radial", "zeros"), likely, 20_000))
+    yield sweep_time("tutorial/gibbs_random", sweeps_of(WallGibbs("random", "zeros"), likely, 10_000))
     yield sweep_time("tutorial/block_raster", block)
 
     cores = available_cores()
     one, many = (
-        sweeps_of(Gibbs("radial", "zeros"), likely, 10_000, chains=8, threads=threads) for threads in (1, cores)
+        sweeps_of(WallGibbs("radial", "zeros"), likely, 10_000, chains=8, threads=threads) for threads in (1, cores)
     )
     against = f"{cores} cores against one, in turn"
     yield ratio("tutorial/8_chains_speedup", timer(one), timer(many), repeats=7, against=lambda _: against)
@@ -71,7 +71,7 @@ def run(device: str, with_peers: bool) -> Iterator[Figure]:
     yield rate("tutorial/importance", particles, unit="maps/s", repeats=5)
     if with_peers:
         truth = {p.p_wall[0]: p.log_joint(tutorial_data()[0]) for p in (likely, rare)}
-        radial = sweeps_of(Gibbs("radial", "zeros"), likely, 20_000)
+        radial = sweeps_of(WallGibbs("radial", "zeros"), likely, 20_000)
         for name, case, cores_of_peer, ours in (
             ("genjax", "raster", 1, raster),
             ("genjax", "radial", 1, radial),

@@ -81,7 +81,7 @@ def run(device: str, with_peers: bool) -> Iterator[Figure]:
     for seed, scans in SCANS.items():
         truth = simulated(seed, scans)
         grid = Grid.covering(truth.train, RESOLUTION_M)
-        found = bm.infer(truth.train, grid, prior=bm.Surface(), sensor="fit", device=device)
+        found = bm.infer(truth.train, grid, prior=bm.Surface(), sensor="fit", where=bm.Where(device=device))
         posterior, name = found.posterior, f"walls/building_{seed}"
         yield from agreement(name, posterior)
         hits, passes = (counts.reshape(grid.shape).astype(float) for counts in count_hits(truth.train, grid))
@@ -149,7 +149,7 @@ def few_scans(device: str) -> Figure:
     """From few scans: held-out beams of the rest of the round, above the tuned hit ratio."""
     truth = simulated(3, FEW_SCANS)
     grid = Grid.covering(truth.train, RESOLUTION_M)
-    found = bm.infer(truth.train, grid, prior=bm.Surface(), sensor="fit", device=device)
+    found = bm.infer(truth.train, grid, prior=bm.Surface(), sensor="fit", where=bm.Where(device=device))
     ours = score_posterior(found.posterior, truth.heldout).nats_per_beam
     theirs = score_prediction(fit_baseline(BASELINES[0], truth.train, grid).predictor, truth.heldout).nats_per_beam
     return Figure(

@@ -91,7 +91,9 @@ def walls_given(poses):
     """The posterior of the walls at known poses."""
     known = bm.Scans(poses, angles_rad, scans.ranges_m, MAX_RANGE_M)
     prior = bm.Independent(P_WALL)
-    return bm.infer(known, grid, prior=prior, sensor=SENSOR_MODEL, method="block", warmup=200, draws=300)
+    return bm.infer(
+        known, grid, prior=prior, sensor=SENSOR_MODEL, method="block", schedule=bm.Schedule(warmup=200, draws=300)
+    )
 
 
 at_truth, at_guesses = walls_given(true_poses), walls_given(np.asarray(guesses))

@@ -49,7 +49,7 @@ sensor = bm.Gaussian(0.2)
 scans = bm.simulate(true_walls, grid, pose, angles_rad, sensor=sensor, max_range_m=MAX_RANGE_M, seed=0)
 problem = {"scans": scans, "grid": grid, "prior": bm.Independent(0.5), "sensor": sensor}
 
-run = bm.infer(**problem, method="gibbs", chains=4, warmup=200, draws=5_000)
+run = bm.infer(**problem, method="gibbs", schedule=bm.Schedule(chains=4, warmup=200, draws=5_000))
 model = bm.mapping_model(grid, pose, angles_rad, bm.Independent(0.5), sensor, max_range_m=MAX_RANGE_M)
 readings = C["readings"].set(scans.ranges_m[0])
 by_gen = [float(model.assess(readings | C["walls"].set(walls), ())[0]) for walls in run.draws[:, 0]]
@@ -171,7 +171,7 @@ show(figure, "rare.png", "Prior 0.05. Twelve chains by single cells and by block
 # their times too.
 
 # %%
-reference = bm.infer(**rare, method="block", chains=4, warmup=200, draws=3_000, seed=4)
+reference = bm.infer(**rare, method="block", schedule=bm.Schedule(chains=4, warmup=200, draws=3_000), seed=4)
 threshold = np.quantile(reference.log_joint, 1e-3)
 arrived = {}
 for method, n in (("gibbs", 8_000), ("block", 200)):
@@ -204,8 +204,8 @@ for sigma_m in (0.2, 0.5):
     worse = bm.Gaussian(sigma_m)
     seen = bm.simulate(true_walls, grid, pose, angles_rad, sensor=worse, max_range_m=MAX_RANGE_M, seed=0)
     known = {"scans": seen, "grid": grid, "prior": bm.Independent(RARE), "sensor": worse}
-    gibbs = bm.infer(**known, method="block", chains=4, draws=2_000)
-    belief = bm.infer(**known, method="propagate", rounds=50, chains=1, draws=500)
+    gibbs = bm.infer(**known, method="block", schedule=bm.Schedule(chains=4, draws=2_000))
+    belief = bm.infer(**known, method=bm.Propagate(rounds=50), schedule=bm.Schedule(chains=1, draws=500))
     off = np.abs(belief.occupancy - gibbs.occupancy)
     typical = np.median(gibbs.log_joint) - np.median(belief.log_joint)
     rounds = len(belief.posterior.statistics["belief_changes"])
@@ -251,7 +251,11 @@ noisy = bm.Gaussian(0.5)
 several = []
 for poses in (stops[:1], stops):
     seen = bm.simulate(true_walls, grid, poses, angles_rad, sensor=noisy, max_range_m=MAX_RANGE_M, seed=0)
-    several.append(bm.infer(seen, grid, prior=bm.Independent(RARE), sensor=noisy, method="block", draws=1_000))
+    several.append(
+        bm.infer(
+            seen, grid, prior=bm.Independent(RARE), sensor=noisy, method="block", schedule=bm.Schedule(draws=1_000)
+        )
+    )
     undecided = int(((several[-1].occupancy > 0.1) & (several[-1].occupancy < 0.9)).sum())
     print(f"{len(poses)} pose(s): {several[-1].entropy.sum():6.1f} bits, {undecided:2d} cells between 0.1 and 0.9")
 
@@ -285,9 +289,9 @@ log = bm.simulate(
 )  # fmt: skip
 used, held_out = log.holdout(10)
 office_problem = {"scans": used, "grid": office.grid, "prior": bm.Independent(0.2), "sensor": laser}
-mapped = bm.infer(**office_problem, chains=4, warmup=200, draws=200)
-guess = bm.infer(**office_problem, method="propagate", chains=1, draws=100)
-nothing = bm.infer(**office_problem, start="prior", chains=1, warmup=0, draws=1)
+mapped = bm.infer(**office_problem, schedule=bm.Schedule(chains=4, warmup=200, draws=200))
+guess = bm.infer(**office_problem, method="propagate", schedule=bm.Schedule(chains=1, draws=100))
+nothing = bm.infer(**office_problem, method=bm.Gibbs(start="prior"), schedule=bm.Schedule(chains=1, warmup=0, draws=1))
 print(f"{len(used)} scans, {used.n_beams} beams; {office.grid.shape[0]} x {office.grid.shape[1]} cells")
 for problem_found in mapped.summary().problems():
     print(f"  not settled: {problem_found}")

@@ -262,7 +262,9 @@ assert len(set(resampled.tolist())) == 1
 problem = {"scans": scans, "grid": grid, "prior": bm.Independent(P_WALL), "sensor": bm.Gaussian(SIGMA_M)}
 true_fit = float(log_joint(true_walls)) - bm.Independent(P_WALL).log_prob(true_walls, grid)
 for particles in (1_000, 10_000, 100_000, 1_000_000):
-    weighed = bm.infer(**problem, method="importance", particles=particles, draws=1, chains=1, seed=1)
+    weighed = bm.infer(
+        **problem, method=bm.Importance(particles=particles), schedule=bm.Schedule(draws=1, chains=1), seed=1
+    )
     size = weighed.summary().effective_sample_size
     behind = true_fit - float(weighed.posterior.log_likelihood[0, 0])
     print(f"{particles:9,d} maps: effective sample size {size:.3f}; best map {behind:7.0f} nats behind the true one")

@@ -105,7 +105,11 @@ show(
 # %%
 stages = []
 run = bm.slam(
-    log, resolution=0.1, chains=2, warmup=40, draws=20, seed=1, on_progress=lambda event: stages.append(event.stage)
+    log,
+    resolution=0.1,
+    schedule=bm.Schedule(chains=2, warmup=40, draws=20),
+    seed=1,
+    on_progress=lambda event: stages.append(event.stage),
 )
 found = run.trajectory
 print("stages:", ", ".join(dict.fromkeys(stages)))

@@ -17,6 +17,9 @@ if TYPE_CHECKING:
     from bayesmap import worlds as worlds
     from bayesmap.api import infer as infer
     from bayesmap.app.widget import MapWidget as MapWidget
+    from bayesmap.arguments import Checkpoints as Checkpoints
+    from bayesmap.arguments import Schedule as Schedule
+    from bayesmap.arguments import Where as Where
     from bayesmap.cells.binary import Independent as Independent
     from bayesmap.cells.ising import Ising as Ising
     from bayesmap.cells.ising import fit_coupling as fit_coupling
@@ -39,6 +42,11 @@ if TYPE_CHECKING:
     from bayesmap.result import load as load
     from bayesmap.result import score as score
     from bayesmap.run.ray_executor import RayExecutor as RayExecutor
+    from bayesmap.samplers.methods import Block as Block
+    from bayesmap.samplers.methods import Exact as Exact
+    from bayesmap.samplers.methods import Gibbs as Gibbs
+    from bayesmap.samplers.methods import Importance as Importance
+    from bayesmap.samplers.methods import Propagate as Propagate
     from bayesmap.sensors.mixture import BeamMixture as BeamMixture
     from bayesmap.sensors.model import SensorModel as SensorModel
     from bayesmap.sensors.noise import Gaussian as Gaussian
@@ -53,26 +61,37 @@ if TYPE_CHECKING:
 
 _HOME = {
     "BadInput": "bayesmap.errors",
-    "Beta": "bayesmap.cells.reflectivity",
     "BeamMixture": "bayesmap.sensors.mixture",
+    "Beta": "bayesmap.cells.reflectivity",
+    "Block": "bayesmap.samplers.methods",
+    "Checkpoints": "bayesmap.arguments",
+    "Exact": "bayesmap.samplers.methods",
     "FreeProbability": "bayesmap.posterior.passage",
     "Gaussian": "bayesmap.sensors.noise",
+    "Gibbs": "bayesmap.samplers.methods",
     "Grid": "bayesmap.space.grid",
+    "Importance": "bayesmap.samplers.methods",
     "Independent": "bayesmap.cells.binary",
     "Information": "bayesmap.posterior.information",
     "Ising": "bayesmap.cells.ising",
+    "Known": "bayesmap.poses.prior",
     "KnownMap": "bayesmap.localization.known_map",
     "MapWidget": "bayesmap.app.widget",
     "Near": "bayesmap.localization.localize",
+    "Odometry": "bayesmap.poses.prior",
     "OdometryNoise": "bayesmap.sim.odometry",
+    "Propagate": "bayesmap.samplers.methods",
     "RayExecutor": "bayesmap.run.ray_executor",
     "Reading": "bayesmap.space.scans",
     "Route": "bayesmap.posterior.route",
     "Run": "bayesmap.result",
     "Scans": "bayesmap.space.scans",
+    "Schedule": "bayesmap.arguments",
     "SensorModel": "bayesmap.sensors.model",
     "StudentT": "bayesmap.sensors.noise",
     "Surface": "bayesmap.cells.surface",
+    "Uncertain": "bayesmap.poses.prior",
+    "Where": "bayesmap.arguments",
     "fit_coupling": "bayesmap.cells.ising",
     "infer": "bayesmap.api",
     "load": "bayesmap.result",
@@ -82,11 +101,8 @@ _HOME = {
     "read_log": "bayesmap.io.logs",
     "score": "bayesmap.result",
     "simulate": "bayesmap.sim.forward",
-    "slam": "bayesmap.from_odometry",
-    "Known": "bayesmap.poses.prior",
-    "Uncertain": "bayesmap.poses.prior",
-    "Odometry": "bayesmap.poses.prior",
     "simulate_odometry": "bayesmap.sim.odometry",
+    "slam": "bayesmap.from_odometry",
     "worlds": "bayesmap.worlds",
 }
 

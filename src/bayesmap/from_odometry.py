@@ -11,17 +11,19 @@ from __future__ import annotations
 import os
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Any, Literal
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.api import Event, infer
+from bayesmap.arguments import Checkpoints, Schedule, Where, need_value
 from bayesmap.cells.kind import CellPrior
 from bayesmap.cells.surface import Surface
 from bayesmap.poses.prior import FREE, Motions, PosePrior
 from bayesmap.poses.trajectory import Trajectory, calibrated
 from bayesmap.result import Run
+from bayesmap.samplers.methods import Gibbs
 from bayesmap.sensors.model import SensorModel
 from bayesmap.space.grid import Grid
 from bayesmap.space.planar import between, compose
@@ -30,14 +32,14 @@ from bayesmap.space.scans import Scans
 Floats = NDArray[np.float64]
 
 P_SLIP = 0.01
-"""Chance that odometry says nothing of a motion. On Intel's log eight motions of 891 are off by 200 to 350 standard
-deviations (a pose is stated twice while the robot turns by 30 degrees): a normal law alone would turn the scans there
-until they contradict the walls."""
+"""Probability that odometry says nothing of a motion. In the Intel log eight motions of 891 are off by 200 to 350
+standard deviations, since a pose is stated twice while the robot turns by 30 degrees. A normal law alone would turn the
+scans there until they contradict the walls."""
 
 
 @dataclass(frozen=True, eq=False)
 class KeyScans:
-    """The scans that the map is made from, and what is believed of their poses.
+    """The scans that the map is made from, and the prior of their poses.
 
     Attributes:
         scans: the key scans at their most probable poses, beam angles calibrated.
@@ -51,7 +53,7 @@ class KeyScans:
 
 
 def key_scans(log: Scans, found: Trajectory, chains: int, seed: int) -> KeyScans:
-    """What the chains sample, from an approximation of the trajectory.
+    """Return what the chains sample, from an approximation of the trajectory.
 
     Args:
         log: the scans with raw odometry, in the order of the log.
@@ -70,7 +72,7 @@ def key_scans(log: Scans, found: Trajectory, chains: int, seed: int) -> KeyScans
 
 
 def _prior_of(found: Trajectory) -> PosePrior:
-    """Odometry between the key scans; where it says nothing, a robot may have gone anywhere nearby."""
+    """Return the prior of odometry between the key scans; without odometry a robot may have gone anywhere nearby."""
     relative = np.zeros((len(found.keys) - 1, 3))
     sigmas = relative + FREE
     factors = found.odometry
@@ -89,19 +91,12 @@ def slam(
     sensor: SensorModel | Literal["fit"] = "fit",
     fast: bool = False,
     no_odometry: bool = False,
-    chains: int = 4,
-    warmup: int = 100,
-    draws: int | None = None,
-    thin: int = 1,
+    schedule: Schedule = Schedule(),
     seed: int = 0,
-    threads: int | None = None,
-    device: str = "cpu",
-    checkpoint: str | os.PathLike[str] | None = None,
-    resume: Run | None = None,
+    hit_depth: float | None = None,
+    where: Where = Where(),
+    checkpoints: Checkpoints = Checkpoints(),
     on_progress: Callable[[Event], None] | None = None,
-    on_trajectory: Callable[[Trajectory], None] | None = None,
-    on_checkpoint: Callable[[Run], None] | None = None,
-    **options: Any,
 ) -> Run:
     """Infer map and trajectory from a log with raw odometry.
 
@@ -110,21 +105,16 @@ def slam(
         resolution: edge of a cell, metres.
         prior: kind of cells; `Surface()` if None.
         sensor: the law of the readings, or "fit".
-        fast: stop after the approximation: the map is then inferred with the poses as if they were known.
-        no_odometry: do not look at the log's poses; scans must come at 5 Hz or so.
-        chains: how many chains over map and poses.
-        warmup: sweeps that are not kept.
-        draws: kept draws of each chain; by default those that `infer` keeps where it keeps every sweep.
-        thin: sweeps from one kept draw to the next.
+        fast: stop after the approximate trajectory: the map is then inferred with the poses as if they were known.
+        no_odometry: do not read the poses of the log; scans must come at 5 Hz or so.
+        schedule: how many chains over map and poses, warm-up sweeps and draws; every sweep is kept unless ``thin`` says
+            otherwise.
         seed: of all random numbers.
-        threads: of the CPU; all cores if None.
-        device: "cpu" or a CUDA device such as "cuda:0".
-        checkpoint: a folder for the finished stages of the approximation.
-        resume: a run with the same arguments that was stopped early.
-        on_progress: the progress callback.
-        on_trajectory: given the approximation when it is there.
-        on_checkpoint: given the run so far.
-        options: others of `bayesmap.infer`.
+        hit_depth: where in a cell a beam stops, see `bayesmap.infer`; that of the kind of cells if None.
+        where: threads, device and executor; by default all cores of this machine.
+        checkpoints: a run to go on with, what is called with the run so far, and a folder for the finished stages of
+            the approximation; by default none of them.
+        on_progress: called with how far the run is.
 
     Returns:
         The run over the key scans: ``run.poses`` are draws of their poses, ``run.trajectory`` has all scans.
@@ -134,6 +124,11 @@ def slam(
     """
     from bayesmap.poses.pipeline import infer_trajectory
 
+    for name, value, kind in (
+        ("schedule", schedule, Schedule), ("where", where, Where), ("checkpoints", checkpoints, Checkpoints),
+    ):  # fmt: skip
+        need_value("slam", name, value, kind)
+    # Read the log.
     if not isinstance(log, Scans):
         from bayesmap.io.logs import read_log
 
@@ -143,38 +138,23 @@ def slam(
         if on_progress is not None:
             on_progress(Event(stage, done, of))  # type: ignore[arg-type]
 
-    found = infer_trajectory(
-        log, no_odometry=no_odometry, seed=seed, threads=threads, device=device, checkpoint=checkpoint,
-        on_progress=on_stage,
+    # Approximate the trajectory of all scans.
+    trajectory = infer_trajectory(
+        log, no_odometry=no_odometry, seed=seed, threads=where.threads, device=where.device,
+        checkpoint=checkpoints.stages, on_progress=on_stage,
     )  # fmt: skip
-    if on_trajectory is not None:
-        on_trajectory(found)
-    return map_along(
-        log, found, resolution=resolution, prior=prior, sensor=sensor, fast=fast, chains=chains, seed=seed,
-        warmup=warmup, draws=draws, thin=thin, threads=threads, device=device, resume=resume, on_progress=on_progress,
-        on_checkpoint=on_checkpoint, **options,
-    )  # fmt: skip
-
-
-def map_along(
-    log: Scans,
-    found: Trajectory,
-    *,
-    resolution: float,
-    prior: CellPrior | None,
-    fast: bool,
-    chains: int,
-    seed: int,
-    on_checkpoint: Callable[[Run], None] | None = None,
-    **options: Any,
-) -> Run:
-    """The second half of `slam`: the map, and unless ``fast`` the poses of the key scans with it."""
-    keys = key_scans(log, found, chains, seed)
+    # Select the key scans, and lay the grid over them.
+    keys = key_scans(log, trajectory, schedule.chains, seed)
     grid = Grid.covering(keys.scans, resolution)
     cells = Surface() if prior is None else prior
-    poses: dict[str, Any] = {} if fast else {"poses": keys.prior, "start_poses": keys.starts}
-    options.setdefault("hit_depth", cells.hit_depth)
-    if on_checkpoint is not None:
-        options["on_checkpoint"] = lambda run: on_checkpoint(replace(run, trajectory=found))
-    run = infer(keys.scans, grid, prior=cells, chains=chains, seed=seed, **poses, **options)
-    return replace(run, trajectory=found)
+    # Sample the map, and unless it is to be fast the poses of the key scans with it.
+    save = checkpoints.save
+    if save is not None:
+        checkpoints = replace(checkpoints, save=lambda run: save(replace(run, trajectory=trajectory)))
+    run = infer(
+        keys.scans, grid, prior=cells, sensor=sensor, method=None if fast else Gibbs(start_poses=keys.starts),
+        schedule=replace(schedule, thin=1 if schedule.thin is None else schedule.thin), seed=seed,
+        poses=None if fast else keys.prior, hit_depth=cells.hit_depth if hit_depth is None else hit_depth, where=where,
+        checkpoints=checkpoints, on_progress=on_progress,
+    )  # fmt: skip
+    return replace(run, trajectory=trajectory)

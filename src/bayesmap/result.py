@@ -1,4 +1,4 @@
-"""The result that users hold: a posterior, with everything one does with it a method away."""
+"""The result that users hold: a posterior, and what can be done with it."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ class Run:
 
     @property
     def finished(self) -> bool:
-        """False if the run was stopped before all draws were there; `infer(..., resume=run)` goes on."""
+        """False if the run was stopped before all draws were there: `bayesmap.Checkpoints(resume=run)` goes on."""
         return self.posterior.finished
 
     @property
@@ -87,8 +87,7 @@ class Run:
 
     @cached_property
     def draws(self) -> NDArray[Any]:
-        """All kept maps, (chain, draw, nx, ny): walls, or chances to stop a beam, with the prior's mean where no beam
-        comes.
+        """All kept maps, (chain, draw, nx, ny): walls, or chances to stop a beam; the prior's mean where no beam comes.
 
         Made on first use: a byte or four for each cell of each draw.
         """
@@ -107,8 +106,9 @@ class Run:
         return self.posterior.draws.count
 
     def map_of(self, chain: int, draw: int) -> NDArray[Any]:
-        """One draw, (nx, ny): walls, or chances to stop a beam; chain and draw are counted from 0, negative ones from
-        the end.
+        """Return one draw, (nx, ny): walls, or chances to stop a beam.
+
+        Chain and draw are counted from 0, negative numbers from the end.
         """
         return self.posterior.prior.map_of(self.posterior.draws, chain, draw)
 
@@ -125,7 +125,7 @@ class Run:
         return np.broadcast_to(known, (draws.chains, draws.count, *known.shape))
 
     def pose_summary(self) -> PoseSummary:
-        """Mean, covariance and R-hat of each scan's pose.
+        """Compute mean, covariance and R-hat of each scan's pose.
 
         Where chains that started from an approximation have not mixed, mean and covariance are the approximation's.
 
@@ -143,7 +143,7 @@ class Run:
         return replace(found, mean=mean, covariance=covariance, by_approximation=True)
 
     def interval(self, level: float = 0.9) -> tuple[Floats, Floats]:
-        """Central credible interval of each cell's chance to stop a beam: lower and upper end, (nx, ny) each.
+        """Compute the central credible interval of each cell's chance to stop a beam: both ends, (nx, ny) each.
 
         Raises:
             BadInput: a level outside (0, 1), a run that was stopped before its first draw, or binary walls, which have
@@ -155,7 +155,7 @@ class Run:
         return self.posterior.prior.interval(self.posterior.draws, level)
 
     def surfaces(self) -> tuple[Floats, Floats, Floats]:
-        """Mean surfaces: means (U, 2) and covariances (U, 2, 2) in metres, and reflectivities (U,).
+        """Return mean surfaces: means (U, 2) and covariances (U, 2, 2) in metres, and reflectivities (U,).
 
         Raises:
             BadInput: a run without surfaces or without draws.
@@ -180,7 +180,7 @@ class Run:
         return self.posterior.log_weights
 
     def summary(self) -> Summary:
-        """R-hat, effective sample sizes, cells that never changed, timings."""
+        """Return R-hat, effective sample sizes, cells that never changed, and timings."""
         return self._summary
 
     @cached_property
@@ -194,7 +194,7 @@ class Run:
         on_progress: Callable[[int, int], None] = lambda done, total: None,
         device: str = "cpu",
     ) -> float:
-        """Mean log predictive density of the scans' valid readings: nats per beam, averaged over draws.
+        """Compute the mean log predictive density of the scans' valid readings: nats per beam, averaged over draws.
 
         Args:
             heldout_scans: scans that had no part in the run.
@@ -208,7 +208,7 @@ class Run:
         return log_score(self.posterior, heldout_scans, sensor, on_progress, device)
 
     def free_probability(self, path: ArrayLike, radius_m: float) -> FreeProbability:
-        """The probability that a disc can go along a path without touching anything, counted over joint draws.
+        """Compute the probability that a disc can go along a path without touching anything, counted over joint draws.
 
         Args:
             path: of the disc's centre: corners in the world frame, metres, (P, 2); one point for a place.
@@ -226,11 +226,11 @@ class Run:
         return path_is_free(self.posterior, path, radius_m)
 
     def plan(self, start: ArrayLike, goal: ArrayLike, radius_m: float, risk: float = 0.01) -> Route:
-        """The shortest path of a disc from start to goal whose risk of touching something stays under a bound.
+        """Plan the shortest path of a disc from start to goal whose risk of touching something stays under a bound.
 
         Args:
             start: in the world frame, metres, (2,).
-            goal: likewise.
+            goal: in the world frame, metres, (2,).
             radius_m: of the disc.
             risk: the most that the probability of touching something may be.
 
@@ -254,7 +254,7 @@ class Run:
         draws: int | None = None,
         seed: int = 0,
     ) -> Information:
-        """How much one more scan from each pose is expected to tell about the map, in nats.
+        """Compute how much one more scan from each pose is expected to tell about the map, in nats.
 
         Args:
             poses: in the world frame, (P, 3).
@@ -278,8 +278,7 @@ class Run:
         )
 
     def dataset(self) -> xarray.Dataset:
-        """The draws as an xarray dataset: the arrays of the kind of cells, log densities and marginals, by named
-        dimensions.
+        """Return draws, log densities and marginals as an xarray dataset with named dimensions.
 
         ``chain`` and ``draw`` count from 0, ``x`` and ``y`` are the cells' centres in the world frame, metres; arrays
         of some cells only have their indices as ``cell_x`` and ``cell_y``.
@@ -327,7 +326,7 @@ class Run:
         save(self.posterior, path, on_progress, self.trajectory)
 
     def plot(self, **options: Any) -> Figure:
-        """A figure of the mean map, how sure it is, the readings and one draw, with surfaces where they can be seen.
+        """Draw the mean map, how sure it is, the readings and one draw, with surfaces where they can be seen.
 
         Options are those of `bayesmap.viz.figure.posterior_figure`.
 
@@ -376,12 +375,12 @@ class Run:
         return export_run(path, self, self.posterior.scans, **options)
 
     def __repr__(self) -> str:
-        """Five lines: what was inferred, from what, how, how well, and how long it took."""
+        """Return five lines: what was inferred, from what, how, how well, and how long it took."""
         title, rows = _overview(self.posterior)
         return "\n".join([title, *(f"  {name}: {value}" for name, value in rows)])
 
     def _repr_html_(self) -> str:
-        """A small picture of the mean map beside the same five lines, for notebooks."""
+        """Return a small picture of the mean map beside the five lines of `repr`, for notebooks."""
         title, rows = _overview(self.posterior)
         size, png = _thumbnail(self.occupancy, self.observed)
         lines = "".join(
@@ -401,9 +400,7 @@ class Run:
 
 
 def _overview(posterior: Posterior) -> tuple[str, list[tuple[str, str]]]:
-    """A title, and four rows of a name and a value: what was inferred, from what, how, how well, and how long it
-    took.
-    """
+    """Return a title, and four rows of a name and a value: from what, how, how well, and how long it took."""
     (nx, ny), counts, joint = posterior.grid.shape, posterior.counts, posterior.log_joint
     title = f"Run: {posterior.prior.words.states}, {nx} x {ny} cells of {posterior.grid.resolution:g} m"
     chains, draws = joint.shape
@@ -462,7 +459,7 @@ def score(
     device: str = "cpu",
     on_progress: Callable[[float], None] = lambda share: None,
 ) -> Score:
-    """How well a run predicts scans that it has not seen, and how well calibrated it is.
+    """Score how well a run predicts scans that it has not seen, and how well calibrated it is.
 
     Args:
         run: what predicts: the mean over its draws.

@@ -21,7 +21,13 @@ def room_scans(count=12):
 
 def room_run(prior, draws=20, thin=1):
     """What is inferred of it."""
-    return bm.infer(room_scans(), GRID, prior=prior, sensor=SENSOR, chains=2, warmup=10, draws=draws, thin=thin)
+    return bm.infer(
+        room_scans(),
+        GRID,
+        prior=prior,
+        sensor=SENSOR,
+        schedule=bm.Schedule(chains=2, warmup=10, draws=draws, thin=thin),
+    )
 
 
 def write_room_log(path, count=12):

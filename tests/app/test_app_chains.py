@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from acted_engine import Heard
+from flat_options import infer
 
 import bayesmap as bm
 from bayesmap.app.exports import export
@@ -51,7 +52,7 @@ def test_a_run_is_that_of_the_library(changes):
     heard.infer(document, "run")
     scans, _ = simulate_document(document)
     sigma_m = max(document.pose_sigma, SMALLEST_POSE_M)
-    run = bm.infer(
+    run = infer(
         scans, document.grid, prior=bm.Independent(0.5), sensor=bm.Gaussian(0.2), method=document.sampler,
         chains=POSE_CHAINS, warmup=0, draws=20, start=starts(simulated_scene(document).problem, document, None),
         poses=bm.Uncertain(sigma_m, max(document.heading_sigma, SMALLEST_HEADING_RAD)),

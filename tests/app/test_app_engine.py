@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from acted_engine import PAGE, Heard
+from flat_options import infer
 
 import bayesmap as bm
 from bayesmap.app.protocol.actions import Cancel, Inspect
@@ -17,7 +18,7 @@ from bayesmap.app.shown.beliefs import Preview
 from bayesmap.app.shown.verdict import FEWEST_SWEEPS
 from bayesmap.app.worlds import new_document, tutorial_document
 from bayesmap.model import Model
-from bayesmap.run.chains import Schedule
+from bayesmap.run.chains import SweepPlan
 from bayesmap.run.runner import Job, run_chains
 from bayesmap.samplers.fit import PILOT_SWEEPS, first_sensor, fit
 from bayesmap.samplers.importance import sample_importance
@@ -128,7 +129,7 @@ def test_a_run_is_that_of_the_library(method):
     document = replace(tutorial_document(), sweeps=40, method=method)
     heard = Heard()
     field = heard.infer(document, "run")
-    run = bm.infer(
+    run = infer(
         simulate_document(document)[0], document.grid, prior=bm.Independent(0.5), sensor=bm.Gaussian(0.2),
         method=method, chains=2, warmup=0, draws=40, seed=0, start="prior",
     )  # fmt: skip
@@ -250,12 +251,12 @@ def test_inspecting_a_cell_counts_its_beams():
 
 def test_many_sweeps_of_a_large_map_are_thinned_to_fit():
     from bayesmap.app.shown.chains import DRAW_BYTES, Stream
-    from bayesmap.samplers.walls import Gibbs
+    from bayesmap.samplers.walls import WallGibbs
 
     document = new_document("blank", (500, 500), tutorial_document())
     scene = simulated_scene(document)
     model, start = scene.model(scene.problem.prior), np.zeros((2, 500, 500), dtype=bool)
-    stream = Stream(model, Gibbs("radial", start), scene.problem, 6000, 0, keep=True)
+    stream = Stream(model, WallGibbs("radial", start), scene.problem, 6000, 0, keep=True)
     assert stream.thin == 3
     assert stream.total == 6000
     assert stream._record._draws.arrays["walls"].nbytes <= DRAW_BYTES
@@ -274,7 +275,7 @@ def test_other_kinds_of_cells_run_on_the_page_as_in_the_library(cells):
     model = Model(scans, document.grid, prior, first_sensor(prior, document.grid.resolution), hit_depth=0.5)
     found = fit(StopGibbs().prepare(model, "cpu"), document.seed, PILOT_SWEEPS)
     assert found.prior != prior
-    chains = run_chains(Job(model, StopGibbs(), Schedule(0, 30), document.seed, (0, 1), parameters=found))
+    chains = run_chains(Job(model, StopGibbs(), SweepPlan(0, 30), document.seed, (0, 1), parameters=found))
     assert np.array_equal(field[1]["p"], np.rint(255 * found.prior.mean_map(chains.draws)))
     (answer,) = heard.ask(View("draw", 1, 7))
     assert (answer.header["chain"], answer.header["draw"]) == (1, 7)

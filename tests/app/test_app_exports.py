@@ -127,7 +127,11 @@ def test_a_run_of_reflectivities_is_shown_too(tmp_path):
     noise = bm.Gaussian(0.2)
     scans = bm.simulate(walls, bm.worlds.TUTORIAL_GRID, pose, angles, sensor=noise, max_range_m=42.0)
     run = bm.infer(
-        scans, bm.worlds.TUTORIAL_GRID, prior=bm.Beta(1, 1), sensor=bm.BeamMixture(noise), chains=2, warmup=3, draws=6
+        scans,
+        bm.worlds.TUTORIAL_GRID,
+        prior=bm.Beta(1, 1),
+        sensor=bm.BeamMixture(noise),
+        schedule=bm.Schedule(chains=2, warmup=3, draws=6),
     )
     run.save(tmp_path / "field.nc")
     opened = open_file(str(tmp_path / "field.nc"))

@@ -18,7 +18,7 @@ def shown(prior):
     walls[9] = True
     poses = np.column_stack([np.linspace(1, 2, 4), np.full(4, 2.5), np.zeros(4)])
     scans = bm.simulate(walls, grid, poses, np.linspace(-0.8, 0.8, 40), sensor=SENSOR, max_range_m=8.0, seed=1)
-    run = bm.infer(scans, grid, prior=prior, sensor=SENSOR, chains=2, warmup=5, draws=20)
+    run = bm.infer(scans, grid, prior=prior, sensor=SENSOR, schedule=bm.Schedule(chains=2, warmup=5, draws=20))
     opened = opened_run(run, "run.nc")
     heard = Heard(opened)
     heard.infer(opened.document)

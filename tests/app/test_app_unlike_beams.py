@@ -25,7 +25,9 @@ def run():
         [ANGLES[part] for part in parts], [row[p] for row, p in zip(whole.ranges_m, parts, strict=True)]
     )
     scans = bm.Scans(whole.poses, *beams, 12.0)
-    return bm.infer(scans, GRID, prior=bm.Independent(0.2), sensor=SENSOR, chains=2, warmup=10, draws=20)
+    return bm.infer(
+        scans, GRID, prior=bm.Independent(0.2), sensor=SENSOR, schedule=bm.Schedule(chains=2, warmup=10, draws=20)
+    )
 
 
 @pytest.fixture(scope="module")

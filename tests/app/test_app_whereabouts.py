@@ -89,7 +89,7 @@ def run():
     sensor = bm.BeamMixture(bm.Gaussian(0.02), p_random=0.01, p_no_return=0.01)
     angles = np.linspace(-np.pi, np.pi, 90, endpoint=False)
     scans = bm.simulate(walls, grid, poses, angles, sensor=sensor, max_range_m=8.0, seed=2)
-    return bm.infer(scans, grid, prior=bm.Surface(), sensor=sensor, chains=2, warmup=15, draws=15)
+    return bm.infer(scans, grid, prior=bm.Surface(), sensor=sensor, schedule=bm.Schedule(chains=2, warmup=15, draws=15))
 
 
 def test_the_scan_on_show_is_located_in_the_map_of_a_run(run):

@@ -103,7 +103,9 @@ def test_a_run_is_shown_with_its_draws(shown):
     angles = np.linspace(0, 2 * np.pi, 30, endpoint=False)
     grid, sensor = bm.worlds.TUTORIAL_GRID, bm.Gaussian(0.2)
     scans = bm.simulate(walls, grid, pose, angles, sensor=sensor, max_range_m=42.0)
-    run = bm.infer(scans, grid, prior=bm.Independent(0.5), sensor=sensor, chains=2, warmup=5, draws=20)
+    run = bm.infer(
+        scans, grid, prior=bm.Independent(0.5), sensor=sensor, schedule=bm.Schedule(chains=2, warmup=5, draws=20)
+    )
     view = shown(run)
     header, arrays = view.until("field")
     assert header["draws"] == {"chains": 2, "count": 20}

@@ -38,7 +38,13 @@ def test_a_saved_run_shows_its_mean_and_its_draws(open_page, tmp_path):
     grid = bm.Grid(shape=(21, 21), resolution=1.0, origin=(-0.5, -0.5))
     angles = np.arange(60) / 60 * 2 * np.pi
     scans = bm.simulate(walls, grid, pose, angles, sensor=bm.Gaussian(0.2), max_range_m=42.0, seed=0)
-    run = bm.infer(scans, grid, prior=bm.Independent(0.5), sensor=bm.Gaussian(0.2), chains=2, warmup=10, draws=15)
+    run = bm.infer(
+        scans,
+        grid,
+        prior=bm.Independent(0.5),
+        sensor=bm.Gaussian(0.2),
+        schedule=bm.Schedule(chains=2, warmup=10, draws=15),
+    )
     run.save(tmp_path / "run.nc")
     with served(tmp_path / "run.nc") as (address, _):
         page = open_page(address)

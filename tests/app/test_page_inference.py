@@ -112,7 +112,12 @@ def test_three_by_three_equals_exact_enumeration(open_page):
     readings = bm.Scans(scan["pose"].reshape(-1, 3), scan["angles"], scan["ranges"].reshape(1, -1), max_range_m=6.0)
     grid = bm.Grid(shape=(3, 3), resolution=1.0, origin=(-0.5, -0.5))
     exact = bm.infer(
-        readings, grid, prior=bm.Independent(0.5), sensor=bm.Gaussian(3.0), method="exact", draws=10
+        readings,
+        grid,
+        prior=bm.Independent(0.5),
+        sensor=bm.Gaussian(3.0),
+        method="exact",
+        schedule=bm.Schedule(draws=10),
     ).occupancy
     error = np.sqrt(exact * (1 - exact) / (2 * 20_000 / 4))
     assert (np.abs(shown["probability"] / 255 - exact) < 5 * error + 0.5 / 255).all()

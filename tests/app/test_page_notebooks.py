@@ -94,7 +94,9 @@ def test_a_finished_run_is_shown_with_its_draws(show, home, tmp_path):
     grid, sensor = bm.worlds.TUTORIAL_GRID, bm.Gaussian(0.2)
     angles = np.linspace(0, 2 * np.pi, 30, endpoint=False)
     scans = bm.simulate(walls, grid, pose, angles, sensor=sensor, max_range_m=42.0, seed=0)
-    run = bm.infer(scans, grid, prior=bm.Independent(0.5), sensor=sensor, chains=2, warmup=5, draws=20)
+    run = bm.infer(
+        scans, grid, prior=bm.Independent(0.5), sensor=sensor, schedule=bm.Schedule(chains=2, warmup=5, draws=20)
+    )
     run.save(tmp_path / "run.nc")
 
     page = show(home, FINISHED.format(path=str(tmp_path / "run.nc")))

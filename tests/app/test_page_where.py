@@ -116,7 +116,9 @@ def test_a_scan_of_a_run_is_located_in_its_map(open_page, tmp_path, scheme):
     laser = bm.BeamMixture(bm.Gaussian(0.02), p_random=0.01, p_no_return=0.01)
     angles = np.linspace(-np.pi, np.pi, 90, endpoint=False)
     scans = bm.simulate(walls, grid, poses, angles, sensor=laser, max_range_m=8.0, seed=2)
-    bm.infer(scans, grid, prior=bm.Surface(), sensor=laser, chains=2, warmup=10, draws=10).save(tmp_path / "run.nc")
+    bm.infer(scans, grid, prior=bm.Surface(), sensor=laser, schedule=bm.Schedule(chains=2, warmup=10, draws=10)).save(
+        tmp_path / "run.nc"
+    )
     with served(tmp_path / "run.nc") as (address, _):
         page = open_page(address, color_scheme=scheme, bypass_csp=True)
         ask(page)

@@ -5,6 +5,7 @@ Draws are compared with enumeration. False alarms: `ALPHA` = 1e-4 for the whole 
 
 import numpy as np
 import pytest
+from flat_options import infer
 from oracle.enumeration import all_maps, log_prior_of_all, neighbours
 from oracle.verdict import ALPHA, least_p_value
 from oracle.worlds import make_case, random_prior
@@ -109,7 +110,7 @@ def test_at_a_coupling_of_zero_it_is_the_independent_prior_bit_for_bit(method, o
     case = make_case(8, prior="cells", n_poses=2)
     options = {"sensor": case.sensor, "method": method, "order": order, "start": start, "draws": 40, "warmup": 5}
     one, other = (
-        bm.infer(case.scans, case.grid, prior=prior, chains=2, particles=500, **options)
+        infer(case.scans, case.grid, prior=prior, chains=2, particles=500, **options)
         for prior in (case.prior, bm.Ising(case.prior.p_wall, 0.0))
     )
     np.testing.assert_array_equal(one.draws, other.draws)
@@ -122,7 +123,7 @@ def test_at_a_coupling_of_zero_it_is_the_independent_prior_bit_for_bit(method, o
 def test_runs_say_their_log_prior_and_come_back_from_files_and_go_on(p, method, tmp_path):
     case = make_case(9, prior=p, coupling=0.7, shape=(3, 4))
     options = {"prior": case.prior, "sensor": case.sensor, "method": method, "chains": 2, "draws": 30, "warmup": 5}
-    run = bm.infer(case.scans, case.grid, particles=3000, **options)
+    run = infer(case.scans, case.grid, particles=3000, **options)
     plain = [[case.prior.log_prob(walls, case.grid) for walls in chain] for chain in run.draws]
     np.testing.assert_allclose(run.posterior.log_prior, plain, rtol=1e-9)
     run.save(tmp_path / "run.nc")
@@ -134,20 +135,20 @@ def test_runs_say_their_log_prior_and_come_back_from_files_and_go_on(p, method, 
     np.testing.assert_array_equal(loaded.draws, run.draws)
     if method in ("gibbs", "block"):
         part = []
-        bm.infer(case.scans, case.grid, **options, on_checkpoint=part.append, checkpoint_every_s=-1.0)
+        infer(case.scans, case.grid, **options, on_checkpoint=part.append, checkpoint_every_s=0.0)
         part[0].save(tmp_path / "part.nc")
-        resumed = bm.infer(case.scans, case.grid, **options, resume=bm.load(tmp_path / "part.nc"))
+        resumed = infer(case.scans, case.grid, **options, resume=bm.load(tmp_path / "part.nc"))
         np.testing.assert_array_equal(resumed.draws, run.draws)
         other = {**options, "prior": bm.Ising(case.prior.p_wall, 0.8), "resume": bm.load(tmp_path / "part.nc")}
         with pytest.raises(bm.BadInput, match=r"made with other prior \(.*'coupling': 0.7"):
-            bm.infer(case.scans, case.grid, **other)
+            infer(case.scans, case.grid, **other)
 
 
 def test_its_runs_are_scored_drawn_exported_and_opened_on_the_page(tmp_path):
     from bayesmap.app.sources import opened_run
 
     case = make_case(12, prior=0.3, coupling=0.6, shape=(4, 4))
-    run = bm.infer(case.scans, case.grid, prior=case.prior, sensor=case.sensor, chains=2, draws=30, warmup=5)
+    run = infer(case.scans, case.grid, prior=case.prior, sensor=case.sensor, chains=2, draws=30, warmup=5)
     assert np.isfinite(bm.score(run, case.scans).nats_per_beam)
     assert run.plot().axes
     assert all(path.stat().st_size > 0 for path in run.export(tmp_path / "map.yaml"))
@@ -159,7 +160,7 @@ def test_its_runs_are_scored_drawn_exported_and_opened_on_the_page(tmp_path):
 
 def test_poses_may_be_unknown_too():
     case = make_case(10, prior=0.3, coupling=0.7, shape=(3, 4))
-    run = bm.infer(
+    run = infer(
         case.scans, case.grid, prior=case.prior, sensor=case.sensor, chains=2, draws=20, warmup=10,
         poses=bm.Uncertain(0.05, 0.02),
     )  # fmt: skip

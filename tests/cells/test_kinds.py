@@ -51,7 +51,9 @@ def run(request):
     sensor = bm.BeamMixture(bm.Gaussian(0.05), p_random=0.01, p_no_return=0.01)
     angles = np.linspace(-0.3, 0.3, 9)
     scans = bm.simulate(walls, grid, [1.2, 1.4, 0.0], angles, sensor=sensor, max_range_m=6.0, seed=1)
-    return bm.infer(scans, grid, prior=request.param, sensor=sensor, chains=2, warmup=5, draws=12, seed=2)
+    return bm.infer(
+        scans, grid, prior=request.param, sensor=sensor, schedule=bm.Schedule(chains=2, warmup=5, draws=12), seed=2
+    )
 
 
 def test_drawn_stops_are_the_draws_themselves_and_not_what_they_expect(run):

@@ -98,7 +98,7 @@ def _short_steps(monkeypatch):
 @KINDS
 def test_saved_loaded_and_resumed_bit_for_bit(kind, tmp_path):
     stops = []
-    whole = infer(kind, on_checkpoint=stops.append, checkpoint_every_s=-1.0)
+    whole = infer(kind, on_checkpoint=stops.append, checkpoint_every_s=0.0)
     whole.save(tmp_path / "whole.nc")
     assert_same(bm.load(tmp_path / "whole.nc"), whole)
     stops[8].save(tmp_path / "part.nc")
@@ -112,7 +112,7 @@ def test_saved_loaded_and_resumed_bit_for_bit(kind, tmp_path):
 def test_unknown_poses_go_with_labels_bit_for_bit(kind, tmp_path):
     options = {"poses": bm.Uncertain(0.02, 0.01), "sensor": TRUTH, "warmup": 10, "draws": 6}
     stops = []
-    whole = infer(kind, scans(poses=8), on_checkpoint=stops.append, checkpoint_every_s=-1.0, **options)
+    whole = infer(kind, scans(poses=8), on_checkpoint=stops.append, checkpoint_every_s=0.0, **options)
     assert_same(infer(kind, scans(poses=8), threads=3, **options), whole)
     for number in (4, 6):
         stops[number].save(tmp_path / "part.nc")

@@ -9,6 +9,7 @@ from functools import cache
 import numpy as np
 import pytest
 from cells.glass import Glass
+from flat_options import grouped
 from oracle.verdict import ALPHA, goodness_of_fit
 from tiers import full_but
 
@@ -59,7 +60,7 @@ def test_metropolis_follows_the_exact_posterior_tempered_or_not(beta):
 
 def infer(**options):
     chosen = {"prior": Glass(), "sensor": SENSOR, "chains": 2, "warmup": 10, "draws": 80, "hit_depth": 0.5} | options
-    return bm.infer(SCANS, GRID, **chosen)
+    return bm.infer(SCANS, GRID, **grouped(**chosen))
 
 
 @pytest.fixture(scope="module")
@@ -91,7 +92,7 @@ def test_it_is_saved_loaded_and_resumed_bit_for_bit(run, tmp_path, monkeypatch):
     np.testing.assert_array_equal(loaded.posterior.draws.arrays["material"], run.posterior.draws.arrays["material"])
     monkeypatch.setattr(runner, "STEP_SECONDS", 0.0)
     stops = []
-    whole = infer(draws=5, on_checkpoint=stops.append, checkpoint_every_s=-1.0)
+    whole = infer(draws=5, on_checkpoint=stops.append, checkpoint_every_s=0.0)
     stops[11].save(tmp_path / "part.nc")
     resumed = infer(draws=5, resume=bm.load(tmp_path / "part.nc"))
     np.testing.assert_array_equal(resumed.draws, whole.draws)

@@ -33,13 +33,15 @@ def interrupted(module, *arguments, ignoring=False):
 
 
 @pytest.mark.parametrize(
-    "module", ["bayesmap.cli.group", "difflib", "click", "click.core", "bayesmap.cli.keys", "bayesmap.cli.settings"]
+    "module", ["bayesmap.cli.group", "difflib", "click", "click.core", "bayesmap.cli.console", "bayesmap.errors"]
 )
 def test_while_the_command_line_is_loaded(module):
     assert interrupted(module, "--help") == (130, "", "bayesmap: error: interrupted\n")
 
 
-@pytest.mark.parametrize("module", ["bayesmap.cli.folder", "bayesmap.io.logs", "numpy", "bayesmap.space.scans"])
+@pytest.mark.parametrize(
+    "module", ["bayesmap.cli.keys", "bayesmap.cli.folder", "bayesmap.io.logs", "numpy", "bayesmap.space.scans"]
+)
 def test_while_a_command_is_loaded(office, tmp_path, module):
     told = interrupted(module, "infer", office, "-o", tmp_path / "run")
     assert told == (130, "", "bayesmap: error: interrupted\n")

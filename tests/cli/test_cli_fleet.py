@@ -211,7 +211,7 @@ def test_a_resumed_fleet_begins_the_other_logs_with_its_settings(
     again = f"bayesmap infer {pair[0]} {pair[1]} -o {output} --resume"
     assert again in stopped.stderr
     assert not (output / "west").exists()
-    assert pipeline.settings_in(output / "fleet.toml")["infer"]["executor"] == executor
+    assert pipeline.settings_in(output / "fleet.toml", "infer")["infer"]["executor"] == executor
     resumed = call(*shlex.split(again)[1:])
     assert resumed.exit_code == 0, resumed.stderr
     expected = bm.load(alone / "run.nc")

@@ -266,9 +266,8 @@ def test_importance_sampling_is_announced_before_its_first_particles(office):
         bm.Grid.covering(scans, 0.25),
         prior=bm.Independent(0.2),
         sensor=bm.Gaussian(0.1),
-        method="importance",
-        draws=2,
-        particles=300,
+        method=bm.Importance(particles=300),
+        schedule=bm.Schedule(draws=2),
         on_progress=lambda event: events.append((event.stage, event.done, event.total)),
     )
     assert events[0] == ("particles", 0, 300)

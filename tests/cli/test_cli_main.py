@@ -177,28 +177,30 @@ def test_choices_are_those_of_the_library():
     from bayesmap.cells.kinds import BUILT_IN, P_WALL
     from bayesmap.cells.reflectivity import FEWEST_DRAWS, MOST_DRAWS, Beta
     from bayesmap.cells.surface import Surface
-    from bayesmap.cli import cells
-    from bayesmap.cli.keys import CELLS, INFER, METHODS, ORDERS, STARTS
+    from bayesmap.cli.keys import Cells, InferSettings, keys_of
+    from bayesmap.cli.keys import Method as MethodName
+    from bayesmap.cli.keys import Order as OrderName
+    from bayesmap.cli.keys import Start as StartName
+    from bayesmap.cli.translation import BINARY_DRAWS, completed, prior_of
     from bayesmap.samplers.propagate import ROUNDS
     from bayesmap.samplers.walls import Order, Start
 
-    assert set(METHODS) == {method for kind in BUILT_IN.values() for method in kind.methods}
-    assert set(CELLS) == set(BUILT_IN)
-    assert set(ORDERS) == set(get_args(Order))
-    assert set(STARTS) == set(get_args(Start))
-    defaults = {key.name: key.default for key in INFER}
-    assert defaults["rounds"] == ROUNDS
-    binary = cells.with_defaults({**defaults, "cells": "binary"})
-    assert cells.prior_of(binary).describe() == Independent(P_WALL).describe()
-    coupled = cells.prior_of({**binary, "coupling": 0.5, "prior": 0.1})
+    assert set(get_args(MethodName)) == {method for kind in BUILT_IN.values() for method in kind.methods}
+    assert set(get_args(Cells)) == set(BUILT_IN)
+    assert set(get_args(OrderName)) == set(get_args(Order))
+    assert set(get_args(StartName)) == set(get_args(Start))
+    assert InferSettings().rounds == ROUNDS
+    binary = completed(InferSettings(cells="binary"))
+    assert prior_of(binary).describe() == Independent(P_WALL).describe()
+    coupled = prior_of(InferSettings(cells="binary", coupling=0.5, prior=0.1))
     assert coupled.describe() == Ising(0.1, 0.5).describe()
-    assert binary["hit_depth"] == Independent.hit_depth
-    kinds = {name: type(cells.prior_of(cells.with_defaults({**defaults, "cells": name}))) for name in CELLS}
+    assert binary.hit_depth == Independent.hit_depth
+    kinds = {name: type(prior_of(completed(InferSettings(cells=name)))) for name in get_args(Cells)}
     assert kinds == {"surface": Surface, "reflectivity": Beta, "binary": Independent}
-    labelled = cells.prior_of(cells.with_defaults({**defaults, "cells": "surface", "coupling": 0.5}))
+    labelled = prior_of(completed(InferSettings(cells="surface", coupling=0.5)))
     assert labelled.describe() == Surface(coupling=0.5).describe()
     # The help says what settings are where the user sets none.
-    unset = {key.name: key.unset for key in INFER}
-    assert unset["draws"] == f"{FEWEST_DRAWS}, to {MOST_DRAWS} for few beams; binary {cells.BINARY_DRAWS}"
+    unset = {key.name: key.help.unset for key in keys_of("infer")}
+    assert unset["draws"] == f"{FEWEST_DRAWS}, to {MOST_DRAWS} for few beams; binary {BINARY_DRAWS}"
     assert unset["hit_depth"] == f"{Surface.hit_depth:g}; binary {Independent.hit_depth:g}"
     assert unset["prior"] == f"{P_WALL:g}"

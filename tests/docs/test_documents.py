@@ -41,7 +41,7 @@ def test_the_sensor_model_of_contributing_infers_what_enumeration_does():
     angles = np.linspace(-np.pi, np.pi, 24, endpoint=False)
     scans = bm.simulate(walls, grid, (1.5, 1.5, 0.0), angles, sensor=sonar, max_range_m=6.0, seed=1)
     problem = {"scans": scans, "grid": grid, "prior": bm.Independent(0.3), "sensor": sonar}
-    exact = bm.infer(**problem, method="exact", draws=1)
-    block_gibbs = bm.infer(**problem, method="block", draws=5_000)
+    exact = bm.infer(**problem, method="exact", schedule=bm.Schedule(draws=1))
+    block_gibbs = bm.infer(**problem, method="block", schedule=bm.Schedule(draws=5_000))
     np.testing.assert_allclose(block_gibbs.occupancy, exact.occupancy, atol=0.03)
     assert np.isfinite(block_gibbs.log_score(scans))

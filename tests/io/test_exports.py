@@ -1,12 +1,13 @@
 import os
 import sys
+from typing import get_args
 
 import numpy as np
 import pytest
 from map_case import BinaryRun, ReflectivityRun, observed, occupancy, scans
 from recorded import READERS
 
-from bayesmap.cli.keys import EXPORTS
+from bayesmap.cli.keys import Export
 from bayesmap.errors import BadInput
 from bayesmap.io.exports import FORMATS, existing, export_format, export_run, layers_of
 
@@ -29,7 +30,7 @@ def test_the_ending_chooses_the_format(path, format):
 def test_a_named_format_wins_and_the_command_line_knows_the_same():
     assert export_format("map.mcap", "gridmap") == "gridmap"
     assert export_format("poses.txt", "tum") == "tum"
-    assert ("auto", *FORMATS) == EXPORTS
+    assert ("auto", *FORMATS) == get_args(Export)
 
 
 @pytest.mark.parametrize("path", ["map.txt", "map.pgm", "map.2024"])

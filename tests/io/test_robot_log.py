@@ -9,6 +9,7 @@ import struct
 import numpy as np
 import pytest
 import recordings as r
+from flat_options import infer
 
 import bayesmap as bm
 from bayesmap.io.logs import describe_log, read_log
@@ -76,7 +77,7 @@ def test_the_posterior_of_a_recording_is_that_of_its_scans(tmp_path, writer):
     read = read_log(r.written(tmp_path, messages, writer))
     grid = bm.Grid((21, 21), 1.0, (-0.5, -0.5))
     options = {"prior": bm.Independent(0.3), "sensor": bm.BeamMixture(bm.Gaussian(0.1)), "chains": 2, "seed": 3}
-    a, b = (bm.infer(s, grid, warmup=10, draws=40, **options) for s in (read, scans))
+    a, b = (infer(s, grid, warmup=10, draws=40, **options) for s in (read, scans))
     # Angles in single precision differ by up to 1e-7: no draw turns out otherwise.
     np.testing.assert_array_equal(a.draws, b.draws)
 

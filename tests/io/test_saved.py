@@ -6,6 +6,7 @@ import json
 import netCDF4
 import numpy as np
 import pytest
+from flat_options import grouped
 from oracle.trajectories import round_way
 from oracle.worlds import make_case
 from tiers import full_but
@@ -29,7 +30,9 @@ def case():
 
 
 def infer(case, **options):
-    return bm.infer(case.scans, case.grid, **{"prior": case.prior, "sensor": case.sensor, "draws": 20, **options})
+    return bm.infer(
+        case.scans, case.grid, **grouped(**{"prior": case.prior, "sensor": case.sensor, "draws": 20, **options})
+    )
 
 
 def assert_equal_runs(one, other):
@@ -73,7 +76,7 @@ def test_stamps_and_typed_readings_come_back(case, tmp_path):
     readings = case.scans.ranges_m.copy()
     readings[0, :3] = [np.inf, -np.inf, np.nan]
     scans = dataclasses.replace(case.scans, ranges_m=readings, stamps_s=np.array([1e9 + 0.25, 1e9 + 0.5]))
-    run = bm.infer(scans, case.grid, prior=case.prior, sensor=case.sensor, draws=3)
+    run = bm.infer(scans, case.grid, prior=case.prior, sensor=case.sensor, schedule=bm.Schedule(draws=3))
     run.save(tmp_path / "run.nc")
     assert_equal_runs(bm.load(tmp_path / "run.nc"), run)
 
@@ -94,7 +97,7 @@ def test_a_run_with_a_sensor_of_one_s_own_comes_back_without_it(case, tmp_path):
 @pytest.mark.parametrize("stop_at", [4, 12])
 def test_an_interrupted_run_is_saved_and_goes_on_bit_for_bit(case, stop_at, tmp_path, monkeypatch):
     monkeypatch.setattr(runner, "STEP_SECONDS", 0.0)
-    options = {"warmup": 8, "draws": 10, "seed": 3, "checkpoint_every_s": -1.0}
+    options = {"warmup": 8, "draws": 10, "seed": 3, "checkpoint_every_s": 0.0}
     seen = []
     whole = infer(case, on_checkpoint=seen.append, **options)
     part = next(run for run in seen if run.posterior.sweep == stop_at)
@@ -325,7 +328,7 @@ def test_a_file_that_is_open_holds_one_chunk_of_each_array(tmp_path, monkeypatch
 @pytest.fixture(scope="module")
 def run():
     case = make_case(31, prior=0.3, sensor=bm.BeamMixture(bm.StudentT(0.2, 3.0)), n_poses=2, shape=(5, 3))
-    return bm.infer(case.scans, case.grid, prior=case.prior, sensor=case.sensor, draws=4)
+    return bm.infer(case.scans, case.grid, prior=case.prior, sensor=case.sensor, schedule=bm.Schedule(draws=4))
 
 
 @pytest.mark.parametrize("options", [{"force": 3.0}, {"odometry": False, "closure": False}], ids=["all", "least"])

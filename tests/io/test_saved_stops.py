@@ -6,6 +6,7 @@ from functools import cache
 import netCDF4
 import numpy as np
 import pytest
+from flat_options import grouped
 from oracle.stop_worlds import scans_of_all_kinds
 from samplers.stop_rooms import assert_same, surfaces_of
 from tiers import latin
@@ -21,7 +22,7 @@ SCANS = replace(scans_of_all_kinds(5, GRID, poses=8), stamps_s=np.arange(8) + 1e
 
 def infer(kind, **options):
     chosen = {"prior": PRIORS[kind], "sensor": "fit", "chains": 2, "warmup": 8, "draws": 5} | options
-    return bm.infer(SCANS, GRID, **chosen)
+    return bm.infer(SCANS, GRID, **grouped(**chosen))
 
 
 @cache

@@ -239,7 +239,9 @@ def test_what_cannot_be_located():
     with pytest.raises(bm.BadInput, match="no free cell"):
         known(np.ones_like(walls), grid, scans)
     sensor = bm.BeamMixture(bm.Gaussian(0.02))
-    run = bm.infer(scans, grid, prior=bm.Independent(0.2), sensor=sensor, chains=1, warmup=2, draws=2)
+    run = bm.infer(
+        scans, grid, prior=bm.Independent(0.2), sensor=sensor, schedule=bm.Schedule(chains=1, warmup=2, draws=2)
+    )
     with pytest.raises(bm.BadInput, match="device: 'tpu:7' is not on this machine"):
         bm.localize(run, scans, device="tpu:7")
     here = known(walls, grid, scans)

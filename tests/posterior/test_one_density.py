@@ -17,7 +17,7 @@ def test_one_number_has_the_same_digits_wherever_it_is_asked_for(prior):
     """The log score, the whole score, and the surprise of residuals are one kernel's, for every kind of cells."""
     grid, sensor = bm.Grid((4, 3), 0.5, (-1.0, 2.0)), bm.BeamMixture(bm.Gaussian(0.05, 0.01), p_no_return=0.1)
     train, held = scans_of_all_kinds(5, grid, poses=20), scans_of_all_kinds(6, grid, poses=7)
-    run = bm.infer(train, grid, prior=prior, sensor=sensor, chains=2, warmup=5, draws=8)
+    run = bm.infer(train, grid, prior=prior, sensor=sensor, schedule=bm.Schedule(chains=2, warmup=5, draws=8))
     for other in (None, bm.BeamMixture(bm.StudentT(0.1)), bm.Gaussian(0.2)):
         assert run.log_score(held, sensor=other) == bm.score(run, held, sensor=other).nats_per_beam
     predictor = predictor_of(run.posterior)

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 import scipy
 import warp as wp
+from flat_options import infer
 from oracle.formula import beams, distances
 from oracle.worlds import make_case
 
@@ -26,7 +27,7 @@ def case():
 
 @pytest.fixture(scope="module")
 def run(case):
-    return bm.infer(case.scans, case.grid, prior=case.prior, sensor=case.sensor, chains=2, draws=50)
+    return infer(case.scans, case.grid, prior=case.prior, sensor=case.sensor, chains=2, draws=50)
 
 
 def test_occupancy_is_the_mean_of_the_draws(run):
@@ -78,8 +79,8 @@ def test_a_better_map_scores_better():
         for turn in (0.0, 0.01)
     )
     options = {"prior": bm.Independent(0.3), "sensor": bm.Gaussian(0.2), "method": "block", "draws": 200}
-    learnt = bm.infer(train, grid, **options).log_score(held)
-    nothing = bm.infer(train.select(slice(0, 0)), grid, **options).log_score(held)
+    learnt = infer(train, grid, **options).log_score(held)
+    nothing = infer(train.select(slice(0, 0)), grid, **options).log_score(held)
     assert learnt > nothing + 1
 
 
@@ -113,7 +114,7 @@ def test_observed_cells_are_those_that_beams_reach_in_half_of_the_draws():
     grid = bm.Grid((6, 1))
     p = np.array([[0.1], [0.1], [1.0], [0.1], [0.1], [0.1]])
     scans = bm.Scans([-0.5, 0.5, 0.0], [0.0], [[2.5]], max_range_m=10.0)
-    run = bm.infer(scans, grid, prior=bm.Independent(p), sensor=bm.Gaussian(0.3), draws=100)
+    run = infer(scans, grid, prior=bm.Independent(p), sensor=bm.Gaussian(0.3), draws=100)
     np.testing.assert_array_equal(run.observed.ravel(), [True, True, True, False, False, False])
 
 
@@ -154,7 +155,7 @@ def test_the_summary_is_json_and_names_problems(run):
 
 @pytest.mark.parametrize("method", ["exact", "importance", "propagate"])
 def test_methods_without_chains_have_no_r_hat(case, method):
-    run = bm.infer(case.scans, case.grid, prior=case.prior, sensor=case.sensor, method=method, draws=10, particles=1000)
+    run = infer(case.scans, case.grid, prior=case.prior, sensor=case.sensor, method=method, draws=10, particles=1000)
     summary = run.summary()
     assert np.isnan([summary.rhat_log_joint, summary.rhat_max, summary.ess_min]).all()
     assert np.isfinite(summary.effective_sample_size) == (method == "importance")

@@ -65,7 +65,14 @@ def case():
 
 @pytest.fixture(scope="module")
 def run(case):
-    return bm.infer(case.scans, case.grid, prior=case.prior, sensor=case.sensor, chains=2, draws=50, hit_depth=0.3)
+    return bm.infer(
+        case.scans,
+        case.grid,
+        prior=case.prior,
+        sensor=case.sensor,
+        schedule=bm.Schedule(chains=2, draws=50),
+        hit_depth=0.3,
+    )
 
 
 def test_a_run_s_nats_are_its_log_score(case, run):
@@ -126,7 +133,9 @@ def test_many_draws_are_taken_some_at_a_time(case, run, monkeypatch):
 @pytest.mark.parametrize("prior", [bm.Beta(0.3, 0.5), bm.Surface()], ids=["reflectivity", "surface"])
 def test_cells_that_stop_some_beams_are_scored_alike(case, prior):
     """Against the samplers' own log score, which is computed in single precision."""
-    run = bm.infer(case.scans, case.grid, prior=prior, sensor=case.sensor, chains=2, warmup=10, draws=20)
+    run = bm.infer(
+        case.scans, case.grid, prior=prior, sensor=case.sensor, schedule=bm.Schedule(chains=2, warmup=10, draws=20)
+    )
     held = make_case(22, sensor=case.sensor, n_poses=4).scans
     held = dataclasses.replace(held, ranges_m=np.where(np.isneginf(held.ranges_m), np.nan, held.ranges_m))
     found = bm.score(run, held)

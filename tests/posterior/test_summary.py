@@ -1,4 +1,5 @@
 import numpy as np
+from flat_options import infer
 
 import bayesmap as bm
 
@@ -7,7 +8,7 @@ def run_of(method, **options):
     grid, noisy = bm.Grid((4, 3)), bm.Gaussian(2.0)
     angles = np.linspace(0, 6, 20)
     scans = bm.simulate(np.eye(4, 3), grid, [2.5, 1.5, 0.0], angles, sensor=noisy, max_range_m=5.0)
-    return bm.infer(scans, grid, prior=bm.Independent(0.3), sensor=noisy, method=method, **options)
+    return infer(scans, grid, prior=bm.Independent(0.3), sensor=noisy, method=method, **options)
 
 
 def test_a_sound_run_has_no_problems_and_prints_a_line_for_each_of_its_diagnostics():

@@ -66,14 +66,26 @@ def test_gibbs_by_edits_has_the_law_of_gibbs(case, chains, n):
 def test_infer_has_the_same_posterior(case):
     """Thinned by 30 sweeps, after which a chain has forgotten where it was (the test above)."""
     run = bm.infer(
-        case.scans, case.grid, prior=case.prior, sensor=case.sensor, order="raster", chains=4, warmup=30, draws=5000,
-        thin=30, seed=0,
-    )  # fmt: skip
+        case.scans,
+        case.grid,
+        prior=case.prior,
+        sensor=case.sensor,
+        method=bm.Gibbs(order="raster"),
+        schedule=bm.Schedule(chains=4, warmup=30, draws=5000, thin=30),
+        seed=0,
+    )
     assert least_p_value(run.draws.reshape(-1, 9), case.exact.p) > ALPHA / TESTS
 
 
 def test_any_posterior_draw_is_a_trace(case, model):
-    run = bm.infer(case.scans, case.grid, prior=case.prior, sensor=case.sensor, chains=2, warmup=5, draws=50, seed=1)
+    run = bm.infer(
+        case.scans,
+        case.grid,
+        prior=case.prior,
+        sensor=case.sensor,
+        schedule=bm.Schedule(chains=2, warmup=5, draws=50),
+        seed=1,
+    )
 
     @jax.jit
     @jax.vmap

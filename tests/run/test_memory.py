@@ -22,7 +22,7 @@ def test_so_many_bytes_a_cell_are_needed(monkeypatch, prior, chains):
     needed = grid.n_cells * (once + chains * each)
 
     def infer():
-        return bm.infer(SCANS, grid, prior=prior, sensor=SENSOR, chains=chains, warmup=1, draws=1)
+        return bm.infer(SCANS, grid, prior=prior, sensor=SENSOR, schedule=bm.Schedule(chains=chains, warmup=1, draws=1))
 
     monkeypatch.setattr(memory, "memory_bytes", lambda: needed)
     infer()

@@ -7,17 +7,18 @@ from dataclasses import dataclass
 
 import numpy as np
 import pytest
+from flat_options import infer
 from tiers import full_but
 
 import bayesmap as bm
 from bayesmap.model import Model
 from bayesmap.poses.prior import Uncertain
 from bayesmap.run import ray_executor, ray_worker
-from bayesmap.run.chains import Schedule
+from bayesmap.run.chains import SweepPlan
 from bayesmap.run.runner import Job, ThreadExecutor
 from bayesmap.samplers.progress import Watch
 from bayesmap.samplers.sampler import NOTHING
-from bayesmap.samplers.walls import Gibbs
+from bayesmap.samplers.walls import WallGibbs
 
 pytestmark = [
     pytest.mark.xdist_group("ray"),
@@ -74,12 +75,12 @@ def assert_same(run, expected):
 @pytest.mark.parametrize("kind", full_but(list(KINDS), "surfaces and a fitted sensor"))
 def test_the_draws_are_those_of_threads(cluster, scans, kind):
     arguments = {**SHORT, **KINDS[kind]}
-    assert_same(bm.infer(scans, GRID, executor=quick(), **arguments), bm.infer(scans, GRID, **arguments))
+    assert_same(infer(scans, GRID, executor=quick(), **arguments), infer(scans, GRID, **arguments))
 
 
 def test_two_seeds_would_not_pass_for_one(scans):
     """Power of all that compares runs here."""
-    one, other = (bm.infer(scans, GRID, **{**SHORT, **KINDS["walls"], "seed": seed}) for seed in (5, 6))
+    one, other = (infer(scans, GRID, **{**SHORT, **KINDS["walls"], "seed": seed}) for seed in (5, 6))
     with pytest.raises(AssertionError):
         assert_same(one, other)
 
@@ -88,8 +89,8 @@ def test_two_seeds_would_not_pass_for_one(scans):
 @pytest.mark.parametrize("chains_per_task", [1, 2, 3])
 def test_how_chains_are_divided_makes_no_difference(cluster, scans, chains_per_task):
     arguments = {**SHORT, **KINDS["walls"], "thin": 2}
-    run = bm.infer(scans, GRID, executor=quick(chains_per_task=chains_per_task), **arguments)
-    assert_same(run, bm.infer(scans, GRID, **arguments))
+    run = infer(scans, GRID, executor=quick(chains_per_task=chains_per_task), **arguments)
+    assert_same(run, infer(scans, GRID, **arguments))
 
 
 @pytest.mark.full
@@ -105,20 +106,20 @@ def test_a_node_that_dies_costs_nothing_but_time(cluster, scans, kind):
             cluster.kill()
             killed.append(event.done)
 
-    run = bm.infer(scans, GRID, executor=quick(), on_progress=on_progress, **arguments)
+    run = infer(scans, GRID, executor=quick(), on_progress=on_progress, **arguments)
     assert killed
-    assert_same(run, bm.infer(scans, GRID, **arguments))
+    assert_same(run, infer(scans, GRID, **arguments))
 
 
 @pytest.mark.full
 def test_unknown_poses_come_out_alike(cluster, scans):
     """Each chain has poses of its own, and rays that follow them."""
     arguments = {**SHORT, **KINDS["reflectivities"], "poses": Uncertain(0.05, 0.01), "warmup": 7, "draws": 8}
-    assert_same(bm.infer(scans, GRID, executor=quick(), **arguments), bm.infer(scans, GRID, **arguments))
+    assert_same(infer(scans, GRID, executor=quick(), **arguments), infer(scans, GRID, **arguments))
 
 
 @dataclass(frozen=True, eq=False)
-class Deadly(Gibbs):
+class Deadly(WallGibbs):
     """Ends the process that samples with it, once: in the middle of what Ray has given it to do.
 
     Attributes:
@@ -140,12 +141,12 @@ def test_a_worker_that_dies_costs_nothing_but_time(cluster, scans, tmp_path):
     model = Model(scans, GRID, bm.Independent(0.3), bm.Gaussian(0.2))
 
     def job(sampler):
-        return Job(model, sampler, Schedule(20, 30), 5, (0, 1, 2))
+        return Job(model, sampler, SweepPlan(20, 30), 5, (0, 1, 2))
 
     mark = tmp_path / "died"
     done = quick().run(job(Deadly(mark=str(mark))), None, Watch(), None, 30.0)
     assert mark.exists()
-    expected = ThreadExecutor().run(job(Gibbs()), None, Watch(), None, 30.0)
+    expected = ThreadExecutor().run(job(WallGibbs()), None, Watch(), None, 30.0)
     np.testing.assert_array_equal(done.draws.arrays["walls"], expected.draws.arrays["walls"])
     np.testing.assert_array_equal(done.log_joint, expected.log_joint)
 
@@ -154,7 +155,7 @@ def test_a_worker_that_dies_costs_nothing_but_time(cluster, scans, tmp_path):
 def test_a_task_whose_worker_always_dies_is_given_up(cluster, scans, tmp_path):
     cluster.send_by_value(sys.modules[__name__])
     model = Model(scans, GRID, bm.Independent(0.3), bm.Gaussian(0.2))
-    job = Job(model, Deadly(mark=str(tmp_path / "died")), Schedule(20, 30), 5, (0,))
+    job = Job(model, Deadly(mark=str(tmp_path / "died")), SweepPlan(20, 30), 5, (0,))
     with pytest.raises(ConnectionError, match="its workers had died"):
         quick(retries=0).run(job, None, Watch(), None, 30.0)
 
@@ -167,19 +168,19 @@ def test_a_run_that_is_stopped_goes_on_where_it_was(cluster, scans):
         if event.stage == "draws":
             signal.raise_signal(signal.SIGINT)
 
-    stopped = bm.infer(scans, GRID, executor=quick(), on_progress=stop, **arguments)
+    stopped = infer(scans, GRID, executor=quick(), on_progress=stop, **arguments)
     assert not stopped.finished
     assert 40 < stopped.posterior.sweep < 100
-    expected = bm.infer(scans, GRID, **arguments)
-    assert_same(bm.infer(scans, GRID, executor=quick(), resume=stopped, **arguments), expected)
-    assert_same(bm.infer(scans, GRID, resume=stopped, **arguments), expected)
+    expected = infer(scans, GRID, **arguments)
+    assert_same(infer(scans, GRID, executor=quick(), resume=stopped, **arguments), expected)
+    assert_same(infer(scans, GRID, resume=stopped, **arguments), expected)
 
 
 @pytest.mark.full
 def test_checkpoints_are_of_all_chains_at_one_sweep(cluster, scans):
     arguments = {**SHORT, **KINDS["walls"], "warmup": 50, "draws": 100}
     seen, progress = [], []
-    run = bm.infer(
+    run = infer(
         scans, GRID, executor=quick(), on_checkpoint=seen.append, on_progress=progress.append, checkpoint_every_s=0.0,
         **arguments,
     )  # fmt: skip
@@ -192,7 +193,7 @@ def test_checkpoints_are_of_all_chains_at_one_sweep(cluster, scans):
     sweeps = [event.done for event in progress if event.stage in ("warm-up", "draws")]
     assert sweeps == sorted(sweeps)
     assert sweeps[-1] == 150
-    assert_same(bm.infer(scans, GRID, executor=quick(), resume=seen[0], **arguments), run)
+    assert_same(infer(scans, GRID, executor=quick(), resume=seen[0], **arguments), run)
 
 
 @pytest.mark.full
@@ -208,7 +209,7 @@ def test_a_checkpoint_does_not_send_all_draws_back(cluster, scans, kind, monkeyp
         return lambda *given: (sent.append(given[-1]), submit(*given))[1]
 
     monkeypatch.setattr(ray_executor._RayRun, "remote", spied)
-    bm.infer(scans, GRID, executor=quick(), **{**SHORT, **KINDS[kind]})
+    infer(scans, GRID, executor=quick(), **{**SHORT, **KINDS[kind]})
     assert sent
     counts = {array.shape[1] for draws in sent for array in draws.values()}
     assert counts == ({8} if kind == "walls" else {0})
@@ -216,7 +217,7 @@ def test_a_checkpoint_does_not_send_all_draws_back(cluster, scans, kind, monkeyp
 
 def test_what_a_sampler_refuses_is_refused_here_too(cluster, scans):
     with pytest.raises(bm.BadInput, match="each task has a GPU of its own"):
-        bm.infer(scans, GRID, executor=quick(), device="tpu:7", **{**SHORT, **KINDS["walls"]})
+        infer(scans, GRID, executor=quick(), device="tpu:7", **{**SHORT, **KINDS["walls"]})
 
 
 @pytest.mark.parametrize(
@@ -235,10 +236,10 @@ def test_numbers_that_make_no_sense_are_refused(change, message):
 
 def test_more_cpus_than_the_cluster_has_are_refused(cluster, scans):
     with pytest.raises(bm.BadInput, match="each needs 64 CPUs"):
-        bm.infer(scans, GRID, executor=quick(cpus_per_task=64), **{**SHORT, **KINDS["walls"]})
+        infer(scans, GRID, executor=quick(cpus_per_task=64), **{**SHORT, **KINDS["walls"]})
 
 
 def test_without_ray_the_remedy_is_named(scans, monkeypatch):
     monkeypatch.setitem(sys.modules, "ray", None)
     with pytest.raises(bm.BadInput, match=r"pip install 'bayesmap\[ray\]'"):
-        bm.infer(scans, GRID, executor=bm.RayExecutor(), **{**SHORT, **KINDS["walls"]})
+        infer(scans, GRID, executor=bm.RayExecutor(), **{**SHORT, **KINDS["walls"]})

@@ -14,10 +14,10 @@ import bayesmap as bm
 from bayesmap.model import Model
 from bayesmap.run.runner import Job, run_chains
 from bayesmap.samplers.wall_problem import WallProblem
-from bayesmap.samplers.walls import BlockGibbs, Gibbs
+from bayesmap.samplers.walls import WallBlocks, WallGibbs
 
 ORDERS = ("raster", "radial", "random")
-SAMPLERS = {"gibbs": (Gibbs, single_sites), "block": (BlockGibbs, block_sites)}
+SAMPLERS = {"gibbs": (WallGibbs, single_sites), "block": (WallBlocks, block_sites)}
 BOTH = [(method, order) for method in SAMPLERS for order in ORDERS]
 
 PRIORS = (0.05, 0.3, 0.5, "cells")

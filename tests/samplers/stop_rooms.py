@@ -3,6 +3,7 @@
 from functools import cache
 
 import numpy as np
+from flat_options import grouped
 
 import bayesmap as bm
 from bayesmap.cells.surface import PARTS
@@ -46,7 +47,7 @@ def infer(kind, data=None, **options):
         "draws": 6,
         "hit_depth": 0.5,
     } | options
-    return bm.infer(scans() if data is None else data, chosen.pop("grid", GRID), **chosen)
+    return bm.infer(scans() if data is None else data, chosen.pop("grid", GRID), **grouped(**chosen))
 
 
 def assert_same(one, other, but=()):

@@ -10,6 +10,7 @@ False alarms: `ALPHA` = 1e-4 for all methods and functions together.
 import numpy as np
 import pytest
 import scipy
+from flat_options import infer
 from oracle.formula import beams, distances
 from oracle.verdict import ALPHA
 
@@ -48,7 +49,7 @@ def rank_of_truth(number, true_sensor, sensor, options):
     metres = distances(walls, *beams(poses, ANGLES, GRID)) * GRID.resolution
     readings = true_sensor.sample(rng, metres, LIMITS).reshape(2, -1)
     scans = bm.Scans(poses, ANGLES, readings, max_range_m=LIMITS.max_m)
-    run = bm.infer(
+    run = infer(
         scans, GRID, prior=PRIOR, sensor=sensor, chains=1, warmup=100, draws=DRAWS, thin=15, seed=number, threads=1,
         **options,
     )  # fmt: skip
@@ -91,7 +92,7 @@ def test_all_starts_agree_on_the_tutorial_s_map_where_walls_are_rare():
     scans = bm.simulate(walls, grid, pose, angles, sensor=bm.Gaussian(0.2), max_range_m=42.0, seed=1)
     prior = bm.Independent(0.05)
     runs = [
-        bm.infer(
+        infer(
             scans, grid, prior=prior, sensor=bm.Gaussian(0.2), method="block", order="radial", chains=2, warmup=1000,
             draws=1000, start=start, seed=seed,
         )

@@ -14,12 +14,12 @@ from bayesmap.kernels.device import launch
 from bayesmap.kernels.walls.chains import EXACT as EXACTLY
 from bayesmap.kernels.walls.chains import WallChains, derive_state
 from bayesmap.run import runner
-from bayesmap.run.chains import Schedule, join
+from bayesmap.run.chains import SweepPlan, join
 from bayesmap.samplers.progress import Watch
 from bayesmap.samplers.sampler import Keep
 
 EXACT = int(EXACTLY)
-SCHEDULE = Schedule(warmup=13, draws=17, thin=3)
+SCHEDULE = SweepPlan(warmup=13, draws=17, thin=3)
 FIELDS = ("log_likelihood", "log_prior", "warmup_log_joint", "sweep", "finished")
 
 
@@ -130,7 +130,7 @@ def test_a_checkpoint_comes_at_the_end_of_warm_up_and_is_good_to_resume_from():
 def test_checkpoints_come_as_often_as_asked(monkeypatch):
     monkeypatch.setattr(runner, "STEP_SECONDS", 0.0)
     problem, seen = problem_8x8(), []
-    whole = chains_of(problem, "gibbs", "radial", on_checkpoint=seen.append, checkpoint_every_s=-1.0)
+    whole = chains_of(problem, "gibbs", "radial", on_checkpoint=seen.append, checkpoint_every_s=0.0)
     assert [c.sweep for c in seen] == list(range(1, 65))
     assert not any(c.finished for c in seen)
     assert_same(chains_of(problem, "gibbs", "radial", resume=seen[-3]), whole)

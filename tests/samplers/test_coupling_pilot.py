@@ -7,13 +7,14 @@ from functools import cache
 
 import numpy as np
 import pytest
+from flat_options import infer
 from tiers import full_but, latin
 
 import bayesmap as bm
 from bayesmap.cells.ising import LARGEST_FITTED, walls_less_free
 from bayesmap.model import Model
 from bayesmap.samplers.coupling_pilot import fit_coupling_to_scans
-from bayesmap.samplers.walls import BlockGibbs, Gibbs
+from bayesmap.samplers.walls import WallBlocks, WallGibbs
 
 GRID = bm.Grid((40, 40), 0.25)
 SENSOR = bm.BeamMixture(bm.Gaussian(0.03))
@@ -80,7 +81,7 @@ def simulated(p, coupling, poses, seed):
     return walls, bm.simulate(walls, GRID, stops, np.linspace(-3, 3, 24), sensor=SENSOR, max_range_m=6.0, seed=seed)
 
 
-@pytest.mark.parametrize(("truth", "sampler"), latin(2, TRUTHS[1:], [Gibbs(), BlockGibbs(order="random")]))
+@pytest.mark.parametrize(("truth", "sampler"), latin(2, TRUTHS[1:], [WallGibbs(), WallBlocks(order="random")]))
 def test_scans_of_a_whole_map_give_the_coupling_of_that_map(truth, sampler):
     """300 scans leave next to nothing open: what is found is what the map itself says."""
     p, coupling = truth
@@ -99,7 +100,7 @@ def test_few_scans_give_it_without_bias(truth):
     for seed in range(12):
         _, scans = simulated(p, coupling, 8, seed)
         model = Model(scans, GRID, bm.Ising(p, "fit"), SENSOR)
-        found.append(fit_coupling_to_scans(model, Gibbs(), "cpu", seed=seed).coupling)
+        found.append(fit_coupling_to_scans(model, WallGibbs(), "cpu", seed=seed).coupling)
     error = np.std(found) / np.sqrt(len(found))
     assert abs(np.mean(found) - coupling) < min(5 * error, 0.15)
 
@@ -108,25 +109,25 @@ def test_infer_fits_it_before_the_chains_and_says_what_it_found(tmp_path):
     walls, scans = simulated(0.3, 0.6, 300, 4)
     options = {"prior": bm.Ising(0.3, "fit"), "sensor": SENSOR, "warmup": 5, "draws": 5, "seed": 1}
     stops = []
-    run = bm.infer(scans, GRID, chains=2, **options, on_checkpoint=stops.append, checkpoint_every_s=-1.0)
+    run = infer(scans, GRID, chains=2, **options, on_checkpoint=stops.append, checkpoint_every_s=0.0)
     prior = run.posterior.prior
     assert run.posterior.settings["prior"]["coupling"] == "fit"
     assert run.posterior.settings["fitted"]["prior"] == prior.describe()
     assert prior.coupling == pytest.approx(bm.fit_coupling(walls, 0.3), abs=0.03)
-    given = bm.infer(scans, GRID, chains=2, **{**options, "prior": bm.Ising(0.3, prior.coupling)})
+    given = infer(scans, GRID, chains=2, **{**options, "prior": bm.Ising(0.3, prior.coupling)})
     np.testing.assert_array_equal(run.draws, given.draws)
-    np.testing.assert_array_equal(bm.infer(scans, GRID, chains=1, **options).draws, run.draws[:1])
+    np.testing.assert_array_equal(infer(scans, GRID, chains=1, **options).draws, run.draws[:1])
     run.save(tmp_path / "run.nc")
     assert bm.load(tmp_path / "run.nc").posterior.prior.coupling == prior.coupling
     stops[0].save(tmp_path / "part.nc")
-    resumed = bm.infer(scans, GRID, chains=2, **options, resume=bm.load(tmp_path / "part.nc"))
+    resumed = infer(scans, GRID, chains=2, **options, resume=bm.load(tmp_path / "part.nc"))
     np.testing.assert_array_equal(resumed.draws, run.draws)
 
 
 @pytest.mark.parametrize("method", full_but(["block", "propagate", "importance"], "block"))
 def test_every_method_takes_a_coupling_that_is_to_be_fitted(method):
     _, scans = simulated(0.3, 0.6, 8, 0)
-    run = bm.infer(
+    run = infer(
         scans, GRID, prior=bm.Ising(0.3, "fit"), sensor="fit", method=method, chains=1, warmup=2, draws=2, particles=50
     )
     assert 0 < run.posterior.prior.coupling < 1.5

@@ -142,7 +142,9 @@ def test_binary_walls_can_have_a_fitted_sensor():
     model = Model(scans(), GRID, bm.Independent(0.1), TRUTH, hit_depth=0.5)
     found = fit_sensor(model, "cpu", seed=0)
     assert 0.3 < found.p_random / TRUTH.p_random < 3
-    run = bm.infer(scans(poses=5), GRID, prior=bm.Independent(0.1), sensor="fit", chains=1, warmup=5, draws=5)
+    run = bm.infer(
+        scans(poses=5), GRID, prior=bm.Independent(0.1), sensor="fit", schedule=bm.Schedule(chains=1, warmup=5, draws=5)
+    )
     assert isinstance(run.posterior.sensor, bm.BeamMixture)
 
 

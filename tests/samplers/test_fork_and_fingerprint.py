@@ -7,6 +7,7 @@ import sys
 import numpy as np
 import pytest
 import scipy
+from flat_options import grouped
 
 import bayesmap as bm
 from bayesmap.sensors.model import SensorModel
@@ -33,7 +34,7 @@ class Sonar(SensorModel):
 
 def infer(sensor=None, **options):
     sensor = sensor or bm.Gaussian(0.5)
-    return bm.infer(SCANS, GRID, prior=bm.Independent(0.3), sensor=sensor, warmup=5, draws=5, **options)
+    return bm.infer(SCANS, GRID, prior=bm.Independent(0.3), sensor=sensor, **grouped(warmup=5, draws=5, **options))
 
 
 def test_a_run_is_not_resumed_with_another_sensor_of_the_same_name():

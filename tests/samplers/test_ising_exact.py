@@ -135,11 +135,20 @@ def test_cells_that_no_beam_touches_are_as_their_neighbours_say():
     """A single beam along the first row of 3 x 4 cells, which reads a wall at its end."""
     grid, prior = bm.Grid((4, 3)), bm.Ising(0.3, 1.0)
     scans = bm.Scans([-0.5, 0.5, 0.0], [0.0], [[3.5]], max_range_m=9.0)
-    run = bm.infer(scans, grid, prior=prior, sensor=bm.Gaussian(0.1), method="exact", draws=0, chains=1)
-    apart = bm.infer(scans, grid, prior=bm.Independent(0.3), sensor=bm.Gaussian(0.1), method="exact", draws=0, chains=1)
+    run = bm.infer(
+        scans, grid, prior=prior, sensor=bm.Gaussian(0.1), method="exact", schedule=bm.Schedule(draws=0, chains=1)
+    )
+    apart = bm.infer(
+        scans,
+        grid,
+        prior=bm.Independent(0.3),
+        sensor=bm.Gaussian(0.1),
+        method="exact",
+        schedule=bm.Schedule(draws=0, chains=1),
+    )
     assert run.occupancy[3, 1] > 2 * run.occupancy[0, 1]
     np.testing.assert_allclose(apart.occupancy[:, 1:], 0.3)
-    sampled = bm.infer(scans, grid, prior=prior, sensor=bm.Gaussian(0.1), draws=20_000, seed=3)
+    sampled = bm.infer(scans, grid, prior=prior, sensor=bm.Gaussian(0.1), schedule=bm.Schedule(draws=20_000), seed=3)
     np.testing.assert_allclose(sampled.occupancy, run.occupancy, atol=0.02)
 
 

@@ -11,7 +11,7 @@ import bayesmap as bm
 from bayesmap.cells.labels import SOLID
 from bayesmap.model import Model
 from bayesmap.run import runner
-from bayesmap.run.chains import Schedule, join
+from bayesmap.run.chains import SweepPlan, join
 from bayesmap.run.runner import Job, run_chains
 from bayesmap.samplers.fit import first_sensor, fit
 from bayesmap.samplers.progress import Watch
@@ -70,7 +70,7 @@ def test_chain_two_is_the_same_wherever_it_runs(kind):
     for chain in (0, 1, 2):
         problem = sampler.prepare(model, "cpu")
         found = fit(problem, 0, 6)
-        parts.append(run_chains(Job(model, sampler, Schedule(6, 4), 0, (chain,), parameters=found)))
+        parts.append(run_chains(Job(model, sampler, SweepPlan(6, 4), 0, (chain,), parameters=found)))
     chains = join(parts)
     np.testing.assert_array_equal(chains.log_joint, whole.log_joint)
     for name, values in chains.draws.arrays.items():
@@ -96,7 +96,7 @@ def test_any_cutting_into_steps_gives_the_same_run(kind, step_seconds, monkeypat
 def test_a_run_stopped_at_any_sweep_goes_on_bit_for_bit(kind, thin):
     options = {"warmup": 12, "draws": 4, "thin": thin}
     stops = []
-    whole = infer(kind, on_checkpoint=stops.append, checkpoint_every_s=-1.0, **options)
+    whole = infer(kind, on_checkpoint=stops.append, checkpoint_every_s=0.0, **options)
     assert [run.posterior.sweep for run in stops] == list(range(1, 12 + 4 * thin + 1))
     assert not any(run.finished for run in stops)
     for stop in stops[:: 1 if kind == "surfaces" else 4]:
@@ -105,7 +105,7 @@ def test_a_run_stopped_at_any_sweep_goes_on_bit_for_bit(kind, thin):
 
 def test_a_run_saved_and_loaded_at_any_sweep_goes_on_bit_for_bit(tmp_path):
     stops = []
-    whole = infer("surfaces", on_checkpoint=stops.append, checkpoint_every_s=-1.0)
+    whole = infer("surfaces", on_checkpoint=stops.append, checkpoint_every_s=0.0)
     for stop in (stops[0], stops[7], stops[11], stops[14]):
         stop.save(tmp_path / "part.nc")
         assert_same(infer("surfaces", resume=bm.load(tmp_path / "part.nc")), whole)
@@ -124,7 +124,7 @@ def test_asked_to_stop_it_stops_between_two_sweeps():
         return len(asked) > 5
 
     model = Model(scans(), GRID, bm.Surface(), TRUTH, hit_depth=0.5)
-    found = run_chains(Job(model, StopGibbs(), Schedule(3, 10), 0, (0,)), watch=Watch(should_stop=should_stop))
+    found = run_chains(Job(model, StopGibbs(), SweepPlan(3, 10), 0, (0,)), watch=Watch(should_stop=should_stop))
     assert (found.sweep, found.finished) == (5, False)
     assert found.draws.count == found.log_likelihood.shape[1] == 2
     assert found.warmup_log_joint.shape == (1, 3)
@@ -164,12 +164,17 @@ def test_the_fewer_the_beams_the_more_draws_by_default():
     assert [bm.Beta().default_draws(beams, grid, 4, thin=3) for beams in (25_000, 50_000, 100_000, 10**9)] == [
         200, 200, 100, 100,
     ]  # fmt: skip
-    run = bm.infer(scans(), GRID, prior=bm.Beta(), sensor=TRUTH, chains=1, warmup=0)
+    run = bm.infer(scans(), GRID, prior=bm.Beta(), sensor=TRUTH, schedule=bm.Schedule(chains=1, warmup=0))
     assert run.n_draws == bm.Beta().default_draws(scans().n_beams, GRID.n_cells, 1) == 200
     assert run.posterior.sweep == 3 * 200
-    given = bm.infer(scans(), GRID, prior=bm.Beta(), sensor=TRUTH, chains=1, warmup=0, draws=5)
+    given = bm.infer(scans(), GRID, prior=bm.Beta(), sensor=TRUTH, schedule=bm.Schedule(chains=1, warmup=0, draws=5))
     assert given.posterior.sweep == 5  # who says how many draws, gets as many sweeps
-    assert bm.infer(scans(), GRID, prior=bm.Beta(), sensor=TRUTH, chains=1, warmup=0, thin=1).posterior.sweep == 200
+    assert (
+        bm.infer(
+            scans(), GRID, prior=bm.Beta(), sensor=TRUTH, schedule=bm.Schedule(chains=1, warmup=0, thin=1)
+        ).posterior.sweep
+        == 200
+    )
 
 
 @pytest.mark.parametrize("kind", full_but(ALL, "surfaces", "reflectivities"))

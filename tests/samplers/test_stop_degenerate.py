@@ -144,12 +144,14 @@ def test_words_that_are_no_sensor_are_refused():
 
 
 def test_runs_of_another_kind_or_with_other_settings_are_not_resumed():
-    walls = bm.infer(room(), GRID, prior=bm.Independent(0.1), sensor=TRUTH, chains=1, warmup=2, draws=2)
+    walls = bm.infer(
+        room(), GRID, prior=bm.Independent(0.1), sensor=TRUTH, schedule=bm.Schedule(chains=1, warmup=2, draws=2)
+    )
     surfaces = infer("surfaces", room())
     with pytest.raises(bm.BadInput, match="one over walls or free, not over reflectivities and surfaces"):
         infer("surfaces", room(), resume=walls)
     with pytest.raises(bm.BadInput, match="over reflectivities and surfaces, not over walls or free"):
-        bm.infer(room(), GRID, prior=bm.Independent(0.1), sensor=TRUTH, resume=surfaces)
+        bm.infer(room(), GRID, prior=bm.Independent(0.1), sensor=TRUTH, checkpoints=bm.Checkpoints(resume=surfaces))
     with pytest.raises(bm.BadInput, match="over reflectivities and surfaces, not over reflectivities"):
         infer("surfaces", room(), resume=surfaces, prior=bm.Beta())
     for options, word in (

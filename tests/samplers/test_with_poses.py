@@ -16,10 +16,10 @@ from oracle.verdict import ALPHA
 import bayesmap as bm
 from bayesmap.model import Model
 from bayesmap.poses.prior import Odometry, Uncertain
-from bayesmap.run.chains import Schedule
+from bayesmap.run.chains import SweepPlan
 from bayesmap.run.runner import Job, run_chains
 from bayesmap.samplers.sampler import Keep
-from bayesmap.samplers.walls import Gibbs
+from bayesmap.samplers.walls import WallGibbs
 from bayesmap.samplers.with_poses import WithPoses
 from bayesmap.sensors.model import RangeLimits
 
@@ -44,7 +44,7 @@ def drawn_model(seed, prior, scans=4):
 
 
 def chains_of(model, ids, schedule, seed, walls="prior", **options):
-    sampler = WithPoses(Gibbs(start=walls), schedule.warmup, **{"every": 2, "pose_steps": 4} | options)
+    sampler = WithPoses(WallGibbs(start=walls), schedule.warmup, **{"every": 2, "pose_steps": 4} | options)
     return run_chains(Job(model, sampler, schedule, seed, tuple(ids), threads=1))
 
 
@@ -58,7 +58,7 @@ def test_ranks_of_the_truth_among_draws_are_uniform(name):
     for seed in range(worlds):
         model, walls, truth = drawn_model(seed, PRIORS[name])
         # The chain starts at the truth, a draw of the posterior: what has to be forgotten is forgotten in warm-up.
-        chains = chains_of(model, [0], Schedule(15, draws, 12), seed, walls, start=truth[None], every=3, pose_steps=6)
+        chains = chains_of(model, [0], SweepPlan(15, draws, 12), seed, walls, start=truth[None], every=3, pose_steps=6)
         poses, maps = chains.draws.values("poses")[0], chains.draws.values("walls")[0]
         rng = np.random.default_rng(seed)
 
@@ -82,12 +82,12 @@ def test_ranks_of_the_truth_among_draws_are_uniform(name):
 
 def test_a_chain_does_not_depend_on_its_company_nor_on_steps():
     model, _, _ = drawn_model(1, PRIORS["odometry"])
-    schedule = Schedule(6, 5, 2)
+    schedule = SweepPlan(6, 5, 2)
     together = chains_of(model, [3, 4, 7], schedule, 11)
     alone = chains_of(model, [4], schedule, 11)
     for name, values in alone.draws.arrays.items():
         assert (together.draws.arrays[name][1] == values[0]).all(), name
-    sampler = WithPoses(Gibbs(start="prior"), 6, every=2, pose_steps=4)
+    sampler = WithPoses(WallGibbs(start="prior"), 6, every=2, pose_steps=4)
     problem = sampler.prepare(model, "cpu", 1)
     state = sampler.init(problem, [4], 11)
     for count in (1, 4, 3, 8):
@@ -101,7 +101,7 @@ def test_a_chain_does_not_depend_on_its_company_nor_on_steps():
 
 def test_the_log_joint_is_the_models():
     model, _, _ = drawn_model(2, PRIORS["odometry"])
-    chains = chains_of(model, [0, 1], Schedule(4, 6), 3)
+    chains = chains_of(model, [0, 1], SweepPlan(4, 6), 3)
     for chain in range(2):
         for draw in range(6):
             state = replace(
@@ -114,7 +114,12 @@ def test_the_log_joint_is_the_models():
 def test_infer_takes_a_prior_of_poses_and_its_run_keeps_their_draws(tmp_path):
     model, _, _ = drawn_model(5, PRIORS["uncertain"])
     run = bm.infer(
-        model.scans, GRID, prior=bm.Independent(0.25), sensor=SENSOR, poses=model.poses, chains=2, warmup=10, draws=8
+        model.scans,
+        GRID,
+        prior=bm.Independent(0.25),
+        sensor=SENSOR,
+        poses=model.poses,
+        schedule=bm.Schedule(chains=2, warmup=10, draws=8),
     )
     assert run.poses.shape == (2, 8, 4, 3)
     assert run.poses.std(axis=1).min() > 0
@@ -123,7 +128,9 @@ def test_infer_takes_a_prior_of_poses_and_its_run_keeps_their_draws(tmp_path):
     again = bm.load(tmp_path / "run.nc")
     assert (again.poses == run.poses).all()
     assert again.posterior.settings["poses"] == model.poses.describe()
-    half = bm.infer(model.scans, GRID, prior=bm.Independent(0.25), sensor=SENSOR, chains=2, warmup=10, draws=8)
+    half = bm.infer(
+        model.scans, GRID, prior=bm.Independent(0.25), sensor=SENSOR, schedule=bm.Schedule(chains=2, warmup=10, draws=8)
+    )
     assert (half.poses == model.scans.poses).all()
 
 
@@ -138,9 +145,15 @@ def test_reflectivities_and_surfaces_have_poses_too(prior):
     scans = bm.simulate(walls, grid, truth, angles, sensor=bm.BeamMixture(bm.Gaussian(0.05)), max_range_m=30.0, seed=0)
     said = truth + rng.normal(0, [0.2, 0.2, 0.05], truth.shape)
     run = bm.infer(
-        scans.at(said), grid, prior=prior, sensor=bm.BeamMixture(bm.Gaussian(0.05)), poses=Uncertain(0.2, 0.05),
-        start_poses=said[None], chains=2, warmup=60, draws=30, hit_depth=0.0 if prior == bm.Beta() else 0.5,
-    )  # fmt: skip
+        scans.at(said),
+        grid,
+        prior=prior,
+        sensor=bm.BeamMixture(bm.Gaussian(0.05)),
+        poses=Uncertain(0.2, 0.05),
+        method=bm.Gibbs(start_poses=said[None]),
+        schedule=bm.Schedule(chains=2, warmup=60, draws=30),
+        hit_depth=0.0 if prior == bm.Beta() else 0.5,
+    )
     found = run.pose_summary().mean
 
     # The whole map may lie elsewhere: what is compared is each pose in the frame of the others.

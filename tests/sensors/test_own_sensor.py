@@ -27,7 +27,7 @@ def sonar():
 
 @pytest.mark.parametrize("prior", KINDS, ids=lambda prior: prior.words.kind)
 def test_maps_are_inferred_and_scored_by_it(prior, sonar):
-    run = bm.infer(TRAIN, GRID, prior=prior, sensor=sonar, chains=2, warmup=10, draws=20)
+    run = bm.infer(TRAIN, GRID, prior=prior, sensor=sonar, schedule=bm.Schedule(chains=2, warmup=10, draws=20))
     assert np.isfinite(run.log_joint).all()
     score = bm.score(run, HELD)
     assert run.log_score(HELD) == score.nats_per_beam
@@ -39,7 +39,7 @@ def test_maps_are_inferred_and_scored_by_it(prior, sonar):
 def test_readings_far_from_every_wall_are_scored_by_the_plain_law(sonar, sigma_m):
     """Also where its density is smaller than that of anything that a mixture would call possible."""
     sensor, prior = type(sonar)(sigma_m), bm.Independent(0.2)
-    run = bm.infer(TRAIN, GRID, prior=prior, sensor=sensor, chains=2, warmup=10, draws=10)
+    run = bm.infer(TRAIN, GRID, prior=prior, sensor=sensor, schedule=bm.Schedule(chains=2, warmup=10, draws=10))
     model, draws = bm.model.Model(HELD, GRID, prior, sensor), run.posterior.draws
     plain = np.array([model.beam_log_likelihoods(model.state(draws.cells(*one))) for one in draws.numbers()])
     expected = np.logaddexp.reduce(plain, axis=0) - np.log(len(plain))
@@ -52,7 +52,14 @@ def test_readings_far_from_every_wall_are_scored_by_the_plain_law(sonar, sigma_m
 
 def test_the_likelihood_that_chains_of_surfaces_report_is_the_model_s(sonar):
     """The table against the plain formula: what a sweep sums up is the joint law's likelihood of the kept draw."""
-    run = bm.infer(TRAIN, GRID, prior=bm.Beta(0.5, 1.0), sensor=sonar, chains=1, warmup=10, draws=3, hit_depth=0.5)
+    run = bm.infer(
+        TRAIN,
+        GRID,
+        prior=bm.Beta(0.5, 1.0),
+        sensor=sonar,
+        schedule=bm.Schedule(chains=1, warmup=10, draws=3),
+        hit_depth=0.5,
+    )
     model = bm.model.Model(TRAIN, GRID, bm.Beta(0.5, 1.0), sonar, hit_depth=0.5)
     for draw in range(3):
         cells = {"reflectivity": np.asarray(run.map_of(0, draw), dtype=float)}
@@ -63,4 +70,6 @@ def test_the_likelihood_that_chains_of_surfaces_report_is_the_model_s(sonar):
 
 def test_a_sensor_under_which_readings_are_impossible_is_refused():
     with pytest.raises(bm.BadInput, match="a sensor under which no reading is impossible"):
-        bm.infer(TRAIN, GRID, prior=bm.Surface(), sensor=bm.Gaussian(0.1), chains=1, warmup=1, draws=1)
+        bm.infer(
+            TRAIN, GRID, prior=bm.Surface(), sensor=bm.Gaussian(0.1), schedule=bm.Schedule(chains=1, warmup=1, draws=1)
+        )

@@ -63,6 +63,12 @@ def test_beam_poses_that_do_not_fit_are_refused(beam_poses, message):
 
 
 def test_a_saved_run_keeps_its_beam_poses(tmp_path):
-    run = bm.infer(moving_scans(), GRID, prior=bm.Independent(0.2), sensor=SENSOR, chains=1, warmup=1, draws=2)
+    run = bm.infer(
+        moving_scans(),
+        GRID,
+        prior=bm.Independent(0.2),
+        sensor=SENSOR,
+        schedule=bm.Schedule(chains=1, warmup=1, draws=2),
+    )
     save(run.posterior, tmp_path / "run.nc")
     np.testing.assert_array_equal(load_saved(tmp_path / "run.nc")[0].scans.beam_poses, moving_scans().beam_poses)

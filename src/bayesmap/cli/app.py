@@ -6,8 +6,9 @@ import click
 
 from bayesmap.cli.command import Call, takes
 from bayesmap.cli.console import write_out
-from bayesmap.cli.input_files import LOG, need_file
-from bayesmap.cli.reading import options_of
+from bayesmap.cli.keys import AppSettings
+from bayesmap.cli.logs import LOG, need_file
+from bayesmap.cli.translation import reading_of
 
 
 @takes("app")
@@ -16,7 +17,7 @@ from bayesmap.cli.reading import options_of
 @click.option("--port", type=click.IntRange(0, 65535), default=0, help="Port to listen on. [default: any free one]")
 @click.option("--no-browser", is_flag=True, help="Only print the address.")
 @click.option("--seed", type=click.IntRange(0, 2**31 - 1), default=0, show_default=True, help="Of all random numbers.")
-def command(call: Call, file: str | None, host: str, port: int, no_browser: bool, seed: int) -> None:
+def app(call: Call[AppSettings], file: str | None, host: str, port: int, no_browser: bool, seed: int) -> None:
     r"""Draw walls, drag the robot, watch the posterior live, in the browser.
 
     Begins with the tutorial's map, or with a document that the page has exported; with a saved run (.nc) its draws and
@@ -30,7 +31,7 @@ def command(call: Call, file: str | None, host: str, port: int, no_browser: bool
     bayesmap app office.log.gz --skip-bad-lines
     bayesmap app document.json
     """
-    reading = options_of(call.values())
+    reading = reading_of(call.settings())
     if file is not None:
         need_file(file, f"a saved run (.nc), a document of the page (.json), or {LOG}", runs=True)
 

@@ -5,22 +5,16 @@ from __future__ import annotations
 import inspect
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Generic, TypeVar, cast
 
 import click
 from click.core import ParameterSource
 
-from bayesmap.cli.console import Console
-from bayesmap.cli.keys import SECTIONS, Key, Value
-from bayesmap.cli.rules import checked
-from bayesmap.cli.settings import Settings, layered, read_file, read_pairs
-from bayesmap.cli.startup_interrupt import INTERRUPTED as INTERRUPTED
+from bayesmap.cli.console import VERBOSE, Console
+from bayesmap.cli.keys import SECTIONS, Key, Settings, Value, checked, keys_of
+from bayesmap.cli.settings import Layer, layered, read_file, read_pairs
 
-FAILURE, BAD_INPUT, PROBLEMS = 1, 3, 4
-"""Exit codes, beside click's own 2 for usage."""
-
-VERBOSE = "bayesmap.verbose"
-"""Key of the click context under which a command says that it is verbose, for whoever prints its failure."""
+S = TypeVar("S", bound=Settings)
 
 COMMON = (
     click.Option(["-c", "--config"], metavar="FILE", help="TOML file with settings, as printed by bayesmap config."),
@@ -33,38 +27,37 @@ COMMON = (
 
 
 @dataclass(frozen=True)
-class Call:
-    """One call of a command.
+class Call(Generic[S]):
+    """One call of a command whose settings are of the class S.
 
     Attributes:
-        console: where its words go.
-        section: its table of settings.
+        console: what the command prints goes there.
+        section: the command's table of settings; "" if it has none.
         layers: what the user set: in the file, by ``--set``, by flags.
     """
 
     console: Console
-    section: str | None
-    layers: tuple[Settings, Settings, Settings]
+    section: str
+    layers: tuple[Layer, ...]
 
-    def settings(self, under: Settings | None = None) -> Settings:
-        """All settings; ``under`` lies between the defaults and what the user set."""
-        return layered(under or {}, *self.layers)
+    def settings(self, under: Layer | None = None) -> S:
+        """Return the command's settings; ``under`` lies between the defaults and what the user set."""
+        return cast(S, layered(self.section, under or {}, *self.layers))
 
-    def values(self, under: Settings | None = None) -> dict[str, Any]:
-        """The settings of the command's own section."""
-        assert self.section is not None
-        return dict(self.settings(under)[self.section])
+    def all_settings(self) -> dict[str, Settings]:
+        """Return the settings of all commands."""
+        return {section: layered(section, *self.layers) for section in SECTIONS}
 
 
 def takes(section: str | None) -> Callable[[Callable[..., None]], click.Command]:
-    """Make a function a command: it is given a `Call`, and its own arguments by name.
+    """Make a function a command. The function is given a `Call`, and its own arguments by name.
 
     Args:
-        section: whose settings become flags; None for a command without.
+        section: the table whose settings become flags; None for a command without settings.
     """
 
     def decorate(run: Callable[..., None]) -> click.Command:
-        keys = SECTIONS[section] if section is not None else ()
+        keys = keys_of(section) if section is not None else ()
 
         @click.pass_context
         def callback(context: click.Context, /, **arguments: Any) -> None:
@@ -87,7 +80,8 @@ def takes(section: str | None) -> Callable[[Callable[..., None]], click.Command]
             )
             by_file = read_file(config) if config is not None else {}
             by_flags = {section: flags} if section is not None else {}
-            run(Call(console, section, (by_file, read_pairs(pairs, section), by_flags)), **arguments)
+            layers = by_file, read_pairs(pairs, section), by_flags
+            run(Call[Any](console, section or "", layers), **arguments)
 
         made = click.command(help=_help(run.__doc__ or ""))(callback)
         made.params = list(getattr(run, "__click_params__", []))[::-1]
@@ -98,12 +92,42 @@ def takes(section: str | None) -> Callable[[Callable[..., None]], click.Command]
 
 
 def _help(docstring: str) -> str:
-    """The docstring, in which a raw backslash-b keeps click from filling a paragraph."""
+    """Return the docstring, in which a raw backslash-b keeps click from filling a paragraph."""
     return inspect.cleandoc(docstring).replace("\\b\n", "\b\n")
 
 
 def _option(key: Key) -> click.Option:
-    shown = key.unset if key.default is None else f"{key.default}"
     if key.kind is bool:
-        return click.Option([key.flag, key.name], is_flag=True, help=key.help)
-    return click.Option([key.flag, key.name], type=key.type, metavar=key.metavar, help=f"{key.help} [default: {shown}]")
+        return click.Option([key.flag, key.name], is_flag=True, help=key.help.text)
+    shown = key.help.unset if key.default is None else f"{key.default}"
+    text = f"{key.help.text} [default: {shown}]"
+    return click.Option([key.flag, key.name], type=_click_type(key), metavar=key.help.metavar, help=text)
+
+
+def _click_type(key: Key) -> click.ParamType[Any]:
+    """Return the click type that reads a flag's value."""
+    if key.choices:
+        return click.Choice(key.choices) if key.kind is str else NumberOr(key.choices[0])
+    return click.types.convert_type(key.kind)
+
+
+class NumberOr(click.ParamType["float | str"]):
+    """A number, or a word.
+
+    Attributes:
+        word: may stand in place of the number.
+    """
+
+    name = "number"
+
+    def __init__(self, word: str) -> None:
+        self.word = word
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float | str:
+        """Return the number or the word of a text; a number as it is."""
+        if value == self.word:
+            return self.word
+        try:
+            return float(value)
+        except ValueError:
+            self.fail(f"{value!r} is neither a number nor {self.word!r}", param, ctx)

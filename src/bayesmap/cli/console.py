@@ -1,4 +1,4 @@
-"""What a command prints: results on standard output, everything else on standard error."""
+"""What a command leaves: results on standard output, everything else on standard error, and its exit code."""
 
 from __future__ import annotations
 
@@ -12,6 +12,14 @@ from pathlib import Path
 from typing import Any, TextIO
 
 import click
+
+from bayesmap.cli.startup_interrupt import INTERRUPTED as INTERRUPTED
+
+FAILURE, BAD_INPUT, PROBLEMS = 1, 3, 4
+"""Exit codes, beside click's own 2 for usage, and `INTERRUPTED`."""
+
+VERBOSE = "bayesmap.verbose"
+"""Key of the click context under which a command says that it is verbose, for whoever prints its failure."""
 
 SCHEMA_VERSION = 1
 """Raised when a key of the JSON documents changes its meaning or disappears; new keys do not raise it."""
@@ -34,21 +42,21 @@ class Console:
     bar: bool = True
 
     def say(self, text: str) -> None:
-        """A line of progress or of advice."""
+        """Write a line of progress or of advice."""
         if not self.quiet:
             complain(text)
 
     def detail(self, text: str) -> None:
-        """A line that only a verbose call prints."""
+        """Write a line that only a verbose call prints."""
         if self.verbose:
             complain(text)
 
     def warn(self, text: str) -> None:
-        """A line that even a quiet call prints."""
+        """Write a line that even a quiet call prints."""
         complain(f"bayesmap: warning: {text}")
 
     def result(self, document: dict[str, Any], paths: Iterable[str | Path]) -> None:
-        """The result: the document with ``--json``, otherwise the paths of what was written, one a line."""
+        """Write the result: the document with ``--json``, otherwise the paths of what was written, one a line."""
         write_out(as_json(document) if self.as_json else "".join(f"{path}\n" for path in paths))
 
     @property
@@ -58,12 +66,12 @@ class Console:
 
 
 def counted(number: int, thing: str) -> str:
-    """Such as "1 sweep" and "2,000 sweeps"."""
+    """Return a number with its noun, such as "1 sweep" and "2,000 sweeps"."""
     return f"{number:,} {thing}" + "s" * (number != 1)
 
 
 def as_json(document: dict[str, Any]) -> str:
-    """One JSON document with its schema's version, ending in a newline; NaN and infinity are refused."""
+    """Return one JSON document with the version of its schema, ending in a newline; NaN and infinity are refused."""
     return json.dumps({"schema_version": SCHEMA_VERSION, **document}, indent=2, allow_nan=False) + "\n"
 
 
@@ -72,7 +80,7 @@ RESULTS = "bayesmap.results"
 
 
 def reserve_stdout() -> None:
-    """From here to the command's end only `write_out` writes to standard output; what libraries print goes to stderr.
+    """Keep standard output for `write_out` until the command ends; what libraries print goes to standard error.
 
     Ray prints on standard output what happens to its nodes, whenever it hears of it: also long after the chains.
     """
@@ -108,6 +116,6 @@ def write_out(text: str) -> bool:
 
 
 def complain(text: str) -> None:
-    """A line on standard error, if there is still somebody to read it."""
+    """Write a line on standard error, if there is still a reader."""
     with contextlib.suppress(BrokenPipeError):
         click.echo(text, err=True)

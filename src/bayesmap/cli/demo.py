@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from bayesmap.cli.command import INTERRUPTED, PROBLEMS, Call, takes
-from bayesmap.cli.console import Console, as_json
+from bayesmap.cli.command import Call, takes
+from bayesmap.cli.console import INTERRUPTED, PROBLEMS, Console, as_json
 from bayesmap.cli.document import run_document
+from bayesmap.cli.keys import DemoSettings
 from bayesmap.cli.progress import progress
 from bayesmap.errors import BadInput
 
@@ -27,7 +28,7 @@ COLLAPSED = 10.0
 @takes("demo")
 @click.option("-o", "--output", metavar="DIR", default="runs/demo", help="Folder of results. [default: runs/demo]")
 @click.option("--force", is_flag=True, help="Write into DIR even if it holds a run that is no demo.")
-def command(call: Call, output: str, force: bool) -> None:
+def demo(call: Call[DemoSettings], output: str, force: bool) -> None:
     """Map the tutorial's building from one scan of 100 noisy beams.
 
     Three methods look at the same scan: single-site Gibbs with prior wall probability 0.5, 2 x 2 block Gibbs with
@@ -44,7 +45,7 @@ def command(call: Call, output: str, force: bool) -> None:
     except (FileExistsError, NotADirectoryError):
         raise BadInput(f"{folder}: not a folder; choose another with -o") from None
 
-    runs = _runs(call.console, call.values())
+    runs = _runs(call.console, call.settings())
     with progress(call.console, "drawing pictures and a film"):
         outputs = [*_pictures(runs, folder), folder / "demo.json"]
     main = runs["gibbs"]
@@ -59,51 +60,50 @@ def command(call: Call, output: str, force: bool) -> None:
     call.console.result(document, outputs)
     if not all(run.finished for run in runs.values()):
         click.get_current_context().exit(INTERRUPTED)
-    if call.values()["strict"] and document["problems"]:
+    if call.settings().strict and document["problems"]:
         click.get_current_context().exit(PROBLEMS)
 
 
-def _runs(console: Console, values: dict[str, Any]) -> dict[str, Run]:
-    """The same scan seen by each method; and a chain from its first sweep on, to be watched."""
+def _runs(console: Console, settings: DemoSettings) -> dict[str, Run]:
+    """Infer the same scan by each method, and sample a chain from its first sweep on for the film."""
     import numpy as np
 
     from bayesmap.api import infer
+    from bayesmap.arguments import Schedule, Where
     from bayesmap.cells.binary import Independent
+    from bayesmap.cells.kind import CellPrior
+    from bayesmap.samplers.methods import Block, Gibbs, Importance, Method
     from bayesmap.sensors.noise import Gaussian
     from bayesmap.sim.forward import simulate
     from bayesmap.sim.tutorial import TUTORIAL_GRID, tutorial
 
     walls, pose = tutorial()
-    sensor, seed = Gaussian(SIGMA_M), values["seed"]
+    sensor, seed = Gaussian(SIGMA_M), settings.seed
     angles = np.arange(BEAMS) * 2 * np.pi / BEAMS
     console.detail(f"simulating {BEAMS} beams with noise of {SIGMA_M} m")
     scans = simulate(walls, TUTORIAL_GRID, pose, angles, sensor=sensor, max_range_m=MAX_RANGE_M, seed=seed)
-    common = {"seed": seed, "threads": values["threads"], "sensor": sensor}
-    sizes = {"chains": values["chains"], "warmup": values["warmup"], "draws": values["draws"]}
-    half, rare = Independent(0.5), Independent(0.05)
-    asked: dict[str, dict[str, Any]] = {
-        "gibbs": {"method": "gibbs", "prior": half, **sizes},
-        "block": {"method": "block", "prior": rare, **sizes},
-        "importance": {
-            "method": "importance",
-            "prior": half,
-            "particles": values["particles"],
-            "chains": 1,
-            "draws": 1000,
-        },
-        "film": {"method": "gibbs", "prior": half, "chains": 1, "warmup": 0, "draws": FILM_SWEEPS},
+    half, rare, where = Independent(0.5), Independent(0.05), Where(threads=settings.threads)
+    long = Schedule(settings.chains, settings.warmup, settings.draws)
+    asked: dict[str, tuple[CellPrior, Method, Schedule]] = {
+        "gibbs": (half, Gibbs(), long),
+        "block": (rare, Block(), long),
+        "importance": (half, Importance(settings.particles), Schedule(chains=1, draws=1000)),
+        "film": (half, Gibbs(), Schedule(chains=1, warmup=0, draws=FILM_SWEEPS)),
     }
     runs: dict[str, Run] = {}
-    for name, arguments in asked.items():
+    for name, (prior, method, schedule) in asked.items():
         with progress(console, "compiling" if not runs else "tracing beams") as report:
-            runs[name] = infer(scans, TUTORIAL_GRID, on_progress=report, **common, **arguments)
+            runs[name] = infer(
+                scans, TUTORIAL_GRID, prior=prior, sensor=sensor, method=method, schedule=schedule, seed=seed,
+                where=where, on_progress=report,
+            )  # fmt: skip
         if not runs[name].finished:
             raise KeyboardInterrupt
     return runs
 
 
 def _pictures(runs: dict[str, Run], folder: Path) -> list[Path]:
-    """Everything that is looked at, the run itself, and its map."""
+    """Write the pictures and the film, the run itself, and its map."""
     import numpy as np
 
     from bayesmap.sim.tutorial import tutorial
@@ -135,7 +135,7 @@ def _pictures(runs: dict[str, Run], folder: Path) -> list[Path]:
 
 
 def _in_short(run: Run) -> dict[str, Any]:
-    """What distinguishes the methods; the whole document is that of the first."""
+    """Return what distinguishes the methods; the whole document is that of the first."""
     kept = ("method", "prior", "chains", "warmup", "draws", "sweeps", "seconds", "microseconds_per_sweep", "log_joint")
     document = run_document(run)
     return {name: document[name] for name in (*kept, "log_evidence", "diagnostics", "problems")}
@@ -158,6 +158,6 @@ def _report(console: Console, runs: dict[str, Run], folder: Path) -> None:
     weights, size = runs["importance"].log_weights, runs["importance"].summary().effective_sample_size
     console.say(
         f"importance sampling:            {len(weights):,} particles, effective sample size "
-        f"{size:.1f}" + (": it collapsed, which is why the others are needed" if size < COLLAPSED else "")
+        f"{size:.1f}" + (": importance sampling has collapsed" if size < COLLAPSED else "")
     )
     console.say(f"pictures, the saved run and demo.json are in {folder}")

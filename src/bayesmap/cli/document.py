@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 def run_document(run: Run) -> dict[str, Any]:
-    """What a run was asked, what it found, how long it took, and whether to trust it."""
+    """Return what a run was asked, what it found, how long it took, and whether to trust it."""
     posterior, summary = run.posterior, run.summary()
     settings, grid = posterior.settings, run.grid
     joint = run.log_joint
@@ -61,7 +61,7 @@ def run_document(run: Run) -> dict[str, Any]:
 
 
 def work_done(document: dict[str, Any]) -> str:
-    """Such as "4 chains of 100 sweeps"; methods without chains may keep independent maps."""
+    """Return words such as "4 chains of 100 sweeps"; methods without chains keep independent maps."""
     from bayesmap.posterior.posterior import WITHOUT_CHAINS
 
     if document["method"] not in WITHOUT_CHAINS:
@@ -70,12 +70,12 @@ def work_done(document: dict[str, Any]) -> str:
 
 
 def finite(value: Any) -> float | None:
-    """A JSON number, or None."""
+    """Return a JSON number, or None for NaN and infinity."""
     return None if value is None or not math.isfinite(value) else float(value)
 
 
 def peak_memory_mb() -> float:
-    """The most memory that this process has held, in megabytes."""
+    """Return the most memory that this process has held, in megabytes."""
     with contextlib.suppress(OSError):  # Linux; what getrusage says there is inherited from whoever started us
         for line in Path("/proc/self/status").read_text().splitlines():
             if line.startswith("VmHWM:"):

@@ -12,14 +12,16 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
+import msgspec
 
-from bayesmap.cli.command import FAILURE, INTERRUPTED, PROBLEMS, Call
-from bayesmap.cli.console import Console, reserve_stdout
-from bayesmap.cli.executors import ray_address
+from bayesmap.cli.command import Call
+from bayesmap.cli.console import FAILURE, INTERRUPTED, PROBLEMS, Console, reserve_stdout
 from bayesmap.cli.folder import Folder
+from bayesmap.cli.keys import InferSettings
 from bayesmap.cli.pipeline import Task, infer_log, prepare, read, report, settings_in, stem
 from bayesmap.cli.progress import STAGES, described_share
 from bayesmap.cli.settings import as_toml
+from bayesmap.cli.translation import ray_address
 from bayesmap.errors import BadInput
 
 if TYPE_CHECKING:
@@ -54,21 +56,21 @@ class Entry:
 
     log: str
     path: Path
-    task: Task | None = None
+    task: Task[InferSettings] | None = None
     document: dict[str, Any] | None = None
     error: str | None = None
     event: Event | None = None
     deaths: int = 0
 
     @property
-    def ready(self) -> Task:
-        """The task of a log whose settings were checked."""
+    def ready(self) -> Task[InferSettings]:
+        """Return the task of a log whose settings were checked."""
         assert self.task is not None
         return self.task
 
     @property
     def problems(self) -> list[str]:
-        """What the diagnostics found."""
+        """Return what the diagnostics found."""
         return [] if self.document is None else list(self.document["problems"])
 
     def fail(self, error: Exception, console: Console) -> None:
@@ -81,11 +83,11 @@ class Entry:
         console.warn(f"{self.log}: {self.error}")
 
     def as_json(self) -> dict[str, Any]:
-        """The entry of the table."""
+        """Return what the JSON document says of the log."""
         return {"log": self.log, "folder": str(self.path), "error": self.error, "run": self.document}
 
 
-def infer_fleet(call: Call, logs: list[str], output: Path, *, resume: bool, force: bool) -> None:
+def infer_fleet(call: Call[InferSettings], logs: list[str], output: Path, *, resume: bool, force: bool) -> None:
     """Infer each log into its own folder, and print a table; exits with 1 if one failed.
 
     Args:
@@ -103,9 +105,9 @@ def infer_fleet(call: Call, logs: list[str], output: Path, *, resume: bool, forc
     if twice is not None:
         raise BadInput(f"{twice}: two of the logs have this name, so their runs would share a folder; rename one")
     # Check what was typed, for all logs together and for each.
-    begun = settings_in(output / SETTINGS) if resume else None
-    values = call.values(begun)
-    on_ray, address = ray_address(values["executor"])
+    begun = settings_in(output / SETTINGS, "infer") if resume else None
+    settings = call.settings(begun)
+    on_ray, address = ray_address(settings.executor)
     entries = [Entry(log, output / stem(log)) for log in logs]
     for entry in entries:
         try:
@@ -115,7 +117,7 @@ def infer_fleet(call: Call, logs: list[str], output: Path, *, resume: bool, forc
     ready = [entry for entry in entries if entry.task is not None]
     # Keep the settings before the first log begins: the process that resumes may have to begin the others.
     if ready:
-        _keep_settings(ready, output, as_toml({"infer": values}))
+        _keep_settings(ready, output, as_toml({"infer": settings}))
     # Infer the logs.
     try:
         if on_ray:
@@ -137,7 +139,7 @@ def infer_fleet(call: Call, logs: list[str], output: Path, *, resume: bool, forc
         context.exit(INTERRUPTED)
     if any(entry.error for entry in entries):
         context.exit(FAILURE)
-    if any(entry.task is not None and entry.task.values["strict"] and entry.problems for entry in entries):
+    if any(entry.task is not None and entry.task.settings.strict and entry.problems for entry in entries):
         context.exit(PROBLEMS)
 
 
@@ -163,7 +165,7 @@ def _infer_here(entry: Entry, console: Console) -> bool:
 
 
 def table(entries: list[Entry]) -> Iterator[str]:
-    """What came out: a line for each log."""
+    """Yield the lines of the table: a heading, and a line for each log."""
     rows = [("log", "beams", "minutes", "R-hat", "held out", "folder, or what went wrong")]
     for entry in entries:
         if entry.document is None:
@@ -221,7 +223,7 @@ class Mailbox:
         self._stop = True
 
 
-def work(task: Task, reading: LogReading, before: dict[str, bytes], mailbox: Any) -> None:
+def work(task: Task[InferSettings], reading: LogReading, before: dict[str, bytes], mailbox: Any) -> None:
     """Infer a log in a folder of a worker's machine, and send what is in the folder after each checkpoint.
 
     Args:
@@ -303,7 +305,7 @@ class RayFleet:
     def _begin(self, entry: Entry) -> None:
         """Read a log, put its scans into the object store, and give it to a worker."""
         try:
-            reading = read(self.console, entry.log, entry.ready.values)
+            reading = read(self.console, entry.log, entry.ready.settings)
         except Exception as error:
             entry.fail(error, self.console)
             return
@@ -314,14 +316,14 @@ class RayFleet:
         task, folder, before = entry.ready, entry.ready.folder, {}
         if resuming and folder.run.exists() and not folder.outdated.exists():
             before = {path.name: path.read_bytes() for path in (folder.run, folder.config) if path.exists()}
-        cpus, gpus = _threads(entry), int(task.values["device"] != "cpu")
+        cpus, gpus = _threads(entry), int(task.settings.device != "cpu")
         # Without Ray's own retries, which know nothing of the last checkpoint.
         remote = self.ray.remote(work).options(num_cpus=cpus, num_gpus=gpus, max_retries=0)
-        task = replace(task, values={**task.values, "threads": cpus})
+        task = replace(task, settings=msgspec.structs.replace(task.settings, threads=cpus))
         self.running[remote.remote(task, self.readings[entry.log], before, self.mailbox)] = entry
 
     def _take_some(self) -> None:
-        """Wait a moment for what workers send, and for workers that end."""
+        """Wait a moment for what workers send and for workers that end, and keep what was sent."""
         from bayesmap.run.ray_executor import failed, outcome
 
         ended, _ = self.ray.wait(list(self.running), timeout=WAIT_S) if self.running else ([], None)
@@ -380,7 +382,7 @@ class RayFleet:
             self._take_some()
 
     def _progress(self, done: int, total: int) -> tuple[str, float]:
-        """What the bar says, and the share of all logs that is done."""
+        """Return the words of the bar, and the share of all logs that is done."""
         words, share = [f"{done} of {total} logs"], float(done)
         for entry in self.running.values():
             if (event := entry.event) is not None:
@@ -391,4 +393,4 @@ class RayFleet:
 
 
 def _threads(entry: Entry) -> int:
-    return int(entry.ready.values["threads"] or 1)
+    return entry.ready.settings.threads or 1

@@ -45,17 +45,17 @@ class Folder:
 
     @property
     def run(self) -> Path:
-        """The saved run, and the checkpoint while it goes."""
+        """Path of the saved run, which is the checkpoint while the run goes on."""
         return self.path / "run.nc"
 
     @property
     def config(self) -> Path:
-        """The settings that the run was started with."""
+        """Path of the settings that the run was started with."""
         return self.path / "config.toml"
 
     @property
     def outdated(self) -> Path:
-        """Stands beside a run that is to be replaced and has not been, and holds the settings of the one to come."""
+        """Path of a mark beside a run that is to be replaced; it holds the settings of the run to come."""
         return self.path / "outdated"
 
     def check(self, *, force: bool) -> None:
@@ -82,12 +82,12 @@ class Folder:
                 break
 
     def wait(self, toml: str) -> None:
-        """The run in the folder, if there is one, is to be replaced later, even if that is by another process."""
+        """Mark the run in the folder, if there is one, as to be replaced later, perhaps by another process."""
         if self.run.exists() and not self.resuming:
             self._write(self.outdated, toml)
 
     def begin(self, toml: str) -> None:
-        """The run has started: keep its settings, so that it can be resumed without saying them again.
+        """Keep the settings of a run that has started, so that it can be resumed without saying them again.
 
         Raises:
             BadInput: the folder cannot be written.
@@ -109,7 +109,7 @@ class Folder:
         self.begun = True
 
     def replace(self) -> None:
-        """The run that has begun takes the place of an older one, with all that was made from it."""
+        """Remove all that was made from an older run: the run that has begun takes its place."""
         self._write(self.config, self._toml)
         for name in DERIVED:
             (self.path / name).unlink(missing_ok=True)

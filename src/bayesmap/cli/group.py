@@ -1,4 +1,4 @@
-"""The commands, and what a failure looks like.
+"""The commands, and what is said of a failure.
 
 Exit codes: 0 fine, 1 failure, 2 usage, 3 bad input, 4 finished with ``--strict`` but the diagnostics found a
 problem, 130 interrupted.
@@ -14,8 +14,7 @@ from typing import Any
 import click
 
 from bayesmap.cli import startup_interrupt
-from bayesmap.cli.command import BAD_INPUT, FAILURE, INTERRUPTED, VERBOSE
-from bayesmap.cli.console import complain
+from bayesmap.cli.console import BAD_INPUT, FAILURE, INTERRUPTED, VERBOSE, complain
 from bayesmap.errors import BadInput
 from bayesmap.version import __version__
 
@@ -25,7 +24,7 @@ COMMANDS = {
     "info": "Say what is in a log, a recording or a saved run.",
     "infer": "Infer the walls from a log of range scans.",
     "slam": "Infer walls and trajectory from a log with raw odometry.",
-    "score": "Score a saved run, or others' maps and poses.",
+    "score": "Score a saved run, or maps and poses of others.",
     "localize": "Say where scans were taken in a saved run's map.",
     "plan": "Find a short path in a saved run's map, and its risk.",
     "explore": "Say where in a saved run's map to look next.",
@@ -34,13 +33,16 @@ COMMANDS = {
     "app": "Draw walls, drag the robot, watch the posterior live.",
     "config": "Print the effective settings as TOML.",
 }
-"""In the order of use; each lives in the module of its name, loaded when it is called."""
+"""The commands in the order of use. Each is a function of its name, in the module of its name or that of `HOMES`."""
+
+HOMES = {"plan": "decisions", "explore": "decisions", "export": "render", "config": "info"}
+"""The modules of commands that do not have one of their own."""
 
 EPILOG = """Results go to standard output, progress and messages to standard error. Exit codes: 0 fine, 1 failure,
 2 usage, 3 bad input, 4 with --strict: the diagnostics found a problem, 130 interrupted."""
 
 NO_PLACE = (errno.ENOENT, errno.ENOTDIR, errno.EEXIST, errno.EISDIR, errno.EACCES, errno.EPERM, errno.EROFS)
-"""Of the system's errors those that say that a file cannot be where it was asked for."""
+"""Errors of the system that say that a file cannot be where it was asked for."""
 
 NO_ROOM = "Failed to allocate"
 """How Warp's error begins where there is no memory for an array."""
@@ -50,7 +52,7 @@ class Commands(click.Group):
     """A group that loads a command when it is called, and turns exceptions into one line and an exit code."""
 
     def list_commands(self, ctx: click.Context) -> list[str]:
-        """In the order of use."""
+        """Return the commands in the order of use."""
         return list(COMMANDS)
 
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
@@ -59,7 +61,7 @@ class Commands(click.Group):
             near = difflib.get_close_matches(cmd_name, COMMANDS, n=1)
             hint = f"; did you mean {near[0]!r}?" if near else f"; there are: {', '.join(COMMANDS)}"
             raise click.UsageError(f"no such command {cmd_name!r}{hint}", ctx)
-        command = importlib.import_module(f"bayesmap.cli.{cmd_name}").command
+        command = getattr(importlib.import_module(f"bayesmap.cli.{HOMES.get(cmd_name, cmd_name)}"), cmd_name)
         assert isinstance(command, click.Command)
         command.name = cmd_name
         return command
@@ -91,7 +93,7 @@ class Commands(click.Group):
 
 
 def explain(error: BaseException) -> tuple[int, str]:
-    """The exit code of an exception, and a line about it."""
+    """Return the exit code of an exception, and a line about it."""
     if isinstance(error, BadInput):
         return BAD_INPUT, str(error)
     if isinstance(error, KeyboardInterrupt | click.Abort):

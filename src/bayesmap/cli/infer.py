@@ -7,11 +7,13 @@ from pathlib import Path
 
 import click
 
-from bayesmap.cli import executors, pipeline, sensors
-from bayesmap.cli.command import INTERRUPTED, PROBLEMS, Call, takes
-from bayesmap.cli.console import reserve_stdout
+from bayesmap.cli import pipeline, typed
+from bayesmap.cli.command import Call, takes
+from bayesmap.cli.console import INTERRUPTED, PROBLEMS, reserve_stdout
 from bayesmap.cli.fleet import infer_fleet
-from bayesmap.cli.input_files import logs_of
+from bayesmap.cli.keys import InferSettings
+from bayesmap.cli.logs import logs_of
+from bayesmap.cli.translation import executor_of
 
 
 @takes("infer")
@@ -24,7 +26,7 @@ from bayesmap.cli.input_files import logs_of
 )
 @click.option("--resume", is_flag=True, help="Go on with the run in DIR, bit for bit as if it had never stopped.")
 @click.option("--force", is_flag=True, help="Replace the run in DIR.")
-def command(call: Call, logs: tuple[str, ...], output: str | None, resume: bool, force: bool) -> None:
+def infer(call: Call[InferSettings], logs: tuple[str, ...], output: str | None, resume: bool, force: bool) -> None:
     r"""Infer the walls from LOG: a CARMEN log, a ROS 1 or ROS 2 bag, MCAP, g2o, CSV or .npz of range scans.
 
     A cell's state is by default a reflectivity (the chance that it stops a beam) and the place of the surface in it,
@@ -57,7 +59,7 @@ def command(call: Call, logs: tuple[str, ...], output: str | None, resume: bool,
     log = logs[0]
     folder = Path(output) if output else Path("runs") / pipeline.stem(log)
     task = pipeline.prepare(call, log, folder, resume=resume, force=force)
-    executor = executors.executor_of(task.values["executor"])
+    executor = executor_of(task.settings.executor)
     if executor is not None:
         reserve_stdout()
     # Infer the log.
@@ -72,8 +74,8 @@ def command(call: Call, logs: tuple[str, ...], output: str | None, resume: bool,
     call.console.result(document, document["outputs"].values())
     if not document["finished"]:
         click.get_current_context().exit(INTERRUPTED)
-    if task.values["strict"] and document["problems"]:
+    if task.settings.strict and document["problems"]:
         click.get_current_context().exit(PROBLEMS)
 
 
-command.help = (command.help or "").format(sensors=sensors.HELP)
+infer.help = (infer.help or "").format(sensors=typed.SENSOR_HELP)

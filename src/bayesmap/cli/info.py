@@ -1,23 +1,27 @@
-"""``bayesmap info``: what is in a log, a recording or a saved run."""
+"""``bayesmap info`` and ``bayesmap config``: what is in a file, and which settings hold."""
 
 from __future__ import annotations
 
+import math
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
 import click
+import msgspec
 
 from bayesmap.cli.command import Call, takes
 from bayesmap.cli.console import counted, write_out
-from bayesmap.cli.input_files import LOG, need_file
+from bayesmap.cli.keys import Settings, Value
+from bayesmap.cli.logs import LOG, need_file
+from bayesmap.cli.settings import as_toml
 from bayesmap.errors import BadInput
 from bayesmap.version import __version__
 
 
 @takes(None)
 @click.argument("file")
-def command(call: Call, file: str) -> None:
+def info(call: Call[Settings], file: str) -> None:
     r"""Say what is in FILE: a log, a robot's recording (a file or a folder), or a saved run.
 
     Of a recording: its topics and frames, what its scans look like, where their poses can come from, and the command
@@ -79,7 +83,7 @@ def _log(file: str) -> dict[str, Any]:
 
 
 def _lines(document: dict[str, Any]) -> list[str]:
-    """The document as a page of text."""
+    """Return the document as lines of text."""
     lines = [f"{document['path']}: {document['format']}"]
     if document.get("duration_s") is not None:
         lines[0] += f", {document['duration_s']:,.1f} s"
@@ -125,7 +129,7 @@ def _run_lines(run: dict[str, Any]) -> list[str]:
 
 
 def _sensor_words(sensor: dict[str, Any]) -> str:
-    """A beam mixture's numbers, as one would say them."""
+    """Describe the numbers of a beam mixture in words."""
     from bayesmap.sensors.describe import from_description
 
     model = from_description(sensor)
@@ -168,3 +172,29 @@ def _rest(sensor: dict[str, Any]) -> list[str]:
     skipped = sensor.get("skipped")
     left_out = [f"  {skipped:,} malformed messages or lines are left out"] if skipped else []
     return left_out + [f"  note: {note}" for note in sensor.get("notes", [])]
+
+
+@takes(None)
+def config(call: Call[Settings]) -> None:
+    r"""Print the effective settings as TOML, ready for -c.
+
+    One table for each command. Keys outside the tables hold for every command that has them.
+
+    \b
+    bayesmap config > my.toml
+    bayesmap infer -c my.toml --set resolution=0.05 office.log
+    """
+    settings = call.all_settings()
+    if call.console.as_json:
+        shown = {
+            section: {name: _as_json(value) for name, value in msgspec.structs.asdict(values).items()}
+            for section, values in settings.items()
+        }
+        call.console.result({"settings": shown}, [])
+    else:
+        write_out(as_toml(settings))
+
+
+def _as_json(value: Value) -> Value:
+    """Return a value as JSON takes it: infinity becomes a text, which `--set` reads."""
+    return str(value) if isinstance(value, float) and not math.isfinite(value) else value

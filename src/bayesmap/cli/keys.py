@@ -1,228 +1,410 @@
-"""Every setting that a user can make, once: flags, TOML keys, ``--set`` and their help are all made from this table.
+"""Every setting that a user can make, once: flags, TOML keys, ``--set`` and their help are made from these classes.
 
-Choices are written out here because the modules that define them load NumPy and SciPy, which ``--help`` must not
-wait for; a test holds the two equal.
+Each command has a class of settings. A setting has a type, a rule that its value keeps (`Rule`), a line of help
+(`Help`) and a default. Choices are written out because the modules that define them load NumPy and SciPy, and
+``--help`` must not wait for these; a test holds the two equal.
 """
 
-from __future__ import annotations
-
-from collections.abc import Mapping
+import math
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Any
+from functools import cache
+from types import UnionType
+from typing import Annotated, Any, Literal, Union, get_args, get_origin
 
-import click
+import msgspec
 
-from bayesmap.cli.typed_numbers import NumberOr
+from bayesmap.errors import BadInput
 
 Value = bool | int | float | str | None
 
-CELLS = ("surface", "reflectivity", "binary")
-METHODS = ("gibbs", "block", "propagate", "importance", "exact")
-ORDERS = ("radial", "raster", "random")
-STARTS = ("prior", "zeros", "ones", "propagate")
-PICTURES = (
+MOST = 10**9
+"""The largest number of anything that is counted."""
+
+
+@dataclass(frozen=True)
+class Rule:
+    """What a value must be, beyond its type.
+
+    Attributes:
+        holds: whether it is.
+        words: what it must be, to follow "must be".
+    """
+
+    holds: Callable[[Any], bool]
+    words: str
+
+
+@dataclass(frozen=True)
+class Help:
+    """What the help says of a setting.
+
+    Attributes:
+        text: one sentence.
+        unset: what happens where the setting has no value.
+        metavar: how the value is called.
+    """
+
+    text: str
+    unset: str = ""
+    metavar: str | None = None
+
+
+Count = Annotated[int, Rule(lambda n: n >= 1, "a whole number of 1 or more")]
+CountFromZero = Annotated[int, Rule(lambda n: n >= 0, "a whole number of 0 or more")]
+Length = Annotated[float, Rule(lambda x: 0 < x < math.inf, "a positive number of metres")]
+Share = Annotated[float, Rule(lambda x: 0 <= x <= 1, "a number from 0 to 1")]
+Every = Annotated[int, Rule(lambda n: n == 0 or n >= 2, "2 or more, for every n-th scan, or 0")]
+
+Cells = Literal["surface", "reflectivity", "binary"]
+Method = Literal["gibbs", "block", "propagate", "importance", "exact"]
+Order = Literal["radial", "raster", "random"]
+Start = Literal["prior", "zeros", "ones", "propagate"]
+Picture = Literal[
     "figure", "mean", "entropy", "width", "deviation", "draw", "residuals", "surprise", "log-odds", "surfaces", "trace",
     "weights", "animation",
-)  # fmt: skip
-EXPORTS = ("auto", "map-server", "occupancy-grid", "gridmap", "rerun", "tum", "trajectory", "g2o", "geotiff")
+]  # fmt: skip
+Export = Literal[
+    "auto", "map-server", "occupancy-grid", "gridmap", "rerun", "tum", "trajectory", "g2o", "geotiff"
+]  # fmt: skip
+Mode = Literal["trinary", "scale", "raw"]
+
+Seed = Annotated[CountFromZero, Help("Seed of all random numbers.")]
+Device = Annotated[str, Help("cpu, or a CUDA device such as cuda:0.", metavar="NAME")]
+Chains = Annotated[Count, Help("Markov chains.")]
+Warmup = Annotated[CountFromZero, Help("Sweeps of each chain that are not kept.")]
+Threads = Annotated[
+    Annotated[int, Rule(lambda n: 1 <= n <= 1024, "a whole number from 1 to 1024")] | None,
+    Help("CPU threads; results do not depend on them.", "all cores"),
+]
+Particles = Annotated[Count, Help("Maps that the method importance draws.")]
+Strict = Annotated[bool, Help("Exit with 4 if the diagnostics find a problem.")]
+Radius = Annotated[Length, Help("Radius of the robot, a disc, in metres.")]
+SensorText = Annotated[str, Help("Sensor model, such as gaussian:0.2 (see above).", metavar="MODEL")]
+
+
+class Settings(msgspec.Struct, kw_only=True, frozen=True):
+    """The settings of a command."""
+
+
+class ReadingSettings(Settings, kw_only=True, frozen=True):
+    """How a log is read. A run is scored on its own log read as it was for the run."""
+
+    no_return: Annotated[
+        Annotated[float, Rule(lambda x: not math.isnan(x), "the log's number in metres, or inf if it has none")] | None,
+        Help("What the log writes for no return; inf: nothing.", "found in the log", "METRES"),
+    ] = None
+    skip_bad_lines: Annotated[bool, Help("Leave out malformed lines and messages instead of refusing the log.")] = False
+    scan_topic: Annotated[
+        str | None, Help("Topic of the scans in a recording.", "the only topic of scans", "TOPIC")
+    ] = None
+    pose_topic: Annotated[
+        str | None, Help("Topic of the poses in a recording.", "/tf, or the only topic of poses", "TOPIC")
+    ] = None
+    fixed_frame: Annotated[
+        str | None, Help("Frame of the map in a recording's /tf.", "map, odom or world", "FRAME")
+    ] = None
+    laser: Annotated[str | None, Help("Where the laser sits on the robot.", "as the log says", "X,Y,DEGREES")] = None
+    deskew: Annotated[bool, Help("Give each beam the pose of its own time, by a recording's time_increment.")] = False
+    thin_scans: Annotated[
+        float,
+        Rule(lambda x: 0 <= x < math.inf, "0 or a positive number of metres"),
+        Help("Keep a scan each time the robot has gone this far; 0: all.", metavar="METRES"),
+    ] = 0.0
+
+
+class SamplingSettings(ReadingSettings, kw_only=True, frozen=True):
+    """What `infer` and `slam` have in common."""
+
+    resolution: Annotated[Length, Help("Edge of a cell in metres.")] = 0.1
+    max_range: Annotated[
+        Length | None, Help("Longer readings are no return.", "the longest hit of the log", "METRES")
+    ] = None
+    cells: Annotated[Cells, Help("A cell's state: reflectivity with or without a surface, or a wall.")] = "surface"
+    chains: Chains = 4
+    warmup: Warmup = 50
+    draws: Annotated[Count | None, Help("Maps that each chain keeps.", "100, to 200 for few beams; binary 100")] = (
+        None  # the library allows none; the picture and the map are made from them
+    )
+    thin: Annotated[
+        Count | None, Help("Sweeps from one kept map to the next.", "3; binary, or with draws given, 1")
+    ] = None
+    seed: Seed = 0
+    sensor: Annotated[str, Help("Sensor model: fit, or such as mixture:0.02 (see above).", metavar="MODEL")] = "default"
+    hit_depth: Annotated[
+        Share | None, Help("Where in a cell a beam stops, from 0 (its near edge) to 1.", "0.5; binary 0.25")
+    ] = None
+    threads: Threads = None
+    device: Device = "cpu"
+    checkpoint_every: Annotated[
+        float,
+        Rule(lambda x: x >= 0, "0 or a positive number of seconds"),
+        Help("Seconds from one checkpoint to the next.", metavar="SECONDS"),
+    ] = 30.0
+    strict: Strict = False
+
+
+class InferSettings(SamplingSettings, kw_only=True, frozen=True):
+    """Settings of `infer`."""
+
+    grid: Annotated[
+        str | None,
+        Help("Take the cells of this map, whatever --resolution.", "poses, hits and 0.5 m around", "MAP.yaml"),
+    ] = None
+    method: Annotated[Method, Help("Sampler; block suits rare walls, propagate is instant but rough.")] = "gibbs"
+    order: Annotated[Order, Help("Order of the cells in a sweep.")] = "radial"
+    start: Annotated[Start | None, Help("Where chains start.", "propagate over 10 000 cells, else prior")] = None
+    particles: Particles = 100_000
+    rounds: Annotated[Count, Help("Rounds of belief propagation, at most.")] = 20
+    prior: Annotated[Share | None, Help("Wall probability of a binary cell before any reading.", "0.2")] = None
+    coupling: Annotated[
+        float | Literal["fit"] | None,
+        Rule(lambda x: x == "fit" or 0 <= x <= 50, "a number from 0 to 50, or fit"),
+        Help("Coupling of neighbouring cells: a number, or (binary) fit.", "0: independent", "NATS"),
+    ] = None
+    holdout: Annotated[Every, Help("Hold out every n-th scan, and score it; 0: none.", metavar="N")] = 0
+    executor: Annotated[str, Help("threads, or ray[://HOST:PORT]: on a Ray cluster.", metavar="WHERE")] = "threads"
+
+
+class SlamSettings(SamplingSettings, kw_only=True, frozen=True):
+    """Settings of `slam`."""
+
+    draws: Annotated[Count | None, Help("Maps that each chain keeps.", "50, to 200 for few beams")] = None
+    thin: Annotated[Count, Help("Sweeps from one kept map to the next.")] = 1
+    fast: Annotated[bool, Help("Stop after the approximate trajectory: the map then takes it as known.")] = False
+    no_odometry: Annotated[bool, Help("Neither read nor need the log's poses; scans must come at 5 Hz or more.")] = (
+        False
+    )
+
+
+class SimulateSettings(Settings, kw_only=True, frozen=True):
+    """Settings of `simulate`."""
+
+    world: Annotated[
+        str, Help("tutorial, building, or a FILE: drawing, picture, map_server YAML.", metavar="WORLD")
+    ] = "tutorial"
+    resolution: Annotated[Length | None, Help("Edge of a cell in metres.", "1 for tutorial and drawings, else 0.1")] = (
+        None
+    )
+    size: Annotated[str, Help("Size of a building, in metres.", metavar="WxD")] = "30x20"
+    scans: Annotated[Count, Help("Scans along a robot's round through a building.", metavar="N")] = 200
+    angles: Annotated[int | None, Help("Beams of a scan.", "100 in the tutorial, else 180", "N")] = None
+    fov: Annotated[float | None, Help("Field of view in degrees.", "360 in the tutorial, else 180", "DEGREES")] = None
+    max_range: Annotated[
+        Length | None, Help("Largest range of the sensor.", "42 in the tutorial, else 30", "METRES")
+    ] = None
+    sensor: SensorText = "default"
+    odometry: Annotated[
+        str, Help("Poses of the log: true, typical, or with numbers (see above).", metavar="ODOMETRY")
+    ] = "true"
+    laser: Annotated[str, Help("Where the laser sits on the robot.", metavar="X,Y,DEGREES")] = "0,0,0"
+    speed: Annotated[
+        float,
+        Rule(lambda x: 0 < x < math.inf, "a positive number of metres a second"),
+        Help("Speed of the robot with --odometry, for the stamps.", metavar="M_PER_S"),
+    ] = 0.5
+    seed: Seed = 0
+
+
+class DemoSettings(Settings, kw_only=True, frozen=True):
+    """Settings of `demo`."""
+
+    seed: Seed = 0
+    chains: Chains = 4
+    draws: Annotated[Count, Help("Maps that each chain keeps.")] = 1000
+    warmup: Warmup = 100
+    particles: Particles = 100_000
+    threads: Threads = None
+    strict: Strict = False
+
+
+class RenderSettings(ReadingSettings, kw_only=True, frozen=True):
+    """Settings of `render`."""
+
+    what: Annotated[Picture, Help("What to draw.")] = "figure"
+    chain: Annotated[Count, Help("Chain whose draws are shown, from 1.")] = 1
+    draw: Annotated[int, Help("Draw that is shown, from 1; -1 is the last.")] = -1
+    frames: Annotated[Count, Help("Frames of an animation, at most.")] = 100
+    window: Annotated[
+        str | None, Help("Part of the map to draw, in metres, or: observed.", "all of it", "X0,X1,Y0,Y1")
+    ] = None
+    holdout: Annotated[
+        Every, Help("Every n-th scan of --heldout was held out; 0: another recording, whole.", metavar="N")
+    ] = 10
+
+
+class ExportSettings(Settings, kw_only=True, frozen=True):
+    """Settings of `export`."""
+
+    format: Annotated[Export, Help("What to write; auto: by the ending of -o.")] = "auto"
+    mode: Annotated[
+        Mode | None,
+        Help("Occupied, free and unknown; or per cent.", "trinary for map-server, scale for recordings"),
+    ] = None
+    occupied_thresh: Annotated[
+        Share | None, Help("Above it a cell is occupied.", "walls 0.65, reflectivities 0.3; 1 with scale")
+    ] = None
+    free_thresh: Annotated[
+        Share | None, Help("Below it a cell is free.", "walls 0.25, reflectivities 0.1; 0 with scale")
+    ] = None
+
+
+class ScoreSettings(ReadingSettings, kw_only=True, frozen=True):
+    """Settings of `score`."""
+
+    holdout: Annotated[Every, Help("Every n-th scan was held out when the run was made.", metavar="N")] = 10
+    resolution: Annotated[
+        Length, Help("Edge of a cell, in metres, of the map that is inferred for a trajectory without one.")
+    ] = 0.1
+    seed: Seed = 0
+    device: Device = "cpu"
+
+
+class LocalizeSettings(ReadingSettings, kw_only=True, frozen=True):
+    """Settings of `localize`."""
+
+    beam_weight: Annotated[
+        Annotated[float, Rule(lambda x: 0 < x <= 1, "a number above 0, and 1 at most")] | None,
+        Help(
+            "How much of an independent reading a beam is.",
+            "5.4 / beams; which of several places: 2.7, or as fitted to MAP.yaml",
+        ),
+    ] = None
+    seed: Seed = 0
+    device: Device = "cpu"
+
+
+class AppSettings(ReadingSettings, kw_only=True, frozen=True):
+    """Settings of `app`."""
+
+
+class PlanSettings(Settings, kw_only=True, frozen=True):
+    """Settings of `plan`."""
+
+    radius: Radius = 0.25
+    risk: Annotated[
+        float,
+        Rule(lambda x: 0 < x < 1, "a number above 0 and below 1"),
+        Help("Largest probability of touching something."),
+    ] = 0.01
+
+
+class ExploreSettings(Settings, kw_only=True, frozen=True):
+    """Settings of `explore`."""
+
+    candidates: Annotated[Count, Help("Places that are considered.")] = 200
+    views: Annotated[Count, Help("Best views to show, apart from each other.")] = 5
+    radius: Radius = 0.25
+    draws: Annotated[
+        Count, Help("Maps that are compared; more bring the bounds together, at the square of the work.")
+    ] = 50
+    seed: Seed = 0
+
+
+SECTIONS: Mapping[str, type[Settings]] = {
+    "infer": InferSettings,
+    "slam": SlamSettings,
+    "simulate": SimulateSettings,
+    "demo": DemoSettings,
+    "render": RenderSettings,
+    "export": ExportSettings,
+    "score": ScoreSettings,
+    "localize": LocalizeSettings,
+    "app": AppSettings,
+    "plan": PlanSettings,
+    "explore": ExploreSettings,
+}
+"""The tables of a configuration file: one a command."""
 
 
 @dataclass(frozen=True)
 class Key:
-    """One setting.
+    """One setting, as its class declares it.
 
     Attributes:
         name: in TOML and for ``--set``; the flag is the same with dashes.
-        kind: a click type, or ``bool`` for a switch.
-        default: its value unless the user says otherwise; None means what ``unset`` says.
-        help: one sentence.
-        unset: what happens where there is no value.
-        metavar: how the value is called in the help.
+        annotation: its type with all that stands beside it.
+        kind: bool, int, float or str; a number or the word of ``choices`` is a float.
+        choices: words that the value may be; none if it may be any of its kind.
+        default: its value unless the user says otherwise; None means what ``help.unset`` says.
+        help: what the help says of it.
+        rule: what the value must be.
     """
 
     name: str
-    kind: Any
+    annotation: Any
+    kind: type
+    choices: tuple[str, ...]
     default: Value
-    help: str
-    unset: str = ""
-    metavar: str | None = None
+    help: Help
+    rule: Rule | None
 
     @property
     def flag(self) -> str:
-        """Such as ``--max-range``."""
+        """The flag, such as ``--max-range``."""
         return "--" + self.name.replace("_", "-")
 
     @property
-    def type(self) -> click.ParamType[Any]:
-        """The click type that reads and checks a value."""
-        reader: click.ParamType[Any] = click.types.convert_type(self.kind)
-        return reader
+    def words(self) -> str:
+        """What a value must be."""
+        if self.rule is not None:
+            return self.rule.words
+        if self.choices:
+            return f"one of {', '.join(self.choices)}"
+        return {bool: "true or false", int: "a whole number", float: "a number", str: "a text"}[self.kind]
 
 
-SEED = Key("seed", int, 0, "Of all random numbers.")
-DEVICE = Key("device", str, "cpu", "cpu, or a CUDA device such as cuda:0.", metavar="NAME")
+class WrongValue(Exception):
+    """A value of another type than its key's; the text says which it must be."""
 
-READING = (
-    Key("no_return", float, None, "What the log writes for no return; inf: nothing.", "found in the log", "METRES"),
-    Key("skip_bad_lines", bool, False, "Leave out malformed lines and messages instead of refusing the log."),
-    Key("scan_topic", str, None, "Of a recording: where the scans are.", "the only topic of scans", "TOPIC"),
-    Key("pose_topic", str, None, "Of a recording: where the poses are.", "/tf, or the only topic of poses", "TOPIC"),
-    Key("fixed_frame", str, None, "Of a recording's /tf: the frame of the map.", "map, odom or world", "FRAME"),
-    Key("laser", str, None, "Where the laser sits on the robot.", "as the log says", "X,Y,DEGREES"),
-    Key("deskew", bool, False, "Give each beam the pose of its own time, by a recording's time_increment."),
-    Key("thin_scans", float, 0.0, "Keep a scan each time the robot has gone this far; 0: all.", metavar="METRES"),
-)
-"""Of a log, wherever one is read: a run is scored on its own log read as it was for the run."""
 
-INFER = (
-    Key("resolution", float, 0.1, "Edge of a cell in metres."),
-    Key(
-        "grid",
-        str,
-        None,
-        "Take the cells of this map, whatever --resolution.",
-        "poses, hits and 0.5 m around",
-        "MAP.yaml",
-    ),
-    Key("max_range", float, None, "Longer readings are no return.", "the longest hit of the log", "METRES"),
-    *READING,
-    Key("cells", click.Choice(CELLS), "surface", "A cell's state: reflectivity with or without a surface, or a wall."),
-    Key("method", click.Choice(METHODS), "gibbs", "Sampler; block suits rare walls, propagate is instant but rough."),
-    Key("order", click.Choice(ORDERS), "radial", "Order of the cells in a sweep."),
-    Key("chains", int, 4, "Markov chains."),
-    Key("warmup", int, 50, "Sweeps of each chain that are not kept."),
-    Key("draws", int, None, "Maps that each chain keeps.", "100, to 200 for few beams; binary 100"),
-    Key("thin", int, None, "Sweeps from one kept map to the next.", "3; binary, or with draws given, 1"),
-    Key("particles", int, 100_000, "Of the method importance."),
-    Key("rounds", int, 20, "Of belief propagation, at most."),
-    SEED,
-    Key("prior", float, None, "Wall probability of a binary cell before any reading.", "0.2"),
-    Key(
-        "coupling", NumberOr("fit"), None, "Of neighbouring cells: a number, or (binary) fit.", "0: independent", "NATS"
-    ),
-    Key("sensor", str, "default", "Sensor model: fit, or such as mixture:0.02 (see above).", metavar="MODEL"),
-    Key("hit_depth", float, None, "Where in a cell a beam stops, from 0 (its near edge) to 1.", "0.5; binary 0.25"),
-    Key("start", click.Choice(STARTS), None, "Where chains start.", "propagate over 10 000 cells, else prior"),
-    Key("holdout", int, 0, "Hold out every n-th scan, and score it; 0: none.", metavar="N"),
-    Key("threads", int, None, "CPU threads; results do not depend on them.", "all cores"),
-    DEVICE,
-    Key("executor", str, "threads", "threads, or ray[://HOST:PORT]: on a Ray cluster.", metavar="WHERE"),
-    Key("checkpoint_every", float, 30.0, "Seconds from one checkpoint to the next.", metavar="SECONDS"),
-    Key("strict", bool, False, "Exit with 4 if the diagnostics find a problem."),
-)
+@cache
+def keys_of(section: str) -> tuple[Key, ...]:
+    """Return the settings of a command in the order in which they are shown: how a log is read comes last."""
+    settings = SECTIONS[section]
+    of_reading = ReadingSettings.__struct_fields__ if issubclass(settings, ReadingSettings) else ()
+    fields = sorted(msgspec.structs.fields(settings), key=lambda field: field.name in of_reading)
+    return tuple(_key(field.name, field.type, field.default) for field in fields)
 
-SLAM = (
-    *(
-        key
-        for key in INFER
-        if key.name
-        in (
-            "resolution", "max_range", "no_return", "skip_bad_lines", "scan_topic", "pose_topic", "fixed_frame",
-            "laser", "deskew", "thin_scans", "cells", "chains", "warmup", "seed", "sensor", "hit_depth",
-            "threads", "device", "checkpoint_every", "strict",
-        )
-    ),
-    Key("draws", int, None, "Maps that each chain keeps.", "50, to 200 for few beams"),
-    Key("thin", int, 1, "Sweeps from one kept map to the next."),
-    Key("fast", bool, False, "Stop after the approximate trajectory: the map then takes it as known."),
-    Key("no_odometry", bool, False, "Neither read nor need the log's poses; scans must come at 5 Hz or more."),
-)  # fmt: skip
 
-SIMULATE = (
-    Key("world", str, "tutorial", "tutorial, building, or a FILE: drawing, picture, map_server YAML.", metavar="WORLD"),
-    Key("resolution", float, None, "Edge of a cell in metres.", "1 for tutorial and drawings, else 0.1"),
-    Key("size", str, "30x20", "Of a building, in metres.", metavar="WxD"),
-    Key("scans", int, 200, "Scans along a robot's round through a building.", metavar="N"),
-    Key("angles", int, None, "Beams of a scan.", "100 in the tutorial, else 180", metavar="N"),
-    Key("fov", float, None, "Field of view in degrees.", "360 in the tutorial, else 180", metavar="DEGREES"),
-    Key("max_range", float, None, "Of the sensor.", "42 in the tutorial, else 30", metavar="METRES"),
-    Key("sensor", str, "default", "Sensor model, such as gaussian:0.2 (see above).", metavar="MODEL"),
-    Key("odometry", str, "true", "Poses of the log: true, typical, or with numbers (see above).", metavar="ODOMETRY"),
-    Key("laser", str, "0,0,0", "Where the laser sits on the robot.", metavar="X,Y,DEGREES"),
-    Key("speed", float, 0.5, "Of the robot with --odometry, for the stamps.", metavar="M_PER_S"),
-    SEED,
-)
+def _key(name: str, annotation: Any, default: Value) -> Key:
+    """Return a setting by its annotation."""
+    types: list[Any] = []
+    beside: list[Any] = []
 
-DEMO = (
-    SEED,
-    Key("chains", int, 4, "Markov chains."),
-    Key("draws", int, 1000, "Maps that each chain keeps."),
-    Key("warmup", int, 100, "Sweeps of each chain that are not kept."),
-    Key("particles", int, 100_000, "Of importance sampling."),
-    Key("threads", int, None, "CPU threads; results do not depend on them.", "all cores"),
-    Key("strict", bool, False, "Exit with 4 if the diagnostics find a problem."),
-)
+    def look(part: Any) -> None:
+        if get_origin(part) is Annotated:
+            beside.extend(part.__metadata__)
+            look(part.__origin__)
+        elif get_origin(part) in (Union, UnionType):
+            for inner in get_args(part):
+                look(inner)
+        elif part is not type(None):
+            types.append(part)
 
-RENDER = (
-    Key("what", click.Choice(PICTURES), "figure", "What to draw."),
-    Key("chain", int, 1, "Whose draws are shown, from 1."),
-    Key("draw", int, -1, "Which draw is shown, from 1; -1 is the last."),
-    Key("frames", int, 100, "Frames of an animation, at most."),
-    Key("window", str, None, "Part of the map to draw, in metres, or: observed.", "all of it", "X0,X1,Y0,Y1"),
-    Key("holdout", int, 10, "Every n-th scan of --heldout was held out; 0: another recording, whole.", metavar="N"),
-    *READING,
-)
+    look(annotation)
+    choices = tuple(word for part in types if get_origin(part) is Literal for word in get_args(part))
+    kind = next((part for part in types if isinstance(part, type)), str)
+    said = next(one for one in beside if isinstance(one, Help))
+    rule = next((one for one in beside if isinstance(one, Rule)), None)
+    return Key(name, annotation, kind, choices, default, said, rule)
 
-EXPORT = (
-    Key("format", click.Choice(EXPORTS), "auto", "What to write; auto: by the ending of -o."),
-    Key(
-        "mode",
-        click.Choice(("trinary", "scale", "raw")),
-        None,
-        "Occupied, free and unknown; or per cent.",
-        "trinary for map-server, scale for recordings",
-    ),
-    Key("occupied_thresh", float, None, "Above it a cell is occupied.", "walls 0.65, reflectivities 0.3; 1 with scale"),
-    Key("free_thresh", float, None, "Below it a cell is free.", "walls 0.25, reflectivities 0.1; 0 with scale"),
-)
 
-SCORE = (
-    Key("holdout", int, 10, "Every n-th scan was held out when the run was made.", metavar="N"),
-    Key("resolution", float, 0.1, "Of the map that is inferred for a trajectory without one, metres."),
-    *(key for key in READING if key.name != "laser"),  # which is an option of its own there
-    SEED,
-    DEVICE,
-)
+def checked(key: Key, value: Any) -> Value:
+    """Return a value as its key's type.
 
-LOCALIZE = (
-    Key(
-        "beam_weight",
-        float,
-        None,
-        "How much of an independent reading a beam is.",
-        "5.4 / beams; which of several places: 2.7, or as fitted to MAP.yaml",
-    ),
-    *READING,
-    SEED,
-    DEVICE,
-)
-
-APP = READING
-
-PLAN = (
-    Key("radius", float, 0.25, "Of the robot, a disc, in metres."),
-    Key("risk", float, 0.01, "The most that the probability of touching something may be."),
-)
-
-EXPLORE = (
-    Key("candidates", int, 200, "Places that are considered."),
-    Key("views", int, 5, "Best views to show, apart from each other."),
-    Key("radius", float, 0.25, "Of the robot, a disc, in metres: where it fits, it can look from."),
-    Key("draws", int, 50, "Maps that are compared; more bring the bounds together, at the square of the work."),
-    SEED,
-)
-
-SECTIONS: Mapping[str, tuple[Key, ...]] = {
-    "infer": INFER,
-    "slam": SLAM,
-    "simulate": SIMULATE,
-    "demo": DEMO,
-    "render": RENDER,
-    "export": EXPORT,
-    "score": SCORE,
-    "localize": LOCALIZE,
-    "app": APP,
-    "plan": PLAN,
-    "explore": EXPLORE,
-}
-"""The tables of a configuration file: one a command."""
+    Raises:
+        WrongValue: it is of another type, or not one of the choices.
+        BadInput: it breaks its rule; the message names the flag, which is also how the setting is called elsewhere.
+    """
+    if key.kind is int and isinstance(value, float) and value.is_integer():
+        value = int(value)
+    if key.kind is int and isinstance(value, int) and value > MOST and key.name != "seed":
+        raise BadInput(f"{key.flag} must be {MOST:,} at most, got {value}")
+    try:
+        result: Value = msgspec.convert(value, key.annotation)
+    except msgspec.ValidationError:
+        raise WrongValue(f"{key.name} must be {key.words}, got {value!r}") from None
+    if key.rule is not None and result is not None and not key.rule.holds(result):
+        raise BadInput(f"{key.flag} must be {key.rule.words}, got {result!r}")
+    return result

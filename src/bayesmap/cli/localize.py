@@ -5,21 +5,20 @@ from __future__ import annotations
 import itertools
 import json
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 import click
 
-from bayesmap.cli import following
-from bayesmap.cli.command import INTERRUPTED, Call, takes
-from bayesmap.cli.console import write_out
-from bayesmap.cli.input_files import need_file
+from bayesmap.cli.command import Call, takes
+from bayesmap.cli.console import INTERRUPTED, Console, write_out
+from bayesmap.cli.keys import LocalizeSettings
+from bayesmap.cli.logs import is_map, need_file
 from bayesmap.cli.progress import share
-from bayesmap.cli.reading import options_of
-from bayesmap.cli.score_others import is_map
-from bayesmap.cli.typed_numbers import numbers_of
+from bayesmap.cli.translation import reading_of
+from bayesmap.cli.typed import numbers_of
 from bayesmap.errors import BadInput
 from bayesmap.version import __version__
 
@@ -36,6 +35,8 @@ if TYPE_CHECKING:
 
 IMAGES = (".pgm", ".png", ".bmp")
 ENDINGS = (".tum", ".mcap", ".bag", ".db3", ".jsonl")
+RECORDED = ("scan_topic", "pose_topic", "fixed_frame")
+"""Settings that only recordings have."""
 
 
 @takes("localize")
@@ -51,8 +52,8 @@ ENDINGS = (".tum", ".mcap", ".bag", ".db3", ".jsonl")
 @click.option("--scans", "span", metavar="FIRST:LAST", help="Only these scans of the log, from 0; LAST is left out.")
 @click.option("--area", metavar="X0,X1,Y0,Y1", help="Also the probability of being in this rectangle, in metres.")
 @click.option("--force", is_flag=True, help="Replace an existing file.")
-def command(
-    call: Call,
+def localize(
+    call: Call[LocalizeSettings],
     run_file: str,
     log: str,
     output: str | None,
@@ -83,49 +84,27 @@ def command(
     A map of another program (map_server YAML) says nothing of the sensor or of its own errors: a law is fitted to those
     scans of LOG that are surely located under a wary one, and told. With --follow the wary law is taken.
     """
-    values = call.values()
-    from bayesmap.io.logs import describe_log
-    from bayesmap.localization.localize import Localization, localize
-
+    # Check what was typed.
     if idle_s is not None and not follow:
         raise click.UsageError("--for says how long --follow waits: give both")
     target = None if output is None else _target(output, force)
     near, corners = _near(prior), _area(area)
-    live = follow and following.can_follow(call.console, log)
+    live = follow and can_follow(call.console, log)
     if not live:
         need_file(log, "the log whose scans are to be located", runs=False)
-    place = _Map.of(run_file, values)
-    seed = values["seed"]
+    source = _map_of(run_file, call.settings())
+    question = _Question(call, log, source, span, near, independent)
 
     def tell(number: int, belief: PoseBelief) -> bool:
         return write_out(json.dumps({"scan": number, **_answer(belief, corners)}, allow_nan=False) + "\n")
 
+    # Locate the scans.
     interrupted = False
     if live:
-        to_come = following.scans_to_come(
-            call.console, log, values, place.max_range_live_m, span, idle_s, without_poses=independent
-        )
-        call.console.detail(f"{log}: waiting for scans")
-        found_live = place.located_live(call, to_come, prior=near, independent=independent, seed=seed)
-        beliefs, interrupted = following.located(found_live, tell)
-        if not beliefs:
-            raise BadInput(f"{log}: it ended without a scan")
-        found = Localization(tuple(beliefs))
+        found, interrupted = _locate_live(question, idle_s, tell)
     else:
-        reading = describe_log(log, max_range_m=place.max_range_m, **options_of(values), without_poses=independent)
-        for note in reading.notes:
-            call.console.say(f"{log}: {note}")
-        scans = reading.scans
-        scans = scans.select(_slice(span, len(scans)))
-        known = place.known(call, scans)
-        with share(call.console, "locating scans") as report:
-
-            def on_belief(number: int, belief: PoseBelief) -> None:
-                report((number + 1) / len(scans))
-                if follow:
-                    tell(number, belief)
-
-            found = localize(known, scans, prior=near, independent=independent, seed=seed, on_belief=on_belief)
+        found = _locate(question, tell if follow else None)
+    # Write and print the result.
     outputs = [] if target is None else _write(target, found)
     lost = sum(belief.p_lost > 0.5 for belief in found.beliefs)
     if lost:
@@ -150,64 +129,177 @@ def command(
 
 
 @dataclass(frozen=True, eq=False)
-class _Map:
-    """The map of a run, or that of another program: its occupancy, NaN where unknown, and its grid."""
+class _Question:
+    """What is asked.
 
-    values: dict[str, Any]
-    run: Run | None = None
-    external: tuple[NDArray[np.float64], Grid] | None = None
+    Attributes:
+        call: of the command.
+        log: as typed.
+        map: in which the scans are located.
+        span: FIRST:LAST of the scans, or None for all.
+        near: the first pose, or None for anywhere.
+        independent: whether each scan is located by itself.
+    """
 
-    @classmethod
-    def of(cls, file: str, values: dict[str, Any]) -> _Map:
-        """Read it, by the ending of its name."""
-        if is_map(file):
-            from bayesmap.io.ros.maps import read_map
+    call: Call[LocalizeSettings]
+    log: str
+    map: _Map
+    span: str | None
+    near: Near | None
+    independent: bool
 
-            need_file(file, "a saved run (.nc), or a map of map_server (.yaml)", runs=True)
-            return cls(values, external=read_map(file))
-        from bayesmap.result import load
+    @property
+    def options(self) -> dict[str, Any]:
+        """The arguments that all localizations take."""
+        return {"prior": self.near, "independent": self.independent, "seed": self.call.settings().seed}
 
-        if Path(file).suffix.lower() in IMAGES and Path(file).exists():
-            raise BadInput(f"{file}: the image of a map; give the YAML file that names it and says where it lies")
-        return cls(values, run=load(file))
+
+def _locate(question: _Question, tell: Callable[[int, PoseBelief], bool] | None) -> Localization:
+    """Locate the scans that a log holds now; ``tell`` is given the posterior of each."""
+    from bayesmap.io.logs import describe_log
+    from bayesmap.localization.localize import localize
+
+    call, log = question.call, question.log
+    reading = describe_log(
+        log, max_range_m=question.map.max_range_m, without_poses=question.independent, **reading_of(call.settings())
+    )
+    for note in reading.notes:
+        call.console.say(f"{log}: {note}")
+    scans = reading.scans.select(_slice(question.span, len(reading.scans)))
+    known = question.map.known(call.console, scans)
+    with share(call.console, "locating scans") as report:
+
+        def on_belief(number: int, belief: PoseBelief) -> None:
+            report((number + 1) / len(scans))
+            if tell is not None:
+                tell(number, belief)
+
+        return localize(known, scans, on_belief=on_belief, **question.options)
+
+
+def _locate_live(
+    question: _Question, idle_s: float | None, tell: Callable[[int, PoseBelief], bool]
+) -> tuple[Localization, bool]:
+    """Locate the scans of a log as they come, until there are no more, nobody listens, or Ctrl-C.
+
+    Returns:
+        All posteriors, and whether Ctrl-C was the end.
+    """
+    from bayesmap.localization.localize import Localization, follow_live
+
+    scans = scans_to_come(question, idle_s)
+    question.call.console.detail(f"{question.log}: waiting for scans")
+    beliefs: list[PoseBelief] = []
+    interrupted = False
+    try:
+        for first in scans:
+            known = question.map.known_live(first)
+            for belief in follow_live(known, itertools.chain([first], scans), **question.options):
+                beliefs.append(belief)
+                if not tell(len(beliefs) - 1, belief):
+                    return Localization(tuple(beliefs)), False
+    except KeyboardInterrupt:
+        if not beliefs:
+            raise
+        interrupted = True
+    if not beliefs:
+        raise BadInput(f"{question.log}: it ended without a scan")
+    return Localization(tuple(beliefs)), interrupted
+
+
+class _Map(Protocol):
+    """A map in which scans are located."""
 
     @property
     def max_range_m(self) -> float | None:
-        """Largest range of the run's sensor; None: as the log says."""
-        return None if self.run is None else self.run.posterior.scans.max_range_m
+        """Largest range of the sensor; None: as the log says."""
 
     @property
     def max_range_live_m(self) -> float:
-        """The same for a log that is still written: in another program's map, from one of its corners to the other."""
-        if self.external is None:
-            assert self.run is not None
-            return self.run.posterior.scans.max_range_m
-        grid = self.external[1]
-        return grid.resolution * math.hypot(*grid.shape)
+        """Largest range of the sensor of a log that is still written."""
 
-    def known(self, call: Call, scans: Scans, *, fit: bool = True) -> KnownMap:
-        """The map, ready to locate scans in; of another program's the law is fitted to them first."""
-        from bayesmap.localization.external_map import external_map, fit_law
+    def known(self, console: Console, scans: Scans) -> KnownMap:
+        """Return the map, ready to locate scans in."""
+
+    def known_live(self, first: Scans) -> KnownMap:
+        """Return the map, ready to locate scans in of which only the first is there."""
+
+
+@dataclass(frozen=True, eq=False)
+class _RunMap:
+    """The map of a saved run."""
+
+    run: Run
+    settings: LocalizeSettings
+
+    @property
+    def max_range_m(self) -> float | None:
+        return self.max_range_live_m
+
+    @property
+    def max_range_live_m(self) -> float:
+        return self.run.posterior.scans.max_range_m
+
+    def known(self, console: Console, scans: Scans) -> KnownMap:
+        return self.known_live(scans)
+
+    def known_live(self, first: Scans) -> KnownMap:
         from bayesmap.localization.known_map import KnownMap
 
-        how = {name: self.values[name] for name in ("beam_weight", "device")}
-        if self.run is not None:
-            return KnownMap.of_run(self.run, **how)
-        assert self.external is not None
-        law = None
-        if fit:
-            with share(call.console, "fitting what the map means") as report:
-                law = fit_law(*self.external, scans, self.values["seed"], report)
-            call.console.say(law.words())
-        return external_map(*self.external, scans, law, **how)
+        return KnownMap.of_run(self.run, beam_weight=self.settings.beam_weight, device=self.settings.device)
 
-    def located_live(self, call: Call, scans: Iterator[Scans], **how: Any) -> Iterator[PoseBelief]:
-        """The posteriors of scans that are still to come: another program's map is taken by the assumed law."""
-        from bayesmap.localization.localize import follow_live
 
-        for first in scans:
-            known = self.known(call, first, fit=False)
-            yield from follow_live(known, itertools.chain([first], scans), **how)
+@dataclass(frozen=True, eq=False)
+class _ExternalMap:
+    """The map of another program: its occupancy, (nx, ny), NaN where unknown, and its grid."""
+
+    occupancy: NDArray[np.float64]
+    grid: Grid
+    settings: LocalizeSettings
+
+    @property
+    def max_range_m(self) -> float | None:
+        return None
+
+    @property
+    def max_range_live_m(self) -> float:
+        """From one corner of the map to the other."""
+        return self.grid.resolution * math.hypot(*self.grid.shape)
+
+    def known(self, console: Console, scans: Scans) -> KnownMap:
+        """Fit what the map means to the scans first."""
+        from bayesmap.localization.external_map import external_map, fit_law
+
+        settings = self.settings
+        with share(console, "fitting what the map means") as report:
+            law = fit_law(self.occupancy, self.grid, scans, settings.seed, report)
+        console.say(law.words())
+        return external_map(
+            self.occupancy, self.grid, scans, law, beam_weight=settings.beam_weight, device=settings.device
+        )
+
+    def known_live(self, first: Scans) -> KnownMap:
+        """Take the assumed law."""
+        from bayesmap.localization.external_map import external_map
+
+        settings = self.settings
+        return external_map(
+            self.occupancy, self.grid, first, None, beam_weight=settings.beam_weight, device=settings.device
+        )
+
+
+def _map_of(file: str, settings: LocalizeSettings) -> _Map:
+    """Read a map, by the ending of its name."""
+    if is_map(file):
+        from bayesmap.io.ros.maps import read_map
+
+        need_file(file, "a saved run (.nc), or a map of map_server (.yaml)", runs=True)
+        return _ExternalMap(*read_map(file), settings)
+    from bayesmap.result import load
+
+    if Path(file).suffix.lower() in IMAGES and Path(file).exists():
+        raise BadInput(f"{file}: the image of a map; give the YAML file that names it and says where it lies")
+    return _RunMap(load(file), settings)
 
 
 def _answer(belief: PoseBelief, corners: list[float] | None) -> dict[str, Any]:
@@ -232,7 +324,7 @@ def _lines(found: Localization, corners: list[float] | None) -> list[str]:
 
 
 def _per_cent(probability: float) -> str:
-    """Two digits of what is small, a tenth of a per cent of what is not."""
+    """Return a probability in per cent: two digits of a small one, one decimal of others."""
     if 0.0 < probability < 1e-4:
         return "under 0.01"
     return f"{100 * probability:.2g}" if probability < 0.1 else f"{100 * probability:.1f}"
@@ -293,3 +385,73 @@ def _slice(text: str | None, count: int) -> slice:
     if not range(count)[chosen]:
         raise BadInput(f"--scans {text}: none of the log's {count:,} scans is among them")
     return chosen
+
+
+def can_follow(console: Console, log: str) -> bool:
+    """Whether a log can be followed; if not, the user is told that only the scans that it holds now are located."""
+    from bayesmap.io.live import STANDARD_INPUT, can_be_followed
+
+    if log not in STANDARD_INPUT:
+        need_file(log, "the log whose scans are to be located", runs=False, pipes=True)
+    if can_be_followed(log):
+        return True
+    console.warn(
+        f"{log}: only CARMEN logs and CSV tables can be followed while they are written, as text; of this file the "
+        "scans that it holds now are located"
+    )
+    return False
+
+
+def scans_to_come(question: _Question, idle_s: float | None) -> Iterator[Scans]:
+    """Return the scans of a log that can be followed, one at a time, as its settings say.
+
+    Args:
+        question: about a file, a pipe, or "-".
+        idle_s: the end, when nothing has come for so long; None: wait on.
+
+    Raises:
+        BadInput: a setting that only recordings have.
+    """
+    from bayesmap.io.live import live_scans
+
+    console, log, settings = question.call.console, question.log, question.call.settings()
+    for name in RECORDED:
+        value = getattr(settings, name)
+        if value is not None:
+            raise BadInput(f"{log}: --{name.replace('_', '-')} {value}: a text has no topics and no frames")
+    first, last = _ends(question.span)
+    scans = live_scans(
+        log,
+        max_range_m=question.map.max_range_live_m,
+        no_return=settings.no_return,
+        skip_bad_lines=settings.skip_bad_lines,
+        idle_s=idle_s,
+        on_skipped=lambda line, reason: console.say(f"{log}: line {line} left out: {reason}"),
+        laser=reading_of(settings)["laser"],
+        without_poses=question.independent,
+    )
+    return itertools.islice(_thinned(scans, settings.thin_scans), first, last)
+
+
+def _ends(span: str | None) -> tuple[int, int | None]:
+    first, colon, last = (span or ":").partition(":")
+    try:
+        ends = int(first or 0), int(last) if last else None
+    except ValueError:
+        colon = ""
+    if not colon or ends[0] < 0 or (ends[1] is not None and ends[1] <= ends[0]):
+        raise click.BadParameter(f"{span!r} is not FIRST:LAST of scans to come", param_hint="'--scans'")
+    return ends
+
+
+def _thinned(scans: Iterable[Scans], spacing_m: float) -> Iterator[Scans]:
+    """Yield the first scan, and then each by which the robot has travelled so far since the last one kept."""
+    travelled_m, at = math.inf, None
+    for scan in scans:
+        x, y = scan.poses[0, :2]
+        if at is not None:
+            travelled_m += math.hypot(x - at[0], y - at[1])
+        at = (x, y)
+        if travelled_m >= spacing_m * (1 - 1e-9):
+            travelled_m = 0.0
+            yield scan

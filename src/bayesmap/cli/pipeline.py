@@ -5,17 +5,16 @@ from __future__ import annotations
 import os
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
-from bayesmap.cli import cells, sensors
+from bayesmap.cli import translation
 from bayesmap.cli.command import Call
 from bayesmap.cli.console import Console, counted
 from bayesmap.cli.folder import Folder
-from bayesmap.cli.input_files import LOG, need_file
-from bayesmap.cli.keys import SECTIONS
+from bayesmap.cli.keys import InferSettings, SamplingSettings
+from bayesmap.cli.logs import LOG, need_file
 from bayesmap.cli.progress import SETTING_UP, progress, stage
-from bayesmap.cli.reading import options_of
-from bayesmap.cli.settings import Settings, as_toml, read_file
+from bayesmap.cli.settings import Layer, as_toml, read_file
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -24,45 +23,27 @@ if TYPE_CHECKING:
     from bayesmap.io.log_reading import LogReading
     from bayesmap.result import Run
     from bayesmap.run.runner import Executor
-    from bayesmap.sensors.model import SensorModel
     from bayesmap.space.scans import Scans
 
-PASSED_ON = (
-    "method", "order", "chains", "warmup", "draws", "thin", "seed", "start", "particles", "rounds", "hit_depth",
-    "threads", "device",
-)  # fmt: skip
-"""Settings that `bayesmap.infer` has under the same name."""
-
-DEFAULTS = {key.name: key.default for key in SECTIONS["infer"]}
+S = TypeVar("S", bound=SamplingSettings)
 
 
 @dataclass(frozen=True, eq=False)
-class Task:
+class Task(Generic[S]):
     """One log that is to be inferred.
 
     Attributes:
         log: as typed.
         folder: of its run.
-        values: the command's settings.
-        sensor: as `bayesmap.infer` takes it; None for the default of the cells.
+        settings: of the command.
     """
 
     log: str
     folder: Folder
-    values: dict[str, Any]
-    sensor: SensorModel | str | None
+    settings: S
 
 
-def prepare(
-    call: Call,
-    log: str,
-    path: Path,
-    *,
-    resume: bool,
-    force: bool,
-    section: str = "infer",
-    begun: Settings | None = None,
-) -> Task:
+def prepare(call: Call[S], log: str, path: Path, *, resume: bool, force: bool, begun: Layer | None = None) -> Task[S]:
     """Check what was typed for one log, before anything is read or written.
 
     Args:
@@ -71,7 +52,6 @@ def prepare(
         path: folder of the run.
         resume: go on with the run in the folder.
         force: replace it.
-        section: the command.
         begun: settings to resume with where the folder has none.
 
     Raises:
@@ -79,15 +59,14 @@ def prepare(
     """
     need_file(log, f"{LOG} (bayesmap info FILE says what is in one)", runs=False)
     folder = Folder(path, call.console, resuming=resume)
-    under = (settings_of(folder, section) or begun) if resume else None
-    values = cells.with_defaults({**DEFAULTS, **call.values(under)})
-    sensor = "fit" if values["sensor"] == "fit" else sensors.sensor_of(values["sensor"])
+    under = (settings_of(folder, call.section) or begun) if resume else None
+    settings = translation.completed(call.settings(under))
     folder.check(force=force)
-    return Task(log, folder, values, sensor)
+    return Task(log, folder, settings)
 
 
 def infer_log(
-    task: Task,
+    task: Task[InferSettings],
     *,
     reading: LogReading | None = None,
     executor: Executor | None = None,
@@ -108,12 +87,12 @@ def infer_log(
     Returns:
         The JSON document of the run. After Ctrl-C its "finished" is false.
     """
-    folder, values = task.folder, task.values
+    folder, every = task.folder, task.settings.holdout
     # Read the log.
     if reading is None:
-        reading = read(folder.console, task.log, values)
+        reading = read(folder.console, task.log, task.settings)
     # Split off the scans that are held out.
-    train, heldout = reading.scans.holdout(values["holdout"]) if values["holdout"] else (reading.scans, None)
+    train, heldout = reading.scans.holdout(every) if every else (reading.scans, None)
     # Take up the run that is in the folder.
     saved = taken_up(folder) if folder.resuming else None
     # Sample the posterior, with checkpoints.
@@ -122,37 +101,32 @@ def infer_log(
     if not run.finished:
         return leave(folder, run, reading, go_on)
     # Finish: save the run, draw it, export it, score it.
-    document = finish(folder, run, reading, heldout, values["holdout"])
+    document = finish(folder, run, reading, heldout, every)
     # Report.
     report(folder.console, document)
     return document
 
 
-def names_of(section: str) -> list[str]:
-    """Names of a command's settings."""
-    return [key.name for key in SECTIONS[section]]
-
-
 def stem(log: str) -> str:
-    """The name of a log without its folder and its endings."""
+    """Return the name of a log without its folder and its endings."""
     name = os.path.basename(os.path.normpath(log))
     for ending in (".gz", ".log", ".clf", ".txt", ".bag", ".mcap", ".db3", ".g2o", ".csv", ".npz", ".rawlog"):
         name = name.removesuffix(ending)
     return name or "log"
 
 
-def settings_of(folder: Folder, section: str = "infer") -> Settings:
-    """What the run in the folder was started with, or the one that is to replace it; nothing if there is neither."""
+def settings_of(folder: Folder, section: str) -> Layer:
+    """Return what the run in the folder was started with, or the run that is to replace it; nothing without either."""
     return settings_in(folder.outdated if folder.outdated.exists() else folder.config, section)
 
 
-def settings_in(config: Path, section: str = "infer") -> Settings:
-    """A command's settings in a file; none if there is no file."""
+def settings_in(config: Path, section: str) -> Layer:
+    """Return a command's settings in a file; none if there is no file."""
     return {k: v for k, v in read_file(config).items() if k == section} if config.exists() else {}
 
 
 def taken_up(folder: Folder) -> Run | None:
-    """The run to go on with; None if it had not come to its first checkpoint."""
+    """Load the run to go on with; None if it was stopped before its first checkpoint."""
     from bayesmap.result import load
 
     if not folder.run.exists():
@@ -163,12 +137,12 @@ def taken_up(folder: Folder) -> Run | None:
     return run
 
 
-def read(console: Console, log: str, values: dict[str, Any]) -> LogReading:
+def read(console: Console, log: str, settings: SamplingSettings, *, without_poses: bool = False) -> LogReading:
     """Read a log, and say what is in it."""
     from bayesmap.io.logs import describe_log
 
-    how = {**options_of(values), "without_poses": values.get("no_odometry", False)}
-    reading = describe_log(log, max_range_m=values["max_range"], **how)
+    options = translation.reading_of(settings)
+    reading = describe_log(log, max_range_m=settings.max_range, without_poses=without_poses, **options)
     scans, counts = reading.scans, reading.scans.counts()
     code = reading.no_return_m
     coded = "no code for no return" if code is None else f"{code:g} m is no return ({reading.no_return.origin})"
@@ -188,7 +162,7 @@ def read(console: Console, log: str, values: dict[str, Any]) -> LogReading:
 
 
 def sample(
-    task: Task,
+    task: Task[InferSettings],
     scans: Scans,
     train: Scans,
     saved: Run | None,
@@ -208,21 +182,21 @@ def sample(
         on_event: called with how far the run is.
     """
     from bayesmap.api import Event, infer
+    from bayesmap.arguments import Checkpoints, Where
     from bayesmap.io.ros.maps import read_map
     from bayesmap.space.grid import Grid
 
-    folder, values = task.folder, task.values
-    if saved is not None and values["grid"] is not None and not os.path.exists(values["grid"]):
+    folder, settings = task.folder, task.settings
+    if saved is not None and settings.grid is not None and not os.path.exists(settings.grid):
         grid = saved.grid  # the map that named the cells has gone, or the path was one from elsewhere
-    elif values["grid"] is None:
+    elif settings.grid is None:
         # It holds the held-out scans too: the map shall be the same, and have a cell for each reading to score.
-        grid = Grid.covering(scans, values["resolution"])
+        grid = Grid.covering(scans, settings.resolution)
     else:
-        _, grid = read_map(values["grid"])
+        _, grid = read_map(settings.grid)
     folder.console.say(f"grid: {grid.shape[0]} x {grid.shape[1]} cells of {grid.resolution:g} m")
-    values = {**values, "thin": cells.sweeps_a_draw(values)}
-    values = {**values, "draws": cells.draws_for(values, train.n_beams, grid.n_cells)}
-    toml = as_toml({"infer": values})
+    settings = translation.with_schedule(settings, train.n_beams, grid.n_cells)
+    toml = as_toml({"infer": settings})
     with progress(folder.console, "tracing beams") as report:
 
         def on_progress(event: Event) -> None:
@@ -239,14 +213,15 @@ def sample(
         run = infer(
             train,
             grid,
-            prior=cells.prior_of(values),
-            sensor=cells.sensor_for(values, task.sensor, grid.resolution),  # type: ignore[arg-type]
-            resume=saved,
+            prior=translation.prior_of(settings),
+            sensor=translation.sensor_for(settings, grid.resolution),
+            method=translation.method_of(settings),
+            schedule=translation.schedule_of(settings),
+            seed=settings.seed,
+            hit_depth=settings.hit_depth or 0.0,
+            where=Where(settings.threads, settings.device, executor),
+            checkpoints=Checkpoints(saved, on_checkpoint, settings.checkpoint_every),
             on_progress=on_progress,
-            on_checkpoint=on_checkpoint,
-            checkpoint_every_s=values["checkpoint_every"],
-            executor=executor,
-            **{name: values[name] for name in PASSED_ON},
         )
     if run.finished or run.posterior.sweep > 0 or not folder.run.exists():
         folder.begin(toml)  # else there is nothing that could take an older run's place
@@ -254,7 +229,7 @@ def sample(
 
 
 def score_of(console: Console, run: Run, heldout: Scans | None, every: int) -> dict[str, Any] | None:
-    """The score of the scans that were held out."""
+    """Score the scans that were held out."""
     if heldout is None:
         return None
     valid = heldout.n_beams - heldout.counts()["invalid"]
@@ -264,7 +239,7 @@ def score_of(console: Console, run: Run, heldout: Scans | None, every: int) -> d
 
 
 def document_of(run: Run, reading: LogReading, score: dict[str, Any] | None, outputs: list[Path]) -> dict[str, Any]:
-    """The JSON document of a run."""
+    """Return the JSON document of a run."""
     from bayesmap.cli.document import run_document
 
     return {

@@ -44,7 +44,7 @@ SETTING_UP = ("compile", "trace", "start", "fit")
 
 @contextlib.contextmanager
 def progress(console: Console, begin: str) -> Iterator[OnProgress]:
-    """The function that a run reports its events to; the bar is gone when the block ends.
+    """Give the function that a run reports its events to; the bar is gone when the block ends.
 
     Args:
         console: whether a bar may be drawn.
@@ -56,14 +56,14 @@ def progress(console: Console, begin: str) -> Iterator[OnProgress]:
 
 @contextlib.contextmanager
 def share(console: Console, name: str) -> Iterator[Callable[[float], None]]:
-    """The same for work that tells which share of it is done, from 0 to 1."""
+    """Give a function for work that tells which share of it is done, from 0 to 1."""
     with described_share(console, name) as show:
         yield lambda done: show(name, done)
 
 
 @contextlib.contextmanager
 def described_share(console: Console, begin: str) -> Iterator[Callable[[str, float], None]]:
-    """The same for work that also says what it is at."""
+    """Give a function for work that also says what it is doing."""
     with _bar(console, begin) as show:
         yield lambda name, done: show(name, "%", round(1000 * done), 1000, None)
 
@@ -110,7 +110,7 @@ def _bar(console: Console, begin: str) -> Iterator[Show]:
 
 @contextlib.contextmanager
 def stage(console: Console, name: Literal["save", "score"]) -> Iterator[Callable[[int, int], None]]:
-    """The same for a stage on its own, which tells how much of how much is done."""
+    """Give a function for a single stage, which tells how much of how much is done."""
     from bayesmap.api import Event
 
     with progress(console, STAGES[name][0]) as report:

@@ -1,23 +1,35 @@
-"""``bayesmap render``: pictures and films of a saved run."""
+"""``bayesmap render`` and ``bayesmap export``: a saved run as pictures and films, and as files for other programs."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
 from bayesmap.cli.command import Call, takes
+from bayesmap.cli.keys import ExportSettings, RenderSettings
+from bayesmap.cli.logs import heldout_scans
 from bayesmap.cli.progress import share
-from bayesmap.cli.reading import heldout_scans
 from bayesmap.errors import BadInput
 from bayesmap.version import __version__
 
 if TYPE_CHECKING:
+    import numpy as np
+    from matplotlib.figure import Figure
     from numpy.typing import NDArray
 
+    from bayesmap.result import Run
+    from bayesmap.space.grid import Grid
+    from bayesmap.space.scans import Scans
+
+    Walls = NDArray[np.bool_]
+    Draw = NDArray[Any]
+    """Walls, or reflectivities in [0, 1]."""
+
 NAMES = {"figure": "posterior.png", "animation": "chain.gif"}
-"""What a picture is called unless the user says otherwise; others are called what they show."""
+"""Names of pictures unless the user says otherwise; the others are called what they show."""
 
 WHOLE = ("figure", "animation", "trace", "weights")
 """Pictures that take no window."""
@@ -28,7 +40,9 @@ WHOLE = ("figure", "animation", "trace", "weights")
 @click.option("-o", "--output", metavar="FILE", help=".png, .pdf, .svg; .gif, .webp. [default: beside RUN.nc]")
 @click.option("--truth", metavar="MAP.yaml", help="Outline the true walls, a map_server map.")
 @click.option("--heldout", metavar="LOG", help="The log that the run was made from, or another of the same place.")
-def command(call: Call, run_file: str, output: str | None, truth: str | None, heldout: str | None) -> None:
+def render(
+    call: Call[RenderSettings], run_file: str, output: str | None, truth: str | None, heldout: str | None
+) -> None:
     r"""Draw a saved run.
 
     An older picture of the same name is replaced.
@@ -36,9 +50,9 @@ def command(call: Call, run_file: str, output: str | None, truth: str | None, he
     \b
     figure                  mean, how sure, readings and one draw
     mean, entropy, draw     one panel
-    deviation, width        how sure: of a wall's probability the standard
-                            deviation, of a reflectivity the 90 % interval's
-                            width
+    deviation, width        how sure: the standard deviation of a wall's
+                            probability, the width of the 90 % interval of
+                            a reflectivity
     residuals, surprise     held-out beams (--heldout LOG) over the map: reading
                             minus predicted median, and minus log score
     log-odds                the posterior beside the classic log-odds map
@@ -48,71 +62,219 @@ def command(call: Call, run_file: str, output: str | None, truth: str | None, he
 
     LOG is read as it was for the run: give the same --no-return, topics, --deskew and --thin-scans as to infer.
     """
-    from bayesmap.cli import pictures
     from bayesmap.result import load
     from bayesmap.viz.figure import write_figure
 
-    values = call.values()
-    what = values["what"]
+    settings = call.settings()
+    what = settings.what
     target = Path(output) if output else Path(run_file).with_name(NAMES.get(what, f"{what}.png"))
     run = load(run_file)
-    draws = run.n_draws
     # Methods that compute marginals have an answer without a draw; chains in their warm-up have none.
-    if draws == 0 and (what in ("draw", "animation") or run.posterior.has_chains):
+    if run.n_draws == 0 and (what in ("draw", "animation") or run.posterior.has_chains):
         raise BadInput(f"{run_file}: the run has no draws yet; go on with it by bayesmap infer --resume")
-    if values["window"] is not None and what in WHOLE:
+    if settings.window is not None and what in WHOLE:
         raise BadInput(f"window: {what} shows the whole map; a single panel, such as --what mean, takes a window")
-    grid, cut = pictures.part_of(run, values["window"])
-    mean, observed = run.occupancy[cut], run.observed[cut]
-    walls = None if truth is None else pictures.truth_on(grid, truth)
-    draw = pictures.one_draw(run, values["chain"], values["draw"]) if draws else None
-    label = pictures.quantity(run)
-    if what == "figure":
-        options = {} if draw is None else {"draw": draw}
-        write_figure(run.plot(truth=walls, **options), target)
-    elif what == "trace":
-        from bayesmap.viz.diagnostics import trace_figure
-
-        write_figure(trace_figure(run.log_joint, first_sweep=run.posterior.settings["warmup"] + 1), target)
-    elif what == "weights":
-        from bayesmap.viz.diagnostics import weights_figure
-
-        write_figure(weights_figure(run.log_weights), target)
-    elif what == "animation":
+    grid, window = part_of(run, settings.window)
+    walls = None if truth is None else truth_on(grid, truth)
+    if what == "animation":
         from bayesmap.viz.animation import write_animation
 
-        chain, numbers = pictures.frames(run, values["chain"], values["frames"])
-        write_animation(target, run.grid, chain, observed=run.observed, truth=walls, sweeps=numbers)
+        draws, numbers = frames(run, settings.chain, settings.frames)
+        write_animation(target, run.grid, draws, observed=run.observed, truth=walls, sweeps=numbers)
     elif what in ("residuals", "surprise"):
-        from bayesmap.viz.residuals import residuals_figure, surprise_scale
-
         if heldout is None:
             raise BadInput(f"{what}: that of scans which the run did not see; name their log by --heldout")
-        scans = heldout_scans(run, heldout, values, values["holdout"])
+        scans = heldout_scans(run, heldout, settings, settings.holdout)
         with share(call.console, "predicting held-out beams") as report:
-            ends, numbers_shown = pictures.misses(run, scans, what, report)
-        scale = surprise_scale(numbers_shown) if what == "surprise" else None
-        write_figure(residuals_figure(grid, mean, ends, numbers_shown, observed, scale=scale), target)
-    elif what == "log-odds":
-        from bayesmap.viz.map_figures import Candidate, comparison_figure
-
-        other, seen = pictures.log_odds_map(run)
-        both = [Candidate("log-odds", other[cut], seen[cut]), Candidate(f"posterior: {label}", mean, observed)]
-        write_figure(comparison_figure(grid, both, label="chance that a beam stops"), target)
-    elif what == "surfaces":
-        from bayesmap.viz.surfaces import surfaces_figure
-
-        write_figure(surfaces_figure(grid, *run.surfaces(), observed), target)
+            write_figure(_beams_figure(run, scans, what, grid, window, report), target)
+    elif what in WHOLE:
+        write_figure(_whole_figure(run, settings, walls), target)
     else:
-        from bayesmap.viz.map_figures import panel_figure
-
-        shown: NDArray[Any] = mean
-        if what == "deviation":
-            pictures.need_walls(run)
-        elif what == "width":
-            shown = pictures.interval_width(run)[cut]
-        elif what == "draw" and draw is not None:
-            shown = draw[cut]
-        write_figure(panel_figure(grid, what, shown, observed, truth=walls, label=label), target)
+        write_figure(_panel(run, settings, grid, window, walls), target)
     document = {"version": __version__, "what": what, "run": run_file, "outputs": {target.name: str(target)}}
     call.console.result(document, [target])
+
+
+def _whole_figure(run: Run, settings: RenderSettings, walls: Walls | None) -> Figure:
+    """Draw a picture of the whole run."""
+    from bayesmap.viz.diagnostics import trace_figure, weights_figure
+
+    if settings.what == "trace":
+        return trace_figure(run.log_joint, first_sweep=run.posterior.settings["warmup"] + 1)
+    if settings.what == "weights":
+        return weights_figure(run.log_weights)
+    options = {"draw": one_draw(run, settings.chain, settings.draw)} if run.n_draws else {}
+    return run.plot(truth=walls, **options)
+
+
+def _panel(run: Run, settings: RenderSettings, grid: Grid, window: tuple[slice, slice], walls: Walls | None) -> Figure:
+    """Draw one panel of a part of the map."""
+    from bayesmap.viz.map_figures import panel_figure
+    from bayesmap.viz.surfaces import surfaces_figure
+
+    what, label = settings.what, run.posterior.prior.words.mean
+    shown, observed = run.occupancy[window], run.observed[window]
+    if what == "surfaces":
+        return surfaces_figure(grid, *run.surfaces(), observed)
+    if what == "log-odds":
+        from bayesmap.viz.map_figures import Candidate, comparison_figure
+
+        log_odds, seen = log_odds_map(run)
+        posterior = Candidate(f"posterior: {label}", shown, observed)
+        both = [Candidate("log-odds", log_odds[window], seen[window]), posterior]
+        return comparison_figure(grid, both, label="chance that a beam stops")
+    if what == "deviation" and run.posterior.prior.has_interval:
+        raise BadInput("deviation: that of binary walls; --what width shows how sure a reflectivity is")
+    if what == "width":
+        shown = interval_width(run)[window]
+    elif run.n_draws:
+        draw = one_draw(run, settings.chain, settings.draw)
+        shown = draw[window] if what == "draw" else shown
+    return panel_figure(grid, what, shown, observed, truth=walls, label=label)
+
+
+def _beams_figure(
+    run: Run, scans: Scans, what: str, grid: Grid, window: tuple[slice, slice], on_progress: Callable[[float], None]
+) -> Figure:
+    """Draw the end points of beams over the map: their residuals in metres, or their surprise in nats."""
+    from bayesmap.posterior.predictor import predictor_of
+    from bayesmap.posterior.residuals import residuals_of
+    from bayesmap.viz.residuals import residuals_figure, surprise_scale
+
+    found = residuals_of(predictor_of(run.posterior), scans, on_progress=on_progress)
+    values = found.residual_m if what == "residuals" else found.surprise_nats
+    scale = surprise_scale(values) if what == "surprise" else None
+    mean, observed = run.occupancy[window], run.observed[window]
+    return residuals_figure(grid, mean, found.ends_world, values, observed, scale=scale)
+
+
+def one_draw(run: Run, chain: int, draw: int) -> Draw:
+    """Return a draw by its number and the number of its chain, from 1; draw -1 is the last.
+
+    Raises:
+        BadInput: there is no such chain or draw.
+    """
+    chains, draws = run.log_joint.shape
+    if not 1 <= chain <= chains:
+        raise BadInput(f"chain {chain}: this run has chains 1 to {chains}")
+    if not (1 <= draw <= draws or -draws <= draw <= -1):
+        raise BadInput(
+            f"draw {draw}: this run has {draws:,} draws a chain" + (", 1 to that, or -1 for the last" * (draws > 0))
+        )
+    return run.map_of(chain - 1, draw - (draw > 0))
+
+
+def frames(run: Run, chain: int, most: int) -> tuple[Draw, list[int]]:
+    """Return draws of a chain, evenly spread, and the number of each."""
+    import numpy as np
+
+    one_draw(run, chain, -1)
+    chosen = np.unique(np.linspace(0, run.n_draws - 1, min(most, run.n_draws)).round().astype(int))
+    return np.stack([run.map_of(chain - 1, i) for i in chosen.tolist()]), [int(i) + 1 for i in chosen]
+
+
+def truth_on(grid: Grid, path: str) -> Walls:
+    """Return the walls of a map_server map at the centres of another grid's cells; no walls outside of that map."""
+    import numpy as np
+
+    from bayesmap.io.ros.maps import read_map
+
+    occupancy, own = read_map(path)
+    x, y = grid.centers_m()
+    points: Any = np.stack(np.meshgrid(x, y, indexing="ij"), axis=-1)
+    i, j = np.moveaxis(np.floor(own.to_cells(points)).astype(int), -1, 0)
+    inside = (i >= 0) & (i < own.shape[0]) & (j >= 0) & (j < own.shape[1])
+    walls = np.zeros(grid.shape, dtype=np.bool_)
+    walls[inside] = occupancy[i[inside], j[inside]] > 0.5
+    return walls
+
+
+def part_of(run: Run, text: str | None) -> tuple[Grid, tuple[slice, slice]]:
+    """Return the part of the map that a window, as typed, leaves; all of it for None.
+
+    Raises:
+        BadInput: neither four numbers nor "observed", or a window outside the map.
+    """
+    from bayesmap.viz.cells import window, window_around
+
+    if text is None:
+        return run.grid, (slice(None), slice(None))
+    if text == "observed":
+        return window_around(run.grid, run.observed)
+    try:
+        x0, x1, y0, y1 = (float(part) for part in text.split(","))
+    except ValueError:
+        raise BadInput(f"window {text!r}: give X0,X1,Y0,Y1 in metres, such as 0,10,-5,5, or: observed") from None
+    return window(run.grid, (x0, x1), (y0, y1))
+
+
+def interval_width(run: Run) -> NDArray[np.float64]:
+    """Compute upper minus lower bound of the central 90 % interval of each cell, (nx, ny).
+
+    Raises:
+        BadInput: cells are walls or free, which have no interval.
+    """
+    import numpy as np
+
+    if not run.posterior.prior.has_interval:
+        raise BadInput(
+            "width: a wall is there or not, and has no interval; --what entropy or deviation shows how sure it is"
+        )
+    lower, upper = run.interval(0.9)
+    return np.asarray(upper - lower)
+
+
+def log_odds_map(run: Run) -> tuple[NDArray[np.float64], Walls]:
+    """Compute the log-odds map of the run's scans, by OctoMap's numbers and unclamped, and the cells seen, (nx, ny)."""
+    from bayesmap.kernels.counts import count_hits
+    from bayesmap.posterior.baselines import log_odds_as_usual
+
+    hits, passes = (counts.reshape(run.grid.shape) for counts in count_hits(run.posterior.scans, run.grid))
+    return log_odds_as_usual(hits.astype(float), passes.astype(float), {}), hits + passes > 0
+
+
+@takes("export")
+@click.argument("run_file", metavar="RUN.nc")
+@click.option("-o", "--output", metavar="FILE", help="Its ending chooses the format. [default: map.yaml beside RUN.nc]")
+@click.option("--force", is_flag=True, help="Replace an existing file, or the folder of a bag.")
+def export(call: Call[ExportSettings], run_file: str, output: str | None, force: bool) -> None:
+    r"""Write the map of a saved run, or its trajectory, for robots and other programs.
+
+    Cells that no beam reached are unknown.
+
+    \b
+    .yaml               map_server: YAML and image (--mode trinary, scale, raw)
+    .bag, .mcap, .db3   occupancy grid in a recording, ROS 1 or 2; a name
+                        without ending is a ROS 2 bag's folder;
+                        --format gridmap: all layers, as grid_map has them
+    .tif                GeoTIFF, a band a layer (needs bayesmap[geotiff])
+    .rrd                layers and scans for rerun (needs bayesmap[rerun])
+    .tum                the poses, as evo reads them; covariances beside them
+    .g2o                the poses as a graph with information matrices
+    --format trajectory nav_msgs/Path, and PoseWithCovarianceStamped, in a
+                        recording
+
+    The layers are mean, entropy and, where a cell's state is a number, the bounds of its 90 % interval.
+    """
+    import numpy as np
+
+    from bayesmap.io.exports import existing
+    from bayesmap.result import load
+
+    settings = call.settings()
+    kind = None if settings.format == "auto" else settings.format
+    target = output or str(Path(run_file).with_name("map.yaml"))
+    older = existing(target, kind)
+    if older is not None and not force:
+        raise BadInput(f"{older}: exists already; --force replaces it, -o takes another name")
+    if not Path(target).parent.is_dir():
+        raise BadInput(f"{Path(target).parent}: no such folder; make it first, or choose another with -o")
+    run = load(run_file)
+    if np.isnan(run.occupancy).any():
+        raise BadInput(f"{run_file}: the run has no draws yet; go on with it by bayesmap infer --resume")
+    outputs = run.export(
+        target, format=kind, mode=settings.mode, occupied_thresh=settings.occupied_thresh,
+        free_thresh=settings.free_thresh,
+    )  # fmt: skip
+    document = {"version": __version__, "run": run_file, "outputs": {path.name: str(path) for path in outputs}}
+    call.console.result(document, outputs)

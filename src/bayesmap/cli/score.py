@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import sys
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -11,24 +10,17 @@ import click
 
 from bayesmap.cli.command import Call, takes
 from bayesmap.cli.console import write_out
-from bayesmap.cli.progress import progress, share
-from bayesmap.cli.reading import heldout_scans, options_of
-from bayesmap.cli.score_others import infer_map, is_map, placed_scans, score_map, verdict
-from bayesmap.cli.score_poses import FRAMES, check_frames, lines_of, score_poses
+from bayesmap.cli.keys import ScoreSettings
+from bayesmap.cli.logs import is_map
+from bayesmap.cli.scores import Scored, base_in_laser, mount_of, score_others, score_run
 from bayesmap.errors import BadInput
 from bayesmap.version import __version__
 
 if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
-
-    from bayesmap.posterior.baselines import Fitted
     from bayesmap.posterior.scores import Score
     from bayesmap.posterior.trajectory_scores import TrajectoryScore
-    from bayesmap.result import Run
-    from bayesmap.space.grid import Grid
-    from bayesmap.space.scans import Scans
-    from bayesmap.space.trajectory import Trajectory
+
+FRAMES = ("base", "laser")
 
 HEADINGS = ("map", "nats/beam", "50 %", "80 %", "95 %", "80 % width", "PIT", "Brier", "log loss")
 
@@ -45,10 +37,9 @@ HEADINGS = ("map", "nats/beam", "50 %", "80 %", "95 %", "80 % width", "PIT", "Br
 )
 @click.option("--exact", is_flag=True, help="Only relations at times of poses; else also between close ones.")
 @click.option("--trajectory-frame", type=click.Choice(FRAMES), default="laser", show_default=True, help="Of FILE.tum.")
-@click.option("--laser", metavar="X,Y,DEGREES", help="Where the laser sits on the robot. [default: as LOG says]")
 @click.option("--picture", metavar="FILE", help="Draw calibration and errors: .png, .pdf or .svg.")
-def command(
-    call: Call,
+def score(
+    call: Call[ScoreSettings],
     run_file: str,
     log: str | None,
     whole: bool,
@@ -58,7 +49,6 @@ def command(
     frame: str | None,
     exact: bool,
     trajectory_frame: str,
-    laser: str | None,
     picture: str | None,
 ) -> None:
     r"""Score a saved run, or another program's map or trajectory, on the scans of LOG that had no part in it.
@@ -85,20 +75,23 @@ def command(
     suit it best, fitted on all scans but every --holdout-th, which are scored. Without --trajectory LOG's own poses are
     taken; without a map one is inferred from the trajectory.
     """
-    values = {**call.values(), "laser": laser}
-    frames = check_frames(frame, laser, relations)
+    settings, of_run = call.settings(), _is_run(run_file)
+    if frame is not None and relations is None:
+        raise click.UsageError("--frame says whose --relations are known; give both")
     if picture is not None:
         from bayesmap.files import need_ending
 
         need_ending(picture, ("png", "pdf", "svg"), "figure")  # before the minutes of work
-    own_log = log if _is_run(run_file) or is_map(run_file) else run_file
-    wanted = relations is not None or trajectory_frame == "base"
-    mount = frames.mount(own_log, options_of(values)) if wanted else None
-    shift = frames.base_in_laser(mount)
-    if _is_run(run_file):
+    # Find out where the laser sits on the robot, if that matters.
+    own_log = log if of_run or is_map(run_file) else run_file
+    matters = relations is not None or trajectory_frame == "base"
+    mount = mount_of(settings.laser, frame, own_log, settings) if matters else None
+    shift = base_in_laser(frame, mount) if matters else None
+    # Score the map.
+    if of_run:
         if trajectory is not None:
             raise click.UsageError("--trajectory goes with a map or a log; a run has poses of its own")
-        found = _score_run(call, run_file, log, values, whole=whole, compare=compare, poses_too=relations is not None)
+        scored = score_run(call, run_file, log, whole=whole, compare=compare, poses_too=relations is not None)
         if log is None and relations is None:
             raise click.UsageError("give LOG, whose held-out scans score the run, or --relations, or both")
     else:
@@ -107,115 +100,33 @@ def command(
                 "score: --trajectory-frame base needs to know where the laser sits: give --laser X,Y,DEGREES"
             )
         of_base = mount if trajectory_frame == "base" else None
-        found = _score_others(call, run_file, log, values, trajectory, of_base, compare=compare)
+        scored = score_others(call, run_file, log, trajectory, of_base, compare=compare)
+    # Score the poses.
     poses = None
     if relations is not None:
-        poses = score_poses(found.trajectory, relations, shift, exact=exact)
-    outputs: dict[str, str] = {}
-    if picture is not None:
-        outputs = {path.name: str(path) for path in _draw(picture, found.rows, poses)}
-    of = "laser" if shift is None else "base"
-    about = None if poses is None else {"file": relations, "frame": of, **poses.as_json()}
+        from bayesmap.io.text.relations import read_relations
+        from bayesmap.posterior.trajectory_scores import score_trajectory
+
+        poses = score_trajectory(scored.trajectory, read_relations(relations), shift, exact=exact)
+    # Draw and print.
+    outputs = {} if picture is None else {path.name: str(path) for path in _draw(picture, scored.rows, poses)}
+    whose = "laser" if shift is None else "base"
     if call.console.as_json:
-        call.console.result(_document(run_file, log, found, about, outputs), [])
+        about = None if poses is None else {"file": relations, "frame": whose, **poses.as_json()}
+        call.console.result(_document(run_file, log, scored, about, outputs), [])
         return
-    if found.verdict is not None:
-        write_out(f"{found.verdict}\n")
-    if found.rows:
-        _print_table(found.rows)
+    if scored.verdict is not None:
+        write_out(f"{scored.verdict}\n")
+    if scored.rows:
+        _print_table(scored.rows)
     if poses is not None:
-        write_out("".join(f"{line}\n" for line in lines_of(poses, of, exact=exact, of_run=_is_run(run_file))))
-
-
-@dataclass(frozen=True, eq=False)
-class _Found:
-    """What was scored: rows of the table, fits of all but the first, every how many scans were held out, and poses.
-
-    Of a map of another program also a verdict in words.
-    """
-
-    rows: list[tuple[str, Score]]
-    fits: list[Fitted]
-    every: int
-    trajectory: Trajectory
-    verdict: str | None = None
+        write_out("".join(f"{line}\n" for line in lines_of(poses, whose, exact=exact, of_run=of_run)))
 
 
 def _is_run(path: str) -> bool:
     from bayesmap.cli.info import is_saved_run
 
     return is_saved_run(path) or not (is_map(path) or Path(path).exists())
-
-
-def _score_run(
-    call: Call, path: str, log: str | None, values: dict[str, Any], *, whole: bool, compare: bool, poses_too: bool
-) -> _Found:
-    from bayesmap.io.exports import trajectory_of
-    from bayesmap.posterior.heldout import NoneHeldOut
-    from bayesmap.result import load, score
-
-    run = load(path)
-    there = trajectory_of(run, run.posterior.scans)
-    if log is None:
-        return _Found([], [], 0, there)
-    every = 0 if whole else values["holdout"]
-    if every == 0 and not whole:
-        raise BadInput("score: --holdout 0 leaves nothing to score; give 2 or more, or --all for another recording")
-    try:
-        heldout = heldout_scans(run, log, values, every)
-    except NoneHeldOut as error:
-        if not poses_too:
-            raise
-        call.console.say(f"only the poses are scored, not the map: {error}")
-        return _Found([], [], 0, there)
-    call.console.say(f"scoring {len(heldout):,} scans of {log} that the run has not seen")
-    with share(call.console, f"scoring the {_name(run)}") as report:
-        rows = [(_name(run), score(run, heldout, **_how(values), on_progress=report))]
-    fits: list[Fitted] = []
-    if compare:
-        for fit, found in _baselines(call, run.posterior.scans, run.grid, heldout, _how(values)):
-            fits.append(fit)
-            rows.append((fit.name, found))
-    return _Found(rows, fits, every, there)
-
-
-def _score_others(
-    call: Call,
-    path: str,
-    log: str | None,
-    values: dict[str, Any],
-    trajectory: str | None,
-    mount: NDArray[np.float64] | None,
-    *,
-    compare: bool,
-) -> _Found:
-    from bayesmap.result import score
-
-    words = None
-    if is_map(path):
-        if log is None:
-            raise click.UsageError(f"give the LOG whose scans score {path}")
-        placed = placed_scans(log, values, trajectory, mount)
-        call.console.say(f"scoring every {values['holdout']}-th scan of {log}: {len(placed.heldout):,}")
-        fit, own = score_map(call, path, placed, _how(values))
-        rows, grid = [(fit.name, own)], fit.predictor.grid
-        words = verdict(fit.name, fit, own, placed)
-    else:
-        if log is not None:
-            raise click.UsageError(f"{path}: neither a saved run (.nc) nor a map (.yaml)")
-        if trajectory is None:
-            raise click.UsageError(f"{path}: a log by itself; give --trajectory, or the run or map to score on it")
-        placed = placed_scans(path, values, trajectory, mount)
-        run = infer_map(call, placed, values)
-        with share(call.console, f"scoring the {_name(run)}") as report:
-            rows = [(_name(run), score(run, placed.heldout, **_how(values), on_progress=report))]
-        grid = run.grid
-    fits: list[Fitted] = []
-    if compare:
-        for fit, scored in _baselines(call, placed.train, grid, placed.heldout, _how(values)):
-            fits.append(fit)
-            rows.append((fit.name, scored))
-    return _Found(rows, fits, values["holdout"], placed.trajectory, words)
 
 
 def _draw(picture: str, rows: list[tuple[str, Score]], poses: TrajectoryScore | None) -> list[Path]:
@@ -233,35 +144,8 @@ def _draw(picture: str, rows: list[tuple[str, Score]], poses: TrajectoryScore | 
     return written
 
 
-def _how(values: dict[str, Any]) -> dict[str, Any]:
-    """The settings that a score has under the same name."""
-    return {name: values[name] for name in ("seed", "device")}
-
-
-def _name(run: Run) -> str:
-    """Such as "surface posterior"."""
-    return f"{run.posterior.kind} posterior"
-
-
-def _baselines(call: Call, train: Scans, grid: Grid, heldout: Scans, how: dict[str, Any]) -> list[tuple[Fitted, Score]]:
-    from bayesmap.posterior.baselines import BASELINES, fit_baseline
-    from bayesmap.posterior.folds import make_folds
-    from bayesmap.posterior.scores import score_prediction
-
-    with progress(call.console, "tracing beams"):
-        folds = make_folds(train, grid)
-    found = []
-    for baseline in BASELINES:
-        call.console.say(f"fitting {baseline.name} to the scans that are not scored")
-        with share(call.console, f"fitting {baseline.name}") as report:
-            fit = fit_baseline(baseline, train, grid, folds, report)
-        with share(call.console, f"scoring {baseline.name}") as report:
-            found.append((fit, score_prediction(fit.predictor, heldout, **how, on_progress=report)))
-    return found
-
-
 def _document(
-    path: str, log: str | None, found: _Found, poses: dict[str, Any] | None, outputs: dict[str, str]
+    path: str, log: str | None, found: Scored, poses: dict[str, Any] | None, outputs: dict[str, str]
 ) -> dict[str, Any]:
     baselines = [
         {
@@ -288,7 +172,7 @@ def _document(
 
 
 def _cells(name: str, found: Score) -> tuple[str, ...]:
-    """A row of the table."""
+    """Return a row of the table."""
     shares = [f"{100 * c.share.value:.1f}" for c in found.coverage]
     width = next(c.median_width_m for c in found.coverage if c.level == 0.8)
     nats = f"{found.nats_per_beam:.3f} +- {found.nats_per_beam_error:.3f}"
@@ -316,3 +200,49 @@ def _print_table(rows: list[tuple[str, Score]]) -> None:
             *(cell.rjust(width) for cell, width in zip(row[1:], widths[1:], strict=True)),
         ]
         write_out("  ".join(padded).rstrip() + "\n")
+
+
+def lines_of(found: TrajectoryScore, frame: str, *, exact: bool, of_run: bool) -> list[str]:
+    """Return the score of poses as lines of text.
+
+    Args:
+        found: the score.
+        frame: whose relations they are.
+        exact: whether only times of poses count.
+        of_run: whether the poses are those of a saved run, for advice where nothing is known of how sure they are.
+    """
+    from bayesmap.poses.relations import LONGEST_GAP_S
+
+    figures = found.as_json()
+    missing = ""
+    if figures["in_gaps"]:
+        where = "not at times of poses" if exact else f"between poses over {LONGEST_GAP_S:g} s apart"
+        missing = f"; {figures['in_gaps']:,} more are {where}, and left out"
+    if outside := figures["not_covered"] - figures["in_gaps"]:
+        missing += f"; {outside:,} more are of other times"
+    lines = [
+        f"relations    {figures['relations']:,}, of the {frame}{missing}",
+        f"translation  {figures['translation_m_mean']:.4f} +- {figures['translation_m_std']:.4f} m, "
+        f"median {figures['translation_m_median']:.4f}",
+        f"rotation     {figures['rotation_deg_mean']:.3f} +- {figures['rotation_deg_std']:.3f} degrees, "
+        f"median {figures['rotation_deg_median']:.3f}",
+    ]
+    if figures["coverage"] is not None:
+        held = ", ".join(f"{100 * c['share']:.1f} of {100 * c['level']:g}" for c in figures["coverage"])
+        nees = figures["nees"]
+        lines.append(
+            f"regions      hold {held} %, if relations are exact; "
+            f"NEES {nees['mean']:.2f}, median {nees['median']:.2f} (3 is right)"
+        )
+        lines += [f"by           {found.known_by}"] if found.known_by else []
+    elif of_run:
+        lines.append(
+            "regions      unknown: the run takes its poses as known, or was saved by an earlier version, and has no "
+            "covariances of them; slam saves them"
+        )
+    else:
+        lines.append(
+            "regions      unknown: the poses come without covariances; "
+            "--trajectory FILE.tum with FILE-covariances.txt beside it has them"
+        )
+    return lines

@@ -11,23 +11,17 @@ from pathlib import Path
 from typing import Any
 
 import click
+import msgspec
 
-from bayesmap.cli.keys import SECTIONS, Key, Value
-from bayesmap.cli.rules import checked
-from bayesmap.cli.typed_numbers import NumberOr
+from bayesmap.cli.keys import SECTIONS, Key, Settings, Value, WrongValue, checked, keys_of
 from bayesmap.errors import BadInput
 
-Settings = dict[str, dict[str, Value]]
-"""Values by section and key, all of them."""
+Layer = Mapping[str, Mapping[str, Value]]
+"""Some values, by section and key."""
 
 
-def defaults() -> Settings:
-    """The settings of a user who says nothing."""
-    return {section: {key.name: key.default for key in keys} for section, keys in SECTIONS.items()}
-
-
-def read_file(path: str | Path) -> Settings:
-    """The settings that a TOML file makes: tables named like the commands; keys outside them hold for all.
+def read_file(path: str | Path) -> Layer:
+    """Read the settings of a TOML file: tables named like the commands; keys outside them hold for all.
 
     Raises:
         BadInput: a file that cannot be read or is not TOML, an unknown table or key, a value it cannot have.
@@ -38,7 +32,7 @@ def read_file(path: str | Path) -> Settings:
         raise BadInput(f"{path}: cannot be read: {getattr(error, 'strerror', None) or error}") from None
     except tomllib.TOMLDecodeError as error:
         raise BadInput(f"{path}: not valid TOML: {error}") from None
-    found: Settings = {}
+    found: dict[str, dict[str, Value]] = {}
     try:
         for name, value in tables.items():
             if not isinstance(value, dict):
@@ -47,13 +41,13 @@ def read_file(path: str | Path) -> Settings:
             if isinstance(value, dict):
                 for key, entry in value.items():
                     _put(found, [_known(name, SECTIONS, "table")], key, entry)
-    except (_Wrong, BadInput) as problem:
+    except (WrongValue, BadInput) as problem:
         raise BadInput(f"{path}: {problem}") from None
     return found
 
 
-def read_pairs(pairs: Iterable[str], section: str | None) -> Settings:
-    """The settings of ``--set key=value``: of the command's own section, or ``section.key=value``.
+def read_pairs(pairs: Iterable[str], section: str | None) -> Layer:
+    """Read the settings of ``--set key=value``: of the command's own section, or ``section.key=value``.
 
     Args:
         pairs: as they were typed.
@@ -63,42 +57,39 @@ def read_pairs(pairs: Iterable[str], section: str | None) -> Settings:
         click.BadParameter: no equals sign, an unknown key, a value that cannot be read.
         BadInput: a number that the setting cannot have.
     """
-    found: Settings = {}
+    found: dict[str, dict[str, Value]] = {}
     for pair in pairs:
         name, equals, text = pair.partition("=")
         table, dot, key = name.strip().rpartition(".")
         try:
             if not equals:
-                raise _Wrong(f"{pair!r} has no '='; write key=value")
+                raise WrongValue(f"{pair!r} has no '='; write key=value")
             if dot:
                 homes = [_known(table, SECTIONS, "table")]
             else:
                 homes = _homes(key, SECTIONS if section is None else [section])
             _put(found, homes, key, _typed(text.strip()))
-        except _Wrong as problem:
+        except WrongValue as problem:
             raise click.BadParameter(str(problem), param_hint="'--set'") from None
     return found
 
 
-def layered(*layers: Mapping[str, Mapping[str, Value]]) -> Settings:
-    """All settings: later layers win."""
-    result = defaults()
+def layered(section: str, *layers: Layer) -> Settings:
+    """Return all settings of a command: later layers win over earlier ones, and all over the defaults."""
+    values: dict[str, Value] = {}
     for layer in layers:
-        for section, values in layer.items():
-            result[section].update(values)
-    return result
+        values.update(layer.get(section, {}))
+    return msgspec.convert(values, SECTIONS[section])
 
 
-def as_toml(settings: Mapping[str, Mapping[str, Value]]) -> str:
-    """A file that `read_file` reads back as these settings; keys without a value appear as comments."""
+def as_toml(settings: Mapping[str, Settings]) -> str:
+    """Return a file that `read_file` reads back as these settings; keys without a value appear as comments."""
     lines = []
     for section, values in settings.items():
         lines.append(f"[{section}]")
         rows = []
-        for key in SECTIONS[section]:
-            if key.name not in values:
-                continue
-            value = values[key.name]
+        for key in keys_of(section):
+            value = getattr(values, key.name)
             row = f"# {key.name} =" if value is None else f"{key.name} = {_toml(value)}"
             rows.append((row, _remark(key)))
         width = max((len(row) for row, _ in rows), default=0)
@@ -107,16 +98,12 @@ def as_toml(settings: Mapping[str, Mapping[str, Value]]) -> str:
     return "\n".join(lines)
 
 
-class _Wrong(Exception):
-    """A key or value that cannot be used; the text says why."""
-
-
 def _homes(key: str, sections: Iterable[str]) -> list[str]:
-    """The sections that have a key."""
+    """Return the sections that have a key."""
     names = list(sections)
-    homes = [section for section in names if any(key == k.name for k in SECTIONS[section])]
+    homes = [section for section in names if key in SECTIONS[section].__struct_fields__]
     if not homes:
-        _known(key, {k.name: k for section in names for k in SECTIONS[section]}, "key")
+        _known(key, dict.fromkeys(name for section in names for name in SECTIONS[section].__struct_fields__), "key")
     return homes
 
 
@@ -126,41 +113,19 @@ def _known(name: str, known: Iterable[str], what: str) -> str:
         return name
     flat = name.replace("-", "_")
     near = [flat] if flat in names else difflib.get_close_matches(flat, names, n=1, cutoff=0.5)
-    raise _Wrong(
+    raise WrongValue(
         f"unknown {what} {name!r}; " + (f"did you mean {near[0]!r}?" if near else f"known: {', '.join(names)}")
     )
 
 
-def _put(found: Settings, homes: list[str], name: str, value: Any) -> None:
+def _put(found: dict[str, dict[str, Value]], homes: list[str], name: str, value: Any) -> None:
     for section in homes:
-        keys = {key.name: key for key in SECTIONS[section]}
-        found.setdefault(section, {})[name] = _checked(keys[_known(name, keys, f"key of [{section}]")], value)
-
-
-def _checked(key: Key, value: Any) -> Value:
-    """The value as the key's type, as the flag of that name reads it."""
-    numeric = isinstance(value, int | float) and not isinstance(value, bool)
-    if key.kind is bool:
-        wanted, fits = "true or false", isinstance(value, bool)
-    elif key.kind is float:
-        wanted, fits = "a number", numeric
-    elif key.kind is int:
-        wanted, fits = "a whole number", numeric and float(value).is_integer()
-    elif isinstance(key.kind, NumberOr):
-        wanted, fits = f"a number, or {key.kind.word!r}", numeric or isinstance(value, str)
-    else:
-        wanted, fits = "a text", isinstance(value, str)
-    if not fits:
-        raise _Wrong(f"{key.name} must be {wanted}, got {value!r}")
-    try:
-        result: Value = key.type.convert(value, None, None)
-    except click.BadParameter as error:
-        raise _Wrong(f"{key.name}: {error.message.rstrip('.')}") from None
-    return checked(key, result)
+        keys = {key.name: key for key in keys_of(section)}
+        found.setdefault(section, {})[name] = checked(keys[_known(name, keys, f"key of [{section}]")], value)
 
 
 def _typed(text: str) -> Any:
-    """A value as TOML would read it; a bare word is a text."""
+    """Return a value as TOML reads it; a bare word is a text."""
     try:
         return tomllib.loads(f"v = {text}")["v"]
     except tomllib.TOMLDecodeError:
@@ -177,6 +142,6 @@ def _toml(value: bool | int | float | str) -> str:
 
 
 def _remark(key: Key) -> str:
-    choices = f" One of {', '.join(key.kind.choices)}." if isinstance(key.kind, click.Choice) else ""
-    unset = f" Default: {key.unset}." if key.unset else ""
-    return key.help.replace("see above", "see infer --help") + choices + unset
+    choices = f" One of {', '.join(key.choices)}." if key.choices and key.kind is str else ""
+    unset = f" Default: {key.help.unset}." if key.help.unset else ""
+    return key.help.text.replace("see above", "see infer --help") + choices + unset

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict, replace
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import click
 
-from bayesmap.cli import odometry, sensors
 from bayesmap.cli.command import Call, takes
-from bayesmap.cli.world import pose_of, world_of
+from bayesmap.cli.keys import SimulateSettings
+from bayesmap.cli.logs import MAPS, is_map
+from bayesmap.cli.typed import ODOMETRY_HELP, SENSOR_HELP, odometry_of, pose_of, sensor_of
 from bayesmap.errors import BadInput
 from bayesmap.version import __version__
 
@@ -18,17 +20,23 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from bayesmap.sim.odometry import OdometryNoise
+    from bayesmap.sensors.model import SensorModel
+    from bayesmap.space.grid import Grid
 
 TURN_RAD_PER_S = 1.0
-"""How fast a simulated robot turns."""
+"""Turning rate of a simulated robot."""
+
+RARE = 1e-5
+"""Probability that a simulated laser reads nonsense: small, since one such reading far outside makes a map larger."""
+
+IMAGES = (".png", ".pgm", ".ppm", ".pbm", ".jpg", ".jpeg", ".bmp", ".gif", ".tif", ".tiff", ".webp")
 
 
 @takes("simulate")
 @click.option("-o", "--output", metavar="LOG", help="The log, .log or .log.gz. [default: WORLD.log]")
 @click.option("--pose", "poses", metavar="X,Y,DEGREES", multiple=True, help="One scan from here; may be repeated.")
 @click.option("--force", is_flag=True, help="Replace existing files.")
-def command(call: Call, output: str | None, poses: tuple[str, ...], force: bool) -> None:
+def simulate(call: Call[SimulateSettings], output: str | None, poses: tuple[str, ...], force: bool) -> None:
     r"""Draw the scans of a robot in a known world, as a CARMEN log that infer reads.
 
     Beside LOG.log the truth is written as a map for nav2, LOG-truth.yaml. In a building the robot goes round
@@ -49,84 +57,79 @@ def command(call: Call, output: str | None, poses: tuple[str, ...], force: bool)
 
     {sensors}
     """
-    values = call.values()
-    log = Path(output or f"{Path(values['world']).stem}.log")
+    settings = call.settings()
+    # Check what was typed.
+    noise, mount = odometry_of(settings.odometry), pose_of(settings.laser, "--laser")
+    log = Path(output or f"{Path(settings.world).stem}.log")
     if not {".log", ".gz"} & {log.suffix}:
         raise click.UsageError(f"-o {log}: the name of a log ends in .log or .log.gz")
-    truth = log.with_name(f"{_stem(log)}-truth.yaml")
-    trajectory, relations = truth.with_suffix(".tum"), log.with_name(f"{_stem(log)}.relations")
-    noise = odometry.odometry_of(values["odometry"])
+    stem = log.name.removesuffix(".gz").removesuffix(".log")
+    truth, relations = log.with_name(f"{stem}-truth.yaml"), log.with_name(f"{stem}.relations")
+    trajectory = truth.with_suffix(".tum")
     written = [log, truth, truth.with_suffix(".pgm"), *([] if noise is None else [trajectory, relations])]
     existing = [path for path in written if path.exists()]
     if existing and not force:
         raise BadInput(f"{existing[0]}: exists already; --force replaces it, -o takes another name")
-    mount = pose_of(values["laser"], "--laser")
-    sensor = sensors.sensor_of(values["sensor"])
-    world = world_of(values, poses)
-    tutorial = world.is_tutorial
-    beams = (100 if tutorial else 180) if values["angles"] is None else values["angles"]
-    max_range_m = (42.0 if tutorial else 30.0) if values["max_range"] is None else values["max_range"]
+    typed_sensor = sensor_of(settings.sensor)
+    # Make the world and the sensor.
+    world = world_of(settings, poses)
+    sensor = world.sensor() if typed_sensor is None else typed_sensor
+    max_range_m = world.max_range_m if settings.max_range is None else settings.max_range
 
     import numpy as np
 
     from bayesmap.io.ros.maps import write_map
     from bayesmap.io.text.carmen import write_carmen
-    from bayesmap.sim.forward import simulate
+    from bayesmap.sensors.describe import describe
+    from bayesmap.sim import forward
     from bayesmap.space.beam_angles import fan
     from bayesmap.space.planar import compose
 
-    angles = fan(beams, (360.0 if tutorial else 180.0) if values["fov"] is None else values["fov"])
-
+    angles = fan(
+        world.beams if settings.angles is None else settings.angles,
+        world.fov_deg if settings.fov is None else settings.fov,
+    )
+    # Draw the scans.
     base = world.poses
     laser = compose(base, np.array(mount)) if any(mount) else base
-    scans = simulate(
-        world.walls,
-        world.grid,
-        laser,
-        angles,
-        sensor=sensor if sensor is not None else world.sensor(),
-        max_range_m=max_range_m,
-        seed=values["seed"],
-        opacity=world.opacity,
-        typed=True,
-    )
+    scans = forward.simulate(
+        world.walls, world.grid, laser, angles, sensor=sensor, max_range_m=max_range_m, seed=settings.seed,
+        opacity=world.opacity, typed=True,
+    )  # fmt: skip
+    # Draw what odometry reports, and let the log say that.
     if noise is not None:
         from bayesmap.sim.odometry import simulate_odometry, travel_times_s
 
-        stamps = travel_times_s(base, values["speed"], TURN_RAD_PER_S)
-        base = simulate_odometry(base, noise, stamps_s=stamps, seed=values["seed"])
-        scans = replace(scans, poses=compose(base, np.array(mount)), stamps_s=stamps)
+        stamps_s = travel_times_s(base, settings.speed, TURN_RAD_PER_S)
+        base = simulate_odometry(base, noise, stamps_s=stamps_s, seed=settings.seed)
+        scans = replace(scans, poses=compose(base, np.array(mount)), stamps_s=stamps_s)
+    # Write the log, and the truth beside it.
     log.parent.mkdir(parents=True, exist_ok=True)
     message = write_carmen(log, scans, base)
     outputs = [log, *write_map(truth, world.walls.astype(float), world.grid)]
     if noise is not None:
-        outputs += _write_truth(trajectory, relations, laser, world.poses, stamps, values["seed"])
-
-    from bayesmap.sensors.describe import describe
-
+        outputs += _write_truth(trajectory, relations, laser, world.poses, stamps_s, settings.seed)
+    # Print the result.
+    grid = world.grid
     document = {
         "version": __version__,
-        "world": values["world"],
-        "grid": {
-            "shape": list(world.grid.shape),
-            "resolution": world.grid.resolution,
-            "origin": list(world.grid.origin),
-        },
+        "world": settings.world,
+        "grid": {"shape": list(grid.shape), "resolution": grid.resolution, "origin": list(grid.origin)},
         "scans": len(scans),
         "beams": scans.n_beams,
         "readings": scans.counts(),
         "message": message,
         "max_range_m": max_range_m,
-        "sensor": describe(sensor if sensor is not None else world.sensor()),
-        "odometry": _described(noise),
+        "sensor": describe(sensor),
+        "odometry": None if noise is None else asdict(noise),
         "laser": list(mount),
-        "seed": values["seed"],
+        "seed": settings.seed,
         "outputs": {path.name: str(path) for path in outputs},
     }
     poses_are = "true poses" if noise is None else "raw odometry"
     call.console.say(
-        f"{log}: {len(scans):,} scans of {len(angles)} beams ({message}, {poses_are}) in {values['world']}, "
-        f"{world.grid.shape[0]} x {world.grid.shape[1]} cells of {world.grid.resolution:g} m"
+        f"{log}: {len(scans):,} scans of {len(angles)} beams ({message}, {poses_are}) in {settings.world}, "
+        f"{grid.shape[0]} x {grid.shape[1]} cells of {grid.resolution:g} m"
     )
     call.console.result(document, outputs)
 
@@ -152,12 +155,127 @@ def _write_truth(
     return outputs
 
 
-def _described(noise: OdometryNoise | None) -> dict[str, Any] | None:
-    return None if noise is None else asdict(noise)
+@dataclass(frozen=True, eq=False)
+class World:
+    """A world with a robot in it, and the laser that the robot has unless the user says otherwise.
+
+    Attributes:
+        walls: shape (nx, ny).
+        grid: where the cells are.
+        poses: of the robot, (S, 3).
+        opacity: probability that a wall stops a beam, or None if all do.
+        is_tutorial: whether it is the tutorial's world, with the tutorial's sensor.
+        beams, fov_deg, max_range_m: of the laser.
+    """
+
+    walls: NDArray[np.bool_]
+    grid: Grid
+    poses: NDArray[np.float64]
+    opacity: NDArray[np.float64] | None = None
+    is_tutorial: bool = False
+    beams: int = 180
+    fov_deg: float = 180.0
+    max_range_m: float = 30.0
+
+    def sensor(self) -> SensorModel:
+        """Return the sensor where none is named: the tutorial noise with typed no-returns, or that of a good laser."""
+        from bayesmap.cells.kinds import LASER_SIGMA_M, LASER_SIGMA_PER_M
+        from bayesmap.sensors.mixture import BeamMixture
+        from bayesmap.sensors.noise import Gaussian
+
+        if self.is_tutorial:
+            return BeamMixture(Gaussian(0.2), p_random=RARE, p_no_return=0.0, p_short=0.0)
+        return BeamMixture(Gaussian(LASER_SIGMA_M, LASER_SIGMA_PER_M), p_random=RARE)
 
 
-def _stem(log: Path) -> str:
-    return log.name.removesuffix(".gz").removesuffix(".log")
+def world_of(settings: SimulateSettings, poses: Sequence[str]) -> World:
+    """Return the world that the settings of `simulate` name.
+
+    Args:
+        settings: of the command.
+        poses: as typed; none for the world's own.
+
+    Raises:
+        BadInput: a file that cannot be read as a world, a size or a pose that is not one.
+        click.UsageError: a file, but no pose.
+    """
+    name, resolution = settings.world, settings.resolution
+    typed = [pose_of(text) for text in poses]
+    if name == "tutorial":
+        return _tutorial(resolution, typed)
+    if name == "building":
+        return _building(settings, typed)
+    path = Path(name)
+    if not path.is_file():
+        raise BadInput(
+            f"world {name!r}: no such file; give tutorial, building, or a drawing, picture or map_server YAML"
+        )
+    if not typed:
+        raise click.UsageError(f"where is the robot in {name}? give --pose X,Y,DEGREES, once for each scan")
+    walls, grid = _from_file(path, resolution)
+    return World(walls, grid, _stack(typed))
 
 
-command.help = (command.help or "").format(sensors=sensors.HELP, odometry=odometry.HELP)
+def _tutorial(resolution: float | None, typed: list[tuple[float, float, float]]) -> World:
+    from bayesmap.sim.tutorial import TUTORIAL_GRID, tutorial
+    from bayesmap.space.grid import Grid
+
+    walls, pose = tutorial()
+    poses = _stack(typed) if typed else pose[None]
+    grid = TUTORIAL_GRID
+    if resolution is not None and resolution != grid.resolution:
+        grid = Grid(grid.shape, resolution, (-resolution / 2, -resolution / 2))
+        poses = poses if typed else poses * (resolution, resolution, 1.0)
+    return World(walls, grid, poses, is_tutorial=True, beams=100, fov_deg=360.0, max_range_m=42.0)
+
+
+def _building(settings: SimulateSettings, typed: list[tuple[float, float, float]]) -> World:
+    from bayesmap.sim.building import building
+    from bayesmap.sim.patrol import patrol
+
+    made = building(settings.seed, _size(settings.size), settings.resolution or 0.1)
+    poses = _stack(typed) if typed else patrol(made, settings.scans, settings.seed)
+    return World(made.walls, made.grid, poses, made.opacity)
+
+
+def _from_file(path: Path, resolution: float | None) -> tuple[NDArray[np.bool_], Grid]:
+    from bayesmap.io.image import from_image
+    from bayesmap.sim.drawing import from_text
+    from bayesmap.space.grid import Grid
+
+    if is_map(str(path)):
+        from bayesmap.io.ros.maps import read_map
+
+        occupancy, grid = read_map(path)
+        return occupancy > 0.5, grid if resolution is None else Grid(grid.shape, resolution, grid.origin)
+    if path.suffix.lower() in IMAGES:
+        walls = from_image(path)
+        return walls, Grid(walls.shape, resolution or 0.1)
+    try:
+        text = path.read_text(encoding="utf-8")
+    except UnicodeDecodeError:
+        raise BadInput(
+            f"{path}: neither a text drawing nor a file called {', '.join(IMAGES)} or {', '.join(MAPS)}"
+        ) from None
+    try:
+        walls = from_text(text)
+    except BadInput as problem:
+        raise BadInput(f"{path}: {problem}") from None
+    return walls, Grid(walls.shape, resolution or 1.0)
+
+
+def _stack(poses: list[tuple[float, float, float]]) -> NDArray[np.float64]:
+    import numpy as np
+
+    return np.array(poses, dtype=np.float64)
+
+
+def _size(text: str) -> tuple[float, float]:
+    try:
+        width, depth = (float(part) for part in text.lower().split("x"))
+    except ValueError:
+        raise BadInput(f"size {text!r}: give width and depth in metres, such as 30x20") from None
+    return width, depth
+
+
+simulate.help = (simulate.help or "").format(sensors=SENSOR_HELP, odometry=ODOMETRY_HELP)

@@ -9,10 +9,11 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from bayesmap.cli import cells, pipeline, sensors
-from bayesmap.cli.command import INTERRUPTED, PROBLEMS, Call, takes
-from bayesmap.cli.console import Console
+from bayesmap.cli import pipeline, translation, typed
+from bayesmap.cli.command import Call, takes
+from bayesmap.cli.console import INTERRUPTED, PROBLEMS, Console
 from bayesmap.cli.folder import Folder
+from bayesmap.cli.keys import SlamSettings
 from bayesmap.cli.pipeline import Task
 from bayesmap.cli.progress import progress
 from bayesmap.cli.settings import as_toml
@@ -22,8 +23,6 @@ if TYPE_CHECKING:
     from bayesmap.io.log_reading import LogReading
     from bayesmap.poses.trajectory import Trajectory
     from bayesmap.result import Run
-
-PASSED_ON = ("chains", "warmup", "thin", "seed", "threads", "device", "hit_depth", "fast", "no_odometry")
 
 SHOWN = 3
 """Stretches of odometry in doubt that are named."""
@@ -37,7 +36,7 @@ ALTERNATIVES_SHOWN = 5
 @click.option("-o", "--output", metavar="DIR", help="Folder of the run. [default: runs/NAME-OF-LOG]")
 @click.option("--resume", is_flag=True, help="Go on with the run in DIR, bit for bit as if it had never stopped.")
 @click.option("--force", is_flag=True, help="Replace the run in DIR.")
-def command(call: Call, log: str, output: str | None, resume: bool, force: bool) -> None:
+def slam(call: Call[SlamSettings], log: str, output: str | None, resume: bool, force: bool) -> None:
     r"""Infer map and trajectory from LOG, whose poses are raw odometry: any log that infer reads.
 
     All scans are matched, loops are closed, and every scan is matched against all others that see the same walls; the
@@ -58,11 +57,11 @@ def command(call: Call, log: str, output: str | None, resume: bool, force: bool)
         raise click.UsageError("--resume goes on with a run and --force replaces it: give one of them")
     # Check what was typed.
     folder = Path(output) if output else Path("runs") / pipeline.stem(log)
-    task = pipeline.prepare(call, log, folder, resume=resume, force=force, section="slam")
+    task = pipeline.prepare(call, log, folder, resume=resume, force=force)
     go_on = shlex.join(["bayesmap", "slam", log, "-o", str(folder), "--resume"])
     # Read the log.
-    reading = pipeline.read(call.console, log, task.values)
-    _check(call.console, reading, task.values)
+    reading = pipeline.read(call.console, log, task.settings, without_poses=task.settings.no_odometry)
+    _check(call.console, reading, task.settings)
     # Take up the run that is in the folder.
     saved = pipeline.taken_up(task.folder) if task.folder.resuming else None
     if force:
@@ -88,32 +87,33 @@ def command(call: Call, log: str, output: str | None, resume: bool, force: bool)
     pipeline.report(call.console, document)
     _report(call, document["trajectory"])
     call.console.result(document, document["outputs"].values())
-    if task.values["strict"] and document["problems"]:
+    if task.settings.strict and document["problems"]:
         click.get_current_context().exit(PROBLEMS)
 
 
 def _stages(folder: Folder) -> Path:
-    """Where the finished stages of the approximation are."""
+    """Return the folder of the finished stages of the approximation."""
     return folder.path / "stages"
 
 
-def _check(console: Console, reading: LogReading, values: dict[str, Any]) -> None:
+def _check(console: Console, reading: LogReading, settings: SlamSettings) -> None:
     """Refuse what cannot be inferred before an older run is touched, and name what looks wrong with odometry."""
     from bayesmap.poses.log_checks import check_scans, doubts
 
-    check_scans(reading.scans, values["no_odometry"])
-    found = doubts(reading.scans, values["no_odometry"])
+    check_scans(reading.scans, settings.no_odometry)
+    found = doubts(reading.scans, settings.no_odometry)
     for doubt in found[:SHOWN]:
         console.warn(doubt)
     if len(found) > SHOWN:
-        console.warn(f"odometry stands still so in {len(found) - SHOWN:,} more stretches")
+        console.warn(f"odometry stands still like that in {len(found) - SHOWN:,} more stretches")
 
 
-def _slam(task: Task, reading: LogReading, saved: Run | None) -> Run:
+def _slam(task: Task[SlamSettings], reading: LogReading, saved: Run | None) -> Run:
+    from bayesmap.arguments import Checkpoints, Where
     from bayesmap.from_odometry import slam
 
-    folder, values = task.folder, task.values
-    toml = as_toml({"slam": {name: values[name] for name in pipeline.names_of("slam")}})
+    folder, settings = task.folder, task.settings
+    toml = as_toml({"slam": settings})
     with progress(folder.console, "matching scans") as show:
 
         def on_progress(event: Event) -> None:
@@ -130,16 +130,17 @@ def _slam(task: Task, reading: LogReading, saved: Run | None) -> Run:
             folder.begin(toml)
         run = slam(
             reading.scans,
-            resolution=values["resolution"],
-            prior=cells.prior_of(values),
-            sensor=cells.sensor_for(values, task.sensor, values["resolution"]),  # type: ignore[arg-type]
-            draws=values["draws"],
-            checkpoint=_stages(folder),
-            resume=saved,
+            resolution=settings.resolution,
+            prior=translation.prior_of(settings),
+            sensor=translation.sensor_for(settings, settings.resolution),
+            fast=settings.fast,
+            no_odometry=settings.no_odometry,
+            schedule=translation.schedule_of(settings),
+            seed=settings.seed,
+            hit_depth=settings.hit_depth,
+            where=Where(settings.threads, settings.device),
+            checkpoints=Checkpoints(saved, on_checkpoint, settings.checkpoint_every, _stages(folder)),
             on_progress=on_progress,
-            on_checkpoint=on_checkpoint,
-            checkpoint_every_s=values["checkpoint_every"],
-            **{name: values[name] for name in PASSED_ON},
         )
         if run.finished or run.posterior.sweep > 0:
             folder.begin(toml)  # one that had finished makes no sweep, of which it would be told
@@ -147,7 +148,7 @@ def _slam(task: Task, reading: LogReading, saved: Run | None) -> Run:
 
 
 def _write_trajectory(folder: Folder, reading: LogReading, run: Run) -> list[Path]:
-    """The trajectory of all scans, its covariances and its pictures."""
+    """Write the trajectory of all scans, its covariances and its pictures."""
     from bayesmap.io.text.tum import covariances_path, write_covariances, write_trajectory
     from bayesmap.space.planar import between, compose
     from bayesmap.viz.figure import write_figure
@@ -186,7 +187,7 @@ def _write_trajectory(folder: Folder, reading: LogReading, run: Run) -> list[Pat
 
 
 def summary(run: Run) -> dict[str, Any]:
-    """What was found of the trajectory, as JSON values."""
+    """Return what was found of the trajectory, as JSON values."""
     import numpy as np
 
     found = run.trajectory
@@ -237,7 +238,7 @@ def _alternative(found: Trajectory, number: int) -> dict[str, Any]:
     }
 
 
-def _report(call: Call, trajectory: dict[str, Any]) -> None:
+def _report(call: Call[SlamSettings], trajectory: dict[str, Any]) -> None:
     call.console.say(
         f"trajectory: {trajectory['scans']:,} scans, {trajectory['key_scans']:,} of them in the map, "
         f"{trajectory['loop_closures']:,} loop closures, standard deviation "
@@ -247,11 +248,12 @@ def _report(call: Call, trajectory: dict[str, Any]) -> None:
     if sampled is not None and sampled["by_approximation"]:
         call.console.warn(
             f"the chains over poses have not mixed (R-hat up to {sampled['rhat_max']:.2f}, effective sample size from "
-            f"{sampled['ess_min']:.0f}): in scores and exports, too, poses and covariances are the approximation's"
+            f"{sampled['ess_min']:.0f}): poses and covariances are those of the approximation, also in scores and "
+            "exports"
         )
     if trajectory["flagged"]:
         call.console.warn(
-            f"{len(trajectory['flagged'])} scans are badly explained by all others, their poses are not to be trusted: "
+            f"{len(trajectory['flagged'])} scans do not agree with all others; do not trust their poses: "
             f"{_first_of(trajectory['flagged'])}"
         )
     if trajectory["breaks"]:
@@ -269,14 +271,16 @@ def _report(call: Call, trajectory: dict[str, Any]) -> None:
         call.console.warn(
             f"from scan {other['first']} to {other['last']} the trajectory hangs on one visit of places that look "
             f"alike: with probability {other['probability']:.2f} scan {other['last']} lies {other['off_m']:.1f} m and "
-            f"{other['off_degrees']:.0f} degrees elsewhere, as in loops.png; covariances hold both"
+            f"{other['off_degrees']:.0f} degrees elsewhere, as in loops.png; covariances cover both"
         )
     if len(trajectory["alternatives"]) > ALTERNATIVES_SHOWN:
-        call.console.warn(f"so it does in {len(trajectory['alternatives']) - ALTERNATIVES_SHOWN} more stretches")
+        call.console.warn(
+            f"{len(trajectory['alternatives']) - ALTERNATIVES_SHOWN} more alternatives are in summary.json"
+        )
 
 
 def _first_of(scans: list[int]) -> str:
     return ", ".join(map(str, scans[:10])) + (", ..." if len(scans) > 10 else "")
 
 
-command.help = (command.help or "").format(sensors=sensors.HELP)
+slam.help = (slam.help or "").format(sensors=typed.SENSOR_HELP)

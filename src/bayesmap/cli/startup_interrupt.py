@@ -23,12 +23,12 @@ def _go(number: int, frame: FrameType | None) -> None:
 
 
 def begin() -> None:
-    """From here on Ctrl-C ends the process with one line; a process that ignores it, as under nohup, goes on so."""
+    """Let Ctrl-C end the process with one line; a process that ignores Ctrl-C, as under nohup, goes on ignoring it."""
     if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
         signal.signal(signal.SIGINT, _go)
 
 
 def over() -> None:
-    """A command begins: from here on Ctrl-C is an exception again."""
+    """Make Ctrl-C an exception again, since a command begins."""
     if signal.getsignal(signal.SIGINT) is _go:
         signal.signal(signal.SIGINT, signal.default_int_handler)

@@ -14,8 +14,8 @@ from bayesmap.samplers.sampler import Info, Keep, Snapshot
 
 
 @dataclass(frozen=True)
-class Schedule:
-    """The length of chains: ``warmup`` sweeps that are not kept, then ``draws`` maps, ``thin`` sweeps apart."""
+class SweepPlan:
+    """How long to run: ``warmup`` sweeps that are not kept, then ``draws`` maps, ``thin`` sweeps apart."""
 
     warmup: int
     draws: int
@@ -109,8 +109,8 @@ def join(parts: Sequence[Chains]) -> Chains:
 class Record:
     """Draws and traces of some chains, growing as they advance."""
 
-    def __init__(self, empty: Draws, schedule: Schedule, keep: Keep, resume: Chains | None = None) -> None:
-        """Allocate room for the schedule's draws.
+    def __init__(self, empty: Draws, schedule: SweepPlan, keep: Keep, resume: Chains | None = None) -> None:
+        """Room for the schedule's draws.
 
         Args:
             empty: no draws of all chains, with the arrays' specs and coordinates.

@@ -21,7 +21,7 @@ from typing import Any
 
 from bayesmap.errors import BadInput, check_count
 from bayesmap.run import ray_worker
-from bayesmap.run.chains import Chains, Schedule, join
+from bayesmap.run.chains import Chains, SweepPlan, join
 from bayesmap.run.runner import Job, pause_after
 from bayesmap.run.segments import Segment, chains_of_segments, some_chains
 from bayesmap.samplers.progress import Watch
@@ -156,7 +156,7 @@ class Marks:
         per_sweep_s: what a sweep of the slowest group takes.
     """
 
-    schedule: Schedule
+    schedule: SweepPlan
     segment_s: float
     at: list[int]
     per_sweep_s: float = 0.0
@@ -267,7 +267,7 @@ class _RayRun:
             for group in self.groups:
                 group.snapshots = {at: snapshot for at, snapshot in group.snapshots.items() if at >= last}
             now = time.monotonic()
-            due = warmed_up or now - saved_at > pause_s
+            due = warmed_up or now - saved_at >= pause_s
             if on_checkpoint is not None and last > 0 and due:
                 so_far = self.so_far()
                 on_checkpoint(replace(so_far, finished=False))

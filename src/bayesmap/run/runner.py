@@ -21,7 +21,7 @@ import numpy as np
 
 from bayesmap.cells.arrays import Draws
 from bayesmap.model import Model
-from bayesmap.run.chains import Chains, Record, Schedule
+from bayesmap.run.chains import Chains, Record, SweepPlan
 from bayesmap.samplers.fit import Parameters
 from bayesmap.samplers.progress import SILENT, Watch
 from bayesmap.samplers.sampler import NOTHING, ChainState, Info, Keep, Sampler, to_see
@@ -80,7 +80,7 @@ class Job:
 
     model: Model
     sampler: Sampler[Any, Any]
-    schedule: Schedule
+    schedule: SweepPlan
     seed: int
     chain_ids: tuple[int, ...]
     device: str = "cpu"
@@ -217,7 +217,7 @@ def run_chains(
         now = time.monotonic()
         warmed_up = warming and state.sweep == schedule.warmup
         last = state.sweep >= schedule.sweeps
-        if on_checkpoint is not None and (warmed_up or now - saved_at > pause_s):
+        if on_checkpoint is not None and (warmed_up or now - saved_at >= pause_s):
             on_checkpoint(replace(so_far(state), finished=False) if last else so_far(state))
             saved_at = time.monotonic()
             pause_s = pause_after(saved_at - now, checkpoint_every_s)

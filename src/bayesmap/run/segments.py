@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.cells.arrays import Draws
-from bayesmap.run.chains import Chains, Record, Schedule
+from bayesmap.run.chains import Chains, Record, SweepPlan
 from bayesmap.run.runner import Job, no_draws, sweeps
 from bayesmap.samplers.sampler import ChainState, Snapshot
 
@@ -75,7 +75,7 @@ def run_segment(
     started = time.perf_counter()
     begin, statistics = state.sweep, state.statistics if resume is None else {}
     empty = no_draws(job.model, state, len(job.chain_ids))
-    room = Schedule(schedule.warmup, len(keep.sweeps(begin, until)) if schedule.draws else 0, schedule.thin)
+    room = SweepPlan(schedule.warmup, len(keep.sweeps(begin, until)) if schedule.draws else 0, schedule.thin)
     record, before = Record(empty, room, keep), begin
     for now, info in sweeps(job.sampler, state, until, keep=keep):
         record.add(info, before)
@@ -93,7 +93,7 @@ def chains_of_segments(
     segments: Sequence[Segment],
     snapshot: Snapshot,
     trace_s: float,
-    schedule: Schedule,
+    schedule: SweepPlan,
     resume: Chains | None = None,
 ) -> Chains:
     """Join segments that follow each other, as if the chains had never been interrupted.

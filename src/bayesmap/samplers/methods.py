@@ -1,48 +1,159 @@
-"""The samplers by name: `CellPrior.methods` names the entries of these tables."""
+"""Methods as users choose them, and the samplers that the kinds of cells have under their names."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from typing import Any
+from dataclasses import dataclass
+from typing import Any, ClassVar, get_args
 
 import numpy as np
 from numpy.typing import NDArray
 
+from bayesmap.errors import BadInput, check_count
 from bayesmap.samplers.metropolis import Metropolis
 from bayesmap.samplers.progress import Watch
+from bayesmap.samplers.propagate import ROUNDS
 from bayesmap.samplers.sampler import Sampler
 from bayesmap.samplers.start_search import SEARCH_SHARE
 from bayesmap.samplers.stop_gibbs import StopGibbs
 from bayesmap.samplers.wall_problem import WallProblem
-from bayesmap.samplers.walls import BlockGibbs, Gibbs, Order, Start, WallSampler, default_start
+from bayesmap.samplers.walls import Order, Start, WallBlocks, WallGibbs, WallSampler, default_start
 from bayesmap.samplers.without_chains import DrawRequest, IndependentDraws, belief_propagation, exact, importance
 from bayesmap.space.grid import Grid
 
-ON_WALLS: Mapping[str, type[WallSampler]] = {"wall-gibbs": Gibbs, "wall-blocks": BlockGibbs}
+PARTICLES = 100_000
+
+
+@dataclass(frozen=True, eq=False)
+class Gibbs:
+    """Draw single cells from their conditionals, sweep after sweep: the default of all kinds of cells.
+
+    Reflectivities and surfaces have neither order nor start nor rounds.
+
+    Attributes:
+        order: of the cells in a sweep: "radial", "raster" or "random".
+        start: "prior", "zeros", "ones", "propagate", a map (nx, ny), or a map for each chain, (chains, nx, ny). None:
+            "propagate" on maps of more than 10 000 cells, and "prior" on others.
+        start_poses: poses from which chains start where poses are unknown, a trajectory for each chain, (chains, S, 3).
+            None: draws of their prior.
+        rounds: of belief propagation, at most, for a start from it.
+
+    Raises:
+        BadInput: an unknown order or start, or no rounds.
+    """
+
+    order: Order = "radial"
+    start: Start | NDArray[np.bool_] | None = None
+    start_poses: NDArray[np.float64] | None = None
+    rounds: int = ROUNDS
+    name: ClassVar[str] = "gibbs"
+
+    def __post_init__(self) -> None:
+        where = type(self).__name__
+        if self.order not in get_args(Order):
+            raise BadInput(f"{where}: order must be one of {', '.join(get_args(Order))}, got {self.order!r}")
+        if isinstance(self.start, str) and self.start not in get_args(Start):
+            raise BadInput(f"{where}: start must be one of {', '.join(get_args(Start))} or a map, got {self.start!r}")
+        check_count(where, "rounds", self.rounds, 1)
+
+
+@dataclass(frozen=True, eq=False)
+class Block(Gibbs):
+    """Draw overlapping blocks of 2 x 2 binary cells: where walls are rare, single cells mix slowly.
+
+    The attributes are those of `Gibbs`; the order is that of the blocks.
+    """
+
+    name: ClassVar[str] = "block"
+
+
+@dataclass(frozen=True)
+class Propagate:
+    """Propagate beliefs along the beams, for binary walls: approximate marginals at once.
+
+    Attributes:
+        rounds: at most.
+
+    Raises:
+        BadInput: no rounds.
+    """
+
+    rounds: int = ROUNDS
+    name: ClassVar[str] = "propagate"
+
+    def __post_init__(self) -> None:
+        check_count("Propagate", "rounds", self.rounds, 1)
+
+
+@dataclass(frozen=True)
+class Importance:
+    """Weigh maps that are drawn from the prior, for binary walls: for teaching, since the weights collapse.
+
+    Attributes:
+        particles: maps that are drawn.
+
+    Raises:
+        BadInput: no particles.
+    """
+
+    particles: int = PARTICLES
+    name: ClassVar[str] = "importance"
+
+    def __post_init__(self) -> None:
+        check_count("Importance", "particles", self.particles, 1)
+
+
+@dataclass(frozen=True)
+class Exact:
+    """Enumerate all maps, for binary walls: 16 unknown cells at most."""
+
+    name: ClassVar[str] = "exact"
+
+
+Method = Gibbs | Block | Propagate | Importance | Exact
+METHODS: Mapping[str, type[Method]] = {kind.name: kind for kind in (Gibbs, Block, Propagate, Importance, Exact)}
+
+ON_WALLS: Mapping[str, type[WallSampler]] = {"wall-gibbs": WallGibbs, "wall-blocks": WallBlocks}
 ON_ANY: Mapping[str, Callable[[], Sampler[Any, Any]]] = {"stop-gibbs": StopGibbs, "metropolis": Metropolis}
 WITHOUT_CHAINS: Mapping[str, Callable[[WallProblem, DrawRequest, Watch], IndependentDraws]] = {
     "exact": exact, "importance": importance, "propagate": belief_propagation,
 }  # fmt: skip
+"""What a kind of cells means by a method's name: `CellPrior.methods` names the entries of these tables."""
+
+
+def method_of(method: Method | str | None, known: Mapping[str, str], kind: str) -> tuple[str, Method]:
+    """Return the name of a method, and the method with its options.
+
+    Args:
+        method: a method, its name, or None for the first of the kind of cells.
+        known: the methods of the kind of cells.
+        kind: its name.
+
+    Raises:
+        BadInput: this kind of cells has no such method.
+    """
+    if method is None:
+        method = next(iter(known))
+    name = method if isinstance(method, str) else getattr(method, "name", "")
+    if name not in known or isinstance(method, type):
+        words = f"one method, {next(iter(known))!r}" if len(known) == 1 else f"the methods {', '.join(known)}"
+        raise BadInput(f"infer: {kind} has {words}, got {method!r}")
+    return name, METHODS.get(name, Gibbs)() if isinstance(method, str) else method
 
 
 def sampler_on_walls(name: str) -> WallSampler:
-    """Return the sampler of walls of a method, with its defaults; for a method without chains that of single cells."""
-    return ON_WALLS.get(name, Gibbs)()
+    """Return the sampler of walls that a method has, with its defaults; for a method without chains, single cells."""
+    return ON_WALLS.get(name, WallGibbs)()
 
 
-def sampler_of(
-    name: str, grid: Grid, order: Order, start: Start | NDArray[np.bool_] | None, rounds: int, warmup: int = 0
-) -> tuple[Sampler[Any, Any], dict[str, Any]]:
-    """Return a Markov chain sampler with its options, and these options as a run's settings hold them.
+def sampler_of(name: str, grid: Grid, method: Gibbs, warmup: int = 0) -> tuple[Sampler[Any, Any], dict[str, Any]]:
+    """Return a Markov chain sampler, and its options as the settings of a run say them.
 
     Surfaces search for where to start in the first part of ``warmup`` sweeps; without any they do not.
-
-    Raises:
-        BadInput: an unknown order.
     """
     if name in ON_ANY:
         sampler = StopGibbs(int(SEARCH_SHARE * warmup)) if name == "stop-gibbs" else ON_ANY[name]()
         return sampler, {"order": None, "start": "readings" if name == "stop-gibbs" else "prior"}
-    start = default_start(grid) if start is None else start
-    sampler = ON_WALLS[name](order, start, rounds)
-    return sampler, {"order": order, "start": start if isinstance(start, str) else "given map"}
+    start = default_start(grid) if method.start is None else method.start
+    sampler = ON_WALLS[name](method.order, start, method.rounds)
+    return sampler, {"order": method.order, "start": start if isinstance(start, str) else "given map"}

@@ -227,7 +227,7 @@ def radial_distance(problem: WallProblem) -> NDArray[np.int64]:
 
 
 @dataclass(frozen=True, eq=False)
-class Gibbs(WallSampler):
+class WallGibbs(WallSampler):
     """Every sweep draws each cell once from its conditional.
 
     Orders: "raster" by rows of the array; "radial" outwards from the nearest sensor, so that what a wall shadowed is
@@ -250,7 +250,7 @@ class Gibbs(WallSampler):
 
 
 @dataclass(frozen=True, eq=False)
-class BlockGibbs(WallSampler):
+class WallBlocks(WallSampler):
     """Every sweep draws each of the overlapping 2 x 2 blocks once, its four cells together.
 
     Where walls are rare this converges fast and single-site sampling hardly at all: a wall that stands too near the

@@ -22,10 +22,10 @@ from bayesmap.poses.prior import PosePrior, Uncertain
 from bayesmap.posterior.diagnostics import bulk_ess, rhat
 from bayesmap.posterior.posterior import posterior_of_chains
 from bayesmap.result import Run
-from bayesmap.run.chains import Chains, Record, Schedule
+from bayesmap.run.chains import Chains, Record, SweepPlan
 from bayesmap.run.runner import BUFFER_BYTES, no_draws, sweeps
-from bayesmap.samplers.methods import sampler_of
-from bayesmap.samplers.propagate import ROUNDS, Marginals
+from bayesmap.samplers.methods import Gibbs, sampler_of
+from bayesmap.samplers.propagate import Marginals
 from bayesmap.samplers.sampler import Problem, Sampler
 from bayesmap.samplers.wall_problem import WallProblem
 from bayesmap.samplers.walls import Start, start_maps
@@ -99,8 +99,8 @@ class Stream:
         one = sum(spec.empty(self.n_chains, 1, empty.shape_of(spec)).nbytes for spec in empty.specs)
         self.thin = math.ceil(total * one / DRAW_BYTES) if keep else 1
         self.total = math.ceil(total / self.thin) * self.thin
-        schedule = Schedule(0, self.total // self.thin, self.thin)
-        self._record = Record(empty, schedule if keep else Schedule(0, 0), schedule.keep)
+        schedule = SweepPlan(0, self.total // self.thin, self.thin)
+        self._record = Record(empty, schedule if keep else SweepPlan(0, 0), schedule.keep)
         # At fixed sweeps: how long a step is depends on the machine, and the same actions make the same page.
         doubling = (2**k for k in range(self.total.bit_length()))
         self._look_at = {*doubling, *(self.total * k // LOOKS for k in range(1, LOOKS + 1))}
@@ -248,7 +248,7 @@ def chains_of_walls(scene: Scene, document: Document, begun: NDArray[np.bool_], 
     walls = scene.problem
     model = scene.model(walls.prior)
     name = walls.prior.methods[document.sampler]
-    sampler, _ = sampler_of(name, walls.grid, document.order, begun, ROUNDS)
+    sampler, _ = sampler_of(name, walls.grid, Gibbs(document.order, begun))
     poses = pose_prior(document)
     if poses is None:
         return Stream(model, sampler, walls, document.sweeps, document.seed, keep=keep)

@@ -25,8 +25,7 @@ from bayesmap.cells.kind import CellPrior
 from bayesmap.cells.kinds import BUILT_IN
 from bayesmap.model import Model
 from bayesmap.samplers.fit import PILOT_SWEEPS, first_sensor, pilot_sweeps
-from bayesmap.samplers.methods import sampler_of
-from bayesmap.samplers.propagate import ROUNDS
+from bayesmap.samplers.methods import Gibbs, sampler_of
 from bayesmap.samplers.sampler import Keep
 from bayesmap.sensors.model import SensorModel
 
@@ -134,7 +133,7 @@ def fit_by_pilot(
     prior = BUILT_IN[document.cells]()
     first = first_sensor(prior, document.grid.resolution)
     model = replace(scene.model(prior), sensor=first, hit_depth=prior.hit_depth)
-    sampler, _ = sampler_of(prior.methods["gibbs"], model.grid, "radial", None, ROUNDS)
+    sampler, _ = sampler_of(prior.methods["gibbs"], model.grid, Gibbs())
     problem = sampler.prepare(model, "cpu")
     yield
     pilot = pilot_sweeps(problem, document.seed, PILOT_SWEEPS, keep=Keep(every=1))

@@ -1,0 +1,161 @@
+"""``bayesmap plan`` and ``bayesmap explore``: a short safe path, and where to look next."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from bayesmap.cli.command import Call, takes
+from bayesmap.cli.console import write_out
+from bayesmap.cli.keys import ExploreSettings, PlanSettings
+from bayesmap.cli.progress import share
+from bayesmap.cli.typed import numbers_of
+from bayesmap.version import __version__
+
+if TYPE_CHECKING:
+    from bayesmap.posterior.decisions import Views
+    from bayesmap.posterior.route import Route
+
+
+@takes("plan")
+@click.argument("run_file", metavar="RUN.nc")
+@click.option("--from", "start", metavar="X,Y", required=True, help="Where the robot is, metres in the map's frame.")
+@click.option("--to", "goal", metavar="X,Y", required=True, help="Where it is to go.")
+@click.option("-o", "--output", metavar="FILE", help="Picture: .png, .pdf, .svg. [default: plan.png beside RUN.nc]")
+def plan(call: Call[PlanSettings], run_file: str, start: str, goal: str, output: str | None) -> None:
+    r"""Plan a path for a disc in the map of a saved run.
+
+    \b
+    bayesmap plan runs/office/run.nc --from 0,0 --to 12.5,3 --radius 0.25 --risk 0.01
+    bayesmap plan runs/office/run.nc --from 0,0 --to 12.5,3 --json | jq .path
+
+    The path is the shortest found whose risk of touching something stays under --risk; if there is none, the safest,
+    with a warning. Its probability of being free is the share of the posterior's joint draws of the map in which it is;
+    beside it stands what a product over independent cells would say. Prints the path's corners, a line each. An older
+    picture of the same name is replaced.
+    """
+    settings = call.settings()
+    ends = [numbers_of(text, flag, "X,Y", (2,)) for text, flag in ((start, "--from"), (goal, "--to"))]
+    target = Path(output) if output else Path(run_file).with_name("plan.png")
+    from bayesmap.files import need_ending
+    from bayesmap.posterior.decisions import shortest_safe_path
+    from bayesmap.result import load
+
+    need_ending(target, ("png", "pdf", "svg"), "figure")
+    run = load(run_file)
+    with share(call.console, "looking at draws of the map") as report:
+        route = shortest_safe_path(run.posterior, ends[0], ends[1], settings.radius, settings.risk, report)
+    from bayesmap.viz.decisions import route_figure
+    from bayesmap.viz.figure import write_figure
+
+    picture = route_figure(
+        run.grid, run.occupancy, run.observed, route.path, settings.radius,
+        title=_route_sentence(route), label=run.posterior.prior.words.mean,
+    )  # fmt: skip
+    write_figure(picture, target)
+    if not route.within_risk:
+        call.console.warn(
+            f"no path was found whose risk is {settings.risk:g} or less; this is the safest: "
+            f"{1 - route.free.probability:.3g}"
+        )
+    if call.console.as_json:
+        document = {**_route_document(route, settings), "run": run_file, "outputs": {target.name: str(target)}}
+        call.console.result(document, [])
+        return
+    corners = "".join(f"{x:.3f},{y:.3f}\n" for x, y in route.path)
+    write_out(f"{corners}{_route_sentence(route)}\n{target}\n")
+
+
+def _route_sentence(route: Route) -> str:
+    free = route.free
+    return (
+        f"{route.length_m:.2f} m, free with probability {free.probability:.3f} +- {free.standard_error:.3f} "
+        f"(independent cells: {free.independent:.3f})"
+    )
+
+
+def _route_document(route: Route, settings: PlanSettings) -> dict[str, Any]:
+    return {
+        "version": __version__,
+        "path": route.path.tolist(),
+        "length_m": route.length_m,
+        "radius_m": settings.radius,
+        "risk": settings.risk,
+        "within_risk": route.within_risk,
+        "free_probability": route.free.probability,
+        "standard_error": route.free.standard_error,
+        "independent_cells": route.free.independent,
+    }
+
+
+@takes("explore")
+@click.argument("run_file", metavar="RUN.nc")
+@click.option("-o", "--output", metavar="FILE", help="Picture: .png, .pdf, .svg. [default: explore.png beside RUN.nc]")
+def explore(call: Call[ExploreSettings], run_file: str, output: str | None) -> None:
+    r"""Say from where to look next, in the map of a saved run.
+
+    \b
+    bayesmap explore runs/office/run.nc --candidates 200
+    bayesmap explore runs/office/run.nc --views 1 --json | jq .views[0].pose
+
+    Candidates lie where the robot can get to. A fast formula that takes cells and beams for independent goes over all
+    of them; the best are compared by joint draws of the map: what a scan tells lies between two bounds. Prints a line
+    for each view, the best first. An older picture of the same name is replaced.
+    """
+    settings = call.settings()
+    target = Path(output) if output else Path(run_file).with_name("explore.png")
+    from bayesmap.files import need_ending
+    from bayesmap.posterior.decisions import next_views
+    from bayesmap.result import load
+
+    need_ending(target, ("png", "pdf", "svg"), "figure")
+    run = load(run_file)
+    with share(call.console, "comparing views") as report:
+        found = next_views(
+            run.posterior, settings.candidates, settings.views, settings.radius,
+            draws=settings.draws, seed=settings.seed, on_progress=report,
+        )  # fmt: skip
+    from bayesmap.viz.decisions import views_figure
+    from bayesmap.viz.figure import write_figure
+
+    picture = views_figure(
+        run.grid, run.occupancy, run.observed, found.candidates, found.independent, found.best,
+        label=run.posterior.prior.words.mean,
+    )  # fmt: skip
+    write_figure(picture, target)
+    if call.console.as_json:
+        document = {
+            "version": __version__, "run": run_file, "candidates": len(found.candidates),
+            "draws": found.information.draws, "views": _described_views(found), "outputs": {target.name: str(target)},
+        }  # fmt: skip
+        call.console.result(document, [])
+        return
+    write_out("".join(f"{_view_line(view)}\n" for view in _described_views(found)) + f"{target}\n")
+
+
+def _described_views(found: Views) -> list[dict[str, Any]]:
+    information = found.information
+    assert information.independent is not None
+    return [
+        {
+            "pose": [float(v) for v in found.candidates[i]],
+            "at_least_nats": float(information.at_least[k]),
+            "at_least_error": float(information.at_least_error[k]),
+            "at_most_nats": float(information.at_most[k]),
+            "at_most_error": float(information.at_most_error[k]),
+            "independent_nats": float(information.independent[k]),
+        }
+        for k, i in enumerate(found.best)
+    ]
+
+
+def _view_line(view: dict[str, Any]) -> str:
+    x, y, yaw = view["pose"]
+    return (
+        f"x {x:.2f} m  y {y:.2f} m  yaw {math.degrees(yaw):.0f} degrees  "
+        f"{view['at_least_nats']:.1f} to {view['at_most_nats']:.1f} +- {view['at_most_error']:.1f} nats  "
+        f"(independent: {view['independent_nats']:.1f})"
+    )

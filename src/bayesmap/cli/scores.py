@@ -1,0 +1,327 @@
+"""What ``bayesmap score`` computes: scores of runs, of maps and trajectories of other programs, and of poses."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from bayesmap.cli.command import Call
+from bayesmap.cli.keys import ScoreSettings
+from bayesmap.cli.logs import heldout_scans, is_map, need_file
+from bayesmap.cli.progress import progress, share
+from bayesmap.cli.translation import reading_of
+from bayesmap.cli.typed import pose_of
+from bayesmap.errors import BadInput
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from bayesmap.posterior.baselines import Fitted
+    from bayesmap.posterior.scores import Score
+    from bayesmap.result import Run
+    from bayesmap.space.grid import Grid
+    from bayesmap.space.scans import Scans
+    from bayesmap.space.trajectory import Trajectory
+
+    Floats = NDArray[np.float64]
+
+LITTLE_NATS, MUCH_NATS, MANY_STRAYS, VERDICT_M = 0.3, 1.0, 40.0, 3.0
+"""Thresholds of the verdict on a map. Under the first number of nats a beam, beside no map, the map does not agree with
+the scans; under the second only in part. From the third, the per cent of beams that meet something else, it also agrees
+only in part. All is said for a wall at the last distance."""
+
+
+@dataclass(frozen=True, eq=False)
+class Scored:
+    """What was scored.
+
+    Attributes:
+        rows: name and score of each row of the table; the first is what was asked for.
+        fits: of all rows but the first.
+        every: how many scans make one that was held out; 0 if none was.
+        trajectory: of the laser.
+        verdict: on the map of another program, in words.
+    """
+
+    rows: list[tuple[str, Score]]
+    fits: list[Fitted]
+    every: int
+    trajectory: Trajectory
+    verdict: str | None = None
+
+
+def score_run(
+    call: Call[ScoreSettings], path: str, log: str | None, *, whole: bool, compare: bool, poses_too: bool
+) -> Scored:
+    """Score a saved run on the scans of a log that it has not seen.
+
+    Args:
+        call: of the command.
+        path: of the run.
+        log: as typed; without one the run's trajectory is returned, and nothing is scored.
+        whole: score all scans of the log.
+        compare: score classic maps too.
+        poses_too: whether the run's poses are scored afterwards; then a run without held-out scans will do.
+    """
+    from bayesmap.io.exports import trajectory_of
+    from bayesmap.posterior.heldout import NoneHeldOut
+    from bayesmap.result import load, score
+
+    run, settings = load(path), call.settings()
+    trajectory = trajectory_of(run, run.posterior.scans)
+    if log is None:
+        return Scored([], [], 0, trajectory)
+    every = 0 if whole else settings.holdout
+    if every == 0 and not whole:
+        raise BadInput("score: --holdout 0 leaves nothing to score; give 2 or more, or --all for another recording")
+    try:
+        heldout = heldout_scans(run, log, settings, every)
+    except NoneHeldOut as error:
+        if not poses_too:
+            raise
+        call.console.say(f"only the poses are scored, not the map: {error}")
+        return Scored([], [], 0, trajectory)
+    call.console.say(f"scoring {len(heldout):,} scans of {log} that the run has not seen")
+    with share(call.console, f"scoring the {_name(run)}") as report:
+        rows = [(_name(run), score(run, heldout, **_how(settings), on_progress=report))]
+    fits = _score_classic_maps(call, run.posterior.scans, run.grid, heldout, rows) if compare else []
+    return Scored(rows, fits, every, trajectory)
+
+
+def score_others(
+    call: Call[ScoreSettings],
+    path: str,
+    log: str | None,
+    trajectory: str | None,
+    mount: Floats | None,
+    *,
+    compare: bool,
+) -> Scored:
+    """Score a map of another program, or a trajectory by a map that is inferred from it.
+
+    Args:
+        call: of the command.
+        path: of the map, or of the log.
+        log: of a map: the log whose scans score it.
+        trajectory: TUM file, or None for the log's own poses.
+        mount: where the laser is in the frame of the trajectory, (3,); None if it is the laser's own.
+        compare: score classic maps too.
+    """
+    from bayesmap.result import score
+
+    settings, words = call.settings(), None
+    if is_map(path):
+        if log is None:
+            raise click.UsageError(f"give the LOG whose scans score {path}")
+        placed = placed_scans(log, settings, trajectory, mount)
+        call.console.say(f"scoring every {settings.holdout}-th scan of {log}: {len(placed.heldout):,}")
+        fit, own = score_map(call, path, placed)
+        rows, grid = [(fit.name, own)], fit.predictor.grid
+        words = verdict(fit, own, placed)
+    else:
+        if log is not None:
+            raise click.UsageError(f"{path}: neither a saved run (.nc) nor a map (.yaml)")
+        if trajectory is None:
+            raise click.UsageError(f"{path}: a log by itself; give --trajectory, or the run or map to score on it")
+        placed = placed_scans(path, settings, trajectory, mount)
+        run = infer_map(call, placed)
+        with share(call.console, f"scoring the {_name(run)}") as report:
+            rows = [(_name(run), score(run, placed.heldout, **_how(settings), on_progress=report))]
+        grid = run.grid
+    fits = _score_classic_maps(call, placed.train, grid, placed.heldout, rows) if compare else []
+    return Scored(rows, fits, settings.holdout, placed.trajectory, words)
+
+
+def _how(settings: ScoreSettings) -> dict[str, Any]:
+    """Return the arguments that all scores take."""
+    return {"seed": settings.seed, "device": settings.device}
+
+
+def _name(run: Run) -> str:
+    """Return the name of a run's map, such as "surface posterior"."""
+    return f"{run.posterior.kind} posterior"
+
+
+def _score_classic_maps(
+    call: Call[ScoreSettings], train: Scans, grid: Grid, heldout: Scans, rows: list[tuple[str, Score]]
+) -> list[Fitted]:
+    """Fit hit ratios and log-odds to the training scans, add a row for each, and return the fits."""
+    from bayesmap.posterior.baselines import BASELINES, fit_baseline
+    from bayesmap.posterior.folds import make_folds
+    from bayesmap.posterior.scores import score_prediction
+
+    with progress(call.console, "tracing beams"):
+        folds = make_folds(train, grid)
+    fits = []
+    for baseline in BASELINES:
+        call.console.say(f"fitting {baseline.name} to the scans that are not scored")
+        with share(call.console, f"fitting {baseline.name}") as report:
+            fit = fit_baseline(baseline, train, grid, folds, report)
+        with share(call.console, f"scoring {baseline.name}") as report:
+            scored = score_prediction(fit.predictor, heldout, **_how(call.settings()), on_progress=report)
+        fits.append(fit)
+        rows.append((fit.name, scored))
+    return fits
+
+
+@dataclass(frozen=True, eq=False)
+class Placed:
+    """A log's scans at the poses that are judged.
+
+    Attributes:
+        train, heldout: without and with every n-th scan.
+        trajectory: of the laser.
+    """
+
+    train: Scans
+    heldout: Scans
+    trajectory: Trajectory
+
+
+def placed_scans(log: str, settings: ScoreSettings, trajectory: str | None, mount: Floats | None) -> Placed:
+    """Return the scans of a log, at their own poses or at those of a trajectory.
+
+    Args:
+        log: as typed.
+        settings: of the command.
+        trajectory: TUM file; None for the log's own poses.
+        mount: where the laser is in the frame of the trajectory, (3,); None if it is the laser's own.
+
+    Raises:
+        BadInput: files that cannot be read, no stamps, or a trajectory of another time.
+    """
+    need_file(log, "the log that the map was made from", runs=False)
+    from bayesmap.io.logs import read_log
+    from bayesmap.io.text.tum import read_trajectory
+    from bayesmap.space.trajectory import Trajectory
+
+    if settings.holdout == 0:
+        raise BadInput("score: --holdout 0 leaves nothing to score; the sensor is fitted on the other scans")
+    scans = read_log(log, **reading_of(settings))
+    if trajectory is None:
+        path = Trajectory(scans.poses, scans.stamps_s)
+    else:
+        path = read_trajectory(trajectory)
+        path = path if mount is None else path.of_frame(mount)
+        if scans.stamps_s is None:
+            raise BadInput(f"{log}: its scans have no stamps, so nobody can say where {trajectory} puts them")
+        poses, inside = path.at(scans.stamps_s)
+        if not inside.any():
+            assert path.stamps_s is not None
+            raise BadInput(
+                f"{trajectory}: it reaches from {path.stamps_s[0]:.3f} to {path.stamps_s[-1]:.3f} s, but the scans "
+                f"of {log} are from {scans.stamps_s[0]:.3f} to {scans.stamps_s[-1]:.3f} s; are both of one clock?"
+            )
+        scans = replace(scans, poses=poses, beam_poses=None).select(inside)
+    train, heldout = scans.holdout(settings.holdout)
+    return Placed(train, heldout, path)
+
+
+def score_map(call: Call[ScoreSettings], path: str, placed: Placed) -> tuple[Fitted, Score]:
+    """Fit a sensor to a map on the training scans, and score the map on the others."""
+    from bayesmap.io.ros.maps import read_map
+    from bayesmap.posterior.baselines import fit_external_map
+    from bayesmap.posterior.scores import score_prediction
+
+    occupancy, grid = read_map(path)
+    name = Path(path).name
+    with share(call.console, f"fitting a sensor to {name}") as report:
+        fit = fit_external_map(name, occupancy, grid, placed.train, report)
+    with share(call.console, f"scoring {name}") as report:
+        return fit, score_prediction(fit.predictor, placed.heldout, **_how(call.settings()), on_progress=report)
+
+
+def verdict(fit: Fitted, own: Score, placed: Placed) -> str:
+    """Say in words whether a map agrees with the scans: by what it tells of a reading beside what no map tells.
+
+    Args:
+        fit: the map with its sensor.
+        own: its score on the scans that were held out.
+        placed: the scans.
+    """
+    import numpy as np
+
+    from bayesmap.localization.known_map import log_anywhere, readings_anywhere
+
+    heldout, values = placed.heldout, fit.values
+    law = readings_anywhere(placed.train)
+    beams = max(1, int((~np.isnan(heldout.ranges_m)).sum()))
+    gain = own.nats_per_beam - log_anywhere(law, heldout.ranges_m, placed.train.max_range_m) / beams
+    off_m = values["scale_m"] + values["scale_per_m"] * VERDICT_M
+    met = values["p_short"] * -math.expm1(-values["rate_short_per_m"] * VERDICT_M)
+    strays = 100 * (values["p_random"] + (1 - values["p_random"]) * met)
+    if gain < LITTLE_NATS:
+        says = "does not agree with these scans: another place, another frame or scale, or wrong poses"
+    elif gain < MUCH_NATS or strays > MANY_STRAYS:
+        says = "agrees with these scans in part: much was moved, or parts are shifted"
+    else:
+        says = "agrees with these scans"
+    return (
+        f"{fit.name} {says}. It tells {gain:.2f} nats a beam more than no map would; walls {VERDICT_M:g} m away are "
+        f"met to {100 * off_m:.0f} cm, and {strays:.0f} % of beams met something else before them."
+    )
+
+
+def infer_map(call: Call[ScoreSettings], placed: Placed) -> Run:
+    """Infer the posterior over surfaces given a trajectory, from the training scans."""
+    from bayesmap.api import infer
+    from bayesmap.arguments import Schedule, Where
+    from bayesmap.cells.surface import Surface
+    from bayesmap.space.grid import Grid
+
+    settings = call.settings()
+    grid = Grid.covering(placed.train, settings.resolution)
+    call.console.say(f"inferring a map of {grid.shape[0]} x {grid.shape[1]} cells from {len(placed.train):,} scans")
+    with progress(call.console, "tracing beams") as on_progress:
+        return infer(
+            placed.train, grid, prior=Surface(), sensor="fit", schedule=Schedule(warmup=50), seed=settings.seed,
+            hit_depth=0.5, where=Where(device=settings.device), on_progress=on_progress,
+        )  # fmt: skip
+
+
+def mount_of(typed: str | None, frame: str | None, log: str | None, settings: ScoreSettings) -> Floats | None:
+    """Return the pose of the laser on the robot, as typed or as the log says; None where neither says it.
+
+    Args:
+        typed: the pose as typed, or None.
+        frame: whose relations are known; with "laser" the log is not read.
+        log: as typed.
+        settings: how the log is read.
+
+    Raises:
+        click.BadParameter: something that is not a pose.
+        BadInput: a log that cannot be read.
+    """
+    import numpy as np
+
+    if typed is not None:
+        return np.array(pose_of(typed, "--laser"))
+    if log is None or frame == "laser":
+        return None
+    from bayesmap.io.logs import describe_log
+
+    return np.array(describe_log(log, **reading_of(settings)).laser_offset)
+
+
+def base_in_laser(frame: str | None, mount: Floats | None) -> Floats | None:
+    """Return where the frame whose relations are known is, as seen from the laser; None if they are the laser's.
+
+    Args:
+        frame: base or laser; None: the base's, if it is known where the laser sits.
+        mount: pose of the laser on the robot.
+
+    Raises:
+        BadInput: relations of the base, and nobody knows where the laser sits.
+    """
+    from bayesmap.space.planar import inverse
+
+    if frame == "laser" or (frame is None and mount is None):
+        return None
+    if mount is None:
+        raise BadInput("score: --frame base needs to know where the laser sits: give LOG, or --laser X,Y,DEGREES")
+    return inverse(mount)
