@@ -47,7 +47,11 @@ def public_functions():
     for name in bm.__all__:
         thing = getattr(bm, name)
         if inspect.isclass(thing):
-            methods = inspect.getmembers(thing, lambda member: inspect.isfunction(member) or inspect.ismethod(member))
+            # Static: a widget's base class warns when some of its members are looked up.
+            members = (
+                (inner, getattr(member, "__func__", member)) for inner, member in inspect.getmembers_static(thing)
+            )
+            methods = ((inner, member) for inner, member in members if inspect.isfunction(member))
             yield from ((f"{name}.{inner}", method) for inner, method in methods if not inner.startswith("_"))
         if callable(thing) and name not in NOT_FOR_USERS:
             yield name, thing
