@@ -29,8 +29,8 @@ def jobs(log: str | None) -> Iterator[tuple[str, dict[str, Any]]]:
     angles = np.linspace(0, 2 * np.pi, 100, endpoint=False)
     scans = bm.simulate(walls, grid, pose, angles, sensor=noise, max_range_m=42.0, seed=0)
     yield "tutorial, walls", {
-        "scans": scans, "grid": grid, "prior": bm.Independent(0.5), "sensor": noise, "warmup": 5000, "draws": 5000,
-        "thin": 5,
+        "scans": scans, "grid": grid, "prior": bm.Independent(0.5), "sensor": noise,
+        "schedule": bm.Schedule(CHAINS, 5000, 5000, 5),
     }  # fmt: skip
     if log is None:
         return
@@ -38,9 +38,11 @@ def jobs(log: str | None) -> Iterator[tuple[str, dict[str, Any]]]:
     mixture = bm.BeamMixture(bm.Gaussian(0.03))
     for name, some, sweeps in (("a tenth of Intel", scans.select(slice(0, None, 10)), 20), ("Intel", scans, 8)):
         grid = bm.Grid.covering(scans, 0.1)
-        options = {"scans": some, "grid": grid, "sensor": mixture, "warmup": sweeps, "draws": sweeps, "hit_depth": 0.5}
-        yield f"{name}, surfaces", {**options, "prior": bm.Surface()}
-        yield f"{name}, walls", {**options, "prior": bm.Independent(0.2), "warmup": 50, "draws": 50, "start": "zeros"}
+        options = {"scans": some, "grid": grid, "sensor": mixture, "hit_depth": 0.5}
+        short, long = bm.Schedule(CHAINS, sweeps, sweeps), bm.Schedule(CHAINS, 50, 50)
+        zeros = bm.Gibbs(start="zeros")
+        yield f"{name}, surfaces", {**options, "prior": bm.Surface(), "schedule": short}
+        yield f"{name}, walls", {**options, "prior": bm.Independent(0.2), "schedule": long, "method": zeros}
 
 
 def size_of(ray: Any, thing: Any) -> float:
@@ -100,7 +102,7 @@ def main(arguments: list[str]) -> None:
     plain = {name: getattr(ray_executor._RayRun, name) for name in ("_share", "_note", "remote")}
     for name, options in jobs(log):
         spy = Spy(ray)
-        bm.infer(**options, schedule=bm.Schedule(chains=CHAINS), where=bm.Where(executor=bm.RayExecutor()))
+        bm.infer(**options, where=bm.Where(executor=bm.RayExecutor()))
         for attribute, function in plain.items():
             setattr(ray_executor._RayRun, attribute, function)
         executors = {"threads": None, "ray": bm.RayExecutor()}
@@ -108,7 +110,7 @@ def main(arguments: list[str]) -> None:
         for _ in range(REPEATS):
             for where, executor in executors.items():
                 began = time.perf_counter()
-                bm.infer(**options, schedule=bm.Schedule(chains=CHAINS), where=bm.Where(executor=executor))
+                bm.infer(**options, where=bm.Where(executor=executor))
                 seconds[where].append(time.perf_counter() - began)
         threads, on_ray = min(seconds["threads"]), min(seconds["ray"])
         print(f"{name}: threads {threads:.2f} s, Ray {on_ray:.2f} s, {(on_ray - threads) / CHAINS:+.2f} s a chain")

@@ -4,6 +4,7 @@ import inspect
 import os
 import subprocess
 import sys
+import types
 
 import numpy as np
 import pytest
@@ -42,17 +43,16 @@ NOT_FOR_USERS = {"KnownMap", "BadInput"}
 """Classes that users do not make by their own constructors, which are not counted."""
 
 
+METHOD_KINDS = (types.FunctionType, classmethod, staticmethod)
+
+
 def public_functions():
     """The public functions, constructors and methods, by name."""
     for name in bm.__all__:
         thing = getattr(bm, name)
         if inspect.isclass(thing):
-            # Static: a widget's base class warns when some of its members are looked up.
-            members = (
-                (inner, getattr(member, "__func__", member)) for inner, member in inspect.getmembers_static(thing)
-            )
-            methods = ((inner, member) for inner, member in members if inspect.isfunction(member))
-            yield from ((f"{name}.{inner}", method) for inner, method in methods if not inner.startswith("_"))
+            members = inspect.getmembers_static(thing, lambda member: isinstance(member, METHOD_KINDS))
+            yield from ((f"{name}.{inner}", getattr(thing, inner)) for inner, _ in members if inner[0] != "_")
         if callable(thing) and name not in NOT_FOR_USERS:
             yield name, thing
 

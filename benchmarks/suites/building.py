@@ -29,8 +29,8 @@ from bayesmap.posterior.diagnostics import rhat
 began = time.perf_counter()
 scans, _ = bm.read_log(sys.argv[1]).limited({max_range}).holdout(10)
 grid = bm.Grid.covering(scans, {resolution})
-arguments = dict(prior=bm.Independent(P_WALL), sensor=default_sensor({resolution}), hit_depth=HIT_DEPTH, chains=4)
-run = bm.infer(scans, grid, warmup=20, draws=80, **arguments)
+arguments = dict(prior=bm.Independent(P_WALL), sensor=default_sensor({resolution}), hit_depth=HIT_DEPTH)
+run = bm.infer(scans, grid, schedule=bm.Schedule(chains=4, warmup=20, draws=80), **arguments)
 seconds = time.perf_counter() - began
 joint, likelihood = rhat(run.log_joint), rhat(run.posterior.log_likelihood)
 peak = int(re.search(r"VmHWM:\s+(\d+)", Path("/proc/self/status").read_text())[1]) / 1024

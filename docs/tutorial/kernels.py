@@ -118,13 +118,13 @@ RARE = 0.05
 rare = problem | {"prior": bm.Independent(RARE)}
 prior_starts = [bm.Independent(RARE).sample(np.random.default_rng(k), grid) for k in range(4)]
 starts = np.stack([0 * true_walls] * 4 + [0 * true_walls + 1] * 4 + prior_starts)
+METHODS = {"gibbs": bm.Gibbs, "block": bm.Block}
 SWEEPS = {"gibbs": 16_384, "block": 1_024}
-traces = {
-    method: bm.infer(
-        **rare, method=method, start=starts, chains=12, warmup=n, draws=0, seed=3
-    ).posterior.warmup_log_joint
-    for method, n in SWEEPS.items()
-}
+traces = {}
+for method, n in SWEEPS.items():
+    schedule = bm.Schedule(chains=12, warmup=n, draws=0)
+    watched = bm.infer(**rare, method=METHODS[method](start=starts), schedule=schedule, seed=3)
+    traces[method] = watched.posterior.warmup_log_joint
 
 
 def rhat_after(trace):
@@ -175,14 +175,16 @@ reference = bm.infer(**rare, method="block", schedule=bm.Schedule(chains=4, warm
 threshold = np.quantile(reference.log_joint, 1e-3)
 arrived = {}
 for method, n in (("gibbs", 8_000), ("block", 200)):
-    early = bm.infer(**rare, method=method, start="zeros", chains=16, warmup=n, draws=0, seed=5)
+    schedule = bm.Schedule(chains=16, warmup=n, draws=0)
+    early = bm.infer(**rare, method=METHODS[method](start="zeros"), schedule=schedule, seed=5)
     there = early.posterior.warmup_log_joint > threshold
     assert there.any(axis=1).all()
     arrived[method] = there.argmax(axis=1) + 1
     low, middle, high = np.percentile(arrived[method], [0, 50, 100])
     print(f"{method}: from an empty map, {low:.0f} to {high:.0f} sweeps, median {middle:.0f} (16 chains)")
-settled = {"start": reference.draws[:, -1], "chains": 4, "warmup": 0, "draws": 1_000, "seed": 6}
-cost = [bm.infer(**rare, method=method, **settled).summary().microseconds_per_sweep for method in ("gibbs", "block")]
+settled, schedule = reference.draws[:, -1], bm.Schedule(chains=4, warmup=0, draws=1_000)
+timed = [bm.infer(**rare, method=kind(start=settled), schedule=schedule, seed=6) for kind in METHODS.values()]
+cost = [run.summary().microseconds_per_sweep for run in timed]
 print(f"time: a sweep over blocks costs about {cost[1] / cost[0]:.0f} times one over cells")
 
 # %% tags=["hide-input"]
