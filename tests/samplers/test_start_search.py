@@ -97,7 +97,7 @@ def test_surfaces_are_joined_after_the_same_sweeps_however_these_are_cut(monkeyp
         return sweeps(chains, first, count, *args, **options)
 
     monkeypatch.setattr(StopChains, "sweeps", watched)
-    monkeypatch.setattr(stop_gibbs, "join", lambda of, chains, beta: joined.append(made[id(chains)]))
+    monkeypatch.setattr(stop_gibbs, "merge", lambda of, chains, beta: joined.append(made[id(chains)]))
     state = sampler.init(problem, [0, 1], 0)
     for count in cuts:
         state, info = sampler.step(state, count)
@@ -122,9 +122,9 @@ def test_cells_without_surfaces_have_one_start(prior):
 
 
 def test_surfaces_search_in_the_first_part_of_the_warm_up():
-    sampler, _ = sampler_of("stop-gibbs", GRID, "radial", None, 1, 50)
+    sampler, _ = sampler_of("stop-gibbs", GRID, bm.Gibbs("radial"), 50)
     assert sampler == StopGibbs(search_until=int(50 * SEARCH_SHARE))
-    assert sampler_of("stop-gibbs", GRID, "radial", None, 1)[0] == StopGibbs()
+    assert sampler_of("stop-gibbs", GRID, bm.Gibbs("radial"))[0] == StopGibbs()
 
 
 def test_a_sweep_without_steps_moves_no_surface_of_a_cell_in_which_readings_end():
