@@ -1,4 +1,4 @@
-"""What a Ray cluster costs beside threads, for docs/scale.md: ``python -m benchmarks.cluster [LOG]``.
+"""What a Ray cluster costs beside threads, for docs/lab/maps.md: ``python -m benchmarks.cluster [LOG]``.
 
 The same chains on the threads of this process and on a Ray cluster that it starts, with as many CPUs as the machine
 has, in turn; the fastest repeats count. Also how large the things are that travel: the model, what the sampler prepares

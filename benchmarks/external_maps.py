@@ -220,7 +220,7 @@ def asked(seed: int, laws: tuple[str, ...], scans: int, target: Path) -> None:
 
 
 def summary(found: list[dict[str, Any]], law: str) -> str:
-    """The tables of docs/localization.md."""
+    """The tables of docs/lab/localization.md."""
     lines = [f"{len(found)} buildings, {law} law"]
     for name in ("one", "ten", "along"):
         one = [answer for f in found for answer in f[law][name]]

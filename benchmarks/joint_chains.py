@@ -1,6 +1,6 @@
 """What is exact about chains over map and poses: against enumeration in small worlds, and along a loop.
 
-`python -m benchmarks.joint_chains [worlds] [loop]` prints the two tables of docs/poses.md.
+`python -m benchmarks.joint_chains [worlds] [loop]` prints the two tables of docs/lab/poses.md.
 
 In a small world every map is enumerated, and the poses are summed over by quasi-random draws of their prior: scans are
 independent given the map, so

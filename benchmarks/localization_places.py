@@ -68,7 +68,7 @@ def map_without(scans: Scans, places: list[int], sensor: Any, prior: Surface, pa
 
 
 def summary(found: list[dict[str, Any]]) -> str:
-    """The figures of docs/localization.md."""
+    """The figures of docs/lab/localization.md."""
     lines = [f"{len(found)} places"]
     for name, answers in (("one scan", [a for f in found for a in f["one"]]), ("ten scans", [f["ten"] for f in found])):
         right = np.array([a["right"] for a in answers])

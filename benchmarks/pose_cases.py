@@ -1,7 +1,7 @@
 """Simulated robots unlike those of the public logs: what inference of a trajectory makes of each.
 
-`python -m benchmarks.pose_cases [NAME ...]` prints a row a case, as in docs/poses.md; `--battery [FIRST-LAST]` those of
-`benchmarks/pose_battery.py`.
+`python -m benchmarks.pose_cases [NAME ...]` prints a row a case, as in docs/lab/poses.md;
+`--battery [FIRST-LAST]` those of `benchmarks/pose_battery.py`.
 """
 
 import sys

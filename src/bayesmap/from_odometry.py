@@ -3,7 +3,7 @@
 First an approximation of all poses (`bayesmap.poses.pipeline`: matching, loops, a Gaussian about the likeliest poses);
 then chains over the map and the poses of the key scans, each started from a draw of that approximation, under the same
 forward law as every map here. What the chains correct is the approximation's detail; which way a long loop bends stays
-near what they started from (docs/poses.md).
+near what they started from (docs/how/poses.md).
 """
 
 from __future__ import annotations

@@ -33,7 +33,7 @@ CROSSING_WIDTH = 2.2
 """w above."""
 
 DIRECTION_RAD = 0.005
-"""omega above: between 4 and 8 thousandths held-out scans are predicted best (docs/surfaces-measured.md)."""
+"""omega above: between 4 and 8 thousandths held-out scans are predicted best (docs/lab/surfaces.md)."""
 
 
 class Stops(NamedTuple):

@@ -2,7 +2,7 @@
 
 What is assumed of a laser log of which nothing else is known stands here, too. None of this is particular to one
 building: the noise is a good laser's, widened by not knowing where in a cell the wall stands. Chosen by held-out score
-among a few round values on a public office log (docs/defaults.md has the table).
+among a few round values on a public office log (docs/lab/maps.md has the table).
 """
 
 from __future__ import annotations

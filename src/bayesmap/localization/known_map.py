@@ -34,12 +34,12 @@ PASSABLE = 0.3
 INDEPENDENT_BEAMS = 5.4
 """So many independent readings is a scan worth: its log-likelihood counts by their share of its beams. Beams of one
 scan err together, by what the map has wrong and by what stands in the way; Thrun, Burgard and Fox (2005, section 6.3.4)
-advise such a power. Set so that located poses of the Intel log are as far off as they say (docs/localization.md)."""
+advise such a power. With it, poses of the Intel log are as far off as they say (docs/lab/localization.md)."""
 
 BEAMS_BETWEEN_PLACES = 2.7
 """The same for the question which of several places it was: there a whole scan errs one way, where the map lacks
 something or the search missed a place. Set on four buildings, so that places are right as often as they say
-(docs/localization.md)."""
+(docs/lab/localization.md)."""
 
 BINS = 60
 

@@ -6,7 +6,7 @@ distance: for a right one that is half of a chi-squared with three degrees of fr
 the way was. The log odds that a visit is right are ``ODDS + FURTHER (places - 1) - D``: another place that looks alike
 lies anywhere in the window that was searched, and each further place along the way that matches makes that less likely.
 (Latif, Cadena and Neira 2013, "Robust loop closing over time", test such groups likewise.) On public
-logs D of right visits was 0.1 to 2.3, and that of wrong ones 11 to 20 (docs/poses.md).
+logs D of right visits was 0.1 to 2.3, and that of wrong ones 11 to 20 (docs/lab/poses.md).
 """
 
 from __future__ import annotations

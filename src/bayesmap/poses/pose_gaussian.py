@@ -66,7 +66,7 @@ def bend_covariances(bends: Floats, poses: Floats, first: NDArray[np.intp], seco
 
 DEGREES_OF_FREEDOM = 10.0
 """Of Student's t: what is wrong with the model (curved walls, people, scans bent by motion) has heavy tails on real
-logs; simulated ones have none. Between the two, both are right within some points (docs/poses.md)."""
+logs; simulated ones have none. Between the two, both are right within some points (docs/lab/poses.md)."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -25,7 +25,7 @@ from numpy.typing import NDArray
 
 CROSSING_WIDTH_SQ = wp.constant(wp.float32(2.2**2))
 DIRECTION_SQ = wp.constant(wp.float32(0.005**2))
-"""Square of omega, radians: 4 to 8 thousandths predict held-out scans best (docs/surfaces-measured.md)."""
+"""Square of omega, radians: 4 to 8 thousandths predict held-out scans best (docs/lab/surfaces.md)."""
 
 Cell = wp.types.vector(length=8, dtype=wp.float32)
 """A cell's state: reflectivity, mean x and y (metres from the grid's corner), Cholesky factor l11, l21, l22 of Sigma,
