@@ -15,7 +15,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.poses.pipeline import infer_trajectory
+from bayesmap.poses.slam import infer_trajectory
 from bayesmap.poses.trajectory import Trajectory
 from bayesmap.sensors.noise import Gaussian
 from bayesmap.sim.building import building

@@ -13,7 +13,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.poses.pipeline import infer_trajectory
+from bayesmap.poses.slam import infer_trajectory
 from bayesmap.poses.trajectory import Trajectory
 from bayesmap.sensors.mixture import BeamMixture
 from bayesmap.sensors.noise import Gaussian

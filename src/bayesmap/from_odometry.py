@@ -1,6 +1,6 @@
 """From a log with raw odometry to the posterior over map and trajectory.
 
-First an approximation of all poses (`bayesmap.poses.pipeline`: matching, loops, a Gaussian about the likeliest poses);
+First an approximation of all poses (`bayesmap.poses.slam`: matching, loops, a Gaussian about the likeliest poses);
 then chains over the map and the poses of the key scans, each started from a draw of that approximation, under the same
 forward law as every map here. What the chains correct is the approximation's detail; which way a long loop bends stays
 near what they started from (docs/how/poses.md).
@@ -120,9 +120,9 @@ def slam(
         The run over the key scans: ``run.poses`` are draws of their poses, ``run.trajectory`` has all scans.
 
     Raises:
-        BadInput: as `bayesmap.read_log`, `bayesmap.poses.pipeline.infer_trajectory` and `bayesmap.infer`.
+        BadInput: as `bayesmap.read_log`, `bayesmap.poses.slam.infer_trajectory` and `bayesmap.infer`.
     """
-    from bayesmap.poses.pipeline import infer_trajectory
+    from bayesmap.poses.slam import infer_trajectory
 
     for name, value, kind in (
         ("schedule", schedule, Schedule), ("where", where, Where), ("checkpoints", checkpoints, Checkpoints),

@@ -8,7 +8,7 @@ import pytest
 from shell import call, start, wait_for
 
 import bayesmap as bm
-from bayesmap.poses.pipeline import infer_trajectory
+from bayesmap.poses.slam import infer_trajectory
 
 SHORT = ("--chains", "2", "--warmup", "4", "--draws", "6", "--resolution", "0.2", "--threads", "2")
 OUTPUTS = {

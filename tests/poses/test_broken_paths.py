@@ -10,9 +10,9 @@ from simulated import odometry_of, off, path_around, recording, ring, scans_of
 from bayesmap.poses.front_end import follow
 from bayesmap.poses.key_path import key_path
 from bayesmap.poses.odometry_motion import stated_motions
-from bayesmap.poses.pipeline import infer_trajectory
 from bayesmap.poses.rejoin import AGREE, rejoin
 from bayesmap.poses.scan_geometry import scan_geometry
+from bayesmap.poses.slam import infer_trajectory
 from bayesmap.space.planar import between, compose
 from bayesmap.space.scans import Scans
 

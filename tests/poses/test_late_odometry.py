@@ -6,8 +6,8 @@ from simulated import odometry_of, off, path_around, ring, scans_of
 
 import bayesmap as bm
 from bayesmap.poses.log_checks import caught_up
-from bayesmap.poses.pipeline import infer_trajectory
 from bayesmap.poses.scan_geometry import scan_geometry
+from bayesmap.poses.slam import infer_trajectory
 from bayesmap.space.planar import between
 
 LATE = 3

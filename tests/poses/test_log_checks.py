@@ -6,7 +6,7 @@ from simulated import path_around, ring, scans_of
 
 import bayesmap as bm
 from bayesmap.poses.log_checks import Stretch, check_scans, doubts, frozen_stretches
-from bayesmap.poses.pipeline import infer_trajectory
+from bayesmap.poses.slam import infer_trajectory
 
 
 def scans(truth, stated, period_s=0.2):

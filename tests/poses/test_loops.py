@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from bayesmap.poses import look_alikes, loops
-from bayesmap.poses.pipeline import infer_trajectory
+from bayesmap.poses.slam import infer_trajectory
 from bayesmap.space.planar import between
 from benchmarks.pose_cases import office, record
 

@@ -6,8 +6,8 @@ from simulated import off, path_around, recording, ring, scans_of
 from tiers import latin
 
 from bayesmap.poses import scan_geometry as geometry_module
-from bayesmap.poses.pipeline import infer_trajectory
 from bayesmap.poses.scan_geometry import LEAST_M, MOST_M, range_noise_m, scan_geometry
+from bayesmap.poses.slam import infer_trajectory
 from bayesmap.space.scans import Scans
 
 POSES = path_around(laps=1.0)[::2]

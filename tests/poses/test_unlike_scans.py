@@ -12,8 +12,8 @@ from bayesmap.kernels.match.view_agreement import Agreement, view_counts
 from bayesmap.kernels.walk import cast
 from bayesmap.poses.log_checks import frozen_stretches
 from bayesmap.poses.matcher import likelihood_grids
-from bayesmap.poses.pipeline import infer_trajectory
 from bayesmap.poses.scan_geometry import scan_geometry
+from bayesmap.poses.slam import infer_trajectory
 from bayesmap.space.planar import between, compose
 from bayesmap.space.scans import Scans, side_by_side
 

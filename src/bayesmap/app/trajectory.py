@@ -22,7 +22,7 @@ from bayesmap.app.protocol.notices import Stage, Status
 from bayesmap.app.protocol.tasks import Infer, Located, Remember
 from bayesmap.app.shown.hit_maps import Counted, CountResult, counted_map, grown, scene_along
 from bayesmap.app.sources import OpenedLog, opened_log
-from bayesmap.poses.pipeline import infer_trajectory
+from bayesmap.poses.slam import infer_trajectory
 from bayesmap.poses.trajectory import Trajectory, calibrated
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
@@ -218,7 +218,7 @@ class Localization:
         poses of the log is shown, at once.
 
         Raises:
-            BadInput: as `bayesmap.poses.pipeline.infer_trajectory`.
+            BadInput: as `bayesmap.poses.slam.infer_trajectory`.
         """
         if task.mode == "clear" and self.placed is not None:
             self.placed = None
