@@ -9,7 +9,7 @@ from bayesmap.app.protocol.actions import Cancel, ShowScan
 from bayesmap.app.protocol.notices import Notice, View
 from bayesmap.app.protocol.tasks import Ask, Infer, Report, Show
 from bayesmap.app.protocol.wire import frame
-from bayesmap.app.shown.chains import ChainResult
+from bayesmap.app.shown.chains import Stream
 
 PAGE = 7
 """The page that asks."""
@@ -62,7 +62,7 @@ class Heard:
     def infer_until_chains_run(self, document):
         """Do a job until its chains have made a step; how many pieces come before depends on the machine."""
         self.infer(document, steps=0)
-        while not isinstance(self.engine._result, ChainResult):
+        while self.engine._result is None or not isinstance(self.engine._result.found, Stream):
             assert self.engine.busy, "the job ended without chains"
             self.engine.advance()
 

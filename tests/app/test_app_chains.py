@@ -58,7 +58,7 @@ def test_a_run_is_that_of_the_library(changes):
         poses=bm.Uncertain(sigma_m, max(document.heading_sigma, SMALLEST_HEADING_RAD)),
         start_poses=pose_starts(document, POSE_CHAINS), seed=0,
     )  # fmt: skip
-    stream = heard.engine._result.stream
+    stream = heard.engine._result.found
     assert np.array_equal(stream.draws.arrays["walls"], run.posterior.draws.arrays["walls"])
     assert np.array_equal(stream.draws.arrays["poses"], run.poses)
     assert np.array_equal(stream.log_joint(), run.log_joint)

@@ -32,8 +32,9 @@ def test_a_path_s_probability_is_that_of_the_draws(mode):
     header, _ = answered(heard, PATH)
     assert header["type"] == "path"
     assert header["generation"] == heard.generation
-    stream = heard.engine._result.stream
-    draws = stream.draws if mode == "run" else stream.recent
+    stream = heard.engine._result.found
+    draws = stream.at_hand
+    assert (stream.kept is None) == (mode == "live")
 
     class Maps:
         prior = stream.model.cells

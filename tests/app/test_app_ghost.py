@@ -124,9 +124,9 @@ def test_chains_rest_while_it_is_moved(monkeypatch):
     heard = Heard()
     heard.infer_until_chains_run(replace(tutorial_document(), sweeps=100_000))
     asked(heard, 6.0, 15.0, 0.0)
-    before = heard.engine._result.stream.sweep
+    before = heard.engine._result.found.sweep
     heard.engine.advance()
-    assert heard.engine._result.stream.sweep == before
+    assert heard.engine._result.found.sweep == before
 
 
 def test_its_draws_are_those_of_the_last_sweep_once_chains_are_done(monkeypatch):

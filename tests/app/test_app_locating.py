@@ -66,8 +66,8 @@ def test_before_run_the_log_is_shown_as_it_is():
     assert heard.last("status")[0]["text"] == ASK_TO_RUN
     assert heard.all("stage") == []
     counted = counted_map(raw_scans(), raw_log().document.grid)
-    assert np.abs(buffers["p"] / 255 - counted.p_wall).max() <= 0.5 / 255 + 1e-9
-    assert np.array_equal(np.unpackbits(buffers["observed"], count=counted.observed.size), counted.observed.ravel())
+    assert np.abs(buffers["p"] / 255 - counted.mean()).max() <= 0.5 / 255 + 1e-9
+    assert np.array_equal(np.unpackbits(buffers["observed"], count=counted.observed().size), counted.observed().ravel())
     assert np.allclose(heard.last("overlay")[1]["trajectory"], raw_scans().poses[:, :2], atol=1e-5)
     assert heard.all("finished")[-1]["draws"].count == 0
 
@@ -120,7 +120,7 @@ def test_the_map_sharpens(found):
     doubt = []
     for scans in (raw_scans(), placed):
         grid = Grid.covering(scans, 0.1)
-        p = counted_map(scans, grid).p_wall
+        p = counted_map(scans, grid).mean()
         doubt.append(int((p > 0.5).sum()))
     assert doubt[1] < 0.8 * doubt[0]
     assert len(fields) > 5
@@ -158,7 +158,7 @@ def test_a_log_that_was_located_is_mapped_on_cells_of_any_size_from_the_first_of
     assert header["method"] == "counts"  # nobody knows yet where the robot was
     raw = Grid.covering(raw_scans(), 0.2)
     assert coarse.grid == raw
-    assert np.abs(buffers["p"] / 255 - counted_map(raw_scans().select(slice(40)), raw).p_wall).max() <= 0.5 / 255 + 1e-9
+    assert np.abs(buffers["p"] / 255 - counted_map(raw_scans().select(slice(40)), raw).mean()).max() <= 0.5 / 255 + 1e-9
     known = found.all("located")[0]["trajectory"]
     heard.engine.take(Remember(known.poses, known.angles_rad))
     placed = heard.engine._localization.placed.scans
@@ -234,7 +234,7 @@ def test_the_map_only_grows_and_on_the_same_lattice():
     assert x1 == pytest.approx(grid.extent_m[1])
     assert (y0, y1) == pytest.approx(grid.extent_m[2:])
     assert (grid.origin[0] - x0) / 0.1 == pytest.approx(round((grid.origin[0] - x0) / 0.1))
-    assert counted_map(away, larger).observed.sum() > 1000
+    assert counted_map(away, larger).observed().sum() > 1000
     many = raw_scans().select(np.arange(2000) % len(raw_scans()))
     assert len(thinned(many)) == MOST_SCANS
 

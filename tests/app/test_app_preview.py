@@ -38,7 +38,7 @@ def test_beams_that_end_past_their_readings_say_what_whole_ones_say(name):
     scene = simulated_scene(CASES[name])
     near, whole = rounds(scene.near), rounds(scene.problem)
     assert near.problem.table.n_incidences <= whole.problem.table.n_incidences
-    assert np.abs(near.p_wall() - whole.p_wall()).max() < 1e-5
+    assert np.abs(near.mean() - whole.mean()).max() < 1e-5
     assert np.array_equal(near.observed(), whole.observed())
 
 
@@ -51,7 +51,7 @@ def test_beams_that_end_at_their_readings_say_something_else(monkeypatch):
     """A wrong twin."""
     monkeypatch.setattr(scanning, "NEAR_SIGMAS", 0.5)
     scene = simulated_scene(tutorial_document())
-    assert np.abs(rounds(scene.near).p_wall() - rounds(scene.problem).p_wall()).max() > 0.05
+    assert np.abs(rounds(scene.near).mean() - rounds(scene.problem).mean()).max() > 0.05
 
 
 def test_another_prior_shares_the_beams_that_there_are():

@@ -18,8 +18,8 @@ def test_after_a_preview_one_chain_starts_from_it_and_the_other_from_nothing():
         preview.round()
     begun = starts(problem, document, preview)
     assert begun.shape == (2, 21, 21)
-    sure = np.abs(preview.p_wall() - 0.5) > 0.4
-    assert np.array_equal(begun[0][sure], preview.p_wall()[sure] > 0.5)
+    sure = np.abs(preview.mean() - 0.5) > 0.4
+    assert np.array_equal(begun[0][sure], preview.mean()[sure] > 0.5)
     assert not begun[1].any()
 
 

@@ -11,7 +11,7 @@ from bayesmap.app.answers.whereabouts import Locator, drawn_map
 from bayesmap.app.protocol.actions import ShowScan, WhereAmI
 from bayesmap.app.protocol.document import Sensor, no_walls, packed
 from bayesmap.app.protocol.tasks import Infer
-from bayesmap.app.sources import RunResult, opened_log, opened_run
+from bayesmap.app.sources import opened_log, opened_run
 from bayesmap.app.worlds import tutorial_document
 
 PAGE = 7
@@ -114,7 +114,7 @@ def test_a_scan_of_nowhere_is_lost(run):
     ranges_m = np.random.default_rng(3).permuted(run.posterior.scans.ranges_m, axis=1)
     elsewhere = replace(run.posterior.scans, ranges_m=ranges_m)
     result = opened.result()
-    result = RunResult(replace(result.scene, scans=elsewhere), result.document, run)
+    result = replace(result, scene=replace(result.scene, scans=elsewhere))
     notice, _ = Locator().answer(WhereAmI(), result, 0, 1)
     assert notice.p_lost > 0.5
 

@@ -30,7 +30,7 @@ def is_nearer(colour, one, other):
 def test_a_click_shows_each_beam_and_its_nats(open_page):
     asked = document(method="propagate")
     scene, preview = propagated(asked)
-    p_wall = preview.p_wall()
+    p_wall = preview.mean()
     x, y = map(int, np.argwhere(preview.observed() & (p_wall < 0.1))[10])
     known = wall_ratios(scene.problem.table, p_wall.ravel(), x * p_wall.shape[1] + y)
     page = open_page(asked)

@@ -36,7 +36,7 @@ def number(text):
 def test_the_read_out_says_how_many_beams_speak_for_a_wall_and_how_much(open_page, cell):
     asked = document(method="propagate")
     scene, preview = propagated(asked)
-    p_wall = preview.p_wall()
+    p_wall = preview.mean()
     sure = np.argwhere(preview.observed() & ((p_wall > 0.9) if cell == "wall" else (p_wall < 0.1)))
     x, y = map(int, sure[len(sure) // 2])
     page = open_page(asked)

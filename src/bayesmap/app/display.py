@@ -112,25 +112,25 @@ class Display:
 
 def field_of(result: Result, view: View, generation: int, milliseconds: float) -> tuple[Field, Buffers]:
     """Make the field that a page is shown; the mean, where a draw or an interval is wished for and there is none."""
-    layer, chain, number, lowest = view.layer, None, None, None
-    trace, traced = trace_of(result.log_joint())
+    found, layer, chain, number, lowest = result.found, view.layer, None, None, None
+    trace, traced = trace_of(found.log_joint())
     buffers: dict[str, NDArray[np.generic]] = {"trace": trace, "traced": traced}
-    if result.log_weights is not None:
-        buffers["weights"], lowest = histogram(result.log_weights)
-    one = result.draw(view.chain, view.draw) if layer == "draw" else None
+    if found.log_weights is not None:
+        buffers["weights"], lowest = histogram(found.log_weights)
+    one = found.draw(view.chain, view.draw) if layer == "draw" else None
     if one is not None:
         numbers, chain, number = one
     elif layer == "width" and result.width is not None:
         numbers = result.width
     else:
-        layer, numbers = "mean" if layer in OWN_LAYERS else layer, result.mean()
+        layer, numbers = "mean" if layer in OWN_LAYERS else layer, found.mean()
     field = Field(
-        generation=generation, layer=layer, method=result.method, approximate=result.approximate,
-        **result.figures.as_fields(), draws=result.draw_count, quantity=result.quantity, milliseconds=milliseconds,
-        chain=chain, draw=number, averaged=result.averaged, lowest=lowest,
+        generation=generation, layer=layer, method=result.method, approximate=found.approximate,
+        **found.figures(result.over).as_fields(), draws=result.draw_count, quantity=result.quantity,
+        milliseconds=milliseconds, chain=chain, draw=number, averaged=found.averaged, lowest=lowest,
     )  # fmt: skip
     p = np.rint(numbers * np.float32(LEVELS)).astype(np.uint8)
-    return field, {"p": p, "observed": np.packbits(result.observed().ravel()), **buffers}
+    return field, {"p": p, "observed": np.packbits(found.observed().ravel()), **buffers}
 
 
 def trace_of(log_joint: NDArray[np.float64]) -> tuple[NDArray[np.float32], NDArray[np.float32]]:

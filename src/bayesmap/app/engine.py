@@ -24,11 +24,11 @@ from bayesmap.app.protocol.document import CHAIN_METHODS, Document
 from bayesmap.app.protocol.notices import Status
 from bayesmap.app.protocol.tasks import Ask, Failed, Infer, Remember, Show, Task
 from bayesmap.app.scene import Scene, same_readings, simulated_scene
-from bayesmap.app.shown.beliefs import BeliefResult, Preview
-from bayesmap.app.shown.chains import ChainResult, Stream, chains_of_walls, pose_prior, starts
-from bayesmap.app.shown.particles import ParticleResult, Weighing
-from bayesmap.app.shown.pilot import Fitted, PilotResult, depends_on, fit_by_pilot
-from bayesmap.app.shown.result import PriorResult, Result
+from bayesmap.app.shown.beliefs import Preview
+from bayesmap.app.shown.chains import Stream, chains_of_walls, pose_prior, starts
+from bayesmap.app.shown.particles import Weighing
+from bayesmap.app.shown.pilot import Fitted, Pilot, depends_on, fit_by_pilot
+from bayesmap.app.shown.result import Result, nothing_yet
 from bayesmap.app.sources import Opened, OpenedLog
 from bayesmap.app.trajectory import Localization, Step
 from bayesmap.errors import BadInput
@@ -148,9 +148,9 @@ class Engine:
             self._count(document)
             self._display.finished(self._result)
             return
-        self._display.overlay(PriorResult(scene, document))
+        self._display.overlay(nothing_yet(scene, document))
         if task.mode == "clear":
-            self._result = PriorResult(scene, document)
+            self._result = nothing_yet(scene, document)
             self._display.frame(self._result)
             return
         if document.cells != "binary":
@@ -235,7 +235,7 @@ class Engine:
             enough = not quiet and preview.rounds >= FEWEST_ROUNDS and self._display.elapsed_s() > PREVIEW_SECONDS
             last = preview.converged and not quiet
             if last or (enough and (shown < 0 or self._display.due())) or (shown >= 0 and self._display.due()):
-                self._result = BeliefResult(scene, document, preview)
+                self._result = Result(scene, document, "propagate", preview)
                 self._display.frame(self._result)
                 shown = preview.rounds
             if preview.converged:
@@ -256,10 +256,10 @@ class Engine:
             self._count(document)
         yield
 
-        def show(pilot: PilotResult) -> None:
-            self._result = pilot
+        def show(pilot: Pilot) -> None:
+            self._result = Result(scene, document, "pilot", pilot)
             if self._display.due():
-                self._display.frame(pilot)
+                self._display.frame(self._result)
 
         if self._fitted is None or self._fitted[0] != depends_on(document):
             self._fitted = None  # first: two problems may not fit
@@ -274,7 +274,7 @@ class Engine:
             yield
             stream.advance()
             ended = stream.done
-            self._result = ChainResult(scene, document, stream)
+            self._result = Result(scene, document, document.method, stream)
             if self._display.due() or ended:
                 self._display.frame(self._result)
             if ended:
@@ -288,7 +288,7 @@ class Engine:
             yield
             weighing.advance()
             if self._display.due() or weighing.done == weighing.total:
-                self._result = ParticleResult(scene, document, weighing.particles(), weighing.total)
+                self._result = Result(scene, document, "importance", weighing.found())
                 self._display.frame(self._result)
         self._display.finished(self._result)
 
@@ -300,7 +300,7 @@ class Engine:
             self._job = self._work(structs.replace(self._task, mode="preview"))
             return
         self._job = None
-        self._result = self._result.cancelled()
+        self._result = replace(self._result, over=True)
         self._display.frame(self._result)
         self._display.finished(self._result)
 

@@ -40,7 +40,7 @@ def _map(result: Result) -> bytes:
     """YAML and image, as `bayesmap export` writes them, in one archive."""
     archive = io.BytesIO()
     with tempfile.TemporaryDirectory(prefix="bayesmap-") as folder:
-        paths = result.write_map(Path(folder) / "map.yaml")
+        paths = result.found.write_map(Path(folder) / "map.yaml", result)
         with zipfile.ZipFile(archive, "w", zipfile.ZIP_DEFLATED) as files:
             for path in paths:
                 files.write(path, path.name)

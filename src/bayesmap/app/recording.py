@@ -19,6 +19,7 @@ from bayesmap.app.protocol.document import Document, plain
 from bayesmap.app.protocol.notices import Quantity, Verdict
 from bayesmap.app.scene import hits
 from bayesmap.app.shown.result import Result
+from bayesmap.cells.arrays import Draws
 
 if TYPE_CHECKING:
     from bayesmap.result import Run
@@ -135,7 +136,7 @@ def run_to_html(run: Run, name: str = "run") -> str:
 
 def record(result: Result) -> Recording:
     """Return what `recordedTransport` plays."""
-    figures = result.figures.as_fields()
+    figures = result.found.figures(result.over).as_fields()
     packed, joint = _thinned(result)
     chains, count = packed.shape[:2]
     shape = result.document.grid.shape
@@ -144,8 +145,8 @@ def record(result: Result) -> Recording:
     return Recording(
         document=result.document,
         scans=_scans(result),
-        mean=_text(np.rint(result.mean() * LEVELS).astype(np.uint8).tobytes()),
-        observed=_text(np.packbits(result.observed().ravel()).tobytes()),
+        mean=_text(np.rint(result.found.mean() * LEVELS).astype(np.uint8).tobytes()),
+        observed=_text(np.packbits(result.found.observed().ravel()).tobytes()),
         draws=RecordedDraws(chains if count else 0, count, draws),
         log_joint=_numbers(joint, 2),
         settings=RecordedFigures(
@@ -154,9 +155,16 @@ def record(result: Result) -> Recording:
     )
 
 
+def _packed(kept: Draws | None) -> NDArray[np.uint8]:
+    """Kept maps of walls, (chains, count, bytes); none where a map's cells are numbers."""
+    if kept is None or kept.specs[0].storage != "bits":
+        return np.zeros((0, 0, 0), dtype=np.uint8)
+    return np.asarray(kept.arrays[kept.specs[0].name])
+
+
 def _thinned(result: Result) -> tuple[NDArray[np.uint8], NDArray[np.float64]]:
     """Draws, evenly spread over the kept ones, and their log joint, (chains, count)."""
-    packed, joint = result.packed, result.log_joint()
+    packed, joint = _packed(result.found.kept), result.found.log_joint()
     chains, count, size = packed.shape
     if count == 0:
         return packed, np.zeros((chains, 0))

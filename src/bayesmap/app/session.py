@@ -13,64 +13,12 @@ import msgspec
 
 from bayesmap.app.edits import adopted, edit, gesture_of
 from bayesmap.app.gestures import From, History, Pace
-from bayesmap.app.protocol.actions import (
-    AnyAction,
-    Cancel,
-    ChangeSettings,
-    Clear,
-    CompareBeam,
-    Edit,
-    Export,
-    Hello,
-    Inspect,
-    Live,
-    Painted,
-    Question,
-    Redo,
-    Run,
-    ShowScan,
-    ShowView,
-    Undo,
-    changes,
-)
+from bayesmap.app.protocol import actions, notices, tasks
 from bayesmap.app.protocol.document import VERSION, Document, Refused, plain
-from bayesmap.app.protocol.notices import (
-    LIMITS,
-    OWN_LAYERS,
-    AnyNotice,
-    Download,
-    DrawCount,
-    Field,
-    Overlay,
-    Refusal,
-    Scan,
-    State,
-    Status,
-    View,
-    Welcome,
-    Worker,
-)
-from bayesmap.app.protocol.tasks import (
-    Alive,
-    Ask,
-    Buffers,
-    Failed,
-    Finished,
-    Infer,
-    Located,
-    Mode,
-    OnGrid,
-    Ready,
-    Remember,
-    Report,
-    Show,
-    Task,
-    Unusable,
-)
 from bayesmap.app.protocol.wire import parse_document
 
-QUESTIONS, EDITS = get_args(Question), get_args(Edit)
-REPLAYED = (Scan, Field, Overlay)
+QUESTIONS, EDITS = get_args(actions.Question), get_args(actions.Edit)
+REPLAYED = (notices.Scan, notices.Field, notices.Overlay)
 """What a page that connects late is sent again."""
 
 
@@ -78,8 +26,8 @@ REPLAYED = (Scan, Field, Overlay)
 class ToPage:
     """A message to one page, or to all where client is None."""
 
-    message: AnyNotice
-    buffers: Buffers = field(default_factory=dict)
+    message: notices.AnyNotice
+    buffers: tasks.Buffers = field(default_factory=dict)
     client: int | None = None
 
 
@@ -87,7 +35,7 @@ class ToPage:
 class ToWorker:
     """A task for the worker."""
 
-    task: Task
+    task: tasks.Task
 
 
 Effect = ToPage | ToWorker
@@ -113,15 +61,15 @@ class Session:
         self.generation = 0
         self.live = True
         self.running = self.working = False
-        self.draws = DrawCount()
+        self.draws = notices.DrawCount()
         self.scan = 0
         self.worker_ready = False
-        self._views: dict[int, View] = {}  # of pages that are shown something else than the mean
-        self._mode: Mode = "live"
+        self._views: dict[int, notices.View] = {}  # of pages that are shown something else than the mean
+        self._mode: tasks.Mode = "live"
         self._pace = Pace()
         self._seqs: dict[int, int] = {}  # of every page, the last action that was applied
         self._last: dict[type, ToPage] = {}
-        self._trajectory: Remember | None = None  # of a log, inferred; the next worker shall know it
+        self._trajectory: tasks.Remember | None = None  # of a log, inferred; the next worker shall know it
 
     @property
     def document(self) -> Document:
@@ -130,15 +78,15 @@ class Session:
 
     # From pages
 
-    def receive(self, client: int, action: AnyAction) -> Effects:
+    def receive(self, client: int, action: actions.AnyAction) -> Effects:
         """Apply an action; return what to do, in order."""
         if isinstance(action, QUESTIONS):
             try:
                 check_question(self.document, action)
             except Refused as refusal:
                 return [_status(refusal.text, "warning", client)]
-            return [ToWorker(Ask(client, action))]
-        if isinstance(action, Painted):
+            return [ToWorker(tasks.Ask(client, action))]
+        if isinstance(action, actions.Painted):
             self._pace.painted(client, action.generation)
             return self._apply(self._pace.due())
         return self._apply(self._pace.take(client, action))
@@ -147,8 +95,12 @@ class Session:
         """A page has connected; it answers with hello."""
         self._seqs[client] = 0
         self._pace.forget(client)
-        worker = Worker("ready" if self.worker_ready else "starting")
-        return [*self._forget_view(client), ToPage(Welcome(VERSION, LIMITS), {}, client), ToPage(worker, {}, client)]
+        worker = notices.Worker("ready" if self.worker_ready else "starting")
+        return [
+            *self._forget_view(client),
+            ToPage(notices.Welcome(VERSION, notices.LIMITS), {}, client),
+            ToPage(worker, {}, client),
+        ]
 
     def leave(self, client: int) -> Effects:
         """A page has gone: the worker need not draw for it any more, and anybody may undo its steps."""
@@ -159,73 +111,73 @@ class Session:
 
     def _forget_view(self, client: int) -> Effects:
         shown = self._views.pop(client, None)
-        return [] if shown is None else [ToWorker(Show(client, View("mean")))]
+        return [] if shown is None else [ToWorker(tasks.Show(client, notices.View("mean")))]
 
-    def _apply(self, actions: list[From]) -> Effects:
-        return [effect for client, action in actions for effect in self._apply_one(client, action)]
+    def _apply(self, due: list[From]) -> Effects:
+        return [effect for client, action in due for effect in self._apply_one(client, action)]
 
-    def _apply_one(self, client: int, action: AnyAction) -> Effects:
+    def _apply_one(self, client: int, action: actions.AnyAction) -> Effects:
         self._seqs[client] = action.seq
         try:
             return self._applied(client, action)
         except Refused as refusal:
             return [_status(str(refusal), "warning", client), *self._states()]
 
-    def _applied(self, client: int, action: AnyAction) -> Effects:
+    def _applied(self, client: int, action: actions.AnyAction) -> Effects:
         match action:
-            case Hello():
+            case actions.Hello():
                 return self._hello(client, action)
-            case Clear(what="inference"):
+            case actions.Clear(what="inference"):
                 return self._restart("clear")
-            case Undo():
+            case actions.Undo():
                 return self._step(client, self.history.undo(), self.history.undoes, "undo")
-            case Redo():
+            case actions.Redo():
                 return self._step(client, self.history.redo(), self.history.redoes, "redo")
-            case Run():
+            case actions.Run():
                 if self.document.source.kind == "run":
                     raise Refused("a saved run is shown as it is", "begin a new map to run inference")
                 return self._restart("run")
-            case Cancel():
+            case actions.Cancel():
                 return [ToWorker(action), *self._states()]
-            case Live():
+            case actions.Live():
                 self.live = action.on
                 if self.running or self.document.source.kind == "run":
                     return self._states()
-                return self._restart() if self.live else [ToWorker(Cancel()), *self._states()]
-            case ShowView():
-                self._views[client] = View(action.layer, action.chain, action.draw)
-                return [ToWorker(Show(client, self._views[client])), *self._states()]
-            case ShowScan():
+                return self._restart() if self.live else [ToWorker(actions.Cancel()), *self._states()]
+            case actions.ShowView():
+                self._views[client] = notices.View(action.layer, action.chain, action.draw)
+                return [ToWorker(tasks.Show(client, self._views[client])), *self._states()]
+            case actions.ShowScan():
                 scans = self.document.source.scans
                 if action.index >= scans:
                     raise Refused(f"there is no scan {action.index}", f"there are {scans}, from 0" if scans else "")
                 self.scan = action.index
                 return [ToWorker(action), *self._states()]
-            case Export(what="document"):
+            case actions.Export(what="document"):
                 data = msgspec.json.format(msgspec.json.encode(self.document, enc_hook=plain), indent=1) + b"\n"
-                return [ToPage(Download("document.json", "application/json"), {"data": data}, client)]
-            case Export():
-                return [ToWorker(Ask(client, action)), *self._states()]
+                return [ToPage(notices.Download("document.json", "application/json"), {"data": data}, client)]
+            case actions.Export():
+                return [ToWorker(tasks.Ask(client, action)), *self._states()]
             case _:
                 assert isinstance(action, EDITS)
                 return self._edit(client, action)
 
-    def _edit(self, client: int, action: Edit) -> Effects:
+    def _edit(self, client: int, action: actions.Edit) -> Effects:
         before = self.document
         after, remark = edit(before, action)
         self.history = self.history.push(after, gesture_of(action, client), client)
         effects: Effects = [_status(remark, "warning", client)] if remark else []
         coarse = False
-        if isinstance(action, ChangeSettings):
+        if isinstance(action, actions.ChangeSettings):
             coarse = action.coarse and self.document.source.kind == "log"
-            if "scans_used" in changes(action.patch):
+            if "scans_used" in actions.changes(action.patch):
                 self.scan = (self.document.scans_used or self.document.source.scans) - 1
         let_go = self._mode == "coarse" and not coarse
         if self.document is before and not let_go:
             return [*effects, *self._states()]
         return effects + self._restart("coarse" if coarse else None)
 
-    def _hello(self, client: int, action: Hello) -> Effects:
+    def _hello(self, client: int, action: actions.Hello) -> Effects:
         effects: Effects = []
         if action.document is not None:
             try:
@@ -258,37 +210,37 @@ class Session:
 
     # From the worker
 
-    def hear(self, report: Report) -> Effects:
+    def hear(self, report: tasks.Report) -> Effects:
         """Return what a report of the worker's leads to; those of an older generation to nothing."""
         message = report.message
-        if isinstance(message, Ready):
+        if isinstance(message, tasks.Ready):
             return self._ready(message.document)
         if getattr(message, "generation", self.generation) != self.generation:
             return []
         match message:
-            case Finished():
+            case tasks.Finished():
                 self.running = self.working = False
                 self.draws = message.draws
                 return [*self._states(), *self._picture_is_out()]
-            case Failed():
+            case tasks.Failed():
                 self.running = self.working = False
                 return [_status(message.text, "error"), *self._states(), *self._picture_is_out()]
-            case OnGrid():
+            case tasks.OnGrid():
                 self.history = replace(self.history, present=self.document.on_grid(message.grid))
                 return self._states()
-            case Located():
+            case tasks.Located():
                 self._trajectory = message.trajectory
                 return []
-            case Alive() | Unusable():
+            case tasks.Alive() | tasks.Unusable():
                 return []
         notice = ToPage(message, report.buffers, report.client)
         if isinstance(message, REPLAYED) and report.client is None:
             self._last[type(message)] = notice
-        return [*self._shown(notice), *self._picture_is_out()] if isinstance(message, Field) else [notice]
+        return [*self._shown(notice), *self._picture_is_out()] if isinstance(message, notices.Field) else [notice]
 
     def _shown(self, notice: ToPage) -> Effects:
         """A field goes to the page that asked for it, or to all but those that are shown a draw."""
-        drawing = {client for client, view in self._views.items() if view.layer in OWN_LAYERS}
+        drawing = {client for client, view in self._views.items() if view.layer in notices.OWN_LAYERS}
         as_it_is = notice.client is not None or not drawing
         pages = [notice.client] if as_it_is else [client for client in self._seqs if client not in drawing]
         for client in pages:
@@ -299,7 +251,7 @@ class Session:
         """The worker died; another is being started."""
         self.worker_ready = False
         text = "the worker stopped and is being restarted; the map is kept"
-        return [ToPage(Worker("restarted")), _status(text, "warning")]
+        return [ToPage(notices.Worker("restarted")), _status(text, "warning")]
 
     def _ready(self, document: Document | None) -> Effects:
         """A worker without a past: give it the document, or take that of the file that it has opened."""
@@ -307,9 +259,9 @@ class Session:
         if document is not None and self.generation == 0:
             self.history = History(document)
         known = () if self._trajectory is None else (self._trajectory,)
-        views = (Show(client, view) for client, view in self._views.items())
-        again: Mode = "run" if self.running else self._mode if self._mode == "clear" else self._usual()
-        return [ToPage(Worker("ready")), *map(ToWorker, (*known, *views)), *self._restart(again)]
+        views = (tasks.Show(client, view) for client, view in self._views.items())
+        again: tasks.Mode = "run" if self.running else self._mode if self._mode == "clear" else self._usual()
+        return [ToPage(notices.Worker("ready")), *map(ToWorker, (*known, *views)), *self._restart(again)]
 
     def _picture_is_out(self) -> Effects:
         self._pace.computing = False
@@ -317,21 +269,21 @@ class Session:
 
     # What follows from both
 
-    def _usual(self) -> Mode:
+    def _usual(self) -> tasks.Mode:
         return "live" if self.live else "preview"
 
-    def _restart(self, mode: Mode | None = None) -> Effects:
+    def _restart(self, mode: tasks.Mode | None = None) -> Effects:
         """Begin a new generation."""
         self.generation += 1
         self._mode = mode if mode is not None else self._usual()
         self.running, self.working = self._mode == "run", self._mode != "clear"
-        self.draws = DrawCount()
+        self.draws = notices.DrawCount()
         self._pace.computing = True
-        self._last.pop(Field, None)
+        self._last.pop(notices.Field, None)
         if self.document.simulated:
-            self._last.pop(Overlay, None)  # of the file that was shown before
+            self._last.pop(notices.Overlay, None)  # of the file that was shown before
         self.scan = min(self.scan, max(0, self.document.source.scans - 1))
-        task = Infer(self.generation, self.document, self._mode, self.scan)
+        task = tasks.Infer(self.generation, self.document, self._mode, self.scan)
         # The state first: a page must know of a generation before it sees the picture.
         return [*self._states(), ToWorker(task)]
 
@@ -341,36 +293,36 @@ class Session:
 
     def _state(self, client: int) -> ToPage:
         """The present state as one page is to see it."""
-        state = State(
+        state = notices.State(
             document=self.document, generation=self.generation, seq=self._seqs.get(client, 0),
             can_undo=self.history.can_undo and self._may_step(client, self.history.undoes),
             can_redo=self.history.can_redo and self._may_step(client, self.history.redoes),
             live=self.live, running=self.running, working=self.working, draws=self.draws, scan=self.scan,
-            view=self._views.get(client, View("mean")),
+            view=self._views.get(client, notices.View("mean")),
         )  # fmt: skip
         return ToPage(state, {}, client)
 
 
-def check_question(document: Document, question: Question) -> None:
+def check_question(document: Document, question: actions.Question) -> None:
     """Check that a question is about a cell or a beam that is there.
 
     Raises:
         Refused: it is not.
     """
     match question:
-        case Inspect():
+        case actions.Inspect():
             if question.x >= document.grid.shape[0] or question.y >= document.grid.shape[1]:
                 raise Refused("inspect: a cell outside the map")
-        case CompareBeam():
+        case actions.CompareBeam():
             scans = len(document.sensors) if document.simulated else document.source.scans
             if question.scan >= scans or question.beam >= document.angles:
                 raise Refused(f"beam: there is no beam {question.beam} of scan {question.scan}")
 
 
-def refusal(refused: Refused, seq: int | None = None) -> Refusal:
+def refusal(refused: Refused, seq: int | None = None) -> notices.Refusal:
     """Return the answer to a message that was not understood."""
-    return Refusal(refused.text, refused.remedy, seq)
+    return notices.Refusal(refused.text, refused.remedy, seq)
 
 
 def _status(text: str, level: Literal["info", "warning", "error"], client: int | None = None) -> ToPage:
-    return ToPage(Status(text, level), {}, client)
+    return ToPage(notices.Status(text, level), {}, client)

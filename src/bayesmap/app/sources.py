@@ -23,8 +23,8 @@ from bayesmap.app.protocol.document import (
 )
 from bayesmap.app.protocol.wire import parse_simulation
 from bayesmap.app.scene import Beams, Scene
-from bayesmap.app.shown.hit_maps import Counted, CountResult, HitCounts, coarse_map
-from bayesmap.app.shown.result import Figures, Result
+from bayesmap.app.shown.hit_maps import Counted, HitCounts, coarse_map
+from bayesmap.app.shown.result import Figures, Found, OneMap, Result
 from bayesmap.app.shown.verdict import judge_chains
 from bayesmap.beams.table import BeamTable
 from bayesmap.cells.arrays import Draws
@@ -83,28 +83,22 @@ class OpenedRun:
 
     def result(self) -> Result:
         """The run."""
-        return RunResult(self._scene, self.document, self.run)
+        return self._result
+
+    @cached_property
+    def _result(self) -> Result:
+        method = str(self.run.posterior.settings.get("method", "gibbs"))
+        return Result(self._scene, self.document, method, SavedRun(self.run))
 
 
-@dataclass(frozen=True, eq=False)
-class RunResult(Result):
-    """A saved run."""
+class SavedRun(Found):
+    """What a run holds."""
 
-    run: Run
+    def __init__(self, run: Run) -> None:
+        self.run = run
 
-    @property
-    def method(self) -> str:
-        """As the run's settings name it."""
-        return str(self.run.posterior.settings.get("method", "gibbs"))
-
-    @property
-    def prior(self) -> CellPrior:
-        """The run's."""
-        return self.run.posterior.prior
-
-    @property
-    def figures(self) -> Figures:
-        """Sweeps, and whether the chains agree, as far as the kept draws tell."""
+    def figures(self, over: bool) -> Figures:
+        """Return the sweeps, and whether the chains agree, as far as the kept draws tell."""
         sweeps, joint = self.run.posterior.sweep, self.run.log_joint
         if not joint.size:
             return Figures(sweeps, sweeps)
@@ -114,65 +108,60 @@ class RunResult(Result):
         return Figures(sweeps, sweeps, ess, r, float(joint[:, -1].mean()), verdict)
 
     @property
-    def kept(self) -> Draws | None:
-        """The run's draws."""
-        return self.run.posterior.draws if self.run.posterior.draws.count else None
+    def prior(self) -> CellPrior:
+        """The run's."""
+        return self.run.posterior.prior
 
     @property
-    def origin(self) -> object:
-        """The run."""
-        return self.run
-
-    @property
-    def law(self) -> tuple[SensorModel, float]:
-        """The run's.
+    def law(self) -> None:
+        """That of the readings, which is the run's.
 
         Raises:
             BadInput: a sensor model that only the run's maker had.
         """
         if self.run.posterior.sensor is None:
             raise BadInput("the run's sensor model is not one of bayesmap's, so nothing can be predicted")
-        return super().law
 
-    @cached_property
-    def _scan_poses(self) -> NDArray[np.float64]:
+    @property
+    def kept(self) -> Draws | None:
+        """The run's draws."""
+        return self.run.posterior.draws if self.run.posterior.draws.count else None
+
+    @property
+    def scan_poses(self) -> NDArray[np.float64] | None:
+        """The mean over draws of where the scans were taken, (S, 3), where poses were inferred."""
         if not self.run.n_draws or "poses" not in self.run.posterior.draws.arrays:
-            return super().scan_poses
-        x, y, yaw = np.moveaxis(self.run.poses, -1, 0).reshape(3, -1, len(self.scene.scans))
+            return None
+        x, y, yaw = np.moveaxis(self.run.poses, -1, 0).reshape(3, -1, len(self.run.posterior.scans))
         heading = np.arctan2(np.sin(yaw).mean(axis=0), np.cos(yaw).mean(axis=0))
         return np.column_stack([x.mean(axis=0), y.mean(axis=0), heading])
 
-    @property
-    def scan_poses(self) -> NDArray[np.float64]:
-        """Where the scans were taken, (S, 3): the mean over draws where poses were inferred."""
-        return self._scan_poses
-
     def mean(self) -> NDArray[np.float64]:
-        """The run's, 0.5 where it says nothing."""
+        """Return the run's mean, 0.5 where it says nothing."""
         return np.nan_to_num(self.run.occupancy, nan=0.5)
 
     def observed(self) -> NDArray[np.bool_]:
-        """The run's."""
+        """Return the cells that the run observed."""
         return self.run.observed
 
     def log_joint(self) -> NDArray[np.float64]:
-        """Of every kept draw, (chains, n)."""
+        """Return the log joint of every kept draw, (chains, n)."""
         return self.run.log_joint
 
-    def draw(self, chain: int | None, number: int | None) -> tuple[NDArray[Any], int, int] | None:
-        """Return a kept draw; without a number, or past the last, the last."""
+    def draw(self, chain: int | None, number: int | None) -> OneMap | None:
+        """Return a kept draw; the last, where there is none with that number."""
         if not self.run.n_draws:
             return None
         last = self.run.n_draws - 1
         which = min(chain or 0, len(self.run.log_joint) - 1)
-        wanted = last if number is None else min(number, last)
-        return self.run.map_of(which, wanted), which, wanted
+        index = last if number is None else min(number, last)
+        return self.run.map_of(which, index), which, index
 
-    def as_run(self) -> Run:
+    def as_run(self, result: Result) -> Run:
         """Return the run."""
         return self.run
 
-    def write_map(self, target: Path) -> list[Path]:
+    def write_map(self, target: Path, result: Result) -> list[Path]:
         """Write the run's map for map_server, by its own thresholds; return the files."""
         return list(self.run.export(target))
 
@@ -239,7 +228,7 @@ class OpenedLog:
         p_wall = coarse_map(counts, Independent(document.prior) if prior is None else prior, document.prior)
         shape = document.grid.shape
         counted = Counted(p_wall.reshape(shape), counts.any(axis=0).reshape(shape), prior)
-        return CountResult(self.scene(document), document, counted)
+        return Result(self.scene(document), document, "hits", counted)
 
     def _of(self, grid: Grid) -> Traced:
         """The beams on a grid; those on the last one are kept."""

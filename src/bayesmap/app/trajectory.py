@@ -20,7 +20,8 @@ from numpy.typing import NDArray
 from bayesmap.app.protocol.document import Document
 from bayesmap.app.protocol.notices import Stage, Status
 from bayesmap.app.protocol.tasks import Infer, Located, Remember
-from bayesmap.app.shown.hit_maps import Counted, CountResult, counted_map, grown, scene_along
+from bayesmap.app.shown.hit_maps import Counted, counted_map, grown, scene_along
+from bayesmap.app.shown.result import Result
 from bayesmap.app.sources import OpenedLog, opened_log
 from bayesmap.poses.slam import infer_trajectory
 from bayesmap.poses.trajectory import Trajectory, calibrated
@@ -186,7 +187,7 @@ class Step:
     """
 
     grid: Grid
-    result: CountResult
+    result: Result
     stage: Stage | None = None
     text: str = ""
 
@@ -256,7 +257,7 @@ class Localization:
 
 def _step(task: Infer, scans: Scans, grid: Grid, counted: Counted, at: tuple[str, int, int] | None, text: str) -> Step:
     scene = scene_along(scans, grid, task.document.prior)
-    result = CountResult(scene, task.document.on_grid(grid), counted, along_odometry=True)
+    result = Result(scene, task.document.on_grid(grid), "counts", counted)
     stage = None
     if at is not None:
         name, done, of = at

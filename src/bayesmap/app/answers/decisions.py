@@ -44,8 +44,8 @@ def maps_of(result: Result) -> Maps:
     Raises:
         BadInput: a method without draws.
     """
-    if result.at_hand is not None:
-        return Maps(result.prior, result.at_hand)
+    if result.found.at_hand is not None:
+        return Maps(result.prior, result.found.at_hand)
     raise BadInput("a path is judged by draws of the map, and there are none yet; run Gibbs")
 
 
@@ -72,8 +72,8 @@ def views(result: Result, generation: int) -> tuple[Views, Buffers]:
     Raises:
         BadInput: no place at which a sensor could stand.
     """
-    document, mean = result.document, result.mean()
-    poses, spacing_m = _lattice(document, mean, result.observed())
+    document, mean = result.document, result.found.mean()
+    poses, spacing_m = _lattice(document, mean, result.found.observed())
     scans = result.scene.scans
     every = -(-len(scans.angles_rad) // MOST_ANGLES)
     angles = scans.angles_rad[::every]

@@ -152,7 +152,7 @@ def stop_ratios(result: Result, table: BeamTable, cell: int) -> BeamRatios | Non
     Raises:
         BadInput: a sensor model that only the run's maker had.
     """
-    if result.at_hand is None:
+    if result.found.at_hand is None:
         return None
     predictor, _ = predictor_of_result(result)
     places = np.flatnonzero(table.cells == cell)

@@ -15,7 +15,8 @@ from bayesmap.app.protocol.actions import MoveGhost
 from bayesmap.app.protocol.notices import GhostScan, Near
 from bayesmap.app.protocol.tasks import Buffers
 from bayesmap.app.scene import Scene, hits
-from bayesmap.app.shown.result import PriorResult, Result
+from bayesmap.app.shown.pilot import Pilot
+from bayesmap.app.shown.result import Nothing, Result
 from bayesmap.errors import BadInput
 from bayesmap.posterior.predictor import MapStates, Predictor, ScanPredictor, fixed_maps
 from bayesmap.sensors.model import RangeLimits
@@ -77,13 +78,14 @@ class GhostPredictor:
 
         That of chains which go on is made anew now and then.
         """
-        now = time.perf_counter()
-        stale = result.sweep != self._sweep and (result.ended or now > self._until)
-        if self._predictor is None or result.origin is not self._of or stale:
+        found, now = result.found, time.perf_counter()
+        of: object = result if not found.sweep else result.scene if isinstance(found, Pilot) else found
+        stale = found.sweep != self._sweep and (found.done or now > self._until)
+        if self._predictor is None or of is not self._of or stale:
             predictor, self._draws = predictor_of_result(result)
             limits = RangeLimits(result.scene.scans.min_range_m, result.scene.scans.max_range_m)
-            self._predictor, self._few, self._of = ScanPredictor.of(predictor, limits), None, result.origin
-            self._sweep, self._until = result.sweep, time.perf_counter() + STALE_SECONDS
+            self._predictor, self._few, self._of = ScanPredictor.of(predictor, limits), None, of
+            self._sweep, self._until = found.sweep, time.perf_counter() + STALE_SECONDS
         if not coarse or self._draws <= FEW_DRAWS:
             return self._predictor, self._draws
         if self._few is None:
@@ -101,9 +103,9 @@ def predictor_of_result(result: Result) -> tuple[Predictor, int]:
     try:
         maps = maps_of(result)
     except BadInput:
-        if isinstance(result, PriorResult):
+        if isinstance(result.found, Nothing):
             raise BadInput("there is nothing to predict from yet; run inference first") from None
-        chances = result.mean().reshape(1, -1)
+        chances = result.found.mean().reshape(1, -1)
         return Predictor(grid, fixed_maps(chances), scene.sensor, scene.hit_depth), 0
     sensor, depth = result.law
     one = grid.n_cells * (32 if maps.prior.has_surfaces else 4)

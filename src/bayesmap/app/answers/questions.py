@@ -111,7 +111,7 @@ def cell_facts(question: Inspect, now: Now) -> Answer:
 def _ratios(result: Result, table: BeamTable, cell: int) -> BeamRatios | None:
     """Return what beams say of a cell; None where nothing can be said."""
     if result.prior.words.kind == "binary":
-        return wall_ratios(table, result.mean().ravel(), cell)
+        return wall_ratios(table, result.found.mean().ravel(), cell)
     try:
         return stop_ratios(result, table, cell)
     except BadInput:

@@ -77,7 +77,7 @@ class Locator:
 
     def _map(self, result: Result) -> KnownMap:
         document = result.document
-        of: Hashable = result.origin
+        of: Hashable = result.found
         if document.simulated:
             of = (document.walls, document.grid, document.noise, document.max_range, document.angles, document.fov)
         if self._known is None or of != self._of:
@@ -159,6 +159,6 @@ def _scan_of(question: WhereAmI, result: Result, scan: int) -> tuple[Scans, int]
 
 
 def _inferred_map(result: Result) -> KnownMap:
-    if result.kept is None:
+    if result.found.kept is None:
         raise BadInput("a scan is located by draws of the map, and none are kept yet; Run keeps them")
     return KnownMap.of_run(result.as_run())

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import time
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy import special
 
 from bayesmap.app.scene import Touched, touched
-from bayesmap.app.shown.result import CHAINS, SAVED_DRAWS, Figures, Result, settings_of_run
+from bayesmap.app.shown.result import CHAINS, SAVED_DRAWS, Figures, Found, Result, settings_of_run
 from bayesmap.kernels.walls.propagate import Beliefs
 from bayesmap.kernels.walls.reach import reach_frequency
 from bayesmap.posterior.posterior import posterior_of_draws
@@ -24,7 +24,7 @@ THREADS_FROM_INCIDENCES = 200_000
 """Smaller tables leave the other cores to the page, which paints with them."""
 
 
-class Preview:
+class Preview(Found):
     """Rounds of belief propagation as in `bayesmap.samplers.propagate`, one at a time.
 
     Cells that no beam touches keep the prior exactly, so the rounds need not visit them: at 500 x 500 with one sensor
@@ -34,6 +34,8 @@ class Preview:
         rounds: done so far.
         converged: whether the last one changed no probability by more than the tolerance, or was the last allowed.
     """
+
+    approximate = True
 
     def __init__(self, problem: WallProblem) -> None:
         self.problem = problem
@@ -55,7 +57,7 @@ class Preview:
         change = float(np.abs(self._p - before).max())
         self.converged = self.rounds >= ROUNDS or change < TOLERANCE
 
-    def p_wall(self) -> NDArray[np.float64]:
+    def mean(self) -> NDArray[np.float64]:
         """Approximate posterior wall probability of every cell, (nx, ny)."""
         p = self.problem.p_wall.copy()
         p[self.part.cells] = self._p
@@ -71,42 +73,18 @@ class Preview:
 
     def marginals(self) -> Marginals:
         """What the rounds found, for `bayesmap.samplers.walls` and for a saved run."""
-        return Marginals(self.p_wall(), np.zeros(0), np.zeros(0), self.converged, self.converged, 0.0)
+        return Marginals(self.mean(), np.zeros(0), np.zeros(0), self.converged, self.converged, 0.0)
 
+    def figures(self, over: bool) -> Figures:
+        """Return the rounds done."""
+        return Figures(sweeps=self.rounds)
 
-@dataclass(frozen=True, eq=False)
-class BeliefResult(Result):
-    """What belief propagation has found."""
-
-    preview: Preview
-
-    approximate = True
-
-    @property
-    def method(self) -> str:
-        """The name of belief propagation."""
-        return "propagate"
-
-    @property
-    def figures(self) -> Figures:
-        """Rounds done."""
-        return Figures(sweeps=self.preview.rounds)
-
-    def mean(self) -> NDArray[np.float64]:
-        """Approximate posterior wall probability, (nx, ny)."""
-        return self.preview.p_wall()
-
-    def observed(self) -> NDArray[np.bool_]:
-        """Cells that a beam reaches before the first likely wall, (nx, ny)."""
-        return self.preview.observed()
-
-    def as_run(self) -> Run:
+    def as_run(self, result: Result) -> Run:
         """Return independent draws by the beliefs, as a run."""
-        problem, document = self.scene.problem, self.document
+        document, model = result.document, result.scene.model(self.problem.prior)
         began = time.perf_counter()
-        asked = DrawRequest(CHAINS, SAVED_DRAWS, document.seed, document.sweeps, self.preview.rounds)
-        found = draws_by_beliefs(problem, asked, replace(self.preview.marginals(), finished=True))
-        model = self.scene.model(problem.prior)
-        settings = settings_of_run(self, model, chains=CHAINS, draws=SAVED_DRAWS, rounds=self.preview.rounds)
+        request = DrawRequest(CHAINS, SAVED_DRAWS, document.seed, document.sweeps, self.rounds)
+        draws = draws_by_beliefs(result.scene.problem, request, replace(self.marginals(), finished=True))
+        settings = settings_of_run(result, model, chains=CHAINS, draws=SAVED_DRAWS, rounds=self.rounds)
         seconds = {"trace": 0.0, "total": time.perf_counter() - began}
-        return Run(posterior_of_draws(model, found, problem.n_incidences, settings, seconds))
+        return Run(posterior_of_draws(model, draws, result.scene.problem.n_incidences, settings, seconds))

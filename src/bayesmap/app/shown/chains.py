@@ -13,10 +13,9 @@ from numpy.typing import NDArray
 from bayesmap.app.protocol.document import CHAIN_METHODS, Document
 from bayesmap.app.scene import Scene
 from bayesmap.app.shown.beliefs import Preview
-from bayesmap.app.shown.result import CHAINS, Figures, Result, settings_of_run
+from bayesmap.app.shown.result import CHAINS, Figures, Found, Result, settings_of_run
 from bayesmap.app.shown.verdict import difference, judge_chains
 from bayesmap.cells.arrays import Draws
-from bayesmap.cells.kind import CellPrior
 from bayesmap.model import Model
 from bayesmap.poses.prior import PosePrior, Uncertain
 from bayesmap.posterior.diagnostics import bulk_ess, rhat
@@ -30,7 +29,6 @@ from bayesmap.samplers.sampler import Problem, Sampler
 from bayesmap.samplers.wall_problem import WallProblem
 from bayesmap.samplers.walls import Start, start_maps
 from bayesmap.samplers.with_poses import MovableSampler, PoseProblem, WithPoses
-from bayesmap.sensors.model import SensorModel
 
 POSE_CHAINS = 16
 """Where poses are uncertain: a map holds its sensors in place, so that each chain stays near where it started."""
@@ -77,7 +75,7 @@ def joined(before: Draws | None, after: Draws, most: int = RECENT) -> Draws:
     return replace(after, arrays=both)
 
 
-class Stream:
+class Stream(Found):
     """Some chains from their start to their last sweep, whatever their kind of cells.
 
     Attributes:
@@ -92,7 +90,8 @@ class Stream:
     def __init__(
         self, model: Model, sampler: Sampler[Any, Any], problem: Problem, total: int, seed: int, *, keep: bool
     ) -> None:
-        self.model, self.problem, self._sampler, self.keep = model, problem, sampler, keep
+        self.model: Model = model
+        self.problem, self._sampler, self.keep = problem, sampler, keep
         self.n_chains = POSE_CHAINS if model.poses.unknown else CHAINS
         self.state = sampler.init(problem, range(self.n_chains), seed)
         empty = no_draws(model, self.state, self.n_chains)
@@ -152,11 +151,6 @@ class Stream:
         """The kept draws."""
         return self._record.draws
 
-    @property
-    def recent(self) -> Draws:
-        """The last maps, kept or not; see `bayesmap.app.shown.chains`."""
-        return self._recent
-
     def mean(self) -> NDArray[np.float64]:
         """Mean over the counted maps of the probability that a cell stops a beam, (nx, ny).
 
@@ -208,6 +202,37 @@ class Stream:
             n_incidences=self.problem.n_incidences,
             seconds={"trace": 0.0, "warm_start": 0.0, "sampling": self.seconds}, finished=self.done,
         )  # fmt: skip
+
+    @property
+    def kept(self) -> Draws | None:
+        """The kept draws, if there are any."""
+        return self.draws if self.draws.count else None
+
+    @property
+    def at_hand(self) -> Draws | None:
+        """The kept draws, or the latest where none are kept."""
+        draws = self.draws if self.draws.count else self._recent
+        return draws if draws.count else None
+
+    def figures(self, over: bool) -> Figures:
+        """Return the sweeps done, and whether the chains agree."""
+        mixing, apart = self.mixing(), difference(self.means(), self.observed())
+        verdict = judge_chains(mixing.rhat, mixing.ess, self.sweep, apart, over=over or self.done)
+        return Figures(self.sweep, self.total, mixing.ess, mixing.rhat, mixing.log_joint, verdict)
+
+    def as_run(self, result: Result) -> Run:
+        """Return the kept draws as a run.
+
+        Raises:
+            BadInput: no draw was kept.
+        """
+        if self.kept is None:
+            return super().as_run(result)
+        count = self.total // self.thin
+        settings = settings_of_run(result, self.model, chains=self.n_chains, draws=count, thin=self.thin)
+        chains = self.chains()
+        total = {"total": chains.seconds["sampling"]}
+        return Run(posterior_of_chains(self.model, chains, settings, total, None))
 
 
 def pose_prior(document: Document) -> PosePrior | None:
@@ -282,102 +307,3 @@ def starts(problem: WallProblem, document: Document, preview: Preview | None) ->
     if chains > CHAINS:  # a map that is shifted starts empty: the beliefs are those of another place
         likely[(pose_starts(document, chains) != pose_starts(document, 1)).any(axis=(1, 2))] = False
     return likely
-
-
-@dataclass(frozen=True, eq=False)
-class ChainResult(Result):
-    """Chains as far as they are.
-
-    Attributes:
-        stream: the chains.
-        over: whether they were cancelled, and will not go on.
-    """
-
-    stream: Stream
-    over: bool = False
-
-    @property
-    def method(self) -> str:
-        """The document's."""
-        return self.document.method
-
-    @property
-    def prior(self) -> CellPrior:
-        """Under which they run."""
-        return self.stream.model.cells
-
-    @property
-    def figures(self) -> Figures:
-        """Sweeps done, and whether the chains agree."""
-        stream, mixing = self.stream, self.stream.mixing()
-        apart = difference(stream.means(), stream.observed())
-        over = self.over or stream.done
-        verdict = judge_chains(mixing.rhat, mixing.ess, stream.sweep, apart, over=over)
-        return Figures(stream.sweep, stream.total, mixing.ess, mixing.rhat, mixing.log_joint, verdict)
-
-    @property
-    def kept(self) -> Draws | None:
-        """The kept draws, if there are any."""
-        return self.stream.draws if self.stream.draws.count else None
-
-    @property
-    def at_hand(self) -> Draws | None:
-        """The kept draws, or the latest where none are kept."""
-        if self.kept is not None:
-            return self.kept
-        return self.stream.recent if self.stream.recent.count else None
-
-    @property
-    def origin(self) -> object:
-        """The chains."""
-        return self.stream
-
-    @property
-    def sweep(self) -> int:
-        """Sweeps done."""
-        return self.stream.sweep
-
-    @property
-    def ended(self) -> bool:
-        """Whether all sweeps are done."""
-        return self.stream.done
-
-    @property
-    def law(self) -> tuple[SensorModel, float]:
-        """Those of the model that is sampled."""
-        return self.stream.model.sensor, self.stream.model.hit_depth
-
-    def mean(self) -> NDArray[np.float64]:
-        """Mean over the counted maps, (nx, ny)."""
-        return self.stream.mean()
-
-    def observed(self) -> NDArray[np.bool_]:
-        """Cells of which a beam said something in at least half of the maps, (nx, ny)."""
-        return self.stream.observed()
-
-    def draw(self, chain: int | None, number: int | None) -> tuple[NDArray[Any], int, int]:
-        """Return a kept draw, or the latest."""
-        return self.stream.draw(chain, number)
-
-    def log_joint(self) -> NDArray[np.float64]:
-        """Of every sweep, (chains, sweeps)."""
-        return self.stream.log_joint()
-
-    def cancelled(self) -> Result:
-        """Return the chains as they are, to be judged as they are."""
-        return replace(self, over=True)
-
-    def as_run(self) -> Run:
-        """Return the kept draws as a run.
-
-        Raises:
-            BadInput: no draw was kept.
-        """
-        stream = self.stream
-        if self.kept is None:
-            return super().as_run()
-        count = stream.total // stream.thin
-        settings = settings_of_run(self, stream.model, chains=stream.n_chains, draws=count, thin=stream.thin)
-        chains = stream.chains()
-        total = {"total": chains.seconds["sampling"]}
-        return Run(posterior_of_chains(stream.model, chains, settings, total, None))

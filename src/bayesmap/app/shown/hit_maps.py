@@ -6,14 +6,12 @@ still wrong. The rule for walls is OctoMap's log-odds (`bayesmap.posterior.basel
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.app.protocol.document import LARGEST_SIDE_OF_FILE
 from bayesmap.app.scene import Beams, Scene
-from bayesmap.app.shown.result import Result
+from bayesmap.app.shown.result import Floats, Found
 from bayesmap.beams.table import BeamTable
 from bayesmap.cells.binary import Independent
 from bayesmap.cells.kind import CellPrior
@@ -26,52 +24,32 @@ MOST_SCANS = 800
 """Scans of which a map along changing poses is made, evenly spread: it is made again and again."""
 
 
-@dataclass(frozen=True, eq=False)
-class Counted:
+class Counted(Found):
     """A map of hits and passes.
 
-    Attributes:
+    Args:
         p_wall: probability that a cell stops a beam, as counts have it, (nx, ny).
         observed: cells that some beam passed or hit, (nx, ny).
         prior: of cells that are no walls: it has the words for the map.
     """
 
-    p_wall: NDArray[np.float64]
-    observed: NDArray[np.bool_]
-    prior: CellPrior | None = None
-
-
-@dataclass(frozen=True, eq=False)
-class CountResult(Result):
-    """A map of hits and passes.
-
-    Attributes:
-        counted: the map.
-        along_odometry: whether poses are still in doubt.
-    """
-
-    counted: Counted
-    along_odometry: bool = False
-
     approximate = True
 
-    @property
-    def method(self) -> str:
-        """Return "counts" along poses that are still in doubt, else "hits"."""
-        return "counts" if self.along_odometry else "hits"
+    def __init__(self, p_wall: Floats, observed: NDArray[np.bool_], prior: CellPrior | None = None) -> None:
+        self._p_wall, self._observed, self._prior = p_wall, observed, prior
 
     @property
-    def prior(self) -> CellPrior:
-        """Of the cells that are counted."""
-        return self.scene.prior if self.counted.prior is None else self.counted.prior
+    def prior(self) -> CellPrior | None:
+        """The prior of cells that are no walls."""
+        return self._prior
 
-    def mean(self) -> NDArray[np.float64]:
-        """As counts have it."""
-        return self.counted.p_wall
+    def mean(self) -> Floats:
+        """Return the probability that a cell stops a beam, as counts have it, (nx, ny)."""
+        return self._p_wall
 
     def observed(self) -> NDArray[np.bool_]:
-        """Cells that some beam passed or hit."""
-        return self.counted.observed
+        """Return the cells that some beam passed or hit, (nx, ny)."""
+        return self._observed
 
 
 class HitCounts:

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import special
 
-from bayesmap.app.shown.result import CHAINS, SAVED_DRAWS, Figures, Result, settings_of_run
+from bayesmap.app.shown.result import CHAINS, SAVED_DRAWS, Figures, Floats, Found, Result, settings_of_run
 from bayesmap.app.shown.verdict import judge_particles
 from bayesmap.kernels.random import mix
 from bayesmap.kernels.walls.importance import weigh
@@ -52,11 +52,11 @@ class Weighing:
         self._seconds += spent
         self._piece = int(np.clip(now * PIECE_SECONDS / max(spent, 1e-9), 1, 4 * self._piece))
 
-    def particles(self) -> Particles:
-        """Those weighed so far."""
+    def found(self) -> Weighed:
+        """Return the particles weighed so far."""
         log_weights = self._log_weights[: self.done]
         log_total = float(special.logsumexp(log_weights))
-        return Particles(
+        particles = Particles(
             log_weights=log_weights - log_total,
             log_evidence=log_total - float(np.log(self.done)),
             problem=self.problem,
@@ -64,10 +64,11 @@ class Weighing:
             seconds=self._seconds,
             finished=self.done == self.total,
         )
+        return Weighed(particles, self.total)
 
 
 @dataclass(frozen=True, eq=False)
-class ParticleResult(Result):
+class Weighed(Found):
     """Weighted particles.
 
     Attributes:
@@ -78,37 +79,31 @@ class ParticleResult(Result):
     particles: Particles
     total: int
 
-    @property
-    def method(self) -> str:
-        """The name of importance sampling."""
-        return "importance"
-
-    @property
-    def figures(self) -> Figures:
-        """Particles weighed, and how many of equal weight they are worth."""
+    def figures(self, over: bool) -> Figures:
+        """Return the particles weighed, and how many of equal weight they are worth."""
         ess = self.particles.effective_sample_size
         return Figures(len(self.particles.log_weights), self.total, ess, verdict=judge_particles(ess))
 
     @property
-    def log_weights(self) -> NDArray[np.float64]:
+    def log_weights(self) -> Floats:
         """Log weights, (n,)."""
         return self.particles.log_weights
 
-    def mean(self) -> NDArray[np.float64]:
-        """Posterior wall probability, (nx, ny)."""
+    def mean(self) -> Floats:
+        """Return the posterior wall probability, (nx, ny)."""
         return self.particles.occupancy()
 
     def observed(self) -> NDArray[np.bool_]:
-        """Cells that a beam reaches where walls are likely, (nx, ny)."""
-        return reach_frequency(self.scene.problem.table, self.mean()[None] > 0.5) > 0
+        """Return the cells that a beam reaches where walls are likely, (nx, ny)."""
+        return reach_frequency(self.particles.problem.table, self.mean()[None] > 0.5) > 0
 
-    def as_run(self) -> Run:
+    def as_run(self, result: Result) -> Run:
         """Return draws by weight, as a run."""
-        problem, document = self.scene.problem, self.document
+        problem, document = self.particles.problem, result.document
         began = time.perf_counter()
-        asked = DrawRequest(CHAINS, SAVED_DRAWS, document.seed, document.sweeps, 0)
-        found = draws_by_importance(problem, asked, self.particles)
-        model = self.scene.model(problem.prior)
-        settings = settings_of_run(self, model, chains=CHAINS, draws=SAVED_DRAWS)
+        request = DrawRequest(CHAINS, SAVED_DRAWS, document.seed, document.sweeps, 0)
+        draws = draws_by_importance(problem, request, self.particles)
+        model = result.scene.model(problem.prior)
+        settings = settings_of_run(result, model, chains=CHAINS, draws=SAVED_DRAWS)
         seconds = {"trace": 0.0, "total": time.perf_counter() - began}
-        return Run(posterior_of_draws(model, found, problem.n_incidences, settings, seconds))
+        return Run(posterior_of_draws(model, draws, problem.n_incidences, settings, seconds))

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Generator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 from typing import Any
 
@@ -19,89 +19,58 @@ from numpy.typing import NDArray
 from bayesmap.app.protocol.document import Document
 from bayesmap.app.scene import Scene
 from bayesmap.app.shown.chains import joined
-from bayesmap.app.shown.result import Figures, Result
+from bayesmap.app.shown.result import Figures, Floats, Found, OneMap
 from bayesmap.cells.arrays import Draws
-from bayesmap.cells.kind import CellPrior
 from bayesmap.cells.kinds import BUILT_IN
 from bayesmap.model import Model
 from bayesmap.samplers.fit import PILOT_SWEEPS, first_sensor, pilot_sweeps
 from bayesmap.samplers.methods import Gibbs, sampler_of
 from bayesmap.samplers.sampler import Keep
-from bayesmap.sensors.model import SensorModel
-
-Floats = NDArray[np.float64]
 
 
-@dataclass(frozen=True, eq=False)
-class PilotResult(Result):
+class Pilot(Found):
     """Where the chain stands that fits sensor and prior, before the chains that are kept begin.
 
     Attributes:
         model: under the sensor and the prior that are fitted so far.
         draws: the latter half of those that it has made, one chain.
-        done, total: sweeps that it has made, and will make.
+        total: sweeps that it will make.
     """
-
-    model: Model
-    draws: Draws
-    done: int
-    total: int
 
     approximate = True
 
-    @property
-    def method(self) -> str:
-        """The name of the chain that fits."""
-        return "pilot"
+    def __init__(self, model: Model, draws: Draws, sweep: int, total: int, touched: NDArray[np.bool_]) -> None:
+        self.model: Model = model
+        self.draws, self.total, self.averaged = draws, total, draws.count
+        self._sweep, self._touched = sweep, touched
 
     @property
-    def prior(self) -> CellPrior:
-        """As it is fitted so far."""
-        return self.model.cells
-
-    @property
-    def figures(self) -> Figures:
+    def sweep(self) -> int:
         """Sweeps done."""
-        return Figures(self.done, self.total)
+        return self._sweep
 
     @property
     def at_hand(self) -> Draws:
         """The latter half of its draws."""
         return self.draws
 
-    @property
-    def averaged(self) -> int:
-        """How many they are."""
-        return self.draws.count
-
-    @property
-    def origin(self) -> object:
-        """The readings that it explains."""
-        return self.scene
-
-    @property
-    def sweep(self) -> int:
-        """Sweeps done."""
-        return self.done
-
-    @property
-    def law(self) -> tuple[SensorModel, float]:
-        """The sensor as it is fitted so far."""
-        return self.model.sensor, self.model.hit_depth
+    def figures(self, over: bool) -> Figures:
+        """Return the sweeps done."""
+        return Figures(self.sweep, self.total)
 
     @cached_property
     def _mean(self) -> Floats:
         return self.model.cells.mean_map(self.draws)
 
     def mean(self) -> Floats:
-        """Mean over the draws, (nx, ny)."""
+        """Return the mean over the draws, (nx, ny)."""
         return self._mean
 
     def observed(self) -> NDArray[np.bool_]:
-        """Cells that a beam touches, (nx, ny)."""
-        return self.scene.problem.touched()
+        """Return the cells that a beam touches, (nx, ny)."""
+        return self._touched
 
-    def draw(self, chain: int | None, number: int | None) -> tuple[NDArray[Any], int, int]:
+    def draw(self, chain: int | None, number: int | None) -> OneMap:
         """Return its last draw."""
         return self.model.cells.map_of(self.draws, 0, -1), 0, 0
 
@@ -117,9 +86,7 @@ def depends_on(document: Document) -> Document:
     )  # fmt: skip
 
 
-def fit_by_pilot(
-    scene: Scene, document: Document, show: Callable[[PilotResult], None]
-) -> Generator[None, None, Fitted]:
+def fit_by_pilot(scene: Scene, document: Document, show: Callable[[Pilot], None]) -> Generator[None, None, Fitted]:
     """Fit sensor and prior to the readings in short pieces.
 
     Args:
@@ -138,10 +105,11 @@ def fit_by_pilot(
     yield
     pilot = pilot_sweeps(problem, document.seed, PILOT_SWEEPS, keep=Keep(every=1))
     draws: Draws | None = None
+    touched = scene.problem.touched()
     for sweep, (now, info) in enumerate(pilot, 1):
         problem, model = problem.under(now.sensor, now.prior), replace(model, sensor=now.sensor, cells=now.prior)
         latest = Draws(model.grid, now.prior.arrays, info.draws, problem.coordinates)
         draws = joined(draws, latest, math.ceil(sweep / 2))
-        show(PilotResult(scene, document, model, draws, sweep, PILOT_SWEEPS))
+        show(Pilot(model, draws, sweep, PILOT_SWEEPS, touched))
         yield
     return model, sampler, sampler.prepare(model, "cpu")  # beams are followed as far as the fitted noise reaches

@@ -1,4 +1,4 @@
-"""What has been found of a document so far: the interface of every method's result, and the prior."""
+"""Results: what has been found of a document so far, whatever the method."""
 
 from __future__ import annotations
 
@@ -26,6 +26,8 @@ from bayesmap.sensors.describe import describe
 from bayesmap.sensors.model import SensorModel
 
 Floats = NDArray[np.float64]
+OneMap = tuple[NDArray[Any], int, int]
+"""A map, (nx, ny), its chain and its number."""
 
 CHAINS = 2
 SAVED_DRAWS = 500
@@ -62,43 +64,44 @@ class Figures:
         return {"sweeps": self.sweeps, "total": self.total, **finite, "verdict": self.verdict}
 
 
-@dataclass(frozen=True, eq=False)
-class Result(ABC):
-    """What one method has found.
+class Found(ABC):
+    """What one method has found. The defaults are those of a method without draws.
 
     Attributes:
-        scene: the readings.
-        document: what was asked.
+        approximate: whether the method is quick and not the posterior's.
+        model: what is sampled, where that is not the readings' own model.
+        averaged: the number of draws that the mean is made of, where the method says so.
     """
 
-    scene: Scene
-    document: Document
-
     approximate = False
-    """Whether the method is quick and not the posterior's."""
-
-    @property
-    @abstractmethod
-    def method(self) -> str:
-        """What found it: a method's name."""
+    model: Model | None = None
+    averaged: int | None = None
 
     @abstractmethod
     def mean(self) -> Floats:
-        """Posterior probability that a cell stops a beam, (nx, ny)."""
+        """Return the posterior probability that a cell stops a beam, (nx, ny)."""
 
     @abstractmethod
     def observed(self) -> NDArray[np.bool_]:
-        """Cells that a beam reaches, (nx, ny)."""
+        """Return the cells that a beam reaches, (nx, ny)."""
 
-    @property
-    def prior(self) -> CellPrior:
-        """Of the cells on show: it has the words for them."""
-        return self.scene.prior
-
-    @property
-    def figures(self) -> Figures:
-        """How far the result is, and how good."""
+    def figures(self, over: bool) -> Figures:
+        """Return how far this is, and how good; `over` where it will not go on."""
         return Figures()
+
+    @property
+    def prior(self) -> CellPrior | None:
+        """The prior of the cells on show, where it is not the readings' own."""
+        return None if self.model is None else self.model.cells
+
+    @property
+    def law(self) -> tuple[SensorModel, float] | None:
+        """The sensor model and the hit depth that predict readings, where they are not the readings' own.
+
+        Raises:
+            BadInput: a sensor model that only the run's maker had.
+        """
+        return None if self.model is None else (self.model.sensor, self.model.hit_depth)
 
     @property
     def kept(self) -> Draws | None:
@@ -110,17 +113,12 @@ class Result(ABC):
         """The kept draws, or the latest of chains that keep none."""
         return self.kept
 
-    @property
-    def averaged(self) -> int | None:
-        """The number of draws that the mean is made of, where the method says so."""
-        return None
-
-    def draw(self, chain: int | None, number: int | None) -> tuple[NDArray[Any], int, int] | None:
-        """Return one map, (nx, ny), its chain and its number; None where this method has none."""
+    def draw(self, chain: int | None, number: int | None) -> OneMap | None:
+        """Return one draw; the last, where there is none with that number."""
         return None
 
     def log_joint(self) -> Floats:
-        """Log joint of every sweep or kept draw, (chains, n)."""
+        """Return the log joint of every sweep or kept draw, (chains, n)."""
         return np.zeros((0, 0))
 
     @property
@@ -129,9 +127,9 @@ class Result(ABC):
         return None
 
     @property
-    def origin(self) -> object:
-        """What stays the same while chains go on."""
-        return self
+    def scan_poses(self) -> Floats | None:
+        """Where the scans were taken, (S, 3), where poses were inferred."""
+        return None
 
     @property
     def sweep(self) -> int:
@@ -139,48 +137,67 @@ class Result(ABC):
         return 0
 
     @property
-    def ended(self) -> bool:
-        """Whether chains have done their last sweep."""
+    def done(self) -> bool:
+        """Whether chains have done all their sweeps."""
         return False
 
-    @property
-    def law(self) -> tuple[SensorModel, float]:
-        """The sensor model and the hit depth under which readings are predicted.
-
-        Raises:
-            BadInput: a sensor model that only the run's maker had.
-        """
-        return self.scene.sensor, self.scene.hit_depth
-
-    @property
-    def scan_poses(self) -> Floats:
-        """Where the scans were taken, (S, 3)."""
-        return self.scene.scans.poses
-
-    def cancelled(self) -> Result:
-        """Return the result of a job that will not go on."""
-        return self
-
-    def as_run(self) -> Run:
-        """Return the result as `bayesmap.infer` returns it.
+    def as_run(self, result: Result) -> Run:
+        """Return this as `bayesmap.infer` returns it.
 
         Raises:
             BadInput: a method without draws, or a chain of which none was kept.
         """
         raise BadInput("there are no draws to save; run inference first")
 
-    def write_map(self, target: Path) -> list[Path]:
+    def write_map(self, target: Path, result: Result) -> list[Path]:
         """Write the map for map_server; return the files."""
         from bayesmap.io.ros.maps import write_map
 
-        return list(write_map(target, np.clip(self.mean(), 0.0, 1.0), self.document.grid, self.observed()))
+        return list(write_map(target, np.clip(self.mean(), 0.0, 1.0), result.document.grid, self.observed()))
 
-    # What follows from these
+
+@dataclass(frozen=True, eq=False)
+class Result:
+    """What has been found of a document.
+
+    Attributes:
+        scene: the readings.
+        document: what was asked.
+        method: what found it: a method's name.
+        found: what that is.
+        over: whether chains were cancelled, and will not go on.
+    """
+
+    scene: Scene
+    document: Document
+    method: str
+    found: Found
+    over: bool = False
+
+    @property
+    def prior(self) -> CellPrior:
+        """Of the cells on show: it has the words for them."""
+        return self.found.prior or self.scene.prior
+
+    @property
+    def law(self) -> tuple[SensorModel, float]:
+        """The sensor model and the hit depth that predict readings.
+
+        Raises:
+            BadInput: a sensor model that only the run's maker had.
+        """
+        return self.found.law or (self.scene.sensor, self.scene.hit_depth)
+
+    @cached_property
+    def scan_poses(self) -> Floats:
+        """Where the scans were taken, (S, 3)."""
+        poses = self.found.scan_poses
+        return self.scene.scans.poses if poses is None else poses
 
     @cached_property
     def width(self) -> Floats | None:
         """Width of each cell's central 90 % interval, (nx, ny); None for walls, which have none, or without draws."""
-        draws = self.at_hand
+        draws = self.found.at_hand
         if draws is None or not self.prior.has_interval:
             return None
         lower, upper = self.prior.interval(draws.thinned(INTERVAL_DRAWS), 0.9)
@@ -192,7 +209,7 @@ class Result(ABC):
 
         None without draws, or where cells have none.
         """
-        draws = self.at_hand
+        draws = self.found.at_hand
         if draws is None or not self.prior.has_surfaces:
             return None
         return draws.index["surface_cell"], *self.prior.surfaces(draws)
@@ -206,38 +223,44 @@ class Result(ABC):
     @property
     def draw_count(self) -> DrawCount:
         """How many draws are kept."""
-        return DrawCount() if self.kept is None else DrawCount(self.kept.chains, self.kept.count)
+        kept = self.found.kept
+        return DrawCount() if kept is None else DrawCount(kept.chains, kept.count)
 
-    @property
-    def packed(self) -> NDArray[np.uint8]:
-        """Kept maps of walls, (chains, count, bytes); none where a map's cells are numbers."""
-        if self.kept is not None and self.kept.specs[0].storage == "bits":
-            return self.kept.arrays[self.kept.specs[0].name]
-        return np.zeros((0, 0, 0), dtype=np.uint8)
+    def as_run(self) -> Run:
+        """Return the result as `bayesmap.infer` returns it.
+
+        Raises:
+            BadInput: a method without draws, or a chain of which none was kept.
+        """
+        return self.found.as_run(self)
 
 
-@dataclass(frozen=True, eq=False)
-class PriorResult(Result):
+class Nothing(Found):
     """Nothing yet: the prior."""
 
-    @property
-    def method(self) -> str:
-        """None."""
-        return "none"
+    def __init__(self, scene: Scene, document: Document) -> None:
+        self._grid = scene.grid
+        # Another kind of cells has its own prior, which is fitted once there are chains.
+        other = document.cells != scene.prior.words.kind
+        self._prior: CellPrior = BUILT_IN[document.cells]() if other else scene.prior
 
     @property
     def prior(self) -> CellPrior:
-        """That of the kind of cells that is asked for; it is fitted once there are chains."""
-        other = self.document.cells != self.scene.prior.words.kind
-        return BUILT_IN[self.document.cells]() if other else self.scene.prior
+        """That of the kind of cells that is asked for."""
+        return self._prior
 
     def mean(self) -> Floats:
-        """The prior's."""
-        return self.prior.mean_stop(self.scene.grid)
+        """Return the prior's mean, (nx, ny)."""
+        return self._prior.mean_stop(self._grid)
 
     def observed(self) -> NDArray[np.bool_]:
-        """No cell."""
-        return np.zeros(self.document.grid.shape, dtype=np.bool_)
+        """Return no cell."""
+        return np.zeros(self._grid.shape, dtype=np.bool_)
+
+
+def nothing_yet(scene: Scene, document: Document) -> Result:
+    """Return the result before anything is found."""
+    return Result(scene, document, "none", Nothing(scene, document))
 
 
 def settings_of_run(
