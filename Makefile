@@ -29,7 +29,8 @@ export PIP_DISABLE_PIP_VERSION_CHECK := 1
 demo: .venv/core          ## infer the tutorial's map; pictures, the saved run and the JSON land in runs/demo
 	$(BIN)/bayesmap demo --output runs/demo --force
 
-TESTS := $(BIN)/python -m pytest -n auto --dist loadgroup --no-loadscope-reorder
+# A worker that dies fails the run: pytest-xdist can wait for ever for the one that it starts in its place.
+TESTS := $(BIN)/python -m pytest -n auto --dist loadgroup --no-loadscope-reorder --max-worker-restart=0
 
 # The page's own tests need its tools, and skip without them.
 page-tools:

@@ -293,8 +293,7 @@ class RayFleet:
             self._stop()
             raise
         finally:
-            for task in self.running:
-                self.ray.cancel(task, force=True)
+            # Not Ray's cancel, which can abort this process: a worker without a mailbox fails when it next writes.
             self.running.clear()
             self.ray.kill(self.mailbox)
 

@@ -127,13 +127,10 @@ class RayExecutor:
             ConnectionError: a worker died more often than it may.
         """
         ray = connect(self.address)
-        run = _RayRun(ray, self, job, resume, watch)
         try:
-            return run.run(on_checkpoint, checkpoint_every_s)
+            return _RayRun(ray, self, job, resume, watch).run(on_checkpoint, checkpoint_every_s)
         except ray.exceptions.RayError as error:
             raise failed(error) from error
-        finally:
-            run.cancel()
 
     def groups(self, chains: int, tasks_at_once: int) -> list[slice]:
         """Divide chains into groups of neighbours, of sizes that differ by one at most."""
@@ -273,7 +270,8 @@ class _RayRun:
                 on_checkpoint(replace(so_far, finished=False))
                 saved_at = time.monotonic()
                 pause_s = pause_after(saved_at - now, checkpoint_every_s)
-        self.cancel()
+        # Segments that still run are left to end, in seconds. Never cancel them: Ray aborts this process when it cancels
+        # a task that has just returned (the race of its pull request 54798, which 2.60 still has).
         return self.so_far()
 
     @property
@@ -303,12 +301,6 @@ class _RayRun:
                 if part is not None
             ]
         )
-
-    def cancel(self) -> None:
-        """Give up the segments that are running."""
-        for ref in self.running:
-            self.ray.cancel(ref, force=True)
-        self.running.clear()
 
     def _share(self) -> None:
         """Put the model and what the sampler prepares of it into the object store."""
