@@ -55,9 +55,7 @@ def squares(truth, gaussian):
 
 @pytest.mark.full
 @pytest.mark.parametrize(
-    ("in_common", "low", "high"),
-    [(True, 0.5, 2.0), (False, 0.5, 1.2)],
-    ids=["in common", "one by one"],
+    ("in_common", "low", "high"), [(True, 0.5, 2.0), (False, 0.5, 1.2)], ids=["in common", "one by one"]
 )
 def test_covariances_have_the_size_of_errors(in_common, low, high):
     """Means over 40 alignments; by their spread over seeds a false alarm has a chance under 1 in 10 000."""

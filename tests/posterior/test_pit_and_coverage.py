@@ -12,14 +12,7 @@ from oracle.verdict import ALPHA
 
 import bayesmap as bm
 from bayesmap.kernels.rays import trace_rays
-from bayesmap.posterior.calibration import (
-    ScanBlocks,
-    binary_scores,
-    inside,
-    pit_histogram,
-    randomised_pit,
-    reliability,
-)
+from bayesmap.posterior.calibration import ScanBlocks, binary_scores, inside, pit_histogram, randomised_pit, reliability
 from bayesmap.posterior.predictor import Predictor, fixed_maps
 from bayesmap.posterior.scores import score_prediction
 from bayesmap.sensors.model import RangeLimits

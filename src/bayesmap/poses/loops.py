@@ -147,12 +147,7 @@ def match_submaps(
 
 
 def _refined(
-    path: KeyPath,
-    first: NDArray[np.intp],
-    second: NDArray[np.intp],
-    start: Floats,
-    scores: Floats,
-    threads: int | None,
+    path: KeyPath, first: NDArray[np.intp], second: NDArray[np.intp], start: Floats, scores: Floats, threads: int | None
 ) -> Closures:
     """The second's scan refined against the scans of the first's submap, in the first's frame."""
     members = [path.around(int(k), AROUND_M) for k in first]

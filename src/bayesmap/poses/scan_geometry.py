@@ -189,11 +189,7 @@ class ScanGeometry:
 
 
 def scan_geometry(
-    scans: Scans,
-    *,
-    farthest_m: float | None = None,
-    device: str = "cpu",
-    threads: int | None = None,
+    scans: Scans, *, farthest_m: float | None = None, device: str = "cpu", threads: int | None = None
 ) -> ScanGeometry:
     """Points and normals of scans, by the scans' own angles and limits.
 

@@ -14,13 +14,7 @@ from bayesmap.poses.calibration import angle_step_ratio
 from bayesmap.poses.checkpoint import Stages, fingerprint
 from bayesmap.poses.front_end import Track, follow, grid_half_width
 from bayesmap.poses.key_alignment import KeyAlignment
-from bayesmap.poses.key_graph import (
-    ClosedGraph,
-    close_loops,
-    contradicted_links,
-    poses_between_keys,
-    unconfirmed_links,
-)
+from bayesmap.poses.key_graph import ClosedGraph, close_loops, contradicted_links, poses_between_keys, unconfirmed_links
 from bayesmap.poses.log_checks import check_scans
 from bayesmap.poses.odometry_factors import StatedOdometry, stated_odometry
 from bayesmap.poses.placement import place_scans

@@ -103,10 +103,7 @@ class Baseline:
 
 BASELINES = (
     Baseline(
-        "hit ratio",
-        hit_ratio,
-        (Parameter("a", 1e-5, 100.0), Parameter("b", 1e-5, 100.0)),
-        ({"a": 0.1, "b": 0.5},),
+        "hit ratio", hit_ratio, (Parameter("a", 1e-5, 100.0), Parameter("b", 1e-5, 100.0)), ({"a": 0.1, "b": 0.5},)
     ),
     Baseline(
         "log-odds, tuned",

@@ -72,12 +72,7 @@ def path_is_free(posterior: Drawn, path: ArrayLike, radius_m: float) -> FreeProb
 
 
 def shortest_safe_path(
-    posterior: Drawn,
-    start: ArrayLike,
-    goal: ArrayLike,
-    radius_m: float,
-    risk: float,
-    on_progress: OnShare = ignored,
+    posterior: Drawn, start: ArrayLike, goal: ArrayLike, radius_m: float, risk: float, on_progress: OnShare = ignored
 ) -> Route:
     """Find the shortest path of a disc whose risk stays under a bound (`bayesmap.posterior.route`).
 

@@ -96,12 +96,7 @@ def _solid_squares(stops: NDArray[np.float32], grid: Grid) -> NDArray[np.bool_]:
 
 
 def plan_route(
-    blocked: Floats,
-    grid: Grid,
-    start: Floats,
-    goal: Floats,
-    risk: float,
-    judge: Callable[[Floats], FreeProbability],
+    blocked: Floats, grid: Grid, start: Floats, goal: Floats, risk: float, judge: Callable[[Floats], FreeProbability]
 ) -> Route:
     """Find the shortest path from start to goal whose risk stays under a bound.
 
