@@ -17,7 +17,7 @@ import numpy as np
 import bayesmap as bm
 from bayesmap.posterior.decisions import next_views, typical_sigma_m
 from bayesmap.posterior.information import beam_information
-from bayesmap.posterior.passage import centres_world, distance_to_path_m, square_to_path_m
+from bayesmap.posterior.route import centres_world, distance_to_path_m, square_to_path_m
 
 LOG = Path(os.environ.get("BAYESMAP_DATA", "../shared/data")) / "intel-corrected.log.gz"
 LENGTH_M, RADIUS_M, FARTHEST_M, EDGE_M = 0.5, 0.25, 8.0, 0.02

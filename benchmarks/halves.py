@@ -35,7 +35,7 @@ def difference_scales(one: Trajectory, other: Trajectory, first: NDArray[np.intp
 
 @dataclass(frozen=True, eq=False)
 class _Dense:
-    """A covariance matrix, asked as `bayesmap.poses.precision.Precision` is for its inverse."""
+    """A covariance matrix, asked as `bayesmap.poses.graph.Precision` is for its inverse."""
 
     covariance: Floats
 

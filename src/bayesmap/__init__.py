@@ -35,7 +35,7 @@ if TYPE_CHECKING:
     from bayesmap.poses.prior import Odometry as Odometry
     from bayesmap.poses.prior import Uncertain as Uncertain
     from bayesmap.posterior.information import Information as Information
-    from bayesmap.posterior.passage import FreeProbability as FreeProbability
+    from bayesmap.posterior.route import FreeProbability as FreeProbability
     from bayesmap.posterior.route import Route as Route
     from bayesmap.programs.mapping import mapping_model as mapping_model
     from bayesmap.result import Run as Run
@@ -66,7 +66,7 @@ _HOME = {
     "Block": "bayesmap.samplers.methods",
     "Checkpoints": "bayesmap.arguments",
     "Exact": "bayesmap.samplers.methods",
-    "FreeProbability": "bayesmap.posterior.passage",
+    "FreeProbability": "bayesmap.posterior.route",
     "Gaussian": "bayesmap.sensors.noise",
     "Gibbs": "bayesmap.samplers.methods",
     "Grid": "bayesmap.space.grid",

@@ -30,8 +30,7 @@ if TYPE_CHECKING:
 
     from bayesmap.poses.trajectory import Trajectory
     from bayesmap.posterior.information import Information
-    from bayesmap.posterior.passage import FreeProbability
-    from bayesmap.posterior.route import Route
+    from bayesmap.posterior.route import FreeProbability, Route
     from bayesmap.posterior.summary import PoseSummary
 
 Floats = NDArray[np.float64]

@@ -5,10 +5,10 @@ import pytest
 import scipy
 from rooms import ANGLES, known, scan_from, walls_of
 
-from bayesmap.localization.field import SURFACE_FLOOR, TOP, endpoint_field, likelihood_field, worth_of_unknown
 from bayesmap.localization.filter import Prior, approached
 from bayesmap.localization.localize import Near
 from bayesmap.localization.particles import DOF, PoseMixture, draw_population, shared_out, student_draws
+from bayesmap.localization.search import SURFACE_FLOOR, TOP, endpoint_field, likelihood_field, worth_of_unknown
 
 NOWHERE = (np.zeros((40, 30), dtype=bool), 0.0)
 

@@ -5,8 +5,7 @@ import pytest
 from rooms import ANGLES, known, offset, scan_from, walls_of
 from tiers import full_but
 
-from bayesmap.localization.certain_map import distinct, locate
-from bayesmap.localization.filter import Scan
+from bayesmap.localization.filter import Scan, distinct, locate
 from bayesmap.localization.particles import PoseMixture
 from bayesmap.sensors.model import RangeLimits
 

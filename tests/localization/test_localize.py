@@ -9,10 +9,10 @@ from tiers import full_but
 
 import bayesmap as bm
 from bayesmap.localization.belief import PoseBelief
-from bayesmap.localization.field import likelihood_field
 from bayesmap.localization.filter import shared_by_places
 from bayesmap.localization.known_map import KnownMap
 from bayesmap.localization.localize import Near, localize
+from bayesmap.localization.search import likelihood_field
 from bayesmap.sensors.model import RangeLimits
 from bayesmap.space.planar import between, compose
 from bayesmap.space.scans import side_by_side

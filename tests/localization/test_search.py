@@ -5,8 +5,17 @@ import pytest
 from rooms import ANGLES, offset, scan_from, walls_of
 from tiers import full_but
 
-from bayesmap.localization.field import likelihood_field
-from bayesmap.localization.search import APART_M, APART_RAD, HEADINGS, POINTS, _coarse_poses, end_points, refine, search
+from bayesmap.localization.search import (
+    APART_M,
+    APART_RAD,
+    HEADINGS,
+    POINTS,
+    _coarse_poses,
+    end_points,
+    likelihood_field,
+    refine,
+    search,
+)
 from bayesmap.space.planar import wrapped
 
 

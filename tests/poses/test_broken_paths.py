@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 from simulated import odometry_of, off, path_around, recording, ring, scans_of
 
+from bayesmap.poses.calibration import stated_motions
 from bayesmap.poses.front_end import follow
-from bayesmap.poses.key_path import key_path
-from bayesmap.poses.odometry_motion import stated_motions
+from bayesmap.poses.loops import key_path
 from bayesmap.poses.rejoin import AGREE, rejoin
 from bayesmap.poses.scan_geometry import scan_geometry
 from bayesmap.poses.slam import infer_trajectory

@@ -3,8 +3,18 @@
 import numpy as np
 import scipy
 
-from bayesmap.poses.graph import ANCHOR, RIDGE, Factors, normal_equations, optimise, quadratic, solve_step
-from bayesmap.poses.precision import Precision, filled_pattern, relative_covariances
+from bayesmap.poses.graph import (
+    ANCHOR,
+    RIDGE,
+    Factors,
+    Precision,
+    filled_pattern,
+    normal_equations,
+    optimise,
+    quadratic,
+    relative_covariances,
+    solve_step,
+)
 from bayesmap.space.planar import between, between_jacobians, compose, retract
 
 RNG = np.random.default_rng(8)

@@ -3,8 +3,15 @@
 import numpy as np
 import pytest
 
-from bayesmap.poses.calibration import USUAL, MotionNoise, fit_noise, fit_odometry, stated_at
-from bayesmap.poses.odometry_motion import RunningOdometry, inverse_slope
+from bayesmap.poses.calibration import (
+    USUAL,
+    MotionNoise,
+    RunningOdometry,
+    fit_noise,
+    fit_odometry,
+    inverse_slope,
+    stated_at,
+)
 from bayesmap.space.planar import between, compose
 
 RATES = np.array([[4e-3, 2e-3, 1e-6], [1e-3, 1e-3, 1e-6], [2e-3, 5e-3, 1e-7]])

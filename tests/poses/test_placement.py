@@ -7,10 +7,9 @@ import pytest
 from simulated import path_around, ring, scans_of
 from tiers import full_but
 
-from bayesmap.poses.alignment import align, overlapping_pairs
+from bayesmap.poses.alignment import align, overlapping_pairs, point_error
 from bayesmap.poses.graph import Factors
 from bayesmap.poses.placement import place_scans
-from bayesmap.poses.point_errors import point_error
 from bayesmap.poses.pose_gaussian import DEGREES_OF_FREEDOM
 from bayesmap.poses.scan_geometry import scan_geometry
 from bayesmap.space.planar import between

@@ -7,9 +7,16 @@ import numpy as np
 import pytest
 from simulated import path_around, ring, scans_of
 
-from bayesmap.poses.alignment import Pairs, align, overlapping_pairs
+from bayesmap.poses.alignment import (
+    COUNTED_AGAIN,
+    Pairs,
+    PointError,
+    align,
+    overlapping_pairs,
+    point_error,
+    with_point_error,
+)
 from bayesmap.poses.graph import Factors
-from bayesmap.poses.point_errors import COUNTED_AGAIN, PointError, point_error, with_point_error
 from bayesmap.poses.scan_geometry import scan_geometry
 from bayesmap.space.planar import between
 from bayesmap.space.scans import Scans

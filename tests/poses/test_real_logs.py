@@ -6,8 +6,8 @@ from data import intel_log
 
 from bayesmap.io.logs import read_log
 from bayesmap.io.text.relations import read_relations
-from bayesmap.poses.relations import relation_errors
 from bayesmap.poses.slam import infer_trajectory
+from bayesmap.posterior.trajectory_scores import relation_errors
 from bayesmap.space.planar import between, compose, wrapped
 from bayesmap.space.scans import Scans
 

@@ -7,7 +7,7 @@ import pytest
 
 from bayesmap.errors import BadInput
 from bayesmap.io.text.relations import read_relations
-from bayesmap.poses.relations import Relations, relation_errors
+from bayesmap.posterior.trajectory_scores import Relations, relation_errors
 from bayesmap.space.planar import between, compose
 
 STAMPS = np.arange(10.0)

@@ -10,8 +10,7 @@ from simulated import off, recording
 
 from bayesmap.errors import BadInput
 from bayesmap.poses import key_alignment
-from bayesmap.poses.key_alignment import KeyAlignment
-from bayesmap.poses.rematch import Rematch
+from bayesmap.poses.key_alignment import KeyAlignment, Rematch
 from bayesmap.poses.slam import infer_trajectory
 from bayesmap.space.planar import between, compose
 from bayesmap.space.scans import Scans

@@ -10,7 +10,7 @@ from bayesmap.kernels.counts import count_hits
 from bayesmap.kernels.predict.density import log_densities
 from bayesmap.kernels.rays import trace_rays
 from bayesmap.posterior.baselines import BASELINES, fit_baseline, hit_ratio, inner_score, log_odds
-from bayesmap.posterior.folds import make_folds, together
+from bayesmap.posterior.heldout import make_folds, together
 from bayesmap.posterior.scores import score_prediction
 from bayesmap.posterior.sensor_fit import SENSOR, Parameter, maximise, sensor_of
 

@@ -9,7 +9,7 @@ import bayesmap as bm
 from bayesmap.kernels.counts import count_hits
 from bayesmap.kernels.predict.density import log_densities
 from bayesmap.posterior.baselines import hit_ratio
-from bayesmap.posterior.folds import FOLDS, make_folds, one_fold, together
+from bayesmap.posterior.heldout import FOLDS, make_folds, one_fold, together
 
 GRID = bm.Grid((20, 30), 0.2)
 

@@ -5,8 +5,7 @@ import pytest
 from oracle.stop_worlds import scans_of_all_kinds
 
 import bayesmap as bm
-from bayesmap.posterior.predictor import predictor_of
-from bayesmap.posterior.residuals import residuals_of
+from bayesmap.posterior.predictor import predictor_of, residuals_of
 from bayesmap.posterior.scores import beam_log_scores
 
 KINDS = [bm.Independent(0.2), bm.Beta(0.5, 1.0), bm.Surface(0.5, 1.0)]

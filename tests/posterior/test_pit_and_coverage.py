@@ -12,9 +12,16 @@ from oracle.verdict import ALPHA
 
 import bayesmap as bm
 from bayesmap.kernels.rays import trace_rays
-from bayesmap.posterior.calibration import ScanBlocks, binary_scores, inside, pit_histogram, randomised_pit, reliability
 from bayesmap.posterior.predictor import Predictor, fixed_maps
-from bayesmap.posterior.scores import score_prediction
+from bayesmap.posterior.scores import (
+    ScanBlocks,
+    binary_scores,
+    inside,
+    pit_histogram,
+    randomised_pit,
+    reliability,
+    score_prediction,
+)
 from bayesmap.sensors.model import RangeLimits
 
 GRID = bm.Grid((20, 16), 0.25)

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from bayesmap.posterior.progress_shares import parts, watched
+from bayesmap.posterior.predictor import parts, watched
 
 
 def test_parts_follow_each_other_by_their_sizes():

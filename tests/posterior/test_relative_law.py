@@ -9,9 +9,8 @@ from oracle.trajectories import round_way
 from tiers import pairs_but
 
 from bayesmap.io.exports import trajectory_of
-from bayesmap.poses.relations import Relations
 from bayesmap.posterior.summary import summarise_poses
-from bayesmap.posterior.trajectory_scores import LEVELS, score_trajectory
+from bayesmap.posterior.trajectory_scores import LEVELS, Relations, score_trajectory
 from bayesmap.result import Run
 from bayesmap.space.planar import between, compose
 

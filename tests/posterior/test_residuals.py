@@ -5,8 +5,7 @@ from bayesmap.cells.arrays import Draws, pack
 from bayesmap.cells.binary import Independent
 from bayesmap.errors import BadInput
 from bayesmap.posterior.posterior import Posterior
-from bayesmap.posterior.predictor import predictor_of
-from bayesmap.posterior.residuals import compare, residuals_of
+from bayesmap.posterior.predictor import compare, predictor_of, residuals_of
 from bayesmap.posterior.scores import beam_log_scores
 from bayesmap.samplers.sampler import Snapshot
 from bayesmap.sensors.mixture import BeamMixture

@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 
 from bayesmap.errors import BadInput
-from bayesmap.posterior.passage import cells_about, free_probability, in_the_way
-from bayesmap.posterior.route import blocked_probability, plan_route
+from bayesmap.posterior.route import blocked_probability, cells_about, free_probability, in_the_way, plan_route
 from bayesmap.space.grid import Grid
 
 GRID = Grid((40, 30), 0.25, (0.0, 0.0))

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from bayesmap.posterior.residuals import surface_offset
+from bayesmap.posterior.predictor import surface_offset
 
 THICK_M, LONG_M = 0.01, 0.2
 

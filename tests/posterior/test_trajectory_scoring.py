@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 import scipy
 
-from bayesmap.poses.relations import Relations
-from bayesmap.posterior.trajectory_scores import LEVELS, score_trajectory
+from bayesmap.posterior.trajectory_scores import LEVELS, Relations, score_trajectory
 from bayesmap.space.planar import between, compose, wrapped
 from bayesmap.space.trajectory import Trajectory
 

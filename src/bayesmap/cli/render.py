@@ -137,8 +137,7 @@ def _beams_figure(
     run: Run, scans: Scans, what: str, grid: Grid, window: tuple[slice, slice], on_progress: Callable[[float], None]
 ) -> Figure:
     """Draw the end points of beams over the map: their residuals in metres, or their surprise in nats."""
-    from bayesmap.posterior.predictor import predictor_of
-    from bayesmap.posterior.residuals import residuals_of
+    from bayesmap.posterior.predictor import predictor_of, residuals_of
     from bayesmap.viz.residuals import residuals_figure, surprise_scale
 
     found = residuals_of(predictor_of(run.posterior), scans, on_progress=on_progress)

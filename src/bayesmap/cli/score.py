@@ -211,7 +211,7 @@ def lines_of(found: TrajectoryScore, frame: str, *, exact: bool, of_run: bool) -
         exact: whether only times of poses count.
         of_run: whether the poses are those of a saved run, for advice where nothing is known of how sure they are.
     """
-    from bayesmap.poses.relations import LONGEST_GAP_S
+    from bayesmap.posterior.trajectory_scores import LONGEST_GAP_S
 
     figures = found.as_json()
     missing = ""

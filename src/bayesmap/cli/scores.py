@@ -152,7 +152,7 @@ def _score_classic_maps(
 ) -> list[Fitted]:
     """Fit hit ratios and log-odds to the training scans, add a row for each, and return the fits."""
     from bayesmap.posterior.baselines import BASELINES, fit_baseline
-    from bayesmap.posterior.folds import make_folds
+    from bayesmap.posterior.heldout import make_folds
     from bayesmap.posterior.scores import score_prediction
 
     with progress(call.console, "tracing beams"):

@@ -23,7 +23,7 @@ from bayesmap.kernels.predict.pose_weights import PackedMap, pack_map, scan_log_
 from bayesmap.localization.known_map import KnownMap, Trust, UsualFit
 from bayesmap.localization.particles import log_sum
 from bayesmap.posterior.baselines import stop_probabilities
-from bayesmap.posterior.progress_shares import OnShare, ignored
+from bayesmap.posterior.predictor import OnShare, ignored
 from bayesmap.posterior.sensor_fit import Parameter, Values, maximise, sensor_of
 from bayesmap.sensors.model import RangeLimits
 from bayesmap.space.grid import Grid

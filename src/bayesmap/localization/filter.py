@@ -13,14 +13,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.special import expit
 
 from bayesmap.localization.belief import PoseBelief
-from bayesmap.localization.known_map import KnownMap
+from bayesmap.localization.known_map import INDEPENDENT_BEAMS, KnownMap
 from bayesmap.localization.particles import (
     NEGLIGIBLE_NATS,
     Population,
@@ -35,9 +34,7 @@ from bayesmap.localization.particles import (
 )
 from bayesmap.localization.search import FEWEST, end_points, search
 from bayesmap.sensors.model import RangeLimits
-
-if TYPE_CHECKING:
-    from bayesmap.localization.known_map import KnownMap
+from bayesmap.space.planar import wrapped
 
 Floats = NDArray[np.float64]
 
@@ -373,3 +370,69 @@ def _mixture_log_density(components: PoseMixture, poses: Floats) -> Floats:
     squared, half_log_det = squared_distances(components, poses)
     mass = components.log_mass - log_sum(components.log_mass)
     return np.asarray(log_sum(mass - half_log_det - 1.5 * np.log(2 * np.pi) - 0.5 * squared))
+
+
+SHARP_CANDIDATES = 32
+RISES = 6
+"""Steps of the power."""
+
+SETTLES = 4
+"""Rounds with the power at 1, at most."""
+
+KEPT = 16
+"""Places that are weighed, at most."""
+
+SHARP_EACH, SHARP_LAST = 24, 192
+"""Draws of each place, in a round and in the last."""
+
+ONE_PLACE = 1.0
+"""Places nearer than so many standard deviations, or `ALIKE`, have come together."""
+
+ALIKE = np.array([0.02, 0.02, np.radians(1.0)])
+
+
+def locate(known: KnownMap, scan: Scan, rng: np.random.Generator) -> PoseBelief:
+    """The posterior of a scan's pose, which may be anywhere on the map.
+
+    Args:
+        known: the map; its ``beam_weight`` is the power that the likelihood ends at.
+        scan: the scan.
+        rng: for the draws of poses.
+    """
+    prior = Prior()
+    valid = max(1, int((~np.isnan(scan.ranges_m)).sum()))
+    last = known.weight_of(scan.ranges_m)
+    first = min(last, INDEPENDENT_BEAMS / valid)
+
+    def target(weight: float, thin: int = 1) -> Target:
+        return Target(known, prior, scan, thin, weight)
+
+    thin = max(1, len(scan.angles_rad) // 60)
+
+    found = search(known.field, scan.angles_rad, scan.ranges_m, SHARP_CANDIDATES)
+    if len(found.poses) == 0:
+        return belief_of(known, prior, scan, everywhere(known, target(last), rng), None)
+    count = len(found.poses)
+    places = PoseMixture(found.poses, np.broadcast_to(np.diag(FOUND_SD**2), (count, 3, 3)), np.zeros(count))
+    for weight in np.geomspace(first, last, RISES):
+        places, _ = adapted(places, draw_population(places, target(float(weight), thin), SHARP_EACH, rng))
+        places = distinct(places).best(KEPT)
+    for _ in range(SETTLES):
+        places, power = adapted(places, draw_population(places, target(last), SHARP_EACH, rng))
+        places = distinct(places).best(KEPT)
+        if power > NEARLY:
+            break
+    population = draw_population(places, target(last), SHARP_LAST, rng)
+    return belief_of(known, prior, scan, population, groups_of(places, population.poses))
+
+
+def distinct(places: PoseMixture) -> PoseMixture:
+    """The places without those that lie on a heavier one."""
+    kept: list[int] = []
+    for i in np.argsort(-places.log_mass, kind="stable").tolist():
+        off = places.means[kept] - places.means[i]
+        off[:, 2] = wrapped(off[:, 2])
+        within = np.einsum("ki,kij,kj->k", off, np.linalg.inv(places.covariances[kept]), off) < ONE_PLACE**2
+        if not (within | (np.abs(off) < ALIKE).all(axis=1)).any():
+            kept.append(i)
+    return PoseMixture(places.means[kept], places.covariances[kept], places.log_mass[kept])

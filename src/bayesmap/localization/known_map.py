@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
-from bayesmap.localization.field import EndpointField, Field, endpoint_field, likelihood_field
 from bayesmap.localization.particles import log_sum
+from bayesmap.localization.search import EndpointField, Field, endpoint_field, likelihood_field
 from bayesmap.sensors.mixture import BeamMixture
 from bayesmap.sensors.model import RangeLimits, SensorModel
 from bayesmap.sensors.noise import Gaussian, StudentT

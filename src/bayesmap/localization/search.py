@@ -1,4 +1,18 @@
-"""Where could a scan have been taken? Poses at which its end points fall on a map's obstacles, over the whole map.
+"""How well end points of beams agree with a map: a likelihood field, fine for refining and coarse for searching.
+
+A fine cell holds the largest of s exp(-d^2 / (2 sigma^2)) over cells at distance d, s the chance that they stop a beam,
+as a share of `SOLID` and at most 1 (Thrun, Burgard and Fox 2005, section 6.4, with a maximum for the nearest obstacle).
+Cells of which nothing is known may stop a beam, too, and are worth something in between: a place from which a scan
+looks past the map's edge must not lose to one where everything meets some wall.
+A coarse cell holds the largest fine value within it, so that a pose near the right one still finds its walls.
+
+A cheap stand-in for the law of a scan: how near its end points fall to the map's surfaces, to a few centimetres.
+
+It leaves out what stands in the way of a beam, so that nothing is judged by it: it tells where the exact law is to be
+asked. The nearest surface's normal density counts, its peak 1, above a floor (Thrun, Burgard and Fox 2005, section
+6.4, with surfaces in place of cells); a surface is widened by the noise of a reading.
+
+Where could a scan have been taken? Poses at which its end points fall on a map's obstacles, over the whole map.
 
 All positions and headings of a coarse lattice are scored: for one heading the scores of all positions are the sum, over
 the scan's points, of the coarse field shifted by the point. The best square metres are then refined on the fine field.
@@ -7,15 +21,197 @@ the scan's points, of the coarse field shifted by the point. The best square met
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.localization.field import TOP, Field
+from bayesmap.space.grid import Grid
 from bayesmap.space.planar import wrapped
 
 Floats = NDArray[np.float64]
+
+SIGMA_M = 0.12
+"""Scale of the field about an obstacle: errors of map and pose that a search must forgive."""
+
+SOLID = 0.3
+"""A cell that stops more beams than this is as good an obstacle as a wall."""
+
+FLOOR = 0.01
+"""What a point in the open is worth, as a part of one on a wall: values between the two go by its logarithm."""
+
+COARSE_M = 0.3
+TOP = 255
+
+
+@dataclass(frozen=True, eq=False)
+class Field:
+    """A likelihood field over a grid.
+
+    Attributes:
+        grid: of the fine values.
+        fine: 0 to 255, (nx, ny).
+        coarse_grid: of the coarse values, its origin that of the grid.
+        coarse: 0 to 255, (mx, my).
+        open: coarse cells in which a robot can be, (mx, my).
+    """
+
+    grid: Grid
+    fine: NDArray[np.uint8]
+    coarse_grid: Grid
+    coarse: NDArray[np.uint16]
+    open: NDArray[np.bool_]
+
+    def score(self, points: Floats, poses: Floats) -> Floats:
+        """Mean of the fine values where points fall, from 0 to 1, at each pose.
+
+        Args:
+            points: in the sensor's frame, (N, 2).
+            poses: in the world frame, (P, 3).
+        """
+        from bayesmap.kernels.match.fields import field_sums
+
+        return np.asarray(field_sums(self.fine, self.grid, points, poses) / (TOP * max(1, len(points))))
+
+
+def likelihood_field(
+    occupancy: Floats,
+    grid: Grid,
+    robot_may_be: NDArray[np.bool_],
+    unknown: NDArray[np.bool_] | None = None,
+    chance: float = 0.0,
+) -> Field:
+    """The field of a map.
+
+    Args:
+        occupancy: chance that each cell stops a beam, (nx, ny); 0 where nothing is known.
+        grid: of the map.
+        robot_may_be: cells in which a robot may be, (nx, ny).
+        unknown: cells of which nothing is known, (nx, ny); None: there are none.
+        chance: that such a cell stops a beam.
+    """
+    strength = np.clip(np.nan_to_num(occupancy) / SOLID, 0.0, 1.0)
+    radius = max(1, math.ceil(2.0 * SIGMA_M / grid.resolution))
+    padded = np.pad(strength, radius)
+    nx, ny = grid.shape
+    fine = np.zeros(grid.shape)
+    for a in range(2 * radius + 1):
+        for b in range(2 * radius + 1):
+            squared = ((a - radius) ** 2 + (b - radius) ** 2) * grid.resolution**2
+            weight = math.exp(-squared / (2.0 * SIGMA_M**2))
+            np.maximum(fine, weight * padded[a : a + nx, b : b + ny], out=fine)
+    if unknown is not None:
+        worth = worth_of_unknown(chance, SIGMA_M, grid.resolution)
+        np.maximum(fine, np.where(unknown, 1.0 - math.log(max(worth, FLOOR)) / math.log(FLOOR), 0.0), out=fine)
+    stride = max(1, round(COARSE_M / grid.resolution))
+    shape = (-(-nx // stride), -(-ny // stride))
+    coarse_grid = Grid(shape, grid.resolution * stride, grid.origin)
+    blocks = _blocks(np.round(TOP * fine), stride, shape).max(axis=(1, 3))
+    is_open = np.asarray(_blocks(robot_may_be, stride, shape).any(axis=(1, 3)), dtype=np.bool_)
+    return Field(grid, np.round(TOP * fine).astype(np.uint8), coarse_grid, blocks.astype(np.uint16), is_open)
+
+
+def worth_of_unknown(chance: float, sigma_m: float, resolution: float) -> float:
+    """Density of a reading in cells that stop a beam with a chance, as a part of its peak on a wall, at most 1.
+
+    Args:
+        chance: of a cell.
+        sigma_m: standard deviation of a reading on a wall.
+        resolution: of the cells.
+    """
+    return min(1.0, chance / resolution * sigma_m * math.sqrt(2.0 * math.pi))
+
+
+def _blocks(values: NDArray[np.generic], stride: int, shape: tuple[int, int]) -> NDArray[np.generic]:
+    """Cells in squares of ``stride``, (mx, stride, my, stride); what lies over the border is 0."""
+    mx, my = shape
+    nx, ny = values.shape
+    padded = np.pad(values, ((0, mx * stride - nx), (0, my * stride - ny)))
+    return padded.reshape(mx, stride, my, stride)
+
+
+FINE_M = 0.025
+MOST_CELLS = 16_000_000
+"""Of fine cells."""
+
+SURFACE_FLOOR = 0.02
+"""What a point is worth that falls nowhere near a surface, as a part of one that falls on it."""
+
+FAINT = 0.1
+"""Cells that stop fewer beams than this have no surface here."""
+
+
+@dataclass(frozen=True, eq=False)
+class EndpointField:
+    """Log of a point's worth, over a fine grid.
+
+    Attributes:
+        grid: fine.
+        values: 0, far from all surfaces, to 255, on one, (nx, ny).
+    """
+
+    grid: Grid
+    values: NDArray[np.uint8]
+
+    def log_worth(self, points: Floats, poses: Floats) -> Floats:
+        """Sum over points of their log worth above that of a point far from all surfaces, at each pose, (P,), nats.
+
+        Args:
+            points: in the sensor's frame, (N, 2).
+            poses: in the world frame, (P, 3).
+        """
+        from bayesmap.kernels.match.fields import field_sums
+
+        return np.asarray(field_sums(self.values, self.grid, points, poses) * (-math.log(SURFACE_FLOOR) / TOP))
+
+
+def endpoint_field(
+    states: NDArray[np.float32], grid: Grid, noise_m: float, unknown: NDArray[np.bool_], chance: float
+) -> EndpointField:
+    """The field of some draws of a map.
+
+    Args:
+        states: stop probabilities (D, N), or surfaces (D, N, 6 or more): see `KnownMap.of_draws`.
+        grid: of the map.
+        noise_m: standard deviation of a reading.
+        unknown: cells of which nothing is known, (nx, ny).
+        chance: that such a cell stops a beam.
+    """
+    from bayesmap.kernels.match.fields import spread
+
+    parts = max(1, math.ceil(grid.resolution / FINE_M - 1e-9))
+    parts = max(1, min(parts, math.isqrt(MOST_CELLS // grid.n_cells)))
+    fine = Grid((grid.shape[0] * parts, grid.shape[1] * parts), grid.resolution / parts, grid.origin)
+    means, covariances, strengths = _surfaces(states, grid, ~unknown.ravel())
+    # A fine cell stands for all points within it, so that no surface is narrower than half of one.
+    round_ = np.array([1.0, 0.0, 1.0])
+    covariances = (covariances + round_ * noise_m**2) / fine.resolution**2 + 0.25 * round_
+    peaks = spread(means / fine.resolution, covariances, strengths, fine.shape)
+    # About a third of a cell is how far a surface spreads, or is off its middle.
+    worth = worth_of_unknown(chance, math.hypot(noise_m, 0.3 * grid.resolution), grid.resolution)
+    np.maximum(peaks, np.where(unknown, worth, 0.0).repeat(parts, axis=0).repeat(parts, axis=1), out=peaks)
+    logs = np.log(SURFACE_FLOOR + (1.0 - SURFACE_FLOOR) * np.minimum(peaks, 1.0)) / -math.log(SURFACE_FLOOR) + 1.0
+    return EndpointField(fine, np.round(TOP * logs).astype(np.uint8))
+
+
+def _surfaces(states: NDArray[np.float32], grid: Grid, known: NDArray[np.bool_]) -> tuple[Floats, Floats, Floats]:
+    """Means from the grid's corner (K, 2), covariances xx, xy, yy (K, 3), in metres, and strengths, of all draws.
+
+    Of known cells only: what a few draws have elsewhere tells of the prior, and all of them together have it almost
+    everywhere.
+    """
+    chances = states[..., 0] if states.ndim == 3 else states
+    which = np.nonzero((chances > FAINT) & known)
+    strengths = np.asarray(np.minimum(chances[which].astype(np.float64) / SOLID, 1.0))
+    if states.ndim == 3:
+        own = states[which].astype(np.float64)
+        l11, l21, l22 = own[:, 3:6].T
+        return np.asarray(own[:, 1:3]), np.stack([l11**2, l11 * l21, l21**2 + l22**2], axis=1), strengths
+    cells = np.stack(np.unravel_index(which[1], grid.shape), axis=1)
+    flat = grid.resolution**2 / 12.0  # of a point anywhere in the cell
+    return np.asarray((cells + 0.5) * grid.resolution), np.tile([flat, 0.0, flat], (len(cells), 1)), strengths
+
 
 HEADINGS = 90
 POINTS = 48

@@ -17,6 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from bayesmap.poses.calibration import RunningOdometry
 from bayesmap.poses.matcher import likelihood_grids
 from bayesmap.poses.next_scans import (
     Elsewhere,
@@ -28,7 +29,6 @@ from bayesmap.poses.next_scans import (
     place_near,
     predict,
 )
-from bayesmap.poses.odometry_motion import RunningOdometry
 from bayesmap.poses.scan_geometry import ScanGeometry
 from bayesmap.space.planar import between
 

@@ -1,4 +1,11 @@
-"""Key scans aligned with all others that see the same walls, and matched anew where others explain them better."""
+"""Each scan matched anew with itself left out: is it where the others say it should be?
+
+A scan that was aligned wrongly stays wrong, because the pairs that would move it are out of reach. So every scan is
+looked for in the likelihood grid of its partners alone; where another place explains it clearly better it is put
+there, and where none explains it well a wide window is searched. Scans that stay badly explained are flagged.
+
+Key scans aligned with all others that see the same walls, and matched anew where others explain them better.
+"""
 
 from __future__ import annotations
 
@@ -12,10 +19,124 @@ from bayesmap.poses.alignment import Alignment, Pairs, align, overlapping_pairs
 from bayesmap.poses.front_end import Track
 from bayesmap.poses.graph import DOUBTFUL_SQ, Factors
 from bayesmap.poses.key_graph import contradicted_links
-from bayesmap.poses.rematch import rematch
+from bayesmap.poses.matcher import LikelihoodGrids, Pull, likelihood_grids, match
 from bayesmap.poses.scan_geometry import ScanGeometry
+from bayesmap.space.planar import between, compose
 
 Floats = NDArray[np.float64]
+
+WINDOW_M, WINDOW_RAD = 0.3, np.radians(6.0)
+WIDE_M, WIDE_RAD = 1.5, np.radians(40.0)
+NEAR = Pull(0.2, np.radians(5.0), 0.005)
+
+CLEARLY_BETTER = 0.015
+"""Of the score, which is between 0 and 1: less than this may be chance."""
+
+WIDE_BETTER = 0.12
+"""A place far away must explain the scan so much better."""
+
+AT_ONCE = 24
+POINTS = 200
+SIGMA_M = 0.06
+
+
+@dataclass(frozen=True, eq=False)
+class Rematch:
+    """How well scans are explained by others.
+
+    Attributes:
+        scores: of each scan at its pose, by its partners alone, from 0 to 1, (S,); 0 where it has no partner.
+        best_scores: at the best pose in the window, (S,).
+        best_poses: (S, 3).
+        moved: where the best pose is clearly better, (S,).
+    """
+
+    scores: Floats
+    best_scores: Floats
+    best_poses: Floats
+    moved: NDArray[np.bool_]
+
+
+def rematch(
+    geometry: ScanGeometry,
+    poses: Floats,
+    pairs: Pairs,
+    half_width_m: float,
+    *,
+    poor_score: float = 0.0,
+    search: bool = True,
+    threads: int | None = None,
+) -> Rematch:
+    """Match every scan to its partners' likelihood grid.
+
+    Args:
+        geometry: S scans.
+        poses: (S, 3).
+        pairs: the partners of each scan.
+        half_width_m: of the grids.
+        poor_score: scans that no pose in the narrow window explains better than this are sought in a wide one.
+        search: look for better poses; otherwise scores at the given ones are all that is found.
+        threads: to compute with; by default all cores.
+    """
+    count = len(poses)
+    scores, best_scores, best_poses = np.zeros(count), np.zeros(count), poses.copy()
+    wide = np.zeros(count, np.bool_)
+    partnered = np.nonzero(np.diff(pairs.offsets) > 0)[0]
+    grids: LikelihoodGrids | None = None
+    for begin in range(0, len(partnered), AT_ONCE):
+        some = partnered[begin : begin + AT_ONCE]
+        others = [pairs.target[pairs.offsets[k] : pairs.offsets[k + 1]].astype(np.intp) for k in some]
+        local = [between(np.broadcast_to(poses[k], (len(m), 3)), poses[m]) for k, m in zip(some, others, strict=True)]
+        reuse = grids if grids is not None and len(grids) == len(some) else None
+        grids = likelihood_grids(
+            geometry,
+            others,
+            local,
+            np.zeros((len(some), 2)),
+            half_width_m,
+            sigma_m=SIGMA_M,
+            threads=threads,
+            reuse=reuse,
+        )
+        points = [geometry.points_of(int(k), POINTS) for k in some]
+        here = np.zeros((len(some), 3))
+        now = match(grids, points, here, 0.0, 0.0, least=-9.0, threads=threads).scores[:, 0]
+        scores[some] = best_scores[some] = now
+        if not search:
+            continue
+        near = match(grids, points, here, WINDOW_M, WINDOW_RAD, least=now, pull=NEAR, threads=threads)
+        found = near.found[:, 0]
+        best = np.where(found, near.scores[:, 0], now)
+        place = np.where(found[:, None], near.poses[:, 0], 0.0)
+        poor = np.nonzero(best < poor_score)[0]
+        if len(poor):
+            far = match(
+                grids, [points[k] for k in poor], here[poor], WIDE_M, WIDE_RAD, grid_of=poor,
+                least=best[poor] + WIDE_BETTER, step_rad=np.radians(1.0), threads=threads,
+            )  # fmt: skip
+            better = far.found[:, 0]
+            best[poor[better]], place[poor[better]] = far.scores[better, 0], far.poses[better, 0]
+            wide[some[poor[better]]] = True
+        best_scores[some], best_poses[some] = best, compose(poses[some], place)
+    moved = (best_scores > scores + CLEARLY_BETTER) | wide
+    return Rematch(scores, best_scores, best_poses, moved)
+
+
+FAR_BELOW = 0.55
+"""Times the usual share: a scan that is explained less is flagged."""
+
+
+def flag_unexplained(explained: Floats, keys: NDArray[np.intp]) -> NDArray[np.bool_]:
+    """Scans that are explained far worse than usual, (S,): key scans and the others are compared among themselves."""
+    flagged = np.zeros(len(explained), np.bool_)
+    is_key = np.zeros(len(explained), np.bool_)
+    is_key[keys] = True
+    for group in (is_key, ~is_key):
+        if group.any():
+            flagged[group] = explained[group] < FAR_BELOW * np.median(explained[group])
+    return flagged
+
+
 OnRound = Callable[[int, Floats], None]
 
 MATCH_REACH = 0.8

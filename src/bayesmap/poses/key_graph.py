@@ -10,9 +10,8 @@ from numpy.typing import NDArray
 
 from bayesmap.poses.front_end import SLIPPED_BELOW, UNKNOWN, WINDOW, Track, grid_half_width
 from bayesmap.poses.graph import NO_FACTORS, Factors, optimise, quadratic, solve_step
-from bayesmap.poses.key_path import KeyPath, key_path
 from bayesmap.poses.look_alikes import Weighed, weigh
-from bayesmap.poses.loops import Closures, Search, find_closures, no_closures
+from bayesmap.poses.loops import Closures, KeyPath, Search, find_closures, key_path, no_closures
 from bayesmap.poses.matcher import likelihood_grids, score_at
 from bayesmap.poses.next_scans import POINTS
 from bayesmap.poses.rejoin import AGREE, SAME_M, SAME_RAD, Joint, consistent, rejoin

@@ -17,8 +17,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
+from bayesmap.poses.calibration import motion_variances
 from bayesmap.poses.matcher import likelihood_grids, match
-from bayesmap.poses.odometry_motion import variances
 from bayesmap.poses.scan_geometry import ScanGeometry
 from bayesmap.space.grid import Grid
 from bayesmap.space.planar import between, compose, interpolate
@@ -166,7 +166,7 @@ def _counted_twice(geometry: ScanGeometry, first: int, last: int, motion: Floats
         geometry, [np.array([first]), np.array([last])], [np.zeros((1, 3))] * 2, np.zeros((2, 2)), width_m,
         resolution=0.1, sigma_m=0.1, threads=threads,
     )  # fmt: skip
-    sigma = np.sqrt(variances(motion, np.ones(2)))
+    sigma = np.sqrt(motion_variances(motion, np.ones(2)))
     half_m, half_rad = max(0.1, SIGMAS * float(sigma[0])), max(np.radians(3.0), SIGMAS * float(sigma[2]))
     points = [geometry.points_of(last + 1, POINTS)] * 2
     scores = match(grids, points, np.stack([motion] * 2), half_m, half_rad, least=-9.0, threads=threads).scores[:, 0]

@@ -17,8 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.poses.graph import DOUBTFUL_SQ, Factors, quadratic, solve_step
-from bayesmap.poses.precision import relative_covariances
+from bayesmap.poses.graph import DOUBTFUL_SQ, Factors, quadratic, relative_covariances, solve_step
 from bayesmap.space.planar import between, compose, retract, wrapped
 
 Floats = NDArray[np.float64]

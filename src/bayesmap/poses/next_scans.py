@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 
 from bayesmap.kernels.match.scan_refinement import Convergence, Refinement, refine_scans
 from bayesmap.kernels.match.view_agreement import Agreement, mutual_view_counts
+from bayesmap.poses.calibration import RunningOdometry
 from bayesmap.poses.matcher import LikelihoodGrids, Pull, match
-from bayesmap.poses.odometry_motion import RunningOdometry
 from bayesmap.poses.scan_geometry import ScanGeometry
 from bayesmap.space.planar import between, compose, rotation
 from bayesmap.space.time_order import SAME_S

@@ -9,13 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.poses.alignment import Alignment
-from bayesmap.poses.calibration import OdometryFit, fit_odometry, stated_at
+from bayesmap.poses.calibration import OdometryFit, fit_odometry, motion_variances, stated_at, stated_motions
 from bayesmap.poses.front_end import UNKNOWN, Track
-from bayesmap.poses.graph import Factors
+from bayesmap.poses.graph import Factors, relative_covariances
 from bayesmap.poses.log_checks import caught_up
 from bayesmap.poses.next_scans import chained
-from bayesmap.poses.odometry_motion import stated_motions, variances
-from bayesmap.poses.precision import relative_covariances
 from bayesmap.poses.scan_geometry import ScanGeometry
 from bayesmap.space.planar import between, compose, wrapped
 from bayesmap.space.scans import Scans
@@ -68,7 +66,7 @@ class StatedOdometry:
         """Return factors between key scans at some poses, (K, 3), with what the front end learnt of the noise."""
         if not self.used:
             return chain_factors(track, poses)
-        return self._corrected(track, poses, track.slope, lambda motions: variances(motions, track.noise_ratios))
+        return self._corrected(track, poses, track.slope, lambda motions: motion_variances(motions, track.noise_ratios))
 
     def fitted(self, track: Track, aligned: Alignment) -> tuple[OdometryFit | None, Factors]:
         """Return the errors of odometry by aligned key scans, None where it is not used, and factors without them."""

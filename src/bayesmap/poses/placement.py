@@ -9,8 +9,7 @@ from numpy.typing import NDArray
 
 from bayesmap.kernels.match.line_pairs import match_counts, pair_sums
 from bayesmap.kernels.match.scan_refinement import Convergence, Refinement, refine_scans
-from bayesmap.poses.alignment import ALIKE, Pairs, without_slack
-from bayesmap.poses.point_errors import PointError
+from bayesmap.poses.alignment import ALIKE, Pairs, PointError, without_slack
 from bayesmap.poses.scan_geometry import ScanGeometry
 from bayesmap.space.planar import around, between, nearest, rotation
 

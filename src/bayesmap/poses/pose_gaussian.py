@@ -17,8 +17,16 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.poses.graph import ANCHOR, RIDGE, Quadratic, normal_equations, pulls, summed
-from bayesmap.poses.precision import Precision, relative_covariances
+from bayesmap.poses.graph import (
+    ANCHOR,
+    RIDGE,
+    Precision,
+    Quadratic,
+    normal_equations,
+    pulls,
+    relative_covariances,
+    summed,
+)
 from bayesmap.space.planar import between, between_jacobians, retract, wrapped
 
 Floats = NDArray[np.float64]

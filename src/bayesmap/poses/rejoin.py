@@ -15,8 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.kernels.match.view_agreement import Agreement, mutual_view_counts
-from bayesmap.poses.key_path import KeyPath
-from bayesmap.poses.loops import Closures, Fineness, joined, match_submaps, no_closures
+from bayesmap.poses.loops import Closures, Fineness, KeyPath, joined, match_submaps, no_closures
 from bayesmap.space.planar import between, compose, inverse, wrapped
 
 Floats = NDArray[np.float64]

@@ -10,17 +10,16 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from bayesmap.poses.alignment import point_error, with_point_error
 from bayesmap.poses.calibration import angle_step_ratio
-from bayesmap.poses.checkpoint import Stages, fingerprint
 from bayesmap.poses.front_end import Track, follow, grid_half_width
-from bayesmap.poses.key_alignment import KeyAlignment
+from bayesmap.poses.key_alignment import KeyAlignment, flag_unexplained
 from bayesmap.poses.key_graph import ClosedGraph, close_loops, contradicted_links, poses_between_keys, unconfirmed_links
 from bayesmap.poses.log_checks import check_scans
 from bayesmap.poses.odometry_factors import StatedOdometry, stated_odometry
 from bayesmap.poses.placement import place_scans
-from bayesmap.poses.point_errors import point_error, with_point_error
-from bayesmap.poses.rematch import flag_unexplained
 from bayesmap.poses.scan_geometry import scan_geometry
+from bayesmap.poses.stages import Stages, fingerprint
 from bayesmap.poses.trajectory import NO_ALTERNATIVES, Alternatives, Calibration, LoopClosures, Trajectory, calibrated
 from bayesmap.space.planar import between, compose, nearest, wrapped
 from bayesmap.space.scans import Scans

@@ -26,9 +26,8 @@ from numpy.typing import NDArray
 
 from bayesmap.cells.kinds import HIT_DEPTH, default_sensor
 from bayesmap.errors import BadInput
-from bayesmap.posterior.folds import THIN, Fold, HeldOut, make_folds, one_fold, together
-from bayesmap.posterior.predictor import Predictor, fixed_maps
-from bayesmap.posterior.progress_shares import OnShare, ignored, parts
+from bayesmap.posterior.heldout import THIN, Fold, HeldOut, make_folds, one_fold, together
+from bayesmap.posterior.predictor import OnShare, Predictor, fixed_maps, ignored, parts
 from bayesmap.posterior.sensor_fit import LAST_CLIMB, SENSOR, Parameter, Values, maximise, sensor_of
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans

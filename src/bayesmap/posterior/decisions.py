@@ -13,10 +13,18 @@ from numpy.typing import ArrayLike, NDArray
 
 from bayesmap.errors import BadInput
 from bayesmap.posterior.information import Information, beam_information, best_views, expected_information
-from bayesmap.posterior.passage import FreeProbability, cells_about, checked_path, free_probability, in_the_way
 from bayesmap.posterior.posterior import Posterior
-from bayesmap.posterior.progress_shares import OnShare, ignored, parts, watched
-from bayesmap.posterior.route import Route, blocked_probability, plan_route
+from bayesmap.posterior.predictor import OnShare, ignored, parts, watched
+from bayesmap.posterior.route import (
+    FreeProbability,
+    Route,
+    blocked_probability,
+    cells_about,
+    checked_path,
+    free_probability,
+    in_the_way,
+    plan_route,
+)
 
 if TYPE_CHECKING:
     from bayesmap.cells.arrays import Draws
@@ -54,7 +62,7 @@ class Drawn(Protocol):
 
 
 def path_is_free(posterior: Drawn, path: ArrayLike, radius_m: float) -> FreeProbability:
-    """Compute the probability that a disc can move along a path (`bayesmap.posterior.passage`).
+    """Compute the probability that a disc can move along a path (`bayesmap.posterior.route`).
 
     Raises:
         BadInput: no draws, a path that is none, or leaves the map, or a radius that is not positive.

@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy import special
 
 from bayesmap.errors import BadInput
-from bayesmap.posterior.progress_shares import ignored
+from bayesmap.posterior.predictor import ignored
 from bayesmap.sensors.model import SensorModel
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans, as_angles, as_poses

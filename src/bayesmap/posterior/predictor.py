@@ -1,4 +1,6 @@
-"""Whatever predicts readings, with all that a score needs of it, and its predictions of scans that were never taken.
+"""Report the progress of a long piece of work as the share of it that is done.
+
+Whatever predicts readings, with all that a score needs of it, and its predictions of scans that were never taken.
 
 The law of one beam is that of docs/scoring.md,
 
@@ -6,13 +8,17 @@ The law of one beam is that of docs/scoring.md,
 
 and its quantile of level q is the least range z with P(reading <= z) >= q. `ScanPredictor` puts the draws on a device
 once, so that the scans from many poses cost little each.
+
+Residuals of held-out readings, beam by beam, and the place of a point with respect to a surface.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+import math
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Protocol
+from itertools import pairwise
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -21,10 +27,42 @@ from bayesmap.errors import BadInput
 from bayesmap.posterior.posterior import Posterior
 from bayesmap.sensors.model import RangeLimits, SensorModel
 from bayesmap.space.grid import Grid
-from bayesmap.space.scans import Scans
+from bayesmap.space.scans import Reading, Scans
 
 if TYPE_CHECKING:
     from bayesmap.kernels.predict.density import DeviceMaps
+
+OnShare = Callable[[float], None]
+"""Called with the share of the work that is done, from 0 to 1."""
+
+
+def ignored(share: float) -> None:
+    """Do nothing: the callback of a caller that does not follow the progress."""
+
+
+def parts(on_progress: OnShare, *sizes: float) -> list[OnShare]:
+    """Return a callback for each part of some work, called with the part's own share, where parts are done in order.
+
+    Args:
+        on_progress: called with the share of the whole.
+        sizes: how long each part takes, in any unit.
+    """
+    ends = np.cumsum([0.0, *sizes]) / sum(sizes)
+
+    def of_part(begin: float, end: float) -> OnShare:
+        return lambda share: on_progress(begin + (end - begin) * share)
+
+    return [of_part(begin, end) for begin, end in pairwise(ends.tolist())]
+
+
+def watched(batches: Iterable[NDArray[Any]], total: int, on_progress: OnShare) -> Iterator[NDArray[Any]]:
+    """Yield the batches of draws, ``total`` in all, and report progress whenever one has been used."""
+    used = 0
+    for batch in batches:
+        yield batch
+        used += len(batch)
+        on_progress(min(used / total, 1.0))
+
 
 MapStates = NDArray[np.float32]
 
@@ -161,3 +199,118 @@ class ScanPredictor:
         )
         rays = trace_rays(scan, self.grid, device=self.held.device)
         return range_quantiles(mix_device_stops(rays, self.held, GONE), asked, self.sensor, self.held.device)
+
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Residuals:
+    """Readings of the n beams that hit something or had no return, against their predictive laws.
+
+    Attributes:
+        ends_world: where a hit beam ended; for one without return, where its median was predicted, metres, (n, 2).
+        residual_m: reading minus predicted median, metres; no return counts as the sensor's largest range, (n,).
+        surprise_nats: minus the log predictive density of the reading, (n,).
+        beams: which of the scans' beams these are, flat, (n,).
+    """
+
+    ends_world: Floats
+    residual_m: Floats
+    surprise_nats: Floats
+    beams: NDArray[np.intp]
+
+
+def residuals_of(predictor: Predictor, scans: Scans, device: str = "cpu", on_progress: OnShare = ignored) -> Residuals:
+    """Predict every beam and compare; too close and invalid readings have no place on a map and are left out.
+
+    Args:
+        predictor: what predicts.
+        scans: held out.
+        device: where to compute.
+        on_progress: called with the share that is done.
+
+    Raises:
+        BadInput: no beam to compare, no draw, or a sensor model that kernels do not know.
+    """
+    from bayesmap.kernels.predict.density import forecast
+    from bayesmap.kernels.predict.stop_mixture import mix_stops
+    from bayesmap.kernels.predict.stop_quantiles import range_quantiles
+    from bayesmap.kernels.rays import trace_rays
+
+    if not placed(scans).size:
+        raise BadInput("residuals: none of the scans has a hit or a no-return to compare with its prediction")
+    rays = trace_rays(scans, predictor.grid, device=device)
+    sensor, depth, draws = predictor.sensor, predictor.hit_depth, predictor.draws
+    mixing, forecasting = parts(on_progress, 0.5, 1.0)
+    law = mix_stops(rays, watched(predictor.batches(rays.touched), draws, mixing), depth, device=device)
+    median_m = range_quantiles(law, np.array([0.5]), sensor, device)[:, 0]
+    batches = watched(predictor.batches(rays.touched), draws, forecasting)
+    prediction = forecast(rays, batches, sensor, depth, device=device)
+    return compare(scans, median_m, prediction.log_density)
+
+
+def placed(scans: Scans) -> NDArray[np.intp]:
+    """Return the flat indices of the beams that hit something or had no return."""
+    kinds = scans.readings.ravel()
+    return np.flatnonzero((kinds == Reading.HIT) | (kinds == Reading.NO_RETURN))
+
+
+def compare(scans: Scans, median_m: Floats, log_density: Floats) -> Residuals:
+    """Compare readings with given predictions.
+
+    Args:
+        scans: S scans of A beams, B = S A.
+        median_m: of each beam's predictive law, (B,); infinite where no return, or too close, is at the median.
+        log_density: log predictive density of each reading, (B,).
+    """
+    beams = placed(scans)
+    median = np.clip(median_m[beams], scans.min_range_m, scans.max_range_m)
+    reading = np.minimum(scans.ranges_m.ravel()[beams], scans.max_range_m)
+    drawn = np.where(np.isposinf(scans.ranges_m.ravel()[beams]), median, reading)
+    angle = scans.beam_angles_world().ravel()[beams]
+    start = scans.beam_starts_world().reshape(-1, 2)[beams]
+    ends = start + drawn[:, None] * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+    return Residuals(ends, reading - median, -log_density[beams], beams)
+
+
+@dataclass(frozen=True)
+class SurfaceOffset:
+    """A point in the frame of a surface, whose normal is the direction of its least extent, towards the sensor.
+
+    Attributes:
+        across_m: along the normal from the surface's mean: positive in front of it, negative behind.
+        along_m: along the wall from the mean: positive to the left as the sensor sees it.
+        thickness_m, length_m: standard deviations of the surface along the two.
+        incidence_rad: between the normal and the way from the surface's mean to the sensor, in [0, pi / 2].
+    """
+
+    across_m: float
+    along_m: float
+    thickness_m: float
+    length_m: float
+    incidence_rad: float
+
+
+def surface_offset(mean: Floats, covariance: Floats, point: Floats, sensor: Floats) -> SurfaceOffset:
+    """Split the vector from a surface's mean to a point into its parts across and along the surface.
+
+    Args:
+        mean: of the points where beams stop, (2,), metres.
+        covariance: of these points, (2, 2).
+        point: for instance where a reading ends, (2,).
+        sensor: where the beam comes from, (2,).
+    """
+    values, vectors = np.linalg.eigh(covariance)
+    normal, towards = vectors[:, 0], sensor - mean
+    if normal @ towards < 0:
+        normal = -normal
+    # seen from the sensor, which looks against the normal, left is the normal turned clockwise
+    left = np.array([normal[1], -normal[0]])
+    away = point - mean
+    distance = float(np.hypot(*towards))
+    cosine = float(normal @ towards) / distance if distance > 0 else 1.0
+    thickness, length = np.sqrt(np.maximum(values, 0.0))
+    return SurfaceOffset(
+        float(normal @ away), float(left @ away), float(thickness), float(length), math.acos(min(1.0, cosine))
+    )

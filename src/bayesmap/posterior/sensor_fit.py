@@ -13,7 +13,7 @@ import numpy as np
 import scipy
 from numpy.typing import NDArray
 
-from bayesmap.posterior.progress_shares import OnShare, ignored, parts
+from bayesmap.posterior.predictor import OnShare, ignored, parts
 from bayesmap.sensors.mixture import BeamMixture
 from bayesmap.sensors.noise import noise_with
 

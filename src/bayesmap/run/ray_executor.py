@@ -270,8 +270,8 @@ class _RayRun:
                 on_checkpoint(replace(so_far, finished=False))
                 saved_at = time.monotonic()
                 pause_s = pause_after(saved_at - now, checkpoint_every_s)
-        # Segments that still run are left to end, in seconds. Never cancel them: Ray aborts this process when it cancels
-        # a task that has just returned (the race of its pull request 54798, which 2.60 still has).
+        # Segments that still run are left to end, in seconds. Never cancel them: Ray aborts this process when it
+        # cancels a task that has just returned (the race of its pull request 54798, which 2.60 still has).
         return self.so_far()
 
     @property

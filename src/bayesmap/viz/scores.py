@@ -10,8 +10,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
-from bayesmap.posterior.calibration import inside
-from bayesmap.posterior.scores import Score
+from bayesmap.posterior.scores import Score, inside
 from bayesmap.posterior.trajectory_scores import TrajectoryScore
 from bayesmap.viz import palette
 

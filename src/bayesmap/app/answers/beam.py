@@ -14,8 +14,7 @@ from bayesmap.app.protocol.actions import CompareBeam
 from bayesmap.app.protocol.notices import ComparedBeam, SurfaceOffset
 from bayesmap.app.shown.result import Result
 from bayesmap.beams.rays import Rays
-from bayesmap.posterior.predictor import CENTRAL_80, Predictor
-from bayesmap.posterior.residuals import surface_offset
+from bayesmap.posterior.predictor import CENTRAL_80, Predictor, surface_offset
 from bayesmap.space.scans import Scans
 
 NEAR_CELLS = 2.0

@@ -21,8 +21,7 @@ from bayesmap.app.scene import hits
 from bayesmap.app.shown.result import Result
 from bayesmap.errors import BadInput
 from bayesmap.localization.belief import PoseBelief
-from bayesmap.localization.certain_map import locate
-from bayesmap.localization.filter import Scan
+from bayesmap.localization.filter import Scan, locate
 from bayesmap.localization.known_map import KnownMap
 from bayesmap.localization.localize import localize
 from bayesmap.sensors.model import RangeLimits

@@ -215,7 +215,7 @@ def slam_edges(found: Approximation) -> Edges:
 
 def _growth(gaussian: PoseGaussian) -> float:
     """Return the geometric mean ratio of relative covariances with errors in common to those without."""
-    from bayesmap.poses.precision import relative_covariances
+    from bayesmap.poses.graph import relative_covariances
 
     rng = np.random.default_rng(SEED)
     first, second = rng.integers(0, len(gaussian.poses), (2, SAMPLED))

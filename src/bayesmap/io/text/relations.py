@@ -19,7 +19,7 @@ from numpy.typing import ArrayLike
 from bayesmap.errors import BadInput
 from bayesmap.files import write_text
 from bayesmap.io.text.lines import read_table
-from bayesmap.poses.relations import Relations
+from bayesmap.posterior.trajectory_scores import Relations
 
 
 def read_relations(path: str | os.PathLike[str]) -> Relations:
