@@ -132,7 +132,7 @@ def speed(run):
 
 def buildings(each, seeds):
     from bayesmap.sim.building import building
-    from bayesmap.sim.patrol import patrol
+    from bayesmap.sim.robot import patrol
 
     rows = []
     angles = np.radians(np.arange(-90, 90))

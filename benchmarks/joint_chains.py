@@ -24,7 +24,7 @@ from bayesmap.kernels.predict.scan_likelihood import ScanLikelihood
 from bayesmap.poses.prior import Uncertain
 from bayesmap.posterior.diagnostics import rhat
 from bayesmap.sim.building import building
-from bayesmap.sim.patrol import patrol
+from bayesmap.sim.robot import patrol
 from bayesmap.space.planar import between, wrapped
 
 Floats = NDArray[np.float64]

@@ -20,8 +20,7 @@ from bayesmap.poses.trajectory import Trajectory
 from bayesmap.sensors.noise import Gaussian
 from bayesmap.sim.building import building
 from bayesmap.sim.forward import simulate
-from bayesmap.sim.odometry import OdometryNoise, simulate_odometry, travel_times_s
-from bayesmap.sim.patrol import patrol
+from bayesmap.sim.robot import OdometryNoise, patrol, simulate_odometry, travel_times_s
 from bayesmap.space.grid import Grid
 from bayesmap.space.planar import between, wrapped
 from bayesmap.space.scans import Scans

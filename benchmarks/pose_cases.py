@@ -19,8 +19,7 @@ from bayesmap.sensors.mixture import BeamMixture
 from bayesmap.sensors.noise import Gaussian
 from bayesmap.sim.building import Building, building
 from bayesmap.sim.forward import simulate
-from bayesmap.sim.odometry import OdometryNoise, simulate_odometry, travel_times_s
-from bayesmap.sim.patrol import patrol
+from bayesmap.sim.robot import OdometryNoise, patrol, simulate_odometry, travel_times_s
 from bayesmap.space.grid import Grid
 from bayesmap.space.planar import between, compose, wrapped
 from bayesmap.space.scans import Scans

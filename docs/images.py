@@ -10,7 +10,7 @@ import numpy as np
 from bayesmap.cli.pictures import log_odds_map
 
 import bayesmap as bm
-from bayesmap.sim.tutorial import TUTORIAL_GRID
+from bayesmap.sim.drawing import TUTORIAL_GRID
 from bayesmap.viz.cells import window
 from bayesmap.viz.figure import write_figure
 from bayesmap.viz.map_figures import Candidate, comparison_figure

@@ -115,7 +115,7 @@ def test_an_import_that_points_up_is_noticed():
 
 FAMILIES: dict[str, tuple[set[str], ...]] = {
     "kernels": ({"kernels"}, {"kernels.match", "kernels.walls"}, {"kernels.surfaces"}, {"kernels.predict"}),
-    "io": ({"io.image", "io.returns"}, {"io.log_reading"}, {"io.text", "io.ros"}, {"io"}),
+    "io": ({"io.returns"}, {"io.log_reading"}, {"io.text", "io.ros"}, {"io"}),
 }
 """Families of a room (folders, or single modules), by level, the lowest first. A family imports lower levels only."""
 

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 import bayesmap as bm
 from bayesmap.errors import BadInput
-from bayesmap.io.text.relations import read_relations
+from bayesmap.io.text.trajectories import read_relations
 from bayesmap.localization.known_map import KnownMap
 from bayesmap.poses.key_graph import poses_between_keys
 from bayesmap.poses.slam import infer_trajectory

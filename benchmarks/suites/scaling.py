@@ -11,7 +11,7 @@ from bayesmap.samplers.stop_gibbs import StopGibbs
 from bayesmap.samplers.stop_problem import trace_stops
 from bayesmap.samplers.wall_problem import WallProblem
 from bayesmap.samplers.walls import WallGibbs
-from bayesmap.sim.tutorial import TUTORIAL_GRID
+from bayesmap.sim.drawing import TUTORIAL_GRID
 from benchmarks.figure import Figure, derived, timed
 from benchmarks.suites.tutorial import SENSOR, sweep_time, sweeps_of
 

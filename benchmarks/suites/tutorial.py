@@ -13,7 +13,7 @@ from bayesmap.samplers.importance import sample_importance
 from bayesmap.samplers.sampler import Sampler
 from bayesmap.samplers.wall_problem import WallProblem
 from bayesmap.samplers.walls import WallBlocks, WallGibbs
-from bayesmap.sim.tutorial import TUTORIAL_GRID
+from bayesmap.sim.drawing import TUTORIAL_GRID
 from benchmarks.figure import Figure, rate, ratio, timed, timer
 from benchmarks.peer_runner import Unavailable, peer, tutorial_data
 

@@ -15,7 +15,7 @@ from bayesmap.posterior.diagnostics import diagnose_cells
 from bayesmap.posterior.posterior import Posterior
 from bayesmap.posterior.scores import score_posterior, score_prediction
 from bayesmap.sim.building import Building, building
-from bayesmap.sim.patrol import patrol
+from bayesmap.sim.robot import patrol
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
 from benchmarks.figure import Figure

@@ -22,7 +22,7 @@ from drawing import panels, show
 import bayesmap as bm
 from bayesmap import viz
 from bayesmap.sim.building import building
-from bayesmap.sim.patrol import patrol
+from bayesmap.sim.robot import patrol
 from bayesmap.space.planar import between, compose, wrapped
 from bayesmap.viz.trajectory import AFTER, BEFORE, draw_ellipses
 

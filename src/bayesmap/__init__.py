@@ -53,8 +53,8 @@ if TYPE_CHECKING:
     from bayesmap.sensors.noise import StudentT as StudentT
     from bayesmap.sim.forward import ranges as ranges
     from bayesmap.sim.forward import simulate as simulate
-    from bayesmap.sim.odometry import OdometryNoise as OdometryNoise
-    from bayesmap.sim.odometry import simulate_odometry as simulate_odometry
+    from bayesmap.sim.robot import OdometryNoise as OdometryNoise
+    from bayesmap.sim.robot import simulate_odometry as simulate_odometry
     from bayesmap.space.grid import Grid as Grid
     from bayesmap.space.scans import Reading as Reading
     from bayesmap.space.scans import Scans as Scans
@@ -79,7 +79,7 @@ _HOME = {
     "MapWidget": "bayesmap.app.widget",
     "Near": "bayesmap.localization.localize",
     "Odometry": "bayesmap.poses.prior",
-    "OdometryNoise": "bayesmap.sim.odometry",
+    "OdometryNoise": "bayesmap.sim.robot",
     "Propagate": "bayesmap.samplers.methods",
     "RayExecutor": "bayesmap.run.ray_executor",
     "Reading": "bayesmap.space.scans",
@@ -101,7 +101,7 @@ _HOME = {
     "read_log": "bayesmap.io.logs",
     "score": "bayesmap.result",
     "simulate": "bayesmap.sim.forward",
-    "simulate_odometry": "bayesmap.sim.odometry",
+    "simulate_odometry": "bayesmap.sim.robot",
     "slam": "bayesmap.from_odometry",
     "worlds": "bayesmap.worlds",
 }

@@ -13,7 +13,7 @@ from bayesmap.app.protocol.document import BOUNDS, Document, Refused, Sensor, pa
 from bayesmap.app.protocol.wire import parse_document, parse_simulation
 from bayesmap.app.scene import simulate_document, standard_noise
 from bayesmap.app.worlds import new_document, tutorial_document
-from bayesmap.sim.tutorial import TUTORIAL_GRID
+from bayesmap.sim.drawing import TUTORIAL_GRID
 from bayesmap.space.grid import Grid
 
 

@@ -8,7 +8,7 @@ from shell import call
 
 from bayesmap.cli.localize import _per_cent
 from bayesmap.io.logs import read_log
-from bayesmap.io.text.tum import read_trajectory
+from bayesmap.io.text.trajectories import read_trajectory
 
 
 @pytest.fixture(scope="module")

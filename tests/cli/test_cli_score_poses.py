@@ -7,7 +7,7 @@ import pytest
 from shell import call
 
 from bayesmap.io.logs import read_log
-from bayesmap.io.text.tum import read_trajectory, write_trajectory
+from bayesmap.io.text.trajectories import read_trajectory, write_trajectory
 from bayesmap.posterior import sensor_fit
 
 SMALL = ("--world", "building", "--size", "12x8", "--resolution", "0.25", "--scans", "40", "--angles", "60")

@@ -10,7 +10,7 @@ import bayesmap as bm
 from bayesmap.cli.typed import odometry_of
 from bayesmap.errors import BadInput
 from bayesmap.io.logs import describe_log
-from bayesmap.sim.odometry import OdometryNoise
+from bayesmap.sim.robot import OdometryNoise
 from bayesmap.space.planar import between, compose, interpolate
 
 SMALL = ("--world", "building", "--size", "12x8", "--resolution", "0.25", "--scans", "15", "--angles", "60")

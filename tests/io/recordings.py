@@ -19,7 +19,7 @@ from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
 import bayesmap as bm
 from bayesmap.io.logs import describe_log
-from bayesmap.io.ros.compression import zstd
+from bayesmap.io.ros.recording import zstd
 
 T0 = 1_700_000_000 * 10**9
 SCAN, RANGE = "sensor_msgs/msg/LaserScan", "sensor_msgs/msg/Range"

@@ -124,7 +124,7 @@ def test_a_folder_without_permission_is_named(tmp_path, name):
 
 
 def test_a_grid_of_one_cell(tmp_path):
-    from bayesmap.io.ros.run_messages import write_grid_map, write_occupancy_grid
+    from bayesmap.io.ros.writer import write_grid_map, write_occupancy_grid
     from bayesmap.space.grid import Grid
 
     for path in (tmp_path / "one.bag", tmp_path / "one.mcap"):

@@ -9,7 +9,7 @@ from map_case import GRID, observed, occupancy, scans
 from PIL import Image
 
 from bayesmap.errors import BadInput
-from bayesmap.io.layers import UNKNOWN_COLOR, to_pixels, write_geotiff, write_rerun
+from bayesmap.io.exports import UNKNOWN_COLOR, to_pixels, write_geotiff, write_rerun
 from bayesmap.space.trajectory import Trajectory
 
 LAYERS = {"mean": occupancy(), "entropy": 1 - occupancy()}

@@ -13,7 +13,7 @@ from flat_options import infer
 
 import bayesmap as bm
 from bayesmap.io.logs import describe_log, read_log
-from bayesmap.io.ros.compression import zstd
+from bayesmap.io.ros.recording import zstd
 
 
 @pytest.mark.parametrize("writer", [*r.WRITERS, *r.COMPRESSED])

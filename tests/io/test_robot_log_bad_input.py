@@ -10,7 +10,7 @@ import recordings as r
 
 import bayesmap as bm
 from bayesmap.io.logs import describe_log, read_log
-from bayesmap.io.ros.compression import zstd
+from bayesmap.io.ros.recording import zstd
 
 CONTAINERS = ("rosbag1", "db3", "mcap", "mcap-zstd", "mcap-lz4", "mcap-ros1")
 

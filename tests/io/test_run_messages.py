@@ -7,7 +7,7 @@ from recorded import READERS
 
 from bayesmap.errors import BadInput
 from bayesmap.io.ros.maps import in_percent
-from bayesmap.io.ros.run_messages import write_grid_map, write_occupancy_grid
+from bayesmap.io.ros.writer import write_grid_map, write_occupancy_grid
 from bayesmap.space.grid import Grid
 
 

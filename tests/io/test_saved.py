@@ -14,7 +14,7 @@ from tiers import full_but
 import bayesmap as bm
 from bayesmap.cells.arrays import ArraySpec
 from bayesmap.io import saved as saved_module
-from bayesmap.io.saved_trajectory import arrays_of, numbers_of
+from bayesmap.io.saved import arrays_of, numbers_of
 from bayesmap.poses.trajectory import Alternatives
 from bayesmap.run import runner
 from bayesmap.space.planar import between, compose

@@ -13,8 +13,7 @@ from scipy.spatial.transform import Rotation
 from bayesmap.errors import BadInput
 from bayesmap.io.exports import export_run, export_trajectory, trajectory_of
 from bayesmap.io.text.g2o import Edges, chain_edges, slam_edges, write_g2o
-from bayesmap.io.text.relations import write_relations
-from bayesmap.io.text.tum import read_trajectory, write_trajectory
+from bayesmap.io.text.trajectories import read_trajectory, write_relations, write_trajectory
 from bayesmap.poses.graph import Factors, Precision, normal_equations, quadratic, relative_covariances, solve_step
 from bayesmap.space.planar import between, compose
 from bayesmap.space.scans import Scans

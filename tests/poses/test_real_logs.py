@@ -5,7 +5,7 @@ import pytest
 from data import intel_log
 
 from bayesmap.io.logs import read_log
-from bayesmap.io.text.relations import read_relations
+from bayesmap.io.text.trajectories import read_relations
 from bayesmap.poses.slam import infer_trajectory
 from bayesmap.posterior.trajectory_scores import relation_errors
 from bayesmap.space.planar import between, compose, wrapped

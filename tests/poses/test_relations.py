@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from bayesmap.errors import BadInput
-from bayesmap.io.text.relations import read_relations
+from bayesmap.io.text.trajectories import read_relations
 from bayesmap.posterior.trajectory_scores import Relations, relation_errors
 from bayesmap.space.planar import between, compose
 

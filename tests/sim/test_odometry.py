@@ -5,7 +5,7 @@ import pytest
 from tiers import full_but
 
 from bayesmap.errors import BadInput
-from bayesmap.sim.odometry import NEAR_M, OdometryNoise, related_pairs, simulate_odometry, travel_times_s
+from bayesmap.sim.robot import NEAR_M, OdometryNoise, related_pairs, simulate_odometry, travel_times_s
 from bayesmap.space.planar import between, wrapped
 
 PERFECT = dict.fromkeys(OdometryNoise.__dataclass_fields__, 0.0)

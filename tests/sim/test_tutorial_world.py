@@ -1,7 +1,7 @@
 import numpy as np
 
 from bayesmap import worlds
-from bayesmap.sim.tutorial import DRAWING, TUTORIAL_GRID
+from bayesmap.sim.drawing import DRAWING, TUTORIAL_GRID
 
 
 def test_walls_are_indexed_as_the_tutorial_indexes_them():

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from bayesmap.errors import BadInput
-from bayesmap.space.beam_angles import fan
+from bayesmap.space.scans import fan
 
 
 def test_fans():

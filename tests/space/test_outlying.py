@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import bayesmap as bm
-from bayesmap.space.outlying import outlying
+from bayesmap.space.grid import outlying
 
 
 @pytest.fixture

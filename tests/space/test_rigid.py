@@ -3,7 +3,7 @@
 import numpy as np
 from scipy.spatial.transform import RigidTransform, Rotation
 
-from bayesmap.space.rigid import Track, planar, upright
+from bayesmap.io.ros.frames import Track, planar, upright
 
 
 def some(seed, count=20):

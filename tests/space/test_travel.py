@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import bayesmap as bm
-from bayesmap.space.travel import jumps, steps_m, thinned
+from bayesmap.io.logs import jumps, steps_m, thinned
 
 
 def scans_at(positions, stamps=None):

@@ -21,9 +21,8 @@ from bayesmap.samplers.wall_problem import WallProblem
 from bayesmap.sensors.model import SensorModel
 from bayesmap.sensors.noise import AdditiveNoise, Gaussian
 from bayesmap.sim.forward import ranges
-from bayesmap.space.beam_angles import fan
 from bayesmap.space.grid import Grid
-from bayesmap.space.scans import Scans
+from bayesmap.space.scans import Scans, fan
 
 STREAM_NOISE = 11
 BLUR_SIGMAS = 5.0

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from bayesmap.app.protocol.actions import World
 from bayesmap.app.protocol.document import Document, Refused, Sensor, Source, packed
-from bayesmap.sim.tutorial import TUTORIAL_GRID, tutorial
+from bayesmap.sim.drawing import TUTORIAL_GRID, tutorial
 from bayesmap.space.grid import Grid
 
 BUILDING_NOISE_M = 0.05

@@ -74,8 +74,8 @@ def _runs(console: Console, settings: DemoSettings) -> dict[str, Run]:
     from bayesmap.cells.kind import CellPrior
     from bayesmap.samplers.methods import Block, Gibbs, Importance, Method
     from bayesmap.sensors.noise import Gaussian
+    from bayesmap.sim.drawing import TUTORIAL_GRID, tutorial
     from bayesmap.sim.forward import simulate
-    from bayesmap.sim.tutorial import TUTORIAL_GRID, tutorial
 
     walls, pose = tutorial()
     sensor, seed = Gaussian(SIGMA_M), settings.seed
@@ -106,7 +106,7 @@ def _pictures(runs: dict[str, Run], folder: Path) -> list[Path]:
     """Write the pictures and the film, the run itself, and its map."""
     import numpy as np
 
-    from bayesmap.sim.tutorial import tutorial
+    from bayesmap.sim.drawing import tutorial
     from bayesmap.viz.animation import write_animation
     from bayesmap.viz.diagnostics import weights_figure
     from bayesmap.viz.figure import write_figure

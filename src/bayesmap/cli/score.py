@@ -104,7 +104,7 @@ def score(
     # Score the poses.
     poses = None
     if relations is not None:
-        from bayesmap.io.text.relations import read_relations
+        from bayesmap.io.text.trajectories import read_relations
         from bayesmap.posterior.trajectory_scores import score_trajectory
 
         poses = score_trajectory(scored.trajectory, read_relations(relations), shift, exact=exact)

@@ -197,7 +197,7 @@ def placed_scans(log: str, settings: ScoreSettings, trajectory: str | None, moun
     """
     need_file(log, "the log that the map was made from", runs=False)
     from bayesmap.io.logs import read_log
-    from bayesmap.io.text.tum import read_trajectory
+    from bayesmap.io.text.trajectories import read_trajectory
     from bayesmap.space.trajectory import Trajectory
 
     if settings.holdout == 0:

@@ -82,8 +82,8 @@ def simulate(call: Call[SimulateSettings], output: str | None, poses: tuple[str,
     from bayesmap.io.text.carmen import write_carmen
     from bayesmap.sensors.describe import describe
     from bayesmap.sim import forward
-    from bayesmap.space.beam_angles import fan
     from bayesmap.space.planar import compose
+    from bayesmap.space.scans import fan
 
     angles = fan(
         world.beams if settings.angles is None else settings.angles,
@@ -98,7 +98,7 @@ def simulate(call: Call[SimulateSettings], output: str | None, poses: tuple[str,
     )  # fmt: skip
     # Draw what odometry reports, and let the log say that.
     if noise is not None:
-        from bayesmap.sim.odometry import simulate_odometry, travel_times_s
+        from bayesmap.sim.robot import simulate_odometry, travel_times_s
 
         stamps_s = travel_times_s(base, settings.speed, TURN_RAD_PER_S)
         base = simulate_odometry(base, noise, stamps_s=stamps_s, seed=settings.seed)
@@ -142,9 +142,8 @@ def _write_truth(
     stamps_s: NDArray[np.float64],
     seed: int,
 ) -> list[Path]:
-    from bayesmap.io.text.relations import write_relations
-    from bayesmap.io.text.tum import write_trajectory
-    from bayesmap.sim.odometry import related_pairs
+    from bayesmap.io.text.trajectories import write_relations, write_trajectory
+    from bayesmap.sim.robot import related_pairs
     from bayesmap.space.planar import between
 
     outputs = [write_trajectory(trajectory, laser, stamps_s)]
@@ -217,7 +216,7 @@ def world_of(settings: SimulateSettings, poses: Sequence[str]) -> World:
 
 
 def _tutorial(resolution: float | None, typed: list[tuple[float, float, float]]) -> World:
-    from bayesmap.sim.tutorial import TUTORIAL_GRID, tutorial
+    from bayesmap.sim.drawing import TUTORIAL_GRID, tutorial
     from bayesmap.space.grid import Grid
 
     walls, pose = tutorial()
@@ -231,7 +230,7 @@ def _tutorial(resolution: float | None, typed: list[tuple[float, float, float]])
 
 def _building(settings: SimulateSettings, typed: list[tuple[float, float, float]]) -> World:
     from bayesmap.sim.building import building
-    from bayesmap.sim.patrol import patrol
+    from bayesmap.sim.robot import patrol
 
     made = building(settings.seed, _size(settings.size), settings.resolution or 0.1)
     poses = _stack(typed) if typed else patrol(made, settings.scans, settings.seed)
@@ -239,7 +238,7 @@ def _building(settings: SimulateSettings, typed: list[tuple[float, float, float]
 
 
 def _from_file(path: Path, resolution: float | None) -> tuple[NDArray[np.bool_], Grid]:
-    from bayesmap.io.image import from_image
+    from bayesmap.io.ros.maps import from_image
     from bayesmap.sim.drawing import from_text
     from bayesmap.space.grid import Grid
 

@@ -149,7 +149,7 @@ def _slam(task: Task[SlamSettings], reading: LogReading, saved: Run | None) -> R
 
 def _write_trajectory(folder: Folder, reading: LogReading, run: Run) -> list[Path]:
     """Write the trajectory of all scans, its covariances and its pictures."""
-    from bayesmap.io.text.tum import covariances_path, write_covariances, write_trajectory
+    from bayesmap.io.text.trajectories import covariances_path, write_covariances, write_trajectory
     from bayesmap.space.planar import between, compose
     from bayesmap.viz.figure import write_figure
     from bayesmap.viz.trajectory import loops_figure, odometry_figure, trajectory_figure

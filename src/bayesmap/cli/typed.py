@@ -12,7 +12,7 @@ from bayesmap.errors import BadInput
 
 if TYPE_CHECKING:
     from bayesmap.sensors.model import SensorModel
-    from bayesmap.sim.odometry import OdometryNoise
+    from bayesmap.sim.robot import OdometryNoise
 
 
 def numbers_of(text: str, flag: str, form: str, counts: tuple[int, ...]) -> list[float]:
@@ -114,7 +114,7 @@ def odometry_of(text: str) -> OdometryNoise | None:
     """
     if text == TRUE_ODOMETRY:
         return None
-    from bayesmap.sim.odometry import OdometryNoise
+    from bayesmap.sim.robot import OdometryNoise
 
     known = [field.name for field in fields(OdometryNoise)]
     first, *rest = (part.strip() for part in text.split(","))

@@ -13,7 +13,7 @@ import numpy as np
 from bayesmap.errors import BadInput
 from bayesmap.io.log_reading import LogReading
 from bayesmap.io.logs import RECORDINGS, describe_log, format_of
-from bayesmap.io.ros.laser_messages import SCAN_TYPES
+from bayesmap.io.ros.recording import POSE_TYPES, SCAN_TYPES, TF_TYPES, TYPES, topics_of_type
 from bayesmap.poses.log_checks import TOO_SELDOM, look_like_odometry, scans_come_often
 from bayesmap.space.scans import Scans
 
@@ -90,8 +90,8 @@ def contents_of(path: str | os.PathLike[str]) -> Contents:
 def _of_recording(path: str | os.PathLike[str]) -> Contents:
     from bayesmap.io.ros.containers import open_recording
     from bayesmap.io.ros.frames import FrameTree
-    from bayesmap.io.ros.messages import TYPES, read_messages
-    from bayesmap.io.ros.poses import POSE_TYPES, TF_TYPES, PoseMessages, topics_of_type
+    from bayesmap.io.ros.messages import read_messages  # loads rosbags
+    from bayesmap.io.ros.poses import PoseMessages
 
     name = os.fspath(path)
     recording = open_recording(path, salvage=True, types=TYPES)
@@ -143,8 +143,6 @@ def _without_scans(recording: Any) -> str:
 
 def _sensor(recording: Any, topic: Any) -> dict[str, Any]:
     """Return what the scans of one topic look like, and by which poses they can be used."""
-    from bayesmap.io.ros.poses import POSE_TYPES, topics_of_type
-
     account: dict[str, Any] = {
         "topic": topic.name, "type": topic.type, "pose_topic": None, "error": None, "no_poses": None,
     }  # fmt: skip

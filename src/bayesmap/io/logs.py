@@ -1,4 +1,11 @@
-"""Logs of range scans, whatever their format, recognised by what is in them."""
+"""Logs of range scans, whatever their format, recognised by what is in them.
+
+A NumPy archive (.npz) holds scans under the names of the fields of `bayesmap.Scans`: ``poses`` (S, 3), ``angles_rad``
+(A,) and ``ranges_m`` (S, A); ``angles_rad`` is (S, A) where the beams differ from scan to scan, with NaN where a scan
+has fewer. Optional are ``max_range_m``, ``min_range_m``, ``stamps_s`` (S,) and ``beam_poses`` (S, A, 3). Readings are
+coded as in `Scans`: +inf no return, -inf too close, NaN invalid, all else hits; a code is looked for only if
+``no_return`` names one.
+"""
 
 from __future__ import annotations
 
@@ -6,27 +13,28 @@ import itertools
 import math
 import os
 import shlex
+import warnings
 from contextlib import closing
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
-from bayesmap.io.log_reading import LogOptions, LogReading, Pose
-from bayesmap.io.ros.compression import compression_of, first_bytes
+from bayesmap.io.log_reading import Account, LogOptions, LogReading, Pose
+from bayesmap.io.returns import NoReturn, Readings, decode, largest_hit_m
+from bayesmap.io.ros.containers import METADATA, compression_of, container_of, first_bytes, format_by_start
 from bayesmap.io.text.carmen import KNOWN, read_carmen
 from bayesmap.io.text.csv import read_csv, starts_table
 from bayesmap.io.text.g2o import KNOWN as KNOWN_G2O
 from bayesmap.io.text.g2o import read_g2o
 from bayesmap.io.text.lines import DamagedFile, read_lines
-from bayesmap.io.text.npz import MAGIC as NPZ_MAGIC
-from bayesmap.io.text.npz import read_npz
 from bayesmap.io.text.rawlog import read_rawlog, starts_as_rawlog
+from bayesmap.space.planar import compose
 from bayesmap.space.scans import Scans
-from bayesmap.space.time_order import SAME_S, coarse_stamps_note
-from bayesmap.space.travel import jumps, steps_m, thinned
+from bayesmap.space.time_order import SAME_S, coarse_stamps_note, elapsed_s
 
 FORMATS = (
     "CARMEN (lines of FLASER, ROBOTLASER1, ODOM; plain or gzipped)",
@@ -44,10 +52,20 @@ SAVED_RUNS = (b"\x89HDF", b"CDF")
 """How netCDF files begin."""
 LARGE_TURN_RAD, LARGE_TURNS, NEAR_A_TURN_DEG = 1.0, 0.05, 20.0
 """No robot turns so far from scan to scan in so many scans; and where degrees wrap, they leap by 360, or nearly so."""
-READERS = {"carmen": read_carmen, "csv": read_csv, "g2o": read_g2o, "npz": read_npz, "rawlog": read_rawlog}
 GMAPPING = (b"LASER_READING", b"ODO_UPDATE", b"SM_UPDATE", b"RESAMPLE")
 """Messages of GMapping's own logs of its particles (.gfs)."""
 RECORDINGS = ("rosbag1", "rosbag2-sqlite3", "mcap", "folder")
+
+NPZ_MAGIC = b"PK\x03\x04"
+NPZ_NEEDED = ("poses", "angles_rad", "ranges_m")
+NPZ_OPTIONAL = ("max_range_m", "min_range_m", "stamps_s", "beam_poses")
+
+FASTEST_M_PER_S = 10.0
+"""No robot in a building is faster."""
+SHORTEST_JUMP_M = 0.2
+"""Below this, the time between scans is too uncertain for a speed."""
+LONGEST_STEP_M, USUAL_STEPS = 2.0, 10.0
+"""A step is a jump, whatever its time, if it is longer than 2 m and than this many usual steps."""
 
 
 def read_log(
@@ -88,17 +106,9 @@ def read_log(
             frame that is not there or must be chosen; the message lists what there is.
     """
     options = LogOptions(
-        no_return,
-        skip_bad_lines,
-        max_range_m,
-        scan_topic,
-        pose_topic,
-        fixed_frame,
-        deskew,
-        thin_m,
-        laser,
+        no_return, skip_bad_lines, max_range_m, scan_topic, pose_topic, fixed_frame, deskew, thin_m, laser,
         without_poses,
-    )
+    )  # fmt: skip
     return _read(path, options).scans
 
 
@@ -142,25 +152,21 @@ def format_of(path: str | os.PathLike[str]) -> str:
     name, where = os.fspath(path), Path(path)
     try:
         if where.is_dir():
+            if container_of(where) is not None:
+                return "folder"
             inside = sorted(entry.name for entry in where.iterdir())
-            if not any(n == "metadata.yaml" or n.endswith((".db3", ".mcap", ".zstd", ".zst")) for n in inside):
-                logs = [n for n in inside if n.endswith(ENDINGS) or (where / n / "metadata.yaml").exists()]
-                raise BadInput(
-                    f"{name}: a folder, but not a ROS 2 bag's: metadata.yaml, .db3 and .mcap are missing; "
-                    + (f"give what is in it, such as {where / logs[0]}" if logs else "give a file")
-                )
-            return "folder"
+            logs = [n for n in inside if n.endswith(ENDINGS) or (where / n / METADATA).exists()]
+            raise BadInput(
+                f"{name}: a folder, but not a ROS 2 bag's: {METADATA}, .db3 and .mcap are missing; "
+                + (f"give what is in it, such as {where / logs[0]}" if logs else "give a file")
+            )
         with where.open("rb") as file:
             packed = compression_of(file.read(4))
         start = first_bytes(where, 16)
     except OSError as error:
         raise BadInput(f"{name}: cannot be read: {error.strerror or error}") from None
-    if start.startswith(b"#ROSBAG V"):
-        return "rosbag1"
-    if start.startswith(b"SQLite format 3\0"):
-        return "rosbag2-sqlite3"
-    if start.startswith(b"\x89MCAP0\r\n"):
-        return "mcap"
+    if (recording := format_by_start(start)) is not None:
+        return recording
     if start.startswith(NPZ_MAGIC):
         return "npz"
     if start.startswith(SAVED_RUNS):
@@ -258,3 +264,120 @@ def _degrees(reading: LogReading) -> str | None:
         f"the robot's yaw turns by {steps.max():.3g} from scan {scan - 1} to scan {scan}, and reaches "
         f"{np.abs(yaw).max():.4g}: it is taken as radians; is it in degrees?"
     )
+
+
+def read_npz(path: str | os.PathLike[str], options: LogOptions) -> LogReading:
+    """Read scans from an .npz archive.
+
+    Raises:
+        BadInput: not such an archive, an array that is missing or does not fit, or no valid reading.
+    """
+    account = Account(os.fspath(path), "npz", options)
+    name, arrays = account.name, _arrays(os.fspath(path))
+    posed = "poses" in arrays
+    if not posed and options.without_poses and "ranges_m" in arrays:
+        arrays["poses"] = np.zeros((len(np.atleast_2d(arrays["ranges_m"])), 3))
+    if arrays.keys() >= {"angles_rad", "ranges_m"} and "poses" not in arrays:
+        raise account.no_poses("the archive has no 'poses'")
+    missing = [key for key in NPZ_NEEDED if key not in arrays]
+    if missing:
+        raise BadInput(f"{name}: the archive has no {missing[0]!r}; it has {', '.join(sorted(arrays)) or 'nothing'}")
+    if options.laser is not None:
+        for key in {"poses", "beam_poses"} & arrays.keys():
+            arrays[key] = compose(arrays[key], np.array(options.laser))
+    account.stamps_s = arrays.get("stamps_s")
+    try:
+        reading = account.reading(
+            "scans", arrays["poses"], arrays["angles_rad"], _typed(account, arrays),
+            beam_poses=arrays.get("beam_poses"), posed=posed,
+        )  # fmt: skip
+    except BadInput as problem:
+        raise BadInput(f"{name}: {str(problem).removeprefix(f'{name}: ')}") from None
+    return replace(reading, messages={"scans": len(reading.scans)})
+
+
+def _typed(account: Account, arrays: dict[str, NDArray[np.float64]]) -> Readings:
+    name, code = account.name, account.options.no_return
+    ranges, coded = np.atleast_2d(arrays["ranges_m"]), NoReturn(None, "none")
+    if code is not None:
+        ranges, coded = decode(ranges, code)
+    if not ranges.size or np.isnan(ranges).all():
+        raise BadInput(f"{name}: none of {ranges.size:,} readings is valid")
+    limit, origin = account.options.max_range_m, "given"
+    if limit is None and "max_range_m" in arrays:
+        limit, origin = _number(name, arrays, "max_range_m"), "message"
+    if limit is None:
+        limit, origin = largest_hit_m(name, ranges), "readings"
+    smallest = _number(name, arrays, "min_range_m") if "min_range_m" in arrays else 0.0
+    return Readings(ranges, coded, smallest, limit, origin, ())
+
+
+def _arrays(name: str) -> dict[str, NDArray[np.float64]]:
+    arrays: dict[str, NDArray[np.float64]] = {}
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # NumPy's about old or odd headers: the arrays are checked anyway
+            with Path(name).open("rb") as file, np.load(file, allow_pickle=False) as archive:
+                for key in archive.files:
+                    arrays[key] = np.asarray(archive[key])
+    except Exception as error:  # NumPy and zipfile raise whatever their parsing meets
+        reason = " ".join(str(error).split()) or type(error).__name__
+        raise BadInput(f"{name}: not a readable .npz archive; damaged or cut short? ({reason})") from None
+    for key in (*NPZ_NEEDED, *NPZ_OPTIONAL):
+        if key in arrays:
+            if arrays[key].dtype.kind not in "iuf":
+                raise BadInput(f"{name}: {key} holds {arrays[key].dtype}, not numbers")
+            arrays[key] = arrays[key].astype(np.float64)
+    return arrays
+
+
+def _number(name: str, arrays: dict[str, NDArray[np.float64]], key: str) -> float:
+    if arrays[key].size != 1:
+        raise BadInput(f"{name}: {key} has shape {arrays[key].shape}, expected one number")
+    return float(arrays[key].reshape(()))
+
+
+READERS = {"carmen": read_carmen, "csv": read_csv, "g2o": read_g2o, "npz": read_npz, "rawlog": read_rawlog}
+
+
+def thinned(scans: Scans, spacing_m: float) -> Scans:
+    """Select the first scan, and then each by which the robot has travelled ``spacing_m`` since the last selected.
+
+    The distance is measured along the path through all the poses, turns on the spot do not count.
+
+    Raises:
+        BadInput: a spacing that is negative or not finite.
+    """
+    if not (math.isfinite(spacing_m) and spacing_m >= 0):
+        raise BadInput(f"thin: give the metres that the robot travels from scan to scan, got {spacing_m!r}")
+    if spacing_m == 0 or len(scans) == 0:
+        return scans
+    travelled = np.concatenate([[0.0], np.cumsum(steps_m(scans.poses))])
+    kept, i = [], 0
+    while i < len(scans):
+        kept.append(i)
+        # A hair less, so that ten steps of 0.1 m make a metre; but further than here, however small the spacing.
+        far = np.searchsorted(travelled, travelled[i] + spacing_m * (1 - 1e-9), side="left")
+        i = int(max(far, np.searchsorted(travelled, travelled[i], side="right")))
+    return scans.select(np.array(kept, dtype=np.intp))
+
+
+def steps_m(poses: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the distance from each pose to the next, shape (S - 1,)."""
+    with np.errstate(over="ignore"):
+        return np.asarray(np.hypot(*np.diff(poses[:, :2], axis=0).T))
+
+
+def jumps(scans: Scans) -> NDArray[np.intp]:
+    """Find scans whose pose is further from the one before than a robot can have moved: their indices, ascending.
+
+    A step is a jump if it is over 0.2 m and faster than 10 m/s, or over 2 m and ten times the median step. Stamps that
+    repeat say nothing of the speed between them.
+    """
+    if len(scans) < 2:
+        return np.empty(0, dtype=np.intp)
+    steps = steps_m(scans.poses)
+    jump = (steps > LONGEST_STEP_M) & (steps > USUAL_STEPS * np.median(steps))
+    if scans.stamps_s is not None:
+        jump |= (steps > SHORTEST_JUMP_M) & (steps > FASTEST_M_PER_S * elapsed_s(scans.stamps_s)[1])
+    return np.nonzero(jump)[0] + 1

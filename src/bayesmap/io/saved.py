@@ -2,11 +2,14 @@
 
 Groups: ``posterior`` (what the kind of cells declares, by chain and draw), ``sample_stats`` (log joint and its parts),
 ``observed_data`` (ranges), ``constant_data`` (poses, angles, marginals), ``chain_state`` (where the chains stand),
-``warmup_sample_stats``, and ``trajectory`` (`bayesmap.io.saved_trajectory`) where one was inferred. Settings, grid,
-prior, sensor and timings are attributes of the root, as JSON. Arrays that count some cells only have these cells'
-indices beside them, as ``cell_x`` and ``cell_y``. netCDF has neither bits nor half precision: booleans are deflated
-bytes in the file, and half precision is 32-bit floats, whose last bits are zero and compress well. HDF5 checks each
-array by its Fletcher-32 sum, and the header has a CRC: a damaged file is refused.
+``warmup_sample_stats``, and ``trajectory`` where one was inferred. Settings, grid, prior, sensor and timings are
+attributes of the root, as JSON. Arrays that count some cells only have these cells' indices beside them, as ``cell_x``
+and ``cell_y``. netCDF has neither bits nor half precision: booleans are deflated bytes in the file, and half precision
+is 32-bit floats, whose last bits are zero and compress well. HDF5 checks each array by its Fletcher-32 sum, and the
+header has a CRC: a damaged file is refused.
+
+A trajectory's group holds all that its approximation (`bayesmap.poses.trajectory`) was made from: covariances of
+relative poses and draws are computed when they are asked for.
 """
 
 from __future__ import annotations
@@ -89,8 +92,6 @@ def _write(
         "notes": posterior.notes,
     }
     if trajectory is not None:
-        from bayesmap.io.saved_trajectory import arrays_of, numbers_of
-
         header["trajectory"] = numbers_of(trajectory)
         for name, (dimensions, values) in arrays_of(trajectory).items():
             write_arrays(_group(file, "trajectory"), dimensions, {name: values})
@@ -218,8 +219,6 @@ def _read(file: Any, header: dict[str, Any]) -> tuple[Posterior, Trajectory | No
     snapshot = Snapshot(header["sweep"], {name: read_array(v) for name, v in file["chain_state"].variables.items()})
     trajectory = None
     if "trajectory" in header:
-        from bayesmap.io.saved_trajectory import trajectory_from
-
         arrays = {name: read_array(variable) for name, variable in file["trajectory"].variables.items()}
         trajectory = trajectory_from(arrays, header["trajectory"])
     return _posterior(file, header, prior, snapshot, named("statistic_")), trajectory
@@ -375,3 +374,96 @@ def _blocks(chains: int, draws: int, size: int) -> Iterator[tuple[int, slice]]:
     for chain in range(chains if size else 0):
         for i in range(0, draws, at_once):
             yield chain, slice(i, min(i + at_once, draws))
+
+
+VECTOR, MATRIX = ("pose_part",), ("pose_part", "other_pose_part")
+
+FIELDS: dict[str, tuple[str, ...]] = {
+    "poses": ("scan", *VECTOR), "stamps_s": ("scan",), "nearest_key": ("scan",), "own_covariance": ("scan", *MATRIX),
+    "explained": ("scan",), "flagged": ("scan",), "order": ("scan",), "keys": ("key",), "breaks": ("break",),
+    "leaps": ("leap",),
+}  # fmt: skip
+"""Arrays of the trajectory itself, with their dimensions."""
+
+PARTS: dict[str, dict[str, tuple[str, ...]]] = {
+    "gaussian": {
+        "poses": ("key", *VECTOR), "first": ("pair",), "second": ("pair",), "relative": ("pair", *VECTOR),
+        "curvature": ("pair", *MATRIX), "force": ("pair", *VECTOR), "elsewhere": ("alternative", "key", *VECTOR),
+    },
+    "alternatives": {
+        "first": ("alternative",), "last": ("alternative",), "probabilities": ("alternative",),
+        "poses": ("alternative", "key", *VECTOR),
+    },
+    "closures": {
+        "first": ("closure",), "second": ("closure",), "relative": ("closure", *VECTOR),
+        "residuals": ("closure", *VECTOR), "weights": ("closure",),
+    },
+    "odometry": {
+        "first": ("step",), "second": ("step",), "relative": ("step", *VECTOR), "information": ("step", *MATRIX),
+    },
+    "calibration": {"angles_rad": ("beam",)},
+}  # fmt: skip
+"""Arrays of its parts, saved as part_name."""
+
+
+def arrays_of(found: Trajectory) -> dict[str, tuple[tuple[str, ...], NDArray[Any]]]:
+    """Return all arrays by the names under which they are saved, with their dimensions."""
+    every = [(name, dims, getattr(found, name)) for name, dims in FIELDS.items()]
+    for part, fields in PARTS.items():
+        of = getattr(found, part)
+        if of is not None and (part != "alternatives" or len(of)):
+            every += [(f"{part}_{name}", dims, getattr(of, name)) for name, dims in fields.items()]
+    return {name: (dims, _stored(values)) for name, dims, values in every if values is not None}
+
+
+def numbers_of(found: Trajectory) -> dict[str, Any]:
+    """Return what is no array, as JSON values."""
+    about = found.calibration
+    fit = about.odometry
+    odometry = None if fit is None else {
+        "slope": fit.slope.tolist(), "slope_sigma": fit.slope_sigma.tolist(), "lag_s": float(fit.lag_s),
+        "lag_sigma_s": float(fit.lag_sigma_s), "rates": fit.noise.rates.tolist(),
+    }  # fmt: skip
+    return {
+        "dof": found.gaussian.dof, "angle_step_ratio": about.angle_step_ratio, "point_sigma_m": about.point_sigma_m,
+        "noise": None if about.noise is None else asdict(about.noise), "odometry": odometry,
+    }  # fmt: skip
+
+
+def trajectory_from(arrays: Mapping[str, NDArray[Any]], numbers: Mapping[str, Any]) -> Trajectory:
+    """Return the trajectory of which `arrays_of` and `numbers_of` said all."""
+    from bayesmap.poses.calibration import MotionNoise, OdometryFit
+    from bayesmap.poses.graph import Factors
+    from bayesmap.poses.pose_gaussian import PoseGaussian
+    from bayesmap.poses.prior import Odometry
+    from bayesmap.poses.trajectory import NO_ALTERNATIVES, Alternatives, Calibration, LoopClosures, Trajectory
+
+    def part(name: str) -> dict[str, Any]:
+        return {field: arrays.get(f"{name}_{field}") for field in PARTS[name]}
+
+    own: dict[str, Any] = {name: arrays.get(name) for name in FIELDS}
+    own["flagged"] = own["flagged"] != 0
+    about, noise = numbers["odometry"], numbers["noise"]
+    fit = None
+    if about is not None:
+        slope, sigma, rates = (np.array(about[name]) for name in ("slope", "slope_sigma", "rates"))
+        fit = OdometryFit(slope, sigma, about["lag_s"], about["lag_sigma_s"], MotionNoise(rates))
+    calibration = Calibration(
+        angle_step_ratio=numbers["angle_step_ratio"], odometry=fit, noise=None if noise is None else Odometry(**noise),
+        point_sigma_m=numbers["point_sigma_m"], **part("calibration"),
+    )  # fmt: skip
+    return Trajectory(
+        **own,
+        gaussian=PoseGaussian(**part("gaussian"), dof=numbers["dof"]),
+        closures=LoopClosures(**part("closures")),
+        alternatives=Alternatives(**part("alternatives")) if "alternatives_first" in arrays else NO_ALTERNATIVES,
+        odometry=Factors(**part("odometry")) if "odometry_first" in arrays else None,
+        calibration=calibration,
+    )
+
+
+def _stored(values: NDArray[Any]) -> NDArray[Any]:
+    """Return truth values as bytes, and indices with 64 bits on every machine."""
+    if values.dtype == np.bool_:
+        return values.astype(np.int8)
+    return values.astype(np.int64) if values.dtype.kind == "i" else np.asarray(values, dtype=np.float64)

@@ -31,8 +31,7 @@ from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
 from bayesmap.space.planar import around, between, between_jacobians, compose, interpolate, inverse, rotation, wrapped
-from bayesmap.space.relative_law import RelativeLaw
-from bayesmap.space.trajectory import Trajectory
+from bayesmap.space.trajectory import RelativeLaw, Trajectory
 
 Floats = NDArray[np.float64]
 

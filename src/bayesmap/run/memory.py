@@ -6,8 +6,7 @@ import os
 from pathlib import Path
 
 from bayesmap.errors import BadInput
-from bayesmap.space.grid import Grid
-from bayesmap.space.outlying import outlying, why_outlying
+from bayesmap.space.grid import Grid, outlying, why_outlying
 from bayesmap.space.scans import Scans
 
 OF_A_CELL = {True: (200, 280), False: (120, 75)}

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.sim.clearance import passage_m, wall_distance_m
+from bayesmap.sim.robot import passage_m, wall_distance_m
 
 SOLID = 1.0
 LEG = 0.5
@@ -89,7 +89,7 @@ def furnish(room: RoomFloor, kind: str, clutter: float) -> None:
 
     Args:
         room: the room; changed in place.
-        kind: as in `bayesmap.sim.floor_plan.Space`.
+        kind: as in `bayesmap.sim.building.Space`.
         clutter: how full, 0 (empty) to 1 (usual) and more.
     """
     if clutter <= 0:

@@ -20,7 +20,7 @@ from bayesmap.app.shown.result import Nothing, Result
 from bayesmap.errors import BadInput
 from bayesmap.posterior.predictor import MapStates, Predictor, ScanPredictor, fixed_maps
 from bayesmap.sensors.model import RangeLimits
-from bayesmap.space.beam_angles import fan
+from bayesmap.space.scans import fan
 
 MOST_DRAWS = 32
 HELD_BYTES = 192 << 20

@@ -27,9 +27,8 @@ from bayesmap.localization.localize import localize
 from bayesmap.sensors.model import RangeLimits
 from bayesmap.sensors.noise import Gaussian
 from bayesmap.sim.forward import ranges
-from bayesmap.space.beam_angles import fan
 from bayesmap.space.grid import Grid
-from bayesmap.space.scans import Scans
+from bayesmap.space.scans import Scans, fan
 
 FINEST_M = 0.125
 MOST_CELLS = 1_000_000

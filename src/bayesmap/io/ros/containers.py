@@ -1,16 +1,23 @@
-"""Opening a recording: ROS 1 bags, and ROS 2's folders, databases and MCAP files, by rosbags where it can.
+"""Recordings opened: ROS 1 bags, and ROS 2's folders, databases and MCAP files, by rosbags where it can.
 
-What rosbags refuses although it is sound (MCAP of ROS 1 messages, MCAP without an index and out of order) is read
-record by record. So is, if the user asks for it, what is left of a recording that breaks off. Compressed files are
+Sound recordings that rosbags refuses (MCAP of ROS 1 messages, MCAP without an index and out of order) are read record
+by record, and so is the rest of a damaged recording, if the user asks for it.
+
+``ros2 bag record --compression-mode file`` leaves ``.db3.zstd`` and ``.mcap.zstd`` files, and people pack recordings
+with gzip or bzip2, but rosbags unpacks only a folder whose ``metadata.yaml`` says so. Here compressed files are
 unpacked to temporary ones, which live as long as the recording is open.
 """
 
 from __future__ import annotations
 
+import bz2
+import gzip
 import os
 import shutil
 import struct
+import tempfile
 import weakref
+import zlib
 from collections.abc import Callable, Collection, Iterable, Iterator
 from contextlib import ExitStack, closing
 from dataclasses import replace
@@ -20,41 +27,133 @@ from pathlib import Path
 from typing import Any
 
 from bayesmap.errors import BadInput
-from bayesmap.io.ros import records as raw
-from bayesmap.io.ros.compression import compression_of, first_bytes, unpack_file
-from bayesmap.io.ros.recording import Damaged, Message, Recording, Topic, messages_of, topics_of
+from bayesmap.io.ros import recording as raw
+from bayesmap.io.ros.recording import Damaged, Message, Recording, Topic, messages_of, topics_of, zstd
 
-ReadRecords = Callable[[str | os.PathLike[str], raw.OnDamage], raw.Read]
+ZSTD = b"\x28\xb5\x2f\xfd"
+UNPACKERS: dict[str, tuple[bytes, Callable[[Any], Any]]] = {
+    "zstd": (ZSTD, lambda file: zstd().open(file, "rb")),
+    "gzip": (b"\x1f\x8b", lambda file: gzip.GzipFile(fileobj=file)),
+    "bzip2": (b"BZh", bz2.BZ2File),
+}
+"""How compressed files begin, and what unpacks them."""
+AT_ONCE = 1 << 16
 
-FORMATS: dict[str, tuple[bytes, ReadRecords]] = {
+RECORD_READERS: dict[str, tuple[bytes, Callable[[str | os.PathLike[str], raw.OnDamage], raw.Records]]] = {
     "rosbag1": (raw.BAG_MAGIC, raw.bag_records),
     "rosbag2-sqlite3": (raw.SQLITE_MAGIC, raw.sqlite_records),
     "mcap": (raw.MCAP_MAGIC, raw.mcap_records),
 }
-"""Format, how its files begin, and what reads their records one by one."""
+"""By format: how its files begin, and what reads their records one by one."""
+ANY_BAG = b"#ROSBAG V"
 
 ENDINGS = tuple(name + packed for name in (".db3", ".mcap") for packed in ("", ".zstd", ".zst"))
 METADATA = "metadata.yaml"
 REMEDY = "repair it (rosbag reindex, ros2 bag reindex, mcap recover), or read what is there with --skip-bad-lines"
 
 
+class NotUnpacked(Exception):
+    """Data that cannot be unpacked; the text says why."""
+
+
+def unpack_zstd(packed: bytes, largest: int) -> bytes:
+    """Return what was compressed by zstd.
+
+    Raises:
+        NotUnpacked: data that are damaged, cut short, or larger than ``largest`` bytes.
+    """
+    try:
+        unpacker = zstd().ZstdDecompressor()
+        data = bytes(unpacker.decompress(packed, largest))
+    except (ArithmeticError, EOFError, MemoryError, RuntimeError, ValueError, zstd().ZstdError) as error:
+        raise NotUnpacked(str(error) or type(error).__name__) from None
+    if not unpacker.eof:
+        raise NotUnpacked("it is cut short" if len(data) < largest else f"it has more than {largest:,} bytes")
+    return data
+
+
+def compression_of(start: bytes) -> str | None:
+    """Return the compression of a file by its first bytes: ``"zstd"``, ``"gzip"``, ``"bzip2"``; None if it has none."""
+    return next((name for name, (magic, _) in UNPACKERS.items() if start.startswith(magic)), None)
+
+
+def first_bytes(path: str | os.PathLike[str], count: int) -> bytes:
+    """Return the first bytes of a file, unpacked if it is compressed; empty if it cannot be unpacked."""
+    with Path(path).open("rb") as file:
+        start = file.read(count)
+        kind = compression_of(start)
+        if kind is None:
+            return start
+        file.seek(0)
+        try:
+            with UNPACKERS[kind][1](file) as unpacked:
+                return bytes(unpacked.read(count))
+        except _failures():
+            return b""
+
+
+def unpack_file(path: str | os.PathLike[str], on_damage: Callable[[str], None]) -> Path:
+    """Unpack a compressed file. Returns the copy, alone in a folder of its own that the caller removes.
+
+    Args:
+        path: the compressed file.
+        on_damage: is told why the file cannot be unpacked to its end; if it returns, what was unpacked remains.
+
+    Raises:
+        OSError: there is no room for the copy.
+    """
+    where = Path(path)
+    folder = Path(tempfile.mkdtemp(prefix="bayesmap-"))
+    copy = folder / "unpacked"
+    try:
+        with where.open("rb") as file, copy.open("wb") as out:
+            kind = compression_of(file.read(4))
+            assert kind is not None
+            file.seek(0)
+            try:
+                with UNPACKERS[kind][1](file) as unpacked:
+                    while block := _read(unpacked):
+                        out.write(block)
+            except NotUnpacked as problem:
+                on_damage(f"it is compressed by {kind} and cannot be unpacked to its end: {problem}")
+    except BaseException:
+        shutil.rmtree(folder, ignore_errors=True)
+        raise
+    return copy
+
+
+def _read(unpacked: Any) -> bytes:
+    try:
+        return bytes(unpacked.read(AT_ONCE))
+    except _failures() as problem:
+        raise NotUnpacked(str(problem) or type(problem).__name__) from None
+
+
+def _failures() -> tuple[type[Exception], ...]:
+    return (EOFError, OSError, ValueError, zlib.error, zstd().ZstdError)
+
+
 def container_of(path: str | os.PathLike[str]) -> str | None:
     """Return the format of a recording by its first bytes, ``"folder"`` for one of rosbag2's, None for other files."""
     where = Path(path)
     if where.is_dir():
-        inside = sorted(entry.name for entry in where.iterdir())
+        inside = [entry.name for entry in where.iterdir()]
         return "folder" if METADATA in inside or any(name.endswith(ENDINGS) for name in inside) else None
-    start = first_bytes(where, 16)
-    if start.startswith(b"#ROSBAG V"):  # of whatever version: rosbags says which it cannot read
+    return format_by_start(first_bytes(where, 16))
+
+
+def format_by_start(start: bytes) -> str | None:
+    """Return the format of a recording by its first 16 bytes, unpacked; None for other files."""
+    if start.startswith(ANY_BAG):  # of whatever version: `open_recording` says which it cannot read
         return "rosbag1"
-    return next((name for name, (magic, _) in FORMATS.items() if start.startswith(magic)), None)
+    return next((name for name, (magic, _) in RECORD_READERS.items() if start.startswith(magic)), None)
 
 
 def open_recording(path: str | os.PathLike[str], *, salvage: bool, types: Collection[str]) -> Recording:
     """Open a recording.
 
     Args:
-        path: a file of one of the `FORMATS`, or a folder of rosbag2's.
+        path: a file of a format in `RECORD_READERS`, or a folder of rosbag2's.
         salvage: if the recording is damaged, read what is there, and note what was wrong.
         types: message types that will be read; with ``salvage`` their messages decide whether there is damage.
 
@@ -83,9 +182,9 @@ def _check_version(path: str | os.PathLike[str]) -> None:
     if Path(path).is_dir():
         return
     start = first_bytes(path, 16)
-    if not start.startswith(b"#ROSBAG V") or start.startswith(raw.BAG_MAGIC):
+    if not start.startswith(ANY_BAG) or start.startswith(raw.BAG_MAGIC):
         return
-    version = start[len(b"#ROSBAG V") :].split(b"\n")[0].decode("ascii", "replace").strip()
+    version = start[len(ANY_BAG) :].split(b"\n")[0].decode("ascii", "replace").strip()
     raise BadInput(
         f"{os.fspath(path)}: a ROS 1 bag of format {version}; only 2.0 is read. If ROS wrote it before 2010, convert "
         "it with ROS 1: rosbag fix OLD.bag NEW.bag"
@@ -210,7 +309,7 @@ def _by_records(
     path: str | os.PathLike[str], container: str, on_damage: raw.OnDamage, on_damage_again: raw.OnDamage
 ) -> Recording:
     """Return a recording read record by record; damage is told once when it is opened, and again at each reading."""
-    records = FORMATS[container][1]
+    records = RECORD_READERS[container][1]
     topics, start_ns, end_ns = topics_of(records(path, on_damage))
 
     def read(names: frozenset[str]) -> Iterable[Message]:

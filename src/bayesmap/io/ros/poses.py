@@ -10,15 +10,21 @@ from typing import Any
 from bayesmap.errors import BadInput
 from bayesmap.io.log_reading import WITHOUT_POSES, Pose
 from bayesmap.io.ros.frames import FIXED_FRAMES, Chain, FrameTree, Link, Samples, numbers_of
-from bayesmap.io.ros.laser_messages import LATEST_NS, Malformed, frame_of, stamp_ns_of
 from bayesmap.io.ros.publishers import contradiction
-from bayesmap.io.ros.recording import Recording, Topic
+from bayesmap.io.ros.recording import (
+    ODOMETRY,
+    POSE,
+    POSE_TYPES,
+    TF_TYPES,
+    Malformed,
+    Recording,
+    Topic,
+    frame_of,
+    listed,
+    stamp_ns_of,
+    topics_of_type,
+)  # fmt: skip
 
-TF_TYPES = ("tf2_msgs/msg/TFMessage", "tf/msg/tfMessage")
-ODOMETRY = "nav_msgs/msg/Odometry"
-POSE = "geometry_msgs/msg/PoseStamped"
-POSE_COVARIANCE = "geometry_msgs/msg/PoseWithCovarianceStamped"
-POSE_TYPES = (ODOMETRY, POSE, POSE_COVARIANCE)
 BODIES = ("base_footprint", "base_link", "base")
 """What a robot's body is called, where a pose does not say whose it is."""
 MOUNTS = ("base_link", "base_footprint", "base")
@@ -65,13 +71,13 @@ class PoseMessages:
                 values = numbers_of(entry.transform.translation, entry.transform.rotation)
                 if ends[0] == ends[1]:
                     raise Malformed(f"puts the frame {ends[0]!r} into itself")
-                stamp_ns = _time(entry.header)
+                stamp_ns = stamp_ns_of(entry.header)
                 empty = Samples(is_static(topic), topic.name)
                 self.transforms.setdefault((topic.name, *ends), empty).add(stamp_ns, received_ns, values)
             return
         pose = message.pose if topic.type == POSE else message.pose.pose
         body = frame_of(message.child_frame_id) if topic.type == ODOMETRY else ""
-        values, stamp_ns = numbers_of(pose.position, pose.orientation), _time(message.header)
+        values, stamp_ns = numbers_of(pose.position, pose.orientation), stamp_ns_of(message.header)
         samples = self.poses.setdefault((frame_of(message.header.frame_id), body), Samples(topic=topic.name))
         samples.add(stamp_ns, received_ns, values)
 
@@ -79,19 +85,6 @@ class PoseMessages:
 def is_static(topic: Topic) -> bool:
     """Return whether a topic of transforms is one of those that never change."""
     return topic.name.rpartition("/")[2] == "tf_static"
-
-
-def _time(header: Any) -> int:
-    stamp_ns = stamp_ns_of(header)
-    if not 0 <= stamp_ns <= LATEST_NS:
-        raise Malformed(f"has the time {stamp_ns} ns")
-    return stamp_ns
-
-
-def topics_of_type(recording: Recording, types: Iterable[str]) -> list[Topic]:
-    """Return the recording's topics of some types that have messages."""
-    chosen = frozenset(types)
-    return [topic for topic in recording.topics.values() if topic.type in chosen and topic.count]
 
 
 def pose_topic_of(recording: Recording, given: str) -> Topic:
@@ -109,11 +102,6 @@ def pose_topic_of(recording: Recording, given: str) -> Topic:
         f"{recording.path}: --pose-topic {given}: {reason}; "
         + (f"poses are on {have}" if have else f"no topic holds poses ({', '.join((*POSE_TYPES, TF_TYPES[0]))})")
     )
-
-
-def listed(topics: Iterable[Topic]) -> str:
-    """Return topics with their types and counts, for messages."""
-    return ", ".join(f"{topic.name} ({topic.type}, {topic.count:,} messages)" for topic in topics)
 
 
 def only_pose_topic(recording: Recording, scan_topic: str) -> Topic | None:

@@ -1,14 +1,47 @@
-"""A robot's recording, whatever its container: topics, and the raw messages on them."""
+"""A robot's recording, whatever its container: topics, raw messages, and the records of a file one by one.
+
+Records are read from the beginning of a file, without its index, as far as they can be read:
+
+    ROS 1 bags        http://wiki.ros.org/Bags/Format/2.0
+    MCAP              https://mcap.dev/spec
+    rosbag2's sqlite  tables topics, messages and, since Iron, message_definitions
+
+This serves recordings that break off or were never closed (``.bag.active``), MCAP of ROS 1 messages, and MCAP that is
+unindexed and out of order: rosbags reads none of these.
+"""
 
 from __future__ import annotations
 
+import bz2
+import importlib
+import os
+import struct
+import sys
+from binascii import crc32
 from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import closing
 from dataclasses import dataclass, replace
-from typing import NamedTuple
+from pathlib import Path
+from typing import Any, NamedTuple
+from urllib.parse import quote
+
+LASER_SCAN, RANGE = "sensor_msgs/msg/LaserScan", "sensor_msgs/msg/Range"
+SCAN_TYPES = (LASER_SCAN, RANGE)
+TF_TYPES = ("tf2_msgs/msg/TFMessage", "tf/msg/tfMessage")
+ODOMETRY, POSE = "nav_msgs/msg/Odometry", "geometry_msgs/msg/PoseStamped"
+POSE_TYPES = (ODOMETRY, POSE, "geometry_msgs/msg/PoseWithCovarianceStamped")
+TYPES = (*SCAN_TYPES, *POSE_TYPES, *TF_TYPES)
+"""Messages that are read."""
+
+LATEST_NS = 2**62
 
 
 class Damaged(Exception):
     """A recording that breaks off or contradicts itself; the text is the reason."""
+
+
+class Malformed(Exception):
+    """A message that cannot be used, or does not follow its definition; the text is the reason."""
 
 
 class Message(NamedTuple):
@@ -71,6 +104,34 @@ class Recording:
     notes: tuple[str, ...] = ()
 
 
+def topics_of_type(recording: Recording, types: Iterable[str]) -> list[Topic]:
+    """Return the recording's topics of some types that have messages."""
+    chosen = frozenset(types)
+    return [topic for topic in recording.topics.values() if topic.type in chosen and topic.count]
+
+
+def listed(topics: Iterable[Topic]) -> str:
+    """Return topics with their types and counts, for messages."""
+    return ", ".join(f"{topic.name} ({topic.type}, {topic.count:,} messages)" for topic in topics)
+
+
+def stamp_ns_of(header: Any) -> int:
+    """Return a header's time in nanoseconds.
+
+    Raises:
+        Malformed: a time before 1970, or after 2116.
+    """
+    stamp_ns = int(header.stamp.sec) * 10**9 + int(header.stamp.nanosec)
+    if not 0 <= stamp_ns <= LATEST_NS:
+        raise Malformed(f"has the time {stamp_ns} ns")
+    return stamp_ns
+
+
+def frame_of(name: str) -> str:
+    """Return a frame's name without the slash that ROS 1 puts before some."""
+    return name.lstrip("/")
+
+
 class Connection(NamedTuple):
     """A stream of messages: the id by which they name it, and its topic, without a count."""
 
@@ -86,7 +147,7 @@ class Record(NamedTuple):
     data: bytes
 
 
-Records = Iterable[Connection | Record]
+Records = Iterator[Connection | Record]
 
 
 def topics_of(records: Records) -> tuple[dict[str, Topic], int | None, int | None]:
@@ -118,3 +179,289 @@ def messages_of(records: Records, topics: Mapping[str, Topic], names: frozenset[
                 chosen[record.id] = name
         elif record.connection in chosen:
             yield Message(chosen[record.connection], record.received_ns, record.data)
+
+
+BAG_MAGIC, MCAP_MAGIC, SQLITE_MAGIC = b"#ROSBAG V2.0\n", b"\x89MCAP0\r\n", b"SQLite format 3\0"
+BAG_MESSAGE, BAG_INDEX, BAG_CHUNK, BAG_CONNECTION = (bytes([op]) for op in (2, 4, 5, 7))
+FOOTER, SCHEMA, CHANNEL, MESSAGE, CHUNK, DATA_END = 2, 3, 4, 5, 6, 15
+LANGUAGES = {"ros1msg": "msg", "ros2msg": "msg", "ros2idl": "idl", "omgidl": "idl"}
+INDEX_ENTRY_BYTES = 12
+MAX_HEADER_BYTES, MAX_DATA_BYTES = 1 << 24, 1 << 30
+"""More than this in one piece is taken for a damaged length."""
+
+OnDamage = Callable[[str], None]
+"""Is told why a part cannot be read; it raises to stop there, or returns to go on behind it."""
+
+
+class _Unreadable(Exception):
+    """A record that does not follow the format; the text says why."""
+
+
+def zstd() -> Any:
+    """Return the library: Python's own from 3.14 on, before that the one that comes with rosbags."""
+    return importlib.import_module("compression.zstd" if sys.version_info >= (3, 14) else "backports.zstd")
+
+
+def refuse(reason: str) -> None:
+    """Raise `Damaged`: the `OnDamage` of a reader that wants all or nothing."""
+    raise Damaged(reason)
+
+
+def spelled_as_in_ros2(name: str) -> str:
+    """Return ``sensor_msgs/msg/LaserScan`` for ``sensor_msgs/LaserScan``."""
+    package, slash, message = name.partition("/")
+    return f"{package}/msg/{message}" if slash and "/" not in message else name
+
+
+def bag_records(path: str | os.PathLike[str], on_damage: OnDamage) -> Records:
+    """Return the connections and messages of a ROS 1 bag of format 2.0, in the order of the file."""
+    size = os.path.getsize(path)
+    at = len(BAG_MAGIC)
+    with Path(path).open("rb") as file:
+        while at < size:
+            file.seek(at)
+            try:
+                start = file.read(4)
+                rest = file.read(min(int.from_bytes(start, "little"), MAX_HEADER_BYTES) + 4)
+                header, length, data_at = _bag_header(start + rest)
+            except _Unreadable as problem:
+                on_damage(f"at byte {at:,}: {problem}")
+                return
+            data_at += at
+            kind = header[b"op"]
+            if kind == BAG_INDEX and len(header.get(b"count", b"")) == 4:
+                # ROS reads as many entries as the record counts; bags of 2010 state other lengths.
+                length = INDEX_ENTRY_BYTES * int.from_bytes(header[b"count"], "little")
+            cut = data_at + length > size
+            if cut:
+                on_damage(f"the record at byte {at:,} is longer than the file")
+            file.seek(data_at)
+            if kind == BAG_CHUNK:
+                data = file.read(min(length, size - data_at, MAX_DATA_BYTES))
+                yield from _until_damage(_bag_chunk(header, data, cut), f"the chunk at byte {at:,}", on_damage)
+            elif not cut and kind in (BAG_MESSAGE, BAG_CONNECTION) and length <= MAX_DATA_BYTES:
+                record = _bag_record(header, file.read(length))
+                yield from _until_damage(record, f"the record at byte {at:,}", on_damage)
+            if cut:
+                return
+            at = data_at + length
+
+
+def _until_damage(records: Records, what: str, on_damage: OnDamage) -> Records:
+    try:
+        yield from records
+    except _Unreadable as problem:
+        on_damage(f"{what} cannot be read: {problem}")
+
+
+def _bag_header(data: bytes | memoryview) -> tuple[dict[bytes, bytes], int, int]:
+    """Return a record's header fields, the length of its data, and where these start."""
+    if len(data) < 4:
+        raise _Unreadable("the header of a record is cut short")
+    (length,) = struct.unpack_from("<I", data)
+    if length > len(data) - 8:
+        raise _Unreadable(f"a record says that its header has {length:,} bytes")
+    fields = _bag_fields(bytes(data[4 : 4 + length]))
+    if b"op" not in fields:
+        raise _Unreadable("a record does not say its kind")
+    (data_length,) = struct.unpack_from("<I", data, 4 + length)
+    return fields, data_length, 8 + length
+
+
+def _bag_fields(data: bytes) -> dict[bytes, bytes]:
+    fields, at = {}, 0
+    while at < len(data):
+        if at + 4 > len(data):
+            raise _Unreadable("a header field is cut short")
+        (length,) = struct.unpack_from("<I", data, at)
+        name, equals, value = data[at + 4 : at + 4 + length].partition(b"=")
+        if not equals or at + 4 + length > len(data):
+            raise _Unreadable("a header field has no value")
+        fields[name] = value
+        at += 4 + length
+    return fields
+
+
+def _bag_chunk(header: dict[bytes, bytes], packed: bytes, cut: bool) -> Records:
+    """Return the records within a chunk; of one that is cut, those that are there."""
+    compression = header.get(b"compression", b"").decode("ascii", "replace")
+    view, at = memoryview(_unpacked(compression, packed, MAX_DATA_BYTES)), 0
+    while at < len(view):
+        try:
+            inner, length, data_at = _bag_header(view[at:])
+            if at + data_at + length > len(view):
+                raise _Unreadable("its records are longer than it is")
+        except _Unreadable:
+            if cut:
+                return
+            raise
+        yield from _bag_record(inner, bytes(view[at + data_at : at + data_at + length]))
+        at += data_at + length
+
+
+def _bag_record(header: dict[bytes, bytes], data: bytes) -> Records:
+    try:
+        if header[b"op"] not in (BAG_MESSAGE, BAG_CONNECTION):
+            return
+        (connection,) = struct.unpack("<I", header[b"conn"])
+        if header[b"op"] == BAG_MESSAGE:
+            seconds, nanoseconds = struct.unpack("<II", header[b"time"])
+            yield Record(connection, seconds * 10**9 + nanoseconds, data)
+            return
+        fields = _bag_fields(data)
+        definition, md5 = (fields.get(key, b"").decode(errors="replace") for key in (b"message_definition", b"md5sum"))
+        name, type_name = header[b"topic"].decode(), spelled_as_in_ros2(fields[b"type"].decode())
+        yield Connection(connection, Topic(name, type_name, 0, definition, "msg", "ros1", md5))
+    except (KeyError, struct.error, UnicodeDecodeError) as error:
+        raise _Unreadable(f"its header lacks {error}" if isinstance(error, KeyError) else str(error)) from None
+
+
+Schemas = dict[int, tuple[str, str, str]]
+"""Name, encoding and text of each schema, by its number."""
+
+
+def mcap_records(path: str | os.PathLike[str], on_damage: OnDamage) -> Records:
+    """Return the connections and messages of an MCAP file, in the order of the file.
+
+    If ``on_damage`` returns, reading goes on behind a damaged chunk, and the part of the last chunk that is there is
+    read.
+    """
+    size = os.path.getsize(path)
+    schemas: Schemas = {}
+    with Path(path).open("rb") as file:
+        at = len(MCAP_MAGIC)
+        while True:
+            file.seek(at)
+            head = file.read(9)
+            if len(head) < 9:
+                on_damage(f"it ends at byte {size:,}, without the end that MCAP has")
+                return
+            kind, length = struct.unpack("<BQ", head)
+            if kind in (FOOTER, DATA_END):
+                file.seek(max(size - len(MCAP_MAGIC), 0))
+                if file.read() != MCAP_MAGIC:
+                    on_damage(f"the end at byte {size:,} is not that of MCAP")
+                return
+            cut = at + 9 + length > size
+            if cut:
+                on_damage(f"the record at byte {at:,} is longer than the file")
+            held = min(length, size - at - 9)
+            if kind == CHUNK and held <= MAX_DATA_BYTES:
+                chunk = _mcap_chunk(file.read(held), schemas, cut)
+                yield from _until_damage(chunk, f"the chunk at byte {at:,}", on_damage)
+            elif not cut and kind in (SCHEMA, CHANNEL, MESSAGE) and length <= MAX_DATA_BYTES:
+                record = _mcap_record(kind, file.read(length), schemas)
+                yield from _until_damage(record, f"the record at byte {at:,}", on_damage)
+            if cut:
+                return
+            at += 9 + length
+
+
+def _mcap_chunk(chunk: bytes, schemas: Schemas, cut: bool) -> Records:
+    """Return the records within a chunk; of one that is cut, those that are there."""
+    try:
+        _, _, size, checksum = struct.unpack_from("<QQQI", chunk)
+        (compression,), start = _texts(chunk, 28, 1)
+        (length,) = struct.unpack_from("<Q", chunk, start)
+    except (struct.error, UnicodeDecodeError) as error:
+        raise _Unreadable(str(error)) from None
+    if size > MAX_DATA_BYTES:
+        raise _Unreadable(f"it says that it holds {size:,} bytes")
+    data = _unpacked(compression, chunk[start + 8 : start + 8 + length], size)
+    if not cut and len(data) != size:
+        raise _Unreadable(f"it holds {len(data):,} bytes where it says {size:,}")
+    if not cut and checksum and crc32(data) != checksum:
+        raise _Unreadable("its checksum does not match")
+    at = 0
+    while at + 9 <= len(data):
+        kind, length = struct.unpack_from("<BQ", data, at)
+        if at + 9 + length > len(data):
+            break
+        yield from _mcap_record(kind, data[at + 9 : at + 9 + length], schemas)
+        at += 9 + length
+    if at < len(data) and not cut:
+        raise _Unreadable("its records are longer than it is")
+
+
+def _mcap_record(kind: int, data: bytes, schemas: Schemas) -> Records:
+    try:
+        if kind == MESSAGE:
+            channel, _, received_ns, _ = struct.unpack_from("<HIQQ", data)
+            yield Record(channel, received_ns, data[22:])
+        elif kind == SCHEMA:
+            (number,) = struct.unpack_from("<H", data)
+            (name, encoding, text), _ = _texts(data, 2, 3)
+            schemas[number] = (name, encoding, text)
+        elif kind == CHANNEL:
+            number, schema = struct.unpack_from("<HH", data)
+            (topic, encoding), _ = _texts(data, 4, 2)
+            type_name, language, text = schemas.get(schema, ("", "", ""))
+            language, type_name = LANGUAGES.get(language, language), spelled_as_in_ros2(type_name)
+            yield Connection(number, Topic(topic, type_name, 0, text, language, encoding))
+    except (struct.error, UnicodeDecodeError) as error:
+        raise _Unreadable(str(error)) from None
+
+
+def _texts(data: bytes, at: int, count: int) -> tuple[list[str], int]:
+    """Return texts with their lengths before them, and where the last ends."""
+    texts = []
+    for _ in range(count):
+        (length,) = struct.unpack_from("<I", data, at)
+        if at + 4 + length > len(data):
+            raise _Unreadable("a text is longer than its record")
+        texts.append(data[at + 4 : at + 4 + length].decode())
+        at += 4 + length
+    return texts, at
+
+
+def _unpacked(compression: str, packed: bytes, largest: int) -> bytes:
+    """Unpack the records of a chunk, up to a number of bytes."""
+    try:
+        if compression in ("", "none"):
+            return packed
+        if compression == "bz2":
+            return bz2.BZ2Decompressor().decompress(packed, largest)
+        if compression == "lz4":
+            import lz4.frame  # type: ignore[import-untyped]  # comes with rosbags
+
+            return bytes(lz4.frame.LZ4FrameDecompressor().decompress(packed, largest))
+        if compression == "zstd":
+            return bytes(zstd().ZstdDecompressor().decompress(packed, largest))
+    except Exception as error:  # each library has errors of its own
+        raise _Unreadable(str(error) or type(error).__name__) from None
+    raise _Unreadable(f"it is compressed by {compression!r}, which is not known")
+
+
+def sqlite_records(path: str | os.PathLike[str], on_damage: OnDamage) -> Records:
+    """Return the connections and messages of a rosbag2 database, in the order in which they were written.
+
+    Rosbags asks a database for its index, which a file that breaks off no longer has.
+    """
+    import sqlite3  # only a few recordings are read this way
+
+    # Immutable: a journal beside it is not replayed, so that nothing is ever written.
+    where = f"file:{quote(str(Path(path).absolute()))}?mode=ro&immutable=1"
+    try:
+        with closing(sqlite3.connect(where, uri=True)) as database:
+            database.text_factory = lambda text: text.decode(errors="replace")
+            yield from _sqlite_connections(database.execute)
+            messages = "SELECT topic_id, timestamp, data FROM messages NOT INDEXED ORDER BY id"
+            for number, received_ns, data in database.execute(messages):
+                if isinstance(number, int) and isinstance(received_ns, int) and isinstance(data, bytes):
+                    yield Record(number, received_ns, data)
+                else:
+                    on_damage("a row of the table of messages is damaged")
+    except (sqlite3.Error, OverflowError, ValueError) as error:
+        on_damage(f"SQLite says: {error}")
+
+
+def _sqlite_connections(select: Callable[[str], Any]) -> Iterator[Connection]:
+    definitions: dict[str, tuple[str, str]] = {}
+    if select("SELECT 1 FROM sqlite_master WHERE name = 'message_definitions'").fetchone():
+        columns = "topic_type, encoding, encoded_message_definition"
+        for name, encoding, text in select(f"SELECT {columns} FROM message_definitions"):
+            definitions[str(name)] = (str(text), LANGUAGES.get(encoding, ""))
+    topics = "SELECT id, name, type, serialization_format FROM topics ORDER BY id"
+    for number, name, type_name, encoding in select(topics):
+        text, language = definitions.get(str(type_name), ("", "msg"))
+        yield Connection(int(number), Topic(str(name), str(type_name), 0, text, language, str(encoding)))

@@ -1,9 +1,14 @@
-"""Logs of MRPT (.rawlog): a stream of serialised objects (`bayesmap.io.text.rawlog_objects`), gzipped or not.
+"""Logs of MRPT (.rawlog): a stream of serialised objects, gzipped or not.
 
 Read are the laser's scans (CObservation2DRangeScan, versions 0 to 8), and of poses either the robot's motions from one
 sensory frame to the next (CActionRobotMovement2D, versions 0 to 7), or its odometry (CObservationOdometry, versions 0
-to 2), between whose readings poses are interpolated. Classes since MRPT 2 are called ``mrpt::obs::NAME``. Objects of
-other classes do not say how long they are: those that are read are found by their headers, wherever they lie.
+to 2), between whose readings poses are interpolated. Classes since MRPT 2 are called ``mrpt::obs::NAME``.
+
+    0x80 | length, class name, version, data, 0x88        since MRPT 0.5.5
+    length (int32), class name, version (int32), data     before
+
+Objects do not say how long they are: those that are read are found by their headers, wherever they lie, and their
+layouts are those of MRPT's own classes, version by version.
 
 Ranges come with a flag whether they are valid. Of those that are not, ranges of the sensor's maximum and above are no
 return; the others are invalid, zero and negative ones unless ``--no-return 0`` says otherwise.
@@ -13,23 +18,328 @@ from __future__ import annotations
 
 import math
 import os
+import re
 import struct
 from collections import Counter
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from itertools import product
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
-from bayesmap.io.log_reading import Account, LogOptions, LogReading, SkippedLine
-from bayesmap.io.text import rawlog_objects as mrpt
+from bayesmap.io.log_reading import Account, LogOptions, LogReading, Pose, SkippedLine
 from bayesmap.io.text.lines import file_chunks
 from bayesmap.space.planar import compose, interpolate
-from bayesmap.space.scans import side_by_side
+from bayesmap.space.scans import fan_fault, side_by_side
 from bayesmap.space.time_order import SAME_S
 
 Floats = NDArray[np.float64]
+
+END = 0x88
+SECONDS_1601_TO_1970 = 11_644_473_600
+"""Stamps count 100 ns from the year 1601."""
+MOST_BEAMS = 100_000
+BY_ODOMETRY = 0
+"""How a motion was estimated: by wheel odometry, not by matching scans."""
+
+CLASS = re.compile(rb"(?:mrpt::\w+::)?(C(?:Observation|Action|SensoryFrame|Rawlog|Pose)\w*)")
+"""Names of classes of which objects are looked for."""
+
+
+class Unknown(Exception):
+    """An object that is not as MRPT writes it; the text is the reason."""
+
+
+@dataclass(frozen=True)
+class Header:
+    """Where an object begins.
+
+    Attributes:
+        name: its class, without namespace.
+        version: of its layout.
+        data: where its data begin.
+        ended: whether `END` follows them.
+    """
+
+    name: str
+    version: int
+    data: int
+    ended: bool
+
+
+@dataclass(frozen=True, eq=False)
+class RawScan:
+    """A scan as it lies in the log.
+
+    Attributes:
+        label: of the sensor.
+        stamp_s: in seconds since 1970; None if it has none.
+        angles_rad: of its beams, in the frame of the sensor seen from above, (A,).
+        readings_m: those that are not valid coded, (A,).
+        mount: the sensor on the robot, in the plane.
+        upright: the vertical component of the sensor's z axis.
+        max_range_m: as stated.
+        motions: how many motions of the robot came before.
+        odometry: the pose that odometry stated last before the scan, if that has the scan's stamp; None if not.
+    """
+
+    label: str
+    stamp_s: float | None
+    angles_rad: Floats
+    readings_m: Floats
+    mount: Pose
+    upright: float
+    max_range_m: float
+    motions: int
+    odometry: Floats | None = None
+
+
+def header_at(data: bytes, at: int) -> Header | None:
+    """Return the header of an object that begins at a byte; None if none does."""
+    match = CLASS.match(data, at + 1) or CLASS.match(data, at + 4)
+    return None if match is None else header_of(data, match)
+
+
+def header_of(data: bytes, match: re.Match[bytes]) -> Header | None:
+    """Return the header around a class name that `CLASS` matches; None if what is there is none."""
+    start, first = match.start(), data[match.start() - 1] if match.start() else 0
+    if first & 0x80:
+        end = start + (first & 0x7F)
+        whole = CLASS.fullmatch(data, start, end)
+        if whole is None or end >= len(data):
+            return None
+        return Header(whole[1].decode(), data[end], end + 1, True)
+    if start < 4:
+        return None
+    (length,) = struct.unpack_from("<i", data, start - 4)
+    whole = CLASS.fullmatch(data, start, start + max(length, 0))
+    if whole is None or start + length + 4 > len(data):
+        return None
+    (version,) = struct.unpack_from("<i", data, start + length)
+    return Header(whole[1].decode(), version, start + length + 4, False)
+
+
+class Reader:
+    """Reads the data of an object, one field after the other."""
+
+    def __init__(self, data: bytes, at: int) -> None:
+        self.data, self.at = data, at
+
+    def take(self, form: str) -> tuple[float, ...]:
+        """Return the next numbers, by their struct format, little-endian."""
+        values = struct.unpack_from("<" + form, self.data, self.at)
+        self.at += struct.calcsize("<" + form)
+        return values
+
+    def number(self, form: str) -> float:
+        """Return the next number."""
+        return self.take(form)[0]
+
+    def array(self, kind: str, count: int) -> NDArray[np.float64]:
+        """Return the next numbers of one kind."""
+        size = np.dtype(kind).itemsize * count
+        if not 0 <= size <= len(self.data) - self.at:
+            raise Unknown("is cut short")
+        values = np.frombuffer(self.data, kind, count, self.at).astype(np.float64)
+        self.at += size
+        return values
+
+    def text(self) -> str:
+        """Return the next text."""
+        (length,) = (int(v) for v in self.take("I"))
+        if length > 1000:
+            raise Unknown("is damaged")
+        word = self.data[self.at : self.at + length]
+        self.at += length
+        return word.decode("utf-8", "replace")
+
+    def header(self, *names: str) -> Header:
+        """Return the header of an object within this one, which must be of one of some classes."""
+        first = self.data[self.at] if self.at < len(self.data) else 0
+        start = self.at + (1 if first & 0x80 else 4)
+        length = first & 0x7F if first & 0x80 else int.from_bytes(self.data[self.at : start], "little")
+        name = self.data[start : start + min(length, 120)].rpartition(b"::")[2].decode("ascii", "replace")
+        if name not in names:
+            raise Unknown(f"holds {name!r} where {' or '.join(names)} is expected")
+        self.at = start + length
+        version = int(self.number("B" if first & 0x80 else "i"))
+        return Header(name, version, self.at, bool(first & 0x80))
+
+    def end(self, header: Header) -> None:
+        """Check the mark behind an object within this one."""
+        if header.ended and self.number("B") != END:
+            raise Unknown(f"holds a {header.name} of version {header.version} that does not end where it should")
+
+    def matrix(self) -> Floats:
+        """Return a matrix that is an object."""
+        header = self.header("CMatrix", "CMatrixF", "CMatrixD")
+        rows, columns = (int(v) for v in self.take("II"))
+        if rows * columns > 10_000:
+            raise Unknown("is damaged")
+        values = self.array("<f8" if header.name == "CMatrixD" else "<f4", rows * columns)
+        self.end(header)
+        return values.reshape(rows, columns)
+
+    def pose_in_plane(self) -> Floats:
+        """Return a CPose2D."""
+        header = self.header("CPose2D")
+        if header.version not in (0, 1):
+            raise Unknown(f"holds a CPose2D of version {header.version}; 0 and 1 are known")
+        pose = np.array(self.take("3d" if header.version else "3f"))
+        self.end(header)
+        return pose
+
+    def pose_in_space(self) -> tuple[Floats, Floats]:
+        """Return a CPose3D: position (3,) and rotation (3, 3)."""
+        header = self.header("CPose3D")
+        if header.version in (0, 1):
+            whole = self.matrix()
+            if whole.shape != (4, 4):
+                raise Unknown("is damaged")
+            position, rotation = whole[:3, 3], whole[:3, :3]
+        elif header.version == 2:
+            x, y, z, w, i, j, k = self.take("7d")
+            position = np.array([x, y, z])
+            rotation = np.array(
+                [
+                    [1 - 2 * (j * j + k * k), 2 * (i * j - k * w), 2 * (i * k + j * w)],
+                    [2 * (i * j + k * w), 1 - 2 * (i * i + k * k), 2 * (j * k - i * w)],
+                    [2 * (i * k - j * w), 2 * (j * k + i * w), 1 - 2 * (i * i + j * j)],
+                ]
+            )
+        elif header.version == 3:
+            numbers = self.array("<f8", 12)
+            position, rotation = numbers[:3], numbers[3:].reshape(3, 3)
+        else:
+            raise Unknown(f"holds a CPose3D of version {header.version}; 0 to 3 are known")
+        self.end(header)
+        return position, rotation
+
+    def stamp_s(self) -> float | None:
+        """Return a time in seconds since 1970; None if it is not known."""
+        ticks = int(self.number("Q"))
+        return ticks * 1e-7 - SECONDS_1601_TO_1970 if ticks else None
+
+    def finish(self, header: Header, rests: list[list[str]]) -> None:
+        """Read the fields that stand last, whose widths some releases changed without another version.
+
+        Args:
+            header: of the object.
+            rests: alternatives of each field as struct formats; the object's end tells which it was. T and F at the
+                start of one are a byte that must be 1, or 0.
+        """
+        start = self.at
+        for forms in product(*rests):
+            self.at = start
+            ended = all(map(self._passed, forms)) and self.data[self.at : self.at + 1] == bytes([END])
+            if ended or not header.ended:
+                return
+        raise Unknown("does not end where it should")
+
+    def _passed(self, form: str) -> bool:
+        """Pass over a field. Returns whether its flag is as it should be."""
+        flag = {"T": 1, "F": 0}.get(form[:1])
+        fits = flag is None or self.data[self.at : self.at + 1] == bytes([flag])
+        self.at += struct.calcsize("<" + form.replace("T", "x").replace("F", "x"))
+        return fits
+
+
+def scan_of(reader: Reader, header: Header, motions: int) -> RawScan:
+    """Return a CObservation2DRangeScan.
+
+    Raises:
+        Unknown: another version, or damage.
+    """
+    version = header.version
+    if not 0 <= version <= 8:
+        raise Unknown("is not known: versions 0 to 8 are read")
+    aperture, right_to_left, max_range = reader.take("f?f")
+    position, rotation = reader.pose_in_space()
+    if version < 6:
+        reader.matrix()  # covariance of the sensor's pose
+    count = int(reader.number("I"))
+    if count > MOST_BEAMS:
+        raise Unknown("is damaged")
+    ranges = reader.array("<f4", count)
+    valid = reader.array("u1", count) != 0 if version >= 1 else ranges < max_range
+    stamp_s, label = None, ""
+    if version >= 2:
+        reader.number("f")  # standard deviation
+    if version >= 3:
+        stamp_s = reader.stamp_s()
+    if version >= 4:
+        reader.number("f")  # width of a beam
+    if version >= 5:
+        label = reader.text()
+    rests = [["d", "f"]] if version >= 5 else []  # change of pitch
+    if version >= 7:
+        rests.append(["F", f"T{4 * count}x"])
+    if version >= 8:
+        rests.append(["f", "d"])  # duration
+    reader.finish(header, rests)
+    sweep = (aperture if right_to_left else -aperture) * np.linspace(-0.5, 0.5, count)
+    angles = sweep if count > 1 else np.zeros(count)
+    if not (math.isfinite(aperture) and np.isfinite(position).all() and np.isfinite(rotation).all()):
+        raise Unknown("has a pose or an aperture that is not finite")
+    if count and (fault := fan_fault(float(angles.min()), float(angles.max()))) is not None:
+        raise Unknown(f": {fault}")
+    far = np.isfinite(max_range) & (ranges >= max_range - 1e-3) | np.isposinf(ranges)
+    readings = np.where(valid, ranges, np.where(far, np.inf, np.where(ranges <= 0.0, ranges, np.nan)))
+    yaw = math.atan2(rotation[1, 0], rotation[0, 0])
+    mount = (float(position[0]), float(position[1]), yaw)
+    return RawScan(label, stamp_s, angles, readings, mount, float(rotation[2, 2]), float(max_range), motions)
+
+
+def motion_of(reader: Reader, header: Header) -> tuple[int, Floats]:
+    """Return how a CActionRobotMovement2D was estimated, and the motion, (3,).
+
+    Raises:
+        Unknown: another version, a motion that is no Gaussian, or damage.
+    """
+    version = header.version
+    if not 0 <= version <= 7:
+        raise Unknown("is not known: versions 0 to 7 are read")
+    by = int(reader.number("i")) if version >= 2 else BY_ODOMETRY
+    if version < 2 or by != BY_ODOMETRY:
+        reader.header("CPosePDFGaussian", "CPosePDFGaussianInf")
+        return by, _checked(reader.pose_in_plane())  # what follows is not needed
+    motion = _checked(reader.pose_in_plane())
+    # The models of noise, the velocities and the encoders' ticks; floats of old releases are doubles of later ones.
+    if version == 2:
+        rests = [["44x"]]
+    else:
+        gaussian, thrun = (5 if version == 3 else 6), (4 if version < 5 else 6)
+        rests = [["4x"], [f"{gaussian}f", f"{gaussian}d"], ["4x"], [f"{thrun}f", f"{thrun}d"]]
+    if version < 7:
+        rests += [["?2f", "?2d"], ["?2i"]]
+    else:
+        rests += [["F", "T3d"], ["F", "T2i"]]
+    reader.finish(header, [*rests, *([["Q"]] if version >= 6 else [])])
+    return by, motion
+
+
+def odometry_of(reader: Reader, header: Header) -> tuple[str, float | None, Floats]:
+    """Return the sensor's label of a CObservationOdometry, its time, and the pose, (3,).
+
+    Raises:
+        Unknown: another version, or damage.
+    """
+    if not 0 <= header.version <= 2:
+        raise Unknown("is not known: versions 0 to 2 are read")
+    pose = _checked(reader.pose_in_plane())
+    label, stamp_s = reader.text(), reader.stamp_s()
+    rests: dict[int, list[list[str]]] = {0: [], 1: [["?2i"], ["?2f", "?2d"]], 2: [["F", "T2i"], ["F", "T3d"]]}
+    reader.finish(header, rests[header.version])
+    return label, stamp_s, pose
+
+
+def _checked(pose: Floats) -> Floats:
+    if not (np.isfinite(pose).all() and np.abs(pose).max() < 1e7):
+        raise Unknown(f"has the pose {pose.tolist()}")
+    return pose
+
 
 SCAN, MOTION, ODOMETRY = "CObservation2DRangeScan", "CActionRobotMovement2D", "CObservationOdometry"
 COLLECTION = "CActionCollection"
@@ -38,7 +348,7 @@ COLLECTION = "CActionCollection"
 def starts_as_rawlog(path: Path) -> bool:
     """Return whether a file, gzipped or not, begins with an object of MRPT's."""
     try:
-        return mrpt.header_at(next(file_chunks(path), b"")[:200], 0) is not None
+        return header_at(next(file_chunks(path), b"")[:200], 0) is not None
     except BadInput:
         return False
 
@@ -108,30 +418,30 @@ class _Objects:
 
     def __init__(self, account: Account, data: bytes) -> None:
         self.account = account
-        self.scans: list[mrpt.RawScan] = []
+        self.scans: list[RawScan] = []
         self.odometry: dict[str, list[tuple[float, Floats]]] = {}
         self.source: str | None = None
         self.collections: list[list[tuple[int, Floats]]] = []
         self.read_until = 0
         self.latest: tuple[float, Floats] | None = None
-        for match in mrpt.CLASS.finditer(data):
-            header = mrpt.header_of(data, match)
+        for match in CLASS.finditer(data):
+            header = header_of(data, match)
             if header is None or header.data <= self.read_until or header.name.startswith("CPose"):
                 continue
             account.counts[header.name] += 1
             try:
-                self._take(mrpt.Reader(data, header.data), header)
-            except (mrpt.Unknown, struct.error) as problem:
-                reason = str(problem) if isinstance(problem, mrpt.Unknown) else "is cut short"
+                self._take(Reader(data, header.data), header)
+            except (Unknown, struct.error) as problem:
+                reason = str(problem) if isinstance(problem, Unknown) else "is cut short"
                 number = account.counts[header.name]
                 told = f"{header.name} (object {number} of its class, version {header.version}) {reason}"
                 if not account.options.skip_bad_lines:
                     raise BadInput(f"{account.name}: {told}; leave such objects out with --skip-bad-lines") from None
                 account.skipped.append(SkippedLine(number, told, f"{header.name} in the log"))
 
-    def _take(self, reader: mrpt.Reader, header: mrpt.Header) -> None:
+    def _take(self, reader: Reader, header: Header) -> None:
         if header.name == SCAN:
-            scan = mrpt.scan_of(reader, header, len(self.collections))
+            scan = scan_of(reader, header, len(self.collections))
             if self.latest is not None and scan.stamp_s is not None and abs(scan.stamp_s - self.latest[0]) < SAME_S:
                 scan = replace(scan, odometry=self.latest[1])
             self.scans.append(scan)
@@ -140,9 +450,9 @@ class _Objects:
         elif header.name == MOTION:
             if not self.collections:
                 self.collections.append([])
-            self.collections[-1].append(mrpt.motion_of(reader, header))
+            self.collections[-1].append(motion_of(reader, header))
         elif header.name == ODOMETRY:
-            label, stamp_s, pose = mrpt.odometry_of(reader, header)
+            label, stamp_s, pose = odometry_of(reader, header)
             if stamp_s is not None:
                 self.odometry.setdefault(label, []).append((stamp_s, pose))
                 self.latest = (stamp_s, pose)
@@ -150,16 +460,14 @@ class _Objects:
             return
         self.read_until = reader.at
 
-    def robot_poses(
-        self, scans: list[mrpt.RawScan], stamps_s: Floats | None
-    ) -> tuple[Floats | None, NDArray[np.bool_]]:
+    def robot_poses(self, scans: list[RawScan], stamps_s: Floats | None) -> tuple[Floats | None, NDArray[np.bool_]]:
         """Return where the robot was at each scan, (S, 3), or None, and for which scans that is known, (S,)."""
         everywhere = np.ones(len(scans), np.bool_)
         if any(self.collections):
             self.source = MOTION
             path = [np.zeros(3)]
             for motions in self.collections:
-                best = min(motions, key=lambda m: m[0] != mrpt.BY_ODOMETRY, default=(0, np.zeros(3)))
+                best = min(motions, key=lambda m: m[0] != BY_ODOMETRY, default=(0, np.zeros(3)))
                 path.append(compose(path[-1], best[1]))
             return np.array([path[scan.motions] for scan in scans]), everywhere
         if not self.odometry or stamps_s is None:

@@ -1,16 +1,24 @@
-"""Trajectories as TUM text: what evo and the TUM RGB-D benchmark's tools read.
+"""Trajectories as TUM text, which evo and the TUM RGB-D benchmark's tools read, and true relations between poses.
 
-A line a pose, ``timestamp tx ty tz qx qy qz qw``: seconds, metres, and a unit quaternion; lines that begin with ``#``
-are comments. A pose in the plane has tz = qx = qy = 0 and (qz, qw) = (sin, cos) of half its yaw.
+TUM has a line a pose, ``timestamp tx ty tz qx qy qz qw``: seconds, metres, and a unit quaternion; lines that begin with
+``#`` are comments. A pose in the plane has tz = qx = qy = 0 and (qz, qw) = (sin, cos) of half its yaw.
 
 TUM has no place for covariances; they go into a file beside it, a line a pose with the same stamps:
 ``timestamp xx xy xyaw yy yyaw yawyaw`` in m^2, m rad and rad^2, along the axes of the world.
+
+A relation has a line in the format of Kuemmerle et al. (2009), "On measuring the accuracy of SLAM algorithms",
+
+    t_i t_j x y z roll pitch yaw
+
+the true pose of time t_j in the frame of the pose of time t_i, in metres and radians. In the plane z, roll and pitch
+are 0.
 """
 
 from __future__ import annotations
 
 import os
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -20,6 +28,9 @@ from bayesmap.files import write_text
 from bayesmap.io.text.lines import read_table
 from bayesmap.space.scans import as_poses
 from bayesmap.space.trajectory import Trajectory
+
+if TYPE_CHECKING:
+    from bayesmap.posterior.trajectory_scores import Relations
 
 UPRIGHT = 0.1
 """Sine of half the angle by which a pose may be tilted and still be one in the plane."""
@@ -104,3 +115,41 @@ def read_trajectory(path: str | os.PathLike[str]) -> Trajectory:
             raise BadInput(f"{beside}: its stamps are not those of {name}; delete it, or write both anew")
         covariances = table[order][:, [1, 2, 3, 2, 4, 5, 3, 5, 6]].reshape(-1, 3, 3)
     return Trajectory(np.column_stack([rows[:, 1:3], yaw])[order], rows[order, 0], covariances)
+
+
+def read_relations(path: str | os.PathLike[str]) -> Relations:
+    """Read a file of relations, plain or gzipped; # begins a comment.
+
+    Raises:
+        BadInput: a file that cannot be read, or a line that is not eight finite numbers; the message names the line.
+    """
+    from bayesmap.posterior.trajectory_scores import Relations
+
+    table = read_table(path, 8, "t1 t2 x y z roll pitch yaw", "no relations in it")
+    return Relations(table[:, 0], table[:, 1], table[:, [2, 3, 7]])
+
+
+def write_relations(path: str | os.PathLike[str], first_s: ArrayLike, second_s: ArrayLike, relative: ArrayLike) -> Path:
+    """Write relations, whole or not at all; gzipped if the name ends in .gz.
+
+    Args:
+        path: the file to write.
+        first_s: time of the first pose of each, seconds, shape (N,).
+        second_s: time of the second.
+        relative: pose at the second time in the frame at the first: x, y in metres, yaw in radians, shape (N, 3).
+
+    Raises:
+        BadInput: shapes that do not fit, nothing to write, or a file that cannot be written.
+    """
+    starts, ends, poses = (np.asarray(a, dtype=np.float64) for a in (first_s, second_s, relative))
+    if len(starts) == 0 or starts.shape != ends.shape or poses.shape != (len(starts), 3):
+        raise BadInput(
+            f"relations: got stamps {starts.shape} and {ends.shape} and poses {poses.shape}, (N,) and (N, 3)"
+        )
+    return write_text(
+        path,
+        (
+            f"{i:.6f} {j:.6f} {x:.9f} {y:.9f} 0 0 0 {yaw:.9f}"
+            for i, j, (x, y, yaw) in zip(starts, ends, poses, strict=True)
+        ),
+    )

@@ -1,0 +1,379 @@
+"""A simulated robot: its patrol through a building, and its wheel odometry with noise, bias, slip and lag.
+
+Odometry cuts the path into turn, straight, turn (Thrun, Burgard and Fox, *Probabilistic Robotics*, 2005, section 5.4).
+The book adds noise whose variance depends on the square of each part, so that the same path cut into smaller steps has
+less of it. Here variances grow with the way itself, as those of a random walk do, and a log at 1 Hz and one at 10 Hz
+drift alike: for a straight of d metres and turns of a_1 and a_2 radians, A = |a_1| + |a_2|,
+
+    d'   = (1 + distance_scale) d + N(0, distance_per_m^2 d + distance_per_rad^2 A)
+    a_i' = (1 + turn_scale) a_i + drift_rad_per_m d / 2 + N(0, turn_per_m^2 d / 2 + turn_per_rad^2 |a_i|)
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, fields
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from bayesmap.errors import BadInput, check_count
+from bayesmap.space.planar import between, compose, interpolate, wrapped
+from bayesmap.space.scans import as_poses
+
+if TYPE_CHECKING:
+    from scipy import sparse
+
+    from bayesmap.sim.building import Building
+
+WALL_DISLIKE = 4.0
+"""How many times dearer a path is close to the walls than in the open: robots keep to the middle."""
+
+SMOOTHING_M = 0.5
+HEADING_M = 0.2
+
+
+def patrol(building: Building, n_scans: int, seed: int = 0) -> NDArray[np.float64]:
+    """Simulate the poses of a robot that goes round a building and enters its rooms.
+
+    From the first corridor it goes to the nearest room that it has not seen, again and again, by shortest
+    paths that prefer open floor. Scans are taken at equal distances along the way.
+
+    Args:
+        building: the building.
+        n_scans: number of poses; a round needs about one for every metre to enter every room visibly.
+        seed: chooses where in each room the robot goes.
+
+    Returns:
+        Poses in the world frame, shape (n_scans, 3): x and y in metres, yaw in radians along the direction of
+        travel. None is within `ROBOT_CLEARANCE_M` of a wall.
+
+    Raises:
+        BadInput: no scans asked for, or a building without floor that a robot can pass.
+    """
+    if n_scans < 1:
+        raise BadInput(f"patrol: n_scans must be at least 1, got {n_scans!r}")
+    lattice = _Lattice(building)
+    stops = lattice.stops(np.random.default_rng(check_count("patrol", "seed", seed, 0)))
+    path = _smooth(lattice.tour(stops), lattice)
+    steps = np.hypot(*np.diff(path, axis=0).T)
+    along = np.concatenate([[0.0], np.cumsum(steps)])
+    at = np.linspace(0.0, along[-1], n_scans)
+    xy = _along(path, along, at)
+    # The direction of travel over the next few steps, not of one step of the lattice.
+    heading = _along(path, along, at + HEADING_M) - xy
+    arrived = np.hypot(*heading.T) < 1e-9
+    heading[arrived] = (xy - _along(path, along, at - HEADING_M))[arrived]
+    return np.column_stack([xy, np.arctan2(heading[:, 1], heading[:, 0])])
+
+
+def _along(
+    path_m: NDArray[np.float64], length_m: NDArray[np.float64], at_m: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Return points of a path at the given lengths along it, held at its ends."""
+    return np.stack([np.interp(at_m, length_m, path_m[:, k]) for k in (0, 1)], axis=1)
+
+
+class _Lattice:
+    """Every k-th cell where a robot fits, linked to its eight neighbours: the largest connected part."""
+
+    def __init__(self, building: Building) -> None:
+        from scipy import ndimage
+
+        self.building, self.resolution = building, building.grid.resolution
+        stride = lattice_stride(self.resolution)
+        self.clearance_m = wall_distance_m(building.walls, self.resolution)
+        start = stride // 2
+        clearance = self.clearance_m[start::stride, start::stride].copy()
+        centers = building.grid.centers_m()
+        x, y = centers[0][start::stride], centers[1][start::stride]
+        inside = _inside(building, x, y)
+        fits = inside & (clearance >= passage_m(self.resolution))
+        labels, count = ndimage.label(fits, structure=np.ones((3, 3)))
+        if count == 0:
+            raise BadInput("patrol: there is no floor wide enough for a robot")
+        largest = 1 + int(np.argmax(np.bincount(labels[labels > 0])[1:]))
+        self.nodes = np.argwhere(labels == largest)
+        self.points_m = np.column_stack([x[self.nodes[:, 0]], y[self.nodes[:, 1]]])
+        self.node_clearance_m = clearance[tuple(self.nodes.T)]
+        self.graph = self._links(fits.shape, stride * self.resolution)
+
+    def _links(self, shape: tuple[int, ...], spacing_m: float) -> sparse.csr_array:
+        from scipy import sparse
+
+        number = np.full(shape, -1)
+        number[tuple(self.nodes.T)] = np.arange(len(self.nodes))
+        padded = np.pad(number, 1, constant_values=-1)
+        dislike = 1 + WALL_DISLIKE * np.exp(-(self.node_clearance_m - passage_m(self.resolution)) / 0.2)
+        rows, columns, costs = [], [], []
+        for di, dj in ((1, 0), (0, 1), (1, 1), (1, -1)):
+            other = padded[1 + di : 1 + di + shape[0], 1 + dj : 1 + dj + shape[1]]
+            linked = (number >= 0) & (other >= 0)
+            a, b = number[linked], other[linked]
+            rows.append(a)
+            columns.append(b)
+            costs.append(spacing_m * np.hypot(di, dj) * (dislike[a] + dislike[b]) / 2)
+        entries = (np.concatenate(costs), (np.concatenate(rows), np.concatenate(columns)))
+        return sparse.csr_array(entries, shape=(len(self.nodes), len(self.nodes)))
+
+    def stops(self, rng: np.random.Generator) -> list[int]:
+        """Choose one node in each room within reach, in the open and near a random point of the room's middle."""
+        stops = []
+        x, y = self.points_m.T
+        for room in sorted(self.building.rooms, key=lambda room: room.kind != "corridor"):
+            x0, x1, y0, y1 = room.extent_m
+            here = np.nonzero((x > x0) & (x < x1) & (y > y0) & (y < y1))[0]
+            if len(here) == 0:
+                continue
+            aim = np.array([x0, y0]) + rng.uniform(0.3, 0.7, 2) * (x1 - x0, y1 - y0)
+            distance = np.hypot(*(self.points_m[here] - aim).T)
+            stops.append(int(here[np.argmin(distance - np.minimum(self.node_clearance_m[here], 0.8))]))
+        return stops
+
+    def tour(self, stops: list[int]) -> NDArray[np.float64]:
+        """Return the points of a path through all stops, from the first: always to the nearest that is left."""
+        from scipy.sparse import csgraph
+
+        if not stops:
+            return self.points_m[:1]
+        cost, before = csgraph.dijkstra(self.graph, directed=False, indices=stops, return_predecessors=True)
+        left, here = set(range(1, len(stops))), 0
+        nodes = [stops[0]]
+        while left:
+            nearest = min(left, key=lambda k: cost[here, stops[k]])
+            leg = [stops[nearest]]
+            while leg[-1] != stops[here]:
+                leg.append(int(before[here, leg[-1]]))
+            nodes.extend(leg[-2::-1])
+            left.discard(nearest)
+            here = nearest
+        return np.asarray(self.points_m[nodes])
+
+
+def _inside(building: Building, x: NDArray[np.float64], y: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """Select the lattice points that the ground around the building does not reach."""
+    from scipy import ndimage
+
+    labels, _ = ndimage.label(~building.walls)
+    cells = [
+        np.floor((v - o) / building.grid.resolution).astype(int)
+        for v, o in zip((x, y), building.grid.origin, strict=True)
+    ]
+    return np.asarray(labels[np.ix_(*cells)] != labels[0, 0])
+
+
+def _smooth(path_m: NDArray[np.float64], lattice: _Lattice) -> NDArray[np.float64]:
+    """Round the lattice's corners of a path, wherever that keeps it as clear of the walls."""
+    from scipy import ndimage
+
+    spacing = lattice_stride(lattice.resolution) * lattice.resolution
+    if len(path_m) < 3:
+        return path_m
+    smooth = ndimage.gaussian_filter1d(path_m, SMOOTHING_M / spacing / 2, axis=0, mode="nearest")
+    cells = np.floor(lattice.building.grid.to_cells(smooth)).astype(int)
+    clear = lattice.clearance_m[cells[:, 0], cells[:, 1]] >= passage_m(lattice.resolution)
+    # A point that must stay keeps its neighbours too: no new step may cut a corner.
+    clear = ndimage.binary_erosion(clear, iterations=2, border_value=1)
+    return np.where(clear[:, None], smooth, path_m)
+
+
+ROBOT_CLEARANCE_M = 0.25
+"""No pose of a simulated robot is nearer to a wall than this."""
+
+LATTICE_M = 0.1
+"""Paths are planned on every k-th cell, about this far apart (every cell, where cells are larger)."""
+
+
+def wall_distance_m(walls: NDArray[np.bool_], resolution: float) -> NDArray[np.float64]:
+    """Return the distance in metres between the centres of every cell and of the nearest wall cell, shape (nx, ny)."""
+    from scipy import ndimage  # half a second to import: only those who simulate buildings pay for it
+
+    if not walls.any():
+        return np.full(walls.shape, np.inf)
+    return np.asarray(ndimage.distance_transform_edt(~walls, sampling=resolution))
+
+
+def lattice_stride(resolution: float) -> int:
+    """Return the number of cells between neighbours of the planning lattice."""
+    return max(1, round(LATTICE_M / resolution))
+
+
+def passage_m(resolution: float) -> float:
+    """Return the centre-to-centre distance from walls that keeps a path clear of them by `ROBOT_CLEARANCE_M`.
+
+    A wall's edge is nearer than its centre by up to half a cell's diagonal, and a point of the path is off
+    the lattice by up to half the lattice's diagonal.
+    """
+    return ROBOT_CLEARANCE_M + (1 + lattice_stride(resolution)) * resolution / math.sqrt(2)
+
+
+STANDING_M = 1e-9
+"""A shorter straight has no direction: the step is one turn."""
+
+NEAR_M = 4.0
+"""Poses further apart than this see different walls, and no ground truth is measured between them."""
+
+PAIRS_A_POSE = 3
+
+
+@dataclass(frozen=True)
+class OdometryNoise:
+    """How a robot's odometry errs. The defaults are about those of a Pioneer in an office (Intel's raw log).
+
+    Attributes:
+        distance_per_m: standard deviation of the reported distance after one metre, m / sqrt(m).
+        distance_per_rad: the same after a turn of one radian on the spot, m / sqrt(rad).
+        turn_per_m: standard deviation of the reported yaw after one metre straight on, rad / sqrt(m).
+        turn_per_rad: the same after a turn of one radian, rad / sqrt(rad).
+        distance_scale: reported distances are longer by this share (a worn wheel).
+        turn_scale: reported turns are larger by this share (a wrong wheel base).
+        drift_rad_per_m: reported yaw turns away by this a metre (wheels of unequal size).
+        slips_per_m: how often the wheels slip, in slips a metre.
+        slip_m: in a slip the odometry reports on average so much more way than there was, metres.
+        slip_rad: standard deviation of what a slip does to the reported yaw, radians.
+        lag_s: the pose reported at a time is that of so many seconds before.
+
+    Raises:
+        BadInput: a number that is not finite, or is negative where it must not be.
+    """
+
+    distance_per_m: float = 0.03
+    distance_per_rad: float = 0.06
+    turn_per_m: float = 0.04
+    turn_per_rad: float = 0.05
+    distance_scale: float = 0.035
+    turn_scale: float = 0.02
+    drift_rad_per_m: float = -0.06
+    slips_per_m: float = 0.0
+    slip_m: float = 0.05
+    slip_rad: float = 0.1
+    lag_s: float = 0.0
+
+    def __post_init__(self) -> None:
+        signed = ("distance_scale", "turn_scale", "drift_rad_per_m", "lag_s")
+        for field in fields(self):
+            value = getattr(self, field.name)
+            if not math.isfinite(value) or (value < 0 and field.name not in signed):
+                kind = "a finite number" if field.name in signed else "a finite number of 0 or more"
+                raise BadInput(f"odometry: {field.name} must be {kind}, got {value!r}")
+
+
+def simulate_odometry(
+    poses_world: ArrayLike,
+    noise: OdometryNoise | None = None,
+    *,
+    stamps_s: ArrayLike | None = None,
+    seed: int = 0,
+) -> NDArray[np.float64]:
+    """Return the poses that a robot's odometry reports along a path; it starts at the true first pose.
+
+    Args:
+        poses_world: where the robot's base truly was, shape (S, 3): x, y in metres and yaw in radians.
+        noise: how the odometry errs.
+        stamps_s: when, shape (S,), strictly ascending; needed where ``noise.lag_s`` is not 0.
+        seed: of the noise. The noise of a step does not depend on the steps after it.
+
+    Returns:
+        Raw odometry, shape (S, 3), in a frame that drifts away from the world's.
+
+    Raises:
+        BadInput: shapes that do not fit, stamps that do not ascend, or a lag without stamps.
+    """
+    noise = OdometryNoise() if noise is None else noise
+    truth = as_poses(poses_world)
+    if len(truth) == 0:
+        return truth
+    rng = np.random.default_rng(check_count("odometry", "seed", seed, 0))
+    reported = _accumulated(truth[0], _reported_steps(between(truth[:-1], truth[1:]), noise, rng))
+    if noise.lag_s == 0.0:
+        return reported
+    if stamps_s is None:
+        raise BadInput("odometry: a lag needs stamps_s, the time of each pose")
+    stamps = np.asarray(stamps_s, dtype=np.float64)
+    if stamps.shape != (len(truth),) or not (np.diff(stamps) > 0).all():
+        raise BadInput(f"odometry: stamps_s must ascend, one a pose ({len(truth)},), got shape {stamps.shape}")
+    return interpolate(stamps, reported, stamps - noise.lag_s)
+
+
+def travel_times_s(poses_world: ArrayLike, speed_m_per_s: float, turn_rad_per_s: float) -> NDArray[np.float64]:
+    """Compute when a robot of some speed comes by each pose of its path, seconds from the first, shape (S,).
+
+    A step takes the longer of its way at full speed and its turn at the full rate.
+
+    Raises:
+        BadInput: a speed or rate that is not positive.
+    """
+    for name, value in (("speed", speed_m_per_s), ("turn rate", turn_rad_per_s)):
+        if not (math.isfinite(value) and value > 0):
+            raise BadInput(f"odometry: the {name} must be a positive number, got {value!r}")
+    poses = as_poses(poses_world)
+    steps = between(poses[:-1], poses[1:])
+    ways, turns = np.hypot(steps[:, 0], steps[:, 1]), np.abs(steps[:, 2])
+    took = np.maximum(ways / speed_m_per_s, turns / turn_rad_per_s)
+    # Two scans from the same place still come one after the other.
+    return np.concatenate([[0.0], np.cumsum(np.maximum(took, 1e-3))])
+
+
+def _reported_steps(steps: NDArray[np.float64], noise: OdometryNoise, rng: np.random.Generator) -> NDArray[np.float64]:
+    """Return each true step as odometry reports it, as a pose in the frame of the step before, (S - 1, 3)."""
+    normals, slips = rng.standard_normal((len(steps), 4)), rng.random((len(steps), 2))
+    distance = np.hypot(steps[:, 0], steps[:, 1])
+    first = np.where(distance > STANDING_M, np.arctan2(steps[:, 1], steps[:, 0]), 0.0)
+    backwards = np.abs(first) > math.pi / 2  # a robot that reverses does not turn about first
+    first = np.where(backwards, wrapped(first + math.pi), first)
+    last = wrapped(steps[:, 2] - first)
+    signed = np.where(backwards, -distance, distance)
+
+    turned = np.abs(first) + np.abs(last)
+    spread = np.sqrt(noise.distance_per_m**2 * distance + noise.distance_per_rad**2 * turned)
+    reported = (1.0 + noise.distance_scale) * signed + spread * normals[:, 0]
+
+    def turn(true: NDArray[np.float64], normal: NDArray[np.float64]) -> NDArray[np.float64]:
+        sigma = np.sqrt(noise.turn_per_m**2 * distance / 2 + noise.turn_per_rad**2 * np.abs(true))
+        return np.asarray((1.0 + noise.turn_scale) * true + noise.drift_rad_per_m * distance / 2 + sigma * normal)
+
+    first, last = turn(first, normals[:, 1]), turn(last, normals[:, 2])
+    slipped = slips[:, 0] < -np.expm1(-noise.slips_per_m * (distance + turned))
+    reported = reported + np.where(slipped, -noise.slip_m * np.log1p(-slips[:, 1]), 0.0)
+    last = last + np.where(slipped, noise.slip_rad * normals[:, 3], 0.0)
+    return np.stack([reported * np.cos(first), reported * np.sin(first), wrapped(first + last)], axis=-1)
+
+
+def _accumulated(start: NDArray[np.float64], steps: NDArray[np.float64]) -> NDArray[np.float64]:
+    poses = np.empty((len(steps) + 1, 3))
+    poses[0] = start
+    for i, step in enumerate(steps):
+        poses[i + 1] = compose(poses[i], step)
+    return poses
+
+
+def related_pairs(poses_world: NDArray[np.float64], seed: int = 0) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """Choose pairs of poses up to `NEAR_M` apart: each with its next, and with two others, at all distances in time.
+
+    Kuemmerle et al. (2009) relate poses whose scans a person can lay on top of each other: neighbours in time, and
+    places seen again.
+
+    Args:
+        poses_world: shape (S, 3).
+        seed: of the choice.
+
+    Returns:
+        Indices of the earlier and the later pose of each pair, ascending, each pair once.
+    """
+    count = len(poses_world)
+    rng = np.random.default_rng(check_count("relations", "seed", seed, 0))
+    if count < 2:
+        return np.empty(0, np.intp), np.empty(0, np.intp)
+    pairs = np.stack([np.arange(count - 1), np.arange(1, count)], axis=1)
+    start = rng.integers(0, count - 1, PAIRS_A_POSE * 4 * count)
+    # Log-uniform gaps: as many pairs seconds apart as minutes.
+    gap = np.exp(rng.uniform(0.0, np.log(count), len(start))).astype(np.intp)
+    far = np.stack([start, start + gap], axis=1)[start + gap < count]
+    pairs = np.concatenate([pairs, far])
+    apart = np.hypot(*(poses_world[pairs[:, 0], :2] - poses_world[pairs[:, 1], :2]).T)
+    _, first = np.unique(pairs, axis=0, return_index=True)
+    kept = pairs[np.sort(first)]
+    kept = kept[apart[np.sort(first)] <= NEAR_M][: PAIRS_A_POSE * count]
+    order = np.lexsort((kept[:, 1], kept[:, 0]))
+    return kept[order, 0], kept[order, 1]
