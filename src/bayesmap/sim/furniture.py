@@ -6,13 +6,18 @@ leaves the door free and the rest of the room within reach of a robot.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.sim.robot import passage_m, wall_distance_m
+ROBOT_CLEARANCE_M = 0.25
+"""No pose of a simulated robot is nearer to a wall than this."""
+
+LATTICE_M = 0.1
+"""Paths are planned on every k-th cell, about this far apart (every cell, where cells are larger)."""
 
 SOLID = 1.0
 LEG = 0.5
@@ -23,6 +28,29 @@ MAX_CUT_OFF_M2 = 0.4
 
 Rectangle = tuple[float, float, float, float, float]
 """Metres in the room's frame: x, y, width, depth; and the opacity."""
+
+
+def wall_distance_m(walls: NDArray[np.bool_], resolution: float) -> NDArray[np.float64]:
+    """Return the distance in metres between the centres of every cell and of the nearest wall cell, shape (nx, ny)."""
+    from scipy import ndimage  # half a second to import: only those who simulate buildings pay for it
+
+    if not walls.any():
+        return np.full(walls.shape, np.inf)
+    return np.asarray(ndimage.distance_transform_edt(~walls, sampling=resolution))
+
+
+def lattice_stride(resolution: float) -> int:
+    """Return the number of cells between neighbours of the planning lattice."""
+    return max(1, round(LATTICE_M / resolution))
+
+
+def passage_m(resolution: float) -> float:
+    """Return the centre-to-centre distance from walls that keeps a path clear of them by `ROBOT_CLEARANCE_M`.
+
+    A wall's edge is nearer than its centre by up to half a cell's diagonal, and a point of the path is off
+    the lattice by up to half the lattice's diagonal.
+    """
+    return ROBOT_CLEARANCE_M + (1 + lattice_stride(resolution)) * resolution / math.sqrt(2)
 
 
 @dataclass

@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from bayesmap.errors import BadInput, check_count
+from bayesmap.sim.furniture import lattice_stride, passage_m, wall_distance_m
 from bayesmap.space.planar import between, compose, interpolate, wrapped
 from bayesmap.space.scans import as_poses
 
@@ -176,36 +177,6 @@ def _smooth(path_m: NDArray[np.float64], lattice: _Lattice) -> NDArray[np.float6
     # A point that must stay keeps its neighbours too: no new step may cut a corner.
     clear = ndimage.binary_erosion(clear, iterations=2, border_value=1)
     return np.where(clear[:, None], smooth, path_m)
-
-
-ROBOT_CLEARANCE_M = 0.25
-"""No pose of a simulated robot is nearer to a wall than this."""
-
-LATTICE_M = 0.1
-"""Paths are planned on every k-th cell, about this far apart (every cell, where cells are larger)."""
-
-
-def wall_distance_m(walls: NDArray[np.bool_], resolution: float) -> NDArray[np.float64]:
-    """Return the distance in metres between the centres of every cell and of the nearest wall cell, shape (nx, ny)."""
-    from scipy import ndimage  # half a second to import: only those who simulate buildings pay for it
-
-    if not walls.any():
-        return np.full(walls.shape, np.inf)
-    return np.asarray(ndimage.distance_transform_edt(~walls, sampling=resolution))
-
-
-def lattice_stride(resolution: float) -> int:
-    """Return the number of cells between neighbours of the planning lattice."""
-    return max(1, round(LATTICE_M / resolution))
-
-
-def passage_m(resolution: float) -> float:
-    """Return the centre-to-centre distance from walls that keeps a path clear of them by `ROBOT_CLEARANCE_M`.
-
-    A wall's edge is nearer than its centre by up to half a cell's diagonal, and a point of the path is off
-    the lattice by up to half the lattice's diagonal.
-    """
-    return ROBOT_CLEARANCE_M + (1 + lattice_stride(resolution)) * resolution / math.sqrt(2)
 
 
 STANDING_M = 1e-9
