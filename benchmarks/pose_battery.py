@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from bayesmap.poses.slam import infer_trajectory
 from bayesmap.poses.trajectory import Trajectory
-from bayesmap.sensors.noise import Gaussian
+from bayesmap.sensors.builtin import Gaussian
 from bayesmap.sim.building import building
 from bayesmap.sim.forward import simulate
 from bayesmap.sim.robot import OdometryNoise, patrol, simulate_odometry, travel_times_s

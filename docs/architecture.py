@@ -57,7 +57,7 @@ STEPS = (
             "p(z) = Σ Tₖ aₖ p(z | stop k) + T p(z | no stop),",
             "Tₖ = Π (1 - aⱼ) over the cells before k, T over all",
         ),
-        ("model.py", "beams/stop_law.py", "kernels/sensor_law.py"),
+        ("model.py", "beams/rays.py", "kernels/sensor_law.py"),
         ("aₖ and p(z | stop k)", "kinds of cells, sensor models", "cells/", "sensors/"),
     ),
     Step(

@@ -47,10 +47,10 @@ if TYPE_CHECKING:
     from bayesmap.samplers.methods import Gibbs as Gibbs
     from bayesmap.samplers.methods import Importance as Importance
     from bayesmap.samplers.methods import Propagate as Propagate
-    from bayesmap.sensors.mixture import BeamMixture as BeamMixture
+    from bayesmap.sensors.builtin import BeamMixture as BeamMixture
+    from bayesmap.sensors.builtin import Gaussian as Gaussian
+    from bayesmap.sensors.builtin import StudentT as StudentT
     from bayesmap.sensors.model import SensorModel as SensorModel
-    from bayesmap.sensors.noise import Gaussian as Gaussian
-    from bayesmap.sensors.noise import StudentT as StudentT
     from bayesmap.sim.forward import ranges as ranges
     from bayesmap.sim.forward import simulate as simulate
     from bayesmap.sim.robot import OdometryNoise as OdometryNoise
@@ -61,13 +61,13 @@ if TYPE_CHECKING:
 
 _HOME = {
     "BadInput": "bayesmap.errors",
-    "BeamMixture": "bayesmap.sensors.mixture",
+    "BeamMixture": "bayesmap.sensors.builtin",
     "Beta": "bayesmap.cells.reflectivity",
     "Block": "bayesmap.samplers.methods",
     "Checkpoints": "bayesmap.arguments",
     "Exact": "bayesmap.samplers.methods",
     "FreeProbability": "bayesmap.posterior.route",
-    "Gaussian": "bayesmap.sensors.noise",
+    "Gaussian": "bayesmap.sensors.builtin",
     "Gibbs": "bayesmap.samplers.methods",
     "Grid": "bayesmap.space.grid",
     "Importance": "bayesmap.samplers.methods",
@@ -88,7 +88,7 @@ _HOME = {
     "Scans": "bayesmap.space.scans",
     "Schedule": "bayesmap.arguments",
     "SensorModel": "bayesmap.sensors.model",
-    "StudentT": "bayesmap.sensors.noise",
+    "StudentT": "bayesmap.sensors.builtin",
     "Surface": "bayesmap.cells.surface",
     "Uncertain": "bayesmap.poses.prior",
     "Where": "bayesmap.arguments",

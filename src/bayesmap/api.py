@@ -41,7 +41,7 @@ from bayesmap.samplers.wall_problem import trace_walls
 from bayesmap.samplers.walls import default_start
 from bayesmap.samplers.with_poses import MovableSampler, WithPoses
 from bayesmap.samplers.without_chains import DrawRequest
-from bayesmap.sensors.describe import describe
+from bayesmap.sensors.builtin import describe
 from bayesmap.sensors.model import SensorModel
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans

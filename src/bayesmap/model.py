@@ -4,7 +4,7 @@
 
 A beam stops in the i-th cell that it meets with probability ``w_i = a_i prod_{j < i} (1 - a_j)``, a_i being the chance
 that this cell stops a beam which gets there, at a distance d_i known up to a spread s_i
-(`bayesmap.beams.stop_law`), or nowhere in the map, and
+(`bayesmap.beams.rays`), or nowhere in the map, and
 
     p(z | cells, sensor, pose) = sum_i w_i p(z | d_i, s_i) + prod_j (1 - a_j) p(z | infinity)
 
@@ -20,8 +20,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.beams.rays import Rays
-from bayesmap.beams.stop_law import stops_of
+from bayesmap.beams.rays import Rays, stops_of
 from bayesmap.cells.arrays import ArraySpec
 from bayesmap.cells.kind import CellPrior, Cells
 from bayesmap.errors import BadInput
@@ -127,7 +126,7 @@ def log_likelihoods(
 
     Args:
         rays: beams and their readings.
-        states: the map, as `bayesmap.beams.stop_law.stops_of` takes it.
+        states: the map, as `bayesmap.beams.rays.stops_of` takes it.
         sensor: the law of the readings.
         hit_depth: where in a cell without a surface a beam stops.
         beta: inverse temperature, the power of the sensor's law p(z | stop).

@@ -13,7 +13,7 @@ from bayesmap.cells.kinds import prior_from
 from bayesmap.io.logs import read_log
 from bayesmap.io.ros.maps import read_map
 from bayesmap.samplers.fit import first_sensor
-from bayesmap.sensors.describe import describe
+from bayesmap.sensors.builtin import describe
 from bayesmap.space.planar import compose, inverse
 
 KEYS = {

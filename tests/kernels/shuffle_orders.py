@@ -9,12 +9,7 @@ from bayesmap.samplers.sampler import STREAM_SWEEPS
 
 
 @wp.kernel
-def all_shuffled(
-    size: int,
-    bits: wp.uint32,
-    keys: wp.array(dtype=wp.uint64),
-    out: wp.array2d(dtype=wp.uint32),
-):
+def all_shuffled(size: int, bits: wp.uint32, keys: wp.array(dtype=wp.uint64), out: wp.array2d(dtype=wp.uint32)):
     row, i = wp.tid()
     out[row, i] = shuffled(wp.uint32(i), wp.uint32(size), bits, keys[row])
 

@@ -8,7 +8,7 @@ from oracle.worlds import make_case, scorer
 import bayesmap as bm
 from bayesmap.kernels.walls import table as tracing
 from bayesmap.kernels.walls.table import trace
-from bayesmap.sensors.mixture import FLAT_NATS
+from bayesmap.sensors.builtin import FLAT_NATS
 from bayesmap.sensors.model import RangeLimits
 
 SENSORS = {

@@ -9,11 +9,18 @@ from tiers import latin
 
 import bayesmap as bm
 from bayesmap.kernels.sensor_law import SensorLaw32, sensor_law
+from bayesmap.kernels.surfaces.cell import centre_of
 from bayesmap.kernels.surfaces.cell_draws import ActiveCells
-from bayesmap.kernels.surfaces.cell_prior import centre_of
-from bayesmap.kernels.surfaces.endpoint_beams import EndpointCells, log_stops
+from bayesmap.kernels.surfaces.endpoint_beams import (
+    UNKNOWN,
+    EndpointCells,
+    LaneBlocks,
+    log_stops,
+    log_stops_in_lanes,
+    put_in_blocks,
+    takes_lanes,
+)
 from bayesmap.kernels.surfaces.endpoint_cells import NO_LEAST, BeamLists, listed_of, log_beams
-from bayesmap.kernels.surfaces.endpoint_lanes import UNKNOWN, LaneBlocks, log_stops_in_lanes, put_in_blocks, takes_lanes
 from bayesmap.kernels.surfaces.stops import ChainArrays, TracedRays
 from bayesmap.model import Model
 from bayesmap.samplers.stop_gibbs import StopGibbs

@@ -8,8 +8,7 @@ from tiers import latin
 
 import bayesmap as bm
 from bayesmap.kernels.predict.density import forecast, log_densities
-from bayesmap.kernels.predict.stop_mixture import first_hit_events, mix_stops
-from bayesmap.kernels.predict.stop_quantiles import range_quantiles
+from bayesmap.kernels.predict.stop_mixture import first_hit_events, mix_stops, range_quantiles
 from bayesmap.kernels.rays import trace_rays
 from bayesmap.sensors.model import RangeLimits, SensorModel
 

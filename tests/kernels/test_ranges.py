@@ -10,8 +10,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from oracle.formula import distances
+from oracle.ranges import ranges_by_edges
 
-from bayesmap.beams.range_reference import ranges_by_edges
 from bayesmap.kernels.walk import cast
 
 LONGEST = 60.0

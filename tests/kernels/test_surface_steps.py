@@ -23,7 +23,7 @@ from tiers import full_but
 import bayesmap as bm
 from bayesmap.kernels.sensor_law import SensorLaw32
 from bayesmap.kernels.surfaces import stop_chains as chains
-from bayesmap.kernels.surfaces.crossing import Cell
+from bayesmap.kernels.surfaces.cell import Cell
 from bayesmap.kernels.surfaces.stops import GAIN_UNITS, ChainArrays, TracedRays
 
 EDGE, CELLS = 0.5, 10_000

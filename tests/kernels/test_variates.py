@@ -20,8 +20,7 @@ from bayesmap.kernels.random import (
     normal,
     random_bits,
 )
-from bayesmap.kernels.surfaces.cell_prior import PriorNumbers, fresh_surface
-from bayesmap.kernels.surfaces.crossing import Cell
+from bayesmap.kernels.surfaces.cell import Cell, PriorNumbers, fresh_surface
 
 COUNT = 100_000
 SPACING = 1024

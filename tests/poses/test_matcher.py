@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from bayesmap.errors import BadInput
-from bayesmap.kernels.match.view_agreement import Agreement, view_counts
+from bayesmap.kernels.match.line_pairs import Agreement, view_counts
 from bayesmap.poses.matcher import Pull, likelihood_grids, match, score_at
 from bayesmap.poses.scan_geometry import scan_geometry
 from bayesmap.space.planar import between

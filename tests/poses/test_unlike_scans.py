@@ -7,8 +7,7 @@ import pytest
 from simulated import RESOLUTION, odometry_of, off, path_around, ring, scans_of
 
 from bayesmap.from_odometry import key_scans
-from bayesmap.kernels.match.line_pairs import pair_sums
-from bayesmap.kernels.match.view_agreement import Agreement, view_counts
+from bayesmap.kernels.match.line_pairs import Agreement, pair_sums, view_counts
 from bayesmap.kernels.walk import cast
 from bayesmap.poses.log_checks import frozen_stretches
 from bayesmap.poses.matcher import likelihood_grids

@@ -8,8 +8,7 @@ from bayesmap.posterior.posterior import Posterior
 from bayesmap.posterior.predictor import compare, predictor_of, residuals_of
 from bayesmap.posterior.scores import beam_log_scores
 from bayesmap.samplers.sampler import Snapshot
-from bayesmap.sensors.mixture import BeamMixture
-from bayesmap.sensors.noise import Gaussian
+from bayesmap.sensors.builtin import BeamMixture, Gaussian
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
 

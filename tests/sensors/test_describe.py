@@ -7,7 +7,7 @@ import pytest
 from sensor_cases import ALL
 
 import bayesmap as bm
-from bayesmap.sensors.describe import describe, from_description
+from bayesmap.sensors.builtin import describe, from_description
 
 
 def test_a_description_gives_the_model_back():

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from sensor_cases import ALL, LIMITS, MIXTURES, NOISES
 
-from bayesmap.sensors.mixture import FLAT_NATS
+from bayesmap.sensors.builtin import FLAT_NATS
 
 READINGS = np.array([*np.linspace(LIMITS.min_m, LIMITS.max_m, 23), np.inf, -np.inf])
 

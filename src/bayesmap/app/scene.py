@@ -18,8 +18,8 @@ from bayesmap.cells.binary import BinaryWalls, Independent
 from bayesmap.cells.kind import CellPrior
 from bayesmap.model import Model
 from bayesmap.samplers.wall_problem import WallProblem
+from bayesmap.sensors.builtin import AdditiveNoise, Gaussian
 from bayesmap.sensors.model import SensorModel
-from bayesmap.sensors.noise import AdditiveNoise, Gaussian
 from bayesmap.sim.forward import ranges
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans, fan

@@ -34,8 +34,8 @@ from bayesmap.cells.kinds import BUILT_IN
 from bayesmap.errors import BadInput
 from bayesmap.posterior.diagnostics import bulk_ess, rhat
 from bayesmap.result import Run, load
+from bayesmap.sensors.builtin import Gaussian
 from bayesmap.sensors.model import SensorModel
-from bayesmap.sensors.noise import Gaussian
 from bayesmap.space.grid import Grid, bounds_m
 from bayesmap.space.scans import Scans
 

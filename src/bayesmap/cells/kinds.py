@@ -17,8 +17,7 @@ from bayesmap.cells.kind import KINDS, CellPrior
 from bayesmap.cells.reflectivity import Beta
 from bayesmap.cells.surface import Surface
 from bayesmap.errors import BadInput
-from bayesmap.sensors.mixture import BeamMixture
-from bayesmap.sensors.noise import Gaussian
+from bayesmap.sensors.builtin import BeamMixture, Gaussian
 
 BUILT_IN: dict[str, type[CellPrior]] = {cls.words.kind: cls for cls in (Independent, Beta, Surface)}
 

@@ -45,7 +45,7 @@ LARGEST_COUPLING = 50.0
 
 
 class KernelNumbers(NamedTuple):
-    """A prior as `bayesmap.kernels.surfaces.cell_prior` takes it, lengths in metres: of reflectivities, labels, and a
+    """A prior as `bayesmap.kernels.surfaces.cell` takes it, lengths in metres: of reflectivities, labels, and a
     surface's prior as `bayesmap.cells.surface` has it.
     """
 

@@ -1,7 +1,7 @@
 """Surfaces: reflectivities, and the place where each cell stops beams.
 
 The place is a normal distribution of the points where beams stop, as normal-distributions-transform maps keep it (Biber
-and Strasser, 2003), but inferred. What it means for a beam is in `bayesmap.kernels.surfaces.crossing`.
+and Strasser, 2003), but inferred. What it means for a beam is in `bayesmap.kernels.surfaces.cell`.
 """
 
 from __future__ import annotations

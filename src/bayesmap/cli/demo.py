@@ -73,7 +73,7 @@ def _runs(console: Console, settings: DemoSettings) -> dict[str, Run]:
     from bayesmap.cells.binary import Independent
     from bayesmap.cells.kind import CellPrior
     from bayesmap.samplers.methods import Block, Gibbs, Importance, Method
-    from bayesmap.sensors.noise import Gaussian
+    from bayesmap.sensors.builtin import Gaussian
     from bayesmap.sim.drawing import TUTORIAL_GRID, tutorial
     from bayesmap.sim.forward import simulate
 

@@ -80,7 +80,7 @@ def simulate(call: Call[SimulateSettings], output: str | None, poses: tuple[str,
 
     from bayesmap.io.ros.maps import write_map
     from bayesmap.io.text.carmen import write_carmen
-    from bayesmap.sensors.describe import describe
+    from bayesmap.sensors.builtin import describe
     from bayesmap.sim import forward
     from bayesmap.space.planar import compose
     from bayesmap.space.scans import fan
@@ -179,8 +179,7 @@ class World:
     def sensor(self) -> SensorModel:
         """Return the sensor where none is named: the tutorial noise with typed no-returns, or that of a good laser."""
         from bayesmap.cells.kinds import LASER_SIGMA_M, LASER_SIGMA_PER_M
-        from bayesmap.sensors.mixture import BeamMixture
-        from bayesmap.sensors.noise import Gaussian
+        from bayesmap.sensors.builtin import BeamMixture, Gaussian
 
         if self.is_tutorial:
             return BeamMixture(Gaussian(0.2), p_random=RARE, p_no_return=0.0, p_short=0.0)

@@ -62,7 +62,7 @@ def sensor_of(text: str) -> SensorModel | None:
     """
     if text == "default":
         return None
-    from bayesmap.sensors.describe import KINDS, from_description
+    from bayesmap.sensors.builtin import KINDS, from_description
 
     kind, _, rest = text.partition(":")
     if kind not in KINDS:

@@ -2,10 +2,10 @@
 
 import numpy as np
 import warp as wp
-from numpy.typing import NDArray
 
 from bayesmap.beams.rays import Rays
 from bayesmap.kernels import device as devices
+from bayesmap.kernels.device import Float32s, Float64s, Int32Rows, Int32s, Ints, Uint8s
 from bayesmap.kernels.rays import Lines, beam_lines, lines_to_device, stop_distances
 from bayesmap.kernels.walk import is_inside, walk_begin, walk_next
 from bayesmap.space.grid import Grid
@@ -16,13 +16,7 @@ wp.set_module_options({"enable_backward": False})
 
 @wp.kernel
 def count_hits_and_passes(
-    first: int,
-    lines: Lines,
-    reach_m: wp.array(dtype=wp.float64),
-    hit: wp.array(dtype=wp.uint8),
-    bounds: wp.array(dtype=wp.int32),
-    hits: wp.array2d(dtype=wp.int32),
-    passes: wp.array2d(dtype=wp.int32),
+    first: int, lines: Lines, reach_m: Float64s, hit: Uint8s, bounds: Int32s, hits: Int32Rows, passes: Int32Rows
 ):
     """One thread per share of the beams, counting in rows of its own: no two threads write to the same number."""
     t = first + wp.tid()
@@ -46,7 +40,7 @@ def count_hits_and_passes(
                 passes[t, last] = passes[t, last] + 1
 
 
-def count_hits(scans: Scans, grid: Grid, device: str = "cpu") -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+def count_hits(scans: Scans, grid: Grid, device: str = "cpu") -> tuple[Ints, Ints]:
     """Count the beams that stopped in each cell and the beams that passed it, (nx * ny,) each.
 
     A hit beam stops in the last cell that it has touched at its range, and passes those before; if the range lies
@@ -72,12 +66,12 @@ def count_hits(scans: Scans, grid: Grid, device: str = "cpu") -> tuple[NDArray[n
 @wp.kernel
 def add_passes(
     first: int,
-    offsets: wp.array(dtype=wp.int32),
-    cells: wp.array(dtype=wp.int32),
-    distance_m: wp.array(dtype=wp.float32),
-    range_m: wp.array(dtype=wp.float32),
-    end_cell: wp.array(dtype=wp.int32),
-    passes: wp.array(dtype=wp.int32),
+    offsets: Int32s,
+    cells: Int32s,
+    distance_m: Float32s,
+    range_m: Float32s,
+    end_cell: Int32s,
+    passes: Int32s,
 ):
     """One thread per beam: add one to every cell before the one in which its reading ends."""
     b = first + wp.tid()
@@ -91,7 +85,7 @@ def add_passes(
         wp.atomic_add(passes, c, 1)
 
 
-def count_passes(rays: Rays, end_cell: NDArray[np.int32], device: str) -> NDArray[np.int32]:
+def count_passes(rays: Rays, end_cell: Ints, device: str) -> Ints:
     """Count the beams that pass each cell of the grid before their readings end, (N,).
 
     Args:

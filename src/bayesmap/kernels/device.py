@@ -16,8 +16,20 @@ from typing import Any
 
 import numpy as np
 import warp as wp
+from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
+
+Floats = NDArray[np.float64]
+Singles = NDArray[np.float32]
+Ints = NDArray[np.int32]
+"""Types of arrays in main memory."""
+Int32s, Float32s = wp.array(dtype=wp.int32), wp.array(dtype=wp.float32)
+Float64s, Uint8s = wp.array(dtype=wp.float64), wp.array(dtype=wp.uint8)
+"""Types of arrays on a device."""
+Int32Rows, Float32Rows = wp.array2d(dtype=wp.int32), wp.array2d(dtype=wp.float32)
+Float64Rows, Uint8Rows = wp.array2d(dtype=wp.float64), wp.array2d(dtype=wp.uint8)
+"""Types of arrays with two dimensions on a device."""
 
 _STARTING = threading.Lock()
 
@@ -70,11 +82,20 @@ def resolve(name: str = "cpu") -> str:
 def to_device(array: np.ndarray[Any, Any], dtype: Any, device: str) -> Any:
     """Put a NumPy array where kernels read it; on the CPU this shares memory when dtype and layout fit.
 
-    Of vectors, the array's last axis holds the components.
+    The last axis of an array of vectors holds their components.
     """
     scalar = getattr(dtype, "_wp_scalar_type_", dtype)
     flat = np.ascontiguousarray(array, dtype=wp.dtype_to_numpy(scalar))
     return wp.array(flat, dtype=dtype, device=device, copy=device != "cpu")
+
+
+def pack(kind: Any, device: str, **values: Any) -> Any:
+    """Make a struct for kernels; NumPy arrays among its values are put on the device as its fields ask."""
+    packed = kind()
+    for name, value in values.items():
+        is_host = isinstance(value, np.ndarray)
+        setattr(packed, name, to_device(value, kind.vars[name].type.dtype, device) if is_host else value)
+    return packed
 
 
 def load_kernels(kernel: Any, device: str) -> None:
@@ -115,9 +136,17 @@ if hasattr(os, "register_at_fork"):  # a forked child has the pools, but none of
 def launch(
     kernel: Any, size: int, inputs: Sequence[Any], device: str, threads: int | None = None, begin: int = 0
 ) -> None:
-    """Run ``kernel(first, *inputs)`` over ``size`` elements from ``begin`` on; on the CPU a slice a thread."""
+    """Run ``kernel(first, *inputs)`` over ``size`` elements from ``begin`` on; on the CPU a slice a thread.
+
+    NumPy arrays among the inputs are put on the device as the kernel's arguments ask.
+    """
     if size == 0:
         return
+    types = [argument.type for argument in kernel.adj.args[1:]]
+    inputs = [
+        to_device(value, kind.dtype, device) if isinstance(value, np.ndarray) else value
+        for value, kind in zip(inputs, types, strict=True)
+    ]
     threads = min(threads or available_cores(), size) if device == "cpu" else 1
     if threads == 1:
         wp.launch(kernel, dim=size, inputs=[begin, *inputs], device=device)

@@ -7,6 +7,7 @@ import numpy as np
 import warp as wp
 
 from bayesmap.kernels import device as devices
+from bayesmap.kernels.device import Float32Rows, Float32s
 from bayesmap.sensors.tabulated import WIDEST, TabulatedLaw
 
 WIDEST_SPREAD = wp.constant(wp.float32(WIDEST))
@@ -22,12 +23,12 @@ class LawTable:
     low_m: wp.float32  # of the nodes of the range where the beam stops nowhere
     high_m: wp.float32
     min_m: wp.float32
-    scale_m: wp.array(dtype=wp.float32)
+    scale_m: Float32s
     log_density: wp.array3d(dtype=wp.float32)
     below: wp.array3d(dtype=wp.float32)
     log_typed: wp.array3d(dtype=wp.float32)
-    log_nowhere: wp.array(dtype=wp.float32)
-    below_nowhere: wp.array(dtype=wp.float32)
+    log_nowhere: Float32s
+    below_nowhere: Float32s
     log_typed_nowhere: wp.vec2
 
 
@@ -61,7 +62,7 @@ def node(x: wp.float32, nodes: int) -> wp.vec2:
 
 
 @wp.func
-def interpolated(values: wp.array(dtype=wp.float32), x: wp.float32) -> wp.float32:
+def interpolated(values: Float32s, x: wp.float32) -> wp.float32:
     """Interpolate linearly between evenly spaced nodes."""
     n = node(x, values.shape[0])
     i = int(n[0])
@@ -69,7 +70,7 @@ def interpolated(values: wp.array(dtype=wp.float32), x: wp.float32) -> wp.float3
 
 
 @wp.func
-def in_plane(values: wp.array2d(dtype=wp.float32), x: wp.float32, y: wp.float32) -> wp.float32:
+def in_plane(values: Float32Rows, x: wp.float32, y: wp.float32) -> wp.float32:
     """Interpolate bilinearly in two dimensions."""
     n = node(x, values.shape[0])
     i = int(n[0])

@@ -5,13 +5,14 @@ from typing import Any
 
 import numpy as np
 import warp as wp
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from bayesmap.beams.rays import MAX_INCIDENCES, PARALLEL, Rays
 from bayesmap.errors import BadInput
 from bayesmap.kernels import device as devices
+from bayesmap.kernels.device import Float32s, Float64s, Floats, Int32s, Ints, Singles
 from bayesmap.kernels.walk import cell_before, is_inside, walk_begin, walk_next
-from bayesmap.sensors.model import Floats, RangeLimits
+from bayesmap.sensors.model import RangeLimits
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
 
@@ -39,8 +40,8 @@ class RayArrays:
     """`Rays` on a device: beam b crosses ``cells[offsets[b]:offsets[b + 1]]``."""
 
     lines: Lines
-    offsets: wp.array(dtype=wp.int32)
-    cells: wp.array(dtype=wp.int32)
+    offsets: Int32s
+    cells: Int32s
 
 
 @wp.struct
@@ -133,9 +134,7 @@ def distance_at(line: Line, cell: int, depth: wp.float64) -> wp.float64:
 
 
 @wp.func
-def first_past(
-    line: Line, cells: wp.array(dtype=wp.int32), begin: int, end: int, distance_m: wp.float64, depth: wp.float64
-) -> int:
+def first_past(line: Line, cells: Int32s, begin: int, end: int, distance_m: wp.float64, depth: wp.float64) -> int:
     """Return the first entry in [begin, end) whose stop lies at a distance or past it, or end: stops are in order."""
     low = begin
     high = end
@@ -149,7 +148,7 @@ def first_past(
 
 
 @wp.kernel
-def count_cells(first: int, lines: Lines, reach_m: wp.array(dtype=wp.float64), counts: wp.array(dtype=wp.int32)):
+def count_cells(first: int, lines: Lines, reach_m: Float64s, counts: Int32s):
     """One thread per beam: count the cells that it touches."""
     b = first + wp.tid()
     p = lines.start_m[b] / lines.edge_m
@@ -165,13 +164,7 @@ def count_cells(first: int, lines: Lines, reach_m: wp.array(dtype=wp.float64), c
 
 @wp.kernel
 def fill_cells(
-    first: int,
-    lines: Lines,
-    reach_m: wp.array(dtype=wp.float64),
-    near_m: wp.array(dtype=wp.float64),
-    offsets: wp.array(dtype=wp.int32),
-    cells: wp.array(dtype=wp.int32),
-    near: wp.array(dtype=wp.int32),
+    first: int, lines: Lines, reach_m: Float64s, near_m: Float64s, offsets: Int32s, cells: Int32s, near: Int32s
 ):
     """One thread per beam: write its cells, and find the first that it enters at a distance or past it."""
     b = first + wp.tid()
@@ -192,12 +185,7 @@ def fill_cells(
 
 
 @wp.kernel
-def fill_distances(
-    first: int,
-    rays: RayArrays,
-    depth: wp.float64,
-    distance_m: wp.array(dtype=wp.float32),
-):
+def fill_distances(first: int, rays: RayArrays, depth: wp.float64, distance_m: Float32s):
     """One thread per beam: compute where it would stop in each of its cells."""
     b = first + wp.tid()
     line = line_of(rays.lines, b)
@@ -205,7 +193,7 @@ def fill_distances(
         distance_m[k] = wp.float32(distance_at(line, rays.cells[k], depth))
 
 
-def stop_distances(rays: Rays, hit_depth: float, device: str = "cpu") -> NDArray[np.float32]:
+def stop_distances(rays: Rays, hit_depth: float, device: str = "cpu") -> Singles:
     """Compute `Rays.distance_m` by a kernel: metres, (K,)."""
     distance_m = wp.empty(rays.n_incidences, dtype=wp.float32, device=device)
     inputs = [rays_to_device(rays, device), wp.float64(hit_depth), distance_m]
@@ -298,7 +286,7 @@ def trace_rays(
     )
 
 
-def offsets_of(counts: NDArray[np.int32], what: str) -> NDArray[np.int32]:
+def offsets_of(counts: Ints, what: str) -> Ints:
     """Return where the entries of each beam begin, and where those of the last one end, (B + 1,).
 
     Raises:

@@ -18,6 +18,7 @@ import warp as wp
 from numpy.typing import NDArray
 
 from bayesmap.kernels import device as devices
+from bayesmap.kernels.device import Float64s, Floats, Int32s, Ints, Uint8Rows
 
 wp.set_module_options({"enable_backward": False})
 
@@ -155,13 +156,13 @@ def is_inside(w: Walk, nx: int, ny: int) -> bool:
 
 @wp.kernel
 def first_hit_ranges(
-    walls: wp.array2d(dtype=wp.uint8),
-    start_x: wp.array(dtype=wp.float64),
-    start_y: wp.array(dtype=wp.float64),
-    angle_rad: wp.array(dtype=wp.float64),
+    walls: Uint8Rows,
+    start_x: Float64s,
+    start_y: Float64s,
+    angle_rad: Float64s,
     longest: wp.float64,
-    distance: wp.array(dtype=wp.float64),
-    visits: wp.array(dtype=wp.int32),
+    distance: Float64s,
+    visits: Int32s,
 ):
     """One thread per beam: walk to the first wall."""
     b = wp.tid()
@@ -182,12 +183,8 @@ def first_hit_ranges(
 
 
 def cast(
-    walls: NDArray[Any],
-    starts_cells: NDArray[np.float64],
-    angles_rad: NDArray[np.float64],
-    longest_cells: float,
-    device: str = "cpu",
-) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
+    walls: NDArray[Any], starts_cells: Floats, angles_rad: Floats, longest_cells: float, device: str = "cpu"
+) -> tuple[Floats, Ints]:
     """Compute the distance of the first wall along every beam, in cells, capped, and the number of cells inspected.
 
     Args:

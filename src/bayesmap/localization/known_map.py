@@ -14,9 +14,8 @@ from numpy.typing import NDArray
 from bayesmap.errors import BadInput
 from bayesmap.localization.particles import log_sum
 from bayesmap.localization.search import EndpointField, Field, endpoint_field, likelihood_field
-from bayesmap.sensors.mixture import BeamMixture
+from bayesmap.sensors.builtin import BeamMixture, Gaussian, StudentT
 from bayesmap.sensors.model import RangeLimits, SensorModel
-from bayesmap.sensors.noise import Gaussian, StudentT
 
 if TYPE_CHECKING:
     from bayesmap.kernels.predict.pose_weights import PackedMap

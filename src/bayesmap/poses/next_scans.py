@@ -13,8 +13,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from bayesmap.kernels.match.line_pairs import Agreement, mutual_view_counts
 from bayesmap.kernels.match.scan_refinement import Convergence, Refinement, refine_scans
-from bayesmap.kernels.match.view_agreement import Agreement, mutual_view_counts
 from bayesmap.poses.calibration import RunningOdometry
 from bayesmap.poses.matcher import LikelihoodGrids, Pull, match
 from bayesmap.poses.scan_geometry import ScanGeometry

@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.kernels.match.view_agreement import Agreement, mutual_view_counts
+from bayesmap.kernels.match.line_pairs import Agreement, mutual_view_counts
 from bayesmap.poses.loops import Closures, Fineness, KeyPath, joined, match_submaps, no_closures
 from bayesmap.space.planar import between, compose, inverse, wrapped
 

@@ -184,8 +184,7 @@ class ScanPredictor:
             BadInput: levels that do not rise or lie outside (0, 1), or a sensor whose probabilities do not add up to
                 one.
         """
-        from bayesmap.kernels.predict.stop_mixture import mix_device_stops
-        from bayesmap.kernels.predict.stop_quantiles import range_quantiles
+        from bayesmap.kernels.predict.stop_mixture import mix_device_stops, range_quantiles
         from bayesmap.kernels.rays import trace_rays
 
         asked = np.asarray(levels, dtype=np.float64)
@@ -234,8 +233,7 @@ def residuals_of(predictor: Predictor, scans: Scans, device: str = "cpu", on_pro
         BadInput: no beam to compare, no draw, or a sensor model that kernels do not know.
     """
     from bayesmap.kernels.predict.density import forecast
-    from bayesmap.kernels.predict.stop_mixture import mix_stops
-    from bayesmap.kernels.predict.stop_quantiles import range_quantiles
+    from bayesmap.kernels.predict.stop_mixture import mix_stops, range_quantiles
     from bayesmap.kernels.rays import trace_rays
 
     if not placed(scans).size:

@@ -28,7 +28,7 @@ from numpy.typing import NDArray
 from bayesmap.errors import BadInput
 from bayesmap.posterior.posterior import Posterior
 from bayesmap.posterior.predictor import OnShare, Predictor, ignored, parts, predictor_of, watched
-from bayesmap.sensors.describe import describe
+from bayesmap.sensors.builtin import describe
 from bayesmap.sensors.model import RangeLimits, SensorModel
 from bayesmap.space.scans import Reading, Scans
 
@@ -316,8 +316,7 @@ def score_prediction(
         BadInput: no valid reading, no draw, or a sensor model that kernels do not know.
     """
     from bayesmap.kernels.predict.density import forecast
-    from bayesmap.kernels.predict.stop_mixture import first_hit_events, mix_stops
-    from bayesmap.kernels.predict.stop_quantiles import range_quantiles
+    from bayesmap.kernels.predict.stop_mixture import first_hit_events, mix_stops, range_quantiles
     from bayesmap.kernels.rays import trace_rays
 
     valid = (scans.readings != Reading.INVALID).ravel()

@@ -14,8 +14,7 @@ import scipy
 from numpy.typing import NDArray
 
 from bayesmap.posterior.predictor import OnShare, ignored, parts
-from bayesmap.sensors.mixture import BeamMixture
-from bayesmap.sensors.noise import noise_with
+from bayesmap.sensors.builtin import BeamMixture, noise_with
 
 Values = dict[str, float]
 

@@ -17,7 +17,7 @@ from bayesmap.errors import BadInput
 from bayesmap.gen.distribution import ExactDensity
 from bayesmap.gen.pytree import dataclass, static
 from bayesmap.gen.typing import Arguments, PRNGKey
-from bayesmap.sensors.mixture import LOG_IMPOSSIBLE
+from bayesmap.sensors.builtin import LOG_IMPOSSIBLE
 from bayesmap.sensors.model import KernelParameters, RangeLimits, SensorModel
 
 
@@ -89,7 +89,7 @@ class ReadingLaw(ExactDensity):
         return ndtr(-x)
 
     def _mixture(self, z: Any, wall: Any, seen: Any) -> Any:
-        """The three formulas of `bayesmap.sensors.mixture`, by the kind of the reading."""
+        """The three formulas of `bayesmap.sensors.builtin`, by the kind of the reading."""
         s, limits = self.parameters, self.limits
 
         def unblocked(distance: Any) -> Any:

@@ -34,10 +34,8 @@ from bayesmap.samplers.progress import SILENT, Watch
 from bayesmap.samplers.sampler import NOTHING, PILOT, Info, Keep
 from bayesmap.samplers.stop_gibbs import StopGibbs, StopState
 from bayesmap.samplers.stop_problem import StopProblem, trace_stops
-from bayesmap.sensors.describe import describe, from_description
-from bayesmap.sensors.mixture import BeamMixture
+from bayesmap.sensors.builtin import AdditiveNoise, BeamMixture, Gaussian, describe, from_description, noise_with
 from bayesmap.sensors.model import RangeLimits
-from bayesmap.sensors.noise import AdditiveNoise, Gaussian, noise_with
 
 SHAPES = (3.0, 5.0, 9.0, 17.0, math.inf)
 """Degrees of freedom that are tried, infinitely many for normal noise: of odd numbers kernels need no logarithm."""

@@ -52,7 +52,7 @@ class Particles:
 
     def maps(self, particles: NDArray[np.intp]) -> NDArray[np.bool_]:
         """Return the maps of the given particles, (n, nx, ny)."""
-        from bayesmap.kernels.walls.importance import particle_maps
+        from bayesmap.kernels.walls.maps import particle_maps
 
         if self.problem.coupling != 0.0:
             return _coupled_maps(self.problem, self.key, particles)
@@ -122,7 +122,7 @@ def sample_importance(
 
 def _weigh(problem: WallProblem, key: int, first: int, count: int) -> NDArray[np.float64]:
     """Compute log p(readings | map) of particles first .. first + count - 1."""
-    from bayesmap.kernels.walls.importance import log_likelihoods, weigh
+    from bayesmap.kernels.walls.maps import log_likelihoods, weigh
 
     if problem.coupling == 0.0:
         return weigh(problem.device_table, problem.device_prior, key, first, count, problem.device)

@@ -16,9 +16,8 @@ from bayesmap.cells.reflectivity import Reflective
 from bayesmap.errors import BadInput
 from bayesmap.samplers.initial_estimate import InitialEstimate, initial_estimate
 from bayesmap.samplers.progress import SILENT, Watch
-from bayesmap.sensors.mixture import BeamMixture
+from bayesmap.sensors.builtin import BeamMixture, Gaussian, StudentT
 from bayesmap.sensors.model import RangeLimits, SensorModel
-from bayesmap.sensors.noise import Gaussian, StudentT
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
 

@@ -101,7 +101,7 @@ class WallProblem:
     @cached_property
     def device_prior(self) -> Any:
         """The prior where the kernels read it."""
-        from bayesmap.kernels.walls.wall_prior import wall_prior_to_device
+        from bayesmap.kernels.walls.chains import wall_prior_to_device
 
         return wall_prior_to_device(self.p_wall, self.logit, self.coupling, self.grid.shape, self.device)
 

@@ -204,7 +204,7 @@ class WallSampler(ABC):
         """Count the draws in which a beam reaches each cell, and the draws inspected. Returns (2, nx, ny). Without
         draws, the maps at which the chains stand count.
         """
-        from bayesmap.kernels.walls.reach import reach_frequency
+        from bayesmap.kernels.walls.maps import reach_frequency
 
         packed, shape = draws.get("walls"), state.problem.grid.shape
         if packed is None or packed.shape[1] == 0:

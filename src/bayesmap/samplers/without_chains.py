@@ -217,8 +217,7 @@ def _found(
     seconds: float = 0.0,
     finished: bool = True,
 ) -> IndependentDraws:
-    from bayesmap.kernels.walls.importance import log_likelihoods
-    from bayesmap.kernels.walls.reach import reach_frequency
+    from bayesmap.kernels.walls.maps import log_likelihoods, reach_frequency
 
     rngs = [np.random.default_rng([request.seed, chain, STREAM_START]) for chain in range(request.chains)]
     walls = np.stack([draw(rng, request.draws) for rng in rngs])

@@ -108,7 +108,7 @@ class KernelParameters:
         sigma_per_m: growth of the scale per metre of distance.
         dof: degrees of freedom of Student-t noise; 0 for Gaussian noise.
         robust: whether the mixture applies; if not, the reading is distance plus noise and nothing else.
-        p_random, p_no_return, p_short, rate_short_per_m: as in `bayesmap.sensors.mixture.BeamMixture`.
+        p_random, p_no_return, p_short, rate_short_per_m: as in `bayesmap.sensors.builtin.BeamMixture`.
     """
 
     sigma_m: float

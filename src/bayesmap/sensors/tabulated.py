@@ -20,7 +20,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.sensors.mixture import LOG_IMPOSSIBLE
+from bayesmap.sensors.builtin import LOG_IMPOSSIBLE
 from bayesmap.sensors.model import Floats, RangeLimits, SensorModel
 
 Table = NDArray[np.float32]
@@ -48,7 +48,7 @@ class TabulatedLaw:
     Attributes:
         limits: of the sensor.
         typed: whether no return and too close are outcomes of their own, so that ranges stay within the limits; else
-            they stand for the limits, as in `bayesmap.sensors.noise.AdditiveNoise`.
+            they stand for the limits, as in `bayesmap.sensors.builtin.AdditiveNoise`.
         scale_m: of the readings about a stop, at each distance, (D,).
         most: the largest node of asinh((z - d) / w).
         log_density: log (w p(z | d, s)), (S, D, V).

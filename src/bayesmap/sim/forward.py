@@ -6,8 +6,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from bayesmap.errors import BadInput, check_count
+from bayesmap.sensors.builtin import AdditiveNoise
 from bayesmap.sensors.model import RangeLimits, SensorModel
-from bayesmap.sensors.noise import AdditiveNoise
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans, as_angles, as_poses, check_limits
 

@@ -28,8 +28,7 @@ def compared_beam(result: Result, task: CompareBeam, generation: int) -> Compare
         BadInput: there is nothing to predict from, or the sensor's law does not add up to one.
     """
     from bayesmap.kernels.predict.density import forecast
-    from bayesmap.kernels.predict.stop_mixture import mix_stops
-    from bayesmap.kernels.predict.stop_quantiles import range_quantiles
+    from bayesmap.kernels.predict.stop_mixture import mix_stops, range_quantiles
     from bayesmap.kernels.rays import trace_rays
 
     predictor, draws = predictor_of_result(result)

@@ -24,8 +24,8 @@ from bayesmap.localization.belief import PoseBelief
 from bayesmap.localization.filter import Scan, locate
 from bayesmap.localization.known_map import KnownMap
 from bayesmap.localization.localize import localize
+from bayesmap.sensors.builtin import Gaussian
 from bayesmap.sensors.model import RangeLimits
-from bayesmap.sensors.noise import Gaussian
 from bayesmap.sim.forward import ranges
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans, fan

@@ -11,8 +11,8 @@ from scipy import special
 
 from bayesmap.app.scene import Touched, touched
 from bayesmap.app.shown.result import CHAINS, SAVED_DRAWS, Figures, Found, Result, settings_of_run
+from bayesmap.kernels.walls.maps import reach_frequency
 from bayesmap.kernels.walls.propagate import Beliefs
-from bayesmap.kernels.walls.reach import reach_frequency
 from bayesmap.posterior.posterior import posterior_of_draws
 from bayesmap.result import Run
 from bayesmap.samplers.propagate import DAMPING, ROUNDS, Marginals

@@ -12,8 +12,7 @@ from scipy import special
 from bayesmap.app.shown.result import CHAINS, SAVED_DRAWS, Figures, Floats, Found, Result, settings_of_run
 from bayesmap.app.shown.verdict import judge_particles
 from bayesmap.kernels.random import mix
-from bayesmap.kernels.walls.importance import weigh
-from bayesmap.kernels.walls.reach import reach_frequency
+from bayesmap.kernels.walls.maps import reach_frequency, weigh
 from bayesmap.posterior.posterior import posterior_of_draws
 from bayesmap.result import Run
 from bayesmap.samplers.importance import Particles

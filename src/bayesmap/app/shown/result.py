@@ -22,7 +22,7 @@ from bayesmap.errors import BadInput
 from bayesmap.model import Model
 from bayesmap.result import Run
 from bayesmap.run.fingerprint import RANDOM_STREAMS
-from bayesmap.sensors.describe import describe
+from bayesmap.sensors.builtin import describe
 from bayesmap.sensors.model import SensorModel
 
 Floats = NDArray[np.float64]

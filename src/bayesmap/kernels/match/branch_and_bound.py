@@ -14,24 +14,23 @@ import warp as wp
 from numpy.typing import NDArray
 
 from bayesmap.kernels import device as devices
+from bayesmap.kernels.device import Float64Rows, Float64s, Floats, Int32s, Ints
 
 wp.set_module_options({"enable_backward": False})
-
-Floats = NDArray[np.float64]
 
 
 @wp.struct
 class SearchJobs:
     """Jobs on a device: job j has the points ``point_begin[j]:point_end[j]``, and rows of angles of its own."""
 
-    point_begin: wp.array(dtype=wp.int32)
-    point_end: wp.array(dtype=wp.int32)
-    grid: wp.array(dtype=wp.int32)
-    half_x: wp.array(dtype=wp.int32)  # the window's half width, cells
-    half_y: wp.array(dtype=wp.int32)
-    least: wp.array(dtype=wp.float64)  # scores must exceed this
-    across: wp.array(dtype=wp.float64)  # cost of a squared cell off the centre, in units of the score
-    row_cost: wp.array(dtype=wp.float64)  # of each angle
+    point_begin: Int32s
+    point_end: Int32s
+    grid: Int32s
+    half_x: Int32s  # the window's half width, cells
+    half_y: Int32s
+    least: Float64s  # scores must exceed this
+    across: Float64s  # cost of a squared cell off the centre, in units of the score
+    row_cost: Float64s  # of each angle
     cells: wp.array2d(dtype=wp.vec2i)  # of each row, those of its points with the sensor at the window's centre
 
 
@@ -39,9 +38,9 @@ class SearchJobs:
 class Roots:
     """The largest blocks of all jobs: those of job j are ``order[begin[j]:begin[j + 1]]``, best bound first."""
 
-    begin: wp.array(dtype=wp.int32)
-    order: wp.array(dtype=wp.int32)
-    bound: wp.array(dtype=wp.float64)
+    begin: Int32s
+    order: Int32s
+    bound: Float64s
     node: wp.array(dtype=wp.vec3i)  # row, dx, dy
 
 
@@ -58,7 +57,7 @@ class Taken:
 class Stack:
     """Blocks that each strand has still to search, the best on top."""
 
-    bound: wp.array2d(dtype=wp.float64)
+    bound: Float64Rows
     node: wp.array2d(dtype=wp.vec4i)  # level, dx, dy
 
 
@@ -66,20 +65,14 @@ class Stack:
 class Best:
     """The best of each strand, and the score of the best of each job so far."""
 
-    incumbent: wp.array(dtype=wp.float64)
-    score: wp.array(dtype=wp.float64)
+    incumbent: Float64s
+    score: Float64s
     node: wp.array(dtype=wp.vec3i)
 
 
 @wp.func
 def block_score(
-    jobs: SearchJobs,
-    pyramid: wp.array4d(dtype=wp.uint8),
-    j: int,
-    row: int,
-    level: int,
-    dx: int,
-    dy: int,
+    jobs: SearchJobs, pyramid: wp.array4d(dtype=wp.uint8), j: int, row: int, level: int, dx: int, dy: int
 ) -> int:
     """Sum, over the points of a job, the largest value in the block of shifts (dx, dy) .. + 2^level - 1."""
     grid = jobs.grid[j]
@@ -110,8 +103,8 @@ def off_centre(offset: int, width: int) -> wp.float64:
 def turn_points(
     first: int,
     jobs: SearchJobs,
-    job_of_row: wp.array(dtype=wp.int32),
-    angle: wp.array(dtype=wp.float64),
+    job_of_row: Int32s,
+    angle: Float64s,
     centre: wp.array(dtype=wp.vec2d),
     origin: wp.array(dtype=wp.vec2d),
     resolution: wp.float64,
@@ -136,8 +129,8 @@ def turn_points(
 def bound_blocks(
     first: int,
     jobs: SearchJobs,
-    job_of_row: wp.array(dtype=wp.int32),
-    node_begin: wp.array(dtype=wp.int32),
+    job_of_row: Int32s,
+    node_begin: Int32s,
     pyramid: wp.array4d(dtype=wp.uint8),
     roots: Roots,
 ):
@@ -272,13 +265,13 @@ class Windows:
     """
 
     points: Floats
-    point_offsets: NDArray[np.int32]
-    grid: NDArray[np.int32]
+    point_offsets: Ints
+    grid: Ints
     centres: Floats
-    half_cells: NDArray[np.int32]
+    half_cells: Ints
     angles_rad: Floats
     angle_costs: Floats
-    row_offsets: NDArray[np.int32]
+    row_offsets: Ints
     least: Floats
     across: Floats
 
@@ -378,9 +371,7 @@ def _prepared(grids: Any, windows: Windows, threads: int | None) -> tuple[Any, A
     return jobs, roots
 
 
-def _first_of_best(
-    best: Floats, best_nodes: NDArray[np.int32], scores: Floats, nodes: NDArray[np.int64], mode: int
-) -> None:
+def _first_of_best(best: Floats, best_nodes: Ints, scores: Floats, nodes: NDArray[np.int64], mode: int) -> None:
     """Write down the best of each job's strands as its next mode; of equals, the first by angle, x, y."""
     valid = best_nodes[..., 0] >= 0
     value = np.where(valid, best, -np.inf)

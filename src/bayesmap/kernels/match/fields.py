@@ -5,21 +5,14 @@ import warp as wp
 from numpy.typing import NDArray
 
 from bayesmap.kernels import device as devices
+from bayesmap.kernels.device import Float32Rows, Float32s, Floats, Int32s, Ints, Singles, Uint8Rows
 from bayesmap.space.grid import Grid
 
 wp.set_module_options({"enable_backward": False})
 
-Floats = NDArray[np.float64]
-
 
 @wp.kernel
-def sum_field(
-    first: int,
-    field: wp.array2d(dtype=wp.uint8),
-    points: wp.array2d(dtype=wp.float32),
-    poses: wp.array2d(dtype=wp.float32),
-    out: wp.array(dtype=wp.int32),
-):
+def sum_field(first: int, field: Uint8Rows, points: Float32Rows, poses: Float32Rows, out: Int32s):
     """One thread per pose, in cells from the grid's corner: sum the field's values at the points."""
     p = first + wp.tid()
     c = wp.cos(poses[p, 2])
@@ -35,7 +28,7 @@ def sum_field(
     out[p] = total
 
 
-def field_sums(field: NDArray[np.uint8], grid: Grid, points: Floats, poses: Floats) -> NDArray[np.int32]:
+def field_sums(field: NDArray[np.uint8], grid: Grid, points: Floats, poses: Floats) -> Ints:
     """Sum the values of a field at the points of a scan, (P,); points outside count 0.
 
     Args:
@@ -62,13 +55,7 @@ REACH_SDS = wp.constant(wp.float32(3.0))
 
 
 @wp.kernel
-def spread_surfaces(
-    first: int,
-    mean: wp.array2d(dtype=wp.float32),
-    covariance: wp.array2d(dtype=wp.float32),
-    strength: wp.array(dtype=wp.float32),
-    out: wp.array2d(dtype=wp.float32),
-):
+def spread_surfaces(first: int, mean: Float32Rows, covariance: Float32Rows, strength: Float32s, out: Float32Rows):
     """One thread per surface, in fine cells from the grid's corner: raise the cells around it to its own density."""
     k = first + wp.tid()
     xx = covariance[k, 0]
@@ -89,7 +76,7 @@ def spread_surfaces(
             wp.atomic_max(out, i, j, strength[k] * wp.exp(-wp.float32(0.5) * squared))
 
 
-def spread(means: Floats, covariances: Floats, strengths: Floats, shape: tuple[int, int]) -> NDArray[np.float32]:
+def spread(means: Floats, covariances: Floats, strengths: Floats, shape: tuple[int, int]) -> Singles:
     """Return the largest of s exp(-m^2 / 2) over all surfaces, m the distance in their standard deviations, (nx, ny).
 
     Args:

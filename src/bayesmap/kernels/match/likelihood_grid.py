@@ -7,6 +7,7 @@ import warp as wp
 from numpy.typing import NDArray
 
 from bayesmap.kernels import device as devices
+from bayesmap.kernels.device import Floats, Int32s, Ints, Uint8Rows
 from bayesmap.kernels.match.scan_geometry import ScanArrays, neighbour, scan_arrays, widest_gap
 
 wp.set_module_options({"enable_backward": False})
@@ -16,14 +17,14 @@ wp.set_module_options({"enable_backward": False})
 def draw_points(
     first: int,
     bands: int,
-    offsets: wp.array(dtype=wp.int32),
-    scan: wp.array(dtype=wp.int32),
+    offsets: Int32s,
+    scan: Int32s,
     pose: wp.array(dtype=wp.vec3d),
     scene: ScanArrays,
     spacing: wp.float32,
     origin: wp.array(dtype=wp.vec2d),
     resolution: wp.float64,
-    stamp: wp.array2d(dtype=wp.uint8),
+    stamp: Uint8Rows,
     pyramid: wp.array4d(dtype=wp.uint8),
 ):
     """One thread per band of a grid: set each cell to the largest of all stamps that cover it.
@@ -90,10 +91,10 @@ def next_level(first: int, level: int, pyramid: wp.array4d(dtype=wp.uint8)):
 
 def draw_grids(
     geometry: Any,
-    offsets: NDArray[np.int32],
-    scan: NDArray[np.int32],
-    poses_world: NDArray[np.float64],
-    origins: NDArray[np.float64],
+    offsets: Ints,
+    scan: Ints,
+    poses_world: Floats,
+    origins: Floats,
     resolution: float,
     stamp: NDArray[np.uint8],
     spacing_m: float,

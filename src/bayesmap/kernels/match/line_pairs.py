@@ -1,4 +1,4 @@
-"""Pair the points of one scan with the walls of another: projective point-to-line pairs, summed to a quadratic.
+"""Pair the points of one scan with the walls of another, sum the pairs to a quadratic, and count points that disagree.
 
 A point of scan i, moved into the frame of scan j, is paired with the nearest point of j. That point is searched among
 the beams that point in its direction (Blais and Levine 1995; Censi 2008 for planar scans). The residual e is the
@@ -11,17 +11,20 @@ of half the cost by z (Gauss-Newton). ``slack`` is what errors of the normals ad
 T T^T, T the derivative of the offset *along* the wall, spread the variance of the normal's angle for points of unit
 variance. Along a corridor H is slack alone.
 
-`match_counts` counts the scans with which each beam is paired.
+`match_counts` counts the scans with which each beam is paired; `view_counts` the points that another scan sees, and
+those that stand where it saw through.
 """
 
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 import warp as wp
-from numpy.typing import NDArray
 
 from bayesmap.kernels import device as devices
-from bayesmap.kernels.match.scan_geometry import ScanArrays, scan_arrays
+from bayesmap.kernels.device import Float32Rows, Float64Rows, Floats, Int32Rows, Int32s, Ints, Singles
+from bayesmap.kernels.match.scan_geometry import ScanArrays, neighbour, scan_arrays, widest_gap
+from bayesmap.space.planar import inverse
 
 wp.set_module_options({"enable_backward": False})
 
@@ -45,9 +48,7 @@ class Sums:
 
 @wp.func
 def turns_of(x: float, y: float) -> float:
-    """Return the angle of (x, y) in turns, -1/2 to 1/2, to 0.05 degrees: by a polynomial, several times as fast as
-    atan2.
-    """
+    """Return the angle of (x, y) in turns, -1/2 to 1/2, to 0.05 degrees: a polynomial, faster than atan2."""
     ax = wp.abs(x)
     ay = wp.abs(y)
     t = wp.min(ax, ay) / wp.max(wp.max(ax, ay), 1.0e-9)
@@ -103,26 +104,31 @@ def nearest_point(scene: ScanArrays, j: int, x: float, y: float, reach: float) -
 
 @wp.func
 def neighbour_distance(scene: ScanArrays, j: int, beam: int) -> float:
-    """Return the distance of the nearer of the two neighbouring points, 0.1 to 2 m: the spacing of returns on a
-    surface.
-    """
+    """Return the spacing of returns on a surface: the distance of the nearer neighbouring point, 0.1 to 2 m."""
     beams = scene.beams[j]
     nearest = float(2.0)
     here = scene.points[j, beam]
     for side in range(2):
-        c = beam - 1 + 2 * side
-        if scene.full_circle[j] != 0:
-            c = (c + beams) % beams
-        if c >= 0 and c < beams:
+        c = neighbour(beam, 2 * side - 1, beams, scene.full_circle[j])
+        if c >= 0:
             if scene.kind[j, c] != wp.uint8(0):
                 nearest = wp.min(nearest, wp.length(scene.points[j, c] - here))
     return wp.max(nearest, 0.1)
 
 
 @wp.func
+def symmetric(a: float, b: float, c: float, d: float, e: float, f: float) -> wp.mat33d:
+    """Return a symmetric matrix in double precision, from the rows of its upper triangle."""
+    b_64 = wp.float64(b)
+    c_64 = wp.float64(c)
+    e_64 = wp.float64(e)
+    return wp.mat33d(wp.float64(a), b_64, c_64, b_64, wp.float64(d), e_64, c_64, e_64, wp.float64(f))
+
+
+@wp.func
 def pair_scans(
     scene: ScanArrays,
-    weights: wp.array2d(dtype=wp.float32),
+    weights: Float32Rows,
     i: int,
     j: int,
     z: wp.vec3d,
@@ -161,10 +167,7 @@ def pair_scans(
     force_sq = float(0.0)
     matched = int(0)
     seen = int(0)
-    k = int(0)
-    while k < scene.kind.shape[1]:
-        b = k
-        k += stride
+    for b in range(0, scene.kind.shape[1], stride):
         if scene.kind[i, b] == wp.uint8(0):
             continue
         p = scene.points[i, b]
@@ -237,16 +240,8 @@ def pair_scans(
             g1 += w * dy
             g2 += w * (rx * dy - ry * dx)
             matched += 1
-    d0 = wp.float64(h00)
-    d1 = wp.float64(h01)
-    d2 = wp.float64(h02)
-    d4 = wp.float64(h12)
-    sums.second = wp.mat33d(d0, d1, d2, d1, wp.float64(h11), d4, d2, d4, wp.float64(h22))
-    d0 = wp.float64(s00)
-    d1 = wp.float64(s01)
-    d2 = wp.float64(s02)
-    d4 = wp.float64(s12)
-    sums.slack = wp.mat33d(d0, d1, d2, d1, wp.float64(s11), d4, d2, d4, wp.float64(s22))
+    sums.second = symmetric(h00, h01, h02, h11, h12, h22)
+    sums.slack = symmetric(s00, s01, s02, s11, s12, s22)
     sums.first = wp.vec3d(wp.float64(g0), wp.float64(g1), wp.float64(g2))
     sums.cost = wp.float64(cost)
     sums.weight = wp.float64(total)
@@ -263,16 +258,16 @@ class PairSums:
     second: wp.array(dtype=wp.mat33d)
     slack: wp.array(dtype=wp.mat33d)
     gradient: wp.array(dtype=wp.vec3d)
-    totals: wp.array2d(dtype=wp.float64)
+    totals: Float64Rows
 
 
 @wp.kernel
 def sum_pairs(
     first: int,
     scene: ScanArrays,
-    weights: wp.array2d(dtype=wp.float32),
-    source: wp.array(dtype=wp.int32),
-    target: wp.array(dtype=wp.int32),
+    weights: Float32Rows,
+    source: Int32s,
+    target: Int32s,
     relative: wp.array(dtype=wp.vec3d),
     reach: float,
     scale: float,
@@ -294,16 +289,16 @@ def sum_pairs(
 
 def pair_sums(
     geometry: Any,
-    weights: NDArray[np.float32] | None,
-    source: NDArray[np.int32],
-    target: NDArray[np.int32],
-    relative: NDArray[np.float64],
+    weights: Singles | None,
+    source: Ints,
+    target: Ints,
+    relative: Floats,
     reach_m: float,
     scale_m: float,
     alike: float,
     stride: int = 1,
     threads: int | None = None,
-) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+) -> tuple[Floats, Floats, Floats, Floats]:
     """Compute H (P, 3, 3), slack (P, 3, 3), g (P, 3) and totals (P, 5) of pairs of scans.
 
     Totals are cost, weight, points matched, points within the other scan's view, and the squares of the points' forces.
@@ -315,9 +310,7 @@ def pair_sums(
     out.second, out.slack = (wp.empty(count, dtype=wp.mat33d, device=device) for _ in range(2))
     out.gradient = wp.empty(count, dtype=wp.vec3d, device=device)
     out.totals = wp.empty((count, 5), dtype=wp.float64, device=device)
-    inputs = [scan_arrays(geometry, stride), devices.to_device(weights, wp.float32, device)]
-    inputs += [devices.to_device(source, wp.int32, device), devices.to_device(target, wp.int32, device)]
-    inputs += [devices.to_device(relative, wp.vec3d, device), reach_m, scale_m, alike, out]
+    inputs = [scan_arrays(geometry, stride), weights, source, target, relative, reach_m, scale_m, alike, out]
     devices.launch(sum_pairs, count, inputs, device, threads)
     return out.second.numpy(), out.slack.numpy(), out.gradient.numpy(), out.totals.numpy()
 
@@ -326,13 +319,13 @@ def pair_sums(
 def count_matches(
     first: int,
     scene: ScanArrays,
-    offsets: wp.array(dtype=wp.int32),
-    target: wp.array(dtype=wp.int32),
+    offsets: Int32s,
+    target: Int32s,
     relative: wp.array(dtype=wp.vec3d),
     reach: float,
     scale: float,
     alike: float,
-    counts: wp.array2d(dtype=wp.float32),
+    counts: Float32Rows,
 ):
     """One thread per scan: count the scans with which each beam is paired, weighted by how well it fits."""
     i = first + wp.tid()
@@ -350,9 +343,7 @@ def count_matches(
             x = cosine * q[0] - sine * q[1] + float(z[0])
             y = sine * q[0] + cosine * q[1] + float(z[1])
             other = nearest_point(scene, j, x, y, reach)
-            if other < 0:
-                continue
-            if scene.kind[i, b] != scene.kind[j, other]:
+            if other < 0 or scene.kind[i, b] != scene.kind[j, wp.max(other, 0)]:
                 continue
             d = wp.vec2f(x, y) - scene.points[j, other]
             e2 = d[0] * d[0] + d[1] * d[1]
@@ -371,18 +362,137 @@ def count_matches(
 
 def match_counts(
     geometry: Any,
-    offsets: NDArray[np.int32],
-    target: NDArray[np.int32],
-    relative: NDArray[np.float64],
+    offsets: Ints,
+    target: Ints,
+    relative: Floats,
     reach_m: float,
     scale_m: float,
     alike: float,
     threads: int | None = None,
-) -> NDArray[np.float32]:
+) -> Singles:
     """Count the partners with which each beam is paired, (S, B); scan s has the pairs offsets[s] .. offsets[s + 1]."""
     device = geometry.device
     counts = wp.empty((len(geometry), geometry.beams), dtype=wp.float32, device=device)
-    inputs = [scan_arrays(geometry), devices.to_device(offsets, wp.int32, device)]
-    inputs += [devices.to_device(target, wp.int32, device), devices.to_device(relative, wp.vec3d, device)]
-    devices.launch(count_matches, len(geometry), [*inputs, reach_m, scale_m, alike, counts], device, threads)
+    inputs = [scan_arrays(geometry), offsets, target, relative, reach_m, scale_m, alike, counts]
+    devices.launch(count_matches, len(geometry), inputs, device, threads)
     return np.asarray(counts.numpy())
+
+
+@wp.func
+def near_wall(scene: ScanArrays, j: int, beam: int, x: float, y: float, near: float) -> int:
+    """Return 1 if (x, y) is near the wall between the points of a beam of scan j and the next beam, else 0."""
+    beams = scene.beams[j]
+    a = beam
+    if a < 0:
+        if scene.full_circle[j] == 0:
+            return 0
+        a += beams
+    b = neighbour(a, 1, beams, scene.full_circle[j])
+    if b < 0:
+        return 0
+    if scene.kind[j, a] == wp.uint8(0) or scene.kind[j, b] == wp.uint8(0):
+        return 0
+    p = scene.points[j, a]
+    d = scene.points[j, b] - p
+    size = wp.length(d)
+    if size > widest_gap(scene.step[j], wp.length(p)):
+        return 0
+    here = wp.vec2f(x, y) - p
+    share = wp.clamp(wp.dot(here, d) / wp.max(size * size, 1.0e-9), 0.0, 1.0)
+    return wp.where(wp.length(here - share * d) < near, 1, 0)
+
+
+@wp.kernel
+def compare_views(
+    first: int,
+    scene: ScanArrays,
+    source: Int32s,
+    target: Int32s,
+    relative: wp.array(dtype=wp.vec3d),
+    near: float,
+    clear: float,
+    counts: Int32Rows,
+):
+    """One thread per pair: count the points of the source on what the target saw, those that contradict it, and all.
+
+    A point contradicts if three neighbouring beams of the target all hit something ``clear`` metres beyond it.
+    """
+    p = first + wp.tid()
+    i = source[p]
+    j = target[p]
+    z = relative[p]
+    cosine = float(wp.cos(z[2]))
+    sine = float(wp.sin(z[2]))
+    beams = scene.kind.shape[1]
+    matched = int(0)
+    against = int(0)
+    total = int(0)
+    for k in range(0, beams, scene.stride):
+        if scene.kind[i, k] == wp.uint8(0):
+            continue
+        total += 1
+        q = scene.points[i, k]
+        x = cosine * q[0] - sine * q[1] + float(z[0])
+        y = sine * q[0] + cosine * q[1] + float(z[1])
+        if nearest_point(scene, j, x, y, near) >= 0:
+            matched += 1
+            continue
+        middle = beam_towards(scene, j, x, y)
+        if middle < 0:
+            continue
+        if near_wall(scene, j, middle - 1, x, y, near) + near_wall(scene, j, middle, x, y, near) > 0:
+            matched += 1
+            continue
+        away = wp.sqrt(x * x + y * y)
+        through = int(0)
+        for d in range(-1, 2):
+            c = neighbour(middle, d, scene.beams[j], scene.full_circle[j])
+            if c >= 0:
+                if scene.kind[j, c] != wp.uint8(0) and wp.length(scene.points[j, c]) > away + clear:
+                    through += 1
+        if through == 3:
+            against += 1
+    counts[p, 0] = matched
+    counts[p, 1] = against
+    counts[p, 2] = total
+
+
+@dataclass(frozen=True)
+class Agreement:
+    """When points of one scan count as seen by another, and when as contradicting it.
+
+    Attributes:
+        near_m: a point so near one of the other scan, or the wall between two neighbouring ones, is matched.
+        clear_m: one that stands so far before what the other saw contradicts.
+        beams: about so many of each scan are looked at.
+    """
+
+    near_m: float
+    clear_m: float
+    beams: int
+
+
+def view_counts(
+    geometry: Any, source: Ints, target: Ints, relative: Floats, agreement: Agreement, threads: int | None = None
+) -> Ints:
+    """Count the points of each source: matched by the target, contradicting it, all; (P, 3).
+
+    ``relative`` are the poses of sources in the frames of targets, (P, 3).
+    """
+    device, count = geometry.device, len(source)
+    counts = wp.empty((count, 3), dtype=wp.int32, device=device)
+    stride = max(1, geometry.beams // agreement.beams)
+    inputs = [scan_arrays(geometry, stride), source, target, relative, agreement.near_m, agreement.clear_m, counts]
+    devices.launch(compare_views, count, inputs, device, threads)
+    return np.asarray(counts.numpy())
+
+
+def mutual_view_counts(
+    geometry: Any, first: Ints, second: Ints, relative: Floats, agreement: Agreement, threads: int | None = None
+) -> Ints:
+    """Sum `view_counts` of the second scans in the views of the first, and of the first in those of the second, (P, 3).
+
+    ``relative`` are the poses of the second in the frames of the first, (P, 3).
+    """
+    counts = view_counts(geometry, second, first, relative, agreement, threads)
+    return counts + view_counts(geometry, first, second, inverse(relative), agreement, threads)

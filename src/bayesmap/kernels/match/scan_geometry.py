@@ -7,6 +7,7 @@ import warp as wp
 from numpy.typing import NDArray
 
 from bayesmap.kernels import device as devices
+from bayesmap.kernels.device import Float32Rows, Float32s, Float64Rows, Floats, Int32Rows, Int32s, Uint8Rows
 
 wp.set_module_options({"enable_backward": False})
 
@@ -22,13 +23,13 @@ class ScanArrays:
 
     points: wp.array2d(dtype=wp.vec2f)
     normals: wp.array2d(dtype=wp.vec2f)
-    kind: wp.array2d(dtype=wp.uint8)
-    spread: wp.array2d(dtype=wp.float32)
-    beam_of_angle: wp.array2d(dtype=wp.int32)
-    layout: wp.array(dtype=wp.int32)  # of each scan, its row of beam_of_angle
-    beams: wp.array(dtype=wp.int32)
-    step: wp.array(dtype=wp.float32)
-    full_circle: wp.array(dtype=wp.int32)
+    kind: Uint8Rows
+    spread: Float32Rows
+    beam_of_angle: Int32Rows
+    layout: Int32s  # of each scan, its row of beam_of_angle
+    beams: Int32s
+    step: Float32s
+    full_circle: Int32s
     stride: int  # every so many-th point is paired
 
 
@@ -54,12 +55,12 @@ def widest_gap(step_rad: wp.float32, away: wp.float32) -> wp.float32:
 @wp.kernel
 def scan_points(
     first: int,
-    ranges: wp.array2d(dtype=wp.float64),
-    angles: wp.array2d(dtype=wp.float64),
+    ranges: Float64Rows,
+    angles: Float64Rows,
     nearest: wp.float64,
     farthest: wp.float64,
     points: wp.array2d(dtype=wp.vec2f),
-    kind: wp.array2d(dtype=wp.uint8),
+    kind: Uint8Rows,
 ):
     """One thread per scan: compute where its beams ended, in the laser's frame.
 
@@ -80,14 +81,14 @@ def scan_points(
 def scan_normals(
     first: int,
     points: wp.array2d(dtype=wp.vec2f),
-    beams_of: wp.array(dtype=wp.int32),
-    step_of: wp.array(dtype=wp.float32),
-    circle_of: wp.array(dtype=wp.int32),
+    beams_of: Int32s,
+    step_of: Float32s,
+    circle_of: Int32s,
     reach_m: wp.float32,
     noise_m: wp.float32,
-    kind: wp.array2d(dtype=wp.uint8),
+    kind: Uint8Rows,
     normals: wp.array2d(dtype=wp.vec2f),
-    spread: wp.array2d(dtype=wp.float32),
+    spread: Float32Rows,
 ):
     """One thread per scan: fit the line through each point's neighbours along the wall, by least squares.
 
@@ -172,8 +173,8 @@ def scan_normals(
 
 
 def points_and_normals(
-    ranges_m: NDArray[np.float64],
-    angles_rad: NDArray[np.float64],
+    ranges_m: Floats,
+    angles_rad: Floats,
     nearest_m: float,
     farthest_m: float,
     fans: Any,

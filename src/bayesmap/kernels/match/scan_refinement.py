@@ -3,17 +3,14 @@
 from dataclasses import dataclass
 from typing import Any
 
-import numpy as np
 import warp as wp
-from numpy.typing import NDArray
 
 from bayesmap.kernels import device as devices
+from bayesmap.kernels.device import Float32Rows, Float64Rows, Floats, Int32s, Ints
 from bayesmap.kernels.match.line_pairs import pair_scans
 from bayesmap.kernels.match.scan_geometry import ScanArrays, scan_arrays
 
 wp.set_module_options({"enable_backward": False})
-
-Floats = NDArray[np.float64]
 
 STILL = wp.constant(wp.float64(1.0e-5))  # metres plus radians: steps below this end the iteration
 
@@ -47,9 +44,9 @@ def wrapped(angle: wp.float64) -> wp.float64:
 class RefinementArrays:
     """A `Refinement` on a device."""
 
-    scan: wp.array(dtype=wp.int32)
-    offsets: wp.array(dtype=wp.int32)
-    other: wp.array(dtype=wp.int32)
+    scan: Int32s
+    offsets: Int32s
+    other: Int32s
     other_pose: wp.array(dtype=wp.vec3d)
     start: wp.array(dtype=wp.vec3d)
     prior: wp.array(dtype=wp.vec3d)
@@ -73,14 +70,14 @@ class Refined:
 
     pose: wp.array(dtype=wp.vec3d)
     information: wp.array(dtype=wp.mat33d)
-    totals: wp.array2d(dtype=wp.float64)
+    totals: Float64Rows
 
 
 @wp.kernel
 def refine(
     first: int,
     scene: ScanArrays,
-    weights: wp.array2d(dtype=wp.float32),
+    weights: Float32Rows,
     jobs: RefinementArrays,
     schedule: ConvergenceNumbers,
     out: Refined,
@@ -165,9 +162,9 @@ class Refinement:
         prior_information: of the priors, in the world's axes, (J, 3, 3).
     """
 
-    scans: NDArray[np.int32]
-    offsets: NDArray[np.int32]
-    others: NDArray[np.int32]
+    scans: Ints
+    offsets: Ints
+    others: Ints
     other_poses: Floats
     starts: Floats
     priors: Floats

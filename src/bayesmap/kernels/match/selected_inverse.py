@@ -4,21 +4,16 @@ from typing import Any
 
 import numpy as np
 import warp as wp
-from numpy.typing import NDArray
 
 from bayesmap.kernels import device as devices
+from bayesmap.kernels.device import Float64s, Floats, Int32s, Ints
 
 wp.set_module_options({"enable_backward": False})
 
 
 @wp.kernel
 def invert_on_pattern(
-    begin: wp.array(dtype=wp.int32),
-    row: wp.array(dtype=wp.int32),
-    lower: wp.array(dtype=wp.float64),
-    pivot: wp.array(dtype=wp.float64),
-    column_sums: wp.array(dtype=wp.float64),
-    inverse: wp.array(dtype=wp.float64),
+    begin: Int32s, row: Int32s, lower: Float64s, pivot: Float64s, column_sums: Float64s, inverse: Float64s
 ):
     """One thread: columns from the last to the first. Z_rj = -sum_k L_kj Z_rk, and Z_jj = 1 / D_j - sum_k L_kj Z_kj."""
     columns = begin.shape[0] - 1
@@ -44,9 +39,7 @@ def invert_on_pattern(
         inverse[begin[j]] = own
 
 
-def selected_inverse(
-    begin: NDArray[np.int32], row: NDArray[np.int32], lower: NDArray[np.float64], pivot: NDArray[np.float64]
-) -> NDArray[np.float64]:
+def selected_inverse(begin: Ints, row: Ints, lower: Floats, pivot: Floats) -> Floats:
     """Compute the entries of (L D L^T)^-1 where L has entries, in the order of L's.
 
     Takahashi, Fagan and Chin (1973), "Formation of a sparse bus impedance matrix and its application to short circuit

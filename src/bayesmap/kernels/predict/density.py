@@ -16,11 +16,11 @@ from typing import Any
 
 import numpy as np
 import warp as wp
-from numpy.typing import NDArray
 
 from bayesmap.beams.rays import Rays
 from bayesmap.errors import BadInput
 from bayesmap.kernels import device as devices
+from bayesmap.kernels.device import Float32Rows, Float64s, Floats, Int32s, Ints, Singles
 from bayesmap.kernels.rays import Line, RayArrays, distance_at, first_past, line_of, rays_to_device
 from bayesmap.kernels.sensor_law import (
     MIXTURE,
@@ -32,13 +32,13 @@ from bayesmap.kernels.sensor_law import (
     stop_density,
     stop_log_density,
 )
-from bayesmap.kernels.surfaces.crossing import Cell, cells_to_device, cross_surface, ray_from
+from bayesmap.kernels.surfaces.cell import Cell, cells_to_device, cross_surface, ray_from
 from bayesmap.sensors.model import RangeLimits, SensorModel
 from bayesmap.sensors.tabulated import tabulated
 
 wp.set_module_options({"enable_backward": False})
 
-StopStates = NDArray[np.float32]
+StopStates = Singles
 """Some maps: stop probabilities of cells without a surface (maps, cells), or surfaces (maps, cells, 6): reflectivity,
 mean x and y in metres from the grid's lower left corner, and Cholesky factor l11, l21, l22."""
 
@@ -47,7 +47,7 @@ mean x and y in metres from the grid's lower left corner, and Cholesky factor l1
 class MapArrays:
     """Some maps on a device, one a row, and where beams stop in cells without a surface, as a part of their stretch."""
 
-    stop: wp.array2d(dtype=wp.float32)
+    stop: Float32Rows
     surface: wp.array2d(dtype=Cell)
     surfaces: int
     depth: wp.float64
@@ -127,7 +127,6 @@ def device_maps(batches: Iterable[StopStates], hit_depth: float, *, device: str 
     return DeviceMaps(maps_to_device(states, hit_depth, device), len(states), hit_depth, device)
 
 
-Floats = NDArray[np.float64]
 # A beam less likely than this to get so far is at its end: under noise alone the unlikely may be all that explains a
 # reading; the mixture has a floor.
 GONE = wp.constant(wp.float64(1.0e-30))
@@ -173,11 +172,11 @@ def weight_of_nothing(law: SensorLaw64) -> wp.float64:
 class ForecastSums:
     """Running sums over draws, for each beam: of densities, see `no_sum`, and of cumulative probabilities."""
 
-    most: wp.array(dtype=wp.float64)
-    total: wp.array(dtype=wp.float64)
-    below: wp.array(dtype=wp.float64)  # of readings below the beam's own
-    below_max: wp.array(dtype=wp.float64)  # below the largest range
-    below_min: wp.array(dtype=wp.float64)  # below the smallest
+    most: Float64s
+    total: Float64s
+    below: Float64s  # of readings below the beam's own
+    below_max: Float64s  # below the largest range
+    below_min: Float64s  # below the smallest
 
 
 @wp.kernel
@@ -185,11 +184,11 @@ def add_forecasts(
     first: int,
     law: SensorLaw64,
     rays: RayArrays,
-    columns: wp.array(dtype=wp.int32),
+    columns: Int32s,
     maps: MapArrays,
     draws: int,
-    range_m: wp.array(dtype=wp.float64),
-    reach_m: wp.array(dtype=wp.float64),
+    range_m: Float64s,
+    reach_m: Float64s,
     with_cumulative: int,
     out: ForecastSums,
 ):
@@ -292,7 +291,7 @@ def explained_within_m(range_m: Floats, sensor: SensorModel, limits: RangeLimits
 
 def _sums(
     rays: Rays,
-    columns: NDArray[np.int32],
+    columns: Ints,
     batches: Iterable[StopStates],
     sensor: SensorModel,
     hit_depth: float,
@@ -329,7 +328,7 @@ def log_densities(
     sensor: SensorModel,
     hit_depth: float,
     *,
-    columns: NDArray[np.int32] | None = None,
+    columns: Ints | None = None,
     device: str = "cpu",
 ) -> Floats:
     """Compute the log predictive density of every reading, (B,): see `forecast`.

@@ -15,6 +15,7 @@ import warp as wp
 from numpy.typing import NDArray
 
 from bayesmap.kernels import device as devices
+from bayesmap.kernels.device import Float64Rows, Float64s, Floats, Int32s, Singles, Uint8Rows
 from bayesmap.kernels.predict.density import MapArrays, maps_to_device
 from bayesmap.kernels.predict.scan_likelihood import Frame, grid_frame
 from bayesmap.kernels.sensor_law import (
@@ -25,13 +26,11 @@ from bayesmap.kernels.sensor_law import (
     stop_density,
     variance_at,
 )
-from bayesmap.kernels.surfaces.crossing import cross_surface, crossing_probability, ray_from
+from bayesmap.kernels.surfaces.cell import cross_surface, crossing_probability, ray_from
 from bayesmap.sensors.model import RangeLimits, SensorModel
 from bayesmap.space.grid import Grid
 
 wp.set_module_options({"enable_backward": False})
-
-Floats = NDArray[np.float64]
 
 PAST_SCALES = wp.constant(wp.float32(6.0))
 PAST_CELLS = wp.constant(wp.float32(4.0))
@@ -65,7 +64,7 @@ def reading_log_density(
     law: SensorLaw32,
     frame: Frame,
     maps: MapArrays,
-    empty: wp.array2d(dtype=wp.uint8),
+    empty: Uint8Rows,
     draw: int,
     x: wp.float32,
     y: wp.float32,
@@ -156,14 +155,14 @@ def scan_log_likelihoods(
     law: SensorLaw32,
     frame: Frame,
     maps: MapArrays,
-    empty: wp.array2d(dtype=wp.uint8),
+    empty: Uint8Rows,
     draws: int,
     in_turn: int,
-    poses: wp.array2d(dtype=wp.float64),
-    scan: wp.array(dtype=wp.int32),
-    angle_rad: wp.array(dtype=wp.float64),
-    range_m: wp.array2d(dtype=wp.float64),
-    out: wp.array2d(dtype=wp.float64),
+    poses: Float64Rows,
+    scan: Int32s,
+    angle_rad: Float64s,
+    range_m: Float64Rows,
+    out: Float64Rows,
 ):
     """One thread per pose and draw: sum log p(reading | map, pose) over beams.
 
@@ -210,7 +209,7 @@ class PackedMap:
     device: str
 
 
-def pack_map(states: NDArray[np.float32], grid: Grid, hit_depth: float, device: str = "cpu") -> PackedMap:
+def pack_map(states: Singles, grid: Grid, hit_depth: float, device: str = "cpu") -> PackedMap:
     """Put draws of a map on a device.
 
     Args:
@@ -226,7 +225,7 @@ def pack_map(states: NDArray[np.float32], grid: Grid, hit_depth: float, device: 
     return PackedMap(maps, empty, len(states), grid_frame(grid), device)
 
 
-def map_states(packed: PackedMap) -> NDArray[np.float32]:
+def map_states(packed: PackedMap) -> Singles:
     """Return the draws that `pack_map` was given; surfaces with two more numbers."""
     held = packed.maps.surface if packed.maps.surfaces != 0 else packed.maps.stop
     return np.asarray(held.numpy())

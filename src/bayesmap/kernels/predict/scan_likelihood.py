@@ -14,17 +14,16 @@ import warp as wp
 from numpy.typing import NDArray
 
 from bayesmap.kernels import device as devices
+from bayesmap.kernels.device import Float64Rows, Float64s, Floats, Int32s, Singles
 from bayesmap.kernels.predict.density import DeviceMaps, MapArrays, add_stop, maps_to_device, no_sum, weight_of_nothing
 from bayesmap.kernels.sensor_law import SensorLaw64, object_decay, sensor_law
-from bayesmap.kernels.surfaces.crossing import cross_surface, ray_from
+from bayesmap.kernels.surfaces.cell import cross_surface, ray_from
 from bayesmap.kernels.walk import NEVER, is_inside, walk_begin, walk_next
 from bayesmap.sensors.model import RangeLimits, SensorModel
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
 
 wp.set_module_options({"enable_backward": False})
-
-Floats = NDArray[np.float64]
 
 
 @wp.struct
@@ -47,9 +46,7 @@ def stop_on_walk(
         state = maps.surface[row, cell]
         met = cross_surface(state, ray_from(start, direction))
         return wp.vec3d(
-            wp.float64(state[0]) * wp.float64(met.chance),
-            wp.float64(met.distance_m),
-            wp.sqrt(wp.float64(met.variance)),
+            wp.float64(state[0]) * wp.float64(met.chance), wp.float64(met.distance_m), wp.sqrt(wp.float64(met.variance))
         )
     return wp.vec3d(wp.float64(maps.stop[row, cell]), distance, wp.float64(0.0))
 
@@ -60,13 +57,13 @@ def beam_log_likelihoods(
     law: SensorLaw64,
     frame: Frame,
     maps: MapArrays,
-    poses: wp.array2d(dtype=wp.float64),
-    scan: wp.array(dtype=wp.int32),
-    chain: wp.array(dtype=wp.int32),
+    poses: Float64Rows,
+    scan: Int32s,
+    chain: Int32s,
     beams: int,
-    mounts: wp.array2d(dtype=wp.float64),
-    range_m: wp.array(dtype=wp.float64),
-    out: wp.array(dtype=wp.float64),
+    mounts: Float64Rows,
+    range_m: Float64s,
+    out: Float64s,
 ):
     """One thread per beam of a pose: log p(reading | cells, pose).
 
@@ -133,7 +130,7 @@ class ScanLikelihood:
     device: str = "cpu"
 
     def beams(
-        self, cells: NDArray[np.float32] | DeviceMaps, poses: Floats, scan: NDArray[np.intp], chain: NDArray[np.intp]
+        self, cells: Singles | DeviceMaps, poses: Floats, scan: NDArray[np.intp], chain: NDArray[np.intp]
     ) -> Floats:
         """Compute the log density of each reading, invalid ones 0, in nats, (P, A).
 
@@ -164,9 +161,7 @@ class ScanLikelihood:
         devices.launch(beam_log_likelihoods, len(out), inputs, device, devices.threads_for(len(out)))
         return np.asarray(out.numpy().reshape(len(poses), beams))
 
-    def __call__(
-        self, cells: NDArray[np.float32], poses: Floats, scan: NDArray[np.intp], chain: NDArray[np.intp]
-    ) -> Floats:
+    def __call__(self, cells: Singles, poses: Floats, scan: NDArray[np.intp], chain: NDArray[np.intp]) -> Floats:
         """Compute the log-likelihood of each scan at its pose, (P,): the sum of `beams`."""
         return np.asarray(self.beams(cells, poses, scan, chain).sum(axis=1))
 

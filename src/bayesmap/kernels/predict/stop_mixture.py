@@ -1,8 +1,11 @@
-"""Compute where beams stop, averaged over draws, and the chances of first hits that follow.
+"""Mix the stops of beams over draws, and predict from the mixture: chances of first hits, and quantiles of ranges.
 
 All that a prediction needs of many draws of a map is the mean weight of each stop, since the predictive law is linear
 in the weights. Where draws also differ in *where* a cell is hit, the places of one cell are merged into one, with their
 mean and with their scatter added to the spread.
+
+Quantiles are found by halving the span of ranges. Under the robust mixture the stops that lie far before or behind the
+remaining span need not be asked again. So a beam costs a few times its number of stops, not that times the halvings.
 """
 
 from collections.abc import Iterable
@@ -16,21 +19,29 @@ from numpy.typing import NDArray
 from bayesmap.beams.rays import Rays
 from bayesmap.errors import BadInput
 from bayesmap.kernels import device as devices
+from bayesmap.kernels.device import Float32s, Float64Rows, Float64s, Floats, Int32s, Ints, Singles
 from bayesmap.kernels.predict.density import (
     DeviceMaps,
     MapArrays,
     StopStates,
+    are_typed,
     law_with_cumulative,
     maps_to_device,
     stop_in,
 )
 from bayesmap.kernels.rays import RayArrays, distance_at, line_of, rays_to_device, stop_distances, stretch
-from bayesmap.kernels.sensor_law import SensorLaw64, cumulative
+from bayesmap.kernels.sensor_law import (
+    MIXTURE,
+    SensorLaw64,
+    cumulative,
+    is_before,
+    is_behind,
+    met_or_returned,
+    random_below,
+)
 from bayesmap.sensors.model import SensorModel
 
-wp.set_module_options({"enable_backward": False})
-
-Floats = NDArray[np.float64]
+wp.set_module_options({"enable_backward": False, "max_unroll": 1})  # halvings unrolled take minutes to compile
 LEAST_CHANCE = wp.constant(wp.float64(1.0e-12))  # of an event, and of getting to it
 LEAST_WEIGHT = wp.constant(wp.float64(1.0e-10))  # of a stop that is looked at: a thousand less likely ones add nothing
 MOST_CHANCE = wp.constant(wp.float64(1.0 - 1.0e-7))  # what single precision can tell from one
@@ -40,14 +51,14 @@ MOST_CHANCE = wp.constant(wp.float64(1.0 - 1.0e-7))  # what single precision can
 def add_stops(
     first: int,
     rays: RayArrays,
-    columns: wp.array(dtype=wp.int32),
+    columns: Int32s,
     maps: MapArrays,
     draws: int,
     gone: wp.float64,
-    weight: wp.array(dtype=wp.float32),
-    shift: wp.array(dtype=wp.float32),
-    square: wp.array(dtype=wp.float32),
-    no_stop: wp.array(dtype=wp.float64),
+    weight: Float32s,
+    shift: Float32s,
+    square: Float32s,
+    no_stop: Float64s,
 ):
     """One thread per beam: add the weight of each stop, and the moments of its place about the part ``maps.depth`` of
     the cell's stretch. A beam is followed until the chance that it gets further is below ``gone``.
@@ -83,9 +94,9 @@ class StopMixture:
     """
 
     rays: Rays
-    weight: NDArray[np.float32]
-    distance_m: NDArray[np.float32]
-    spread_m: NDArray[np.float32]
+    weight: Singles
+    distance_m: Singles
+    spread_m: Singles
     no_stop: Floats
 
 
@@ -113,12 +124,7 @@ def mix_device_stops(rays: Rays, held: DeviceMaps, gone: float = float(LEAST_CHA
 
 
 def _mixed(
-    rays: Rays,
-    columns: NDArray[np.int32],
-    batches: Iterable[tuple[Any, int]],
-    hit_depth: float,
-    device: str,
-    gone: float,
+    rays: Rays, columns: Ints, batches: Iterable[tuple[Any, int]], hit_depth: float, device: str, gone: float
 ) -> StopMixture:
     """Average over batches of maps; ``columns`` are the places of the entries' cells in the maps."""
     sums = [wp.zeros(rays.n_incidences, dtype=wp.float32, device=device) for _ in range(3)]
@@ -143,11 +149,11 @@ def _mixed(
 class StopMixtureArrays:
     """A `StopMixture` on a device."""
 
-    offsets: wp.array(dtype=wp.int32)
-    weight: wp.array(dtype=wp.float32)
-    distance_m: wp.array(dtype=wp.float32)
-    variance: wp.array(dtype=wp.float32)
-    no_stop: wp.array(dtype=wp.float64)
+    offsets: Int32s
+    weight: Float32s
+    distance_m: Float32s
+    variance: Float32s
+    no_stop: Float64s
 
 
 @wp.func
@@ -167,8 +173,8 @@ def find_events(
     law: SensorLaw64,
     stops: StopMixtureArrays,
     rays: RayArrays,
-    range_m: wp.array(dtype=wp.float64),
-    chance: wp.array(dtype=wp.float32),
+    range_m: Float64s,
+    chance: Float32s,
     stopped: wp.array(dtype=wp.int8),
 ):
     """One thread per beam: for each stretch that its reading reaches, compute the chance that it ends there, and
@@ -213,9 +219,7 @@ def stops_to_device(stops: StopMixture, device: str) -> Any:
     return packed
 
 
-def first_hit_events(
-    stops: StopMixture, sensor: SensorModel, device: str = "cpu"
-) -> tuple[NDArray[np.float32], NDArray[np.int8]]:
+def first_hit_events(stops: StopMixture, sensor: SensorModel, device: str = "cpu") -> tuple[Singles, NDArray[np.int8]]:
     """Predict, for each stretch of a beam in a cell that its reading reaches, whether the reading ends there.
 
     With F the beam's predictive cumulative and [a, b) the stretch, the chance is ``(F(b) - F(a)) / (1 - F(a))``: the
@@ -241,3 +245,147 @@ def first_hit_events(
     inputs += [devices.to_device(rays.range_m, wp.float64, device), chance, stopped]
     devices.launch(find_events, rays.n_beams, inputs, device, devices.threads_for(rays.n_beams))
     return chance.numpy(), stopped.numpy()
+
+
+HALVINGS = wp.constant(15)  # of the span of ranges: quantiles are off by at most a 30 000th of it
+
+
+@wp.struct
+class LevelSearch:
+    """The search for the range of a level, between two ranges, and the stops that are not decided yet.
+
+    Of those before ``begin`` all that returns lies below, of those from ``end`` on behind.
+    """
+
+    low: wp.float64
+    high: wp.float64
+    begin: int
+    end: int
+    below: wp.float64  # of the stops before begin: weight times the chance of a reading that is not random
+    behind: wp.float64  # of those from end on: weight
+    total: wp.float64  # of all
+
+
+@wp.func
+def begin_search(stops: StopMixtureArrays, b: int, low_m: wp.float64) -> LevelSearch:
+    """Start a search at a range, with all stops undecided."""
+    s = LevelSearch()
+    s.low = low_m
+    s.begin = stops.offsets[b]
+    s.total = stops.no_stop[b]
+    for k in range(stops.offsets[b], stops.offsets[b + 1]):
+        s.total += wp.float64(stops.weight[k])
+    return s
+
+
+@wp.func
+def search_to(s: LevelSearch, stops: StopMixtureArrays, b: int, high_m: wp.float64) -> LevelSearch:
+    """Extend the search up to a range; stops that lie before it stay decided."""
+    s.high = high_m
+    s.end = stops.offsets[b + 1]
+    s.behind = stops.no_stop[b]
+    return s
+
+
+@wp.func
+def halved(law: SensorLaw64, stops: StopMixtureArrays, s: LevelSearch, level: wp.float64) -> LevelSearch:
+    """Return the half of the span that holds the level, for the robust mixture; stops that are decided are asked only
+    once.
+    """
+    z = wp.float64(0.5) * (s.low + s.high)
+    decay = wp.exp(-law.rate_short_per_m * z)
+    p = s.below + s.behind * law.p_short * (wp.float64(1.0) - decay)
+    for k in range(s.begin, s.end):
+        weight = wp.float64(stops.weight[k])
+        if weight > LEAST_WEIGHT:
+            at = wp.float64(stops.distance_m[k])
+            p += weight * met_or_returned(law, z, decay, at, wp.float64(stops.variance[k]))
+    if s.total * random_below(law, z) + law.p_known * p < level:
+        s.low = z
+        going = bool(True)
+        while going and s.begin < s.end:
+            k = s.begin
+            at = wp.float64(stops.distance_m[k])
+            variance = wp.float64(stops.variance[k])
+            weight = wp.float64(stops.weight[k])
+            going = is_before(law, z, at, variance) or weight <= LEAST_WEIGHT
+            if going:
+                if weight > LEAST_WEIGHT:
+                    s.below += weight * met_or_returned(law, z, decay, at, variance)
+                s.begin += 1
+    else:
+        s.high = z
+        going = bool(True)
+        while going and s.begin < s.end:
+            k = s.end - 1
+            weight = wp.float64(stops.weight[k])
+            behind = is_behind(law, z, wp.float64(stops.distance_m[k]), wp.float64(stops.variance[k]))
+            going = behind or weight <= LEAST_WEIGHT
+            if going:
+                if weight > LEAST_WEIGHT:
+                    s.behind += weight
+                s.end -= 1
+    return s
+
+
+@wp.kernel
+def find_quantiles(
+    first: int,
+    law: SensorLaw64,
+    stops: StopMixtureArrays,
+    levels: Float64s,
+    low_m: wp.float64,
+    high_m: wp.float64,
+    quantiles: Float64Rows,
+):
+    """One thread per beam: halve the span of ranges until each quantile is found; levels rise."""
+    b = first + wp.tid()
+    at_low = mixture_below(law, stops, b, low_m)
+    at_high = mixture_below(law, stops, b, high_m)
+    start = low_m
+    sought = begin_search(stops, b, low_m)
+    for i in range(levels.shape[0]):
+        level = levels[i]
+        if level <= at_low:
+            quantiles[b, i] = wp.float64(-wp.inf)
+        elif level > at_high:
+            quantiles[b, i] = wp.float64(wp.inf)
+        elif law.kind == MIXTURE:
+            sought = search_to(sought, stops, b, high_m)
+            for _j in range(HALVINGS):
+                sought = halved(law, stops, sought, level)
+            quantiles[b, i] = sought.high
+        else:
+            low = start
+            high = high_m
+            for _j in range(HALVINGS):
+                middle = wp.float64(0.5) * (low + high)
+                if mixture_below(law, stops, b, middle) < level:
+                    low = middle
+                else:
+                    high = middle
+            quantiles[b, i] = high
+            start = low
+
+
+def range_quantiles(stops: StopMixture, levels: Floats, sensor: SensorModel, device: str = "cpu") -> Floats:
+    """Compute the least range below which the reading falls with each probability, metres, (B, levels).
+
+    No return counts as +inf, too close as -inf. A sensor that is noise alone may read past its limits: its quantiles
+    are looked for from one range below zero to two ranges.
+
+    Args:
+        stops: where the beams stop.
+        levels: rising probabilities.
+        sensor: the law of a reading given where its beam stops.
+        device: where to compute.
+    """
+    device = devices.resolve(device)
+    limits = stops.rays.limits
+    law = law_with_cumulative(sensor, limits, device)
+    low, high = (limits.min_m, limits.max_m) if are_typed(sensor, limits) else (-limits.max_m, 2.0 * limits.max_m)
+    beams = stops.rays.n_beams
+    out = wp.empty((beams, len(levels)), dtype=wp.float64, device=device)
+    inputs = [law, stops_to_device(stops, device), devices.to_device(np.asarray(levels), wp.float64, device)]
+    devices.launch(find_quantiles, beams, [*inputs, wp.float64(low), wp.float64(high), out], device)
+    return np.asarray(out.numpy())

@@ -10,6 +10,7 @@ import warp as wp
 from numpy.typing import NDArray
 
 from bayesmap.kernels import device as devices
+from bayesmap.kernels.device import Float64Rows, Float64s, Floats, Int32s
 from bayesmap.kernels.predict.density import DeviceMaps, MapArrays
 from bayesmap.kernels.predict.scan_likelihood import Frame, grid_frame, stop_on_walk
 from bayesmap.kernels.random import random_bits, to_uniform
@@ -17,8 +18,6 @@ from bayesmap.kernels.walk import NEVER, is_inside, walk_begin, walk_next
 from bayesmap.space.grid import Grid
 
 wp.set_module_options({"enable_backward": False})
-
-Floats = NDArray[np.float64]
 
 CERTAIN = wp.constant(wp.float64(1.0e-6))
 """A beam less likely than this to get so far is at its end."""
@@ -31,13 +30,13 @@ def draw_scan(
     first: int,
     frame: Frame,
     maps: MapArrays,
-    poses: wp.array2d(dtype=wp.float64),
-    draw: wp.array(dtype=wp.int32),
-    angles: wp.array(dtype=wp.float64),
+    poses: Float64Rows,
+    draw: Int32s,
+    angles: Float64s,
     longest_m: wp.float64,
     key: wp.uint64,
-    distance_m: wp.array(dtype=wp.float64),
-    spread_m: wp.array(dtype=wp.float64),
+    distance_m: Float64s,
+    spread_m: Float64s,
 ):
     """One thread per beam of a pose: draw the distance at which it stops; infinite if nowhere."""
     b = first + wp.tid()
@@ -71,13 +70,7 @@ def draw_scan(
 
 
 def draw_scan_stops(
-    held: DeviceMaps,
-    grid: Grid,
-    poses: Floats,
-    draw: NDArray[np.intp],
-    angles_rad: Floats,
-    longest_m: float,
-    key: int,
+    held: DeviceMaps, grid: Grid, poses: Floats, draw: NDArray[np.intp], angles_rad: Floats, longest_m: float, key: int
 ) -> tuple[Floats, Floats]:
     """Draw where the beams of a scan at each pose stop.
 
@@ -121,14 +114,14 @@ def normal_below(x: wp.float64) -> wp.float64:
 def add_beam_information(
     first: int,
     frame: Frame,
-    occupied: wp.array(dtype=wp.float64),
-    of_hit: wp.array(dtype=wp.float64),
-    of_pass: wp.array(dtype=wp.float64),
-    poses: wp.array2d(dtype=wp.float64),
-    angles: wp.array(dtype=wp.float64),
+    occupied: Float64s,
+    of_hit: Float64s,
+    of_pass: Float64s,
+    poses: Float64Rows,
+    angles: Float64s,
     longest_m: wp.float64,
     sigma_m: wp.float64,
-    out: wp.array(dtype=wp.float64),
+    out: Float64s,
 ):
     """One thread per beam: sum FSMI's information over pairs of a cell that stops the beam and a cell in which it is
     read.

@@ -1,16 +1,22 @@
-r"""The second half of a sweep: draw the cells, given where the beams stopped.
+r"""The second half of a sweep: draw the cells, given where the beams stopped, and sum the chain's log joint.
 
 Cells in which readings end have a kernel of their own (`bayesmap.kernels.surfaces.endpoint_cells`). Of the others, one
 that tries no candidate draws its reflectivity, m ~ Beta(a + hits, b + met), a and b being those of its label where
 cells have labels (`bayesmap.kernels.surfaces.labels`, which draws these before). One that tries a candidate for its
-surface, drawn from the prior (`bayesmap.kernels.surfaces.cell_prior`), accepts it with probability min(1, exp(gain)),
-where the gain is the beams' part of the ratio (`bayesmap.kernels.surfaces.stops`).
+surface, drawn from the prior, accepts it with probability min(1, exp(gain)), where the gain is the beams' part of the
+ratio (`bayesmap.kernels.surfaces.stops`).
+
+Sums run over slices of fixed size, so they depend neither on threads nor on the device.
 """
 
 import warp as wp
 
+from bayesmap.kernels.device import Float32s, Float64Rows, Int32s, Uint8s
 from bayesmap.kernels.random import CELLS, beta_or_nothing, random_bits, sweep_key, to_uniform
-from bayesmap.kernels.surfaces.cell_prior import (
+from bayesmap.kernels.surfaces.cell import (
+    REFLECTIVITY,
+    TRYING,
+    Cell,
     PriorNumbers,
     centre_of,
     fresh_surface,
@@ -20,7 +26,6 @@ from bayesmap.kernels.surfaces.cell_prior import (
     log_surface_prior,
     pseudo_counts,
 )
-from bayesmap.kernels.surfaces.crossing import REFLECTIVITY, TRYING, Cell
 from bayesmap.kernels.surfaces.stops import CLEAR, GAIN_UNITS, LEARNS, ChainArrays
 
 wp.set_module_options({"enable_backward": False})
@@ -50,8 +55,8 @@ class ActiveCells:
     The period is 0 for cells in which readings end: every sweep updates them. ``ny`` and ``edge_m`` are the grid's.
     """
 
-    cell: wp.array(dtype=wp.int32)
-    period: wp.array(dtype=wp.uint8)
+    cell: Int32s
+    period: Uint8s
     ny: int
     edge_m: wp.float64
 
@@ -94,7 +99,7 @@ def begin_sweep(
     prior_moved: int,
     active: ActiveCells,
     state: ChainArrays,
-    log_prior: wp.array(dtype=wp.float32),
+    log_prior: Float32s,
 ):
     """One thread per chain's cell, at the start of a sweep: reset the counts of its beams, and perhaps name a
     candidate.
@@ -148,12 +153,7 @@ def begin_sweep(
 
 @wp.kernel
 def update_free_cells(
-    first: int,
-    sweep: int,
-    without_surfaces: int,
-    prior: PriorNumbers,
-    active: ActiveCells,
-    state: ChainArrays,
+    first: int, sweep: int, without_surfaces: int, prior: PriorNumbers, active: ActiveCells, state: ChainArrays
 ):
     """One thread per chain's cell, at the end of a sweep: accept or reject its candidate, draw its reflectivity, or
     neither; and where it would stop next to no beam, perhaps take another surface.
@@ -212,3 +212,63 @@ def count_observed(first: int, active: ActiveCells, state: ChainArrays):
     if state.last_met[here] >= 0:
         observed = wp.where(state.last_hits[here] + state.last_met[here] > 0, 1, 0)
         state.observed_counts[here] = state.observed_counts[here] + wp.vec2i(observed, 1)
+
+
+SLICE = 4096
+WIDTH = wp.constant(SLICE)
+
+
+@wp.kernel
+def sum_slices(first: int, size: int, values: Float32s, slices: Float64Rows):
+    """One thread per chain's slice of its ``size`` values: sum it."""
+    i = first + wp.tid()
+    chain = i // slices.shape[1]
+    begin = (i - chain * slices.shape[1]) * WIDTH
+    total = wp.float64(0.0)
+    for k in range(begin, wp.min(begin + WIDTH, size)):
+        total += wp.float64(values[chain * size + k])
+    slices[chain, i - chain * slices.shape[1]] = total
+
+
+@wp.kernel
+def sum_label_prior(first: int, nx: int, ny: int, prior: PriorNumbers, state: ChainArrays, slices: Float64Rows):
+    """One thread per slice of a chain's cells: sum the log prior of their pairs with the next cell in x and in y."""
+    i = first + wp.tid()
+    chain = i // slices.shape[1]
+    part = i - chain * slices.shape[1]
+    cell_0 = chain * state.n_cells
+    alike = int(0)
+    for c in range(part * WIDTH, wp.min((part + 1) * WIDTH, state.n_cells)):
+        x = c // ny
+        here = cell_0 + c
+        if x < nx - 1 and state.solid[here] == state.solid[here + ny]:
+            alike += 1
+        if c - x * ny < ny - 1 and state.solid[here] == state.solid[here + 1]:
+            alike += 1
+    slices[chain, part] = prior.coupling * wp.float64(alike)
+
+
+@wp.kernel
+def sum_of_slices(
+    first: int,
+    column: int,
+    one: Float64Rows,
+    other: Float64Rows,
+    beside_other: Float64Rows,
+    one_total: Float64Rows,
+    other_total: Float64Rows,
+):
+    """One thread per chain: sum the slices of two quantities, into a column of the totals. ``beside_other`` are more
+    slices of the second, perhaps none.
+    """
+    chain = first + wp.tid()
+    total = wp.float64(0.0)
+    for k in range(one.shape[1]):
+        total += one[chain, k]
+    one_total[chain, column] = total
+    total = wp.float64(0.0)
+    for k in range(other.shape[1]):
+        total += other[chain, k]
+    for k in range(beside_other.shape[1]):
+        total += beside_other[chain, k]
+    other_total[chain, column] = total

@@ -1,19 +1,29 @@
-"""The beams of the cells in which readings end, and the likelihood of their stops given such a cell.
+"""The likelihood of the stops of beams in a cell in which readings end, one beam or eight beams at a time.
 
 With g the chance of meeting the surface,
 
     log p(stops, readings | m, surface) = sum over passing beams log(1 - m g)
                                         + sum over stopped beams log(m g p(reading | stop)^beta).
+
+`log_stops` asks one beam after the other, through lists, whatever the sensor. A cell asks the same beams for every step
+of its surface. So they are copied side by side first, and `log_stops_in_lanes` weighs eight of them by the same
+arithmetic, which a processor with wide registers does at once. It takes what nearly all beams are: hits of a mixture
+that end near the cell, with noise that is normal or Student's t of few and odd degrees of freedom. The others are asked
+one by one.
+
+A *block* is eight beams: one `Lanes` for each number of them. Lanes that are left over hold beams that count nothing.
 """
 
 import numpy as np
 import warp as wp
-from numpy.typing import NDArray
 
 from bayesmap.beams.rays import Rays
 from bayesmap.kernels import device as devices
-from bayesmap.kernels.sensor_law import SensorLaw32
-from bayesmap.kernels.surfaces.crossing import (
+from bayesmap.kernels.device import Float32Rows, Int32s, Ints, Singles
+from bayesmap.kernels.sensor_law import FAR_SQ, MIXTURE, SensorLaw32
+from bayesmap.kernels.surfaces.cell import (
+    CROSSING_WIDTH_SQ,
+    DIRECTION_SQ,
     L11,
     L21,
     L22,
@@ -38,18 +48,16 @@ class EndpointCells:
     (`bayesmap.kernels.surfaces.endpoint_cells`).
     """
 
-    cell: wp.array(dtype=wp.int32)
-    offsets: wp.array(dtype=wp.int32)
-    entry: wp.array(dtype=wp.int32)
-    beam: wp.array(dtype=wp.int32)
+    cell: Int32s
+    offsets: Int32s
+    entry: Int32s
+    beam: Int32s
     passing: wp.array(dtype=wp.vec3)
     reading: wp.array(dtype=wp.vec2)  # how far ahead the centre lies, and the reading, metres
     step: wp.array(dtype=Cell)
 
 
-def endpoint_cells_to_device(
-    rays: Rays, cells: NDArray[np.int32], steps: NDArray[np.float32], device: str
-) -> EndpointCells:
+def endpoint_cells_to_device(rays: Rays, cells: Ints, steps: Singles, device: str) -> EndpointCells:
     """List the incidences of some cells, by flat index, ascending, (U,), on a device; ``steps`` are these cells', (U,
     8).
     """
@@ -93,7 +101,7 @@ class Listed:
     `EndpointCells`.
     """
 
-    entries: wp.array(dtype=wp.int32)
+    entries: Int32s
     passing_begin: int
     passing_end: int
     stopped_begin: int
@@ -150,3 +158,311 @@ def log_stops(
             product = one
             floor = wp.max(FEWEST, wp.float32(wp.exp(least - total)))
     return total + wp.log(wp.float64(product))
+
+
+WIDTH = 8
+Lanes = wp.types.vector(length=WIDTH, dtype=wp.float32)
+"""A number of eight beams."""
+
+OF_STOPPED = wp.constant(7)  # offset and direction at the centre, how far ahead, reading, decay, and 1 for a beam
+OF_PASSING = wp.constant(3)  # offset and direction
+PRODUCTS = wp.constant(2)  # room before the blocks, see `log_stops_in_lanes`
+CHUNK = wp.constant(4)  # blocks whose factors are multiplied before the product is turned into a logarithm
+SMALLEST = wp.constant(wp.float32(1.0e-35))
+STEEP = wp.constant(wp.float32(1.0e30))
+MOST_EXPONENT = wp.constant(wp.float32(41.0))
+AWAY = wp.constant(wp.float32(1.0e3))  # metres: no surface of a cell is met at such an offset
+UNKNOWN = wp.constant(wp.float64(1.0e300))
+
+
+@wp.struct
+class LaneBlocks:
+    """Room for the blocks of one cell per thread: a row of numbers, and the same memory as lanes.
+
+    Cell u's begin at ``begin[u]`` of its row, counted in lanes: all at 0 where a row is one thread's alone.
+    """
+
+    numbers: Float32Rows
+    lanes: wp.array2d(dtype=Lanes)
+    begin: Int32s
+
+
+def room_for_blocks(endpoints: EndpointCells, rows: int, device: str) -> LaneBlocks:
+    """Allocate room for the blocks of cells in each of some rows: on a GPU, which updates all cells at once, for every
+    cell; on the CPU for the cell that needs most.
+    """
+    incidences = np.diff(endpoints.offsets.numpy())
+    lanes = int(PRODUCTS) + int(OF_PASSING) + int(OF_STOPPED) * (1 + -(-incidences // WIDTH))
+    begin = np.zeros(len(lanes), dtype=np.int64) if device == "cpu" else np.cumsum(lanes) - lanes
+    size = int((begin + lanes).max(initial=0))
+    on_device = LaneBlocks()
+    on_device.numbers = wp.zeros((rows, size * WIDTH), dtype=wp.float32, device=device)
+    on_device.lanes = wp.array(ptr=on_device.numbers.ptr, shape=(rows, size), dtype=Lanes, device=device)
+    on_device.begin = devices.to_device(begin, wp.int32, device)
+    return on_device
+
+
+@wp.func
+def takes_lanes(law: SensorLaw32, beta: wp.float32) -> bool:
+    """Return whether hits of this law can be computed in lanes."""
+    return law.kind == MIXTURE and (law.dof == wp.float32(0.0) or law.power > 0) and beta == wp.float32(1.0)
+
+
+@wp.func
+def blocks_of(beams: int) -> int:
+    """Return the number of blocks that some beams fill."""
+    return (beams + WIDTH - 1) // WIDTH
+
+
+@wp.func
+def exponential(x: Lanes) -> Lanes:
+    """Compute exp(x) to a relative error of 5e-6 between -41 and 41, clipped beyond: Taylor's series at x / 64, squared
+    six times.
+
+    An exponential of the C library has one number at a time.
+    """
+    one = Lanes(wp.float32(1.0))
+    most = Lanes(MOST_EXPONENT)
+    z = wp.float32(1.0 / 64.0) * wp.max(wp.min(x, most), -most)
+    y = one + wp.float32(1.0 / 8.0) * z
+    y = one + wp.float32(1.0 / 7.0) * wp.cw_mul(z, y)
+    y = one + wp.float32(1.0 / 6.0) * wp.cw_mul(z, y)
+    y = one + wp.float32(1.0 / 5.0) * wp.cw_mul(z, y)
+    y = one + wp.float32(1.0 / 4.0) * wp.cw_mul(z, y)
+    y = one + wp.float32(1.0 / 3.0) * wp.cw_mul(z, y)
+    y = one + wp.float32(1.0 / 2.0) * wp.cw_mul(z, y)
+    y = one + wp.cw_mul(z, y)
+    y = wp.cw_mul(y, y)
+    y = wp.cw_mul(y, y)
+    y = wp.cw_mul(y, y)
+    y = wp.cw_mul(y, y)
+    y = wp.cw_mul(y, y)
+    return wp.cw_mul(y, y)
+
+
+@wp.func
+def square_root(x: Lanes) -> Lanes:
+    """Return the square root of each."""
+    out = Lanes()
+    for j in range(WIDTH):
+        out[j] = wp.sqrt(x[j])
+    return out
+
+
+@wp.func
+def positive(x: Lanes) -> Lanes:
+    """Return 1 where a number is positive, 0 where it is not."""
+    return wp.max(wp.min(STEEP * x, Lanes(wp.float32(1.0))), Lanes(wp.float32(0.0)))
+
+
+@wp.func
+def chance_of(offset: Lanes, across: Lanes) -> Lanes:
+    """Compute `crossing_probability_at` of each."""
+    one = Lanes(wp.float32(1.0))
+    r = wp.cw_div(wp.cw_mul(offset, offset), CROSSING_WIDTH_SQ * across)
+    return wp.cw_div(one, one + wp.cw_mul(r, wp.cw_mul(r, r)))
+
+
+@wp.func
+def density_of(law: SensorLaw32, reading: Lanes, decay: Lanes, distance: Lanes, variance: Lanes) -> Lanes:
+    """Compute `stop_density` of finite readings, for a mixture that `takes_lanes`."""
+    one = Lanes(wp.float32(1.0))
+    scale = Lanes(law.sigma_m) + law.sigma_per_m * distance
+    total = wp.cw_mul(scale, scale) + variance
+    error = reading - distance
+    square = wp.cw_mul(error, error)
+    limit = Lanes(law.max_m)
+    known = positive(limit - distance)
+    precision = wp.cw_div(one, total)
+    standard_sq = wp.cw_mul(square, precision)
+    noise = one
+    if law.power > 0:
+        base = one + (wp.float32(1.0) / law.dof) * standard_sq
+        product = base
+        for _ in range(1, law.power):
+            product = wp.cw_mul(product, base)
+        noise = wp.cw_div(one, product)
+    else:
+        known = wp.cw_mul(known, positive(wp.float32(FAR_SQ) * total - square))
+        noise = exponential(wp.float32(-0.5) * standard_sq)
+    noise = wp.cw_mul(noise, square_root(precision))
+    past = wp.cw_mul(decay, exponential(law.rate_short_per_m * error))
+    unblocked = (wp.float32(1.0) - law.p_short) * one + law.p_short * past
+    returned = law.p_known * law.p_return * law.height * wp.cw_mul(unblocked, wp.cw_mul(known, noise))
+    before = positive(wp.min(distance, limit) - reading)
+    return Lanes(law.uniform) + returned + law.passing * wp.cw_mul(before, decay)
+
+
+@wp.func
+def stopped_blocks_at(passing: int) -> int:
+    """Return where the blocks of stopped beams begin in a cell's room: behind those of its passing beams."""
+    return PRODUCTS + OF_PASSING * blocks_of(passing)
+
+
+@wp.func
+def put_passing(blocks: LaneBlocks, row: int, u: int, i: int, passing: wp.vec3):
+    """Put the i-th passing beam into a cell's blocks."""
+    first = (blocks.begin[u] + PRODUCTS + OF_PASSING * (i // WIDTH)) * WIDTH + i % WIDTH
+    blocks.numbers[row, first] = passing[0]
+    blocks.numbers[row, first + WIDTH] = passing[1]
+    blocks.numbers[row, first + 2 * WIDTH] = passing[2]
+
+
+@wp.func
+def put_stopped(
+    blocks: LaneBlocks,
+    row: int,
+    at: int,
+    i: int,
+    passing: wp.vec3,
+    reading: wp.vec2,
+    decay: wp.float32,
+    counts: wp.float32,
+):
+    """Put the i-th stopped beam into the blocks that begin at ``at``; a beam that ``counts`` 0 only fills a lane."""
+    first = (at + OF_STOPPED * (i // WIDTH)) * WIDTH + i % WIDTH
+    blocks.numbers[row, first] = passing[0]
+    blocks.numbers[row, first + WIDTH] = passing[1]
+    blocks.numbers[row, first + 2 * WIDTH] = passing[2]
+    blocks.numbers[row, first + 3 * WIDTH] = reading[0]
+    blocks.numbers[row, first + 4 * WIDTH] = reading[1]
+    blocks.numbers[row, first + 5 * WIDTH] = decay
+    blocks.numbers[row, first + 6 * WIDTH] = counts
+
+
+@wp.func
+def put_in_blocks(
+    blocks: LaneBlocks, row: int, u: int, rays: TracedRays, endpoints: EndpointCells, listed: Listed
+) -> int:
+    """Put a cell's listed beams into its blocks: all that pass it, and of those it stops the ones with a lane.
+
+    The others, with typed readings or with ends that are not near, go to the head of the list of stopped beams. How
+    many these are.
+    """
+    passing = listed.passing_end - listed.passing_begin
+    for i in range(passing):
+        put_passing(blocks, row, u, i, endpoints.passing[listed.entries[listed.passing_begin + i]])
+    for i in range(passing, WIDTH * blocks_of(passing)):
+        put_passing(blocks, row, u, i, wp.vec3(AWAY, wp.float32(0.0), wp.float32(1.0)))
+    at = blocks.begin[u] + stopped_blocks_at(passing)
+    others = int(0)
+    put = int(0)
+    for i in range(listed.stopped_begin, listed.stopped_end):
+        e = listed.entries[i]
+        b = endpoints.beam[e]
+        reading = endpoints.reading[e]
+        if endpoints.entry[e] >= rays.near[b] and wp.isfinite(reading[1]):
+            put_stopped(blocks, row, at, put, endpoints.passing[e], reading, rays.decay[b], wp.float32(1.0))
+            put = put + 1
+        else:
+            head = listed.stopped_begin + others
+            listed.entries[i] = listed.entries[head]
+            listed.entries[head] = e
+            others = others + 1
+    none = wp.vec3(wp.float32(0.0), wp.float32(0.0), wp.float32(1.0))
+    for i in range(put, WIDTH * blocks_of(put)):
+        put_stopped(blocks, row, at, i, none, wp.vec2(), wp.float32(0.0), wp.float32(0.0))
+    return others
+
+
+@wp.func
+def log_of_product(blocks: LaneBlocks, row: int, begin: int) -> wp.float64:
+    """Return the logarithm of the product of all lanes at ``begin``; UNKNOWN if the lanes after it say that one has
+    been too small for a number.
+    """
+    if wp.min(blocks.lanes[row, begin + 1]) < SMALLEST:
+        return UNKNOWN
+    product = wp.float64(1.0)
+    lanes = blocks.lanes[row, begin]
+    for j in range(WIDTH):
+        product = product * wp.float64(lanes[j])
+    return wp.log(product)
+
+
+@wp.func
+def log_stops_in_lanes(
+    law: SensorLaw32,
+    blocks: LaneBlocks,
+    row: int,
+    u: int,
+    beams: wp.vec2i,
+    centre: wp.vec2,
+    cell: Cell,
+    least: wp.float64,
+) -> wp.float64:
+    """Compute `log_stops` of the beams in blocks, ``beams`` passing and stopped; UNKNOWN where a product was too small.
+
+    The product so far, and the smallest that it has been, are written to memory in every round, for compilers take
+    eight lanes together where they are stored together.
+    """
+    begin = blocks.begin[u]
+    one = Lanes(wp.float32(1.0))
+    m = cell[REFLECTIVITY]
+    l11 = cell[L11]
+    l21 = cell[L21]
+    l22 = cell[L22]
+    dx = cell[MEAN_X] - centre[0]
+    dy = cell[MEAN_Y] - centre[1]
+    passing_blocks = blocks_of(beams[0])
+    stopped_blocks = blocks_of(beams[1])
+    stopped_at = begin + stopped_blocks_at(beams[0])
+    total = wp.float64(beams[1]) * wp.log(wp.float64(wp.max(m, LEAST)) * wp.float64(law.peak))
+    area = l11 * l22
+    per_peak = wp.float32(1.0) / law.peak
+    for chunk in range(0, stopped_blocks, CHUNK):
+        product = one
+        smallest = one
+        for i in range(chunk, wp.min(chunk + CHUNK, stopped_blocks)):
+            at = stopped_at + OF_STOPPED * i
+            ux = blocks.lanes[row, at + 1]
+            uy = blocks.lanes[row, at + 2]
+            offset = blocks.lanes[row, at] + dy * ux - dx * uy
+            ahead = blocks.lanes[row, at + 3] + dx * ux + dy * uy
+            across_1 = l21 * ux - l11 * uy
+            across_2 = l22 * ux
+            along_1 = l11 * ux + l21 * uy
+            along_2 = l22 * uy
+            depth = wp.max(ahead, Lanes(wp.float32(0.0)))
+            body = wp.cw_mul(across_1, across_1) + wp.cw_mul(across_2, across_2)
+            unsure = DIRECTION_SQ * wp.cw_mul(depth, depth)
+            per_across = wp.cw_div(one, body + unsure)
+            slope = wp.cw_mul(wp.cw_mul(along_1, across_1) + wp.cw_mul(along_2, across_2), per_across)
+            distance = wp.max(ahead - wp.cw_mul(slope, offset), Lanes(wp.float32(0.0)))
+            along = wp.cw_mul(along_1, along_1) + wp.cw_mul(along_2, along_2)
+            variance = wp.cw_mul(Lanes(area * area) + wp.cw_mul(unsure, along), per_across)
+            p = density_of(law, blocks.lanes[row, at + 4], blocks.lanes[row, at + 5], distance, variance)
+            factor = wp.max(per_peak * wp.cw_mul(chance_of(offset, body), p), Lanes(LEAST))
+            counts = blocks.lanes[row, at + 6]
+            product = wp.cw_mul(product, wp.cw_mul(counts, factor) + (one - counts))
+            smallest = wp.min(smallest, product)
+            blocks.lanes[row, begin] = product
+            blocks.lanes[row, begin + 1] = smallest
+        part = log_of_product(blocks, row, begin)
+        if part == UNKNOWN:
+            return UNKNOWN
+        total += part
+    if total < least:
+        return total
+
+    for chunk in range(0, passing_blocks, CHUNK):
+        passed = one
+        lowest = one
+        for i in range(chunk, wp.min(chunk + CHUNK, passing_blocks)):
+            place = begin + PRODUCTS + OF_PASSING * i
+            vx = blocks.lanes[row, place + 1]
+            vy = blocks.lanes[row, place + 2]
+            side_1 = l21 * vx - l11 * vy
+            side_2 = l22 * vx
+            side = wp.cw_mul(side_1, side_1) + wp.cw_mul(side_2, side_2)
+            met = chance_of(blocks.lanes[row, place] + dy * vx - dx * vy, side)
+            passed = wp.cw_mul(passed, wp.max(one - m * met, Lanes(LEAST)))
+            lowest = wp.min(lowest, passed)
+            blocks.lanes[row, begin] = passed
+            blocks.lanes[row, begin + 1] = lowest
+        passed_log = log_of_product(blocks, row, begin)
+        if passed_log == UNKNOWN:
+            return UNKNOWN
+        total += passed_log
+        if total < least:
+            return total
+    return total

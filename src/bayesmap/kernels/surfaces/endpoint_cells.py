@@ -17,6 +17,7 @@ the reverse step would have another size.
 
 import warp as wp
 
+from bayesmap.kernels.device import Int32Rows
 from bayesmap.kernels.random import (
     CELLS,
     MEETINGS,
@@ -28,8 +29,14 @@ from bayesmap.kernels.random import (
     to_uniform,
 )
 from bayesmap.kernels.sensor_law import SensorLaw32
-from bayesmap.kernels.surfaces.cell_draws import AT_ACCEPT, AT_BETA, PER_CELL, ActiveCells
-from bayesmap.kernels.surfaces.cell_prior import (
+from bayesmap.kernels.surfaces.cell import (
+    L11,
+    L21,
+    L22,
+    MEAN_X,
+    MEAN_Y,
+    REFLECTIVITY,
+    Cell,
     PriorNumbers,
     centre_of,
     is_own,
@@ -37,9 +44,18 @@ from bayesmap.kernels.surfaces.cell_prior import (
     log_surface_prior,
     pseudo_counts,
 )
-from bayesmap.kernels.surfaces.crossing import L11, L21, L22, MEAN_X, MEAN_Y, REFLECTIVITY, Cell
-from bayesmap.kernels.surfaces.endpoint_beams import EndpointCells, Listed, crossing_probability_of, log_stops
-from bayesmap.kernels.surfaces.endpoint_lanes import UNKNOWN, LaneBlocks, log_stops_in_lanes, put_in_blocks, takes_lanes
+from bayesmap.kernels.surfaces.cell_draws import AT_ACCEPT, AT_BETA, PER_CELL, ActiveCells
+from bayesmap.kernels.surfaces.endpoint_beams import (
+    UNKNOWN,
+    EndpointCells,
+    LaneBlocks,
+    Listed,
+    crossing_probability_of,
+    log_stops,
+    log_stops_in_lanes,
+    put_in_blocks,
+    takes_lanes,
+)
 from bayesmap.kernels.surfaces.stops import ChainArrays, TracedRays
 
 wp.set_module_options({"enable_backward": False})
@@ -140,8 +156,8 @@ class BeamLists:
     those of the beams that it stops.
     """
 
-    entries: wp.array2d(dtype=wp.int32)
-    passes: wp.array2d(dtype=wp.int32)
+    entries: Int32Rows
+    passes: Int32Rows
 
 
 @wp.func
@@ -207,12 +223,7 @@ def log_beams(
 
 @wp.kernel
 def count_endpoint_cells(
-    first: int,
-    sweep: int,
-    endpoints: EndpointCells,
-    active: ActiveCells,
-    state: ChainArrays,
-    lists: BeamLists,
+    first: int, sweep: int, endpoints: EndpointCells, active: ActiveCells, state: ChainArrays, lists: BeamLists
 ):
     """One thread per chain's cell in which readings end: list its incidences, and count its beams.
 

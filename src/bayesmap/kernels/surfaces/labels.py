@@ -21,15 +21,14 @@ from typing import Any
 
 import numpy as np
 import warp as wp
-from numpy.typing import NDArray
 
 from bayesmap.kernels import device as devices
+from bayesmap.kernels.device import Ints, Uint8s
 from bayesmap.kernels.random import CELLS, beta_variate, random_bits, sweep_key, to_uniform
+from bayesmap.kernels.surfaces.cell import REFLECTIVITY, TRYING, PriorNumbers
 from bayesmap.kernels.surfaces.cell_draws import PER_CELL
-from bayesmap.kernels.surfaces.cell_prior import PriorNumbers
-from bayesmap.kernels.surfaces.crossing import REFLECTIVITY, TRYING
 from bayesmap.kernels.surfaces.stops import LEARNS, ChainArrays
-from bayesmap.kernels.walls.wall_prior import draw_wall
+from bayesmap.kernels.walls.chains import draw_wall
 
 wp.set_module_options({"enable_backward": False})
 
@@ -45,7 +44,7 @@ STIRLING_1, STIRLING_3, STIRLING_5 = (wp.constant(wp.float64(c)) for c in (1 / 1
 STIRLING_7, STIRLING_9, STIRLING_11 = (wp.constant(wp.float64(c)) for c in (-1 / 1680, 1 / 1188, -691 / 360360))
 
 
-def known_to_device(cells: int, touched: NDArray[np.int32], counted: NDArray[np.int32], device: str) -> Any:
+def known_to_device(cells: int, touched: Ints, counted: Ints, device: str) -> Any:
     """Put what is known of each cell on a device, by flat indices of the cells that are touched and counted."""
     known = np.full(cells, UNTOUCHED, dtype=np.uint8)
     known[touched] = TOUCHED
@@ -75,7 +74,7 @@ def log_beta(a: wp.float64, b: wp.float64) -> wp.float64:
 
 
 @wp.func
-def balance(solid: wp.array(dtype=wp.uint8), cell_0: int, x: int, y: int, nx: int, ny: int) -> int:
+def balance(solid: Uint8s, cell_0: int, x: int, y: int, nx: int, ny: int) -> int:
     """Return the number of solid cells less that of free cells among a cell's neighbours."""
     here = cell_0 + x * ny + y
     total = int(0)
@@ -92,14 +91,7 @@ def balance(solid: wp.array(dtype=wp.uint8), cell_0: int, x: int, y: int, nx: in
 
 @wp.kernel
 def draw_labels(
-    first: int,
-    colour: int,
-    sweep: int,
-    nx: int,
-    ny: int,
-    prior: PriorNumbers,
-    known: wp.array(dtype=wp.uint8),
-    state: ChainArrays,
+    first: int, colour: int, sweep: int, nx: int, ny: int, prior: PriorNumbers, known: Uint8s, state: ChainArrays
 ):
     """One thread per chain's cell: draw its label, if the cell has the colour, and is updated in this sweep or
     untouched.
@@ -137,13 +129,7 @@ def draw_labels(
 
 
 @wp.kernel
-def draw_untouched(
-    first: int,
-    sweep: int,
-    prior: PriorNumbers,
-    known: wp.array(dtype=wp.uint8),
-    state: ChainArrays,
-):
+def draw_untouched(first: int, sweep: int, prior: PriorNumbers, known: Uint8s, state: ChainArrays):
     """One thread per chain's cell: draw the reflectivity of a cell that no beam touches, given its label."""
     here = first + wp.tid()
     chain = here // state.n_cells

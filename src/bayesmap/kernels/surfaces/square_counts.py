@@ -11,7 +11,7 @@ with a and b of the label of the square's own cell, where cells have labels. The
 the sweep began, because a kept draw shows that map.
 
 The point at which a beam was stopped is drawn given its reading. For a beam that a surface stops at about t* with
-variance s^2 (`bayesmap.kernels.surfaces.crossing`), the distance t of the point follows
+variance s^2 (`bayesmap.kernels.surfaces.cell`), the distance t of the point follows
 
     p(t | z) proportional to N(t; t*, s^2) p(z | t).
 
@@ -34,12 +34,13 @@ from numpy.typing import NDArray
 
 from bayesmap.beams.rays import Rays
 from bayesmap.kernels import device as devices
+from bayesmap.kernels.device import Float32s, Int32s, Ints, Singles, Uint8s
 from bayesmap.kernels.law_table import readings_scale_m, table_log_density
 from bayesmap.kernels.random import BEAMS, CELLS, beta_or_nothing, normal, random_bits, sweep_key, to_uniform
 from bayesmap.kernels.rays import Lines, line_of, lines_to_device, stretch
 from bayesmap.kernels.sensor_law import TABLE, SensorLaw32, mixed_density, returned_density, variance_at
+from bayesmap.kernels.surfaces.cell import PriorNumbers, pseudo_counts
 from bayesmap.kernels.surfaces.cell_draws import PER_CELL
-from bayesmap.kernels.surfaces.cell_prior import PriorNumbers, pseudo_counts
 from bayesmap.kernels.surfaces.stops import ChainArrays, TracedRays
 
 wp.set_module_options({"enable_backward": False})
@@ -152,23 +153,17 @@ STREAM_POINT = wp.constant(wp.uint64(5 << 32))
 class SquareArrays:
     """The squares of the grid: counts of one chain's beams for each, and the chances drawn for each touched square."""
 
-    touched: wp.array(dtype=wp.int32)  # their cells, flat
-    crossings: wp.array(dtype=wp.int32)  # beams that cross the square
-    stopped: wp.array(dtype=wp.int32)  # beams stopped inside it
-    behind: wp.array(dtype=wp.int32)  # beams stopped before it
-    drawn: wp.array(dtype=wp.float32)
-    expected: wp.array(dtype=wp.float32)
+    touched: Int32s  # their cells, flat
+    crossings: Int32s  # beams that cross the square
+    stopped: Int32s  # beams stopped inside it
+    behind: Int32s  # beams stopped before it
+    drawn: Float32s
+    expected: Float32s
 
 
 @wp.kernel
 def count_in_squares(
-    chain: int,
-    sweep: int,
-    law: SensorLaw32,
-    lines: Lines,
-    rays: TracedRays,
-    state: ChainArrays,
-    squares: SquareArrays,
+    chain: int, sweep: int, law: SensorLaw32, lines: Lines, rays: TracedRays, state: ChainArrays, squares: SquareArrays
 ):
     """One thread per beam of a chain: add one to the square in which it was stopped, and to each that lies behind."""
     b = wp.tid()
@@ -196,13 +191,7 @@ def count_in_squares(
 
 @wp.kernel
 def draw_stop_chances(
-    chain: int,
-    sweep: int,
-    prior: PriorNumbers,
-    state: ChainArrays,
-    squares: SquareArrays,
-    solid: wp.array(dtype=wp.uint8),
-    kept: int,
+    chain: int, sweep: int, prior: PriorNumbers, state: ChainArrays, squares: SquareArrays, solid: Uint8s, kept: int
 ):
     """One thread per touched cell: draw q as above, and compute its mean (a + S) / (a + b + S + P).
 
@@ -227,10 +216,10 @@ class InSquares(NamedTuple):
     beam which comes to it is stopped in it, drawn given these counts, and its mean.
     """
 
-    stopped: NDArray[np.int32]
-    passed: NDArray[np.int32]
-    drawn: NDArray[np.float32]
-    expected: NDArray[np.float32]
+    stopped: Ints
+    passed: Ints
+    drawn: Singles
+    expected: Singles
 
 
 class Squares:

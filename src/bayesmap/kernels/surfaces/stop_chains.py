@@ -20,13 +20,21 @@ from numpy.typing import NDArray
 from bayesmap.beams.rays import Rays
 from bayesmap.cells.reflectivity import KernelNumbers
 from bayesmap.kernels import device as devices
+from bayesmap.kernels.device import Floats, Ints, Singles
 from bayesmap.kernels.sensor_law import SensorLaw32, sensor_law
-from bayesmap.kernels.surfaces.cell_draws import ActiveCells, begin_sweep, count_observed, update_free_cells
-from bayesmap.kernels.surfaces.cell_prior import packed_prior
-from bayesmap.kernels.surfaces.crossing import Cell, cells_to_device
-from bayesmap.kernels.surfaces.endpoint_beams import endpoint_cells_to_device
+from bayesmap.kernels.surfaces.cell import Cell, cells_to_device, packed_prior
+from bayesmap.kernels.surfaces.cell_draws import (
+    SLICE,
+    ActiveCells,
+    begin_sweep,
+    count_observed,
+    sum_label_prior,
+    sum_of_slices,
+    sum_slices,
+    update_free_cells,
+)
+from bayesmap.kernels.surfaces.endpoint_beams import endpoint_cells_to_device, room_for_blocks
 from bayesmap.kernels.surfaces.endpoint_cells import STEPS, BeamLists, count_endpoint_cells, update_endpoint_cells
-from bayesmap.kernels.surfaces.endpoint_lanes import room_for_blocks
 from bayesmap.kernels.surfaces.labels import draw_labels, draw_untouched, known_to_device
 from bayesmap.kernels.surfaces.square_counts import InSquares, Squares, count_in_squares, draw_stop_chances
 from bayesmap.kernels.surfaces.stops import (
@@ -38,7 +46,6 @@ from bayesmap.kernels.surfaces.stops import (
     pass_lazy_cells,
     traced_rays_to_device,
 )
-from bayesmap.kernels.surfaces.sums import SLICE, sum_label_prior, sum_of_slices, sum_slices
 from bayesmap.sensors.model import SensorModel
 
 STATE_SIZE = 6  # of a Cell's eight numbers: the others are no part of a state
@@ -70,13 +77,13 @@ class Plan:
 
     rays: Rays
     periods: NDArray[np.uint8]
-    endpoints: NDArray[np.int32]
-    steps: NDArray[np.float32]
-    distance_m: NDArray[np.float32] | None
+    endpoints: Ints
+    steps: Singles
+    distance_m: Singles | None
     device: str
 
     @property
-    def touched(self) -> NDArray[np.int32]:
+    def touched(self) -> Ints:
         """The cells that beams touch, flat, ascending, (T,)."""
         return self.rays.touched
 
@@ -87,12 +94,12 @@ class StopChains:
     def __init__(
         self,
         plan: Plan,
-        states: Callable[[int], NDArray[np.float32]],
+        states: Callable[[int], Singles],
         keys: Sequence[int],
         *,
         threads: int | None,
-        counts: NDArray[np.int32] | None = None,
-        observed_counts: NDArray[np.int32] | None = None,
+        counts: Ints | None = None,
+        observed_counts: Ints | None = None,
         solid: NDArray[np.bool_] | None = None,
     ) -> None:
         """Put chains on the device, one for each key.
@@ -168,7 +175,7 @@ class StopChains:
         observing_after: int | None = None,
         before: Callable[[int, int], None] | None = None,
         after: Callable[[int, int], None] | None = None,
-    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    ) -> tuple[Floats, Floats]:
         """Advance every chain by some sweeps, which are numbered from 0.
 
         Args:
@@ -286,11 +293,11 @@ class StopChains:
         size = array.shape[0] // self.n_chains
         return np.asarray(array[chain * size : (chain + 1) * size].numpy())
 
-    def cells(self, chain: int) -> NDArray[np.float32]:
+    def cells(self, chain: int) -> Singles:
         """Return all cells of a chain, (N, 6): no copy on the CPU, valid until the next sweep."""
         return self._of(self._state.cells, chain)[:, :STATE_SIZE]
 
-    def put_cells(self, chain: int, states: NDArray[np.float32], solid: NDArray[np.bool_] | None = None) -> None:
+    def put_cells(self, chain: int, states: Singles, solid: NDArray[np.bool_] | None = None) -> None:
         """Let a chain go on from other cells, (N, 6), and labels, (N,), if cells have labels."""
         here = slice(chain * self._state.n_cells, (chain + 1) * self._state.n_cells)
         wp.copy(self._state.cells[here], cells_to_device(states, self.device))
@@ -313,7 +320,7 @@ class StopChains:
         size = self.n_chains * self._state.n_cells
         self._launch(draw_untouched, size, [sweep, self._packed[1], self._known, self._state])
 
-    def counted(self, chain: int) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+    def counted(self, chain: int) -> tuple[Ints, Ints]:
         """Return the beams that stopped in each cell of a chain, and those that met its surface and passed, (N,) each,
         valid until the next sweep.
 
@@ -336,7 +343,7 @@ class StopChains:
         law, prior = self._packed
         return self._squares.of_chain(chain, sweep, law, prior, self._rays, self._state, kept, solid)
 
-    def observed_counts(self, chain: int) -> NDArray[np.int32]:
+    def observed_counts(self, chain: int) -> Ints:
         """Return the draws in which at least one beam observes each cell, and the draws inspected, (N, 2), valid until
         the next sweep.
 
@@ -344,13 +351,13 @@ class StopChains:
         """
         return self._of(self._state.observed_counts, chain)
 
-    def log_likelihood(self, chain: int) -> NDArray[np.float32]:
+    def log_likelihood(self, chain: int) -> Singles:
         """Return the log-likelihood of every beam of a chain before its last sweep, summed over all stops, (B,), valid
         until the next sweep.
         """
         return self._of(self._state.log_likelihood, chain)
 
-    def stopped_by(self, chain: int) -> NDArray[np.int32]:
+    def stopped_by(self, chain: int) -> Ints:
         """Return the cell that stopped each beam of a chain in its last sweep, flat; -1 for none, (B,)."""
         stop, rays = self._of(self._state.stop, chain), self.plan.rays
         stopped = stop < rays.offsets[1:]
@@ -358,7 +365,7 @@ class StopChains:
         out[stopped] = rays.cells[stop[stopped]]
         return out
 
-    def stops(self, chain: int) -> tuple[NDArray[np.bool_], NDArray[np.float32], NDArray[np.float32]]:
+    def stops(self, chain: int) -> tuple[NDArray[np.bool_], Singles, Singles]:
         """Return whether each beam of a chain stopped, at what distance in metres and with what variance, (B,) each."""
         where = self._of(self._state.where, chain)
         return self._of(self._state.stop, chain) < self.plan.rays.offsets[1:], where[:, 0].copy(), where[:, 1].copy()

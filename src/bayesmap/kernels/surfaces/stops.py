@@ -33,6 +33,7 @@ from numpy.typing import NDArray
 
 from bayesmap.beams.rays import Rays
 from bayesmap.kernels import device as devices
+from bayesmap.kernels.device import Float32s, Int32Rows, Int32s, Ints, Singles, Uint8s
 from bayesmap.kernels.random import BEAMS, random_bits, sweep_key, to_uniform
 from bayesmap.kernels.sensor_law import (
     SensorLaw32,
@@ -42,7 +43,7 @@ from bayesmap.kernels.sensor_law import (
     object_decay,
     stop_density,
 )
-from bayesmap.kernels.surfaces.crossing import (
+from bayesmap.kernels.surfaces.cell import (
     REFLECTIVITY,
     TRYING,
     Cell,
@@ -76,21 +77,19 @@ class TracedRays:
     """`Rays` on a device; ``without_surfaces`` says that cells have no surfaces, and stop beams at ``distance_m``."""
 
     without_surfaces: int
-    offsets: wp.array(dtype=wp.int32)
-    cells: wp.array(dtype=wp.int32)
-    distance_m: wp.array(dtype=wp.float32)
-    near: wp.array(dtype=wp.int32)
+    offsets: Int32s
+    cells: Int32s
+    distance_m: Float32s
+    near: Int32s
     start_m: wp.array(dtype=wp.vec2)
     direction: wp.array(dtype=wp.vec2)
-    range_m: wp.array(dtype=wp.float32)
-    decay: wp.array(dtype=wp.float32)  # see `decay_of_readings`
-    watched_offsets: wp.array(dtype=wp.int32)  # of each beam, in `watched`
-    watched: wp.array(dtype=wp.int32)  # far entries whose cells are not lazy
+    range_m: Float32s
+    decay: Float32s  # see `decay_of_readings`
+    watched_offsets: Int32s  # of each beam, in `watched`
+    watched: Int32s  # far entries whose cells are not lazy
 
 
-def traced_rays_to_device(
-    rays: Rays, distance_m: NDArray[np.float32] | None, device: str, cells: NDArray[np.int32] | None = None
-) -> Any:
+def traced_rays_to_device(rays: Rays, distance_m: Singles | None, device: str, cells: Ints | None = None) -> Any:
     """Put rays where kernels read them.
 
     Args:
@@ -126,19 +125,19 @@ class ChainArrays:
     beta: wp.float32  # inverse temperature
     keys: wp.array(dtype=wp.uint64)  # of each chain's random numbers
     cells: wp.array(dtype=Cell)
-    solid: wp.array(dtype=wp.uint8)  # labels; all zero where cells have none
-    fixed_m: wp.array(dtype=wp.float32)  # reflectivity of a cell that learns nothing in this sweep, else LEARNS
+    solid: Uint8s  # labels; all zero where cells have none
+    fixed_m: Float32s  # reflectivity of a cell that learns nothing in this sweep, else LEARNS
     candidates: wp.array(dtype=Cell)  # for each cell's surface, while one is tried
-    met: wp.array2d(dtype=wp.int32)  # (chains * parts, n_cells): beams that met the surface and passed
-    hits: wp.array2d(dtype=wp.int32)  # beams that stopped
+    met: Int32Rows  # (chains * parts, n_cells): beams that met the surface and passed
+    hits: Int32Rows  # beams that stopped
     gain: wp.array2d(dtype=wp.int64)  # log ratio for the candidate, in units of 2^-24 nats
-    lazy_free: wp.array(dtype=wp.float32)  # each beam's chance to pass its lazy far cells
-    stop: wp.array(dtype=wp.int32)  # the entry at which the beam stopped, its end if nowhere
+    lazy_free: Float32s  # each beam's chance to pass its lazy far cells
+    stop: Int32s  # the entry at which the beam stopped, its end if nowhere
     where: wp.array(dtype=wp.vec2)  # distance and variance of that stop
-    stopped_in: wp.array(dtype=wp.int32)  # the last sweep in which a cell stopped a beam
-    log_likelihood: wp.array(dtype=wp.float32)  # of the beam's reading, summed over all stops
-    last_hits: wp.array(dtype=wp.int32)  # beams that stopped in a cell when it last drew its reflectivity
-    last_met: wp.array(dtype=wp.int32)  # beams that met its surface then and passed; -1 before the first draw
+    stopped_in: Int32s  # the last sweep in which a cell stopped a beam
+    log_likelihood: Float32s  # of the beam's reading, summed over all stops
+    last_hits: Int32s  # beams that stopped in a cell when it last drew its reflectivity
+    last_met: Int32s  # beams that met its surface then and passed; -1 before the first draw
     observed_counts: wp.array(dtype=wp.vec2i)  # draws in which some beam observes a cell, and draws inspected
 
 
@@ -212,13 +211,7 @@ def decay_of_readings(first: int, law: SensorLaw32, rays: TracedRays):
 
 @wp.kernel
 def draw_stops(
-    first: int,
-    part: int,
-    sweep: int,
-    lazy_updates: int,
-    law: SensorLaw32,
-    rays: TracedRays,
-    state: ChainArrays,
+    first: int, part: int, sweep: int, lazy_updates: int, law: SensorLaw32, rays: TracedRays, state: ChainArrays
 ):
     """One thread per chain's beam: draw where it stops, and count it in the cells.
 
@@ -355,7 +348,7 @@ OFTEN = 2
 
 
 @wp.kernel
-def pass_lazy_cells(first: int, lazy: wp.array(dtype=wp.uint8), rays: TracedRays, state: ChainArrays):
+def pass_lazy_cells(first: int, lazy: Uint8s, rays: TracedRays, state: ChainArrays):
     """One thread per chain's beam: compute the product above, over the cells that ``lazy`` marks."""
     i = first + wp.tid()
     chain = i // state.n_beams

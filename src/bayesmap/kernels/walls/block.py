@@ -19,21 +19,25 @@ from bayesmap.beams.rays import MAX_INCIDENCES
 from bayesmap.beams.table import BeamTable
 from bayesmap.errors import BadInput
 from bayesmap.kernels import device as devices
+from bayesmap.kernels.device import Int32s, Uint8s
 from bayesmap.kernels.random import random_bits, to_uniform
 from bayesmap.kernels.walls.chains import (
+    CERTAIN_LEVEL,
     Chain,
     Kept,
     Sweeps,
     Table,
     WallChainArrays,
+    WallPriorArrays,
     chain_of,
+    draw_from_prior,
     entry_loglik,
     keep,
+    log_prior,
     put_wall,
     remove_wall,
     site_of,
 )
-from bayesmap.kernels.walls.wall_prior import CERTAIN_LEVEL, WallPriorArrays, draw_from_prior, log_prior
 
 wp.set_module_options({"enable_backward": False, "max_unroll": 1})  # unrolled, it takes half a minute to compile
 
@@ -45,10 +49,10 @@ Weights = wp.types.vector(length=16, dtype=wp.float64)
 class BlockArrays:
     """The beams that touch each block, and where."""
 
-    offsets: wp.array(dtype=wp.int32)
-    beam: wp.array(dtype=wp.int32)
-    first: wp.array(dtype=wp.int32)  # the first of the beam's entries in the block
-    last: wp.array(dtype=wp.int32)  # the last of them
+    offsets: Int32s
+    beam: Int32s
+    first: Int32s  # the first of the beam's entries in the block
+    last: Int32s  # the last of them
     takes: wp.array(dtype=Weights)  # [free * 4 + j][state]: 1 if j is a wall there and the cells of `free` are not
     rows: int
     nx: int
@@ -79,16 +83,16 @@ def place_in_block(c: int, x: int, y: int, ny: int) -> int:
 def list_block_beams(
     first: int,
     filling: int,
-    bounds: wp.array(dtype=wp.int32),
+    bounds: Int32s,
     nx: int,
     ny: int,
     rows: int,
-    table_offsets: wp.array(dtype=wp.int32),
-    cells: wp.array(dtype=wp.int32),
-    counts: wp.array(dtype=wp.int32),
-    beam: wp.array(dtype=wp.int32),
-    begin: wp.array(dtype=wp.int32),
-    end: wp.array(dtype=wp.int32),
+    table_offsets: Int32s,
+    cells: Int32s,
+    counts: Int32s,
+    beam: Int32s,
+    begin: Int32s,
+    end: Int32s,
 ):
     """One thread per range of block columns: count the beams of each block, or fill in their entries."""
     thread = first + wp.tid()
@@ -162,14 +166,7 @@ ZERO = wp.constant(wp.float64(0.0))
 
 
 @wp.func
-def block_weights(
-    t: Table,
-    blocks: BlockArrays,
-    chain: Chain,
-    block: int,
-    x: int,
-    y: int,
-) -> Weights:
+def block_weights(t: Table, blocks: BlockArrays, chain: Chain, block: int, x: int, y: int) -> Weights:
     """Return the log-likelihood of the 16 states, up to a constant; each beam is walked once."""
     weights = Weights()
     for i in range(blocks.offsets[block], blocks.offsets[block + 1]):
@@ -219,7 +216,7 @@ def draw_state(weights: Weights, u: wp.float64) -> int:
 
 
 @wp.func
-def beams_reaching(blocks: BlockArrays, reached: wp.array(dtype=wp.int32), x: int, y: int) -> int:
+def beams_reaching(blocks: BlockArrays, reached: Int32s, x: int, y: int) -> int:
     """Count the beams that reach the block's cells, cell by cell."""
     total = int(0)
     for j in range(4):
@@ -231,13 +228,7 @@ def beams_reaching(blocks: BlockArrays, reached: wp.array(dtype=wp.int32), x: in
 
 @wp.func
 def draw_block_from_prior(
-    blocks: BlockArrays,
-    prior: WallPriorArrays,
-    walls: wp.array(dtype=wp.uint8),
-    x: int,
-    y: int,
-    key: wp.uint64,
-    counter: wp.uint64,
+    blocks: BlockArrays, prior: WallPriorArrays, walls: Uint8s, x: int, y: int, key: wp.uint64, counter: wp.uint64
 ):
     """Draw the cells of a block independently from the prior: no beam reaches them, and nothing couples them."""
     for j in range(4):
@@ -273,9 +264,7 @@ def equal_in_block(blocks: BlockArrays, i: int, j: int) -> Weights:
 
 
 @wp.func
-def coupling_weights(
-    blocks: BlockArrays, prior: WallPriorArrays, walls: wp.array(dtype=wp.uint8), x: int, y: int
-) -> Weights:
+def coupling_weights(blocks: BlockArrays, prior: WallPriorArrays, walls: Uint8s, x: int, y: int) -> Weights:
     """Return the log prior of the equal pairs of the 16 states, up to a constant."""
     weights = Weights()
     for j in range(4):

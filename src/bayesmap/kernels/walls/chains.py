@@ -1,10 +1,20 @@
-"""Chains on binary walls: what a chain keeps up to date, the moves that keep it so, and how sweeps are run.
+"""Chains on binary walls: their prior, their state, the moves that keep it up to date, and how sweeps are run.
 
-For every beam: the table entry of its first wall (`first`, the end of the beam's entries if there is none) and the
-log-likelihood of that entry (`current`). For every cell: the number of beams that reach it at present (`reached`), that
-is, have no wall before it; and what a wall there adds to the log-likelihood (`gain`), as far as it is `known`: a beam
-that moves its first wall makes it unknown in the cells that it reached or now reaches. All of it follows from the walls
-alone, so a chain is stored as its walls.
+The prior is
+
+    p(walls) proportional to  prod_c p_c^m_c (1 - p_c)^(1 - m_c)  exp(coupling * number of pairs of neighbours alike)
+
+over pairs of cells that share an edge (`bayesmap.cells.ising` has the source). Given all others a cell is a wall with
+the log-odds logit(p_c) + coupling * (walls - free cells among its neighbours). At a coupling of 0 cells are
+independent, and no neighbour is looked at.
+
+The state of a chain follows from its walls alone, so a chain is stored as its walls. It holds
+
+- for every beam, the table entry of its first wall (`first`, the end of the beam's entries if there is none) and the
+  log-likelihood of that entry (`current`);
+- for every cell, the number of beams that reach it (`reached`), that is, have no wall before it; and what a wall there
+  adds to the log-likelihood (`gain`), as far as it is `known`: a beam that moves its first wall makes the gain unknown
+  in the cells that it reached or now reaches.
 """
 
 from collections.abc import Sequence
@@ -16,25 +26,152 @@ from numpy.typing import NDArray
 
 from bayesmap.beams.table import BeamTable, CellIndex
 from bayesmap.kernels import device as devices
-from bayesmap.kernels.random import cipher_bits, shuffled
+from bayesmap.kernels.device import (
+    Float32Rows,
+    Float32s,
+    Float64Rows,
+    Float64s,
+    Floats,
+    Int32Rows,
+    Int32s,
+    Ints,
+    Uint8Rows,
+    Uint8s,
+)
+from bayesmap.kernels.random import cipher_bits, shuffled, to_uniform
 
 wp.set_module_options({"enable_backward": False})
+
+CERTAIN_LEVEL = 1 << 53  # the level of probability one
+NONE = wp.constant(wp.float64(0.0))
+
+
+@wp.struct
+class WallPriorArrays:
+    """Wall probabilities, cell by cell, their log-odds, and the coupling of neighbours.
+
+    ``level`` is the probability in units of 2^-53, for draws without floating point. Pairs left out, ``log_all_free``
+    is the log prior of the map in which only the fixed walls are walls, and ``gain`` is what a wall adds to it: the
+    log-odds, but 0 in cells that the prior fixes.
+    """
+
+    level: wp.array(dtype=wp.uint64)
+    logit: Float64s
+    gain: Float64s
+    log_all_free: wp.float64
+    uniform: int
+    coupling: wp.float64
+    nx: int
+    ny: int
+
+
+@wp.func
+def draw_from_prior(prior: WallPriorArrays, c: int, bits: wp.uint64) -> bool:
+    """Draw an uncoupled cell: return whether a uniform number made of these bits lies below its probability."""
+    return (bits >> wp.uint64(11)) < prior.level[c]
+
+
+@wp.func
+def draw_wall(log_odds: wp.float64, u: wp.float64) -> bool:
+    """Draw from a Bernoulli law by inversion: u < 1 / (1 + exp(-log_odds))."""
+    if log_odds > wp.float64(40.0):
+        return True
+    if log_odds < wp.float64(-40.0):
+        return False
+    return u * (wp.float64(1.0) + wp.exp(-log_odds)) < wp.float64(1.0)
+
+
+@wp.func
+def walls_less_free(prior: WallPriorArrays, walls: Uint8s, c: int) -> int:
+    """Return the number of walls less that of free cells among a cell's neighbours."""
+    x = c // prior.ny
+    y = c - x * prior.ny
+    balance = int(0)
+    if x > 0:
+        balance += wp.where(walls[c - prior.ny] != wp.uint8(0), 1, -1)
+    if x < prior.nx - 1:
+        balance += wp.where(walls[c + prior.ny] != wp.uint8(0), 1, -1)
+    if y > 0:
+        balance += wp.where(walls[c - 1] != wp.uint8(0), 1, -1)
+    if y < prior.ny - 1:
+        balance += wp.where(walls[c + 1] != wp.uint8(0), 1, -1)
+    return balance
+
+
+@wp.func
+def prior_log_odds(prior: WallPriorArrays, walls: Uint8s, c: int) -> wp.float64:
+    """Return the prior log-odds of a wall in a cell, given its neighbours."""
+    if prior.coupling == NONE:
+        return prior.logit[c]
+    return prior.logit[c] + prior.coupling * wp.float64(walls_less_free(prior, walls, c))
+
+
+@wp.func
+def draw_given_neighbours(prior: WallPriorArrays, walls: Uint8s, c: int, bits: wp.uint64) -> bool:
+    """Draw whether a cell that no beam observes is a wall."""
+    if prior.coupling == NONE:
+        return draw_from_prior(prior, c, bits)
+    return draw_wall(prior_log_odds(prior, walls, c), to_uniform(bits))
+
+
+@wp.func
+def pairs_alike(prior: WallPriorArrays, walls: Uint8s) -> int:
+    """Count the pairs of neighbours that are both walls or both free."""
+    pairs = int(0)
+    for c in range(walls.shape[0]):
+        x = c // prior.ny
+        if x < prior.nx - 1 and walls[c] == walls[c + prior.ny]:
+            pairs += 1
+        if c - x * prior.ny < prior.ny - 1 and walls[c] == walls[c + 1]:
+            pairs += 1
+    return pairs
+
+
+@wp.func
+def log_prior(prior: WallPriorArrays, walls: Uint8s) -> wp.float64:
+    """Return log p(walls), where neighbours are coupled up to a constant."""
+    total = wp.float64(prior.log_all_free)
+    if prior.coupling != NONE:
+        total += prior.coupling * wp.float64(pairs_alike(prior, walls))
+    if prior.uniform != 0:
+        n = int(0)
+        for c in range(walls.shape[0]):
+            n += int(walls[c])
+        return total + wp.float64(n) * prior.gain[0]
+    for c in range(walls.shape[0]):
+        if walls[c] != wp.uint8(0):
+            total += prior.gain[c]
+    return total
+
+
+def wall_prior_to_device(p_wall: Floats, logit: Floats, coupling: float, shape: tuple[int, int], device: str) -> Any:
+    """Put a prior on a device: probabilities and log-odds of all cells, (N,) each, of a grid of this shape."""
+    on_device = WallPriorArrays()
+    on_device.level = devices.to_device(np.round(p_wall * CERTAIN_LEVEL).astype(np.uint64), wp.uint64, device)
+    on_device.logit = devices.to_device(logit, wp.float64, device)
+    fixed = (p_wall == 0) | (p_wall == 1)
+    on_device.gain = devices.to_device(np.where(fixed, 0.0, logit), wp.float64, device)
+    on_device.uniform = int((p_wall == p_wall[0]).all())
+    on_device.coupling = coupling
+    on_device.log_all_free = float(np.log1p(-p_wall[p_wall < 1.0]).sum())
+    on_device.nx, on_device.ny = shape
+    return on_device
 
 
 @wp.struct
 class Table:
     """The beam table and its index by cells, on a device."""
 
-    offsets: wp.array(dtype=wp.int32)
-    cells: wp.array(dtype=wp.int32)
-    loglik: wp.array(dtype=wp.float32)
-    no_hit: wp.array(dtype=wp.float32)
-    cell_offsets: wp.array(dtype=wp.int32)
-    cell_entry: wp.array(dtype=wp.int32)
-    cell_beam: wp.array(dtype=wp.int32)
-    cell_loglik: wp.array(dtype=wp.float32)
-    cell_gain: wp.array(dtype=wp.float32)
-    cell_advantage: wp.array(dtype=wp.float32)
+    offsets: Int32s
+    cells: Int32s
+    loglik: Float32s
+    no_hit: Float32s
+    cell_offsets: Int32s
+    cell_entry: Int32s
+    cell_beam: Int32s
+    cell_loglik: Float32s
+    cell_gain: Float32s
+    cell_advantage: Float32s
 
 
 UNKNOWN = wp.constant(wp.uint8(0))  # `gain` has to be summed again
@@ -46,12 +183,12 @@ EXACT = wp.constant(wp.uint8(2))  # the sum is `gain`
 class Chain:
     """The state of one chain, as described above."""
 
-    walls: wp.array(dtype=wp.uint8)
-    first: wp.array(dtype=wp.int32)
-    current: wp.array(dtype=wp.float32)
-    reached: wp.array(dtype=wp.int32)
-    gain: wp.array(dtype=wp.float32)
-    known: wp.array(dtype=wp.uint8)
+    walls: Uint8s
+    first: Int32s
+    current: Float32s
+    reached: Int32s
+    gain: Float32s
+    known: Uint8s
 
 
 @wp.struct
@@ -59,12 +196,12 @@ class WallChainArrays:
     """The states of several chains, one a row, and their keys of random numbers."""
 
     keys: wp.array(dtype=wp.uint64)
-    walls: wp.array2d(dtype=wp.uint8)
-    first: wp.array2d(dtype=wp.int32)
-    current: wp.array2d(dtype=wp.float32)
-    reached: wp.array2d(dtype=wp.int32)
-    gain: wp.array2d(dtype=wp.float32)
-    known: wp.array2d(dtype=wp.uint8)
+    walls: Uint8Rows
+    first: Int32Rows
+    current: Float32Rows
+    reached: Int32Rows
+    gain: Float32Rows
+    known: Uint8Rows
 
 
 @wp.struct
@@ -76,7 +213,7 @@ class Sweeps:
 
     first: int
     count: int
-    order: wp.array(dtype=wp.int32)
+    order: Int32s
     shuffle_bits: wp.uint32
     beta: wp.float64
 
@@ -92,8 +229,8 @@ class Kept:
     first: int
     every: int
     draws: wp.array3d(dtype=wp.uint8)
-    log_likelihoods: wp.array2d(dtype=wp.float64)
-    log_priors: wp.array2d(dtype=wp.float64)
+    log_likelihoods: Float64Rows
+    log_priors: Float64Rows
 
 
 @wp.func
@@ -119,7 +256,7 @@ def chain_of(chains: WallChainArrays, i: int) -> Chain:
 
 
 @wp.func
-def next_wall(t: Table, walls: wp.array(dtype=wp.uint8), start: int, end: int) -> int:
+def next_wall(t: Table, walls: Uint8s, start: int, end: int) -> int:
     """Return the first entry in [start, end) whose cell is a wall, or end."""
     k = start
     while k < end:
@@ -194,7 +331,7 @@ def remove_wall(t: Table, chain: Chain, c: int):
 
 
 @wp.func
-def keep_walls(walls: wp.array(dtype=wp.uint8), packed: wp.array(dtype=wp.uint8)):
+def keep_walls(walls: Uint8s, packed: Uint8s):
     """Pack a map, eight cells to a byte, the first in its highest bit: as `numpy.packbits` does."""
     for j in range(packed.shape[0]):
         bits = int(0)
@@ -204,7 +341,7 @@ def keep_walls(walls: wp.array(dtype=wp.uint8), packed: wp.array(dtype=wp.uint8)
 
 
 @wp.func
-def log_likelihood(current: wp.array(dtype=wp.float32)) -> wp.float64:
+def log_likelihood(current: Float32s) -> wp.float64:
     """Sum log p(readings | walls) in a fixed order, so that a resumed chain repeats it exactly."""
     total = wp.float64(0.0)
     for b in range(current.shape[0]):
@@ -259,7 +396,7 @@ class WallChains:
         states.gain = wp.empty((chains, cells), dtype=wp.float32, device=device)
         states.known = wp.empty((chains, cells), dtype=wp.uint8, device=device)
         states.keys = wp.array(np.array(keys, dtype=np.uint64), dtype=wp.uint64, device=device)
-        self.states = states
+        self.states: Any = states
         devices.launch(derive_state, chains, [table, states], device)
 
     def host_walls(self) -> NDArray[np.uint8]:
@@ -271,7 +408,7 @@ def run_sweeps(
     kernel: Any,
     tables: Sequence[Any],
     prior: Any,
-    order: NDArray[np.int32],
+    order: Ints,
     shuffle: bool,
     chains: WallChains,
     *,
@@ -280,7 +417,7 @@ def run_sweeps(
     kept: range,
     beta: float = 1.0,
     threads: int | None = None,
-) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.uint8]]:
+) -> tuple[Floats, Floats, NDArray[np.uint8]]:
     """Advance the chains in place by some sweeps of a kernel, one chain a thread.
 
     Args:

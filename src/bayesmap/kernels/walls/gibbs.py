@@ -22,20 +22,18 @@ from bayesmap.kernels.walls.chains import (
     Sweeps,
     Table,
     WallChainArrays,
+    WallPriorArrays,
     chain_of,
+    draw_given_neighbours,
+    draw_wall,
     entry_loglik,
     keep,
+    log_prior,
     next_wall,
+    prior_log_odds,
     put_wall,
     remove_wall,
     site_of,
-)
-from bayesmap.kernels.walls.wall_prior import (
-    WallPriorArrays,
-    draw_given_neighbours,
-    draw_wall,
-    log_prior,
-    prior_log_odds,
 )
 
 wp.set_module_options({"enable_backward": False})

@@ -20,10 +20,10 @@ is a square root. A cell's belief is its prior log-odds plus the logarithms of t
 
 import numpy as np
 import warp as wp
-from numpy.typing import NDArray
 
 from bayesmap.beams.table import BeamTable
 from bayesmap.kernels import device as devices
+from bayesmap.kernels.device import Float32Rows, Float32s, Float64s, Floats, Int32s, Singles
 
 wp.set_module_options({"enable_backward": False})
 
@@ -38,11 +38,11 @@ LARGEST_LOG_ODDS = wp.constant(wp.float32(60.0))
 def relative_likelihood(
     first: int,
     beta: wp.float32,
-    offsets: wp.array(dtype=wp.int32),
-    loglik: wp.array(dtype=wp.float32),
-    no_hit: wp.array(dtype=wp.float32),
-    relative: wp.array(dtype=wp.float32),
-    relative_no_hit: wp.array(dtype=wp.float32),
+    offsets: Int32s,
+    loglik: Float32s,
+    no_hit: Float32s,
+    relative: Float32s,
+    relative_no_hit: Float32s,
 ):
     """One thread per beam: likelihoods relative to the beam's largest, at an inverse temperature."""
     b = first + wp.tid()
@@ -63,17 +63,17 @@ def relative_likelihood(
 @wp.kernel
 def beam_messages(
     part_0: int,
-    bounds: wp.array(dtype=wp.int32),
-    offsets: wp.array(dtype=wp.int32),
-    cells: wp.array(dtype=wp.int32),
-    relative: wp.array(dtype=wp.float32),
-    relative_no_hit: wp.array(dtype=wp.float32),
-    odds: wp.array(dtype=wp.float32),
+    bounds: Int32s,
+    offsets: Int32s,
+    cells: Int32s,
+    relative: Float32s,
+    relative_no_hit: Float32s,
+    odds: Float32s,
     damping: wp.float32,
-    ratio: wp.array(dtype=wp.float32),
-    behind: wp.array(dtype=wp.float32),
-    product_of: wp.array2d(dtype=wp.float32),
-    received_of: wp.array2d(dtype=wp.float32),
+    ratio: Float32s,
+    behind: Float32s,
+    product_of: Float32Rows,
+    received_of: Float32Rows,
 ):
     """One thread per part of the beams: new messages to their cells, and their logarithms summed by cell.
 
@@ -141,9 +141,9 @@ def neighbour_messages(
     ny: int,
     coupling: wp.float64,
     damping: wp.float32,
-    belief: wp.array(dtype=wp.float32),
-    last: wp.array2d(dtype=wp.float32),
-    messages: wp.array2d(dtype=wp.float32),
+    belief: Float32s,
+    last: Float32Rows,
+    messages: Float32Rows,
 ):
     """One thread per cell: compute the log-odds that it receives from its neighbours below, above, left and right.
 
@@ -170,12 +170,7 @@ def neighbour_messages(
 
 @wp.kernel
 def cell_beliefs(
-    first: int,
-    logit: wp.array(dtype=wp.float64),
-    received: wp.array2d(dtype=wp.float32),
-    from_neighbours: wp.array2d(dtype=wp.float32),
-    odds: wp.array(dtype=wp.float32),
-    belief: wp.array(dtype=wp.float32),
+    first: int, logit: Float64s, received: Float32Rows, from_neighbours: Float32Rows, odds: Float32s, belief: Float32s
 ):
     """One thread per cell: sum prior log-odds and all messages; where nothing couples, neighbours send none."""
     c = first + wp.tid()
@@ -199,14 +194,7 @@ class Beliefs:
     Memory: 12 bytes for each incidence of the table, and where neighbours are coupled 32 for each cell.
     """
 
-    def __init__(
-        self,
-        table: BeamTable,
-        logit: NDArray[np.float64],
-        device: str,
-        beta: float = 1.0,
-        coupling: float = 0.0,
-    ) -> None:
+    def __init__(self, table: BeamTable, logit: Floats, device: str, beta: float = 1.0, coupling: float = 0.0) -> None:
         cells, incidences, beams = table.grid.n_cells, table.n_incidences, table.n_beams
         parts = min(CPU_PARTS if device == "cpu" else GPU_PARTS, max(1, beams))
         bounds = np.searchsorted(table.offsets, np.linspace(0, incidences, parts + 1))
@@ -247,7 +235,7 @@ class Beliefs:
             self._sides, self._next_sides = self._next_sides, self._sides
         self._gather()
 
-    def log_odds(self) -> NDArray[np.float32]:
+    def log_odds(self) -> Singles:
         """Return the log-odds of a wall in every cell, flat, shape (N,)."""
         return np.array(self._belief.numpy())
 

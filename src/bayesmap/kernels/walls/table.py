@@ -6,11 +6,11 @@ of them. The index lists, for each cell, the beams that cross it.
 
 import numpy as np
 import warp as wp
-from numpy.typing import NDArray
 
 from bayesmap.beams.rays import Rays
 from bayesmap.beams.table import BeamTable, CellIndex
 from bayesmap.kernels import device as devices
+from bayesmap.kernels.device import Float32s, Float64s, Floats, Int32s, Singles
 from bayesmap.kernels.rays import (
     RayArrays,
     distance_at,
@@ -38,7 +38,7 @@ def trace(
     sensor: SensorModel,
     *,
     hit_depth: float = 0.0,
-    reach_m: NDArray[np.float64] | None = None,
+    reach_m: Floats | None = None,
     device: str = "cpu",
 ) -> BeamTable:
     """Build the beam table of some scans.
@@ -74,9 +74,7 @@ def table_of(rays: Rays, sensor: SensorModel, *, hit_depth: float = 0.0, device:
     return BeamTable(grid=rays.grid, offsets=rays.offsets, cells=rays.cells, loglik=loglik, no_hit=no_hit)
 
 
-def _by_model(
-    sensor: SensorModel, rays: Rays, loglik: NDArray[np.float32]
-) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+def _by_model(sensor: SensorModel, rays: Rays, loglik: Singles) -> tuple[Singles, Singles]:
     """Fill in the likelihoods by the model's own NumPy formula; ``loglik`` holds distances, and is overwritten."""
     no_hit = sensor.log_likelihood(rays.range_m, np.full(rays.n_beams, np.inf), rays.limits).astype(np.float32)
     beam = rays.beam_of_entry()
@@ -93,9 +91,9 @@ def fill_likelihood(
     law: SensorLaw64,
     rays: RayArrays,
     depth: wp.float64,
-    range_m: wp.array(dtype=wp.float64),
-    loglik: wp.array(dtype=wp.float32),
-    no_hit: wp.array(dtype=wp.float32),
+    range_m: Float64s,
+    loglik: Float32s,
+    no_hit: Float32s,
 ):
     """One thread per beam: compute the log-likelihood of each entry, and of no hit.
 
@@ -138,12 +136,7 @@ def fill_likelihood(
 
 @wp.kernel
 def beam_extremes(
-    first: int,
-    offsets: wp.array(dtype=wp.int32),
-    loglik: wp.array(dtype=wp.float32),
-    no_hit: wp.array(dtype=wp.float32),
-    lowest: wp.array(dtype=wp.float32),
-    advantage: wp.array(dtype=wp.float32),
+    first: int, offsets: Int32s, loglik: Float32s, no_hit: Float32s, lowest: Float32s, advantage: Float32s
 ):
     """One thread per beam: find the least log-likelihood of its reading, and each entry's advantage over what lies
     behind.
@@ -163,24 +156,24 @@ def beam_extremes(
 class IndexArrays:
     """A `CellIndex` on a device, and how far each cell's entries are filled in."""
 
-    offsets: wp.array(dtype=wp.int32)
-    filled: wp.array(dtype=wp.int32)
-    entry: wp.array(dtype=wp.int32)
-    beam: wp.array(dtype=wp.int32)
-    loglik: wp.array(dtype=wp.float32)
-    gain_bound: wp.array(dtype=wp.float32)
-    advantage: wp.array(dtype=wp.float32)
+    offsets: Int32s
+    filled: Int32s
+    entry: Int32s
+    beam: Int32s
+    loglik: Float32s
+    gain_bound: Float32s
+    advantage: Float32s
 
 
 @wp.kernel
 def scatter_entries(
     first: int,
-    cell_bounds: wp.array(dtype=wp.int32),
-    beam_offsets: wp.array(dtype=wp.int32),
-    cells: wp.array(dtype=wp.int32),
-    loglik: wp.array(dtype=wp.float32),
-    lowest: wp.array(dtype=wp.float32),
-    advantage: wp.array(dtype=wp.float32),
+    cell_bounds: Int32s,
+    beam_offsets: Int32s,
+    cells: Int32s,
+    loglik: Float32s,
+    lowest: Float32s,
+    advantage: Float32s,
     index: IndexArrays,
 ):
     """One thread per range of cells: two passes over the table, gaining entries first, then bounds from behind."""

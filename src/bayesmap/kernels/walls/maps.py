@@ -1,6 +1,6 @@
-"""Importance sampling from the prior, and the log-likelihood of stored maps.
+"""Evaluate maps of binary walls on a beam table: importance weights, log-likelihoods, and the cells that beams reach.
 
-The particles are maps that are never stored: a counter can draw each of them again.
+Importance sampling draws its particles from the prior. Their maps are never stored: a counter can draw each again.
 """
 
 from typing import Any
@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 
 from bayesmap.beams.table import BeamTable
 from bayesmap.kernels import device as devices
+from bayesmap.kernels.device import Float32s, Float64s, Floats, Int32s, Uint8Rows
 from bayesmap.kernels.random import random_bits
-from bayesmap.kernels.walls.chains import Table
-from bayesmap.kernels.walls.wall_prior import WallPriorArrays, draw_from_prior
+from bayesmap.kernels.walls.chains import Table, WallPriorArrays, draw_from_prior
 
 wp.set_module_options({"enable_backward": False})
 
@@ -26,12 +26,7 @@ def particle_wall(prior: WallPriorArrays, key: wp.uint64, particle: wp.uint64, c
 
 @wp.kernel
 def weigh_particles(
-    first: int,
-    t: Table,
-    prior: WallPriorArrays,
-    key: wp.uint64,
-    particle_0: wp.uint64,
-    log_weights: wp.array(dtype=wp.float64),
+    first: int, t: Table, prior: WallPriorArrays, key: wp.uint64, particle_0: wp.uint64, log_weights: Float64s
 ):
     """One thread per particle: log p(readings | its map). Only cells that beams reach are ever drawn."""
     i = first + wp.tid()
@@ -50,11 +45,7 @@ def weigh_particles(
 
 @wp.kernel
 def draw_particles(
-    first: int,
-    prior: WallPriorArrays,
-    key: wp.uint64,
-    particles: wp.array(dtype=wp.uint64),
-    walls: wp.array2d(dtype=wp.uint8),
+    first: int, prior: WallPriorArrays, key: wp.uint64, particles: wp.array(dtype=wp.uint64), walls: Uint8Rows
 ):
     """One thread per particle: write its whole map."""
     i = first + wp.tid()
@@ -64,7 +55,7 @@ def draw_particles(
         walls[i, c] = wp.uint8(wp.where(wall, 1, 0))
 
 
-def weigh(table: Any, prior: Any, key: int, first: int, count: int, device: str) -> NDArray[np.float64]:
+def weigh(table: Any, prior: Any, key: int, first: int, count: int, device: str) -> Floats:
     """Compute the log weights of particles first .. first + count - 1."""
     log_weights = wp.empty(count, dtype=wp.float64, device=device)
     inputs = [table, prior, wp.uint64(key), wp.uint64(first), log_weights]
@@ -83,13 +74,7 @@ def particle_maps(prior: Any, key: int, particles: NDArray[np.intp], device: str
 
 @wp.func
 def beam_term(
-    offsets: wp.array(dtype=wp.int32),
-    cells: wp.array(dtype=wp.int32),
-    loglik: wp.array(dtype=wp.float32),
-    no_hit: wp.array(dtype=wp.float32),
-    packed: wp.array2d(dtype=wp.uint8),
-    d: int,
-    b: int,
+    offsets: Int32s, cells: Int32s, loglik: Float32s, no_hit: Float32s, packed: Uint8Rows, d: int, b: int
 ) -> wp.float32:
     """Return the log-likelihood of beam b's reading under packed map d: that of its first wall."""
     for k in range(offsets[b], offsets[b + 1]):
@@ -107,13 +92,7 @@ def _on_device(table: BeamTable, device: str) -> list[Any]:
 
 @wp.kernel
 def sum_log_likelihoods(
-    first: int,
-    offsets: wp.array(dtype=wp.int32),
-    cells: wp.array(dtype=wp.int32),
-    loglik: wp.array(dtype=wp.float32),
-    no_hit: wp.array(dtype=wp.float32),
-    packed: wp.array2d(dtype=wp.uint8),
-    total: wp.array(dtype=wp.float64),
+    first: int, offsets: Int32s, cells: Int32s, loglik: Float32s, no_hit: Float32s, packed: Uint8Rows, total: Float64s
 ):
     """One thread per packed map: log p(readings | map)."""
     d = first + wp.tid()
@@ -123,7 +102,7 @@ def sum_log_likelihoods(
     total[d] = value
 
 
-def log_likelihoods(table: BeamTable, packed: NDArray[np.uint8], device: str = "cpu") -> NDArray[np.float64]:
+def log_likelihoods(table: BeamTable, packed: NDArray[np.uint8], device: str = "cpu") -> Floats:
     """Compute log p(all readings | map) of each packed map (draws, bytes), (draws,)."""
     device = devices.resolve(device)
     total = wp.empty(len(packed), dtype=wp.float64, device=device)
@@ -132,3 +111,25 @@ def log_likelihoods(table: BeamTable, packed: NDArray[np.uint8], device: str = "
         sum_log_likelihoods, len(packed), [*inputs, devices.to_device(packed, wp.uint8, device), total], device
     )
     return np.array(total.numpy())
+
+
+@wp.kernel
+def mark_reached(first: int, offsets: Int32s, cells: Int32s, walls: Uint8Rows, reached: Uint8Rows):
+    """One thread per map: mark every cell up to each beam's first wall."""
+    m = first + wp.tid()
+    for b in range(offsets.shape[0] - 1):
+        for k in range(offsets[b], offsets[b + 1]):
+            c = cells[k]
+            reached[m, c] = wp.uint8(1)
+            if walls[m, c] != wp.uint8(0):
+                break
+
+
+def reach_frequency(table: BeamTable, maps: NDArray[np.bool_], device: str = "cpu") -> Floats:
+    """Compute the share of the maps (n, nx, ny) in which at least one beam reaches each cell, (nx, ny)."""
+    device = devices.resolve(device)
+    flat = np.ascontiguousarray(maps).reshape(len(maps), -1).astype(np.uint8)
+    reached = wp.zeros(flat.shape, dtype=wp.uint8, device=device)
+    inputs = [devices.to_device(a, wp.int32, device) for a in (table.offsets, table.cells)]
+    devices.launch(mark_reached, len(flat), [*inputs, devices.to_device(flat, wp.uint8, device), reached], device)
+    return np.asarray(reached.numpy().mean(axis=0).reshape(table.grid.shape))

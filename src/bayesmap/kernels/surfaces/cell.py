@@ -1,4 +1,6 @@
-r"""The prior of a cell's reflectivity and of its surface: densities, and surfaces drawn from it.
+r"""A cell with a surface: the beams that meet it, and its prior.
+
+`bayesmap.beams.rays` has the law by which a beam meets the surface, and where it then stops; this is that law compiled.
 
 The prior of a surface is mu ~ N(centre, tau^2 I) inside the cell's own square, and for Sigma an InverseWishart(nu,
 psi I) times exp(-tr Sigma / (2 kappa^2)): beams of other cells say nothing about a surface that grows beyond its own,
@@ -12,12 +14,113 @@ the Wishart's |Sigma|^-(nu + 3)/2 = (l11 l22)^-(nu + 3) times the Jacobian 4 l11
 
 from typing import Any
 
+import numpy as np
 import warp as wp
 from scipy import special
 
 from bayesmap.cells.reflectivity import KernelNumbers
+from bayesmap.kernels.device import Singles
 from bayesmap.kernels.random import PER_GAMMA, log_gamma_variate, normal
-from bayesmap.kernels.surfaces.crossing import L11, L21, L22, MEAN_X, MEAN_Y, Cell
+
+CROSSING_WIDTH_SQ = wp.constant(wp.float32(2.2**2))
+DIRECTION_SQ = wp.constant(wp.float32(0.005**2))
+"""Square of omega, radians: 4 to 8 thousandths predict held-out scans best (docs/lab/surfaces.md)."""
+
+Cell = wp.types.vector(length=8, dtype=wp.float32)
+"""A cell's state: reflectivity, mean x and y (metres from the grid's corner), Cholesky factor l11, l21, l22 of Sigma,
+whether a candidate for its surface is being tried, and a number that is not used."""
+
+REFLECTIVITY, MEAN_X, MEAN_Y, L11, L21, L22, TRYING = range(7)
+
+
+def cells_to_device(states: Singles, device: str) -> Any:
+    """Put states alone, (..., 6), or without a surface, (..., 1), on a device as an array of `Cell`."""
+    padded = np.zeros((*states.shape[:-1], 8), dtype=np.float32)
+    padded[..., : states.shape[-1]] = states
+    return wp.array(padded, dtype=Cell, device=device, copy=device != "cpu")
+
+
+@wp.struct
+class Ray:
+    """A beam: start in metres from the grid's corner, and direction."""
+
+    x: wp.float32
+    y: wp.float32
+    ux: wp.float32
+    uy: wp.float32
+
+
+@wp.struct
+class Crossing:
+    """Probability of meeting the surface, and mean and variance of the distance at which the beam meets it."""
+
+    chance: wp.float32
+    distance_m: wp.float32
+    variance: wp.float32
+
+
+@wp.func
+def ray_from(start_m: wp.vec2, direction: wp.vec2) -> Ray:
+    """Make a ray from its start and its direction."""
+    ray = Ray()
+    ray.x = start_m[0]
+    ray.y = start_m[1]
+    ray.ux = direction[0]
+    ray.uy = direction[1]
+    return ray
+
+
+@wp.func
+def crossing_probability_at(offset: wp.float32, across: wp.float32) -> wp.float32:
+    """Return the chance of meeting a surface, by the offset of its mean and its variance across the beam."""
+    r = offset * offset / (CROSSING_WIDTH_SQ * across)
+    return wp.float32(1.0) / (wp.float32(1.0) + r * r * r)
+
+
+@wp.func
+def crossing_probability(cell: Cell, ray: Ray) -> wp.float32:
+    """Return the chance that the beam meets the cell's surface."""
+    offset = ray.ux * (cell[MEAN_Y] - ray.y) - ray.uy * (cell[MEAN_X] - ray.x)
+    across_1 = cell[L21] * ray.ux - cell[L11] * ray.uy
+    across_2 = cell[L22] * ray.ux
+    return crossing_probability_at(offset, across_1 * across_1 + across_2 * across_2)
+
+
+@wp.func
+def cross_at(offset: wp.float32, ahead: wp.float32, cell: Cell, ux: wp.float32, uy: wp.float32) -> Crossing:
+    """Return the crossing of a surface, from the offset of its mean from the beam, the distance of that ahead, and the
+    beam's direction.
+    """
+    l11 = cell[L11]
+    l21 = cell[L21]
+    l22 = cell[L22]
+    one = wp.float32(1.0)
+    across_1 = l21 * ux - l11 * uy  # L' n
+    across_2 = l22 * ux
+    along_1 = l11 * ux + l21 * uy  # L' u
+    along_2 = l22 * uy
+    depth = wp.max(ahead, wp.float32(0.0))
+    body = across_1 * across_1 + across_2 * across_2
+    unsure = DIRECTION_SQ * depth * depth
+    per_across = one / (body + unsure)
+    slope = (along_1 * across_1 + along_2 * across_2) * per_across
+    area = l11 * l22
+    met = Crossing()
+    met.chance = crossing_probability_at(offset, body)
+    met.distance_m = wp.max(ahead - slope * offset, wp.float32(0.0))
+    # |Sigma + unsure n n'| / w^2 = (|Sigma| + unsure u' Sigma u) / w^2: no difference of large numbers
+    met.variance = (area * area + unsure * (along_1 * along_1 + along_2 * along_2)) * per_across
+    return met
+
+
+@wp.func
+def cross_surface(cell: Cell, ray: Ray) -> Crossing:
+    """Return the chance that the beam meets the cell's surface, and the law of the distance at which."""
+    rx = cell[MEAN_X] - ray.x
+    ry = cell[MEAN_Y] - ray.y
+    offset = ray.ux * ry - ray.uy * rx
+    return cross_at(offset, ray.ux * rx + ray.uy * ry, cell, ray.ux, ray.uy)
+
 
 MEAN_TRIES = wp.constant(8)
 
