@@ -20,11 +20,7 @@ import bayesmap as bm
 SENSOR = bm.BeamMixture(bm.Gaussian(0.06, 0.02), p_random=0.08, p_no_return=0.15, p_short=0.2, rate_short_per_m=0.7)
 LIMITS = bm_limits(0.2, 2.5)
 STATES = np.array(
-    [
-        [0.6, 0.45, 0.3, 0.10, 0.03, 0.05],
-        [0.3, 1.10, 0.2, 0.02, -0.10, 0.15],
-        [0.9, 1.70, 0.3, 0.15, 0.20, 0.02],
-    ]
+    [[0.6, 0.45, 0.3, 0.10, 0.03, 0.05], [0.3, 1.10, 0.2, 0.02, -0.10, 0.15], [0.9, 1.70, 0.3, 0.15, 0.20, 0.02]]
 )
 """Three cells of half a metre in a row."""
 

@@ -18,14 +18,7 @@ from scipy import special
 from bayesmap.cells import labels
 from bayesmap.cells.arrays import ArraySpec, Draws
 from bayesmap.cells.kind import BATCH_BYTES, Cells, Floats, Words
-from bayesmap.cells.reflectivity import (
-    EXPECTED,
-    FRESH_CELLS,
-    REFLECTIVITY,
-    KernelNumbers,
-    Reflective,
-    places_among,
-)
+from bayesmap.cells.reflectivity import EXPECTED, FRESH_CELLS, REFLECTIVITY, KernelNumbers, Reflective, places_among
 from bayesmap.errors import BadInput
 from bayesmap.space.grid import Grid
 

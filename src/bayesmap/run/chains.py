@@ -120,8 +120,7 @@ class Record:
         """
         chains = next(iter(empty.arrays.values())).shape[0]
         self._draws = replace(
-            empty,
-            arrays={spec.name: spec.empty(chains, schedule.draws, empty.shape_of(spec)) for spec in empty.specs},
+            empty, arrays={spec.name: spec.empty(chains, schedule.draws, empty.shape_of(spec)) for spec in empty.specs}
         )
         self._keep = keep
         self._log_likelihood = np.zeros((chains, schedule.draws))

@@ -90,11 +90,7 @@ def run_segment(
 
 
 def chains_of_segments(
-    segments: Sequence[Segment],
-    snapshot: Snapshot,
-    trace_s: float,
-    schedule: SweepPlan,
-    resume: Chains | None = None,
+    segments: Sequence[Segment], snapshot: Snapshot, trace_s: float, schedule: SweepPlan, resume: Chains | None = None
 ) -> Chains:
     """Join segments that follow each other, as if the chains had never been interrupted.
 

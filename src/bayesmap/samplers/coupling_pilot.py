@@ -29,13 +29,7 @@ FIRST = 0.5
 
 
 def fit_coupling_to_scans(
-    model: Model,
-    sampler: WallSampler,
-    device: str,
-    *,
-    seed: int,
-    threads: int | None = None,
-    watch: Watch = SILENT,
+    model: Model, sampler: WallSampler, device: str, *, seed: int, threads: int | None = None, watch: Watch = SILENT
 ) -> Ising:
     """Return a model's prior with the coupling that suits its scans.
 

@@ -260,9 +260,7 @@ def refit_sensor(sensor: BeamMixture, stops: DrawnStops, limits: RangeLimits, st
     standard = np.where(wall, reading - t, 0.0) / scale
     unblocked = sensor.unblocked(t)
     returned = np.where(
-        wall,
-        known * unblocked * (1 - sensor.p_no_return) * np.exp(sensor.noise.log_density(standard)) / scale,
-        0.0,
+        wall, known * unblocked * (1 - sensor.p_no_return) * np.exp(sensor.noise.log_density(standard)) / scale, 0.0
     )
     total = np.where(hit, anything + passing + returned, 1.0)
     by_chance, by_object, by_wall = anything / total, passing / total, returned / total

@@ -81,12 +81,7 @@ class Particles:
 
 
 def sample_importance(
-    problem: WallProblem,
-    particles: int,
-    seed: int,
-    *,
-    beta: float = 1.0,
-    watch: Watch = SILENT,
+    problem: WallProblem, particles: int, seed: int, *, beta: float = 1.0, watch: Watch = SILENT
 ) -> Particles:
     """Draw maps from the prior and weigh them by the likelihood, at an inverse temperature.
 

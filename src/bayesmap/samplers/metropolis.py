@@ -150,11 +150,7 @@ class Metropolis:
 
 
 def _sweep(
-    problem: MetropolisProblem,
-    cells: dict[str, NDArray[Any]],
-    of_beam: Floats,
-    beta: float,
-    rng: np.random.Generator,
+    problem: MetropolisProblem, cells: dict[str, NDArray[Any]], of_beam: Floats, beta: float, rng: np.random.Generator
 ) -> Floats:
     """Propose each cell another state, in place, and return the log-likelihoods of all beams afterwards."""
     ny = problem.grid.shape[1]

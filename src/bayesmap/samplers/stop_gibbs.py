@@ -157,12 +157,7 @@ class StopGibbs:
         )  # fmt: skip
 
     def _labels(
-        self,
-        problem: StopProblem,
-        chain_ids: Sequence[int],
-        seed: int,
-        stored: Mapping[str, NDArray[Any]],
-        stream: int,
+        self, problem: StopProblem, chain_ids: Sequence[int], seed: int, stored: Mapping[str, NDArray[Any]], stream: int
     ) -> NDArray[np.bool_] | None:
         """Return the labels of all cells at which chains start, or where they stood, (C, N); None without labels."""
         if not problem.prior.has_labels:
