@@ -9,10 +9,10 @@ import numpy as np
 import bayesmap as bm
 from bayesmap.kernels.device import available_cores
 from bayesmap.kernels.walls.table import trace
-from bayesmap.samplers.importance import sample_importance
 from bayesmap.samplers.sampler import Sampler
 from bayesmap.samplers.wall_problem import WallProblem
 from bayesmap.samplers.walls import WallBlocks, WallGibbs
+from bayesmap.samplers.without_chains import sample_importance
 from bayesmap.sim.drawing import TUTORIAL_GRID
 from benchmarks.figure import Figure, rate, ratio, timed, timer
 from benchmarks.peer_runner import Unavailable, peer, tutorial_data

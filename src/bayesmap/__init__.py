@@ -21,8 +21,8 @@ if TYPE_CHECKING:
     from bayesmap.arguments import Schedule as Schedule
     from bayesmap.arguments import Where as Where
     from bayesmap.cells.binary import Independent as Independent
-    from bayesmap.cells.ising import Ising as Ising
-    from bayesmap.cells.ising import fit_coupling as fit_coupling
+    from bayesmap.cells.binary import Ising as Ising
+    from bayesmap.cells.binary import fit_coupling as fit_coupling
     from bayesmap.cells.reflectivity import Beta as Beta
     from bayesmap.cells.surface import Surface as Surface
     from bayesmap.errors import BadInput as BadInput
@@ -73,7 +73,7 @@ _HOME = {
     "Importance": "bayesmap.samplers.methods",
     "Independent": "bayesmap.cells.binary",
     "Information": "bayesmap.posterior.information",
-    "Ising": "bayesmap.cells.ising",
+    "Ising": "bayesmap.cells.binary",
     "Known": "bayesmap.poses.prior",
     "KnownMap": "bayesmap.localization.known_map",
     "MapWidget": "bayesmap.app.widget",
@@ -92,7 +92,7 @@ _HOME = {
     "Surface": "bayesmap.cells.surface",
     "Uncertain": "bayesmap.poses.prior",
     "Where": "bayesmap.arguments",
-    "fit_coupling": "bayesmap.cells.ising",
+    "fit_coupling": "bayesmap.cells.binary",
     "infer": "bayesmap.api",
     "load": "bayesmap.result",
     "localize": "bayesmap.localization.localize",

@@ -18,11 +18,9 @@ from bayesmap.poses.prior import Known, PosePrior
 from bayesmap.posterior.posterior import Posterior, chains_of, posterior_of_chains, posterior_of_draws
 from bayesmap.result import Run
 from bayesmap.run.chains import Chains, SweepPlan
-from bayesmap.run.fingerprint import RANDOM_STREAMS, check_same, fingerprint
-from bayesmap.run.memory import check_memory
+from bayesmap.run.checks import RANDOM_STREAMS, check_memory, check_same, fingerprint
 from bayesmap.run.runner import Executor, Job, ThreadExecutor, stop_on_interrupt
-from bayesmap.samplers.coupling_pilot import fit_coupling_to_scans
-from bayesmap.samplers.fit import PILOT_SWEEPS, Parameters, first_sensor, fit, fit_sensor
+from bayesmap.samplers.fit import PILOT_SWEEPS, Parameters, first_sensor, fit, fit_coupling_to_scans, fit_sensor
 from bayesmap.samplers.methods import (
     PARTICLES,
     WITHOUT_CHAINS,

@@ -21,11 +21,10 @@ from bayesmap.model import Model
 from bayesmap.run.chains import SweepPlan
 from bayesmap.run.runner import Job, run_chains
 from bayesmap.samplers.fit import PILOT_SWEEPS, first_sensor, fit
-from bayesmap.samplers.importance import sample_importance
 from bayesmap.samplers.propagate import propagate
 from bayesmap.samplers.stop_gibbs import StopGibbs
 from bayesmap.samplers.wall_problem import WallProblem
-from bayesmap.samplers.without_chains import enumerate_maps
+from bayesmap.samplers.without_chains import enumerate_maps, sample_importance
 from bayesmap.space.grid import Grid
 
 TINY = Document(

@@ -12,8 +12,8 @@ from oracle.worlds import make_case, random_prior
 from tiers import pairs_but
 
 import bayesmap as bm
+from bayesmap.cells.ising_field import rough_draw
 from bayesmap.cells.kinds import prior_from
-from bayesmap.cells.perfect_draws import rough_draw
 
 CASES = [(0.5, 0.4, (3, 4)), (0.2, 0.9, (4, 3)), (0.05, 1.5, (3, 3)), ("cells", 1.0, (3, 4)), (0.4, 2.0, (1, 7))]
 

@@ -14,7 +14,7 @@ from oracle.verdict import ALPHA, least_p_value
 from samplers.stop_rooms import GRID, LABELLED, TRUTH, assert_same, infer, scans
 
 import bayesmap as bm
-from bayesmap.cells import labels
+from bayesmap.cells import ising_field
 from bayesmap.cells.kinds import prior_from
 from bayesmap.kernels.surfaces.labels import log_gamma
 from bayesmap.model import Model
@@ -197,7 +197,7 @@ def test_the_fit_finds_both_betas():
 
 def test_mixture_quantiles():
     share = np.array([0.0, 0.3, 1.0, 0.3])
-    found = labels.mixture_quantiles(share, (0.5, 3.0), (2.0, 1.0), (0.1, 0.9))
+    found = ising_field.mixture_quantiles(share, (0.5, 3.0), (2.0, 1.0), (0.1, 0.9))
     np.testing.assert_allclose(found[:, 0], scipy.stats.beta(0.5, 3.0).ppf([0.1, 0.9]), rtol=1e-9)
     np.testing.assert_allclose(found[:, 2], scipy.stats.beta(2.0, 1.0).ppf([0.1, 0.9]), rtol=1e-9)
     assert (found[:, 1] == found[:, 3]).all()

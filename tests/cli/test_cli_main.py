@@ -172,8 +172,7 @@ def test_what_a_library_says_while_the_process_ends_is_no_result():
 def test_choices_are_those_of_the_library():
     from typing import get_args
 
-    from bayesmap.cells.binary import Independent
-    from bayesmap.cells.ising import Ising
+    from bayesmap.cells.binary import Independent, Ising
     from bayesmap.cells.kinds import BUILT_IN, P_WALL
     from bayesmap.cells.reflectivity import FEWEST_DRAWS, MOST_DRAWS, Beta
     from bayesmap.cells.surface import Surface

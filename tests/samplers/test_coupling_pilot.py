@@ -11,9 +11,9 @@ from flat_options import infer
 from tiers import full_but, latin
 
 import bayesmap as bm
-from bayesmap.cells.ising import LARGEST_FITTED, walls_less_free
+from bayesmap.cells.binary import LARGEST_FITTED, walls_less_free
 from bayesmap.model import Model
-from bayesmap.samplers.coupling_pilot import fit_coupling_to_scans
+from bayesmap.samplers.fit import fit_coupling_to_scans
 from bayesmap.samplers.walls import WallBlocks, WallGibbs
 
 GRID = bm.Grid((40, 40), 0.25)

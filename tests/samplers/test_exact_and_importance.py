@@ -11,10 +11,9 @@ from tiers import full_but
 
 import bayesmap as bm
 from bayesmap.kernels.walls.table import trace
-from bayesmap.samplers.importance import sample_importance
 from bayesmap.samplers.progress import Watch
 from bayesmap.samplers.wall_problem import WallProblem
-from bayesmap.samplers.without_chains import enumerate_maps
+from bayesmap.samplers.without_chains import enumerate_maps, sample_importance
 
 FLAT = 1e-4  # nats a beam: how much a robust table may differ from the model
 

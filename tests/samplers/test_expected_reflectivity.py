@@ -21,7 +21,7 @@ from tiers import pairs_but
 
 import bayesmap as bm
 from bayesmap.cells.surface import PARTS
-from bayesmap.samplers import stop_draws, stop_gibbs
+from bayesmap.samplers import stop_gibbs
 from bayesmap.samplers.sampler import Keep
 
 EDGE, COPIES, DRAWS, FROM_PRIOR = 0.5, 2000, 4, 100_000
@@ -141,7 +141,7 @@ def met_counted_twice(hits, met, prior, drawn, solid=None):
     ),
 )
 def test_wrong_twins_are_rejected(case, twin, monkeypatch):
-    monkeypatch.setattr(stop_draws, "expected_reflectivity", twin)
+    monkeypatch.setattr(stop_gibbs, "expected_reflectivity", twin)
     expected, _ = predicted(case)
     assert abs(z(case, expected)).max() > LIMIT
 
@@ -161,14 +161,14 @@ def test_a_cell_is_never_expected_to_stop_every_beam():
     """Half precision would round the mean to 1, and nothing behind the cell could be seen ever after."""
     hits, met = np.array([10**6, 3, 0, 5], dtype=np.int32), np.array([0, 1, 10**6, -1], dtype=np.int32)
     drawn = np.array([0, 0, 0, 1], dtype=np.float16)
-    found = stop_draws.expected_reflectivity(hits, met, bm.Beta(0.25, 0.75), drawn).astype(np.float16)
+    found = stop_gibbs.expected_reflectivity(hits, met, bm.Beta(0.25, 0.75), drawn).astype(np.float16)
     assert found[0] == found[3] == np.nextafter(np.float16(1), np.float16(0))
     assert found[1] == np.float16(3.25 / 5)
     assert 0 < found[2] < 1e-6
 
 
 def test_a_cell_that_has_not_counted_yet_is_as_drawn():
-    found = stop_draws.expected_reflectivity(
+    found = stop_gibbs.expected_reflectivity(
         np.array([0, 0], dtype=np.int32), np.array([-1, 0], dtype=np.int32), bm.Beta(0.25, 0.75), np.float16([0.5, 0.5])
     )
     np.testing.assert_allclose(found, [0.5, 0.25])

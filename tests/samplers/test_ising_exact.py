@@ -21,9 +21,8 @@ from tiers import full_but, latin, pairs_but
 
 import bayesmap as bm
 from bayesmap.model import Model
-from bayesmap.samplers.importance import sample_importance
 from bayesmap.samplers.metropolis import Metropolis
-from bayesmap.samplers.without_chains import enumerate_maps
+from bayesmap.samplers.without_chains import enumerate_maps, sample_importance
 
 CHAINS = 8_000
 # Prior, coupling, noise, robust, shape, poses, beams a pose: weak and strong couplings, rare walls, large noise, narrow

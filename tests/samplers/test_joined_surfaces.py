@@ -8,6 +8,7 @@ from bayesmap.samplers.start_search import (
     FREE,
     MERGED_NATS,
     MOST_READINGS,
+    ChainMaps,
     axes_of,
     best_neighbours,
     lengthened,
@@ -16,7 +17,6 @@ from bayesmap.samplers.start_search import (
     readings_of,
     variance_in,
 )
-from bayesmap.samplers.trials import ChainMaps
 
 GRID = bm.Grid((12, 9), resolution=0.1)
 NOISE_M = 0.01

@@ -10,9 +10,16 @@ from bayesmap.model import Model
 from bayesmap.samplers import stop_gibbs
 from bayesmap.samplers.initial_estimate import end_cells
 from bayesmap.samplers.methods import sampler_of
-from bayesmap.samplers.start_search import SEARCH_SHARE, UPDATES_ALL, merge, merge_sweeps, select_starts
+from bayesmap.samplers.start_search import (
+    SEARCH_SHARE,
+    UPDATES_ALL,
+    ChainMaps,
+    look_with,
+    merge,
+    merge_sweeps,
+    select_starts,
+)
 from bayesmap.samplers.stop_gibbs import StopGibbs
-from bayesmap.samplers.trials import ChainMaps, look_with
 
 SURFACES = {"surfaces": PRIORS["surfaces"], "labelled surfaces": LABELLED["labelled surfaces"]}
 

@@ -8,7 +8,7 @@ from stop_rooms import GRID, LABELLED, PRIORS, TRUTH, assert_same, infer, scans,
 from tiers import full_but, pairs_but
 
 import bayesmap as bm
-from bayesmap.cells.labels import SOLID
+from bayesmap.cells.ising_field import SOLID
 from bayesmap.model import Model
 from bayesmap.run import runner
 from bayesmap.run.chains import SweepPlan, join

@@ -9,8 +9,7 @@ from stop_rooms import GRID, TRUTH, scans
 import bayesmap as bm
 from bayesmap.model import Model
 from bayesmap.samplers.initial_estimate import end_cells
-from bayesmap.samplers.stop_gibbs import StopGibbs
-from bayesmap.samplers.trials import (
+from bayesmap.samplers.start_search import (
     UPDATES_FEW,
     ChainMaps,
     Changes,
@@ -21,6 +20,7 @@ from bayesmap.samplers.trials import (
     sums_over_squares,
     try_changes,
 )
+from bayesmap.samplers.stop_gibbs import StopGibbs
 
 SHAPE = (20, 15)
 

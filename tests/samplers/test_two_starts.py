@@ -4,8 +4,15 @@ import numpy as np
 import pytest
 
 from bayesmap.samplers import start_search
-from bayesmap.samplers.start_search import BETTER_NATS, HALF_WIDTHS, MARGIN, cells_of, squares, take_better_squares
-from bayesmap.samplers.trials import ChainMaps
+from bayesmap.samplers.start_search import (
+    BETTER_NATS,
+    HALF_WIDTHS,
+    MARGIN,
+    ChainMaps,
+    cells_of,
+    squares,
+    take_better_squares,
+)
 
 SHAPE = (40, 30)
 GOOD = np.zeros(SHAPE)

@@ -11,8 +11,7 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
-from bayesmap.cells.binary import Independent
-from bayesmap.cells.ising import Ising
+from bayesmap.cells.binary import Independent, Ising
 from bayesmap.cells.kind import KINDS, CellPrior
 from bayesmap.cells.reflectivity import Beta
 from bayesmap.cells.surface import Surface

@@ -4,8 +4,8 @@ A wall that is there or not is too stiff for glass, chair legs, people and cells
 has a reflectivity m in [0, 1], the chance that it stops a beam; a stopped beam stops at the cell's hit depth.
 
 Cells may be independent, m ~ Beta(a, b) in each. Or, at a coupling above 0, each has a label, free or solid, that its
-four neighbours know of (`bayesmap.cells.labels`): m ~ Beta(a, b) in free cells, and Beta(a_solid, b_solid) in solid
-ones.
+four neighbours know of (`bayesmap.cells.ising_field`): m ~ Beta(a, b) in free cells, and Beta(a_solid, b_solid) in
+solid ones.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import special
 
-from bayesmap.cells import labels
+from bayesmap.cells import ising_field
 from bayesmap.cells.arrays import ArraySpec, Draws
 from bayesmap.cells.kind import BATCH_BYTES, CellPrior, Cells, Floats, Words
 from bayesmap.errors import BadInput
@@ -41,7 +41,7 @@ MOST_DRAW_BYTES = 1 << 30
 BYTES_A_CELL = 4
 
 LARGEST_COUPLING = 50.0
-"""As of `bayesmap.cells.ising`: more means nothing else."""
+"""As of `bayesmap.cells.binary`: more means nothing else."""
 
 
 class KernelNumbers(NamedTuple):
@@ -105,7 +105,7 @@ class Reflective(CellPrior):
         if isinstance(coupling, str) or not (0 <= coupling <= LARGEST_COUPLING):
             raise BadInput(f"{name}: coupling must be a number in [0, {LARGEST_COUPLING:g}], got {self.coupling!r}")
         if self.has_labels:  # of this prior, not of its class: others keep no labels in their draws
-            object.__setattr__(self, "arrays", (*type(self).arrays, labels.SOLID))
+            object.__setattr__(self, "arrays", (*type(self).arrays, ising_field.SOLID))
 
     @property
     def has_labels(self) -> bool:
@@ -139,7 +139,7 @@ class Reflective(CellPrior):
             return float((self.a * np.log(m) + self.b * np.log1p(-m)).sum())
         solid = np.asarray(cells["solid"]) != 0
         a, b = self.beta_given(solid)
-        return float((a * np.log(m) + b * np.log1p(-m) - special.betaln(a, b)).sum()) + labels.log_prior(
+        return float((a * np.log(m) + b * np.log1p(-m) - special.betaln(a, b)).sum()) + ising_field.log_prior(
             solid, self.coupling
         )
 
@@ -152,7 +152,7 @@ class Reflective(CellPrior):
         if not self.has_labels:
             m = rng.beta(self.a, self.b, grid.shape).astype(np.float32)
             return {"reflectivity": m, "expected": m}
-        solid = labels.sample(rng, self.coupling, grid)
+        solid = ising_field.sample(rng, self.coupling, grid)
         m = rng.beta(*self.beta_given(solid)).astype(np.float32)
         return {"reflectivity": m, "expected": m, "solid": solid}
 
@@ -164,7 +164,7 @@ class Reflective(CellPrior):
         if self.has_labels:
             solid = np.asarray(cells["solid"]) != 0
             change = int(fresh["solid"]) - int(solid[site])
-            log_ratio += self.coupling * change * labels.less_unlike(solid, site)
+            log_ratio += self.coupling * change * ising_field.less_unlike(solid, site)
         return fresh, log_ratio
 
     def completed(self, cells: Cells, grid: Grid) -> Cells:
@@ -213,7 +213,7 @@ class Reflective(CellPrior):
         """
         elsewhere: Floats | float = self.mean
         if self.has_labels:
-            elsewhere = self.mean_given(labels.of_draw(draws, chain, draw))
+            elsewhere = self.mean_given(ising_field.of_draw(draws, chain, draw))
         return draws.to_grid(self._shown(draws)[0][chain, draw], "cell", elsewhere)
 
     def mean_map(self, draws: Draws) -> Floats:
@@ -223,7 +223,7 @@ class Reflective(CellPrior):
         """
         if draws.size == 0:
             return np.full(draws.grid.shape, np.nan)
-        elsewhere = self.mean_given(labels.share_solid(draws)) if self.has_labels else self.mean
+        elsewhere = self.mean_given(ising_field.share_solid(draws)) if self.has_labels else self.mean
         return draws.to_grid(self._shown(draws)[1].mean(axis=(0, 1), dtype=np.float64), "cell", elsewhere)
 
     def interval(self, draws: Draws, level: float) -> tuple[Floats, Floats]:
@@ -238,7 +238,7 @@ class Reflective(CellPrior):
             ends[:, i : i + CELLS_AT_ONCE] = quantiles_of_halves(part.reshape(-1, part.shape[-1]), tails)
         if self.has_labels:
             betas = (self.a, self.b), (self.a_solid, self.b_solid)
-            before = labels.mixture_quantiles(labels.share_solid(draws), *betas, tails)
+            before = ising_field.mixture_quantiles(ising_field.share_solid(draws), *betas, tails)
         else:
             before = stats.beta(self.a, self.b).ppf(tails)
         lower, upper = (draws.to_grid(ends[i], "cell", before[i]) for i in (0, 1))
@@ -265,7 +265,7 @@ class Reflective(CellPrior):
             stops = np.full((len(some), len(cells)), self.mean, dtype=np.float32)
             if self.has_labels:
                 for row, number in zip(stops, numbers[i : i + at_once], strict=True):
-                    row[:] = self.mean_given(labels.of_draw(draws, *number)[cells])
+                    row[:] = self.mean_given(ising_field.of_draw(draws, *number)[cells])
             stops[:, known] = some[:, place[known]]
             yield stops
 
@@ -285,7 +285,7 @@ class Reflective(CellPrior):
                 taken = (cells + int(rng.integers(FRESH_CELLS))) % FRESH_CELLS
                 stops[:] = fresh[taken]
                 if self.has_labels:
-                    solid = labels.of_draw(draws, *numbers[number])[cells]
+                    solid = ising_field.of_draw(draws, *numbers[number])[cells]
                     stops[solid] = solid_ones[taken[solid]]
                 stops[known] = drawn[number, place[known]]
                 number += 1

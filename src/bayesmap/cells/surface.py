@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import special
 
-from bayesmap.cells import labels
+from bayesmap.cells import ising_field
 from bayesmap.cells.arrays import ArraySpec, Draws
 from bayesmap.cells.kind import BATCH_BYTES, Cells, Floats, Words
 from bayesmap.cells.reflectivity import EXPECTED, FRESH_CELLS, REFLECTIVITY, KernelNumbers, Reflective, places_among
@@ -225,7 +225,7 @@ class Surface(Reflective):
             for states, (chain, draw) in zip(batch, numbers[i : i + at_once], strict=True):
                 states[:] = fresh[(cells + int(rng.integers(FRESH_CELLS))) % FRESH_CELLS]
                 if self.has_labels:
-                    states[:, 0] = self.mean_given(labels.of_draw(draws, chain, draw)[cells])
+                    states[:, 0] = self.mean_given(ising_field.of_draw(draws, chain, draw)[cells])
                 states[known, 0] = draws.arrays["expected"][chain, draw, place]
                 for part, name in enumerate(PARTS, 1):
                     states[with_surface, part] = draws.arrays[f"surface_{name}"][chain, draw, surface_place]

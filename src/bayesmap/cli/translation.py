@@ -76,8 +76,7 @@ def method_of(settings: InferSettings) -> Method:
 
 def prior_of(settings: SamplingSettings) -> CellPrior:
     """Return the prior of the cells."""
-    from bayesmap.cells.binary import Independent
-    from bayesmap.cells.ising import Ising
+    from bayesmap.cells.binary import Independent, Ising
     from bayesmap.cells.kinds import BUILT_IN, P_WALL
 
     p_wall, coupling = (settings.prior, settings.coupling) if isinstance(settings, InferSettings) else (None, None)

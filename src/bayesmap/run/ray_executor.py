@@ -22,8 +22,8 @@ from typing import Any
 from bayesmap.errors import BadInput, check_count
 from bayesmap.run import ray_worker
 from bayesmap.run.chains import Chains, SweepPlan, join
+from bayesmap.run.ray_worker import Segment, chains_of_segments, some_chains
 from bayesmap.run.runner import Job, pause_after
-from bayesmap.run.segments import Segment, chains_of_segments, some_chains
 from bayesmap.samplers.progress import Watch
 from bayesmap.samplers.sampler import Snapshot, to_see
 from bayesmap.version import __version__

@@ -1,17 +1,22 @@
-"""Fit the sensor and the prior by a pilot chain: stochastic expectation maximisation.
+"""Fit the sensor and the prior to the scans, by a pilot chain: stochastic expectation maximisation.
 
-After each sweep the stops that were drawn say, for every beam, how far from its surface the reading fell. The
-expectation step splits the readings into those of walls, of passing objects and of chance. The maximisation step is in
-closed form but for the noise and the Beta. Parameters move a shrinking part of the way (Delyon, Lavielle and Moulines,
-1999). With 10^5 beams their posterior is a point beside everything else that is unknown.
-
-Real readings scatter more at times than a normal law allows: poses are off by more in one scan than in another, walls
-are hit at a slant, and an edge is half wall and half what lies behind it. So the noise may be Student's t, a mixture of
-normal laws of all scales, which with many degrees of freedom is normal itself.
-
-The pilot is a short chain with a number that no other chain has. It ends before the chains begin, which run under the
+The pilot is a short chain whose number no other chain has. It ends before the chains begin, and they run under the
 parameters that it found. So these depend on the seed and on the number of the pilot's sweeps, and not on the number of
-chains. Only the scans from which the map is inferred are used.
+chains. Only the scans from which the map is inferred are used. Parameters move all the way in the first sweeps, and
+then a shrinking part of it (Delyon, Lavielle and Moulines, 1999).
+
+Sensor and Beta prior. After each sweep the drawn stops say how far from its surface each reading fell. The expectation
+step splits the readings into those of walls, of passing objects and of chance. The maximisation step is in closed form
+but for the noise and the Beta. With 10^5 beams the posterior of these parameters is a point beside everything else
+that is unknown.
+
+Noise. Real readings scatter more at times than a normal law allows: the errors of poses differ from scan to scan, walls
+are hit at a slant, and an edge is half wall and half what lies behind it. So the noise may be Student's t, a mixture of
+normal laws of all scales.
+
+Coupling of an Ising prior. Each sweep of the pilot gives a whole map, in which unseen cells are drawn too. The coupling
+moves towards the one of greatest pseudo-likelihood for this map (`bayesmap.cells.binary`). It settles where the slope
+of the pseudo-likelihood is zero on the mean over the posterior. Unknown poses are taken as the log states them.
 """
 
 from __future__ import annotations
@@ -19,13 +24,14 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 import scipy
 from numpy.typing import NDArray
 from scipy import special
 
+from bayesmap.cells.binary import Ising, counts, likeliest
 from bayesmap.cells.kind import CellPrior
 from bayesmap.cells.kinds import prior_from
 from bayesmap.cells.reflectivity import Beta, Reflective
@@ -34,6 +40,7 @@ from bayesmap.samplers.progress import SILENT, Watch
 from bayesmap.samplers.sampler import NOTHING, PILOT, Info, Keep
 from bayesmap.samplers.stop_gibbs import StopGibbs, StopState
 from bayesmap.samplers.stop_problem import StopProblem, trace_stops
+from bayesmap.samplers.walls import WallSampler
 from bayesmap.sensors.builtin import AdditiveNoise, BeamMixture, Gaussian, describe, from_description, noise_with
 from bayesmap.sensors.model import RangeLimits
 
@@ -348,3 +355,41 @@ def _likeliest_beta(
     result = scipy.optimize.minimize(cost, first, method="L-BFGS-B", bounds=bounds)
     a, b = np.exp((1 - step) * first + step * result.x)
     return float(a), float(b)
+
+
+COUPLING_SWEEPS = 100
+COUPLING_WHOLE_UNTIL = 40
+FIRST_COUPLING = 0.5
+"""Where the pilot starts: below the coupling of about 0.88 at which, at p = 0.5, whole regions become alike."""
+
+
+def fit_coupling_to_scans(
+    model: Model, sampler: WallSampler, device: str, *, seed: int, threads: int | None = None, watch: Watch = SILENT
+) -> Ising:
+    """Return a model's prior with the coupling that suits its scans.
+
+    Args:
+        model: its cells an `Ising`, whose wall probability is held.
+        sampler: of the pilot.
+        device: where kernels run.
+        seed: of the pilot.
+        threads: of the CPU; all cores if None.
+        watch: gets progress after each sweep; a stop ends the pilot, and with it the run.
+
+    Raises:
+        BadInput: as `WallSampler.prepare`.
+    """
+    now = replace(cast(Ising, model.cells), coupling=FIRST_COUPLING)
+    problem = sampler.prepare(replace(model, cells=now), device, threads, watch)
+    state = sampler.init(problem, [PILOT], seed, watch=watch)
+    for sweep in range(COUPLING_SWEEPS):
+        state, info = sampler.step(state, 1)
+        walls = state.walls().reshape(problem.grid.shape) != 0
+        best = likeliest(*counts(walls, np.asarray(now.p_wall, dtype=np.float64)))
+        step = 1.0 if sweep < COUPLING_WHOLE_UNTIL else (sweep - COUPLING_WHOLE_UNTIL + 1.0) ** -0.7
+        now = replace(now, coupling=now.pair_coupling + step * (best - now.pair_coupling))
+        state = replace(state, problem=state.problem.under(now))
+        watch.report("fit", sweep + 1, COUPLING_SWEEPS, float(info.log_likelihood[0, -1] + info.log_prior[0, -1]))
+        if watch.should_stop():
+            break
+    return now

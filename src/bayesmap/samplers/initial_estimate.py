@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from scipy import ndimage, special
 
 from bayesmap.beams.rays import Rays
-from bayesmap.cells.perfect_draws import rough_draw
+from bayesmap.cells.ising_field import rough_draw
 from bayesmap.cells.reflectivity import Reflective
 from bayesmap.space.grid import Grid
 

@@ -49,7 +49,7 @@ def start_maps(
     A warm start takes the thresholded marginals of belief propagation, and in cells where these equal the prior a prior
     draw, another one in each chain. Chains that start alike can agree before they have forgotten their start: start
     from "prior" to check that. Where neighbours are coupled, "prior" is only approximately a draw of the prior
-    (`bayesmap.cells.ising.Ising.start`).
+    (`bayesmap.cells.binary.Ising.start`).
 
     Args:
         problem: table and prior.

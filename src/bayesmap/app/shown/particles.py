@@ -1,4 +1,4 @@
-"""Importance sampling in short pieces: the particles of `bayesmap.samplers.importance`, some at a time."""
+"""Importance sampling in short pieces: the particles of `bayesmap.samplers.without_chains`, some at a time."""
 
 from __future__ import annotations
 
@@ -15,10 +15,9 @@ from bayesmap.kernels.random import mix
 from bayesmap.kernels.walls.maps import reach_frequency, weigh
 from bayesmap.posterior.posterior import posterior_of_draws
 from bayesmap.result import Run
-from bayesmap.samplers.importance import Particles
 from bayesmap.samplers.sampler import STREAM_PARTICLES
 from bayesmap.samplers.wall_problem import WallProblem
-from bayesmap.samplers.without_chains import DrawRequest, draws_by_importance
+from bayesmap.samplers.without_chains import DrawRequest, Particles, draws_by_importance
 
 PIECE_SECONDS = 0.015
 FIRST_PIECE = 64

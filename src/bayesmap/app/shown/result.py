@@ -21,7 +21,7 @@ from bayesmap.cells.kinds import BUILT_IN
 from bayesmap.errors import BadInput
 from bayesmap.model import Model
 from bayesmap.result import Run
-from bayesmap.run.fingerprint import RANDOM_STREAMS
+from bayesmap.run.checks import RANDOM_STREAMS
 from bayesmap.sensors.builtin import describe
 from bayesmap.sensors.model import SensorModel
 

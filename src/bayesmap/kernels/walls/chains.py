@@ -4,7 +4,7 @@ The prior is
 
     p(walls) proportional to  prod_c p_c^m_c (1 - p_c)^(1 - m_c)  exp(coupling * number of pairs of neighbours alike)
 
-over pairs of cells that share an edge (`bayesmap.cells.ising` has the source). Given all others a cell is a wall with
+over pairs of cells that share an edge (`bayesmap.cells.binary` has the source). Given all others a cell is a wall with
 the log-odds logit(p_c) + coupling * (walls - free cells among its neighbours). At a coupling of 0 cells are
 independent, and no neighbour is looked at.
 

@@ -1,0 +1,173 @@
+"""Ising fields: their draws, and the labels of cells that stop beams.
+
+Exact draws come by coupling from the past (Propp and Wilson, *Exact sampling with coupled Markov chains and
+applications to statistical mechanics*, 1996). A sweep of Gibbs sampling draws the cells whose coordinates add up to an
+even number, then the others: no two of either half are neighbours, so each half is drawn at once. With one uniform
+number a cell, a sweep keeps the order of maps: more walls before it, more after it. Send the map of walls alone and the
+map of free cells alone through the same sweeps, from some time in the past. If the two meet, every map would have come
+there, and this map is a draw from the stationary law. The time is doubled, with the same numbers for the same sweeps,
+until they meet.
+
+A label says whether a cell is free or solid, and neighbours tend to be alike:
+
+    p(labels) proportional to  exp(coupling * sum over pairs [s_a = s_b])
+
+over all pairs of cells a, b that share an edge: the Ising field of `bayesmap.cells.binary` at p = 1/2. A reflectivity
+has one of two Betas, by its cell's label (a hidden Markov random field: Geman and Geman, 1984; Besag, *On the
+statistical analysis of dirty pictures*, 1986).
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import special
+
+from bayesmap.cells.arrays import ArraySpec, Draws, count_walls, unpack
+from bayesmap.errors import BadInput
+from bayesmap.space.grid import Grid
+
+MOST_SWEEPS = 4096
+"""From the past: at a coupling for which these are not enough, exact draws take forever."""
+
+
+def perfect_draws(
+    rng: np.random.Generator, logit: NDArray[np.float64], coupling: float, count: int
+) -> NDArray[np.bool_]:
+    """Independent exact draws.
+
+    Args:
+        rng: of the uniform numbers.
+        logit: log-odds of a wall beside its neighbours, (nx, ny); infinite in cells that are fixed.
+        coupling: what a pair of neighbours that are alike adds to the log density; positive.
+        count: of the draws.
+
+    Returns:
+        Walls, (count, nx, ny).
+
+    Raises:
+        BadInput: the coupling is so strong, and the log-odds so near to zero, that the maps do not meet.
+    """
+    seeds: list[int] = []  # of the sweeps before time -2^(k - 1), and from -2^k on
+    out = np.empty((count, *logit.shape), dtype=np.bool_)
+    apart = np.arange(count)  # the draws whose two maps have not met yet
+    while len(apart):
+        if 1 << len(seeds) > MOST_SWEEPS:
+            raise _too_strong(logit.shape, coupling)
+        seeds.append(int(rng.integers(1 << 62)))
+        low, high = (_padded(np.full((len(apart), *logit.shape), state, dtype=np.int8)) for state in (-1, 1))
+        for k in range(len(seeds) - 1, -1, -1):
+            of_level = np.random.default_rng(seeds[k])
+            for _ in range(max(1, (1 << k) // 2)):
+                levels = _levels(of_level.random((count, *logit.shape))[apart], logit, coupling)
+                _sweep(low, levels)
+                _sweep(high, levels)
+        met = (low == high).all(axis=(1, 2))
+        out[apart[met]] = low[met, 1:-1, 1:-1] > 0
+        apart = apart[~met]
+    return out
+
+
+def _too_strong(shape: tuple[int, ...], coupling: float) -> BadInput:
+    return BadInput(
+        f"Ising: at a coupling of {coupling:g} maps of {shape[0]} x {shape[1]} cells cannot be drawn "
+        "exactly in reasonable time; take a weaker coupling, or a wall probability further from 0.5"
+    )
+
+
+def rough_draw(rng: np.random.Generator, logit: NDArray[np.float64], coupling: float, sweeps: int) -> NDArray[np.bool_]:
+    """A map, (nx, ny), after so many sweeps from one in which cells are independent."""
+    walls = rng.random(logit.shape) < special.expit(logit)
+    field = _padded(np.where(walls, 1, -1).astype(np.int8)[None])
+    for _ in range(sweeps):
+        _sweep(field, _levels(rng.random((1, *logit.shape)), logit, coupling))
+    return np.asarray(field[0, 1:-1, 1:-1] > 0)
+
+
+def _padded(signs: NDArray[np.int8]) -> NDArray[np.int8]:
+    """Signs with a rim of zeros: what lies outside the grid says nothing."""
+    return np.pad(signs, ((0, 0), (1, 1), (1, 1)))
+
+
+def _levels(u: NDArray[np.float64], logit: NDArray[np.float64], coupling: float) -> NDArray[np.int8]:
+    """Which balance of walls and free cells around it makes a cell a wall, by its uniform number: one above this level.
+
+    A cell is a wall if u < expit(logit + coupling * balance), that is, if balance > (logit(u) - logit) / coupling.
+    """
+    with np.errstate(divide="ignore"):
+        needed = np.clip((special.logit(u) - logit) / coupling, -9, 9)
+    return np.asarray(np.floor(needed), dtype=np.int8)
+
+
+def _sweep(field: NDArray[np.int8], levels: NDArray[np.int8]) -> None:
+    """One sweep of all maps, in place."""
+    inner = field[:, 1:-1, 1:-1]
+    x, y = np.ogrid[: inner.shape[1], : inner.shape[2]]
+    for parity in (0, 1):
+        balance = field[:, 2:, 1:-1] + field[:, :-2, 1:-1] + field[:, 1:-1, 2:] + field[:, 1:-1, :-2]
+        drawn = np.where(balance > levels, np.int8(1), np.int8(-1))
+        np.copyto(inner, drawn, where=(x + y) % 2 == parity)
+
+
+Floats = NDArray[np.float64]
+
+SOLID = ArraySpec("solid", ("x", "y"), "bool", "bits", "whether the cell's label is solid; else it is free")
+
+HALVINGS = 60
+
+
+def log_prior(solid: NDArray[np.bool_], coupling: float) -> float:
+    """Log p(labels) in nats, (nx, ny), without the constant by which it would have to be divided."""
+    alike = int((solid[1:] == solid[:-1]).sum()) + int((solid[:, 1:] == solid[:, :-1]).sum())
+    return coupling * alike
+
+
+def sample(rng: np.random.Generator, coupling: float, grid: Grid) -> NDArray[np.bool_]:
+    """Draw labels exactly, (nx, ny).
+
+    Raises:
+        BadInput: so strong a coupling, on so large a grid, that exact draws take too long.
+    """
+    return np.asarray(perfect_draws(rng, np.zeros(grid.shape), coupling, 1)[0])
+
+
+def less_unlike(solid: NDArray[np.bool_], site: tuple[int, int]) -> int:
+    """Neighbours of a cell that are solid less those that are free."""
+    (x, y), (nx, ny) = site, solid.shape
+    around = [(x - 1, y), (x + 1, y), (x, y - 1), (x, y + 1)]
+    return sum(1 if solid[i, j] else -1 for i, j in around if 0 <= i < nx and 0 <= j < ny)
+
+
+def of_draw(draws: Draws, chain: int, draw: int) -> NDArray[np.bool_]:
+    """The labels of one draw, flat, (N,)."""
+    return unpack(draws.arrays[SOLID.name][chain, draw], draws.grid.shape).ravel()
+
+
+def share_solid(draws: Draws) -> Floats:
+    """Of all draws the share in which each cell is solid, flat, (N,)."""
+    packed = draws.arrays[SOLID.name]
+    counts = count_walls(packed.reshape(-1, packed.shape[-1]), draws.grid.n_cells)
+    return np.asarray(counts / draws.size)
+
+
+def mixture_quantiles(
+    share: Floats, free: tuple[float, float], solid: tuple[float, float], tails: tuple[float, float]
+) -> Floats:
+    """Quantiles of a reflectivity whose cell is solid with a given probability, (len(tails), N), by bisection.
+
+    Args:
+        share: probability that the cell is solid, (N,).
+        free: a and b of the Beta of free cells.
+        solid: of that of solid ones.
+        tails: probabilities below the quantiles.
+    """
+    kinds, which = np.unique(share, return_inverse=True)
+    out = np.empty((len(tails), len(kinds)))
+    for row, tail in zip(out, tails, strict=True):
+        low, high = np.zeros(len(kinds)), np.ones(len(kinds))
+        for _ in range(HALVINGS):
+            middle = 0.5 * (low + high)
+            below = (1 - kinds) * special.betainc(*free, middle) + kinds * special.betainc(*solid, middle) < tail
+            low, high = np.where(below, middle, low), np.where(below, high, middle)
+        row[:] = 0.5 * (low + high)
+    return out[:, which.ravel()]
