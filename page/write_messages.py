@@ -11,10 +11,10 @@ from typing import get_args
 
 from msgspec import inspect
 
+from bayesmap.app.exports import Recording
 from bayesmap.app.protocol.actions import Action, AnyAction, Patch
 from bayesmap.app.protocol.document import Document
 from bayesmap.app.protocol.notices import AnyNotice
-from bayesmap.app.recording import Recording
 
 TARGET = Path(__file__).parent / "src/messages.ts"
 HEAD = "// Built by `make page` from src/bayesmap/app/protocol: edit there.\n"

@@ -6,11 +6,11 @@ Run `python docs/tutorial/interactive.py` from the repository's root. It does wh
 
 from pathlib import Path
 
+from bayesmap.app.edits import tutorial_document
 from bayesmap.app.engine import Engine
 from bayesmap.app.protocol.actions import Export
 from bayesmap.app.protocol.notices import Download
 from bayesmap.app.protocol.tasks import Ask, Infer, Report
-from bayesmap.app.worlds import tutorial_document
 
 PAGE = Path(__file__).with_name("interactive.html")
 

@@ -4,11 +4,11 @@ import numpy as np
 from acted_engine import header_of
 from msgspec import structs
 
+from bayesmap.app.edits import tutorial_document
 from bayesmap.app.protocol.notices import DrawCount, Field, Overlay, Quantity, Scan, Stage
 from bayesmap.app.protocol.tasks import Ask, Failed, Finished, Infer, Located, OnGrid, Ready, Report
 from bayesmap.app.protocol.wire import check
-from bayesmap.app.session import Session, ToWorker
-from bayesmap.app.worlds import tutorial_document
+from bayesmap.app.session import Session, ToPage
 
 WALLS = Quantity("binary", "P(wall)", "wall", False)
 
@@ -57,8 +57,8 @@ class Acted:
     def do(self, effects, client=1):
         new = []
         for effect in effects:
-            if isinstance(effect, ToWorker):
-                self.tasks.append(effect.task)
+            if not isinstance(effect, ToPage):
+                self.tasks.append(effect)
             elif effect.client in (None, client):
                 new.append(header_of(effect.message))
         self.sent += new

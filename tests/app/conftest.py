@@ -8,7 +8,7 @@ from page_driver import ARGUMENTS, CHROMIUM, DESKTOP, WAIT_SECONDS, document, li
 from warm_worker import FORKS, Forked
 
 import bayesmap as bm
-from bayesmap.app import supervisor
+from bayesmap.app import worker
 from bayesmap.app.protocol.wire import parse_document
 
 
@@ -17,7 +17,7 @@ def warm_workers():
     """Supervisors start workers that are warm; processes of their own, commands and notebooks, start cold ones."""
     with pytest.MonkeyPatch.context() as changed:
         if FORKS:
-            changed.setattr(supervisor, "start_worker", Forked)
+            changed.setattr(worker, "start_worker", Forked)
         yield
 
 

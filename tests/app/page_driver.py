@@ -15,11 +15,11 @@ import numpy as np
 from PIL import Image
 
 from bayesmap.app import server as app_server
+from bayesmap.app.edits import tutorial_document
 from bayesmap.app.hub import Hub
 from bayesmap.app.protocol.wire import parse_document, unframe
 from bayesmap.app.scene import simulated_scene
-from bayesmap.app.shown.beliefs import Preview
-from bayesmap.app.worlds import tutorial_document
+from bayesmap.app.shown.without_chains import Preview
 
 BROWSERS = ("chromium-headless-shell", "chromium", "chromium-browser", "google-chrome")
 """The first of them that there is draws the page; the first needs two thirds of the second's time for all tests."""

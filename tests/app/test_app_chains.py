@@ -8,6 +8,7 @@ from acted_engine import Heard
 from flat_options import infer
 
 import bayesmap as bm
+from bayesmap.app.edits import tutorial_document
 from bayesmap.app.exports import export
 from bayesmap.app.protocol.document import Document, Sensor, packed
 from bayesmap.app.scene import simulate_document, simulated_scene
@@ -20,7 +21,6 @@ from bayesmap.app.shown.chains import (
     pose_starts,
     starts,
 )
-from bayesmap.app.worlds import tutorial_document
 from bayesmap.kernels.walls.table import trace
 from bayesmap.samplers.wall_problem import WallProblem
 from bayesmap.samplers.without_chains import enumerate_maps

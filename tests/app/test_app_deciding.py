@@ -8,11 +8,11 @@ from acted_engine import Heard
 from acted_session import Acted
 from msgspec import structs
 
+from bayesmap.app.edits import tutorial_document
 from bayesmap.app.protocol.actions import FindPath, FindViews
 from bayesmap.app.protocol.document import Refused, packed
 from bayesmap.app.protocol.wire import check
 from bayesmap.app.sources import opened_run
-from bayesmap.app.worlds import tutorial_document
 from bayesmap.posterior.decisions import path_is_free
 
 DOCUMENT = replace(tutorial_document(), sweeps=300)

@@ -9,10 +9,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from bayesmap.app.edits import new_document, tutorial_document
 from bayesmap.app.protocol.document import BOUNDS, Document, Refused, Sensor, packed
 from bayesmap.app.protocol.wire import parse_document, parse_simulation
 from bayesmap.app.scene import simulate_document, standard_noise
-from bayesmap.app.worlds import new_document, tutorial_document
 from bayesmap.sim.drawing import TUTORIAL_GRID
 from bayesmap.space.grid import Grid
 

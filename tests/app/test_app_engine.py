@@ -10,13 +10,13 @@ from acted_engine import PAGE, Heard
 from flat_options import infer
 
 import bayesmap as bm
+from bayesmap.app.edits import new_document, tutorial_document
 from bayesmap.app.protocol.actions import Cancel, Inspect
 from bayesmap.app.protocol.document import Document, Sensor, packed
 from bayesmap.app.protocol.notices import DrawCount, View
 from bayesmap.app.scene import simulate_document, simulated_scene
-from bayesmap.app.shown.beliefs import Preview
-from bayesmap.app.shown.verdict import FEWEST_SWEEPS
-from bayesmap.app.worlds import new_document, tutorial_document
+from bayesmap.app.shown.result import FEWEST_SWEEPS
+from bayesmap.app.shown.without_chains import Preview
 from bayesmap.model import Model
 from bayesmap.run.chains import SweepPlan
 from bayesmap.run.runner import Job, run_chains

@@ -8,8 +8,8 @@ from acted_engine import Heard
 
 import bayesmap as bm
 from bayesmap.app.answers.evidence import MOST_DRAWN, BeamRatios, strongest, summed, wall_ratios
+from bayesmap.app.edits import tutorial_document
 from bayesmap.app.protocol.actions import Inspect
-from bayesmap.app.worlds import tutorial_document
 from bayesmap.kernels.walls.table import trace
 
 

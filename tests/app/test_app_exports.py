@@ -13,12 +13,12 @@ import pytest
 from acted_engine import PAGE, Heard
 
 import bayesmap as bm
+from bayesmap.app.edits import tutorial_document
+from bayesmap.app.exports import to_html
 from bayesmap.app.protocol.actions import Export, ShowScan
 from bayesmap.app.protocol.document import Source
 from bayesmap.app.protocol.notices import DrawCount, View
-from bayesmap.app.recording import run_to_html
-from bayesmap.app.sources import open_file
-from bayesmap.app.worlds import tutorial_document
+from bayesmap.app.sources import open_file, opened_run
 from bayesmap.io.ros.maps import read_map
 
 
@@ -118,7 +118,7 @@ def test_a_saved_run_is_shown_with_its_draws_and_scans(heard, tmp_path):
     (draw,) = shown.ask(View("draw", 1, 3))
     assert np.array_equal(draw.buffers["p"] > 0, run.draws[1, 3])
     assert shown.last("scan")[1]["exact"].size == 0
-    assert len(run_to_html(run)) < 200_000
+    assert len(to_html(opened_run(run, "run").result)) < 200_000
 
 
 def test_a_run_of_reflectivities_is_shown_too(tmp_path):

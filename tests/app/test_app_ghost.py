@@ -8,10 +8,10 @@ from acted_engine import Heard
 from building_log import ANGLES, room_run, room_scans
 
 import bayesmap as bm
-from bayesmap.app.answers.ghost import FEW_DRAWS, nearest_scan
+from bayesmap.app.answers.predictions import FEW_DRAWS, nearest_scan
+from bayesmap.app.edits import tutorial_document
 from bayesmap.app.protocol.actions import MoveGhost
 from bayesmap.app.sources import opened_run
-from bayesmap.app.worlds import tutorial_document
 from bayesmap.posterior.predictor import ScanPredictor, predictor_of
 from bayesmap.sensors.model import RangeLimits
 
@@ -130,7 +130,7 @@ def test_chains_rest_while_it_is_moved(monkeypatch):
 
 
 def test_its_draws_are_those_of_the_last_sweep_once_chains_are_done(monkeypatch):
-    monkeypatch.setattr("bayesmap.app.answers.ghost.STALE_SECONDS", 60.0)
+    monkeypatch.setattr("bayesmap.app.answers.predictions.STALE_SECONDS", 60.0)
     heard = Heard()
     heard.infer_until_chains_run(replace(tutorial_document(), sweeps=2000))
     asked(heard, 6.0, 15.0, 0.0)

@@ -4,7 +4,7 @@ import asyncio
 
 import pytest
 
-from bayesmap.app.guard import Guard
+from bayesmap.app.server import Guard
 
 
 async def inner(scope, receive, send):

@@ -3,7 +3,7 @@
 from hypothesis import given
 from hypothesis import strategies as st
 
-from bayesmap.app.gestures import DEPTH, History
+from bayesmap.app.edits import DEPTH, History
 
 ACTIONS = st.lists(
     st.one_of(
@@ -36,8 +36,8 @@ def test_undo_and_redo_walk_along_the_states_that_were(actions):
             last = len(states) - 1
             history, at, gesture = history.redo(), min(last, at + 1), gesture if at == last else None
         assert history.present == states[at]
-        assert history.can_undo == (at > 0)
-        assert history.can_redo == (at < len(states) - 1)
+        assert bool(history.past) == (at > 0)
+        assert bool(history.future) == (at < len(states) - 1)
 
 
 def test_a_gesture_is_one_step():

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from bayesmap.app.shown.verdict import Difference, difference, judge_chains, judge_particles
+from bayesmap.app.shown.result import Difference, difference, judge_chains, judge_particles
 
 
 @pytest.mark.parametrize(

@@ -10,7 +10,7 @@ from acted_engine import Heard
 from acted_session import Acted
 from poses.simulated import off, recording
 
-from bayesmap.app.edits import adopted, with_resolution
+from bayesmap.app.edits import adopted, tutorial_document, with_resolution
 from bayesmap.app.protocol.actions import Cancel, Export, Inspect, ShowScan
 from bayesmap.app.protocol.document import Refused
 from bayesmap.app.protocol.notices import DrawCount
@@ -19,7 +19,6 @@ from bayesmap.app.protocol.wire import parse_document
 from bayesmap.app.shown.hit_maps import MOST_SCANS, counted_map, grown, thinned
 from bayesmap.app.sources import opened_log
 from bayesmap.app.trajectory import ASK_TO_RUN, STAGES, TrajectoryJob, along, in_time
-from bayesmap.app.worlds import tutorial_document
 from bayesmap.space.grid import Grid
 
 

@@ -9,6 +9,7 @@ from acted_session import Acted
 from building_log import ANGLES, room_scans
 
 import bayesmap as bm
+from bayesmap.app.edits import new_document
 from bayesmap.app.protocol.actions import MoveGhost, ShowScan
 from bayesmap.app.protocol.document import Refused, Source
 from bayesmap.app.protocol.notices import View
@@ -16,7 +17,6 @@ from bayesmap.app.protocol.wire import check, parse_document
 from bayesmap.app.scene import hits
 from bayesmap.app.shown.hit_maps import HitCounts, coarse_map
 from bayesmap.app.sources import OpenedLog, first_beams, opened_log
-from bayesmap.app.worlds import new_document
 from bayesmap.cells.arrays import Draws
 from bayesmap.samplers.fit import PILOT_SWEEPS, first_sensor, pilot_sweeps
 from bayesmap.samplers.sampler import Keep

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 from bayesmap.app import scene as scanning
+from bayesmap.app.edits import new_document, tutorial_document
 from bayesmap.app.protocol.document import Sensor
 from bayesmap.app.scene import simulated_scene
-from bayesmap.app.shown.beliefs import Preview
-from bayesmap.app.worlds import new_document, tutorial_document
+from bayesmap.app.shown.without_chains import Preview
 
 ROUNDS = 6
 BUILDING = new_document("building", (80, 60), tutorial_document())

@@ -5,9 +5,9 @@ import pytest
 from acted_engine import Heard
 
 import bayesmap as bm
+from bayesmap.app.edits import tutorial_document
 from bayesmap.app.protocol.notices import View
 from bayesmap.app.sources import opened_run
-from bayesmap.app.worlds import tutorial_document
 
 SENSOR = bm.BeamMixture(bm.Gaussian(0.05), p_random=0.01, p_no_return=0.01)
 

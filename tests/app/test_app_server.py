@@ -19,7 +19,7 @@ from page_socket import PATIENCE_S, Page, children, serving, socket_address, sta
 from websockets.exceptions import ConnectionClosed, InvalidMessage, InvalidStatus
 from websockets.sync.client import connect
 
-from bayesmap.app.worlds import tutorial_document
+from bayesmap.app.edits import tutorial_document
 from bayesmap.cli.group import cli
 
 

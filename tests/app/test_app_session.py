@@ -8,10 +8,10 @@ from acted_session import Acted, a_field
 from hypothesis import given
 from hypothesis import strategies as st
 
+from bayesmap.app.edits import new_document, tutorial_document
 from bayesmap.app.protocol.actions import Cancel, Export, Inspect
 from bayesmap.app.protocol.notices import View
 from bayesmap.app.protocol.tasks import Report, Show
-from bayesmap.app.worlds import new_document, tutorial_document
 
 
 def walls_of(acted):
@@ -284,7 +284,7 @@ def test_each_page_has_its_own_view():
         report = Report(a_field(acted.session.generation), {}, client)
         assert [effect.client for effect in acted.session.hear(report)] == pages
     left = acted.session.leave(2)
-    assert left[0].task == Show(2, View("mean"))  # nobody is shown that draw any more
+    assert left[0] == Show(2, View("mean"))  # nobody is shown that draw any more
 
 
 def test_a_page_undoes_its_own_steps_and_those_of_pages_that_have_gone():

@@ -4,10 +4,10 @@ from dataclasses import replace
 
 import numpy as np
 
+from bayesmap.app.edits import tutorial_document
 from bayesmap.app.scene import simulated_scene
-from bayesmap.app.shown.beliefs import Preview
 from bayesmap.app.shown.chains import starts
-from bayesmap.app.worlds import tutorial_document
+from bayesmap.app.shown.without_chains import Preview
 
 
 def test_after_a_preview_one_chain_starts_from_it_and_the_other_from_nothing():

@@ -8,8 +8,7 @@ import time
 import pytest
 
 from bayesmap.app.protocol.tasks import Alive, Ready, Report
-from bayesmap.app.supervisor import Supervisor
-from bayesmap.app.worker import Reporter
+from bayesmap.app.worker import Reporter, Supervisor
 
 PATIENCE_S = 180.0
 SILENCE_S = 4.0

@@ -9,8 +9,8 @@ from acted_engine import Heard
 from building_log import ANGLES, GRID, SENSOR, room_scans
 
 import bayesmap as bm
+from bayesmap.app.exports import record
 from bayesmap.app.protocol.actions import CompareBeam, MoveGhost, ShowScan
-from bayesmap.app.recording import record
 from bayesmap.app.sources import opened_run
 from bayesmap.space.scans import side_by_side
 

@@ -8,11 +8,11 @@ from acted_engine import Heard
 
 import bayesmap as bm
 from bayesmap.app.answers.whereabouts import Locator, drawn_map
+from bayesmap.app.edits import tutorial_document
 from bayesmap.app.protocol.actions import ShowScan, WhereAmI
 from bayesmap.app.protocol.document import Sensor, no_walls, packed
 from bayesmap.app.protocol.tasks import Infer
 from bayesmap.app.sources import opened_log, opened_run
-from bayesmap.app.worlds import tutorial_document
 
 PAGE = 7
 
@@ -113,7 +113,7 @@ def test_a_scan_of_nowhere_is_lost(run):
     opened = opened_run(run, "run.nc")
     ranges_m = np.random.default_rng(3).permuted(run.posterior.scans.ranges_m, axis=1)
     elsewhere = replace(run.posterior.scans, ranges_m=ranges_m)
-    result = opened.result()
+    result = opened.result
     result = replace(result, scene=replace(result.scene, scans=elsewhere))
     notice, _ = Locator().answer(WhereAmI(), result, 0, 1)
     assert notice.p_lost > 0.5

@@ -11,9 +11,9 @@ import pytest
 
 import bayesmap as bm
 from bayesmap.app import session
+from bayesmap.app.edits import new_document, tutorial_document
 from bayesmap.app.protocol.notices import DrawCount
 from bayesmap.app.protocol.tasks import Finished, Report
-from bayesmap.app.worlds import new_document, tutorial_document
 
 pytest.importorskip("anywidget")
 PATIENCE_S = 60.0

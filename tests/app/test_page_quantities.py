@@ -84,9 +84,10 @@ def test_a_run_of_walls_keeps_its_probabilities(open_page, tmp_path):
 
 
 def test_an_exported_page_of_reflectivities_names_them(open_page, tmp_path):
-    from bayesmap.app.recording import run_to_html
+    from bayesmap.app.exports import to_html
+    from bayesmap.app.sources import opened_run
 
-    (tmp_path / "page.html").write_text(run_to_html(room_run(bm.Beta(), draws=5)))
+    (tmp_path / "page.html").write_text(to_html(opened_run(room_run(bm.Beta(), draws=5), "run").result))
     page = open_page((tmp_path / "page.html").as_uri())
     playwright.expect(page.get_by_role("list", name="Legend")).to_contain_text("mean reflectivity")
 

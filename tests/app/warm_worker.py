@@ -20,7 +20,7 @@ LOADS = "BAYESMAP_TESTS_LOAD_WORKER"
 
 
 class Forked:
-    """Stands for the process that `bayesmap.app.supervisor.start_worker` starts, and takes its arguments."""
+    """Stands for the process that `bayesmap.app.worker.start_worker` starts, and takes its arguments."""
 
     def __init__(self, end, path, reading):
         make = _warm_context().Process

@@ -152,7 +152,7 @@ def test_its_runs_are_scored_drawn_exported_and_opened_on_the_page(tmp_path):
     assert np.isfinite(bm.score(run, case.scans).nats_per_beam)
     assert run.plot().axes
     assert all(path.stat().st_size > 0 for path in run.export(tmp_path / "map.yaml"))
-    result = opened_run(run, "run.nc").result()
+    result = opened_run(run, "run.nc").result
     assert result.prior is case.prior
     np.testing.assert_array_equal(result.found.mean(), run.occupancy)
     assert result.document.prior == 0.3

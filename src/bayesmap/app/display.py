@@ -1,4 +1,4 @@
-"""What the worker shows pages of its job: fields, rays, what is drawn over them, and how far it is."""
+"""Reports of a job for the pages: fields, rays, overlays and progress."""
 
 from __future__ import annotations
 
@@ -16,45 +16,45 @@ from bayesmap.space.grid import Grid
 
 FRAME_SECONDS = 0.08
 OVERLAY_SECONDS = 2.0
-"""Surfaces of chains that go on are drawn over their field so often."""
+"""The least time between two fields, and between two overlays of the surfaces of chains that go on."""
 
 LEVELS = 255
 TRACED = 300
 FIRST_SWEEPS = 100
-"""Points of a trace that are sent with every picture: so many over all of it, and each of the first sweeps."""
+"""A field sends so many points of the trace, evenly chosen, and each of the first sweeps."""
 
 LEAST_REFLECTIVITY = 0.1
-"""Of surfaces that are drawn as strokes."""
+"""Surfaces that reflect less are not drawn."""
 
 WEIGHT_BINS = 24
 MOST_NATS = 60.0
-"""Weights that are less than exp(-60) of the largest are counted there."""
+"""Weights that are less than exp(-60) of the largest are counted in the first bin."""
 
 OnReport = Callable[[Report], None]
 
 
 class Display:
-    """Makes reports of one job after another.
+    """Makes the reports of one job after another.
 
     Attributes:
-        generation: of the present job.
-        grid: on which pages show it.
+        generation: that of the present job.
+        grid: the grid on which pages show it.
     """
 
     def __init__(self, on_report: OnReport) -> None:
         self._send = on_report
         self.generation, self.grid = -1, Grid((1, 1))
-        self._views: dict[int, View] = {}  # of pages that are shown a draw
+        self._views: dict[int, View] = {}  # of pages that are sent fields of their own
         self._began = 0.0
         self._framed = self._overlaid = 0.0
 
     def begin(self, task: Infer) -> None:
-        """Another job, from now on."""
+        """Begin the reports of another job."""
         self.generation, self.grid = task.generation, task.document.grid
         self._began = time.perf_counter()
 
     def show(self, task: Show, result: Result | None) -> None:
-        """A page looks at something else; it is sent that at once, if there is any."""
+        """Change the view of a page, and send it the field of that view, if there is a result."""
         self._views.pop(task.client, None)
         if task.view.layer in OWN_LAYERS:
             self._views[task.client] = task.view
@@ -67,15 +67,14 @@ class Display:
 
     def frame(self, result: Result) -> None:
         """Send a field to every page."""
-        self._field(View("mean"), result, None)
-        for client, view in self._views.items():
+        for client, view in ((None, View("mean")), *self._views.items()):
             self._field(view, result, client)
         self._framed = time.perf_counter()
         if result.prior.has_surfaces and self._framed - self._overlaid > OVERLAY_SECONDS:
             self.overlay(result)
 
     def _field(self, view: View, result: Result, client: int | None) -> None:
-        """Send a field to one page, or to all that are not shown a draw."""
+        """Send a field to one page, or to all pages without fields of their own."""
         self.report(*field_of(result, view, self.generation, round(1e3 * self.elapsed_s(), 1)), client)
 
     def rays(self, scene: Scene, scan: int | None) -> None:
@@ -83,7 +82,7 @@ class Display:
         self.report(*rays(scene, scan, self.generation))
 
     def overlay(self, result: Result) -> None:
-        """Send what is drawn over the field of a file."""
+        """Send the overlay of a file: surfaces and trajectory."""
         if not result.document.simulated:
             trajectory = result.scan_poses[:, :2].astype(np.float32)
             buffers = {"strokes": strokes_of(result), "trajectory": trajectory}
@@ -91,13 +90,13 @@ class Display:
             self._overlaid = time.perf_counter()
 
     def on_grid(self, grid: Grid) -> None:
-        """From now on the map has other cells."""
+        """Report the map's cells, where they have changed."""
         if grid != self.grid:
             self.grid = grid
             self.report(OnGrid(grid, generation=self.generation))
 
     def finished(self, result: Result | None) -> None:
-        """The job is done."""
+        """Report that the job is done."""
         draws = DrawCount() if result is None else result.draw_count
         self.report(Finished(draws, generation=self.generation))
 
@@ -106,12 +105,12 @@ class Display:
         return time.perf_counter() - self._began
 
     def due(self) -> bool:
-        """Whether the last frame is so old that another is due."""
+        """Return whether another frame is due."""
         return time.perf_counter() - self._framed > FRAME_SECONDS
 
 
 def field_of(result: Result, view: View, generation: int, milliseconds: float) -> tuple[Field, Buffers]:
-    """Make the field that a page is shown; the mean, where a draw or an interval is wished for and there is none."""
+    """Make the field of a view; the mean, where the view asks for a draw or an interval and there is none."""
     found, layer, chain, number, lowest = result.found, view.layer, None, None, None
     trace, traced = trace_of(found.log_joint())
     buffers: dict[str, NDArray[np.generic]] = {"trace": trace, "traced": traced}
@@ -134,14 +133,9 @@ def field_of(result: Result, view: View, generation: int, milliseconds: float) -
 
 
 def trace_of(log_joint: NDArray[np.float64]) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
-    """Thin a trace.
+    """Thin a trace, (chains, n), to each of the first sweeps and later sweeps that are evenly chosen.
 
-    Args:
-        log_joint: of every sweep or kept draw, (chains, n).
-
-    Returns:
-        The log joint at some sweeps, (chains, m), and these sweeps, counted from 1, (m,): each of the first, and later
-        ones that are evenly spread.
+    Returns the log joint at these sweeps, (chains, m), and the sweeps, counted from 1, (m,).
     """
     count = log_joint.shape[1]
     later = np.linspace(1, count, min(count, TRACED)).round().astype(int) if count else np.zeros(0, dtype=int)
@@ -150,10 +144,9 @@ def trace_of(log_joint: NDArray[np.float64]) -> tuple[NDArray[np.float32], NDArr
 
 
 def histogram(log_weights: NDArray[np.float64]) -> tuple[NDArray[np.float32], float]:
-    """Count how many particles weigh how much.
+    """Count log weights in bins of equal width up to the largest.
 
-    Returns:
-        Counts in bins of equal width up to the largest log weight, and where the first begins, relative to it (nats).
+    Returns the counts, (WEIGHT_BINS,), and where the first bin begins, in nats relative to the largest log weight.
     """
     below = log_weights - log_weights.max()
     lowest = -float(min(MOST_NATS, max(1.0, -below.min())))
@@ -162,7 +155,7 @@ def histogram(log_weights: NDArray[np.float64]) -> tuple[NDArray[np.float32], fl
 
 
 def strokes_of(result: Result) -> NDArray[np.float32]:
-    """Return surfaces as strokes, (U, 5), from x, y to x, y in metres with their reflectivity."""
+    """Return surfaces as strokes, (U, 5): from x, y to x, y in metres, and their reflectivity."""
     if result.surfaces is None:
         return np.zeros((0, 5), dtype=np.float32)
     _, mean, covariance, reflectivity = result.surfaces

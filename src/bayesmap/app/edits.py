@@ -1,17 +1,23 @@
-"""Edits: pure functions from a document and an action to another document."""
+"""Edits of the document: first maps, the action that changes a document, and undo and pace of a hand's gestures.
+
+An edit of a gesture waits while the picture of the last edit is being computed, and while its page has pictures to
+paint. A page paints one picture while the worker computes the next; where painting takes longer, pictures would queue.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from dataclasses import replace
-from typing import Any, TypeVar
+from collections.abc import Hashable
+from dataclasses import dataclass, replace
+from typing import Any, Generic, TypeVar
 
 import numpy as np
 from msgspec import structs
+from numpy.typing import NDArray
 
 from bayesmap.app.protocol.actions import (
     Action,
     AddSensor,
+    AnyAction,
     ChangeSettings,
     Clear,
     Edit,
@@ -19,6 +25,7 @@ from bayesmap.app.protocol.actions import (
     New,
     RemoveSensor,
     Walls,
+    World,
     changes,
 )
 from bayesmap.app.protocol.document import (
@@ -28,11 +35,88 @@ from bayesmap.app.protocol.document import (
     Document,
     Refused,
     Sensor,
+    Source,
     check_stand,
+    packed,
     settings_of,
 )
-from bayesmap.app.worlds import new_document
+from bayesmap.sim.drawing import TUTORIAL_GRID, tutorial
 from bayesmap.space.grid import Grid
+
+BUILDING_NOISE_M = 0.05
+ROOM_CELLS = 6
+
+
+def tutorial_document(seed: int = 0) -> Document:
+    """Return the tutorial's map and robot."""
+    walls, (x, y, yaw) = tutorial()
+    return Document(
+        TUTORIAL_GRID, packed(walls), (Sensor(1, float(x), float(y), float(yaw)),), method="auto", seed=seed
+    )
+
+
+def new_document(world: World, shape: tuple[int, int], before: Document) -> Document:
+    """Return another map, with the settings of the document before as far as they fit.
+
+    The sensor's range is twice the longer side, as in the tutorial: every beam can leave the map.
+
+    Raises:
+        Refused: a shape that the world cannot have.
+    """
+    noise, sensor = 0.2, None
+    if world == "blank":
+        walls, grid = np.zeros(shape, dtype=np.bool_), Grid(shape, 1.0, (-0.5, -0.5))
+    elif world == "tutorial":
+        (walls, robot), grid = tutorial(), Grid(shape, 1.0, (-0.5, -0.5))
+        x, y = (at + (n - have) // 2 for at, n, have in zip(robot, shape, walls.shape, strict=False))
+        walls, sensor = _centred(walls, shape), Sensor(1, float(x), float(y))
+    else:
+        walls, grid = _floor(shape, before.seed)
+        noise = BUILDING_NOISE_M
+    return replace(
+        before, grid=grid, walls=packed(walls), source=Source(), scans_used=None, poses="logged", cells="binary",
+        sensors=(_first_sensor(walls, grid) if sensor is None else sensor,),
+        noise=noise, angles=min(1000, max(10, before.angles)), max_range=2.0 * max(shape) * grid.resolution,
+    )  # fmt: skip
+
+
+def _centred(walls: NDArray[np.bool_], shape: tuple[int, int]) -> NDArray[np.bool_]:
+    """Return a map in the middle of a grid of another shape, cut where it does not fit."""
+    result = np.zeros(shape, dtype=np.bool_)
+    shift = [(want - have) // 2 for have, want in zip(walls.shape, shape, strict=True)]
+    kept = np.argwhere(walls) + shift
+    inside = ((kept >= 0) & (kept < shape)).all(axis=1)
+    result[kept[inside, 0], kept[inside, 1]] = True
+    return result
+
+
+def _floor(shape: tuple[int, int], seed: int) -> tuple[NDArray[np.bool_], Grid]:
+    from bayesmap.sim.building import MARGIN_M, SMALLEST_M, building
+
+    for resolution in (0.1, 0.25):
+        margin = round(MARGIN_M / resolution)
+        size = tuple((n - 2 * margin) * resolution for n in shape)
+        if max(size) >= SMALLEST_M[0] and min(size) >= SMALLEST_M[1]:
+            made = building(seed, (size[0], size[1]), resolution)
+            return _centred(made.walls, shape), Grid(shape, resolution, (0.0, 0.0))
+    least = [round(v / 0.25) + 4 for v in SMALLEST_M]
+    raise Refused(f"new: a building does not fit {shape[0]} x {shape[1]} cells", f"{least[0]} x {least[1]} are enough")
+
+
+def _first_sensor(walls: NDArray[np.bool_], grid: Grid) -> Sensor:
+    """Return a sensor in the free cell nearest to the middle, with room around it where there is room."""
+    from scipy import ndimage
+
+    room = ndimage.distance_transform_cdt(~walls) if walls.any() else np.full(walls.shape, ROOM_CELLS)
+    for least in (ROOM_CELLS, 2, 1):
+        free = np.argwhere(room >= least)
+        if len(free):
+            middle = (np.array(grid.shape) - 1) / 2
+            i, j = free[np.argmin(((free - middle) ** 2).sum(axis=1))]
+            x, y = grid.centers_m()
+            return Sensor(1, float(x[i]), float(y[j]))
+    raise Refused("new: no free cell for a sensor")
+
 
 A = TypeVar("A", bound=Action)
 
@@ -45,21 +129,34 @@ def edit(document: Document, action: Edit) -> tuple[Document, str]:
     """
     if not document.simulated and not isinstance(action, ChangeSettings | New):
         raise Refused(f"{document.source.name} is a file, which cannot be edited", "begin a new map")
-    return _EDITS[type(action)](document, action)
+    match action:
+        case Walls():
+            return _walls(document, action)
+        case ChangeSettings():
+            return _set(document, action), ""
+        case AddSensor():
+            return _add_sensor(document, action), ""
+        case MoveSensor():
+            return _move_sensor(document, action), ""
+        case RemoveSensor():
+            return _remove_sensor(document, action), ""
+        case Clear():
+            return document.without_walls(), ""
+        case New():
+            return new_document(action.world, action.shape, document), ""
 
 
-def _set(document: Document, action: ChangeSettings) -> tuple[Document, str]:
+def _set(document: Document, action: ChangeSettings) -> Document:
     changed = changes(action.patch)
     if "resolution" in changed:
         document = with_resolution(document, changed.pop("resolution"))
     if "scans_used" in changed:
         document = with_scans_used(document, changed.pop("scans_used"))
     fixed = sorted(set(changed) & set(FIXED_BY_FILE[document.source.kind]))
-    if fixed and document.simulated:
-        raise Refused(f"{fixed[0]} cannot be changed: there is no log")
     if fixed:
-        raise Refused(f"{fixed[0]} cannot be changed: it is that of {document.source.name}")
-    return replace(document, **changed), ""
+        why = "there is no log" if document.simulated else f"it is that of {document.source.name}"
+        raise Refused(f"{fixed[0]} cannot be changed: {why}")
+    return replace(document, **changed)
 
 
 def _walls(document: Document, action: Walls) -> tuple[Document, str]:
@@ -75,29 +172,29 @@ def _walls(document: Document, action: Walls) -> tuple[Document, str]:
     return document.with_walls(is_wall), remark
 
 
-def _add_sensor(document: Document, action: AddSensor) -> tuple[Document, str]:
+def _add_sensor(document: Document, action: AddSensor) -> Document:
     sensors = document.sensors
     if len(sensors) >= SENSORS[1]:
         raise Refused(f"there are {len(sensors)} sensors already", "remove one first")
     number = max((sensor.id for sensor in sensors), default=0) + 1
     placed = Sensor(number, action.x, action.y, action.yaw)
     check_stand(document, placed)
-    return replace(document, sensors=(*sensors, placed)), ""
+    return replace(document, sensors=(*sensors, placed))
 
 
-def _move_sensor(document: Document, action: MoveSensor) -> tuple[Document, str]:
+def _move_sensor(document: Document, action: MoveSensor) -> Document:
     old = _sensor_of(document, action.id)
     place = {axis: value for axis in ("x", "y", "yaw") if (value := getattr(action, axis)) is not None}
     placed = replace(old, **place)
     check_stand(document, placed)
-    return replace(document, sensors=tuple(placed if sensor is old else sensor for sensor in document.sensors)), ""
+    return replace(document, sensors=tuple(placed if sensor is old else sensor for sensor in document.sensors))
 
 
-def _remove_sensor(document: Document, action: RemoveSensor) -> tuple[Document, str]:
+def _remove_sensor(document: Document, action: RemoveSensor) -> Document:
     old = _sensor_of(document, action.id)
     if len(document.sensors) <= SENSORS[0]:
         raise Refused("the last sensor cannot be removed", "add another first")
-    return replace(document, sensors=tuple(sensor for sensor in document.sensors if sensor is not old)), ""
+    return replace(document, sensors=tuple(sensor for sensor in document.sensors if sensor is not old))
 
 
 def _sensor_of(document: Document, number: int) -> Sensor:
@@ -107,22 +204,8 @@ def _sensor_of(document: Document, number: int) -> Sensor:
     raise Refused(f"there is no sensor {number}")
 
 
-def _clear(document: Document, action: Clear) -> tuple[Document, str]:
-    return document.without_walls(), ""
-
-
-def _new(document: Document, action: New) -> tuple[Document, str]:
-    return new_document(action.world, action.shape, document), ""
-
-
-_EDITS: Mapping[type, Callable[[Document, Any], tuple[Document, str]]] = {
-    ChangeSettings: _set, Walls: _walls, AddSensor: _add_sensor, MoveSensor: _move_sensor, RemoveSensor: _remove_sensor,
-    Clear: _clear, New: _new,
-}  # fmt: skip
-
-
 def gesture_of(action: Action, client: int) -> tuple[Any, ...] | None:
-    """Return what an action is a part of: all actions of one stroke or drag are one step of undo."""
+    """Return the stroke or drag of an action, if any: all actions of one gesture are one step of undo."""
     if isinstance(action, Walls) and action.stroke:
         return client, Walls, action.stroke
     if isinstance(action, ChangeSettings) and action.drag:
@@ -133,7 +216,7 @@ def gesture_of(action: Action, client: int) -> tuple[Any, ...] | None:
 
 
 def merged(before: Action, after: A) -> A | None:
-    """Return one action that does what both do, where they are of one gesture; None where they are not to be merged."""
+    """Return one action that does what two actions of one gesture do; None where they cannot be merged."""
     if isinstance(before, ChangeSettings) and isinstance(after, ChangeSettings):
         patch = structs.replace(before.patch, **changes(after.patch))
         return structs.replace(after, patch=patch)
@@ -147,7 +230,7 @@ def merged(before: Action, after: A) -> A | None:
 
 
 def adopted(present: Document, brought: Document) -> Document:
-    """The document to show: a simulation is taken as it is; of one that shows the present file, its settings are.
+    """Return the document to show: a simulation as it is, or the present file with the settings of the other document.
 
     Raises:
         Refused: the two show different files, or one of them none.
@@ -164,19 +247,13 @@ def adopted(present: Document, brought: Document) -> Document:
             settings = {name: getattr(brought, name) for name in settings_of(present.source.kind)}
             used = settings.pop("scans_used", None)
             return replace(shown if used is None else with_scans_used(shown, used), **settings)
-    raise Refused(f"this server shows {_named(present)}, not {_named(brought)}", _remedy(brought))
-
-
-def _named(document: Document) -> str:
-    return "a map that was drawn" if document.simulated else f"{document.source.name}"
-
-
-def _remedy(brought: Document) -> str:
-    return f"start bayesmap app {'without a file' if brought.simulated else f'with {brought.source.name}'}"
+    names = ["a map that was drawn" if one.simulated else one.source.name for one in (present, brought)]
+    remedy = f"start bayesmap app {'without a file' if brought.simulated else f'with {brought.source.name}'}"
+    raise Refused(f"this server shows {names[0]}, not {names[1]}", remedy)
 
 
 def with_resolution(document: Document, resolution_m: float) -> Document:
-    """The same log on cells of another edge; the grid depends on the log and the edge alone.
+    """Return the document of a log on cells of another edge; its grid depends on the log and the edge alone.
 
     Raises:
         Refused: not a log, or cells so small that the map would have too many.
@@ -195,7 +272,7 @@ def with_resolution(document: Document, resolution_m: float) -> Document:
 
 
 def with_scans_used(document: Document, scans: int | None) -> Document:
-    """The map of the first scans alone; of all of them where there are no more than that.
+    """Return the document of a log with the map of its first scans alone; None means all scans.
 
     Raises:
         Refused: not a log.
@@ -203,3 +280,115 @@ def with_scans_used(document: Document, scans: int | None) -> Document:
     if document.source.kind != "log":
         raise Refused("only of a log some of the scans can be left out")
     return replace(document, scans_used=None if scans is None or scans >= document.source.scans else scans)
+
+
+From = tuple[int, AnyAction]
+T = TypeVar("T")
+DEPTH = 200
+
+MOST_UNPAINTED = 2
+"""A page with so many pictures on their way is behind: one that it paints, and one that it paints next."""
+
+
+@dataclass(frozen=True)
+class History(Generic[T]):
+    """States before and after the present one.
+
+    Attributes:
+        present: the present state.
+        past: earlier states, the latest last.
+        future: undone states, the next to redo last.
+        gesture: the stroke or drag of the last step, or None where the step stands alone.
+        authors: who made the step from each past state on, the latest last.
+        undone: who made each undone step, the next to redo last.
+    """
+
+    present: T
+    past: tuple[T, ...] = ()
+    future: tuple[T, ...] = ()
+    gesture: Hashable = None
+    authors: tuple[Hashable, ...] = ()
+    undone: tuple[Hashable, ...] = ()
+
+    @property
+    def undoes(self) -> Hashable:
+        """The author of the step that is undone next; None where there is none."""
+        return self.authors[-1] if self.authors else None
+
+    @property
+    def redoes(self) -> Hashable:
+        """The author of the step that is redone next; None where there is none."""
+        return self.undone[-1] if self.undone else None
+
+    def push(self, state: T, gesture: Hashable = None, author: Hashable = None) -> History[T]:
+        """Return the history with another state, which replaces the present one where both are of one gesture."""
+        if state == self.present:
+            return self
+        if gesture is not None and gesture == self.gesture:
+            return replace(self, present=state, future=(), undone=())
+        return History(state, (*self.past, self.present)[-DEPTH:], (), gesture, (*self.authors, author)[-DEPTH:])
+
+    def undo(self) -> History[T]:
+        """Return the history one step back; this history where there is none."""
+        if not self.past:
+            return self
+        future, undone = (*self.future, self.present), (*self.undone, self.undoes)
+        return History(self.past[-1], self.past[:-1], future, None, self.authors[:-1], undone)
+
+    def redo(self) -> History[T]:
+        """Return the history one step forth; this history where there is none."""
+        if not self.future:
+            return self
+        past, authors = (*self.past, self.present)[-DEPTH:], (*self.authors, self.redoes)[-DEPTH:]
+        return History(self.future[-1], past, self.future[:-1], None, authors, self.undone[:-1])
+
+
+class Pace:
+    """Holds edits back until they are due. Edits of one gesture that wait together come out as one.
+
+    Attributes:
+        computing: whether the first picture of the present generation is not there yet.
+    """
+
+    def __init__(self) -> None:
+        self.computing = False
+        self._waiting: From | None = None
+        self._unpainted: dict[int, list[int]] = {}
+
+    def take(self, client: int, action: AnyAction) -> list[From]:
+        """Take an action; return the actions to apply now, in order."""
+        if gesture_of(action, client) is None or not self._must_wait(client):
+            return [*self._let_go(), (client, action)]
+        before, self._waiting = self._waiting, (client, action)
+        if before is None:
+            return []
+        one = merged(before[1], action) if before[0] == client else None
+        if one is None:
+            return [before]
+        self._waiting = client, one
+        return []
+
+    def due(self) -> list[From]:
+        """Return the action that waited, if it need not wait any longer."""
+        return [] if self._waiting is None or self._must_wait(self._waiting[0]) else self._let_go()
+
+    def sent(self, client: int | None, generation: int) -> None:
+        """Note that a picture goes to a page, or to all. Pages that never said what they painted are not waited for."""
+        for page, generations in self._unpainted.items():
+            if client in (page, None) and generation not in generations:
+                generations.append(generation)
+
+    def painted(self, client: int, generation: int) -> None:
+        """Note that a page has painted a picture, and will paint no earlier one."""
+        self._unpainted[client] = [later for later in self._unpainted.get(client, []) if later > generation]
+
+    def forget(self, client: int) -> None:
+        """Forget a page that has gone or connects anew."""
+        self._unpainted.pop(client, None)
+
+    def _must_wait(self, client: int) -> bool:
+        return self.computing or len(self._unpainted.get(client, ())) >= MOST_UNPAINTED
+
+    def _let_go(self) -> list[From]:
+        waiting, self._waiting = self._waiting, None
+        return [] if waiting is None else [waiting]

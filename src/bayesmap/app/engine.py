@@ -1,8 +1,8 @@
 """The engine: from tasks to reports. One job at a time, done in short pieces, so that a new task never waits long.
 
-A job depends on its document alone: readings on the seed, the live chains' start on the beliefs that the readings lead
-to, every sweep's draws on (seed, chain, sweep, cell). The same document gives the same posterior, however fast the hand
-was and however often it was interrupted. Where the last chains stood depends on just that, so it is not used.
+A job depends on its document alone: readings depend on the seed, the start of live chains on the beliefs that follow
+from the readings, and every sweep's draws on (seed, chain, sweep, cell). So the same document gives the same posterior,
+however fast the hand was and however often it interrupted. The last state of earlier chains is therefore not used.
 """
 
 from __future__ import annotations
@@ -13,33 +13,38 @@ from collections.abc import Generator, Iterator
 from contextlib import closing
 from dataclasses import replace
 
-import numpy as np
 from msgspec import structs
-from numpy.typing import NDArray
 
-from bayesmap.app.answers.questions import Answers, Now, exported
+from bayesmap.app.answers.questions import Answers, Now
 from bayesmap.app.display import Display, OnReport
+from bayesmap.app.exports import exported
 from bayesmap.app.protocol.actions import Cancel, Export, MoveGhost, ShowScan, WhereAmI
-from bayesmap.app.protocol.document import CHAIN_METHODS, Document
+from bayesmap.app.protocol.document import CHAIN_METHODS, SETTINGS_OF_CHAINS, Document
 from bayesmap.app.protocol.notices import Status
 from bayesmap.app.protocol.tasks import Ask, Failed, Infer, Remember, Show, Task
-from bayesmap.app.scene import Scene, same_readings, simulated_scene
-from bayesmap.app.shown.beliefs import Preview
-from bayesmap.app.shown.chains import Stream, chains_of_walls, pose_prior, starts
-from bayesmap.app.shown.particles import Weighing
-from bayesmap.app.shown.pilot import Fitted, Pilot, depends_on, fit_by_pilot
+from bayesmap.app.scene import Scene, simulated_scene
+from bayesmap.app.shown.chains import (
+    Fitted,
+    Pilot,
+    Stream,
+    chains_of_walls,
+    fit_by_pilot,
+    pose_prior,
+    starts,
+)
 from bayesmap.app.shown.result import Result, nothing_yet
-from bayesmap.app.sources import Opened, OpenedLog
+from bayesmap.app.shown.without_chains import Preview, Weighing
+from bayesmap.app.sources import OpenedLog, OpenedRun
 from bayesmap.app.trajectory import Localization, Step
 from bayesmap.errors import BadInput
 
 PREVIEW_SECONDS = 0.015
 FEWEST_ROUNDS = 3
 PAUSE_SECONDS = 0.03
-"""After a preview that took long, before the chains are set up: a moving hand will have sent the next edit by then."""
+"""The pause after a long preview, before the chains are set up: a moving hand sends its next edit in this time."""
 
 GHOST_SECONDS, REST_SECONDS = 0.06, 0.002
-"""For so long after a ghost was moved chains rest, so that its next place does not wait for a sweep."""
+"""Chains rest for this time after a virtual scan, in short sleeps, so that its next pose need not wait for a sweep."""
 
 
 class Engine:
@@ -49,7 +54,7 @@ class Engine:
         busy: whether there is work to `advance`.
     """
 
-    def __init__(self, on_report: OnReport, opened: Opened | None = None) -> None:
+    def __init__(self, on_report: OnReport, opened: OpenedRun | OpenedLog | None = None) -> None:
         self._send = on_report
         self._opened = opened
         self._localization = Localization(opened) if isinstance(opened, OpenedLog) else None
@@ -60,9 +65,9 @@ class Engine:
         self._scene: Scene | None = None
         self._scene_of: Document | None = None
         self._result: Result | None = None
-        self._waiting: list[Ask] = []  # before there was anything to export, or a map
+        self._waiting: list[Ask] = []  # questions that came before there was a result
         self._answers = Answers()
-        self._fitted: tuple[Document, Fitted] | None = None  # by the last pilot
+        self._fitted: tuple[Document, Fitted] | None = None  # what the last pilot fitted, and for which document
         self._rest_until = 0.0
 
     @property
@@ -103,7 +108,7 @@ class Engine:
                 self._rest_until = time.perf_counter() + GHOST_SECONDS
 
     def advance(self) -> None:
-        """A piece of the job: some milliseconds on a small map, one round or sweep on the largest."""
+        """Do a piece of the job: some milliseconds on a small map, one round or sweep on the largest."""
         if self._job is None:
             return
         if time.perf_counter() < self._rest_until:
@@ -115,7 +120,7 @@ class Engine:
             self._job = None
         except (BadInput, MemoryError) as error:
             self._fail(str(error) or "out of memory; use a smaller map")
-        except Exception as error:  # a fault of ours: better reported than repeated by the next worker
+        except Exception as error:  # a fault of this code: better reported than repeated by the next worker
             traceback.print_exc()
             self._fail(f"unexpected {type(error).__name__}: {error}")
         if self._waiting and (self._result is not None or self._job is None):
@@ -132,10 +137,10 @@ class Engine:
     def _work(self, task: Infer) -> Iterator[None]:
         document = replace(task.document, method=task.document.sampler)
         if document.source.kind == "run":
-            assert self._opened is not None
-            self._scene, self._scene_of = self._opened.scene(document), document
+            assert isinstance(self._opened, OpenedRun)
+            self._result = self._opened.result
+            self._scene, self._scene_of = self._result.scene, document
             self._display.rays(self._scene, task.scan)
-            self._result = self._opened.result()
             self._display.frame(self._result)
             self._display.overlay(self._result)
             self._display.finished(self._result)
@@ -159,24 +164,26 @@ class Engine:
         self._fitted = None
         if task.mode == "run" and document.method == "importance":
             yield from self._weigh(scene, document)
-            return
-        if task.mode == "run" and document.method in CHAIN_METHODS and document.simulated:
-            yield from self._sweep(scene, document, starts(scene.problem, document, None), keep=True)
-            return
-        preview = Preview(scene.near)
-        # Belief propagation takes poses as known: where they are not, the first picture is the chains'.
+        elif task.mode == "run" and document.method in CHAIN_METHODS and document.simulated:
+            yield from self._sweep(scene, document, None, keep=True)
+        else:
+            yield from self._preview(scene, document, task)
+
+    def _preview(self, scene: Scene, document: Document, task: Infer) -> Iterator[None]:
+        """Show belief propagation, then chains that start from it, unless the preview is all that is asked for."""
+        preview, chains = Preview(scene.near), task.mode != "preview" and document.method in CHAIN_METHODS
+        # Belief propagation takes poses as known. Where they are uncertain, the first picture is that of the chains.
         quiet = task.mode != "preview" and pose_prior(document) is not None
         yield from self._propagate(scene, document, preview, quiet=quiet)
-        if task.mode == "preview" or document.method not in CHAIN_METHODS:
+        if not chains:
             self._display.finished(self._result)
-        else:
-            if not quiet and self._display.elapsed_s() > PREVIEW_SECONDS / 2:
-                yield from _pause(PAUSE_SECONDS)
-            begun = starts(scene.problem, document, preview)
-            yield from self._sweep(scene, document, begun, keep=task.mode == "run")
+            return
+        if not quiet and self._display.elapsed_s() > PREVIEW_SECONDS / 2:
+            yield from _pause(PAUSE_SECONDS)
+        yield from self._sweep(scene, document, preview, keep=task.mode == "run")
 
     def _localize(self, task: Infer) -> Generator[None, None, bool]:
-        """Infer where a log's robot was, with pictures; whether that is known now."""
+        """Infer the trajectory of a log, with pictures; return whether it is known now."""
         localization = self._localization
         assert localization is not None
         with closing(localization.steps(task)) as steps:
@@ -206,14 +213,14 @@ class Engine:
         self._display.frame(self._result)
 
     def _readings(self, document: Document) -> tuple[Scene, Document]:
-        """The scene of a document, and the document on the scene's grid; what did not change is not made again."""
+        """Return the scene of a document, reused as far as it did not change, and the document on the scene's grid."""
         new = document.simulated  # a map may be begun where a log was opened
         log = None if new or self._localization is None else self._localization.log_of(document)
         if log is not None:
             document = log.on_cells(document)
         self._display.on_grid(document.grid)
-        before = self._scene_of
-        if self._scene is not None and before is not None and same_readings(before, document):
+        before, same = self._scene_of, ("cells", *SETTINGS_OF_CHAINS)
+        if self._scene is not None and before is not None and before.alike_but(document, same):
             scene = self._scene if before.prior == document.prior else self._scene.with_prior(document.prior)
         else:
             scene = simulated_scene(document) if log is None else log.scene(document)
@@ -221,10 +228,10 @@ class Engine:
         return scene, document
 
     def _count(self, document: Document) -> None:
-        """Show what counts of hits and passes say of a log, at once."""
+        """Show the map that counts of hits and passes give for a log, at once."""
         assert self._localization is not None
         self._result = self._localization.log_of(document).coarse(document)
-        if self._result.prior.has_surfaces:  # those on show may be of other scans
+        if self._result.prior.has_surfaces:  # the surfaces on show may be of other scans
             self._display.overlay(self._result)
         self._display.frame(self._result)
 
@@ -245,13 +252,14 @@ class Engine:
             if shown >= 0 or self._display.elapsed_s() > PREVIEW_SECONDS:
                 yield
 
-    def _sweep(self, scene: Scene, document: Document, begun: NDArray[np.bool_], *, keep: bool) -> Iterator[None]:
-        """Chains of walls from these maps, with a frame now and then and one at the end."""
+    def _sweep(self, scene: Scene, document: Document, preview: Preview | None, *, keep: bool) -> Iterator[None]:
+        """Run chains of walls, with a frame now and then and one at the end."""
+        begun = starts(scene.problem, document, preview)
         yield
         yield from self._stream(scene, document, chains_of_walls(scene, document, begun, keep=keep))
 
     def _sweep_fitted(self, scene: Scene, document: Document, *, keep: bool) -> Iterator[None]:
-        """Chains of another kind of cells, after a pilot has fitted the sensor."""
+        """Run chains of another kind of cells, after a pilot has fitted the sensor."""
         if not document.simulated:
             self._count(document)
         yield
@@ -261,9 +269,9 @@ class Engine:
             if self._display.due():
                 self._display.frame(self._result)
 
-        if self._fitted is None or self._fitted[0] != depends_on(document):
+        if self._fitted is None or not self._fitted[0].alike_but(document, SETTINGS_OF_CHAINS):
             self._fitted = None  # first: two problems may not fit
-            self._fitted = depends_on(document), (yield from fit_by_pilot(scene, document, show))
+            self._fitted = document, (yield from fit_by_pilot(scene, document, show))
         model, sampler, problem = self._fitted[1]
         stream = Stream(model, sampler, problem, document.sweeps, document.seed, keep=keep)
         yield from self._stream(scene, document, stream)
@@ -282,18 +290,18 @@ class Engine:
         self._display.finished(self._result)
 
     def _weigh(self, scene: Scene, document: Document) -> Iterator[None]:
-        """Importance sampling, with a frame now and then and one at the end."""
+        """Run importance sampling, with a frame now and then and one at the end."""
         weighing = Weighing(scene.problem, document.sweeps, document.seed)
-        while weighing.done < weighing.total:
+        while weighing.count < weighing.total:
             yield
             weighing.advance()
-            if self._display.due() or weighing.done == weighing.total:
-                self._result = Result(scene, document, "importance", weighing.found())
+            self._result = Result(scene, document, "importance", weighing)
+            if self._display.due() or weighing.count == weighing.total:
                 self._display.frame(self._result)
         self._display.finished(self._result)
 
     def _cancel(self) -> None:
-        """Stop the job; what there is stays and is shown once more. Where there is nothing yet, the preview is."""
+        """Stop the job and show its result once more; where there is none yet, show the preview."""
         if self._job is None or self._task is None:
             return
         if self._result is None:

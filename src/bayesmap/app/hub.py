@@ -1,4 +1,4 @@
-"""One session, one worker, any number of pages: passes effects on to whom they are for."""
+"""The hub of one session, one worker and any number of pages: it passes their messages on."""
 
 from __future__ import annotations
 
@@ -12,16 +12,16 @@ from bayesmap.app.protocol.document import Document, Refused
 from bayesmap.app.protocol.notices import AnyNotice, Field, Scan, State
 from bayesmap.app.protocol.tasks import Buffers, Failed, Report, Unusable
 from bayesmap.app.protocol.wire import frame, parse, seq_of
-from bayesmap.app.session import Effects, Session, ToWorker, refusal
-from bayesmap.app.supervisor import Supervisor
+from bayesmap.app.session import Effects, Session, ToPage, refusal
+from bayesmap.app.worker import Supervisor
 from bayesmap.errors import BadInput
 
 REPLACED = (Field, Scan, State)
-"""Of these only the newest is of interest to a page that is slow to read."""
+"""Messages of which a page that is slow to read needs only the newest."""
 
 
 class Outbox:
-    """What waits to be sent to one page."""
+    """The messages that wait to be sent to one page."""
 
     def __init__(self) -> None:
         self._waiting: deque[tuple[AnyNotice, Buffers]] = deque()
@@ -30,14 +30,12 @@ class Outbox:
     def put(self, message: AnyNotice, buffers: Buffers) -> None:
         """Add a message; it takes the place of an older one of its kind where only the newest matters."""
         if isinstance(message, REPLACED):
-            kept = [entry for entry in self._waiting if type(entry[0]) is not type(message)]
-            if len(kept) < len(self._waiting):
-                self._waiting = deque(kept)
+            self._waiting = deque(entry for entry in self._waiting if type(entry[0]) is not type(message))
         self._waiting.append((message, buffers))
         self._some.set()
 
     async def get(self) -> str | bytes:
-        """The oldest message as it goes over the socket, when there is one."""
+        """Wait for the oldest message, and return it as it goes over the socket."""
         while not self._waiting:
             self._some.clear()
             await self._some.wait()
@@ -45,11 +43,11 @@ class Outbox:
 
 
 class Hub:
-    """Lives on one event loop; reports of the worker's threads come in through it.
+    """Connects pages and worker on one event loop, through which the reports of the supervisor's threads come in.
 
     Attributes:
-        session: what pages share.
-        pictured: set when the first field is there.
+        session: the session that pages share.
+        pictured: set when there is a first field.
     """
 
     def __init__(self, document: Document, path: str | None = None, reading: Mapping[str, Any] | None = None) -> None:
@@ -77,19 +75,19 @@ class Hub:
         self._supervisor.stop()
 
     def join(self) -> tuple[int, Outbox]:
-        """A page connects: its number, and what is to be sent to it."""
+        """Connect a page; return its number and its outbox."""
         client = next(self._numbers)
         self._pages[client] = Outbox()
         self._do(self.session.join(client))
         return client, self._pages[client]
 
     def leave(self, client: int) -> None:
-        """A page has gone."""
+        """Disconnect a page."""
         self._pages.pop(client, None)
         self._do(self.session.leave(client))
 
     def receive(self, client: int, data: str | bytes) -> None:
-        """A message as it came from a page."""
+        """Read and apply a message of a page."""
         try:
             action = parse(data)
         except Refused as refused:
@@ -98,13 +96,13 @@ class Hub:
         self._do(self.session.receive(client, action))
 
     def refuse(self, client: int, refused: Refused, seq: int | None = None) -> None:
-        """Report to a page that something was not understood."""
+        """Tell a page that a message was refused."""
         self._pages[client].put(refusal(refused, seq), {})
 
     def _do(self, effects: Effects) -> None:
         for effect in effects:
-            if isinstance(effect, ToWorker):
-                self._supervisor.send(effect.task)
+            if not isinstance(effect, ToPage):
+                self._supervisor.send(effect)
                 continue
             for client, outbox in self._pages.items():
                 if effect.client is None or effect.client == client:

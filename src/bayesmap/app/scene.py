@@ -1,4 +1,4 @@
-"""From the document to readings: simulated, each with noise of its own, and the problem that they pose."""
+"""Scenes: the readings of a document, simulated or from a file, and the inference problem that they pose."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from functools import cached_property, partial
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.app.protocol.document import SMALLEST_NOISE_M, Document
+from bayesmap.app.protocol.document import Document
 from bayesmap.app.protocol.notices import Scan
 from bayesmap.app.protocol.tasks import Buffers
 from bayesmap.beams.table import BeamTable
@@ -27,42 +27,27 @@ from bayesmap.space.scans import Scans, fan
 STREAM_NOISE = 11
 BLUR_SIGMAS = 5.0
 NEAR_SIGMAS = 13.0
-"""Past its reading a beam is followed so far for a preview: a stop there is less than 1e-30 as likely as one at the
+"""For a preview, a beam is followed this far past its reading. A stop there is less than 1e-30 as likely as at the
 reading, which is 0 to `bayesmap.kernels.walls.propagate`, even where the reading is off by three sigmas itself."""
 
 
 @dataclass(frozen=True, eq=False)
-class Beams:
-    """Beam tables, made when they are asked for: a moving hand is shown the next map before it needs them.
-
-    Attributes:
-        whole: of all that beams could tell.
-        near: of beams that end a little past their readings, for belief propagation.
-    """
-
-    whole: Callable[[], BeamTable]
-    near: Callable[[], BeamTable]
-
-    @classmethod
-    def of(cls, table: BeamTable) -> Beams:
-        """Those of a table that there is."""
-        return cls(lambda: table, lambda: table)
-
-
-@dataclass(frozen=True, eq=False)
 class Scene:
-    """Readings, and what they say.
+    """Readings, and the inference problem that they pose.
+
+    Beam tables are traced when they are asked for: a moving hand is shown the next map before it needs them.
 
     Attributes:
-        scans: what the sensors report.
-        exact_m: where the beams truly end, (S, A); empty, (0, A), where nobody knows.
-        ids: of the sensors, (S,).
+        scans: the readings of the sensors.
+        exact_m: noise-free ranges, (S, A); empty, (0, A), where nobody knows them.
+        ids: ids of the sensors, (S,).
         sensor: the law of the readings.
         grid: the map's cells.
-        beams: of the scans that the map is made of.
-        prior: of walls.
+        prior: the prior of walls.
+        trace: traces the beams of the scans that the map is made of.
+        trace_near: traces these beams until a little past their readings, for belief propagation; None is `trace`.
         hit_depth: where in a cell a beam is expected to stop.
-        used: from the first on, how many scans the map is made of; None is all.
+        used: the number of scans, from the first on, that the map is made of; None is all.
     """
 
     scans: Scans
@@ -70,8 +55,9 @@ class Scene:
     ids: tuple[int, ...]
     sensor: SensorModel
     grid: Grid
-    beams: Beams
     prior: BinaryWalls
+    trace: Callable[[], BeamTable]
+    trace_near: Callable[[], BeamTable] | None = None
     hit_depth: float = 0.0
     used: int | None = None
 
@@ -83,108 +69,68 @@ class Scene:
     @cached_property
     def problem(self) -> WallProblem:
         """Beam table and prior."""
-        return WallProblem(self.beams.whole(), self.prior, self.scans.poses[: self.used])
+        return WallProblem(self.trace(), self.prior, self.scans.poses[: self.used])
 
     @cached_property
     def near(self) -> WallProblem:
-        """The same of beams that end a little past their readings."""
-        return WallProblem(self.beams.near(), self.prior, self.scans.poses[: self.used])
+        """The problem with beams that end a little past their readings."""
+        return WallProblem((self.trace_near or self.trace)(), self.prior, self.scans.poses[: self.used])
 
     def model(self, cells: CellPrior) -> Model:
-        """The same readings, to be explained by cells of a kind."""
+        """Return the model in which cells of a kind explain the readings."""
         return Model(self.used_scans, self.grid, cells, self.sensor, hit_depth=self.hit_depth)
 
     def with_prior(self, p_wall: float) -> Scene:
-        """The same readings under another prior; beam tables that there are are shared, and their index."""
+        """Return the scene under another prior; beam tables that have been traced are shared, and their index."""
         other = replace(self, prior=Independent(p_wall))
         for name in ("problem", "near"):
-            if (there := vars(self).get(name)) is not None:
-                vars(other)[name] = there.under(other.prior)
+            if (problem := vars(self).get(name)) is not None:
+                vars(other)[name] = problem.under(other.prior)
         return other
 
 
+def scene_of_file(
+    scans: Scans, grid: Grid, sensor: SensorModel, p_wall: float, table: BeamTable, hit_depth: float = 0.0,
+    used: int | None = None,
+) -> Scene:  # fmt: skip
+    """Return the scene of a file, whose scans are numbered from 1 and whose noise-free ranges nobody knows."""
+    ids, exact_m = tuple(range(1, len(scans) + 1)), np.zeros((0, len(scans.angles_rad)))
+    prior = Independent(p_wall)
+    return Scene(scans, exact_m, ids, sensor, grid, prior, lambda: table, hit_depth=hit_depth, used=used)
+
+
 def standard_noise(seed: int, sensor: int, angles: int) -> NDArray[np.float64]:
-    """Standard normal numbers, (A,): that of a beam depends on the seed, the sensor and the beam's number alone."""
+    """Draw standard normal numbers, (A,), each from the seed, the sensor and the beam's number alone."""
     return np.random.default_rng([seed, sensor, STREAM_NOISE]).standard_normal(angles)
 
 
 def simulate_document(document: Document) -> tuple[Scans, NDArray[np.float64]]:
-    """Scans of all sensors, and the noise-free ranges, (S, A); exact readings are those."""
+    """Simulate the scans of all sensors; return them and the noise-free ranges, (S, A)."""
     poses = np.array([(s.x, s.y, s.yaw) for s in document.sensors])
     angles = fan(document.angles, math.degrees(document.fov))
     exact = ranges(document.is_wall, document.grid, poses, angles, document.max_range)
     noise = np.stack([standard_noise(document.seed, s.id, document.angles) for s in document.sensors])
-    sigma_m = max(document.noise, SMALLEST_NOISE_M) if document.readings == "noisy" else 0.0
-    readings = exact + sigma_m * noise
+    readings = exact + (document.sigma_m if document.readings == "noisy" else 0.0) * noise
     return Scans(poses, angles, readings, max_range_m=document.max_range), exact
 
 
 def simulated_scene(document: Document) -> Scene:
-    """What the sensors of a simulation see."""
+    """Simulate the readings of a drawn world."""
     from bayesmap.kernels.walls.table import trace
 
     scans, exact = simulate_document(document)
-    sensor = Gaussian(max(document.noise, SMALLEST_NOISE_M))
-    beams = Beams(
-        partial(trace, scans, document.grid, sensor),
-        partial(trace, scans, document.grid, sensor, reach_m=near_reach_m(scans, sensor)),
-    )
-    ids = tuple(s.id for s in document.sensors)
-    return Scene(scans, exact, ids, sensor, document.grid, beams, Independent(document.prior))
-
-
-def near_reach_m(scans: Scans, sensor: Gaussian) -> NDArray[np.float64]:
-    """How far along each beam a stop could still explain its reading, metres, (B,).
-
-    Belief propagation makes the same of beams that end there: what is left out would send messages of 1.
-    """
-    return scans.ranges_m.ravel() + NEAR_SIGMAS * sensor.sigma_m
-
-
-def same_readings(before: Document, after: Document) -> bool:
-    """Whether two simulations have the same readings and the same law: all but prior and method is alike."""
-    return before == replace(
-        after,
-        prior=before.prior,
-        pose_sigma=before.pose_sigma,
-        heading_sigma=before.heading_sigma,
-        cells=before.cells,
-        method=before.method,
-        order=before.order,
-        start=before.start,
-        sweeps=before.sweeps,
-    )
-
-
-@dataclass(frozen=True, eq=False)
-class Touched:
-    """A beam table on the cells alone that beams touch: on a large map a small part of it.
-
-    Attributes:
-        cells: flat indices of those cells, (M,).
-        table: the same beams over cells 0..M-1.
-    """
-
-    cells: NDArray[np.intp]
-    table: BeamTable
-
-
-def touched(table: BeamTable) -> Touched:
-    """Leave out the cells that no beam touches."""
-    seen = np.zeros(table.grid.n_cells, dtype=np.bool_)
-    seen[table.cells] = True
-    cells = np.flatnonzero(seen)
-    place = np.zeros(table.grid.n_cells, dtype=np.int32)
-    place[cells] = np.arange(len(cells), dtype=np.int32)
-    small = Grid((max(1, len(cells)), 1))
-    return Touched(cells, BeamTable(small, table.offsets, place[table.cells], table.loglik, table.no_hit))
+    sensor, grid, ids = Gaussian(document.sigma_m), document.grid, tuple(s.id for s in document.sensors)
+    # Belief propagation says the same of beams that end past their readings: what is left out would send messages of 1.
+    near_m = scans.ranges_m.ravel() + NEAR_SIGMAS * sensor.sigma_m
+    whole, near = partial(trace, scans, grid, sensor), partial(trace, scans, grid, sensor, reach_m=near_m)
+    return Scene(scans, exact, ids, sensor, grid, Independent(document.prior), whole, near)
 
 
 def hits(scene: Scene) -> NDArray[np.bool_]:
-    """Which beams met something, (S, A): known in a simulation, else a finite reading below the longest range.
+    """Find the beams that met something, (S, A): known in a simulation, else a finite reading below the longest range.
 
-    Additive noise also blurs the longest range, which is what a beam without a return reads: readings within five
-    standard deviations of it are taken for such.
+    A beam without a return reads the longest range. Additive noise blurs that too, so readings within five standard
+    deviations of the longest range count as no return.
     """
     limit = scene.scans.max_range_m
     if len(scene.exact_m):
@@ -196,13 +142,13 @@ def hits(scene: Scene) -> NDArray[np.bool_]:
 
 
 def rays(scene: Scene, scan: int | None, generation: int) -> tuple[Scan, Buffers]:
-    """Make the message `scan`: all scans of a simulation, or one of a file."""
+    """Make the message `Scan`: all scans of a simulation, or one scan of a file."""
     some = slice(None) if scan is None else slice(scan, scan + 1)
     ids = list(scene.ids) if scan is None else [scan + 1]
     exact = scene.exact_m[some] if len(scene.exact_m) else scene.exact_m
     return Scan(ids, scan, generation=generation), {
         "pose": scene.scans.poses[some],
-        # Only the scans of a file have beams of their own, and those are sent one at a time.
+        # Only the scans of a file have beams of their own, and they are sent one at a time.
         "angles": (scene.scans.angles_rad if scan is None else scene.scans.angles_by_scan()[scan]).astype(np.float32),
         "ranges": scene.scans.ranges_m[some].astype(np.float32),
         "exact": exact.astype(np.float32),

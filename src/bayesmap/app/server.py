@@ -1,50 +1,186 @@
-"""The server of the page: on loopback unless another host is named, guarded by a token (docs/app.md)."""
+"""The server of the page, on loopback unless another host is named, and its guard (docs/app.md).
+
+The guard lets in requests that know the token, name the server as it was named, and come from its own page.
+"""
 
 from __future__ import annotations
 
 import asyncio
+import base64
 import contextlib
+import hashlib
+import ipaddress
 import secrets
 import signal
 import socket
 import time
 from collections.abc import Callable, Iterator, Mapping
 from typing import Any
+from urllib.parse import parse_qs, urlsplit
 
 import uvicorn
 from starlette.applications import Starlette
+from starlette.datastructures import MutableHeaders
 from starlette.requests import Request
-from starlette.responses import HTMLResponse, Response
+from starlette.responses import HTMLResponse, PlainTextResponse, Response
 from starlette.routing import Route, WebSocketRoute
+from starlette.types import ASGIApp, Message, Receive, Scope, Send
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
-from bayesmap.app.guard import Guard
+from bayesmap.app.exports import static
 from bayesmap.app.hub import Hub, Outbox
 from bayesmap.app.protocol.document import Document, Refused
 from bayesmap.app.protocol.wire import MAX_BYTES
-from bayesmap.app.recording import static
 from bayesmap.errors import BadInput
+
+WRONG_TOKEN = "the token is missing or wrong: open the address that bayesmap app printed"
+HEADERS = {
+    "Content-Security-Policy": (
+        "default-src 'none'; script-src {scripts}; style-src 'self' 'unsafe-inline'; connect-src 'self'{sockets}; "
+        "img-src 'self' data: blob:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
+    ),
+    "Referrer-Policy": "no-referrer",
+    "X-Content-Type-Options": "nosniff",
+    "Cross-Origin-Opener-Policy": "same-origin",
+    "Cross-Origin-Resource-Policy": "same-origin",
+    "Cache-Control": "no-store",
+}
+SCRIPT = """
+const key = "bayesmap-token";
+const given = new URLSearchParams(location.search).get("token");
+let kept = null;
+try {
+  kept = localStorage.getItem(key);
+  if (kept === given) localStorage.removeItem(key);
+} catch {}
+if (kept && kept !== given) location.replace("/?token=" + encodeURIComponent(kept) + location.hash);
+if (location.hash) document.getElementById("link").hidden = false;
+"""
+
+PAGE = f"""<!doctype html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<meta name="color-scheme" content="light dark">
+<title>bayesmap</title>
+<link rel="icon" href="data:,">
+<style>body {{ max-width: 36em; margin: 12vh auto; padding: 0 1.5em; font: 16px/1.5 system-ui, sans-serif; }}</style>
+</head>
+<body>
+<h1>bayesmap</h1>
+<p>The token is missing or wrong: open the address that <code>bayesmap app</code> printed.</p>
+<p id="link" hidden>Then open this link again: its map is shown there.</p>
+<script>{SCRIPT}</script>
+</body>
+</html>
+"""
+
+SCRIPT_HASH = "sha256-" + base64.b64encode(hashlib.sha256(SCRIPT.encode()).digest()).decode()
+"""The hash of the only script that the policy lets run."""
+
+
+class Guard:
+    """Middleware that refuses requests without the token, under a strange Host, or from a strange Origin.
+
+    The Host is checked so that no web page can reach the server by a name of its own that resolves to this machine.
+
+    Args:
+        app: the application that is guarded.
+        token: the token that every query must have.
+        host: the host on which the server listens.
+        port: the port on which the server listens.
+    """
+
+    def __init__(self, app: ASGIApp, token: str, host: str, port: int) -> None:
+        self.app, self.token, self.host, self.port = app, token.encode(), host, port
+        self.any_address = host in ("0.0.0.0", "::", "")
+        names = ["127.0.0.1", "localhost", "[::1]", f"[{host}]" if ":" in host else host]
+        if self.any_address:
+            names.append(socket.gethostname().lower())
+        self.names = frozenset(names)
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Check a request, then pass it on."""
+        if scope["type"] not in ("http", "websocket"):
+            await self.app(scope, receive, send)
+            return
+        why = self.objection(scope)
+        if why is not None and scope["type"] == "websocket":
+            await receive()
+            await send({"type": "websocket.close", "code": 1008, "reason": why})
+            return
+
+        async def with_headers(message: Message) -> None:
+            if message["type"] == "http.response.start":
+                headers = MutableHeaders(scope=message)
+                host = _header(scope, b"host")
+                for name, value in HEADERS.items():
+                    sockets, scripts = (f" ws://{host}", "'self'") if why is None else ("", f"'{SCRIPT_HASH}'")
+                    headers[name] = value.format(sockets=sockets, scripts=scripts)
+            await send(message)
+
+        answer: ASGIApp = self.app
+        if why is WRONG_TOKEN and scope.get("path") == "/":
+            answer = HTMLResponse(PAGE, status_code=403)
+        elif why is not None:
+            answer = PlainTextResponse(f"{why}\n", status_code=403)
+        await answer(scope, receive, with_headers if scope["type"] == "http" else send)
+
+    def objection(self, scope: Scope) -> str | None:
+        """Return why a request is refused, or None."""
+        if not self.knows(_header(scope, b"host")):
+            return "this server does not go by that name"
+        origin = _header(scope, b"origin")
+        if origin:
+            parts = urlsplit(origin)
+            if parts.scheme != "http" or not self.knows(parts.netloc):
+                return "requests from other pages are refused"
+        given = parse_qs(scope.get("query_string", b"").decode("latin-1")).get("token", [""])
+        if not secrets.compare_digest(given[-1].encode(), self.token):
+            return WRONG_TOKEN
+        return None
+
+    def knows(self, host: str) -> bool:
+        """Return whether a host with its port is this server."""
+        name, _, port = host.lower().rpartition(":")
+        known = name in self.names or (self.any_address and _is_address(name))
+        return known and port == str(self.port)
+
+
+def _is_address(name: str) -> bool:
+    """Return whether a name is an address in numbers, which cannot be made to point elsewhere."""
+    try:
+        ipaddress.ip_address(name.strip("[]"))
+    except ValueError:
+        return False
+    return True
+
+
+def _header(scope: Scope, name: bytes) -> str:
+    return b",".join(value for key, value in scope["headers"] if key == name).decode("latin-1")
+
 
 MESSAGES_PER_SECOND = 200
 BURST = 400
 FLOOD = 2000
-"""Messages over the rate after which a page is cut off."""
+"""A page is cut off after so many messages over the rate."""
 
 HARD_LIMIT_BYTES = 4 * MAX_BYTES
-"""Messages over `MAX_BYTES` are answered by an error; over this, the connection is closed unread."""
+"""A message over `MAX_BYTES` is answered by an error; over this limit, the connection is closed and nothing is read."""
 
 POLICY_VIOLATION = 1008
 
 
 class Rate:
-    """A bucket of messages that fills again with time."""
+    """The rate of messages: a bucket that fills again with time."""
 
     def __init__(self) -> None:
         self._left, self._at = float(BURST), time.monotonic()
         self.over = 0
 
     def allow(self) -> bool:
-        """Whether one more is allowed now."""
+        """Return whether one more message is allowed now."""
         now = time.monotonic()
         self._left = min(BURST, self._left + (now - self._at) * MESSAGES_PER_SECOND)
         self._at = now
@@ -56,7 +192,7 @@ class Rate:
 
 
 def application(hub: Hub, token: str, host: str, port: int) -> Guard:
-    """The ASGI application: the page, its module, and the socket."""
+    """Return the ASGI application: the page, its module, and the socket."""
 
     def page(request: Request) -> Response:
         return HTMLResponse(static("index.html").replace("__TOKEN__", token))
@@ -103,7 +239,7 @@ async def _receive(socket: WebSocket, hub: Hub, client: int) -> None:
 
 
 def listen(host: str, port: int) -> socket.socket:
-    """A listening socket; port 0 takes any that is free.
+    """Return a listening socket; port 0 takes any that is free.
 
     Raises:
         BadInput: the address cannot be had.
@@ -123,7 +259,7 @@ def listen(host: str, port: int) -> socket.socket:
 
 
 class _Server(uvicorn.Server):
-    """Tells when it answers."""
+    """A server that tells when it answers."""
 
     def __init__(self, config: uvicorn.Config, on_ready: Callable[[], None]) -> None:
         super().__init__(config)
@@ -185,12 +321,12 @@ def serve(
     """Serve the page until Ctrl-C.
 
     Args:
-        document: what is shown first, where no file is.
+        document: the document shown first, where no file is.
         path: a saved run or a log to show.
-        reading: how a log is read, as `bayesmap.read_log` calls it.
-        host: to listen on.
-        port: the same; 0 takes any that is free.
-        on_ready: given the address of the page when the server answers and the first picture is there.
+        reading: the options with which `bayesmap.read_log` reads the log.
+        host: the host to listen on.
+        port: the port to listen on; 0 takes any that is free.
+        on_ready: called with the address of the page, when the server answers and there is a first picture.
 
     Raises:
         BadInput: the port is taken, or the file cannot be shown.

@@ -1,7 +1,7 @@
-"""The session: applies what pages ask for, decides what the worker does and what pages are sent. No sockets, no clocks.
+"""The session: it applies what pages ask for, and decides what the worker does and what pages are sent.
 
-Edits of a gesture that arrive faster than pictures can be computed and painted are merged (`gestures.py`): so a fast
-hand sees every picture that there is time for, never starves, and never falls behind.
+It has no sockets and no clocks. Edits of a gesture that arrive faster than pictures can be computed and painted are
+merged (`bayesmap.app.edits.Pace`). So a fast hand sees every picture that there is time for, and never falls behind.
 """
 
 from __future__ import annotations
@@ -11,34 +11,26 @@ from typing import Literal, get_args
 
 import msgspec
 
-from bayesmap.app.edits import adopted, edit, gesture_of
-from bayesmap.app.gestures import From, History, Pace
+from bayesmap.app.edits import From, History, Pace, adopted, edit, gesture_of
 from bayesmap.app.protocol import actions, notices, tasks
 from bayesmap.app.protocol.document import VERSION, Document, Refused, plain
 from bayesmap.app.protocol.wire import parse_document
 
 QUESTIONS, EDITS = get_args(actions.Question), get_args(actions.Edit)
 REPLAYED = (notices.Scan, notices.Field, notices.Overlay)
-"""What a page that connects late is sent again."""
+"""The messages that a page is sent again when it connects late."""
 
 
 @dataclass(frozen=True)
 class ToPage:
-    """A message to one page, or to all where client is None."""
+    """A message to one page, or to all pages where client is None."""
 
     message: notices.AnyNotice
     buffers: tasks.Buffers = field(default_factory=dict)
     client: int | None = None
 
 
-@dataclass(frozen=True)
-class ToWorker:
-    """A task for the worker."""
-
-    task: tasks.Task
-
-
-Effect = ToPage | ToWorker
+Effect = ToPage | tasks.Task
 Effects = list[Effect]
 
 
@@ -46,13 +38,13 @@ class Session:
     """One document, shown on any number of pages.
 
     Attributes:
-        history: of the document.
-        generation: of the present picture; see docs/app.md.
+        history: the document, and its states before and after.
+        generation: that of the present picture; see docs/app.md.
         live: whether edits restart the chains.
         running: whether a run is under way.
-        working: whether the picture is to change yet: chains go on, or are about to begin.
-        draws: of the present result.
-        scan: index of the scan on show, of a file.
+        working: whether the picture will change: chains go on, or are about to begin.
+        draws: the number of draws of the present result.
+        scan: index of the scan on show, for a file.
         worker_ready: whether there is a worker.
     """
 
@@ -64,12 +56,12 @@ class Session:
         self.draws = notices.DrawCount()
         self.scan = 0
         self.worker_ready = False
-        self._views: dict[int, notices.View] = {}  # of pages that are shown something else than the mean
+        self._views: dict[int, notices.View] = {}  # of pages that asked for a view
         self._mode: tasks.Mode = "live"
         self._pace = Pace()
-        self._seqs: dict[int, int] = {}  # of every page, the last action that was applied
+        self._seqs: dict[int, int] = {}  # the number of the last action of every page that was applied
         self._last: dict[type, ToPage] = {}
-        self._trajectory: tasks.Remember | None = None  # of a log, inferred; the next worker shall know it
+        self._trajectory: tasks.Remember | None = None  # inferred of a log, for the next worker
 
     @property
     def document(self) -> Document:
@@ -79,20 +71,20 @@ class Session:
     # From pages
 
     def receive(self, client: int, action: actions.AnyAction) -> Effects:
-        """Apply an action; return what to do, in order."""
+        """Apply an action; return its effects in order."""
         if isinstance(action, QUESTIONS):
             try:
                 check_question(self.document, action)
             except Refused as refusal:
                 return [_status(refusal.text, "warning", client)]
-            return [ToWorker(tasks.Ask(client, action))]
+            return [tasks.Ask(client, action)]
         if isinstance(action, actions.Painted):
             self._pace.painted(client, action.generation)
             return self._apply(self._pace.due())
         return self._apply(self._pace.take(client, action))
 
     def join(self, client: int) -> Effects:
-        """A page has connected; it answers with hello."""
+        """Greet a page that has connected; it answers with hello."""
         self._seqs[client] = 0
         self._pace.forget(client)
         worker = notices.Worker("ready" if self.worker_ready else "starting")
@@ -103,15 +95,15 @@ class Session:
         ]
 
     def leave(self, client: int) -> Effects:
-        """A page has gone: the worker need not draw for it any more, and anybody may undo its steps."""
+        """Forget a page that has gone: the worker draws nothing for it, and any page may undo its steps."""
         self._pace.forget(client)
         last = self._apply(self._pace.due())
         self._seqs.pop(client, None)
         return [*last, *self._forget_view(client), *self._states()]
 
     def _forget_view(self, client: int) -> Effects:
-        shown = self._views.pop(client, None)
-        return [] if shown is None else [ToWorker(tasks.Show(client, notices.View("mean")))]
+        view = self._views.pop(client, None)
+        return [] if view is None else [tasks.Show(client, notices.View("mean"))]
 
     def _apply(self, due: list[From]) -> Effects:
         return [effect for client, action in due for effect in self._apply_one(client, action)]
@@ -138,26 +130,26 @@ class Session:
                     raise Refused("a saved run is shown as it is", "begin a new map to run inference")
                 return self._restart("run")
             case actions.Cancel():
-                return [ToWorker(action), *self._states()]
+                return [action, *self._states()]
             case actions.Live():
                 self.live = action.on
                 if self.running or self.document.source.kind == "run":
                     return self._states()
-                return self._restart() if self.live else [ToWorker(actions.Cancel()), *self._states()]
+                return self._restart() if self.live else [actions.Cancel(), *self._states()]
             case actions.ShowView():
                 self._views[client] = notices.View(action.layer, action.chain, action.draw)
-                return [ToWorker(tasks.Show(client, self._views[client])), *self._states()]
+                return [tasks.Show(client, self._views[client]), *self._states()]
             case actions.ShowScan():
                 scans = self.document.source.scans
                 if action.index >= scans:
                     raise Refused(f"there is no scan {action.index}", f"there are {scans}, from 0" if scans else "")
                 self.scan = action.index
-                return [ToWorker(action), *self._states()]
+                return [action, *self._states()]
             case actions.Export(what="document"):
                 data = msgspec.json.format(msgspec.json.encode(self.document, enc_hook=plain), indent=1) + b"\n"
                 return [ToPage(notices.Download("document.json", "application/json"), {"data": data}, client)]
             case actions.Export():
-                return [ToWorker(tasks.Ask(client, action)), *self._states()]
+                return [tasks.Ask(client, action), *self._states()]
             case _:
                 assert isinstance(action, EDITS)
                 return self._edit(client, action)
@@ -196,7 +188,7 @@ class Session:
         return effects + [replace(self._last[kind], client=client) for kind in REPLAYED if kind in self._last]
 
     def _may_step(self, client: int, author: object) -> bool:
-        """Whether the next step back or forth is this page's, or of one that has gone."""
+        """Return whether a step is this page's, or of a page that has gone."""
         return author == client or author not in self._seqs
 
     def _step(self, client: int, history: History[Document], author: object, name: str) -> Effects:
@@ -211,7 +203,7 @@ class Session:
     # From the worker
 
     def hear(self, report: tasks.Report) -> Effects:
-        """Return what a report of the worker's leads to; those of an older generation to nothing."""
+        """Return the effects of a report of the worker; a report of an older generation has none."""
         message = report.message
         if isinstance(message, tasks.Ready):
             return self._ready(message.document)
@@ -239,7 +231,7 @@ class Session:
         return [*self._shown(notice), *self._picture_is_out()] if isinstance(message, notices.Field) else [notice]
 
     def _shown(self, notice: ToPage) -> Effects:
-        """A field goes to the page that asked for it, or to all but those that are shown a draw."""
+        """Send a field to the page that asked for it, or to all pages without fields of their own."""
         drawing = {client for client, view in self._views.items() if view.layer in notices.OWN_LAYERS}
         as_it_is = notice.client is not None or not drawing
         pages = [notice.client] if as_it_is else [client for client in self._seqs if client not in drawing]
@@ -248,20 +240,20 @@ class Session:
         return [replace(notice, client=client) for client in pages]
 
     def worker_lost(self) -> Effects:
-        """The worker died; another is being started."""
+        """Tell the pages that the worker died, and that another is being started."""
         self.worker_ready = False
         text = "the worker stopped and is being restarted; the map is kept"
         return [ToPage(notices.Worker("restarted")), _status(text, "warning")]
 
     def _ready(self, document: Document | None) -> Effects:
-        """A worker without a past: give it the document, or take that of the file that it has opened."""
+        """Give a new worker the document, or take the document of the file that it has opened."""
         self.worker_ready = True
         if document is not None and self.generation == 0:
             self.history = History(document)
         known = () if self._trajectory is None else (self._trajectory,)
         views = (tasks.Show(client, view) for client, view in self._views.items())
         again: tasks.Mode = "run" if self.running else self._mode if self._mode == "clear" else self._usual()
-        return [ToPage(notices.Worker("ready")), *map(ToWorker, (*known, *views)), *self._restart(again)]
+        return [ToPage(notices.Worker("ready")), *known, *views, *self._restart(again)]
 
     def _picture_is_out(self) -> Effects:
         self._pace.computing = False
@@ -281,22 +273,22 @@ class Session:
         self._pace.computing = True
         self._last.pop(notices.Field, None)
         if self.document.simulated:
-            self._last.pop(notices.Overlay, None)  # of the file that was shown before
+            self._last.pop(notices.Overlay, None)  # it is that of the file shown before
         self.scan = min(self.scan, max(0, self.document.source.scans - 1))
         task = tasks.Infer(self.generation, self.document, self._mode, self.scan)
-        # The state first: a page must know of a generation before it sees the picture.
-        return [*self._states(), ToWorker(task)]
+        # The state comes first: a page must know of a generation before it sees the picture.
+        return [*self._states(), task]
 
     def _states(self) -> Effects:
-        """The present state for every page."""
+        """Return the present state for every page."""
         return [self._state(client) for client in self._seqs]
 
     def _state(self, client: int) -> ToPage:
-        """The present state as one page is to see it."""
+        """Return the present state for one page."""
         state = notices.State(
             document=self.document, generation=self.generation, seq=self._seqs.get(client, 0),
-            can_undo=self.history.can_undo and self._may_step(client, self.history.undoes),
-            can_redo=self.history.can_redo and self._may_step(client, self.history.redoes),
+            can_undo=bool(self.history.past) and self._may_step(client, self.history.undoes),
+            can_redo=bool(self.history.future) and self._may_step(client, self.history.redoes),
             live=self.live, running=self.running, working=self.working, draws=self.draws, scan=self.scan,
             view=self._views.get(client, notices.View("mean")),
         )  # fmt: skip

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import json
-import math
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,17 +21,15 @@ from bayesmap.app.protocol.document import (
     no_walls,
 )
 from bayesmap.app.protocol.wire import parse_simulation
-from bayesmap.app.scene import Beams, Scene
+from bayesmap.app.scene import Scene, scene_of_file
 from bayesmap.app.shown.hit_maps import Counted, HitCounts, coarse_map
-from bayesmap.app.shown.result import Figures, Found, OneMap, Result
-from bayesmap.app.shown.verdict import judge_chains
+from bayesmap.app.shown.result import Figures, Floats, Found, OneMap, Result, judge_chains, rhat_and_ess
 from bayesmap.beams.table import BeamTable
 from bayesmap.cells.arrays import Draws
 from bayesmap.cells.binary import Independent
 from bayesmap.cells.kind import CellPrior
 from bayesmap.cells.kinds import BUILT_IN
 from bayesmap.errors import BadInput
-from bayesmap.posterior.diagnostics import bulk_ess, rhat
 from bayesmap.result import Run, load
 from bayesmap.sensors.builtin import Gaussian
 from bayesmap.sensors.model import SensorModel
@@ -43,78 +40,49 @@ LOG_RESOLUTION_M = 0.1
 LOG_SWEEPS = 200
 
 
-class Opened(Protocol):
-    """A file: the document that shows it, its scene, and its result where it has one."""
-
-    @property
-    def document(self) -> Document:
-        """What is shown at first."""
-
-    def scene(self, document: Document) -> Scene:
-        """Readings and problem."""
-
-    def result(self) -> Result:
-        """What is shown without inference."""
-
-
 @dataclass(frozen=True, eq=False)
 class OpenedRun:
-    """A saved run, or one that is still in memory."""
+    """A saved run, or a run that is still in memory."""
 
     document: Document
     run: Run
 
-    def scene(self, document: Document) -> Scene:
-        """The run's readings; its beam table only counts beams."""
-        return self._scene
-
     @cached_property
-    def _scene(self) -> Scene:
+    def result(self) -> Result:
+        """The run, and its readings; their beam table only serves to count beams."""
         from bayesmap.kernels.walls.table import trace
 
         posterior = self.run.posterior
         sensor = posterior.sensor if posterior.sensor is not None else Gaussian(posterior.grid.resolution)
         depth = float(posterior.settings.get("hit_depth", 0.0))
         table = trace(posterior.scans, posterior.grid, sensor, hit_depth=depth)
-        ids = tuple(range(1, len(posterior.scans) + 1))
-        none = np.zeros((0, len(posterior.scans.angles_rad)))
-        prior = Independent(self.document.prior)
-        return Scene(posterior.scans, none, ids, sensor, posterior.grid, Beams.of(table), prior, depth)
-
-    def result(self) -> Result:
-        """The run."""
-        return self._result
-
-    @cached_property
-    def _result(self) -> Result:
-        method = str(self.run.posterior.settings.get("method", "gibbs"))
-        return Result(self._scene, self.document, method, SavedRun(self.run))
+        scene = scene_of_file(posterior.scans, posterior.grid, sensor, self.document.prior, table, depth)
+        return Result(scene, self.document, str(posterior.settings.get("method", "gibbs")), SavedRun(self.run))
 
 
 class SavedRun(Found):
-    """What a run holds."""
+    """The draws of a saved run."""
 
     def __init__(self, run: Run) -> None:
         self.run = run
 
     def figures(self, over: bool) -> Figures:
-        """Return the sweeps, and whether the chains agree, as far as the kept draws tell."""
+        """Return the sweeps, and the diagnostics of the kept draws."""
         sweeps, joint = self.run.posterior.sweep, self.run.log_joint
         if not joint.size:
             return Figures(sweeps, sweeps)
-        constant = np.ptp(joint) == 0
-        ess, r = (math.nan, math.nan) if constant else (bulk_ess(joint), rhat(joint))
-        verdict = judge_chains(r, ess, sweeps, None, over=True)
-        return Figures(sweeps, sweeps, ess, r, float(joint[:, -1].mean()), verdict)
+        rhat, ess = rhat_and_ess(joint)
+        verdict = judge_chains(rhat, ess, sweeps, None, over=True)
+        return Figures(sweeps, sweeps, ess, rhat, float(joint[:, -1].mean()), verdict)
 
     @property
     def prior(self) -> CellPrior:
-        """The run's."""
+        """The run's prior."""
         return self.run.posterior.prior
 
     @property
     def law(self) -> None:
-        """That of the readings, which is the run's.
+        """None, since the readings have the run's law.
 
         Raises:
             BadInput: a sensor model that only the run's maker had.
@@ -128,23 +96,23 @@ class SavedRun(Found):
         return self.run.posterior.draws if self.run.posterior.draws.count else None
 
     @property
-    def scan_poses(self) -> NDArray[np.float64] | None:
-        """The mean over draws of where the scans were taken, (S, 3), where poses were inferred."""
+    def scan_poses(self) -> Floats | None:
+        """The mean poses of the scans over the draws, (S, 3), where poses were inferred."""
         if not self.run.n_draws or "poses" not in self.run.posterior.draws.arrays:
             return None
         x, y, yaw = np.moveaxis(self.run.poses, -1, 0).reshape(3, -1, len(self.run.posterior.scans))
         heading = np.arctan2(np.sin(yaw).mean(axis=0), np.cos(yaw).mean(axis=0))
         return np.column_stack([x.mean(axis=0), y.mean(axis=0), heading])
 
-    def mean(self) -> NDArray[np.float64]:
-        """Return the run's mean, 0.5 where it says nothing."""
+    def mean(self) -> Floats:
+        """Return the run's mean, (nx, ny), 0.5 where it says nothing."""
         return np.nan_to_num(self.run.occupancy, nan=0.5)
 
     def observed(self) -> NDArray[np.bool_]:
-        """Return the cells that the run observed."""
+        """Return the cells that the run observed, (nx, ny)."""
         return self.run.observed
 
-    def log_joint(self) -> NDArray[np.float64]:
+    def log_joint(self) -> Floats:
         """Return the log joint of every kept draw, (chains, n)."""
         return self.run.log_joint
 
@@ -172,9 +140,9 @@ class Traced:
 
     Attributes:
         grid: the cells.
-        sensor: the default for logs.
-        table: of all beams.
-        counts: of their hits, once they have been asked for.
+        sensor: the default sensor for logs.
+        table: the beams.
+        counts: their hits and passes, once they have been asked for.
     """
 
     grid: Grid
@@ -183,18 +151,17 @@ class Traced:
     counts: HitCounts | None = None
 
 
-@dataclass(frozen=True, eq=False)
 class OpenedLog:
     """Scans of a log, with the defaults for logs."""
 
-    document: Document
-    scans: Scans
-    _traced: list[Traced] = field(default_factory=list, repr=False)
+    def __init__(self, document: Document, scans: Scans) -> None:
+        self.document, self.scans = document, scans
+        self._traced: Traced | None = None
 
     def on_cells(self, document: Document) -> Document:
-        """A document of this log on cells of its size that cover what the scans saw from where they stand here.
+        """Return a document of this log on cells of its size that cover what the scans saw.
 
-        Where these would be too many, the cells are those that the log is first shown on.
+        Where these would be too many, the cells are those on which the log is first shown.
         """
         own, bounds = self.document.grid, self.document.source.bounds
         if bounds is None or document.grid.resolution == own.resolution:
@@ -203,24 +170,15 @@ class OpenedLog:
         return document.on_grid(own if max(grid.shape) > LARGEST_SIDE_OF_LOG else grid)
 
     def scene(self, document: Document) -> Scene:
-        """The first scans of the log under the document's prior; beams are traced once for each size of cells."""
-        traced = self._of(document.grid)
-        used, table = document.scans_used, traced.table
-        if used is not None:
-            table = first_beams(table, used * len(self.scans.angles_rad))
-        ids = tuple(range(1, len(self.scans) + 1))
-        none = np.zeros((0, len(self.scans.angles_rad)))
-        prior = Independent(document.prior)
-        beams = Beams.of(table)
-        return Scene(self.scans, none, ids, traced.sensor, document.grid, beams, prior, Independent.hit_depth, used)
-
-    def result(self) -> Result:
-        """A log has none."""
-        raise AssertionError("a log is inferred from")
+        """Return the first scans of the log under the document's prior. Each size of cells is traced once."""
+        traced, used = self._trace(document.grid), document.scans_used
+        table = traced.table if used is None else first_beams(traced.table, used * len(self.scans.angles_rad))
+        depth = Independent.hit_depth
+        return scene_of_file(self.scans, document.grid, traced.sensor, document.prior, table, depth, used)
 
     def coarse(self, document: Document) -> Result:
-        """What counts of hits say of the first scans."""
-        traced = self._of(document.grid)
+        """Return the map that counts of hits give for the first scans."""
+        traced = self._trace(document.grid)
         if traced.counts is None:
             traced.counts = HitCounts(self.scans, traced.table)
         counts = traced.counts.first(document.scans_used)
@@ -230,20 +188,20 @@ class OpenedLog:
         counted = Counted(p_wall.reshape(shape), counts.any(axis=0).reshape(shape), prior)
         return Result(self.scene(document), document, "hits", counted)
 
-    def _of(self, grid: Grid) -> Traced:
-        """The beams on a grid; those on the last one are kept."""
+    def _trace(self, grid: Grid) -> Traced:
+        """Return the beams on a grid; those on the last grid are kept."""
         from bayesmap.cells.kinds import default_sensor
         from bayesmap.kernels.walls.table import trace
 
-        if not self._traced or self._traced[0].grid != grid:
-            self._traced.clear()  # first: two tables may not fit
+        if self._traced is None or self._traced.grid != grid:
+            self._traced = None  # first: two tables may not fit
             sensor = default_sensor(grid.resolution)
-            self._traced.append(Traced(grid, sensor, trace(self.scans, grid, sensor, hit_depth=Independent.hit_depth)))
-        return self._traced[0]
+            self._traced = Traced(grid, sensor, trace(self.scans, grid, sensor, hit_depth=Independent.hit_depth))
+        return self._traced
 
 
 def first_beams(table: BeamTable, beams: int) -> BeamTable:
-    """The first beams of a table; its arrays are shared."""
+    """Return the first beams of a table, as views of its arrays."""
     offsets = table.offsets[: beams + 1]
     entries = slice(int(offsets[-1]))
     return replace(
@@ -252,7 +210,7 @@ def first_beams(table: BeamTable, beams: int) -> BeamTable:
 
 
 def read_document(path: str) -> Document:
-    """A document that the page exported (``.json``).
+    """Read a document that the page has exported (``.json``).
 
     Raises:
         BadInput: no JSON, or not a document; the message names the file.
@@ -264,12 +222,12 @@ def read_document(path: str) -> Document:
         raise BadInput(f"{path}: {why}; give a document that the page has exported") from None
 
 
-def open_file(path: str, **reading: Any) -> Opened:
+def open_file(path: str, **reading: Any) -> OpenedRun | OpenedLog:
     """Open a saved run (``.nc``) or a log.
 
     Args:
-        path: of the file.
-        reading: how a log is read, as `bayesmap.read_log` calls it.
+        path: the file.
+        reading: the options with which `bayesmap.read_log` reads a log.
 
     Raises:
         BadInput: no such file, or one that cannot be read as either.
@@ -284,7 +242,7 @@ def open_file(path: str, **reading: Any) -> Opened:
 
 
 def opened_run(run: Run, name: str) -> OpenedRun:
-    """Show a run.
+    """Open a run that is in memory.
 
     Raises:
         BadInput: a map that is too large for the page.
@@ -305,7 +263,7 @@ def opened_run(run: Run, name: str) -> OpenedRun:
 
 
 def opened_log(scans: Scans, name: str) -> OpenedLog:
-    """Infer from a log, on cells of 10 cm, or larger where the map would have more than a thousand a side.
+    """Open scans as a log, on cells of 10 cm, or larger where the map would have more than a thousand a side.
 
     Poses that look like raw odometry are taken for it at first.
 
@@ -328,11 +286,6 @@ def _document(grid: Grid, scans: Scans, source: Source, prior: float) -> Documen
     if max(grid.shape) > LARGEST_SIDE_OF_FILE:
         raise BadInput(f"{source.name}: {grid.shape} cells are too many for the page, at most {LARGEST_SIDE_OF_FILE}")
     return Document(
-        grid=grid,
-        walls=no_walls(grid),
-        sensors=(),
-        prior=float(prior),
-        angles=len(scans.angles_rad),
-        max_range=scans.max_range_m,
-        source=source,
-    )
+        grid=grid, walls=no_walls(grid), sensors=(), prior=float(prior), angles=len(scans.angles_rad),
+        max_range=scans.max_range_m, source=source,
+    )  # fmt: skip

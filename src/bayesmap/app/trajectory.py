@@ -1,8 +1,8 @@
-"""Where a log's robot was: from raw odometry to the log along its inferred trajectory, with pictures of every stage.
+"""The trajectory of a log: from raw odometry to the log along its inferred trajectory, with pictures of every stage.
 
-`infer_trajectory` works on a thread of its own, so that the worker goes on answering. What the thread does not share
-with the worker's own thread needs no lock: it puts finished pictures into a queue. A job that is cancelled ends at its
-next sign of progress; another waits for that, so that they do not crowd each other.
+`infer_trajectory` works on a thread of its own, so that the worker goes on answering. The thread puts finished pictures
+into a queue, and shares nothing else that would need a lock. A job that is cancelled ends at its next sign of progress.
+The next job waits for that end.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ from bayesmap.space.scans import Scans
 
 ASK_TO_RUN = "The poses of this log look like raw odometry: Run infers where the robot was"
 PICTURE_SECONDS, PICTURE_SHARE = 0.25, 0.1
-"""From one picture of a stage to the next, at least, and the share of the time that pictures may take."""
+"""The least time between two pictures of a stage, and the share of the time that pictures may take."""
 
 WAIT_SECONDS = 0.02
 STAGES = {
@@ -43,19 +43,19 @@ STAGES = {
     "aligned-rematched": "Aligning after some were moved",
     "placing": "Placing the other scans",
 }
-"""What stages are called, in their order."""
+"""The names of the stages for the reader, in their order."""
 
 
 @dataclass(frozen=True, eq=False)
 class PathSoFar:
-    """Where the robot was, as far as is known.
+    """The trajectory as far as it is known.
 
     Attributes:
-        stage: its name, one of `STAGES`.
-        done: how far the stage is.
-        of: of how much.
-        scans: at their present poses, in the order of the log.
-        grid: of the map.
+        stage: name of the stage, one of `STAGES`.
+        done: steps of the stage that are done.
+        of: all steps of the stage.
+        scans: the scans at their present poses, in the order of the log.
+        grid: the grid of the map.
         counted: the map along these poses.
     """
 
@@ -68,18 +68,18 @@ class PathSoFar:
 
 
 class Stopped(Exception):
-    """Nobody wants the trajectory any more."""
+    """The job was cancelled."""
 
 
 class TrajectoryJob:
     """One inference of a trajectory.
 
     Attributes:
-        found: the trajectory, once it is there.
-        trouble: what ended the inference instead.
+        found: the trajectory, when the job has ended.
+        trouble: the error that ended the job instead.
     """
 
-    _last: threading.Thread | None = None  # of all jobs of the process
+    _last: threading.Thread | None = None  # the thread of the process's last job
 
     def __init__(self, scans: Scans, grid: Grid) -> None:
         self.found: Trajectory | None = None
@@ -95,11 +95,11 @@ class TrajectoryJob:
         self._thread.start()
 
     def cancel(self) -> None:
-        """End it, at its next sign of progress."""
+        """End the job at its next sign of progress."""
         self._stop.set()
 
     def looks(self) -> Generator[PathSoFar | None, None, None]:
-        """Pictures as they come, and None while there is none, until the inference has ended.
+        """Yield pictures as they come, and None while there is none, until the job has ended.
 
         Raises:
             BadInput: as `infer_trajectory`.
@@ -139,7 +139,7 @@ class TrajectoryJob:
         self._done, self._of = done, of
 
     def _on_poses(self, stage: str, poses: NDArray[np.float64]) -> None:
-        """A picture of every stage's beginning and of every round of loops, and of the others now and then."""
+        """Make a picture at the beginning of a stage and in every round of loops, and else now and then."""
         self._check()
         began = time.monotonic()
         if stage == self._told and stage != "loops" and began < self._next:
@@ -153,37 +153,37 @@ class TrajectoryJob:
 
 
 def in_time(scans: Scans) -> NDArray[np.intp]:
-    """The order of time of the scans, as `infer_trajectory` takes them, (S,)."""
+    """Return the order of the scans in time, as `infer_trajectory` takes them, (S,)."""
     if scans.stamps_s is None:
         return np.arange(len(scans))
     return np.argsort(scans.stamps_s, kind="stable")
 
 
 def along(scans: Scans, found: Trajectory) -> Scans:
-    """The scans at their inferred poses, with the angles between beams that were found, in the order of the log."""
-    there = scans.at(found.poses[np.argsort(found.order)])
-    return calibrated(there, found.calibration.angle_step_ratio)
+    """Return the scans at their inferred poses, with the inferred angles between beams, in the order of the log."""
+    return calibrated(scans.at(found.poses[np.argsort(found.order)]), found.calibration.angle_step_ratio)
 
 
 def summary(scans: Scans, found: Trajectory) -> str:
-    """What was found, in words."""
-    closed = len(found.closures)
+    """Describe an inferred trajectory in words."""
     off = scans.poses - found.poses[np.argsort(found.order)]
     moved_m = float(np.hypot(off[:, 0], off[:, 1]).max())
     flagged = int(found.flagged.sum())
     doubt = f"; {flagged} scans stay badly explained" if flagged else ""
-    return f"Trajectory inferred: odometry was off by up to {moved_m:.1f} m; loop closures: {closed}{doubt}"
+    return (
+        f"Trajectory inferred: odometry was off by up to {moved_m:.1f} m; loop closures: {len(found.closures)}{doubt}"
+    )
 
 
 @dataclass(frozen=True, eq=False)
 class Step:
-    """What there is to show.
+    """A step of the inference that pages are shown.
 
     Attributes:
-        grid: of the map.
+        grid: the grid of the map.
         result: the map along the poses so far.
-        stage: how far the inference is, or None while nothing is inferred.
-        text: for the status line, or empty.
+        stage: progress of the inference, or None while nothing is inferred.
+        text: text for the status line, or empty.
     """
 
     grid: Grid
@@ -196,8 +196,8 @@ class Localization:
     """The trajectory of one log.
 
     Attributes:
-        log: as it was opened.
-        placed: the same along its inferred trajectory, once that is there.
+        log: the log as it was opened.
+        placed: the log along its inferred trajectory, once that is known.
     """
 
     def __init__(self, log: OpenedLog) -> None:
@@ -205,18 +205,18 @@ class Localization:
         self.placed: OpenedLog | None = None
 
     def log_of(self, document: Document) -> OpenedLog:
-        """The log that a document is inferred from: along its inferred trajectory, if that is asked for and there."""
+        """Return the log of a document: along its inferred trajectory, if that is asked for and known."""
         return self.placed if document.from_odometry and self.placed is not None else self.log
 
     def remember(self, known: Remember) -> None:
-        """Take over what was inferred before."""
+        """Take over the trajectory that an earlier worker inferred."""
         self._place(replace(self.log.scans.at(known.poses), angles_rad=known.angles_rad, own_angles_rad=None))
 
     def steps(self, task: Infer) -> Generator[Step | Located | Status | None, None, None]:
-        """What there is to show and to say until the log can be mapped; None while there is nothing new.
+        """Yield steps and reports until the log can be mapped, and None while there is nothing new.
 
-        A "run" infers the trajectory, unless it is known already; "clear" forgets it; without it the map along the
-        poses of the log is shown, at once.
+        The mode "run" infers the trajectory, unless it is known; "clear" forgets it. While it is not known, other modes
+        show the map along the poses of the log at once.
 
         Raises:
             BadInput: as `bayesmap.poses.slam.infer_trajectory`.

@@ -10,14 +10,15 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
-from bayesmap.app.protocol.document import Document, Refused
+from bayesmap.app.edits import tutorial_document
+from bayesmap.app.exports import static, to_html
+from bayesmap.app.protocol.document import Refused
 from bayesmap.app.protocol.notices import AnyNotice
 from bayesmap.app.protocol.tasks import Buffers, Report, Unusable
 from bayesmap.app.protocol.wire import check, parse_simulation, seq_of, with_arrays
-from bayesmap.app.recording import run_to_html, static
-from bayesmap.app.session import Effects, Session, ToWorker, refusal
-from bayesmap.app.supervisor import Supervisor
-from bayesmap.app.worlds import tutorial_document
+from bayesmap.app.session import Effects, Session, ToPage, refusal
+from bayesmap.app.sources import opened_run
+from bayesmap.app.worker import Supervisor
 from bayesmap.errors import BadInput
 from bayesmap.result import Run
 
@@ -37,9 +38,9 @@ class MapWidget(anywidget.AnyWidget):
     marimo also when the cell is run again or the visitor of an app has gone.
 
     Args:
-        run: what to show; nothing for the live page.
-        document: where the live page begins, as a document of docs/app.md.
-        seed: of all random numbers of the live page.
+        run: the run to show; None for the live page.
+        document: the first document of the live page, as JSON values (docs/app.md).
+        seed: the seed of all random numbers of the live page.
 
     Raises:
         BadInput: a document that is not one.
@@ -55,8 +56,8 @@ class MapWidget(anywidget.AnyWidget):
         super().__init__(**options)
         self._run = run
         first = tutorial_document(seed) if document is None else parse_simulation(dict(document))
-        self._session = Session(_shown(run, first))
-        # where there is no event loop, the supervisor's threads call in themselves, and the session is no thread's own
+        self._session = Session(first if run is None else opened_run(run, "run").document)
+        # without an event loop, the threads of the supervisor call the session themselves
         self._one_at_a_time = threading.RLock()
         self._later = _on_this_loop()
         self.on_msg(self._receive)
@@ -69,18 +70,18 @@ class MapWidget(anywidget.AnyWidget):
 
     @property
     def generation(self) -> int:
-        """Of the present picture."""
+        """The generation of the present picture."""
         return self._session.generation
 
     def to_html(self) -> str:
-        """A page in one file that shows the run.
+        """Return a page in one file that shows the run.
 
         Raises:
             BadInput: a live page; use its export.
         """
         if self._run is None:
             raise BadInput("MapWidget: a live page is exported from the page itself")
-        return run_to_html(self._run)
+        return to_html(opened_run(self._run, "run").result)
 
     def close(self) -> None:
         """End the worker and the widget."""
@@ -97,7 +98,7 @@ class MapWidget(anywidget.AnyWidget):
 
     def _end_with_notebook(self) -> None:
         """End the worker also where the notebook forgets the widget without closing it, as marimo does."""
-        # when a cell is run again, its widgets' channels are closed, and not the widgets
+        # when a cell is run again, the channels of its widgets are closed, and not the widgets
         if (channel := self.comm) is not None:
             close = channel.close
 
@@ -107,7 +108,7 @@ class MapWidget(anywidget.AnyWidget):
 
             channel.close = close_and_end
 
-        # a visitor of an app has a thread, and when they have gone nothing is closed, but the thread ends
+        # a visitor of an app has a thread; when the visitor has gone, nothing is closed, but the thread ends
         thread = threading.current_thread()
         if thread is not threading.main_thread() and _loop() is not None:
 
@@ -118,7 +119,7 @@ class MapWidget(anywidget.AnyWidget):
             threading.Thread(target=end_after, name="bayesmap-end", daemon=True).start()
 
     def _receive(self, _widget: object, content: Any, _buffers: object) -> None:
-        """A message of the view's."""
+        """Read and apply a message of the view."""
         self._start()
         with self._one_at_a_time:
             if isinstance(content, dict) and content.get("type") == "hello":
@@ -139,9 +140,7 @@ class MapWidget(anywidget.AnyWidget):
             path = str(Path(self._folder.name) / "run.nc")
             self._run.save(path)
         self._supervisor = Supervisor(
-            lambda report: self._later(lambda: self._hear(report)),
-            lambda: self._later(self._lost),
-            path,
+            lambda report: self._later(lambda: self._hear(report)), lambda: self._later(self._lost), path
         )
         self._supervisor.start()
 
@@ -156,27 +155,18 @@ class MapWidget(anywidget.AnyWidget):
 
     def _do(self, effects: Effects) -> None:
         for effect in effects:
-            if isinstance(effect, ToWorker):
-                if self._supervisor is not None:
-                    self._supervisor.send(effect.task)
-            else:
+            if isinstance(effect, ToPage):
                 self._post(effect.message, effect.buffers)
+            elif self._supervisor is not None:
+                self._supervisor.send(effect)
 
     def _post(self, message: AnyNotice, buffers: Buffers) -> None:
         header, arrays = with_arrays(message, buffers)
         self.send(header, [array.tobytes() for array in arrays])
 
 
-def _shown(run: Run | None, first: Document) -> Document:
-    if run is None:
-        return first
-    from bayesmap.app.sources import opened_run
-
-    return opened_run(run, "run").document
-
-
 def _on_this_loop() -> Callable[[Callable[[], None]], None]:
-    """How the supervisor's threads reach the notebook: through its event loop, or directly where there is none."""
+    """Return how threads call into the notebook: through its event loop, or directly where there is none."""
     loop = _loop()
     if loop is None:
         return lambda call: call()

@@ -1,26 +1,34 @@
-"""The worker process: an engine at the end of a pipe. It ends when the pipe does."""
+"""The worker process, an engine at the end of a pipe, and the supervisor that starts, watches and replaces it.
+
+The worker ends when its pipe does. The supervisor works on threads of its own, so that no pipe blocks its caller.
+"""
 
 from __future__ import annotations
 
 import contextlib
 import json
 import os
+import queue
 import signal
+import socket
+import subprocess
 import sys
 import threading
 import time
+from collections.abc import Callable, Mapping, Sequence
 from multiprocessing.connection import Connection
-from typing import Any
+from typing import Any, Protocol, TypeVar
 
 from bayesmap.app.protocol.tasks import ALIVE_SECONDS, Alive, Infer, Ready, Report, Task, Unusable
 from bayesmap.errors import BadInput
 
+T = TypeVar("T")
 NICE = 10
-"""The page and its server come first: a picture that cannot be painted is no use."""
+"""The niceness of the worker: the page and its server come first."""
 
 
 class Reporter:
-    """The worker's end of the pipe for several threads: reports, and a sign of life while nothing is reported."""
+    """Sends the reports of several threads over the pipe, and a sign of life now and then."""
 
     def __init__(self, pipe: Connection) -> None:
         self._pipe, self._lock = pipe, threading.Lock()
@@ -41,10 +49,13 @@ class Reporter:
 def serve(pipe: Connection, path: str | None, reading: dict[str, Any]) -> None:
     """Take tasks and answer them until the other end is closed.
 
-    A log is read by the settings ``reading``, as `bayesmap.read_log` calls them.
+    The first report is `Unusable` where the file cannot be opened. Else it is `Ready` with the file's document, after a
+    small map has been inferred, so that all kernels are loaded.
 
-    The first report is `ready`, with the document of the file where one is shown, after a small map has been inferred,
-    so that all kernels are loaded; or `unusable` where the file cannot be opened.
+    Args:
+        pipe: the worker's end.
+        path: the file to show, if any.
+        reading: the options with which `bayesmap.read_log` reads it.
     """
     from bayesmap.app.engine import Engine
     from bayesmap.app.sources import open_file
@@ -62,19 +73,23 @@ def serve(pipe: Connection, path: str | None, reading: dict[str, Any]) -> None:
         tasks: list[Task] = []
         while pipe.poll(0 if engine.busy or tasks else None):
             tasks.append(pipe.recv())
-        latest = max((i for i, task in enumerate(tasks) if isinstance(task, Infer)), default=-1)
-        for i, task in enumerate(tasks):
-            if i >= latest or not isinstance(task, Infer):  # an older generation is not even begun
-                engine.take(task)
+        for task in still_valid(tasks):
+            engine.take(task)
         engine.advance()
 
 
+def still_valid(tasks: Sequence[T]) -> list[T]:
+    """Return tasks without those that begin a generation before the last: these are not even begun."""
+    latest = max((i for i, task in enumerate(tasks) if isinstance(task, Infer)), default=-1)
+    return [task for i, task in enumerate(tasks) if i >= latest or not isinstance(task, Infer)]
+
+
 def _warm() -> None:
-    """Load every kernel that a page may need, by inferring a tiny map."""
+    """Load every kernel that a page may need, by inferring a small map."""
     from dataclasses import replace
 
+    from bayesmap.app.edits import tutorial_document
     from bayesmap.app.engine import Engine
-    from bayesmap.app.worlds import tutorial_document
 
     engine = Engine(lambda report: None)
     document = replace(tutorial_document(), sweeps=4)
@@ -85,7 +100,7 @@ def _warm() -> None:
 
 
 def main(arguments: list[str]) -> None:
-    """``descriptor [path reading]``: the inherited end of the pipe, the file to show, and how to read it, as JSON."""
+    """Serve ``descriptor [path reading]``: the inherited end of the pipe, the file to show, and its options as JSON."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for the server, which closes the pipe
     with contextlib.suppress(AttributeError, OSError):
         os.nice(NICE)
@@ -94,8 +109,155 @@ def main(arguments: list[str]) -> None:
     try:
         serve(pipe, path, reading)
     except (EOFError, BrokenPipeError, ConnectionResetError):
-        os._exit(0)  # nobody is there any more
+        os._exit(0)  # the server has gone
 
 
 if __name__ == "__main__":
     main(sys.argv[1:])
+
+
+QUICK_DEATH_SECONDS = 5.0
+"""A worker that lived no longer than this is restarted after a pause, which grows with each death."""
+
+LONGEST_PAUSE_SECONDS = 8.0
+SILENT_SECONDS = 15.0
+"""A worker that gives no sign of life for this time is replaced."""
+
+SLOW_BIRTH_SECONDS = 60.0
+"""A new worker has this much longer: a cold disk has to load Python and its libraries first."""
+
+
+class Process(Protocol):
+    """A worker process, as its supervisor needs it."""
+
+    @property
+    def pid(self) -> int | None:
+        """The process id."""
+
+    def kill(self) -> None:
+        """End the process."""
+
+    def wait(self) -> Any:
+        """Wait for the end of the process."""
+
+
+def start_worker(end: socket.socket, path: str | None, reading: Mapping[str, Any]) -> Process:
+    """Start a worker with one end of a socket pair; it inherits nothing else of the caller."""
+    command = [sys.executable, "-m", "bayesmap.app.worker", str(end.fileno())]
+    command += [path, json.dumps(reading)] if path is not None else []
+    return subprocess.Popen(command, pass_fds=[end.fileno()], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL)
+
+
+class Supervisor:
+    """Keeps one worker process running.
+
+    Args:
+        on_report: called with every report, on a thread of the supervisor.
+        on_lost: called when a worker has died, before another starts.
+        path: the file that the worker opens.
+        silence_s: the time without a sign of life after which a worker is replaced.
+        reading: the options with which `bayesmap.read_log` reads a log.
+    """
+
+    def __init__(
+        self,
+        on_report: Callable[[Report], None],
+        on_lost: Callable[[], None],
+        path: str | None = None,
+        silence_s: float = SILENT_SECONDS,
+        reading: Mapping[str, Any] | None = None,
+    ) -> None:
+        self._on_report, self._on_lost, self._path = on_report, on_lost, path
+        self._silence_s, self._reading = silence_s, dict(reading or {})
+        self._tasks: queue.SimpleQueue[Task | None] = queue.SimpleQueue()
+        self._stopping = threading.Event()
+        self._lock = threading.Lock()
+        self._process: Process | None = None
+        self._pipe: Connection | None = None
+        self._heard = 0.0
+
+    @property
+    def pid(self) -> int | None:
+        """The process id of the present worker."""
+        return None if self._process is None else self._process.pid
+
+    def start(self) -> None:
+        """Start the worker and the threads."""
+        for run in (self._listen, self._pass_on, self._watch):
+            threading.Thread(target=run, name=f"bayesmap{run.__name__}", daemon=True).start()
+
+    def send(self, task: Task) -> None:
+        """Hand a task to the worker; returns at once."""
+        self._tasks.put(task)
+
+    def stop(self) -> None:
+        """End the worker, which has nothing to lose."""
+        self._stopping.set()
+        self._tasks.put(None)
+        self._end()
+
+    def _end(self) -> None:
+        """Kill the worker and close its pipe."""
+        with self._lock:
+            if self._process is not None:
+                self._process.kill()
+                self._process.wait()
+            if self._pipe is not None:
+                with contextlib.suppress(OSError):
+                    self._pipe.close()
+                self._pipe = None
+
+    def _spawn(self) -> Connection | None:
+        with self._lock:
+            if self._stopping.is_set():
+                return None
+            ours, theirs = socket.socketpair()
+            with theirs:
+                self._process = start_worker(theirs, self._path, self._reading)
+            self._pipe = Connection(ours.detach())
+            self._heard = time.monotonic() + SLOW_BIRTH_SECONDS
+            return self._pipe
+
+    def _listen(self) -> None:
+        """Start a worker and pass on its reports; when these end, start another."""
+        pause = 0.0
+        while (pipe := self._spawn()) is not None:
+            born = time.monotonic()
+            with contextlib.suppress(EOFError, OSError):
+                while True:
+                    report = pipe.recv()
+                    self._heard = time.monotonic()
+                    if isinstance(report.message, Alive):
+                        continue
+                    self._on_report(report)
+                    if isinstance(report.message, Unusable):
+                        return
+            if self._stopping.is_set():
+                return
+            self._end()
+            self._on_lost()
+            quick = time.monotonic() - born < QUICK_DEATH_SECONDS
+            pause = min(LONGEST_PAUSE_SECONDS, max(0.25, 2 * pause)) if quick else 0.0
+            self._stopping.wait(pause)
+
+    def _watch(self) -> None:
+        """Kill a worker that hangs; `_listen` then meets the end of its pipe."""
+        while not self._stopping.wait(ALIVE_SECONDS):
+            with self._lock:
+                process = self._process
+                if process is not None and time.monotonic() - self._heard > self._silence_s:
+                    process.kill()
+
+    def _pass_on(self) -> None:
+        """Write tasks to the pipe, without those that a later task makes out of date."""
+        while True:
+            tasks = [self._tasks.get()]
+            while not self._tasks.empty():
+                tasks.append(self._tasks.get())
+            for task in still_valid(tasks):
+                if task is None:
+                    return
+                if (pipe := self._pipe) is not None:
+                    # After a death the session sends the whole document to the next worker.
+                    with contextlib.suppress(OSError):
+                        pipe.send(task)

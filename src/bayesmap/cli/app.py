@@ -35,9 +35,9 @@ def app(call: Call[AppSettings], file: str | None, host: str, port: int, no_brow
     if file is not None:
         need_file(file, f"a saved run (.nc), a document of the page (.json), or {LOG}", runs=True)
 
+    from bayesmap.app.edits import tutorial_document
     from bayesmap.app.server import serve
     from bayesmap.app.sources import read_document
-    from bayesmap.app.worlds import tutorial_document
 
     first = tutorial_document(seed)
     if file is not None and file.endswith(".json"):

@@ -2,49 +2,53 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from typing import Literal
 
 import numpy as np
+from numpy.typing import NDArray
 
-from bayesmap.app.answers.beam import compared_beam
 from bayesmap.app.answers.evidence import BeamRatios, stop_ratios, strongest, summed, wall_ratios
-from bayesmap.app.answers.ghost import GhostPredictor
+from bayesmap.app.answers.predictions import GhostPredictor, compared_beam
 from bayesmap.app.answers.whereabouts import Locator
-from bayesmap.app.protocol.actions import (
-    CompareBeam,
-    Export,
-    FindPath,
-    FindViews,
-    Inspect,
-    MoveGhost,
-    Question,
-    WhereAmI,
-)
-from bayesmap.app.protocol.notices import AnyNotice, CellFacts, Download, Status, Undecided
+from bayesmap.app.protocol.actions import CompareBeam, FindPath, FindViews, Inspect, MoveGhost, Question, WhereAmI
+from bayesmap.app.protocol.document import Document
+from bayesmap.app.protocol.notices import AnyNotice, CellFacts, SafePath, Undecided, Views
 from bayesmap.app.protocol.tasks import Buffers, Report
 from bayesmap.app.scene import Scene
 from bayesmap.app.shown.result import Result
 from bayesmap.beams.table import BeamTable
 from bayesmap.errors import BadInput
+from bayesmap.posterior.decisions import shortest_safe_path, typical_sigma_m
+from bayesmap.posterior.information import beam_information
 
-Answer = tuple[AnyNotice, Buffers]
 ANSWERED_BY: Mapping[type, Literal["path", "views", "ghost", "beam"]] = {
     FindPath: "path", FindViews: "views", MoveGhost: "ghost", CompareBeam: "beam",
 }  # fmt: skip
-"""Questions of the posterior, and the types of the messages that answer them."""
+"""Questions about the posterior, and the types of the messages that answer them."""
+
+MOST_VIEWS = 400
+"""The largest number of places that the map of expected information has."""
+
+PASSABLE = 0.3
+"""A sensor may stand where beams are stopped with at most this probability."""
+
+HEADINGS = 8
+MOST_ANGLES = 180
+"""Views are judged by at most this many beams, evenly chosen. Each counts for the beams left out beside it."""
 
 
 @dataclass(frozen=True, eq=False)
 class Now:
-    """What there is when a question comes.
+    """What the worker has when a question comes.
 
     Attributes:
         scene: the readings.
-        result: what is shown.
-        scan: index of the scan on show, of a file.
-        generation: of the present job.
+        result: the result on show.
+        scan: index of the scan on show, for a file.
+        generation: that of the present job.
     """
 
     scene: Scene | None
@@ -54,47 +58,36 @@ class Now:
 
 
 class Answers:
-    """Answers questions; what serves several of them is kept."""
+    """Answers questions. Predictors and maps that serve several questions are kept."""
 
     def __init__(self) -> None:
         self._ghost = GhostPredictor()
         self._locator = Locator()
 
     def answer(self, question: Question, now: Now, client: int) -> Report:
-        """Answer a question of a page."""
+        """Answer the question of a page."""
         if isinstance(question, Inspect):
             return Report(*cell_facts(question, now), client)
+        result, generation = now.result, now.generation
         if isinstance(question, WhereAmI):
-            return Report(*self._locator.answer(question, now.result, now.scan, now.generation), client)
+            return Report(*self._locator.answer(question, result, now.scan, generation), client)
         try:
-            if now.result is None:
+            if result is None:
                 raise BadInput("there is nothing to decide by yet")
-            return Report(*self._of_posterior(question, now.result, now.generation), client)
+            match question:
+                case FindPath():
+                    return Report(safe_path(result, question, generation), {}, client)
+                case FindViews():
+                    return Report(*views(result, generation), client)
+                case MoveGhost():
+                    return Report(*self._ghost.answer(result, question, generation), client)
+                case CompareBeam():
+                    return Report(compared_beam(result, question, generation), {}, client)
         except BadInput as error:
-            return Report(Undecided(str(error), ANSWERED_BY[type(question)], generation=now.generation), {}, client)
-
-    def _of_posterior(
-        self, question: FindPath | FindViews | MoveGhost | CompareBeam, result: Result, generation: int
-    ) -> Answer:
-        """Answer a question about the posterior.
-
-        Raises:
-            BadInput: there is no answer, and why.
-        """
-        from bayesmap.app.answers.decisions import safe_path, views
-
-        match question:
-            case FindPath():
-                return safe_path(result, question, generation), {}
-            case FindViews():
-                return views(result, generation)
-            case MoveGhost():
-                return self._ghost.answer(result, question, generation)
-            case CompareBeam():
-                return compared_beam(result, question, generation), {}
+            return Report(Undecided(str(error), ANSWERED_BY[type(question)], generation=generation), {}, client)
 
 
-def cell_facts(question: Inspect, now: Now) -> Answer:
+def cell_facts(question: Inspect, now: Now) -> tuple[AnyNotice, Buffers]:
     """Count the beams that touch a cell, and sum what they say of a wall, or of what stands there."""
     x, y, result = question.x, question.y, now.result
     table = None if now.scene is None else now.scene.problem.table
@@ -118,14 +111,58 @@ def _ratios(result: Result, table: BeamTable, cell: int) -> BeamRatios | None:
         return None
 
 
-def exported(wish: Export, result: Result | None, client: int) -> Report:
-    """Return a file, or why there is none."""
-    from bayesmap.app.exports import export
+def safe_path(result: Result, question: FindPath, generation: int) -> SafePath:
+    """Find the shortest path that is safe enough, and the probability that it is free.
 
-    try:
-        if result is None:
-            raise BadInput("there is nothing to export yet")
-        name, mime, data = export(result, wish.what)
-    except (BadInput, OSError) as error:
-        return Report(Status(str(error), "warning"), {}, client)
-    return Report(Download(name, mime), {"data": data}, client)
+    Raises:
+        BadInput: no draws, or no path.
+    """
+    route = shortest_safe_path(result.maps, question.start, question.goal, question.radius, question.risk)
+    free = route.free
+    return SafePath(
+        generation=generation, path=route.path.tolist(), length_m=route.length_m, radius=question.radius,
+        within_risk=bool(route.within_risk), probability=free.probability, standard_error=free.standard_error,
+        independent=free.independent, draws=int(free.blocked.size),
+    )  # fmt: skip
+
+
+def views(result: Result, generation: int) -> tuple[Views, Buffers]:
+    """Compute the nats expected from one more scan at poses on a lattice of free places.
+
+    The formula is that for independent cells and beams (`bayesmap.posterior.information.beam_information`).
+
+    Raises:
+        BadInput: no place at which a sensor could stand.
+    """
+    document, mean = result.document, result.found.mean()
+    poses, spacing_m = _lattice(document, mean, result.found.observed())
+    scans = result.scene.scans
+    every = -(-len(scans.angles_rad) // MOST_ANGLES)
+    angles = scans.angles_rad[::every]
+    full = document.fov >= 2 * math.pi if document.simulated else np.ptp(angles) > 6.1
+    turns = np.zeros(1) if full else np.arange(HEADINGS) * 2 * math.pi / HEADINGS
+    many = np.repeat(poses, len(turns), axis=0)
+    many[:, 2] += np.tile(turns, len(poses))
+    nats = every * beam_information(
+        mean, document.grid, many, angles,
+        max_range_m=scans.max_range_m, sigma_m=typical_sigma_m(result.scene.sensor, scans.max_range_m),
+    ).reshape(len(poses), -1)  # fmt: skip
+    poses[:, 2] = turns[nats.argmax(axis=1)]
+    buffers = {"pose": poses.astype(np.float32), "nats": nats.max(axis=1).astype(np.float32)}
+    return Views(spacing_m, generation=generation), buffers
+
+
+def _lattice(
+    document: Document, mean: NDArray[np.float64], observed: NDArray[np.bool_]
+) -> tuple[NDArray[np.float64], float]:
+    """Return poses at the centres of free cells, at most `MOST_VIEWS`, (P, 3), and their distance in metres."""
+    grid = document.grid
+    free = observed & (mean < PASSABLE)
+    if not free.any():
+        raise BadInput("nothing is known to be free yet: there is no place to look from")
+    stride = 1
+    while free[stride // 2 :: stride, stride // 2 :: stride].sum() > MOST_VIEWS:
+        stride += 1
+    cells = np.argwhere(free[stride // 2 :: stride, stride // 2 :: stride]) * stride + stride // 2
+    places = (cells + 0.5) * grid.resolution + np.array(grid.origin)
+    return np.column_stack([places, np.zeros(len(places))]), stride * grid.resolution

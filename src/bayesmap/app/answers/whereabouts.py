@@ -1,7 +1,7 @@
-"""Where am I? The posterior of the pose from which one scan was taken, over all places and headings of a map.
+"""The posterior of the pose from which one scan was taken, over all places and headings of a map.
 
-In a drawn world the map is known and readings follow their law beam by beam, so that each beam counts in full. On a
-run, or a log that was run, the map is its posterior's draws, and beams count as `bayesmap.localization.known_map` says.
+In a drawn world the map is known and readings follow their law beam by beam, so each beam counts in full. For a run, or
+a log that was run, the map is the posterior's draws, and beams count as `bayesmap.localization.known_map` says.
 """
 
 from __future__ import annotations
@@ -11,10 +11,9 @@ from collections.abc import Hashable
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from bayesmap.app.protocol.actions import WhereAmI
-from bayesmap.app.protocol.document import SMALLEST_NOISE_M, Document
+from bayesmap.app.protocol.document import Document
 from bayesmap.app.protocol.notices import Place, Whereabouts
 from bayesmap.app.protocol.tasks import Buffers
 from bayesmap.app.scene import hits
@@ -32,17 +31,17 @@ from bayesmap.space.scans import Scans, fan
 
 FINEST_M = 0.125
 MOST_CELLS = 1_000_000
-"""A drawn map is searched on cells so fine, if they are not too many: a search tries the middles of cells."""
+"""A drawn map is searched on cells of this edge, if they are not too many: the search tries the centres of cells."""
 
 TYPICAL, STREAM_TYPICAL = 100, 12
-"""Places from which typical scans of a drawn world are taken, and the stream of random numbers that chooses them."""
+"""The number of typical scans of a drawn world, and the stream of random numbers that chooses their poses."""
 
 MOST_POSES = 1000
-"""Of the cloud: those with the most weight."""
+"""The number of poses in the cloud: those with the most weight."""
 
 
 class Locator:
-    """Answers the question for one scan at a time; the map is made ready once."""
+    """Locates one scan at a time. The map is prepared once."""
 
     def __init__(self) -> None:
         self._known: KnownMap | None = None
@@ -54,10 +53,10 @@ class Locator:
         """Find the places where a scan may have been taken, or say what prevents it.
 
         Args:
-            question: of a drawn world, about a sensor.
-            result: what is shown.
-            scan: index of the scan on show, of a file.
-            generation: of the picture.
+            question: names the sensor, in a drawn world.
+            result: the result on show.
+            scan: index of the scan on show, for a file.
+            generation: that of the picture.
         """
         try:
             if result is None:
@@ -67,11 +66,12 @@ class Locator:
         except BadInput as error:
             return Whereabouts(generation, trouble=str(error).removeprefix("localize: ")), {}
         index, sensor = (None, name) if result.document.simulated else (name, None)
-        found = Whereabouts(
+        heaviest = np.argsort(belief.weights, kind="stable")[-MOST_POSES:]
+        cloud = {"pose": belief.poses[heaviest], "weight": belief.weights[heaviest]}
+        return Whereabouts(
             generation, sensor, index, scans.poses[0].tolist(), places(belief), float(belief.p_lost),
             float(belief.nats_per_beam),
-        )  # fmt: skip
-        return found, cloud(belief)
+        ), {name: values.astype(np.float32) for name, values in cloud.items()}  # fmt: skip
 
     def _map(self, result: Result) -> KnownMap:
         document = result.document
@@ -85,7 +85,7 @@ class Locator:
 
 
 def drawn_map(document: Document) -> KnownMap:
-    """The walls of a drawn world as a map to be located in.
+    """Return the walls of a drawn world as a known map.
 
     Raises:
         BadInput: a world without a free cell.
@@ -97,17 +97,13 @@ def drawn_map(document: Document) -> KnownMap:
     shape = (fine.shape[0], fine.shape[1])
     return KnownMap.of_draws(
         fine.reshape(1, -1).astype(np.float32), Grid(shape, grid.resolution / parts, grid.origin),
-        Gaussian(_sigma_m(document)), _typical_scans(document), occupancy=fine,
+        Gaussian(document.sigma_m), _typical_scans(document), occupancy=fine,
         observed=np.ones(shape, dtype=np.bool_), hit_depth=0.0, beam_weight=1.0,
     )  # fmt: skip
 
 
-def _sigma_m(document: Document) -> float:
-    return max(document.noise, SMALLEST_NOISE_M)
-
-
 def _typical_scans(document: Document) -> Scans:
-    """What readings are like anywhere in a drawn world: a scan that could as well be from elsewhere tells nothing."""
+    """Simulate scans from anywhere in a drawn world: a scan that could as well be from elsewhere tells nothing."""
     grid = document.grid
     rng = np.random.default_rng([document.seed, STREAM_TYPICAL])
     free = np.argwhere(~document.is_wall)
@@ -117,7 +113,7 @@ def _typical_scans(document: Document) -> Scans:
     poses = np.column_stack([np.array(grid.origin) + cells * grid.resolution, rng.uniform(-np.pi, np.pi, TYPICAL)])
     angles = fan(document.angles, math.degrees(document.fov))
     exact = ranges(document.is_wall, grid, poses, angles, document.max_range)
-    noisy = exact + _sigma_m(document) * rng.standard_normal(exact.shape)
+    noisy = exact + document.sigma_m * rng.standard_normal(exact.shape)
     return Scans(poses, angles, np.where(exact < document.max_range, noisy, np.inf), max_range_m=document.max_range)
 
 
@@ -136,12 +132,6 @@ def places(belief: PoseBelief) -> list[Place]:
         sigma_m, sigma_rad = float(np.sqrt(spread)), float(np.sqrt(mode.covariance[2, 2]))
         found.append(Place(**mode.as_json(), sigma_m=sigma_m, sigma_rad=sigma_rad))
     return found
-
-
-def cloud(belief: PoseBelief) -> dict[str, NDArray[np.float32]]:
-    """The heaviest poses, (n, 3), and their weights, (n,), lightest first."""
-    some = np.argsort(belief.weights, kind="stable")[-MOST_POSES:]
-    return {"pose": belief.poses[some].astype(np.float32), "weight": belief.weights[some].astype(np.float32)}
 
 
 def _scan_of(question: WhereAmI, result: Result, scan: int) -> tuple[Scans, int]:

@@ -7,7 +7,7 @@ declarations, and the limits of the numbers are sent to every page that connects
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
 from typing import Annotated, Any, Final, Literal, get_args, get_type_hints
@@ -142,6 +142,9 @@ class Settings:
 
 
 SETTINGS = tuple(one.name for one in fields(Settings))
+SETTINGS_OF_CHAINS = ("prior", "pose_sigma", "heading_sigma", "method", "order", "start", "sweeps")
+"""Settings on which neither the readings nor the pilot that fits the sensor depends."""
+
 FIXED_BY_FILE: Mapping[Kind, tuple[str, ...]] = {
     "simulation": ("poses", "scans_used"),
     "log": ("noise", "angles", "max_range", "fov", "readings", "pose_sigma", "heading_sigma"),
@@ -191,11 +194,20 @@ class Document(Settings):
         return self.source.kind == "log" and self.poses == "odometry"
 
     @property
+    def sigma_m(self) -> float:
+        """The standard deviation of a range, metres."""
+        return max(self.noise, SMALLEST_NOISE_M)
+
+    @property
     def sampler(self) -> Method:
         """The method, with "auto" resolved: single-site Gibbs, or blocks where walls are rare or everywhere."""
         if self.method != "auto":
             return self.method
         return "block" if min(self.prior, 1 - self.prior) <= RARE_WALLS else "gibbs"
+
+    def alike_but(self, other: Document, names: Iterable[str]) -> bool:
+        """Return whether two documents differ at most in the named fields."""
+        return self == replace(other, **{name: getattr(self, name) for name in names})
 
     def sensor_cells(self) -> dict[tuple[int, int], int]:
         """Return the cells in which sensors stand, with their ids."""

@@ -1,10 +1,17 @@
-"""Chains that are watched while they run: where they start, the library's runner in short steps, the kept draws."""
+"""Chains that are watched while they run: the pilot that fits the sensor, the starts, and the runner in short steps.
+
+The pilot is a short chain that fits sensor and prior of reflectivities and surfaces. It draws cells given all readings,
+as the chains that follow do, but under a sensor and a prior that still move. Both are near their place after a few
+sweeps, so the latter half of the pilot's draws is the first estimate of the posterior. docs/app.md says how good it is.
+"""
 
 from __future__ import annotations
 
 import math
 import time
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Generator
+from dataclasses import replace
+from functools import cached_property
 from typing import Any, cast
 
 import numpy as np
@@ -12,61 +19,62 @@ from numpy.typing import NDArray
 
 from bayesmap.app.protocol.document import CHAIN_METHODS, Document
 from bayesmap.app.scene import Scene
-from bayesmap.app.shown.beliefs import Preview
-from bayesmap.app.shown.result import CHAINS, Figures, Found, Result, settings_of_run
-from bayesmap.app.shown.verdict import difference, judge_chains
+from bayesmap.app.shown.result import (
+    CHAINS,
+    Figures,
+    Floats,
+    Found,
+    OneMap,
+    Result,
+    difference,
+    judge_chains,
+    rhat_and_ess,
+)
+from bayesmap.app.shown.without_chains import Preview
 from bayesmap.cells.arrays import Draws
+from bayesmap.cells.kinds import BUILT_IN
 from bayesmap.model import Model
 from bayesmap.poses.prior import PosePrior, Uncertain
-from bayesmap.posterior.diagnostics import bulk_ess, rhat
 from bayesmap.posterior.posterior import posterior_of_chains
 from bayesmap.result import Run
 from bayesmap.run.chains import Chains, Record, SweepPlan
 from bayesmap.run.runner import BUFFER_BYTES, no_draws, sweeps
+from bayesmap.samplers.fit import PILOT_SWEEPS, first_sensor, pilot_sweeps
 from bayesmap.samplers.methods import Gibbs, sampler_of
 from bayesmap.samplers.propagate import Marginals
-from bayesmap.samplers.sampler import Problem, Sampler
+from bayesmap.samplers.sampler import Keep, Problem, Sampler
 from bayesmap.samplers.wall_problem import WallProblem
 from bayesmap.samplers.walls import Start, start_maps
 from bayesmap.samplers.with_poses import MovableSampler, PoseProblem, WithPoses
 
 POSE_CHAINS = 16
-"""Where poses are uncertain: a map holds its sensors in place, so that each chain stays near where it started."""
+"""The number of chains where poses are uncertain: a map holds its sensors in place, so a chain stays near its start."""
 
 STEP_SECONDS = 0.015
-"""Of work between two looks at the pipe."""
+"""The work between two looks at the pipe."""
 
 DRAW_BYTES = 128 << 20
-"""Of the kept draws of a run; more sweeps than fit are thinned."""
+"""The memory for the kept draws of a run; more sweeps than fit are thinned."""
 
 LOOKS = 32
-"""At which cells some beam says something is counted so often in a run, besides at sweeps 1, 2, 4 and so on."""
+"""Observed cells are counted this often in a run, besides at sweeps 1, 2, 4 and so on."""
 
 DIAGNOSIS_SHARE = 0.1
-"""Of the time that diagnostics of the growing trace may take; they are those of every sweep, as of the last time."""
+"""The share of time for diagnostics of the growing trace; between two diagnoses the last one stands."""
 
 RECENT, RECENT_BYTES = 200, 16 << 20
-"""Maps of each chain that are remembered where none are kept."""
+"""The number of latest maps of each chain that are remembered where none are kept, and their memory."""
 
 SMALLEST_POSE_M = 0.001
 SMALLEST_HEADING_RAD = math.radians(0.05)
-"""Where only one of the two is uncertain, the other is taken as known up to this: a density needs a width."""
+"""Where only position or heading is uncertain, the other has this deviation: a density needs a width."""
 
 FARTHEST_SIGMAS = 4.0
 EVENLY = (0.7548776662466927, 0.5698402909980532)
 
 
-@dataclass(frozen=True)
-class Mixing:
-    """R-hat and effective sample size of the log joint, and its last value averaged over the chains."""
-
-    rhat: float
-    ess: float
-    log_joint: float
-
-
 def joined(before: Draws | None, after: Draws, most: int = RECENT) -> Draws:
-    """The last draws of both, as many of each chain as are to be remembered and fit in `RECENT_BYTES`."""
+    """Return the last draws of both: at most `most` of each chain, and what fits in `RECENT_BYTES`."""
     one = sum(a[:, :1].nbytes for a in after.arrays.values())
     last = min(most, max(1, RECENT_BYTES // max(one, 1)))
     if before is None or before.index.keys() != after.index.keys():
@@ -76,15 +84,17 @@ def joined(before: Draws | None, after: Draws, most: int = RECENT) -> Draws:
 
 
 class Stream(Found):
-    """Some chains from their start to their last sweep, whatever their kind of cells.
+    """Chains from their start to their last sweep, for any kind of cells.
 
     Attributes:
-        model: what is sampled.
-        problem: what the sampler has prepared of it.
-        total: sweeps to do.
-        thin: sweeps from one counted map to the next; 1 unless so many are kept that they would not fit.
-        n_chains: how many chains.
-        counted: maps that each chain's mean is made of.
+        model: the model that is sampled.
+        problem: the model as the sampler has prepared it.
+        total: number of sweeps to do.
+        thin: sweeps from one kept map to the next; 1 unless the kept maps would not fit.
+        n_chains: number of chains.
+        counted: number of maps in each chain's mean.
+        sweep: number of sweeps done.
+        done: whether all sweeps are done.
     """
 
     def __init__(
@@ -113,23 +123,14 @@ class Stream(Found):
         self._rhat = self._ess = math.nan
         self._diagnose_at, self._diagnosed = 0.0, 0
         self._observed_counts = np.zeros((2, *model.grid.shape), dtype=np.int32)
-        self._log_likelihood = np.zeros((self.n_chains, self.total))
-        self._log_prior = np.zeros((self.n_chains, self.total))
-
-    @property
-    def sweep(self) -> int:
-        """Sweeps done."""
-        return int(self.state.sweep)
-
-    @property
-    def done(self) -> bool:
-        """Whether all sweeps are."""
-        return self.sweep >= self.total
+        self._log_joint = np.zeros((self.n_chains, self.total))
 
     def advance(self) -> None:
-        """Some sweeps: about `STEP_SECONDS` of work."""
+        """Do some sweeps: about `STEP_SECONDS` of work."""
         before, began = self.sweep, time.perf_counter()
         self.state, info = next(self._steps)
+        self.sweep = int(self.state.sweep)
+        self.done = self.sweep >= self.total
         latest = replace(self._latest, arrays=info.draws)
         if latest.count:
             self._latest = latest
@@ -140,8 +141,7 @@ class Stream(Found):
             self.counted += latest.count
         if self.keep:
             self._record.add(info, before)
-        self._log_likelihood[:, before : self.sweep] = info.log_likelihood
-        self._log_prior[:, before : self.sweep] = info.log_prior
+        self._log_joint[:, before : self.sweep] = info.log_likelihood + info.log_prior
         if self.sweep in self._look_at:
             self._observed_counts += self._sampler.observed_counts(self.state, {})
         self.seconds += time.perf_counter() - began
@@ -151,8 +151,8 @@ class Stream(Found):
         """The kept draws."""
         return self._record.draws
 
-    def mean(self) -> NDArray[np.float64]:
-        """Mean over the counted maps of the probability that a cell stops a beam, (nx, ny).
+    def mean(self) -> Floats:
+        """Return the mean over the counted maps of the probability that a cell stops a beam, (nx, ny).
 
         Where draws are not kept, cells that no beam touches have the prior's mean exactly: what their draws average to.
         """
@@ -161,47 +161,25 @@ class Stream(Found):
             return np.asarray(mean)
         return np.where(self.problem.touched(), mean, self.model.cells.mean_stop(self.model.grid))
 
-    def means(self) -> NDArray[np.float64]:
-        """The same of each chain, (chains, nx, ny)."""
+    def means(self) -> Floats:
+        """Return the mean of each chain, (chains, nx, ny)."""
         return self._sums / max(1, self.counted)
 
     def observed(self) -> NDArray[np.bool_]:
-        """Cells of which a beam said something in at least half of the maps that were looked at, (nx, ny)."""
+        """Return the cells that some beam observes in at least half of the maps inspected, (nx, ny)."""
         return np.asarray(2 * self._observed_counts[0] >= np.maximum(1, self._observed_counts[1]))
 
-    def draw(self, chain: int | None, draw: int | None) -> tuple[NDArray[Any], int, int]:
-        """One map, (nx, ny), and which it is: the last where there is none such, the latest where none are kept."""
-        kept, which = self.draws, min(chain or 0, self.n_chains - 1)
-        if kept.count == 0:
+    def draw(self, chain: int | None, number: int | None) -> OneMap:
+        """Return a kept draw; the last where there is none with that number, the latest map where none are kept."""
+        draws, which = self.draws, min(chain or 0, self.n_chains - 1)
+        if draws.count == 0:
             return self.model.cells.map_of(self._latest, which, -1), which, 0
-        number = kept.count - 1 if draw is None else min(draw, kept.count - 1)
-        return self.model.cells.map_of(kept, which, number), which, number
+        number = draws.count - 1 if number is None else min(number, draws.count - 1)
+        return self.model.cells.map_of(draws, which, number), which, number
 
-    def log_joint(self) -> NDArray[np.float64]:
-        """Of every sweep, (chains, sweeps)."""
-        return self._log_likelihood[:, : self.sweep] + self._log_prior[:, : self.sweep]
-
-    def mixing(self) -> Mixing:
-        """Diagnostics of all sweeps, while the chains run of those until a moment ago; NaN where nothing changed."""
-        joint = self.log_joint()
-        last = float(joint[:, -1].mean()) if joint.shape[1] else math.nan
-        now = time.perf_counter()
-        if now >= self._diagnose_at or (self.done and self._diagnosed < self.sweep):
-            constant = joint.size == 0 or float(np.ptp(joint)) == 0.0
-            self._rhat, self._ess = (math.nan, math.nan) if constant else (rhat(joint), bulk_ess(joint))
-            self._diagnosed = self.sweep
-            self._diagnose_at = math.inf if self.done else now + (time.perf_counter() - now) / DIAGNOSIS_SHARE
-        return Mixing(self._rhat, self._ess, last)
-
-    def chains(self) -> Chains:
-        """Everything, as the library's runner leaves it."""
-        log_likelihood, log_prior, warmup = self._record.log_densities
-        return Chains(
-            draws=self.draws, log_likelihood=log_likelihood, log_prior=log_prior, warmup_log_joint=warmup,
-            snapshot=self._sampler.snapshot(self.state), observed_counts=self._observed_counts, statistics={},
-            n_incidences=self.problem.n_incidences,
-            seconds={"trace": 0.0, "warm_start": 0.0, "sampling": self.seconds}, finished=self.done,
-        )  # fmt: skip
+    def log_joint(self) -> Floats:
+        """Return the log joint of every sweep, (chains, sweeps)."""
+        return self._log_joint[:, : self.sweep]
 
     @property
     def kept(self) -> Draws | None:
@@ -215,10 +193,19 @@ class Stream(Found):
         return draws if draws.count else None
 
     def figures(self, over: bool) -> Figures:
-        """Return the sweeps done, and whether the chains agree."""
-        mixing, apart = self.mixing(), difference(self.means(), self.observed())
-        verdict = judge_chains(mixing.rhat, mixing.ess, self.sweep, apart, over=over or self.done)
-        return Figures(self.sweep, self.total, mixing.ess, mixing.rhat, mixing.log_joint, verdict)
+        """Return the sweeps done, and the diagnostics of the chains.
+
+        While the chains run, R-hat and effective sample size may be those of a moment ago.
+        """
+        joint, now = self.log_joint(), time.perf_counter()
+        if now >= self._diagnose_at or (self.done and self._diagnosed < self.sweep):
+            self._rhat, self._ess = rhat_and_ess(joint)
+            self._diagnosed = self.sweep
+            self._diagnose_at = math.inf if self.done else now + (time.perf_counter() - now) / DIAGNOSIS_SHARE
+        last = float(joint[:, -1].mean()) if joint.shape[1] else math.nan
+        apart = difference(self.means(), self.observed())
+        verdict = judge_chains(self._rhat, self._ess, self.sweep, apart, over=over or self.done)
+        return Figures(self.sweep, self.total, self._ess, self._rhat, last, verdict)
 
     def as_run(self, result: Result) -> Run:
         """Return the kept draws as a run.
@@ -228,15 +215,20 @@ class Stream(Found):
         """
         if self.kept is None:
             return super().as_run(result)
+        log_likelihood, log_prior, warmup = self._record.log_densities
+        chains = Chains(
+            draws=self.draws, log_likelihood=log_likelihood, log_prior=log_prior, warmup_log_joint=warmup,
+            snapshot=self._sampler.snapshot(self.state), observed_counts=self._observed_counts, statistics={},
+            n_incidences=self.problem.n_incidences,
+            seconds={"trace": 0.0, "warm_start": 0.0, "sampling": self.seconds}, finished=self.done,
+        )  # fmt: skip
         count = self.total // self.thin
-        settings = settings_of_run(result, self.model, chains=self.n_chains, draws=count, thin=self.thin)
-        chains = self.chains()
-        total = {"total": chains.seconds["sampling"]}
-        return Run(posterior_of_chains(self.model, chains, settings, total, None))
+        settings = result.settings_of_run(self.model, chains=self.n_chains, draws=count, thin=self.thin)
+        return Run(posterior_of_chains(self.model, chains, settings, {"total": self.seconds}, None))
 
 
 def pose_prior(document: Document) -> PosePrior | None:
-    """What is believed of the sensors' poses where they are uncertain and the method can take them so; else None."""
+    """Return the prior of the sensors' poses; None where they are known, or the method takes them as known."""
     sigma_m, sigma_rad = document.pose_sigma, document.heading_sigma
     if not document.simulated or document.sampler not in CHAIN_METHODS or not (sigma_m > 0 or sigma_rad > 0):
         return None
@@ -244,12 +236,12 @@ def pose_prior(document: Document) -> PosePrior | None:
 
 
 def pose_starts(document: Document, chains: int) -> NDArray[np.float64]:
-    """Poses of all sensors from which chains start: the document's, shifted by whole cells, (chains, S, 3).
+    """Return the poses of all sensors from which chains start: the document's, shifted by whole cells, (chains, S, 3).
 
-    A map and all its sensors can be shifted together by whole cells without a change of the likelihood (but for what
-    falls off the border), so that the posterior has a place at every such shift, as probable as the prior says: with S
-    sensors exp(-S s^2 / (2 sigma^2)). No chain gets from one to the next, hence they are dealt out in these shares;
-    between the cells walls do not fit, and chains that started there would take long to leave.
+    A map and all its sensors can be shifted together by whole cells without a change of the likelihood, but for what
+    falls off the border. So the posterior has a mode at every shift s, as probable as the prior says: with S sensors
+    exp(-S s^2 / (2 sigma^2)). No chain moves from one mode to the next, so the chains are dealt out in these shares.
+    Between the cells walls do not fit, and chains that started there would take long to leave.
     """
     poses = np.array([(sensor.x, sensor.y, sensor.yaw) for sensor in document.sensors])
     sigma = max(document.pose_sigma, SMALLEST_POSE_M) / math.sqrt(len(poses)) / document.grid.resolution
@@ -265,10 +257,10 @@ def pose_starts(document: Document, chains: int) -> NDArray[np.float64]:
 
 
 def chains_of_walls(scene: Scene, document: Document, begun: NDArray[np.bool_], *, keep: bool) -> Stream:
-    """Chains that start from these maps, one a chain, (chains, nx, ny).
+    """Prepare chains that start from these maps, one a chain, (chains, nx, ny).
 
-    Poses that are uncertain are sampled along with the walls, as in `bayesmap.infer(..., poses=Uncertain(...))`
-    without warm-up and with `pose_starts`.
+    Uncertain poses are sampled along with the walls, as in `bayesmap.infer(..., poses=Uncertain(...))` without warm-up,
+    from `pose_starts`.
     """
     walls = scene.problem
     model = scene.model(walls.prior)
@@ -284,12 +276,11 @@ def chains_of_walls(scene: Scene, document: Document, begun: NDArray[np.bool_], 
 
 
 def starts(problem: WallProblem, document: Document, preview: Preview | None) -> NDArray[np.bool_]:
-    """One map a chain, (chains, nx, ny), that depends on the document alone.
+    """Return the map from which each chain starts, (chains, nx, ny); it depends on the document alone.
 
-    "prior" and "empty" are what they say. "auto" is prior draws where there is no preview. After one, the first chain
-    of a simulation starts from what belief propagation says and the second from the empty map, and so on in turn:
-    chains that started alike would agree on a wrong answer long before they have left it. On a file, whose maps are
-    large, all start from belief propagation, with prior draws where it says nothing.
+    The start "auto" means prior draws where there is no preview. After a preview, the chains of a simulation start in
+    turn from the beliefs and from the empty map: chains that start alike agree on a wrong answer long before they have
+    left it. For a file, whose maps are large, all start from the beliefs, with prior draws where these say nothing.
     """
     chains = CHAINS if pose_prior(document) is None else POSE_CHAINS
 
@@ -307,3 +298,76 @@ def starts(problem: WallProblem, document: Document, preview: Preview | None) ->
     if chains > CHAINS:  # a map that is shifted starts empty: the beliefs are those of another place
         likely[(pose_starts(document, chains) != pose_starts(document, 1)).any(axis=(1, 2))] = False
     return likely
+
+
+class Pilot(Found):
+    """The chain that fits sensor and prior, before the chains whose draws are kept begin.
+
+    Attributes:
+        model: the model under the sensor and the prior fitted so far.
+        draws: the latter half of its draws, one chain.
+        sweep: number of sweeps done.
+        total: number of sweeps that it will do.
+    """
+
+    approximate = True
+
+    def __init__(self, model: Model, draws: Draws, sweep: int, total: int, touched: NDArray[np.bool_]) -> None:
+        self.model: Model = model
+        self.draws, self.sweep, self.total, self.averaged = draws, sweep, total, draws.count
+        self._touched = touched
+
+    @property
+    def at_hand(self) -> Draws:
+        """The latter half of its draws."""
+        return self.draws
+
+    def figures(self, over: bool) -> Figures:
+        """Return the sweeps done."""
+        return Figures(self.sweep, self.total)
+
+    @cached_property
+    def _mean(self) -> Floats:
+        return self.model.cells.mean_map(self.draws)
+
+    def mean(self) -> Floats:
+        """Return the mean over the draws, (nx, ny)."""
+        return self._mean
+
+    def observed(self) -> NDArray[np.bool_]:
+        """Return the cells that a beam touches, (nx, ny)."""
+        return self._touched
+
+    def draw(self, chain: int | None, number: int | None) -> OneMap:
+        """Return its last draw."""
+        return self.model.cells.map_of(self.draws, 0, -1), 0, 0
+
+
+Fitted = tuple[Model, Any, Any]
+"""A model under the fitted sensor and prior, its sampler, and the problem that the sampler has prepared."""
+
+
+def fit_by_pilot(scene: Scene, document: Document, show: Callable[[Pilot], None]) -> Generator[None, None, Fitted]:
+    """Fit sensor and prior to the readings in short pieces.
+
+    Args:
+        scene: the readings.
+        document: names the kind of cells and the seed.
+        show: called with the pilot after every sweep.
+    """
+    prior = BUILT_IN[document.cells]()
+    first = first_sensor(prior, document.grid.resolution)
+    model = replace(scene.model(prior), sensor=first, hit_depth=prior.hit_depth)
+    sampler, _ = sampler_of(prior.methods["gibbs"], model.grid, Gibbs())
+    problem = sampler.prepare(model, "cpu")
+    yield
+    pilot = pilot_sweeps(problem, document.seed, PILOT_SWEEPS, keep=Keep(every=1))
+    draws: Draws | None = None
+    touched = scene.problem.touched()
+    for sweep, (now, info) in enumerate(pilot, 1):
+        problem, model = problem.under(now.sensor, now.prior), replace(model, sensor=now.sensor, cells=now.prior)
+        latest = Draws(model.grid, now.prior.arrays, info.draws, problem.coordinates)
+        draws = joined(draws, latest, math.ceil(sweep / 2))
+        show(Pilot(model, draws, sweep, PILOT_SWEEPS, touched))
+        yield
+    return model, sampler, sampler.prepare(model, "cpu")  # beams are followed as far as the fitted noise reaches

@@ -1,7 +1,7 @@
 """Maps of hits and passes, which are there at once: of the first scans of a log, and along poses that still change.
 
-Along poses that are being inferred, walls that stand twice, and beams that pass through walls, show where poses are
-still wrong. The rule for walls is OctoMap's log-odds (`bayesmap.posterior.baselines`).
+Along poses that are being inferred, walls that stand twice and beams that pass through walls show where poses are still
+wrong. Walls follow OctoMap's log-odds (`bayesmap.posterior.baselines`).
 """
 
 from __future__ import annotations
@@ -10,10 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.app.protocol.document import LARGEST_SIDE_OF_FILE
-from bayesmap.app.scene import Beams, Scene
+from bayesmap.app.scene import Scene, scene_of_file
 from bayesmap.app.shown.result import Floats, Found
 from bayesmap.beams.table import BeamTable
-from bayesmap.cells.binary import Independent
 from bayesmap.cells.kind import CellPrior
 from bayesmap.cells.kinds import default_sensor
 from bayesmap.posterior.baselines import P_HIT, P_MISS, hit_ratio, log_odds, log_odds_as_usual
@@ -21,16 +20,16 @@ from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
 
 MOST_SCANS = 800
-"""Scans of which a map along changing poses is made, evenly spread: it is made again and again."""
+"""A map along changing poses is made of at most so many scans, evenly chosen, since it is made again and again."""
 
 
 class Counted(Found):
     """A map of hits and passes.
 
     Args:
-        p_wall: probability that a cell stops a beam, as counts have it, (nx, ny).
+        p_wall: probability that a cell stops a beam, by the counts, (nx, ny).
         observed: cells that some beam passed or hit, (nx, ny).
-        prior: of cells that are no walls: it has the words for the map.
+        prior: the prior of cells that are no walls, which has the words for the map.
     """
 
     approximate = True
@@ -44,7 +43,7 @@ class Counted(Found):
         return self._prior
 
     def mean(self) -> Floats:
-        """Return the probability that a cell stops a beam, as counts have it, (nx, ny)."""
+        """Return the probability that a cell stops a beam, by the counts, (nx, ny)."""
         return self._p_wall
 
     def observed(self) -> NDArray[np.bool_]:
@@ -53,13 +52,13 @@ class Counted(Found):
 
 
 class HitCounts:
-    """Counts of the first scans of a log, for any number of them; the next number is counted from the last.
+    """Counts of the first scans of a log, for any number of them; each number is counted from the last.
 
-    A beam that comes back from nothing is left out: how far it got is for the posterior to say.
+    A beam without a return is left out: only the posterior can say how far it got.
 
     Args:
         scans: S scans of A beams.
-        table: their beams, beam ``s * A + a`` being beam a of scan s, each followed to its reading or past it.
+        table: their beams, traced to their readings or past them. Beam ``s * A + a`` is beam a of scan s.
     """
 
     def __init__(self, scans: Scans, table: BeamTable) -> None:
@@ -85,7 +84,7 @@ class HitCounts:
         self._now = np.zeros((2, grid.n_cells), dtype=np.int64)
 
     def first(self, scans: int | None) -> NDArray[np.int64]:
-        """Hits and passes of the first scans, of all if None, (2, N)."""
+        """Return hits and passes of the first scans, of all if None, (2, N)."""
         wanted = self._scans if scans is None else min(scans, self._scans)
         low, high = sorted((self._at, wanted))
         sign = 1 if wanted >= self._at else -1
@@ -97,12 +96,12 @@ class HitCounts:
 
 
 def coarse_map(counts: NDArray[np.int64], prior: CellPrior, p_wall: float) -> NDArray[np.float64]:
-    """What counts say of each cell, (N,): OctoMap's log-odds for walls, else the share of beams that were stopped.
+    """Return each cell's wall probability by OctoMap, or its share of stopped beams where cells are no walls, (N,).
 
     Args:
         counts: hits and passes, (2, N).
-        prior: of the cells.
-        p_wall: of walls, where these are they.
+        prior: the prior of the cells.
+        p_wall: the prior probability of a wall, where cells are walls.
     """
     hits, passes = counts.astype(np.float64)
     a, b = getattr(prior, "a", None), getattr(prior, "b", None)
@@ -113,7 +112,7 @@ def coarse_map(counts: NDArray[np.int64], prior: CellPrior, p_wall: float) -> ND
 
 
 def counted_map(scans: Scans, grid: Grid) -> Counted:
-    """The map along the poses of some scans."""
+    """Return the map along the poses of some scans."""
     from bayesmap.kernels.counts import count_hits
 
     hits, passes = (np.asarray(n, dtype=np.float64).reshape(grid.shape) for n in count_hits(thinned(scans), grid))
@@ -122,16 +121,16 @@ def counted_map(scans: Scans, grid: Grid) -> Counted:
 
 
 def thinned(scans: Scans) -> Scans:
-    """At most `MOST_SCANS`, evenly spread."""
+    """Return at most `MOST_SCANS` of the scans, evenly chosen."""
     if len(scans) <= MOST_SCANS:
         return scans
     return scans.select(np.linspace(0, len(scans) - 1, MOST_SCANS).astype(np.intp))
 
 
 def grown(grid: Grid, scans: Scans) -> Grid:
-    """The grid where the scans lie in it, else one that holds both, on the same lattice of cells.
+    """Return the grid, enlarged on its lattice of cells until it holds the scans.
 
-    The picture must not jump with every correction, so it only grows.
+    The picture must not jump with every correction, so the grid only grows.
     """
     needed = Grid.covering(thinned(scans), grid.resolution, margin_m=0.0)
     low = np.minimum(np.floor((np.array(needed.origin) - grid.origin) / grid.resolution + 1e-6), 0).astype(int)
@@ -144,11 +143,8 @@ def grown(grid: Grid, scans: Scans) -> Grid:
     return Grid(shape, grid.resolution, (x, y))
 
 
-def scene_along(scans: Scans, grid: Grid, prior: float) -> Scene:
-    """Scans of which no beam has been traced: enough to show rays and where they were taken."""
-    none = BeamTable(
-        grid, np.zeros(1, np.int32), np.zeros(0, np.int32), np.zeros(0, np.float32), np.zeros(0, np.float32)
-    )
-    no_truth = np.zeros((0, len(scans.angles_rad)))
-    ids, sensor = tuple(range(1, len(scans) + 1)), default_sensor(grid.resolution)
-    return Scene(scans, no_truth, ids, sensor, grid, Beams.of(none), Independent(prior))
+def scene_along(scans: Scans, grid: Grid, p_wall: float) -> Scene:
+    """Return the scene of scans whose beams are not traced: enough to show their rays and poses."""
+    none, empty = np.zeros(0, np.float32), np.zeros(0, np.int32)
+    table = BeamTable(grid, np.zeros(1, np.int32), empty, none, none)
+    return scene_of_file(scans, grid, default_sensor(grid.resolution), p_wall, table)

@@ -1,4 +1,4 @@
-"""Results: what has been found of a document so far, whatever the method."""
+"""Results: the posterior of a document as far as it is known, whatever the method, and the verdict on its chains."""
 
 from __future__ import annotations
 
@@ -20,6 +20,7 @@ from bayesmap.cells.kind import CellPrior
 from bayesmap.cells.kinds import BUILT_IN
 from bayesmap.errors import BadInput
 from bayesmap.model import Model
+from bayesmap.posterior.diagnostics import RHAT_LIMIT, bulk_ess, rhat
 from bayesmap.result import Run
 from bayesmap.run.checks import RANDOM_STREAMS
 from bayesmap.sensors.builtin import describe
@@ -31,22 +32,36 @@ OneMap = tuple[NDArray[Any], int, int]
 
 CHAINS = 2
 SAVED_DRAWS = 500
-"""Maps of each chain that are drawn for a run of a method without chains."""
+"""The number of maps of each chain that are drawn for a saved run, where the method has no chains."""
 
 INTERVAL_DRAWS = 60
-"""Draws of which intervals are made."""
+"""The number of draws from which intervals are computed."""
+
+GOOD_RHAT = 1.01
+GOOD_ESS = 400.0
+"""Vehtari et al. (2021): R-hat below 1.01, and 400 effective draws, which make R-hat itself reliable."""
+
+BAD_ESS = 50.0
+FEWEST_SWEEPS = 200
+"""With fewer sweeps there is no verdict on chains that go on, and none on cells on which chains differ."""
+
+FEWEST_DIAGNOSED = 4
+"""R-hat needs two draws in each half of a chain."""
+
+BAD_DIFFERENCE = 0.25
+"""Of P(wall) between two chains: five standard errors for two means of 200 independent draws with p = 1/2."""
 
 
 @dataclass(frozen=True)
 class Figures:
-    """How far a result is, and how good.
+    """Progress and diagnostics of a result.
 
     Attributes:
-        sweeps: done; rounds, or particles.
-        total: to be done.
+        sweeps: sweeps, rounds or particles that are done.
+        total: sweeps, rounds or particles to be done.
         ess: effective sample size of the log joint, or of the weights.
         rhat: R-hat of the log joint.
-        log_joint: mean over the chains of its last value.
+        log_joint: mean over the chains of the last log joint.
         verdict: None where it is too early.
     """
 
@@ -58,7 +73,7 @@ class Figures:
     verdict: Verdict | None = None
 
     def as_fields(self) -> dict[str, Any]:
-        """Return the fields of a message; what is not finite is None."""
+        """Return the fields of a message; numbers that are not finite become None."""
         numbers = {"ess": self.ess, "rhat": self.rhat, "log_joint": self.log_joint}
         finite = {name: float(value) if math.isfinite(value) else None for name, value in numbers.items()}
         return {"sweeps": self.sweeps, "total": self.total, **finite, "verdict": self.verdict}
@@ -68,14 +83,18 @@ class Found(ABC):
     """What one method has found. The defaults are those of a method without draws.
 
     Attributes:
-        approximate: whether the method is quick and not the posterior's.
-        model: what is sampled, where that is not the readings' own model.
-        averaged: the number of draws that the mean is made of, where the method says so.
+        approximate: whether the method is quick, and its mean not the posterior's.
+        model: the model that is sampled, where it is not the readings' own.
+        averaged: the number of draws in the mean, where the method says so.
+        sweep: number of sweeps that chains have done.
+        done: whether chains have done all their sweeps.
     """
 
     approximate = False
     model: Model | None = None
     averaged: int | None = None
+    sweep = 0
+    done = False
 
     @abstractmethod
     def mean(self) -> Floats:
@@ -86,7 +105,7 @@ class Found(ABC):
         """Return the cells that a beam reaches, (nx, ny)."""
 
     def figures(self, over: bool) -> Figures:
-        """Return how far this is, and how good; `over` where it will not go on."""
+        """Return progress and diagnostics; `over` where the method will not go on."""
         return Figures()
 
     @property
@@ -110,11 +129,11 @@ class Found(ABC):
 
     @property
     def at_hand(self) -> Draws | None:
-        """The kept draws, or the latest of chains that keep none."""
+        """The kept draws, or the latest draws of chains that keep none."""
         return self.kept
 
     def draw(self, chain: int | None, number: int | None) -> OneMap | None:
-        """Return one draw; the last, where there is none with that number."""
+        """Return one draw; the last draw where there is none with that number."""
         return None
 
     def log_joint(self) -> Floats:
@@ -128,18 +147,8 @@ class Found(ABC):
 
     @property
     def scan_poses(self) -> Floats | None:
-        """Where the scans were taken, (S, 3), where poses were inferred."""
+        """The mean poses of the scans, (S, 3), where poses were inferred."""
         return None
-
-    @property
-    def sweep(self) -> int:
-        """Sweeps that chains have done."""
-        return 0
-
-    @property
-    def done(self) -> bool:
-        """Whether chains have done all their sweeps."""
-        return False
 
     def as_run(self, result: Result) -> Run:
         """Return this as `bayesmap.infer` returns it.
@@ -156,15 +165,23 @@ class Found(ABC):
         return list(write_map(target, np.clip(self.mean(), 0.0, 1.0), result.document.grid, self.observed()))
 
 
+@dataclass(frozen=True)
+class Maps:
+    """Draws with the prior that knows what they mean, as `bayesmap.posterior.decisions` takes them."""
+
+    prior: CellPrior
+    draws: Draws
+
+
 @dataclass(frozen=True, eq=False)
 class Result:
     """What has been found of a document.
 
     Attributes:
         scene: the readings.
-        document: what was asked.
-        method: what found it: a method's name.
-        found: what that is.
+        document: the document.
+        method: name of the method that found it.
+        found: what the method has found.
         over: whether chains were cancelled, and will not go on.
     """
 
@@ -176,7 +193,7 @@ class Result:
 
     @property
     def prior(self) -> CellPrior:
-        """Of the cells on show: it has the words for them."""
+        """The prior of the cells on show, which has the words for them."""
         return self.found.prior or self.scene.prior
 
     @property
@@ -188,9 +205,20 @@ class Result:
         """
         return self.found.law or (self.scene.sensor, self.scene.hit_depth)
 
+    @property
+    def maps(self) -> Maps:
+        """The kept draws, or the latest draws of chains that keep none.
+
+        Raises:
+            BadInput: a method without draws.
+        """
+        if self.found.at_hand is not None:
+            return Maps(self.prior, self.found.at_hand)
+        raise BadInput("a path is judged by draws of the map, and there are none yet; run Gibbs")
+
     @cached_property
     def scan_poses(self) -> Floats:
-        """Where the scans were taken, (S, 3)."""
+        """The poses of the scans, (S, 3)."""
         poses = self.found.scan_poses
         return self.scene.scans.poses if poses is None else poses
 
@@ -216,13 +244,13 @@ class Result:
 
     @property
     def quantity(self) -> Quantity:
-        """What the numbers of the map are."""
+        """The kind of cells, and the words for the numbers of the map."""
         words = self.prior.words
         return Quantity(words.kind, words.mean, words.value, self.prior.has_interval)
 
     @property
     def draw_count(self) -> DrawCount:
-        """How many draws are kept."""
+        """The number of kept draws."""
         kept = self.found.kept
         return DrawCount() if kept is None else DrawCount(kept.chains, kept.count)
 
@@ -234,9 +262,22 @@ class Result:
         """
         return self.found.as_run(self)
 
+    def settings_of_run(
+        self, model: Model, *, chains: int, draws: int, thin: int = 1, rounds: int = 0
+    ) -> dict[str, Any]:
+        """Return the settings that `bayesmap.infer` writes into a saved run."""
+        asked = self.document
+        return {
+            "method": self.method, "order": asked.order, "chains": chains, "warmup": 0, "draws": draws, "thin": thin,
+            "seed": asked.seed, "start": "prior" if asked.simulated else "propagate", "particles": asked.sweeps,
+            "rounds": rounds, "hit_depth": model.hit_depth, "prior": model.cells.describe(),
+            "sensor": describe(model.sensor), "streams": RANDOM_STREAMS, "poses": model.poses.describe(),
+            "fingerprint": "made by the page",
+        }  # fmt: skip
+
 
 class Nothing(Found):
-    """Nothing yet: the prior."""
+    """The prior, before anything is found."""
 
     def __init__(self, scene: Scene, document: Document) -> None:
         self._grid = scene.grid
@@ -246,7 +287,7 @@ class Nothing(Found):
 
     @property
     def prior(self) -> CellPrior:
-        """That of the kind of cells that is asked for."""
+        """The prior of the document's kind of cells."""
         return self._prior
 
     def mean(self) -> Floats:
@@ -263,15 +304,64 @@ def nothing_yet(scene: Scene, document: Document) -> Result:
     return Result(scene, document, "none", Nothing(scene, document))
 
 
-def settings_of_run(
-    result: Result, model: Model, *, chains: int, draws: int, thin: int = 1, rounds: int = 0
-) -> dict[str, Any]:
-    """Return the settings that a saved run has of `bayesmap.infer`."""
-    document = result.document
-    return {
-        "method": result.method, "order": document.order, "chains": chains, "warmup": 0, "draws": draws, "thin": thin,
-        "seed": document.seed, "start": "prior" if document.simulated else "propagate", "particles": document.sweeps,
-        "rounds": rounds, "hit_depth": model.hit_depth, "prior": model.cells.describe(),
-        "sensor": describe(model.sensor), "streams": RANDOM_STREAMS, "poses": model.poses.describe(),
-        "fingerprint": "made by the page",
-    }  # fmt: skip
+def rhat_and_ess(log_joint: Floats) -> tuple[float, float]:
+    """Return R-hat and effective sample size of a trace, (chains, n); NaN where the log joint never changed."""
+    constant = log_joint.size == 0 or float(np.ptp(log_joint)) == 0.0
+    return (math.nan, math.nan) if constant else (rhat(log_joint), bulk_ess(log_joint))
+
+
+@dataclass(frozen=True)
+class Difference:
+    """The cell in which the means of chains differ most, and the difference of P(wall)."""
+
+    by: float
+    cell: tuple[int, int]
+
+
+def difference(means: Floats, among: NDArray[np.bool_]) -> Difference | None:
+    """Find the largest difference of chains' means, (chains, nx, ny), among some cells, (nx, ny).
+
+    None with one chain or no cell.
+    """
+    if len(means) < 2 or not among.any():
+        return None
+    spread = np.where(among, means.max(axis=0) - means.min(axis=0), 0.0)
+    i, j = np.unravel_index(np.argmax(spread), spread.shape)
+    return Difference(float(spread[i, j]), (int(i), int(j)))
+
+
+def judge_chains(
+    rhat: float, ess: float, sweeps: int, apart: Difference | None, *, over: bool = False
+) -> Verdict | None:
+    """Return the verdict on chains, or None where it is too early, or where the log joint never changed.
+
+    Chains that are over (finished, cancelled or saved) get a verdict however few their sweeps are. Means of few draws
+    differ by chance, so then the log joint alone decides.
+    """
+    few = sweeps < FEWEST_SWEEPS
+    if few and not over:
+        return None
+    if apart is not None and apart.by > BAD_DIFFERENCE and not few:
+        x, y = apart.cell
+        return Verdict("bad", f"P(wall) of cell ({x}, {y}) differs by {apart.by:.2f} between the chains")
+    if 0 < sweeps < FEWEST_DIAGNOSED:
+        return Verdict("bad", f"{sweeps} {'sweep is' if sweeps == 1 else 'sweeps are'} too few to judge")
+    if not (np.isfinite(rhat) and np.isfinite(ess)):
+        return None
+    if rhat > RHAT_LIMIT:
+        return Verdict("bad", f"R-hat is {rhat:.2f}, over {RHAT_LIMIT}")
+    if ess < BAD_ESS:
+        return Verdict("bad", f"only {ess:.0f} effective draws")
+    if rhat > GOOD_RHAT or ess < GOOD_ESS:
+        why = f"R-hat {rhat:.3f} and {ess:.0f} effective draws; {GOOD_RHAT} and {GOOD_ESS:.0f} are good"
+        return Verdict("fair", why)
+    return Verdict("good", f"R-hat {rhat:.3f}, {ess:.0f} effective draws")
+
+
+def judge_particles(ess: float) -> Verdict:
+    """Return the verdict on weighted particles."""
+    if ess < BAD_ESS:
+        number = f"{ess:.1f}"
+        carry = "one particle carries" if number == "1.0" else f"{number} particles carry"
+        return Verdict("bad", f"{carry} all the weight")
+    return Verdict("good" if ess >= GOOD_ESS else "fair", f"{ess:.0f} effective particles")

@@ -1,0 +1,182 @@
+"""Methods without chains, in short pieces: belief propagation while the hand moves, and importance sampling."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import special
+
+from bayesmap.app.shown.result import CHAINS, SAVED_DRAWS, Figures, Floats, Found, Result, judge_particles
+from bayesmap.beams.table import BeamTable
+from bayesmap.kernels.random import mix
+from bayesmap.kernels.walls.maps import reach_frequency, weigh
+from bayesmap.kernels.walls.propagate import Beliefs
+from bayesmap.posterior.posterior import posterior_of_draws
+from bayesmap.result import Run
+from bayesmap.samplers.propagate import DAMPING, ROUNDS, Marginals
+from bayesmap.samplers.sampler import STREAM_PARTICLES
+from bayesmap.samplers.wall_problem import WallProblem, log_odds
+from bayesmap.samplers.without_chains import (
+    DrawRequest,
+    IndependentDraws,
+    Particles,
+    draws_by_beliefs,
+    draws_by_importance,
+)
+from bayesmap.space.grid import Grid
+
+TOLERANCE = 1e-3
+THREADS_FROM_INCIDENCES = 200_000
+"""Smaller tables leave the other cores to the page, which paints with them."""
+
+PIECE_SECONDS = 0.015
+FIRST_PIECE = 64
+"""The time that a piece of importance sampling takes, and the number of particles in the first piece."""
+
+
+def touched(table: BeamTable) -> tuple[NDArray[np.intp], BeamTable]:
+    """Return the flat indices of the cells that beams touch, (M,), and the table of the beams over cells 0..M-1."""
+    seen = np.zeros(table.grid.n_cells, dtype=np.bool_)
+    seen[table.cells] = True
+    cells = np.flatnonzero(seen)
+    place = np.zeros(table.grid.n_cells, dtype=np.int32)
+    place[cells] = np.arange(len(cells), dtype=np.int32)
+    small = Grid((max(1, len(cells)), 1))
+    return cells, BeamTable(small, table.offsets, place[table.cells], table.loglik, table.no_hit)
+
+
+class Preview(Found):
+    """Belief propagation as in `bayesmap.samplers.propagate`, one round at a time.
+
+    Cells that no beam touches keep the prior exactly, so the rounds need not visit them: at 500 x 500 with one sensor
+    that is most of the map.
+
+    Attributes:
+        cells: flat indices of the cells that beams touch, (M,).
+        table: the beams over these cells.
+        rounds: number of rounds done.
+        converged: whether the last round changed no probability by more than the tolerance, or was the last allowed.
+    """
+
+    approximate = True
+
+    def __init__(self, problem: WallProblem) -> None:
+        self.problem = problem
+        self.cells, self.table = touched(problem.table)
+        self.rounds = 0
+        self._threads = 1 if problem.table.n_incidences < THREADS_FROM_INCIDENCES else None
+        self._p = problem.p_wall[self.cells]
+        self._fixed = (self._p == 0) | (self._p == 1)
+        self.converged = len(self.cells) == 0 or bool(self._fixed.all())
+        if not self.converged:
+            self._beliefs = Beliefs(self.table, log_odds(self._p), problem.device)
+
+    def round(self) -> None:
+        """Do one more round."""
+        self._beliefs.round(DAMPING, self._threads)
+        before, p = self._p, special.expit(self._beliefs.log_odds())
+        self._p = np.where(self._fixed, before, p)
+        self.rounds += 1
+        change = float(np.abs(self._p - before).max())
+        self.converged = self.rounds >= ROUNDS or change < TOLERANCE
+
+    def mean(self) -> Floats:
+        """Return the approximate posterior wall probability of every cell, (nx, ny)."""
+        p = self.problem.p_wall.copy()
+        p[self.cells] = self._p
+        return p.reshape(self.problem.table.grid.shape)
+
+    def observed(self) -> NDArray[np.bool_]:
+        """Return the cells that a beam reaches before the first likely wall, (nx, ny)."""
+        seen = np.zeros(self.problem.table.grid.n_cells, dtype=np.bool_)
+        if len(self.cells):
+            likely = (self._p > 0.5).reshape(1, *self.table.grid.shape)
+            seen[self.cells] = reach_frequency(self.table, likely).ravel() > 0
+        return seen.reshape(self.problem.table.grid.shape)
+
+    def marginals(self) -> Marginals:
+        """Return the marginals so far, from which chains start and independent draws are made."""
+        return Marginals(self.mean(), np.zeros(0), np.zeros(0), self.converged, self.converged, 0.0)
+
+    def figures(self, over: bool) -> Figures:
+        """Return the rounds done."""
+        return Figures(sweeps=self.rounds)
+
+    def as_run(self, result: Result) -> Run:
+        """Return independent draws from the beliefs, as a run."""
+        began, document = time.perf_counter(), result.document
+        request = DrawRequest(CHAINS, SAVED_DRAWS, document.seed, document.sweeps, self.rounds)
+        draws = draws_by_beliefs(result.scene.problem, request, replace(self.marginals(), finished=True))
+        return _run_of_draws(result, self.problem, draws, began, self.rounds)
+
+
+class Weighing(Found):
+    """Importance sampling: the particles of `bayesmap.samplers.without_chains`, some at a time.
+
+    Attributes:
+        total: number of particles to weigh.
+        count: number of particles weighed so far.
+    """
+
+    def __init__(self, problem: WallProblem, total: int, seed: int) -> None:
+        self.problem, self.total, self.count = problem, total, 0
+        self._key = mix(seed, 0, STREAM_PARTICLES)
+        self._log_weights = np.empty(total)
+        self._piece = FIRST_PIECE
+        self._seconds = 0.0
+
+    def advance(self) -> None:
+        """Weigh some more particles: about `PIECE_SECONDS` of work."""
+        began = time.perf_counter()
+        now = min(self._piece, self.total - self.count)
+        problem = self.problem
+        some = weigh(problem.device_table, problem.device_prior, self._key, self.count, now, problem.device)
+        self._log_weights[self.count : self.count + now] = some
+        self.count += now
+        spent = time.perf_counter() - began
+        self._seconds += spent
+        self._piece = int(np.clip(now * PIECE_SECONDS / max(spent, 1e-9), 1, 4 * self._piece))
+
+    @property
+    def particles(self) -> Particles:
+        """The particles weighed so far."""
+        log_weights = self._log_weights[: self.count]
+        log_total = float(special.logsumexp(log_weights))
+        return Particles(
+            log_weights=log_weights - log_total, log_evidence=log_total - float(np.log(self.count)),
+            problem=self.problem, key=self._key, seconds=self._seconds, finished=self.count == self.total,
+        )  # fmt: skip
+
+    def figures(self, over: bool) -> Figures:
+        """Return the number of particles weighed, and their effective sample size."""
+        ess = self.particles.effective_sample_size
+        return Figures(self.count, self.total, ess, verdict=judge_particles(ess))
+
+    @property
+    def log_weights(self) -> Floats:
+        """Log weights, (n,)."""
+        return self.particles.log_weights
+
+    def mean(self) -> Floats:
+        """Return the posterior wall probability, (nx, ny)."""
+        return self.particles.occupancy()
+
+    def observed(self) -> NDArray[np.bool_]:
+        """Return the cells that a beam reaches where walls are likely, (nx, ny)."""
+        return reach_frequency(self.problem.table, self.mean()[None] > 0.5) > 0
+
+    def as_run(self, result: Result) -> Run:
+        """Return draws by weight, as a run."""
+        began, document = time.perf_counter(), result.document
+        request = DrawRequest(CHAINS, SAVED_DRAWS, document.seed, document.sweeps, 0)
+        return _run_of_draws(result, self.problem, draws_by_importance(self.problem, request, self.particles), began)
+
+
+def _run_of_draws(result: Result, problem: WallProblem, draws: IndependentDraws, began: float, rounds: int = 0) -> Run:
+    model = result.scene.model(problem.prior)
+    settings = result.settings_of_run(model, chains=CHAINS, draws=SAVED_DRAWS, rounds=rounds)
+    seconds = {"trace": 0.0, "total": time.perf_counter() - began}
+    return Run(posterior_of_draws(model, draws, result.scene.problem.n_incidences, settings, seconds))
