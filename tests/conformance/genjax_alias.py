@@ -14,13 +14,13 @@ import numpy as np
 import pytest
 
 import bayesmap.gen
-from bayesmap.gen import flags
+from bayesmap.gen import masks
 
 run_branch = importlib.import_module("bayesmap.gen.switch").run_branch  # `bayesmap.gen.switch` is the combinator
 
 MODULES = {
     "genjax": "gen",
-    "genjax.checkify": "gen.flags",
+    "genjax.checkify": "gen.masks",
     "genjax.core": "gen",
     "genjax.core.compiler": "gen.diff",
     "genjax.core.generative": "gen",
@@ -34,19 +34,19 @@ MODULES = {
     "genjax.inference": "gen.inference",
     "genjax.inference.requests": "gen.inference.requests",
     "genjax.inference.smc": "gen.inference.smc",
-    "genjax.pretty": "gen.outline",
+    "genjax.pretty": "gen.choice_map",
     "genjax.typing": "gen.typing",
     "genjax._src": "gen",
-    "genjax._src.checkify": "gen.flags",
+    "genjax._src.checkify": "gen.masks",
     "genjax._src.core": "gen",
     "genjax._src.core.compiler": "gen",
     "genjax._src.core.compiler.interpreters": "gen",
     "genjax._src.core.compiler.interpreters.incremental": "gen.diff",
-    "genjax._src.core.compiler.staging": "gen.flags",
+    "genjax._src.core.compiler.staging": "gen.masks",
     "genjax._src.core.generative": "gen",
     "genjax._src.core.generative.choice_map": "gen.choice_map",
     "genjax._src.core.generative.concepts": "gen.typing",
-    "genjax._src.core.generative.functional_types": "gen.mask",
+    "genjax._src.core.generative.functional_types": "gen.masks",
     "genjax._src.core.generative.generative_function": "gen.generative_function",
     "genjax._src.core.generative.requests": "gen.edits",
     "genjax._src.core.pytree": "gen.pytree",
@@ -54,7 +54,7 @@ MODULES = {
     "genjax._src.generative_functions": "gen",
     "genjax._src.generative_functions.combinators": "gen",
     "genjax._src.generative_functions.combinators.dimap": "gen.dimap",
-    "genjax._src.generative_functions.combinators.mask": "gen.masking",
+    "genjax._src.generative_functions.combinators.mask": "gen.switch",
     "genjax._src.generative_functions.combinators.mixture": "gen.switch",
     "genjax._src.generative_functions.combinators.or_else": "gen.switch",
     "genjax._src.generative_functions.combinators.repeat": "gen.vmap",
@@ -72,7 +72,7 @@ MODULES = {
     "genjax._src.inference.requests.hmc": "gen.inference.requests",
     "genjax._src.inference.requests.rejuvenate": "gen.inference.requests",
     "genjax._src.inference.smc": "gen.inference.smc",
-    "genjax._src.inference.sp": "gen.inference.target",
+    "genjax._src.inference.sp": "gen.inference.smc",
 }
 """Each module of GenJAX 0.10.3, and ours where its names are looked for first. Not here: variational inference, ADEV,
 and the interpreters of its compiler that docs/coming-from-genjax.md calls absent."""
@@ -91,7 +91,7 @@ def _tree_choose(idx: Any, values: Any) -> Any:
 
 INTERNAL = {
     "FlagOp": types.SimpleNamespace(
-        and_=flags.both, or_=flags.either, xor_=flags.exactly_one, not_=flags.negation, where=flags.where
+        and_=masks.both, or_=masks.either, xor_=masks.exactly_one, not_=masks.negation, where=masks.where
     ),
     "multi_switch": _multi_switch,
     "tree_choose": _tree_choose,

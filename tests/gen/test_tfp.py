@@ -10,7 +10,7 @@ from tiers import full_but
 import bayesmap.gen as gen
 from bayesmap.errors import BadInput
 from bayesmap.gen import ChoiceMapBuilder as C
-from bayesmap.gen import tfp
+from bayesmap.gen import densities
 
 SHARES = [0.2, 0.3, 0.5]
 
@@ -69,6 +69,6 @@ def test_without_the_library_the_error_names_the_package(monkeypatch):
     def absent(name):
         raise ModuleNotFoundError(name)
 
-    monkeypatch.setattr(tfp.importlib, "import_module", absent)
+    monkeypatch.setattr(densities.importlib, "import_module", absent)
     with pytest.raises(BadInput, match="pip install tfp-nightly"):
         gen.von_mises(0.0, 1.0)(jr.key(0))

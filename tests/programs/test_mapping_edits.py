@@ -12,8 +12,7 @@ import bayesmap as bm
 import bayesmap.gen as gen
 from bayesmap.gen import ChoiceMapBuilder as C
 from bayesmap.gen import Diff, IndexChange, NoChange, Update
-from bayesmap.programs.beam_geometry import BeamGeometry
-from bayesmap.programs.beam_sensor import BeamSensor
+from bayesmap.programs.beam_sensor import BeamGeometry, BeamSensor
 from bayesmap.programs.mapping import SetCells, sensor_model
 
 edit = jax.jit(lambda trace, request: trace.edit(jr.key(0), request))

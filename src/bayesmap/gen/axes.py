@@ -1,17 +1,25 @@
-"""Which axis of which argument a vectorised model maps over, in `jax.vmap`'s notation."""
+"""Axes of vectorised models: mapped arguments, constraints as arrays, sums of scores, large batches in chunks."""
 
+import math
 from collections.abc import Callable
+from functools import reduce
 from typing import Any, NamedTuple
 
 import jax
 import jax.numpy as jnp
+from jax.custom_batching import custom_vmap
+from jax.extend.core import jaxprs_in_params
 
-from bayesmap.gen.flags import is_concrete
+from bayesmap.gen.choice_map import Choice, ChoiceMap, Indexed, Or, Static, Switch
+from bayesmap.gen.errors import ShapeMismatch, UnknownAddress
+from bayesmap.gen.masks import Mask, is_concrete, overlay
 from bayesmap.gen.typing import InAxes
+
+# Arguments --------------------------------------------------------------------------------------------
 
 
 class Mapped(NamedTuple):
-    """Arguments as leaves, each with its mapped axis (None: shared by all elements)."""
+    """Arguments as leaves, each with its mapped axis, or None if all elements share it."""
 
     leaves: list[Any]
     axes: list[int | None]
@@ -19,23 +27,22 @@ class Mapped(NamedTuple):
     n: int
 
     def element(self, i: Any) -> Any:
-        """The arguments of the element `i`."""
+        """Return the arguments of the element `i`."""
         pairs = zip(self.leaves, self.axes, strict=True)
         return self.rebuild([x if axis is None else jnp.take(x, i, axis=axis) for x, axis in pairs])
 
     def element_shapes(self) -> list[jax.ShapeDtypeStruct]:
-        """Shapes and dtypes of an element's leaves, also where there is no element."""
-
-        def one(x: Any, axis: int | None) -> jax.ShapeDtypeStruct:
+        """Return the shapes and dtypes of an element's leaves, also where n = 0."""
+        shapes = []
+        for x, axis in zip(self.leaves, self.axes, strict=True):
             shape = list(jnp.shape(x))
             if axis is not None:
                 del shape[axis]
-            return jax.ShapeDtypeStruct(tuple(shape), jnp.result_type(x))  # type: ignore[no-untyped-call]
-
-        return [one(x, axis) for x, axis in zip(self.leaves, self.axes, strict=True)]
+            shapes.append(jax.ShapeDtypeStruct(tuple(shape), jnp.result_type(x)))  # type: ignore[no-untyped-call]
+        return shapes
 
     def vmap(self, fn: Callable[..., Any], *mapped: Any) -> Any:
-        """`fn(*(x[i] for x in mapped), element(i))` for every i, stacked."""
+        """Return `fn(*(x[i] for x in mapped), element(i))` for every i, stacked."""
 
         def call(leaves: list[Any], *rest: Any) -> Any:
             return fn(*rest, self.rebuild(leaves))
@@ -50,7 +57,7 @@ def map_over(in_axes: InAxes, args: tuple[Any, ...], n: int | None = None) -> Ma
     Args:
         in_axes: as for `jax.vmap`; None with `n` repeats the same arguments.
         args: the arguments.
-        n: the number of elements where no argument says it.
+        n: the number of elements, if no argument gives it.
 
     Raises:
         ValueError, TypeError: what `jax.vmap` raises for axes that do not fit.
@@ -65,22 +72,200 @@ def map_over(in_axes: InAxes, args: tuple[Any, ...], n: int | None = None) -> Ma
     return Mapped(leaves, spread, lambda new: jax.tree.unflatten(treedef, new), n)
 
 
-def total(scores: Any) -> Any:
-    """The sum of an array of scores, shape ().
+def check_index(index: Any, n: int) -> Any:
+    """Return the index, made non-negative if it is known.
 
-    The barrier keeps XLA from merging it with the sums that made the scores into one long loop, which
-    loses a digit: with it, compiled and uncompiled scores agree.
+    Raises:
+        UnknownAddress: the index is known to lie outside 0 .. n - 1 and -n .. -1.
+    """
+    if is_concrete(index) and jnp.ndim(index) == 0:
+        if not -n <= int(index) < n:
+            raise UnknownAddress(int(index), f"there are {n} elements")
+        return int(index) % n
+    return index
+
+
+# Constraints ------------------------------------------------------------------------------------------
+
+
+def dense(chm: ChoiceMap, shape: tuple[int, ...]) -> tuple[Any, Any] | None:
+    """Return a choice map without names as one array, with a flag for each given element.
+
+    Args:
+        chm: values, perhaps at indices.
+        shape: the leading axes that indices may select from.
+
+    Returns:
+        (array of shape `shape + ...`, flag of shape `shape` or None for "all"), or None for an empty map.
+
+    Raises:
+        ShapeMismatch: an array is too long or too short.
+        UnknownAddress: the map has a name, or an index out of range.
+    """
+    if chm.static_is_empty():
+        return None
+    match chm:
+        case Choice(Mask(value, flag)):
+            _check_leading(value, shape)
+            flag = jnp.reshape(flag, jnp.shape(flag) + (1,) * (len(shape) - jnp.ndim(flag)))
+            return value, jnp.broadcast_to(flag, shape)
+        case Choice(value):
+            _check_leading(value, shape)
+            return value, None
+        case Indexed(inner, index) if shape:
+            index = check_index(index, shape[0])
+            value, given = dense(inner, jnp.shape(index) + shape[1:]) or (None, None)
+            present = True if given is None else given
+            return _put(value, index, shape[0]), jnp.zeros(shape, bool).at[index].set(present)
+        case Or() | Switch():
+            parts = (chm.c1, chm.c2) if isinstance(chm, Or) else chm.chms
+            found = [Mask(v, True if f is None else f) for v, f in filter(None, (dense(p, shape) for p in parts))]
+            joined = reduce(overlay, found)
+            return joined.value, jnp.broadcast_to(joined.flag, shape)
+    raise UnknownAddress(next(chm.paths()), "the model has a bare value or an array there")
+
+
+def vectorise(chm: ChoiceMap, n: int) -> ChoiceMap:
+    """Return the choice map with a leading axis of length `n` on every leaf, ready to be mapped over.
+
+    Raises:
+        ShapeMismatch: an array's leading axis is not `n`.
+        UnknownAddress: an index is out of range.
+    """
+    match chm:
+        case Choice(Mask(value, flag)):
+            _check_leading(value, (n,))
+            return Choice(Mask(value, jnp.broadcast_to(flag, (n,)) if jnp.ndim(flag) == 0 else flag))
+        case Choice(value):
+            _check_leading(value, (n,))
+            return chm
+        case Static(mapping):
+            parts = {}
+            for name, sub in mapping.items():
+                try:
+                    parts[name] = vectorise(sub, n)
+                except (ShapeMismatch, UnknownAddress) as error:
+                    raise error.under((name,)) from None
+            return Static(parts)
+        case Indexed(inner, index):
+            return _spread(inner, check_index(index, n), n)
+        case Or(left, right):
+            return vectorise(left, n) | vectorise(right, n)
+        case Switch(index, maps):
+            return Switch(jnp.broadcast_to(index, (n,)), tuple(vectorise(m, n) for m in maps))
+    raise TypeError(f"{type(chm).__name__} is no choice map")
+
+
+def _spread(chm: ChoiceMap, index: Any, n: int) -> ChoiceMap:
+    """Return `chm` at `index` of a leading axis of length `n`, masked out elsewhere."""
+    match chm:
+        case Choice(Mask(value, flag)):
+            flag = jnp.broadcast_to(flag, jnp.shape(index)) if jnp.ndim(flag) < jnp.ndim(index) else flag
+            return Choice(Mask(_put(value, index, n), _put(flag, index, n)))
+        case Choice(value):
+            return Choice(Mask(_put(value, index, n), jnp.zeros(n, bool).at[index].set(True)))
+        case Static(mapping):
+            return Static({name: _spread(sub, index, n) for name, sub in mapping.items()})
+        case Indexed(inner, below):
+            return Indexed(_spread(inner, index, n), _put(below, index, n))
+        case Or(left, right):
+            return _spread(left, index, n) | _spread(right, index, n)
+        case Switch(branch, maps):
+            return Switch(_put(branch, index, n), tuple(_spread(m, index, n) for m in maps))
+    raise TypeError(f"{type(chm).__name__} is no choice map")
+
+
+def _put(value: Any, index: Any, n: int) -> Any:
+    """Return zeros with a leading axis of length `n`, and `value` at `index`."""
+    value = jnp.asarray(value)
+    return jnp.zeros((n, *value.shape[jnp.ndim(index) :]), value.dtype).at[index].set(value)
+
+
+def _check_leading(value: Any, shape: tuple[int, ...]) -> None:
+    if jnp.shape(value)[: len(shape)] != shape:
+        raise ShapeMismatch((), f"found {jnp.shape(value)}, expected {shape} for the leading axes")
+
+
+# Sums of scores ---------------------------------------------------------------------------------------
+
+
+def total(scores: Any) -> Any:
+    """Return the sum of an array of scores, shape ().
+
+    Without the barrier XLA merges this sum with the sums that made the scores into one long loop, which loses a digit.
+    With it compiled and uncompiled scores agree.
     """
     return jnp.sum(jax.lax.optimization_barrier(scores))  # type: ignore[no-untyped-call]
 
 
 def replace_term(sum_: Any, old: Any, new: Any, afresh: Callable[[], Any]) -> Any:
-    """The sum after one of its terms changed, in time that does not grow with their number.
+    """Return a sum after one of its terms changed, in time that does not grow with their number.
 
-    Rounding errors add up, to about sqrt(k) units in the last place after k changes. A sum that is not
-    finite is taken afresh.
+    Rounding errors add up to about sqrt(k) units in the last place after k changes. A sum that is not finite is
+    recomputed by `afresh`.
     """
     moved = sum_ + (new - old)
     if is_concrete(moved):  # outside jit, a cond of fresh closures would be compiled at every edit
         return moved if bool(jnp.isfinite(moved)) else afresh()
     return jax.lax.cond(jnp.isfinite(moved), lambda: moved, afresh)
+
+
+# Chunks -----------------------------------------------------------------------------------------------
+
+CACHE_BYTES, DEVICE_BYTES = 1 << 20, 1 << 28
+"""The largest size of an intermediate array of a chunk, on a CPU and on an accelerator."""
+
+
+def in_chunks(fn: Callable[..., Any], *args: Any) -> Any:
+    """Return `fn(*args)`. Under `jax.vmap` run as many elements at a time as keep every array small.
+
+    Memory is then that of the results and of one chunk. XLA moves work that all elements share out of the loop over
+    chunks, so that it is done once; in one large batch XLA may repeat it for each element.
+    """
+    leaves, treedef = jax.tree.flatten(args)
+    traced = [k for k, x in enumerate(leaves) if isinstance(x, jax.core.Tracer)]
+    if not traced:
+        return fn(*args)
+
+    def of_traced(*values: Any) -> Any:
+        # What is known stays known, so that errors can be raised while tracing.
+        filled = dict(zip(traced, values, strict=True))
+        return fn(*jax.tree.unflatten(treedef, [filled.get(k, x) for k, x in enumerate(leaves)]))
+
+    chunked = custom_vmap(of_traced)
+
+    @chunked.def_vmap
+    def _(axis_size: int, in_batched: list[bool], *values: Any) -> Any:
+        moving = [v for v, b in zip(values, in_batched, strict=True) if b]
+
+        def one(moving: list[Any]) -> Any:
+            rest = iter(moving)
+            return of_traced(*(next(rest) if b else v for v, b in zip(values, in_batched, strict=True)))
+
+        largest = _largest_array(jax.make_jaxpr(one)([v[0] for v in moving]).jaxpr)
+        chunk = (CACHE_BYTES if jax.default_backend() == "cpu" else DEVICE_BYTES) // largest
+        if chunk >= axis_size:
+            out = jax.vmap(one)(moving)
+        else:
+            chunk = _even_share(axis_size, chunk)
+            out = jax.lax.map(one, moving, batch_size=chunk if chunk > 1 else None)
+        return out, jax.tree.map(lambda _: True, out)
+
+    # Derivatives are those of the function itself: custom_vmap has no reverse mode.
+    differentiable = jax.custom_jvp(chunked)
+    differentiable.defjvp(lambda primals, tangents: jax.jvp(of_traced, primals, tangents))
+    return differentiable(*(leaves[k] for k in traced))
+
+
+def _even_share(size: int, most: int) -> int:
+    """Return a chunk that divides the batch, if one is near `most`: a remainder would copy all results once more."""
+    return next((chunk for chunk in range(most, max(1, most // 4), -1) if size % chunk == 0), most)
+
+
+def _largest_array(jaxpr: Any) -> int:
+    """Return the bytes of the largest array that a jaxpr computes."""
+    sizes = [1]
+    for eqn in jaxpr.eqns:
+        sizes += [math.prod(v.aval.shape) * v.aval.dtype.itemsize for v in eqn.outvars if hasattr(v.aval, "shape")]
+        sizes += [_largest_array(inner) for inner in jaxprs_in_params(eqn.params)]
+    return max(sizes)

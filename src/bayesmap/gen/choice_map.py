@@ -1,13 +1,11 @@
-"""Values of random choices by address: `C["walls"].set(w) | C["readings"].set(z)`.
+"""Values of random choices by address: `C["walls"].set(w) | C["readings"].set(z)`, and their text.
 
-An address is a name, an index, or a tuple of them. Below a vectorised model the values are stored as
-whole arrays, so `chm["v"]` is `chm[:, "v"]` and `chm[0, "v"]` its first element. Names select submaps;
-an index selects from the leading axis of everything below it.
+An address is a name, an index, or a tuple of names and indices. A vectorised model stores its values as whole arrays:
+`chm["v"]` is `chm[:, "v"]`, and `chm[0, "v"]` is its first element. A name selects a submap; an index selects from the
+leading axis of everything below it.
 
-Flags that are arrays (a mask's, a comparison of array indices) never decide which addresses a map has: the value is
-there, as a Mask.
-
-`C["x", 0].set(v)`: choice maps in the syntax of indexing.
+A flag that is an array, such as a mask's flag or a comparison of index arrays, never decides which addresses a map has:
+the map holds the value as a Mask.
 """
 
 from collections.abc import Callable, Iterable, Iterator
@@ -18,62 +16,77 @@ import jax
 import jax.numpy as jnp
 
 from bayesmap.gen.errors import ChoiceMapNoValueAtAddress, ShapeMismatch, show
-from bayesmap.gen.flags import same_index, where
-from bayesmap.gen.mask import Mask, overlay
-from bayesmap.gen.outline import Outlined, leaf_text
+from bayesmap.gen.masks import Mask, overlay, same_index, where
 from bayesmap.gen.pytree import Pytree, dataclass
 from bayesmap.gen.selection import Selection
 
-# ruff: noqa: D102 - the methods are those of ChoiceMap, at an address.
+# ruff: noqa: D102 - the nodes' methods are those of ChoiceMap, documented with it.
+
+# Text -------------------------------------------------------------------------------------------------
+
+
+class Outlined:
+    """Base of values that print as a tree, one choice a line."""
+
+    def outline(self, label: str = "") -> list[str]:
+        """Return the lines; `label` goes before the first."""
+        raise NotImplementedError
+
+    def __repr__(self) -> str:
+        return "\n".join(self.outline())
+
+
+def leaf_text(value: Any) -> str:
+    """Return the text of a short array's elements, or of a long array's dtype and shape."""
+    if isinstance(value, Mask):
+        return f"{leaf_text(value.value)} where {leaf_text(value.flag)}"
+    try:
+        if isinstance(value, jax.core.Tracer) or jnp.size(value) > 8:
+            return f"{jnp.result_type(value)}{list(jnp.shape(value))}"
+    except TypeError:  # not an array, or several
+        return str(value)
+    return str(value)
+
+
+def pretty() -> None:
+    """Let notebooks show values by treescope, if it is installed. Without it they show the same tree as text."""
+    try:
+        import treescope
+
+        treescope.register_as_default()
+        treescope.register_autovisualize_magic()
+    except (ImportError, RuntimeError):  # the latter is what treescope raises outside IPython
+        return
+
+
+def render(value: Outlined) -> str:
+    """Return a trace or a choice map as a tree, one choice a line."""
+    return "\n".join(value.outline())
+
+
+# Maps -------------------------------------------------------------------------------------------------
 
 
 def components(address: Any) -> tuple[Any, ...]:
-    """An address as a tuple."""
+    """Return an address as a tuple."""
     return address if isinstance(address, tuple) else (address,)
-
-
-class FromMappings:
-    """Constructors that need only `choice` (a bare value), `empty`, `extend` and `|`."""
-
-    @classmethod
-    def entry(cls, value: Any, *address: Any) -> Any:
-        """A value, dict or map at an address."""
-        if not isinstance(value, FromMappings):
-            value = cls.d(value) if isinstance(value, dict) else cls.choice(value)  # type: ignore[attr-defined]
-        return value.extend(*address)
-
-    @classmethod
-    def from_mapping(cls, pairs: Iterable[tuple[Any, Any]]) -> Any:
-        """A map from (address, value) pairs."""
-        entries = [cls.entry(value, *components(address)) for address, value in pairs]
-        return reduce(lambda a, b: a | b, entries, cls.empty())  # type: ignore[attr-defined]
-
-    @classmethod
-    def d(cls, mapping: dict[Any, Any]) -> Any:
-        """A map from a dict, nested dicts included."""
-        return cls.from_mapping(mapping.items())
-
-    @classmethod
-    def kw(cls, **values: Any) -> Any:
-        """A map from keyword arguments."""
-        return cls.d(values)
 
 
 class Builder:
     """`C["x", 0].set(v)`; also `C.v(value)`, `C.d({...})`, `C.kw(...)`, `C.n()`.
 
-    `maps` is the class `ChoiceMap`, `base` the map to change (None for an empty one), `address` what was indexed.
+    `base` is the map to change, None for the empty map; `address` is what was indexed.
     """
 
-    def __init__(self, maps: Any, base: Any, address: tuple[Any, ...]) -> None:
-        self._maps, self._base, self._address = maps, base, address
+    def __init__(self, base: "ChoiceMap | None", address: tuple[Any, ...]) -> None:
+        self._base, self._address = base, address
 
     def __getitem__(self, address: Any) -> "Builder":
-        return Builder(self._maps, self._base, (*self._address, *components(address)))
+        return Builder(self._base, (*self._address, *components(address)))
 
-    def set(self, value: Any) -> Any:
-        """The map (the empty one for `C`) with `value`, a value, dict or map, at the address."""
-        new = self._maps.entry(value, *self._address)
+    def set(self, value: Any) -> "ChoiceMap":
+        """Return the map (the empty one for `C`) with `value`, a value, dict or map, at the address."""
+        new = ChoiceMap.entry(value, *self._address)
         if self._base is None:
             return new
         old, value = (chm.get_submap(self._address).get_value() for chm in (self._base, new))
@@ -81,66 +94,62 @@ class Builder:
             raise ShapeMismatch(self._address, f"found {jnp.shape(value)}, expected {jnp.shape(old)}")
         return new | self._base
 
-    def update(self, f: Callable[[Any], Any]) -> Any:
-        base = self._maps.empty() if self._base is None else self._base
-        here = base.get_submap(self._address)
+    def update(self, f: Callable[[Any], Any]) -> "ChoiceMap":
+        here = (ChoiceMap.empty() if self._base is None else self._base).get_submap(self._address)
         return self.set(f(here.get_value() if here.has_value() else here))
 
-    def v(self, value: Any) -> Any:
-        return self.set(self._maps.choice(value))
+    def v(self, value: Any) -> "ChoiceMap":
+        return self.set(ChoiceMap.choice(value))
 
-    def n(self) -> Any:
-        return self._maps.empty()
+    def n(self) -> "ChoiceMap":
+        return ChoiceMap.empty()
 
-    def d(self, mapping: dict[Any, Any]) -> Any:
-        return self.set(self._maps.d(mapping))
+    def d(self, mapping: dict[Any, Any]) -> "ChoiceMap":
+        return self.set(ChoiceMap.d(mapping))
 
-    def kw(self, **values: Any) -> Any:
-        return self.set(self._maps.kw(**values))
+    def kw(self, **values: Any) -> "ChoiceMap":
+        return self.set(ChoiceMap.kw(**values))
 
-    def from_mapping(self, pairs: Iterable[tuple[Any, Any]]) -> Any:
-        return self.set(self._maps.from_mapping(pairs))
+    def from_mapping(self, pairs: Iterable[tuple[Any, Any]]) -> "ChoiceMap":
+        return self.set(ChoiceMap.from_mapping(pairs))
 
-    def switch(self, idx: Any, chms: Iterable[Any]) -> Any:
-        return self.set(self._maps.switch(idx, chms))
-
-
-# ruff: noqa: D102 - the methods are those of the contract, documented with it.
+    def switch(self, idx: Any, chms: Iterable["ChoiceMap"]) -> "ChoiceMap":
+        return self.set(ChoiceMap.switch(idx, chms))
 
 
 def _index(tree: Any, at: Any) -> Any:
     return jax.tree.map(lambda leaf: leaf[at], tree, is_leaf=lambda leaf: isinstance(leaf, Mask))
 
 
-class ChoiceMap(Outlined, FromMappings, Pytree):
+class ChoiceMap(Outlined, Pytree):
     """Base of choice maps; make one with `ChoiceMapBuilder`, conventionally called `C`."""
 
     # What a kind of node implements, with `outline` -----------------------------------------------
 
     def get_value(self) -> Any:
-        """The value at the empty address, or None; a Mask when its presence is decided at run time."""
+        """Return the value at the empty address, or None; a Mask if its presence is decided at run time."""
         return None
 
     def get_inner_map(self, component: Any) -> "ChoiceMap":
-        """The submap one address component down."""
+        """Return the submap one address component down."""
         raise NotImplementedError
 
     def filter(self, selection: Any) -> "ChoiceMap":
-        """The part whose addresses are selected; with a Boolean flag, everything or nothing."""
+        """Return the part whose addresses are selected; a flag selects everything or nothing."""
         raise NotImplementedError
 
     def paths(self) -> Iterator[tuple[Any, ...]]:
-        """The address of every value, without the indices that its arrays' axes stand for."""
+        """Yield the address of every value, without the indices of the elements of arrays."""
         raise NotImplementedError
 
     def static_is_empty(self) -> bool:
-        """Is it known, whatever the arrays hold, that nothing is here?"""
+        """Return whether the map is known to be empty, whatever the arrays hold."""
         return False
 
-    # Asking ---------------------------------------------------------------------------------------
+    # Reading --------------------------------------------------------------------------------------
 
     def get_submap(self, *addresses: Any) -> "ChoiceMap":
-        """The submap at an address: empty where there is none."""
+        """Return the submap at an address: the empty map where there is none."""
         path = [c for address in addresses for c in components(address)]
         return reduce(lambda chm, component: chm.get_inner_map(component), path, self)
 
@@ -159,26 +168,25 @@ class ChoiceMap(Outlined, FromMappings, Pytree):
         return self.get_value() is not None
 
     def get_selection(self) -> Selection:
-        """The selection of exactly the addresses that hold a value."""
+        """Return the selection of exactly the addresses that hold a value."""
         sel = Selection.none()
         for path in self.paths():
             sel = sel | Selection.leaf().extend(*(c for c in path if isinstance(c, str)))
         return sel
 
     def invalid_subset(self, gen_fn: Any, args: tuple[Any, ...]) -> "ChoiceMap | None":
-        """The choices that `gen_fn`, run on `args`, would never make; None if there are none."""
-        shape = jax.eval_shape(lambda: gen_fn.simulate(jax.random.key(0), args).get_choices())
-        rest = self.filter(~shape.get_selection())
+        """Return the choices that `gen_fn`, run on `args`, never makes; None if there are none."""
+        rest = self.filter(~gen_fn.choice_shapes(args).get_selection())
         return None if rest.static_is_empty() else rest
 
     def simplify(self) -> "ChoiceMap":
-        """This map: filters are applied where they are asked for, so there is nothing to simplify."""
+        """Return this map: filters are applied at once, so nothing is left to simplify."""
         return self
 
     # Combining ------------------------------------------------------------------------------------
 
     def __or__(self, other: "ChoiceMap") -> "ChoiceMap":
-        """Everything in either; where both have a value, this one's."""
+        """Return everything in either map; where both have a value, this map's value."""
         return join(self, other)
 
     __add__ = __xor__ = merge = __or__
@@ -187,14 +195,14 @@ class ChoiceMap(Outlined, FromMappings, Pytree):
         return other.filter(self.get_selection())
 
     def mask(self, flag: Any) -> "ChoiceMap":
-        """The same choices where `flag` holds, none elsewhere."""
+        """Return the choices where `flag` is True, and none elsewhere."""
         return self.filter(flag)
 
     def extend(self, *address: Any) -> "ChoiceMap":
-        """This map moved below `address`.
+        """Return this map moved below `address`.
 
         Raises:
-            ValueError: a partial slice, or a second array of indices, in the address.
+            ValueError: the address has a partial slice, or a second array of indices.
         """
         acc = self
         for component in reversed(address):
@@ -208,17 +216,21 @@ class ChoiceMap(Outlined, FromMappings, Pytree):
 
     @property
     def at(self) -> Builder:
-        """`chm.at["x"].set(v)`: this map with the value at "x" replaced."""
-        return Builder(ChoiceMap, self, ())
+        """A builder: `chm.at["x"].set(v)` is this map with the value at "x" replaced."""
+        return Builder(self, ())
 
-    # Making: also `FromMappings` --------------------------------------------------------------------
+    # Making ---------------------------------------------------------------------------------------
+
     @staticmethod
     def empty() -> "ChoiceMap":
         return Static({})
 
     @staticmethod
     def choice(value: Any) -> "ChoiceMap":
-        """A bare value, at the empty address; an array without elements, or what is masked away, is none."""
+        """Return the map of a bare value at the empty address.
+
+        The map is empty for an array without elements, and for a Mask whose flag is Python's False.
+        """
         if isinstance(value, Mask):
             value = value.flatten()
         return Static({}) if value is None or (_is_array(value) and 0 in value.shape) else Choice(value)
@@ -226,8 +238,31 @@ class ChoiceMap(Outlined, FromMappings, Pytree):
     value = choice
 
     @staticmethod
+    def entry(value: Any, *address: Any) -> "ChoiceMap":
+        """Return the map of a value, dict or map at an address."""
+        if not isinstance(value, ChoiceMap):
+            value = ChoiceMap.d(value) if isinstance(value, dict) else ChoiceMap.choice(value)
+        return value.extend(*address)  # type: ignore[no-any-return]
+
+    @staticmethod
+    def from_mapping(pairs: Iterable[tuple[Any, Any]]) -> "ChoiceMap":
+        """Return the map of (address, value) pairs."""
+        entries = [ChoiceMap.entry(value, *components(address)) for address, value in pairs]
+        return reduce(lambda a, b: a | b, entries, ChoiceMap.empty())
+
+    @staticmethod
+    def d(mapping: dict[Any, Any]) -> "ChoiceMap":
+        """Return the map of a dict; dicts may be nested."""
+        return ChoiceMap.from_mapping(mapping.items())
+
+    @staticmethod
+    def kw(**values: Any) -> "ChoiceMap":
+        """Return the map of keyword arguments."""
+        return ChoiceMap.d(values)
+
+    @staticmethod
     def switch(idx: Any, chms: Iterable["ChoiceMap"]) -> "ChoiceMap":
-        """The map numbered `idx`; with an index array, all of them, masked."""
+        """Return the map numbered `idx`; for an index array, all maps, masked."""
         chms = list(chms)
         if isinstance(idx, int):
             return chms[idx]
@@ -270,7 +305,7 @@ class Static(ChoiceMap):
 
     @staticmethod
     def build(mapping: dict[str, ChoiceMap]) -> "Static":
-        """Leaves out what is empty."""
+        """Return the map without its empty submaps."""
         return Static({name: chm for name, chm in mapping.items() if not chm.static_is_empty()})
 
     def get_inner_map(self, component: Any) -> ChoiceMap:
@@ -300,14 +335,14 @@ class Static(ChoiceMap):
 
 @dataclass
 class Indexed(ChoiceMap):
-    """A map for one element, `addr` an int or scalar array; or for several, `addr` (k,) and every value (k, ...)."""
+    """A map for the element `addr`, an int or a scalar; or for k elements, with `addr` (k,) and values (k, ...)."""
 
     c: ChoiceMap
     addr: Any
 
     @staticmethod
     def build(chm: ChoiceMap, addr: Any) -> ChoiceMap:
-        """Refuses a second array of indices."""
+        """Return `chm` at the index `addr`; refuse a second array of indices."""
         if jnp.ndim(addr) > 0 and any(jnp.ndim(c) > 0 for path in chm.paths() for c in path if not isinstance(c, str)):
             raise ValueError("An address can hold one array of indices, and single indices before it")
         return Indexed(chm, addr)
@@ -316,9 +351,8 @@ class Indexed(ChoiceMap):
         if isinstance(component, str):
             return Static({})
         if isinstance(component, slice):
-            raise ValueError(
-                f"Slices are not allowed against array-shaped dynamic addresses: there is {self.addr} only"
-            )
+            problem = f"Slices are not allowed against array-shaped dynamic addresses: there is {self.addr} only"
+            raise ValueError(problem)
         hits = same_index(self.addr, component)
         if jnp.ndim(self.addr) == 0:
             return self.c.filter(hits)
@@ -337,7 +371,7 @@ class Indexed(ChoiceMap):
 
 @dataclass
 class Or(ChoiceMap):
-    """Both maps, the left one first: what `|` gives when it cannot be worked out at once."""
+    """Two maps, the left one first: what `|` returns if it cannot join them at once."""
 
     c1: ChoiceMap
     c2: ChoiceMap
@@ -358,7 +392,7 @@ class Or(ChoiceMap):
 
 @dataclass
 class Switch(ChoiceMap):
-    """Several maps, each masked by whether it is the one numbered by the integer array `idx`."""
+    """Several maps, each masked by `idx == k` for the map's number k and the integer array `idx`."""
 
     idx: Any
     chms: tuple[ChoiceMap, ...]
@@ -388,10 +422,10 @@ class Switch(ChoiceMap):
 
 
 def join(left: ChoiceMap, right: ChoiceMap) -> ChoiceMap:
-    """Everything in either map, the left one's value where both have one.
+    """Return everything in either map; where both have a value, the left map's value.
 
     Raises:
-        ValueError: one has a value where the other has names below.
+        ValueError: one map has a value where the other has names.
     """
     if left.static_is_empty() or right.static_is_empty():
         return right if left.static_is_empty() else left
@@ -418,7 +452,7 @@ def join(left: ChoiceMap, right: ChoiceMap) -> ChoiceMap:
 
 
 def overwrite(chm: ChoiceMap, array: Any) -> Any:
-    """`array` with the elements that `chm` has indices for replaced."""
+    """Return `array` with the elements at the indices of `chm` replaced."""
     match chm:
         case Indexed(inner, index):
             return array.at[index].set(overwrite(inner, array[index]))
@@ -429,5 +463,5 @@ def overwrite(chm: ChoiceMap, array: Any) -> Any:
     raise ValueError(f"Names below an index cannot replace elements of an array of shape {array.shape}")
 
 
-ChoiceMapBuilder = Builder(ChoiceMap, None, ())
+ChoiceMapBuilder = Builder(None, ())
 ChoiceMap.builder = ChoiceMapBuilder  # type: ignore[attr-defined]

@@ -1,19 +1,22 @@
-"""Values together with what is known of how they changed since a trace was made.
+"""Values with what is known of their change since a trace was made, and how functions pass changes on.
 
-`edit` receives its arguments as a tree of `Diff` leaves and returns its value as one. A tangent is
-`NoChange`, `UnknownChange`, or `IndexChange(index)`: equal to the old array except, at most, at `index`.
-The last is what lets a generative function recompute only what one changed element affects.
+`edit` takes its arguments as a tree of `Diff` leaves, and returns its return value as one. A tangent is `NoChange`,
+`UnknownChange` or `IndexChange(index)`. The last one says that the array differs from the old one at `index` alone, so
+that a generative function can recompute only what this element affects.
 """
 
+import dataclasses
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import jax
+from jax.extend.core import Literal
 
 from bayesmap.gen.pytree import Pytree, dataclass
 
 
 class Change(Pytree):
-    """What is known of a change."""
+    """Base of the marks that say what is known of a change."""
 
 
 @dataclass
@@ -23,12 +26,12 @@ class _NoChange(Change):
 
 @dataclass
 class _UnknownChange(Change):
-    """Nothing is known."""
+    """Nothing is known of the change."""
 
 
 @dataclass
 class IndexChange(Change):
-    """Only the elements `value[index]` may differ; `index` holds ints or scalar integer arrays."""
+    """Only the elements `value[index]` may differ; `index` holds ints or integer arrays."""
 
     index: tuple[Any, ...]
 
@@ -43,82 +46,134 @@ def _is_diff(value: Any) -> bool:
 
 @dataclass
 class Diff(Pytree):
-    """A leaf value `primal` (the new one) and its `tangent`."""
+    """A new leaf value, `primal`, and the mark of its change, `tangent`."""
 
     primal: Any
     tangent: Change
 
     def get_primal(self) -> Any:
-        """The value."""
+        """Return the value."""
         return self.primal
 
     def get_tangent(self) -> Change:
-        """What is known of its change."""
+        """Return the mark of the value's change."""
         return self.tangent
 
     @staticmethod
     def tree_diff(value: Any, tangents: Any) -> Any:
-        """`value`, each leaf marked by the leaf of `tangents` in the same place."""
+        """Return `value` with each leaf marked by the leaf of `tangents` in the same place."""
         return jax.tree.map(Diff, value, tangents)
 
     @staticmethod
     def tree_tangent(value: Any) -> Any:
-        """The marks in place of the leaves; an unmarked leaf counts as unchanged."""
+        """Return the tree of marks; an unmarked leaf counts as unchanged."""
         return jax.tree.map(lambda leaf: leaf.tangent if _is_diff(leaf) else NoChange, value, is_leaf=_is_diff)
 
     @staticmethod
     def is_diff(value: Any) -> bool:
-        """Is it a `Diff`?"""
+        """Return whether `value` is a `Diff`."""
         return _is_diff(value)
 
     @staticmethod
     def is_change_tangent(value: Any) -> bool:
-        """Is it a mark?"""
+        """Return whether `value` is a mark."""
         return isinstance(value, Change)
 
     @staticmethod
     def static_check_tree_diff(value: Any) -> bool:
-        """Is every leaf marked?"""
+        """Return whether every leaf is marked."""
         return all(_is_diff(leaf) for leaf in jax.tree.leaves(value, is_leaf=_is_diff))
 
     @staticmethod
     def tree(value: Any, tangent: Change) -> Any:
-        """`value` with every leaf marked by `tangent`; marks that it has already are replaced."""
+        """Return `value` with every leaf marked by `tangent`, which replaces earlier marks."""
         return jax.tree.map(lambda leaf: Diff(leaf, tangent), Diff.tree_primal(value))
 
     @staticmethod
     def no_change(value: Any) -> Any:
-        """`value`, every leaf marked unchanged."""
+        """Return `value` with every leaf marked unchanged."""
         return Diff.tree(value, NoChange)
 
     @staticmethod
     def unknown_change(value: Any) -> Any:
-        """`value`, every leaf marked as changed in an unknown way."""
+        """Return `value` with every leaf marked as changed in an unknown way."""
         return Diff.tree(value, UnknownChange)
 
     @staticmethod
     def index_change(value: Any, *index: Any) -> Any:
-        """`value`, every leaf marked as changed at `index` alone."""
+        """Return `value` with every leaf marked as changed at `index` alone."""
         return Diff.tree(value, IndexChange(index))
 
     @staticmethod
     def tree_primal(value: Any) -> Any:
-        """`value` without its marks."""
+        """Return `value` without its marks."""
         return jax.tree.map(lambda leaf: leaf.primal if _is_diff(leaf) else leaf, value, is_leaf=_is_diff)
 
     @staticmethod
     def tangents(value: Any) -> list[Change]:
-        """The marks of the leaves in order; an unmarked leaf counts as changed."""
+        """Return the marks of the leaves in order; an unmarked leaf counts as changed."""
         leaves = jax.tree.leaves(value, is_leaf=_is_diff)
         return [leaf.tangent if _is_diff(leaf) else UnknownChange for leaf in leaves]
 
     @staticmethod
-    def zip(value: Any, tangents: list[Change]) -> Any:
-        """Mark the leaves of the plain tree `value` with `tangents`, in order."""
+    def zip(value: Any, tangents: Sequence[Change]) -> Any:
+        """Return the plain tree `value` with its leaves marked by `tangents`, in order."""
         leaves, treedef = jax.tree.flatten(value)
         return jax.tree.unflatten(treedef, [Diff(leaf, t) for leaf, t in zip(leaves, tangents, strict=True)])
 
     @staticmethod
     def static_check_no_change(value: Any) -> bool:
-        """Is every leaf marked unchanged?"""
+        """Return whether every leaf is marked unchanged."""
         return all(isinstance(t, _NoChange) for t in Diff.tangents(value))
+
+
+# Element i of the result depends on element i of the operands alone.
+_ELEMENTWISE = frozenset(
+    "abs add and ceil convert_element_type copy copy_p div eq exp floor ge gt integer_pow le log logistic lt "  # noqa: SIM905
+    "max min mul ne neg not or round select_n sign sqrt sub tanh xor".split()
+)
+
+
+@dataclasses.dataclass(frozen=True)
+class _Origin:
+    """The inputs that a value is computed from, and the inputs that it is an elementwise image of."""
+
+    inputs: frozenset[int] = frozenset()
+    images: frozenset[int] = frozenset()
+
+    def change(self, tangents: Sequence[Change]) -> Change:
+        """Return how the value changes if the inputs change as `tangents` say."""
+        changed = [k for k in self.inputs if tangents[k] != NoChange]
+        if not changed:
+            return NoChange
+        only = tangents[changed[0]]
+        one_element = len(changed) == 1 and changed[0] in self.images and isinstance(only, IndexChange)
+        return only if one_element else UnknownChange
+
+
+def dataflow(fn: Callable[..., Any], *inputs: Any) -> list[_Origin] | None:
+    """Return the origin of each output leaf of `fn` among the input leaves, read off its jaxpr.
+
+    Returns None if `fn` cannot run without the inputs' concrete values.
+    """
+    try:
+        jaxpr = jax.make_jaxpr(fn)(*inputs).jaxpr
+    except TypeError:  # what JAX raises when Python needs the value of a tracer
+        return None
+    origins = {v: _Origin(frozenset([k]), frozenset([k])) for k, v in enumerate(jaxpr.invars)}
+
+    def origin(atom: Any) -> _Origin:
+        return _Origin() if isinstance(atom, Literal) else origins.get(atom, _Origin())
+
+    for eqn in jaxpr.eqns:
+        shape = getattr(eqn.outvars[0].aval, "shape", None) if eqn.outvars else None
+        operands = [(origin(v), getattr(v.aval, "shape", None) == shape) for v in eqn.invars]
+        sources = frozenset[int]().union(*(o.inputs for o, _ in operands))
+        images = frozenset[int]()
+        if eqn.primitive.name in _ELEMENTWISE:
+            images = frozenset(
+                k for k in sources if all(k not in o.inputs or (same and k in o.images) for o, same in operands)
+            )
+        for out in eqn.outvars:
+            origins[out] = _Origin(sources, images)
+    return [origin(v) for v in jaxpr.outvars]

@@ -6,19 +6,17 @@ from collections.abc import Callable
 from typing import Any
 
 from bayesmap.gen.choice_map import ChoiceMap
-from bayesmap.gen.dataflow import dataflow
-from bayesmap.gen.diff import Diff
+from bayesmap.gen.diff import Diff, dataflow
 from bayesmap.gen.edits import Edited, EditRequest
-from bayesmap.gen.fluent import decorator_method
-from bayesmap.gen.generative_function import GenerativeFunction, Trace
+from bayesmap.gen.generative_function import GenerativeFunction, OuterTrace, Trace, decorator_method
 from bayesmap.gen.pytree import dataclass, static
 from bayesmap.gen.selection import Selection
 from bayesmap.gen.typing import Arguments, PRNGKey, Score, Weight
 
 
 @dataclass
-class DimapTrace(Trace):
-    """The inner trace, the outer arguments and return value."""
+class DimapTrace(OuterTrace):
+    """The inner trace with the outer arguments and return value."""
 
     gen_fn: Any
     args: Any
@@ -28,22 +26,19 @@ class DimapTrace(Trace):
     def get_score(self) -> Score:
         return self.inner.get_score()
 
-    def get_choices(self) -> ChoiceMap:
-        return self.inner.get_choices()
-
     def get_inner_trace(self, address: Any) -> Trace:
         inner_args = None if self.args is None else self.gen_fn.pre(*self.args)
         return self.inner.with_args(inner_args).get_inner_trace(address)
 
 
 def _changes(fn: Callable[..., Any], *inputs: Any) -> Any:
-    """`fn` of the primal inputs, marked with how it changed given how they did."""
+    """Return `fn` of the primal inputs, marked with the change that follows from the marks of the inputs."""
     primal = Diff.tree_primal(inputs)
     flow, value = dataflow(fn, *primal), fn(*primal)
     if flow is None:
         return Diff.unknown_change(value)
     tangents = Diff.tangents(inputs)
-    return Diff.zip(value, [flow.change(k, tangents) for k in range(len(flow.outputs))])
+    return Diff.zip(value, [origin.change(tangents) for origin in flow])
 
 
 @dataclass
@@ -99,7 +94,7 @@ def _same_retval(args: Any, inner_args: Any, retval: Any) -> Any:
 
 @dataclasses.dataclass(frozen=True)
 class _OfRetval:
-    """`f` of the return value alone; equal for equal `f`, so that traces stay comparable."""
+    """`f` of the return value alone; equal for equal `f`, so that traces can be compared."""
 
     f: Callable[..., Any]
 
@@ -111,10 +106,10 @@ class _OfRetval:
 def dimap(
     *, pre: Callable[..., Any] = _same_args, post: Callable[..., Any] = _same_retval
 ) -> Callable[[GenerativeFunction], Dimap]:
-    """A decorator: transform arguments by `pre`, and the return value by `post`.
+    """Return a decorator that transforms arguments by `pre` and the return value by `post`.
 
     Args:
-        pre: takes the arguments, returns the inner function's as a tuple.
+        pre: takes the arguments, and returns the inner function's arguments as a tuple.
         post: takes (arguments, inner arguments, inner return value).
 
     Raises, when it runs:
@@ -125,11 +120,11 @@ def dimap(
 
 @decorator_method
 def map(f: Callable[[Any], Any]) -> Callable[[GenerativeFunction], Dimap]:
-    """A decorator: apply `f` to the return value."""
+    """Return a decorator that applies `f` to the return value."""
     return dimap(post=_OfRetval(f))
 
 
 @decorator_method
 def contramap(f: Callable[..., Any]) -> Callable[[GenerativeFunction], Dimap]:
-    """A decorator: the arguments go through `f`, which returns a tuple."""
+    """Return a decorator that passes the arguments through `f`, which returns a tuple."""
     return dimap(pre=f)

@@ -16,9 +16,9 @@ from bayesmap.gen.typing import Array, IntArray, PRNGKey, Score
 
 @dataclass
 class DiscreteHMMConfiguration(Pytree):
-    """States on a ring of `linear_grid_dim` places; moves and observations reach some places to either side.
+    """A hidden Markov model on a ring of `linear_grid_dim` places.
 
-    The logit of a place at distance d within the adjacency distance is sigma ** d, of any other -1 / sigma. The first
+    The logit of a place at distance d is sigma ** d within the adjacency distance, and -1 / sigma beyond it. The first
     state follows a move from the middle of the ring.
     """
 
@@ -29,17 +29,17 @@ class DiscreteHMMConfiguration(Pytree):
     sigma_obs: float = static()
 
     def __post_init__(self) -> None:
-        # GenJAX's programs give arrays, which no tree's definition can hold.
+        # GenJAX's programs pass arrays, which a static field cannot hold.
         for field in dataclasses.fields(self):
             number = float if field.name.startswith("sigma") else int
             object.__setattr__(self, field.name, number(getattr(self, field.name)))
 
     def transition_tensor(self) -> Array:
-        """Logits of the next state, (from, to)."""
+        """Return the logits of the next state, (from, to)."""
         return self._ring(self.adjacency_distance_trans, self.sigma_trans)
 
     def observation_tensor(self) -> Array:
-        """Logits of the observation, (state, observation)."""
+        """Return the logits of the observation, (state, observation)."""
         return self._ring(self.adjacency_distance_obs, self.sigma_obs)
 
     def _ring(self, reach: int, sigma: float) -> Array:
@@ -51,7 +51,7 @@ class DiscreteHMMConfiguration(Pytree):
 
 
 class _Posterior(Distribution):
-    """`DiscreteHMM(config, observations)`: the hidden states given observations, both (T,) integers."""
+    """`DiscreteHMM(config, observations)`: the hidden states given the observations, both (T,) integers."""
 
     def random_weighted(self, key: PRNGKey, *args: Any) -> tuple[Score, Array]:
         states = sample_states(key, *args)
@@ -64,18 +64,18 @@ class _Posterior(Distribution):
         return steps + emit[value, observations].sum() - self.data_logpdf(config, observations)
 
     def data_logpdf(self, config: DiscreteHMMConfiguration, observations: IntArray) -> Score:
-        """The log probability of the observations."""
+        """Return the log probability of the observations."""
         return logsumexp(filter_states(config, observations)[-1])
 
 
 def _log_probabilities(config: DiscreteHMMConfiguration) -> tuple[Array, Array, Array]:
-    """Log probabilities of the first state, of moves (from, to), of observations (state, observation)."""
+    """Return the log probabilities of the first state, of moves (from, to), of observations (state, observation)."""
     move = log_softmax(config.transition_tensor())
     return move[config.linear_grid_dim // 2], move, log_softmax(config.observation_tensor())
 
 
 def filter_states(config: DiscreteHMMConfiguration, observations: IntArray) -> Array:
-    """log p(state t, observations 0 .. t), (T, n): the forward recursion, Rabiner (1989), equation 20."""
+    """Return log p(state t, observations 0 .. t), (T, n), by the forward recursion of Rabiner (1989), equation 20."""
     start, move, emit = _log_probabilities(config)
 
     def step(alpha: Array, seen: IntArray) -> tuple[Array, Array]:
@@ -88,7 +88,7 @@ def filter_states(config: DiscreteHMMConfiguration, observations: IntArray) -> A
 
 
 def sample_states(key: PRNGKey, config: DiscreteHMMConfiguration, observations: IntArray) -> Array:
-    """A draw of all states given all observations, (T,): filter forwards, sample backwards."""
+    """Return a draw of all states given all observations, (T,): filter forwards, sample backwards."""
     alphas, move = filter_states(config, observations), _log_probabilities(config)[1]
     keys = jax.random.split(key, len(observations))
 

@@ -1,4 +1,4 @@
-"""Distributions as generative functions with one choice at the empty address."""
+"""Distributions: generative functions with one choice, at the empty address."""
 # ruff: noqa: D102 - the methods are those of the contract, documented with it.
 
 import operator
@@ -9,14 +9,13 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 
+from bayesmap.gen.axes import dense
 from bayesmap.gen.choice_map import ChoiceMap
-from bayesmap.gen.dense import dense
 from bayesmap.gen.diff import Diff
 from bayesmap.gen.edits import Edited, EditRequest, Regenerate, Update
 from bayesmap.gen.errors import BadArguments, MissingAddress, NotSupportedEditRequest, OutsideSupport, ShapeMismatch
-from bayesmap.gen.flags import check, in_optional_part, is_concrete, where
 from bayesmap.gen.generative_function import GenerativeFunction, Trace
-from bayesmap.gen.mask import Mask
+from bayesmap.gen.masks import Mask, check, in_optional_part, is_concrete, where
 from bayesmap.gen.pytree import Const, dataclass, static
 from bayesmap.gen.selection import Selection
 from bayesmap.gen.typing import Arguments, PRNGKey, Score, Weight
@@ -24,7 +23,7 @@ from bayesmap.gen.typing import Arguments, PRNGKey, Score, Weight
 
 @dataclass
 class DistributionTrace(Trace):
-    """One draw and its log density."""
+    """A draw and its log density."""
 
     gen_fn: Any
     args: Any
@@ -41,27 +40,26 @@ class DistributionTrace(Trace):
 class Distribution(GenerativeFunction):
     """Base of distributions whose density may be an estimate: implement `random_weighted` and `estimate_logpdf`.
 
-    They are a pair as in Lew et al., Probabilistic programming with stochastic probabilities (2023): 1 / exp(score) of
-    the first is an unbiased estimate of 1 / density at its draw, exp of the second one of the density.
+    They are a pair as in Lew et al., Probabilistic programming with stochastic probabilities (2023). 1 / exp(score) of
+    `random_weighted` is an unbiased estimate of 1 / density at the draw; exp of `estimate_logpdf` is an unbiased
+    estimate of the density.
     """
 
     def random_weighted(self, key: PRNGKey, *args: Any) -> tuple[Score, Any]:
-        """(Log density, draw)."""
+        """Draw a value. Returns (log density, draw)."""
         raise NotImplementedError
 
     def estimate_logpdf(self, key: PRNGKey, value: Any, *args: Any) -> Score:
-        """The log density at `value`, shape ()."""
+        """Return the log density at `value`, shape ()."""
         raise NotImplementedError
 
-    # How a constraint is read and scored; exact densities refine these ------------------------------
-
     def read(self, choices: ChoiceMap, args: Arguments) -> tuple[Any, Any, Any]:
-        """(Value or None, flag of what was given or None for all, 0 or -inf if impossible)."""
+        """Return (value or None, flag of the given elements or None for all, 0 or -inf if impossible)."""
         value = choices.get_value()
         return (value.value, value.flag, 0.0) if isinstance(value, Mask) else (value, None, 0.0)
 
     def like(self, value: Any, old: Any) -> Any:
-        """A new value in the dtypes of the one that it replaces, so that both can be branches of `lax.cond`."""
+        """Return a new value in the dtypes of the old one, so that both can be branches of `lax.cond`."""
         return jax.tree.map(lambda v, o: jnp.asarray(v, jnp.result_type(o)), value, old)
 
     def simulate(self, key: PRNGKey, args: Arguments) -> Trace:
@@ -85,13 +83,12 @@ class Distribution(GenerativeFunction):
         value, given, penalty = self.read(constraint, args)
         if value is None:
             return self.simulate(key, args), jnp.zeros(())
-        if given is not None:
-            drawn_score, drawn = self.random_weighted(key, *args)
-            given_score = self.estimate_logpdf(key, value, *args) + penalty
-            new = DistributionTrace(self, args, where(given, value, drawn), jnp.where(given, given_score, drawn_score))
-            return new, jnp.where(given, given_score, 0.0)
         score = self.estimate_logpdf(key, value, *args) + penalty
-        return DistributionTrace(self, args, value, score), score
+        if given is None:
+            return DistributionTrace(self, args, value, score), score
+        drawn_score, drawn = self.random_weighted(key, *args)
+        new = DistributionTrace(self, args, where(given, value, drawn), jnp.where(given, score, drawn_score))
+        return new, jnp.where(given, score, 0.0)
 
     def edit(self, key: PRNGKey, trace: Any, request: EditRequest, argdiffs: Any) -> Edited:
         args, old = Diff.tree_primal(argdiffs), trace.value
@@ -117,7 +114,7 @@ class Distribution(GenerativeFunction):
         return trace.score if selection.check() else jnp.zeros_like(trace.score)
 
     def _rescore(self, key: PRNGKey, trace: Any, argdiffs: Any) -> Edited:
-        """The same value under new arguments."""
+        """Keep the value under new arguments."""
         unchanged, nothing = Diff.no_change(trace.value), Update(ChoiceMap.empty())
         if Diff.static_check_no_change(argdiffs):
             return trace, jnp.zeros(()), unchanged, nothing
@@ -133,7 +130,7 @@ def draw_shape(sample_shape: Any) -> tuple[int, ...]:
         sample_shape: a number of draws, a sequence of lengths, or a `Const` of either.
 
     Raises:
-        BadArguments: it is neither.
+        BadArguments: `sample_shape` is none of them.
     """
     given = Const.unwrap(sample_shape)
     try:
@@ -156,28 +153,28 @@ class ExactDensity(Distribution):
     """
 
     def sample(self, key: PRNGKey, *args: Any, **kwargs: Any) -> Any:
-        """A draw: an array."""
+        """Return a draw, an array."""
         raise NotImplementedError
 
     def logpdf(self, value: Any, *args: Any, **kwargs: Any) -> Any:
-        """The log density at `value`; its shape is that of the independent draws."""
+        """Return the log density at `value`, in the shape of the independent draws."""
         raise NotImplementedError
 
     def draw(self, key: PRNGKey, args: Arguments) -> Any:
-        """A draw for a trace."""
+        """Return a draw for a trace."""
         return self.sample(key, *args)
 
     def score(self, value: Any, args: Arguments, given: Any = None) -> Score:
-        """The total log density, shape (); with a flag `given`, 0 where it does not hold."""
+        """Return the total log density, shape (); 0 if the flag `given` is False."""
         total = jnp.sum(jnp.asarray(self.logpdf(value, *args))).astype(jnp.result_type(float))
         return total if given is None else jnp.where(given, total, 0.0)
 
     def index_shape(self, args: Arguments) -> tuple[int, ...]:
-        """The leading axes that an index in a constraint selects from: none, unless vectorised."""
+        """Return the leading axes that an index in a constraint selects from: none, unless vectorised."""
         return ()
 
     def in_support(self, value: Any) -> Any:
-        """Elementwise: could some parameter give this value? Asked of discrete distributions."""
+        """Return elementwise whether some parameter can give this value, for discrete distributions."""
         return True
 
     def random_weighted(self, key: PRNGKey, *args: Any) -> tuple[Score, Any]:
@@ -197,13 +194,13 @@ class ExactDensity(Distribution):
         return new, self.score(value, args, given) + penalty
 
     def read(self, choices: ChoiceMap, args: Arguments) -> tuple[Any, Any, Any]:
-        """(Value in the shape of a draw, flag of what was given or None for all, 0 or -inf if impossible).
+        """Return (value or None, flag of the given elements or None for all, 0 or -inf if impossible).
 
-        The value keeps the dtype that it has, but for integers where draws are real: later edits, which keep a trace's
-        dtypes, could not move them. It is None if nothing was given.
+        The value has the shape of a draw and keeps its dtype. Integers become real where draws are real, because later
+        edits keep the trace's dtypes and could not move integers.
 
         Raises:
-            ShapeMismatch: the shape is not a draw's.
+            ShapeMismatch: the value does not have the shape of a draw.
             OutsideSupport: the value is known, and a discrete distribution never draws it.
         """
         found = dense(choices, self.index_shape(args))
@@ -227,7 +224,7 @@ class ExactDensity(Distribution):
         return kept, given, self._penalty(value, given, possible, expected.dtype)
 
     def _penalty(self, value: Any, given: Any, possible: Any, dtype: Any) -> Any:
-        """0 where the value is possible, else -inf, or an error if that is known."""
+        """Return 0 if the value is possible, else -inf; raise if a known value is impossible."""
         if possible is True:
             return 0.0
         if given is not None:
@@ -241,29 +238,39 @@ class ExactDensity(Distribution):
 
 
 @dataclass
-class CustomDensity(ExactDensity):
-    """The distribution of a pair of functions; made by `exact_density`."""
+class KeywordDensity(ExactDensity):
+    """Base of exact densities that take arguments by name.
 
-    sampler: Callable[..., Any] = static()
-    log_density: Callable[..., Any] = static()
-    name: str = static()
-    by_name: bool = static(default=False)
+    With `by_name` the arguments have the form `((positional, ...), {"name": value})`.
+    """
+
+    by_name: bool = static(default=False, kw_only=True)
 
     def handle_kwargs(self) -> GenerativeFunction:
         return self.replace(by_name=True)
 
-    def _arguments(self, args: tuple[Any, ...], kwargs: dict[str, Any]) -> tuple[tuple[Any, ...], dict[str, Any]]:
-        return (args[0], {**args[1], **kwargs}) if self.by_name else (args, kwargs)
+    def split(self, args: tuple[Any, ...], kwargs: dict[str, Any]) -> tuple[tuple[Any, ...], dict[str, Any]]:
+        """Return (positional arguments, arguments by name)."""
+        return (args[0], {**args[1], **kwargs}) if self.by_name else (args, dict(kwargs))
+
+
+@dataclass
+class CustomDensity(KeywordDensity):
+    """The distribution of a pair of functions; `exact_density` makes it."""
+
+    sampler: Callable[..., Any] = static()
+    log_density: Callable[..., Any] = static()
+    name: str = static()
 
     def sample(self, key: PRNGKey, *args: Any, **kwargs: Any) -> Any:
-        args, kwargs = self._arguments(args, kwargs)
+        args, kwargs = self.split(args, kwargs)
         return self.sampler(key, *args, **kwargs)
 
     def logpdf(self, value: Any, *args: Any, **kwargs: Any) -> Any:
-        args, kwargs = self._arguments(args, kwargs)
+        args, kwargs = self.split(args, kwargs)
         return self.log_density(value, *args, **kwargs)
 
 
 def exact_density(sample: Callable[..., Any], logpdf: Callable[..., Any], name: str = "unnamed") -> CustomDensity:
-    """A distribution from `sample(key, *args)` and `logpdf(value, *args)`."""
+    """Return the distribution of `sample(key, *args)` and `logpdf(value, *args)`."""
     return CustomDensity(sample, logpdf, name)

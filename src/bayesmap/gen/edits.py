@@ -15,38 +15,42 @@ Edited = tuple[Any, Weight, Any, "EditRequest"]
 """(New trace, weight, return value as a tree of `Diff`, the request that would undo the edit)."""
 
 
+def _unaltered(diffs: Any) -> Any:
+    return diffs
+
+
 class EditRequest(Pytree):
     """A change to make to a trace."""
 
     def edit(self, key: PRNGKey, trace: Any, argdiffs: Any) -> Edited:
-        """Carry the change out. Unless overridden, the trace's generative function does."""
+        """Carry the request out. Unless a subclass overrides this, the trace's generative function does it."""
         return trace.get_gen_fn().edit(key, trace, self, argdiffs)  # type: ignore[no-any-return]
 
     def dimap(
-        self, *, pre: Callable[[Any], Any] = lambda diffs: diffs, post: Callable[[Any], Any] = lambda diffs: diffs
+        self, *, pre: Callable[[Any], Any] = _unaltered, post: Callable[[Any], Any] = _unaltered
     ) -> "DiffAnnotate":
-        """The same request, told `pre(argdiffs)`, and telling `post(retdiff)`."""
+        """Return this request with `pre(argdiffs)` as its argdiffs and `post(retdiff)` as its retdiff."""
         return DiffAnnotate(self, pre, post)
 
     def map(self, post: Callable[[Any], Any]) -> "DiffAnnotate":
-        """The same request, telling `post(retdiff)`."""
+        """Return this request with `post(retdiff)` as its retdiff."""
         return self.dimap(post=post)
 
     def contramap(self, pre: Callable[[Any], Any]) -> "DiffAnnotate":
-        """The same request, told `pre(argdiffs)`."""
+        """Return this request with `pre(argdiffs)` as its argdiffs."""
         return self.dimap(pre=pre)
 
 
 @dataclass
 class DiffAnnotate(EditRequest):
-    """A request whose marks of change pass through functions, to look at them or to overrule them.
+    """A request whose marks of change pass through functions, which inspect or overrule them.
 
-    A function that marks as unchanged what did change makes the edit wrong.
+    A function that marks a changed value as unchanged makes the edit wrong.
     """
 
     request: EditRequest
-    argdiff_fn: Callable[[Any], Any] = static(default=lambda diffs: diffs)
-    retdiff_fn: Callable[[Any], Any] = static(default=lambda diffs: diffs)
+    argdiff_fn: Callable[[Any], Any] = static(default=_unaltered)
+    retdiff_fn: Callable[[Any], Any] = static(default=_unaltered)
 
     def edit(self, key: PRNGKey, trace: Any, argdiffs: Any) -> Edited:
         """Carry the request out."""
@@ -56,7 +60,7 @@ class DiffAnnotate(EditRequest):
 
 @dataclass
 class Update(EditRequest):
-    """Give the choices in `constraint` new values, keep the rest. Weight: new score - old score."""
+    """Give the choices in `constraint` new values and keep the others. Weight: new score - old score."""
 
     constraint: ChoiceMap
 
@@ -66,7 +70,7 @@ class EmptyRequest(EditRequest):
     """Keep all choices. Weight: 0 if no argument changed, else new score - old score."""
 
     def edit(self, key: PRNGKey, trace: Any, argdiffs: Any) -> Edited:
-        """Nothing to do unless an argument changed."""
+        """Return the trace itself if no argument changed, else the trace with its new score."""
         if Diff.static_check_no_change(argdiffs):
             return trace, jnp.zeros(()), Diff.no_change(trace.get_retval()), EmptyRequest()
         return Update(ChoiceMap.empty()).edit(key, trace, argdiffs)
@@ -74,10 +78,10 @@ class EmptyRequest(EditRequest):
 
 @dataclass
 class Regenerate(EditRequest):
-    """Draw the selected choices afresh from the model, keep the rest.
+    """Draw the selected choices anew from the model, and keep the others.
 
-    The weight is the log Metropolis-Hastings ratio of that proposal: what the kept choices' density
-    changed by. The selected choices' own densities cancel against those of their proposal.
+    The weight is the log Metropolis-Hastings ratio of this proposal: the change of the kept choices' log density. The
+    selected choices' own densities cancel against the densities of their proposal.
     """
 
     selection: Selection
@@ -85,7 +89,7 @@ class Regenerate(EditRequest):
 
 @dataclass
 class StaticRequest(EditRequest):
-    """One request per address of a `@gen` function; addresses left out keep their choices."""
+    """One request for each address of a `@gen` function; the other addresses keep their choices."""
 
     addressed: dict[Any, EditRequest]
 

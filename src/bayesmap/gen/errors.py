@@ -1,6 +1,4 @@
-"""What bad use gets: every message names the address, what was found and what was expected."""
-
-# ruff: noqa: D102 - each class says its headline.
+"""Errors of wrong use. Each message names the address, the value found and the value expected."""
 
 from typing import Any, Self
 
@@ -8,17 +6,17 @@ from bayesmap.errors import BadInput
 
 
 def show(address: tuple[Any, ...]) -> str:
-    """An address as its user would write it."""
-    if len(address) == 1:
-        return repr(address[0])
-    return repr(address)
+    """Return an address as a user writes it."""
+    return repr(address[0] if len(address) == 1 else address)
 
 
 class AddressError(BadInput):
-    """Something is wrong at `address`; an enclosing model prefixes its own part with `under`.
+    """An error at `address`, to which an enclosing model adds its own part with `under`.
 
-    `args` holds the address alone, as its user would write it.
+    `args` holds the address alone, as a user writes it. `headline` begins the message.
     """
+
+    headline = "Bad use of address"
 
     def __init__(self, address: Any, detail: str = "") -> None:
         self.address: tuple[Any, ...] = address if isinstance(address, tuple) else (address,)
@@ -29,15 +27,11 @@ class AddressError(BadInput):
         return type(self), (self.address, self.detail)
 
     def under(self, prefix: tuple[Any, ...]) -> Self:
-        """The same error as seen from a model that holds this one at `prefix`."""
+        """Return the error of a model that holds this error's model at `prefix`."""
         return type(self)((*prefix, *self.address), self.detail)
 
     def __str__(self) -> str:
-        return f"{self.headline()} {show(self.address)}{': ' if self.detail else ''}{self.detail}"
-
-    def headline(self) -> str:
-        """The first words of the message."""
-        return "Bad use of address"
+        return f"{self.headline} {show(self.address)}{': ' if self.detail else ''}{self.detail}"
 
 
 class NotAnAddress(AddressError, TypeError):
@@ -47,43 +41,37 @@ class NotAnAddress(AddressError, TypeError):
 class AddressReuse(AddressError):
     """Two sites of one model have the same address, or one lies under the other."""
 
-    def headline(self) -> str:
-        return "A second site at address"
+    headline = "A second site at address"
 
 
 class MissingAddress(AddressError):
-    """A density was asked for, but no value was given at a site."""
+    """A density needs a value at a site, and none was given."""
 
-    def headline(self) -> str:
-        return "No value for the choice at address"
+    headline = "No value for the choice at address"
 
 
 class UnknownAddress(AddressError):
     """A constraint or request names an address that the model does not have."""
 
-    def headline(self) -> str:
-        return "The model has no choice at address"
+    headline = "The model has no choice at address"
 
 
 class ShapeMismatch(AddressError):
-    """A value's shape differs from that of the site's draws."""
+    """A value's shape differs from the shape of the site's draws."""
 
-    def headline(self) -> str:
-        return "Wrong shape at address"
+    headline = "Wrong shape at address"
 
 
 class OutsideSupport(AddressError):
-    """A value that a discrete site can never draw, whatever its parameters."""
+    """A discrete site never draws this value, whatever its parameters."""
 
-    def headline(self) -> str:
-        return "Value outside the support at address"
+    headline = "Value outside the support at address"
 
 
 class ChoiceMapNoValueAtAddress(AddressError, KeyError):
-    """A choice map was asked for a value that it does not hold."""
+    """A choice map holds no value at an address that was read."""
 
-    def headline(self) -> str:
-        return "The choice map holds no value at address"
+    headline = "The choice map holds no value at address"
 
 
 class MissingExtra(BadInput, ImportError):
@@ -91,11 +79,11 @@ class MissingExtra(BadInput, ImportError):
 
 
 class BadArguments(BadInput, TypeError):
-    """A distribution or function was given arguments that it cannot take."""
+    """A distribution or function got arguments that it cannot take."""
 
 
 class NotSupportedEditRequest(TypeError):
-    """A generative function was given a request that it has no rule for."""
+    """A generative function got a request that it has no rule for."""
 
     def __init__(self, gen_fn: Any, request: Any) -> None:
         super().__init__(f"{type(gen_fn).__name__} has no rule for the edit request {type(request).__name__}")

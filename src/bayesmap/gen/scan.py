@@ -1,4 +1,4 @@
-"""A generative function iterated, each step's state going into the next."""
+"""Generative functions iterated: the state of each step is an argument of the next step."""
 # ruff: noqa: D102 - the methods are those of the contract, documented with it.
 
 from collections.abc import Callable
@@ -7,24 +7,22 @@ from typing import Any
 import jax
 import jax.numpy as jnp
 
-from bayesmap.gen.axes import total
+from bayesmap.gen.axes import check_index, total, vectorise
 from bayesmap.gen.choice_map import ChoiceMap, Indexed
-from bayesmap.gen.dense import check_index, vectorise
 from bayesmap.gen.diff import Diff
 from bayesmap.gen.dimap import dimap, map
 from bayesmap.gen.edits import Edited, EditRequest, EmptyRequest, IndexRequest, Regenerate, Update, VectorRequest
 from bayesmap.gen.errors import NotSupportedEditRequest
-from bayesmap.gen.fluent import decorator_method
-from bayesmap.gen.generative_function import GenerativeFunction, Trace
-from bayesmap.gen.masking import mask
+from bayesmap.gen.generative_function import GenerativeFunction, OuterTrace, Trace, as_update, decorator_method
 from bayesmap.gen.pytree import dataclass, static
 from bayesmap.gen.selection import Selection
+from bayesmap.gen.switch import mask
 from bayesmap.gen.typing import Arguments, PRNGKey, Score, Weight
 
 
 @dataclass
-class ScanTrace(Trace):
-    """The steps' traces stacked, without their arguments; `carries` are the states that they started from."""
+class ScanTrace(OuterTrace):
+    """The steps' traces, stacked and without their arguments; `carries` are the states before each step."""
 
     gen_fn: Any
     args: Any
@@ -32,12 +30,6 @@ class ScanTrace(Trace):
     carries: Any
     retval: Any
     score: Score
-
-    def get_choices(self) -> ChoiceMap:
-        return self.inner.get_choices()
-
-    def get_inner_trace(self, address: Any) -> Trace:
-        return self.inner.get_inner_trace(address)
 
 
 @dataclass
@@ -60,7 +52,7 @@ class Scan(GenerativeFunction):
         return self.n if self.n is not None else next(iter(sizes))
 
     def _loop(self, key: PRNGKey, args: Arguments, step: Callable[..., Any], mapped: Any) -> Any:
-        """Iterate `step(key, (state, x_t), mapped_t) -> (trace, weight, more)`, with chained keys."""
+        """Iterate `step(key, (state, x_t), mapped_t) -> (trace, weight, more)` with chained keys."""
         n = self._length(args)
 
         def body(carry: Any, scanned: Any) -> Any:
@@ -111,9 +103,7 @@ class Scan(GenerativeFunction):
             case IndexRequest(t, inner):
                 return self._edit_step(key, trace, check_index(t, n), inner, argdiffs)
             case Update(Indexed(inner, t)) if jnp.ndim(t) == 0:
-                new, weight, retdiff, back = self._edit_step(key, trace, check_index(t, n), Update(inner), argdiffs)
-                undo = back.request.constraint.extend(back.idx)  # type: ignore[attr-defined]
-                return new, weight, retdiff, Update(undo)
+                return as_update(self.edit(key, trace, IndexRequest(t, Update(inner)), argdiffs))
             case Update(constraint):
                 return self._edit_all(key, trace, Update(vectorise(constraint, n)), argdiffs)
             case VectorRequest(each):
@@ -138,7 +128,7 @@ class Scan(GenerativeFunction):
         return new, weight, Diff.unknown_change(new.retval), undo
 
     def _edit_step(self, key: PRNGKey, trace: Any, t: Any, request: EditRequest, argdiffs: Any) -> Edited:
-        """Edit step t; then, if the state that it hands on may differ, the steps after it."""
+        """Edit step t, and the steps after it if the state after step t may differ."""
         args = Diff.tree_primal(argdiffs)
         trace, before, _, _ = EmptyRequest().edit(key, trace, argdiffs)
         old, *step_args = jax.tree.map(lambda x: x[t], (trace.inner, trace.carries, args[1]))
@@ -173,12 +163,12 @@ class Scan(GenerativeFunction):
 
 @decorator_method
 def scan(*, n: int | None = None) -> Callable[[GenerativeFunction], Scan]:
-    """A decorator: from `(state, x) -> (state, y)` make `(state, xs) -> (last state, ys)`.
-
-    Args:
-        n: the number of steps; needed where `xs` is None.
+    """Return a decorator that turns `(state, x) -> (state, y)` into `(state, xs) -> (last state, ys)`.
 
     Step t uses the key `fold_in(key of step t - 1, t)`, and its choices' addresses begin with t.
+
+    Args:
+        n: the number of steps; needed if `xs` is None.
     """
     return lambda gen_fn: Scan(gen_fn.as_part(), n)
 
@@ -203,41 +193,47 @@ def _drop_input(state: Any, x: Any) -> tuple[Any]:
     return (state,)
 
 
+def _steps(gen_fn: GenerativeFunction, n: int | None = None) -> Scan:
+    """Return the scan of a function of (state, x), or, with `n`, of the state alone."""
+    paired = map(_pair)(gen_fn)
+    return scan(n=n)(paired if n is None else dimap(pre=_drop_input)(paired))
+
+
 @decorator_method
 def accumulate() -> Callable[[GenerativeFunction], Any]:
-    """A decorator: from `(state, x) -> state` make `(state, xs) -> ` all n + 1 states."""
-    return lambda gen_fn: dimap(post=_all)(scan()(map(_pair)(gen_fn)))
+    """Return a decorator that turns `(state, x) -> state` into `(state, xs) -> ` all n + 1 states."""
+    return lambda gen_fn: dimap(post=_all)(_steps(gen_fn))
 
 
 @decorator_method
 def reduce() -> Callable[[GenerativeFunction], Any]:
-    """A decorator: from `(state, x) -> state` make `(state, xs) -> ` the last state."""
-    return lambda gen_fn: dimap(post=_last)(scan()(map(_pair)(gen_fn)))
+    """Return a decorator that turns `(state, x) -> state` into `(state, xs) -> ` the last state."""
+    return lambda gen_fn: dimap(post=_last)(_steps(gen_fn))
 
 
 @decorator_method
 def iterate(*, n: int) -> Callable[[GenerativeFunction], Any]:
-    """A decorator: from `state -> state` make `state -> ` all n + 1 states."""
-    return lambda gen_fn: dimap(pre=_first_only, post=_all)(scan(n=n)(dimap(pre=_drop_input)(map(_pair)(gen_fn))))
+    """Return a decorator that turns `state -> state` into `state -> ` all n + 1 states."""
+    return lambda gen_fn: dimap(pre=_first_only, post=_all)(_steps(gen_fn, n))
 
 
 @decorator_method
 def masked_iterate() -> Callable[[GenerativeFunction], Any]:
-    """A decorator: from `state -> state` make `(state, flags) -> ` all n + 1 states.
+    """Return a decorator that turns `state -> state` into `(state, flags) -> ` all n + 1 states.
 
-    Where a step's flag is False its choices do not count; the state goes through the step all the same.
+    The choices of a step whose flag is False do not count, but the step still changes the state.
     """
-    return lambda gen_fn: dimap(post=_all)(scan()(map(_pair)(_flagged(gen_fn))))
+    return lambda gen_fn: dimap(post=_all)(_steps(_flagged(gen_fn)))
 
 
 @decorator_method
 def masked_iterate_final() -> Callable[[GenerativeFunction], Any]:
-    """A decorator: from `state -> state` make `(state, flags) -> ` the last state; see `masked_iterate`."""
-    return lambda gen_fn: dimap(post=_last)(scan()(map(_pair)(_flagged(gen_fn))))
+    """Return a decorator that turns `state -> state` into `(state, flags) -> ` the last state; see `masked_iterate`."""
+    return lambda gen_fn: dimap(post=_last)(_steps(_flagged(gen_fn)))
 
 
 def _flagged(gen_fn: GenerativeFunction) -> Any:
-    """From `state -> state` make `(state, flag) -> state`."""
+    """Turn `state -> state` into `(state, flag) -> state`."""
     return dimap(pre=_flag_first, post=_unmasked)(mask(gen_fn))
 
 
@@ -251,5 +247,5 @@ def _unmasked(args: Any, inner_args: Any, retval: Any) -> Any:
 
 @decorator_method
 def iterate_final(*, n: int) -> Callable[[GenerativeFunction], Any]:
-    """A decorator: from `state -> state` make `state -> ` the last of n states."""
-    return lambda gen_fn: dimap(pre=_first_only, post=_last)(scan(n=n)(dimap(pre=_drop_input)(map(_pair)(gen_fn))))
+    """Return a decorator that turns `state -> state` into `state -> ` the last of n + 1 states."""
+    return lambda gen_fn: dimap(pre=_first_only, post=_last)(_steps(gen_fn, n))

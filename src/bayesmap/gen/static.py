@@ -1,7 +1,4 @@
-"""`@gen`: a Python function whose calls to other generative functions are traced by address.
-
-The record of one run of a `@gen` function, and how to run it again on what was recorded.
-"""
+"""`@gen`: a Python function whose calls of other generative functions are traced by address."""
 
 import functools
 import importlib
@@ -13,12 +10,11 @@ import jax
 import jax.numpy as jnp
 
 from bayesmap.gen.choice_map import ChoiceMap
-from bayesmap.gen.dataflow import Dataflow, dataflow
-from bayesmap.gen.diff import Change, Diff, NoChange, UnknownChange
+from bayesmap.gen.closure import Handler, as_path, running
+from bayesmap.gen.diff import Change, Diff, NoChange, UnknownChange, dataflow
 from bayesmap.gen.edits import Edited, EditRequest, EmptyRequest, Regenerate, StaticRequest, Update
 from bayesmap.gen.errors import AddressError, NotSupportedEditRequest, UnknownAddress, show
 from bayesmap.gen.generative_function import GenerativeFunction, Trace, in_dtypes_of
-from bayesmap.gen.handler import Handler, as_path, running
 from bayesmap.gen.pytree import dataclass, static
 from bayesmap.gen.selection import Selection
 from bayesmap.gen.typing import Arguments, PRNGKey, Score, StaticAddress, Weight
@@ -27,7 +23,7 @@ from bayesmap.gen.typing import Arguments, PRNGKey, Score, StaticAddress, Weight
 
 
 class Replay(Handler):
-    """A run whose sites return given values; collects what they were called with."""
+    """A run whose sites return given values; it collects each site's function and arguments."""
 
     def __init__(self, retvals: dict[StaticAddress, Any]) -> None:
         super().__init__()
@@ -35,7 +31,7 @@ class Replay(Handler):
         self.calls: dict[StaticAddress, Any] = {}
 
     def run(self, gen_fn: Any, args: Arguments) -> Any:
-        """The return value of the body."""
+        """Run the body and return its return value."""
         with running(self):
             return gen_fn.call(args)
 
@@ -50,8 +46,8 @@ class Replay(Handler):
 class StaticTrace(Trace):
     """The calls of one run by address.
 
-    The return value's leaves that some call returned are found there, by `sources`: (address, number of
-    the leaf); `computed` holds the others.
+    A leaf of the return value that some call returned is stored with that call alone: its entry in `sources` is
+    (address, number of the leaf). Its entry is None for a leaf that the body computed, which `computed` stores.
     """
 
     gen_fn: Any
@@ -63,7 +59,7 @@ class StaticTrace(Trace):
 
     @staticmethod
     def build(gen_fn: Any, args: Any, retval: Any, subtraces: dict[StaticAddress, Trace]) -> "StaticTrace":
-        """Record a run; `subtraces` are in the order of the calls."""
+        """Return the trace of a run whose calls made `subtraces`, in order."""
         origin: dict[int, tuple[StaticAddress, int]] = {}
         for path, trace in subtraces.items():
             for k, leaf in enumerate(jax.tree.leaves(trace.get_retval())):
@@ -103,11 +99,8 @@ class StaticTrace(Trace):
         return self.subtraces[path].with_args(site_args(self))
 
 
-# ruff: noqa: D102 - the methods are those of the contract, documented with it.
-
-
 class _Run(Handler):
-    """A run that records a trace per site, with keys `fold_in(key, 1)`, `fold_in(key, 2)`, ..."""
+    """A run that records a trace for each site, with keys `fold_in(key, 1)`, `fold_in(key, 2)`, ..."""
 
     def __init__(self, key: PRNGKey) -> None:
         super().__init__()
@@ -161,7 +154,7 @@ class _Assess(Handler):
 
 
 class _Edit(_Run):
-    """A run that edits each site's trace, telling it which of its arguments changed."""
+    """A run that edits each site's trace, and tells the site which of its arguments changed."""
 
     def __init__(self, key: PRNGKey, old: StaticTrace, request: Callable[[StaticAddress], EditRequest], argdiffs: Any):
         super().__init__(key)
@@ -173,7 +166,7 @@ class _Edit(_Run):
         self.position = 0
 
     def mark(self, value: Any) -> Any:
-        """The next output of the body, with what is known of its change."""
+        """Return the next output of the body with what is known of its change."""
         position, self.position = self.position, self.position + len(jax.tree.leaves(value))
         if self.flow is None:
             return Diff.unknown_change(value)
@@ -181,7 +174,7 @@ class _Edit(_Run):
         for path, subtrace in self.old.subtraces.items():
             unknown = [UnknownChange] * len(jax.tree.leaves(subtrace.get_retval()))
             tangents += self.returned.get(path, unknown)
-        return Diff.zip(value, [self.flow.change(k, tangents) for k in range(position, self.position)])
+        return Diff.zip(value, [origin.change(tangents) for origin in self.flow[position : self.position]])
 
     def call(self, path: StaticAddress, gen_fn: Any, args: Arguments) -> Trace:
         if path not in self.old.subtraces:
@@ -200,8 +193,8 @@ class _Edit(_Run):
         return trace  # type: ignore[no-any-return]
 
 
-def _flow_of_body(old: StaticTrace, args: Arguments) -> Dataflow | None:
-    """How the arguments of each site, in order, and the return value come from what precedes them."""
+def _flow_of_body(old: StaticTrace, args: Arguments) -> Any:
+    """Return the origins of each site's function and arguments, in order, and of the return value."""
 
     def body(gen_fn: Any, args: Arguments, *retvals: Any) -> Any:
         replay = Replay(dict(zip(old.subtraces, retvals, strict=True)))
@@ -212,10 +205,10 @@ def _flow_of_body(old: StaticTrace, args: Arguments) -> Dataflow | None:
 
 
 def _edit_anew(key: PRNGKey, old: Trace, gen_fn: Any, request: EditRequest, args: Arguments) -> Edited:
-    """Edit the trace of a function that the body defined anew, and that may differ: score all of it.
+    """Edit the trace of a function that the body defined again and that may differ, by scoring all of it.
 
-    Requests that know only addresses are answered by `generate`. Any other is made of a trace of the new function
-    with the old choices; the weights of the two steps add up, as they do for new arguments.
+    `generate` answers requests that depend on addresses alone. Any other request edits a trace of the new function with
+    the old choices. The weights of these two steps add up, as for new arguments.
     """
     choices = old.get_choices()
     match request:
@@ -236,7 +229,7 @@ def _edit_anew(key: PRNGKey, old: Trace, gen_fn: Any, request: EditRequest, args
 
 @contextmanager
 def _located(path: StaticAddress) -> Iterator[None]:
-    """Prefix the address of an error with where it was raised."""
+    """Prefix the addresses of errors in the code inside with `path`."""
     try:
         yield
     except AddressError as error:
@@ -255,9 +248,9 @@ def _check_known(paths: Iterable[Any], visited: list[StaticAddress]) -> None:
 
 @dataclass
 class StaticGenerativeFunction(GenerativeFunction):
-    """What `@gen` makes of a function; `partial_args` come before its arguments.
+    """A Python function under `@gen`; `partial_args` come before its arguments.
 
-    `by_name`, the arguments are `((positional, ...), {"name": value})`.
+    With `by_name` the arguments have the form `((positional, ...), {"name": value})`.
     """
 
     partial_args: tuple[Any, ...]
@@ -270,11 +263,11 @@ class StaticGenerativeFunction(GenerativeFunction):
         return self.source(*self.partial_args, *positional, **named)
 
     def inline(self, *args: Any) -> Any:
-        """Run the body as if it were written where it is called: its sites become the caller's."""
+        """Run the body as if the caller contained it: its sites become the caller's sites."""
         return self.call(args)
 
     def partial_apply(self, *args: Any) -> "StaticGenerativeFunction":
-        """The function with its first arguments given; they are not among its traces' arguments."""
+        """Return the function with its first arguments fixed. Its traces' arguments leave them out."""
         return self.replace(partial_args=(*self.partial_args, *args))
 
     def handle_kwargs(self) -> "StaticGenerativeFunction":
@@ -284,7 +277,7 @@ class StaticGenerativeFunction(GenerativeFunction):
         return self if instance is None else self.partial_apply(instance)
 
     def __reduce__(self) -> Any:
-        # The module's name for the source is this object, so pickle finds the source through it.
+        # The source's name in its module now stands for this object, so pickle finds the source through this object.
         if "<" in self.source.__qualname__:
             return StaticGenerativeFunction, (self.partial_args, self.source, self.by_name)
         where = (self.source.__module__, self.source.__qualname__)
@@ -335,7 +328,7 @@ class StaticGenerativeFunction(GenerativeFunction):
 
 
 def _undo(request: EditRequest, backward: dict[StaticAddress, EditRequest]) -> EditRequest:
-    """One request from those of the sites: an Update where the request was one and all of them are."""
+    """Join the sites' backward requests: into an Update if the request and all of them are updates."""
     if isinstance(request, Update) and all(isinstance(b, Update | EmptyRequest) for b in backward.values()):
         parts = [b.constraint.extend(*path) for path, b in backward.items() if isinstance(b, Update)]
         return Update(functools.reduce(lambda a, b: a | b, parts, ChoiceMap.empty()))
@@ -349,10 +342,10 @@ def _unpickle(module: str, name: str, partial_args: Any, by_name: bool) -> Stati
 
 
 def gen(source: Callable[..., Any]) -> StaticGenerativeFunction:
-    """Make a generative function of a Python function.
+    """Return a Python function as a generative function.
 
-    In its body `g(*args) @ "address"` calls a generative function and records its choices under the
-    address; `@ ()` makes them the function's own. The i-th call uses `fold_in(key, i)`, i from 1.
+    In its body `g(*args) @ "address"` calls a generative function and records its choices under the address; `@ ()`
+    records them as the function's own choices. The i-th call uses `fold_in(key, i)`, i from 1.
 
     Raises, when it runs:
         AddressReuse: two calls have the same address.

@@ -1,8 +1,10 @@
-"""A choice between generative functions, made at run time."""
+"""Choices made at run time: between generative functions, and whether a generative function counts at all."""
 # ruff: noqa: D102 - the methods are those of the contract, documented with it.
 
+import operator
 from collections.abc import Callable, Sequence
 from contextlib import suppress
+from functools import reduce
 from typing import Any
 
 import jax
@@ -14,9 +16,8 @@ from bayesmap.gen.diff import Diff, NoChange
 from bayesmap.gen.dimap import contramap
 from bayesmap.gen.edits import Edited, EditRequest, EmptyRequest, Regenerate, Update
 from bayesmap.gen.errors import AddressError, BadArguments, NotSupportedEditRequest, UnknownAddress
-from bayesmap.gen.flags import is_concrete, optional_part, where
-from bayesmap.gen.fluent import method
-from bayesmap.gen.generative_function import GenerativeFunction, Trace, in_dtypes_of
+from bayesmap.gen.generative_function import GenerativeFunction, OuterTrace, Trace, in_dtypes_of, method
+from bayesmap.gen.masks import Mask, is_concrete, optional_part, where
 from bayesmap.gen.pytree import dataclass
 from bayesmap.gen.selection import Selection
 from bayesmap.gen.static import gen
@@ -24,8 +25,91 @@ from bayesmap.gen.typing import Arguments, PRNGKey, Score, Weight
 
 
 @dataclass
+class MaskTrace(OuterTrace):
+    """The inner trace, whose choices and score count where `flag` holds. It has arguments if this trace has them."""
+
+    gen_fn: Any
+    args: Any
+    inner: Trace
+    flag: Any
+
+    def get_retval(self) -> Mask:
+        return Mask.build(self.inner.get_retval(), self.flag)
+
+    def get_score(self) -> Score:
+        return jnp.where(self.flag, self.inner.get_score(), 0.0)
+
+    def get_choices(self) -> ChoiceMap:
+        return self.inner.get_choices().mask(self.flag)
+
+    def with_args(self, args: Arguments | None) -> "MaskTrace":
+        return self.replace(args=args, inner=self.inner.with_args(None if args is None else args[1:]))
+
+
+def _flag(args: Arguments) -> Any:
+    """Return the first argument: Python's True, or an array, with which the choices stay in the map, masked.
+
+    Raises:
+        BadArguments: the argument has a shape.
+    """
+    if jnp.ndim(args[0]) > 0:
+        raise BadArguments(f"mask: the flag is an array of shape {jnp.shape(args[0])}; map over it with .mask().vmap()")
+    return True if args[0] is True else jnp.asarray(args[0], bool)
+
+
+@dataclass
+class MaskCombinator(GenerativeFunction):
+    """See `mask`."""
+
+    inner: GenerativeFunction
+
+    def _trace(self, args: Arguments, inner: Trace) -> MaskTrace:
+        return MaskTrace(self, args, inner, _flag(args))
+
+    def simulate(self, key: PRNGKey, args: Arguments) -> MaskTrace:
+        _flag(args)
+        return self._trace(args, self.inner.simulate(key, args[1:]))
+
+    def generate(self, key: PRNGKey, constraint: ChoiceMap, args: Arguments) -> tuple[MaskTrace, Weight]:
+        inner, weight = self.inner.generate(key, constraint, args[1:])
+        return self._trace(args, inner), jnp.where(args[0], weight, 0.0)
+
+    def assess(self, choices: ChoiceMap, args: Arguments) -> tuple[Score, Mask]:
+        with optional_part():
+            score, retval = self.inner.assess(choices, args[1:])
+        return jnp.where(args[0], score, 0.0), Mask.build(retval, _flag(args))
+
+    def edit(self, key: PRNGKey, trace: Any, request: EditRequest, argdiffs: Any) -> Edited:
+        """Edit the inner trace even where the flag is False; its choices weigh as soon as the flag is True."""
+        if not isinstance(request, Update | EmptyRequest | Regenerate):
+            raise NotSupportedEditRequest(self, request)
+        args = Diff.tree_primal(argdiffs)
+        before, after = jnp.asarray(trace.flag), jnp.asarray(_flag(args))
+        inner, weight, retdiff, back = request.edit(key, trace.inner, argdiffs[1:])
+        new = self._trace(args, inner)
+        switched = jnp.where(after, inner.get_score(), 0.0) - jnp.where(before, trace.inner.get_score(), 0.0)
+        weight = jnp.where(before & after, weight, jnp.where(before == after, 0.0, switched))
+        retval = new.get_retval()
+        unchanged = argdiffs[0].tangent == NoChange and Diff.static_check_no_change(retdiff)
+        return new, weight, (Diff.no_change if unchanged else Diff.unknown_change)(retval), back
+
+    def project(self, key: PRNGKey, trace: Any, selection: Selection) -> Weight:
+        return jnp.where(trace.flag, self.inner.project(key, trace.inner, selection), 0.0)
+
+
+@method
+def mask(gen_fn: GenerativeFunction) -> MaskCombinator:
+    """Return a generative function with one more argument, a flag, in first place.
+
+    Where the flag is False the choices do not count: the score is 0, and choices and return value are Masks whose flag
+    is False.
+    """
+    return MaskCombinator(gen_fn.as_part())
+
+
+@dataclass
 class SwitchTrace(Trace):
-    """A trace per branch; only that of number `index` is filled in."""
+    """One trace for each branch; only the trace number `index` is filled in."""
 
     gen_fn: Any
     args: Any
@@ -35,14 +119,14 @@ class SwitchTrace(Trace):
     score: Score
 
     def get_idx(self) -> Any:
-        """The number of the branch that ran."""
+        """Return the number of the branch that ran."""
         return self.index
 
     def get_choices(self) -> ChoiceMap:
         return ChoiceMap.switch(self.index, [t.get_choices() for t in self.branches])
 
     def get_inner_trace(self, address: Any) -> Trace:
-        """The branch's that ran; where that is not known, the one of those that have the address."""
+        """Return the subtrace of the branch that ran; a traced index selects among the branches with the address."""
         all_args = [None] * len(self.branches) if self.args is None else self.args[1:]
         branches = [t.with_args(a) for t, a in zip(self.branches, all_args, strict=True)]
         if is_concrete(self.index) and jnp.ndim(self.index) == 0:
@@ -62,10 +146,11 @@ class SwitchTrace(Trace):
 
 
 def run_branch(index: Any, thunks: Sequence[Callable[[], tuple[Any, Any]]]) -> tuple[tuple[Any, ...], Any]:
-    """Run thunk number `index`; each returns (own, shared).
+    """Run thunk number `index`; each thunk returns (own result, shared result).
 
     Returns:
-        (the own results of all, zeros for those not run; the shared result, in the thunks' common dtypes and shapes).
+        (the own results of all thunks, zeros for those not run; the shared result, in the thunks' common dtypes and
+        shapes).
 
     Raises:
         ValueError: the shapes of the shared results do not go together.
@@ -92,10 +177,10 @@ class Switch(GenerativeFunction):
     branches: tuple[GenerativeFunction, ...]
 
     def _read(self, args: Any) -> tuple[Any, list[Any]]:
-        """(Index, arguments of each branch).
+        """Return (index, arguments of each branch).
 
         Raises:
-            BadArguments: the index is known and numbers no branch, or there are too many or too few arguments.
+            BadArguments: the index is known and numbers no branch, or the number of arguments is wrong.
         """
         index, *rest = args
         index, n = Diff.tree_primal(index), len(self.branches)
@@ -120,18 +205,13 @@ class Switch(GenerativeFunction):
         return SwitchTrace(self, args, index, traces, retval, score), weight
 
     def _parts(self, choices: ChoiceMap, args: Sequence[Any]) -> list[ChoiceMap]:
-        """What of `choices` each branch knows.
+        """Return the choices that each branch has.
 
         Raises:
-            UnknownAddress: no branch knows a choice.
+            UnknownAddress: no branch has a choice.
         """
-        known = []
-        for fn, a in zip(self.branches, args, strict=True):
-            shape = jax.eval_shape(lambda fn=fn, a=a: fn.simulate(jax.random.key(0), a).get_choices())
-            known.append(shape.get_selection())
-        everything = known[0]
-        for sel in known[1:]:
-            everything = everything | sel
+        known = [fn.choice_shapes(a).get_selection() for fn, a in zip(self.branches, args, strict=True)]
+        everything = reduce(operator.or_, known)
         for path in choices.filter(~everything).paths():
             raise UnknownAddress(path, "no branch has it")
         return [choices.filter(sel) for sel in known]
@@ -155,9 +235,9 @@ class Switch(GenerativeFunction):
             return run_branch(index, thunks)[1]  # type: ignore[no-any-return]
 
     def edit(self, key: PRNGKey, trace: Any, request: EditRequest, argdiffs: Any) -> Edited:
-        """A branch that was not active before is drawn afresh: its draws add no weight.
+        """Edit the branch that stays active, or draw a newly active branch anew; these draws add no weight.
 
-        The backward request gives the old branch its old choices; going back takes the old index too.
+        The backward request gives the old branch its old choices; the caller must restore the old index.
         """
         if not isinstance(request, Update | EmptyRequest | Regenerate):
             raise NotSupportedEditRequest(self, request)
@@ -194,11 +274,11 @@ class Switch(GenerativeFunction):
 
 @method
 def switch(*gen_fns: GenerativeFunction) -> Switch:
-    """Of several generative functions, run the one numbered by the first argument.
+    """Return a generative function that runs the one of `gen_fns` that its first argument numbers.
 
-    The further arguments are one tuple per function; the return values have shapes and dtypes that go together. Unless
-    the number is a Python int, choices are Masks. A number that is out of range raises where it is known, and counts as
-    the nearest branch's where it is traced.
+    The other arguments are one tuple for each function. The return values have common shapes and dtypes. Unless the
+    number is a Python int, the choices are Masks. A known number that is out of range raises an error; a traced one
+    counts as the nearest branch.
     """
     return Switch(tuple(fn.as_part() for fn in gen_fns))
 
@@ -209,15 +289,15 @@ def _branch_of(flag: Any, if_args: Any, else_args: Any) -> tuple[Any, ...]:
 
 @method
 def or_else(if_fn: GenerativeFunction, else_fn: GenerativeFunction) -> Any:
-    """`if_fn` where the first argument holds, else `else_fn`; then come the two tuples of arguments."""
+    """Return `if_fn` if the first argument is True, else `else_fn`; their two tuples of arguments follow."""
     return contramap(_branch_of)(switch(if_fn, else_fn))
 
 
 @method
 def mix(*gen_fns: GenerativeFunction) -> Any:
-    """A mixture: the first argument is the logits, then come the components' tuples of arguments.
+    """Return a mixture: its arguments are the logits, then one tuple of arguments for each component.
 
-    Choices: "mixture_component", and the component's under "component_sample".
+    Its choices are "mixture_component", and those of this component under "component_sample".
     """
     chosen = switch(*gen_fns)
 

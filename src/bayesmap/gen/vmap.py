@@ -1,9 +1,9 @@
-"""A generative function mapped over an axis of its arguments.
+"""Generative functions mapped over axes of their arguments.
 
-Independent draws from one distribution: again a distribution, over arrays.
-
-So `flip.repeat(n=21).repeat(n=21)` stores one (21, 21) array and one score, whatever the nesting.
+A mapped distribution is a distribution over arrays: `flip.repeat(n=21).repeat(n=21)` stores one (21, 21) array and one
+score.
 """
+# ruff: noqa: D102 - the methods are those of the contract, documented with it.
 
 from collections.abc import Callable
 from typing import Any
@@ -11,25 +11,21 @@ from typing import Any
 import jax
 import jax.numpy as jnp
 
-from bayesmap.gen.axes import Mapped, map_over, replace_term, total
+from bayesmap.gen.axes import Mapped, check_index, map_over, replace_term, total, vectorise
 from bayesmap.gen.choice_map import ChoiceMap, Indexed
-from bayesmap.gen.dense import check_index, vectorise
 from bayesmap.gen.diff import Change, Diff, IndexChange, NoChange, UnknownChange
 from bayesmap.gen.distribution import DistributionTrace, ExactDensity
 from bayesmap.gen.edits import Edited, EditRequest, EmptyRequest, IndexRequest, Regenerate, Update, VectorRequest
 from bayesmap.gen.errors import NotSupportedEditRequest
-from bayesmap.gen.fluent import decorator_method
-from bayesmap.gen.generative_function import GenerativeFunction, Trace
+from bayesmap.gen.generative_function import GenerativeFunction, OuterTrace, Trace, as_update, decorator_method
 from bayesmap.gen.pytree import dataclass, static
 from bayesmap.gen.selection import Selection
 from bayesmap.gen.typing import Arguments, InAxes, PRNGKey, Score, Weight
 
-# ruff: noqa: D102 - the methods are those of the contract, documented with it.
-
 
 @dataclass
 class Product(ExactDensity):
-    """`inner` drawn once per element of the mapped arguments, element i with the i-th of `split(key, n)`."""
+    """`inner` drawn once for each element of the mapped arguments, element i with `split(key, n)[i]`."""
 
     inner: ExactDensity
     in_axes: InAxes = static()
@@ -67,8 +63,7 @@ class Product(ExactDensity):
             case IndexRequest(i, inner):
                 return self._edit_element(key, trace, i, inner, argdiffs)
             case Update(Indexed(inner, i)) if jnp.ndim(i) == 0:
-                new, weight, retdiff, back = self._edit_element(key, trace, i, Update(inner), argdiffs)
-                return new, weight, retdiff, Update(back.request.constraint.extend(back.idx))  # type: ignore[attr-defined]
+                return as_update(self._edit_element(key, trace, i, Update(inner), argdiffs))
         return super().edit(key, trace, request, argdiffs)
 
     def _edit_element(self, key: PRNGKey, trace: Any, i: Any, request: EditRequest, argdiffs: Any) -> Edited:
@@ -92,8 +87,8 @@ class Product(ExactDensity):
 
 
 @dataclass
-class VmapTrace(Trace):
-    """The elements' traces, stacked and without their arguments: those are in `args`, shared ones once."""
+class VmapTrace(OuterTrace):
+    """The elements' traces, stacked and without their arguments. `args` holds an argument that they share once."""
 
     gen_fn: Any
     args: Any
@@ -102,12 +97,6 @@ class VmapTrace(Trace):
 
     def get_retval(self) -> Any:
         return self.inner.get_retval()
-
-    def get_choices(self) -> ChoiceMap:
-        return self.inner.get_choices()
-
-    def get_inner_trace(self, address: Any) -> Trace:
-        return self.inner.get_inner_trace(address)
 
 
 @dataclass
@@ -158,9 +147,7 @@ class Vmap(GenerativeFunction):
             case IndexRequest(i, inner):
                 return self._edit_element(key, trace, i, inner, argdiffs)
             case Update(Indexed(inner, i)) if jnp.ndim(i) == 0:
-                new, weight, retdiff, back = self._edit_element(key, trace, i, Update(inner), argdiffs)
-                undo = back.request.constraint.extend(back.idx)  # type: ignore[attr-defined]
-                return new, weight, retdiff, Update(undo)
+                return as_update(self._edit_element(key, trace, i, Update(inner), argdiffs))
             case Update(constraint) if constraint.static_is_empty():
                 return self._edit_all(key, trace, EmptyRequest(), argdiffs)
             case Update(constraint):
@@ -176,14 +163,16 @@ class Vmap(GenerativeFunction):
         args = Diff.tree_primal(argdiffs)
         mapped = self._map(args)
 
-        def one(tangent: Change, axis: int | None) -> Change:
-            return UnknownChange if axis is not None and isinstance(tangent, IndexChange) else tangent
+        def of_elements(tangent: Change) -> Change:
+            """Return the change of an element: an index of the whole says nothing about one element, nor vice versa."""
+            return UnknownChange if isinstance(tangent, IndexChange) else tangent
 
-        tangents = [one(t, a) for t, a in zip(Diff.tangents(argdiffs), mapped.axes, strict=True)]
+        pairs = zip(Diff.tangents(argdiffs), mapped.axes, strict=True)
+        tangents = [t if axis is None else of_elements(t) for t, axis in pairs]
 
         def element(key: PRNGKey, inner: Trace, request: EditRequest, args: Arguments) -> Any:
             new, weight, retdiff, back = request.edit(key, inner, Diff.zip(args, tangents))
-            blurred = [UnknownChange if isinstance(t, IndexChange) else t for t in Diff.tangents(retdiff)]
+            blurred = [of_elements(t) for t in Diff.tangents(retdiff)]
             return new.with_args(None), weight, Diff.zip(Diff.tree_primal(retdiff), blurred), back
 
         keys = jax.random.split(key, mapped.n)
@@ -207,50 +196,39 @@ class Vmap(GenerativeFunction):
         retval = inner.get_retval()
         moved = [_at(i, t) for t in Diff.tangents(retdiff)]
         score = replace_term(trace.score, element.get_score(), new.get_score(), lambda: total(inner.get_score()))
-        return (
-            VmapTrace(self, args, inner, score),
-            before + weight,
-            Diff.zip(retval, moved),
-            IndexRequest(i, back),
-        )
+        return VmapTrace(self, args, inner, score), before + weight, Diff.zip(retval, moved), IndexRequest(i, back)
 
 
 def _at(i: Any, tangent: Change) -> Change:
-    """What a change of element `i` is to the whole."""
+    """Return the change of the whole that a change of element `i` is."""
     if tangent == NoChange:
         return NoChange
     return IndexChange((i, *(tangent.index if isinstance(tangent, IndexChange) else ())))
 
 
+def _mapped(gen_fn: GenerativeFunction, in_axes: InAxes, n: int | None) -> Any:
+    kind: Any = Product if isinstance(gen_fn, ExactDensity) else Vmap
+    return kind(gen_fn.as_part(), in_axes, n)
+
+
 @decorator_method
 def vmap(*, in_axes: InAxes = 0) -> Callable[[GenerativeFunction], Any]:
-    """A decorator: map a generative function over axes of its arguments.
+    """Return a decorator that maps a generative function over axes of its arguments.
+
+    The i-th element uses the key `split(key, n)[i]`. Choices and return values have a leading axis, and the address of
+    a choice of element i begins with i.
 
     Args:
-        in_axes: as for `jax.vmap`, one entry per argument; None shares an argument among the elements.
-
-    Returns:
-        A function whose i-th element uses `split(key, n)[i]`; choices and return values have a leading axis,
-        and the address of a choice of element i begins with i.
+        in_axes: as for `jax.vmap`, one entry for each argument; None shares an argument among the elements.
 
     Raises, when it runs:
         ValueError, TypeError: what `jax.vmap` raises if the axes do not fit.
         ShapeMismatch: a constraint's leading axis is not n.
     """
-
-    def decorate(gen_fn: GenerativeFunction) -> Any:
-        kind: Any = Product if isinstance(gen_fn, ExactDensity) else Vmap
-        return kind(gen_fn.as_part(), tuple(in_axes) if isinstance(in_axes, list) else in_axes, None)
-
-    return decorate
+    return lambda gen_fn: _mapped(gen_fn, tuple(in_axes) if isinstance(in_axes, list) else in_axes, None)
 
 
 @decorator_method
 def repeat(*, n: int) -> Callable[[GenerativeFunction], Any]:
-    """A decorator: call a generative function `n` times with the same arguments; see `vmap`."""
-
-    def decorate(gen_fn: GenerativeFunction) -> Any:
-        kind: Any = Product if isinstance(gen_fn, ExactDensity) else Vmap
-        return kind(gen_fn.as_part(), None, n)
-
-    return decorate
+    """Return a decorator that calls a generative function `n` times with the same arguments; see `vmap`."""
+    return lambda gen_fn: _mapped(gen_fn, None, n)

@@ -1,47 +1,151 @@
-"""The sensor as a generative function of the walls, whose edits look at the beams through what changed.
+"""Sensors as generative functions of the walls: the base of all of them, and the sensor at known poses.
 
-A trace keeps, beside the readings, where each beam first hits. That is all: a cell c stands at position m of a beam
-with first hit f, and a change of c matters only if it becomes a wall before f (m < f), or was the first wall (m = f)
-and is removed, which moves the hit to the next wall behind it. No other beam, and no other cell, is looked at.
+A trace at known poses keeps the readings and the position of each beam's first hit. Let a cell stand at position m of a
+beam whose first hit is at position f. A change of the cell matters to this beam only if the cell becomes a wall before
+the hit (m < f), or if the cell was the hit and is removed (m = f); then the hit moves to the next wall behind it. An
+edit of a cell reads the beams through this cell alone.
 """
 # ruff: noqa: D102 - the methods are those of the contract, documented with it.
 
 from __future__ import annotations
 
-from functools import partial
+import dataclasses
+import hashlib
+from collections.abc import Sequence
+from functools import cached_property, partial
 from typing import Any
 
 import jax
 import jax.numpy as jnp
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from bayesmap.errors import BadInput
 from bayesmap.gen.choice_map import ChoiceMap
-from bayesmap.gen.diff import Diff, IndexChange
+from bayesmap.gen.diff import Change, Diff, IndexChange
 from bayesmap.gen.distribution import DistributionTrace
 from bayesmap.gen.edits import Edited, EditRequest, EmptyRequest, IndexRequest, Regenerate, Update
 from bayesmap.gen.generative_function import GenerativeFunction, Trace
 from bayesmap.gen.pytree import dataclass, static
 from bayesmap.gen.selection import Selection
 from bayesmap.gen.typing import Arguments, PRNGKey, Score, Weight
-from bayesmap.programs.beam_geometry import GROUP, LOOK, BeamGeometry
 from bayesmap.programs.reading_law import ReadingLaw
+from bayesmap.sensors.model import RangeLimits
+from bayesmap.space.grid import Grid
+from bayesmap.space.scans import Scans
+
+LOOK = 16
+"""The number of a beam's cells that are read at once."""
+GROUP = 8
+"""The number of a cell's beams that are read at once."""
 
 
-@dataclass
-class BeamTrace(Trace):
-    """Readings, and what is needed to change a cell under them.
+@dataclasses.dataclass(frozen=True, eq=False)
+class BeamGeometry:
+    """The cells that each of B beams crosses on a grid of N cells, and their distances.
 
-    The score is worked out when it is asked for, from the first hits: it is as exact after a million edits as after
-    one, and edits do not pay for it.
+    Position l of a beam is the l-th cell that it touches. `cells` lists cells by beam, to search along a beam; `beam`
+    and `position` list beams by cell, to find the beams through a cell. A geometry is compared by content and can be
+    hashed, so that it may be a static part of JAX's trees: models of equal geometry share one compilation, and a batch
+    of traces holds no copies of it.
 
     Attributes:
-        first_hit: (B,) unsigned, the position of each beam's first wall.
-        readings: metres, in the shape that the sensor gives them.
+        shape: (nx, ny) of the grid.
+        cells: (B, L + LOOK) int32, flat indices x * ny + y in the order of touch, then sentinels N. A sentinel counts
+            as a wall, so that every search along a beam ends.
+        distance_m: (B, L + LOOK) float32, the distance at which the beam hits each cell; inf at sentinels.
+        offsets: (N + 1,) int32; cell c has the entries offsets[c] : offsets[c + 1] of the two arrays below.
+        beam: (K + GROUP,) int32, the beams through the cells; the last GROUP entries are padding.
+        position: (K + GROUP,) int32, the position of the cell in that beam.
     """
 
-    gen_fn: Any
-    args: Any
-    first_hit: Any
+    shape: tuple[int, int]
+    cells: NDArray[np.int32]
+    distance_m: NDArray[np.float32]
+    offsets: NDArray[np.int32]
+    beam: NDArray[np.int32]
+    position: NDArray[np.int32]
+
+    @property
+    def n_beams(self) -> int:
+        """Return B."""
+        return len(self.cells)
+
+    @property
+    def n_cells(self) -> int:
+        """Return N."""
+        return self.shape[0] * self.shape[1]
+
+    @property
+    def longest(self) -> int:
+        """Return L + 1, the number of outcomes of the longest beam; its last position is a sentinel."""
+        return int(self.cells.shape[1]) - LOOK + 1
+
+    @cached_property
+    def position_dtype(self) -> np.dtype[np.unsignedinteger]:
+        """Return the smallest type that holds a position; a trace keeps one position for each beam."""
+        return np.min_scalar_type(self.longest)
+
+    @cached_property
+    def _digest(self) -> bytes:
+        digest = hashlib.sha256()
+        for f in dataclasses.fields(self):
+            array = np.asarray(getattr(self, f.name))
+            digest.update(repr((array.shape, array.dtype)).encode() + array.tobytes())
+        return digest.digest()
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, BeamGeometry) and self._digest == other._digest
+
+    def __hash__(self) -> int:
+        return hash(self._digest)
+
+    def __repr__(self) -> str:
+        return f"BeamGeometry({self.n_beams} beams on {self.shape[0]} x {self.shape[1]} cells)"
+
+
+def beam_geometry(
+    grid: Grid, poses: ArrayLike, angles_rad: NDArray[np.float64], limits: RangeLimits, hit_depth: float
+) -> BeamGeometry:
+    """Trace the beams of S poses, shape (S, 3), and A angles: beam s * A + a is beam a of pose s."""
+    from bayesmap.kernels.rays import trace_rays  # loads Warp
+
+    unread = np.zeros((len(np.atleast_2d(poses)), len(angles_rad)))
+    scans = Scans(poses, angles_rad, unread, limits.max_m, limits.min_m)  # type: ignore[arg-type]
+    rays = trace_rays(scans, grid)
+
+    beam = rays.beam_of_entry()
+    position = (np.arange(rays.n_incidences) - rays.offsets[beam]).astype(np.int32)
+    width = int(rays.lengths.max(initial=0)) + LOOK
+    cells = np.full((rays.n_beams, width), grid.n_cells, dtype=np.int32)
+    distance_m = np.full((rays.n_beams, width), np.inf, dtype=np.float32)
+    cells[beam, position] = rays.cells
+    distance_m[beam, position] = rays.distance_m(hit_depth)
+
+    by_cell = np.argsort(rays.cells, kind="stable")
+    offsets = np.zeros(grid.n_cells + 1, dtype=np.int32)
+    np.cumsum(np.bincount(rays.cells, minlength=grid.n_cells), out=offsets[1:])
+    padding = np.zeros(GROUP, dtype=np.int32)
+    return BeamGeometry(
+        shape=grid.shape,
+        cells=cells,
+        distance_m=distance_m,
+        offsets=offsets,
+        beam=np.concatenate([beam[by_cell], padding]),
+        position=np.concatenate([position[by_cell], padding]),
+    )
+
+
+# ruff: noqa: D102 - the methods are those of the contract, documented with it.
+
+
+class ReadingsTrace(Trace):
+    """Base of sensors' traces, whose only choice is the field `readings`.
+
+    The score is computed from the first hits when it is read. It does not drift, however many edits came before, and
+    edits do not pay for it.
+    """
+
     readings: Any
 
     def get_retval(self) -> Any:
@@ -50,57 +154,50 @@ class BeamTrace(Trace):
     def get_choices(self) -> ChoiceMap:
         return ChoiceMap.choice(self.readings)
 
-    def get_score(self) -> Score:
-        sensor: BeamSensor = self.gen_fn
-        readings = self.readings.reshape(self.first_hit.shape)
-        return sensor.law.logpdf(readings, sensor.distances_at(self.first_hit)).sum(axis=-1)  # type: ignore[no-any-return]
+    @property
+    def seen(self) -> Any:
+        """What the trace keeps of where its beams hit."""
+        raise NotImplementedError
 
 
-@dataclass
-class BeamSensor(GenerativeFunction):
-    """`sensor(walls)`: walls of shape (nx, ny), readings in metres of shape `readings_shape`, at the address ()."""
+class RangeSensor(GenerativeFunction):
+    """Base of sensors: readings in metres, at the address (), that follow `law` given the distances of the first walls.
 
-    geometry: BeamGeometry = static()
-    law: ReadingLaw = static()
-    readings_shape: tuple[int, ...] = static()
+    A sensor implements `look`, `law_args`, `trace` and `change`, and inherits the contract.
+    """
 
-    # From walls to distances ----------------------------------------------------------------------
+    law: ReadingLaw
 
-    def first_hits(self, walls: Any) -> Any:
-        """The position of each beam's first wall, (B,), all beams looked at."""
-        geometry = self.geometry
-        cells = geometry.cells[:, : geometry.longest]
-        known = jnp.append(self._checked(walls).reshape(-1) != 0, True)  # the sentinel is a wall
-        positions = jnp.arange(geometry.longest, dtype=geometry.position_dtype)
-        return jnp.where(known[cells], positions, positions[-1]).min(axis=1)
+    def look(self, args: Arguments) -> Any:
+        """Return where all beams hit, in the form that traces keep."""
+        raise NotImplementedError
 
-    def distances_at(self, first_hit: Any) -> Any:
-        """Metres to the first walls, inf where there is none, (..., B)."""
-        return jnp.asarray(self.geometry.distance_m)[jnp.arange(self.geometry.n_beams), first_hit]
+    def law_args(self, args: Arguments, seen: Any) -> Arguments:
+        """Return the law's arguments for what `look` returned."""
+        raise NotImplementedError
 
-    def _checked(self, walls: Any) -> Any:
-        if jnp.shape(walls) != self.geometry.shape:
-            raise BadInput(
-                f"sensor model: the argument walls has shape {jnp.shape(walls)}, expected {self.geometry.shape}"
-            )
-        return jnp.asarray(walls)
+    def trace(self, args: Arguments, seen: Any, readings: Any) -> Trace:
+        """Return the trace of a run."""
+        raise NotImplementedError
 
-    def _law_args(self, first_hit: Any) -> Arguments:
-        return (self.distances_at(first_hit).reshape(self.readings_shape),)
+    def change(self, trace: Any, args: Arguments, tangents: Sequence[Change]) -> tuple[Any, Weight] | None:
+        """Return where beams hit after a small change of arguments, and the change of the log-likelihood.
 
-    # The contract ---------------------------------------------------------------------------------
+        Returns None if the change is not a small one.
+        """
+        raise NotImplementedError
 
-    def simulate(self, key: PRNGKey, args: Arguments) -> BeamTrace:
-        first_hit = self.first_hits(*args)
-        return BeamTrace(self, args, first_hit, self.law.draw(key, self._law_args(first_hit)))
+    def simulate(self, key: PRNGKey, args: Arguments) -> Trace:
+        seen = self.look(args)
+        return self.trace(args, seen, self.law.draw(key, self.law_args(args, seen)))
 
     def assess(self, choices: ChoiceMap, args: Arguments) -> tuple[Score, Any]:
-        return self.law.assess(choices, self._law_args(self.first_hits(*args)))
+        return self.law.assess(choices, self.law_args(args, self.look(args)))
 
     def generate(self, key: PRNGKey, constraint: ChoiceMap, args: Arguments) -> tuple[Trace, Weight]:
-        first_hit = self.first_hits(*args)
-        inner, weight = self.law.generate(key, constraint, self._law_args(first_hit))
-        return BeamTrace(self, args, first_hit, inner.get_retval()), weight
+        seen = self.look(args)
+        inner, weight = self.law.generate(key, constraint, self.law_args(args, seen))
+        return self.trace(args, seen, inner.get_retval()), weight
 
     def project(self, key: PRNGKey, trace: Any, selection: Selection) -> Weight:
         score = trace.get_score()
@@ -113,32 +210,98 @@ class BeamSensor(GenerativeFunction):
         keeps = (isinstance(request, Update) and request.constraint.static_is_empty()) or (
             isinstance(request, Regenerate) and not request.selection.check()
         )
-        args, tangents = Diff.tree_primal(argdiffs), Diff.tangents(argdiffs)
-        if keeps and Diff.static_check_no_change(argdiffs):
+        args, unchanged = Diff.tree_primal(argdiffs), Diff.static_check_no_change(argdiffs)
+        if keeps and unchanged:
             return EmptyRequest().edit(key, trace, argdiffs)
-        match tangents:
-            case [IndexChange((i, j))] if keeps:
-                first_hit, weight = self._change_cells(trace.first_hit, trace.readings, args[0], i, j)
-                new = BeamTrace(self, args, first_hit, trace.readings)
-                return new, weight, Diff.no_change(new.readings), Update(ChoiceMap.empty())
-        first_hit = trace.first_hit if Diff.static_check_no_change(argdiffs) else self.first_hits(*args)
-        old = DistributionTrace(self.law, self._law_args(trace.first_hit), trace.readings, trace.get_score())
-        law_diffs = Diff.unknown_change(self._law_args(first_hit))
+        if keeps and (changed := self.change(trace, args, Diff.tangents(argdiffs))) is not None:
+            seen, weight = changed
+            new = self.trace(args, seen, trace.readings)
+            return new, weight, Diff.no_change(trace.readings), Update(ChoiceMap.empty())
+        seen = trace.seen if unchanged else self.look(args)
+        old = DistributionTrace(self.law, self.law_args(args, trace.seen), trace.readings, trace.get_score())
+        law_diffs = Diff.unknown_change(self.law_args(args, seen))
         inner, weight, retdiff, backward = self.law.edit(key, old, request, law_diffs)
-        return BeamTrace(self, args, first_hit, inner.get_retval()), weight, retdiff, backward
+        return self.trace(args, seen, inner.get_retval()), weight, retdiff, backward
+
+
+def checked_walls(walls: Any, shape: tuple[int, int]) -> Any:
+    """Return the walls as an array; raise BadInput unless they have the grid's shape."""
+    if jnp.shape(walls) != shape:
+        raise BadInput(f"sensor model: the argument walls has shape {jnp.shape(walls)}, expected {shape}")
+    return jnp.asarray(walls)
+
+
+@dataclass
+class BeamTrace(ReadingsTrace):
+    """Readings with the first hits of their beams.
+
+    Attributes:
+        first_hit: (B,) unsigned, the position of each beam's first wall.
+        readings: metres, in the sensor's `readings_shape`.
+    """
+
+    gen_fn: Any
+    args: Any
+    first_hit: Any
+    readings: Any
+
+    @property
+    def seen(self) -> Any:
+        return self.first_hit
+
+    def get_score(self) -> Score:
+        sensor: BeamSensor = self.gen_fn
+        readings = self.readings.reshape(self.first_hit.shape)
+        return sensor.law.logpdf(readings, sensor.distances_at(self.first_hit)).sum(axis=-1)  # type: ignore[no-any-return]
+
+
+@dataclass
+class BeamSensor(RangeSensor):
+    """`sensor(walls)`: walls of shape (nx, ny), readings in metres of shape `readings_shape`, at the address ()."""
+
+    geometry: BeamGeometry = static()
+    law: ReadingLaw = static()
+    readings_shape: tuple[int, ...] = static()
+
+    def first_hits(self, walls: Any) -> Any:
+        """Return the position of each beam's first wall, (B,), from all beams."""
+        geometry = self.geometry
+        cells = geometry.cells[:, : geometry.longest]
+        known = jnp.append(checked_walls(walls, geometry.shape).reshape(-1) != 0, True)  # the sentinel is a wall
+        positions = jnp.arange(geometry.longest, dtype=geometry.position_dtype)
+        return jnp.where(known[cells], positions, positions[-1]).min(axis=1)
+
+    def distances_at(self, first_hit: Any) -> Any:
+        """Return the distances in metres of the first walls, (..., B); inf where there is none."""
+        return jnp.asarray(self.geometry.distance_m)[jnp.arange(self.geometry.n_beams), first_hit]
+
+    def look(self, args: Arguments) -> Any:
+        return self.first_hits(*args)
+
+    def law_args(self, args: Arguments, seen: Any) -> Arguments:
+        return (self.distances_at(seen).reshape(self.readings_shape),)
+
+    def trace(self, args: Arguments, seen: Any, readings: Any) -> BeamTrace:
+        return BeamTrace(self, args, seen, readings)
+
+    def change(self, trace: Any, args: Arguments, tangents: Sequence[Change]) -> tuple[Any, Weight] | None:
+        match tangents:
+            case [IndexChange((i, j))]:
+                return self._change_cells(trace.first_hit, trace.readings, args[0], i, j)  # type: ignore[no-any-return]
+        return None
 
     # Some cells -----------------------------------------------------------------------------------
 
     @partial(jax.jit, inline=True)  # else every edit outside of `jit` would compile its loops again
     def _change_cells(self, first_hit: Any, readings: Any, walls: Any, i: Any, j: Any) -> tuple[Any, Weight]:
-        """First hits, and the change of the log-likelihood, now that the cells (i, j) are what `walls` says they are.
+        """Return the first hits, and the change of the log-likelihood, after the cells (i, j) changed to `walls`.
 
-        One cell after the other, each against the new map: a beam that loses its hit goes to the next wall of that
-        map, and a wall that appears before a hit takes it over, in whatever order.
+        Each cell is compared with the new map in turn. A beam that loses its hit goes to the next wall of the new map,
+        and a wall that appears before a hit replaces it, so that the order of the cells does not matter.
         """
-        # No operation here may touch the whole map: not to compare it, and not to flatten it either, for XLA would
-        # fuse that with the write that made the map, and write twice, into two copies.
-        walls, (nx, ny) = self._checked(walls), self.geometry.shape
+        # No operation here may touch the whole map, not even to flatten it: XLA would fuse the operation with the write
+        # that made the map, and would write twice, into two copies.
+        walls, (nx, ny) = checked_walls(walls, self.geometry.shape), self.geometry.shape
         i, j = jnp.asarray(i, jnp.int32), jnp.asarray(j, jnp.int32)
         cells = jnp.ravel(jnp.where(i < 0, i + nx, i) * ny + jnp.where(j < 0, j + ny, j))
         readings = readings.reshape(-1)
@@ -178,12 +341,12 @@ class BeamSensor(GenerativeFunction):
         return first_hit, weight
 
     def _wall_at(self, walls: Any, cell: Any) -> Any:
-        """Is there a wall in the cells with these flat indices?"""
+        """Return whether the cells with these flat indices are walls."""
         ny = self.geometry.shape[1]
         return walls[cell // ny, cell % ny] != 0
 
     def _next_walls(self, walls: Any, beam: Any, position: Any, uncovered: Any) -> Any:
-        """Where beams first hit behind `position`, for those that are uncovered; the others stay. All (GROUP,)."""
+        """Return the next walls behind `position` for uncovered beams, and `position` for the others; all (GROUP,)."""
         cells, n_cells = jnp.asarray(self.geometry.cells), self.geometry.n_cells
         ahead = jnp.arange(LOOK, dtype=jnp.int32)
 

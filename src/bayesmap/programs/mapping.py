@@ -29,8 +29,7 @@ from bayesmap.gen.generative_function import GenerativeFunction, Trace
 from bayesmap.gen.pytree import Pytree, dataclass, static
 from bayesmap.gen.static import StaticGenerativeFunction, gen
 from bayesmap.gen.typing import PRNGKey
-from bayesmap.programs.beam_geometry import beam_geometry
-from bayesmap.programs.beam_sensor import BeamSensor
+from bayesmap.programs.beam_sensor import BeamSensor, beam_geometry
 from bayesmap.programs.pose_sensor import PoseSensor
 from bayesmap.programs.reading_law import reading_law
 from bayesmap.sensors.model import RangeLimits, SensorModel

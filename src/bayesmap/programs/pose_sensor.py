@@ -1,18 +1,18 @@
-"""The sensor as a generative function of walls and poses: poses may be unknown too.
+"""The sensor as a generative function of walls and poses, for unknown poses; walks of beams through a grid on JAX.
 
-A trace keeps, beside readings and poses, the wall at which each beam ends. An edit of a pose visits the beams of that
-scan and no other. An edit of a wall asks of every beam whether it crosses that cell, which takes no walk; only beams
-that lose their wall walk on to the next.
+A trace keeps the readings, the poses and the wall at which each beam ends. An edit of a pose walks the beams of this
+scan alone. An edit of a wall checks for every beam whether it crosses the cell, which takes no walk; only beams that
+lose their wall walk on to the next wall.
 
-Walking beams through a grid on JAX, from any pose: which wall is the first, and how far away a cell is.
-
-Where poses are unknown the beams' cells cannot be listed beforehand (`bayesmap.programs.beam_geometry` does that where
-they are known), so each beam walks from cell to cell: Amanatides and Woo, "A fast voxel traversal algorithm for ray
-tracing" (1987). Lengths are in units of cells from the grid's lower left corner.
+The cells of beams from unknown poses cannot be listed in advance, as `bayesmap.programs.beam_sensor` does for known
+poses. Each beam walks from cell to cell: Amanatides and Woo, "A fast voxel traversal algorithm for ray tracing" (1987).
+Lengths are in units of cells from the grid's lower left corner.
 """
+# ruff: noqa: D102 - the methods are those of the contract, documented with it.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import partial
 from typing import Any, NamedTuple
 
@@ -20,26 +20,22 @@ import jax
 import jax.numpy as jnp
 
 from bayesmap.errors import BadInput
-from bayesmap.gen.choice_map import ChoiceMap
-from bayesmap.gen.diff import Diff, IndexChange, NoChange
-from bayesmap.gen.distribution import DistributionTrace
-from bayesmap.gen.edits import Edited, EditRequest, EmptyRequest, IndexRequest, Regenerate, Update
-from bayesmap.gen.generative_function import GenerativeFunction, Trace
+from bayesmap.gen.diff import Change, IndexChange, NoChange
 from bayesmap.gen.pytree import dataclass, static
-from bayesmap.gen.selection import Selection
-from bayesmap.gen.typing import Arguments, PRNGKey, Score, Weight
+from bayesmap.gen.typing import Arguments, Score, Weight
+from bayesmap.programs.beam_sensor import RangeSensor, ReadingsTrace, checked_walls
 from bayesmap.programs.reading_law import ReadingLaw
 from bayesmap.space.grid import Grid
 
 LEAST_COSINE = 1e-10
-"""Direction cosines below this count as this: the beam then never leaves its column, or its row."""
+"""The least absolute direction cosine. A beam with a smaller one gets this value, and stays in its row or column."""
 
 
 class Beams(NamedTuple):
-    """Some beams.
+    """Beams as rays.
 
     Attributes:
-        start: where they begin, (..., 2).
+        start: the first points, (..., 2).
         direction: unit vectors without zeros, (..., 2).
     """
 
@@ -48,30 +44,30 @@ class Beams(NamedTuple):
 
 
 def beams_of(start: Any, angle_rad: Any) -> Beams:
-    """Beams from `start` (..., 2) at `angle_rad` (...) in the world frame."""
+    """Return the beams from `start` (..., 2) at `angle_rad` (...) in the world frame."""
     direction = jnp.stack([jnp.cos(angle_rad), jnp.sin(angle_rad)], axis=-1)
     small = jnp.abs(direction) < LEAST_COSINE
     return Beams(jnp.broadcast_to(start, direction.shape), jnp.where(small, LEAST_COSINE, direction))
 
 
 def span(beams: Beams, low: Any, high: Any) -> tuple[Any, Any]:
-    """Where beams enter and leave the rectangle from `low` to `high`, (...): it is missed if they leave before.
+    """Return the distances at which beams enter and leave the rectangle from `low` to `high`, each (...).
 
-    A beam is in the rectangle where it is between its sides in x and in y (the slab method); behind the start
-    distances are negative.
+    This is the slab method: a beam is in the rectangle where it lies between the sides in x and in y. A beam that
+    leaves before it enters misses the rectangle. Distances behind the start are negative.
     """
     one, other = (low - beams.start) / beams.direction, (high - beams.start) / beams.direction
     return jnp.minimum(one, other).max(axis=-1), jnp.maximum(one, other).min(axis=-1)
 
 
 def cell_span(beams: Beams, cell: Any) -> tuple[Any, Any]:
-    """`span` of the cells with indices `cell`, (..., 2)."""
+    """Return `span` of the cells with indices `cell`, (..., 2)."""
     low = jnp.asarray(cell, beams.start.dtype)
     return span(beams, low, low + 1)
 
 
 def first_cells(beams: Beams, shape: tuple[int, int]) -> tuple[Any, Any]:
-    """The cells in which beams start, or by which they enter the grid, (..., 2), and whether they touch it at all."""
+    """Return each beam's first cell on the grid, (..., 2), and whether the beam touches the grid, (...)."""
     size = jnp.array(shape)
     enter, leave = span(beams, jnp.zeros_like(beams.start), size.astype(beams.start.dtype))
     at = beams.start + jnp.maximum(enter, 0)[..., None] * beams.direction
@@ -79,13 +75,13 @@ def first_cells(beams: Beams, shape: tuple[int, int]) -> tuple[Any, Any]:
 
 
 def first_walls(walls: Any, beams: Beams, cell: Any, active: Any) -> Any:
-    """The first wall at or behind a cell, for beams that are active.
+    """Return the first wall at or behind a cell of each active beam.
 
     Args:
         walls: (nx, ny), non-zero where there is a wall.
         beams: K beams.
-        cell: a cell of each, to begin with, (K, 2).
-        active: which beams are wanted, (K,).
+        cell: the cell of each beam where its walk begins, (K, 2).
+        active: mask of the beams that walk, (K,).
 
     Returns:
         Flat indices x * ny + y, (K,) int32; nx * ny for a beam that meets no wall or is not active.
@@ -111,23 +107,18 @@ def first_walls(walls: Any, beams: Beams, cell: Any, active: Any) -> Any:
     return jax.lax.while_loop(lambda state: state[3].any(), walk, (cell, border, none, active))[2]
 
 
-# ruff: noqa: D102 - the methods are those of the contract, documented with it.
-
-
 GROUP = 8
-"""How many beams that lost their wall walk on in one go."""
+"""The number of beams without their wall that walk on at once."""
 
 
 @dataclass
-class PoseTrace(Trace):
-    """Readings, poses, and the cells at which the beams end.
-
-    The score is worked out when it is asked for, so it does not drift however many edits came before.
+class PoseTrace(ReadingsTrace):
+    """Readings with the poses of the scans and the cells at which the beams end.
 
     Attributes:
-        poses: of the scans, (S, 3) float.
-        ends: (S, A) int32, flat index of each beam's first wall, or the number of cells if there is none.
-        readings: metres, in the shape that the sensor gives them.
+        poses: (S, 3) float.
+        ends: (S, A) int32, the flat index of each beam's first wall, or the number of cells if there is none.
+        readings: metres, (A,) or (S, A).
     """
 
     gen_fn: Any
@@ -136,11 +127,9 @@ class PoseTrace(Trace):
     ends: Any
     readings: Any
 
-    def get_retval(self) -> Any:
-        return self.readings
-
-    def get_choices(self) -> ChoiceMap:
-        return ChoiceMap.choice(self.readings)
+    @property
+    def seen(self) -> tuple[Any, Any]:
+        return self.poses, self.ends
 
     def get_score(self) -> Score:
         sensor: PoseSensor = self.gen_fn
@@ -149,13 +138,13 @@ class PoseTrace(Trace):
 
 
 @dataclass
-class PoseSensor(GenerativeFunction):
+class PoseSensor(RangeSensor):
     """`sensor(walls, poses)`: walls (nx, ny), poses (3,) or (S, 3); readings in metres, (A,) or (S, A), at address ().
 
     Attributes:
-        grid: where the cells are.
-        angles_rad: of the beams in the sensor frame, A of them.
-        law: of a reading given the distance of the first wall.
+        grid: the grid of the walls.
+        angles_rad: the A beam angles in the sensor frame.
+        law: the law of a reading given the distance of the first wall.
         hit_depth: where in a cell a beam stops, as a fraction of its chord.
     """
 
@@ -164,16 +153,14 @@ class PoseSensor(GenerativeFunction):
     law: ReadingLaw = static()
     hit_depth: float = static()
 
-    # From walls and poses to distances --------------------------------------------------------------
-
     def beams(self, poses: Any) -> Beams:
-        """The beams of poses (..., 3): (..., A) of them."""
+        """Return the beams of poses (..., 3), shape (..., A)."""
         poses = jnp.asarray(poses, jnp.result_type(float))
         start = (poses[..., :2] - jnp.array(self.grid.origin)) / self.grid.resolution
         return beams_of(start[..., None, :], poses[..., 2, None] + jnp.array(self.angles_rad))
 
     def ends(self, walls: Any, poses: Any) -> Any:
-        """The cells at which the beams of poses (S, 3) end, (S, A), all of them walked."""
+        """Return the cells at which the beams of poses (S, 3) end, (S, A), by a walk of all beams."""
         beams = self.beams(poses)
         flat = Beams(*(part.reshape(-1, 2) for part in beams))
         return first_walls(jnp.asarray(walls), flat, *first_cells(flat, self.grid.shape)).reshape(
@@ -181,82 +168,53 @@ class PoseSensor(GenerativeFunction):
         )
 
     def distances_m(self, poses: Any, ends: Any) -> Any:
-        """Metres to the cells `ends` (..., S, A), inf where there is none."""
+        """Return the distances in metres of the cells `ends` (..., S, A); inf where there is no cell."""
         ny = self.grid.shape[1]
         enter, leave = cell_span(self.beams(poses), jnp.stack([ends // ny, ends % ny], axis=-1))
-        # from inside a cell, its far side: so do all of this library's beams
+        # a beam that starts inside a cell ends at the far side, as everywhere in this library
         at = jnp.where(enter >= 0, enter + self.hit_depth * jnp.maximum(leave - enter, 0), leave)
         return jnp.where(ends < self.grid.n_cells, at * self.grid.resolution, jnp.inf)
 
     def _read(self, args: Arguments) -> tuple[Any, Any]:
-        """Walls and poses, the latter as (S, 3)."""
+        """Return the walls, and the poses as (S, 3)."""
         walls, poses = args
-        if jnp.shape(walls) != self.grid.shape:
-            raise BadInput(f"sensor model: the argument walls has shape {jnp.shape(walls)}, expected {self.grid.shape}")
+        walls = checked_walls(walls, self.grid.shape)
         if jnp.ndim(poses) not in (1, 2) or jnp.shape(poses)[-1] != 3:
             raise BadInput(f"sensor model: the argument poses has shape {jnp.shape(poses)}, expected (3,) or (S, 3)")
-        return jnp.asarray(walls), jnp.asarray(poses, jnp.result_type(float)).reshape(-1, 3)
+        return walls, jnp.asarray(poses, jnp.result_type(float)).reshape(-1, 3)
 
-    def _law_args(self, args: Arguments, poses: Any, ends: Any) -> Arguments:
-        return (self.distances_m(poses, ends).reshape((*jnp.shape(args[1])[:-1], -1)),)
-
-    # The contract ---------------------------------------------------------------------------------
-
-    def simulate(self, key: PRNGKey, args: Arguments) -> PoseTrace:
+    def look(self, args: Arguments) -> tuple[Any, Any]:
         walls, poses = self._read(args)
-        ends = self.ends(walls, poses)
-        return PoseTrace(self, args, poses, ends, self.law.draw(key, self._law_args(args, poses, ends)))
+        return poses, self.ends(walls, poses)
 
-    def assess(self, choices: ChoiceMap, args: Arguments) -> tuple[Score, Any]:
+    def law_args(self, args: Arguments, seen: tuple[Any, Any]) -> Arguments:
+        return (self.distances_m(*seen).reshape((*jnp.shape(args[1])[:-1], -1)),)
+
+    def trace(self, args: Arguments, seen: tuple[Any, Any], readings: Any) -> PoseTrace:
+        return PoseTrace(self, args, *seen, readings)
+
+    def change(self, trace: Any, args: Arguments, tangents: Sequence[Change]) -> tuple[Any, Weight] | None:
         walls, poses = self._read(args)
-        return self.law.assess(choices, self._law_args(args, poses, self.ends(walls, poses)))
-
-    def generate(self, key: PRNGKey, constraint: ChoiceMap, args: Arguments) -> tuple[Trace, Weight]:
-        walls, poses = self._read(args)
-        ends = self.ends(walls, poses)
-        inner, weight = self.law.generate(key, constraint, self._law_args(args, poses, ends))
-        return PoseTrace(self, args, poses, ends, inner.get_retval()), weight
-
-    def project(self, key: PRNGKey, trace: Any, selection: Selection) -> Weight:
-        score = trace.get_score()
-        return score if selection.check() else jnp.zeros_like(score)
-
-    def edit(self, key: PRNGKey, trace: Any, request: EditRequest, argdiffs: Any) -> Edited:
-        match request:
-            case IndexRequest(i, Update(constraint)):
-                request = Update(constraint.extend(i))
-        keeps = (isinstance(request, Update) and request.constraint.static_is_empty()) or (
-            isinstance(request, Regenerate) and not request.selection.check()
-        )
-        args, (of_walls, of_poses) = Diff.tree_primal(argdiffs), Diff.tangents(argdiffs)
-        if keeps and Diff.static_check_no_change(argdiffs):
-            return EmptyRequest().edit(key, trace, argdiffs)
-        walls, poses = self._read(args)
-        if keeps and (of_walls == NoChange or isinstance(of_walls, IndexChange)):
-            ends, readings = trace.ends, trace.readings.reshape(trace.ends.shape)
-            weight = jnp.zeros((), readings.dtype)
-            if isinstance(of_walls, IndexChange):
-                ends, weight = self._change_cells(trace.poses, ends, readings, walls, *of_walls.index)
-            if of_poses != NoChange:
-                ends, gain = self._move_scans(trace.poses, ends, readings, walls, poses)
-                weight += gain
-            new = PoseTrace(self, args, poses, ends, trace.readings)
-            return new, weight, Diff.no_change(new.readings), Update(ChoiceMap.empty())
-        ends = self.ends(walls, poses)
-        old_args = self._law_args(args, trace.poses, trace.ends)
-        old = DistributionTrace(self.law, old_args, trace.readings, trace.get_score())
-        law_diffs = Diff.unknown_change(self._law_args(args, poses, ends))
-        inner, weight, retdiff, backward = self.law.edit(key, old, request, law_diffs)
-        return PoseTrace(self, args, poses, ends, inner.get_retval()), weight, retdiff, backward
+        of_walls, of_poses = tangents
+        if of_walls != NoChange and not isinstance(of_walls, IndexChange):
+            return None
+        ends, readings = trace.ends, trace.readings.reshape(trace.ends.shape)
+        weight = jnp.zeros((), readings.dtype)
+        if isinstance(of_walls, IndexChange):
+            ends, weight = self._change_cells(trace.poses, ends, readings, walls, *of_walls.index)
+        if of_poses != NoChange:
+            ends, gain = self._move_scans(trace.poses, ends, readings, walls, poses)
+            weight += gain
+        return (poses, ends), weight
 
     # Some scans, some cells -------------------------------------------------------------------------
 
     @partial(jax.jit, inline=True)  # else every edit outside of `jit` would compile its loops again
     def _move_scans(self, before: Any, ends: Any, readings: Any, walls: Any, poses: Any) -> tuple[Any, Weight]:
-        """Ends, and the change of the log-likelihood, now that the poses `before` are `poses`.
+        """Return the ends, and the change of the log-likelihood, after the poses `before` changed to `poses`.
 
-        Which poses differ is found by comparing them, whatever edit changed them: a prior may move one pose alone, or
-        the state of a motion model and what follows from it.
+        A comparison finds the poses that differ, whatever edit changed them: a prior may move one pose alone, or the
+        state of a motion model with all poses that follow from it.
         """
 
         def move(state: tuple[Any, Any, Any]) -> tuple[Any, Any, Any]:
@@ -274,7 +232,7 @@ class PoseSensor(GenerativeFunction):
 
     @partial(jax.jit, inline=True)
     def _change_cells(self, poses: Any, ends: Any, readings: Any, walls: Any, i: Any, j: Any) -> tuple[Any, Weight]:
-        """Ends, and the change of the log-likelihood, now that the cells (i, j) are what `walls` says they are."""
+        """Return the ends, and the change of the log-likelihood, after the cells (i, j) changed to `walls`."""
         nx, ny = self.grid.shape
         beams = Beams(*(part.reshape(-1, 2) for part in self.beams(poses)))
         i, j = (jnp.ravel(jnp.asarray(k, jnp.int32)) for k in jnp.broadcast_arrays(i, j))
@@ -290,7 +248,7 @@ class PoseSensor(GenerativeFunction):
         return ends, gain.sum()
 
     def _change_cell(self, beams: Beams, ends: Any, walls: Any, cell: Any) -> Any:
-        """The ends (B,) of all beams against the new map, where they were right but for this cell."""
+        """Return the ends (B,) of all beams on the new map; `ends` are right except for the change of this cell."""
         ny, none = self.grid.shape[1], self.grid.n_cells
         here = cell[0] * ny + cell[1]
         is_wall = walls[cell[0], cell[1]] != 0
@@ -302,9 +260,9 @@ class PoseSensor(GenerativeFunction):
 
         def walk_on(state: tuple[Any, Any]) -> tuple[Any, Any]:
             ends, lost = state
-            some = jnp.nonzero(lost, size=GROUP, fill_value=len(ends))[0]
-            few = Beams(*(part.at[some].get(mode="clip") for part in beams))
-            found = first_walls(walls, few, jnp.broadcast_to(cell, (GROUP, 2)), some < len(ends))
-            return ends.at[some].set(found, mode="drop"), lost.at[some].set(False, mode="drop")
+            group = jnp.nonzero(lost, size=GROUP, fill_value=len(ends))[0]
+            group_beams = Beams(*(part.at[group].get(mode="clip") for part in beams))
+            next_ends = first_walls(walls, group_beams, jnp.broadcast_to(cell, (GROUP, 2)), group < len(ends))
+            return ends.at[group].set(next_ends, mode="drop"), lost.at[group].set(False, mode="drop")
 
         return jax.lax.while_loop(lambda state: state[1].any(), walk_on, (ends, ~is_wall & (ends == here)))[0]

@@ -1,4 +1,4 @@
-"""A generative function that shows only some of its choices."""
+"""Marginals: generative functions that show only some of their choices."""
 # ruff: noqa: D102 - the methods are those of the contract, documented with it.
 
 from collections.abc import Callable
@@ -12,9 +12,8 @@ from bayesmap.gen.choice_map import ChoiceMap
 from bayesmap.gen.diff import Diff
 from bayesmap.gen.edits import Edited, EditRequest, Regenerate, Update
 from bayesmap.gen.errors import BadArguments, NotSupportedEditRequest
-from bayesmap.gen.fluent import decorator_method
-from bayesmap.gen.generative_function import GenerativeFunction, Trace
-from bayesmap.gen.inference.target import Algorithm, SampleDistribution, Target
+from bayesmap.gen.generative_function import GenerativeFunction, Trace, decorator_method
+from bayesmap.gen.inference.smc import Algorithm, SampleDistribution, Target
 from bayesmap.gen.pytree import dataclass, nth, static
 from bayesmap.gen.selection import Selection
 from bayesmap.gen.typing import Arguments, PRNGKey, Score, Weight
@@ -22,7 +21,7 @@ from bayesmap.gen.typing import Arguments, PRNGKey, Score, Weight
 
 @dataclass
 class MarginalTrace(Trace):
-    """The choices that are shown, and an estimate of their marginal density."""
+    """The shown choices, and an estimate of their log marginal density."""
 
     gen_fn: Any
     args: Any
@@ -51,14 +50,14 @@ class Marginal(SampleDistribution):
         return self.generate(key, value, args)[1]
 
     def check_conditioning(self, constraint: ChoiceMap, args: Arguments) -> None:
-        """Refuse to leave shown choices open: importance sampling would need their density, not an estimate of it."""
-        shown = jax.eval_shape(lambda: self.gen_fn.simulate(jax.random.key(0), args).get_choices())
+        """Refuse to leave shown choices open: importance sampling needs their density, not an estimate of it."""
+        shown = self.gen_fn.choice_shapes(args)
         missing = [path for path in shown.filter(self.selection).paths() if not constraint.get_selection()[path]]
         if missing:
             raise BadArguments(f"Target: a marginal needs values for all of its choices; missing: {missing}")
 
     def _estimate(self, key: PRNGKey, shown: ChoiceMap, args: Arguments, n: int) -> tuple[Trace, Any]:
-        """`n` runs that agree with `shown`, and their weights."""
+        """Return `n` runs that agree with `shown`, and their weights."""
         return jax.vmap(lambda k: self.gen_fn.generate(k, shown, args))(jax.random.split(key, n))
 
     def simulate(self, key: PRNGKey, args: Arguments) -> MarginalTrace:
@@ -72,7 +71,7 @@ class Marginal(SampleDistribution):
                 estimate_key, target, hidden, trace.get_score()
             )
             return MarginalTrace(self, args, shown, trace.get_retval(), score)
-        # This run is one of the particles, or 1 / density would be biased: conditional importance sampling.
+        # Conditional importance sampling: this run is one of the particles, otherwise 1 / density would be biased.
         weights = trace.project(simulate_key, self.selection)[None]
         if self.particles > 1:
             _, others = self._estimate(estimate_key, shown, args, self.particles - 1)
@@ -97,8 +96,7 @@ class Marginal(SampleDistribution):
 
     def assess(self, choices: ChoiceMap, args: Arguments) -> tuple[Score, Any]:
         trace, score = self.generate(jax.random.key(0), choices, args)
-        hidden = jax.eval_shape(lambda: self.gen_fn.simulate(jax.random.key(0), args).get_choices())
-        if not hidden.filter(~self.selection).static_is_empty():
+        if not self.gen_fn.choice_shapes(args).filter(~self.selection).static_is_empty():
             raise NotImplementedError("this marginal density is an estimate that needs a key: use generate")
         return score, trace.get_retval()
 
@@ -128,10 +126,10 @@ class Marginal(SampleDistribution):
 def marginal(
     *, selection: Selection | None = None, algorithm: Algorithm | None = None, particles: int = 1
 ) -> Callable[[GenerativeFunction], Marginal]:
-    """A decorator: keep the selected choices, and sum the others out.
+    """Return a decorator that keeps the selected choices and sums the others out.
 
-    The score is exact where nothing is summed out; else it is estimated by importance sampling with
-    `particles` runs, or by an algorithm, so that `generate` gives unbiased weights.
+    The score is exact if nothing is summed out. Otherwise importance sampling with `particles` runs, or an algorithm,
+    estimates the score so that `generate` returns unbiased weights.
     """
     shown = Selection.all() if selection is None else selection
     return lambda gen_fn: Marginal(gen_fn.as_part(), shown, algorithm, particles)

@@ -1,4 +1,4 @@
-"""Markov chains of traces, and how well they mix."""
+"""Markov chains of traces, and diagnostics of how well they mix."""
 
 from collections.abc import Callable
 from typing import Any, NamedTuple
@@ -14,7 +14,7 @@ Kernel = Callable[[PRNGKey, Any], tuple[Any, BoolArray]]
 
 
 class Chain(NamedTuple):
-    """The last trace, what was collected at each step (leading axis: step), and whether each was accepted."""
+    """The last trace, the values collected at each step (leading axis: step), and whether each step was accepted."""
 
     last: Any
     draws: Any
@@ -22,10 +22,10 @@ class Chain(NamedTuple):
 
 
 def metropolis_hastings(request: EditRequest | Callable[[Trace], EditRequest]) -> Kernel:
-    """A kernel that makes an edit and keeps it with probability min(1, exp(weight)).
+    """Return a kernel that makes an edit and keeps it with probability min(1, exp(weight)).
 
     Args:
-        request: the edit, or a function of the trace that gives it.
+        request: the edit, or a function of the trace that returns the edit.
 
     Returns:
         (key, trace) -> (trace, accepted).
@@ -33,8 +33,8 @@ def metropolis_hastings(request: EditRequest | Callable[[Trace], EditRequest]) -
 
     def kernel(key: PRNGKey, trace: Trace) -> tuple[Trace, BoolArray]:
         edit_key, accept_key = jax.random.split(key)
-        wanted = request if isinstance(request, EditRequest) else request(trace)
-        new, weight, _, _ = trace.edit(edit_key, wanted)
+        change = request if isinstance(request, EditRequest) else request(trace)
+        new, weight, _, _ = trace.edit(edit_key, change)
         accepted = jnp.log(jax.random.uniform(accept_key)) < weight
         return jax.tree.map(lambda a, b: a if a is b else jnp.where(accepted, a, b), new, trace), accepted
 
@@ -48,9 +48,9 @@ def run_chain(
     n: int,
     collect: Callable[[Trace], Any] = lambda trace: trace.get_choices(),
 ) -> Chain:
-    """Apply a kernel `n` times, step t with `fold_in(key, t)`, collecting something of each trace.
+    """Apply a kernel `n` times, step t with the key `fold_in(key, t)`, and collect values of each trace.
 
-    A longer run begins with the shorter one. For several chains, `jax.vmap` this over keys and traces.
+    A longer run begins with the shorter one. For several chains use `jax.vmap` over keys and traces.
     """
 
     def step(trace: Any, t: Any) -> Any:
@@ -63,13 +63,13 @@ def run_chain(
 
 
 def split_rhat(draws: Array) -> Array:
-    """Split R-hat, Gelman et al., Bayesian Data Analysis 3, section 11.4; near 1 where chains agree.
+    """Return split R-hat, which is near 1 if chains agree: Gelman et al., Bayesian Data Analysis 3, section 11.4.
 
     Args:
         draws: (chains, draws, ...).
 
     Returns:
-        (...): NaN where nothing varies.
+        (...): NaN where the draws do not vary.
     """
     half = draws.shape[1] // 2
     halves = jnp.concatenate([draws[:, :half], draws[:, half : 2 * half]]).astype(jnp.result_type(float))
@@ -79,13 +79,13 @@ def split_rhat(draws: Array) -> Array:
 
 
 def effective_sample_size(draws: Array) -> Array:
-    """Bulk effective sample size by Geyer's initial positive sequence, BDA3 section 11.5.
+    """Return the bulk effective sample size by Geyer's initial positive sequence, BDA3 section 11.5.
 
     Args:
         draws: (chains, draws, ...).
 
     Returns:
-        (...): at most a little over chains * draws; NaN where nothing varies.
+        (...): at most a little over chains * draws; NaN where the draws do not vary.
     """
     m, n = draws.shape[:2]
     draws = draws.astype(jnp.result_type(float))

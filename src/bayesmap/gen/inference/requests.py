@@ -1,4 +1,4 @@
-"""Edit requests that propose: their weight is the log Metropolis-Hastings ratio of the move."""
+"""Edit requests that propose new values. Their weight is the log Metropolis-Hastings ratio of the move."""
 # ruff: noqa: D102 - the methods are those of the contract, documented with it.
 
 from collections.abc import Callable
@@ -22,8 +22,8 @@ from bayesmap.gen.typing import PRNGKey
 class Rejuvenate(EditRequest):
     """Propose new values from a generative function whose choices have the model's addresses.
 
-    `argument_mapping` makes its arguments of the current choices: of the old ones for the proposal,
-    of the new ones for the way back.
+    `argument_mapping` turns choices into the proposal's arguments: the old choices for the way there, the new choices
+    for the way back.
     """
 
     proposal: GenerativeFunction
@@ -40,10 +40,10 @@ class Rejuvenate(EditRequest):
 
 @dataclass
 class HMC(EditRequest):
-    """Hamiltonian Monte Carlo on the selected choices, all of them real: `L` leapfrog steps of size `eps`.
+    """Hamiltonian Monte Carlo on the selected choices, which are real: `L` leapfrog steps of size `eps`.
 
-    Follows Neal, MCMC using Hamiltonian dynamics (2011), equations 5.18 to 5.20. Accepting the edit with
-    probability exp(weight) leaves the posterior invariant for any step size.
+    The steps are equations 5.18 to 5.20 of Neal, MCMC using Hamiltonian dynamics (2011). To accept the edit with
+    probability min(1, exp(weight)) leaves the posterior invariant for any step size.
     """
 
     selection: Selection
@@ -68,7 +68,7 @@ class HMC(EditRequest):
             return jax.tree.map(lambda x, d: x + scale * d, tree, by)
 
         def leapfrog(_: Any, state: Any) -> Any:
-            """The second half of a kick and the first half of the next are one."""
+            """Join the second half of each momentum step with the first half of the next one."""
             position, momentum, _ = state
             position = drift(position, momentum, self.eps)
             gradient = jax.grad(log_density)(position)
@@ -83,7 +83,7 @@ class HMC(EditRequest):
 
 
 def _standard_normal(key: PRNGKey, like: Any) -> Any:
-    """Independent draws in the place of all numbers of a tree; one call, for each has a price."""
+    """Return a tree like `like` of independent standard normal draws, made by one call: each call has a cost."""
     flat, unflatten = ravel_pytree(like)
     return unflatten(jax.random.normal(key, flat.shape, flat.dtype))
 
@@ -93,12 +93,12 @@ def _kinetic(momentum: Any) -> Any:
 
 
 def mala(selection: Selection, eps: Any) -> HMC:
-    """Metropolis-adjusted Langevin: one leapfrog step, which drifts by eps^2 / 2 times the gradient."""
+    """Return the Metropolis-adjusted Langevin step: one leapfrog step, with the drift eps^2 / 2 times the gradient."""
     return HMC(selection, eps, 1)
 
 
 def SafeHMC(selection: Selection, eps: Any, L: int = 10) -> DiffAnnotate:
-    """`HMC` that refuses to change the return value.
+    """Return `HMC` that refuses to change the return value.
 
     Raises, when it runs:
         BadArguments: the return value depends on a selected choice.

@@ -1,4 +1,4 @@
-"""Weighted traces: importance sampling, resampling, algorithms made of them."""
+"""Weighted traces: targets of inference, importance sampling, sequential Monte Carlo, the particle filter."""
 
 from typing import Any
 
@@ -6,63 +6,123 @@ import jax
 import jax.numpy as jnp
 from jax.scipy.special import logsumexp
 
+from bayesmap.gen.axes import total, vectorise
 from bayesmap.gen.choice_map import ChoiceMap
 from bayesmap.gen.distribution import Distribution
 from bayesmap.gen.edits import EditRequest
+from bayesmap.gen.errors import BadArguments
 from bayesmap.gen.generative_function import GenerativeFunction, Trace
-from bayesmap.gen.inference.target import Algorithm, Target
 from bayesmap.gen.pytree import Pytree, dataclass, nth, static
+from bayesmap.gen.scan import ScanTrace, scan
 from bayesmap.gen.typing import Array, IntArray, PRNGKey, Score, Weight
+
+# ruff: noqa: D102 - the methods of algorithms are those of their base, documented with it.
+
+
+@dataclass
+class Target(Pytree):
+    """The posterior of `p(*args)` given the choices in `constraint`; `target["y"]` is the given value at "y".
+
+    Raises:
+        BadArguments: `p` is a marginal, and the constraint lacks some of its choices.
+    """
+
+    p: GenerativeFunction
+    args: tuple[Any, ...]
+    constraint: ChoiceMap
+
+    def __post_init__(self) -> None:
+        self.p.check_conditioning(self.constraint, self.args)
+
+    def __getitem__(self, address: Any) -> Any:
+        return self.constraint[address]
+
+    def importance(self, key: PRNGKey, choices: ChoiceMap) -> tuple[Trace, Weight]:
+        """Return a trace that agrees with the constraint and these choices, and its weight."""
+        return self.p.importance(key, self.constraint | choices, self.args)
+
+    def filter_to_unconstrained(self, choices: ChoiceMap) -> ChoiceMap:
+        """Return the choices that the constraint leaves open."""
+        return choices.filter(~self.constraint.get_selection())
+
+
+class SampleDistribution(Distribution):
+    """A distribution over choice maps, such as a marginal or the draws of an algorithm."""
+
+
+class Algorithm(SampleDistribution):
+    """Base of inference algorithms: distributions of a target's open choices, with estimated densities.
+
+    `random_weighted(key, target)` returns (log density estimate, choices), and `estimate_logpdf(key, choices, target)`
+    returns the estimate for given choices.
+    """
+
+    def estimate_normalizing_constant(self, key: PRNGKey, target: Target) -> Weight:
+        """Return the log of an unbiased estimate of the target's evidence."""
+        raise NotImplementedError
+
+    def estimate_reciprocal_normalizing_constant(
+        self, key: PRNGKey, target: Target, latent_choices: ChoiceMap, w: Score
+    ) -> Weight:
+        """Return an estimate of the log evidence; exp of its negative is an unbiased estimate of 1 / evidence.
+
+        Args:
+            key: random key.
+            target: the model with its given choices.
+            latent_choices: a draw from the target.
+            w: the log density of this draw and the given choices together.
+        """
+        raise NotImplementedError
 
 
 @dataclass
 class ParticleCollection(Pytree):
-    """k traces (leading axis) with log weights, properly weighted for the target."""
+    """k traces (leading axis) with log weights, properly weighted for a target."""
 
     particles: Trace
     log_weights: Array
 
     def get_particles(self) -> Trace:
-        """The traces."""
+        """Return the traces."""
         return self.particles
 
     def get_particle(self, idx: Any) -> Trace:
-        """The trace number `idx`."""
+        """Return the trace number `idx`."""
         return nth(self.particles, idx)  # type: ignore[no-any-return]
 
     def __getitem__(self, idx: Any) -> tuple[Trace, Array]:
-        """A trace, or several, with log weights."""
+        """Return one or several traces with their log weights."""
         return nth((self.particles, self.log_weights), idx)  # type: ignore[no-any-return]
 
     def get_log_weights(self) -> Array:
-        """The log weights, shape (k,)."""
+        """Return the log weights, shape (k,)."""
         return self.log_weights
 
     def get_log_marginal_likelihood_estimate(self) -> Array:
-        """Log of the mean weight: its exponential is an unbiased estimate of the evidence."""
+        """Return the log of the mean weight; its exponential is an unbiased estimate of the evidence."""
         return logsumexp(self.log_weights) - jnp.log(self.log_weights.shape[0])
 
     def effective_sample_size(self) -> Array:
-        """(sum w)^2 / sum w^2."""
+        """Return (sum w)^2 / sum w^2 for the weights w."""
         return jnp.exp(2 * logsumexp(self.log_weights) - logsumexp(2 * self.log_weights))
 
     def sample_particle(self, key: PRNGKey) -> Trace:
-        """One trace, with probability proportional to its weight."""
+        """Return one trace, drawn with probability proportional to its weight."""
         return self.get_particle(jax.random.categorical(key, self.log_weights))
 
     def resample(self, key: PRNGKey) -> "ParticleCollection":
-        """As many traces drawn by weight (systematic resampling), each with the mean weight."""
+        """Return k traces drawn by weight (systematic resampling), each with the mean weight."""
         chosen = systematic(key, self.log_weights)
         mean = jnp.full_like(self.log_weights, self.get_log_marginal_likelihood_estimate())
         return ParticleCollection(nth(self.particles, chosen), mean)
 
     def edit(self, key: PRNGKey, request: EditRequest, argdiffs: Any = None) -> "ParticleCollection":
-        """Edit every trace, and multiply its weight by the edit's: a step of sequential Monte Carlo.
+        """Edit every trace, and multiply its weight by the edit's weight: a step of sequential Monte Carlo.
 
         Args:
-            key: split over the particles.
-            request: the same for all.
-            argdiffs: new arguments, the same for all, as `Diff` leaves; None keeps them.
+            key: random key, split over the particles.
+            request: the edit, the same for all traces.
+            argdiffs: new arguments as `Diff` leaves, the same for all traces; None keeps the arguments.
         """
 
         def one(key: PRNGKey, trace: Trace) -> Any:
@@ -75,7 +135,7 @@ class ParticleCollection(Pytree):
 
 
 def systematic(key: PRNGKey, log_weights: Array) -> IntArray:
-    """K indices drawn with expected counts k w_i, from one uniform number."""
+    """Return k indices, drawn by one uniform number, with expected counts k w_i for the normalised weights w."""
     k = log_weights.shape[0]
     edges = jnp.cumsum(jax.nn.softmax(log_weights))
     points = (jnp.arange(k) + jax.random.uniform(key)) / k
@@ -83,14 +143,14 @@ def systematic(key: PRNGKey, log_weights: Array) -> IntArray:
 
 
 class SMCAlgorithm(Algorithm):
-    """Base of algorithms that end with weighted particles: implement the four methods that come first."""
+    """Base of algorithms that end with weighted particles: implement the first four methods."""
 
     def get_num_particles(self) -> int:
-        """How many particles."""
+        """Return the number of particles."""
         raise NotImplementedError
 
     def get_final_target(self) -> Target:
-        """What the particles are weighted for."""
+        """Return the target that the particles are weighted for."""
         raise NotImplementedError
 
     def run_smc(self, key: PRNGKey) -> ParticleCollection:
@@ -98,16 +158,15 @@ class SMCAlgorithm(Algorithm):
         raise NotImplementedError
 
     def run_csmc(self, key: PRNGKey, retained: ChoiceMap) -> ParticleCollection:
-        """Draw all particles but the last, whose open choices are `retained` (conditional SMC)."""
+        """Draw all particles except the last one, whose open choices are `retained` (conditional SMC)."""
         raise NotImplementedError
 
     def log_marginal_likelihood_estimate(self, key: PRNGKey, target: Target | None = None) -> Array:
-        """The log of an unbiased estimate of the evidence, of `target` if one is given."""
+        """Return the log of an unbiased estimate of the evidence, of `target` if given."""
         algorithm = self if target is None else ChangeTarget(self, target)
         return algorithm.run_smc(key).get_log_marginal_likelihood_estimate()
 
     def random_weighted(self, key: PRNGKey, *args: Any) -> tuple[Score, ChoiceMap]:
-        """(Log density estimate, open choices) of a particle drawn for the target `args[0]`."""
         run_key, sample_key = jax.random.split(key)
         (target,) = args
         particles = ChangeTarget(self, target).run_smc(run_key)
@@ -116,19 +175,16 @@ class SMCAlgorithm(Algorithm):
         return score, target.filter_to_unconstrained(particle.get_choices())
 
     def estimate_logpdf(self, key: PRNGKey, value: ChoiceMap, *args: Any) -> Score:
-        """The log density estimate of the open choices `value` for the target `args[0]`."""
         (target,) = args
         particles = ChangeTarget(self, target).run_csmc(key, value)
         return particles.get_particle(-1).get_score() - particles.get_log_marginal_likelihood_estimate()
 
     def estimate_normalizing_constant(self, key: PRNGKey, target: Target) -> Weight:
-        """The log of an unbiased estimate of the target's evidence."""
         return self.log_marginal_likelihood_estimate(key, target)
 
     def estimate_reciprocal_normalizing_constant(
         self, key: PRNGKey, target: Target, latent_choices: ChoiceMap, w: Score
     ) -> Weight:
-        """As in `Algorithm`, by conditional SMC."""
         return ChangeTarget(self, target).run_csmc(key, latent_choices).get_log_marginal_likelihood_estimate()
 
 
@@ -136,8 +192,8 @@ class SMCAlgorithm(Algorithm):
 class ImportanceK(SMCAlgorithm):
     """Importance sampling with `k_particles` traces.
 
-    Without a proposal the model draws what the target leaves open. A proposal `q` is a generative function of the
-    target whose choices are some of the model's, or a distribution over choice maps.
+    Without a proposal the model draws the open choices. A proposal `q` is a generative function of the target, whose
+    choices are some of the model's choices, or a distribution over choice maps.
     """
 
     target: Target
@@ -145,19 +201,15 @@ class ImportanceK(SMCAlgorithm):
     k_particles: int = static(default=2)
 
     def get_num_particles(self) -> int:
-        """How many particles."""
         return self.k_particles
 
     def get_final_target(self) -> Target:
-        """What the particles are weighted for."""
         return self.target
 
     def run_smc(self, key: PRNGKey) -> ParticleCollection:
-        """Draw the traces."""
         return ParticleCollection(*jax.vmap(self._one)(jax.random.split(key, self.k_particles)))
 
     def run_csmc(self, key: PRNGKey, retained: ChoiceMap) -> ParticleCollection:
-        """Draw all traces but the last."""
         *keys, last_key = jax.random.split(key, self.k_particles)
         last = jax.tree.map(lambda x: jnp.asarray(x)[None], self._retained(last_key, retained))
         if not keys:
@@ -172,7 +224,7 @@ class ImportanceK(SMCAlgorithm):
         return trace, weight - log_q
 
     def _propose(self, key: PRNGKey) -> tuple[ChoiceMap, Score]:
-        """(Choices of the proposal, their log density)."""
+        """Return (choices of the proposal, their log density)."""
         if self.q is None:
             return ChoiceMap.empty(), jnp.zeros(())
         if isinstance(self.q, Distribution):
@@ -182,7 +234,7 @@ class ImportanceK(SMCAlgorithm):
         return choices, score
 
     def _retained(self, key: PRNGKey, choices: ChoiceMap) -> tuple[Trace, Weight]:
-        """The trace with these open choices, weighted as if `_one` had drawn them."""
+        """Return the trace with these open choices, and the weight that `_one` gives it."""
         trace_key, score_key, project_key = jax.random.split(key, 3)
         trace, _ = self.target.importance(trace_key, choices)
         by_q = jax.eval_shape(lambda: self._propose(key)[0]).get_selection()
@@ -196,32 +248,28 @@ class ImportanceK(SMCAlgorithm):
 
 
 def Importance(target: Target, q: GenerativeFunction | None = None) -> ImportanceK:
-    """Importance sampling with one trace."""
+    """Return importance sampling with one trace."""
     return ImportanceK(target, q, 1)
 
 
 @dataclass
 class ChangeTarget(SMCAlgorithm):
-    """The particles of another algorithm, their open choices weighted for another target."""
+    """The particles of another algorithm, with their open choices weighted for another target."""
 
     prev: SMCAlgorithm
     target: Target
 
     def get_num_particles(self) -> int:
-        """How many particles."""
         return self.prev.get_num_particles()
 
     def get_final_target(self) -> Target:
-        """What the particles are weighted for."""
         return self.target
 
     def run_smc(self, key: PRNGKey) -> ParticleCollection:
-        """Draw the other algorithm's, and reweight."""
         run_key, key = jax.random.split(key)
         return self._reweighted(key, self.prev.run_smc(run_key))
 
     def run_csmc(self, key: PRNGKey, retained: ChoiceMap) -> ParticleCollection:
-        """Draw the other algorithm's, of which `retained` are one's, and reweight."""
         run_key, key = jax.random.split(key)
         return self._reweighted(key, self.prev.run_csmc(run_key, retained))
 
@@ -235,3 +283,112 @@ class ChangeTarget(SMCAlgorithm):
 
         keys = jax.random.split(key, self.get_num_particles())
         return ParticleCollection(*jax.vmap(one)(keys, old.particles, old.log_weights))
+
+
+def particle_filter(
+    key: PRNGKey,
+    kernel: GenerativeFunction,
+    args: tuple[Any, Any],
+    constraint: ChoiceMap,
+    k: int,
+    threshold: float = 0.5,
+    *,
+    n: int | None = None,
+    history: bool = False,
+) -> tuple[ParticleCollection, Array]:
+    """Run the bootstrap filter of Gordon, Salmond and Smith (1993) for the model `kernel.scan()`.
+
+    Args:
+        key: random key.
+        kernel: `(state, x) -> (state, y)`.
+        args: (first state, xs); xs is stacked along its leading axis, or None.
+        constraint: the given choices, at the addresses of `kernel.scan()`.
+        k: the number of particles.
+        threshold: resample if the effective sample size falls below this fraction of k.
+        n: the number of steps; needed if xs is None.
+        history: keep whole trajectories, the ancestors of each last particle (smoothing).
+
+    Returns:
+        (particles, log of an unbiased estimate of the evidence). The particles are traces of the last step; with
+        `history` they are traces of all steps, of `kernel.scan()` on `args`.
+
+    Raises:
+        BadArguments: neither xs nor n gives the number of steps.
+    """
+    state, xs = args
+    leaves = jax.tree.leaves(xs)
+    if n is None and not leaves:
+        raise BadArguments("particle_filter: with no inputs xs, say how many steps there are by n=")
+    n = leaves[0].shape[0] if n is None else n
+
+    def step(carry: Any, scanned: Any) -> Any:
+        states, log_weights, _ = carry
+        t, x, choices = scanned
+        resample_key, move_key = jax.random.split(jax.random.fold_in(key, t))
+        now = ParticleCollection(states, log_weights)
+
+        def resample() -> tuple[Any, Array, IntArray]:
+            chosen = systematic(resample_key, log_weights)
+            mean = jnp.full_like(log_weights, now.get_log_marginal_likelihood_estimate())
+            return nth(states, chosen), mean, chosen
+
+        low = now.effective_sample_size() < threshold * k
+        states, log_weights, parents = jax.lax.cond(low, resample, lambda: (states, log_weights, jnp.arange(k)))
+
+        def move(key: PRNGKey, state: Any) -> Any:
+            trace, weight = kernel.generate(key, choices, (state, x))
+            after, y = trace.get_retval()
+            return (trace if not history else trace.with_args(None)), weight, after, y
+
+        traces, weights, after, y = jax.vmap(move)(_streams(move_key, k), states)
+        kept = (traces, states, y, parents) if history else None
+        return (after, log_weights + weights, None if history else traces), kept
+
+    start = jax.tree.map(lambda s: jnp.broadcast_to(s, (k, *jnp.shape(s))), state)
+    inputs = (jnp.arange(n), xs, vectorise(constraint, n))
+    carry: Any = (start, jnp.zeros(k), None)
+    if not history:
+        shapes = jax.eval_shape(lambda: step(carry, nth(inputs, 0))[0][2])
+        carry = (*carry[:2], jax.tree.map(lambda s: jnp.zeros(s.shape, s.dtype), shapes))
+    (states, log_weights, last), kept = jax.lax.scan(step, carry, inputs, length=n)
+    particles: Any = _trajectories(kernel, args, n, states, *kept) if history else last
+    result = ParticleCollection(particles, log_weights)
+    return result, result.get_log_marginal_likelihood_estimate()
+
+
+def _streams(key: PRNGKey, k: int) -> PRNGKey:
+    """Return `k` keys of independent streams, like `jax.random.split`, but without a draw for each key.
+
+    Threefry's streams are independent for any two keys (Salmon et al., Parallel random numbers: as easy as 1, 2, 3,
+    2011), so that consecutive numbers may be keys.
+    """
+    if not jnp.issubdtype(key.dtype, jax.dtypes.prng_key) or "threefry" not in str(jax.random.key_impl(key)):
+        return jax.random.split(key, k)
+    first, second = jax.random.key_data(key)
+    words = jnp.stack([jnp.broadcast_to(first, (k,)), second + jnp.arange(k, dtype=second.dtype)], axis=1)
+    keys: PRNGKey = jax.random.wrap_key_data(words, impl="threefry2x32")
+    return keys
+
+
+def _trajectories(
+    kernel: GenerativeFunction, args: Any, n: int, last: Any, traces: Any, carries: Any, y: Any, parents: Any
+) -> ScanTrace:
+    """Return the traces of `kernel.scan(n=n)`, one for each particle, from the steps' traces (n, k, ...).
+
+    Particle j of step t + 1 comes from particle `parents[t + 1, j]` of step t.
+    """
+    k = parents.shape[1]
+
+    def back(index: IntArray, parents: IntArray) -> tuple[IntArray, IntArray]:
+        return parents[index], index
+
+    _, lineage = jax.lax.scan(back, jnp.arange(k), parents, reverse=True)
+    steps = jnp.arange(n)[:, None]
+
+    def ordered(x: Any) -> Any:
+        return jnp.swapaxes(x[steps, lineage], 0, 1)
+
+    inner, carries, y = jax.tree.map(ordered, (traces, carries, y))
+    model = scan(n=n)(kernel)
+    fn, args = jax.tree.map(lambda x: jnp.broadcast_to(x, (k, *jnp.shape(x))), (model, args))
+    return ScanTrace(fn, args, inner, carries, (last, y), jax.vmap(total)(inner.get_score()))

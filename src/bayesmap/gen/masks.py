@@ -1,0 +1,215 @@
+"""Flags and masks: a flag is a Python bool or a Boolean array, and a `Mask` is a value with a flag.
+
+A Python bool is known while a program is traced, and decides which addresses a choice map has. An array never decides
+this, even when its value is known: otherwise maps would have one structure inside `jax.jit` and another one outside.
+"""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
+from functools import reduce
+from typing import Any
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+from jax.experimental import checkify
+
+from bayesmap.gen.diff import Diff
+from bayesmap.gen.pytree import Pytree, dataclass
+from bayesmap.gen.typing import Flag
+
+
+def is_concrete(value: Any) -> bool:
+    """Return whether the value is known while Python runs, that is, no JAX tracer."""
+    return not isinstance(value, jax.core.Tracer)
+
+
+def is_known(flag: Any) -> bool:
+    """Return whether the flag is a Python bool."""
+    return isinstance(flag, bool | np.bool_)
+
+
+def both(f: Flag, g: Flag) -> Flag:
+    """Return f and g."""
+    return bool(f and g) if is_known(f) and is_known(g) else jnp.logical_and(f, g)
+
+
+def either(f: Flag, g: Flag) -> Flag:
+    """Return f or g."""
+    return bool(f or g) if is_known(f) and is_known(g) else jnp.logical_or(f, g)
+
+
+def exactly_one(f: Flag, g: Flag) -> Flag:
+    """Return f or g, but not both."""
+    return bool(f) != bool(g) if is_known(f) and is_known(g) else jnp.logical_xor(f, g)
+
+
+def negation(f: Flag) -> Flag:
+    """Return not f."""
+    return not f if is_known(f) else jnp.logical_not(f)
+
+
+def same_index(a: Any, b: Any) -> Flag:
+    """Return whether two indices are equal: a Python bool if both are Python ints."""
+    return a == b if isinstance(a, int) and isinstance(b, int) else jnp.asarray(a) == jnp.asarray(b)
+
+
+def where(flag: Any, yes: Any, no: Any) -> Any:
+    """Return `jnp.where` of each pair of leaves; the flag's shape is a prefix of every leaf's shape."""
+
+    def pick(a: Any, b: Any) -> Any:
+        missing = max(jnp.ndim(a), jnp.ndim(b)) - jnp.ndim(flag)
+        return jnp.where(jnp.reshape(flag, jnp.shape(flag) + (1,) * missing), a, b)
+
+    return jax.tree.map(pick, yes, no)
+
+
+_checking: ContextVar[bool] = ContextVar("checking", default=False)
+_optional: ContextVar[bool] = ContextVar("optional", default=False)
+
+
+@contextmanager
+def do_checkify() -> Iterator[None]:
+    """Let the code inside check that it uses no value whose flag is False.
+
+    Compiled code reports through `jax.experimental.checkify.checkify`; other code raises at once.
+    """
+    token = _checking.set(True)
+    try:
+        yield
+    finally:
+        _checking.reset(token)
+
+
+def check(condition: Any, message: str) -> None:
+    """Inside `do_checkify`, report an error if some element of `condition` is False."""
+    if _checking.get():
+        checkify.check(jnp.all(condition), message)
+
+
+@contextmanager
+def optional_part() -> Iterator[None]:
+    """Let choices be absent in the code inside, which scores a part of a model that a flag may switch off."""
+    token = _optional.set(True)
+    try:
+        yield
+    finally:
+        _optional.reset(token)
+
+
+def in_optional_part() -> bool:
+    """Return whether this code runs inside `optional_part`."""
+    return _optional.get()
+
+
+@dataclass
+class Mask(Pytree):
+    """Hold `value` where `flag` is True, and nothing elsewhere. The flag's shape is a prefix of every leaf's shape."""
+
+    value: Any
+    flag: Flag = True
+
+    def __post_init__(self) -> None:
+        if isinstance(self.value, Mask):
+            raise TypeError("A Mask cannot hold a Mask; use Mask.build to combine their flags")
+        prefix = jnp.shape(self.primal_flag())
+        for leaf in jax.tree.leaves(self.value):
+            if jnp.shape(leaf)[: len(prefix)] != prefix:
+                problem = f"A flag's shape {prefix} must be a prefix of all leaf shapes. Found {jnp.shape(leaf)}."
+                raise ValueError(problem)
+
+    @staticmethod
+    def build(value: Any, flag: Flag = True) -> "Mask":
+        """Return a value, or the value of a Mask, with a flag. For a Mask both flags must hold.
+
+        Raises:
+            ValueError: the new flag's shape is not a prefix of the old one's.
+        """
+        if not isinstance(value, Mask):
+            return Mask(value, flag)
+        old, new = jnp.shape(value.flag), jnp.shape(flag)
+        if old[: len(new)] != new:
+            raise ValueError(f"Can't build a Mask with non-matching Flag shapes {new} and {old}")
+        if new:
+            flag = jnp.reshape(flag, new + (1,) * (len(old) - len(new)))
+        return Mask(value.value, both(flag, value.flag))
+
+    @staticmethod
+    def maybe_mask(value: Any, flag: Flag) -> Any:
+        """Return `Mask.build(value, flag).flatten()`."""
+        return Mask.build(value, flag).flatten()
+
+    def flatten(self) -> Any:
+        """Return the value if the flag is Python's True, None if it is Python's False, and this Mask otherwise."""
+        flag = self.primal_flag()
+        if is_known(flag):
+            return self.value if flag else None
+        return self
+
+    def primal_flag(self) -> Flag:
+        """Return the flag without its `Diff`."""
+        return self.flag.primal if isinstance(self.flag, Diff) else self.flag
+
+    def unmask(self, default: Any = None) -> Any:
+        """Return the value. Where the flag is False return `default`, or without one whatever is stored there.
+
+        Inside `do_checkify` a flag that is False is an error if there is no default.
+        """
+        if default is not None:
+            return where(self.primal_flag(), self.value, default)
+        check(self.primal_flag(), "unmask: a flag is False, so the value is invalid; give a default")
+        return self.value
+
+    def __getitem__(self, index: Any) -> "Mask":
+        path, flag = index if isinstance(index, tuple) else (index,), self.primal_flag()
+        if jnp.ndim(flag) > 0:
+            flag = jnp.asarray(flag)[path[: jnp.ndim(flag)]]
+        return Mask(jax.tree.map(lambda leaf: leaf[path], self.value), flag)
+
+    def __or__(self, other: "Mask") -> "Mask":
+        """Return this value where it is present, and the other value elsewhere."""
+        _check_same_shapes(self, other)
+        mine, theirs = self.primal_flag(), other.primal_flag()
+        if is_known(mine):
+            return self if mine else other
+        return Mask(where(mine, self.value, other.value), either(mine, theirs))
+
+    def __xor__(self, other: "Mask") -> "Mask":
+        """Return the value that is present, and nothing where both are."""
+        _check_same_shapes(self, other)
+        mine, theirs = self.primal_flag(), other.primal_flag()
+        if is_known(mine) and is_known(theirs):
+            return Mask.build(self if mine else other, mine != theirs)
+        return Mask(where(mine, self.value, other.value), exactly_one(mine, theirs))
+
+    def __invert__(self) -> "Mask":
+        """Return the value with the opposite flag."""
+        return Mask(self.value, negation(self.primal_flag()))
+
+    @staticmethod
+    def or_n(first: "Mask", *others: "Mask") -> "Mask":
+        """Return `first | other | ...`."""
+        return reduce(lambda a, b: a | b, others, first)
+
+    @staticmethod
+    def xor_n(first: "Mask", *others: "Mask") -> "Mask":
+        """Return `first ^ other ^ ...`."""
+        return reduce(lambda a, b: a ^ b, others, first)
+
+
+def _check_same_shapes(a: Mask, b: Mask) -> None:
+    if bool(jax.tree.structure(a.value) != jax.tree.structure(b.value)):  # type: ignore[operator]
+        raise ValueError("Cannot combine masks with different tree structures")
+    for x, y in zip(jax.tree.leaves((a.value, a.flag)), jax.tree.leaves((b.value, b.flag)), strict=True):
+        if jnp.shape(x) != jnp.shape(y):
+            raise ValueError(f"Cannot combine masks with different array shapes: {jnp.shape(x)} vs {jnp.shape(y)}")
+
+
+def overlay(first: Mask, second: Mask) -> Mask:
+    """Return `first | second` for flags of different rank: the shorter flag holds along all axes that it lacks."""
+    ndim = max(jnp.ndim(first.flag), jnp.ndim(second.flag))
+    flags = [jnp.reshape(m.flag, jnp.shape(m.flag) + (1,) * (ndim - jnp.ndim(m.flag))) for m in (first, second)]
+    shape = jnp.broadcast_shapes(*map(jnp.shape, flags))
+    a, b = (Mask(m.value, jnp.broadcast_to(f, shape)) for m, f in zip((first, second), flags, strict=True))
+    return a | b
