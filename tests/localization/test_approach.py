@@ -5,10 +5,11 @@ import pytest
 import scipy
 from rooms import ANGLES, known, scan_from, walls_of
 
-from bayesmap.localization.filter import Prior, approached
+from bayesmap.localization.filter import Prior, Scan, approached
 from bayesmap.localization.localize import Near
 from bayesmap.localization.particles import DOF, PoseMixture, draw_population, shared_out, student_draws
 from bayesmap.localization.search import SURFACE_FLOOR, TOP, endpoint_field, likelihood_field, worth_of_unknown
+from bayesmap.sensors.model import RangeLimits
 
 NOWHERE = (np.zeros((40, 30), dtype=bool), 0.0)
 
@@ -91,14 +92,9 @@ def test_a_wide_prior_is_narrowed_about_the_pose():
     here = known(walls, grid, scans, beam_weight=0.3)
     guess = Near(truth + np.array([0.2, -0.15, 0.1]), 0.25, 0.15)
     prior = Prior(guess.components(), 0.0)
-    found = approached(
-        guess.components(),
-        lambda poses: prior.log_density(poses, here),
-        here,
-        ANGLES,
-        scans.ranges_m[0],
-        np.random.default_rng(0),
-    )
+    scan = Scan(ANGLES, scans.ranges_m[0], RangeLimits(0.0, 10.0))
+    rng = np.random.default_rng(0)
+    found = approached(guess.components(), lambda poses: prior.log_density(poses, here), here, scan, rng)
     assert len(found.means) == 1
     np.testing.assert_array_less(np.abs(found.means[0] - truth), [0.05, 0.05, 0.03])
     assert (np.sqrt(np.diag(found.covariances[0])) < [0.1, 0.1, 0.06]).all()
@@ -108,6 +104,5 @@ def test_a_scan_with_few_hits_leaves_places_as_they_are():
     walls, grid = walls_of(4.0, 3.0)
     scans = scan_from(walls, grid, np.array([1.5, 1.2, 0.4]))
     places = Near([1.0, 1.0, 0.0]).components()
-    blind = np.full(len(ANGLES), np.inf)
-    here = known(walls, grid, scans)
-    assert approached(places, np.zeros_like, here, ANGLES, blind, np.random.default_rng(0)) is places
+    blind = Scan(ANGLES, np.full(len(ANGLES), np.inf), RangeLimits(0.0, 10.0))
+    assert approached(places, np.zeros_like, known(walls, grid, scans), blind, np.random.default_rng(0)) is places

@@ -35,7 +35,7 @@ def uneven_recording(laps=1.6):
 def followed(scans):
     geometry = scan_geometry(scans, farthest_m=30.0, threads=1)
     motions, impossible = stated_motions(scans.poses, scans.stamps_s)
-    return geometry, follow(geometry, motions, scans.stamps_s, impossible, threads=1)
+    return geometry, follow(geometry, motions, scans.stamps_s, impossible)
 
 
 def worst_m(poses, truth):
@@ -163,7 +163,7 @@ def test_parts_are_joined_from_any_heading_and_from_afar():
     poses = track.poses[keys].copy()
     poses[broken_at:] = compose(np.array([9.0, -14.0, 2.5]), poses[broken_at:])
     path = key_path(geometry, keys, poses, np.arange(len(keys)) == broken_at)
-    found, joined = rejoin(path, 8.0, threads=1)
+    found, joined = rejoin(path, 8.0)
     assert joined.all()
     assert worst_m(found, track.poses[keys]) < 0.1
 
@@ -177,7 +177,7 @@ def test_parts_that_too_few_places_join_stay_where_they_are():
     broken_at = len(keys) - AGREE + 1
     poses[broken_at:] = compose(np.array([9.0, -14.0, 1.0]), poses[broken_at:])
     path = key_path(geometry, keys, poses, np.arange(len(keys)) == broken_at)
-    found, joined = rejoin(path, 8.0, threads=1)
+    found, joined = rejoin(path, 8.0)
     np.testing.assert_array_equal(joined, [True, False])
     np.testing.assert_allclose(found, poses, atol=1e-12)
 

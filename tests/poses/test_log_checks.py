@@ -5,7 +5,7 @@ import pytest
 from simulated import path_around, ring, scans_of
 
 import bayesmap as bm
-from bayesmap.poses.log_checks import Stretch, check_scans, doubts, frozen_stretches
+from bayesmap.poses.log_checks import check_scans, doubts, frozen_stretches
 from bayesmap.poses.slam import infer_trajectory
 
 
@@ -31,7 +31,7 @@ def test_where_odometry_was_frozen_is_named(path):
     stated = path.copy()
     stated[30:61] = stated[30]
     frozen = scans(path, stated)
-    assert frozen_stretches(frozen) == [Stretch(30, 60)]
+    assert frozen_stretches(frozen) == [(30, 60)]
     (doubt,) = doubts(frozen, no_odometry=False)
     assert "stands still from scan 30 to 60 (from 6.000 to 12.000 s)" in doubt
     assert "--no-odometry" in doubt
@@ -42,7 +42,7 @@ def test_beams_without_return_are_left_out(path):
     blind = scans(path, np.zeros_like(path))
     blind.ranges_m[:, ::9] = np.inf
     blind.ranges_m[:, 4::9] = np.nan
-    assert frozen_stretches(blind) == [Stretch(0, len(path) - 1)]
+    assert frozen_stretches(blind) == [(0, len(path) - 1)]
     blind.ranges_m[:, 5:] = np.inf
     assert frozen_stretches(blind) == []
 

@@ -1,5 +1,6 @@
 """Scans between key scans: where they are placed, and how sure that is."""
 
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -32,7 +33,7 @@ def placed(noise_m):
     pairs = overlapping_pairs(key_geometry, truth[keys], 3.0)
     aligned = align(key_geometry, truth[keys], NONE, pairs, rounds=8, reach_m=(0.15, 0.08), scale_m=(0.06, 0.03))
     error = point_error(key_geometry, aligned)
-    return truth, keys, place_scans(geometry, truth, keys, truth[keys], pairs, aligned.sigma_m, error)
+    return truth, keys, place_scans(geometry, truth, keys, replace(aligned, poses=truth[keys]), error)
 
 
 @pytest.mark.parametrize("noise_m", full_but([0.01, 0.03], 0.01))

@@ -134,7 +134,7 @@ def test_a_scan_that_its_new_place_explains_worse_is_put_back(monkeypatch):
     monkeypatch.setattr(key_alignment, "rematch", lambda *args, **kwargs: next(answers))
     aligned = lambda self, stage, at, *rest, **more: SimpleNamespace(poses=at, pairs=None)  # noqa: E731
     monkeypatch.setattr(KeyAlignment, "align", aligned)
-    alignment = KeyAlignment(None, None, 1.0, lambda track, stage, rounds: lambda done, at: None, 1)
+    alignment = KeyAlignment(None, None, 1.0, lambda track, stage, rounds: lambda done, at: None)
     matched = alignment.improved(SimpleNamespace(poses=poses, pairs=None), None)
     np.testing.assert_array_equal(matched.alignment.poses[:, 0], [0.0, 1.0, 0.0, 0.0])
     np.testing.assert_array_equal(matched.scores, [0.5, 0.8, 0.5, 0.5])

@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 from functools import cache
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -11,7 +12,7 @@ from bayesmap.poses.front_end import AGAIN_BELOW, _Path, follow, grid_half_width
 from bayesmap.poses.key_graph import chain_of, unconfirmed_links
 from bayesmap.poses.matcher import likelihood_grids
 from bayesmap.poses.next_scans import Window, place_anywhere
-from bayesmap.poses.odometry_factors import composed, corrected_factors
+from bayesmap.poses.odometry_factors import StatedOdometry, composed
 from bayesmap.poses.scan_geometry import scan_geometry
 from bayesmap.space.planar import between, compose
 
@@ -23,7 +24,7 @@ def followed():
     """Return a third of a round: geometry, track, odometry's motions and the true poses."""
     scans, truth = recording(0.35)
     geometry, motions = scan_geometry(scans, threads=1), between(scans.poses[:-1], scans.poses[1:])
-    return geometry, follow(geometry, motions, scans.stamps_s, threads=1), motions, truth
+    return geometry, follow(geometry, motions, scans.stamps_s), motions, truth
 
 
 def turned_from(poses, key, motion):
@@ -42,9 +43,9 @@ def steps():
 
 def test_a_step_that_neither_odometry_nor_scans_confirm_is_named(steps):
     geometry, track, odometry, poses = steps
-    assert not unconfirmed_links(geometry, track, odometry, poses, 1).any()
+    assert not unconfirmed_links(geometry, track, odometry, poses).any()
     wrong = turned_from(poses, 6, np.array([1.5, 0.5, np.pi / 2]))
-    np.testing.assert_array_equal(np.nonzero(unconfirmed_links(geometry, track, odometry, wrong, 1))[0], [5])
+    np.testing.assert_array_equal(np.nonzero(unconfirmed_links(geometry, track, odometry, wrong))[0], [5])
 
 
 def test_a_step_that_the_scans_confirm_is_a_slip_of_the_wheels(steps):
@@ -53,7 +54,7 @@ def test_a_step_that_the_scans_confirm_is_a_slip_of_the_wheels(steps):
     relative[5] = [1.5, 0.5, np.pi / 2]
     slipped = replace(odometry, relative=relative)
     assert slipped.squares(poses)[5] > 100.0
-    assert not unconfirmed_links(geometry, track, slipped, poses, 1).any()
+    assert not unconfirmed_links(geometry, track, slipped, poses).any()
 
 
 def test_a_front_end_that_had_the_wrong_step_too_does_not_confirm_it(steps):
@@ -61,9 +62,7 @@ def test_a_front_end_that_had_the_wrong_step_too_does_not_confirm_it(steps):
     geometry, track, odometry, _ = steps
     wrong = turned_from(track.poses, track.keys[6], np.array([1.5, 0.5, np.pi / 2]))
     misled = replace(track, poses=wrong)
-    np.testing.assert_array_equal(
-        np.nonzero(unconfirmed_links(geometry, misled, odometry, wrong[track.keys], 1))[0], [5]
-    )
+    np.testing.assert_array_equal(np.nonzero(unconfirmed_links(geometry, misled, odometry, wrong[track.keys]))[0], [5])
 
 
 @pytest.mark.parametrize(("score", "off_m", "kept"), [(0.95, 3.0, True), (0.4, 3.0, False), (0.95, 8.0, False)])
@@ -80,7 +79,7 @@ def test_a_broken_path_keeps_where_the_next_scan_fitted_as_usual(steps, score, o
 def test_a_scan_that_fits_worse_than_those_before_it_is_matched_from_there():
     """Of a batch those before it are taken; the next is predicted from the last of them."""
     geometry, _, motions, _ = followed()
-    path = _Path(geometry, motions, None, None, 1)
+    path = _Path(geometry, motions, None, None)
     path.usual = 0.9
     placed, _ = path._near(np.arange(1, 4))
     placed.scores[:] = 0.9, 0.9 - 0.5 * AGAIN_BELOW, 0.9 - 1.5 * AGAIN_BELOW
@@ -98,9 +97,9 @@ def test_few_points_do_not_refute_odometry(points, found):
         ranges[12, rest] = np.inf
     geometry = scan_geometry(replace(scans, ranges_m=ranges), threads=1)
     keys = np.arange(10)[::-1]
-    grid = likelihood_grids(geometry, [keys], [truth[keys]], truth[9, :2], grid_half_width(geometry), threads=1)
+    grid = likelihood_grids(geometry, [keys], [truth[keys]], truth[9, :2], grid_half_width(geometry))
     window = Window(keys, truth[keys], grid)
-    place = place_anywhere(geometry, window, 12, compose(truth[12], np.array([-0.7, 0.2, 0.0])), 0.5, 1)
+    place = place_anywhere(geometry, window, 12, compose(truth[12], np.array([-0.7, 0.2, 0.0])), 0.5)
     assert (place is not None) == found
     if place is not None:
         assert np.hypot(*between(truth[12], place.pose)[:2]) < 0.1
@@ -112,10 +111,11 @@ def test_a_motion_that_noise_made_short_is_no_surer_than_its_neighbours():
     stated = [np.zeros(3)]
     for motion in motions:
         stated.append(compose(stated[-1], motion))
-    stated, keys, none = np.array(stated), np.arange(21), np.zeros(20, bool)
+    odometry = StatedOdometry(np.array(stated), None, motions, np.zeros(20, bool), True)
+    track = SimpleNamespace(keys=np.arange(21), broken=np.zeros(21, bool))
 
     def variances(motions):
         return 0.01 * np.abs(motions[:, :1]) * np.ones(3) + 1e-8
 
-    factors = corrected_factors(stated, None, motions, none, keys, stated, np.zeros((3, 3)), variances)
+    factors = odometry._corrected(track, odometry.poses, np.zeros((3, 3)), variances)
     np.testing.assert_allclose(factors.information[9], factors.information[3], rtol=1e-6)

@@ -1,4 +1,4 @@
-"""What is known of a pose: weighted poses, their modes, and the chance that all of them are wrong."""
+"""The posterior of a pose: weighted poses, their modes, and the probability that all of them are wrong."""
 
 from __future__ import annotations
 
@@ -16,16 +16,16 @@ from bayesmap.space.trajectory import ellipses
 Floats = NDArray[np.float64]
 
 NEAR_M, NEAR_RAD = 0.2, np.radians(7.0)
-"""Poses closer than this, one by one, belong to one mode."""
+"""Chains of poses with steps shorter than this belong to one mode."""
 
 FINEST_SD = np.array([0.002, 0.002, np.radians(0.05)])
-"""No mode is narrower: so few weighted poses cannot say it."""
+"""Least standard deviations of a mode: the number of poses tells no less."""
 
 LINKING = 0.995
 """Share of the weight whose poses link others into modes."""
 
 LEAST_MODE = 1e-4
-"""Modes less likely than this are not listed."""
+"""Least probability of a mode that is listed."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,12 +43,9 @@ class Mode:
     probability: float
 
     def as_json(self) -> dict[str, Any]:
-        """The mode as JSON values."""
-        return {
-            "mean": self.mean.tolist(),
-            "covariance": self.covariance.tolist(),
-            "probability": float(self.probability),
-        }
+        """Return the mode as JSON values."""
+        mean, covariance = self.mean.tolist(), self.covariance.tolist()
+        return {"mean": mean, "covariance": covariance, "probability": float(self.probability)}
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,9 +54,9 @@ class Region:
 
     Attributes:
         modes: means (K, 2), covariances (K, 2, 2), probabilities (K,).
-        density: positions of more density than this belong to it, 1 / m^2.
+        density: least density of positions in the region, 1 / m^2.
         level: the probability.
-        area_m2: its area.
+        area_m2: the region's area.
     """
 
     modes: tuple[Floats, Floats, Floats]
@@ -68,7 +65,7 @@ class Region:
     area_m2: float
 
     def contains(self, positions: Floats) -> NDArray[np.bool_]:
-        """Which positions lie inside, (N, 2) to (N,)."""
+        """Return which positions lie inside, (N, 2) to (N,)."""
         return np.asarray(_density(np.atleast_2d(np.asarray(positions, dtype=np.float64)), *self.modes) >= self.density)
 
 
@@ -79,11 +76,11 @@ class PoseBelief:
     Attributes:
         poses: in the world frame, (N, 3).
         weights: of the poses, (N,), summing to 1: given that the robot is on the map, and the map is right.
-        p_lost: probability that it is not: the scan is as a scan anywhere else, or the map outdated.
-        nats_per_beam: log density of the scan's readings under the best pose, by their number.
-        stamp_s: when, or None.
-        mode_of: which mode each pose belongs to, (N,); None: poses near each other make one.
-        shared_error: standard deviations of an error of the map that no reading shows, (3,): modes are as much wider.
+        p_lost: probability that the robot is elsewhere, or the map outdated.
+        nats_per_beam: log density of the scan's readings under the best pose, per beam.
+        stamp_s: stamp of the scan, or None.
+        mode_of: the mode of each pose, (N,); None: poses near each other make one.
+        shared_error: standard deviations of an error of the map that all beams share, (3,): modes are wider by it.
     """
 
     poses: Floats
@@ -96,7 +93,7 @@ class PoseBelief:
 
     @cached_property
     def modes(self) -> tuple[Mode, ...]:
-        """The components where the robot may be, the likeliest first."""
+        """The places where the robot may be, the likeliest first."""
         found = self.places(LEAST_MODE)
         if self.shared_error is None:
             return found
@@ -104,7 +101,7 @@ class PoseBelief:
         return tuple(replace(mode, covariance=mode.covariance + wider) for mode in found)
 
     def places(self, least: float) -> tuple[Mode, ...]:
-        """The components at least so likely, the likeliest first; without the map's shared error."""
+        """Return the places of at least this probability, the likeliest first, without the map's shared error."""
         label = _clusters(self.poses, self.weights) if self.mode_of is None else self.mode_of
         found = []
         for one in np.unique(label):
@@ -115,13 +112,9 @@ class PoseBelief:
                 found.append(Mode(mean, covariance + np.diag(FINEST_SD**2), min(share, 1.0)))
         return tuple(sorted(found, key=lambda mode: -mode.probability))
 
-    @cached_property
-    def _all(self) -> tuple[Floats, Floats]:
-        return _moments(self.poses, self.weights)
-
     @property
     def mean(self) -> Floats:
-        """Mean pose of the likeliest mode, (3,): between two modes there is nobody."""
+        """Mean pose of the likeliest mode, (3,)."""
         return self.modes[0].mean
 
     @property
@@ -132,10 +125,10 @@ class PoseBelief:
     @property
     def total_covariance(self) -> Floats:
         """Covariance over all modes, (3, 3)."""
-        return self._all[1]
+        return _moments(self.poses, self.weights)[1]
 
     def region(self, level: float = 0.95) -> Region:
-        """The smallest region of positions that holds a probability, all modes taken as normal.
+        """Return the smallest region of positions that holds a probability, all modes taken as normal.
 
         Raises:
             BadInput: a level outside (0, 1).
@@ -156,12 +149,12 @@ class PoseBelief:
         return Region(modes, least, level, float((1.0 / density[density >= least]).sum() / len(density)))
 
     def outlines(self, level: float = 0.95) -> Floats:
-        """Ellipses that hold each mode's position with a probability, (modes, points, 2)."""
+        """Return ellipses that hold each mode's position with a probability, (modes, points, 2)."""
         covariances = np.array([mode.covariance[:2, :2] for mode in self.modes])
         return ellipses(np.array([mode.mean[:2] for mode in self.modes]), covariances, level)
 
     def probability_in(self, area: Floats) -> float:
-        """The probability that the robot is on the map and in a polygon.
+        """Compute the probability that the robot is on the map and in a polygon.
 
         Args:
             area: corners of the polygon in order, (K, 2), metres; or (x_min, x_max, y_min, y_max).
@@ -180,7 +173,7 @@ class PoseBelief:
         return float((1.0 - self.p_lost) * min(1.0, self.weights[_inside(self.poses[:, :2], corners)].sum()))
 
     def as_json(self) -> dict[str, Any]:
-        """The answer as JSON values."""
+        """Return the posterior's moments, modes and probabilities as JSON values."""
         return {
             "stamp_s": self.stamp_s,
             "mean": self.mean.tolist(),
@@ -193,7 +186,7 @@ class PoseBelief:
 
 
 def _moments(poses: Floats, weights: Floats) -> tuple[Floats, Floats]:
-    """Mean and covariance of weighted poses; the yaw's about its circular mean."""
+    """Return mean and covariance of weighted poses; those of the yaw are about its circular mean."""
     centre = np.arctan2(weights @ np.sin(poses[:, 2]), weights @ np.cos(poses[:, 2]))
     off = poses.copy()
     off[:, 2] = wrapped(poses[:, 2] - centre)
@@ -205,14 +198,14 @@ def _moments(poses: Floats, weights: Floats) -> tuple[Floats, Floats]:
 
 
 def _clusters(poses: Floats, weights: Floats) -> NDArray[np.intp]:
-    """Labels of poses linked by steps of less than `NEAR_M` and `NEAR_RAD`; weightless ones join the nearest, (N,)."""
+    """Label poses linked by steps of less than `NEAR_M` and `NEAR_RAD`, (N,); light ones get the nearest label."""
     from scipy.sparse.csgraph import connected_components
     from scipy.spatial import cKDTree
 
     turn = NEAR_M / NEAR_RAD
     seat = np.column_stack([poses[:, :2], turn * np.sin(poses[:, 2]), turn * np.cos(poses[:, 2])])
     order = np.argsort(-weights, kind="stable")
-    # Those that hold nearly all weight: strays between two modes must not link them.
+    # The poses that hold nearly all weight: strays between two modes must not link them.
     heavy = order[: int(np.searchsorted(np.cumsum(weights[order]), LINKING * weights.sum())) + 1]
     tree = cKDTree(seat[heavy])
     _, own = connected_components(tree.sparse_distance_matrix(tree, NEAR_M, output_type="coo_matrix"), directed=False)
@@ -222,7 +215,7 @@ def _clusters(poses: Floats, weights: Floats) -> NDArray[np.intp]:
 
 
 def _density(positions: Floats, means: Floats, covariances: Floats, shares: Floats) -> Floats:
-    """Density of a mixture of normal distributions in the plane, (N,)."""
+    """Compute the density of a mixture of normal distributions in the plane, (N,)."""
     off = positions[:, None] - means
     inverse = np.linalg.inv(covariances)
     squared = np.einsum("nki,kij,nkj->nk", off, inverse, off)
@@ -230,7 +223,7 @@ def _density(positions: Floats, means: Floats, covariances: Floats, shares: Floa
 
 
 def _inside(positions: Floats, corners: Floats) -> NDArray[np.bool_]:
-    """Which positions lie in a polygon: an odd number of its sides lies to their right."""
+    """Return which positions lie in a polygon: an odd number of its sides lies to their right."""
     x, y = positions[:, :1], positions[:, 1:]
     (ax, ay), (bx, by) = corners.T, np.roll(corners, -1, axis=0).T
     crosses = (ay > y) != (by > y)

@@ -1,11 +1,11 @@
-"""Maps of other programs, to be located in: the law that such a map implies, fitted to the log that is located.
+"""Maps of other programs for localization: the law that such a map implies, fitted to the log that is located.
 
 A map_server map says of each cell that it is occupied, free or unknown, or how likely it is occupied. The law is that
-of `bayesmap.posterior.baselines`: an occupied cell stops a beam by one chance, a free one by another, those between
-along the logit. A reading scatters about the stop by the noise of sensor and map together. People, furniture and doors
-that the map lacks stand before the walls (`BeamMixture.p_short`), and some readings have nothing to do with the map.
-Errors that all beams of a scan share are no noise: a scan is worth few independent readings, scans along a metre and
-a half tell the same, and the pose itself is off by as much as the map (`Trust`).
+of `bayesmap.posterior.baselines`: occupied cells stop beams with one probability, free ones with another, and those
+between along the logit. A reading scatters about the stop by the noise of sensor and map together. People, furniture
+and doors that the map lacks stand before the walls (`BeamMixture.p_short`), and some readings have nothing to do with
+the map. Errors that all beams of a scan share are no noise: a scan is worth few independent readings, scans along 1.5 m
+of path tell the same, and the pose itself is off by as much as the map (`Trust`).
 """
 
 from __future__ import annotations
@@ -45,44 +45,35 @@ ASSUMED: Mapping[str, float] = {
     "scale_m": 0.08, "scale_per_m": 0.005, "p_random": 0.1, "p_no_return": 0.03, "p_short": 0.3,
     "rate_short_per_m": 0.3, "stop_occupied": 0.8, "stop_free": 1e-3, "stop_unknown": 0.05,
 }  # fmt: skip
-"""The law before it is fitted, and where too few scans are located to fit one. Free cells stop so few beams that the
-law passes them by (`bayesmap.kernels.predict.pose_weights`)."""
+"""The law before it is fitted, and where too few scans are located to fit one. Free cells stop so few beams that
+kernels skip them (`bayesmap.kernels.predict.pose_weights`)."""
 
 WARY = Trust(
-    place_readings=3.8,
-    shared_way_m=1.5,
-    shared_error_m=0.08,
-    carried=3e-3,
-    search_way_m=1.0,
-    kept=12,
-    least_draws=1.0,
-    forgotten_nats=30.0,
-)
-"""How far a map is trusted of which nobody says how good it is."""
+    place_readings=3.8, shared_way_m=1.5, shared_error_m=0.08, carried=3e-3, search_way_m=1.0, kept=12,
+    least_draws=1.0, forgotten_nats=30.0,
+)  # fmt: skip
+"""Trust in a map of unknown quality."""
 
 MOST_SCANS, APART_M = 150, 0.3
-"""Of the log, scans that are located to fit the law, so far apart."""
+"""Most scans of the log that are located to fit the law, and their least distance along the path."""
 
 LIKELY, FEWEST_SCANS = 0.95, 20
-"""A scan serves the fit if one place has so much probability; with fewer scans nothing is fitted."""
+"""Probability of its likeliest place with which a scan serves the fit, and the fewest scans of a fit."""
 
 USUAL_WAY_M = 3.0
-"""Of a beam, to say how many meet what is not on the map."""
+"""Length of beam for which the share of beams that meet something else is reported."""
 
-BLOCK = 5
-"""Scans in a row that the fit is made on; the next ones judge it."""
-
-BEAMS = 60
-"""Of a scan, for the fit."""
+BLOCK, BEAMS = 5, 60
+"""Scans in a row that the fit is made on, before as many that judge it, and beams of a scan in the fit."""
 
 MOST_SEARCHES, NEAR_M, APART_PLACES_M = 40, 0.6, 1.0
-"""Scans that are searched for by themselves; metres and radians, added, to a place that is theirs, and to another."""
+"""Most scans that are searched for singly; metres plus radians up to which a place is theirs, and beyond which not."""
 
 POWERS, FEWEST_SEARCHES = np.array([0.2, 0.3, 0.5, 0.7, 1.0]), 8
-"""By which the evidence of a place may count, and searches that it takes to tell; with fewer the half counts."""
+"""Powers by which the evidence of a place may count, and the fewest searches that choose one; with fewer it is 0.5."""
 
 LEAST_SD_NATS = 0.05
-"""Fits of scans differ by so much at least, nats a beam."""
+"""Least standard deviation of the fit of scans, nats a beam."""
 
 
 @dataclass(frozen=True)
@@ -90,11 +81,11 @@ class MapLaw:
     """What a map of another program means for beams, and what a scan in it is worth.
 
     Attributes:
-        values: chances by which cells stop beams, and the numbers of the beam model.
+        values: stop probabilities of cells, and the numbers of the beam model.
         trust: how far the map is trusted.
-        scans: that the law was fitted on and judged by; 0: it is assumed.
-        nats_per_beam: mean log density of readings of the scans that judged, under this law; NaN if none did.
-        usual_fit: of these scans at their own places and at others; None: nothing is known of it.
+        scans: number of scans that the law was fitted on and judged by; 0: it is assumed.
+        nats_per_beam: mean log density of readings of the judging scans under this law; NaN if there are none.
+        usual_fit: of these scans at their own places and at others; None if unknown.
     """
 
     values: Mapping[str, float]
@@ -104,7 +95,7 @@ class MapLaw:
     usual_fit: UsualFit | None = None
 
     def words(self) -> str:
-        """The law in a line."""
+        """Return the law in a line."""
         v = self.values
         met = 100 * v["p_short"] * -math.expm1(-v["rate_short_per_m"] * USUAL_WAY_M)
         how = f"fitted on {self.scans} scans" if self.scans else "assumed: too few scans are located to fit it"
@@ -129,9 +120,9 @@ def external_map(
     Args:
         occupancy: probability that each cell is occupied, NaN where unknown, (nx, ny), as `read_map` gives it.
         grid: of the map.
-        scans: typical ones, for what readings are like anywhere.
-        law: what the map means; None: as assumed.
-        beam_weight: how much of an independent reading a beam is; None: as the law's trust says.
+        scans: typical ones, for the law of readings anywhere.
+        law: what the map means; by default the assumed law.
+        beam_weight: weight of a beam, as a share of an independent reading; None: by the law's trust.
         device: where to compute.
 
     Raises:
@@ -149,9 +140,9 @@ def external_map(
 
 
 def fit_law(occupancy: Floats, grid: Grid, scans: Scans, seed: int = 0, on_progress: OnShare = ignored) -> MapLaw:
-    """Fit the law of a map to scans of which nobody says where they were taken, only how the robot moved between them.
+    """Fit the law of a map to scans with odometry, whose places in the map are unknown.
 
-    The scans are located under the assumed law. On those that are surely located the law is fitted, five in a row of
+    The scans are located under the assumed law. The law is fitted on those that are surely located, five in a row of
     ten; the others choose among the fitted law, the assumed one, and the one halfway. They are also searched for one
     by one, which tells how well scans fit at their own places and elsewhere, and what a scan is worth.
 
@@ -196,10 +187,9 @@ def fit_law(occupancy: Floats, grid: Grid, scans: Scans, seed: int = 0, on_progr
 
 
 def searched(known: KnownMap, scans: Scans, poses: Floats, seed: int) -> tuple[UsualFit, float]:
-    """Search for scans by themselves whose poses are known: how well they fit, and by which power evidence counts.
+    """Search for single scans at known poses. Returns their usual fit, and the power by which evidence counts.
 
-    The power is the one under which the places of single scans are right as often as they say: of `POWERS` that of the
-    highest mean log probability of the right place.
+    The power is the one of `POWERS` under which the right place has the highest mean log probability.
     """
     from bayesmap.localization.filter import Prior, Scan, update
 
@@ -231,7 +221,7 @@ def searched(known: KnownMap, scans: Scans, poses: Floats, seed: int) -> tuple[U
 
 
 def spread_out(scans: Scans) -> Scans:
-    """The scans that are `APART_M` apart along the way, or further where they would be more than `MOST_SCANS`."""
+    """Select scans `APART_M` apart along the path, or further where they would be more than `MOST_SCANS`."""
     way = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(scans.poses[:, :2], axis=0).T))])
     step = max(APART_M, float(way[-1]) / MOST_SCANS)
     _, first = np.unique(np.floor(way / step), return_index=True)
@@ -239,7 +229,7 @@ def spread_out(scans: Scans) -> Scans:
 
 
 def _located(known: KnownMap, scans: Scans, seed: int, on_progress: OnShare) -> tuple[Floats, NDArray[np.bool_]]:
-    """Likeliest poses of scans, and which of them are all but sure."""
+    """Return the likeliest poses of scans, and which of them are nearly certain."""
     from bayesmap.localization.localize import localize
 
     found = localize(known, scans, seed=seed, on_belief=lambda k, _: on_progress(0.5 * (k + 1) / len(scans)))
@@ -249,19 +239,19 @@ def _located(known: KnownMap, scans: Scans, seed: int, on_progress: OnShare) -> 
 
 @dataclass(frozen=True, eq=False)
 class _Placed:
-    """Scans at poses in the map, of whose beams every ``thin``-th is looked at."""
+    """Scans at poses in the map, of which every ``thin``-th beam is used."""
 
     scans: Scans
     poses: Floats
     thin: int
 
     def log_densities(self, stops: Callable[[float, float], PackedMap], values: Mapping[str, float]) -> Floats:
-        """Log densities of the readings under the law, (S, A); NaN where invalid."""
+        """Compute log densities of the readings under the law, (S, A); NaN where invalid."""
         limits = RangeLimits(self.scans.min_range_m, self.scans.max_range_m)
         packed = stops(values["stop_occupied"], values["stop_unknown"])
         readings = self.scans.ranges_m[:, :: self.thin]
         count, beams = readings.shape
-        # A "scan" of one beam each: what the kernel sums over beams is wanted beam by beam.
+        # Scans of one beam each: the kernel sums over beams, and the densities of single beams are needed.
         alone = np.full((count * beams, 1), np.nan)
         alone[:, 0] = readings.ravel()
         poses = np.repeat(self.poses, beams, axis=0)
@@ -273,7 +263,7 @@ class _Placed:
 
 
 def _stops_of(occupancy: Floats, grid: Grid) -> Callable[[float, float], PackedMap]:
-    """The map packed for kernels, by the stop chances of occupied and unknown cells; the last ones are kept."""
+    """Return a function that packs the map for kernels, by the stop probabilities of occupied and unknown cells."""
 
     @lru_cache(maxsize=4)
     def packed(occupied: float, unknown: float) -> PackedMap:

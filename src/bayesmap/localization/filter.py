@@ -1,12 +1,14 @@
-"""One scan's step: from what was believed before it to what is believed after it.
+"""The filter's step for one scan: from the prior of a pose to its posterior.
 
-Before a scan the pose's law is a mixture of normal distributions (moved by odometry) or
-uniform over the map's free cells, or some of both: a robot may have been carried away. The scan is weighed by the exact
-forward law, averaged over draws of the map; where nothing narrows the search, a search over the whole map says where to
-look. Beside all poses stands the chance that the robot is elsewhere, or the map outdated: then readings come as they do
-anywhere.
+The prior is a mixture of normal distributions (moved by odometry), or uniform over the map's free cells, or some of
+both: a robot may have been carried away. A search over the whole map proposes places where the prior is too wide, and
+the scan's end points narrow them. The exact forward law, averaged over draws of the map, weights the poses. The robot
+may also be elsewhere, or the map outdated: then readings come as they do anywhere.
 
-From where a pose may be to where the scan's end points meet the map: proposals for the exact law, at little cost.
+In a map that is known exactly, each beam a reading of its own (`locate`), the posterior is narrow and may have many
+places. Beside a likelihood of a centimetre's width, the likelihood of a place whose proposal lies five centimetres off
+is nothing. So the likelihood's power rises from what a scan is worth in an inferred map to 1, while proposals follow,
+and places that have come together count as one.
 """
 
 from __future__ import annotations
@@ -38,41 +40,35 @@ from bayesmap.space.planar import wrapped
 
 Floats = NDArray[np.float64]
 
-POINTS = 60
-SHARPER = 2.0
-"""How much more end points count here than beams: their field is that of all draws of the map in one, and wider. It
-decides how many rounds the exact law needs, not what it answers."""
+POINTS, SHARPER = 60, 2.0
+"""End points of a scan, and their weight relative to beams: their field is that of all draws of the map in one, and
+wider. They decide how many rounds the exact law needs, not its answer."""
 
 STEPS, NEARLY = 3, 0.6
-"""Rounds at most, or until weights hardly have to be tempered; one less for several places: a search found them."""
+"""Most rounds, and the power of the weights at which they end; one round less for several places, which a search
+found."""
 
 DRAWS, LEAST = 240, 24
-"""Draws in a round, of all places together, and of each."""
+"""Draws in a round, of all places together, and least of each."""
 
 
 def approached(
-    places: PoseMixture,
-    log_prior: Callable[[Floats], Floats],
-    known: KnownMap,
-    angles_rad: Floats,
-    ranges_m: Floats,
-    rng: np.random.Generator,
+    places: PoseMixture, log_prior: Callable[[Floats], Floats], known: KnownMap, scan: Scan, rng: np.random.Generator
 ) -> PoseMixture:
-    """Places moved to where prior and end points say, and narrowed to their spread; as they are if too few beams hit.
+    """Move places to where prior and end points agree, and narrow them; a scan with too few hits changes nothing.
 
     Args:
         places: where the pose may be.
         log_prior: log density of poses (P, 3) before the scan, (P,).
         known: the map.
-        angles_rad: of the beams, (A,).
-        ranges_m: readings, (A,).
+        scan: the scan.
         rng: for the draws.
     """
-    points = end_points(angles_rad, ranges_m, POINTS)
+    points = end_points(scan.angles_rad, scan.ranges_m, POINTS)
     if len(points) < FEWEST:
         return places
-    hits = int(np.isfinite(ranges_m).sum())
-    weight = SHARPER * known.weight_of(ranges_m) * hits / len(points)
+    hits = int(np.isfinite(scan.ranges_m).sum())
+    weight = SHARPER * known.weight_of(scan.ranges_m) * hits / len(points)
 
     def target(poses: Floats) -> Floats:
         return np.asarray(log_prior(poses) + weight * known.endpoints.log_worth(points, poses))
@@ -87,26 +83,26 @@ def approached(
 
 
 CANDIDATES = 24
-"""Of the search, few: that end points fall on walls tells, too. Among more, wrong places came before the right one."""
+"""Places of a search. With more, wrong places came before the right one: the search's score tells, too."""
 
 ROUNDS = 5
-"""Places are adapted so often at most, or until weights hardly have to be tempered."""
+"""Most rounds in which places are adapted, until weights hardly have to be tempered."""
 
 FEW, EACH, LAST = 8, 24, 32
-"""Draws of each place to tell which count, in a round, and in the last, of the likeliest."""
+"""Draws of each place: to tell which count, of the likeliest in a round, and in the last round."""
 
 THINNED = 40
-"""Beams of a scan that are looked at, about, until the last round."""
+"""About how many beams of a scan are used until the last round."""
 
 FOUND_SD = np.array([0.06, 0.06, np.radians(1.2)])
-"""How far a searched pose may be from the best one near it."""
+"""Standard deviations of a searched pose from the best one near it."""
 
 UNIFORM_DRAWS = 3000
-"""Poses that are drawn over the whole map where a search has nothing to go by."""
+"""Poses that are drawn over the whole map where a search finds nothing."""
 
 LOST_AT_FIRST = 0.02
 GETS_LOST, IS_FOUND = 1e-3, 0.05
-"""Chance, a scan, that a robot on the map is lost, and that a lost one is back."""
+"""Probability, a scan, that a robot on the map gets lost, and that a lost one is back."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -117,8 +113,8 @@ class Scan:
         angles_rad: of its beams, (A,).
         ranges_m: readings, (A,).
         limits: of the sensor.
-        stamp_s: when, or None.
-        new: share of its evidence that the scans before it have not told, in (0, 1].
+        stamp_s: stamp, or None.
+        new: share of its evidence that earlier scans have not told, in (0, 1].
     """
 
     angles_rad: Floats
@@ -130,10 +126,10 @@ class Scan:
 
 @dataclass(frozen=True, eq=False)
 class Prior:
-    """What is believed of the pose before a scan.
+    """The distribution of the pose before a scan.
 
     Attributes:
-        components: normal distributions, their masses as logs; None: nothing but that the robot is on the map.
+        components: normal distributions, their masses as logs; None: only that the robot is on the map is known.
         uniform: share of the mass that lies uniformly over the map's free cells; 1 without components.
         lost: probability that the robot is elsewhere, or the map outdated.
     """
@@ -143,7 +139,7 @@ class Prior:
     lost: float = LOST_AT_FIRST
 
     def log_density(self, poses: Floats, known: KnownMap) -> Floats:
-        """Log density of poses on the map, (P,); -inf in walls."""
+        """Compute the log density of poses on the map, (P,); -inf in walls."""
         flat = np.where(known.is_free(poses), -np.log(known.free_area_m2 * 2 * np.pi), -np.inf)
         if self.components is None:
             return np.asarray(flat)
@@ -154,11 +150,11 @@ class Prior:
 
 
 def update(known: KnownMap, prior: Prior, scan: Scan, rng: np.random.Generator, *, look_everywhere: bool) -> PoseBelief:
-    """The posterior of a scan's pose.
+    """Compute the posterior of a scan's pose.
 
     Args:
         known: the map.
-        prior: what was believed before the scan.
+        prior: of the pose.
         scan: the scan.
         rng: for the draws of poses.
         look_everywhere: whether to search the whole map; needed where the prior has no components.
@@ -179,9 +175,9 @@ def update(known: KnownMap, prior: Prior, scan: Scan, rng: np.random.Generator, 
     if starts is None:
         population = everywhere(known, target(thin), rng)
     else:
-        starts = approached(starts, density, known, scan.angles_rad, scan.ranges_m, rng)
+        starts = approached(starts, density, known, scan, rng)
         if len(starts.means) > 1:
-            # Which places count at all, one draw of the map tells.
+            # One draw of the map tells which places count at all.
             starts = best(weighed(starts, draw_population(starts, target(thin, 1), FEW, rng)))
         for _ in range(ROUNDS):
             starts, power = adapted(
@@ -199,7 +195,7 @@ def update(known: KnownMap, prior: Prior, scan: Scan, rng: np.random.Generator, 
 
 
 def _starts(known: KnownMap, prior: Prior, scan: Scan, *, look_everywhere: bool) -> PoseMixture | None:
-    """Where to look first; None: everywhere alike."""
+    """Return the places to begin with; None: uniform over the map."""
     found = None
     if look_everywhere or prior.components is None:
         poses = search(known.field, scan.angles_rad, scan.ranges_m, CANDIDATES).poses
@@ -217,9 +213,9 @@ def _starts(known: KnownMap, prior: Prior, scan: Scan, *, look_everywhere: bool)
 
 @dataclass(frozen=True, eq=False)
 class Target:
-    """Log prior and likelihood of poses, with every so many-th beam.
+    """Log prior and likelihood of poses, with every ``thin``-th beam.
 
-    Each pose is weighed under one draw of the map, in turn: of the first ``draws``, or of all.
+    Each pose is weighted under one draw of the map, in turn: of the first ``draws``, or of all.
     """
 
     known: KnownMap
@@ -230,7 +226,7 @@ class Target:
     draws: int | None = None
 
     def __call__(self, poses: Floats) -> Floats:
-        """Log density of poses (P, 3), not normalised, (P,)."""
+        """Compute the log density of poses (P, 3), not normalised, (P,)."""
         density = np.array(self.prior.log_density(poses, self.known))
         possible = np.isfinite(density)
         if possible.any():
@@ -243,7 +239,7 @@ class Target:
 
 
 def everywhere(known: KnownMap, target: Target, rng: np.random.Generator) -> Population:
-    """Poses drawn uniformly over the free cells, weighed."""
+    """Draw poses uniformly over the free cells, and weight them."""
     cells = np.argwhere(known.free)
     chosen = cells[rng.integers(len(cells), size=UNIFORM_DRAWS)] + rng.random((UNIFORM_DRAWS, 2))
     yaw = rng.uniform(-np.pi, np.pi, UNIFORM_DRAWS)
@@ -254,28 +250,24 @@ def everywhere(known: KnownMap, target: Target, rng: np.random.Generator) -> Pop
 
 
 def belief_of(
-    known: KnownMap,
-    prior: Prior,
-    scan: Scan,
-    population: Population,
-    group: NDArray[np.intp] | None,
+    known: KnownMap, prior: Prior, scan: Scan, population: Population, group: NDArray[np.intp] | None,
     mass_before: Floats | None = None,
-) -> PoseBelief:
-    """The posterior of a population, with the chance of being lost.
+) -> PoseBelief:  # fmt: skip
+    """Return the posterior of a population, with the probability of being lost.
 
     Args:
         known: the map.
-        prior: what was believed before the scan.
+        prior: of the pose.
         scan: the scan.
-        population: weighed poses.
+        population: weighted poses.
         group: the place of each pose, (N,); None: all over the map.
-        mass_before: what each place had of the prior, where places are weighed by evidence that is partly new, (K,).
+        mass_before: each place's share of the prior, (K,), where only part of the scan's evidence is new.
     """
     weights = population.weights
     if not np.isfinite(population.log_evidence):
         weights = np.full(len(population.poses), 1.0 / len(population.poses))
     if group is None:
-        group = np.zeros(len(weights), dtype=np.intp)  # spread over the whole map: one mode
+        group = np.zeros(len(weights), dtype=np.intp)  # one mode, spread over the whole map
     likelihood = _log_likelihood(known, prior, population)
     power = known.weight_between_places(scan.ranges_m) / known.weight_of(scan.ranges_m)
     if mass_before is None:
@@ -284,7 +276,7 @@ def belief_of(
         weights = shared_by_evidence(weights, group, mass_before, power * scan.new)
     unsure = PoseBelief(population.poses, weights, 0.0, 0.0, scan.stamp_s, group, known.shared_error)
     if not np.isfinite(scan.ranges_m).any():
-        return replace(unsure, p_lost=prior.lost)  # a scan that met nothing tells neither
+        return replace(unsure, p_lost=prior.lost)  # a scan without hits does not tell whether the robot is lost
     evidence, fit = _fit(known, scan, population, likelihood, unsure)
     elsewhere = known.log_elsewhere(scan.ranges_m, known.weight_of_fit(scan.ranges_m))
     with np.errstate(divide="ignore"):
@@ -293,40 +285,44 @@ def belief_of(
 
 
 def shared_by_places(weights: Floats, group: NDArray[np.intp], log_weights: Floats) -> Floats:
-    """Weights that are as given within each place, while the places' shares are those of other weights.
+    """Give places the shares of other weights, and keep the weights' ratios within each place.
 
     Args:
         weights: of poses, normalised, (N,).
         group: the place of each, (N,).
-        log_weights: logs of those that say how likely each place is, (N,), not normalised; -inf has none.
+        log_weights: logs of the weights that tell how likely each place is, (N,), not normalised.
     """
     if not group.any() or not np.isfinite(log_weights).any():
         return weights
     shares = np.bincount(group, np.exp(log_weights - log_sum(log_weights)), group.max() + 1)
-    own = np.bincount(group, weights, group.max() + 1)
-    return np.asarray(weights * np.divide(shares, own, out=np.zeros_like(own), where=own > 0)[group])
+    return _shared(weights, group, np.asarray(shares, np.float64))
 
 
 def shared_by_evidence(weights: Floats, group: NDArray[np.intp], mass: Floats, power: float) -> Floats:
-    """Weights as given within each place, while the ratio of a place's share to the one before counts by a power.
+    """Change places' shares by a power of the evidence, and keep the weights' ratios within each place.
 
     Args:
         weights: of poses, normalised, (N,).
         group: the place of each, (N,).
         mass: the places' shares before the scan, (K,).
-        power: 1: shares stay the sums of the weights; 0: they stay as they were.
+        power: 1: shares become the sums of the weights; 0: they stay as before the scan.
     """
     own = np.bincount(group, weights, len(mass))
     with np.errstate(divide="ignore"):
         logs = (1.0 - power) * np.log(mass) + power * np.log(own)
     if not np.isfinite(logs).any():
         return weights
-    shares = np.exp(logs - log_sum(logs))
+    return _shared(weights, group, np.exp(logs - log_sum(logs)))
+
+
+def _shared(weights: Floats, group: NDArray[np.intp], shares: Floats) -> Floats:
+    """Scale weights such that each place has its share."""
+    own = np.bincount(group, weights, len(shares))
     return np.asarray(weights * np.divide(shares, own, out=np.zeros_like(own), where=own > 0)[group])
 
 
 def _mass_before(prior: Prior, places: PoseMixture, count: int) -> Floats:
-    """What each place had of the prior, (count,): its components' mass, or that of being anywhere."""
+    """Return each place's share of the prior, (count,): its components' mass, or that of being anywhere."""
     mass = np.full(count, 1.0 if prior.components is None else prior.uniform)
     if prior.components is not None:
         own = prior.components.log_mass - log_sum(prior.components.log_mass) + np.log1p(-prior.uniform)
@@ -335,14 +331,14 @@ def _mass_before(prior: Prior, places: PoseMixture, count: int) -> Floats:
 
 
 def _log_likelihood(known: KnownMap, prior: Prior, population: Population) -> Floats:
-    """That of the scan at each pose, by the beams' usual weight, (N,); -inf where no robot can be."""
+    """Return the scan's log-likelihood at each pose, by the beams' usual weight, (N,); -inf where no robot can be."""
     prior_density = prior.log_density(population.poses, known)
     possible = np.isfinite(prior_density)
     return np.where(possible, population.log_target - np.where(possible, prior_density, 0.0), -np.inf)
 
 
 def _at_power(population: Population, likelihood: Floats, power: float) -> Floats:
-    """Log weights of the same poses had each beam counted so many times as much, (N,)."""
+    """Return the poses' log weights if each beam counted ``power`` times as much, (N,)."""
     possible = np.isfinite(population.log_weights)
     return np.where(possible, population.log_weights + (power - 1.0) * np.where(possible, likelihood, 0.0), -np.inf)
 
@@ -350,10 +346,9 @@ def _at_power(population: Population, likelihood: Floats, power: float) -> Float
 def _fit(
     known: KnownMap, scan: Scan, population: Population, likelihood: Floats, belief: PoseBelief
 ) -> tuple[float, float]:
-    """How well the scan fits at the best pose: log evidence of the likeliest mode, and nats a beam.
+    """Return the log evidence of the likeliest mode, and nats a beam at the best pose.
 
-    With beams that count more: whether a scan fits at all is clearer than where exactly it does. The
-    same poses tell it, weighed anew.
+    Beams count more here: whether a scan fits at all is clearer than where exactly it does.
     """
     weight, usual = known.weight_of_fit(scan.ranges_m), known.weight_of(scan.ranges_m)
     logs = _at_power(population, likelihood, weight / usual)
@@ -366,38 +361,29 @@ def _fit(
 
 
 def _mixture_log_density(components: PoseMixture, poses: Floats) -> Floats:
-    """Log density of a mixture of normal distributions with the components' masses, (P,)."""
+    """Compute the log density of a mixture of normal distributions with the components' masses, (P,)."""
     squared, half_log_det = squared_distances(components, poses)
     mass = components.log_mass - log_sum(components.log_mass)
     return np.asarray(log_sum(mass - half_log_det - 1.5 * np.log(2 * np.pi) - 0.5 * squared))
 
 
-SHARP_CANDIDATES = 32
-RISES = 6
-"""Steps of the power."""
+SHARP_CANDIDATES, KEPT = 32, 16
+"""Places of the search, and most places that are weighted, in a map that is known exactly."""
 
-SETTLES = 4
-"""Rounds with the power at 1, at most."""
-
-KEPT = 16
-"""Places that are weighed, at most."""
+RISES, SETTLES = 6, 4
+"""Rounds in which the power rises, and most rounds with the final power."""
 
 SHARP_EACH, SHARP_LAST = 24, 192
 """Draws of each place, in a round and in the last."""
 
-ONE_PLACE = 1.0
-"""Places nearer than so many standard deviations, or `ALIKE`, have come together."""
-
-ALIKE = np.array([0.02, 0.02, np.radians(1.0)])
+ONE_PLACE, ALIKE = 1.0, np.array([0.02, 0.02, np.radians(1.0)])
+"""Places nearer than this, in standard deviations, or than this in x, y and yaw, have come together."""
 
 
 def locate(known: KnownMap, scan: Scan, rng: np.random.Generator) -> PoseBelief:
-    """The posterior of a scan's pose, which may be anywhere on the map.
+    """Compute the posterior of a scan's pose anywhere on a map that is known exactly.
 
-    Args:
-        known: the map; its ``beam_weight`` is the power that the likelihood ends at.
-        scan: the scan.
-        rng: for the draws of poses.
+    The map's ``beam_weight`` is the power that the likelihood ends at.
     """
     prior = Prior()
     valid = max(1, int((~np.isnan(scan.ranges_m)).sum()))
@@ -427,7 +413,7 @@ def locate(known: KnownMap, scan: Scan, rng: np.random.Generator) -> PoseBelief:
 
 
 def distinct(places: PoseMixture) -> PoseMixture:
-    """The places without those that lie on a heavier one."""
+    """Remove places that lie on a heavier one."""
     kept: list[int] = []
     for i in np.argsort(-places.log_mass, kind="stable").tolist():
         off = places.means[kept] - places.means[i]

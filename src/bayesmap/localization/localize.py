@@ -27,17 +27,16 @@ if TYPE_CHECKING:
 Floats = NDArray[np.float64]
 
 SURE = 0.99
-"""While the likeliest mode has less than this, the whole map is searched with every scan."""
-
+"""Probability of the likeliest mode below which every scan is searched for in the whole map."""
 
 LEAST_ON_MAP = 1e-3
-"""A prior of which less lies on the map is refused."""
+"""Least probability that a prior must have on the map."""
 
 TURN_M = 0.5
-"""A turn by one radian shows as much that is new as so much way."""
+"""Length of path that shows as much that is new as a turn by one radian."""
 
 LEAST_NEW = 0.02
-"""Share of a scan's evidence that counts, at least."""
+"""Least share of a scan's evidence that counts."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,7 +46,7 @@ class Near:
     Attributes:
         pose: x, y in metres and yaw in radians, (3,).
         sigma_m: standard deviation of x and of y.
-        sigma_rad: of the yaw.
+        sigma_rad: standard deviation of the yaw.
 
     Raises:
         BadInput: a pose that is not one, or a standard deviation that is not positive.
@@ -64,12 +63,12 @@ class Near:
         object.__setattr__(self, "pose", pose)
 
     def components(self) -> PoseMixture:
-        """As a normal distribution."""
+        """Return the prior as a normal distribution."""
         covariance = np.diag(np.array([self.sigma_m, self.sigma_m, self.sigma_rad]) ** 2)
         return PoseMixture(np.asarray(self.pose)[None], covariance[None], np.zeros(1))
 
     def share_in(self, grid: Grid) -> float:
-        """The probability of a position on the map's grid."""
+        """Compute the probability of a position on the map's grid."""
         low = np.array(grid.origin)
         high = low + np.array(grid.shape) * grid.resolution
         at = np.asarray(self.pose)[:2]
@@ -78,10 +77,10 @@ class Near:
 
 @dataclass(frozen=True, eq=False)
 class Localization:
-    """Posteriors of the poses of some scans; what is asked of it is of the last one.
+    """Posteriors of the poses of some scans; its properties are those of the last one.
 
     Attributes:
-        beliefs: one a scan, each given all scans up to it.
+        beliefs: one for each scan, given all scans up to it.
     """
 
     beliefs: tuple[PoseBelief, ...]
@@ -91,7 +90,7 @@ class Localization:
 
     @property
     def last(self) -> PoseBelief:
-        """The last scan's."""
+        """The posterior of the last scan."""
         return self.beliefs[-1]
 
     @property
@@ -106,7 +105,7 @@ class Localization:
 
     @property
     def modes(self) -> tuple[Mode, ...]:
-        """Where the robot may be, the likeliest first."""
+        """The places where the robot may be, the likeliest first."""
         return self.last.modes
 
     @property
@@ -115,15 +114,15 @@ class Localization:
         return self.last.p_lost
 
     def region(self, level: float = 0.95) -> Region:
-        """The smallest region of positions that holds a probability."""
+        """Return the smallest region of positions that holds a probability."""
         return self.last.region(level)
 
     def probability_in(self, area: ArrayLike) -> float:
-        """The probability of being in a polygon (K, 2), or in (x_min, x_max, y_min, y_max)."""
+        """Return the probability of being in a polygon (K, 2), or in (x_min, x_max, y_min, y_max)."""
         return self.last.probability_in(np.asarray(area, dtype=np.float64))
 
     def trajectory(self) -> Trajectory:
-        """Means and covariances of all scans' poses."""
+        """Return means and covariances of all scans' poses."""
         stamps = [belief.stamp_s for belief in self.beliefs]
         known = None if any(stamp is None for stamp in stamps) else np.array(stamps, dtype=np.float64)
         poses = np.array([belief.mean for belief in self.beliefs])
@@ -141,18 +140,18 @@ def localize(
     device: str = "cpu",
     on_belief: Callable[[int, PoseBelief], None] | None = None,
 ) -> Localization:
-    """Where were these scans taken, in the map of this run?
+    """Locate scans in the map of a run.
 
     Args:
         run: a run with draws, or a `KnownMap` of one, which saves preparing it again.
         scans: one, or several in order of time. Their poses are taken for odometry: only the motion from one to the
-            next is looked at, not the poses themselves.
+            next is used, not the poses themselves.
         prior: of the first scan's pose; None: it may be anywhere in the map.
-        odometry: how far off motions are; by default that of a usual robot.
-        independent: locate each scan by itself, as if nothing were known of motions.
+        odometry: how far off motions are; by default those of a usual robot.
+        independent: whether to locate each scan by itself, without odometry.
         seed: of the draws of poses.
-        device: "cpu" or a CUDA device such as "cuda:0", where poses are weighed; a `KnownMap` has its own.
-        on_belief: given the number of each scan and its posterior as soon as it is known.
+        device: "cpu" or a CUDA device such as "cuda:0", where poses are weighted; a `KnownMap` has its own.
+        on_belief: called with the number of each scan and its posterior.
 
     Raises:
         BadInput: no scan, a run without draws, no such device, a sensor model of the user's own, a prior that lies
@@ -179,7 +178,7 @@ def follow(
     independent: bool = False,
     seed: int = 0,
 ) -> Iterator[PoseBelief]:
-    """The posteriors of scans, one after the other; arguments are those of `localize`."""
+    """Yield the posteriors of scans, one after the other; arguments are those of `localize`."""
     each = (scans.select(slice(i, i + 1)) for i in range(len(scans)))
     return follow_live(known, each, prior, odometry, independent, seed)
 
@@ -192,7 +191,7 @@ def follow_live(
     independent: bool = False,
     seed: int = 0,
 ) -> Iterator[PoseBelief]:
-    """The same of scans that come one at a time: the posterior of each before the next is asked for."""
+    """Yield the posteriors of scans that come one at a time, each before the next scan is asked for, as `localize`."""
     odometry = Odometry() if odometry is None else odometry
     _check(known, prior, odometry)
     rng = np.random.default_rng(check_count("localize", "seed", seed, 0))
@@ -235,7 +234,7 @@ def _known(run: Any, device: str) -> KnownMap:
 
 
 def _check(known: KnownMap, prior: Near | None, odometry: Odometry) -> None:
-    """Refuse a prior or an odometry of another kind, and a prior by which the robot is not on the map."""
+    """Refuse a prior or odometry of another kind, and a prior under which the robot is not on the map."""
     if not isinstance(odometry, Odometry):
         raise BadInput(f"localize: odometry must be such as bm.Odometry(), got {odometry!r}")
     if prior is None:
@@ -253,11 +252,11 @@ def _check(known: KnownMap, prior: Near | None, odometry: Odometry) -> None:
 
 
 def moved(belief: PoseBelief, motion: Floats, sigmas: Floats, trust: Trust, new: float = 1.0) -> Prior:
-    """What is believed after a motion that odometry reports.
+    """Return the prior of the pose after a motion that odometry reports.
 
     Args:
-        belief: before it.
-        motion: the new pose as seen from the old one, (3,).
+        belief: before the motion.
+        motion: the new pose in the frame of the old one, (3,).
         sigmas: standard deviations of its error, in the frame of the old pose, (3,).
         trust: how far the map is trusted.
         new: share of the next scan's evidence that is new.

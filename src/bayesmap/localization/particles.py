@@ -1,9 +1,9 @@
-"""Weighing poses by importance: a mixture about some components, adapted until it lies where the posterior does.
+"""Importance sampling of poses: a mixture of proposals, adapted until it lies where the posterior does.
 
-Each round draws from a mixture of Student distributions about the components found so far, weighs the draws by
-target / proposal, and moves the components to the weighted means (population Monte Carlo; Cappe, Guillin, Marin and
+Each round draws from a mixture of Student distributions about the places found so far, weights the draws by
+target / proposal, and moves the places to the weighted means (population Monte Carlo; Cappe, Guillin, Marin and
 Robert 2004). The last round's weights are unbiased for the posterior, and their mean for its normaliser. Draws are
-spread evenly: points of a lattice that is shifted at random, each of which has the law of a draw by itself.
+spread evenly: points of a lattice that is shifted at random, each of which has the law of a single draw.
 """
 
 from __future__ import annotations
@@ -23,20 +23,20 @@ DOF = 5.0
 STUDENT_CONSTANT = gammaln((DOF + 3) / 2) - gammaln(DOF / 2) - 1.5 * np.log(DOF * np.pi)
 LATTICE = 1.1673039782614187 ** -np.arange(1.0, 5.0)
 LEAST_SD = np.array([0.004, 0.004, np.radians(0.1)])
-"""A proposal is never narrower than this."""
+"""Least standard deviations of a proposal."""
 
-OVERLAP = 2.0
-SAME = np.array([0.2, 0.2, np.radians(7.0)])
-"""Places closer than this in all three are one mode in any case."""
+OVERLAP, SAME = 2.0, np.array([0.2, 0.2, np.radians(7.0)])
+"""Places closer than this, in standard deviations, or than this in x, y and yaw, are one mode."""
 
 COUNTING, ENOUGH = 0.3, 16.0
-"""Share of a place's draws that must count, and how many of them will do; weights are tempered until they do."""
+"""Weights of a place's draws are tempered until this share of them, or this many, are effective."""
 
 NEGLIGIBLE_NATS = 15.0
+"""Places whose mass is less than the greatest by this are dropped."""
 
 
 def log_sum(logs: Floats) -> Floats:
-    """log sum exp over the last axis; SciPy's takes longer than all else here, for arrays so small."""
+    """Compute log sum exp over the last axis; SciPy's is far slower for small arrays."""
     most = logs.max(axis=-1, keepdims=True)
     most = np.where(np.isfinite(most), most, 0.0)
     with np.errstate(divide="ignore"):
@@ -45,7 +45,7 @@ def log_sum(logs: Floats) -> Floats:
 
 @dataclass(frozen=True, eq=False)
 class PoseMixture:
-    """A mixture about some poses.
+    """K places, each with a mean pose, a covariance and a mass.
 
     Attributes:
         means: (K, 3).
@@ -58,7 +58,7 @@ class PoseMixture:
     log_mass: Floats
 
     def best(self, most: int, within_nats: float = NEGLIGIBLE_NATS) -> PoseMixture:
-        """The components with most mass, without those whose mass is less than the most by so many nats."""
+        """Return the ``most`` places of greatest mass, without those more than ``within_nats`` below the first."""
         order = np.argsort(-self.log_mass, kind="stable")[:most]
         order = order[self.log_mass[order] > self.log_mass[order[0]] - within_nats]
         return PoseMixture(self.means[order], self.covariances[order], self.log_mass[order])
@@ -66,12 +66,12 @@ class PoseMixture:
 
 @dataclass(frozen=True, eq=False)
 class Population:
-    """Weighted poses.
+    """N weighted poses.
 
     Attributes:
         poses: (N, 3).
         log_weights: target / proposal, not normalised, (N,): their mean estimates the target's normaliser.
-        place: from which place each was drawn, (N,).
+        place: the place that each was drawn from, (N,).
         log_target: the target itself, (N,).
     """
 
@@ -87,19 +87,19 @@ class Population:
 
     @property
     def weights(self) -> Floats:
-        """Normalised, (N,)."""
+        """Normalised weights, (N,)."""
         return np.asarray(np.exp(self.log_weights - log_sum(self.log_weights)))
 
 
 def draw_population(
     components: PoseMixture, target: Callable[[Floats], Floats], each: int | NDArray[np.intp], rng: np.random.Generator
 ) -> Population:
-    """Draw so many poses from each place, and weigh them by a target.
+    """Draw poses from each place, and weight them by a target.
 
     Args:
-        components: the proposal, their masses left aside.
+        components: the places; their masses are not used.
         target: log density of poses (P, 3), not normalised, (P,).
-        each: draws a place: one number, or one for each, (K,).
+        each: number of draws of each place: one number, or (K,).
         rng: for the draws.
     """
     counts = np.broadcast_to(each, len(components.means))
@@ -115,7 +115,7 @@ def draw_population(
 
 
 def student_draws(count: int, rng: np.random.Generator) -> Floats:
-    """Draws from the standard Student distribution in three dimensions, evenly spread, (N, 3).
+    """Draw from the standard Student distribution in three dimensions, evenly spread, (N, 3).
 
     The lattice is Roberts' (2018), powers of the root of x^5 = x + 1, shifted at random (Cranley and Patterson 1976).
     """
@@ -126,13 +126,13 @@ def student_draws(count: int, rng: np.random.Generator) -> Floats:
 
 
 def shared_out(components: PoseMixture, most: int, least: float = 1 / 3) -> NDArray[np.intp]:
-    """Draws for each place, (K,): as the root of its mass, by which its error counts; at least a share of the most."""
+    """Return the number of draws of each place, (K,): by the root of its mass, at least a share of the most."""
     shares = np.exp(0.5 * (components.log_mass - components.log_mass.max()))
     return np.asarray(np.maximum(np.round(most * shares), int(most * least)), dtype=np.intp)
 
 
 def groups_of(components: PoseMixture, poses: Floats) -> NDArray[np.intp]:
-    """Labels of poses by place; components closer than `OVERLAP` standard deviations are taken together, (P,)."""
+    """Label poses by place, (P,); places closer than `OVERLAP` standard deviations, or `SAME`, share a label."""
     from scipy.sparse.csgraph import connected_components
 
     if len(components.means) == 1:
@@ -147,12 +147,12 @@ def groups_of(components: PoseMixture, poses: Floats) -> NDArray[np.intp]:
 
 
 def proposal_log_density(components: PoseMixture, poses: Floats, counts: NDArray[np.intp]) -> Floats:
-    """Log density of the mixture of Student distributions with shares by these draws of each, (P,)."""
+    """Compute the log density of the mixture of Student distributions, with shares by these numbers of draws, (P,)."""
     return np.asarray(log_sum(_student_logs(components, poses) + np.log(counts / counts.sum())))
 
 
 def squared_distances(components: PoseMixture, poses: Floats) -> tuple[Floats, Floats]:
-    """Squared distances of poses in each place's standard deviations (P, K), and half the log determinants (K,)."""
+    """Return squared Mahalanobis distances of poses from each place, (P, K), and half the log determinants, (K,)."""
     off = poses - components.means[:, None]
     off[..., 2] = wrapped(off[..., 2])
     inverse = np.linalg.inv(components.covariances)
@@ -161,21 +161,21 @@ def squared_distances(components: PoseMixture, poses: Floats) -> tuple[Floats, F
 
 
 def _student_logs(components: PoseMixture, poses: Floats) -> Floats:
-    """Log density of each place's Student distribution, (P, K)."""
+    """Return the log density of each place's Student distribution, (P, K)."""
     squared, half_log_det = squared_distances(components, poses)
     return np.asarray(STUDENT_CONSTANT - half_log_det - 0.5 * (DOF + 3) * np.log1p(squared / DOF))
 
 
 def weighed(components: PoseMixture, population: Population) -> PoseMixture:
-    """The same places with the masses that a population says, which was drawn from them."""
+    """Return the places with the masses of a population that was drawn from them."""
     masses = [log_sum(population.log_weights[population.place == k]) for k in range(len(components.means))]
     return PoseMixture(components.means, components.covariances, np.array(masses))
 
 
 def adapted(components: PoseMixture, population: Population, widen: float = 1.5) -> tuple[PoseMixture, float]:
-    """Places moved to where their draws have their weight, and the least power that weights were tempered by.
+    """Move places to the weighted moments of their draws; also returns the least power by which weights were tempered.
 
-    A power of 1 says that the proposals are near the target; less, that another round will bring them nearer.
+    A power of 1 means that the proposals are near the target; a lower one, that another round will improve them.
     """
     count, least = len(components.means), 1.0
     means, covariances, log_mass = components.means.copy(), components.covariances.copy(), np.full(count, -np.inf)
@@ -185,7 +185,7 @@ def adapted(components: PoseMixture, population: Population, widen: float = 1.5)
         most = logs.max()
         if not np.isfinite(most):
             continue
-        # Tempered until several draws count: one that outweighs all others says nothing of a spread.
+        # Weights are tempered until several draws count: one that outweighs all others tells no spread.
         power = 1.0
         less = logs - most
         weights = np.exp(less)

@@ -1,22 +1,18 @@
-"""How well end points of beams agree with a map: a likelihood field, fine for refining and coarse for searching.
+"""Likelihood fields of a map, and the search in them for poses from which a scan could have been taken.
 
-A fine cell holds the largest of s exp(-d^2 / (2 sigma^2)) over cells at distance d, s the chance that they stop a beam,
-as a share of `SOLID` and at most 1 (Thrun, Burgard and Fox 2005, section 6.4, with a maximum for the nearest obstacle).
-Cells of which nothing is known may stop a beam, too, and are worth something in between: a place from which a scan
-looks past the map's edge must not lose to one where everything meets some wall.
-A coarse cell holds the largest fine value within it, so that a pose near the right one still finds its walls.
+A cell of `Field.fine` holds the largest of s exp(-d^2 / (2 sigma^2)) over cells at distance d, where s is the
+probability that they stop a beam, as a share of `SOLID` and at most 1 (Thrun, Burgard and Fox 2005, section 6.4, with a
+maximum for the nearest obstacle). Unknown cells may stop a beam, too, and are worth something in between: a place from
+which a scan looks past the map's edge must not lose to one where every beam meets some wall. A coarse cell holds the
+largest fine value within it, so that a pose near the right one still finds its walls.
 
-A cheap stand-in for the law of a scan: how near its end points fall to the map's surfaces, to a few centimetres.
+`EndpointField` approximates the law of a scan to a few centimetres: each surface counts by its normal density, widened
+by the noise of a reading, its peak 1, above a floor. It leaves out what stands in the way of a beam. It proposes poses,
+and the exact law judges them.
 
-It leaves out what stands in the way of a beam, so that nothing is judged by it: it tells where the exact law is to be
-asked. The nearest surface's normal density counts, its peak 1, above a floor (Thrun, Burgard and Fox 2005, section
-6.4, with surfaces in place of cells); a surface is widened by the noise of a reading.
-
-Where could a scan have been taken? Poses at which its end points fall on a map's obstacles, over the whole map.
-
-All positions and headings of a coarse lattice are scored: for one heading the scores of all positions are the sum, over
-the scan's points, of the coarse field shifted by the point. The best square metres are then refined on the fine field.
-(Branch and bound finds the single best pose as fast, but localization needs all that come near it.)
+The search scores all positions and headings of a coarse lattice: for one heading the scores of all positions are the
+sum, over the scan's points, of the coarse field shifted by the point. The best squares are then refined on the fine
+field. (Branch and bound finds the single best pose as fast, but localization needs all that come near it.)
 """
 
 from __future__ import annotations
@@ -33,16 +29,16 @@ from bayesmap.space.planar import wrapped
 Floats = NDArray[np.float64]
 
 SIGMA_M = 0.12
-"""Scale of the field about an obstacle: errors of map and pose that a search must forgive."""
+"""Scale of the field about an obstacle: errors of map and pose that a search must tolerate."""
 
 SOLID = 0.3
-"""A cell that stops more beams than this is as good an obstacle as a wall."""
+"""Stop probability from which a cell counts as a wall."""
 
 FLOOR = 0.01
-"""What a point in the open is worth, as a part of one on a wall: values between the two go by its logarithm."""
+"""Worth of a point in the open, relative to one on a wall; values between the two go by the logarithm."""
 
-COARSE_M = 0.3
-TOP = 255
+COARSE_M, TOP = 0.3, 255
+"""Width of a coarse cell, metres, and the value of a fine cell on a wall."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,7 +48,7 @@ class Field:
     Attributes:
         grid: of the fine values.
         fine: 0 to 255, (nx, ny).
-        coarse_grid: of the coarse values, its origin that of the grid.
+        coarse_grid: of the coarse values; its origin is that of the grid.
         coarse: 0 to 255, (mx, my).
         open: coarse cells in which a robot can be, (mx, my).
     """
@@ -64,12 +60,7 @@ class Field:
     open: NDArray[np.bool_]
 
     def score(self, points: Floats, poses: Floats) -> Floats:
-        """Mean of the fine values where points fall, from 0 to 1, at each pose.
-
-        Args:
-            points: in the sensor's frame, (N, 2).
-            poses: in the world frame, (P, 3).
-        """
+        """Average the fine values, scaled to [0, 1], over points (N, 2) in the sensor's frame, for each pose, (P,)."""
         from bayesmap.kernels.match.fields import field_sums
 
         return np.asarray(field_sums(self.fine, self.grid, points, poses) / (TOP * max(1, len(points))))
@@ -82,14 +73,14 @@ def likelihood_field(
     unknown: NDArray[np.bool_] | None = None,
     chance: float = 0.0,
 ) -> Field:
-    """The field of a map.
+    """Compute the likelihood field of a map.
 
     Args:
-        occupancy: chance that each cell stops a beam, (nx, ny); 0 where nothing is known.
+        occupancy: probability that each cell stops a beam, (nx, ny); 0 where unknown.
         grid: of the map.
         robot_may_be: cells in which a robot may be, (nx, ny).
-        unknown: cells of which nothing is known, (nx, ny); None: there are none.
-        chance: that such a cell stops a beam.
+        unknown: unknown cells, (nx, ny); by default none.
+        chance: probability that an unknown cell stops a beam.
     """
     strength = np.clip(np.nan_to_num(occupancy) / SOLID, 0.0, 1.0)
     radius = max(1, math.ceil(2.0 * SIGMA_M / grid.resolution))
@@ -113,53 +104,47 @@ def likelihood_field(
 
 
 def worth_of_unknown(chance: float, sigma_m: float, resolution: float) -> float:
-    """Density of a reading in cells that stop a beam with a chance, as a part of its peak on a wall, at most 1.
+    """Compute the density of readings in cells that stop a beam with a probability, relative to its peak on a wall.
 
-    Args:
-        chance: of a cell.
-        sigma_m: standard deviation of a reading on a wall.
-        resolution: of the cells.
+    ``sigma_m`` is the standard deviation of a reading on a wall. The result is at most 1.
     """
     return min(1.0, chance / resolution * sigma_m * math.sqrt(2.0 * math.pi))
 
 
 def _blocks(values: NDArray[np.generic], stride: int, shape: tuple[int, int]) -> NDArray[np.generic]:
-    """Cells in squares of ``stride``, (mx, stride, my, stride); what lies over the border is 0."""
+    """Return cells in squares of ``stride``, (mx, stride, my, stride); 0 beyond the border."""
     mx, my = shape
     nx, ny = values.shape
     padded = np.pad(values, ((0, mx * stride - nx), (0, my * stride - ny)))
     return padded.reshape(mx, stride, my, stride)
 
 
-FINE_M = 0.025
-MOST_CELLS = 16_000_000
-"""Of fine cells."""
+FINE_M, MOST_CELLS = 0.025, 16_000_000
+"""Width and most number of the cells of an `EndpointField`."""
 
 SURFACE_FLOOR = 0.02
-"""What a point is worth that falls nowhere near a surface, as a part of one that falls on it."""
+"""Worth of a point far from all surfaces, relative to one on a surface."""
 
 FAINT = 0.1
-"""Cells that stop fewer beams than this have no surface here."""
+"""Cells that stop beams with a lower probability have no surface in an `EndpointField`."""
 
 
 @dataclass(frozen=True, eq=False)
 class EndpointField:
-    """Log of a point's worth, over a fine grid.
+    """The logarithm of a point's worth, over a fine grid.
 
     Attributes:
         grid: fine.
-        values: 0, far from all surfaces, to 255, on one, (nx, ny).
+        values: 0, far from all surfaces, to 255, on a surface, (nx, ny).
     """
 
     grid: Grid
     values: NDArray[np.uint8]
 
     def log_worth(self, points: Floats, poses: Floats) -> Floats:
-        """Sum over points of their log worth above that of a point far from all surfaces, at each pose, (P,), nats.
+        """Sum the log worth of points over that of a point far from all surfaces, at each pose, (P,), nats.
 
-        Args:
-            points: in the sensor's frame, (N, 2).
-            poses: in the world frame, (P, 3).
+        Points are in the sensor's frame, (N, 2), and poses in the world frame, (P, 3).
         """
         from bayesmap.kernels.match.fields import field_sums
 
@@ -169,14 +154,14 @@ class EndpointField:
 def endpoint_field(
     states: NDArray[np.float32], grid: Grid, noise_m: float, unknown: NDArray[np.bool_], chance: float
 ) -> EndpointField:
-    """The field of some draws of a map.
+    """Compute the field of some draws of a map.
 
     Args:
         states: stop probabilities (D, N), or surfaces (D, N, 6 or more): see `KnownMap.of_draws`.
         grid: of the map.
         noise_m: standard deviation of a reading.
-        unknown: cells of which nothing is known, (nx, ny).
-        chance: that such a cell stops a beam.
+        unknown: unknown cells, (nx, ny).
+        chance: probability that an unknown cell stops a beam.
     """
     from bayesmap.kernels.match.fields import spread
 
@@ -184,11 +169,11 @@ def endpoint_field(
     parts = max(1, min(parts, math.isqrt(MOST_CELLS // grid.n_cells)))
     fine = Grid((grid.shape[0] * parts, grid.shape[1] * parts), grid.resolution / parts, grid.origin)
     means, covariances, strengths = _surfaces(states, grid, ~unknown.ravel())
-    # A fine cell stands for all points within it, so that no surface is narrower than half of one.
+    # A fine cell stands for all points within it, so that no surface is narrower than half a cell.
     round_ = np.array([1.0, 0.0, 1.0])
     covariances = (covariances + round_ * noise_m**2) / fine.resolution**2 + 0.25 * round_
     peaks = spread(means / fine.resolution, covariances, strengths, fine.shape)
-    # About a third of a cell is how far a surface spreads, or is off its middle.
+    # A surface spreads by about a third of a cell, or is off its middle by as much.
     worth = worth_of_unknown(chance, math.hypot(noise_m, 0.3 * grid.resolution), grid.resolution)
     np.maximum(peaks, np.where(unknown, worth, 0.0).repeat(parts, axis=0).repeat(parts, axis=1), out=peaks)
     logs = np.log(SURFACE_FLOOR + (1.0 - SURFACE_FLOOR) * np.minimum(peaks, 1.0)) / -math.log(SURFACE_FLOOR) + 1.0
@@ -196,10 +181,9 @@ def endpoint_field(
 
 
 def _surfaces(states: NDArray[np.float32], grid: Grid, known: NDArray[np.bool_]) -> tuple[Floats, Floats, Floats]:
-    """Means from the grid's corner (K, 2), covariances xx, xy, yy (K, 3), in metres, and strengths, of all draws.
+    """Return means from the grid's corner (K, 2), covariances xx, xy, yy (K, 3), metres, and strengths, of all draws.
 
-    Of known cells only: what a few draws have elsewhere tells of the prior, and all of them together have it almost
-    everywhere.
+    Unknown cells are left out: a few draws there tell of the prior, and together they have surfaces almost everywhere.
     """
     chances = states[..., 0] if states.ndim == 3 else states
     which = np.nonzero((chances > FAINT) & known)
@@ -213,19 +197,14 @@ def _surfaces(states: NDArray[np.float32], grid: Grid, known: NDArray[np.bool_])
     return np.asarray((cells + 0.5) * grid.resolution), np.tile([flat, 0.0, flat], (len(cells), 1)), strengths
 
 
-HEADINGS = 90
-POINTS = 48
-"""Of a scan, in the coarse search: about evenly spaced by beams."""
+HEADINGS, POINTS, FINE_POINTS = 90, 48, 60
+"""Headings and points of a scan in the coarse search, and points in the refinement, evenly spaced by beams."""
 
 FEWEST = 8
-"""Fewer points fall on walls anywhere."""
+"""Fewest points of a search: fewer fall on walls anywhere."""
 
-FINE_POINTS = 60
-BLOCK = 4
-"""Coarse cells to a side of the squares of which the best position is kept, for every heading."""
-
-SQUARES = 240
-"""Of all squares and headings, those that are looked at closely."""
+BLOCK, SQUARES = 4, 240
+"""Side of the squares whose best position is kept for every heading, coarse cells, and how many are refined."""
 
 APART_M, APART_RAD = 0.3, np.radians(8.0)
 """Candidates closer than this are one."""
@@ -233,7 +212,7 @@ APART_M, APART_RAD = 0.3, np.radians(8.0)
 
 @dataclass(frozen=True, eq=False)
 class Candidates:
-    """Poses from which a scan could be.
+    """K poses from which a scan could have been taken.
 
     Attributes:
         poses: in the world frame, best first, (K, 3).
@@ -245,7 +224,7 @@ class Candidates:
 
 
 def end_points(angles_rad: Floats, ranges_m: Floats, most: int, furthest_m: float = np.inf) -> Floats:
-    """Where the beams of a scan ended, in the sensor's frame, (N, 2): at most so many, evenly spaced by beams."""
+    """Return end points of a scan's beams in the sensor's frame, (N, 2): at most ``most``, evenly spaced by beams."""
     hit = np.flatnonzero(np.isfinite(ranges_m) & (ranges_m > 0) & (ranges_m < furthest_m))
     if len(hit) > most:
         hit = hit[np.arange(most) * len(hit) // most]
@@ -253,16 +232,9 @@ def end_points(angles_rad: Floats, ranges_m: Floats, most: int, furthest_m: floa
 
 
 def search(field: Field, angles_rad: Floats, ranges_m: Floats, most: int) -> Candidates:
-    """The best poses of a scan over a whole map.
+    """Find the best poses of a scan, A angles and readings, over a whole map.
 
-    Args:
-        field: of the map.
-        angles_rad: of the beams, (A,).
-        ranges_m: readings, (A,).
-        most: so many poses at most, all more than `APART_M` or `APART_RAD` from each other.
-
-    Returns:
-        Candidates; none for a scan with fewer hits than `FEWEST`.
+    All are more than `APART_M` or `APART_RAD` from each other. A scan with fewer hits than `FEWEST` has none.
     """
     points = end_points(angles_rad, ranges_m, POINTS)
     coarse = _coarse_poses(field, points) if len(points) >= FEWEST else np.empty((0, 3))
@@ -290,12 +262,12 @@ def refine(field: Field, points: Floats, poses: Floats, most: int) -> Candidates
 
 
 def _coarse_poses(field: Field, points: Floats) -> Floats:
-    """The best position of each of the best squares and headings, (at most SQUARES, 3)."""
+    """Return the best position of each of the best squares and headings, (at most SQUARES, 3)."""
     resolution, (mx, my) = field.coarse_grid.resolution, field.coarse_grid.shape
     reach = int(np.ceil(np.hypot(*points.T).max() / resolution)) + 2
-    # Rows lie one after the other with a gap between them: what a point overshoots one row's end by ends there.
+    # Rows lie one after the other with gaps between them, in which points beyond a row's end fall.
     width = my + reach
-    # Sums of a few levels a point fit in a byte, which is what adding them up takes its time by.
+    # Sums of a few levels a point fit in a byte; fewer bytes are faster to add.
     levels = 255 // len(points)
     exact = np.pad(field.coarse, ((reach, reach + 1), (0, reach))).ravel()
     flat = ((exact * levels + TOP // 2) // TOP).astype(np.uint8)
@@ -322,7 +294,7 @@ def _coarse_poses(field: Field, points: Floats) -> Floats:
     chosen = np.argpartition(best.ravel(), -min(SQUARES, best.size))[-min(SQUARES, best.size) :]
     chosen = chosen[best.ravel()[chosen] > 0]
     turn, x, y = np.unravel_index(chosen, best.shape)
-    # Where in its square the best position is, is looked at for those alone.
+    # The best position within a square is found for the chosen squares alone.
     k = np.arange(BLOCK * BLOCK)
     cell_x, cell_y = x[:, None] * BLOCK + k // BLOCK, y[:, None] * BLOCK + k % BLOCK
     at = (cell_x * width + cell_y)[:, :, None] + shifts[turn][:, None, :]
@@ -333,7 +305,7 @@ def _coarse_poses(field: Field, points: Floats) -> Floats:
 
 
 def _apart(poses: Floats, order: NDArray[np.intp], most: int, apart_m: float, apart_rad: float) -> NDArray[np.intp]:
-    """The first of an order that are all apart from each other."""
+    """Select the first poses of an order that are all apart from each other, at most ``most``."""
     some = poses[order]
     off = np.abs(some[:, None] - some)
     near = (off[..., 0] < apart_m) & (off[..., 1] < apart_m) & (np.abs(wrapped(off[..., 2])) < apart_rad)

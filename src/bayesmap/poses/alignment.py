@@ -1,21 +1,19 @@
-"""Every scan against all others that see the same walls, all at once.
+"""Alignment of scans with all others that see the same walls, and the precision of the result.
 
-Each scan is paired with those that share most of its points. Point-to-line pairs of all of them are summed to one
-quadratic cost over relative poses, odometry is added, and the sparse system is solved; in eight to ten rounds the
+Each scan is paired with those that share most of its points. The point-to-line pairs of all of them are summed to one
+quadratic cost over relative poses, odometry is added, and the sparse system is solved. In eight to ten rounds the
 reach of the pairs shrinks from decimetres to the noise (bundle adjustment of Lu and Milios 1997, with lines).
 
-Two things keep the laser from claiming too much. A beam that is matched with m others counts 1 / (2 (m + 1)) in each
-pair: it is one measurement, not m. What errors of normals add to the information along a corridor is taken off again
-(`bayesmap.kernels.match.line_pairs`, ``slack``), so that there odometry decides.
+Two corrections keep the laser from claiming too much. A beam that is matched with m others counts 1 / (2 (m + 1)) in
+each pair: it is one measurement, not m. The information that errors of normals add along a corridor is taken off again
+(`bayesmap.kernels.match.line_pairs`, ``slack``), so that odometry decides there.
 
-How far errors of points move poses: what robust matching claims of its own precision, held against the pairs.
-
-Matching minimises a robust cost, and its second derivatives by Gauss and Newton, over the variance of what is left,
-claim too much. A residual e pulls with the force psi = w e, which grows more slowly than e, and at last falls; and when
-a scan moves, its points are paired with others, nearer ones. So of a shift the forces change by a share k < 1 of what
-Gauss and Newton say. An M-estimator's variance is (Huber 1967), for a point, E[psi^2] / (k E[w])^2, of which each of
-the two points of a pair has half. With noise of 1 cm k is 0.67, with 3 cm 0.57: among points that scatter as widely as
-they are apart the nearest is seldom the same.
+The curvature of the robust cost by Gauss and Newton, over the variance of the residuals, claims too much as well. A
+residual e pulls with the force psi = w e, which grows more slowly than e, and at last falls; and when a scan moves, its
+points are paired with nearer ones. So a shift changes the forces by only a share k < 1 of the Gauss-Newton value. An
+M-estimator's variance is E[psi^2] / (k E[w])^2 for a point (Huber 1967), of which each of the two points of a pair has
+half. With noise of 1 cm k is 0.67, with 3 cm 0.57: among points that scatter as widely as they are apart the nearest
+is seldom the right one. `point_error` measures both from the pairs.
 """
 
 from __future__ import annotations
@@ -34,21 +32,17 @@ from bayesmap.space.planar import between, retract
 
 Floats = NDArray[np.float64]
 
-PARTNERS = 20
-"""Scans that each is paired with, at most."""
-
-TRIED = 64
-"""Of so many near it that look a similar way."""
+PARTNERS, TRIED = 20, 64
+"""Most partners of a scan, and the number of near scans among which they are chosen."""
 
 AT_ONCE = 10
 """Partners within this many scans in the order of time share the drift; at least half are taken from elsewhere."""
 
 REACH_M, SCALE_M = (0.3, 0.08), (0.12, 0.03)
-"""From the first round to the middle one: how far paired points lie apart, and Geman and McClure's c."""
+"""Greatest distance of paired points, and Geman and McClure's c: in the first round, and from the middle one on."""
 
-ALIKE = 0.7
-LEAST_MATCHED = 0.2
-"""Of a scan's points, so many must match a partner."""
+ALIKE, LEAST_MATCHED = 0.7, 0.2
+"""Least cosine between the normals of paired points, and least share of a scan's points that match a partner."""
 
 SLIP = 25.0
 """Odometry's cost grows less than quadratically beyond this squared Mahalanobis distance: wheels slip."""
@@ -56,7 +50,7 @@ SLIP = 25.0
 
 @dataclass(frozen=True, eq=False)
 class Pairs:
-    """Which scans are compared: points of ``source`` with walls of ``target``; sorted by source, offsets (S + 1,)."""
+    """Scans that are compared: points of ``source`` with walls of ``target``; sorted by source, offsets (S + 1,)."""
 
     source: NDArray[np.int32]
     target: NDArray[np.int32]
@@ -68,14 +62,14 @@ class Pairs:
 
 @dataclass(frozen=True, eq=False)
 class Alignment:
-    """Poses of scans that were aligned together.
+    """Poses of S scans that were aligned together.
 
     Attributes:
         poses: (S, 3).
         pairs: the scans that were compared.
-        sigma_m: standard deviation of a point, found from the residuals.
+        sigma_m: standard deviation of a point, from the residuals.
         gaussian: the curvature of the cost about the poses, for covariances.
-        matched: for each scan the mean share of its points that its partners' walls explain, (S,).
+        matched: mean share of each scan's points that its partners' walls explain, (S,).
     """
 
     poses: Floats
@@ -85,35 +79,31 @@ class Alignment:
     matched: Floats
 
 
-def overlapping_pairs(geometry: ScanGeometry, poses: Floats, reach_m: float, threads: int | None = None) -> Pairs:
-    """The partners of each scan: those whose walls explain most of its points, near in time and from other visits.
+def overlapping_pairs(geometry: ScanGeometry, poses: Floats, reach_m: float) -> Pairs:
+    """Select the partners of each of S scans at poses (S, 3): those whose walls explain most of its points.
 
-    Args:
-        geometry: S scans.
-        poses: (S, 3).
-        reach_m: how far apart the sensors of two scans may be.
-        threads: to compute with; by default all cores.
+    Sensors of partners are at most ``reach_m`` apart. Some partners are near in time, the others from other visits.
     """
     from scipy.spatial import cKDTree
 
     count = len(poses)
     if count < 2:
         return Pairs(np.empty(0, np.int32), np.empty(0, np.int32), np.zeros(count + 1, np.int32))
-    tree = cKDTree(np.column_stack([poses[:, :2], np.cos(poses[:, 2]), np.sin(poses[:, 2])]) * [1.0, 1.0, 1.5, 1.5])
     # A heading that differs by half a turn is as far as 3 m.
+    tree = cKDTree(np.column_stack([poses[:, :2], np.cos(poses[:, 2]), np.sin(poses[:, 2])]) * [1.0, 1.0, 1.5, 1.5])
     _, near = tree.query(tree.data, k=min(4 * TRIED, count), workers=1)
     source = np.repeat(np.arange(count), near.shape[1])
     target = near.ravel()
     plain = np.hypot(*(poses[source, :2] - poses[target, :2]).T)
     kept = (source != target) & (plain < reach_m)
     close_in_time = np.abs(source - target) <= AT_ONCE
-    # Of those near in time all, of the others the nearest.
+    # All that are near in time, and the nearest of the others.
     rank = np.cumsum((kept & ~close_in_time).reshape(count, -1), axis=1).ravel()
     kept &= close_in_time | (rank <= TRIED)
     source, target = source[kept].astype(np.int32), target[kept].astype(np.int32)
     stride = max(1, geometry.beams // 45)
     relative = between(poses[target], poses[source])
-    _, _, _, totals = pair_sums(geometry, None, source, target, relative, 0.3, 0.15, ALIKE, stride, threads)
+    _, _, _, totals = pair_sums(geometry, None, source, target, relative, 0.3, 0.15, ALIKE, stride, geometry.threads)
     sampled = np.maximum((geometry.host_kind[:, ::stride] > 0).sum(axis=1), 1)
     share = totals[:, 2] / sampled[source]
     good = share > LEAST_MATCHED
@@ -125,7 +115,7 @@ def overlapping_pairs(geometry: ScanGeometry, poses: Floats, reach_m: float, thr
     others = np.bincount(source[~late], minlength=count)
     room = np.where(late, PARTNERS - np.minimum(others[source], PARTNERS // 2), PARTNERS // 2)
     within = np.where(late, number_all - others[source], number_all)
-    # Where those near in time are few, others fill up.
+    # Where few are near in time, others take their place.
     few = np.bincount(source[late], minlength=count)
     room = np.where(late, room, np.maximum(room, PARTNERS - few[source]))
     kept = within < room
@@ -134,33 +124,24 @@ def overlapping_pairs(geometry: ScanGeometry, poses: Floats, reach_m: float, thr
 
 
 def align(
-    geometry: ScanGeometry,
-    poses: Floats,
-    odometry: Factors,
-    pairs: Pairs,
-    *,
-    rounds: int = 10,
-    reach_m: tuple[float, float] = REACH_M,
-    scale_m: tuple[float, float] = SCALE_M,
-    firm: NDArray[np.bool_] | None = None,
-    reselect: Callable[[Floats], Pairs] | None = None,
+    geometry: ScanGeometry, poses: Floats, odometry: Factors, pairs: Pairs, *, rounds: int = 10,
+    reach_m: tuple[float, float] = REACH_M, scale_m: tuple[float, float] = SCALE_M,
+    firm: NDArray[np.bool_] | None = None, reselect: Callable[[Floats], Pairs] | None = None,
     on_progress: Callable[[int, Floats], None] | None = None,
-    threads: int | None = None,
-) -> Alignment:
-    """Align scans with all their partners and with odometry.
+) -> Alignment:  # fmt: skip
+    """Align S scans with all their partners and with odometry.
 
     Args:
-        geometry: S scans.
+        geometry: of the scans.
         poses: to start from, (S, 3).
         odometry: relative poses of scans by odometry, or none.
         pairs: the scans to compare.
         rounds: of Gauss-Newton.
-        reach_m: how far paired points lie apart, at the first round, and from the middle one on.
-        scale_m: Geman and McClure's c, likewise.
-        firm: of the relative poses by odometry those over which no wheel can have slipped, (M,); by default none.
+        reach_m: greatest distance of paired points, in the first round, and from the middle one on.
+        scale_m: Geman and McClure's c, in the same rounds.
+        firm: relative poses by odometry over which no wheel can have slipped, (M,); by default none.
         reselect: chooses pairs anew from the poses in the middle of the rounds.
         on_progress: called with the number of rounds that are done and the poses, (S, 3).
-        threads: to compute with; by default all cores.
     """
     count, sigma = len(poses), geometry.noise_m
     reach_m, scale_m = geometry.reach_m(*reach_m), geometry.scale_m(*scale_m)
@@ -174,9 +155,8 @@ def align(
             pairs = reselect(poses)
         if number in (0, (rounds + 1) // 2, rounds - 2):
             seen = between(poses[pairs.target], poses[pairs.source])
-            counts = match_counts(geometry, pairs.offsets, pairs.target, seen, reach, scale, ALIKE, threads)
-            weights = beam_weights(counts)
-        laser, totals = _laser(geometry, weights, poses, pairs, reach, scale, sigma, threads)
+            weights = _beam_weights(geometry, pairs, seen, reach, scale)
+        laser, totals = _laser(geometry, weights, poses, pairs, reach, scale, sigma)
         squares = odometry.squares(poses)
         slipping = 1.0 / (1.0 + squares / SLIP)
         wheels = quadratic(odometry, poses, slipping if firm is None else np.where(firm, 1.0, slipping))
@@ -195,8 +175,11 @@ def align(
     return Alignment(poses, pairs, sigma, gaussian, matched)
 
 
-def beam_weights(counts: NDArray[np.float32]) -> NDArray[np.float32]:
-    """What a beam counts in each of its pairs, (S, B), by the number of scans that it is matched with."""
+def _beam_weights(
+    geometry: ScanGeometry, pairs: Pairs, relative: Floats, reach: float, scale: float
+) -> NDArray[np.float32]:
+    """Return the weight of each beam in each of its pairs, (S, B), by the number of scans that it is matched with."""
+    counts = match_counts(geometry, pairs.offsets, pairs.target, relative, reach, scale, ALIKE, geometry.threads)
     return np.asarray(0.5 / (1.0 + counts), dtype=np.float32)
 
 
@@ -208,30 +191,24 @@ def _gaussian(poses: Floats, laser: Quadratic, wheels: Quadratic) -> PoseGaussia
 
 
 def _laser(
-    geometry: ScanGeometry,
-    weights: NDArray[np.float32],
-    poses: Floats,
-    pairs: Pairs,
-    reach: float,
-    scale: float,
+    geometry: ScanGeometry, weights: NDArray[np.float32], poses: Floats, pairs: Pairs, reach: float, scale: float,
     sigma: float,
-    threads: int | None,
-) -> tuple[Quadratic, Floats]:
-    """What the laser tells of the relative poses of pairs, and the sums' totals."""
+) -> tuple[Quadratic, Floats]:  # fmt: skip
+    """Return the laser's cost over the relative poses of pairs, and the totals of its sums."""
     relative = between(poses[pairs.target], poses[pairs.source])
+    ends = pairs.source, pairs.target
     second, slack, first, totals = pair_sums(
-        geometry, weights, pairs.source, pairs.target, relative, reach, scale, ALIKE, threads=threads
+        geometry, weights, *ends, relative, reach, scale, ALIKE, threads=geometry.threads
     )
     laser_information, gradient = without_slack(second, slack, first, sigma)
-    scaled = 1.0 / sigma**2
-    ends = pairs.target.astype(np.intp), pairs.source.astype(np.intp)
-    return Quadratic(*ends, relative, laser_information * scaled, gradient * scaled), totals
+    scaled, target, source = 1.0 / sigma**2, pairs.target.astype(np.intp), pairs.source.astype(np.intp)
+    return Quadratic(target, source, relative, laser_information * scaled, gradient * scaled), totals
 
 
 def without_slack(second: Floats, slack: Floats, first: Floats, sigma_m: float) -> tuple[Floats, Floats]:
-    """Second derivatives without what errors of normals add, (M, 3, 3), and first ones with the same minimum, (M, 3).
+    """Remove what errors of normals add to second derivatives, (M, 3, 3), and to first ones, (M, 3).
 
-    The minimum of the quadratic stays where it was; along directions that only slack holds the cost becomes flat.
+    The minimum of the quadratic cost stays; along directions that only slack holds the cost becomes flat.
     """
     laser_information = second - sigma_m**2 * slack
     values, vectors = np.linalg.eigh(laser_information)
@@ -243,30 +220,30 @@ def without_slack(second: Floats, slack: Floats, first: Floats, sigma_m: float) 
 
 
 def _number_within(groups: NDArray[np.int32]) -> NDArray[np.intp]:
-    """Of entries sorted by group: their number within the group, from 0."""
+    """Number the entries of each group from 0, for entries sorted by group."""
     begins = np.concatenate([[True], groups[1:] != groups[:-1]]) if len(groups) else np.empty(0, bool)
     at = np.nonzero(begins)[0]
     return np.arange(len(groups)) - np.repeat(at, np.diff(np.append(at, len(groups))))
 
 
 COUNTED_AGAIN = 0.1
-"""Of the points' variance so much is in that of errors in common, too (`shared_errors`): what that finds in simulated
-offices, where nothing is in common."""
+"""Share of the points' variance that the shared errors of pairs contain, too (`bayesmap.poses.pose_gaussian.bends`):
+their value in simulated offices, where nothing is shared."""
 
 LEVER_M = 4.0
-"""Points are so far from the laser, about: what a turn moves them by."""
+"""Typical distance of points from the laser, for turns."""
 
 LEAST_RESPONSE, MOST_RESPONSE = 0.2, 1.0
-"""Where the forces hardly answer to a shift there is too little to match."""
+"""Bounds on k: where the forces hardly answer to a shift there is too little to match."""
 
 
 @dataclass(frozen=True, eq=False)
 class PointError:
-    """How far points err, and how the forces answer to a shift.
+    """The error of points, and the response of the forces to a shift.
 
     Attributes:
         scatter_m: standard deviation of a point's force over its mean weight, metres.
-        response: k above, of shifts along x and y and of turns, (3,).
+        response: k for shifts along x and y and for turns, (3,).
     """
 
     scatter_m: float
@@ -278,24 +255,16 @@ class PointError:
         return self.scatter_m / float(self.response[0])
 
 
-def point_error(geometry: ScanGeometry, aligned: Alignment, threads: int | None = None) -> PointError:
-    """How far errors of points move scans that were aligned.
-
-    Args:
-        geometry: of the scans that were aligned.
-        aligned: their poses, and which were compared.
-        threads: to compute with; by default all cores.
-    """
+def point_error(geometry: ScanGeometry, aligned: Alignment) -> PointError:
+    """Measure the error of points, and the response of the forces, on the pairs of aligned scans."""
     pairs = aligned.pairs
     reach, scale = geometry.reach_m(*REACH_M)[1], geometry.scale_m(*SCALE_M)[1]
     relative = between(aligned.poses[pairs.target], aligned.poses[pairs.source])
-    counts = match_counts(geometry, pairs.offsets, pairs.target, relative, reach, scale, ALIKE, threads)
-    weights = beam_weights(counts)
+    weights = _beam_weights(geometry, pairs, relative, reach, scale)
 
     def sums(shift: Floats) -> tuple[Floats, Floats, Floats]:
-        second, _, first, totals = pair_sums(
-            geometry, weights, pairs.source, pairs.target, relative + shift, reach, scale, ALIKE, threads=threads
-        )
+        moved = pairs.source, pairs.target, relative + shift
+        second, _, first, totals = pair_sums(geometry, weights, *moved, reach, scale, ALIKE, threads=geometry.threads)
         return second, first, totals
 
     second, _, totals = sums(np.zeros(3))
@@ -308,13 +277,13 @@ def point_error(geometry: ScanGeometry, aligned: Alignment, threads: int | None 
         shift = np.zeros(3)
         shift[axis] = 0.5 * aligned.sigma_m / lever_m
         changed[axis] = (sums(shift)[1] - sums(-shift)[1])[:, axis].sum() / (2.0 * shift[axis])
-    along = (changed[0] + changed[1]) / (said[0] + said[1])  # the axes are those of scans, which look any way
+    along = (changed[0] + changed[1]) / (said[0] + said[1])  # scans look any way, so that x and y share one response
     response = np.clip([along, along, changed[2] / said[2]], LEAST_RESPONSE, MOST_RESPONSE)
     return PointError(float(np.sqrt(0.5 * force_sq / weight)), response)
 
 
 def with_point_error(aligned: Alignment, error: PointError) -> PoseGaussian:
-    """The approximation of the posterior with points that err so much: the laser's part of it is scaled.
+    """Return the Gaussian of aligned scans with the laser's part scaled to a measured error of points.
 
     The approximation is a Student's t, whose covariance is dof / (dof - 2) times its scale matrix.
     """

@@ -1,35 +1,28 @@
-"""The motions that odometry states between scans, and what is learnt about its errors on the way.
+"""Calibration of odometry and of the laser's beam angles from the scans.
 
-Errors of odometry are in part the same all the time: wheels of other sizes than assumed, a base of another width, a
-laser beside the point that odometry follows. To first order all of these make odometry state ``(1 + C) motion``, and C
-is found by recursive least squares from key scan to key scan, where matching errs less than odometry. The rest is noise
-as that of `bayesmap.poses.prior.Odometry`, whose size is estimated in the same pass from scan to scan.
+Systematic errors. Wheels of other sizes than assumed, a base of another width, or a laser beside the point that
+odometry follows make odometry state, to first order,
 
-What is wrong with odometry and with the laser's stated angles, as the scans themselves tell.
+    stated = (1 + C) true - lag (v_end - v_begin).
 
-Odometry: the motion that it states is, to first order,
+C is a constant matrix, the true motion is found by scan matching, and v is the stated velocity where the motion begins
+and ends: if odometry's stamps are late by ``lag``, its motion is that of another interval. The stated motion is
+regressed on the matched one, which errs less: the other way round, the noise of a robot that drives straight on passes
+for a scale of 0. A stated motion is corrected by 1 + B = 1 / (1 + C). B also gives the laser's place on the robot.
+`RunningOdometry` learns C and the size of the noise on the way by recursive least squares; `fit_odometry` fits C, the
+lag and the noise to aligned key scans by robust least squares.
 
-    stated = (1 + C) found - lag (v_end - v_begin),
-
-C its systematic error (`bayesmap.poses.calibration`), found the motion by scan matching, and v the stated velocity
-where the motion begins and ends: if odometry's stamps are late by ``lag``, its motion is that of another interval. Both
-are fitted by robust least squares, and what is left is the noise. It is the stated motion that is regressed on the one
-found, which errs less: the other way round the noise of a robot that drives straight on passes for a scale of 0. What
-corrects a stated motion is 1 + B = 1 / (1 + C); from B follow the laser's place on the robot and the scale.
-
-Angles: a scan with a wrong angle between its beams is stretched around the laser, and neighbouring scans no longer fit.
-The step is that of the lowest residual. The first beam's angle stays as stated: to turn all beams is to turn the
-laser on the robot, which B tells.
-
-The noise of odometry whose variance grows with the way: it is the same whether a log has 1 scan a second or 10.
-
-Over n scans, a way of d metres and turns of a radians in all (sizes added), the errors of x, y and yaw, in the frame
-of the motion, have the variances
+Noise. Over n scans, d metres and turns of a radians in all (absolute values summed), the errors of x, y and yaw, in the
+frame of the motion, have the variances
 
     v = per_m d + per_rad a + per_scan n.
 
-So parts of a motion have variances that add up to that of the whole, as those of a random walk do. (The squares of
-`bayesmap.poses.prior.Odometry` do not: ten short motions have a tenth of the variance of the one that they make.)
+So the variances of parts of a motion add up to that of the whole, whether a log has 1 scan a second or 10. (The squares
+of `bayesmap.poses.prior.Odometry` do not: ten short motions have a tenth of the variance of the one that they make.)
+
+Angles. A scan with a wrong angle between its beams is stretched around the laser, so that neighbouring scans do not
+fit. The angle of the lowest residual is taken. The first beam's angle stays as stated: to turn all beams is to turn the
+laser on the robot, which B tells.
 """
 
 from __future__ import annotations
@@ -49,25 +42,23 @@ from bayesmap.space.time_order import elapsed_s, repeated_stamps
 Floats = NDArray[np.float64]
 
 FAST_M_PER_S = 3.0
-FAST_RAD_PER_S = 3.0
-"""Faster motions are not believed of a robot: their noise is as large as they are."""
+"""A robot that is faster is taken to be impossible."""
 
 COMMON = Odometry(0.1, 0.05, 0.05, 0.1, 0.01, 0.01)
-"""Noise of ordinary robots; what is estimated is how many times larger the one at hand is."""
+"""Noise of ordinary robots; the noise of the robot at hand is estimated as a multiple of it."""
 
-FIRST_RATIO = 3.0
-"""Noise is taken to be so many times that of ordinary robots until the data say otherwise."""
+FIRST_RATIO, PRIOR_COUNT = 3.0, 12.0
+"""Prior of that multiple, and the number of motions that it counts for."""
 
-PRIOR_COUNT = 12.0
 MEMORY = 300.0
 """Motions over which the size of the noise is averaged: floors differ."""
 
 SLOPE_SIGMA = 0.15
-"""Standard deviation of the entries of C before any motion was seen: 15 % of the motion."""
+"""Prior standard deviation of the entries of C: 15 % of the motion."""
 
 
 def stated_motions(poses: Floats, stamps_s: Floats | None) -> tuple[Floats, NDArray[np.bool_]]:
-    """Return the motions from scan to scan in the earlier one's frame, (S - 1, 3), and which no robot can have made.
+    """Return the motions from scan to scan in the earlier one's frame, (S - 1, 3), and which are impossible, (S - 1,).
 
     Where stamps repeat, a motion is impossible if it is too fast for the longest time that the stamps allow, or if it
     is much longer than usual and too fast for the shortest.
@@ -86,9 +77,9 @@ def _farthest_m(elapsed: Floats) -> Floats:
 
 
 def motion_variances(motions: Floats, ratios: Floats) -> Floats:
-    """Variances of x, y and yaw, (..., 3), of odometry so many times noisier than `COMMON`: position and heading.
+    """Return variances of x, y and yaw, (..., 3), of noise ``ratios`` times `COMMON`, of position and of heading, (2,).
 
-    A heading that is off half-way moves what comes after: over a long motion, as where scans are missing, that counts.
+    An error of the heading half-way moves the rest of the motion sideways, which counts over long motions.
     """
     variance = (COMMON.sigmas(motions) * ratios[[0, 0, 1]]) ** 2
     lever_m = 0.5 * np.hypot(motions[..., 0], motions[..., 1])
@@ -97,12 +88,12 @@ def motion_variances(motions: Floats, ratios: Floats) -> Floats:
 
 
 def inverse_slope(systematic: Floats) -> Floats:
-    """1 / (1 + C) - 1, (3, 3): what corrects a motion that is stated as (1 + C) times what it is."""
+    """Return B = 1 / (1 + C) - 1, (3, 3): the correction of a motion that is stated as (1 + C) times the true one."""
     return np.asarray(np.linalg.inv(np.eye(3) + systematic) - np.eye(3))
 
 
 class RunningOdometry:
-    """The systematic error and the size of the noise, learnt from one matched motion after the other."""
+    """The systematic error and the size of the noise of odometry, learnt motion by motion."""
 
     def __init__(self) -> None:
         self._normal = np.eye(3)
@@ -114,26 +105,26 @@ class RunningOdometry:
 
     @property
     def slope(self) -> Floats:
-        """B = 1 / (1 + C) - 1: what to add to a stated motion, by the stated motion, (3, 3)."""
+        """B = 1 / (1 + C) - 1, (3, 3): the correction of a stated motion is B times this motion."""
         return self._slope
 
     @property
     def ratios(self) -> Floats:
-        """How many times larger than `COMMON` the noise is: of the position, and of the heading."""
+        """The noise of the position and of the heading as multiples of `COMMON`, (2,)."""
         return np.asarray(np.clip(np.sqrt(self._squares / self._count), 0.5, 30.0))
 
     def corrected(self, motions: Floats) -> Floats:
-        """Stated motions plus their mean errors, (..., 3)."""
+        """Return stated motions with the systematic error removed, (..., 3)."""
         out = motions + motions @ self._slope.T
         out[..., 2] = wrapped(out[..., 2])
         return out
 
     def variances(self, motions: Floats) -> Floats:
-        """Variances of x, y and yaw of each motion's remaining error, (..., 3)."""
+        """Return variances of x, y and yaw of each motion's remaining error, (..., 3)."""
         return motion_variances(motions, self.ratios)
 
     def learn_slope(self, stated: Floats, found: Floats, laser_variance: Floats) -> None:
-        """Take note of the systematic error of one motion of some length: as stated and as matched, (3,) each."""
+        """Learn the systematic error from a longer motion: as stated, as matched, and the matching's variance, (3,)."""
         error = stated - found
         error[2] = wrapped(error[2])
         variance = self.variances(stated) + laser_variance
@@ -149,7 +140,7 @@ class RunningOdometry:
         self._slope = inverse_slope(self._systematic)
 
     def learn_noise(self, motion: Floats, found: Floats, laser_variance: Floats) -> None:
-        """Take note of the noise of one motion from scan to scan: as stated and as matched, (3,) each."""
+        """Learn the noise from a motion from scan to scan: as stated, as matched, and the matching's variance, (3,)."""
         rest = found - motion - self._slope @ motion
         rest[2] = wrapped(rest[2])
         base = COMMON.sigmas(motion) ** 2
@@ -161,13 +152,13 @@ class RunningOdometry:
 
 
 USUAL = np.array([[1e-3, 1e-3, 1e-5], [5e-4, 5e-4, 1e-5], [1e-3, 2e-3, 1e-6]])
-"""Of ordinary robots: rows x, y, yaw; columns per metre, per radian, per scan."""
+"""Variance rates of ordinary robots: rows x, y, yaw; columns per metre, per radian, per scan."""
 
 FACTOR_SIGMA = np.log(10.0)
-"""Standard deviation of the logarithm of each before any motion was seen: a factor of ten either way."""
+"""Prior standard deviation of the logarithm of each rate: a factor of ten either way."""
 
 TELLS, FEWEST = 0.5, 20
-"""Motions known to so much of the usual variance are looked at; with fewer of them the usual noise is taken."""
+"""A motion is used if its matched variance is below this share of the usual one; with fewer, rates stay `USUAL`."""
 
 DEGREES_OF_FREEDOM = 4.0
 CONSISTENT = 1.2718
@@ -176,23 +167,22 @@ CONSISTENT = 1.2718
 
 @dataclass(frozen=True, eq=False)
 class MotionNoise:
-    """Variances of x, y and yaw (rows) per metre, per radian and per scan (columns), (3, 3)."""
+    """Variance rates of x, y and yaw (rows) per metre, per radian and per scan (columns), (3, 3)."""
 
     rates: Floats
 
     def variances(self, motions: Floats) -> Floats:
-        """Variances of x, y and yaw of each motion from scan to scan, (..., 3)."""
+        """Return variances of x, y and yaw of motions from scan to scan, (..., 3)."""
         ways, turns = np.hypot(motions[..., 0], motions[..., 1]), np.abs(motions[..., 2])
         return self.over(ways, turns, np.ones_like(ways))
 
     def over(self, ways_m: Floats, turns_rad: Floats, scans: Floats) -> Floats:
-        """Variances of x, y and yaw over ways, turns and numbers of scans, (..., 3)."""
+        """Return variances of x, y and yaw over path lengths, total turns and numbers of scans, (..., 3)."""
         return np.asarray(_features(ways_m, turns_rad, scans) @ self.rates.T)
 
     def of_scans(self, motions: Floats) -> Odometry:
-        """The noise as that of single motions from scan to scan, which are given, (S - 1, 3)."""
+        """Return the noise as parameters of `Odometry` that give equal total variances over motions, (S - 1, 3)."""
         ways, turns = np.hypot(motions[:, 0], motions[:, 1]), np.abs(motions[:, 2])
-        # Such that squares summed over the scans are what rates summed over the way are.
         per_m = ways.sum() / max(float((ways**2).sum()), 1e-12)
         per_rad = turns.sum() / max(float((turns**2).sum()), 1e-12)
         place, yaw = self.rates[:2].mean(axis=0), self.rates[2]
@@ -203,22 +193,22 @@ class MotionNoise:
 
 
 def fit_noise(errors: Floats, ways_m: Floats, turns_rad: Floats, scans: Floats, known_variance: Floats) -> MotionNoise:
-    """The noise that explains some errors best, by maximum likelihood under a wide prior.
+    """Fit variance rates to errors of M motions by maximum likelihood under a wide prior.
 
-    The cost of an error e of variance v is log v / 2 + 1.27 (nu + 1) / 2 log(1 + e^2 / (nu v)), Student's t with
-    nu = 4 made consistent for the normal distribution: slips do not decide.
+    The cost of an error e of variance v is log v / 2 + 1.27 (nu + 1) / 2 log(1 + e^2 / (nu v)): Student's t with
+    nu = 4, made consistent for the normal distribution and robust against slips.
 
     Args:
-        errors: of M motions, x, y and yaw, (M, 3).
-        ways_m: of the same motions, (M,).
-        turns_rad: sizes of their turns added up, (M,).
-        scans: how many motions from scan to scan each is made of, (M,).
-        known_variance: what errors contain besides odometry's, (M, 3).
+        errors: x, y and yaw, (M, 3).
+        ways_m: path length of each motion, (M,).
+        turns_rad: total turn of each motion, absolute values summed, (M,).
+        scans: number of motions from scan to scan that each is made of, (M,).
+        known_variance: variance of the errors that is not odometry's, (M, 3).
     """
     features = _features(ways_m, turns_rad, scans)
     rates = USUAL.copy()
     for axis in range(3):
-        # Where the motion is known hardly better than by odometry, it says nothing about odometry.
+        # A motion that the laser knows hardly better than odometry does tells nothing about odometry.
         tells = known_variance[:, axis] < TELLS * (features @ USUAL[axis])
         if tells.sum() >= FEWEST:
             rates[axis] = _rates(errors[tells, axis], features[tells], known_variance[tells, axis], USUAL[axis])
@@ -226,7 +216,7 @@ def fit_noise(errors: Floats, ways_m: Floats, turns_rad: Floats, scans: Floats, 
 
 
 def _rates(errors: Floats, features: Floats, known_variance: Floats, usual: Floats) -> Floats:
-    """The rates of one axis, (3,), by L-BFGS in their logarithms."""
+    """Fit the rates of one axis, (3,), by L-BFGS in their logarithms."""
     from scipy.optimize import minimize
 
     nu = DEGREES_OF_FREEDOM
@@ -249,29 +239,32 @@ def _features(ways_m: Floats, turns_rad: Floats, scans: Floats) -> Floats:
 
 
 VELOCITY_OVER_S = 0.4
-LAG_SIGMA_S = 0.2
-MOST_LAG_S = 0.5
+"""Time over which a stated velocity is averaged."""
+
+LAG_SIGMA_S, MOST_LAG_S = 0.2, 0.5
+"""Prior standard deviation and greatest size of the lag."""
+
 PAIRS = 400
-"""Of scans that are turned against each other, for the angle between beams."""
+"""Most pairs of scans from which the angle between beams is estimated."""
 
 GROUPS, SURE, SURE_OF_REGULAR = 20, 4.0, 2.0
-"""Pairs are left out in so many groups to see how sure the angle is; it is changed where it is so many standard errors
-off, or so many and within one of an angle that lasers have."""
+"""Groups of the jackknife. The angle is changed if it is more than the second number of standard errors off, or more
+than the third and within one standard error of a regular angle."""
 
 REGULAR_WITHIN = 0.005
-"""To so much of itself the angle between beams can be estimated from residuals."""
+"""Relative accuracy to which residuals tell the angle between beams."""
 
 
 @dataclass(frozen=True, eq=False)
 class OdometryFit:
-    """What odometry gets wrong.
+    """The errors of odometry.
 
     Attributes:
         slope: B, (3, 3).
         slope_sigma: standard deviations of its entries, (3, 3).
-        lag_s: how late odometry's stamps are, seconds: the motion from t to t' is stated for t + lag to t' + lag.
-        lag_sigma_s: standard deviation of that.
-        noise: what is left.
+        lag_s: delay of odometry's stamps, seconds: the motion from t to t' is stated for t + lag to t' + lag.
+        lag_sigma_s: its standard deviation.
+        noise: variance rates of the rest.
     """
 
     slope: Floats
@@ -282,7 +275,7 @@ class OdometryFit:
 
     @property
     def laser_on_robot(self) -> Floats:
-        """(x, y, yaw) of the laser in the frame that odometry follows, beyond what the log states, to first order.
+        """The laser's pose in odometry's frame beyond what the log states, x, y and yaw, (3,), to first order.
 
         Turning by a moves a laser at (x, y) by a (-y, x); a laser turned by yaw sees a motion ahead turned by -yaw.
         """
@@ -290,7 +283,7 @@ class OdometryFit:
 
 
 def stated_at(poses: Floats, stamps_s: Floats | None, lag_s: float) -> Floats:
-    """Return odometry's poses at the scans' stamps, if its own stamps are late by ``lag_s``, (S, 3).
+    """Return odometry's poses at the scans' stamps, (S, 3), if its own stamps are late by ``lag_s``.
 
     Scans that share their stamp with others keep their poses.
     """
@@ -301,7 +294,7 @@ def stated_at(poses: Floats, stamps_s: Floats | None, lag_s: float) -> Floats:
 
 
 def velocities(poses: Floats, stamps_s: Floats) -> Floats:
-    """Stated velocity at each scan, in its own frame, (S, 3), as the mean over 0.4 s."""
+    """Compute the mean stated velocity about each scan, in the scan's frame, (S, 3)."""
     half = 0.5 * VELOCITY_OVER_S
     begin, end = np.clip(stamps_s - half, *stamps_s[[0, -1]]), np.clip(stamps_s + half, *stamps_s[[0, -1]])
     motion = between(interpolate(stamps_s, poses, begin), interpolate(stamps_s, poses, end))
@@ -311,15 +304,14 @@ def velocities(poses: Floats, stamps_s: Floats) -> Floats:
 def fit_odometry(
     stated: Floats, stamps_s: Floats | None, found: Floats, scans: NDArray[np.intp], laser_variance: Floats
 ) -> OdometryFit:
-    """Fit B, the lag and the noise to scans whose poses were found.
+    """Fit B, the lag and the noise to scans whose poses are known.
 
     Args:
         stated: odometry's pose of all scans, (S, 3).
-        stamps_s: (S,), or None: then there is no lag to be found. Scans that share their stamp tell nothing of it.
-        found: poses of some scans, (K, 3).
-        scans: which these are, ascending, (K,).
-        laser_variance: of each motion between them as found, x, y and yaw, (K - 1, 3): large where the laser cannot
-            tell, as along corridors.
+        stamps_s: (S,), or None: the lag is then 0. Scans that share their stamp have no part in the lag.
+        found: known poses of some scans, (K, 3).
+        scans: indices of these scans, ascending, (K,).
+        laser_variance: variances of x, y and yaw of the known motions, (K - 1, 3): large along corridors.
     """
     motion = between(found[:-1], found[1:])
     error = between(stated[scans[:-1]], stated[scans[1:]]) - motion
@@ -367,34 +359,29 @@ def _left(error: Floats, motion: Floats, change: Floats, coefficients: Floats) -
 
 
 def _over(sizes: Floats, scans: NDArray[np.intp]) -> Floats:
-    """Sizes of motions from scan to scan, (S - 1,), added up between some scans, (K - 1,)."""
+    """Sum sizes of motions from scan to scan, (S - 1,), between some scans, (K - 1,)."""
     return np.asarray(np.diff(np.concatenate([[0.0], np.cumsum(sizes)])[scans]))
 
 
 def angle_step_ratio(
-    scans: Scans,
-    poses: Floats,
-    source: NDArray[np.integer],
-    target: NDArray[np.integer],
-    *,
-    farthest_m: float | None = None,
-    threads: int | None = None,
-) -> float:
-    """By what factor the angle between beams differs from the stated one, by the lowest residual of pairs of scans.
+    scans: Scans, poses: Floats, source: NDArray[np.integer], target: NDArray[np.integer], *,
+    farthest_m: float | None = None, threads: int | None = None,
+) -> float:  # fmt: skip
+    """Estimate the angle between beams, divided by the stated one, by the lowest residual of pairs of scans.
 
-    Stretched scans still fit each other as long as they look the same way; so pairs are compared of which one is turned
-    against the other.
+    Stretched scans still fit each other if they look the same way. So the pairs that are compared are turned against
+    each other.
 
     Args:
         scans: S scans.
         poses: (S, 3).
-        source: of pairs of scans that overlap.
-        target: of the same pairs.
+        source: the one scan of each pair of scans that overlap.
+        target: the other scan.
         farthest_m: hits beyond are left out.
-        threads: to compute with; by default all cores.
+        threads: number of threads, by default all cores.
 
     Returns:
-        The factor; 1 where no scans are turned against each other, or what they say is no surer than chance.
+        The ratio; 1 where no scans are turned against each other, or where the estimate is not significant.
     """
     turned = np.abs(wrapped(poses[source, 2] - poses[target, 2]))
     useful = np.nonzero((turned > np.radians(25.0)) & (turned < np.radians(130.0)))[0]
@@ -409,7 +396,7 @@ def angle_step_ratio(
 
     def residuals(factor: float) -> Floats:
         geometry = scan_geometry(some.stretched(factor), farthest_m=farthest_m, threads=threads)
-        # Turning a scan about its first beam turns its pose; the middle beam shall stay where it was.
+        # Beams are stretched from the first on: the pose is turned back, so that the middle beam keeps its direction.
         start = place.copy()
         start[:, 2] -= 0.5 * (factor - 1.0) * some.sweep_rad
         jobs = Refinement(one, each, other, start[other], start[one], start[one], weak)
@@ -432,13 +419,13 @@ def angle_step_ratio(
 
 
 def _lowest(factors: Floats, values: Floats) -> float:
-    """Where the parabola through values is lowest; NaN if it is nowhere."""
+    """Return the minimum of the parabola through values; NaN if it has none."""
     bend, tilt, _ = np.polyfit(factors - 1.0, values, 2)
     return float(1.0 - tilt / (2.0 * bend)) if bend > 0.0 else float("nan")
 
 
 def _regular(factor: float, stated_deg: float) -> float:
-    """The factor, or what lasers have if it is as likely: a step as stated, or a multiple of an eighth of a degree."""
+    """Return the factor of the nearest regular angle, as stated or a multiple of 1/8 degree, if it is as likely."""
     regular = round(8.0 * factor * stated_deg) / 8.0 / stated_deg
     nearest = min((1.0, regular), key=lambda f: abs(factor - f))
     return nearest if regular > 0 and abs(factor / nearest - 1.0) < REGULAR_WITHIN else factor

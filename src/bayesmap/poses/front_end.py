@@ -1,12 +1,11 @@
-"""From one scan to the next: every scan is matched to the latest key scans, in the order of time.
+"""The front end: every scan is matched to the latest key scans, in the order of time.
 
-Scans that lie close together are matched to the same key scans at once (`bayesmap.poses.next_scans`); the first that
-has moved far enough, or that the key scans do not explain, becomes a key scan, and those after it begin anew.
+Scans that lie close together are matched to the same key scans at once (`bayesmap.poses.next_scans`). The first one
+that has moved far enough, or that the key scans do not explain, becomes a key scan; later scans are matched anew.
 
-A scan that contradicts the key scans wherever odometry allows is passed over if one of those after it fits again:
-somebody walked by. If none does, odometry was wrong, or the robot was carried: the path breaks there, and what follows
-is matched to scans after the break alone. Where the parts lie is found from places that were seen twice
-(`bayesmap.poses.rejoin`).
+A scan that contradicts the key scans wherever odometry allows is passed over if one of the next scans fits again:
+somebody walked by. If none does, odometry was wrong, or the robot was carried. The path then breaks, and later scans
+are matched to scans after the break alone. Places that were seen twice tell how parts lie (`bayesmap.poses.rejoin`).
 """
 
 from __future__ import annotations
@@ -34,41 +33,36 @@ from bayesmap.space.planar import between
 
 Floats = NDArray[np.float64]
 
-KEY_DISTANCE_M = 0.4
-KEY_TURN_RAD = np.radians(20.0)
-"""A scan that has moved or turned so far since the last key scan becomes one."""
+KEY_DISTANCE_M, KEY_TURN_RAD = 0.4, np.radians(20.0)
+"""A scan that has moved or turned further than this since the last key scan becomes a key scan."""
 
 KEY_SCORE = 0.5
-"""So does a scan that the key scans explain less well than this."""
+"""A scan with a lower score becomes a key scan, too."""
 
-WINDOW = 12
-"""Latest key scans that a scan is matched to."""
+WINDOW, BATCH = 12, 12
+"""Latest key scans that a scan is matched to, and most scans that are matched to them at once."""
 
-BATCH = 12
-"""Scans matched to the same key scans at once, at most."""
-
-POOR_SCORE = 0.45
-POOR_BELOW = 0.25
-"""A scan explained worse than this, or so much worse than usual, may contradict the key scans."""
+POOR_SCORE, POOR_BELOW = 0.45, 0.25
+"""A score below the first, or lower than usual by the second, may contradict the key scans."""
 
 LOST_SIGMA = np.array([0.5, 0.5, np.radians(30.0)])
-"""And so does one whose pose odometry and laser leave so uncertain, standard deviations."""
+"""A badly explained scan whose pose is more uncertain than this, standard deviations, is taken to contradict them."""
 
 SLIPPED_BELOW = 0.15
-"""A scan explained no more than this worse than usual may be taken to be where a wide search about odometry has it."""
+"""A scan whose score is at most this much lower than usual is accepted where a wide search about odometry has it."""
 
 AGAIN_BELOW = 0.1
-"""A scan explained so much worse than usual is matched again, from where the scan before it was matched: odometry's
-errors add up over the scans that are matched at once, until the window is elsewhere."""
+"""A scan whose score is lower than usual by more than this is matched again, from the pose of the scan before it:
+odometry's errors add up over the scans of a batch, until the window is elsewhere."""
 
 LEARN_BELOW = 0.25
-"""Motions of scans explained so much worse than usual teach nothing about odometry."""
+"""Motions of scans whose score is lower than usual by more than this teach nothing about odometry."""
 
 BACKWARDS_M = 1.0
-"""Over a longer motion nobody takes ahead for back."""
+"""Longest motion that may have been stated the wrong way round."""
 
 PATIENCE, PATIENCE_M, PATIENCE_RAD = 10, 1.5, np.radians(90.0)
-"""Scans after it that may show that it was an exception: so many, over so much of the way by odometry."""
+"""Scans after a contradiction that may show it to be an exception: how many, and over how much way by odometry."""
 
 UNKNOWN = np.array([1.0, 1.0, np.radians(60.0)])
 """Standard deviations of a motion of which nothing is known."""
@@ -76,18 +70,18 @@ UNKNOWN = np.array([1.0, 1.0, np.radians(60.0)])
 
 @dataclass(frozen=True, eq=False)
 class Track:
-    """What the front end found.
+    """The result of the front end.
 
     Attributes:
-        poses: of the laser, shape (S, 3); the first is the origin.
+        poses: of the laser, (S, 3); the first is the origin.
         information: of each pose by the laser alone, given the key scans before it, in the pose's own frame, (S, 3, 3).
         odometry_variance: of the motion from the key scan before, x, y and yaw, (S, 3).
         scores: how well the key scans explain each scan, from 0 to 1, (S,); 1 for the first.
         keys: indices of the key scans, ascending.
-        against: scans before which the robot went backwards although odometry states ahead, or the other way, (S,).
-        slope: the systematic error of odometry that was found, (3, 3).
         broken: scans that begin a new part of the path: nothing confirms the motion from the one before, (S,).
-        noise_ratios: how many times larger than an ordinary robot's odometry's noise is, position and heading, (2,).
+        against: scans before which the robot moved the other way than odometry states, ahead or back, (S,).
+        slope: correction of odometry's systematic error, (3, 3).
+        noise_ratios: odometry's noise as a multiple of an ordinary robot's, position and heading, (2,).
     """
 
     poses: Floats
@@ -102,27 +96,21 @@ class Track:
 
 
 def follow(
-    geometry: ScanGeometry,
-    motions: Floats | None,
-    stamps_s: Floats | None,
-    impossible: NDArray[np.bool_] | None = None,
-    *,
-    on_progress: Callable[[int, Floats], None] | None = None,
-    threads: int | None = None,
-) -> Track:
+    geometry: ScanGeometry, motions: Floats | None, stamps_s: Floats | None,
+    impossible: NDArray[np.bool_] | None = None, on_progress: Callable[[int, Floats], None] | None = None,
+) -> Track:  # fmt: skip
     """Match every scan to those before it.
 
     Args:
         geometry: S scans.
-        motions: odometry's, from scan to scan in the earlier one's frame, (S - 1, 3); None if there is none: then the
-            robot is taken to go on as it did.
+        motions: odometry's, from scan to scan in the earlier one's frame, (S - 1, 3). If None, the robot is taken to
+            go on as it did.
         stamps_s: (S,), needed where there is no odometry.
         impossible: motions that no robot can have made, (S - 1,): they are taken to be unknown.
-        on_progress: called with the number of scans that are done and the poses, (S, 3), zero from there on; they are
-            written on, so that whoever keeps them copies them.
-        threads: to compute with; by default all cores.
+        on_progress: called with the number of scans that are done and the poses, (S, 3), zero from there on. The array
+            is written on; a caller that keeps it copies it.
     """
-    path = _Path(geometry, motions, stamps_s, impossible, threads)
+    path = _Path(geometry, motions, stamps_s, impossible)
     while path.at < len(geometry) - 1:
         path.advance()
         if on_progress is not None:
@@ -134,18 +122,14 @@ def follow(
 
 
 class _Path:
-    """The path as far as it has been followed: `at` is the last scan that has a pose."""
+    """The path up to scan ``at``, the last one that has a pose."""
 
     def __init__(
-        self,
-        geometry: ScanGeometry,
-        motions: Floats | None,
-        stamps_s: Floats | None,
+        self, geometry: ScanGeometry, motions: Floats | None, stamps_s: Floats | None,
         impossible: NDArray[np.bool_] | None,
-        threads: int | None,
-    ) -> None:
+    ) -> None:  # fmt: skip
         count = len(geometry)
-        self.geometry, self.stamps_s, self.threads = geometry, stamps_s, threads
+        self.geometry, self.stamps_s = geometry, stamps_s
         self.half_width_m = grid_half_width(geometry)
         self.unknown = np.zeros(max(count - 1, 0), np.bool_)
         if motions is not None and impossible is not None:
@@ -157,11 +141,12 @@ class _Path:
         self.broken, self.against = np.zeros(count, np.bool_), np.zeros(count, np.bool_)
         self.at, self.keys, self.begin = 0, [0], 0
         self.since_key, self.usual = np.zeros(3), 0.6
-        self.plain, self.left = True, np.zeros(3)  # since the last key scan, and what matching the last scan left open
+        # Whether all motions since the last key scan were usual, and the variance of the last scan's pose.
+        self.plain, self.left = True, np.zeros(3)
         self.window = self._window(None)
 
     def advance(self) -> None:
-        """Give poses to the next scans, one at least."""
+        """Give poses to the next scans, at least to one."""
         if self.window.keys[0] != self.keys[-1]:
             self.window = self._window(self.window)
         batch = _batch(self.at, len(self.poses), self.motions, self.poses[self.at], self.poses[self.keys[-1]])
@@ -188,7 +173,7 @@ class _Path:
                 self._leap(scan, placed, found)
 
     def _take(self, batch: NDArray[np.intp], placed: Placed, count: int) -> None:
-        """Accept the first few of a batch, up to one that becomes a key scan."""
+        """Accept the first ``count`` scans of a batch, up to one that becomes a key scan."""
         for k in range(count):
             if k and placed.scores[k] < self.usual - AGAIN_BELOW:
                 break
@@ -201,7 +186,7 @@ class _Path:
                 break
 
     def _pass_over(self, batch: NDArray[np.intp], placed: Placed, fits: int) -> None:
-        """Leave scans that nothing explains where odometry has them, up to one that fits: a key scan."""
+        """Leave scans that nothing explains where odometry has them; the one that fits again becomes a key scan."""
         for k in range(fits + 1):
             self._put(int(batch[k]), placed, k)
         skipped = batch[:fits]
@@ -210,7 +195,7 @@ class _Path:
         self._key(int(batch[fits]))
 
     def _slips(self, scan: int, placed: Placed) -> bool:
-        """Take a scan that fits worse than usual, although nothing contradicts it, to where it fits as usual near."""
+        """Move a scan that fits worse than usual to a near place where it fits as usual, if there is one."""
         score = float(placed.scores[0])
         if self.motions is None or score > self.usual - SLIPPED_BELOW:
             return False
@@ -218,10 +203,10 @@ class _Path:
         return found is not None and self._slipped(scan, placed, found)
 
     def _slipped(self, scan: int, placed: Placed, found: Elsewhere) -> bool:
-        """Take a scan that fits as well as usual not far from where odometry has it: wheels slipped. False if not."""
+        """Accept a near place if the scan fits there as usual: wheels slipped. Returns False if it does not."""
         if not found.near or found.score < self.usual - SLIPPED_BELOW:
             return False
-        if contradicts(self.geometry, self.window, scan, found.pose, self.threads):
+        if contradicts(self.geometry, self.window, scan, found.pose):
             return False
         self.poses[scan], self.information[scan], self.scores[scan] = found.pose, found.information, found.score
         self.spread[scan] = self.since_key + placed.variance[0] + UNKNOWN**2
@@ -230,9 +215,9 @@ class _Path:
         return True
 
     def _leap(self, scan: int, placed: Placed, found: Elsewhere | None) -> None:
-        """Go on at a scan that nothing before confirms, from where a wide search, or else odometry, has it.
+        """Break the path before a scan that nothing confirms, and go on from where a wide search, or odometry, has it.
 
-        Scans just before it that were explained as badly, though nothing contradicted them, go with it.
+        Scans just before it with a score as poor go with it, though nothing contradicted them.
         """
         pose, score, begin = placed.predicted[0], float(placed.scores[0]), scan
         while begin - 1 > self.keys[self.begin] and self.scores[begin - 1] < self._poor_below():
@@ -251,8 +236,8 @@ class _Path:
         self.begin = len(self.keys) - 1
 
     def _anywhere(self, scan: int, pose: Floats, score: float) -> Elsewhere | None:
-        """Where a scan fits clearly better than with a score at a pose, in wide windows about that."""
-        return place_anywhere(self.geometry, self.window, scan, pose, score, self.threads)
+        """Search wide windows about a pose for one with a clearly better score."""
+        return place_anywhere(self.geometry, self.window, scan, pose, score)
 
     def _poor_below(self) -> float:
         return max(POOR_SCORE, self.usual - POOR_BELOW)
@@ -285,25 +270,25 @@ class _Path:
         self.since_key = np.zeros(3)
 
     def _near(self, scans: NDArray[np.intp]) -> tuple[Placed, NDArray[np.bool_]]:
-        """Places of the scans that follow, and which of them contradict the key scans."""
+        """Place the scans that follow near odometry's poses; the second result says which contradict the key scans."""
         span = slice(self.at, int(scans[-1]))
         predicted, variance = predict(self.poses, self.at, scans, self.motions, self.stamps_s, self.odometry)
         backwards = None
         if self.motions is not None and np.hypot(*self.motions[span, :2].sum(axis=0)) < BACKWARDS_M:
             stated = self.odometry.corrected(self.motions[span]) * [-1.0, -1.0, 1.0]
             backwards = chained(self.poses[self.at], stated)
-        placed = place_near(self.geometry, self.window, scans, predicted, variance, backwards, self.usual, self.threads)
+        placed = place_near(self.geometry, self.window, scans, predicted, variance, backwards, self.usual)
         wrong = placed.scores < self._poor_below()
         for k in np.nonzero(wrong)[0]:
             wrong[k] = self._doubtful(int(scans[k]), placed, int(k))
         return placed, wrong
 
     def _doubtful(self, scan: int, placed: Placed, k: int) -> bool:
-        """Whether a badly explained scan contradicts the key scans, fits with another heading, or may be anywhere.
+        """Return whether a badly explained scan contradicts the key scans, fits far away, or may be anywhere.
 
-        One that fits clearly better near by is put there.
+        A scan that fits clearly better near by is moved there.
         """
-        if contradicts(self.geometry, self.window, scan, placed.poses[k], self.threads):
+        if contradicts(self.geometry, self.window, scan, placed.poses[k]):
             return True
         left = np.diag(np.linalg.inv(placed.information[k] + np.diag(1.0 / placed.variance[k])))
         if (np.sqrt(left) > LOST_SIGMA).any():
@@ -314,35 +299,31 @@ class _Path:
         return found is not None and not found.near
 
     def _patience(self) -> NDArray[np.intp]:
-        """The next scans that may still fit the key scans."""
+        """Return the next scans that may still fit the key scans."""
         assert self.motions is not None
         steps = self.motions[self.at : self.at + PATIENCE]
         way, turn = np.cumsum(np.hypot(steps[:, 0], steps[:, 1])), np.cumsum(np.abs(steps[:, 2]))
-        near = (
-            (way < PATIENCE_M) & (turn < PATIENCE_RAD) & ~np.maximum.accumulate(self.unknown[self.at :][: len(steps)])
-        )
-        count = max(1, int(near.sum()))
+        unknown = np.maximum.accumulate(self.unknown[self.at :][: len(steps)])
+        count = max(1, int(((way < PATIENCE_M) & (turn < PATIENCE_RAD) & ~unknown).sum()))
         return np.arange(self.at + 1, self.at + 1 + count)
 
     def _window(self, before: Window | None) -> Window:
-        some = np.array(self.keys[self.begin :][-WINDOW:][::-1])
-        poses = self.poses[some]
-        grid = likelihood_grids(
-            self.geometry, [some], [poses], poses[0, :2], self.half_width_m, threads=self.threads,
-            reuse=None if before is None else before.grid,
-        )  # fmt: skip
-        return Window(some, poses, grid)
+        """Return the window of the latest key scans; the grid's memory is that of the window before."""
+        latest = np.array(self.keys[self.begin :][-WINDOW:][::-1])
+        poses, reuse = self.poses[latest], None if before is None else before.grid
+        grid = likelihood_grids(self.geometry, [latest], [poses], poses[0, :2], self.half_width_m, reuse=reuse)
+        return Window(latest, poses, grid)
 
 
 def grid_half_width(geometry: ScanGeometry) -> float:
-    """Half the width of grids that hold nearly all points of scans taken at their middle, metres."""
+    """Return half the width of grids that hold nearly all points of scans taken at their middle, metres."""
     some = slice(None, None, max(1, len(geometry) // 500))
     away = np.linalg.norm(geometry.host_points[some][geometry.host_kind[some] > 0], axis=-1)
     return float(np.clip(np.percentile(away, 97.0) + 1.0, 4.0, 30.0)) if len(away) else 4.0
 
 
 def _batch(i: int, count: int, motions: Floats | None, here: Floats, key: Floats) -> NDArray[np.intp]:
-    """The scans to match next: those that odometry says are near the last key scan, and one more."""
+    """Return the scans to match next: those that odometry has near the last key scan, and one more."""
     if motions is None:
         return np.array([i + 1])
     last = min(i + BATCH, count - 1)

@@ -1,14 +1,12 @@
-"""The factorised precision matrix of a graph of poses, and covariances from it.
-
-The covariance matrix of thousands of poses is dense; what is asked for are blocks of it. Blocks of poses that a factor
-ties together lie in the pattern of the factorised matrix and come all at once (Takahashi, Fagan and Chin 1973); others
-by solving for the columns of one of the two poses.
-
-Pose graphs: relative poses with information, solved by sparse Gauss-Newton.
+"""Pose graphs: relative poses with information, solved by sparse Gauss-Newton, and covariances of the solution.
 
 The cost is the sum over factors of e^T W e / 2 with e = between(x_first, x_second) - relative (Lu and Milios 1997;
-Grisetti et al. 2010, "A tutorial on graph-based SLAM"); each step solves H d = -g with SciPy's sparse LU, d in the
+Grisetti et al. 2010, "A tutorial on graph-based SLAM"). Each step solves H d = -g with SciPy's sparse LU, d in the
 poses' own frames.
+
+The covariance matrix of thousands of poses is dense, but only some blocks of it are needed. Blocks of poses that a
+factor ties together lie in the pattern of the factorised matrix and come all at once (Takahashi, Fagan and Chin 1973).
+Other blocks are found by solving for the columns of one of the two poses.
 """
 
 from __future__ import annotations
@@ -29,8 +27,8 @@ Floats = NDArray[np.float64]
 
 
 COLUMNS = 16
-"""Solved at once: with hundreds of them BLAS takes several threads for blocks that are far too small, and 100 times as
-long (555 columns of 5271 rows on two cores: 23.5 s, and 0.3 s so)."""
+"""Columns solved at once. With hundreds of them BLAS starts threads for blocks that are far too small: 555 columns of
+5271 rows took 23.5 s at once on two cores, and 0.3 s in groups of 16."""
 
 
 class Precision:
@@ -45,7 +43,7 @@ class Precision:
         self._factor = splu(matrix, permc_spec="MMD_AT_PLUS_A", options={"SymmetricMode": True}, diag_pivot_thresh=0.0)
 
     def solve(self, right: Floats) -> Floats:
-        """The matrix's inverse times a vector or the columns of a matrix."""
+        """Multiply the matrix's inverse by a vector or by the columns of a matrix."""
         if right.ndim == 1 or right.shape[1] <= COLUMNS:
             return np.asarray(self._factor.solve(right))
         return np.concatenate(
@@ -53,12 +51,9 @@ class Precision:
         )
 
     def blocks(self, first: NDArray[np.intp], second: NDArray[np.intp], at_once: int = 400) -> Floats:
-        """The inverse's blocks of pairs of poses, (M, 3, 3): rows of the first, columns of the second.
+        """Return the inverse's blocks of M pairs of poses, (M, 3, 3): rows of the first, columns of the second.
 
-        Args:
-            first: poses, (M,).
-            second: poses, (M,).
-            at_once: columns are solved for so many poses at a time: memory is the number of poses times this.
+        Columns are solved for ``at_once`` poses at a time: memory grows with the number of poses times this.
         """
         three = np.arange(3)
         found, known = self._on_pattern(3 * first[:, None, None] + three[:, None], 3 * second[:, None, None] + three)
@@ -81,7 +76,7 @@ class Precision:
         return found
 
     def _on_pattern(self, row: NDArray[np.intp], column: NDArray[np.intp]) -> tuple[Floats, NDArray[np.bool_]]:
-        """Entries of the inverse, and which of them the pattern holds."""
+        """Return entries of the inverse, and which of them the pattern holds."""
         keys, values = self._selected
         place = self._factor.perm_c
         row, column = np.broadcast_arrays(place[row], place[column])
@@ -92,7 +87,7 @@ class Precision:
 
     @cached_property
     def _selected(self) -> tuple[NDArray[np.int64], Floats]:
-        """Column times size plus row of each entry of the pattern, ascending, and the inverse there."""
+        """Column times size plus row of each entry of the pattern, ascending, and the inverse's values there."""
         from bayesmap.kernels.match.selected_inverse import selected_inverse
 
         factor, size = self._factor, self._matrix.shape[0]
@@ -107,14 +102,14 @@ class Precision:
 
 
 def filled_pattern(matrix: Any, place: NDArray[np.integer]) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
-    """Where the factor L of a permuted symmetric matrix may have entries: columns' beginnings, and rows, ascending.
+    """Find where the factor L of a permuted symmetric matrix may have entries: column offsets, and ascending rows.
 
     A column has the rows of the matrix below the diagonal, and those of the columns whose first row it is (George and
-    Liu 1981, section 5.2). The factor's own entries are not enough: some happen to be zero.
+    Liu 1981, section 5.2). The factor's own entries are not enough, since some happen to be zero.
 
     Args:
         matrix: (n, n), in compressed columns, with a symmetric pattern.
-        place: where each row and column goes, (n,).
+        place: new position of each row and column, (n,).
     """
     size = matrix.shape[0]
     entries = matrix.tocoo()
@@ -141,21 +136,16 @@ def filled_pattern(matrix: Any, place: NDArray[np.integer]) -> tuple[NDArray[np.
 def relative_covariances(
     precision: Precision, poses: Floats, first: NDArray[np.intp], second: NDArray[np.intp]
 ) -> Floats:
-    """Covariance of between(first, second) under the Gaussian of a precision matrix, (M, 3, 3), in the first's frame.
+    """Compute the covariance of between(first, second) for M pairs of poses, in the first's frame, (M, 3, 3).
 
-    Args:
-        precision: of steps in the poses' own frames.
-        poses: (N, 3).
-        first: poses, (M,).
-        second: poses, (M,).
+    The precision is that of steps in the own frames of the poses, (N, 3).
     """
     by_first, by_second = between_jacobians(between(poses[first], poses[second]))
     every = np.arange(len(poses))
     own = precision.blocks(every, every)
     cross = precision.blocks(second, first)
-    result = by_first @ own[first] @ np.swapaxes(by_first, 1, 2) + by_second @ own[second] @ np.swapaxes(
-        by_second, 1, 2
-    )
+    result = by_first @ own[first] @ np.swapaxes(by_first, 1, 2)
+    result = result + by_second @ own[second] @ np.swapaxes(by_second, 1, 2)
     mixed = by_second @ cross @ np.swapaxes(by_first, 1, 2)
     return np.asarray(result + mixed + np.swapaxes(mixed, 1, 2))
 
@@ -164,20 +154,20 @@ ANCHOR = 1e8
 """Information that holds the first pose, 1 / m^2 and 1 / rad^2."""
 
 RIDGE = 1e-4
-"""Information added to every pose, so that one that nothing holds does not spoil the others."""
+"""Information added to every pose, so that the matrix is regular also where no factor holds a pose."""
 
 DOUBTFUL_SQ = 11.3
-"""Squared Mahalanobis distance beyond which a loop is rather wrong than far off: 99 % of chi-squared with 3 degrees."""
+"""Squared Mahalanobis distance beyond which a loop is probably wrong: 99 % quantile of chi-squared, 3 degrees."""
 
 
 @dataclass(frozen=True, eq=False)
 class Factors:
-    """Relative poses between pairs of poses.
+    """Measured relative poses between M pairs of poses.
 
     Attributes:
-        first, second: indices of the poses, shape (M,).
-        relative: the second in the frame of the first, as measured, shape (M, 3).
-        information: inverse covariance of the measured relative pose, in the first's frame, shape (M, 3, 3).
+        first, second: indices of the poses, (M,).
+        relative: the second pose in the frame of the first, as measured, (M, 3).
+        information: inverse covariance of the measured relative pose, in the first's frame, (M, 3, 3).
     """
 
     first: NDArray[np.intp]
@@ -189,18 +179,18 @@ class Factors:
         return len(self.first)
 
     def errors(self, poses: Floats) -> Floats:
-        """Relative poses less those measured, (M, 3)."""
+        """Return the relative poses minus the measured ones, (M, 3)."""
         error = between(poses[self.first], poses[self.second]) - self.relative
         error[:, 2] = wrapped(error[:, 2])
         return error
 
     def squares(self, poses: Floats) -> Floats:
-        """Squared Mahalanobis lengths of the errors, (M,)."""
+        """Return the squared Mahalanobis lengths of the errors, (M,)."""
         error = self.errors(poses)
         return np.asarray(np.einsum("mi,mij,mj->m", error, self.information, error))
 
     def select(self, chosen: NDArray[np.bool_] | NDArray[np.intp]) -> Factors:
-        """Some of the factors."""
+        """Return some of the factors."""
         return Factors(self.first[chosen], self.second[chosen], self.relative[chosen], self.information[chosen])
 
 
@@ -209,7 +199,7 @@ NO_FACTORS = Factors(np.empty(0, np.intp), np.empty(0, np.intp), np.empty((0, 3)
 
 @dataclass(frozen=True, eq=False)
 class Quadratic:
-    """Blocks of a quadratic cost over relative poses z of pairs: second derivatives (M, 3, 3) and first (M, 3) by z."""
+    """A quadratic cost over relative poses z of M pairs: second derivatives (M, 3, 3) and first ones (M, 3) by z."""
 
     first: NDArray[np.intp]
     second: NDArray[np.intp]
@@ -219,7 +209,7 @@ class Quadratic:
 
 
 def quadratic(factors: Factors, poses: Floats, weights: Floats | None = None) -> Quadratic:
-    """The factors' cost about given poses, each weighted."""
+    """Return the factors' cost about given poses, each factor weighted."""
     curvature = factors.information if weights is None else factors.information * weights[:, None, None]
     error = factors.errors(poses)
     relative = error + factors.relative
@@ -227,9 +217,9 @@ def quadratic(factors: Factors, poses: Floats, weights: Floats | None = None) ->
 
 
 def normal_equations(count: int, parts: Sequence[Quadratic]) -> tuple[Any, Floats]:
-    """The sparse matrix H, (3 N, 3 N) in compressed columns, and g, (3 N,), in steps of the poses' own frames.
+    """Return the sparse matrix H, (3 N, 3 N) in compressed columns, and g, (3 N,), for steps in the poses' own frames.
 
-    The first pose is held and every pose has a little information of its own.
+    `ANCHOR` holds the first pose, and `RIDGE` is added to every pose.
     """
     diagonal = np.tile(np.eye(3) * RIDGE, (count, 1, 1))
     diagonal[0] += np.eye(3) * ANCHOR
@@ -258,13 +248,13 @@ def normal_equations(count: int, parts: Sequence[Quadratic]) -> tuple[Any, Float
 
 
 def pulls(part: Quadratic) -> tuple[Floats, Floats]:
-    """With what gradient each relative pose of a part pulls at steps of its first and its second pose, (M, 3) each."""
+    """Return the gradient of each pair's cost by steps of its first and its second pose, (M, 3) each."""
     by_first, by_second = between_jacobians(part.relative)
     return np.einsum("mji,mj->mi", by_first, part.gradient), np.einsum("mji,mj->mi", by_second, part.gradient)
 
 
 def summed(count: int, part: Quadratic, on_first: Floats, on_second: Floats) -> Floats:
-    """The sums of such pulls at each pose, (N, 3)."""
+    """Sum gradients of pairs, as `pulls` gives them, over each pose, (N, 3)."""
     result = np.zeros((count, 3))
     _add(result, part.first, on_first)
     _add(result, part.second, on_second)
@@ -272,17 +262,17 @@ def summed(count: int, part: Quadratic, on_first: Floats, on_second: Floats) -> 
 
 
 def solve_step(count: int, parts: Sequence[Quadratic]) -> tuple[Floats, Precision]:
-    """The Gauss-Newton step of each pose in its own frame, (N, 3), and the factorised matrix."""
+    """Return the Gauss-Newton step of each pose in its own frame, (N, 3), and the factorised matrix."""
     matrix, gradient = normal_equations(count, parts)
     precision = Precision(matrix)
     return -precision.solve(gradient).reshape(count, 3), precision
 
 
 def optimise(poses: Floats, chain: Factors, loops: Factors, steps: int = 40) -> tuple[Floats, Floats]:
-    """Poses that fit a chain of factors, and loops of which some may be wrong.
+    """Fit poses to a chain of factors, and to loops some of which may be wrong.
 
-    Loops have the cost of Geman and McClure, reached from a convex one in steps (graduated non-convexity, Yang,
-    Antonante, Tzoumas and Carlone 2020): weights w = (mu c^2 / (r^2 + mu c^2))^2 with mu falling to 1.
+    Loops have Geman and McClure's cost, approached from a convex one (graduated non-convexity, Yang, Antonante, Tzoumas
+    and Carlone 2020): weights w = (mu c^2 / (r^2 + mu c^2))^2 with mu falling to 1.
 
     Returns:
         poses (N, 3), and the final weight of each loop, from 0 to 1.
@@ -290,21 +280,19 @@ def optimise(poses: Floats, chain: Factors, loops: Factors, steps: int = 40) -> 
     poses = poses.copy()
     relaxed = max(1.0, 2.0 * float(loops.squares(poses).max()) / DOUBTFUL_SQ) if len(loops) else 1.0
     weights = np.ones(len(loops))
-    converged = 0
     for _ in range(steps):
         if len(loops):
             weights = (relaxed * DOUBTFUL_SQ / (loops.squares(poses) + relaxed * DOUBTFUL_SQ)) ** 2
         step, _ = solve_step(len(poses), [quadratic(chain, poses), quadratic(loops, poses, weights)])
         poses = retract(poses, step)
-        converged = converged + 1 if np.abs(step).max() < 1e-4 and relaxed <= 1.0 else 0
-        if converged:
+        if np.abs(step).max() < 1e-4 and relaxed <= 1.0:
             break
         relaxed = max(1.0, relaxed / 1.6)
     return poses, weights
 
 
 def _add(into: Floats, where: NDArray[np.intp], values: Floats) -> None:
-    """Sum values into rows, in their order: the same bits every time."""
+    """Add values to rows, in their order: the result has the same bits every time."""
     size = int(np.prod(values.shape[1:]))
     flat, target = values.reshape(len(values), size), into.reshape(len(into), size)
     for k in range(size):

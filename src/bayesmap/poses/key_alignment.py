@@ -1,10 +1,8 @@
-"""Each scan matched anew with itself left out: is it where the others say it should be?
+"""Alignment of key scans, and leave-one-out matching: is each scan where the others say that it should be?
 
 A scan that was aligned wrongly stays wrong, because the pairs that would move it are out of reach. So every scan is
-looked for in the likelihood grid of its partners alone; where another place explains it clearly better it is put
-there, and where none explains it well a wide window is searched. Scans that stay badly explained are flagged.
-
-Key scans aligned with all others that see the same walls, and matched anew where others explain them better.
+matched to the likelihood grid of its partners alone. Where another place explains it clearly better it is moved there;
+where none explains it well a wide window is searched. Scans that stay badly explained are flagged.
 """
 
 from __future__ import annotations
@@ -27,22 +25,20 @@ Floats = NDArray[np.float64]
 
 WINDOW_M, WINDOW_RAD = 0.3, np.radians(6.0)
 WIDE_M, WIDE_RAD = 1.5, np.radians(40.0)
+"""Half widths and half ranges of angle of the narrow and the wide window."""
+
 NEAR = Pull(0.2, np.radians(5.0), 0.005)
 
-CLEARLY_BETTER = 0.015
-"""Of the score, which is between 0 and 1: less than this may be chance."""
+CLEARLY_BETTER, WIDE_BETTER = 0.015, 0.12
+"""Gain in score, from 0 to 1, that a place in the narrow and in the wide window must bring."""
 
-WIDE_BETTER = 0.12
-"""A place far away must explain the scan so much better."""
-
-AT_ONCE = 24
-POINTS = 200
-SIGMA_M = 0.06
+AT_ONCE, POINTS, SIGMA_M = 24, 200, 0.06
+"""Scans matched at once, most points of a scan, and standard deviation of the likelihood grids."""
 
 
 @dataclass(frozen=True, eq=False)
 class Rematch:
-    """How well scans are explained by others.
+    """How well other scans explain each of S scans.
 
     Attributes:
         scores: of each scan at its pose, by its partners alone, from 0 to 1, (S,); 0 where it has no partner.
@@ -58,25 +54,18 @@ class Rematch:
 
 
 def rematch(
-    geometry: ScanGeometry,
-    poses: Floats,
-    pairs: Pairs,
-    half_width_m: float,
-    *,
-    poor_score: float = 0.0,
+    geometry: ScanGeometry, poses: Floats, pairs: Pairs, half_width_m: float, *, poor_score: float = 0.0,
     search: bool = True,
-    threads: int | None = None,
-) -> Rematch:
-    """Match every scan to its partners' likelihood grid.
+) -> Rematch:  # fmt: skip
+    """Match each of S scans to its partners' likelihood grid.
 
     Args:
-        geometry: S scans.
+        geometry: of the scans.
         poses: (S, 3).
         pairs: the partners of each scan.
         half_width_m: of the grids.
-        poor_score: scans that no pose in the narrow window explains better than this are sought in a wide one.
-        search: look for better poses; otherwise scores at the given ones are all that is found.
-        threads: to compute with; by default all cores.
+        poor_score: scans whose best score in the narrow window is lower are sought in a wide one.
+        search: whether to look for better poses, or only to score the given ones.
     """
     count = len(poses)
     scores, best_scores, best_poses = np.zeros(count), np.zeros(count), poses.copy()
@@ -88,23 +77,15 @@ def rematch(
         others = [pairs.target[pairs.offsets[k] : pairs.offsets[k + 1]].astype(np.intp) for k in some]
         local = [between(np.broadcast_to(poses[k], (len(m), 3)), poses[m]) for k, m in zip(some, others, strict=True)]
         reuse = grids if grids is not None and len(grids) == len(some) else None
-        grids = likelihood_grids(
-            geometry,
-            others,
-            local,
-            np.zeros((len(some), 2)),
-            half_width_m,
-            sigma_m=SIGMA_M,
-            threads=threads,
-            reuse=reuse,
-        )
+        middles = np.zeros((len(some), 2))
+        grids = likelihood_grids(geometry, others, local, middles, half_width_m, sigma_m=SIGMA_M, reuse=reuse)
         points = [geometry.points_of(int(k), POINTS) for k in some]
         here = np.zeros((len(some), 3))
-        now = match(grids, points, here, 0.0, 0.0, least=-9.0, threads=threads).scores[:, 0]
+        now = match(grids, points, here, 0.0, 0.0, least=-9.0).scores[:, 0]
         scores[some] = best_scores[some] = now
         if not search:
             continue
-        near = match(grids, points, here, WINDOW_M, WINDOW_RAD, least=now, pull=NEAR, threads=threads)
+        near = match(grids, points, here, WINDOW_M, WINDOW_RAD, least=now, pull=NEAR)
         found = near.found[:, 0]
         best = np.where(found, near.scores[:, 0], now)
         place = np.where(found[:, None], near.poses[:, 0], 0.0)
@@ -112,7 +93,7 @@ def rematch(
         if len(poor):
             far = match(
                 grids, [points[k] for k in poor], here[poor], WIDE_M, WIDE_RAD, grid_of=poor,
-                least=best[poor] + WIDE_BETTER, step_rad=np.radians(1.0), threads=threads,
+                least=best[poor] + WIDE_BETTER, step_rad=np.radians(1.0),
             )  # fmt: skip
             better = far.found[:, 0]
             best[poor[better]], place[poor[better]] = far.scores[better, 0], far.poses[better, 0]
@@ -123,11 +104,11 @@ def rematch(
 
 
 FAR_BELOW = 0.55
-"""Times the usual share: a scan that is explained less is flagged."""
+"""Share of the median score below which a scan is flagged."""
 
 
 def flag_unexplained(explained: Floats, keys: NDArray[np.intp]) -> NDArray[np.bool_]:
-    """Scans that are explained far worse than usual, (S,): key scans and the others are compared among themselves."""
+    """Flag scans that are explained far worse than usual, (S,), separately among key scans and among the others."""
     flagged = np.zeros(len(explained), np.bool_)
     is_key = np.zeros(len(explained), np.bool_)
     is_key[keys] = True
@@ -140,21 +121,21 @@ def flag_unexplained(explained: Floats, keys: NDArray[np.intp]) -> NDArray[np.bo
 OnRound = Callable[[int, Floats], None]
 
 MATCH_REACH = 0.8
-"""Scans are compared if their sensors are no further apart than this share of the grids' half width."""
+"""Greatest distance of two scans' sensors, as a share of the grids' half width, at which scans are compared."""
 
 REMATCH_M = 14.0
-"""Half the width of the grids in which scans are matched anew, at most."""
+"""Most half width of the grids for leave-one-out matching."""
 
 NARROW = {"reach_m": (0.15, 0.08), "scale_m": (0.06, 0.03)}
-"""How far paired points may lie apart where poses are known to a decimetre."""
+"""Arguments of `align` where poses are known to a decimetre."""
 
 IMPROVEMENTS = 2
-"""How often scans are matched anew without themselves."""
+"""Rounds of leave-one-out matching that move scans."""
 
 
 @dataclass(frozen=True, eq=False)
 class Rematched:
-    """An alignment, and how well each scan is explained by the others alone, from 0 to 1, (K,)."""
+    """An alignment of K scans, and how well the others alone explain each, from 0 to 1, (K,)."""
 
     alignment: Alignment
     scores: Floats
@@ -162,54 +143,46 @@ class Rematched:
 
 @dataclass(frozen=True, eq=False)
 class KeyAlignment:
-    """The key scans of a track, to be aligned.
+    """The alignment of a track's key scans.
 
     Attributes:
         geometry: of the key scans.
-        track: what the front end found.
+        track: result of the front end.
         half_width_m: of the front end's grids.
-        report: returns what is called after each round, for a track, a stage and its number of rounds.
-        threads: to compute with; None: all cores.
+        report: returns the function to call after each round, given the track, a stage and its number of rounds.
     """
 
     geometry: ScanGeometry
     track: Track
     half_width_m: float
     report: Callable[[Track, str, int], OnRound]
-    threads: int | None
 
     def align(
-        self,
-        stage: str,
-        poses: Floats,
-        factors: Factors,
-        rounds: int = 8,
-        *,
-        wide: bool,
+        self, stage: str, poses: Floats, factors: Factors, rounds: int = 8, *, wide: bool,
         firm: NDArray[np.bool_] | None = None,
-    ) -> Alignment:
+    ) -> Alignment:  # fmt: skip
         """Align the key scans.
 
         Args:
-            stage: its name, for the report.
+            stage: name of the stage, for the report.
             poses: to start from, (K, 3).
             factors: of odometry.
             rounds: of pairing and solving.
             wide: whether poses may be decimetres off.
-            firm: links of odometry that no force bends, (K - 1,).
+            firm: links of odometry that stay firm, (K - 1,).
         """
         reach_m = MATCH_REACH * self.half_width_m
 
         def pairs(at: Floats) -> Pairs:
-            return overlapping_pairs(self.geometry, at, reach_m, self.threads)
+            return overlapping_pairs(self.geometry, at, reach_m)
 
         return align(
-            self.geometry, poses, factors, pairs(poses), rounds=rounds, firm=firm, reselect=pairs, threads=self.threads,
+            self.geometry, poses, factors, pairs(poses), rounds=rounds, firm=firm, reselect=pairs,
             on_progress=self.report(self.track, stage, rounds), **({} if wide else NARROW),
         )  # fmt: skip
 
     def improved(self, aligned: Alignment, factors: Factors) -> Rematched:
-        """Match scans anew, each without itself; those that others explain better elsewhere are moved, and all aligned.
+        """Match each scan without itself, move those that others explain better elsewhere, and align all again.
 
         A scan that its new place and the alignment after it explain worse than before is put back, and stays.
         """
@@ -220,7 +193,7 @@ class KeyAlignment:
         for number in range(IMPROVEMENTS + 1):
             again = rematch(
                 self.geometry, aligned.poses, aligned.pairs, self._rematch_m, poor_score=poor,
-                search=number < IMPROVEMENTS, threads=self.threads,
+                search=number < IMPROVEMENTS,
             )  # fmt: skip
             told(number + 1, np.where(again.moved[:, None], again.best_poses, aligned.poses))
             back = moved & (again.scores < before)
@@ -237,7 +210,10 @@ class KeyAlignment:
         return Rematched(aligned, before)
 
     def without_leaps(self, matched: Rematched, factors: Factors) -> Rematched:
-        """Where poses leap over a step on which odometry and front end agree, no wheel has slipped: align once more."""
+        """Align once more, with firm odometry, where poses leap over a step on which odometry and front end agree.
+
+        The result is kept if it has fewer leaps.
+        """
         aligned, track = matched.alignment, self.track
         leaps = contradicted_links(track, aligned.poses)
         firm = leaps & (factors.squares(track.poses[track.keys]) < DOUBTFUL_SQ)
@@ -246,7 +222,7 @@ class KeyAlignment:
         held = self.align("aligned-rematched", aligned.poses, factors, wide=True, firm=firm)
         if contradicted_links(track, held.poses).sum() >= leaps.sum():
             return matched
-        again = rematch(self.geometry, held.poses, held.pairs, self._rematch_m, search=False, threads=self.threads)
+        again = rematch(self.geometry, held.poses, held.pairs, self._rematch_m, search=False)
         return Rematched(held, again.scores)
 
     @property

@@ -16,46 +16,44 @@ from bayesmap.poses.matcher import likelihood_grids, score_at
 from bayesmap.poses.next_scans import POINTS
 from bayesmap.poses.rejoin import AGREE, SAME_M, SAME_RAD, Joint, consistent, rejoin
 from bayesmap.poses.scan_geometry import ScanGeometry
-from bayesmap.space.planar import between, compose, wrapped
+from bayesmap.space.planar import between, compose, rotation, wrapped
 
 Floats = NDArray[np.float64]
 
 DEFLATION = 4.0
-"""Windows of the front end overlap: its links are as uncertain as those of a quarter of the beams."""
+"""Divisor of the information of the front end's links, whose windows overlap."""
 
 LINK_FLOOR = np.array([0.004, 0.004, np.radians(0.12)])
-"""Standard deviations that a link between key scans has at least."""
+"""Least standard deviations of a link between key scans."""
 
 BENT_M = 5.0
-"""A path may be bent by so much before loops are closed."""
+"""How far a path may be bent before loops are closed."""
 
 SETTLED_M = 0.3
-"""Once a round moves no key scan further, no more loops are sought: alignment goes on from there."""
+"""When a round moves no key scan further, no more loops are sought: alignment goes on from there."""
 
 LEAP_M, LEAP_RAD, LEAP_SIGMAS = 0.3, np.radians(10.0), 8.0
-"""A step that differs so much from the front end's, and by so many of its standard deviations, is a leap."""
+"""A step is a leap if it differs from the front end's by so much, and by so many of its standard deviations."""
 
-REFUSED_SIGMAS = 5.0
-"""Odometry contradicts a step that differs by so many of its own standard deviations,"""
-
-CONFIRMED_BELOW = 0.2
-"""and the key scans before confirm it where they explain the scan after it no more than this worse than usual."""
+REFUSED_SIGMAS, CONFIRMED_BELOW = 5.0, 0.2
+"""Odometry contradicts a step that differs by more of its standard deviations. The key scans before confirm the step if
+the score of the scan after it is at most the second number lower than usual."""
 
 BOTH_SIGMAS = 4.0
-"""Where odometry contradicts a step, so many of the front end's standard deviations make it a leap."""
+"""Where odometry contradicts a step, this many of the front end's standard deviations make it a leap."""
 
 GUESSED_SIGMAS = 3.0
-"""A part of the path that fitted where the front end guessed it, and was joined so much further off, is in doubt."""
+"""A part of the path that fitted where the front end guessed it is in doubt if it was joined further off than this."""
 
 ROUNDS: tuple[Search, ...] = (
     Search(5.0, np.radians(45.0), most_off=3.0, passes=2, spacing_m=2.0),
     Search(4.0, np.radians(30.0)),
     Search(2.0, np.radians(20.0)),
 )
-"""After each round windows shrink with the covariance; these are their limits. In the first one the graph is the chain
-alone, whose covariance is wide and honest: what it rules out is another place that looks alike. Later ones believe the
-closures of those before to centimetres, some of them wrongly. On logs and simulated robots right closures lay up to
-2.1 standard deviations off in the first round, and up to 3.2 later; wrong ones that bent the way 3.3 and 3.8."""
+"""Limits of the search in each round; within them windows shrink with the covariance. In the first round the graph is
+the chain alone, whose covariance is wide: a match far outside it is another place that looks alike. Later rounds
+believe earlier closures to centimetres, some of them wrongly. On logs and simulated robots right closures lay up to 2.1
+standard deviations off in the first round, and up to 3.2 later; wrong ones that bent the path 3.3 and 3.8."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,10 +62,10 @@ class ClosedGraph:
 
     Attributes:
         poses: of the keys, (K, 3).
-        closures: those found in the last round.
+        closures: those of the last round.
         weights: Geman and McClure's weight of each closure, from 0 to 1: near 0 where it was not believed.
-        joined: of the parts of the path, which are joined to an earlier one by places that both saw, (P,).
-        weighed: the same graph with the alternatives to it.
+        joined: which parts of the path are joined to an earlier one by places that both saw, (P,).
+        weighed: this graph with the alternatives to it.
     """
 
     poses: Floats
@@ -78,10 +76,10 @@ class ClosedGraph:
 
 
 def chain_of(track: Track, poses: Floats) -> Factors:
-    """Links from each key scan to the next, with what laser and odometry together tell.
+    """Return links from each key scan to the next, by laser and odometry together.
 
-    Where the path breaks they have hardly any information. They are those of the given poses of the keys, (K, 3), or
-    where the scan after the break fitted as well as usual, and a bent path may explain what differs, the front end's.
+    Where the path breaks, links have hardly any information. They follow the given poses of the keys, (K, 3), or, if
+    the scan after the break fitted as well as usual and a bent path explains the difference, the front end's poses.
     """
     keys = track.keys
     relative = between(track.poses[keys[:-1]], track.poses[keys[1:]])
@@ -94,64 +92,51 @@ def chain_of(track: Track, poses: Floats) -> Factors:
     index = np.arange(3)
     odometry[:, index, index] = 1.0 / np.maximum(track.odometry_variance[keys[1:]], 1e-8)
     covariance = np.linalg.inv(laser + odometry)  # in the frame of the later key
-    cosine, sine = np.cos(relative[:, 2]), np.sin(relative[:, 2])
-    turn = np.zeros_like(covariance)
-    turn[:, 0, 0] = turn[:, 1, 1] = cosine
-    turn[:, 0, 1], turn[:, 1, 0], turn[:, 2, 2] = -sine, sine, 1.0
+    turn = rotation(relative[:, 2])
     covariance = turn @ covariance @ np.swapaxes(turn, 1, 2) + np.diag(LINK_FLOOR**2)
     order = np.arange(len(keys) - 1)
-    return Factors(order, order + 1, relative, np.linalg.inv(covariance))
+    return Factors(order, order + 1, relative, np.asarray(np.linalg.inv(covariance), np.float64))
 
 
 def _fitted_after_break(track: Track) -> NDArray[np.bool_]:
-    """Where the path broke, and the scan after that fitted as well as usual where the front end had it, (K - 1,)."""
+    """Return where the path broke and the scan after the break fitted as well as usual, (K - 1,)."""
     after = track.keys[1:]
     return np.asarray(track.broken[after] & (track.scores[after] > np.median(track.scores) - SLIPPED_BELOW))
 
 
-def contradicted_links(track: Track, poses: Floats) -> NDArray[np.bool_]:
-    """Where poses of the keys, (K, 3), move from one to the next as neither odometry nor the front end did, (K - 1,).
+def contradicted_links(track: Track, poses: Floats, sigmas: float = LEAP_SIGMAS) -> NDArray[np.bool_]:
+    """Find steps of the keys' poses, (K, 3), that contradict the front end's by ``sigmas``, and are far off, (K - 1,).
 
-    Where the front end was sure of a step and the poses leap, loops or pairs of scans pull at the two sides that cannot
-    all be right.
+    Where the front end was sure of a step and the poses leap, loops or pairs of scans pull the two sides apart; they
+    cannot all be right.
     """
-    return _leaps(track, poses, LEAP_SIGMAS)
-
-
-def _leaps(track: Track, poses: Floats, sigmas: float) -> NDArray[np.bool_]:
-    """Where poses of the keys move so many standard deviations unlike the front end's, and far, (K - 1,)."""
     chain = chain_of(track, track.poses[track.keys])
     off = chain.errors(poses)
     leaps = (np.hypot(off[:, 0], off[:, 1]) > LEAP_M) | (np.abs(off[:, 2]) > LEAP_RAD)
     return np.asarray(leaps & (chain.squares(poses) > sigmas**2) & ~track.broken[track.keys[1:]])
 
 
-def unconfirmed_links(
-    geometry: ScanGeometry, track: Track, odometry: Factors, poses: Floats, threads: int | None = None
-) -> NDArray[np.bool_]:
+def unconfirmed_links(geometry: ScanGeometry, track: Track, odometry: Factors, poses: Floats) -> NDArray[np.bool_]:
     """Find steps from key to key that odometry contradicts and the scans just before do not confirm, (K - 1,).
 
-    They do not where they explain the next key scan badly, or where the front end, which matched it to them, had it
-    elsewhere. Where the path broke odometry decides nothing. There a step is in doubt if it is far from the front
-    end's, although the scan after the break fitted as well as usual where the front end had it.
+    The scans before do not confirm a step if they explain the next key scan badly, or if the front end, which matched
+    it to them, had it elsewhere. Where the path broke odometry decides nothing. There a step is in doubt if it is far
+    from the front end's, although the scan after the break fitted as well as usual where the front end had it.
 
     Args:
         geometry: of all scans.
-        track: what the front end found.
-        odometry: of each step, with the noise that was found.
+        track: result of the front end.
+        odometry: factors of each step, with the fitted noise.
         poses: of the keys, (K, 3).
-        threads: to compute with; by default all cores.
     """
     keys, usual = track.keys, float(np.median(track.scores))
     refused = ~track.broken[keys[1:]] & (odometry.squares(poses) > REFUSED_SIGMAS**2)
-    doubtful = refused & _leaps(track, poses, BOTH_SIGMAS)
+    doubtful = refused & contradicted_links(track, poses, BOTH_SIGMAS)
     half_width_m, grid = grid_half_width(geometry), None
     for k in np.nonzero(refused & ~doubtful)[0]:
         before = np.arange(max(0, int(k) + 1 - WINDOW), int(k) + 1)
         seen = between(np.broadcast_to(poses[k], (len(before), 3)), poses[before])
-        grid = likelihood_grids(
-            geometry, [keys[before]], [seen], np.zeros(2), half_width_m, threads=threads, reuse=grid
-        )  # fmt: skip
+        grid = likelihood_grids(geometry, [keys[before]], [seen], np.zeros(2), half_width_m, reuse=grid)
         points = geometry.points_of(int(keys[k + 1]), POINTS)
         doubtful[k] = score_at(grid, 0, points, between(poses[k], poses[k + 1]))[0] < usual - CONFIRMED_BELOW
     off = between(poses[:-1], poses[1:]) - between(track.poses[keys[:-1]], track.poses[keys[1:]])
@@ -163,17 +148,16 @@ def unconfirmed_links(
 def poses_between_keys(
     track_poses: Floats, keys: NDArray[np.intp], key_poses: Floats, broken: NDArray[np.bool_] | None = None
 ) -> Floats:
-    """All scans' poses, (S, 3), from new poses of the keys.
+    """Return all scans' poses, (S, 3), from new poses of the keys, (K, 3).
 
-    Each keeps its motion from the key before; what that misses the next key by is spread along the way, but where the
-    path is broken between the two, (S,).
+    Each scan keeps its motion from the key before. The discrepancy at the next key is spread along the way, except
+    where the path is broken between the two, (S,).
     """
     count = len(track_poses)
     before = np.clip(np.searchsorted(keys, np.arange(count), side="right") - 1, 0, len(keys) - 1)
     after = np.minimum(before + 1, len(keys) - 1)
-    relative = between(track_poses[keys[before]], track_poses)
-    result = compose(key_poses[before], relative)
-    # Where the next key would be if nothing had changed, seen from where it is.
+    result = compose(key_poses[before], between(track_poses[keys[before]], track_poses))
+    # The pose of the next key if nothing had changed.
     expected = compose(key_poses[before], between(track_poses[keys[before]], track_poses[keys[after]]))
     change = key_poses[after] - expected
     change[:, 2] = wrapped(change[:, 2])
@@ -187,30 +171,22 @@ def poses_between_keys(
 
 
 def close_loops(
-    geometry: ScanGeometry,
-    track: Track,
-    *,
-    on_progress: Callable[[int, Floats], None] | None = None,
-    threads: int | None = None,
+    geometry: ScanGeometry, track: Track, on_progress: Callable[[int, Floats], None] | None = None
 ) -> ClosedGraph:
-    """Find loop closures and solve the graph, in rounds: closing the sure ones shows where the others are.
+    """Find loop closures and solve the graph, in rounds: closing the sure loops shows where the others are.
 
-    Args:
-        geometry: of all scans.
-        track: what the front end found.
-        on_progress: called with the number of rounds that are done and the poses of the keys, (K, 3).
-        threads: to compute with; by default all cores.
+    ``on_progress`` is called with the number of rounds that are done and the poses of the keys, (K, 3).
     """
     keys, poses = track.keys, track.poses[track.keys]
     half_width_m = grid_half_width(geometry)
     path, rounds, joined = key_path(geometry, keys, poses, track.broken[keys]), ROUNDS, np.ones(1, np.bool_)
     if path.parts.any():
-        # Loops within a part first: one that is bent by metres lies to another in several ways, each of them right.
-        bent = _rounds(path, chain_of(track, poses), ROUNDS[:2], half_width_m, threads, within_parts=True)
-        poses, joined = rejoin(path.at(bent.poses), half_width_m, threads)
+        # Loops within a part first: parts that are bent by metres fit each other in several ways, all of them right.
+        weighed, _ = _rounds(path, chain_of(track, poses), ROUNDS[:2], half_width_m, within_parts=True)
+        poses, joined = rejoin(path.at(weighed.poses), half_width_m)
         path, rounds = path.at(poses), ROUNDS[1:]
-    closed = _rounds(path, chain_of(track, poses), rounds, half_width_m, threads, on_progress)
-    guess, poses, closures, weights = path.poses, closed.poses, closed.closures, closed.weights
+    weighed, closures = _rounds(path, chain_of(track, poses), rounds, half_width_m, on_progress)
+    guess, poses, weights = path.poses, weighed.poses, weighed.weights
     # A part that was left where it was guessed, and that loops then found to be right there, is joined as well.
     for k in np.nonzero(~joined)[0]:
         across = (path.parts[closures.first] < k) & (path.parts[closures.second] == k)
@@ -221,36 +197,20 @@ def close_loops(
             known = path.parts <= k
             two = (path.parts[known] == k).astype(np.intp)
             both = KeyPath(geometry, keys[known], poses[known], path.along[known], two)
-            joined[k] = consistent(both, Joint(0, 1, np.zeros(3), 0.0), threads)
-    return ClosedGraph(poses, closures, weights, joined, closed.weighed)
-
-
-@dataclass(frozen=True, eq=False)
-class _Closed:
-    """Poses of the keys after rounds of loop closure, the closures of the last round, and their weights."""
-
-    poses: Floats
-    closures: Closures
-    weights: Floats
-    weighed: Weighed
+            joined[k] = consistent(both, Joint(0, 1, np.zeros(3), 0.0))
+    return ClosedGraph(poses, closures, weights, joined, weighed)
 
 
 def _rounds(
-    path: KeyPath,
-    chain: Factors,
-    rounds: tuple[Search, ...],
-    half_width_m: float,
-    threads: int | None,
-    on_progress: Callable[[int, Floats], None] | None = None,
-    *,
-    within_parts: bool = False,
-) -> _Closed:
-    """Rounds of loop closure, from the poses of a path on, or of each of its parts by itself."""
+    path: KeyPath, chain: Factors, rounds: tuple[Search, ...], half_width_m: float,
+    on_progress: Callable[[int, Floats], None] | None = None, *, within_parts: bool = False,
+) -> tuple[Weighed, Closures]:  # fmt: skip
+    """Close loops in rounds, of the whole path or within its parts; returns the graph and the last round's closures."""
     poses, weights, loops, closures = path.poses, np.empty(0), NO_FACTORS, no_closures()
     for number, search in enumerate(rounds, start=1):
         parts = [quadratic(chain, poses), quadratic(loops, poses, weights)]
         _, precision = solve_step(len(poses), parts)
-        closures = find_closures(path.at(poses), precision, half_width_m, search, threads, within_parts=within_parts)
+        closures = find_closures(path.at(poses), precision, half_width_m, search, within_parts=within_parts)
         loops = closures.factors()
         before = poses
         poses, weights = optimise(poses, chain, loops)
@@ -260,4 +220,4 @@ def _rounds(
             on_progress(number, poses)
         if number > 1 and np.hypot(*(poses - before)[:, :2].T).max() < SETTLED_M:
             break
-    return _Closed(poses, closures, weights, weighed)
+    return weighed, closures

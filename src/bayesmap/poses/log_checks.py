@@ -1,17 +1,15 @@
-"""What a log must have for a trajectory to be inferred, where odometry stands still, and whether poses are odometry.
+"""Checks of a log before its trajectory is inferred: enough scans, odometry that stands still, poses that are odometry.
 
-Odometry may stand still although the laser sees that the robot moves: for long, or until it catches up. And where poses
-are raw odometry, the same wall stands in several places, and beams pass through it.
+Odometry may stand still although the laser sees that the robot moves: for long, or until it catches up.
 
-In a cell with h hits and p passes a beam stops with chance h / (h + p); the mean of that over all hits says how well
-scans agree at their poses. Odometry is right over a few scans and wrong over many, so the agreement of all scans is
-divided by that of windows of `WINDOW` scans, each in a map of its own. Measured: 0.87 with the corrected poses of the
-Intel log and with true poses in a simulated office; 0.41 to 0.71 with raw odometry (Intel, ACES, Duke, simulated).
+Where poses are raw odometry, one wall stands in several places, and beams pass through it. In a cell with h hits and p
+passes a beam stops with probability h / (h + p). The mean of that over all hits says how well scans agree at their
+poses. Odometry is right over a few scans and wrong over many, so the agreement of all scans is divided by that of
+windows of `WINDOW` scans, each in a map of its own. Measured: 0.87 with the corrected poses of the Intel log and with
+true poses in a simulated office; 0.41 to 0.71 with raw odometry (Intel, ACES, Duke, simulated).
 """
 
 from __future__ import annotations
-
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,25 +22,49 @@ from bayesmap.space.grid import Grid
 from bayesmap.space.planar import between, compose, interpolate
 from bayesmap.space.scans import Scans
 
+Floats = NDArray[np.float64]
+
 SLOWEST_S = 0.5
-"""Scans that come more seldom cannot be followed without odometry."""
+"""Median time between scans above which they cannot be followed without odometry."""
 TOO_SELDOM = "scans come too seldom to be followed without odometry, which takes 5 Hz or so"
+
+LONG = 10
+"""Scans at one pose that make a frozen stretch. Odometry that is merely slower than scans repeats itself less often."""
+
+MOVED_M, SHARE = 0.2, 0.3
+"""The robot has moved between two scans if this share of their readings differs by more than this many metres. Along a
+corridor those of its walls stay as they are."""
+
+FEWEST = 8
+"""Beams that must have hit something in both scans."""
+
+REPEATED = 1e-6
+"""Stated poses that differ by less, metres and radians, are equal: reading and interpolating them rounds."""
+
+CLEARLY = 0.05
+"""Difference in score, from 0 to 1, by which a scan must fit late odometry better than odometry as stated."""
+
+SIGMAS = 3.0
+"""Half the window about either place, in standard deviations of an ordinary robot's odometry."""
+
+POINTS, WIDEST_M = 200, 20.0
+"""Most points of a scan that are matched, and most half width of the grid."""
 
 
 def gap_s(scans: Scans) -> float:
-    """Return the median time from scan to scan, seconds; 0 where stamps say nothing."""
+    """Return the median time between scans, seconds; 0 where there are no stamps."""
     if scans.stamps_s is None or len(scans) < 2:
         return 0.0
     return float(np.median(np.diff(np.sort(scans.stamps_s))))
 
 
 def scans_come_often(scans: Scans) -> bool:
-    """Return whether scans come often enough to be followed without odometry, as far as their stamps tell."""
+    """Return whether scans come often enough to be followed without odometry, as far as stamps tell."""
     return gap_s(scans) <= SLOWEST_S
 
 
 def check_scans(scans: Scans, no_odometry: bool) -> None:
-    """Refuse scans that no trajectory can be inferred from.
+    """Refuse scans from which no trajectory can be inferred.
 
     Raises:
         BadInput: fewer than two scans, scans without a single hit, odometry that stands still all the time although
@@ -52,7 +74,7 @@ def check_scans(scans: Scans, no_odometry: bool) -> None:
         raise BadInput(f"slam: a trajectory needs two scans or more, got {len(scans)}")
     if not np.isfinite(scans.ranges_m).any():
         raise BadInput("slam: no scan has a single hit: there is nothing to match")
-    if not no_odometry and any(len(stretch) == len(scans) for stretch in frozen_stretches(scans)):
+    if not no_odometry and (0, len(scans) - 1) in frozen_stretches(scans):
         raise BadInput(
             "slam: the log's odometry is constant, one pose for all scans, but the scans see the robot move; "
             "--no-odometry goes without"
@@ -65,12 +87,12 @@ def check_scans(scans: Scans, no_odometry: bool) -> None:
 
 
 def doubts(scans: Scans, no_odometry: bool) -> list[str]:
-    """What looks wrong with the odometry of scans in the order of time, a sentence each."""
+    """Return what looks wrong with the odometry of scans in the order of time, a sentence each."""
     if no_odometry:
         return []
     found = []
-    for stretch in frozen_stretches(scans):
-        first, last, when = stretch.first, stretch.last, ""
+    for first, last in frozen_stretches(scans):
+        when = ""
         if scans.stamps_s is not None:
             when = f" (from {scans.stamps_s[first]:.3f} to {scans.stamps_s[last]:.3f} s)"
         found.append(
@@ -80,72 +102,28 @@ def doubts(scans: Scans, no_odometry: bool) -> list[str]:
     return found
 
 
-Floats = NDArray[np.float64]
-
-LONG = 10
-"""Odometry that comes more slowly than scans repeats itself, but not so often."""
-
-MOVED_M, SHARE = 0.2, 0.3
-"""If so large a share of a scan's readings is off by more than this from another's, the robot has moved in between.
-Along a corridor those of its walls stay as they are."""
-
-FEWEST = 8
-"""Beams that must have hit something in both."""
-
-REPEATED = 1e-6
-"""Stated poses that differ by less, metres and radians, are the same: reading and interpolating them rounds."""
-
-CLEARLY = 0.05
-"""A scan must fit so much better where late odometry has it than where odometry as stated has it; scores go to 1."""
-
-SIGMAS = 3.0
-"""Standard deviations of an ordinary robot's odometry: as far about either place the scan is sought."""
-
-POINTS, WIDEST_M = 200, 20.0
-"""Points of a scan that are sought, about, and half the width of the grid at most."""
+def frozen_stretches(scans: Scans) -> list[tuple[int, int]]:
+    """Find stretches of scans at one stated pose along which the robot moved: first and last scan of each, in order."""
+    found = _repeated(np.asarray((np.diff(scans.poses, axis=0) == 0.0).all(axis=1)))
+    return [(first, last) for first, last in found if last - first + 1 >= LONG and _moved(scans, first, last)]
 
 
-@dataclass(frozen=True)
-class Stretch:
-    """Scans that state one and the same pose.
-
-    Attributes:
-        first: the first of them.
-        last: the last.
-    """
-
-    first: int
-    last: int
-
-    def __len__(self) -> int:
-        return self.last - self.first + 1
-
-
-def frozen_stretches(scans: Scans) -> list[Stretch]:
-    """Stretches of scans at one stated pose along which the readings say that the robot moved, in order."""
-    same = (np.diff(scans.poses, axis=0) == 0.0).all(axis=1)
+def _repeated(same: NDArray[np.bool_]) -> list[tuple[int, int]]:
+    """Return first and last scan of each run of equal poses, given which scans have the pose before them, (S - 1,)."""
     edges = np.flatnonzero(np.diff(np.concatenate([[False], same, [False]]).astype(int)))
-    found = [Stretch(int(first), int(last)) for first, last in edges.reshape(-1, 2)]
-    return [stretch for stretch in found if len(stretch) >= LONG and _moved(scans, stretch)]
+    return [(int(first), int(last)) for first, last in edges.reshape(-1, 2)]
 
 
-def caught_up(scans: Scans, geometry: ScanGeometry, threads: int | None = None) -> Floats:
-    """Return the stated poses, (S, 3), with late ones mended: odometry that repeats itself and then catches up.
+def caught_up(scans: Scans, geometry: ScanGeometry) -> Floats:
+    """Return the stated poses of S scans in the order of time, (S, 3), with late odometry mended.
 
-    A robot's computer that is busy writes the last known pose several times, and then the whole motion at once. The
-    motion since the first of the repeated poses is then spread evenly in time over the scans up to the next new pose.
+    A robot's computer that is busy writes the last known pose several times, and then the whole motion at once. This
+    motion is spread evenly in time over the scans from the first of the repeated poses to the next new pose.
     A robot that stood still and then set off states the same numbers. The scans decide between the two: the motion
     is spread only where the scan after it fits clearly better to the first of the repeated poses than to the last.
-
-    Args:
-        scans: S scans in the order of time, with raw odometry.
-        geometry: of the same scans.
-        threads: to compute with; by default all cores.
     """
     stated, result = scans.poses, scans.poses.copy()
-    same = (np.abs(np.diff(stated, axis=0)) < REPEATED).all(axis=1)
-    edges = np.flatnonzero(np.diff(np.concatenate([[False], same, [False]]).astype(int)))
-    for first, last in edges.reshape(-1, 2):
+    for first, last in _repeated(np.asarray((np.abs(np.diff(stated, axis=0)) < REPEATED).all(axis=1))):
         if last + 1 >= len(scans):
             continue
         span = np.arange(first, last + 2)
@@ -154,35 +132,35 @@ def caught_up(scans: Scans, geometry: ScanGeometry, threads: int | None = None) 
             when = span.astype(np.float64)
         whole = between(stated[first], stated[last + 1])
         spread = interpolate(when[[0, -1]], np.stack([np.zeros(3), whole]), when)[1:-1]
-        if _counted_twice(geometry, int(first), int(last), whole, threads):
+        if _counted_twice(geometry, first, last, whole):
             result[span[1:-1]] = compose(stated[first], spread)
     return result
 
 
-def _counted_twice(geometry: ScanGeometry, first: int, last: int, motion: Floats, threads: int | None) -> bool:
-    """Check that a stated motion began at the first of some scans and not at the last: the next scan fits there."""
+def _counted_twice(geometry: ScanGeometry, first: int, last: int, motion: Floats) -> bool:
+    """Check that a stated motion began at the first of some scans and not at the last, by where the next scan fits."""
     width_m = float(np.clip(np.abs(geometry.points_of(first)).max(initial=0.0) + 1.0, 2.0, WIDEST_M))
     grids = likelihood_grids(
         geometry, [np.array([first]), np.array([last])], [np.zeros((1, 3))] * 2, np.zeros((2, 2)), width_m,
-        resolution=0.1, sigma_m=0.1, threads=threads,
+        resolution=0.1, sigma_m=0.1,
     )  # fmt: skip
     sigma = np.sqrt(motion_variances(motion, np.ones(2)))
     half_m, half_rad = max(0.1, SIGMAS * float(sigma[0])), max(np.radians(3.0), SIGMAS * float(sigma[2]))
     points = [geometry.points_of(last + 1, POINTS)] * 2
-    scores = match(grids, points, np.stack([motion] * 2), half_m, half_rad, least=-9.0, threads=threads).scores[:, 0]
+    scores = match(grids, points, np.stack([motion] * 2), half_m, half_rad, least=-9.0).scores[:, 0]
     return bool(scores[0] > scores[1] + CLEARLY)
 
 
-def _moved(scans: Scans, stretch: Stretch) -> bool:
-    """Whether most scans of the stretch's second half see something else than its first."""
-    later = range(stretch.first + len(stretch) // 2, stretch.last + 1)
-    off = [_differences(scans, stretch.first, scan) for scan in later]
+def _moved(scans: Scans, first: int, last: int) -> bool:
+    """Return whether most scans of a stretch's second half see something else than its first scan."""
+    later = range(first + (last - first + 1) // 2, last + 1)
+    off = [_differences(scans, first, scan) for scan in later]
     seen = [float(np.quantile(one, 1.0 - SHARE)) > MOVED_M for one in off if len(one) >= FEWEST]
     return 2 * sum(seen) > len(later)
 
 
 def _differences(scans: Scans, first: int, second: int) -> Floats:
-    """How far the readings of two scans differ, metres, where both have a hit: by beams, or by the nearest in angle."""
+    """Return the differences of two scans' readings where both have a hit, metres: by beam, or by the nearest angle."""
     (angles, reference), (own, ranges) = scans.beams_of(first), scans.beams_of(second)
     if scans.own_angles_rad is not None and len(angles) and len(own):
         order = np.argsort(angles, kind="stable")
@@ -198,16 +176,15 @@ WINDOW = 15
 """Scans over which odometry is as good as the truth."""
 
 RAW_BELOW = 0.8
-"""Less agreement than this, by that of windows, is odometry's."""
+"""Relative agreement below which poses are raw odometry."""
 
-CELL_M = 0.2
-MOST_SCANS = 900
+CELL_M, MOST_SCANS = 0.2, 900
 FURTHEST_M = 15.0
-"""Of hits that are looked at: a heading's error moves far ones most, in any log."""
+"""Range of hits that are used: an error of the heading moves far ones most, in any log."""
 
 
 def agreement(scans: Scans) -> float | None:
-    """How well all scans agree at their poses, by how well neighbours do: about 0.9 where the poses are right.
+    """Compute the agreement of all scans at their poses, relative to that of neighbours: about 0.9 for right poses.
 
     None where there are too few scans, or hits, to tell. A robot that never comes back to a place agrees with itself
     whatever its odometry, and needs no other.
@@ -226,13 +203,13 @@ def agreement(scans: Scans) -> float | None:
 
 
 def look_like_odometry(scans: Scans) -> bool:
-    """Whether the scans at their poses disagree as they do with raw odometry."""
+    """Return whether the scans at their poses disagree as they do with raw odometry."""
     found = agreement(scans)
     return found is not None and found < RAW_BELOW
 
 
 def _expected_stops(scans: Scans) -> tuple[float, float]:
-    """Sum over hits of the chance that a beam stops in the hit's cell, and the number of hits."""
+    """Return the sum over hits of the probability that a beam stops in the hit's cell, and the number of hits."""
     from bayesmap.kernels.counts import count_hits
 
     if not np.isfinite(scans.ranges_m).any():

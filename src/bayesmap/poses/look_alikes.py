@@ -1,12 +1,12 @@
-"""Places that look alike: which loop closures may be wrong, and where the path is without them.
+"""Places that look alike: find loop closures that may be wrong, and the poses without them.
 
 All closures between two visits of a place stand or fall together: where the places only look alike, every pair of scans
-agrees. So a whole visit is held against the graph without it. The visit lies D there, half a squared Mahalanobis
-distance: for a right one that is half of a chi-squared with three degrees of freedom, 1.5 on average, however uncertain
-the way was. The log odds that a visit is right are ``ODDS + FURTHER (places - 1) - D``: another place that looks alike
-lies anywhere in the window that was searched, and each further place along the way that matches makes that less likely.
-(Latif, Cadena and Neira 2013, "Robust loop closing over time", test such groups likewise.) On public
-logs D of right visits was 0.1 to 2.3, and that of wrong ones 11 to 20 (docs/lab/poses.md).
+agrees. So a whole visit is tested against the graph without it. D is half its squared Mahalanobis distance there. For a
+right visit D is half of a chi-squared with three degrees of freedom, 1.5 on average, however uncertain the path was.
+The log odds that a visit is right are ``ODDS + FURTHER (places - 1) - D``: another place that looks alike lies anywhere
+in the window that was searched, and each further place along the path that matches makes that less likely. (Latif,
+Cadena and Neira 2013, "Robust loop closing over time", test such groups in a similar way.) On public logs D of right
+visits was 0.1 to 2.3, and that of wrong ones 11 to 20 (docs/lab/poses.md).
 """
 
 from __future__ import annotations
@@ -23,22 +23,22 @@ from bayesmap.space.planar import between, compose, retract, wrapped
 Floats = NDArray[np.float64]
 
 PLACE_M = 5.0
-"""Closures whose ends lie so near each other along the path belong to one visit; a visit is so many metres a place."""
+"""Closures whose ends lie this near each other along the path belong to one visit; also the length of one place."""
 
 SAME_M, SAME_RAD = 0.4, np.radians(6.0)
-"""Closures that agree so well say the same."""
+"""Greatest difference between closures that agree."""
 
 ODDS, FURTHER = 5.0, 1.0
-"""Log odds that a visit of one place is right before it is known how the rest of the graph bends, and for each more."""
+"""Prior log odds that a visit of one place is right, and what each further place adds."""
 
 STEPS = 12
-"""Of Gauss-Newton, at most."""
+"""Most steps of Gauss-Newton."""
 
 TOLD = 0.05
-"""Alternatives of a smaller probability are not told."""
+"""Least probability of an alternative that is reported."""
 
 DIFFERS_M, DIFFERS_RAD = 0.3, np.radians(5.0)
-"""Alternatives that move no pose further are none."""
+"""An alternative moves some pose further than this."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,10 +48,9 @@ class Weighed:
     Attributes:
         poses: of the keys, without the visits that are wrong, (K, 3).
         weights: of each closure, from 0 to 1; 0 where its visit is wrong, (M,).
-        alternatives: where the keys are if a doubtful visit is the other thing, (A, K, 3).
-        probabilities: that it is so, (A,).
-        first: the key at which the way that hangs on it begins, (A,).
-        last: and the one where it ends, (A,).
+        alternatives: poses of the keys if a doubtful visit is decided the other way, (A, K, 3).
+        probabilities: of the alternatives, (A,).
+        first, last: first and last key of the stretch of path that depends on the visit, (A,) each.
     """
 
     poses: Floats
@@ -63,7 +62,7 @@ class Weighed:
 
 
 def visits(loops: Factors, poses: Floats, along: Floats) -> NDArray[np.intp]:
-    """Return the number of the visit that each closure belongs to, (M,): near each other at both ends, and agreeing.
+    """Number the visit of each closure, (M,). Closures of one visit are near each other at both ends, and agree.
 
     Args:
         loops: the closures.
@@ -76,7 +75,7 @@ def visits(loops: Factors, poses: Floats, along: Floats) -> NDArray[np.intp]:
     first, second = loops.first, loops.second
     a, b = along[first], along[second]
     one, two = np.nonzero((np.abs(a[:, None] - a[None]) < PLACE_M) & (np.abs(b[:, None] - b[None]) < PLACE_M))
-    # What the other closure says of this one's ends.
+    # The relative pose that the other closure implies for this one's ends.
     implied = compose(
         between(poses[first[one]], poses[first[two]]),
         compose(loops.relative[two], between(poses[second[two]], poses[second[one]])),
@@ -88,10 +87,10 @@ def visits(loops: Factors, poses: Floats, along: Floats) -> NDArray[np.intp]:
 
 
 def weigh(poses: Floats, weights: Floats, chain: Factors, loops: Factors, along: Floats) -> Weighed:
-    """Leave out visits that are rather wrong, one after the other, and find the alternatives to what is left.
+    """Remove the visits that are probably wrong, one after the other, and find the alternatives to the result.
 
     Args:
-        poses: of the keys where chain and loops have them, (K, 3).
+        poses: of the keys by chain and loops, (K, 3).
         weights: of each loop there, from 0 to 1, (M,).
         chain: from each key to the next.
         loops: the closures.
@@ -107,21 +106,17 @@ def weigh(poses: Floats, weights: Floats, chain: Factors, loops: Factors, along:
         doubtful = sorted(_doubtful(poses, chain, loops, label, out, odds), key=lambda entry: entry[:2])
         if not doubtful or doubtful[0][0] > 0.0:
             break
-        certainty, worst, there = doubtful[0]
+        certainty, worst, without = doubtful[0]
         told.append((poses, _probability(certainty), worst))
-        poses, out = there, out | (label == worst)
-    told += [(there, _probability(-certainty), k) for certainty, k, there in doubtful]
+        poses, out = without, out | (label == worst)
+    told += [(without, _probability(-certainty), k) for certainty, k, without in doubtful]
     told = [entry for entry in told if entry[1] > TOLD and _differs(entry[0], poses)]
     weights = np.where(out, 0.0, _weights(loops, poses) if out.any() else weights)
     mine = [label == k for _, _, k in told]
-    return Weighed(
-        poses,
-        weights,
-        np.array([there for there, _, _ in told]).reshape(-1, *poses.shape),
-        np.array([probability for _, probability, _ in told]),
-        np.array([loops.first[m].min() for m in mine], np.intp),
-        np.array([loops.second[m].max() for m in mine], np.intp),
-    )
+    first = np.array([loops.first[m].min() for m in mine], np.intp)
+    last = np.array([loops.second[m].max() for m in mine], np.intp)
+    alternatives = np.array([other for other, _, _ in told]).reshape(-1, *poses.shape)
+    return Weighed(poses, weights, alternatives, np.array([probability for _, probability, _ in told]), first, last)
 
 
 def _doubtful(
@@ -134,34 +129,35 @@ def _doubtful(
         mine = (label == k) & ~out
         if not (weights[mine] > 0.5).any():
             continue
-        # What the whole way between the two ends is bent by, and all other loops, bounds the distance.
+        # The cost of the path between the two ends and of the loops bounds the distance.
         begin, end = loops.first[mine].min(), loops.second[mine].max()
         bound = 0.5 * strain[begin:end].sum() + 0.5 * (loops.squares(poses) * weights)[~out].sum()
         if odds[k] - bound > -np.log(TOLD):
             continue
         rest, own = loops.select(~out & ~mine), loops.select(mine)
-        there = settled(poses, chain, rest)
-        off = own.errors(there)
-        # A visit that the rest puts within what a path is bent by is no other place.
+        without = settled(poses, chain, rest)
+        off = own.errors(without)
+        # A visit that the rest of the graph confirms to within the bending of a path is no other place.
         middle = np.median(np.abs(off), axis=0)
         if np.hypot(middle[0], middle[1]) < SAME_M and middle[2] < SAME_RAD:
             continue
-        _, precision = solve_step(len(there), [quadratic(chain, there), quadratic(rest, there, _weights(rest, there))])
-        covariance = relative_covariances(precision, there, own.first, own.second) + np.linalg.inv(own.information)
+        loops_without = quadratic(rest, without, _weights(rest, without))
+        _, precision = solve_step(len(without), [quadratic(chain, without), loops_without])
+        covariance = relative_covariances(precision, without, own.first, own.second) + np.linalg.inv(own.information)
         distance = 0.5 * np.median(twist_squares(own.relative + off, own.relative, covariance))
-        yield float(odds[k] - distance), k, there
+        yield float(odds[k] - distance), k, without
 
 
 def twist_squares(expected: Floats, measured: Floats, covariance: Floats) -> Floats:
-    """Return squared Mahalanobis lengths of relative poses about expected ones, (M,), as twists.
+    """Compute squared Mahalanobis distances between measured and expected relative poses, as twists, (M,).
 
-    Where a heading was lost half-way, what comes after lies on an arc. A turn about any point is a twist, so that its
-    length grows as the turn's, where a straight ellipsoid holds little of the arc (Barfoot and Furgale 2014,
-    "Associating uncertainty with three-dimensional poses for use in estimation problems").
+    Where a heading was lost half-way, later poses lie on an arc. A turn about any point is a twist, so that its length
+    grows as the turn's, where a straight ellipsoid holds little of the arc (Barfoot and Furgale 2014, "Associating
+    uncertainty with three-dimensional poses for use in estimation problems").
 
     Args:
         expected: relative poses, (M, 3).
-        measured: the same, (M, 3).
+        measured: relative poses, (M, 3).
         covariance: of the expected ones, x, y and yaw in the first's frame, (M, 3, 3).
     """
     change = np.tile(np.eye(3), (len(expected), 1, 1))  # from steps of x, y and yaw to twists
@@ -179,7 +175,7 @@ def twist_squares(expected: Floats, measured: Floats, covariance: Floats) -> Flo
 
 
 def settled(poses: Floats, chain: Factors, loops: Factors) -> Floats:
-    """Return the nearest poses at which the robust cost is least, (K, 3)."""
+    """Return the nearest poses of least robust cost, (K, 3)."""
     for _ in range(STEPS):
         step, _ = solve_step(len(poses), [quadratic(chain, poses), quadratic(loops, poses, _weights(loops, poses))])
         poses = retract(poses, step)

@@ -1,20 +1,17 @@
-"""The key scans along a path, and the submaps that those near each other on it make up.
+"""Loop closures: places that the robot came back to, found by matching submaps.
 
-Loop closures: places that the robot came back to, found by matching submaps, and kept where they agree.
+A submap holds the key scans around one, along the path. How uncertain the relative pose of two places is says where to
+look: the window is three standard deviations of the graph's own relative covariance, so that a long loop is searched
+widely and a short one narrowly. Windows are as wide across as along; a match far outside the covariance's ellipsoid is
+another place that looks alike.
 
-Where to look follows from how uncertain the relative pose is: the window is three standard deviations of the graph's
-own relative covariance, so that a long way round is searched widely and a short one narrowly. Windows are as wide
-across as along; what is found far outside the covariance's ellipsoid is another place that looks alike.
-
-Relative poses of key scans by matching their submaps: the key scans around one with those around another.
-
-The best places in a window compete; each is refined, and kept if both ends see through nothing that the other sees, and
+The best places in a window compete. Each is refined, and kept if both ends see through nothing that the other sees, and
 if matches of key scans nearby imply the same relative pose.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,13 +26,13 @@ from bayesmap.space.planar import between, compose, transform, wrapped
 Floats = NDArray[np.float64]
 
 GAP_M = 1000.0
-"""What a break of the path counts in its length: no submap reaches over it, and any two of its sides may close."""
+"""Length of a break of the path: no submap reaches over it, and any two of its sides may close."""
 
 SHORT = 120.0
-"""Places are at least so many along a path: a small loop has few that close it."""
+"""Least number of places along a path: a small loop has few that close it."""
 
 MOST_MEMBERS = 16
-"""Of a submap; of more, every second, third or so is taken."""
+"""Most key scans of a submap; of more, every second, third or so is taken."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,10 +41,10 @@ class KeyPath:
 
     Attributes:
         geometry: of all scans.
-        keys: the scans that are keys, (K,).
+        keys: indices of the key scans, (K,).
         poses: of the keys, (K, 3), right among those of a submap.
-        along: distance along the path of each key, metres, with gaps of `GAP_M` where it breaks, (K,).
-        parts: the part of the path that each key belongs to, 0, 0, ..., 1, ..., (K,).
+        along: distance of each key along the path, metres, with gaps of `GAP_M` where it breaks, (K,).
+        parts: number of the part of the path that each key belongs to, ascending, (K,).
     """
 
     geometry: ScanGeometry
@@ -60,32 +57,32 @@ class KeyPath:
         return len(self.keys)
 
     def at(self, poses: Floats) -> KeyPath:
-        """The same keys and parts at other poses, (K, 3)."""
+        """Return this path with its keys at other poses, (K, 3)."""
         return key_path(self.geometry, self.keys, poses, np.diff(self.parts, prepend=self.parts[0]) > 0)
 
     def scans(self, members: NDArray[np.intp]) -> NDArray[np.int32]:
-        """The scans of some keys, as kernels take them, (N,)."""
+        """Return the scans of some keys, as kernels take them, (N,)."""
         return self.keys[members].astype(np.int32)
 
     def places(self, spacing_m: float) -> NDArray[np.intp]:
-        """Keys that lie so far apart along the path, or nearer where it is short, ascending."""
+        """Select keys this far apart along the path, or nearer where the path is short, ascending."""
         steps = np.diff(self.along, prepend=0.0)
         ways = np.cumsum(np.where(steps < GAP_M, steps, spacing_m))
         spacing = float(np.clip(ways[-1] / SHORT, 0.4, spacing_m))
         return np.unique(np.searchsorted(ways, np.arange(0.0, ways[-1] + spacing, spacing)).clip(0, len(self) - 1))
 
     def around(self, key: int, around_m: float) -> NDArray[np.intp]:
-        """The keys within a distance along the path of one, itself included: a submap's members, ascending."""
+        """Return the members of a key's submap: keys within a distance along the path, ascending, itself included."""
         low, high = np.searchsorted(self.along, [self.along[key] - around_m, self.along[key] + around_m])
         members = np.arange(low, max(high, key + 1))
         return members if len(members) <= MOST_MEMBERS else members[:: int(np.ceil(len(members) / MOST_MEMBERS))]
 
     def seen_from(self, key: int, members: NDArray[np.intp]) -> Floats:
-        """Poses of some keys in the frame of one, (N, 3)."""
+        """Return the poses of some keys in the frame of one, (N, 3)."""
         return between(np.broadcast_to(self.poses[key], (len(members), 3)), self.poses[members])
 
     def points_around(self, key: int, around_m: float, most: int, most_of_each: int = 180) -> Floats:
-        """Points of the submap around a key in the key's frame, (N, 2), thinned to about so many, or fewer."""
+        """Return points of the submap around a key in the key's frame, (N, 2), thinned to about ``most``, or fewer."""
         members = self.around(key, around_m)
         points = [
             transform(pose, self.geometry.points_of(int(self.keys[m]), most_of_each))
@@ -96,21 +93,14 @@ class KeyPath:
 
 
 def key_path(geometry: ScanGeometry, keys: NDArray[np.intp], poses: Floats, begins: NDArray[np.bool_]) -> KeyPath:
-    """The path of key scans at given poses.
-
-    Args:
-        geometry: of all scans.
-        keys: the scans that are keys, (K,).
-        poses: of the keys, (K, 3).
-        begins: keys that begin a new part of the path, (K,).
-    """
+    """Return the path of key scans at poses (K, 3); ``begins``, (K,), says which keys begin a new part."""
     return KeyPath(geometry, keys, poses, path_m(poses, begins), np.cumsum(begins).astype(np.intp))
 
 
 def path_m(poses: Floats, begins: NDArray[np.bool_]) -> Floats:
-    """Distance along the path from the first pose, counting a turn of a radian as half a metre, (S,).
+    """Return the distance of each pose along the path, (S,): a radian of turning counts as half a metre.
 
-    Where a part of the path begins, (S,), it grows by `GAP_M`.
+    Where a part of the path begins, (S,), the distance grows by `GAP_M`.
     """
     step = between(poses[:-1], poses[1:])
     ways = np.hypot(step[:, 0], step[:, 1]) + 0.5 * np.abs(step[:, 2])
@@ -118,28 +108,31 @@ def path_m(poses: Floats, begins: NDArray[np.bool_]) -> Floats:
 
 
 AROUND_M, NARROW_M, WIDE_M = 2.0, 0.7, 1.0
-"""A submap holds the key scans within so much of the path; the one that is matched to it, and those compared."""
+"""Half lengths along the path: of a submap, of the submap matched to it, and of those whose views are compared."""
 
-RESOLUTION_M, SIGMA_M = 0.1, 0.1
+RESOLUTION_M, SIGMA_M, AT_ONCE = 0.1, 0.1, 24
+"""Of submaps' likelihood grids, and how many are in memory at once."""
+
 MODES, MODE_SHARE = 2, 0.92
-"""So many places of a window are looked at: a further one if its score is at least this share of the best one's."""
+"""Places of a window that are refined: further ones whose score is at least this share of the best one's."""
 
 ALIKE = 0.7
+"""Least cosine between the normals of paired points."""
 
 SEEN = Agreement(near_m=0.15, clear_m=0.4, beams=90)
 """When scans of two submaps agree, and when they contradict each other."""
 
-LEAST_MATCHED = 0.2
-MOST_AGAINST = 0.15
-"""Of the points at two submaps' middles at least so many match; of those that tell, at most so many contradict."""
+LEAST_MATCHED, MOST_AGAINST = 0.2, 0.15
+"""Least share of points at two submaps' middles that match, and most share of contradicting points among those that
+tell."""
 
 FLOOR = np.array([0.02, 0.02, np.radians(0.3)])
-"""Standard deviations that a closure has at least: submaps are bent."""
+"""Least standard deviations of a closure: submaps are bent."""
 
 
 @dataclass(frozen=True)
 class Fineness:
-    """Of a search: how many points of a submap are looked for, about, and the step between headings."""
+    """Fineness of a search: about how many points of a submap are matched, and the step between headings."""
 
     points: int
     step_rad: float
@@ -150,14 +143,14 @@ FINE = Fineness(350, np.radians(1.0))
 
 @dataclass(frozen=True, eq=False)
 class Closures:
-    """Relative poses between key scans that saw the same place at different times.
+    """Relative poses between M pairs of key scans that saw the same place at different times.
 
     Attributes:
         first, second: key scans, as positions among the keys; the first is the earlier one.
-        relative: the second in the frame of the first, (M, 3).
+        relative: the second pose in the frame of the first, (M, 3).
         information: of the relative pose, in the first's frame, (M, 3, 3).
         scores: how well the second's submap fits, from 0 to 1.
-        support: how many other closures imply the same.
+        support: number of other closures that imply the same.
     """
 
     first: NDArray[np.intp]
@@ -171,75 +164,62 @@ class Closures:
         return len(self.first)
 
     def select(self, chosen: NDArray[np.bool_] | NDArray[np.intp]) -> Closures:
-        """Some of the closures."""
+        """Return some of the closures."""
         return Closures(
             self.first[chosen], self.second[chosen], self.relative[chosen], self.information[chosen],
             self.scores[chosen], self.support[chosen],
         )  # fmt: skip
 
     def factors(self) -> Factors:
-        """The closures as factors of the graph of key scans."""
+        """Return the closures as factors of the graph of key scans."""
         return Factors(self.first, self.second, self.relative, self.information)
 
 
 def match_submaps(
-    path: KeyPath,
-    first: NDArray[np.intp],
-    second: NDArray[np.intp],
-    centres: Floats,
-    half_m: Floats,
-    half_rad: Floats,
-    half_width_m: float,
-    least_score: float,
-    threads: int | None = None,
-    fineness: Fineness = FINE,
-) -> Closures:
-    """Match the submaps of pairs of key scans.
+    path: KeyPath, first: NDArray[np.intp], second: NDArray[np.intp], centres: Floats, half_m: Floats,
+    half_rad: Floats, half_width_m: float, least_score: float, fineness: Fineness = FINE,
+) -> Closures:  # fmt: skip
+    """Match the submaps of M pairs of key scans.
 
     Args:
         path: the key scans; submaps do not reach over its breaks.
-        first: of M pairs, ascending.
-        second: of the same pairs.
+        first: of the pairs, ascending.
+        second: of the pairs.
         centres: middles of the windows for the second's pose in the first's frame, (M, 3).
         half_m: half the windows' widths, (M,).
         half_rad: half their ranges of angles, (M,).
         half_width_m: of submaps' grids.
-        least_score: matches below are not kept.
-        threads: to compute with; by default all cores.
-        fineness: of the search; refining does the rest.
+        least_score: matches below are dropped.
+        fineness: of the search, before refinement.
     """
-    found = []
+    found = [no_closures()]
     submaps = np.unique(first)
-    share = 24  # grids drawn at once: their memory
-    for begin in range(0, len(submaps), share):
-        some = submaps[begin : begin + share]
+    for begin in range(0, len(submaps), AT_ONCE):
+        some = submaps[begin : begin + AT_ONCE]
         members = [path.around(int(k), AROUND_M) for k in some]
         local = [path.seen_from(int(k), m) for k, m in zip(some, members, strict=True)]
         grids = likelihood_grids(
             path.geometry, [path.keys[m] for m in members], local, np.zeros((len(some), 2)), half_width_m,
-            resolution=RESOLUTION_M, sigma_m=SIGMA_M, levels=6, threads=threads,
+            resolution=RESOLUTION_M, sigma_m=SIGMA_M, levels=6,
         )  # fmt: skip
         jobs = np.nonzero((first >= some[0]) & (first <= some[-1]))[0]
         points = [path.points_around(int(q), NARROW_M, fineness.points) for q in second[jobs]]
         best = match(
             grids, points, centres[jobs], half_m[jobs], half_rad[jobs], grid_of=np.searchsorted(some, first[jobs]),
             step_rad=fineness.step_rad, least=least_score, modes=MODES, share=MODE_SHARE, apart_m=0.6,
-            apart_rad=np.radians(8.0), threads=threads,
+            apart_rad=np.radians(8.0),
         )  # fmt: skip
         job, mode = np.nonzero(best.found)
         if len(job):
-            found.append(
-                _refined(
-                    path, first[jobs[job]], second[jobs[job]], best.poses[job, mode], best.scores[job, mode], threads
-                )
-            )
-    return joined(found) if found else no_closures()
+            one, two = first[jobs[job]], second[jobs[job]]
+            found.append(_refined(path, one, two, best.poses[job, mode], best.scores[job, mode]))
+    return joined(found)
 
 
 def _refined(
-    path: KeyPath, first: NDArray[np.intp], second: NDArray[np.intp], start: Floats, scores: Floats, threads: int | None
+    path: KeyPath, first: NDArray[np.intp], second: NDArray[np.intp], start: Floats, scores: Floats
 ) -> Closures:
-    """The second's scan refined against the scans of the first's submap, in the first's frame."""
+    """Refine the second's scan against the scans of the first's submap, in the first's frame."""
     members = [path.around(int(k), AROUND_M) for k in first]
     others = path.scans(np.concatenate(members))
     offsets = np.concatenate([[0], np.cumsum([len(m) for m in members])]).astype(np.int32)
@@ -248,20 +228,18 @@ def _refined(
     weak = np.tile(np.diag([1.0, 1.0, 4.0]), (len(first), 1, 1))
     refinement = Refinement(path.scans(second), offsets, others, other_poses, start, start, weak)
     convergence = Convergence(0.02, 15, (0.4, 0.12), (0.2, 0.05), ALIKE)
-    found, laser_information, _ = refine_scans(path.geometry, refinement, convergence, threads)
+    found, laser_information, _ = refine_scans(path.geometry, refinement, convergence, path.geometry.threads)
     covariance = np.linalg.inv(laser_information + np.diag([1e-2, 1e-2, 1e-1])) + np.diag(FLOOR**2)
     information = np.linalg.inv(covariance)
-    # Refining that ends far from where the search began has slid into something else.
+    # A refinement that ends far from where it began has slid into something else.
     moved = between(start, found)
     kept = (np.hypot(moved[:, 0], moved[:, 1]) < 0.4) & (np.abs(moved[:, 2]) < np.radians(6.0))
-    kept &= _agrees(path, first, second, found, threads)
+    kept &= _agrees(path, first, second, found)
     return Closures(first, second, found, information, scores, np.zeros(len(first), np.intp)).select(kept)
 
 
-def _agrees(
-    path: KeyPath, first: NDArray[np.intp], second: NDArray[np.intp], relative: Floats, threads: int | None
-) -> NDArray[np.bool_]:
-    """Whether the scans about both ends see the same, as far as they see the same places, (M,)."""
+def _agrees(path: KeyPath, first: NDArray[np.intp], second: NDArray[np.intp], relative: Floats) -> NDArray[np.bool_]:
+    """Return whether the scans about both ends see the same, as far as they see the same places, (M,)."""
     one, two, job = [], [], []
     for k in range(len(first)):
         a, b = path.around(int(first[k]), WIDE_M)[::2], path.around(int(second[k]), NARROW_M)[::2]
@@ -269,19 +247,19 @@ def _agrees(
         two.append(np.tile(b, len(a)))
         job.append(np.full(len(a) * len(b), k))
     starts, ends, of = np.concatenate(one), np.concatenate(two), np.concatenate(job)
-    # The poses of the later scans in the frames of the earlier ones: by way of the closure.
+    # The poses of the later scans in the frames of the earlier ones, through the closure.
     poses = path.poses
     to_first, from_second = between(poses[starts], poses[first[of]]), between(poses[second[of]], poses[ends])
     across = compose(to_first, compose(relative[of], from_second))
-    counts = mutual_view_counts(path.geometry, path.scans(starts), path.scans(ends), across, SEEN, threads)
-    sums = np.array([np.bincount(of, weights=counts[:, c], minlength=len(first)) for c in range(3)])
-    matched, against, total = sums
+    geometry = path.geometry
+    counts = mutual_view_counts(geometry, path.scans(starts), path.scans(ends), across, SEEN, geometry.threads)
+    matched, against, total = (np.bincount(of, weights=counts[:, c], minlength=len(first)) for c in range(3))
     decided = np.maximum(matched + against, 1.0)
     return np.asarray((matched > LEAST_MATCHED * total) & (against < MOST_AGAINST * decided))
 
 
 def supported(closures: Closures, path: KeyPath) -> Closures:
-    """Those that agree with another closure between nearby scans: going round by that one ends at the same place."""
+    """Select closures that agree with two others between nearby scans: going round by these ends at the same place."""
     poses, along = path.poses, path.along
     a, b = closures.first, closures.second
     one, two = np.nonzero(
@@ -298,45 +276,40 @@ def supported(closures: Closures, path: KeyPath) -> Closures:
         np.abs(off[:, 2]) < np.radians(2.0) + np.radians(0.3) * between_m
     )
     support = np.bincount(one[agree & (b[one] != b[two])], minlength=len(closures))
-    found = Closures(a, b, closures.relative, closures.information, closures.scores, support)
-    return found.select(support >= 2)
+    return replace(closures, support=support).select(support >= 2)
 
 
 def joined(parts: list[Closures]) -> Closures:
-    """All of several."""
-    return Closures(
-        *(
-            np.concatenate([getattr(part, name) for part in parts])
-            for name in ("first", "second", "relative", "information", "scores", "support")
-        )
-    )
+    """Concatenate several sets of closures."""
+    return Closures(*(np.concatenate([getattr(part, f.name) for part in parts]) for f in fields(Closures)))
 
 
 def no_closures() -> Closures:
-    """None at all."""
+    """Return an empty set of closures."""
     none = np.empty(0, np.intp)
     return Closures(none, none, np.empty((0, 3)), np.empty((0, 3, 3)), np.empty(0), none)
 
 
 OLD_M = 8.0
-"""A loop is at least so long."""
+"""Least length of a loop."""
 
 SIGMAS = 3.0
+"""Half the window in standard deviations."""
 
 BENT = np.array([0.3, 0.3, np.radians(5.0)])
-"""What a path is bent by that nobody has modelled, as standard deviations beside those of the graph."""
+"""Standard deviations of bends that the graph does not model, added to its own."""
 
 
 @dataclass(frozen=True)
 class Search:
-    """How far closures are sought.
+    """The limits of a search for closures.
 
     Attributes:
-        most_m, most_rad: windows are no larger.
-        least_score: closures below are not kept.
-        most_off: closures more standard deviations off what the graph says are not kept.
+        most_m, most_rad: greatest half width and half range of angles of a window.
+        least_score: closures below are dropped.
+        most_off: closures more standard deviations off the graph's relative pose are dropped.
         passes: earlier visits of a place that are tried for each submap, nearest first.
-        spacing_m: closures are sought from key scans that lie so far apart along the path.
+        spacing_m: distance along the path between the key scans that are tried.
     """
 
     most_m: float = 4.0
@@ -348,23 +321,16 @@ class Search:
 
 
 def find_closures(
-    path: KeyPath,
-    precision: Precision,
-    half_width_m: float,
-    search: Search,
-    threads: int | None = None,
-    *,
-    within_parts: bool = False,
+    path: KeyPath, precision: Precision, half_width_m: float, search: Search, *, within_parts: bool = False
 ) -> Closures:
-    """Seek closures among key scans at their present poses.
+    """Find closures among key scans at their present poses.
 
     Args:
         path: the key scans.
         precision: of the graph of the keys, for relative covariances.
         half_width_m: of submaps' grids.
-        search: how far to look.
-        threads: to compute with; by default all cores.
-        within_parts: not between parts of a broken path.
+        search: limits of the search.
+        within_parts: whether to leave out closures between parts of a broken path.
     """
     first, second, sigma = _candidates(path, precision, half_width_m, search, within_parts)
     if not len(first):
@@ -372,12 +338,12 @@ def find_closures(
     half_m = np.clip(SIGMAS * sigma[:, :2].max(axis=1), 0.4, search.most_m)
     half_rad = np.clip(SIGMAS * sigma[:, 2], np.radians(4.0), search.most_rad)
     centres = between(path.poses[first], path.poses[second])
-    closures = match_submaps(path, first, second, centres, half_m, half_rad, half_width_m, search.least_score, threads)
+    closures = match_submaps(path, first, second, centres, half_m, half_rad, half_width_m, search.least_score)
     return supported(closures.select(_possible(closures, path, precision, search.most_off)), path)
 
 
 def _possible(closures: Closures, path: KeyPath, precision: Precision, most_off: float) -> NDArray[np.bool_]:
-    """Which closures the graph without them does not rule out, (M,)."""
+    """Return which closures the graph without them does not rule out, (M,)."""
     if not len(closures):
         return np.zeros(0, np.bool_)
     off = closures.relative - between(path.poses[closures.first], path.poses[closures.second])
@@ -390,10 +356,10 @@ def _possible(closures: Closures, path: KeyPath, precision: Precision, most_off:
 def _candidates(
     path: KeyPath, precision: Precision, half_width_m: float, search: Search, within_parts: bool
 ) -> tuple[NDArray[np.intp], NDArray[np.intp], Floats]:
-    """Pairs (earlier, later) of key scans to try, and standard deviations of their relative poses, (M, 3).
+    """Return pairs (earlier, later) of key scans to try, and standard deviations of their relative poses, (M, 3).
 
-    Of each visit of a place two are tried: the one from the most similar pose, and the one that looks at the same
-    spot, which of a laser that sees half a circle may stand opposite.
+    Each visit of a place gives two pairs: the scan from the most similar pose, and the scan that looks at the same
+    spot, which may stand opposite if the laser sees half a circle.
     """
     along, poses, middles = path.along, path.poses, _middles(path)
     sought = path.places(search.spacing_m)
@@ -405,7 +371,7 @@ def _candidates(
     earlier, later, distance = sought[earlier[near]], sought[later[near]], distance[near]
     if not len(earlier):
         return earlier, later, np.empty((0, 3))
-    # That of the pose a few metres along is as good, and saves solving for each.
+    # The covariance of a key a few metres along is as good, and saves solving for each.
     nearby = sought[3 * (np.searchsorted(sought, later) // 3)]
     covariance = relative_covariances(precision, poses, earlier, nearby)
     sigma = np.sqrt(np.maximum(np.diagonal(covariance, axis1=1, axis2=2), 0.0))
@@ -428,7 +394,7 @@ def _candidates(
 
 
 def _middles(path: KeyPath) -> Floats:
-    """The median point of each key scan, in the world frame, (K, 2)."""
+    """Return the median point of each key scan, in the world frame, (K, 2)."""
     middle = np.zeros((len(path), 2))
     for k, scan in enumerate(path.keys):
         points = path.geometry.points_of(int(scan), 60)

@@ -1,16 +1,14 @@
-"""Where do some points fit best into a likelihood grid? The matcher of front end, loop closure and localization.
+"""Match points to likelihood grids: the matcher of front end, loop closure and localization.
 
-The score of a pose is the mean over the points of the grid's value where they fall, from 0 to 1, less what the prior
-asks for being off the centre. It is maximised over a window of whole cells and steps of angle, exactly, by branch and
-bound (`bayesmap.kernels.match.branch_and_bound`).
+A cell of a likelihood grid says how well a point there agrees with some scans: 255 exp(-d^2 / (2 sigma^2)), where d is
+its distance from the nearest point of the scans (Olson 2009, "Real-time correlative scan matching"; the likelihood
+field of Thrun, Burgard and Fox 2005, section 6.4, without the logarithm). Where neighbouring beams ended on one wall
+further apart than sigma, points are filled in between, so that grids do not depend on the number of beams. Level h of
+the pyramid holds at (x, y) the largest value of the cells (x .. x + 2^h - 1, y .. y + 2^h - 1) (Hess et al. 2016).
 
-Likelihood grids: how well a point at a place agrees with scans, as one byte a cell, with the pyramid for matching.
-
-A cell holds 255 exp(-d^2 / (2 sigma^2)), d its distance from the nearest point (Olson 2009, "Real-time correlative scan
-matching"; the likelihood field of Thrun, Burgard and Fox 2005, section 6.4, without the logarithm). Where neighbouring
-beams ended on one wall further apart than sigma, points in between count as well: what a grid says does not depend on
-how many beams a laser has. Level h of the pyramid holds at (x, y) the largest value of the cells
-(x .. x + 2^h - 1, y .. y + 2^h - 1) (Hess et al. 2016).
+The score of a pose is the mean value of the cells in which the points fall, from 0 to 1, less a penalty for the
+distance from the centre of the window. Branch and bound finds its exact maximum over a window of whole cells and steps
+of angle (`bayesmap.kernels.match.branch_and_bound`).
 """
 
 from __future__ import annotations
@@ -24,33 +22,35 @@ from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
 from bayesmap.poses.scan_geometry import ScanGeometry
-from bayesmap.space.planar import wrapped
+from bayesmap.space.planar import transform, wrapped
 
 Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
 class LikelihoodGrids:
-    """Grids of one shape and resolution.
+    """Likelihood grids of one shape and resolution.
 
     Attributes:
-        pyramid: (grids, levels, nx, ny) bytes on the device; level 0 is the likelihood.
-        origins: world coordinates of each grid's corner, metres, shape (grids, 2).
+        pyramid: bytes on the device, (grids, levels, nx, ny); level 0 is the likelihood.
+        origins: corner of each grid, metres in the world frame, (grids, 2).
         resolution: width of a cell, metres.
-        device: where the pyramid is.
+        device: device of the pyramid.
+        threads: number of threads that search the grids; all cores if None.
     """
 
     pyramid: Any
     origins: Floats
     resolution: float
     device: str = "cpu"
+    threads: int | None = None
 
     def __len__(self) -> int:
         return len(self.origins)
 
 
 def stamp_of(resolution: float, sigma_m: float) -> NDArray[np.uint8]:
-    """What one point puts around itself: odd square of bytes, out to about two standard deviations."""
+    """Return the likelihood around a single point: an odd square of bytes, out to about two standard deviations."""
     radius = max(1, int(np.ceil(2.0 * sigma_m / resolution)))
     offsets = np.arange(-radius, radius + 1) * resolution
     squared = offsets[:, None] ** 2 + offsets[None, :] ** 2
@@ -58,31 +58,22 @@ def stamp_of(resolution: float, sigma_m: float) -> NDArray[np.uint8]:
 
 
 def likelihood_grids(
-    geometry: ScanGeometry,
-    scans: Sequence[NDArray[np.intp]],
-    poses_world: Sequence[Floats],
-    centres: Floats,
-    half_width_m: float,
-    *,
-    resolution: float = 0.05,
-    sigma_m: float = 0.07,
-    levels: int = 4,
-    threads: int | None = None,
+    geometry: ScanGeometry, scans: Sequence[NDArray[np.intp]], poses_world: Sequence[Floats], centres: Floats,
+    half_width_m: float, *, resolution: float = 0.05, sigma_m: float = 0.07, levels: int = 4,
     reuse: LikelihoodGrids | None = None,
-) -> LikelihoodGrids:
-    """Draw square grids, each from some scans at given poses.
+) -> LikelihoodGrids:  # fmt: skip
+    """Compute square likelihood grids, each from some scans at given poses.
 
     Args:
         geometry: of all scans.
-        scans: for each grid, the scans that it is made of.
-        poses_world: for each grid, the poses of those scans, shape (scans, 3), in the frame of the grid.
-        centres: middle of each grid, shape (grids, 2).
+        scans: the scans of each grid.
+        poses_world: the poses of these scans in the frame of the grid, (scans, 3) for each grid.
+        centres: middle of each grid, (grids, 2).
         half_width_m: from the middle to each side.
         resolution: width of a cell, metres.
-        sigma_m: of the likelihood.
-        levels: of the pyramid: blocks of up to 2^(levels - 1) cells are bounded at once.
-        threads: to compute with; by default all cores.
-        reuse: grids of the same number, size and levels that are no longer needed: their memory is written over.
+        sigma_m: standard deviation of the likelihood.
+        levels: of the pyramid; the search bounds blocks of up to 2^(levels - 1) cells at once.
+        reuse: grids of the same number, size and levels that are no longer needed: their memory is overwritten.
     """
     from bayesmap.kernels.match.likelihood_grid import draw_grids
 
@@ -93,14 +84,14 @@ def likelihood_grids(
     origins = np.asarray(centres, np.float64).reshape(-1, 2) - half_width_m
     pyramid = draw_grids(
         geometry, offsets, scan, poses, origins, resolution, stamp_of(resolution, sigma_m), sigma_m, (cells, cells),
-        levels, threads, None if reuse is None else reuse.pyramid,
+        levels, geometry.threads, None if reuse is None else reuse.pyramid,
     )  # fmt: skip
-    return LikelihoodGrids(pyramid, origins, resolution, geometry.device)
+    return LikelihoodGrids(pyramid, origins, resolution, geometry.device, geometry.threads)
 
 
 @dataclass(frozen=True)
 class Pull:
-    """How a match is drawn to the window's centre: one standard deviation off costs weight / 2 of the score."""
+    """The penalty for leaving the window's centre: one standard deviation off costs half of ``weight`` in score."""
 
     sigma_m: float
     sigma_rad: float
@@ -109,11 +100,11 @@ class Pull:
 
 @dataclass(frozen=True, eq=False)
 class Matches:
-    """The best poses of J jobs, M modes each, best first.
+    """The best poses of J jobs, up to M each, best first.
 
     Attributes:
-        scores: (J, M); -inf where no (further) pose scores above the least.
-        poses: (J, M, 3), in the grids' frame; NaN where there is none.
+        scores: (J, M); -inf where no further pose scores above the least.
+        poses: in the grids' frame, (J, M, 3); NaN where there is none.
     """
 
     scores: Floats
@@ -121,46 +112,33 @@ class Matches:
 
     @property
     def found(self) -> NDArray[np.bool_]:
-        """(J, M)."""
+        """Which entries hold a pose, (J, M)."""
         return np.isfinite(self.scores)
 
 
 def match(
-    grids: LikelihoodGrids,
-    points: Sequence[Floats],
-    centres: Floats,
-    half_m: Floats | float,
-    half_rad: Floats | float,
-    *,
-    grid_of: NDArray[np.intp] | None = None,
-    step_rad: float = np.radians(0.5),
-    least: Floats | float = 0.0,
-    pull: Pull | None = None,
-    modes: int = 1,
-    share: float = 0.0,
-    apart_m: float = 0.5,
-    apart_rad: float = np.radians(10.0),
-    strands: int = 1,
-    threads: int | None = None,
-) -> Matches:
+    grids: LikelihoodGrids, points: Sequence[Floats], centres: Floats, half_m: Floats | float,
+    half_rad: Floats | float, *, grid_of: NDArray[np.intp] | None = None, step_rad: float = np.radians(0.5),
+    least: Floats | float = 0.0, pull: Pull | None = None, modes: int = 1, share: float = 0.0, apart_m: float = 0.5,
+    apart_rad: float = np.radians(10.0), strands: int = 1,
+) -> Matches:  # fmt: skip
     """Match points to grids, J jobs at once.
 
     Args:
         grids: the likelihood grids.
-        points: for each job, points in the sensor's frame, shape (N, 2).
-        centres: middle of each job's window, a pose in the grid's frame, shape (J, 3).
-        half_m: half the window's width, metres: one number, or shape (J,) or (J, 2) for x and y.
-        half_rad: half the range of angles, one number or shape (J,); pi or more is the full circle.
-        grid_of: the grid of each job, shape (J,); by default job j's is grid j, or the only one.
-        step_rad: between angles.
-        least: scores must exceed this, one number or shape (J,). Searches that cannot end early.
-        pull: towards the centre; None looks at the grid alone.
-        modes: poses per job: each further one is the best that lies apart from all before it
+        points: points of each job in the sensor's frame, (N, 2).
+        centres: middle of each job's window, a pose in the grid's frame, (J, 3).
+        half_m: half the window's width, metres: one number, (J,), or (J, 2) for x and y.
+        half_rad: half the range of angles: one number or (J,); pi or more is the full circle.
+        grid_of: the grid of each job, (J,); by default grid j for job j, or the only grid.
+        step_rad: step between angles.
+        least: scores must exceed this; one number or (J,). High values end searches early.
+        pull: penalty for leaving the centre; by default none.
+        modes: poses of each job: each further one is the best that is apart from all before it,
         share: and scores above this share of the first one's score.
-        apart_m: by more than this in x or in y,
+        apart_m: poses are apart if they differ by more than this in x or in y,
         apart_rad: or by more than this in yaw.
-        strands: threads that share one job; the result does not depend on it.
-        threads: to compute with; by default all cores.
+        strands: number of threads that share one job; the result does not depend on it.
 
     Raises:
         BadInput: arrays that do not fit, or a window or step that is not positive.
@@ -200,18 +178,12 @@ def match(
     cells = int(apart_m / grids.resolution + 1e-9)
     apart = (int(apart_rad / step_rad + 1e-9), cells, cells)
     windows = Windows(
-        points=flat,
-        point_offsets=offsets,
-        grid=np.asarray(grid_of, np.int32),
-        centres=np.ascontiguousarray(centres[:, :2]),
-        half_cells=np.round(half / grids.resolution).astype(np.int32),
-        angles_rad=angles,
-        angle_costs=costs,
-        row_offsets=rows,
-        least=np.array(np.broadcast_to(np.asarray(least, np.float64), (jobs,))),
-        across=np.full(jobs, across),
-    )
-    scores, nodes = search_grids(grids, windows, Modes(modes, share, apart), strands, threads)
+        points=flat, point_offsets=offsets, grid=np.asarray(grid_of, np.int32),
+        centres=np.ascontiguousarray(centres[:, :2]), half_cells=np.round(half / grids.resolution).astype(np.int32),
+        angles_rad=angles, angle_costs=costs, row_offsets=rows,
+        least=np.array(np.broadcast_to(np.asarray(least, np.float64), (jobs,))), across=np.full(jobs, across),
+    )  # fmt: skip
+    scores, nodes = search_grids(grids, windows, Modes(modes, share, apart), strands, grids.threads)
     poses = np.full((jobs, modes, 3), np.nan)
     job, mode = np.nonzero(nodes[..., 0] >= 0)
     row, shift = nodes[job, mode, 0], nodes[job, mode, 1:]
@@ -221,16 +193,7 @@ def match(
 
 
 def score_at(grids: LikelihoodGrids, grid: int, points: Floats, poses: Floats) -> Floats:
-    """The score of points at given poses of one grid, shape (P,): the plain formula, without search or pull.
-
-    Args:
-        grids: the likelihood grids.
-        grid: which of them.
-        points: in the sensor's frame, shape (N, 2).
-        poses: in the grid's frame, shape (P, 3).
-    """
-    from bayesmap.space.planar import transform
-
+    """Compute the score of points, (N, 2) in the sensor's frame, at poses (P, 3) of one grid, (P,), without search."""
     poses = np.atleast_2d(poses)
     values = grids.pyramid.numpy()[grid, 0]
     cells = np.floor((transform(poses[:, None], points[None]) - grids.origins[grid]) / grids.resolution).astype(int)
@@ -241,7 +204,7 @@ def score_at(grids: LikelihoodGrids, grid: int, points: Floats, poses: Floats) -
 
 
 def _deviations(half_rad: float, step_rad: float) -> Floats:
-    """Angles off the centre: whole steps in the window, or once around."""
+    """Return the angles off the centre: whole steps in the window, or once around."""
     if half_rad >= np.pi:
         count = int(np.ceil(2.0 * np.pi / step_rad))
         return np.asarray(-np.pi + np.arange(count) * (2.0 * np.pi / count))

@@ -1,9 +1,9 @@
-"""Where are the next scans, by odometry and by the latest key scans?
+"""Place the next scans, by odometry and by the latest key scans.
 
-A scan's window is where odometry says that it may be. The best place in it, by branch and bound over the likelihood
-grid of the latest key scans, is refined by point-to-line pairs under odometry's Gaussian. Whether a scan that is badly
-explained there contradicts the key scans, or merely sees what they did not, is told by free space: points that stand
-where the others saw through, and the other way round.
+A scan is sought in the window that odometry allows. The best place, by branch and bound over the likelihood grid of the
+latest key scans, is refined by point-to-line pairs under odometry's Gaussian. Free space tells whether a badly
+explained scan contradicts the key scans or merely sees what they did not: whether points of the one stand where the
+others saw through.
 """
 
 from __future__ import annotations
@@ -24,43 +24,41 @@ from bayesmap.space.time_order import SAME_S
 Floats = NDArray[np.float64]
 
 UNUSUAL = 0.04
-"""A scan explained so much worse than usual may have been taken going backwards, which some odometry does not tell."""
+"""A scan whose score is lower than usual by more than this may have been taken going backwards, which some odometry
+does not tell."""
 
 BACKWARDS_BETTER = 0.05
-"""Going backwards must explain it so much better: along a wall that looks alike everywhere both do nearly as well."""
+"""Gain in score that going backwards must bring: along a wall that looks alike everywhere both ways fit as well."""
 
 WIDE_M = 1.0
 WIDER = ((np.radians(45.0), 0.1), (np.pi, 0.15))
-"""Ranges of angles, and by how much better a place in them must explain the scan: about the prediction, then all."""
+"""Half width of the wide search, and its half ranges of angle, each with the gain in score that it must bring."""
 
 TELLING = 6.0
-"""And by so many points, where a scan has few: what three of five points do is chance."""
+"""The least such gain in points, for scans with few of them."""
 
 POINT_SIGMA_M = 0.02
 """Standard deviation of a point-to-line residual: the laser's noise, rough walls, a scan's own distortion."""
 
 POINTS = 200
-"""Of each scan, so many at most are matched."""
+"""Most points of a scan that are matched."""
 
-REACH_M, SCALE_M = (0.3, 0.12), (0.15, 0.05)
-ALIKE = 0.7
-STEPS = 8
+REACH_M, SCALE_M, ALIKE, STEPS = (0.3, 0.12), (0.15, 0.05), 0.7, 8
+"""Refinement: first and last distance of paired points, outlier scale, least cosine of normals, and steps."""
+
 SEVERAL = 6
-"""Of the newest key scans so many refine scans of which several are placed at once."""
+"""Newest key scans against which scans are refined where several scans are placed at once."""
 
 SEEN = Agreement(near_m=0.2, clear_m=0.5, beams=90)
 """When a scan and a key scan agree, and when they contradict each other."""
 
-MOST_AGAINST = 0.2
-"""Of the points that tell, so many may contradict: people walk about."""
-
-LEAST_JUDGED = 60
-"""Fewer points, over all key scans of the window, tell nothing."""
+MOST_AGAINST, LEAST_JUDGED = 0.2, 60
+"""Share of contradicting points that people who walk about explain, and the fewest points that tell anything."""
 
 
 @dataclass(frozen=True, eq=False)
 class Window:
-    """The latest key scans: their indices, newest first, their poses (W, 3), and their likelihood grid."""
+    """The latest key scans: indices, newest first, (W,), poses, (W, 3), and likelihood grid."""
 
     keys: NDArray[np.intp]
     poses: Floats
@@ -69,15 +67,15 @@ class Window:
 
 @dataclass(frozen=True, eq=False)
 class Placed:
-    """Where N scans are, by odometry and the window.
+    """Places of N scans, by odometry and the window.
 
     Attributes:
         predicted: by odometry, (N, 3).
-        variance: of that, x, y and yaw in their own frames, (N, 3).
-        poses: as placed, (N, 3).
-        information: by the laser alone, in the poses' own frames, (N, 3, 3).
-        scores: how well the window explains each, from 0 to 1, (N,).
-        turned: whether the robot went the other way than odometry states, (N,).
+        variance: of the prediction, x, y and yaw in their own frames, (N, 3).
+        poses: after matching, (N, 3).
+        information: of the laser alone, in the poses' own frames, (N, 3, 3).
+        scores: how well the window explains each scan, from 0 to 1, (N,).
+        turned: whether the robot moved the other way than odometry states, (N,).
     """
 
     predicted: Floats
@@ -89,14 +87,10 @@ class Placed:
 
 
 def predict(
-    poses: Floats,
-    i: int,
-    batch: NDArray[np.intp],
-    motions: Floats | None,
-    stamps_s: Floats | None,
+    poses: Floats, i: int, batch: NDArray[np.intp], motions: Floats | None, stamps_s: Floats | None,
     odometry: RunningOdometry,
-) -> tuple[Floats, Floats]:
-    """Where the scans of a batch should be, (N, 3), and variances of x, y and yaw in their own frames, (N, 3)."""
+) -> tuple[Floats, Floats]:  # fmt: skip
+    """Predict the poses of a batch after scan ``i``, (N, 3), and variances of x, y and yaw in their frames, (N, 3)."""
     if motions is None:
         gap, before = 0.2, 0.2
         if stamps_s is not None and i > 0 and (np.diff(stamps_s[i - 1 : i + 2]) >= SAME_S).all():
@@ -110,7 +104,7 @@ def predict(
 
 
 def chained(start: Floats, motions: Floats) -> Floats:
-    """Poses after each of some motions, (N, 3)."""
+    """Return the poses after each of N motions, (N, 3)."""
     poses, here = np.empty((len(motions), 3)), start
     for k, motion in enumerate(motions):
         here = poses[k] = compose(here, motion)
@@ -118,26 +112,19 @@ def chained(start: Floats, motions: Floats) -> Floats:
 
 
 def place_near(
-    geometry: ScanGeometry,
-    window: Window,
-    scans: NDArray[np.intp],
-    predicted: Floats,
-    variance: Floats,
-    backwards: Floats | None,
-    usual: float,
-    threads: int | None,
-) -> Placed:
-    """The best places within what odometry allows.
+    geometry: ScanGeometry, window: Window, scans: NDArray[np.intp], predicted: Floats, variance: Floats,
+    backwards: Floats | None, usual: float,
+) -> Placed:  # fmt: skip
+    """Place N scans within what odometry allows.
 
     Args:
         geometry: of all scans.
         window: the latest key scans.
-        scans: N scans.
-        predicted: where odometry says they are, (N, 3).
+        scans: indices, (N,).
+        predicted: poses by odometry, (N, 3).
         variance: of x, y and yaw in their own frames, (N, 3).
-        backwards: where they are if the robot went the other way than odometry states, (N, 3), or None.
-        usual: the score of scans that are explained as usual.
-        threads: to compute with; by default all cores.
+        backwards: poses if the robot moved the other way than odometry states, (N, 3), or None.
+        usual: the usual score.
     """
     points = [geometry.points_of(int(scan), POINTS) for scan in scans]
     sigma = np.sqrt(variance)
@@ -145,7 +132,7 @@ def place_near(
     half_rad = np.clip(3.5 * sigma[:, 2], np.radians(1.5), np.radians(60.0))
     sigma_m, sigma_rad = float(sigma[:, :2].max()), float(sigma[:, 2].max())
     pull = Pull(max(sigma_m, 0.03), max(sigma_rad, np.radians(1.0)))
-    best = match(window.grid, points, predicted, half_m, half_rad, least=-9.0, pull=pull, threads=threads)
+    best = match(window.grid, points, predicted, half_m, half_rad, least=-9.0, pull=pull)
     start, score = best.poses[:, 0], best.scores[:, 0]
     centre, turned = predicted.copy(), np.zeros(len(scans), np.bool_)
     doubtful = np.nonzero(score < usual - UNUSUAL)[0]
@@ -153,19 +140,19 @@ def place_near(
         some = [points[k] for k in doubtful]
         back = match(
             window.grid, some, backwards[doubtful], half_m[doubtful], half_rad[doubtful],
-            least=score[doubtful] + _clearly(BACKWARDS_BETTER, some), pull=pull, threads=threads,
+            least=score[doubtful] + _clearly(BACKWARDS_BETTER, some), pull=pull,
         )  # fmt: skip
         better = back.found[:, 0]
         start[doubtful[better]], score[doubtful[better]] = back.poses[better, 0], back.scores[better, 0]
         centre[doubtful[better]] = backwards[doubtful[better]]
         turned[doubtful[better]] = True
-    poses, information = _refined(geometry, window, scans, start, centre, variance, threads)
+    poses, information = _refined(geometry, window, scans, start, centre, variance)
     return Placed(predicted, variance, poses, information, score, turned)
 
 
 @dataclass(frozen=True, eq=False)
 class Elsewhere:
-    """A place far from where odometry has a scan: its pose (3,), the laser's information there, and its score.
+    """A place found by a wide search: pose (3,), the laser's information there, (3, 3), and score.
 
     ``near`` says whether it lies about the prediction, within `WIDE_M` and the first of `WIDER`.
     """
@@ -177,50 +164,42 @@ class Elsewhere:
 
 
 def place_anywhere(
-    geometry: ScanGeometry, window: Window, scan: int, predicted: Floats, score: float, threads: int | None
+    geometry: ScanGeometry, window: Window, scan: int, predicted: Floats, score: float
 ) -> Elsewhere | None:
-    """The best place of a scan in wide windows about a prediction, (3,), if clearly better than the given score."""
+    """Search wide windows about a prediction, (3,), for the best place with a score clearly above the given one."""
     points = [geometry.points_of(scan, POINTS)]
     for number, (wide_rad, gain) in enumerate(WIDER):
         wide = match(
             window.grid, points, predicted[None], WIDE_M, wide_rad, least=score + _clearly(gain, points),
-            pull=Pull(WIDE_M, wide_rad), step_rad=np.radians(1.0), threads=threads,
+            pull=Pull(WIDE_M, wide_rad), step_rad=np.radians(1.0),
         )  # fmt: skip
         if wide.found[0, 0]:
-            variance = np.array([[0.05, 0.05, 0.02]])  # what odometry said cannot be right: it does not hold it back
-            poses, information = _refined(
-                geometry, window, np.array([scan]), wide.poses[:, 0], wide.poses[:, 0], variance, threads
-            )
+            variance = np.array([[0.05, 0.05, 0.02]])  # odometry was wrong: the prior is about the place found instead
+            start = wide.poses[:, 0]
+            poses, information = _refined(geometry, window, np.array([scan]), start, start, variance)
             return Elsewhere(poses[0], information[0], float(wide.scores[0, 0]), number == 0)
     return None
 
 
 def _clearly(gain: float, points: list[Floats]) -> Floats:
-    """Return by how much better a place must explain each of N scans, (N,): by a share and by a number of points."""
+    """Return the least gain in score of each of N scans, (N,): ``gain``, and at least `TELLING` points."""
     return np.maximum(gain, TELLING / np.maximum([len(p) for p in points], 1))
 
 
-def contradicts(geometry: ScanGeometry, window: Window, scan: int, pose: Floats, threads: int | None) -> bool:
-    """Whether a scan at a pose and the key scans of the window see through what the other one sees."""
+def contradicts(geometry: ScanGeometry, window: Window, scan: int, pose: Floats) -> bool:
+    """Return whether a scan at a pose and the key scans of the window see through what the other one sees."""
     keys, count = window.keys.astype(np.int32), len(window.keys)
-    one = np.full(count, scan, np.int32)
-    here = np.broadcast_to(pose, (count, 3))
-    seen = between(window.poses, here)
-    matched, against, _ = mutual_view_counts(geometry, keys, one, seen, SEEN, threads).sum(axis=0)
+    seen = between(window.poses, np.broadcast_to(pose, (count, 3)))
+    counts = mutual_view_counts(geometry, keys, np.full(count, scan, np.int32), seen, SEEN, geometry.threads)
+    matched, against, _ = counts.sum(axis=0)
     judged = int(matched + against)
     return judged >= LEAST_JUDGED and against > MOST_AGAINST * judged
 
 
 def _refined(
-    geometry: ScanGeometry,
-    window: Window,
-    scans: NDArray[np.intp],
-    start: Floats,
-    predicted: Floats,
-    variance: Floats,
-    threads: int | None,
+    geometry: ScanGeometry, window: Window, scans: NDArray[np.intp], start: Floats, predicted: Floats, variance: Floats
 ) -> tuple[Floats, Floats]:
-    """Poses refined under odometry's Gaussian, and the laser's information in their own frames."""
+    """Refine poses under odometry's Gaussian; returns them and the laser's information in their own frames."""
     jobs = len(scans)
     near = slice(None, None if jobs == 1 else SEVERAL)
     keys, poses = window.keys[near], window.poses[near]
@@ -234,6 +213,6 @@ def _refined(
     )  # fmt: skip
     sigma_m = max(POINT_SIGMA_M, geometry.noise_m)
     convergence = Convergence(sigma_m, STEPS, geometry.reach_m(*REACH_M), geometry.scale_m(*SCALE_M), ALIKE)
-    placed, laser_information, _ = refine_scans(geometry, refinement, convergence, threads)
+    placed, laser_information, _ = refine_scans(geometry, refinement, convergence, geometry.threads)
     own = rotation(placed[:, 2])
     return placed, np.swapaxes(own, 1, 2) @ laser_information @ own

@@ -1,4 +1,4 @@
-"""Odometry as the log states it, and its factors between key scans; where there is none, those of the front end."""
+"""The odometry that a log states, and its factors between key scans; without odometry, the front end's factors."""
 
 from __future__ import annotations
 
@@ -15,32 +15,31 @@ from bayesmap.poses.graph import Factors, relative_covariances
 from bayesmap.poses.log_checks import caught_up
 from bayesmap.poses.next_scans import chained
 from bayesmap.poses.scan_geometry import ScanGeometry
-from bayesmap.space.planar import between, compose, wrapped
+from bayesmap.space.planar import between, compose, rotation, wrapped
 from bayesmap.space.scans import Scans
 
 Floats = NDArray[np.float64]
 
 STEADY = np.diag(1.0 / np.array([0.1, 0.1, np.radians(3.0)]) ** 2)
-"""How firmly, without odometry, the front end's own links hold."""
-
+"""Information of the front end's links where there is no odometry."""
 
 NEIGHBOURS = 7
-"""Successive motions of which the median variance is taken."""
+"""Successive motions over which the median variance is taken."""
 
 GUESSED = np.diag(1.0 / UNKNOWN**2)
-"""How firmly a link holds that nothing is known of: it keeps parts of the path from drifting away."""
+"""Information of an unknown motion: it keeps parts of the path from drifting away."""
 
 
 @dataclass(frozen=True, eq=False)
 class StatedOdometry:
-    """What a log states of the robot's motion.
+    """The robot's motion as a log states it.
 
     Attributes:
-        poses: as stated, (S, 3).
+        poses: stated poses, (S, 3).
         stamps_s: of the scans, (S,), or None.
         motions: from scan to scan in the earlier one's frame, (S - 1, 3).
         impossible: motions that no robot can have made, (S - 1,).
-        used: False where the robot's motion is to be found from the scans alone.
+        used: False where motions are to be inferred from the scans alone.
     """
 
     poses: Floats
@@ -55,7 +54,7 @@ class StatedOdometry:
         return self.motions if self.used else None
 
     def reversed_at(self, against: NDArray[np.bool_]) -> StatedOdometry:
-        """Return odometry with the motions before some scans, (S,), the other way round."""
+        """Return odometry with the motions before some scans, (S,), reversed."""
         if not (self.used and against.any()):
             return self
         motions = np.where(against[1:, None], self.motions * [-1.0, -1.0, 1.0], self.motions)
@@ -63,13 +62,13 @@ class StatedOdometry:
         return replace(self, poses=poses, motions=motions)
 
     def first_factors(self, track: Track, poses: Floats) -> Factors:
-        """Return factors between key scans at some poses, (K, 3), with what the front end learnt of the noise."""
+        """Return factors between key scans at given poses, (K, 3), with the noise that the front end has learnt."""
         if not self.used:
             return chain_factors(track, poses)
         return self._corrected(track, poses, track.slope, lambda motions: motion_variances(motions, track.noise_ratios))
 
     def fitted(self, track: Track, aligned: Alignment) -> tuple[OdometryFit | None, Factors]:
-        """Return the errors of odometry by aligned key scans, None where it is not used, and factors without them."""
+        """Fit odometry's errors to aligned key scans, None where it is not used, and return factors without them."""
         poses = aligned.poses
         if not self.used:
             return None, chain_factors(track, poses)
@@ -80,24 +79,33 @@ class StatedOdometry:
         return fit, self._corrected(track, poses, fit.slope, fit.noise.variances, fit.lag_s)
 
     def _corrected(
-        self, track: Track, poses: Floats, slope: Floats, noise: Callable[[Floats], Floats], lag_s: float = 0.0
+        self, track: Track, poses: Floats, slope: Floats, variances: Callable[[Floats], Floats], lag_s: float = 0.0
     ) -> Factors:
-        """Return factors between key scans, but where a motion was refused or the path breaks."""
-        return corrected_factors(
-            self.poses, self.stamps_s, self.motions, self.impossible | track.broken[1:], track.keys, poses, slope,
-            noise, lag_s,
-        )  # fmt: skip
+        """Return factors between key scans at poses (K, 3), corrected for systematic error and lag.
+
+        Where a motion is impossible or the path breaks, the present poses of the keys hold loosely instead.
+        ``variances`` gives those of x, y and yaw of stated motions from scan to scan, (S - 1, 3).
+        """
+        motions, keys = self.motions, track.keys
+        if lag_s != 0.0:
+            late = stated_at(self.poses, self.stamps_s, lag_s)
+            motions = between(late[:-1], late[1:])
+        corrected = motions + motions @ slope.T
+        corrected[:, 2] = wrapped(corrected[:, 2])
+        lost = np.concatenate([[0], np.cumsum(self.impossible | track.broken[1:])])
+        links = composed(corrected, _steadied(variances(motions)), keys)
+        return guessed(links, poses, lost[keys[1:]] > lost[keys[:-1]])
 
 
-def stated_odometry(scans: Scans, geometry: ScanGeometry | None, threads: int | None = None) -> StatedOdometry:
+def stated_odometry(scans: Scans, geometry: ScanGeometry | None) -> StatedOdometry:
     """Return the odometry of scans in the order of time, late poses mended; without a geometry it is not used."""
-    poses = scans.poses if geometry is None else caught_up(scans, geometry, threads)
+    poses = scans.poses if geometry is None else caught_up(scans, geometry)
     motions, impossible = stated_motions(poses, scans.stamps_s)
     return StatedOdometry(poses, scans.stamps_s, motions, impossible, geometry is not None)
 
 
 def chain_factors(track: Track, poses: Floats) -> Factors:
-    """Weak links from key scan to key scan as the front end found them; where it broke, as the keys are, (K, 3)."""
+    """Return weak links between key scans as the front end found them; at breaks, those of the keys' poses, (K, 3)."""
     keys = track.keys
     order = np.arange(len(keys) - 1)
     relative = between(track.poses[keys[:-1]], track.poses[keys[1:]])
@@ -106,40 +114,15 @@ def chain_factors(track: Track, poses: Floats) -> Factors:
 
 
 def guessed(links: Factors, poses: Floats, where: NDArray[np.bool_]) -> Factors:
-    """Links from key scan to key scan; some replaced by where the keys are, (K, 3), as if hardly anything was known."""
+    """Return links between key scans, some replaced by those of the keys' poses, (K, 3), with the weak `GUESSED`."""
     relative, information = links.relative.copy(), links.information.copy()
     relative[where] = between(poses[:-1][where], poses[1:][where])
     information[where] = GUESSED
     return Factors(links.first, links.second, relative, information)
 
 
-def corrected_factors(
-    stated: Floats,
-    stamps_s: Floats | None,
-    motions: Floats,
-    rejected: NDArray[np.bool_],
-    keys: NDArray[np.intp],
-    poses: Floats,
-    slope: Floats,
-    variances: Callable[[Floats], Floats],
-    lag_s: float = 0.0,
-) -> Factors:
-    """Odometry from key scan to key scan, corrected for its systematic error and its lag.
-
-    Where a stated motion is rejected, (S - 1,), the keys' present poses, (K, 3), hold loosely. ``variances`` gives
-    those of x, y and yaw, (S - 1, 3), of stated motions from scan to scan, (S - 1, 3).
-    """
-    if lag_s != 0.0:
-        late = stated_at(stated, stamps_s, lag_s)
-        motions = between(late[:-1], late[1:])
-    corrected = motions + motions @ slope.T
-    corrected[:, 2] = wrapped(corrected[:, 2])
-    lost = np.concatenate([[0], np.cumsum(rejected)])
-    return guessed(composed(corrected, _steadied(variances(motions)), keys), poses, lost[keys[1:]] > lost[keys[:-1]])
-
-
 def _steadied(variances: Floats) -> Floats:
-    """Return the variances of successive motions, (N, 3), each at least the median of those about it.
+    """Raise the variances of successive motions, (N, 3), to at least the median of those about each.
 
     Noise grows with the true way, so a motion that noise has made too short is stated with too small a variance.
     """
@@ -149,10 +132,10 @@ def _steadied(variances: Floats) -> Floats:
 
 
 def composed(motions: Floats, variances: Floats, keys: NDArray[np.intp]) -> Factors:
-    """Motions from scan to scan composed to factors from each key scan to the next; variances add up along the way.
+    """Compose corrected motions from scan to scan, (S - 1, 3), to factors between successive keys; variances add up.
 
     Args:
-        motions: from scan to scan, corrected, (S - 1, 3).
+        motions: (S - 1, 3).
         variances: of x, y and yaw of each motion, (S - 1, 3).
         keys: indices of the keys, (K,).
     """
@@ -162,11 +145,8 @@ def composed(motions: Floats, variances: Floats, keys: NDArray[np.intp]) -> Fact
         at = keys[:-1] + k
         active = np.nonzero(at < keys[1:])[0]
         motion, variance = motions[at[active]], variances[at[active]]
-        yaw = relative[active, 2]
-        cosine, sine = np.cos(yaw), np.sin(yaw)
-        turn = np.zeros((len(active), 3, 3))
-        turn[:, 0, 0] = turn[:, 1, 1] = cosine
-        turn[:, 0, 1], turn[:, 1, 0], turn[:, 2, 2] = -sine, sine, 1.0
+        turn = rotation(relative[active, 2])
+        cosine, sine = turn[:, 0, 0], turn[:, 1, 0]
         lever = np.tile(np.eye(3), (len(active), 1, 1))  # an earlier heading error moves what comes after
         lever[:, 0, 2] = -(sine * motion[:, 0] + cosine * motion[:, 1])
         lever[:, 1, 2] = cosine * motion[:, 0] - sine * motion[:, 1]

@@ -1,4 +1,4 @@
-"""Scans between key scans, placed among them: each refined against the key scans that see the same walls."""
+"""Placement of the scans between key scans: each is refined against the key scans that see the same walls."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from bayesmap.kernels.match.line_pairs import match_counts, pair_sums
 from bayesmap.kernels.match.scan_refinement import Convergence, Refinement, refine_scans
-from bayesmap.poses.alignment import ALIKE, Pairs, PointError, without_slack
+from bayesmap.poses.alignment import ALIKE, Alignment, PointError, without_slack
 from bayesmap.poses.scan_geometry import ScanGeometry
 from bayesmap.space.planar import around, between, nearest, rotation
 
@@ -19,14 +19,14 @@ COMPARED = 10
 """Key scans that each scan is compared with."""
 
 PRIOR_SIGMA = np.array([0.03, 0.03, np.radians(1.0)])
-"""Standard deviations of where a scan lies between the key scans around it, before its own beams are looked at."""
+"""Standard deviations of a scan's pose between the key scans around it, before its own beams are used."""
 
 CAUTION, LEAST_SIGMA_M = 2.0, 0.005
-"""Points count as if they scattered so many times as widely, and by at least so much, beside what lies between the key
-scans: the rough first steps then stay near it. What the beams tell in the end is counted with their own scatter."""
+"""Factor on the scatter of points, and the least scatter, during refinement: the rough first steps then stay near the
+prior. The final information is computed with the points' own scatter."""
 
 REACH_M, SCALE_M = (0.2, 0.08), (0.1, 0.03)
-"""How far paired points may lie apart and the scale of outliers, in the first step and the last."""
+"""Greatest distance of paired points and scale of outliers, in the first step and the last."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,7 +36,7 @@ class Placement:
     Attributes:
         poses: (S, 3).
         information: of each pose given the key scans, in its own frame, (S, 3, 3).
-        matched: share of the points that fall into the other scans' view and lie on their walls, (S,).
+        matched: share of the points in the other scans' view that lie on their walls, (S,).
     """
 
     poses: Floats
@@ -44,36 +44,25 @@ class Placement:
     matched: Floats
 
     def own_covariance(self, keys: NDArray[np.intp]) -> Floats:
-        """Scale matrix of a Student's t of each scan's pose given the key scans, (S, 3, 3); zero for those."""
+        """Return the scale matrix of Student's t of each scan's pose given the key scans, (S, 3, 3); zero for keys."""
         covariance = np.linalg.inv(self.information + np.diag(1.0 / PRIOR_SIGMA**2))
         covariance[keys] = 0.0
         return np.asarray(covariance)
 
 
 def place_scans(
-    geometry: ScanGeometry,
-    poses: Floats,
-    keys: NDArray[np.intp],
-    key_poses: Floats,
-    pairs: Pairs,
-    sigma_m: float,
-    error: PointError,
-    *,
-    threads: int | None = None,
+    geometry: ScanGeometry, poses: Floats, keys: NDArray[np.intp], aligned: Alignment, error: PointError
 ) -> Placement:
-    """Refine every scan against the partners of the key scan nearest to it in time.
+    """Refine every scan against the partners of the key scan nearest to it in time; key scans keep their poses.
 
     Args:
         geometry: of all S scans.
         poses: of all scans, to start from, (S, 3).
-        keys: the key scans, (K,).
-        key_poses: (K, 3); the poses of key scans are kept.
-        pairs: the partners of each key scan, as positions among the keys.
-        sigma_m: standard deviation of a point.
-        error: how far points move scans.
-        threads: to compute with; by default all cores.
+        keys: indices of the key scans, (K,).
+        aligned: the alignment of the key scans.
+        error: of points.
     """
-    count = len(poses)
+    count, key_poses, pairs = len(poses), aligned.poses, aligned.pairs
     scans = np.setdiff1d(np.arange(count), keys)
     result, information, matched = poses.copy(), np.zeros((count, 3, 3)), np.ones(count)
     result[keys] = key_poses
@@ -96,13 +85,13 @@ def place_scans(
         scans.astype(np.int32), offsets, keys[flat].astype(np.int32), key_poses[flat], poses[scans], poses[scans],
         turn @ prior @ np.swapaxes(turn, 1, 2),
     )  # fmt: skip
-    convergence = Convergence(CAUTION * max(sigma_m, LEAST_SIGMA_M), 10, reach, scale, ALIKE)
-    found, _, totals = refine_scans(geometry, refinement, convergence, threads)
+    convergence = Convergence(CAUTION * max(aligned.sigma_m, LEAST_SIGMA_M), 10, reach, scale, ALIKE)
+    found, _, totals = refine_scans(geometry, refinement, convergence, geometry.threads)
     result[scans] = found
     source = np.repeat(scans, np.diff(offsets)).astype(np.int32)
     per_pair = _information(
         geometry, source, keys[flat].astype(np.int32), between(key_poses[flat], result[source]), reach[1], scale[1],
-        error, threads,
+        error,
     )  # fmt: skip
     information[scans] = np.add.reduceat(per_pair, offsets[:-1], axis=0)
     matched[scans] = totals[:, 2] / np.maximum(totals[:, 3], 1.0)
@@ -110,26 +99,20 @@ def place_scans(
 
 
 def _information(
-    geometry: ScanGeometry,
-    source: NDArray[np.int32],
-    target: NDArray[np.int32],
-    relative: Floats,
-    reach_m: float,
-    scale_m: float,
-    error: PointError,
-    threads: int | None,
-) -> Floats:
-    """What the points of each pair of scans tell of the first's pose, in its own frame, the other's known, (M, 3, 3).
+    geometry: ScanGeometry, source: NDArray[np.int32], target: NDArray[np.int32], relative: Floats, reach_m: float,
+    scale_m: float, error: PointError,
+) -> Floats:  # fmt: skip
+    """Return the information of M pairs' points about the first scan's pose, in its frame, (M, 3, 3).
 
-    A beam that is matched with c scans has its own error once and the mean of c others': sigma^2 (1 + 1 / c), so that
-    it counts 1 / (c + 1) in each pair. Poses of pairs are
-    relative: the first's in the frame of the second, (M, 3); pairs are sorted by the first.
+    The second scan's pose is known; relative poses, (M, 3), are the first's in the frame of the second, and pairs are
+    sorted by the first. A beam that is matched with c scans has its own error once and the mean of c others':
+    sigma^2 (1 + 1 / c), so that it counts 1 / (c + 1) in each pair.
     """
     offsets = np.searchsorted(source, np.arange(len(geometry) + 1)).astype(np.int32)
-    counts = match_counts(geometry, offsets, target, relative, reach_m, scale_m, ALIKE, threads)
+    counts = match_counts(geometry, offsets, target, relative, reach_m, scale_m, ALIKE, geometry.threads)
     weights = (1.0 / (1.0 + counts)).astype(np.float32)
     second, slack, first, _ = pair_sums(
-        geometry, weights, source, target, relative, reach_m, scale_m, ALIKE, threads=threads
+        geometry, weights, source, target, relative, reach_m, scale_m, ALIKE, threads=geometry.threads
     )
     told = without_slack(second, slack, first, error.scatter_m)[0] / error.scatter_m**2
     turn = rotation(relative[:, 2])
@@ -138,7 +121,7 @@ def _information(
 
 
 def _spread(partners: NDArray[np.int32], most: int) -> NDArray[np.int32]:
-    """At most so many, evenly over the list: it is sorted by time class and overlap."""
+    """Select ``most`` partners evenly from the list, which is sorted by time class and overlap."""
     if len(partners) <= most:
         return partners
     return partners[np.arange(most) * len(partners) // most]

@@ -1,12 +1,11 @@
 """The Gaussian approximation of the posterior over poses: covariances of relative poses, and draws of trajectories.
 
-What the pairs of scans have wrong in common: walls that are not straight, scans bent by motion, people.
-
-Where a trajectory is best, the forces with which all pairs of scans pull at the poses cancel. If points erred one by
-one, the forces of the pairs between one stretch of the way and another would nearly cancel, too. On real logs they do
-not: pairs that see the same wall pull the same way. How far that bends the way is measured by a cluster bootstrap
-(Cameron, Gelbach and Miller 2008; the sandwich of Huber 1967 and of Liang and Zeger 1986 for clusters): the forces of
-each pair of stretches get a random sign, and the poses go where they then pull.
+Pairs of scans have errors in common: walls that are not straight, scans bent by motion, people. At the best trajectory
+the forces with which all pairs pull at the poses cancel. If points erred independently, the forces of the pairs between
+one stretch of the path and another would nearly cancel, too. On real logs they do not: pairs that see one wall pull
+the same way. A cluster bootstrap measures how far that bends the path (Cameron, Gelbach and Miller 2008; the sandwich
+of Huber 1967 and of Liang and Zeger 1986 for clusters): the forces of each pair of stretches get a random sign, and the
+poses go where they then pull.
 """
 
 from __future__ import annotations
@@ -32,18 +31,18 @@ from bayesmap.space.planar import between, between_jacobians, retract, wrapped
 Floats = NDArray[np.float64]
 
 STRETCH_M, TURN_M = 4.0, 0.5
-"""Scans on so much of the way see the same walls; a radian of turning counts as so much. With 8 m regions that should
-hold 50, 80 and 95 % of the relative poses of Intel's halves hold 61, 86 and 95 instead of 56, 82 and 93."""
+"""Length of a stretch of path whose scans see the same walls, and the length that a radian of turning counts as.
+With 8 m, regions of 50, 80 and 95 % hold 61, 86 and 95 % of the relative poses of Intel's halves, not 56, 82 and 93."""
 
 DRAWS, SEED = 64, 1
-"""Of signs. The spread of the bends is known to an eighth of itself, and added to what is larger."""
+"""Draws of signs. The spread of the bends is known to an eighth of itself, and added to larger variances."""
 
 
 def bends(poses: Floats, laser: Quadratic, precision: Precision) -> Floats:
-    """Steps of the poses, in their own frames, by forces with random signs, (DRAWS, K, 3).
+    """Compute the steps of poses, in their own frames, under forces with random signs, (DRAWS, K, 3).
 
     Args:
-        poses: the most probable ones, (K, 3), along the way.
+        poses: the most probable ones, (K, 3), along the path.
         laser: the cost of the pairs about them.
         precision: of the poses.
     """
@@ -63,7 +62,7 @@ def bends(poses: Floats, laser: Quadratic, precision: Precision) -> Floats:
 
 
 def bend_covariances(bends: Floats, poses: Floats, first: NDArray[np.intp], second: NDArray[np.intp]) -> Floats:
-    """Covariance of between(first, second) by bends alone, in the first's frame, (M, 3, 3)."""
+    """Compute the covariance of between(first, second) by bends alone, in the first's frame, (M, 3, 3)."""
     by_first, by_second = between_jacobians(between(poses[first], poses[second]))
     result = np.zeros((len(first), 3, 3))
     for bend in bends:
@@ -73,8 +72,8 @@ def bend_covariances(bends: Floats, poses: Floats, first: NDArray[np.intp], seco
 
 
 DEGREES_OF_FREEDOM = 10.0
-"""Of Student's t: what is wrong with the model (curved walls, people, scans bent by motion) has heavy tails on real
-logs; simulated ones have none. Between the two, both are right within some points (docs/lab/poses.md)."""
+"""Of Student's t. Errors of the model (curved walls, people, scans bent by motion) have heavy tails on real logs, and
+none on simulated ones. With this value both are right within some per cent (docs/lab/poses.md)."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -84,13 +83,13 @@ class PoseGaussian:
     Attributes:
         poses: the most probable ones, (K, 3).
         first, second: indices of the poses that a part of the cost ties together, (M,).
-        relative: the second's pose in the frame of the first, (M, 3).
+        relative: the second pose in the frame of the first, (M, 3).
         curvature: second derivatives of the cost by it, (M, 3, 3).
-        force: first derivatives of the cost by it, (M, 3); all together they cancel. Zero where parts err one by one.
+        force: first derivatives of the cost by it, (M, 3), which cancel in total. Zero where parts err independently.
+        dof: degrees of freedom of Student's t. Its scale matrix is the inverse of the curvature, and (dof - 2) / dof
+            times the covariance of the parts' shared errors.
         elsewhere: steps of the poses to alternatives, times the square root of their probabilities, (A, K, 3); they
             count as bends do. None where there are no alternatives.
-        dof: degrees of freedom of Student's t. Its scale matrix is the inverse of the curvature, and (dof - 2) / dof of
-            the covariance of what parts have wrong in common (`shared_errors`).
     """
 
     poses: Floats
@@ -109,7 +108,7 @@ class PoseGaussian:
 
     @cached_property
     def bends(self) -> Floats:
-        """Steps of the poses by what parts of the cost have wrong in common, and to alternatives, (N, K, 3)."""
+        """Steps of the poses by shared errors of parts of the cost, and to alternatives, (N, K, 3)."""
         shared = bends(self.poses, self._part, self.precision)
         if self.elsewhere is None:
             return shared
@@ -119,7 +118,7 @@ class PoseGaussian:
 
     @property
     def scale_of_covariance(self) -> float:
-        """Student's scale matrix over its covariance."""
+        """The ratio of Student's scale matrix to its covariance."""
         return (self.dof - 2.0) / self.dof
 
     @property
@@ -127,7 +126,7 @@ class PoseGaussian:
         return Quadratic(self.first, self.second, self.relative, self.curvature, self.force)
 
     def relative_covariances(self, first: NDArray[np.intp], second: NDArray[np.intp]) -> Floats:
-        """Covariance (scale matrix of Student's t) of between(first, second), in the first's frame, (N, 3, 3)."""
+        """Return the scale matrix of Student's t of between(first, second), in the first's frame, (N, 3, 3)."""
         first, second = np.asarray(first), np.asarray(second)
         shared = self.scale_of_covariance * bend_covariances(self.bends, self.poses, first, second)
         return relative_covariances(self.precision, self.poses, first, second) + shared
@@ -135,9 +134,9 @@ class PoseGaussian:
     def draw(self, count: int, seed: int, first_draw: int = 0) -> Floats:
         """Draw whole trajectories, (count, K, 3), from the multivariate t.
 
-        Draw number n depends on (seed, n) alone. It solves H x = sum_k J_k^T C_k e_k, C_k C_k^T the curvature of
-        part k and e_k standard normal: then x has covariance H^-1. A normal sum of the bends is added, with (dof - 2) /
-        dof of their covariance, and the whole is stretched.
+        Draw number n depends on (seed, n) alone. It solves H x = sum_k J_k^T C_k e_k, where C_k C_k^T is the curvature
+        of part k and e_k is standard normal, so that x has covariance H^-1. A normal sum of the bends, with (dof - 2) /
+        dof of their covariance, is added, and the whole is stretched.
         """
         values, vectors = np.linalg.eigh(self.curvature)
         root = vectors * np.sqrt(np.maximum(values, 0.0))[:, None, :]

@@ -1,6 +1,6 @@
 """Priors of the poses: known, uncertain about the log's own, or odometry through a motion model.
 
-A prior is a value that users pass; with the poses of a log it becomes a law (`PosePrior.law`), which samplers ask.
+A prior is a value that users pass. With the poses of a log it becomes a law (`PosePrior.law`), which samplers use.
 """
 
 from __future__ import annotations
@@ -8,22 +8,22 @@ from __future__ import annotations
 import hashlib
 import math
 from abc import ABC, abstractmethod
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
-from bayesmap.space.planar import between, compose, wrapped
+from bayesmap.space.planar import between, compose, rotation, wrapped
 
 Floats = NDArray[np.float64]
 
 LOG_ROOT_TWO_PI = 0.5 * math.log(2 * math.pi)
 
 FREE = np.array([1.0, 1.0, 1.0])
-"""Standard deviations, metres and radians, of a motion that odometry says nothing of: from one scan that is kept to
-the next robots move and turn by about so much."""
+"""Standard deviations, metres and radians, of a motion of which odometry says nothing: what robots typically move and
+turn from one kept scan to the next."""
 
 
 class PoseLaw(ABC):
@@ -31,19 +31,19 @@ class PoseLaw(ABC):
 
     @abstractmethod
     def log_prob(self, poses: Floats) -> Floats:
-        """Log density of whole trajectories, (..., S, 3) to (...)."""
+        """Compute the log density of whole trajectories, (..., S, 3) to (...)."""
 
     @abstractmethod
     def log_change(self, poses: Floats, proposed: Floats) -> Floats:
-        """What each scan's move to its proposed pose would add to `log_prob`, all others staying: (..., S)."""
+        """Compute what each scan's move to its proposed pose alone would add to `log_prob`, (..., S)."""
 
     @abstractmethod
     def precision(self, poses: Floats) -> Floats:
-        """Precision of each pose given the others, in world axes, (S, 3, 3)."""
+        """Return the precision of each pose given the others, in world axes, (S, 3, 3)."""
 
     @abstractmethod
     def colours(self, n_scans: int) -> tuple[NDArray[np.intp], ...]:
-        """Groups of the scans that may move; those of one group are independent given all others."""
+        """Return groups of the scans that may move; scans of one group are independent given all others."""
 
     @abstractmethod
     def sample(self, rng: np.random.Generator) -> Floats:
@@ -51,7 +51,7 @@ class PoseLaw(ABC):
 
 
 class PosePrior(ABC):
-    """What is believed of the poses before the scans are looked at.
+    """The prior of the poses.
 
     Attributes:
         unknown: whether there is anything to infer.
@@ -61,11 +61,11 @@ class PosePrior(ABC):
 
     @abstractmethod
     def law(self, log_poses: Floats) -> PoseLaw:
-        """The prior as a density, given the poses that the log states, (S, 3)."""
+        """Return the prior as a density, given the poses that the log states, (S, 3)."""
 
     @abstractmethod
     def describe(self) -> dict[str, object]:
-        """The prior as plain JSON values."""
+        """Return the prior as plain JSON values."""
 
 
 @dataclass(frozen=True)
@@ -75,11 +75,11 @@ class Known(PosePrior):
     unknown: ClassVar[bool] = False
 
     def law(self, log_poses: Floats) -> PoseLaw:
-        """A law under which nothing moves."""
+        """Return a law under which nothing moves."""
         return _Fixed(log_poses)
 
     def describe(self) -> dict[str, object]:
-        """The prior as plain JSON values."""
+        """Return the prior as plain JSON values."""
         return {"kind": "known"}
 
 
@@ -102,21 +102,21 @@ class Uncertain(PosePrior):
         _check_positive("Uncertain", sigma_m=self.sigma_m, sigma_rad=self.sigma_rad)
 
     def law(self, log_poses: Floats) -> PoseLaw:
-        """Independent normal distributions about the log's poses."""
+        """Return independent normal distributions about the log's poses."""
         return _Independent(log_poses, np.array([self.sigma_m, self.sigma_m, self.sigma_rad]))
 
     def describe(self) -> dict[str, object]:
-        """The prior as plain JSON values."""
-        return {"kind": "uncertain", "sigma_m": self.sigma_m, "sigma_rad": self.sigma_rad}
+        """Return the prior as plain JSON values."""
+        return {"kind": "uncertain", **asdict(self)}
 
 
 @dataclass(frozen=True)
 class Odometry(PosePrior):
-    """The log's poses are wheel odometry: each motion is normal about the one that odometry states.
+    """The log's poses are wheel odometry: each motion is normal about the stated one.
 
     In the frame of the earlier pose the motion from scan to scan has an error of zero mean, independent from motion to
-    motion, whose standard deviations grow with the distance travelled and the angle turned, the parameters of Thrun,
-    Burgard and Fox (Probabilistic Robotics, 2005, section 5.4) as a normal distribution of the motion itself:
+    motion. Its standard deviations grow with the distance travelled and the angle turned, with the parameters of Thrun,
+    Burgard and Fox (Probabilistic Robotics, 2005, section 5.4), as a normal distribution of the motion itself:
 
         sigma_xy^2  = (m_per_m d)^2 + (m_per_rad |turn|)^2 + still_m^2
         sigma_yaw^2 = (rad_per_m d)^2 + (rad_per_rad |turn|)^2 + still_rad^2
@@ -125,7 +125,7 @@ class Odometry(PosePrior):
 
     Attributes:
         m_per_m, m_per_rad: error of the position in metres, per metre travelled and per radian turned.
-        rad_per_m, rad_per_rad: error of the heading in radians, likewise.
+        rad_per_m, rad_per_rad: error of the heading in radians, per metre travelled and per radian turned.
         still_m, still_rad: error of a robot that stands still.
 
     Raises:
@@ -147,39 +147,36 @@ class Odometry(PosePrior):
                 raise BadInput(f"Odometry: {name} must be a number that is not negative, got {value!r}")
 
     def law(self, log_poses: Floats) -> PoseLaw:
-        """A Markov chain of poses whose motions are normal about the log's."""
+        """Return a Markov chain of poses whose motions are normal about the log's."""
         motions = between(log_poses[:-1], log_poses[1:])
         return _Markov(log_poses[0], motions, self.sigmas(motions))
 
     def sigmas(self, motions: Floats) -> Floats:
-        """Standard deviations of x, y and yaw of the error of each motion, (..., 3)."""
+        """Return standard deviations of x, y and yaw of the error of each motion, (..., 3)."""
         travelled, turned = np.hypot(motions[..., 0], motions[..., 1]), np.abs(motions[..., 2])
         xy = np.sqrt((self.m_per_m * travelled) ** 2 + (self.m_per_rad * turned) ** 2 + self.still_m**2)
         yaw = np.sqrt((self.rad_per_m * travelled) ** 2 + (self.rad_per_rad * turned) ** 2 + self.still_rad**2)
         return np.stack([xy, xy, yaw], axis=-1)
 
     def describe(self) -> dict[str, object]:
-        """The prior as plain JSON values."""
-        return {
-            "kind": "odometry", "m_per_m": self.m_per_m, "m_per_rad": self.m_per_rad, "rad_per_m": self.rad_per_m,
-            "rad_per_rad": self.rad_per_rad, "still_m": self.still_m, "still_rad": self.still_rad,
-        }  # fmt: skip
+        """Return the prior as plain JSON values."""
+        return {"kind": "odometry", **asdict(self)}
 
 
 @dataclass(frozen=True, eq=False)
 class Motions(PosePrior):
-    """Each motion from scan to scan is normal about one that is given: odometry, corrected by whoever knows better.
+    """Each motion from scan to scan is normal about a given one, such as corrected odometry.
 
-    With a chance of ``p_slip`` it says nothing of the motion: a wheel slipped, or the log states the same pose twice
-    while the robot turned on. Then the motion is normal about the one that is given with the deviations of `FREE`.
+    With probability ``p_slip`` the given motion says nothing of the true one: a wheel slipped, or the log states one
+    pose twice while the robot turned on. Then the motion is normal about the given one with the deviations of `FREE`.
 
     Attributes:
         relative: each scan's pose in the frame of the one before, (S - 1, 3).
-        sigmas: standard deviations of x, y and yaw of these, (S - 1, 3).
-        p_slip: chance that a motion is another one altogether.
+        sigmas: standard deviations of their x, y and yaw, (S - 1, 3).
+        p_slip: probability that a motion is another one altogether.
 
     Raises:
-        BadInput: shapes that do not fit together, deviations that are not positive, or a chance outside [0, 1).
+        BadInput: shapes that do not fit together, deviations that are not positive, or a probability outside [0, 1).
     """
 
     relative: Floats
@@ -195,17 +192,17 @@ class Motions(PosePrior):
             raise BadInput("Motions: all standard deviations must be positive numbers")
 
     def law(self, log_poses: Floats) -> PoseLaw:
-        """A Markov chain of poses that starts at the log's first.
+        """Return a Markov chain of poses that starts at the log's first.
 
         Raises:
-            BadInput: another number of scans than of motions and one.
+            BadInput: the number of scans is not the number of motions plus one.
         """
         if len(log_poses) != len(self.relative) + 1:
             raise BadInput(f"Motions: {len(self.relative)} motions, but {len(log_poses)} scans")
         return _Markov(log_poses[0], self.relative, self.sigmas, self.p_slip)
 
     def describe(self) -> dict[str, object]:
-        """The prior as plain JSON values; the motions by their checksum."""
+        """Return the prior as plain JSON values; the motions by their checksum."""
         digest = hashlib.blake2b(self.relative.tobytes() + self.sigmas.tobytes(), digest_size=8)
         about = {"kind": "motions", "count": len(self.relative), "checksum": digest.hexdigest()}
         return about | ({"p_slip": self.p_slip} if self.p_slip else {})
@@ -278,7 +275,7 @@ class _Markov(PoseLaw):
         return error
 
     def _kinds(self, error: Floats) -> tuple[Floats, Floats]:
-        """Log densities of errors of motions that odometry knows, and of those that it does not."""
+        """Return log densities of errors of motions that odometry knows, and of motions that it does not."""
         known, free = _normal(error, self.sigmas), _normal(error, np.maximum(self.sigmas, FREE))
         return known + math.log1p(-self.p_slip), free + math.log(self.p_slip)
 
@@ -302,13 +299,8 @@ class _Markov(PoseLaw):
             weights = (1.0 - slipped) * weights + slipped * np.maximum(self.sigmas, FREE) ** -2.0
         out = np.zeros((len(poses), 3, 3))
         # The error of a motion, in the earlier pose's frame, is e = R(-yaw) (p' - p) - motion.
-        yaw = poses[:-1, 2]
-        c, s = np.cos(yaw), np.sin(yaw)
-        turn = np.zeros((len(yaw), 3, 3))
-        turn[:, 0, 0], turn[:, 0, 1], turn[:, 1, 0], turn[:, 1, 1], turn[:, 2, 2] = c, s, -s, c, 1.0
-        seen = between(poses[:-1], poses[1:])
-        later, earlier = turn, -turn
-        earlier = earlier.copy()
+        later = rotation(-poses[:-1, 2])
+        seen, earlier = between(poses[:-1], poses[1:]), -later
         earlier[:, 0, 2], earlier[:, 1, 2] = seen[:, 1], -seen[:, 0]
         out[1:] += np.einsum("sji,sj,sjk->sik", later, weights, later)
         out[:-1] += np.einsum("sji,sj,sjk->sik", earlier, weights, earlier)
@@ -334,7 +326,7 @@ class _Markov(PoseLaw):
 
 
 def _normal(error: Floats, sigma: Floats) -> Floats:
-    """Log density of independent normal errors of x, y and yaw, (..., 3) to (...)."""
+    """Return the log density of independent normal errors of x, y and yaw, (..., 3) to (...)."""
     return np.asarray((-0.5 * (error / sigma) ** 2 - np.log(sigma) - LOG_ROOT_TWO_PI).sum(axis=-1))
 
 

@@ -1,9 +1,9 @@
-"""Parts of a broken path put together again, by places that were seen from two of them.
+"""Join the parts of a broken path by places that were seen from two of them.
 
-Where the front end broke the path, nothing says how the part after lies to the part before: wheels slipped, scans are
-missing, or the robot was carried. Submaps of the part are matched to those of all others, with any heading: near where
-a wide search or odometry puts it, and everywhere. A relative pose of two parts is believed if several
-pairs of places agree on it, and no other relative pose has nearly as many.
+Where the front end broke the path, the relative pose of the two parts is unknown: wheels slipped, scans are missing, or
+the robot was carried. Submaps of each part are matched to those of all others, with any heading: near where a wide
+search or odometry puts them, and everywhere. A relative pose of two parts is believed if several pairs of places agree
+on it, and no other relative pose has nearly as many.
 """
 
 from __future__ import annotations
@@ -21,51 +21,50 @@ from bayesmap.space.planar import between, compose, inverse, wrapped
 Floats = NDArray[np.float64]
 
 NEAR_M, NEAR_PLACES = 3.0, 6
-"""Each place is compared with the nearest so many of other parts that lie, as far as is known, no further off,"""
-
-SPACING_M, QUERIES, QUERIES_IN_ALL, TURNS = 1.0, 24, 96, 3
-"""Places that are looked for: so far apart along a part, so many of each, and so many in all parts, evenly spread. They
-are taken in so many turns, of which the later ones are spared where the first join all parts surely."""
+"""Each place is compared with up to this many places of other parts within this distance, nearest first."""
 
 EVERYWHERE_M, SAME_PLACE_M, SAME_VIEW_RAD = 3.0, 1.5, np.radians(45.0)
-"""and with others everywhere: so far apart along the path. Windows reach as far. Where the robot came by again, looking
-the same way, it saw the same."""
+"""Each place is also compared with places everywhere, this far apart along the path, in windows of this half width.
+Places within the second and third number of an earlier one saw the same, and are left out."""
+
+SPACING_M, QUERIES, QUERIES_IN_ALL, TURNS = 1.0, 24, 96, 3
+"""Places that are sought: their distance along a part, the most of a part, and the most of all parts, evenly spread.
+They are sought in turns; later turns are spared where the first turns join all parts surely."""
 
 COARSE = Fineness(60, np.radians(2.0))
-"""How places are looked for: what more points and headings tell of where a place lies refining has from whole scans."""
+"""Fineness of these searches: refinement uses whole scans, so that more points and headings would add little."""
 
 NEAR_SCORE, FAR_SCORE = 0.6, 0.75
-"""Matches below are not looked at: where places are compared with all others chance finds better ones."""
+"""Least scores of matches: among all places of other parts, chance finds better ones than among near places."""
 
 CHANCE = 0.5
 """A place votes with the square of its score above this."""
 
 TRIED = 6
-"""Relative poses of two parts that are held against what their scans see through."""
+"""Most relative poses of two parts that are tested against free space."""
 
 AGREE, SURELY = 3, 4
-"""Places of a part that must agree on its pose relative to another part; and while only some were looked for."""
+"""Places that must agree on the relative pose of two parts: after the last turn, and after earlier ones."""
 
 FEW = 2
-"""Places that make a rival while only some were looked for."""
+"""Places that make a rival relative pose before the last turn."""
 
 RIVAL, RIVAL_EARLY = 0.5, 0.4
-"""Another relative pose with so large a share of the best one's votes makes both doubtful; the same, while only some
-places were looked for."""
+"""Share of the best one's votes with which another relative pose makes both doubtful: after the last turn, before."""
 
 SAME_M, SAME_RAD = 0.5, np.radians(6.0)
-"""Relative poses of parts that differ by no more are one: parts bend."""
+"""Greatest difference between relative poses of parts that count as one: parts bend."""
 
 MET_M, COMPARED = 5.0, 600
-"""Key scans of two parts that come to lie so near are held against each other, so many pairs at most."""
+"""Key scans of two joined parts that lie this near are compared, up to this many pairs."""
 
 SEEN, MOST_AGAINST = Agreement(near_m=0.2, clear_m=0.4, beams=60), 0.15
-"""When scans of two parts agree or contradict each other, and how many of the points that tell may contradict."""
+"""When scans of two parts agree or contradict each other, and the most share of contradicting points."""
 
 
 @dataclass(frozen=True, eq=False)
 class Joint:
-    """How a part lies to another: ``motion`` brings the later part's poses, as they are, to the earlier one's frame."""
+    """The relative pose of two parts: ``motion`` brings the later part's poses to the earlier one's frame."""
 
     earlier: int
     later: int
@@ -73,17 +72,16 @@ class Joint:
     votes: float
 
 
-def rejoin(path: KeyPath, half_width_m: float, threads: int | None = None) -> tuple[Floats, NDArray[np.bool_]]:
-    """Put the parts of a path together.
+def rejoin(path: KeyPath, half_width_m: float) -> tuple[Floats, NDArray[np.bool_]]:
+    """Join the parts of a path of K key scans whose poses are right within each part.
 
     Args:
-        path: K key scans; poses are right within a part.
+        path: the key scans.
         half_width_m: of submaps' grids.
-        threads: to compute with; by default all cores.
 
     Returns:
-        poses with every part that was found moved, (K, 3), and which parts are joined to an earlier one by places that
-        both saw, (P,); part 0 is.
+        poses with every joined part moved, (K, 3), and which parts are joined to an earlier one by places that both
+        saw, (P,); part 0 is.
     """
     found, islands = [no_closures()], path
     for turn in range(TURNS):
@@ -92,23 +90,20 @@ def rejoin(path: KeyPath, half_width_m: float, threads: int | None = None) -> tu
             (_all_pairs(path, turn), EVERYWHERE_M, FAR_SCORE),
         ):
             every = np.ones(len(first))
-            found.append(
-                match_submaps(
-                    path, first, second, centres, half_m * every, np.pi * every, half_width_m, least, threads, COARSE
-                )
-            )
-        islands = _together(path, joined(found), AGREE if turn == TURNS - 1 else SURELY, threads)
+            windows = centres, half_m * every, np.pi * every
+            found.append(match_submaps(path, first, second, *windows, half_width_m, least, COARSE))
+        islands = _together(path, joined(found), AGREE if turn == TURNS - 1 else SURELY)
         if not islands.parts.any():
             break
     return _assembled(path, islands)
 
 
-def _together(path: KeyPath, closures: Closures, agree: int, threads: int | None) -> KeyPath:
-    """The parts that so many places join put together: poses are right within an island, named by its first part."""
+def _together(path: KeyPath, closures: Closures, agree: int) -> KeyPath:
+    """Join the parts on which ``agree`` places agree: an island has the number of its first part, and right poses."""
     islands = path
     while True:
         rival = RIVAL if agree == AGREE else RIVAL_EARLY
-        joint = _surest(_candidates(closures, islands, agree), islands, rival, threads)
+        joint = _surest(_candidates(closures, islands, agree), islands, rival)
         if joint is None:
             return islands
         later = islands.parts == joint.later
@@ -119,24 +114,24 @@ def _together(path: KeyPath, closures: Closures, agree: int, threads: int | None
         )
 
 
-def _surest(pairs: Iterator[list[Joint]], islands: KeyPath, rival: float, threads: int | None) -> Joint | None:
-    """The joint with the most votes that contradicts nothing and has no rival."""
+def _surest(pairs: Iterator[list[Joint]], islands: KeyPath, rival: float) -> Joint | None:
+    """Return the joint with the most votes that contradicts nothing and has no rival."""
     best = None
     for candidates in pairs:
         if not candidates or (best is not None and candidates[0].votes <= best.votes):
             continue
-        held = [j for j in candidates if consistent(islands, j, threads)]
+        held = [j for j in candidates if consistent(islands, j)]
         if held and (len(held) == 1 or held[1].votes < rival * held[0].votes):
             best = held[0] if best is None or held[0].votes > best.votes else best
     return best
 
 
 Windows = tuple[NDArray[np.intp], NDArray[np.intp], Floats]
-"""Pairs of keys, the first ascending, and the poses of the second in the first's frame to begin with."""
+"""Pairs of keys, the first ascending, and the middle of the window for the second's pose in the first's frame."""
 
 
 def _near_pairs(path: KeyPath, turn: int) -> Windows:
-    """Places of each part and those of longer ones near it."""
+    """Return pairs of a place of each part and the places of longer parts near it."""
     places, poses = path.places(SPACING_M), path.poses
     first, second = [], []
     for query in _queries(path, turn):
@@ -153,7 +148,7 @@ def _near_pairs(path: KeyPath, turn: int) -> Windows:
 
 
 def _all_pairs(path: KeyPath, turn: int) -> Windows:
-    """Some places of each part and all places of longer ones, as if both stood at the same point."""
+    """Return pairs of some places of each part and all places of longer parts, as if both stood at the same point."""
     places = _different(path, path.places(EVERYWHERE_M))
     one, two = (grid.ravel() for grid in np.meshgrid(places, _queries(path, turn), indexing="ij"))
     apart = _longer(path)[path.parts[one]] > _longer(path)[path.parts[two]]
@@ -161,14 +156,14 @@ def _all_pairs(path: KeyPath, turn: int) -> Windows:
 
 
 def _longer(path: KeyPath) -> NDArray[np.intp]:
-    """The rank of each part by its number of key scans, (P,): what both saw is a larger share of the shorter."""
+    """Return the rank of each part by its number of key scans, (P,): the shorter part of a pair is sought."""
     rank = np.empty(int(path.parts[-1]) + 1, np.intp)
     rank[np.lexsort((-np.arange(len(rank)), np.bincount(path.parts)))] = np.arange(len(rank))
     return rank
 
 
 def _different(path: KeyPath, places: NDArray[np.intp]) -> NDArray[np.intp]:
-    """Places without those from which an earlier one of the same part had been seen the same way."""
+    """Remove places that lie near an earlier one of the same part and look the same way."""
     chosen: list[int] = []
     for place in places:
         off = between(path.poses[chosen], path.poses[place])
@@ -179,7 +174,7 @@ def _different(path: KeyPath, places: NDArray[np.intp]) -> NDArray[np.intp]:
 
 
 def _queries(path: KeyPath, turn: int) -> NDArray[np.intp]:
-    """The places of a turn: of all parts but the longest."""
+    """Return the places that are sought in a turn: of all parts but the longest."""
     places, count = path.places(SPACING_M), int(path.parts[-1]) + 1
     most, rank = min(QUERIES, max(2 * AGREE, QUERIES_IN_ALL // max(1, count - 1))), _longer(path)
     found = [np.empty(0, np.intp)]
@@ -190,9 +185,9 @@ def _queries(path: KeyPath, turn: int) -> NDArray[np.intp]:
 
 
 def _candidates(closures: Closures, islands: KeyPath, agree: int) -> Iterator[list[Joint]]:
-    """For each pair of parts, relative poses that enough places agree on, the one with the most votes first."""
+    """Yield for each pair of parts the relative poses on which enough places agree, by votes, the most first."""
     poses, parts = islands.poses, islands.parts
-    # Where the later part's frame comes to lie: what brings its key to where the match has it.
+    # The motion of the later part that brings its key to where the match has it.
     motions = compose(compose(poses[closures.first], closures.relative), inverse(poses[closures.second]))
     swapped = parts[closures.first] > parts[closures.second]
     motions = np.where(swapped[:, None], inverse(motions), motions)
@@ -205,7 +200,7 @@ def _candidates(closures: Closures, islands: KeyPath, agree: int) -> Iterator[li
         off = np.hypot(*np.moveaxis((at - at[np.arange(len(own)), np.arange(len(own))][None])[..., :2], -1, 0))
         turn = np.abs(wrapped(motions[own][:, None, 2] - motions[own][None, :, 2]))
         same = (off < SAME_M) & (turn < SAME_RAD)
-        # Several matches of one place are one voice: its loudest.
+        # Several matches of one place count as one vote, the highest.
         places, voice = np.unique(closures.second[own], return_inverse=True)
         loud = np.where(same, (closures.scores[own][None] - CHANCE) ** 2, 0.0)
         found: list[Joint] = []
@@ -217,29 +212,33 @@ def _candidates(closures: Closures, islands: KeyPath, agree: int) -> Iterator[li
             if not votes[best] > 0.0:
                 break
             found.append(Joint(int(earlier), int(later), motions[own[best]], float(votes[best])))
-            loud[:, same[best]] = 0.0  # what agrees with one speaks for no rival: a bent part lies there in many ways
+            loud[:, same[best]] = 0.0  # a match that agrees with one relative pose votes for no other: parts bend
             least = AGREE if agree == AGREE else FEW
         yield found
 
 
-def consistent(islands: KeyPath, joint: Joint, threads: int | None) -> bool:
-    """Whether the scans of two parts, joined so, see through little of what the other part's see."""
+def consistent(islands: KeyPath, joint: Joint) -> bool:
+    """Check that two joined parts do not contradict each other: few points of one stand where the other saw through."""
     one, two = np.nonzero(islands.parts == joint.earlier)[0], np.nonzero(islands.parts == joint.later)[0]
-    here, there = islands.poses[one], compose(joint.motion, islands.poses[two])
-    a, b = np.nonzero(np.hypot(*np.moveaxis(here[:, None, :2] - there[None, :, :2], -1, 0)) < MET_M)
+    earlier, later = islands.poses[one], compose(joint.motion, islands.poses[two])
+    a, b = np.nonzero(np.hypot(*np.moveaxis(earlier[:, None, :2] - later[None, :, :2], -1, 0)) < MET_M)
     some = np.arange(min(len(a), COMPARED)) * len(a) // max(1, min(len(a), COMPARED))
     a, b = a[some], b[some]
-    scans, seen = (islands.scans(one[a]), islands.scans(two[b])), between(here[a], there[b])
-    matched, against, _ = mutual_view_counts(islands.geometry, *scans, seen, SEEN, threads).sum(axis=0)
+    scans, seen, geometry = (
+        (islands.scans(one[a]), islands.scans(two[b])),
+        between(earlier[a], later[b]),
+        islands.geometry,
+    )
+    matched, against, _ = mutual_view_counts(geometry, *scans, seen, SEEN, geometry.threads).sum(axis=0)
     return bool(against <= MOST_AGAINST * (matched + against))
 
 
 def _assembled(path: KeyPath, islands: KeyPath) -> tuple[Floats, NDArray[np.bool_]]:
-    """All islands in one frame: one that nothing joins stays as the front end has it, seen from the part before it.
+    """Bring all islands to one frame; one that nothing joins stays where the front end has it after the part before.
 
     Args:
-        path: poses as the front end has them, right within a part.
-        islands: poses right within an island, whose number is that of the first of the parts that are joined.
+        path: poses of the front end, right within a part.
+        islands: poses right within an island, whose number is that of the first of its parts.
     """
     poses, where, parts = path.poses, islands.poses, path.parts
     result, placed = where.copy(), np.ones(int(parts[-1]) + 1, np.bool_)

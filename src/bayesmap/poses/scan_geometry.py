@@ -1,7 +1,4 @@
-"""What matching needs of scans: points in the laser's frame, normals of the walls that they lie on.
-
-How noisy the laser's ranges are, from the scans alone: what matching takes its lengths from.
-"""
+"""The geometry of scans for matching: end points, wall normals, and the noise of the laser's ranges."""
 
 from __future__ import annotations
 
@@ -17,26 +14,27 @@ from bayesmap.space.scans import Scans
 Floats = NDArray[np.float64]
 
 LEAST_M, MOST_M = 0.01, 0.05
-"""Walls are rough, and robots move while they scan: no point is trusted further than the first. Beyond the second
-neighbouring walls could not be told apart."""
+"""Bounds on the standard deviation of a range. Walls are rough and robots move while they scan, so that no point is
+trusted further than the first. Beyond the second, neighbouring walls could not be told apart."""
 
-SCANS = 300
-FEWEST = 100
+SCANS, FEWEST = 300, 100
+"""Scans that the noise is estimated from, and the fewest triples of beams that give an estimate."""
+
 GAP_M, GAP_STEPS = 0.15, 3.5
-"""Neighbouring readings that differ by more, and by so many distances between beams, are of different surfaces."""
+"""Neighbouring readings that differ by more than both together lie on different surfaces: metres, beam spacings."""
 
 MEDIAN_OF_NORMAL = 0.6745
 
 
 def range_noise_m(ranges_m: Floats, step_rad: float) -> float:
-    """Standard deviation of a range, between `LEAST_M` and `MOST_M`.
+    """Estimate the standard deviation of a range, between `LEAST_M` and `MOST_M`.
 
-    Along a straight wall the inverse ranges of three neighbouring beams obey 1/r_1 + 1/r_3 = 2 cos(step) / r_2. What
-    is left over, times r_2^2, has six times the variance of a range. The median of its size is taken, for corners and
-    edges are few.
+    Along a straight wall the inverse ranges of three neighbouring beams obey 1/r_1 + 1/r_3 = 2 cos(step) / r_2. The
+    residual of this equation, times r_2^2, has six times the variance of a range. Its median absolute value is robust
+    against corners and edges, which are few.
 
     Args:
-        ranges_m: readings in the order of angles, shape (S, B), NaN or infinite where there is no hit.
+        ranges_m: readings in the order of angles, (S, B), NaN or infinite where there is no hit.
         step_rad: the angle between neighbouring beams.
     """
     some = ranges_m[:: max(1, len(ranges_m) // SCANS)]
@@ -53,30 +51,30 @@ def range_noise_m(ranges_m: Floats, step_rad: float) -> float:
 
 
 REACH_M, REACH_SIGMAS = 0.12, 10.0
-"""How far to either side of a point its wall's direction is fitted at first, and at least so many standard deviations
-of a point: narrower fits let scans slide, and among points that scatter as widely as they are apart there is no
-line."""
+"""Half the length of wall to which a normal is fitted: metres, and at least so many standard deviations of a point.
+Narrower fits let scans slide along walls."""
 
 NEAREST_M = 0.05
-"""Readings closer than this are the robot itself."""
+"""Readings closer than this hit the robot itself."""
 
 PAIR_SIGMAS, SCALE_SIGMAS = 6.0, 3.0
-"""Standard deviations of a range: the distance between two points of one wall has the square root of two of them."""
+"""Least pairing distance and least outlier scale, in standard deviations of a range."""
 
 BINS_A_BEAM = 4
+"""Bins of angle for each beam in the table of `Fans`."""
 
 
 @dataclass(frozen=True, eq=False)
 class Fans:
-    """Where the beams of S scans point; beams are in the order of angles.
+    """The beam directions of S scans; beams are in the order of angles.
 
     Attributes:
-        beams: how many each scan has, (S,).
-        step_rad: the usual angle between neighbouring beams of each, (S,).
+        beams: number of beams of each scan, (S,).
+        step_rad: median angle between neighbouring beams of each scan, (S,).
         full_circle: whether the last beam's neighbour is the first, (S,).
-        layout: which row of ``beam_of_angle`` is meant, (S,): scans with the same beams share one.
-        beam_of_angle: (layouts, bins), the beam nearest to each of equal bins of angle from -pi to pi; -1 where none is
-            near.
+        layout: row of ``beam_of_angle`` for each scan, (S,); scans with equal beams share a row.
+        beam_of_angle: the beam nearest to each of equal bins of angle from -pi to pi, (layouts, bins); -1 where none
+            is near.
     """
 
     beams: NDArray[np.int32]
@@ -87,15 +85,14 @@ class Fans:
 
     @classmethod
     def of(cls, angles_rad: Floats, scans: int) -> Fans:
-        """The fans of beams at ascending angles: (1, A) for all scans, or (S, A), NaN past a scan's last beam."""
+        """Return the fans of beams at ascending angles, (1, A) for all scans or (S, A), NaN past a scan's last beam."""
         beams = np.isfinite(angles_rad).sum(axis=1)
         rows: dict[bytes, int] = {}
         layout = np.array([rows.setdefault(row.tobytes(), len(rows)) for row in angles_rad])
         first = np.array([np.argmax(layout == i) for i in range(len(rows))])  # scan of each layout
         fans = [angles_rad[scan, : beams[scan]] for scan in first]
         steps = [float(np.median(np.diff(fan))) if len(fan) > 1 else np.pi for fan in fans]
-        # Beams that say one direction twice have no step.
-        steps = [step if step > 0 else np.pi for step in steps]
+        steps = [step if step > 0 else np.pi for step in steps]  # beams that repeat one direction have no step
         circle = [
             len(fan) > 8 and 2.0 * np.pi - (fan[-1] - fan[0]) < 1.9 * step
             for fan, step in zip(fans, steps, strict=True)
@@ -109,7 +106,7 @@ class Fans:
         )  # fmt: skip
 
     def select(self, scans: NDArray[np.intp]) -> Fans:
-        """Those of some of the scans."""
+        """Return the fans of some of the scans."""
         return replace(
             self, beams=self.beams[scans], step_rad=self.step_rad[scans], full_circle=self.full_circle[scans],
             layout=self.layout[scans],
@@ -118,17 +115,18 @@ class Fans:
 
 @dataclass(frozen=True, eq=False)
 class ScanGeometry:
-    """Points and normals of S scans of up to B beams. Arrays on the device are Warp's; beams in the order of angles.
+    """Points and normals of S scans of up to B beams, as Warp arrays; beams in the order of angles.
 
     Attributes:
-        points: (S, B) on the device, where each beam ended, metres in the laser's frame.
-        normals: (S, B) on the device, unit normal of the wall there, towards the laser; zero where there is none.
-        kind: (S, B) on the device: 0 no point, 1 a point, 2 a point with a normal.
-        spread: (S, B) on the device: variance of the normal's angle, per variance of a point, 1 / m^2.
-        fans: where the beams point.
+        points: end point of each beam, metres in the laser's frame, (S, B).
+        normals: unit normal of the wall there, towards the laser, (S, B); zero where there is none.
+        kind: 0 no point, 1 a point, 2 a point with a normal, (S, B).
+        spread: variance of the normal's angle for a unit variance of the points, 1 / m^2, (S, B).
+        fans: directions of the beams.
         farthest_m: hits beyond are left out.
-        noise_m: standard deviation of a range, found from the scans.
-        device: where the arrays are.
+        noise_m: standard deviation of a range, estimated from the scans.
+        device: device of the arrays.
+        threads: number of threads for all that is computed from this geometry; all cores if None.
     """
 
     points: Any
@@ -139,42 +137,43 @@ class ScanGeometry:
     farthest_m: float
     noise_m: float = LEAST_M
     device: str = "cpu"
+    threads: int | None = None
 
     def __len__(self) -> int:
         return int(self.kind.shape[0])
 
     @property
     def beams(self) -> int:
-        """Beams of the largest scan."""
+        """The number of beams of the largest scan."""
         return int(self.kind.shape[1])
 
     def reach_m(self, first_m: float, last_m: float) -> tuple[float, float]:
-        """How far paired points may lie apart, at first and at last: no less than the noise sets them apart."""
+        """Return the greatest distance of paired points in the first and the last round, raised to fit the noise."""
         least = PAIR_SIGMAS * self.noise_m
         return max(first_m, least), max(last_m, least)
 
     def scale_m(self, first_m: float, last_m: float) -> tuple[float, float]:
-        """Geman and McClure's c, at first and at last: one below the noise would take noise for outliers."""
+        """Return Geman and McClure's c in the first and the last round, raised so that noise makes no outliers."""
         least = SCALE_SIGMAS * self.noise_m
         return max(first_m, least), max(last_m, least)
 
     @cached_property
     def host_points(self) -> NDArray[np.float32]:
-        """(S, B, 2) in main memory."""
+        """The points in main memory, (S, B, 2)."""
         return np.asarray(self.points.numpy())
 
     @cached_property
     def host_normals(self) -> NDArray[np.float32]:
-        """(S, B, 2) in main memory."""
+        """The normals in main memory, (S, B, 2)."""
         return np.asarray(self.normals.numpy())
 
     @cached_property
     def host_kind(self) -> NDArray[np.uint8]:
-        """(S, B) in main memory."""
+        """The kinds in main memory, (S, B)."""
         return np.asarray(self.kind.numpy())
 
     def select(self, scans: NDArray[np.intp]) -> ScanGeometry:
-        """Some of the scans, copied."""
+        """Return the geometry of some of the scans, copied."""
         from bayesmap.kernels.match.scan_geometry import selected
 
         return replace(
@@ -183,21 +182,21 @@ class ScanGeometry:
         )  # fmt: skip
 
     def points_of(self, scan: int, most: int | None = None) -> Floats:
-        """The points of one scan, shape (N, 2): all, or about ``most`` of them, evenly spaced by beams."""
+        """Return the points of one scan, (N, 2): all, or ``most`` of them, evenly spaced by beams."""
         points: Floats = self.host_points[scan][self.host_kind[scan] > 0].astype(np.float64)
-        return points if most is None or len(points) <= most else points[_evenly(len(points), most)]
+        return points if most is None or len(points) <= most else points[np.arange(most) * len(points) // most]
 
 
 def scan_geometry(
     scans: Scans, *, farthest_m: float | None = None, device: str = "cpu", threads: int | None = None
 ) -> ScanGeometry:
-    """Points and normals of scans, by the scans' own angles and limits.
+    """Compute points and normals of scans, by the scans' own angles and limits; their poses are not used.
 
     Args:
-        scans: their poses are not looked at.
+        scans: S scans.
         farthest_m: leave out hits beyond; by default the sensor's largest range.
         device: "cpu" or a CUDA device.
-        threads: to compute with; by default all cores.
+        threads: number of threads, by default all cores; matching uses as many.
     """
     from bayesmap.kernels.match.scan_geometry import points_and_normals
 
@@ -214,11 +213,11 @@ def scan_geometry(
     noise = range_noise_m(np.where((ranges > nearest) & (ranges < limit), ranges, np.nan), step)
     reach = max(REACH_M, REACH_SIGMAS * noise)
     arrays = points_and_normals(ranges, angles, nearest, limit, fans, reach, noise, device, threads)
-    return ScanGeometry(*arrays, fans, limit, noise, device)
+    return ScanGeometry(*arrays, fans, limit, noise, device, threads)
 
 
 def _beam_of_angle(angles_rad: Floats, step_rad: float, bins: int) -> NDArray[np.int32]:
-    """The nearest beam for bins of angle; beams further than a few steps away do not count."""
+    """Return the nearest beam for each bin of angle, (bins,); -1 where it is more than two steps away."""
     if not len(angles_rad):
         return np.full(bins, -1, dtype=np.int32)
     middles = -np.pi + (np.arange(bins) + 0.5) * 2.0 * np.pi / bins
@@ -228,7 +227,3 @@ def _beam_of_angle(angles_rad: Floats, step_rad: float, bins: int) -> NDArray[np
     beam = nearest % len(angles_rad)
     far = np.abs(around[nearest] - middles) > 2.0 * step_rad
     return np.where(far, -1, beam).astype(np.int32)
-
-
-def _evenly(count: int, most: int) -> NDArray[np.intp]:
-    return np.asarray(np.arange(most) * count // most, dtype=np.intp)

@@ -1,11 +1,9 @@
-"""From scans and raw odometry to a trajectory with covariances: the stages, one after the other."""
+"""Inference of a trajectory with covariances from scans and raw odometry: the stages, one after the other."""
 
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
-from dataclasses import dataclass, replace
-from typing import Any
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,27 +14,23 @@ from bayesmap.poses.front_end import Track, follow, grid_half_width
 from bayesmap.poses.key_alignment import KeyAlignment, flag_unexplained
 from bayesmap.poses.key_graph import ClosedGraph, close_loops, contradicted_links, poses_between_keys, unconfirmed_links
 from bayesmap.poses.log_checks import check_scans
-from bayesmap.poses.odometry_factors import StatedOdometry, stated_odometry
+from bayesmap.poses.odometry_factors import stated_odometry
 from bayesmap.poses.placement import place_scans
 from bayesmap.poses.scan_geometry import scan_geometry
-from bayesmap.poses.stages import Stages, fingerprint
+from bayesmap.poses.stages import OnPoses, Progress, Report, Stages, fingerprint
 from bayesmap.poses.trajectory import NO_ALTERNATIVES, Alternatives, Calibration, LoopClosures, Trajectory, calibrated
 from bayesmap.space.planar import between, compose, nearest, wrapped
 from bayesmap.space.scans import Scans
 from bayesmap.space.time_order import time_order
 
 Floats = NDArray[np.float64]
-Progress = Callable[[str, int, int], None]
-OnPoses = Callable[[str, Floats], None]
 
 FARTHEST_M = 30.0
-"""Hits beyond are not matched: beams are then half a metre apart and more."""
+"""Hits beyond are not matched: there beams are half a metre apart and more."""
 
 ANGLE_TOLERANCE = 0.003
-"""A smaller relative error of the angle between beams is not corrected: over half a circle it turns by 0.3 degrees."""
-
-LOOKS = 60
-"""How often the front end says where the robot is, at most."""
+"""Relative error of the angle between beams that is not corrected: it moves the last beam of half a circle by half a
+degree."""
 
 
 def infer_trajectory(
@@ -51,22 +45,22 @@ def infer_trajectory(
     on_progress: Progress | None = None,
     on_poses: OnPoses | None = None,
 ) -> Trajectory:
-    """Infer where a robot was from its scans and its raw odometry.
+    """Infer the trajectory of a robot from its scans and its raw odometry.
 
     Args:
         scans: S scans whose poses are raw odometry (of the laser). Stamps may come in bursts or out of order: scans
             are taken in the order of time, or of the log where its clock was set back (`bayesmap.space.time_order`).
-        no_odometry: do not look at the poses; the scans must come at 5 Hz or so.
-        calibrate_angles: find the angle between beams, too, rather than to believe what the log states.
-        seed: of whatever is random; the result is the same for any number of threads.
-        threads: to compute with; by default all cores.
+        no_odometry: whether to ignore the poses; the scans must then come at about 5 Hz.
+        calibrate_angles: whether to estimate the angle between beams, too, or to trust the log.
+        seed: of random numbers; the result is the same for any number of threads.
+        threads: number of threads, by default all cores.
         device: "cpu" or a CUDA device.
-        checkpoint: a folder for finished stages: a run that is interrupted and started again on the same scans goes on.
+        checkpoint: a folder for finished stages: an interrupted run that is started again on the same scans goes on.
         on_progress: called as (stage, done, of).
         on_poses: called as (stage, poses) now and then in the front end, and after each round of every other stage
-            that is not taken from the checkpoint: where all scans are as far as is known, (S, 3), in the order of time
-            and the frame of `Trajectory.poses`. Scans that the front end has not come to go on by odometry. What it
-            raises ends the inference.
+            that is not taken from the checkpoint. The poses are those of all scans as far as they are known, (S, 3), in
+            the order of time and the frame of `Trajectory.poses`; scans after the front end's follow odometry. An
+            exception in the callback ends the inference.
 
     Raises:
         BadInput: fewer than two scans, scans without a single hit, odometry that stands still all the time although
@@ -76,16 +70,14 @@ def infer_trajectory(
     check_scans(scans, no_odometry)
     order, scans = in_order_of_time(scans)
     stages = Stages(checkpoint, _digest(scans, f"3 {no_odometry} {calibrate_angles} {seed}"))
-    report = _Report(np.zeros(3) if no_odometry else scans.poses[0], on_progress, on_poses)
+    report = Report(np.zeros(3) if no_odometry else scans.poses[0], on_progress, on_poses)
     geometry = scan_geometry(scans, farthest_m=FARTHEST_M, device=device, threads=threads)
-    odometry = stated_odometry(scans, None if no_odometry else geometry, threads)
+    odometry = stated_odometry(scans, None if no_odometry else geometry)
 
     # The front end matches every scan to those before it, and says which motions are stated the wrong way round.
     def match_all() -> Track:
         told = report.of_front_end(odometry)
-        return follow(
-            geometry, odometry.used_motions, odometry.stamps_s, odometry.impossible, on_progress=told, threads=threads
-        )
+        return follow(geometry, odometry.used_motions, odometry.stamps_s, odometry.impossible, told)
 
     track = stages.get("front-end", Track, match_all)
     odometry = odometry.reversed_at(track.against)
@@ -93,20 +85,21 @@ def infer_trajectory(
 
     # Loops between key scans are closed.
     def find_loops() -> ClosedGraph:
-        told = report.of_keys(track, "loops", 3)
-        return close_loops(geometry, track, on_progress=told, threads=threads)
+        return close_loops(geometry, track, report.of_keys(track, "loops", 3))
 
     closed = stages.get("loops", ClosedGraph, find_loops)
 
     # Key scans are aligned with all others that see the same walls.
-    half_width_m = grid_half_width(geometry)
-    alignment = KeyAlignment(geometry.select(keys), track, half_width_m, report.of_keys, threads)
+    alignment = KeyAlignment(geometry.select(keys), track, grid_half_width(geometry), report.of_keys)
     first = alignment.align("aligned", closed.poses, odometry.first_factors(track, closed.poses), wide=True)
 
     # Laser and odometry are calibrated, and key scans aligned once more.
     poses, ratio = first.poses, 1.0
     if calibrate_angles:
-        ratio = _angle_ratio(scans.select(keys), poses, first.pairs.source, first.pairs.target, threads)
+        pairs = first.pairs.source, first.pairs.target
+        ratio = angle_step_ratio(scans.select(keys), poses, *pairs, farthest_m=FARTHEST_M, threads=threads)
+    if abs(ratio - 1.0) <= ANGLE_TOLERANCE:
+        ratio = 1.0
     if ratio != 1.0:
         poses = poses.copy()  # beams are stretched from the first on: the middle one keeps its direction
         poses[:, 2] -= 0.5 * (ratio - 1.0) * scans.select(keys).sweep_rad
@@ -123,14 +116,14 @@ def infer_trajectory(
 
     # The other scans are placed between the key scans.
     start = poses_between_keys(track.poses, keys, final.poses, track.broken)
-    error = point_error(alignment.geometry, final, threads)
-    placed = place_scans(geometry, start, keys, final.poses, final.pairs, final.sigma_m, error, threads=threads)
+    error = point_error(alignment.geometry, final)
+    placed = place_scans(geometry, start, keys, final, error)
     report.told("placing", len(scans), len(scans), placed.poses)
 
     # What is known, how well, and what is doubtful.
     leaping = contradicted_links(track, final.poses)
     if odometry.used:
-        leaping |= unconfirmed_links(geometry, track, factors, final.poses, threads)
+        leaping |= unconfirmed_links(geometry, track, factors, final.poses)
     gaussian = replace(with_point_error(final, error), poses=compose(report.origin, final.poses))
     alternatives, elsewhere = alternatives_of(closed, keys, gaussian.poses)
     explained = placed.matched.copy()
@@ -156,7 +149,7 @@ def infer_trajectory(
 
 
 def in_order_of_time(scans: Scans) -> tuple[NDArray[np.intp], Scans]:
-    """Return where each scan of the order of time stands in the log, (S,), and the scans in that order."""
+    """Sort scans by time. Returns the index in the log of each, (S,), and the sorted scans."""
     if scans.stamps_s is None:
         return np.arange(len(scans)), scans
     timed = time_order(scans.stamps_s)
@@ -164,7 +157,7 @@ def in_order_of_time(scans: Scans) -> tuple[NDArray[np.intp], Scans]:
 
 
 def alternatives_of(closed: ClosedGraph, keys: NDArray[np.intp], poses: Floats) -> tuple[Alternatives, Floats | None]:
-    """Return the alternatives to the poses of the keys, (K, 3), and the steps to them for `PoseGaussian.elsewhere`."""
+    """Return the alternatives to the keys' poses, (K, 3), and the steps to them that `PoseGaussian.elsewhere` holds."""
     weighed = closed.weighed
     if not len(weighed.probabilities):
         return NO_ALTERNATIVES, None
@@ -176,67 +169,14 @@ def alternatives_of(closed: ClosedGraph, keys: NDArray[np.intp], poses: Floats) 
 
 
 def _digest(scans: Scans, settings: str) -> str:
+    """Return the digest that names the checkpoints of these scans and settings."""
     own = () if scans.own_angles_rad is None else (scans.own_angles_rad,)
-    limits = f"{scans.max_range_m} {scans.min_range_m}"
-    return fingerprint(
-        scans.poses, scans.ranges_m, scans.angles_rad, scans.stamps_s, *own, settings=f"{settings} {limits}"
-    )
-
-
-def _angle_ratio(scans: Scans, poses: Floats, first: NDArray[Any], second: NDArray[Any], threads: int | None) -> float:
-    """Return the angle between beams by the stated one; 1 where the difference is too small to matter."""
-    found = angle_step_ratio(scans, poses, first, second, farthest_m=FARTHEST_M, threads=threads)
-    return found if abs(found - 1.0) > ANGLE_TOLERANCE else 1.0
+    settings = f"{settings} {scans.max_range_m} {scans.min_range_m}"
+    return fingerprint(scans.poses, scans.ranges_m, scans.angles_rad, scans.stamps_s, *own, settings=settings)
 
 
 def _closures(closed: ClosedGraph, keys: NDArray[np.intp], poses: Floats) -> LoopClosures:
-    """Return the loop closures with what the final poses of the keys, (K, 3), differ from them."""
+    """Return the loop closures with their residuals at the final poses of the keys, (K, 3)."""
     found = closed.closures
     residuals = found.factors().errors(poses)
     return LoopClosures(keys[found.first], keys[found.second], found.relative, residuals, closed.weights)
-
-
-@dataclass(frozen=True, eq=False)
-class _Report:
-    """Tells how far a stage is, and where all scans are: poses in the frame of the first scan, told in the map's.
-
-    Attributes:
-        origin: the first scan's pose in the map, (3,).
-        on_progress: as for `infer_trajectory`.
-        on_poses: likewise.
-    """
-
-    origin: Floats
-    on_progress: Progress | None
-    on_poses: OnPoses | None
-
-    def told(self, stage: str, done: int, of: int, poses: Floats | Callable[[], Floats]) -> None:
-        if self.on_progress is not None:
-            self.on_progress(stage, done, of)
-        if self.on_poses is not None:
-            self.on_poses(stage, compose(self.origin, poses() if callable(poses) else poses))
-
-    def of_keys(self, track: Track, stage: str, rounds: int) -> Callable[[int, Floats], None]:
-        """Return what a stage calls with the number of rounds that are done and the poses of the keys, (K, 3)."""
-
-        def told(done: int, at: Floats) -> None:
-            self.told(stage, done, rounds, lambda: poses_between_keys(track.poses, track.keys, at, track.broken))
-
-        return told
-
-    def of_front_end(self, odometry: StatedOdometry) -> Callable[[int, Floats], None]:
-        """Return what the front end calls with the number of scans that are done and the poses, (S, 3)."""
-        count, next_look = len(odometry.poses), 0
-
-        def told(done: int, poses: Floats) -> None:
-            nonlocal next_look
-            if self.on_progress is not None:
-                self.on_progress("front end", done, count)
-            if self.on_poses is not None and done >= next_look:
-                next_look = done + -(-count // LOOKS)
-                stated = odometry.poses[done - 1 :]
-                rest = between(stated[:1], stated[1:]) * (1.0 if odometry.used else 0.0)
-                known = np.concatenate([poses[:done], compose(poses[done - 1], rest)])
-                self.on_poses("front end", compose(self.origin, known))
-
-        return told

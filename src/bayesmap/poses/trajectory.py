@@ -1,4 +1,4 @@
-"""What inference of a trajectory gives."""
+"""The inferred trajectory: poses of all scans, their covariances and draws, and what is doubtful."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from bayesmap.poses.calibration import OdometryFit
 from bayesmap.poses.graph import Factors
 from bayesmap.poses.pose_gaussian import PoseGaussian
 from bayesmap.poses.prior import Odometry
-from bayesmap.space.planar import between, between_jacobians, compose, retract
+from bayesmap.space.planar import between, between_jacobians, compose, retract, rotation
 from bayesmap.space.scans import Scans
 
 Floats = NDArray[np.float64]
@@ -24,7 +24,7 @@ class LoopClosures:
     Attributes:
         first, second: indices of the scans, (M,).
         relative: the second's pose in the first's frame, as matched, (M, 3).
-        residuals: what the final poses differ from that, x, y, yaw, (M, 3).
+        residuals: difference of the final poses from that, x, y, yaw, (M, 3).
         weights: how far each was believed, from 0 to 1.
     """
 
@@ -40,10 +40,10 @@ class LoopClosures:
 
 @dataclass(frozen=True, eq=False)
 class Alternatives:
-    """Other trajectories that are not excluded: of each a stretch of the way hangs on one visit of a place.
+    """Other trajectories that are not excluded, each with another pose of one stretch of the path.
 
     Attributes:
-        first, last: scans between which the way hangs on a visit that may be of another place that looks alike, (A,).
+        first, last: scans at the ends of the stretch, which depends on a visit that may be of another place, (A,).
         probabilities: that the alternative is right and not the trajectory, (A,).
         poses: of the key scans in each alternative, (A, K, 3).
     """
@@ -62,14 +62,14 @@ NO_ALTERNATIVES = Alternatives(np.empty(0, np.intp), np.empty(0, np.intp), np.em
 
 @dataclass(frozen=True, eq=False)
 class Calibration:
-    """What was found out about laser and odometry.
+    """The calibration of laser and odometry.
 
     Attributes:
-        angle_step_ratio: the angle between beams, by the stated one.
+        angle_step_ratio: the angle between beams, divided by the stated one.
         angles_rad: the beam angles that were used, (A,); where they differ from scan to scan, those of the largest: use
             `calibrated`.
         odometry: systematic error, lag and noise of odometry; None where there was none.
-        noise: the same noise as parameters of the prior `Odometry`; None where there was none.
+        noise: the noise as parameters of the prior `Odometry`; None where there was none.
         point_sigma_m: standard deviation of a point of a scan about its wall.
     """
 
@@ -81,7 +81,7 @@ class Calibration:
 
 
 def calibrated(scans: Scans, angle_step_ratio: float) -> Scans:
-    """The scans with the angle between beams that was found, by the stated one."""
+    """Return the scans with the calibrated angle between beams."""
     return scans if angle_step_ratio == 1.0 else scans.stretched(angle_step_ratio)
 
 
@@ -89,7 +89,7 @@ def calibrated(scans: Scans, angle_step_ratio: float) -> Scans:
 class Trajectory:
     """Poses of all scans with their uncertainty.
 
-    The uncertainty is that of Student's t with ``gaussian.dof`` degrees of freedom over the poses of key scans; scans
+    The uncertainty is that of Student's t with ``gaussian.dof`` degrees of freedom over the poses of key scans. Scans
     between them move with the key scan nearest in time, plus an uncertainty of their own.
 
     Attributes:
@@ -98,21 +98,21 @@ class Trajectory:
         keys: indices of the key scans, (K,).
         gaussian: over the poses of the key scans.
         nearest_key: position among the keys of each scan's, (S,).
-        own_covariance: of each scan about that, in its own frame, (S, 3, 3), again the scale matrix of a Student's t;
-            zero for key scans.
+        own_covariance: scale matrix of Student's t of each scan about its key scan, in its own frame, (S, 3, 3); zero
+            for key scans.
         explained: share of each scan's points that other scans explain, from 0 to 1, (S,).
-        flagged: scans that stay badly explained: their poses are not to be trusted, (S,).
-        breaks: scans before which the motion is unlike any that odometry or the laser can confirm: the robot was
-            carried, or data are missing; indices.
-        leaps: scans before which the poses move as neither odometry nor the matches of one scan after the other did:
-            loops hold the ways before and after where they cannot both be. Or odometry refutes the motion, and the
-            scans just before explain the scan badly. Indices.
-        alternatives: where the scans are if a visit was of another place that looks alike, or is one after all.
-            Covariances and draws hold their spread, too.
+        flagged: scans that stay badly explained, whose poses are not to be trusted, (S,).
+        breaks: scans before which neither odometry nor the laser confirms the motion: the robot was carried, or data
+            are missing; indices.
         closures: loop closures.
         calibration: of laser and odometry.
-        order: for each scan its index in the log, where that was not in order of time.
-        odometry: what corrected odometry says of the motions between key scans; None where there was none.
+        order: index in the log of each scan, where that was not in order of time.
+        odometry: factors of corrected odometry between key scans; None where there was none.
+        leaps: scans before which the poses move as neither odometry nor the front end did, because loops hold the
+            path before and after where they cannot both be; or odometry refutes the motion, and the scans just before
+            explain the scan badly. Indices.
+        alternatives: poses if a visit was of another place that looks alike, or is one after all. Covariances and
+            draws contain their spread.
     """
 
     poses: Floats
@@ -140,9 +140,9 @@ class Trajectory:
         return compose(keys[self.nearest_key], between(self.gaussian.poses[self.nearest_key], self.poses))
 
     def relative_covariances(self, first: NDArray[np.intp], second: NDArray[np.intp]) -> Floats:
-        """Scale matrices of the relative poses of pairs of scans, in the first's frame, (N, 3, 3).
+        """Return scale matrices of Student's t of the relative poses of scans, in the first's frame, (N, 3, 3).
 
-        Those of a Student's t with ``gaussian.dof`` degrees of freedom: covariances are dof / (dof - 2) times as large.
+        Covariances are dof / (dof - 2) times as large, where dof is ``gaussian.dof``.
         """
         first, second = np.asarray(first, np.intp), np.asarray(second, np.intp)
         a, b = self.nearest_key[first], self.nearest_key[second]
@@ -150,10 +150,7 @@ class Trajectory:
         in_a = between(self.gaussian.poses[a], self.poses[first])
         in_b = between(self.gaussian.poses[b], self.poses[second])
         # between(first, second) = in_a^-1 * between(a, b) * in_b
-        cosine, sine = np.cos(in_a[:, 2]), np.sin(in_a[:, 2])
-        turn = np.zeros((len(first), 3, 3))
-        turn[:, 0, 0] = turn[:, 1, 1] = cosine
-        turn[:, 0, 1], turn[:, 1, 0], turn[:, 2, 2] = sine, -sine, 1.0
+        turn = np.swapaxes(rotation(in_a[:, 2]), 1, 2)
         yaw = between(self.gaussian.poses[a], self.gaussian.poses[b])[:, 2]
         lever = np.tile(np.eye(3), (len(first), 1, 1))
         lever[:, 0, 2] = -(np.sin(yaw) * in_b[:, 0] + np.cos(yaw) * in_b[:, 1])
@@ -166,12 +163,10 @@ class Trajectory:
         return np.asarray(result)
 
     def covariances(self) -> Floats:
-        """Covariance of each pose given the first, in the world's axes, (S, 3, 3)."""
+        """Return the covariance of each pose given the first, in the world's axes, (S, 3, 3)."""
         scans = np.arange(len(self))
         relative = self.relative_covariances(np.zeros(len(self), np.intp), scans)
-        cosine, sine = np.cos(self.poses[0, 2]), np.sin(self.poses[0, 2])
-        turn = np.array([[cosine, -sine, 0.0], [sine, cosine, 0.0], [0.0, 0.0, 1.0]])
-        dof = self.gaussian.dof
+        turn, dof = rotation(self.poses[0, 2]), self.gaussian.dof
         return np.asarray(dof / (dof - 2.0) * turn @ relative @ turn.T)
 
     def draw(self, count: int, seed: int, first_draw: int = 0) -> Floats:

@@ -10,9 +10,8 @@ tenth of the training scans is left out of the counts and predicted, in as many 
 `BEAMS_WANTED` beams. Scans that are scored in the end have no part in it.
 
 An external map, made by another program, gives for each cell the probability that it is occupied, or that it is
-unknown. It does not say what that means for a beam. So the following are fitted along with the sensor: the chance that
-a beam stops in a cell called occupied (probability 1), in one called free (0), between the two along the logit, and in
-an unknown one.
+unknown. It does not say what that means for a beam. So the stop probabilities of cells called occupied (probability 1),
+free (0) and unknown are fitted along with the sensor; between the first two they follow the logit.
 """
 
 from __future__ import annotations
@@ -39,13 +38,11 @@ P_LEAST, P_MOST = 0.1192, 0.971
 """OctoMap's defaults: what a hit and a miss say, and where the probability of a cell is clamped."""
 
 NOISES: tuple[float | None, ...] = (None, 4.0)
-"""Degrees of freedom that are tried: normal noise, and Student-t noise with heavy tails."""
+"""Degrees of freedom of the noises that are tried: normal, and Student-t with heavy tails."""
 
 
 def hit_ratio(hits: Floats, passes: Floats, values: Mapping[str, float]) -> Floats:
-    """Compute (hits + a) / (hits + passes + a + b): the mean of a Beta posterior, if the counts were of beams that
-    reach the cell.
-    """
+    """Compute (hits + a) / (hits + passes + a + b): a Beta posterior's mean, if every beam reached the cell."""
     a, b = values["a"], values["b"]
     return (hits + a) / (hits + passes + a + b)
 
@@ -76,7 +73,7 @@ class Baseline:
 
     Attributes:
         name: in tables.
-        stop: stop probabilities of all cells, from the hits and passes of all, and the row's own parameters.
+        stop: returns stop probabilities of all cells from their hits and passes, and the row's own parameters.
         own: those parameters.
         starts: where their fit starts.
     """
@@ -128,7 +125,7 @@ class Fitted:
         name: of the baseline.
         predictor: its map from all training scans, its sensor, its hit depth.
         values: all fitted numbers.
-        inner_nats_per_beam: what they reached on the inner hold-out.
+        inner_nats_per_beam: score on the inner hold-out.
     """
 
     name: str
@@ -178,13 +175,8 @@ def fit_baseline(
     for dof, on_share in zip(NOISES, parts(on_progress, *climbs), strict=True):
         # Heavy tails start where normal noise ended: the rest is nearly the same.
         begin = starts if best is None else [best[1] | {"scale_m": 0.7 * best[1]["scale_m"]}]
-        values, score = maximise(
-            partial(inner_score, whole, baseline, dof),
-            partial(inner_score, part, baseline, dof),
-            (*SENSOR, *baseline.own),
-            begin,
-            on_share,
-        )
+        scores = partial(inner_score, whole, baseline, dof), partial(inner_score, part, baseline, dof)
+        values, score = maximise(*scores, (*SENSOR, *baseline.own), begin, on_share)
         if best is None or score > best[0]:
             best = score, values, dof
     assert best is not None

@@ -1,11 +1,12 @@
 """Decisions from a posterior: whether a path is free, which route to take, where to look next.
 
-The parts are in `passage`, `route` and `information`; here they are given the draws of a run.
+The algorithms are in `bayesmap.posterior.route` and `bayesmap.posterior.information`; here they get the draws of a run.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
+from functools import partial
 from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
@@ -35,18 +36,16 @@ if TYPE_CHECKING:
 Floats = NDArray[np.float64]
 
 SEARCH_DRAWS = 60
-"""Draws by which ways are proposed; all draws then judge each of them."""
+"""Draws by which paths are proposed; all draws then judge each of them."""
 
 INFORMATION_DRAWS = 50
-"""Draws that are compared, unless the caller says otherwise: the work grows with their square."""
+"""Default number of draws that are compared: the work grows with its square."""
 
 REACHABLE = 0.5
-"""A robot can be where its disc touches nothing with at least this probability, as a place to look from."""
+"""Least probability that the disc touches nothing at a place to look from."""
 
-HEADINGS = 8
-"""Directions in which a sensor without a full circle is tried at each place."""
-
-FULL_CIRCLE_RAD = np.radians(350.0)
+HEADINGS, FULL_CIRCLE_RAD = 8, np.radians(350.0)
+"""Directions that are tried at each place, and the field of view from which one direction is enough."""
 
 
 class Drawn(Protocol):
@@ -65,7 +64,7 @@ def path_is_free(posterior: Drawn, path: ArrayLike, radius_m: float) -> FreeProb
     """Compute the probability that a disc can move along a path (`bayesmap.posterior.route`).
 
     Raises:
-        BadInput: no draws, a path that is none, or leaves the map, or a radius that is not positive.
+        BadInput: no draws, no path, a path that leaves the map, or a radius that is not positive.
     """
     _need_draws(posterior, "free_probability")
     corners, grid = checked_path(path), posterior.draws.grid
@@ -94,16 +93,12 @@ def shortest_safe_path(
     if any(len(end) != 1 for end in ends):
         raise BadInput("plan: start and goal are one point each: x, y in metres")
     blocked = blocked_anywhere(posterior, radius_m, on_progress)
-    return plan_route(
-        blocked, posterior.draws.grid, ends[0][0], ends[1][0], risk,
-        lambda path: path_is_free(posterior, path, radius_m),
-    )  # fmt: skip
+    judge = partial(path_is_free, posterior, radius_m=radius_m)
+    return plan_route(blocked, posterior.draws.grid, ends[0][0], ends[1][0], risk, judge)
 
 
 def blocked_anywhere(posterior: Drawn, radius_m: float, on_progress: OnShare = ignored) -> Floats:
-    """Compute the probability that a disc about each cell's centre touches something, by `SEARCH_DRAWS` draws, (nx,
-    ny).
-    """
+    """Compute the probability that a disc about each cell's centre touches something, (nx, ny), by `SEARCH_DRAWS`."""
     draws = posterior.draws.thinned(SEARCH_DRAWS)
     batches = watched(posterior.prior.drawn_stops(draws), draws.size, on_progress)
     return blocked_probability(batches, draws.grid, radius_m)
@@ -121,9 +116,7 @@ def information_of(
     device: str = "cpu",
     on_progress: OnShare = ignored,
 ) -> Information:
-    """Compute the expected information of one more scan from each pose (`bayesmap.posterior.information`); see
-    `bayesmap.Run.information_gain`.
-    """
+    """Compute the expected information of one more scan from each pose; see `bayesmap.Run.information_gain`."""
     _need_draws(posterior, "information_gain")
     if draws is not None and draws < 2:
         raise BadInput(f"information_gain: draws must be 2 or more, got {draws!r}")
@@ -148,9 +141,7 @@ def information_of(
 
 
 def typical_sigma_m(sensor: SensorModel, max_range_m: float) -> float:
-    """Return the spread of readings about a wall at a quarter of the largest range, in metres: half the width of the
-    middle 68 % of 4000 drawn hits.
-    """
+    """Return half the width of the middle 68 % of 4000 drawn hits on a wall at a quarter of the largest range, m."""
     from bayesmap.sensors.model import RangeLimits
 
     at_m = 0.25 * max_range_m
@@ -166,7 +157,7 @@ class Views:
     Attributes:
         candidates: poses that were considered, (P, 3).
         independent: nats that the formula for independent cells and beams expects from each, (P,).
-        best: numbers of the best candidates, by what joint draws say at most, the best first, (V,).
+        best: numbers of the best candidates by the upper bound from joint draws, the best first, (V,).
         information: of these, (V,).
     """
 
@@ -189,8 +180,8 @@ def next_views(
     """Find the most informative poses among candidates that a robot can reach.
 
     Candidates are spread over the places at which a disc is free with probability `REACHABLE` and which such places
-    connect with where the robot was last. The fast formula goes over all; twice as many as are wanted, apart from each
-    other, are then compared by joint draws.
+    connect with where the robot was last. The fast formula ranks all; of the best, twice as many as needed, apart from
+    each other, are compared by joint draws.
 
     Raises:
         BadInput: no draws, counts below 1, or no such place.
@@ -219,16 +210,9 @@ def next_views(
     few = best_views(nats, poses, 2 * views, apart_m)
     expected = information_of(posterior, poses[few], draws=draws, seed=seed, on_progress=weigh)
     order = np.argsort(-expected.at_most, kind="stable")[:views]
-    assert expected.independent is not None
-    information = Information(
-        at_least=expected.at_least[order],
-        at_least_error=expected.at_least_error[order],
-        at_most=expected.at_most[order],
-        at_most_error=expected.at_most_error[order],
-        draws=expected.draws,
-        independent=expected.independent[order],
-    )
-    return Views(poses, nats, few[order], information)
+
+    arrays = {f.name: getattr(expected, f.name)[order] for f in fields(expected) if f.name != "draws"}
+    return Views(poses, nats, few[order], replace(expected, **arrays))
 
 
 def _spread(posterior: Posterior, blocked: Floats, count: int, seed: int) -> Floats:

@@ -1,7 +1,7 @@
 """Convergence of chains: split R-hat and effective sample size, for many cells at once.
 
 After Vehtari, Gelman, Simpson, Carpenter and Buerkner, *Rank-normalization, folding, and localization: an improved
-R-hat* (Bayesian Analysis, 2021). The numbers are those of arviz-stats, against which the tests hold them; arviz
+R-hat* (Bayesian Analysis, 2021). The numbers are those of arviz-stats, against which the tests check them; arviz
 computes one quantity at a time, at some milliseconds each, and a map has a hundred thousand. A binary quantity needs
 no ranks: its rank-normalised values are an affine image of it, and these diagnostics are unchanged by affine maps.
 """
@@ -60,9 +60,7 @@ def rhat(values: Floats) -> float:
 
 
 def plain_ess(chains: Floats) -> Floats:
-    """Compute the effective sample size of (chains, draws, ...), chains not split, by Geyer's initial monotone
-    sequence.
-    """
+    """Compute the effective sample size of (chains, draws, ...), not split, by Geyer's initial monotone sequence."""
     m, n = chains.shape[:2]
     flat = chains.reshape(m, n, -1)
     centred = flat - flat.mean(axis=1, keepdims=True)
@@ -116,12 +114,12 @@ class CellDiagnostics:
     Attributes:
         rhat_max: largest split R-hat of any judged cell that changed in some chain; NaN if none did.
         ess_min: smallest effective sample size of such a cell (for a 0/1 quantity bulk and tail are the same).
-        unchanged: cells with the same value in every draw of every chain: they have no R-hat. None, as the next, where
-            a cell's state is a number, which no two draws share.
-        disagreeing: cells constant in each chain, but not the same in all: chains that never met.
-        high: cells with an R-hat over `RHAT_LIMIT`, those that disagree included.
-        low: cells with an effective sample size under `ESS_LIMIT`.
-        judged: cells of which both are known, and those that disagree.
+        unchanged: number of cells with one value in every draw of every chain, which have no R-hat. None, as the next,
+            where a cell's state is a number, which no two draws share.
+        disagreeing: number of cells constant in each chain, but not the same in all: chains that never met.
+        high: number of cells with an R-hat over `RHAT_LIMIT`, those that disagree included.
+        low: number of cells with an effective sample size under `ESS_LIMIT`.
+        judged: number of cells of which both are known, and those that disagree.
     """
 
     rhat_max: float

@@ -1,6 +1,7 @@
-"""Select the scans of a log that may score a run: those that it has not seen.
+"""Held-out scans: those of a log that may score a run, and folds of the training scans for fits.
 
-Leave training scans out of a map and predict them, to fit baselines and external maps.
+A run is scored on scans that it has not seen. Baselines and external maps are fitted on training scans that are left
+out of their counts.
 """
 
 from __future__ import annotations
@@ -17,6 +18,7 @@ from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Reading, Scans
 
 MOST_EVERY = 100
+"""Largest hold-out period that a message guesses."""
 
 
 class NoneHeldOut(BadInput):
@@ -26,8 +28,7 @@ class NoneHeldOut(BadInput):
 def seen_by(train: Scans, scans: Scans) -> NDArray[np.bool_]:
     """Return which scans are among those of a run, by stamps and readings, (S,).
 
-    Poses do not count, since a run may have inferred them, except where scans have no stamps, or no hit, to tell them
-    apart by.
+    A run may have inferred its poses. So poses count only where scans have no stamps, or no hit, to tell them apart.
     """
     return _matched(train, scans) >= 0
 
@@ -124,21 +125,21 @@ def unseen_scans(train: Scans, scans: Scans, every: int, where: str) -> Scans:
 Floats = NDArray[np.float64]
 
 FOLDS = 10
-"""Every tenth scan, as in the protocol itself: inner and outer counts are nearly as dense."""
+"""Every tenth scan is left out, as in the protocol itself: inner and outer counts are nearly as dense."""
 
 BEAMS_WANTED = 20_000
 """Valid beams to fit on: a dozen parameters cost about 6 / 20 000 nats a beam."""
 
 THIN = 4
-"""Every fourth of a fold's scans, or of the folds, is enough to find out where the best values are, roughly."""
+"""Every fourth of a fold's scans, or of the folds, serves a rough search."""
 
 PAST_READING_M = 3.0
-"""How far past a reading a beam is traced for fitting: its density is flat there."""
+"""Distance past a reading to which a beam is traced for fitting: its density is flat there."""
 
 
 @dataclass(frozen=True, eq=False)
 class Fold:
-    """One way to leave training scans out: the counts of the others, and the beams to predict."""
+    """Some training scans left out: the counts of the others, and the beams to predict."""
 
     hits: Floats
     passes: Floats
@@ -158,7 +159,7 @@ def _fold(hits: Floats, passes: Floats, scans: Scans, grid: Grid) -> Fold:
 
 
 def make_folds(train: Scans, grid: Grid) -> list[Fold]:
-    """Make inner hold-outs, interleaved, until they have `BEAMS_WANTED` beams.
+    """Make interleaved folds until they have `BEAMS_WANTED` beams.
 
     Raises:
         BadInput: fewer than two training scans with valid readings.
@@ -186,7 +187,7 @@ def make_folds(train: Scans, grid: Grid) -> list[Fold]:
 
 
 def one_fold(train: Scans, grid: Grid) -> list[Fold]:
-    """Make the fold for a map that scans do not change: `BEAMS_WANTED` beams, if there are, and none held out.
+    """Make the fold for a map that scans do not change: at most `BEAMS_WANTED` beams, and no counts.
 
     Raises:
         BadInput: no training scan with a valid reading.
@@ -205,10 +206,10 @@ class HeldOut:
     """Folds whose beams are predicted together, each under its own fold's map.
 
     Attributes:
-        folds: the F ways to leave scans out.
+        folds: the F folds.
         rays: beams of all folds, one after the other.
-        columns: of each of their entries its place in the folds' maps one after the other, each with the cells that
-            its own beams touch, (K,).
+        columns: place of each entry of the rays in the folds' maps, one after the other, each with the cells that its
+            own beams touch, (K,).
     """
 
     folds: tuple[Fold, ...]
@@ -217,7 +218,7 @@ class HeldOut:
 
 
 def together(folds: Sequence[Fold]) -> HeldOut:
-    """Put folds side by side: many small predictions take longer than one large prediction."""
+    """Join folds for one prediction, which is faster than many small ones."""
     rays = [fold.rays for fold in folds]
     entries = np.cumsum([0, *(len(one.cells) for one in rays)])[:-1]
     places = np.cumsum([0, *(len(one.touched) for one in rays)])[:-1]
@@ -225,14 +226,11 @@ def together(folds: Sequence[Fold]) -> HeldOut:
     def shifted(arrays: list[NDArray[np.int32]], by: NDArray[np.int_]) -> NDArray[np.int32]:
         return np.concatenate([array + at for array, at in zip(arrays, by, strict=True)]).astype(np.int32)
 
-    joined = Rays(
-        grid=rays[0].grid,
-        offsets=np.append(np.int32(0), shifted([one.offsets[1:] for one in rays], entries)),
-        cells=np.concatenate([one.cells for one in rays]),
-        near=shifted([one.near for one in rays], entries),
-        start_m=np.concatenate([one.start_m for one in rays]),
-        direction=np.concatenate([one.direction for one in rays]),
-        range_m=np.concatenate([one.range_m for one in rays]),
-        limits=rays[0].limits,
-    )
+    whole = {
+        name: np.concatenate([getattr(one, name) for one in rays])
+        for name in ("cells", "start_m", "direction", "range_m")
+    }
+    offsets = np.append(np.int32(0), shifted([one.offsets[1:] for one in rays], entries))
+    near = shifted([one.near for one in rays], entries)
+    joined = Rays(grid=rays[0].grid, offsets=offsets, near=near, limits=rays[0].limits, **whole)
     return HeldOut(tuple(folds), joined, shifted([one.columns for one in rays], places))

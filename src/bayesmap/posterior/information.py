@@ -1,9 +1,9 @@
-"""Compute how much one more scan from a pose is expected to tell about the map, in nats.
+"""The information about the map that one more scan from a pose is expected to give, in nats.
 
-Two estimates. `expected_information` bounds the mutual information of a whole scan with the map from both sides, by
-joint draws: a scan is simulated in a draw and weighed in all of them. `beam_information` is the formula of FSMI for
-independent cells and beams: fast enough for thousands of poses, but it knows neither what beams tell twice nor that a
-cell which stops half of the beams may be well known to do just that.
+`expected_information` bounds the mutual information of a whole scan with the map from both sides, by joint draws: a
+scan is simulated in a draw and weighted in all of them. `beam_information` is the formula of FSMI for independent cells
+and beams. It is fast enough for thousands of poses, but it counts what beams tell twice, and takes a cell that is known
+to stop half of the beams for unknown.
 """
 
 from __future__ import annotations
@@ -25,24 +25,25 @@ from bayesmap.space.scans import Scans, as_angles, as_poses
 Floats = NDArray[np.float64]
 
 STREAM_VIEW = 5
+"""Stream of random numbers."""
+
 SURE = 1e-4
-"""Cells are taken to stop beams with a probability no nearer to 0 and 1 than this: what a finite number of draws can
-say at most."""
+"""Least distance of a stop probability from 0 and 1: a finite number of draws tells no more."""
 
 
 @dataclass(frozen=True, eq=False)
 class Information:
-    """Bounds on the expected information of one more scan.
+    """Bounds on the expected information of one more scan from each of P poses.
 
-    The information lies between two estimates, on average over draws: with many informative beams they lie apart,
-    and more draws bring them closer.
+    The information lies between two estimates, on average over draws. With many informative beams they lie apart, and
+    more draws bring them closer.
 
     Attributes:
         at_least: nats from each pose, (P,): a lower bound, no more than the logarithm of the number of draws.
-        at_least_error: Monte Carlo error of that, (P,): standard errors.
+        at_least_error: its Monte Carlo standard error, (P,).
         at_most: nats from each pose, (P,): an upper bound.
-        at_most_error: Monte Carlo error of that, (P,): standard errors.
-        draws: of the map that were compared.
+        at_most_error: its Monte Carlo standard error, (P,).
+        draws: number of draws of the map that were compared.
         independent: nats by the formula for independent cells and beams, (P,); None where it was not asked for.
     """
 
@@ -95,7 +96,7 @@ def expected_information(
         on_progress: called with the share that is done, from 0 to 1.
 
     Raises:
-        BadInput: poses or angles that are none, or fewer than two draws.
+        BadInput: poses or angles that are not valid, or fewer than two draws.
     """
     from bayesmap.kernels.predict.density import device_maps
     from bayesmap.kernels.predict.scan_likelihood import ScanLikelihood
@@ -130,8 +131,7 @@ def expected_information(
 def _bounds(weighed: Floats) -> tuple[float, float, float, float]:
     """Return lower bound, its error, upper bound, its error.
 
-    Args:
-        weighed: log p(beam b of the scan that was simulated in draw d | draw e), (d, e, b).
+    ``weighed`` is log p(beam b of the scan that was simulated in draw d | draw e), (d, e, b).
     """
     draws = len(weighed)
     every, others = np.arange(draws), np.where(np.eye(draws, dtype=bool), -np.inf, 0.0)

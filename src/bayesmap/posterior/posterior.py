@@ -1,4 +1,4 @@
-"""The posterior as plain data: everything that a saved run holds, made from what a method found, and back to chains."""
+"""The posterior as plain data: everything that a saved run holds, made from a method's results, and back to chains."""
 
 from __future__ import annotations
 
@@ -32,19 +32,19 @@ class Posterior:
 
     Attributes:
         scans: what was conditioned on.
-        sensor: the model that was used for the draws, fitted, if it was to be; None in a loaded run whose model is not
-            one of ours.
+        sensor: the model that was used for the draws, fitted if that was asked for; None in a loaded run whose model
+            is not one of ours.
         prior: of the cells, which also tells their kind.
         settings: method, prior, sensor, seed and schedule as JSON values: what `bayesmap.infer` was asked to do.
         draws: the kept maps.
         occupancy: posterior mean of the probability that a cell stops a beam, (nx, ny): of the draws, or the method's
-            own marginals where it computes them ("exact", "importance", "propagate"). Of binary walls it is the
+            own marginals where it computes them ("exact", "importance", "propagate"). For binary walls it is the
             probability of a wall.
         observed: cells that at least one beam observes in at least half of the draws, (nx, ny); in the others the
             posterior is the prior, or little more.
         log_likelihood, log_prior: of every draw, (chains, draws).
         warmup_log_joint: (chains, warm-up sweeps).
-        snapshot: where the chains stand: all that is needed to go on.
+        snapshot: state of the chains: all that is needed to go on.
         finished: false if the run was stopped early.
         seconds: {"trace", "warm_start", "sampling", "total", "fit"}.
         counts: {"scans", "beams", "incidences", ...}.
@@ -52,7 +52,7 @@ class Posterior:
         statistics: other numbers by name, such as "belief_changes": the largest change of any cell's probability in
             each round of belief propagation.
         log_evidence: log p(readings), exact or estimated, where the method gives it.
-        notes: what a user should know.
+        notes: messages for the user.
     """
 
     scans: Scans
@@ -114,10 +114,10 @@ def posterior_of_chains(
 
     Args:
         model: what they sampled.
-        chains: what they have done.
+        chains: their draws so far.
         settings: what was asked for.
         seconds: spent beside the chains, "total" and "fit".
-        parameters: sensor and prior under which they ran, if those were fitted.
+        parameters: fitted sensor and prior under which they ran, if there are any.
     """
     prior = model.cells if parameters is None else parameters.prior
     return Posterior(

@@ -1,15 +1,11 @@
-"""Report the progress of a long piece of work as the share of it that is done.
-
-Whatever predicts readings, with all that a score needs of it, and its predictions of scans that were never taken.
+"""Predictions of readings by draws of a map: whole scans from any pose, and residuals of held-out readings.
 
 The law of one beam is that of docs/scoring.md,
 
     p(z) = mean over draws of [sum_i w_i p(z | d_i, s_i) + w_nowhere p(z | infinity)],
 
 and its quantile of level q is the least range z with P(reading <= z) >= q. `ScanPredictor` puts the draws on a device
-once, so that the scans from many poses cost little each.
-
-Residuals of held-out readings, beam by beam, and the place of a point with respect to a surface.
+once, so that the scans from many poses cost little each. Long predictions report the share of their work that is done.
 """
 
 from __future__ import annotations
@@ -41,11 +37,9 @@ def ignored(share: float) -> None:
 
 
 def parts(on_progress: OnShare, *sizes: float) -> list[OnShare]:
-    """Return a callback for each part of some work, called with the part's own share, where parts are done in order.
+    """Return a callback for each of successive parts of some work, called with the part's own share.
 
-    Args:
-        on_progress: called with the share of the whole.
-        sizes: how long each part takes, in any unit.
+    ``sizes`` say how long each part takes, in any unit.
     """
     ends = np.cumsum([0.0, *sizes]) / sum(sizes)
 
@@ -131,7 +125,7 @@ CENTRAL_80 = (0.1, 0.5, 0.9)
 """Levels of the median and of the ends of the central 80 % interval."""
 
 GONE = 1e-3
-"""Beams are followed until they are less likely than this to get further: levels are off by no more than this."""
+"""Probability of getting further below which a beam is no longer followed: the greatest error of a level."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -171,9 +165,9 @@ class ScanPredictor:
     ) -> NDArray[np.float64]:
         """Compute quantiles of the readings of one scan, metres, (A, levels).
 
-        Levels are those asked for to within `GONE`. No return counts as +inf, too close as -inf, each where it is an
-        outcome of the sensor's own. Where draws of a cell's surface differ in where it stops the beam, its stops are
-        merged (docs/scoring.md, The common view).
+        Levels are met to within `GONE`. No return counts as +inf, too close as -inf, each where it is an outcome of the
+        sensor. Where draws of a cell's surface differ in where it stops the beam, its stops are merged
+        (docs/scoring.md, The common view).
 
         Args:
             pose_world: x and y in metres, yaw in radians.
@@ -181,8 +175,7 @@ class ScanPredictor:
             levels: probabilities inside (0, 1), rising.
 
         Raises:
-            BadInput: levels that do not rise or lie outside (0, 1), or a sensor whose probabilities do not add up to
-                one.
+            BadInput: levels that do not rise or lie outside (0, 1), or a sensor whose probabilities do not sum to one.
         """
         from bayesmap.kernels.predict.stop_mixture import mix_device_stops, range_quantiles
         from bayesmap.kernels.rays import trace_rays
@@ -221,7 +214,7 @@ class Residuals:
 
 
 def residuals_of(predictor: Predictor, scans: Scans, device: str = "cpu", on_progress: OnShare = ignored) -> Residuals:
-    """Predict every beam and compare; too close and invalid readings have no place on a map and are left out.
+    """Predict every beam of held-out scans and compare; too close and invalid readings are left out.
 
     Args:
         predictor: what predicts.
@@ -279,8 +272,8 @@ class SurfaceOffset:
     Attributes:
         across_m: along the normal from the surface's mean: positive in front of it, negative behind.
         along_m: along the wall from the mean: positive to the left as the sensor sees it.
-        thickness_m, length_m: standard deviations of the surface along the two.
-        incidence_rad: between the normal and the way from the surface's mean to the sensor, in [0, pi / 2].
+        thickness_m, length_m: standard deviations of the surface across and along.
+        incidence_rad: angle at the surface's mean between the normal and the sensor, in [0, pi / 2].
     """
 
     across_m: float
@@ -291,19 +284,16 @@ class SurfaceOffset:
 
 
 def surface_offset(mean: Floats, covariance: Floats, point: Floats, sensor: Floats) -> SurfaceOffset:
-    """Split the vector from a surface's mean to a point into its parts across and along the surface.
+    """Return a point (2,), such as the end of a reading, in the frame of a surface.
 
-    Args:
-        mean: of the points where beams stop, (2,), metres.
-        covariance: of these points, (2, 2).
-        point: for instance where a reading ends, (2,).
-        sensor: where the beam comes from, (2,).
+    The surface is given by mean (2,) and covariance (2, 2) of the points where beams stop, and ``sensor`` is where the
+    beam comes from, (2,).
     """
     values, vectors = np.linalg.eigh(covariance)
     normal, towards = vectors[:, 0], sensor - mean
     if normal @ towards < 0:
         normal = -normal
-    # seen from the sensor, which looks against the normal, left is the normal turned clockwise
+    # The sensor looks against the normal: its left is the normal turned clockwise.
     left = np.array([normal[1], -normal[0]])
     away = point - mean
     distance = float(np.hypot(*towards))

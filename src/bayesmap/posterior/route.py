@@ -1,18 +1,15 @@
-"""Compute the probability that a disc moves along a path without touching anything, from joint draws.
+"""The probability that a disc moves along a path without touching anything, and the shortest path of bounded risk.
 
 In each draw of the map the disc either touches something or it does not: the probability is the share of draws in which
 it does not. Cells that are uncertain together, such as a door that is open or shut, count once; the product over cells
 that planners use counts them as often as there are cells.
 
-What a robot must not touch: a cell without a surface that stops at least `SOLID` of the beams that come to it, as a
-square; a surface that stops as many, as the ellipse of two standard deviations of the points where it stops them.
+A robot must not touch a cell without a surface that stops at least `SOLID` of the beams that come to it: its square.
+Nor may it touch a surface that stops as many: the ellipse of two standard deviations of the points where it stops them.
 
-Find the shortest path whose risk stays under a bound.
-
-The risk of a path is the probability that a disc which moves along it touches something, over joint draws of the map
-(`bayesmap.posterior.route`). It is no sum over cells, so it cannot be minimised by a search on a graph; but a search
-can propose paths. Each minimises length plus a price for every metre near what may be there; a ladder of prices gives
-paths from the shortest to the safest, the joint draws judge each, and the shortest that is safe enough is taken.
+The risk of a path is no sum over cells, so that no search on a graph minimises it; but a search can propose paths. Each
+path minimises length plus a price for every metre near what may be there. A ladder of prices gives paths from the
+shortest to the safest, the joint draws judge each, and the shortest that is safe enough is taken.
 """
 
 from __future__ import annotations
@@ -21,6 +18,7 @@ import itertools
 import math
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -31,14 +29,13 @@ from bayesmap.space.grid import Grid
 Floats = NDArray[np.float64]
 
 SOLID = 0.1
-"""A cell that stops fewer beams than this holds nothing that a robot would notice: the threshold under which maps for
-navigation call a cell free."""
+"""Stop probability under which a cell holds nothing that a robot would notice; maps for navigation call it free."""
 
 REACH_CELLS = 2.5
-"""How far from its cell's centre anything of a surface can lie, in edges of a cell."""
+"""Greatest distance of any part of a surface from its cell's centre, in edges of a cell."""
 
 ALONG = np.array([-2.0, -1.0, 0.0, 1.0, 2.0])
-"""Standard deviations along its long axis at which an ellipse is probed."""
+"""Points along its long axis at which an ellipse is probed, in standard deviations."""
 
 
 @dataclass(frozen=True)
@@ -49,7 +46,7 @@ class FreeProbability:
         probability: that the disc touches nothing: the share of draws.
         standard_error: of that, from a finite number of draws that depend on each other.
         independent: the product over cells of the probability that each is not in the way, as planners have it.
-        blocked: of every draw, whether something is in the way, (chains, draws).
+        blocked: whether something is in the way in each draw, (chains, draws).
     """
 
     probability: float
@@ -90,9 +87,7 @@ def distance_to_path_m(points: Floats, path: Floats) -> Floats:
 
 
 def square_to_path_m(centres: Floats, edge_m: float, path: Floats) -> Floats:
-    """Compute the distance between axis-parallel squares, by their centres (n, 2), and a polyline, metres; 0 if they
-    meet.
-    """
+    """Compute the distance of axis-parallel squares, by their centres (n, 2), from a polyline, m; 0 if they meet."""
     half = 0.5 * edge_m
     corners = np.array([[-half, -half], [-half, half], [half, -half], [half, half]])
     nearest = distance_to_path_m(centres[:, None] + corners, path).min(axis=1)
@@ -144,9 +139,9 @@ def in_the_way(
 
     Args:
         batches: stops of the cells, some draws at a time: (draws, n), or (draws, n, 6) for surfaces in metres from the
-            grid's corner, as `bayesmap.cells.kind.CellPrior.stops` has them.
-        cells: their flat indices, (n,).
-        grid: where they are.
+            grid's corner, as `bayesmap.cells.kind.CellPrior.stops` gives them.
+        cells: flat indices, (n,).
+        grid: of the cells.
         path: of the disc's centre, (P, 2).
         radius_m: of the disc.
     """
@@ -174,7 +169,7 @@ def _surface_touches(surface: Floats, origin: Floats, path: Floats, radius_m: fl
     long, short = np.sqrt(half + off), np.sqrt(np.maximum(half - off, 0.0))
     axis = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
     probes = mean[:, None] + (ALONG[None, :, None] * long[:, None, None]) * axis[:, None]
-    # At the probes along its long axis an ellipse of two deviations is so wide:
+    # Half width of the ellipse of two deviations at the probes along its long axis.
     width = short[:, None] * np.sqrt(np.maximum(4.0 - ALONG[None] ** 2, 0.0))
     return np.asarray((distance_to_path_m(probes, path) - width < radius_m).any(axis=1))
 
@@ -183,11 +178,11 @@ def free_probability(blocking: NDArray[np.bool_], chains: int) -> FreeProbabilit
     """Compute the probability that nothing is in the way, with its Monte Carlo error.
 
     The error is that of a share of as many independent draws as the chains' draws are worth (their effective sample
-    size); where all draws agree, that of one draw more which does not.
+    size). Where all draws agree, one more draw that does not is assumed.
 
     Args:
         blocking: which cells are in the way in each draw, chain after chain, (chains * draws, n).
-        chains: how many chains there are.
+        chains: number of chains.
     """
     from bayesmap.posterior.diagnostics import plain_ess, split_chains
 
@@ -202,18 +197,18 @@ def free_probability(blocking: NDArray[np.bool_], chains: int) -> FreeProbabilit
 
 
 PRICES = (0.0, 0.1, 0.3, 1.0, 3.0, 10.0, 30.0, 100.0, 1000.0)
-"""Metres of detour that a path takes rather than go one metre where the disc is blocked with probability 1 - 1 / e."""
+"""Metres of detour that are worth one metre less where the disc is blocked with probability 1 - 1 / e."""
 
 STEPS = {
     (1, 0): (), (0, 1): (), (1, 1): ((1, 0), (0, 1)), (1, -1): ((1, 0), (0, -1)),
     (2, 1): ((1, 0), (1, 1), (0, 1), (2, 0)), (1, 2): ((0, 1), (1, 1), (1, 0), (0, 2)),
     (2, -1): ((1, 0), (1, -1), (0, -1), (2, 0)), (1, -2): ((0, -1), (1, -1), (1, 0), (0, -2)),
 }  # fmt: skip
-"""To the cells that an edge of the graph leads to, and back, sixteen directions; and the cells that it crosses or
-nearly touches."""
+"""Offsets of the cells that an edge of the graph leads to, in sixteen directions with those back, and the cells that it
+crosses or nearly touches."""
 
 SURE = 1.0 - 1e-6
-"""Cells in which the disc is blocked with more than this probability are no part of the graph."""
+"""Probability of being blocked above which a cell is no part of the graph."""
 
 MOST_DANGER = -math.log1p(-SURE)
 
@@ -223,10 +218,10 @@ class Route:
     """A path for a disc.
 
     Attributes:
-        path: its corners in the world frame, (P, 2), start and goal included.
+        path: corners in the world frame, (P, 2), start and goal included.
         length_m: of the path.
         free: the probability that the disc touches nothing, over joint draws.
-        within_risk: whether that is as much as was asked for; if not, this is the safest path that was found.
+        within_risk: whether the risk is within the bound; if not, this is the safest path that was found.
     """
 
     path: Floats
@@ -238,10 +233,7 @@ class Route:
 def blocked_probability(batches: Iterable[NDArray[np.float32]], grid: Grid, radius_m: float) -> Floats:
     """Compute the probability that a disc about each cell's centre touches something, (nx, ny).
 
-    Args:
-        batches: stops of all cells of the grid, some draws at a time, as `bayesmap.posterior.route.in_the_way`.
-        grid: where they are.
-        radius_m: of the disc.
+    ``batches`` gives stops of all cells, some draws at a time, as `in_the_way` takes them.
     """
     from scipy import ndimage
 
@@ -250,7 +242,7 @@ def blocked_probability(batches: Iterable[NDArray[np.float32]], grid: Grid, radi
         for stops in batch:
             solid = _solid_squares(stops, grid)
             if solid.any():
-                # From the centre of a square to its edge, half an edge less.
+                # The distance is from the centre of a square; to its edge it is half an edge less.
                 away_m = ndimage.distance_transform_edt(~solid) * grid.resolution - 0.5 * grid.resolution
                 total += away_m < radius_m
             draws += 1
@@ -281,10 +273,10 @@ def plan_route(
 
     Args:
         blocked: probability that the disc is blocked at each cell's centre, (nx, ny).
-        grid: of these.
-        start: in the world frame, (2,).
+        grid: of these cells.
+        start: in the world frame, metres, (2,).
         goal: in the world frame, metres, (2,).
-        risk: the most that the probability of touching something may be, inside (0, 1).
+        risk: greatest probability of touching something, inside (0, 1).
         judge: gives the probability of a path.
 
     Raises:
@@ -303,7 +295,7 @@ def plan_route(
                 "smaller radius"
             )
         whole = np.concatenate([start[None], centres_world(cells, grid)[1:-1], goal[None]])
-        # What blocks the disc between the centres of two cells is known to neither: a straight line may be the riskier.
+        # Obstacles between the centres of two cells show at neither: the straightened path may be the riskier one.
         for path in (_straightened(whole, danger, grid, price), whole):
             free = judge(path)
             length_m = float(np.hypot(*np.diff(path, axis=0).T).sum())
@@ -362,9 +354,8 @@ def _straightened(path: Floats, danger: Floats, grid: Grid, price: float) -> Flo
     kept, i = [0], 0
     while i < len(path) - 1:
         j = len(path) - 1
-        while (
-            j > i + 1 and _cost(path[[i, j]], danger, grid, price) > _cost(path[i : j + 1], danger, grid, price) + 1e-9
-        ):
+        costs = partial(_cost, danger=danger, grid=grid, price=price)
+        while j > i + 1 and costs(path[[i, j]]) > costs(path[i : j + 1]) + 1e-9:
             j = i + (j - i + 1) // 2 if j - i > 8 else j - 1
         kept.append(j)
         i = j

@@ -1,4 +1,4 @@
-"""Calibration of predicted probabilities: statistics of predictions and outcomes, with errors that respect scans.
+"""Scores of predictions on held-out scans: likelihood, calibration and sharpness, with errors that respect scans.
 
 After Gneiting, Balabdaoui and Raftery, *Probabilistic forecasts, calibration and sharpness* (JRSS B, 2007). If readings
 follow the predictive law, then the probability integral transform
@@ -9,10 +9,7 @@ is uniform: v spreads the atoms at "no return" and "too close" over their share 
 model assessment for count data*, Biometrics 2009). A central interval of probability p holds the reading if
 ``|u - 1/2| <= p / 2``.
 
-Beams of one scan err together (they share its pose), so standard errors come from a bootstrap whose blocks are whole
-scans.
-
-Score predictions on held-out scans: likelihood, calibration and sharpness.
+Beams of one scan share the error of its pose, so standard errors come from a bootstrap whose blocks are whole scans.
 """
 
 from __future__ import annotations
@@ -35,19 +32,16 @@ from bayesmap.space.scans import Reading, Scans
 Floats = NDArray[np.float64]
 
 REPLICATES = 1000
-"""Of the bootstrap: standard errors are themselves good to about 2 %."""
+"""Replicates of the bootstrap: standard errors are themselves good to about 2 %."""
 
 POINTS = 100
-"""At which the distribution of u is compared to the uniform one."""
+"""Points at which the distribution of u is compared to the uniform one."""
 
 
 def randomised_pit(low: Floats, high: Floats, seed: int = 0) -> Floats:
     """Compute the probability integral transform of each reading, (B,); NaN where ``low`` is.
 
-    Args:
-        low: P(reading < the one that came), (B,).
-        high: P(reading <= it), (B,).
-        seed: of the v.
+    ``low`` is P(reading < the one that came) and ``high`` P(reading <= it), (B,); ``seed`` is that of the v.
     """
     return low + np.random.default_rng([seed, 0x917]).random(low.shape) * (high - low)
 
@@ -64,9 +58,7 @@ def inside(pit: Floats, level: float) -> NDArray[np.bool_]:
 
 
 def binary_scores(chance: Floats, happened: NDArray[np.bool_]) -> tuple[Floats, Floats]:
-    """Compute the Brier score ``(p - y)^2`` and the log loss ``-log p`` or ``-log(1 - p)`` of each event; less is
-    better.
-    """
+    """Compute each event's Brier score ``(p - y)^2`` and log loss ``-log p`` or ``-log(1 - p)``; less is better."""
     brier = (chance - happened) ** 2
     with np.errstate(divide="ignore"):
         loss = -np.where(happened, np.log(chance), np.log1p(-chance))
@@ -122,8 +114,8 @@ class ScanBlocks:
         """Return the largest distance of the distribution of u from the uniform one, and the chance of a larger one.
 
         The distance is that of Kolmogorov and Smirnov, at `POINTS` points. Its p-value is the share of replicates whose
-        distribution is further from that of all items than that is from the uniform one: the textbook's table would
-        take beams of one scan for independent. NaN with a single block.
+        distribution is further from that of all items than this is from the uniform one; the textbook's table would
+        take beams of one scan for independent. The p-value is NaN with a single block.
         """
         points = np.arange(1, POINTS) / POINTS
         blocks = self.weights.shape[1]
@@ -141,7 +133,7 @@ class ScanBlocks:
 
 
 def reliability(chance: Floats, happened: NDArray[np.bool_], bins: int = 10) -> list[tuple[float, float, int]]:
-    """Group events by their predicted chance: (mean chance, share that happened, count), for bins that are not empty.
+    """Group events by predicted chance: (mean chance, share that happened, count) of each bin that is not empty.
 
     Chances of first hits are mostly small, so bins hold equal widths on the scale of ``log10 chance`` from -3 up.
     """
@@ -157,17 +149,16 @@ def beam_log_scores(
     scans: Scans,
     on_progress: Callable[[int, int], None] = lambda done, total: None,
     device: str = "cpu",
-) -> NDArray[np.float64]:
-    """Compute the log predictive density of every reading, NaN where invalid: log mean over draws of p(reading | draw),
-    (B,).
+) -> Floats:
+    """Compute the log predictive density of every reading, log mean over draws of p(reading | draw), (B,).
 
-    Densities are per metre for hits, probabilities for typed readings, in nats. They are those of `score_prediction`,
-    digit for digit.
+    Densities are per metre for hits, probabilities for typed readings, in nats; NaN where a reading is invalid. They
+    equal those of `score_prediction` bit for bit.
 
     Args:
         predictor: what predicts.
         scans: held out.
-        on_progress: given how many of how many draws have been looked at.
+        on_progress: called with the number of draws that are done and of all draws.
         device: where to compute.
 
     Raises:
@@ -201,12 +192,11 @@ def log_score(
     return float(scores[~np.isnan(scores)].mean())
 
 
-LEVELS = (0.5, 0.8, 0.95)
-BINS = 20
+LEVELS, BINS = (0.5, 0.8, 0.95), 20
+"""Probabilities of central intervals, and bins of the histogram of u."""
 
 MIX, QUANTILES, EVENTS = 0.5, 12.0, 6.0
-"""How long parts of a score take, by the time in which a draw forecasts its readings: mixing a draw, and two parts for
-all draws together."""
+"""Time of parts of a score, in times in which a draw forecasts its readings: mixing a draw, quantiles, and events."""
 
 
 @dataclass(frozen=True)
@@ -215,7 +205,7 @@ class Coverage:
 
     Attributes:
         level: the probability.
-        share: of the readings that lie inside, typed ones counted by their randomised share; with its error.
+        share: of the readings that lie inside, typed ones by their randomised share; with its error.
         mean_width_m, median_width_m: of the intervals; an end at "no return" counts as the largest range, at "too
             close" as the least.
     """
@@ -231,7 +221,7 @@ class Score:
     """The score of a prediction on held-out beams. Errors are standard errors from a bootstrap over scans.
 
     Attributes:
-        scans, beams: that were scored; invalid readings are not.
+        scans, beams: numbers that were scored, without invalid readings.
         nats_per_beam: mean log predictive density of a reading: nats per metre for ranges, nats for typed readings.
         nats_per_beam_error: its error.
         coverage: of central intervals at 50, 80 and 95 %.
@@ -239,12 +229,12 @@ class Score:
         pit_histogram: its share in each of 20 bins.
         pit_distance: largest distance of its distribution from the uniform one.
         pit_p_value: how often chance alone would exceed that.
-        events: first-hit events: stretches of beams in cells that readings got to.
+        events: number of first-hit events: stretches of beams in cells that readings got to.
         brier, log_loss: mean over events of the two scores of "does the reading end here?"; less is better.
-        reliability: of events by what was predicted: (mean chance, share that happened, how many).
+        reliability: of events by predicted chance: (mean chance, share that happened, count).
         p_no_return: mean predicted probability of no return, and the share that came.
-        sensor: the sensor model of the prediction, described; with hit depth.
-        fitted: numbers that were fitted on training scans, for baselines.
+        sensor: the sensor model of the prediction, described.
+        hit_depth: where in a plain cell a beam stops, as a fraction of its chord.
     """
 
     scans: int
@@ -266,19 +256,17 @@ class Score:
 
     def as_json(self) -> dict[str, Any]:
         """Return everything but the single beams, as JSON values."""
+        widths = [
+            {"mean_width_m": _number(c.mean_width_m), "median_width_m": _number(c.median_width_m)}
+            for c in self.coverage
+        ]
         return {
             "scans": self.scans,
             "beams": self.beams,
             "nats_per_beam": _number(self.nats_per_beam),
             "nats_per_beam_error": _number(self.nats_per_beam_error),
             "coverage": [
-                {
-                    "level": c.level,
-                    **c.share.as_json(),
-                    "mean_width_m": _number(c.mean_width_m),
-                    "median_width_m": _number(c.median_width_m),
-                }
-                for c in self.coverage
+                {"level": c.level, **c.share.as_json(), **width} for c, width in zip(self.coverage, widths, strict=True)
             ],
             "pit_histogram": [round(x, 6) for x in self.pit_histogram],
             "pit_distance": _number(self.pit_distance),

@@ -19,20 +19,16 @@ from bayesmap.sensors.builtin import BeamMixture, noise_with
 Values = dict[str, float]
 
 LAST_CLIMB = 8.0
-"""How long the last climb takes, by the others: its score is not a cheap likeness."""
+"""Time of the last climb, which uses the full score, in times of a rough climb."""
 
 STEP = 2e-3
-"""Of the numeric gradient, in logarithms or logits: stops are kept in single precision, whose noise it must exceed."""
+"""Step of the numeric gradient, in logarithms or logits: above the noise of stops in single precision."""
 
-GRADIENTS = 20
-"""That a climb takes, more or less: to say how far it is."""
+GRADIENTS, MOST_STEPS = 20, 100
+"""Usual number of gradients of a climb, for progress, and most steps."""
 
 ROUGH, FINE = 1e-4, 1e-6
 """Relative gain in score at which a climb ends: from every start, and then from the best place found."""
-
-
-MOST_STEPS = 100
-"""Of a climb, each with its gradient."""
 
 
 @dataclass(frozen=True)
@@ -40,8 +36,8 @@ class Parameter:
     """A number to be fitted.
 
     Attributes:
-        name: how the values call it.
-        low, high: where it must stay.
+        name: key in the values.
+        low, high: bounds.
         share: whether it is a share of one, searched by its logit; otherwise it is positive, searched by its logarithm.
     """
 
@@ -69,7 +65,7 @@ SENSOR = (
     Parameter("rate_short_per_m", 1e-3, 50.0),
     Parameter("hit_depth", 1e-3, 1.0 - 1e-3, share=True),
 )
-"""What every prediction needs beside a map: the robust beam model, and where in a cell beams stop."""
+"""Parameters of every prediction beside its map: the robust beam model, and where in a cell beams stop."""
 
 
 def sensor_of(values: Mapping[str, float], dof: float | None) -> BeamMixture:
@@ -90,11 +86,11 @@ def maximise(
     """Find the values of the highest score, and that score.
 
     Args:
-        score: to be maximised.
-        rough_score: a cheap likeness of it, climbed from every start; the score itself is climbed from the best end.
-        parameters: what may vary.
+        score: to be maximised, from the best end of the rough climbs.
+        rough_score: a cheap approximation of it, climbed from every start.
+        parameters: to be varied.
         starts: values of all of them.
-        on_progress: told which share is done, as far as that can be known of a search.
+        on_progress: called with the share that is done, as far as that can be known of a search.
     """
     names = [p.name for p in parameters]
 

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from bayesmap.posterior.diagnostics import (
     ESS_LIMIT,
     RHAT_LIMIT,
+    CellDiagnostics,
     bulk_ess,
     diagnose_cells,
     plain_ess,
@@ -23,13 +24,15 @@ from bayesmap.posterior.diagnostics import (
 from bayesmap.posterior.posterior import Posterior
 from bayesmap.space.planar import wrapped
 
+Floats = NDArray[np.float64]
+
 FEWEST_DRAWS = 4
-"""Of a chain, so that its halves have a variance."""
+"""Fewest draws of a chain with which its halves have a variance."""
 
 CHANCE_SHARE = 0.01
-"""Of the cells that may be over a limit without a warning. Of independent draws, 50 of each of four chains, one cell in
-a thousand has an R-hat over 1.05, and four in a thousand have an estimated effective sample size under 100, by chance;
-the worst of fifty thousand cells says nothing else."""
+"""Share of the cells that may be over a limit without a warning. With 50 independent draws of each of four chains, one
+cell in a thousand has an R-hat over 1.05, and four in a thousand have an estimated effective sample size under 100, by
+chance."""
 
 
 @dataclass(frozen=True)
@@ -120,29 +123,28 @@ def summarise(posterior: Posterior) -> Summary:
     markov, log_joint = posterior.has_chains, posterior.log_joint
     chains, draws = log_joint.shape
     enough = markov and draws >= FEWEST_DRAWS
-    cells = diagnose_cells(posterior.prior, posterior.draws, posterior.observed) if markov else None
     weights = posterior.log_weights
     sweeps = posterior.sweep * max(1, chains)
     threads = int(posterior.settings.get("threads_used", 1))
+    cells = CellDiagnostics(nan, nan, 0, 0, 0, 0, 0)
+    if markov:
+        cells = diagnose_cells(posterior.prior, posterior.draws, posterior.observed)
     return Summary(
         rhat_log_joint=rhat(log_joint) if enough else nan,
         rhat_log_likelihood=rhat(posterior.log_likelihood) if enough else nan,
         ess_log_joint_bulk=bulk_ess(log_joint) if enough else nan,
         ess_log_joint_tail=tail_ess(log_joint) if enough else nan,
-        rhat_max=cells.rhat_max if cells else nan,
-        ess_min=cells.ess_min if cells else nan,
-        unchanged_cells=cells.unchanged if cells else 0,
-        disagreeing_cells=cells.disagreeing if cells else 0,
-        rhat_high_cells=cells.high if cells else 0,
-        ess_low_cells=cells.low if cells else 0,
-        judged_cells=cells.judged if cells else 0,
+        rhat_max=cells.rhat_max,
+        ess_min=cells.ess_min,
+        unchanged_cells=cells.unchanged,
+        disagreeing_cells=cells.disagreeing,
+        rhat_high_cells=cells.high,
+        ess_low_cells=cells.low,
+        judged_cells=cells.judged,
         effective_sample_size=float(1.0 / np.exp(2 * weights).sum()) if weights is not None else nan,
         microseconds_per_sweep=1e6 * posterior.seconds["sampling"] * threads / sweeps if markov and sweeps else nan,
         finished=posterior.finished,
     )
-
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,17 +1,15 @@
-"""How far a trajectory is from known relative poses.
+"""Score a trajectory against true relative poses: its errors, and whether its regions hold the truth.
 
-The measure of Kuemmerle, Steder, Dornhege, Ruhnke, Grisetti, Stachniss and Kleiner (2009), "On measuring the accuracy
-of SLAM algorithms", Autonomous Robots 27, equations 2 to 4: for every relation (i, j) with true relative pose d*, the
-error is e = (d*)^-1 * (x_i^-1 * x_j); its translation is |(e_x, e_y)|, its rotation |e_yaw|. It asks nothing of the
-global frame, and bends of the map count once.
-
-Score a trajectory against true relative poses: its errors, and whether its regions hold the truth.
+The measure of error is that of Kuemmerle, Steder, Dornhege, Ruhnke, Grisetti, Stachniss and Kleiner (2009), "On
+measuring the accuracy of SLAM algorithms", Autonomous Robots 27, equations 2 to 4: for every relation (i, j) with true
+relative pose d*, the error is e = (d*)^-1 * (x_i^-1 * x_j); its translation is |(e_x, e_y)|, its rotation |e_yaw|. It
+does not depend on the global frame, and a bend of the map counts once.
 
 If the trajectory says how sure it is, each error e has a covariance C, and
 
     NEES = e' C^-1 e
 
-should be chi-squared with three degrees of freedom (Bar-Shalom, Li and Kirubarajan 2001, section 5.4), and a region of
+should be chi-squared with three degrees of freedom (Bar-Shalom, Li and Kirubarajan 2001, section 5.4). A region of
 probability p should hold the truth in a share p of relations. Where the law of relative poses is known (the Student-t
 approximation that `bayesmap.slam` finds, with scale matrices S and nu degrees of freedom), C is its covariance, and
 e' S^-1 e / 3 follows F(3, nu). Otherwise C is the covariance of the relative pose over the posterior's draws; estimated
@@ -36,16 +34,16 @@ from bayesmap.space.trajectory import RelativeLaw, Trajectory
 Floats = NDArray[np.float64]
 
 LONGEST_GAP_S = 0.3
-"""Poses further apart in time are not interpolated between: in seconds a robot turns corners."""
+"""Longest time between two poses that are interpolated: in seconds a robot turns corners."""
 
 
 @dataclass(frozen=True, eq=False)
 class Relations:
-    """True relative poses between times.
+    """True relative poses between N pairs of times.
 
     Attributes:
-        first_s, second_s: stamps in seconds, shape (N,).
-        relative: pose at the second time in the frame at the first, shape (N, 3).
+        first_s, second_s: stamps in seconds, (N,).
+        relative: pose at the second time in the frame at the first, (N, 3).
     """
 
     first_s: Floats
@@ -56,7 +54,7 @@ class Relations:
         return len(self.first_s)
 
     def select(self, chosen: NDArray[np.bool_] | NDArray[np.intp]) -> Relations:
-        """Some of the relations."""
+        """Return some of the relations."""
         return Relations(self.first_s[chosen], self.second_s[chosen], self.relative[chosen])
 
 
@@ -65,9 +63,9 @@ class RelationErrors:
     """Errors of a trajectory.
 
     Attributes:
-        errors: (x, y, yaw) of each relation that the trajectory covers, shape (M, 3).
-        covered: which relations those are, shape (N,).
-        in_gap: which are left out though they are of the trajectory's time, for lack of poses near it, shape (N,).
+        errors: (x, y, yaw) of each relation that the trajectory covers, (M, 3).
+        covered: which relations those are, (N,).
+        in_gap: relations within the trajectory's time that lack poses near them, (N,).
     """
 
     errors: Floats
@@ -76,18 +74,18 @@ class RelationErrors:
 
     @property
     def translation_m(self) -> Floats:
-        """Length of each error's translation, shape (M,)."""
+        """Length of each error's translation, (M,)."""
         return np.asarray(np.hypot(self.errors[:, 0], self.errors[:, 1]))
 
     @property
     def rotation_rad(self) -> Floats:
-        """Size of each error's rotation, shape (M,)."""
+        """Size of each error's rotation, (M,)."""
         return np.asarray(np.abs(self.errors[:, 2]))
 
     def summary(self) -> dict[str, float]:
-        """Mean, standard deviation and median of both, metres and degrees, and how many relations counted.
+        """Return mean, standard deviation and median of both, metres and degrees, and how many relations counted.
 
-        Of those that did not, ``in_gaps`` lie between poses too far apart, the others outside the trajectory's time.
+        ``in_gaps`` of those that are not covered lie between poses too far apart, the others outside the trajectory.
         """
         turned_deg = np.degrees(self.rotation_rad)
         result: dict[str, float] = {
@@ -111,17 +109,16 @@ def relation_errors(
     exact: bool = False,
     longest_gap_s: float = LONGEST_GAP_S,
 ) -> RelationErrors:
-    """Errors of a trajectory by `Relations`.
+    """Compute the errors of a trajectory by true relations.
 
     Args:
-        stamps_s: times of the poses, seconds, shape (S,), ascending.
-        poses: shape (S, 3), of one frame on the robot, such as the laser's.
+        stamps_s: times of the poses, seconds, (S,), ascending.
+        poses: of one frame on the robot, such as the laser's, (S, 3).
         relations: the truth.
-        frame_in_pose: the frame whose relations are known, given in the frame of the poses, shape (3,): if poses are
-            the laser's and the relations those of the robot's base, the pose of the base in the laser's frame. None
-            where they are the same.
+        frame_in_pose: the frame whose relations are known, given in the frame of the poses, (3,): if poses are the
+            laser's and the relations the base's, the pose of the base in the laser's frame. None if they are equal.
         slack_s: a stamp this far outside the trajectory, or off a pose, still counts.
-        exact: only relations whose both stamps are those of poses.
+        exact: whether to use only relations whose both stamps are those of poses.
         longest_gap_s: otherwise poses are interpolated, where those before and after are no further apart.
 
     Raises:
@@ -158,7 +155,7 @@ def relation_errors(
 
 
 def _distance_to_nearest(stamps_s: Floats, at_s: Floats) -> tuple[Floats, Floats]:
-    """How far times are from the nearest stamp, and how far apart the stamps before and after are, seconds, (N,)."""
+    """Return how far times are from the nearest stamp, and the gap between the stamps around them, seconds, (N,)."""
     earlier_s, later_s = (stamps_s[index] for index in around(stamps_s, at_s))
     return np.minimum(np.abs(at_s - later_s), np.abs(at_s - earlier_s)), later_s - earlier_s
 
@@ -173,9 +170,9 @@ class TrajectoryScore:
 
     Attributes:
         errors: of each relation, in the true frame of its second pose.
-        nees: of each relation, shape (M,); None where nothing is known of how sure the trajectory is.
-        region: the least probability of a region around the estimate that holds the truth, shape (M,): uniform if the
-            covariances are right; None likewise.
+        nees: of each relation, (M,); None where the trajectory does not say how sure it is.
+        region: least probability of a region around the estimate that holds the truth, (M,): uniform if the covariances
+            are right; None where nees is.
         assumed_independent: whether covariances of single poses were all there was.
         known_by: what said how sure the poses are, in words.
     """
@@ -212,9 +209,9 @@ def score_trajectory(
     Args:
         trajectory: with stamps, of the clock of the relations.
         relations: the truth.
-        mount: the frame whose relations are known, given in the frame of the trajectory, shape (3,); None: the same.
-        exact: only relations whose both times are those of poses; otherwise poses are interpolated where they are at
-            most `bayesmap.posterior.trajectory_scores.LONGEST_GAP_S` apart.
+        mount: the frame whose relations are known, given in the frame of the trajectory, (3,); None: the same frame.
+        exact: whether to use only relations whose both times are those of poses; otherwise poses are interpolated
+            where they are at most `LONGEST_GAP_S` apart.
 
     Raises:
         BadInput: no relation within the trajectory's time, or none near enough to its poses.
@@ -224,7 +221,7 @@ def score_trajectory(
     errors = relation_errors(stamps, moved.poses, relations, exact=exact)
     used = relations.select(errors.covered)
     if moved.relative is not None and len(moved) > 1:
-        nees, region = _by_law(moved, moved.relative, stamps, used, errors.errors)
+        nees, region = _by_law(moved.relative, stamps, used, errors.errors)
         return TrajectoryScore(errors, nees, region, known_by=moved.known_by)
     if moved.draws is not None and len(moved.draws) > 2 * DIMENSIONS:
         nees, region = _by_draws(moved.draws, stamps, used)
@@ -236,12 +233,10 @@ def score_trajectory(
     return TrajectoryScore(errors)
 
 
-def _by_law(
-    trajectory: Trajectory, law: RelativeLaw, stamps_s: Floats, relations: Relations, errors: Floats
-) -> tuple[Floats, Floats]:
+def _by_law(law: RelativeLaw, stamps_s: Floats, relations: Relations, errors: Floats) -> tuple[Floats, Floats]:
     """Compute NEES and least region of each relation, by the law of the relative poses of the scans nearest in time."""
     first, second = (_nearest(stamps_s, at) for at in (relations.first_s, relations.second_s))
-    # Two times about one scan: the step to a scan beside it, which is no surer.
+    # For two times about one scan the law of the step to a neighbouring scan is used, which is no surer.
     second = np.where(first == second, np.where(second > 0, second - 1, second + 1), second)
     turn = np.swapaxes(rotation(relations.relative[:, 2]), 1, 2)
     scale = turn @ law.scales(first, second) @ np.swapaxes(turn, 1, 2) + 1e-15 * np.eye(DIMENSIONS)
@@ -276,9 +271,7 @@ def _by_draws(draws: Floats, stamps_s: Floats, relations: Relations) -> tuple[Fl
 
 
 def _independent(trajectory: Trajectory, stamps_s: Floats, relations: Relations) -> Floats:
-    """Return the covariance of each relation's error if the two poses are independent: those of the poses nearest in
-    time.
-    """
+    """Return the covariance of each relation's error if the two poses, those nearest in time, are independent."""
     assert trajectory.covariances is not None
     ends = []
     for at_s in (relations.first_s, relations.second_s):
