@@ -54,11 +54,8 @@ def count_hits(scans: Scans, grid: Grid, device: str = "cpu") -> tuple[Ints, Int
     threads = devices.available_cores()
     bounds = np.linspace(0, len(ranges), threads + 1).astype(np.int32)
     counts = [wp.zeros((threads, grid.n_cells), dtype=wp.int32, device=device) for _ in range(2)]
-    inputs = [lines_to_device(*beam_lines(scans, grid), grid, device), devices.to_device(reach_m, wp.float64, device)]
-    inputs.append(devices.to_device(hit, wp.uint8, device))
-    devices.launch(
-        count_hits_and_passes, threads, [*inputs, devices.to_device(bounds, wp.int32, device), *counts], device
-    )
+    lines = lines_to_device(*beam_lines(scans, grid), grid, device)
+    devices.launch(count_hits_and_passes, threads, [lines, reach_m, hit, bounds, *counts], device)
     hits, passes = (a.numpy().sum(axis=0, dtype=np.int32) for a in counts)
     return hits, passes
 
@@ -94,8 +91,6 @@ def count_passes(rays: Rays, end_cell: Ints, device: str) -> Ints:
         device: where to compute.
     """
     passes = wp.zeros(rays.grid.n_cells, dtype=wp.int32, device=device)
-    inputs = [devices.to_device(a, wp.int32, device) for a in (rays.offsets, rays.cells)]
-    inputs += [devices.to_device(a, wp.float32, device) for a in (stop_distances(rays, 0.0, device), rays.range_m)]
-    inputs += [devices.to_device(end_cell, wp.int32, device), passes]
+    inputs = [rays.offsets, rays.cells, stop_distances(rays, 0.0, device), rays.range_m, end_cell, passes]
     devices.launch(add_passes, rays.n_beams, inputs, device, 1)
     return np.array(passes.numpy())

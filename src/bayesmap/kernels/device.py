@@ -89,7 +89,7 @@ def to_device(array: np.ndarray[Any, Any], dtype: Any, device: str) -> Any:
     return wp.array(flat, dtype=dtype, device=device, copy=device != "cpu")
 
 
-def pack(kind: Any, device: str, **values: Any) -> Any:
+def pack(kind: Any, device: str, /, **values: Any) -> Any:
     """Make a struct for kernels; NumPy arrays among its values are put on the device as its fields ask."""
     packed = kind()
     for name, value in values.items():
@@ -117,9 +117,7 @@ def available_cores() -> int:
 
 
 def threads_for(beams: int) -> int | None:
-    """Return the number of threads for a kernel that follows each beam through the grid: 1 for few beams, else None
-    (all cores).
-    """
+    """Return the threads for a kernel that follows beams through the grid: 1 for few beams, else None (all cores)."""
     return 1 if beams < FEW_BEAMS else None
 
 

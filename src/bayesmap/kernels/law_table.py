@@ -3,7 +3,6 @@
 import math
 from typing import Any
 
-import numpy as np
 import warp as wp
 
 from bayesmap.kernels import device as devices
@@ -33,24 +32,14 @@ class LawTable:
 
 
 def law_table_to_device(law: TabulatedLaw, device: str, least: float = -math.inf) -> Any:
-    """Put a tabulated law on a device.
-
-    Args:
-        law: what it holds.
-        device: where kernels run.
-        least: log densities and log probabilities below it are taken for it.
-    """
-    table = LawTable()
-    table.least = least
-    table.typed, table.most, table.min_m = int(law.typed), law.most, law.limits.min_m
+    """Put a tabulated law on a device; log densities and log probabilities below ``least`` are taken for it."""
     low, high = (law.limits.min_m, law.limits.max_m) if law.typed else (-law.limits.max_m, 2.0 * law.limits.max_m)
-    table.low_m, table.high_m = low, high
-    for name in ("scale_m", "log_nowhere", "below_nowhere"):
-        setattr(table, name, devices.to_device(getattr(law, name), wp.float32, device))
-    for name in ("log_density", "below", "log_typed"):
-        setattr(table, name, wp.array(np.ascontiguousarray(getattr(law, name)), dtype=wp.float32, device=device))
-    table.log_typed_nowhere = wp.vec2(*law.log_typed_nowhere)
-    return table
+    return devices.pack(
+        LawTable, device, least=least, typed=int(law.typed), most=law.most, low_m=low, high_m=high,
+        min_m=law.limits.min_m, scale_m=law.scale_m, log_density=law.log_density, below=law.below,
+        log_typed=law.log_typed, log_nowhere=law.log_nowhere, below_nowhere=law.below_nowhere,
+        log_typed_nowhere=wp.vec2(*law.log_typed_nowhere),
+    )  # fmt: skip
 
 
 @wp.func

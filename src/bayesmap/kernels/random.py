@@ -114,9 +114,7 @@ def normal(key: wp.uint64, counter: wp.uint64) -> wp.float64:
 
 @wp.func
 def nearly_normal(bits: wp.uint64) -> wp.float32:
-    """Return a number of mean 0 and variance 1 with a symmetric law close to normal, for random steps: the sum of four
-    uniform numbers, of 16 of the bits each.
-    """
+    """Return the sum of four uniform numbers of 16 bits each, scaled to mean 0 and variance 1: nearly normal."""
     low = wp.uint64(0xFFFF)
     total = (bits & low) + ((bits >> wp.uint64(16)) & low)
     total += ((bits >> wp.uint64(32)) & low) + (bits >> wp.uint64(48))

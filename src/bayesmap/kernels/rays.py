@@ -49,9 +49,7 @@ class Slab:
     """One axis of a beam's line, in units of cells."""
 
     start: wp.float64
-    per_cell: (
-        wp.float64
-    )  # distance from one grid line to the next, with the direction's sign; 0 if it never crosses one
+    per_cell: wp.float64  # from one grid line to the next, with the direction's sign; 0 if the line crosses none
     first: int  # the cell of the start, as the walk has it
     side: int  # 1 if cells are entered by their far side
     onward: int
@@ -101,9 +99,7 @@ def line_of(lines: Lines, b: int) -> Line:
 
 @wp.func
 def stretch(line: Line, cell: int) -> wp.vec2d:
-    """Return the distances at which a beam enters and leaves a cell that it touches, metres:
-    `bayesmap.beams.rays.Rays.stretches`.
-    """
+    """Return the distances at which a beam enters and leaves a cell that it touches, metres (`Rays.stretches`)."""
     zero = wp.float64(0.0)
     x = int((wp.float64(cell) + wp.float64(0.5)) * line.per_column)  # a division of whole numbers takes longer
     y = cell - x * line.ny
@@ -196,28 +192,21 @@ def fill_distances(first: int, rays: RayArrays, depth: wp.float64, distance_m: F
 def stop_distances(rays: Rays, hit_depth: float, device: str = "cpu") -> Singles:
     """Compute `Rays.distance_m` by a kernel: metres, (K,)."""
     distance_m = wp.empty(rays.n_incidences, dtype=wp.float32, device=device)
-    inputs = [rays_to_device(rays, device), wp.float64(hit_depth), distance_m]
+    inputs = [rays_to_device(rays, device), hit_depth, distance_m]
     devices.launch(fill_distances, rays.n_beams, inputs, device, devices.threads_for(rays.n_beams))
     return np.asarray(distance_m.numpy())
 
 
 def rays_to_device(rays: Rays, device: str) -> Any:
     """Put rays where kernels read them."""
-    on_device = RayArrays()
-    on_device.lines = lines_to_device(rays.start_m, rays.direction, rays.grid, device)
-    on_device.offsets, on_device.cells = (devices.to_device(a, wp.int32, device) for a in (rays.offsets, rays.cells))
-    return on_device
+    lines = lines_to_device(rays.start_m, rays.direction, rays.grid, device)
+    return devices.pack(RayArrays, device, lines=lines, offsets=rays.offsets, cells=rays.cells)
 
 
 def lines_to_device(start_m: Floats, direction: Floats, grid: Grid, device: str) -> Any:
     """Put beams where kernels read them, starts in metres from the grid's lower left corner."""
-    lines = Lines()
-    for name, array in (("start_m", start_m), ("direction", direction)):
-        flat = np.ascontiguousarray(array, dtype=np.float64)
-        setattr(lines, name, wp.array(flat, dtype=wp.vec2d, device=device, copy=device != "cpu"))
-    lines.nx, lines.ny = grid.shape
-    lines.edge_m = grid.resolution
-    return lines
+    (nx, ny), edge_m = grid.shape, grid.resolution
+    return devices.pack(Lines, device, start_m=start_m, direction=direction, nx=nx, ny=ny, edge_m=edge_m)
 
 
 def beam_lines(scans: Scans, grid: Grid) -> tuple[Floats, Floats]:
@@ -274,16 +263,8 @@ def trace_rays(
         inputs = [lines, device_reach, device_near, device_offsets, cells, near]
         devices.launch(fill_cells, size, inputs, device, devices.threads_for(size), begin)
         on_progress((beams + begin + size) // 2, beams)
-    return Rays(
-        grid=grid,
-        offsets=offsets,
-        cells=cells.numpy(),
-        near=near.numpy(),
-        start_m=start_m,
-        direction=direction,
-        range_m=ranges,
-        limits=RangeLimits(scans.min_range_m, scans.max_range_m),
-    )
+    limits = RangeLimits(scans.min_range_m, scans.max_range_m)
+    return Rays(grid, offsets, cells.numpy(), near.numpy(), start_m, direction, ranges, limits)
 
 
 def offsets_of(counts: Ints, what: str) -> Ints:

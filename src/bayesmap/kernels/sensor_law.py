@@ -273,9 +273,7 @@ def returned_density(law: Any, reading_m: Any, decay: Any, distance_m: Any, vari
 
 @wp.func
 def mixed_density(law: Any, reading_m: Any, decay: Any, distance_m: Any, returned: Any):
-    """Return the density at a finite reading in the mixture: the returned density with random readings and passing
-    objects.
-    """
+    """Return the mixture's density at a finite reading: ``returned``, random readings and passing objects."""
     density = law.uniform + returned
     if reading_m < wp.min(distance_m, law.max_m):
         density += law.passing * decay
@@ -314,9 +312,7 @@ def stop_density(law: Any, reading_m: Any, decay: Any, distance_m: Any, variance
 
 @wp.func
 def highest_density(law: Any, reading_m: Any):
-    """Return an upper bound of `stop_density` of a reading in the mixture, wherever the beam stops; infinite for other
-    laws.
-    """
+    """Return an upper bound of `stop_density` of a reading over all stops; infinite for laws other than the mixture."""
     if law.kind == MIXTURE and not wp.isfinite(reading_m):
         return type(reading_m)(1.0)
     return law.peak

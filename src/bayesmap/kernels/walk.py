@@ -156,6 +156,7 @@ def is_inside(w: Walk, nx: int, ny: int) -> bool:
 
 @wp.kernel
 def first_hit_ranges(
+    first: int,
     walls: Uint8Rows,
     start_x: Float64s,
     start_y: Float64s,
@@ -165,20 +166,20 @@ def first_hit_ranges(
     visits: Int32s,
 ):
     """One thread per beam: walk to the first wall."""
-    b = wp.tid()
+    b = first + wp.tid()
     nx = walls.shape[0]
     ny = walls.shape[1]
     w = walk_begin(start_x[b], start_y[b], wp.cos(angle_rad[b]), wp.sin(angle_rad[b]), nx, ny, longest)
-    first = wp.float64(longest)
+    nearest = wp.float64(longest)
     n = int(0)
     while w.distance <= w.end:
         if is_inside(w, nx, ny):
             n += 1
             if walls[w.cell_x, w.cell_y] != wp.uint8(0):
-                first = wp.min(w.distance, longest)
+                nearest = wp.min(w.distance, longest)
                 break
         w = walk_next(w)
-    distance[b] = first
+    distance[b] = nearest
     visits[b] = n
 
 
@@ -201,12 +202,6 @@ def cast(
     beams = len(angles_rad)
     distance = wp.empty(beams, dtype=wp.float64, device=device)
     visits = wp.empty(beams, dtype=wp.int32, device=device)
-    inputs = [
-        devices.to_device(np.asarray(walls != 0, dtype=np.uint8), wp.uint8, device),
-        devices.to_device(np.asarray(starts_cells[:, 0], np.float64), wp.float64, device),
-        devices.to_device(np.asarray(starts_cells[:, 1], np.float64), wp.float64, device),
-        devices.to_device(np.asarray(angles_rad, np.float64), wp.float64, device),
-        wp.float64(longest_cells),
-    ]
-    wp.launch(first_hit_ranges, dim=beams, inputs=inputs, outputs=[distance, visits], device=device)
+    x, y = np.asarray(starts_cells).T
+    devices.launch(first_hit_ranges, beams, [walls != 0, x, y, angles_rad, longest_cells, distance, visits], device, 1)
     return distance.numpy(), visits.numpy()

@@ -306,13 +306,12 @@ def search_grids(
     pyramid, device = grids.pyramid, grids.device
     count, strands_of_all = len(windows.grid), len(windows.grid) * strands
     jobs, roots = _prepared(grids, windows, threads)
-    taken, stack, best = Taken(), Stack(), Best()
     deepest = 4 * pyramid.shape[1] + 4  # four children a level
+    taken, stack, best = devices.pack(Taken, device, apart=wp.vec3i(*modes.apart)), Stack(), Best()
     stack.bound = wp.empty((strands_of_all, deepest), dtype=wp.float64, device=device)
     stack.node = wp.empty((strands_of_all, deepest), dtype=wp.vec4i, device=device)
     best.score = wp.empty(strands_of_all, dtype=wp.float64, device=device)
     best.node = wp.empty(strands_of_all, dtype=wp.vec3i, device=device)
-    taken.apart = wp.vec3i(*modes.apart)
     least = windows.least
     scores = np.full((count, modes.count), -np.inf)
     nodes = np.zeros((count, modes.count, 3), dtype=np.int64)
@@ -336,15 +335,11 @@ def _prepared(grids: Any, windows: Windows, threads: int | None) -> tuple[Any, A
     pyramid, device = grids.pyramid, grids.device
     count, rows = len(windows.grid), len(windows.angles_rad)
     width = 1 << (pyramid.shape[1] - 1)
-    jobs, roots = SearchJobs(), Roots()
-    jobs.point_begin = devices.to_device(windows.point_offsets[:-1], wp.int32, device)
-    jobs.point_end = devices.to_device(windows.point_offsets[1:], wp.int32, device)
-    jobs.grid = devices.to_device(windows.grid, wp.int32, device)
-    jobs.half_x, jobs.half_y = (
-        devices.to_device(half, wp.int32, device) for half in np.ascontiguousarray(windows.half_cells.T)
-    )
-    jobs.across = devices.to_device(windows.across, wp.float64, device)
-    jobs.row_cost = devices.to_device(windows.angle_costs, wp.float64, device)
+    half_x, half_y = np.ascontiguousarray(windows.half_cells.T)
+    jobs = devices.pack(
+        SearchJobs, device, point_begin=windows.point_offsets[:-1], point_end=windows.point_offsets[1:],
+        grid=windows.grid, half_x=half_x, half_y=half_y, across=windows.across, row_cost=windows.angle_costs,
+    )  # fmt: skip
     most = int(np.diff(windows.point_offsets).max(initial=1))
     jobs.cells = wp.empty((rows, max(most, 1)), dtype=wp.vec2i, device=device)
 
@@ -352,16 +347,13 @@ def _prepared(grids: Any, windows: Windows, threads: int | None) -> tuple[Any, A
     blocks = np.prod(2 * windows.half_cells // width + 1, axis=1)
     node_begin = np.concatenate([[0], np.cumsum(blocks[job_of_row])])
     job_nodes = node_begin[windows.row_offsets].astype(np.int32)
-    job_of_row_on_device = devices.to_device(job_of_row, wp.int32, device)
-    inputs = [jobs, job_of_row_on_device, devices.to_device(windows.angles_rad, wp.float64, device)]
-    inputs += [devices.to_device(a, wp.vec2d, device) for a in (windows.centres, grids.origins)]
-    inputs += [wp.float64(grids.resolution), devices.to_device(windows.points, wp.vec2d, device)]
+    inputs = [jobs, job_of_row, windows.angles_rad, windows.centres, grids.origins, grids.resolution, windows.points]
     devices.launch(turn_points, rows, inputs, device, threads)
 
+    roots = Roots()
     roots.bound = wp.empty(int(node_begin[-1]), dtype=wp.float64, device=device)
     roots.node = wp.empty(int(node_begin[-1]), dtype=wp.vec3i, device=device)
-    inputs = [jobs, job_of_row_on_device, devices.to_device(node_begin[:-1], wp.int32, device), pyramid, roots]
-    devices.launch(bound_blocks, rows, inputs, device, threads)
+    devices.launch(bound_blocks, rows, [jobs, job_of_row, node_begin[:-1], pyramid, roots], device, threads)
     bounds = roots.bound.numpy()
     if count == 1:
         order = np.argsort(-bounds, kind="stable")

@@ -40,13 +40,7 @@ def field_sums(field: NDArray[np.uint8], grid: Grid, points: Floats, poses: Floa
     devices.start()
     out = wp.zeros(len(poses), dtype=wp.int32, device="cpu")
     in_cells = np.column_stack([grid.to_cells(poses[:, :2]), poses[:, 2]])
-    inputs = [
-        devices.to_device(field, wp.uint8, "cpu"),
-        devices.to_device(points / grid.resolution, wp.float32, "cpu"),
-        devices.to_device(in_cells, wp.float32, "cpu"),
-        out,
-    ]
-    devices.launch(sum_field, len(poses), inputs, "cpu", 1)
+    devices.launch(sum_field, len(poses), [field, points / grid.resolution, in_cells, out], "cpu", 1)
     return np.asarray(out.numpy())
 
 
@@ -87,6 +81,5 @@ def spread(means: Floats, covariances: Floats, strengths: Floats, shape: tuple[i
     """
     devices.start()
     out = wp.zeros(shape, dtype=wp.float32, device="cpu")
-    inputs = [devices.to_device(a, wp.float32, "cpu") for a in (means, covariances, strengths)]
-    devices.launch(spread_surfaces, len(means), [*inputs, out], "cpu", 1)
+    devices.launch(spread_surfaces, len(means), [means, covariances, strengths, out], "cpu", 1)
     return np.asarray(out.numpy())

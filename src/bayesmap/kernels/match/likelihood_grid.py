@@ -125,10 +125,7 @@ def draw_grids(
     bands = 1 if device == "cpu" and grids > 1 else (4 if device == "cpu" else 64)
     if device == "cpu" and threads == 1:
         bands = 1
-    inputs = [bands, devices.to_device(offsets, wp.int32, device), devices.to_device(scan, wp.int32, device)]
-    inputs += [devices.to_device(poses_world, wp.vec3d, device), scan_arrays(geometry), wp.float32(spacing_m)]
-    inputs += [devices.to_device(origins, wp.vec2d, device), wp.float64(resolution)]
-    inputs += [devices.to_device(stamp, wp.uint8, device), pyramid]
+    inputs = [bands, offsets, scan, poses_world, scan_arrays(geometry), spacing_m, origins, resolution, stamp, pyramid]
     if device == "cpu":
         host = pyramid.numpy()
         host[:, 0] = 0

@@ -46,9 +46,7 @@ def neighbour(beam: int, steps: int, beams: int, full_circle: int) -> int:
 
 @wp.func
 def widest_gap(step_rad: wp.float32, away: wp.float32) -> wp.float32:
-    """Return the largest distance at which the points of neighbouring beams lie on one surface, given the distance
-    ``away`` of one of them from the laser.
-    """
+    """Return how far apart the points of two neighbouring beams on one surface may lie, ``away`` from the laser."""
     return wp.float32(0.05) + wp.float32(3.5) * (step_rad * away)
 
 
@@ -198,38 +196,24 @@ def points_and_normals(
     """
     device = devices.resolve(device)
     scans, beams = ranges_m.shape
-    readings = devices.to_device(ranges_m, wp.float64, device)
-    angles = devices.to_device(angles_rad, wp.float64, device)
     points, normals = (wp.empty((scans, beams), dtype=wp.vec2f, device=device) for _ in range(2))
     kind = wp.empty((scans, beams), dtype=wp.uint8, device=device)
     spread = wp.empty((scans, beams), dtype=wp.float32, device=device)
-    span = [wp.float64(nearest_m), wp.float64(farthest_m)]
-    devices.launch(scan_points, scans, [readings, angles, *span, points, kind], device, threads)
-    geometry = [*fans_to_device(fans, device), wp.float32(reach_m), wp.float32(noise_m)]
-    devices.launch(scan_normals, scans, [points, *geometry, kind, normals, spread], device, threads)
+    inputs = [ranges_m, angles_rad, nearest_m, farthest_m, points, kind]
+    devices.launch(scan_points, scans, inputs, device, threads)
+    inputs = [points, fans.beams, fans.step_rad, fans.full_circle, reach_m, noise_m, kind, normals, spread]
+    devices.launch(scan_normals, scans, inputs, device, threads)
     return points, normals, kind, spread
-
-
-def fans_to_device(fans: Any, device: str) -> tuple[Any, Any, Any]:
-    """Put the number of beams, the angular step and whether the circle is full, of each scan, (S,), on a device."""
-    return (
-        devices.to_device(fans.beams, wp.int32, device),
-        devices.to_device(fans.step_rad, wp.float32, device),
-        devices.to_device(fans.full_circle, wp.int32, device),
-    )
 
 
 def scan_arrays(geometry: Any, stride: int = 1) -> Any:
     """Return a `bayesmap.poses.scan_geometry.ScanGeometry` as kernels read it."""
-    scene = ScanArrays()
-    scene.points, scene.normals = geometry.points, geometry.normals
-    scene.kind, scene.spread = geometry.kind, geometry.spread
     fans = geometry.fans
-    scene.beam_of_angle = devices.to_device(fans.beam_of_angle, wp.int32, geometry.device)
-    scene.layout = devices.to_device(fans.layout, wp.int32, geometry.device)
-    scene.beams, scene.step, scene.full_circle = fans_to_device(fans, geometry.device)
-    scene.stride = stride
-    return scene
+    return devices.pack(
+        ScanArrays, geometry.device, points=geometry.points, normals=geometry.normals, kind=geometry.kind,
+        spread=geometry.spread, beam_of_angle=fans.beam_of_angle, layout=fans.layout, beams=fans.beams,
+        step=fans.step_rad, full_circle=fans.full_circle, stride=stride,
+    )  # fmt: skip
 
 
 def selected(array: Any, scans: NDArray[np.intp]) -> Any:

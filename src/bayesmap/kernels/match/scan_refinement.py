@@ -198,16 +198,16 @@ def refine_scans(
     Information is in the world's axes.
     """
     device, count = geometry.device, len(refinement.scans)
-    jobs, schedule, out = RefinementArrays(), ConvergenceNumbers(), Refined()
-    jobs.scan, jobs.offsets, jobs.other = (
-        devices.to_device(a, wp.int32, device) for a in (refinement.scans, refinement.offsets, refinement.others)
-    )
-    jobs.other_pose, jobs.start, jobs.prior = (
-        devices.to_device(a, wp.vec3d, device) for a in (refinement.other_poses, refinement.starts, refinement.priors)
-    )
-    jobs.prior_information = devices.to_device(refinement.prior_information, wp.mat33d, device)
-    schedule.sigma, schedule.steps, schedule.alike = convergence.sigma_m, convergence.steps, convergence.alike
-    schedule.reach, schedule.scale = wp.vec2f(*convergence.reach_m), wp.vec2f(*convergence.scale_m)
+    jobs = devices.pack(
+        RefinementArrays, device, scan=refinement.scans, offsets=refinement.offsets, other=refinement.others,
+        other_pose=refinement.other_poses, start=refinement.starts, prior=refinement.priors,
+        prior_information=refinement.prior_information,
+    )  # fmt: skip
+    schedule = devices.pack(
+        ConvergenceNumbers, device, sigma=convergence.sigma_m, steps=convergence.steps, alike=convergence.alike,
+        reach=wp.vec2f(*convergence.reach_m), scale=wp.vec2f(*convergence.scale_m),
+    )  # fmt: skip
+    out = Refined()
     out.pose = wp.empty(count, dtype=wp.vec3d, device=device)
     out.information = wp.empty(count, dtype=wp.mat33d, device=device)
     out.totals = wp.zeros((count, 4), dtype=wp.float64, device=device)

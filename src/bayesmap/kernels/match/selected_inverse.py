@@ -1,7 +1,5 @@
 """Compute the entries of the inverse of a sparse symmetric matrix where its factor has entries, without the rest."""
 
-from typing import Any
-
 import numpy as np
 import warp as wp
 
@@ -13,7 +11,7 @@ wp.set_module_options({"enable_backward": False})
 
 @wp.kernel
 def invert_on_pattern(
-    begin: Int32s, row: Int32s, lower: Float64s, pivot: Float64s, column_sums: Float64s, inverse: Float64s
+    _first: int, begin: Int32s, row: Int32s, lower: Float64s, pivot: Float64s, column_sums: Float64s, inverse: Float64s
 ):
     """One thread: columns from the last to the first. Z_rj = -sum_k L_kj Z_rk, and Z_jj = 1 / D_j - sum_k L_kj Z_kj."""
     columns = begin.shape[0] - 1
@@ -54,8 +52,6 @@ def selected_inverse(begin: Ints, row: Ints, lower: Floats, pivot: Floats) -> Fl
     devices.start()
     inverse = wp.zeros(len(row), dtype=wp.float64, device="cpu")
     longest = int(np.diff(begin).max(initial=1))
-    inputs: list[Any] = [devices.to_device(begin, wp.int32, "cpu"), devices.to_device(row, wp.int32, "cpu")]
-    inputs += [devices.to_device(lower, wp.float64, "cpu"), devices.to_device(pivot, wp.float64, "cpu")]
-    inputs += [wp.zeros(longest, dtype=wp.float64, device="cpu"), inverse]
-    wp.launch(invert_on_pattern, dim=1, inputs=inputs, device="cpu")
+    sums = wp.zeros(longest, dtype=wp.float64, device="cpu")
+    devices.launch(invert_on_pattern, 1, [begin, row, lower, pivot, sums, inverse], "cpu")
     return np.asarray(inverse.numpy())

@@ -273,19 +273,8 @@ def scan_log_likelihood(
     out = wp.empty((count, draws), dtype=wp.float64, device=device)
     which = np.zeros(count, np.int32) if scan is None else np.asarray(scan, np.int32)
     readings = np.ascontiguousarray(np.atleast_2d(ranges_m), dtype=np.float64)
-    inputs = [
-        _law(sensor, limits, device),
-        packed.frame,
-        packed.maps,
-        packed.empty,
-        draws,
-        cycle,
-        devices.to_device(poses, wp.float64, device),
-        devices.to_device(which, wp.int32, device),
-        devices.to_device(angles_rad, wp.float64, device),
-        devices.to_device(readings, wp.float64, device),
-        out,
-    ]
+    inputs = [_law(sensor, limits, device), packed.frame, packed.maps, packed.empty, draws, cycle]
+    inputs += [poses, which, angles_rad, readings, out]
     size = -(-count // cycle) * cycle if in_turn else count * draws
     devices.launch(scan_log_likelihoods, size, inputs, device, threads)
     return np.asarray(out.numpy())

@@ -146,18 +146,9 @@ class ScanLikelihood:
         limits = RangeLimits(self.scans.min_range_m, self.scans.max_range_m)
         out = wp.zeros(len(poses) * beams, dtype=wp.float64, device=device)
         mounts, readings = self._on_device
-        inputs = [
-            sensor_law(self.sensor, limits, device),
-            grid_frame(self.grid),
-            cells.maps if isinstance(cells, DeviceMaps) else maps_to_device(cells, self.hit_depth, device),
-            devices.to_device(poses, wp.float64, device),
-            devices.to_device(scan, wp.int32, device),
-            devices.to_device(chain, wp.int32, device),
-            beams,
-            mounts,
-            readings,
-            out,
-        ]
+        law, frame = sensor_law(self.sensor, limits, device), grid_frame(self.grid)
+        maps = cells.maps if isinstance(cells, DeviceMaps) else maps_to_device(cells, self.hit_depth, device)
+        inputs = [law, frame, maps, poses, scan, chain, beams, mounts, readings, out]
         devices.launch(beam_log_likelihoods, len(out), inputs, device, devices.threads_for(len(out)))
         return np.asarray(out.numpy().reshape(len(poses), beams))
 
@@ -185,8 +176,5 @@ class ScanLikelihood:
 
 def grid_frame(grid: Grid) -> Frame:
     """Return a grid as kernels read it."""
-    frame = Frame()
-    frame.nx, frame.ny = grid.shape
-    frame.origin_x, frame.origin_y = grid.origin
-    frame.resolution = grid.resolution
-    return frame
+    (nx, ny), (x, y) = grid.shape, grid.origin
+    return devices.pack(Frame, "cpu", nx=nx, ny=ny, origin_x=x, origin_y=y, resolution=grid.resolution)

@@ -60,9 +60,7 @@ def add_stops(
     square: Float32s,
     no_stop: Float64s,
 ):
-    """One thread per beam: add the weight of each stop, and the moments of its place about the part ``maps.depth`` of
-    the cell's stretch. A beam is followed until the chance that it gets further is below ``gone``.
-    """
+    """One thread per beam, followed until its chance is below ``gone``: add each stop's weight and moments."""
     b = first + wp.tid()
     line = line_of(rays.lines, b)
     for d in range(draws):
@@ -133,7 +131,7 @@ def _mixed(
     draws = 0
     for maps, count in batches:
         draws += count
-        inputs = [*fixed, maps, count, wp.float64(gone), *sums, no_stop]
+        inputs = [*fixed, maps, count, gone, *sums, no_stop]
         devices.launch(add_stops, rays.n_beams, inputs, device, devices.threads_for(rays.n_beams))
     if draws == 0:
         raise BadInput("score: there is no draw to predict from")
@@ -210,13 +208,10 @@ def find_events(
 
 def stops_to_device(stops: StopMixture, device: str) -> Any:
     """Put a mixture where kernels read it."""
-    packed = StopMixtureArrays()
-    packed.offsets = devices.to_device(stops.rays.offsets, wp.int32, device)
-    packed.weight = devices.to_device(stops.weight, wp.float32, device)
-    packed.distance_m = devices.to_device(stops.distance_m, wp.float32, device)
-    packed.variance = devices.to_device(stops.spread_m**2, wp.float32, device)
-    packed.no_stop = devices.to_device(stops.no_stop, wp.float64, device)
-    return packed
+    return devices.pack(
+        StopMixtureArrays, device, offsets=stops.rays.offsets, weight=stops.weight, distance_m=stops.distance_m,
+        variance=stops.spread_m**2, no_stop=stops.no_stop,
+    )  # fmt: skip
 
 
 def first_hit_events(stops: StopMixture, sensor: SensorModel, device: str = "cpu") -> tuple[Singles, NDArray[np.int8]]:
@@ -237,12 +232,8 @@ def first_hit_events(stops: StopMixture, sensor: SensorModel, device: str = "cpu
     rays, size = stops.rays, len(stops.weight)
     chance = wp.full(size, wp.nan, dtype=wp.float32, device=device)
     stopped = wp.full(size, -1, dtype=wp.int8, device=device)
-    inputs = [
-        law_with_cumulative(sensor, rays.limits, device),
-        stops_to_device(stops, device),
-        rays_to_device(rays, device),
-    ]
-    inputs += [devices.to_device(rays.range_m, wp.float64, device), chance, stopped]
+    inputs = [law_with_cumulative(sensor, rays.limits, device), stops_to_device(stops, device)]
+    inputs += [rays_to_device(rays, device), rays.range_m, chance, stopped]
     devices.launch(find_events, rays.n_beams, inputs, device, devices.threads_for(rays.n_beams))
     return chance.numpy(), stopped.numpy()
 
@@ -267,31 +258,8 @@ class LevelSearch:
 
 
 @wp.func
-def begin_search(stops: StopMixtureArrays, b: int, low_m: wp.float64) -> LevelSearch:
-    """Start a search at a range, with all stops undecided."""
-    s = LevelSearch()
-    s.low = low_m
-    s.begin = stops.offsets[b]
-    s.total = stops.no_stop[b]
-    for k in range(stops.offsets[b], stops.offsets[b + 1]):
-        s.total += wp.float64(stops.weight[k])
-    return s
-
-
-@wp.func
-def search_to(s: LevelSearch, stops: StopMixtureArrays, b: int, high_m: wp.float64) -> LevelSearch:
-    """Extend the search up to a range; stops that lie before it stay decided."""
-    s.high = high_m
-    s.end = stops.offsets[b + 1]
-    s.behind = stops.no_stop[b]
-    return s
-
-
-@wp.func
 def halved(law: SensorLaw64, stops: StopMixtureArrays, s: LevelSearch, level: wp.float64) -> LevelSearch:
-    """Return the half of the span that holds the level, for the robust mixture; stops that are decided are asked only
-    once.
-    """
+    """Return the half of the span that holds the level, for the robust mixture; decided stops are asked once."""
     z = wp.float64(0.5) * (s.low + s.high)
     decay = wp.exp(-law.rate_short_per_m * z)
     p = s.below + s.behind * law.p_short * (wp.float64(1.0) - decay)
@@ -343,7 +311,12 @@ def find_quantiles(
     at_low = mixture_below(law, stops, b, low_m)
     at_high = mixture_below(law, stops, b, high_m)
     start = low_m
-    sought = begin_search(stops, b, low_m)
+    sought = LevelSearch()
+    sought.low = low_m
+    sought.begin = stops.offsets[b]
+    sought.total = stops.no_stop[b]
+    for k in range(stops.offsets[b], stops.offsets[b + 1]):
+        sought.total += wp.float64(stops.weight[k])
     for i in range(levels.shape[0]):
         level = levels[i]
         if level <= at_low:
@@ -351,7 +324,9 @@ def find_quantiles(
         elif level > at_high:
             quantiles[b, i] = wp.float64(wp.inf)
         elif law.kind == MIXTURE:
-            sought = search_to(sought, stops, b, high_m)
+            sought.high = high_m  # stops before the last level's range stay decided
+            sought.end = stops.offsets[b + 1]
+            sought.behind = stops.no_stop[b]
             for _j in range(HALVINGS):
                 sought = halved(law, stops, sought, level)
             quantiles[b, i] = sought.high
@@ -386,6 +361,6 @@ def range_quantiles(stops: StopMixture, levels: Floats, sensor: SensorModel, dev
     low, high = (limits.min_m, limits.max_m) if are_typed(sensor, limits) else (-limits.max_m, 2.0 * limits.max_m)
     beams = stops.rays.n_beams
     out = wp.empty((beams, len(levels)), dtype=wp.float64, device=device)
-    inputs = [law, stops_to_device(stops, device), devices.to_device(np.asarray(levels), wp.float64, device)]
-    devices.launch(find_quantiles, beams, [*inputs, wp.float64(low), wp.float64(high), out], device)
+    inputs = [law, stops_to_device(stops, device), np.asarray(levels), low, high, out]
+    devices.launch(find_quantiles, beams, inputs, device)
     return np.asarray(out.numpy())

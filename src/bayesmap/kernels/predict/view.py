@@ -89,16 +89,7 @@ def draw_scan_stops(
     device = held.device
     beams = len(poses) * len(angles_rad)
     out = [wp.zeros(beams, dtype=wp.float64, device=device) for _ in range(2)]
-    inputs = [
-        grid_frame(grid),
-        held.maps,
-        devices.to_device(poses, wp.float64, device),
-        devices.to_device(draw, wp.int32, device),
-        devices.to_device(angles_rad, wp.float64, device),
-        wp.float64(longest_m),
-        wp.uint64(key),
-        *out,
-    ]
+    inputs = [grid_frame(grid), held.maps, poses, draw, angles_rad, longest_m, key, *out]
     devices.launch(draw_scan, beams, inputs, device)
     distance_m, spread_m = (np.asarray(a.numpy().reshape(len(poses), -1)) for a in out)
     return distance_m, spread_m
@@ -232,15 +223,7 @@ def independent_information(
     device = devices.resolve(device)
     out: Any = wp.zeros(len(poses) * len(angles_rad), dtype=wp.float64, device=device)
     odds = occupied / (1.0 - occupied)
-    inputs = [
-        grid_frame(grid),
-        devices.to_device(occupied, wp.float64, device),
-        devices.to_device(surprise(hit_factor, odds), wp.float64, device),
-        devices.to_device(surprise(pass_factor, odds), wp.float64, device),
-        devices.to_device(poses, wp.float64, device),
-        devices.to_device(angles_rad, wp.float64, device),
-        *(wp.float64(value) for value in (longest_m, sigma_m)),
-        out,
-    ]
-    devices.launch(add_beam_information, len(poses) * len(angles_rad), inputs, device)
+    information = [surprise(factor, odds) for factor in (hit_factor, pass_factor)]
+    inputs = [grid_frame(grid), occupied, *information, poses, angles_rad, longest_m, sigma_m, out]
+    devices.launch(add_beam_information, len(out), inputs, device)
     return np.asarray(out.numpy().reshape(len(poses), -1))

@@ -19,6 +19,7 @@ import warp as wp
 from scipy import special
 
 from bayesmap.cells.reflectivity import KernelNumbers
+from bayesmap.kernels import device as devices
 from bayesmap.kernels.device import Singles
 from bayesmap.kernels.random import PER_GAMMA, log_gamma_variate, normal
 
@@ -62,12 +63,7 @@ class Crossing:
 @wp.func
 def ray_from(start_m: wp.vec2, direction: wp.vec2) -> Ray:
     """Make a ray from its start and its direction."""
-    ray = Ray()
-    ray.x = start_m[0]
-    ray.y = start_m[1]
-    ray.ux = direction[0]
-    ray.uy = direction[1]
-    return ray
+    return Ray(start_m[0], start_m[1], direction[0], direction[1])
 
 
 @wp.func
@@ -88,9 +84,7 @@ def crossing_probability(cell: Cell, ray: Ray) -> wp.float32:
 
 @wp.func
 def cross_at(offset: wp.float32, ahead: wp.float32, cell: Cell, ux: wp.float32, uy: wp.float32) -> Crossing:
-    """Return the crossing of a surface, from the offset of its mean from the beam, the distance of that ahead, and the
-    beam's direction.
-    """
+    """Return the crossing of a surface whose mean lies ``offset`` beside the beam and ``ahead`` of its start."""
     l11 = cell[L11]
     l21 = cell[L21]
     l22 = cell[L22]
@@ -149,10 +143,7 @@ class PriorNumbers:
 
 def packed_prior(numbers: KernelNumbers) -> Any:
     """Pack a prior as kernels read it."""
-    packed = PriorNumbers()
-    for name, value in numbers._asdict().items():
-        setattr(packed, name, value)
-    packed.log_beta = packed.log_beta_solid = 0.0
+    packed = devices.pack(PriorNumbers, "cpu", **numbers._asdict())
     if numbers.coupling > 0:
         packed.log_beta = float(special.betaln(numbers.a, numbers.b))
         packed.log_beta_solid = float(special.betaln(numbers.a_solid, numbers.b_solid))
@@ -247,9 +238,7 @@ def log_size_penalty(prior: PriorNumbers, cell: Cell) -> wp.float64:
 
 @wp.func
 def log_reflectivity_prior(prior: PriorNumbers, solid: wp.uint8, m: wp.float32) -> wp.float32:
-    """Return the log density of logit m given the label, without labels up to a constant; m is kept above the least
-    number of single precision.
-    """
+    """Return the log density of logit m given the label; without labels, up to a constant."""
     at = wp.clamp(m, wp.float32(1.0e-30), wp.float32(1.0 - 1.0e-7))
     counts = pseudo_counts(prior, solid)
     density = wp.float32(counts[0]) * wp.log(at) + wp.float32(counts[1]) * wp.log(wp.float32(1.0) - at)

@@ -79,9 +79,7 @@ def is_silent(sweep: int, period: int, c: int, m: wp.float32, stopped_in: int) -
 
 @wp.func
 def renewed_surface(prior: PriorNumbers, centre: wp.vec2, cell: Cell, key: wp.uint64, at: wp.uint64) -> Cell:
-    """Draw another surface for a cell that no beam observes, whatever its surface. Its conditional is the prior, of
-    which `fresh_surface` leaves out the penalty of size.
-    """
+    """Draw another surface for a cell that no beam observes: from the prior, its penalty of size included."""
     candidate = fresh_surface(prior, centre, cell, key, at + AT_SILENT)
     log_ratio = log_size_penalty(prior, candidate) - log_size_penalty(prior, cell)
     accepted = wp.log(to_uniform(random_bits(key, at + AT_SILENT - wp.uint64(1)))) < log_ratio
@@ -155,9 +153,7 @@ def begin_sweep(
 def update_free_cells(
     first: int, sweep: int, without_surfaces: int, prior: PriorNumbers, active: ActiveCells, state: ChainArrays
 ):
-    """One thread per chain's cell, at the end of a sweep: accept or reject its candidate, draw its reflectivity, or
-    neither; and where it would stop next to no beam, perhaps take another surface.
-    """
+    """One thread per chain's cell: decide on its candidate, draw its reflectivity, or renew its surface."""
     i = first + wp.tid()
     chain = i // active.cell.shape[0]
     place = i - chain * active.cell.shape[0]
@@ -203,9 +199,7 @@ def update_free_cells(
 
 @wp.kernel
 def count_observed(first: int, active: ActiveCells, state: ChainArrays):
-    """One thread per chain's cell, after a sweep: count it as inspected if it has counted beams, and as observed if any
-    beam came into the count.
-    """
+    """One thread per chain's cell, after a sweep: count it as inspected, and as observed, if it has counted beams."""
     i = first + wp.tid()
     chain = i // active.cell.shape[0]
     here = chain * state.n_cells + active.cell[i - chain * active.cell.shape[0]]
@@ -258,9 +252,7 @@ def sum_of_slices(
     one_total: Float64Rows,
     other_total: Float64Rows,
 ):
-    """One thread per chain: sum the slices of two quantities, into a column of the totals. ``beside_other`` are more
-    slices of the second, perhaps none.
-    """
+    """One thread per chain: sum the slices of two quantities into a column; the second has two sets."""
     chain = first + wp.tid()
     total = wp.float64(0.0)
     for k in range(one.shape[1]):

@@ -58,9 +58,7 @@ class EndpointCells:
 
 
 def endpoint_cells_to_device(rays: Rays, cells: Ints, steps: Singles, device: str) -> EndpointCells:
-    """List the incidences of some cells, by flat index, ascending, (U,), on a device; ``steps`` are these cells', (U,
-    8).
-    """
+    """List the incidences of some cells, flat, ascending, (U,), on a device; ``steps`` are these cells', (U, 8)."""
     listed = np.zeros(rays.grid.n_cells, dtype=np.bool_)
     listed[cells] = True
     entry = np.nonzero(listed[rays.cells])[0].astype(np.int32)
@@ -70,17 +68,12 @@ def endpoint_cells_to_device(rays: Rays, cells: Ints, steps: Singles, device: st
     away = rays.grid.cell_centres_m(of_entry) - rays.start_m[beam]
     ux, uy = rays.direction[beam].astype(np.float64).T
     passing = np.stack([ux * away[:, 1] - uy * away[:, 0], ux, uy], axis=-1)
-    on_device = EndpointCells()
-    on_device.cell = devices.to_device(cells, wp.int32, device)
-    bounds = np.concatenate([np.searchsorted(of_entry, cells), [len(entry)]])
-    on_device.offsets = devices.to_device(bounds, wp.int32, device)
-    on_device.entry = devices.to_device(entry, wp.int32, device)
-    on_device.beam = devices.to_device(beam, wp.int32, device)
     reading = np.stack([(away * rays.direction[beam]).sum(axis=1), rays.range_m[beam]], axis=-1)
-    on_device.reading = wp.array(reading.astype(np.float32), dtype=wp.vec2, device=device)
-    on_device.passing = wp.array(passing.astype(np.float32), dtype=wp.vec3, device=device)
-    on_device.step = wp.array(np.ascontiguousarray(steps, dtype=np.float32), dtype=Cell, device=device)
-    return on_device
+    bounds = np.concatenate([np.searchsorted(of_entry, cells), [len(entry)]])
+    return devices.pack(
+        EndpointCells, device, cell=cells, offsets=bounds, entry=entry, beam=beam, passing=passing, reading=reading,
+        step=steps,
+    )  # fmt: skip
 
 
 @wp.func
@@ -188,9 +181,7 @@ class LaneBlocks:
 
 
 def room_for_blocks(endpoints: EndpointCells, rows: int, device: str) -> LaneBlocks:
-    """Allocate room for the blocks of cells in each of some rows: on a GPU, which updates all cells at once, for every
-    cell; on the CPU for the cell that needs most.
-    """
+    """Allocate blocks for each row: on a GPU for every cell, on the CPU for the cell that needs most."""
     incidences = np.diff(endpoints.offsets.numpy())
     lanes = int(PRODUCTS) + int(OF_PASSING) + int(OF_STOPPED) * (1 + -(-incidences // WIDTH))
     begin = np.zeros(len(lanes), dtype=np.int64) if device == "cpu" else np.cumsum(lanes) - lanes
@@ -367,9 +358,7 @@ def put_in_blocks(
 
 @wp.func
 def log_of_product(blocks: LaneBlocks, row: int, begin: int) -> wp.float64:
-    """Return the logarithm of the product of all lanes at ``begin``; UNKNOWN if the lanes after it say that one has
-    been too small for a number.
-    """
+    """Return the log of the product of all lanes at ``begin``; UNKNOWN if one has been too small for a number."""
     if wp.min(blocks.lanes[row, begin + 1]) < SMALLEST:
         return UNKNOWN
     product = wp.float64(1.0)

@@ -162,9 +162,7 @@ class BeamLists:
 
 @wp.func
 def listed_of(lists: BeamLists, chain: int, u: int, begin: int, end: int, hits: int) -> Listed:
-    """Return the listed incidences of a cell, which has the incidences from ``begin`` to ``end`` and stops ``hits``
-    beams.
-    """
+    """Return a cell's listed incidences; it has those from ``begin`` to ``end``, and stops ``hits`` beams."""
     listed = Listed()
     listed.entries = lists.entries[chain]
     listed.passing_begin = begin
@@ -201,9 +199,7 @@ def log_beams(
     cell: Cell,
     least: wp.float64,
 ) -> wp.float64:
-    """Compute `log_stops` of beams in blocks and of ``others`` at the head of those that stopped; -1: there are no
-    blocks.
-    """
+    """Compute `log_stops` of the beams in blocks and of ``others``, the first of the stopped; -1: no blocks."""
     passing_end = listed.passing_end
     stopped_end = listed.stopped_end
     total = wp.float64(0.0)

@@ -93,9 +93,7 @@ def balance(solid: Uint8s, cell_0: int, x: int, y: int, nx: int, ny: int) -> int
 def draw_labels(
     first: int, colour: int, sweep: int, nx: int, ny: int, prior: PriorNumbers, known: Uint8s, state: ChainArrays
 ):
-    """One thread per chain's cell: draw its label, if the cell has the colour, and is updated in this sweep or
-    untouched.
-    """
+    """One thread per chain's cell: draw the label of a cell of the colour that is updated now or untouched."""
     here = first + wp.tid()
     chain = here // state.n_cells
     cell_0 = chain * state.n_cells

@@ -212,9 +212,7 @@ def draw_stop_chances(
 
 
 class InSquares(NamedTuple):
-    """For the square of every touched cell, (T,) each: beams stopped in it, beams that pass it, and the chance that a
-    beam which comes to it is stopped in it, drawn given these counts, and its mean.
-    """
+    """The beams of each touched cell's square, (T,) each: stopped in it, passing it, chance of a stop, and its mean."""
 
     stopped: Ints
     passed: Ints

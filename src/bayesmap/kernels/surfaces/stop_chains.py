@@ -115,49 +115,46 @@ class StopChains:
         self._schedule = UpdateSchedule(plan.rays, plan.periods)
         self._lazy = self._schedule.mark_watched(self._rays, device)
         self._endpoints = endpoint_cells_to_device(plan.rays, plan.endpoints, plan.steps, device)
-        active = ActiveCells()
-        active.cell = devices.to_device(plan.touched, wp.int32, device)
-        active.period = devices.to_device(plan.periods, wp.uint8, device)
-        active.ny, active.edge_m = plan.rays.grid.shape[1], wp.float64(plan.rays.grid.resolution)
-        self._active = active
-        self._known = known_to_device(
-            cells, plan.touched, plan.endpoints[: 0 if self.without_surfaces else None], device
-        )
+        self._active = devices.pack(
+            ActiveCells, device, cell=plan.touched, period=plan.periods, ny=plan.rays.grid.shape[1],
+            edge_m=plan.rays.grid.resolution,
+        )  # fmt: skip
+        counted = plan.endpoints[: 0 if self.without_surfaces else None]
+        self._known = known_to_device(cells, plan.touched, counted, device)
         self._law: tuple[Any, ...] = ()
         self._packed: tuple[Any, Any] | None = None
         self._squares = None if self.without_surfaces else Squares(plan.rays, chains, device)
 
         empty = partial(wp.zeros, device=device)
         parts = max(1, -(-self.threads // chains))
-        state = ChainArrays()
-        state.n_cells, state.n_beams, state.parts, state.beta = cells, beams, parts, 1.0
-        state.keys = wp.array(np.array(keys, dtype=np.uint64), dtype=wp.uint64, device=device)
+        full = partial(wp.full, chains * cells, device=device)
+        host = {"keys": np.array(keys, dtype=np.uint64), "solid": np.zeros(chains * cells, dtype=np.uint8)}
+        host["observed_counts"] = np.zeros((chains * cells, 2), dtype=np.int32)
+        if solid is not None:
+            host["solid"] = solid.ravel().astype(np.uint8)
+        if observed_counts is not None:
+            host["observed_counts"] = np.array(observed_counts, dtype=np.int32).reshape(-1, 2)
+        if counts is not None:
+            host |= {"last_hits": counts[:, 0].flatten(), "last_met": counts[:, 1].flatten()}
+        state = devices.pack(ChainArrays, device, n_cells=cells, n_beams=beams, parts=parts, beta=1.0, **host)
         state.cells = empty(chains * cells, dtype=Cell)
-        labels = np.zeros(chains * cells) if solid is None else solid.ravel()
-        state.solid = wp.array(labels.astype(np.uint8), dtype=wp.uint8, device=device)
-        state.fixed_m = wp.full(chains * cells, LEARNS, dtype=wp.float32, device=device)
+        state.fixed_m = full(LEARNS, dtype=wp.float32)
         state.candidates = empty(1 if self.without_surfaces else chains * cells, dtype=Cell)
         state.met, state.hits = (empty((chains * parts, cells), dtype=wp.int32) for _ in range(2))
         state.gain = empty((chains * parts, cells), dtype=wp.int64)
         state.stop = wp.full(chains * beams, -1, dtype=wp.int32, device=device)  # nothing is known before a sweep
         state.where = empty(chains * beams, dtype=wp.vec2)
-        state.stopped_in = wp.full(chains * cells, -1, dtype=wp.int32, device=device)
+        state.stopped_in = full(-1, dtype=wp.int32)
         state.log_likelihood, state.lazy_free = (empty(chains * beams, dtype=wp.float32) for _ in range(2))
         if counts is None:
-            state.last_hits = empty(chains * cells, dtype=wp.int32)
-            state.last_met = wp.full(chains * cells, -1, dtype=wp.int32, device=device)
-        else:
-            state.last_hits, state.last_met = (
-                wp.array(counts[:, i].ravel(), dtype=wp.int32, device=device) for i in (0, 1)
-            )
-        observed = np.zeros((chains * cells, 2)) if observed_counts is None else observed_counts.reshape(-1, 2)
-        state.observed_counts = wp.array(observed.astype(np.int32), dtype=wp.vec2i, device=device)
+            state.last_hits, state.last_met = empty(chains * cells, dtype=wp.int32), full(-1, dtype=wp.int32)
         self._state = state
         for chain in range(chains):
             self.put_cells(chain, states(chain))
-        self._lists = BeamLists()
-        self._lists.entries = empty((chains, self._endpoints.entry.shape[0]), dtype=wp.int32)
-        self._lists.passes = empty((chains, len(plan.endpoints)), dtype=wp.int32)
+        self._lists = devices.pack(
+            BeamLists, device, entries=empty((chains, self._endpoints.entry.shape[0]), dtype=wp.int32),
+            passes=empty((chains, len(plan.endpoints)), dtype=wp.int32),
+        )  # fmt: skip
         self._blocks = room_for_blocks(self._endpoints, chains * parts, device)
         self._log_priors = empty(chains * touched, dtype=wp.float32)
         slices = (-(-max(size, 1) // SLICE) for size in (beams, touched, cells))  # of labels zero where there are none
@@ -306,9 +303,7 @@ class StopChains:
         self._law, self._packed = (), None  # what was worked out of the cells before them is worthless
 
     def solid(self, chain: int) -> NDArray[np.bool_]:
-        """Return the labels of all cells of a chain, (N,), valid until the next sweep; none is solid if cells have no
-        labels.
-        """
+        """Return the labels of all cells of a chain, (N,), valid until the next sweep; all free if cells have none."""
         return self._of(self._state.solid, chain).view(np.bool_)
 
     def draw_untouched(self, sweep: int) -> None:
@@ -352,9 +347,7 @@ class StopChains:
         return self._of(self._state.observed_counts, chain)
 
     def log_likelihood(self, chain: int) -> Singles:
-        """Return the log-likelihood of every beam of a chain before its last sweep, summed over all stops, (B,), valid
-        until the next sweep.
-        """
+        """Return each beam's log-likelihood before a chain's last sweep, over all stops, (B,), valid until the next."""
         return self._of(self._state.log_likelihood, chain)
 
     def stopped_by(self, chain: int) -> Ints:

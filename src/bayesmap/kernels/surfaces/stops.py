@@ -98,17 +98,12 @@ def traced_rays_to_device(rays: Rays, distance_m: Singles | None, device: str, c
         device: where to.
         cells: other numbers of the cells than their places in the grid, (K,).
     """
-    on_device = TracedRays()
-    on_device.without_surfaces = int(distance_m is not None)
-    on_device.offsets = devices.to_device(rays.offsets, wp.int32, device)
-    on_device.cells = devices.to_device(rays.cells if cells is None else cells, wp.int32, device)
-    on_device.near = devices.to_device(rays.near, wp.int32, device)
-    on_device.distance_m = devices.to_device(np.zeros(1) if distance_m is None else distance_m, wp.float32, device)
-    on_device.start_m = wp.array(rays.start_m, dtype=wp.vec2, device=device)
-    on_device.direction = wp.array(rays.direction, dtype=wp.vec2, device=device)
-    on_device.range_m = devices.to_device(rays.range_m, wp.float32, device)
-    on_device.decay = wp.zeros(rays.n_beams, dtype=wp.float32, device=device)
-    return on_device
+    return devices.pack(
+        TracedRays, device, without_surfaces=int(distance_m is not None), offsets=rays.offsets,
+        cells=rays.cells if cells is None else cells, near=rays.near, start_m=rays.start_m, direction=rays.direction,
+        distance_m=np.zeros(1) if distance_m is None else distance_m, range_m=rays.range_m,
+        decay=wp.zeros(rays.n_beams, dtype=wp.float32, device=device),
+    )  # fmt: skip
 
 
 @wp.struct

@@ -37,6 +37,7 @@ from bayesmap.kernels.walls.chains import (
     put_wall,
     remove_wall,
     site_of,
+    table_to_device,
 )
 
 wp.set_module_options({"enable_backward": False, "max_unroll": 1})  # unrolled, it takes half a minute to compile
@@ -80,45 +81,31 @@ def place_in_block(c: int, x: int, y: int, ny: int) -> int:
 
 
 @wp.kernel
-def list_block_beams(
-    first: int,
-    filling: int,
-    bounds: Int32s,
-    nx: int,
-    ny: int,
-    rows: int,
-    table_offsets: Int32s,
-    cells: Int32s,
-    counts: Int32s,
-    beam: Int32s,
-    begin: Int32s,
-    end: Int32s,
-):
+def list_block_beams(first: int, filling: int, bounds: Int32s, t: Table, blocks: BlockArrays, counts: Int32s):
     """One thread per range of block columns: count the beams of each block, or fill in their entries."""
     thread = first + wp.tid()
-    for b in range(table_offsets.shape[0] - 1):
-        for k in range(table_offsets[b], table_offsets[b + 1]):
-            cx = cells[k] // ny
-            cy = cells[k] % ny
-            for dx in range(2):
-                for dy in range(2):
-                    x = cx - dx
-                    y = cy - dy
-                    if x >= bounds[thread] and x < bounds[thread + 1] and y >= 0 and y < rows:
-                        seen = int(0)
-                        for j in range(wp.max(table_offsets[b], k - LOOK_BACK), k):
-                            if place_in_block(cells[j], x, y, ny) >= 0:
-                                seen = 1
-                        block = x * rows + y
-                        if seen == 0:
-                            i = counts[block]
-                            counts[block] = i + 1
-                            if filling != 0:
-                                beam[i] = b
-                                begin[i] = k
-                                end[i] = k
-                        elif filling != 0:
-                            end[counts[block] - 1] = k
+    for b in range(t.offsets.shape[0] - 1):
+        for k in range(t.offsets[b], t.offsets[b + 1]):
+            cx = t.cells[k] // blocks.ny
+            cy = t.cells[k] % blocks.ny
+            for corner in range(4):
+                x = cx - corner // 2
+                y = cy - corner % 2
+                if x >= bounds[thread] and x < bounds[thread + 1] and y >= 0 and y < blocks.rows:
+                    seen = int(0)
+                    for j in range(wp.max(t.offsets[b], k - LOOK_BACK), k):
+                        if place_in_block(t.cells[j], x, y, blocks.ny) >= 0:
+                            seen = 1
+                    block = x * blocks.rows + y
+                    if seen == 0:
+                        i = counts[block]
+                        counts[block] = i + 1
+                        if filling != 0:
+                            blocks.beam[i] = b
+                            blocks.first[i] = k
+                            blocks.last[i] = k
+                    elif filling != 0:
+                        blocks.last[counts[block] - 1] = k
 
 
 def list_blocks(table: BeamTable, device: str) -> BlockArrays:
@@ -128,15 +115,9 @@ def list_blocks(table: BeamTable, device: str) -> BlockArrays:
     threads = min(devices.available_cores(), columns)
     bounds = np.linspace(0, columns, threads + 1).astype(np.int32)
     counts = np.zeros(columns * rows, dtype=np.int32)
-    empty = np.empty(0, dtype=np.int32)
-
-    def run(filling: int, *arrays: np.ndarray) -> None:
-        shared = [devices.to_device(a, wp.int32, "cpu") for a in arrays]
-        inputs = [filling, devices.to_device(bounds, wp.int32, "cpu"), nx, ny, rows]
-        inputs += [devices.to_device(a, wp.int32, "cpu") for a in (table.offsets, table.cells)]
-        devices.launch(list_block_beams, threads, [*inputs, *shared], "cpu")
-
-    run(0, counts, empty, empty, empty)
+    on_host = table_to_device(table, None, "cpu")
+    blocks = devices.pack(BlockArrays, "cpu", rows=rows, nx=nx, ny=ny)
+    devices.launch(list_block_beams, threads, [0, bounds, on_host, blocks, counts], "cpu")
     total = int(counts.sum(dtype=np.int64))
     if total > MAX_INCIDENCES:
         raise BadInput(
@@ -145,18 +126,16 @@ def list_blocks(table: BeamTable, device: str) -> BlockArrays:
         )
     offsets = np.zeros(len(counts) + 1, dtype=np.int32)
     np.cumsum(counts, out=offsets[1:])
-    beam, begin, end = (np.empty(offsets[-1], dtype=np.int32) for _ in range(3))
-    run(1, offsets[:-1].copy(), beam, begin, end)
+    blocks.beam, blocks.first, blocks.last = (
+        wp.empty(int(offsets[-1]), dtype=wp.int32, device="cpu") for _ in range(3)
+    )
+    devices.launch(list_block_beams, threads, [1, bounds, on_host, blocks, offsets[:-1].copy()], "cpu")
 
     state = np.arange(16)
     takes = [((state >> j) & 1) * ((state & free) == 0) for free in range(16) for j in range(4)]
-    blocks = BlockArrays()
     blocks.offsets = devices.to_device(offsets, wp.int32, device)
-    blocks.beam = devices.to_device(beam, wp.int32, device)
-    blocks.first = devices.to_device(begin, wp.int32, device)
-    blocks.last = devices.to_device(end, wp.int32, device)
-    blocks.takes = wp.array(np.array(takes, dtype=np.float64), dtype=Weights, device=device)
-    blocks.rows, blocks.nx, blocks.ny = rows, nx, ny
+    blocks.takes = devices.to_device(np.array(takes), Weights, device)
+    blocks.beam, blocks.first, blocks.last = (a.to(device) for a in (blocks.beam, blocks.first, blocks.last))
     return blocks
 
 
@@ -239,9 +218,7 @@ def draw_block_from_prior(
 
 @wp.func
 def prior_weights(blocks: BlockArrays, prior: WallPriorArrays, x: int, y: int) -> Weights:
-    """Return the log prior of the 16 states without their pairs, up to a constant; impossible where a cell is fixed or
-    outside.
-    """
+    """Return the log prior of the 16 states without pairs, up to a constant; fixed cells make states impossible."""
     weights = Weights()
     for j in range(4):
         c = cell_of_block(blocks, x, y, j)

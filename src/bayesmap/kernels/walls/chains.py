@@ -146,16 +146,12 @@ def log_prior(prior: WallPriorArrays, walls: Uint8s) -> wp.float64:
 
 def wall_prior_to_device(p_wall: Floats, logit: Floats, coupling: float, shape: tuple[int, int], device: str) -> Any:
     """Put a prior on a device: probabilities and log-odds of all cells, (N,) each, of a grid of this shape."""
-    on_device = WallPriorArrays()
-    on_device.level = devices.to_device(np.round(p_wall * CERTAIN_LEVEL).astype(np.uint64), wp.uint64, device)
-    on_device.logit = devices.to_device(logit, wp.float64, device)
     fixed = (p_wall == 0) | (p_wall == 1)
-    on_device.gain = devices.to_device(np.where(fixed, 0.0, logit), wp.float64, device)
-    on_device.uniform = int((p_wall == p_wall[0]).all())
-    on_device.coupling = coupling
-    on_device.log_all_free = float(np.log1p(-p_wall[p_wall < 1.0]).sum())
-    on_device.nx, on_device.ny = shape
-    return on_device
+    return devices.pack(
+        WallPriorArrays, device, level=np.round(p_wall * CERTAIN_LEVEL).astype(np.uint64), logit=logit,
+        gain=np.where(fixed, 0.0, logit), uniform=int((p_wall == p_wall[0]).all()), coupling=coupling,
+        log_all_free=float(np.log1p(-p_wall[p_wall < 1.0]).sum()), nx=shape[0], ny=shape[1],
+    )  # fmt: skip
 
 
 @wp.struct
@@ -359,20 +355,17 @@ def keep(kept: Kept, sweeps: Sweeps, n: int, s: int, chain: Chain, log_prior: wp
         keep_walls(chain.walls, kept.draws[n, past // kept.every])
 
 
-def table_to_device(table: BeamTable, index: CellIndex, device: str) -> Any:
-    """Put table and index on a device; on the CPU they share the arrays' memory."""
-    on_device = Table()
-    on_device.offsets = devices.to_device(table.offsets, wp.int32, device)
-    on_device.cells = devices.to_device(table.cells, wp.int32, device)
-    on_device.loglik = devices.to_device(table.loglik, wp.float32, device)
-    on_device.no_hit = devices.to_device(table.no_hit, wp.float32, device)
-    on_device.cell_offsets = devices.to_device(index.offsets, wp.int32, device)
-    on_device.cell_entry = devices.to_device(index.entry, wp.int32, device)
-    on_device.cell_beam = devices.to_device(index.beam, wp.int32, device)
-    on_device.cell_loglik = devices.to_device(index.loglik, wp.float32, device)
-    on_device.cell_gain = devices.to_device(index.gain_bound, wp.float32, device)
-    on_device.cell_advantage = devices.to_device(index.advantage, wp.float32, device)
-    return on_device
+def table_to_device(table: BeamTable, index: CellIndex | None, device: str) -> Any:
+    """Put a table, and its index if there is one, on a device; on the CPU they share the arrays' memory."""
+    t = devices.pack(Table, device, offsets=table.offsets, cells=table.cells, loglik=table.loglik, no_hit=table.no_hit)
+    if index is not None:
+        t.cell_offsets, t.cell_entry, t.cell_beam = (
+            devices.to_device(a, wp.int32, device) for a in (index.offsets, index.entry, index.beam)
+        )
+        t.cell_loglik, t.cell_gain, t.cell_advantage = (
+            devices.to_device(a, wp.float32, device) for a in (index.loglik, index.gain_bound, index.advantage)
+        )
+    return t
 
 
 class WallChains:
@@ -388,14 +381,14 @@ class WallChains:
         self.device = device
         self.shape = chains, cells = walls.shape
         beams = table.no_hit.shape[0]
-        states = WallChainArrays()
-        states.walls = wp.array(np.ascontiguousarray(walls, dtype=np.uint8), dtype=wp.uint8, device=device)
+        states = devices.pack(
+            WallChainArrays, device, walls=np.array(walls, dtype=np.uint8), keys=np.array(keys, dtype=np.uint64)
+        )
         states.first = wp.empty((chains, beams), dtype=wp.int32, device=device)
         states.current = wp.empty((chains, beams), dtype=wp.float32, device=device)
         states.reached = wp.empty((chains, cells), dtype=wp.int32, device=device)
         states.gain = wp.empty((chains, cells), dtype=wp.float32, device=device)
         states.known = wp.empty((chains, cells), dtype=wp.uint8, device=device)
-        states.keys = wp.array(np.array(keys, dtype=np.uint64), dtype=wp.uint64, device=device)
         self.states: Any = states
         devices.launch(derive_state, chains, [table, states], device)
 
@@ -439,11 +432,9 @@ def run_sweeps(
     """
     n, cells = chains.shape
     device = chains.device
-    sweeps, out = Sweeps(), Kept()
-    sweeps.first, sweeps.count, sweeps.beta = first, count, beta
-    sweeps.order = devices.to_device(order, wp.int32, device)
-    sweeps.shuffle_bits = cipher_bits(len(order)) if shuffle else 0
-    out.first, out.every = kept.start, kept.step
+    bits = cipher_bits(len(order)) if shuffle else 0
+    sweeps = devices.pack(Sweeps, device, first=first, count=count, beta=beta, order=order, shuffle_bits=bits)
+    out = devices.pack(Kept, device, first=kept.start, every=kept.step)
     out.draws = wp.empty((n, len(kept), (cells + 7) // 8), dtype=wp.uint8, device=device)
     out.log_likelihoods, out.log_priors = (wp.empty((n, count), dtype=wp.float64, device=device) for _ in range(2))
     devices.launch(kernel, n, [*tables, prior, sweeps, chains.states, out], device, threads=threads)

@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 
 from bayesmap.beams.table import BeamTable
 from bayesmap.kernels import device as devices
-from bayesmap.kernels.device import Float32s, Float64s, Floats, Int32s, Uint8Rows
+from bayesmap.kernels.device import Float64s, Floats, Uint8Rows
 from bayesmap.kernels.random import random_bits
-from bayesmap.kernels.walls.chains import Table, WallPriorArrays, draw_from_prior
+from bayesmap.kernels.walls.chains import Table, WallPriorArrays, draw_from_prior, table_to_device
 
 wp.set_module_options({"enable_backward": False})
 
@@ -58,8 +58,7 @@ def draw_particles(
 def weigh(table: Any, prior: Any, key: int, first: int, count: int, device: str) -> Floats:
     """Compute the log weights of particles first .. first + count - 1."""
     log_weights = wp.empty(count, dtype=wp.float64, device=device)
-    inputs = [table, prior, wp.uint64(key), wp.uint64(first), log_weights]
-    devices.launch(weigh_particles, count, inputs, device)
+    devices.launch(weigh_particles, count, [table, prior, key, first, log_weights], device)
     return np.array(log_weights.numpy())
 
 
@@ -67,38 +66,23 @@ def particle_maps(prior: Any, key: int, particles: NDArray[np.intp], device: str
     """Return the maps of some particles, (n, N)."""
     cells = prior.level.shape[0]
     walls = wp.empty((len(particles), cells), dtype=wp.uint8, device=device)
-    chosen = wp.array(particles.astype(np.uint64), dtype=wp.uint64, device=device)
-    devices.launch(draw_particles, len(particles), [prior, wp.uint64(key), chosen, walls], device)
+    devices.launch(draw_particles, len(particles), [prior, key, particles, walls], device)
     return np.array(walls.numpy())
 
 
-@wp.func
-def beam_term(
-    offsets: Int32s, cells: Int32s, loglik: Float32s, no_hit: Float32s, packed: Uint8Rows, d: int, b: int
-) -> wp.float32:
-    """Return the log-likelihood of beam b's reading under packed map d: that of its first wall."""
-    for k in range(offsets[b], offsets[b + 1]):
-        c = cells[k]
-        if ((int(packed[d, c // 8]) >> (7 - c % 8)) & 1) != 0:
-            return loglik[k]
-    return no_hit[b]
-
-
-def _on_device(table: BeamTable, device: str) -> list[Any]:
-    """Return the table's arrays, as both kernels take them."""
-    indices = [devices.to_device(a, wp.int32, device) for a in (table.offsets, table.cells)]
-    return indices + [devices.to_device(a, wp.float32, device) for a in (table.loglik, table.no_hit)]
-
-
 @wp.kernel
-def sum_log_likelihoods(
-    first: int, offsets: Int32s, cells: Int32s, loglik: Float32s, no_hit: Float32s, packed: Uint8Rows, total: Float64s
-):
-    """One thread per packed map: log p(readings | map)."""
+def sum_log_likelihoods(first: int, t: Table, packed: Uint8Rows, total: Float64s):
+    """One thread per packed map: log p(readings | map), each beam ending at its first wall."""
     d = first + wp.tid()
     value = wp.float64(0.0)
-    for b in range(no_hit.shape[0]):
-        value += wp.float64(beam_term(offsets, cells, loglik, no_hit, packed, d, b))
+    for b in range(t.no_hit.shape[0]):
+        term = t.no_hit[b]
+        for k in range(t.offsets[b], t.offsets[b + 1]):
+            c = t.cells[k]
+            if ((int(packed[d, c // 8]) >> (7 - c % 8)) & 1) != 0:
+                term = t.loglik[k]
+                break
+        value += wp.float64(term)
     total[d] = value
 
 
@@ -106,20 +90,17 @@ def log_likelihoods(table: BeamTable, packed: NDArray[np.uint8], device: str = "
     """Compute log p(all readings | map) of each packed map (draws, bytes), (draws,)."""
     device = devices.resolve(device)
     total = wp.empty(len(packed), dtype=wp.float64, device=device)
-    inputs = _on_device(table, device)
-    devices.launch(
-        sum_log_likelihoods, len(packed), [*inputs, devices.to_device(packed, wp.uint8, device), total], device
-    )
+    devices.launch(sum_log_likelihoods, len(packed), [table_to_device(table, None, device), packed, total], device)
     return np.array(total.numpy())
 
 
 @wp.kernel
-def mark_reached(first: int, offsets: Int32s, cells: Int32s, walls: Uint8Rows, reached: Uint8Rows):
+def mark_reached(first: int, t: Table, walls: Uint8Rows, reached: Uint8Rows):
     """One thread per map: mark every cell up to each beam's first wall."""
     m = first + wp.tid()
-    for b in range(offsets.shape[0] - 1):
-        for k in range(offsets[b], offsets[b + 1]):
-            c = cells[k]
+    for b in range(t.no_hit.shape[0]):
+        for k in range(t.offsets[b], t.offsets[b + 1]):
+            c = t.cells[k]
             reached[m, c] = wp.uint8(1)
             if walls[m, c] != wp.uint8(0):
                 break
@@ -130,6 +111,5 @@ def reach_frequency(table: BeamTable, maps: NDArray[np.bool_], device: str = "cp
     device = devices.resolve(device)
     flat = np.ascontiguousarray(maps).reshape(len(maps), -1).astype(np.uint8)
     reached = wp.zeros(flat.shape, dtype=wp.uint8, device=device)
-    inputs = [devices.to_device(a, wp.int32, device) for a in (table.offsets, table.cells)]
-    devices.launch(mark_reached, len(flat), [*inputs, devices.to_device(flat, wp.uint8, device), reached], device)
+    devices.launch(mark_reached, len(flat), [table_to_device(table, None, device), flat, reached], device)
     return np.asarray(reached.numpy().mean(axis=0).reshape(table.grid.shape))

@@ -34,62 +34,61 @@ FIXED = wp.constant(wp.float32(1.0e12))  # prior log-odds past any beam's
 LARGEST_LOG_ODDS = wp.constant(wp.float32(60.0))
 
 
+@wp.struct
+class BeliefArrays:
+    """Messages and beliefs on a device. Each part of the beams has its own sums, so their order is always the same."""
+
+    bounds: Int32s  # of the parts, in beams
+    offsets: Int32s  # of the beam table
+    cells: Int32s
+    relative: Float32s  # likelihood of each entry, relative to its beam's largest
+    relative_no_hit: Float32s
+    ratio: Float32s  # the message of each entry's beam to its cell
+    behind: Float32s  # room for S
+    product: Float32Rows  # of the messages to each cell, a row a part
+    received: Float32Rows  # their logarithms, as far as the product was cleared
+    logit: Float64s  # of the prior
+    odds: Float32s
+    belief: Float32s
+
+
 @wp.kernel
-def relative_likelihood(
-    first: int,
-    beta: wp.float32,
-    offsets: Int32s,
-    loglik: Float32s,
-    no_hit: Float32s,
-    relative: Float32s,
-    relative_no_hit: Float32s,
-):
+def relative_likelihood(first: int, beta: wp.float32, loglik: Float32s, no_hit: Float32s, beliefs: BeliefArrays):
     """One thread per beam: likelihoods relative to the beam's largest, at an inverse temperature."""
     b = first + wp.tid()
     most = no_hit[b]
-    for k in range(offsets[b], offsets[b + 1]):
+    for k in range(beliefs.offsets[b], beliefs.offsets[b + 1]):
         most = wp.max(most, loglik[k])
     last = wp.float32(1.0)
     value = wp.float32(1.0)
-    for k in range(offsets[b], offsets[b + 1]):
+    for k in range(beliefs.offsets[b], beliefs.offsets[b + 1]):
         now = beta * (loglik[k] - most)
         if now != last:  # long stretches of a beam share one value
             value = wp.max(wp.exp(now), TINY)
             last = now
-        relative[k] = value
-    relative_no_hit[b] = wp.max(wp.exp(beta * (no_hit[b] - most)), TINY)
+        beliefs.relative[k] = value
+    beliefs.relative_no_hit[b] = wp.max(wp.exp(beta * (no_hit[b] - most)), TINY)
 
 
 @wp.kernel
-def beam_messages(
-    part_0: int,
-    bounds: Int32s,
-    offsets: Int32s,
-    cells: Int32s,
-    relative: Float32s,
-    relative_no_hit: Float32s,
-    odds: Float32s,
-    damping: wp.float32,
-    ratio: Float32s,
-    behind: Float32s,
-    product_of: Float32Rows,
-    received_of: Float32Rows,
-):
-    """One thread per part of the beams: new messages to their cells, and their logarithms summed by cell.
-
-    ``behind`` is room for S. Each part has its own sums, so their order never depends on the threads.
-    """
+def beam_messages(part_0: int, damping: wp.float32, beliefs: BeliefArrays):
+    """One thread per part of the beams: new messages to their cells, and their logarithms summed by cell."""
     part = part_0 + wp.tid()
-    received = received_of[part]
-    product = product_of[part]
+    received = beliefs.received[part]
+    product = beliefs.product[part]
+    cells = beliefs.cells
+    relative = beliefs.relative
+    odds = beliefs.odds
+    ratio = beliefs.ratio
+    behind = beliefs.behind
     one = wp.float32(1.0)
     for c in range(received.shape[0]):
         received[c] = wp.float32(0.0)
         product[c] = one
-    for b in range(bounds[part], bounds[part + 1]):
-        start = offsets[b]
-        end = offsets[b + 1]
-        s = relative_no_hit[b]
+    for b in range(beliefs.bounds[part], beliefs.bounds[part + 1]):
+        start = beliefs.offsets[b]
+        end = beliefs.offsets[b + 1]
+        s = beliefs.relative_no_hit[b]
         for i in range(end - start):
             k = end - 1 - i
             behind[k] = s
@@ -145,9 +144,9 @@ def neighbour_messages(
     last: Float32Rows,
     messages: Float32Rows,
 ):
-    """One thread per cell: compute the log-odds that it receives from its neighbours below, above, left and right.
+    """One thread per cell: compute the log-odds that it receives from its neighbours, 0 where there is none.
 
-    Rows of the messages are (x - 1, x + 1, y - 1, y + 1); where there is no neighbour they stay 0.
+    Rows of the messages are (x - 1, x + 1, y - 1, y + 1).
     """
     c = first + wp.tid()
     x = c // ny
@@ -169,19 +168,17 @@ def neighbour_messages(
 
 
 @wp.kernel
-def cell_beliefs(
-    first: int, logit: Float64s, received: Float32Rows, from_neighbours: Float32Rows, odds: Float32s, belief: Float32s
-):
+def cell_beliefs(first: int, from_neighbours: Float32Rows, beliefs: BeliefArrays):
     """One thread per cell: sum prior log-odds and all messages; where nothing couples, neighbours send none."""
     c = first + wp.tid()
-    total = wp.float32(logit[c])
+    total = wp.float32(beliefs.logit[c])
     if wp.abs(total) < FIXED:  # else the prior fixes the cell, whatever the others say
-        for part in range(received.shape[0]):
-            total += received[part, c]
+        for part in range(beliefs.received.shape[0]):
+            total += beliefs.received[part, c]
         for side in range(from_neighbours.shape[0]):
             total += from_neighbours[side, c]
-    belief[c] = total
-    odds[c] = wp.exp(wp.clamp(total, -LARGEST_LOG_ODDS, LARGEST_LOG_ODDS))
+    beliefs.belief[c] = total
+    beliefs.odds[c] = wp.exp(wp.clamp(total, -LARGEST_LOG_ODDS, LARGEST_LOG_ODDS))
 
 
 CPU_PARTS = 4  # fixed, so that sums do not depend on the number of cores
@@ -199,46 +196,34 @@ class Beliefs:
         parts = min(CPU_PARTS if device == "cpu" else GPU_PARTS, max(1, beams))
         bounds = np.searchsorted(table.offsets, np.linspace(0, incidences, parts + 1))
         bounds[0], bounds[-1] = 0, beams
-        self._device, self._beams, self._cells, self._parts = device, beams, cells, parts
-        self._bounds = devices.to_device(bounds.astype(np.int32), wp.int32, device)
-        self._offsets = devices.to_device(table.offsets, wp.int32, device)
-        self._table_cells = devices.to_device(table.cells, wp.int32, device)
-        self._relative = wp.empty(incidences, dtype=wp.float32, device=device)
-        self._no_hit = wp.empty(beams, dtype=wp.float32, device=device)
-        self._ratio = wp.full(incidences, 1.0, dtype=wp.float32, device=device)
-        self._behind = wp.empty(incidences, dtype=wp.float32, device=device)
-        self._logit = devices.to_device(logit, wp.float64, device)
-        self._product = wp.empty((parts, cells), dtype=wp.float32, device=device)
-        self._received = wp.zeros((parts, cells), dtype=wp.float32, device=device)
+        arrays = devices.pack(
+            BeliefArrays, device, bounds=bounds.astype(np.int32), offsets=table.offsets, cells=table.cells, logit=logit
+        )
+        arrays.relative, arrays.behind = (wp.empty(incidences, dtype=wp.float32, device=device) for _ in range(2))
+        arrays.ratio = wp.full(incidences, 1.0, dtype=wp.float32, device=device)
+        arrays.relative_no_hit = wp.empty(beams, dtype=wp.float32, device=device)
+        arrays.product, arrays.received = (wp.zeros((parts, cells), dtype=wp.float32, device=device) for _ in range(2))
+        arrays.odds, arrays.belief = (wp.empty(cells, dtype=wp.float32, device=device) for _ in range(2))
+        self._arrays, self._device, self._cells, self._parts = arrays, device, cells, parts
         self._shape, self._coupling = table.grid.shape, coupling
         sides = 4 if coupling else 0
         # Two of each: messages are made of those of the last round, whichever thread comes first.
         self._sides, self._next_sides = (wp.zeros((sides, cells), dtype=wp.float32, device=device) for _ in range(2))
-        self._odds = wp.empty(cells, dtype=wp.float32, device=device)
-        self._belief = wp.empty(cells, dtype=wp.float32, device=device)
-        inputs: list[object] = [wp.float32(beta), self._offsets]
-        inputs += [devices.to_device(a, wp.float32, device) for a in (table.loglik, table.no_hit)]
-        devices.launch(relative_likelihood, beams, [*inputs, self._relative, self._no_hit], device)
+        devices.launch(relative_likelihood, beams, [beta, table.loglik, table.no_hit, arrays], device)
         self._gather()
 
     def round(self, damping: float, threads: int | None = None) -> None:
-        """Let all beams and neighbours send messages from the beliefs of the last round; then let all cells gather
-        them.
-        """
-        inputs = [self._bounds, self._offsets, self._table_cells, self._relative, self._no_hit, self._odds]
-        inputs += [wp.float32(damping), self._ratio, self._behind, self._product, self._received]
-        devices.launch(beam_messages, self._parts, inputs, self._device, threads)
+        """Let beams and neighbours send messages from the last round's beliefs; then let all cells gather them."""
+        devices.launch(beam_messages, self._parts, [damping, self._arrays], self._device, threads)
         if self._coupling:
-            inputs = [*self._shape, wp.float64(self._coupling), wp.float32(damping), self._belief]
-            inputs += [self._sides, self._next_sides]
+            inputs = [*self._shape, self._coupling, damping, self._arrays.belief, self._sides, self._next_sides]
             devices.launch(neighbour_messages, self._cells, inputs, self._device, threads)
             self._sides, self._next_sides = self._next_sides, self._sides
         self._gather()
 
     def log_odds(self) -> Singles:
         """Return the log-odds of a wall in every cell, flat, shape (N,)."""
-        return np.array(self._belief.numpy())
+        return np.array(self._arrays.belief.numpy())
 
     def _gather(self) -> None:
-        inputs = [self._logit, self._received, self._sides, self._odds, self._belief]
-        devices.launch(cell_beliefs, self._cells, inputs, self._device)
+        devices.launch(cell_beliefs, self._cells, [self._sides, self._arrays], self._device)

@@ -21,6 +21,7 @@ from bayesmap.kernels.rays import (
     trace_rays,
 )
 from bayesmap.kernels.sensor_law import MIXTURE, SensorLaw64, object_decay, sensor_law, stop_log_density
+from bayesmap.kernels.walls.chains import Table, table_to_device
 from bayesmap.sensors.model import RangeLimits, SensorModel
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
@@ -67,8 +68,8 @@ def table_of(rays: Rays, sensor: SensorModel, *, hit_depth: float = 0.0, device:
         loglik, no_hit = _by_model(sensor, rays, stop_distances(rays, hit_depth, device))
     else:
         filled = [wp.empty(n, dtype=wp.float32, device=device) for n in (rays.n_incidences, rays.n_beams)]
-        inputs = [sensor_law(sensor, rays.limits, device), rays_to_device(rays, device), wp.float64(hit_depth)]
-        inputs += [devices.to_device(rays.range_m, wp.float64, device), *filled]
+        law = sensor_law(sensor, rays.limits, device)
+        inputs = [law, rays_to_device(rays, device), hit_depth, rays.range_m, *filled]
         devices.launch(fill_likelihood, rays.n_beams, inputs, device, devices.threads_for(rays.n_beams))
         loglik, no_hit = (a.numpy() for a in filled)
     return BeamTable(grid=rays.grid, offsets=rays.offsets, cells=rays.cells, loglik=loglik, no_hit=no_hit)
@@ -135,20 +136,16 @@ def fill_likelihood(
 
 
 @wp.kernel
-def beam_extremes(
-    first: int, offsets: Int32s, loglik: Float32s, no_hit: Float32s, lowest: Float32s, advantage: Float32s
-):
-    """One thread per beam: find the least log-likelihood of its reading, and each entry's advantage over what lies
-    behind.
-    """
+def beam_extremes(first: int, t: Table, lowest: Float32s, advantage: Float32s):
+    """One thread per beam: find its least log-likelihood, and each entry's advantage over those behind it."""
     b = first + wp.tid()
-    least = no_hit[b]
-    behind = no_hit[b]
-    for i in range(offsets[b + 1] - offsets[b]):
-        k = offsets[b + 1] - 1 - i
-        advantage[k] = loglik[k] - behind
-        behind = wp.max(behind, loglik[k])
-        least = wp.min(least, loglik[k])
+    least = t.no_hit[b]
+    behind = t.no_hit[b]
+    for i in range(t.offsets[b + 1] - t.offsets[b]):
+        k = t.offsets[b + 1] - 1 - i
+        advantage[k] = t.loglik[k] - behind
+        behind = wp.max(behind, t.loglik[k])
+        least = wp.min(least, t.loglik[k])
     lowest[b] = least
 
 
@@ -167,14 +164,7 @@ class IndexArrays:
 
 @wp.kernel
 def scatter_entries(
-    first: int,
-    cell_bounds: Int32s,
-    beam_offsets: Int32s,
-    cells: Int32s,
-    loglik: Float32s,
-    lowest: Float32s,
-    advantage: Float32s,
-    index: IndexArrays,
+    first: int, cell_bounds: Int32s, table: Table, lowest: Float32s, advantage: Float32s, index: IndexArrays
 ):
     """One thread per range of cells: two passes over the table, gaining entries first, then bounds from behind."""
     t = first + wp.tid()
@@ -183,18 +173,18 @@ def scatter_entries(
     for c in range(low, high):
         index.filled[c] = index.offsets[c]
     for gaining in range(2):
-        for b in range(beam_offsets.shape[0] - 1):
+        for b in range(table.no_hit.shape[0]):
             least = lowest[b]
-            for k in range(beam_offsets[b], beam_offsets[b + 1]):
-                c = cells[k]
+            for k in range(table.offsets[b], table.offsets[b + 1]):
+                c = table.cells[k]
                 if c >= low and c < high:
-                    gain = loglik[k] - least
+                    gain = table.loglik[k] - least
                     if (gain > GAIN) == (gaining == 0):
                         i = index.filled[c]
                         index.filled[c] = i + 1
                         index.entry[i] = k
                         index.beam[i] = b
-                        index.loglik[i] = loglik[k]
+                        index.loglik[i] = table.loglik[k]
                         index.gain_bound[i] = gain
                         index.advantage[i] = advantage[k]
     for c in range(low, high):
@@ -214,26 +204,14 @@ def index_by_cell(table: BeamTable) -> CellIndex:
     shares = np.linspace(0, entries, threads + 1)[1:-1]
     bounds = np.concatenate([[0], np.searchsorted(offsets, shares), [cells]]).astype(np.int32)
 
-    beam_offsets, table_cells = (devices.to_device(a, wp.int32, "cpu") for a in (table.offsets, table.cells))
-    loglik, no_hit = (devices.to_device(a, wp.float32, "cpu") for a in (table.loglik, table.no_hit))
+    on_host = table_to_device(table, None, "cpu")
     lowest = wp.empty(table.n_beams, dtype=wp.float32, device="cpu")
     advantage = wp.empty(entries, dtype=wp.float32, device="cpu")
-    devices.launch(beam_extremes, table.n_beams, [beam_offsets, loglik, no_hit, lowest, advantage], "cpu")
+    devices.launch(beam_extremes, table.n_beams, [on_host, lowest, advantage], "cpu")
 
-    index = IndexArrays()
-    index.offsets = devices.to_device(offsets, wp.int32, "cpu")
-    index.filled = wp.empty(cells, dtype=wp.int32, device="cpu")
-    index.entry, index.beam = (wp.empty(entries, dtype=wp.int32, device="cpu") for _ in range(2))
-    index.loglik, index.gain_bound, index.advantage = (
-        wp.empty(entries, dtype=wp.float32, device="cpu") for _ in range(3)
-    )
-    inputs = [devices.to_device(bounds, wp.int32, "cpu"), beam_offsets, table_cells, loglik, lowest, advantage, index]
-    devices.launch(scatter_entries, threads, inputs, "cpu")
-    return CellIndex(
-        offsets=offsets,
-        entry=index.entry.numpy(),
-        beam=index.beam.numpy(),
-        loglik=index.loglik.numpy(),
-        gain_bound=index.gain_bound.numpy(),
-        advantage=index.advantage.numpy(),
-    )
+    integers = {name: np.empty(entries, dtype=np.int32) for name in ("entry", "beam")}
+    reals = {name: np.empty(entries, dtype=np.float32) for name in ("loglik", "gain_bound", "advantage")}
+    filled = np.empty(cells, dtype=np.int32)
+    index = devices.pack(IndexArrays, "cpu", offsets=offsets, filled=filled, **integers, **reals)
+    devices.launch(scatter_entries, threads, [bounds, on_host, lowest, advantage, index], "cpu")
+    return CellIndex(offsets=offsets, **integers, **reals)
