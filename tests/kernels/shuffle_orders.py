@@ -7,6 +7,8 @@ from bayesmap.kernels import device
 from bayesmap.kernels.random import cipher_bits, mix, random_bits, shuffled
 from bayesmap.samplers.sampler import STREAM_SWEEPS
 
+wp.set_module_options({"enable_backward": False})
+
 
 @wp.kernel
 def all_shuffled(size: int, bits: wp.uint32, keys: wp.array(dtype=wp.uint64), out: wp.array2d(dtype=wp.uint32)):
@@ -23,9 +25,8 @@ def sweep_keys(sweep: int, keys: wp.array(dtype=wp.uint64), out: wp.array(dtype=
 def shuffles(size, keys):
     device.start()
     out = wp.empty((len(keys), size), dtype=wp.uint32, device="cpu")
-    keys = (
-        keys if isinstance(keys, wp.array) else wp.array(np.array(keys, dtype=np.uint64), dtype=wp.uint64, device="cpu")
-    )
+    if not isinstance(keys, wp.array):
+        keys = wp.array(np.array(keys, dtype=np.uint64), dtype=wp.uint64, device="cpu")
     wp.launch(all_shuffled, dim=(len(keys), size), inputs=[size, cipher_bits(size), keys, out], device="cpu")
     return out.numpy().astype(np.int64)
 

@@ -1,13 +1,17 @@
-"""The beam table holds the sensor's likelihood at the oracle's distances, whichever way it was filled."""
+"""The beam table holds the sensor's likelihood at the oracle's distances; its index is the table turned round."""
 
 import numpy as np
 import pytest
+from oracle.enumeration import all_maps
 from oracle.formula import beams, distances, touches
+from oracle.own_sensor import OwnSensor
 from oracle.worlds import make_case, scorer
+from test_rays import GRID, random_scans
 
 import bayesmap as bm
+from bayesmap.kernels import device as devices
 from bayesmap.kernels.walls import table as tracing
-from bayesmap.kernels.walls.table import trace
+from bayesmap.kernels.walls.table import index_by_cell, trace
 from bayesmap.sensors.builtin import FLAT_NATS
 from bayesmap.sensors.model import RangeLimits
 
@@ -24,44 +28,11 @@ FLOAT32 = 2e-5
 of nats a metre."""
 
 
-class ByNumpy(bm.SensorModel):
-    """Another model's law without its compiled parameters."""
-
-    def __init__(self, law):
-        self.law = law
-
-    def log_likelihood(self, range_m, distance_m, limits):
-        return self.law.log_likelihood(range_m, distance_m, limits)
-
-    def reach_m(self, range_m, limits):
-        return self.law.reach_m(range_m, limits)
-
-    def sample(self, rng, distance_m, limits):
-        return self.law.sample(rng, distance_m, limits)
-
-
-def random_scans(seed, grid, sensor=None, n=3, beams_per_pose=40):
-    """Poses in and around the grid; readings of all kinds."""
-    rng = np.random.default_rng(seed)
-    size = np.array(grid.shape) * grid.resolution
-    xy = np.array(grid.origin) + rng.uniform(-0.2, 1.2, (n, 2)) * size
-    readings = rng.uniform(0.2, 4.0, (n, beams_per_pose))
-    kinds = rng.random(readings.shape)
-    readings[kinds < 0.1] = np.inf
-    readings[(kinds >= 0.1) & (kinds < 0.15)] = -np.inf
-    readings[(kinds >= 0.15) & (kinds < 0.2)] = np.nan
-    angles = rng.uniform(0, 2 * np.pi, beams_per_pose)
-    return bm.Scans(np.column_stack([xy, rng.uniform(-4, 4, n)]), angles, readings, max_range_m=4.0, min_range_m=0.2)
-
-
-GRID = bm.Grid((13, 9), 0.25, (3.0, -1.0))
-
-
 @pytest.mark.parametrize("name", SENSORS)
 def test_the_log_likelihood_of_a_map_is_the_sum_over_beams_at_the_oracle_s_distances(name):
     sensor = SENSORS[name]
     for seed in range(10):
-        scans = random_scans(seed, GRID)
+        scans = random_scans(seed)
         table = trace(scans, GRID, sensor)
         walls = np.random.default_rng([seed, 1]).random(GRID.shape) < [0.02, 0.1, 0.3, 0.9][seed % 4]
         starts, angles = beams(scans.poses, scans.angles_rad, GRID)
@@ -75,7 +46,7 @@ def test_the_log_likelihood_of_a_map_is_the_sum_over_beams_at_the_oracle_s_dista
 @pytest.mark.parametrize("name", ["gaussian", "growing", "mixture", "wide mixture"])
 def test_it_is_the_oracle_s_density_too(name):
     """The same with a density that the package did not compute."""
-    sensor, scans = SENSORS[name], random_scans(1, GRID, n=1)
+    sensor, scans = SENSORS[name], random_scans(1, poses=1)
     walls = np.random.default_rng(1).random(GRID.shape) < 0.1
     starts, angles = beams(scans.poses, scans.angles_rad, GRID)
     d = distances(walls, starts, angles) * GRID.resolution
@@ -91,8 +62,8 @@ def test_it_is_the_oracle_s_density_too(name):
 def test_the_compiled_likelihood_equals_numpy_s(name, monkeypatch):
     monkeypatch.setattr(tracing, "SLICE", 100)  # several slices, not one
     for seed in range(5):
-        scans = random_scans(seed, GRID)
-        compiled, plain = trace(scans, GRID, SENSORS[name]), trace(scans, GRID, ByNumpy(SENSORS[name]))
+        scans = random_scans(seed)
+        compiled, plain = trace(scans, GRID, SENSORS[name]), trace(scans, GRID, OwnSensor(SENSORS[name]))
         np.testing.assert_array_equal(compiled.offsets, plain.offsets)
         np.testing.assert_array_equal(compiled.cells, plain.cells)
         np.testing.assert_allclose(compiled.loglik, plain.loglik, rtol=FLOAT32, atol=FLOAT32)
@@ -147,7 +118,7 @@ def test_observed_cells_are_those_that_some_beam_touches():
 
 
 def test_a_map_of_another_shape_is_refused():
-    table = trace(random_scans(0, GRID), GRID, bm.Gaussian(0.1))
+    table = trace(random_scans(0), GRID, bm.Gaussian(0.1))
     with pytest.raises(bm.BadInput, match=r"walls have shape \(9, 13\), but the grid is \(13, 9\)"):
         table.log_likelihood(np.zeros((9, 13)))
 
@@ -157,3 +128,66 @@ def test_scans_that_never_meet_the_grid_leave_an_empty_table():
     table = trace(scans, GRID, bm.Gaussian(0.1))
     assert table.n_incidences == 0
     assert table.log_likelihood(np.ones(GRID.shape)) == pytest.approx(table.no_hit.sum())
+
+
+@pytest.mark.parametrize("name", SENSORS)
+def test_the_index_is_a_permutation_of_the_table(name):
+    table = trace(random_scans(1), GRID, SENSORS[name])
+    index = index_by_cell(table)
+    np.testing.assert_array_equal(np.sort(index.entry), np.arange(table.n_incidences))
+    cell = np.repeat(np.arange(GRID.n_cells), np.diff(index.offsets))
+    np.testing.assert_array_equal(table.cells[index.entry], cell)
+    np.testing.assert_array_equal(table.loglik[index.entry], index.loglik)
+    assert (table.offsets[index.beam] <= index.entry).all()
+    assert (index.entry < table.offsets[index.beam + 1]).all()
+
+
+@pytest.mark.parametrize("sensor", [bm.Gaussian(0.3), bm.BeamMixture(bm.Gaussian(0.1))], ids=["gaussian", "mixture"])
+@pytest.mark.parametrize("seed", range(4))
+def test_the_gain_bound_bounds_what_the_rest_of_a_cell_can_add(sensor, seed):
+    """Over all 512 maps of 3 x 3 cells: the gains of an incidence and those after it never add up to more."""
+    case = make_case(seed, shape=(3, 3), n_poses=3, sensor=sensor)
+    table = case.problem().table
+    index = index_by_cell(table)
+    maps = all_maps(9)
+    for c in range(9):
+        gains = np.zeros((len(maps), index.offsets[c + 1] - index.offsets[c]))
+        put, removed = maps.copy(), maps.copy()
+        put[:, c], removed[:, c] = True, False
+        for m in range(len(maps)):
+            with_wall, without = (table.beam_log_likelihoods(w[m].reshape(3, 3)) for w in (put, removed))
+            gains[m] = (with_wall - without)[index.beam[index.offsets[c] : index.offsets[c + 1]]]
+        rest = np.cumsum(gains[:, ::-1], axis=1)[:, ::-1]
+        bound = index.gain_bound[index.offsets[c] : index.offsets[c + 1]]
+        assert (rest <= bound + 1e-4).all()  # sums of some dozen single-precision terms of up to some hundred nats
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_the_lead_is_the_least_that_a_wall_can_be_worth(seed):
+    """To a beam that hits it, over all maps of 3 x 3 cells; and some map has just that."""
+    table = make_case(seed, shape=(3, 3), n_poses=3, sensor=bm.BeamMixture(bm.Gaussian(0.2))).problem().table
+    index = index_by_cell(table)
+    for b, e, advantage in zip(index.beam, index.entry, index.advantage, strict=True):
+        behind = np.append(table.loglik[e + 1 : table.offsets[b + 1]], table.no_hit[b])
+        assert advantage == pytest.approx(table.loglik[e] - behind.max(), abs=1e-5)
+
+
+def test_incidences_that_could_gain_come_first():
+    index = index_by_cell(trace(random_scans(2), GRID, SENSORS["mixture"]))
+    for c in range(GRID.n_cells):
+        bound = np.append(index.gain_bound[index.offsets[c] : index.offsets[c + 1]], 0.0)
+        gain = -np.diff(bound)
+        first_small = np.append(np.flatnonzero(gain < 5e-4), len(gain))[0]  # the kernel's limit is 1e-3 nats
+        assert (gain[first_small:] < 2e-3).all()
+
+
+def test_table_and_index_do_not_depend_on_the_number_of_threads(monkeypatch):
+    scans, found = random_scans(3), []
+    for threads in (1, 2, 3, 8):
+        monkeypatch.setattr(devices, "available_cores", lambda threads=threads: threads)
+        table = trace(scans, GRID, SENSORS["mixture"])
+        parts = (table, index_by_cell(table))
+        found.append([a for part in parts for a in vars(part).values() if isinstance(a, np.ndarray)])
+    for other in found[1:]:
+        for mine, theirs in zip(other, found[0], strict=True):
+            np.testing.assert_array_equal(mine, theirs)

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 import warp as wp
+from oracle.own_sensor import OwnSensor
 
 import bayesmap as bm
 from bayesmap.kernels.sensor_law import (
@@ -14,6 +15,8 @@ from bayesmap.kernels.sensor_law import (
     stop_density,
 )
 from bayesmap.sensors.model import RangeLimits
+
+wp.set_module_options({"enable_backward": False})
 
 LIMITS = RangeLimits(0.1, 6.0)
 COUNT = 40_000
@@ -65,21 +68,7 @@ def test_no_density_lies_outside_its_bounds_and_some_come_close(name):
     assert (density[np.isposinf(reading)] < 2 * lowest[np.isposinf(reading)]).any()
 
 
-class Tabulated(bm.SensorModel):
-    """A model of one's own, of which nothing is known but its three methods."""
-
-    def log_likelihood(self, range_m, distance_m, limits):
-        reading = np.nan_to_num(range_m, posinf=limits.max_m, neginf=limits.min_m)
-        return np.where(np.isnan(range_m), 0.0, -abs(reading - np.minimum(distance_m, limits.max_m)) / 0.2)
-
-    def reach_m(self, range_m, limits):
-        return np.full(np.shape(range_m), np.inf)
-
-    def sample(self, rng, distance_m, limits):
-        return distance_m
-
-
 def test_of_a_law_that_is_tabulated_nothing_is_taken_for_granted():
-    _, lowest, _, highest = lowest_any_highest(Tabulated())
+    _, lowest, _, highest = lowest_any_highest(OwnSensor(bm.Gaussian(0.2)))
     assert (lowest == 0).all()
     assert np.isinf(highest).all()

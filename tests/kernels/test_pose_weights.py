@@ -1,9 +1,10 @@
-"""The fast likelihood of scans at poses is that of the plain one, under every draw."""
+"""The fast likelihood of scans at poses is that of the plain one, and sums of a field at points are plain sums."""
 
 import numpy as np
 import pytest
 
 import bayesmap as bm
+from bayesmap.kernels.match.fields import field_sums
 from bayesmap.kernels.predict.pose_weights import LEAST_CHANCE, pack_map, scan_log_likelihood
 from bayesmap.kernels.predict.scan_likelihood import ScanLikelihood
 from bayesmap.sensors.model import RangeLimits
@@ -11,6 +12,7 @@ from bayesmap.sensors.model import RangeLimits
 GRID = bm.Grid((60, 50), 0.1, (-1.0, 2.0))
 LASER = bm.BeamMixture(bm.Gaussian(0.02, 0.005), p_random=0.01, p_no_return=0.05, p_short=0.05)
 TAILS = bm.BeamMixture(bm.StudentT(0.02, 9.0, 0.005), p_random=0.01, p_no_return=0.05, p_short=0.05)
+FIELD_GRID = bm.Grid((30, 20), 0.1, (-1.0, 0.5))
 ANGLES = np.radians(np.arange(60) * 6.0)
 
 
@@ -64,20 +66,29 @@ def test_cells_that_hardly_ever_stop_a_beam_cost_all_poses_alike():
         assert less.std() < 0.01 * len(ANGLES)
 
 
-def test_fewer_draws_are_the_first():
-    rng = np.random.default_rng(2)
-    packed = pack_map(states("plain", rng), GRID, 0.5)
-    poses, ranges = np.array([[1.0, 4.0, 0.3]]), rng.uniform(0, 6, 60)
-    every = scan_log_likelihood(packed, poses, ANGLES, ranges, LASER, RangeLimits(0.0, 6.0))
-    some = scan_log_likelihood(packed, poses, ANGLES, ranges, LASER, RangeLimits(0.0, 6.0), draws=2)
-    np.testing.assert_array_equal(some, every[:, :2])
-
-
-def test_poses_weighed_in_turn_are_weighed_under_one_draw_each():
+def test_poses_may_be_weighed_under_the_first_draws_or_each_under_one_draw_in_turn():
     rng = np.random.default_rng(4)
     packed = pack_map(states("surfaces", rng), GRID, 0.5)
     poses = np.column_stack([rng.uniform(0, 4, 7), rng.uniform(3, 6, 7), rng.uniform(-4, 4, 7)])
-    ranges = rng.uniform(0, 6, 60)
-    every = scan_log_likelihood(packed, poses, ANGLES, ranges, LASER, RangeLimits(0.0, 6.0))
-    turns = scan_log_likelihood(packed, poses, ANGLES, ranges, LASER, RangeLimits(0.0, 6.0), in_turn=True)
+    given = (packed, poses, ANGLES, rng.uniform(0, 6, 60), LASER, RangeLimits(0.0, 6.0))
+    every = scan_log_likelihood(*given)
+    np.testing.assert_array_equal(scan_log_likelihood(*given, draws=2), every[:, :2])
+    turns = scan_log_likelihood(*given, in_turn=True)
     np.testing.assert_array_equal(turns[:, 0], every[np.arange(7), np.arange(7) % 3])
+
+
+def test_sums_of_a_likelihood_field_at_points_are_those_of_the_plain_formula():
+    rng = np.random.default_rng(0)
+    field = rng.integers(0, 256, FIELD_GRID.shape).astype(np.uint8)
+    points, poses = rng.uniform(-2, 2, (40, 2)), rng.uniform([-1, 0.5, -4], [2, 2.5, 4], (50, 3))
+    cos, sin = np.cos(poses[:, 2:]), np.sin(poses[:, 2:])
+    x = cos * points[:, 0] - sin * points[:, 1] + poses[:, :1]
+    y = sin * points[:, 0] + cos * points[:, 1] + poses[:, 1:2]
+    cells = FIELD_GRID.to_cells(np.stack([x, y], axis=-1))
+    assert np.abs(cells - np.round(cells)).min() > 1e-5  # none lies so near a line that single precision decides
+    i, j = np.moveaxis(np.floor(cells).astype(int), -1, 0)
+    inside = (i >= 0) & (j >= 0) & (i < 30) & (j < 20)
+    expected = np.where(inside, field[np.clip(i, 0, 29), np.clip(j, 0, 19)], 0).sum(axis=1)
+    assert inside.any()
+    assert not inside.all()
+    np.testing.assert_array_equal(field_sums(field, FIELD_GRID, points, poses), expected)

@@ -4,13 +4,14 @@ import dataclasses
 
 import numpy as np
 import pytest
+from oracle.own_sensor import OwnSensor
 from tiers import latin
 
 import bayesmap as bm
 from bayesmap.kernels.predict.density import forecast, log_densities
 from bayesmap.kernels.predict.stop_mixture import first_hit_events, mix_stops, range_quantiles
 from bayesmap.kernels.rays import trace_rays
-from bayesmap.sensors.model import RangeLimits, SensorModel
+from bayesmap.sensors.model import RangeLimits
 
 GRID = bm.Grid((8, 6), 0.5, (-1.0, 2.0))
 LIMITS = RangeLimits(0.2, 5.0)
@@ -191,29 +192,13 @@ def test_events_multiply_to_the_chance_of_the_cell(name):
     assert checked > 10
 
 
-class Own(SensorModel):
-    """Another model's law as three methods of the user's own, with a weight that should be 1."""
-
-    def __init__(self, law, weight=1.0):
-        self.law, self.weight = law, weight
-
-    def log_likelihood(self, range_m, distance_m, limits):
-        return self.law.log_likelihood(range_m, distance_m, limits) + np.log(self.weight)
-
-    def reach_m(self, range_m, limits):
-        return self.law.reach_m(range_m, limits)
-
-    def sample(self, rng, distance_m, limits):
-        return self.law.sample(rng, distance_m, limits)
-
-
 OWN = ["mixture", "student-t", "mixture of student-t"]
 
 
 @pytest.mark.parametrize(("name", "binary"), latin(3, OWN, [False, True]))
 def test_a_sensor_of_the_user_s_own_predicts_by_a_table_what_its_formula_says(name, binary):
     formula = SENSORS[name]
-    own = Own(formula)
+    own = OwnSensor(formula)
     scans, maps = world(70, binary=binary, poses=6)
     rays = trace_rays(scans, GRID)
     mine, exact = (forecast(rays, batches(rays, maps), sensor, DEPTH) for sensor in (own, formula))
@@ -233,11 +218,11 @@ def test_a_sensor_of_the_user_s_own_predicts_by_a_table_what_its_formula_says(na
 
 
 def test_what_cannot_be_predicted_is_refused():
-    half = Own(bm.StudentT(0.1), 0.5)
+    half = OwnSensor(bm.StudentT(0.1), 0.5)
     scans, maps = world(70)
     rays = trace_rays(scans, GRID)
     assert np.isfinite(log_densities(rays, batches(rays, maps), half, DEPTH)).any()
-    with pytest.raises(bm.BadInput, match="densities of Own do not integrate to one, so only its log score"):
+    with pytest.raises(bm.BadInput, match="densities of OwnSensor do not integrate to one, so only its log score"):
         forecast(rays, batches(rays, maps), half, DEPTH)
     with pytest.raises(bm.BadInput, match="there is no draw to predict from"):
         forecast(rays, [], bm.Gaussian(0.1), DEPTH)

@@ -10,7 +10,6 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from oracle.formula import distances
-from oracle.ranges import ranges_by_edges
 
 from bayesmap.kernels.walk import cast
 
@@ -78,11 +77,9 @@ def test_beams_a_hair_off_an_axis(x, y, tilt, sign):
 
 
 def test_a_beam_through_a_corner_hits_each_cell_that_meets_there():
-    for i, j in ((1, 1), (2, 2), (1, 2), (2, 1)):
+    for i, j in ((2, 2), (1, 2), (2, 1)):
         walls = np.zeros((4, 4), dtype=bool)
         walls[i, j] = True
-        if (i, j) == (1, 1):
-            continue  # the beam enters this one earlier
         found, _ = cast(walls, np.array([[0.5, 0.5]]), np.array([np.pi / 4]), LONGEST)
         assert found[0] == pytest.approx(1.5 * np.sqrt(2), abs=CELLS)
 
@@ -129,10 +126,3 @@ def test_a_beam_looks_no_further_than_its_hit():
     walls[10] = True
     _, visits = cast(walls, np.array([[0.5, 0.5]]), np.array([0.0]), 1000.0)
     assert visits[0] <= 11
-
-
-@given(seeds, shapes, densities, halves, halves, slopes)
-def test_the_package_s_plain_reference_says_the_same_as_the_oracle(seed, shape, density, x, y, slope):
-    walls, angle = random_walls(seed, shape, density), np.array([np.arctan2(*slope)])
-    expected = distances(walls, [[x, y]], angle, longest=LONGEST)
-    np.testing.assert_allclose(ranges_by_edges(walls, np.array([x, y]), angle, LONGEST), expected, atol=CELLS, rtol=0)

@@ -3,20 +3,52 @@
 False alarms: `ALPHA` = 1e-4 over this module. The kernel reads the law from a table, off by up to a hundredth.
 """
 
+import math
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 import pytest
 import scipy
+import warp as wp
 from oracle.verdict import ALPHA
-from stop_point_draws import draw_points
 from tiers import full_but
 
 import bayesmap as bm
+from bayesmap.kernels import device
+from bayesmap.kernels.device import Float64s
+from bayesmap.kernels.random import mix
+from bayesmap.kernels.sensor_law import SensorLaw32, object_decay, sensor_law
+from bayesmap.kernels.surfaces.square_counts import stop_point_m
 from bayesmap.sensors.model import RangeLimits, SensorModel
+
+wp.set_module_options({"enable_backward": False})
 
 LIMITS = RangeLimits(0.05, 8.0)
 DRAWS, TESTS = 3000, 20
+
+
+@wp.kernel
+def points(
+    law: SensorLaw32, reading: wp.float32, distance: wp.float32, variance: wp.float32, key: wp.uint64, out: Float64s
+):
+    i = wp.tid()
+    decay = object_decay(law, reading)
+    out[i] = stop_point_m(law, reading, decay, distance, variance, key, wp.uint64(i) * wp.uint64(4))
+
+
+law_of = cache(sensor_law)
+"""The law of a model of the user's own is tabulated, which takes seconds."""
+
+
+def draw_points(sensor, limits, reading_m, distance_m, spread_m, count, seed=0):
+    """Distances at which a beam with this reading was stopped by a surface at about the distance, (count,), metres."""
+    device.start()
+    out = wp.zeros(count, dtype=wp.float64, device="cpu")
+    law = law_of(sensor, limits, "cpu", SensorLaw32)
+    inputs = [law, reading_m, distance_m, spread_m**2, mix(seed, math.floor(1e6 * spread_m)), out]
+    wp.launch(points, dim=count, inputs=inputs, device="cpu")
+    return np.array(out.numpy())
 
 
 @dataclass(frozen=True)

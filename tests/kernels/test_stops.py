@@ -5,6 +5,7 @@ Many copies of one little world in a known state, swept once, are independent dr
 """
 
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 import pytest
@@ -19,7 +20,7 @@ from bayesmap.samplers.initial_estimate import update_periods
 GRID = bm.Grid((8, 2), 0.25)
 SENSOR = bm.BeamMixture(bm.Gaussian(0.04, 0.01), p_random=0.2, p_no_return=0.1, p_short=0.1, rate_short_per_m=0.6)
 PRIORS = {"plain": bm.Beta(1.0, 2.0), "surfaces": bm.Surface(1.0, 2.0, dof=5.0)}
-COPIES = 20_000
+COPIES, SEEDS = 5000, range(5, 9)  # four times as many copies at once take a gigabyte
 READINGS = [0.5, 1.1, 1.75, 1.9, np.inf, -np.inf]
 
 
@@ -31,26 +32,23 @@ def scans_of(readings):
 def state_of(worlds, kind, seed=1):
     """One state for all copies, (T, 6): reflectivities of many sizes, surfaces anywhere."""
     rng = np.random.default_rng(seed)
-    nx, ny = GRID.shape
-    one = np.zeros((nx * ny, 6))
-    one[:, 0] = rng.choice([0.02, 0.15, 0.4, 0.8], nx * ny)
-    centres = centres_of(worlds.problem.rays)[0]
-    states = np.zeros((len(centres), 6))
+    cells, states = GRID.n_cells, np.zeros((len(worlds.problem.rays.touched), 6))
+    one = np.zeros((cells, 6))
+    one[:, 0] = rng.choice([0.02, 0.15, 0.4, 0.8], cells)
     if kind == "surfaces":
-        one[:, 1:3] = rng.normal(0, 0.07, (nx * ny, 2))
-        one[:, 3], one[:, 5] = rng.uniform(0.03, 0.09, (2, nx * ny))
-        one[:, 4] = rng.normal(0, 0.05, nx * ny)
-    states[worlds.cells()] = one
-    if kind == "surfaces":
-        states[:, 1:3] += centres
+        one[:, 1:3] = rng.normal(0, 0.07, (cells, 2))
+        one[:, 3], one[:, 5] = rng.uniform(0.03, 0.09, (2, cells))
+        one[:, 4] = rng.normal(0, 0.05, cells)
+        states[:, 1:3] = centres_of(worlds.problem.rays)[0]
+    states[worlds.cells()] += one
     return states
 
 
-def swept(kind, readings=READINGS, count=COPIES, sweep=0):
+def swept(kind, count=COPIES, sweep=0, seed=5):
     """Copies of a world, its state, the chain's arrays after one sweep from it, and hits and met beams by cell."""
-    worlds = copies(scans_of(readings), GRID, PRIORS[kind], SENSOR, count)
+    worlds = copies(scans_of(READINGS), GRID, PRIORS[kind], SENSOR, count)
     states = state_of(worlds, kind)
-    sampler = worlds.sampler(5, states, sweep)
+    sampler = worlds.sampler(seed, states, sweep)
     sampler.sweep()
     return worlds, states.astype(np.float32).astype(float), sampler.arrays, sampler.counts()
 
@@ -61,22 +59,43 @@ def chosen(worlds, field):
     return (field.stop.numpy() - rays.offsets[:-1]).reshape(worlds.count, -1)
 
 
+@cache
+def stops_counted(kind):
+    """Paths and state of one copy, and the stops of each beam over all copies, (beams, entries)."""
+    one = copies(scans_of(READINGS), GRID, PRIORS[kind], SENSOR, 1)
+    paths, counts = paths_of(one.problem.rays), 0
+    for seed in SEEDS:
+        worlds, _, field, _ = swept(kind, seed=seed)
+        entries = np.arange(paths.cell.shape[1] + 1)[:, None, None]
+        counts = counts + (chosen(worlds, field) == entries).sum(axis=1).T
+    return paths, state_of(one, kind).astype(np.float32).astype(float), counts
+
+
 @pytest.mark.parametrize("kind", PRIORS)
 def test_stops_follow_their_exact_conditional_far_ones_too(kind):
-    worlds, _, field, _ = swept(kind)
-    one = copies(scans_of(READINGS), GRID, PRIORS[kind], SENSOR, 1)
-    paths = paths_of(one.problem.rays)
+    paths, states, found = stops_counted(kind)
     assert paths.far.sum() > 4  # and some are
-    stop = chosen(worlds, field)
-    states = state_of(one, kind).astype(np.float32).astype(float)
     for b, weight in enumerate(joint(paths, states, SENSOR, kind == "plain")):
         entries = paths.there[b].sum()
-        law = np.append(weight[:entries], weight[-1])
-        counts = np.bincount(stop[:, b], minlength=entries + 1)
+        law, counts = np.append(weight[:entries], weight[-1]), found[b, : entries + 1]
+        assert counts.sum() == COPIES * len(SEEDS)
         assert goodness_of_fit(counts, law / law.sum()) > ALPHA / 40
         wrong = law * np.append(np.ones(entries), 1.25)
         if 0.05 < law[-1] / law.sum() < 0.95:
             assert goodness_of_fit(counts, wrong / wrong.sum()) < ALPHA / 40
+
+
+def test_wrong_stop_probabilities_would_be_noticed():
+    """The twin: a beam that forgets to lose weight on the way is told from the exact one by the same chi-square."""
+    paths, states, found = stops_counted("plain")
+    stopped, distance, variance = stops(paths, states, True)
+    law = reading_law(paths.range_m[:, None], distance, variance, SENSOR, paths.limits)
+    b, entries = 1, paths.there[1].sum()
+    assert not np.allclose(stop_probabilities(stopped)[b, :-1], stopped[b])
+    weight = np.append((stopped * law)[b, :entries], joint(paths, states, SENSOR, True)[b, -1])
+    counts = found[b, : entries + 1]
+    assert goodness_of_fit(counts, weight / weight.sum()) < ALPHA
+    assert two_sided(counts[-1], counts.sum(), weight[-1] / weight.sum()) < ALPHA
 
 
 @pytest.mark.parametrize("kind", PRIORS)
@@ -99,11 +118,6 @@ def turn_of(worlds, sweep):
     return (every > 0) & (sweep % length == 0) & ((sweep // length + cells) % TRIES_EVERY == 0)
 
 
-def tried(worlds, field, sweep):
-    """Cells whose turn to try a candidate the one sweep was, and every cell's candidate, if it had one."""
-    return turn_of(worlds, sweep), field.candidates.numpy()[worlds.problem.rays.touched, :6].astype(float)
-
-
 @pytest.mark.parametrize("kind", PRIORS)
 def test_hits_are_the_stops_and_met_beams_are_binomial(kind):
     """Given that it passed, a beam met the surface with probability g (1 - m) / (1 - m g): always, if there is none.
@@ -111,22 +125,27 @@ def test_hits_are_the_stops_and_met_beams_are_binomial(kind):
     Cells in which readings end and others have kernels of their own: both are looked at.
     """
     for sweep in (0, 8):  # in which cells without readings have their turn
-        worlds, states, field, (hits, met) = swept(kind, count=12_000, sweep=sweep)
-        rays, paths, stop = worlds.problem.rays, paths_of(worlds.problem.rays), field.stop.numpy()
-        counted = met >= 0  # the others learn nothing, or try a candidate
-        stopped_in = np.bincount(rays.columns[stop[stop < rays.offsets[1:]]], minlength=len(rays.touched))
-        np.testing.assert_array_equal(hits[counted], stopped_in[counted])
-        passed = np.arange(rays.n_incidences) < np.repeat(stop, np.diff(rays.offsets))
-        a, m = stops(paths, states, kind == "plain")[0][paths.there], states[rays.columns, 0]
-        p = np.where(passed, a / m * (1 - m) / (1 - a), 0.0)
-        ended = worlds.problem.estimate.endpoint
-        for group in (counted & ended, counted & ~ended):
-            expected, variance = (np.bincount(rays.columns, x, len(rays.touched))[group] for x in (p, p * (1 - p)))
+        found = {True: [], False: []}
+        for seed in (5, 6):
+            worlds, states, field, (hits, met) = swept(kind, 6000, sweep, seed)
+            rays, paths, stop = worlds.problem.rays, paths_of(worlds.problem.rays), field.stop.numpy()
+            counted = met >= 0  # the others learn nothing, or try a candidate
+            stopped_in = np.bincount(rays.columns[stop[stop < rays.offsets[1:]]], minlength=len(rays.touched))
+            np.testing.assert_array_equal(hits[counted], stopped_in[counted])
+            passed = np.arange(rays.n_incidences) < np.repeat(stop, np.diff(rays.offsets))
+            a, m = stops(paths, states, kind == "plain")[0][paths.there], states[rays.columns, 0]
+            p = np.where(passed, a / m * (1 - m) / (1 - a), 0.0)
+            expected, variance = (np.bincount(rays.columns, x, len(rays.touched)) for x in (p, p * (1 - p)))
+            for ended, parts in found.items():
+                group = counted & (worlds.problem.estimate.endpoint == ended)
+                parts.append(np.stack([met[group], expected[group], variance[group]]))
+        for parts in found.values():
+            told, expected, variance = np.concatenate(parts, axis=1)
             assert expected.sum() > 2000
             if kind == "plain":
-                np.testing.assert_array_equal(met[group], np.rint(expected).astype(int))
+                np.testing.assert_array_equal(told, np.rint(expected).astype(int))
                 continue
-            off, spread = met[group] - expected, np.sqrt(variance.sum())
+            off, spread = told - expected, np.sqrt(variance.sum())
             assert abs(off.sum()) < 4.5 * spread
             assert abs((off**2).sum() / spread**2 - 1) < 0.25
             assert abs(off.sum() + 0.2 * expected.sum()) > 4.5 * spread  # the twin: a fifth of them forgotten
@@ -155,8 +174,9 @@ def test_a_candidate_s_gain_is_the_ratio_of_what_all_beams_say():
     one = copies(scans_of(READINGS), GRID, PRIORS["surfaces"], SENSOR, 300)
     turns = [sweep for sweep in range(32) if turn_of(one, sweep).any()]
     for sweep in turns[:6]:
-        worlds, states, field, _ = swept("surfaces", count=300, sweep=sweep)
-        some, candidates = tried(worlds, field, sweep)
+        worlds, states, field, _ = swept("surfaces", 300, sweep)
+        some = turn_of(worlds, sweep)
+        candidates = field.candidates.numpy()[worlds.problem.rays.touched, :6].astype(float)
         gain = field.gain.numpy().sum(axis=0)[worlds.problem.rays.touched] / 2**24
         assert some.any()
         assert (gain[~some] == 0).all()
@@ -177,23 +197,6 @@ def test_invalid_readings_and_empty_beams_say_nothing():
     hits, met = sampler.counts()
     assert hits.max() == 0
     assert met.max() <= 0
-
-
-def test_wrong_stop_probabilities_would_be_noticed():
-    """The twin: a beam that forgets to lose weight on the way is told from the exact one by the same chi-square."""
-    worlds, _, field, _ = swept("plain")
-    one = copies(scans_of(READINGS), GRID, PRIORS["plain"], SENSOR, 1)
-    paths, states = paths_of(one.problem.rays), state_of(one, "plain").astype(np.float32).astype(float)
-    stopped, distance, variance = stops(paths, states, True)
-    law = reading_law(paths.range_m[:, None], distance, variance, SENSOR, paths.limits)
-    b = 1
-    right = stop_probabilities(stopped)[b, :-1]
-    assert not np.allclose(right, stopped[b])
-    entries = paths.there[b].sum()
-    weight = np.append((stopped * law)[b, :entries], joint(paths, states, SENSOR, True)[b, -1])
-    counts = np.bincount(chosen(worlds, field)[:, b], minlength=entries + 1)
-    assert goodness_of_fit(counts, weight / weight.sum()) < ALPHA
-    assert two_sided(counts[-1], counts.sum(), weight[-1] / weight.sum()) < ALPHA
 
 
 def test_draws_of_one_sweep_do_not_repeat_in_the_next():

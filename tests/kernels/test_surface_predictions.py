@@ -1,7 +1,8 @@
-"""Predictions from surfaces: plain sums over cells and draws, by the formulas of `kernels.surfaces.crossing`."""
+"""Predictions from surfaces are plain sums over cells and draws."""
 
 import numpy as np
 import pytest
+from oracle.stop_law import cross_surface, stop_probabilities
 
 import bayesmap as bm
 from bayesmap.kernels.predict.density import forecast
@@ -33,30 +34,12 @@ def world(seed):
     return scans, rays, states
 
 
-def meeting(state, start, u):
-    """Chance to stop, mean distance and standard deviation."""
-    m, mean = float(state[0]), state[1:3].astype(float)
-    factor = np.array([[state[3], 0.0], [state[4], state[5]]], float)
-    cov, n = factor @ factor.T, np.array([-u[1], u[0]])
-    v2, o = n @ cov @ n, n @ (mean - start)
-    gate = 1 / (1 + (o / (2.2 * np.sqrt(v2))) ** 6)
-    depth = u @ (mean - start)
-    wide = cov + (0.005 * max(depth, 0.0)) ** 2 * np.outer(n, n)  # the beam's direction is known only so well
-    w2 = n @ wide @ n
-    distance = depth - (u @ cov @ n) / w2 * o
-    return m * gate, max(distance, 0.0), np.sqrt(np.linalg.det(wide) / w2)
-
-
 def stops(rays, states, b):
     """Weight, distance and spread of every stop of a beam under one draw, nowhere last."""
-    start = rays.start_m[b].astype(float)
-    found = []
-    free = 1.0
-    for c in rays.columns[rays.offsets[b] : rays.offsets[b + 1]]:
-        chance, d, s = meeting(states[c], start, rays.direction[b].astype(float))
-        found.append((free * chance, d, s))
-        free *= 1 - chance
-    return [*found, (free, np.inf, 0.0)]
+    at = states[rays.columns[rays.offsets[b] : rays.offsets[b + 1]]].astype(float)
+    chance, distance, variance = cross_surface(at, rays.start_m[b].astype(float), rays.direction[b].astype(float))
+    weights = stop_probabilities(at[:, 0] * chance)
+    return list(zip(weights, np.append(distance, np.inf), np.append(np.sqrt(variance), 0.0), strict=True))
 
 
 def test_densities_and_cumulatives_are_the_plain_sums():

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 import scipy
+from oracle.own_sensor import OwnSensor
 from sensor_cases import ALL, LIMITS
 
 import bayesmap as bm
-from bayesmap.sensors.model import SensorModel
 
 READINGS = np.array([0.6, 1.0, 2.9, 3.1, 4.8, np.inf, -np.inf, np.nan])
 
@@ -28,33 +28,16 @@ def test_a_spread_widens_the_noise():
     np.testing.assert_allclose(found, wide.log_likelihood(READINGS, d, LIMITS), atol=1e-12)
 
 
-class Own(SensorModel):
-    """Three methods of a model of the user's own."""
-
-    def __init__(self, sigma_m):
-        self.sigma_m = sigma_m
-
-    def log_likelihood(self, range_m, distance_m, limits):
-        z = np.nan_to_num(range_m, nan=0.0, posinf=limits.max_m, neginf=limits.min_m)
-        log_p = scipy.stats.norm.logpdf(z, np.minimum(distance_m, limits.max_m), self.sigma_m)
-        return np.where(np.isnan(range_m), 0.0, log_p)
-
-    def reach_m(self, range_m, limits):
-        return np.full(np.shape(range_m), np.inf)
-
-    def sample(self, rng, distance_m, limits):
-        return rng.normal(np.minimum(distance_m, limits.max_m), self.sigma_m)
-
-
 @pytest.mark.parametrize("sigma_m", [0.5, 0.05, 0.002])
 @pytest.mark.parametrize("spread_m", [0.01, 0.1, 0.3])
 def test_a_model_of_the_user_s_own_has_the_mean_over_stops(sigma_m, spread_m):
     """Normal noise about a normal stop is normal, however much sharper the one is than the other."""
+    own = OwnSensor(bm.Gaussian(sigma_m))
     z, d = np.linspace(4.0, 6.0, 41), np.full(41, 5.0)
-    found = Own(sigma_m).stop_log_likelihood(z, d, np.full(41, spread_m), LIMITS)
+    found = own.stop_log_likelihood(z, d, np.full(41, spread_m), LIMITS)
     wide = np.hypot(sigma_m, spread_m)
     expected = scipy.stats.norm.logpdf(z, 5.0, wide)
     near = np.abs(z - 5.0) < 4 * wide
     np.testing.assert_allclose(found[near], expected[near], atol=0.02)
-    invalid = Own(sigma_m).stop_log_likelihood(np.array([np.nan]), np.array([5.0]), np.array([spread_m]), LIMITS)
+    invalid = own.stop_log_likelihood(np.array([np.nan]), np.array([5.0]), np.array([spread_m]), LIMITS)
     assert invalid == pytest.approx(0.0, abs=1e-9)
