@@ -127,9 +127,7 @@ def test_killed_at_any_moment_the_file_is_old_or_new(tmp_path):
     source = os.path.dirname(os.path.dirname(bayesmap.__file__))
     for _ in range(3):
         child = subprocess.Popen(
-            [sys.executable, "-c", endless, str(path)],
-            stdout=subprocess.PIPE,
-            env={**os.environ, "PYTHONPATH": source},
+            [sys.executable, "-c", endless, str(path)], stdout=subprocess.PIPE, env={**os.environ, "PYTHONPATH": source}
         )
         assert child.stdout.readline() == b"ready\n"
         child.send_signal(signal.SIGKILL)

@@ -315,9 +315,7 @@ class Run:
         return xarray.Dataset(variables, coordinates, {"cells": words.kind, "method": posterior.settings["method"]})
 
     def save(
-        self,
-        path: str | os.PathLike[str],
-        on_progress: Callable[[int, int], None] = lambda done, total: None,
+        self, path: str | os.PathLike[str], on_progress: Callable[[int, int], None] = lambda done, total: None
     ) -> None:
         """Write everything to one netCDF file, whole or not at all; ``on_progress`` gets the part in hand."""
         from bayesmap.io.saved import save

@@ -57,10 +57,7 @@ def test_logs(tmp_path, text, place, remedy):
         (["--method", "block"], "method: 'block' is for binary walls; add --cells binary"),
         (["--order", "raster", "--cells", "reflectivity"], "order: 'raster' is for binary walls; add --cells binary"),
         (["--start", "zeros"], "start: 'zeros' is for binary walls; add --cells binary"),
-        (
-            ["--sensor", "gaussian:0.05"],
-            "need a sensor under which no reading is impossible, a BeamMixture",
-        ),
+        (["--sensor", "gaussian:0.05"], "need a sensor under which no reading is impossible, a BeamMixture"),
         (["--holdout", "1000"], "too few to hold out every 1000-th"),
         (["--device", "cuda:9"], "there is: cpu"),
         (["--device", "cuda:9", "--cells", "binary"], "there is: cpu"),

@@ -83,10 +83,7 @@ def test_a_bare_key_holds_for_all_commands_that_have_it(tmp_path):
         ("[infer]\nprior = true\n", "prior must be a number from 0 to 1, got True"),
         ("[infer]\ncoupling = true\n", "coupling must be a number from 0 to 50, or fit, got True"),
         ('[infer]\ncoupling = "some"\n', "coupling must be a number from 0 to 50, or fit, got 'some'"),
-        (
-            "[infer]\nmethod = 'magic'\n",
-            "method must be one of gibbs, block, propagate, importance, exact, got",
-        ),
+        ("[infer]\nmethod = 'magic'\n", "method must be one of gibbs, block, propagate, importance, exact, got"),
         ("seed = -1\n", "--seed must be a whole number of 0 or more, got -1"),
         ("[infer\n", "not valid TOML"),
     ],

@@ -238,8 +238,7 @@ class ExportSettings(Settings, kw_only=True, frozen=True):
 
     format: Annotated[Export, Help("What to write; auto: by the ending of -o.")] = "auto"
     mode: Annotated[
-        Mode | None,
-        Help("Occupied, free and unknown; or per cent.", "trinary for map-server, scale for recordings"),
+        Mode | None, Help("Occupied, free and unknown; or per cent.", "trinary for map-server, scale for recordings")
     ] = None
     occupied_thresh: Annotated[
         Share | None, Help("Above it a cell is occupied.", "walls 0.65, reflectivities 0.3; 1 with scale")

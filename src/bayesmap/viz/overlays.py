@@ -88,13 +88,7 @@ def draw_rays(
         area_pt2 = float(np.clip(1000.0 / len(points), 0.5, 7.0))
         drawn.append(
             ax.scatter(
-                ends[:, 0],
-                ends[:, 1],
-                s=area_pt2,
-                color=palette.READING,
-                linewidths=0.0,
-                label="reading",
-                zorder=3.4,
+                ends[:, 0], ends[:, 1], s=area_pt2, color=palette.READING, linewidths=0.0, label="reading", zorder=3.4
             )
         )
     if len(lost):

@@ -104,11 +104,7 @@ def draw_surfaces(
 
 
 def surfaces_figure(
-    grid: Grid,
-    means_world: ArrayLike,
-    covariances_m2: ArrayLike,
-    weights: ArrayLike,
-    observed: ArrayLike | None = None,
+    grid: Grid, means_world: ArrayLike, covariances_m2: ArrayLike, weights: ArrayLike, observed: ArrayLike | None = None
 ) -> Figure:
     """Draw all surfaces of a map, over hatched ground where no beam reached.
 
