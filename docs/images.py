@@ -11,11 +11,10 @@ from bayesmap.cli.pictures import log_odds_map
 
 import bayesmap as bm
 from bayesmap.sim.drawing import TUTORIAL_GRID
-from bayesmap.viz.cells import window
-from bayesmap.viz.figure import write_figure
-from bayesmap.viz.map_figures import Candidate, comparison_figure
+from bayesmap.viz.figure import Candidate, comparison_figure, write_figure
+from bayesmap.viz.maps import window
+from bayesmap.viz.overlays import draw_surfaces
 from bayesmap.viz.palette import SURFACE
-from bayesmap.viz.surfaces import draw_surfaces
 from bayesmap.viz.trajectory import before_and_after_figure
 
 IMAGES = Path(__file__).with_name("images")

@@ -29,7 +29,6 @@ LEVELS = (
     {"result", "worlds"},
     {"arguments"},
     {"api"},
-    {"from_odometry"},
     {"app"},
     {"cli"},
     {"__main__"},

@@ -14,97 +14,62 @@ TYPE_CHECKING = False  # typing's own would load typing, in the first moments of
 if TYPE_CHECKING:
     from typing import Any
 
+    # isort: off
     from bayesmap import worlds as worlds
-    from bayesmap.api import infer as infer
+    from bayesmap.api import infer as infer, slam as slam
     from bayesmap.app.widget import MapWidget as MapWidget
-    from bayesmap.arguments import Checkpoints as Checkpoints
-    from bayesmap.arguments import Schedule as Schedule
-    from bayesmap.arguments import Where as Where
-    from bayesmap.cells.binary import Independent as Independent
-    from bayesmap.cells.binary import Ising as Ising
-    from bayesmap.cells.binary import fit_coupling as fit_coupling
+    from bayesmap.arguments import Checkpoints as Checkpoints, Schedule as Schedule, Where as Where
+    from bayesmap.cells.binary import Independent as Independent, Ising as Ising, fit_coupling as fit_coupling
     from bayesmap.cells.reflectivity import Beta as Beta
     from bayesmap.cells.surface import Surface as Surface
     from bayesmap.errors import BadInput as BadInput
-    from bayesmap.from_odometry import slam as slam
     from bayesmap.io.logs import read_log as read_log
     from bayesmap.localization.known_map import KnownMap as KnownMap
-    from bayesmap.localization.localize import Near as Near
-    from bayesmap.localization.localize import localize as localize
-    from bayesmap.poses.prior import Known as Known
-    from bayesmap.poses.prior import Odometry as Odometry
-    from bayesmap.poses.prior import Uncertain as Uncertain
+    from bayesmap.localization.localize import Near as Near, localize as localize
+    from bayesmap.poses.prior import Known as Known, Odometry as Odometry, Uncertain as Uncertain
     from bayesmap.posterior.information import Information as Information
-    from bayesmap.posterior.route import FreeProbability as FreeProbability
-    from bayesmap.posterior.route import Route as Route
+    from bayesmap.posterior.route import FreeProbability as FreeProbability, Route as Route
     from bayesmap.programs.mapping import mapping_model as mapping_model
-    from bayesmap.result import Run as Run
-    from bayesmap.result import load as load
-    from bayesmap.result import score as score
+    from bayesmap.result import Run as Run, load as load, score as score
     from bayesmap.run.ray_executor import RayExecutor as RayExecutor
-    from bayesmap.samplers.methods import Block as Block
-    from bayesmap.samplers.methods import Exact as Exact
-    from bayesmap.samplers.methods import Gibbs as Gibbs
-    from bayesmap.samplers.methods import Importance as Importance
-    from bayesmap.samplers.methods import Propagate as Propagate
-    from bayesmap.sensors.builtin import BeamMixture as BeamMixture
-    from bayesmap.sensors.builtin import Gaussian as Gaussian
-    from bayesmap.sensors.builtin import StudentT as StudentT
+    from bayesmap.samplers.methods import (
+        Block as Block, Exact as Exact, Gibbs as Gibbs, Importance as Importance, Propagate as Propagate,
+    )  # fmt: skip
+    from bayesmap.sensors.builtin import BeamMixture as BeamMixture, Gaussian as Gaussian, StudentT as StudentT
     from bayesmap.sensors.model import SensorModel as SensorModel
-    from bayesmap.sim.forward import ranges as ranges
-    from bayesmap.sim.forward import simulate as simulate
-    from bayesmap.sim.robot import OdometryNoise as OdometryNoise
-    from bayesmap.sim.robot import simulate_odometry as simulate_odometry
+    from bayesmap.sim.forward import ranges as ranges, simulate as simulate
+    from bayesmap.sim.robot import OdometryNoise as OdometryNoise, simulate_odometry as simulate_odometry
     from bayesmap.space.grid import Grid as Grid
-    from bayesmap.space.scans import Reading as Reading
-    from bayesmap.space.scans import Scans as Scans
+    from bayesmap.space.scans import Reading as Reading, Scans as Scans
+    # isort: on
 
-_HOME = {
-    "BadInput": "bayesmap.errors",
-    "BeamMixture": "bayesmap.sensors.builtin",
-    "Beta": "bayesmap.cells.reflectivity",
-    "Block": "bayesmap.samplers.methods",
-    "Checkpoints": "bayesmap.arguments",
-    "Exact": "bayesmap.samplers.methods",
-    "FreeProbability": "bayesmap.posterior.route",
-    "Gaussian": "bayesmap.sensors.builtin",
-    "Gibbs": "bayesmap.samplers.methods",
-    "Grid": "bayesmap.space.grid",
-    "Importance": "bayesmap.samplers.methods",
-    "Independent": "bayesmap.cells.binary",
-    "Information": "bayesmap.posterior.information",
-    "Ising": "bayesmap.cells.binary",
-    "Known": "bayesmap.poses.prior",
-    "KnownMap": "bayesmap.localization.known_map",
-    "MapWidget": "bayesmap.app.widget",
-    "Near": "bayesmap.localization.localize",
-    "Odometry": "bayesmap.poses.prior",
-    "OdometryNoise": "bayesmap.sim.robot",
-    "Propagate": "bayesmap.samplers.methods",
-    "RayExecutor": "bayesmap.run.ray_executor",
-    "Reading": "bayesmap.space.scans",
-    "Route": "bayesmap.posterior.route",
-    "Run": "bayesmap.result",
-    "Scans": "bayesmap.space.scans",
-    "Schedule": "bayesmap.arguments",
-    "SensorModel": "bayesmap.sensors.model",
-    "StudentT": "bayesmap.sensors.builtin",
-    "Surface": "bayesmap.cells.surface",
-    "Uncertain": "bayesmap.poses.prior",
-    "Where": "bayesmap.arguments",
-    "fit_coupling": "bayesmap.cells.binary",
-    "infer": "bayesmap.api",
-    "load": "bayesmap.result",
-    "localize": "bayesmap.localization.localize",
-    "mapping_model": "bayesmap.programs.mapping",
-    "ranges": "bayesmap.sim.forward",
-    "read_log": "bayesmap.io.logs",
-    "score": "bayesmap.result",
-    "simulate": "bayesmap.sim.forward",
-    "simulate_odometry": "bayesmap.sim.robot",
-    "slam": "bayesmap.from_odometry",
-    "worlds": "bayesmap.worlds",
+_NAMES = {
+    "bayesmap.api": ("infer", "slam"),
+    "bayesmap.app.widget": ("MapWidget",),
+    "bayesmap.arguments": ("Checkpoints", "Schedule", "Where"),
+    "bayesmap.cells.binary": ("Independent", "Ising", "fit_coupling"),
+    "bayesmap.cells.reflectivity": ("Beta",),
+    "bayesmap.cells.surface": ("Surface",),
+    "bayesmap.errors": ("BadInput",),
+    "bayesmap.io.logs": ("read_log",),
+    "bayesmap.localization.known_map": ("KnownMap",),
+    "bayesmap.localization.localize": ("Near", "localize"),
+    "bayesmap.poses.prior": ("Known", "Odometry", "Uncertain"),
+    "bayesmap.posterior.information": ("Information",),
+    "bayesmap.posterior.route": ("FreeProbability", "Route"),
+    "bayesmap.programs.mapping": ("mapping_model",),
+    "bayesmap.result": ("Run", "load", "score"),
+    "bayesmap.run.ray_executor": ("RayExecutor",),
+    "bayesmap.samplers.methods": ("Block", "Exact", "Gibbs", "Importance", "Propagate"),
+    "bayesmap.sensors.builtin": ("BeamMixture", "Gaussian", "StudentT"),
+    "bayesmap.sensors.model": ("SensorModel",),
+    "bayesmap.sim.forward": ("ranges", "simulate"),
+    "bayesmap.sim.robot": ("OdometryNoise", "simulate_odometry"),
+    "bayesmap.space.grid": ("Grid",),
+    "bayesmap.space.scans": ("Reading", "Scans"),
+    "bayesmap.worlds": ("worlds",),
 }
+_HOME = {name: module for module, names in _NAMES.items() for name in names}
 
 __all__ = ["__version__", *_HOME]  # noqa: PLE0604 -- the strings are in _HOME
 

@@ -6,8 +6,8 @@ import tomllib
 import pytest
 from shell import call
 
+from bayesmap.cli.command import as_toml, layered, read_file, read_pairs
 from bayesmap.cli.keys import SECTIONS, ExportSettings
-from bayesmap.cli.settings import as_toml, layered, read_file, read_pairs
 from bayesmap.errors import BadInput
 
 

@@ -7,7 +7,7 @@ import sys
 import numpy as np
 from shell import SOURCE
 
-SMALL = "from bayesmap.cli.document import peak_memory_mb; print(peak_memory_mb())"
+SMALL = "from bayesmap.cli.folder import peak_memory_mb; print(peak_memory_mb())"
 
 
 def test_peak_memory_is_that_of_this_process_not_of_the_one_that_started_it():

@@ -14,7 +14,7 @@ from shell import call
 from tiers import full_but
 
 import bayesmap as bm
-from bayesmap.cli import fleet, pipeline
+from bayesmap.cli import infer, pipeline
 from bayesmap.cli.folder import Folder
 
 pytestmark = [
@@ -78,7 +78,7 @@ def test_on_a_cluster_too(logs, tmp_path, alone, short, cluster):
 @pytest.mark.full
 def test_a_log_whose_node_dies_goes_on_elsewhere(logs, tmp_path, alone, short, cluster, monkeypatch):
     cluster.complete()
-    keep, killed = fleet.RayFleet.keep, []
+    keep, killed = infer.RayFleet.keep, []
 
     def keep_and_kill(self, entry, sent):
         keep(self, entry, sent)
@@ -86,7 +86,7 @@ def test_a_log_whose_node_dies_goes_on_elsewhere(logs, tmp_path, alone, short, c
             cluster.kill()
             killed.append(entry)
 
-    monkeypatch.setattr(fleet.RayFleet, "keep", keep_and_kill)
+    monkeypatch.setattr(infer.RayFleet, "keep", keep_and_kill)
     output = tmp_path / "runs"
     every = ("--executor", "ray", "--checkpoint-every", 0)
     check(call("infer", logs, "-o", output, "--json", "--holdout", 4, *short, *every), output, alone)
@@ -115,8 +115,8 @@ def test_progress_of_all_logs_is_shown_and_ctrl_c_keeps_what_workers_have(logs, 
             at.append((found[1], int(found[2].replace(",", ""))))
             os.kill(os.getpid(), signal.SIGINT)
 
-    monkeypatch.setattr(fleet, "described_share", lambda console, begin: contextlib.nullcontext(show))
-    monkeypatch.setattr(fleet, "STOP_S", 120.0)
+    monkeypatch.setattr(infer, "described_share", lambda console, begin: contextlib.nullcontext(show))
+    monkeypatch.setattr(infer, "STOP_S", 120.0)
     pair, options = (logs / "east.log", logs / "west.log"), (*short, "--executor", "ray", "--checkpoint-every", 3600)
     result = call("infer", *pair, "-o", tmp_path / "runs", *options, "--draws", 4000)
     assert result.exit_code == 130, result.stderr
@@ -136,7 +136,7 @@ def test_what_tells_workers_of_ctrl_c_is_on_the_commands_own_node(cluster):
 
     cluster.complete()
     here = ray.get_runtime_context().get_node_id()
-    mailboxes = [fleet.RayFleet(None, None).mailbox for _ in range(8)]
+    mailboxes = [infer.RayFleet(None, None).mailbox for _ in range(8)]
     where = [box.__ray_call__.remote(lambda box: ray.get_runtime_context().get_node_id()) for box in mailboxes]
     assert set(ray.get(where)) == {here}
     for mailbox in mailboxes:
@@ -156,7 +156,7 @@ def test_what_ray_prints_after_the_run_is_not_in_the_document(logs, tmp_path, sh
         return wrapped
 
     if several:
-        monkeypatch.setattr(fleet.Entry, "as_json", and_print(fleet.Entry.as_json))
+        monkeypatch.setattr(infer.Entry, "as_json", and_print(infer.Entry.as_json))
     else:
         monkeypatch.setattr(pipeline, "report", and_print(pipeline.report))
     given = (logs / "east.log", logs / "west.log")[: 2 if several else 1]
@@ -183,7 +183,7 @@ def test_a_pattern_and_several_names_are_several_logs(logs, tmp_path, short):
 
 def interrupt_the_first(monkeypatch, on_ray):
     """Press Ctrl-C at the first checkpoint, when the other log has not begun."""
-    keeper, name = (fleet.RayFleet, "keep") if on_ray else (Folder, "checkpoint")
+    keeper, name = (infer.RayFleet, "keep") if on_ray else (Folder, "checkpoint")
     keep, pressed = getattr(keeper, name), []
 
     def keep_and_press(self, *given):
@@ -193,7 +193,7 @@ def interrupt_the_first(monkeypatch, on_ray):
             os.kill(os.getpid(), signal.SIGINT)
 
     monkeypatch.setattr(keeper, name, keep_and_press)
-    monkeypatch.setattr(fleet.RayFleet, "most_at_once", lambda self, entry: 1)
+    monkeypatch.setattr(infer.RayFleet, "most_at_once", lambda self, entry: 1)
 
 
 @pytest.mark.parametrize("executor", full_but(["threads", "ray"], "threads"))

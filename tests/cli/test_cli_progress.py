@@ -9,8 +9,7 @@ from shell import COMMAND, SOURCE, call
 from tiers import full_but
 
 from bayesmap.api import Event
-from bayesmap.cli.console import Console
-from bayesmap.cli.progress import SETTING_UP, STAGES, progress
+from bayesmap.cli.console import SETTING_UP, STAGES, Console, progress
 
 
 def on_a_terminal(*arguments):

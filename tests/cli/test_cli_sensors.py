@@ -5,7 +5,7 @@ import re
 import pytest
 
 from bayesmap import BadInput, BeamMixture, Gaussian, StudentT
-from bayesmap.cli.typed import sensor_of
+from bayesmap.cli.translation import sensor_of
 
 
 @pytest.mark.parametrize(

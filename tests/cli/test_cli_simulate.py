@@ -7,7 +7,7 @@ import pytest
 from shell import call
 
 import bayesmap as bm
-from bayesmap.cli.typed import odometry_of
+from bayesmap.cli.translation import odometry_of
 from bayesmap.errors import BadInput
 from bayesmap.io.logs import describe_log
 from bayesmap.sim.robot import OdometryNoise

@@ -10,7 +10,7 @@ from shell import call
 from tiers import full_but
 
 import bayesmap as bm
-import bayesmap.from_odometry
+import bayesmap.api
 
 SETTINGS = (
     "--chains", "2", "--warmup", "3", "--draws", "4", "--resolution", "0.25", "--max-range", "7", "--threads", "2",
@@ -40,7 +40,7 @@ def whole(log, tmp_path_factory):
 
 def press_ctrl_c_in(monkeypatch, stage):
     """Press it when a stage of the approximation, or the first sweep of the chains, is told of."""
-    real = bayesmap.from_odometry.slam
+    real = bayesmap.api.slam
 
     def slam(*given, on_progress, **options):
         def told(event):
@@ -50,7 +50,7 @@ def press_ctrl_c_in(monkeypatch, stage):
 
         return real(*given, on_progress=told, **options)
 
-    monkeypatch.setattr(bayesmap.from_odometry, "slam", slam)
+    monkeypatch.setattr(bayesmap.api, "slam", slam)
 
 
 def printed(stderr):

@@ -4,7 +4,7 @@ from types import SimpleNamespace
 
 import numpy as np
 
-from bayesmap.from_odometry import key_scans
+from bayesmap.api import key_scans
 from bayesmap.poses.graph import Factors
 from bayesmap.space.scans import Scans
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from simulated import RESOLUTION, odometry_of, off, path_around, ring, scans_of
 
-from bayesmap.from_odometry import key_scans
+from bayesmap.api import key_scans
 from bayesmap.kernels.match.line_pairs import Agreement, pair_sums, view_counts
 from bayesmap.kernels.walk import cast
 from bayesmap.poses.log_checks import frozen_stretches

@@ -8,7 +8,7 @@ from viz_case import GRID
 
 from bayesmap.errors import BadInput
 from bayesmap.space.grid import Grid
-from bayesmap.viz.cells import boundary_segments, boxes, window, window_around
+from bayesmap.viz.maps import boundary_segments, boxes, window, window_around
 
 
 def test_one_cell_has_four_edges_in_metres():

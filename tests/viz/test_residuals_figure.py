@@ -4,7 +4,7 @@ from viz_case import GRID, observed, occupancy, panel
 
 from bayesmap.errors import BadInput
 from bayesmap.viz import draw_residuals, palette, residual_scale, residuals_figure, surprise_scale
-from bayesmap.viz.residuals import MAX_POINTS
+from bayesmap.viz.scores import MAX_POINTS
 
 
 def test_shorter_is_blue_longer_is_orange_and_as_predicted_is_grey():

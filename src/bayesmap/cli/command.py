@@ -1,18 +1,158 @@
-"""What all commands have in common: the options of a section, and those of what is printed."""
+"""What all commands have in common: their options, and the settings that result.
+
+Which value wins: defaults, then a resumed run's own, then the file, then ``--set``, then flags.
+"""
 
 from __future__ import annotations
 
+import difflib
 import inspect
-from collections.abc import Callable
+import json
+import math
+import tomllib
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any, Generic, TypeVar, cast
 
 import click
+import msgspec
 from click.core import ParameterSource
 
 from bayesmap.cli.console import VERBOSE, Console
-from bayesmap.cli.keys import SECTIONS, Key, Settings, Value, checked, keys_of
-from bayesmap.cli.settings import Layer, layered, read_file, read_pairs
+from bayesmap.cli.keys import SECTIONS, Key, Settings, Value, WrongValue, checked, keys_of
+from bayesmap.errors import BadInput
+
+Layer = Mapping[str, Mapping[str, Value]]
+"""Some values, by section and key."""
+
+
+def read_file(path: str | Path) -> Layer:
+    """Read the settings of a TOML file: tables named like the commands; keys outside them hold for all.
+
+    Raises:
+        BadInput: a file that cannot be read or is not TOML, an unknown table or key, a value it cannot have.
+    """
+    try:
+        tables = tomllib.loads(Path(path).read_text(encoding="utf-8"))
+    except (OSError, UnicodeDecodeError) as error:
+        raise BadInput(f"{path}: cannot be read: {getattr(error, 'strerror', None) or error}") from None
+    except tomllib.TOMLDecodeError as error:
+        raise BadInput(f"{path}: not valid TOML: {error}") from None
+    found: dict[str, dict[str, Value]] = {}
+    try:
+        for name, value in tables.items():
+            if not isinstance(value, dict):
+                _put(found, _homes(name, SECTIONS), name, value)
+        for name, value in tables.items():
+            if isinstance(value, dict):
+                for key, entry in value.items():
+                    _put(found, [_known(name, SECTIONS, "table")], key, entry)
+    except (WrongValue, BadInput) as problem:
+        raise BadInput(f"{path}: {problem}") from None
+    return found
+
+
+def read_pairs(pairs: Iterable[str], section: str | None) -> Layer:
+    """Read the settings of ``--set key=value``: of the command's own section, or ``section.key=value``.
+
+    Args:
+        pairs: as they were typed.
+        section: the command's; None for ``config``, where a bare key holds for every section that has it.
+
+    Raises:
+        click.BadParameter: no equals sign, an unknown key, a value that cannot be read.
+        BadInput: a number that the setting cannot have.
+    """
+    found: dict[str, dict[str, Value]] = {}
+    for pair in pairs:
+        name, equals, text = pair.partition("=")
+        table, dot, key = name.strip().rpartition(".")
+        try:
+            if not equals:
+                raise WrongValue(f"{pair!r} has no '='; write key=value")
+            if dot:
+                homes = [_known(table, SECTIONS, "table")]
+            else:
+                homes = _homes(key, SECTIONS if section is None else [section])
+            _put(found, homes, key, _typed(text.strip()))
+        except WrongValue as problem:
+            raise click.BadParameter(str(problem), param_hint="'--set'") from None
+    return found
+
+
+def layered(section: str, *layers: Layer) -> Settings:
+    """Return all settings of a command: later layers win over earlier ones, and all over the defaults."""
+    values: dict[str, Value] = {}
+    for layer in layers:
+        values.update(layer.get(section, {}))
+    return msgspec.convert(values, SECTIONS[section])
+
+
+def as_toml(settings: Mapping[str, Settings]) -> str:
+    """Return a file that `read_file` reads back as these settings; keys without a value appear as comments."""
+    lines = []
+    for section, values in settings.items():
+        lines.append(f"[{section}]")
+        rows = []
+        for key in keys_of(section):
+            value = getattr(values, key.name)
+            row = f"# {key.name} =" if value is None else f"{key.name} = {_toml(value)}"
+            rows.append((row, _remark(key)))
+        width = max((len(row) for row, _ in rows), default=0)
+        lines += [f"{row:<{width}}  # {remark}" for row, remark in rows]
+        lines.append("")
+    return "\n".join(lines)
+
+
+def _homes(key: str, sections: Iterable[str]) -> list[str]:
+    """Return the sections that have a key."""
+    names = list(sections)
+    homes = [section for section in names if key in SECTIONS[section].__struct_fields__]
+    if not homes:
+        _known(key, dict.fromkeys(name for section in names for name in SECTIONS[section].__struct_fields__), "key")
+    return homes
+
+
+def _known(name: str, known: Iterable[str], what: str) -> str:
+    names = list(known)
+    if name in names:
+        return name
+    flat = name.replace("-", "_")
+    near = [flat] if flat in names else difflib.get_close_matches(flat, names, n=1, cutoff=0.5)
+    raise WrongValue(
+        f"unknown {what} {name!r}; " + (f"did you mean {near[0]!r}?" if near else f"known: {', '.join(names)}")
+    )
+
+
+def _put(found: dict[str, dict[str, Value]], homes: list[str], name: str, value: Any) -> None:
+    for section in homes:
+        keys = {key.name: key for key in keys_of(section)}
+        found.setdefault(section, {})[name] = checked(keys[_known(name, keys, f"key of [{section}]")], value)
+
+
+def _typed(text: str) -> Any:
+    """Return a value as TOML reads it; a bare word is a text."""
+    try:
+        return tomllib.loads(f"v = {text}")["v"]
+    except tomllib.TOMLDecodeError:
+        return text
+
+
+def _toml(value: bool | int | float | str) -> str:
+    if isinstance(value, str):
+        # A JSON string is a TOML string, unless it escapes a character in two halves, or holds a bare DEL.
+        return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
+    if isinstance(value, float) and not math.isfinite(value):
+        return str(value)
+    return json.dumps(value)
+
+
+def _remark(key: Key) -> str:
+    choices = f" One of {', '.join(key.choices)}." if key.choices and key.kind is str else ""
+    unset = f" Default: {key.help.unset}." if key.help.unset else ""
+    return key.help.text.replace("see above", "see infer --help") + choices + unset
+
 
 S = TypeVar("S", bound=Settings)
 

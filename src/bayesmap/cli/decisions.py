@@ -9,10 +9,9 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from bayesmap.cli.command import Call, takes
-from bayesmap.cli.console import write_out
+from bayesmap.cli.console import share, write_out
 from bayesmap.cli.keys import ExploreSettings, PlanSettings
-from bayesmap.cli.progress import share
-from bayesmap.cli.typed import numbers_of
+from bayesmap.cli.translation import numbers_of
 from bayesmap.version import __version__
 
 if TYPE_CHECKING:

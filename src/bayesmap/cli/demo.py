@@ -8,10 +8,9 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from bayesmap.cli.command import Call, takes
-from bayesmap.cli.console import INTERRUPTED, PROBLEMS, Console, as_json
-from bayesmap.cli.document import run_document
+from bayesmap.cli.console import INTERRUPTED, PROBLEMS, Console, as_json, progress
+from bayesmap.cli.folder import run_document
 from bayesmap.cli.keys import DemoSettings
-from bayesmap.cli.progress import progress
 from bayesmap.errors import BadInput
 
 if TYPE_CHECKING:

@@ -13,7 +13,6 @@ from typing import Any
 
 import click
 
-from bayesmap.cli import startup_interrupt
 from bayesmap.cli.console import BAD_INPUT, FAILURE, INTERRUPTED, VERBOSE, complain
 from bayesmap.errors import BadInput
 from bayesmap.version import __version__
@@ -74,7 +73,8 @@ class Commands(click.Group):
     def invoke(self, ctx: click.Context) -> Any:
         """Run a command; a failure is one line on standard error."""
         try:
-            startup_interrupt.over()
+            if ctx.obj is not None:
+                ctx.obj()  # from here on Ctrl-C is an exception
             return super().invoke(ctx)
         except (click.ClickException, click.exceptions.Exit):
             raise

@@ -1,19 +1,402 @@
-"""``bayesmap infer``: from logs to posteriors, pictures and maps."""
+"""``bayesmap infer``: from logs to posteriors, pictures and maps.
+
+Several logs are a fleet: each is inferred into a folder of its own, one after the other, or each as a task of a Ray
+cluster.
+"""
 
 from __future__ import annotations
 
 import shlex
+import tempfile
+import time
+from collections import Counter
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import click
+import msgspec
 
-from bayesmap.cli import pipeline, typed
-from bayesmap.cli.command import Call, takes
-from bayesmap.cli.console import INTERRUPTED, PROBLEMS, reserve_stdout
-from bayesmap.cli.fleet import infer_fleet
+from bayesmap.cli import pipeline
+from bayesmap.cli.command import Call, as_toml, takes
+from bayesmap.cli.console import FAILURE, INTERRUPTED, PROBLEMS, STAGES, Console, described_share, reserve_stdout
+from bayesmap.cli.folder import Folder
 from bayesmap.cli.keys import InferSettings
 from bayesmap.cli.logs import logs_of
-from bayesmap.cli.translation import executor_of
+from bayesmap.cli.pipeline import Task, infer_log, prepare, read, report, settings_in, stem
+from bayesmap.cli.translation import SENSOR_HELP, executor_of, ray_address
+from bayesmap.errors import BadInput
+
+if TYPE_CHECKING:
+    from bayesmap.api import Event
+    from bayesmap.io.log_reading import LogReading
+
+SETTINGS = "fleet.toml"
+"""In the folder of the runs' folders: what the last fleet there was started with."""
+RETRIES = 3
+"""How often a log whose worker has died is begun again, at its last checkpoint."""
+WAIT_S, EVENT_S, STOP_S = 0.25, 1.0, 30.0
+"""Seconds from one look at the workers to the next, from one word of a worker to the next, and for which workers that
+were asked to stop may take to send where their chains stand."""
+SHOWN = 3
+"""Logs that the bar names."""
+SAMPLING = ("warm-up", "draws")
+
+
+@dataclass
+class Entry:
+    """One log of a fleet, and what has become of it.
+
+    Attributes:
+        log: as typed.
+        path: folder of its run.
+        task: the log with its settings, once these are checked.
+        document: of the finished run.
+        error: why there is none.
+        event: how far a worker is.
+        deaths: of workers that had the log.
+    """
+
+    log: str
+    path: Path
+    task: Task[InferSettings] | None = None
+    document: dict[str, Any] | None = None
+    error: str | None = None
+    event: Event | None = None
+    deaths: int = 0
+
+    @property
+    def ready(self) -> Task[InferSettings]:
+        """Return the task of a log whose settings were checked."""
+        assert self.task is not None
+        return self.task
+
+    @property
+    def problems(self) -> list[str]:
+        """Return what the diagnostics found."""
+        return [] if self.document is None else list(self.document["problems"])
+
+    def fail(self, error: Exception, console: Console) -> None:
+        """Note why there is no run, and say so; errors of usage are raised, since they are those of all logs."""
+        from bayesmap.cli.group import explain
+
+        if isinstance(error, click.ClickException | click.exceptions.Exit):
+            raise error
+        self.error = " ".join(explain(error)[1].split()).removeprefix(f"{self.log}: ")
+        console.warn(f"{self.log}: {self.error}")
+
+    def as_json(self) -> dict[str, Any]:
+        """Return what the JSON document says of the log."""
+        return {"log": self.log, "folder": str(self.path), "error": self.error, "run": self.document}
+
+
+def infer_fleet(call: Call[InferSettings], logs: list[str], output: Path, *, resume: bool, force: bool) -> None:
+    """Infer each log into its own folder, and print a table; exits with 1 if one failed.
+
+    Args:
+        call: of the command.
+        logs: two or more, or what a folder or a pattern held.
+        output: the folder of their folders.
+        resume: go on with the runs that there are.
+        force: replace them.
+
+    Raises:
+        BadInput: two logs of one name, or a cluster that cannot be had.
+    """
+    names = Counter(map(stem, logs))
+    twice = next((name for name, times in names.items() if times > 1), None)
+    if twice is not None:
+        raise BadInput(f"{twice}: two of the logs have this name, so their runs would share a folder; rename one")
+    # Check what was typed, for all logs together and for each.
+    begun = settings_in(output / SETTINGS, "infer") if resume else None
+    settings = call.settings(begun)
+    on_ray, address = ray_address(settings.executor)
+    entries = [Entry(log, output / stem(log)) for log in logs]
+    for entry in entries:
+        try:
+            entry.task = prepare(call, entry.log, entry.path, resume=resume, force=force, begun=begun)
+        except Exception as error:
+            entry.fail(error, call.console)
+    ready = [entry for entry in entries if entry.task is not None]
+    # Keep the settings before the first log begins: the process that resumes may have to begin the others.
+    if ready:
+        _keep_settings(ready, output, as_toml({"infer": settings}))
+    # Infer the logs.
+    try:
+        if on_ray:
+            reserve_stdout()
+            RayFleet(call.console, address).run(ready)
+            finished = True
+        else:
+            finished = all(_infer_here(entry, call.console) for entry in ready)
+    except KeyboardInterrupt:
+        finished = False
+    # Print the result.
+    if not finished:
+        again = shlex.join(["bayesmap", "infer", *logs, "-o", str(output), "--resume"])
+        call.console.say(f"interrupted; what was checkpointed is kept, go on with:\n  {again}")
+    document = {"runs": [entry.as_json() for entry in entries], "finished": finished}
+    call.console.result(document, table(entries))
+    context = click.get_current_context()
+    if not finished:
+        context.exit(INTERRUPTED)
+    if any(entry.error for entry in entries):
+        context.exit(FAILURE)
+    if any(entry.task is not None and entry.task.settings.strict and entry.problems for entry in entries):
+        context.exit(PROBLEMS)
+
+
+def _keep_settings(ready: list[Entry], output: Path, toml: str) -> None:
+    from bayesmap.files import write_whole
+
+    output.mkdir(parents=True, exist_ok=True)
+    with write_whole(output / SETTINGS) as partial:
+        partial.write_text(toml, encoding="utf-8")
+    for entry in ready:
+        entry.ready.folder.wait(toml)
+
+
+def _infer_here(entry: Entry, console: Console) -> bool:
+    """Infer a log in this process; false if it was interrupted."""
+    try:
+        document = infer_log(entry.ready)
+    except Exception as error:
+        entry.fail(error, console)
+        return True
+    entry.document = document if document["finished"] else None
+    return entry.document is not None
+
+
+def table(entries: list[Entry]) -> Iterator[str]:
+    """Yield the lines of the table: a heading, and a line for each log."""
+    rows = [("log", "beams", "minutes", "R-hat", "held out", "folder, or what went wrong")]
+    for entry in entries:
+        if entry.document is None:
+            rows.append((entry.log, "-", "-", "-", "-", entry.error or "not finished"))
+            continue
+        run = entry.document
+        rhat, score = run["rhat_max"], run["heldout"]
+        rows.append(
+            (
+                entry.log, f"{run['beams']:,}", f"{run['seconds']['total'] / 60:.1f}",
+                "-" if rhat is None else f"{rhat:.2f}", "-" if not score else f"{score['nats_per_beam']:.3f}",
+                str(entry.path) + (f" ({len(entry.problems)} problems)" if entry.problems else ""),
+            )
+        )  # fmt: skip
+    widths = [max(len(row[column]) for row in rows) for column in range(5)]
+    for row in rows:
+        columns = [row[0].ljust(widths[0]), *(row[column].rjust(widths[column]) for column in range(1, 5)), row[5]]
+        yield "  ".join(columns)
+
+
+@dataclass(frozen=True, eq=False)
+class Sent:
+    """What a worker sends.
+
+    Attributes:
+        files: contents of files of the run's folder, by name.
+        document: the JSON document, once the run is finished.
+        event: how far the run is.
+    """
+
+    files: dict[str, bytes] = field(default_factory=dict)
+    document: dict[str, Any] | None = None
+    event: Event | None = None
+
+
+class Mailbox:
+    """An actor of the cluster between the workers of a fleet and the process that started it."""
+
+    def __init__(self) -> None:
+        self._sent: list[tuple[str, Sent]] = []
+        self._stop = False
+
+    def send(self, log: str, sent: Sent) -> bool:
+        """Leave what a worker has of a log. Returns whether the worker shall stop."""
+        self._sent.append((log, sent))
+        return self._stop
+
+    def take(self) -> list[tuple[str, Sent]]:
+        """Return what was left since the last call, in order."""
+        sent, self._sent = self._sent, []
+        return sent
+
+    def stop(self) -> None:
+        """Ask all workers to stop."""
+        self._stop = True
+
+
+def work(task: Task[InferSettings], reading: LogReading, before: dict[str, bytes], mailbox: Any) -> None:
+    """Infer a log in a folder of a worker's machine, and send what is in the folder after each checkpoint.
+
+    Args:
+        task: the log with its settings; its folder is not this machine's.
+        reading: the log.
+        before: files of the run to go on with; none to begin.
+        mailbox: the `Mailbox` of the fleet.
+    """
+    import ray
+
+    from bayesmap.run.runner import ThreadExecutor
+
+    stopped, sent_at = False, 0.0
+
+    def send(sent: Sent) -> None:
+        nonlocal stopped, sent_at
+        stopped = ray.get(mailbox.send.remote(task.log, sent))
+        sent_at = time.monotonic()
+
+    def on_event(event: Event) -> None:
+        if time.monotonic() - sent_at >= EVENT_S:
+            send(Sent(event=event))
+
+    with tempfile.TemporaryDirectory(prefix="bayesmap-") as place:
+
+        def files() -> dict[str, bytes]:
+            return {path.name: path.read_bytes() for path in Path(place).iterdir()}
+
+        for name, content in before.items():
+            (Path(place) / name).write_bytes(content)
+        folder = Folder(Path(place), Console(quiet=True, bar=False), resuming=bool(before))
+        document = infer_log(
+            replace(task, folder=folder), reading=reading, executor=ThreadExecutor(lambda: stopped),
+            on_saved=lambda: send(Sent(files())), on_event=on_event,
+        )  # fmt: skip
+        send(Sent(files(), document if document["finished"] else None))
+
+
+class RayFleet:
+    """A fleet on a Ray cluster. Each log is read here, and inferred by a task of its own; files are written here."""
+
+    def __init__(self, console: Console, address: str | None) -> None:
+        from bayesmap.run.ray_executor import connect
+
+        self.console, self.ray = console, connect(address)
+        self.entries: dict[str, Entry] = {}
+        self.running: dict[Any, Entry] = {}
+        self.readings: dict[str, Any] = {}
+        # On this process's node, and on no other: if that node died, workers would not hear of Ctrl-C.
+        here = self.ray.util.scheduling_strategies.NodeAffinitySchedulingStrategy(
+            self.ray.get_runtime_context().get_node_id(), soft=False
+        )
+        self.mailbox = self.ray.remote(Mailbox).options(num_cpus=0, scheduling_strategy=here).remote()
+        self.stopping = False
+
+    def run(self, entries: list[Entry]) -> None:
+        """Infer all logs; as many are read ahead as the cluster can work on. Ctrl-C lets workers save first."""
+        waiting, self.entries = list(reversed(entries)), {entry.log: entry for entry in entries}
+        try:
+            with described_share(self.console, f"0 of {len(entries)} logs") as show:
+                while waiting or self.running:
+                    while waiting and len(self.running) < self.most_at_once(waiting[-1]):
+                        self._begin(waiting.pop())
+                    self._take_some()
+                    show(*self._progress(len(entries) - len(waiting) - len(self.running), len(entries)))
+        except KeyboardInterrupt:
+            self._stop()
+            raise
+        finally:
+            # Not Ray's cancel, which can abort this process: a worker without a mailbox fails when it next writes.
+            self.running.clear()
+            self.ray.kill(self.mailbox)
+
+    def most_at_once(self, entry: Entry) -> int:
+        """Return how many logs the cluster can work on."""
+        return max(1, int(self.ray.cluster_resources().get("CPU", 1)) // _threads(entry))
+
+    def _begin(self, entry: Entry) -> None:
+        """Read a log, put its scans into the object store, and give it to a worker."""
+        try:
+            reading = read(self.console, entry.log, entry.ready.settings)
+        except Exception as error:
+            entry.fail(error, self.console)
+            return
+        self.readings[entry.log] = self.ray.put(reading)
+        self._submit(entry, resuming=entry.ready.folder.resuming)
+
+    def _submit(self, entry: Entry, *, resuming: bool) -> None:
+        task, folder, before = entry.ready, entry.ready.folder, {}
+        if resuming and folder.run.exists() and not folder.outdated.exists():
+            before = {path.name: path.read_bytes() for path in (folder.run, folder.config) if path.exists()}
+        cpus, gpus = _threads(entry), int(task.settings.device != "cpu")
+        # Without Ray's own retries, which know nothing of the last checkpoint.
+        remote = self.ray.remote(work).options(num_cpus=cpus, num_gpus=gpus, max_retries=0)
+        task = replace(task, settings=msgspec.structs.replace(task.settings, threads=cpus))
+        self.running[remote.remote(task, self.readings[entry.log], before, self.mailbox)] = entry
+
+    def _take_some(self) -> None:
+        """Wait a moment for what workers send and for workers that end, and keep what was sent."""
+        from bayesmap.run.ray_executor import failed, outcome
+
+        ended, _ = self.ray.wait(list(self.running), timeout=WAIT_S) if self.running else ([], None)
+        for log, sent in self.ray.get(self.mailbox.take.remote()):
+            try:
+                self.keep(self.entries[log], sent)
+            except OSError as error:
+                self.entries[log].fail(error, self.console)
+        for task in ended:
+            entry = self.running.pop(task)
+            try:
+                outcome(self.ray, task)
+            except self.ray.exceptions.RayError as error:  # the worker died
+                entry.deaths += 1
+                if entry.deaths > RETRIES:
+                    entry.fail(failed(error), self.console)
+                elif not self.stopping:
+                    self.console.say(f"{entry.log}: its worker died; another goes on from the last checkpoint")
+                    folder = entry.ready.folder
+                    self._submit(entry, resuming=folder.begun or folder.resuming)
+            except Exception as error:
+                entry.fail(error, self.console)
+
+    def keep(self, entry: Entry, sent: Sent) -> None:
+        """Note how far a worker is, and write the files that it has sent into the log's folder."""
+        from bayesmap.files import write_whole
+
+        entry.event = sent.event or entry.event
+        if not sent.files:
+            return
+        folder, files = entry.ready.folder, dict(sent.files)
+        folder.begin(files.pop(folder.config.name).decode())
+        if folder.run.name in files and folder.outdated.exists():
+            folder.replace()
+        files.pop("summary.json", None)
+        for name, content in files.items():
+            with write_whole(folder.path / name) as partial:
+                partial.write_bytes(content)
+        if sent.document is not None:
+            outputs = {name: str(folder.path / name) for name in sent.document["outputs"]}
+            entry.document = {**sent.document, "outputs": outputs}
+            folder.write_document(entry.document)
+            self.readings.pop(entry.log, None)
+            self.console.say(f"{entry.log}: finished")
+            report(self.console, entry.document)
+
+    def _stop(self) -> None:
+        """Ask workers to save where their chains stand, and take what they send, for some time."""
+        if not self.running:
+            return
+        self.console.say("stopping: what the workers have is fetched; Ctrl-C again leaves it")
+        self.stopping = True
+        self.ray.get(self.mailbox.stop.remote())
+        deadline = time.monotonic() + STOP_S
+        while self.running and time.monotonic() < deadline:
+            self._take_some()
+
+    def _progress(self, done: int, total: int) -> tuple[str, float]:
+        """Return the words of the bar, and the share of all logs that is done."""
+        words, share = [f"{done} of {total} logs"], float(done)
+        for entry in self.running.values():
+            if (event := entry.event) is not None:
+                words.append(f"{entry.path.name} {STAGES[event.stage][0]} {event.done:,}/{event.total:,}")
+                share += event.done / event.total if event.stage in SAMPLING and event.total else 0.0
+        more = f", {len(words) - 1 - SHOWN} more" if len(words) > SHOWN + 1 else ""
+        return ", ".join(words[: SHOWN + 1]) + more, share / max(total, 1)
+
+
+def _threads(entry: Entry) -> int:
+    return entry.ready.settings.threads or 1
 
 
 @takes("infer")
@@ -78,4 +461,4 @@ def infer(call: Call[InferSettings], logs: tuple[str, ...], output: str | None, 
         click.get_current_context().exit(PROBLEMS)
 
 
-infer.help = (infer.help or "").format(sensors=typed.SENSOR_HELP)
+infer.help = (infer.help or "").format(sensors=SENSOR_HELP)

@@ -10,11 +10,10 @@ from typing import Any
 import click
 import msgspec
 
-from bayesmap.cli.command import Call, takes
+from bayesmap.cli.command import Call, as_toml, takes
 from bayesmap.cli.console import counted, write_out
 from bayesmap.cli.keys import Settings, Value
 from bayesmap.cli.logs import LOG, need_file
-from bayesmap.cli.settings import as_toml
 from bayesmap.errors import BadInput
 from bayesmap.version import __version__
 
@@ -57,7 +56,7 @@ def is_saved_run(file: str) -> bool:
 
 
 def _saved_run(file: str) -> dict[str, Any]:
-    from bayesmap.cli.document import run_document
+    from bayesmap.cli.folder import run_document
     from bayesmap.io.contents import scans_summary
     from bayesmap.result import load
 
@@ -110,7 +109,7 @@ def _lines(document: dict[str, Any]) -> list[str]:
 
 
 def _run_lines(run: dict[str, Any]) -> list[str]:
-    from bayesmap.cli.document import work_done
+    from bayesmap.cli.folder import work_done
 
     (nx, ny), resolution = run["grid"]["shape"], run["grid"]["resolution"]
     state = "finished" if run["finished"] else "not finished"

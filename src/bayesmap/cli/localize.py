@@ -13,12 +13,10 @@ from typing import TYPE_CHECKING, Any, Protocol
 import click
 
 from bayesmap.cli.command import Call, takes
-from bayesmap.cli.console import INTERRUPTED, Console, write_out
+from bayesmap.cli.console import INTERRUPTED, Console, share, write_out
 from bayesmap.cli.keys import LocalizeSettings
 from bayesmap.cli.logs import is_map, need_file
-from bayesmap.cli.progress import share
-from bayesmap.cli.translation import reading_of
-from bayesmap.cli.typed import numbers_of
+from bayesmap.cli.translation import numbers_of, reading_of
 from bayesmap.errors import BadInput
 from bayesmap.version import __version__
 

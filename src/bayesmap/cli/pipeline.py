@@ -8,13 +8,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 from bayesmap.cli import translation
-from bayesmap.cli.command import Call
-from bayesmap.cli.console import Console, counted
+from bayesmap.cli.command import Call, Layer, as_toml, read_file
+from bayesmap.cli.console import SETTING_UP, Console, counted, progress, stage
 from bayesmap.cli.folder import Folder
 from bayesmap.cli.keys import InferSettings, SamplingSettings
 from bayesmap.cli.logs import LOG, need_file
-from bayesmap.cli.progress import SETTING_UP, progress, stage
-from bayesmap.cli.settings import Layer, as_toml, read_file
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -240,7 +238,7 @@ def score_of(console: Console, run: Run, heldout: Scans | None, every: int) -> d
 
 def document_of(run: Run, reading: LogReading, score: dict[str, Any] | None, outputs: list[Path]) -> dict[str, Any]:
     """Return the JSON document of a run."""
-    from bayesmap.cli.document import run_document
+    from bayesmap.cli.folder import run_document
 
     return {
         **run_document(run),
@@ -252,7 +250,7 @@ def document_of(run: Run, reading: LogReading, score: dict[str, Any] | None, out
 
 def report(console: Console, document: dict[str, Any]) -> None:
     """Say what came out."""
-    from bayesmap.cli.document import work_done
+    from bayesmap.cli.folder import work_done
 
     seconds, joint = document["seconds"], document["log_joint"]
     console.say(

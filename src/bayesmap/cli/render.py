@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from bayesmap.cli.command import Call, takes
+from bayesmap.cli.console import share
 from bayesmap.cli.keys import ExportSettings, RenderSettings
 from bayesmap.cli.logs import heldout_scans
-from bayesmap.cli.progress import share
 from bayesmap.errors import BadInput
 from bayesmap.version import __version__
 
@@ -109,15 +109,15 @@ def _whole_figure(run: Run, settings: RenderSettings, walls: Walls | None) -> Fi
 
 def _panel(run: Run, settings: RenderSettings, grid: Grid, window: tuple[slice, slice], walls: Walls | None) -> Figure:
     """Draw one panel of a part of the map."""
-    from bayesmap.viz.map_figures import panel_figure
-    from bayesmap.viz.surfaces import surfaces_figure
+    from bayesmap.viz.figure import panel_figure
+    from bayesmap.viz.overlays import surfaces_figure
 
     what, label = settings.what, run.posterior.prior.words.mean
     shown, observed = run.occupancy[window], run.observed[window]
     if what == "surfaces":
         return surfaces_figure(grid, *run.surfaces(), observed)
     if what == "log-odds":
-        from bayesmap.viz.map_figures import Candidate, comparison_figure
+        from bayesmap.viz.figure import Candidate, comparison_figure
 
         log_odds, seen = log_odds_map(run)
         posterior = Candidate(f"posterior: {label}", shown, observed)
@@ -138,7 +138,7 @@ def _beams_figure(
 ) -> Figure:
     """Draw the end points of beams over the map: their residuals in metres, or their surprise in nats."""
     from bayesmap.posterior.predictor import predictor_of, residuals_of
-    from bayesmap.viz.residuals import residuals_figure, surprise_scale
+    from bayesmap.viz.scores import residuals_figure, surprise_scale
 
     found = residuals_of(predictor_of(run.posterior), scans, on_progress=on_progress)
     values = found.residual_m if what == "residuals" else found.surprise_nats
@@ -194,7 +194,7 @@ def part_of(run: Run, text: str | None) -> tuple[Grid, tuple[slice, slice]]:
     Raises:
         BadInput: neither four numbers nor "observed", or a window outside the map.
     """
-    from bayesmap.viz.cells import window, window_around
+    from bayesmap.viz.maps import window, window_around
 
     if text is None:
         return run.grid, (slice(None), slice(None))

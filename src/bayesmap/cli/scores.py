@@ -10,11 +10,10 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from bayesmap.cli.command import Call
+from bayesmap.cli.console import progress, share
 from bayesmap.cli.keys import ScoreSettings
 from bayesmap.cli.logs import heldout_scans, is_map, need_file
-from bayesmap.cli.progress import progress, share
-from bayesmap.cli.translation import reading_of
-from bayesmap.cli.typed import pose_of
+from bayesmap.cli.translation import pose_of, reading_of
 from bayesmap.errors import BadInput
 
 if TYPE_CHECKING:

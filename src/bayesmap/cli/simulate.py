@@ -12,7 +12,7 @@ import click
 from bayesmap.cli.command import Call, takes
 from bayesmap.cli.keys import SimulateSettings
 from bayesmap.cli.logs import MAPS, is_map
-from bayesmap.cli.typed import ODOMETRY_HELP, SENSOR_HELP, odometry_of, pose_of, sensor_of
+from bayesmap.cli.translation import ODOMETRY_HELP, SENSOR_HELP, odometry_of, pose_of, sensor_of
 from bayesmap.errors import BadInput
 from bayesmap.version import __version__
 

@@ -9,14 +9,12 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from bayesmap.cli import pipeline, translation, typed
-from bayesmap.cli.command import Call, takes
-from bayesmap.cli.console import INTERRUPTED, PROBLEMS, Console
+from bayesmap.cli import pipeline, translation
+from bayesmap.cli.command import Call, as_toml, takes
+from bayesmap.cli.console import INTERRUPTED, PROBLEMS, Console, progress
 from bayesmap.cli.folder import Folder
 from bayesmap.cli.keys import SlamSettings
 from bayesmap.cli.pipeline import Task
-from bayesmap.cli.progress import progress
-from bayesmap.cli.settings import as_toml
 from bayesmap.samplers.progress import Event
 
 if TYPE_CHECKING:
@@ -109,8 +107,8 @@ def _check(console: Console, reading: LogReading, settings: SlamSettings) -> Non
 
 
 def _slam(task: Task[SlamSettings], reading: LogReading, saved: Run | None) -> Run:
+    from bayesmap.api import slam
     from bayesmap.arguments import Checkpoints, Where
-    from bayesmap.from_odometry import slam
 
     folder, settings = task.folder, task.settings
     toml = as_toml({"slam": settings})
@@ -283,4 +281,4 @@ def _first_of(scans: list[int]) -> str:
     return ", ".join(map(str, scans[:10])) + (", ..." if len(scans) > 10 else "")
 
 
-slam.help = (slam.help or "").format(sensors=typed.SENSOR_HELP)
+slam.help = (slam.help or "").format(sensors=translation.SENSOR_HELP)
