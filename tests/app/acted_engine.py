@@ -10,6 +10,7 @@ from bayesmap.app.protocol.notices import Notice, View
 from bayesmap.app.protocol.tasks import Ask, Infer, Report, Show
 from bayesmap.app.protocol.wire import frame
 from bayesmap.app.shown.chains import Stream
+from bayesmap.app.sources import opened_run
 
 PAGE = 7
 """The page that asks."""
@@ -37,10 +38,6 @@ class Said:
     def buffers(self):
         return self.report.buffers
 
-    @property
-    def client(self):
-        return self.report.client
-
 
 class Heard:
     """An engine and what it said."""
@@ -59,11 +56,20 @@ class Heard:
             steps = None if steps is None else steps - 1
         return self.last("field") if steps is None else None
 
-    def infer_until_chains_run(self, document):
-        """Do a job until its chains have made a step; how many pieces come before depends on the machine."""
-        self.infer(document, steps=0)
-        while self.engine._result is None or not isinstance(self.engine._result.found, Stream):
-            assert self.engine.busy, "the job ended without chains"
+    def infer_until(self, document, holds, mode="live"):
+        """Do a job until something holds; how many pieces come before depends on the machine."""
+        self.infer(document, mode, steps=0)
+        while not holds():
+            assert self.engine.busy, "the job ended before"
+            self.engine.advance()
+
+    def chains_run(self):
+        """Whether the result on show is that of chains."""
+        return self.engine._result is not None and isinstance(self.engine._result.found, Stream)
+
+    def finish(self):
+        """Do the rest of the job."""
+        while self.engine.busy:
             self.engine.advance()
 
     def ask(self, question):
@@ -73,15 +79,27 @@ class Heard:
         self.engine.take(question if isinstance(question, Cancel | ShowScan) else asked)
         return self.reports[before:]
 
-    def last(self, kind):
-        """Header and buffers of the last report of a kind."""
-        found = [report for report in self.reports if report.header["type"] == kind][-1]
-        return found.header, found.buffers
+    def answer(self, question):
+        """Header and buffers of the one answer, which is for the page that asked."""
+        (said,) = self.ask(question)
+        assert said.report.client == PAGE
+        return said.header, said.buffers
 
     def every(self, kind):
         """Headers and buffers of all reports of a kind."""
         return [(report.header, report.buffers) for report in self.reports if report.header["type"] == kind]
 
+    def last(self, kind):
+        """Header and buffers of the last report of a kind."""
+        return self.every(kind)[-1]
+
     def all(self, kind):
         """All headers of a kind."""
-        return [report.header for report in self.reports if report.header["type"] == kind]
+        return [header for header, _ in self.every(kind)]
+
+
+def shown(run, **options):
+    """An engine that shows a run."""
+    heard = Heard(opened_run(run, "run.nc"))
+    heard.infer(heard.engine._opened.document, **options)
+    return heard

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from acted_engine import Heard
+from acted_engine import Heard, shown
 from acted_session import Acted
 from msgspec import structs
 
@@ -12,63 +12,44 @@ from bayesmap.app.edits import tutorial_document
 from bayesmap.app.protocol.actions import FindPath, FindViews
 from bayesmap.app.protocol.document import Refused, packed
 from bayesmap.app.protocol.wire import check
-from bayesmap.app.sources import opened_run
 from bayesmap.posterior.decisions import path_is_free
 
 DOCUMENT = replace(tutorial_document(), sweeps=300)
 PATH = FindPath((6.0, 15.0), (10.0, 14.0), 0.4, 0.05)
 
 
-def answered(heard, task):
-    (report,) = heard.ask(task)
-    assert report.client == 7
-    return report.header, report.buffers
-
-
 @pytest.mark.parametrize("mode", ["live", "run"])
 def test_a_path_s_probability_is_that_of_the_draws(mode):
     heard = Heard()
     heard.infer(DOCUMENT, mode)
-    header, _ = answered(heard, PATH)
-    assert header["type"] == "path"
-    assert header["generation"] == heard.generation
-    stream = heard.engine._result.found
-    draws = stream.at_hand
-    assert (stream.kept is None) == (mode == "live")
-
-    class Maps:
-        prior = stream.model.cells
-
-    Maps.draws = draws
-    free = path_is_free(Maps(), header["path"], 0.4)
+    header, _ = heard.answer(PATH)
+    assert (header["type"], header["generation"]) == ("path", heard.generation)
+    assert (heard.engine._result.found.kept is None) == (mode == "live")
+    free = path_is_free(heard.engine._result.maps, header["path"], 0.4)
     assert header["probability"] == free.probability
     assert header["within_risk"] == (1 - free.probability <= 0.05)
-    assert header["path"][0] == [6.0, 15.0]
-    assert header["path"][-1] == [10.0, 14.0]
+    assert [header["path"][0], header["path"][-1]] == [[6.0, 15.0], [10.0, 14.0]]
+    outside, _ = heard.answer(structs.replace(PATH, goal=(900.0, 3.0)))
+    assert outside["type"] == "undecided"
+    assert "outside" in outside["text"]
+    if mode == "run":  # a saved run is decided by, too
+        saved = shown(heard.engine._result.as_run())
+        assert [saved.answer(question)[0]["type"] for question in (PATH, FindViews())] == ["path", "views"]
 
 
 def test_a_path_needs_draws():
     heard = Heard()
     heard.infer(replace(DOCUMENT, method="propagate"), "preview")
-    header, _ = answered(heard, PATH)
+    header, _ = heard.answer(PATH)
     assert header["type"] == "undecided"
     assert "draws" in header["text"]
-
-
-def test_where_no_way_leads_that_is_said():
-    heard = Heard()
-    heard.infer(DOCUMENT, "run")
-    header, _ = answered(heard, structs.replace(PATH, goal=(900.0, 3.0)))
-    assert header["type"] == "undecided"
-    assert "outside" in header["text"]
 
 
 def test_views_stand_where_it_is_free_and_tell_more_where_less_is_known():
     heard = Heard()
     _, field = heard.infer(DOCUMENT, "live")
-    header, buffers = answered(heard, FindViews())
-    assert header["type"] == "views"
-    assert header["spacing"] == 1.0
+    header, buffers = heard.answer(FindViews())
+    assert (header["type"], header["spacing"]) == ("views", 1.0)
     pose, nats = buffers["pose"], buffers["nats"]
     assert pose.shape == (len(nats), 3)
     cells = np.floor(pose[:, :2] + 0.5).astype(int)
@@ -76,29 +57,10 @@ def test_views_stand_where_it_is_free_and_tell_more_where_less_is_known():
     assert (nats > 0).all()
     own = np.hypot(*(pose[:, :2] - [6.0, 15.0]).T).argmin()
     assert nats[own] < 0.7 * nats.max()  # looking again from the same place tells less
-
-
-def test_a_large_map_has_no_more_places_than_can_be_told_apart():
-    heard = Heard()
-    walls = np.zeros((120, 80), dtype=bool)
+    walls = np.zeros((120, 80), dtype=bool)  # a large map has no more places than can be told apart
     grid = replace(DOCUMENT.grid, shape=(120, 80))
-    document = replace(DOCUMENT, grid=grid, walls=packed(walls), max_range=60.0, sweeps=5)
-    heard.infer(document, "live")
-    _, buffers = answered(heard, FindViews())
-    assert 0 < len(buffers["nats"]) <= 400
-
-
-def test_a_saved_run_is_decided_by_too():
-    heard = Heard()
-    heard.infer(DOCUMENT, "run")
-
-    opened = opened_run(heard.engine._result.as_run(), "run.nc")
-    shown = Heard(opened)
-    shown.infer(opened.document)
-    header, _ = answered(shown, PATH)
-    assert header["type"] == "path"
-    views, _ = answered(shown, FindViews())
-    assert views["type"] == "views"
+    heard.infer(replace(DOCUMENT, grid=grid, walls=packed(walls), max_range=60.0, sweeps=5), "live")
+    assert 0 < len(heard.answer(FindViews())[1]["nats"]) <= 400
 
 
 def test_questions_change_nothing():

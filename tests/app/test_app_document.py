@@ -1,4 +1,4 @@
-"""The document: JSON there and back, limits, and readings that follow from it."""
+"""The document and the messages: JSON and frames there and back, limits, refusals, and readings that follow."""
 
 import json
 import pickle
@@ -6,12 +6,22 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from bayesmap.app.edits import new_document, tutorial_document
 from bayesmap.app.protocol.document import BOUNDS, Document, Refused, Sensor, packed
-from bayesmap.app.protocol.wire import parse_document, parse_simulation
+from bayesmap.app.protocol.wire import (
+    ACTIONS,
+    MAX_BYTES,
+    check,
+    frame,
+    parse,
+    parse_document,
+    parse_simulation,
+    seq_of,
+    unframe,
+)  # fmt: skip
 from bayesmap.app.scene import simulate_document, standard_noise
 from bayesmap.sim.drawing import TUTORIAL_GRID
 from bayesmap.space.grid import Grid
@@ -20,34 +30,23 @@ from bayesmap.space.grid import Grid
 @st.composite
 def documents(draw):
     shape = draw(st.tuples(st.integers(2, 9), st.integers(2, 9)))
-    cells = np.array(draw(st.lists(st.booleans(), min_size=shape[0] * shape[1], max_size=shape[0] * shape[1])))
-    cells = cells.reshape(shape)
+    size = shape[0] * shape[1]
+    cells = np.array(draw(st.lists(st.booleans(), min_size=size, max_size=size))).reshape(shape)
     grid = Grid(shape, draw(st.sampled_from([0.05, 1.0, 2.5])), (draw(st.floats(-9, 9)), draw(st.floats(-9, 9))))
-    places = draw(
-        st.lists(st.tuples(st.integers(0, shape[0] - 1), st.integers(0, shape[1] - 1)), min_size=1, max_size=4)
-    )
-    x, y = grid.centers_m()
-    sensors = tuple(
-        Sensor(n + 1, float(x[i]), float(y[j]), draw(st.floats(-3.14, 3.14))) for n, (i, j) in enumerate(places)
-    )
-    for i, j in places:
+    indices = st.tuples(st.integers(0, shape[0] - 1), st.integers(0, shape[1] - 1))
+    (x, y), sensors = grid.centers_m(), []
+    for n, (i, j) in enumerate(draw(st.lists(indices, min_size=1, max_size=4)), 1):
+        sensors.append(Sensor(n, float(x[i]), float(y[j]), draw(st.floats(-3.14, 3.14))))
         cells[i, j] = False
-    return Document(
-        grid,
-        packed(cells),
-        sensors,
-        prior=draw(st.floats(0, 1)),
-        noise=draw(st.floats(0, 5)),
-        angles=draw(st.integers(10, 1000)),
-        max_range=draw(st.floats(0.1, 10_000)),
-        fov=draw(st.floats(0.1, 6.28)),
-        readings=draw(st.sampled_from(["noisy", "exact"])),
-        start=draw(st.sampled_from(["auto", "prior", "empty"])),
-        method=draw(st.sampled_from(["auto", "gibbs", "block", "propagate", "importance"])),
-        order=draw(st.sampled_from(["raster", "radial", "random"])),
-        sweeps=draw(st.integers(1, 100_000)),
-        seed=draw(st.integers(0, 2**31 - 1)),
-    )
+    settings = {
+        "prior": st.floats(0, 1), "noise": st.floats(0, 5), "angles": st.integers(10, 1000),
+        "max_range": st.floats(0.1, 10_000), "fov": st.floats(0.1, 6.28),
+        "readings": st.sampled_from(["noisy", "exact"]), "start": st.sampled_from(["auto", "prior", "empty"]),
+        "method": st.sampled_from(["auto", "gibbs", "block", "propagate", "importance"]),
+        "order": st.sampled_from(["raster", "radial", "random"]), "sweeps": st.integers(1, 100_000),
+        "seed": st.integers(0, 2**31 - 1),
+    }  # fmt: skip
+    return Document(grid, packed(cells), tuple(sensors), **draw(st.fixed_dictionaries(settings)))
 
 
 @given(documents())
@@ -58,22 +57,18 @@ def test_a_document_goes_through_json_and_through_a_pipe_unchanged(document):
 
 def test_what_was_left_out_is_written_with_its_default():
     left_out = {name: GOOD[name] for name in ("grid", "walls")}
-    assert parse_document({**left_out, "sensors": [{"id": 1, "x": 10, "y": 10}]}).to_json() == {
-        **Document(TUTORIAL_GRID, tutorial_document().walls, (Sensor(1, 10.0, 10.0),)).to_json()
-    }
+    whole = Document(TUTORIAL_GRID, tutorial_document().walls, (Sensor(1, 10.0, 10.0),))
+    assert parse_document({**left_out, "sensors": [{"id": 1, "x": 10, "y": 10}]}).to_json() == whole.to_json()
 
 
-def test_walls_are_packed_as_the_page_s_description_says():
+def test_walls_are_packed_as_the_page_s_description_says_and_cannot_be_written_to():
     cells = np.zeros((3, 4), dtype=bool)
     cells[0, 0] = cells[2, 3] = True  # bits 0 and 11 of 12
     document = Document(Grid((3, 4)), packed(cells), (Sensor(1, 0.5, 1.5),))
     assert document.to_json()["walls"] == "gBA="  # 1000 0000 0001 0000
     assert np.array_equal(parse_document(document.to_json()).is_wall, cells)
-
-
-def test_a_map_cannot_be_written_to():
     with pytest.raises(ValueError, match="read-only"):
-        tutorial_document().is_wall[0, 0] = True
+        document.is_wall[0, 0] = True
 
 
 GOOD = tutorial_document().to_json()
@@ -137,23 +132,20 @@ def test_the_method_follows_the_prior_unless_it_is_named(prior, sampler):
     assert replace(document, method="gibbs").sampler == "gibbs"
 
 
-@pytest.mark.parametrize("name", BOUNDS)
-def test_limits_belong_to_what_is_allowed(name):
-    for bound in BOUNDS[name]:
-        assert getattr(parse_document({**GOOD, name: bound}), name) == bound
+def test_limits_belong_to_what_is_allowed():
+    for name, bounds in BOUNDS.items():
+        for bound in bounds:
+            assert getattr(parse_document({**GOOD, name: bound}), name) == bound
 
 
-def test_moving_one_sensor_leaves_the_other_s_readings_alone():
+def test_the_noise_of_a_beam_depends_on_seed_sensor_and_number_alone():
     one = tutorial_document()
     two = replace(one, sensors=(*one.sensors, Sensor(2, 8.0, 8.0)))
     moved = replace(two, sensors=(Sensor(1, 10.4, 9.0, 1.0), two.sensors[1]))
-    before, after = simulate_document(two)[0].ranges_m, simulate_document(moved)[0].ranges_m
+    alone, before, after = (simulate_document(document)[0].ranges_m for document in (one, two, moved))
     assert np.array_equal(before[1], after[1])
     assert not np.array_equal(before[0], after[0])
-    assert np.array_equal(simulate_document(one)[0].ranges_m[0], before[0])
-
-
-def test_a_beam_s_noise_depends_on_its_number_and_not_on_how_many_there_are():
+    assert np.array_equal(alone[0], before[0])
     assert np.array_equal(standard_noise(3, 1, 1000)[:10], standard_noise(3, 1, 10))
     assert not np.array_equal(standard_noise(3, 2, 10), standard_noise(3, 1, 10))
     assert not np.array_equal(standard_noise(4, 1, 10), standard_noise(3, 1, 10))
@@ -161,21 +153,127 @@ def test_a_beam_s_noise_depends_on_its_number_and_not_on_how_many_there_are():
 
 @pytest.mark.parametrize(
     ("world", "shape"),
-    [("blank", (2, 2)), ("blank", (500, 500)), ("tutorial", (21, 21)),
-     ("tutorial", (5, 40)), ("tutorial", (4, 2)), ("tutorial", (60, 50)),
-     ("building", (52, 36)),
-     ("building", (200, 300))],
+    [("blank", (2, 2)), ("blank", (500, 500)), ("tutorial", (21, 21)), ("tutorial", (5, 40)), ("tutorial", (4, 2)),
+     ("tutorial", (60, 50)), ("building", (52, 36)), ("building", (200, 300))],
 )  # fmt: skip
 def test_new_maps_are_documents(world, shape):
     document = new_document(world, shape, tutorial_document())
     assert document.grid.shape == shape
     assert parse_document(document.to_json()) == document
+    if shape == (21, 21):
+        assert document == tutorial_document()
+        with pytest.raises(Refused, match="52 x 36"):
+            new_document("building", shape, document)
 
 
-def test_the_tutorial_s_world_is_the_tutorial_s():
-    assert new_document("tutorial", (21, 21), tutorial_document()) == tutorial_document()
+JSON = st.recursive(
+    st.one_of(st.none(), st.booleans(), st.integers(), st.floats(), st.text(max_size=8), st.sampled_from([*ACTIONS])),
+    lambda inner: st.one_of(st.lists(inner, max_size=4), st.dictionaries(st.text(max_size=6), inner, max_size=4)),
+    max_leaves=12,
+)
+NAMES = ("patch", "cells", "wall", "stroke", "op", "id", "x", "y", "yaw", "drag", "what", "shape", "world", "on",
+         "layer", "chain", "draw", "index", "document", "seq")  # fmt: skip
 
 
-def test_a_building_that_does_not_fit_is_refused():
-    with pytest.raises(Refused, match="52 x 36"):
-        new_document("building", (21, 21), tutorial_document())
+def understood(data):
+    try:
+        return parse(data)
+    except Refused:
+        seq_of(data)
+        return None
+
+
+@given(st.binary(max_size=200))
+@example(b"\xff\xfe")
+@example(b"[" * 100_000)
+@example(b'{"type": "run", "seq": ' + b"9" * 5000 + b"}")
+def test_random_bytes_are_refused(data):
+    understood(data)
+
+
+@given(st.text(max_size=200))
+@example('{"type": "set", "patch": {"prior": NaN}}')
+@example('{"type": "set", "patch": {"prior": 1e999}}')
+@example('{"type": "\\ud800"}')
+def test_random_text_is_refused(text):
+    understood(text)
+
+
+@given(st.sampled_from([*ACTIONS]), st.dictionaries(st.sampled_from(NAMES), JSON, max_size=6))
+def test_random_fields_are_refused_or_make_a_message(kind, fields):
+    message = understood(json.dumps({"type": kind, **fields}))
+    assert message is None or message.__struct_config__.tag == kind
+
+
+MESSAGES = [
+    {"type": "set", "patch": {"prior": 0.05, "method": "block"}, "drag": 3},
+    {"type": "walls", "cells": [[1, 2], [3, 4]], "wall": True, "stroke": 1},
+    {"type": "add_sensor", "x": 1, "y": 2.5, "yaw": 0},
+    {"type": "move_sensor", "id": 1, "yaw": 1.5},
+    {"type": "remove_sensor", "id": 2},
+    {"type": "clear", "what": "inference"},
+    {"type": "new", "shape": [500, 2], "world": "blank"},
+    {"type": "view", "layer": "draw", "chain": None, "draw": 7},
+    {"type": "hello"},
+    {"type": "export", "what": "html"},
+]
+
+
+def test_good_messages_are_understood():
+    for message in MESSAGES:
+        assert check({**message, "seq": 5}).seq == 5
+
+
+@pytest.mark.parametrize(
+    ("message", "named"),
+    [
+        ([], "not an object"),
+        ({"type": "shutdown"}, "unknown type"),
+        ({"type": "set", "patch": {"colour": 1}}, "colour"),
+        ({"type": "set", "patch": {"prior": "0.5"}}, "prior"),
+        ({"type": "set"}, "set.patch: missing"),
+        ({"type": "walls", "cells": [[1, 2.5]], "wall": True}, r"cells\[0\]\[1\]: 2.5 is not a whole number"),
+        ({"type": "walls", "cells": [[3, 4], [-1, 2]], "wall": True}, r"cells\[1\]\[0\]: -1 is not"),
+        ({"type": "walls", "cells": [[True, 2]], "wall": True}, r"cells\[0\]\[0\]: True"),
+        ({"type": "walls", "cells": [[1, 2, 3]], "wall": True}, "a list of 2"),
+        ({"type": "walls", "cells": [], "wall": True}, "cells"),
+        ({"type": "walls", "cells": [[1, 2]], "wall": 1}, "wall"),
+        ({"type": "move_sensor", "x": 1, "y": 1}, "id"),
+        ({"type": "add_sensor", "x": 1}, "y"),
+        ({"type": "move_sensor", "id": 1, "x": 1e7}, "x: 10000000.0 is not a number from -1,000,000 to 1,000,000"),
+        ({"type": "new", "shape": [501, 21], "world": "blank"}, "shape"),
+        ({"type": "view", "layer": "draw", "draw": -1}, "draw"),
+        ({"type": "export", "what": "/etc/passwd"}, "what"),
+        ({"type": "run", "seq": -1}, "seq"),
+    ],
+)
+def test_bad_messages_are_refused_by_name(message, named):
+    with pytest.raises(Refused, match=named):
+        check(message)
+
+
+def test_a_message_that_is_too_long_is_refused_unread():
+    with pytest.raises(Refused, match="more than"):
+        parse(" " * (MAX_BYTES + 1))
+    with pytest.raises(Refused, match="more than"):
+        parse("é" * (MAX_BYTES // 2 + 1))
+
+
+@given(st.lists(st.tuples(st.sampled_from(["uint8", "float32", "float64", "int32"]), st.integers(0, 5)), max_size=4))
+def test_frames_hold_what_was_put_in(kinds):
+    rng, message = np.random.default_rng(0), {"type": "field", "generation": 3}
+    arrays = {f"a{i}": rng.integers(0, 99, (2, n)).astype(kind) for i, (kind, n) in enumerate(kinds)}
+    data = frame(message, arrays)
+    header, back = unframe(data) if arrays else (json.loads(data), {})
+    assert header == message
+    assert all(np.array_equal(back[name], array) and back[name].dtype == array.dtype for name, array in arrays.items())
+
+
+def test_frames_are_laid_out_as_the_page_s_description_says():
+    data = frame({"type": "t"}, {"p": np.array([[7, 8]], np.uint8), "q": np.array([1.5])})
+    length = int.from_bytes(data[:4], "little")
+    listed = [{"name": "p", "dtype": "uint8", "shape": [1, 2]}, {"name": "q", "dtype": "float64", "shape": [1]}]
+    assert json.loads(data[4 : 4 + length])["buffers"] == listed
+    body = data[4 + length :]
+    assert body[:8] == b"\x07\x08" + b"\0" * 6
+    assert np.frombuffer(body[8:], "<f8") == [1.5]

@@ -1,31 +1,43 @@
-"""The evidence of beams for a wall is the change of their log-likelihood, by enumeration."""
+"""The evidence of beams about a cell is the change of their log-likelihood, by enumeration and by a plain sum."""
 
 import itertools
 
 import numpy as np
 import pytest
-from acted_engine import Heard
+from acted_engine import Heard, shown
+from building_log import room_run
 
 import bayesmap as bm
-from bayesmap.app.answers.evidence import MOST_DRAWN, BeamRatios, strongest, summed, wall_ratios
+from bayesmap.app.answers.evidence import (
+    MOST_DRAWN,
+    BeamRatios,
+    log_ratios,
+    one_beam_each,
+    strongest,
+    summed,
+    wall_ratios,
+)  # fmt: skip
 from bayesmap.app.edits import tutorial_document
 from bayesmap.app.protocol.actions import Inspect
+from bayesmap.kernels.rays import trace_rays
 from bayesmap.kernels.walls.table import trace
+from bayesmap.posterior.predictor import Predictor, fixed_maps
+
+SENSOR = bm.BeamMixture(bm.Gaussian(0.2), p_random=0.05, p_no_return=0.05)
+DEPTH = 0.5
 
 
-def test_it_is_the_mean_over_all_maps_of_the_other_cells():
+def test_for_a_wall_it_is_the_mean_over_all_maps_of_the_other_cells():
     grid = bm.Grid((4, 2), 1.0)
-    angles = np.array([-0.2, 0.1, 0.3])
-    readings = np.array([[1.6, 2.9, 2.2]])
-    scans = bm.Scans(np.array([[0.3, 0.9, 0.0]]), angles, readings, max_range_m=6.0)
+    scans = bm.Scans(np.array([[0.3, 0.9, 0.0]]), np.array([-0.2, 0.1, 0.3]), [[1.6, 2.9, 2.2]], max_range_m=6.0)
     table = trace(scans, grid, bm.Gaussian(0.4))
     p = np.random.default_rng(0).uniform(0.1, 0.9, grid.n_cells)
-    cell = 2 * 2 + 1
-    through = [b for b in range(3) if cell in table.cells[table.offsets[b] : table.offsets[b + 1]]]
-    ratios = []
-    for b in through:
-        cells = table.cells[table.offsets[b] : table.offsets[b + 1]]
-        log_p = table.loglik[table.offsets[b] : table.offsets[b + 1]]
+    cell, ratios = 2 * 2 + 1, []
+    for b in range(3):
+        entries = slice(*table.offsets[b : b + 2])
+        cells, log_p = table.cells[entries], table.loglik[entries]
+        if cell not in cells:
+            continue
         mean = {True: 0.0, False: 0.0}
         for walls in itertools.product([False, True], repeat=len(cells)):
             weight = np.prod([p[c] if w else 1 - p[c] for c, w in zip(cells, walls, strict=True) if c != cell])
@@ -34,53 +46,89 @@ def test_it_is_the_mean_over_all_maps_of_the_other_cells():
             mean[walls[list(cells).index(cell)]] += weight * density
         ratios.append(np.log(mean[True] / mean[False]))
     found = summed(wall_ratios(table, p, cell))
-    assert found.beams == len(through) > 0
+    assert found.beams == len(ratios) > 0
     assert found.nats_for - found.nats_against == pytest.approx(sum(ratios), abs=1e-5)
     assert found.beams_for == sum(r > 0.005 for r in ratios)
     assert found.beams_against == sum(r < -0.005 for r in ratios)
 
 
-def test_a_wall_is_spoken_for_and_floor_against():
+def test_a_wall_is_spoken_for_and_floor_against_and_each_beam_is_told_where_it_is_asked_for():
     heard = Heard()
     _, field = heard.infer(tutorial_document())
-    p = field["p"].reshape(21, 21)
     seen = np.unpackbits(field["observed"], count=441).reshape(21, 21).astype(bool)
-    wall = tuple(np.argwhere(seen & (p == 255))[0].tolist())
-    floor = 10, 12
-    of_wall, of_floor = (heard.ask(Inspect(*cell))[0].header for cell in (wall, floor))
+    wall = tuple(np.argwhere(seen & (field["p"].reshape(21, 21) == 255))[0].tolist())
+    (of_wall, _), (of_floor, nothing) = (heard.answer(Inspect(*cell)) for cell in (wall, (10, 12)))
     assert of_wall["nats_for"] > of_wall["nats_against"]
     assert of_floor["nats_against"] > of_floor["nats_for"] + 1
     assert of_floor["beams_for"] + of_floor["beams_against"] <= of_floor["beams"]
+    assert nothing == {}
+    header, each = heard.answer(Inspect(10, 12, each=True))
+    assert {**header, "each": False} == of_floor
+    nats = each["nats"]
+    assert nats[nats > 0].sum() == pytest.approx(header["nats_for"])
+    assert -nats[nats < 0].sum() == pytest.approx(header["nats_against"])
+    # All of them run through the cell, of 1 m about (10, 12).
+    start, end = each["start"], each["end"]
+    along = (end - start) / np.linalg.norm(end - start, axis=1)[:, None]
+    away = np.array([10.0, 12.0]) - start
+    assert (np.abs(along[:, 0] * away[:, 1] - along[:, 1] * away[:, 0]) < np.sqrt(0.5)).all()
 
 
 def test_the_beams_that_say_most_come_first_with_where_they_run():
-    angles = np.array([0.0, np.pi / 2])
     readings = np.array([[1.0, np.inf], [2.0, -np.inf], [np.nan, 3.0]])
     poses = np.array([[1.0, 1.0, 0.0], [2.0, 0.0, np.pi], [0.0, 5.0, 0.1]])
-    scans = bm.Scans(poses, angles, readings, max_range_m=6.0, min_range_m=0.5)
-    said = BeamRatios(np.array([0, 1, 2, 3]), np.array([0.5, -2.0, 0.004, 1.0]), 8, 2)
-    found = strongest(said, scans)
-    assert found["nats"].tolist() == [-2.0, 1.0, 0.5]
-    assert found["scan"].tolist() == [0, 1, 0]
-    assert found["beam"].tolist() == [1, 1, 0]
+    scans = bm.Scans(poses, np.array([0.0, np.pi / 2]), readings, max_range_m=6.0, min_range_m=0.5)
+    found = strongest(BeamRatios(np.array([0, 1, 2, 3]), np.array([0.5, -2.0, 0.004, 1.0]), 8, 2), scans)
+    assert [found[name].tolist() for name in ("nats", "scan", "beam")] == [[-2.0, 1.0, 0.5], [0, 1, 0], [1, 1, 0]]
     np.testing.assert_allclose(found["start"], [[1, 1], [2, 0], [1, 1]])
     np.testing.assert_allclose(found["end"], [[1, 7], [2, -0.5], [2, 1]], atol=1e-12)  # no return, too close, a hit
     many = BeamRatios(np.zeros(500, dtype=np.intp), np.linspace(0.01, 5, 500), 500, 1)
     assert strongest(many, scans)["nats"].tolist() == many.nats[: -MOST_DRAWN - 1 : -1].tolist()
 
 
-def test_each_beam_is_told_where_it_is_asked_for():
-    heard = Heard()
-    heard.infer(tutorial_document())
-    (together,) = heard.ask(Inspect(10, 12))
-    assert together.buffers == {}
-    (each,) = heard.ask(Inspect(10, 12, each=True))
-    assert {**each.header, "each": False} == together.header
-    nats = each.buffers["nats"]
-    assert nats[nats > 0].sum() == pytest.approx(each.header["nats_for"])
-    assert -nats[nats < 0].sum() == pytest.approx(each.header["nats_against"])
-    # All of them run through the cell, of 1 m about (10, 12).
-    start, end = each.buffers["start"], each.buffers["end"]
-    along = (end - start) / np.linalg.norm(end - start, axis=1)[:, None]
-    away = np.array([10.0, 12.0]) - start
-    assert (np.abs(along[:, 0] * away[:, 1] - along[:, 1] * away[:, 0]) < np.sqrt(0.5)).all()
+def density(rays, beam, stop):
+    """The density of a beam's reading under one map of stop probabilities, (N,), cell by cell."""
+    entries = slice(*rays.offsets[beam : beam + 2])
+    distance = np.append(rays.distance_m(DEPTH)[entries], np.inf)
+    chance = np.append(stop[rays.cells[entries]], 1.0)
+    arrives = np.cumprod(np.append(1.0, 1.0 - chance[:-1]))
+    reading = np.full(len(distance), rays.range_m[beam])
+    return float((arrives * chance * np.exp(SENSOR.log_likelihood(reading, distance, rays.limits))).sum())
+
+
+def test_for_other_cells_it_is_the_log_ratio_of_densities_averaged_over_draws():
+    grid = bm.Grid((5, 3), 1.0)
+    draws = np.random.default_rng(3).uniform(0.0, 0.8, (4, grid.n_cells))
+    readings = np.array([[2.4, 2.6, np.inf, np.nan], [2.2, 3.1, 0.9, 1.7]])
+    poses, angles = np.array([[0.3, 1.4, 0.0], [0.2, 0.4, 0.3]]), np.array([-0.3, 0.0, 0.1, 0.6])
+    scans = bm.Scans(poses, angles, readings, max_range_m=6.0)
+    cell, beams, rays = 2 * 3 + 1, np.arange(scans.n_beams), trace_rays(scans, grid)
+    emptied = draws.copy()
+    emptied[:, cell] = 0.0
+    expected = []
+    for beam in beams:
+        means = [np.mean([density(rays, beam, stop) for stop in maps]) for maps in (draws, emptied)]
+        expected.append(0.0 if np.isnan(rays.range_m[beam]) else np.log(means[0] / means[1]))
+    predictor = Predictor(grid, fixed_maps(draws), SENSOR, DEPTH, len(draws))
+    found = log_ratios(predictor, one_beam_each(scans, beams), cell)
+    assert found == pytest.approx(expected, abs=1e-4)
+    assert found.max() > 0.01
+    assert found.min() < -0.01
+
+
+@pytest.mark.parametrize("prior", [bm.Surface(), bm.Beta()], ids=["surfaces", "reflectivities"])
+def test_the_wall_of_a_room_is_spoken_for_and_its_floor_by_nobody(prior):
+    run = room_run(prior)
+    heard = shown(run)
+    # A single cell of the wall may be one that its neighbour's long surface would do without.
+    of_wall = [heard.answer(Inspect(20, y))[0] for y in range(2, 18)]
+    of_floor = heard.answer(Inspect(10, 14))[0]
+    assert sum(cell["nats_for"] - cell["nats_against"] for cell in of_wall) > 30
+    assert max(cell["nats_for"] for cell in of_wall) > 5
+    assert all(cell["beams_for"] + cell["beams_against"] <= cell["beams"] for cell in of_wall)
+    assert of_floor["beams"] > 20
+    assert abs(of_floor["nats_for"] - of_floor["nats_against"]) < 5
+    touched = np.zeros(run.grid.n_cells, dtype=bool)
+    touched[heard.engine._scene.problem.table.cells] = True
+    found, _ = heard.answer(Inspect(*np.argwhere(~touched.reshape(run.grid.shape))[0].tolist()))
+    assert (found["beams"], found["nats_for"], found["nats_against"]) == (0, 0.0, 0.0)

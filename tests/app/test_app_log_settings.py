@@ -18,7 +18,7 @@ from bayesmap.app.scene import hits
 from bayesmap.app.shown.hit_maps import HitCounts, coarse_map
 from bayesmap.app.sources import OpenedLog, first_beams, opened_log
 from bayesmap.cells.arrays import Draws
-from bayesmap.samplers.fit import PILOT_SWEEPS, first_sensor, pilot_sweeps
+from bayesmap.samplers.fit import first_sensor, pilot_sweeps
 from bayesmap.samplers.sampler import Keep
 from bayesmap.samplers.stop_gibbs import StopGibbs
 from bayesmap.space.grid import Grid
@@ -233,37 +233,62 @@ def test_the_coarse_picture_is_made_of_counts_at_once(log, cells):
     assert [buffers["strokes"].size for _, buffers in heard.every("overlay")] == [0] * (cells == "surface")
 
 
-def test_surfaces_of_a_log_are_counted_first_then_shown_by_the_draws_of_the_chain_that_fits_the_sensor(log):
-    document = replace(log.document, cells="surface", sweeps=3, grid=Grid.covering(log.scans, 0.2))
+def surfaces_of(log):
+    return replace(log.document, cells="surface", sweeps=3, grid=Grid.covering(log.scans, 0.2))
+
+
+@pytest.fixture(scope="module")
+def surfaces(log):
+    """An engine that has inferred surfaces, with every picture."""
     heard = Heard(log)
     heard.engine._display.due = lambda: True
-    heard.infer(document, "run")
-    methods = [f["method"] for f in heard.all("field")]
+    heard.infer(surfaces_of(log), "run")
+    return heard
+
+
+def test_surfaces_of_a_log_are_counted_first_then_shown_by_the_draws_of_the_chain_that_fits_the_sensor(log, surfaces):
+    fields = surfaces.every("field")
+    methods = [header["method"] for header, _ in fields]
     assert methods == ["hits"] + ["pilot"] * 40 + ["gibbs"] * (len(methods) - 41)
-    fields = [r for r in heard.reports if r.header["type"] == "field" and r.header["method"] == "pilot"]
-    pilots = [field.header for field in fields]
-    assert [f["sweeps"] for f in pilots] == list(range(1, 41))
-    assert [f["averaged"] for f in pilots] == [(k + 1) // 2 for k in range(1, 41)]
-    assert all(f["approximate"] and f["total"] == 40 for f in pilots)
+    pilots = fields[1:41]
+    assert [f["sweeps"] for f, _ in pilots] == list(range(1, 41))
+    assert [f["averaged"] for f, _ in pilots] == [(k + 1) // 2 for k in range(1, 41)]
+    assert all(f["approximate"] and f["total"] == 40 for f, _ in pilots)
     # the same chain, by the library
-    prior = bm.Surface()
+    prior, document = bm.Surface(), surfaces_of(log)
     model = replace(log.scene(document).model(prior), sensor=first_sensor(prior, 0.2), hit_depth=prior.hit_depth)
     problem = StopGibbs().prepare(model, "cpu")
     maps = []
-    for found, info in pilot_sweeps(problem, document.seed, PILOT_SWEEPS, keep=Keep(every=1)):
+    for found, info in pilot_sweeps(problem, document.seed, 7, keep=Keep(every=1)):
         maps.append(found.prior.mean_map(Draws(model.grid, prior.arrays, info.draws, problem.coordinates)))
     touched = problem.touched()
-    for k in (1, 2, 7, 40):
+    for k in (1, 2, 7):
         mean = np.mean(maps[k // 2 : k], axis=0)[touched]
-        np.testing.assert_allclose(fields[k - 1].buffers["p"][touched], 255 * mean, atol=0.6)
+        np.testing.assert_allclose(pilots[k - 1][1]["p"][touched], 255 * mean, atol=0.6)
+    # and the surfaces of the finished chains lie over their log
+    strokes = surfaces.last("overlay")[1]["strokes"]
+    _, mean, _, reflectivity = surfaces.engine._result.surfaces
+    seen = reflectivity >= 0.1
+    assert 0 < seen.sum() == len(strokes)
+    np.testing.assert_allclose((strokes[:, :2] + strokes[:, 2:4]) / 2, mean[seen], atol=1e-5)
+
+
+def test_the_same_readings_are_fitted_once(log, surfaces):
+    _, first = surfaces.last("field")
+    surfaces.reports.clear()
+    _, again = surfaces.infer(surfaces_of(log), "run")
+    assert [f["method"] for f in surfaces.all("field") if f["method"] != "gibbs"] == ["hits"]
+    np.testing.assert_array_equal(again["p"], first["p"])
+    surfaces.reports.clear()
+    surfaces.infer(replace(surfaces_of(log), seed=1), steps=4)
+    assert "pilot" in [f["method"] for f in surfaces.all("field")]
 
 
 def test_while_the_sensor_is_fitted_draws_intervals_and_surfaces_can_be_looked_at(log, monkeypatch):
     monkeypatch.setattr("bayesmap.app.display.OVERLAY_SECONDS", 0.0)
-    document = replace(log.document, cells="surface", sweeps=3, grid=Grid.covering(log.scans, 0.2))
     heard = Heard(log)
     heard.engine._display.due = lambda: True
-    heard.infer(document, "run", steps=9)
+    heard.infer(surfaces_of(log), "run", steps=9)
     assert heard.last("field")[0]["method"] == "pilot"
     heard.ask(View("draw"))
     header, drawn = heard.last("field")
@@ -279,18 +304,6 @@ def test_while_the_sensor_is_fitted_draws_intervals_and_surfaces_can_be_looked_a
     assert (ghost.header["type"], ghost.header["draws"]) == ("ghost", heard.all("field")[-1]["averaged"])
 
 
-def test_surfaces_of_finished_chains_lie_over_their_log(log):
-    heard = Heard(log)
-    document = replace(log.document, cells="surface", sweeps=3, grid=Grid.covering(log.scans, 0.2))
-    heard.infer(document, "run")
-    strokes = heard.last("overlay")[1]["strokes"]
-    result = heard.engine._result
-    _, mean, _, reflectivity = result.surfaces
-    shown = reflectivity >= 0.1
-    assert 0 < shown.sum() == len(strokes)
-    np.testing.assert_allclose((strokes[:, :2] + strokes[:, 2:4]) / 2, mean[shown], atol=1e-5)
-
-
 def test_a_cleared_inference_shows_the_prior_of_the_chosen_cells(log):
     for cells, mean in (("binary", log.document.prior), ("surface", bm.Surface().mean)):
         heard = Heard(log)
@@ -299,20 +312,3 @@ def test_a_cleared_inference_shows_the_prior_of_the_chosen_cells(log):
         assert heard.all("field")[-1]["quantity"]["kind"] == cells
         assert heard.all("field")[-1]["method"] == "none"
         np.testing.assert_allclose(cleared["p"] / 255, mean, atol=0.5 / 255 + 1e-9)
-
-
-def test_the_same_readings_are_fitted_once(log):
-    document = replace(log.document, cells="surface", sweeps=3, grid=Grid.covering(log.scans, 0.2))
-    heard = Heard(log)
-    heard.engine._display.due = lambda: True
-    _, first = heard.infer(document)
-    heard.reports.clear()
-    _, again = heard.infer(replace(document, sweeps=5), "run")
-    assert [f["method"] for f in heard.all("field") if f["method"] != "gibbs"] == ["hits"]
-    heard.reports.clear()
-    _, last = heard.infer(document)
-    np.testing.assert_array_equal(last["p"], first["p"])
-    heard.reports.clear()
-    heard.infer(replace(document, seed=1))
-    assert "pilot" in [f["method"] for f in heard.all("field")]
-    assert again["p"].shape == first["p"].shape

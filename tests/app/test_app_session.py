@@ -8,8 +8,9 @@ from acted_session import Acted, a_field
 from hypothesis import given
 from hypothesis import strategies as st
 
-from bayesmap.app.edits import new_document, tutorial_document
+from bayesmap.app.edits import DEPTH, History, new_document, tutorial_document
 from bayesmap.app.protocol.actions import Cancel, Export, Inspect
+from bayesmap.app.protocol.document import Source, no_walls
 from bayesmap.app.protocol.notices import View
 from bayesmap.app.protocol.tasks import Report, Show
 
@@ -56,8 +57,6 @@ def test_a_link_to_something_else_is_answered_by_what_to_start(brought):
 
 
 def of_a_log(name="office.log"):
-    from bayesmap.app.protocol.document import Source, no_walls
-
     drawn = tutorial_document()
     return replace(drawn, walls=no_walls(drawn.grid), sensors=(), source=Source("log", name, 9))
 
@@ -66,7 +65,7 @@ def json_of(document):
     return {**document.to_json(), "walls": ""} if not document.simulated else document.to_json()
 
 
-def test_a_stroke_is_one_step_of_undo():
+def test_a_stroke_or_a_drag_is_one_step_of_undo():
     acted, before = Acted(), walls_of(Acted()).copy()
     for x in range(5):
         acted.act("walls", cells=[[x, 0]], wall=True, stroke=1)
@@ -81,11 +80,8 @@ def test_a_stroke_is_one_step_of_undo():
     assert np.array_equal(walls_of(acted), before)
     acted.act("redo")
     assert walls_of(acted)[:5, 0].all()
-
-
-def test_a_drag_is_one_step_of_undo():
     acted = Acted()
-    for i in range(4):
+    for i in range(4):  # and so is a drag
         acted.act("move_sensor", id=1, x=10 + 0.1 * i, y=10, drag=8)
         acted.picture()
     acted.act("undo")
@@ -160,39 +156,22 @@ def dragged(acted, moves, paints=False):
             acted.painted()
 
 
-def test_a_page_that_paints_slowly_is_shown_fewer_pictures_and_the_newest():
+@pytest.mark.parametrize(
+    ("paints", "pictures"), [("slowly", 2), ("in time", 8), ("and never says so", 8), ("elsewhere", 8)]
+)
+def test_a_drag_is_shown_as_far_as_its_page_paints(paints, pictures):
     acted = Acted()
     acted.picture()
-    acted.painted()
-    dragged(acted, 8)
-    assert len(acted.inferred) == 1 + 2
+    if paints == "elsewhere":  # one slow page does not hold up another
+        acted.session.join(2)
+        acted.painted(client=2)
+    elif paints != "and never says so":
+        acted.painted()
+    dragged(acted, 8, paints == "in time")
+    assert len(acted.inferred) == 1 + pictures
     acted.painted()
     assert acted.inferred[-1].document.sensors[0].x == 10.08
     assert acted.state["seq"] == acted.seq
-
-
-def test_a_page_that_paints_in_time_is_shown_every_picture():
-    acted = Acted()
-    acted.picture()
-    acted.painted()
-    dragged(acted, 8, paints=True)
-    assert len(acted.inferred) == 1 + 8
-
-
-def test_nobody_waits_for_a_page_that_never_says_what_it_painted():
-    acted = Acted()
-    acted.picture()
-    dragged(acted, 8)
-    assert len(acted.inferred) == 1 + 8
-
-
-def test_one_slow_page_does_not_hold_up_another():
-    acted = Acted()
-    acted.session.join(2)
-    acted.picture()
-    acted.painted(client=2)
-    dragged(acted, 4)
-    assert len(acted.inferred) == 1 + 4
 
 
 def test_what_waited_for_a_page_that_goes_is_applied():
@@ -204,20 +183,13 @@ def test_what_waited_for_a_page_that_goes_is_applied():
     assert acted.session.document.sensors[0].x == 10.04
 
 
-def test_strokes_that_wait_lose_no_cell():
+def test_strokes_that_wait_lose_no_cell_and_anything_else_applies_what_waits_first():
     acted = Acted()
     for y in range(20):
         acted.act("walls", cells=[[0, y]], wall=True, stroke=1)
-    acted.picture()
-    assert walls_of(acted)[0, :20].all()
-
-
-def test_anything_else_applies_what_waits_first():
-    acted = Acted()
-    acted.act("move_sensor", id=1, x=10.3, y=10, drag=1)
     acted.act("set", patch={"prior": 0.2})
-    document = acted.inferred[-1].document
-    assert (document.sensors[0].x, document.prior) == (10.3, 0.2)
+    assert acted.inferred[-1].document.is_wall[0, :20].all()
+    assert acted.inferred[-1].document.prior == 0.2
 
 
 def test_run_keeps_draws_until_the_next_edit():
@@ -302,14 +274,10 @@ def test_a_page_undoes_its_own_steps_and_those_of_pages_that_have_gone():
     assert acted.session.document.prior == 0.3
 
 
-def test_the_document_is_exported_without_the_worker():
+def test_the_document_is_exported_without_the_worker_and_live_off_leaves_the_preview():
     acted = Acted()
     assert acted.act("export", what="document")[0]["type"] == "download"
     assert acted.asked == []
-
-
-def test_switching_live_off_leaves_the_preview():
-    acted = Acted()
     acted.act("live", on=False)
     acted.act("set", patch={"prior": 0.1})
     assert acted.inferred[-1].mode == "preview"
@@ -337,10 +305,6 @@ def test_a_failure_of_the_worker_is_told_and_what_waits_goes_on():
 
 
 def test_a_scan_of_a_file_can_be_chosen():
-    from dataclasses import replace
-
-    from bayesmap.app.protocol.document import Source
-
     acted = Acted(replace(tutorial_document(), source=Source("log", "office.log", 3)))
     acted.act("scan", index=2)
     assert acted.tasks[-1].index == 2
@@ -406,3 +370,53 @@ def test_no_page_is_sent_a_picture_older_than_a_state_that_it_has_seen(events):
     assert at is None or acted.session.document.sensors[0].x == at
     assert all(acted.session.document.is_wall[0, y] for y in drawn)
     assert acted.state["seq"] == acted.seq
+
+
+STEPS = st.lists(
+    st.one_of(
+        st.tuples(st.just("push"), st.integers(0, 5), st.sampled_from([None, "a", "b"])),
+        st.tuples(st.sampled_from(["undo", "redo"])),
+    ),
+    max_size=60,
+)
+
+
+@given(STEPS)
+def test_undo_and_redo_walk_along_the_states_that_were(steps):
+    """Against the plainest model there is: a list and a position."""
+    history, states, at, gesture = History(0), [0], 0, None
+    for action in steps:
+        if action[0] == "push":
+            _, state, new = action
+            history = history.push(state, new)
+            if state == states[at]:
+                continue
+            if new is not None and new == gesture:
+                states[at:] = [state]
+            else:
+                states[at + 1 :] = [state]
+                at += 1
+            gesture = new
+        elif action[0] == "undo":
+            history, at, gesture = history.undo(), max(0, at - 1), gesture if at == 0 else None
+        else:
+            last = len(states) - 1
+            history, at, gesture = history.redo(), min(last, at + 1), gesture if at == last else None
+        assert history.present == states[at]
+        assert bool(history.past) == (at > 0)
+        assert bool(history.future) == (at < len(states) - 1)
+
+
+def test_a_gesture_is_one_step_that_undo_ends_and_old_states_are_forgotten():
+    history = History("empty")
+    for state in ("s1", "s2", "s3"):
+        history = history.push(state, ("stroke", 1))
+    history = history.push("other", ("stroke", 2))
+    assert history.undo().present == "s3"
+    assert history.undo().undo().present == "empty"
+    assert History(0).push(1, "g").push(2, "g").undo().push(3, "g").undo().present == 0
+    history = History(0)
+    for state in range(1, DEPTH + 50):
+        history = history.push(state)
+    assert len(history.past) == DEPTH
+    assert history.undo().redo().present == DEPTH + 49

@@ -8,6 +8,7 @@ import time
 
 import numpy as np
 import pytest
+from building_log import tutorial_run
 
 import bayesmap as bm
 from bayesmap.app import session
@@ -99,13 +100,7 @@ def test_the_live_page_begins_where_it_is_told(shown):
 
 
 def test_a_run_is_shown_with_its_draws(shown):
-    walls, pose = bm.worlds.tutorial()
-    angles = np.linspace(0, 2 * np.pi, 30, endpoint=False)
-    grid, sensor = bm.worlds.TUTORIAL_GRID, bm.Gaussian(0.2)
-    scans = bm.simulate(walls, grid, pose, angles, sensor=sensor, max_range_m=42.0)
-    run = bm.infer(
-        scans, grid, prior=bm.Independent(0.5), sensor=sensor, schedule=bm.Schedule(chains=2, warmup=5, draws=20)
-    )
+    run = tutorial_run()
     view = shown(run)
     header, arrays = view.until("field")
     assert header["draws"] == {"chains": 2, "count": 20}
@@ -116,11 +111,13 @@ def test_a_run_is_shown_with_its_draws(shown):
     assert "data-recording" in view.widget.to_html()
 
 
-def test_a_malformed_message_is_answered_by_an_error(shown):
+def test_what_is_malformed_is_answered_by_an_error(shown):
     view = shown()
     for content in (None, [], {"type": "nonsense", "seq": 9}):
         view.widget._handle_custom_msg(content, [])
         assert view.until("error")[0]["text"]
+    with pytest.raises(bm.BadInput, match="version"):
+        bm.MapWidget(document={"version": 7})
 
 
 def test_the_worker_ends_with_the_channel_which_is_all_that_marimo_closes(shown):
@@ -131,11 +128,6 @@ def test_the_worker_ends_with_the_channel_which_is_all_that_marimo_closes(shown)
     view.widget.comm.close()
     with pytest.raises(ProcessLookupError):
         os.kill(worker, 0)
-
-
-def test_a_document_that_is_none_is_bad_input():
-    with pytest.raises(bm.BadInput, match="version"):
-        bm.MapWidget(document={"version": 7})
 
 
 def test_the_module_travels_with_the_widget():
