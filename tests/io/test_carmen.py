@@ -74,11 +74,7 @@ def test_the_order_of_lines_does_not_matter(read, log, data):
     assert a.messages == b.messages
 
 
-@given(
-    logs(),
-    st.lists(st.text(alphabet="FLASERODM .0123456789-\t", min_size=1, max_size=30), max_size=4),
-    st.data(),
-)
+@given(logs(), st.lists(st.text(alphabet="FLASERODM .0123456789-\t", min_size=1, max_size=30), max_size=4), st.data())
 def test_bad_lines_among_good_ones_change_nothing_but_the_account(read, log, junk, data):
     good = [flaser(r, p, t=t) for r, p, t in zip(*log, strict=True)]
     bad = [f"FLASER 3 {line}x\n" for line in junk]  # never a whole message
@@ -94,15 +90,7 @@ def test_bad_lines_among_good_ones_change_nothing_but_the_account(read, log, jun
 
 @pytest.mark.parametrize(
     ("beams", "last_deg", "step_deg"),
-    [
-        (180, 89, 1),
-        (181, 90, 1),
-        (360, 89.5, 0.5),
-        (361, 90, 0.5),
-        (400, 9.75, 0.25),
-        (401, 10, 0.25),
-        (7, 90, 30),
-    ],
+    [(180, 89, 1), (181, 90, 1), (360, 89.5, 0.5), (361, 90, 0.5), (400, 9.75, 0.25), (401, 10, 0.25), (7, 90, 30)],
 )
 def test_angles_of_flaser_follow_from_the_number_of_beams(read, beams, last_deg, step_deg):
     angles = np.degrees(read(flaser([1.0] * beams)).scans.angles_rad)

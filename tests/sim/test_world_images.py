@@ -99,8 +99,7 @@ def test_a_bad_occupancy_grid_is_refused_with_its_place(cells, says):
 
 
 @pytest.mark.parametrize(
-    "image",
-    [np.zeros(4), np.zeros((2, 2, 2)), np.full((2, 2), 1.5), np.full((2, 2), np.nan), np.zeros((0, 3))],
+    "image", [np.zeros(4), np.zeros((2, 2, 2)), np.full((2, 2), 1.5), np.full((2, 2), np.nan), np.zeros((0, 3))]
 )
 def test_an_array_that_is_no_picture_is_refused(image):
     with pytest.raises(BadInput, match="image:"):

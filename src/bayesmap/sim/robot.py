@@ -231,11 +231,7 @@ class OdometryNoise:
 
 
 def simulate_odometry(
-    poses_world: ArrayLike,
-    noise: OdometryNoise | None = None,
-    *,
-    stamps_s: ArrayLike | None = None,
-    seed: int = 0,
+    poses_world: ArrayLike, noise: OdometryNoise | None = None, *, stamps_s: ArrayLike | None = None, seed: int = 0
 ) -> NDArray[np.float64]:
     """Return the poses that a robot's odometry reports along a path; it starts at the true first pose.
 
