@@ -159,19 +159,9 @@ def test_the_maximum_range_is_the_largest_hit_rounded_up_unless_given(read):
     assert (limited.scans.max_range_m, limited.max_range_origin) == (6.0, "given")
 
 
-def test_a_given_no_return_code_is_used(read):
-    reading = read(flaser([3.0, 9.0, 10.0]), no_return=9.0)
-    np.testing.assert_array_equal(reading.scans.ranges_m, [[3.0, np.inf, np.inf]])
-    assert (reading.no_return.origin, reading.no_return_m) == ("given", 9.0)
-
-
 def test_lines_that_are_too_long_are_refused(read):
     with pytest.raises(BadInput, match="line 2 is over 1,048,576 bytes"):
         read(flaser([1.0, 2.0]) + "X" * 3_000_000)
-
-
-def test_scans_out_of_order_are_counted(read):
-    assert read("".join(flaser([1.0, 2.0], t=t) for t in (1, 3, 2, 4))).reordered == 1
 
 
 def some_scans(beams: int, first_deg: float, step_deg: float, no_returns: int = 0, scans: int = 5) -> Scans:

@@ -55,12 +55,6 @@ def test_the_same_without_the_library_that_wrote_it(tmp_path):
     np.testing.assert_array_equal(values, [expected(layer) for layer in LAYERS.values()])
 
 
-def test_a_folder_that_is_not_there_is_named(tmp_path):
-    pytest.importorskip("rasterio")
-    with pytest.raises(BadInput, match="cannot be written"):
-        write_geotiff(tmp_path / "nowhere" / "floor.tif", LAYERS, GRID)
-
-
 def columns_of(path):
     """Every column of the recording, by entity and component, as lists of rows."""
     chunk = pytest.importorskip("rerun.chunk")

@@ -85,15 +85,6 @@ def test_carmen_and_g2o(tmp_path, fans):
     check(describe_log(tmp_path / "a.g2o"), fans)
 
 
-def test_lines_whose_angles_follow_from_their_number(tmp_path):
-    lines = [f"FLASER {n} {' '.join(['2.0'] * n)} 0 0 0 0 0 0 {t} host {t}\n" for t, n in enumerate([180, 181, 90])]
-    (tmp_path / "a.log").write_text("".join(lines))
-    scans = describe_log(tmp_path / "a.log").scans
-    first, step = zip(*[(scans.beams_of(i)[0][0], np.diff(scans.beams_of(i)[0])[0]) for i in range(3)], strict=True)
-    np.testing.assert_allclose(first, -math.pi / 2)
-    np.testing.assert_allclose(step, [math.pi / 180, math.pi / 180, math.pi / 89])
-
-
 @pytest.mark.parametrize("fans", FANS.values(), ids=FANS)
 def test_tables(tmp_path, fans):
     angles, readings, poses, stamps = log(fans)

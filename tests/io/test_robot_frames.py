@@ -52,15 +52,6 @@ def test_robots_with_transforms_of_their_own_are_read_by_these(tmp_path, writer)
         assert chosen.notes == ()
 
 
-def test_a_namespace_within_a_namespace_is_the_robot_s(tmp_path):
-    robots = [
-        r.robot(path=way(n), mount=mount(n), space=f"/site/robot{n}/front", tf_space=f"/site/robot{n}") for n in (1, 2)
-    ]
-    file = r.written(tmp_path, r.merged(*(messages for messages, _ in robots)))
-    for n, (_, scans) in enumerate(robots, 1):
-        same(describe_log(file, scan_topic=f"/site/robot{n}/front/scan").scans, scans)
-
-
 def test_transforms_of_all_robots_on_one_topic_with_names_of_their_own(tmp_path):
     robots = fleet(space="/robot{}", tf_space="", prefix="robot{}/")
     messages = [m for part, _ in robots for m in part]
@@ -122,15 +113,6 @@ def test_odometry_of_the_scans_namespace_is_taken_where_there_are_no_transforms(
         reading = describe_log(file, scan_topic=f"/robot{n}/scan")
         same(reading.scans, scans)
         assert f"/robot{n}/odom, the only topic of poses in the namespace" in reading.notes[0]
-
-
-@pytest.mark.parametrize("every", [1, 2])
-def test_a_topic_that_repeats_transforms_changes_nothing(tmp_path, every):
-    messages, scans = r.robot()
-    again = [("/tf_relay", *m[1:]) for m in messages if m[0] == "/tf"][:: 2 * every]
-    reading = describe_log(r.written(tmp_path, r.merged(messages, again)))
-    same(reading.scans, scans)
-    assert reading.notes == ()
 
 
 def test_a_topic_that_tells_other_transforms_is_to_be_chosen_from(tmp_path):
@@ -318,15 +300,3 @@ def test_a_clock_that_starts_again_for_the_recorder_too_is_refused_as_such(tmp_p
     """Recorded by the simulated clock itself, both runs are received at the same times."""
     parts = [r.robot(path=way(n), late=0.01 * n)[0] for n in (1, 2)]
     assert "or the clock of the recording started again" in r.refused(r.written(tmp_path, r.merged(*parts)))
-
-
-@pytest.mark.parametrize("seed", range(5))
-def test_scans_that_come_late_are_sorted_and_make_no_run(tmp_path, seed):
-    rng = np.random.default_rng(seed)
-    messages, scans = r.robot()
-    laser = [m for m in messages if m[0] == "/scan"]
-    late = rng.permutation(len(laser)) if seed else np.roll(np.arange(len(laser)), 3)
-    shuffled = [(*a[:2], b[2], a[3]) for a, b in zip([laser[i] for i in late], laser, strict=True)]
-    reading = describe_log(r.written(tmp_path, r.merged(r.without(messages, "/scan"), shuffled)))
-    same(reading.scans, scans)
-    assert any("all were sorted by time" in note for note in reading.notes)

@@ -2,14 +2,19 @@
 
 import dataclasses
 import json
+import subprocess
+import sys
+import warnings
+from pathlib import Path
 
 import netCDF4
 import numpy as np
 import pytest
 from flat_options import grouped
+from oracle.stop_worlds import scans_of_all_kinds
 from oracle.trajectories import round_way
 from oracle.worlds import make_case
-from tiers import full_but
+from tiers import full_but, latin
 
 import bayesmap as bm
 from bayesmap.cells.arrays import ArraySpec
@@ -21,6 +26,7 @@ from bayesmap.space.planar import between, compose
 
 ARRAYS = ("occupancy", "observed", "log_likelihood", "log_prior", "warmup_log_joint", "log_weights")
 NAMED = (lambda p: p.draws.arrays, lambda p: p.draws.index, lambda p: p.snapshot.arrays, lambda p: p.statistics)
+FEW = bm.Schedule(draws=3)
 PLAIN = ("grid", "sensor", "settings", "sweep", "finished", "seconds", "counts", "log_evidence", "notes", "kind")
 
 
@@ -64,21 +70,50 @@ def saved(case, tmp_path_factory):
     return run, path
 
 
+def saved_and_loaded(run, tmp_path):
+    """Return the run as it comes back from a file, after a check that it is equal."""
+    run.save(tmp_path / "run.nc")
+    loaded = bm.load(tmp_path / "run.nc")
+    assert_equal_runs(loaded, run)
+    return loaded
+
+
 @pytest.mark.parametrize("method", ["gibbs", "block", "exact", "importance", "propagate"])
 @pytest.mark.parametrize("draws", [0, 1, 130])
 def test_a_run_comes_back_equal(case, method, draws, tmp_path):
-    run = infer(case, method=method, draws=draws, particles=500)
-    run.save(tmp_path / "run.nc")
-    assert_equal_runs(bm.load(tmp_path / "run.nc"), run)
+    saved_and_loaded(infer(case, method=method, draws=draws, particles=500), tmp_path)
 
 
-def test_stamps_and_typed_readings_come_back(case, tmp_path):
+STOP_GRID = bm.Grid((5, 4), 0.5, (-1.0, 2.0))
+STOP_SENSOR = bm.BeamMixture(bm.Gaussian(0.05, 0.01), p_random=0.05, p_no_return=0.1, p_short=0.1)
+STOP_PRIORS = {"reflectivities": bm.Beta(0.5, 1.0), "surfaces": bm.Surface(0.5, 1.0)}
+STOP_CASES = latin(2, list(STOP_PRIORS), [0, 1, 5], ["fit", STOP_SENSOR])
+
+
+@pytest.mark.parametrize(("kind", "draws", "sensor"), STOP_CASES)
+def test_a_run_over_reflectivities_or_surfaces_comes_back_equal_and_opens_anywhere(kind, draws, sensor, tmp_path):
+    scans = dataclasses.replace(scans_of_all_kinds(5, STOP_GRID, poses=8), stamps_s=np.arange(8) + 1e9)
+    options = grouped(prior=STOP_PRIORS[kind], sensor=sensor, chains=2, warmup=8, draws=draws)
+    run = bm.infer(scans, STOP_GRID, **options)
+    loaded = saved_and_loaded(run, tmp_path)
+    if draws:
+        assert loaded.log_score(scans) == run.log_score(scans)
+    with netCDF4.Dataset(tmp_path / "run.nc") as file:
+        x, y = (file["posterior"][name][:] for name in ("cell_x", "cell_y"))
+        shown = "stop_chance" if kind == "surfaces" else "reflectivity"
+        np.testing.assert_array_equal(file["posterior"][shown][:], run.draws[:, :, x, y])
+        for name in ("expected", *(("surface_l22",) if kind == "surfaces" else ())):
+            expected = run.posterior.draws.values(name).astype(np.float32)
+            np.testing.assert_array_equal(file["posterior"][name][:], expected)
+
+
+def test_stamps_typed_readings_and_poses_of_beams_come_back(case, tmp_path):
     readings = case.scans.ranges_m.copy()
     readings[0, :3] = [np.inf, -np.inf, np.nan]
     scans = dataclasses.replace(case.scans, ranges_m=readings, stamps_s=np.array([1e9 + 0.25, 1e9 + 0.5]))
-    run = bm.infer(scans, case.grid, prior=case.prior, sensor=case.sensor, schedule=bm.Schedule(draws=3))
-    run.save(tmp_path / "run.nc")
-    assert_equal_runs(bm.load(tmp_path / "run.nc"), run)
+    beam_poses = np.repeat(scans.poses[:, None] + 0.01, len(scans.angles_rad), axis=1)
+    for changed in (scans, dataclasses.replace(scans, beam_poses=beam_poses)):
+        saved_and_loaded(bm.infer(changed, case.grid, prior=case.prior, sensor=case.sensor, schedule=FEW), tmp_path)
 
 
 class Own(bm.Gaussian):
@@ -89,6 +124,7 @@ def test_a_run_with_a_sensor_of_one_s_own_comes_back_without_it(case, tmp_path):
     run = infer(case, sensor=Own(0.4))
     run.save(tmp_path / "run.nc")
     loaded = bm.load(tmp_path / "run.nc")
+    assert loaded.trajectory is None
     assert loaded.posterior.sensor is None
     assert loaded.posterior.settings["sensor"] == {"kind": "Own"}
     np.testing.assert_array_equal(loaded.draws, run.draws)
@@ -112,9 +148,7 @@ def test_an_interrupted_run_is_saved_and_goes_on_bit_for_bit(case, stop_at, tmp_
     np.testing.assert_array_equal(resumed.posterior.snapshot.arrays["walls"], whole.posterior.snapshot.arrays["walls"])
 
 
-def test_it_opens_in_arviz(saved):
-    import warnings
-
+def test_it_opens_in_arviz_and_so_in_xarray_with_its_coordinates_in_metres(saved):
     run, path = saved
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # what arviz's own imports say is not our concern
@@ -125,19 +159,11 @@ def test_it_opens_in_arviz(saved):
     assert walls.dims == ("chain", "draw", "x", "y")
     np.testing.assert_array_equal(walls.values.astype(bool), run.draws)
     np.testing.assert_allclose(tree["sample_stats"]["lp"].values, run.log_joint)
-
-
-def test_it_opens_in_xarray_with_its_coordinates_in_metres(saved):
-    import xarray
-
-    run, path = saved
-    with xarray.open_datatree(path, engine="netcdf4") as tree:
-        x, y = run.grid.centers_m()
-        np.testing.assert_allclose(tree["posterior"]["x"], x)
-        np.testing.assert_allclose(tree["posterior"]["y"], y)
-        np.testing.assert_array_equal(tree["posterior"]["walls"].values.astype(bool), run.draws)
-        np.testing.assert_array_equal(tree["observed_data"]["range_m"], run.posterior.scans.ranges_m)
-        assert tree.attrs["inference_library"] == "bayesmap"
+    for axis, centers in zip("xy", run.grid.centers_m(), strict=True):
+        np.testing.assert_allclose(tree["posterior"][axis], centers)
+    np.testing.assert_array_equal(tree["observed_data"]["range_m"], run.posterior.scans.ranges_m)
+    np.testing.assert_array_equal(tree["constant_data"]["occupancy"], run.occupancy)
+    assert tree.attrs["inference_library"] == "bayesmap"
 
 
 def damaged(path, tmp_path, content):
@@ -184,10 +210,6 @@ print(refused)
 
 @pytest.mark.parametrize("flips", full_but([100, 400], 100))
 def test_a_flipped_bit_is_refused_or_makes_no_difference(saved, flips, tmp_path):
-    import subprocess
-    import sys
-    from pathlib import Path
-
     here = Path(__file__).parent
     paths = [str(saved[1]), str(tmp_path / "flipped.nc")]
     script = [sys.executable, "-c", FLIPS, *paths, str(flips), str(here), str(here.parent)]
@@ -325,16 +347,10 @@ def test_a_file_that_is_open_holds_one_chunk_of_each_array(tmp_path, monkeypatch
         assert file[spec.name].get_var_chunk_cache()[0] == 13 * 3 * 8
 
 
-@pytest.fixture(scope="module")
-def run():
-    case = make_case(31, prior=0.3, sensor=bm.BeamMixture(bm.StudentT(0.2, 3.0)), n_poses=2, shape=(5, 3))
-    return bm.infer(case.scans, case.grid, prior=case.prior, sensor=case.sensor, schedule=bm.Schedule(draws=4))
-
-
 @pytest.mark.parametrize("options", [{"force": 3.0}, {"odometry": False, "closure": False}], ids=["all", "least"])
-def test_the_approximation_comes_back_and_says_the_same(run, options, tmp_path):
+def test_the_approximation_comes_back_and_says_the_same(saved, options, tmp_path):
     found = round_way(**options)
-    dataclasses.replace(run, trajectory=found).save(tmp_path / "run.nc")
+    dataclasses.replace(saved[0], trajectory=found).save(tmp_path / "run.nc")
     back = bm.load(tmp_path / "run.nc").trajectory
     assert numbers_of(back) == numbers_of(found)
     theirs = arrays_of(back)
@@ -348,14 +364,14 @@ def test_the_approximation_comes_back_and_says_the_same(run, options, tmp_path):
     assert back.flagged.dtype == bool
 
 
-def test_alternatives_come_back_and_covariances_hold_them(run, tmp_path):
+def test_alternatives_come_back_and_covariances_hold_them(saved, tmp_path):
     plain = round_way(force=3.0)
     there = compose(plain.gaussian.poses[None], np.array([[[0.0, 0.0, 0.0]] * 8 + [[0.0, 2.0, 0.1]] * 8]))
     steps = between(plain.gaussian.poses[None], there) * np.sqrt(0.2)
     other = Alternatives(np.array([2], np.intp), np.array([12], np.intp), np.array([0.2]), there)
     gaussian = dataclasses.replace(plain.gaussian, elsewhere=steps)
     found = dataclasses.replace(plain, gaussian=gaussian, alternatives=other)
-    dataclasses.replace(run, trajectory=found).save(tmp_path / "run.nc")
+    dataclasses.replace(saved[0], trajectory=found).save(tmp_path / "run.nc")
     back = bm.load(tmp_path / "run.nc").trajectory
     assert len(back.alternatives) == 1
     for name in ("first", "last", "probabilities", "poses"):
@@ -366,8 +382,3 @@ def test_alternatives_come_back_and_covariances_hold_them(run, tmp_path):
     added = back.relative_covariances(*pair)[0] - plain.relative_covariances(*pair)[0]
     assert added[0, 0] + added[1, 1] > 0.5, "probability 0.2 times 2 m squared, and Student's scale"
     np.testing.assert_array_equal(back.draw(2, seed=3), found.draw(2, seed=3))
-
-
-def test_a_run_without_one_has_none(run, tmp_path):
-    run.save(tmp_path / "run.nc")
-    assert bm.load(tmp_path / "run.nc").trajectory is None

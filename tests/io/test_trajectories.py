@@ -35,6 +35,8 @@ def trajectory(**changed):
 @pytest.mark.parametrize("ending", [".bag", ".mcap"])
 def test_recordings_hold_the_path_and_poses_with_covariances(tmp_path, ending):
     path = tmp_path / f"walk{ending}"
+    export_trajectory(path, trajectory(covariances=None))
+    assert [f.topic for f in READERS[ending](path)] == ["/trajectory"]
     assert export_trajectory(path, trajectory()) == (path,)
     found = READERS[ending](path)
     assert [f.time_ns for f in found] == sorted(f.time_ns for f in found)
@@ -52,11 +54,6 @@ def test_recordings_hold_the_path_and_poses_with_covariances(tmp_path, ending):
         six = np.reshape(one.message.pose.covariance, (6, 6))
         np.testing.assert_allclose(six[np.ix_([0, 1, 5], [0, 1, 5])], covariances()[i])
         assert np.count_nonzero(six) == 9
-
-
-def test_without_covariances_a_recording_holds_the_path_alone(tmp_path):
-    export_trajectory(tmp_path / "walk.mcap", trajectory(covariances=None))
-    assert [f.topic for f in READERS[".mcap"](tmp_path / "walk.mcap")] == ["/trajectory"]
 
 
 def test_tum_comes_back_with_its_covariances(tmp_path):
@@ -110,14 +107,6 @@ def test_a_graph_says_its_steps_and_how_sure_they_are(tmp_path):
         information = np.zeros((3, 3))
         information[np.triu_indices(3)] = np.array(line[6:], float)
         assert np.linalg.eigvalsh(information, UPLO="U").min() > 0
-
-
-def test_gtsam_reads_all_poses_and_edges(tmp_path):
-    gtsam = pytest.importorskip("gtsam")
-    (path,) = export_trajectory(tmp_path / "walk.g2o", trajectory())
-    graph, values = gtsam.readG2o(str(path), False)
-    assert (graph.size(), values.size()) == (2, 3)
-    assert graph.error(values) == pytest.approx(0.0, abs=1e-6)
 
 
 def test_a_step_is_as_sure_as_the_draws_say_not_as_two_poses_alone():
@@ -276,8 +265,6 @@ def test_relations_are_written_with_all_their_digits(tmp_path, name):
     np.testing.assert_allclose(table[:, [2, 3, 7]], relative, atol=1e-8)
     assert not table[:, 4:7].any()
 
-
-def test_shapes_that_do_not_fit(tmp_path):
-    for first, second, relative in (([], [], np.zeros((0, 3))), ([1], [2, 3], np.zeros((1, 3))), ([1], [2], [0, 0])):
+    for wrong in (([], [], np.zeros((0, 3))), ([1], [2, 3], np.zeros((1, 3))), ([1], [2], [0, 0])):
         with pytest.raises(BadInput, match="relations: got stamps"):
-            write_relations(tmp_path / "a.relations", first, second, relative)
+            write_relations(tmp_path / "a.relations", *wrong)

@@ -5,15 +5,15 @@ from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
 from bayesmap.errors import BadInput
-from bayesmap.sim.drawing import from_text, to_text
+from bayesmap.sim.drawing import DRAWING, TUTORIAL_GRID, from_text, to_text, tutorial
 
 maps = hnp.arrays(bool, hnp.array_shapes(min_dims=2, max_dims=2, min_side=1, max_side=12))
 
 
 def test_lines_are_the_first_index():
-    walls = from_text("..X\n...\n")
+    walls = from_text("..X\n#..\n")
     assert walls.shape == (2, 3)
-    assert np.argwhere(walls).tolist() == [[0, 2]]
+    assert np.argwhere(walls).tolist() == [[0, 2], [1, 0]]
 
 
 @given(maps)
@@ -26,10 +26,6 @@ def test_indentation_blank_lines_and_line_ends_do_not_matter(walls, indent, blan
     lines = [" " * indent + line + "  " for line in to_text(walls).splitlines()]
     framed = newline.join([""] * blank + lines + [" "] * blank)
     np.testing.assert_array_equal(from_text(framed), walls)
-
-
-def test_hash_is_a_wall_too():
-    np.testing.assert_array_equal(from_text("#.X"), [[True, False, True]])
 
 
 @pytest.mark.parametrize(
@@ -47,8 +43,17 @@ def test_a_bad_drawing_is_refused_with_its_place(text, place):
     with pytest.raises(BadInput) as error:
         from_text(text)
     assert place in str(error.value)
-
-
-def test_only_maps_can_be_drawn():
     with pytest.raises(BadInput, match="shape"):
         to_text(np.zeros((2, 2, 2)))
+
+
+def test_the_tutorial_s_walls_are_indexed_as_it_indexes_them():
+    walls, pose = tutorial()
+    lines = DRAWING.strip().split("\n")
+    assert walls.tolist() == [[character == "X" for character in line] for line in lines]  # the tutorial's own reading
+    assert walls[2, 14]  # in the drawing: third line, fifteenth column
+    assert not walls[14, 2]
+    assert pose.tolist() == [10.0, 10.0, 0.0]
+    assert TUTORIAL_GRID.cell_at(10.2, 9.8) == (10, 10)
+    walls[:] = True
+    assert not tutorial()[0].all()  # each call gives arrays of its own

@@ -42,15 +42,6 @@ def test_ranges_in_metres_from_several_poses(seed, resolution, origin):
     np.testing.assert_allclose(found[sure], expected[sure], atol=1e-9 * resolution, rtol=0)
 
 
-def test_the_tutorial_s_ranges_are_those_of_its_formula():
-    walls, pose = bm.worlds.tutorial()
-    angles = np.arange(0, 1, 1 / 100) * 2 * np.pi
-    expected, sure = by_the_oracle(walls, bm.worlds.TUTORIAL_GRID, pose, angles, 42.0)
-    assert sure.all()
-    found = bm.ranges(walls, bm.worlds.TUTORIAL_GRID, pose, angles, 42.0)
-    np.testing.assert_allclose(found, expected[0], atol=1e-9, rtol=0)
-
-
 def test_one_pose_gives_one_row_and_many_give_many():
     walls, grid = random_map(1), bm.Grid((9, 7))
     pose = np.array([4.2, 3.3, 0.1])
@@ -68,24 +59,6 @@ def test_ranges_do_not_depend_on_where_in_the_world_the_grid_lies(away):
     here = bm.ranges(walls, bm.Grid((9, 7)), poses, ANGLES, 20.0)
     poses[:, :2] += away
     np.testing.assert_array_equal(bm.ranges(walls, bm.Grid((9, 7), origin=(away, away)), poses, ANGLES, 20.0), here)
-
-
-def test_yaw_turns_the_beams():
-    walls, grid = random_map(4), bm.Grid((9, 7))
-    turned = bm.ranges(walls, grid, [4.3, 3.1, 0.7], ANGLES, 20.0)
-    np.testing.assert_allclose(bm.ranges(walls, grid, [4.3, 3.1, 0.0], ANGLES + 0.7, 20.0), turned, atol=1e-12)
-
-
-def test_an_empty_map_returns_the_cap_everywhere():
-    assert (bm.ranges(np.zeros((3, 3)), bm.Grid((3, 3)), [1.0, 1.0, 0.0], ANGLES, 5.0) == 5.0).all()
-
-
-def test_more_walls_never_lengthen_a_beam():
-    rng = np.random.default_rng(5)
-    grid, poses = bm.Grid((9, 7)), [[4.3, 3.1, 0.7], [0.0, 0.0, 0.0]]
-    walls = random_map(5)
-    more = walls | (rng.random(walls.shape) < 0.1)
-    assert (bm.ranges(more, grid, poses, ANGLES, 20.0) <= bm.ranges(walls, grid, poses, ANGLES, 20.0)).all()
 
 
 def test_simulated_scans_are_distances_plus_noise():

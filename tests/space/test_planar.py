@@ -5,7 +5,18 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from bayesmap.space.planar import around, between, compose, interpolate, inverse, nearest, wrapped
+from bayesmap.space.planar import (
+    around,
+    between,
+    between_jacobians,
+    compose,
+    interpolate,
+    inverse,
+    nearest,
+    retract,
+    transform,
+    wrapped,
+)  # fmt: skip
 
 NUMBER = st.floats(-50, 50)
 POSE = st.tuples(NUMBER, NUMBER, NUMBER).map(np.array)
@@ -37,17 +48,6 @@ def test_angles_are_wrapped_into_one_turn(angle, same):
     assert wrapped(np.array(angle)) == pytest.approx(same)
 
 
-def test_shapes_broadcast():
-    assert compose(np.zeros((4, 1, 3)), np.ones((5, 3))).shape == (4, 5, 3)
-
-
-def test_poses_in_between_lie_on_the_way_by_the_shorter_turn():
-    stamps, poses = np.array([0.0, 2.0]), np.array([[0.0, 0.0, 3.0], [2.0, 0.0, -3.0]])
-    middle = interpolate(stamps, poses, np.array([1.0]))[0]
-    assert abs(wrapped(middle[2] - np.pi)) < 1e-9
-    np.testing.assert_allclose(interpolate(stamps, poses, np.array([-5.0, 7.0])), poses)
-
-
 def test_interpolated_poses_pass_through_the_given_ones_and_turn_the_short_way():
     stamps = np.array([0.0, 1.0, 1.0, 3.0])
     poses = np.array([[0, 0, 3.0], [1, 0, -3.0], [1, 1, -3.0], [3, 1, -3.0]], dtype=float)
@@ -67,14 +67,28 @@ def test_neighbours_are_those_before_and_after_and_the_two_at_the_end_outside():
     before, after = around(np.array([1.0, 2.0, 4.0]), np.array([0.0, 1.5, 2.0, 3.0, 9.0]))
     assert before.tolist() == [0, 0, 0, 1, 1]
     assert after.tolist() == [1, 1, 1, 2, 2]
-
-
-def test_a_single_stamp_is_its_own_neighbour():
-    assert [index.tolist() for index in around(np.array([5]), np.array([1, 5, 9]))] == [[0, 0, 0], [0, 0, 0]]
-    assert nearest(np.array([5]), np.array([1, 5, 9])).tolist() == [0, 0, 0]
+    alone = np.array([5]), np.array([1, 5, 9])
+    assert [index.tolist() for index in (*around(*alone), nearest(*alone))] == [[0, 0, 0]] * 3
 
 
 @given(st.lists(st.integers(-50, 50), min_size=1, max_size=8, unique=True), st.integers(-60, 60))
 def test_the_nearest_is_the_nearest_of_all_and_of_two_the_earlier(known, wanted):
     known = np.sort(known)
     assert nearest(known, np.array([wanted]))[0] == np.argmin(np.abs(known - wanted))
+
+
+A, B = np.random.default_rng(5).normal(0.0, 2.0, (2, 20, 3))
+
+
+def test_points_follow_their_pose():
+    points = np.random.default_rng(6).normal(size=(20, 2))
+    np.testing.assert_allclose(transform(A, transform(B, points)), transform(compose(A, B), points), atol=1e-12)
+
+
+def test_jacobians_of_a_relative_pose_equal_finite_differences():
+    by_a, by_b = between_jacobians(between(A, B))
+    for k, h in enumerate(np.eye(3) * 1e-6):
+        change_a = (between(retract(A, h), B) - between(retract(A, -h), B)) / 2e-6
+        change_b = (between(A, retract(B, h)) - between(A, retract(B, -h))) / 2e-6
+        np.testing.assert_allclose(by_a[..., k], change_a, atol=1e-7)
+        np.testing.assert_allclose(by_b[..., k], change_b, atol=1e-7)

@@ -1,13 +1,197 @@
-"""Scans refuse what is no measurement, and name it."""
+"""Range scans: what they refuse, fans of beams, beams with poses of their own, and beams that differ from scan to scan.
+
+What is computed from scans whose beams differ is what the same beams say in equal scans: "whole" has equal scans of
+which only a window of beams has readings, "own" only the beams of the windows; "turned" has the beams of "whole" at
+trembling angles that the poses' yaw makes up for.
+"""
+
+import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 import bayesmap as bm
+from bayesmap.kernels.rays import trace_rays
+from bayesmap.kernels.walls.table import trace
+from bayesmap.model import Model
+from bayesmap.posterior.heldout import unseen_scans
+from bayesmap.space.scans import fan, side_by_side
+
+SENSOR = bm.BeamMixture(bm.Gaussian(0.05), p_random=0.05, p_no_return=0.05, p_short=0.05)
+BEAMS, SCANS = 60, 16
 
 
-@pytest.mark.parametrize("wrong", [np.nan, np.inf])
-def test_a_stamp_that_is_no_time_is_named(wrong):
-    stamps = np.array([0.0, 1.0, wrong])
-    with pytest.raises(bm.BadInput, match=r"stamp of scan 2 is not finite: (nan|inf); leave stamps_s out"):
-        bm.Scans(np.zeros((3, 3)), [0.0], np.ones((3, 1)), max_range_m=2.0, stamps_s=stamps)
+def test_fans_of_lasers_that_are_sold_and_of_a_full_circle():
+    np.testing.assert_allclose(np.degrees(fan(180, 180.0)), np.arange(180) - 90)
+    np.testing.assert_allclose(np.degrees(fan(361, 180.0)), np.arange(361) / 2 - 90)
+    np.testing.assert_allclose(np.degrees(fan(4, 360.0)), [0, 90, 180, 270])
+    np.testing.assert_array_equal(fan(7, math.degrees(2 * math.pi)), fan(7, 360.0))
+    for beams, fov_deg, named in ((1, 90.0, "angles"), (90, 0.0, "fov"), (90, 361.0, "fov")):
+        with pytest.raises(bm.BadInput, match=named):
+            fan(beams, fov_deg)
+
+
+@pytest.mark.parametrize(
+    ("changed", "message"),
+    [
+        ({"stamps_s": [0.0, 1.0, np.nan, 3.0]}, "stamp of scan 2 is not finite: nan; leave stamps_s out"),
+        ({"beam_poses": np.zeros((4, 2, 3))}, r"beam_poses has shape \(4, 2, 3\), expected \(4, 3, 3\)"),
+        ({"beam_poses": np.full((4, 3, 3), np.nan)}, "pose of beam 0 of scan 0 is not finite"),
+    ],
+)
+def test_numbers_that_do_not_fit_are_refused_by_name(changed, message):
+    with pytest.raises(bm.BadInput, match=message):
+        bm.Scans(np.zeros((4, 3)), [0.0, 0.5, 1.0], np.ones((4, 3)), 10.0, **changed)
+
+
+def test_beams_with_poses_of_their_own_are_as_many_scans_of_one_beam():
+    rng, grid, sensor = np.random.default_rng(0), bm.Grid(shape=(20, 20), resolution=0.5), bm.Gaussian(0.1)
+    beam_poses = rng.uniform([2, 2, -3], [8, 8, 3], (4, 3, 3))
+    ranges, angles = rng.uniform(0.5, 4, (4, 3)), np.array([0.0, 0.5, 1.0])
+    scans = bm.Scans(beam_poses[:, 0], angles, ranges, 10.0, beam_poses=beam_poses)
+    poses = beam_poses.reshape(-1, 3) + np.outer(np.tile(angles, 4), [0, 0, 1])
+    single = bm.Scans(poses, [0.0], ranges.reshape(-1, 1), 10.0)
+    np.testing.assert_allclose(scans.hit_points_world(), single.hit_points_world(), atol=1e-12)
+    plain = bm.Scans(scans.poses, angles, ranges, 10.0)
+    still = replace(plain, beam_poses=np.repeat(scans.poses[:, None], 3, axis=1))
+    for one, other in ((scans, single), (plain, still)):
+        a, b = trace(one, grid, sensor), trace(other, grid, sensor)
+        np.testing.assert_array_equal(a.cells, b.cells)
+        np.testing.assert_array_equal(a.loglik, b.loglik)
+    train, held = scans.holdout(3)
+    np.testing.assert_array_equal(held.beam_poses, beam_poses[1:2])
+    np.testing.assert_array_equal(train.beam_poses, beam_poses[[0, 2, 3]])
+
+
+def a_log():
+    rng = np.random.default_rng(5)
+    walls = np.zeros((24, 20), dtype=bool)
+    walls[[0, -1]] = walls[:, [0, -1]] = True
+    walls[8:12, 6:9] = True
+    grid = bm.Grid(walls.shape, 0.25)
+    poses = np.column_stack([rng.uniform(3.2, 5.5, SCANS), rng.uniform(0.8, 4.2, SCANS), rng.uniform(-3, 3, SCANS)])
+    angles = np.arange(BEAMS) * 2 * np.pi / BEAMS - np.pi
+    scans = bm.simulate(walls, grid, poses, angles, sensor=SENSOR, max_range_m=5.0, typed=True, seed=2)
+    first, count = rng.integers(0, 6, SCANS), rng.integers(30, 55, SCANS)
+    window = (np.arange(BEAMS) >= first[:, None]) & (np.arange(BEAMS) < (first + count)[:, None])
+    ranges = np.where(window, scans.ranges_m, np.nan)
+    stamps = 100.0 + 0.1 * np.arange(SCANS)
+    own = side_by_side([angles[w] for w in window], [row[w] for row, w in zip(ranges, window, strict=True)])
+    tremble = rng.normal(0, 0.02, (SCANS, 1))
+    turned = np.column_stack([scans.poses[:, :2], scans.poses[:, 2:] - tremble])
+    whole = replace(scans, ranges_m=ranges, stamps_s=stamps)
+    return grid, window, {
+        "whole": whole,
+        "own": bm.Scans(scans.poses, *own, 5.0, stamps_s=stamps),
+        "turned": replace(whole, poses=turned, own_angles_rad=angles + tremble),
+    }  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def log():
+    return a_log()
+
+
+def test_the_beams_are_those_of_the_windows(log):
+    _, window, logs = log
+    whole, own, turned = logs["whole"], logs["own"], logs["turned"]
+    assert own.ranges_m.shape == (SCANS, window.sum(axis=1).max())
+    assert own.n_beams == window.sum() == sum(own.counts().values())
+    assert (own.counts()["hit"], own.counts()["no_return"]) == (whole.counts()["hit"], whole.counts()["no_return"])
+    np.testing.assert_array_equal(own.hit_points_world(), whole.hit_points_world())
+    np.testing.assert_allclose(turned.hit_points_world(), whole.hit_points_world(), atol=1e-12)
+    for i in range(SCANS):
+        np.testing.assert_array_equal(own.beams_of(i)[0], whole.angles_rad[window[i]])
+        np.testing.assert_array_equal(own.select([i]).beams_of(0), own.beams_of(i))
+    train, held = own.holdout(4)
+    np.testing.assert_array_equal(held.beams_of(1), own.beams_of(6))
+    moved = own.at(own.poses + 1.0).limited(2.0)
+    np.testing.assert_array_equal(moved.own_angles_rad, own.own_angles_rad)
+    assert len(train) + len(held) == SCANS
+
+
+def test_equal_angles_are_those_of_all_scans(log):
+    whole = log[2]["whole"]
+    again = replace(whole, angles_rad=np.tile(whole.angles_rad, (SCANS, 1)))
+    assert again.own_angles_rad is None
+    np.testing.assert_array_equal(again.angles_rad, whole.angles_rad)
+
+
+def test_scans_without_beams_and_alone(log):
+    own = log[2]["own"]
+    angles, readings = own.own_angles_rad.copy(), own.ranges_m.copy()
+    angles[3], readings[3] = np.nan, np.nan
+    scans = replace(own, own_angles_rad=angles, ranges_m=readings)
+    assert [len(part) for part in scans.beams_of(3)] == [0, 0]
+    assert np.isfinite(scans.angles_by_scan()).all()
+    np.testing.assert_array_equal(scans.stretched(1.1).has_beam, scans.has_beam)
+    grid = log[0]
+    assert trace_rays(scans.select([3]), grid).n_incidences == 0
+    with pytest.raises(bm.BadInput, match=r"angles_rad has shape \(16, 3\), expected"):
+        replace(own, angles_rad=np.zeros((SCANS, 3)), own_angles_rad=None)
+    with pytest.raises(bm.BadInput, match=r"angles_rad of scan 2: its beams point from 0 to 90 radians"):
+        bm.Scans(np.zeros((3, 3)), [[0.0, 1.0], [0.0, 1.0], [0.0, 90.0]], np.ones((3, 2)), 5.0)
+
+
+@pytest.mark.parametrize("name", ["own", "turned"])
+@pytest.mark.parametrize("cells", [bm.Independent(0.2), bm.Surface()])
+def test_the_model_says_the_same(log, name, cells):
+    grid, _, logs = log
+    rng = np.random.default_rng(0)
+    said = []
+    drawn = cells.sample_cells(rng, grid)
+    for scans in (logs["whole"], logs[name]):
+        model = Model(scans, grid, cells, SENSOR)
+        said.append(model.beam_log_likelihoods(model.state(drawn)))
+    assert len(said[1]) == logs[name].ranges_m.size
+    np.testing.assert_allclose(said[1].sum(), said[0].sum(), rtol=1e-6)
+    np.testing.assert_allclose(np.sort(said[1][said[1] != 0]), np.sort(said[0][said[0] != 0]), rtol=1e-3, atol=1e-6)
+
+
+@pytest.mark.parametrize("name", ["own", "turned"])
+def test_maps_scores_and_saved_runs_are_the_same(log, name, tmp_path):
+    grid, _, logs = log
+    runs, scores = [], []
+    for scans in (logs["whole"], logs[name]):
+        train, held = scans.holdout(4)
+        run = bm.infer(
+            train,
+            grid,
+            prior=bm.Independent(0.2),
+            sensor=SENSOR,
+            schedule=bm.Schedule(chains=2, warmup=20, draws=60),
+            seed=1,
+        )
+        runs.append(run)
+        scores.append(bm.score(run, held))
+        assert len(unseen_scans(train, held, 0, "log")) == len(held)
+        with pytest.raises(bm.BadInput):
+            unseen_scans(train, train, 0, "log")
+    np.testing.assert_allclose(runs[1].occupancy, runs[0].occupancy, atol=0.02)
+    assert scores[1].beams == scores[0].beams
+    assert scores[1].nats_per_beam == pytest.approx(scores[0].nats_per_beam, abs=0.01)
+    runs[1].save(tmp_path / "run.nc")
+    loaded = bm.load(tmp_path / "run.nc")
+    for field in ("poses", "angles_rad", "own_angles_rad", "ranges_m", "stamps_s"):
+        np.testing.assert_array_equal(getattr(loaded.posterior.scans, field), getattr(runs[1].posterior.scans, field))
+    assert bm.score(loaded, logs[name].holdout(4)[1]).nats_per_beam == scores[1].nats_per_beam
+    loaded.export(tmp_path / "map.yaml")
+    loaded.export(tmp_path / "a.tum")
+
+
+@pytest.mark.parametrize("name", ["own", "turned"])
+def test_poses_are_inferred_as_from_equal_scans(log, name):
+    """One pose at a time, both logs under the same map: the likelihood along its neighbourhood is the same."""
+    from bayesmap.kernels.predict.scan_likelihood import ScanLikelihood
+
+    grid, _, logs = log
+    rng = np.random.default_rng(3)
+    walls = (rng.random((1, grid.n_cells)) < 0.2).astype(np.float32)
+    scan = rng.integers(0, SCANS, 40)
+    shift = rng.normal(0, 0.05, (40, 3))
+    said = []
+    for scans in (logs["whole"], logs[name]):
+        likelihood = ScanLikelihood(scans, grid, SENSOR, 0.0)
+        said.append(likelihood(walls, scans.poses[scan] + shift, scan, np.zeros(40, np.intp)))
+    np.testing.assert_allclose(said[1], said[0], rtol=1e-6)

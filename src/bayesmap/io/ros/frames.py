@@ -28,6 +28,7 @@ ROUNDING = 1e-6
 FIXED_FRAMES = ("map", "odom", "world")
 """Frames that stand still, the best first."""
 
+Floats = NDArray[np.float64]
 Numbers = tuple[float, float, float, float, float, float, float]
 """Translation x, y, z and rotation x, y, z, w."""
 
@@ -124,8 +125,8 @@ class Link:
     """One transform of a chain.
 
     Attributes:
-        track: where the child is in the parent, over time.
-        constant: whether that holds at all times.
+        track: the child's pose in the parent, over time.
+        constant: whether that pose holds at all times.
         inverted: whether the chain leads from the child to the parent.
     """
 
@@ -135,8 +136,10 @@ class Link:
 
     def at(self, stamps_ns: NDArray[np.int64]) -> RigidTransform:
         """Return the motion along the chain at some times, (T,); the last message of one that holds at all times."""
-        motion = self.last() if self.constant else self.track.at(stamps_ns)
-        return motion.inv() if self.inverted and not self.constant else motion
+        if self.constant:
+            return self.last()
+        motion = self.track.at(stamps_ns)
+        return motion.inv() if self.inverted else motion
 
     def last(self) -> RigidTransform:
         """Return the last motion along the chain."""
@@ -193,8 +196,13 @@ class FrameTree:
 
     Args:
         transforms: by topic, parent and child.
-        ranks: of the topics that count: of a frame that several topics place, the topics of the lowest rank are
-            believed. None: all topics, with one rank.
+        ranks: the topics that count, with their ranks: where several topics place a frame, the topics of the lowest
+            rank are believed. None: all topics, with one rank.
+
+    Attributes:
+        topics: that count.
+        notes: what a user should know of frames that have several parents, by frame.
+        rivals: topics that place a frame in different parents, by frame.
     """
 
     def __init__(
@@ -202,10 +210,8 @@ class FrameTree:
     ) -> None:
         self.topics = {topic for topic, _, _ in transforms if ranks is None or topic in ranks}
         self.notes: dict[str, str] = {}
-        """What to know of frames that have several parents, by frame."""
-        self._edges: dict[str, tuple[str, tuple[Samples, ...]]] = {}
         self.rivals: dict[str, tuple[str, ...]] = {}
-        """Topics that place a frame in different parents, by frame."""
+        self._edges: dict[str, tuple[str, tuple[Samples, ...]]] = {}
         places: dict[str, dict[str, list[Samples]]] = {}
         best: dict[str, int] = {}
         for (topic, parent, child), samples in transforms.items():
@@ -290,16 +296,6 @@ class FrameTree:
         """Return whether some transform between a frame and its root changes."""
         return any(not Samples.joined(self._edges[f][1]).constant() for f in self.upwards(frame)[:-1])
 
-    def single_messages(self, fixed: str, sensor: str) -> list[str]:
-        """Return the transforms of a chain with a single message that is not static, as ``parent -> child``."""
-        return [
-            f"{parent} -> {child}"
-            for parent, child, parts in self.links(fixed, sensor)
-            if sum(len(part.values) for part in parts) == 1 and not parts[0].static
-        ]
-
-
-Floats = NDArray[np.float64]
 
 
 def planar(motion: RigidTransform) -> Floats:

@@ -39,23 +39,27 @@ from bayesmap.io.ros.recording import POSE_TYPES, TYPES, Recording, Topic, topic
 
 STEP_NS = 10**9
 """Stamps that go back by less are of messages that came late."""
-
 SLACK_NS = 10**9
 """All topics show a step of the clock within this time of each other."""
-
 FEWEST, SETTLED = 3, 5
 """Messages before and after a step, and how many of them must be in order."""
+AT_ONCE = 1 << 18
+"""Beams whose poses are found at a time."""
+LONGEST_GAP_S, LONGEST_GAP_M = 1.0, 1.0
+LONGEST_SWEEP_S = 60.0
+"""A scan takes less; a longer time is damage."""
 
 
 @dataclass(frozen=True, eq=False)
 class ClockRun:
-    """What was received between two steps of the clock.
+    """The messages between two steps of the clock.
 
     Attributes:
         scans: in the order of receipt.
         poses: with the transforms that never change, which hold in all runs.
         back_ns: by how much the clock was set back before the run; 0 for the first.
         at_ns: the last stamp before.
+        last: whether no run follows.
     """
 
     scans: list[LaserMessage]
@@ -63,7 +67,6 @@ class ClockRun:
     back_ns: int = 0
     at_ns: int = 0
     last: bool = True
-    """Whether no run follows."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -109,7 +112,11 @@ def clock_runs(scans: list[LaserMessage], poses: PoseMessages) -> list[ClockRun]
     streams += [_stream(part.stamps_ns, part.received_ns) for part in samples if not part.static]
     stamped = [stream for stream in streams if stream is not None]
     leader = max(stamped, key=lambda stream: (len(stream.steps()), len(stream.stamps)), default=None)
-    steps = [] if leader is None else [i for i in leader.steps() if _all_fall(stamped, int(leader.received[i]))]
+
+    def all_fall(at_ns: int) -> bool:
+        return all(s.fall_near(at_ns - SLACK_NS, at_ns + SLACK_NS) is not None for s in stamped if s.spans(at_ns))
+
+    steps = [] if leader is None else [i for i in leader.steps() if all_fall(int(leader.received[i]))]
     if leader is None or not steps:
         return [ClockRun(scans, poses)]
     times = [int(leader.received[i]) for i in steps]
@@ -129,14 +136,11 @@ def clock_runs(scans: list[LaserMessage], poses: PoseMessages) -> list[ClockRun]
         return [part if constant else part.part(which) for which in slices]
 
     runs = [PoseMessages() for _ in range(len(times) + 1)]
-    for key, part in poses.transforms.items():
-        for run, piece in zip(runs, pieces_of(part), strict=True):
-            if piece.values:
-                run.transforms[key] = piece
-    for ends, part in poses.poses.items():
-        for run, piece in zip(runs, pieces_of(part), strict=True):
-            if piece.values:
-                run.poses[ends] = piece
+    for kind in ("transforms", "poses"):
+        for key, part in getattr(poses, kind).items():
+            for run, piece in zip(runs, pieces_of(part), strict=True):
+                if piece.values:
+                    getattr(run, kind)[key] = piece
     pieces = [scans[which] for which in parts_of([s.stamp_ns for s in scans], [s.received_ns for s in scans])]
     befores = [int(leader.stamps[i - 1]) for i in steps]
     backs = [before - int(leader.stamps[i]) for before, i in zip(befores, steps, strict=True)]
@@ -162,21 +166,9 @@ def _stream(stamps: Sequence[int], received: Sequence[int]) -> _Stream | None:
     return _Stream(np.array(stamps, dtype=np.int64), np.array(received, dtype=np.int64))
 
 
-def _all_fall(streams: list[_Stream], at_ns: int) -> bool:
-    return all(s.fall_near(at_ns - SLACK_NS, at_ns + SLACK_NS) is not None for s in streams if s.spans(at_ns))
-
-
 def _in_order(stamps: NDArray[np.int64]) -> bool:
     """Return whether stamps ascend, but for one."""
     return bool((np.diff(stamps) < 0).sum() <= 1)
-
-
-AT_ONCE = 1 << 18
-"""Beams whose poses are found at a time."""
-
-LONGEST_GAP_S, LONGEST_GAP_M = 1.0, 1.0
-LONGEST_SWEEP_S = 60.0
-"""A scan takes less; a longer time is damage."""
 
 
 def read_recording(path: str | os.PathLike[str], options: LogOptions) -> LogReading:
@@ -208,14 +200,15 @@ def read_recording(path: str | os.PathLike[str], options: LogOptions) -> LogRead
     scans = lasers.of_one_frame(lambda number, reason: bad(topic.name, number, reason))
     if not scans:
         raise BadInput(f"{name}: no message on {topic.name} has a reading: their arrays of ranges are empty")
+    request = _Request(recording, topic, pose_topic, scans[0].layout.frame, bad)
     only = None
     if pose_topic is None and options.fixed_frame is None and not options.without_poses:
-        only = _only_topic(recording, topic, scans[0].layout.frame, options, poses, bad)
-    wanted = _Wanted(recording, topic, pose_topic or only, scans[0].layout.frame, bad)
+        only = _only_topic(request, options, poses)
+        request = replace(request, pose_topic=only)
     parts: list[_Placed] = []
     for run in clock_runs(scans, poses):
         try:
-            part = _placed(run, wanted, replace(account, notes=[]))
+            part = _placed(run, request, replace(account, notes=[]))
         except BadInput as problem:
             if not parts and run.last:
                 raise
@@ -230,12 +223,18 @@ def read_recording(path: str | os.PathLike[str], options: LogOptions) -> LogRead
         parts.append(part)
     source, sign = parts[0].source, parts[0].sign
     if any(part.sign != sign for part in parts):
-        raise BadInput(f"{name}: the frame {wanted.sensor!r} is upright in some scans and upside down in others")
+        raise BadInput(f"{name}: the frame {request.sensor!r} is upright in some scans and upside down in others")
     scans = [scan for part in parts for scan in part.scans]
     if only is not None:
-        account.notes.append(_only_note(wanted, only))
+        several = len(topics_of_type(recording, POSE_TYPES)) > 1
+        account.notes.append(
+            f"/tf connects {request.sensor!r} with no fixed frame; poses were taken from {only.name}, the only topic of "
+            "poses" + (f" in the namespace of {topic.name}" if several else "")
+        )
     account.notes += dict.fromkeys(note for part in parts for note in part.notes)
-    account.notes += [*_odd(scans), *_empty(lasers)]
+    account.notes += _odd(scans)
+    if empty := sum(not scan.layout.beams for scan in lasers.scans):
+        account.notes.append(f"{empty:,} messages on {topic.name} have no readings, and were left out")
     account.stamps_s = np.asarray(joined_stamps([(part.stamps, part.scans) for part in parts]) * 1e-9)
     account.reordered = sum(part.reordered for part in parts)
 
@@ -246,13 +245,13 @@ def read_recording(path: str | os.PathLike[str], options: LogOptions) -> LogRead
         topic.type, at_first, angles, account.classify(readings, limits, at_first, angles),
         beam_poses=_beam_poses(parts), mount=source.chain.sensor_on_body(), scan_topic=topic.name,
         pose_source=source.label if source.posed else None, fixed_frame=source.fixed_frame if source.posed else None,
-        sensor_frame=wanted.sensor, posed=source.posed,
+        sensor_frame=request.sensor, posed=source.posed,
     )  # fmt: skip
 
 
 @dataclass(frozen=True, eq=False)
-class _Wanted:
-    """What to read, and by which poses: the topics of scans and of poses, and the frame of the sensor."""
+class _Request:
+    """The topics of scans and of poses to read, and the frame of the sensor."""
 
     recording: Recording
     topic: Topic
@@ -286,13 +285,13 @@ class _Placed:
     notes: tuple[str, ...]
 
 
-def _placed(run: ClockRun, wanted: _Wanted, account: Account) -> _Placed:
+def _placed(run: ClockRun, request: _Request, account: Account) -> _Placed:
     """Sort the scans of a run by time and find where they were taken; leave out those that have no pose."""
     if not run.scans:
         raise BadInput(f"{account.name}: no scan was received in it")
-    source = _source(wanted, run.poses, account.options)
+    source = _source(request, run.poses, account.options)
     account.notes += source.notes
-    stamps, scans, reordered = _in_order_of_time(run.scans, wanted, account)
+    stamps, scans, reordered = _in_order_of_time(run.scans, request, account)
     rays = _ray_times(stamps, scans, account)
     inside = np.asarray(source.chain.covers(rays).all(axis=1))
     if source.posed:
@@ -300,23 +299,23 @@ def _placed(run: ClockRun, wanted: _Wanted, account: Account) -> _Placed:
     scans, stamps, rays = [s for s, keep in zip(scans, inside, strict=True) if keep], stamps[inside], rays[inside]
     motion = source.chain.at(stamps)
     remedy = "; choose another topic with --scan-topic"
-    sign = account.which_way_up(upright(motion), f"the frame {wanted.sensor!r}", remedy)
+    sign = account.which_way_up(upright(motion), f"the frame {request.sensor!r}", remedy)
     at_first = planar(motion) if source.posed else np.zeros((len(stamps), 3))
     return _Placed(source, scans, stamps, rays, at_first, sign, reordered, tuple(account.notes))
 
 
 def _in_order_of_time(
-    scans: list[LaserMessage], wanted: _Wanted, account: Account
+    scans: list[LaserMessage], request: _Request, account: Account
 ) -> tuple[NDArray[np.int64], list[LaserMessage], int]:
     """Return times of the first rays, ascending, the scans in that order, and how many came before an earlier one."""
-    topic, notes = wanted.topic.name, account.notes
+    topic, notes = request.topic.name, account.notes
     if not any(scan.stamp_ns for scan in scans):
         notes.append(f"no message on {topic} says its time; the times of receipt were used")
         stamps = np.array([scan.received_ns for scan in scans], dtype=np.int64)
     else:
         for scan in scans:
             if not scan.stamp_ns:
-                wanted.bad(topic, scan.number, "does not say its time, as the others do")
+                request.bad(topic, scan.number, "does not say its time, as the others do")
         scans = [scan for scan in scans if scan.stamp_ns]
         stamps = np.array([scan.stamp_ns for scan in scans], dtype=np.int64)
     reordered = int((stamps < np.maximum.accumulate(stamps)).sum())
@@ -397,51 +396,35 @@ def _beam_poses(parts: list[_Placed]) -> NDArray[np.float64] | None:
     if not parts[0].source.posed or all(part.rays.shape[1] == 1 for part in parts):
         return None
     beams = max(scan.layout.beams for part in parts for scan in part.scans)
-    wide = [np.pad(part.rays, ((0, 0), (0, beams - part.rays.shape[1])), mode="edge") for part in parts]
-    return np.concatenate([_poses_of_rays(part.source.chain, rays) for part, rays in zip(parts, wide, strict=True)])
+    poses = []
+    for part in parts:
+        times = np.pad(part.rays, ((0, 0), (0, beams - part.rays.shape[1])), mode="edge").ravel()
+        poses += [planar(part.source.chain.at(times[i : i + AT_ONCE])) for i in range(0, len(times), AT_ONCE)]
+    return np.concatenate(poses).reshape(-1, beams, 3)
 
 
-def _poses_of_rays(chain: Chain, rays: NDArray[np.int64]) -> NDArray[np.float64]:
-    """Return the sensor's pose in the plane as each ray was sent, shape (S, A, 3)."""
-    times = rays.ravel()
-    parts = [planar(chain.at(times[i : i + AT_ONCE])) for i in range(0, len(times), AT_ONCE)]
-    return np.concatenate(parts).reshape(*rays.shape, 3)
-
-
-def _only_topic(
-    recording: Recording,
-    scan_topic: Topic,
-    sensor: str,
-    options: LogOptions,
-    poses: pose_sources.PoseMessages,
-    bad: Bad,
-) -> Topic | None:
+def _only_topic(request: _Request, options: LogOptions, poses: PoseMessages) -> Topic | None:
     """Return the only topic of poses, with its messages read, if /tf does not help."""
-    only = pose_sources.only_pose_topic(recording, scan_topic.name)
+    only = pose_sources.only_pose_topic(request.recording, request.topic.name)
     if only is None:
         return None
-    trees = pose_sources.frame_trees(poses, scan_topic.name, None)
-    body = sensor if options.laser is None else pose_sources.body_of(recording.path, trees, sensor)
+    trees = pose_sources.frame_trees(poses, request.topic.name, None)
+    body = request.sensor
+    if options.laser is not None:
+        body = pose_sources.body_of(request.recording.path, trees, request.sensor)
     if body is not None and any(pose_sources.fixed_frame_of(tree, body) is not None for tree in trees):
         return None
-    read_messages(recording, [only], None, poses, bad)
+    read_messages(request.recording, [only], None, poses, request.bad)
     return only
 
 
-def _only_note(wanted: _Wanted, only: Topic) -> str:
-    alone = "the only topic of poses"
-    if len(topics_of_type(wanted.recording, POSE_TYPES)) > 1:
-        alone += f" in the namespace of {wanted.topic.name}"
-    return f"/tf connects {wanted.sensor!r} with no fixed frame; poses were taken from {only.name}, {alone}"
-
-
-def _source(wanted: _Wanted, poses: pose_sources.PoseMessages, options: LogOptions) -> pose_sources.PoseSource:
+def _source(request: _Request, poses: PoseMessages, options: LogOptions) -> pose_sources.PoseSource:
     """Return where the sensor is: by the topic that was chosen, else by /tf.
 
     With ``laser`` the sensor is there on the robot's body, whatever /tf says.
     """
-    recording, sensor, pose_topic, laser = wanted.recording, wanted.sensor, wanted.pose_topic, options.laser
-    trees = pose_sources.frame_trees(poses, wanted.topic.name, None if pose_topic is None else pose_topic.name)
+    recording, sensor, pose_topic, laser = request.recording, request.sensor, request.pose_topic, options.laser
+    trees = pose_sources.frame_trees(poses, request.topic.name, None if pose_topic is None else pose_topic.name)
     if options.without_poses:
         return pose_sources.standing_still(trees, sensor)
     if pose_topic is not None and pose_topic.type in POSE_TYPES:
@@ -463,11 +446,6 @@ def _odd(scans: list[LaserMessage]) -> list[str]:
         (low, high), _ = limits.most_common(1)[0]
         notes.append(f"the scans state {len(limits)} different ranges; the commonest was used, {low:g} to {high:g} m")
     return notes
-
-
-def _empty(lasers: LaserMessages) -> list[str]:
-    count = sum(not scan.layout.beams for scan in lasers.scans)
-    return [f"{count:,} messages on {lasers.topic} have no readings, and were left out"] if count else []
 
 
 def _first(skipped: list[SkippedLine]) -> str:

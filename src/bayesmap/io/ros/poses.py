@@ -72,7 +72,7 @@ class PoseMessages:
                 if ends[0] == ends[1]:
                     raise Malformed(f"puts the frame {ends[0]!r} into itself")
                 stamp_ns = stamp_ns_of(entry.header)
-                empty = Samples(is_static(topic), topic.name)
+                empty = Samples(topic.name.rpartition("/")[2] == "tf_static", topic.name)
                 self.transforms.setdefault((topic.name, *ends), empty).add(stamp_ns, received_ns, values)
             return
         pose = message.pose if topic.type == POSE else message.pose.pose
@@ -80,11 +80,6 @@ class PoseMessages:
         values, stamp_ns = numbers_of(pose.position, pose.orientation), stamp_ns_of(message.header)
         samples = self.poses.setdefault((frame_of(message.header.frame_id), body), Samples(topic=topic.name))
         samples.add(stamp_ns, received_ns, values)
-
-
-def is_static(topic: Topic) -> bool:
-    """Return whether a topic of transforms is one of those that never change."""
-    return topic.name.rpartition("/")[2] == "tf_static"
 
 
 def pose_topic_of(recording: Recording, given: str) -> Topic:
@@ -157,9 +152,9 @@ def by_transforms(
 
     Args:
         recording: for its path and topics.
-        trees: by the topics that come first, and by all.
+        trees: of the topics that come first, and of all.
         sensor: the frame of the scans.
-        fixed_frame: where to map; None for the best of `FIXED_FRAMES` over the sensor.
+        fixed_frame: the frame of the map; None for the best of `FIXED_FRAMES` over the sensor.
         chosen: whether the user chose the topics.
 
     Raises:
@@ -178,12 +173,13 @@ def by_transforms(
             notes.append(
                 f"the frame {fixed!r} is not over that of the scans, {sensor!r}; where it moves, so does the map"
             )
+        links = tree.links(fixed, sensor)
         notes += [
-            f"there is a single message of the transform {edge}; it was taken to hold at all times"
-            for edge in tree.single_messages(fixed, sensor)
+            f"there is a single message of the transform {parent} -> {child}; it was taken to hold at all times"
+            for parent, child, parts in links
+            if sum(len(part.values) for part in parts) == 1 and not parts[0].static
         ]
         notes += checked(recording, tree, fixed, sensor)
-        links = tree.links(fixed, sensor)
         notes += _beside(trees, tree, fixed, sensor)
         if len(trees) > 1 and tree is not trees[-1] and not chosen:
             others = [t.name for t in topics_of_type(recording, TF_TYPES) if t.name not in tree.topics]
@@ -282,12 +278,7 @@ def standing_still(trees: list[FrameTree], sensor: str) -> PoseSource:
 
 
 def by_topic(
-    recording: Recording,
-    topic: Topic,
-    messages: PoseMessages,
-    trees: list[FrameTree],
-    sensor: str,
-    laser: Pose | None = None,
+    recording: Recording, topic: Topic, messages: PoseMessages, trees: list[FrameTree], sensor: str, laser: Pose | None
 ) -> PoseSource:
     """Return the sensor's poses by a topic of poses, and where the sensor is on the body, by /tf or as the user says.
 
@@ -313,11 +304,11 @@ def by_topic(
     if laser is not None:
         return PoseSource(topic.name, fixed or "?", Chain((track, link_of(laser))), tuple(notes))
     tree = next((tree for tree in trees if _body(tree, body, sensor)), trees[-1])
-    guess = _body(tree, body, sensor)
-    if guess is not None and guess != body:
+    guess = _body(tree, body, sensor) or body
+    if guess != body:
         # Without a name for it, or with one that /tf does not know: what robots' bodies are called.
         notes.append(f"{topic.name} does not say whose pose it tells; taken as that of {guess!r}")
-    body = guess or body
+        body = guess
     offset = tree.chain(body, sensor) if body else None
     if offset is None:
         who = repr(body) if body else "the body"
