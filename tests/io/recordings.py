@@ -18,7 +18,7 @@ from rosbags.rosbag2 import Writer as Writer2
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
 import bayesmap as bm
-from bayesmap.io.logs import describe_log
+from bayesmap.io.logs import describe_log, read_log
 from bayesmap.io.ros.recording import zstd
 
 T0 = 1_700_000_000 * 10**9
@@ -329,10 +329,22 @@ def refused(path, **options):
     return str(error.value)
 
 
-def same(read, expected, *, timed=True, atol=1e-9):
-    """Check that scans are those expected; a yaw is compared as a direction, and stamps if they are known."""
-    np.testing.assert_allclose(read.poses[:, :2], expected.poses[:, :2], atol=atol)
-    np.testing.assert_allclose(np.exp(1j * read.poses[:, 2]), np.exp(1j * expected.poses[:, 2]), atol=atol)
+def read_or_refused(path, content):
+    """Check that a log of some bytes is read or refused by its name, whether or not bad lines are left out."""
+    path.write_bytes(content)
+    for skip in (False, True):
+        try:
+            told = f"{path}: read" if len(read_log(path, skip_bad_lines=skip)) else "nothing was read, and nothing said"
+        except bm.BadInput as problem:
+            told = str(problem)
+        assert told.startswith(str(path))
+
+
+def same(read, expected, *, timed=True, atol=1e-9, frame=(0.0, 0.0, 0.0)):
+    """Check that scans are those expected, seen from a frame of the world; a yaw is compared as a direction."""
+    places = (expected.poses[:, 0] + 1j * expected.poses[:, 1] - frame[0] - 1j * frame[1]) * np.exp(-1j * frame[2])
+    np.testing.assert_allclose(read.poses[:, :2], np.stack([places.real, places.imag], -1), atol=atol)
+    np.testing.assert_allclose(np.exp(1j * read.poses[:, 2]), np.exp(1j * (expected.poses[:, 2] - frame[2])), atol=atol)
     np.testing.assert_array_equal(read.ranges_m, expected.ranges_m)
     np.testing.assert_allclose(read.angles_rad, expected.angles_rad, atol=1e-6)  # single precision in the messages
     if timed:

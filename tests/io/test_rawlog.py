@@ -7,7 +7,7 @@ import struct
 
 import numpy as np
 import pytest
-from recordings import ANGLES, MOUNT, on, path_of, refused, same, simulated
+from recordings import ANGLES, MOUNT, on, path_of, read_or_refused, refused, same, simulated
 
 import bayesmap as bm
 from bayesmap.io.logs import describe_log, format_of, read_log
@@ -67,14 +67,8 @@ def pose3(style, mount, roll=0.0):
         whole[:3, :3], whole[:3, 3] = rotation, (x, y, 0.3)
         data = matrix(style, whole)
     elif style.pose3 == 2:
-        h, r = 0.5 * yaw, 0.5 * roll
-        turn = (
-            math.cos(h) * math.cos(r),
-            math.cos(h) * math.sin(r),
-            math.sin(h) * math.sin(r),
-            math.sin(h) * math.cos(r),
-        )
-        data = struct.pack("<7d", x, y, 0.3, *turn)
+        (c, s), (cr, sr) = ((math.cos(half), math.sin(half)) for half in (0.5 * yaw, 0.5 * roll))
+        data = struct.pack("<7d", x, y, 0.3, c * cr, c * sr, s * sr, s * cr)
     else:
         data = struct.pack("<12d", x, y, 0.3, *rotation.ravel())
     return style.object("CPose3D", style.pose3, data, "poses")
@@ -102,9 +96,8 @@ def scan(style, readings, seconds, label="LASER", mount=MOUNT, roll=0.0, left_to
 
 def motion(style, step, by=0):
     version, width = style.motion, "d" if style.wide else "f"
-    gaussian = style.object(
-        "CPosePDFGaussian", 0, pose2(style, step) + matrix(style, np.eye(3, dtype=np.float32)), "poses"
-    )
+    covariance = matrix(style, np.eye(3, dtype=np.float32))
+    gaussian = style.object("CPosePDFGaussian", 0, pose2(style, step) + covariance, "poses")
     if version < 2:
         return style.object("CActionRobotMovement2D", version, gaussian + struct.pack("<i", by))
     data = struct.pack("<i", by)
@@ -113,10 +106,8 @@ def motion(style, step, by=0):
     elif version == 2:
         data += pose2(style, step) + bytes(44)
     else:
-        thrun = 4 if version < 5 else 6
-        data += pose2(style, step) + struct.pack(
-            f"<i{5 if version == 3 else 6}f", 0, *[0.1] * (5 if version == 3 else 6)
-        )
+        gaussian, thrun = 5 if version == 3 else 6, 4 if version < 5 else 6
+        data += pose2(style, step) + struct.pack(f"<i{gaussian}f", 0, *[0.1] * gaussian)
         data += struct.pack(f"<I{thrun}f", 300, *[0.1] * thrun)
     if version < 7:
         data += struct.pack("<?2" + width, True, 0.5, 0.1) + struct.pack("<?2i", True, 7, 8)
@@ -147,10 +138,8 @@ def in_frames(style, scans, **options):
     """A log of motions and sensory frames; the first motion leads to the first pose."""
     robot, before, parts = path_of(TIMES), np.zeros(3), []
     for pose, row, at in zip(robot, scans.ranges_m, scans.stamps_s, strict=True):
-        parts += [
-            collection(style, motion(style, between(before, pose))),
-            frame(style, scan(style, row, at, **options)),
-        ]
+        parts += [collection(style, motion(style, between(before, pose)))]
+        parts += [frame(style, scan(style, row, at, **options))]
         before = pose
     return b"".join(parts)
 
@@ -299,11 +288,4 @@ def test_whatever_a_damaged_rawlog_holds_it_is_read_or_refused(tmp_path, seed):
     data = bytearray(in_frames(STYLES["MRPT 2"], known(TIMES)))
     for at in rng.integers(0, len(data), 20):
         data[at] = rng.integers(256)
-    path = written(tmp_path / "log", bytes(data), zipped=False)
-    for lenient in (False, True):
-        told = str(path)
-        try:
-            read_log(path, skip_bad_lines=lenient)
-        except bm.BadInput as problem:
-            told = str(problem)
-        assert told.startswith(str(path))
+    read_or_refused(tmp_path / "log", bytes(data))

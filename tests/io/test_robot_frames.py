@@ -1,6 +1,7 @@
 """Recordings with several robots, several publishers, or a clock that starts again."""
 
 import math
+from functools import partial
 
 import numpy as np
 import pytest
@@ -26,15 +27,7 @@ def fleet(**options):
     return [r.robot(path=way(n), mount=mount(n), **{k: v.format(n) for k, v in options.items()}) for n in (1, 2, 3)]
 
 
-def same(read, wanted, frame=(0.0, 0.0, 0.0)):
-    """Scans are those that were simulated, seen from a frame of the world."""
-    x, y, turn = frame
-    dx, dy = (wanted.poses[:, :2] - [x, y]).T
-    cos, sin = math.cos(turn), math.sin(turn)
-    places = np.stack([cos * dx + sin * dy, cos * dy - sin * dx], -1)
-    np.testing.assert_allclose(read.poses[:, :2], places, atol=1e-9)
-    np.testing.assert_allclose(np.exp(1j * read.poses[:, 2]), np.exp(1j * (wanted.poses[:, 2] - turn)), atol=1e-9)
-    np.testing.assert_array_equal(read.ranges_m, wanted.ranges_m)
+same = partial(r.same, timed=False)
 
 
 @pytest.mark.parametrize("writer", ["mcap", "rosbag1"])
@@ -103,7 +96,7 @@ def test_a_map_of_the_whole_fleet_is_found_beside_each_robot_s_transforms(tmp_pa
         reading = describe_log(file, scan_topic=f"/robot{n}/scan")
         assert reading.fixed_frame == "map"
         cos, sin = math.cos(-0.3), math.sin(-0.3)
-        same(reading.scans, scans, (-(cos * 1 - sin * 2), -(sin * 1 + cos * 2), -0.3))
+        same(reading.scans, scans, frame=(-(cos * 1 - sin * 2), -(sin * 1 + cos * 2), -0.3))
 
 
 def test_odometry_of_the_scans_namespace_is_taken_where_there_are_no_transforms(tmp_path):
