@@ -297,7 +297,6 @@ class FrameTree:
         return any(not Samples.joined(self._edges[f][1]).constant() for f in self.upwards(frame)[:-1])
 
 
-
 def planar(motion: RigidTransform) -> Floats:
     """Return the pose in the plane, shape (..., 3): x, y, and the yaw of the child's x axis."""
     ahead = motion.rotation.apply([1.0, 0.0, 0.0])

@@ -28,7 +28,6 @@ from bayesmap.io.ros.frames import Chain, Samples, planar, upright
 from bayesmap.io.ros.messages import (
     Bad,
     LaserMessage,
-    LaserMessages,
     beams_of,
     read_messages,
     scan_topic_of,
@@ -228,8 +227,8 @@ def read_recording(path: str | os.PathLike[str], options: LogOptions) -> LogRead
     if only is not None:
         several = len(topics_of_type(recording, POSE_TYPES)) > 1
         account.notes.append(
-            f"/tf connects {request.sensor!r} with no fixed frame; poses were taken from {only.name}, the only topic of "
-            "poses" + (f" in the namespace of {topic.name}" if several else "")
+            f"/tf connects {request.sensor!r} with no fixed frame; poses were taken from {only.name}, the only topic "
+            "of poses" + (f" in the namespace of {topic.name}" if several else "")
         )
     account.notes += dict.fromkeys(note for part in parts for note in part.notes)
     account.notes += _odd(scans)
