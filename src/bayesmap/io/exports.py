@@ -69,9 +69,7 @@ FORMATS = {
 """Formats, and the endings by which each is chosen; a name without ending is an occupancy grid in a folder."""
 
 TRAJECTORIES = ("tum", "trajectory", "g2o")
-
 APPROXIMATION = "the Student-t approximation of all scans' poses"
-
 THRESHOLDED = ("map-server", "occupancy-grid")
 """Formats that turn probabilities into per cent, and take a mode and thresholds."""
 
@@ -79,23 +77,19 @@ INTERVAL = 0.9
 
 
 class Mapped(Protocol):
-    """What an export needs of a run; one with intervals also has ``interval(level) -> (lower, upper)``."""
+    """What an export needs of a run; one with intervals also has ``interval(level) -> (lower, upper)``.
+
+    Posterior mean, entropy and the cells that some beam reached are arrays of shape (nx, ny).
+    """
 
     @property
-    def grid(self) -> Grid:
-        """Where the cells are."""
-
+    def grid(self) -> Grid: ...  # noqa: D102
     @property
-    def occupancy(self) -> NDArray[np.float64]:
-        """Posterior mean per cell, (nx, ny)."""
-
+    def occupancy(self) -> NDArray[np.float64]: ...  # noqa: D102
     @property
-    def entropy(self) -> NDArray[np.float64]:
-        """Entropy per cell, (nx, ny)."""
-
+    def entropy(self) -> NDArray[np.float64]: ...  # noqa: D102
     @property
-    def observed(self) -> NDArray[np.bool_]:
-        """Cells that some beam reached, (nx, ny)."""
+    def observed(self) -> NDArray[np.bool_]: ...  # noqa: D102
 
 
 def export_format(path: str | os.PathLike[str], format: str | None = None) -> str:
@@ -290,7 +284,6 @@ def export_run(
 
 EPOCH_FROM_S = 1e8
 """Later stamps are dates, earlier ones count from some start."""
-
 SENSOR_COLOR, TRAJECTORY_COLOR, SCAN_COLOR = (0, 158, 115), (0, 158, 115), (213, 94, 0)
 WALL_COLORS = ((250, 250, 248), (20, 31, 66))
 UNCERTAINTY_COLORS = ((0, 32, 76), (124, 123, 120), (255, 233, 69))
@@ -303,17 +296,12 @@ UNKNOWN_COLOR = (214, 201, 176)
 def write_geotiff(
     path: str | os.PathLike[str], layers: Mapping[str, ArrayLike], grid: Grid, observed: ArrayLike | None = None
 ) -> Path:
-    """Write the layers of a map as bands of a GeoTIFF in single precision, whole or not at all. Returns the path.
+    """Write layers, as `as_layers` takes them, as bands of a GeoTIFF, whole or not at all. Returns the path.
 
-    Args:
-        path: the file to write.
-        layers: by name, which describes the band; each of shape (nx, ny), NaN where unknown.
-        grid: the grid of the map.
-        observed: cells that some beam reached, shape (nx, ny); the others are NaN, which is the bands' nodata value.
+    Cells that no beam reached are NaN, which is the bands' nodata value.
 
     Raises:
-        BadInput: rasterio is not installed, no layer, shapes that do not fit, infinite numbers, or a file that cannot
-            be written.
+        BadInput: rasterio is not installed, layers that do not fit, or a file that cannot be written.
     """
     try:
         from rasterio.io import MemoryFile  # type: ignore[import-untyped, import-not-found, unused-ignore]
@@ -339,27 +327,15 @@ def write_geotiff(
 
 
 def write_rerun(
-    path: str | os.PathLike[str],
-    layers: Mapping[str, ArrayLike],
-    grid: Grid,
-    observed: ArrayLike | None = None,
-    *,
-    scans: Scans | None = None,
-    trajectory: Trajectory | None = None,
-) -> Path:
-    """Write layers, and the scans that they came from, for the rerun viewer, whole or not at all. Returns the path.
+    path: str | os.PathLike[str], layers: Mapping[str, ArrayLike], grid: Grid, observed: ArrayLike | None = None, *,
+    scans: Scans | None = None, trajectory: Trajectory | None = None,
+) -> Path:  # fmt: skip
+    """Write layers, as `as_layers` takes them, for the rerun viewer, whole or not at all. Returns the path.
 
-    Args:
-        path: the file to write.
-        layers: by name, each of shape (nx, ny), within [0, 1], NaN where unknown.
-        grid: the grid of the map.
-        observed: cells that some beam reached, shape (nx, ny); all by default.
-        scans: drawn over the layers; none by default.
-        trajectory: drawn instead of the scans' poses, with its ellipses.
+    The scans are shown over the layers, and the trajectory with its ellipses, or else the scans' poses.
 
     Raises:
-        BadInput: rerun-sdk is not installed, no layer, shapes that do not fit, infinite numbers, or a file that cannot
-            be written.
+        BadInput: rerun-sdk is not installed, layers that do not fit, or a file that cannot be written.
     """
     try:
         import rerun as rr

@@ -45,12 +45,9 @@ class LogOptions:
 
 @dataclass(frozen=True)
 class SkippedLine:
-    """A line, or a message of a recording, that was left out on request.
+    """A line, or a message of a recording, that was left out on request: its number, from 1, and the reason.
 
-    Attributes:
-        line: its number, counted from 1.
-        reason: what was wrong with it.
-        what: what is counted: ``"line"``, ``"message on /scan"``.
+    ``what`` says what is counted: ``"line"``, ``"message on /scan"``.
     """
 
     line: int
@@ -142,17 +139,10 @@ class LogReading:
 
 @dataclass
 class Account:
-    """The account of a log while it is read.
+    """The account of a log while it is read, under the names of `LogReading`.
 
-    Attributes:
-        name: the path.
-        format: as `LogReading` calls it.
-        options: what the user says.
-        counts: how many lines, objects or messages of each kind there are.
-        skipped: what was left out.
-        notes: what a user should know.
-        stamps_s: of the scans, in the order of time; None if they have none.
-        reordered: scans that the file holds before an earlier one.
+    ``name`` is the path, and ``counts`` holds how many lines, objects or messages of each kind there are. ``stamps_s``
+    are those of the scans, in the order of time; None if they have none.
     """
 
     name: str
@@ -165,11 +155,7 @@ class Account:
     reordered: int = 0
 
     def bad(self, line: int, reason: str) -> None:
-        """Leave a malformed line out.
-
-        Raises:
-            BadInput: the user did not ask for that.
-        """
+        """Leave a malformed line out; raise `BadInput` if the user did not ask for that."""
         if not self.options.skip_bad_lines:
             raise BadInput(f"{self.name}: line {line}: {reason}; repair it, or leave it out with --skip-bad-lines")
         self.skipped.append(SkippedLine(line, reason))
@@ -223,25 +209,18 @@ class Account:
         )  # fmt: skip
 
     def reading(
-        self,
-        message: str,
-        poses: Floats,
-        angles_rad: Floats,
-        readings: Readings,
-        *,
-        beam_poses: Floats | None = None,
-        mount: Pose = (0.0, 0.0, 0.0),
-        **about: Any,
-    ) -> LogReading:
+        self, message: str, poses: Floats, angles_rad: Floats, readings: Readings, *,
+        beam_poses: Floats | None = None, mount: Pose = (0.0, 0.0, 0.0), **about: Any,
+    ) -> LogReading:  # fmt: skip
         """Return the reading of the log.
 
         Args:
             message: the kind of message that the scans come from.
-            poses: of the laser, in the order of time, (S, 3).
-            angles_rad: of the beams, (A,) or (S, A).
-            readings: what the beams read, (S, A).
-            beam_poses: of each beam, (S, A, 3).
-            mount: where the laser is on the robot by the log.
+            poses: the laser's, in the order of time, (S, 3).
+            angles_rad: beam angles, (A,) or (S, A).
+            readings: the readings of the beams, (S, A).
+            beam_poses: the pose of each beam, (S, A, 3).
+            mount: the laser on the robot, by the log.
             about: other attributes of `LogReading`.
         """
         limit_m = readings.max_range_m

@@ -56,6 +56,7 @@ GMAPPING = (b"LASER_READING", b"ODO_UPDATE", b"SM_UPDATE", b"RESAMPLE")
 """Messages of GMapping's own logs of its particles (.gfs)."""
 RECORDINGS = ("rosbag1", "rosbag2-sqlite3", "mcap", "folder")
 
+Arrays = dict[str, NDArray[np.float64]]
 NPZ_MAGIC = b"PK\x03\x04"
 NPZ_NEEDED = ("poses", "angles_rad", "ranges_m")
 NPZ_OPTIONAL = ("max_range_m", "min_range_m", "stamps_s", "beam_poses")
@@ -69,19 +70,11 @@ LONGEST_STEP_M, USUAL_STEPS = 2.0, 10.0
 
 
 def read_log(
-    path: str | os.PathLike[str],
-    *,
-    no_return: float | None = None,
-    skip_bad_lines: bool = False,
-    max_range_m: float | None = None,
-    scan_topic: str | None = None,
-    pose_topic: str | None = None,
-    fixed_frame: str | None = None,
-    deskew: bool = False,
-    thin_m: float = 0.0,
-    laser: Pose | None = None,
+    path: str | os.PathLike[str], *, no_return: float | None = None, skip_bad_lines: bool = False,
+    max_range_m: float | None = None, scan_topic: str | None = None, pose_topic: str | None = None,
+    fixed_frame: str | None = None, deskew: bool = False, thin_m: float = 0.0, laser: Pose | None = None,
     without_poses: bool = False,
-) -> Scans:
+) -> Scans:  # fmt: skip
     """Read the scans of a log, in order of time, with poses of the laser in the world frame.
 
     Args:
@@ -273,7 +266,7 @@ def read_npz(path: str | os.PathLike[str], options: LogOptions) -> LogReading:
         BadInput: not such an archive, an array that is missing or does not fit, or no valid reading.
     """
     account = Account(os.fspath(path), "npz", options)
-    name, arrays = account.name, _arrays(os.fspath(path))
+    name, arrays = account.name, _npz_arrays(os.fspath(path))
     posed = "poses" in arrays
     if not posed and options.without_poses and "ranges_m" in arrays:
         arrays["poses"] = np.zeros((len(np.atleast_2d(arrays["ranges_m"])), 3))
@@ -288,7 +281,7 @@ def read_npz(path: str | os.PathLike[str], options: LogOptions) -> LogReading:
     account.stamps_s = arrays.get("stamps_s")
     try:
         reading = account.reading(
-            "scans", arrays["poses"], arrays["angles_rad"], _typed(account, arrays),
+            "scans", arrays["poses"], arrays["angles_rad"], _npz_readings(account, arrays),
             beam_poses=arrays.get("beam_poses"), posed=posed,
         )  # fmt: skip
     except BadInput as problem:
@@ -296,7 +289,7 @@ def read_npz(path: str | os.PathLike[str], options: LogOptions) -> LogReading:
     return replace(reading, messages={"scans": len(reading.scans)})
 
 
-def _typed(account: Account, arrays: dict[str, NDArray[np.float64]]) -> Readings:
+def _npz_readings(account: Account, arrays: Arrays) -> Readings:
     name, code = account.name, account.options.no_return
     ranges, coded = np.atleast_2d(arrays["ranges_m"]), NoReturn(None, "none")
     if code is not None:
@@ -305,15 +298,15 @@ def _typed(account: Account, arrays: dict[str, NDArray[np.float64]]) -> Readings
         raise BadInput(f"{name}: none of {ranges.size:,} readings is valid")
     limit, origin = account.options.max_range_m, "given"
     if limit is None and "max_range_m" in arrays:
-        limit, origin = _number(name, arrays, "max_range_m"), "message"
+        limit, origin = _npz_number(name, arrays, "max_range_m"), "message"
     if limit is None:
         limit, origin = largest_hit_m(name, ranges), "readings"
-    smallest = _number(name, arrays, "min_range_m") if "min_range_m" in arrays else 0.0
+    smallest = _npz_number(name, arrays, "min_range_m") if "min_range_m" in arrays else 0.0
     return Readings(ranges, coded, smallest, limit, origin, ())
 
 
-def _arrays(name: str) -> dict[str, NDArray[np.float64]]:
-    arrays: dict[str, NDArray[np.float64]] = {}
+def _npz_arrays(name: str) -> Arrays:
+    arrays: Arrays = {}
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # NumPy's about old or odd headers: the arrays are checked anyway
@@ -331,7 +324,7 @@ def _arrays(name: str) -> dict[str, NDArray[np.float64]]:
     return arrays
 
 
-def _number(name: str, arrays: dict[str, NDArray[np.float64]], key: str) -> float:
+def _npz_number(name: str, arrays: Arrays, key: str) -> float:
     if arrays[key].size != 1:
         raise BadInput(f"{name}: {key} has shape {arrays[key].shape}, expected one number")
     return float(arrays[key].reshape(()))

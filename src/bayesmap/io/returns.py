@@ -82,12 +82,9 @@ class NoReturn:
 
 @dataclass(frozen=True, eq=False)
 class Views:
-    """The place and the direction in which each reading was taken.
+    """The place from which each scan was taken, (S,), the direction of each reading in the world, (S, A), and the step.
 
-    Attributes:
-        place: a number for each scan, equal for consecutive scans from one place, (S,).
-        direction_rad: in the world, (S, A).
-        step_rad: between neighbouring beams.
+    Consecutive scans from one place have one number; the step is the angle between neighbouring beams.
     """
 
     place: NDArray[np.intp]
@@ -129,11 +126,9 @@ class Views:
 
 
 def decode(
-    readings_m: NDArray[np.float64],
-    given: float | None = None,
-    sensor_max_m: float | None = None,
+    readings_m: NDArray[np.float64], given: float | None = None, sensor_max_m: float | None = None,
     views: Views | None = None,
-) -> tuple[NDArray[np.float64], NoReturn]:
+) -> tuple[NDArray[np.float64], NoReturn]:  # fmt: skip
     """Replace the codes of a log by those of REP-117.
 
     Args:
@@ -189,18 +184,15 @@ def _code_at_top(readings_m: NDArray[np.float64], views: Views | None) -> tuple[
     else:  # The counts that matter begin at 0.8 of the smallest candidate, which is 0.8 of the largest reading.
         top = usable & (readings_m >= TOP_SHARE**2 * readings_m[usable].max())
         once = usable & ~views.repeated(readings_m, top)
-    code = next((value for value in _standing_out(readings_m, once) if _viewed(views, readings_m >= value)), None)
-    if code is not None or views is None:
-        return code, None
+    standing_out = _standing_out(readings_m, once)
+    if views is not None:
+        standing_out = [value for value in standing_out if views.count(readings_m >= value) >= MIN_VIEWS]
+    if standing_out or views is None:
+        return (standing_out[0] if standing_out else None), None
     doubtful = next(iter(_standing_out(readings_m, usable)), None)
     if doubtful is not None and 2 * (readings_m[usable] >= doubtful).sum() > usable.sum():
         doubtful = None  # It stands out among nothing.
     return None, doubtful
-
-
-def _viewed(views: Views | None, mask: NDArray[np.bool_]) -> bool:
-    """Return whether the readings under a mask were taken in enough directions for a code."""
-    return views is None or views.count(mask) >= MIN_VIEWS
 
 
 def _standing_out(readings_m: NDArray[np.float64], usable: NDArray[np.bool_]) -> list[float]:
@@ -228,14 +220,9 @@ def _count_beams(mask: NDArray[np.bool_]) -> int:
 
 @dataclass(frozen=True, eq=False)
 class Readings:
-    """Readings whose kinds are known.
+    """Readings whose kinds are known, (S, A), coded as in REP-117, with no finite number outside the sensor's limits.
 
-    Attributes:
-        ranges_m: shape (S, A), coded as in REP-117, with no finite number outside the limits.
-        no_return: the numbers that were taken for no return, and why.
-        min_range_m, max_range_m: the limits of the sensor.
-        max_range_origin: ``"given"``, ``"message"`` (stated in the log) or ``"readings"``.
-        notes: what a user should know.
+    ``max_range_origin`` is ``"given"``, ``"message"`` (stated in the log) or ``"readings"``.
     """
 
     ranges_m: NDArray[np.float64]
@@ -247,15 +234,9 @@ class Readings:
 
 
 def classify(
-    name: str,
-    readings_m: NDArray[np.float64],
-    stated_min_m: float,
-    stated_max_m: float,
-    *,
-    no_return: float | None,
-    max_range_m: float | None,
-    views: Views | None = None,
-) -> Readings:
+    name: str, readings_m: NDArray[np.float64], stated_min_m: float, stated_max_m: float, *,
+    no_return: float | None, max_range_m: float | None, views: Views | None = None,
+) -> Readings:  # fmt: skip
     """Tell hits, no returns, too close and invalid readings apart.
 
     Args:
@@ -314,9 +295,10 @@ def classify(
     return Readings(ranges, coded, smallest, float(limit), origin, tuple(notes))
 
 
-def largest_hit_m(name: str, ranges_m: NDArray[np.float64]) -> float:
-    """Return the largest hit, rounded up to a whole metre: no further is the sensor known to see."""
+def largest_hit_m(name: str, ranges_m: NDArray[np.float64], most_m: float = math.inf) -> float:
+    """Return the largest hit, rounded up to a whole metre, up to a limit: the sensor is known to see no further."""
     hits = ranges_m[np.isfinite(ranges_m)]
-    if not hits.size or hits.max() <= 0:
+    limit = min(math.ceil(hits.max()) if hits.size and hits.max() > 0 else math.inf, most_m)
+    if math.isinf(limit):
         raise BadInput(f"{name}: no reading of {ranges_m.size:,} is a range; give the sensor's --max-range")
-    return float(math.ceil(hits.max()))
+    return float(limit)

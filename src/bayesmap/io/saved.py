@@ -28,7 +28,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.cells.arrays import ArraySpec, Draws
-from bayesmap.cells.kind import CellPrior
 from bayesmap.cells.kinds import prior_from
 from bayesmap.errors import BadInput
 from bayesmap.files import write_whole
@@ -58,13 +57,9 @@ def save(
     on_progress: Callable[[int, int], None] = lambda done, total: None,
     trajectory: Trajectory | None = None,
 ) -> None:
-    """Write a posterior, whole or not at all.
+    """Write a posterior, whole or not at all, with the approximation of all scans' poses, if there is one.
 
-    Args:
-        posterior: what to write.
-        path: where.
-        on_progress: told how many of all numbers of the draws have been written.
-        trajectory: the approximation of all scans' poses, if there is one.
+    ``on_progress`` is told how many of all numbers of the draws have been written.
 
     Raises:
         BadInput: the folder cannot be written to.
@@ -78,34 +73,21 @@ def _write(
 ) -> None:
     grid, scans, draws = posterior.grid, posterior.scans, posterior.draws
     header = {
-        "cells": posterior.kind,
-        "settings": posterior.settings,
-        "sensor": None if posterior.sensor is None else describe(posterior.sensor),
-        "prior": posterior.prior.describe(),
-        "grid": asdict(grid),
-        "limits": [scans.min_range_m, scans.max_range_m],
-        "seconds": posterior.seconds,
-        "counts": posterior.counts,
-        "sweep": posterior.sweep,
-        "finished": posterior.finished,
-        "log_evidence": posterior.log_evidence,
+        "cells": posterior.kind, "settings": posterior.settings, "prior": posterior.prior.describe(),
+        "sensor": None if posterior.sensor is None else describe(posterior.sensor), "grid": asdict(grid),
+        "limits": [scans.min_range_m, scans.max_range_m], "seconds": posterior.seconds, "counts": posterior.counts,
+        "sweep": posterior.sweep, "finished": posterior.finished, "log_evidence": posterior.log_evidence,
         "notes": posterior.notes,
-    }
+    }  # fmt: skip
     if trajectory is not None:
         header["trajectory"] = numbers_of(trajectory)
         for name, (dimensions, values) in arrays_of(trajectory).items():
             write_arrays(_group(file, "trajectory"), dimensions, {name: values})
     text = json.dumps(header)
-    file.setncatts(
-        {
-            "format": FORMAT,
-            "format_version": FORMAT_VERSION,
-            "inference_library": "bayesmap",
-            "inference_library_version": __version__,
-            "bayesmap": text,
-            "checksum": _checksum(text),
-        }
-    )
+    file.setncatts({
+        "format": FORMAT, "format_version": FORMAT_VERSION, "inference_library": "bayesmap",
+        "inference_library_version": __version__, "bayesmap": text, "checksum": zlib.crc32(text.encode()),
+    })  # fmt: skip
     group = _group(file, "posterior")
     x, y = grid.centers_m()
     for name, values in (("chain", np.arange(draws.chains)), ("draw", np.arange(draws.count)), ("x", x), ("y", y)):
@@ -133,20 +115,16 @@ def _write(
     constant = _write_scans(file, scans)
     observed = posterior.observed.astype(np.int8)
     write_arrays(constant, ("x", "y"), {"occupancy": posterior.occupancy, "observed": observed})
-    for name, values in _by_name(posterior).items():
+    some = {f"prior_{name}": np.asarray(values) for name, values in posterior.prior.parameters().items()}
+    some |= {f"statistic_{name}": np.asarray(values) for name, values in posterior.statistics.items()}
+    some |= {} if posterior.log_weights is None else {"log_weight": posterior.log_weights}
+    for name, values in some.items():
         write_arrays(constant, tuple(f"{name}_{i}" for i in range(values.ndim)), {name: values})
     state = _group(file, "chain_state")
     for name, values in posterior.snapshot.arrays.items():
         # Random numbers to the last bit, and many of them at a checkpoint: compression would only take time.
         dimensions = ("chain", *(f"{name}_{i}" for i in range(1, values.ndim)))
         write_arrays(state, dimensions, {name: values}, compressed=values.dtype == np.uint8)
-
-
-def _by_name(posterior: Posterior) -> dict[str, NDArray[Any]]:
-    """Return arrays that only some posteriors have."""
-    out = {f"prior_{name}": np.asarray(values) for name, values in posterior.prior.parameters().items()}
-    out |= {f"statistic_{name}": np.asarray(values) for name, values in posterior.statistics.items()}
-    return out if posterior.log_weights is None else {**out, "log_weight": posterior.log_weights}
 
 
 def _write_scans(file: Any, scans: Scans) -> Any:
@@ -180,7 +158,7 @@ def load_saved(path: str | os.PathLike[str]) -> tuple[Posterior, Trajectory | No
             reason = _not_ours(attributes)
             if reason is None:
                 text = attributes["bayesmap"]
-                if attributes["checksum"] != _checksum(text):
+                if attributes["checksum"] != zlib.crc32(text.encode()):
                     raise ValueError("the checksum of its header does not match")
                 return _read(file, json.loads(text))
     except BadInput as problem:
@@ -209,56 +187,33 @@ def _read(file: Any, header: dict[str, Any]) -> tuple[Posterior, Trajectory | No
     constant = file["constant_data"]
 
     def named(prefix: str) -> dict[str, NDArray[Any]]:
-        return {
-            name.removeprefix(prefix): read_array(constant[name])
-            for name in constant.variables
-            if name.startswith(prefix)
-        }
+        names = [name for name in constant.variables if name.startswith(prefix)]
+        return {name.removeprefix(prefix): read_array(constant[name]) for name in names}
 
     prior = prior_from(header["prior"] | named("prior_"))
     snapshot = Snapshot(header["sweep"], {name: read_array(v) for name, v in file["chain_state"].variables.items()})
     trajectory = None
     if "trajectory" in header:
-        arrays = {name: read_array(variable) for name, variable in file["trajectory"].variables.items()}
-        trajectory = trajectory_from(arrays, header["trajectory"])
-    return _posterior(file, header, prior, snapshot, named("statistic_")), trajectory
-
-
-def _posterior(
-    file: Any,
-    header: dict[str, Any],
-    prior: CellPrior,
-    snapshot: Snapshot,
-    statistics: Mapping[str, NDArray[np.float64]],
-) -> Posterior:
-    """Assemble the posterior of an open file."""
+        saved = {name: read_array(variable) for name, variable in file["trajectory"].variables.items()}
+        trajectory = trajectory_from(saved, header["trajectory"])
     grid = Grid(tuple(header["grid"]["shape"]), header["grid"]["resolution"], tuple(header["grid"]["origin"]))
-    draws, stats, constant = file["posterior"], file["sample_stats"], file["constant_data"]
+    draws, stats = file["posterior"], file["sample_stats"]
     specs = (*prior.arrays, POSES) if POSES.name in draws.variables else prior.arrays
     dimensions = sorted({dim for spec in specs for dim in spec.dims} - {"x", "y"})
     index = {dim: _index(draws, dim, grid) for dim in dimensions}
     empty = Draws(grid, specs, {}, index)
     arrays = {spec.name: read_draws(draws[spec.name], spec, empty.shape_of(spec)) for spec in specs}
-    return Posterior(
-        scans=_scans_from(file, header),
-        sensor=from_description(header["settings"]["sensor"] if header["sensor"] is None else header["sensor"]),
-        prior=prior,
-        settings=header["settings"],
-        draws=Draws(grid, specs, arrays, index),
-        occupancy=read_array(constant["occupancy"]),
-        observed=read_array(constant["observed"]) != 0,
-        log_likelihood=read_array(stats["log_likelihood"]),
-        log_prior=read_array(stats["log_prior"]),
-        warmup_log_joint=read_array(file["warmup_sample_stats"]["lp"]),
-        snapshot=snapshot,
-        finished=header["finished"],
-        seconds=header["seconds"],
-        counts=header["counts"],
-        log_weights=_optional(constant, "log_weight"),
-        statistics=statistics,
-        log_evidence=header["log_evidence"],
-        notes=tuple(header["notes"]),
-    )
+    sensor = header["settings"]["sensor"] if header["sensor"] is None else header["sensor"]
+    posterior = Posterior(
+        scans=_scans_from(file, header), sensor=from_description(sensor), prior=prior, settings=header["settings"],
+        draws=Draws(grid, specs, arrays, index), occupancy=read_array(constant["occupancy"]),
+        observed=read_array(constant["observed"]) != 0, log_likelihood=read_array(stats["log_likelihood"]),
+        log_prior=read_array(stats["log_prior"]), warmup_log_joint=read_array(file["warmup_sample_stats"]["lp"]),
+        snapshot=snapshot, finished=header["finished"], seconds=header["seconds"], counts=header["counts"],
+        log_weights=_optional(constant, "log_weight"), statistics=named("statistic_"),
+        log_evidence=header["log_evidence"], notes=tuple(header["notes"]),
+    )  # fmt: skip
+    return posterior, trajectory
 
 
 def _index(draws: Any, dimension: str, grid: Grid) -> NDArray[np.int32]:
@@ -288,10 +243,6 @@ def _scans_from(file: Any, header: dict[str, Any]) -> Scans:
     )
 
 
-def _checksum(header: str) -> int:
-    return zlib.crc32(header.encode())
-
-
 def _group(file: Any, name: str) -> Any:
     return file.groups.get(name) or file.createGroup(name)
 
@@ -309,7 +260,7 @@ def write_arrays(
 
 
 def read_array(variable: Any) -> NDArray[Any]:
-    """Read an array."""
+    """Return a variable's numbers."""
     return np.asarray(variable[:])
 
 
@@ -406,26 +357,27 @@ PARTS: dict[str, dict[str, tuple[str, ...]]] = {
 """Arrays of its parts, saved as part_name."""
 
 
-def arrays_of(found: Trajectory) -> dict[str, tuple[tuple[str, ...], NDArray[Any]]]:
+def arrays_of(trajectory: Trajectory) -> dict[str, tuple[tuple[str, ...], NDArray[Any]]]:
     """Return all arrays by the names under which they are saved, with their dimensions."""
-    every = [(name, dims, getattr(found, name)) for name, dims in FIELDS.items()]
+    every = [(name, dims, getattr(trajectory, name)) for name, dims in FIELDS.items()]
     for part, fields in PARTS.items():
-        of = getattr(found, part)
-        if of is not None and (part != "alternatives" or len(of)):
-            every += [(f"{part}_{name}", dims, getattr(of, name)) for name, dims in fields.items()]
+        holder = getattr(trajectory, part)
+        if holder is not None and (part != "alternatives" or len(holder)):
+            every += [(f"{part}_{name}", dims, getattr(holder, name)) for name, dims in fields.items()]
     return {name: (dims, _stored(values)) for name, dims, values in every if values is not None}
 
 
-def numbers_of(found: Trajectory) -> dict[str, Any]:
-    """Return what is no array, as JSON values."""
-    about = found.calibration
+def numbers_of(trajectory: Trajectory) -> dict[str, Any]:
+    """Return the parts that are no arrays, as JSON values."""
+    about = trajectory.calibration
     fit = about.odometry
     odometry = None if fit is None else {
         "slope": fit.slope.tolist(), "slope_sigma": fit.slope_sigma.tolist(), "lag_s": float(fit.lag_s),
         "lag_sigma_s": float(fit.lag_sigma_s), "rates": fit.noise.rates.tolist(),
     }  # fmt: skip
     return {
-        "dof": found.gaussian.dof, "angle_step_ratio": about.angle_step_ratio, "point_sigma_m": about.point_sigma_m,
+        "dof": trajectory.gaussian.dof, "angle_step_ratio": about.angle_step_ratio,
+        "point_sigma_m": about.point_sigma_m,
         "noise": None if about.noise is None else asdict(about.noise), "odometry": odometry,
     }  # fmt: skip
 

@@ -16,7 +16,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,12 +25,15 @@ from bayesmap.errors import BadInput, check_count
 from bayesmap.sim.furniture import RoomFloor, furnish
 from bayesmap.space.grid import Grid
 
-ROW_DEPTH_M = 5.2
-CORRIDOR_M = 1.8
-CROSS_CORRIDOR_M = 1.6
-CROSS_EVERY_M = 16.0
-INNER_WALL_M = 0.12
-MIN_ROOM_M = 2.6
+ROW_DEPTH_M, CORRIDOR_M, CROSS_CORRIDOR_M, CROSS_EVERY_M = 5.2, 1.8, 1.6, 16.0
+INNER_WALL_M, MIN_ROOM_M = 0.12, 2.6
+OUTER_WALL_M = 0.3
+MARGIN_M = 0.5
+"""Open ground around the building."""
+DOOR_M, WIDE_DOOR_M = 0.9, 1.6
+DOOR_CLEAR_M = 1.1
+"""Depth of the floor that is kept free on both sides of a door."""
+SMALLEST_M = (12.0, 8.0)
 STOP_SPLITTING_M = ((3.4, 0.42), (4.6, 0.30), (6.5, 0.18), (9.5, 0.10))
 """A piece narrower than the drawn width is a room: (width in metres, probability)."""
 
@@ -40,13 +43,9 @@ class Space:
     """A room or a corridor: the free cells ``x0 <= i < x1``, ``y0 <= j < y1``.
 
     Attributes:
-        kind: what it is for: ``"corridor"``, ``"office"``, ``"meeting"``, and so on.
-        x0: first column of cells.
-        x1: one past the last column.
-        y0: first row of cells.
-        y1: one past the last row.
+        kind: as `Room` calls it.
         corridors: sides on which a corridor runs along it: -1 (towards smaller y), +1, or both.
-        facade: it touches the outer wall along its length.
+        facade: whether it touches the outer wall along its length.
     """
 
     kind: str
@@ -68,47 +67,28 @@ class Space:
         return self.y1 - self.y0
 
 
-@dataclass(frozen=True)
-class _Band:
-    """A row of rooms, or a corridor, from one end of the building to the other."""
-
-    y0: int
-    y1: int
-    is_corridor: bool
-
-
 def lay_out(rng: np.random.Generator, x0: int, x1: int, y0: int, y1: int, resolution: float) -> tuple[Space, ...]:
-    """Lay out corridors and rooms that fill a rectangle of cells, one inner wall apart.
-
-    Args:
-        rng: the source of randomness.
-        x0: first column inside the outer wall; the plan runs along x.
-        x1: one past the last column.
-        y0: first row inside the outer wall.
-        y1: one past the last row.
-        resolution: edge of a cell in metres.
-    """
+    """Lay out corridors and rooms that fill the cells ``x0 <= i < x1``, ``y0 <= j < y1``, one inner wall apart."""
     wall = inner_wall_cells(resolution)
     bands = _bands(rng, y0, y1, resolution)
-    corridors = [band for band in bands if band.is_corridor]
+    corridors = [(low, high) for low, high, is_corridor in bands if is_corridor]
     cross = _cross_corridors(rng, x0, x1, len(corridors), resolution)
-    spaces = [Space("corridor", x0, x1, band.y0, band.y1) for band in corridors]
-    core = (corridors[0].y1, corridors[-1].y0)
+    spaces = [Space("corridor", x0, x1, low, high) for low, high in corridors]
+    core = (corridors[0][1], corridors[-1][0])
     through = [rng.random() < 0.5 for _ in cross]  # to a window in the facade
     for (a, b), to_facade in zip(cross, through, strict=True):
         spaces.append(Space("corridor", a, b, core[0], y1 if to_facade else core[1]))
-    for index, band in enumerate(bands):
-        if band.is_corridor:
+    for index, (low, high, is_corridor) in enumerate(bands):
+        if is_corridor:
             continue
-        below = index > 0 and bands[index - 1].is_corridor
-        above = index + 1 < len(bands) and bands[index + 1].is_corridor
-        sides = (-1,) * below + (1,) * above
-        facade = band.y0 == y0 or band.y1 == y1
-        in_core = core[0] <= band.y0 and band.y1 <= core[1]
-        cuts = [gap for gap, far in zip(cross, through, strict=True) if in_core or (far and band.y0 >= core[1])]
+        below = index > 0 and bands[index - 1][2]
+        above = index + 1 < len(bands) and bands[index + 1][2]
+        sides, facade = (-1,) * below + (1,) * above, low == y0 or high == y1
+        in_core = core[0] <= low and high <= core[1]
+        cuts = [gap for gap, far in zip(cross, through, strict=True) if in_core or (far and low >= core[1])]
         for a, b in _between(x0, x1, cuts, wall):
             for left, right in _split(rng, a, b, resolution):
-                spaces.append(Space("office", left, right, band.y0, band.y1, sides, facade))
+                spaces.append(Space("office", left, right, low, high, sides, facade))
     return _name_rooms(rng, spaces, resolution)
 
 
@@ -117,8 +97,11 @@ def inner_wall_cells(resolution: float) -> int:
     return max(1, round(INNER_WALL_M / resolution))
 
 
-def _bands(rng: np.random.Generator, y0: int, y1: int, resolution: float) -> list[_Band]:
-    """Divide y0 to y1 into rows and corridors: as many rows as come nearest to the usual depth."""
+def _bands(rng: np.random.Generator, y0: int, y1: int, resolution: float) -> list[tuple[int, int, bool]]:
+    """Divide y0 to y1 into rows of rooms and corridors: as many rows as come nearest to the usual depth.
+
+    Returns the first row of cells, one past the last, and whether it is a corridor, for each.
+    """
     wall, corridor = inner_wall_cells(resolution), round(CORRIDOR_M / resolution)
 
     def room_cells(rows: int) -> int:
@@ -132,7 +115,7 @@ def _bands(rng: np.random.Generator, y0: int, y1: int, resolution: float) -> lis
     bands, y = [], y0
     for what in _order(rows):
         end = y + (corridor if what == "corridor" else next(depths))
-        bands.append(_Band(y, end, what == "corridor"))
+        bands.append((y, end, what == "corridor"))
         y = end + wall
     return bands
 
@@ -187,13 +170,12 @@ def _name_rooms(rng: np.random.Generator, spaces: list[Space], resolution: float
     facade = [k for k, space in enumerate(spaces) if space.facade]
     middle = np.mean([(spaces[k].x0 + spaces[k].x1) / 2 for k in facade])
     lobby = min(facade, key=lambda k: abs((spaces[k].x0 + spaces[k].x1) / 2 - middle) + 1e6 * spaces[k].y0)
-    named = []
-    for k, space in enumerate(spaces):
-        kind = space.kind
-        if kind != "corridor":
-            kind = "lobby" if k == lobby else _kind(rng, space.width * resolution, space.facade)
-        named.append(Space(kind, space.x0, space.x1, space.y0, space.y1, space.corridors, facade=space.facade))
-    return tuple(named)
+    return tuple(
+        replace(space, kind="lobby" if k == lobby else _kind(rng, space.width * resolution, space.facade))
+        if space.kind != "corridor"
+        else space
+        for k, space in enumerate(spaces)
+    )
 
 
 def _kind(rng: np.random.Generator, width_m: float, facade: bool) -> str:
@@ -204,18 +186,6 @@ def _kind(rng: np.random.Generator, width_m: float, facade: bool) -> str:
     if facade:
         return "office" if rng.random() < 0.9 else "meeting"
     return str(rng.choice(["store", "washroom", "kitchen", "server", "office"], p=[0.3, 0.25, 0.15, 0.15, 0.15]))
-
-
-OUTER_WALL_M = 0.3
-MARGIN_M = 0.5
-"""Open ground around the building."""
-
-DOOR_M = 0.9
-WIDE_DOOR_M = 1.6
-DOOR_CLEAR_M = 1.1
-"""Depth of the floor that is kept free on both sides of a door."""
-
-SMALLEST_M = (12.0, 8.0)
 
 
 @dataclass(frozen=True)
@@ -343,7 +313,9 @@ class _Construction:
         wide = room.width * self.resolution > 6.2
         both_corners = [True, False] if wide else [bool(self.rng.random() < 0.5)]
         if room.kind == "lobby" or (room.kind in ("meeting", "open plan") and self.rng.random() < 0.6):
-            self.glaze_partition(room, side)
+            y0, y1 = self.wall_rows(room, side)
+            frame = self.cells(0.2)
+            self.pane(room.x0 + frame, room.x1 - frame, y0, y1, along_x=True)
         for left in both_corners:
             self.door(room, side, left)
 
@@ -368,11 +340,6 @@ class _Construction:
         """Return the rows of the wall between a room and the corridor at its side."""
         thickness = inner_wall_cells(self.resolution)
         return (room.y1, room.y1 + thickness) if side > 0 else (room.y0 - thickness, room.y0)
-
-    def glaze_partition(self, room: Space, side: int) -> None:
-        y0, y1 = self.wall_rows(room, side)
-        frame = self.cells(0.2)
-        self.pane(room.x0 + frame, room.x1 - frame, y0, y1, along_x=True)
 
     def windows(self, room: Space) -> None:
         """Set glazing down to the floor in some facade rooms; elsewhere the sill is above the laser."""
@@ -409,21 +376,17 @@ class _Construction:
     def window(self, x0: int, x1: int, y0: int, y1: int, *, along_x: bool) -> None:
         """Set a pane in the middle of the outer wall, with reveals on both sides."""
         self.opacity[x0:x1, y0:y1] = 0.0
-        middle = (y0 + y1) // 2 if along_x else (x0 + x1) // 2
         if along_x:
-            self.pane(x0, x1, middle, middle + 1, along_x=True)
+            self.pane(x0, x1, (y0 + y1) // 2, (y0 + y1) // 2 + 1, along_x=True)
         else:
-            self.pane(middle, middle + 1, y0, y1, along_x=False)
+            self.pane((x0 + x1) // 2, (x0 + x1) // 2 + 1, y0, y1, along_x=False)
 
     def pane(self, x0: int, x1: int, y0: int, y1: int, *, along_x: bool) -> None:
         """Set glass with a mullion every 1.2 m."""
         self.opacity[x0:x1, y0:y1] = 1.0
         self.glass[x0:x1, y0:y1] = True
         every = self.cells(1.2)
-        if along_x:
-            self.glass[x0:x1:every, y0:y1] = False
-        else:
-            self.glass[x0:x1, y0:y1:every] = False
+        self.glass[x0 : x1 : every if along_x else 1, y0 : y1 : 1 if along_x else every] = False
 
     def furnish(self, space: Space, clutter: float) -> None:
         around = np.s_[space.x0 - 1 : space.x1 + 1, space.y0 - 1 : space.y1 + 1]

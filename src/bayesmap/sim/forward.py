@@ -13,14 +13,9 @@ from bayesmap.space.scans import Scans, as_angles, as_poses, check_limits
 
 
 def ranges(
-    walls: NDArray[np.bool_],
-    grid: Grid,
-    poses: ArrayLike,
-    angles_rad: ArrayLike,
-    max_range_m: float,
-    *,
+    walls: NDArray[np.bool_], grid: Grid, poses: ArrayLike, angles_rad: ArrayLike, max_range_m: float, *,
     device: str = "cpu",
-) -> NDArray[np.float64]:
+) -> NDArray[np.float64]:  # fmt: skip
     """Compute noise-free ranges: the distance from each pose to the first wall along each beam, capped.
 
     Cells are closed squares: a beam that touches a corner hits all cells that meet there. From inside a wall the
@@ -46,19 +41,10 @@ def ranges(
 
 
 def simulate(
-    walls: NDArray[np.bool_],
-    grid: Grid,
-    poses: ArrayLike,
-    angles_rad: ArrayLike,
-    *,
-    sensor: SensorModel,
-    max_range_m: float,
-    min_range_m: float = 0.0,
-    seed: int = 0,
-    opacity: NDArray[np.float64] | None = None,
-    typed: bool = False,
-    device: str = "cpu",
-) -> Scans:
+    walls: NDArray[np.bool_], grid: Grid, poses: ArrayLike, angles_rad: ArrayLike, *, sensor: SensorModel,
+    max_range_m: float, min_range_m: float = 0.0, seed: int = 0, opacity: NDArray[np.float64] | None = None,
+    typed: bool = False, device: str = "cpu",
+) -> Scans:  # fmt: skip
     """Draw scans from a sensor model in a known world.
 
     Args:
@@ -69,7 +55,7 @@ def simulate(
         sensor: the law of the readings.
         max_range_m: the sensor's largest range.
         min_range_m: the sensor's smallest range.
-        seed: of the noise.
+        seed: chooses the noise.
         opacity: chance, per cell, that a wall stops a scan's beams (1 where None): glass lets some through.
         typed: whether a beam that meets nothing within ``max_range_m``, or reads more than that, reports no return, as
             lasers do. If not, that is left to the sensor's law: additive noise alone reads the largest range plus
@@ -101,12 +87,10 @@ def simulate(
     if opacity is None:
         distances = _distances(solid, grid, many, angles, np.inf, device)
     else:
-        distances = np.concatenate(
-            [
-                _distances(solid & (rng.random(grid.shape) < opacity), grid, pose[None], angles, np.inf, device)
-                for pose in many
-            ]
-        )
+        distances = np.concatenate([
+            _distances(solid & (rng.random(grid.shape) < opacity), grid, pose[None], angles, np.inf, device)
+            for pose in many
+        ])  # fmt: skip
     readings = sensor.sample(rng, distances, RangeLimits(min_range_m, max_range_m))
     if typed:
         nothing = readings > max_range_m
@@ -117,13 +101,9 @@ def simulate(
 
 
 def _distances(
-    walls: NDArray[np.bool_],
-    grid: Grid,
-    poses: NDArray[np.float64],
-    angles_rad: NDArray[np.float64],
-    max_range_m: float,
-    device: str,
-) -> NDArray[np.float64]:
+    walls: NDArray[np.bool_], grid: Grid, poses: NDArray[np.float64], angles_rad: NDArray[np.float64],
+    max_range_m: float, device: str,
+) -> NDArray[np.float64]:  # fmt: skip
     from bayesmap.kernels.walk import cast  # loads Warp
 
     _check_walls(walls, grid)

@@ -57,12 +57,8 @@ def passage_m(resolution: float) -> float:
 class RoomFloor:
     """A room being furnished. Its frame: x along the corridor wall, y away from the corridor, in metres.
 
-    Attributes:
-        opacity: the room's cells and the walls around them, in the room's frame, shape (nx + 2, ny + 2);
-            changed in place.
-        keep: cells in front of doors, and door openings, where nothing may stand.
-        resolution: edge of a cell in metres.
-        rng: the source of randomness.
+    ``opacity`` holds the room's cells and the walls around them, (nx + 2, ny + 2), changed in place; ``keep`` marks the
+    cells in front of doors, and door openings, where nothing may stand.
     """
 
     opacity: NDArray[np.float64]
@@ -84,18 +80,14 @@ class RoomFloor:
             a, b = (1 + round(v / self.resolution) for v in (x, x + width))
             c, d = (1 + round(v / self.resolution) for v in (y, y + depth))
             b, d = max(b, a + 1), max(d, c + 1)
-            if min(a, c) < 1 or b > nx - 1 or d > ny - 1:
-                return False
-            if self.keep[a:b, c:d].any() or trial[a:b, c:d].any():
+            if min(a, c) < 1 or b > nx - 1 or d > ny - 1 or self.keep[a:b, c:d].any() or trial[a:b, c:d].any():
                 return False
             trial[a:b, c:d] = opacity
-        if self._reachable(trial) + MAX_CUT_OFF_M2 < self._passable(trial):
+        passable = float(self._room_to_pass(trial).sum()) * self.resolution**2
+        if self._reachable(trial) + MAX_CUT_OFF_M2 < passable:
             return False
         self.opacity[...] = trial
         return True
-
-    def _passable(self, opacity: NDArray[np.float64]) -> float:
-        return float(self._room_to_pass(opacity).sum()) * self.resolution**2
 
     def _reachable(self, opacity: NDArray[np.float64]) -> float:
         """Return the square metres that a robot can reach; minus infinity if it cannot pass between the doors."""
@@ -113,12 +105,9 @@ class RoomFloor:
 
 
 def furnish(room: RoomFloor, kind: str, clutter: float) -> None:
-    """Furnish a room for what it is for.
+    """Furnish a room, in place, for its kind, as `bayesmap.sim.building.Room` calls it.
 
-    Args:
-        room: the room; changed in place.
-        kind: as in `bayesmap.sim.building.Space`.
-        clutter: how full, 0 (empty) to 1 (usual) and more.
+    Clutter goes from 0 (empty) over 1 (usual) upwards.
     """
     if clutter <= 0:
         return
@@ -140,8 +129,7 @@ def _desk_at_wall(room: RoomFloor, left: bool, y: float) -> None:
     width, _ = room.size_m
     x_wall = 0.0 if left else width - 0.6
     x_edge = 0.6 if left else width - 0.7
-    drawers: Rectangle = (x_wall, y, 0.6, 0.4, SOLID)
-    if room.place(drawers, (x_edge, y + 1.5, 0.08, 0.08, LEG)):
+    if room.place((x_wall, y, 0.6, 0.4, SOLID), (x_edge, y + 1.5, 0.08, 0.08, LEG)):
         _chair(room, 0.95 if left else width - 1.1, y + 0.85)
 
 
@@ -271,13 +259,6 @@ def _box(room: RoomFloor) -> None:
 
 
 FURNISHERS: dict[str, Callable[[RoomFloor, float], None]] = {
-    "corridor": _corridor,
-    "office": _office,
-    "meeting": _meeting,
-    "open plan": _open_plan,
-    "store": _store,
-    "server": _server,
-    "kitchen": _kitchen,
-    "washroom": _washroom,
-    "lobby": _lobby,
-}
+    "corridor": _corridor, "office": _office, "meeting": _meeting, "open plan": _open_plan, "store": _store,
+    "server": _server, "kitchen": _kitchen, "washroom": _washroom, "lobby": _lobby,
+}  # fmt: skip

@@ -105,11 +105,7 @@ class Samples:
 
 
 def numbers_of(position: object, rotation: object) -> Numbers:
-    """Return position and orientation of a message, checked.
-
-    Raises:
-        Malformed: not finite, further than the earth is large, or no rotation.
-    """
+    """Return position and orientation of a message; raise `Malformed` if one is not finite, far off, or no rotation."""
     p, q = position, rotation
     values = (p.x, p.y, p.z, q.x, q.y, q.z, q.w)  # type: ignore[attr-defined]
     x, y, z, qx, qy, qz, qw = values
@@ -122,12 +118,9 @@ def numbers_of(position: object, rotation: object) -> Numbers:
 
 @dataclass(frozen=True, eq=False)
 class Link:
-    """One transform of a chain.
+    """One transform of a chain: the child's pose in the parent over time, and whether it holds at all times.
 
-    Attributes:
-        track: the child's pose in the parent, over time.
-        constant: whether that pose holds at all times.
-        inverted: whether the chain leads from the child to the parent.
+    The chain leads from the child to the parent where the link is inverted.
     """
 
     track: Track
@@ -310,12 +303,7 @@ def upright(motion: RigidTransform) -> Floats:
 
 @dataclass(frozen=True, eq=False)
 class Track:
-    """Where a frame is in another, over time.
-
-    Attributes:
-        stamps_ns: shape (T,), strictly ascending, in nanoseconds.
-        motions: T of them.
-    """
+    """Where a frame is in another, over time: T motions, and their times in nanoseconds, strictly ascending."""
 
     stamps_ns: NDArray[np.int64]
     motions: Any

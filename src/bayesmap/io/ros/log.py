@@ -261,17 +261,10 @@ class _Request:
 
 @dataclass(frozen=True, eq=False)
 class _Placed:
-    """The scans of one run of the clock that have a pose.
+    """The scans of one run of the clock that have a pose, in the order of time.
 
-    Attributes:
-        source: of the poses.
-        scans: in the order of time.
-        stamps: of the first rays, (S,).
-        rays: when each ray was sent, (S, A), or (S, 1) if that is not asked for.
-        at_first: the sensor's poses at the first rays, (S, 3).
-        sign: 1 for an upright sensor, -1 for one upside down.
-        reordered: scans that came before an earlier one.
-        notes: what a user should know.
+    ``stamps`` are the times of the first rays, (S,), ``rays`` those of all rays, (S, A), or (S, 1) without ``deskew``;
+    ``at_first`` are the sensor's poses at the first rays, (S, 3). ``sign`` is -1 for a sensor that is upside down.
     """
 
     source: pose_sources.PoseSource
@@ -408,9 +401,7 @@ def _only_topic(request: _Request, options: LogOptions, poses: PoseMessages) -> 
     if only is None:
         return None
     trees = pose_sources.frame_trees(poses, request.topic.name, None)
-    body = request.sensor
-    if options.laser is not None:
-        body = pose_sources.body_of(request.recording.path, trees, request.sensor)
+    body = pose_sources.body_of(request.recording.path, trees, request.sensor) if options.laser else request.sensor
     if body is not None and any(pose_sources.fixed_frame_of(tree, body) is not None for tree in trees):
         return None
     read_messages(request.recording, [only], None, poses, request.bad)
@@ -428,7 +419,7 @@ def _source(request: _Request, poses: PoseMessages, options: LogOptions) -> pose
         return pose_sources.standing_still(trees, sensor)
     if pose_topic is not None and pose_topic.type in POSE_TYPES:
         return pose_sources.by_topic(recording, pose_topic, poses, trees, sensor, laser)
-    body = sensor if laser is None else pose_sources.body_of(recording.path, trees, sensor)
+    body = pose_sources.body_of(recording.path, trees, sensor) if laser else sensor
     source = None
     if body is not None:
         source = pose_sources.by_transforms(recording, trees, body, options.fixed_frame, chosen=pose_topic is not None)

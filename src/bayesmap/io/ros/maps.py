@@ -136,12 +136,8 @@ TRINARY_FILE_THRESHOLDS = (0.65, 0.196)
 """Occupied and free thresholds by which nav2 tells the three greys apart."""
 
 
-def check_thresholds(occupied_thresh: float, free_thresh: float) -> None:
-    """Refuse thresholds that are out of order.
-
-    Raises:
-        BadInput: not 0 <= free_thresh < occupied_thresh <= 1.
-    """
+def _check_thresholds(occupied_thresh: float, free_thresh: float) -> None:
+    """Raise `BadInput` for thresholds that are not 0 <= free_thresh < occupied_thresh <= 1."""
     if not (0 <= free_thresh < occupied_thresh <= 1):
         raise BadInput(
             "map: thresholds must be 0 <= free_thresh < occupied_thresh <= 1, "
@@ -149,30 +145,21 @@ def check_thresholds(occupied_thresh: float, free_thresh: float) -> None:
         )
 
 
-def thresholds_of(mode: str, occupied_thresh: float | None, free_thresh: float | None) -> tuple[float, float]:
-    """Return the thresholds that hold, those given or the mode's own.
-
-    Raises:
-        BadInput: an unknown mode, or thresholds out of order.
-    """
+def _thresholds(mode: str, occupied_thresh: float | None, free_thresh: float | None) -> tuple[float, float]:
+    """Return the thresholds that hold, those given or the mode's own."""
     if mode not in MODES:
         raise BadInput(f"map: mode {mode!r} is not known; use one of {', '.join(MODES)}")
     occupied, free = THRESHOLDS[mode]
     occupied = occupied if occupied_thresh is None else float(occupied_thresh)
     free = free if free_thresh is None else float(free_thresh)
-    check_thresholds(occupied, free)
+    _check_thresholds(occupied, free)
     return occupied, free
 
 
 def in_percent(
-    occupancy: ArrayLike,
-    grid: Grid,
-    observed: ArrayLike | None = None,
-    *,
-    mode: str = "scale",
-    occupied_thresh: float | None = None,
-    free_thresh: float | None = None,
-) -> NDArray[np.int8]:
+    occupancy: ArrayLike, grid: Grid, observed: ArrayLike | None = None, *, mode: str = "scale",
+    occupied_thresh: float | None = None, free_thresh: float | None = None,
+) -> NDArray[np.int8]:  # fmt: skip
     """Return the occupancy of every cell in per cent, shape (nx, ny), -1 where unknown.
 
     Args:
@@ -186,7 +173,7 @@ def in_percent(
     Raises:
         BadInput: shapes that do not fit, probabilities outside [0, 1], an unknown mode, thresholds out of order.
     """
-    occupied, free = thresholds_of(mode, occupied_thresh, free_thresh)
+    occupied, free = _thresholds(mode, occupied_thresh, free_thresh)
     p = as_probabilities(grid, occupancy, "occupancy", unknown=True)
     p = np.where(as_observed(grid, observed), p, np.nan)
     percent = np.rint(100 * p) if mode == "raw" else _by_thresholds(p, mode, occupied, free)
@@ -201,15 +188,9 @@ def _by_thresholds(p: NDArray[np.float64], mode: str, occupied: float, free: flo
 
 
 def write_map(
-    path_yaml: str | os.PathLike[str],
-    occupancy: ArrayLike,
-    grid: Grid,
-    observed: ArrayLike | None = None,
-    *,
-    mode: str = "trinary",
-    occupied_thresh: float | None = None,
-    free_thresh: float | None = None,
-) -> tuple[Path, Path]:
+    path_yaml: str | os.PathLike[str], occupancy: ArrayLike, grid: Grid, observed: ArrayLike | None = None, *,
+    mode: str = "trinary", occupied_thresh: float | None = None, free_thresh: float | None = None,
+) -> tuple[Path, Path]:  # fmt: skip
     """Write a map for nav2's map_server: the YAML file, and an image beside it of the same name.
 
     Each file is written whole or not at all; the image comes first, so that a YAML file always has its image.
@@ -218,8 +199,7 @@ def write_map(
         path_yaml: the YAML file to write; the image gets its name with the suffix .pgm or .png.
         occupancy: probability that each cell is occupied, shape (nx, ny), NaN where unknown.
         grid: the grid of the map.
-        observed: cells that some beam reached, shape (nx, ny); the others are written as unknown. All by
-            default.
+        observed: cells that some beam reached, shape (nx, ny); all by default.
         mode: ``"trinary"``: occupied above ``occupied_thresh``, free below ``free_thresh``, unknown between;
             ``"scale"``: nav2 reads the probability in per cent; or ``"raw"``: the same, and the greys are the
             per cents themselves, so that no rounding of greys comes between (an image viewer shows them nearly black).
@@ -230,16 +210,14 @@ def write_map(
         Paths of the YAML file and of the image.
 
     Raises:
-        BadInput: shapes that do not fit the grid, probabilities outside [0, 1], an unknown mode, thresholds
-            out of order, a path whose suffix is not .yaml or .yml.
-        OSError: the folder cannot be written.
+        BadInput: those of `in_percent`, a path whose suffix is not .yaml or .yml, or a folder that cannot be written.
     """
     from PIL import Image
 
     target = Path(path_yaml)
     if target.suffix not in (".yaml", ".yml"):
         raise BadInput(f"map {target}: the name must end in .yaml; the image is named after it")
-    occupied, free = thresholds_of(mode, occupied_thresh, free_thresh)
+    occupied, free = _thresholds(mode, occupied_thresh, free_thresh)
     percent = in_percent(occupancy, grid, observed, mode=mode, occupied_thresh=occupied, free_thresh=free)
     known = ~np.isnan(np.asarray(occupancy, dtype=np.float64)) & as_observed(grid, observed)
 
@@ -291,7 +269,7 @@ def read_map(path_yaml: str | os.PathLike[str]) -> tuple[NDArray[np.float64], Gr
     occupied = _entry_number(path, entries, "occupied_thresh", 0.65)
     free = _entry_number(path, entries, "free_thresh", 0.196)
     mode = str(entries.get("mode", "trinary"))
-    check_thresholds(occupied, free)
+    _check_thresholds(occupied, free)
     grey, opaque = _read_image(path.parent / str(_entry(path, entries, "image")), with_alpha=mode == "trinary")
     if mode not in MODES:
         raise BadInput(f"{path}: mode {mode!r} is not known; map_server has trinary, scale and raw")
@@ -332,7 +310,7 @@ def from_map_image(
     Raises:
         BadInput: as `from_image`, or thresholds that are not 0 <= free_thresh < occupied_thresh <= 1.
     """
-    check_thresholds(occupied_thresh, free_thresh)
+    _check_thresholds(occupied_thresh, free_thresh)
     shade = brightness(image)
     cells = _by_thresholds(shade if negate else 1.0 - shade, "trinary", occupied_thresh, free_thresh)
     cells = np.where(np.isnan(cells), -1, cells)

@@ -45,13 +45,7 @@ class Malformed(Exception):
 
 
 class Message(NamedTuple):
-    """One message as it lies in the recording.
-
-    Attributes:
-        topic: its name.
-        received_ns: when the recorder got it, in nanoseconds.
-        data: serialised by ROS 1 or as CDR, as the topic says.
-    """
+    """One message of the recording: its topic, the time of receipt, and the data as the topic encodes them."""
 
     topic: str
     received_ns: int

@@ -65,14 +65,10 @@ Message = Callable[["Typestore", int], Any]
 
 @dataclass(frozen=True)
 class Channel:
-    """A topic and its messages.
+    """A topic, the type of its messages, and the messages, each with its time of receipt in seconds.
 
-    Attributes:
-        topic: such as ``/map``.
-        type_name: such as ``nav_msgs/msg/OccupancyGrid``.
-        messages: each with the time when the recording says that it came, seconds; a nanosecond if None (ROS refuses
-            zero).
-        latched: whether who subscribes late gets the last one.
+    Without a time, a message comes at a nanosecond: ROS refuses zero. ``latched`` says whether who subscribes late gets
+    the last one.
     """
 
     topic: str
@@ -101,15 +97,9 @@ def container_of(path: str | os.PathLike[str]) -> str:
 def write_channels(
     path: str | os.PathLike[str],
     channels: Sequence[Channel],
-    *,
-    definitions: Callable[[int], dict[str, str]] | None = None,
+    definitions: Callable[[int], dict[str, str]] = lambda ros: {},
 ) -> Path:
-    """Write topics with any number of messages as a recording, whole or not at all. Returns the path.
-
-    Args:
-        path: its ending chooses the container, see above.
-        channels: the topics.
-        definitions: message definitions, by type name, that rosbags lacks, for a ROS version.
+    """Write topics as a recording, whole or not at all; ``definitions`` by type are those that rosbags lacks.
 
     Raises:
         BadInput: another ending, or a file or folder that cannot be written.
@@ -119,7 +109,7 @@ def write_channels(
     ending = container_of(path)
     ros = 1 if ending == ".bag" else 2
     store = get_typestore(Stores.ROS1_NOETIC if ros == 1 else Stores.ROS2_HUMBLE)
-    for name, text in (definitions(ros) if definitions is not None else {}).items():
+    for name, text in definitions(ros).items():
         store.register(get_types_from_msg(text, name))
     target = Path(path)
     if ending == FOLDER:
@@ -242,26 +232,15 @@ _MAP = (
 
 
 def write_occupancy_grid(
-    path: str | os.PathLike[str],
-    occupancy: ArrayLike,
-    grid: Grid,
-    observed: ArrayLike | None = None,
-    *,
-    stamp_s: float | None = None,
-    **thresholds: Any,
-) -> Path:
+    path: str | os.PathLike[str], occupancy: ArrayLike, grid: Grid, observed: ArrayLike | None = None, *,
+    stamp_s: float | None = None, **thresholds: Any,
+) -> Path:  # fmt: skip
     """Write a map as the one message of a recording, an OccupancyGrid. Returns the path.
 
-    Args:
-        path: .bag, .mcap, .db3 or a folder, see `bayesmap.io.ros.writer`.
-        occupancy: probability that each cell is occupied, shape (nx, ny), NaN where unknown.
-        grid: the grid of the map.
-        observed: cells that some beam reached, shape (nx, ny); the others are -1. All by default.
-        stamp_s: time of the map; zero if None.
-        thresholds: ``mode``, ``occupied_thresh`` and ``free_thresh`` of `bayesmap.io.ros.maps.in_percent`.
+    ``occupancy``, ``grid``, ``observed`` and ``thresholds`` are those of `bayesmap.io.ros.maps.in_percent`.
 
     Raises:
-        BadInput: those of `bayesmap.io.ros.maps.in_percent`, another ending, or a file that cannot be written.
+        BadInput: those of `in_percent`, another ending, or a file that cannot be written.
     """
     from bayesmap.io.ros.maps import in_percent
 
@@ -279,24 +258,15 @@ def write_occupancy_grid(
 
 
 def write_grid_map(
-    path: str | os.PathLike[str],
-    layers: Mapping[str, ArrayLike],
-    grid: Grid,
-    observed: ArrayLike | None = None,
-    *,
+    path: str | os.PathLike[str], layers: Mapping[str, ArrayLike], grid: Grid, observed: ArrayLike | None = None, *,
     stamp_s: float | None = None,
-) -> Path:
-    """Write the layers of a map as the one message of a recording, a GridMap. Returns the path.
+) -> Path:  # fmt: skip
+    """Write layers, as `as_layers` takes them, as the one message of a recording, a GridMap. Returns the path.
 
-    Args:
-        path: .bag, .mcap, .db3 or a folder, see `bayesmap.io.ros.writer`.
-        layers: by name, each of shape (nx, ny), NaN where unknown; the first is the basic layer.
-        grid: the grid of the map.
-        observed: cells that some beam reached, shape (nx, ny); the others are NaN. All by default.
-        stamp_s: time of the map; zero if None.
+    The first is the basic layer.
 
     Raises:
-        BadInput: no layer, shapes that do not fit, infinite numbers, another ending, or a file that cannot be written.
+        BadInput: layers that do not fit, another ending, or a file that cannot be written.
     """
     checked = as_layers(grid, layers, observed)
     length_m = np.array(grid.shape) * grid.resolution
@@ -316,11 +286,10 @@ def write_grid_map(
 
     def definitions(ros: int) -> dict[str, str]:
         """Return the messages of the package grid_map_msgs, which rosbags lacks."""
-        return {GRID_MAP_INFO: _HEADER + _INFO, GRID_MAP: _MAP} if ros == 1 else {
-            GRID_MAP_INFO: _INFO, GRID_MAP: _HEADER + _MAP
-        }  # fmt: skip
+        info, whole = (_HEADER + _INFO, _MAP) if ros == 1 else (_INFO, _HEADER + _MAP)
+        return {GRID_MAP_INFO: info, GRID_MAP: whole}
 
-    return write_channels(path, [Channel("/grid_map", GRID_MAP, [(stamp_s, message)])], definitions=definitions)
+    return write_channels(path, [Channel("/grid_map", GRID_MAP, [(stamp_s, message)])], definitions)
 
 
 def _matrix(store: Typestore, values: NDArray[np.float32]) -> Any:
@@ -338,10 +307,7 @@ def _matrix(store: Typestore, values: NDArray[np.float32]) -> Any:
 def write_trajectory_recording(path: str | os.PathLike[str], trajectory: Trajectory, *, frame: str = FRAME) -> Path:
     """Write a trajectory as a recording, whole or not at all. Returns the path.
 
-    Args:
-        path: .bag, .mcap, .db3 or a folder.
-        trajectory: poses without stamps are numbered, a second apart.
-        frame: in which the poses are given.
+    Poses without stamps lie a second apart.
 
     Raises:
         BadInput: no pose, another ending, or a file that cannot be written.
@@ -350,34 +316,25 @@ def write_trajectory_recording(path: str | os.PathLike[str], trajectory: Traject
         raise BadInput("trajectory: there is no pose to write")
     stamps = trajectory.stamps_s
     stamps = np.arange(len(trajectory), dtype=np.float64) if stamps is None else stamps
-    whole = partial(_path_message, trajectory.poses, stamps, frame)
-    channels = [Channel("/trajectory", PATH, [(float(stamps[-1]), whole)])]
-    if trajectory.covariances is not None:
-        messages = [
-            (float(stamp), partial(_pose_message, pose, covariance, float(stamp), frame))
-            for pose, covariance, stamp in zip(trajectory.poses, trajectory.covariances, stamps, strict=True)
+    poses, times = trajectory.poses.tolist(), [float(stamp) for stamp in stamps]
+
+    def path_message(store: Typestore, ros: int) -> Any:
+        stamped = store.types["geometry_msgs/msg/PoseStamped"]
+        listed = [
+            stamped(header=header_of(store, ros, frame, stamp), pose=pose_of(store, *pose))
+            for pose, stamp in zip(poses, times, strict=True)
         ]
+        return store.types[PATH](header=header_of(store, ros, frame, times[-1]), poses=listed)
+
+    def pose_message(at: int, store: Typestore, ros: int) -> Any:
+        covariance = np.zeros((6, 6))
+        covariance[np.ix_(IN_PLANE, IN_PLANE)] = trajectory.covariances[at]  # type: ignore[index]
+        posed = store.types["geometry_msgs/msg/PoseWithCovariance"]
+        pose = posed(pose=pose_of(store, *poses[at]), covariance=covariance.ravel())
+        return store.types[POSE](header=header_of(store, ros, frame, times[at]), pose=pose)
+
+    channels = [Channel("/trajectory", PATH, [(times[-1], path_message)])]
+    if trajectory.covariances is not None:
+        messages = [(stamp, partial(pose_message, i)) for i, stamp in enumerate(times)]
         channels.append(Channel("/pose", POSE, messages, latched=False))
     return write_channels(path, channels)
-
-
-def _path_message(
-    poses: NDArray[np.float64], stamps_s: NDArray[np.float64], frame: str, store: Typestore, ros: int
-) -> Any:
-    stamped = store.types["geometry_msgs/msg/PoseStamped"]
-    listed = [
-        stamped(header=header_of(store, ros, frame, float(stamp)), pose=pose_of(store, *(float(v) for v in pose)))
-        for pose, stamp in zip(poses, stamps_s, strict=True)
-    ]
-    return store.types[PATH](header=header_of(store, ros, frame, float(stamps_s[-1])), poses=listed)
-
-
-def _pose_message(
-    pose: NDArray[np.float64], covariance: NDArray[np.float64], stamp_s: float, frame: str, store: Typestore, ros: int
-) -> Any:
-    six = np.zeros((6, 6))
-    six[np.ix_(IN_PLANE, IN_PLANE)] = covariance
-    posed = store.types["geometry_msgs/msg/PoseWithCovariance"](
-        pose=pose_of(store, *(float(v) for v in pose)), covariance=six.ravel()
-    )
-    return store.types[POSE](header=header_of(store, ros, frame, stamp_s), pose=posed)

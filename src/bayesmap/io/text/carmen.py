@@ -38,7 +38,7 @@ from numpy.typing import NDArray
 from bayesmap.errors import BadInput
 from bayesmap.files import write_text
 from bayesmap.io.log_reading import WITHOUT_POSES, Account, LogOptions, LogReading, Pose
-from bayesmap.io.returns import Readings, Views, decode
+from bayesmap.io.returns import Readings, Views, decode, largest_hit_m
 from bayesmap.io.text.lines import log_lines, numbers_in
 from bayesmap.space.planar import between, compose
 from bayesmap.space.scans import Fan, Scans, as_poses, fan_fault, side_by_side
@@ -70,13 +70,9 @@ class Malformed(Exception):
 
 @dataclass(frozen=True)
 class LaserLine:
-    """One scan as its line says it.
+    """One scan as its line says it: its beams, its raw readings, (A,), and the sensor's largest range, if stated.
 
-    Attributes:
-        fan: its beams.
-        readings_m: as they are, shape (A,).
-        numbers: laser pose, robot pose, time: shape (7,), all finite; poses are zero where the line has none.
-        max_range_m: the sensor's largest range, where the line states one.
+    ``numbers`` are the laser's pose, the robot's pose and the time, (7,), all finite; poses are zero if there are none.
     """
 
     fan: Fan
@@ -135,11 +131,7 @@ def read_carmen(path: str | os.PathLike[str], options: LogOptions) -> LogReading
 
 
 def message_name(line: bytes) -> str:
-    """Return the line's first word; empty for comments and blank lines.
-
-    Raises:
-        Malformed: a word that is not the name of a message.
-    """
+    """Return the line's first word, empty for comments and blank lines; raise `Malformed` if it names no message."""
     if b"\0" in line:
         raise Malformed("binary data; a log is text")
     words = line.split(None, 1)
@@ -156,11 +148,7 @@ def message_name(line: bytes) -> str:
 
 
 def parse_laser(kind: str, words: list[bytes]) -> LaserLine:
-    """Return the scan that the words of a line hold.
-
-    Raises:
-        Malformed: a line that does not follow its format.
-    """
+    """Return the scan that the words of a line hold; raise `Malformed` if they do not follow its format."""
     count_at = 1 if kind in IMPLICIT else 8
     beams = _count(kind, words, count_at, "readings")
     readings_end = count_at + 1 + beams
@@ -210,11 +198,7 @@ def _count(kind: str, words: list[bytes], at: int, what: str) -> int:
 
 
 def parse_floats(kind: str, words: list[bytes], at: int) -> Floats:
-    """Return words as numbers, (N,); ``at`` is the index of the first within its line, for messages.
-
-    Raises:
-        Malformed: a word that is none.
-    """
+    """Return words as numbers, (N,), or raise `Malformed`; ``at`` is the index of the first within its line."""
     numbers = numbers_in(words)
     if isinstance(numbers, int):
         shown = words[numbers][:20].decode("ascii", "backslashreplace")
@@ -232,9 +216,7 @@ def _check_odometry(words: list[bytes]) -> None:
 def laser_reading(account: Account, lasers: Mapping[str, Sequence[LaserScan]]) -> tuple[LogReading, list[Fan]]:
     """Return the reading of a log by the kind of message that has most scans, and its fans, the commonest first.
 
-    Args:
-        account: of the log.
-        lasers: scans by their kind of message, in the order of the file; at least one.
+    ``lasers`` holds scans by their kind of message, in the order of the file; at least one.
 
     Raises:
         BadInput: no reading is a range, and the largest range is not given.
@@ -273,11 +255,8 @@ def _typed(account: Account, raw: Floats, stated_m: float | None, views: Views) 
     ranges, coded = decode(raw, account.options.no_return, stated_m, views)
     limit, origin = account.options.max_range_m, "given"
     if limit is None:
-        hits = ranges[np.isfinite(ranges)]
         code = coded.code_m if coded.code_m is not None and coded.code_m > 0 else math.inf
-        limit, origin = min(math.ceil(hits.max()) if hits.size else math.inf, code), "readings"
-        if math.isinf(limit):
-            raise BadInput(f"{account.name}: no reading of {ranges.size} is a range; give the sensor's --max-range")
+        limit, origin = largest_hit_m(account.name, ranges, code), "readings"
     return Readings(ranges, coded, 0.0, float(limit), origin, coded.notes())
 
 

@@ -79,31 +79,18 @@ ROS2_COLUMNS = [name for name in ROS2_FIELDS if name]
 
 @dataclass
 class _Table:
-    """What lies in the file: settings from comments, the header, and the rows with their line numbers.
-
-    Attributes:
-        name: of the file.
-        bad: is told of malformed rows.
-        settings: from comments, and from columns that are the same in all rows.
-        columns: those that are read.
-        at: where they stand in a line.
-        width: fields of a line.
-        lines: numbers of the lines of ``rows``.
-        rows: a number for each of ``columns``.
-        delimiter: between fields.
-        headless: whether these are the rows of ``ros2 topic echo --csv``, of any number of readings each.
-    """
+    """What lies in the file: settings from comments, the header, and the rows with their line numbers."""
 
     name: str
     bad: Bad
-    settings: dict[str, list[float]] = field(default_factory=dict)
-    columns: list[str] = field(default_factory=list)
-    at: list[int] = field(default_factory=list)
-    width: int = 0
-    lines: list[int] = field(default_factory=list)
-    rows: list[Floats] = field(default_factory=list)
+    settings: dict[str, list[float]] = field(default_factory=dict)  # from comments, and columns that never change
+    columns: list[str] = field(default_factory=list)  # those that are read
+    at: list[int] = field(default_factory=list)  # where these stand in a line
+    width: int = 0  # fields of a line
+    lines: list[int] = field(default_factory=list)  # numbers of the lines of `rows`
+    rows: list[Floats] = field(default_factory=list)  # a number for each of `columns`
     delimiter: bytes = b","
-    headless: bool = False
+    headless: bool = False  # rows of ros2 topic echo --csv, of any number of readings each
 
     def limits(self) -> tuple[float, float]:
         """Return the sensor's smallest and largest range, as far as comments say them."""
@@ -199,11 +186,7 @@ class _Table:
         return set(POSE) <= set(self.columns)
 
     def scans(self) -> _Parts:
-        """Return the scans of the rows so far.
-
-        Raises:
-            BadInput: no angles, or no column that tells scans apart.
-        """
+        """Return the scans of the rows so far; raise `BadInput` without angles, or a column that tells scans apart."""
         return _one_row_a_scan(self) if "r_0" in self.columns else _one_row_a_beam(self)
 
 

@@ -54,13 +54,9 @@ class Unknown(Exception):
 
 @dataclass(frozen=True)
 class Header:
-    """Where an object begins.
+    """Where an object begins: its class without namespace, the version of its layout, and where its data begin.
 
-    Attributes:
-        name: its class, without namespace.
-        version: of its layout.
-        data: where its data begin.
-        ended: whether `END` follows them.
+    ``ended`` says whether `END` follows the data.
     """
 
     name: str
@@ -74,15 +70,15 @@ class RawScan:
     """A scan as it lies in the log.
 
     Attributes:
-        label: of the sensor.
-        stamp_s: in seconds since 1970; None if it has none.
-        angles_rad: of its beams, in the frame of the sensor seen from above, (A,).
-        readings_m: those that are not valid coded, (A,).
+        label: the sensor's name.
+        stamp_s: seconds since 1970; None if the scan has no stamp.
+        angles_rad: beam angles in the frame of the sensor seen from above, (A,).
+        readings_m: readings, (A,); those that are not valid are coded.
         mount: the sensor on the robot, in the plane.
         upright: the vertical component of the sensor's z axis.
-        max_range_m: as stated.
+        max_range_m: the stated largest range.
         motions: how many motions of the robot came before.
-        odometry: the pose that odometry stated last before the scan, if that has the scan's stamp; None if not.
+        odometry: the last pose of the odometry before the scan, if it has the scan's stamp.
     """
 
     label: str
@@ -202,13 +198,11 @@ class Reader:
         elif header.version == 2:
             x, y, z, w, i, j, k = self.take("7d")
             position = np.array([x, y, z])
-            rotation = np.array(
-                [
-                    [1 - 2 * (j * j + k * k), 2 * (i * j - k * w), 2 * (i * k + j * w)],
-                    [2 * (i * j + k * w), 1 - 2 * (i * i + k * k), 2 * (j * k - i * w)],
-                    [2 * (i * k - j * w), 2 * (j * k + i * w), 1 - 2 * (i * i + j * j)],
-                ]
-            )
+            rotation = np.array([
+                [1 - 2 * (j * j + k * k), 2 * (i * j - k * w), 2 * (i * k + j * w)],
+                [2 * (i * j + k * w), 1 - 2 * (i * i + k * k), 2 * (j * k - i * w)],
+                [2 * (i * k - j * w), 2 * (j * k + i * w), 1 - 2 * (i * i + j * j)],
+            ])  # fmt: skip
         elif header.version == 3:
             numbers = self.array("<f8", 12)
             position, rotation = numbers[:3], numbers[3:].reshape(3, 3)
@@ -225,10 +219,8 @@ class Reader:
     def finish(self, header: Header, rests: list[list[str]]) -> None:
         """Read the fields that stand last, whose widths some releases changed without another version.
 
-        Args:
-            header: of the object.
-            rests: alternatives of each field as struct formats; the object's end tells which it was. T and F at the
-                start of one are a byte that must be 1, or 0.
+        ``rests`` holds the alternatives of each field as struct formats; the object's end tells which it was. T and F
+        at the start of one are a byte that must be 1, or 0.
         """
         start = self.at
         for forms in product(*rests):
@@ -247,11 +239,7 @@ class Reader:
 
 
 def scan_of(reader: Reader, header: Header, motions: int) -> RawScan:
-    """Return a CObservation2DRangeScan.
-
-    Raises:
-        Unknown: another version, or damage.
-    """
+    """Return a CObservation2DRangeScan; raise `Unknown` for another version, or damage."""
     version = header.version
     if not 0 <= version <= 8:
         raise Unknown("is not known: versions 0 to 8 are read")
@@ -293,11 +281,7 @@ def scan_of(reader: Reader, header: Header, motions: int) -> RawScan:
 
 
 def motion_of(reader: Reader, header: Header) -> tuple[int, Floats]:
-    """Return how a CActionRobotMovement2D was estimated, and the motion, (3,).
-
-    Raises:
-        Unknown: another version, a motion that is no Gaussian, or damage.
-    """
+    """Return how a CActionRobotMovement2D was estimated, and the motion, (3,); raise `Unknown` as `scan_of`."""
     version = header.version
     if not 0 <= version <= 7:
         raise Unknown("is not known: versions 0 to 7 are read")
@@ -321,11 +305,7 @@ def motion_of(reader: Reader, header: Header) -> tuple[int, Floats]:
 
 
 def odometry_of(reader: Reader, header: Header) -> tuple[str, float | None, Floats]:
-    """Return the sensor's label of a CObservationOdometry, its time, and the pose, (3,).
-
-    Raises:
-        Unknown: another version, or damage.
-    """
+    """Return the label, the time and the pose, (3,), of a CObservationOdometry; raise `Unknown` as `scan_of`."""
     if not 0 <= header.version <= 2:
         raise Unknown("is not known: versions 0 to 2 are read")
     pose = _checked(reader.pose_in_plane())
