@@ -4,10 +4,14 @@ import pytest
 import bayesmap as bm
 from bayesmap.cells.kinds import prior_from
 
+PRIORS = [bm.Beta(), bm.Beta(0.5, 3.0), bm.Surface(), bm.Surface(0.1, 2, 0.3, 0.2, 4.5)]
 
-@pytest.mark.parametrize("prior", [bm.Beta(), bm.Beta(0.5, 3.0), bm.Surface(), bm.Surface(0.1, 2, 0.3, 0.2, 4.5)])
+
+@pytest.mark.parametrize("prior", [*PRIORS, bm.Independent(0.2), bm.Ising(0.2, 0.75)])
 def test_a_prior_comes_back_from_its_description(prior):
-    assert prior_from(prior.describe()) == prior
+    again = prior_from(prior.describe())
+    assert (type(again), vars(again)) == (type(prior), vars(prior))
+    assert repr(again) == repr(prior)
 
 
 @pytest.mark.parametrize("prior", [bm.Beta(0.5, 1.5), bm.Surface(0.5, 1.5)])
@@ -15,25 +19,35 @@ def test_the_mean_is_the_share_of_stopped_beams(prior):
     assert prior.mean == 0.25
 
 
-@pytest.mark.parametrize("value", [0.0, -1.0, np.nan, np.inf])
-@pytest.mark.parametrize("kind", [bm.Beta, bm.Surface])
-@pytest.mark.parametrize("which", ["a", "b"])
-def test_counts_must_be_positive_numbers(kind, which, value):
-    with pytest.raises(bm.BadInput, match=f"{kind.__name__}: {which} must be a positive number"):
-        kind(**{which: value})
+BAD = [0.0, -1.0, np.nan, np.inf]
+REFUSED = [
+    *((kind, {which: value}, f"{kind.__name__}: {which} must be a positive number")
+      for kind in (bm.Beta, bm.Surface) for which in ("a", "b") for value in BAD),
+    *((bm.Surface, {which: value}, f"{which} must be a positive number of cells")
+      for which in ("mean_scale", "spread", "size_scale") for value in BAD),
+    *((bm.Surface, {"dof": value}, "dof must exceed 1") for value in (1.0, 0.5, np.nan, np.inf)),
+    (bm.Surface, {"coupling": -0.1}, r"Surface: coupling must be a number in \[0, 50\], got -0.1"),
+    (bm.Surface, {"coupling": np.nan}, "coupling must be a number"),
+    (bm.Beta, {"coupling": "fit"}, "Beta: coupling must be a number in .* got 'fit'"),
+    (bm.Surface, {"coupling": 1.0, "a_solid": 0.0}, "Surface: a_solid must be a positive number"),
+    (bm.Ising, {"p_wall": 1.5, "coupling": 0.5}, r"Ising: p_wall must lie in \[0, 1\], got 1.5"),
+    (bm.Ising, {"p_wall": 0.5, "coupling": -0.1}, r"Ising: coupling must lie in \[0, 50\], got -0.1"),
+    *((bm.Ising, {"p_wall": 0.5, "coupling": value}, "coupling must lie in") for value in (np.nan, np.inf)),
+    (bm.Ising, {"p_wall": 0.5, "coupling": "strong"}, "coupling must be a number or 'fit', got 'strong'"),
+]  # fmt: skip
 
 
-@pytest.mark.parametrize("value", [0.0, -1.0, np.nan, np.inf])
-@pytest.mark.parametrize("which", ["mean_scale", "spread", "size_scale"])
-def test_sizes_must_be_positive_numbers(which, value):
-    with pytest.raises(bm.BadInput, match=f"{which} must be a positive number of cells"):
-        bm.Surface(**{which: value})
+@pytest.mark.parametrize(("kind", "arguments", "message"), REFUSED)
+def test_parameters_that_make_no_sense_are_refused(kind, arguments, message):
+    with pytest.raises(bm.BadInput, match=message):
+        kind(**arguments)
 
 
-@pytest.mark.parametrize("value", [1.0, 0.5, np.nan, np.inf])
-def test_degrees_of_freedom_must_exceed_one(value):
-    with pytest.raises(bm.BadInput, match="dof must exceed 1"):
-        bm.Surface(dof=value)
+def test_walls_of_another_grid_and_a_coupling_that_is_not_fitted_are_refused():
+    with pytest.raises(bm.BadInput, match="coupling is not fitted yet"):
+        bm.Ising(0.5, "fit").log_prob(np.zeros((2, 2), bool), bm.Grid((2, 2)))
+    with pytest.raises(bm.BadInput, match="Ising: p_wall has shape"):
+        bm.Ising(np.full((2, 3), 0.5), 1.0).probabilities(bm.Grid((2, 2)))
 
 
 def test_surfaces_that_can_hardly_be_as_small_as_they_must_are_refused():

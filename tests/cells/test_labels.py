@@ -65,20 +65,6 @@ def test_the_kernel_s_log_gamma():
     np.testing.assert_allclose(out.numpy(), scipy.special.gammaln(x), rtol=1e-13, atol=1e-12)
 
 
-@pytest.mark.parametrize(
-    ("make", "message"),
-    [
-        (lambda: bm.Surface(coupling=-0.1), r"Surface: coupling must be a number in \[0, 50\], got -0.1"),
-        (lambda: bm.Surface(coupling=np.nan), "coupling must be a number"),
-        (lambda: bm.Beta(coupling="fit"), "Beta: coupling must be a number in .* got 'fit'"),
-        (lambda: bm.Surface(coupling=1.0, a_solid=0.0), "Surface: a_solid must be a positive number"),
-    ],
-)
-def test_bad_priors_are_refused(make, message):
-    with pytest.raises(bm.BadInput, match=message):
-        make()
-
-
 def test_descriptions_give_the_prior_back_and_are_as_before_without_labels():
     for prior in (*LABELLED.values(), bm.Surface(0.01, 0.3, coupling=0.7, a_solid=1.5, b_solid=0.5, dof=4.0)):
         assert prior_from(prior.describe()) == prior

@@ -2,13 +2,13 @@
 
 from dataclasses import replace
 from functools import cache
+from itertools import product
+from typing import NamedTuple
 
 import numpy as np
-import pytest
 from oracle.enumeration import all_maps
 from oracle.transitions import block_sites, single_sites
 from oracle.worlds import make_case
-from tiers import latin
 
 import bayesmap as bm
 from bayesmap.model import Model
@@ -23,53 +23,72 @@ BOTH = [(method, order) for method in SAMPLERS for order in ORDERS]
 PRIORS = (0.05, 0.3, 0.5, "cells")
 NOISES = (0.1, 0.5, 2.0)
 SHAPES = ((4, 4), (3, 4), (4, 2), (1, 6), (4, 4), (5, 1), (2, 2), (4, 4))
+LATTICE = 8
+"""Beams a pose where they go along lines and through corners: a beam touches three cells at once, and ties are many."""
+
+
+class World(NamedTuple):
+    """A little problem: prior wall probability, noise, and whether it is robust; beams of each pose; coupling."""
+
+    prior: float | str
+    noise: float
+    robust: bool
+    shape: tuple
+    poses: int
+    beams: int
+    coupling: float = 0.0
+
+    @property
+    def name(self):
+        kind, coupled = "mixture" if self.robust else "gaussian", f"-coupling{self.coupling}" if self.coupling else ""
+        size = "x".join(map(str, self.shape))
+        return f"{kind}-noise{self.noise}-prior{self.prior}{coupled}-{size}-{self.poses}poses-{self.beams}beams"
+
 
 # Every prior with every noise, Gaussian and robust; shapes and numbers of poses take turns.
-WORLDS = [
-    (prior, noise, robust, SHAPES[(5 * i + 3 * j + k) % len(SHAPES)], 1 + (i + j + k) % 3, 9)
+APART = [
+    World(prior, noise, robust, SHAPES[(5 * i + 3 * j + k) % len(SHAPES)], 1 + (i + j + k) % 3, 9)
     for i, prior in enumerate(PRIORS)
     for j, noise in enumerate(NOISES)
     for k, robust in enumerate((False, True))
 ]
 # Many beams a cell: what samplers do to save work there (bounds, kept sums) is tried too.
-WORLDS += [
-    (prior, noise, robust, (4, 4), 2, 70)
-    for prior in (0.3, "cells")
-    for noise in (0.1, 0.4)
-    for robust in (False, True)
+APART += [World(*case, (4, 4), 2, 70) for case in product((0.3, "cells"), (0.1, 0.4), (False, True))]
+APART += [World(0.3, 0.1, False, (4, 4), 3, LATTICE), World(0.5, 0.5, True, (4, 4), 3, LATTICE)]
+APART += [World("cells", 0.3, False, (3, 4), 2, LATTICE), World(0.2, 0.2, False, (2, 5), 3, LATTICE)]
+# Weak and strong couplings, rare walls, large noise, narrow grids, fixed cells, poses on grid lines.
+COUPLED = [
+    World(0.5, 0.5, False, (4, 4), 1, 9, 0.3),
+    World(0.5, 2.0, True, (4, 4), 2, 9, 1.2),
+    World(0.3, 0.5, True, (3, 4), 3, 9, 0.8),
+    World(0.05, 0.5, False, (4, 4), 2, 9, 0.5),
+    World(0.05, 2.0, False, (4, 4), 2, 9, 1.0),
+    World(0.2, 0.1, False, (4, 3), 3, 70, 0.7),
+    World(0.2, 0.5, True, (2, 5), 2, 9, 2.5),
+    World("cells", 0.3, False, (4, 4), 2, 9, 0.6),
+    World("cells", 1.0, True, (3, 4), 3, LATTICE, 1.5),
+    World(0.4, 0.5, False, (1, 6), 1, 9, 0.9),
+    World(0.4, 0.5, True, (6, 1), 2, 9, 0.9),
+    World(0.3, 0.5, False, (2, 2), 2, 9, 0.8),
 ]
-# Beams along lines and through corners, 8 a pose: there a beam touches three cells at once, and ties are many.
-LATTICE = 8
-WORLDS += [(prior, noise, robust, (4, 4), 3, LATTICE) for prior, noise, robust in ((0.3, 0.1, False), (0.5, 0.5, True))]
-WORLDS += [("cells", 0.3, False, (3, 4), 2, LATTICE), (0.2, 0.2, False, (2, 5), 3, LATTICE)]
-NAMES = [
-    f"{'mixture' if robust else 'gaussian'}-noise{noise}-prior{prior}-{shape[0]}x{shape[1]}-{poses}poses-{beams}beams"
-    for prior, noise, robust, shape, poses, beams in WORLDS
-]
-
-
-def matrix(worlds, orders=ORDERS, names=NAMES):
-    """Parametrise a test over numbers of worlds, methods and orders; the landing run takes each world with each method
-    in one order, and so each method and order with one world in three (in two, where there are two orders).
-    """
-    cases = latin(len(orders), worlds, list(SAMPLERS), orders)
-    ids = [f"{names[number]}-{method}-{order}" for number, method, order in (case.values for case in cases)]
-    return pytest.mark.parametrize(("number", "method", "order"), cases, ids=ids)
+WORLDS = APART + COUPLED
+NAMES = [world.name for world in WORLDS]
 
 
 @cache
-def world(number):
-    prior, noise, robust, shape, poses, beams = WORLDS[number]
-    sensor = bm.BeamMixture(bm.Gaussian(noise)) if robust else bm.Gaussian(noise)
+def case_of(world):
+    """The problem of a world, and everything that the oracle says about it."""
+    sensor = bm.BeamMixture(bm.Gaussian(world.noise)) if world.robust else bm.Gaussian(world.noise)
+    seed = [COUPLED.index(world), 1925] if world.coupling else [APART.index(world), 77]
     return make_case(
-        [number, 77],
-        shape=shape,
-        n_poses=poses,
-        prior=prior,
-        sensor=sensor,
-        beams_per_pose=beams,
-        lattice=beams == LATTICE,
-    )
+        seed, shape=world.shape, n_poses=world.poses, prior=world.prior, sensor=sensor, beams_per_pose=world.beams,
+        lattice=world.beams == LATTICE, coupling=world.coupling,
+    )  # fmt: skip
+
+
+def first(**wanted):
+    """The first world with these properties."""
+    return next(world for world in WORLDS if all(getattr(world, name) == value for name, value in wanted.items()))
 
 
 def draw_maps(rng, p, n, count):

@@ -113,12 +113,6 @@ def test_a_stop_in_the_last_step_is_a_stop_and_resumed_there_is_nothing_left_to_
     assert_same(chains_of(problem, "gibbs", "radial", resume=part), whole)
 
 
-def test_a_finished_run_is_not_run_again():
-    problem = problem_8x8()
-    whole = chains_of(problem, "gibbs", "radial")
-    assert_same(chains_of(problem, "gibbs", "radial", resume=whole), whole)
-
-
 def test_a_checkpoint_comes_at_the_end_of_warm_up_and_is_good_to_resume_from():
     problem, seen = problem_8x8(), []
     whole = chains_of(problem, "block", "random", on_checkpoint=seen.append, checkpoint_every_s=1e9)
@@ -157,8 +151,6 @@ def test_what_is_kept_is_told_by_a_value():
     assert list(Keep(13, 3).sweeps(16, 24)) == [19, 22]
     assert list(Keep(13, 3).sweeps(17, 18)) == list(Keep().sweeps(0, 100)) == []
     assert list(Keep(0, 1).sweeps(4, 7)) == [5, 6, 7]
-    assert Keep().wants("walls")
-    assert not Keep(arrays=("other",)).wants("walls")
 
 
 @pytest.mark.parametrize(("method", "order"), BOTH)
@@ -241,18 +233,6 @@ def test_the_reported_log_joint_is_that_of_the_drawn_map(method, order):
                 reported = info.log_likelihood[chain, draw] + info.log_prior[chain, draw]
                 assert reported == pytest.approx(problem.log_joint(walls), rel=1e-6, abs=1e-4)
                 assert info.log_prior[chain, draw] == pytest.approx(case.prior.log_prob(walls, case.grid), abs=1e-9)
-
-
-def test_fixed_cells_stay_as_the_prior_fixed_them():
-    case = make_case(4, prior="cells", n_poses=3)
-    problem = case.problem()
-    p = case.prior.p_wall
-    for method, order in BOTH:
-        sampler = SAMPLERS[method][0](order, "ones")
-        _, info = sampler.step(sampler.init(problem, range(50), 1), 20, keep=Keep(0, 1))
-        draws = unpack(info.draws["walls"], case.grid.shape).reshape(-1, *case.grid.shape)
-        assert not draws[:, p == 0].any()
-        assert draws[:, p == 1].all()
 
 
 def test_radial_orders_go_outwards_from_the_nearest_sensor():

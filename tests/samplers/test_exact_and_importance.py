@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 import scipy
-from oracle.enumeration import all_maps, marginals, number_of, pairs
+from oracle.enumeration import all_maps, log_prior_of_all, marginals, number_of, pairs
 from oracle.verdict import ALPHA, goodness_of_fit, least_p_value
 from oracle.worlds import make_case
-from sampler_cases import NAMES, WORLDS, world
+from sampler_cases import COUPLED, NAMES, WORLDS, case_of, first, problem_of
 from tiers import full_but
 
 import bayesmap as bm
@@ -26,11 +26,11 @@ def on_all_cells(found, case):
     return law * np.where(maps[:, rest], p[rest], 1 - p[rest]).prod(axis=1)
 
 
-@pytest.mark.parametrize("number", range(len(WORLDS)), ids=NAMES)
-def test_enumeration_is_the_oracle_s(number):
-    case = world(number)
+@pytest.mark.parametrize("world", WORLDS, ids=NAMES)
+def test_enumeration_is_the_oracle_s(world):
+    case = case_of(world)
     found = enumerate_maps(case.problem())
-    close = 2 * FLAT * case.scans.n_beams if WORLDS[number][2] else 2e-3  # single precision of log-likelihoods
+    close = 2 * FLAT * case.scans.n_beams if world.robust else 2e-3  # single precision of log-likelihoods
     assert found.log_evidence == pytest.approx(case.exact.log_evidence, abs=close, rel=1e-6)
     np.testing.assert_allclose(on_all_cells(found, case), case.exact.p, atol=close)
     np.testing.assert_allclose(found.marginals().ravel(), marginals(case.exact.p, case.n), atol=close)
@@ -38,8 +38,9 @@ def test_enumeration_is_the_oracle_s(number):
     np.testing.assert_allclose(found.pairs(), expected, atol=close)
 
 
-def test_exact_draws_follow_the_posterior():
-    case = world(3)
+@pytest.mark.parametrize("world", [WORLDS[3], COUPLED[0], COUPLED[8]])
+def test_exact_draws_follow_the_posterior(world):
+    case = case_of(world)
     draws = enumerate_maps(case.problem()).sample(np.random.default_rng(1), 20_000)
     assert least_p_value(draws.reshape(-1, case.n), case.exact.p) > ALPHA
 
@@ -57,45 +58,59 @@ def test_too_many_unknown_cells_are_refused_with_the_remedy():
     assert len(enumerate_maps(WallProblem(problem.table, bm.Independent(p), scans.poses)).unknown) == 16
 
 
-# Importance sampling on worlds whose posterior it can reach: wide noise.
-WIDE = [i for i, w in enumerate(WORLDS) if w[1] == 2.0]
+# Importance sampling on worlds whose posterior it can reach: wide noise, or few cells.
+WIDE = [world for world in WORLDS if world.noise == 2.0 and world != COUPLED[1]] + [COUPLED[9]]
 
 
-@pytest.mark.parametrize("number", full_but(WIDE, WIDE[0], WIDE[3], WIDE[7]), ids=[NAMES[i] for i in WIDE])
-def test_importance_sampling_finds_marginals_pairs_and_evidence(number):
+@pytest.mark.parametrize("world", full_but(WIDE, WIDE[0], WIDE[3], WIDE[7], COUPLED[9]))
+def test_importance_sampling_finds_marginals_pairs_and_evidence(world):
     """Within 5.5 standard errors, a false alarm in 10^7 a number. They are computed from the enumeration: an estimate
-    from the particles themselves is too small where the few that matter are missing.
+    from the particles themselves is too small where the few that matter are missing. Without its coupling the law of
+    coupled walls is another one.
     """
-    case = world(number)
-    found = sample_importance(case.problem(), 200_000, seed=number)
+    case, count = case_of(world), 30_000 if world.coupling else 100_000
+    found = sample_importance(case.problem(), count, seed=WORLDS.index(world))
     w = np.exp(found.log_weights)
-    maps = found.maps(np.arange(200_000)).reshape(-1, case.n)
+    maps = found.maps(np.arange(count)).reshape(-1, case.n)
     i, j = np.triu_indices(case.n)
-    p, everything = case.exact.p, all_maps(case.n)
-    prior = np.where(everything, case.problem().p_wall, 1 - case.problem().p_wall).prod(axis=1)
+    p, everything, slack = case.exact.p, all_maps(case.n), FLAT * case.scans.n_beams
+    prior = np.exp(log_prior_of_all(case.grid.shape, case.prior.p_wall, case.prior.pair_coupling))
     weight = np.divide(p, prior, out=np.zeros_like(p), where=prior > 0)  # relative to its mean, under the prior
-    for truth, a, b in zip(pairs(case.exact.p, case.n)[i, j], i, j, strict=True):
-        estimate = w @ (maps[:, a] & maps[:, b])
+    errors = []
+    for truth, a, b in zip(pairs(p, case.n)[i, j], i, j, strict=True):
         deviation = (everything[:, a] & everything[:, b]) - truth
-        error = np.sqrt((p * weight * deviation**2).sum() / len(w))
-        assert abs(estimate - truth) < 5.5 * error + 1e-4
+        errors.append(np.sqrt((p * weight * deviation**2).sum() / count))
+        assert abs(w @ (maps[:, a] & maps[:, b]) - truth) < 5.5 * errors[-1] + slack
     assert found.effective_sample_size == pytest.approx(1 / (w**2).sum())
-    spread = np.sqrt(((p * weight).sum() - 1) / len(w))
-    assert abs(found.log_evidence - case.exact.log_evidence) < 5.5 * spread + FLAT * case.scans.n_beams
-    observed = case.problem().table.observed().ravel()
-    expected = np.where(observed, w @ maps, case.problem().p_wall)
+    spread = np.sqrt(((p * weight).sum() - 1) / count)
+    assert abs(found.log_evidence - case.exact.log_evidence) < 5.5 * spread + slack
+    known = case.problem().table.observed().ravel() | (world.coupling > 0)
+    expected = np.where(known, w @ maps, case.problem().p_wall)
     np.testing.assert_allclose(found.occupancy().ravel(), expected, atol=1e-9)
+    if world.coupling:
+        apart = problem_of(case, prior=bm.Independent(case.prior.p_wall))
+        wrong = sample_importance(apart, count, seed=1).occupancy().ravel()
+        assert (abs(wrong - marginals(p, case.n)) > 5.5 * np.array(errors)[i == j] + slack).any()
+
+
+def test_coupled_particles_are_the_same_in_whatever_batches_they_are_drawn():
+    problem = case_of(COUPLED[0]).problem()
+    found = sample_importance(problem, 6000, seed=1)
+    some = np.array([5999, 0, 511, 512, 17])
+    np.testing.assert_array_equal(found.maps(some), found.maps(np.arange(6000))[some])
+    plain = [problem.table.log_likelihood(walls) for walls in found.maps(some)]
+    np.testing.assert_allclose(found.log_weights[some] - found.log_weights[0], np.subtract(plain, plain[1]), atol=1e-3)
 
 
 def test_resampled_particles_follow_their_weights():
-    case = world(WIDE[0])
+    case = case_of(WIDE[0])
     found = sample_importance(case.problem(), 300, seed=1)
     counts = np.bincount(found.resample(np.random.default_rng(2), 100_000), minlength=300)
     assert goodness_of_fit(counts, np.exp(found.log_weights)) > ALPHA
 
 
 def test_particles_are_drawn_from_the_prior():
-    case = world(next(i for i, w in enumerate(WORLDS) if w[0] == "cells" and w[3] == (4, 4)))
+    case = case_of(first(prior="cells", shape=(4, 4)))
     found = sample_importance(case.problem(), 20_000, seed=3)
     maps, p = all_maps(16), case.problem().p_wall
     law = np.where(maps, p, 1 - p).prod(axis=1)
@@ -103,7 +118,7 @@ def test_particles_are_drawn_from_the_prior():
 
 
 def test_each_weight_is_its_map_s_likelihood():
-    case = world(0)
+    case = case_of(WORLDS[0])
     problem = case.problem()
     found = sample_importance(problem, 500, seed=4)
     plain = [problem.table.log_likelihood(walls) for walls in found.maps(np.arange(500))]
@@ -118,14 +133,14 @@ def test_the_effective_sample_size_collapses_where_readings_are_sharp():
 
 
 def test_a_particle_s_weight_does_not_depend_on_how_many_there_are_or_on_the_batches():
-    case = world(WIDE[0])
+    case = case_of(WIDE[0])
     few, many = (sample_importance(case.problem(), n, seed=1) for n in (1000, 5000))
     shift = many.log_weights[:1000] - few.log_weights
     np.testing.assert_allclose(shift, shift[0], atol=1e-9)
 
 
 def test_a_stopped_run_keeps_its_particles():
-    case = world(WIDE[0])
+    case = case_of(WIDE[0])
     found = sample_importance(case.problem(), 10**7, seed=1, watch=Watch(should_stop=lambda: True))
     assert not found.finished
     assert 0 < len(found.log_weights) < 10**7
@@ -134,7 +149,7 @@ def test_a_stopped_run_keeps_its_particles():
 
 def test_neighbouring_particles_have_no_random_number_in_common():
     """No cell of a particle is correlated with any cell of the next: 256 correlations within 5.5 / sqrt(20 000)."""
-    case = world(next(i for i, w in enumerate(WORLDS) if w[0] == 0.5 and w[3] == (4, 4)))
+    case = case_of(first(prior=0.5, shape=(4, 4)))
     found = sample_importance(case.problem(), 20_000, seed=6)
     maps = found.maps(np.arange(20_000)).reshape(-1, 16) - 0.5
     correlations = 4 * maps[:-1].T @ maps[1:] / len(maps)
@@ -142,6 +157,6 @@ def test_neighbouring_particles_have_no_random_number_in_common():
 
 
 def test_at_an_inverse_temperature_weights_are_the_likelihood_to_that_power():
-    problem = world(WIDE[0]).problem()
+    problem = case_of(WIDE[0]).problem()
     plain, tempered = (sample_importance(problem, 2000, seed=3, beta=beta).log_weights for beta in (1.0, 0.25))
     np.testing.assert_allclose(np.diff(tempered), 0.25 * np.diff(plain), atol=1e-9)

@@ -4,7 +4,7 @@ from itertools import product
 
 import numpy as np
 import pytest
-from stop_rooms import GRID, LABELLED, PRIORS, TRUTH, assert_same, infer, scans, surfaces_of
+from stop_rooms import GRID, LABELLED, PRIORS, TRUTH, assert_same, infer, scans
 from tiers import full_but, pairs_but
 
 import bayesmap as bm
@@ -44,20 +44,6 @@ def test_the_number_of_threads_changes_nothing(kind, chains):
 def test_a_seed_gives_one_run_and_another_seed_another(kind):
     assert_same(infer(kind, seed=3), infer(kind, seed=3))
     assert (infer(kind, seed=3).draws != infer(kind, seed=4).draws).any()
-
-
-@pytest.mark.parametrize(
-    ("kind", "sensor"), pairs_but(product(ALL, ["fit", TRUTH]), ("labelled surfaces", "fit"), ("reflectivities", TRUTH))
-)
-def test_a_chain_does_not_know_of_the_others_the_fit_included(kind, sensor):
-    many, one = (infer(kind, chains=chains, sensor=sensor) for chains in (3, 1))
-    np.testing.assert_array_equal(many.draws[0], one.draws[0])
-    if kind == "surfaces":
-        np.testing.assert_array_equal(surfaces_of(many.posterior)[0], surfaces_of(one.posterior)[0])
-    np.testing.assert_array_equal(many.log_joint[0], one.log_joint[0])
-    assert many.posterior.sensor == one.posterior.sensor
-    assert (many.posterior.sensor == TRUTH) == (sensor == TRUTH)
-    assert (many.draws[1] != many.draws[0]).any()
 
 
 @pytest.mark.parametrize("kind", full_but(ALL, "surfaces"))
@@ -109,11 +95,6 @@ def test_a_run_saved_and_loaded_at_any_sweep_goes_on_bit_for_bit(tmp_path):
     for stop in (stops[0], stops[7], stops[11], stops[14]):
         stop.save(tmp_path / "part.nc")
         assert_same(infer("surfaces", resume=bm.load(tmp_path / "part.nc")), whole)
-
-
-def test_a_finished_run_goes_on_to_itself():
-    run = infer("surfaces")
-    assert_same(infer("surfaces", resume=run), run)
 
 
 def test_asked_to_stop_it_stops_between_two_sweeps():

@@ -21,20 +21,20 @@ LEAST_HALF = float(np.finfo(np.float16).smallest_subnormal)
 
 
 def unpack(packed: NDArray[np.uint8], shape: tuple[int, int]) -> NDArray[np.bool_]:
-    """Packed maps (..., ceil(N / 8)) as booleans (..., nx, ny)."""
+    """Return packed maps (..., ceil(N / 8)) as booleans (..., nx, ny)."""
     cells = shape[0] * shape[1]
     bits = np.unpackbits(packed, axis=-1, count=cells)
     return bits.reshape(*packed.shape[:-1], *shape).view(np.bool_)
 
 
 def pack(walls: NDArray[np.bool_]) -> NDArray[np.uint8]:
-    """Maps (..., nx, ny), packed."""
+    """Pack maps (..., nx, ny), eight cells to a byte: (..., ceil(N / 8))."""
     cells = walls.shape[-2] * walls.shape[-1]
     return np.packbits(np.asarray(walls, dtype=np.bool_).reshape(*walls.shape[:-2], cells), axis=-1)
 
 
 def count_walls(packed: NDArray[np.uint8], cells: int) -> NDArray[np.int64]:
-    """In how many of the packed maps (n, bytes) each cell is a wall, shape (N,), without unpacking all at once."""
+    """Count the packed maps (n, bytes) in which each cell is a wall, (N,), without unpacking all at once."""
     batch = max(1, BATCH_BITS // max(cells, 1))
     total = np.zeros(cells, dtype=np.int64)
     for i in range(0, len(packed), batch):
@@ -43,10 +43,10 @@ def count_walls(packed: NDArray[np.uint8], cells: int) -> NDArray[np.int64]:
 
 
 def as_halves(values: NDArray[np.floating]) -> NDArray[np.float16]:
-    """What `astype(np.float16)` gives, bit for bit, in a fifth of the time where many numbers are next to nothing.
+    """Return `values.astype(np.float16)`, bit for bit, in a fifth of the time where many numbers are close to zero.
 
-    NumPy takes 80 ns for each number that is rounded to a subnormal half, and most reflectivities are. The bits of such
-    a half, without its sign, are a whole number of the smallest ones.
+    NumPy takes 80 ns for each number that is rounded to a subnormal half, and most reflectivities are. The bits of a
+    subnormal half, without its sign, count multiples of the smallest one.
     """
     size = np.abs(values)
     small = size < LEAST_NORMAL
@@ -57,7 +57,7 @@ def as_halves(values: NDArray[np.floating]) -> NDArray[np.float16]:
 
 
 OF_CELLS = ("cell", "surface_cell")
-"""Dimensions that count some of the grid's cells."""
+"""Dimensions that index some of the grid's cells."""
 
 
 @dataclass(frozen=True)
@@ -80,7 +80,7 @@ class ArraySpec:
     what: str = ""
 
     def stored(self, values: NDArray[Any]) -> NDArray[Any]:
-        """Values (..., *dims) as they are kept."""
+        """Return values (..., *dims) in their stored form."""
         if self.storage == "bits":
             leading, rest = values.shape[: -len(self.dims)], values.shape[-len(self.dims) :]
             flat = np.asarray(values, dtype=np.bool_).reshape(*leading, math.prod(rest))
@@ -90,14 +90,14 @@ class ArraySpec:
         return np.asarray(values, dtype=self.dtype)
 
     def values(self, stored: NDArray[Any], shape: tuple[int, ...]) -> NDArray[Any]:
-        """What was stored, with the sizes of its dimensions."""
+        """Return stored values in their plain form; ``shape`` are the sizes of the dimensions."""
         if self.storage == "bits":
             bits = np.unpackbits(stored, axis=-1, count=int(np.prod(shape)))
             return bits.reshape(*stored.shape[:-1], *shape).view(np.bool_)
         return stored
 
     def empty(self, chains: int, draws: int, shape: tuple[int, ...]) -> NDArray[Any]:
-        """Room for draws, as they are kept."""
+        """Return zeros for draws in their stored form."""
         if self.storage == "bits":
             return np.zeros((chains, draws, (int(np.prod(shape)) + 7) // 8), dtype=np.uint8)
         return np.zeros((chains, draws, *shape), dtype=np.float16 if self.storage == "half" else self.dtype)
@@ -111,8 +111,8 @@ class Draws:
         grid: where the cells are.
         specs: what the arrays are.
         arrays: by name, (chains, draws, ...), as `ArraySpec.stored` keeps them.
-        index: of dimensions that count some of the grid's cells only ("cell", "surface_cell"): the flat indices of
-            these, ascending, int32; of others ("scan") the numbers of what they count.
+        index: coordinates by dimension: for "cell" and "surface_cell" flat indices of cells, ascending, int32; for
+            others ("scan") numbers.
     """
 
     grid: Grid
@@ -136,35 +136,34 @@ class Draws:
         return self.chains * self.count
 
     def numbers(self) -> Iterator[tuple[int, int]]:
-        """Chain and draw of every draw."""
+        """Return the numbers (chain, draw) of every draw."""
         return ((chain, draw) for chain in range(self.chains) for draw in range(self.count))
 
     def thinned(self, most: int) -> Draws:
-        """At most so many draws of all chains together, but one of each chain, evenly spread over every chain."""
+        """Select at most ``most`` draws, evenly spread over every chain, but at least one of each chain."""
         each = min(self.count, max(1, most // self.chains))
         chosen = np.linspace(0, self.count - 1, each).round().astype(np.intp)
         return replace(self, arrays={name: values[:, chosen] for name, values in self.arrays.items()})
 
     def shape_of(self, spec: ArraySpec) -> tuple[int, ...]:
-        """Sizes of an array's dimensions beside chain and draw."""
+        """Return the sizes of an array's dimensions beside chain and draw."""
         sizes = {"x": self.grid.shape[0], "y": self.grid.shape[1]}
         return tuple(sizes[dim] if dim in sizes else len(self.index[dim]) for dim in spec.dims)
 
     def cells(self, chain: int, draw: int) -> dict[str, NDArray[Any]]:
-        """The arrays of one draw as values; those of cells are (nx, ny), NaN in cells of which the draw says nothing.
+        """Return the arrays of one draw as values, those of cells on the grid, (nx, ny): NaN where the draw has no
+        value.
 
         `bayesmap.cells.kind.CellPrior.completed` puts a state of the prior there.
         """
-        found = {
-            spec.name: spec.values(self.arrays[spec.name][chain, draw], self.shape_of(spec)) for spec in self.specs
-        }
+        arrays = {}
         for spec in self.specs:
-            if spec.dims[0] in OF_CELLS:
-                found[spec.name] = self.to_grid(found[spec.name], spec.dims[0], np.nan)
-        return found
+            values = spec.values(self.arrays[spec.name][chain, draw], self.shape_of(spec))
+            arrays[spec.name] = self.to_grid(values, spec.dims[0], np.nan) if spec.dims[0] in OF_CELLS else values
+        return arrays
 
     def values(self, name: str) -> NDArray[Any]:
-        """One array of all draws as values, (chains, draws, *dims)."""
+        """Return one array of all draws as values, (chains, draws, *dims)."""
         spec = next(spec for spec in self.specs if spec.name == name)
         return spec.values(self.arrays[name], self.shape_of(spec))
 

@@ -40,7 +40,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy import special
 
 from bayesmap.cells.arrays import ArraySpec, Draws, count_walls, unpack
-from bayesmap.cells.ising_field import perfect_draws, rough_draw
+from bayesmap.cells.ising_field import balance_at, pairs_alike, perfect_draws, rough_draw
 from bayesmap.cells.kind import BATCH_BYTES, CellPrior, Cells, Floats, Words
 from bayesmap.errors import BadInput
 from bayesmap.space.grid import Grid
@@ -57,7 +57,7 @@ class BinaryWalls(CellPrior):
         BadInput: a probability outside [0, 1].
     """
 
-    p_wall: float | NDArray[np.float64]
+    p_wall: float | Floats
 
     words: ClassVar[Words] = Words("binary", "walls or free", "probability of wall", "wall")
     arrays: ClassVar[tuple[ArraySpec, ...]] = (ArraySpec("walls", ("x", "y"), "bool", "bits", "wall in this cell"),)
@@ -83,7 +83,7 @@ class BinaryWalls(CellPrior):
         return 0.0
 
     def probabilities(self, grid: Grid) -> Floats:
-        """Wall probability of every cell, shape (nx, ny), as far as its neighbours do not say otherwise.
+        """Return the wall probability of every cell at a balance of 0 of its neighbours, (nx, ny).
 
         Raises:
             BadInput: an array of another shape than the grid's.
@@ -95,18 +95,18 @@ class BinaryWalls(CellPrior):
 
     @abstractmethod
     def log_prob(self, cells: Cells | NDArray[np.bool_], grid: Grid) -> float:
-        """Log p(walls), in nats; a map of walls will do for the cells."""
+        """Compute log p(walls), in nats; ``cells`` may be a map of walls."""
 
     @abstractmethod
     def sample(self, rng: np.random.Generator, grid: Grid) -> NDArray[np.bool_]:
         """Draw a map of walls, shape (nx, ny)."""
 
     def sample_maps(self, rng: np.random.Generator, grid: Grid, count: int) -> NDArray[np.bool_]:
-        """Independent draws, (count, nx, ny)."""
+        """Draw maps independently, (count, nx, ny)."""
         return np.stack([self.sample(rng, grid) for _ in range(count)])
 
     def start(self, rng: np.random.Generator, grid: Grid) -> NDArray[np.bool_]:
-        """A map for a chain to start at, (nx, ny): a draw, or where draws take long a map like one."""
+        """Return a map at which a chain starts, (nx, ny): a draw, or a map like one where draws take long."""
         return self.sample(rng, grid)
 
     def sample_cells(self, rng: np.random.Generator, grid: Grid) -> dict[str, NDArray[Any]]:
@@ -114,15 +114,15 @@ class BinaryWalls(CellPrior):
         return {"walls": self.sample(rng, grid)}
 
     def stops(self, cells: Cells, grid: Grid) -> NDArray[np.floating]:
-        """Stop probabilities 0 and 1, (N,)."""
+        """Return stop probabilities 0 and 1, (N,)."""
         return np.ravel(cells["walls"]).astype(np.float32)
 
     def map_of(self, draws: Draws, chain: int, draw: int) -> NDArray[np.bool_]:
-        """The walls, (nx, ny)."""
+        """Return the walls of one draw, (nx, ny)."""
         return unpack(draws.arrays["walls"][chain, draw], draws.grid.shape)
 
     def mean_map(self, draws: Draws) -> Floats:
-        """Fraction of all draws in which each cell is a wall, (nx, ny); NaN where there is no draw."""
+        """Return the fraction of all draws in which each cell is a wall, (nx, ny); NaN without draws."""
         packed = draws.arrays["walls"]
         if draws.size == 0:
             return np.full(draws.grid.shape, np.nan)
@@ -140,19 +140,19 @@ class BinaryWalls(CellPrior):
         )
 
     def traces(self, draws: Draws, cells: NDArray[np.intp]) -> NDArray[np.bool_]:
-        """Some cells in all draws, (chains, draws, n)."""
+        """Return some cells of all draws, (chains, draws, n)."""
         bytes_read, place = np.unique(cells // 8, return_inverse=True)
         bits = np.unpackbits(draws.arrays["walls"][:, :, bytes_read], axis=-1)
         return bits[:, :, place * 8 + cells % 8].view(np.bool_)
 
     def constant_cells(self, draws: Draws) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
-        """Cells with one value in all draws of each chain, and in all draws of all chains, (N,) each."""
+        """Find the cells with one value in all draws of each chain, and in all draws of all chains, (N,) each."""
         walls = np.stack([count_walls(chain, draws.grid.n_cells) for chain in draws.arrays["walls"]])
         constant = ((walls == 0) | (walls == draws.count)).all(axis=0)
         return constant, constant & (walls == walls[0]).all(axis=0)
 
     def predictive_stops(self, draws: Draws, wanted: NDArray[np.int32] | None = None) -> Iterator[NDArray[np.float32]]:
-        """Stop probabilities 0 and 1 of each draw, (draws, n), some draws at a time."""
+        """Yield stop probabilities 0 and 1 of each draw, (draws, n), some draws at a time."""
         packed = draws.arrays["walls"].reshape(-1, draws.arrays["walls"].shape[-1])
         at_once = max(1, BATCH_BYTES // (4 * draws.grid.n_cells))
         for i in range(0, len(packed), at_once):
@@ -161,7 +161,7 @@ class BinaryWalls(CellPrior):
             yield (flat if wanted is None else flat[:, wanted]).astype(np.float32)
 
     def parameters(self) -> Mapping[str, NDArray[Any]]:
-        """The probabilities, if each cell has its own."""
+        """Return the probabilities if each cell has its own."""
         p = np.asarray(self.p_wall, dtype=np.float64)
         return {"p_wall": p} if p.ndim else {}
 
@@ -178,7 +178,7 @@ class Independent(BinaryWalls):
     """
 
     def log_prob(self, cells: Cells | NDArray[np.bool_], grid: Grid) -> float:
-        """Log p(walls), in nats; a map of walls will do for the cells."""
+        """Compute log p(walls), in nats; ``cells`` may be a map of walls."""
         walls = cells["walls"] if isinstance(cells, Mapping) else cells
         p = self.probabilities(grid)
         with np.errstate(divide="ignore"):
@@ -189,11 +189,11 @@ class Independent(BinaryWalls):
         return np.asarray(rng.random(grid.shape) < self.probabilities(grid))
 
     def mean_stop(self, grid: Grid) -> Floats:
-        """The prior probability of a wall, (nx, ny)."""
+        """Return the prior probability of a wall, (nx, ny)."""
         return self.probabilities(grid)
 
     def describe(self) -> dict[str, Any]:
-        """The prior as plain JSON values."""
+        """Return the prior as plain JSON values."""
         p = np.asarray(self.p_wall)
         return {"kind": "independent", "p_wall": float(p) if p.ndim == 0 else "per cell"}
 
@@ -246,10 +246,9 @@ class Ising(BinaryWalls):
         return float(self.coupling)
 
     def log_prob(self, cells: Cells | NDArray[np.bool_], grid: Grid) -> float:
-        """Log p(walls) in nats, without the constant by which the density would have to be divided."""
+        """Compute log p(walls) in nats, up to its normalising constant."""
         walls = np.asarray(cells["walls"] if not isinstance(cells, np.ndarray) else cells) != 0
-        alike = int((walls[1:] == walls[:-1]).sum()) + int((walls[:, 1:] == walls[:, :-1]).sum())
-        return Independent(self.p_wall).log_prob(walls, grid) + self.pair_coupling * alike
+        return Independent(self.p_wall).log_prob(walls, grid) + self.pair_coupling * pairs_alike(walls)
 
     def sample(self, rng: np.random.Generator, grid: Grid) -> NDArray[np.bool_]:
         """Draw a map of walls exactly, shape (nx, ny).
@@ -259,10 +258,10 @@ class Ising(BinaryWalls):
         """
         if self.pair_coupling == 0.0:
             return Independent(self.p_wall).sample(rng, grid)
-        return np.asarray(self.sample_maps(rng, grid, 1)[0])
+        return np.asarray(perfect_draws(rng, self._logit(grid), self.pair_coupling, 1)[0])
 
     def sample_maps(self, rng: np.random.Generator, grid: Grid, count: int) -> NDArray[np.bool_]:
-        """Independent exact draws, (count, nx, ny).
+        """Draw maps independently and exactly, (count, nx, ny).
 
         Raises:
             BadInput: so strong a coupling that exact draws take too long.
@@ -272,7 +271,7 @@ class Ising(BinaryWalls):
         return perfect_draws(rng, self._logit(grid), self.pair_coupling, count)
 
     def start(self, rng: np.random.Generator, grid: Grid) -> NDArray[np.bool_]:
-        """A map for a chain to start at, (nx, ny): independent walls after 50 sweeps, so that it always comes soon."""
+        """Return a map at which a chain starts, (nx, ny): independent walls after 50 sweeps, a matter of moments."""
         if self.pair_coupling == 0.0:
             return self.sample(rng, grid)
         return rough_draw(rng, self._logit(grid), self.pair_coupling, START_SWEEPS)
@@ -280,25 +279,22 @@ class Ising(BinaryWalls):
     def propose(
         self, cells: Cells, site: tuple[int, int], rng: np.random.Generator, grid: Grid
     ) -> tuple[dict[str, Any], float]:
-        """The other state of one cell, and the log of its prior ratio given the cell's neighbours."""
+        """Return the other state of one cell, and the log of its prior ratio given the cell's neighbours."""
         walls = np.asarray(cells["walls"]) != 0
-        (x, y), (nx, ny) = site, grid.shape
-        around = [(x - 1, y), (x + 1, y), (x, y - 1), (x, y + 1)]
-        balance = sum(1 if walls[i, j] else -1 for i, j in around if 0 <= i < nx and 0 <= j < ny)
-        log_odds = float(self._logit(grid)[site]) + self.pair_coupling * balance
+        log_odds = float(self._logit(grid)[site]) + self.pair_coupling * balance_at(walls, site)
         return {"walls": np.bool_(not walls[site])}, -log_odds if walls[site] else log_odds
 
     def mean_stop(self, grid: Grid) -> Floats:
-        """The prior probability of a wall, (nx, ny): from 200 draws where neighbours are coupled."""
+        """Return the prior probability of a wall, (nx, ny): from 200 draws where neighbours are coupled."""
         return self.probabilities(grid) if self.pair_coupling == 0.0 else super().mean_stop(grid)
 
     def describe(self) -> dict[str, Any]:
-        """The prior as plain JSON values."""
+        """Return the prior as plain JSON values."""
         coupling = self.coupling if isinstance(self.coupling, str) else float(self.coupling)
         return {**Independent(self.p_wall).describe(), "kind": "ising", "coupling": coupling}
 
     def _logit(self, grid: Grid) -> Floats:
-        """Log-odds of a wall in every cell beside its neighbours, (nx, ny); infinite in fixed cells."""
+        """Return the log-odds of a wall in every cell at a balance of 0, (nx, ny); infinite in fixed cells."""
         p = self.probabilities(grid)
         with np.errstate(divide="ignore"):
             return np.asarray(np.log(p) - np.log1p(-p))
@@ -309,7 +305,7 @@ LARGEST_FITTED = 4.0
 
 
 def fit_coupling(walls: ArrayLike, p_wall: ArrayLike) -> float:
-    """The coupling under which known maps are likeliest, such as the floor plan of a building like the one to map.
+    """Return the coupling under which known maps are likeliest, such as the floor plan of a similar building.
 
     Args:
         walls: maps, (nx, ny) or (n, nx, ny).
@@ -332,10 +328,8 @@ def fit_coupling(walls: ArrayLike, p_wall: ArrayLike) -> float:
     return likeliest(*counts(maps, p))
 
 
-def counts(
-    maps: NDArray[np.bool_], p_wall: NDArray[np.float64]
-) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
-    """What of maps matters: log-odds and balance of cells, and how many cells and how many walls have them.
+def counts(maps: NDArray[np.bool_], p_wall: Floats) -> tuple[Floats, Floats, Floats, Floats]:
+    """Count cells and walls by log-odds and balance. Returns log-odds, balances, and numbers of cells and of walls.
 
     Cells that agree in both are counted together: with one probability for all there are nine kinds of them.
     """
@@ -351,7 +345,7 @@ def counts(
 
 
 def walls_less_free(maps: NDArray[np.bool_]) -> NDArray[np.int64]:
-    """Walls less free cells among the neighbours of every cell, (..., nx, ny)."""
+    """Count the walls less the free cells among the neighbours of every cell, (..., nx, ny)."""
     signs = np.where(maps, 1, -1)
     balance = np.zeros(maps.shape, dtype=np.int64)
     balance[..., 1:, :] += signs[..., :-1, :]
@@ -361,10 +355,8 @@ def walls_less_free(maps: NDArray[np.bool_]) -> NDArray[np.int64]:
     return balance
 
 
-def likeliest(
-    logit: NDArray[np.float64], balance: NDArray[np.float64], cells: NDArray[np.float64], walls: NDArray[np.float64]
-) -> float:
-    """The coupling at which the slope of the log pseudo-likelihood is zero, from 0 to `LARGEST_FITTED`."""
+def likeliest(logit: Floats, balance: Floats, cells: Floats, walls: Floats) -> float:
+    """Find the coupling at which the slope of the log pseudo-likelihood is zero, from 0 to `LARGEST_FITTED`."""
 
     def slope(coupling: float) -> float:
         return float((balance * (walls - cells * special.expit(logit + coupling * balance))).sum())

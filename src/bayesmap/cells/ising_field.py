@@ -25,25 +25,19 @@ from scipy import special
 
 from bayesmap.cells.arrays import ArraySpec, Draws, count_walls, unpack
 from bayesmap.errors import BadInput
-from bayesmap.space.grid import Grid
 
 MOST_SWEEPS = 4096
-"""From the past: at a coupling for which these are not enough, exact draws take forever."""
+"""Most sweeps from the past: where they are not enough, exact draws take forever."""
 
 
-def perfect_draws(
-    rng: np.random.Generator, logit: NDArray[np.float64], coupling: float, count: int
-) -> NDArray[np.bool_]:
-    """Independent exact draws.
+def perfect_draws(rng: np.random.Generator, logit: Floats, coupling: float, count: int) -> NDArray[np.bool_]:
+    """Draw maps of an Ising field independently and exactly, (count, nx, ny).
 
     Args:
-        rng: of the uniform numbers.
-        logit: log-odds of a wall beside its neighbours, (nx, ny); infinite in cells that are fixed.
+        rng: source of the uniform numbers.
+        logit: log-odds of a wall at a balance of 0, (nx, ny); infinite in fixed cells.
         coupling: what a pair of neighbours that are alike adds to the log density; positive.
-        count: of the draws.
-
-    Returns:
-        Walls, (count, nx, ny).
+        count: number of draws.
 
     Raises:
         BadInput: the coupling is so strong, and the log-odds so near to zero, that the maps do not meet.
@@ -53,7 +47,10 @@ def perfect_draws(
     apart = np.arange(count)  # the draws whose two maps have not met yet
     while len(apart):
         if 1 << len(seeds) > MOST_SWEEPS:
-            raise _too_strong(logit.shape, coupling)
+            raise BadInput(
+                f"Ising: at a coupling of {coupling:g} maps of {logit.shape[0]} x {logit.shape[1]} cells cannot be "
+                "drawn exactly in reasonable time; take a weaker coupling, or a wall probability further from 0.5"
+            )
         seeds.append(int(rng.integers(1 << 62)))
         low, high = (_padded(np.full((len(apart), *logit.shape), state, dtype=np.int8)) for state in (-1, 1))
         for k in range(len(seeds) - 1, -1, -1):
@@ -68,15 +65,8 @@ def perfect_draws(
     return out
 
 
-def _too_strong(shape: tuple[int, ...], coupling: float) -> BadInput:
-    return BadInput(
-        f"Ising: at a coupling of {coupling:g} maps of {shape[0]} x {shape[1]} cells cannot be drawn "
-        "exactly in reasonable time; take a weaker coupling, or a wall probability further from 0.5"
-    )
-
-
-def rough_draw(rng: np.random.Generator, logit: NDArray[np.float64], coupling: float, sweeps: int) -> NDArray[np.bool_]:
-    """A map, (nx, ny), after so many sweeps from one in which cells are independent."""
+def rough_draw(rng: np.random.Generator, logit: Floats, coupling: float, sweeps: int) -> NDArray[np.bool_]:
+    """Return a map, (nx, ny), after some sweeps from a map of independent cells."""
     walls = rng.random(logit.shape) < special.expit(logit)
     field = _padded(np.where(walls, 1, -1).astype(np.int8)[None])
     for _ in range(sweeps):
@@ -85,12 +75,12 @@ def rough_draw(rng: np.random.Generator, logit: NDArray[np.float64], coupling: f
 
 
 def _padded(signs: NDArray[np.int8]) -> NDArray[np.int8]:
-    """Signs with a rim of zeros: what lies outside the grid says nothing."""
+    """Return signs with a rim of zeros: cells outside the grid count for neither side."""
     return np.pad(signs, ((0, 0), (1, 1), (1, 1)))
 
 
-def _levels(u: NDArray[np.float64], logit: NDArray[np.float64], coupling: float) -> NDArray[np.int8]:
-    """Which balance of walls and free cells around it makes a cell a wall, by its uniform number: one above this level.
+def _levels(u: Floats, logit: Floats, coupling: float) -> NDArray[np.int8]:
+    """Return the balances of neighbours above which cells become walls, given their uniform numbers.
 
     A cell is a wall if u < expit(logit + coupling * balance), that is, if balance > (logit(u) - logit) / coupling.
     """
@@ -100,7 +90,7 @@ def _levels(u: NDArray[np.float64], logit: NDArray[np.float64], coupling: float)
 
 
 def _sweep(field: NDArray[np.int8], levels: NDArray[np.int8]) -> None:
-    """One sweep of all maps, in place."""
+    """Make one sweep of all maps, in place."""
     inner = field[:, 1:-1, 1:-1]
     x, y = np.ogrid[: inner.shape[1], : inner.shape[2]]
     for parity in (0, 1):
@@ -116,35 +106,25 @@ SOLID = ArraySpec("solid", ("x", "y"), "bool", "bits", "whether the cell's label
 HALVINGS = 60
 
 
-def log_prior(solid: NDArray[np.bool_], coupling: float) -> float:
-    """Log p(labels) in nats, (nx, ny), without the constant by which it would have to be divided."""
-    alike = int((solid[1:] == solid[:-1]).sum()) + int((solid[:, 1:] == solid[:, :-1]).sum())
-    return coupling * alike
+def pairs_alike(cells: NDArray[np.bool_]) -> int:
+    """Count the pairs of cells that share an edge and are alike, of a map (nx, ny)."""
+    return int((cells[1:] == cells[:-1]).sum()) + int((cells[:, 1:] == cells[:, :-1]).sum())
 
 
-def sample(rng: np.random.Generator, coupling: float, grid: Grid) -> NDArray[np.bool_]:
-    """Draw labels exactly, (nx, ny).
-
-    Raises:
-        BadInput: so strong a coupling, on so large a grid, that exact draws take too long.
-    """
-    return np.asarray(perfect_draws(rng, np.zeros(grid.shape), coupling, 1)[0])
-
-
-def less_unlike(solid: NDArray[np.bool_], site: tuple[int, int]) -> int:
-    """Neighbours of a cell that are solid less those that are free."""
-    (x, y), (nx, ny) = site, solid.shape
+def balance_at(cells: NDArray[np.bool_], site: tuple[int, int]) -> int:
+    """Return the balance of a cell: its neighbours that are set (walls, solid) less those that are not."""
+    (x, y), (nx, ny) = site, cells.shape
     around = [(x - 1, y), (x + 1, y), (x, y - 1), (x, y + 1)]
-    return sum(1 if solid[i, j] else -1 for i, j in around if 0 <= i < nx and 0 <= j < ny)
+    return sum(1 if cells[i, j] else -1 for i, j in around if 0 <= i < nx and 0 <= j < ny)
 
 
 def of_draw(draws: Draws, chain: int, draw: int) -> NDArray[np.bool_]:
-    """The labels of one draw, flat, (N,)."""
+    """Return the labels of one draw, flat, (N,)."""
     return unpack(draws.arrays[SOLID.name][chain, draw], draws.grid.shape).ravel()
 
 
 def share_solid(draws: Draws) -> Floats:
-    """Of all draws the share in which each cell is solid, flat, (N,)."""
+    """Return the share of all draws in which each cell is solid, flat, (N,)."""
     packed = draws.arrays[SOLID.name]
     counts = count_walls(packed.reshape(-1, packed.shape[-1]), draws.grid.n_cells)
     return np.asarray(counts / draws.size)
@@ -153,7 +133,7 @@ def share_solid(draws: Draws) -> Floats:
 def mixture_quantiles(
     share: Floats, free: tuple[float, float], solid: tuple[float, float], tails: tuple[float, float]
 ) -> Floats:
-    """Quantiles of a reflectivity whose cell is solid with a given probability, (len(tails), N), by bisection.
+    """Compute quantiles of a reflectivity whose cell is solid with a known probability, (len(tails), N), by bisection.
 
     Args:
         share: probability that the cell is solid, (N,).

@@ -1,8 +1,8 @@
-"""What a kind of cells is: the prior that users pass, and everything that the rest of the package asks of it.
+"""The base class of a kind of cells: the prior that users pass, and everything that the rest of the package asks of it.
 
-A kind says what the state of a cell is (its arrays), how likely it is before any scan, what it does to a beam, and what
-maps and axes call it. Samplers, files, scores, pictures, the command line and the page ask the kind, and none of them
-knows which kinds there are. Built in are `bayesmap.cells.binary`, `bayesmap.cells.reflectivity` and
+A kind defines the state of a cell (its arrays), its prior probability, how it stops beams, and its names on maps and
+axes. Samplers, files, scores, pictures, the command line and the page ask the kind, and none of them knows which kinds
+there are. Built in are `bayesmap.cells.binary`, `bayesmap.cells.reflectivity` and
 `bayesmap.cells.surface`; a class of your own that extends `CellPrior` works everywhere, too.
 """
 
@@ -25,7 +25,7 @@ Cells = Mapping[str, NDArray[Any]]
 """One map: the arrays that a kind declares, each (nx, ny)."""
 
 BATCH_BYTES = 12 << 20
-"""Of stops that are held at a time."""
+"""Most bytes of stops that are held at a time."""
 
 
 @dataclass(frozen=True)
@@ -86,7 +86,7 @@ class CellPrior(ABC):
 
     @classmethod
     def of(cls, prior: CellPrior, asked_by: str, remedy: str = "") -> Self:
-        """The prior itself, where it is of this kind: for what works with one kind alone.
+        """Return the prior itself if it is of this kind, for functions that work with one kind alone.
 
         Args:
             prior: to be checked.
@@ -110,7 +110,7 @@ class CellPrior(ABC):
 
     @abstractmethod
     def log_prob(self, cells: Cells, grid: Grid) -> float:
-        """Log prior density of a map, in nats, up to a constant that depends on neither map nor data."""
+        """Compute the log prior density of a map, in nats, up to a constant that depends on neither map nor data."""
 
     @abstractmethod
     def sample_cells(self, rng: np.random.Generator, grid: Grid) -> dict[str, NDArray[Any]]:
@@ -119,7 +119,7 @@ class CellPrior(ABC):
     def propose(
         self, cells: Cells, site: tuple[int, int], rng: np.random.Generator, grid: Grid
     ) -> tuple[dict[str, Any], float]:
-        """Another state for one cell, for `bayesmap.samplers.metropolis`.
+        """Propose another state for one cell, for `bayesmap.samplers.metropolis`.
 
         By default a state from the prior, which is right where the prior makes cells independent.
 
@@ -133,7 +133,7 @@ class CellPrior(ABC):
 
     @abstractmethod
     def stops(self, cells: Cells, grid: Grid) -> NDArray[np.floating]:
-        """What the cells do to beams, as the one law of stops and the one predictive kernel read it.
+        """Return how the cells stop beams, in the form that the law of stops and the predictive kernel read.
 
         Returns:
             the probability that a cell stops a beam which comes to it, (N,), the beam then stopping at the hit depth;
@@ -142,7 +142,7 @@ class CellPrior(ABC):
         """
 
     def mean_stop(self, grid: Grid) -> Floats:
-        """Prior mean of the probability that a cell stops a beam that meets what is in it, (nx, ny).
+        """Return the prior mean of the probability that a cell stops a beam that meets its surface, (nx, ny).
 
         By default estimated from 200 prior draws; override it where it is known.
         """
@@ -155,7 +155,7 @@ class CellPrior(ABC):
         return (stops if stops.ndim == 1 else stops[:, 0]).reshape(grid.shape)
 
     def completed(self, cells: Cells, grid: Grid) -> Cells:
-        """A map in which cells that are NaN, since their draw says nothing of them, have a state of the prior.
+        """Return the map with a state of the prior in the cells that are NaN, which their draw does not hold.
 
         By default as it is, which is right where a draw holds all cells of the grid.
         """
@@ -164,18 +164,18 @@ class CellPrior(ABC):
     # What is asked of draws
 
     def map_of(self, draws: Draws, chain: int, draw: int) -> NDArray[Any]:
-        """What a picture of one draw shows, (nx, ny)."""
+        """Return the values that a picture of one draw shows, (nx, ny)."""
         return self._chance(draws.cells(chain, draw), draws.grid)
 
     def mean_map(self, draws: Draws) -> Floats:
-        """Mean over draws of the probability that a cell stops a beam, (nx, ny); NaN without draws."""
+        """Return the mean over draws of the probability that a cell stops a beam, (nx, ny); NaN without draws."""
         total = np.zeros(draws.grid.shape)
         for chain, draw in draws.numbers():
             total += self.map_of(draws, chain, draw)
         return total / draws.size if draws.size else np.full(draws.grid.shape, np.nan)
 
     def interval(self, draws: Draws, level: float) -> tuple[Floats, Floats]:
-        """Central credible interval of what `map_of` shows: lower and upper end, (nx, ny) each.
+        """Return the central credible interval of `map_of`: lower and upper end, (nx, ny) each.
 
         Raises:
             BadInput: a kind whose states have no interval.
@@ -185,19 +185,19 @@ class CellPrior(ABC):
         return lower, upper
 
     def traces(self, draws: Draws, cells: NDArray[np.intp]) -> NDArray[Any]:
-        """What `map_of` shows of some cells in all draws, (chains, draws, n): what convergence is judged by."""
+        """Return `map_of` of some cells in all draws, (chains, draws, n), for diagnostics of convergence."""
         out = [self.map_of(draws, chain, draw).ravel()[cells] for chain, draw in draws.numbers()]
         return np.reshape(out, (draws.chains, draws.count, len(cells)))
 
     def constant_cells(self, draws: Draws) -> tuple[NDArray[np.bool_] | None, NDArray[np.bool_] | None]:
-        """Which cells have one value in all draws of each chain, and which in all draws of all chains, (N,) each.
+        """Find the cells with one value in all draws of each chain, and in all draws of all chains, (N,) each.
 
         None for both where a state is a number, which no two draws share.
         """
         return None, None
 
     def surfaces(self, draws: Draws) -> tuple[Floats, Floats, Floats]:
-        """Mean surfaces, for pictures: means (U, 2) and covariances (U, 2, 2) in metres, and reflectivities (U,).
+        """Return mean surfaces for pictures: means (U, 2) and covariances (U, 2, 2) in metres, and reflectivities (U,).
 
         Raises:
             BadInput: a kind without surfaces.
@@ -208,9 +208,9 @@ class CellPrior(ABC):
         )
 
     def predictive_stops(self, draws: Draws, wanted: NDArray[np.int32] | None = None) -> Iterator[NDArray[np.float32]]:
-        """The stops of each draw in some cells, by flat index, all if None; some draws at a time.
+        """Yield the stops of each draw in some cells, by flat index (all if None), some draws at a time.
 
-        This is what predictions are made of: (draws, n), or (draws, n, 6) for surfaces, in the units of `stops`.
+        Predictions read them: (draws, n), or (draws, n, 6) for surfaces, in the units of `stops`.
         """
         batch: list[NDArray[np.float32]] = []
         for chain, draw in draws.numbers():
@@ -223,28 +223,28 @@ class CellPrior(ABC):
             yield np.stack(batch)
 
     def drawn_stops(self, draws: Draws, wanted: NDArray[np.int32] | None = None) -> Iterator[NDArray[np.float32]]:
-        """As `predictive_stops`, but each draw is a whole map, in which nothing is an expectation.
+        """Yield the stops of each draw as `predictive_stops` does, but from drawn states alone, without expectations.
 
-        This is what is decided by: whether a path is free in a draw, and how well two draws can be told apart. By
-        default the same, which is right where `predictive_stops` gives drawn states.
+        Decisions read them: whether a path is free in a draw, and how well two draws can be told apart. By default they
+        are those of `predictive_stops`, which is right where it yields drawn states.
         """
         return self.predictive_stops(draws, wanted)
 
     def default_draws(self, beams: int, cells: int, chains: int, thin: int = 1) -> int:
-        """Draws of each chain, ``thin`` sweeps apart, where none are asked for."""
+        """Return the default number of draws of each chain, ``thin`` sweeps apart."""
         return 1000
 
     # Files
 
     @abstractmethod
     def describe(self) -> dict[str, Any]:
-        """The prior as plain JSON values; "kind" is its name."""
+        """Return the prior as plain JSON values; "kind" is its name."""
 
     def parameters(self) -> Mapping[str, NDArray[Any]]:
-        """Parameters that are arrays, which a description cannot hold: saved runs keep them beside it."""
+        """Return the parameters that are arrays, which saved runs keep beside the description."""
         return {}
 
     @classmethod
     def from_description(cls, values: Mapping[str, Any]) -> CellPrior:
-        """The prior of a description: by default its other entries are the arguments."""
+        """Return the prior of a description: by default its other entries are the arguments."""
         return cls(**{name: value for name, value in values.items() if name != "kind"})

@@ -1,8 +1,7 @@
-"""The kinds of cells that are built in, by the name that users say, and the prior of a description.
+"""The built-in kinds of cells by name, the prior of a description, and the defaults for a laser log.
 
-What is assumed of a laser log of which nothing else is known stands here, too. None of this is particular to one
-building: the noise is a good laser's, widened by not knowing where in a cell the wall stands. Chosen by held-out score
-among a few round values on a public office log (docs/lab/maps.md has the table).
+The defaults fit any building: the noise is a good laser's, widened because the place of a wall within its cell is
+unknown. They were chosen by held-out score among a few round values on a public office log (docs/lab/maps.md).
 """
 
 from __future__ import annotations
@@ -27,7 +26,7 @@ _NAMED: dict[str, type[CellPrior]] = {
 
 
 def prior_from(description: Mapping[str, Any]) -> CellPrior:
-    """The prior of a description.
+    """Return the prior of a description.
 
     Raises:
         BadInput: a kind that no loaded module defines.
@@ -51,5 +50,5 @@ CELL_SHARE = 0.35
 
 
 def default_sensor(resolution_m: float) -> BeamMixture:
-    """A robust laser model for cells of a given size."""
+    """Return a robust laser model for cells of a given size."""
     return BeamMixture(Gaussian(math.hypot(LASER_SIGMA_M, CELL_SHARE * resolution_m), LASER_SIGMA_PER_M))

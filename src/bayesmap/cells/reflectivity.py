@@ -26,7 +26,7 @@ from bayesmap.errors import BadInput
 from bayesmap.space.grid import Grid
 
 LEAST_M, MOST_M = 1e-30, 1.0 - 1e-7
-"""Reflectivities between which single precision can tell their log odds."""
+"""The range of reflectivities whose log odds single precision can hold."""
 
 CELLS_AT_ONCE = 8192
 
@@ -37,11 +37,11 @@ FEWEST_DRAWS, MOST_DRAWS = 100, 200
 FEWEST_IN_A_ROW = 50  # where every sweep is kept, and neighbours say less
 BEAMS_OF_FEWEST = 100_000
 MOST_DRAW_BYTES = 1 << 30
-"""Of all chains' draws, if beams were to touch every cell of the grid."""
+"""Most bytes of all chains' draws, if beams were to touch every cell of the grid."""
 BYTES_A_CELL = 4
 
 LARGEST_COUPLING = 50.0
-"""As of `bayesmap.cells.binary`: more means nothing else."""
+"""As of `bayesmap.cells.binary`: a larger coupling has the same effect."""
 
 
 class KernelNumbers(NamedTuple):
@@ -119,12 +119,12 @@ class Reflective(CellPrior):
         return 0.5 * (free + self.a_solid / (self.a_solid + self.b_solid)) if self.has_labels else free
 
     def mean_given(self, solid: NDArray[np.bool_] | Floats) -> Floats:
-        """Prior mean of the reflectivity given labels, or given how likely each is solid."""
+        """Return the prior mean of the reflectivity given labels, or given the probability that each is solid."""
         free = self.a / (self.a + self.b)
         return np.asarray(free + (self.a_solid / (self.a_solid + self.b_solid) - free) * solid)
 
     def beta_given(self, solid: NDArray[np.bool_]) -> tuple[Floats, Floats]:
-        """Pseudo-counts of stopped and of passing beams in cells with these labels."""
+        """Return the pseudo-counts of stopped and of passing beams in cells with these labels."""
         return np.where(solid, self.a_solid, self.a), np.where(solid, self.b_solid, self.b)
 
     @property
@@ -133,15 +133,14 @@ class Reflective(CellPrior):
         return 0.3
 
     def log_prob(self, cells: Cells, grid: Grid) -> float:
-        """Log density of labels and log odds of all reflectivities, up to a constant, as the sampler reports it."""
+        """Compute the log density of labels and of the log odds of all reflectivities, up to a constant."""
         m = np.clip(np.asarray(cells["reflectivity"], dtype=np.float64), LEAST_M, MOST_M)
         if not self.has_labels:
             return float((self.a * np.log(m) + self.b * np.log1p(-m)).sum())
         solid = np.asarray(cells["solid"]) != 0
         a, b = self.beta_given(solid)
-        return float((a * np.log(m) + b * np.log1p(-m) - special.betaln(a, b)).sum()) + ising_field.log_prior(
-            solid, self.coupling
-        )
+        log_density = float((a * np.log(m) + b * np.log1p(-m) - special.betaln(a, b)).sum())
+        return log_density + self.coupling * ising_field.pairs_alike(solid)
 
     def sample_cells(self, rng: np.random.Generator, grid: Grid) -> dict[str, NDArray[Any]]:
         """Draw a map.
@@ -152,44 +151,44 @@ class Reflective(CellPrior):
         if not self.has_labels:
             m = rng.beta(self.a, self.b, grid.shape).astype(np.float32)
             return {"reflectivity": m, "expected": m}
-        solid = ising_field.sample(rng, self.coupling, grid)
+        solid = ising_field.perfect_draws(rng, np.zeros(grid.shape), self.coupling, 1)[0]
         m = rng.beta(*self.beta_given(solid)).astype(np.float32)
         return {"reflectivity": m, "expected": m, "solid": solid}
 
     def propose(
         self, cells: Cells, site: tuple[int, int], rng: np.random.Generator, grid: Grid
     ) -> tuple[dict[str, Any], float]:
-        """A state as if the cell had no neighbours, and what these say of its label."""
+        """Propose a state as if the cell had no neighbours. Returns it, and the log ratio that the neighbours add."""
         fresh, log_ratio = super().propose(cells, site, rng, grid)
         if self.has_labels:
             solid = np.asarray(cells["solid"]) != 0
             change = int(fresh["solid"]) - int(solid[site])
-            log_ratio += self.coupling * change * ising_field.less_unlike(solid, site)
+            log_ratio += self.coupling * change * ising_field.balance_at(solid, site)
         return fresh, log_ratio
 
     def completed(self, cells: Cells, grid: Grid) -> Cells:
-        """The map with the prior's mean reflectivity in cells that no beam came to, given the label if there is one."""
+        """Return the map with the prior's mean reflectivity, given the label if there is one, where no beam came."""
         m = np.asarray(cells["reflectivity"], dtype=np.float64)
         mean = self.mean_given(np.asarray(cells["solid"]) != 0) if self.has_labels else np.asarray(self.mean)
         return {**cells, "reflectivity": np.where(np.isnan(m), mean, m)}
 
     def sample_surfaces(self, rng: np.random.Generator, count: int) -> Floats:
-        """Place-holders, (count, 5): these cells have no surfaces."""
+        """Return place-holders, (count, 5): these cells have no surfaces."""
         return np.zeros((count, 5))
 
     def stops(self, cells: Cells, grid: Grid) -> NDArray[np.floating]:
-        """The reflectivities, (N,)."""
+        """Return the reflectivities, (N,)."""
         return np.ravel(cells["reflectivity"]).astype(np.float32)
 
     def mean_stop(self, grid: Grid) -> Floats:
-        """The prior's mean everywhere, (nx, ny)."""
+        """Return the prior's mean everywhere, (nx, ny)."""
         return np.full(grid.shape, self.mean)
 
     def default_draws(self, beams: int, cells: int, chains: int, thin: int = 1) -> int:
-        """As many as take the time of 100 with 100 000 beams, or of 50 where every sweep is kept, up to 200.
+        """Return as many draws as take the time of 100 with 100 000 beams (of 50 at a thin of 1), at most 200.
 
-        The fewer the beams, the less certain the map and the more draws its predictions need (docs/defaults.md); and
-        the sooner a sweep is over. Never fewer than these, and no more of large grids than fit in 1 GiB.
+        The fewer the beams, the less certain is the map, the more draws do its predictions need (docs/defaults.md), and
+        the sooner is a sweep over. On large grids the draws fit into 1 GiB, but are never fewer than 100 (or 50).
         """
         fewest = FEWEST_IN_A_ROW if thin == 1 else FEWEST_DRAWS
         affordable = BEAMS_OF_FEWEST * fewest // max(beams, 1)
@@ -197,41 +196,37 @@ class Reflective(CellPrior):
         return max(fewest, min(affordable, fitting, MOST_DRAWS))
 
     def kernel_numbers(self, edge_m: float) -> KernelNumbers:
-        """The prior as kernels take it; that of surfaces is not looked at."""
+        """Return the prior as kernels take it; they do not read the parameters of surfaces."""
         return KernelNumbers(
             self.a, self.b, edge_m, edge_m**2, 3.0, edge_m, 0.5 * edge_m, self.coupling, self.a_solid, self.b_solid
         )
 
-    def _shown(self, draws: Draws) -> tuple[NDArray[np.float16], NDArray[np.float16]]:
-        """What maps show, drawn and expected, (chains, draws, T); reflectivities of runs that were saved without it."""
-        drawn, expected = self.shown if self.shown[0] in draws.arrays else Reflective.shown
-        return draws.arrays[drawn], draws.arrays[expected]
-
     def map_of(self, draws: Draws, chain: int, draw: int) -> Floats:
-        """Chances that cells stop a beam, (nx, ny); the prior's mean where no beam comes, given the label if cells have
-        labels.
+        """Return the chances that cells stop a beam, (nx, ny); where no beam comes the prior's mean, given the label if
+        cells have labels.
         """
         elsewhere: Floats | float = self.mean
         if self.has_labels:
             elsewhere = self.mean_given(ising_field.of_draw(draws, chain, draw))
-        return draws.to_grid(self._shown(draws)[0][chain, draw], "cell", elsewhere)
+        return draws.to_grid(draws.arrays[self.shown[0]][chain, draw], "cell", elsewhere)
 
     def mean_map(self, draws: Draws) -> Floats:
-        """Posterior mean of the same, (nx, ny), of what each draw expects: it has the same limit as the mean of what is
-        drawn, and less noise. Where no beam comes the prior's mean, given the drawn labels if cells have labels; NaN
-        without draws.
+        """Return the posterior mean of the chances that cells stop a beam, (nx, ny); NaN without draws.
+
+        It is the mean of each draw's expected chances, which has the limit of the mean of drawn ones, and less noise.
+        Where no beam comes it is the prior's mean, given the drawn labels if cells have labels.
         """
         if draws.size == 0:
             return np.full(draws.grid.shape, np.nan)
         elsewhere = self.mean_given(ising_field.share_solid(draws)) if self.has_labels else self.mean
-        return draws.to_grid(self._shown(draws)[1].mean(axis=(0, 1), dtype=np.float64), "cell", elsewhere)
+        return draws.to_grid(draws.arrays[self.shown[1]].mean(axis=(0, 1), dtype=np.float64), "cell", elsewhere)
 
     def interval(self, draws: Draws, level: float) -> tuple[Floats, Floats]:
-        """Central credible interval of the same: lower and upper end, (nx, ny) each."""
+        """Return the central credible interval of the chances: lower and upper end, (nx, ny) each."""
         from scipy import stats
 
         tails = (0.5 * (1 - level), 0.5 * (1 + level))
-        drawn = self._shown(draws)[0]
+        drawn = draws.arrays[self.shown[0]]
         ends = np.empty((2, drawn.shape[-1]))
         for i in range(0, drawn.shape[-1], CELLS_AT_ONCE):
             part = drawn[:, :, i : i + CELLS_AT_ONCE]
@@ -245,12 +240,12 @@ class Reflective(CellPrior):
         return lower, upper
 
     def traces(self, draws: Draws, cells: NDArray[np.intp]) -> NDArray[np.float16]:
-        """The same of some cells that beams touch in all draws, (chains, draws, n)."""
+        """Return the drawn chances of some touched cells in all draws, (chains, draws, n)."""
         place = np.searchsorted(draws.index["cell"], cells)
-        return np.asarray(self._shown(draws)[0][:, :, place])
+        return np.asarray(draws.arrays[self.shown[0]][:, :, place])
 
     def predictive_stops(self, draws: Draws, wanted: NDArray[np.int32] | None = None) -> Iterator[NDArray[np.float32]]:
-        """Expected reflectivities of each draw, (draws, n), some draws at a time.
+        """Yield the expected reflectivities of each draw, (draws, n), some draws at a time.
 
         The density of a reading is linear in each cell's reflectivity, so its mean over draws is that of drawn ones,
         with less noise. Cells that no beam of the run touched have the prior's mean, given their label if cells have
@@ -270,12 +265,12 @@ class Reflective(CellPrior):
             yield stops
 
     def drawn_stops(self, draws: Draws, wanted: NDArray[np.int32] | None = None) -> Iterator[NDArray[np.float32]]:
-        """The same with drawn reflectivities; cells that no beam of the run touched draw theirs from the prior."""
+        """Yield the stops with drawn reflectivities; untouched cells draw theirs from the prior."""
         cells = np.arange(draws.grid.n_cells, dtype=np.int32) if wanted is None else wanted
         place, known = places_among(draws.index["cell"], cells)
         drawn = draws.arrays["reflectivity"].reshape(draws.size, -1)
         rng = np.random.default_rng(1)
-        # As surfaces from the prior are: drawn once, and taken up from another place by each draw of the map.
+        # States are drawn from the prior once; each draw of the map reads them from another offset.
         fresh = rng.beta(self.a, self.b, FRESH_CELLS).astype(np.float32)
         solid_ones = rng.beta(self.a_solid, self.b_solid, FRESH_CELLS).astype(np.float32) if self.has_labels else fresh
         numbers = list(draws.numbers())
@@ -292,7 +287,7 @@ class Reflective(CellPrior):
             yield batch
 
     def _described(self) -> dict[str, Any]:
-        """What is said of reflectivities; nothing of labels where there are none, as before there were any."""
+        """Return the parameters of reflectivities, and of labels where there are labels."""
         own = {"a": self.a, "b": self.b}
         if self.has_labels:
             own |= {"coupling": float(self.coupling), "a_solid": self.a_solid, "b_solid": self.b_solid}
@@ -321,19 +316,19 @@ class Beta(Reflective):
     arrays: ClassVar[tuple[ArraySpec, ...]] = (REFLECTIVITY, EXPECTED)
 
     def describe(self) -> dict[str, Any]:
-        """The prior as plain JSON values."""
+        """Return the prior as plain JSON values."""
         return {"kind": "beta", **self._described()}
 
 
 def places_among(held: NDArray[np.int32], cells: NDArray[np.int32]) -> tuple[NDArray[np.intp], NDArray[np.bool_]]:
-    """Where each of some cells stands among those held, and whether it does."""
+    """Return the position of each of some cells in the ascending ``held``, and whether it is there, (n,) each."""
     place = np.minimum(np.searchsorted(held, cells), max(len(held) - 1, 0))
     known = held[place] == cells if len(held) else np.zeros(len(cells), dtype=np.bool_)
     return place, known
 
 
 def quantiles_of_halves(draws: NDArray[np.float16], at: tuple[float, ...]) -> Floats:
-    """Quantiles of numbers that are not negative, (draws, cells), linear between draws, (len(at), cells).
+    """Compute quantiles of nonnegative numbers (draws, cells), linear between draws, (len(at), cells).
 
     As `numpy.quantile`, but ten times as fast: the bits of such numbers, read as integers, have the same order.
     """

@@ -34,23 +34,14 @@ def _spec(part: str) -> ArraySpec:
     return ArraySpec(f"surface_{part}", ("surface_cell",), "float32", "half", f"{what}, in edges of a cell")
 
 
-STOP_CHANCES = (
-    ArraySpec(
-        "stop_chance",
-        ("cell",),
-        "float32",
-        "half",
-        "chance that a beam which comes to the cell's square is stopped in it",
-    ),
-    ArraySpec(
-        "expected_stop_chance",
-        ("cell",),
-        "float32",
-        "half",
-        "mean of the stop chance given where the draw's beams stop",
-    ),
+STOP_CHANCES = tuple(
+    ArraySpec(name, ("cell",), "float32", "half", meaning)
+    for name, meaning in (
+        ("stop_chance", "chance that a beam which comes to the cell's square is stopped in it"),
+        ("expected_stop_chance", "mean of the stop chance given where the draw's beams stop"),
+    )
 )
-"""What maps show: it does not depend on which cell a surface belongs to (`bayesmap.kernels.surfaces.square_counts`)."""
+"""The values of maps, whichever cell a surface belongs to (`bayesmap.kernels.surfaces.square_counts`)."""
 
 
 @dataclass(frozen=True)
@@ -108,7 +99,7 @@ class Surface(Reflective):
         return self.spread
 
     def log_prob(self, cells: Cells, grid: Grid) -> float:
-        """Log density of (logit m, mean, log l11, l21, log l22) of all cells, up to a constant, lengths in metres.
+        """Compute the log density of (logit m, mean, log l11, l21, log l22) of all cells, up to a constant, in metres.
 
         The Wishart's |Sigma|^-(nu + 3)/2 = (l11 l22)^-(nu + 3) times the Jacobian 4 l11^3 l22^2.
         """
@@ -142,7 +133,7 @@ class Surface(Reflective):
         return out
 
     def _sample_unbounded(self, rng: np.random.Generator, count: int) -> Floats:
-        """The same without the factor that bounds their size: a normal mean inside the cell by its inverse
+        """Draw surfaces without the factor that bounds their size: a normal mean inside the cell by its inverse
         distribution function, and Bartlett's factor of the Wishart, inverted.
         """
         a11 = np.sqrt(rng.chisquare(self.dof, count))
@@ -155,7 +146,7 @@ class Surface(Reflective):
         return np.stack([*mean, *shape], axis=-1)
 
     def stops(self, cells: Cells, grid: Grid) -> NDArray[np.floating]:
-        """Surfaces, (N, 6), lengths in metres from the grid's corner."""
+        """Return surfaces, (N, 6), lengths in metres from the grid's corner."""
         parts = [np.ravel(cells[f"surface_{part}"]) for part in PARTS]
         out = np.stack([np.ravel(cells["reflectivity"]), *parts], axis=-1).astype(np.float32)
         out[:, 1:] *= grid.resolution
@@ -163,7 +154,7 @@ class Surface(Reflective):
         return out
 
     def completed(self, cells: Cells, grid: Grid) -> Cells:
-        """The same, with surfaces drawn from the prior in cells in which no reading ends: always the same ones."""
+        """Return the map with surfaces from the prior in cells in which no reading ends; the seed is fixed."""
         fresh = self.sample_surfaces(np.random.default_rng(0), grid.n_cells).reshape(*grid.shape, len(PARTS))
         names = [f"surface_{part}" for part in PARTS]
         parts = {name: np.asarray(cells[name], dtype=np.float64) for name in names}
@@ -171,14 +162,14 @@ class Surface(Reflective):
         return {**super().completed(cells, grid), **drawn}
 
     def kernel_numbers(self, edge_m: float) -> KernelNumbers:
-        """The prior as kernels take it."""
+        """Return the prior as kernels take it."""
         return KernelNumbers(
             self.a, self.b, self.mean_scale * edge_m, (self.spread * edge_m) ** 2, self.dof, self.size_scale * edge_m,
             0.5 * edge_m, self.coupling, self.a_solid, self.b_solid,
         )  # fmt: skip
 
     def surfaces(self, draws: Draws) -> tuple[Floats, Floats, Floats]:
-        """Posterior mean surfaces of the cells in which a reading ends.
+        """Compute the posterior mean surfaces of the cells in which a reading ends.
 
         Returns:
             means in the world frame (U, 2), covariances of the points (U, 2, 2), both in metres, and the mean
@@ -201,10 +192,10 @@ class Surface(Reflective):
         return draws.grid.cell_centres_m(held) + np.array(draws.grid.origin) + mean / n, second / n, reflectivity
 
     def predictive_stops(self, draws: Draws, wanted: NDArray[np.int32] | None = None) -> Iterator[NDArray[np.float32]]:
-        """Expected reflectivities and the draw's surfaces, (draws, n, 6), some draws at a time.
+        """Yield expected reflectivities and the draw's surfaces, (draws, n, 6), some draws at a time.
 
-        Only cells in which some reading ends keep their surfaces: those of the others are hardly anything but draws
-        from the prior, and are drawn anew here.
+        Draws keep the surfaces of cells in which some reading ends. Those of the other cells are almost draws from the
+        prior, and are drawn anew here.
         """
         cells = np.arange(draws.grid.n_cells, dtype=np.int32) if wanted is None else wanted
         place, known = places_among(draws.index["cell"], cells)
@@ -213,8 +204,8 @@ class Surface(Reflective):
         edge = draws.grid.resolution
         centre = draws.grid.cell_centres_m(cells)
         rng = np.random.default_rng(0)
-        # Surfaces are drawn once and passed on from cell to cell: each draw of the map takes them up from another
-        # place, and what a cell gets does not depend on which others are asked for.
+        # Surfaces are drawn from the prior once; each draw of the map reads them from another offset, and a cell's
+        # surface does not depend on which others are asked for.
         fresh = np.zeros((FRESH_CELLS, 6), dtype=np.float32)
         fresh[:, 0] = self.mean
         fresh[:, 1:] = self.sample_surfaces(rng, len(fresh))
@@ -234,7 +225,7 @@ class Surface(Reflective):
             yield batch
 
     def describe(self) -> dict[str, Any]:
-        """The prior as plain JSON values."""
+        """Return the prior as plain JSON values."""
         return {
             "kind": "surface", **self._described(), "mean_scale": self.mean_scale, "spread": self.spread,
             "dof": self.dof, "size_scale": self.size_scale,

@@ -169,23 +169,18 @@ def fit(problem: StopProblem, seed: int, sweeps: int, watch: Watch = SILENT) -> 
         sweeps: of the pilot; without any, nothing moves.
         watch: gets progress after each sweep; a stop ends the pilot, and with it the run.
     """
-    now = _first(problem)
-    for parameters in fits(problem, seed, sweeps, watch):
-        now = parameters
+    fitted = _first(problem)
+    for parameters, _ in pilot_sweeps(problem, seed, sweeps, watch):
+        fitted = parameters
         if watch.should_stop():
             break
-    return now
+    return fitted
 
 
 def _first(problem: StopProblem) -> Parameters:
     """Return the parameters with which a fit starts."""
     assert isinstance(problem.sensor, BeamMixture)
     return Parameters(problem.sensor, problem.prior)
-
-
-def fits(problem: StopProblem, seed: int, sweeps: int, watch: Watch = SILENT) -> Iterator[Parameters]:
-    """Fit sweep by sweep: yield the parameters after each sweep of the pilot."""
-    return (parameters for parameters, _ in pilot_sweeps(problem, seed, sweeps, watch))
 
 
 def pilot_sweeps(

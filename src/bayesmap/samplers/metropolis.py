@@ -122,8 +122,7 @@ class Metropolis:
         problem, chains = state.problem, len(state.maps)
         prior, sizes = problem.model.cells, {"x": problem.grid.shape[0], "y": problem.grid.shape[1]}
         kept = keep.sweeps(state.sweep, state.sweep + sweeps)
-        specs = [spec for spec in prior.arrays if keep.wants(spec.name)]
-        draws = {s.name: s.empty(chains, len(kept), tuple(sizes[dim] for dim in s.dims)) for s in specs}
+        draws = {s.name: s.empty(chains, len(kept), tuple(sizes[dim] for dim in s.dims)) for s in prior.arrays}
         log_likelihood, log_prior = np.zeros((chains, sweeps)), np.zeros((chains, sweeps))
         for chain, cells in enumerate(state.maps):
             of_beam = problem.log_likelihoods(cells, beta, problem.rays)
@@ -134,7 +133,7 @@ class Metropolis:
                 log_likelihood[chain, i] = of_beam.sum()
                 log_prior[chain, i] = prior.log_prob(cells, problem.grid)
                 if number + 1 in kept:
-                    for spec in specs:
+                    for spec in prior.arrays:
                         draws[spec.name][chain, kept.index(number + 1)] = spec.stored(cells[spec.name])
         return replace(state, sweep=state.sweep + sweeps), Info(log_likelihood, log_prior, draws)
 

@@ -40,12 +40,10 @@ class Keep:
     Attributes:
         after: sweeps of which none is kept.
         every: sweeps from one kept draw to the next; 0 keeps none.
-        arrays: names of the arrays that are kept of a draw; all that the kind of cells declares if None.
     """
 
     after: int = 0
     every: int = 0
-    arrays: tuple[str, ...] | None = None
 
     def sweeps(self, begin: int, end: int) -> range:
         """Return the sweeps that are kept among those after ``begin`` and up to ``end``."""
@@ -54,10 +52,6 @@ class Keep:
         past = max(0, begin - self.after)
         first = self.after + (past // self.every + 1) * self.every
         return range(first, end + 1, self.every)
-
-    def wants(self, array: str) -> bool:
-        """Return whether an array is kept."""
-        return self.arrays is None or array in self.arrays
 
 
 NOTHING = Keep()
@@ -80,6 +74,15 @@ class Info:
     log_likelihood: Floats
     log_prior: Floats
     draws: Mapping[str, NDArray[Any]]
+
+    @classmethod
+    def joined(cls, infos: Sequence[Info], axis: int) -> Info:
+        """Join reports of other chains (axis 0) or of consecutive sweeps (axis 1)."""
+        return cls(
+            np.concatenate([info.log_likelihood for info in infos], axis),
+            np.concatenate([info.log_prior for info in infos], axis),
+            {name: np.concatenate([info.draws[name] for info in infos], axis) for name in infos[0].draws},
+        )
 
 
 @dataclass(frozen=True, eq=False)
@@ -126,7 +129,7 @@ class ChainState(Protocol):
         """What is sampled."""
 
     @property
-    def statistics(self) -> Mapping[str, NDArray[np.float64]]:
+    def statistics(self) -> Mapping[str, Floats]:
         """Results of the start beside the chains, by name, such as the changes of belief propagation."""
 
 

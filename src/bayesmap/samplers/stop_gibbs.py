@@ -47,12 +47,12 @@ past the cell, and then one that did costs any number of nats; this one costs le
 class StopDraws:
     """Room for the draws of some sweeps, filled chain by chain as they are made."""
 
-    def __init__(self, problem: StopProblem, chains: StopChains, keep: Keep, kept: range) -> None:
+    def __init__(self, problem: StopProblem, chains: StopChains, kept: range) -> None:
         self._problem, self._chains = problem, chains
         self._number = {sweep - 1: number for number, sweep in enumerate(kept)}
         shape = dict(zip(("x", "y"), problem.grid.shape, strict=True))
         sizes = shape | {name: len(cells) for name, cells in problem.coordinates.items()}
-        self._specs = {spec.name: spec for spec in problem.prior.arrays if keep.wants(spec.name)}
+        self._specs = {spec.name: spec for spec in problem.prior.arrays}
         self.arrays = {
             name: spec.empty(chains.n_chains, len(kept), tuple(sizes[dim] for dim in spec.dims))
             for name, spec in self._specs.items()
@@ -64,7 +64,7 @@ class StopDraws:
 
     @cached_property
     def _among_touched(self) -> tuple[NDArray[np.intp], NDArray[np.bool_]]:
-        """The place of each kept cell among the cells that beams touch, and whether it is one of them."""
+        """Positions of the kept cells among the cells that beams touch, and whether they are among them."""
         return places_among(self._problem.rays.touched, self._cells["cell"])
 
     def begin(self, chain: int, sweep: int) -> None:
@@ -84,35 +84,33 @@ class StopDraws:
                 self._put(f"surface_{part}", chain, number, values)
 
     def end(self, chain: int, sweep: int) -> None:
-        """Record what the sweep has counted of the cells as they stood before it."""
+        """Record what the sweep has counted for the cells as they stood before it."""
         number = self._number.get(sweep)
         if number is None:
             return
         if self._centres is not None:
-            squares = self._chains.in_squares(chain, sweep, True, self._solid.get(chain))
-            self._put_chances(chain, number, squares)
-        if "expected" not in self.arrays:
-            return
-        hits, met = (count[self._cells["cell"]] for count in self._chains.counted(chain))
-        prior, drawn = self._problem.prior, self.arrays["reflectivity"][chain, number]
-        solid = self._solid[chain][self._cells["cell"]] if prior.has_labels else None
-        expected = expected_reflectivity(hits, met, prior, drawn, solid)
-        self._put("expected", chain, number, expected)
+            self._put_chances(chain, number, self._chains.in_squares(chain, sweep, True, self._solid.get(chain)))
+        kept, prior = self._cells["cell"], self._problem.prior
+        hits, met = (count[kept] for count in self._chains.counted(chain))
+        drawn, solid = (
+            self.arrays["reflectivity"][chain, number],
+            self._solid[chain][kept] if prior.has_labels else None,
+        )
+        self._put("expected", chain, number, expected_reflectivity(hits, met, prior, drawn, solid))
 
     def _put_chances(self, chain: int, number: int, squares: InSquares) -> None:
         """Record the chances that squares stop beams; a square to which no beam can come has the prior's."""
         prior, kept = self._problem.prior, self._cells["cell"]
-        place, known = self._among_touched
+        positions, known = self._among_touched
         for name, values in (("stop_chance", squares.drawn), ("expected_stop_chance", squares.expected)):
             chances = np.full(len(kept), prior.mean, dtype=np.float32)
             if prior.has_labels:
                 chances[:] = prior.mean_given(self._solid[chain][kept])
-            chances[known] = np.minimum(values[place[known]], np.float32(HIGHEST))
+            chances[known] = np.minimum(values[positions[known]], np.float32(HIGHEST))
             self._put(name, chain, number, chances)
 
     def _put(self, name: str, chain: int, number: int, values: NDArray[Any]) -> None:
-        if name in self.arrays:
-            self.arrays[name][chain, number] = self._specs[name].stored(values)
+        self.arrays[name][chain, number] = self._specs[name].stored(values)
 
 
 def expected_reflectivity(
@@ -124,22 +122,20 @@ def expected_reflectivity(
 ) -> NDArray[np.float32]:
     """Compute the mean of each cell's reflectivity given its counts, (a + hits) / (a + b + hits + met), (T,).
 
-    Given where all beams stopped, whom they met, and the surfaces, reflectivities are independent Betas, and the
-    density of one more beam is linear in each: under these means it is what it is on average under draws of them
-    (Rao and Blackwell). The counts are to be those of the sweep that began at the draw, with its surfaces.
+    Given the stops of all beams and the surfaces, reflectivities are independent Betas, and the density of one more
+    beam is linear in each. So the density under these means is the mean density under draws (Rao and Blackwell). The
+    counts must be those of the sweep that began at the draw, with its surfaces.
 
-    A cell that learnt nothing in that sweep (`bayesmap.kernels.surfaces.cell_draws`; no reading ends in it) has the
-    counts of its last draw. Its own mean stays right on average; how its reflectivity goes together with what has
-    changed since, in a few sweeps of the others, is lost. That is nothing to speak of: what hundreds of beams say of
-    such a cell is that it is free, whichever value near zero it happens to have. In a map of four cells and six beams
-    it was under one per cent of a density.
+    The following is an approximation. A cell that the sweep did not update (`bayesmap.kernels.surfaces.cell_draws`; no
+    reading ends in it) has the counts of its last update. Its own mean stays right on average, but its correlation with
+    changes since then is lost. In a map of four cells and six beams this was under one per cent of a density.
 
     Args:
-        hits: (T,).
-        met: (T,), negative for cells that have not counted yet.
-        prior: that the sweep was made with.
-        drawn: reflectivities for the cells that have not, (T,).
-        solid: labels of the draw, whose pseudo-counts a and b then are, (T,).
+        hits: beams that each cell stopped, (T,).
+        met: beams that each cell let pass, (T,); negative in cells that have not counted yet.
+        prior: the prior of the sweep.
+        drawn: drawn reflectivities, for the cells that have not counted yet, (T,).
+        solid: labels of the draw, which choose a and b, (T,).
     """
     counted = hits.astype(np.float32)
     total = counted + np.maximum(met, 0)
@@ -150,9 +146,8 @@ def expected_reflectivity(
 
 
 Note = Callable[[int, int], None]
-DENSITIES = "log_likelihood", "log_prior"
 SECOND = "second_"
-"""Before the names of what a snapshot holds of the second starts."""
+"""Prefix of the arrays of the second starts in a snapshot."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -177,9 +172,9 @@ class StopGibbs:
     """Sweeps of stops, labels, reflectivities and surfaces.
 
     Attributes:
-        search_until: sweeps that surfaces make from two starts, with many steps in each, before they go on from the
-            better of the two in each place: a part of the warm-up, in the rest of which they join surfaces
-            (`bayesmap.samplers.start_search.merge_sweeps`). Without any a chain has one start.
+        search_until: sweeps of start selection, a part of the warm-up. Surfaces make them from two starts, with many
+            steps in each, and continue from the better start in each place; in the rest of the warm-up they are merged
+            (`bayesmap.samplers.start_search.merge_sweeps`). At 0 a chain has one start.
     """
 
     search_until: int = 0
@@ -212,14 +207,12 @@ class StopGibbs:
         """Start chains scattered about the initial estimate, or continue from a snapshot."""
         from bayesmap.kernels.random import mix
 
-        searches = problem.prior.has_surfaces and (0 if resume is None else resume.sweep) < self.search_until
-        stored = {} if resume is None else dict(resume.arrays)
+        sweep, stored = (0, {}) if resume is None else (resume.sweep, dict(resume.arrays))
         second_stored = {name[len(SECOND) :]: stored.pop(name) for name in list(stored) if name.startswith(SECOND)}
         stored_evidence = second_stored.pop("evidence", None)
         keys = [mix(seed, chain, STREAM_SWEEPS) for chain in chain_ids]
-        chains = self._chains(problem, chain_ids, seed, keys, stored)
-        state = StopState(problem, chains, keys, 0 if resume is None else resume.sweep, {})
-        if not searches:
+        state = StopState(problem, self._chains(problem, chain_ids, seed, keys, stored), keys, sweep, {})
+        if not problem.prior.has_surfaces or sweep >= self.search_until:
             return state
         keys = [mix(seed, chain, STREAM_SECOND_SWEEPS) for chain in chain_ids]
         second = self._chains(problem, chain_ids, seed, keys, second_stored, STREAM_SECOND_START)
@@ -245,8 +238,7 @@ class StopGibbs:
 
         def states(chain: int) -> NDArray[np.float32]:
             rng = np.random.default_rng([seed, chain_ids[chain], stream])
-            own = None if solid is None else solid[chain]
-            state = start(estimate, problem.prior, problem.rays, rng, own)
+            state = start(estimate, problem.prior, problem.rays, rng, None if solid is None else solid[chain])
             if "state" in stored:
                 state[kept] = stored["state"][chain]
             return state
@@ -259,12 +251,10 @@ class StopGibbs:
             out[..., kept] = stored[name]
             return out
 
-        observed_counts = on_grid("observed_counts")
+        observed = on_grid("observed_counts")
         return StopChains(
             _plan(problem), states, keys, threads=problem.threads, counts=on_grid("counts"), solid=solid,
-            observed_counts=(
-                None if observed_counts is None else np.ascontiguousarray(observed_counts.transpose(0, 2, 1))
-            ),
+            observed_counts=None if observed is None else np.ascontiguousarray(observed.transpose(0, 2, 1)),
         )  # fmt: skip
 
     def _labels(
@@ -276,8 +266,8 @@ class StopGibbs:
         cells = problem.grid.n_cells
         if SOLID.name in stored:
             return np.unpackbits(stored[SOLID.name], axis=-1, count=cells).view(np.bool_)
-        of_labels = [STREAM_LABELS] if stream == STREAM_START else [STREAM_LABELS, stream]
-        rngs = [np.random.default_rng([seed, chain, *of_labels]) for chain in chain_ids]
+        streams = [STREAM_LABELS] if stream == STREAM_START else [STREAM_LABELS, stream]
+        rngs = [np.random.default_rng([seed, chain, *streams]) for chain in chain_ids]
         return np.stack([first_labels(problem.estimate, problem.prior, problem.grid, rng) for rng in rngs])
 
     def retrace(self, problem: StopProblem, model: Model) -> StopProblem:
@@ -314,20 +304,18 @@ class StopGibbs:
 
     def step(self, state: StopState, sweeps: int, beta: float = 1.0, keep: Keep = NOTHING) -> tuple[StopState, Info]:
         """Make some sweeps of all chains."""
-        end, joining = state.sweep + sweeps, merge_sweeps(self.search_until)
-        if not state.problem.prior.has_surfaces or state.sweep >= max(joining, default=0):
+        end, merging = state.sweep + sweeps, merge_sweeps(self.search_until)
+        if not state.problem.prior.has_surfaces or state.sweep >= max(merging, default=0):
             return self._sweep(state, sweeps, beta, keep)
         infos: list[Info] = []
         while not infos or state.sweep < end:
-            now = min([end, *(sweep for sweep in joining if sweep > state.sweep)]) - state.sweep
+            count = min([end, *(sweep for sweep in merging if sweep > state.sweep)]) - state.sweep
             advance = self._sweep if state.second is None else self._search
-            state, info = advance(state, now, beta, keep)
+            state, info = advance(state, count, beta, keep)
             infos.append(info)
-            if now > 0 and state.sweep in joining:
+            if count > 0 and state.sweep in merging:
                 merge(state.problem, state.chains, beta)
-        likelihood, log_prior = (np.concatenate([getattr(i, n) for i in infos], 1) for n in DENSITIES)
-        draws = {name: np.concatenate([info.draws[name] for info in infos], axis=1) for name in infos[0].draws}
-        return state, Info(likelihood, log_prior, draws)
+        return state, Info.joined(infos, axis=1)
 
     def _sweep(
         self, state: StopState, sweeps: int, beta: float, keep: Keep, steps: int | None = None, note: Note | None = None
@@ -337,7 +325,7 @@ class StopGibbs:
 
         problem, chains = state.problem, state.chains
         kept = keep.sweeps(state.sweep, state.sweep + sweeps)
-        draws = StopDraws(problem, chains, keep, kept)
+        draws = StopDraws(problem, chains, kept)
 
         def after(chain: int, sweep: int) -> None:
             draws.end(chain, sweep)
@@ -401,17 +389,12 @@ class StopGibbs:
         }
 
     def observed_counts(self, state: StopState, draws: Mapping[str, NDArray[Any]]) -> NDArray[np.int32]:
-        """Count the kept-phase sweeps in which at least one beam observes a cell, and those inspected. Returns (2, nx,
-        ny).
-
-        Without any, of the last sweep.
+        """Count the kept sweeps in which at least one beam observes each cell, and the sweeps inspected; the last sweep
+        alone without draws. Returns (2, nx, ny).
         """
-        chains = range(state.chains.n_chains)
-        if draws:
-            counts = np.sum([state.chains.observed_counts(chain).T for chain in chains], axis=0)
-        else:
-            counts = np.sum([self._observed_now(state, chain) for chain in chains], axis=0)
-        return np.reshape(counts, (2, *state.problem.grid.shape)).astype(np.int32)
+        each = range(state.chains.n_chains)
+        counts = [state.chains.observed_counts(i).T if draws else self._observed_now(state, i) for i in each]
+        return np.reshape(np.sum(counts, axis=0), (2, *state.problem.grid.shape)).astype(np.int32)
 
     def _observed_now(self, state: StopState, chain: int) -> NDArray[np.bool_]:
         """Return whether some beam observes each cell where a chain stands, and whether that is known, (2, N)."""

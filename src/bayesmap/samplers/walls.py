@@ -9,7 +9,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any, Literal, get_args
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -46,42 +46,40 @@ def start_maps(
 ) -> NDArray[np.bool_]:
     """Return the maps at which chains start, (C, nx, ny).
 
-    A warm start takes the thresholded marginals of belief propagation, and in cells where these equal the prior a prior
-    draw, another one in each chain. Chains that start alike can agree before they have forgotten their start: start
-    from "prior" to check that. Where neighbours are coupled, "prior" is only approximately a draw of the prior
+    The start "propagate" thresholds the marginals of belief propagation. Cells whose marginal equals the prior take a
+    prior draw, another one in each chain. Chains that start alike can agree before they have forgotten their start:
+    start from "prior" to check that. Where neighbours are coupled, "prior" is only approximately a draw of the prior
     (`bayesmap.cells.binary.Ising.start`).
 
     Args:
         problem: table and prior.
-        start: the kind of start, or a map of shape (nx, ny), or one for each number of a chain, (N, nx, ny).
-        chains: their numbers, C of them.
+        start: the kind of start, a map (nx, ny), or a map for each number of a chain, (N, nx, ny).
+        chains: numbers of the C chains.
         seed: of prior draws.
-        marginals: needed for "propagate".
+        marginals: those of belief propagation, for "propagate".
 
     Raises:
-        BadInput: an unknown kind, or maps of another shape than the grid's, or fewer than chains.
+        BadInput: maps of another shape than the grid's, or fewer than chains.
     """
     grid, shape = problem.grid, (len(chains), *problem.grid.shape)
     if not isinstance(start, str):
         maps = np.asarray(start)
-        each = maps.ndim == 3
-        if maps.shape[-2:] != grid.shape or maps.ndim not in (2, 3) or (each and max(chains) >= len(maps)):
+        one_each = maps.ndim == 3
+        if maps.shape[-2:] != grid.shape or maps.ndim not in (2, 3) or (one_each and max(chains) >= len(maps)):
             raise BadInput(
                 f"infer: the start has shape {maps.shape}, expected {grid.shape}, or a map for each chain before that"
             )
-        return np.asarray(maps[list(chains)] != 0 if each else np.broadcast_to(maps != 0, shape))
+        return np.asarray(maps[list(chains)] != 0 if one_each else np.broadcast_to(maps != 0, shape))
     if start in ("zeros", "ones"):
         return np.full(shape, start == "ones")
-    if start not in get_args(Start):
-        raise BadInput(f"infer: start must be one of {', '.join(get_args(Start))} or a map, got {start!r}")
     rngs = (np.random.default_rng([seed, chain, STREAM_START]) for chain in chains)
     prior = np.stack([problem.prior.start(rng, grid) for rng in rngs])
     if start == "prior":
         return prior
     assert marginals is not None, "a warm start needs marginals"
     without_beams = problem.p_wall.reshape(grid.shape) if marginals.prior is None else marginals.prior
-    says_nothing = np.abs(marginals.p_wall - without_beams) < 1e-3
-    return np.where(says_nothing, prior, marginals.p_wall > 0.5)
+    uninformed = np.abs(marginals.p_wall - without_beams) < 1e-3
+    return np.where(uninformed, prior, marginals.p_wall > 0.5)
 
 
 Order = Literal["raster", "radial", "random"]
@@ -100,7 +98,7 @@ class WallState:
     statistics: Mapping[str, NDArray[np.float64]]
 
     def walls(self) -> NDArray[np.uint8]:
-        """Return the chains' maps, (chains, N): all that is needed to make this state again."""
+        """Return the chains' maps, (chains, N), from which this state can be made again."""
         return self.chains.host_walls()
 
 
@@ -117,10 +115,6 @@ class WallSampler(ABC):
     order: Order = "radial"
     start: Start | NDArray[np.bool_] | None = None
     rounds: int = ROUNDS
-
-    def __post_init__(self) -> None:
-        if self.order not in get_args(Order):
-            raise BadInput(f"infer: order must be one of {', '.join(get_args(Order))}, got {self.order!r}")
 
     @abstractmethod
     def sites(self, problem: WallProblem) -> NDArray[np.int32]:
@@ -146,7 +140,7 @@ class WallSampler(ABC):
         from bayesmap.kernels.random import mix
         from bayesmap.kernels.walls.chains import WallChains
 
-        kernel = self.kernel(problem)  # whatever is built on first use is built now, not in the first sweep
+        kernel = self.kernel(problem)  # tables that are built on first use are built now, not in the first sweep
         statistics: dict[str, NDArray[np.float64]] = {}
         if resume is None:
             start, marginals = self.start if self.start is not None else default_start(problem.grid), None
@@ -175,7 +169,7 @@ class WallSampler(ABC):
             state.chains,
             first=state.sweep,
             count=sweeps,
-            kept=keep.sweeps(state.sweep, state.sweep + sweeps) if keep.wants("walls") else range(0),
+            kept=keep.sweeps(state.sweep, state.sweep + sweeps),
             beta=beta,
             threads=problem.threads,
         )
@@ -253,9 +247,9 @@ class WallGibbs(WallSampler):
 class WallBlocks(WallSampler):
     """Every sweep draws each of the overlapping 2 x 2 blocks once, its four cells together.
 
-    Where walls are rare this converges fast and single-site sampling hardly at all: a wall that stands too near the
-    sensor can only go once the beams that it stops have a wall to meet behind it, and in the almost empty map behind a
-    wall there is none. A block takes the wall away and puts another beside or behind it in one step.
+    Where walls are rare, single-site sampling hardly converges. A wall too near the sensor can only go once the beams
+    that it stops meet a wall behind it, and the map behind a wall is almost empty. A block removes the wall and puts
+    another one beside or behind it in one step.
     """
 
     def sites(self, problem: WallProblem) -> NDArray[np.int32]:

@@ -68,19 +68,6 @@ class PoseState:
 
 
 @dataclass(frozen=True, eq=False)
-class PoseInfo:
-    """The report of a step.
-
-    Attributes:
-        log_likelihood: of all readings at the new poses, (C,).
-        acceptance: share of the scans whose pose moved, (C,).
-    """
-
-    log_likelihood: Floats
-    acceptance: Floats
-
-
-@dataclass(frozen=True, eq=False)
 class PoseMetropolis:
     """Metropolis steps of all poses of some chains.
 
@@ -101,20 +88,20 @@ class PoseMetropolis:
 
     def step(
         self, state: PoseState, cells: NDArray[np.float32], n: int = 1, *, beta: float = 1.0, gain: float = 0.0
-    ) -> tuple[PoseState, PoseInfo]:
-        """Return propose a new pose for every scan ``n`` times.
+    ) -> tuple[PoseState, Floats]:
+        """Propose a new pose for every scan ``n`` times. Returns the chains, and the share of accepted steps, (C,).
 
         Args:
             state: the chains.
             cells: one map a chain, as `bayesmap.kernels.predict.scan_likelihood.ScanLikelihood.beams` takes them.
             n: rounds over all scans.
             beta: inverse temperature of the likelihood.
-            gain: how far each scan's steps grow when one is accepted and shrink when not (Robbins and Monro, 1951); 0
-                once draws are kept.
+            gain: how far the size of a scan's steps grows with an accepted step and shrinks with a rejected one
+                (Robbins and Monro, 1951); 0 once draws are kept.
         """
         chains, scans = state.poses.shape[:2]
         poses, log_scale = state.poses.copy(), state.log_scale.copy()
-        log_lik = self._weigh(cells, poses, np.arange(scans))
+        log_lik = self._log_likelihoods(cells, poses, np.arange(scans))
         moved = np.zeros(chains)
         for step in range(state.step, state.step + n):
             noise, level = self._random(state, step)
@@ -123,25 +110,25 @@ class PoseMetropolis:
             for colour in self.prior.colours(scans):
                 proposed = poses.copy()
                 proposed[:, colour] += shifts[:, colour]
-                there = self._weigh(cells, proposed, colour)
-                gained = beta * (there - log_lik[:, colour]) + self.prior.log_change(poses, proposed)[:, colour]
-                yes = level[:, colour] < gained
-                accepted[:, colour] = yes
-                poses[:, colour] = np.where(yes[..., None], proposed[:, colour], poses[:, colour])
-                log_lik[:, colour] = np.where(yes, there, log_lik[:, colour])
+                proposed_log_lik = self._log_likelihoods(cells, proposed, colour)
+                log_ratio = beta * (proposed_log_lik - log_lik[:, colour])
+                log_ratio += self.prior.log_change(poses, proposed)[:, colour]
+                accept = level[:, colour] < log_ratio
+                accepted[:, colour] = accept
+                poses[:, colour] = np.where(accept[..., None], proposed[:, colour], poses[:, colour])
+                log_lik[:, colour] = np.where(accept, proposed_log_lik, log_lik[:, colour])
             moved += accepted.mean(axis=1) / n
             log_scale += gain * (accepted - WANTED_ACCEPTANCE)
         state = replace(state, poses=poses, log_scale=log_scale, step=state.step + n)
-        return state, PoseInfo(log_lik.sum(axis=1), moved)
+        return state, moved
 
-    def _weigh(self, cells: NDArray[np.float32], poses: Floats, scans: NDArray[np.intp]) -> Floats:
+    def _log_likelihoods(self, cells: NDArray[np.float32], poses: Floats, scans: NDArray[np.intp]) -> Floats:
+        """Compute the log likelihood of some scans of every chain at their poses, (C, scans)."""
         chain, scan = (a.ravel() for a in np.meshgrid(np.arange(len(poses)), scans, indexing="ij"))
         return self.likelihood(cells, poses[:, scans].reshape(-1, 3), scan, chain).reshape(len(poses), -1)
 
     def _random(self, state: PoseState, step: int) -> tuple[Floats, Floats]:
-        """Draw standard normal steps (C, S, 3), and logarithms of uniform numbers (C, S), from seed, chain and step
-        alone.
-        """
+        """Draw normal steps (C, S, 3) and logarithms of uniform numbers (C, S), from seed, chain and step alone."""
         scans = state.poses.shape[1]
         noise, level = np.empty(state.poses.shape), np.empty(state.poses.shape[:2])
         for i, chain in enumerate(state.chain_ids):
@@ -325,18 +312,18 @@ class WithPoses:
         scans = len(problem.model.scans)
         if resume is None:
             poses = np.stack([self._start(problem, chain, seed) for chain in chain_ids])
-            factor, sweep = np.zeros((len(chain_ids), scans, 3, 3)), 0
-            state = PoseState(poses, np.zeros((len(chain_ids), scans)), np.asarray(chain_ids), seed)
+            log_scale, factor = np.zeros((len(chain_ids), scans)), np.zeros((len(chain_ids), scans, 3, 3))
+            sweep = 0
         else:
-            poses, factor, sweep = resume.arrays["poses"], resume.arrays["pose_factor"], resume.sweep
-            steps = sweep // self.every * self.pose_steps
-            state = PoseState(poses, resume.arrays["pose_log_scale"], np.asarray(chain_ids), seed, steps)
+            poses, log_scale, factor = (resume.arrays[name] for name in ("poses", *OF_STEPS))
+            sweep = resume.sweep
+        state = PoseState(poses, log_scale, np.asarray(chain_ids), seed, sweep // self.every * self.pose_steps)
 
         def chain_of(i: int) -> Any:
             inner = None
             if resume is not None:
-                own = {n: a[i : i + 1] for n, a in resume.arrays.items() if n not in ("poses", *OF_STEPS)}
-                inner = Snapshot(resume.sweep, own)
+                arrays = {n: a[i : i + 1] for n, a in resume.arrays.items() if n not in ("poses", *OF_STEPS)}
+                inner = Snapshot(resume.sweep, arrays)
             at = self.cells.retrace(problem.cells, problem.at(poses[i]))
             return self.cells.init(at, [chain_ids[i]], seed, inner, watch)
 
@@ -350,24 +337,21 @@ class WithPoses:
         end, infos, poses = state.sweep + sweeps, [], []
         while state.sweep < end:
             count = min(end, (state.sweep // self.every + 1) * self.every) - state.sweep
-            kept = len(keep.sweeps(state.sweep, state.sweep + count)) if keep.wants(POSES.name) else 0
+            kept = len(keep.sweeps(state.sweep, state.sweep + count))
             poses.append(np.repeat(state.poses.poses[:, None], kept, axis=1))
-            log_prior = self._log_prior(state)
+            log_prior = state.problem.law.log_prob(state.poses.poses)
             state, info = self._sweep_cells(state, count, beta, keep)
             infos.append(replace(info, log_prior=info.log_prior + log_prior[:, None]))
             if state.sweep % self.every == 0:
                 state = self._move(state, beta)
-        draws = {name: np.concatenate([info.draws[name] for info in infos], axis=1) for name in infos[0].draws}
-        if keep.wants(POSES.name):
-            draws[POSES.name] = np.concatenate(poses, axis=1)
-        parts = [np.concatenate([getattr(i, n) for i in infos], axis=1) for n in ("log_likelihood", "log_prior")]
-        return state, Info(parts[0], parts[1], draws)
+        info = Info.joined(infos, axis=1)
+        return state, replace(info, draws={**info.draws, POSES.name: np.concatenate(poses, axis=1)})
 
     def snapshot(self, state: JointState) -> Snapshot:
         """Return cells and poses, and the sizes of the steps."""
-        own = [self.cells.snapshot(chain).arrays for chain in state.cells]
-        arrays = {name: np.concatenate([one[name] for one in own]) for name in own[0]}
-        steps = {"pose_log_scale": state.poses.log_scale, "pose_factor": state.factor}
+        of_chains = [self.cells.snapshot(chain).arrays for chain in state.cells]
+        arrays = {name: np.concatenate([arrays[name] for arrays in of_chains]) for name in of_chains[0]}
+        steps = dict(zip(OF_STEPS, (state.poses.log_scale, state.factor), strict=True))
         return Snapshot(state.sweep, {**arrays, "poses": state.poses.poses, **steps})
 
     def observed_counts(self, state: JointState, draws: Mapping[str, NDArray[Any]]) -> NDArray[np.int32]:
@@ -383,18 +367,10 @@ class WithPoses:
             return np.asarray(self.start[chain % len(self.start)], dtype=np.float64)
         return problem.law.sample(np.random.default_rng([seed, chain, STREAM_START_POSES]))
 
-    def _log_prior(self, state: JointState) -> Floats:
-        return np.asarray(state.problem.law.log_prob(state.poses.poses))
-
     def _sweep_cells(self, state: JointState, count: int, beta: float, keep: Keep) -> tuple[JointState, Info]:
         done = self._each(state.problem, lambda i: self.cells.step(state.cells[i], count, beta, keep), len(state.cells))
-        infos = [info for _, info in done]
-        joined = Info(
-            np.concatenate([info.log_likelihood for info in infos]),
-            np.concatenate([info.log_prior for info in infos]),
-            {name: np.concatenate([info.draws[name] for info in infos]) for name in infos[0].draws},
-        )
-        return replace(state, cells=tuple(chain for chain, _ in done), sweep=state.sweep + count), joined
+        state = replace(state, cells=tuple(chain for chain, _ in done), sweep=state.sweep + count)
+        return state, Info.joined([info for _, info in done], axis=0)
 
     def _move(self, state: JointState, beta: float) -> JointState:
         """Make a round of pose steps, and trace the chains' rays at the new poses."""
@@ -402,7 +378,10 @@ class WithPoses:
         cells = np.concatenate([self.cells.stops(chain) for chain in state.cells])
         factor = state.factor
         if not factor.any():
-            factor = np.stack([self._factor(problem, cells[i : i + 1], p) for i, p in enumerate(state.poses.poses)])
+            factor = np.stack([
+                proposal_factors(problem.likelihood, cells[i : i + 1], poses, problem.law, DIFFERENCE_M)
+                for i, poses in enumerate(state.poses.poses)
+            ])  # fmt: skip
         rounds = state.sweep // self.every
         gain = float(rounds**-0.6) if state.sweep <= self.adapt_until else 0.0
         steps = PoseMetropolis(problem.likelihood, problem.law, factor)
@@ -416,9 +395,6 @@ class WithPoses:
 
         chains = tuple(self._each(problem, moved, len(state.cells)))
         return replace(state, cells=chains, poses=poses, factor=factor)
-
-    def _factor(self, problem: PoseProblem, cells: NDArray[np.float32], poses: Floats) -> Floats:
-        return proposal_factors(problem.likelihood, cells, poses, problem.law, DIFFERENCE_M)
 
     def _each(self, problem: PoseProblem, work: Callable[[int], Any], count: int) -> list[Any]:
         """Do some work for every chain: on the CPU as many at once as there are threads."""

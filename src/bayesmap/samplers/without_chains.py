@@ -15,6 +15,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,6 +27,8 @@ from bayesmap.samplers.progress import SILENT, Watch
 from bayesmap.samplers.propagate import Marginals, propagate
 from bayesmap.samplers.sampler import STREAM_PARTICLES, STREAM_START
 from bayesmap.samplers.wall_problem import WallProblem
+
+Floats = NDArray[np.float64]
 
 BATCH_CELLS = 1 << 23  # cells of maps that are drawn at a time
 COUPLED_CELLS = 1 << 13  # of maps of coupled cells that are drawn together
@@ -44,7 +47,7 @@ class Particles:
         finished: false if stopped early.
     """
 
-    log_weights: NDArray[np.float64]
+    log_weights: Floats
     log_evidence: float
     problem: WallProblem
     key: int
@@ -65,7 +68,7 @@ class Particles:
         walls = particle_maps(self.problem.device_prior, self.key, particles, self.problem.device)
         return np.asarray(walls.reshape(len(particles), *self.problem.table.grid.shape) != 0)
 
-    def occupancy(self) -> NDArray[np.float64]:
+    def occupancy(self) -> Floats:
         """Return the weighted mean of the maps, (nx, ny), in batches; independent cells that no beam touches have the
         prior's.
         """
@@ -98,7 +101,7 @@ def sample_importance(
 
     particles = check_count("importance", "particles", particles, 1)
     key = mix(seed, 0, STREAM_PARTICLES)
-    batches: list[NDArray[np.float64]] = []
+    batches: list[Floats] = []
     began = time.perf_counter()
     size, done = 256, 0
     watch.report("particles", 0, particles)  # of a large map the first particles take a while
@@ -121,7 +124,7 @@ def sample_importance(
     )
 
 
-def _weigh(problem: WallProblem, key: int, first: int, count: int) -> NDArray[np.float64]:
+def _weigh(problem: WallProblem, key: int, first: int, count: int) -> Floats:
     """Compute log p(readings | map) of particles first .. first + count - 1."""
     from bayesmap.kernels.walls.maps import log_likelihoods, weigh
 
@@ -161,7 +164,7 @@ class Enumeration:
     """
 
     unknown: NDArray[np.intp]
-    log_posterior: NDArray[np.float64]
+    log_posterior: Floats
     log_evidence: float
     problem: WallProblem
 
@@ -170,13 +173,13 @@ class Enumeration:
         state = np.arange(len(self.log_posterior))[:, None]
         return np.asarray(state >> np.arange(len(self.unknown)) & 1 == 1)
 
-    def marginals(self) -> NDArray[np.float64]:
+    def marginals(self) -> Floats:
         """Return the posterior wall probability of every cell, (nx, ny); the prior's where no beam observes it."""
         p = self.problem.p_wall.copy()
         p[self.unknown] = np.exp(self.log_posterior) @ self.states()
         return p.reshape(self.problem.table.grid.shape)
 
-    def pairs(self) -> NDArray[np.float64]:
+    def pairs(self) -> Floats:
         """Return the posterior probability that both of two enumerated cells are walls, (n, n)."""
         states = self.states().astype(np.float64)
         return np.asarray((states * np.exp(self.log_posterior)[:, None]).T @ states)
@@ -243,9 +246,6 @@ def _pairs_alike(problem: WallProblem, state: NDArray[np.int64], bit_of: NDArray
     return pairs
 
 
-Floats = NDArray[np.float64]
-
-
 @dataclass(frozen=True)
 class DrawRequest:
     """What to draw: ``chains * draws`` draws by ``seed``, after ``particles`` or ``rounds`` of work."""
@@ -288,7 +288,7 @@ class IndependentDraws:
 def exact(problem: WallProblem, request: DrawRequest, watch: Watch) -> IndependentDraws:
     """Enumerate the whole posterior, and draw from it."""
     whole = enumerate_maps(problem)
-    return _found(problem, request, whole.sample, whole.marginals(), log_evidence=whole.log_evidence)
+    return _drawn(problem, request, whole.sample, whole.marginals(), log_evidence=whole.log_evidence)
 
 
 def importance(problem: WallProblem, request: DrawRequest, watch: Watch) -> IndependentDraws:
@@ -299,7 +299,7 @@ def importance(problem: WallProblem, request: DrawRequest, watch: Watch) -> Inde
 
 def draws_by_importance(problem: WallProblem, request: DrawRequest, particles: Particles) -> IndependentDraws:
     """Resample draws from particles that have been weighed."""
-    return _found(
+    return _drawn(
         problem,
         request,
         lambda rng, count: particles.maps(particles.resample(rng, count)),
@@ -318,7 +318,7 @@ def belief_propagation(problem: WallProblem, request: DrawRequest, watch: Watch)
 
 def draws_by_beliefs(problem: WallProblem, request: DrawRequest, marginals: Marginals) -> IndependentDraws:
     """Draw each cell independently from beliefs that have been propagated."""
-    return _found(
+    return _drawn(
         problem,
         request,
         lambda rng, count: rng.random((count, *marginals.p_wall.shape)) < marginals.p_wall,
@@ -329,18 +329,14 @@ def draws_by_beliefs(problem: WallProblem, request: DrawRequest, marginals: Marg
     )
 
 
-def _found(
+def _drawn(
     problem: WallProblem,
     request: DrawRequest,
     draw: Callable[[np.random.Generator, int], NDArray[np.bool_]],
     occupancy: Floats,
-    *,
-    log_weights: Floats | None = None,
-    log_evidence: float | None = None,
-    statistics: Mapping[str, Floats] | None = None,
-    seconds: float = 0.0,
-    finished: bool = True,
+    **results: Any,
 ) -> IndependentDraws:
+    """Draw maps for every chain; ``results`` are further fields of `IndependentDraws`."""
     from bayesmap.kernels.walls.maps import log_likelihoods, reach_frequency
 
     rngs = [np.random.default_rng([request.seed, chain, STREAM_START]) for chain in range(request.chains)]
@@ -355,9 +351,5 @@ def _found(
         log_prior=np.array([[problem.prior.log_prob(w, problem.grid) for w in chain] for chain in walls]),
         occupancy=occupancy,
         observed=reach_frequency(problem.table, maps, problem.device) >= 0.5,
-        seconds=seconds,
-        finished=finished,
-        log_weights=log_weights,
-        statistics={} if statistics is None else statistics,
-        log_evidence=log_evidence,
+        **results,
     )

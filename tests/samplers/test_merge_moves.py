@@ -68,14 +68,6 @@ def test_moments_are_those_of_the_readings_that_a_surface_stopped():
     assert found.count.sum() == 20
 
 
-def test_axes_are_the_eigenvectors_of_the_covariance():
-    angles = np.random.default_rng(1).uniform(-np.pi, np.pi, 50)
-    found = axes_of(np.array([surface(3, 3, angle) for angle in angles], dtype=np.float32))
-    np.testing.assert_allclose(found.along, 0.03**2, rtol=1e-5)
-    np.testing.assert_allclose(found.across, 0.004**2, rtol=1e-5)
-    np.testing.assert_allclose(abs((found.direction * np.stack([np.cos(angles), np.sin(angles)], -1)).sum(1)), 1)
-
-
 def test_the_readings_of_the_fewer_go_to_the_neighbour_whose_axis_they_lie_on():
     cells, owner, points = wall()
     cells[flat(4, 6)] = surface(4, 6, angle=np.pi / 2)  # next to them, too, but they lie beside its axis
@@ -183,11 +175,3 @@ def lengthened_by(cells, owner, points, x):
     (at,) = np.flatnonzero(new.where[:, 0] == flat(x, 5))
     assert new.where[at, 1] == flat(5, 5)
     return new.cells[at, 1]
-
-
-def test_a_map_without_surfaces_that_stop_beams_stays_what_it_is():
-    cells, owner, points = wall(())
-    maps = ChainMaps(cells[None].copy(), np.zeros((1, GRID.n_cells), dtype=bool))
-    look = lambda maps: np.zeros((1, *GRID.shape))  # noqa: E731
-    assert merge_surfaces(maps, points, noise_of(owner), [owner], GRID, look, look(maps)) == [0]
-    np.testing.assert_array_equal(maps.cells[0], cells)

@@ -1,0 +1,249 @@
+"""Samplers of walls draw from the exact posterior, with neighbours apart or coupled, against enumeration of all maps.
+
+Invariance: chains start from exact, independent draws of the posterior; after some sweeps each is still one such draw
+if, and only if, the sweep leaves the posterior invariant. This holds however slowly a sampler mixes, so it is tried
+where walls are rare and readings sharp too.
+
+Transitions: the oracle applies the conditionals, site by site in the sweep's order, to a distribution over all maps;
+thousands of chains from one map must follow that distribution sweep by sweep. Unlike invariance this catches a sampler
+that does nothing, visits cells in another order, or draws two cells with one random number.
+
+False alarms: `ALPHA` = 1e-4 for the whole file, over all choices of its (fixed) seeds. The landing run takes some of
+the tests at the same levels: its rate is smaller still, and what a test can detect is the same.
+"""
+
+from itertools import product
+
+import numpy as np
+import pytest
+from kernels.shuffle_orders import shuffles_of_chains
+from oracle.enumeration import all_maps, log_prior_of_all
+from oracle.transitions import sweeps
+from oracle.verdict import ALPHA, goodness_of_fit, least_p_value
+from sampler_cases import (
+    APART,
+    BOTH,
+    COUPLED,
+    LATTICE,
+    NOISES,
+    ORDERS,
+    PRIORS,
+    SAMPLERS,
+    WORLDS,
+    case_of,
+    draw_maps,
+    first,
+    problem_of,
+    run_sweeps,
+)
+from tiers import kept, latin, pairs_but
+
+import bayesmap as bm
+from bayesmap.beams.table import BeamTable
+from bayesmap.kernels.walls.table import trace
+from bayesmap.model import Model
+from bayesmap.samplers.metropolis import Metropolis
+
+CHAINS, FEWER = 8_000, 2_500
+HALF = [w for w in APART if w.beams != 9 or w.robust == ((PRIORS.index(w.prior) + NOISES.index(w.noise)) % 2 == 1)]
+HOW = list(product(SAMPLERS, ("raster", "radial")))
+TESTS = len(WORLDS) * len(BOTH) + (len(HALF) + len(COUPLED)) * len(HOW) * 3 + 16 * 6 + 40
+LEVEL = ALPHA / TESTS
+LONG = 40
+"""Sweeps after which what is wrong has had the time to show."""
+POWER = first(prior=0.3, noise=0.5, robust=False)
+METHODS = pytest.mark.parametrize("method", SAMPLERS)
+
+
+def p_value_after(case, problem, method, order, count, seed, law=None, beta=1.0):
+    """The p-value of chains that start from draws of a law, by default the posterior, against that law."""
+    law = case.exact.p if law is None else law
+    starts = draw_maps(np.random.default_rng([seed, 1]), law, case.n, CHAINS)
+    return least_p_value(run_sweeps(problem, method, order, starts, count, seed, beta=beta), law)
+
+
+CASES = latin(len(ORDERS), range(len(WORLDS)), list(SAMPLERS), ORDERS)
+"""The landing run takes each world with each method in one order, and so each method and order with one in three."""
+
+
+@pytest.mark.parametrize(
+    ("number", "method", "order"),
+    CASES,
+    ids=[f"{WORLDS[number].name}-{method}-{order}" for number, method, order in (case.values for case in CASES)],
+)
+def test_a_sweep_leaves_the_exact_posterior_invariant(number, method, order):
+    case = case_of(WORLDS[number])
+    assert p_value_after(case, case.problem(), method, order, 3, number) > LEVEL
+
+
+def test_the_landing_run_tries_every_method_and_order_in_every_kind_of_world():
+    cases = kept(CASES)
+    assert {(number, method) for number, method, _ in cases} == set(product(range(len(WORLDS)), SAMPLERS))
+    for how in BOTH:
+        worlds = [WORLDS[number] for number, *mine in cases if tuple(mine) == how]
+        assert abs(len(worlds) - len(WORLDS) / 3) < 1
+        assert len({(w.noise, w.robust) for w in worlds if w.beams == 9 and not w.coupling}) == 6
+        assert {w.beams for w in worlds} == {9, 70, LATTICE}
+        assert len({w.coupling for w in worlds}) >= 4
+
+
+def start_map(case, kind):
+    """A start with the cells that the prior fixes set as it says."""
+    p = np.broadcast_to(case.prior.p_wall, case.grid.shape).ravel()
+    walls = {"zeros": np.zeros(case.n, bool), "ones": np.ones(case.n, bool), "truth": case.walls.ravel()}[kind]
+    return np.where(p == 0, False, np.where(p == 1, True, walls))
+
+
+def law_after(case, sites, start, count):
+    """The law over all maps after some sweeps of these sites from one map."""
+    p = np.zeros(1 << case.n)
+    p[int((start.astype(int) << np.arange(case.n)).sum())] = 1.0
+    return sweeps(p, case.exact.log_joint, case.n, sites, count)
+
+
+def sites_of(case, method, order):
+    return SAMPLERS[method][1](case.grid.shape, order, case.scans.poses, case.grid)
+
+
+@pytest.mark.parametrize(("world", "how"), latin(4, HALF + COUPLED, HOW))
+def test_chains_follow_the_law_of_the_conditionals_sweep_by_sweep(world, how):
+    (method, order), case = how, case_of(world)
+    problem, sites = case.problem(), sites_of(case, method, order)
+    for kind, count in (("zeros", 1), ("ones", 2), ("truth", 5)):
+        start = start_map(case, kind)
+        found = run_sweeps(problem, method, order, np.tile(start, (CHAINS, 1)), count, WORLDS.index(world))
+        assert least_p_value(found, law_after(case, sites, start, count)) > LEVEL
+
+
+@pytest.mark.parametrize("order", ORDERS)
+@METHODS
+def test_the_whole_transition_matrix_of_a_two_by_two_map(method, order):
+    """All 16 starts. A single block draws the posterior outright; the law of single sites in random order is the mean
+    over the chains' own shuffles, which have a test of their own.
+    """
+    case = case_of(first(shape=(2, 2)))
+    problem, maps = case.problem(), all_maps(4)
+    for m in range(16):
+        start = start_map(case, "zeros") | maps[m]
+        if case.exact.p[m] == 0:
+            continue
+        law = case.exact.p
+        if method == "gibbs" and order == "random":
+            orders, counts = np.unique(shuffles_of_chains(4, m, FEWER, sweep=0), axis=0, return_counts=True)
+            laws = [law_after(case, [[c] for c in one], start, 1) for one in orders.tolist()]
+            law = np.average(laws, axis=0, weights=counts)
+        elif method == "gibbs":
+            law = law_after(case, sites_of(case, method, order), start, 1)
+        found = run_sweeps(problem, method, order, np.tile(start, (FEWER, 1)), 1, m)
+        assert least_p_value(found, law) > LEVEL
+
+
+@pytest.mark.parametrize(("method", "order"), pairs_but(BOTH, ("gibbs", "random"), ("block", "radial")))
+def test_chains_from_far_away_reach_the_posterior(method, order):
+    """Where mixing is quick: 60 sweeps from a map full of walls."""
+    for world in APART:
+        if world.prior in (0.3, 0.5) and world.noise == 2.0 and not world.robust:
+            case = case_of(world)
+            found = run_sweeps(case.problem(), method, order, np.ones((FEWER, case.n), bool), 60, WORLDS.index(world))
+            assert least_p_value(found, case.exact.p) > LEVEL
+
+
+def test_the_wrong_order_is_rejected():
+    """Power: raster chains against the law of radial sweeps."""
+    case = case_of(first(prior=0.5, noise=0.5, robust=False))
+    start = start_map(case, "zeros")
+    found = run_sweeps(case.problem(), "gibbs", "raster", np.tile(start, (CHAINS, 1)), 1, 5)
+    assert least_p_value(found, law_after(case, sites_of(case, "gibbs", "radial"), start, 1)) < LEVEL
+
+
+@METHODS
+def test_a_prior_that_is_a_little_wrong_is_rejected(method):
+    case = case_of(POWER)
+    assert p_value_after(case, problem_of(case, prior=bm.Independent(0.33)), method, "radial", LONG, 1) < LEVEL
+
+
+@pytest.mark.parametrize(("number", "method"), pairs_but(product([0, 1, 4], SAMPLERS), (0, "gibbs"), (1, "block")))
+def test_a_coupling_that_is_ignored_or_a_little_wrong_is_rejected(number, method):
+    case = case_of(COUPLED[number])
+    p_wall, coupling = case.prior.p_wall, case.prior.coupling
+    for wrong in (bm.Independent(p_wall), bm.Ising(p_wall, 0.8 * coupling), bm.Ising(p_wall, 1.3 * coupling)):
+        assert p_value_after(case, problem_of(case, prior=wrong), method, "radial", LONG, 1) < LEVEL
+
+
+@METHODS
+def test_one_incidence_whose_gain_has_the_wrong_sign_is_rejected(method):
+    """One entry of the table, one that is often a first hit: its likelihood mirrored about that of no hit."""
+    case = case_of(POWER)
+    table = case.problem().table
+    maps = draw_maps(np.random.default_rng(3), case.exact.p, case.n, 500).reshape(-1, *case.grid.shape)
+    hits = np.stack([table.offsets[:-1] + table.first_hits(walls) for walls in maps]).ravel()
+    share = np.bincount(hits, minlength=table.n_incidences + 1)[: table.n_incidences] / len(maps)
+    gain = table.loglik - np.repeat(table.no_hit, np.diff(table.offsets))
+    entry = np.argmax(share * (1 - share) * np.minimum(abs(gain), 1.0))
+    loglik = table.loglik.copy()
+    loglik[entry] -= 2 * gain[entry]
+    wrong = BeamTable(case.grid, table.offsets, table.cells, loglik, table.no_hit)
+    assert p_value_after(case, problem_of(case, table=wrong), method, "radial", LONG, 2) < LEVEL
+
+
+def tempered(case, beta):
+    """The law of all maps under the prior and the likelihood to the power of beta: the coupling is not tempered."""
+    log_prior = log_prior_of_all(case.grid.shape, case.prior.p_wall, case.prior.pair_coupling)
+    with np.errstate(invalid="ignore"):
+        log_p = np.where(np.isinf(log_prior), -np.inf, log_prior + beta * (case.exact.log_joint - log_prior))
+    p = np.exp(log_p - log_p.max())
+    return p / p.sum()
+
+
+@pytest.mark.parametrize("world", [POWER, first(prior="cells", beams=70), COUPLED[1]])
+@pytest.mark.parametrize(
+    ("beta", "how"),
+    pairs_but(product([0.0, 0.3], [("gibbs", "radial"), ("block", "random")]), (0.3, ("gibbs", "radial"))),
+)
+def test_at_an_inverse_temperature_a_sweep_leaves_the_tempered_posterior_invariant(world, beta, how):
+    case = case_of(world)
+    law, other = tempered(case, beta), tempered(case, 0.8 if beta == 0 or world.coupling else 0.0)
+    starts = draw_maps(np.random.default_rng([WORLDS.index(world), 4]), law, case.n, CHAINS)
+    found = run_sweeps(case.problem(), *how, starts, LONG, WORLDS.index(world), beta=beta)
+    assert least_p_value(found, law) > LEVEL
+    assert least_p_value(found, other) < LEVEL  # the twin
+
+
+def test_chains_and_sweeps_are_independent_of_one_another():
+    """Prior draws of neighbouring chains, and of one chain's neighbouring sweeps, are pairwise independent."""
+    case = case_of(first(prior=0.5, shape=(4, 4)))
+    silent = bm.Scans([100.0, 100.0, 0.0], [0.0], [[1.0]], max_range_m=1.0)
+    problem = problem_of(case, table=trace(silent, case.grid, bm.Gaussian(1.0)))
+    one, two = (run_sweeps(problem, "gibbs", "random", np.zeros((CHAINS, 16), bool), n, 9) for n in (1, 2))
+    for other in (two, np.roll(one, 1, axis=0), np.roll(one, 1, axis=1), ~one[:, ::-1]):
+        pair = one.astype(int) * 2 + other
+        for c in range(16):
+            if not (other is not two and c == 15 - c):
+                assert goodness_of_fit(np.bincount(pair[:, c], minlength=4), np.full(4, 0.25)) > LEVEL
+
+
+def test_coupled_cells_that_no_beam_touches_are_as_their_neighbours_say():
+    """A single beam along the first row of 4 x 3 cells, which reads a wall at its end."""
+    scans = bm.Scans([-0.5, 0.5, 0.0], [0.0], [[3.5]], max_range_m=9.0)
+
+    def occupancy(prior, method, draws, chains=1):
+        schedule = bm.Schedule(draws=draws, chains=chains)
+        run = bm.infer(
+            scans, bm.Grid((4, 3)), prior=prior, sensor=bm.Gaussian(0.1), method=method, schedule=schedule, seed=3
+        )
+        return run.occupancy
+
+    coupled = occupancy(bm.Ising(0.3, 1.0), "exact", 0)
+    assert coupled[3, 1] > 2 * coupled[0, 1]
+    np.testing.assert_allclose(occupancy(bm.Independent(0.3), "exact", 0)[:, 1:], 0.3)
+    np.testing.assert_allclose(occupancy(bm.Ising(0.3, 1.0), "gibbs", 20_000, chains=4), coupled, atol=0.02)
+
+
+@pytest.mark.full
+def test_metropolis_steps_follow_the_posterior_of_coupled_walls_too():
+    """The generic sampler asks the prior for proposals: 400 chains of 12 sweeps on four cells."""
+    case, sampler = case_of(first(shape=(2, 2), coupling=0.8)), Metropolis()
+    problem = sampler.prepare(Model(case.scans, case.grid, case.prior, case.sensor), "cpu")
+    state, _ = sampler.step(sampler.init(problem, range(400), 3), 12)
+    found = sampler.snapshot(state).arrays["walls"].reshape(-1, 4)
+    assert least_p_value(found, case.exact.p) > LEVEL
