@@ -1,12 +1,17 @@
-"""Priors of poses are densities, and what samplers ask of them follows from the density."""
+"""Priors of poses are densities, and what samplers need of them follows from the density."""
+
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 import scipy
 
+from bayesmap.api import key_scans
 from bayesmap.errors import BadInput
+from bayesmap.poses.graph import Factors
 from bayesmap.poses.prior import FREE, Known, Motions, Odometry, Uncertain
 from bayesmap.space.planar import between, compose, wrapped
+from bayesmap.space.scans import Scans
 
 
 def trajectory(seed, scans=6):
@@ -174,3 +179,22 @@ def test_the_first_pose_of_odometry_is_the_frame():
 def test_senseless_numbers_are_refused(make):
     with pytest.raises(BadInput, match=r"sigma|m_per_m|p_slip"):
         make()
+
+
+TURNED = np.array([[0.0, 0.0, 0.0], [0.0, 0.05, 0.5], [0.0, 0.1, 1.0]])
+
+
+def test_odometry_that_missed_a_turn_does_not_turn_the_scans_of_the_chains():
+    """The log says firmly that the robot stood still between two scans that the walls hold half a radian apart."""
+    scans = Scans(TURNED, np.array([0.0]), np.ones((3, 1)), 2.0)
+    stood = Factors(np.arange(2), np.arange(1, 3), np.zeros((2, 3)), np.tile(np.eye(3) / 0.002**2, (2, 1, 1)))
+    calibration = SimpleNamespace(angle_step_ratio=1.0)
+    found = SimpleNamespace(
+        keys=np.arange(3), order=np.arange(3), poses=TURNED, odometry=stood, calibration=calibration,
+        draw=lambda count, seed: np.tile(TURNED, (count, 1, 1)),
+    )  # fmt: skip
+    law = key_scans(scans, found, chains=2, seed=0).prior.law(TURNED)
+    turn = np.array([[0.0, 0.0, 0.0], [0.0, 0.0, 0.01], [0.0, 0.0, 0.01]])
+    assert abs(law.log_prob(TURNED - turn) - law.log_prob(TURNED)) < 0.1
+    still = np.zeros((3, 3))
+    assert law.log_prob(still) > law.log_prob(still + turn) + 5  # steps that it can have seen right, it still holds

@@ -1,3 +1,5 @@
+"""Residuals of held-out readings, places with respect to a surface, and shares of work that are reported."""
+
 import numpy as np
 import pytest
 
@@ -5,7 +7,7 @@ from bayesmap.cells.arrays import Draws, pack
 from bayesmap.cells.binary import Independent
 from bayesmap.errors import BadInput
 from bayesmap.posterior.posterior import Posterior
-from bayesmap.posterior.predictor import compare, predictor_of, residuals_of
+from bayesmap.posterior.predictor import compare, parts, predictor_of, residuals_of, surface_offset, watched
 from bayesmap.posterior.scores import beam_log_scores
 from bayesmap.samplers.sampler import Snapshot
 from bayesmap.sensors.builtin import BeamMixture, Gaussian
@@ -80,3 +82,58 @@ def test_beams_of_a_sensor_that_moved_end_where_each_began():
 def test_scans_that_say_nothing_are_refused():
     with pytest.raises(BadInput, match="none of the scans has a hit or a no-return"):
         residuals_of(predictor_of(run([6])), along(np.nan, -np.inf))
+
+
+THICK_M, LONG_M = 0.01, 0.2
+
+
+def wall(direction_rad):
+    """Covariance of a wall that runs in a direction."""
+    t = np.array([np.cos(direction_rad), np.sin(direction_rad)])
+    n = np.array([-t[1], t[0]])
+    return LONG_M**2 * np.outer(t, t) + THICK_M**2 * np.outer(n, n)
+
+
+@pytest.mark.parametrize("turn_rad", [0.0, 0.7, 2.5, -1.2])
+@pytest.mark.parametrize("side", [1.0, -1.0])
+def test_a_point_has_its_parts_across_and_along(turn_rad, side):
+    """A wall along x at the origin, a sensor above or below it, all turned about the origin."""
+    turn = np.array([[np.cos(turn_rad), -np.sin(turn_rad)], [np.sin(turn_rad), np.cos(turn_rad)]])
+    sensor, point = turn @ [0.5, side * 2.0], turn @ [0.3, side * 0.04]
+    found = surface_offset(np.zeros(2), wall(turn_rad), point, sensor)
+    assert found.across_m == pytest.approx(0.04)  # in front of it, on whichever side the sensor stands
+    # the sensor above looks down, so that larger x is on its left; from below it is on its right
+    assert found.along_m == pytest.approx(side * 0.3)
+    assert (found.thickness_m, found.length_m) == pytest.approx((THICK_M, LONG_M))
+    assert found.incidence_rad == pytest.approx(np.arctan2(0.5, 2.0))
+
+
+def test_behind_the_wall_is_negative():
+    found = surface_offset(np.zeros(2), wall(0.0), np.array([0.0, -0.05]), np.array([0.0, 3.0]))
+    assert found.across_m == pytest.approx(-0.05)
+    assert found.incidence_rad == pytest.approx(0.0)
+
+
+def test_parts_follow_each_other_by_their_sizes():
+    told = []
+    first, second, third = parts(told.append, 1.0, 2.0, 5.0)
+    for tell, share in ((first, 0.5), (first, 1.0), (second, 0.5), (second, 1.0), (third, 0.2), (third, 1.0)):
+        tell(share)
+    assert told == pytest.approx([0.5 / 8, 1 / 8, 2 / 8, 3 / 8, 4 / 8, 1.0])
+
+
+def test_a_part_of_a_part():
+    told = []
+    _, second = parts(told.append, 1.0, 1.0)
+    for tell in parts(second, 3.0, 1.0):
+        tell(1.0)
+    assert told == pytest.approx([0.875, 1.0])
+
+
+def test_watched_batches_are_the_same_and_are_told_when_they_have_been_used():
+    told = []
+    batches = [np.arange(6).reshape(3, 2), np.arange(2).reshape(1, 2)]
+    seen = [(batch, len(told)) for batch in watched(batches, 4, told.append)]
+    assert [batch for batch, _ in seen] == batches
+    assert [before for _, before in seen] == [0, 1]
+    assert told == [0.75, 1.0]

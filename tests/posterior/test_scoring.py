@@ -66,13 +66,9 @@ def case():
 @pytest.fixture(scope="module")
 def run(case):
     return bm.infer(
-        case.scans,
-        case.grid,
-        prior=case.prior,
-        sensor=case.sensor,
-        schedule=bm.Schedule(chains=2, draws=50),
+        case.scans, case.grid, prior=case.prior, sensor=case.sensor, schedule=bm.Schedule(chains=2, draws=50),
         hit_depth=0.3,
-    )
+    )  # fmt: skip
 
 
 def test_a_run_s_nats_are_its_log_score(case, run):

@@ -25,13 +25,9 @@ TRAIN = scans_of_all_kinds(5, GRID, poses=30)
 @cache
 def run_of(kind, draws=8):
     return bm.infer(
-        TRAIN,
-        GRID,
-        prior=PRIORS[kind],
-        sensor=SENSOR,
-        schedule=bm.Schedule(chains=2, warmup=20, draws=draws),
+        TRAIN, GRID, prior=PRIORS[kind], sensor=SENSOR, schedule=bm.Schedule(chains=2, warmup=20, draws=draws),
         hit_depth=0.5,
-    )
+    )  # fmt: skip
 
 
 def of(run, name):
@@ -148,13 +144,9 @@ def test_cells_that_no_beam_of_the_run_touched_are_scored_by_the_prior(kind):
     """A run over nothing but the first column; a held-out beam through the last two."""
     scans = bm.Scans([-0.9, 1.5, np.pi / 2], [0.0], [[0.7]], max_range_m=3.0)
     run = bm.infer(
-        scans,
-        GRID,
-        prior=PRIORS[kind],
-        sensor=SENSOR,
-        schedule=bm.Schedule(chains=1, warmup=2, draws=300),
+        scans, GRID, prior=PRIORS[kind], sensor=SENSOR, schedule=bm.Schedule(chains=1, warmup=2, draws=300),
         hit_depth=0.5,
-    )
+    )  # fmt: skip
     held = bm.Scans([0.6, 1.9, np.pi / 2], [0.0], [[np.inf]], max_range_m=3.0)
     # Plain cells in the way: three, each passed with the chance 1 - a / (a + b) = 2/3.
     score = run.log_score(held)
@@ -188,13 +180,9 @@ def test_it_is_drawn(kind):
 def test_where_no_reading_ended_there_are_no_surfaces_and_the_run_is_drawn():
     nothing = bm.Scans(TRAIN.poses, TRAIN.angles_rad, np.full(TRAIN.ranges_m.shape, np.inf), max_range_m=0.4)
     run = bm.infer(
-        nothing,
-        GRID,
-        prior=PRIORS["surfaces"],
-        sensor=SENSOR,
-        schedule=bm.Schedule(chains=2, warmup=1, draws=2),
+        nothing, GRID, prior=PRIORS["surfaces"], sensor=SENSOR, schedule=bm.Schedule(chains=2, warmup=1, draws=2),
         hit_depth=0.5,
-    )
+    )  # fmt: skip
     mean, covariance, reflectivity = run.surfaces()
     assert mean.shape == (0, 2)
     assert covariance.shape == (0, 2, 2)

@@ -1,7 +1,11 @@
+"""Summaries of runs and of poses: problems are named, and moments are those of the draws."""
+
 import numpy as np
+import pytest
 from flat_options import infer
 
 import bayesmap as bm
+from bayesmap.posterior.summary import summarise_poses
 
 
 def run_of(method, **options):
@@ -29,3 +33,37 @@ def test_a_run_too_short_to_judge_is_not_called_converged():
     summary = run_of("gibbs", draws=20).summary()
     assert any("effective sample size" in problem for problem in summary.problems())
     assert summary.as_json()["effective_sample_size"] is None
+
+
+def draws(seed, chains=4, count=500, yaw=3.1):
+    rng = np.random.default_rng(seed)
+    covariance = np.array([[0.04, 0.01, 0.0], [0.01, 0.02, 0.005], [0.0, 0.005, 0.03]])
+    noise = rng.standard_normal((chains, count, 2, 3)) @ np.linalg.cholesky(covariance).T
+    poses = np.array([[1.0, 2.0, yaw], [-1.0, 0.0, 0.5]]) + noise
+    poses[..., 2] = (poses[..., 2] + np.pi) % (2 * np.pi) - np.pi
+    return poses, covariance
+
+
+def test_moments_are_those_that_the_draws_come_from():
+    poses, covariance = draws(0)
+    found = summarise_poses(poses)
+    turn = (found.mean[0, 2] - 3.1 + np.pi) % (2 * np.pi) - np.pi
+    assert abs(turn) < 0.02
+    np.testing.assert_allclose(found.mean[:, :2], [[1.0, 2.0], [-1.0, 0.0]], atol=0.025)
+    np.testing.assert_allclose(found.covariance, [covariance, covariance], atol=0.005)
+    np.testing.assert_allclose(found.sigma_m**2, np.linalg.eigvalsh(covariance[:2, :2])[1], rtol=0.1)
+    assert (found.rhat < 1.02).all()
+    assert (found.ess > 1000).all()
+
+
+def test_chains_that_disagree_are_told():
+    poses, _ = draws(1)
+    poses[0, :, 1, 0] += 3.0
+    found = summarise_poses(poses)
+    assert found.rhat[1, 0] > 1.5
+    assert found.rhat[0, 0] < 1.02
+
+
+@pytest.mark.parametrize("count", [1, 3])
+def test_few_draws_have_no_diagnostics(count):
+    assert np.isnan(summarise_poses(draws(2, count=count)[0]).rhat).all()

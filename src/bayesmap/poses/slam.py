@@ -130,22 +130,13 @@ def infer_trajectory(
     explained[keys] = matched.scores
     noise = None if fit is None else fit.noise.of_scans(odometry.motions)
     return Trajectory(
-        compose(report.origin, placed.poses),
-        scans.stamps_s,
-        keys,
-        replace(gaussian, elsewhere=elsewhere),
-        nearest_key=nearest(keys, np.arange(len(scans))),
-        own_covariance=placed.own_covariance(keys),
-        explained=explained,
-        flagged=flag_unexplained(explained, keys),
-        breaks=np.nonzero(track.broken)[0][~closed.joined[1:]],
-        closures=_closures(closed, keys, final.poses),
-        calibration=Calibration(ratio, calibrated(scans, ratio).angles_rad, fit, noise, final.sigma_m),
-        order=order,
-        odometry=None if fit is None else factors,
-        leaps=keys[1:][leaping],
-        alternatives=alternatives,
-    )
+        compose(report.origin, placed.poses), scans.stamps_s, keys, replace(gaussian, elsewhere=elsewhere),
+        nearest_key=nearest(keys, np.arange(len(scans))), own_covariance=placed.own_covariance(keys),
+        explained=explained, flagged=flag_unexplained(explained, keys),
+        breaks=np.nonzero(track.broken)[0][~closed.joined[1:]], closures=_closures(closed, keys, final.poses),
+        calibration=Calibration(ratio, calibrated(scans, ratio).angles_rad, fit, noise, final.sigma_m), order=order,
+        odometry=None if fit is None else factors, leaps=keys[1:][leaping], alternatives=alternatives,
+    )  # fmt: skip
 
 
 def in_order_of_time(scans: Scans) -> tuple[NDArray[np.intp], Scans]:

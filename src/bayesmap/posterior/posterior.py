@@ -121,22 +121,12 @@ def posterior_of_chains(
     """
     prior = model.cells if parameters is None else parameters.prior
     return Posterior(
-        scans=model.scans,
-        sensor=model.sensor if parameters is None else parameters.sensor,
-        prior=prior,
-        settings=settings,
-        draws=chains.draws,
-        occupancy=prior.mean_map(chains.draws),
-        observed=chains.observed(),
-        log_likelihood=chains.log_likelihood,
-        log_prior=chains.log_prior,
-        warmup_log_joint=chains.warmup_log_joint,
-        snapshot=chains.snapshot,
-        finished=chains.finished,
-        seconds={**chains.seconds, **seconds},
-        counts=_counts(model, chains.n_incidences),
-        statistics=chains.statistics,
-    )
+        scans=model.scans, sensor=model.sensor if parameters is None else parameters.sensor, prior=prior,
+        settings=settings, draws=chains.draws, occupancy=prior.mean_map(chains.draws), observed=chains.observed(),
+        log_likelihood=chains.log_likelihood, log_prior=chains.log_prior, warmup_log_joint=chains.warmup_log_joint,
+        snapshot=chains.snapshot, finished=chains.finished, seconds={**chains.seconds, **seconds},
+        counts=_counts(model, chains.n_incidences), statistics=chains.statistics,
+    )  # fmt: skip
 
 
 def posterior_of_draws(
@@ -144,24 +134,13 @@ def posterior_of_draws(
 ) -> Posterior:
     """Return the posterior of independent draws."""
     return Posterior(
-        scans=model.scans,
-        sensor=model.sensor,
-        prior=model.cells,
-        settings=settings,
-        draws=Draws(model.grid, model.cells.arrays, {"walls": independent.walls}),
-        occupancy=independent.occupancy,
-        observed=independent.observed,
-        log_likelihood=independent.log_likelihood,
-        log_prior=independent.log_prior,
-        warmup_log_joint=np.zeros((len(independent.walls), 0)),
-        snapshot=Snapshot(0),
-        finished=independent.finished,
-        seconds={"warm_start": 0.0, "sampling": independent.seconds, **seconds},
-        counts=_counts(model, n_incidences),
-        log_weights=independent.log_weights,
-        statistics=independent.statistics,
-        log_evidence=independent.log_evidence,
-    )
+        scans=model.scans, sensor=model.sensor, prior=model.cells, settings=settings,
+        draws=Draws(model.grid, model.cells.arrays, {"walls": independent.walls}), occupancy=independent.occupancy,
+        observed=independent.observed, log_likelihood=independent.log_likelihood, log_prior=independent.log_prior,
+        warmup_log_joint=np.zeros((len(independent.walls), 0)), snapshot=Snapshot(0), finished=independent.finished,
+        seconds={"warm_start": 0.0, "sampling": independent.seconds, **seconds}, counts=_counts(model, n_incidences),
+        log_weights=independent.log_weights, statistics=independent.statistics, log_evidence=independent.log_evidence,
+    )  # fmt: skip
 
 
 def chains_of(posterior: Posterior) -> Chains:

@@ -344,23 +344,14 @@ def score_prediction(
     of_events = ScanBlocks.make(np.repeat(scan, rays.lengths)[event], seed)
     none = Estimate(float("nan"), float("nan"))
     return Score(
-        scans=len(np.unique(scan[valid])),
-        beams=int(valid.sum()),
-        nats_per_beam=nats.value,
-        nats_per_beam_error=nats.error,
-        coverage=tuple(covers(level) for level in LEVELS),
-        pit=pit,
-        pit_histogram=tuple(pit_histogram(pit, BINS).tolist()),
-        pit_distance=distance,
-        pit_p_value=p_value,
-        events=len(p),
-        brier=of_events.mean(brier) if len(p) else none,
-        log_loss=of_events.mean(loss) if len(p) else none,
-        reliability=tuple(reliability(p, happened)),
+        scans=len(np.unique(scan[valid])), beams=int(valid.sum()), nats_per_beam=nats.value,
+        nats_per_beam_error=nats.error, coverage=tuple(covers(level) for level in LEVELS), pit=pit,
+        pit_histogram=tuple(pit_histogram(pit, BINS).tolist()), pit_distance=distance, pit_p_value=p_value,
+        events=len(p), brier=of_events.mean(brier) if len(p) else none,
+        log_loss=of_events.mean(loss) if len(p) else none, reliability=tuple(reliability(p, happened)),
         p_no_return=(float(prediction.p_no_return[valid].mean()), float(np.isposinf(ranges[valid]).mean())),
-        sensor=describe(sensor),
-        hit_depth=predictor.hit_depth,
-    )
+        sensor=describe(sensor), hit_depth=predictor.hit_depth,
+    )  # fmt: skip
 
 
 def score_posterior(

@@ -133,18 +133,13 @@ def summarise(posterior: Posterior) -> Summary:
         rhat_log_joint=rhat(log_joint) if enough else nan,
         rhat_log_likelihood=rhat(posterior.log_likelihood) if enough else nan,
         ess_log_joint_bulk=bulk_ess(log_joint) if enough else nan,
-        ess_log_joint_tail=tail_ess(log_joint) if enough else nan,
-        rhat_max=cells.rhat_max,
-        ess_min=cells.ess_min,
-        unchanged_cells=cells.unchanged,
-        disagreeing_cells=cells.disagreeing,
-        rhat_high_cells=cells.high,
-        ess_low_cells=cells.low,
-        judged_cells=cells.judged,
+        ess_log_joint_tail=tail_ess(log_joint) if enough else nan, rhat_max=cells.rhat_max, ess_min=cells.ess_min,
+        unchanged_cells=cells.unchanged, disagreeing_cells=cells.disagreeing, rhat_high_cells=cells.high,
+        ess_low_cells=cells.low, judged_cells=cells.judged,
         effective_sample_size=float(1.0 / np.exp(2 * weights).sum()) if weights is not None else nan,
         microseconds_per_sweep=1e6 * posterior.seconds["sampling"] * threads / sweeps if markov and sweeps else nan,
         finished=posterior.finished,
-    )
+    )  # fmt: skip
 
 
 @dataclass(frozen=True, eq=False)
