@@ -33,9 +33,18 @@ def uneven_recording(laps=1.6):
 
 
 def followed(scans):
+    """Return the geometry of scans and the front end's track."""
     geometry = scan_geometry(scans, farthest_m=30.0, threads=1)
     motions, impossible = stated_motions(scans.poses, scans.stamps_s)
     return geometry, follow(geometry, motions, scans.stamps_s, impossible)
+
+
+@cache
+def ordinary():
+    """Return geometry, keys and the keys' poses of the whole recording, which does not break."""
+    geometry, track = followed(uneven_recording()[0])
+    assert not track.broken.any()
+    return geometry, track.keys, track.poses[track.keys]
 
 
 def worst_m(poses, truth):
@@ -54,14 +63,8 @@ def carried(kept=(70, 110), to=None):
     return replace(recorded.select(index), poses=poses, stamps_s=1000.0 + 0.2 * np.arange(len(index))), driven[index]
 
 
-def test_an_ordinary_path_does_not_break():
-    recorded, _ = uneven_recording()
-    _, track = followed(recorded)
-    assert not track.broken.any()
-
-
 def test_scans_in_which_somebody_stands_before_the_laser_are_passed_over():
-    recorded, driven = uneven_recording()
+    recorded, driven = uneven_recording(0.5)
     ranges = recorded.ranges_m.copy()
     ranges[40:43, 20:170] = 0.4
     _, track = followed(replace(recorded, ranges_m=ranges))
@@ -90,16 +93,16 @@ def test_a_part_that_saw_no_place_of_the_others_is_named():
     assert found.breaks[0] in (70, 71)
 
 
-def leapt():
+def leapt(laps):
     """Scans whose odometry leaps by 30 m before one of them."""
-    recorded, _ = uneven_recording()
+    recorded, _ = uneven_recording(laps)
     poses = recorded.poses.copy()
     poses[60:] = compose(np.array([30.0, -8.0, 1.0]), poses[60:])
     return replace(recorded, poses=poses)
 
 
 def test_a_motion_that_no_robot_can_have_made_breaks_the_path():
-    scans = leapt()
+    scans = leapt(0.5)
     assert stated_motions(scans.poses, scans.stamps_s)[1][59]
     _, track = followed(scans)
     assert track.broken[60]
@@ -107,7 +110,7 @@ def test_a_motion_that_no_robot_can_have_made_breaks_the_path():
 
 @pytest.mark.full
 def test_a_path_that_such_a_motion_broke_is_put_together_again():
-    assert worst_m(infer_trajectory(leapt(), threads=1).poses, uneven_recording()[1]) < 0.05
+    assert worst_m(infer_trajectory(leapt(1.6), threads=1).poses, uneven_recording()[1]) < 0.05
 
 
 def test_a_long_motion_over_a_long_time_is_believed():
@@ -156,24 +159,19 @@ def test_a_trajectory_from_coarse_stamps_is_as_good_as_without_stamps(kind):
 
 def test_parts_are_joined_from_any_heading_and_from_afar():
     """The second part as the front end might leave it: moved by metres and turned."""
-    recorded, _ = uneven_recording()
-    geometry, track = followed(recorded)
-    keys = track.keys
-    broken_at = len(keys) // 2
-    poses = track.poses[keys].copy()
+    geometry, keys, right = ordinary()
+    broken_at, poses = len(keys) // 2, right.copy()
     poses[broken_at:] = compose(np.array([9.0, -14.0, 2.5]), poses[broken_at:])
     path = key_path(geometry, keys, poses, np.arange(len(keys)) == broken_at)
     found, joined = rejoin(path, 8.0)
     assert joined.all()
-    assert worst_m(found, track.poses[keys]) < 0.1
+    assert worst_m(found, right) < 0.1
 
 
 def test_parts_that_too_few_places_join_stay_where_they_are():
     """Fewer places than must agree are shared: the front end's guess stands."""
-    recorded, _ = uneven_recording()
-    geometry, track = followed(recorded)
-    keys = track.keys[: len(track.keys) // 2 - 3]
-    poses = track.poses[keys].copy()
+    geometry, keys, right = ordinary()
+    keys, poses = (array[: len(keys) // 2 - 3].copy() for array in (keys, right))
     broken_at = len(keys) - AGREE + 1
     poses[broken_at:] = compose(np.array([9.0, -14.0, 1.0]), poses[broken_at:])
     path = key_path(geometry, keys, poses, np.arange(len(keys)) == broken_at)

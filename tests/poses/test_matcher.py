@@ -5,8 +5,10 @@ from functools import cache
 
 import numpy as np
 import pytest
+import warp as wp
 
 from bayesmap.errors import BadInput
+from bayesmap.kernels.match.likelihood_grid import next_level, widen
 from bayesmap.kernels.match.line_pairs import Agreement, view_counts
 from bayesmap.poses.matcher import Pull, likelihood_grids, match, score_at
 from bayesmap.poses.scan_geometry import scan_geometry
@@ -133,24 +135,19 @@ def test_nothing_is_found_where_nothing_scores():
 
 
 def test_bad_input_is_refused():
-    points = [notched_geometry().points_of(2)]
-    with pytest.raises(BadInput, match="1 sets of points but 2 windows"):
-        match(notched_grids(), points, np.zeros((2, 3)), 0.5, 0.5)
-    with pytest.raises(BadInput, match="positive"):
-        match(notched_grids(), points, np.zeros((1, 3)), 0.5, 0.5, step_rad=0.0)
-    with pytest.raises(BadInput, match="not be negative"):
-        match(notched_grids(), points, np.zeros((1, 3)), -0.5, 0.5)
-    with pytest.raises(BadInput, match="grid_of"):
-        match(notched_grids(), points, np.zeros((1, 3)), 0.5, 0.5, grid_of=np.array([3]))
-    with pytest.raises(BadInput, match="finite"):
-        match(notched_grids(), points, np.full((1, 3), np.nan), 0.5, 0.5)
+    points, one = [notched_geometry().points_of(2)], np.zeros((1, 3))
+    for centres, half_m, options, message in (
+        (np.zeros((2, 3)), 0.5, {}, "1 sets of points but 2 windows"),
+        (one, 0.5, {"step_rad": 0.0}, "positive"),
+        (one, -0.5, {}, "not be negative"),
+        (one, 0.5, {"grid_of": np.array([3])}, "grid_of"),
+        (one * np.nan, 0.5, {}, "finite"),
+    ):
+        with pytest.raises(BadInput, match=message):
+            match(notched_grids(), points, centres, half_m, 0.5, **options)
 
 
 def test_maxima_by_numpy_are_those_of_the_kernel():
-    import warp as wp
-
-    from bayesmap.kernels.match.likelihood_grid import next_level, widen
-
     pyramid = np.random.default_rng(3).integers(0, 255, (2, 2, 37, 21), dtype=np.uint8)
     for level in (1, 2, 4):
         half = 1 << (level - 1)

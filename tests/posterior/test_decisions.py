@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from flat_options import infer
 
 import bayesmap as bm
 from bayesmap.errors import BadInput
@@ -25,10 +26,7 @@ def room():
 @pytest.fixture(scope="module", params=[bm.Independent(0.1), bm.Beta(), bm.Surface()], ids=lambda p: p.words.kind)
 def run(request):
     _, grid, scans = room()
-    prior = request.param
-    return bm.infer(
-        scans, grid, prior=prior, sensor=SENSOR, schedule=bm.Schedule(chains=2, warmup=20, draws=30), seed=3
-    )
+    return infer(scans, grid, prior=request.param, sensor=SENSOR, chains=2, warmup=20, draws=30, seed=3)
 
 
 def test_where_the_robot_was_is_free_and_a_wall_that_it_saw_is_not(run):
@@ -125,8 +123,6 @@ def test_what_cannot_be_decided_is_refused(run, call, words):
 
 def test_a_run_without_draws_decides_nothing():
     _, grid, scans = room()
-    run = bm.infer(
-        scans, grid, prior=bm.Independent(0.1), sensor=SENSOR, schedule=bm.Schedule(chains=1, warmup=1, draws=0)
-    )
+    run = infer(scans, grid, prior=bm.Independent(0.1), sensor=SENSOR, chains=1, warmup=1, draws=0)
     with pytest.raises(BadInput, match="no draws"):
         run.free_probability([[0.0, 0.0]], 0.2)

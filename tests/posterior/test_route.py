@@ -94,8 +94,11 @@ def test_an_ellipse_touches_the_disc_where_points_of_its_outline_do(seed):
         assert not found
 
 
-def test_cells_that_are_blocked_together_count_once():
-    """A door of five cells that is shut in half of the draws: one half, and not a half to the fifth."""
+def test_the_probability_of_a_free_path_and_its_error():
+    """A door of five cells that is shut in half of the draws counts once: one half, and not a half to the fifth.
+
+    Draws that depend on each other are worth less, and where all draws agree the error is not zero.
+    """
     shut = np.random.default_rng(1).random(2000) < 0.5
     blocking = np.repeat(shut[:, None], 5, axis=1)
     found = free_probability(blocking, chains=4)
@@ -103,15 +106,9 @@ def test_cells_that_are_blocked_together_count_once():
     assert found.independent == pytest.approx((1 - shut.mean()) ** 5)
     assert found.blocked.shape == (4, 500)
     assert found.standard_error == pytest.approx(np.sqrt(0.25 / 2000), rel=0.15)
-
-
-def test_draws_that_depend_on_each_other_are_worth_less():
     shut = np.repeat(np.random.default_rng(2).random(100) < 0.5, 20)
     found = free_probability(shut[:, None], chains=2)
     assert found.standard_error > 2.5 * np.sqrt(0.25 / 2000)
-
-
-def test_when_all_draws_agree_the_error_is_not_zero():
     found = free_probability(np.zeros((200, 3), dtype=bool), chains=2)
     assert found.probability == 1.0
     assert 0 < found.standard_error < 0.02
@@ -137,13 +134,13 @@ def rooms(door_shut):
     return draws.reshape(len(door_shut), -1)
 
 
-def route(draws, risk, start=(2.0, 5.7), goal=(8.0, 5.7)):
+def route(draws, risk, start=(2.0, 5.7), goal=(8.0, 5.7), grid=GRID, radius_m=RADIUS):
     def judge(path):
-        cells = cells_about(path, RADIUS, GRID)
-        return free_probability(in_the_way([draws[:, cells]], cells, GRID, path, RADIUS), chains=2)
+        cells = cells_about(path, radius_m, grid)
+        return free_probability(in_the_way([draws[:, cells]], cells, grid, path, radius_m), chains=2)
 
-    blocked = blocked_probability([draws], GRID, RADIUS)
-    return plan_route(blocked, GRID, np.array(start), np.array(goal), risk, judge)
+    blocked = blocked_probability([draws], grid, radius_m)
+    return plan_route(blocked, grid, np.array(start), np.array(goal), risk, judge)
 
 
 def test_through_a_door_that_is_always_open_the_way_is_straight():
@@ -153,7 +150,7 @@ def test_through_a_door_that_is_always_open_the_way_is_straight():
     assert found.free.probability == 1.0
 
 
-def test_what_may_be_shut_is_taken_by_those_who_accept_the_risk_alone():
+def test_a_door_that_may_be_shut_is_taken_only_if_the_risk_is_accepted():
     shut = np.arange(40) % 10 == 0
     bold, careful = route(rooms(shut), 0.2), route(rooms(shut), 0.05)
     assert bold.within_risk
@@ -187,14 +184,7 @@ def test_large_cells_that_are_surely_walls_are_gone_round_and_no_corner_is_cut()
     grid = Grid((6, 5), 1.0, (-0.5, -0.5))
     walls = np.zeros((8, *grid.shape), dtype=np.float32)
     walls[:, 2, 3:] = 1.0
-    draws = walls.reshape(8, -1)
-
-    def judge(path):
-        cells = cells_about(path, 0.25, grid)
-        return free_probability(in_the_way([draws[:, cells]], cells, grid, path, 0.25), chains=2)
-
-    blocked = blocked_probability([draws], grid, 0.25)
-    found = plan_route(blocked, grid, np.array([1.0, 3.0]), np.array([4.0, 3.0]), 0.05, judge)
+    found = route(walls.reshape(8, -1), 0.05, (1.0, 3.0), (4.0, 3.0), grid, 0.25)
     assert found.free.probability == 1.0
     assert found.within_risk
     assert found.length_m == pytest.approx(2 * np.sqrt(2) + 1 + 1, abs=1.01)
@@ -209,21 +199,15 @@ def test_surfaces_block_where_they_lie():
     assert blocked[9, 10] == 0
 
 
-@pytest.mark.parametrize(
-    ("start", "goal", "risk", "what"),
-    [
-        ((-1.0, 1.0), (8.0, 5.7), 0.1, "outside"),
-        ((5.1, 4.0), (8.0, 5.7), 0.1, "touches"),
-        ((2.0, 5.7), (8.0, 5.7), 1.5, "risk"),
-    ],
-)
-def test_what_cannot_be_planned_is_refused(start, goal, risk, what):
-    with pytest.raises(BadInput, match=what):
-        route(rooms(np.zeros(4, dtype=bool)), risk, start, goal)
-
-
-def test_a_room_without_a_door_has_no_route():
+def test_impossible_plans_are_refused():
     draws = rooms(np.zeros(4, dtype=bool))
-    draws.reshape(-1, *GRID.shape)[:, 20] = 1.0
+    for start, risk, message in (
+        ((-1.0, 1.0), 0.1, "outside"),
+        ((5.1, 4.0), 0.1, "touches"),
+        ((2.0, 5.7), 1.5, "risk"),
+    ):
+        with pytest.raises(BadInput, match=message):
+            route(draws, risk, start)
+    draws.reshape(-1, *GRID.shape)[:, 20] = 1.0  # no door
     with pytest.raises(BadInput, match="no path"):
         route(draws, 0.1)

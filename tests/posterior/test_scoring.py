@@ -6,8 +6,8 @@ import json
 import numpy as np
 import pytest
 import scipy
+from flat_options import infer
 from oracle.worlds import make_case
-from posterior.test_scores import without_draws
 
 import bayesmap as bm
 from bayesmap.posterior.predictor import Predictor, fixed_maps
@@ -65,10 +65,7 @@ def case():
 
 @pytest.fixture(scope="module")
 def run(case):
-    return bm.infer(
-        case.scans, case.grid, prior=case.prior, sensor=case.sensor, schedule=bm.Schedule(chains=2, draws=50),
-        hit_depth=0.3,
-    )  # fmt: skip
+    return infer(case.scans, case.grid, prior=case.prior, sensor=case.sensor, chains=2, draws=50, hit_depth=0.3)
 
 
 def test_a_run_s_nats_are_its_log_score(case, run):
@@ -104,20 +101,6 @@ def test_scans_that_never_reach_the_map_have_no_events(run):
     assert json.dumps(found.as_json(), allow_nan=False)
 
 
-def test_what_cannot_be_scored_is_refused(case, run):
-    empty = dataclasses.replace(case.scans, ranges_m=np.full(case.scans.ranges_m.shape, np.nan))
-    with pytest.raises(bm.BadInput, match="none of the scans has a valid reading"):
-        bm.score(run, empty)
-    unknown = dataclasses.replace(
-        run.posterior, sensor=None, settings=run.posterior.settings | {"sensor": {"kind": "X"}}
-    )
-    with pytest.raises(bm.BadInput, match="'X', is not one of bayesmap's; pass sensor="):
-        bm.score(bm.Run(unknown), case.scans)
-    no_draws = without_draws(run)
-    with pytest.raises(bm.BadInput, match="the run has no draws yet"):
-        bm.score(bm.Run(no_draws), case.scans)
-
-
 def test_many_draws_are_taken_some_at_a_time(case, run, monkeypatch):
     from bayesmap.cells import binary
 
@@ -129,9 +112,7 @@ def test_many_draws_are_taken_some_at_a_time(case, run, monkeypatch):
 @pytest.mark.parametrize("prior", [bm.Beta(0.3, 0.5), bm.Surface()], ids=["reflectivity", "surface"])
 def test_cells_that_stop_some_beams_are_scored_alike(case, prior):
     """Against the samplers' own log score, which is computed in single precision."""
-    run = bm.infer(
-        case.scans, case.grid, prior=prior, sensor=case.sensor, schedule=bm.Schedule(chains=2, warmup=10, draws=20)
-    )
+    run = infer(case.scans, case.grid, prior=prior, sensor=case.sensor, chains=2, warmup=10, draws=20)
     held = make_case(22, sensor=case.sensor, n_poses=4).scans
     held = dataclasses.replace(held, ranges_m=np.where(np.isneginf(held.ranges_m), np.nan, held.ranges_m))
     found = bm.score(run, held)
