@@ -57,12 +57,7 @@ def approached(
 ) -> PoseMixture:
     """Move places to where prior and end points agree, and narrow them; a scan with too few hits changes nothing.
 
-    Args:
-        places: where the pose may be.
-        log_prior: log density of poses (P, 3) before the scan, (P,).
-        known: the map.
-        scan: the scan.
-        rng: for the draws.
+    ``log_prior`` is the log density of poses (P, 3) before the scan, (P,).
     """
     points = end_points(scan.angles_rad, scan.ranges_m, POINTS)
     if len(points) < FEWEST:
@@ -152,12 +147,7 @@ class Prior:
 def update(known: KnownMap, prior: Prior, scan: Scan, rng: np.random.Generator, *, look_everywhere: bool) -> PoseBelief:
     """Compute the posterior of a scan's pose.
 
-    Args:
-        known: the map.
-        prior: of the pose.
-        scan: the scan.
-        rng: for the draws of poses.
-        look_everywhere: whether to search the whole map; needed where the prior has no components.
+    ``look_everywhere`` asks for a search of the whole map, which a prior without components needs in any case.
     """
 
     def target(thin: int, draws: int | None = None) -> Target:
@@ -255,13 +245,8 @@ def belief_of(
 ) -> PoseBelief:  # fmt: skip
     """Return the posterior of a population, with the probability of being lost.
 
-    Args:
-        known: the map.
-        prior: of the pose.
-        scan: the scan.
-        population: weighted poses.
-        group: the place of each pose, (N,); None: all over the map.
-        mass_before: each place's share of the prior, (K,), where only part of the scan's evidence is new.
+    ``group`` is the place of each pose, (N,), or None if they are all over the map. Where only part of the scan's
+    evidence is new, ``mass_before`` is each place's share of the prior, (K,).
     """
     weights = population.weights
     if not np.isfinite(population.log_evidence):
@@ -285,12 +270,9 @@ def belief_of(
 
 
 def shared_by_places(weights: Floats, group: NDArray[np.intp], log_weights: Floats) -> Floats:
-    """Give places the shares of other weights, and keep the weights' ratios within each place.
+    """Give places the shares of other log weights, (N,), and keep the ratios of weights (N,) within each place.
 
-    Args:
-        weights: of poses, normalised, (N,).
-        group: the place of each, (N,).
-        log_weights: logs of the weights that tell how likely each place is, (N,), not normalised.
+    ``group`` is the place of each pose, (N,).
     """
     if not group.any() or not np.isfinite(log_weights).any():
         return weights
@@ -299,13 +281,10 @@ def shared_by_places(weights: Floats, group: NDArray[np.intp], log_weights: Floa
 
 
 def shared_by_evidence(weights: Floats, group: NDArray[np.intp], mass: Floats, power: float) -> Floats:
-    """Change places' shares by a power of the evidence, and keep the weights' ratios within each place.
+    """Change places' shares by a power of the evidence, and keep the ratios of weights (N,) within each place.
 
-    Args:
-        weights: of poses, normalised, (N,).
-        group: the place of each, (N,).
-        mass: the places' shares before the scan, (K,).
-        power: 1: shares become the sums of the weights; 0: they stay as before the scan.
+    ``mass`` is the places' shares before the scan, (K,). With a power of 1 shares become the sums of the weights; with
+    0 they stay as before the scan.
     """
     own = np.bincount(group, weights, len(mass))
     with np.errstate(divide="ignore"):

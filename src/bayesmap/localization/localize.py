@@ -252,14 +252,10 @@ def _check(known: KnownMap, prior: Near | None, odometry: Odometry) -> None:
 
 
 def moved(belief: PoseBelief, motion: Floats, sigmas: Floats, trust: Trust, new: float = 1.0) -> Prior:
-    """Return the prior of the pose after a motion that odometry reports.
+    """Return the prior of the pose after a motion that odometry reports, in the frame of the old pose, (3,).
 
-    Args:
-        belief: before the motion.
-        motion: the new pose in the frame of the old one, (3,).
-        sigmas: standard deviations of its error, in the frame of the old pose, (3,).
-        trust: how far the map is trusted.
-        new: share of the next scan's evidence that is new.
+    ``sigmas`` are the standard deviations of the motion's error, (3,), and ``new`` is the share of the next scan's
+    evidence that is new.
     """
     modes = belief.places(float(np.exp(-trust.forgotten_nats)))
     means = np.array([mode.mean for mode in modes])

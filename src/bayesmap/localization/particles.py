@@ -94,13 +94,9 @@ class Population:
 def draw_population(
     components: PoseMixture, target: Callable[[Floats], Floats], each: int | NDArray[np.intp], rng: np.random.Generator
 ) -> Population:
-    """Draw poses from each place, and weight them by a target.
+    """Draw ``each`` poses from each place, one number or (K,), and weight them; masses of places are not used.
 
-    Args:
-        components: the places; their masses are not used.
-        target: log density of poses (P, 3), not normalised, (P,).
-        each: number of draws of each place: one number, or (K,).
-        rng: for the draws.
+    ``target`` is the log density of poses (P, 3), not normalised, (P,).
     """
     counts = np.broadcast_to(each, len(components.means))
     place = np.repeat(np.arange(len(counts)), counts)

@@ -105,11 +105,8 @@ def filled_pattern(matrix: Any, place: NDArray[np.integer]) -> tuple[NDArray[np.
     """Find where the factor L of a permuted symmetric matrix may have entries: column offsets, and ascending rows.
 
     A column has the rows of the matrix below the diagonal, and those of the columns whose first row it is (George and
-    Liu 1981, section 5.2). The factor's own entries are not enough, since some happen to be zero.
-
-    Args:
-        matrix: (n, n), in compressed columns, with a symmetric pattern.
-        place: new position of each row and column, (n,).
+    Liu 1981, section 5.2). The factor's own entries are not enough, since some happen to be zero. The matrix, (n, n),
+    is in compressed columns, and ``place`` is the new position of each row and column, (n,).
     """
     size = matrix.shape[0]
     entries = matrix.tocoo()

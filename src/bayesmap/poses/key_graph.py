@@ -117,17 +117,11 @@ def contradicted_links(track: Track, poses: Floats, sigmas: float = LEAP_SIGMAS)
 
 
 def unconfirmed_links(geometry: ScanGeometry, track: Track, odometry: Factors, poses: Floats) -> NDArray[np.bool_]:
-    """Find steps from key to key that odometry contradicts and the scans just before do not confirm, (K - 1,).
+    """Find steps of the keys' poses, (K, 3), that odometry contradicts and the scans before do not confirm, (K - 1,).
 
     The scans before do not confirm a step if they explain the next key scan badly, or if the front end, which matched
     it to them, had it elsewhere. Where the path broke odometry decides nothing. There a step is in doubt if it is far
     from the front end's, although the scan after the break fitted as well as usual where the front end had it.
-
-    Args:
-        geometry: of all scans.
-        track: result of the front end.
-        odometry: factors of each step, with the fitted noise.
-        poses: of the keys, (K, 3).
     """
     keys, usual = track.keys, float(np.median(track.scores))
     refused = ~track.broken[keys[1:]] & (odometry.squares(poses) > REFUSED_SIGMAS**2)

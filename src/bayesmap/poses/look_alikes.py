@@ -64,10 +64,7 @@ class Weighed:
 def visits(loops: Factors, poses: Floats, along: Floats) -> NDArray[np.intp]:
     """Number the visit of each closure, (M,). Closures of one visit are near each other at both ends, and agree.
 
-    Args:
-        loops: the closures.
-        poses: of the keys, right over some metres, (K, 3).
-        along: distance of each key along the path, metres, (K,).
+    Poses of the keys, (K, 3), are right over some metres; ``along`` is the distance of each along the path, metres.
     """
     from scipy.sparse import coo_matrix
     from scipy.sparse.csgraph import connected_components
@@ -89,12 +86,8 @@ def visits(loops: Factors, poses: Floats, along: Floats) -> NDArray[np.intp]:
 def weigh(poses: Floats, weights: Floats, chain: Factors, loops: Factors, along: Floats) -> Weighed:
     """Remove the visits that are probably wrong, one after the other, and find the alternatives to the result.
 
-    Args:
-        poses: of the keys by chain and loops, (K, 3).
-        weights: of each loop there, from 0 to 1, (M,).
-        chain: from each key to the next.
-        loops: the closures.
-        along: distance of each key along the path, metres, (K,).
+    Poses of the keys, (K, 3), and weights of the loops, (M,), are those of the graph of chain and loops; ``along`` is
+    the distance of each key along the path, metres, (K,).
     """
     label, out = visits(loops, poses, along), np.zeros(len(loops), np.bool_)
     odds = np.zeros(int(label.max(initial=-1)) + 1)
@@ -149,16 +142,12 @@ def _doubtful(
 
 
 def twist_squares(expected: Floats, measured: Floats, covariance: Floats) -> Floats:
-    """Compute squared Mahalanobis distances between measured and expected relative poses, as twists, (M,).
+    """Compute squared Mahalanobis distances between measured and expected relative poses, (M, 3), as twists, (M,).
 
     Where a heading was lost half-way, later poses lie on an arc. A turn about any point is a twist, so that its length
     grows as the turn's, where a straight ellipsoid holds little of the arc (Barfoot and Furgale 2014, "Associating
-    uncertainty with three-dimensional poses for use in estimation problems").
-
-    Args:
-        expected: relative poses, (M, 3).
-        measured: relative poses, (M, 3).
-        covariance: of the expected ones, x, y and yaw in the first's frame, (M, 3, 3).
+    uncertainty with three-dimensional poses for use in estimation problems"). The covariance is that of the expected
+    relative poses, x, y and yaw in the first's frame, (M, 3, 3).
     """
     change = np.tile(np.eye(3), (len(expected), 1, 1))  # from steps of x, y and yaw to twists
     change[:, 0, 2], change[:, 1, 2] = expected[:, 1], -expected[:, 0]

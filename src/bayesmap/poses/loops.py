@@ -323,14 +323,9 @@ class Search:
 def find_closures(
     path: KeyPath, precision: Precision, half_width_m: float, search: Search, *, within_parts: bool = False
 ) -> Closures:
-    """Find closures among key scans at their present poses.
+    """Find closures among key scans at their present poses, or only within the parts of a broken path.
 
-    Args:
-        path: the key scans.
-        precision: of the graph of the keys, for relative covariances.
-        half_width_m: of submaps' grids.
-        search: limits of the search.
-        within_parts: whether to leave out closures between parts of a broken path.
+    The precision is that of the graph of the keys, and ``half_width_m`` that of submaps' grids.
     """
     first, second, sigma = _candidates(path, precision, half_width_m, search, within_parts)
     if not len(first):

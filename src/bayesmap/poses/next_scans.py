@@ -115,16 +115,10 @@ def place_near(
     geometry: ScanGeometry, window: Window, scans: NDArray[np.intp], predicted: Floats, variance: Floats,
     backwards: Floats | None, usual: float,
 ) -> Placed:  # fmt: skip
-    """Place N scans within what odometry allows.
+    """Place N scans near the poses that odometry predicts, (N, 3), with these variances in their own frames, (N, 3).
 
-    Args:
-        geometry: of all scans.
-        window: the latest key scans.
-        scans: indices, (N,).
-        predicted: poses by odometry, (N, 3).
-        variance: of x, y and yaw in their own frames, (N, 3).
-        backwards: poses if the robot moved the other way than odometry states, (N, 3), or None.
-        usual: the usual score.
+    ``backwards`` are the poses if the robot moved the other way than odometry states, (N, 3), and ``usual`` is the
+    usual score.
     """
     points = [geometry.points_of(int(scan), POINTS) for scan in scans]
     sigma = np.sqrt(variance)

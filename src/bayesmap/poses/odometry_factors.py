@@ -132,12 +132,9 @@ def _steadied(variances: Floats) -> Floats:
 
 
 def composed(motions: Floats, variances: Floats, keys: NDArray[np.intp]) -> Factors:
-    """Compose corrected motions from scan to scan, (S - 1, 3), to factors between successive keys; variances add up.
+    """Compose corrected motions from scan to scan, (S - 1, 3), to factors between successive keys.
 
-    Args:
-        motions: (S - 1, 3).
-        variances: of x, y and yaw of each motion, (S - 1, 3).
-        keys: indices of the keys, (K,).
+    Variances of x, y and yaw of the motions, (S - 1, 3), add up along the way.
     """
     relative, covariance = np.zeros((len(keys) - 1, 3)), np.zeros((len(keys) - 1, 3, 3))
     longest = int(np.diff(keys).max(initial=1))

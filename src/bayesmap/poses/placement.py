@@ -55,12 +55,7 @@ def place_scans(
 ) -> Placement:
     """Refine every scan against the partners of the key scan nearest to it in time; key scans keep their poses.
 
-    Args:
-        geometry: of all S scans.
-        poses: of all scans, to start from, (S, 3).
-        keys: indices of the key scans, (K,).
-        aligned: the alignment of the key scans.
-        error: of points.
+    The S poses to start from are those of all scans, (S, 3), and ``aligned`` holds the key scans alone.
     """
     count, key_poses, pairs = len(poses), aligned.poses, aligned.pairs
     scans = np.setdiff1d(np.arange(count), keys)

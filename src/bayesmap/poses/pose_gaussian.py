@@ -39,13 +39,7 @@ DRAWS, SEED = 64, 1
 
 
 def bends(poses: Floats, laser: Quadratic, precision: Precision) -> Floats:
-    """Compute the steps of poses, in their own frames, under forces with random signs, (DRAWS, K, 3).
-
-    Args:
-        poses: the most probable ones, (K, 3), along the path.
-        laser: the cost of the pairs about them.
-        precision: of the poses.
-    """
+    """Compute the steps of poses (K, 3), in their own frames, under forces with random signs, (DRAWS, K, 3)."""
     steps = np.diff(poses, axis=0)
     way = np.hypot(steps[:, 0], steps[:, 1]) + TURN_M * np.abs(wrapped(steps[:, 2]))
     along = np.concatenate([[0.0], np.cumsum(way)])

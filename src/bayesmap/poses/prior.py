@@ -8,7 +8,7 @@ from __future__ import annotations
 import hashlib
 import math
 from abc import ABC, abstractmethod
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
@@ -54,33 +54,32 @@ class PosePrior(ABC):
     """The prior of the poses.
 
     Attributes:
+        kind: name in descriptions.
         unknown: whether there is anything to infer.
     """
 
+    kind: ClassVar[str]
     unknown: ClassVar[bool] = True
 
     @abstractmethod
     def law(self, log_poses: Floats) -> PoseLaw:
         """Return the prior as a density, given the poses that the log states, (S, 3)."""
 
-    @abstractmethod
     def describe(self) -> dict[str, object]:
         """Return the prior as plain JSON values."""
+        return {"kind": self.kind, **vars(self)}
 
 
 @dataclass(frozen=True)
 class Known(PosePrior):
     """The poses are those of the log."""
 
+    kind = "known"
     unknown: ClassVar[bool] = False
 
     def law(self, log_poses: Floats) -> PoseLaw:
         """Return a law under which nothing moves."""
         return _Fixed(log_poses)
-
-    def describe(self) -> dict[str, object]:
-        """Return the prior as plain JSON values."""
-        return {"kind": "known"}
 
 
 @dataclass(frozen=True)
@@ -95,6 +94,7 @@ class Uncertain(PosePrior):
         BadInput: a number that is not positive.
     """
 
+    kind = "uncertain"
     sigma_m: float
     sigma_rad: float
 
@@ -104,10 +104,6 @@ class Uncertain(PosePrior):
     def law(self, log_poses: Floats) -> PoseLaw:
         """Return independent normal distributions about the log's poses."""
         return _Independent(log_poses, np.array([self.sigma_m, self.sigma_m, self.sigma_rad]))
-
-    def describe(self) -> dict[str, object]:
-        """Return the prior as plain JSON values."""
-        return {"kind": "uncertain", **asdict(self)}
 
 
 @dataclass(frozen=True)
@@ -132,6 +128,7 @@ class Odometry(PosePrior):
         BadInput: a number that is negative, or a standing error that is not positive.
     """
 
+    kind = "odometry"
     m_per_m: float = 0.1
     m_per_rad: float = 0.05
     rad_per_m: float = 0.05
@@ -158,10 +155,6 @@ class Odometry(PosePrior):
         yaw = np.sqrt((self.rad_per_m * travelled) ** 2 + (self.rad_per_rad * turned) ** 2 + self.still_rad**2)
         return np.stack([xy, xy, yaw], axis=-1)
 
-    def describe(self) -> dict[str, object]:
-        """Return the prior as plain JSON values."""
-        return {"kind": "odometry", **asdict(self)}
-
 
 @dataclass(frozen=True, eq=False)
 class Motions(PosePrior):
@@ -179,6 +172,7 @@ class Motions(PosePrior):
         BadInput: shapes that do not fit together, deviations that are not positive, or a probability outside [0, 1).
     """
 
+    kind = "motions"
     relative: Floats
     sigmas: Floats
     p_slip: float = 0.0
@@ -204,7 +198,7 @@ class Motions(PosePrior):
     def describe(self) -> dict[str, object]:
         """Return the prior as plain JSON values; the motions by their checksum."""
         digest = hashlib.blake2b(self.relative.tobytes() + self.sigmas.tobytes(), digest_size=8)
-        about = {"kind": "motions", "count": len(self.relative), "checksum": digest.hexdigest()}
+        about = {"kind": self.kind, "count": len(self.relative), "checksum": digest.hexdigest()}
         return about | ({"p_slip": self.p_slip} if self.p_slip else {})
 
 

@@ -75,13 +75,8 @@ class Joint:
 def rejoin(path: KeyPath, half_width_m: float) -> tuple[Floats, NDArray[np.bool_]]:
     """Join the parts of a path of K key scans whose poses are right within each part.
 
-    Args:
-        path: the key scans.
-        half_width_m: of submaps' grids.
-
-    Returns:
-        poses with every joined part moved, (K, 3), and which parts are joined to an earlier one by places that both
-        saw, (P,); part 0 is.
+    Returns poses with every joined part moved, (K, 3), and which parts are joined to an earlier one by places that both
+    saw, (P,); part 0 is. ``half_width_m`` is that of submaps' grids.
     """
     found, islands = [no_closures()], path
     for turn in range(TURNS):
@@ -236,9 +231,7 @@ def consistent(islands: KeyPath, joint: Joint) -> bool:
 def _assembled(path: KeyPath, islands: KeyPath) -> tuple[Floats, NDArray[np.bool_]]:
     """Bring all islands to one frame; one that nothing joins stays where the front end has it after the part before.
 
-    Args:
-        path: poses of the front end, right within a part.
-        islands: poses right within an island, whose number is that of the first of its parts.
+    Poses of the path are the front end's, right within a part; an island has the number of the first of its parts.
     """
     poses, where, parts = path.poses, islands.poses, path.parts
     result, placed = where.copy(), np.ones(int(parts[-1]) + 1, np.bool_)

@@ -27,15 +27,11 @@ MEDIAN_OF_NORMAL = 0.6745
 
 
 def range_noise_m(ranges_m: Floats, step_rad: float) -> float:
-    """Estimate the standard deviation of a range, between `LEAST_M` and `MOST_M`.
+    """Estimate the standard deviation of ranges (S, B) in the order of angles, between `LEAST_M` and `MOST_M`.
 
     Along a straight wall the inverse ranges of three neighbouring beams obey 1/r_1 + 1/r_3 = 2 cos(step) / r_2. The
     residual of this equation, times r_2^2, has six times the variance of a range. Its median absolute value is robust
     against corners and edges, which are few.
-
-    Args:
-        ranges_m: readings in the order of angles, (S, B), NaN or infinite where there is no hit.
-        step_rad: the angle between neighbouring beams.
     """
     some = ranges_m[:: max(1, len(ranges_m) // SCANS)]
     before, here, after = some[:, :-2], some[:, 1:-1], some[:, 2:]

@@ -248,12 +248,9 @@ def placed(scans: Scans) -> NDArray[np.intp]:
 
 
 def compare(scans: Scans, median_m: Floats, log_density: Floats) -> Residuals:
-    """Compare readings with given predictions.
+    """Compare the readings of B beams with the medians of their predictive laws, (B,), and log densities, (B,).
 
-    Args:
-        scans: S scans of A beams, B = S A.
-        median_m: of each beam's predictive law, (B,); infinite where no return, or too close, is at the median.
-        log_density: log predictive density of each reading, (B,).
+    A median is infinite where no return, or too close, is at the median.
     """
     beams = placed(scans)
     median = np.clip(median_m[beams], scans.min_range_m, scans.max_range_m)
