@@ -22,7 +22,7 @@ from scipy.stats import norm, qmc
 import bayesmap as bm
 from bayesmap.kernels.predict.scan_likelihood import ScanLikelihood
 from bayesmap.poses.prior import Uncertain
-from bayesmap.posterior.diagnostics import rhat
+from bayesmap.posterior.summary import rhat
 from bayesmap.sim.building import building
 from bayesmap.sim.robot import patrol
 from bayesmap.space.planar import between, wrapped

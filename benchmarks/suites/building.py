@@ -25,7 +25,7 @@ import re, sys, time
 from pathlib import Path
 import bayesmap as bm
 from bayesmap.cells.kinds import HIT_DEPTH, P_WALL, default_sensor
-from bayesmap.posterior.diagnostics import rhat
+from bayesmap.posterior.summary import rhat
 began = time.perf_counter()
 scans, _ = bm.read_log(sys.argv[1]).limited({max_range}).holdout(10)
 grid = bm.Grid.covering(scans, {resolution})

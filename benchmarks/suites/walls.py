@@ -11,9 +11,9 @@ import bayesmap as bm
 from bayesmap.kernels.counts import count_hits
 from bayesmap.kernels.rays import trace_rays
 from bayesmap.posterior.baselines import BASELINES, fit_baseline
-from bayesmap.posterior.diagnostics import diagnose_cells
 from bayesmap.posterior.posterior import Posterior
 from bayesmap.posterior.scores import score_posterior, score_prediction
+from bayesmap.posterior.summary import diagnose_cells
 from bayesmap.sim.building import Building, building
 from bayesmap.sim.robot import patrol
 from bayesmap.space.grid import Grid

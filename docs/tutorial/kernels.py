@@ -27,7 +27,7 @@ import bayesmap as bm
 from bayesmap import gen, viz
 from bayesmap.cells.kinds import default_sensor
 from bayesmap.gen import ChoiceMapBuilder as C
-from bayesmap.posterior.diagnostics import rhat
+from bayesmap.posterior.summary import rhat
 from bayesmap.viz.palette import CHAINS
 
 # %% [markdown]

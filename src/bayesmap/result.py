@@ -15,10 +15,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
-from bayesmap.posterior.diagnostics import rhat
 from bayesmap.posterior.posterior import Posterior, entropy_bits
 from bayesmap.posterior.scores import Score, log_score, score_posterior
-from bayesmap.posterior.summary import Summary, summarise
+from bayesmap.posterior.summary import Summary, rhat, summarise
 from bayesmap.sensors.model import SensorModel
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans

@@ -8,7 +8,7 @@ import pytest
 from page_driver import NEXT_FRAME, act, document, settled, show_layer, snapshot, until, watch
 
 import bayesmap as bm
-from bayesmap.posterior.diagnostics import bulk_ess
+from bayesmap.posterior.summary import bulk_ess
 
 CLOSE = {"sensors": [{"id": 1, "x": 7.0, "y": 11.0, "yaw": 0.0}], "noise": 1.0, "prior": 0.05, "method": "gibbs"}
 """A noisy sensor beside rare walls: single-site chains keep a wall at (7, 12) that is not there."""

@@ -60,7 +60,7 @@ def test_what_follows_the_chains_is_named_too(office, tmp_path, cells):
 
 @pytest.mark.full
 def test_scores_and_the_baselines_that_are_fitted_for_them_are_named_too(office, tmp_path, monkeypatch):
-    monkeypatch.setattr("bayesmap.posterior.sensor_fit.MOST_STEPS", 4)  # how well they are fitted is not asked here
+    monkeypatch.setattr("bayesmap.posterior.baselines.MOST_STEPS", 4)  # how well they are fitted is not asked here
     few = ("--resolution", "0.25", "--chains", "1", "--warmup", "2", "--draws", "3", "--holdout", "4")
     assert call("infer", office, *few, "-o", tmp_path).exit_code == 0
     asked = ("score", tmp_path / "run.nc", office, "--holdout", "4", "--compare")

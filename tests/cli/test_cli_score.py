@@ -57,7 +57,7 @@ def test_the_table(office, heldout_run, tmp_path):
 
 
 def test_baselines_stand_in_the_same_table(office, heldout_run, tmp_path, monkeypatch):
-    monkeypatch.setattr("bayesmap.posterior.sensor_fit.MOST_STEPS", 4)  # how well they are fitted is not asked here
+    monkeypatch.setattr("bayesmap.posterior.baselines.MOST_STEPS", 4)  # how well they are fitted is not asked here
     picture = tmp_path / "calibration.png"
     result = call("score", heldout_run[0], office, *FAST, "--compare", "--json", "--picture", picture)
     assert result.exit_code == 0, result.stderr

@@ -8,7 +8,7 @@ from shell import call
 
 from bayesmap.io.logs import read_log
 from bayesmap.io.text.trajectories import read_trajectory, write_trajectory
-from bayesmap.posterior import sensor_fit
+from bayesmap.posterior import baselines
 
 SMALL = ("--world", "building", "--size", "12x8", "--resolution", "0.25", "--scans", "40", "--angles", "60")
 WHERE = ("--laser", "0.2,0,0")
@@ -36,7 +36,7 @@ def raw_run(raw):
 @pytest.fixture
 def roughly(monkeypatch):
     """Sensors of others' maps are fitted in a few steps: what is asked for here hardly depends on them."""
-    monkeypatch.setattr(sensor_fit, "MOST_STEPS", 4)
+    monkeypatch.setattr(baselines, "MOST_STEPS", 4)
 
 
 def document_of(*arguments):

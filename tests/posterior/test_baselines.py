@@ -11,17 +11,20 @@ from bayesmap.kernels.predict.density import log_densities
 from bayesmap.kernels.rays import trace_rays
 from bayesmap.posterior.baselines import (
     BASELINES,
+    SENSOR,
     Baseline,
+    Parameter,
     fit_baseline,
     fit_external_map,
     hit_ratio,
     inner_score,
     log_odds,
+    maximise,
+    sensor_of,
     stop_probabilities,
 )
 from bayesmap.posterior.heldout import make_folds, together
 from bayesmap.posterior.scores import score_prediction
-from bayesmap.posterior.sensor_fit import SENSOR, Parameter, maximise, sensor_of
 
 BY_NAME = {b.name: b for b in BASELINES}
 HITS, PASSES = np.array([0.0, 3.0, 1.0, 0.0]), np.array([0.0, 1.0, 9.0, 100.0])

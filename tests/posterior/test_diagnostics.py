@@ -7,8 +7,8 @@ from hypothesis import strategies as st
 
 import bayesmap as bm
 from bayesmap.cells.arrays import Draws, pack
-from bayesmap.posterior import diagnostics
-from bayesmap.posterior.diagnostics import bulk_ess, diagnose_cells, rhat, tail_ess
+from bayesmap.posterior import summary
+from bayesmap.posterior.summary import bulk_ess, diagnose_cells, rhat, tail_ess
 
 
 def arviz_rhat(values):
@@ -83,7 +83,7 @@ def walls_of(seed, chains, draws, shape=(5, 4)):
 @pytest.mark.parametrize(("chains", "draws"), [(4, 100), (2, 51), (1, 40), (8, 4), (3, 9)])
 @pytest.mark.parametrize("seed", range(3))
 def test_the_worst_cell_is_the_one_that_arviz_finds(seed, chains, draws, monkeypatch):
-    monkeypatch.setattr(diagnostics, "CELLS_AT_ONCE", 7)  # several batches
+    monkeypatch.setattr(summary, "CELLS_AT_ONCE", 7)  # several batches
     walls = walls_of(seed, chains, draws)
     found = diagnose(walls)
     flat = walls.reshape(chains, draws, -1).astype(float)
@@ -94,7 +94,7 @@ def test_the_worst_cell_is_the_one_that_arviz_finds(seed, chains, draws, monkeyp
     if chains > 1:
         assert found.rhat_max == pytest.approx(np.nanmax(rhats), rel=1e-9)
     assert found.ess_min == pytest.approx(np.nanmin(sizes), rel=1e-9)
-    assert found.low == (np.array(sizes) < diagnostics.ESS_LIMIT).sum()
+    assert found.low == (np.array(sizes) < summary.ESS_LIMIT).sum()
     assert found.judged == len(sizes) + found.disagreeing
     constant = ~within
     same = (flat == flat[:1, :1]).all(axis=(0, 1))

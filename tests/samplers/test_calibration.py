@@ -16,7 +16,7 @@ from oracle.verdict import ALPHA
 
 import bayesmap as bm
 from bayesmap.kernels.walls.table import trace
-from bayesmap.posterior.diagnostics import rhat
+from bayesmap.posterior.summary import rhat
 from bayesmap.samplers.wall_problem import WallProblem
 from bayesmap.sensors.model import RangeLimits
 

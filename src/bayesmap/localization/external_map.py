@@ -22,9 +22,8 @@ from bayesmap.errors import BadInput
 from bayesmap.kernels.predict.pose_weights import PackedMap, pack_map, scan_log_likelihood
 from bayesmap.localization.known_map import KnownMap, Trust, UsualFit
 from bayesmap.localization.particles import log_sum
-from bayesmap.posterior.baselines import stop_probabilities
+from bayesmap.posterior.baselines import Parameter, Values, maximise, sensor_of, stop_probabilities
 from bayesmap.posterior.predictor import OnShare, ignored
-from bayesmap.posterior.sensor_fit import Parameter, Values, maximise, sensor_of
 from bayesmap.sensors.model import RangeLimits
 from bayesmap.space.grid import Grid
 from bayesmap.space.planar import between

@@ -184,7 +184,7 @@ def free_probability(blocking: NDArray[np.bool_], chains: int) -> FreeProbabilit
         blocking: which cells are in the way in each draw, chain after chain, (chains * draws, n).
         chains: number of chains.
     """
-    from bayesmap.posterior.diagnostics import plain_ess, split_chains
+    from bayesmap.posterior.summary import plain_ess, split_chains
 
     blocked = blocking.any(axis=1).reshape(chains, -1)
     free = 1.0 - float(blocked.mean())

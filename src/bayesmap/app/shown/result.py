@@ -20,7 +20,7 @@ from bayesmap.cells.kind import CellPrior
 from bayesmap.cells.kinds import BUILT_IN
 from bayesmap.errors import BadInput
 from bayesmap.model import Model
-from bayesmap.posterior.diagnostics import RHAT_LIMIT, bulk_ess, rhat
+from bayesmap.posterior.summary import RHAT_LIMIT, bulk_ess, rhat
 from bayesmap.result import Run
 from bayesmap.run.checks import RANDOM_STREAMS
 from bayesmap.sensors.builtin import describe
