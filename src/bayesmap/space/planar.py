@@ -52,7 +52,7 @@ def around(known: Numbers, numbers: Numbers) -> tuple[NDArray[np.intp], NDArray[
 
 
 def nearest(known: Numbers, numbers: Numbers) -> NDArray[np.intp]:
-    """Return the index of the known number, (S,) ascending, nearest to each of some others, (N,); of two the earlier."""
+    """Return the index of the known number, (S,) ascending, nearest to each of others, (N,); of two the earlier."""
     before, after = around(known, numbers)
     return np.where(np.abs(numbers - known[before]) <= np.abs(known[after] - numbers), before, after)
 
