@@ -181,16 +181,15 @@ class Rays:
 
 
 def around_readings(scans: Scans, margin_m: float | Floats, resolution_m: float) -> tuple[Floats, Floats]:
-    """How far beams must be followed, and from where on looked at, if only stops near a reading can explain it.
+    """Return how far to follow each beam, and from where stops may explain its reading, metres, (B,) each.
+
+    They are ``reach_m`` and ``near_m`` of `bayesmap.kernels.rays.trace_rays`: where a reading is no hit, the sensor's
+    largest range and 0.
 
     Args:
         scans: B beams.
         margin_m: how far from its reading a beam may have stopped, noise and surface included, one number or (B,).
-        resolution_m: edge of a cell: stops are looked at from one cell before the margin on.
-
-    Returns:
-        ``reach_m`` and ``near_m`` of `bayesmap.kernels.rays.trace_rays`, (B,) each: the sensor's largest range and 0
-        where a reading is no hit.
+        resolution_m: edge of a cell: stops are weighed from one cell before the margin on.
     """
     ranges = scans.ranges_m.ravel()
     finite = np.isfinite(ranges)

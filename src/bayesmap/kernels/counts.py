@@ -62,14 +62,9 @@ def count_hits(scans: Scans, grid: Grid, device: str = "cpu") -> tuple[Ints, Int
 
 @wp.kernel
 def add_passes(
-    first: int,
-    offsets: Int32s,
-    cells: Int32s,
-    distance_m: Float32s,
-    range_m: Float32s,
-    end_cell: Int32s,
+    first: int, offsets: Int32s, cells: Int32s, distance_m: Float32s, range_m: Float32s, end_cell: Int32s,
     passes: Int32s,
-):
+):  # fmt: skip
     """One thread per beam: add one to every cell before the one in which its reading ends."""
     b = first + wp.tid()
     reading = range_m[b]
@@ -83,13 +78,7 @@ def add_passes(
 
 
 def count_passes(rays: Rays, end_cell: Ints, device: str) -> Ints:
-    """Count the beams that pass each cell of the grid before their readings end, (N,).
-
-    Args:
-        rays: the beams, traced.
-        end_cell: the cell in which the reading of each beam ends, flat, (B,).
-        device: where to compute.
-    """
+    """Count the beams that pass each cell of the grid before the cells in which they end, flat, (B,). Returns (N,)."""
     passes = wp.zeros(rays.grid.n_cells, dtype=wp.int32, device=device)
     inputs = [rays.offsets, rays.cells, stop_distances(rays, 0.0, device), rays.range_m, end_cell, passes]
     devices.launch(add_passes, rays.n_beams, inputs, device, 1)

@@ -217,15 +217,10 @@ def beam_lines(scans: Scans, grid: Grid) -> tuple[Floats, Floats]:
 
 
 def trace_rays(
-    scans: Scans,
-    grid: Grid,
-    *,
-    poses_world: ArrayLike | None = None,
-    reach_m: Floats | None = None,
-    near_m: Floats | None = None,
-    device: str = "cpu",
+    scans: Scans, grid: Grid, *, poses_world: ArrayLike | None = None, reach_m: Floats | None = None,
+    near_m: Floats | None = None, device: str = "cpu",
     on_progress: Callable[[int, int], None] = lambda done, total: None,
-) -> Rays:
+) -> Rays:  # fmt: skip
     """Follow every beam of some scans through a grid.
 
     Args:

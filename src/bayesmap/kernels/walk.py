@@ -156,15 +156,9 @@ def is_inside(w: Walk, nx: int, ny: int) -> bool:
 
 @wp.kernel
 def first_hit_ranges(
-    first: int,
-    walls: Uint8Rows,
-    start_x: Float64s,
-    start_y: Float64s,
-    angle_rad: Float64s,
-    longest: wp.float64,
-    distance: Float64s,
-    visits: Int32s,
-):
+    first: int, walls: Uint8Rows, start_x: Float64s, start_y: Float64s, angle_rad: Float64s, longest: wp.float64,
+    distance: Float64s, visits: Int32s,
+):  # fmt: skip
     """One thread per beam: walk to the first wall."""
     b = first + wp.tid()
     nx = walls.shape[0]
@@ -186,17 +180,14 @@ def first_hit_ranges(
 def cast(
     walls: NDArray[Any], starts_cells: Floats, angles_rad: Floats, longest_cells: float, device: str = "cpu"
 ) -> tuple[Floats, Ints]:
-    """Compute the distance of the first wall along every beam, in cells, capped, and the number of cells inspected.
+    """Compute each beam's distance to its first wall, in cells, capped, and the number of cells inspected, (B,) each.
 
     Args:
-        walls: non-zero where there is a wall, shape (nx, ny).
-        starts_cells: where each beam starts, in units of cells from the grid's origin, shape (B, 2).
-        angles_rad: direction of each beam in the world frame, shape (B,).
+        walls: non-zero where there is a wall, (nx, ny).
+        starts_cells: where each beam starts, in units of cells from the grid's origin, (B, 2).
+        angles_rad: direction of each beam in the world frame, (B,).
         longest_cells: the cap.
         device: "cpu" or a CUDA device.
-
-    Returns:
-        distances, shape (B,), and numbers of visited cells, shape (B,).
     """
     device = devices.resolve(device)
     beams = len(angles_rad)

@@ -101,15 +101,9 @@ def off_centre(offset: int, width: int) -> wp.float64:
 
 @wp.kernel
 def turn_points(
-    first: int,
-    jobs: SearchJobs,
-    job_of_row: Int32s,
-    angle: Float64s,
-    centre: wp.array(dtype=wp.vec2d),
-    origin: wp.array(dtype=wp.vec2d),
-    resolution: wp.float64,
-    points: wp.array(dtype=wp.vec2d),
-):
+    first: int, jobs: SearchJobs, job_of_row: Int32s, angle: Float64s, centre: wp.array(dtype=wp.vec2d),
+    origin: wp.array(dtype=wp.vec2d), resolution: wp.float64, points: wp.array(dtype=wp.vec2d),
+):  # fmt: skip
     """One thread per angle of a job: compute the cells of its points with the sensor at the window's centre."""
     row = first + wp.tid()
     j = job_of_row[row]
@@ -127,13 +121,9 @@ def turn_points(
 
 @wp.kernel
 def bound_blocks(
-    first: int,
-    jobs: SearchJobs,
-    job_of_row: Int32s,
-    node_begin: Int32s,
-    pyramid: wp.array4d(dtype=wp.uint8),
+    first: int, jobs: SearchJobs, job_of_row: Int32s, node_begin: Int32s, pyramid: wp.array4d(dtype=wp.uint8),
     roots: Roots,
-):
+):  # fmt: skip
     """One thread per angle of a job: bound the scores of the largest blocks."""
     row = first + wp.tid()
     j = job_of_row[row]
@@ -170,15 +160,9 @@ def is_taken(taken: Taken, j: int, row: int, dx: int, dy: int, width: int) -> bo
 
 @wp.kernel
 def search_blocks(
-    first: int,
-    strands: int,
-    jobs: SearchJobs,
-    roots: Roots,
-    pyramid: wp.array4d(dtype=wp.uint8),
-    taken: Taken,
-    stack: Stack,
-    best: Best,
-):
+    first: int, strands: int, jobs: SearchJobs, roots: Roots, pyramid: wp.array4d(dtype=wp.uint8), taken: Taken,
+    stack: Stack, best: Best,
+):  # fmt: skip
     """One thread per strand of a job: search every ``strands``-th of its largest blocks depth first, best bound first.
 
     Strands share the score of the best that any has found; a stale one costs time and changes nothing.
@@ -296,12 +280,7 @@ def search_grids(
 ) -> tuple[Floats, NDArray[np.int64]]:
     """Find the best poses of each job: scores (J, modes), -inf where there is none, and (row, dx, dy), (J, modes, 3).
 
-    Args:
-        grids: `bayesmap.poses.matcher.LikelihoodGrids`.
-        windows: what to search.
-        modes: how many poses of each job.
-        strands: threads that share a job.
-        threads: to compute with; by default all cores.
+    ``grids`` are `bayesmap.poses.matcher.LikelihoodGrids`; ``strands`` threads share a job.
     """
     pyramid, device = grids.pyramid, grids.device
     count, strands_of_all = len(windows.grid), len(windows.grid) * strands

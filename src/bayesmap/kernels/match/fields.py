@@ -29,13 +29,9 @@ def sum_field(first: int, field: Uint8Rows, points: Float32Rows, poses: Float32R
 
 
 def field_sums(field: NDArray[np.uint8], grid: Grid, points: Floats, poses: Floats) -> Ints:
-    """Sum the values of a field at the points of a scan, (P,); points outside count 0.
+    """Sum the values of a field (nx, ny) at the points of a scan, (P,); points outside count 0.
 
-    Args:
-        field: (nx, ny).
-        grid: of the field.
-        points: in the sensor's frame, metres, (N, 2).
-        poses: in the world frame, (P, 3).
+    ``points`` are in the sensor's frame, metres, (N, 2); ``poses`` in the world frame, (P, 3).
     """
     devices.start()
     out = wp.zeros(len(poses), dtype=wp.int32, device="cpu")
@@ -73,11 +69,8 @@ def spread_surfaces(first: int, mean: Float32Rows, covariance: Float32Rows, stre
 def spread(means: Floats, covariances: Floats, strengths: Floats, shape: tuple[int, int]) -> Singles:
     """Return the largest of s exp(-m^2 / 2) over all surfaces, m the distance in their standard deviations, (nx, ny).
 
-    Args:
-        means: in cells from the grid's corner, (K, 2).
-        covariances: xx, xy and yy, in squared cells, (K, 3).
-        strengths: the peak of each, (K,).
-        shape: of the grid.
+    ``means`` are in cells from the grid's corner, (K, 2); ``covariances`` xx, xy and yy in squared cells, (K, 3);
+    ``strengths`` the peaks s, (K,).
     """
     devices.start()
     out = wp.zeros(shape, dtype=wp.float32, device="cpu")

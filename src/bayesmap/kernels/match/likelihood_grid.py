@@ -15,18 +15,10 @@ wp.set_module_options({"enable_backward": False})
 
 @wp.kernel
 def draw_points(
-    first: int,
-    bands: int,
-    offsets: Int32s,
-    scan: Int32s,
-    pose: wp.array(dtype=wp.vec3d),
-    scene: ScanArrays,
-    spacing: wp.float32,
-    origin: wp.array(dtype=wp.vec2d),
-    resolution: wp.float64,
-    stamp: Uint8Rows,
+    first: int, bands: int, offsets: Int32s, scan: Int32s, pose: wp.array(dtype=wp.vec3d), scene: ScanArrays,
+    spacing: wp.float32, origin: wp.array(dtype=wp.vec2d), resolution: wp.float64, stamp: Uint8Rows,
     pyramid: wp.array4d(dtype=wp.uint8),
-):
+):  # fmt: skip
     """One thread per band of a grid: set each cell to the largest of all stamps that cover it.
 
     Points of neighbouring beams on one surface that lie further apart than ``spacing`` have stamps in between: a wall
@@ -90,34 +82,15 @@ def next_level(first: int, level: int, pyramid: wp.array4d(dtype=wp.uint8)):
 
 
 def draw_grids(
-    geometry: Any,
-    offsets: Ints,
-    scan: Ints,
-    poses_world: Floats,
-    origins: Floats,
-    resolution: float,
-    stamp: NDArray[np.uint8],
-    spacing_m: float,
-    shape: tuple[int, int],
-    levels: int,
-    threads: int | None = None,
+    geometry: Any, offsets: Ints, scan: Ints, poses_world: Floats, origins: Floats, resolution: float,
+    stamp: NDArray[np.uint8], spacing_m: float, shape: tuple[int, int], levels: int, threads: int | None = None,
     pyramid: Any = None,
-) -> Any:
+) -> Any:  # fmt: skip
     """Draw grids of scans at poses, with their pyramids: (grids, levels, nx, ny) on the device.
 
-    Args:
-        geometry: a `bayesmap.poses.scan_geometry.ScanGeometry` of all scans.
-        offsets: grid g is made of entries offsets[g] .. offsets[g + 1], shape (grids + 1,).
-        scan: of each entry.
-        poses_world: of each entry, shape (entries, 3).
-        origins: corner of each grid, shape (grids, 2).
-        resolution: metres a cell.
-        stamp: what a point puts around itself, odd square.
-        spacing_m: stamps of a wall lie no further apart.
-        shape: of a grid, cells.
-        levels: of the pyramid.
-        threads: to compute with; by default all cores.
-        pyramid: an array of the right shape to write into.
+    Grid g, with its corner at ``origins[g]``, is made of the entries offsets[g] .. offsets[g + 1]: of each the scan in
+    ``geometry``, a `bayesmap.poses.scan_geometry.ScanGeometry`, and its pose. A point puts ``stamp``, an odd square,
+    around itself; stamps of a wall lie at most ``spacing_m`` apart. ``pyramid`` is an array to write into, if any.
     """
     grids, device = len(offsets) - 1, geometry.device
     if pyramid is None:

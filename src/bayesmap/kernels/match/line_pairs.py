@@ -33,6 +33,15 @@ DENSE = wp.constant(0.15)  # metres: points of less dense surfaces, such as wall
 
 
 @wp.struct
+class PairRule:
+    """Which points are pairs, and their weight."""
+
+    reach: float  # furthest that they may lie apart
+    scale: float  # Geman and McClure's c
+    alike: float  # least cosine between their normals
+
+
+@wp.struct
 class Sums:
     """Sums over the pairs of two scans."""
 
@@ -127,21 +136,9 @@ def symmetric(a: float, b: float, c: float, d: float, e: float, f: float) -> wp.
 
 @wp.func
 def pair_scans(
-    scene: ScanArrays,
-    weights: Float32Rows,
-    i: int,
-    j: int,
-    z: wp.vec3d,
-    reach: float,
-    scale: float,
-    alike: float,
-    stride: int,
+    scene: ScanArrays, weights: Float32Rows, i: int, j: int, z: wp.vec3d, rule: PairRule, stride: int
 ) -> Sums:
-    """Sum over every ``stride``-th point of scan i on scan j, with i at pose z in j's frame.
-
-    ``reach``: furthest that paired points may lie apart; ``scale``: Geman and McClure's c; ``alike``: least cosine
-    between the normals of a pair.
-    """
+    """Sum over every ``stride``-th point of scan i on scan j, with i at pose z in j's frame."""
     sums = Sums()
     cosine = float(wp.cos(z[2]))
     sine = float(wp.sin(z[2]))
@@ -175,7 +172,7 @@ def pair_scans(
         ry = sine * p[0] + cosine * p[1]
         x = rx + zx
         y = ry + zy
-        other = nearest_point(scene, j, x, y, reach)
+        other = nearest_point(scene, j, x, y, rule.reach)
         if other == -2:
             continue
         seen += 1
@@ -191,7 +188,7 @@ def pair_scans(
             m = scene.normals[j, other]
             nx = cosine * n[0] - sine * n[1]
             ny = sine * n[0] + cosine * n[1]
-            if nx * m[0] + ny * m[1] < alike:
+            if nx * m[0] + ny * m[1] < rule.alike:
                 continue
             ux = nx + m[0]
             uy = ny + m[1]
@@ -199,7 +196,7 @@ def pair_scans(
             ux = ux / size
             uy = uy / size
             e = ux * dx + uy * dy
-            w = 1.0 / (1.0 + e * e / (scale * scale))
+            w = 1.0 / (1.0 + e * e / (rule.scale * rule.scale))
             w = w * w
             force_sq += weights[i, b] * w * w * e * e
             w = w * weights[i, b]
@@ -229,7 +226,7 @@ def pair_scans(
             if apart > DENSE:
                 continue
             e2 = dx * dx + dy * dy
-            w = 1.0 / (1.0 + e2 / (scale * scale + apart * apart))
+            w = 1.0 / (1.0 + e2 / (rule.scale * rule.scale + apart * apart))
             w = w * w * weights[i, b] * (0.01 * 0.01) / (apart * apart)
             h00 += w
             h02 -= w * ry
@@ -263,20 +260,12 @@ class PairSums:
 
 @wp.kernel
 def sum_pairs(
-    first: int,
-    scene: ScanArrays,
-    weights: Float32Rows,
-    source: Int32s,
-    target: Int32s,
-    relative: wp.array(dtype=wp.vec3d),
-    reach: float,
-    scale: float,
-    alike: float,
-    out: PairSums,
-):
+    first: int, scene: ScanArrays, weights: Float32Rows, source: Int32s, target: Int32s,
+    relative: wp.array(dtype=wp.vec3d), rule: PairRule, out: PairSums,
+):  # fmt: skip
     """One thread per pair of scans: sum over the pairs of their points."""
     p = first + wp.tid()
-    sums = pair_scans(scene, weights, source[p], target[p], relative[p], reach, scale, alike, scene.stride)
+    sums = pair_scans(scene, weights, source[p], target[p], relative[p], rule, scene.stride)
     out.second[p] = sums.second
     out.slack[p] = sums.slack
     out.gradient[p] = sums.first
@@ -288,17 +277,9 @@ def sum_pairs(
 
 
 def pair_sums(
-    geometry: Any,
-    weights: Singles | None,
-    source: Ints,
-    target: Ints,
-    relative: Floats,
-    reach_m: float,
-    scale_m: float,
-    alike: float,
-    stride: int = 1,
-    threads: int | None = None,
-) -> tuple[Floats, Floats, Floats, Floats]:
+    geometry: Any, weights: Singles | None, source: Ints, target: Ints, relative: Floats, reach_m: float,
+    scale_m: float, alike: float, stride: int = 1, threads: int | None = None,
+) -> tuple[Floats, Floats, Floats, Floats]:  # fmt: skip
     """Compute H (P, 3, 3), slack (P, 3, 3), g (P, 3) and totals (P, 5) of pairs of scans.
 
     Totals are cost, weight, points matched, points within the other scan's view, and the squares of the points' forces.
@@ -306,27 +287,20 @@ def pair_sums(
     device, count = geometry.device, len(source)
     if weights is None:
         weights = np.ones((len(geometry), geometry.beams), np.float32)
-    out = PairSums()
+    rule, out = devices.pack(PairRule, device, reach=reach_m, scale=scale_m, alike=alike), PairSums()
     out.second, out.slack = (wp.empty(count, dtype=wp.mat33d, device=device) for _ in range(2))
     out.gradient = wp.empty(count, dtype=wp.vec3d, device=device)
     out.totals = wp.empty((count, 5), dtype=wp.float64, device=device)
-    inputs = [scan_arrays(geometry, stride), weights, source, target, relative, reach_m, scale_m, alike, out]
+    inputs = [scan_arrays(geometry, stride), weights, source, target, relative, rule, out]
     devices.launch(sum_pairs, count, inputs, device, threads)
     return out.second.numpy(), out.slack.numpy(), out.gradient.numpy(), out.totals.numpy()
 
 
 @wp.kernel
 def count_matches(
-    first: int,
-    scene: ScanArrays,
-    offsets: Int32s,
-    target: Int32s,
-    relative: wp.array(dtype=wp.vec3d),
-    reach: float,
-    scale: float,
-    alike: float,
+    first: int, scene: ScanArrays, offsets: Int32s, target: Int32s, relative: wp.array(dtype=wp.vec3d), rule: PairRule,
     counts: Float32Rows,
-):
+):  # fmt: skip
     """One thread per scan: count the scans with which each beam is paired, weighted by how well it fits."""
     i = first + wp.tid()
     for b in range(scene.kind.shape[1]):
@@ -342,7 +316,7 @@ def count_matches(
             q = scene.points[i, b]
             x = cosine * q[0] - sine * q[1] + float(z[0])
             y = sine * q[0] + cosine * q[1] + float(z[1])
-            other = nearest_point(scene, j, x, y, reach)
+            other = nearest_point(scene, j, x, y, rule.reach)
             if other < 0 or scene.kind[i, b] != scene.kind[j, wp.max(other, 0)]:
                 continue
             d = wp.vec2f(x, y) - scene.points[j, other]
@@ -352,28 +326,23 @@ def count_matches(
                 m = scene.normals[j, other]
                 nx = cosine * n[0] - sine * n[1]
                 ny = sine * n[0] + cosine * n[1]
-                if nx * m[0] + ny * m[1] < alike:
+                if nx * m[0] + ny * m[1] < rule.alike:
                     continue
                 e = m[0] * d[0] + m[1] * d[1]
                 e2 = e * e
-            w = 1.0 / (1.0 + e2 / (scale * scale))
+            w = 1.0 / (1.0 + e2 / (rule.scale * rule.scale))
             counts[i, b] = counts[i, b] + w * w
 
 
 def match_counts(
-    geometry: Any,
-    offsets: Ints,
-    target: Ints,
-    relative: Floats,
-    reach_m: float,
-    scale_m: float,
-    alike: float,
+    geometry: Any, offsets: Ints, target: Ints, relative: Floats, reach_m: float, scale_m: float, alike: float,
     threads: int | None = None,
-) -> Singles:
+) -> Singles:  # fmt: skip
     """Count the partners with which each beam is paired, (S, B); scan s has the pairs offsets[s] .. offsets[s + 1]."""
     device = geometry.device
     counts = wp.empty((len(geometry), geometry.beams), dtype=wp.float32, device=device)
-    inputs = [scan_arrays(geometry), offsets, target, relative, reach_m, scale_m, alike, counts]
+    rule = devices.pack(PairRule, device, reach=reach_m, scale=scale_m, alike=alike)
+    inputs = [scan_arrays(geometry), offsets, target, relative, rule, counts]
     devices.launch(count_matches, len(geometry), inputs, device, threads)
     return np.asarray(counts.numpy())
 
@@ -404,15 +373,9 @@ def near_wall(scene: ScanArrays, j: int, beam: int, x: float, y: float, near: fl
 
 @wp.kernel
 def compare_views(
-    first: int,
-    scene: ScanArrays,
-    source: Int32s,
-    target: Int32s,
-    relative: wp.array(dtype=wp.vec3d),
-    near: float,
-    clear: float,
-    counts: Int32Rows,
-):
+    first: int, scene: ScanArrays, source: Int32s, target: Int32s, relative: wp.array(dtype=wp.vec3d), near: float,
+    clear: float, counts: Int32Rows,
+):  # fmt: skip
     """One thread per pair: count the points of the source on what the target saw, those that contradict it, and all.
 
     A point contradicts if three neighbouring beams of the target all hit something ``clear`` metres beyond it.

@@ -52,14 +52,9 @@ def widest_gap(step_rad: wp.float32, away: wp.float32) -> wp.float32:
 
 @wp.kernel
 def scan_points(
-    first: int,
-    ranges: Float64Rows,
-    angles: Float64Rows,
-    nearest: wp.float64,
-    farthest: wp.float64,
-    points: wp.array2d(dtype=wp.vec2f),
-    kind: Uint8Rows,
-):
+    first: int, ranges: Float64Rows, angles: Float64Rows, nearest: wp.float64, farthest: wp.float64,
+    points: wp.array2d(dtype=wp.vec2f), kind: Uint8Rows,
+):  # fmt: skip
     """One thread per scan: compute where its beams ended, in the laser's frame.
 
     ``angles`` has one row for all scans, or one each.
@@ -77,17 +72,9 @@ def scan_points(
 
 @wp.kernel
 def scan_normals(
-    first: int,
-    points: wp.array2d(dtype=wp.vec2f),
-    beams_of: Int32s,
-    step_of: Float32s,
-    circle_of: Int32s,
-    reach_m: wp.float32,
-    noise_m: wp.float32,
-    kind: Uint8Rows,
-    normals: wp.array2d(dtype=wp.vec2f),
-    spread: Float32Rows,
-):
+    first: int, points: wp.array2d(dtype=wp.vec2f), beams_of: Int32s, step_of: Float32s, circle_of: Int32s,
+    reach_m: wp.float32, noise_m: wp.float32, kind: Uint8Rows, normals: wp.array2d(dtype=wp.vec2f), spread: Float32Rows,
+):  # fmt: skip
     """One thread per scan: fit the line through each point's neighbours along the wall, by least squares.
 
     Neighbours are consecutive beams without a gap. The fit begins with ``reach_m`` to either side and is widened,
@@ -171,28 +158,21 @@ def scan_normals(
 
 
 def points_and_normals(
-    ranges_m: Floats,
-    angles_rad: Floats,
-    nearest_m: float,
-    farthest_m: float,
-    fans: Any,
-    reach_m: float,
-    noise_m: float,
-    device: str = "cpu",
-    threads: int | None = None,
-) -> tuple[Any, Any, Any, Any]:
+    ranges_m: Floats, angles_rad: Floats, nearest_m: float, farthest_m: float, fans: Any, reach_m: float,
+    noise_m: float, device: str = "cpu", threads: int | None = None,
+) -> tuple[Any, Any, Any, Any]:  # fmt: skip
     """Compute points (S, B), normals (S, B), kinds (S, B) and spreads (S, B) of scans, as arrays on the device.
 
     Args:
-        ranges_m: readings, shape (S, B); beams in the order of their angles, NaN past a scan's last.
-        angles_rad: ascending, shape (1, B) for all scans, or (S, B).
-        nearest_m: readings below are no points.
-        farthest_m: neither are those above.
+        ranges_m: readings, (S, B); beams in the order of their angles, NaN past a scan's last.
+        angles_rad: ascending, (1, B) for all scans, or (S, B).
+        nearest_m: shorter readings are no points.
+        farthest_m: longer readings are no points.
         fans: where the beams point, a `bayesmap.poses.scan_geometry.Fans`.
         reach_m: how far to either side a wall's direction is fitted at first.
         noise_m: standard deviation of a point; a wall is straight if its points lie within about twice that of a line.
         device: "cpu" or a CUDA device.
-        threads: to compute with; by default all cores.
+        threads: to compute with; all cores if None.
     """
     device = devices.resolve(device)
     scans, beams = ranges_m.shape

@@ -7,7 +7,7 @@ import warp as wp
 
 from bayesmap.kernels import device as devices
 from bayesmap.kernels.device import Float32Rows, Float64Rows, Floats, Int32s, Ints
-from bayesmap.kernels.match.line_pairs import pair_scans
+from bayesmap.kernels.match.line_pairs import PairRule, pair_scans
 from bayesmap.kernels.match.scan_geometry import ScanArrays, scan_arrays
 
 wp.set_module_options({"enable_backward": False})
@@ -44,12 +44,12 @@ def wrapped(angle: wp.float64) -> wp.float64:
 class RefinementArrays:
     """A `Refinement` on a device."""
 
-    scan: Int32s
+    scans: Int32s
     offsets: Int32s
-    other: Int32s
-    other_pose: wp.array(dtype=wp.vec3d)
-    start: wp.array(dtype=wp.vec3d)
-    prior: wp.array(dtype=wp.vec3d)
+    others: Int32s
+    other_poses: wp.array(dtype=wp.vec3d)
+    starts: wp.array(dtype=wp.vec3d)
+    priors: wp.array(dtype=wp.vec3d)
     prior_information: wp.array(dtype=wp.mat33d)
 
 
@@ -57,10 +57,10 @@ class RefinementArrays:
 class ConvergenceNumbers:
     """A `Convergence` on a device."""
 
-    sigma: wp.float64
+    sigma_m: wp.float64
     steps: int
-    reach: wp.vec2f
-    scale: wp.vec2f
+    reach_m: wp.vec2f
+    scale_m: wp.vec2f
     alike: float
 
 
@@ -75,21 +75,17 @@ class Refined:
 
 @wp.kernel
 def refine(
-    first: int,
-    scene: ScanArrays,
-    weights: Float32Rows,
-    jobs: RefinementArrays,
-    schedule: ConvergenceNumbers,
+    first: int, scene: ScanArrays, weights: Float32Rows, jobs: RefinementArrays, schedule: ConvergenceNumbers,
     out: Refined,
-):
+):  # fmt: skip
     """One thread per job: minimise the cost of prior and pairs; reach and scale shrink from the first step to the last.
 
     While they shrink every other point is enough. Coordinates are x, y and yaw in the world's axes. Information is that
     of the pairs alone, less slack.
     """
     k = first + wp.tid()
-    i = jobs.scan[k]
-    x = jobs.start[k]
+    i = jobs.scans[k]
+    x = jobs.starts[k]
     count = wp.float64(jobs.offsets[k + 1] - jobs.offsets[k])
     converged = int(0)
     information = wp.mat33d()
@@ -97,10 +93,12 @@ def refine(
         if converged >= 1:
             continue
         share = wp.min(1.0, 1.5 * float(step) / float(wp.max(schedule.steps - 1, 1)))
-        r = schedule.reach[0] * wp.pow(schedule.reach[1] / schedule.reach[0], share)
-        c = schedule.scale[0] * wp.pow(schedule.scale[1] / schedule.scale[0], share)
+        rule = PairRule()
+        rule.reach = schedule.reach_m[0] * wp.pow(schedule.reach_m[1] / schedule.reach_m[0], share)
+        rule.scale = schedule.scale_m[0] * wp.pow(schedule.scale_m[1] / schedule.scale_m[0], share)
+        rule.alike = schedule.alike
         sparse = wp.where(share < 1.0, 2, 1)
-        gain = wp.float64(sparse) / (schedule.sigma * schedule.sigma * (count + wp.float64(1.0)))
+        gain = wp.float64(sparse) / (schedule.sigma_m * schedule.sigma_m * (count + wp.float64(1.0)))
         second = wp.mat33d()
         slack = wp.mat33d()
         gradient = wp.vec3d()
@@ -109,10 +107,9 @@ def refine(
         matched = int(0)
         seen = int(0)
         for q in range(jobs.offsets[k], jobs.offsets[k + 1]):
-            frame = jobs.other_pose[q]
-            sums = pair_scans(
-                scene, weights, i, jobs.other[q], pose_between(frame, x), r, c, schedule.alike, sparse * scene.stride
-            )
+            frame = jobs.other_poses[q]
+            relative = pose_between(frame, x)
+            sums = pair_scans(scene, weights, i, jobs.others[q], relative, rule, sparse * scene.stride)
             turn = turn_of(frame[2])
             second += turn * sums.second * wp.transpose(turn)
             slack += turn * sums.slack * wp.transpose(turn)
@@ -121,11 +118,11 @@ def refine(
             weight += sums.weight
             matched += sums.matched
             seen += sums.seen
-        off = x - jobs.prior[k]
+        off = x - jobs.priors[k]
         off = wp.vec3d(off[0], off[1], wrapped(off[2]))
         # H (H + s^2 S)^-1 H: H where slack is small against it, and never negative where it is not.
         ridge = wp.identity(n=3, dtype=wp.float64) * wp.float64(1.0e-6)
-        trusted = second * wp.inverse(second + slack * (schedule.sigma * schedule.sigma) + ridge)
+        trusted = second * wp.inverse(second + slack * (schedule.sigma_m * schedule.sigma_m) + ridge)
         laser_information = trusted * second * gain
         pull = trusted * gradient * gain
         whole = laser_information + jobs.prior_information[k]
@@ -198,15 +195,8 @@ def refine_scans(
     Information is in the world's axes.
     """
     device, count = geometry.device, len(refinement.scans)
-    jobs = devices.pack(
-        RefinementArrays, device, scan=refinement.scans, offsets=refinement.offsets, other=refinement.others,
-        other_pose=refinement.other_poses, start=refinement.starts, prior=refinement.priors,
-        prior_information=refinement.prior_information,
-    )  # fmt: skip
-    schedule = devices.pack(
-        ConvergenceNumbers, device, sigma=convergence.sigma_m, steps=convergence.steps, alike=convergence.alike,
-        reach=wp.vec2f(*convergence.reach_m), scale=wp.vec2f(*convergence.scale_m),
-    )  # fmt: skip
+    jobs = devices.pack(RefinementArrays, device, **vars(refinement))
+    schedule = devices.pack(ConvergenceNumbers, device, **vars(convergence))
     out = Refined()
     out.pose = wp.empty(count, dtype=wp.vec3d, device=device)
     out.information = wp.empty(count, dtype=wp.mat33d, device=device)

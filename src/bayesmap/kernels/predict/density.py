@@ -55,15 +55,9 @@ class MapArrays:
 
 @wp.func
 def stop_in(maps: MapArrays, row: int, column: int, line: Line, cell: int) -> wp.vec3d:
-    """Return the chance that a beam which reaches a cell stops in it, and the distance and its variance, metres, if it
-    does.
+    """Return the chance that a beam which reaches a cell stops in it, and distance and variance, metres, if it does.
 
-    Args:
-        maps: some maps.
-        row: which of them.
-        column: where it has the cell.
-        line: the beam's.
-        cell: flat index in the grid.
+    The map is in ``row``, and has the cell in ``column``; ``cell`` is its flat index in the grid.
     """
     if maps.surfaces != 0:
         state = maps.surface[row, column]
@@ -78,14 +72,8 @@ def stop_in(maps: MapArrays, row: int, column: int, line: Line, cell: int) -> wp
 
 def maps_to_device(states: StopStates, hit_depth: float, device: str) -> Any:
     """Put some maps on a device; their number of dimensions tells which kind of cells they have."""
-    maps = MapArrays()
-    maps.surfaces = int(states.ndim == 3)
-    maps.depth = hit_depth
-    if states.ndim == 3:
-        maps.surface = cells_to_device(states, device)
-    else:
-        maps.stop = devices.to_device(states, wp.float32, device)
-    return maps
+    cells = {"surface": cells_to_device(states, device)} if states.ndim == 3 else {"stop": states}
+    return devices.pack(MapArrays, device, surfaces=int(states.ndim == 3), depth=hit_depth, **cells)
 
 
 @dataclass(frozen=True, eq=False)
@@ -170,8 +158,10 @@ def weight_of_nothing(law: SensorLaw64) -> wp.float64:
 
 @wp.struct
 class ForecastSums:
-    """Running sums over draws, for each beam: of densities, see `no_sum`, and of cumulative probabilities."""
+    """Readings, how far stops may explain them, and running sums over draws: see `no_sum`, and cumulative ones."""
 
+    range_m: Float64s
+    reach_m: Float64s
     most: Float64s
     total: Float64s
     below: Float64s  # of readings below the beam's own
@@ -181,23 +171,15 @@ class ForecastSums:
 
 @wp.kernel
 def add_forecasts(
-    first: int,
-    law: SensorLaw64,
-    rays: RayArrays,
-    columns: Int32s,
-    maps: MapArrays,
-    draws: int,
-    range_m: Float64s,
-    reach_m: Float64s,
-    with_cumulative: int,
+    first: int, law: SensorLaw64, rays: RayArrays, columns: Int32s, maps: MapArrays, draws: int, with_cumulative: int,
     out: ForecastSums,
-):
+):  # fmt: skip
     """One thread per beam: add the law of its reading under each draw of a batch to running sums.
 
     A stop in a cell that the beam enters past its reach explains the reading as well as none at all.
     """
     b = first + wp.tid()
-    z = range_m[b]
+    z = out.range_m[b]
     if wp.isnan(z):
         return
     one = wp.float64(1.0)
@@ -209,7 +191,7 @@ def add_forecasts(
         at = wp.where(z > wp.float64(0.0), law.max_m, law.min_m)
     gone = weight_of_nothing(law)
     decay = object_decay(law, z)
-    past = first_past(line, rays.cells, rays.offsets[b], rays.offsets[b + 1], reach_m[b], wp.float64(0.0))
+    past = first_past(line, rays.cells, rays.offsets[b], rays.offsets[b + 1], out.reach_m[b], wp.float64(0.0))
     for d in range(draws):
         survive = wp.float64(1.0)
         for i in range(rays.offsets[b + 1] - rays.offsets[b] + 1):
@@ -277,42 +259,28 @@ def are_typed(sensor: SensorModel, limits: RangeLimits) -> bool:
 
 
 def explained_within_m(range_m: Floats, sensor: SensorModel, limits: RangeLimits, resolution_m: float) -> Floats:
-    """Return the largest distance at which a stop makes each reading likelier than no stop, metres; infinite if any
-    may.
-
-    Args:
-        range_m: readings.
-        sensor: their law.
-        limits: of the sensor.
-        resolution_m: edge of the map's cells.
-    """
+    """Return how far a stop can be that makes each reading likelier than no stop, metres; infinite if any stop can."""
     return np.asarray(sensor.reach_m(range_m, limits) + CELLS_PAST_REACH * resolution_m)
 
 
 def _sums(
-    rays: Rays,
-    columns: Ints,
-    batches: Iterable[StopStates],
-    sensor: SensorModel,
-    hit_depth: float,
-    device: str,
+    rays: Rays, columns: Ints, batches: Iterable[StopStates], sensor: SensorModel, hit_depth: float, device: str,
     with_cumulative: bool,
-) -> tuple[Floats, list[Floats]]:
+) -> tuple[Floats, list[Floats]]:  # fmt: skip
     """Compute log densities, and mean cumulative probabilities at the reading and at both limits."""
     device = devices.resolve(device)
     law = (law_with_cumulative if with_cumulative else sensor_law)(sensor, rays.limits, device)
-    beams = rays.n_beams
-    sums, asked = ForecastSums(), beams if with_cumulative else 1
+    beams, asked = rays.n_beams, rays.n_beams if with_cumulative else 1
+    reach_m = explained_within_m(rays.range_m, sensor, rays.limits, rays.grid.resolution)
+    sums = devices.pack(ForecastSums, device, range_m=rays.range_m, reach_m=reach_m)
     sums.most = wp.full(beams, 0.0 if law.kind == MIXTURE else -1.0e300, dtype=wp.float64, device=device)
     sums.total = wp.zeros(beams, dtype=wp.float64, device=device)
     sums.below, sums.below_max, sums.below_min = (wp.zeros(asked, dtype=wp.float64, device=device) for _ in range(3))
     fixed = [rays_to_device(rays, device), devices.to_device(columns, wp.int32, device)]
-    reach_m = explained_within_m(rays.range_m, sensor, rays.limits, rays.grid.resolution)
-    readings = [devices.to_device(a, wp.float64, device) for a in (rays.range_m, reach_m)]
     draws = 0
     for batch in batches:
         draws += len(batch)
-        inputs = [law, *fixed, maps_to_device(batch, hit_depth, device), len(batch), *readings, int(with_cumulative)]
+        inputs = [law, *fixed, maps_to_device(batch, hit_depth, device), len(batch), int(with_cumulative)]
         devices.launch(add_forecasts, beams, [*inputs, sums], device, 1 if beams < FEW_BEAMS else None)
     if draws == 0:
         raise BadInput("score: there is no draw to predict from")
@@ -323,14 +291,9 @@ def _sums(
 
 
 def log_densities(
-    rays: Rays,
-    batches: Iterable[StopStates],
-    sensor: SensorModel,
-    hit_depth: float,
-    *,
-    columns: Ints | None = None,
+    rays: Rays, batches: Iterable[StopStates], sensor: SensorModel, hit_depth: float, *, columns: Ints | None = None,
     device: str = "cpu",
-) -> Floats:
+) -> Floats:  # fmt: skip
     """Compute the log predictive density of every reading, (B,): see `forecast`.
 
     Here, and here alone, beams may have been traced no further than their reading reaches; and each entry's cell may

@@ -61,16 +61,9 @@ def next_line(p: wp.float32, u: wp.float32) -> wp.float32:
 
 @wp.func
 def reading_log_density(
-    law: SensorLaw32,
-    frame: Frame,
-    maps: MapArrays,
-    empty: Uint8Rows,
-    draw: int,
-    x: wp.float32,
-    y: wp.float32,
-    angle: wp.float32,
-    z: wp.float32,
-) -> wp.float32:
+    law: SensorLaw32, frame: Frame, maps: MapArrays, empty: Uint8Rows, draw: int, x: wp.float32, y: wp.float32,
+    angle: wp.float32, z: wp.float32,
+) -> wp.float32:  # fmt: skip
     """Return log p(reading | map, beam) for a beam from (x, y), in metres from the grid's corner.
 
     The walk is that of Amanatides and Woo (1987). Corners, where `bayesmap.kernels.walk` touches all cells that meet,
@@ -151,19 +144,9 @@ def reading_log_density(
 
 @wp.kernel
 def scan_log_likelihoods(
-    first: int,
-    law: SensorLaw32,
-    frame: Frame,
-    maps: MapArrays,
-    empty: Uint8Rows,
-    draws: int,
-    in_turn: int,
-    poses: Float64Rows,
-    scan: Int32s,
-    angle_rad: Float64s,
-    range_m: Float64Rows,
-    out: Float64Rows,
-):
+    first: int, law: SensorLaw32, frame: Frame, maps: MapArrays, empty: Uint8Rows, draws: int, in_turn: int,
+    poses: Float64Rows, scan: Int32s, angle_rad: Float64s, range_m: Float64Rows, out: Float64Rows,
+):  # fmt: skip
     """One thread per pose and draw: sum log p(reading | map, pose) over beams.
 
     ``in_turn``: pose p is weighed under draw p modulo so many alone; 0: under all.
@@ -210,13 +193,9 @@ class PackedMap:
 
 
 def pack_map(states: Singles, grid: Grid, hit_depth: float, device: str = "cpu") -> PackedMap:
-    """Put draws of a map on a device.
+    """Put draws of a map of a grid on a device: stop probabilities (D, N), or surfaces (D, N, 6).
 
-    Args:
-        states: stop probabilities (D, N), or surfaces (D, N, 6), of all N cells of the grid.
-        grid: of the map.
-        hit_depth: where a beam stops in a cell without a surface, as a part of its chord.
-        device: where to.
+    In a cell without a surface a beam stops at the part ``hit_depth`` of its chord.
     """
     device = devices.resolve(device)
     chances = states[..., 0] if states.ndim == 3 else states
@@ -237,19 +216,10 @@ def _law(sensor: SensorModel, limits: RangeLimits, device: str) -> Any:
 
 
 def scan_log_likelihood(
-    packed: PackedMap,
-    poses: Floats,
-    angles_rad: Floats,
-    ranges_m: Floats,
-    sensor: SensorModel,
-    limits: RangeLimits,
-    scan: NDArray[np.intp] | None = None,
-    draws: int | None = None,
-    in_turn: bool = False,
-    threads: int | None = None,
-) -> Floats:
-    """Compute the log-likelihood of a scan at each pose under each draw of the map, (P, D), in nats; invalid readings
-    count 0.
+    packed: PackedMap, poses: Floats, angles_rad: Floats, ranges_m: Floats, sensor: SensorModel, limits: RangeLimits,
+    scan: NDArray[np.intp] | None = None, draws: int | None = None, in_turn: bool = False, threads: int | None = None,
+) -> Floats:  # fmt: skip
+    """Compute the log-likelihood of scans at poses under draws of the map, nats, (P, D); invalid readings count 0.
 
     Args:
         packed: the draws.
@@ -258,13 +228,10 @@ def scan_log_likelihood(
         ranges_m: readings of one scan, (A,), or of several, (S, A).
         sensor: the law of a reading given where its beam stops.
         limits: of the sensor.
-        scan: which scan is weighed at each pose, (P,); the first if None.
+        scan: the scan that is weighed at each pose, (P,); the first if None.
         draws: only the first so many draws; all if None.
         in_turn: weigh each pose under one of them, one after the other: (P, 1).
         threads: at once; all cores if None.
-
-    Raises:
-        BadInput: a sensor model of the user's own, which kernels do not know.
     """
     device, count = packed.device, len(poses)
     draws = packed.draws if draws is None else min(draws, packed.draws)

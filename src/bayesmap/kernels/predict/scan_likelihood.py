@@ -53,18 +53,9 @@ def stop_on_walk(
 
 @wp.kernel
 def beam_log_likelihoods(
-    first: int,
-    law: SensorLaw64,
-    frame: Frame,
-    maps: MapArrays,
-    poses: Float64Rows,
-    scan: Int32s,
-    chain: Int32s,
-    beams: int,
-    mounts: Float64Rows,
-    range_m: Float64s,
-    out: Float64s,
-):
+    first: int, law: SensorLaw64, frame: Frame, maps: MapArrays, poses: Float64Rows, scan: Int32s, chain: Int32s,
+    beams: int, mounts: Float64Rows, range_m: Float64s, out: Float64s,
+):  # fmt: skip
     """One thread per beam of a pose: log p(reading | cells, pose).
 
     A mount is a beam's start and angle in its scan's frame; ``mounts`` has one for each angle, or one for each beam.

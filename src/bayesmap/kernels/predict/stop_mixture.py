@@ -47,18 +47,19 @@ LEAST_WEIGHT = wp.constant(wp.float64(1.0e-10))  # of a stop that is looked at: 
 MOST_CHANCE = wp.constant(wp.float64(1.0 - 1.0e-7))  # what single precision can tell from one
 
 
+@wp.struct
+class StopSums:
+    """Sums over draws: for each entry the weight, and the moments of its place; for each beam the chance of no stop."""
+
+    weight: Float32s
+    shift: Float32s
+    square: Float32s
+    no_stop: Float64s
+
+
 @wp.kernel
 def add_stops(
-    first: int,
-    rays: RayArrays,
-    columns: Int32s,
-    maps: MapArrays,
-    draws: int,
-    gone: wp.float64,
-    weight: Float32s,
-    shift: Float32s,
-    square: Float32s,
-    no_stop: Float64s,
+    first: int, rays: RayArrays, columns: Int32s, maps: MapArrays, draws: int, gone: wp.float64, out: StopSums
 ):
     """One thread per beam, followed until its chance is below ``gone``: add each stop's weight and moments."""
     b = first + wp.tid()
@@ -70,14 +71,14 @@ def add_stops(
             w = survive * stop[0]
             survive = survive * (wp.float64(1.0) - stop[0])
             if w > wp.float64(0.0):
-                weight[k] = weight[k] + wp.float32(w)
+                out.weight[k] = out.weight[k] + wp.float32(w)
                 if maps.surfaces != 0:
                     away = stop[1] - distance_at(line, rays.cells[k], maps.depth)
-                    shift[k] = shift[k] + wp.float32(w * away)
-                    square[k] = square[k] + wp.float32(w * (away * away + stop[2]))
+                    out.shift[k] = out.shift[k] + wp.float32(w * away)
+                    out.square[k] = out.square[k] + wp.float32(w * (away * away + stop[2]))
                 if survive < gone:
                     break
-        no_stop[b] = no_stop[b] + survive
+        out.no_stop[b] = out.no_stop[b] + survive
 
 
 @dataclass(frozen=True, eq=False)
@@ -112,11 +113,8 @@ def mix_stops(rays: Rays, batches: Iterable[StopStates], hit_depth: float, *, de
 def mix_device_stops(rays: Rays, held: DeviceMaps, gone: float = float(LEAST_CHANCE)) -> StopMixture:
     """Average the stops of each beam over draws of all cells that are on a device already.
 
-    Args:
-        rays: the beams.
-        held: the draws.
-        gone: a beam that is less likely than this to get to a cell is not followed so far, and counts as one that
-            stops nowhere: probabilities are off by no more than this.
+    A beam that is less likely than ``gone`` to get to a cell is not followed so far, and counts as one that stops
+    nowhere: probabilities are off by no more than this.
     """
     return _mixed(rays, rays.cells, [(held.maps, held.draws)], held.hit_depth, held.device, gone)
 
@@ -125,22 +123,25 @@ def _mixed(
     rays: Rays, columns: Ints, batches: Iterable[tuple[Any, int]], hit_depth: float, device: str, gone: float
 ) -> StopMixture:
     """Average over batches of maps; ``columns`` are the places of the entries' cells in the maps."""
-    sums = [wp.zeros(rays.n_incidences, dtype=wp.float32, device=device) for _ in range(3)]
-    no_stop = wp.zeros(rays.n_beams, dtype=wp.float64, device=device)
+    sums = StopSums()
+    sums.weight, sums.shift, sums.square = (
+        wp.zeros(rays.n_incidences, dtype=wp.float32, device=device) for _ in range(3)
+    )
+    sums.no_stop = wp.zeros(rays.n_beams, dtype=wp.float64, device=device)
     fixed = [rays_to_device(rays, device), devices.to_device(columns, wp.int32, device)]
     draws = 0
     for maps, count in batches:
         draws += count
-        inputs = [*fixed, maps, count, gone, *sums, no_stop]
+        inputs = [*fixed, maps, count, gone, sums]
         devices.launch(add_stops, rays.n_beams, inputs, device, devices.threads_for(rays.n_beams))
     if draws == 0:
         raise BadInput("score: there is no draw to predict from")
-    weight, shift, square = (a.numpy() for a in sums)
+    weight, shift, square = (a.numpy() for a in (sums.weight, sums.shift, sums.square))
     total = np.where(weight > 0, weight, np.float32(1.0))
     mean = shift / total
     spread = np.sqrt(np.maximum(square / total - mean * mean, 0.0))
     distance_m = stop_distances(rays, hit_depth, device) + mean
-    return StopMixture(rays, weight / np.float32(draws), distance_m, spread, no_stop.numpy() / draws)
+    return StopMixture(rays, weight / np.float32(draws), distance_m, spread, sums.no_stop.numpy() / draws)
 
 
 @wp.struct
@@ -167,14 +168,9 @@ def mixture_below(law: SensorLaw64, stops: StopMixtureArrays, b: int, range_m: w
 
 @wp.kernel
 def find_events(
-    first: int,
-    law: SensorLaw64,
-    stops: StopMixtureArrays,
-    rays: RayArrays,
-    range_m: Float64s,
-    chance: Float32s,
+    first: int, law: SensorLaw64, stops: StopMixtureArrays, rays: RayArrays, range_m: Float64s, chance: Float32s,
     stopped: wp.array(dtype=wp.int8),
-):
+):  # fmt: skip
     """One thread per beam: for each stretch that its reading reaches, compute the chance that it ends there, and
     whether it did.
 
@@ -219,11 +215,6 @@ def first_hit_events(stops: StopMixture, sensor: SensorModel, device: str = "cpu
 
     With F the beam's predictive cumulative and [a, b) the stretch, the chance is ``(F(b) - F(a)) / (1 - F(a))``: the
     probability of a reading in it, if it got there. The product over a beam's events is the probability of its cell.
-
-    Args:
-        stops: where the beams stop.
-        sensor: the law of a reading given where its beam stops.
-        device: where to compute.
 
     Returns:
         The chances, and 1 where the reading ended, 0 where it went on, -1 where there is no event; both (K,).
@@ -298,14 +289,9 @@ def halved(law: SensorLaw64, stops: StopMixtureArrays, s: LevelSearch, level: wp
 
 @wp.kernel
 def find_quantiles(
-    first: int,
-    law: SensorLaw64,
-    stops: StopMixtureArrays,
-    levels: Float64s,
-    low_m: wp.float64,
-    high_m: wp.float64,
+    first: int, law: SensorLaw64, stops: StopMixtureArrays, levels: Float64s, low_m: wp.float64, high_m: wp.float64,
     quantiles: Float64Rows,
-):
+):  # fmt: skip
     """One thread per beam: halve the span of ranges until each quantile is found; levels rise."""
     b = first + wp.tid()
     at_low = mixture_below(law, stops, b, low_m)
@@ -344,16 +330,10 @@ def find_quantiles(
 
 
 def range_quantiles(stops: StopMixture, levels: Floats, sensor: SensorModel, device: str = "cpu") -> Floats:
-    """Compute the least range below which the reading falls with each probability, metres, (B, levels).
+    """Compute the least range below which the reading falls with each of rising probabilities, metres, (B, levels).
 
     No return counts as +inf, too close as -inf. A sensor that is noise alone may read past its limits: its quantiles
-    are looked for from one range below zero to two ranges.
-
-    Args:
-        stops: where the beams stop.
-        levels: rising probabilities.
-        sensor: the law of a reading given where its beam stops.
-        device: where to compute.
+    are searched from one range below zero to two ranges.
     """
     device = devices.resolve(device)
     limits = stops.rays.limits

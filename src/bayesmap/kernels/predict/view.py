@@ -25,26 +25,27 @@ NEGLIGIBLE = wp.constant(wp.float64(4.0))
 """Standard deviations past which a reading is not expected."""
 
 
+@wp.struct
+class Views:
+    """Poses in the world frame, and the beams of a scan at each: their angles, and how far they are followed."""
+
+    poses: Float64Rows
+    angles: Float64s
+    longest_m: wp.float64
+
+
 @wp.kernel
 def draw_scan(
-    first: int,
-    frame: Frame,
-    maps: MapArrays,
-    poses: Float64Rows,
-    draw: Int32s,
-    angles: Float64s,
-    longest_m: wp.float64,
-    key: wp.uint64,
-    distance_m: Float64s,
+    first: int, frame: Frame, maps: MapArrays, views: Views, draw: Int32s, key: wp.uint64, distance_m: Float64s,
     spread_m: Float64s,
-):
+):  # fmt: skip
     """One thread per beam of a pose: draw the distance at which it stops; infinite if nowhere."""
     b = first + wp.tid()
-    beams = angles.shape[0]
+    beams = views.angles.shape[0]
     row = b / beams
-    x = poses[row, 0] - frame.origin_x
-    y = poses[row, 1] - frame.origin_y
-    angle = poses[row, 2] + angles[b % beams]
+    x = views.poses[row, 0] - frame.origin_x
+    y = views.poses[row, 1] - frame.origin_y
+    angle = views.poses[row, 2] + views.angles[b % beams]
     ux = wp.cos(angle)
     uy = wp.sin(angle)
     start = wp.vec2(wp.float32(x), wp.float32(y))
@@ -53,7 +54,9 @@ def draw_scan(
     survive = wp.float64(1.0)
     distance_m[b] = wp.float64(wp.inf)
     spread_m[b] = wp.float64(0.0)
-    w = walk_begin(x / frame.resolution, y / frame.resolution, ux, uy, frame.nx, frame.ny, longest_m / frame.resolution)
+    w = walk_begin(
+        x / frame.resolution, y / frame.resolution, ux, uy, frame.nx, frame.ny, views.longest_m / frame.resolution
+    )
     while w.distance <= w.end:
         if is_inside(w, frame.nx, frame.ny):
             chord = wp.min(wp.min(w.next_x, w.next_y), NEVER) - w.distance
@@ -72,16 +75,10 @@ def draw_scan(
 def draw_scan_stops(
     held: DeviceMaps, grid: Grid, poses: Floats, draw: NDArray[np.intp], angles_rad: Floats, longest_m: float, key: int
 ) -> tuple[Floats, Floats]:
-    """Draw where the beams of a scan at each pose stop.
+    """Draw where the beams of a scan at each pose stop, in the map of the pose.
 
-    Args:
-        held: draws of all cells of the grid.
-        grid: of the maps.
-        poses: in the world frame, (P, 3).
-        draw: the map of each pose, (P,).
-        angles_rad: of the beams in the sensor's frame, (A,).
-        longest_m: the distance to which a beam is followed.
-        key: of the random numbers.
+    ``held`` are draws of all cells of the grid, ``draw`` is the number of each pose's map, (P,), and ``poses`` are in
+    the world frame, (P, 3). Beams at ``angles_rad`` (A,) in the sensor's frame are followed to ``longest_m``.
 
     Returns:
         distance in metres, infinite for a beam that meets nothing, and its standard deviation, (P, A) each.
@@ -89,7 +86,8 @@ def draw_scan_stops(
     device = held.device
     beams = len(poses) * len(angles_rad)
     out = [wp.zeros(beams, dtype=wp.float64, device=device) for _ in range(2)]
-    inputs = [grid_frame(grid), held.maps, poses, draw, angles_rad, longest_m, key, *out]
+    views = devices.pack(Views, device, poses=poses, angles=angles_rad, longest_m=longest_m)
+    inputs = [grid_frame(grid), held.maps, views, draw, key, *out]
     devices.launch(draw_scan, beams, inputs, device)
     distance_m, spread_m = (np.asarray(a.numpy().reshape(len(poses), -1)) for a in out)
     return distance_m, spread_m
@@ -103,17 +101,9 @@ def normal_below(x: wp.float64) -> wp.float64:
 
 @wp.kernel
 def add_beam_information(
-    first: int,
-    frame: Frame,
-    occupied: Float64s,
-    of_hit: Float64s,
-    of_pass: Float64s,
-    poses: Float64Rows,
-    angles: Float64s,
-    longest_m: wp.float64,
-    sigma_m: wp.float64,
-    out: Float64s,
-):
+    first: int, frame: Frame, views: Views, occupied: Float64s, of_hit: Float64s, of_pass: Float64s,
+    sigma_m: wp.float64, out: Float64s,
+):  # fmt: skip
     """One thread per beam: sum FSMI's information over pairs of a cell that stops the beam and a cell in which it is
     read.
 
@@ -123,14 +113,14 @@ def add_beam_information(
     cell k. The sum over j is over cells whose distance lies within some standard deviations of cell k.
     """
     b = first + wp.tid()
-    beams = angles.shape[0]
+    beams = views.angles.shape[0]
     row = b / beams
-    x = (poses[row, 0] - frame.origin_x) / frame.resolution
-    y = (poses[row, 1] - frame.origin_y) / frame.resolution
-    angle = poses[row, 2] + angles[b % beams]
+    x = (views.poses[row, 0] - frame.origin_x) / frame.resolution
+    y = (views.poses[row, 1] - frame.origin_y) / frame.resolution
+    angle = views.poses[row, 2] + views.angles[b % beams]
     ux = wp.cos(angle)
     uy = wp.sin(angle)
-    longest = longest_m / frame.resolution
+    longest = views.longest_m / frame.resolution
     sigma = sigma_m / frame.resolution
     one = wp.float64(1.0)
     half = wp.float64(0.5)
@@ -194,17 +184,9 @@ def surprise(update: float, odds: Floats) -> Floats:
 
 
 def independent_information(
-    occupied: Floats,
-    grid: Grid,
-    poses: Floats,
-    angles_rad: Floats,
-    longest_m: float,
-    *,
-    sigma_m: float,
-    hit_factor: float,
-    pass_factor: float,
-    device: str = "cpu",
-) -> Floats:
+    occupied: Floats, grid: Grid, poses: Floats, angles_rad: Floats, longest_m: float, *, sigma_m: float,
+    hit_factor: float, pass_factor: float, device: str = "cpu",
+) -> Floats:  # fmt: skip
     """Compute the fast Shannon mutual information of every beam with a map of independent cells, in nats, (P, A).
 
     Zhang, Henderson, Sze and Karaman, *FSMI* (ICRA 2019), equation 14, with the exact integrals of the noise.
@@ -224,6 +206,7 @@ def independent_information(
     out: Any = wp.zeros(len(poses) * len(angles_rad), dtype=wp.float64, device=device)
     odds = occupied / (1.0 - occupied)
     information = [surprise(factor, odds) for factor in (hit_factor, pass_factor)]
-    inputs = [grid_frame(grid), occupied, *information, poses, angles_rad, longest_m, sigma_m, out]
+    views = devices.pack(Views, device, poses=poses, angles=angles_rad, longest_m=longest_m)
+    inputs = [grid_frame(grid), views, occupied, *information, sigma_m, out]
     devices.launch(add_beam_information, len(out), inputs, device)
     return np.asarray(out.numpy().reshape(len(poses), -1))

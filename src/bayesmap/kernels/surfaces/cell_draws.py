@@ -90,15 +90,9 @@ def renewed_surface(prior: PriorNumbers, centre: wp.vec2, cell: Cell, key: wp.ui
 
 @wp.kernel
 def begin_sweep(
-    first: int,
-    sweep: int,
-    without_surfaces: int,
-    prior: PriorNumbers,
-    prior_moved: int,
-    active: ActiveCells,
-    state: ChainArrays,
-    log_prior: Float32s,
-):
+    first: int, sweep: int, without_surfaces: int, prior: PriorNumbers, prior_moved: int, active: ActiveCells,
+    state: ChainArrays, log_prior: Float32s,
+):  # fmt: skip
     """One thread per chain's cell, at the start of a sweep: reset the counts of its beams, and perhaps name a
     candidate.
 
@@ -244,14 +238,9 @@ def sum_label_prior(first: int, nx: int, ny: int, prior: PriorNumbers, state: Ch
 
 @wp.kernel
 def sum_of_slices(
-    first: int,
-    column: int,
-    one: Float64Rows,
-    other: Float64Rows,
-    beside_other: Float64Rows,
-    one_total: Float64Rows,
+    first: int, column: int, one: Float64Rows, other: Float64Rows, beside_other: Float64Rows, one_total: Float64Rows,
     other_total: Float64Rows,
-):
+):  # fmt: skip
     """One thread per chain: sum the slices of two quantities into a column; the second has two sets."""
     chain = first + wp.tid()
     total = wp.float64(0.0)

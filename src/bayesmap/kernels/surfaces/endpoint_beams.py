@@ -103,15 +103,9 @@ class Listed:
 
 @wp.func
 def log_stops(
-    law: SensorLaw32,
-    beta: wp.float32,
-    rays: TracedRays,
-    endpoints: EndpointCells,
-    listed: Listed,
-    centre: wp.vec2,
-    cell: Cell,
-    least: wp.float64,
-) -> wp.float64:
+    law: SensorLaw32, beta: wp.float32, rays: TracedRays, endpoints: EndpointCells, listed: Listed, centre: wp.vec2,
+    cell: Cell, least: wp.float64,
+) -> wp.float64:  # fmt: skip
     """Evaluate the formula at the top, for one surface and the listed beams.
 
     A sum that comes out under ``least`` need not be finished: what is returned then is under ``least``, too. Stopped
@@ -301,15 +295,9 @@ def put_passing(blocks: LaneBlocks, row: int, u: int, i: int, passing: wp.vec3):
 
 @wp.func
 def put_stopped(
-    blocks: LaneBlocks,
-    row: int,
-    at: int,
-    i: int,
-    passing: wp.vec3,
-    reading: wp.vec2,
-    decay: wp.float32,
+    blocks: LaneBlocks, row: int, at: int, i: int, passing: wp.vec3, reading: wp.vec2, decay: wp.float32,
     counts: wp.float32,
-):
+):  # fmt: skip
     """Put the i-th stopped beam into the blocks that begin at ``at``; a beam that ``counts`` 0 only fills a lane."""
     first = (at + OF_STOPPED * (i // WIDTH)) * WIDTH + i % WIDTH
     blocks.numbers[row, first] = passing[0]
@@ -370,15 +358,9 @@ def log_of_product(blocks: LaneBlocks, row: int, begin: int) -> wp.float64:
 
 @wp.func
 def log_stops_in_lanes(
-    law: SensorLaw32,
-    blocks: LaneBlocks,
-    row: int,
-    u: int,
-    beams: wp.vec2i,
-    centre: wp.vec2,
-    cell: Cell,
+    law: SensorLaw32, blocks: LaneBlocks, row: int, u: int, beams: wp.vec2i, centre: wp.vec2, cell: Cell,
     least: wp.float64,
-) -> wp.float64:
+) -> wp.float64:  # fmt: skip
     """Compute `log_stops` of the beams in blocks, ``beams`` passing and stopped; UNKNOWN where a product was too small.
 
     The product so far, and the smallest that it has been, are written to memory in every round, for compilers take

@@ -186,19 +186,9 @@ def listed_until(listed: Listed, passing_end: int, stopped_end: int) -> Listed:
 
 @wp.func
 def log_beams(
-    law: SensorLaw32,
-    beta: wp.float32,
-    rays: TracedRays,
-    endpoints: EndpointCells,
-    blocks: LaneBlocks,
-    row: int,
-    u: int,
-    listed: Listed,
-    others: int,
-    centre: wp.vec2,
-    cell: Cell,
-    least: wp.float64,
-) -> wp.float64:
+    law: SensorLaw32, beta: wp.float32, rays: TracedRays, endpoints: EndpointCells, blocks: LaneBlocks, row: int,
+    u: int, listed: Listed, others: int, centre: wp.vec2, cell: Cell, least: wp.float64,
+) -> wp.float64:  # fmt: skip
     """Compute `log_stops` of the beams in blocks and of ``others``, the first of the stopped; -1: no blocks."""
     passing_end = listed.passing_end
     stopped_end = listed.stopped_end
@@ -265,19 +255,9 @@ def count_endpoint_cells(
 
 @wp.kernel
 def update_endpoint_cells(
-    first: int,
-    part: int,
-    sweep: int,
-    steps: int,
-    law: SensorLaw32,
-    prior: PriorNumbers,
-    rays: TracedRays,
-    endpoints: EndpointCells,
-    active: ActiveCells,
-    state: ChainArrays,
-    lists: BeamLists,
-    blocks: LaneBlocks,
-):
+    first: int, part: int, sweep: int, steps: int, law: SensorLaw32, prior: PriorNumbers, rays: TracedRays,
+    endpoints: EndpointCells, active: ActiveCells, state: ChainArrays, lists: BeamLists, blocks: LaneBlocks,
+):  # fmt: skip
     """One thread per chain's cell in which readings end: draw its reflectivity, then step both."""
     i_cell = first + wp.tid()
     chain = i_cell // endpoints.cell.shape[0]

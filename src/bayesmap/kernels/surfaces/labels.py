@@ -25,10 +25,10 @@ import warp as wp
 from bayesmap.kernels import device as devices
 from bayesmap.kernels.device import Ints, Uint8s
 from bayesmap.kernels.random import CELLS, beta_variate, random_bits, sweep_key, to_uniform
-from bayesmap.kernels.surfaces.cell import REFLECTIVITY, TRYING, PriorNumbers
+from bayesmap.kernels.surfaces.cell import REFLECTIVITY, TRYING, PriorNumbers, pseudo_counts
 from bayesmap.kernels.surfaces.cell_draws import PER_CELL
 from bayesmap.kernels.surfaces.stops import LEARNS, ChainArrays
-from bayesmap.kernels.walls.chains import draw_wall
+from bayesmap.kernels.walls.chains import draw_wall, walls_less_free
 
 wp.set_module_options({"enable_backward": False})
 
@@ -73,22 +73,6 @@ def log_beta(a: wp.float64, b: wp.float64) -> wp.float64:
     return log_gamma(a) + log_gamma(b) - log_gamma(a + b)
 
 
-@wp.func
-def balance(solid: Uint8s, cell_0: int, x: int, y: int, nx: int, ny: int) -> int:
-    """Return the number of solid cells less that of free cells among a cell's neighbours."""
-    here = cell_0 + x * ny + y
-    total = int(0)
-    if x > 0:
-        total += wp.where(solid[here - ny] != wp.uint8(0), 1, -1)
-    if x < nx - 1:
-        total += wp.where(solid[here + ny] != wp.uint8(0), 1, -1)
-    if y > 0:
-        total += wp.where(solid[here - 1] != wp.uint8(0), 1, -1)
-    if y < ny - 1:
-        total += wp.where(solid[here + 1] != wp.uint8(0), 1, -1)
-    return total
-
-
 @wp.kernel
 def draw_labels(
     first: int, colour: int, sweep: int, nx: int, ny: int, prior: PriorNumbers, known: Uint8s, state: ChainArrays
@@ -102,7 +86,7 @@ def draw_labels(
     y = c - x * ny
     if (x + y) % 2 != colour:
         return
-    log_odds = prior.coupling * wp.float64(balance(state.solid, cell_0, x, y, nx, ny))
+    log_odds = prior.coupling * wp.float64(walls_less_free(state.solid, cell_0, c, nx, ny))
     what = int(known[c])
     if what != UNTOUCHED:
         n_hits = int(0)
@@ -135,9 +119,8 @@ def draw_untouched(first: int, sweep: int, prior: PriorNumbers, known: Uint8s, s
     if int(known[c]) != UNTOUCHED:
         return
     at = wp.uint64(c) * PER_CELL + AT_UNTOUCHED
-    solid = state.solid[here] != wp.uint8(0)
-    a = wp.where(solid, prior.a_solid, prior.a)
-    b = wp.where(solid, prior.b_solid, prior.b)
+    counts = pseudo_counts(prior, state.solid[here])
+    key = sweep_key(state.keys[chain], sweep, CELLS)
     cell = state.cells[here]
-    cell[REFLECTIVITY] = wp.float32(beta_variate(a, b, sweep_key(state.keys[chain], sweep, CELLS), at))
+    cell[REFLECTIVITY] = wp.float32(beta_variate(counts[0], counts[1], key, at))
     state.cells[here] = cell

@@ -56,14 +56,9 @@ NEVER = wp.constant(wp.float64(-1.0e300))
 
 @wp.func
 def stop_point_m(
-    law: SensorLaw32,
-    reading: wp.float32,
-    decay: wp.float32,
-    distance: wp.float32,
-    variance: wp.float32,
-    key: wp.uint64,
-    counter: wp.uint64,
-) -> wp.float64:
+    law: SensorLaw32, reading: wp.float32, decay: wp.float32, distance: wp.float32, variance: wp.float32,
+    key: wp.uint64, counter: wp.uint64,
+) -> wp.float64:  # fmt: skip
     """Draw the distance at which a beam was stopped, given its reading, metres; never behind the beam's start.
 
     Four counters are its own.
@@ -238,27 +233,13 @@ class Squares:
             self._squares.append(squares)
 
     def of_chain(
-        self,
-        chain: int,
-        sweep: int,
-        law: SensorLaw32,
-        prior: PriorNumbers,
-        rays: TracedRays,
-        state: ChainArrays,
-        kept: bool,
-        solid: NDArray[np.bool_] | None = None,
-    ) -> InSquares:
-        """Count a chain's stops, and draw the chances given the counts.
+        self, chain: int, sweep: int, law: SensorLaw32, prior: PriorNumbers, rays: TracedRays, state: ChainArrays,
+        kept: bool, solid: NDArray[np.bool_] | None = None,
+    ) -> InSquares:  # fmt: skip
+        """Count a chain's stops in a sweep that drew them, and draw the chances given the counts.
 
-        Args:
-            chain: its number on the device.
-            sweep: number of the sweep that drew the stops.
-            law: of the readings.
-            prior: of the cells.
-            rays: the beams where kernels read them.
-            state: of all chains.
-            kept: whether ``state.observed_counts`` counts this draw.
-            solid: labels of all cells when the sweep began, (N,); those that the chain has now if None.
+        ``state.observed_counts`` counts this draw if it is ``kept``. ``solid`` are the labels of all cells when the
+        sweep began, (N,); those that the chain has now if None.
         """
         squares = self._squares[chain]
         squares.stopped.zero_()

@@ -92,16 +92,9 @@ class StopChains:
     """Several chains on a device, advanced in place."""
 
     def __init__(
-        self,
-        plan: Plan,
-        states: Callable[[int], Singles],
-        keys: Sequence[int],
-        *,
-        threads: int | None,
-        counts: Ints | None = None,
-        observed_counts: Ints | None = None,
-        solid: NDArray[np.bool_] | None = None,
-    ) -> None:
+        self, plan: Plan, states: Callable[[int], Singles], keys: Sequence[int], *, threads: int | None,
+        counts: Ints | None = None, observed_counts: Ints | None = None, solid: NDArray[np.bool_] | None = None,
+    ) -> None:  # fmt: skip
         """Put chains on the device, one for each key.
 
         ``states`` gives the cells at which a chain stands, (N, 6), and ``solid`` their labels, (C, N), if they have
@@ -161,18 +154,10 @@ class StopChains:
         self._slices = [empty((chains, count), dtype=wp.float64) for count in slices]
 
     def sweeps(
-        self,
-        first: int,
-        count: int,
-        sensor: SensorModel,
-        prior: KernelNumbers,
-        beta: float = 1.0,
-        *,
-        steps: int = STEPS,
-        observing_after: int | None = None,
-        before: Callable[[int, int], None] | None = None,
+        self, first: int, count: int, sensor: SensorModel, prior: KernelNumbers, beta: float = 1.0, *,
+        steps: int = STEPS, observing_after: int | None = None, before: Callable[[int, int], None] | None = None,
         after: Callable[[int, int], None] | None = None,
-    ) -> tuple[Floats, Floats]:
+    ) -> tuple[Floats, Floats]:  # fmt: skip
         """Advance every chain by some sweeps, which are numbered from 0.
 
         Args:

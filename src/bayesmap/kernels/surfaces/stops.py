@@ -92,11 +92,8 @@ class TracedRays:
 def traced_rays_to_device(rays: Rays, distance_m: Singles | None, device: str, cells: Ints | None = None) -> Any:
     """Put rays where kernels read them.
 
-    Args:
-        rays: beams.
-        distance_m: where a beam stops in each cell, if cells have no surfaces, (K,).
-        device: where to.
-        cells: other numbers of the cells than their places in the grid, (K,).
+    ``distance_m`` is where a beam stops in each cell, if cells have no surfaces, (K,); ``cells`` are other numbers of
+    the cells than their places in the grid, (K,).
     """
     return devices.pack(
         TracedRays, device, without_surfaces=int(distance_m is not None), offsets=rays.offsets,
@@ -164,17 +161,9 @@ def in_units(log_ratio: wp.float32) -> wp.int64:
 
 @wp.func
 def pass_by(
-    state: ChainArrays,
-    chain: int,
-    part: int,
-    c: int,
-    cell: Cell,
-    g: wp.float32,
-    ray: Ray,
-    key: wp.uint64,
-    k: int,
+    state: ChainArrays, chain: int, part: int, c: int, cell: Cell, g: wp.float32, ray: Ray, key: wp.uint64, k: int,
     sign: int,
-):
+):  # fmt: skip
     """Count that a beam passed a cell; with sign -1 take the count back."""
     one = wp.float32(1.0)
     m = cell[0]

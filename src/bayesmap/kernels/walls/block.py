@@ -273,14 +273,9 @@ def coupling_weights(blocks: BlockArrays, prior: WallPriorArrays, walls: Uint8s,
 
 @wp.kernel
 def block_sweeps(
-    chain_0: int,
-    t: Table,
-    blocks: BlockArrays,
-    prior: WallPriorArrays,
-    sweeps: Sweeps,
-    chains: WallChainArrays,
+    chain_0: int, t: Table, blocks: BlockArrays, prior: WallPriorArrays, sweeps: Sweeps, chains: WallChainArrays,
     kept: Kept,
-):
+):  # fmt: skip
     """One thread per chain: several sweeps, each over all positions of a block."""
     n = chain_0 + wp.tid()
     chain = chain_of(chains, n)

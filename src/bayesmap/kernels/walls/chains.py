@@ -82,19 +82,20 @@ def draw_wall(log_odds: wp.float64, u: wp.float64) -> bool:
 
 
 @wp.func
-def walls_less_free(prior: WallPriorArrays, walls: Uint8s, c: int) -> int:
-    """Return the number of walls less that of free cells among a cell's neighbours."""
-    x = c // prior.ny
-    y = c - x * prior.ny
+def walls_less_free(walls: Uint8s, cell_0: int, c: int, nx: int, ny: int) -> int:
+    """Return the number of walls less that of free cells among a cell's neighbours; the map begins at ``cell_0``."""
+    x = c // ny
+    y = c - x * ny
+    here = cell_0 + c
     balance = int(0)
     if x > 0:
-        balance += wp.where(walls[c - prior.ny] != wp.uint8(0), 1, -1)
-    if x < prior.nx - 1:
-        balance += wp.where(walls[c + prior.ny] != wp.uint8(0), 1, -1)
+        balance += wp.where(walls[here - ny] != wp.uint8(0), 1, -1)
+    if x < nx - 1:
+        balance += wp.where(walls[here + ny] != wp.uint8(0), 1, -1)
     if y > 0:
-        balance += wp.where(walls[c - 1] != wp.uint8(0), 1, -1)
-    if y < prior.ny - 1:
-        balance += wp.where(walls[c + 1] != wp.uint8(0), 1, -1)
+        balance += wp.where(walls[here - 1] != wp.uint8(0), 1, -1)
+    if y < ny - 1:
+        balance += wp.where(walls[here + 1] != wp.uint8(0), 1, -1)
     return balance
 
 
@@ -103,7 +104,7 @@ def prior_log_odds(prior: WallPriorArrays, walls: Uint8s, c: int) -> wp.float64:
     """Return the prior log-odds of a wall in a cell, given its neighbours."""
     if prior.coupling == NONE:
         return prior.logit[c]
-    return prior.logit[c] + prior.coupling * wp.float64(walls_less_free(prior, walls, c))
+    return prior.logit[c] + prior.coupling * wp.float64(walls_less_free(walls, 0, c, prior.nx, prior.ny))
 
 
 @wp.func
@@ -398,33 +399,14 @@ class WallChains:
 
 
 def run_sweeps(
-    kernel: Any,
-    tables: Sequence[Any],
-    prior: Any,
-    order: Ints,
-    shuffle: bool,
-    chains: WallChains,
-    *,
-    first: int,
-    count: int,
-    kept: range,
-    beta: float = 1.0,
-    threads: int | None = None,
-) -> tuple[Floats, Floats, NDArray[np.uint8]]:
-    """Advance the chains in place by some sweeps of a kernel, one chain a thread.
+    kernel: Any, tables: Sequence[Any], prior: Any, order: Ints, shuffle: bool, chains: WallChains, *, first: int,
+    count: int, kept: range, beta: float = 1.0, threads: int | None = None,
+) -> tuple[Floats, Floats, NDArray[np.uint8]]:  # fmt: skip
+    """Advance the chains in place by ``count`` sweeps of a kernel, one chain a thread.
 
-    Args:
-        kernel: of the sweep.
-        tables: that it takes first.
-        prior: of the walls, on the device.
-        order: of the sites.
-        shuffle: whether it is shuffled in each sweep.
-        chains: to advance.
-        first: number of the first sweep, from 0.
-        count: how many.
-        kept: numbers, from 1, of those whose maps are kept.
-        beta: inverse temperature.
-        threads: of the CPU; all cores if None.
+    The kernel takes ``tables`` first, then the walls' prior on the device. Each sweep visits the sites in their order,
+    or shuffles it. ``first`` is the number of the first sweep, from 0; ``kept`` are the numbers, from 1, of the sweeps
+    whose maps are kept; ``beta`` is the inverse temperature.
 
     Returns:
         log-likelihoods and log priors after each sweep, (chains, sweeps), and the kept maps, packed, (chains, kept,

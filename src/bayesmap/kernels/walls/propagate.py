@@ -135,15 +135,9 @@ def from_neighbour(belief: wp.float32, received: wp.float32, coupling: wp.float6
 
 @wp.kernel
 def neighbour_messages(
-    first: int,
-    nx: int,
-    ny: int,
-    coupling: wp.float64,
-    damping: wp.float32,
-    belief: Float32s,
-    last: Float32Rows,
+    first: int, nx: int, ny: int, coupling: wp.float64, damping: wp.float32, belief: Float32s, last: Float32Rows,
     messages: Float32Rows,
-):
+):  # fmt: skip
     """One thread per cell: compute the log-odds that it receives from its neighbours, 0 where there is none.
 
     Rows of the messages are (x - 1, x + 1, y - 1, y + 1).

@@ -34,14 +34,9 @@ SLICE = 1 << 20  # entries handed to NumPy at a time, where a model has no compi
 
 
 def trace(
-    scans: Scans,
-    grid: Grid,
-    sensor: SensorModel,
-    *,
-    hit_depth: float = 0.0,
-    reach_m: Floats | None = None,
+    scans: Scans, grid: Grid, sensor: SensorModel, *, hit_depth: float = 0.0, reach_m: Floats | None = None,
     device: str = "cpu",
-) -> BeamTable:
+) -> BeamTable:  # fmt: skip
     """Build the beam table of some scans.
 
     Args:
@@ -88,14 +83,9 @@ def _by_model(sensor: SensorModel, rays: Rays, loglik: Singles) -> tuple[Singles
 
 @wp.kernel
 def fill_likelihood(
-    first: int,
-    law: SensorLaw64,
-    rays: RayArrays,
-    depth: wp.float64,
-    range_m: Float64s,
-    loglik: Float32s,
+    first: int, law: SensorLaw64, rays: RayArrays, depth: wp.float64, range_m: Float64s, loglik: Float32s,
     no_hit: Float32s,
-):
+):  # fmt: skip
     """One thread per beam: compute the log-likelihood of each entry, and of no hit.
 
     The normal noise of a mixture matters between two distances only, whose entries are found by halving: of walls
