@@ -31,13 +31,16 @@ def moved(scans, seed):
 def test_cells_without_surfaces(name, binary):
     for seed in range(4):
         scans, maps = world(seed, binary=binary)
-        there = moved(scans, seed)
-        likelihood = ScanLikelihood(scans, GRID, SENSORS[name], DEPTH)
-        chain, scan = (a.ravel() for a in np.meshgrid(np.arange(len(maps)), np.arange(len(scans)), indexing="ij"))
-        found = likelihood.beams(maps, np.tile(there.poses, (len(maps), 1)), scan, chain)
-        np.testing.assert_allclose(
-            found.reshape(len(maps), len(scans), -1), predicted(there, maps, SENSORS[name]), atol=1e-5, rtol=1e-5
-        )
+        compare(scans, maps, SENSORS[name], seed)
+
+
+def compare(scans, maps, sensor, seed):
+    """Weigh the scans at other poses under all maps, and predict them there."""
+    there = moved(scans, seed)
+    chain, scan = (a.ravel() for a in np.meshgrid(np.arange(len(maps)), np.arange(len(scans)), indexing="ij"))
+    found = ScanLikelihood(scans, GRID, sensor, DEPTH).beams(maps, np.tile(there.poses, (len(maps), 1)), scan, chain)
+    expected = predicted(there, maps, sensor)
+    np.testing.assert_allclose(found.reshape(expected.shape), expected, atol=1e-5, rtol=1e-5)
 
 
 def surfaces(seed, maps):
@@ -53,17 +56,8 @@ def surfaces(seed, maps):
 
 
 def test_surfaces():
-    sensor = SENSORS["mixture"]
     for seed in range(4):
-        scans, _ = world(seed)
-        there, maps = moved(scans, seed), surfaces(seed, 2)
-        rays = trace_rays(there, GRID)
-        likelihood = ScanLikelihood(scans, GRID, sensor, DEPTH)
-        for c, one in enumerate(maps):
-            expected = log_densities(rays, [one[None, rays.touched]], sensor, DEPTH)
-            scan = np.arange(len(scans))
-            found = likelihood.beams(maps, there.poses, scan, np.full(len(scans), c))
-            np.testing.assert_allclose(found.ravel(), np.nan_to_num(expected), atol=1e-5)
+        compare(world(seed)[0], surfaces(seed, 2), SENSORS["mixture"], seed)
 
 
 def test_beams_that_left_while_the_sensor_moved_move_with_their_scan():

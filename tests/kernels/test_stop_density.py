@@ -4,12 +4,26 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+import warp as wp
+from oracle.own_sensor import OwnSensor
 from oracle.stop_law import Paths, draw_readings, draw_states, log_likelihoods, log_prior, paths_of
 from oracle.stop_worlds import Worlds, beam_rays, centres_of, draw_worlds, scans_of_all_kinds
 
 import bayesmap as bm
+from bayesmap.kernels.device import Float32Rows, Float32s
 from bayesmap.kernels.predict.density import log_densities
+from bayesmap.kernels.sensor_law import (
+    SensorLaw32,
+    highest_density,
+    lowest_density,
+    object_decay,
+    sensor_law,
+    stop_density,
+)
 from bayesmap.samplers.stop_problem import trace_stops
+from bayesmap.sensors.model import RangeLimits
+
+wp.set_module_options({"enable_backward": False})
 
 SENSOR = bm.BeamMixture(bm.Gaussian(0.05, 0.01), p_random=0.05, p_no_return=0.1, p_short=0.1, rate_short_per_m=0.6)
 SHARP = bm.BeamMixture(bm.Gaussian(0.004, 0.001), p_random=0.01, p_no_return=0.0, p_short=0.02)
@@ -148,3 +162,53 @@ def test_paths_hold_what_rays_hold():
     assert isinstance(paths, Paths)
     np.testing.assert_array_equal(rays.touched[paths.cell[paths.there]], rays.cells)
     np.testing.assert_allclose(paths.plain_m[paths.there], worlds.problem.distance_m, atol=1e-6)
+
+
+LIMITS = RangeLimits(0.1, 6.0)
+COUNT = 40_000
+BOUNDED = {
+    "normal": bm.BeamMixture(bm.Gaussian(0.02, 0.01), p_random=0.02, p_no_return=0.1, p_short=0.1),
+    "sharp": bm.BeamMixture(bm.Gaussian(0.001, 0.0), p_random=0.001, p_no_return=0.0, p_short=0.3),
+    "heavy tails": bm.BeamMixture(bm.StudentT(0.05), p_random=0.2, p_no_return=0.02, p_short=0.05),
+}
+
+
+@wp.kernel
+def densities(law: SensorLaw32, reading_m: Float32s, distance_m: Float32s, variance: Float32s, out: Float32Rows):
+    i = wp.tid()
+    z = reading_m[i]
+    out[0, i] = lowest_density(law, z)
+    out[1, i] = stop_density(law, z, object_decay(law, z), distance_m[i], variance[i])
+    out[2, i] = highest_density(law, z)
+
+
+def lowest_any_highest(sensor):
+    rng = np.random.default_rng(3)
+    distance = rng.uniform(0.0, 9.0, COUNT)
+    distance[:100] = np.inf
+    reading = np.where(rng.random(COUNT) < 0.5, distance + rng.normal(0, 0.01, COUNT), rng.uniform(0.1, 6.0, COUNT))
+    reading = np.where(np.isfinite(reading) & (reading > 0.1) & (reading < 6.0), reading, np.inf)
+    reading[rng.random(COUNT) < 0.1] = -np.inf
+    variance = rng.choice([0.0, 1e-6, 1e-4, 0.01], COUNT)
+    arrays = [wp.array(x.astype(np.float32), dtype=wp.float32, device="cpu") for x in (reading, distance, variance)]
+    out = wp.zeros((3, COUNT), dtype=wp.float32, device="cpu")
+    law = sensor_law(sensor, LIMITS, "cpu", SensorLaw32)
+    wp.launch(densities, dim=COUNT, inputs=[law, *arrays, out], device="cpu")
+    return reading, *out.numpy()
+
+
+@pytest.mark.parametrize("name", BOUNDED)
+def test_no_density_lies_outside_its_bounds_and_some_come_close(name):
+    reading, lowest, density, highest = lowest_any_highest(BOUNDED[name])
+    assert (density >= 0.999 * lowest).all()
+    assert (density <= 1.001 * highest).all()
+    hit = np.isfinite(reading)
+    assert density[hit].min() < 1.1 * lowest[hit].min()
+    assert density[hit].max() > 0.5 * highest[hit].max()  # the twin: half of the bound would be too low
+    assert (density[np.isposinf(reading)] < 2 * lowest[np.isposinf(reading)]).any()
+
+
+def test_of_a_law_that_is_tabulated_nothing_is_taken_for_granted():
+    _, lowest, _, highest = lowest_any_highest(OwnSensor(bm.Gaussian(0.2)))
+    assert (lowest == 0).all()
+    assert np.isinf(highest).all()

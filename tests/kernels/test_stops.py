@@ -1,4 +1,4 @@
-"""Half a sweep: beams' stops follow their exact conditional, and the cells are told what those stops mean.
+"""Half a sweep: beams' stops follow their exact conditional; cells and squares of the grid are told what they mean.
 
 Many copies of one little world in a known state, swept once, are independent draws of its stops. False alarms: `ALPHA`
 = 1e-4 over this module.
@@ -9,6 +9,7 @@ from functools import cache
 
 import numpy as np
 import pytest
+import scipy
 from oracle.stop_law import joint, paths_of, reading_law, stop_probabilities, stops
 from oracle.stop_worlds import centres_of, copies, draw_worlds
 from oracle.verdict import ALPHA, goodness_of_fit, two_sided
@@ -21,6 +22,8 @@ GRID = bm.Grid((8, 2), 0.25)
 SENSOR = bm.BeamMixture(bm.Gaussian(0.04, 0.01), p_random=0.2, p_no_return=0.1, p_short=0.1, rate_short_per_m=0.6)
 PRIORS = {"plain": bm.Beta(1.0, 2.0), "surfaces": bm.Surface(1.0, 2.0, dof=5.0)}
 COPIES, SEEDS = 5000, range(5, 9)  # four times as many copies at once take a gigabyte
+TESTS = 200  # of counts by squares
+LIMIT = -scipy.special.ndtri(ALPHA / TESTS / 2)
 READINGS = [0.5, 1.1, 1.75, 1.9, np.inf, -np.inf]
 
 
@@ -29,28 +32,34 @@ def scans_of(readings):
     return bm.Scans([-0.1, 0.22, 0.03], angles, [readings], max_range_m=2.2, min_range_m=0.05)
 
 
-def state_of(worlds, kind, seed=1):
-    """One state for all copies, (T, 6): reflectivities of many sizes, surfaces anywhere."""
-    rng = np.random.default_rng(seed)
-    cells, states = GRID.n_cells, np.zeros((len(worlds.problem.rays.touched), 6))
+def state_of(kind, off_m=0.07, thinnest_m=0.03):
+    """The cells of one world, (cells, 6): reflectivities of many sizes, surfaces anywhere about their centres."""
+    rng, cells = np.random.default_rng(1), GRID.n_cells
     one = np.zeros((cells, 6))
     one[:, 0] = rng.choice([0.02, 0.15, 0.4, 0.8], cells)
     if kind == "surfaces":
-        one[:, 1:3] = rng.normal(0, 0.07, (cells, 2))
-        one[:, 3], one[:, 5] = rng.uniform(0.03, 0.09, (2, cells))
+        one[:, 1:3] = rng.normal(0, off_m, (cells, 2))
+        one[:, 3], one[:, 5] = rng.uniform(thinnest_m, 0.09, (2, cells))
         one[:, 4] = rng.normal(0, 0.05, cells)
+    return one
+
+
+def states_of(worlds, kind, one):
+    """The states of the touched cells of all copies, (T, 6), as kernels hold them."""
+    states = np.zeros((len(worlds.problem.rays.touched), 6))
+    if kind == "surfaces":
         states[:, 1:3] = centres_of(worlds.problem.rays)[0]
     states[worlds.cells()] += one
-    return states
+    return states.astype(np.float32).astype(float)
 
 
-def swept(kind, count=COPIES, sweep=0, seed=5):
-    """Copies of a world, its state, the chain's arrays after one sweep from it, and hits and met beams by cell."""
-    worlds = copies(scans_of(READINGS), GRID, PRIORS[kind], SENSOR, count)
-    states = state_of(worlds, kind)
+def swept(kind, count=COPIES, sweep=0, seed=5, one=None, scans=None, sensor=SENSOR):
+    """Copies of a world, their state, and the chain after one sweep from it."""
+    worlds = copies(scans or scans_of(READINGS), GRID, PRIORS[kind], sensor, count)
+    states = states_of(worlds, kind, state_of(kind) if one is None else one)
     sampler = worlds.sampler(seed, states, sweep)
     sampler.sweep()
-    return worlds, states.astype(np.float32).astype(float), sampler.arrays, sampler.counts()
+    return worlds, states, sampler
 
 
 def chosen(worlds, field):
@@ -65,10 +74,10 @@ def stops_counted(kind):
     one = copies(scans_of(READINGS), GRID, PRIORS[kind], SENSOR, 1)
     paths, counts = paths_of(one.problem.rays), 0
     for seed in SEEDS:
-        worlds, _, field, _ = swept(kind, seed=seed)
+        worlds, _, sampler = swept(kind, seed=seed)
         entries = np.arange(paths.cell.shape[1] + 1)[:, None, None]
-        counts = counts + (chosen(worlds, field) == entries).sum(axis=1).T
-    return paths, state_of(one, kind).astype(np.float32).astype(float), counts
+        counts = counts + (chosen(worlds, sampler.arrays) == entries).sum(axis=1).T
+    return paths, states_of(one, kind, state_of(kind)), counts
 
 
 @pytest.mark.parametrize("kind", PRIORS)
@@ -100,7 +109,8 @@ def test_wrong_stop_probabilities_would_be_noticed():
 
 @pytest.mark.parametrize("kind", PRIORS)
 def test_the_density_and_place_of_the_stop_are_kept(kind):
-    worlds, states, field, _ = swept(kind, count=200)
+    worlds, states, sampler = swept(kind, count=200)
+    field = sampler.arrays
     paths = paths_of(worlds.problem.rays)
     _, distance, variance = stops(paths, states, kind == "plain")
     beams, stop = np.arange(len(paths.range_m)), chosen(worlds, field).ravel()
@@ -127,8 +137,9 @@ def test_hits_are_the_stops_and_met_beams_are_binomial(kind):
     for sweep in (0, 8):  # in which cells without readings have their turn
         found = {True: [], False: []}
         for seed in (5, 6):
-            worlds, states, field, (hits, met) = swept(kind, 6000, sweep, seed)
-            rays, paths, stop = worlds.problem.rays, paths_of(worlds.problem.rays), field.stop.numpy()
+            worlds, states, sampler = swept(kind, 6000, sweep, seed)
+            rays, paths, stop = worlds.problem.rays, paths_of(worlds.problem.rays), sampler.arrays.stop.numpy()
+            hits, met = sampler.counts()
             counted = met >= 0  # the others learn nothing, or try a candidate
             stopped_in = np.bincount(rays.columns[stop[stop < rays.offsets[1:]]], minlength=len(rays.touched))
             np.testing.assert_array_equal(hits[counted], stopped_in[counted])
@@ -174,7 +185,8 @@ def test_a_candidate_s_gain_is_the_ratio_of_what_all_beams_say():
     one = copies(scans_of(READINGS), GRID, PRIORS["surfaces"], SENSOR, 300)
     turns = [sweep for sweep in range(32) if turn_of(one, sweep).any()]
     for sweep in turns[:6]:
-        worlds, states, field, _ = swept("surfaces", 300, sweep)
+        worlds, states, sampler = swept("surfaces", 300, sweep)
+        field = sampler.arrays
         some = turn_of(worlds, sweep)
         candidates = field.candidates.numpy()[worlds.problem.rays.touched, :6].astype(float)
         gain = field.gain.numpy().sum(axis=0)[worlds.problem.rays.touched] / 2**24
@@ -207,3 +219,98 @@ def test_draws_of_one_sweep_do_not_repeat_in_the_next():
         sampler.sweep()
         seen.append(sampler.arrays.stop.numpy().copy())
     assert (seen[0] != seen[1]).mean() > 0.05
+
+
+def law_of_points(worlds, states, given_reading=True):
+    """Of each beam of one copy: the chance that the point of its stop lies in the square of each of its entries.
+
+    Returns (B, K), and the chance that the beam passes each, (B, K).
+    """
+    rays, paths = worlds.problem.rays, paths_of(worlds.problem.rays)
+    enter, leave = rays.stretches()
+    beams = len(READINGS)
+    _, distance, variance = stops(paths, states, False)
+    chances = joint(paths, states, SENSOR, False)
+    chances /= chances.sum(axis=-1, keepdims=True)
+    inside, passed = (np.zeros((beams, paths.cell.shape[1])) for _ in range(2))
+    for b in range(beams):
+        n, first, z = paths.there[b].sum(), rays.offsets[b], rays.range_m[b]
+        edges = np.concatenate([[-np.inf], enter[first + 1 : first + n], [leave[first + n - 1]], [np.inf]])
+        for k in range(n):
+            t, v = distance[b, k], variance[b, k]
+            echo, post, post_v = 0.0, t, v
+            if np.isfinite(z) and given_reading:
+                known, rate = 1 - SENSOR.p_random, SENSOR.rate_short_per_m
+                other = SENSOR.p_random / (paths.limits.max_m - paths.limits.min_m)
+                other += known * SENSOR.p_short * rate * np.exp(-rate * z) * (z < min(t, paths.limits.max_m))
+                echo = 1 - other / reading_law(z, t, v, SENSOR, paths.limits)
+                noise = (SENSOR.noise.sigma_m + SENSOR.noise.sigma_per_m * t) ** 2
+                post, post_v = t + v / (v + noise) * (z - t), v * noise / (v + noise)
+            below = echo * scipy.stats.norm.cdf(edges, post, np.sqrt(post_v))
+            below = below + (1 - echo) * scipy.stats.norm.cdf(edges, t, np.sqrt(v))
+            inside[b, :n] += chances[b, k] * np.diff(below)[:n]
+            passed[b, :n] += chances[b, k] * (1 - below[1 : n + 1])
+        passed[b, :n] += chances[b, -1]
+    return inside, passed
+
+
+def z_of(worlds, counts, law):
+    """How far each square's mean count over the copies lies from the law's, in its standard errors."""
+    paths = paths_of(worlds.problem.rays)
+    cells = worlds.cells()
+    numbers = {int(cell): i for i, cell in enumerate(cells[0])}
+    mean, variance = (np.zeros(GRID.n_cells) for _ in range(2))
+    for b, row in enumerate(law):
+        for k in np.flatnonzero(paths.there[b]):
+            mean[numbers[int(paths.cell[b, k])]] += row[k]
+            variance[numbers[int(paths.cell[b, k])]] += row[k] * (1 - row[k])
+    some = variance > 1e-3
+    off = counts[cells].mean(axis=0) - mean
+    assert abs(off[~some]).max(initial=0) < 5e-3
+    return off[some] / np.sqrt(variance[some] / len(cells))
+
+
+@cache
+def in_squares():
+    """Copies of a world whose surfaces may lie outside their own squares, and the squares of one sweep's stops."""
+    worlds, states, sampler = swept("surfaces", 6000, one=state_of("surfaces", 0.12, 0.02))
+    return worlds, states, sampler.state.chains.in_squares(0, 0, kept=False)
+
+
+def test_beams_are_counted_where_their_points_lie():
+    worlds, states, found = in_squares()
+    inside, passed = law_of_points(worlds, states)
+    assert abs(z_of(worlds, found.stopped, inside)).max() < LIMIT
+    assert abs(z_of(worlds, found.passed, passed)).max() < LIMIT
+    # the twin: points that know nothing of the reading
+    inside, passed = law_of_points(worlds, states, given_reading=False)
+    assert abs(z_of(worlds, found.stopped, inside)).max() > LIMIT
+    assert abs(z_of(worlds, found.passed, passed)).max() > LIMIT
+
+
+def test_the_chance_is_a_beta_of_the_counts():
+    _, _, found = in_squares()
+    a, b = 1.0 + found.stopped, 2.0 + found.passed
+    np.testing.assert_allclose(found.expected, a / (a + b), rtol=1e-5)
+    assert scipy.stats.kstest(scipy.stats.beta.cdf(found.drawn, a, b), "uniform").pvalue > ALPHA / TESTS
+    twin = scipy.stats.beta.cdf(found.drawn, a, b + 0.3)
+    assert scipy.stats.kstest(twin, "uniform").pvalue < ALPHA / TESTS
+
+
+@pytest.mark.parametrize("owner", [4, 5])
+def test_which_cell_a_surface_belongs_to_makes_no_difference(owner):
+    """One wall across the first row, just behind the edge between two of its cells, in the one cell or in the other."""
+    law = bm.BeamMixture(bm.Gaussian(0.02), p_random=0.01, p_no_return=0.01, p_short=0.01)
+    scans = bm.Scans([-0.1, 0.125, 0.0], np.linspace(-0.02, 0.02, 6), np.full((1, 6), 1.37), max_range_m=2.2)
+    world = np.zeros((GRID.n_cells, 6))
+    world[:, 0], world[:, 3], world[:, 5] = 1e-7, 0.05, 0.05
+    wall_x = 1.265  # the edge is at 1.25, the square behind it is that of column 5
+    cell = 2 * owner
+    world[cell] = 0.999, wall_x - (owner + 0.5) * 0.25, 0.0, 0.004, 0.0, 0.12
+    worlds, _, sampler = swept("surfaces", 200, one=world, scans=scans, sensor=law)
+    found = sampler.state.chains.in_squares(0, 0, kept=False)
+    columns = np.arange(GRID.n_cells) // 2
+    stopped = found.stopped[worlds.cells()].reshape(200, -1)
+    share = [stopped[:, columns == column].sum() / stopped.sum() for column in range(8)]
+    assert share[5] > 0.98
+    assert found.passed[worlds.cells()][:, columns == 4].sum() > 0.98 * 6 * 200

@@ -1,13 +1,16 @@
-"""Every sensor model is a probability law: it integrates to one, and it is the law of the book."""
+"""Every sensor model is a probability law: normalised, the law of the book, and the derivative of its cumulative."""
 
 import numpy as np
 import pytest
+import scipy
 from hypothesis import given
 from hypothesis import strategies as st
 from oracle import density as oracle
+from oracle.own_sensor import OwnSensor
 from sensor_cases import ALL, DISTANCES, LIMITS, MIXTURES, NOISES, density, integral, jumps
 
 import bayesmap as bm
+from bayesmap.sensors.builtin import FLAT_NATS
 
 
 @pytest.mark.parametrize("name", NOISES)
@@ -78,3 +81,114 @@ def test_the_mixture_is_the_story_that_its_docstring_tells(z, d, sigma, per_m, d
         assert found == pytest.approx(expected, rel=1e-9, abs=1e-9)
     else:
         assert -30.0 <= found < -28.99
+
+
+SPAN = np.array([*np.linspace(LIMITS.min_m, LIMITS.max_m, 23), np.inf, -np.inf])
+
+
+@pytest.mark.parametrize("name", ALL)
+def test_the_likelihood_is_flat_past_the_reach(name):
+    for z, reach in zip(SPAN, ALL[name].reach_m(SPAN, LIMITS), strict=True):
+        if reach < LIMITS.max_m:
+            past = np.append(np.linspace(reach, LIMITS.max_m + 1, 200), np.inf)
+            values = ALL[name].log_likelihood(np.full(len(past), z), past, LIMITS)
+            beyond = ALL[name].log_likelihood(np.float64(z), np.float64(np.inf), LIMITS)
+            assert abs(values - beyond).max() <= FLAT_NATS * (1 + 1e-6)
+
+
+def test_a_sharp_mixture_ends_most_beams_early():
+    reaches = MIXTURES["mixture"].reach_m(np.array([1.0, 2.0, 3.0]), LIMITS)
+    assert (reaches < np.array([1.5, 2.5, 3.5])).all()
+
+
+def test_additive_noise_is_nowhere_flat():
+    assert [name for name, noise in NOISES.items() if np.isfinite(noise.reach_m(SPAN, LIMITS)).any()] == []
+
+
+def test_an_invalid_reading_reaches_nothing():
+    assert [name for name, sensor in ALL.items() if sensor.reach_m(np.array([np.nan]), LIMITS)[0] != 0.0] == []
+
+
+READINGS = np.array([0.6, 1.0, 2.9, 3.1, 4.8, np.inf, -np.inf, np.nan])
+
+
+@pytest.mark.parametrize("name", ALL)
+def test_without_a_spread_it_is_the_likelihood(name):
+    d = np.linspace(0.1, 12.0, 40)[:, None]
+    for distance in (d, np.full((1, 1), np.inf)):
+        np.testing.assert_array_equal(
+            ALL[name].stop_log_likelihood(READINGS, distance, np.zeros(()), LIMITS),
+            ALL[name].log_likelihood(READINGS, distance, LIMITS),
+        )
+
+
+def test_a_spread_widens_the_noise():
+    narrow, wide = (bm.BeamMixture(bm.Gaussian(s), 0.05, 0.1, 0.2, 0.4) for s in (0.3, 0.5))
+    d = np.linspace(0.1, 12.0, 40)[:, None]
+    found = narrow.stop_log_likelihood(READINGS, d, np.full(d.shape, 0.4), LIMITS)
+    np.testing.assert_allclose(found, wide.log_likelihood(READINGS, d, LIMITS), atol=1e-12)
+
+
+@pytest.mark.parametrize("sigma_m", [0.5, 0.05, 0.002])
+@pytest.mark.parametrize("spread_m", [0.01, 0.1, 0.3])
+def test_a_model_of_the_user_s_own_has_the_mean_over_stops(sigma_m, spread_m):
+    """Normal noise about a normal stop is normal, however much sharper the one is than the other."""
+    own = OwnSensor(bm.Gaussian(sigma_m))
+    z, d = np.linspace(4.0, 6.0, 41), np.full(41, 5.0)
+    found = own.stop_log_likelihood(z, d, np.full(41, spread_m), LIMITS)
+    wide = np.hypot(sigma_m, spread_m)
+    expected = scipy.stats.norm.logpdf(z, 5.0, wide)
+    near = np.abs(z - 5.0) < 4 * wide
+    np.testing.assert_allclose(found[near], expected[near], atol=0.02)
+    invalid = own.stop_log_likelihood(np.array([np.nan]), np.array([5.0]), np.array([spread_m]), LIMITS)
+    assert invalid == pytest.approx(0.0, abs=1e-9)
+
+
+RANGES = np.linspace(LIMITS.min_m, LIMITS.max_m, 12)
+
+
+@pytest.mark.parametrize("name", MIXTURES)
+def test_a_mixture_s_is_too_close_and_the_density_below(name):
+    sensor, found, expected = MIXTURES[name], {}, {}
+    for d in DISTANCES:
+        edges = np.unique([*RANGES, *jumps(d)])
+        found[d] = sensor.cumulative(edges, np.float64(d), LIMITS)
+        # an atom that is impossible is floored at exp(-30)
+        expected[d] = density(sensor, [-np.inf], d) + np.append(0.0, np.cumsum(integral(sensor, d, edges)))
+    assert found == {d: pytest.approx(values, rel=1e-7, abs=1e-9) for d, values in expected.items()}
+    d = np.array(DISTANCES)
+    top = sensor.cumulative(np.full(len(d), LIMITS.max_m), d, LIMITS)
+    np.testing.assert_allclose(1.0 - top, density(sensor, np.full(len(d), np.inf), d), rtol=1e-6, atol=1e-9)
+
+
+@pytest.mark.parametrize("name", NOISES)
+def test_that_of_noise_alone_is_the_density_s_between_any_two_ranges(name):
+    sensor, found, expected = NOISES[name], {}, {}
+    for d in DISTANCES:
+        edges = np.unique([*np.linspace(-1.0, 10.0, 40), min(d, LIMITS.max_m)])
+        found[d] = np.diff(sensor.cumulative(edges, np.float64(d), LIMITS))
+        expected[d] = integral(sensor, d, edges)
+    assert found == {d: pytest.approx(values, rel=1e-7, abs=1e-9) for d, values in expected.items()}
+    lowest = sensor.cumulative(np.full(len(DISTANCES), -1e9), np.array(DISTANCES), LIMITS)
+    np.testing.assert_allclose(lowest, 0.0, atol=1e-9)
+
+
+@pytest.mark.parametrize("name", MIXTURES)
+def test_typed_readings(name):
+    d = np.array(DISTANCES)
+    sensor = MIXTURES[name]
+    assert (sensor.cumulative(np.full(len(d), np.inf), d, LIMITS) == 1.0).all()
+    close = sensor.cumulative(np.full(len(d), -np.inf), d, LIMITS)
+    np.testing.assert_array_equal(close, sensor.cumulative(np.full(len(d), LIMITS.min_m), d, LIMITS))
+    assert np.isnan(sensor.cumulative(np.full(len(d), np.nan), d, LIMITS)).all()
+
+
+def test_a_spread_adds_to_the_noise_in_quadrature():
+    narrow, wide = (bm.BeamMixture(bm.Gaussian(sigma)) for sigma in (0.3, 0.5))
+    found = narrow.cumulative(RANGES, np.float64(3.0), LIMITS, spread_m=0.4)
+    np.testing.assert_allclose(found, wide.cumulative(RANGES, np.float64(3.0), LIMITS), rtol=1e-12)
+
+
+def test_a_model_of_one_s_own_is_told_what_it_lacks():
+    with pytest.raises(bm.BadInput, match=r"OwnSensor: no cumulative distribution; add a method cumulative\(\)"):
+        OwnSensor(bm.Gaussian(0.1)).cumulative(np.zeros(1), np.zeros(1), LIMITS)

@@ -50,11 +50,19 @@ def test_readings_follow_the_density(name):
     assert {d: p for d, p in p_values.items() if p <= ALPHA / TESTS} == {}
 
 
-@pytest.mark.parametrize("change", [{"p_random": 0.065}, {"p_no_return": 0.03}, {"p_short": 0.12}])
-def test_a_mixture_with_one_wrong_probability_is_rejected(change):
-    rng = np.random.default_rng(2)
-    readings = bm.BeamMixture(**change).sample(rng, np.full(N, 3.0), LIMITS)
-    assert chi_square(bm.BeamMixture(), readings, 3.0) < ALPHA / TESTS
+TWINS = {
+    "more random readings": (bm.BeamMixture(p_random=0.065), bm.BeamMixture()),
+    "more lost": (bm.BeamMixture(p_no_return=0.03), bm.BeamMixture()),
+    "more objects": (bm.BeamMixture(p_short=0.12), bm.BeamMixture()),
+    "wider noise": (bm.Gaussian(0.22), bm.Gaussian(0.2)),
+}
+
+
+@pytest.mark.parametrize("name", TWINS)
+def test_readings_of_a_wrong_twin_are_rejected(name):
+    twin, sensor = TWINS[name]
+    readings = twin.sample(np.random.default_rng(2), np.full(N, 3.0), LIMITS)
+    assert chi_square(sensor, readings, 3.0) < ALPHA / TESTS
 
 
 @pytest.mark.parametrize("name", MIXTURES)

@@ -87,21 +87,21 @@ class Rays:
 
     @property
     def n_beams(self) -> int:
-        """Number of beams."""
+        """Return the number of beams."""
         return len(self.range_m)
 
     @property
     def n_incidences(self) -> int:
-        """Number of beam-cell incidences: the work of one sweep."""
+        """Return the number of beam-cell incidences: the work of one sweep."""
         return len(self.cells)
 
     @property
     def lengths(self) -> NDArray[np.int32]:
-        """How many cells each beam touches, shape (B,)."""
+        """Return the number of cells that each beam touches, (B,)."""
         return np.diff(self.offsets)
 
     def select(self, beams: NDArray[np.integer]) -> Rays:
-        """Some of the beams, in the order given."""
+        """Select beams, in the given order."""
         lengths = self.lengths[beams]
         offsets = np.concatenate([[0], np.cumsum(lengths)]).astype(np.int32)
         entries = np.repeat(self.offsets[beams] - offsets[:-1], lengths) + np.arange(offsets[-1])
@@ -111,26 +111,26 @@ class Rays:
         )  # fmt: skip
 
     def beam_of_entry(self) -> NDArray[np.int32]:
-        """The beam of each entry, shape (K,)."""
+        """Return the beam of each entry, (K,)."""
         return np.repeat(np.arange(self.n_beams, dtype=np.int32), self.lengths)
 
     @cached_property
     def touched(self) -> NDArray[np.int32]:
-        """Flat indices of the cells that any beam touches, ascending."""
+        """Return the flat indices of the cells that any beam touches, ascending."""
         seen = np.zeros(self.grid.n_cells, dtype=np.bool_)
         seen[self.cells] = True
         return np.flatnonzero(seen).astype(np.int32)
 
     def touched_map(self) -> NDArray[np.bool_]:
-        """Whether some beam touches each cell, shape (nx, ny)."""
+        """Mark the cells that some beam touches, (nx, ny)."""
         seen = np.zeros(self.grid.n_cells, dtype=np.bool_)
         seen[self.touched] = True
         return seen.reshape(self.grid.shape)
 
     def stretches(self) -> tuple[Floats, Floats]:
-        """Where each beam enters and leaves each of its cells, metres from its start, shape (K,) each.
+        """Return the distances at which each beam enters and leaves each of its cells, metres, (K,) each.
 
-        This is the plain reference for what kernels work out on the way.
+        This is the plain reference for kernels, which compute them on the way.
         """
         beam, ny = self.beam_of_entry(), self.grid.shape[1]
         enter, leave = np.zeros(len(beam)), np.full(len(beam), np.inf)
@@ -151,14 +151,14 @@ class Rays:
         return enter * self.grid.resolution, np.maximum(leave, enter) * self.grid.resolution
 
     def distance_m(self, hit_depth: float) -> NDArray[np.float32]:
-        """Where the beam stops in each cell if it is ``hit_depth`` of its stretch inside, metres, shape (K,)."""
+        """Return the distance of a stop in each cell, ``hit_depth`` of the stretch inside, metres, (K,)."""
         enter, leave = self.stretches()
         return (enter + hit_depth * (leave - enter)).astype(np.float32)
 
     def ends_m(self) -> Floats:
-        """Where each cell's own part of the beam ends: where the next begins or, of the last, where it leaves, (K,).
+        """Return where each cell's own part of the beam ends: where the next cell begins, or the last is left, (K,).
 
-        Of cells that are entered together, on lines and corners, only the last one's part has a length.
+        Where a beam enters cells together, on lines and corners, only the last one's part has a length.
         """
         enter, leave = self.stretches()
         ends = leave.copy()
@@ -168,13 +168,13 @@ class Rays:
         return ends
 
     def end_points_m(self) -> Floats:
-        """Where each reading ends, shape (B, 2); NaN where it is no hit."""
+        """Return the point where each reading ends, (B, 2); NaN where it is no hit."""
         range_m = np.where(np.isfinite(self.range_m), self.range_m, np.nan)
         return np.asarray(self.start_m + range_m[:, None] * self.direction)
 
     @cached_property
     def columns(self) -> NDArray[np.int32]:
-        """Of each entry the place of its cell among the touched ones, (K,): for maps that hold only those."""
+        """Return the place of each entry's cell among the touched cells, (K,), for maps that hold only those."""
         number = np.empty(self.grid.n_cells, dtype=np.int32)
         number[self.touched] = np.arange(len(self.touched), dtype=np.int32)
         return number[self.cells]
@@ -206,9 +206,9 @@ DIRECTION_RAD = 0.005
 
 
 class Stops(NamedTuple):
-    """Of every entry of some rays, (K,) each: the chance that a beam which gets there stops, and at which distance.
+    """For every entry of rays, (K,) each: the chance that a beam which gets there stops, and where, in metres.
 
-    Distances are known up to a spread, their standard deviation; both in metres.
+    The distance is known up to a spread, its standard deviation.
     """
 
     chance: Floats
@@ -217,7 +217,7 @@ class Stops(NamedTuple):
 
 
 def stops_of(rays: Rays, states: NDArray[np.floating], hit_depth: float) -> Stops:
-    """The stops that a map offers to some rays.
+    """Compute the stops that a map offers to rays.
 
     Args:
         rays: beams.

@@ -23,7 +23,7 @@ from bayesmap.space.grid import Grid
 
 @dataclass(frozen=True, eq=False)
 class BeamTable:
-    """What each beam crosses, and how likely its reading is for every possible first hit.
+    """The cells that each beam crosses, and the log-likelihood of its reading for every possible first hit.
 
     Attributes:
         grid: the grid whose cells are meant.
@@ -41,29 +41,29 @@ class BeamTable:
 
     @property
     def n_beams(self) -> int:
-        """Number of beams."""
+        """Return the number of beams."""
         return len(self.no_hit)
 
     @property
     def n_incidences(self) -> int:
-        """Number of beam-cell incidences: the work of one sweep."""
+        """Return the number of beam-cell incidences: the work of one sweep."""
         return len(self.cells)
 
     @property
     def nbytes(self) -> int:
-        """Memory of the table itself, in bytes."""
+        """Return the memory of the table itself, in bytes."""
         return sum(a.nbytes for a in (self.offsets, self.cells, self.loglik, self.no_hit))
 
     def observed(self) -> NDArray[np.bool_]:
-        """Cells that at least one beam touches, shape (nx, ny)."""
+        """Mark the cells that at least one beam touches, (nx, ny)."""
         seen = np.zeros(self.grid.n_cells, dtype=np.bool_)
         seen[self.cells] = True
         return seen.reshape(self.grid.shape)
 
     def first_hits(self, walls: NDArray[np.bool_]) -> NDArray[np.int32]:
-        """Position of the first wall along each beam, or the beam's length where there is none. Shape (B,).
+        """Return the position of the first wall along each beam, or the beam's length if there is none, (B,).
 
-        This is the plain reference for what the samplers keep up to date.
+        This is the plain reference for the numbers that samplers keep up to date.
         """
         self.check_walls(walls)
         lengths = np.diff(self.offsets)
@@ -75,7 +75,7 @@ class BeamTable:
         return first
 
     def beam_log_likelihoods(self, walls: NDArray[np.bool_]) -> NDArray[np.float32]:
-        """Log-likelihood of each beam's reading given a map, shape (B,)."""
+        """Return the log-likelihood of each beam's reading given a map, (B,)."""
         first = self.first_hits(walls)
         hit = first < np.diff(self.offsets)
         terms = self.no_hit.copy()
@@ -83,7 +83,7 @@ class BeamTable:
         return terms
 
     def log_likelihood(self, walls: NDArray[np.bool_]) -> float:
-        """Log p(all readings | map), in nats."""
+        """Return log p(all readings | map), in nats."""
         return float(self.beam_log_likelihoods(walls).sum(dtype=np.float64))
 
     def check_walls(self, walls: NDArray[np.bool_]) -> None:
@@ -98,7 +98,7 @@ class BeamTable:
 
 @dataclass(frozen=True, eq=False)
 class CellIndex:
-    """The table turned round: for every cell, the entries in which it stands.
+    """The table turned round: for every cell, its entries in the beams.
 
     Attributes:
         offsets: the incidences of cell c are ``offsets[c]:offsets[c + 1]``; shape (N + 1,), int32.

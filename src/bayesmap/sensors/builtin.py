@@ -52,52 +52,50 @@ class AdditiveNoise(SensorModel):
 
     @abstractmethod
     def scale_at(self, distance_m: Floats) -> Floats:
-        """Scale of the noise at each distance, metres."""
+        """Return the scale of the noise at each distance, metres."""
 
     @abstractmethod
     def log_density(self, standard: Floats) -> Floats:
-        """log density of the standard noise."""
+        """Return the log density of the standard noise."""
 
     @abstractmethod
     def tail(self, standard: Floats) -> Floats:
-        """P(standard noise > x)."""
+        """Return P(standard noise > x)."""
 
     @abstractmethod
     def draw(self, rng: np.random.Generator, shape: tuple[int, ...]) -> Floats:
-        """Draws of the standard noise."""
+        """Draw standard noise."""
 
     def log_likelihood(self, range_m: Floats, distance_m: Floats, limits: RangeLimits) -> Floats:
-        """Log density of ``range - min(distance, max_range)``; 0 where the reading is invalid."""
+        """Return the log density of ``range - min(distance, max_range)``; 0 where the reading is invalid."""
         return self.stop_log_likelihood(range_m, distance_m, np.zeros(()), limits)
 
     def stop_log_likelihood(self, range_m: Floats, distance_m: Floats, spread_m: Floats, limits: RangeLimits) -> Floats:
-        """The same, with the noise widened by the spread of the stop."""
-        reading = np.clip(range_m, _finite_or(limits.min_m, range_m), _finite_or(limits.max_m, range_m))
+        """Return the log density with the noise widened by the spread of the stop."""
+        standard, scale = self._standard(range_m, distance_m, spread_m, limits)
+        return np.where(np.isnan(range_m), 0.0, self.log_density(standard) - np.log(scale))
+
+    def _standard(
+        self, range_m: Floats, distance_m: Floats, spread_m: Floats | float, limits: RangeLimits
+    ) -> tuple[Floats, Floats]:
+        """Return the noise of each reading in units of its scale, and that scale; typed readings are the limits."""
+        low, high = (np.where(np.isinf(range_m), limit, range_m) for limit in (limits.min_m, limits.max_m))
         expected = np.minimum(distance_m, limits.max_m)
         scale = np.hypot(self.scale_at(expected), spread_m)
-        log_density = self.log_density((reading - expected) / scale) - np.log(scale)
-        return np.where(np.isnan(range_m), 0.0, log_density)
+        return (np.clip(range_m, low, high) - expected) / scale, scale
 
     def reach_m(self, range_m: Floats, limits: RangeLimits) -> Floats:
-        """Additive noise alone is nowhere flat; only an invalid reading ends the beam at once."""
+        """Return infinity: noise is nowhere flat. An invalid reading ends the beam at once."""
         return np.where(np.isnan(range_m), 0.0, np.inf)
 
     def sample(self, rng: np.random.Generator, distance_m: Floats, limits: RangeLimits) -> Floats:
-        """Distance, capped at the largest range, plus noise. Readings may leave the sensor's limits."""
+        """Draw the distance, capped at the largest range, plus noise. Readings may leave the sensor's limits."""
         expected = np.minimum(distance_m, limits.max_m)
         return np.asarray(expected + self.scale_at(expected) * self.draw(rng, np.shape(expected)))
 
     def cumulative(self, range_m: Floats, distance_m: Floats, limits: RangeLimits, spread_m: float = 0.0) -> Floats:
-        """P(noise <= (range - min(distance, max)) / scale); typed readings stand for the limits, as in the density."""
-        reading = np.clip(range_m, _finite_or(limits.min_m, range_m), _finite_or(limits.max_m, range_m))
-        expected = np.minimum(distance_m, limits.max_m)
-        standard = (reading - expected) / np.hypot(self.scale_at(expected), spread_m)
-        return self.tail(-standard)  # the noise is symmetric
-
-
-def _finite_or(limit_m: float, range_m: Floats) -> Floats:
-    """The limit for readings that stand for it (no return, too close), no limit for finite ones."""
-    return np.where(np.isinf(range_m), limit_m, range_m)
+        """Return P(noise <= (range - min(distance, max)) / scale); typed readings stand for the limits."""
+        return self.tail(-self._standard(range_m, distance_m, spread_m, limits)[0])  # the noise is symmetric
 
 
 @dataclass(frozen=True)
@@ -116,23 +114,23 @@ class Gaussian(AdditiveNoise):
         _check_scale(type(self).__name__, "sigma_m", self.sigma_m, self.sigma_per_m)
 
     def scale_at(self, distance_m: Floats) -> Floats:
-        """sigma_m + sigma_per_m * distance."""
+        """Return sigma_m + sigma_per_m * distance."""
         return self.sigma_m + self.sigma_per_m * np.asarray(distance_m)
 
     def log_density(self, standard: Floats) -> Floats:
-        """log N(x; 0, 1)."""
+        """Return log N(x; 0, 1)."""
         return np.asarray(-0.5 * standard**2 - 0.5 * math.log(2 * math.pi))
 
     def tail(self, standard: Floats) -> Floats:
-        """1 - Phi(x)."""
+        """Return 1 - Phi(x)."""
         return np.asarray(special.ndtr(-standard))
 
     def draw(self, rng: np.random.Generator, shape: tuple[int, ...]) -> Floats:
-        """Standard normal draws."""
+        """Draw standard normal numbers."""
         return rng.standard_normal(shape)
 
     def kernel_parameters(self) -> KernelParameters:
-        """Gaussian noise, no mixture."""
+        """Return the parameters of Gaussian noise without a mixture."""
         return KernelParameters(sigma_m=self.sigma_m, sigma_per_m=self.sigma_per_m)
 
 
@@ -156,30 +154,30 @@ class StudentT(AdditiveNoise):
             raise BadInput(f"StudentT: dof must be a positive number, got {self.dof!r}")
 
     def scale_at(self, distance_m: Floats) -> Floats:
-        """scale_m + scale_per_m * distance."""
+        """Return scale_m + scale_per_m * distance."""
         return self.scale_m + self.scale_per_m * np.asarray(distance_m)
 
     def log_density(self, standard: Floats) -> Floats:
-        """log of Student's t density."""
+        """Return the log of Student's t density."""
         half = 0.5 * (self.dof + 1.0)
         constant = math.lgamma(half) - math.lgamma(0.5 * self.dof) - 0.5 * math.log(self.dof * math.pi)
         return np.asarray(constant - half * np.log1p(standard**2 / self.dof))
 
     def tail(self, standard: Floats) -> Floats:
-        """P(T > x)."""
+        """Return P(T > x)."""
         return np.asarray(special.stdtr(self.dof, -np.asarray(standard)))
 
     def draw(self, rng: np.random.Generator, shape: tuple[int, ...]) -> Floats:
-        """Standard t draws."""
+        """Draw standard t numbers."""
         return rng.standard_t(self.dof, shape)
 
     def kernel_parameters(self) -> KernelParameters:
-        """Student-t noise, no mixture."""
+        """Return the parameters of Student-t noise without a mixture."""
         return KernelParameters(sigma_m=self.scale_m, sigma_per_m=self.scale_per_m, dof=self.dof)
 
 
 def noise_with(dof: float, scale_m: float, scale_per_m: float) -> Gaussian | StudentT:
-    """Student-t noise, which is Gaussian where its degrees of freedom are infinitely many."""
+    """Return Student-t noise; Gaussian noise if the degrees of freedom are infinite."""
     return Gaussian(scale_m, scale_per_m) if dof == math.inf else StudentT(scale_m, dof, scale_per_m)
 
 
@@ -226,19 +224,19 @@ class BeamMixture(SensorModel):
             raise BadInput(f"BeamMixture: rate_short_per_m must be positive, got {self.rate_short_per_m!r}")
 
     def blocked(self, distance_m: Floats) -> Floats:
-        """1 - q(d): the chance that a passing object stands before the distance."""
+        """Return 1 - q(d), the chance that a passing object stands before the distance."""
         return np.asarray(self.p_short * -np.expm1(-self.rate_short_per_m * distance_m))
 
     def unblocked(self, distance_m: Floats) -> Floats:
-        """q(d): the chance that no passing object stands before the distance."""
+        """Return q(d), the chance that no passing object stands before the distance."""
         return 1.0 - self.blocked(distance_m)
 
     def log_likelihood(self, range_m: Floats, distance_m: Floats, limits: RangeLimits) -> Floats:
-        """The logarithm of the three formulas above, by the kind of the reading."""
+        """Return the logarithm of the three formulas above, by the kind of the reading."""
         return self.stop_log_likelihood(range_m, distance_m, np.zeros(()), limits)
 
     def stop_log_likelihood(self, range_m: Floats, distance_m: Floats, spread_m: Floats, limits: RangeLimits) -> Floats:
-        """The same, with the noise widened by the spread of the stop: ``sqrt(scale(d)^2 + spread^2)``."""
+        """Return the log-likelihood with the noise widened to ``sqrt(scale(d)^2 + spread^2)``."""
         z, d, s = np.broadcast_arrays(range_m, distance_m, spread_m)
         p = np.ones(z.shape)  # an invalid reading says nothing
         finite, none, close = np.isfinite(z), np.isposinf(z), np.isneginf(z)
@@ -249,7 +247,7 @@ class BeamMixture(SensorModel):
             return np.asarray(np.maximum(np.log(p), LOG_IMPOSSIBLE))
 
     def _returned(self, d: Floats, limits: RangeLimits) -> Floats:
-        """The chance that the wall at d is what comes back: q(d) (1 - p_no_return), and 0 out of range."""
+        """Return the chance that the reading comes from the wall at d: q(d) (1 - p_no_return), and 0 out of range."""
         return np.where(d <= limits.max_m, self.unblocked(d) * (1.0 - self.p_no_return), 0.0)
 
     def _hit(self, z: Floats, d: Floats, spread_m: Floats, limits: RangeLimits) -> Floats:
@@ -275,7 +273,7 @@ class BeamMixture(SensorModel):
         return np.asarray((1 - self.p_random) * (blocked + returned * below))
 
     def cumulative(self, range_m: Floats, distance_m: Floats, limits: RangeLimits, spread_m: float = 0.0) -> Floats:
-        """P(reading <= range | distance) by the last formula above; NaN for an invalid reading."""
+        """Return P(reading <= range | distance) by the last formula above; NaN for an invalid reading."""
         z, d = np.broadcast_arrays(range_m, distance_m)
         reading, wall_m = np.clip(z, limits.min_m, limits.max_m), np.minimum(d, limits.max_m)
         uniform = (reading - limits.min_m) / (limits.max_m - limits.min_m)
@@ -286,7 +284,7 @@ class BeamMixture(SensorModel):
         return np.asarray(np.where(np.isposinf(z), 1.0, p))
 
     def reach_m(self, range_m: Floats, limits: RangeLimits) -> Floats:
-        """A finite reading is flat where the wall's noise has sunk under `FLAT_NATS` of the random floor."""
+        """Return where the wall's noise has sunk under `FLAT_NATS` of the random floor; infinity for typed readings."""
         z = np.asarray(range_m, dtype=np.float64)
         floor = self.p_random / (limits.max_m - limits.min_m) * FLAT_NATS
 
@@ -305,7 +303,7 @@ class BeamMixture(SensorModel):
         return np.where(finite, reach, np.where(np.isnan(range_m), 0.0, np.inf))
 
     def sample(self, rng: np.random.Generator, distance_m: Floats, limits: RangeLimits) -> Floats:
-        """Tell the story above once for every distance."""
+        """Draw a reading for every distance, by the story above."""
         d = np.asarray(distance_m, dtype=np.float64)
         wall_m = np.minimum(d, limits.max_m)
         reading = wall_m + self.noise.scale_at(wall_m) * self.noise.draw(rng, d.shape)
@@ -320,18 +318,12 @@ class BeamMixture(SensorModel):
         return np.where(rng.random(d.shape) < self.p_random, uniform, reading)
 
     def kernel_parameters(self) -> KernelParameters | None:
-        """The noise's own parameters, inside the mixture."""
+        """Return the noise's own parameters, inside the mixture; None if the noise has none."""
         noise = self.noise.kernel_parameters()
         if noise is None:
             return None
-        return replace(
-            noise,
-            robust=True,
-            p_random=self.p_random,
-            p_no_return=self.p_no_return,
-            p_short=self.p_short,
-            rate_short_per_m=self.rate_short_per_m,
-        )
+        names = ("p_random", "p_no_return", "p_short", "rate_short_per_m")
+        return replace(noise, robust=True, **{name: getattr(self, name) for name in names})
 
 
 BISECTIONS = 16
@@ -345,7 +337,7 @@ KINDS: dict[str, type[Any]] = {"gaussian": Gaussian, "student-t": StudentT, "mix
 
 
 def describe(sensor: SensorModel) -> dict[str, Any]:
-    """The model's kind and parameters. A model that is not one of ours is described by its name alone."""
+    """Return a model's kind and parameters as plain JSON values; of a model of the user's own, its name alone."""
     for kind, cls in KINDS.items():
         if type(sensor) is cls:
             values: dict[str, Any] = {f.name: _plain(getattr(sensor, f.name)) for f in fields(cls)}  # type: ignore[arg-type]
@@ -356,12 +348,12 @@ def describe(sensor: SensorModel) -> dict[str, Any]:
 
 
 def _plain(value: Any) -> Any:
-    """NumPy's numbers as Python's, which JSON can hold."""
+    """Turn NumPy's numbers into Python's, which JSON can hold."""
     return value.item() if isinstance(value, np.generic) else value
 
 
 def from_description(description: dict[str, Any]) -> SensorModel | None:
-    """The model of a description; None for one that is not ours.
+    """Return the model of a description; None for a model of the user's own.
 
     Raises:
         BadInput: a parameter that the model does not have, or a value that it refuses.

@@ -1,4 +1,4 @@
-"""What every sensor model is: a law of the reading, given the distance of the beam's first hit."""
+"""The interface of sensor models: a law of the reading, given the distance of the beam's first hit."""
 
 from __future__ import annotations
 
@@ -33,16 +33,16 @@ class SensorModel(ABC):
 
     @abstractmethod
     def log_likelihood(self, range_m: Floats, distance_m: Floats, limits: RangeLimits) -> Floats:
-        """log p(range | distance) in nats, broadcast over both: a log density for a hit, a log probability
-        for no return and too close, and 0 for an invalid reading, which says nothing.
+        """Return log p(range | distance) in nats, broadcast over both.
+
+        It is a log density for a hit, a log probability for no return and too close, and 0 for an invalid reading.
         """
 
     @abstractmethod
     def reach_m(self, range_m: Floats, limits: RangeLimits) -> Floats:
-        """The distance past which `log_likelihood` no longer depends on the distance, for each reading.
+        """Return the distance past which `log_likelihood` no longer changes, for each reading; ``inf`` if none.
 
-        The rest of such a beam is one entry of the table, "no hit", worth
-        ``log_likelihood(range, inf)``. Return ``inf`` where there is no such distance.
+        The rest of such a beam is one entry of the table, worth ``log_likelihood(range, inf)``.
         """
 
     @abstractmethod
@@ -50,7 +50,7 @@ class SensorModel(ABC):
         """Draw a reading for every distance; the law is the one that `log_likelihood` scores."""
 
     def stop_log_likelihood(self, range_m: Floats, distance_m: Floats, spread_m: Floats, limits: RangeLimits) -> Floats:
-        """log p(range | the beam stops at about a distance), broadcast over all: the law that maps are inferred by.
+        """Return log p(range | the beam stops at about a distance), broadcast over all: maps are inferred by it.
 
         ``spread_m`` is the standard deviation of where the beam stops. Without a formula of its own a model has the
         mean of its `log_likelihood` over a normal distribution of stops, by quadrature.
@@ -63,30 +63,30 @@ class SensorModel(ABC):
         return out
 
     def cumulative(self, range_m: Floats, distance_m: Floats, limits: RangeLimits, spread_m: float = 0.0) -> Floats:
-        """P(reading <= range | distance), broadcast over both; too close counts as -inf, no return as +inf.
+        """Return P(reading <= range | distance), broadcast over both; too close is -inf, no return +inf.
 
         ``spread_m`` is a further standard deviation of where the beam stops. A model of your own needs this only for
         `bayesmap.score`, whose calibration asks how often readings fall below a range.
 
         Raises:
-            BadInput: the model does not say.
+            BadInput: the model has no such method.
         """
         raise BadInput(f"{type(self).__name__}: no cumulative distribution; add a method cumulative() to the model")
 
     def kernel_parameters(self) -> KernelParameters | None:
-        """The numbers with which the compiled likelihood computes this model, or None if it cannot."""
+        """Return the numbers with which the compiled likelihood computes this model, or None if it cannot."""
         return None
 
 
 STANDARD = np.linspace(-6.0, 6.0, 97)
-"""Where a stop may lie, in standard deviations."""
+"""Nodes of a stop, in standard deviations."""
 
 
 def _mean_over_stops(model: SensorModel, z: Floats, d: Floats, s: Floats, limits: RangeLimits) -> Floats:
-    """Log of the mean of p(z | t) over t ~ N(d, s^2), for t >= 0: the midpoint rule on two sets of nodes, (n,) each.
+    """Return the log of the mean of p(z | t) over t ~ N(d, s^2), t >= 0, by the midpoint rule, (n,).
 
-    A sensor may be far sharper than the spread. So the nodes are those of the normal distribution, and as many that
-    crowd about the reading.
+    A sensor may be far sharper than the spread. So there are nodes of the normal distribution, and as many that crowd
+    about the reading.
     """
     crowded = np.sinh(np.linspace(-9.0, 9.0, 122)) / math.sinh(9.0)
     near = np.where(np.isfinite(z), z, np.where(z > 0, limits.max_m, limits.min_m))
