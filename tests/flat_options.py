@@ -3,7 +3,7 @@
 import bayesmap as bm
 
 METHODS = {kind.name: kind for kind in (bm.Gibbs, bm.Block, bm.Propagate, bm.Importance, bm.Exact)}
-OF_SCHEDULE, OF_WHERE = ("chains", "warmup", "draws", "thin"), ("threads", "device", "executor")
+OF_SCHEDULE, OF_WHERE = ("chains", "warmup", "draws", "thin", "precision"), ("threads", "device", "executor")
 OF_CHECKPOINTS = {"resume": "resume", "on_checkpoint": "save", "checkpoint_every_s": "every_s"}
 OF_METHOD = ("order", "start", "start_poses", "rounds", "particles")
 

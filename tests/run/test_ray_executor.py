@@ -85,6 +85,14 @@ def test_two_seeds_would_not_pass_for_one(scans):
         assert_same(one, other)
 
 
+def test_chains_stop_where_those_of_threads_do(cluster, scans):
+    """They stop at a precision, at marks that groups of chains reach at different times."""
+    arguments = {**SHORT, **KINDS["walls"], "draws": 400, "precision": 0.05}
+    run = infer(scans, GRID, executor=quick(), **arguments)
+    assert run.n_draws < 400
+    assert_same(run, infer(scans, GRID, **arguments))
+
+
 @pytest.mark.full
 @pytest.mark.parametrize("chains_per_task", [1, 2, 3])
 def test_how_chains_are_divided_makes_no_difference(cluster, scans, chains_per_task):

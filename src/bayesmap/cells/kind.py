@@ -189,6 +189,10 @@ class CellPrior(ABC):
         out = [self.map_of(draws, chain, draw).ravel()[cells] for chain, draw in draws.numbers()]
         return np.reshape(out, (draws.chains, draws.count, len(cells)))
 
+    def expected_traces(self, draws: Draws, cells: NDArray[np.intp]) -> NDArray[Any]:
+        """Return what draws expect of some cells, (chains, draws, n): `mean_map` is the mean over all draws."""
+        return self.traces(draws, cells)
+
     def constant_cells(self, draws: Draws) -> tuple[NDArray[np.bool_] | None, NDArray[np.bool_] | None]:
         """Find the cells with one value in all draws of each chain, and in all draws of all chains, (N,) each.
 

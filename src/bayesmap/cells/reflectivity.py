@@ -244,6 +244,11 @@ class Reflective(CellPrior):
         place = np.searchsorted(draws.index["cell"], cells)
         return np.asarray(draws.arrays[self.shown[0]][:, :, place])
 
+    def expected_traces(self, draws: Draws, cells: NDArray[np.intp]) -> NDArray[np.float16]:
+        """Return the chances that draws expect of some touched cells, (chains, draws, n)."""
+        place = np.searchsorted(draws.index["cell"], cells)
+        return np.asarray(draws.arrays[self.shown[1]][:, :, place])
+
     def predictive_stops(self, draws: Draws, wanted: NDArray[np.int32] | None = None) -> Iterator[NDArray[np.float32]]:
         """Yield the expected reflectivities of each draw, (draws, n), some draws at a time.
 

@@ -125,8 +125,8 @@ def complain(text: str) -> None:
 
 
 OnProgress = Callable[["Event"], None]
-Show = Callable[[str, str, int, int, "float | None"], None]
-"""Takes what is done now, what is counted, how many of how many, and the log joint where there is one."""
+Show = Callable[[str, str, int, int, str], None]
+"""Takes what is done now, what is counted, how many of how many, and what is known by then."""
 
 STAGES = {
     "compile": ("compiling kernels, once", "kernels"),
@@ -149,6 +149,9 @@ STAGES = {
 }
 """The stages of a run as a user reads them, and what is counted in each."""
 
+SAMPLING = tuple(STAGES[stage][0] for stage in ("warm-up", "draws"))
+"""Names of the stages that count sweeps of the chains."""
+
 SETTING_UP = ("compile", "trace", "start", "fit")
 """Stages in which it may still turn out that a run cannot be."""
 
@@ -162,7 +165,14 @@ def progress(console: Console, begin: str) -> Iterator[OnProgress]:
         begin: what happens before the first event.
     """
     with _bar(console, begin) as show:
-        yield lambda event: show(*STAGES[event.stage], event.done, event.total, event.log_joint)
+        yield lambda event: show(*STAGES[event.stage], event.done, event.total, known(event))
+
+
+def known(event: Event) -> str:
+    """Return in words how well the map is known, or else the log joint; nothing before either."""
+    if event.error is not None and event.error < 1.0:
+        return f"map within {event.error:.3f}"
+    return "" if event.log_joint is None else f"log joint {event.log_joint:,.1f}"
 
 
 @contextlib.contextmanager
@@ -176,13 +186,13 @@ def share(console: Console, name: str) -> Iterator[Callable[[float], None]]:
 def described_share(console: Console, begin: str) -> Iterator[Callable[[str, float], None]]:
     """Give a function for work that also says what it is doing."""
     with _bar(console, begin) as show:
-        yield lambda name, done: show(name, "%", round(1000 * done), 1000, None)
+        yield lambda name, done: show(name, "%", round(1000 * done), 1000, "")
 
 
 @contextlib.contextmanager
 def _bar(console: Console, begin: str) -> Iterator[Show]:
     if not console.draws_bar:
-        yield lambda name, unit, done, total, log_joint: None
+        yield lambda name, unit, done, total, known: None
         return
     # Loaded here alone: a tenth of a second that pipelines and batch jobs do not have to pay.
     from rich.console import Console
@@ -194,27 +204,28 @@ def _bar(console: Console, begin: str) -> Iterator[Show]:
         BarColumn(bar_width=24),
         TextColumn("{task.fields[count]}"),
         TimeRemainingColumn(),
-        TextColumn("{task.fields[log_joint]}"),
+        TextColumn("{task.fields[known]}"),
         console=Console(stderr=True),
         transient=True,
     )
     with bar:
-        shown = bar.add_task(begin, total=None, count="", log_joint="")
+        shown = bar.add_task(begin, total=None, count="", known="")
         # A clock for each thing that is counted, or the estimate would mix rounds with sweeps. They go on when a
         # checkpoint has come between.
         clocks: dict[tuple[str, int], TaskID] = {}
 
-        def show(name: str, unit: str, done: int, total: int, log_joint: float | None) -> None:
+        def show(name: str, unit: str, done: int, total: int, known: str) -> None:
             nonlocal shown
-            clock = (unit, total)
+            # Where the precision decides how many sweeps there are, their number is an estimate that changes.
+            clock = (unit, 0 if name in SAMPLING else total)
             if clock not in clocks:
-                clocks[clock] = bar.add_task(name, total=total, completed=done, count="", log_joint="")
+                clocks[clock] = bar.add_task(name, total=total, completed=done, count="", known="")
             if shown != clocks[clock]:
                 bar.update(shown, visible=False)
                 shown = clocks[clock]
             count = f"{100 * done // max(total, 1)} %" if unit == "%" else f"{done:,}/{total:,} {unit}"
-            joint = "" if log_joint is None else f"log joint {log_joint:,.1f}"
-            bar.update(shown, description=name, completed=done, count=f"{count} ETA", log_joint=joint, visible=True)
+            count += " ETA"
+            bar.update(shown, description=name, completed=done, total=total, count=count, known=known, visible=True)
 
         yield show
 

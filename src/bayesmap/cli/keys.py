@@ -123,11 +123,16 @@ class SamplingSettings(ReadingSettings, kw_only=True, frozen=True):
     cells: Annotated[Cells, Help("A cell's state: reflectivity with or without a surface, or a wall.")] = "surface"
     chains: Chains = 4
     warmup: Warmup = 50
-    draws: Annotated[Count | None, Help("Maps that each chain keeps.", "100, to 200 for few beams; binary 100")] = (
-        None  # the library allows none; the picture and the map are made from them
-    )
+    draws: Annotated[
+        Count | None, Help("Maps that each chain keeps, at most.", "100, to 200 for few beams; binary 100")
+    ] = None
     thin: Annotated[
         Count | None, Help("Sweeps from one kept map to the next.", "3; binary, or with draws given, 1")
+    ] = None
+    precision: Annotated[
+        float | None,
+        Rule(lambda x: 0 < x < 1, "a probability between 0 and 1"),
+        Help("Chains stop when 99 of 100 cells are known so well.", "0.03; with draws given, none", "P"),
     ] = None
     seed: Seed = 0
     sensor: Annotated[str, Help("Sensor model: fit, or such as mixture:0.02 (see above).", metavar="MODEL")] = "default"
@@ -169,7 +174,7 @@ class InferSettings(SamplingSettings, kw_only=True, frozen=True):
 class SlamSettings(SamplingSettings, kw_only=True, frozen=True):
     """Settings of `slam`."""
 
-    draws: Annotated[Count | None, Help("Maps that each chain keeps.", "50, to 200 for few beams")] = None
+    draws: Annotated[Count | None, Help("Maps that each chain keeps, at most.", "50, to 200 for few beams")] = None
     thin: Annotated[Count, Help("Sweeps from one kept map to the next.")] = 1
     fast: Annotated[bool, Help("Stop after the approximate trajectory: the map then takes it as known.")] = False
     no_odometry: Annotated[bool, Help("Neither read nor need the log's poses; scans must come at 5 Hz or more.")] = (

@@ -176,22 +176,26 @@ def completed(settings: S) -> S:
 
 
 def with_schedule(settings: InferSettings, beams: int, cells: int) -> InferSettings:
-    """Return the settings with ``thin`` and ``draws`` that suit the kind of cells, the beams and the grid."""
+    """Return the settings with ``thin``, ``draws`` and ``precision`` that suit the kind of cells, beams and grid."""
+    from bayesmap.arguments import MORE_DRAWS
     from bayesmap.cells.kinds import BUILT_IN
+    from bayesmap.run.chains import PRECISION
 
-    kind, thin, draws = BUILT_IN[settings.cells], settings.thin, settings.draws
+    kind, thin, draws, precision = BUILT_IN[settings.cells], settings.thin, settings.draws, settings.precision
     if thin is None:
         thin = kind.sweeps_a_draw if draws is None else 1
     if draws is None:
         draws = BINARY_DRAWS if kind.has_walls else kind().default_draws(beams, cells, settings.chains, thin)
-    return msgspec.structs.replace(settings, thin=thin, draws=draws)
+        precision = PRECISION if precision is None else precision
+        draws *= MORE_DRAWS if precision < PRECISION else 1
+    return msgspec.structs.replace(settings, thin=thin, draws=draws, precision=precision)
 
 
 def schedule_of(settings: SamplingSettings) -> Schedule:
     """Return the schedule of the chains."""
     from bayesmap.arguments import Schedule
 
-    return Schedule(settings.chains, settings.warmup, settings.draws, settings.thin)
+    return Schedule(settings.chains, settings.warmup, settings.draws, settings.thin, settings.precision)
 
 
 def method_of(settings: InferSettings) -> Method:

@@ -1,4 +1,4 @@
-"""How long chains run, and what they have done so far: sampled, checkpointed, resumed, and joined with other chains."""
+"""How long chains run, how well they know the map, and what they have done: checkpointed, resumed, and joined."""
 
 from __future__ import annotations
 
@@ -10,16 +10,35 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.cells.arrays import Draws
+from bayesmap.cells.kind import CellPrior
 from bayesmap.samplers.sampler import Info, Keep, Snapshot
+
+PRECISION = 0.03
+"""Error of the mean map at which chains stop by default. On a map in greys a tenth is seen, a third of that is not."""
+FIRST_MARK = 10
+"""Draws of a chain after which the error of the map is estimated first."""
+FEWEST_BATCHES = 8
+"""Batches that estimate it. With a batch a chain, and few chains, the estimates are scattered widely."""
+KNOWN_SHARE = 0.99
+"""Share of the observed cells whose error is at most what a run reports. The worst cell of a map says nothing."""
+CELLS_AT_ONCE = 8192
 
 
 @dataclass(frozen=True)
 class SweepPlan:
-    """How long to run: ``warmup`` sweeps that are not kept, then ``draws`` maps, ``thin`` sweeps apart."""
+    """How long to run.
+
+    Attributes:
+        warmup: sweeps that are not kept.
+        draws: maps of each chain, at most.
+        thin: sweeps from one map to the next.
+        precision: Monte Carlo error of the map at which chains stop early, see `map_error`; None: never.
+    """
 
     warmup: int
     draws: int
     thin: int = 1
+    precision: float | None = None
 
     @property
     def sweeps(self) -> int:
@@ -30,6 +49,24 @@ class SweepPlan:
     def keep(self) -> Keep:
         """The draws to keep."""
         return Keep(self.warmup, self.thin if self.draws else 0)
+
+    @property
+    def marks(self) -> tuple[int, ...]:
+        """Numbers of sweeps at which chains may stop early.
+
+        They are fixed, so that neither the number of threads nor a stop in between changes where chains end.
+        """
+        marks, draws = [], FIRST_MARK
+        while self.precision is not None and draws < self.draws:
+            marks.append(self.warmup + draws * self.thin)
+            draws += max(5, draws // 4)
+        return tuple(marks)
+
+    def aim(self, sweep: int, error: float) -> int:
+        """Return after how many sweeps the map should be known, given its error now: it falls with their root."""
+        assert self.precision is not None
+        more = max(1.0, (error / self.precision) ** 2) if np.isfinite(error) else np.inf
+        return int(min(self.warmup + more * (sweep - self.warmup), self.sweeps))
 
 
 Floats = NDArray[np.float64]
@@ -72,12 +109,44 @@ class Chains:
         """Sweeps that each chain has made, warm-up included."""
         return self.snapshot.sweep
 
+    def error(self, cells: CellPrior) -> float:
+        """Estimate the Monte Carlo error of the map, see `map_error`."""
+        return map_error(cells, self.draws, self.observed())
+
     def observed(self) -> NDArray[np.bool_]:
         """Return the cells that at least one beam observes in at least half of the maps, (nx, ny); the others have the
         prior.
         """
         some, looked = self.observed_counts
         return np.asarray(2 * some >= np.maximum(looked, 1))
+
+
+def map_error(cells: CellPrior, draws: Draws, observed: NDArray[np.bool_]) -> float:
+    """Estimate the Monte Carlo standard error of the mean map: 99 of 100 observed cells have this much or less.
+
+    By replicated batch means (Argon and Andradottir 2006): each chain is cut into batches of draws in a row, eight or
+    more over all chains, and the error of a mean over n batches is the standard deviation of theirs over sqrt(n).
+    Chains that disagree make it large, whatever each of them says of itself. So it judges convergence, too.
+
+    Args:
+        cells: what a cell's state is; the map is the mean of what its maps show.
+        draws: of all chains.
+        observed: cells that count, (nx, ny).
+
+    Returns:
+        The error, in units of the probability that maps show; inf of fewer than two draws a batch, 0 without cells.
+    """
+    batches = -(-FEWEST_BATCHES // draws.chains)
+    length = draws.count // batches
+    if length < 2:
+        return float("inf")
+    which = np.flatnonzero(observed.ravel())
+    errors = np.zeros(len(which))
+    for i in range(0, len(which), CELLS_AT_ONCE):
+        values = cells.expected_traces(draws, which[i : i + CELLS_AT_ONCE])[:, draws.count - batches * length :]
+        means = values.reshape(draws.chains * batches, length, -1).mean(axis=1, dtype=np.float64)
+        errors[i : i + CELLS_AT_ONCE] = means.std(axis=0, ddof=1) / np.sqrt(len(means))
+    return float(np.quantile(errors, KNOWN_SHARE)) if len(which) else 0.0
 
 
 def join(parts: Sequence[Chains]) -> Chains:

@@ -165,7 +165,8 @@ class Marks:
             most = max(1, GROWTH * before)
             count = most if self.per_sweep_s == 0 else min(most, int(self.segment_s / self.per_sweep_s))
             until = self.at[-1] + max(1, count)
-            ends = [end for end in (self.schedule.warmup, self.schedule.sweeps) if end > self.at[-1]]
+            plan = self.schedule
+            ends = [end for end in (plan.warmup, *plan.marks, plan.sweeps) if end > self.at[-1]]
             self.at.append(min([until, *ends]))
         return self.at[bisect_right(self.at, sweep)]
 
@@ -230,6 +231,8 @@ class _RayRun:
         self.name = uuid.uuid4().hex
         self.shared: tuple[Any, ...] = ()
         self.trace_s = 0.0
+        self.known = False
+        self.error: float | None = None
 
     def remote(self, function: Callable[..., Any], **options: Any) -> Any:
         return self.ray.remote(function).options(**self.options, **options).remote
@@ -246,11 +249,12 @@ class _RayRun:
 
         schedule, watch = self.job.schedule, self.watch
         last = self.sweep
+        self._look()  # a run that was stopped at a mark
         for group in self.groups:
-            if group.sweep < schedule.sweeps:
+            if not self.known and group.sweep < schedule.sweeps:
                 submit(group)
         saved_at, pause_s = time.monotonic(), checkpoint_every_s
-        while self.running and not (watch.should_stop() and self.sweep >= 0):
+        while self.running and not self.known and not (watch.should_stop() and self.sweep >= 0):
             ready, _ = self.ray.wait(list(self.running), num_returns=1, timeout=WAIT_S)
             for ref in ready:
                 group = self.running.pop(ref)
@@ -261,6 +265,7 @@ class _RayRun:
                 continue
             warmed_up = last < schedule.warmup <= self.sweep
             last = self.sweep
+            self._look()
             for group in self.groups:
                 group.snapshots = {at: snapshot for at, snapshot in group.snapshots.items() if at >= last}
             now = time.monotonic()
@@ -272,7 +277,14 @@ class _RayRun:
                 pause_s = pause_after(saved_at - now, checkpoint_every_s)
         # Segments that still run are left to end, in seconds. Never cancel them: Ray aborts this process when it
         # cancels a task that has just returned (the race of its pull request 54798, which 2.60 still has).
-        return self.so_far()
+        return replace(self.so_far(), finished=True) if self.known else self.so_far()
+
+    def _look(self) -> None:
+        """Estimate the error of the map at a mark, and note whether it is small enough."""
+        schedule = self.job.schedule
+        if schedule.precision is not None and self.sweep in schedule.marks:
+            self.error = self.so_far().error(self.job.model.cells)
+            self.known = self.error <= schedule.precision
 
     @property
     def sweep(self) -> int:
@@ -325,4 +337,6 @@ class _RayRun:
             self.watch.report("start", started, len(self.groups))
         elif done > 0:
             warming = done <= schedule.warmup
-            self.watch.report("warm-up" if warming else "draws", done, schedule.sweeps, segment.last_log_joint)
+            self.watch.report(
+                "warm-up" if warming else "draws", done, schedule.sweeps, segment.last_log_joint, self.error
+            )

@@ -172,7 +172,8 @@ def run_chains(
         checkpoint_every_s: see above.
 
     Returns:
-        The chains; with ``finished`` false if they were asked to stop, be it in the last step.
+        The chains, all draws made or the map known as well as was asked for; with ``finished`` false if they were asked
+        to stop, be it in the last step.
     """
     schedule, keep, chains = job.schedule, job.schedule.keep, len(job.chain_ids)
     state, seconds = start_chains(job, resume, watch)
@@ -190,7 +191,8 @@ def run_chains(
         return Chains(
             draws=record.draws, log_likelihood=log_likelihood, log_prior=log_prior, warmup_log_joint=warmup,
             snapshot=job.sampler.snapshot(state), observed_counts=counts, statistics=statistics,
-            n_incidences=state.problem.n_incidences, seconds=dict(seconds), finished=state.sweep >= schedule.sweeps,
+            n_incidences=state.problem.n_incidences, seconds=dict(seconds),
+            finished=known or state.sweep >= schedule.sweeps,
         )  # fmt: skip
 
     steps = sweeps(
@@ -199,12 +201,22 @@ def run_chains(
         schedule.sweeps,
         keep=keep,
         most_kept=max(1, BUFFER_BYTES // max(one, 1)),
-        stops=(schedule.warmup,),
+        stops=(schedule.warmup, *schedule.marks),
     )
+    known, error, aim = False, None, schedule.sweeps
+
+    def look(state: ChainState) -> None:
+        """Estimate the error of the map at a mark, and note whether it is small enough."""
+        nonlocal known, error, aim
+        if schedule.precision is not None and state.sweep in schedule.marks:
+            error = so_far(state).error(job.model.cells)
+            known, aim = error <= schedule.precision, schedule.aim(state.sweep, error)
+
+    look(state)  # a run that was stopped at a mark
     saved_at, pause_s = time.monotonic(), checkpoint_every_s
     began, before = time.perf_counter(), state.sweep
     stopped = watch.should_stop()
-    while not stopped:
+    while not (stopped or known):
         state, info = next(steps, (state, None))
         if info is None:
             break
@@ -213,10 +225,11 @@ def run_chains(
         warming = before < schedule.warmup
         before = state.sweep
         log_joint = float(np.mean(info.log_likelihood[:, -1] + info.log_prior[:, -1]))
-        watch.report("warm-up" if warming else "draws", state.sweep, schedule.sweeps, log_joint)
+        look(state)
+        watch.report("warm-up" if warming else "draws", state.sweep, max(aim, state.sweep), log_joint, error)
         now = time.monotonic()
         warmed_up = warming and state.sweep == schedule.warmup
-        last = state.sweep >= schedule.sweeps
+        last = known or state.sweep >= schedule.sweeps
         if on_checkpoint is not None and (warmed_up or now - saved_at >= pause_s):
             on_checkpoint(replace(so_far(state), finished=False) if last else so_far(state))
             saved_at = time.monotonic()

@@ -14,12 +14,19 @@ Stage = Literal[
 
 @dataclass(frozen=True)
 class Event:
-    """Progress of a run: ``done`` of ``total`` units of a stage, and the mean log joint where known."""
+    """Progress of a run: ``done`` of ``total`` units of a stage, and what is known by then.
+
+    Attributes:
+        log_joint: mean over the chains.
+        error: Monte Carlo error of the map, see `bayesmap.run.chains.map_error`. Where it decides how long chains run,
+            ``total`` is an estimate.
+    """
 
     stage: Stage
     done: int
     total: int
     log_joint: float | None = None
+    error: float | None = None
 
 
 @dataclass(frozen=True)
@@ -34,10 +41,12 @@ class Watch:
     on_progress: Callable[[Event], None] | None = None
     should_stop: Callable[[], bool] = lambda: False
 
-    def report(self, stage: Stage, done: int, total: int, log_joint: float | None = None) -> None:
+    def report(
+        self, stage: Stage, done: int, total: int, log_joint: float | None = None, error: float | None = None
+    ) -> None:
         """Report the progress of a stage."""
         if self.on_progress is not None:
-            self.on_progress(Event(stage, done, total, log_joint))
+            self.on_progress(Event(stage, done, total, log_joint, error))
 
     def of(self, stage: Stage) -> Callable[[int, int], None]:
         """Return a callback for one stage."""

@@ -15,7 +15,11 @@ ROUNDING = 1e-5
 
 
 def as_array(values: ArrayLike, name: str) -> NDArray[np.float64]:
-    """Return an array of numbers of any shape; raise `BadInput` for anything else."""
+    """Return an array of numbers of any shape.
+
+    Raises:
+        BadInput: something that is no array of numbers.
+    """
     try:
         return np.asarray(values, dtype=np.float64)
     except (TypeError, ValueError) as error:
