@@ -164,7 +164,7 @@ def test_what_the_library_lacks_is_noticed(text, what):
 
 
 def test_the_readme_s_examples_run_and_give_what_they_say(tmp_path):
-    shapes = Example(1, "assert run.occupancy.shape == (21, 21)\nassert run.draws.shape == (4, 1000, 21, 21)\n")
+    shapes = Example(1, "assert run.occupancy.shape == (21, 21)\nassert run.draws.shape == (4, 112, 21, 21)\n")
     done = execute(README, [*EXAMPLES[README], shapes], tmp_path)
     assert done.returncode == 0, done.stderr
     assert "rhat" in done.stdout
