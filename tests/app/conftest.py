@@ -73,18 +73,10 @@ def open_page(browser):
 
 
 @pytest.fixture(scope="session")
-def room_of_surfaces(tmp_path_factory):
-    """A run of surfaces of a small room, two chains of ten draws, and its file."""
-    run = room_run(bm.Surface(), draws=10)
-    path = tmp_path_factory.mktemp("room") / "run.nc"
-    run.save(path)
-    return run, path
-
-
-@pytest.fixture(scope="session")
-def room(room_of_surfaces, browser):
+def room(tmp_path_factory, browser):
     """A run of surfaces of a small room, two chains of ten draws, and the address of a server that shows it."""
-    run, path = room_of_surfaces
+    run, path = room_run(bm.Surface()), tmp_path_factory.mktemp("room") / "run.nc"
+    run.save(path)
     with served(path) as (address, _):
         yield run, address
 

@@ -93,26 +93,16 @@ def marimo(verb, folder, source, *more):
 @contextlib.contextmanager
 def listening(module_and_arguments, folder, address):
     """A server in a process of its own, with settings of its own, from when it answers."""
-    own = {
-        name: str(folder / name.lower())
-        for name in (
-            "IPYTHONDIR",
-            "JUPYTER_CONFIG_DIR",
-            "JUPYTER_DATA_DIR",
-            "JUPYTER_RUNTIME_DIR",
-            "JUPYTERLAB_SETTINGS_DIR",
-            "JUPYTERLAB_WORKSPACES_DIR",
-            "XDG_CONFIG_HOME",
-            "XDG_DATA_HOME",
-            "XDG_STATE_HOME",
-        )
-    }
+    names = (
+        "IPYTHONDIR", "JUPYTER_CONFIG_DIR", "JUPYTER_DATA_DIR", "JUPYTER_RUNTIME_DIR", "JUPYTERLAB_SETTINGS_DIR",
+        "JUPYTERLAB_WORKSPACES_DIR", "XDG_CONFIG_HOME", "XDG_DATA_HOME", "XDG_STATE_HOME",
+    )  # fmt: skip
+    own = {name: str(folder / name.lower()) for name in names}
     environment = {**os.environ, **own, "MARIMO_SKIP_UPDATE_CHECK": "1"}
+    command = [sys.executable, "-m", *module_and_arguments]
     with (
         open(folder / "server.txt", "w+") as said,
-        subprocess.Popen(
-            [sys.executable, "-m", *module_and_arguments], env=environment, cwd=folder, stdout=said, stderr=said
-        ) as process,
+        subprocess.Popen(command, env=environment, cwd=folder, stdout=said, stderr=said) as process,
     ):
         try:
             deadline = time.monotonic() + CELL_SECONDS

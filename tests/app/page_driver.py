@@ -12,6 +12,7 @@ import zlib
 from urllib.parse import urlsplit
 
 import numpy as np
+import pytest
 from PIL import Image
 
 from bayesmap.app import server as app_server
@@ -25,13 +26,9 @@ BROWSERS = ("chromium-headless-shell", "chromium", "chromium-browser", "google-c
 """The first of them that there is draws the page; the first needs two thirds of the second's time for all tests."""
 CHROMIUM = next(filter(None, map(shutil.which, BROWSERS)), None)
 ARGUMENTS = (
-    "--no-sandbox",
-    "--disable-gpu",
-    "--disable-background-networking",
-    "--disable-component-update",
-    "--disable-sync",
-    "--no-first-run",
-)
+    "--no-sandbox", "--disable-gpu", "--disable-background-networking", "--disable-component-update",
+    "--disable-sync", "--no-first-run",
+)  # fmt: skip
 WAIT_SECONDS = 180.0
 """How long anything may take that a page does, on a machine that others use, too."""
 DESKTOP = {"viewport": {"width": 1280, "height": 860}, "color_scheme": "light"}
@@ -250,6 +247,65 @@ def act(page, action):
     before = snapshot(page)["generation"]
     action()
     until(page, "s.generation > argument && s.painted?.generation === s.generation", before)
+
+
+def choose(page, name):
+    """Choose a tool or a layer."""
+    page.get_by_role("radio", name=name, exact=True).check()
+
+
+def press(page, name):
+    """Press a button."""
+    page.get_by_role("button", name=name, exact=True).click()
+
+
+def undo(page):
+    act(page, lambda: press(page, "Undo"))
+
+
+def enter(page, name, value):
+    """Give a setting a number by its field, and wait for its picture."""
+    act(page, lambda: page.get_by_label(f"{name}, number").fill(str(value)) or page.keyboard.press("Tab"))
+
+
+def slide(page, name, value):
+    """Give a setting a number by its slider, and wait for its picture."""
+    act(page, lambda: page.get_by_role("slider", name=name).fill(str(value)))
+
+
+def select(page, name, value):
+    """Choose a setting's value from a list, and wait for its picture."""
+    act(page, lambda: page.get_by_role("combobox", name=name).select_option(value))
+
+
+def run(page, draws=None):
+    """Press Run; with a number of draws, wait until there are so many, and their mean is painted."""
+    press(page, "Run")
+    if draws is not None:
+        known = "!s.running && s.draws.count === argument && s.painted.sweeps === argument"
+        until(page, f"{known} && s.painted.generation === s.generation", draws)
+
+
+def show_draw(page, number, chain=None):
+    """Show a draw, and wait for its picture."""
+    if chain is not None:
+        page.get_by_label("Chain", exact=True).select_option(str(chain))
+    page.get_by_role("slider", name="Draw number").fill(str(number))
+    known = "s.painted.layer === 'draw' && s.painted.draw === argument"
+    until(page, known if chain is None else f"{known} && s.painted.chain === {chain}", number)
+    return snapshot(page)["probability"]
+
+
+def serious(page):
+    """The serious violations that axe finds on a page: rules, and an element of each."""
+    axe = pytest.importorskip("axe_playwright_python.sync_playwright").Axe()
+    found = axe.run(page).response["violations"]
+    return [(rule["id"], rule["nodes"][0]["html"]) for rule in found if rule["impact"] in ("serious", "critical")]
+
+
+def click(page, x, y):
+    """Click a cell."""
+    page.mouse.click(*centre(page, x, y))
 
 
 def centre(page, x, y):

@@ -19,6 +19,7 @@ from bayesmap.app.scene import simulate_document, simulated_scene
 from bayesmap.app.shown.chains import DRAW_BYTES, Stream
 from bayesmap.app.shown.result import FEWEST_SWEEPS
 from bayesmap.model import Model
+from bayesmap.posterior.diagnostics import bulk_ess
 from bayesmap.run.chains import SweepPlan
 from bayesmap.run.runner import Job, run_chains
 from bayesmap.samplers.fit import PILOT_SWEEPS, first_sensor, fit
@@ -93,6 +94,7 @@ def test_a_job_is_a_preview_and_then_chains_to_their_last_sweep():
     assert fields[0]["approximate"]
     assert fields[-1]["sweeps"] == fields[-1]["total"] == 1000
     assert 0.9 < fields[-1]["rhat"] < 1.1
+    assert fields[-1]["ess"] == pytest.approx(bulk_ess(heard.engine._result.found.log_joint()))  # of every sweep
     assert heard.all("finished")[-1]["draws"] == DrawCount(0, 0)
 
 

@@ -3,13 +3,9 @@
 import numpy as np
 import playwright.sync_api as playwright
 import pytest
-from page_driver import act, centre, document, press_and_drag, settled, snapshot, until
+from page_driver import act, choose, click, document, enter, press_and_drag, settled, snapshot, until
 
 VIEWS = "() => { const v = bayesmap.snapshot().decisions.views; return {pose: [...v.pose], nats: [...v.nats]}; }"
-
-
-def click(page, x, y):
-    page.mouse.click(*centre(page, x, y))
 
 
 def found_path(page):
@@ -19,7 +15,7 @@ def found_path(page):
 
 def test_two_clicks_give_a_path_and_its_probability(page):
     settled(page)
-    page.get_by_role("radio", name="Path").check()
+    choose(page, "Path")
     said = page.locator(".said")
     playwright.expect(said).to_contain_text("Click where the robot is")
     click(page, 6, 15)
@@ -41,15 +37,15 @@ def test_two_clicks_give_a_path_and_its_probability(page):
 def test_why_there_is_no_path_is_said_plainly_and_of_the_path_alone(page):
     shown = settled(page)
     x, y = next((x, y) for x, y in np.argwhere(shown["walls"]).tolist() if shown["probability"][x, y] == 255)
-    page.get_by_role("radio", name="Path").check()
+    choose(page, "Path")
     click(page, x, y)
     click(page, 10, 14)
     until(page, "s.decisions.trouble")
     said = page.locator(".said")
     playwright.expect(said).to_contain_text(f"At the start ({x:.2f}, {y:.2f} m) the disc touches something")
-    page.get_by_role("radio", name="Look next").check()
+    choose(page, "Look next")
     until(page, "s.decisions.views")
-    act(page, lambda: page.get_by_label("Prior P(wall), number").fill("0.44") or page.keyboard.press("Tab"))
+    enter(page, "Prior P(wall)", 0.44)
     settled(page)  # both are asked for again
     until(page, "s.decisions.views && s.decisions.trouble")
     playwright.expect(said).to_contain_text("One more scan would tell")
@@ -59,12 +55,12 @@ def test_why_there_is_no_path_is_said_plainly_and_of_the_path_alone(page):
 def test_a_wall_drawn_across_is_decided_about_anew(open_page):
     page = open_page(document(noise=0.1, prior=0.1))
     settled(page)
-    page.get_by_role("radio", name="Path").check()
+    choose(page, "Path")
     click(page, 6, 15)
     click(page, 10, 14)
     until(page, "s.decisions.path")
     first = snapshot(page)["generation"]
-    page.get_by_role("radio", name="Draw", exact=True).check()
+    choose(page, "Draw")
     act(page, lambda: press_and_drag(page, [(8, 13), (8, 17)], steps=4))
     settled(page)
     until(page, "s.decisions.path?.generation > argument || s.decisions.trouble", first)
@@ -72,36 +68,33 @@ def test_a_wall_drawn_across_is_decided_about_anew(open_page):
 
 def test_looking_where_most_is_to_be_learnt_closes_the_loop(page):
     """Look, infer, choose the next view, look again: the map is known better, and less is left to learn there."""
-    page.get_by_role("radio", name="Look next").check()
-    settled(page)
+    choose(page, "Look next")
+    before = settled(page)
     until(page, "s.decisions.views && s.decisions.views.nats.length > 5")
     views = page.evaluate(VIEWS)
     pose, nats = np.reshape(views["pose"], (-1, 3)), np.array(views["nats"])
-    best = int(nats.argmax())
-    before = snapshot(page)
     playwright.expect(page.locator(".said")).to_contain_text(f"{nats.max():.1f} nats")
-    walls = before["walls"]
-    open_best = next(i for i in np.argsort(-nats) if not walls[tuple(np.round(pose[i, :2]).astype(int))])
-    act(page, lambda: click(page, *np.round(pose[open_best, :2]).astype(int).tolist()))
+    cells = np.round(pose[:, :2]).astype(int)
+    best = next(i for i in np.argsort(-nats) if not before["walls"][tuple(cells[i])])
+    act(page, lambda: click(page, *cells[best].tolist()))
     after = settled(page)
     assert len(after["sensors"]) == len(before["sensors"]) + 1
     new = after["sensors"][-1]
-    assert [new["x"], new["y"]] == pytest.approx(pose[open_best, :2].tolist(), abs=1e-3)
+    assert [new["x"], new["y"]] == pytest.approx(pose[best, :2].tolist(), abs=1e-3)
     assert after["observed"].sum() > before["observed"].sum()
-    until(page, "s.decisions.views && Math.max(...s.decisions.views.nats) !== argument", float(nats[best]))
+    until(page, "s.decisions.views && Math.max(...s.decisions.views.nats) !== argument", float(nats.max()))
 
 
 @pytest.mark.full
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 def test_a_saved_run_of_surfaces_has_paths_and_views(open_page, room, scheme):
     page = open_page(room[1], color_scheme=scheme)
-    page.get_by_role("radio", name="Path").check()
+    choose(page, "Path")
     click(page, 7, 12)
     click(page, 12, 22)
     assert found_path(page)["draws"] == 20
-    page.get_by_role("radio", name="Look next").check()
+    choose(page, "Look next")
     until(page, "s.decisions.views")
     click(page, 12, 20)
-    playwright.expect(page.get_by_role("status").first).to_be_visible()
     page.get_by_text("would tell").first.wait_for()
     assert len(snapshot(page)["sensors"]) == 0

@@ -1,11 +1,15 @@
-"""A log and a saved run in the page: scans and draws to look through, nothing to draw on."""
+"""A log, a saved run and a page in one file: scans and draws to look through, nothing to draw on."""
+
+from pathlib import Path
 
 import numpy as np
 import pytest
-from building_log import room_run, write_room_log
-from page_driver import act, document, fragment, served, show_layer, snapshot, until
+from building_log import room_run, tutorial_run, write_room_log
+from page_driver import document, enter, fragment, press, served, show_draw, show_layer, snapshot, until
 
 import bayesmap as bm
+
+TUTORIAL = Path(__file__).parents[2] / "docs/tutorial/interactive.html"
 
 
 @pytest.fixture(scope="module")
@@ -34,33 +38,28 @@ def test_a_log_is_inferred_while_its_scans_are_looked_through(open_page, log):
 
 
 def test_a_saved_run_shows_its_mean_and_its_draws(open_page, tmp_path):
-    walls, pose = bm.worlds.tutorial()
-    grid = bm.Grid(shape=(21, 21), resolution=1.0, origin=(-0.5, -0.5))
-    angles = np.arange(60) / 60 * 2 * np.pi
-    scans = bm.simulate(walls, grid, pose, angles, sensor=bm.Gaussian(0.2), max_range_m=42.0, seed=0)
-    run = bm.infer(
-        scans,
-        grid,
-        prior=bm.Independent(0.5),
-        sensor=bm.Gaussian(0.2),
-        schedule=bm.Schedule(chains=2, warmup=10, draws=15),
-    )
+    run = tutorial_run()
     run.save(tmp_path / "run.nc")
     with served(tmp_path / "run.nc") as (address, _):
         page = open_page(address)
-        until(page, "s.draws.count === 15")
+        until(page, "s.draws.count === 20")
         shown = snapshot(page)
         assert np.abs(shown["probability"] / 255 - run.occupancy).max() <= 0.5 / 255 + 1e-6
         show_layer(page, "One draw")
-        page.get_by_label("Chain", exact=True).select_option("1")
-        page.get_by_role("slider", name="Draw number").fill("14")
-        until(page, "s.painted.layer === 'draw' && s.painted.draw === 14 && s.painted.chain === 1")
-        assert np.array_equal(snapshot(page)["probability"] > 0, run.draws[1, 14])
+        assert np.array_equal(show_draw(page, 14, chain=1) > 0, run.draws[1, 14])
         for name in ("Run", "Clear inference"):
             assert not page.get_by_role("button", name=name, exact=True).is_visible()
         assert set(np.unique(shown["scan"]["hit"])) == {0, 1}  # no return is read with noise, and none for a hit
         out = np.isclose(shown["scan"]["ranges"], 42, atol=1.0)
         assert np.array_equal(shown["scan"]["hit"] == 0, out)
+
+
+CUT_ONCE = """
+() => {
+  const send = WebSocket.prototype.send;
+  WebSocket.prototype.send = function (data) { this.close(); WebSocket.prototype.send = send; };
+}
+"""
 
 
 @pytest.mark.full
@@ -69,13 +68,13 @@ def test_a_share_link_of_a_file_opens_and_a_lost_connection_is_found_again(open_
     file = log
     if kind == "run":
         file = tmp_path / "run.nc"
-        room_run(bm.Independent(0.2), draws=5).save(file)
+        room_run(bm.Independent(0.2)).save(file)
     with served(file) as (address, _):
         page = open_page(address)
         until(page, "s.painted")
         if kind == "log":
-            act(page, lambda: page.get_by_label("Prior P(wall), number").fill("0.3") or page.keyboard.press("Tab"))
-        page.get_by_role("button", name="Share").click()
+            enter(page, "Prior P(wall)", 0.3)
+        press(page, "Share")
         link = page.get_by_role("textbox", name="Link").input_value()
         page.keyboard.press("Escape")
         other = page.context.new_page()
@@ -89,17 +88,16 @@ def test_a_share_link_of_a_file_opens_and_a_lost_connection_is_found_again(open_
         assert snapshot(other)["document"] == snapshot(page)["document"]
 
 
-CUT_ONCE = """
-() => {
-  const send = WebSocket.prototype.send;
-  WebSocket.prototype.send = function (data) { this.close(); WebSocket.prototype.send = send; };
-}
-"""
-
-
 @pytest.mark.full
 def test_a_link_to_another_file_says_what_to_start(open_page, server):
     elsewhere = document(source={"kind": "log", "name": "office.log.gz", "scans": 910}, walls="", sensors=[])
     page = open_page(server + fragment(elsewhere))
     page.get_by_role("status").get_by_text("start bayesmap app with office.log.gz").wait_for()
     assert snapshot(page)["document"]["source"] == {"kind": "simulation"}
+
+
+def test_the_tutorial_s_page_opens_from_a_disk_without_a_server(open_page):
+    page = open_page(TUTORIAL.as_uri())
+    until(page, "s.painted.sweeps === 1000")
+    show_layer(page, "One draw")
+    until(page, "s.painted.layer === 'draw'")

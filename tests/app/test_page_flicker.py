@@ -3,48 +3,36 @@
 import numpy as np
 import playwright.sync_api as playwright
 import pytest
-from page_driver import act, settled, show_layer, snapshot, still, until, watch
+from page_driver import act, press, run, settled, show_layer, snapshot, still, until, watch
 
-OVER = "s.over && s.painted.layer === 'draw'"
+OPACITY = """() => {
+  const canvas = document.querySelector("[data-bayesmap]").shadowRoot.querySelector("canvas.hypothesis");
+  const context = canvas.getContext("2d");
+  const box = canvas.getBoundingClientRect();
+  const [nx, ny] = bayesmap.snapshot().document.grid.shape;
+  const opacity = (x, y) => {
+    const at = bayesmap.cellToClient(x, y);
+    return context.getImageData(at.x - box.x, at.y - box.y, 1, 1).data[3];
+  };
+  return Array.from({ length: nx }, (_, x) => Array.from({ length: ny }, (_, y) => opacity(x, y)));
+}"""
+"""Of the layer of hypotheses: (cells x, cells y) by the pixel at each centre."""
 
 
 def over(page):
     page.get_by_role("checkbox", name="Draws over the mean").check()
-    until(page, OVER)
-
-
-def opacity(page):
-    """Of the layer of hypotheses, where it is not clear: (cells x, cells y) by the pixel at each centre."""
-    return np.array(
-        page.evaluate(
-            """() => {
-              const canvas = document.querySelector("[data-bayesmap]").shadowRoot.querySelector("canvas.hypothesis");
-              const context = canvas.getContext("2d");
-              const box = canvas.getBoundingClientRect();
-              const [nx, ny] = bayesmap.snapshot().document.grid.shape;
-              const rows = [];
-              for (let x = 0; x < nx; x++) {
-                rows.push([]);
-                for (let y = 0; y < ny; y++) {
-                  const at = bayesmap.cellToClient(x, y);
-                  rows[x].push(context.getImageData(at.x - box.x, at.y - box.y, 1, 1).data[3]);
-                }
-              }
-              return rows;
-            }"""
-        )
-    )
+    until(page, "s.over && s.painted.layer === 'draw'")
 
 
 def test_a_draw_lies_over_the_mean(open_page, room):
-    run, address = room
+    posterior, address = room
     page = open_page(address, device_scale_factor=1)
     over(page)
     still(page)
     shown = snapshot(page)
-    draw = run.map_of(0, shown["painted"]["draw"])
+    draw = posterior.map_of(0, shown["painted"]["draw"])
     expected = np.where(shown["observed"] > 0, np.rint(255 * draw), 0)
-    assert np.abs(opacity(page) - expected).max() <= 2
+    assert np.abs(np.array(page.evaluate(OPACITY)) - expected).max() <= 2
     playwright.expect(page.locator(".chips")).to_contain_text("over the mean")
     playwright.expect(page.get_by_role("list", name="Legend")).to_contain_text("this draw")
     playwright.expect(page.locator("canvas.hypothesis")).to_be_visible()
@@ -59,11 +47,11 @@ def test_they_are_played_without_end(open_page, room):
     over(page)
     page.get_by_role("combobox", name="Speed").select_option("30")
     watch(page, "s.painted.draw")
-    page.get_by_role("button", name="Play the draws").click()
+    press(page, "Play the draws")
     until(page, "window.seen.length > 22")  # ten draws, more than twice over
     assert set(page.evaluate("window.seen")) == set(range(10))
     assert snapshot(page)["over"]
-    page.get_by_role("button", name="Pause the draws").click()
+    press(page, "Pause the draws")
     still(page)
     paused = snapshot(page)["painted"]["draw"]
     page.wait_for_timeout(300)
@@ -78,7 +66,7 @@ def test_who_wants_nothing_to_move_is_shown_one_at_a_time(open_page, room):
     playwright.expect(page.get_by_role("combobox", name="Speed")).to_be_disabled()
     first = snapshot(page)["painted"]["draw"]
     for step in (1, 2):
-        page.get_by_role("button", name="Next draw").click()
+        press(page, "Next draw")
         until(page, "s.painted.draw === argument", (first + step) % 10)
     page.wait_for_timeout(400)
     assert snapshot(page)["painted"]["draw"] == (first + 2) % 10
@@ -88,10 +76,10 @@ def test_who_wants_nothing_to_move_is_shown_one_at_a_time(open_page, room):
 def test_it_works_on_a_live_posterior_with_kept_draws(page):
     settled(page)
     playwright.expect(page.get_by_role("checkbox", name="Draws over the mean")).to_be_hidden()
-    act(page, lambda: page.get_by_role("button", name="Run", exact=True).click())
+    act(page, lambda: run(page))
     until(page, "!s.running && s.draws.count > 1")
     over(page)
-    page.get_by_role("button", name="Play the draws").click()
+    press(page, "Play the draws")
     first = snapshot(page)["painted"]["draw"]
     until(page, "s.over && s.painted.draw !== argument", first)
     show_layer(page, "Mean")

@@ -4,7 +4,7 @@ import numpy as np
 import playwright.sync_api as playwright
 import pytest
 from building_log import ANGLES
-from page_driver import document, press_and_drag, settled, snapshot, until
+from page_driver import choose, enter, press, press_and_drag, settled, snapshot, until
 
 from bayesmap.posterior.predictor import ScanPredictor, predictor_of
 from bayesmap.sensors.model import RangeLimits
@@ -21,32 +21,23 @@ HERE = "s.ghost.fan && !s.ghost.fan.coarse && ['x', 'y', 'yaw'].every((k) => s.g
 def fan(page):
     until(page, HERE)
     found = page.evaluate(READ)
-    return {
-        **found,
-        **{
-            name: np.array([float(v.replace("Infinity", "inf")) for v in found[name]])
-            for name in ("low", "median", "high")
-        },
-    }
-
-
-def take(page):
-    page.get_by_role("radio", name="Ghost").check()
+    for name in ("low", "median", "high"):
+        found[name] = np.array([float(v.replace("Infinity", "inf")) for v in found[name]])
+    return found
 
 
 def test_a_dragged_ghost_shows_the_library_s_prediction(open_page, room):
     run, address = room
     page = open_page(address)
-    take(page)
+    choose(page, "Ghost")
     until(page, HERE)  # where the scan on show was taken
     playwright.expect(page.locator(".ghosted")).to_contain_text("hits of scan 1, taken 0 cm from here")
     playwright.expect(page.locator(".ghosted")).to_contain_text("by 20 draws")
     press_and_drag(page, [(5, 10), (9, 12), (12, 14)], steps=6)
-    found = fan(page)
+    found, scans = fan(page), run.posterior.scans
     pose = [found["x"], found["y"], found["yaw"]]
     # taken hold of where it stood, it moved as far as the hand: 7 and 4 cells
-    assert pose[:2] == pytest.approx(run.posterior.scans.poses[0, :2] + [1.4, 0.8], abs=0.02)
-    scans = run.posterior.scans
+    assert pose[:2] == pytest.approx(scans.poses[0, :2] + [1.4, 0.8], abs=0.02)
     law = ScanPredictor.of(predictor_of(run.posterior), RangeLimits(scans.min_range_m, scans.max_range_m))
     expected = law.quantiles(pose, ANGLES)
     for i, name in enumerate(("low", "median", "high")):
@@ -56,25 +47,14 @@ def test_a_dragged_ghost_shows_the_library_s_prediction(open_page, room):
 
 
 @pytest.mark.full
-def test_it_follows_a_live_posterior(page):
+def test_it_follows_a_live_posterior_and_says_where_there_is_none(page):
     settled(page)
-    take(page)
-    first = fan(page)
-    assert first["draws"] == 32
+    choose(page, "Ghost")
+    assert fan(page)["draws"] == 32
     generation = snapshot(page)["generation"]
-    page.get_by_role("spinbutton", name="Seed").fill("7")
-    page.get_by_role("spinbutton", name="Seed").press("Tab")
+    enter(page, "Seed", 7)
     until(page, "s.ghost.fan.generation > argument && s.ghost.fan.draws > 0", generation)
-    assert fan(page)["draws"] > 0
-
-
-@pytest.mark.full
-def test_without_a_posterior_the_page_says_so(open_page):
-    page = open_page(document())
-    settled(page)
-    page.get_by_role("button", name="Clear inference").click()
-    settled_by = "s.painted.method === 'none' && s.painted.generation === s.generation"
-    until(page, settled_by)
-    take(page)
+    press(page, "Clear inference")
+    until(page, "s.painted.method === 'none' && s.painted.generation === s.generation")
     until(page, "s.ghost.trouble")
     playwright.expect(page.locator(".ghosted")).to_contain_text("run inference first")

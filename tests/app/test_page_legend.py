@@ -2,57 +2,50 @@
 
 import playwright.sync_api as playwright
 import pytest
-from page_driver import END, centre, document, settled, show_layer, until
+from page_driver import END, centre, choose, click, document, press, settled, show_layer, until
 
 HEIGHTS = """() => {
   const inside = document.querySelector("[data-bayesmap]").shadowRoot;
   return [".stage", ".legend"].map((part) => inside.querySelector(part).getBoundingClientRect().height);
 }"""
+PHONE = {"has_touch": True, "is_mobile": True}
 
 
-@pytest.fixture
-def legend():
+def legend(page):
     """The legend of a page, as it is seen."""
-    return lambda page: page.get_by_role("list", name="Legend")
+    return page.get_by_role("list", name="Legend")
 
 
 @pytest.mark.parametrize("width", [1280, pytest.param(1000, marks=pytest.mark.full)])
-def test_the_map_stays_where_it_is_while_the_legend_of_a_run_grows(open_page, room, legend, width):
+def test_the_map_stays_where_it_is_while_the_legend_of_a_run_grows(open_page, room, width):
     page = open_page(room[1], viewport={"width": width, "height": 860})
-    named = legend(page)
-    heights = page.evaluate(HEIGHTS)
-    place = centre(page, 20, 10)
+    heights, place = page.evaluate(HEIGHTS), centre(page, 20, 10)
 
-    def unmoved(words):
-        playwright.expect(named.get_by_text(words)).to_be_visible()
+    def unmoved(known, words):
+        until(page, known)
+        playwright.expect(legend(page).get_by_text(words)).to_be_visible()
         assert page.evaluate(HEIGHTS) == heights
         assert centre(page, 20, 10) == place
 
-    page.get_by_role("radio", name="Path").check()
+    choose(page, "Path")
     at = page.evaluate(END, 30)
     page.mouse.move(at["x"], at["y"])
-    until(page, "s.reading.picked")
-    unmoved("predicted reading")
-    for cell in ((6, 12), (8, 15)):
-        page.mouse.click(*centre(page, *cell))
-    until(page, "s.decisions.path")
-    unmoved("as wide as the robot")
-    page.get_by_role("radio", name="Where am I?").check()
-    until(page, "s.where.found")
-    unmoved("possible pose")
-    page.get_by_role("radio", name="Look next").check()
-    until(page, "s.decisions.views")
-    unmoved("one more scan tells")
+    unmoved("s.reading.picked", "predicted reading")
+    click(page, 6, 12)
+    click(page, 8, 15)
+    unmoved("s.decisions.path", "as wide as the robot")
+    choose(page, "Where am I?")
+    unmoved("s.where.found", "possible pose")
+    choose(page, "Look next")
+    unmoved("s.decisions.views", "one more scan tells")
     page.get_by_role("checkbox", name="Draws over the mean").check()
-    until(page, "s.over")
-    unmoved("this draw")
+    unmoved("s.over", "this draw")
     show_layer(page, "Width")
-    until(page, "s.painted.layer === 'width'")
-    unmoved("width of the 90 % interval")
+    unmoved("s.painted.layer === 'width'", "width of the 90 % interval")
 
 
 @pytest.mark.full
-def test_it_stays_on_a_drawn_map_too(open_page, legend):
+def test_it_stays_on_a_drawn_map_too(open_page):
     page = open_page(document(), viewport={"width": 1000, "height": 860})
     settled(page)
     heights = page.evaluate(HEIGHTS)
@@ -60,32 +53,22 @@ def test_it_stays_on_a_drawn_map_too(open_page, legend):
         ("Where am I?", "s.where.found", "possible pose"),
         ("Look next", "s.decisions.views", "one more scan tells"),
         ("Ghost", "s.ghost.fan", "predicted reading"),
+        ("Entropy", "s.view.layer === 'entropy'", "entropy (bit)"),
     ):
-        page.get_by_role("radio", name=tool).check()
+        choose(page, tool)
         until(page, known)
         playwright.expect(legend(page).get_by_text(words)).to_be_visible()
         assert page.evaluate(HEIGHTS) == heights
-    show_layer(page, "Entropy")
-    until(page, "s.view.layer === 'entropy'")
-    assert page.evaluate(HEIGHTS) == heights
-
-
-PHONE = {"has_touch": True, "is_mobile": True}
 
 
 @pytest.mark.full
-def test_on_a_narrow_phone_the_colours_and_their_numbers_are_in_one_row(open_page, room, legend):
+def test_phones_have_colours_and_numbers_in_one_row_or_a_legend_beside_the_map(open_page, room):
     page = open_page(room[1], **PHONE, viewport={"width": 320, "height": 720})
     first = legend(page).locator("li").first
-    ramp = first.locator(".ramp").bounding_box()
-    scale = first.locator(".scale").bounding_box()
+    ramp, scale = (first.locator(part).bounding_box() for part in (".ramp", ".scale"))
     assert scale["height"] < 2 * ramp["height"]
     assert scale["x"] + scale["width"] <= 320
     assert first.locator(".scale").inner_text().split() == ["0", "1"]
-
-
-@pytest.mark.full
-def test_a_phone_in_landscape_has_a_legend_that_takes_nothing_from_the_map(open_page, room, legend):
     page = open_page(room[1], **PHONE, viewport={"width": 844, "height": 390})
     stage = page.locator(".stage").bounding_box()
     assert stage["height"] == 390
@@ -96,7 +79,7 @@ def test_a_phone_in_landscape_has_a_legend_that_takes_nothing_from_the_map(open_
 
 
 @pytest.mark.full
-def test_where_surfaces_are_too_small_to_be_drawn_it_says_so(open_page, room, legend):
+def test_where_surfaces_are_too_small_to_be_drawn_it_says_so(open_page, room):
     page = open_page(room[1], viewport={"width": 400, "height": 568})
     playwright.expect(legend(page).get_by_text("surface", exact=True)).to_be_visible()
     page.mouse.move(*centre(page, 20, 15))
@@ -105,7 +88,7 @@ def test_where_surfaces_are_too_small_to_be_drawn_it_says_so(open_page, room, le
     until(page, "s.transform.scale < 2.5")
     playwright.expect(legend(page).get_by_text("surface (zoom in)")).to_be_visible()
     playwright.expect(page.get_by_role("checkbox", name="Surfaces (zoom in)")).to_be_visible()
-    page.get_by_role("button", name="Whole map").click()
+    press(page, "Whole map")
     until(page, "s.transform.scale > 2.5")
     playwright.expect(legend(page).get_by_text("surface", exact=True)).to_be_visible()
 
@@ -129,8 +112,9 @@ def test_the_axis_s_unit_stands_apart_from_its_numbers(open_page, room):
     page.evaluate(WRITTEN)
     page.set_viewport_size({"width": 330, "height": 720})
     until(page, "window.written.some(({ text }) => text === 'm')")
-    (unit, *_) = [word for word in page.evaluate("window.written") if word["text"] == "m"]
-    numbers = [word for word in page.evaluate("window.written") if word["y"] == unit["y"] and word["text"] != "m"]
+    written = page.evaluate("window.written")
+    unit = next(word for word in written if word["text"] == "m")
+    numbers = [word for word in written if word["y"] == unit["y"] and word["text"] != "m"]
     assert len(numbers) > 2
     assert unit["left"] >= 0
     assert min(number["left"] for number in numbers) - unit["right"] > 8

@@ -11,7 +11,20 @@ import notebook_driver
 import numpy as np
 import page_driver
 import pytest
-from page_driver import DESKTOP, act, brightness_at, document, press_and_drag, settled, show_layer, snapshot, until
+from building_log import tutorial_run
+from page_driver import (
+    act,
+    brightness_at,
+    choose,
+    document,
+    press_and_drag,
+    settled,
+    show_draw,
+    show_layer,
+    snapshot,
+    undo,
+    until,
+)
 from page_socket import children
 
 import bayesmap as bm
@@ -38,7 +51,7 @@ def show(browser, tmp_path, monkeypatch):
             troubles.append(address)
 
     with contextlib.ExitStack() as stack:
-        context = stack.enter_context(contextlib.closing(browser.new_context(**DESKTOP)))
+        context = stack.enter_context(contextlib.closing(browser.new_context(**page_driver.DESKTOP)))
         context.set_default_timeout(1000 * notebook_driver.CELL_SECONDS)
 
         def shown(home, source):
@@ -75,14 +88,14 @@ def test_the_live_widget_infers_and_walls_are_drawn_on_it(show, home):
     assert not before["walls"][6:10, 12].any()
     assert brightness_at(page, 8, 12) > 200
 
-    page.get_by_role("radio", name="Draw", exact=True).check()
+    choose(page, "Draw")
     act(page, lambda: press_and_drag(page, [(6, 12), (9, 12)]))
     after = settled(page)
     drawn = after["walls"] != before["walls"]
     assert np.argwhere(drawn).tolist() == [[x, 12] for x in range(6, 10)]
     assert (after["probability"][6:10, 12] > 200).sum() >= 3
     assert brightness_at(page, 8, 12) < 100
-    act(page, lambda: page.get_by_role("button", name="Undo").click())
+    undo(page)
     assert np.array_equal(settled(page)["walls"], before["walls"])
     assert not page.get_by_role("button", name="Share").is_visible()  # a notebook's address holds no map
 
@@ -90,24 +103,14 @@ def test_the_live_widget_infers_and_walls_are_drawn_on_it(show, home):
 @pytest.mark.full
 @pytest.mark.parametrize("home", ["marimo run", "jupyterlab"])
 def test_a_finished_run_is_shown_with_its_draws(show, home, tmp_path):
-    walls, pose = bm.worlds.tutorial()
-    grid, sensor = bm.worlds.TUTORIAL_GRID, bm.Gaussian(0.2)
-    angles = np.linspace(0, 2 * np.pi, 30, endpoint=False)
-    scans = bm.simulate(walls, grid, pose, angles, sensor=sensor, max_range_m=42.0, seed=0)
-    run = bm.infer(
-        scans, grid, prior=bm.Independent(0.5), sensor=sensor, schedule=bm.Schedule(chains=2, warmup=5, draws=20)
-    )
+    run = tutorial_run()
     run.save(tmp_path / "run.nc")
-
     page = show(home, FINISHED.format(path=str(tmp_path / "run.nc")))
     until(page, "s.draws.count === 20 && s.draws.chains === 2")
     shown = snapshot(page)
     assert np.abs(shown["probability"] / 255 - run.occupancy).max() <= 0.5 / 255 + 1e-6
     show_layer(page, "One draw")
-    page.get_by_label("Chain").select_option("1")
-    page.get_by_role("slider", name="Draw number").fill("7")
-    until(page, "s.painted.layer === 'draw' && s.painted.draw === 7 && s.painted.chain === 1")
-    assert np.array_equal(snapshot(page)["probability"] > 0, run.draws[1, 7])
+    assert np.array_equal(show_draw(page, 7, chain=1) > 0, run.draws[1, 7])
     assert not page.get_by_role("button", name="Run", exact=True).is_visible()
 
 

@@ -7,7 +7,7 @@ import numpy as np
 import playwright.sync_api as playwright
 import pytest
 from click.testing import CliRunner
-from page_driver import act, fragment, served, snapshot, until, watch
+from page_driver import enter, fragment, press, run, serious, served, snapshot, until, watch
 
 from bayesmap.cli.group import cli
 from bayesmap.space.planar import between
@@ -55,18 +55,9 @@ def stages(heard):
     return [name for i, name in enumerate(names) if i == 0 or names[i - 1] != name]
 
 
-def run(page):
-    page.get_by_role("button", name="Run", exact=True).click()
-    until(page, "s.seq.confirmed === s.seq.sent")
-
-
 def done(page):
     until(page, "s.painted.method === 'gibbs' && !s.running && s.painted.sweeps >= s.document.sweeps")
     return snapshot(page)
-
-
-def few_sweeps(page):
-    act(page, lambda: page.get_by_label("Sweeps, number").fill("5") or page.keyboard.press("Tab"))
 
 
 def off_m(page, log):
@@ -90,7 +81,7 @@ def test_run_shows_every_stage_and_ends_where_the_robot_was(open_page, tmp_path,
         poses = page.get_by_label("Poses", exact=True)
         assert poses.input_value() == "odometry"
         playwright.expect(page.get_by_text("Run infers where the robot was.")).to_be_visible()
-        few_sweeps(page)
+        enter(page, "Sweeps", 5)
         before = snapshot(page)
         assert off_m(page, log) > 0.5
         assert before["painted"]["method"] == "counts"
@@ -122,10 +113,10 @@ def test_run_shows_every_stage_and_ends_where_the_robot_was(open_page, tmp_path,
 @pytest.mark.full
 def test_cancel_is_prompt_and_what_there_is_stays(raw):
     page, _, _ = raw
-    few_sweeps(page)
+    enter(page, "Sweeps", 5)
     run(page)
     until(page, "s.stage")
-    page.get_by_role("button", name="Cancel").click()
+    press(page, "Cancel")
     until(page, "!s.running && s.seq.confirmed === s.seq.sent")
     shown = snapshot(page)
     assert shown["painted"]["method"] == "counts"
@@ -138,7 +129,7 @@ def test_cancel_is_prompt_and_what_there_is_stays(raw):
 @pytest.mark.full
 def test_a_worker_that_is_killed_on_the_way_begins_anew(raw, heard):
     page, server, _ = raw
-    few_sweeps(page)
+    enter(page, "Sweeps", 5)
     run(page)
     until(page, "s.stage")
     os.kill(server.worker, signal.SIGKILL)
@@ -160,7 +151,7 @@ CONFIRMED = "s.seq.confirmed === s.seq.sent && s.painted.generation === s.genera
 @pytest.mark.full
 def test_the_choice_is_undone_and_travels_in_links(raw):
     page, _, _ = raw
-    few_sweeps(page)
+    enter(page, "Sweeps", 5)
     run(page)
     inferred = done(page)
     poses = page.get_by_label("Poses", exact=True)
@@ -169,7 +160,7 @@ def test_the_choice_is_undone_and_travels_in_links(raw):
     logged = snapshot(page)
     assert logged["document"]["grid"] != inferred["document"]["grid"]
     assert logged["probability"].shape == tuple(logged["document"]["grid"]["shape"])
-    page.get_by_role("button", name="Undo").click()
+    press(page, "Undo")
     until(page, f"s.document.poses === 'odometry' && {CONFIRMED}")
     assert snapshot(page)["document"]["grid"] == inferred["document"]["grid"]
     poses.select_option("logged")
@@ -183,11 +174,8 @@ def test_the_choice_is_undone_and_travels_in_links(raw):
 @pytest.mark.full
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 def test_it_can_be_read_in_light_and_dark(open_page, log, scheme):
-    from axe_playwright_python.sync_playwright import Axe
-
     with served(log) as (address, _):
         page = open_page(address, color_scheme=scheme, bypass_csp=True)
         run(page)
         until(page, "s.stage")
-        found = Axe().run(page).response["violations"]
-        assert [rule["id"] for rule in found if rule["impact"] in ("serious", "critical")] == []
+        assert serious(page) == []

@@ -14,48 +14,35 @@ from page_driver import (
     WAIT_SECONDS,
     act,
     centre,
+    choose,
     document,
     fragment,
     press_and_drag,
     served,
     settled,
     snapshot,
+    undo,
     until,
-)
+)  # fmt: skip
 from page_socket import serving
 
 
-def test_a_killed_worker_is_replaced_with_a_message_and_the_map_is_as_it_was(open_page, browser):
+@pytest.mark.parametrize("ended_by", [signal.SIGKILL, pytest.param(signal.SIGSTOP, marks=pytest.mark.full)])
+def test_a_killed_or_hanging_worker_is_replaced_with_a_message_and_the_map_is_as_it_was(open_page, browser, ended_by):
     with served() as (address, server):
         page = open_page(address + fragment(document()))
-        page.get_by_role("radio", name="Draw", exact=True).check()
+        choose(page, "Draw")
         act(page, lambda: press_and_drag(page, [(7, 7), (9, 7)]))
-        before = settled(page)
-        os.kill(server.worker, signal.SIGKILL)
-        page.get_by_role("alert").get_by_text("The worker stopped").wait_for()
-        until(page, "s.worker === 'ready' && s.generation > argument", before["generation"])
-        after = settled(page)
-        assert np.array_equal(after["walls"], before["walls"])
-        assert np.array_equal(after["probability"], before["probability"])
-        page.get_by_role("alert").wait_for(state="hidden")
-        act(page, lambda: page.get_by_role("button", name="Undo").click())
-
-
-@pytest.mark.full
-def test_a_worker_that_hangs_is_replaced_and_the_map_is_as_it_was(open_page, browser):
-    with served() as (address, server):
-        page = open_page(address + fragment(document()))
-        before = settled(page)
-        hanging = server.worker
-        os.kill(hanging, signal.SIGSTOP)
+        before, worker = settled(page), server.worker
+        os.kill(worker, ended_by)
         page.get_by_role("alert").get_by_text("The worker stopped").wait_for(timeout=1000 * WAIT_SECONDS)
         until(page, "s.worker === 'ready' && s.generation > argument", before["generation"])
         after = settled(page)
-        assert server.worker != hanging
+        assert server.worker != worker
+        assert np.array_equal(after["walls"], before["walls"])
         assert np.array_equal(after["probability"], before["probability"])
         page.get_by_role("alert").wait_for(state="hidden")
-        page.get_by_role("radio", name="Draw", exact=True).check()
-        act(page, lambda: press_and_drag(page, [(7, 7), (9, 7)]))
+        undo(page)
 
 
 CUT = """
@@ -73,7 +60,7 @@ CUT = """
 def test_a_lost_socket_shows_a_banner_reconnects_and_restores_what_was_drawn_meanwhile(open_page):
     page = open_page(document(walls=NO_WALLS))
     settled(page)
-    page.get_by_role("radio", name="Draw", exact=True).check()
+    choose(page, "Draw")
     page.evaluate(CUT)
     press_and_drag(page, [(4, 8), (4, 8)])
     banner = page.get_by_role("alert")
@@ -124,7 +111,7 @@ def test_after_a_restart_on_the_same_port_the_page_goes_on_with_what_was_drawn_m
         process.wait()
         port = urlsplit(address).port
         page.get_by_role("alert").get_by_text("Connection lost").wait_for()
-        page.get_by_role("radio", name="Draw", exact=True).check()
+        choose(page, "Draw")
         press_and_drag(page, [(4, 8), (8, 8)])
     with served(port=port) as (address, _):
         page.get_by_role("alert").get_by_text("started again, with another address").wait_for()
@@ -139,27 +126,7 @@ def test_after_a_restart_on_the_same_port_the_page_goes_on_with_what_was_drawn_m
 
 
 @pytest.mark.full
-def test_a_map_that_was_drawn_offline_outlives_its_tab(open_page, browser):
-    with served() as (address, server):
-        page = open_page(address + fragment(document(walls=NO_WALLS)), quiet=False)
-        settled(page)
-        server.stop()
-        page.get_by_role("alert").get_by_text("Connection lost").wait_for()
-        page.get_by_role("radio", name="Draw", exact=True).check()
-        press_and_drag(page, [(4, 8), (8, 8)])
-        other = page.context.new_page()
-        page.close()
-    with served(port=server.port) as (address, _):
-        other.goto(address)
-        until(other, "s.painted && s.walls.reduce((a, b) => a + b, 0) === 5")
-        other.get_by_role("status").get_by_text("drawn here when the connection was lost").wait_for()
-        other.goto("about:blank")
-        other.goto(address)
-        until(other, "s.painted && s.status.text === 'Ready'")  # and is kept no longer
-
-
-@pytest.mark.full
-def test_a_map_that_was_drawn_offline_waits_until_a_server_without_a_file_is_there(open_page, browser, tmp_path):
+def test_a_map_drawn_offline_waits_for_a_server_without_a_file_and_outlives_its_tab(open_page, browser, tmp_path):
     with served() as (address, server):
         page = open_page(address + fragment(document(walls=NO_WALLS, sweeps=100_000)), quiet=False)
         until(page, "s.painted.sweeps > 20")
@@ -167,7 +134,7 @@ def test_a_map_that_was_drawn_offline_waits_until_a_server_without_a_file_is_the
         page.get_by_role("alert").get_by_text("Connection lost").wait_for()
         page.get_by_text("sweeps, stopped").wait_for()  # and no time is foretold
         assert page.get_by_role("button", name="Run", exact=True).is_disabled()
-        page.get_by_role("radio", name="Draw", exact=True).check()
+        choose(page, "Draw")
         press_and_drag(page, [(4, 8), (8, 8)])
         other = page.context.new_page()
         page.close()
@@ -178,3 +145,7 @@ def test_a_map_that_was_drawn_offline_waits_until_a_server_without_a_file_is_the
     with served(port=server.port) as (address, _):
         other.goto(address)
         until(other, "s.painted && s.walls.reduce((a, b) => a + b, 0) === 5")
+        other.get_by_role("status").get_by_text("drawn here when the connection was lost").wait_for()
+        other.goto("about:blank")
+        other.goto(address)
+        until(other, "s.painted && s.status.text === 'Ready'")  # and is kept no longer

@@ -3,7 +3,7 @@
 import numpy as np
 import playwright.sync_api as playwright
 import pytest
-from page_driver import NO_WALLS, centre, document, settled, snapshot, until
+from page_driver import NO_WALLS, centre, choose, document, settled, snapshot, until
 
 PHONE = {"viewport": {"width": 390, "height": 844}, "has_touch": True, "is_mobile": True, "device_scale_factor": 2}
 
@@ -15,16 +15,20 @@ def phone(open_page):
     return page
 
 
+def fingers(page):
+    """Puts fingers on the screen, moves them, takes them off."""
+    session = page.context.new_cdp_session(page)
+
+    def touch(kind, *points):
+        touches = [{"x": x, "y": y, "id": i} for i, (x, y) in enumerate(points)]
+        session.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": touches})
+
+    return touch
+
+
 @pytest.fixture
 def touch(phone):
-    """Puts fingers on the screen, moves them, takes them off."""
-    session = phone.context.new_cdp_session(phone)
-
-    def touched(kind, *points):
-        fingers = [{"x": x, "y": y, "id": i} for i, (x, y) in enumerate(points)]
-        session.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": fingers})
-
-    return touched
+    return fingers(phone)
 
 
 def test_a_finger_draws_and_a_tap_draws_one_cell(phone, touch):
@@ -54,7 +58,7 @@ def test_two_fingers_zoom_and_draw_nothing(phone, touch):
 
 @pytest.mark.full
 def test_a_finger_moves_the_robot(phone, touch):
-    phone.get_by_role("radio", name="Sensor").check()
+    choose(phone, "Sensor")
     touch("touchStart", centre(phone, 10, 10))
     for step in (9, 7, 5):
         touch("touchMove", centre(phone, step, 10))
@@ -77,54 +81,35 @@ def test_everything_fits_and_fingers_find_it(phone):
     assert 0 < high[1] < low[1] < 844 * 0.6
 
 
-SIZES = pytest.mark.parametrize(("width", "height"), [(844, 390), (320, 640)], ids=["in landscape", "small"])
+TOOLS = ("Draw", "Pan", "Where am I?", "Ghost")
 
 
 @pytest.mark.full
-@SIZES
-def test_the_map_is_large_and_every_tool_is_there(open_page, width, height):
-    page = open_page(document(), **{**PHONE, "viewport": {"width": width, "height": height}})
+@pytest.mark.parametrize(("width", "height"), [(844, 390), (320, 640)], ids=["in landscape", "small"])
+def test_other_phones_have_a_large_map_every_tool_and_a_whole_status(open_page, room, width, height):
+    phone = {**PHONE, "viewport": {"width": width, "height": height}}
+    page = open_page(document(), **phone)
     settled(page)
     assert page.evaluate("document.documentElement.scrollWidth") <= width
-    for role, name in (
-        ("radio", "Draw"),
-        ("radio", "Pan"),
-        ("radio", "Where am I?"),
-        ("radio", "Ghost"),
-        ("button", "Whole map"),
-        ("button", "Export"),
-        ("button", "Run"),
-    ):
+    buttons = [("button", name) for name in ("Whole map", "Export", "Run")]
+    for role, name in (*[("radio", tool) for tool in TOOLS], *buttons):
         box = page.get_by_role(role, name=name, exact=True).bounding_box()
-        assert box["x"] >= 0
-        assert box["y"] >= 0
-        assert box["x"] + box["width"] <= width
-        assert box["y"] + box["height"] <= height
+        assert 0 <= box["x"] <= box["x"] + box["width"] <= width
+        assert 0 <= box["y"] <= box["y"] + box["height"] <= height
     assert 21 * snapshot(page)["transform"]["scale"] > 0.7 * min(width, height)
-
-
-@pytest.mark.full
-@SIZES
-def test_the_status_is_whole(open_page, room, width, height):
-    page = open_page(room[1], **{**PHONE, "viewport": {"width": width, "height": height}})
+    page = open_page(room[1], **phone)
     status = page.locator("footer").get_by_role("status")
     playwright.expect(status).to_have_text("Ready, but the chains have not converged")
     wide, room_for_it = status.evaluate("(status) => [status.scrollWidth, status.clientWidth]")
     assert wide <= room_for_it + 1
     playwright.expect(page.get_by_text("Touch a cell")).to_be_visible()
-
-
-@pytest.mark.full
-@SIZES
-def test_a_finger_drags_the_ghost_through_a_building(open_page, room, width, height):
-    page = open_page(room[1], **{**PHONE, "viewport": {"width": width, "height": height}})
-    assert page.evaluate("document.documentElement.scrollWidth") <= width
-    page.get_by_role("radio", name="Ghost").check()
+    choose(page, "Ghost")
     until(page, "s.ghost.fan")
-    fingers = page.context.new_cdp_session(page)
-    for kind, cell in (("touchStart", (6, 20)), ("touchMove", (10, 20)), ("touchMove", (12, 12)), ("touchEnd", None)):
-        at = [] if cell is None else [dict(zip("xy", centre(page, *cell), strict=True))]
-        fingers.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": at})
+    touch = fingers(page)
+    touch("touchStart", centre(page, 6, 20))
+    for cell in ((10, 20), (12, 12)):
+        touch("touchMove", centre(page, *cell))
+    touch("touchEnd")
     until(page, "Math.abs(s.ghost.fan.x - 2.5) < 0.05 && Math.abs(s.ghost.fan.y - 2.5) < 0.05")
     for chip in page.locator(".chip:visible").all():
         assert chip.bounding_box()["x"] + chip.bounding_box()["width"] <= width

@@ -5,10 +5,20 @@ import base64
 import numpy as np
 import playwright.sync_api as playwright
 import pytest
-from page_driver import NEXT_FRAME, act, document, settled, show_layer, snapshot, until, watch
-
-import bayesmap as bm
-from bayesmap.posterior.summary import bulk_ess
+from page_driver import (
+    NEXT_FRAME,
+    act,
+    choose,
+    document,
+    press,
+    run,
+    settled,
+    show_draw,
+    slide,
+    snapshot,
+    until,
+    watch,
+)  # fmt: skip
 
 CLOSE = {"sensors": [{"id": 1, "x": 7.0, "y": 11.0, "yaw": 0.0}], "noise": 1.0, "prior": 0.05, "method": "gibbs"}
 """A noisy sensor beside rare walls: single-site chains keep a wall at (7, 12) that is not there."""
@@ -44,34 +54,25 @@ def test_chains_that_disagree_are_called_so_and_a_click_mends_it(open_page, wall
 
 
 @pytest.mark.full
-def test_where_walls_are_rare_blocks_are_the_default(open_page):
+def test_where_walls_are_rare_blocks_are_the_default_and_the_tutorial_s_chains_are_called_converged(open_page):
     page = open_page(document(**{**CLOSE, "method": "auto"}))
     shown = settled(page)
     assert shown["painted"]["method"] == "block"
     assert shown["painted"]["verdict"]["level"] != "bad"
-    act(page, lambda: page.get_by_role("slider", name="Prior").fill("0.5"))
+    slide(page, "Prior", 0.5)
     assert settled(page)["painted"]["method"] == "gibbs"
-
-
-@pytest.mark.full
-def test_the_tutorial_s_chains_are_called_converged(page):
-    shown = settled(page)
-    assert shown["painted"]["verdict"]["level"] == "good"
+    page = open_page(document())
+    assert settled(page)["painted"]["verdict"]["level"] == "good"
     assert page.locator("dd.good").count() == 2
     assert page.locator(".verdict").inner_text().startswith("Converged")
 
 
 def test_traces_of_all_chains_are_drawn_with_axes(page):
     settled(page)
-    page.get_by_role("button", name="Run", exact=True).click()
-    until(
-        page,
-        "!s.running && s.draws.count === 1000 && s.painted.generation === s.generation && s.painted.sweeps === 1000",
-    )
+    run(page, 1000)
     painted = page.evaluate("() => { const p = bayesmap.snapshot().painted; return [[...p.trace], [...p.traced]]; }")
     trace, sweeps = np.array(painted[0]).reshape(2, -1), np.array(painted[1])
-    assert sweeps[0] == 1
-    assert sweeps[-1] == 1000
+    assert (sweeps[0], sweeps[-1]) == (1, 1000)
     assert np.array_equal(sweeps[:100], np.arange(1, 101))
     assert np.isfinite(trace).all()
     assert not np.array_equal(trace[0], trace[1])
@@ -80,8 +81,7 @@ def test_traces_of_all_chains_are_drawn_with_axes(page):
     assert apart[:-1].max() < 2 * apart[:-1].min()  # the first sweeps no denser than the rest
     assert len(apart) > 200
     canvas = page.locator(".chart canvas").first
-    box = canvas.bounding_box()
-    assert box["width"] > 200
+    assert canvas.bounding_box()["width"] > 200
     inked = """(canvas) => {
       const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
       const near = (i, r, g, b) => data[i + 3] > 100 && Math.hypot(data[i] - r, data[i + 1] - g, data[i + 2] - b) < 60;
@@ -90,56 +90,34 @@ def test_traces_of_all_chains_are_drawn_with_axes(page):
       return [blue, orange];
     }"""
     assert min(canvas.evaluate(inked)) > 20  # a line a chain
-    page.get_by_role("radio", name="First 50").check()
+    choose(page, "First 50")
     page.evaluate(NEXT_FRAME)
     assert drawn.get_attribute("data-sweeps") == ",".join(map(str, range(1, 51)))
     assert min(page.locator(".chart canvas").first.evaluate(inked)) > 20
 
 
 @pytest.mark.full
-def test_effective_draws_are_those_of_the_whole_trace(open_page):
-    page = open_page(document(sweeps=4000))
-    page.get_by_role("button", name="Run", exact=True).click()
-    until(page, "!s.running && s.draws.count === 4000 && s.painted.sweeps === 4000")
-    page.get_by_role("button", name="Export").click()
-    with page.expect_download() as waiting:
-        page.get_by_role("button", name="Saved run").click()
-    path = waiting.value.path().with_suffix(".nc")
-    waiting.value.save_as(path)
-    log_joint = bm.load(path).log_joint
-    assert log_joint.shape == (2, 4000)
-    assert snapshot(page)["painted"]["ess"] == pytest.approx(bulk_ess(log_joint), rel=0.01)
-
-
-@pytest.mark.full
 def test_from_the_empty_map_the_first_sweeps_can_be_watched(open_page):
     page = open_page(document(start="empty", sweeps=30))
-    page.get_by_role("button", name="Run", exact=True).click()
-    until(page, "!s.running && s.draws.count === 30 && s.painted.generation === s.generation")
-    mean = snapshot(page)["probability"] > 128
+    run(page, 30)
+    shown = snapshot(page)
+    mean, observed = shown["probability"] > 128, shown["observed"] > 0
     page.get_by_label("Speed").select_option("30")
     watch(page, "s.painted.layer === 'draw' ? s.painted.draw : -1")
-    page.get_by_role("button", name="From the first sweep").click()
+    press(page, "From the first sweep")
     until(page, "s.painted.layer === 'draw' && s.painted.draw === 29 && window.seen.includes(0)")
-    observed = snapshot(page)["observed"] > 0
-
-    def wrong(draw):
-        page.get_by_role("slider", name="Draw number").fill(str(draw))
-        until(page, f"s.painted.layer === 'draw' && s.painted.draw === {draw}")
-        return int(((snapshot(page)["probability"] > 128) != mean)[observed].sum())
-
-    assert wrong(29) <= wrong(0)
-    show_layer(page, "Mean")
+    last, first = (int(((show_draw(page, draw) > 128) != mean)[observed].sum()) for draw in (29, 0))
+    assert last <= first
 
 
 def test_importance_sampling_shows_its_weights(open_page):
     page = open_page(document(method="importance", sweeps=5000))
-    page.get_by_role("button", name="Run", exact=True).click()
+    run(page)
     until(page, "!s.running && s.painted.method === 'importance' && s.painted.sweeps === 5000")
     counts = page.evaluate("[...bayesmap.snapshot().painted.weights]")
     assert sum(counts) == 5000
     assert counts[-1] >= 1
     assert snapshot(page)["painted"]["verdict"]["level"] == "bad"
     page.get_by_role("img", name="Histogram of the particles").wait_for()
-    act(page, lambda: page.get_by_role("button", name="Not converged: try Gibbs").click())
+    act(page, lambda: press(page, "Not converged: try Gibbs"))
     assert settled(page)["painted"]["method"] == "gibbs"
