@@ -10,8 +10,7 @@ from msgspec import structs
 
 from bayesmap.app.edits import tutorial_document
 from bayesmap.app.protocol.actions import FindPath, FindViews
-from bayesmap.app.protocol.document import Refused, packed
-from bayesmap.app.protocol.wire import check
+from bayesmap.app.protocol.document import packed
 from bayesmap.posterior.decisions import path_is_free
 
 DOCUMENT = replace(tutorial_document(), sweeps=300)
@@ -70,13 +69,3 @@ def test_questions_change_nothing():
     acted.act("views")
     assert acted.session.generation == before
     assert acted.asked == [(1, FindPath((0.0, 0.0), (1.5, 2.0), 0.2, 0.1)), (1, FindViews())]
-
-
-@pytest.mark.parametrize(
-    "change",
-    [{"start": [0]}, {"goal": "here"}, {"goal": [0, float("inf")]}, {"radius": 0}, {"risk": 1}, {"risk": None}],
-)
-def test_a_question_that_is_none_is_refused(change):
-    message = {"type": "path", "start": [0, 0], "goal": [1, 2], "radius": 0.2, "risk": 0.1, **change}
-    with pytest.raises(Refused):
-        check(message)

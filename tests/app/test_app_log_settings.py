@@ -11,9 +11,9 @@ from building_log import ANGLES, room_scans
 import bayesmap as bm
 from bayesmap.app.edits import new_document
 from bayesmap.app.protocol.actions import MoveGhost, ShowScan
-from bayesmap.app.protocol.document import Refused, Source
+from bayesmap.app.protocol.document import Source
 from bayesmap.app.protocol.notices import View
-from bayesmap.app.protocol.wire import check, parse_document
+from bayesmap.app.protocol.wire import parse_document
 from bayesmap.app.scene import hits
 from bayesmap.app.shown.hit_maps import HitCounts, coarse_map
 from bayesmap.app.sources import OpenedLog, first_beams, opened_log
@@ -39,12 +39,11 @@ def acted(log):
 def test_a_new_map_where_a_log_was_opened_has_its_own_readings(log):
     """Not those of the log, on the new map's cells."""
     new = replace(new_document("tutorial", (21, 21), log.document), sweeps=5)
-    here, elsewhere = Heard(log), Heard()
+    here = Heard(log)
     here.infer(replace(log.document, sweeps=2))
-    (_, found), (_, expected) = here.infer(new), elsewhere.infer(new)
+    (_, found), (_, expected) = here.infer(new), Heard().infer(new)
     assert here.last("scan")[1]["ranges"].shape == (1, len(ANGLES))
-    for name in ("p", "observed"):
-        assert np.array_equal(found[name], expected[name])
+    assert all(np.array_equal(found[name], expected[name]) for name in ("p", "observed"))
     assert here.infer(replace(log.document, sweeps=2))[1]["p"].shape == log.document.grid.shape  # and back
 
 
@@ -75,12 +74,10 @@ def test_a_page_that_comes_after_the_log_was_left_is_sent_no_trajectory(acted):
     assert "overlay" not in sent()
 
 
-def test_cells_that_are_too_small_are_refused_with_the_least_size(acted, log):
-    acted.act("set", patch={"resolution": 0.02})
-    if max(Grid.covering(log.scans, 0.02).shape) <= 1000:
-        huge = replace(log.document.source, bounds=((0.0, 0.0), (200.0, 10.0)))
-        acted = Acted(replace(log.document, source=huge))
-        acted.act("set", patch={"resolution": 0.1})
+def test_cells_that_are_too_small_are_refused_with_the_least_size(log):
+    huge = replace(log.document.source, bounds=((0.0, 0.0), (200.0, 10.0)))
+    acted = Acted(replace(log.document, source=huge))
+    acted.act("set", patch={"resolution": 0.1})
     assert "more than 1000 a side" in acted.text
     assert "give at least 0.200 m" in acted.text
     assert acted.session.document.grid.resolution == 0.1
@@ -114,12 +111,7 @@ def test_a_drag_along_the_log_is_coarse_and_one_step_and_letting_go_samples(acte
     acted.picture()
     acted.act("redo")
     assert acted.session.document.scans_used == 4
-
-
-def test_all_scans_is_no_setting(acted, log):
-    acted.act("set", patch={"scans_used": 12})
-    assert acted.session.document == log.document
-    acted.act("set", patch={"scans_used": None})
+    acted.act("set", patch={"scans_used": 12})  # all scans is no setting
     assert acted.session.document == log.document
 
 
@@ -140,12 +132,6 @@ def test_a_link_to_the_same_log_takes_both_along(acted, log):
     strange = {**linked, "grid": {**linked["grid"], "origin": [0.0, 0.0]}}
     acted.act("hello", document={**strange, "walls": ""})
     assert "this server shows" in acted.text
-
-
-@pytest.mark.parametrize("patch", [{"scans_used": 0}, {"scans_used": 1.5}, {"resolution": 0}, {"resolution": "fine"}])
-def test_what_is_no_number_of_scans_and_no_size_is_refused(patch):
-    with pytest.raises(Refused):
-        check({"type": "set", "seq": 1, "patch": patch})
 
 
 # The worker

@@ -19,50 +19,37 @@ def walls_of(acted):
     return acted.session.document.is_wall
 
 
-def test_hello_is_answered_by_the_state_and_what_was_seen_last():
+def test_hello_is_answered_by_the_state_and_what_was_seen_last_and_a_document_is_adopted():
     acted = Acted()
     acted.hear("scan", 1)
     acted.picture()
     assert [m["type"] for m in acted.act("hello", client=2)] == ["state", "scan", "field"]
-
-
-def test_hello_with_a_document_adopts_it():
-    acted = Acted()
     document = new_document("blank", (5, 7), tutorial_document())
     acted.act("hello", document=document.to_json())
-    assert acted.session.document == document
-    assert acted.inferred[-1].document == document
+    assert acted.session.document == acted.inferred[-1].document == document
     generation = acted.session.generation
     acted.act("hello", document=document.to_json())  # the same again, as after a lost connection
     assert acted.session.generation == generation
 
 
-def test_a_link_to_the_file_on_show_brings_its_settings_and_nothing_else():
+def test_a_link_to_the_file_on_show_brings_its_settings_and_another_is_answered_by_what_to_start():
     acted = Acted(of_a_log())
     generation = acted.session.generation
-    acted.act("hello", document=json_of(acted.session.document))
+    own = {**of_a_log().to_json(), "walls": ""}
+    acted.act("hello", document=own)
     assert acted.session.generation == generation
-    acted.act("hello", document={**json_of(acted.session.document), "prior": 0.25, "max_range": 7.0})
+    acted.act("hello", document={**own, "prior": 0.25, "max_range": 7.0})
     assert acted.session.document == replace(of_a_log(), prior=0.25)
-
-
-@pytest.mark.parametrize("brought", ["another log", "a drawn map"])
-def test_a_link_to_something_else_is_answered_by_what_to_start(brought):
-    acted = Acted(of_a_log())
-    document = tutorial_document() if brought == "a drawn map" else of_a_log("other.log")
-    answers = acted.act("hello", document=json_of(document))
-    assert [m["type"] for m in answers] == ["status", "state"]
-    assert ("other.log" if brought == "another log" else "without a file") in acted.text
-    assert acted.session.document == of_a_log()
+    other = {**of_a_log("other.log").to_json(), "walls": ""}
+    for brought, named in ((other, "other.log"), (tutorial_document().to_json(), "without a file")):
+        assert [m["type"] for m in acted.act("hello", document=brought)] == ["status", "state"]
+        assert named in acted.text
+        assert acted.session.document == replace(of_a_log(), prior=0.25)
 
 
 def of_a_log(name="office.log"):
     drawn = tutorial_document()
     return replace(drawn, walls=no_walls(drawn.grid), sensors=(), source=Source("log", name, 9))
-
-
-def json_of(document):
-    return {**document.to_json(), "walls": ""} if not document.simulated else document.to_json()
 
 
 def test_a_stroke_or_a_drag_is_one_step_of_undo():
@@ -102,16 +89,13 @@ def test_a_sensor_cannot_go_into_a_wall_or_outside(x, y, named):
     assert acted.state["seq"] == acted.seq
 
 
-def test_a_wall_over_a_sensor_is_drawn_but_for_its_cell():
-    acted = Acted()
-    acted.picture()
-    acted.act("walls", cells=[[9, 10], [10, 10], [11, 10]], wall=True, stroke=1)
-    assert "(10, 10)" in acted.text
-    assert walls_of(acted)[9:12, 10].tolist() == [True, False, True]
-
-
-def test_sensors_are_added_up_to_the_limit_and_removed_down_to_one():
+def test_walls_spare_sensors_which_are_added_up_to_the_limit_and_removed_down_to_one():
     acted = Acted(new_document("blank", (40, 40), tutorial_document()))
+    acted.picture()
+    ((x, y),) = acted.session.document.sensor_cells()
+    acted.act("walls", cells=[[x - 1, y], [x, y], [x + 1, y]], wall=True, stroke=1)
+    assert f"({x}, {y})" in acted.text
+    assert walls_of(acted)[x - 1 : x + 2, y].tolist() == [True, False, True]
     for i in range(40):
         acted.act("add_sensor", x=i % 30, y=3)
     assert len(acted.session.document.sensors) == 32
@@ -192,27 +176,19 @@ def test_strokes_that_wait_lose_no_cell_and_anything_else_applies_what_waits_fir
     assert acted.inferred[-1].document.prior == 0.2
 
 
-def test_run_keeps_draws_until_the_next_edit():
-    acted = Acted()
-    acted.act("run")
-    assert acted.inferred[-1].mode == "run"
-    assert acted.state["running"]
-    acted.picture()
-    acted.hear("finished", acted.session.generation, draws={"chains": 2, "count": 1000})
-    assert not acted.state["running"]
-    assert acted.state["draws"] == {"chains": 2, "count": 1000}
-    acted.act("set", patch={"prior": 0.1})
-    assert acted.state["draws"] == {"chains": 0, "count": 0}
-
-
-def test_the_state_says_whether_the_picture_is_to_change_yet():
+def test_run_keeps_draws_until_the_next_edit_and_the_state_says_whether_the_picture_will_change():
     acted = Acted()
     for kind, fields in (("run", {}), ("set", {"patch": {"prior": 0.1}})):  # live chains are no run
         acted.act(kind, **fields)
+        assert acted.inferred[-1].mode == ("run" if kind == "run" else "live")
+        assert acted.state["running"] == (kind == "run")
+        assert acted.state["draws"] == {"chains": 0, "count": 0}
         acted.picture()
         assert acted.session.working
-        acted.hear("finished", acted.session.generation, draws={"chains": 0, "count": 0})
+        acted.hear("finished", acted.session.generation, draws={"chains": 2, "count": 1000})
         assert not acted.state["working"]
+        assert not acted.state["running"]
+        assert acted.state["draws"] == {"chains": 2, "count": 1000}
     acted.act("run")
     acted.hear("failed", acted.session.generation, text="no")
     assert not acted.state["working"]
@@ -220,13 +196,16 @@ def test_the_state_says_whether_the_picture_is_to_change_yet():
     assert not acted.state["working"]
 
 
-def test_cancel_lets_waiting_edits_go_on():
+@pytest.mark.parametrize("ended", ["finished", "failed"])
+def test_a_job_that_is_cancelled_or_fails_lets_waiting_edits_go_on(ended):
     acted = Acted()
     acted.act("move_sensor", id=1, x=10.3, y=10, drag=1)
     acted.act("cancel")  # which applies what waits, and so begins a picture
     acted.act("move_sensor", id=1, x=10.4, y=10, drag=1)
-    acted.hear("finished", acted.session.generation, draws={"chains": 0, "count": 0})
+    told = {"text": "too many beams"} if ended == "failed" else {"draws": {"chains": 0, "count": 0}}
+    acted.hear(ended, acted.session.generation, **told)
     assert acted.inferred[-1].document.sensors[0].x == 10.4
+    assert ("too many beams" in [m.get("text") for m in acted.sent]) == (ended == "failed")
 
 
 def test_questions_go_to_the_worker():
@@ -296,20 +275,12 @@ def test_a_worker_that_died_is_given_everything_again():
     assert acted.tasks[-2] == Show(1, View("entropy"))
 
 
-def test_a_failure_of_the_worker_is_told_and_what_waits_goes_on():
-    acted = Acted()
-    acted.act("move_sensor", id=1, x=10.3, y=10, drag=1)
-    acted.hear("failed", 1, text="too many beams")
-    assert "too many beams" in [m.get("text") for m in acted.sent]
-    assert acted.inferred[-1].document.sensors[0].x == 10.3
-
-
 def test_a_scan_of_a_file_can_be_chosen():
-    acted = Acted(replace(tutorial_document(), source=Source("log", "office.log", 3)))
+    acted = Acted(of_a_log())
     acted.act("scan", index=2)
     assert acted.tasks[-1].index == 2
-    acted.act("scan", index=3)
-    assert "no scan 3" in acted.text
+    acted.act("scan", index=9)
+    assert "no scan 9" in acted.text
     acted.act("walls", cells=[[0, 0]], wall=True, stroke=1)
     acted.picture()
     assert "cannot be edited" in acted.text

@@ -292,55 +292,41 @@ MOST_UNPAINTED = 2
 
 @dataclass(frozen=True)
 class History(Generic[T]):
-    """States before and after the present one.
+    """States before and after the present one, each with the author of the step between it and the next.
 
     Attributes:
         present: the present state.
         past: earlier states, the latest last.
         future: undone states, the next to redo last.
         gesture: the stroke or drag of the last step, or None where the step stands alone.
-        authors: who made the step from each past state on, the latest last.
-        undone: who made each undone step, the next to redo last.
     """
 
     present: T
-    past: tuple[T, ...] = ()
-    future: tuple[T, ...] = ()
+    past: tuple[tuple[T, Hashable], ...] = ()
+    future: tuple[tuple[T, Hashable], ...] = ()
     gesture: Hashable = None
-    authors: tuple[Hashable, ...] = ()
-    undone: tuple[Hashable, ...] = ()
-
-    @property
-    def undoes(self) -> Hashable:
-        """The author of the step that is undone next; None where there is none."""
-        return self.authors[-1] if self.authors else None
-
-    @property
-    def redoes(self) -> Hashable:
-        """The author of the step that is redone next; None where there is none."""
-        return self.undone[-1] if self.undone else None
 
     def push(self, state: T, gesture: Hashable = None, author: Hashable = None) -> History[T]:
         """Return the history with another state, which replaces the present one where both are of one gesture."""
         if state == self.present:
             return self
         if gesture is not None and gesture == self.gesture:
-            return replace(self, present=state, future=(), undone=())
-        return History(state, (*self.past, self.present)[-DEPTH:], (), gesture, (*self.authors, author)[-DEPTH:])
+            return replace(self, present=state, future=())
+        return History(state, (*self.past, (self.present, author))[-DEPTH:], (), gesture)
 
     def undo(self) -> History[T]:
         """Return the history one step back; this history where there is none."""
         if not self.past:
             return self
-        future, undone = (*self.future, self.present), (*self.undone, self.undoes)
-        return History(self.past[-1], self.past[:-1], future, None, self.authors[:-1], undone)
+        *past, (state, author) = self.past
+        return History(state, tuple(past), (*self.future, (self.present, author)))
 
     def redo(self) -> History[T]:
         """Return the history one step forth; this history where there is none."""
         if not self.future:
             return self
-        past, authors = (*self.past, self.present)[-DEPTH:], (*self.authors, self.redoes)[-DEPTH:]
-        return History(self.future[-1], past, self.future[:-1], None, authors, self.undone[:-1])
+        *future, (state, author) = self.future
+        return History(state, (*self.past, (self.present, author))[-DEPTH:], tuple(future))
 
 
 class Pace:

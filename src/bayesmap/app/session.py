@@ -6,6 +6,7 @@ merged (`bayesmap.app.edits.Pace`). So a fast hand sees every picture that there
 
 from __future__ import annotations
 
+from collections.abc import Hashable
 from dataclasses import dataclass, field, replace
 from typing import Literal, get_args
 
@@ -32,6 +33,7 @@ class ToPage:
 
 Effect = ToPage | tasks.Task
 Effects = list[Effect]
+Steps = tuple[tuple[Document, Hashable], ...]
 
 
 class Session:
@@ -122,9 +124,9 @@ class Session:
             case actions.Clear(what="inference"):
                 return self._restart("clear")
             case actions.Undo():
-                return self._step(client, self.history.undo(), self.history.undoes, "undo")
+                return self._step(client, self.history.undo(), self.history.past, "undo")
             case actions.Redo():
-                return self._step(client, self.history.redo(), self.history.redoes, "redo")
+                return self._step(client, self.history.redo(), self.history.future, "redo")
             case actions.Run():
                 if self.document.source.kind == "run":
                     raise Refused("a saved run is shown as it is", "begin a new map to run inference")
@@ -187,15 +189,13 @@ class Session:
         effects.append(self._state(client))
         return effects + [replace(self._last[kind], client=client) for kind in REPLAYED if kind in self._last]
 
-    def _may_step(self, client: int, author: object) -> bool:
-        """Return whether a step is this page's, or of a page that has gone."""
-        return author == client or author not in self._seqs
+    def _may_step(self, client: int, steps: Steps) -> bool:
+        """Return whether the last of some steps is this page's, or of a page that has gone."""
+        return bool(steps) and (steps[-1][1] == client or steps[-1][1] not in self._seqs)
 
-    def _step(self, client: int, history: History[Document], author: object, name: str) -> Effects:
-        if history is self.history:
-            return [_status(f"nothing to {name}", "info", client), *self._states()]
-        if not self._may_step(client, author):
-            text = f"the last step was made in another tab: {name} it there"
+    def _step(self, client: int, history: History[Document], steps: Steps, name: str) -> Effects:
+        if not self._may_step(client, steps):
+            text = f"the last step was made in another tab: {name} it there" if steps else f"nothing to {name}"
             return [_status(text, "info", client), *self._states()]
         self.history = history
         return self._restart()
@@ -287,8 +287,7 @@ class Session:
         """Return the present state for one page."""
         state = notices.State(
             document=self.document, generation=self.generation, seq=self._seqs.get(client, 0),
-            can_undo=bool(self.history.past) and self._may_step(client, self.history.undoes),
-            can_redo=bool(self.history.future) and self._may_step(client, self.history.redoes),
+            can_undo=self._may_step(client, self.history.past), can_redo=self._may_step(client, self.history.future),
             live=self.live, running=self.running, working=self.working, draws=self.draws, scan=self.scan,
             view=self._views.get(client, notices.View("mean")),
         )  # fmt: skip

@@ -1,4 +1,4 @@
-"""Tasks of the session for the worker, and what the worker reports: plain data for a pipe."""
+"""Tasks of the session for the worker, and the worker's reports: plain data for a pipe."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from bayesmap.app.protocol.notices import AnyNotice, DrawCount, View
 from bayesmap.space.grid import Grid
 
 ALIVE_SECONDS = 1.0
-"""From one sign of life of the worker to the next."""
+"""The time between two signs of life of the worker."""
 
 Mode = Literal["coarse", "preview", "live", "run", "clear"]
 Buffers = Mapping[str, NDArray[Any] | bytes]
@@ -25,11 +25,11 @@ class Infer(Struct, frozen=True):
     """Begin a new generation; it takes the place of whatever the worker does.
 
     Attributes:
-        generation: what every answer carries.
-        document: what to infer from.
+        generation: the number that every answer carries.
+        document: the document to infer from.
         mode: "coarse": counts of hits alone, of a log; "preview": belief propagation alone; "live": then chains;
             "run": the document's method from the prior, draws kept; "clear": back to the prior.
-        scan: whose rays are shown, for a file.
+        scan: the scan whose rays are shown, for a file.
     """
 
     generation: int
@@ -39,25 +39,25 @@ class Infer(Struct, frozen=True):
 
 
 class Ask(Struct, frozen=True):
-    """A page's question, or its wish for a file."""
+    """Answer the question of a page, or make a file for it."""
 
     client: int
     question: Question | Export
 
 
 class Show(Struct, frozen=True):
-    """Which field a page is sent from now on; one is sent at once."""
+    """Send a page the field of another view, at once and from now on."""
 
     client: int
     view: View
 
 
 class Remember(Struct, frozen=True, eq=False):
-    """The trajectory that an earlier worker has inferred of the log.
+    """Take over the trajectory that an earlier worker inferred of the log.
 
     Attributes:
-        poses: of all scans, in the order of the log, (S, 3).
-        angles_rad: of the beams, as they were found, (A,), or (S, A) where they differ from scan to scan.
+        poses: the poses of all scans, in the order of the log, (S, 3).
+        angles_rad: the inferred angles of the beams, (A,), or (S, A) where they differ from scan to scan.
     """
 
     poses: NDArray[Any]
@@ -68,7 +68,7 @@ Task: TypeAlias = Infer | Cancel | Show | ShowScan | Ask | Remember
 
 
 class OfJob(Struct, frozen=True, kw_only=True):
-    """A signal of the worker's for the session: `generation` is the job's."""
+    """A signal of the worker for the session: `generation` is that of the job."""
 
     generation: int
 
@@ -80,13 +80,13 @@ class Ready(Struct, frozen=True):
 
 
 class OnGrid(OfJob, frozen=True):
-    """From now on the map has other cells."""
+    """The map has other cells from now on."""
 
     grid: Grid
 
 
 class Located(OfJob, frozen=True, eq=False):
-    """The trajectory of the log is known; without one it is forgotten."""
+    """The trajectory of the log is known, or forgotten where it is None."""
 
     trajectory: Remember | None
 
@@ -118,12 +118,12 @@ Signal: TypeAlias = Ready | OnGrid | Located | Finished | Failed | Alive | Unusa
 
 @dataclass(frozen=True)
 class Report:
-    """What the worker says: a notice for pages, or a signal.
+    """A report of the worker: a notice for pages, or a signal.
 
     Attributes:
         message: the notice or signal.
         buffers: arrays by name.
-        client: the page that asked, where it is for one page alone.
+        client: the page that asked, where the report is for one page alone.
     """
 
     message: AnyNotice | Signal

@@ -1,4 +1,4 @@
-"""Messages on the wire: what anybody may have sent is read, or refused by name; arrays travel in frames."""
+"""Messages on the wire: reads what a page sends, or refuses it by name, and frames messages with their arrays."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ T = TypeVar("T")
 
 
 def parse(data: str | bytes) -> AnyAction:
-    """Read a message of the page; fields that are not known are left out.
+    """Read a message of the page, without fields that are not known.
 
     Raises:
         Refused: too long, not JSON, of no known type, or with a field that does not fit.
@@ -41,7 +41,7 @@ def parse(data: str | bytes) -> AnyAction:
 
 
 def check(value: object) -> AnyAction:
-    """Read a message that is JSON values already.
+    """Read a message that is JSON values.
 
     Raises:
         Refused: see `parse`.
@@ -114,7 +114,7 @@ def converted(value: object, kind: type[T], place: str = "") -> T:
 
 
 def _explained(text: str, value: Any, kind: inspect.Type, place: str) -> Refused:
-    """Say in words of the page what is wrong: "noise (m): 7 is not a number from 0 to 5"."""
+    """Explain an error in the words of the page: "noise (m): 7 is not a number from 0 to 5"."""
     what, _, path = text.partition(" - at `$")
     if not re.match("Expected|Invalid|Object|Number|Integer", what):
         return Refused(what)  # by a type's own check
@@ -146,7 +146,7 @@ def _item(kind: inspect.Type, step: str | int) -> inspect.Type:
 
 
 def _plain(kind: inspect.Type) -> inspect.Type:
-    """Return a type without its title, and and without null as another choice."""
+    """Return a type without its title, and without null as another choice."""
     if isinstance(kind, inspect.Metadata):
         return _plain(kind.type)
     if isinstance(kind, inspect.UnionType):
@@ -161,7 +161,7 @@ def _title(kind: inspect.Type) -> str:
 
 
 def _described(kind: inspect.Type) -> str:
-    """Say what would fit."""
+    """Describe the values of a type in words."""
     kind = _plain(kind)
     if isinstance(kind, inspect.IntType | inspect.FloatType):
         most = kind.le if kind.lt is None else kind.lt - 1
@@ -213,7 +213,7 @@ def with_arrays(message: object, buffers: Buffers) -> tuple[dict[str, Any], list
 
 
 def unframe(data: bytes) -> tuple[dict[str, Any], dict[str, NDArray[Any]]]:
-    """Take apart what `frame` made of a message with buffers."""
+    """Return the message and the buffers of a binary frame."""
     (length,) = struct.unpack_from("<I", data)
     header = json.loads(data[4 : 4 + length])
     at = 4 + length
