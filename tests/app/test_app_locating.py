@@ -190,13 +190,13 @@ def test_trouble_of_the_inference_is_reported():
 def test_the_same_log_gives_the_same_bits_again_and_scans_stay_in_its_order(found):
     shuffled = np.random.default_rng(3).permutation(len(raw_scans()))
     scans = raw_scans().select(shuffled)
-    job = TrajectoryJob(scans, raw_log().document.grid)
-    looks = [look for look in job.looks() if look is not None]
+    job = TrajectoryJob(Infer(1, few_sweeps(), "run"), scans, raw_log().document.grid)
+    steps = [step for step in job.steps() if step is not None]
     last = along(scans, job.found)
     assert np.array_equal(in_time(scans), np.argsort(scans.stamps_s))
     assert np.array_equal(last.stamps_s, scans.stamps_s)
     assert np.array_equal(last.poses, found.engine._localization.placed.scans.poses[shuffled])
-    assert np.array_equal(looks[-1].scans.poses, last.poses)
+    assert np.array_equal(steps[-1].result.scene.scans.poses, last.poses)
 
 
 def test_the_map_only_grows_and_on_the_same_lattice():

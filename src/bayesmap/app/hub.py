@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 import itertools
 from collections import deque
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any
 
 from bayesmap.app.protocol.document import Document, Refused
@@ -54,7 +54,9 @@ class Hub:
         self.session = Session(document)
         self.pictured = asyncio.Event()
         self._loop = asyncio.get_running_loop()
-        self._supervisor = Supervisor(self._on_thread, self._lost_on_thread, path, reading=reading)
+        self._supervisor = Supervisor(
+            self._from_thread(self._hear), self._from_thread(self._lost), path, reading=reading
+        )
         self._pages: dict[int, Outbox] = {}
         self._numbers = itertools.count(1)
         self._unusable: str | None = None
@@ -117,12 +119,14 @@ class Hub:
         if isinstance(report.message, Field | Failed):
             self.pictured.set()
 
-    def _on_thread(self, report: Report) -> None:
-        self._from_thread(self._hear, report)
+    def _lost(self) -> None:
+        self._do(self.session.worker_lost())
 
-    def _lost_on_thread(self) -> None:
-        self._from_thread(lambda: self._do(self.session.worker_lost()))
+    def _from_thread(self, call: Callable[..., None]) -> Callable[..., None]:
+        """Return a function for other threads that calls one on the loop."""
 
-    def _from_thread(self, call: Any, *arguments: Any) -> None:
-        if not self._loop.is_closed():
-            self._loop.call_soon_threadsafe(call, *arguments)
+        def later(*arguments: Report) -> None:
+            if not self._loop.is_closed():
+                self._loop.call_soon_threadsafe(call, *arguments)
+
+        return later

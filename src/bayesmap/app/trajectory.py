@@ -47,24 +47,30 @@ STAGES = {
 
 
 @dataclass(frozen=True, eq=False)
-class PathSoFar:
-    """The trajectory as far as it is known.
+class Step:
+    """A step of the inference that pages are shown.
 
     Attributes:
-        stage: name of the stage, one of `STAGES`.
-        done: steps of the stage that are done.
-        of: all steps of the stage.
-        scans: the scans at their present poses, in the order of the log.
         grid: the grid of the map.
-        counted: the map along these poses.
+        result: the map along the poses so far.
+        stage: progress of the inference, or None while nothing is inferred.
+        text: text for the status line, or empty.
     """
 
-    stage: str
-    done: int
-    of: int
-    scans: Scans
     grid: Grid
-    counted: Counted
+    result: Result
+    stage: Stage | None = None
+    text: str = ""
+
+
+def _step(task: Infer, scans: Scans, grid: Grid, counted: Counted, at: tuple[str, int, int] | None, text: str) -> Step:
+    scene = scene_along(scans, grid, task.document.prior)
+    result = Result(scene, task.document.on_grid(grid), "counts", counted)
+    stage = None
+    if at is not None:
+        name, done, of = at
+        stage = Stage(name, STAGES[name], done, of, generation=task.generation)
+    return Step(grid, result, stage, text)
 
 
 class Stopped(Exception):
@@ -81,12 +87,12 @@ class TrajectoryJob:
 
     _last: threading.Thread | None = None  # the thread of the process's last job
 
-    def __init__(self, scans: Scans, grid: Grid) -> None:
+    def __init__(self, task: Infer, scans: Scans, grid: Grid) -> None:
         self.found: Trajectory | None = None
         self.trouble: BaseException | None = None
-        self._scans, self._grid = scans, grid
+        self._task, self._scans, self._grid = task, scans, grid
         self._in_time = in_time(scans)
-        self._looks: queue.SimpleQueue[PathSoFar] = queue.SimpleQueue()
+        self._steps: queue.SimpleQueue[Step] = queue.SimpleQueue()
         self._stop = threading.Event()
         self._told, self._done, self._of, self._next = "", 0, 1, 0.0
         self._before = TrajectoryJob._last
@@ -98,7 +104,7 @@ class TrajectoryJob:
         """End the job at its next sign of progress."""
         self._stop.set()
 
-    def looks(self) -> Generator[PathSoFar | None, None, None]:
+    def steps(self) -> Generator[Step | None, None, None]:
         """Yield pictures as they come, and None while there is none, until the job has ended.
 
         Raises:
@@ -108,7 +114,7 @@ class TrajectoryJob:
             while True:
                 alive = self._thread.is_alive()
                 try:
-                    yield self._looks.get(timeout=WAIT_SECONDS)
+                    yield self._steps.get(timeout=WAIT_SECONDS)
                 except queue.Empty:
                     if not alive:
                         break
@@ -144,10 +150,11 @@ class TrajectoryJob:
         began = time.monotonic()
         if stage == self._told and stage != "loops" and began < self._next:
             return
-        self._told = stage
+        text, self._told = "" if stage == self._told else STAGES[stage], stage
         scans = self._scans.at(poses[np.argsort(self._in_time)])
         self._grid = grown(self._grid, scans)
-        self._looks.put(PathSoFar(stage, self._done, self._of, scans, self._grid, counted_map(scans, self._grid)))
+        counted, at = counted_map(scans, self._grid), (stage, self._done, self._of)
+        self._steps.put(_step(self._task, scans, self._grid, counted, at, text))
         now = time.monotonic()
         self._next = now + max(PICTURE_SECONDS, (now - began) / PICTURE_SHARE)
 
@@ -173,23 +180,6 @@ def summary(scans: Scans, found: Trajectory) -> str:
     return (
         f"Trajectory inferred: odometry was off by up to {moved_m:.1f} m; loop closures: {len(found.closures)}{doubt}"
     )
-
-
-@dataclass(frozen=True, eq=False)
-class Step:
-    """A step of the inference that pages are shown.
-
-    Attributes:
-        grid: the grid of the map.
-        result: the map along the poses so far.
-        stage: progress of the inference, or None while nothing is inferred.
-        text: text for the status line, or empty.
-    """
-
-    grid: Grid
-    result: Result
-    stage: Stage | None = None
-    text: str = ""
 
 
 class Localization:
@@ -234,15 +224,9 @@ class Localization:
     def _infer(self, task: Infer) -> Generator[Step | Located | Status | None, None, None]:
         scans, grid = self.log.scans, self.log.on_cells(task.document).grid
         yield _step(task, scans, grid, counted_map(scans, grid), ("reading", 0, 1), STAGES["reading"])
-        job, named = TrajectoryJob(scans, grid), ""
-        with closing(job.looks()) as looks:
-            for look in looks:
-                if look is None:
-                    yield None
-                    continue
-                text = "" if look.stage == named else STAGES[look.stage]
-                named = look.stage
-                yield _step(task, look.scans, look.grid, look.counted, (look.stage, look.done, look.of), text)
+        job = TrajectoryJob(task, scans, grid)
+        with closing(job.steps()) as steps:
+            yield from steps
         assert job.found is not None
         placed = along(scans, job.found)
         self._place(placed)
@@ -253,13 +237,3 @@ class Localization:
 
     def _place(self, scans: Scans) -> None:
         self.placed = opened_log(scans, self.log.document.source.name)
-
-
-def _step(task: Infer, scans: Scans, grid: Grid, counted: Counted, at: tuple[str, int, int] | None, text: str) -> Step:
-    scene = scene_along(scans, grid, task.document.prior)
-    result = Result(scene, task.document.on_grid(grid), "counts", counted)
-    stage = None
-    if at is not None:
-        name, done, of = at
-        stage = Stage(name, STAGES[name], done, of, generation=task.generation)
-    return Step(grid, result, stage, text)
