@@ -21,7 +21,7 @@ from bayesmap.app.protocol.wire import (
     parse_simulation,
     seq_of,
     unframe,
-)  # fmt: skip
+)
 from bayesmap.app.scene import simulate_document, standard_noise
 from bayesmap.sim.drawing import TUTORIAL_GRID
 from bayesmap.space.grid import Grid

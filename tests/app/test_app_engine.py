@@ -19,7 +19,7 @@ from bayesmap.app.scene import simulate_document, simulated_scene
 from bayesmap.app.shown.chains import DRAW_BYTES, Stream
 from bayesmap.app.shown.result import FEWEST_SWEEPS
 from bayesmap.model import Model
-from bayesmap.posterior.diagnostics import bulk_ess
+from bayesmap.posterior.summary import bulk_ess
 from bayesmap.run.chains import SweepPlan
 from bayesmap.run.runner import Job, run_chains
 from bayesmap.samplers.fit import PILOT_SWEEPS, first_sensor, fit

@@ -16,7 +16,7 @@ from bayesmap.app.answers.evidence import (
     strongest,
     summed,
     wall_ratios,
-)  # fmt: skip
+)
 from bayesmap.app.edits import tutorial_document
 from bayesmap.app.protocol.actions import Inspect
 from bayesmap.kernels.rays import trace_rays

@@ -21,7 +21,7 @@ from page_driver import (
     still,
     undo,
     until,
-)  # fmt: skip
+)
 from PIL import Image
 
 

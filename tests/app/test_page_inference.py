@@ -15,7 +15,7 @@ from page_driver import (
     snapshot,
     until,
     watch,
-)  # fmt: skip
+)
 
 
 def test_draws_are_valid_and_average_to_the_mean_and_are_played_one_after_another(open_page):

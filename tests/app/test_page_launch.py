@@ -13,7 +13,7 @@ from page_driver import (
     settled,
     undo,
     until,
-)  # fmt: skip
+)
 
 
 def test_the_first_picture_is_the_posterior_of_the_tutorial_and_pixels_tell_what_is_known(page):

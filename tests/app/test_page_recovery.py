@@ -23,7 +23,7 @@ from page_driver import (
     snapshot,
     undo,
     until,
-)  # fmt: skip
+)
 from page_socket import serving
 
 

@@ -17,7 +17,7 @@ from page_driver import (
     snapshot,
     until,
     watch,
-)  # fmt: skip
+)
 
 
 @pytest.fixture

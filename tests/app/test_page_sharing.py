@@ -20,7 +20,7 @@ from page_driver import (
     show_layer,
     snapshot,
     until,
-)  # fmt: skip
+)
 from PIL import Image
 
 import bayesmap as bm

@@ -18,7 +18,7 @@ from page_driver import (
     snapshot,
     until,
     watch,
-)  # fmt: skip
+)
 
 CLOSE = {"sensors": [{"id": 1, "x": 7.0, "y": 11.0, "yaw": 0.0}], "noise": 1.0, "prior": 0.05, "method": "gibbs"}
 """A noisy sensor beside rare walls: single-site chains keep a wall at (7, 12) that is not there."""

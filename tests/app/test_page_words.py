@@ -20,7 +20,7 @@ from page_driver import (
     show_draw,
     snapshot,
     until,
-)  # fmt: skip
+)
 
 from bayesmap.app.answers.evidence import strongest, summed, wall_ratios
 
