@@ -103,16 +103,6 @@ def test_a_missing_folder_is_noticed_before_the_work_is_done(tmp_path):
         pytest.fail("the block must not run")
 
 
-def test_who_has_the_old_file_open_reads_it_to_its_end(tmp_path):
-    path = tmp_path / "map.pgm"
-    path.write_text("old")
-    with path.open() as reader:
-        with write_whole(path) as temporary:
-            temporary.write_text("new and longer")
-        assert reader.read() == "old"
-    assert path.read_text() == "new and longer"
-
-
 def test_killed_at_any_moment_the_file_is_old_or_new(tmp_path):
     path = tmp_path / "chain"
     path.write_text("0" * 100_000)

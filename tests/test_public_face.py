@@ -1,7 +1,6 @@
 """The names that users rely on (DESIGN section 5), and what they are told when their input cannot be used."""
 
 import inspect
-import os
 import subprocess
 import sys
 import types
@@ -31,11 +30,10 @@ def run(scans):
 def test_every_public_name_is_there_and_listed():
     for name in bm.__all__:
         assert getattr(bm, name) is not None
-    assert {
-        "BadInput", "BeamMixture", "Gaussian", "Grid", "Independent", "Reading", "Run", "Scans", "SensorModel",
-        "StudentT", "infer", "load", "ranges", "read_log", "simulate", "worlds", "__version__",
-    } <= set(bm.__all__)  # fmt: skip
     assert set(dir(bm)) >= set(bm.__all__)
+    with pytest.raises(AttributeError, match="module 'bayesmap' has no attribute 'nonsense'"):
+        bm.nonsense  # noqa: B018
+    assert issubclass(bm.BadInput, ValueError)  # so that code which knows nothing of bayesmap can catch it
 
 
 MOST_ARGUMENTS = 12
@@ -66,13 +64,7 @@ def test_public_functions_take_at_most_a_dozen_arguments():
     counts = {name: len(arguments_of(function)) for name, function in public_functions()}
     assert {"infer", "slam", "Scans", "Run.plan"} <= set(counts)
     assert {name: count for name, count in counts.items() if count > MOST_ARGUMENTS} == {}
-
-
-def test_a_long_list_of_arguments_would_be_noticed():
-    def long(a, b, c, d, e, f, *, g, h, i, j, k, l, **others):  # noqa: E741
-        """A dozen, and others."""
-
-    assert len(arguments_of(long)) == MOST_ARGUMENTS + 1
+    assert len(arguments_of(lambda a, *, b, **others: None)) == 3  # power of this test
 
 
 def test_the_plain_call_needs_scans_and_a_grid_alone(scans):
@@ -103,52 +95,6 @@ def test_the_plain_call_needs_scans_and_a_grid_alone(scans):
 def test_values_that_group_arguments_are_checked(scans, make, message):
     with pytest.raises(bm.BadInput, match=message):
         make(scans)
-
-
-def test_what_is_not_public_is_not_there():
-    with pytest.raises(AttributeError, match="module 'bayesmap' has no attribute 'nonsense'"):
-        bm.nonsense  # noqa: B018
-
-
-def test_the_readme_s_lines_run(tmp_path):
-    """The code of DESIGN section 5, as it stands there, on the tutorial's map."""
-    walls, pose = bm.worlds.tutorial()
-    grid = bm.Grid(shape=(21, 21), resolution=1.0, origin=(-0.5, -0.5))
-    angles = np.linspace(0, 2 * np.pi, 100, endpoint=False)
-    exact = bm.ranges(walls, grid, pose, angles, 42.0)
-    assert exact.shape == (100,)
-    scans = bm.simulate(walls, grid, pose, angles, sensor=bm.Gaussian(0.2), max_range_m=42.0, seed=0)
-    again = bm.Scans(
-        poses=scans.poses, angles_rad=scans.angles_rad, ranges_m=scans.ranges_m, max_range_m=scans.max_range_m
-    )
-    run = bm.infer(
-        again,
-        grid,
-        prior=bm.Independent(0.5),
-        sensor=bm.Gaussian(0.2),
-        method=bm.Gibbs(order="radial"),
-        schedule=bm.Schedule(chains=4, warmup=100, draws=1000),
-        seed=0,
-    )
-    assert run.occupancy.shape == (21, 21)
-    assert run.draws.shape == (4, 1000, 21, 21)
-    assert run.log_joint.shape == (4, 1000)
-    assert run.summary().rhat_log_joint < 1.1
-    assert np.isfinite(run.log_score(scans))
-    run.save(tmp_path / "run.nc")
-    np.testing.assert_array_equal(bm.load(tmp_path / "run.nc").draws, run.draws)
-    assert bm.Grid.covering(scans, resolution=0.1).n_cells > 0
-
-
-def test_plots_and_exports(run, tmp_path):
-    os.environ.setdefault("MPLBACKEND", "agg")
-    figure = run.plot()
-    assert figure.axes
-    import matplotlib.pyplot as plt
-
-    plt.close(figure)
-    files = run.export(tmp_path / "map.yaml")
-    assert all(os.path.getsize(path) > 0 for path in files)
 
 
 def test_importance_has_weights_and_other_methods_say_that_they_have_none(scans, run):
@@ -234,11 +180,6 @@ def test_arguments_that_make_no_sense_are_refused_with_place_and_remedy(scans, w
 def test_bad_input_is_refused_before_anything_is_done(make, message):
     with pytest.raises(bm.BadInput, match=message):
         make()
-
-
-def test_bad_input_is_a_value_error():
-    """So that code which knows nothing of bayesmap can catch it."""
-    assert issubclass(bm.BadInput, ValueError)
 
 
 def test_numpy_s_numbers_are_numbers(scans):

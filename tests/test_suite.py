@@ -104,9 +104,6 @@ def test_what_was_not_run_is_counted_by_its_remedy(not_run):
         "2 tests of recordings skipped: recordings absent (set BAYESMAP_DATA to their folder)",
         "tier `full` not selected: 7 tests (make test-all)",
     ]
-
-
-def test_where_all_was_run_nothing_is_said(not_run):
     assert not_run([], 0) == []
 
 
@@ -126,7 +123,7 @@ def test_of_a_browser():
 """
 
 
-@pytest.mark.parametrize(("workers", "full"), [(0, True), (2, False)])
+@pytest.mark.parametrize(("workers", "full"), [pytest.param(0, True, marks=pytest.mark.full), (2, False)])
 def test_the_last_lines_say_what_was_not_run_and_how_to_run_it(tmp_path, workers, full):
     (tmp_path / "test_two_tiers.py").write_text(TWO_TIERS)
     (tmp_path / "conftest.py").write_text((TESTS / "conftest.py").read_text())

@@ -42,11 +42,12 @@ def test_what_looks_worse_is_measured_more_often():
     assert len(states.calls) == 8
 
 
-def test_what_stays_worse_is_worse():
-    states = States(old=[{"a": figure(2.0)}], new=[{"a": figure(3.0)}])
-    (found,) = compare(OLD, NEW, "s", states)
+def test_what_stays_worse_is_worse_and_each_round_says_so():
+    states, rounds = States(old=[{"a": figure(2.0)}], new=[{"a": figure(3.0)}]), []
+    (found,) = compare(OLD, NEW, "s", states, lambda number, found: rounds.append((number, found[0].now)))
     assert found.factor == 1.5
     assert len(states.calls) == 2 * MOST_ROUNDS
+    assert rounds[:2] == [(1, 3.0), (2, 3.0)]
 
 
 def test_lower_rates_are_worse():
@@ -58,10 +59,3 @@ def test_lower_rates_are_worse():
 def test_what_only_one_state_measures_is_left_out():
     states = States(old=[{"a": figure(1.0), "gone": figure(1.0)}], new=[{"a": figure(1.0), "new": figure(1.0)}])
     assert [one.name for one in compare(OLD, NEW, "s", states)] == ["a"]
-
-
-def test_each_round_says_what_was_found_up_to_then():
-    states = States(old=[{"a": figure(2.0)}], new=[{"a": figure(9.0)}, {"a": figure(2.0)}])
-    rounds = []
-    compare(OLD, NEW, "s", states, lambda number, found: rounds.append((number, found[0].now)))
-    assert rounds == [(1, 9.0), (2, 2.0)]

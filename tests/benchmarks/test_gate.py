@@ -16,6 +16,9 @@ def baseline(**changes):
 def test_times_are_compared_in_yardsticks():
     assert baseline().factor(Figure("a", 4.0, "s", yardstick_s=1.0), "cpu") == 1.0
     assert baseline().factor(Figure("a", 4.0, "s", yardstick_s=0.5), "cpu") == 2.0
+    assert baseline(unit="MB").factor(Figure("a", 3.0, "MB"), "cpu") == 1.5  # memory is compared as it is
+    assert baseline().factor(Figure("a", 1.0, "s", yardstick_s=1.0), "cuda:0") is None
+    assert baseline().factor(Figure("new", 1.0, "s", yardstick_s=1.0), "cpu") is None
 
 
 def test_rates_and_ratios_are_worse_when_they_are_lower():
@@ -24,15 +27,6 @@ def test_rates_and_ratios_are_worse_when_they_are_lower():
     assert rates.factor(Figure("a", 1.0, "maps/s", "higher", yardstick_s=0.5), "cpu") == 2.0
     ratios = baseline(unit="x", better="higher")
     assert ratios.factor(Figure("a", 0.5, "x", "higher", yardstick_s=7.0), "cpu") == 4.0
-
-
-def test_memory_is_compared_as_it_is():
-    assert baseline(unit="MB").factor(Figure("a", 3.0, "MB"), "cpu") == 1.5
-
-
-def test_other_devices_and_new_figures_have_nothing_to_be_compared_with():
-    assert baseline().factor(Figure("a", 1.0, "s", yardstick_s=1.0), "cuda:0") is None
-    assert baseline().factor(Figure("new", 1.0, "s", yardstick_s=1.0), "cpu") is None
 
 
 class Machine:
@@ -48,16 +42,13 @@ class Machine:
         return confirmed(self.figure(), lambda f: baseline().factor(f, "cpu"), worse=1.5, sleep=self.slept.append)
 
 
-def test_a_figure_that_passes_is_not_measured_again():
-    machine = Machine(2.9, 99.0)
-    assert machine.confirmed().value == 2.9
-    assert machine.slept == []
-
-
 def test_a_busy_moment_is_waited_out():
     machine = Machine(9.0, 8.0, 2.0, 99.0)
     assert machine.confirmed().value == 2.0
     assert machine.slept == list(PAUSES_S[:2])
+    passes = Machine(2.9, 99.0)
+    assert passes.confirmed().value == 2.9
+    assert passes.slept == []
 
 
 def test_what_stays_slow_stays_worse():
@@ -66,16 +57,13 @@ def test_what_stays_slow_stays_worse():
     assert machine.slept == list(PAUSES_S)
 
 
-def test_what_cannot_be_measured_again_is_taken_as_it_is():
-    figure = Figure("a", 9.0, "s", yardstick_s=0.5)
-    assert confirmed(figure, lambda f: 4.5, sleep=pytest.fail) is figure
-
-
 def test_a_ratio_to_a_peer_fails_nothing():
     figure = Figure("a", 9.0, "s", yardstick_s=0.5, gated=False, again=pytest.fail)
     assert confirmed(figure, lambda f: 4.5) is figure
     assert not fails(figure, 4.5)
     assert fails(replace(figure, gated=True), 4.5)
+    alone = replace(figure, gated=True, again=None)  # cannot be measured again
+    assert confirmed(alone, lambda f: 4.5, sleep=pytest.fail) is alone
 
 
 def test_a_baseline_is_read_as_it_was_written(tmp_path):

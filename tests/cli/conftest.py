@@ -8,7 +8,7 @@ from shell import call
 
 from bayesmap.io.logs import read_log
 
-SHORT = ("--resolution", "0.25", "--chains", "2", "--warmup", "5", "--draws", "8", "--no-progress")
+SHORT = ("--resolution 0.25 --chains 2 --warmup 5 --draws 8", "--no-progress")
 """Options of a run that takes a moment."""
 
 
@@ -16,8 +16,8 @@ SHORT = ("--resolution", "0.25", "--chains", "2", "--warmup", "5", "--draws", "8
 def office(tmp_path_factory):
     """A log of 12 scans in a small building; its truth lies beside it."""
     log = tmp_path_factory.mktemp("office") / "office.log"
-    size = ("--size", "12x8", "--resolution", "0.25", "--scans", "12", "--angles", "60", "--max-range", "12")
-    result = call("simulate", "--world", "building", *size, "-o", log, "--set", "fov=180")
+    size = "--size 12x8 --resolution 0.25 --scans 12 --angles 60 --max-range 12"
+    result = call("simulate", "--world building", size, "-o", log, "--set fov=180")
     assert result.exit_code == 0, result.stderr
     return log
 

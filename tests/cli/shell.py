@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import select
 import signal
@@ -22,9 +23,34 @@ SOURCE = Path(__file__).resolve().parents[2] / "src"
 COMMAND = [sys.executable, "-m", "bayesmap.cli.main"]
 
 
+def words(arguments: tuple[object, ...]) -> list[str]:
+    """Return the words of a command line; a text of options, such as "--chains 2 --seed 1", is several."""
+    options = [a.split() if isinstance(a, str) and a.startswith("--") else [str(a)] for a in arguments]
+    return [word for several in options for word in several]
+
+
 def call(*arguments: object) -> Result:
     """Run in this process; standard output and error apart."""
-    return CliRunner().invoke(cli, [str(a) for a in arguments])
+    return CliRunner().invoke(cli, words(arguments))
+
+
+def succeed(*arguments: object) -> Result:
+    """Run in this process with exit code 0."""
+    result = call(*arguments)
+    assert result.exit_code == 0, result.stderr
+    return result
+
+
+def json_of(*arguments: object) -> Any:
+    """Return the JSON document that a command prints."""
+    return json.loads(succeed(*arguments).stdout)
+
+
+def refusal_of(*arguments: object, code: int = 3) -> str:
+    """Return the standard error of a command that ends with an exit code."""
+    result = call(*arguments)
+    assert result.exit_code == code, (result.exit_code, result.stderr)
+    return result.stderr
 
 
 def after(statement: str, command: list[str]) -> list[str]:
@@ -37,7 +63,7 @@ def after(statement: str, command: list[str]) -> list[str]:
 
 def start(*arguments: object, first: str | None = None, **options: Any) -> subprocess.Popen[str]:
     """Start a process of its own, as a terminal does: with Ctrl-C in force; ``first`` is done as in `after`."""
-    command = [*COMMAND, *map(str, arguments)]
+    command = [*COMMAND, *words(arguments)]
     environment = {**os.environ, "PYTHONPATH": str(SOURCE)}
     return subprocess.Popen(
         command if first is None else after(first, command),

@@ -29,7 +29,7 @@ def test_a_cut_log_is_refused_and_shown_as_far_as_it_goes_with_the_option_that_i
     _, told = refused.communicate(timeout=PATIENCE_S)
     assert refused.returncode == 3
     assert "--skip-bad-lines" in told
-    process = start("app", "--no-browser", "-q", cut, "--skip-bad-lines")
+    process = start("app", "--no-browser -q", cut, "--skip-bad-lines")
     try:
         assert Listener(process).line().startswith("http://127.0.0.1:")
     finally:

@@ -49,20 +49,20 @@ def test_logs(tmp_path, text, place, remedy):
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (["--sensor", "gaussian:-0.2"], "sigma_m must be a positive number of metres, got -0.2"),
-        (["--sensor", "magic"], "unknown kind 'magic'; known: default"),
-        (["--resolution", "1e-6"], "over the limit of 100,000,000; use a coarser resolution"),
-        (["--prior", "0.3"], "prior: 0.3 is for binary walls; add --cells binary"),
-        (["--coupling", "fit"], "coupling: 'fit' is for binary walls; add --cells binary, or give a number"),
-        (["--method", "block"], "method: 'block' is for binary walls; add --cells binary"),
-        (["--order", "raster", "--cells", "reflectivity"], "order: 'raster' is for binary walls; add --cells binary"),
-        (["--start", "zeros"], "start: 'zeros' is for binary walls; add --cells binary"),
-        (["--sensor", "gaussian:0.05"], "need a sensor under which no reading is impossible, a BeamMixture"),
-        (["--holdout", "1000"], "too few to hold out every 1000-th"),
-        (["--device", "cuda:9"], "there is: cpu"),
-        (["--device", "cuda:9", "--cells", "binary"], "there is: cpu"),
-        (["--method", "exact", "--cells", "binary"], "exact"),
-        (["--grid", "nowhere.yaml"], "nowhere.yaml: cannot be read"),
+        (["--sensor gaussian:-0.2"], "sigma_m must be a positive number of metres, got -0.2"),
+        (["--sensor magic"], "unknown kind 'magic'; known: default"),
+        (["--resolution 1e-6"], "over the limit of 100,000,000; use a coarser resolution"),
+        (["--prior 0.3"], "prior: 0.3 is for binary walls; add --cells binary"),
+        (["--coupling fit"], "coupling: 'fit' is for binary walls; add --cells binary, or give a number"),
+        (["--method block"], "method: 'block' is for binary walls; add --cells binary"),
+        (["--order raster --cells reflectivity"], "order: 'raster' is for binary walls; add --cells binary"),
+        (["--start zeros"], "start: 'zeros' is for binary walls; add --cells binary"),
+        (["--sensor gaussian:0.05"], "need a sensor under which no reading is impossible, a BeamMixture"),
+        (["--holdout 1000"], "too few to hold out every 1000-th"),
+        (["--device cuda:9"], "there is: cpu"),
+        (["--device cuda:9 --cells binary"], "there is: cpu"),
+        (["--method exact --cells binary"], "exact"),
+        (["--grid nowhere.yaml"], "nowhere.yaml: cannot be read"),
     ],
 )
 def test_settings(office, tmp_path, arguments, message):
@@ -170,14 +170,14 @@ def test_a_damaged_checkpoint_is_not_resumed(office, office_run, tmp_path):
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (["--pose", "2,2,0"], r"pose 0 at \(2, 2\) m stands in the occupied cell \(2, 2\); move the robot"),
-        (["--world", "nowhere.txt", "--pose", "0,0,0"], "no such file"),
-        (["--world", "building", "--size", "huge"], "size 'huge': give width and depth in metres"),
-        (["--world", "building", "--size", "1x1"], "at least"),
-        (["--angles", "1"], "give 2 to 100,000 beams"),
-        (["--fov", "400"], r"must lie in \(0, 360\] degrees"),
-        (["--sensor", "gaussian:-1"], "positive"),
-        (["--max-range", "-3"], "--max-range must be a positive number of metres, got -3.0"),
+        (["--pose 2,2,0"], r"pose 0 at \(2, 2\) m stands in the occupied cell \(2, 2\); move the robot"),
+        (["--world nowhere.txt --pose 0,0,0"], "no such file"),
+        (["--world building --size huge"], "size 'huge': give width and depth in metres"),
+        (["--world building --size 1x1"], "at least"),
+        (["--angles 1"], "give 2 to 100,000 beams"),
+        (["--fov 400"], r"must lie in \(0, 360\] degrees"),
+        (["--sensor gaussian:-1"], "positive"),
+        (["--max-range -3"], "--max-range must be a positive number of metres, got -3.0"),
     ],
 )
 def test_simulate(tmp_path, arguments, message):
@@ -189,7 +189,7 @@ def test_worlds_that_are_none(tmp_path):
     world = tmp_path / "world.txt"
     for content, message in ((b"..X\n..\n", "line 2 has 2 cells"), (b"\xff\xfe\x00", "neither a text drawing nor")):
         world.write_bytes(content)
-        assert message in refuse("simulate", "-o", tmp_path / "my.log", "--world", world, "--pose", "0.5,0.5,0")
+        assert message in refuse("simulate", "-o", tmp_path / "my.log", "--world", world, "--pose 0.5,0.5,0")
 
 
 def test_a_folder_s_name_that_no_file_of_netcdf_can_have(office, tmp_path):

@@ -10,7 +10,7 @@ import signal
 
 import numpy as np
 import pytest
-from shell import call
+from shell import call, refusal_of, succeed
 from tiers import full_but
 
 import bayesmap as bm
@@ -60,19 +60,19 @@ def check(result, output, alone):
 @pytest.fixture
 def alone(office, tmp_path, short):
     """The same log inferred alone, with the fleet's settings."""
-    assert call("infer", office, "-o", tmp_path / "alone", "--holdout", 4, *short).exit_code == 0
+    succeed("infer", office, "-o", tmp_path / "alone", "--holdout 4", *short)
     return tmp_path / "alone"
 
 
 def test_a_folder_of_logs_is_inferred_and_a_broken_one_fails_alone(logs, tmp_path, alone, short):
     output = tmp_path / "runs"
-    check(call("infer", logs, "-o", output, "--json", "--holdout", 4, *short), output, alone)
+    check(call("infer", logs, "-o", output, "--json --holdout 4", *short), output, alone)
 
 
 def test_on_a_cluster_too(logs, tmp_path, alone, short, cluster):
     output = tmp_path / "runs"
-    every = ("--executor", "ray", "--checkpoint-every", 0)
-    check(call("infer", logs, "-o", output, "--json", "--holdout", 4, *short, *every), output, alone)
+    every = "--executor ray --checkpoint-every 0"
+    check(call("infer", logs, "-o", output, "--json --holdout 4", *short, every), output, alone)
 
 
 @pytest.mark.full
@@ -88,16 +88,15 @@ def test_a_log_whose_node_dies_goes_on_elsewhere(logs, tmp_path, alone, short, c
 
     monkeypatch.setattr(infer.RayFleet, "keep", keep_and_kill)
     output = tmp_path / "runs"
-    every = ("--executor", "ray", "--checkpoint-every", 0)
-    check(call("infer", logs, "-o", output, "--json", "--holdout", 4, *short, *every), output, alone)
+    every = "--executor ray --checkpoint-every 0"
+    check(call("infer", logs, "-o", output, "--json --holdout 4", *short, every), output, alone)
     assert killed
 
 
 @pytest.mark.full
 def test_one_log_on_a_cluster_is_what_it_is_without(office, tmp_path, alone, short, cluster):
     output = tmp_path / "run"
-    result = call("infer", office, "-o", output, "--holdout", 4, *short, "--executor", "ray")
-    assert result.exit_code == 0, result.stderr
+    succeed("infer", office, "-o", output, "--holdout 4", *short, "--executor ray")
     run, expected = bm.load(output / "run.nc"), bm.load(alone / "run.nc")
     for array, values in expected.posterior.draws.arrays.items():
         np.testing.assert_array_equal(run.posterior.draws.arrays[array], values)
@@ -118,9 +117,9 @@ def test_progress_of_all_logs_is_shown_and_ctrl_c_keeps_what_workers_have(logs, 
     monkeypatch.setattr(infer, "described_share", lambda console, begin: contextlib.nullcontext(show))
     monkeypatch.setattr(infer, "STOP_S", 120.0)
     pair, options = (logs / "east.log", logs / "west.log"), (*short, "--executor", "ray", "--checkpoint-every", 3600)
-    result = call("infer", *pair, "-o", tmp_path / "runs", *options, "--draws", 4000)
-    assert result.exit_code == 130, result.stderr
-    assert "stopping: what the workers have is fetched" in result.stderr
+    assert "stopping: what the workers have is fetched" in refusal_of(
+        "infer", *pair, "-o", tmp_path / "runs", *options, "--draws 4000", code=130
+    )
     ((name, done),) = at
     run = bm.load(tmp_path / "runs" / name / "run.nc")
     assert 5 < done <= run.posterior.sweep < 4005
@@ -160,8 +159,7 @@ def test_what_ray_prints_after_the_run_is_not_in_the_document(logs, tmp_path, sh
     else:
         monkeypatch.setattr(pipeline, "report", and_print(pipeline.report))
     given = (logs / "east.log", logs / "west.log")[: 2 if several else 1]
-    result = call("infer", *given, "-o", tmp_path / "runs", "--json", *short, "--executor", "ray")
-    assert result.exit_code == 0, result.stderr
+    result = succeed("infer", *given, "-o", tmp_path / "runs", "--json", *short, "--executor ray")
     assert json.loads(result.stdout)["schema_version"] == 1
     assert "(raylet) Raylet is terminated." in result.stderr
 
@@ -169,16 +167,17 @@ def test_what_ray_prints_after_the_run_is_not_in_the_document(logs, tmp_path, sh
 @pytest.mark.full
 def test_a_pattern_and_several_names_are_several_logs(logs, tmp_path, short):
     (logs / "broken.log").unlink()
-    result = call("infer", logs / "*.log", "-o", tmp_path / "runs", *short)
-    assert result.exit_code == 0, result.stderr
+    result = succeed("infer", logs / "*.log", "-o", tmp_path / "runs", *short)
     lines = result.stdout.splitlines()
     assert lines[0].split()[:3] == ["log", "beams", "minutes"]
     assert [line.split()[0].rpartition("/")[2] for line in lines[1:]] == ["east.log", "west.log"]
-    again = call("infer", logs / "east.log", logs / "west.log", "-o", tmp_path / "runs", *short)
-    assert again.exit_code == 1
-    assert again.stderr.count("there is a run already") == 2
-    resumed = call("infer", logs / "east.log", logs / "west.log", "-o", tmp_path / "runs", "--resume", *short)
-    assert resumed.exit_code == 0, resumed.stderr
+    assert (
+        refusal_of("infer", logs / "east.log", logs / "west.log", "-o", tmp_path / "runs", *short, code=1).count(
+            "there is a run already"
+        )
+        == 2
+    )
+    succeed("infer", logs / "east.log", logs / "west.log", "-o", tmp_path / "runs", "--resume", *short)
 
 
 def interrupt_the_first(monkeypatch, on_ray):
@@ -203,7 +202,7 @@ def test_a_resumed_fleet_begins_the_other_logs_with_its_settings(
     if executor == "ray":
         request.getfixturevalue("cluster")
     output, pair = tmp_path / "runs", (logs / "east.log", logs / "west.log")
-    options = ("--holdout", 4, *short, "--executor", executor, "--checkpoint-every", 0)
+    options = ("--holdout 4", *short, "--executor", executor, "--checkpoint-every 0")
     with monkeypatch.context() as patch:
         interrupt_the_first(patch, executor == "ray")
         stopped = call("infer", *pair, "-o", output, *options)
@@ -212,8 +211,7 @@ def test_a_resumed_fleet_begins_the_other_logs_with_its_settings(
     assert again in stopped.stderr
     assert not (output / "west").exists()
     assert pipeline.settings_in(output / "fleet.toml", "infer")["infer"]["executor"] == executor
-    resumed = call(*shlex.split(again)[1:])
-    assert resumed.exit_code == 0, resumed.stderr
+    succeed(*shlex.split(again)[1:])
     expected = bm.load(alone / "run.nc")
     for name in ("east", "west"):
         run = bm.load(output / name / "run.nc")
@@ -225,16 +223,16 @@ def test_a_resumed_fleet_begins_the_other_logs_with_its_settings(
 @pytest.mark.full
 def test_a_run_that_was_to_be_replaced_is_not_taken_for_the_new_one(logs, tmp_path, short, monkeypatch):
     output, pair = tmp_path / "runs", (logs / "east.log", logs / "west.log")
-    assert call("infer", *pair, "-o", output, *short, "--seed", 1).exit_code == 0
+    succeed("infer", *pair, "-o", output, *short, "--seed 1")
     with monkeypatch.context() as patch:
         interrupt_the_first(patch, on_ray=False)
-        assert call("infer", *pair, "-o", output, *short, "--seed", 2, "--force").exit_code == 130
+        refusal_of("infer", *pair, "-o", output, *short, "--seed 2 --force", code=130)
     assert bm.load(output / "west" / "run.nc").posterior.settings["seed"] == 1, (
         "it goes when its log begins, not before"
     )
     # The settings need not be said again, of a log alone neither.
-    assert call("infer", pair[1], "-o", output / "west", "--resume").exit_code == 0
-    assert call("infer", *pair, "-o", output, "--resume").exit_code == 0
+    succeed("infer", pair[1], "-o", output / "west", "--resume")
+    succeed("infer", *pair, "-o", output, "--resume")
     for name in ("east", "west"):
         run = bm.load(output / name / "run.nc")
         assert run.finished
@@ -252,13 +250,11 @@ def test_a_run_that_was_to_be_replaced_is_not_taken_for_the_new_one(logs, tmp_pa
 )
 def test_what_holds_no_logs_is_refused(given, message, tmp_path):
     (tmp_path / "EMPTY").mkdir()
-    result = call("infer", *(tmp_path / one for one in given), "-o", tmp_path / "runs")
-    assert result.exit_code == 3
-    assert message in result.stderr
+    assert message in refusal_of("infer", *(tmp_path / one for one in given), "-o", tmp_path / "runs")
 
 
 @pytest.mark.parametrize("executor", ["dask", "ray://", "ray:"])
 def test_an_executor_that_is_none_is_refused(office, tmp_path, executor):
-    result = call("infer", office, "-o", tmp_path / "run", "--executor", executor)
-    assert result.exit_code == 3
-    assert "--executor must be threads, ray or ray://HOST:PORT" in result.stderr
+    assert "--executor must be threads, ray or ray://HOST:PORT" in refusal_of(
+        "infer", office, "-o", tmp_path / "run", "--executor", executor
+    )

@@ -9,7 +9,7 @@ import time
 
 import numpy as np
 import pytest
-from shell import PATIENCE_S, Listener, call, start
+from shell import PATIENCE_S, Listener, call, refusal_of, start, succeed
 from tiers import full_but
 
 from bayesmap.io.logs import read_log
@@ -18,8 +18,7 @@ from bayesmap.io.logs import read_log
 @pytest.fixture(scope="module")
 def answers(office, office_run, prior):
     """What is said of the whole log."""
-    result = call("localize", office_run / "run.nc", office, "--follow", "--for", "0", *prior)
-    assert result.exit_code == 0, result.stderr
+    result = succeed("localize", office_run / "run.nc", office, "--follow --for 0", *prior)
     return result.stdout.splitlines()
 
 
@@ -108,8 +107,7 @@ def test_a_table_is_followed_as_the_whole_of_it_is_read(office, office_run, prio
     for stamp, pose, ranges in zip(scans.stamps_s, scans.poses, scans.ranges_m, strict=True):
         rows.append(",".join(repr(float(v)) for v in (stamp, *pose, *ranges)))
     table.write_text("\n".join(rows))
-    result = call("localize", office_run / "run.nc", table, "--follow", "--for", "0", *prior)
-    assert result.exit_code == 0, result.stderr
+    result = succeed("localize", office_run / "run.nc", table, "--follow --for 0", *prior)
     means = [json.loads(line)["mean"] for line in result.stdout.splitlines()]
     np.testing.assert_allclose(means, [json.loads(line)["mean"] for line in answers], atol=1e-3)
 
@@ -122,8 +120,7 @@ def test_scans_may_be_chosen_and_bad_lines_left_out(office, office_run, prior, a
     assert refused.exit_code == 3
     assert "line" in refused.stderr
     assert refused.stdout.splitlines() == answers[:1]
-    chosen = call(*arguments, "--skip-bad-lines", "--scans", "0:2")
-    assert chosen.exit_code == 0, chosen.stderr
+    chosen = succeed(*arguments, "--skip-bad-lines --scans 0:2")
     assert chosen.stdout.splitlines() == answers[:2]
     assert "left out" in chosen.stderr
 
@@ -131,8 +128,7 @@ def test_scans_may_be_chosen_and_bad_lines_left_out(office, office_run, prior, a
 def test_what_cannot_be_followed_is_said(office, office_run, prior, tmp_path):
     packed = tmp_path / "office.log.gz"
     packed.write_bytes(gzip.compress(office.read_bytes()))
-    result = call("localize", office_run / "run.nc", packed, "--follow", "--scans", "0:1", *prior)
-    assert result.exit_code == 0, result.stderr
+    result = succeed("localize", office_run / "run.nc", packed, "--follow --scans 0:1", *prior)
     assert "only CARMEN logs and CSV tables can be followed while they are written" in result.stderr
     assert len(result.stdout.splitlines()) == 1
 
@@ -152,12 +148,10 @@ def test_a_pipe_of_something_else(follow, text, message):
 def test_others_say_of_a_pipe_that_they_need_a_file(command, tmp_path):
     pipe = tmp_path / "pipe"
     os.mkfifo(pipe)
-    result = call(command, pipe)
-    assert result.exit_code == 3
-    assert "a pipe, and this needs a file" in result.stderr
+    assert "a pipe, and this needs a file" in refusal_of(command, pipe)
 
 
 def test_how_long_to_wait_is_for_those_who_follow(office, office_run):
-    result = call("localize", office_run / "run.nc", office, "--for", "2")
-    assert result.exit_code == 2
-    assert "--for says how long --follow waits" in result.stderr
+    assert "--for says how long --follow waits" in refusal_of(
+        "localize", office_run / "run.nc", office, "--for 2", code=2
+    )

@@ -19,7 +19,7 @@ IGNORE = "import signal\nsignal.signal(signal.SIGINT, signal.SIG_IGN)"
 
 def test_an_ignored_ctrl_c_does_not_stop_a_run(office, tmp_path, short):
     folder = tmp_path / "run"
-    process = start("infer", office, "-o", folder, *short, "--checkpoint-every", "0", first=IGNORE)
+    process = start("infer", office, "-o", folder, *short, "--checkpoint-every 0", first=IGNORE)
     wait_for(folder / "run.nc", process)
     process.send_signal(signal.SIGINT)
     _, errors = process.communicate()

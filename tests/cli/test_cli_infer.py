@@ -5,7 +5,7 @@ import json
 import numpy as np
 import pytest
 from data import intel_log
-from shell import call
+from shell import call, json_of, refusal_of, succeed
 from tiers import full_but
 
 import bayesmap as bm
@@ -37,7 +37,7 @@ def test_everything_is_left_in_the_folder(office, office_run, tmp_path, short, c
     folder = office_run
     if cells != "surface":
         folder = tmp_path / "run"
-        assert call("infer", office, "-o", folder, *short, "--cells", cells).exit_code == 0
+        succeed("infer", office, "-o", folder, *short, "--cells", cells)
     assert {path.name for path in folder.iterdir()} == FILES
     run = bm.load(folder / "run.nc")
     assert run.finished
@@ -53,10 +53,8 @@ def test_everything_is_left_in_the_folder(office, office_run, tmp_path, short, c
 
 @ALL
 def test_the_document(office, tmp_path, short, cells):
-    options = ("--holdout", "4", "--json", "--seed", "5", "--cells", cells)
-    result = call("infer", office, "-o", tmp_path / "run", *short, *options)
-    assert result.exit_code == 0, result.stderr
-    document = json.loads(result.stdout)
+    options = ("--holdout 4 --json --seed 5 --cells", cells)
+    document = json_of("infer", office, "-o", tmp_path / "run", *short, *options)
     assert document["cells"] == cells
     assert {**document, "kind": document["prior"]["kind"]}.items() >= OF_KIND[cells].items()
     if cells == "binary":
@@ -91,53 +89,55 @@ def test_the_document(office, tmp_path, short, cells):
     assert document["finished"] is True
 
 
-def test_without_json_stdout_has_the_paths(office, tmp_path, short):
-    result = call("infer", office, "-o", tmp_path / "run", *short)
+def test_a_run_is_not_overwritten_unless_told(office, tmp_path, short):
+    """Without --json standard output has the paths."""
+    folder = tmp_path / "run"
+    result = succeed("infer", office, "-o", folder, *short)
     assert {line.rsplit("/", 1)[-1] for line in result.stdout.split()} == FILES
     assert "grid: " in result.stderr
-    quiet = call("infer", office, "-o", tmp_path / "run", *short, "--force", "-q")
+    assert "no reading is a hit" not in result.stderr
+    before = (folder / "run.nc").read_bytes()
+    assert "--resume goes on with it, --force replaces it" in refusal_of("infer", office, "-o", folder, *short)
+    assert (folder / "run.nc").read_bytes() == before
+    quiet = succeed("infer", office, "-o", folder, *short, "--force --seed 9 -q")
     assert all("warning" in line for line in quiet.stderr.splitlines())
-
-
-def test_strict_exits_4_but_leaves_everything(office, tmp_path, short):
-    result = call("infer", office, "-o", tmp_path / "run", *short, "--strict", "--json")
-    assert result.exit_code == 4
-    assert json.loads(result.stdout)["problems"]
-    assert {path.name for path in (tmp_path / "run").iterdir()} == FILES
+    assert bm.load(folder / "run.nc").posterior.settings["seed"] == 9
 
 
 @pytest.mark.parametrize("cells", full_but(["surface", "binary"], "surface"))
-def test_strict_does_not_pass_what_nothing_says_anything_of(office, tmp_path, short, cells):
-    options = (*short, "--cells", cells, "--draws", "3", "--strict", "--json")
-    result = call("infer", office, "-o", tmp_path / "run", *options)
+def test_strict_exits_4_but_leaves_everything(office, tmp_path, short, cells):
+    """Of three draws nothing can be judged, which is a problem too."""
+    result = call("infer", office, "-o", tmp_path / "run", *short, "--cells", cells, "--draws 3 --strict --json")
     assert result.exit_code == 4, result.stderr
     assert any("nothing can be judged" in problem for problem in json.loads(result.stdout)["problems"])
+    assert {path.name for path in (tmp_path / "run").iterdir()} == FILES
 
 
-@pytest.mark.parametrize("method", full_but(["block", "propagate", "importance"], "block", "importance"))
-def test_other_methods_of_binary_walls(office, tmp_path, short, method):
-    options = ("--cells", "binary", "--method", method, "--particles", "500", "--json")
-    result = call("infer", office, "-o", tmp_path / "run", *short, *options)
-    assert result.exit_code == 0, result.stderr
+WORK = {
+    "block": "2 chains of 13 sweeps", "gibbs": "2 chains of 13 sweeps", "importance": "16 independent maps",
+    "propagate": "2 chains of 13 sweeps",
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("method", full_but(WORK, "block", "importance"))
+def test_every_method_of_binary_walls_says_what_it_has_done(office, tmp_path, short, method):
+    options = ("--cells binary --particles 300 --json --method", method)
+    result = succeed("infer", office, "-o", tmp_path / "run", *short, *options)
     assert json.loads(result.stdout)["method"] == method
+    assert f"{method}: {WORK[method]} over" in result.stderr
+    assert WORK[method].split(" of ")[0] in call("info", tmp_path / "run" / "run.nc").stdout
 
 
 def test_binary_walls_with_a_fitted_sensor(office, tmp_path, short):
-    result = call("infer", office, "-o", tmp_path / "run", *short, "--cells", "binary", "--sensor", "fit", "--json")
-    assert result.exit_code == 0, result.stderr
-    document = json.loads(result.stdout)
+    document = json_of("infer", office, "-o", tmp_path / "run", *short, "--cells binary --sensor fit --json")
     assert document["sensor"] == "fit"
     sensor = document["fitted"]["sensor"]
     assert sensor["kind"] == "mixture"
-    again = call("infer", office, "-o", tmp_path / "run", "--resume", "--json")
-    assert again.exit_code == 0, again.stderr
-    assert json.loads(again.stdout)["fitted"]["sensor"] == sensor
+    assert json_of("infer", office, "-o", tmp_path / "run", "--resume --json")["fitted"]["sensor"] == sensor
 
 
 def test_a_sensor_that_is_given_is_not_fitted(office, tmp_path, short):
-    result = call("infer", office, "-o", tmp_path / "run", *short, "--sensor", "mixture:0.03", "--json")
-    assert result.exit_code == 0, result.stderr
-    document = json.loads(result.stdout)
+    document = json_of("infer", office, "-o", tmp_path / "run", *short, "--sensor mixture:0.03 --json")
     assert document["sensor"]["noise"] == {"kind": "gaussian", "sigma_m": 0.03, "sigma_per_m": 0.0}
     assert document["fitted"] is None
     run = bm.load(tmp_path / "run" / "run.nc")
@@ -147,21 +147,8 @@ def test_a_sensor_that_is_given_is_not_fitted(office, tmp_path, short):
 
 def test_the_cells_of_a_given_map(office, tmp_path, short):
     truth = office.with_name("office-truth.yaml")
-    result = call("infer", office, "-o", tmp_path / "run", *short, "--grid", truth)
-    assert result.exit_code == 0, result.stderr
+    succeed("infer", office, "-o", tmp_path / "run", *short, "--grid", truth)
     assert bm.load(tmp_path / "run" / "run.nc").grid == read_map(truth)[1]
-
-
-def test_a_run_is_not_overwritten_unless_told(office, office_run, tmp_path, short):
-    before = (office_run / "run.nc").read_bytes()
-    result = call("infer", office, "-o", office_run, *short)
-    assert result.exit_code == 3
-    assert "--resume goes on with it, --force replaces it" in result.stderr
-    assert (office_run / "run.nc").read_bytes() == before
-    again = tmp_path / "again"
-    assert call("infer", office, "-o", again, *short).exit_code == 0
-    assert call("infer", office, "-o", again, *short, "--force", "--seed", "9").exit_code == 0
-    assert bm.load(again / "run.nc").posterior.settings["seed"] == 9
 
 
 def test_bad_lines_are_refused_or_listed(office, tmp_path, short):
@@ -169,13 +156,11 @@ def test_bad_lines_are_refused_or_listed(office, tmp_path, short):
     lines = office.read_text().splitlines()
     lines[5] = lines[5][:200]
     log.write_text("\n".join(lines))
-    refused = call("infer", log, "-o", tmp_path / "run", *short)
-    assert refused.exit_code == 3
-    assert f"{log}: line 6: " in refused.stderr
-    assert "--skip-bad-lines" in refused.stderr
+    refused = refusal_of("infer", log, "-o", tmp_path / "run", *short)
+    assert f"{log}: line 6: " in refused
+    assert "--skip-bad-lines" in refused
     assert not (tmp_path / "run").exists()
-    read = call("infer", log, "-o", tmp_path / "run", *short, "--skip-bad-lines", "--json")
-    assert read.exit_code == 0
+    read = succeed("infer", log, "-o", tmp_path / "run", *short, "--skip-bad-lines --json")
     assert json.loads(read.stdout)["log"]["skipped_lines"] == 1
     assert f"{log}: line 6 left out" in read.stderr
 
@@ -183,44 +168,24 @@ def test_bad_lines_are_refused_or_listed(office, tmp_path, short):
 @pytest.mark.parametrize("cells", full_but(["surface", "reflectivity", "binary"], "surface"))
 def test_how_many_draws_a_short_log_gets_is_kept_with_the_run(office, tmp_path, cells):
     draws = 100 if cells == "binary" else 200
-    few = ("--resolution", "0.25", "--chains", "1", "--warmup", "1", "--no-progress", "--json")
-    result = call("infer", office, "-o", tmp_path / "run", "--cells", cells, *few)
-    assert result.exit_code == 0, result.stderr
-    assert json.loads(result.stdout)["draws"] == draws
+    few = "--resolution 0.25 --chains 1 --warmup 1 --no-progress --json"
+    assert json_of("infer", office, "-o", tmp_path / "run", "--cells", cells, few)["draws"] == draws
     assert f"\ndraws = {draws} " in (tmp_path / "run" / "config.toml").read_text()
 
 
 @pytest.mark.full
 def test_the_intel_building(tmp_path):
-    log = intel_log("intel-corrected.log.gz")
-    result = call(
-        "infer", log, "-o", tmp_path / "run", "--resolution", "0.4", "--max-range", "10",
-        "--chains", "2", "--warmup", "3", "--draws", "6", "--holdout", "10", "--json",
-    )  # fmt: skip
-    assert result.exit_code == 0, result.stderr
-    document = json.loads(result.stdout)
+    options = "--resolution 0.4 --max-range 10 --chains 2 --warmup 3 --draws 6 --holdout 10 --json"
+    document = json_of("infer", intel_log("intel-corrected.log.gz"), "-o", tmp_path / "run", options)
     assert (document["log"]["scans"], document["scans"]) == (910, 819)
     assert document["log"]["no_return_m"] == 81.83
     assert document["heldout"]["beams"] == 91 * 180
 
 
-@pytest.mark.parametrize(
-    ("method", "told"),
-    [("importance", "16 independent maps"), pytest.param("gibbs", "2 chains of 13 sweeps", marks=pytest.mark.full)],
-)
-def test_without_a_terminal_every_method_says_what_it_has_done(office, tmp_path, short, method, told):
-    few = ("--cells", "binary", "--particles", "300", "--method", method)
-    result = call("infer", office, "-o", tmp_path / "run", *short, *few)
-    assert result.exit_code == 0, result.stderr
-    assert f"{method}: {told} over" in result.stderr
-    assert told.split(" of ")[0] in call("info", tmp_path / "run" / "run.nc").stdout
-
-
 @pytest.mark.parametrize("coupling", full_but(["0.7", "fit"], "fit"))
 def test_walls_whose_neighbours_are_coupled(office, tmp_path, short, coupling):
-    options = ("--cells", "binary", "--coupling", coupling, "--prior", "0.3", "--json")
-    result = call("infer", office, "-o", tmp_path / "run", *short, *options)
-    assert result.exit_code == 0, result.stderr
+    options = ("--cells binary --coupling", coupling, "--prior 0.3 --json")
+    result = succeed("infer", office, "-o", tmp_path / "run", *short, *options)
     prior = bm.load(tmp_path / "run" / "run.nc").posterior.prior
     assert isinstance(prior, bm.Ising)
     assert prior.p_wall == 0.3
@@ -238,8 +203,7 @@ def test_walls_whose_neighbours_are_coupled(office, tmp_path, short, coupling):
 
 @pytest.mark.parametrize("cells", full_but(["surface", "reflectivity"], "surface"))
 def test_labels_of_neighbours_are_coupled(office, tmp_path, short, cells):
-    result = call("infer", office, "-o", tmp_path / "run", *short, "--cells", cells, "--coupling", "0.7", "--json")
-    assert result.exit_code == 0, result.stderr
+    result = succeed("infer", office, "-o", tmp_path / "run", *short, "--cells", cells, "--coupling 0.7 --json")
     prior = bm.load(tmp_path / "run" / "run.nc").posterior.prior
     assert prior.words.kind == cells
     assert prior.coupling == 0.7
@@ -252,10 +216,8 @@ def test_labels_of_neighbours_are_coupled(office, tmp_path, short, cells):
 
 
 def test_a_log_without_a_hit_is_warned_of(office, tmp_path, short):
-    result = call("infer", office, "-o", tmp_path / "run", *short, "--max-range", "0.001")
-    assert result.exit_code == 0, result.stderr
+    result = succeed("infer", office, "-o", tmp_path / "run", *short, "--max-range 0.001")
     assert f"warning: {office}: no reading is a hit" in result.stderr
-    assert "no reading is a hit" not in call("infer", office, "-o", tmp_path / "other", *short).stderr
 
 
 def test_importance_sampling_is_announced_before_its_first_particles(office):
@@ -283,22 +245,18 @@ def test_where_the_laser_sits_is_said_and_kept_with_the_run(office, office_run, 
         log, poses=robot, angles_rad=scans.angles_rad, ranges_m=scans.ranges_m, stamps_s=scans.stamps_s,
         max_range_m=scans.max_range_m,
     )  # fmt: skip
-    laser = ("--laser", "0.2,-0.1,90")
-    held = ("--holdout", "4")
-    result = call("infer", log, "-o", tmp_path / "run", *short, *laser, *held)
-    assert result.exit_code == 0, result.stderr
+    laser = "--laser 0.2,-0.1,90"
+    held = "--holdout 4"
+    succeed("infer", log, "-o", tmp_path / "run", *short, laser, held)
     run = bm.load(tmp_path / "run" / "run.nc")
     train, _ = scans.holdout(4)
     np.testing.assert_allclose(run.posterior.scans.poses[:, :2], train.poses[:, :2], atol=1e-9)
     assert 'laser = "0.2,-0.1,90"' in (tmp_path / "run" / "config.toml").read_text()
-    scored = call("score", tmp_path / "run" / "run.nc", log, *held, *laser, "--json")
-    assert scored.exit_code == 0, scored.stderr
-    assert call("score", tmp_path / "run" / "run.nc", log, *held).exit_code == 3
-    where = [call("localize", office_run / "run.nc", *typed, "--scans", "0:1", "--prior",
+    succeed("score", tmp_path / "run" / "run.nc", log, held, laser, "--json")
+    refusal_of("score", tmp_path / "run" / "run.nc", log, held)
+    where = [call("localize", office_run / "run.nc", *typed, "--scans 0:1 --prior",
                   f"{scans.poses[0, 0]},{scans.poses[0, 1]},{np.degrees(scans.poses[0, 2])},0.3,10", "--json")
-             for typed in ((office,), (log, *laser))]  # fmt: skip
+             for typed in ((office,), (log, laser))]  # fmt: skip
     told = [json.loads(one.stdout)["last"]["mean"] for one in where]
     np.testing.assert_allclose(told[0], told[1], atol=1e-6)
-    wrong = call("infer", log, "-o", tmp_path / "other", "--laser", "0.2,0")
-    assert wrong.exit_code == 2
-    assert "--laser" in wrong.stderr
+    assert "--laser" in refusal_of("infer", log, "-o", tmp_path / "other", "--laser 0.2,0", code=2)

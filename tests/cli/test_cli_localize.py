@@ -4,7 +4,7 @@ import json
 
 import numpy as np
 import pytest
-from shell import call
+from shell import json_of, refusal_of, succeed
 
 from bayesmap.cli.localize import _per_cent
 from bayesmap.io.logs import read_log
@@ -13,8 +13,7 @@ from bayesmap.io.text.trajectories import read_trajectory
 
 @pytest.fixture(scope="module")
 def answers(office, office_run, prior):
-    result = call("localize", office_run / "run.nc", office, "--follow", "--for", "0", "--no-progress", *prior)
-    assert result.exit_code == 0, result.stderr
+    result = succeed("localize", office_run / "run.nc", office, "--follow --for 0 --no-progress", *prior)
     return [json.loads(line) for line in result.stdout.splitlines()]
 
 
@@ -31,10 +30,8 @@ def test_a_line_for_each_scan_as_it_is_known(office, answers):
 @pytest.mark.parametrize("ending", [".tum", ".mcap", ".jsonl"])
 def test_trajectories_are_written(office, office_run, answers, prior, tmp_path, ending):
     target = tmp_path / f"where{ending}"
-    area = ("--area", "-100,100,-100,100")
-    result = call("localize", office_run / "run.nc", office, *prior, "-o", target, "--json", *area)
-    assert result.exit_code == 0, result.stderr
-    document = json.loads(result.stdout)
+    area = "--area -100,100,-100,100"
+    document = json_of("localize", office_run / "run.nc", office, *prior, "-o", target, "--json", area)
     assert document["scans"] == 12
     last = document["last"]
     assert last["mean"] == answers[-1]["mean"]
@@ -51,8 +48,7 @@ def test_trajectories_are_written(office, office_run, answers, prior, tmp_path, 
 def test_a_single_scan_with_a_prior(office, office_run):
     x, y, yaw = read_log(office).poses[3]
     prior = f"{x},{y},{np.degrees(yaw)},0.2,5"
-    result = call("localize", office_run / "run.nc", office, "--scans", "3:4", "--prior", prior)
-    assert result.exit_code == 0, result.stderr
+    result = succeed("localize", office_run / "run.nc", office, "--scans 3:4 --prior", prior)
     assert result.stdout.splitlines()[-1].startswith("lost, or the map outdated:")
 
 
@@ -62,12 +58,11 @@ def truth_map(office):
     return office.with_name(f"{office.stem}-truth.yaml")
 
 
-@pytest.mark.parametrize("follow", [(), ("--follow", "--for", "0")])
+@pytest.mark.parametrize("follow", [(), ("--follow --for 0",)])
 def test_a_map_of_another_program_is_located_in(office, truth_map, prior, tmp_path, follow):
     """The law is said to be assumed, for twelve scans are too few to fit one."""
     target = tmp_path / "where.jsonl"
-    result = call("localize", truth_map, office, *prior, *follow, "-o", target, "--no-progress")
-    assert result.exit_code == 0, result.stderr
+    result = succeed("localize", truth_map, office, *prior, *follow, "-o", target, "--no-progress")
     if not follow:
         assert "assumed: too few scans are located to fit it" in result.stderr
     truth = read_log(office).poses
@@ -93,12 +88,8 @@ def test_bad_maps_are_named(office, tmp_path, lines, message):
     path = tmp_path / "map.yaml"
     if lines is not None:
         path.write_text(lines)
-    result = call("localize", path, office)
-    assert result.exit_code == 3, result.stderr
-    assert message in result.stderr
-    result = call("localize", tmp_path / "map.pgm", office)
-    assert result.exit_code == 3
-    assert "the image of a map; give the YAML file" in result.stderr
+    assert message in refusal_of("localize", path, office)
+    assert "the image of a map; give the YAML file" in refusal_of("localize", tmp_path / "map.pgm", office)
 
 
 def test_chances_are_written_as_people_write_them():
@@ -109,18 +100,16 @@ def test_chances_are_written_as_people_write_them():
 @pytest.mark.parametrize(
     ("arguments", "code", "message"),
     [
-        (["--scans", "50:60"], 3, "none of the log's 12 scans is among them"),
-        (["--scans", "five"], 2, "is not FIRST:LAST"),
-        (["--prior", "1,2"], 2, "is not X,Y,DEGREES"),
-        (["--area", "1,2,3"], 2, "is not X0,X1,Y0,Y1"),
-        (["--area", "3,1,0,1"], 3, "--area 3,1,0,1: give X0 below X1, and Y0 below Y1"),
-        (["--prior", "500,0,0"], 3, "prior: (500, 0) +- 0.5 m lies outside the map"),
+        (["--scans 50:60"], 3, "none of the log's 12 scans is among them"),
+        (["--scans five"], 2, "is not FIRST:LAST"),
+        (["--prior 1,2"], 2, "is not X,Y,DEGREES"),
+        (["--area 1,2,3"], 2, "is not X0,X1,Y0,Y1"),
+        (["--area 3,1,0,1"], 3, "--area 3,1,0,1: give X0 below X1, and Y0 below Y1"),
+        (["--prior 500,0,0"], 3, "prior: (500, 0) +- 0.5 m lies outside the map"),
         (["-o", "where.txt"], 2, "end its name in one of .tum, .mcap"),
-        (["--device", "tpu:7"], 3, "device: 'tpu:7' is not on this machine"),
-        (["--beam-weight", "2"], 3, "--beam-weight must be a number above 0, and 1 at most"),
+        (["--device tpu:7"], 3, "device: 'tpu:7' is not on this machine"),
+        (["--beam-weight 2"], 3, "--beam-weight must be a number above 0, and 1 at most"),
     ],
 )
 def test_what_it_refuses(office, office_run, arguments, code, message):
-    result = call("localize", office_run / "run.nc", office, *arguments)
-    assert result.exit_code == code, result.stderr
-    assert message in result.stderr
+    assert message in refusal_of("localize", office_run / "run.nc", office, *arguments, code=code)

@@ -5,7 +5,7 @@ import json
 import numpy as np
 import pytest
 from PIL import Image
-from shell import call
+from shell import call, json_of, refusal_of, succeed
 
 import bayesmap as bm
 from bayesmap.io.ros.maps import read_map
@@ -13,9 +13,7 @@ from bayesmap.io.ros.maps import read_map
 
 def test_demo(tmp_path):
     folder = tmp_path / "demo"
-    result = call("demo", "-o", folder, "--draws", "200", "--particles", "5000", "--json")
-    assert result.exit_code == 0, result.stderr
-    document = json.loads(result.stdout)
+    document = json_of("demo", "-o", folder, "--draws 200 --particles 5000 --json")
     assert json.loads((folder / "demo.json").read_text()) == document
     assert {path.name for path in folder.iterdir()} == set(document["outputs"])
     assert document["runs"].keys() == {"gibbs", "block", "importance", "film"}
@@ -31,15 +29,14 @@ def test_demo(tmp_path):
     assert ((run.occupancy > 0.5) == walls)[sure].mean() > 0.98
     # A demo may be repeated, but other people's runs are safe from it.
     (folder / "demo.json").unlink()
-    assert call("demo", "-o", folder).exit_code == 3
+    refusal_of("demo", "-o", folder)
 
 
 @pytest.mark.parametrize("what", ["figure", "mean", "entropy", "width", "draw", "trace"])
 def test_render(office, office_run, tmp_path, what):
     target = tmp_path / "picture.png"
     truth = ["--truth", office.with_name("office-truth.yaml")] if what in ("figure", "mean") else []
-    result = call("render", office_run / "run.nc", "--what", what, "-o", target, *truth)
-    assert result.exit_code == 0, result.stderr
+    result = succeed("render", office_run / "run.nc", "--what", what, "-o", target, *truth)
     assert result.stdout == f"{target}\n"
     with Image.open(target) as image:
         assert image.size[0] > 400
@@ -56,19 +53,15 @@ def binary_run(office, tmp_path_factory):
 
 
 def held_out(office, folder, *options):
-    few = ("--resolution", "0.25", "--chains", "2", "--warmup", "5", "--draws", "8", "--no-progress")
-    result = call("infer", office, "-o", folder, *few, "--holdout", "3", *options)
-    assert result.exit_code == 0, result.stderr
+    few = "--resolution 0.25 --chains 2 --warmup 5 --draws 8 --no-progress"
+    succeed("infer", office, "-o", folder, few, "--holdout 3", *options)
     return folder
 
 
 def test_residuals_of_scans_that_were_seen_are_refused(office, office_run, heldout_run, tmp_path):
     for run, every in ((office_run, "3"), (heldout_run, "2"), (heldout_run, "0")):
-        result = call(
-            "render", run / "run.nc", "--what", "residuals", "--heldout", office, "--holdout", every,
-            "-o", tmp_path / "picture.png",
-        )  # fmt: skip
-        assert result.exit_code == 3, result.stderr
+        held_out = ("--what residuals --heldout", office, "--holdout", every)
+        refusal_of("render", run / "run.nc", *held_out, "-o", tmp_path / "picture.png")
     assert list(tmp_path.iterdir()) == []
 
 
@@ -76,39 +69,32 @@ def test_residuals_of_scans_that_were_seen_are_refused(office, office_run, heldo
 @pytest.mark.parametrize("window", [None, "observed", "0,6,-1,5"])
 def test_render_what_others_and_unseen_scans_say(office, heldout_run, tmp_path, what, window):
     target = tmp_path / "picture.png"
-    heldout = ["--heldout", office, "--holdout", "3"] if what != "log-odds" else []
+    heldout = ["--heldout", office, "--holdout 3"] if what != "log-odds" else []
     part = ["--window", window] if window else []
-    result = call("render", heldout_run / "run.nc", "--what", what, "-o", target, *heldout, *part)
-    assert result.exit_code == 0, result.stderr
+    succeed("render", heldout_run / "run.nc", "--what", what, "-o", target, *heldout, *part)
     with Image.open(target) as image:
         assert image.size[0] > 400
 
 
 def test_binary_walls_have_no_interval_and_no_surfaces_and_other_cells_have(binary_run, office_run, tmp_path):
     for what, message in (("width", "a wall is there or not, and has no interval"), ("surfaces", "--cells surface")):
-        refused = call("render", binary_run / "run.nc", "--what", what, "-o", tmp_path / "no.png")
-        assert refused.exit_code == 3
-        assert message in refused.stderr
-        drawn = call("render", office_run / "run.nc", "--what", what, "-o", tmp_path / f"{what}.png")
-        assert drawn.exit_code == 0, drawn.stderr
+        assert message in refusal_of("render", binary_run / "run.nc", "--what", what, "-o", tmp_path / "no.png")
+        succeed("render", office_run / "run.nc", "--what", what, "-o", tmp_path / f"{what}.png")
     assert {path.name for path in tmp_path.iterdir()} == {"width.png", "surfaces.png"}
-    refused = call("render", office_run / "run.nc", "--what", "deviation", "-o", tmp_path / "no.png")
-    assert refused.exit_code == 3
-    assert "--what width" in refused.stderr
+    assert "--what width" in refusal_of("render", office_run / "run.nc", "--what deviation -o", tmp_path / "no.png")
 
 
 @pytest.mark.parametrize("what", ["figure", "mean", "deviation", "draw", "animation", "residuals", "log-odds"])
 def test_binary_walls_are_still_drawn(office, binary_run, tmp_path, what):
     target = tmp_path / ("film.gif" if what == "animation" else "picture.png")
-    heldout = ["--heldout", office, "--holdout", "3"] if what == "residuals" else []
-    result = call("render", binary_run / "run.nc", "--what", what, "-o", target, *heldout)
-    assert result.exit_code == 0, result.stderr
+    heldout = ["--heldout", office, "--holdout 3"] if what == "residuals" else []
+    succeed("render", binary_run / "run.nc", "--what", what, "-o", target, *heldout)
 
 
 def test_layers_of_walls_and_of_surfaces_in_a_geotiff(binary_run, office_run, tmp_path):
     rasterio = pytest.importorskip("rasterio")
     for run, names in ((binary_run, ("mean", "entropy")), (office_run, ("mean", "entropy", "lower", "upper"))):
-        assert call("export", run / "run.nc", "-o", tmp_path / "map.tif", "--force").exit_code == 0
+        succeed("export", run / "run.nc", "-o", tmp_path / "map.tif", "--force")
         with rasterio.open(tmp_path / "map.tif") as file:
             assert file.descriptions == names
             layers = file.read()
@@ -124,7 +110,7 @@ def test_render_animation_and_default_names(office_run, tmp_path):
     copy = tmp_path / "run.nc"
     copy.write_bytes((office_run / "run.nc").read_bytes())
     for what, name in (("animation", "chain.gif"), ("figure", "posterior.png"), ("entropy", "entropy.png")):
-        document = json.loads(call("render", copy, "--what", what, "--json", "--frames", "3").stdout)
+        document = json.loads(call("render", copy, "--what", what, "--json --frames 3").stdout)
         assert document["outputs"] == {name: str(tmp_path / name)}
     with Image.open(tmp_path / "chain.gif") as film:
         assert film.n_frames == 3
@@ -132,40 +118,37 @@ def test_render_animation_and_default_names(office_run, tmp_path):
 
 def test_render_says_what_it_cannot_draw(office_run, tmp_path):
     for arguments, message in (
-        (["--what", "weights"], "no importance weights"),
-        (["--what", "draw", "--draw", "99"], "this run has 8 draws a chain"),
-        (["--what", "draw", "--chain", "3"], "this run has chains 1 to 2"),
-        (["--what", "animation", "-o", tmp_path / "film.png"], ".gif, .webp"),
+        (["--what weights"], "no importance weights"),
+        (["--what draw --draw 99"], "this run has 8 draws a chain"),
+        (["--what draw --chain 3"], "this run has chains 1 to 2"),
+        (["--what animation -o", tmp_path / "film.png"], ".gif, .webp"),
         (["-o", tmp_path / "picture.jpg"], ".png, .pdf, .svg"),
-        (["--what", "residuals"], "name their log by --heldout"),
-        (["--what", "surprise", "--heldout", tmp_path / "no.log"], "no.log"),
-        (["--what", "mean", "--window", "1,2"], "give X0,X1,Y0,Y1 in metres"),
-        (["--what", "mean", "--window", "900,901,0,1"], "lies outside the map"),
-        (["--window", "observed"], "figure shows the whole map"),
+        (["--what residuals"], "name their log by --heldout"),
+        (["--what surprise --heldout", tmp_path / "no.log"], "no.log"),
+        (["--what mean --window 1,2"], "give X0,X1,Y0,Y1 in metres"),
+        (["--what mean --window 900,901,0,1"], "lies outside the map"),
+        (["--window observed"], "figure shows the whole map"),
     ):
-        result = call("render", office_run / "run.nc", *arguments)
-        assert result.exit_code == 3, result.stderr
-        assert message in result.stderr
+        assert message in refusal_of("render", office_run / "run.nc", *arguments)
 
 
 def test_export(office_run, tmp_path):
     run = bm.load(office_run / "run.nc")
     for mode in ("trinary", "scale"):
         target = tmp_path / f"{mode}.yaml"
-        result = call("export", office_run / "run.nc", "-o", target, "--mode", mode)
-        assert result.exit_code == 0, result.stderr
+        succeed("export", office_run / "run.nc", "-o", target, "--mode", mode)
         occupancy, grid = read_map(target)
         assert grid == run.grid
         known = ~np.isnan(occupancy)
         if mode == "scale":
             np.testing.assert_array_equal(known, run.observed)
             np.testing.assert_allclose(occupancy[known], run.occupancy[known], atol=0.011)
-    unknown = call("export", office_run / "run.nc", "-o", tmp_path / "map.txt")
-    assert unknown.exit_code == 3
-    assert ".yaml, .yml, .bag, .mcap, .db3, .rrd, .tum, .g2o, .tif, .tiff" in unknown.stderr
-    missing = call("export", office_run / "run.nc", "-o", tmp_path / "nowhere" / "map.yaml")
-    assert missing.exit_code == 3
-    assert "no such folder; make it first" in missing.stderr
+    assert ".yaml, .yml, .bag, .mcap, .db3, .rrd, .tum, .g2o, .tif, .tiff" in refusal_of(
+        "export", office_run / "run.nc", "-o", tmp_path / "map.txt"
+    )
+    assert "no such folder; make it first" in refusal_of(
+        "export", office_run / "run.nc", "-o", tmp_path / "nowhere" / "map.yaml"
+    )
 
 
 @pytest.mark.parametrize("name", ["map.yaml", "map.bag", "map.mcap", "map.db3", "map", "map.rrd", "map.tum", "map.tif"])
@@ -173,27 +156,22 @@ def test_export_to_every_format_and_never_over_an_old_file_unasked(office_run, t
     if name in ("map.rrd", "map.tif"):
         pytest.importorskip({"map.rrd": "rerun", "map.tif": "rasterio"}[name])
     target = tmp_path / name
-    result = call("export", office_run / "run.nc", "-o", target, "--json")
-    assert result.exit_code == 0, result.stderr
-    outputs = json.loads(result.stdout)["outputs"]
+    outputs = json_of("export", office_run / "run.nc", "-o", target, "--json")["outputs"]
     assert outputs[name] == str(target)
     assert set(outputs) == {path.name for path in tmp_path.iterdir()}
-    again = call("export", office_run / "run.nc", "-o", target)
-    assert again.exit_code == 3
-    assert "exists already; --force replaces it" in again.stderr
-    assert call("export", office_run / "run.nc", "-o", target, "--force").exit_code == 0
+    assert "exists already; --force replaces it" in refusal_of("export", office_run / "run.nc", "-o", target)
+    succeed("export", office_run / "run.nc", "-o", target, "--force")
 
 
 def test_export_of_layers_in_a_recording(office_run, tmp_path):
     from mcap.reader import make_reader
 
-    result = call("export", office_run / "run.nc", "-o", tmp_path / "map.mcap", "--format", "gridmap")
-    assert result.exit_code == 0, result.stderr
+    succeed("export", office_run / "run.nc", "-o", tmp_path / "map.mcap", "--format gridmap")
     with open(tmp_path / "map.mcap", "rb") as file:
         assert [schema.name for schema, _, _ in make_reader(file).iter_messages()] == ["grid_map_msgs/msg/GridMap"]
-    refused = call("export", office_run / "run.nc", "-o", tmp_path / "map.tum", "--mode", "raw")
-    assert refused.exit_code == 3
-    assert "tum keeps the numbers and takes no mode" in refused.stderr
+    assert "tum keeps the numbers and takes no mode" in refusal_of(
+        "export", office_run / "run.nc", "-o", tmp_path / "map.tum", "--mode raw"
+    )
 
 
 def test_simulated_truth_is_found_again(office, office_run):
@@ -214,20 +192,16 @@ def test_simulate_worlds_from_files(tmp_path):
     drawing = tmp_path / "room.txt"
     drawing.write_text("XXXXX\nX...X\nX...X\nXXXXX\n")
     truth = tmp_path / "scan-truth.yaml"
-    result = call(
-        "simulate", "--world", drawing, "--pose", "1.5,2.5,0", "--pose", "2.5,2.5,90", "-o",
-        tmp_path / "scan.log.gz", "--json",
-    )  # fmt: skip
-    assert result.exit_code == 0, result.stderr
-    assert json.loads(result.stdout)["scans"] == 2
-    assert read_map(truth)[0].shape == (4, 5)
-    again = call("simulate", "--world", truth, "--pose", "1.5,2.5,0", "-o", tmp_path / "scan.log.gz")
-    assert again.exit_code == 3
-    assert "--force replaces it" in again.stderr
-    again = call("simulate", "--world", truth, "--pose", "1.5,2.5,0", "-o", tmp_path / "again.log")
-    assert again.exit_code == 0, again.stderr
-    picture = call(
-        "simulate", "--world", tmp_path / "scan-truth.pgm", "--pose", "0.15,0.25,0", "-o", tmp_path / "p.log"
+    assert (
+        json_of(
+            "simulate", "--world", drawing, "--pose 1.5,2.5,0 --pose 2.5,2.5,90 -o", tmp_path / "scan.log.gz", "--json"
+        )["scans"]
+        == 2
     )
-    assert picture.exit_code == 0, picture.stderr
-    assert call("simulate", "--world", drawing, "-o", tmp_path / "q.log").exit_code == 2
+    assert read_map(truth)[0].shape == (4, 5)
+    assert "--force replaces it" in refusal_of(
+        "simulate", "--world", truth, "--pose 1.5,2.5,0 -o", tmp_path / "scan.log.gz"
+    )
+    succeed("simulate", "--world", truth, "--pose 1.5,2.5,0 -o", tmp_path / "again.log")
+    succeed("simulate", "--world", tmp_path / "scan-truth.pgm", "--pose 0.15,0.25,0 -o", tmp_path / "p.log")
+    refusal_of("simulate", "--world", drawing, "-o", tmp_path / "q.log", code=2)

@@ -4,7 +4,7 @@ import json
 
 import numpy as np
 import pytest
-from shell import call
+from shell import call, json_of, refusal_of, succeed
 
 from bayesmap.io.logs import read_log
 from bayesmap.result import load
@@ -17,10 +17,15 @@ def ends(office):
     return [f"{x:.3f},{y:.3f}" for x, y, _ in (poses[0], poses[2])]
 
 
-def test_a_plan_as_text_ends_with_its_probability_and_picture(office_run, ends, tmp_path):
+@pytest.fixture(scope="module")
+def plan(office_run, ends):
+    """The words of a command that plans between them."""
+    return "plan", office_run / "run.nc", "--from", ends[0], "--to", ends[1]
+
+
+def test_a_plan_as_text_ends_with_its_probability_and_picture(plan, ends, tmp_path):
     picture = tmp_path / "way.png"
-    result = call("plan", office_run / "run.nc", "--from", ends[0], "--to", ends[1], "--radius", "0.1", "-o", picture)
-    assert result.exit_code == 0, result.stderr
+    result = succeed(*plan, "--radius 0.1 -o", picture)
     *corners, sentence, written = result.stdout.splitlines()
     assert corners[0] == ends[0]
     assert corners[-1] == ends[1]
@@ -30,13 +35,8 @@ def test_a_plan_as_text_ends_with_its_probability_and_picture(office_run, ends, 
     assert picture.read_bytes().startswith(b"\x89PNG")
 
 
-def test_a_plan_as_json_is_what_the_run_says(office_run, ends, tmp_path):
-    result = call(
-        "plan", office_run / "run.nc", "--from", ends[0], "--to", ends[1], "--radius", "0.1", "--risk", "0.9",
-        "-o", tmp_path / "way.svg", "--json",
-    )  # fmt: skip
-    assert result.exit_code == 0, result.stderr
-    document = json.loads(result.stdout)
+def test_a_plan_as_json_is_what_the_run_says(office_run, plan, tmp_path):
+    document = json_of(*plan, "--radius 0.1 --risk 0.9 -o", tmp_path / "way.svg", "--json")
     free = load(office_run / "run.nc").free_probability(document["path"], 0.1)
     assert document["free_probability"] == free.probability
     assert document["standard_error"] == pytest.approx(free.standard_error)
@@ -48,12 +48,8 @@ def test_a_plan_as_json_is_what_the_run_says(office_run, ends, tmp_path):
 
 
 @pytest.mark.parametrize("risk", [1e-9, 0.999])
-def test_a_risk_that_no_path_keeps_is_warned_of(office_run, ends, tmp_path, risk):
-    result = call(
-        "plan", office_run / "run.nc", "--from", ends[0], "--to", ends[1], "--radius", "0.12", "--risk", risk,
-        "-o", tmp_path / "way.png", "--json",
-    )  # fmt: skip
-    assert result.exit_code == 0, result.stderr
+def test_a_risk_that_no_path_keeps_is_warned_of(plan, tmp_path, risk):
+    result = succeed(*plan, "--radius 0.12 --risk", risk, "-o", tmp_path / "way.png", "--json")
     document = json.loads(result.stdout)
     assert document["within_risk"] == (1 - document["free_probability"] <= risk)
     assert ("this is the safest" in result.stderr) == (not document["within_risk"])
@@ -61,17 +57,15 @@ def test_a_risk_that_no_path_keeps_is_warned_of(office_run, ends, tmp_path, risk
 
 def test_views_are_printed_best_first_and_drawn(office_run, tmp_path):
     picture = tmp_path / "views.png"
-    options = ("--candidates", "30", "--views", "3", "--draws", "8", "--radius", "0.15")
-    result = call("explore", office_run / "run.nc", *options, "-o", picture, "--json")
-    assert result.exit_code == 0, result.stderr
-    document = json.loads(result.stdout)
+    options = "--candidates 30 --views 3 --draws 8 --radius 0.15"
+    document = json_of("explore", office_run / "run.nc", options, "-o", picture, "--json")
     nats = [view["at_most_nats"] for view in document["views"]]
     assert nats == sorted(nats, reverse=True)
     assert 1 <= len(nats) <= 3
     assert all(view["at_least_nats"] <= np.log(8) + 1e-9 for view in document["views"])
     assert all(len(view["pose"]) == 3 for view in document["views"])
     assert picture.read_bytes().startswith(b"\x89PNG")
-    text = call("explore", office_run / "run.nc", *options, "-o", picture)
+    text = call("explore", office_run / "run.nc", options, "-o", picture)
     assert text.stdout.splitlines()[-1] == str(picture)
     assert len(text.stdout.splitlines()) == len(nats) + 1
 
@@ -92,22 +86,17 @@ def test_views_are_printed_best_first_and_drawn(office_run, tmp_path):
 )
 def test_what_is_refused(office_run, arguments, code, message):
     command, *rest = arguments
-    result = call(command, office_run / "run.nc", *rest)
-    assert result.exit_code == code, result.stderr
-    assert message in result.stderr
+    assert message in refusal_of(command, office_run / "run.nc", *rest, code=code)
 
 
 def test_a_missing_run_is_bad_input():
-    result = call("explore", "nowhere.nc")
-    assert result.exit_code == 3
-    assert "nowhere.nc" in result.stderr
+    assert "nowhere.nc" in refusal_of("explore", "nowhere.nc")
 
 
-def test_ctrl_c_leaves_no_picture(office_run, ends, tmp_path, monkeypatch):
+def test_ctrl_c_leaves_no_picture(plan, tmp_path, monkeypatch):
     def interrupted(*_):
         raise KeyboardInterrupt
 
     monkeypatch.setattr("bayesmap.posterior.decisions.shortest_safe_path", interrupted)
-    result = call("plan", office_run / "run.nc", "--from", ends[0], "--to", ends[1], "-o", tmp_path / "way.png")
-    assert result.exit_code == 130, result.stderr
+    refusal_of(*plan, "-o", tmp_path / "way.png", code=130)
     assert list(tmp_path.iterdir()) == []

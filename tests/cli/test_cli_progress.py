@@ -5,7 +5,7 @@ import pty
 import subprocess
 
 import pytest
-from shell import COMMAND, SOURCE, call
+from shell import COMMAND, SOURCE, call, succeed, words
 from tiers import full_but
 
 from bayesmap.api import Event
@@ -16,7 +16,7 @@ def on_a_terminal(*arguments):
     """What a command writes to a terminal."""
     ours, theirs = pty.openpty()
     environment = {**os.environ, "PYTHONPATH": str(SOURCE), "TERM": "xterm", "COLUMNS": "100"}
-    command = [*COMMAND, *map(str, arguments)]
+    command = [*COMMAND, *words(arguments)]
     process = subprocess.Popen(command, stdin=theirs, stdout=theirs, stderr=theirs, env=environment)
     os.close(theirs)
     written = b""
@@ -35,34 +35,20 @@ def on_a_terminal(*arguments):
 
 @pytest.mark.parametrize("cells", full_but(["surface", "binary"], "surface"))
 def test_what_follows_the_chains_is_named_too(office, tmp_path, cells):
-    asked = [
-        "infer",
-        office,
-        "--resolution",
-        "0.25",
-        "--warmup",
-        "4",
-        "--draws",
-        "4",
-        "--holdout",
-        "2",
-        "--cells",
-        cells,
-    ]
+    asked = ("infer", office, "--resolution 0.25 --warmup 4 --draws 4 --holdout 2 --cells", cells)
     shown = on_a_terminal(*asked, "-o", tmp_path / "seen")
     for name in ("tracing beams", "saving", "drawing the map", "scoring held-out beams", "comparing the chains"):
         assert name in shown, name
     assert "sweeps ETA" in shown
-    quiet = call(*asked, "-o", tmp_path / "piped")
-    assert quiet.exit_code == 0
+    quiet = succeed(*asked, "-o", tmp_path / "piped")
     assert "saving" not in quiet.stderr
 
 
 @pytest.mark.full
 def test_scores_and_the_baselines_that_are_fitted_for_them_are_named_too(office, tmp_path, monkeypatch):
     monkeypatch.setattr("bayesmap.posterior.baselines.MOST_STEPS", 4)  # how well they are fitted is not asked here
-    few = ("--resolution", "0.25", "--chains", "1", "--warmup", "2", "--draws", "3", "--holdout", "4")
-    assert call("infer", office, *few, "-o", tmp_path).exit_code == 0
+    few = "--resolution 0.25 --chains 1 --warmup 2 --draws 3 --holdout 4"
+    succeed("infer", office, few, "-o", tmp_path)
     asked = ("score", tmp_path / "run.nc", office, "--holdout", "4", "--compare")
     shown = on_a_terminal(*asked)
     names = ("hit ratio", "log-odds, tuned", "log-odds", "log-odds, clamped")
@@ -71,9 +57,7 @@ def test_scores_and_the_baselines_that_are_fitted_for_them_are_named_too(office,
     for name in names:
         assert f"fitting {name}" in shown
     assert "% ETA" in shown
-    predicted = on_a_terminal(
-        "render", tmp_path / "run.nc", "--what", "surprise", "--heldout", office, "--holdout", "4"
-    )
+    predicted = on_a_terminal("render", tmp_path / "run.nc", "--what surprise --heldout", office, "--holdout 4")
     assert "predicting held-out beams" in predicted
     assert "ETA" not in call(*asked).stderr
 

@@ -3,12 +3,12 @@
 import contextlib
 
 import pytest
-from shell import call, interrupt_at_checkpoint
+from shell import interrupt_at_checkpoint, refusal_of, succeed
 from tiers import full_but
 
 import bayesmap as bm
 
-SLAM = ("--fast", "--resolution", "0.5", "--threads", "2")
+SLAM = "--fast --resolution 0.5 --threads 2"
 
 
 def contents(folder):
@@ -18,17 +18,16 @@ def contents(folder):
 @pytest.fixture
 def finished(office, tmp_path, short):
     folder = tmp_path / "run"
-    assert call("infer", office, "-o", folder, *short).exit_code == 0
+    succeed("infer", office, "-o", folder, *short)
     return folder
 
 
 def test_interrupted_before_the_first_sweep_it_is_as_it_was(office, finished, short, monkeypatch):
     before = contents(finished)
     monkeypatch.setattr("bayesmap.api.stop_on_interrupt", lambda: contextlib.nullcontext(lambda: True))
-    result = call("infer", office, "-o", finished, *short, "--seed", 5, "--force")
-    assert result.exit_code == 130
-    assert "interrupted before there was anything to save" in result.stderr
-    assert "is as it was" in result.stderr
+    result = refusal_of("infer", office, "-o", finished, *short, "--seed 5 --force", code=130)
+    assert "interrupted before there was anything to save" in result
+    assert "is as it was" in result
     assert contents(finished) == before
 
 
@@ -45,24 +44,21 @@ def test_out_of_memory_before_the_first_checkpoint_it_is_as_it_was(office, finis
         return real(*given, on_progress=told, **options)
 
     monkeypatch.setattr("bayesmap.api.infer", infer)
-    options = ("--cells", "binary", "--start", "propagate") if where == "propagate" else ()
-    result = call("infer", office, "-o", finished, *short, *options, "--seed", 5, "--force")
-    assert result.exit_code == 1
-    assert "out of memory" in result.stderr
+    options = ("--cells binary --start propagate",) if where == "propagate" else ()
+    assert "out of memory" in refusal_of("infer", office, "-o", finished, *short, *options, "--seed 5 --force", code=1)
     after = contents(finished)
     assert {name: after[name] for name in before} == before
     # What had begun goes on with its own settings.
     monkeypatch.setattr("bayesmap.api.infer", real)
-    assert call("infer", office, "-o", finished, "--resume").exit_code == 0
+    succeed("infer", office, "-o", finished, "--resume")
     assert bm.load(finished / "run.nc").posterior.settings["seed"] == 5
     assert contents(finished).keys() == before.keys()
 
 
 def test_at_the_first_checkpoint_it_goes_with_all_that_was_made_of_it(office, finished, short, monkeypatch):
     interrupt_at_checkpoint(monkeypatch)
-    long = ("--warmup", "20", "--draws", "400", "--checkpoint-every", "0")
-    result = call("infer", office, "-o", finished, *short, *long, "--seed", 5, "--force")
-    assert result.exit_code == 130
+    long = "--warmup 20 --draws 400 --checkpoint-every 0"
+    refusal_of("infer", office, "-o", finished, *short, long, "--seed 5 --force", code=130)
     assert sorted(contents(finished)) == ["config.toml", "run.nc"]
     assert "seed = 5" in (finished / "config.toml").read_text()
 
@@ -72,46 +68,43 @@ def test_a_full_disk_says_what_is_kept(office, finished, short, monkeypatch):
         raise OSError(28, "No space left on device", str(path))
 
     monkeypatch.setattr(bm.Run, "save", full)
-    result = call("infer", office, "-o", finished, *short, "--seed", 5, "--force")
-    assert result.exit_code == 1
-    assert "No space left on device; run.nc still holds the run to be replaced" in result.stderr
-    result = call("infer", office, "-o", finished, "--resume")
-    assert result.exit_code == 1
+    assert "No space left on device; run.nc still holds the run to be replaced" in refusal_of(
+        "infer", office, "-o", finished, *short, "--seed 5 --force", code=1
+    )
+    refusal_of("infer", office, "-o", finished, "--resume", code=1)
 
 
 def test_the_map_that_names_the_cells_may_be_the_folder_s_own(office, finished, short, monkeypatch):
-    long = ("--warmup", "20", "--draws", "30", "--checkpoint-every", "0")
+    long = "--warmup 20 --draws 30 --checkpoint-every 0"
     grid = bm.load(finished / "run.nc").grid
     with monkeypatch.context() as patch:
         interrupt_at_checkpoint(patch)
-        options = (*short, *long, "--grid", finished / "map.yaml", "--force")
-        assert call("infer", office, "-o", finished, *options).exit_code == 130
-    result = call("infer", office, "-o", finished, "--resume")
-    assert result.exit_code == 0, result.stderr
+        options = (*short, long, "--grid", finished / "map.yaml", "--force")
+        refusal_of("infer", office, "-o", finished, *options, code=130)
+    succeed("infer", office, "-o", finished, "--resume")
     assert bm.load(finished / "run.nc").grid == grid
 
 
 @pytest.mark.full
 def test_a_refused_resume_of_a_trajectory_s_run_changes_nothing(tmp_path):
     log, folder = tmp_path / "office.log", tmp_path / "run"
-    made = call("simulate", "--world", "building", "--size", "12x8", "--scans", "30", "--odometry", "typical",
-                "--fov", "360", "--angles", "90", "--seed", "4", "-o", log)  # fmt: skip
-    assert made.exit_code == 0, made.stderr
-    assert call("slam", log, "-o", folder, *SLAM).exit_code == 0
+    succeed(
+        "simulate", "--world building --size 12x8 --scans 30 --odometry typical --fov 360 --angles 90 --seed 4 -o", log
+    )
+    succeed("slam", log, "-o", folder, SLAM)
     before = contents(folder)
-    for changed in (("--chains", "3"), ("--resolution", "0.4"), ("--seed", "9")):
-        result = call("slam", log, "-o", folder, "--resume", *changed)
-        assert result.exit_code == 3, result.stderr
+    for changed in (("--chains 3",), ("--resolution 0.4",), ("--seed 9",)):
+        refusal_of("slam", log, "-o", folder, "--resume", *changed)
         assert contents(folder) == before
-    assert call("slam", log, "-o", folder, "--resume").exit_code == 0
+    succeed("slam", log, "-o", folder, "--resume")
     assert bm.load(folder / "run.nc").finished
 
 
 def test_a_run_of_infer_is_not_resumed_as_one_of_slam(office, finished):
     before = contents(finished)
-    assert call("slam", office, "-o", finished, "--resume", "--no-odometry").exit_code == 3
+    refusal_of("slam", office, "-o", finished, "--resume --no-odometry")
     assert contents(finished) == before
-    assert call("infer", office, "-o", finished, "--resume").exit_code == 0
+    succeed("infer", office, "-o", finished, "--resume")
 
 
 @pytest.mark.full
@@ -120,7 +113,6 @@ def test_settings_of_a_fleet_are_not_those_of_a_log_that_was_not_in_it(office, t
     other.write_text(office.read_text())
     third = tmp_path / "third.log"
     third.write_text(office.read_text())
-    assert call("infer", office, other, "-o", output, *short, "--seed", 7).exit_code == 0
-    result = call("infer", third, "-o", output / "third", *short, "--resume")
-    assert result.exit_code == 0, result.stderr
+    succeed("infer", office, other, "-o", output, *short, "--seed 7")
+    succeed("infer", third, "-o", output / "third", *short, "--resume")
     assert bm.load(output / "third" / "run.nc").posterior.settings["seed"] == 0

@@ -7,16 +7,13 @@ import signal
 
 import numpy as np
 import pytest
-from shell import call, interrupt_at_checkpoint, start, wait_for
+from shell import call, interrupt_at_checkpoint, json_of, refusal_of, start, succeed, wait_for
 from tiers import full_but
 
 import bayesmap as bm
 from bayesmap.cli.folder import Folder
 
-LONG = (
-    "--resolution", "0.25", "--chains", "2", "--warmup", "20", "--draws", "30", "--no-progress",
-    "--checkpoint-every", "0",
-)  # fmt: skip
+LONG = "--resolution 0.25 --chains 2 --warmup 20 --draws 30 --no-progress --checkpoint-every 0"
 """Options of a run of some seconds, but for the thinning."""
 THIN = {"binary": 400, "reflectivity": 4, "surface": 4}
 FIRST = {"binary": 16, "reflectivity": 1, "surface": 1}
@@ -44,15 +41,14 @@ def same(one, other):
 
 def long(cells):
     """Options of a run of some seconds, of this kind of cells."""
-    return (*LONG, "--cells", cells, "--thin", THIN[cells])
+    return (LONG, "--cells", cells, "--thin", THIN[cells])
 
 
 @pytest.fixture(scope="module", params=full_but(["surface", "reflectivity", "binary"], "surface"))
 def uninterrupted(request, office, tmp_path_factory):
     """A kind of cells, and the run over them that nothing stopped."""
     folder = tmp_path_factory.mktemp("whole") / "run"
-    result = call("infer", office, "-o", folder, *long(request.param), "--checkpoint-every", "30")
-    assert result.exit_code == 0, result.stderr
+    succeed("infer", office, "-o", folder, *long(request.param), "--checkpoint-every 30")
     return request.param, bm.load(folder / "run.nc")
 
 
@@ -67,7 +63,7 @@ def infer_until_checkpoint(monkeypatch, *arguments):
     """Infer, and press Ctrl-C there."""
     with monkeypatch.context() as patch:
         interrupt_at_checkpoint(patch)
-        assert call("infer", *arguments).exit_code == 130
+        refusal_of("infer", *arguments, code=130)
 
 
 def test_ctrl_c_exits_130_and_resume_goes_on_bit_for_bit(office, tmp_path, uninterrupted):
@@ -87,9 +83,7 @@ def test_ctrl_c_exits_130_and_resume_goes_on_bit_for_bit(office, tmp_path, unint
     assert sorted(path.name for path in folder.iterdir()) == ["config.toml", "run.nc"]
 
     # The settings need not be said again.
-    resumed = call("infer", office, "-o", folder, "--resume", "--json")
-    assert resumed.exit_code == 0, resumed.stderr
-    assert json.loads(resumed.stdout)["finished"] is True
+    assert json_of("infer", office, "-o", folder, "--resume --json")["finished"] is True
     same(bm.load(folder / "run.nc"), whole)
 
 
@@ -102,8 +96,7 @@ def test_sigkill_leaves_the_last_checkpoint_whole(office, tmp_path, uninterrupte
     process.communicate()
     assert process.returncode == -signal.SIGKILL
     assert bm.load(folder / "run.nc").posterior.sweep >= FIRST[cells]
-    resumed = call("infer", office, "-o", folder, "--resume")
-    assert resumed.exit_code == 0, resumed.stderr
+    succeed("infer", office, "-o", folder, "--resume")
     same(bm.load(folder / "run.nc"), whole)
 
 
@@ -123,7 +116,7 @@ def test_a_run_stopped_again_and_again_is_the_same(office, tmp_path, uninterrupt
             os.kill(os.getpid(), signal.SIGINT)
 
     monkeypatch.setattr(Folder, "checkpoint", checkpoint)
-    assert call("infer", office, "-o", folder, *long(cells)).exit_code == 130
+    refusal_of("infer", office, "-o", folder, *long(cells), code=130)
     for _ in range(4):
         result = call("infer", office, "-o", folder, "--resume")
         assert result.exit_code in (0, 130), result.stderr
@@ -155,17 +148,16 @@ def test_other_settings_or_another_log_are_refused_and_nothing_is_lost(office, t
 
 
 def test_resume_where_nothing_was_saved_starts_from_the_beginning(office, tmp_path, short):
-    result = call("infer", office, "-o", tmp_path / "run", *short, "--resume")
-    assert result.exit_code == 0
+    result = succeed("infer", office, "-o", tmp_path / "run", *short, "--resume")
     assert "no run to resume; starting from the beginning" in result.stderr
 
 
 @BOTH
 def test_resume_of_a_finished_run_changes_nothing(office, tmp_path, short, cells):
     folder = tmp_path / "run"
-    assert call("infer", office, "-o", folder, *short, "--cells", cells).exit_code == 0
+    succeed("infer", office, "-o", folder, *short, "--cells", cells)
     before = bm.load(folder / "run.nc")
-    assert call("infer", office, "-o", folder, "--resume").exit_code == 0
+    succeed("infer", office, "-o", folder, "--resume")
     same(bm.load(folder / "run.nc"), before)
 
 
@@ -179,27 +171,23 @@ def test_an_impatient_ctrl_c_keeps_the_last_checkpoint(office, tmp_path, short, 
         raise KeyboardInterrupt
 
     monkeypatch.setattr(Folder, "checkpoint", checkpoint)
-    result = call("infer", office, "-o", folder, *short, "--cells", cells)
-    assert result.exit_code == 130
-    assert f"the last checkpoint is kept; go on with:\n  bayesmap infer {office}" in result.stderr
+    assert f"the last checkpoint is kept; go on with:\n  bayesmap infer {office}" in refusal_of(
+        "infer", office, "-o", folder, *short, "--cells", cells, code=130
+    )
     assert bm.load(folder / "run.nc").posterior.sweep == 5
 
 
 @BOTH
 def test_interrupted_in_its_warm_up_a_run_has_no_picture_yet(office, tmp_path, monkeypatch, cells):
     folder = tmp_path / "run"
-    never = ("--resolution", "0.25", "--warmup", "20000", "--draws", "2", "--checkpoint-every", "0", "--chains", "1")
+    never = "--resolution 0.25 --warmup 20000 --draws 2 --checkpoint-every 0 --chains 1"
     interrupt_at_checkpoint(monkeypatch)
-    assert call("infer", office, "-o", folder, *never, "--cells", cells).exit_code == 130
+    refusal_of("infer", office, "-o", folder, never, "--cells", cells, code=130)
     run = bm.load(folder / "run.nc")
     assert 0 < run.posterior.sweep < 20000
     for what in ("figure", "mean", "draw", "animation", *(("width", "surfaces") if cells == "surface" else ())):
-        result = call("render", folder / "run.nc", "--what", what)
-        assert result.exit_code == 3
-        assert "the run has no draws yet" in result.stderr
-    result = call("export", folder / "run.nc")
-    assert result.exit_code == 3
-    assert "the run has no draws yet" in result.stderr
+        assert "the run has no draws yet" in refusal_of("render", folder / "run.nc", "--what", what)
+    assert "the run has no draws yet" in refusal_of("export", folder / "run.nc")
     with pytest.raises(bm.BadInput, match="stopped before its first draw"):
         run.plot()
     assert json.loads(call("info", folder / "run.nc", "--json").stdout)["run"]["draws"] == 0
@@ -251,7 +239,7 @@ def test_interrupted_as_soon_as_it_is_resumed_a_run_is_what_it_was(office, tmp_p
 def test_resumed_from_a_file_without_a_sweep_there_is_still_that_file(office, tmp_path, short, monkeypatch):
     folder = tmp_path / "run"
     monkeypatch.setattr("bayesmap.api.stop_on_interrupt", lambda: contextlib.nullcontext(lambda: True))
-    options = ("--cells", "binary", "--start", "prior", *short)
+    options = ("--cells binary --start prior", *short)
     scans = bm.read_log(office)
     grid = bm.Grid.covering(scans, 0.25)
     empty = bm.infer(
@@ -264,9 +252,9 @@ def test_resumed_from_a_file_without_a_sweep_there_is_still_that_file(office, tm
     folder.mkdir()
     empty.save(folder / "run.nc")
     options = (*options, "--sensor", "gaussian:0.1", "--hit-depth", "0")
-    result = call("infer", office, "-o", folder, *options, "--resume")
-    assert result.exit_code == 130, result.stderr
-    assert f"interrupted before the first sweep; {folder / 'run.nc'} is as it was; go on with:" in result.stderr
+    assert f"interrupted before the first sweep; {folder / 'run.nc'} is as it was; go on with:" in refusal_of(
+        "infer", office, "-o", folder, *options, "--resume", code=130
+    )
 
 
 @BOTH
@@ -281,6 +269,5 @@ def test_a_full_disk_at_a_checkpoint_is_a_warning(office, tmp_path, short, monke
         save(self, path)
 
     monkeypatch.setattr(bm.Run, "save", full)
-    result = call("infer", office, "-o", tmp_path / "run", *short, "--cells", cells)
-    assert result.exit_code == 0
+    result = succeed("infer", office, "-o", tmp_path / "run", *short, "--cells", cells)
     assert "checkpoint could not be written: No space left on device" in result.stderr

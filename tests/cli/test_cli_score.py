@@ -1,14 +1,12 @@
 """`score`: its table, its document, and the scans that it refuses to judge by."""
 
-import json
-
 import pytest
-from shell import call
+from shell import call, json_of, refusal_of, succeed
 from tiers import full_but
 
 import bayesmap as bm
 
-FAST = ("--holdout", "4")
+FAST = "--holdout 4"
 
 
 @pytest.fixture(scope="module")
@@ -25,17 +23,13 @@ def run_of_each_kind(request, office, tmp_path_factory):
 
 def held_out(cells, office, tmp_path_factory):
     folder = tmp_path_factory.mktemp("score") / "run"
-    options = ("--cells", cells, "--resolution", "0.25", "--chains", "2", "--warmup", "5", "--draws", "8")
-    result = call("infer", office, "-o", folder, *options, *FAST, "--json")
-    assert result.exit_code == 0, result.stderr
-    return folder / "run.nc", json.loads(result.stdout)
+    options = ("--cells", cells, "--resolution 0.25 --chains 2 --warmup 5 --draws 8")
+    return folder / "run.nc", json_of("infer", office, "-o", folder, *options, FAST, "--json")
 
 
 def test_the_document_agrees_with_infer_and_with_python(office, run_of_each_kind):
     cells, path, inferred = run_of_each_kind
-    result = call("score", path, office, *FAST, "--json")
-    assert result.exit_code == 0, result.stderr
-    document = json.loads(result.stdout)
+    document = json_of("score", path, office, FAST, "--json")
     assert document["schema_version"] == 1
     assert document["heldout"]["every"] == 4
     assert document["heldout"]["beams"] == inferred["heldout"]["beams"]
@@ -47,21 +41,18 @@ def test_the_document_agrees_with_infer_and_with_python(office, run_of_each_kind
 
 
 def test_the_table(office, heldout_run, tmp_path):
-    result = call("score", heldout_run[0], office, *FAST)
-    assert result.exit_code == 0, result.stderr
+    result = succeed("score", heldout_run[0], office, FAST)
     heading, row = result.stdout.splitlines()
     assert heading.split()[:2] == ["map", "nats/beam"]
     assert row.startswith("binary posterior")
     assert "scoring 3 scans" in result.stderr
-    assert call("score", heldout_run[0], office, *FAST, "-q").stderr == ""
+    assert call("score", heldout_run[0], office, FAST, "-q").stderr == ""
 
 
 def test_baselines_stand_in_the_same_table(office, heldout_run, tmp_path, monkeypatch):
     monkeypatch.setattr("bayesmap.posterior.baselines.MOST_STEPS", 4)  # how well they are fitted is not asked here
     picture = tmp_path / "calibration.png"
-    result = call("score", heldout_run[0], office, *FAST, "--compare", "--json", "--picture", picture)
-    assert result.exit_code == 0, result.stderr
-    document = json.loads(result.stdout)
+    document = json_of("score", heldout_run[0], office, FAST, "--compare --json --picture", picture)
     rows = {row["map"]: row for row in document["baselines"]}
     assert rows.keys() == {"hit ratio", "log-odds, tuned", "log-odds", "log-odds, clamped"}
     assert all(row["beams"] == document["score"]["beams"] for row in rows.values())
@@ -80,40 +71,30 @@ def test_a_run_that_saw_everything_is_not_scored_on_it(office, office_run):
 
 
 def test_another_protocol_than_the_run_s_is_named(office, heldout_run):
-    result = call("score", heldout_run[0], office, "--holdout", "3")
-    assert result.exit_code == 3
-    assert "it was made with --holdout 4" in result.stderr
+    assert "it was made with --holdout 4" in refusal_of("score", heldout_run[0], office, "--holdout 3")
 
 
 def test_another_recording_is_scored_whole(office_run, tmp_path):
     other = tmp_path / "other.log"
-    size = ("--size", "12x8", "--resolution", "0.25", "--scans", "5", "--angles", "60", "--max-range", "12")
-    assert call("simulate", "--world", "building", *size, "-o", other, "--set", "fov=180", "--seed", "3").exit_code == 0
-    refused = call("score", office_run / "run.nc", other)
-    assert refused.exit_code == 3
-    assert "none of the run's scans is in it" in refused.stderr
-    result = call("score", office_run / "run.nc", other, "--all", "--json")
-    assert result.exit_code == 0, result.stderr
-    document = json.loads(result.stdout)
+    size = "--size 12x8 --resolution 0.25 --scans 5 --angles 60 --max-range 12"
+    succeed("simulate", "--world building", size, "-o", other, "--set fov=180 --seed 3")
+    assert "none of the run's scans is in it" in refusal_of("score", office_run / "run.nc", other)
+    document = json_of("score", office_run / "run.nc", other, "--all --json")
     assert (document["heldout"]["every"], document["heldout"]["scans"]) == (None, 5)
 
 
 def test_a_recording_is_read_as_it_was_for_the_run(recording, tmp_path):
-    asked = ("--scan-topic", "/scan", "--pose-topic", "/odom", "--thin-scans", "0.5")
-    few = ("--resolution", "0.25", "--chains", "1", "--warmup", "2", "--draws", "3", "--holdout", "3")
-    assert call("infer", recording, "-o", tmp_path, *few, *asked).exit_code == 0
+    asked = "--scan-topic /scan --pose-topic /odom --thin-scans 0.5"
+    few = "--resolution 0.25 --chains 1 --warmup 2 --draws 3 --holdout 3"
+    succeed("infer", recording, "-o", tmp_path, few, asked)
     run = tmp_path / "run.nc"
-    result = call("score", run, recording, "--holdout", "3", *asked, "--json")
-    assert result.exit_code == 0, result.stderr
-    assert json.loads(result.stdout)["heldout"]["scans"] == 2
+    assert json_of("score", run, recording, "--holdout 3", asked, "--json")["heldout"]["scans"] == 2
     picture = tmp_path / "missed.png"
-    held_out = ("--what", "residuals", "--heldout", recording, "--holdout", "3", "-o", picture)
-    assert call("render", run, *held_out, *asked).exit_code == 0
+    held_out = ("--what residuals --heldout", recording, "--holdout 3 -o", picture)
+    succeed("render", run, *held_out, asked)
     assert picture.exists()
     for command in (("score", run, recording, "--holdout", "3"), ("render", run, *held_out)):
-        refused = call(*command)
-        assert refused.exit_code == 3
-        assert "choose one with --scan-topic" in refused.stderr
+        assert "choose one with --scan-topic" in refusal_of(*command)
 
 
 @pytest.mark.parametrize(

@@ -1,17 +1,15 @@
 """`score` holds poses against true relations, and other programs' maps and trajectories against a log."""
 
-import json
-
 import numpy as np
 import pytest
-from shell import call
+from shell import call, json_of, refusal_of, succeed
 
 from bayesmap.io.logs import read_log
 from bayesmap.io.text.trajectories import read_trajectory, write_trajectory
 from bayesmap.posterior import baselines
 
-SMALL = ("--world", "building", "--size", "12x8", "--resolution", "0.25", "--scans", "40", "--angles", "60")
-WHERE = ("--laser", "0.2,0,0")
+SMALL = "--world building --size 12x8 --resolution 0.25 --scans 40 --angles 60"
+WHERE = "--laser 0.2,0,0"
 
 
 @pytest.fixture(scope="module")
@@ -19,17 +17,15 @@ def raw(tmp_path_factory):
     """A log with raw odometry, and the truth beside it."""
     folder = tmp_path_factory.mktemp("raw")
     odometry = "perfect,turn_scale=0.2,distance_scale=0.1"
-    result = call("simulate", *SMALL, "--odometry", odometry, *WHERE, "-o", folder / "office.log", "--max-range", "12")
-    assert result.exit_code == 0, result.stderr
+    succeed("simulate", SMALL, "--odometry", odometry, WHERE, "-o", folder / "office.log", "--max-range 12")
     return folder
 
 
 @pytest.fixture(scope="module")
 def raw_run(raw):
     """What infer makes of the log as if its poses were true."""
-    options = ("--resolution", "0.25", "--chains", "2", "--warmup", "5", "--draws", "5", "--no-progress")
-    result = call("infer", raw / "office.log", "-o", raw / "run", "--max-range", "12", *options)
-    assert result.exit_code == 0, result.stderr
+    options = "--resolution 0.25 --chains 2 --warmup 5 --draws 5 --no-progress"
+    succeed("infer", raw / "office.log", "-o", raw / "run", "--max-range 12", options)
     return raw / "run" / "run.nc"
 
 
@@ -40,21 +36,18 @@ def roughly(monkeypatch):
 
 
 def document_of(*arguments):
-    result = call("score", *arguments, "--json", "--no-progress")
-    assert result.exit_code == 0, result.stderr
-    return json.loads(result.stdout)
+    return json_of("score", *arguments, "--json --no-progress")
 
 
 def test_a_run_is_scored_by_relations_alone(raw, raw_run, tmp_path):
     picture = tmp_path / "errors.png"
-    found = document_of(raw_run, "--relations", raw / "office.relations", *WHERE, "--picture", picture)
+    found = document_of(raw_run, "--relations", raw / "office.relations", WHERE, "--picture", picture)
     assert found["relations"]["frame"] == "base"
     assert found["relations"]["translation_m_mean"] > 0.02
     assert found["relations"]["coverage"] is None  # known poses say nothing of how sure they are
     assert "score" not in found
     assert picture.stat().st_size > 1000
-    text = call("score", raw_run, "--relations", raw / "office.relations")
-    assert text.exit_code == 0, text.stderr
+    text = succeed("score", raw_run, "--relations", raw / "office.relations")
     assert [line.split()[0] for line in text.stdout.splitlines()] == ["relations", "translation", "rotation", "regions"]
     assert "regions      unknown: the run takes its poses as known" in text.stdout
     assert "slam saves them" in text.stdout
@@ -105,7 +98,7 @@ def test_the_true_map_and_trajectory_predict_better_than_raw_odometry(raw):
 @pytest.mark.usefixtures("roughly")
 def test_the_frame_matters(raw):
     truth = (raw / "office-truth.yaml", raw / "office.log", "--holdout", "4", "--trajectory", raw / "office-truth.tum")
-    wrong = document_of(*truth, "--relations", raw / "office.relations", "--frame", "laser")
+    wrong = document_of(*truth, "--relations", raw / "office.relations", "--frame laser")
     assert wrong["relations"]["translation_m_mean"] > 0.005
 
 
@@ -116,14 +109,14 @@ def test_the_trajectory_of_the_base_is_moved_to_the_laser(raw, tmp_path):
     base = laser.of_frame(np.array([-0.2, 0.0, 0.0]))
     path = write_trajectory(tmp_path / "base.tum", base.poses, base.stamps_s)
     truth = (raw / "office-truth.yaml", raw / "office.log", "--holdout", "4")
-    moved = document_of(*truth, "--trajectory", path, "--trajectory-frame", "base")
+    moved = document_of(*truth, "--trajectory", path, "--trajectory-frame base")
     same = document_of(*truth, "--trajectory", raw / "office-truth.tum")
     assert moved["score"]["nats_per_beam"] == pytest.approx(same["score"]["nats_per_beam"], abs=0.01)
 
 
 @pytest.mark.full
 def test_a_trajectory_without_a_map_gets_one(raw):
-    arguments = ("--holdout", "4", "--resolution", "0.25", "--relations", raw / "office.relations")
+    arguments = ("--holdout 4 --resolution 0.25 --relations", raw / "office.relations")
     found = document_of(raw / "office.log", "--trajectory", raw / "office-truth.tum", *arguments)
     assert found["score"]["map"] == "surface posterior"
     assert found["relations"]["translation_m_mean"] < 1e-4
@@ -146,6 +139,4 @@ def test_what_cannot_be_scored(raw, raw_run, arguments, code, message):
     scans = read_log(raw / "office.log")
     write_trajectory(raw / "late.tum", scans.poses, scans.stamps_s + 1e6)
     files = [raw / a if "." in a and not a.startswith("-") else a for a in arguments]
-    result = call("score", *files)
-    assert result.exit_code == code, result.stderr
-    assert message in result.stderr
+    assert message in refusal_of("score", *files, code=code)

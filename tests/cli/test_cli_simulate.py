@@ -1,10 +1,8 @@
 """`simulate`: typed readings, raw odometry, and the truth beside them."""
 
-import json
-
 import numpy as np
 import pytest
-from shell import call
+from shell import json_of
 
 import bayesmap as bm
 from bayesmap.cli.translation import odometry_of
@@ -13,13 +11,11 @@ from bayesmap.io.logs import describe_log
 from bayesmap.sim.robot import OdometryNoise
 from bayesmap.space.planar import between, compose, interpolate
 
-SMALL = ("--world", "building", "--size", "12x8", "--resolution", "0.25", "--scans", "15", "--angles", "60")
+SMALL = "--world building --size 12x8 --resolution 0.25 --scans 15 --angles 60"
 
 
 def simulated(tmp_path, *arguments):
-    result = call("simulate", *SMALL, *arguments, "-o", tmp_path / "office.log", "--json")
-    assert result.exit_code == 0, result.stderr
-    return json.loads(result.stdout)
+    return json_of("simulate", SMALL, *arguments, "-o", tmp_path / "office.log", "--json")
 
 
 def truth_of(tmp_path):
@@ -28,7 +24,7 @@ def truth_of(tmp_path):
 
 
 def test_beams_that_meet_nothing_are_no_return_whatever_the_sensor(tmp_path):
-    document = simulated(tmp_path, "--sensor", "gaussian:0.02", "--max-range", "2")
+    document = simulated(tmp_path, "--sensor gaussian:0.02 --max-range 2")
     assert document["readings"]["no_return"] > 100
     scans = describe_log(tmp_path / "office.log").scans
     hits = scans.ranges_m[np.isfinite(scans.ranges_m)]
@@ -51,7 +47,7 @@ def test_the_tutorial_keeps_its_cap_where_it_is_called_from_python():
 
 
 def test_raw_odometry_with_the_truth_beside_it(tmp_path):
-    document = simulated(tmp_path, "--odometry", "typical,slips_per_m=0.05", "--laser", "0.1,-0.05,5")
+    document = simulated(tmp_path, "--odometry typical,slips_per_m=0.05 --laser 0.1,-0.05,5")
     assert document["odometry"]["slips_per_m"] == 0.05
     reading = describe_log(tmp_path / "office.log")
     stamps, laser = truth_of(tmp_path)

@@ -5,12 +5,12 @@ import signal
 
 import numpy as np
 import pytest
-from shell import call, start, wait_for
+from shell import json_of, refusal_of, start, succeed, wait_for
 
 import bayesmap as bm
 from bayesmap.poses.slam import infer_trajectory
 
-SHORT = ("--chains", "2", "--warmup", "4", "--draws", "6", "--resolution", "0.2", "--threads", "2")
+SHORT = "--chains 2 --warmup 4 --draws 6 --resolution 0.2 --threads 2"
 OUTPUTS = {
     "run.nc", "map.yaml", "map.pgm", "posterior.png", "trajectory.tum", "trajectory.png", "odometry.png", "loops.png",
     "summary.json", "config.toml",
@@ -21,18 +21,14 @@ OUTPUTS = {
 def log(tmp_path_factory):
     """A robot's round through a small office, with the odometry of a Pioneer."""
     path = tmp_path_factory.mktemp("log") / "office.log"
-    made = call("simulate", "--world", "building", "--size", "12x8", "--scans", "70", "--odometry", "typical",
-                "--fov", "360", "--seed", "4", "-o", path)  # fmt: skip
-    assert made.exit_code == 0, made.stderr
+    succeed("simulate", "--world building --size 12x8 --scans 70 --odometry typical --fov 360 --seed 4 -o", path)
     return path
 
 
 @pytest.fixture(scope="module")
 def whole(log, tmp_path_factory):
     folder = tmp_path_factory.mktemp("slam") / "run"
-    result = call("slam", log, "-o", folder, *SHORT, "--checkpoint-every", "600", "--json")
-    assert result.exit_code == 0, result.stderr
-    return folder, json.loads(result.stdout)
+    return folder, json_of("slam", log, "-o", folder, SHORT, "--checkpoint-every 600 --json")
 
 
 def test_the_folder_holds_map_trajectory_covariances_and_pictures(whole, log):
@@ -51,16 +47,13 @@ def test_the_folder_holds_map_trajectory_covariances_and_pictures(whole, log):
 def test_its_poses_are_scored_beside_its_log_which_says_where_the_laser_sits(whole, log):
     """The log's scans are found by stamps and readings, since slam has moved their poses."""
     run, relations = whole[0] / "run.nc", ("--relations", log.with_name("office.relations"))
-    found = call("score", run, log, *relations, "--json")
-    assert found.exit_code == 0, found.stderr
+    found = succeed("score", run, log, *relations, "--json")
     document = json.loads(found.stdout)
     assert document["relations"]["frame"] == "base"
     assert document["relations"]["translation_m_mean"] < 0.05
     assert "score" not in document
     assert "only the poses are scored, not the map" in found.stderr
-    alone = call("score", run, log)
-    assert alone.exit_code == 3
-    assert "the run has its scans elsewhere than this log" in alone.stderr
+    assert "the run has its scans elsewhere than this log" in refusal_of("score", run, log)
 
 
 def test_chains_that_have_not_mixed_are_warned_of_and_not_believed(whole, log):
@@ -70,11 +63,9 @@ def test_chains_that_have_not_mixed_are_warned_of_and_not_believed(whole, log):
     run = bm.load(folder / "run.nc")
     assert run.trajectory is not None
     assert run.pose_summary().by_approximation
-    result = call(
-        "score", folder / "run.nc", "--relations", log.with_suffix(".relations"), "--laser", "0,0,0", "--json"
-    )
-    assert result.exit_code == 0, result.stderr
-    relations = json.loads(result.stdout)["relations"]
+    relations = json_of(
+        "score", folder / "run.nc", "--relations", log.with_suffix(".relations"), "--laser 0,0,0 --json"
+    )["relations"]
     assert relations["known_by"].startswith("the Student-t approximation")
     assert "have not mixed" in relations["known_by"]
     assert relations["nees"]["median"] > 0
@@ -92,7 +83,7 @@ def test_the_trajectory_is_nearer_to_the_truth_than_odometry(whole, log):
 @pytest.mark.full
 def test_ctrl_c_keeps_what_is_done_and_resume_ends_as_if_nothing_had_stopped_it(whole, log, tmp_path):
     folder = tmp_path / "run"
-    process = start("slam", log, "-o", folder, *SHORT, "--draws", "60", "--checkpoint-every", "0", "--no-progress")
+    process = start("slam", log, "-o", folder, SHORT, "--draws 60 --checkpoint-every 0 --no-progress")
     wait_for(folder / "run.nc", process)
     process.send_signal(signal.SIGINT)
     _, errors = process.communicate()
@@ -100,8 +91,7 @@ def test_ctrl_c_keeps_what_is_done_and_resume_ends_as_if_nothing_had_stopped_it(
     assert f"bayesmap slam {log} -o {folder} --resume" in errors
     stopped = bm.load(folder / "run.nc")
     assert not stopped.finished
-    resumed = call("slam", log, "-o", folder, "--resume")
-    assert resumed.exit_code == 0, resumed.stderr
+    succeed("slam", log, "-o", folder, "--resume")
     run, uninterrupted = bm.load(folder / "run.nc"), bm.load(whole[0] / "run.nc")
     assert run.finished
     np.testing.assert_array_equal(run.poses[:, :6], uninterrupted.poses)
@@ -113,19 +103,15 @@ def test_fast_stops_after_the_approximation_and_resume_uses_its_stages(log, tmp_
     folder = tmp_path / "run"
     (folder / "stages").mkdir(parents=True)
     infer_trajectory(bm.read_log(log), checkpoint=folder / "stages")
-    result = call("slam", log, "-o", folder, "--fast", *SHORT, "--json", "-v")
-    assert result.exit_code == 0, result.stderr
+    result = succeed("slam", log, "-o", folder, "--fast", SHORT, "--json -v")
     assert "sampled" not in json.loads(result.stdout)["trajectory"]
     assert "front end" not in result.stderr
     assert bm.load(folder / "run.nc").trajectory is not None
 
 
 def test_what_cannot_be_inferred_is_refused(log, tmp_path):
-    slow = call("slam", log, "--no-odometry", "-o", tmp_path / "run")
-    assert slow.exit_code == 3
-    assert "5 Hz" in slow.stderr
-    both = call("slam", log, "--resume", "--force")
-    assert both.exit_code == 2
+    assert "5 Hz" in refusal_of("slam", log, "--no-odometry -o", tmp_path / "run")
+    refusal_of("slam", log, "--resume --force", code=2)
 
 
 def rewritten(log, target, change):
@@ -148,10 +134,9 @@ def test_constant_odometry_is_refused_before_anything_is_written(log, tmp_path):
     def constant(poses, stamps):
         poses[:] = 0.0
 
-    refused = call("slam", rewritten(log, tmp_path / "constant.csv", constant), "-o", tmp_path / "run")
-    assert refused.exit_code == 3
-    assert "odometry is constant, one pose for all scans" in refused.stderr
-    assert "--no-odometry" in refused.stderr
+    refused = refusal_of("slam", rewritten(log, tmp_path / "constant.csv", constant), "-o", tmp_path / "run")
+    assert "odometry is constant, one pose for all scans" in refused
+    assert "--no-odometry" in refused
     assert not (tmp_path / "run").exists()
 
 
@@ -162,8 +147,7 @@ def test_frozen_odometry_and_a_clock_that_was_set_back_are_named(log, tmp_path):
         stamps[:] = 0.2 * np.arange(len(stamps))
         stamps[50:] -= 3.0
 
-    result = call("slam", rewritten(log, tmp_path / "worse.csv", worse), "-o", tmp_path / "run", "--fast", *SHORT)
-    assert result.exit_code == 0, result.stderr
+    result = succeed("slam", rewritten(log, tmp_path / "worse.csv", worse), "-o", tmp_path / "run", "--fast", SHORT)
     assert "warning: odometry stands still from scan 20 to 39" in result.stderr
     assert "the clock goes back by 2.8 s at scan 50 (at 7.000 s) and stays so" in result.stderr
     stamps = np.loadtxt(tmp_path / "run" / "trajectory.tum")[:, 0]
@@ -173,16 +157,13 @@ def test_frozen_odometry_and_a_clock_that_was_set_back_are_named(log, tmp_path):
 def test_scans_alone_need_no_poses(tmp_path):
     """An office's scans without poses give its trajectory with --no-odometry, and are refused without."""
     log = tmp_path / "office.log"
-    size = ("--size", "12x8", "--scans", "300", "--fov", "360", "--angles", "180", "--seed", "4")
-    assert call("simulate", "--world", "building", *size, "-o", log).exit_code == 0
+    size = "--size 12x8 --scans 300 --fov 360 --angles 180 --seed 4"
+    succeed("simulate", "--world building", size, "-o", log)
     scans = bm.read_log(log).select(slice(0, 40))
     path, folder = tmp_path / "scans.npz", tmp_path / "run"
     np.savez(path, angles_rad=scans.angles_rad, ranges_m=scans.ranges_m, stamps_s=0.2 * np.arange(40))
-    refused = call("slam", path, "-o", folder, *SHORT)
-    assert refused.exit_code == 3
-    assert "--no-odometry" in refused.stderr
-    found = call("slam", path, "-o", folder, *SHORT, "--fast", "--no-odometry")
-    assert found.exit_code == 0, found.stderr
+    assert "--no-odometry" in refusal_of("slam", path, "-o", folder, SHORT)
+    succeed("slam", path, "-o", folder, SHORT, "--fast --no-odometry")
     assert not (folder / "odometry.png").exists()  # there is none to draw
     tum = np.loadtxt(folder / "trajectory.tum")[:, 1:3]
     ways = [np.linalg.norm(poses - poses[0], axis=1) for poses in (tum, scans.poses[:, :2])]

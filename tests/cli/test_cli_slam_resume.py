@@ -6,16 +6,14 @@ import signal
 
 import numpy as np
 import pytest
-from shell import call
+from shell import call, refusal_of, succeed
 from tiers import full_but
 
 import bayesmap as bm
 import bayesmap.api
 
-SETTINGS = (
-    "--chains", "2", "--warmup", "3", "--draws", "4", "--resolution", "0.25", "--max-range", "7", "--threads", "2",
-)  # fmt: skip
-OTHERS = ("--fast", "--resolution", "0.5", "--threads", "2")
+SETTINGS = "--chains 2 --warmup 3 --draws 4 --resolution 0.25 --max-range 7 --threads 2"
+OTHERS = "--fast --resolution 0.5 --threads 2"
 SAME = ("trajectory.tum", "trajectory-covariances.txt", "map.pgm", "config.toml")
 
 
@@ -23,9 +21,8 @@ SAME = ("trajectory.tum", "trajectory-covariances.txt", "map.pgm", "config.toml"
 def log(tmp_path_factory):
     """A robot's round through a small office, with the odometry of a Pioneer."""
     path = tmp_path_factory.mktemp("log") / "office.log"
-    made = call("simulate", "--world", "building", "--size", "12x8", "--scans", "40", "--odometry", "typical",
-                "--fov", "360", "--angles", "120", "--seed", "4", "-o", path)  # fmt: skip
-    assert made.exit_code == 0, made.stderr
+    world = "--world building --size 12x8 --scans 40 --odometry typical --fov 360 --angles 120 --seed 4"
+    succeed("simulate", world, "-o", path)
     return path
 
 
@@ -33,8 +30,7 @@ def log(tmp_path_factory):
 def whole(log, tmp_path_factory):
     """The run that nothing stopped."""
     folder = tmp_path_factory.mktemp("whole") / "run"
-    result = call("slam", log, "-o", folder, *SETTINGS)
-    assert result.exit_code == 0, result.stderr
+    succeed("slam", log, "-o", folder, SETTINGS)
     return folder
 
 
@@ -75,46 +71,40 @@ def test_the_printed_command_ends_as_if_nothing_had_stopped_it(log, whole, tmp_p
     folder = tmp_path / "run"
     with monkeypatch.context() as patch:
         press_ctrl_c_in(patch, stage)
-        stopped = call("slam", log, "-o", folder, *SETTINGS)
+        stopped = call("slam", log, "-o", folder, SETTINGS)
     assert stopped.exit_code == 130, stopped.stderr
-    resumed = call(*printed(stopped.stderr))
-    assert resumed.exit_code == 0, resumed.stderr
+    succeed(*printed(stopped.stderr))
     assert_same(folder, whole)
 
 
 @pytest.mark.full
 def test_a_run_that_is_replaced_is_not_what_is_resumed(log, whole, tmp_path, monkeypatch):
     folder = tmp_path / "run"
-    assert call("slam", log, "-o", folder, *OTHERS).exit_code == 0
+    succeed("slam", log, "-o", folder, OTHERS)
     before = {path.name: path.read_bytes() for path in folder.iterdir() if path.is_file()}
     with monkeypatch.context() as patch:
         press_ctrl_c_in(patch, "front end")
-        stopped = call("slam", log, "-o", folder, *SETTINGS, "--force")
+        stopped = call("slam", log, "-o", folder, SETTINGS, "--force")
     assert stopped.exit_code == 130, stopped.stderr
     left = {path.name: path.read_bytes() for path in folder.iterdir() if path.is_file()}
     assert left.pop("outdated")
     assert left == before
-    assert call(*printed(stopped.stderr)).exit_code == 0
+    succeed(*printed(stopped.stderr))
     assert_same(folder, whole)
     assert not (folder / "outdated").exists()
 
 
 def test_an_older_run_stays_where_nothing_can_be_inferred(log, whole):
     before = (whole / "run.nc").read_bytes()
-    refused = call("slam", log, "-o", whole, "--force", "--no-odometry")
-    assert refused.exit_code == 3
+    refusal_of("slam", log, "-o", whole, "--force --no-odometry")
     assert (whole / "run.nc").read_bytes() == before
     assert (whole / "config.toml").exists()
 
 
 def test_ctrl_c_before_the_run_has_begun_prints_no_command(log, whole, monkeypatch):
     monkeypatch.setattr("bayesmap.cli.folder.Folder.begin", lambda self, toml: os.kill(os.getpid(), signal.SIGINT))
-    stopped = call("slam", log, "-o", whole, "--force", *OTHERS)
-    assert stopped.exit_code == 130
-    assert "--resume" not in stopped.stderr
+    assert "--resume" not in refusal_of("slam", log, "-o", whole, "--force", OTHERS, code=130)
 
 
 def test_a_folder_that_cannot_be_written_is_bad_input(log):
-    refused = call("slam", log, "-o", "/proc/run", *SETTINGS)
-    assert refused.exit_code == 3, refused.stderr
-    assert refused.stderr.splitlines()[-1].startswith("bayesmap: error: /proc")
+    assert refusal_of("slam", log, "-o", "/proc/run", SETTINGS).splitlines()[-1].startswith("bayesmap: error: /proc")

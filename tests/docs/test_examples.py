@@ -198,17 +198,13 @@ def test_every_command_is_shown_somewhere():
     assert set(COMMANDS) - shown == set()
 
 
-@pytest.mark.parametrize(
-    "line",
-    [
-        "infr LOG",
-        "infer LOG --max-rnge 20",
-        "infer LOG --cells glass",
-        "infer LOG --chains none",
-        "infer LOG --holdout",
-        "app a.nc b.nc",
-    ],
-)
+REFUSED = (
+    "infr LOG", "infer LOG --max-rnge 20", "infer LOG --cells glass", "infer LOG --chains none", "infer LOG --holdout",
+    "app a.nc b.nc",
+)  # fmt: skip
+
+
+@pytest.mark.parametrize("line", REFUSED)
 def test_a_line_that_would_be_refused_is_noticed(line):
     with pytest.raises((click.UsageError, AssertionError)):
         understood(line.split())
@@ -257,15 +253,16 @@ def test_examples_are_found_with_their_lines_and_marks():
     ]
 
 
-@pytest.mark.parametrize("mark", ["example: not run", "example needs a.log", "example: needs"])
-def test_a_mark_that_says_nothing_is_refused(mark):
+@pytest.mark.parametrize(
+    ("mark", "below"),
+    [
+        *((mark, "```python\nx = 1\n```") for mark in ("example: not run", "example needs a.log", "example: needs")),
+        ("example: needs a.log", "Text."),
+    ],
+)
+def test_a_mark_that_says_nothing_or_stands_above_nothing_is_refused(mark, below):
     with pytest.raises(ValueError, match="line 1"):
-        python_examples(f"<!-- {mark} -->\n```python\nx = 1\n```\n")
-
-
-def test_a_mark_above_nothing_is_refused():
-    with pytest.raises(ValueError, match="line 1"):
-        python_examples("<!-- example: needs a.log -->\nText.\n")
+        python_examples(f"<!-- {mark} -->\n{below}\n")
 
 
 def test_a_failing_example_names_the_line_of_its_page(tmp_path):

@@ -7,7 +7,6 @@ from PIL import Image
 from viz_case import CORNER, GRID, HIDDEN, observed, occupancy
 
 from bayesmap.errors import BadInput
-from bayesmap.space.grid import Grid
 from bayesmap.viz import palette, render_frames, write_animation
 from bayesmap.viz.animation import CAPTION_PX, MARGIN_PX
 
@@ -97,14 +96,6 @@ def test_marks(tmp_path):
     assert outline[:, 1].min() >= MARGIN_PX + 5 * scale - 10
     sensor = np.argwhere(np.abs(frame - to_rgb(palette.SENSOR)).max(axis=2) < 0.02).mean(axis=0)
     np.testing.assert_allclose(sensor, (MARGIN_PX + 2.5 * scale, MARGIN_PX + 2.5 * scale), atol=1.0)
-
-
-@pytest.mark.parametrize("shape", [(21, 21), (200, 150)])
-def test_a_hundred_draws_are_a_hundred_frames(shape, tmp_path):
-    draws = np.random.default_rng(0).random((100, *shape)) < 0.1
-    write_animation(tmp_path / "chain.gif", Grid(shape=shape), draws)
-    with Image.open(tmp_path / "chain.gif") as image:
-        assert image.n_frames == 100
 
 
 @pytest.mark.parametrize(

@@ -1,5 +1,9 @@
+"""Panels of maps, their palette, edges of sets of cells, and windows."""
+
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 from matplotlib.patches import PathPatch
@@ -8,9 +12,44 @@ from viz_case import CORNER, GRID, HIDDEN, cell, observed, occupancy, panel
 from bayesmap.errors import BadInput
 from bayesmap.space.grid import Grid
 from bayesmap.viz import draw_deviation, draw_entropy, draw_probability, draw_sample, draw_width, palette
-from bayesmap.viz.maps import entropy_bits
+from bayesmap.viz.maps import boundary_segments, boxes, window, window_around
+
+
+def to_lab(rgb):
+    """SRGB to CIELAB, the inverse of what the palette computes, written apart from it."""
+    rgb = np.asarray(rgb)
+    linear = np.where(rgb <= 0.04045, rgb / 12.92, ((rgb + 0.055) / 1.055) ** 2.4)
+    matrix = [[0.4124564, 0.3575761, 0.1804375], [0.2126729, 0.7151522, 0.0721750], [0.0193339, 0.1191920, 0.9503041]]
+    xyz = linear @ np.array(matrix).T / [0.95047, 1.0, 1.08883]
+    f = np.where(xyz > (6 / 29) ** 3, np.cbrt(xyz), xyz / (3 * (6 / 29) ** 2) + 4 / 29)
+    return np.stack([116 * f[:, 1] - 16, 500 * (f[:, 0] - f[:, 1]), 200 * (f[:, 1] - f[:, 2])], axis=1)
+
+
+def test_equal_steps_of_probability_are_equal_steps_of_colour():
+    lab = to_lab(palette.probability_colors(64))
+    steps = np.linalg.norm(np.diff(lab, axis=0), axis=1)
+    assert steps.max() / steps.min() < 1.02
+    assert (np.diff(lab[:, 0]) < 0).all()
+    assert lab[0, 0] > 95
+    assert lab[-1, 0] < 20
+
+
+def test_unobserved_is_far_from_every_colour_of_both_maps():
+    unobserved = to_lab(np.array([to_rgb(palette.UNOBSERVED)]))[0]
+    steps = np.linspace(0, 1, 256)
+    for colors in (palette.probability_colormap(), palette.uncertainty_colormap()):
+        apart = np.linalg.norm(to_lab(colors(steps)[:, :3]) - unobserved, axis=1)
+        assert apart.min() > 7  # 2 to 3 is just noticeable
+
+
+def test_masked_cells_take_the_unobserved_colour():
+    masked = np.ma.array([0.5], mask=[True])
+    for colors in (palette.probability_colormap(), palette.uncertainty_colormap()):
+        np.testing.assert_allclose(colors(masked)[0, :3], to_rgb(palette.UNOBSERVED))
+
 
 FREE, WALL = palette.probability_colors(2)
+ALL = (draw_probability, draw_entropy, draw_deviation, draw_sample)
 
 
 def test_a_wall_in_the_upper_right_is_dark_in_the_upper_right():
@@ -20,6 +59,8 @@ def test_a_wall_in_the_upper_right_is_dark_in_the_upper_right():
     for i, j in ((0, 0), (0, 3), (5, 0), (3, 3)):
         np.testing.assert_allclose(cell(ax, i, j), FREE, atol=0.01)
     assert WALL.mean() < cell(ax, 2, 1).mean() < FREE.mean()
+    assert not ax.artists  # without a mask nothing is hatched
+    draw_probability(ax, GRID, np.full(GRID.shape, 1.0 + 1e-6, dtype=np.float32))  # rounding is no error
 
 
 def test_unobserved_is_hatched_and_differs_from_free_and_from_even_odds():
@@ -35,34 +76,6 @@ def test_unobserved_is_hatched_and_differs_from_free_and_from_even_odds():
     patches = [patch for patch in ax.artists + list(ax.patches) if isinstance(patch, PathPatch)]
     assert [patch.get_hatch() for patch in patches] == [palette.HATCH]
     assert patches[0].get_path().get_extents().bounds == pytest.approx((-1.0, 3.5, 0.5, 0.5))
-
-
-def test_without_a_mask_nothing_is_hatched():
-    ax = panel()
-    draw_probability(ax, GRID, occupancy())
-    assert not ax.artists
-    assert not ax.patches
-
-
-def test_entropy_is_bright_where_odds_are_even():
-    ax = panel()
-    image = draw_entropy(ax, GRID, occupancy(), observed())
-    assert image.get_clim() == (0.0, 1.0)
-    colors = palette.uncertainty_colormap()
-    np.testing.assert_allclose(cell(ax, 2, 1), colors(1.0)[:3], atol=0.01)
-    np.testing.assert_allclose(cell(ax, *CORNER), colors(0.0)[:3], atol=0.01)
-
-
-def test_entropy_in_bits():
-    np.testing.assert_allclose(entropy_bits(np.array([0.0, 0.5, 1.0, 0.25])), [0.0, 1.0, 0.0, 0.8112781245])
-
-
-def test_deviation_runs_from_none_to_a_half():
-    ax = panel()
-    p = occupancy()
-    image = draw_deviation(ax, GRID, np.sqrt(p * (1 - p)))
-    assert image.get_clim() == (0.0, 0.5)
-    np.testing.assert_allclose(cell(ax, 2, 1), palette.uncertainty_colormap()(1.0)[:3], atol=0.01)
 
 
 def test_a_draw_is_faded_where_no_beam_reached():
@@ -84,46 +97,6 @@ def test_axes_are_in_metres_at_equal_scale():
     assert ax.get_aspect() == 1.0
 
 
-def test_rounding_in_single_precision_is_no_error():
-    draw_probability(panel(), GRID, np.full(GRID.shape, 1.0 + 1e-6, dtype=np.float32))
-
-
-@pytest.mark.parametrize("draw", [draw_probability, draw_entropy, draw_deviation, draw_sample])
-def test_a_transposed_array_is_recognised(draw):
-    with pytest.raises(BadInput, match=r"shape \(4, 6\), but the grid has \(6, 4\).*transpose"):
-        draw(panel(), GRID, np.zeros((4, 6)))
-
-
-@pytest.mark.parametrize("draw", [draw_probability, draw_entropy, draw_deviation, draw_sample])
-def test_the_mask_must_fit(draw):
-    with pytest.raises(BadInput, match=r"observed has shape \(6,\)"):
-        draw(panel(), GRID, np.zeros(GRID.shape), np.ones(6, dtype=bool))
-
-
-@pytest.mark.parametrize("value", [-0.01, 1.01, 55.0])
-def test_a_probability_outside_its_range_is_named(value):
-    p = occupancy()
-    p[3, 2] = value
-    with pytest.raises(BadInput, match=r"occupancy\[3, 2\] is .*\[0, 1\].*log odds"):
-        draw_probability(panel(), GRID, p)
-
-
-def test_nan_is_told_to_use_the_mask():
-    p = occupancy()
-    p[3, 2] = np.nan
-    with pytest.raises(BadInput, match=r"occupancy\[3, 2\] is nan.*observed="):
-        draw_probability(panel(), GRID, p)
-
-
-def test_a_variance_is_recognised_by_its_size_and_probabilities_are_no_walls():
-    with pytest.raises(BadInput, match="square root"):
-        draw_deviation(panel(), GRID, np.full(GRID.shape, 0.6))
-    with pytest.raises(BadInput, match="true or false"):
-        draw_sample(panel(), GRID, occupancy())
-    with pytest.raises(BadInput, match="array of numbers"):
-        draw_probability(panel(), GRID, [["a"]])
-
-
 def test_a_speckled_mask_of_a_large_map_is_one_artist_not_one_for_each_cell():
     grid = Grid(shape=(600, 600))
     seen = np.random.default_rng(0).random(grid.shape) < 0.7
@@ -132,10 +105,126 @@ def test_a_speckled_mask_of_a_large_map_is_one_artist_not_one_for_each_cell():
     assert len(ax.patches) + len(ax.collections) + len(ax.images) < 10
 
 
-def test_the_width_of_an_interval_runs_from_none_to_all():
+def test_one_cell_has_four_edges_in_metres():
+    grid = Grid(shape=(3, 3), resolution=0.5, origin=(10.0, -1.0))
+    mask = np.zeros((3, 3), dtype=bool)
+    mask[2, 0] = True
+    found = {tuple(sorted(map(tuple, s))) for s in boundary_segments(grid, mask).tolist()}
+    assert found == {
+        ((11.0, -1.0), (11.0, -0.5)),
+        ((11.5, -1.0), (11.5, -0.5)),
+        ((11.0, -1.0), (11.5, -1.0)),
+        ((11.0, -0.5), (11.5, -0.5)),
+    }
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_segments_are_the_edges_between_unlike_cells(seed):
+    mask = np.random.default_rng(seed).random((7, 5)) < 0.5
+    expected = set()
+    for i in range(-1, 8):
+        for j in range(-1, 6):
+            here = 0 <= i < 7 and 0 <= j < 5 and bool(mask[i, j])
+            right = 0 <= i + 1 < 7 and 0 <= j < 5 and bool(mask[i + 1, j])
+            above = 0 <= i < 7 and 0 <= j + 1 < 5 and bool(mask[i, j + 1])
+            if here != right:
+                expected.add(("|", i + 1, j))
+            if here != above:
+                expected.add(("-", i, j + 1))
+    found = []
+    for (x0, y0), (x1, y1) in boundary_segments(Grid(shape=(7, 5)), mask).astype(int).tolist():
+        found += [("|", x0, y) for y in range(y0, y1)] if x0 == x1 else [("-", x, y0) for x in range(x0, x1)]
+    assert len(found) == len(set(found))
+    assert set(found) == expected
+    straight = np.zeros((7, 5), dtype=bool)
+    straight[3, 1:4] = True
+    assert len(boundary_segments(Grid(shape=(7, 5)), straight)) == 4  # one a side
+
+
+def test_boxes_cover_the_mask_and_no_more():
+    mask = np.random.default_rng(1).random((20, 30)) < 0.4
+    covered = np.zeros(mask.shape, dtype=int)
+    for box in boxes(Grid(shape=mask.shape), mask).astype(int):
+        (x0, y0), (x1, y1) = box[0], box[2]
+        covered[x0:x1, y0:y1] += 1
+    np.testing.assert_array_equal(covered, mask)
+
+
+X, Y = GRID.extent_m[:2], GRID.extent_m[2:]
+
+
+@given(st.floats(*X), st.floats(*X), st.floats(*Y), st.floats(*Y))
+def test_a_window_holds_its_rectangle_and_less_than_a_cell_more(x0, x1, y0, y1):
+    (x0, x1), (y0, y1) = sorted((x0, x1)), sorted((y0, y1))
+    if x1 - x0 < 1e-3 or y1 - y0 < 1e-3:
+        return
+    part, cut = window(GRID, (x0, x1), (y0, y1))
+    left, right, low, high = part.extent_m
+    edge = GRID.resolution
+    assert left - 1e-6 <= x0 < left + edge
+    assert right - edge < x1 <= right + 1e-6
+    assert low - 1e-6 <= y0 < low + edge
+    assert high - edge < y1 <= high + 1e-6
+    for whole, some, where in zip(GRID.centers_m(), part.centers_m(), cut, strict=True):
+        np.testing.assert_allclose(whole[where], some)
+
+
+def test_around_leaves_out_the_empty_borders():
+    mask = np.zeros(GRID.shape, dtype=bool)
+    mask[2:4, 1] = True
+    assert window_around(GRID, mask, 0.0)[1] == (slice(2, 4), slice(1, 2))
+    assert window_around(GRID, mask, 0.5)[1] == (slice(1, 5), slice(0, 3))
+    assert window_around(GRID, mask, 99.0)[0] == GRID
+    assert window_around(GRID, ~mask & mask, 0.0)[0] == GRID
+    assert window(GRID, (-0.5, 0.5), (2.5, 3.0))[1] == (slice(1, 3), slice(1, 2))  # edges take no neighbours
+    assert window(GRID, (-1e308, 1e308), (-1e308, 1e308))[0] == GRID
+
+
+@pytest.mark.parametrize(
+    ("x_m", "y_m", "says"),
+    [((5, 6), (2, 3), "outside the map, whose x runs from -1 to 2 m"), ((0, 1), (3, 2), "lower first"),
+     ((0, 1), (0, 1), "whose y runs from 2 to 4 m"), ((0, np.inf), (2, 3), "finite")],
+)  # fmt: skip
+def test_a_window_that_shows_nothing_is_refused(x_m, y_m, says):
+    with pytest.raises(BadInput, match=says):
+        window(GRID, x_m, y_m)
+
+
+@pytest.mark.parametrize(
+    ("draw", "numbers", "top", "even"),
+    [
+        (draw_entropy, occupancy(), 1.0, 1.0),  # bits
+        (draw_deviation, np.sqrt(occupancy() * (1 - occupancy())), 0.5, 1.0),
+        (draw_width, occupancy(), 1.0, 0.5),
+    ],
+)
+def test_uncertainty_is_bright_where_odds_are_even(draw, numbers, top, even):
     ax = panel()
-    image = draw_width(ax, GRID, occupancy(), observed())
-    assert image.get_clim() == (0.0, 1.0)
-    np.testing.assert_allclose(cell(ax, *CORNER), palette.uncertainty_colormap()(1.0)[:3], atol=0.01)
-    with pytest.raises(BadInput, match="give upper minus lower"):
-        draw_width(panel(), GRID, -occupancy())
+    assert draw(ax, GRID, numbers, observed()).get_clim() == (0.0, top)
+    colors = palette.uncertainty_colormap()
+    np.testing.assert_allclose(cell(ax, 2, 1), colors(even)[:3], atol=0.01)
+    np.testing.assert_allclose(cell(ax, *CORNER), colors(1.0 if draw is draw_width else 0.0)[:3], atol=0.01)
+
+
+def with_one(value):
+    numbers = occupancy()
+    numbers[3, 2] = value
+    return numbers
+
+
+@pytest.mark.parametrize(
+    ("draw", "numbers", "mask", "says"),
+    [
+        *((draw, np.zeros((4, 6)), None, r"shape \(4, 6\), but the grid has \(6, 4\).*transpose") for draw in ALL),
+        *((draw, np.zeros(GRID.shape), np.ones(6, bool), r"observed has shape \(6,\)") for draw in ALL),
+        *((draw_probability, with_one(x), None, r"occupancy\[3, 2\] is .*\[0, 1\].*log odds") for x in (-0.01, 55.0)),
+        (draw_probability, with_one(np.nan), None, r"occupancy\[3, 2\] is nan.*observed="),
+        (draw_probability, [["a"]], None, "array of numbers"),
+        (draw_deviation, np.full(GRID.shape, 0.6), None, "square root"),
+        (draw_width, -occupancy(), None, "give upper minus lower"),
+        (draw_sample, occupancy(), None, "true or false"),
+    ],
+)
+def test_what_is_no_map_of_the_grid_is_named(draw, numbers, mask, says):
+    with pytest.raises(BadInput, match=says):
+        draw(panel(), GRID, numbers, mask)
