@@ -7,8 +7,7 @@ import click
 from bayesmap.cli.command import Call, takes
 from bayesmap.cli.console import write_out
 from bayesmap.cli.keys import AppSettings
-from bayesmap.cli.logs import LOG, need_file
-from bayesmap.cli.translation import reading_of
+from bayesmap.cli.translation import LOG, need_file, reading_of
 
 
 @takes("app")

@@ -23,9 +23,8 @@ from bayesmap.cli.command import Call, as_toml, takes
 from bayesmap.cli.console import FAILURE, INTERRUPTED, PROBLEMS, STAGES, Console, described_share, reserve_stdout
 from bayesmap.cli.folder import Folder
 from bayesmap.cli.keys import InferSettings
-from bayesmap.cli.logs import logs_of
 from bayesmap.cli.pipeline import Task, infer_log, prepare, read, report, settings_in, stem
-from bayesmap.cli.translation import SENSOR_HELP, executor_of, ray_address
+from bayesmap.cli.translation import SENSOR_HELP, executor_of, logs_of, ray_address
 from bayesmap.errors import BadInput
 
 if TYPE_CHECKING:

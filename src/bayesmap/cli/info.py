@@ -13,7 +13,7 @@ import msgspec
 from bayesmap.cli.command import Call, as_toml, takes
 from bayesmap.cli.console import counted, write_out
 from bayesmap.cli.keys import Settings, Value
-from bayesmap.cli.logs import LOG, need_file
+from bayesmap.cli.translation import LOG, need_file
 from bayesmap.errors import BadInput
 from bayesmap.version import __version__
 

@@ -8,15 +8,14 @@ import math
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from bayesmap.cli.command import Call, takes
 from bayesmap.cli.console import INTERRUPTED, Console, share, write_out
 from bayesmap.cli.keys import LocalizeSettings
-from bayesmap.cli.logs import is_map, need_file
-from bayesmap.cli.translation import numbers_of, reading_of
+from bayesmap.cli.translation import is_map, need_file, numbers_of, reading_of
 from bayesmap.errors import BadInput
 from bayesmap.version import __version__
 
@@ -113,14 +112,9 @@ def localize(
         return
     if call.console.as_json:
         document = {
-            "version": __version__,
-            "run": run_file,
-            "log": log,
-            "scans": len(found),
-            "lost": lost,
-            "last": _answer(found.last, corners),
-            "outputs": {path.name: str(path) for path in outputs},
-        }
+            "version": __version__, "run": run_file, "log": log, "scans": len(found), "lost": lost,
+            "last": _answer(found.last, corners), "outputs": {path.name: str(path) for path in outputs},
+        }  # fmt: skip
         call.console.result(document, outputs)
     else:
         write_out("".join(f"{line}\n" for line in [*_lines(found, corners), *(str(path) for path in outputs)]))
@@ -128,16 +122,7 @@ def localize(
 
 @dataclass(frozen=True, eq=False)
 class _Question:
-    """What is asked.
-
-    Attributes:
-        call: of the command.
-        log: as typed.
-        map: in which the scans are located.
-        span: FIRST:LAST of the scans, or None for all.
-        near: the first pose, or None for anywhere.
-        independent: whether each scan is located by itself.
-    """
+    """The scans of a log (FIRST:LAST, None for all) that are to be located in a map, and a prior of the first pose."""
 
     call: Call[LocalizeSettings]
     log: str
@@ -158,13 +143,12 @@ def _locate(question: _Question, tell: Callable[[int, PoseBelief], bool] | None)
     from bayesmap.localization.localize import localize
 
     call, log = question.call, question.log
-    reading = describe_log(
-        log, max_range_m=question.map.max_range_m, without_poses=question.independent, **reading_of(call.settings())
-    )
+    max_range_m, options = question.map.max_range_m(live=False), reading_of(call.settings())
+    reading = describe_log(log, max_range_m=max_range_m, without_poses=question.independent, **options)
     for note in reading.notes:
         call.console.say(f"{log}: {note}")
-    scans = reading.scans.select(_slice(question.span, len(reading.scans)))
-    known = question.map.known(call.console, scans)
+    scans = reading.scans.select(_span(question.span, len(reading.scans)))
+    known = question.map.known(call.console, scans, live=False)
     with share(call.console, "locating scans") as report:
 
         def on_belief(number: int, belief: PoseBelief) -> None:
@@ -191,7 +175,7 @@ def _locate_live(
     interrupted = False
     try:
         for first in scans:
-            known = question.map.known_live(first)
+            known = question.map.known(question.call.console, first, live=True)
             for belief in follow_live(known, itertools.chain([first], scans), **question.options):
                 beliefs.append(belief)
                 if not tell(len(beliefs) - 1, belief):
@@ -205,24 +189,6 @@ def _locate_live(
     return Localization(tuple(beliefs)), interrupted
 
 
-class _Map(Protocol):
-    """A map in which scans are located."""
-
-    @property
-    def max_range_m(self) -> float | None:
-        """Largest range of the sensor; None: as the log says."""
-
-    @property
-    def max_range_live_m(self) -> float:
-        """Largest range of the sensor of a log that is still written."""
-
-    def known(self, console: Console, scans: Scans) -> KnownMap:
-        """Return the map, ready to locate scans in."""
-
-    def known_live(self, first: Scans) -> KnownMap:
-        """Return the map, ready to locate scans in of which only the first is there."""
-
-
 @dataclass(frozen=True, eq=False)
 class _RunMap:
     """The map of a saved run."""
@@ -230,18 +196,12 @@ class _RunMap:
     run: Run
     settings: LocalizeSettings
 
-    @property
-    def max_range_m(self) -> float | None:
-        return self.max_range_live_m
-
-    @property
-    def max_range_live_m(self) -> float:
+    def max_range_m(self, live: bool) -> float | None:
+        """Return the largest range of the sensor."""
         return self.run.posterior.scans.max_range_m
 
-    def known(self, console: Console, scans: Scans) -> KnownMap:
-        return self.known_live(scans)
-
-    def known_live(self, first: Scans) -> KnownMap:
+    def known(self, console: Console, scans: Scans, live: bool) -> KnownMap:
+        """Return the map, ready to locate scans in."""
         from bayesmap.localization.known_map import KnownMap
 
         return KnownMap.of_run(self.run, beam_weight=self.settings.beam_weight, device=self.settings.device)
@@ -255,35 +215,25 @@ class _ExternalMap:
     grid: Grid
     settings: LocalizeSettings
 
-    @property
-    def max_range_m(self) -> float | None:
-        return None
+    def max_range_m(self, live: bool) -> float | None:
+        """Return the largest range of the sensor: live the map's diagonal, else None, which means that of the log."""
+        return self.grid.resolution * math.hypot(*self.grid.shape) if live else None
 
-    @property
-    def max_range_live_m(self) -> float:
-        """From one corner of the map to the other."""
-        return self.grid.resolution * math.hypot(*self.grid.shape)
-
-    def known(self, console: Console, scans: Scans) -> KnownMap:
-        """Fit what the map means to the scans first."""
+    def known(self, console: Console, scans: Scans, live: bool) -> KnownMap:
+        """Return the map, ready to locate scans in: its law is fitted to the scans, or assumed while they come."""
         from bayesmap.localization.external_map import external_map, fit_law
 
-        settings = self.settings
-        with share(console, "fitting what the map means") as report:
-            law = fit_law(self.occupancy, self.grid, scans, settings.seed, report)
-        console.say(law.words())
+        settings, law = self.settings, None
+        if not live:
+            with share(console, "fitting what the map means") as report:
+                law = fit_law(self.occupancy, self.grid, scans, settings.seed, report)
+            console.say(law.words())
         return external_map(
             self.occupancy, self.grid, scans, law, beam_weight=settings.beam_weight, device=settings.device
         )
 
-    def known_live(self, first: Scans) -> KnownMap:
-        """Take the assumed law."""
-        from bayesmap.localization.external_map import external_map
 
-        settings = self.settings
-        return external_map(
-            self.occupancy, self.grid, first, None, beam_weight=settings.beam_weight, device=settings.device
-        )
+_Map = _RunMap | _ExternalMap
 
 
 def _map_of(file: str, settings: LocalizeSettings) -> _Map:
@@ -370,19 +320,19 @@ def _area(text: str | None) -> list[float] | None:
     return corners
 
 
-def _slice(text: str | None, count: int) -> slice:
-    if text is None:
-        return slice(None)
-    first, colon, last = text.partition(":")
+def _span(text: str | None, count: int | None = None) -> slice:
+    """Return FIRST:LAST, as typed, as a slice of so many scans; None: of scans to come, which have no last one."""
+    first, colon, last = (text or ":").partition(":")
     try:
-        chosen = slice(int(first) if first else None, int(last) if last else None)
+        span = slice(int(first) if first else None, int(last) if last else None)
     except ValueError:
-        colon = ""
-    if not colon:
-        raise click.BadParameter(f"{text!r} is not FIRST:LAST", param_hint="'--scans'")
-    if not range(count)[chosen]:
+        colon, span = "", slice(None)
+    start, to_come = span.start or 0, count is None
+    if not colon or (to_come and (start < 0 or (span.stop is not None and span.stop <= start))):
+        raise click.BadParameter(f"{text!r} is not FIRST:LAST" + " of scans to come" * to_come, param_hint="'--scans'")
+    if text is not None and count is not None and not range(count)[span]:
         raise BadInput(f"--scans {text}: none of the log's {count:,} scans is among them")
-    return chosen
+    return span
 
 
 def can_follow(console: Console, log: str) -> bool:
@@ -417,10 +367,11 @@ def scans_to_come(question: _Question, idle_s: float | None) -> Iterator[Scans]:
         value = getattr(settings, name)
         if value is not None:
             raise BadInput(f"{log}: --{name.replace('_', '-')} {value}: a text has no topics and no frames")
-    first, last = _ends(question.span)
+    span, max_range_m = _span(question.span), question.map.max_range_m(live=True)
+    assert max_range_m is not None
     scans = live_scans(
         log,
-        max_range_m=question.map.max_range_live_m,
+        max_range_m=max_range_m,
         no_return=settings.no_return,
         skip_bad_lines=settings.skip_bad_lines,
         idle_s=idle_s,
@@ -428,18 +379,7 @@ def scans_to_come(question: _Question, idle_s: float | None) -> Iterator[Scans]:
         laser=reading_of(settings)["laser"],
         without_poses=question.independent,
     )
-    return itertools.islice(_thinned(scans, settings.thin_scans), first, last)
-
-
-def _ends(span: str | None) -> tuple[int, int | None]:
-    first, colon, last = (span or ":").partition(":")
-    try:
-        ends = int(first or 0), int(last) if last else None
-    except ValueError:
-        colon = ""
-    if not colon or ends[0] < 0 or (ends[1] is not None and ends[1] <= ends[0]):
-        raise click.BadParameter(f"{span!r} is not FIRST:LAST of scans to come", param_hint="'--scans'")
-    return ends
+    return itertools.islice(_thinned(scans, settings.thin_scans), span.start or 0, span.stop)
 
 
 def _thinned(scans: Iterable[Scans], spacing_m: float) -> Iterator[Scans]:

@@ -12,7 +12,7 @@ from bayesmap.cli.command import Call, Layer, as_toml, read_file
 from bayesmap.cli.console import SETTING_UP, Console, counted, progress, stage
 from bayesmap.cli.folder import Folder
 from bayesmap.cli.keys import InferSettings, SamplingSettings
-from bayesmap.cli.logs import LOG, need_file
+from bayesmap.cli.translation import LOG, need_file
 
 if TYPE_CHECKING:
     from collections.abc import Callable

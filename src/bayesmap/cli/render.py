@@ -11,7 +11,7 @@ import click
 from bayesmap.cli.command import Call, takes
 from bayesmap.cli.console import share
 from bayesmap.cli.keys import ExportSettings, RenderSettings
-from bayesmap.cli.logs import heldout_scans
+from bayesmap.cli.translation import heldout_scans
 from bayesmap.errors import BadInput
 from bayesmap.version import __version__
 
@@ -126,7 +126,12 @@ def _panel(run: Run, settings: RenderSettings, grid: Grid, window: tuple[slice, 
     if what == "deviation" and run.posterior.prior.has_interval:
         raise BadInput("deviation: that of binary walls; --what width shows how sure a reflectivity is")
     if what == "width":
-        shown = interval_width(run)[window]
+        if not run.posterior.prior.has_interval:
+            raise BadInput(
+                "width: a wall is there or not, and has no interval; --what entropy or deviation shows how sure it is"
+            )
+        lower, upper = run.interval(0.9)
+        shown = (upper - lower)[window]
     elif run.n_draws:
         draw = one_draw(run, settings.chain, settings.draw)
         shown = draw[window] if what == "draw" else shown
@@ -205,22 +210,6 @@ def part_of(run: Run, text: str | None) -> tuple[Grid, tuple[slice, slice]]:
     except ValueError:
         raise BadInput(f"window {text!r}: give X0,X1,Y0,Y1 in metres, such as 0,10,-5,5, or: observed") from None
     return window(run.grid, (x0, x1), (y0, y1))
-
-
-def interval_width(run: Run) -> NDArray[np.float64]:
-    """Compute upper minus lower bound of the central 90 % interval of each cell, (nx, ny).
-
-    Raises:
-        BadInput: cells are walls or free, which have no interval.
-    """
-    import numpy as np
-
-    if not run.posterior.prior.has_interval:
-        raise BadInput(
-            "width: a wall is there or not, and has no interval; --what entropy or deviation shows how sure it is"
-        )
-    lower, upper = run.interval(0.9)
-    return np.asarray(upper - lower)
 
 
 def log_odds_map(run: Run) -> tuple[NDArray[np.float64], Walls]:

@@ -11,8 +11,8 @@ import click
 from bayesmap.cli.command import Call, takes
 from bayesmap.cli.console import write_out
 from bayesmap.cli.keys import ScoreSettings
-from bayesmap.cli.logs import is_map
 from bayesmap.cli.scores import Scored, base_in_laser, mount_of, score_others, score_run
+from bayesmap.cli.translation import is_map
 from bayesmap.errors import BadInput
 from bayesmap.version import __version__
 

@@ -12,8 +12,7 @@ import click
 from bayesmap.cli.command import Call
 from bayesmap.cli.console import progress, share
 from bayesmap.cli.keys import ScoreSettings
-from bayesmap.cli.logs import heldout_scans, is_map, need_file
-from bayesmap.cli.translation import pose_of, reading_of
+from bayesmap.cli.translation import heldout_scans, is_map, need_file, pose_of, reading_of
 from bayesmap.errors import BadInput
 
 if TYPE_CHECKING:

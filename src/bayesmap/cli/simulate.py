@@ -11,8 +11,7 @@ import click
 
 from bayesmap.cli.command import Call, takes
 from bayesmap.cli.keys import SimulateSettings
-from bayesmap.cli.logs import MAPS, is_map
-from bayesmap.cli.translation import ODOMETRY_HELP, SENSOR_HELP, odometry_of, pose_of, sensor_of
+from bayesmap.cli.translation import MAPS, ODOMETRY_HELP, SENSOR_HELP, is_map, odometry_of, pose_of, sensor_of
 from bayesmap.errors import BadInput
 from bayesmap.version import __version__
 
@@ -197,8 +196,10 @@ def world_of(settings: SimulateSettings, poses: Sequence[str]) -> World:
         BadInput: a file that cannot be read as a world, a size or a pose that is not one.
         click.UsageError: a file, but no pose.
     """
+    import numpy as np
+
     name, resolution = settings.world, settings.resolution
-    typed = [pose_of(text) for text in poses]
+    typed = np.array([pose_of(text) for text in poses]) if poses else None
     if name == "tutorial":
         return _tutorial(resolution, typed)
     if name == "building":
@@ -208,31 +209,30 @@ def world_of(settings: SimulateSettings, poses: Sequence[str]) -> World:
         raise BadInput(
             f"world {name!r}: no such file; give tutorial, building, or a drawing, picture or map_server YAML"
         )
-    if not typed:
+    if typed is None:
         raise click.UsageError(f"where is the robot in {name}? give --pose X,Y,DEGREES, once for each scan")
-    walls, grid = _from_file(path, resolution)
-    return World(walls, grid, _stack(typed))
+    return World(*_from_file(path, resolution), typed)
 
 
-def _tutorial(resolution: float | None, typed: list[tuple[float, float, float]]) -> World:
+def _tutorial(resolution: float | None, typed: NDArray[np.float64] | None) -> World:
     from bayesmap.sim.drawing import TUTORIAL_GRID, tutorial
     from bayesmap.space.grid import Grid
 
     walls, pose = tutorial()
-    poses = _stack(typed) if typed else pose[None]
+    poses = pose[None] if typed is None else typed
     grid = TUTORIAL_GRID
     if resolution is not None and resolution != grid.resolution:
         grid = Grid(grid.shape, resolution, (-resolution / 2, -resolution / 2))
-        poses = poses if typed else poses * (resolution, resolution, 1.0)
+        poses = poses * (resolution, resolution, 1.0) if typed is None else poses
     return World(walls, grid, poses, is_tutorial=True, beams=100, fov_deg=360.0, max_range_m=42.0)
 
 
-def _building(settings: SimulateSettings, typed: list[tuple[float, float, float]]) -> World:
+def _building(settings: SimulateSettings, typed: NDArray[np.float64] | None) -> World:
     from bayesmap.sim.building import building
     from bayesmap.sim.robot import patrol
 
     made = building(settings.seed, _size(settings.size), settings.resolution or 0.1)
-    poses = _stack(typed) if typed else patrol(made, settings.scans, settings.seed)
+    poses = patrol(made, settings.scans, settings.seed) if typed is None else typed
     return World(made.walls, made.grid, poses, made.opacity)
 
 
@@ -260,12 +260,6 @@ def _from_file(path: Path, resolution: float | None) -> tuple[NDArray[np.bool_],
     except BadInput as problem:
         raise BadInput(f"{path}: {problem}") from None
     return walls, Grid(walls.shape, resolution or 1.0)
-
-
-def _stack(poses: list[tuple[float, float, float]]) -> NDArray[np.float64]:
-    import numpy as np
-
-    return np.array(poses, dtype=np.float64)
 
 
 def _size(text: str) -> tuple[float, float]:
