@@ -124,7 +124,7 @@ def infer(
 
 @dataclass(frozen=True, eq=False)
 class Inference:
-    """What was asked of `infer`, checked.
+    """The arguments of `infer`, checked.
 
     Attributes:
         model: of the readings; where the sensor is fitted, with the one that the fit starts from.
@@ -264,17 +264,17 @@ class Inference:
 
     @property
     def kernel(self) -> str:
-        """The sampler that the kind of cells means by the method's name."""
+        """Return the name of the sampler that the kind of cells means by the method's name."""
         return self.model.cells.methods[self.name]
 
     @property
     def device(self) -> str:
-        """The device on which kernels run."""
+        """Return the device on which kernels run."""
         return self.where.device
 
     @property
     def threads(self) -> int | None:
-        """Threads of the CPU; all cores if None."""
+        """Return the number of CPU threads; None for all cores."""
         return self.where.threads
 
     def _check_memory(self, executor: Executor) -> None:

@@ -14,7 +14,7 @@ class BadInput(ValueError):
 
 
 def check_count(where: str, name: str, value: int, least: int) -> int:
-    """A whole number, or a clear error.
+    """Return a value as a whole number, or refuse it.
 
     Args:
         where: the function or object that was given the number.

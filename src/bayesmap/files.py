@@ -108,7 +108,7 @@ def write_whole_folder(path: str | os.PathLike[str], may_replace: Callable[[Path
 
 @contextlib.contextmanager
 def naming(path: str | os.PathLike[str], temporary: Path) -> Iterator[None]:
-    """A failure to write becomes an `OSError` that names ``path``, whichever library has met it under which name."""
+    """Turn a failure to write into an `OSError` that names ``path``, whichever library raised it."""
     try:
         yield
     except OSError as error:
@@ -130,7 +130,7 @@ def _flush(path: Path) -> None:
 
 
 def need_ending(path: str | os.PathLike[str], endings: tuple[str, ...], kind: str) -> tuple[Path, str]:
-    """The path, and its ending in lower case without the dot.
+    """Return the path, and its ending in lower case without the dot.
 
     Raises:
         BadInput: an ending that is not among ``endings``, or a folder that is not there. Both are checked

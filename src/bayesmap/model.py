@@ -32,7 +32,7 @@ from bayesmap.space.scans import Scans
 BEAMS_AT_ONCE = 8192
 
 POSES = ArraySpec("poses", ("scan", "pose"), "float64", what="x, y in metres and yaw in radians, in the world frame")
-"""What a draw holds where poses are unknown, beside its cells."""
+"""The array that a draw holds beside its cells where poses are unknown."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,7 +52,7 @@ class State:
 
 @dataclass(frozen=True, eq=False)
 class Model:
-    """What is inferred, and from what.
+    """A question of inference: the data, the unknowns and their priors.
 
     Attributes:
         scans: what the sensor reported; their poses are those that the log states.
@@ -72,11 +72,11 @@ class Model:
 
     @property
     def arrays(self) -> tuple[ArraySpec, ...]:
-        """What a draw holds: the arrays of its cells, and the poses where they are unknown."""
+        """Return the arrays of a draw: those of its cells, and the poses where they are unknown."""
         return (*self.cells.arrays, POSES) if self.poses.unknown else self.cells.arrays
 
     def state(self, cells: Cells) -> State:
-        """A state with these cells, the model's sensor, and the poses that the log states.
+        """Return a state with these cells, the model's sensor, and the poses that the log states.
 
         Args:
             cells: arrays over the whole grid, such as those of a run's draw
@@ -86,7 +86,7 @@ class Model:
         return State(self.cells.completed(cells, self.grid), self.sensor, self.scans.poses)
 
     def log_joint(self, state: State) -> float:
-        """Log density of a state and the readings, in nats, up to a constant of the priors.
+        """Compute the log density of a state and the readings, in nats, up to a constant of the priors.
 
         Raises:
             BadInput: poses of another shape than the scans'.
@@ -95,11 +95,11 @@ class Model:
         return float(poses) + self.cells.log_prob(state.cells, self.grid) + self.log_likelihood(state)
 
     def log_likelihood(self, state: State) -> float:
-        """Log p(readings | state), in nats: densities per metre of ranges, probabilities of typed readings."""
+        """Compute log p(readings | state), nats: densities per metre of ranges, probabilities of typed readings."""
         return float(self.beam_log_likelihoods(state).sum())
 
     def beam_log_likelihoods(self, state: State) -> Floats:
-        """The same for each beam, (B,); 0 for an invalid reading.
+        """Compute log p(reading | state) of each beam, (B,), in nats; 0 for an invalid reading.
 
         Raises:
             BadInput: poses of another shape than the scans'.
@@ -122,7 +122,7 @@ class Model:
 def log_likelihoods(
     rays: Rays, states: NDArray[np.floating], sensor: SensorModel, hit_depth: float, beta: float = 1.0
 ) -> Floats:
-    """Log p(reading | map) of every beam, (B,), by the formula of this module; 0 for an invalid reading.
+    """Compute log p(reading | map) of every beam, (B,), by the formula of this module; 0 for an invalid reading.
 
     Args:
         rays: beams and their readings.

@@ -45,7 +45,7 @@ class Run:
     Attributes:
         posterior: everything that a saved run holds.
         trajectory: after `bayesmap.slam`, the approximation of all scans' poses; None where poses were not inferred
-            so, and in runs that were saved before format 7.
+            so.
     """
 
     posterior: Posterior
@@ -53,39 +53,37 @@ class Run:
 
     @property
     def grid(self) -> Grid:
-        """Where the cells are."""
+        """Return the grid of the cells."""
         return self.posterior.grid
 
     @property
     def finished(self) -> bool:
-        """False if the run was stopped before all draws were there: `bayesmap.Checkpoints(resume=run)` goes on."""
+        """Return False if the run was stopped before its last draw: `bayesmap.Checkpoints(resume=run)` goes on."""
         return self.posterior.finished
 
     @property
     def occupancy(self) -> Floats:
-        """Posterior mean of the probability that a cell stops a beam, (nx, ny).
+        """Return the posterior mean of the probability that a cell stops a beam, (nx, ny).
 
-        Of binary walls it is the probability of a wall; with surfaces that a beam which comes to the cell's square is
-        stopped inside it, whichever cell the surface belongs to (docs/surfaces.md). But for walls it is the mean of
-        what the draws expect: the mean of ``draws`` has the same limit and more noise.
+        For binary walls it is the probability of a wall. With surfaces it is the probability that a beam which enters
+        the cell's square stops inside it, whichever cell the surface belongs to (docs/surfaces.md). Except for walls it
+        averages the draws' expectations: the mean of ``draws`` has the same limit and more noise.
         """
         return self.posterior.occupancy
 
     @property
     def entropy(self) -> Floats:
-        """Entropy in bits of whether a cell stops the next beam that meets what is in it, (nx, ny)."""
+        """Return the entropy in bits of whether a cell stops the next beam that meets its content, (nx, ny)."""
         return entropy_bits(self.posterior.occupancy)
 
     @property
     def observed(self) -> NDArray[np.bool_]:
-        """Cells of which some beam says something in at least half of the draws, (nx, ny): elsewhere the prior
-        speaks.
-        """
+        """Return a mask of the cells that a beam observes in at least half of the draws, (nx, ny)."""
         return self.posterior.observed
 
     @cached_property
     def draws(self) -> NDArray[Any]:
-        """All kept maps, (chain, draw, nx, ny): walls, or chances to stop a beam; the prior's mean where no beam comes.
+        """Return all kept maps, (chain, draw, nx, ny): walls, or chances to stop a beam; unobserved: the prior's mean.
 
         Made on first use: a byte or four for each cell of each draw.
         """
@@ -163,12 +161,12 @@ class Run:
 
     @property
     def log_joint(self) -> Floats:
-        """Log p(cells, readings) of every draw, (chain, draw)."""
+        """Return log p(cells, readings) of every draw, nats, (chain, draw)."""
         return self.posterior.log_joint
 
     @property
     def log_weights(self) -> Floats:
-        """Normalised log weights of all particles of importance sampling, (particles,).
+        """Return the normalised log weights of all particles of importance sampling, (particles,).
 
         Raises:
             BadInput: another method.

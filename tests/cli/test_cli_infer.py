@@ -115,7 +115,7 @@ def test_strict_exits_4_but_leaves_everything(office, tmp_path, short, cells):
 
 WORK = {
     "block": "2 chains of 13 sweeps", "gibbs": "2 chains of 13 sweeps", "importance": "16 independent maps",
-    "propagate": "2 chains of 13 sweeps",
+    "propagate": "16 independent maps",
 }  # fmt: skip
 
 

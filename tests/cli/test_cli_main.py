@@ -129,41 +129,6 @@ def test_no_bar_without_a_terminal_and_only_data_on_stdout(office, tmp_path, sho
     assert "\r" not in errors
 
 
-@pytest.mark.full
-def test_a_terminal_gets_a_bar_and_can_refuse_it(office, tmp_path, short):
-    pty = pytest.importorskip("pty")
-
-    def on_terminal(*more):
-        read, write = pty.openpty()
-        arguments = ["infer", office, "-o", tmp_path / "run", *short[:-1], "--force", *more]
-        environment = {**os.environ, "PYTHONPATH": str(SOURCE), "TERM": "xterm", "NO_COLOR": "1"}
-        process = subprocess.Popen(
-            [sys.executable, "-m", "bayesmap.cli.main", *map(str, arguments)],
-            stdout=subprocess.DEVNULL,
-            stderr=write,
-            env=environment,
-        )
-        os.close(write)
-        shown = b""
-        while True:
-            try:
-                piece = os.read(read, 65536)
-            except OSError:  # Linux says so when the other end closes
-                break
-            if not piece:
-                break
-            shown += piece
-        os.close(read)
-        assert process.wait() == 0, shown
-        return shown.decode()
-
-    bar = on_terminal()
-    assert "sweeps ETA" in bar
-    assert "log joint" in bar
-    assert not re.search(r"\x1b\[[0-9;]*3[0-9]m", bar), "NO_COLOR is not honoured"
-    assert "ETA" not in on_terminal("--no-progress")
-
-
 def test_what_a_library_says_while_the_process_ends_is_no_result():
     code = (
         "import atexit\nfrom bayesmap.cli.main import main\n"

@@ -2,6 +2,7 @@
 
 import os
 import pty
+import re
 import subprocess
 
 import pytest
@@ -15,7 +16,7 @@ from bayesmap.cli.console import SETTING_UP, STAGES, Console, progress
 def on_a_terminal(*arguments):
     """What a command writes to a terminal."""
     ours, theirs = pty.openpty()
-    environment = {**os.environ, "PYTHONPATH": str(SOURCE), "TERM": "xterm", "COLUMNS": "100"}
+    environment = {**os.environ, "PYTHONPATH": str(SOURCE), "TERM": "xterm", "COLUMNS": "100", "NO_COLOR": "1"}
     command = [*COMMAND, *words(arguments)]
     process = subprocess.Popen(command, stdin=theirs, stdout=theirs, stderr=theirs, env=environment)
     os.close(theirs)
@@ -40,6 +41,8 @@ def test_what_follows_the_chains_is_named_too(office, tmp_path, cells):
     for name in ("tracing beams", "saving", "drawing the map", "scoring held-out beams", "comparing the chains"):
         assert name in shown, name
     assert "sweeps ETA" in shown
+    assert "log joint" in shown
+    assert not re.search(r"\x1b\[[0-9;]*3[0-9]m", shown), "NO_COLOR is not honoured"
     quiet = succeed(*asked, "-o", tmp_path / "piped")
     assert "saving" not in quiet.stderr
 
@@ -60,6 +63,7 @@ def test_scores_and_the_baselines_that_are_fitted_for_them_are_named_too(office,
     predicted = on_a_terminal("render", tmp_path / "run.nc", "--what surprise --heldout", office, "--holdout 4")
     assert "predicting held-out beams" in predicted
     assert "ETA" not in call(*asked).stderr
+    assert "ETA" not in on_a_terminal(*asked, "--no-progress")
 
 
 def test_a_stage_that_comes_between_does_not_stop_the_clock(monkeypatch):

@@ -1,6 +1,6 @@
-"""What all commands have in common: their options, and the settings that result.
+"""Options that all commands share, and the settings that follow from them.
 
-Which value wins: defaults, then a resumed run's own, then the file, then ``--set``, then flags.
+Later values win: defaults, then a resumed run's own, then the file, then ``--set``, then flags.
 """
 
 from __future__ import annotations

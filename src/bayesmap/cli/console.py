@@ -1,4 +1,4 @@
-"""What a command prints: results on standard output, all else on standard error, and a bar on a terminal."""
+"""The output of a command: results on standard output, all else on standard error, a bar on a terminal."""
 
 from __future__ import annotations
 
@@ -64,7 +64,7 @@ class Console:
 
     @property
     def draws_bar(self) -> bool:
-        """Whether there is a terminal to draw a bar on, and a bar is wanted."""
+        """Return whether a bar is wanted, and standard error is a terminal."""
         return self.bar and not self.quiet and sys.stderr.isatty() and os.environ.get("TERM") != "dumb"
 
 

@@ -108,17 +108,17 @@ class Folder:
 
     @property
     def run(self) -> Path:
-        """Path of the saved run, which is the checkpoint while the run goes on."""
+        """Return the path of the saved run, which is the checkpoint while the run goes on."""
         return self.path / "run.nc"
 
     @property
     def config(self) -> Path:
-        """Path of the settings that the run was started with."""
+        """Return the path of the settings that the run was started with."""
         return self.path / "config.toml"
 
     @property
     def outdated(self) -> Path:
-        """Path of a mark beside a run that is to be replaced; it holds the settings of the run to come."""
+        """Return the path of a mark beside a run that is to be replaced; it holds the settings of the run to come."""
         return self.path / "outdated"
 
     def check(self, *, force: bool) -> None:

@@ -191,7 +191,7 @@ def table(entries: list[Entry]) -> Iterator[str]:
 
 @dataclass(frozen=True, eq=False)
 class Sent:
-    """What a worker sends.
+    """A message from a worker.
 
     Attributes:
         files: contents of files of the run's folder, by name.

@@ -23,8 +23,8 @@ from bayesmap.version import __version__
 def info(call: Call[Settings], file: str) -> None:
     r"""Say what is in FILE: a log, a robot's recording (a file or a folder), or a saved run.
 
-    Of a recording: its topics and frames, what its scans look like, where their poses can come from, and the command
-    that infers a map from it. What is damaged or malformed is counted, and the rest is described.
+    For a recording it lists topics and frames, describes the scans, names the topics that can give poses, and prints
+    the command that infers a map. Damaged and malformed messages are counted, and the rest is described.
 
     \b
     bayesmap info recording.mcap
@@ -39,7 +39,7 @@ def info(call: Call[Settings], file: str) -> None:
 
 
 def is_saved_run(file: str) -> bool:
-    """Whether a file begins as saved runs do.
+    """Return whether a file begins as saved runs do.
 
     Raises:
         BadInput: it cannot be read.

@@ -24,7 +24,7 @@ MOST = 10**9
 
 @dataclass(frozen=True)
 class Rule:
-    """What a value must be, beyond its type.
+    """A condition that a value must keep, beyond its type.
 
     Attributes:
         holds: whether it is.
@@ -37,7 +37,7 @@ class Rule:
 
 @dataclass(frozen=True)
 class Help:
-    """What the help says of a setting.
+    """The help text of a setting.
 
     Attributes:
         text: one sentence.
@@ -114,7 +114,7 @@ class ReadingSettings(Settings, kw_only=True, frozen=True):
 
 
 class SamplingSettings(ReadingSettings, kw_only=True, frozen=True):
-    """What `infer` and `slam` have in common."""
+    """Settings that `infer` and `slam` share."""
 
     resolution: Annotated[Length, Help("Edge of a cell in metres.")] = 0.1
     max_range: Annotated[
@@ -345,12 +345,12 @@ class Key:
 
     @property
     def flag(self) -> str:
-        """The flag, such as ``--max-range``."""
+        """Return the flag, such as ``--max-range``."""
         return "--" + self.name.replace("_", "-")
 
     @property
     def words(self) -> str:
-        """What a value must be."""
+        """Return the words that say what a value must be."""
         if self.rule is not None:
             return self.rule.words
         if self.choices:

@@ -133,7 +133,7 @@ class _Question:
 
     @property
     def options(self) -> dict[str, Any]:
-        """The arguments that all localizations take."""
+        """Return the arguments that all localizations take."""
         return {"prior": self.near, "independent": self.independent, "seed": self.call.settings().seed}
 
 
@@ -336,7 +336,7 @@ def _span(text: str | None, count: int | None = None) -> slice:
 
 
 def can_follow(console: Console, log: str) -> bool:
-    """Whether a log can be followed; if not, the user is told that only the scans that it holds now are located."""
+    """Return whether a log can be followed; if not, warn that only the scans that it holds now are located."""
     from bayesmap.io.live import STANDARD_INPUT, can_be_followed
 
     if log not in STANDARD_INPUT:

@@ -1,4 +1,4 @@
-"""What ``bayesmap score`` computes: scores of runs, of maps and trajectories of other programs, and of poses."""
+"""The work of ``bayesmap score``: scores of runs, of maps and trajectories of other programs, and of poses."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ only in part. All is said for a wall at the last distance."""
 
 @dataclass(frozen=True, eq=False)
 class Scored:
-    """What was scored.
+    """The scores that were computed.
 
     Attributes:
         rows: name and score of each row of the table; the first is what was asked for.

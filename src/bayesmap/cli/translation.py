@@ -1,4 +1,4 @@
-"""What a user typed, as the library takes it.
+"""Translate what a user typed into values of the library.
 
 First texts: points, poses, sensor models (``mixture:0.02``), odometry (``typical,lag_s=0.1``). Then settings: prior,
 sensor, method, schedule, executor, and how a log is read. Then logs: files that must exist, folders and patterns of
@@ -331,7 +331,7 @@ def logs_of(typed: Sequence[str]) -> list[str] | None:
 
 
 def _is_log(path: Path) -> bool:
-    """Whether a path in a folder is a log, by its name."""
+    """Return whether a path in a folder is a log, by its name."""
     from bayesmap.io.logs import ENDINGS
 
     if path.is_dir():
@@ -340,7 +340,7 @@ def _is_log(path: Path) -> bool:
 
 
 def _is_recording(folder: Path) -> bool:
-    """Whether a folder is a ROS 2 bag rather than one of logs: two bags of one recording lie side by side."""
+    """Return whether a folder is one ROS 2 bag, and not a folder of logs."""
     if (folder / "metadata.yaml").exists():
         return True
     recorded = [entry for entry in folder.glob("*") if entry.name.endswith(RECORDED)]
@@ -376,5 +376,5 @@ def heldout_scans(run: Run, log: str, settings: ReadingSettings, every: int) -> 
 
 
 def is_map(path: str) -> bool:
-    """Whether a file is called like a map_server map."""
+    """Return whether a path ends as maps of map_server do."""
     return Path(path).suffix.lower() in MAPS

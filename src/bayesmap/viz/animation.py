@@ -127,7 +127,7 @@ def _render(canvas: _Canvas, chain: NDArray[Any], labels: list[int], *, running_
 
 
 class _Canvas:
-    """What all frames share: the size, the colours, and the marks over the map."""
+    """The parts that all frames share: the size, the colours, and the marks over the map."""
 
     def __init__(
         self, grid: Grid, observed: NDArray[np.bool_], truth: ArrayLike | None, poses: ArrayLike | None

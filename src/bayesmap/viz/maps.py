@@ -159,6 +159,8 @@ def draw_entropy(ax: Axes, grid: Grid, occupancy: ArrayLike, observed: ArrayLike
 
     Arguments and errors are those of `draw_probability`. The image is from 0 to 1 bit.
     """
+    from bayesmap.posterior.posterior import entropy_bits
+
     bits = entropy_bits(as_probabilities(grid, occupancy, "occupancy"))
     return _show(ax, grid, bits, as_observed(grid, observed), palette.uncertainty_colormap(), 1.0)
 
@@ -221,14 +223,6 @@ def draw_one(ax: Axes, grid: Grid, draw: ArrayLike, observed: ArrayLike | None =
     if array.dtype == np.bool_ or np.isin(array, (0, 1)).all():
         return draw_sample(ax, grid, array, observed)
     return draw_probability(ax, grid, array, observed)
-
-
-def entropy_bits(probability: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the entropy in bits of a yes-or-no variable with this probability; same shape."""
-    p = np.asarray(probability, dtype=np.float64)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        bits = -p * np.log2(p) - (1.0 - p) * np.log2(1.0 - p)
-    return np.where((p > 0.0) & (p < 1.0), bits, 0.0)
 
 
 def map_figure(

@@ -72,7 +72,7 @@ def draw_rays(
         max_readings: the largest number of end points to draw.
 
     Returns:
-        What was drawn, labelled "beam", "reading" and "no return", in this order, without those missing.
+        The artists that were drawn, labelled "beam", "reading" and "no return", in this order, without those missing.
 
     Raises:
         BadInput: ``max_beams`` or ``max_readings`` below 1.
