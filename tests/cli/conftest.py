@@ -38,7 +38,7 @@ def office_run(office, tmp_path_factory):
     return folder
 
 
-@pytest.fixture
+@pytest.fixture(scope="session")
 def short():
     """Options of a run that takes a moment."""
     return SHORT

@@ -57,11 +57,12 @@ def check(result, output, alone):
             np.testing.assert_array_equal(run.posterior.draws.arrays[array], values)
 
 
-@pytest.fixture
-def alone(office, tmp_path, short):
+@pytest.fixture(scope="module")
+def alone(office, tmp_path_factory, short):
     """The same log inferred alone, with the fleet's settings."""
-    succeed("infer", office, "-o", tmp_path / "alone", "--holdout 4", *short)
-    return tmp_path / "alone"
+    folder = tmp_path_factory.mktemp("fleet") / "alone"
+    succeed("infer", office, "-o", folder, "--holdout 4", *short)
+    return folder
 
 
 def test_a_folder_of_logs_is_inferred_and_a_broken_one_fails_alone(logs, tmp_path, alone, short):

@@ -1,5 +1,6 @@
 """Processes that are started to ignore Ctrl-C, as a script's shell starts jobs in the background."""
 
+import json
 import os
 import signal
 import subprocess
@@ -9,7 +10,6 @@ from pathlib import Path
 
 import pytest
 from shell import PATIENCE_S, Listener, start, wait_for
-from tiers import full_but
 
 import bayesmap as bm
 from bayesmap.run.runner import stop_on_interrupt
@@ -18,12 +18,16 @@ IGNORE = "import signal\nsignal.signal(signal.SIGINT, signal.SIG_IGN)"
 
 
 def test_an_ignored_ctrl_c_does_not_stop_a_run(office, tmp_path, short):
+    """Without a terminal there is no bar, and only data on standard output."""
     folder = tmp_path / "run"
-    process = start("infer", office, "-o", folder, *short, "--checkpoint-every 0", first=IGNORE)
+    process = start("infer", office, "-o", folder, *short[:-1], "--checkpoint-every 0 --json", first=IGNORE)
     wait_for(folder / "run.nc", process)
     process.send_signal(signal.SIGINT)
-    _, errors = process.communicate()
+    out, errors = process.communicate()
     assert process.returncode == 0, errors
+    assert json.loads(out)["schema_version"] == 1
+    assert "\x1b" not in out + errors
+    assert "\r" not in errors
     assert bm.load(folder / "run.nc").finished
 
 
@@ -84,7 +88,8 @@ def test_in_a_child():
 """
 
 
-@pytest.mark.parametrize("with_settings", full_but([True, False], True))
+@pytest.mark.full
+@pytest.mark.parametrize("with_settings", [True, False])
 def test_tests_may_press_ctrl_c_even_where_they_were_started_to_ignore_it(tmp_path, with_settings):
     """The second case shows what the settings of all tests (tests/conftest.py) are for."""
     (tmp_path / "test_pressed.py").write_text(PRESSED)

@@ -1,6 +1,5 @@
 """Help, version, exit codes, and the manners of the streams."""
 
-import json
 import os
 import re
 import subprocess
@@ -118,15 +117,6 @@ def test_a_reader_that_leaves_is_no_error():
     process.stderr.close()
     assert process.wait() == 0
     assert errors == ""
-
-
-def test_no_bar_without_a_terminal_and_only_data_on_stdout(office, tmp_path, short):
-    process = start("infer", office, "-o", tmp_path / "run", *short[:-1], "--json")
-    out, errors = process.communicate()
-    assert process.returncode == 0, errors
-    assert json.loads(out)["schema_version"] == 1
-    assert "\x1b" not in out + errors
-    assert "\r" not in errors
 
 
 def test_what_a_library_says_while_the_process_ends_is_no_result():
