@@ -56,9 +56,7 @@ def read_file(path: str | Path) -> Layer:
 def read_pairs(pairs: Iterable[str], section: str | None) -> Layer:
     """Read the settings of ``--set key=value``: of the command's own section, or ``section.key=value``.
 
-    Args:
-        pairs: as they were typed.
-        section: the command's; None for ``config``, where a bare key holds for every section that has it.
+    Without a section, as in ``config``, a bare key holds for every section that has it.
 
     Raises:
         click.BadParameter: no equals sign, an unknown key, a value that cannot be read.

@@ -160,9 +160,7 @@ SETTING_UP = ("compile", "trace", "start", "fit")
 def progress(console: Console, begin: str) -> Iterator[OnProgress]:
     """Give the function that a run reports its events to; the bar is gone when the block ends.
 
-    Args:
-        console: whether a bar may be drawn.
-        begin: what happens before the first event.
+    ``begin`` is shown before the first event.
     """
     with _bar(console, begin) as show:
         yield lambda event: show(*STAGES[event.stage], event.done, event.total, known(event))

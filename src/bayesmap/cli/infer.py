@@ -227,13 +227,9 @@ class Mailbox:
 
 
 def work(task: Task[InferSettings], reading: LogReading, before: dict[str, bytes], mailbox: Any) -> None:
-    """Infer a log in a folder of a worker's machine, and send what is in the folder after each checkpoint.
+    """Infer a log in a folder of a worker's machine, and send the files of the folder after each checkpoint.
 
-    Args:
-        task: the log with its settings; its folder is not this machine's.
-        reading: the log.
-        before: files of the run to go on with; none to begin.
-        mailbox: the `Mailbox` of the fleet.
+    ``before`` holds the files of the run to go on with, by name; none to begin.
     """
     import ray
 

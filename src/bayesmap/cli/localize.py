@@ -351,11 +351,7 @@ def can_follow(console: Console, log: str) -> bool:
 
 
 def scans_to_come(question: _Question, idle_s: float | None) -> Iterator[Scans]:
-    """Return the scans of a log that can be followed, one at a time, as its settings say.
-
-    Args:
-        question: about a file, a pipe, or "-".
-        idle_s: the end, when nothing has come for so long; None: wait on.
+    """Return the scans of a log that is still written, one at a time, until none has come for ``idle_s`` seconds.
 
     Raises:
         BadInput: a setting that only recordings have.

@@ -44,13 +44,7 @@ class Task(Generic[S]):
 def prepare(call: Call[S], log: str, path: Path, *, resume: bool, force: bool, begun: Layer | None = None) -> Task[S]:
     """Check what was typed for one log, before anything is read or written.
 
-    Args:
-        call: of the command.
-        log: as typed.
-        path: folder of the run.
-        resume: go on with the run in the folder.
-        force: replace it.
-        begun: settings to resume with where the folder has none.
+    ``begun`` are settings to resume with where the folder has none.
 
     Raises:
         BadInput: no such log, settings that do not fit together, or a folder that may not be written.
@@ -168,16 +162,9 @@ def sample(
     on_saved: Callable[[], None],
     on_event: Callable[[Event], None],
 ) -> Run:
-    """Infer from the scans that are not held out, with checkpoints in the folder.
+    """Infer from the training scans, with checkpoints in the folder; ``scans`` are all of the log, and lay the grid.
 
-    Args:
-        task: the log, its folder and settings.
-        scans: all of the log.
-        train: those that are not held out.
-        saved: the run to go on with.
-        executor: where chains run.
-        on_saved: called after each checkpoint.
-        on_event: called with how far the run is.
+    ``on_saved`` is called after each checkpoint, ``on_event`` with how far the run is.
     """
     from bayesmap.api import Event, infer
     from bayesmap.arguments import Checkpoints, Where

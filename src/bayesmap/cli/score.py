@@ -205,11 +205,8 @@ def _print_table(rows: list[tuple[str, Score]]) -> None:
 def lines_of(found: TrajectoryScore, frame: str, *, exact: bool, of_run: bool) -> list[str]:
     """Return the score of poses as lines of text.
 
-    Args:
-        found: the score.
-        frame: whose relations they are.
-        exact: whether only times of poses count.
-        of_run: whether the poses are those of a saved run, for advice where nothing is known of how sure they are.
+    ``frame`` says whose relations they are, ``exact`` whether only times of poses count, and ``of_run`` whether a saved
+    run has the poses, for advice where they come without covariances.
     """
     from bayesmap.posterior.trajectory_scores import LONGEST_GAP_S
 

@@ -56,15 +56,10 @@ class Scored:
 def score_run(
     call: Call[ScoreSettings], path: str, log: str | None, *, whole: bool, compare: bool, poses_too: bool
 ) -> Scored:
-    """Score a saved run on the scans of a log that it has not seen.
+    """Score a saved run on the scans of a log that it has not seen; without a log only its trajectory is returned.
 
-    Args:
-        call: of the command.
-        path: of the run.
-        log: as typed; without one the run's trajectory is returned, and nothing is scored.
-        whole: score all scans of the log.
-        compare: score classic maps too.
-        poses_too: whether the run's poses are scored afterwards; then a run without held-out scans will do.
+    ``whole`` scores all scans of the log, ``compare`` classic maps too. If the poses are scored afterwards, a run
+    without held-out scans will do.
     """
     from bayesmap.io.exports import trajectory_of
     from bayesmap.posterior.heldout import NoneHeldOut
@@ -100,13 +95,13 @@ def score_others(
     *,
     compare: bool,
 ) -> Scored:
-    """Score a map of another program, or a trajectory by a map that is inferred from it.
+    """Score a map of another program, or a trajectory (a TUM file) by a map that is inferred from it.
 
     Args:
         call: of the command.
         path: of the map, or of the log.
-        log: of a map: the log whose scans score it.
-        trajectory: TUM file, or None for the log's own poses.
+        log: whose scans score a map.
+        trajectory: poses of the scans; None for the log's own.
         mount: where the laser is in the frame of the trajectory, (3,); None if it is the laser's own.
         compare: score classic maps too.
     """
@@ -182,13 +177,9 @@ class Placed:
 
 
 def placed_scans(log: str, settings: ScoreSettings, trajectory: str | None, mount: Floats | None) -> Placed:
-    """Return the scans of a log, at their own poses or at those of a trajectory.
+    """Return the scans of a log, at their own poses or at those of a trajectory (a TUM file).
 
-    Args:
-        log: as typed.
-        settings: of the command.
-        trajectory: TUM file; None for the log's own poses.
-        mount: where the laser is in the frame of the trajectory, (3,); None if it is the laser's own.
+    ``mount`` is the pose of the laser in the frame of the trajectory, (3,); None if it is the laser's own.
 
     Raises:
         BadInput: files that cannot be read, no stamps, or a trajectory of another time.
@@ -235,13 +226,7 @@ def score_map(call: Call[ScoreSettings], path: str, placed: Placed) -> tuple[Fit
 
 
 def verdict(fit: Fitted, own: Score, placed: Placed) -> str:
-    """Say in words whether a map agrees with the scans: by what it tells of a reading beside what no map tells.
-
-    Args:
-        fit: the map with its sensor.
-        own: its score on the scans that were held out.
-        placed: the scans.
-    """
+    """Say in words whether a map agrees with the held-out scans: by how much better it predicts them than no map."""
     import numpy as np
 
     from bayesmap.localization.known_map import log_anywhere, readings_anywhere
@@ -285,11 +270,7 @@ def infer_map(call: Call[ScoreSettings], placed: Placed) -> Run:
 def mount_of(typed: str | None, frame: str | None, log: str | None, settings: ScoreSettings) -> Floats | None:
     """Return the pose of the laser on the robot, as typed or as the log says; None where neither says it.
 
-    Args:
-        typed: the pose as typed, or None.
-        frame: whose relations are known; with "laser" the log is not read.
-        log: as typed.
-        settings: how the log is read.
+    With relations of the laser (``frame``) the log is not read.
 
     Raises:
         click.BadParameter: something that is not a pose.
@@ -307,11 +288,9 @@ def mount_of(typed: str | None, frame: str | None, log: str | None, settings: Sc
 
 
 def base_in_laser(frame: str | None, mount: Floats | None) -> Floats | None:
-    """Return where the frame whose relations are known is, as seen from the laser; None if they are the laser's.
+    """Return the pose of the frame whose relations are known as seen from the laser; None if they are the laser's.
 
-    Args:
-        frame: base or laser; None: the base's, if it is known where the laser sits.
-        mount: pose of the laser on the robot.
+    Without a ``frame`` the relations are the base's where the mount of the laser is known.
 
     Raises:
         BadInput: relations of the base, and nobody knows where the laser sits.

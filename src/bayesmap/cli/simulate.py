@@ -186,11 +186,7 @@ class World:
 
 
 def world_of(settings: SimulateSettings, poses: Sequence[str]) -> World:
-    """Return the world that the settings of `simulate` name.
-
-    Args:
-        settings: of the command.
-        poses: as typed; none for the world's own.
+    """Return the world that the settings name, with the robot at the typed poses, or at the world's own.
 
     Raises:
         BadInput: a file that cannot be read as a world, a size or a pose that is not one.

@@ -32,13 +32,7 @@ if TYPE_CHECKING:
 
 
 def numbers_of(text: str, flag: str, form: str, counts: tuple[int, ...]) -> list[float]:
-    """Return the numbers of an option's text.
-
-    Args:
-        text: as typed.
-        flag: the option.
-        form: what was to be typed, such as "X,Y".
-        counts: how many numbers it may be.
+    """Return the numbers of an option's text, of which there must be one of ``counts``, as ``form`` ("X,Y") says.
 
     Raises:
         click.BadParameter: another count, or something that is not a finite number.
@@ -283,11 +277,7 @@ LOG = "a log or a recording of range scans"
 def need_file(file: str, wanted: str, *, runs: bool, pipes: bool = False) -> None:
     """Refuse what cannot be opened before anything is loaded to open it.
 
-    Args:
-        file: as typed; the folder of a ROS 2 bag will do.
-        wanted: what to give instead.
-        runs: whether a saved run would do.
-        pipes: whether a pipe would do.
+    The message tells to give ``wanted`` instead. ``runs`` and ``pipes`` say whether a saved run and a pipe would do.
 
     Raises:
         BadInput: nothing is there, it is the folder that a run left behind, or a pipe.
@@ -303,8 +293,7 @@ def need_file(file: str, wanted: str, *, runs: bool, pipes: bool = False) -> Non
 def logs_of(typed: Sequence[str]) -> list[str] | None:
     """Return the logs that several names, a folder of logs, or a pattern mean; None if it is one log.
 
-    Args:
-        typed: names. A folder means the logs in it, by the endings of their names, and the folders of ROS 2 bags in it.
+    A folder means the logs in it, by the endings of their names, and the folders of ROS 2 bags in it.
 
     Raises:
         BadInput: a pattern or a folder with nothing in it.
@@ -350,11 +339,7 @@ def _is_recording(folder: Path) -> bool:
 def heldout_scans(run: Run, log: str, settings: ReadingSettings, every: int) -> Scans:
     """Return the scans of a log that a run did not see, read with the run's largest range.
 
-    Args:
-        run: the run that is to be scored by them.
-        log: the run's own log, or with ``every`` 0 another of the same place.
-        settings: how the log is read.
-        every: every n-th scan, by the rule of `infer --holdout`; 0 for all.
+    The log is the run's own, of which every ``every``-th scan was held out, or with 0 another log of the same place.
 
     Raises:
         BadInput: the log cannot be read, or the run was made from some of the scans.

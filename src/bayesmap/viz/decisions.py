@@ -34,16 +34,7 @@ def route_figure(
     title: str = "",
     label: str = "probability of wall",
 ) -> Figure:
-    """Draw a path over the mean map, and all that a disc which moves along it sweeps.
-
-    Args:
-        grid: of the map.
-        occupancy: (nx, ny).
-        observed: cells to draw; the others are hatched. All if None.
-        path: corners in the world frame, (P, 2).
-        radius_m: of the disc.
-        title: what is said of the path.
-        label: what the occupancy is.
+    """Draw a path, (P, 2) in the world frame, over the mean map, and all that a disc which moves along it sweeps.
 
     Raises:
         BadInput: shapes that do not fit.
@@ -55,11 +46,7 @@ def route_figure(
 
 
 def draw_route(ax: Axes, path: ArrayLike, radius_m: float) -> PathPatch:
-    """Draw a path and what a disc that moves along it sweeps.
-
-    Raises:
-        BadInput: a path that is not (P, 2).
-    """
+    """Draw a path, (P, 2) in the world frame, and the area that a disc sweeps which moves along it."""
     corners = np.asarray(path, dtype=np.float64)
     if corners.ndim != 2 or corners.shape[1] != 2 or len(corners) == 0:
         raise BadInput(f"picture: the path has shape {corners.shape}; give (P, 2)")
@@ -82,16 +69,9 @@ def views_figure(
     *,
     label: str = "probability of wall",
 ) -> Figure:
-    """Draw candidate views over the mean map, coloured by what they would tell, and the best ones, numbered.
+    """Draw candidate views, (P, 3), over the mean map, coloured by the nats expected from each, (P,).
 
-    Args:
-        grid: of the map.
-        occupancy: (nx, ny).
-        observed: cells to draw; the others are hatched. All if None.
-        candidates: poses, (P, 3).
-        nats: expected from each, (P,).
-        best: numbers of candidates, the best first.
-        label: what the occupancy is.
+    ``best`` are indices of candidates, the best first: these are drawn as arrows and numbered.
 
     Raises:
         BadInput: shapes that do not fit.
@@ -111,11 +91,7 @@ def views_figure(
 
 
 def draw_candidates(ax: Axes, candidates: ArrayLike, nats: ArrayLike) -> PathCollection:
-    """Draw a dot at each candidate, the telling ones on top.
-
-    Raises:
-        BadInput: shapes that do not fit.
-    """
+    """Draw a dot at each candidate, those that tell most on top."""
     poses, gains = np.asarray(candidates, dtype=np.float64), np.asarray(nats, dtype=np.float64)
     if poses.ndim != 2 or poses.shape[1] != 3 or gains.shape != poses.shape[:1]:
         raise BadInput(f"picture: candidates have shape {poses.shape} and nats {gains.shape}; give (P, 3) and (P,)")

@@ -100,13 +100,9 @@ class Layout:
 
 
 def lay_out(grid: Grid, panels: int, *, bars: int, titled: bool) -> Layout:
-    """Arrange the panels of a map: in a row, four in a square, or stacked if the map is long.
+    """Arrange 1 to 4 panels of a map: in a row, four in a square, or stacked if the map is long.
 
-    Args:
-        grid: its shape is the panels'.
-        panels: number of panels, 1 to 4.
-        bars: the first so many panels have a colour bar.
-        titled: whether the figure has a title.
+    The first ``bars`` panels have a colour bar.
     """
     nx, ny = grid.shape
     tall = ny >= 2 * nx
@@ -238,9 +234,7 @@ def posterior_figure(
 def write_figure(figure: Figure, path: str | os.PathLike[str]) -> None:
     """Write a figure as PNG, PDF or SVG, whole or not at all; the same figure gives the same bytes.
 
-    Args:
-        figure: what to write; PNG has the figure's own resolution.
-        path: its ending chooses the format.
+    The ending of the path chooses the format; PNG has the figure's own resolution.
 
     Raises:
         BadInput: another ending than .png, .pdf or .svg, or a folder that does not exist.
@@ -410,16 +404,7 @@ class Candidate:
 def comparison_figure(
     grid: Grid, candidates: Sequence[Candidate], *, label: str = "probability of wall", title: str | None = None
 ) -> Figure:
-    """Draw up to four maps in the same colours, with one colour bar.
-
-    Args:
-        grid: where the cells are, of all of them.
-        candidates: two to four maps.
-        label: of the colour bar.
-        title: a line over the figure.
-
-    Returns:
-        A figure with its own Agg canvas; write it with `bayesmap.viz.figure.write_figure`.
+    """Draw two to four maps of one grid in the same colours, with one colour bar.
 
     Raises:
         BadInput: fewer than two or more than four maps, shapes that do not fit, probabilities outside [0, 1].

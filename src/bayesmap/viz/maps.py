@@ -195,19 +195,10 @@ def _show_uncertainty(
 
 
 def draw_sample(ax: Axes, grid: Grid, walls: ArrayLike, observed: ArrayLike | None = None) -> AxesImage:
-    """Draw one map of the posterior; where no beam reached it is the prior's, and shown faded.
+    """Draw one map of the posterior; cells that no beam reached are faded, since they are draws of the prior.
 
-    Args:
-        ax: where to draw.
-        grid: where the cells are.
-        walls: true or 1 for wall, shape (nx, ny).
-        observed: true where some beam reached, shape (nx, ny); None for everywhere.
-
-    Returns:
-        The image, in the colours of `palette.draw_colormap`.
-
-    Raises:
-        BadInput: shapes that differ from the grid's, or other numbers than 0 and 1.
+    Arguments and errors are those of `draw_probability`, with walls, true or 1, for probabilities. The image is in the
+    colours of `palette.draw_colormap`.
     """
     seen = as_observed(grid, observed)
     kind = np.where(seen, 0, 2) + as_mask(grid, walls, "walls")
@@ -215,10 +206,7 @@ def draw_sample(ax: Axes, grid: Grid, walls: ArrayLike, observed: ArrayLike | No
 
 
 def draw_one(ax: Axes, grid: Grid, draw: ArrayLike, observed: ArrayLike | None = None) -> AxesImage:
-    """Draw one map of the posterior, walls as `draw_sample` shows them, reflectivities in [0, 1] in shades.
-
-    Arguments and errors are those of the two; what the image's numbers mean differs.
-    """
+    """Draw one map of the posterior: walls by `draw_sample`, reflectivities in [0, 1] by `draw_probability`."""
     array = np.asarray(draw)
     if array.dtype == np.bool_ or np.isin(array, (0, 1)).all():
         return draw_sample(ax, grid, array, observed)
@@ -233,14 +221,9 @@ def map_figure(
     foot_in: float = 0.0,
     dpi: float = 160.0,
 ) -> tuple[Figure, Axes]:
-    """Return a figure of one panel as wide as the map is beside its height.
+    """Return a figure of one panel, with room for a colour bar at the right and a legend at the foot, in inches.
 
-    Args:
-        grid: of the map.
-        aspects: the smallest and the largest width of the panel beside its height.
-        bar_in: room for a colour bar at the right, inches.
-        foot_in: room for a legend at the foot, inches.
-        dpi: pixels per inch.
+    ``aspects`` are the smallest and the largest width of the panel, as a multiple of its height.
     """
     width_in = HEIGHT_IN * float(np.clip(grid.shape[0] / grid.shape[1], *aspects)) + bar_in
     figure = palette.blank_figure(width_in, HEIGHT_IN + foot_in, dpi)
@@ -248,7 +231,7 @@ def map_figure(
 
 
 def tick_locator(most: int) -> MaxNLocator:
-    """Return ticks at 1, 2 or 5 times a power of ten, with so many intervals at most."""
+    """Return ticks at 1, 2 or 5 times a power of ten, with ``most`` intervals at most."""
     return MaxNLocator(nbins=most, steps=[1, 2, 5, 10])
 
 

@@ -30,15 +30,7 @@ MAX_ARROWS = 12
 
 
 def draw_truth_outline(ax: Axes, grid: Grid, true_walls: ArrayLike) -> LineCollection:
-    """Draw the outline of the true walls.
-
-    Args:
-        ax: where to draw.
-        grid: where the cells are.
-        true_walls: true or 1 for wall, shape (nx, ny).
-
-    Returns:
-        The lines, labelled "true walls".
+    """Draw the outline of the true walls (true or 1 for wall, (nx, ny)) as lines labelled "true walls".
 
     Raises:
         BadInput: a shape that differs from the grid's, or other numbers than 0 and 1.
@@ -61,18 +53,12 @@ def draw_rays(
 ) -> list[LineCollection | PathCollection]:
     """Draw beams, the end points of those that hit something, and those with no return, dashed to their limit.
 
-    Readings that are too close or invalid have no end point and are left out. Of more beams than the limits
-    evenly spaced ones are drawn, the same ones every time. Points bury less than lines do, so their limit is
-    higher: the readings of a whole log show the building before any inference.
-
-    Args:
-        ax: where to draw.
-        scans: the scans.
-        max_beams: the largest number of rays to draw.
-        max_readings: the largest number of end points to draw.
+    Readings that are too close or invalid have no end point and are left out. Beyond the limits evenly spaced beams and
+    end points are drawn, always the same ones. Points hide less than lines, so that their limit is higher: the readings
+    of a whole log show the building before any inference.
 
     Returns:
-        The artists that were drawn, labelled "beam", "reading" and "no return", in this order, without those missing.
+        The artists, labelled "beam", "reading" and "no return", in this order, without those missing.
 
     Raises:
         BadInput: ``max_beams`` or ``max_readings`` below 1.
@@ -219,16 +205,9 @@ def draw_surfaces(
     longest_m: float = np.inf,
     color: str | None = None,
 ) -> LineCollection:
-    """Draw one stroke a surface, as opaque as its weight.
+    """Draw one stroke a surface, as `surface_strokes` makes them, as opaque as its weight in [0, 1], (n,).
 
-    Args:
-        ax: where to draw, already framed.
-        means_world: centres in metres, shape (n, 2).
-        covariances_m2: covariances in square metres, shape (n, 2, 2).
-        weights: reflectivity, or probability that there is a surface, in [0, 1], shape (n,).
-        width_pt: of a stroke.
-        longest_m: strokes are cut to this length.
-        color: of the strokes; by default that of walls.
+    By default strokes have the colour of walls.
 
     Returns:
         All strokes, labelled "surface"; those fainter than `FAINTEST` are left out.

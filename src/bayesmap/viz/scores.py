@@ -75,13 +75,7 @@ def draw_reliability(ax: Axes, rows: Rows) -> None:
 
 
 def calibration_figure(rows: Rows) -> Figure:
-    """Draw three panels, a line for each scored map.
-
-    Args:
-        rows: name and score of each.
-
-    Returns:
-        A figure with its own Agg canvas; write it with `bayesmap.viz.figure.write_figure`.
+    """Draw three panels, a line for each scored map, given by name and score.
 
     Raises:
         BadInput: no score.
@@ -102,7 +96,7 @@ def calibration_figure(rows: Rows) -> Figure:
 
 
 def draw_distribution(ax: Axes, errors: NDArray[np.float64], label: str) -> None:
-    """Draw the share of relations whose error is at most so large, with mean and median."""
+    """Draw the cumulative distribution of errors, with mean and median."""
     ordered = np.sort(errors)
     ax.step(
         ordered, np.arange(1, len(ordered) + 1) / len(ordered), where="post", color=palette.CHAINS[0], linewidth=1.2
@@ -174,13 +168,7 @@ def surprise_scale(surprises: ArrayLike) -> Scale:
 
 
 def draw_residuals(ax: Axes, ends_world: ArrayLike, values: ArrayLike, scale: Scale) -> PathCollection:
-    """Draw a dot at the end of every beam; the worst are larger and lie on top.
-
-    Args:
-        ax: where to draw, already framed.
-        ends_world: end points in metres, shape (n, 2).
-        values: what the colours show, shape (n,).
-        scale: how.
+    """Draw a dot at the end of every beam, (n, 2), coloured by its value, (n,); the worst are larger and lie on top.
 
     Returns:
         The dots, for a colour bar.
@@ -216,15 +204,10 @@ def residuals_figure(
     *,
     scale: Scale | None = None,
 ) -> Figure:
-    """Draw held-out beams over the faded map.
+    """Draw the end points of held-out beams, (n, 2), over the faded posterior mean.
 
-    Args:
-        grid: where the cells are.
-        occupancy: posterior mean per cell, shape (nx, ny).
-        ends_world: end points in metres, shape (n, 2); those outside the grid are not seen.
-        values: residuals in metres, or surprises in nats with `surprise_scale`, shape (n,).
-        observed: true where some beam reached, shape (nx, ny); None for everywhere.
-        scale: `residual_scale` of the values by default.
+    The values, (n,), are residuals in metres, or surprises in nats with `surprise_scale`; the scale of residuals is
+    `residual_scale` unless one is given.
 
     Raises:
         BadInput: shapes or values that do not fit.

@@ -24,7 +24,7 @@ BEFORE, AFTER, FLAGGED, LOOP = "#c1440e", "#0b7a5b", "#d6278a", "#3b6fb6"
 
 
 def draw_ellipses(ax: Axes, means: Floats, covariances: Floats, magnified: float = 1.0) -> EllipseCollection:
-    """Draw 95 % ellipses of positions, (n, 2) and (n, 2, 2) in metres, so many times as large as they are."""
+    """Draw 95 % ellipses of positions, (n, 2), with covariances (n, 2, 2), metres, magnified by a factor."""
     values, vectors = np.linalg.eigh(covariances)
     axes_m = 2.0 * np.sqrt(REGION * np.maximum(values, 0.0)) * magnified
     angle = np.degrees(np.arctan2(vectors[:, 1, 1], vectors[:, 0, 1]))
@@ -44,16 +44,7 @@ def trajectory_figure(
     covariances: Floats,
     flagged: NDArray[np.bool_] | None = None,
 ) -> Figure:
-    """Draw the map, the trajectory on it, 95 % ellipses, and the scans whose poses are not to be trusted.
-
-    Args:
-        grid: of the map.
-        occupancy: (nx, ny).
-        observed: where a beam came, (nx, ny).
-        poses: (S, 3).
-        covariances: of x, y and yaw, (S, 3, 3).
-        flagged: (S,).
-    """
+    """Draw a map and the trajectory, (S, 3), with 95 % ellipses of its covariances, (S, 3, 3); flagged scans get a mark."""
     figure, ax = _axes(grid.shape[1] / grid.shape[0])
     _draw_map(ax, grid, occupancy, observed, poses, covariances)
     if flagged is not None and flagged.any():
@@ -79,14 +70,8 @@ def before_and_after_figure(
 ) -> Figure:
     """Draw raw odometry with the walls that it makes, and the inferred trajectory on its map.
 
-    Args:
-        raw: (S, 3).
-        ends: where readings end as seen from the raw poses, (N, 2) in metres.
-        grid: of the map.
-        occupancy: (nx, ny).
-        observed: where a beam came, (nx, ny).
-        poses: (S, 3).
-        covariances: of x, y and yaw, (S, 3, 3).
+    ``raw`` and ``poses`` are (S, 3), ``covariances`` (S, 3, 3); ``ends`` are the end points of readings as seen from
+    the raw poses, (N, 2) in metres.
     """
     height = SIZE_IN * 0.75 * grid.shape[1] / grid.shape[0] + 0.8
     figure = palette.blank_figure(1.5 * SIZE_IN, height, dpi=110)
@@ -101,7 +86,7 @@ def before_and_after_figure(
 
 
 def odometry_figure(raw: Floats, inferred: Floats) -> Figure:
-    """Draw the trajectory as odometry has it, and as it was inferred, (S, 3) each, from the same first pose."""
+    """Draw the trajectory of odometry and the inferred one, (S, 3) each, from one first pose."""
     low = np.minimum(raw.min(axis=0), inferred.min(axis=0))[:2]
     high = np.maximum(raw.max(axis=0), inferred.max(axis=0))[:2]
     figure, ax = _axes(float((high - low)[1] / max((high - low)[0], 1e-3)))
@@ -120,12 +105,12 @@ def loops_figure(
     weights: Floats,
     alternatives: Sequence[tuple[Floats, float]] = (),
 ) -> Figure:
-    """Draw where the robot came back to a place: pairs of scans, coloured by how far poses are from the match.
+    """Draw loop closures: the pairs of scans whose match says that the robot came back to a place.
 
     Args:
         poses: (S, 3).
         first: index of one scan of each closure, (M,).
-        second: of the other.
+        second: index of the other scan, (M,).
         residuals: x, y and yaw of each, metres and radians, (M, 3).
         weights: how far each was believed, from 0 to 1, (M,).
         alternatives: poses of other trajectories that are not excluded, (S, 3) each, and their probabilities.
