@@ -44,7 +44,7 @@ def trajectory_figure(
     covariances: Floats,
     flagged: NDArray[np.bool_] | None = None,
 ) -> Figure:
-    """Draw a map and the trajectory, (S, 3), with 95 % ellipses of its covariances, (S, 3, 3); flagged scans get a mark."""
+    """Draw a map and a trajectory, (S, 3), with 95 % ellipses of its covariances, (S, 3, 3), and mark flagged scans."""
     figure, ax = _axes(grid.shape[1] / grid.shape[0])
     _draw_map(ax, grid, occupancy, observed, poses, covariances)
     if flagged is not None and flagged.any():
