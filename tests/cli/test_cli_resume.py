@@ -76,11 +76,12 @@ def test_ctrl_c_exits_130_and_resume_goes_on_bit_for_bit(office, tmp_path, unint
     assert f"bayesmap infer {office} -o {folder} --resume" in errors
     document = json.loads(out)
     assert document["finished"] is False
-    assert list(document["outputs"]) == ["run.nc"]
     stopped = bm.load(folder / "run.nc")
+    kept = ["map.pgm", "map.yaml", "posterior.png", "run.nc"] if stopped.n_draws else ["run.nc"]
+    assert sorted(document["outputs"]) == kept
     assert not stopped.finished
     assert FIRST[cells] <= stopped.posterior.sweep < whole.posterior.sweep
-    assert sorted(path.name for path in folder.iterdir()) == ["config.toml", "run.nc"]
+    assert sorted(path.name for path in folder.iterdir()) == sorted(["config.toml", *kept])
 
     # The settings need not be said again.
     assert json_of("infer", office, "-o", folder, "--resume --json")["finished"] is True
@@ -175,6 +176,23 @@ def test_an_impatient_ctrl_c_keeps_the_last_checkpoint(office, tmp_path, short, 
         "infer", office, "-o", folder, *short, "--cells", cells, code=130
     )
     assert bm.load(folder / "run.nc").posterior.sweep == 5
+
+
+@BOTH
+def test_interrupted_among_its_draws_a_run_leaves_its_map_so_far(office, tmp_path, short, monkeypatch, cells):
+    folder, save = tmp_path / "run", Folder.checkpoint
+
+    def checkpoint(self, run, *told):
+        save(self, run, *told)
+        if run.n_draws:
+            signal.raise_signal(signal.SIGINT)
+
+    monkeypatch.setattr(Folder, "checkpoint", checkpoint)
+    stopped = call("infer", office, "-o", folder, *short, "--cells", cells, "--checkpoint-every", "0", "--draws", "90")
+    assert stopped.exit_code == 130
+    for name in ("posterior.png", "map.pgm", "map.yaml"):
+        assert (folder / name).stat().st_size > 0
+    assert 0 < bm.load(folder / "run.nc").n_draws < 90
 
 
 @BOTH

@@ -207,7 +207,7 @@ class Folder:
             self.console.warn(f"{self.run}: checkpoint could not be written: {error.strerror or error}")
 
     def write_products(self, run: Run) -> list[Path]:
-        """Save the run, draw it, and export it for nav2.
+        """Save the run, draw it, and export it for nav2, once it has draws.
 
         Returns:
             What was written.
@@ -216,6 +216,8 @@ class Folder:
 
         with stage(self.console, "save") as report:
             self.save(run, report)
+        if run.n_draws == 0 and not run.finished:
+            return [self.run]
         picture = self.path / "posterior.png"
         with progress(self.console, "drawing the map"):
             write_figure(run.plot(), picture)

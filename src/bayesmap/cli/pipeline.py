@@ -254,13 +254,11 @@ def report(console: Console, document: dict[str, Any]) -> None:
 
 
 def leave(folder: Folder, run: Run, reading: LogReading, go_on: str | None) -> dict[str, Any]:
-    """Keep the chains of an interrupted run, and say how to go on with them; returns the document of what is kept."""
+    """Keep the chains of an interrupted run and its map so far, and say how to go on; returns the JSON document."""
     kept: list[Path] = []
     # Chains that were stopped before their first sweep may have half a warm start: better none than that.
     if run.posterior.sweep > 0:
-        with stage(folder.console, "save") as report:
-            folder.save(run, report)
-        kept = [folder.run]
+        kept = folder.write_products(run)
         done = counted(run.posterior.sweep, "sweep")
         said = f"interrupted after {done}, saved in {folder.run}; go on with:\n  {go_on}"
     elif folder.resuming and folder.run.exists():
