@@ -52,11 +52,11 @@ def test_draws_are_exact(p, coupling, shape):
 def test_starts_are_like_draws():
     """On a small map 50 sweeps are enough for any test."""
     prior, shape = bm.Ising(0.3, 0.6), (3, 3)
-    starts = np.stack([prior.start(np.random.default_rng([3, i]), bm.Grid(shape)) for i in range(500)])
+    starts = np.stack([prior.start(np.random.default_rng([3, i]), bm.Grid(shape)) for i in range(2_000)])
     law = np.exp(log_prior_of_all(shape, 0.3, 0.6))
     assert least_p_value(starts.reshape(-1, 9), law) > ALPHA / 12
     logit = np.full(shape, np.log(0.3 / 0.7))
-    none = np.stack([rough_draw(np.random.default_rng([4, i]), logit, 0.6, 0) for i in range(500)])
+    none = np.stack([rough_draw(np.random.default_rng([4, i]), logit, 0.6, 0) for i in range(2_000)])
     assert least_p_value(none.reshape(-1, 9), law) < ALPHA / 12  # the twin: without a sweep
 
 

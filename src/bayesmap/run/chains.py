@@ -175,23 +175,42 @@ def join(parts: Sequence[Chains]) -> Chains:
     )
 
 
+def some_chains(chains: Chains, which: slice) -> Chains:
+    """Return some of the chains, as if there were no others."""
+    draws = replace(chains.draws, arrays={name: array[which] for name, array in chains.draws.arrays.items()})
+    snapshot = Snapshot(chains.sweep, {name: array[which] for name, array in chains.snapshot.arrays.items()})
+    return replace(
+        chains, draws=draws, snapshot=snapshot, log_likelihood=chains.log_likelihood[which],
+        log_prior=chains.log_prior[which], warmup_log_joint=chains.warmup_log_joint[which],
+    )  # fmt: skip
+
+
+def in_sequence(parts: Sequence[Chains]) -> Chains:
+    """Join consecutive sweeps of the same chains, as if they had never been interrupted.
+
+    Where the chains stand, and which cells they observed, is that of the last part.
+    """
+    first, last = parts[0], parts[-1]
+    draws = {name: np.concatenate([part.draws.arrays[name] for part in parts], axis=1) for name in last.draws.arrays}
+    return replace(
+        last, draws=replace(last.draws, arrays=draws), statistics=first.statistics,
+        log_likelihood=np.concatenate([part.log_likelihood for part in parts], axis=1),
+        log_prior=np.concatenate([part.log_prior for part in parts], axis=1),
+        warmup_log_joint=np.concatenate([part.warmup_log_joint for part in parts], axis=1),
+        seconds={name: sum(part.seconds.get(name, 0.0) for part in parts) for name in last.seconds},
+    )  # fmt: skip
+
+
 class Record:
     """Draws and traces of some chains, growing as they advance."""
 
-    def __init__(self, empty: Draws, schedule: SweepPlan, keep: Keep, resume: Chains | None = None) -> None:
-        """Room for the schedule's draws.
-
-        Args:
-            empty: no draws of all chains, with the arrays' specs and coordinates.
-            schedule: how many there will be.
-            keep: which are kept.
-            resume: what has been done before.
-        """
+    def __init__(self, empty: Draws, schedule: SweepPlan, resume: Chains | None = None) -> None:
+        """Make room for the schedule's draws, after those of ``resume``; ``empty`` has specs and coordinates."""
         chains = next(iter(empty.arrays.values())).shape[0]
         self._draws = replace(
             empty, arrays={spec.name: spec.empty(chains, schedule.draws, empty.shape_of(spec)) for spec in empty.specs}
         )
-        self._keep = keep
+        self._keep = schedule.keep
         self._log_likelihood = np.zeros((chains, schedule.draws))
         self._log_prior = np.zeros((chains, schedule.draws))
         self._warmup = np.zeros((chains, schedule.warmup))
@@ -223,8 +242,10 @@ class Record:
         """The draws so far."""
         return replace(self._draws, arrays={name: a[:, : self.kept] for name, a in self._draws.arrays.items()})
 
-    @property
-    def log_densities(self) -> tuple[Floats, Floats, Floats]:
-        """Log likelihood and log prior of the draws, and the log joint of the warm-up sweeps, so far."""
+    def chains(self, **results: Any) -> Chains:
+        """Return the chains so far; ``results`` are the fields of `Chains` beside draws and densities."""
         kept = slice(self.kept)
-        return self._log_likelihood[:, kept], self._log_prior[:, kept], self._warmup[:, : self.warmed]
+        return Chains(
+            draws=self.draws, log_likelihood=self._log_likelihood[:, kept], log_prior=self._log_prior[:, kept],
+            warmup_log_joint=self._warmup[:, : self.warmed], **results,
+        )  # fmt: skip

@@ -21,8 +21,7 @@ from typing import Any
 
 from bayesmap.errors import BadInput, check_count
 from bayesmap.run import ray_worker
-from bayesmap.run.chains import Chains, SweepPlan, join
-from bayesmap.run.ray_worker import Segment, chains_of_segments, some_chains
+from bayesmap.run.chains import Chains, SweepPlan, in_sequence, join, some_chains
 from bayesmap.run.runner import Job, pause_after
 from bayesmap.samplers.progress import Watch
 from bayesmap.samplers.sampler import Snapshot, to_see
@@ -179,14 +178,14 @@ class Group:
         which: of the job's chains.
         chain_ids: their numbers.
         resume: what they had done before this run.
-        segments: since then, in order.
+        segments: the consecutive parts of this run, whose snapshots have no arrays.
         snapshots: where they stood after each number of sweeps that is still of use.
     """
 
     which: slice
     chain_ids: tuple[int, ...]
     resume: Chains | None
-    segments: list[Segment] = field(default_factory=list)
+    segments: list[Chains] = field(default_factory=list)
     snapshots: dict[int, Snapshot] = field(default_factory=dict)
 
     @property
@@ -194,9 +193,11 @@ class Group:
         """The number of sweeps that each has made; -1 before they are started."""
         return max(self.snapshots, default=-1)
 
-    def up_to(self, sweep: int) -> list[Segment]:
-        """Return the segments up to a mark."""
-        return list(takewhile(lambda segment: segment.end <= sweep, self.segments))
+    def up_to(self, sweep: int) -> Chains:
+        """Return what the chains have done up to a mark."""
+        parts = [] if self.resume is None else [self.resume]
+        parts += takewhile(lambda segment: segment.sweep <= sweep, self.segments)
+        return replace(in_sequence(parts), snapshot=self.snapshots[sweep])
 
 
 class _RayRun:
@@ -258,7 +259,7 @@ class _RayRun:
             ready, _ = self.ray.wait(list(self.running), num_returns=1, timeout=WAIT_S)
             for ref in ready:
                 group = self.running.pop(ref)
-                self._note(group, *outcome(self.ray, ref))
+                self._note(group, outcome(self.ray, ref))
                 if group.sweep < schedule.sweeps and not watch.should_stop():
                     submit(group)
             if self.sweep == last:
@@ -293,26 +294,19 @@ class _RayRun:
 
     def so_far(self) -> Chains:
         """Return all chains at the sweep of the slowest."""
-        sweep, schedule = self.sweep, self.job.schedule
-        parts = [
-            chains_of_segments(segments, group.snapshots[sweep], self.trace_s, schedule, group.resume)
-            if (segments := group.up_to(sweep))
-            else group.resume
-            for group in self.groups
-        ]
+        parts = [group.up_to(self.sweep) for group in self.groups]
         count = self.remote(ray_worker.observed_counts)
         counts = [
             count(self.name, *self.shared, group.chain_ids, part.snapshot, to_see(part.draws))
             for group, part in zip(self.groups, parts, strict=True)
-            if part is not None
         ]
-        return join(
-            [
-                replace(part, observed_counts=outcome(self.ray, observed_counts))
-                for part, observed_counts in zip(parts, counts, strict=True)
-                if part is not None
-            ]
-        )
+        return join([
+            replace(
+                part, observed_counts=outcome(self.ray, observed_counts),
+                seconds={**part.seconds, "trace": part.seconds["trace"] + self.trace_s},
+            )
+            for part, observed_counts in zip(parts, counts, strict=True)
+        ])  # fmt: skip
 
     def _share(self) -> None:
         """Put the model and what the sampler prepares of it into the object store."""
@@ -324,19 +318,19 @@ class _RayRun:
         self.watch.report("trace", beams, beams)
         self.shared = (model, [problem])
 
-    def _note(self, group: Group, segment: Segment, snapshot: Snapshot) -> None:
+    def _note(self, group: Group, segment: Chains) -> None:
         """Keep the result of a task, and report the progress of all chains."""
-        group.segments.append(segment)
-        group.snapshots[segment.end] = snapshot
-        if segment.end > segment.begin:
-            per_sweep_s = segment.seconds["sampling"] / (segment.end - segment.begin)
-            self.marks.per_sweep_s = max(self.marks.per_sweep_s, per_sweep_s)
+        made = segment.sweep - max(group.sweep, 0)
+        group.snapshots[segment.sweep] = segment.snapshot
+        group.segments.append(replace(segment, snapshot=Snapshot(segment.sweep)))
+        if made > 0:
+            self.marks.per_sweep_s = max(self.marks.per_sweep_s, segment.seconds["sampling"] / made)
         schedule, done = self.job.schedule, self.sweep
-        if segment.end == 0 or done < 0:
+        if segment.sweep == 0 or done < 0:
             started = sum(group.sweep >= 0 for group in self.groups)
             self.watch.report("start", started, len(self.groups))
         elif done > 0:
             warming = done <= schedule.warmup
-            self.watch.report(
-                "warm-up" if warming else "draws", done, schedule.sweeps, segment.last_log_joint, self.error
-            )
+            log_joint = segment.log_joint if segment.log_joint.size else segment.warmup_log_joint
+            mean = float(log_joint[:, -1].mean()) if log_joint.size else None
+            self.watch.report("warm-up" if warming else "draws", done, schedule.sweeps, mean, self.error)

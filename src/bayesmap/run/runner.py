@@ -175,34 +175,27 @@ def run_chains(
         The chains, all draws made or the map known as well as was asked for; with ``finished`` false if they were asked
         to stop, be it in the last step.
     """
-    schedule, keep, chains = job.schedule, job.schedule.keep, len(job.chain_ids)
+    schedule, chains = job.schedule, len(job.chain_ids)
     state, seconds = start_chains(job, resume, watch)
     statistics = state.statistics
     if resume is not None:
         seconds = {name: spent + resume.seconds.get(name, 0.0) for name, spent in seconds.items()}
         statistics = resume.statistics
     empty = no_draws(job.model, state, chains)
-    record = Record(empty, schedule, keep, resume)
-    one = sum(spec.empty(chains, 1, empty.shape_of(spec)).nbytes for spec in empty.specs)
+    record = Record(empty, schedule, resume)
+    draw_bytes = sum(spec.empty(chains, 1, empty.shape_of(spec)).nbytes for spec in empty.specs)
 
     def so_far(state: ChainState) -> Chains:
-        log_likelihood, log_prior, warmup = record.log_densities
-        counts = job.sampler.observed_counts(state, to_see(record.draws))
-        return Chains(
-            draws=record.draws, log_likelihood=log_likelihood, log_prior=log_prior, warmup_log_joint=warmup,
-            snapshot=job.sampler.snapshot(state), observed_counts=counts, statistics=statistics,
+        return record.chains(
+            snapshot=job.sampler.snapshot(state), finished=known or state.sweep >= schedule.sweeps,
+            statistics=statistics, observed_counts=job.sampler.observed_counts(state, to_see(record.draws)),
             n_incidences=state.problem.n_incidences, seconds=dict(seconds),
-            finished=known or state.sweep >= schedule.sweeps,
         )  # fmt: skip
 
     steps = sweeps(
-        job.sampler,
-        state,
-        schedule.sweeps,
-        keep=keep,
-        most_kept=max(1, BUFFER_BYTES // max(one, 1)),
+        job.sampler, state, schedule.sweeps, keep=schedule.keep, most_kept=max(1, BUFFER_BYTES // max(draw_bytes, 1)),
         stops=(schedule.warmup, *schedule.marks),
-    )
+    )  # fmt: skip
     known, error, aim = False, None, schedule.sweeps
 
     def look(state: ChainState) -> None:

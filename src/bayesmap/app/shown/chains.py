@@ -37,7 +37,7 @@ from bayesmap.model import Model
 from bayesmap.poses.prior import PosePrior, Uncertain
 from bayesmap.posterior.posterior import posterior_of_chains
 from bayesmap.result import Run
-from bayesmap.run.chains import Chains, Record, SweepPlan
+from bayesmap.run.chains import Record, SweepPlan
 from bayesmap.run.runner import BUFFER_BYTES, no_draws, sweeps
 from bayesmap.samplers.fit import PILOT_SWEEPS, first_sensor, pilot_sweeps
 from bayesmap.samplers.methods import Gibbs, sampler_of
@@ -109,7 +109,7 @@ class Stream(Found):
         self.thin = math.ceil(total * one / DRAW_BYTES) if keep else 1
         self.total = math.ceil(total / self.thin) * self.thin
         schedule = SweepPlan(0, self.total // self.thin, self.thin)
-        self._record = Record(empty, schedule if keep else SweepPlan(0, 0), schedule.keep)
+        self._record = Record(empty, schedule if keep else SweepPlan(0, 0))
         # At fixed sweeps: how long a step is depends on the machine, and the same actions make the same page.
         doubling = (2**k for k in range(self.total.bit_length()))
         self._look_at = {*doubling, *(self.total * k // LOOKS for k in range(1, LOOKS + 1))}
@@ -215,12 +215,10 @@ class Stream(Found):
         """
         if self.kept is None:
             return super().as_run(result)
-        log_likelihood, log_prior, warmup = self._record.log_densities
-        chains = Chains(
-            draws=self.draws, log_likelihood=log_likelihood, log_prior=log_prior, warmup_log_joint=warmup,
+        chains = self._record.chains(
             snapshot=self._sampler.snapshot(self.state), observed_counts=self._observed_counts, statistics={},
-            n_incidences=self.problem.n_incidences,
-            seconds={"trace": 0.0, "warm_start": 0.0, "sampling": self.seconds}, finished=self.done,
+            n_incidences=self.problem.n_incidences, finished=self.done,
+            seconds={"trace": 0.0, "warm_start": 0.0, "sampling": self.seconds},
         )  # fmt: skip
         count = self.total // self.thin
         settings = result.settings_of_run(self.model, chains=self.n_chains, draws=count, thin=self.thin)
