@@ -24,7 +24,7 @@ SCANS = bm.Scans(
     [[-0.4, 0.2, 0.05], [0.45, -0.5, 1.4], [1.3, 0.8, -2.6]], [-0.1, 0.15],
     [[0.65, 1.1], [np.inf, 0.72], [0.9, 0.5]], max_range_m=2.0, min_range_m=0.15,
 )  # fmt: skip
-CHAINS = 400
+CHAINS = 300
 
 
 @cache
@@ -52,7 +52,7 @@ def number_of(material):
 def test_metropolis_follows_the_exact_posterior_tempered_or_not(beta):
     sampler = Metropolis()
     problem = sampler.prepare(Model(SCANS, GRID, Glass(), SENSOR, hit_depth=0.5), "cpu")
-    state, _ = sampler.step(sampler.init(problem, range(CHAINS), 3), 8, beta)
+    state, _ = sampler.step(sampler.init(problem, range(CHAINS), 3), 6, beta)
     counts = np.bincount(number_of(sampler.snapshot(state).arrays["material"]), minlength=81)
     assert goodness_of_fit(counts, law(beta)) > ALPHA / 6
     assert goodness_of_fit(counts, law(beta + 0.5)) < ALPHA / 6  # the twin

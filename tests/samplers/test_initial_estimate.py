@@ -15,7 +15,6 @@ from bayesmap.samplers.initial_estimate import (
     start,
     steps,
     update_periods,
-    widened,
 )
 from bayesmap.samplers.stop_problem import trace_stops
 
@@ -140,20 +139,6 @@ def test_cells_that_few_beams_pass_have_their_turn_in_every_other_sweep(problem,
     assert (~few & free).any()
     assert (every[few & free] == 2).all()
     assert (every[~few & free] > 2).all()
-
-
-def test_surfaces_begin_wider_along_their_wall_and_as_thin_as_their_end_points_across():
-    rng = np.random.default_rng(8)
-    factors = rng.normal(size=(50, 2, 2))
-    wide, thin = (np.linalg.eigh(c) for c in (_widened(factors), factors @ factors.transpose(0, 2, 1)))
-    np.testing.assert_allclose(wide[0], thin[0] * [1.0, ALONG_WALL**2], rtol=1e-9)
-    np.testing.assert_allclose(abs(np.einsum("nij,nij->nj", wide[1], thin[1])), 1.0, rtol=1e-9)  # the same axes
-
-
-def _widened(factors):
-    covariance = factors @ factors.transpose(0, 2, 1)
-    var_x, both, var_y = widened(covariance[:, 0, 0], covariance[:, 0, 1], covariance[:, 1, 1])
-    return np.stack([np.stack([var_x, both], axis=-1), np.stack([both, var_y], axis=-1)], axis=-1)
 
 
 def test_end_points_outside_the_grid_or_past_what_beams_touch_belong_to_no_cell():

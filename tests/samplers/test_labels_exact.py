@@ -80,7 +80,7 @@ def swept(scans, grid, prior, law, sweeps, seed, beta=1.0, chains=CHAINS):
 
 
 @cache
-def drawn(name, sweeps=200, seed=11):
+def drawn(name, sweeps=120, seed=11):
     """Reflectivities and labels of all chains, (CHAINS, cells) each."""
     shape, sigma_m, prior = CASES[name]
     sampler, state = swept(scans_of(name), bm.Grid(shape, EDGE), prior, sensor(sigma_m), sweeps, seed)
@@ -145,7 +145,7 @@ def test_at_an_inverse_temperature_the_coupling_is_not_tempered(beta):
     shape, sigma_m, prior = CASES["a square"]
     law, grid = sensor(sigma_m), bm.Grid(CASES["a square"][0], EDGE)
     rays = build_worlds(scans_of("a square"), grid, prior, law, 1).problem.rays
-    sampler, state = swept(scans_of("a square"), grid, prior, law, 200, 5, beta)
+    sampler, state = swept(scans_of("a square"), grid, prior, law, 120, 5, beta)
     found = sampler.stops(state).astype(float), np.stack([state.chains.solid(chain) for chain in range(CHAINS)])
     assert least("a square", found, exact_labels(paths_of(rays), shape, prior, law, beta)) > ALPHA / TESTS
     assert least("a square", found, exact_labels(paths_of(rays), shape, prior, law, beta + 0.5)) < ALPHA / TESTS
@@ -168,7 +168,7 @@ def coordinates(states, solid):
 def surfaces_by_importance(name):
     """Draws of the prior of two cells, and the logarithms of their likelihoods."""
     scans, prior = SURFACES[name]
-    rng, count, grid = np.random.default_rng(31), 200_000, bm.Grid((2, 1), EDGE)
+    rng, count, grid = np.random.default_rng(31), 150_000, bm.Grid((2, 1), EDGE)
     of_labels = np.exp(log_prior_of_all((2, 1), 0.5, prior.coupling))
     solid = all_maps(2)[rng.choice(4, size=count, p=of_labels)]
     states = draw_states(rng, prior, (grid.cell_centres_m(np.arange(2)), EDGE), (count,))
@@ -185,8 +185,8 @@ def surfaces_by_importance(name):
 @pytest.mark.parametrize("name", full_but(SURFACES, "where readings end"))
 def test_surfaces_and_labels_follow_weighted_draws_from_the_prior(name):
     scans, prior = SURFACES[name]
-    chains = 1800
-    sampler, state = swept(scans, bm.Grid((2, 1), EDGE), prior, BLUNT, 400, 3, chains=chains)
+    chains = 1200
+    sampler, state = swept(scans, bm.Grid((2, 1), EDGE), prior, BLUNT, 300, 3, chains=chains)
     solid = np.stack([state.chains.solid(chain) for chain in range(chains)])
     mine = coordinates(sampler.stops(state).astype(float), solid)
     labels, values, log_weight = surfaces_by_importance(name)

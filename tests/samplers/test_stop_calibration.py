@@ -86,7 +86,7 @@ def p_values(found):
     return np.array([scipy.stats.chisquare(np.bincount(row, minlength=BINS)).pvalue for row in bins])
 
 
-@pytest.mark.parametrize("name", full_but(CASES, "reflectivities", "reflectivities by default"))
+@pytest.mark.parametrize("name", full_but(CASES, "reflectivities"))
 def test_the_truth_ranks_uniformly_among_posterior_draws(name):
     found = p_values(ranks(*CASES[name], seed=len(name)))
     assert found.min() > ALPHA / TESTS

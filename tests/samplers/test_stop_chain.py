@@ -85,14 +85,16 @@ def test_a_run_stopped_at_any_sweep_goes_on_bit_for_bit(kind, thin):
     whole = infer(kind, on_checkpoint=stops.append, checkpoint_every_s=0.0, **options)
     assert [run.posterior.sweep for run in stops] == list(range(1, 12 + 4 * thin + 1))
     assert not any(run.finished for run in stops)
-    for stop in stops[:: 1 if kind == "surfaces" else 4]:
+    # The search for starts ends after 9 sweeps, where surfaces are merged, and the warm-up after 12.
+    for sweep in (1, 5, 9, 10, 12, 14):
+        stop = stops[sweep - 1]
         assert_same(infer(kind, resume=stop, **options), whole)
 
 
 def test_a_run_saved_and_loaded_at_any_sweep_goes_on_bit_for_bit(tmp_path):
     stops = []
     whole = infer("surfaces", on_checkpoint=stops.append, checkpoint_every_s=0.0)
-    for stop in (stops[0], stops[7], stops[11], stops[14]):
+    for stop in (stops[7], stops[14]):
         stop.save(tmp_path / "part.nc")
         assert_same(infer("surfaces", resume=bm.load(tmp_path / "part.nc")), whole)
 
@@ -145,17 +147,16 @@ def test_the_fewer_the_beams_the_more_draws_by_default():
     assert [bm.Beta().default_draws(beams, grid, 4, thin=3) for beams in (25_000, 50_000, 100_000, 10**9)] == [
         200, 200, 100, 100,
     ]  # fmt: skip
-    run = bm.infer(scans(), GRID, prior=bm.Beta(), sensor=TRUTH, schedule=bm.Schedule(chains=1, warmup=0))
-    assert run.n_draws == bm.Beta().default_draws(scans().n_beams, GRID.n_cells, 1) == 200
-    assert run.posterior.sweep == 3 * 200
-    given = bm.infer(scans(), GRID, prior=bm.Beta(), sensor=TRUTH, schedule=bm.Schedule(chains=1, warmup=0, draws=5))
-    assert given.posterior.sweep == 5  # who says how many draws, gets as many sweeps
-    assert (
-        bm.infer(
-            scans(), GRID, prior=bm.Beta(), sensor=TRUTH, schedule=bm.Schedule(chains=1, warmup=0, thin=1)
-        ).posterior.sweep
-        == 200
-    )
+    few = scans(poses=2, beams=5)
+
+    def swept(**schedule):
+        run = bm.infer(few, GRID, prior=bm.Beta(), sensor=TRUTH, schedule=bm.Schedule(chains=1, warmup=0, **schedule))
+        return run.n_draws, run.posterior.sweep
+
+    assert bm.Beta().default_draws(few.n_beams, GRID.n_cells, 1) == 200
+    assert swept() == (200, 3 * 200)
+    assert swept(draws=5) == (5, 5)  # who says how many draws, gets as many sweeps
+    assert swept(thin=1) == (200, 200)
 
 
 @pytest.mark.parametrize("kind", full_but(ALL, "surfaces", "reflectivities"))

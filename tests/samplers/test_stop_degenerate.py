@@ -138,11 +138,6 @@ def test_other_methods_are_refused(kind, method):
         infer(kind, method=method)
 
 
-def test_words_that_are_no_sensor_are_refused():
-    with pytest.raises(bm.BadInput, match="sensor must be a sensor model or 'fit', got 'fitted'"):
-        infer("surfaces", sensor="fitted")
-
-
 def test_runs_of_another_kind_or_with_other_settings_are_not_resumed():
     walls = bm.infer(
         room(), GRID, prior=bm.Independent(0.1), sensor=TRUTH, schedule=bm.Schedule(chains=1, warmup=2, draws=2)

@@ -79,7 +79,7 @@ class BinaryWalls(CellPrior):
 
     @property
     def pair_coupling(self) -> float:
-        """What a pair of neighbours that are alike adds to the log prior: 0 where cells are independent."""
+        """The log prior that a pair of alike neighbours adds: 0 where cells are independent."""
         return 0.0
 
     def probabilities(self, grid: Grid) -> Floats:
@@ -236,7 +236,7 @@ class Ising(BinaryWalls):
 
     @property
     def pair_coupling(self) -> float:
-        """What a pair of neighbours that are alike adds to the log prior.
+        """The log prior that a pair of alike neighbours adds.
 
         Raises:
             BadInput: it is still to be fitted.
@@ -301,7 +301,7 @@ class Ising(BinaryWalls):
 
 
 LARGEST_FITTED = 4.0
-"""Of a map without any boundary the likeliest coupling is infinite."""
+"""Largest coupling of a fit: for a map without any boundary the likeliest is infinite."""
 
 
 def fit_coupling(walls: ArrayLike, p_wall: ArrayLike) -> float:

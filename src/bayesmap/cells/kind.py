@@ -30,7 +30,7 @@ BATCH_BYTES = 12 << 20
 
 @dataclass(frozen=True)
 class Words:
-    """What a kind is called, and what its map shows.
+    """The words for a kind of cells and its maps.
 
     Attributes:
         kind: in settings, documents and saved runs: one word.
@@ -157,11 +157,11 @@ class CellPrior(ABC):
     def completed(self, cells: Cells, grid: Grid) -> Cells:
         """Return the map with a state of the prior in the cells that are NaN, which their draw does not hold.
 
-        By default as it is, which is right where a draw holds all cells of the grid.
+        By default the map itself, which is right where a draw holds all cells of the grid.
         """
         return cells
 
-    # What is asked of draws
+    # Draws
 
     def map_of(self, draws: Draws, chain: int, draw: int) -> NDArray[Any]:
         """Return the values that a picture of one draw shows, (nx, ny)."""

@@ -22,7 +22,7 @@ BUILT_IN: dict[str, type[CellPrior]] = {cls.words.kind: cls for cls in (Independ
 _NAMED: dict[str, type[CellPrior]] = {
     "independent": Independent, "binary": Independent, "ising": Ising, "beta": Beta, "reflectivity": Beta,
 }  # fmt: skip
-"""What descriptions call priors where that is not the word of the kind, or where a kind has several."""
+"""Names of priors in descriptions, where these differ from the word of the kind."""
 
 
 def prior_from(description: Mapping[str, Any]) -> CellPrior:
@@ -42,7 +42,7 @@ P_WALL = 0.2
 """Prior wall probability: buildings are mostly free space, and unobserved cells should look unlike both."""
 
 HIT_DEPTH = Independent.hit_depth
-"""Where in a cell a beam is expected to stop, as a fraction of its chord."""
+"""The expected stop of a beam in a cell, as a fraction of its chord."""
 
 LASER_SIGMA_M = 0.02
 LASER_SIGMA_PER_M = 0.005

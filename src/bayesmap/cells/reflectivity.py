@@ -69,7 +69,7 @@ EXPECTED = ArraySpec(
 
 @dataclass(frozen=True)
 class Reflective(CellPrior):
-    """What cells with a reflectivity have in common, with surfaces or without.
+    """The base class of priors of reflectivities, with surfaces or without.
 
     Attributes:
         a, b: pseudo-counts of beams that were stopped, and of beams that were not; in free cells, where cells have

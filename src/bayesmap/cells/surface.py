@@ -26,7 +26,7 @@ MOST_SPREAD = 3.0
 ROUNDING = 1e-3  # edges by which half precision may take a mean out of its cell
 
 PARTS = ("mean_x", "mean_y", "l11", "l21", "l22")
-"""What a surface is made of: its mean less the cell's centre, and the Cholesky factor of its covariance, in edges."""
+"""Parts of a surface: its mean less the cell's centre, and the Cholesky factor of its covariance, in edges."""
 
 
 def _spec(part: str) -> ArraySpec:

@@ -188,7 +188,7 @@ def some_chains(chains: Chains, which: slice) -> Chains:
 def in_sequence(parts: Sequence[Chains]) -> Chains:
     """Join consecutive sweeps of the same chains, as if they had never been interrupted.
 
-    Where the chains stand, and which cells they observed, is that of the last part.
+    The snapshot and the observed counts are those of the last part.
     """
     first, last = parts[0], parts[-1]
     draws = {name: np.concatenate([part.draws.arrays[name] for part in parts], axis=1) for name in last.draws.arrays}

@@ -22,7 +22,7 @@ OF_A_CELL = {True: (200, 280), False: (120, 75)}
 measured of maps of 2 million cells. Beams and draws come on top."""
 
 GROUP_LIMITS = ("/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory/memory.limit_in_bytes")
-"""Where Linux says how much memory a container may take."""
+"""Files in which Linux states the memory limit of a container."""
 
 
 def check_memory(grid: Grid, scans: Scans, surfaces: bool, chains: int) -> None:

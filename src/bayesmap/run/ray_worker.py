@@ -62,7 +62,7 @@ def run_segment(
 
 @dataclass
 class Held:
-    """What this process keeps from task to task.
+    """The problem and the chains that this process keeps from task to task.
 
     Attributes:
         run: name of the run whose problem it is.

@@ -45,13 +45,13 @@ from bayesmap.sensors.builtin import AdditiveNoise, BeamMixture, Gaussian, descr
 from bayesmap.sensors.model import RangeLimits
 
 SHAPES = (3.0, 5.0, 9.0, 17.0, math.inf)
-"""Degrees of freedom that are tried, infinitely many for normal noise: of odd numbers kernels need no logarithm."""
+"""Degrees of freedom to try, infinite for normal noise: for odd numbers kernels need no logarithm."""
 LEAST_SCALE_M = 1e-3
 LEAST_GROWTH = 1e-6
 FIRST_STEP, CLOSE = 0.1, 1e-3
-"""Of the search, in logarithms: where it looks first, and how close to the likeliest it comes."""
+"""First step and final accuracy of the search, in logarithms."""
 LEAST_WEIGHT = 10.0
-"""Readings that it takes to change anything."""
+"""Fewest readings that change the noise."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -110,19 +110,18 @@ def refit_noise(noise: AdditiveNoise, residuals: StopResiduals, step: float) -> 
 
 BEAMS_LOOKED_AT = 40_000
 PILOT_SWEEPS = 40
-"""Of the pilot of reflectivities and surfaces, if their chains warm up as long."""
+"""Most sweeps of the pilot of reflectivities and surfaces; a shorter warm-up shortens it."""
 SENSOR_SWEEPS = 30
-"""Of the pilot that fits a sensor alone."""
+"""Sweeps of the pilot that fits a sensor alone."""
 SPREAD_WITHOUT_SURFACE = 0.3
-"""Where in a cell without a surface a beam stops is not known to better than this part of its edge: noise that a fit
-starts from."""
+"""Standard deviation of stops within cells without surfaces, in edges: part of the noise that a fit starts from."""
 FIRST_SWEEP, WHOLE_UNTIL = 3, 20
 PRIOR_EVERY = 2
 LEAST_SHARE = 1e-5
 LEAST_RANDOM = 5e-4
-"""Where scans are few, a map can explain every reading that it was made from; those to come are not so obliging."""
+"""Least share of random readings: a map of few scans can explain all of their readings, but not new ones."""
 PSEUDO_BEAMS = 2.0
-"""Beams that the present value of a share counts for: a log without any such reading must not make it zero."""
+"""Weight of the present value of a share, in beams: a log without readings of a kind must not make its share zero."""
 
 
 @dataclass(frozen=True)
@@ -355,7 +354,7 @@ def _likeliest_beta(
 COUPLING_SWEEPS = 100
 COUPLING_WHOLE_UNTIL = 40
 FIRST_COUPLING = 0.5
-"""Where the pilot starts: below the coupling of about 0.88 at which, at p = 0.5, whole regions become alike."""
+"""Start of the pilot: below the coupling of about 0.88 at which, at p = 0.5, whole regions become alike."""
 
 
 def fit_coupling_to_scans(

@@ -24,7 +24,7 @@ FREE_PERIOD, FAR_PERIOD = 8, 16
 FEW_PASSES, FEW_PERIOD = 16, 2
 """A cell that fewer beams pass has this update period, in sweeps."""
 ALONG_WALL = 1.5
-"""Of a surface's first standard deviation along its wall: so many of its end points' own."""
+"""First standard deviation of a surface along its wall, in standard deviations of its end points."""
 FRESH = 1 << 16  # surfaces that are drawn from the prior: more cells than that share them
 LABEL_SWEEPS = 30
 LOGIT_STEP = 1.0

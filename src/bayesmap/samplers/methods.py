@@ -118,7 +118,7 @@ ON_ANY: Mapping[str, Callable[[], Sampler[Any, Any]]] = {"stop-gibbs": StopGibbs
 WITHOUT_CHAINS: Mapping[str, Callable[[WallProblem, DrawRequest, Watch], IndependentDraws]] = {
     "exact": exact, "importance": importance, "propagate": belief_propagation,
 }  # fmt: skip
-"""What a kind of cells means by a method's name: `CellPrior.methods` names the entries of these tables."""
+"""Samplers by name: `CellPrior.methods` of a kind of cells maps the names of methods to these entries."""
 
 
 def method_of(method: Method | str | None, known: Mapping[str, str], kind: str) -> tuple[str, Method]:

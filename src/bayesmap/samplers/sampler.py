@@ -126,7 +126,7 @@ class ChainState(Protocol):
 
     @property
     def problem(self) -> Problem:
-        """What is sampled."""
+        """The problem of the chains."""
 
     @property
     def statistics(self) -> Mapping[str, Floats]:

@@ -47,10 +47,14 @@ if TYPE_CHECKING:
 Floats = NDArray[np.float64]
 Look = Callable[["ChainMaps"], Floats]
 
-NUMBERS = 5
-"""Of a surface: mean and covariance."""
-UPDATES_FEW = (1 << 24) + 1
-"""Number of a sweep that no chain makes, which updates few cells."""
+NUMBERS = 5  # parameters of a surface: mean and covariance
+UPDATES_ALL, UPDATES_FEW = 1 << 24, (1 << 24) + 1
+"""Numbers of two sweeps that no chain makes: the first updates all cells, the second few."""
+SEARCH_SHARE = 0.8
+"""Share of the warm-up that start selection takes."""
+MERGED_AGAIN = 2
+"""Times that surfaces are merged once more, each after a tenth of the sweeps of start selection. By then surfaces have
+moved, and may take in others. With the share above all merges lie in the warm-up."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,9 +91,9 @@ class Changes:
     cells: NDArray[np.float32]
     solid: NDArray[np.bool_]
 
-    def some(self, which: NDArray[np.bool_]) -> Changes:
+    def select(self, mask: NDArray[np.bool_]) -> Changes:
         """Return the changes of some places."""
-        return Changes(self.middle[which], self.where[which], self.cells[which], self.solid[which])
+        return Changes(self.middle[mask], self.where[mask], self.cells[mask], self.solid[mask])
 
 
 def evidence(chains: StopChains, chain: int, end_cell: NDArray[np.int32], prior: Reflective) -> Floats:
@@ -150,7 +154,7 @@ def try_changes(
         shape = before.shape[1:]
         x, y = old.middle.T
         stay = sums_over_squares(after[chain] - before[chain], half)[x, y] >= least
-        back = old.some(~stay)
+        back = old.select(~stay)
         maps.cells[chain][back.where], maps.solid[chain][back.where] = back.cells, back.solid
         changed = covered(old.middle[stay], half, (shape[0], shape[1]))
         before[chain][changed] = after[chain][changed]
@@ -183,15 +187,6 @@ def covered(middles: NDArray[np.intp], half: int, shape: tuple[int, int]) -> NDA
     return out
 
 
-SEARCH_SHARE = 0.8
-"""Of the warm-up: the part that is made from two starts."""
-UPDATES_ALL = 1 << 24
-"""Number of a sweep that no chain makes, which updates all cells."""
-MERGED_AGAIN = 2
-"""Times that surfaces are joined once more, after tenths of so many sweeps each: what is left of those that were joined
-has moved by then, and may take in others. With the share above all of it lies in the warm-up."""
-
-
 def merge_sweeps(search_until: int) -> list[int]:
     """Return the sweeps after which surfaces are merged, for chains that have two starts for so many sweeps."""
     return sorted({search_until + i * (search_until // 10) for i in range(1 + MERGED_AGAIN)} - {0})
@@ -221,7 +216,7 @@ def merge(problem: StopProblem, chains: StopChains, beta: float) -> None:
     seen = look(maps)
     owners = [chains.stopped_by(chain) for chain in range(chains.n_chains)]
     range_m, known = np.where(np.isfinite(rays.range_m), rays.range_m, 0.0), problem.sensor.kernel_parameters()
-    # Of a sensor without parameters the surfaces' own thickness must do.
+    # Without parameters of the sensor the surfaces' own thickness must do.
     sigma_m = 0.0 * range_m if known is None else known.sigma_m + known.sigma_per_m * range_m
     merge_surfaces(maps, rays.end_points_m(), sigma_m**2, owners, grid, look, seen)
     maps.put(chains)
@@ -229,19 +224,12 @@ def merge(problem: StopProblem, chains: StopChains, beta: float) -> None:
     maps.put(chains)  # cells have counted beams under this map, but for those whose turn was to try a surface
 
 
-AVERAGED = 8
-"""The last sweeps from two starts, over which the readings of each are averaged."""
-HALF_WIDTHS = (4, 2, 1)
-"""Squares reach so many cells to each side of their middle: large ones first, which have fewer seams for what they
-hold."""
-BETTER_NATS = 20.0
-"""By which the second start must be better in a square."""
-MUST_STAY = 1 / 3
-"""Part of that which must be left in the very first sweep among the chain's own cells."""
-SQUARE_ROUNDS = 3
-"""Of squares of one size that are tried together, at most."""
-MARGIN = 2
-"""Cells around a square whose beams are compared as well."""
+AVERAGED = 8  # last sweeps of start selection, over which the evidence is averaged
+HALF_WIDTHS = (4, 2, 1)  # of squares, in cells: large squares first, which have fewer seams
+BETTER_NATS = 20.0  # by which the second start must be better in a square
+MUST_STAY = 1 / 3  # share of that gain which must be left in the first sweep among the chain's own cells
+SQUARE_ROUNDS = 3  # at most, of squares of one size that are tried together
+MARGIN = 2  # cells around a square whose beams are compared as well
 
 
 def take_better_squares(maps: ChainMaps, second: ChainMaps, gain: Floats, look: Look) -> None:
@@ -289,26 +277,18 @@ def cells_of(middle: NDArray[np.intp], half: int, shape: tuple[int, int]) -> NDA
     return np.asarray((x[:, :, None] * shape[1] + y[:, None, :]).reshape(len(middle), (2 * half + 1) ** 2))
 
 
-MOST_READINGS = 12
-"""Readings of a surface, at most, for it to be merged: one that explains more is seldom better removed."""
-REACH = 2
-"""Neighbours are cells up to so far away, in each direction."""
-CLOSE = 3.0
-"""Readings of a surface lie within so many cells of its mean: those further away were not explained by it."""
+MOST_READINGS = 12  # of a surface that may be merged: a surface that explains more is seldom better removed
+REACH = 2  # cells between a surface and the neighbour that takes it in, at most, in each direction
+CLOSE = 3.0  # cells between a reading and the mean of the surface that explains it, at most
 MOST_OFF = 2.5
-"""Root mean square distance of readings from the neighbour's axis, in standard deviations of surface and noise."""
-SOLID_FROM = 0.1
-"""Reflectivity from which a cell counts as one that stops beams."""
-FREE = 1e-20
-"""Reflectivity of a cell that became free."""
-AROUND = 3
-"""Cells around a cell that becomes free whose beams are compared."""
+"""Largest RMS distance of readings from the neighbour's axis, in standard deviations of surface and noise."""
+SOLID_FROM = 0.1  # reflectivity from which a cell counts as one that stops beams
+FREE = 1e-20  # reflectivity of a cell that became free
+AROUND = 3  # cells around a cell that becomes free whose beams are compared
 MERGED_NATS = 1.0
-"""By which readings must be explained better without a surface. With nothing asked, too many are joined that sweeps
-then part again; with two nats, too few."""
-LEVEL = 1e-9  # of an axis: no number is divided by less
-MERGE_ROUNDS = 8
-"""Of changes that are tried together, at most: later ones try one in twenty of them."""
+"""Least gain of a merge. At 0 too many surfaces are merged, which sweeps then part again; at 2 too few."""
+LEVEL = 1e-9  # least component of an axis: no number is divided by less
+MERGE_ROUNDS = 8  # at most: later rounds would try one change in twenty
 
 
 @dataclass(frozen=True, eq=False)
@@ -362,10 +342,10 @@ def merge_surfaces(
         tried = []
         for chain, waiting in enumerate(changes):
             # A surface that has taken in a neighbour is not what another change was made from.
-            valid = waiting.some(~changed[chain][waiting.where].any(axis=1))
+            valid = waiting.select(~changed[chain][waiting.where].any(axis=1))
             now = apart(valid.middle, 2 * AROUND, grid.shape)
-            tried.append(valid.some(now))
-            changes[chain] = valid.some(~now)
+            tried.append(valid.select(now))
+            changes[chain] = valid.select(~now)
         if not any(len(new.middle) for new in tried):
             break
         stays = try_changes(maps, tried, look, before, AROUND, MERGED_NATS)
@@ -383,18 +363,18 @@ def merge_moves(
     noise: Floats,
     grid: Grid,
 ) -> Changes:
-    """Propose for each surface that stops few beams its end, and the longer surface of the neighbour that points best
-    at its readings; the best pointed moves come first.
+    """Propose for each surface that stops few beams its removal, and the longer surface of the neighbour that points
+    best at its readings. The best pointed moves come first.
     """
     readings, axes = readings_of(cells, owner, end_points_m, noise, grid), axes_of(cells)
-    few, by, off = best_neighbours(cells, readings, axes, grid)
+    source, target, off = best_neighbours(cells, readings, axes, grid)
     order = np.argsort(off, kind="stable")
-    few, by = few[order], by[order]
-    where = np.stack([few, by], axis=-1)
+    source, target = source[order], target[order]
+    where = np.stack([source, target], axis=-1)
     new = cells[where]
     new[:, 0, 0] = FREE
-    new[:, 1, 1:] = lengthened(cells, readings, axes, few, by, grid)
-    return Changes(np.stack(np.divmod(few, grid.shape[1]), axis=-1), where, new, solid[where])
+    new[:, 1, 1:] = lengthened(cells, readings, axes, source, target, grid)
+    return Changes(np.stack(np.divmod(source, grid.shape[1]), axis=-1), where, new, solid[where])
 
 
 def readings_of(
@@ -434,54 +414,58 @@ def variance_in(moments: Floats, direction: Floats) -> Floats:
 def best_neighbours(
     cells: NDArray[np.float32], readings: ExplainedReadings, axes: SurfaceAxes, grid: Grid
 ) -> tuple[NDArray[np.intp], NDArray[np.intp], Floats]:
-    """Find the cells that stop few beams, for each the neighbour with as many beams or more whose axis lies closest to
-    its readings, and the root mean square distance of these from it, (n,) each. Cells without a neighbour within
-    `MOST_OFF` are left out.
+    """Find the cells that stop few beams, the neighbour of each whose axis lies closest to its readings, and the root
+    mean square distance between them, (n,) each.
+
+    Neighbours stop as many beams or more. Cells without a neighbour within `MOST_OFF` are left out.
     """
     stops = (cells[:, 0] >= SOLID_FROM) & (readings.count > 0)
-    few = np.flatnonzero(stops & (readings.count <= MOST_READINGS))
-    x, y = np.divmod(few, grid.shape[1])
-    least, by = np.full(len(few), np.inf), few.copy()
+    source = np.flatnonzero(stops & (readings.count <= MOST_READINGS))
+    x, y = np.divmod(source, grid.shape[1])
+    least, target = np.full(len(source), np.inf), source.copy()
     for step_x in range(-REACH, REACH + 1):
         for step_y in range(-REACH, REACH + 1):
             other_x, other_y = x + step_x, y + step_y
             inside = (other_x >= 0) & (other_x < grid.shape[0]) & (other_y >= 0) & (other_y < grid.shape[1])
-            other = np.where(inside, other_x * grid.shape[1] + other_y, few)
-            # Of two with as many beams one may take in the other, not both.
-            theirs, own = readings.count[other], readings.count[few]
-            more = (theirs > own) | ((theirs == own) & (other > few))
+            other = np.where(inside, other_x * grid.shape[1] + other_y, source)
+            # Two surfaces with equally many beams must not take in each other: the order of cells decides.
+            theirs, own = readings.count[other], readings.count[source]
+            more = (theirs > own) | ((theirs == own) & (other > source))
             normal = np.stack([-axes.direction[other, 1], axes.direction[other, 0]], axis=-1)
-            off = ((readings.mean_m[few] - cells[other, 1:3]) * normal).sum(axis=1)
-            square = (off**2 + variance_in(readings.moments[few], normal)) / (axes.across[other] + readings.noise[few])
+            off = ((readings.mean_m[source] - cells[other, 1:3]) * normal).sum(axis=1)
+            square = off**2 + variance_in(readings.moments[source], normal)
+            square /= axes.across[other] + readings.noise[source]
             better = inside & stops[other] & more & (square < least)
-            least[better], by[better] = square[better], other[better]
+            least[better], target[better] = square[better], other[better]
     close = least <= MOST_OFF**2
-    return few[close], by[close], np.sqrt(least[close])
+    return source[close], target[close], np.sqrt(least[close])
 
 
 def lengthened(
     cells: NDArray[np.float32],
     readings: ExplainedReadings,
     axes: SurfaceAxes,
-    few: NDArray[np.intp],
-    by: NDArray[np.intp],
+    source: NDArray[np.intp],
+    target: NDArray[np.intp],
     grid: Grid,
 ) -> Floats:
-    """Return the surfaces of the cells ``by``, moved along their axes towards the middle of their own readings and
-    those of ``few``, as far as their squares allow, and as long as both are scattered about it: mean, l11, l21, l22,
-    (n, 5).
+    """Lengthen the surfaces of ``target`` to reach the readings of ``source``. Returns mean, l11, l21, l22, (n, 5).
+
+    A surface moves along its axis towards the middle of both cells' readings, as far as its square allows, and becomes
+    as long as their scatter about it.
     """
-    mean, axis = cells[by, 1:3].astype(np.float64), axes.direction[by]
-    places = [((readings.mean_m[of] - mean) * axis).sum(axis=1) for of in (few, by)]
-    counts = [readings.count[of] for of in (few, by)]
+    mean, axis = cells[target, 1:3].astype(np.float64), axes.direction[target]
+    both = source, target
+    places = [((readings.mean_m[of] - mean) * axis).sum(axis=1) for of in both]
+    counts = [readings.count[of] for of in both]
     middle = (counts[0] * places[0] + counts[1] * places[1]) / (counts[0] + counts[1])
     # Along the axis the square is left where the first of its four sides is crossed.
-    sides = (grid.cell_centres_m(by) - mean)[..., None] + INSIDE * 0.5 * grid.resolution * np.array([-1.0, 1.0])
+    sides = (grid.cell_centres_m(target) - mean)[..., None] + INSIDE * 0.5 * grid.resolution * np.array([-1.0, 1.0])
     at = np.sort(sides / np.where(np.abs(axis) < LEVEL, LEVEL, axis)[..., None], axis=-1)
     moved = np.clip(middle, np.minimum(at[..., 0].max(axis=-1), 0.0), np.maximum(at[..., 1].min(axis=-1), 0.0))
-    spread = [variance_in(readings.moments[of], axis) + (places[i] - moved) ** 2 for i, of in enumerate((few, by))]
+    spread = [variance_in(readings.moments[of], axis) + (places[i] - moved) ** 2 for i, of in enumerate(both)]
     scatter = (counts[0] * spread[0] + counts[1] * spread[1]) / (counts[0] + counts[1])
-    along, across, (x, y) = np.maximum(axes.along[by], ALONG_WALL**2 * scatter), axes.across[by], axis.T
+    along, across, (x, y) = np.maximum(axes.along[target], ALONG_WALL**2 * scatter), axes.across[target], axis.T
     l11 = np.sqrt(along * x**2 + across * y**2)
     l21 = (along - across) * x * y / l11
     l22 = np.sqrt(along * across) / l11

@@ -1,4 +1,4 @@
-"""Beams among cells that stop some of them: the input of a sampler of stops."""
+"""The input of the sampler of stops: beams, and the prior of cells that stop some of them."""
 
 from __future__ import annotations
 
@@ -23,14 +23,13 @@ from bayesmap.space.scans import Scans
 
 CELLS_AROUND = 1.5
 SIGMAS_AROUND = 6.0
-"""A stop further from its reading than so many cells and standard deviations counts as a random reading's."""
+"""Cells and standard deviations from its stop within which a reading may be an echo; further away it is random."""
 
 SHARE_AROUND = 0.1
-"""Of the density of a random reading: heavy tails, which have no last standard deviation, are followed down to it."""
+"""Share of the density of a random reading down to which the heavy tails of Student's t are followed."""
 
 CELLS_MOVED = 2
-"""How far readings are expected to move when poses do, in cells: surfaces further from where readings end at first are
-not kept in draws."""
+"""Cells by which readings may move when poses do: draws keep surfaces within this distance of the first readings."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,7 +94,7 @@ class StopProblem:
 
     @cached_property
     def distance_m(self) -> NDArray[np.float32]:
-        """Where beams stop in their cells if these have no surfaces, (K,)."""
+        """The distance at which each beam stops in each of its cells if these have no surfaces, (K,)."""
         from bayesmap.kernels.rays import stop_distances
 
         return stop_distances(self.rays, self.hit_depth, self.device)

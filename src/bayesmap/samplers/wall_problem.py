@@ -90,7 +90,7 @@ class WallProblem:
 
     @property
     def coupling(self) -> float:
-        """What a pair of neighbours that are alike adds to the log prior; 0 where cells are independent."""
+        """The log prior that a pair of alike neighbours adds; 0 where cells are independent."""
         return self.prior.pair_coupling
 
     @cached_property

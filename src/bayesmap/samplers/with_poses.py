@@ -44,8 +44,8 @@ OPTIMAL = 2.38 / np.sqrt(3.0)
 WANTED_ACCEPTANCE = 0.35
 
 MOST_NATS = 2.0
-"""The most that one beam's density may change within a difference, when information is estimated: where a beam slips
-past an edge its density jumps, and the slope says nothing of how far the pose may move."""
+"""Largest change of one beam's log density that counts in a difference. Where a beam slips past an edge its density
+jumps, and the slope would say nothing of how far the pose may move."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -176,7 +176,7 @@ STEPS = 3
 """Steps of every pose in a round."""
 STREAM_START_POSES = 6
 DIFFERENCE_M = 0.02
-"""Of poses, over which slopes of the likelihood are taken: about the noise of a laser."""
+"""Step of the differences from which slopes of the likelihood are taken: about the noise of a laser."""
 OF_STEPS = ("pose_log_scale", "pose_factor")
 
 

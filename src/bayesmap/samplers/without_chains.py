@@ -201,7 +201,7 @@ def enumerate_maps(problem: WallProblem) -> Enumeration:
     """
     table, p = problem.table, problem.p_wall
     free_to_vary = (p > 0) & (p < 1)
-    # What coupled cells that no beam touches are, the others know.
+    # Coupled cells depend on their neighbours even where no beam touches them.
     matters = table.observed().ravel() | (problem.coupling != 0.0)
     unknown = np.nonzero(matters & free_to_vary)[0]
     if len(unknown) > MAX_UNKNOWN:
@@ -248,7 +248,7 @@ def _pairs_alike(problem: WallProblem, state: NDArray[np.int64], bit_of: NDArray
 
 @dataclass(frozen=True)
 class DrawRequest:
-    """What to draw: ``chains * draws`` draws by ``seed``, after ``particles`` or ``rounds`` of work."""
+    """A request of ``chains * draws`` draws by ``seed``, after ``particles`` or ``rounds`` of work."""
 
     chains: int
     draws: int
