@@ -274,16 +274,8 @@ def robot(
 ):
     """The messages of a robot on its path, and the scans as they were simulated.
 
-    Args:
-        tf_poses: whether /tf holds its poses.
-        odom: whether /odom holds them.
-        static: whether the laser's place on the robot is on /tf_static.
-        path: the robot's pose over time.
-        mount: the laser on the robot.
-        space: the namespace of its topics.
-        tf_space: that of its topics of transforms, if another.
-        prefix: of its frames.
-        late: by how much the poses come later than at `POSE_TIMES`, in seconds.
+    /tf, /odom or both hold its poses, ``late`` seconds after `POSE_TIMES`, and /tf_static the laser's place on it. Its
+    topics have the namespace ``space``, those of transforms ``tf_space``, if another, and its frames a prefix.
     """
     scans = simulated(SCAN_TIMES, path=path, mount=mount)
     messages = []

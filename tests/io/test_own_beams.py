@@ -10,6 +10,7 @@ import bayesmap as bm
 from bayesmap.io.live import live_scans
 from bayesmap.io.logs import describe_log
 from bayesmap.io.text.carmen import write_carmen
+from bayesmap.space.planar import wrapped
 
 FANS = {
     "counts": [(0.0, 2 * math.pi / (n - 1), n) for n in (40, 44, 41, 40, 38, 43)],
@@ -31,12 +32,8 @@ def log(fans):
 
 def hits(angles, readings, poses):
     world = [pose[2] + own for pose, own in zip(poses, angles, strict=True)]
-    return np.concatenate(
-        [
-            pose[:2] + row[:, None] * np.stack([np.cos(a), np.sin(a)], -1)
-            for pose, row, a in zip(poses, readings, world, strict=True)
-        ]
-    )
+    ends = [row[:, None] * np.stack([np.cos(a), np.sin(a)], -1) for row, a in zip(readings, world, strict=True)]
+    return np.concatenate([pose[:2] + end for pose, end in zip(poses, ends, strict=True)])
 
 
 def check(reading, fans, atol=1e-6):
@@ -181,12 +178,7 @@ def test_degrees_are_refused(tmp_path, text, reason):
 
 def test_a_yaw_in_degrees_is_noted_and_one_in_radians_is_not(tmp_path):
     turn = 0.12 * np.arange(200) - 3.0
-    for yaw, unit in [
-        (turn, 1.0),
-        ((turn + np.pi) % (2 * np.pi) - np.pi, 1.0),
-        (turn, 57.3),
-        (turn % (2 * np.pi), 57.3),
-    ]:
+    for yaw, unit in ((turn, 1.0), (wrapped(turn), 1.0), (turn, 57.3), (turn % (2 * np.pi), 57.3)):
         poses = np.column_stack([np.zeros((200, 2)), yaw * unit])
         np.savez(tmp_path / "a.npz", poses=poses, angles_rad=[0.0, 0.1], ranges_m=np.ones((200, 2)))
         notes = describe_log(tmp_path / "a.npz").notes

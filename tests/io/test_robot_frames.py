@@ -30,10 +30,9 @@ def fleet(**options):
 same = partial(r.same, timed=False)
 
 
-@pytest.mark.parametrize("writer", ["mcap", "rosbag1"])
-def test_robots_with_transforms_of_their_own_are_read_by_these(tmp_path, writer):
+def test_robots_with_transforms_of_their_own_are_read_by_these(tmp_path):
     robots = fleet(space="/robot{}")
-    file = r.written(tmp_path, r.merged(*(messages for messages, _ in robots)), writer)
+    file = r.written(tmp_path, r.merged(*(messages for messages, _ in robots)))
     for n, (_, scans) in enumerate(robots, 1):
         reading = describe_log(file, scan_topic=f"/robot{n}/scan")
         same(reading.scans, scans)
@@ -178,10 +177,8 @@ def test_two_publishers_of_odometry_are_refused_with_both_values(tmp_path, late,
     same(describe_log(file, pose_topic="/odom").scans, scans)
     told = contents_of(file)
     assert told.suggestion.endswith("--pose-topic /odom")
-    assert (
-        f"poses are those of /odom: without --pose-topic, {message.split(';')[0].split(': ', 1)[1]}"
-        in (told.sensors[0]["notes"])
-    )
+    reason = message.split(";")[0].split(": ", 1)[1]
+    assert f"poses are those of /odom: without --pose-topic, {reason}" in told.sensors[0]["notes"]
 
 
 def test_two_publishers_of_the_map_leave_the_odometry(tmp_path):
@@ -217,20 +214,15 @@ def a_track(rng, samples, noise, late_s=0.0, away=(0.0, 0.0, 0.0)):
 @pytest.mark.parametrize("noise", [0.0, 0.001, 0.03])
 def test_one_noisy_publisher_is_not_taken_for_two_and_two_are(noise):
     rng = np.random.default_rng(5)
-    for _ in range(60):
+    for _ in range(30):
         samples = int(rng.integers(10, 300))
         assert contradiction("odom", "base_link", [a_track(rng, samples, noise)]) is None
     found = 0
-    for seed in range(40):
-        one, other = (
-            a_track(np.random.default_rng(seed), 150, 0.1 * noise, late_s, away)
-            for late_s, away in ((0.0, (0.0, 0.0, 0.0)), (0.05, (0.3, 0.4, 0.1)))
-        )
-        both = Samples.joined(
-            [one, Samples(False, "/tf", *(list(v) for v in (other.stamps_ns, other.received_ns, other.values)))]
-        )
-        found += contradiction("odom", "base_link", [both]) is not None
-    assert found == 40
+    for seed in range(20):
+        one = a_track(np.random.default_rng(seed), 150, 0.1 * noise)
+        other = a_track(np.random.default_rng(seed), 150, 0.1 * noise, 0.05, (0.3, 0.4, 0.1))
+        found += contradiction("odom", "base_link", [Samples.joined([one, other])]) is not None
+    assert found == 20
 
 
 def received_later(messages, seconds):

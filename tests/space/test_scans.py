@@ -155,14 +155,8 @@ def test_maps_scores_and_saved_runs_are_the_same(log, name, tmp_path):
     runs, scores = [], []
     for scans in (logs["whole"], logs[name]):
         train, held = scans.holdout(4)
-        run = bm.infer(
-            train,
-            grid,
-            prior=bm.Independent(0.2),
-            sensor=SENSOR,
-            schedule=bm.Schedule(chains=2, warmup=20, draws=60),
-            seed=1,
-        )
+        schedule = bm.Schedule(chains=2, warmup=20, draws=60)
+        run = bm.infer(train, grid, prior=bm.Independent(0.2), sensor=SENSOR, schedule=schedule, seed=1)
         runs.append(run)
         scores.append(bm.score(run, held))
         assert len(unseen_scans(train, held, 0, "log")) == len(held)

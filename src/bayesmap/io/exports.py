@@ -168,9 +168,9 @@ def trajectory_of(run: object, scans: Scans) -> Trajectory:
     return _approximated(approximate, f"{APPROXIMATION}: {unmixed}")
 
 
-def _approximated(found: Approximation, known_by: str) -> Trajectory:
-    law = RelativeLaw(found.relative_covariances, found.gaussian.dof)
-    return Trajectory(found.poses, found.stamps_s, found.covariances(), relative=law, known_by=known_by)
+def _approximated(trajectory: Approximation, known_by: str) -> Trajectory:
+    law = RelativeLaw(trajectory.relative_covariances, trajectory.gaussian.dof)
+    return Trajectory(trajectory.poses, trajectory.stamps_s, trajectory.covariances(), relative=law, known_by=known_by)
 
 
 def export_trajectory(

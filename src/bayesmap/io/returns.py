@@ -36,11 +36,7 @@ from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
 
-TOP_SHARE = 0.8
-MIN_REPEATS = 10
-MIN_BEAMS = 3
-ISOLATION = 2.0
-MAX_CODES = 8
+TOP_SHARE, MIN_REPEATS, MIN_BEAMS, ISOLATION, MAX_CODES = 0.8, 10, 3, 2.0, 8
 MIN_VIEWS = 3
 """Places, or separate directions from one place, from which a code is reported."""
 SAME_PLACE_M, SAME_DIRECTION_RAD = 0.05, math.radians(1.0)

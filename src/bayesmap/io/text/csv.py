@@ -109,7 +109,13 @@ class _Table:
                 self._take_ros2_row(number, text)
         elif not self.columns:
             if is_header(line):
-                self._head(line)
+                self.delimiter = max(DELIMITERS, key=line.count)
+                names = _names(line, self.delimiter)
+                self.width = len(names)
+                for at, column in enumerate(_as_read(names)):
+                    if column and column not in self.columns:
+                        self.columns.append(column)
+                        self.at.append(at)
         elif text:
             fields = [part.strip().strip(b'"') for part in line.split(self.delimiter)]
             if not any(fields):
@@ -147,15 +153,6 @@ class _Table:
             return
         at = [i for i, name in enumerate(ROS2_FIELDS) if name] + list(range(first, first + count))
         self._append(number, [fields[i] for i in at], at)
-
-    def _head(self, line: bytes) -> None:
-        self.delimiter = _delimiter(line)
-        names = _names(line, self.delimiter)
-        self.width = len(names)
-        for at, column in enumerate(_as_read(names)):
-            if column and column not in self.columns:
-                self.columns.append(column)
-                self.at.append(at)
 
     def column(self, name: str, rows: Floats) -> Floats:
         """Return a column of some rows, (N,); zeros if there is none of that name."""
@@ -208,7 +205,7 @@ def _is_ros2_row(line: bytes) -> bool:
 
 def is_header(line: bytes) -> bool:
     """Return whether a line is the header of such a table."""
-    columns = set(_as_read(_names(line, _delimiter(line))))
+    columns = set(_as_read(_names(line, max(DELIMITERS, key=line.count))))
     return "r_0" in columns or ({"angle", "range"} <= columns and bool({"scan", "stamp", *POSE} & columns))
 
 
@@ -277,10 +274,6 @@ def live_rows(name: str, lines: Iterable[tuple[int, bytes]], bad: Bad, options: 
 def _need_poses(account: Account, table: _Table) -> None:
     if not (table.posed or account.options.without_poses):
         raise account.no_poses("the table has no columns x, y and yaw")
-
-
-def _delimiter(line: bytes) -> bytes:
-    return max(DELIMITERS, key=line.count)
 
 
 def _names(line: bytes, delimiter: bytes) -> list[str]:
@@ -382,9 +375,8 @@ def _angles(name: str, settings: dict[str, list[float]], beams: int) -> Floats:
 def _one_row_a_beam(table: _Table) -> _Parts:
     key = next((column for column in ("scan", "stamp") if column in table.columns), None)
     if key is None:
-        raise BadInput(
-            f"{table.name}: a table of one row a beam needs a column 'scan' or 'stamp', to tell the scans apart"
-        )
+        problem = "a table of one row a beam needs a column 'scan' or 'stamp', to tell the scans apart"
+        raise BadInput(f"{table.name}: {problem}")
     rows = _checked(table, (*POSE, "angle", key, "stamp"))
     if not len(rows):
         return np.empty((0, 3)), np.empty(0), np.empty((0, 0)), None
@@ -403,9 +395,6 @@ def _one_row_a_beam(table: _Table) -> _Parts:
     at = np.array([scan.start for scan in scans], dtype=np.intp)[:, None] + np.arange(readings.shape[1])
     beam_poses = poses[np.minimum(at, last[:, None])]
     still = (beam_poses == beam_poses[:, :1]).all()
-    return (
-        beam_poses[:, 0] if still and len(scans) else beam_poses,
-        wide_angles,
-        readings,
-        stamps[[scan.start for scan in scans]] if "stamp" in table.columns else None,
-    )
+    scan_poses = beam_poses[:, 0] if still and len(scans) else beam_poses
+    starts_s = stamps[[scan.start for scan in scans]] if "stamp" in table.columns else None
+    return scan_poses, wide_angles, readings, starts_s

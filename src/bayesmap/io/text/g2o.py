@@ -29,7 +29,7 @@ from bayesmap.files import write_text
 from bayesmap.io.log_reading import Account, LogOptions, LogReading
 from bayesmap.io.text.carmen import LASERS, LaserScan, Malformed, laser_reading, parse_floats, parse_laser
 from bayesmap.io.text.lines import log_lines
-from bayesmap.space.planar import between, compose
+from bayesmap.space.planar import between, between_jacobians, compose, rotation
 from bayesmap.space.trajectory import Trajectory
 
 if TYPE_CHECKING:
@@ -108,15 +108,10 @@ def _mount(numbers: Floats) -> Floats:
 
 @dataclass(frozen=True, eq=False)
 class Edges:
-    """Measured relative poses.
+    """Measured relative poses: the poses that each relates, (E,), and the second in the frame of the first, (E, 3).
 
-    Attributes:
-        first, second: the poses that each relates, shape (E,).
-        relative: the second in the frame of the first, shape (E, 3).
-        information: inverse covariance of the measurement in that frame, shape (E, 3, 3).
-
-    Raises:
-        BadInput: shapes that do not fit, or an information matrix that is not positive definite.
+    The information is the inverse covariance of the measurement in that frame, (E, 3, 3). Shapes that do not fit, or a
+    matrix that is not positive definite, raise `BadInput`.
     """
 
     first: NDArray[np.intp]
@@ -135,11 +130,7 @@ class Edges:
 
 
 def write_g2o(path: str | os.PathLike[str], poses_world: Floats, edges: Edges) -> Path:
-    """Write a pose graph, whole or not at all.
-
-    Raises:
-        BadInput: an edge to a pose that is not there, or a file that cannot be written.
-    """
+    """Write a pose graph, whole or not at all; raise `BadInput` for an edge to a pose that is not there."""
     count = len(poses_world)
     ends = np.concatenate([edges.first, edges.second])
     if len(ends) and (ends.min() < 0 or ends.max() >= count):
@@ -172,7 +163,8 @@ def chain_edges(trajectory: Trajectory) -> Edges:
         error = between(np.broadcast_to(relative, drawn.shape), drawn)
         covariance = np.einsum("dsi,dsj->sij", error, error) / (len(drawn) - 1)
     elif trajectory.covariances is not None:
-        own = _in_own_frame(trajectory.covariances, trajectory.poses)
+        turn = rotation(-trajectory.poses[:, 2])  # from world axes to those of each pose
+        own = turn @ trajectory.covariances @ np.swapaxes(turn, 1, 2)
         covariance = own[:-1] + own[1:]
     else:
         raise BadInput("graph: nothing is known of how sure these poses are; a graph needs covariances or draws")
@@ -180,31 +172,21 @@ def chain_edges(trajectory: Trajectory) -> Edges:
     return Edges(np.arange(steps), np.arange(1, steps + 1), relative, np.asarray(np.linalg.inv(covariance), np.float64))
 
 
-def _in_own_frame(covariances: Floats, poses: Floats) -> Floats:
-    """Turn covariances from world axes to the axes of each pose, (S, 3, 3)."""
-    cos, sin = np.cos(poses[:, 2]), np.sin(poses[:, 2])
-    turn = np.zeros((len(poses), 3, 3))
-    turn[:, 0, 0], turn[:, 0, 1], turn[:, 1, 0], turn[:, 1, 1], turn[:, 2, 2] = cos, sin, -sin, cos, 1.0
-    return np.asarray(turn @ covariances @ np.swapaxes(turn, 1, 2))
-
-
-def slam_edges(found: Approximation) -> Edges:
+def slam_edges(trajectory: Approximation) -> Edges:
     """Return the pose graph that `bayesmap.slam` found: key scans that laser or odometry tie, others with their key.
 
     Informations are the curvatures of the cost, divided by two factors: what makes normal covariances of those of
     Student's t, and by how much common errors of pairs enlarge covariances, on average. A graph cannot say either.
     """
-    from bayesmap.space.planar import between_jacobians
-
-    gaussian, keys = found.gaussian, found.keys
+    gaussian, keys = trajectory.gaussian, trajectory.keys
     of_student = gaussian.dof / (gaussian.dof - 2.0)
     values, vectors = np.linalg.eigh(gaussian.curvature / (of_student * _growth(gaussian)))
     information = (vectors * np.maximum(values, LEAST)[:, None, :]) @ np.swapaxes(vectors, 1, 2)
-    others = np.setdiff1d(np.arange(len(found)), keys)
-    nearest = keys[found.nearest_key[others]]
-    beside = between(found.poses[nearest], found.poses[others])
+    others = np.setdiff1d(np.arange(len(trajectory)), keys)
+    nearest = keys[trajectory.nearest_key[others]]
+    beside = between(trajectory.poses[nearest], trajectory.poses[others])
     _, by_other = between_jacobians(beside)
-    own = of_student * by_other @ found.own_covariance[others] @ np.swapaxes(by_other, 1, 2)
+    own = of_student * by_other @ trajectory.own_covariance[others] @ np.swapaxes(by_other, 1, 2)
     return Edges(
         np.concatenate([keys[gaussian.first], nearest]),
         np.concatenate([keys[gaussian.second], others]),

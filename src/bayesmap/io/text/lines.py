@@ -62,8 +62,7 @@ def log_lines(account: Account) -> Iterator[tuple[int, bytes]]:
 def split_lines(name: str, pieces: Iterable[bytes]) -> Iterator[tuple[int, bytes]]:
     """Return the lines of a text that comes in pieces, with their numbers, each as soon as it is whole.
 
-    Raises:
-        BadInput: a line over `MAX_LINE_BYTES`.
+    A line over `MAX_LINE_BYTES` raises `BadInput`.
     """
     number, rest = 0, b""
     for piece in pieces:
@@ -78,11 +77,7 @@ def split_lines(name: str, pieces: Iterable[bytes]) -> Iterator[tuple[int, bytes
 
 
 def file_chunks(path: str | os.PathLike[str], place: Callable[[], str] = str) -> Iterator[bytes]:
-    """Return the content of a file in pieces, decompressed if it is gzipped.
-
-    Args:
-        path: the file.
-        place: says where in the file reading is, for messages.
+    """Return the content of a file in pieces, decompressed if it is gzipped; ``place`` names the position in messages.
 
     Raises:
         DamagedFile: a damaged or truncated gzip stream, after all that could be read.
@@ -155,18 +150,11 @@ def _is_number(word: bytes) -> bool:
 
 
 def read_table(path: str | os.PathLike[str], columns: int, form: str, nothing: str) -> NDArray[np.float64]:
-    """Return the numbers of a text file with a number of columns, (N, columns).
-
-    Commas are white space, and # begins a comment.
-
-    Args:
-        path: the file, plain or gzipped.
-        columns: numbers on a line.
-        form: what a line holds, for messages.
-        nothing: the message for a file without such a line.
+    """Return the numbers of a text file, plain or gzipped, (N, columns); commas are white space, # begins a comment.
 
     Raises:
-        BadInput: a file that cannot be read, is empty, or has another line; the message names the line.
+        BadInput: a file that cannot be read, is empty (``nothing`` is the message), or has a line of another form; the
+            message names the line and the right ``form``.
     """
     name, rows = os.fspath(path), []
     for number, line in read_lines(path):

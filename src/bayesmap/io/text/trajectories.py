@@ -37,12 +37,9 @@ UPRIGHT = 0.1
 
 
 def write_trajectory(path: str | os.PathLike[str], poses_world: ArrayLike, stamps_s: ArrayLike | None = None) -> Path:
-    """Write poses as a TUM trajectory, whole or not at all. Returns the path.
+    """Write poses, (S, 3), as a TUM trajectory, whole or not at all. Returns the path.
 
-    Args:
-        path: the file to write.
-        poses_world: x, y in metres and yaw in radians, shape (S, 3).
-        stamps_s: time of each pose in seconds, shape (S,); 0, 1, 2 and so on if None.
+    The stamps, (S,), are in seconds; 0, 1, 2 and so on if None.
 
     Raises:
         BadInput: shapes that do not fit, numbers that are not finite, no pose, or a file that cannot be written.
@@ -67,12 +64,7 @@ def covariances_path(path: str | os.PathLike[str]) -> Path:
 
 
 def write_covariances(path: str | os.PathLike[str], covariances: ArrayLike, stamps_s: ArrayLike | None = None) -> Path:
-    """Write the covariances of a trajectory's poses, whole or not at all. Returns the path.
-
-    Args:
-        path: the file to write.
-        covariances: of x, y and yaw in world axes, shape (S, 3, 3).
-        stamps_s: time of each pose in seconds, shape (S,); 0, 1, 2 and so on if None.
+    """Write the covariances of a trajectory's poses in world axes, (S, 3, 3), as `write_trajectory`. Returns the path.
 
     Raises:
         BadInput: shapes that do not fit, numbers that are not finite, or a file that cannot be written.
@@ -130,13 +122,9 @@ def read_relations(path: str | os.PathLike[str]) -> Relations:
 
 
 def write_relations(path: str | os.PathLike[str], first_s: ArrayLike, second_s: ArrayLike, relative: ArrayLike) -> Path:
-    """Write relations, whole or not at all; gzipped if the name ends in .gz.
+    """Write relations, whole or not at all; gzipped if the name ends in .gz. Returns the path.
 
-    Args:
-        path: the file to write.
-        first_s: time of the first pose of each, seconds, shape (N,).
-        second_s: time of the second.
-        relative: pose at the second time in the frame at the first: x, y in metres, yaw in radians, shape (N, 3).
+    The times of the first and the second pose are (N,); ``relative`` is the second pose in the first's frame, (N, 3).
 
     Raises:
         BadInput: shapes that do not fit, nothing to write, or a file that cannot be written.
@@ -146,10 +134,6 @@ def write_relations(path: str | os.PathLike[str], first_s: ArrayLike, second_s: 
         raise BadInput(
             f"relations: got stamps {starts.shape} and {ends.shape} and poses {poses.shape}, (N,) and (N, 3)"
         )
-    return write_text(
-        path,
-        (
-            f"{i:.6f} {j:.6f} {x:.9f} {y:.9f} 0 0 0 {yaw:.9f}"
-            for i, j, (x, y, yaw) in zip(starts, ends, poses, strict=True)
-        ),
-    )
+    rows = zip(starts, ends, poses, strict=True)
+    lines = (f"{i:.6f} {j:.6f} {x:.9f} {y:.9f} 0 0 0 {yaw:.9f}" for i, j, (x, y, yaw) in rows)
+    return write_text(path, lines)
