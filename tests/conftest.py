@@ -18,9 +18,10 @@ settings.register_profile("bayesmap", deadline=None, derandomize=True)
 settings.load_profile("bayesmap")
 
 # Tests compile hundreds of small JAX programs and run each once or twice: compiling well costs more than it saves.
+# The first flag leaves out the optimiser, the second one XLA's code generator by MLIR: a third of the rest.
 # Notebooks, in processes of their own, inherit it. There is no cache of compiled programs that processes share: JAX
 # writes its entries without a lock, so that one process can read half of what another one writes.
-os.environ.setdefault("XLA_FLAGS", "--xla_backend_optimization_level=0")
+os.environ.setdefault("XLA_FLAGS", "--xla_backend_optimization_level=0 --xla_cpu_use_fusion_emitters=false")
 
 # Tests press Ctrl-C, here and in processes that they start, which inherit it. Where the tests themselves are started to
 # ignore it, as a script's shell starts jobs in the background, it is put in force again.

@@ -18,64 +18,42 @@ from bayesmap.gen import masks
 
 run_branch = importlib.import_module("bayesmap.gen.switch").run_branch  # `bayesmap.gen.switch` is the combinator
 
-MODULES = {
-    "genjax": "gen",
-    "genjax.checkify": "gen.masks",
-    "genjax.core": "gen",
-    "genjax.core.compiler": "gen.diff",
-    "genjax.core.generative": "gen",
-    "genjax.core.pytree": "gen.pytree",
-    "genjax.core.requests": "gen.edits",
-    "genjax.generative_functions": "gen",
-    "genjax.generative_functions.combinators": "gen",
-    "genjax.generative_functions.distributions": "gen",
-    "genjax.generative_functions.static": "gen.static",
-    "genjax.incremental": "gen.diff",
-    "genjax.inference": "gen.inference",
-    "genjax.inference.requests": "gen.inference.requests",
-    "genjax.inference.smc": "gen.inference.smc",
-    "genjax.pretty": "gen.choice_map",
-    "genjax.typing": "gen.typing",
-    "genjax._src": "gen",
-    "genjax._src.checkify": "gen.masks",
-    "genjax._src.core": "gen",
-    "genjax._src.core.compiler": "gen",
-    "genjax._src.core.compiler.interpreters": "gen",
-    "genjax._src.core.compiler.interpreters.incremental": "gen.diff",
-    "genjax._src.core.compiler.staging": "gen.masks",
-    "genjax._src.core.generative": "gen",
-    "genjax._src.core.generative.choice_map": "gen.choice_map",
-    "genjax._src.core.generative.concepts": "gen.typing",
-    "genjax._src.core.generative.functional_types": "gen.masks",
-    "genjax._src.core.generative.generative_function": "gen.generative_function",
-    "genjax._src.core.generative.requests": "gen.edits",
-    "genjax._src.core.pytree": "gen.pytree",
-    "genjax._src.core.typing": "gen.typing",
-    "genjax._src.generative_functions": "gen",
-    "genjax._src.generative_functions.combinators": "gen",
-    "genjax._src.generative_functions.combinators.dimap": "gen.dimap",
-    "genjax._src.generative_functions.combinators.mask": "gen.switch",
-    "genjax._src.generative_functions.combinators.mixture": "gen.switch",
-    "genjax._src.generative_functions.combinators.or_else": "gen.switch",
-    "genjax._src.generative_functions.combinators.repeat": "gen.vmap",
-    "genjax._src.generative_functions.combinators.scan": "gen.scan",
-    "genjax._src.generative_functions.combinators.switch": "gen.switch",
-    "genjax._src.generative_functions.combinators.vmap": "gen.vmap",
-    "genjax._src.generative_functions.distributions": "gen",
-    "genjax._src.generative_functions.distributions.custom": "gen",
-    "genjax._src.generative_functions.distributions.custom.discrete_hmm": "gen.discrete_hmm",
-    "genjax._src.generative_functions.distributions.distribution": "gen.distribution",
-    "genjax._src.generative_functions.distributions.tensorflow_probability": "gen.densities",
-    "genjax._src.generative_functions.static": "gen.static",
-    "genjax._src.inference": "gen.inference",
-    "genjax._src.inference.requests": "gen.inference.requests",
-    "genjax._src.inference.requests.hmc": "gen.inference.requests",
-    "genjax._src.inference.requests.rejuvenate": "gen.inference.requests",
-    "genjax._src.inference.smc": "gen.inference.smc",
-    "genjax._src.inference.sp": "gen.inference.smc",
+COUNTERPARTS = {
+    "gen": (
+        ". core core.generative generative_functions generative_functions.combinators "
+        "generative_functions.distributions _src _src.core _src.core.compiler _src.core.compiler.interpreters "
+        "_src.core.generative _src.generative_functions _src.generative_functions.combinators "
+        "_src.generative_functions.distributions _src.generative_functions.distributions.custom"
+    ),
+    "gen.masks": "checkify _src.checkify _src.core.compiler.staging _src.core.generative.functional_types",
+    "gen.diff": "core.compiler incremental _src.core.compiler.interpreters.incremental",
+    "gen.pytree": "core.pytree _src.core.pytree",
+    "gen.edits": "core.requests _src.core.generative.requests",
+    "gen.static": "generative_functions.static _src.generative_functions.static",
+    "gen.inference": "inference _src.inference",
+    "gen.inference.requests": (
+        "inference.requests _src.inference.requests _src.inference.requests.hmc _src.inference.requests.rejuvenate"
+    ),
+    "gen.inference.smc": "inference.smc _src.inference.smc _src.inference.sp",
+    "gen.choice_map": "pretty _src.core.generative.choice_map",
+    "gen.typing": "typing _src.core.generative.concepts _src.core.typing",
+    "gen.generative_function": "_src.core.generative.generative_function",
+    "gen.dimap": "_src.generative_functions.combinators.dimap",
+    "gen.switch": (
+        "_src.generative_functions.combinators.mask _src.generative_functions.combinators.mixture "
+        "_src.generative_functions.combinators.or_else _src.generative_functions.combinators.switch"
+    ),
+    "gen.vmap": "_src.generative_functions.combinators.repeat _src.generative_functions.combinators.vmap",
+    "gen.scan": "_src.generative_functions.combinators.scan",
+    "gen.discrete_hmm": "_src.generative_functions.distributions.custom.discrete_hmm",
+    "gen.distribution": "_src.generative_functions.distributions.distribution",
+    "gen.densities": "_src.generative_functions.distributions.tensorflow_probability",
 }
-"""Each module of GenJAX 0.10.3, and ours where its names are looked for first. Not here: variational inference, ADEV,
-and the interpreters of its compiler that docs/coming-from-genjax.md calls absent."""
+"""Each module of ours, and the modules of GenJAX 0.10.3 (without `genjax.`) whose names are looked for there first.
+
+Variational inference, ADEV and the interpreters of its compiler are absent: see docs/coming-from-genjax.md."""
+
+MODULES = {f"genjax.{theirs}".rstrip("."): ours for ours, several in COUNTERPARTS.items() for theirs in several.split()}
 
 
 def _multi_switch(idx: Any, branches: Any, arguments: Any) -> list[Any]:
@@ -120,7 +98,7 @@ class Counterpart(types.ModuleType):
         raise AttributeError(f"bayesmap.gen has no {name}")
 
 
-for theirs, ours in MODULES.items():
+for theirs, ours in sorted(MODULES.items()):
     same = theirs.removeprefix("genjax") == ours.removeprefix("gen")  # public, and ours of the same name
     module = f"bayesmap.{ours}"
     sys.modules[theirs] = importlib.import_module(module) if same else Counterpart(theirs, module)

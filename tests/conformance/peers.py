@@ -1,4 +1,4 @@
-"""What GenJAX's authors wrote, where it is kept beside the recordings; it is not part of this project."""
+"""Files of GenJAX's authors, which are kept beside the recordings and are not part of this project."""
 
 import gzip
 import json

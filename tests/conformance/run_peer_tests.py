@@ -17,7 +17,7 @@ from peers import unpack_genjax_tests  # noqa: E402 - found through the line abo
 
 
 def outcomes(*wanted: str) -> dict[str, bool]:
-    """Whether each test passes, by `file::Class::test`; a file that cannot be read counts as one that does not."""
+    """Return whether each test passes, by `file::Class::test`. A file that cannot be read counts as a failed test."""
     with tempfile.TemporaryDirectory() as scratch:
         tests = unpack_genjax_tests(Path(scratch))
         report = Path(scratch) / "report.xml"

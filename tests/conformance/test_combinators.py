@@ -103,7 +103,7 @@ def test_assess_with_some_elements_missing_raises():
 
 
 def test_values_keep_the_dtype_in_which_they_are_given():
-    """As in GenJAX; among drawn elements they are cast, where GenJAX raises."""
+    """GenJAX keeps the dtype too. Given values among drawn ones are cast; GenJAX raises there."""
     model, given = genjax.flip.repeat(n=3), jnp.array([1.0, 0.0, 1.0])
     assert model.assess(C.v(given), (0.5,))[1].dtype == jnp.float32
     trace, _ = model.importance(jr.key(0), C.v(given), (0.5,))
@@ -170,8 +170,9 @@ EMPTY = np.zeros(0, np.float32)
         (genjax.gen(lambda: step.scan()(0.0, EMPTY) @ "steps"), ()),
     ],
 )
-def test_what_has_no_elements_needs_no_choices(model, args):
+def test_a_model_without_elements_needs_no_choices(model, args):
     trace = model.simulate(jr.key(0), args)
+    assert trace.get_choices().static_is_empty()
     score, retval = model.assess(trace.get_choices(), args)
     assert score == trace.get_score() == 0.0
     assert jax.tree.map(jnp.shape, retval) == jax.tree.map(jnp.shape, trace.get_retval())

@@ -79,11 +79,7 @@ def test_invalid_subset_is_what_the_model_would_never_choose():
 
 def test_ways_to_build_a_map():
     expected = C["x"].set(1.0) | C["y", "z"].set(2.0)
-    for chm in (
-        C.d({"x": 1.0, "y": {"z": 2.0}}),
-        C.kw(x=1.0, y={"z": 2.0}),
-        ChoiceMap.d({"x": 1.0, ("y", "z"): 2.0}),
-    ):
+    for chm in (C.d({"x": 1.0, "y": {"z": 2.0}}), C.kw(x=1.0, y={"z": 2.0}), ChoiceMap.d({"x": 1.0, ("y", "z"): 2.0})):
         assert jax.tree.map(float, chm) == jax.tree.map(float, expected)
     assert C.n().static_is_empty()
     assert C["a"].v(3.0)["a"] == 3.0

@@ -59,7 +59,7 @@ def test_a_site_of_several_draws(shape):
 
 
 @pytest.mark.parametrize("shape", [2.5, "3", (2.0,), None])
-def test_what_is_no_shape_is_named(shape):
+def test_a_wrong_sample_shape_is_named(shape):
     with pytest.raises(genjax.BadArguments, match="a number of draws or a tuple of lengths"):
         genjax.normal.sample(jr.key(0), 1.0, 2.0, sample_shape=shape)
 
@@ -129,7 +129,6 @@ def test_propose_gives_choices_score_and_value():
 
 
 def test_a_value_of_the_wrong_shape_or_under_a_name_raises():
-    """What bad use gets."""
     with pytest.raises(ShapeMismatch, match=r"found \(3,\), expected \(\)"):
         log_density(genjax.normal, jnp.zeros(3), 0.0, 1.0)
     with pytest.raises(UnknownAddress, match="'x'"):

@@ -110,7 +110,7 @@ def test_one_element_of_a_vmap_can_be_changed(trace):
 
 @pytest.mark.parametrize("t", full_but([0, 2, 4], 2, 4))
 def test_one_step_of_a_scan_can_be_changed(t):
-    """The next step's state, and so its density, changes too."""
+    """The state of the next step changes, and with it the density of this step."""
     trace = step.scan(n=5).simulate(jr.key(0), (0.0, jnp.arange(5.0)))
     for request in (IndexRequest(t, Update(C["z"].set(0.25))), Update(C[t, "z"].set(0.25))):
         new, weight, _, _ = jax.jit(lambda r: trace.edit(jr.key(0), r))(request)
@@ -146,7 +146,7 @@ def test_an_edit_of_an_element_outside_raises(trace):
 
 
 def test_old_and_new_trace_can_be_branches_of_cond(trace, table):
-    """Also where the value that was given is a float."""
+    """The new value is a float, and the trace keeps its Boolean dtype."""
 
     @jax.jit
     def flip_if(flag):
@@ -183,8 +183,8 @@ def test_edit_takes_requests_only(trace, table):
         trace.edit(jr.key(0), C["table"].set(table))
 
 
-def test_untouched_sites_are_not_looked_at(trace):
-    """Where no argument changed a site keeps its trace, score and all: that is what makes edits pay."""
+def test_unchanged_sites_keep_their_traces(trace):
+    """A site whose arguments did not change keeps its trace with its score, so that edits cost little."""
     new, _, retdiff, _ = trace.edit(jr.key(0), Update(C["readings", "r"].set(jnp.zeros(5))))
     assert new.subtraces[("table",)].value is trace.subtraces[("table",)].value
     assert isinstance(Diff.tangents(retdiff)[0], type(genjax.NoChange))
@@ -201,7 +201,7 @@ def test_a_change_of_one_element_is_passed_on_as_such(table):
 
 
 def test_a_function_defined_in_the_body_is_scored_anew():
-    """It may close over values that changed, which its arguments do not show."""
+    """The function may close over changed values, which its arguments do not show."""
 
     @genjax.gen
     def outer():

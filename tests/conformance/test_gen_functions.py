@@ -124,13 +124,11 @@ def test_a_request_for_an_address_that_the_model_lacks_raises():
 
 
 def test_a_wrong_shape_is_reported_with_its_address():
-    """What bad use gets."""
     with pytest.raises(ShapeMismatch, match=r"\('inner', 'x'\): found \(2,\), expected \(\)"):
         nested.importance(jr.key(0), C["inner", "x"].set(jnp.zeros(2)), (1.0,))
 
 
 def test_a_site_outside_a_body_or_inside_a_jax_transformation_raises():
-    """What bad use gets."""
     with pytest.raises(AddressError, match="body of a @gen function"):
         genjax.normal(0.0, 1.0) @ "x"
     inside = genjax.gen(lambda: jax.vmap(lambda m: genjax.normal(m, 1.0) @ "x")(jnp.zeros(3)))

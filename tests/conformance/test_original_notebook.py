@@ -87,7 +87,7 @@ def test_every_cell_runs_and_draws_what_it_drew_on_genjax(names):
 
 
 def test_walls_stay_the_floats_that_the_notebook_makes_them(names):
-    """So that its loops can carry them."""
+    """The notebook's loops carry them."""
     assert all(chain.dtype == jnp.float32 for chain in names["chains"])
     assert names["gibbs_chain_incremental"].dtype == jnp.float32
     args = (names["CENTER"], names["DEFAULT_PARAMS"])

@@ -1,4 +1,4 @@
-"""What programs written for GenJAX do with dtypes, masks, names and closures, and what bad use gets."""
+"""Programs written for GenJAX: their dtypes, masks, names and closures, and the errors of wrong use."""
 
 import pickle
 
@@ -29,8 +29,8 @@ def other():
 # Dtypes ------------------------------------------------------------------------------------------------
 
 
-def test_a_float_map_goes_round_a_loop_that_assess_returns_it_to():
-    """As in block Gibbs: the loop's carry is what `assess` returns of what it was given."""
+def test_a_float_map_can_be_the_carry_of_a_loop_over_assess():
+    """In block Gibbs the loop's carry is the value that `assess` returns."""
     prior = genjax.flip.repeat(n=3)
 
     def sweep(_, walls):
@@ -92,21 +92,6 @@ def test_a_mask_over_a_vector_asks_for_vmap():
     np.testing.assert_allclose(trace.get_score(), st.norm.logpdf(trace.get_retval().value)[flags].sum(), rtol=1e-6)
 
 
-@pytest.mark.parametrize("model", [one.repeat(n=0), genjax.normal.repeat(n=0)(0.0, 1.0)])
-def test_no_elements_are_no_choices(model):
-    trace = model.simulate(jr.key(0), ())
-    assert trace.get_choices().static_is_empty()
-    assert trace.get_score() == 0.0
-    assert model.importance(jr.key(0), trace.get_choices(), ())[1] == 0.0
-
-
-def test_no_steps_are_no_choices():
-    steps = genjax.gen(lambda state, x: (genjax.normal(state, x) @ "s", state)).scan()
-    trace = steps.simulate(jr.key(0), (1.5, jnp.zeros(0)))
-    assert trace.get_choices().static_is_empty()
-    assert trace.get_retval()[0] == 1.5
-
-
 def test_masks_combine_as_sets():
     a, b = (
         Mask(jnp.array([1.0, 2.0, 3.0]), jnp.array([True, True, False])),
@@ -122,7 +107,7 @@ def test_masks_combine_as_sets():
         a | Mask(jnp.zeros(2), jnp.array([True, False]))
 
 
-# Edits of what a body defines --------------------------------------------------------------------------
+# Edits of functions defined in a body --------------------------------------------------------------------
 
 
 @genjax.gen
@@ -275,7 +260,7 @@ class Doubled(genjax.Distribution):
         return st.norm.logpdf(value, 0.0, 2.0)
 
 
-def test_a_distribution_of_ones_own_needs_two_methods():
+def test_a_users_distribution_needs_two_methods():
     model = genjax.gen(lambda: Doubled()() @ "v")
     trace = model.simulate(jr.key(0), ())
     value = trace.get_choices()["v"]
@@ -286,7 +271,7 @@ def test_a_distribution_of_ones_own_needs_two_methods():
     assert mixed.get_choices()["v"] == 7.0
 
 
-# What bad use gets -------------------------------------------------------------------------------------
+# Errors of wrong use ------------------------------------------------------------------------------------
 
 
 def test_a_missing_parameter_is_named():
@@ -313,6 +298,6 @@ def test_an_address_that_is_not_made_of_names_raises():
         genjax.gen(lambda: genjax.normal(0.0, 1.0) @ (genjax.normal(0.0, 1.0) @ "a")).simulate(jr.key(0), ())
 
 
-def test_a_branch_that_there_is_not_raises():
+def test_a_number_of_no_branch_raises():
     with pytest.raises(BadArguments, match="no branch 2; the branches are 0 to 1"):
         one.switch(other).simulate(jr.key(0), (2, (), ()))

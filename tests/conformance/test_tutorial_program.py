@@ -8,16 +8,7 @@ import jax.numpy as jnp
 import jax.random as jrand
 import numpy as np
 import pytest
-from gen_tutorial_model import (
-    CENTER,
-    GRID_SIZE,
-    PARAMS,
-    ModelParams,
-    angles,
-    full_model,
-    sensor_model,
-    true_walls,
-)
+from gen_tutorial_model import CENTER, GRID_SIZE, PARAMS, angles, full_model, sensor_model, true_walls
 from gen_tutorial_model import walls_prior as prior
 
 import bayesmap.gen as genjax
@@ -184,34 +175,6 @@ def test_importance_in_chunks_gives_what_single_runs_give(readings):
         trace, weight = run(key)
         np.testing.assert_array_equal(trace.get_choices()["walls"], traces.get_choices()["walls"][k])
         np.testing.assert_allclose(weight, weights[k], rtol=1e-6)
-
-
-@pytest.mark.full
-def test_distance_ordered_gibbs_runs_at_a_low_prior(readings):
-    """The tutorial's diamonds, from the sensor outwards, at prior 0.05: far fewer walls than at 0.5."""
-
-    def update_ring(key, args, readings, walls, ring):
-        keys = jrand.split(key, (GRID_SIZE, GRID_SIZE))
-
-        def update(i, j, walls):
-            here = jnp.sum(jnp.abs(jnp.array([i, j]) - args[0])) == ring
-            new = jax.lax.cond(
-                here,
-                lambda: gibbs_update_pixel(keys[i, j], args, readings, walls, i, j),
-                lambda: walls[i, j],
-            )
-            return walls.at[i, j].set(new)
-
-        return over_pixels(update, walls)
-
-    def sweep(key, args, readings, walls):
-        keys = jrand.split(key, 2 * GRID_SIZE)
-        step = lambda ring, walls: update_ring(keys[ring], args, readings, walls, ring)  # noqa: E731
-        return jax.lax.fori_loop(0, 2 * GRID_SIZE, step, walls)
-
-    sparse = ModelParams(prior_wall_prob=0.05, sensor_noise=PARAMS.sensor_noise, num_angles=PARAMS.num_angles)
-    chain = run_chain(jrand.key(0), sweep, (CENTER, sparse), readings, num_samples=3)
-    assert 10 < int(chain[-1].sum()) < 100
 
 
 @pytest.mark.full

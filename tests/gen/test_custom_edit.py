@@ -1,7 +1,7 @@
-"""A generative function with an edit of its own: how a sensor model recomputes only what one cell affects.
+"""A generative function with its own edit, which recomputes only what one cell affects.
 
-The model here is a row of scales: scale b reads the total weight of its list of cells, plus noise. One
-cell's change touches one scale. It is the pattern of a map and its beams, in forty lines.
+The model is a row of scales: each scale reads the total weight of three cells, plus noise. A change of one cell changes
+one scale, as a change of a map's cell changes the beams through it.
 """
 
 from typing import Any
@@ -93,7 +93,7 @@ def model(p):
     return scales(cells) @ "readings"
 
 
-def test_a_generative_function_of_ones_own_joins_a_larger_model():
+def test_a_users_generative_function_joins_a_larger_model():
     trace = model.simulate(jr.key(0), (0.5,))
     score, _ = model.assess(trace.get_choices(), (0.5,))
     np.testing.assert_allclose(trace.get_score(), score, rtol=1e-6)

@@ -1,20 +1,17 @@
-"""The room keeps its rules: imports that point one way, nothing but JAX."""
+"""The room knows JAX and nothing else; tests/test_architecture.py checks that its imports have no circles."""
 
 import ast
-import pathlib
+import sys
+from pathlib import Path
 
 import bayesmap.gen
 
-ROOM = pathlib.Path(bayesmap.gen.__file__).parent
-FILES = {
-    ".".join(path.relative_to(ROOM).with_suffix("").parts): path.read_text()
-    for path in ROOM.rglob("*.py")
-    if path.stem != "__init__"
-}
+ALLOWED = {"jax", "numpy", "treescope"} | sys.stdlib_module_names
+FILES = list(Path(bayesmap.gen.__file__).parent.rglob("*.py"))
 
 
 def imports(text):
-    """What a file imports, at its top and in its functions."""
+    """Yield the modules that a file imports, at its top and in its functions."""
     for node in ast.walk(ast.parse(text)):
         if isinstance(node, ast.ImportFrom):
             yield node.module
@@ -22,43 +19,9 @@ def imports(text):
             yield from (alias.name for alias in node.names)
 
 
-def test_imports_point_one_way():
-    """Every file can be put after all that it imports."""
-    needs = {
-        name: {m.removeprefix("bayesmap.gen.") for m in imports(text) if m.startswith("bayesmap.gen.")}
-        for name, text in FILES.items()
-    }
-    placed: set[str] = set()
-    while len(placed) < len(needs):
-        ready = {name for name, below in needs.items() if name not in placed and below <= placed}
-        assert ready, f"these import each other: {sorted(set(needs) - placed)}"
-        placed |= ready
-
-
 def test_the_room_knows_jax_and_nothing_else():
-    allowed = ("jax", "numpy", "bayesmap.gen", "bayesmap.errors", "treescope")
-    standard = {
-        "ast",
-        "collections",
-        "contextlib",
-        "contextvars",
-        "dataclasses",
-        "functools",
-        "inspect",
-        "importlib",
-        "math",
-        "operator",
-        "threading",
-        "types",
-        "typing",
-        "warnings",
-    }
-    for name, text in FILES.items():
-        for module in imports(text):
-            assert module.startswith(allowed) or module.split(".")[0] in standard, (name, module)
-
-
-def test_every_public_name_has_a_docstring_or_is_a_value():
-    for name in bayesmap.gen.__all__:
-        value = getattr(bayesmap.gen, name)
-        assert not isinstance(value, type) or value.__doc__, name
+    assert len(FILES) > 20
+    for file in FILES:
+        for module in imports(file.read_text()):
+            ours = module.startswith(("bayesmap.gen", "bayesmap.errors"))
+            assert ours or module.split(".")[0] in ALLOWED, (file, module)

@@ -21,11 +21,7 @@ KNOWN = {
     "half_student_t": ((4.0, 0.0, 2.0), 1.0, lambda st: np.log(2) + st.t.logpdf(1.0, 4, 0, 2)),
     "kumaraswamy": ((2.0, 3.0), 0.4, lambda st: np.log(2 * 3 * 0.4 * (1 - 0.4**2) ** 2)),
     "moyal": ((0.0, 1.0), 0.5, lambda st: st.moyal.logpdf(0.5)),
-    "multinomial": (
-        (4.0, np.log(SHARES)),
-        [1.0, 1.0, 2.0],
-        lambda st: st.multinomial.logpmf([1, 1, 2], 4, SHARES),
-    ),
+    "multinomial": ((4.0, np.log(SHARES)), [1.0, 1.0, 2.0], lambda st: st.multinomial.logpmf([1, 1, 2], 4, SHARES)),
     "negative_binomial": ((5.0, 0.0), 3.0, lambda st: st.nbinom.logpmf(3, 5, 0.5)),
     "skellam": ((2.0, 1.0), -1.0, lambda st: st.skellam.logpmf(-1, 2, 1)),
     "von_mises": ((0.5, 2.0), 1.0, lambda st: st.vonmises.logpdf(1.0, 2.0, loc=0.5)),
@@ -39,7 +35,7 @@ OFTEN = ("beta_binomial", "kumaraswamy", "zipf")
 
 @pytest.mark.parametrize("name", full_but(list(KNOWN), *OFTEN))
 def test_a_named_distribution_has_the_textbooks_density(name):
-    """And sites of it simulate, score and compile without a warning."""
+    """The density is the textbook's, and sites simulate, score and compile without a warning."""
     pytest.importorskip("tensorflow_probability")
     from scipy import stats
 

@@ -1,4 +1,4 @@
-"""Edits of cells: the weight is the difference of the joint's, whatever was edited before."""
+"""Edits of cells: the weight is the change of the joint density, whatever was edited before."""
 
 import jax
 import jax.numpy as jnp
@@ -36,15 +36,19 @@ def room(shape, n_poses, sensor, seed=0, beams=40):
 
 
 def start(model, readings, walls):
-    return model.importance(jr.key(0), C["walls"].set(walls) | C["readings"].set(readings), ())[0]
+    given = C["walls"].set(walls) | C["readings"].set(readings)
+    return jax.jit(lambda given: model.importance(jr.key(0), given, ())[0])(given)
 
 
 def single(i, j, value):
-    return gen.StaticRequest({"walls": gen.IndexRequest(i, gen.IndexRequest(j, Update(C.v(value))))})
+    """Return an edit of one cell, in arrays of one dtype: such edits and their ways back are one compiled program."""
+    update = Update(C.v(jnp.asarray(value, bool)))
+    return gen.StaticRequest({"walls": gen.IndexRequest(jnp.int32(i), gen.IndexRequest(jnp.int32(j), update))})
 
 
 def block(i, j, values):
-    return gen.StaticRequest({"walls": SetCells(i + BLOCK_I, j + BLOCK_J, values)})
+    cells = (jnp.asarray(first + offsets, jnp.int32) for first, offsets in ((i, BLOCK_I), (j, BLOCK_J)))
+    return gen.StaticRequest({"walls": SetCells(*cells, jnp.asarray(values, bool))})
 
 
 CASES = {
@@ -94,10 +98,10 @@ def small():
     return model, start(model, readings, walls)
 
 
-def test_edits_do_not_look_at_the_whole_map(small, monkeypatch):
+def test_edits_do_not_read_the_whole_map(small, monkeypatch):
     """The rest of the model is not run again: neither all first hits nor the law of all readings."""
     _, trace = small
-    monkeypatch.setattr(BeamSensor, "first_hits", lambda *_: pytest.fail("all beams were looked at"))
+    monkeypatch.setattr(BeamSensor, "first_hits", lambda *_: pytest.fail("all beams were read"))
     for request in (single(3, 4, True), Update(C["walls", 3, 4].set(True)), block(2, 5, np.ones(4, bool))):
         _, _, retdiff, _ = jax.jit(lambda t, r=request: t.edit(jr.key(0), r))(trace)
         tangents = Diff.tangents(retdiff)
@@ -186,7 +190,7 @@ def test_other_edits_are_right_too(small):
 
 
 def test_no_beam_lists_a_cell_twice():
-    """What the edits rely on: beams of a cell are different beams. Poses on corners, lines and inside cells."""
+    """Edits rely on this: the beams of a cell are different beams. Poses are on corners, on lines and inside cells."""
     for seed in range(6):
         case = make_case(seed, shape=(4, 4), lattice=seed % 2 == 0, beams_per_pose=16)
         scans = case.scans

@@ -1,4 +1,4 @@
-"""One model, two engines: chains of edits through `gen`, and `infer`, have the law that enumeration gives."""
+"""Chains of edits through `gen`, and `infer`, have the posterior that enumeration gives for the same model."""
 
 import jax
 import jax.numpy as jnp

@@ -1,4 +1,6 @@
-"""The mapping model with unknown poses: the geometry is the kernels', and edits weigh what the joint changes by."""
+"""The mapping model with unknown poses: its geometry is that of the kernels; an edit weighs the change of the joint."""
+
+from functools import cache
 
 import jax
 import jax.numpy as jnp
@@ -20,9 +22,21 @@ GUESSES = np.array([[-1.0, 2.0, 0.0], [0.3, 3.1, 1.0], [1.7, 2.4, -2.0], [5.0, 2
 SENSORS = {"gaussian": bm.Gaussian(0.3), "mixture": bm.BeamMixture(bm.Gaussian(0.2))}
 
 
-def unknown(sensor, guesses=GUESSES):
-    prior = gen.mv_normal_diag.vmap(in_axes=(0, None))(jnp.asarray(guesses), SIGMA)
-    return bm.mapping_model(GRID, prior, ANGLES, bm.Independent(0.2), sensor, max_range_m=4.0, min_range_m=0.1)
+@cache
+def start(name="mixture"):
+    """The model with unknown poses, a trace of it, and its compiled log density: once for all tests."""
+    prior = gen.mv_normal_diag.vmap(in_axes=(0, None))(jnp.asarray(GUESSES), SIGMA)
+    model = bm.mapping_model(GRID, prior, ANGLES, bm.Independent(0.2), SENSORS[name], max_range_m=4.0, min_range_m=0.1)
+    return model, jax.jit(model.simulate)(jr.key(0), ()), jax.jit(lambda choices: model.assess(choices, ())[0])
+
+
+@jax.jit
+def edited(trace, request):
+    return trace.edit(jr.key(0), request)
+
+
+def weighs_the_change(weight, old, new, joint):
+    np.testing.assert_allclose(weight, joint(new.get_choices()) - joint(old.get_choices()), rtol=1e-4, atol=2e-3)
 
 
 def single(i, j, value):
@@ -41,27 +55,28 @@ def test_beams_end_where_those_of_known_poses_do(depth):
     walls = rng.random(GRID.shape) < 0.15
     moving = pose_sensor_model(GRID, ANGLES, bm.Gaussian(0.2), max_range_m=50.0, hit_depth=depth)
     fixed = sensor_model(GRID, poses, ANGLES, bm.Gaussian(0.2), max_range_m=50.0, hit_depth=depth)
-    found = np.asarray(moving.distances_m(poses, moving.ends(walls, poses)))
-    expected = np.asarray(fixed.distances_at(fixed.first_hits(walls))).reshape(found.shape)
+    found = np.asarray(jax.jit(lambda w: moving.distances_m(poses, moving.ends(w, poses)))(walls))
+    expected = np.asarray(jax.jit(lambda w: fixed.distances_at(fixed.first_hits(w)))(walls)).reshape(found.shape)
     assert 0.2 < np.isinf(expected).mean() < 0.9
     np.testing.assert_allclose(found, expected, rtol=1e-4, atol=1e-4)
 
 
 @pytest.mark.parametrize("name", full_but(list(SENSORS), "mixture"))
 def test_the_joint_is_that_of_known_poses_times_their_prior(name):
-    model = unknown(SENSORS[name])
-    choices = model.simulate(jr.key(0), ()).get_choices()
+    _, trace, joint = start(name)
+    choices = trace.get_choices()
     poses = np.asarray(choices["poses"])
     known = bm.mapping_model(GRID, poses, ANGLES, bm.Independent(0.2), SENSORS[name], max_range_m=4.0, min_range_m=0.1)
     prior = -0.5 * (((poses - GUESSES) / SIGMA) ** 2 + np.log(2 * np.pi)).sum() - len(poses) * np.log(SIGMA).sum()
-    expected = known.assess(choices(("walls",)).extend("walls") | C["readings"].set(choices["readings"]), ())[0] + prior
-    np.testing.assert_allclose(model.assess(choices, ())[0], expected, rtol=1e-4)
+    given = C["walls"].set(choices["walls"]) | C["readings"].set(choices["readings"])
+    expected = jax.jit(lambda chm: known.assess(chm, ())[0])(given) + prior
+    np.testing.assert_allclose(joint(choices), expected, rtol=1e-4)
 
 
 @pytest.mark.parametrize("name", full_but(list(SENSORS), "mixture"))
 def test_long_chains_of_edits(name):
     """400 edits of poses, walls and blocks: after each, weight, ends and score are those of a run from scratch."""
-    model = unknown(SENSORS[name])
+    model, first, _ = start(name)
 
     def step(carry, key):
         trace, before = carry
@@ -82,39 +97,31 @@ def test_long_chains_of_edits(name):
     def chain(trace):
         return jax.lax.scan(step, (trace, model.assess(trace.get_choices(), ())[0]), jr.split(jr.key(0), 400))
 
-    start = model.simulate(jr.key(0), ())
-    (last, _), (weight, difference, score, assessed, right) = chain(start)
+    (last, _), (weight, difference, score, assessed, right) = chain(first)
     assert right.all()
     np.testing.assert_allclose(weight, difference, rtol=1e-4, atol=1e-6 * np.abs(assessed).max() + 2e-3)
     np.testing.assert_allclose(score, assessed, rtol=1e-5, atol=2e-3)
     assert len(np.unique(np.asarray(assessed))) > 200  # power: the edits did matter
-    np.testing.assert_array_equal(last.get_choices()["readings"], start.get_choices()["readings"])
+    np.testing.assert_array_equal(last.get_choices()["readings"], first.get_choices()["readings"])
 
 
-@pytest.fixture
-def marked():
-    """A trace in which the beams of all scans but number 1 end at a cell that they do not reach."""
-    trace = unknown(bm.Gaussian(0.3)).simulate(jr.key(0), ())
+def test_an_edit_of_a_pose_walks_the_beams_of_that_scan_alone():
+    """The other scans' ends are set to a cell that their beams do not reach, and the edit must leave them there."""
+    _, trace, joint = start()
     inner = trace.get_subtrace("readings")
     ends = jnp.full_like(inner.ends, 17).at[1].set(inner.ends[1])
-    return trace.replace(subtraces=trace.subtraces | {("readings",): inner.replace(ends=ends)})
-
-
-def test_an_edit_of_a_pose_visits_that_scan_alone(marked):
-    """The other scans' ends are wrong here, and stay as they are: nobody looks at them."""
-    new, weight, _, _ = jax.jit(lambda t: t.edit(jr.key(0), at(1, jnp.array([0.2, 3.0, 0.9]))))(marked)
-    ends = np.asarray(new.get_subtrace("readings").ends)
-    assert (ends[[0, 2, 3]] == 17).all()
-    assert (ends[1] != np.asarray(marked.get_subtrace("readings").ends[1])).any()
-    whole = unknown(bm.Gaussian(0.3))
-    change = whole.assess(new.get_choices(), ())[0] - whole.assess(marked.get_choices(), ())[0]
-    np.testing.assert_allclose(weight, change, rtol=1e-4, atol=2e-3)
+    marked = trace.replace(subtraces=trace.subtraces | {("readings",): inner.replace(ends=ends)})
+    new, weight, _, _ = edited(marked, at(1, jnp.array([0.2, 3.0, 0.9])))
+    after = np.asarray(new.get_subtrace("readings").ends)
+    assert (after[[0, 2, 3]] == 17).all()
+    assert (after[1] != np.asarray(inner.ends[1])).any()
+    weighs_the_change(weight, marked, new, joint)
 
 
 def test_an_edit_is_undone_by_its_backward_request():
-    trace = unknown(bm.Gaussian(0.3)).simulate(jr.key(0), ())
-    new, weight, _, back = trace.edit(jr.key(0), at(2, jnp.array([1.0, 2.0, 0.0])))
-    again, undone, _, _ = new.edit(jr.key(0), back)
+    _, trace, _ = start()
+    new, weight, _, back = edited(trace, at(2, jnp.array([1.0, 2.0, 0.0])))
+    again, undone, _, _ = edited(new, back)
     np.testing.assert_array_equal(again.get_choices()["poses"], trace.get_choices()["poses"])
     np.testing.assert_array_equal(again.get_subtrace("readings").ends, trace.get_subtrace("readings").ends)
     np.testing.assert_allclose(undone, -weight, rtol=1e-4, atol=1e-3)
@@ -122,13 +129,11 @@ def test_an_edit_is_undone_by_its_backward_request():
 
 @pytest.mark.full
 def test_poses_and_walls_can_change_in_one_edit():
-    model = unknown(bm.Gaussian(0.3))
-    trace = model.simulate(jr.key(0), ())
+    _, trace, joint = start()
     both = StaticRequest(at(0, jnp.array([-1.2, 2.2, 0.3])).addressed | single(3, 4, True).addressed)
     for request in (both, Update(C["poses"].set(trace.get_choices()["poses"] + 0.1) | C["walls", 2, 2].set(True))):
-        new, weight, _, _ = trace.edit(jr.key(0), request)
-        change = model.assess(new.get_choices(), ())[0] - trace.get_score()
-        np.testing.assert_allclose(weight, change, rtol=1e-4, atol=2e-3)
+        new, weight, _, _ = edited(trace, request)
+        weighs_the_change(weight, trace, new, joint)
 
 
 @gen.gen
@@ -150,9 +155,8 @@ def test_the_prior_may_be_a_motion_model():
     assert trace.get_choices()["readings"].shape == (4, 24)
     moved = trace.get_choices()["poses", "steps", "pose"][1] + 0.05
     request = StaticRequest({"poses": StaticRequest({"steps": IndexRequest(1, Update(C["pose"].set(moved)))})})
-    new, weight, _, _ = jax.jit(lambda t, r: t.edit(jr.key(0), r))(trace, request)
-    change = model.assess(new.get_choices(), ())[0] - model.assess(trace.get_choices(), ())[0]
-    np.testing.assert_allclose(weight, change, rtol=1e-4, atol=2e-3)
+    new, weight, _, _ = edited(trace, request)
+    weighs_the_change(weight, trace, new, lambda choices: model.assess(choices, ())[0])
     before, after = (t.get_subtrace("readings").ends for t in (trace, new))
     np.testing.assert_array_equal(before[np.array([0, 2, 3])], after[np.array([0, 2, 3])])
     assert (before[1] != after[1]).any()

@@ -179,10 +179,7 @@ def _weibull_logpdf(value: Any, k: Any, scale: Any) -> Any:
 # Families of JAX --------------------------------------------------------------------------------------
 
 flip = _named(
-    "flip",
-    _chance,
-    lambda key, shape, p, *_: jr.uniform(key, shape) < p,
-    lambda v, p, yes, no: jnp.where(v, yes, no),
+    "flip", _chance, lambda key, shape, p, *_: jr.uniform(key, shape) < p, lambda v, p, yes, no: jnp.where(v, yes, no)
 )
 """True with probability `p`."""
 bernoulli = _named(

@@ -1,8 +1,8 @@
 """Frozen dataclasses that JAX can flatten: the base of every value in this package.
 
-A field declared with `Pytree.static()` belongs to the tree's definition (it must be hashable); every
-other field is a subtree. The base provides `tree_flatten_with_keys` and `tree_unflatten`, so a class
-decorated by `penzai.pz.pytree_dataclass` may inherit from it too.
+A field declared with `Pytree.static()` belongs to the tree's definition and must be hashable; every other field is a
+subtree. The base provides `tree_flatten_with_keys` and `tree_unflatten`, so that a class decorated by
+`penzai.pz.pytree_dataclass` may inherit from it.
 """
 
 import dataclasses
@@ -17,7 +17,7 @@ T = TypeVar("T")
 
 
 def static(**options: Any) -> Any:
-    """A field that belongs to the tree's definition: hashable, never traced."""
+    """Declare a field that belongs to the tree's definition: hashable, never traced."""
     return dataclasses.field(metadata={"pytree_node": False}, **options)
 
 
@@ -29,50 +29,50 @@ def dataclass(cls: type[T]) -> type[T]:
 
 
 class Pytree:
-    """Base of pytree dataclasses: decorate a subclass with `@Pytree.dataclass`."""
+    """Base of pytree dataclasses; decorate a subclass with `@Pytree.dataclass`."""
 
     dataclass = staticmethod(dataclass)
     static = staticmethod(static)
 
     @staticmethod
     def field(**options: Any) -> Any:
-        """A field that is a subtree; the same as leaving the specifier out."""
+        """Declare a field that is a subtree, as a field without a specifier is."""
         return dataclasses.field(**options)
 
     def __class_getitem__(cls, parameters: Any) -> Any:
-        """`Target[Any]`, in annotations and as a base: the class itself does not depend on it."""
+        """Allow `Target[Any]` in annotations and as a base; the class does not depend on the parameters."""
         return types.GenericAlias(cls, parameters)
 
     @staticmethod
     def const(value: Any) -> "Const":
-        """`value` as part of the tree's definition: hashable, never traced."""
+        """Return `value` as a part of the tree's definition: hashable, never traced."""
         return value if isinstance(value, Const) else Const(value)
 
     @staticmethod
     def tree_const(tree: Any) -> Any:
-        """`tree` with every leaf that is not traced made constant."""
+        """Return `tree` with every leaf that is not traced as a constant."""
 
-        def fix(leaf: Any) -> Any:
+        def constant(leaf: Any) -> Any:
             return leaf if isinstance(leaf, jax.core.Tracer) else Pytree.const(leaf)
 
-        return jax.tree.map(fix, tree, is_leaf=_is_const)
+        return jax.tree.map(constant, tree, is_leaf=_is_const)
 
     @staticmethod
     def tree_const_unwrap(tree: Any) -> Any:
-        """`tree` with every constant replaced by its value."""
+        """Return `tree` with every constant replaced by its value."""
         return jax.tree.map(Const.unwrap, tree, is_leaf=_is_const)
 
     @staticmethod
     def partial(*args: Any) -> Callable[[Callable[..., Any]], "Closure"]:
-        """A decorator: a function with its first arguments given, as a tree of which they are leaves."""
+        """Return a decorator that fixes a function's first arguments, as leaves of a `Closure`."""
         return lambda fn: Closure(args, fn)
 
     def treedef(self) -> Any:
-        """The tree's definition."""
+        """Return the tree's definition."""
         return jax.tree.structure(self)
 
     def replace(self, **changes: Any) -> Self:
-        """A copy with some fields changed."""
+        """Return a copy with some fields changed."""
         new = object.__new__(type(self))
         for f in dataclasses.fields(self):  # type: ignore[arg-type]
             object.__setattr__(new, f.name, changes.pop(f.name, getattr(self, f.name)))
@@ -81,7 +81,7 @@ class Pytree:
         return new
 
     def tree_flatten_with_keys(self) -> tuple[list[tuple[Any, Any]], tuple[Any, ...]]:
-        """Children with their field names, and the static fields' values."""
+        """Return the children with their field names, and the static fields' values."""
         children, static = [], []
         for f in dataclasses.fields(self):  # type: ignore[arg-type]
             value = getattr(self, f.name)
@@ -93,7 +93,7 @@ class Pytree:
 
     @classmethod
     def tree_unflatten(cls, static: tuple[Any, ...], children: Iterable[Any]) -> Self:
-        """Rebuild without running `__init__`: children may be placeholders of any type."""
+        """Return a tree of these children without a call of `__init__`: JAX passes children of any type."""
         new = object.__new__(cls)
         nodes, fixed = iter(children), iter(static)
         for f in dataclasses.fields(cls):  # type: ignore[arg-type]
@@ -104,7 +104,7 @@ class Pytree:
 
 @dataclass
 class Const(Pytree):
-    """A value that belongs to the tree's definition; call it if it is a function."""
+    """A value that belongs to the tree's definition; a function can be called."""
 
     val: Any = static()
 
@@ -113,7 +113,7 @@ class Const(Pytree):
         return self.val(*args)
 
     def unwrap(self: Any) -> Any:
-        """The value; `Const.unwrap(x)` of anything else is x."""
+        """Return the value; `Const.unwrap(x)` returns any other x itself."""
         return self.val if isinstance(self, Const) else self
 
 
@@ -123,23 +123,23 @@ def _is_const(value: Any) -> bool:
 
 @dataclass
 class Closure(Pytree):
-    """A function with its first arguments, which JAX sees; made by `Pytree.partial`."""
+    """A function with its first arguments as leaves; `Pytree.partial` makes it."""
 
     dyn_args: tuple[Any, ...]
     fn: Callable[..., Any] = static()
 
     def __call__(self, *args: Any, **kwargs: Any) -> Any:
-        """The function of the arguments held here and these."""
+        """Call the function with the fixed arguments and further ones."""
         return self.fn(*self.dyn_args, *args, **kwargs)
 
 
 def nth(tree: Any, index: Any) -> Any:
-    """The tree of all leaves' elements `leaf[index]`."""
+    """Return the tree of `leaf[index]` for all leaves."""
     return jax.tree.map(lambda leaf: leaf[index], tree)
 
 
 class PythonicPytree(Pytree):
-    """A tree whose leaves have leading axes of one length, as a sequence: index, slice, iterate, concatenate."""
+    """A tree whose leaves have leading axes of one length, as a sequence to index, slice, iterate and concatenate."""
 
     def __getitem__(self, index: Any) -> Self:
         return nth(self, index)  # type: ignore[no-any-return]
@@ -156,5 +156,5 @@ class PythonicPytree(Pytree):
         return jax.tree.map(lambda a, b: jnp.concatenate([a, b]), self, other)  # type: ignore[no-any-return]
 
     def prepend(self, element: Any) -> Self:
-        """The sequence with one more element before the first."""
+        """Return the sequence with one more element before the first."""
         return jax.tree.map(lambda leaf: jnp.asarray(leaf)[None], element) + self  # type: ignore[no-any-return]

@@ -1,5 +1,5 @@
 """Sets of addresses: `Selection.at["x"] | Selection.at["y", "z"]`."""
-# ruff: noqa: D102 - the methods are those of the contract, documented with it.
+# ruff: noqa: D102 - the kinds' methods are those of Selection, documented with it.
 
 from typing import Any
 
@@ -15,71 +15,68 @@ class SelectionBuilderType:
 
     @property
     def all(self) -> "Selection":
-        """Every address."""
         return _All()
 
     @property
     def none(self) -> "Selection":
-        """No address."""
         return _None()
 
     @property
     def leaf(self) -> "Selection":
-        """The bare value, and nothing below it."""
         return _Leaf()
 
 
 class Selection(Pytree):
-    """A set of addresses: `sel(a)` is what it selects below `a`, `sel[a]` and `a in sel` ask for `a` itself.
+    """A set of addresses, to combine by `|`, `&` and `~`.
 
-    Combine with `|`, `&` and `~`.
+    `sel(a)` is the selection below the address `a`; `sel[a]` and `a in sel` say whether `a` itself is selected.
     """
 
     at = SelectionBuilderType()
 
     def check(self) -> bool:
-        """Is the empty address, the value right here, selected?"""
+        """Return whether the empty address is selected."""
         raise NotImplementedError
 
     def get_subselection(self, component: Any) -> "Selection":
-        """What is selected below one component."""
+        """Return the selection below one component."""
         raise NotImplementedError
 
     @staticmethod
     def all() -> "Selection":
-        """Every address."""
+        """Return the selection of every address."""
         return _All()
 
     @staticmethod
     def none() -> "Selection":
-        """No address."""
+        """Return the selection of no address."""
         return _None()
 
     @staticmethod
     def leaf() -> "Selection":
-        """The bare value, and nothing below it."""
+        """Return the selection of the empty address alone."""
         return _Leaf()
 
     def extend(self, *address: Any) -> "Selection":
-        """This selection moved below `address`."""
+        """Return this selection moved below `address`."""
         acc = self
         for component in reversed(address):
             acc = acc if isinstance(acc, _None) else _At(acc, component)
         return acc
 
     def complement(self) -> "Selection":
-        """The same as `~self`."""
+        """Return `~self`."""
         return ~self
 
     def filter(self, choices: Any) -> Any:
-        """The part of a choice map that is selected."""
+        """Return the selected part of a choice map."""
         return choices.filter(self)
 
     def __call__(self, address: Any) -> "Selection":
         acc = self
         for component in address if isinstance(address, tuple) else (address,):
             if component is ...:
-                raise TypeError("`...` stands in a selection, not in an address that is asked for")
+                raise TypeError("`...` can stand in a selection, but not in an address that is looked up")
             acc = acc.get_subselection(component)
         return acc
 

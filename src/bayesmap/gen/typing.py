@@ -1,7 +1,4 @@
-"""Names for the kinds of values that cross the generative function interface, for annotations.
-
-Nothing checks them at run time; a type checker sees arrays.
-"""
+"""Names of types for annotations. Nothing checks them at run time; a type checker sees arrays."""
 
 from collections.abc import Callable, Generator, Iterable, Sequence
 from types import EllipsisType
@@ -32,7 +29,7 @@ StaticAddress: TypeAlias = tuple[str, ...]
 
 
 class Is:
-    """`Annotated[T, Is[condition]]`: a T of which `condition` holds, as in beartype.vale."""
+    """`Annotated[T, Is[condition]]`: a T that satisfies `condition`, as in beartype.vale."""
 
     def __init__(self, condition: Callable[[Any], bool]) -> None:
         self.condition = condition
@@ -45,40 +42,11 @@ ScalarShaped = Is(lambda value: jnp.shape(value) == ())
 ScalarFlag: TypeAlias = Annotated[Flag, ScalarShaped]
 ScalarInt: TypeAlias = Annotated[IntArray, ScalarShaped]
 
+# fmt: off
 __all__ = [
-    "Address",
-    "AddressComponent",
-    "Annotated",
-    "Any",
-    "Argdiffs",
-    "Arguments",
-    "Array",
-    "ArrayLike",
-    "BoolArray",
-    "Callable",
-    "EllipsisType",
-    "Final",
-    "Flag",
-    "FloatArray",
-    "Generator",
-    "Generic",
-    "InAxes",
-    "IntArray",
-    "Is",
-    "Iterable",
-    "Literal",
-    "PRNGKey",
-    "ParamSpec",
-    "Retdiff",
-    "ScalarFlag",
-    "ScalarInt",
-    "ScalarShaped",
-    "Score",
-    "Self",
-    "Sequence",
-    "StaticAddress",
-    "StaticComponent",
-    "TypeAlias",
-    "TypeVar",
-    "Weight",
+    "Address", "AddressComponent", "Annotated", "Any", "Argdiffs", "Arguments", "Array", "ArrayLike", "BoolArray",
+    "Callable", "EllipsisType", "Final", "Flag", "FloatArray", "Generator", "Generic", "InAxes", "IntArray", "Is",
+    "Iterable", "Literal", "PRNGKey", "ParamSpec", "Retdiff", "ScalarFlag", "ScalarInt", "ScalarShaped", "Score",
+    "Self", "Sequence", "StaticAddress", "StaticComponent", "TypeAlias", "TypeVar", "Weight",
 ]
+# fmt: on

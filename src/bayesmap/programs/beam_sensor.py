@@ -156,7 +156,7 @@ class ReadingsTrace(Trace):
 
     @property
     def seen(self) -> Any:
-        """What the trace keeps of where its beams hit."""
+        """The part of the trace that says where beams hit, in the form that the sensor's `look` returns."""
         raise NotImplementedError
 
 

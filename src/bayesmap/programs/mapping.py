@@ -3,10 +3,8 @@
     model = bm.mapping_model(grid, pose, angles_rad, bm.Independent(0.5), bm.Gaussian(0.2), max_range_m=42.0)
     trace, weight = model.importance(key, C["readings"].set(ranges_m), ())
 
-It describes the same joint law of walls and readings as `bayesmap.infer`, for programs of one's own. Poses may be
-unknown too: give a generative function that draws them in place of an array.
-
-An edit of several cells at once, such as a 2 x 2 block.
+The model has the joint law of walls and readings of `bayesmap.infer`, for your own programs. For unknown poses pass a
+generative function that draws them in place of an array.
 """
 
 from __future__ import annotations
@@ -39,14 +37,14 @@ from bayesmap.space.scans import as_angles, as_poses, check_limits
 
 @dataclass
 class SetCells(EditRequest):
-    """Give the cells (i[k], j[k]) of a map the values `values[k]`: a request for the address "walls".
+    """A request for the address "walls" that gives the cells (i[k], j[k]) of a map the values `values[k]`.
 
-    A block is `SetCells(i + jnp.array([0, 0, 1, 1]), j + jnp.array([0, 1, 0, 1]), values)`. The work is that of
-    changing the cells one by one, beams included.
+    A 2 x 2 block is `SetCells(i + jnp.array([0, 0, 1, 1]), j + jnp.array([0, 1, 0, 1]), values)`. The work is that of
+    one edit for each cell.
 
     Attributes:
-        i, j: cells, integers, shape (k,); the shape is known when the program is compiled, the cells need not be.
-        values: shape (k,).
+        i, j: cells, integers, shape (k,). The shape must be known when the program is compiled, the cells need not.
+        values: the new values, shape (k,).
     """
 
     i: Any
@@ -54,7 +52,7 @@ class SetCells(EditRequest):
     values: Any
 
     def edit(self, key: PRNGKey, trace: Trace, argdiffs: Any) -> Edited:
-        """Edit one cell after the other. Undone by the same request with the old values."""
+        """Edit one cell after the other. The backward request has the old values."""
         i, j, values = jnp.broadcast_arrays(*map(jnp.atleast_1d, (self.i, self.j, self.values)))
         old = trace.get_retval()[i, j]
         weight = jnp.zeros(())
@@ -77,44 +75,44 @@ def mapping_model(
     min_range_m: float = 0.0,
     hit_depth: float = 0.0,
 ) -> StaticGenerativeFunction:
-    """A generative function without arguments: the joint law of a map and the readings taken in it.
+    """Return the joint law of a map and its readings, as a generative function without arguments.
 
-    Its choices are
+    Its choices, which it also returns, are
 
     - "walls", shape (nx, ny), bool;
     - "readings", metres, float, shape (A,) for a single pose of shape (3,), else (S, A): the ranges of `Scans`,
-      typed readings included (`inf` no return, `-inf` too close, NaN invalid);
+      typed readings included (`inf` no return, `-inf` too close, NaN invalid).
 
-    and it returns both. An edit of one wall costs time in proportion to the beams through that cell. Make a model
-    once, and use it many times: the beams are traced here.
+    An edit of one wall costs time in proportion to the beams through that cell. Make a model once and use it many
+    times, because this function traces the beams.
 
-    If `poses` is a generative function, the poses are unknown, and it is their prior:
+    If `poses` is a generative function, the poses are unknown and it is their prior:
 
         guesses, sigma = jnp.array([[1.0, 2.0, 0.0], [1.5, 2.0, 0.1]]), jnp.array([0.3, 0.3, 0.05])
         poses = gen.mv_normal_diag.vmap(in_axes=(0, None))(guesses, sigma)
 
-    Then there is one more choice, "poses" (drawn first; its addresses are those of the prior), and the function returns
-    (poses, walls, readings). An edit of a pose visits the beams of that scan alone, and walks them through the map as
-    it is; an edit of a wall asks of every beam whether it crosses the cell.
+    Then one more choice, "poses", is drawn first, with the prior's addresses below it, and the function returns (poses,
+    walls, readings). An edit of a pose walks the beams of this scan alone; an edit of a wall checks for every beam
+    whether it crosses the cell.
 
     Args:
-        grid: where the cells are.
+        grid: the grid of the walls.
         poses: (x, y, yaw) in the world frame, metres and radians, shape (3,) or (S, 3); or a generative function
             without arguments that returns such an array.
         angles_rad: beam angles in the sensor frame, shape (A,).
-        prior: of the walls.
+        prior: the prior of the walls.
         sensor: the law of the readings: Gaussian, StudentT or BeamMixture.
         max_range_m: the sensor's largest range.
         min_range_m: the sensor's smallest range.
         hit_depth: where in a cell a beam stops, as a fraction of its chord: 0 at the near edge, as in the tutorial.
 
     Raises:
-        BadInput: shapes that do not fit, numbers that are not finite, a sensor without likelihood on JAX, or a prior
-            that couples neighbours.
+        BadInput: shapes do not fit, numbers are not finite, the sensor has no likelihood on JAX, or the prior couples
+            neighbours.
     """
     remedy = "use infer, or write a program that draws its walls and gives them to sensor_model"
     prior = Independent.of(prior, "mapping_model", remedy)
-    walls = _Walls(_Fixed(prior.probabilities(grid)))
+    walls = _Walls.of(prior.probabilities(grid))
     if isinstance(poses, GenerativeFunction):
         _check_pose_prior(poses)
         moving = pose_sensor_model(
@@ -137,9 +135,9 @@ def sensor_model(
     min_range_m: float = 0.0,
     hit_depth: float = 0.0,
 ) -> BeamSensor:
-    """The sensor alone: a generative function of the walls, shape (nx, ny), with the readings as its only choice.
+    """Return the sensor alone: a generative function of the walls (nx, ny), with the readings as its only choice.
 
-    For models with a prior of one's own:
+    Use it in models with your own prior:
 
         @gen
         def model():
@@ -164,9 +162,9 @@ def pose_sensor_model(
     min_range_m: float = 0.0,
     hit_depth: float = 0.0,
 ) -> PoseSensor:
-    """The sensor alone where poses are unknown: a generative function of walls (nx, ny) and poses (3,) or (S, 3).
+    """Return the sensor alone, for unknown poses: a generative function of walls (nx, ny) and poses (3,) or (S, 3).
 
-    For models with priors of one's own, or with known walls (localization):
+    Use it in models with your own priors, or with known walls (localization):
 
         @gen
         def model(walls):
@@ -182,7 +180,7 @@ def pose_sensor_model(
 
 
 def _check_pose_prior(prior: GenerativeFunction) -> None:
-    """Raise BadInput unless it returns poses."""
+    """Raise BadInput unless the prior returns poses."""
     try:
         drawn = jax.eval_shape(lambda key: prior.simulate(key, ()).get_retval(), jax.random.key(0))
     except TypeError as error:
@@ -192,32 +190,21 @@ def _check_pose_prior(prior: GenerativeFunction) -> None:
         raise BadInput(f"mapping_model: the prior of the poses must return an array (3,) or (S, 3), found {drawn}")
 
 
-class _Fixed:
-    """An array compared by content, so that it may be a static part of JAX's trees."""
-
-    def __init__(self, array: NDArray[np.float64]) -> None:
-        self.array = np.ascontiguousarray(array)
-        self.content = (self.array.shape, self.array.tobytes())
-
-    def __eq__(self, other: object) -> bool:
-        return isinstance(other, _Fixed) and self.content == other.content
-
-    def __hash__(self) -> int:
-        return hash(self.content)
-
-    def __repr__(self) -> str:
-        return f"array{self.array.shape}"
-
-
 @dataclass
 class _Walls(Pytree):
-    """The prior of the walls."""
+    """The prior of the walls: its probabilities as bytes, so that it is a static part of JAX's trees."""
 
-    p_wall: _Fixed = static()
+    shape: tuple[int, ...] = static()
+    p_wall: bytes = static(repr=False)
+
+    @staticmethod
+    def of(p_wall: NDArray[np.float64]) -> _Walls:
+        """Return the prior of an array of probabilities, (nx, ny)."""
+        return _Walls(p_wall.shape, np.asarray(p_wall, np.float64).tobytes())
 
     def draw(self) -> Any:
-        """The call that draws them. One probability is kept as one number: edits then touch no array of them."""
-        p = self.p_wall.array
+        """Return the call that draws the walls. Equal probabilities become one number, so that edits read no array."""
+        p = np.frombuffer(self.p_wall).reshape(self.shape)
         if (p == p[0, 0]).all():
             return flip.repeat(n=p.shape[1]).repeat(n=p.shape[0])(float(p[0, 0]))
         return flip.vmap(in_axes=(0,)).vmap(in_axes=(0,))(jnp.asarray(p, jnp.result_type(float)))

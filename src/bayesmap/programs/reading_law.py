@@ -1,6 +1,6 @@
 """The law of readings given the distances of the first hits, as a distribution on JAX.
 
-The same formulas as `bayesmap.sensors`, for the same models: those that can describe themselves as `KernelParameters`.
+The formulas are those of `bayesmap.sensors`, for the sensor models that `KernelParameters` can describe.
 """
 # ruff: noqa: D102 - the methods are those of the contract, documented with it.
 
@@ -23,10 +23,10 @@ from bayesmap.sensors.model import KernelParameters, RangeLimits, SensorModel
 
 @dataclass
 class ReadingLaw(ExactDensity):
-    """`law(distance_m)`: one reading in metres for each distance, of the distances' shape; independent.
+    """`law(distance_m)`: independent readings in metres, one for each distance, in the distances' shape.
 
-    A distance of `inf` means that the beam meets nothing. Readings are coded as in `Scans`: `inf` is no return,
-    `-inf` too close, NaN invalid, which scores 0 and is never drawn.
+    The distance `inf` means that the beam meets nothing. Readings are coded as in `Scans`: `inf` is no return, `-inf`
+    is too close, and NaN is invalid. An invalid reading scores 0 and is never drawn.
     """
 
     parameters: KernelParameters = static()
@@ -41,7 +41,7 @@ class ReadingLaw(ExactDensity):
         reading = wall + (s.sigma_m + s.sigma_per_m * wall) * noise
         if not s.robust:
             return reading
-        # The story of `BeamMixture`, told backwards: what comes first there overrules what comes later.
+        # The events of `BeamMixture` in reverse order: an earlier event there overrules a later one.
         lost = (jr.uniform(keys[1], d.shape) < s.p_no_return) | (d > limits.max_m)
         reading = jnp.where(lost, jnp.inf, reading)
         object_m = jr.exponential(keys[2], d.shape) / s.rate_short_per_m
@@ -56,13 +56,13 @@ class ReadingLaw(ExactDensity):
         return jnp.shape(args[0])
 
     def logpdf(self, value: Any, distance_m: Any, /) -> Any:
-        """Elementwise over readings and distances in metres: nats."""
+        """Return the log density in nats, elementwise over readings and distances in metres."""
         z, d = jnp.asarray(value), jnp.asarray(distance_m)
         wall = jnp.minimum(d, self.limits.max_m)
         if self.parameters.robust:
             by_kind = self._mixture(z, wall, d <= self.limits.max_m)
         else:
-            # Plain noise has no typed readings: they stand for the limits.
+            # Plain noise has no typed readings: they count as the range limits.
             reading = jnp.nan_to_num(z, posinf=self.limits.max_m, neginf=self.limits.min_m)
             by_kind = self._log_noise(reading, wall)
         return jnp.where(jnp.isnan(z), 0.0, by_kind)
@@ -71,7 +71,7 @@ class ReadingLaw(ExactDensity):
         return self.parameters.sigma_m + self.parameters.sigma_per_m * wall
 
     def _log_noise(self, reading: Any, wall: Any) -> Any:
-        """Log density of wall + noise."""
+        """Return the log density of wall + noise."""
         scale, dof = self._scale(wall), self.parameters.dof
         x = (reading - wall) / scale
         if dof > 0:
@@ -81,7 +81,7 @@ class ReadingLaw(ExactDensity):
         return -0.5 * x * x - 0.5 * math.log(2 * math.pi) - jnp.log(scale)
 
     def _tail(self, x: Any) -> Any:
-        """P(standard noise > x)."""
+        """Return P(standard noise > x)."""
         dof = self.parameters.dof
         if dof > 0:
             half = 0.5 * betainc(0.5 * dof, 0.5, dof / (dof + x * x))
@@ -89,7 +89,7 @@ class ReadingLaw(ExactDensity):
         return ndtr(-x)
 
     def _mixture(self, z: Any, wall: Any, seen: Any) -> Any:
-        """The three formulas of `bayesmap.sensors.builtin`, by the kind of the reading."""
+        """Return the log density by the formula of `bayesmap.sensors.builtin` for the kind of each reading."""
         s, limits = self.parameters, self.limits
 
         def unblocked(distance: Any) -> Any:
@@ -115,10 +115,10 @@ class ReadingLaw(ExactDensity):
 
 
 def reading_law(sensor: SensorModel, limits: RangeLimits) -> ReadingLaw:
-    """The law of a sensor model.
+    """Return the law of a sensor model.
 
     Raises:
-        BadInput: a sensor model that gives no `kernel_parameters`.
+        BadInput: the sensor model has no `kernel_parameters`.
     """
     parameters = sensor.kernel_parameters()
     if parameters is None:
