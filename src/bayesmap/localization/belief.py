@@ -103,14 +103,14 @@ class PoseBelief:
     def places(self, least: float) -> tuple[Mode, ...]:
         """Return the places of at least this probability, the likeliest first, without the map's shared error."""
         label = _clusters(self.poses, self.weights) if self.mode_of is None else self.mode_of
-        found = []
+        modes = []
         for one in np.unique(label):
             own = label == one
             share = float(self.weights[own].sum())
             if share >= least:
                 mean, covariance = _moments(self.poses[own], self.weights[own] / share)
-                found.append(Mode(mean, covariance + np.diag(FINEST_SD**2), min(share, 1.0)))
-        return tuple(sorted(found, key=lambda mode: -mode.probability))
+                modes.append(Mode(mean, covariance + np.diag(FINEST_SD**2), min(share, 1.0)))
+        return tuple(sorted(modes, key=lambda mode: -mode.probability))
 
     @property
     def mean(self) -> Floats:

@@ -153,16 +153,16 @@ def fit_law(occupancy: Floats, grid: Grid, scans: Scans, seed: int = 0, on_progr
         on_progress: called with the share that is done.
     """
     assumed = MapLaw(ASSUMED)
-    some = spread_out(scans)
-    if len(some) < FEWEST_SCANS:
+    spread = spread_out(scans)
+    if len(spread) < FEWEST_SCANS:
         return assumed
-    poses, sure = _located(external_map(occupancy, grid, scans, assumed), some, seed, on_progress)
+    poses, sure = _located(external_map(occupancy, grid, scans, assumed), spread, seed, on_progress)
     if sure.sum() < FEWEST_SCANS:
         return assumed
     chosen = np.flatnonzero(sure)
     judges = (np.arange(len(chosen)) // BLOCK) % 2 == 1
-    thin = max(1, some.n_beams // BEAMS)
-    train, judging = (_Placed(some.select(chosen[own]), poses[chosen[own]], thin) for own in (~judges, judges))
+    thin = max(1, spread.n_beams // BEAMS)
+    train, judging = (_Placed(spread.select(chosen[own]), poses[chosen[own]], thin) for own in (~judges, judges))
     stops = _stops_of(occupancy, grid)
 
     def score(placed: _Placed, values: Values) -> float:
@@ -173,14 +173,14 @@ def fit_law(occupancy: Floats, grid: Grid, scans: Scans, seed: int = 0, on_progr
     values, _ = maximise(on_train, on_train, FITTED, starts, lambda share: on_progress(0.5 + 0.5 * share))
     halfway = {p.name: p.outer(0.5 * (p.inner(ASSUMED[p.name]) + p.inner(values[p.name]))) for p in FITTED}
     laws = [dict(ASSUMED), {**ASSUMED, **halfway}, {**ASSUMED, **values}]
-    logs = [judging.log_densities(stops, one) for one in laws]
-    nats = [float(np.nanmean(one)) for one in logs]
+    logs = [judging.log_densities(stops, law_values) for law_values in laws]
+    nats = [float(np.nanmean(densities)) for densities in logs]
     best = int(np.argmax(nats))
     trust = replace(WARY, place_readings=WARY.pose_readings, shared_error_m=laws[best]["scale_m"])
     law = MapLaw(laws[best], trust, len(chosen), nats[best])
     judged = chosen[judges]
     judged = judged[:: max(1, len(judged) // MOST_SEARCHES)]
-    usual, power = searched(external_map(occupancy, grid, scans, law), some.select(judged), poses[judged], seed)
+    usual, power = searched(external_map(occupancy, grid, scans, law), spread.select(judged), poses[judged], seed)
     trust = replace(trust, place_readings=power * trust.pose_readings)
     return replace(law, trust=trust, usual_fit=usual)
 
@@ -231,9 +231,9 @@ def _located(known: KnownMap, scans: Scans, seed: int, on_progress: OnShare) -> 
     """Return the likeliest poses of scans, and which of them are nearly certain."""
     from bayesmap.localization.localize import localize
 
-    found = localize(known, scans, seed=seed, on_belief=lambda k, _: on_progress(0.5 * (k + 1) / len(scans)))
-    sure = [belief.modes[0].probability > LIKELY and belief.p_lost < 1.0 - LIKELY for belief in found.beliefs]
-    return np.array([belief.mean for belief in found.beliefs]), np.array(sure)
+    located = localize(known, scans, seed=seed, on_belief=lambda k, _: on_progress(0.5 * (k + 1) / len(scans)))
+    sure = [belief.modes[0].probability > LIKELY and belief.p_lost < 1.0 - LIKELY for belief in located.beliefs]
+    return np.array([belief.mean for belief in located.beliefs]), np.array(sure)
 
 
 @dataclass(frozen=True, eq=False)

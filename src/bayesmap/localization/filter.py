@@ -186,18 +186,18 @@ def update(known: KnownMap, prior: Prior, scan: Scan, rng: np.random.Generator, 
 
 def _starts(known: KnownMap, prior: Prior, scan: Scan, *, look_everywhere: bool) -> PoseMixture | None:
     """Return the places to begin with; None: uniform over the map."""
-    found = None
+    searched = None
     if look_everywhere or prior.components is None:
         poses = search(known.field, scan.angles_rad, scan.ranges_m, CANDIDATES).poses
         if len(poses):
             covariances = np.broadcast_to(np.diag(FOUND_SD**2), (len(poses), 3, 3))
-            found = PoseMixture(poses, covariances, np.zeros(len(poses)))
-    if prior.components is None or found is None:
-        return found if prior.components is None else prior.components
+            searched = PoseMixture(poses, covariances, np.zeros(len(poses)))
+    if prior.components is None or searched is None:
+        return searched if prior.components is None else prior.components
     return PoseMixture(
-        np.concatenate([prior.components.means, found.means]),
-        np.concatenate([prior.components.covariances, found.covariances]),
-        np.concatenate([prior.components.log_mass, found.log_mass]),
+        np.concatenate([prior.components.means, searched.means]),
+        np.concatenate([prior.components.covariances, searched.covariances]),
+        np.concatenate([prior.components.log_mass, searched.log_mass]),
     )
 
 
@@ -374,11 +374,11 @@ def locate(known: KnownMap, scan: Scan, rng: np.random.Generator) -> PoseBelief:
 
     thin = max(1, len(scan.angles_rad) // 60)
 
-    found = search(known.field, scan.angles_rad, scan.ranges_m, SHARP_CANDIDATES)
-    if len(found.poses) == 0:
+    candidates = search(known.field, scan.angles_rad, scan.ranges_m, SHARP_CANDIDATES)
+    if len(candidates.poses) == 0:
         return belief_of(known, prior, scan, everywhere(known, target(last), rng), None)
-    count = len(found.poses)
-    places = PoseMixture(found.poses, np.broadcast_to(np.diag(FOUND_SD**2), (count, 3, 3)), np.zeros(count))
+    count = len(candidates.poses)
+    places = PoseMixture(candidates.poses, np.broadcast_to(np.diag(FOUND_SD**2), (count, 3, 3)), np.zeros(count))
     for weight in np.geomspace(first, last, RISES):
         places, _ = adapted(places, draw_population(places, target(float(weight), thin), SHARP_EACH, rng))
         places = distinct(places).best(KEPT)

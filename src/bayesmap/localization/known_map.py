@@ -279,13 +279,13 @@ class KnownMap:
         """
         from bayesmap.kernels.predict.pose_weights import scan_log_likelihood
 
-        found = scan_log_likelihood(
+        logs = scan_log_likelihood(
             self.packed, poses, angles_rad[::thin], ranges_m[::thin], self.sensor, limits, draws=draws,
             in_turn=in_turn, threads=1,
         )  # fmt: skip
         used = max(1, int((~np.isnan(ranges_m[::thin])).sum()))
         scale = (self.weight_of(ranges_m) if weight is None else weight) * int((~np.isnan(ranges_m)).sum()) / used
-        return np.asarray(log_sum(scale * found) - np.log(found.shape[1]))
+        return np.asarray(log_sum(scale * logs) - np.log(logs.shape[1]))
 
     def log_elsewhere(self, ranges_m: Floats, weight: float) -> float:
         """Compute the log-likelihood of a scan that was taken somewhere else: each reading by how common it is."""

@@ -251,9 +251,9 @@ def refine(field: Field, points: Floats, poses: Floats, most: int) -> Candidates
     for keep in (len(poses), 4 * most, 2 * most):
         order = _apart(poses, np.argsort(-scores, kind="stable"), keep, 0.5 * step_m, 0.5 * step_rad)
         around = poses[order, None] + offsets * np.array([step_m, step_m, step_rad])
-        found = field.score(points, around.reshape(-1, 3)).reshape(len(order), -1)
-        best = found.argmax(axis=1)
-        poses, scores = around[np.arange(len(order)), best], found[np.arange(len(order)), best]
+        neighbour_scores = field.score(points, around.reshape(-1, 3)).reshape(len(order), -1)
+        best = neighbour_scores.argmax(axis=1)
+        poses, scores = around[np.arange(len(order)), best], neighbour_scores[np.arange(len(order)), best]
         step_m, step_rad = 0.5 * step_m, 0.5 * step_rad
     order = _apart(poses, np.argsort(-scores, kind="stable"), most, APART_M, APART_RAD)
     poses = poses[order]
@@ -306,8 +306,8 @@ def _coarse_poses(field: Field, points: Floats) -> Floats:
 
 def _apart(poses: Floats, order: NDArray[np.intp], most: int, apart_m: float, apart_rad: float) -> NDArray[np.intp]:
     """Select the first poses of an order that are all apart from each other, at most ``most``."""
-    some = poses[order]
-    off = np.abs(some[:, None] - some)
+    ordered = poses[order]
+    off = np.abs(ordered[:, None] - ordered)
     near = (off[..., 0] < apart_m) & (off[..., 1] < apart_m) & (np.abs(wrapped(off[..., 2])) < apart_rad)
     free = np.ones(len(order), dtype=np.bool_)
     kept: list[int] = []

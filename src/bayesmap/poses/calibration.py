@@ -123,27 +123,27 @@ class RunningOdometry:
         """Return variances of x, y and yaw of each motion's remaining error, (..., 3)."""
         return motion_variances(motions, self.ratios)
 
-    def learn_slope(self, stated: Floats, found: Floats, laser_variance: Floats) -> None:
+    def learn_slope(self, stated: Floats, matched: Floats, laser_variance: Floats) -> None:
         """Learn the systematic error from a longer motion: as stated, as matched, and the matching's variance, (3,)."""
-        error = stated - found
+        error = stated - matched
         error[2] = wrapped(error[2])
         variance = self.variances(stated) + laser_variance
-        rest = error - self._systematic @ found
+        rest = error - self._systematic @ matched
         rest[2] = wrapped(rest[2])
         if not (rest**2 < 16.0 * variance).all():
             return
         # One weight for the three: the entries of C share a normal matrix.
         gain = float(np.exp(-np.mean(np.log(np.maximum(variance, 1e-6))))) * SLOPE_SIGMA**2
-        self._normal += gain * np.outer(found, found)
-        self._moment += gain * np.outer(error, found)
+        self._normal += gain * np.outer(matched, matched)
+        self._moment += gain * np.outer(error, matched)
         self._systematic = np.asarray(np.linalg.solve(self._normal, self._moment.T).T, np.float64)
         self._slope = inverse_slope(self._systematic)
 
-    def learn_noise(self, motion: Floats, found: Floats, laser_variance: Floats) -> None:
+    def learn_noise(self, stated: Floats, matched: Floats, laser_variance: Floats) -> None:
         """Learn the noise from a motion from scan to scan: as stated, as matched, and the matching's variance, (3,)."""
-        rest = found - motion - self._slope @ motion
+        rest = matched - stated - self._slope @ stated
         rest[2] = wrapped(rest[2])
-        base = COMMON.sigmas(motion) ** 2
+        base = COMMON.sigmas(stated) ** 2
         excess = np.maximum(rest**2 - laser_variance, 0.0) / base
         keep = 1.0 - 1.0 / MEMORY
         limit = 25.0 * self._squares / self._count
@@ -230,8 +230,8 @@ def _rates(errors: Floats, features: Floats, known_variance: Floats, usual: Floa
         prior = log_factors / FACTOR_SIGMA
         return float(value + 0.5 * (prior**2).sum()), (slope @ features) * rates + prior / FACTOR_SIGMA
 
-    found = minimize(cost, np.zeros(3), jac=True, method="L-BFGS-B", bounds=[(-9.0, 9.0)] * 3)
-    return np.asarray(usual * np.exp(found.x))
+    optimum = minimize(cost, np.zeros(3), jac=True, method="L-BFGS-B", bounds=[(-9.0, 9.0)] * 3)
+    return np.asarray(usual * np.exp(optimum.x))
 
 
 def _features(ways_m: Floats, turns_rad: Floats, scans: Floats) -> Floats:
@@ -302,18 +302,18 @@ def velocities(poses: Floats, stamps_s: Floats) -> Floats:
 
 
 def fit_odometry(
-    stated: Floats, stamps_s: Floats | None, found: Floats, scans: NDArray[np.intp], laser_variance: Floats
+    stated: Floats, stamps_s: Floats | None, known: Floats, scans: NDArray[np.intp], laser_variance: Floats
 ) -> OdometryFit:
     """Fit B, the lag and the noise to scans whose poses are known.
 
     Args:
         stated: odometry's pose of all scans, (S, 3).
         stamps_s: (S,), or None: the lag is then 0. Scans that share their stamp have no part in the lag.
-        found: known poses of some scans, (K, 3).
+        known: known poses of some scans, (K, 3).
         scans: indices of these scans, ascending, (K,).
         laser_variance: variances of x, y and yaw of the known motions, (K - 1, 3): large along corridors.
     """
-    motion = between(found[:-1], found[1:])
+    motion = between(known[:-1], known[1:])
     error = between(stated[scans[:-1]], stated[scans[1:]]) - motion
     error[:, 2] = wrapped(error[:, 2])
     change = np.zeros_like(motion)
@@ -389,33 +389,33 @@ def angle_step_ratio(
         return 1.0
     useful = useful[np.arange(min(len(useful), PAIRS)) * len(useful) // min(len(useful), PAIRS)]
     needed, at = np.unique(np.concatenate([source[useful], target[useful]]), return_inverse=True)
-    one, other = at[: len(useful)].astype(np.int32), at[len(useful) :].astype(np.int32)
-    some, place = scans.select(needed), poses[needed]
+    first, second = at[: len(useful)].astype(np.int32), at[len(useful) :].astype(np.int32)
+    selected, selected_poses = scans.select(needed), poses[needed]
     weak = np.tile(np.diag([25.0, 25.0, 100.0]), (len(useful), 1, 1))
-    each = np.arange(len(useful) + 1, dtype=np.int32)
+    offsets = np.arange(len(useful) + 1, dtype=np.int32)
 
     def residuals(factor: float) -> Floats:
-        geometry = scan_geometry(some.stretched(factor), farthest_m=farthest_m, threads=threads)
+        geometry = scan_geometry(selected.stretched(factor), farthest_m=farthest_m, threads=threads)
         # Beams are stretched from the first on: the pose is turned back, so that the middle beam keeps its direction.
-        start = place.copy()
-        start[:, 2] -= 0.5 * (factor - 1.0) * some.sweep_rad
-        jobs = Refinement(one, each, other, start[other], start[one], start[one], weak)
+        start = selected_poses.copy()
+        start[:, 2] -= 0.5 * (factor - 1.0) * selected.sweep_rad
+        jobs = Refinement(first, offsets, second, start[second], start[first], start[first], weak)
         convergence = Convergence(0.02, 10, geometry.reach_m(0.2, 0.15), geometry.scale_m(0.05, 0.03), 0.7)
         _, _, totals = refine_scans(geometry, jobs, convergence, threads)
         return 1.0 - totals[:, 1] / np.maximum(totals[:, 3], 1.0)
 
     factors = 1.0 + np.linspace(-0.0125, 0.0125, 11)
     values = np.array([residuals(float(f)) for f in factors])
-    found = _lowest(factors, values.mean(axis=1))
+    lowest = _lowest(factors, values.mean(axis=1))
     groups = np.arange(len(useful)) % GROUPS
     without = np.array([_lowest(factors, values[:, groups != group].mean(axis=1)) for group in range(GROUPS)])
     # The jackknife's standard error (Efron and Tibshirani 1993, ch. 11).
     error = np.sqrt((GROUPS - 1) / GROUPS * ((without - without.mean()) ** 2).sum())
-    if not abs(found - 1.0) <= 0.0125:
+    if not abs(lowest - 1.0) <= 0.0125:
         return 1.0  # outside what was tried: not a matter of the angle
-    usual = _regular(found, float(np.degrees(np.nanmedian(scans.steps_rad))))
-    sure = SURE_OF_REGULAR if usual != found and abs(found - usual) < error else SURE
-    return usual if abs(found - 1.0) > sure * error else 1.0
+    regular = _regular(lowest, float(np.degrees(np.nanmedian(scans.steps_rad))))
+    sure = SURE_OF_REGULAR if regular != lowest and abs(lowest - regular) < error else SURE
+    return regular if abs(lowest - 1.0) > sure * error else 1.0
 
 
 def _lowest(factors: Floats, values: Floats) -> float:

@@ -53,7 +53,8 @@ SLIPPED_BELOW = 0.15
 
 AGAIN_BELOW = 0.1
 """A scan whose score is lower than usual by more than this is matched again, from the pose of the scan before it:
-odometry's errors add up over the scans of a batch, until the window is elsewhere."""
+odometry's errors add up over the scans of a batch, until the window lies
+elsewhere."""
 
 LEARN_BELOW = 0.25
 """Motions of scans whose score is lower than usual by more than this teach nothing about odometry."""
@@ -168,9 +169,9 @@ class _Path:
             self._pass_over(batch, placed, int(np.argmin(wrong)))
         else:
             scan = int(batch[0])
-            found = self._anywhere(scan, placed.predicted[0], float(placed.scores[0]))
-            if found is None or not self._slipped(scan, placed, found):
-                self._leap(scan, placed, found)
+            place = self._anywhere(scan, placed.predicted[0], float(placed.scores[0]))
+            if place is None or not self._slipped(scan, placed, place):
+                self._leap(scan, placed, place)
 
     def _take(self, batch: NDArray[np.intp], placed: Placed, count: int) -> None:
         """Accept the first ``count`` scans of a batch, up to one that becomes a key scan."""
@@ -199,22 +200,22 @@ class _Path:
         score = float(placed.scores[0])
         if self.motions is None or score > self.usual - SLIPPED_BELOW:
             return False
-        found = self._anywhere(scan, placed.predicted[0], score)
-        return found is not None and self._slipped(scan, placed, found)
+        place = self._anywhere(scan, placed.predicted[0], score)
+        return place is not None and self._slipped(scan, placed, place)
 
-    def _slipped(self, scan: int, placed: Placed, found: Elsewhere) -> bool:
+    def _slipped(self, scan: int, placed: Placed, place: Elsewhere) -> bool:
         """Accept a near place if the scan fits there as usual: wheels slipped. Returns False if it does not."""
-        if not found.near or found.score < self.usual - SLIPPED_BELOW:
+        if not place.near or place.score < self.usual - SLIPPED_BELOW:
             return False
-        if contradicts(self.geometry, self.window, scan, found.pose):
+        if contradicts(self.geometry, self.window, scan, place.pose):
             return False
-        self.poses[scan], self.information[scan], self.scores[scan] = found.pose, found.information, found.score
+        self.poses[scan], self.information[scan], self.scores[scan] = place.pose, place.information, place.score
         self.spread[scan] = self.since_key + placed.variance[0] + UNKNOWN**2
         self.at, self.plain = scan, False
         self._key(scan)
         return True
 
-    def _leap(self, scan: int, placed: Placed, found: Elsewhere | None) -> None:
+    def _leap(self, scan: int, placed: Placed, place: Elsewhere | None) -> None:
         """Break the path before a scan that nothing confirms, and go on from where a wide search, or odometry, has it.
 
         Scans just before it with a score as poor go with it, though nothing contradicted them.
@@ -227,8 +228,8 @@ class _Path:
                 self.keys = [key for key in self.keys if key < begin]
                 self.window = self._window(self.window)
             pose, score = self.poses[begin], float(self.scores[begin])
-            found = self._anywhere(begin, pose, score)
-        self.poses[begin], self.scores[begin] = (pose, score) if found is None else (found.pose, found.score)
+            place = self._anywhere(begin, pose, score)
+        self.poses[begin], self.scores[begin] = (pose, score) if place is None else (place.pose, place.score)
         self.information[begin], self.at = 0.0, begin
         self.spread[begin] = self.since_key + placed.variance[0] + UNKNOWN**2
         self.broken[begin] = True
@@ -252,8 +253,8 @@ class _Path:
             left = np.diag(np.linalg.inv(placed.information[k] + np.diag(1.0 / variance)))
             usual = score > max(KEY_SCORE, self.usual - LEARN_BELOW)
             if usual and not placed.turned[k]:
-                found = between(self.poses[scan - 1], self.poses[scan])
-                self.odometry.learn_noise(self.motions[scan - 1], found, left + 1e-5)
+                matched = between(self.poses[scan - 1], self.poses[scan])
+                self.odometry.learn_noise(self.motions[scan - 1], matched, left + 1e-5)
             else:
                 self.plain = False
             self.left = left
@@ -293,10 +294,10 @@ class _Path:
         left = np.diag(np.linalg.inv(placed.information[k] + np.diag(1.0 / placed.variance[k])))
         if (np.sqrt(left) > LOST_SIGMA).any():
             return True
-        found = self._anywhere(scan, placed.predicted[k], float(placed.scores[k]))
-        if found is not None and found.near:
-            placed.poses[k], placed.information[k], placed.scores[k] = found.pose, found.information, found.score
-        return found is not None and not found.near
+        place = self._anywhere(scan, placed.predicted[k], float(placed.scores[k]))
+        if place is not None and place.near:
+            placed.poses[k], placed.information[k], placed.scores[k] = place.pose, place.information, place.score
+        return place is not None and not place.near
 
     def _patience(self) -> NDArray[np.intp]:
         """Return the next scans that may still fit the key scans."""
@@ -317,9 +318,9 @@ class _Path:
 
 def grid_half_width(geometry: ScanGeometry) -> float:
     """Return half the width of grids that hold nearly all points of scans taken at their middle, metres."""
-    some = slice(None, None, max(1, len(geometry) // 500))
-    away = np.linalg.norm(geometry.host_points[some][geometry.host_kind[some] > 0], axis=-1)
-    return float(np.clip(np.percentile(away, 97.0) + 1.0, 4.0, 30.0)) if len(away) else 4.0
+    sampled = slice(None, None, max(1, len(geometry) // 500))
+    distance = np.linalg.norm(geometry.host_points[sampled][geometry.host_kind[sampled] > 0], axis=-1)
+    return float(np.clip(np.percentile(distance, 97.0) + 1.0, 4.0, 30.0)) if len(distance) else 4.0
 
 
 def _batch(i: int, count: int, motions: Floats | None, here: Floats, key: Floats) -> NDArray[np.intp]:

@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from scipy import sparse
 from scipy.sparse.linalg import splu
 
-from bayesmap.space.planar import between, between_jacobians, retract, wrapped
+from bayesmap.space.planar import between, between_jacobians, compose, retract, wrapped
 
 Floats = NDArray[np.float64]
 
@@ -56,24 +56,24 @@ class Precision:
         Columns are solved for ``at_once`` poses at a time: memory grows with the number of poses times this.
         """
         three = np.arange(3)
-        found, known = self._on_pattern(3 * first[:, None, None] + three[:, None], 3 * second[:, None, None] + three)
+        result, known = self._on_pattern(3 * first[:, None, None] + three[:, None], 3 * second[:, None, None] + three)
         left = np.nonzero(~known.all(axis=(1, 2)))[0]
         if not len(left):
-            return found
-        a, b, turned = first[left], second[left], False
+            return result
+        a, b, transposed = first[left], second[left], False
         if len(np.unique(b)) > len(np.unique(a)):
-            a, b, turned = b, a, True
+            a, b, transposed = b, a, True
         needed, where = np.unique(b, return_inverse=True)
         size = self._matrix.shape[0]
         for begin in range(0, len(needed), at_once):
-            some = needed[begin : begin + at_once]
-            right = np.zeros((size, 3 * len(some)))
-            right[(3 * some[:, None] + three).ravel(), np.arange(3 * len(some))] = 1.0
-            columns = self.solve(right).reshape(size // 3, 3, len(some), 3)
-            mine = np.nonzero((where >= begin) & (where < begin + len(some)))[0]
+            batch = needed[begin : begin + at_once]
+            right = np.zeros((size, 3 * len(batch)))
+            right[(3 * batch[:, None] + three).ravel(), np.arange(3 * len(batch))] = 1.0
+            columns = self.solve(right).reshape(size // 3, 3, len(batch), 3)
+            mine = np.nonzero((where >= begin) & (where < begin + len(batch)))[0]
             blocks = columns[a[mine], :, where[mine] - begin, :]
-            found[left[mine]] = np.swapaxes(blocks, 1, 2) if turned else blocks
-        return found
+            result[left[mine]] = np.swapaxes(blocks, 1, 2) if transposed else blocks
+        return result
 
     def _on_pattern(self, row: NDArray[np.intp], column: NDArray[np.intp]) -> tuple[Floats, NDArray[np.bool_]]:
         """Return entries of the inverse, and which of them the pattern holds."""
@@ -185,6 +185,12 @@ class Factors:
         """Return the squared Mahalanobis lengths of the errors, (M,)."""
         error = self.errors(poses)
         return np.asarray(np.einsum("mi,mij,mj->m", error, self.information, error))
+
+    def disagreements(self, poses: Floats, one: NDArray[np.intp], two: NDArray[np.intp]) -> Floats:
+        """Return what each factor ``one`` is off from the relative pose that factor ``two`` implies for it, (P, 3)."""
+        first, second = self.first, self.second
+        to_second = compose(self.relative[two], between(poses[second[two]], poses[second[one]]))
+        return between(self.relative[one], compose(between(poses[first[one]], poses[first[two]]), to_second))
 
     def select(self, chosen: NDArray[np.bool_] | NDArray[np.intp]) -> Factors:
         """Return some of the factors."""

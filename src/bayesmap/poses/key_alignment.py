@@ -73,32 +73,32 @@ def rematch(
     partnered = np.nonzero(np.diff(pairs.offsets) > 0)[0]
     grids: LikelihoodGrids | None = None
     for begin in range(0, len(partnered), AT_ONCE):
-        some = partnered[begin : begin + AT_ONCE]
-        others = [pairs.target[pairs.offsets[k] : pairs.offsets[k + 1]].astype(np.intp) for k in some]
-        local = [between(np.broadcast_to(poses[k], (len(m), 3)), poses[m]) for k, m in zip(some, others, strict=True)]
-        reuse = grids if grids is not None and len(grids) == len(some) else None
-        middles = np.zeros((len(some), 2))
+        batch = partnered[begin : begin + AT_ONCE]
+        others = [pairs.target[pairs.offsets[k] : pairs.offsets[k + 1]].astype(np.intp) for k in batch]
+        local = [between(np.broadcast_to(poses[k], (len(m), 3)), poses[m]) for k, m in zip(batch, others, strict=True)]
+        reuse = grids if grids is not None and len(grids) == len(batch) else None
+        middles = np.zeros((len(batch), 2))
         grids = likelihood_grids(geometry, others, local, middles, half_width_m, sigma_m=SIGMA_M, reuse=reuse)
-        points = [geometry.points_of(int(k), POINTS) for k in some]
-        here = np.zeros((len(some), 3))
-        now = match(grids, points, here, 0.0, 0.0, least=-9.0).scores[:, 0]
-        scores[some] = best_scores[some] = now
+        points = [geometry.points_of(int(k), POINTS) for k in batch]
+        origin = np.zeros((len(batch), 3))
+        now = match(grids, points, origin, 0.0, 0.0, least=-9.0).scores[:, 0]
+        scores[batch] = best_scores[batch] = now
         if not search:
             continue
-        near = match(grids, points, here, WINDOW_M, WINDOW_RAD, least=now, pull=NEAR)
+        near = match(grids, points, origin, WINDOW_M, WINDOW_RAD, least=now, pull=NEAR)
         found = near.found[:, 0]
         best = np.where(found, near.scores[:, 0], now)
         place = np.where(found[:, None], near.poses[:, 0], 0.0)
         poor = np.nonzero(best < poor_score)[0]
         if len(poor):
             far = match(
-                grids, [points[k] for k in poor], here[poor], WIDE_M, WIDE_RAD, grid_of=poor,
+                grids, [points[k] for k in poor], origin[poor], WIDE_M, WIDE_RAD, grid_of=poor,
                 least=best[poor] + WIDE_BETTER, step_rad=np.radians(1.0),
             )  # fmt: skip
             better = far.found[:, 0]
             best[poor[better]], place[poor[better]] = far.scores[better, 0], far.poses[better, 0]
-            wide[some[poor[better]]] = True
-        best_scores[some], best_poses[some] = best, compose(poses[some], place)
+            wide[batch[poor[better]]] = True
+        best_scores[batch], best_poses[batch] = best, compose(poses[batch], place)
     moved = (best_scores > scores + CLEARLY_BETTER) | wide
     return Rematch(scores, best_scores, best_poses, moved)
 

@@ -90,22 +90,22 @@ def doubts(scans: Scans, no_odometry: bool) -> list[str]:
     """Return what looks wrong with the odometry of scans in the order of time, a sentence each."""
     if no_odometry:
         return []
-    found = []
+    sentences = []
     for first, last in frozen_stretches(scans):
         when = ""
         if scans.stamps_s is not None:
             when = f" (from {scans.stamps_s[first]:.3f} to {scans.stamps_s[last]:.3f} s)"
-        found.append(
+        sentences.append(
             f"odometry stands still from scan {first} to {last}{when}, but the scans see the robot move: it may have "
             "been frozen there; --no-odometry goes without"
         )
-    return found
+    return sentences
 
 
 def frozen_stretches(scans: Scans) -> list[tuple[int, int]]:
     """Find stretches of scans at one stated pose along which the robot moved: first and last scan of each, in order."""
-    found = _repeated(np.asarray((np.diff(scans.poses, axis=0) == 0.0).all(axis=1)))
-    return [(first, last) for first, last in found if last - first + 1 >= LONG and _moved(scans, first, last)]
+    stretches = _repeated(np.asarray((np.diff(scans.poses, axis=0) == 0.0).all(axis=1)))
+    return [(first, last) for first, last in stretches if last - first + 1 >= LONG and _moved(scans, first, last)]
 
 
 def _repeated(same: NDArray[np.bool_]) -> list[tuple[int, int]]:
@@ -204,8 +204,8 @@ def agreement(scans: Scans) -> float | None:
 
 def look_like_odometry(scans: Scans) -> bool:
     """Return whether the scans at their poses disagree as they do with raw odometry."""
-    found = agreement(scans)
-    return found is not None and found < RAW_BELOW
+    value = agreement(scans)
+    return value is not None and value < RAW_BELOW
 
 
 def _expected_stops(scans: Scans) -> tuple[float, float]:

@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.poses.graph import DOUBTFUL_SQ, Factors, quadratic, relative_covariances, solve_step
-from bayesmap.space.planar import between, compose, retract, wrapped
+from bayesmap.space.planar import between, retract, wrapped
 
 Floats = NDArray[np.float64]
 
@@ -69,15 +69,9 @@ def visits(loops: Factors, poses: Floats, along: Floats) -> NDArray[np.intp]:
     from scipy.sparse import coo_matrix
     from scipy.sparse.csgraph import connected_components
 
-    first, second = loops.first, loops.second
-    a, b = along[first], along[second]
+    a, b = along[loops.first], along[loops.second]
     one, two = np.nonzero((np.abs(a[:, None] - a[None]) < PLACE_M) & (np.abs(b[:, None] - b[None]) < PLACE_M))
-    # The relative pose that the other closure implies for this one's ends.
-    implied = compose(
-        between(poses[first[one]], poses[first[two]]),
-        compose(loops.relative[two], between(poses[second[two]], poses[second[one]])),
-    )
-    off = between(loops.relative[one], implied)
+    off = loops.disagreements(poses, one, two)
     same = (np.hypot(off[:, 0], off[:, 1]) < SAME_M) & (np.abs(off[:, 2]) < SAME_RAD)
     links = coo_matrix((np.ones(int(same.sum())), (one[same], two[same])), shape=(len(loops), len(loops)))
     return np.asarray(connected_components(links, directed=False)[1], np.intp)
@@ -94,22 +88,22 @@ def weigh(poses: Floats, weights: Floats, chain: Factors, loops: Factors, along:
     for k in range(len(odds)):
         span = min(np.ptp(along[ends[label == k]]) for ends in (loops.first, loops.second))
         odds[k] = ODDS + FURTHER * span / PLACE_M
-    told: list[tuple[Floats, float, int]] = []
+    reported: list[tuple[Floats, float, int]] = []
     while True:
         doubtful = sorted(_doubtful(poses, chain, loops, label, out, odds), key=lambda entry: entry[:2])
         if not doubtful or doubtful[0][0] > 0.0:
             break
         certainty, worst, without = doubtful[0]
-        told.append((poses, _probability(certainty), worst))
+        reported.append((poses, _probability(certainty), worst))
         poses, out = without, out | (label == worst)
-    told += [(without, _probability(-certainty), k) for certainty, k, without in doubtful]
-    told = [entry for entry in told if entry[1] > TOLD and _differs(entry[0], poses)]
+    reported += [(without, _probability(-certainty), k) for certainty, k, without in doubtful]
+    reported = [entry for entry in reported if entry[1] > TOLD and _differs(entry[0], poses)]
     weights = np.where(out, 0.0, _weights(loops, poses) if out.any() else weights)
-    mine = [label == k for _, _, k in told]
+    mine = [label == k for _, _, k in reported]
     first = np.array([loops.first[m].min() for m in mine], np.intp)
     last = np.array([loops.second[m].max() for m in mine], np.intp)
-    alternatives = np.array([other for other, _, _ in told]).reshape(-1, *poses.shape)
-    return Weighed(poses, weights, alternatives, np.array([probability for _, probability, _ in told]), first, last)
+    alternatives = np.array([other for other, _, _ in reported]).reshape(-1, *poses.shape)
+    return Weighed(poses, weights, alternatives, np.array([probability for _, probability, _ in reported]), first, last)
 
 
 def _doubtful(

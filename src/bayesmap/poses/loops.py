@@ -192,28 +192,28 @@ def match_submaps(
         least_score: matches below are dropped.
         fineness: of the search, before refinement.
     """
-    found = [no_closures()]
+    parts = [no_closures()]
     submaps = np.unique(first)
     for begin in range(0, len(submaps), AT_ONCE):
-        some = submaps[begin : begin + AT_ONCE]
-        members = [path.around(int(k), AROUND_M) for k in some]
-        local = [path.seen_from(int(k), m) for k, m in zip(some, members, strict=True)]
+        batch = submaps[begin : begin + AT_ONCE]
+        members = [path.around(int(k), AROUND_M) for k in batch]
+        local = [path.seen_from(int(k), m) for k, m in zip(batch, members, strict=True)]
         grids = likelihood_grids(
-            path.geometry, [path.keys[m] for m in members], local, np.zeros((len(some), 2)), half_width_m,
+            path.geometry, [path.keys[m] for m in members], local, np.zeros((len(batch), 2)), half_width_m,
             resolution=RESOLUTION_M, sigma_m=SIGMA_M, levels=6,
         )  # fmt: skip
-        jobs = np.nonzero((first >= some[0]) & (first <= some[-1]))[0]
+        jobs = np.nonzero((first >= batch[0]) & (first <= batch[-1]))[0]
         points = [path.points_around(int(q), NARROW_M, fineness.points) for q in second[jobs]]
         best = match(
-            grids, points, centres[jobs], half_m[jobs], half_rad[jobs], grid_of=np.searchsorted(some, first[jobs]),
+            grids, points, centres[jobs], half_m[jobs], half_rad[jobs], grid_of=np.searchsorted(batch, first[jobs]),
             step_rad=fineness.step_rad, least=least_score, modes=MODES, share=MODE_SHARE, apart_m=0.6,
             apart_rad=np.radians(8.0),
         )  # fmt: skip
         job, mode = np.nonzero(best.found)
         if len(job):
             one, two = first[jobs[job]], second[jobs[job]]
-            found.append(_refined(path, one, two, best.poses[job, mode], best.scores[job, mode]))
-    return joined(found)
+            parts.append(_refined(path, one, two, best.poses[job, mode], best.scores[job, mode]))
+    return joined(parts)
 
 
 def _refined(
@@ -228,14 +228,14 @@ def _refined(
     weak = np.tile(np.diag([1.0, 1.0, 4.0]), (len(first), 1, 1))
     refinement = Refinement(path.scans(second), offsets, others, other_poses, start, start, weak)
     convergence = Convergence(0.02, 15, (0.4, 0.12), (0.2, 0.05), ALIKE)
-    found, laser_information, _ = refine_scans(path.geometry, refinement, convergence, path.geometry.threads)
+    refined, laser_information, _ = refine_scans(path.geometry, refinement, convergence, path.geometry.threads)
     covariance = np.linalg.inv(laser_information + np.diag([1e-2, 1e-2, 1e-1])) + np.diag(FLOOR**2)
     information = np.linalg.inv(covariance)
     # A refinement that ends far from where it began has slid into something else.
-    moved = between(start, found)
+    moved = between(start, refined)
     kept = (np.hypot(moved[:, 0], moved[:, 1]) < 0.4) & (np.abs(moved[:, 2]) < np.radians(6.0))
-    kept &= _agrees(path, first, second, found)
-    return Closures(first, second, found, information, scores, np.zeros(len(first), np.intp)).select(kept)
+    kept &= _agrees(path, first, second, refined)
+    return Closures(first, second, refined, information, scores, np.zeros(len(first), np.intp)).select(kept)
 
 
 def _agrees(path: KeyPath, first: NDArray[np.intp], second: NDArray[np.intp], relative: Floats) -> NDArray[np.bool_]:
@@ -260,17 +260,13 @@ def _agrees(path: KeyPath, first: NDArray[np.intp], second: NDArray[np.intp], re
 
 def supported(closures: Closures, path: KeyPath) -> Closures:
     """Select closures that agree with two others between nearby scans: going round by these ends at the same place."""
-    poses, along = path.poses, path.along
-    a, b = closures.first, closures.second
+    along, a, b = path.along, closures.first, closures.second
     one, two = np.nonzero(
         (np.abs(along[a][:, None] - along[a][None]) < 5.0)
         & (np.abs(along[b][:, None] - along[b][None]) < 5.0)
         & ((b[:, None] != b[None]) | (a[:, None] != a[None]))
     )
-    implied = compose(
-        between(poses[a[one]], poses[a[two]]), compose(closures.relative[two], between(poses[b[two]], poses[b[one]]))
-    )
-    off = between(closures.relative[one], implied)
+    off = closures.factors().disagreements(path.poses, one, two)
     between_m = np.abs(along[a][one] - along[a][two]) + np.abs(along[b][one] - along[b][two])
     agree = (np.hypot(off[:, 0], off[:, 1]) < 0.15 + 0.02 * between_m) & (
         np.abs(off[:, 2]) < np.radians(2.0) + np.radians(0.3) * between_m

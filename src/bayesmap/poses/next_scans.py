@@ -131,10 +131,10 @@ def place_near(
     centre, turned = predicted.copy(), np.zeros(len(scans), np.bool_)
     doubtful = np.nonzero(score < usual - UNUSUAL)[0]
     if backwards is not None and len(doubtful):
-        some = [points[k] for k in doubtful]
+        doubtful_points = [points[k] for k in doubtful]
         back = match(
-            window.grid, some, backwards[doubtful], half_m[doubtful], half_rad[doubtful],
-            least=score[doubtful] + _clearly(BACKWARDS_BETTER, some), pull=pull,
+            window.grid, doubtful_points, backwards[doubtful], half_m[doubtful], half_rad[doubtful],
+            least=score[doubtful] + _clearly(BACKWARDS_BETTER, doubtful_points), pull=pull,
         )  # fmt: skip
         better = back.found[:, 0]
         start[doubtful[better]], score[doubtful[better]] = back.poses[better, 0], back.scores[better, 0]

@@ -81,8 +81,8 @@ def place_scans(
         turn @ prior @ np.swapaxes(turn, 1, 2),
     )  # fmt: skip
     convergence = Convergence(CAUTION * max(aligned.sigma_m, LEAST_SIGMA_M), 10, reach, scale, ALIKE)
-    found, _, totals = refine_scans(geometry, refinement, convergence, geometry.threads)
-    result[scans] = found
+    refined, _, totals = refine_scans(geometry, refinement, convergence, geometry.threads)
+    result[scans] = refined
     source = np.repeat(scans, np.diff(offsets)).astype(np.int32)
     per_pair = _information(
         geometry, source, keys[flat].astype(np.int32), between(key_poses[flat], result[source]), reach[1], scale[1],

@@ -48,11 +48,13 @@ def bends(poses: Floats, laser: Quadratic, precision: Precision) -> Floats:
     clusters, cluster = np.unique(pairs, axis=0, return_inverse=True)
     signs = np.random.default_rng(SEED).choice([-1.0, 1.0], (DRAWS, len(clusters)))
     on_first, on_second = pulls(laser)
-    found = np.empty((DRAWS, len(poses), 3))
+    steps_of_draws = np.empty((DRAWS, len(poses), 3))
     for n in range(DRAWS):
         sign = signs[n][cluster.ravel()][:, None]
-        found[n] = precision.solve(summed(len(poses), laser, sign * on_first, sign * on_second).ravel()).reshape(-1, 3)
-    return found
+        steps_of_draws[n] = precision.solve(
+            summed(len(poses), laser, sign * on_first, sign * on_second).ravel()
+        ).reshape(-1, 3)
+    return steps_of_draws
 
 
 def bend_covariances(bends: Floats, poses: Floats, first: NDArray[np.intp], second: NDArray[np.intp]) -> Floats:

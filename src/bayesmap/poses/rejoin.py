@@ -78,7 +78,7 @@ def rejoin(path: KeyPath, half_width_m: float) -> tuple[Floats, NDArray[np.bool_
     Returns poses with every joined part moved, (K, 3), and which parts are joined to an earlier one by places that both
     saw, (P,); part 0 is. ``half_width_m`` is that of submaps' grids.
     """
-    found, islands = [no_closures()], path
+    parts, islands = [no_closures()], path
     for turn in range(TURNS):
         for (first, second, centres), half_m, least in (
             (_near_pairs(path, turn), NEAR_M, NEAR_SCORE),
@@ -86,8 +86,8 @@ def rejoin(path: KeyPath, half_width_m: float) -> tuple[Floats, NDArray[np.bool_
         ):
             every = np.ones(len(first))
             windows = centres, half_m * every, np.pi * every
-            found.append(match_submaps(path, first, second, *windows, half_width_m, least, COARSE))
-        islands = _together(path, joined(found), AGREE if turn == TURNS - 1 else SURELY)
+            parts.append(match_submaps(path, first, second, *windows, half_width_m, least, COARSE))
+        islands = _together(path, joined(parts), AGREE if turn == TURNS - 1 else SURELY)
         if not islands.parts.any():
             break
     return _assembled(path, islands)
@@ -115,9 +115,11 @@ def _surest(pairs: Iterator[list[Joint]], islands: KeyPath, rival: float) -> Joi
     for candidates in pairs:
         if not candidates or (best is not None and candidates[0].votes <= best.votes):
             continue
-        held = [j for j in candidates if consistent(islands, j)]
-        if held and (len(held) == 1 or held[1].votes < rival * held[0].votes):
-            best = held[0] if best is None or held[0].votes > best.votes else best
+        consistent_joints = [j for j in candidates if consistent(islands, j)]
+        if consistent_joints and (
+            len(consistent_joints) == 1 or consistent_joints[1].votes < rival * consistent_joints[0].votes
+        ):
+            best = consistent_joints[0] if best is None or consistent_joints[0].votes > best.votes else best
     return best
 
 
@@ -172,11 +174,11 @@ def _queries(path: KeyPath, turn: int) -> NDArray[np.intp]:
     """Return the places that are sought in a turn: of all parts but the longest."""
     places, count = path.places(SPACING_M), int(path.parts[-1]) + 1
     most, rank = min(QUERIES, max(2 * AGREE, QUERIES_IN_ALL // max(1, count - 1))), _longer(path)
-    found = [np.empty(0, np.intp)]
+    queries = [np.empty(0, np.intp)]
     for part in np.nonzero(rank < count - 1)[0]:
         own = places[path.parts[places] == part]
-        found.append((own if len(own) <= most else own[np.arange(most) * len(own) // most])[turn::TURNS])
-    return np.concatenate(found)
+        queries.append((own if len(own) <= most else own[np.arange(most) * len(own) // most])[turn::TURNS])
+    return np.concatenate(queries)
 
 
 def _candidates(closures: Closures, islands: KeyPath, agree: int) -> Iterator[list[Joint]]:
@@ -198,18 +200,18 @@ def _candidates(closures: Closures, islands: KeyPath, agree: int) -> Iterator[li
         # Several matches of one place count as one vote, the highest.
         places, voice = np.unique(closures.second[own], return_inverse=True)
         loud = np.where(same, (closures.scores[own][None] - CHANCE) ** 2, 0.0)
-        found: list[Joint] = []
+        joints: list[Joint] = []
         least = agree
-        while len(found) < TRIED:
+        while len(joints) < TRIED:
             heard = np.stack([loud[:, voice == k].max(axis=1) for k in range(len(places))], axis=1)
             votes = np.where((heard > 0.0).sum(axis=1) >= least, heard.sum(axis=1), 0.0)
             best = int(np.argmax(votes))
             if not votes[best] > 0.0:
                 break
-            found.append(Joint(int(earlier), int(later), motions[own[best]], float(votes[best])))
+            joints.append(Joint(int(earlier), int(later), motions[own[best]], float(votes[best])))
             loud[:, same[best]] = 0.0  # a match that agrees with one relative pose votes for no other: parts bend
             least = AGREE if agree == AGREE else FEW
-        yield found
+        yield joints
 
 
 def consistent(islands: KeyPath, joint: Joint) -> bool:
@@ -217,8 +219,8 @@ def consistent(islands: KeyPath, joint: Joint) -> bool:
     one, two = np.nonzero(islands.parts == joint.earlier)[0], np.nonzero(islands.parts == joint.later)[0]
     earlier, later = islands.poses[one], compose(joint.motion, islands.poses[two])
     a, b = np.nonzero(np.hypot(*np.moveaxis(earlier[:, None, :2] - later[None, :, :2], -1, 0)) < MET_M)
-    some = np.arange(min(len(a), COMPARED)) * len(a) // max(1, min(len(a), COMPARED))
-    a, b = a[some], b[some]
+    kept = np.arange(min(len(a), COMPARED)) * len(a) // max(1, min(len(a), COMPARED))
+    a, b = a[kept], b[kept]
     scans, seen, geometry = (
         (islands.scans(one[a]), islands.scans(two[b])),
         between(earlier[a], later[b]),

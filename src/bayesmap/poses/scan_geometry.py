@@ -33,16 +33,16 @@ def range_noise_m(ranges_m: Floats, step_rad: float) -> float:
     residual of this equation, times r_2^2, has six times the variance of a range. Its median absolute value is robust
     against corners and edges, which are few.
     """
-    some = ranges_m[:: max(1, len(ranges_m) // SCANS)]
-    before, here, after = some[:, :-2], some[:, 1:-1], some[:, 2:]
+    sampled = ranges_m[:: max(1, len(ranges_m) // SCANS)]
+    before, here, after = sampled[:, :-2], sampled[:, 1:-1], sampled[:, 2:]
     with np.errstate(invalid="ignore", divide="ignore"):
         gap = GAP_M + GAP_STEPS * step_rad * here
         smooth = np.isfinite(before + here + after) & (here > 0) & (before > 0) & (after > 0)
         smooth &= (np.abs(before - here) < gap) & (np.abs(after - here) < gap)
-        left = here**2 * (1.0 / before + 1.0 / after - 2.0 * np.cos(step_rad) / here)
+        residual = here**2 * (1.0 / before + 1.0 / after - 2.0 * np.cos(step_rad) / here)
     if np.count_nonzero(smooth) < FEWEST:
         return LEAST_M
-    sigma = float(np.median(np.abs(left[smooth]))) / MEDIAN_OF_NORMAL / np.sqrt(6.0)
+    sigma = float(np.median(np.abs(residual[smooth]))) / MEDIAN_OF_NORMAL / np.sqrt(6.0)
     return float(np.clip(sigma, LEAST_M, MOST_M))
 
 

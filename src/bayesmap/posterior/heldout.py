@@ -55,9 +55,9 @@ def _matched(train: Scans, scans: Scans) -> NDArray[np.intp]:
     return match
 
 
-def _alike(some: NDArray[np.float64], others: NDArray[np.float64]) -> bool:
+def _alike(first: NDArray[np.float64], second: NDArray[np.float64]) -> bool:
     """Return whether the beams of two scans point the same way."""
-    return some.shape == others.shape and np.allclose(some, others)
+    return first.shape == second.shape and np.allclose(first, second)
 
 
 def _fingerprints(scans: Scans, stamped: bool) -> list[bytes]:

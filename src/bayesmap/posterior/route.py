@@ -161,17 +161,21 @@ def in_the_way(
 
 def _surface_touches(surface: Floats, origin: Floats, path: Floats, radius_m: float) -> NDArray[np.bool_]:
     """Return whether the two-sigma ellipse of each surface, (n, 6), comes within a radius of a path."""
-    mean = surface[:, 1:3] + origin
+    probes, short = _probes(surface, origin)
+    # Half width of the ellipse of two deviations at the probes along its long axis.
+    width = short[:, None] * np.sqrt(np.maximum(4.0 - ALONG[None] ** 2, 0.0))
+    return np.asarray((distance_to_path_m(probes, path) - width < radius_m).any(axis=1))
+
+
+def _probes(surface: Floats, origin: Floats | float = 0.0) -> tuple[Floats, Floats]:
+    """Return points on each ellipse's long axis, (n, 5, 2), and its short standard deviation, (n,)."""
     l11, l21, l22 = surface[:, 3:].T
     var_x, both, var_y = l11**2, l11 * l21, l21**2 + l22**2
     half, off = 0.5 * (var_x + var_y), np.hypot(0.5 * (var_x - var_y), both)
     angle = 0.5 * np.arctan2(2 * both, var_x - var_y)
-    long, short = np.sqrt(half + off), np.sqrt(np.maximum(half - off, 0.0))
-    axis = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
-    probes = mean[:, None] + (ALONG[None, :, None] * long[:, None, None]) * axis[:, None]
-    # Half width of the ellipse of two deviations at the probes along its long axis.
-    width = short[:, None] * np.sqrt(np.maximum(4.0 - ALONG[None] ** 2, 0.0))
-    return np.asarray((distance_to_path_m(probes, path) - width < radius_m).any(axis=1))
+    axis = np.stack([np.cos(angle), np.sin(angle)], axis=-1) * np.sqrt(half + off)[:, None]
+    mean = surface[:, 1:3] + origin
+    return mean[:, None] + ALONG[None, :, None] * axis[:, None], np.sqrt(np.maximum(half - off, 0.0))
 
 
 def free_probability(blocking: NDArray[np.bool_], chains: int) -> FreeProbability:
@@ -254,12 +258,7 @@ def _solid_squares(stops: NDArray[np.float32], grid: Grid) -> NDArray[np.bool_]:
     if stops.ndim == 1:
         return np.asarray(stops.reshape(grid.shape) >= SOLID)
     out = np.zeros(grid.shape, dtype=np.bool_)
-    surface = stops[stops[:, 0] >= SOLID].astype(np.float64)
-    var_x, both, var_y = surface[:, 3] ** 2, surface[:, 3] * surface[:, 4], (surface[:, 4:] ** 2).sum(axis=1)
-    half, off = 0.5 * (var_x + var_y), np.hypot(0.5 * (var_x - var_y), both)
-    angle, long = 0.5 * np.arctan2(2 * both, var_x - var_y), np.sqrt(half + off)
-    axis = np.stack([np.cos(angle), np.sin(angle)], axis=-1) * long[:, None]
-    probes = surface[:, None, 1:3] + ALONG[None, :, None] * axis[:, None]
+    probes, _ = _probes(stops[stops[:, 0] >= SOLID].astype(np.float64))
     cell = np.floor(probes.reshape(-1, 2) / grid.resolution).astype(int)
     inside = ((cell >= 0) & (cell < grid.shape)).all(axis=1)
     out[cell[inside, 0], cell[inside, 1]] = True
