@@ -62,7 +62,7 @@ def test_scans_of_unlike_beams_are_searched_by_their_own(room):
     assert searched(known, own, few, 0)[0].right < usual.right - 0.1
 
 
-def test_the_law_is_that_of_the_scans(room, law):
+def test_the_fitted_law_is_that_of_the_scans(room, law):
     """A sixth of the beams meet somebody; walls are off by 10 cm and thick, so that noise is 2 to 15 cm."""
     assert law.scans >= 20
     assert 0.08 < law.values["p_short"] + law.values["p_random"] < 0.5
@@ -72,7 +72,7 @@ def test_the_law_is_that_of_the_scans(room, law):
     assert "independent readings (fitted on" in law.words()
 
 
-def test_it_is_located_along_the_log_from_anywhere(room, law):
+def test_scans_of_the_log_are_located_from_anywhere(room, law):
     occupancy, grid, moved, truth = room
     found = localize(external_map(occupancy, grid, moved, law), moved)
     off = np.array([offset(b.mean, pose)[0] for b, pose in zip(found.beliefs, truth, strict=True)])
@@ -80,7 +80,7 @@ def test_it_is_located_along_the_log_from_anywhere(room, law):
     assert found.p_lost < 0.05
 
 
-def test_of_a_few_scans_no_law_is_fitted(room):
+def test_few_scans_fit_no_law(room):
     occupancy, grid, moved, _ = room
     law = fit_law(occupancy, grid, moved.select(slice(0, 10)))
     assert law.scans == 0
@@ -88,7 +88,7 @@ def test_of_a_few_scans_no_law_is_fitted(room):
     assert "too few scans" in law.words()
 
 
-def test_a_place_that_was_believed_is_given_up_when_the_scans_say_so():
+def test_a_wrong_prior_is_given_up_when_the_scans_contradict_it():
     """A hall that is the same from both ends but for a block, and a robot that is said to come from the wrong end.
 
     From there all but a tenth of the beams fit, so that it does not look lost. The twin neither searches while it is
@@ -133,7 +133,7 @@ def test_a_fit_as_at_wrong_places_speaks_for_a_wrong_place():
     assert replace(fit, wrong=2.0).log_odds_wrong(0.0) == 0.0
 
 
-def test_maps_that_cannot_be_located_in(room):
+def test_maps_without_walls_or_free_cells_are_refused(room):
     occupancy, grid, moved, _ = room
     with pytest.raises(bm.BadInput, match="no occupied cell that a beam could meet"):
         external_map(np.zeros(grid.shape), grid, moved)

@@ -25,7 +25,7 @@ def belief(p_lost=0.0, count=2000):
     return PoseBelief(poses, np.repeat([0.75 / count, 0.25 / count], count), p_lost, 1.0)
 
 
-def test_modes_are_told_apart_and_averaged_round_the_circle():
+def test_modes_are_separated_and_averaged_round_the_circle():
     one, two = belief().modes
     assert (one.probability, two.probability) == pytest.approx((0.75, 0.25))
     np.testing.assert_allclose(two.mean, [5, 2, 0], atol=0.01)
@@ -54,7 +54,7 @@ def test_the_probability_of_an_area_leaves_room_for_being_lost():
         belief().probability_in([1, 2, 3])
 
 
-def test_levels_that_are_none():
+def test_levels_outside_zero_and_one_are_refused():
     with pytest.raises(BadInput, match="inside"):
         belief().region(1.0)
 

@@ -76,7 +76,7 @@ def test_places_are_weighed_by_half_the_beams_and_poses_within_a_place_by_all():
     np.testing.assert_allclose(shared_by_places(weights, group, np.array([-np.inf, -np.inf, 0.0, 0.0]))[:2], 0.0)
 
 
-def test_of_two_places_the_likelier_has_odds_by_half_the_log_likelihood():
+def test_the_odds_of_two_places_follow_half_the_log_likelihood():
     """Two places of a hall that is the same from both ends but for a post, and a scan whose beams all count as usual.
 
     Odds under the two beam weights are squares of each other where the places' spreads are alike; evidence of 300
@@ -227,7 +227,7 @@ def test_the_same_seed_gives_the_same_posterior():
     np.testing.assert_array_equal(localize(here, scans, seed=4).last.poses, localize(here, scans, seed=4).last.poses)
 
 
-def test_what_cannot_be_located():
+def test_impossible_localizations_are_refused():
     walls, grid = walls_of(4.0, 3.0)
     scans = scan_from(walls, grid, np.array([1.5, 1.2, 0.4]))
     with pytest.raises(bm.BadInput, match="there is no scan"):
@@ -276,7 +276,7 @@ def test_no_probability_exceeds_one_and_a_rectangle_has_an_inside():
 
 
 @pytest.mark.parametrize("seed", full_but(range(4), 1, 2))
-def test_what_a_dense_prior_says_of_the_unknown_does_not_hide_the_room(seed):
+def test_a_dense_prior_of_unknown_cells_does_not_hide_the_room(seed):
     """Of a wide margin each draw has walls in one cell of five, as the prior says; the search must not find them.
 
     A fifth of the readings are of things that are not on the map, so that even the right place does not fit in all.

@@ -105,7 +105,7 @@ def test_the_field_of_a_surface_is_its_widened_density():
     assert scores[3] == pytest.approx(np.log(SURFACE_FLOOR), abs=1e-9)
 
 
-def test_of_two_draws_the_nearer_surface_counts():
+def test_the_nearer_surface_of_two_draws_counts():
     _, grid = walls_of(4.0, 3.0)
     states = np.zeros((2, grid.n_cells), dtype=np.float32)
     states[0, 20 * 30 + 10] = states[1, 25 * 30 + 10] = 1.0
@@ -115,7 +115,7 @@ def test_of_two_draws_the_nearer_surface_counts():
     assert (each[0].values != each[1].values).any()
 
 
-def test_what_is_unknown_is_worth_more_than_the_open_and_less_than_a_wall():
+def test_unknown_cells_are_worth_more_than_open_ones_and_less_than_walls():
     walls, grid = walls_of(4.0, 3.0)
     unknown = np.zeros(grid.shape, dtype=bool)
     unknown[20:30, 12:20] = True

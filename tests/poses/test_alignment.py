@@ -154,7 +154,7 @@ def squares(truth, gaussian):
     return float(np.einsum("mi,mij,mj->m", off, np.linalg.inv(scale), off).mean()) / expected
 
 
-def test_what_is_found_is_in_proportion_to_the_noise_and_what_matching_leaves_is_not():
+def test_the_point_error_grows_with_the_noise_and_the_residuals_do_not():
     found = {noise: aligned(noise) for noise in (0.01, 0.04)}
     errors = [point_error(geometry, one).sigma_m / noise for noise, (_, geometry, one) in found.items()]
     assert errors[1] == pytest.approx(errors[0], rel=0.05)
@@ -163,12 +163,12 @@ def test_what_is_found_is_in_proportion_to_the_noise_and_what_matching_leaves_is
 
 
 @pytest.mark.parametrize("noise_m", [0.01, 0.04])
-def test_covariances_have_the_size_of_errors_for_any_noise(noise_m):
+def test_covariances_have_the_size_of_the_errors_for_any_noise(noise_m):
     truth, geometry, found = aligned(noise_m)
     assert 0.7 < squares(truth, with_point_error(found, point_error(geometry, found))) < 1.5
 
 
-def test_what_matching_leaves_claims_twice_too_much_of_a_noisy_laser():
+def test_residuals_claim_twice_too_much_of_a_noisy_laser():
     truth, _, found = aligned(0.04)
     assert squares(truth, found.gaussian) > 1.8
 
@@ -193,7 +193,7 @@ def test_only_the_laser_s_part_is_scaled():
     assert np.array_equal(scaled.curvature[laser], np.eye(3))
 
 
-def test_scans_that_share_nothing_keep_what_matching_leaves():
+def test_scans_that_share_nothing_keep_the_residuals_error():
     _, geometry, found = aligned(0.01)
     nothing = replace(
         found, pairs=Pairs(np.empty(0, np.int32), np.empty(0, np.int32), np.zeros(len(geometry) + 1, np.int32))
@@ -222,7 +222,7 @@ def placed(noise_m):
 
 
 @pytest.mark.parametrize("noise_m", full_but([0.01, 0.03], 0.01))
-def test_scans_between_key_scans_err_as_much_as_is_said(noise_m):
+def test_scans_between_key_scans_err_by_their_covariance(noise_m):
     truth, keys, found = placed(noise_m)
     others = np.setdiff1d(np.arange(len(truth)), keys)
     off = between(truth[others], found.poses[others])

@@ -63,7 +63,7 @@ def test_the_noise_is_found_whether_wheels_slip_or_not(slips):
     assert (np.abs(ratio - 1.0) < (0.4 if slips else 0.2)).all()
 
 
-def test_motions_of_which_the_laser_tells_nothing_do_not_make_odometry_look_exact():
+def test_motions_that_the_laser_cannot_see_do_not_make_odometry_look_exact():
     """Where the laser is blind the motion found is the one stated: an error of nought that was never measured."""
     ways, turns, scans = way(600, 4)
     errors = errors_of(MotionNoise(RATES), ways, turns, scans, 5)
@@ -87,7 +87,7 @@ def straight_on(noise_rad, count=800, scale=1.03, seed=7):
     return found, np.array(stated)
 
 
-def test_noise_of_a_robot_that_drives_straight_on_does_not_pass_for_a_scale_of_its_turns():
+def test_noise_while_driving_straight_does_not_pass_for_a_scale_of_turns():
     """Regressing what was found on what was stated would give B of -1 for the heading: no turn is ever believed."""
     found, stated = straight_on(0.04)
     fit = fit_odometry(stated, None, found, np.arange(len(found)), np.full((len(found) - 1, 3), 1e-8))
@@ -100,7 +100,7 @@ def test_noise_of_a_robot_that_drives_straight_on_does_not_pass_for_a_scale_of_i
     assert running.slope[0, 0] == pytest.approx(1 / 1.03 - 1, abs=0.01)
 
 
-def test_what_corrects_undoes_what_is_wrong():
+def test_the_correction_removes_the_systematic_error():
     wrong = np.array([[0.05, 0.0, 0.02], [0.0, 0.05, -0.1], [0.03, 0.0, -0.02]])
     motion = np.array([0.4, 0.01, 0.2])
     stated = motion + wrong @ motion

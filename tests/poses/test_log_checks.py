@@ -31,7 +31,7 @@ def test_constant_odometry_is_refused_with_the_remedy(path):
     assert doubts(constant, no_odometry=True) == []
 
 
-def test_where_odometry_was_frozen_is_named(path):
+def test_a_stretch_of_frozen_odometry_is_named(path):
     stated = path.copy()
     stated[30:61] = stated[30]
     frozen = scans(path, stated)

@@ -65,7 +65,7 @@ def test_a_right_visit_stays_and_a_wrong_one_is_left_out():
     assert not wrong.weights.any()
 
 
-def test_a_doubtful_visit_is_told_with_the_poses_without_it():
+def test_a_doubtful_visit_is_reported_with_the_poses_without_it():
     rng = np.random.default_rng(2)
     chain, poses = chain_of(rng, noise=0.3)
     told = []
@@ -159,7 +159,7 @@ def farthest_m(found, truth):
 
 @pytest.mark.full
 @pytest.mark.parametrize("seed", [3, 15, 19])
-def test_rooms_in_a_row_that_look_alike_are_told_apart(seed):
+def test_rooms_in_a_row_that_look_alike_are_distinguished(seed):
     """Odometry's heading is off by much: closures between neighbouring rooms lay within a window as wide as the way is
     uncertain along it, and put the end of the way 2.8 m off.
     """
@@ -170,7 +170,7 @@ def test_rooms_in_a_row_that_look_alike_are_told_apart(seed):
 
 
 @pytest.mark.full
-def test_where_they_are_not_told_apart_it_is_said(monkeypatch):
+def test_steps_between_confused_rooms_are_named_as_leaps(monkeypatch):
     """Closures that the way rules out are taken all the same, and visits that look alike are believed."""
     monkeypatch.setattr(look_alikes, "ODDS", 1e9)
     monkeypatch.setattr(loops, "_possible", lambda closures, path, precision, most_off: np.ones(len(closures), bool))

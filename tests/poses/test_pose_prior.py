@@ -184,7 +184,7 @@ def test_senseless_numbers_are_refused(make):
 TURNED = np.array([[0.0, 0.0, 0.0], [0.0, 0.05, 0.5], [0.0, 0.1, 1.0]])
 
 
-def test_odometry_that_missed_a_turn_does_not_turn_the_scans_of_the_chains():
+def test_odometry_that_missed_a_turn_does_not_turn_scans():
     """The log says firmly that the robot stood still between two scans that the walls hold half a radian apart."""
     scans = Scans(TURNED, np.array([0.0]), np.ones((3, 1)), 2.0)
     stood = Factors(np.arange(2), np.arange(1, 3), np.zeros((2, 3)), np.tile(np.eye(3) / 0.002**2, (2, 1, 1)))

@@ -13,7 +13,7 @@ from bayesmap.space.scans import Scans
 
 
 @pytest.mark.full
-def test_intel_is_as_close_to_the_known_relations_as_was_asked():
+def test_intel_is_close_to_the_known_relations():
     trajectory = infer_trajectory(read_log(intel_log("intel-odometry.log.gz")))
     truth = read_relations(intel_log("intel.relations.gz"))
     summary = relation_errors(trajectory.stamps_s, trajectory.poses, truth, exact=True).summary()
@@ -66,7 +66,7 @@ def drone_log(name):
 
 @pytest.mark.full
 @pytest.mark.parametrize("name", ["swarm-icp.csv.gz", "swarm-exp1-two-drones.csv.gz"])
-def test_places_a_metre_apart_that_look_alike_do_not_bend_the_way(name):
+def test_places_a_metre_apart_that_look_alike_do_not_bend_the_path(name):
     """Six matches of two places agreed with each other and bent the way by a metre: relations were off by 0.4 m."""
     scans, truth, capture = drone_log(name)
     found = infer_trajectory(scans)

@@ -37,7 +37,7 @@ def test_an_error_is_what_the_second_pose_is_off_by_in_its_own_frame():
     assert summary["translation_m_std"] == pytest.approx(np.std([0.5, 0, 0]))
 
 
-def test_relations_of_the_base_are_met_by_the_laser_ahead_of_it_only_where_its_place_is_said():
+def test_relations_of_the_base_need_the_base_in_the_laser_s_frame():
     laser_on_base = np.array([0.04, 0.0, 0.0])
     laser = compose(POSES, laser_on_base)
     base_in_laser = np.array([-0.04, 0.0, 0.0])

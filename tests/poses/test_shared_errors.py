@@ -63,13 +63,13 @@ def test_covariances_have_the_size_of_errors(in_common, low, high):
     assert low < np.mean(means) < high
 
 
-def test_without_what_is_in_common_errors_are_many_times_what_is_claimed():
+def test_covariances_without_shared_errors_are_far_too_small():
     found = [aligned(seed, in_common=True) for seed in range(10)]
     alone = [squares(truth, replace(g, force=np.zeros_like(g.force))).mean() for truth, g in found]
     assert np.mean(alone) > 4.0
 
 
-def test_where_nothing_pulls_nothing_bends():
+def test_without_forces_there_are_no_bends():
     _, gaussian = aligned(0, in_common=True)
     assert not replace(gaussian, force=np.zeros_like(gaussian.force)).bends.any()
 

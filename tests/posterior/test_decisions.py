@@ -29,7 +29,7 @@ def run(request):
     return infer(scans, grid, prior=request.param, sensor=SENSOR, chains=2, warmup=20, draws=30, seed=3)
 
 
-def test_where_the_robot_was_is_free_and_a_wall_that_it_saw_is_not(run):
+def test_the_robot_s_path_is_free_and_a_path_through_a_wall_is_not(run):
     way = run.posterior.scans.poses[:, :2]
     free = run.free_probability(way, 0.2)
     assert free.probability > 0.8
@@ -70,7 +70,7 @@ def test_a_plan_keeps_to_its_risk_and_its_ends(run):
     assert again.probability == route.free.probability
 
 
-def test_what_a_scan_tells_lies_between_bounds(run):
+def test_the_information_of_a_scan_lies_between_bounds(run):
     poses = [[0.5, 0.5, 0.0], [2.5, 3.0, 0.0]]
     told = run.information_gain(poses, ANGLES[::10], draws=30)
     assert told.draws == 30
@@ -116,7 +116,7 @@ def test_the_typical_spread_is_that_of_the_noise():
         (lambda run: next_views(run.posterior, 10, 1, 9.0), "smaller radius"),
     ],
 )
-def test_what_cannot_be_decided_is_refused(run, call, words):
+def test_impossible_decisions_are_refused(run, call, words):
     with pytest.raises(BadInput, match=words):
         call(run)
 

@@ -59,7 +59,7 @@ def exact_information(maps, weights, sensor, count, seed):
     return gains.mean(), gains.std() / np.sqrt(count)
 
 
-def test_of_joint_draws_it_is_what_enumeration_says():
+def test_joint_draws_give_the_information_of_enumeration():
     rng = np.random.default_rng(1)
     maps = rng.random((6, GRID.n_cells)) < 0.3
     weights = rng.dirichlet(np.ones(6))
@@ -81,7 +81,7 @@ def test_a_map_that_is_known_leaves_nothing_to_learn():
     assert found.at_most[0] == pytest.approx(0.0, abs=1e-9)
 
 
-def test_few_draws_of_a_map_of_which_nothing_is_known_give_bounds_and_not_a_wrong_number():
+def test_few_draws_of_an_unknown_map_give_bounds():
     """Eight draws cannot tell more than log 8; that many beams tell more stands in the upper bound."""
     rng = np.random.default_rng(4)
     maps = rng.random((400, GRID.n_cells)) < 0.15
@@ -126,7 +126,7 @@ def plain_fsmi(occupied, pose, angle, sigma, hit, passed):
 
 
 @pytest.mark.parametrize("seed", range(6))
-def test_of_independent_cells_it_is_the_double_sum(seed):
+def test_independent_cells_give_the_double_sum(seed):
     rng = np.random.default_rng(seed)
     occupied = rng.uniform(0.01, 0.9, GRID.n_cells)
     poses = np.column_stack([rng.uniform(-0.9, 1.4, 3), rng.uniform(2.1, 3.9, 3), rng.uniform(-3, 3, 3)])

@@ -12,7 +12,7 @@ KINDS = [bm.Independent(0.2), bm.Beta(0.5, 1.0), bm.Surface(0.5, 1.0)]
 
 
 @pytest.mark.parametrize("prior", KINDS, ids=lambda prior: prior.words.kind)
-def test_one_number_has_the_same_digits_wherever_it_is_asked_for(prior):
+def test_all_scores_give_equal_densities_bit_for_bit(prior):
     """The log score, the whole score, and the surprise of residuals are one kernel's, for every kind of cells."""
     grid, sensor = bm.Grid((4, 3), 0.5, (-1.0, 2.0)), bm.BeamMixture(bm.Gaussian(0.05, 0.01), p_no_return=0.1)
     train, held = scans_of_all_kinds(5, grid, poses=20), scans_of_all_kinds(6, grid, poses=7)

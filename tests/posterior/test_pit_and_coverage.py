@@ -80,7 +80,7 @@ def test_predictions_of_the_model_s_own_data_are_calibrated(name):
     ],
     ids=["noise too wide", "too many lost beams", "another depth", "a map of the mean"],
 )
-def test_those_of_a_wrong_twin_are_not(change):
+def test_predictions_of_a_wrong_twin_are_not_calibrated(change):
     """Power of the test above, and what is wrong never scores better."""
     predictor, scans = drawn_from_the_model(SENSORS["mixture"], 1)
     right = score_prediction(predictor, scans)

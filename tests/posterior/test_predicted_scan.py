@@ -94,7 +94,7 @@ def test_quantiles_are_those_of_the_mean_over_draws():
     assert not np.allclose(found, one_draw, atol=0.05)  # another law would be noticed
 
 
-def test_of_surfaces_they_are_where_a_beam_crosses_them():
+def test_quantiles_of_surfaces_are_where_a_beam_crosses_them():
     rng = np.random.default_rng(4)
     states = np.zeros((2, GRID.n_cells, 6), np.float32)
     states[..., 0] = rng.beta(0.6, 1.0, (2, GRID.n_cells))

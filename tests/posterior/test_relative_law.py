@@ -68,7 +68,7 @@ def test_draws_of_chains_that_have_not_mixed_are_not_believed():
     assert "have not mixed" in figures["known_by"]
 
 
-def test_draws_of_chains_that_have_mixed_are():
+def test_draws_of_chains_that_have_mixed_are_believed():
     found = round_way()
     scans = SimpleNamespace(stamps_s=found.stamps_s[found.keys])
     there = trajectory_of(SimpleNamespace(trajectory=found, poses=chains(found, 0.01, 0.0)), scans)
@@ -77,7 +77,7 @@ def test_draws_of_chains_that_have_mixed_are():
     assert "which have mixed" in there.known_by
 
 
-def test_without_an_approximation_it_is_said_that_the_draws_are_too_alike():
+def test_unmixed_draws_without_an_approximation_are_called_too_alike():
     found = round_way()
     scans = SimpleNamespace(stamps_s=found.stamps_s[found.keys])
     there = trajectory_of(SimpleNamespace(poses=chains(found, 1e-4, 0.02)), scans)
@@ -85,7 +85,7 @@ def test_without_an_approximation_it_is_said_that_the_draws_are_too_alike():
     assert "too alike" in there.known_by
 
 
-def test_a_summary_of_poses_claims_what_the_approximation_says_until_chains_mix():
+def test_a_summary_of_poses_uses_the_approximation_until_chains_mix():
     found = round_way()
     for between_chains, by_approximation in ((0.02, True), (0.0, False)):
         poses = chains(found, 1e-3, between_chains)

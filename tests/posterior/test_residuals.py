@@ -57,13 +57,13 @@ def test_surprise_is_minus_the_log_score():
     )
 
 
-def test_half_of_the_draws_decide():
+def test_the_median_over_draws_decides():
     for draws, expected in (([[4], [4], [8]], 4), ([[4], [8], [8]], 8), ([[], [], [4]], 9)):
         found = residuals_of(predictor_of(run(*draws)), along(5.0))
         np.testing.assert_allclose(found.residual_m, [5.0 - expected], atol=0.1)  # noise moves a median a little
 
 
-def test_no_return_counts_as_the_largest_range_and_is_drawn_where_the_median_is():
+def test_no_return_counts_as_the_largest_range_and_lies_at_the_median():
     scans = along(np.inf, np.inf, 4.0, np.nan, -np.inf)
     found = compare(scans, np.array([6.0, np.inf, np.inf, 6.0, 6.0]), np.arange(5.0))
     np.testing.assert_array_equal(found.beams, [0, 1, 2])
@@ -122,7 +122,7 @@ def test_parts_follow_each_other_by_their_sizes():
     assert told == pytest.approx([0.5 / 8, 1 / 8, 2 / 8, 3 / 8, 4 / 8, 1.0])
 
 
-def test_a_part_of_a_part():
+def test_a_part_can_have_parts():
     told = []
     _, second = parts(told.append, 1.0, 1.0)
     for tell in parts(second, 3.0, 1.0):
@@ -130,7 +130,7 @@ def test_a_part_of_a_part():
     assert told == pytest.approx([0.875, 1.0])
 
 
-def test_watched_batches_are_the_same_and_are_told_when_they_have_been_used():
+def test_watched_batches_are_unchanged_and_reported_after_use():
     told = []
     batches = [np.arange(6).reshape(3, 2), np.arange(2).reshape(1, 2)]
     seen = [(batch, len(told)) for batch in watched(batches, 4, told.append)]

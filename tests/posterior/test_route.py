@@ -62,7 +62,7 @@ def test_cells_without_surfaces_are_in_the_way_as_squares():
     assert found.any()
 
 
-def test_surfaces_are_in_the_way_where_they_lie_and_not_where_their_cell_is():
+def test_surfaces_block_where_they_lie_and_not_where_their_cell_is():
     cells = np.array([5 * 10 + 2], dtype=np.int32)  # its square is [1.5, 2] x [3, 3.5], on the path
     wall = np.array([0.9, 3.2, 0.6, 0.1, 0.0, 0.01], dtype=np.float32)  # 2.2, 2.6 in the world
     straight = np.array([[0.0, 3.1], [4.0, 3.1]])
@@ -162,7 +162,7 @@ def test_a_door_that_may_be_shut_is_taken_only_if_the_risk_is_accepted():
     assert np.hypot(*(careful.path - [5.125, 1.2]).T).min() < 1.5  # it goes by the far door
 
 
-def test_where_every_way_is_too_risky_the_safest_is_shown():
+def test_the_safest_path_is_returned_if_all_are_too_risky():
     draws = rooms(np.arange(40) % 4 == 0)
     draws.reshape(-1, *GRID.shape)[:, 20, 2:8] = 1.0
     found = route(draws, 0.05)
@@ -170,7 +170,7 @@ def test_where_every_way_is_too_risky_the_safest_is_shown():
     assert found.free.probability == pytest.approx(0.75)
 
 
-def test_a_route_has_no_more_length_than_the_straight_line_needs_in_an_empty_hall():
+def test_a_route_in_an_empty_hall_is_straight():
     empty = np.zeros((4, GRID.n_cells), dtype=np.float32)
     for seed in range(20):
         rng = np.random.default_rng(seed)
@@ -179,7 +179,7 @@ def test_a_route_has_no_more_length_than_the_straight_line_needs_in_an_empty_hal
         assert found.length_m <= np.hypot(*(goal - start)) * 1.001 + 1e-6
 
 
-def test_large_cells_that_are_surely_walls_are_gone_round_and_no_corner_is_cut():
+def test_large_walls_are_gone_round_without_cutting_corners():
     """With cells of a metre the straight line and the diagonal past the wall's corner both touch it."""
     grid = Grid((6, 5), 1.0, (-0.5, -0.5))
     walls = np.zeros((8, *grid.shape), dtype=np.float32)

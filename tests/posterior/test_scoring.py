@@ -78,7 +78,7 @@ def test_a_run_s_nats_are_its_log_score(case, run):
     assert found.hit_depth == 0.3
 
 
-def test_it_depends_on_its_seed_alone(case, run):
+def test_a_score_depends_on_its_seed_alone(case, run):
     held = make_case(22, sensor=case.sensor, n_poses=4).scans
     first, again, other = (bm.score(run, held, seed=seed).as_json() for seed in (1, 1, 2))
     assert first == again
@@ -86,7 +86,7 @@ def test_it_depends_on_its_seed_alone(case, run):
     assert first["nats_per_beam_error"] != other["nats_per_beam_error"]
 
 
-def test_it_is_json_even_where_nothing_can_be_said(case, run):
+def test_a_score_of_a_single_scan_is_json(case, run):
     held = make_case(22, sensor=case.sensor, n_poses=1).scans
     document = json.loads(json.dumps(bm.score(run, held).as_json(), allow_nan=False))
     assert document["nats_per_beam_error"] is None

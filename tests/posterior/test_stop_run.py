@@ -51,7 +51,7 @@ def test_draws_and_their_mean_cover_the_grid(kind):
     assert run.log_joint.shape == (2, 8)
 
 
-def test_where_no_beam_comes_draws_and_intervals_are_the_prior_s():
+def test_draws_and_intervals_of_untouched_cells_are_the_prior_s():
     scans = bm.Scans([-1.5, 3.2, 0.0], [0.0], [[1.2]], max_range_m=3.0)
     run = bm.infer(
         scans, GRID, prior=bm.Beta(1.0, 1.0), sensor=SENSOR, schedule=bm.Schedule(chains=1, warmup=5, draws=400)
@@ -171,11 +171,11 @@ def test_the_summary_judges_reflectivities(kind):
 
 
 @KINDS
-def test_it_is_drawn(kind):
+def test_a_run_is_drawn(kind):
     assert len(run_of(kind).plot().axes) >= 3
 
 
-def test_where_no_reading_ended_there_are_no_surfaces_and_the_run_is_drawn():
+def test_a_run_without_hits_has_no_surfaces_and_is_drawn():
     nothing = bm.Scans(TRAIN.poses, TRAIN.angles_rad, np.full(TRAIN.ranges_m.shape, np.inf), max_range_m=0.4)
     run = inferred(nothing, "surfaces", chains=2, warmup=1, draws=2)
     assert [part.shape for part in run.surfaces()] == [(0, 2), (0, 2, 2), (0,)]

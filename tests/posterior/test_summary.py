@@ -56,7 +56,7 @@ def test_moments_are_those_that_the_draws_come_from():
     assert (found.ess > 1000).all()
 
 
-def test_chains_that_disagree_are_told():
+def test_chains_that_disagree_have_a_large_r_hat():
     poses, _ = draws(1)
     poses[0, :, 1, 0] += 3.0
     found = summarise_poses(poses)

@@ -53,7 +53,7 @@ def test_regions_of_right_covariances_hold_their_share():
     assert scipy.stats.kstest(score.region, "uniform").pvalue > 1e-4
 
 
-def test_regions_of_covariances_that_are_too_small_do_not():
+def test_regions_of_covariances_that_are_too_small_hold_less():
     poses, covariances = independent_errors(scale=1.5)
     score = score_trajectory(Trajectory(poses, STAMPS, covariances), relations_of(path()))
     assert score.coverage(0.8) < 0.6
