@@ -4,14 +4,13 @@ from functools import cache
 
 import numpy as np
 import pytest
-from rooms import ANGLES, known, offset, scan_from, walls_of
+from rooms import LIMITS, enumerated, known, lattice_about, offset, scan_from, walls_of
 from tiers import full_but
 
 from bayesmap.errors import BadInput
 from bayesmap.localization.belief import PoseBelief
 from bayesmap.localization.filter import Scan, distinct, locate
 from bayesmap.localization.particles import PoseMixture
-from bayesmap.sensors.model import RangeLimits
 
 
 @cache
@@ -66,9 +65,6 @@ def test_json_has_every_answer():
     assert answer["region_95_m2"] > 0
 
 
-LIMITS = RangeLimits(0.0, 10.0)
-
-
 def scan_of(scans):
     return Scan(scans.angles_rad, scans.ranges_m[0], LIMITS)
 
@@ -84,23 +80,14 @@ def test_the_posterior_is_that_of_enumerated_poses():
     scans = scan_from(walls, grid, truth)
     here = known(walls, grid, scans, beam_weight=1.0)
     found = [locate(here, scan_of(scans), np.random.default_rng(seed)) for seed in range(16)]
-    axes = [np.linspace(-c, c, 41) for c in (0.06, 0.06, 0.06)]
-    lattice = truth + np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 3)
-
-    def enumerated(weight):
-        logs = here.log_likelihood(lattice, ANGLES, scans.ranges_m[0], LIMITS, weight=weight)
-        weights = np.exp(logs - logs.max())
-        weights /= weights.sum()
-        mean = weights @ lattice
-        return mean, np.sqrt(weights @ (lattice - mean) ** 2)
-
-    mean, sd = enumerated(1.0)
+    lattice = lattice_about(truth, (0.06, 0.06, 0.06), 41)
+    mean, sd = enumerated(here, lattice, scans.ranges_m[0], weight=1.0)
     assert all(len([mode for mode in belief.modes if mode.probability > 0.01]) == 1 for belief in found)
     means = np.array([belief.mean for belief in found])
     spread = np.sqrt(np.mean([np.diag(belief.covariance) for belief in found], axis=0))
     np.testing.assert_array_less(np.abs(means.mean(axis=0) - mean) / sd, 0.3)
     np.testing.assert_allclose(spread, sd, rtol=0.25)
-    assert (enumerated(0.5)[1] > 1.2 * sd).all()
+    assert (enumerated(here, lattice, scans.ranges_m[0], weight=0.5)[1] > 1.2 * sd).all()
 
 
 @pytest.mark.parametrize("seed", full_but(range(6), 0, 3))

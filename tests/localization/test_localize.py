@@ -4,7 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from rooms import ANGLES, LASER, known, offset, scan_from, walls_of
+from flat_options import infer
+from rooms import LASER, enumerated, known, lattice_about, offset, scan_from, walls_of
 from tiers import full_but
 
 import bayesmap as bm
@@ -13,11 +14,8 @@ from bayesmap.localization.filter import shared_by_places
 from bayesmap.localization.known_map import KnownMap
 from bayesmap.localization.localize import Near, localize
 from bayesmap.localization.search import likelihood_field
-from bayesmap.sensors.model import RangeLimits
 from bayesmap.space.planar import between, compose
 from bayesmap.space.scans import side_by_side
-
-LIMITS = RangeLimits(0.0, 10.0)
 
 
 class OwnSensor(bm.SensorModel):
@@ -47,21 +45,12 @@ def test_the_posterior_is_that_of_enumerated_poses():
     means = np.array([belief.weights @ belief.poses for belief in found])
     spreads = np.array([np.diag(belief.total_covariance) for belief in found])
 
-    axes = [np.linspace(-3, 3, 37) * s for s in sigma]
-    lattice = truth + np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 3)
+    lattice = lattice_about(truth, 3 * sigma, 37)
     prior = -0.5 * (((lattice - truth) / sigma) ** 2).sum(axis=1)
-
-    def enumerated(thin):
-        logs = prior + here.log_likelihood(lattice, ANGLES, scans.ranges_m[0], LIMITS, thin)
-        weights = np.exp(logs - logs.max())
-        weights /= weights.sum()
-        mean = weights @ lattice
-        return mean, np.sqrt(weights @ (lattice - mean) ** 2)
-
-    mean, sd = enumerated(1)
+    mean, sd = enumerated(here, lattice, scans.ranges_m[0], prior)
     np.testing.assert_array_less(np.abs(means.mean(axis=0) - mean) / sd, 0.3)
     np.testing.assert_allclose(np.sqrt(spreads.mean(axis=0)), sd, rtol=0.2)
-    twin, _ = enumerated(4)
+    twin, _ = enumerated(here, lattice, scans.ranges_m[0], prior, thin=4)
     assert (np.abs(means.mean(axis=0) - twin) / sd).max() > 0.3
 
 
@@ -230,8 +219,6 @@ def test_the_same_seed_gives_the_same_posterior():
 def test_impossible_localizations_are_refused():
     walls, grid = walls_of(4.0, 3.0)
     scans = scan_from(walls, grid, np.array([1.5, 1.2, 0.4]))
-    with pytest.raises(bm.BadInput, match="there is no scan"):
-        localize(known(walls, grid, scans), scans.select(slice(0, 0)))
     with pytest.raises(bm.BadInput, match="sigma_m and sigma_rad above 0"):
         Near([0, 0, 0], 0.0)
     with pytest.raises(bm.BadInput, match="Gaussian, StudentT or a BeamMixture with such noise"):
@@ -239,26 +226,20 @@ def test_impossible_localizations_are_refused():
     with pytest.raises(bm.BadInput, match="no free cell"):
         known(np.ones_like(walls), grid, scans)
     sensor = bm.BeamMixture(bm.Gaussian(0.02))
-    run = bm.infer(
-        scans, grid, prior=bm.Independent(0.2), sensor=sensor, schedule=bm.Schedule(chains=1, warmup=2, draws=2)
-    )
-    with pytest.raises(bm.BadInput, match="device: 'tpu:7' is not on this machine"):
-        bm.localize(run, scans, device="tpu:7")
-    here = known(walls, grid, scans)
-    for arguments, message in (
-        (("x", scans), "give a run, such as bm.load gives"),
-        ((run, "x"), "scans must be those that bm.read_log gives, got 'x'"),
-        ((run, str), "scans must be those that bm.read_log gives"),
+    run = infer(scans, grid, prior=bm.Independent(0.2), sensor=sensor, chains=1, warmup=2, draws=2)
+    here, outside = known(walls, grid, scans), Near((40.0, 1.0, 0.0), 0.5)
+    for where, given, options, message in (
+        (here, scans.select(slice(0, 0)), {}, "there is no scan"),
+        (run, scans, {"device": "tpu:7"}, "device: 'tpu:7' is not on this machine"),
+        ("x", scans, {}, "give a run, such as bm.load gives"),
+        (run, "x", {}, "scans must be those that bm.read_log gives, got 'x'"),
+        (run, str, {}, "scans must be those that bm.read_log gives"),
+        (here, scans, {"prior": (0, 0, 0)}, r"prior must be such as bm.Near\(\(x, y, yaw\)\)"),
+        (here, scans, {"odometry": bm.Odometry}, r"odometry must be such as bm.Odometry\(\)"),
+        (here, scans, {"prior": outside}, r"prior: \(40, 1\) \+- 0.5 m lies outside the map, which is from"),
     ):
         with pytest.raises(bm.BadInput, match=message):
-            bm.localize(*arguments)
-    for options, message in (
-        ({"prior": (0, 0, 0)}, r"prior must be such as bm.Near\(\(x, y, yaw\)\)"),
-        ({"odometry": bm.Odometry}, r"odometry must be such as bm.Odometry\(\)"),
-        ({"prior": Near((40.0, 1.0, 0.0), 0.5)}, r"prior: \(40, 1\) \+- 0.5 m lies outside the map, which is from"),
-    ):
-        with pytest.raises(bm.BadInput, match=message):
-            localize(here, scans, **options)
+            bm.localize(where, given, **options)
     # One that reaches into the map is none.
     assert len(localize(here, scans, prior=Near((-1.0, 1.0, 0.0), 1.0))) == 1
 
