@@ -204,8 +204,6 @@ def test_scans_that_share_nothing_keep_the_residuals_error():
 EVERY = 4
 """So many scans from one key scan to the next."""
 
-NONE = Factors(np.empty(0, np.intp), np.empty(0, np.intp), np.empty((0, 3)), np.empty((0, 3, 3)))
-
 
 @cache
 def placed(noise_m):

@@ -12,9 +12,9 @@ Other blocks are found by solving for the columns of one of the two poses.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields, replace
 from functools import cached_property
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -192,12 +192,9 @@ class Factors:
         to_second = compose(self.relative[two], between(poses[second[two]], poses[second[one]]))
         return between(self.relative[one], compose(between(poses[first[one]], poses[first[two]]), to_second))
 
-    def select(self, chosen: NDArray[np.bool_] | NDArray[np.intp]) -> Factors:
+    def select(self, chosen: NDArray[np.bool_] | NDArray[np.intp]) -> Self:
         """Return some of the factors."""
-        return Factors(self.first[chosen], self.second[chosen], self.relative[chosen], self.information[chosen])
-
-
-NO_FACTORS = Factors(np.empty(0, np.intp), np.empty(0, np.intp), np.empty((0, 3)), np.empty((0, 3, 3)))
+        return replace(self, **{field.name: getattr(self, field.name)[chosen] for field in fields(self)})
 
 
 @dataclass(frozen=True, eq=False)

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.poses.front_end import SLIPPED_BELOW, UNKNOWN, WINDOW, Track, grid_half_width
-from bayesmap.poses.graph import NO_FACTORS, Factors, optimise, quadratic, solve_step
+from bayesmap.poses.graph import Factors, optimise, quadratic, solve_step
 from bayesmap.poses.look_alikes import Weighed, weigh
 from bayesmap.poses.loops import Closures, KeyPath, Search, find_closures, key_path, no_closures
 from bayesmap.poses.matcher import likelihood_grids, score_at
@@ -61,16 +61,12 @@ class ClosedGraph:
     """Key scans with loops closed.
 
     Attributes:
-        poses: of the keys, (K, 3).
         closures: those of the last round.
-        weights: Geman and McClure's weight of each closure, from 0 to 1: near 0 where it was not believed.
         joined: which parts of the path are joined to an earlier one by places that both saw, (P,).
-        weighed: this graph with the alternatives to it.
+        weighed: poses of the keys, Geman and McClure's weights of the closures, and the alternatives to them.
     """
 
-    poses: Floats
     closures: Closures
-    weights: Floats
     joined: NDArray[np.bool_]
     weighed: Weighed
 
@@ -192,7 +188,7 @@ def close_loops(
             two = (path.parts[known] == k).astype(np.intp)
             both = KeyPath(geometry, keys[known], poses[known], path.along[known], two)
             joined[k] = consistent(both, Joint(0, 1, np.zeros(3), 0.0))
-    return ClosedGraph(poses, closures, weights, joined, weighed)
+    return ClosedGraph(closures, joined, weighed)
 
 
 def _rounds(
@@ -200,15 +196,14 @@ def _rounds(
     on_progress: Callable[[int, Floats], None] | None = None, *, within_parts: bool = False,
 ) -> tuple[Weighed, Closures]:  # fmt: skip
     """Close loops in rounds, of the whole path or within its parts; returns the graph and the last round's closures."""
-    poses, weights, loops, closures = path.poses, np.empty(0), NO_FACTORS, no_closures()
+    poses, weights, closures = path.poses, np.empty(0), no_closures()
     for number, search in enumerate(rounds, start=1):
-        parts = [quadratic(chain, poses), quadratic(loops, poses, weights)]
+        parts = [quadratic(chain, poses), quadratic(closures, poses, weights)]
         _, precision = solve_step(len(poses), parts)
         closures = find_closures(path.at(poses), precision, half_width_m, search, within_parts=within_parts)
-        loops = closures.factors()
         before = poses
-        poses, weights = optimise(poses, chain, loops)
-        weighed = weigh(poses, weights, chain, loops, path.along)
+        poses, weights = optimise(poses, chain, closures)
+        weighed = weigh(poses, weights, chain, closures, path.along)
         poses, weights = weighed.poses, weighed.weights
         if on_progress is not None:
             on_progress(number, poses)

@@ -142,37 +142,16 @@ FINE = Fineness(350, np.radians(1.0))
 
 
 @dataclass(frozen=True, eq=False)
-class Closures:
-    """Relative poses between M pairs of key scans that saw the same place at different times.
+class Closures(Factors):
+    """Relative poses between M pairs of key scans that saw the same place at different times; first is the earlier one.
 
     Attributes:
-        first, second: key scans, as positions among the keys; the first is the earlier one.
-        relative: the second pose in the frame of the first, (M, 3).
-        information: of the relative pose, in the first's frame, (M, 3, 3).
-        scores: how well the second's submap fits, from 0 to 1.
-        support: number of other closures that imply the same.
+        scores: how well the second's submap fits, from 0 to 1, (M,).
+        support: number of other closures that imply the same, (M,).
     """
 
-    first: NDArray[np.intp]
-    second: NDArray[np.intp]
-    relative: Floats
-    information: Floats
     scores: Floats
     support: NDArray[np.intp]
-
-    def __len__(self) -> int:
-        return len(self.first)
-
-    def select(self, chosen: NDArray[np.bool_] | NDArray[np.intp]) -> Closures:
-        """Return some of the closures."""
-        return Closures(
-            self.first[chosen], self.second[chosen], self.relative[chosen], self.information[chosen],
-            self.scores[chosen], self.support[chosen],
-        )  # fmt: skip
-
-    def factors(self) -> Factors:
-        """Return the closures as factors of the graph of key scans."""
-        return Factors(self.first, self.second, self.relative, self.information)
 
 
 def match_submaps(
@@ -266,7 +245,7 @@ def supported(closures: Closures, path: KeyPath) -> Closures:
         & (np.abs(along[b][:, None] - along[b][None]) < 5.0)
         & ((b[:, None] != b[None]) | (a[:, None] != a[None]))
     )
-    off = closures.factors().disagreements(path.poses, one, two)
+    off = closures.disagreements(path.poses, one, two)
     between_m = np.abs(along[a][one] - along[a][two]) + np.abs(along[b][one] - along[b][two])
     agree = (np.hypot(off[:, 0], off[:, 1]) < 0.15 + 0.02 * between_m) & (
         np.abs(off[:, 2]) < np.radians(2.0) + np.radians(0.3) * between_m

@@ -14,6 +14,7 @@ from bayesmap.poses.front_end import Track, follow, grid_half_width
 from bayesmap.poses.key_alignment import KeyAlignment, flag_unexplained
 from bayesmap.poses.key_graph import ClosedGraph, close_loops, contradicted_links, poses_between_keys, unconfirmed_links
 from bayesmap.poses.log_checks import check_scans
+from bayesmap.poses.look_alikes import Weighed
 from bayesmap.poses.odometry_factors import stated_odometry
 from bayesmap.poses.placement import place_scans
 from bayesmap.poses.scan_geometry import scan_geometry
@@ -91,7 +92,8 @@ def infer_trajectory(
 
     # Key scans are aligned with all others that see the same walls.
     alignment = KeyAlignment(geometry.select(keys), track, grid_half_width(geometry), report.of_keys)
-    first = alignment.align("aligned", closed.poses, odometry.first_factors(track, closed.poses), wide=True)
+    poses = closed.weighed.poses
+    first = alignment.align("aligned", poses, odometry.first_factors(track, poses), wide=True)
 
     # Laser and odometry are calibrated, and key scans aligned once more.
     poses, ratio = first.poses, 1.0
@@ -125,7 +127,7 @@ def infer_trajectory(
     if odometry.used:
         leaping |= unconfirmed_links(geometry, track, factors, final.poses)
     gaussian = replace(with_point_error(final, error), poses=compose(report.origin, final.poses))
-    alternatives, elsewhere = alternatives_of(closed, keys, gaussian.poses)
+    alternatives, elsewhere = alternatives_of(closed.weighed, keys, gaussian.poses)
     explained = placed.matched.copy()
     explained[keys] = matched.scores
     noise = None if fit is None else fit.noise.of_scans(odometry.motions)
@@ -147,12 +149,11 @@ def in_order_of_time(scans: Scans) -> tuple[NDArray[np.intp], Scans]:
     return timed.order, replace(scans.select(timed.order), stamps_s=timed.stamps_s)
 
 
-def alternatives_of(closed: ClosedGraph, keys: NDArray[np.intp], poses: Floats) -> tuple[Alternatives, Floats | None]:
+def alternatives_of(weighed: Weighed, keys: NDArray[np.intp], poses: Floats) -> tuple[Alternatives, Floats | None]:
     """Return the alternatives to the keys' poses, (K, 3), and the steps to them that `PoseGaussian.elsewhere` holds."""
-    weighed = closed.weighed
     if not len(weighed.probabilities):
         return NO_ALTERNATIVES, None
-    steps = between(closed.poses[None], weighed.alternatives)
+    steps = between(weighed.poses[None], weighed.alternatives)
     steps[..., 2] = wrapped(steps[..., 2])
     first, last, probabilities = keys[weighed.first], keys[weighed.last], weighed.probabilities
     elsewhere = steps * np.sqrt(probabilities)[:, None, None]
@@ -168,6 +169,6 @@ def _digest(scans: Scans, settings: str) -> str:
 
 def _closures(closed: ClosedGraph, keys: NDArray[np.intp], poses: Floats) -> LoopClosures:
     """Return the loop closures with their residuals at the final poses of the keys, (K, 3)."""
-    found = closed.closures
-    residuals = found.factors().errors(poses)
-    return LoopClosures(keys[found.first], keys[found.second], found.relative, residuals, closed.weights)
+    loops = closed.closures
+    weights = closed.weighed.weights
+    return LoopClosures(keys[loops.first], keys[loops.second], loops.relative, loops.errors(poses), weights)
