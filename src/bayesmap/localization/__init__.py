@@ -1,1 +1,1 @@
-"""Where is the robot in a map that is known up to its posterior: the posterior over poses."""
+"""Localization: the posterior over a robot's pose in a map posterior, or in a map of another program."""

@@ -77,7 +77,7 @@ LEAST_SD_NATS = 0.05
 
 @dataclass(frozen=True)
 class MapLaw:
-    """What a map of another program means for beams, and what a scan in it is worth.
+    """The law of a map of another program: its meaning for beams, and the worth of a scan in it.
 
     Attributes:
         values: stop probabilities of cells, and the numbers of the beam model.

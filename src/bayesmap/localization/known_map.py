@@ -49,7 +49,7 @@ MOST_ODDS = 4.0
 
 @dataclass(frozen=True)
 class Trust:
-    """How far a map is trusted: what a scan's evidence in it is worth, and how long other places are kept.
+    """The trust in a map: the worth of a scan's evidence in it, and how long other places are kept.
 
     Attributes:
         pose_readings: number of independent readings that a scan is worth for where in a place it was taken,

@@ -1,1 +1,1 @@
-"""Where the robot was: priors of poses, and their inference."""
+"""Poses of the scans: their priors, and the inference of a trajectory from scans and odometry."""

@@ -53,8 +53,7 @@ SLIPPED_BELOW = 0.15
 
 AGAIN_BELOW = 0.1
 """A scan whose score is lower than usual by more than this is matched again, from the pose of the scan before it:
-odometry's errors add up over the scans of a batch, until the window lies
-elsewhere."""
+odometry's errors add up over the scans of a batch, until the window lies elsewhere."""
 
 LEARN_BELOW = 0.25
 """Motions of scans whose score is lower than usual by more than this teach nothing about odometry."""

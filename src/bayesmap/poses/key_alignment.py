@@ -38,7 +38,7 @@ AT_ONCE, POINTS, SIGMA_M = 24, 200, 0.06
 
 @dataclass(frozen=True, eq=False)
 class Rematch:
-    """How well other scans explain each of S scans.
+    """The result of leave-one-out matching of S scans: how well the others explain each, and where best.
 
     Attributes:
         scores: of each scan at its pose, by its partners alone, from 0 to 1, (S,); 0 where it has no partner.

@@ -27,7 +27,7 @@ LINK_FLOOR = np.array([0.004, 0.004, np.radians(0.12)])
 """Least standard deviations of a link between key scans."""
 
 BENT_M = 5.0
-"""How far a path may be bent before loops are closed."""
+"""Greatest bend of a path before loops are closed."""
 
 SETTLED_M = 0.3
 """When a round moves no key scan further, no more loops are sought: alignment goes on from there."""
@@ -40,7 +40,7 @@ REFUSED_SIGMAS, CONFIRMED_BELOW = 5.0, 0.2
 the score of the scan after it is at most the second number lower than usual."""
 
 BOTH_SIGMAS = 4.0
-"""Where odometry contradicts a step, this many of the front end's standard deviations make it a leap."""
+"""A step that odometry contradicts is a leap from this many of the front end's standard deviations on."""
 
 GUESSED_SIGMAS = 3.0
 """A part of the path that fitted where the front end guessed it is in doubt if it was joined further off than this."""

@@ -111,7 +111,7 @@ AROUND_M, NARROW_M, WIDE_M = 2.0, 0.7, 1.0
 """Half lengths along the path: of a submap, of the submap matched to it, and of those whose views are compared."""
 
 RESOLUTION_M, SIGMA_M, AT_ONCE = 0.1, 0.1, 24
-"""Of submaps' likelihood grids, and how many are in memory at once."""
+"""Resolution and standard deviation of submaps' likelihood grids, and how many are in memory at once."""
 
 MODES, MODE_SHARE = 2, 0.92
 """Places of a window that are refined: further ones whose score is at least this share of the best one's."""

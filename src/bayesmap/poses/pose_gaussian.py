@@ -68,7 +68,7 @@ def bend_covariances(bends: Floats, poses: Floats, first: NDArray[np.intp], seco
 
 
 DEGREES_OF_FREEDOM = 10.0
-"""Of Student's t. Errors of the model (curved walls, people, scans bent by motion) have heavy tails on real logs, and
+"""Degrees of Student's t. Errors of the model (curved walls, people, bent scans) have heavy tails on real logs, and
 none on simulated ones. With this value both are right within some per cent (docs/lab/poses.md)."""
 
 

@@ -110,7 +110,7 @@ def infer_trajectory(
     fit, factors = odometry.fitted(track, first)
     second = alignment.align("aligned-again", poses, factors, wide=ratio != 1.0)
 
-    # Every key scan is matched anew without itself, and moved where the others explain it better.
+    # Every key scan is matched without itself, and moved where the others explain it better.
     matched = alignment.improved(second, factors)
     if odometry.used:
         matched = alignment.without_leaps(matched, factors)
@@ -122,7 +122,7 @@ def infer_trajectory(
     placed = place_scans(geometry, start, keys, final, error)
     report.told("placing", len(scans), len(scans), placed.poses)
 
-    # What is known, how well, and what is doubtful.
+    # The result: poses, their uncertainty, and the doubtful steps.
     leaping = contradicted_links(track, final.poses)
     if odometry.used:
         leaping |= unconfirmed_links(geometry, track, factors, final.poses)

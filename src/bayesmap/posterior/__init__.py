@@ -1,1 +1,1 @@
-"""What inference found: the posterior as plain data, its summaries, diagnostics and scores."""
+"""The posterior as plain data, its summaries, predictions, scores and decisions."""

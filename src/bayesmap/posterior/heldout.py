@@ -105,7 +105,7 @@ def unseen_scans(train: Scans, scans: Scans, every: int, where: str) -> Scans:
         )
     held = np.arange(len(scans)) % every == every // 2 if every >= 2 else None
     if held is None or not held.any():
-        scans.holdout(every)  # says what is wrong
+        scans.holdout(every)  # raises the fitting message
     assert held is not None
     if not (held & seen).any():
         return scans.select(held)
@@ -139,7 +139,7 @@ PAST_READING_M = 3.0
 
 @dataclass(frozen=True, eq=False)
 class Fold:
-    """Some training scans left out: the counts of the others, and the beams to predict."""
+    """A fold of the training scans: the counts of the other scans, and the fold's own scans and beams to predict."""
 
     hits: Floats
     passes: Floats

@@ -81,7 +81,7 @@ class Posterior:
 
     @property
     def kind(self) -> str:
-        """What a cell's state is: "binary", "reflectivity", "surface", or the word of a kind of your own."""
+        """The kind of a cell's state: "binary", "reflectivity", "surface", or the word of a kind of your own."""
         return self.prior.words.kind
 
     @property
