@@ -187,7 +187,7 @@ class KeyAlignment:
         A scan that its new place and the alignment after it explain worse than before is put back, and stays.
         """
         count = len(aligned.poses)
-        told = self.report(self.track, "rematch", IMPROVEMENTS + 1)
+        callback = self.report(self.track, "rematch", IMPROVEMENTS + 1)
         poor, old, before = 0.0, aligned.poses, np.zeros(count)
         moved, stays = np.zeros(count, np.bool_), np.zeros(count, np.bool_)
         for number in range(IMPROVEMENTS + 1):
@@ -195,7 +195,7 @@ class KeyAlignment:
                 self.geometry, aligned.poses, aligned.pairs, self._rematch_m, poor_score=poor,
                 search=number < IMPROVEMENTS,
             )  # fmt: skip
-            told(number + 1, np.where(again.moved[:, None], again.best_poses, aligned.poses))
+            callback(number + 1, np.where(again.moved[:, None], again.best_poses, aligned.poses))
             back = moved & (again.scores < before)
             stays |= back
             moved = again.moved & ~stays

@@ -18,7 +18,7 @@ from bayesmap.poses.look_alikes import Weighed
 from bayesmap.poses.odometry_factors import stated_odometry
 from bayesmap.poses.placement import place_scans
 from bayesmap.poses.scan_geometry import scan_geometry
-from bayesmap.poses.stages import OnPoses, Progress, Report, Stages, fingerprint
+from bayesmap.poses.stages import OnPoses, Progress, StageReport, Stages, fingerprint
 from bayesmap.poses.trajectory import NO_ALTERNATIVES, Alternatives, Calibration, LoopClosures, Trajectory, calibrated
 from bayesmap.space.planar import between, compose, nearest, wrapped
 from bayesmap.space.scans import Scans
@@ -71,14 +71,14 @@ def infer_trajectory(
     check_scans(scans, no_odometry)
     order, scans = in_order_of_time(scans)
     stages = Stages(checkpoint, _digest(scans, f"3 {no_odometry} {calibrate_angles} {seed}"))
-    report = Report(np.zeros(3) if no_odometry else scans.poses[0], on_progress, on_poses)
+    report = StageReport(np.zeros(3) if no_odometry else scans.poses[0], on_progress, on_poses)
     geometry = scan_geometry(scans, farthest_m=FARTHEST_M, device=device, threads=threads)
     odometry = stated_odometry(scans, None if no_odometry else geometry)
 
     # The front end matches every scan to those before it, and says which motions are stated the wrong way round.
     def match_all() -> Track:
-        told = report.of_front_end(odometry)
-        return follow(geometry, odometry.used_motions, odometry.stamps_s, odometry.impossible, told)
+        callback = report.of_front_end(odometry)
+        return follow(geometry, odometry.used_motions, odometry.stamps_s, odometry.impossible, callback)
 
     track = stages.get("front-end", Track, match_all)
     odometry = odometry.reversed_at(track.against)
@@ -120,7 +120,7 @@ def infer_trajectory(
     start = poses_between_keys(track.poses, keys, final.poses, track.broken)
     error = point_error(alignment.geometry, final)
     placed = place_scans(geometry, start, keys, final, error)
-    report.told("placing", len(scans), len(scans), placed.poses)
+    report.finished("placing", len(scans), len(scans), placed.poses)
 
     # The result: poses, their uncertainty, and the doubtful steps.
     leaping = contradicted_links(track, final.poses)

@@ -90,7 +90,7 @@ class Stages:
 
 
 @dataclass(frozen=True, eq=False)
-class Report:
+class StageReport:
     """Reports progress, and the poses of all scans in the map's frame; poses are given in the frame of the first scan.
 
     Attributes:
@@ -103,7 +103,7 @@ class Report:
     on_progress: Progress | None
     on_poses: OnPoses | None
 
-    def told(self, stage: str, done: int, of: int, poses: Floats | Callable[[], Floats]) -> None:
+    def finished(self, stage: str, done: int, of: int, poses: Floats | Callable[[], Floats]) -> None:
         """Report one round of a stage; a function for the poses is called only if somebody listens."""
         if self.on_progress is not None:
             self.on_progress(stage, done, of)
@@ -113,16 +113,16 @@ class Report:
     def of_keys(self, track: Track, stage: str, rounds: int) -> Callable[[int, Floats], None]:
         """Return the callback of a stage: number of rounds that are done, and poses of the keys, (K, 3)."""
 
-        def told(done: int, poses: Floats) -> None:
-            self.told(stage, done, rounds, lambda: poses_between_keys(track.poses, track.keys, poses, track.broken))
+        def callback(done: int, poses: Floats) -> None:
+            self.finished(stage, done, rounds, lambda: poses_between_keys(track.poses, track.keys, poses, track.broken))
 
-        return told
+        return callback
 
     def of_front_end(self, odometry: StatedOdometry) -> Callable[[int, Floats], None]:
         """Return the callback of the front end: number of scans that are done, and poses, (S, 3)."""
         count, next_look = len(odometry.poses), 0
 
-        def told(done: int, poses: Floats) -> None:
+        def callback(done: int, poses: Floats) -> None:
             nonlocal next_look
             if self.on_progress is not None:
                 self.on_progress("front end", done, count)
@@ -133,4 +133,4 @@ class Report:
                 known = np.concatenate([poses[:done], compose(poses[done - 1], rest)])
                 self.on_poses("front end", compose(self.origin, known))
 
-        return told
+        return callback
