@@ -313,19 +313,19 @@ export type Welcome = {
   recorded: boolean;
 };
 
-/** How the worker is. */
+/** The state of the worker. */
 export type Worker = {
   type: "worker";
   state: "ready" | "restarted" | "starting";
 };
 
-/** How many draws are kept: of each chain `count`. */
+/** The number of kept draws: `count` of each chain. */
 export type DrawCount = {
   chains: number;
   count: number;
 };
 
-/** Which field a page is shown; without a number it is the last draw. */
+/** The field that a page is shown; without a number it is the last draw. */
 export type View = {
   layer: "draw" | "entropy" | "mean" | "width";
   chain: number | null;
@@ -368,13 +368,13 @@ export type Scan = {
   generation: number;
 };
 
-/** What is to be thought of a result, and why. */
+/** The verdict on a result, and its reason. */
 export type Verdict = {
   level: "bad" | "fair" | "good";
   why: string;
 };
 
-/** What the numbers of the map are: the kind of cells, and the words for their mean and for one draw's number. */
+/** The numbers of the map: the kind of cells, and the words for their mean and for one draw's number. */
 export type Quantity = {
   kind: string;
   mean: string;
@@ -413,7 +413,7 @@ export type Field = {
   generation: number;
 };
 
-/** What is drawn over a run or a log. Buffers: strokes float32 (U, 5), surfaces from x, y to x, y in metres, with their reflectivity; trajectory float32 (S, 2), where the scans were taken. */
+/** The overlay of a run or a log. Buffers: strokes float32 (U, 5), surfaces from x, y to x, y in metres, with their reflectivity; trajectory float32 (S, 2), where the scans were taken. */
 export type Overlay = {
   type: "overlay";
   generation: number;
@@ -452,7 +452,7 @@ export type SafePath = {
   generation: number;
 };
 
-/** What one more scan is expected to tell from places `spacing` metres apart. Buffers: pose float32 (n, 3), the best heading at each place; nats float32 (n). */
+/** The information expected from one more scan, at places `spacing` metres apart. Buffers: pose float32 (n, 3), the best heading at each place; nats float32 (n). */
 export type Views = {
   type: "views";
   spacing: number;
@@ -466,7 +466,7 @@ export type Near = {
   turn: number;
 };
 
-/** What a robot's laser would read at a pose, and the scan that was taken nearest. Buffers: angles, low, median, high float32 (A), the central 80 % interval of each beam, metres, no return being infinite; of the scan near_pose float64 (3), near_ranges float32 (A), near_hit uint8 (A). */
+/** The virtual scan of a robot's laser at a pose, and the real scan that was taken nearest. Buffers: angles, low, median, high float32 (A), the central 80 % interval of each beam, metres, no return being infinite; of the scan near_pose float64 (3), near_ranges float32 (A), near_hit uint8 (A). */
 export type GhostScan = {
   type: "ghost";
   x: number;
@@ -514,7 +514,7 @@ export type ComparedBeam = {
   generation: number;
 };
 
-/** Why a question has no answer. */
+/** The reason why a question has no answer. */
 export type Undecided = {
   type: "undecided";
   text: string;
@@ -551,7 +551,7 @@ export type Whereabouts = {
   trouble: string;
 };
 
-/** How far the inference of a log's trajectory is; `text` is what the stage is called. */
+/** Progress of the inference of a log's trajectory; `text` is the name of the stage. */
 export type Stage = {
   type: "stage";
   name: string;
@@ -561,7 +561,7 @@ export type Stage = {
   generation: number;
 };
 
-/** Something for the status line. */
+/** A text for the status line. */
 export type Status = {
   type: "status";
   text: string;

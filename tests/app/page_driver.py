@@ -265,7 +265,8 @@ def undo(page):
 
 def enter(page, name, value):
     """Give a setting a number by its field, and wait for its picture."""
-    act(page, lambda: page.get_by_label(f"{name}, number").fill(str(value)) or page.keyboard.press("Tab"))
+    field = page.get_by_role("spinbutton", name=name)
+    act(page, lambda: field.fill(str(value)) or field.press("Tab"))
 
 
 def slide(page, name, value):

@@ -223,16 +223,10 @@ def surfaces_of(log):
     return replace(log.document, cells="surface", sweeps=3, grid=Grid.covering(log.scans, 0.2))
 
 
-@pytest.fixture(scope="module")
-def surfaces(log):
-    """An engine that has inferred surfaces, with every picture."""
-    heard = Heard(log)
-    heard.engine._display.due = lambda: True
-    heard.infer(surfaces_of(log), "run")
-    return heard
-
-
-def test_surfaces_of_a_log_are_counted_first_then_shown_by_the_draws_of_the_chain_that_fits_the_sensor(log, surfaces):
+def test_surfaces_of_a_log_are_counted_first_then_shown_by_the_draws_of_the_chain_that_fits_the_sensor_once(log):
+    surfaces = Heard(log)
+    surfaces.engine._display.due = lambda: True
+    _, first = surfaces.infer(surfaces_of(log), "run")
     fields = surfaces.every("field")
     methods = [header["method"] for header, _ in fields]
     assert methods == ["hits"] + ["pilot"] * 40 + ["gibbs"] * (len(methods) - 41)
@@ -257,10 +251,7 @@ def test_surfaces_of_a_log_are_counted_first_then_shown_by_the_draws_of_the_chai
     seen = reflectivity >= 0.1
     assert 0 < seen.sum() == len(strokes)
     np.testing.assert_allclose((strokes[:, :2] + strokes[:, 2:4]) / 2, mean[seen], atol=1e-5)
-
-
-def test_the_same_readings_are_fitted_once(log, surfaces):
-    _, first = surfaces.last("field")
+    # the same readings are fitted once
     surfaces.reports.clear()
     _, again = surfaces.infer(surfaces_of(log), "run")
     assert [f["method"] for f in surfaces.all("field") if f["method"] != "gibbs"] == ["hits"]

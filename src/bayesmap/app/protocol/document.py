@@ -102,7 +102,7 @@ class Source:
 
 @dataclass(frozen=True, kw_only=True)
 class Settings:
-    """What sliders and choices of the page set.
+    """The settings that sliders and choices of the page change.
 
     Attributes:
         prior: probability that a cell is a wall.
@@ -172,7 +172,7 @@ class Document(Settings):
     version: Literal[1] = VERSION
 
     def __getstate__(self) -> dict[str, Any]:
-        """Leave out what is worked out from the fields."""
+        """Return the fields alone, for a pipe: cached values are computed anew."""
         return {one.name: getattr(self, one.name) for one in fields(self)}
 
     @cached_property

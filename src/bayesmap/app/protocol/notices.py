@@ -18,7 +18,7 @@ from bayesmap.app.protocol.document import (
 )
 
 OWN_LAYERS = ("draw", "width")
-"""Layers of which a page that wants them is sent fields of its own; the others are made of the mean."""
+"""Layers for which a page is sent fields of its own; the other layers are made of the mean."""
 
 Pair = tuple[float, float]
 
@@ -65,20 +65,20 @@ class Welcome(Notice, frozen=True, tag="welcome"):
 
 
 class Worker(Notice, frozen=True, tag="worker"):
-    """How the worker is."""
+    """The state of the worker."""
 
     state: Literal["starting", "ready", "restarted"]
 
 
 class DrawCount(Struct, frozen=True):
-    """How many draws are kept: of each chain `count`."""
+    """The number of kept draws: `count` of each chain."""
 
     chains: int = 0
     count: int = 0
 
 
 class View(Struct, frozen=True):
-    """Which field a page is shown; without a number it is the last draw."""
+    """The field that a page is shown; without a number it is the last draw."""
 
     layer: Layer
     chain: int | None = None
@@ -130,7 +130,7 @@ class Scan(OfPicture, frozen=True, tag="scan"):
 
 
 class Quantity(Struct, frozen=True):
-    """What the numbers of the map are: the kind of cells, and the words for their mean and for one draw's number."""
+    """The numbers of the map: the kind of cells, and the words for their mean and for one draw's number."""
 
     kind: str
     mean: str
@@ -139,7 +139,7 @@ class Quantity(Struct, frozen=True):
 
 
 class Verdict(Struct, frozen=True):
-    """What is to be thought of a result, and why."""
+    """The verdict on a result, and its reason."""
 
     level: Literal["good", "fair", "bad"]
     why: str
@@ -183,7 +183,7 @@ class Field(OfPicture, frozen=True, tag="field"):
 
 
 class Overlay(OfPicture, frozen=True, tag="overlay"):
-    """What is drawn over a run or a log.
+    """The overlay of a run or a log.
 
     Buffers: strokes float32 (U, 5), surfaces from x, y to x, y in metres, with their reflectivity; trajectory float32
     (S, 2), where the scans were taken.
@@ -231,7 +231,7 @@ class SafePath(OfPicture, frozen=True, tag="path"):
 
 
 class Views(OfPicture, frozen=True, tag="views"):
-    """What one more scan is expected to tell from places `spacing` metres apart.
+    """The information expected from one more scan, at places `spacing` metres apart.
 
     Buffers: pose float32 (n, 3), the best heading at each place; nats float32 (n).
     """
@@ -248,7 +248,7 @@ class Near(Struct, frozen=True):
 
 
 class GhostScan(OfPicture, frozen=True, tag="ghost"):
-    """What a robot's laser would read at a pose, and the scan that was taken nearest.
+    """The virtual scan of a robot's laser at a pose, and the real scan that was taken nearest.
 
     Buffers: angles, low, median, high float32 (A), the central 80 % interval of each beam, metres, no return being
     infinite; of the scan near_pose float64 (3), near_ranges float32 (A), near_hit uint8 (A).
@@ -304,7 +304,7 @@ class ComparedBeam(OfPicture, frozen=True, tag="beam"):
 
 
 class Undecided(OfPicture, frozen=True, tag="undecided"):
-    """Why a question has no answer."""
+    """The reason why a question has no answer."""
 
     text: str
     of: Literal["path", "views", "ghost", "beam"]
@@ -346,7 +346,7 @@ class Whereabouts(Notice, frozen=True, tag="where"):
 
 
 class Stage(OfPicture, frozen=True, tag="stage"):
-    """How far the inference of a log's trajectory is; `text` is what the stage is called."""
+    """Progress of the inference of a log's trajectory; `text` is the name of the stage."""
 
     name: str
     text: str
@@ -355,7 +355,7 @@ class Stage(OfPicture, frozen=True, tag="stage"):
 
 
 class Status(Notice, frozen=True, tag="status"):
-    """Something for the status line."""
+    """A text for the status line."""
 
     text: str
     level: Literal["info", "warning", "error"]
