@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from bayesmap.app.protocol.document import LARGEST_SIDE_OF_FILE
 from bayesmap.app.scene import Scene, scene_of_file
-from bayesmap.app.shown.result import Floats, Found
+from bayesmap.app.shown.result import FixedMap
 from bayesmap.beams.table import BeamTable
 from bayesmap.cells.kind import CellPrior
 from bayesmap.cells.kinds import default_sensor
@@ -23,32 +23,10 @@ MOST_SCANS = 800
 """A map along changing poses is made of at most so many scans, evenly chosen, since it is made again and again."""
 
 
-class Counted(Found):
-    """A map of hits and passes.
-
-    Args:
-        p_wall: probability that a cell stops a beam, by the counts, (nx, ny).
-        observed: cells that some beam passed or hit, (nx, ny).
-        prior: the prior of cells that are no walls, which has the words for the map.
-    """
+class Counted(FixedMap):
+    """A map of hits and passes."""
 
     approximate = True
-
-    def __init__(self, p_wall: Floats, observed: NDArray[np.bool_], prior: CellPrior | None = None) -> None:
-        self._p_wall, self._observed, self._prior = p_wall, observed, prior
-
-    @property
-    def prior(self) -> CellPrior | None:
-        """The prior of cells that are no walls."""
-        return self._prior
-
-    def mean(self) -> Floats:
-        """Return the probability that a cell stops a beam, by the counts, (nx, ny)."""
-        return self._p_wall
-
-    def observed(self) -> NDArray[np.bool_]:
-        """Return the cells that some beam passed or hit, (nx, ny)."""
-        return self._observed
 
 
 class HitCounts:

@@ -276,32 +276,43 @@ class Result:
         }  # fmt: skip
 
 
-class Nothing(Found):
-    """The prior, before anything is found."""
+class FixedMap(Found):
+    """A map that no method refines.
 
-    def __init__(self, scene: Scene, document: Document) -> None:
-        self._grid = scene.grid
-        # Another kind of cells has its own prior, which is fitted once there are chains.
-        other = document.cells != scene.prior.words.kind
-        self._prior: CellPrior = BUILT_IN[document.cells]() if other else scene.prior
+    Args:
+        mean: the probability that a cell stops a beam, (nx, ny).
+        observed: the cells that a beam reaches, (nx, ny).
+        prior: the prior of cells that are no walls, which has the words for the map.
+    """
+
+    def __init__(self, mean: Floats, observed: NDArray[np.bool_], prior: CellPrior | None = None) -> None:
+        self._mean, self._observed, self._prior = mean, observed, prior
 
     @property
-    def prior(self) -> CellPrior:
-        """The prior of the document's kind of cells."""
+    def prior(self) -> CellPrior | None:
+        """The prior of the cells on show, where it is not the readings' own."""
         return self._prior
 
     def mean(self) -> Floats:
-        """Return the prior's mean, (nx, ny)."""
-        return self._prior.mean_stop(self._grid)
+        """Return the probability that a cell stops a beam, (nx, ny)."""
+        return self._mean
 
     def observed(self) -> NDArray[np.bool_]:
-        """Return no cell."""
-        return np.zeros(self._grid.shape, dtype=np.bool_)
+        """Return the cells that a beam reaches, (nx, ny)."""
+        return self._observed
+
+
+class Nothing(FixedMap):
+    """The prior, before anything is found."""
 
 
 def nothing_yet(scene: Scene, document: Document) -> Result:
     """Return the result before anything is found."""
-    return Result(scene, document, "none", Nothing(scene, document))
+    # Another kind of cells has its own prior, which is fitted once there are chains.
+    other = document.cells != scene.prior.words.kind
+    prior: CellPrior = BUILT_IN[document.cells]() if other else scene.prior
+    found = Nothing(prior.mean_stop(scene.grid), np.zeros(scene.grid.shape, dtype=np.bool_), prior)
+    return Result(scene, document, "none", found)
 
 
 def rhat_and_ess(log_joint: Floats) -> tuple[float, float]:
