@@ -242,61 +242,6 @@ def settled(page):
     return snapshot(page)
 
 
-def act(page, action):
-    """Do something that changes the map or the model, and wait for its picture."""
-    before = snapshot(page)["generation"]
-    action()
-    until(page, "s.generation > argument && s.painted?.generation === s.generation", before)
-
-
-def choose(page, name):
-    """Choose a tool or a layer."""
-    page.get_by_role("radio", name=name, exact=True).check()
-
-
-def press(page, name):
-    """Press a button."""
-    page.get_by_role("button", name=name, exact=True).click()
-
-
-def undo(page):
-    act(page, lambda: press(page, "Undo"))
-
-
-def enter(page, name, value):
-    """Give a setting a number by its field, and wait for its picture."""
-    field = page.get_by_role("spinbutton", name=name)
-    act(page, lambda: field.fill(str(value)) or field.press("Tab"))
-
-
-def slide(page, name, value):
-    """Give a setting a number by its slider, and wait for its picture."""
-    act(page, lambda: page.get_by_role("slider", name=name).fill(str(value)))
-
-
-def select(page, name, value):
-    """Choose a setting's value from a list, and wait for its picture."""
-    act(page, lambda: page.get_by_role("combobox", name=name).select_option(value))
-
-
-def run(page, draws=None):
-    """Press Run; with a number of draws, wait until there are so many, and their mean is painted."""
-    press(page, "Run")
-    if draws is not None:
-        known = "!s.running && s.draws.count === argument && s.painted.sweeps === argument"
-        until(page, f"{known} && s.painted.generation === s.generation", draws)
-
-
-def show_draw(page, number, chain=None):
-    """Show a draw, and wait for its picture."""
-    if chain is not None:
-        page.get_by_label("Chain", exact=True).select_option(str(chain))
-    page.get_by_role("slider", name="Draw number").fill(str(number))
-    known = "s.painted.layer === 'draw' && s.painted.draw === argument"
-    until(page, known if chain is None else f"{known} && s.painted.chain === {chain}", number)
-    return snapshot(page)["probability"]
-
-
 def serious(page):
     """The serious violations that axe finds on a page: rules, and an element of each."""
     axe = pytest.importorskip("axe_playwright_python.sync_playwright").Axe()
@@ -304,24 +249,10 @@ def serious(page):
     return [(rule["id"], rule["nodes"][0]["html"]) for rule in found if rule["impact"] in ("serious", "critical")]
 
 
-def click(page, x, y):
-    """Click a cell."""
-    page.mouse.click(*centre(page, x, y))
-
-
 def centre(page, x, y):
     """Where a cell is on the page, in CSS pixels."""
     point = page.evaluate("([x, y]) => bayesmap.cellToClient(x, y)", [x, y])
     return point["x"], point["y"]
-
-
-def press_and_drag(page, cells, steps=1):
-    """Press in the first cell, move through the others, release."""
-    page.mouse.move(*centre(page, *cells[0]))
-    page.mouse.down()
-    for cell in cells[1:]:
-        page.mouse.move(*centre(page, *cell), steps=steps)
-    page.mouse.up()
 
 
 def colour_at(page, x, y, offset=(0.0, 0.0)):
@@ -337,8 +268,3 @@ def colour_at(page, x, y, offset=(0.0, 0.0)):
 def brightness_at(page, x, y, offset=(0.0, 0.0)):
     """0 is black, 255 white."""
     return float(colour_at(page, x, y, offset).mean())
-
-
-def show_layer(page, name):
-    """Choose what is shown, by the keyboard: while figures come in the panel grows, and moves from under a click."""
-    page.get_by_role("radio", name=name).press("Space")

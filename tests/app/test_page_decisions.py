@@ -3,7 +3,8 @@
 import numpy as np
 import playwright.sync_api as playwright
 import pytest
-from page_driver import act, choose, click, document, enter, press_and_drag, settled, snapshot, until
+from page_driver import document, settled, snapshot, until
+from page_hands import act, choose, click, enter, press_and_drag
 
 VIEWS = "() => { const v = bayesmap.snapshot().decisions.views; return {pose: [...v.pose], nats: [...v.nats]}; }"
 

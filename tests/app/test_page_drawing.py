@@ -4,24 +4,8 @@ import io
 
 import numpy as np
 import pytest
-from page_driver import (
-    NO_WALLS,
-    act,
-    brightness_at,
-    centre,
-    choose,
-    click,
-    colour_at,
-    document,
-    press,
-    press_and_drag,
-    settled,
-    show_layer,
-    snapshot,
-    still,
-    undo,
-    until,
-)
+from page_driver import NO_WALLS, brightness_at, centre, colour_at, document, settled, snapshot, still, until
+from page_hands import act, choose, click, press, press_and_drag, show_layer, undo
 from PIL import Image
 
 

@@ -5,7 +5,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 from building_log import room_run, tutorial_run, write_room_log
-from page_driver import document, enter, fragment, press, served, show_draw, show_layer, snapshot, until
+from page_driver import document, fragment, served, snapshot, until
+from page_hands import enter, press, show_draw, show_layer
 
 import bayesmap as bm
 

@@ -3,7 +3,8 @@
 import numpy as np
 import playwright.sync_api as playwright
 import pytest
-from page_driver import act, press, run, settled, show_layer, snapshot, still, until, watch
+from page_driver import settled, snapshot, still, until, watch
+from page_hands import act, press, run, show_layer
 
 OPACITY = """() => {
   const canvas = document.querySelector("[data-bayesmap]").shadowRoot.querySelector("canvas.hypothesis");

@@ -4,7 +4,8 @@ import numpy as np
 import playwright.sync_api as playwright
 import pytest
 from building_log import ANGLES
-from page_driver import choose, enter, press, press_and_drag, settled, snapshot, until
+from page_driver import settled, snapshot, until
+from page_hands import choose, enter, press, press_and_drag
 
 from bayesmap.posterior.predictor import ScanPredictor, predictor_of
 from bayesmap.sensors.model import RangeLimits

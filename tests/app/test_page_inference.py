@@ -2,20 +2,8 @@
 
 import numpy as np
 import pytest
-from page_driver import (
-    NO_WALLS,
-    centre,
-    choose,
-    document,
-    press,
-    run,
-    settled,
-    show_draw,
-    show_layer,
-    snapshot,
-    until,
-    watch,
-)
+from page_driver import NO_WALLS, centre, document, settled, snapshot, until, watch
+from page_hands import choose, press, run, show_draw, show_layer
 
 
 def test_draws_are_valid_and_average_to_the_mean_and_are_played_one_after_another(open_page):

@@ -2,7 +2,8 @@
 
 import numpy as np
 import pytest
-from page_driver import NO_WALLS, act, document, settled, until
+from page_driver import NO_WALLS, document, settled, until
+from page_hands import act
 
 CONTROLS = (
     "New map,Share,Export,Help,Draw,Zoom in,Whole map,Run,Live,Mean,True walls,Rays,Readings,Prior P(wall),Noise (m),"

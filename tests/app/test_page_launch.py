@@ -2,18 +2,8 @@
 
 import numpy as np
 import pytest
-from page_driver import (
-    brightness_at,
-    choose,
-    colour_at,
-    document,
-    enter,
-    press,
-    serious,
-    settled,
-    undo,
-    until,
-)
+from page_driver import brightness_at, colour_at, document, serious, settled, until
+from page_hands import choose, enter, press, undo
 
 
 def test_the_first_picture_is_the_posterior_of_the_tutorial_and_pixels_tell_what_is_known(page):

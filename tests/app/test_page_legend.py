@@ -2,7 +2,8 @@
 
 import playwright.sync_api as playwright
 import pytest
-from page_driver import END, centre, choose, click, document, press, settled, show_layer, until
+from page_driver import END, centre, document, settled, until
+from page_hands import choose, click, press, show_layer
 
 HEIGHTS = """() => {
   const inside = document.querySelector("[data-bayesmap]").shadowRoot;

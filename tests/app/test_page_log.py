@@ -3,7 +3,8 @@
 import playwright.sync_api as playwright
 import pytest
 from building_log import room_scans, write_room_log
-from page_driver import act, enter, fragment, press, select, served, settled, snapshot, undo, until, watch
+from page_driver import fragment, served, settled, snapshot, until, watch
+from page_hands import act, enter, press, select, undo
 
 import bayesmap as bm
 

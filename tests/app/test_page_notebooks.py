@@ -12,19 +12,8 @@ import numpy as np
 import page_driver
 import pytest
 from building_log import tutorial_run
-from page_driver import (
-    act,
-    brightness_at,
-    choose,
-    document,
-    press_and_drag,
-    settled,
-    show_draw,
-    show_layer,
-    snapshot,
-    undo,
-    until,
-)
+from page_driver import brightness_at, document, settled, snapshot, until
+from page_hands import act, choose, press_and_drag, show_draw, show_layer, undo
 from page_socket import children
 
 import bayesmap as bm

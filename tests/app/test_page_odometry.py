@@ -7,7 +7,8 @@ import numpy as np
 import playwright.sync_api as playwright
 import pytest
 from click.testing import CliRunner
-from page_driver import enter, fragment, press, run, serious, served, snapshot, until, watch
+from page_driver import fragment, serious, served, snapshot, until, watch
+from page_hands import enter, press, run
 
 from bayesmap.cli.group import cli
 from bayesmap.space.planar import between

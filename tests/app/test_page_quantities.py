@@ -6,7 +6,8 @@ import numpy as np
 import playwright.sync_api as playwright
 import pytest
 from building_log import ANGLES, room_run, write_room_log
-from page_driver import END, centre, select, served, show_layer, slide, snapshot, until
+from page_driver import END, centre, served, snapshot, until
+from page_hands import select, show_layer, slide
 
 import bayesmap as bm
 from bayesmap.app.exports import to_html

@@ -9,21 +9,8 @@ import numpy as np
 import playwright.sync_api as playwright
 import pytest
 from building_log import write_room_log
-from page_driver import (
-    NO_WALLS,
-    WAIT_SECONDS,
-    act,
-    centre,
-    choose,
-    document,
-    fragment,
-    press_and_drag,
-    served,
-    settled,
-    snapshot,
-    undo,
-    until,
-)
+from page_driver import NO_WALLS, WAIT_SECONDS, centre, document, fragment, served, settled, snapshot, until
+from page_hands import act, choose, press_and_drag, undo
 from page_socket import serving
 
 

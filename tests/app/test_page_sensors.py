@@ -2,22 +2,8 @@
 
 import numpy as np
 import pytest
-from page_driver import (
-    act,
-    brightness_at,
-    centre,
-    choose,
-    click,
-    document,
-    enter,
-    press,
-    press_and_drag,
-    select,
-    settled,
-    snapshot,
-    until,
-    watch,
-)
+from page_driver import brightness_at, centre, document, settled, snapshot, until, watch
+from page_hands import act, choose, click, enter, press, press_and_drag, select
 
 
 @pytest.fixture

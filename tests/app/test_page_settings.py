@@ -2,7 +2,8 @@
 
 import numpy as np
 import pytest
-from page_driver import document, enter, press, run, settled, slide, snapshot, undo, until
+from page_driver import document, settled, snapshot, until
+from page_hands import enter, press, run, slide, undo
 
 
 def test_the_prior_is_what_unobserved_cells_have_and_a_slider_moved_in_one_go_is_one_step_of_undo(page):

@@ -6,21 +6,8 @@ import zipfile
 
 import numpy as np
 import pytest
-from page_driver import (
-    act,
-    choose,
-    document,
-    enter,
-    fragment,
-    press,
-    press_and_drag,
-    run,
-    settled,
-    show_draw,
-    show_layer,
-    snapshot,
-    until,
-)
+from page_driver import document, fragment, settled, snapshot, until
+from page_hands import act, choose, enter, press, press_and_drag, run, show_draw, show_layer
 from PIL import Image
 
 import bayesmap as bm

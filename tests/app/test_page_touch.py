@@ -3,7 +3,8 @@
 import numpy as np
 import playwright.sync_api as playwright
 import pytest
-from page_driver import NO_WALLS, centre, choose, document, settled, snapshot, until
+from page_driver import NO_WALLS, centre, document, settled, snapshot, until
+from page_hands import choose
 
 PHONE = {"viewport": {"width": 390, "height": 844}, "has_touch": True, "is_mobile": True, "device_scale_factor": 2}
 

@@ -5,20 +5,8 @@ import base64
 import numpy as np
 import playwright.sync_api as playwright
 import pytest
-from page_driver import (
-    NEXT_FRAME,
-    act,
-    choose,
-    document,
-    press,
-    run,
-    settled,
-    show_draw,
-    slide,
-    snapshot,
-    until,
-    watch,
-)
+from page_driver import NEXT_FRAME, document, settled, snapshot, until, watch
+from page_hands import act, choose, press, run, show_draw, slide
 
 CLOSE = {"sensors": [{"id": 1, "x": 7.0, "y": 11.0, "yaw": 0.0}], "noise": 1.0, "prior": 0.05, "method": "gibbs"}
 """A noisy sensor beside rare walls: single-site chains keep a wall at (7, 12) that is not there."""

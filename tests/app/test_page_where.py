@@ -7,7 +7,8 @@ import numpy as np
 import playwright.sync_api as playwright
 import pytest
 from building_log import bent_room_run
-from page_driver import centre, choose, click, colour_at, document, serious, served, settled, snapshot, until, watch
+from page_driver import centre, colour_at, document, serious, served, settled, snapshot, until, watch
+from page_hands import choose, click
 
 FOUND = """() => {
   const f = bayesmap.snapshot().where.found;

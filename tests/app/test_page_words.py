@@ -5,22 +5,8 @@ import re
 import numpy as np
 import playwright.sync_api as playwright
 import pytest
-from page_driver import (
-    NEXT_FRAME,
-    act,
-    centre,
-    choose,
-    click,
-    colour_at,
-    document,
-    press_and_drag,
-    propagated,
-    run,
-    settled,
-    show_draw,
-    snapshot,
-    until,
-)
+from page_driver import NEXT_FRAME, centre, colour_at, document, propagated, settled, snapshot, until
+from page_hands import act, choose, click, press_and_drag, run, show_draw
 
 from bayesmap.app.answers.evidence import strongest, summed, wall_ratios
 
