@@ -49,7 +49,6 @@ def test_logs(tmp_path, text, place, remedy):
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (["--sensor gaussian:-0.2"], "sigma_m must be a positive number of metres, got -0.2"),
         (["--sensor magic"], "unknown kind 'magic'; known: default"),
         (["--resolution 1e-6"], "over the limit of 100,000,000; use a coarser resolution"),
         (["--prior 0.3"], "prior: 0.3 is for binary walls; add --cells binary"),

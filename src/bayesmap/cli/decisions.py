@@ -17,6 +17,7 @@ from bayesmap.version import __version__
 if TYPE_CHECKING:
     from bayesmap.posterior.decisions import Views
     from bayesmap.posterior.route import Route
+    from bayesmap.result import Run
 
 
 @takes("plan")
@@ -38,13 +39,9 @@ def plan(call: Call[PlanSettings], run_file: str, start: str, goal: str, output:
     """
     settings = call.settings()
     ends = [numbers_of(text, flag, "X,Y", (2,)) for text, flag in ((start, "--from"), (goal, "--to"))]
-    target = Path(output) if output else Path(run_file).with_name("plan.png")
-    from bayesmap.files import need_ending
+    run, target = _opened(run_file, output, "plan.png")
     from bayesmap.posterior.decisions import shortest_safe_path
-    from bayesmap.result import load
 
-    need_ending(target, ("png", "pdf", "svg"), "figure")
-    run = load(run_file)
     with share(call.console, "looking at draws of the map") as report:
         route = shortest_safe_path(run.posterior, ends[0], ends[1], settings.radius, settings.risk, report)
     from bayesmap.viz.decisions import route_figure
@@ -66,6 +63,16 @@ def plan(call: Call[PlanSettings], run_file: str, start: str, goal: str, output:
         return
     corners = "".join(f"{x:.3f},{y:.3f}\n" for x, y in route.path)
     write_out(f"{corners}{_route_sentence(route)}\n{target}\n")
+
+
+def _opened(run_file: str, output: str | None, name: str) -> tuple[Run, Path]:
+    """Load a run, and return it with the path of its picture, whose ending is checked first."""
+    from bayesmap.files import need_ending
+    from bayesmap.result import load
+
+    target = Path(output) if output else Path(run_file).with_name(name)
+    need_ending(target, ("png", "pdf", "svg"), "figure")
+    return load(run_file), target
 
 
 def _route_sentence(route: Route) -> str:
@@ -105,13 +112,9 @@ def explore(call: Call[ExploreSettings], run_file: str, output: str | None) -> N
     for each view, the best first. An older picture of the same name is replaced.
     """
     settings = call.settings()
-    target = Path(output) if output else Path(run_file).with_name("explore.png")
-    from bayesmap.files import need_ending
+    run, target = _opened(run_file, output, "explore.png")
     from bayesmap.posterior.decisions import next_views
-    from bayesmap.result import load
 
-    need_ending(target, ("png", "pdf", "svg"), "figure")
-    run = load(run_file)
     with share(call.console, "comparing views") as report:
         found = next_views(
             run.posterior, settings.candidates, settings.views, settings.radius,

@@ -449,11 +449,7 @@ def infer(call: Call[InferSettings], logs: tuple[str, ...], output: str | None, 
             call.console.say(f"the last checkpoint is kept; go on with:\n  {go_on}")
         raise
     # Print the result.
-    call.console.result(document, document["outputs"].values())
-    if not document["finished"]:
-        click.get_current_context().exit(INTERRUPTED)
-    if task.settings.strict and document["problems"]:
-        click.get_current_context().exit(PROBLEMS)
+    pipeline.end(call, document, strict=task.settings.strict)
 
 
 infer.help = (infer.help or "").format(sensors=SENSOR_HELP)

@@ -15,7 +15,7 @@ import click
 from bayesmap.cli.command import Call, takes
 from bayesmap.cli.console import INTERRUPTED, Console, share, write_out
 from bayesmap.cli.keys import LocalizeSettings
-from bayesmap.cli.translation import is_map, need_file, numbers_of, reading_of
+from bayesmap.cli.translation import is_map, need_file, need_free, numbers_of, reading_of
 from bayesmap.errors import BadInput
 from bayesmap.version import __version__
 
@@ -294,10 +294,7 @@ def _target(output: str, force: bool) -> Path:
     target = Path(output)
     if target.suffix.lower() not in ENDINGS:
         raise click.UsageError(f"-o {output}: end its name in one of {', '.join(ENDINGS)}")
-    if target.exists() and not force:
-        raise BadInput(f"{target}: exists already; --force replaces it, -o takes another name")
-    if not target.parent.is_dir():
-        raise BadInput(f"{target.parent}: no such folder; make it first, or choose another with -o")
+    need_free(target, target if target.exists() else None, force)
     return target
 
 

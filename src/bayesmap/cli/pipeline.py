@@ -7,9 +7,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
+import click
+
 from bayesmap.cli import translation
 from bayesmap.cli.command import Call, Layer, as_toml, read_file
-from bayesmap.cli.console import SETTING_UP, Console, counted, progress, stage
+from bayesmap.cli.console import INTERRUPTED, PROBLEMS, SETTING_UP, Console, counted, progress, stage
 from bayesmap.cli.folder import Folder
 from bayesmap.cli.keys import InferSettings, SamplingSettings
 from bayesmap.cli.translation import LOG, need_file
@@ -270,6 +272,15 @@ def leave(folder: Folder, run: Run, reading: LogReading, go_on: str | None) -> d
     if go_on is not None:
         folder.console.say(said)
     return document_of(run, reading, None, kept)
+
+
+def end(call: Call[Any], document: dict[str, Any], *, strict: bool) -> None:
+    """Print the result; exit with 130 if the run was interrupted, and if strict with 4 if it has problems."""
+    call.console.result(document, document["outputs"].values())
+    if not document["finished"]:
+        click.get_current_context().exit(INTERRUPTED)
+    if strict and document["problems"]:
+        click.get_current_context().exit(PROBLEMS)
 
 
 def finish(folder: Folder, run: Run, reading: LogReading, heldout: Scans | None, every: int) -> dict[str, Any]:

@@ -11,7 +11,7 @@ import click
 from bayesmap.cli.command import Call, takes
 from bayesmap.cli.console import share
 from bayesmap.cli.keys import ExportSettings, RenderSettings
-from bayesmap.cli.translation import heldout_scans
+from bayesmap.cli.translation import heldout_scans, need_free
 from bayesmap.errors import BadInput
 from bayesmap.version import __version__
 
@@ -252,11 +252,7 @@ def export(call: Call[ExportSettings], run_file: str, output: str | None, force:
     settings = call.settings()
     kind = None if settings.format == "auto" else settings.format
     target = output or str(Path(run_file).with_name("map.yaml"))
-    older = existing(target, kind)
-    if older is not None and not force:
-        raise BadInput(f"{older}: exists already; --force replaces it, -o takes another name")
-    if not Path(target).parent.is_dir():
-        raise BadInput(f"{Path(target).parent}: no such folder; make it first, or choose another with -o")
+    need_free(Path(target), existing(target, kind), force)
     run = load(run_file)
     if np.isnan(run.occupancy).any():
         raise BadInput(f"{run_file}: the run has no draws yet; go on with it by bayesmap infer --resume")

@@ -11,7 +11,7 @@ import click
 
 from bayesmap.cli import pipeline, translation
 from bayesmap.cli.command import Call, as_toml, takes
-from bayesmap.cli.console import INTERRUPTED, PROBLEMS, Console, progress
+from bayesmap.cli.console import Console, progress
 from bayesmap.cli.folder import Folder
 from bayesmap.cli.keys import SlamSettings
 from bayesmap.cli.pipeline import Task
@@ -70,8 +70,7 @@ def slam(call: Call[SlamSettings], log: str, output: str | None, resume: bool, f
         # After Ctrl-C: leave the folder so that the run can go on.
         if not run.finished:
             document = pipeline.leave(task.folder, run, reading, go_on)
-            call.console.result(document, document["outputs"].values())
-            click.get_current_context().exit(INTERRUPTED)
+            pipeline.end(call, document, strict=task.settings.strict)
         # Finish: save the run, draw it, export it.
         outputs = [*task.folder.write_products(run), *_write_trajectory(task.folder, reading, run)]
     except KeyboardInterrupt:
@@ -84,9 +83,7 @@ def slam(call: Call[SlamSettings], log: str, output: str | None, resume: bool, f
     # Report.
     pipeline.report(call.console, document)
     _report(call, document["trajectory"])
-    call.console.result(document, document["outputs"].values())
-    if task.settings.strict and document["problems"]:
-        click.get_current_context().exit(PROBLEMS)
+    pipeline.end(call, document, strict=task.settings.strict)
 
 
 def _stages(folder: Folder) -> Path:

@@ -360,6 +360,18 @@ def heldout_scans(run: Run, log: str, settings: ReadingSettings, every: int) -> 
     return unseen_scans(train, scans, every, log)
 
 
+def need_free(target: Path, older: Path | None, force: bool) -> None:
+    """Refuse to replace an older file unasked, or to write into a folder that is not there.
+
+    Raises:
+        BadInput: the message names the remedy.
+    """
+    if older is not None and not force:
+        raise BadInput(f"{older}: exists already; --force replaces it, -o takes another name")
+    if not target.parent.is_dir():
+        raise BadInput(f"{target.parent}: no such folder; make it first, or choose another with -o")
+
+
 def is_map(path: str) -> bool:
     """Return whether a path ends as maps of map_server do."""
     return Path(path).suffix.lower() in MAPS
