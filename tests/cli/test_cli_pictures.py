@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from PIL import Image
 from shell import call, json_of, refusal_of, succeed
+from tiers import full_but, latin
 
 import bayesmap as bm
 from bayesmap.io.ros.maps import read_map
@@ -65,8 +66,9 @@ def test_residuals_of_scans_that_were_seen_are_refused(office, office_run, heldo
     assert list(tmp_path.iterdir()) == []
 
 
-@pytest.mark.parametrize("what", ["residuals", "surprise", "log-odds"])
-@pytest.mark.parametrize("window", [None, "observed", "0,6,-1,5"])
+@pytest.mark.parametrize(
+    ("what", "window"), latin(3, ["residuals", "surprise", "log-odds"], [None, "observed", "0,6,-1,5"])
+)
 def test_render_what_others_and_unseen_scans_say(office, heldout_run, tmp_path, what, window):
     target = tmp_path / "picture.png"
     heldout = ["--heldout", office, "--holdout 3"] if what != "log-odds" else []
@@ -84,7 +86,10 @@ def test_binary_walls_have_no_interval_and_no_surfaces_and_other_cells_have(bina
     assert "--what width" in refusal_of("render", office_run / "run.nc", "--what deviation -o", tmp_path / "no.png")
 
 
-@pytest.mark.parametrize("what", ["figure", "mean", "deviation", "draw", "animation", "residuals", "log-odds"])
+BINARY = ("figure", "mean", "deviation", "draw", "animation", "residuals", "log-odds")
+
+
+@pytest.mark.parametrize("what", full_but(BINARY, "figure", "deviation", "animation"))
 def test_binary_walls_are_still_drawn(office, binary_run, tmp_path, what):
     target = tmp_path / ("film.gif" if what == "animation" else "picture.png")
     heldout = ["--heldout", office, "--holdout 3"] if what == "residuals" else []

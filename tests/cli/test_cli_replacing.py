@@ -1,6 +1,7 @@
 """A run that is to be replaced stays until there is something in its place, whatever happens before."""
 
 import contextlib
+import shutil
 
 import pytest
 from shell import interrupt_at_checkpoint, refusal_of, succeed
@@ -16,10 +17,9 @@ def contents(folder):
 
 
 @pytest.fixture
-def finished(office, tmp_path, short):
-    folder = tmp_path / "run"
-    succeed("infer", office, "-o", folder, *short)
-    return folder
+def finished(office_run, tmp_path):
+    """A finished run of its own for each test."""
+    return shutil.copytree(office_run, tmp_path / "run")
 
 
 def test_interrupted_before_the_first_sweep_it_is_as_it_was(office, finished, short, monkeypatch):
