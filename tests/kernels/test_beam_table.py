@@ -5,7 +5,7 @@ import pytest
 from oracle.enumeration import all_maps
 from oracle.formula import beams, distances, touches
 from oracle.own_sensor import OwnSensor
-from oracle.worlds import make_case, scorer
+from oracle.worlds import make_case
 from test_rays import GRID, random_scans
 
 import bayesmap as bm
@@ -41,21 +41,6 @@ def test_the_log_likelihood_of_a_map_is_the_sum_over_beams_at_the_oracle_s_dista
         expected = sensor.log_likelihood(z, d, limits)
         np.testing.assert_allclose(table.beam_log_likelihoods(walls), expected, atol=FLAT_NATS + FLOAT32, rtol=1e-5)
         assert table.log_likelihood(walls) == pytest.approx(expected.sum(), abs=len(z) * (FLAT_NATS + FLOAT32))
-
-
-@pytest.mark.parametrize("name", ["gaussian", "growing", "mixture", "wide mixture"])
-def test_it_is_the_oracle_s_density_too(name):
-    """The same with a density that the package did not compute."""
-    sensor, scans = SENSORS[name], random_scans(1, poses=1)
-    walls = np.random.default_rng(1).random(GRID.shape) < 0.1
-    starts, angles = beams(scans.poses, scans.angles_rad, GRID)
-    d = distances(walls, starts, angles) * GRID.resolution
-    score = scorer(sensor, (scans.min_range_m, scans.max_range_m))
-    found = trace(scans, GRID, sensor).beam_log_likelihoods(walls)
-    for z, one, value in zip(scans.ranges_m.ravel(), d, found, strict=True):
-        expected = 0.0 if np.isnan(z) else float(score(z, np.array([one]))[0])
-        floor = -30.0 if isinstance(sensor, bm.BeamMixture) else -np.inf  # documented: of typed readings
-        assert value == pytest.approx(max(expected, floor), abs=FLAT_NATS + FLOAT32, rel=1e-5)
 
 
 @pytest.mark.parametrize("name", SENSORS)

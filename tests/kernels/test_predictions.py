@@ -112,21 +112,6 @@ def test_cumulatives_are_the_plain_sums(name):
     np.testing.assert_allclose(found.pit_low[valid], low[valid], atol=1e-9)
 
 
-@pytest.mark.parametrize("name", ROBUST)
-def test_the_cumulative_is_the_integral_of_the_density(name):
-    """One beam, asked for every range at once: its pieces between jumps by the trapezoidal rule."""
-    sensor = SENSORS[name]
-    r = np.linspace(LIMITS.min_m, LIMITS.max_m, 40_001)
-    _, maps = world(20)
-    scans = bm.Scans([0.1, 3.3, 0.3], np.zeros(len(r)), r[None], max_range_m=LIMITS.max_m, min_range_m=LIMITS.min_m)
-    rays = trace_rays(scans, GRID)
-    found = forecast(rays, batches(rays, maps), sensor, DEPTH)
-    p = np.exp(found.log_density)
-    integral = found.p_too_close[0] + np.append(0.0, np.cumsum((p[1:] + p[:-1]) / 2 * np.diff(r)))
-    np.testing.assert_allclose(found.pit_high, integral, atol=2e-5)
-    assert found.pit_high[-1] + found.p_no_return[0] == pytest.approx(1.0, abs=1e-12)
-
-
 def test_weights_of_stops_are_their_means_over_draws():
     scans, maps = world(40)
     rays = trace_rays(scans, GRID)

@@ -270,15 +270,15 @@ def z_of(worlds, counts, law):
     return off[some] / np.sqrt(variance[some] / len(cells))
 
 
-@cache
+@pytest.fixture(scope="module")
 def in_squares():
     """Copies of a world whose surfaces may lie outside their own squares, and the squares of one sweep's stops."""
     worlds, states, sampler = swept("surfaces", 6000, one=state_of("surfaces", 0.12, 0.02))
     return worlds, states, sampler.state.chains.in_squares(0, 0, kept=False)
 
 
-def test_beams_are_counted_where_their_points_lie():
-    worlds, states, found = in_squares()
+def test_beams_are_counted_where_their_points_lie(in_squares):
+    worlds, states, found = in_squares
     inside, passed = law_of_points(worlds, states)
     assert abs(z_of(worlds, found.stopped, inside)).max() < LIMIT
     assert abs(z_of(worlds, found.passed, passed)).max() < LIMIT
@@ -288,8 +288,8 @@ def test_beams_are_counted_where_their_points_lie():
     assert abs(z_of(worlds, found.passed, passed)).max() > LIMIT
 
 
-def test_the_chance_is_a_beta_of_the_counts():
-    _, _, found = in_squares()
+def test_the_chance_is_a_beta_of_the_counts(in_squares):
+    _, _, found = in_squares
     a, b = 1.0 + found.stopped, 2.0 + found.passed
     np.testing.assert_allclose(found.expected, a / (a + b), rtol=1e-5)
     assert scipy.stats.kstest(scipy.stats.beta.cdf(found.drawn, a, b), "uniform").pvalue > ALPHA / TESTS

@@ -1,1 +1,1 @@
-"""What beams cross: the cells of a grid along each of them."""
+"""The cells of a grid along each beam."""

@@ -26,6 +26,7 @@ Ints = NDArray[np.int32]
 """Types of arrays in main memory."""
 Int32s, Float32s = wp.array(dtype=wp.int32), wp.array(dtype=wp.float32)
 Float64s, Uint8s = wp.array(dtype=wp.float64), wp.array(dtype=wp.uint8)
+Vec2ds, Vec3ds = wp.array(dtype=wp.vec2d), wp.array(dtype=wp.vec3d)
 """Types of arrays on a device."""
 Int32Rows, Float32Rows = wp.array2d(dtype=wp.int32), wp.array2d(dtype=wp.float32)
 Float64Rows, Uint8Rows = wp.array2d(dtype=wp.float64), wp.array2d(dtype=wp.uint8)

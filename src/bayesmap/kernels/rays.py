@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 from bayesmap.beams.rays import MAX_INCIDENCES, PARALLEL, Rays
 from bayesmap.errors import BadInput
 from bayesmap.kernels import device as devices
-from bayesmap.kernels.device import Float32s, Float64s, Floats, Int32s, Ints, Singles
+from bayesmap.kernels.device import Float32s, Float64s, Floats, Int32s, Ints, Singles, Vec2ds
 from bayesmap.kernels.walk import cell_before, is_inside, walk_begin, walk_next
 from bayesmap.sensors.model import RangeLimits
 from bayesmap.space.grid import Grid
@@ -28,8 +28,8 @@ LEAST_COSINE = wp.constant(wp.float64(PARALLEL))
 class Lines:
     """Beams and the grid, on a device: starts in metres from its corner, unit vectors, its rows and its edge."""
 
-    start_m: wp.array(dtype=wp.vec2d)
-    direction: wp.array(dtype=wp.vec2d)
+    start_m: Vec2ds
+    direction: Vec2ds
     nx: int
     ny: int
     edge_m: wp.float64
@@ -218,8 +218,8 @@ def beam_lines(scans: Scans, grid: Grid) -> tuple[Floats, Floats]:
 
 def trace_rays(
     scans: Scans, grid: Grid, *, poses_world: ArrayLike | None = None, reach_m: Floats | None = None,
-    near_m: Floats | None = None, device: str = "cpu",
-    on_progress: Callable[[int, int], None] = lambda done, total: None,
+    near_m: Floats | None = None, device: str = "cpu", on_progress: Callable[[int, int], None] = lambda done,
+    total: None,
 ) -> Rays:  # fmt: skip
     """Follow every beam of some scans through a grid.
 

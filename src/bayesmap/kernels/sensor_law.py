@@ -24,7 +24,7 @@ ROUNDS = wp.constant(200)  # of the continued fraction, at most; it takes some t
 TINY = wp.constant(wp.float64(1.0e-300))
 CLOSE = wp.constant(wp.float64(1.0e-14))
 MOST_POWER = 16
-"""Of a Student-t density: beyond it, at 31 degrees of freedom, it is nearly normal."""
+"""Largest whole power that is multiplied out: past 31 degrees of freedom a Student-t density is nearly normal."""
 
 
 @wp.func
@@ -175,7 +175,7 @@ SensorLaw32 = _law("SensorLaw32", wp.float32)
 def sensor_law(sensor: SensorModel, limits: RangeLimits, device: str, law: Any = SensorLaw64) -> Any:
     """Pack a sensor's numbers for kernels, as a `SensorLaw64` or a `SensorLaw32`.
 
-    Of a model without a compiled formula the law in single precision takes no density and no probability for less than
+    If a model has no compiled formula, its densities and probabilities in single precision are at least
     exp(`LOG_IMPOSSIBLE`): the sampler of stops needs numbers that do not underflow, and one odd beam makes no map
     impossible. Predictions, in double precision, have no such bound.
 

@@ -31,7 +31,7 @@ SIDE_Y = wp.constant(2)
 
 @wp.struct
 class Walk:
-    """Where a walk stands: ``cell_x, cell_y`` is touched at ``distance``; the walk is over past ``end``."""
+    """The state of a walk: ``cell_x, cell_y`` is touched at ``distance``; the walk is over past ``end``."""
 
     cell_x: int
     cell_y: int

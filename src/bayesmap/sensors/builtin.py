@@ -189,7 +189,7 @@ def _check_scale(model: str, name: str, scale_m: float, per_m: float) -> None:
 
 
 FLAT_NATS = 1e-4
-"""How much the noise may still add to the log-likelihood where the beam table is cut."""
+"""The most that the noise may add to the log-likelihood past the end of a beam in the table."""
 
 
 @dataclass(frozen=True)

@@ -1,7 +1,7 @@
 r"""Sensor models without a compiled formula, as tables that kernels can read.
 
-The three methods of a `SensorModel` say all that there is to know of a reading's law; but kernels cannot call them. So
-the law is worked out once at nodes, and kernels interpolate its logarithm. Readings scatter about the stop on a scale
+The three methods of a `SensorModel` define the law of a reading, but kernels cannot call them. So the law is computed
+once at nodes, and kernels interpolate its logarithm. Readings scatter about the stop on a scale
 that the table learns from the model's own `sample`, and nodes are dense there and sparse elsewhere. With
 w = sqrt(scale(d)^2 + s^2) for a stop at distance d known up to a spread s, the density is kept as
 
@@ -33,12 +33,12 @@ WIDEST = 63.0
 """The widest spread, in scales: wider ones are taken for it."""
 
 LOG_LEAST = -1e6
-"""What is less likely is taken for this, in nats: between nodes there is no interpolating with minus infinity."""
+"""Least log density at a node, in nats: minus infinity cannot be interpolated."""
 
 SAMPLES = 512
 LEAST_SCALE_M = 1e-4
 SLACK = 0.05
-"""How far from one probabilities may add up, integration errors included."""
+"""Largest distance of a sum of probabilities from one, integration errors included."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,12 +71,12 @@ class TabulatedLaw:
 
     @property
     def has_cumulative(self) -> bool:
-        """Whether probabilities add up to one, so that there is a cumulative distribution."""
+        """Return whether probabilities add up to one, so that there is a cumulative distribution."""
         return not np.isnan(self.below_nowhere).any()
 
 
 def tabulated(sensor: SensorModel, limits: RangeLimits) -> TabulatedLaw:
-    """Work out a sensor's law at all nodes; sensors that can be hashed are remembered."""
+    """Compute a sensor's law at all nodes; the laws of sensors that can be hashed are kept."""
     try:
         hash(sensor)
     except TypeError:
@@ -141,7 +141,7 @@ def _tabulated(sensor: SensorModel, limits: RangeLimits) -> TabulatedLaw:
 
 
 def scales(sensor: SensorModel, distance_m: Floats, limits: RangeLimits) -> Floats:
-    """On which scale readings scatter about stops at some distances, (D,): as a line through what samples say.
+    """Return the scale on which readings scatter about stops at each distance, (D,): a line fitted to samples.
 
     Nodes are laid out by it, so it has to be smooth, and roughly right where most of the density is.
     """
@@ -153,7 +153,7 @@ def scales(sensor: SensorModel, distance_m: Floats, limits: RangeLimits) -> Floa
     known = np.isfinite(away).sum(axis=1) >= SAMPLES // 8
     if not known.any():
         return np.full(len(distance_m), 0.1 * span)
-    # Of a normal distribution a quarter lies within 0.32 standard deviations.
+    # A quarter of a normal distribution lies within 0.32 standard deviations.
     quarter = np.nanquantile(away[known], 0.25, axis=1) / 0.32
     line = np.polynomial.Polynomial.fit(stop[known], quarter, min(1, known.sum() - 1))
     return np.asarray(np.clip(line(distance_m), max(0.5 * quarter.min(), LEAST_SCALE_M), limits.max_m))
@@ -173,13 +173,13 @@ def _typed(sensor: SensorModel, code: float, d: Floats, s: Floats, limits: Range
 
 
 def _is_typed(sensor: SensorModel, limits: RangeLimits) -> bool:
-    """Whether ranges within the limits and the two typed readings are all outcomes: their probabilities add to one."""
+    """Return whether ranges within the limits and typed readings are all outcomes: their probabilities add to one."""
     d = np.linspace(0.0, limits.max_m, 9)[:, None]
     return bool(np.abs(total_probability(sensor, d, limits) - 1.0).max() < SLACK)
 
 
 def total_probability(sensor: SensorModel, distance_m: Floats, limits: RangeLimits) -> Floats:
-    """P(too close) + the integral of the density over the limits + P(no return), for (n, 1) distances."""
+    """Return P(too close) + the integral of the density over the limits + P(no return), for (n, 1) distances."""
     scale = scales(sensor, distance_m[:, 0], limits)[:, None]
     most = np.arcsinh(limits.max_m / scale.min())
     z = np.clip(distance_m + scale * np.sinh(np.linspace(-most, most, 2001)), limits.min_m, limits.max_m)
@@ -189,6 +189,6 @@ def total_probability(sensor: SensorModel, distance_m: Floats, limits: RangeLimi
 
 
 def _cumulated(density: Floats, z: Floats) -> Floats:
-    """Integral of a density from its first node on, by the trapezoidal rule, along the last axis."""
+    """Integrate a density from its first node on, by the trapezoidal rule, along the last axis."""
     pieces = 0.5 * (density[..., 1:] + density[..., :-1]) * np.diff(z, axis=-1)
     return np.concatenate([np.zeros((*pieces.shape[:-1], 1)), np.cumsum(pieces, axis=-1)], axis=-1)

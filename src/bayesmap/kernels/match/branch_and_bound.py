@@ -14,9 +14,13 @@ import warp as wp
 from numpy.typing import NDArray
 
 from bayesmap.kernels import device as devices
-from bayesmap.kernels.device import Float64Rows, Float64s, Floats, Int32s, Ints
+from bayesmap.kernels.device import Float64Rows, Float64s, Floats, Int32s, Ints, Vec2ds
 
 wp.set_module_options({"enable_backward": False})
+
+
+Pyramid = wp.array4d(dtype=wp.uint8)
+"""Likelihood grids with their maxima over blocks: (grids, levels, nx, ny)."""
 
 
 @wp.struct
@@ -71,9 +75,7 @@ class Best:
 
 
 @wp.func
-def block_score(
-    jobs: SearchJobs, pyramid: wp.array4d(dtype=wp.uint8), j: int, row: int, level: int, dx: int, dy: int
-) -> int:
+def block_score(jobs: SearchJobs, pyramid: Pyramid, j: int, row: int, level: int, dx: int, dy: int) -> int:
     """Sum, over the points of a job, the largest value in the block of shifts (dx, dy) .. + 2^level - 1."""
     grid = jobs.grid[j]
     nx = pyramid.shape[2]
@@ -99,10 +101,20 @@ def off_centre(offset: int, width: int) -> wp.float64:
     return near * near
 
 
+@wp.func
+def block_bound(jobs: SearchJobs, pyramid: Pyramid, j: int, row: int, level: int, dx: int, dy: int) -> wp.float64:
+    """Return the bound of the scores in a block, less the cost of its angle and of its distance from the centre."""
+    points = jobs.point_end[j] - jobs.point_begin[j]
+    scale = wp.float64(1.0) / (wp.float64(255.0) * wp.float64(wp.max(points, 1)))
+    width = 1 << level
+    cost = jobs.row_cost[row] + jobs.across[j] * (off_centre(dx, width) + off_centre(dy, width))
+    return wp.float64(block_score(jobs, pyramid, j, row, level, dx, dy)) * scale - cost
+
+
 @wp.kernel
 def turn_points(
-    first: int, jobs: SearchJobs, job_of_row: Int32s, angle: Float64s, centre: wp.array(dtype=wp.vec2d),
-    origin: wp.array(dtype=wp.vec2d), resolution: wp.float64, points: wp.array(dtype=wp.vec2d),
+    first: int, jobs: SearchJobs, job_of_row: Int32s, angle: Float64s, centre: Vec2ds, origin: Vec2ds,
+    resolution: wp.float64, points: Vec2ds,
 ):  # fmt: skip
     """One thread per angle of a job: compute the cells of its points with the sensor at the window's centre."""
     row = first + wp.tid()
@@ -120,25 +132,18 @@ def turn_points(
 
 
 @wp.kernel
-def bound_blocks(
-    first: int, jobs: SearchJobs, job_of_row: Int32s, node_begin: Int32s, pyramid: wp.array4d(dtype=wp.uint8),
-    roots: Roots,
-):  # fmt: skip
+def bound_blocks(first: int, jobs: SearchJobs, job_of_row: Int32s, node_begin: Int32s, pyramid: Pyramid, roots: Roots):
     """One thread per angle of a job: bound the scores of the largest blocks."""
     row = first + wp.tid()
     j = job_of_row[row]
     level = pyramid.shape[1] - 1
     width = 1 << level
-    points = jobs.point_end[j] - jobs.point_begin[j]
-    scale = wp.float64(1.0) / (wp.float64(255.0) * wp.float64(wp.max(points, 1)))
     n = node_begin[row]
     dx = -jobs.half_x[j]
     while dx <= jobs.half_x[j]:
         dy = -jobs.half_y[j]
         while dy <= jobs.half_y[j]:
-            total = block_score(jobs, pyramid, j, row, level, dx, dy)
-            cost = jobs.row_cost[row] + jobs.across[j] * (off_centre(dx, width) + off_centre(dy, width))
-            roots.bound[n] = wp.float64(total) * scale - cost
+            roots.bound[n] = block_bound(jobs, pyramid, j, row, level, dx, dy)
             roots.node[n] = wp.vec3i(row, dx, dy)
             n += 1
             dy += width
@@ -160,17 +165,14 @@ def is_taken(taken: Taken, j: int, row: int, dx: int, dy: int, width: int) -> bo
 
 @wp.kernel
 def search_blocks(
-    first: int, strands: int, jobs: SearchJobs, roots: Roots, pyramid: wp.array4d(dtype=wp.uint8), taken: Taken,
-    stack: Stack, best: Best,
-):  # fmt: skip
+    first: int, strands: int, jobs: SearchJobs, roots: Roots, pyramid: Pyramid, taken: Taken, stack: Stack, best: Best
+):
     """One thread per strand of a job: search every ``strands``-th of its largest blocks depth first, best bound first.
 
     Strands share the score of the best that any has found; a stale one costs time and changes nothing.
     """
     t = first + wp.tid()
     j = t / strands
-    points = jobs.point_end[j] - jobs.point_begin[j]
-    scale = wp.float64(1.0) / (wp.float64(255.0) * wp.float64(wp.max(points, 1)))
     mine = wp.float64(jobs.least[j])
     winner = wp.vec3i(-1, 0, 0)
     q = roots.begin[j] + t - j * strands
@@ -214,9 +216,7 @@ def search_blocks(
                     continue
                 if is_taken(taken, j, row, dx, dy, half):
                     continue
-                total = block_score(jobs, pyramid, j, row, level - 1, dx, dy)
-                cost = jobs.row_cost[row] + jobs.across[j] * (off_centre(dx, half) + off_centre(dy, half))
-                score = wp.float64(total) * scale - cost
+                score = block_bound(jobs, pyramid, j, row, level - 1, dx, dy)
                 if score < limit or score <= jobs.least[j]:
                     continue
                 z = depth  # children in ascending order, so that the best is on top
@@ -233,7 +233,7 @@ def search_blocks(
 
 @dataclass(frozen=True, eq=False)
 class Windows:
-    """What J jobs search: their points, and the translations and angles to try.
+    """The searches of J jobs: their points, and the translations and angles to try.
 
     Attributes:
         points: all jobs' points one after the other, in the sensor's frame, (N, 2).
@@ -343,7 +343,7 @@ def _prepared(grids: Any, windows: Windows, threads: int | None) -> tuple[Any, A
 
 
 def _first_of_best(best: Floats, best_nodes: Ints, scores: Floats, nodes: NDArray[np.int64], mode: int) -> None:
-    """Write down the best of each job's strands as its next mode; of equals, the first by angle, x, y."""
+    """Write the best of each job's strands as its next mode: among equals, the first by angle, x, y."""
     valid = best_nodes[..., 0] >= 0
     value = np.where(valid, best, -np.inf)
     for j in np.nonzero(valid.any(axis=1))[0]:

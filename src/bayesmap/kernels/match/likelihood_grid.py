@@ -7,7 +7,8 @@ import warp as wp
 from numpy.typing import NDArray
 
 from bayesmap.kernels import device as devices
-from bayesmap.kernels.device import Floats, Int32s, Ints, Uint8Rows
+from bayesmap.kernels.device import Floats, Int32s, Ints, Uint8Rows, Vec2ds, Vec3ds
+from bayesmap.kernels.match.branch_and_bound import Pyramid
 from bayesmap.kernels.match.scan_geometry import ScanArrays, neighbour, scan_arrays, widest_gap
 
 wp.set_module_options({"enable_backward": False})
@@ -15,9 +16,8 @@ wp.set_module_options({"enable_backward": False})
 
 @wp.kernel
 def draw_points(
-    first: int, bands: int, offsets: Int32s, scan: Int32s, pose: wp.array(dtype=wp.vec3d), scene: ScanArrays,
-    spacing: wp.float32, origin: wp.array(dtype=wp.vec2d), resolution: wp.float64, stamp: Uint8Rows,
-    pyramid: wp.array4d(dtype=wp.uint8),
+    first: int, bands: int, offsets: Int32s, scan: Int32s, pose: Vec3ds, scene: ScanArrays, spacing: wp.float32,
+    origin: Vec2ds, resolution: wp.float64, stamp: Uint8Rows, pyramid: Pyramid,
 ):  # fmt: skip
     """One thread per band of a grid: set each cell to the largest of all stamps that cover it.
 
@@ -65,7 +65,7 @@ def draw_points(
 
 
 @wp.kernel
-def next_level(first: int, level: int, pyramid: wp.array4d(dtype=wp.uint8)):
+def next_level(first: int, level: int, pyramid: Pyramid):
     """One thread per row: maxima over blocks of 2^level cells, from those over blocks half as long."""
     t = first + wp.tid()
     nx = pyramid.shape[2]

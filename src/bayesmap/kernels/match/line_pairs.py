@@ -22,7 +22,7 @@ import numpy as np
 import warp as wp
 
 from bayesmap.kernels import device as devices
-from bayesmap.kernels.device import Float32Rows, Float64Rows, Floats, Int32Rows, Int32s, Ints, Singles
+from bayesmap.kernels.device import Float32Rows, Float64Rows, Floats, Int32Rows, Int32s, Ints, Singles, Vec3ds
 from bayesmap.kernels.match.scan_geometry import ScanArrays, neighbour, scan_arrays, widest_gap
 from bayesmap.space.planar import inverse
 
@@ -254,14 +254,14 @@ class PairSums:
 
     second: wp.array(dtype=wp.mat33d)
     slack: wp.array(dtype=wp.mat33d)
-    gradient: wp.array(dtype=wp.vec3d)
+    gradient: Vec3ds
     totals: Float64Rows
 
 
 @wp.kernel
 def sum_pairs(
-    first: int, scene: ScanArrays, weights: Float32Rows, source: Int32s, target: Int32s,
-    relative: wp.array(dtype=wp.vec3d), rule: PairRule, out: PairSums,
+    first: int, scene: ScanArrays, weights: Float32Rows, source: Int32s, target: Int32s, relative: Vec3ds,
+    rule: PairRule, out: PairSums,
 ):  # fmt: skip
     """One thread per pair of scans: sum over the pairs of their points."""
     p = first + wp.tid()
@@ -298,7 +298,7 @@ def pair_sums(
 
 @wp.kernel
 def count_matches(
-    first: int, scene: ScanArrays, offsets: Int32s, target: Int32s, relative: wp.array(dtype=wp.vec3d), rule: PairRule,
+    first: int, scene: ScanArrays, offsets: Int32s, target: Int32s, relative: Vec3ds, rule: PairRule,
     counts: Float32Rows,
 ):  # fmt: skip
     """One thread per scan: count the scans with which each beam is paired, weighted by how well it fits."""
@@ -373,8 +373,8 @@ def near_wall(scene: ScanArrays, j: int, beam: int, x: float, y: float, near: fl
 
 @wp.kernel
 def compare_views(
-    first: int, scene: ScanArrays, source: Int32s, target: Int32s, relative: wp.array(dtype=wp.vec3d), near: float,
-    clear: float, counts: Int32Rows,
+    first: int, scene: ScanArrays, source: Int32s, target: Int32s, relative: Vec3ds, near: float, clear: float,
+    counts: Int32Rows,
 ):  # fmt: skip
     """One thread per pair: count the points of the source on what the target saw, those that contradict it, and all.
 

@@ -13,7 +13,7 @@ wp.set_module_options({"enable_backward": False})
 
 POINT = wp.constant(wp.uint8(1))
 WITH_NORMAL = wp.constant(wp.uint8(2))
-NOWHERE_M = wp.constant(wp.float32(1.0e6))  # where beams without a point end: too far to be anybody's nearest
+NOWHERE_M = wp.constant(wp.float32(1.0e6))  # where beams without a point end: too far to be nearest to any point
 REACHES = wp.constant(3)  # fits tried per beam, each twice as wide as the one before
 
 

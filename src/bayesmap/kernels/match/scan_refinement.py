@@ -6,7 +6,7 @@ from typing import Any
 import warp as wp
 
 from bayesmap.kernels import device as devices
-from bayesmap.kernels.device import Float32Rows, Float64Rows, Floats, Int32s, Ints
+from bayesmap.kernels.device import Float32Rows, Float64Rows, Floats, Int32s, Ints, Vec3ds
 from bayesmap.kernels.match.line_pairs import PairRule, pair_scans
 from bayesmap.kernels.match.scan_geometry import ScanArrays, scan_arrays
 
@@ -47,9 +47,9 @@ class RefinementArrays:
     scans: Int32s
     offsets: Int32s
     others: Int32s
-    other_poses: wp.array(dtype=wp.vec3d)
-    starts: wp.array(dtype=wp.vec3d)
-    priors: wp.array(dtype=wp.vec3d)
+    other_poses: Vec3ds
+    starts: Vec3ds
+    priors: Vec3ds
     prior_information: wp.array(dtype=wp.mat33d)
 
 
@@ -68,7 +68,7 @@ class ConvergenceNumbers:
 class Refined:
     """Results of all jobs, on a device."""
 
-    pose: wp.array(dtype=wp.vec3d)
+    pose: Vec3ds
     information: wp.array(dtype=wp.mat33d)
     totals: Float64Rows
 
@@ -170,13 +170,13 @@ class Refinement:
 
 @dataclass(frozen=True)
 class Convergence:
-    """How pairs are made and weighted from the first step of a refinement to the last.
+    """Rules of pairs and weights, from the first step of a refinement to the last.
 
     Attributes:
         sigma_m: standard deviation of a point.
-        steps: of Gauss and Newton, at most.
+        steps: the most steps of Gauss and Newton.
         reach_m: furthest that paired points may lie apart, in the first step and in the last.
-        scale_m: c of Geman and McClure's weight, likewise.
+        scale_m: c of Geman and McClure's weight, in the first step and in the last.
         alike: least cosine between the normals of a pair.
     """
 

@@ -39,13 +39,13 @@ from bayesmap.sensors.tabulated import tabulated
 wp.set_module_options({"enable_backward": False})
 
 StopStates = Singles
-"""Some maps: stop probabilities of cells without a surface (maps, cells), or surfaces (maps, cells, 6): reflectivity,
+"""Maps: stop probabilities of cells without a surface (maps, cells), or surfaces (maps, cells, 6): reflectivity,
 mean x and y in metres from the grid's lower left corner, and Cholesky factor l11, l21, l22."""
 
 
 @wp.struct
 class MapArrays:
-    """Some maps on a device, one a row, and where beams stop in cells without a surface, as a part of their stretch."""
+    """Maps on a device, one a row, and where beams stop in cells without a surface, as a part of their stretch."""
 
     stop: Float32Rows
     surface: wp.array2d(dtype=Cell)
@@ -71,7 +71,7 @@ def stop_in(maps: MapArrays, row: int, column: int, line: Line, cell: int) -> wp
 
 
 def maps_to_device(states: StopStates, hit_depth: float, device: str) -> Any:
-    """Put some maps on a device; their number of dimensions tells which kind of cells they have."""
+    """Put maps on a device; their number of dimensions tells the kind of cells."""
     cells = {"surface": cells_to_device(states, device)} if states.ndim == 3 else {"stop": states}
     return devices.pack(MapArrays, device, surfaces=int(states.ndim == 3), depth=hit_depth, **cells)
 

@@ -34,7 +34,7 @@ wp.set_module_options({"enable_backward": False})
 
 PAST_SCALES = wp.constant(wp.float32(6.0))
 PAST_CELLS = wp.constant(wp.float32(4.0))
-"""How far before and past its reading it matters where a beam is stopped: scales of the noise, and cells (a surface is
+"""Distance before and past a reading within which the place of the stop matters: noise scales, and cells (a surface is
 smaller than its cell)."""
 
 LEAST_CHANCE = 2e-3

@@ -83,7 +83,7 @@ def add_stops(
 
 @dataclass(frozen=True, eq=False)
 class StopMixture:
-    """Where each beam stops: a mixture over the cells that it meets.
+    """The stops of each beam: a mixture over the cells that it meets.
 
     Attributes:
         rays: the beams; entries below are theirs.
@@ -234,9 +234,9 @@ HALVINGS = wp.constant(15)  # of the span of ranges: quantiles are off by at mos
 
 @wp.struct
 class LevelSearch:
-    """The search for the range of a level, between two ranges, and the stops that are not decided yet.
+    """The search for the range of a level, between two ranges, and the stops that are still undecided.
 
-    Of those before ``begin`` all that returns lies below, of those from ``end`` on behind.
+    All that returns from stops before ``begin`` lies below the range, from stops from ``end`` on behind it.
     """
 
     low: wp.float64

@@ -285,12 +285,13 @@ def stopped_blocks_at(passing: int) -> int:
 
 
 @wp.func
-def put_passing(blocks: LaneBlocks, row: int, u: int, i: int, passing: wp.vec3):
-    """Put the i-th passing beam into a cell's blocks."""
-    first = (blocks.begin[u] + PRODUCTS + OF_PASSING * (i // WIDTH)) * WIDTH + i % WIDTH
+def put_line(blocks: LaneBlocks, row: int, at: int, numbers: int, i: int, passing: wp.vec3) -> int:
+    """Put the line of the i-th beam into the blocks at ``at``, which hold so many ``numbers``; returns its place."""
+    first = (at + numbers * (i // WIDTH)) * WIDTH + i % WIDTH
     blocks.numbers[row, first] = passing[0]
     blocks.numbers[row, first + WIDTH] = passing[1]
     blocks.numbers[row, first + 2 * WIDTH] = passing[2]
+    return first
 
 
 @wp.func
@@ -299,10 +300,7 @@ def put_stopped(
     counts: wp.float32,
 ):  # fmt: skip
     """Put the i-th stopped beam into the blocks that begin at ``at``; a beam that ``counts`` 0 only fills a lane."""
-    first = (at + OF_STOPPED * (i // WIDTH)) * WIDTH + i % WIDTH
-    blocks.numbers[row, first] = passing[0]
-    blocks.numbers[row, first + WIDTH] = passing[1]
-    blocks.numbers[row, first + 2 * WIDTH] = passing[2]
+    first = put_line(blocks, row, at, OF_STOPPED, i, passing)
     blocks.numbers[row, first + 3 * WIDTH] = reading[0]
     blocks.numbers[row, first + 4 * WIDTH] = reading[1]
     blocks.numbers[row, first + 5 * WIDTH] = decay
@@ -319,10 +317,11 @@ def put_in_blocks(
     many these are.
     """
     passing = listed.passing_end - listed.passing_begin
+    passing_at = blocks.begin[u] + PRODUCTS
     for i in range(passing):
-        put_passing(blocks, row, u, i, endpoints.passing[listed.entries[listed.passing_begin + i]])
+        put_line(blocks, row, passing_at, OF_PASSING, i, endpoints.passing[listed.entries[listed.passing_begin + i]])
     for i in range(passing, WIDTH * blocks_of(passing)):
-        put_passing(blocks, row, u, i, wp.vec3(AWAY, wp.float32(0.0), wp.float32(1.0)))
+        put_line(blocks, row, passing_at, OF_PASSING, i, wp.vec3(AWAY, wp.float32(0.0), wp.float32(1.0)))
     at = blocks.begin[u] + stopped_blocks_at(passing)
     others = int(0)
     put = int(0)

@@ -33,7 +33,7 @@ from bayesmap.kernels.walls.chains import draw_wall, walls_less_free
 wp.set_module_options({"enable_backward": False})
 
 UNTOUCHED, TOUCHED, COUNTED = 0, 1, 2
-"""What is known of a cell: no beam touches it; beams do; or a kernel of its own has counted these beforehand."""
+"""Knowledge of a cell: no beam touches it; beams touch it; or a kernel of its own has counted its beams before."""
 
 AT_LABEL = wp.constant(wp.uint64(800))
 AT_UNTOUCHED = wp.constant(wp.uint64(832))  # of the counters of a cell in a sweep
@@ -45,7 +45,7 @@ STIRLING_7, STIRLING_9, STIRLING_11 = (wp.constant(wp.float64(c)) for c in (-1 /
 
 
 def known_to_device(cells: int, touched: Ints, counted: Ints, device: str) -> Any:
-    """Put what is known of each cell on a device, by flat indices of the cells that are touched and counted."""
+    """Put the knowledge of each cell on a device, by flat indices of the cells that are touched and counted."""
     known = np.full(cells, UNTOUCHED, dtype=np.uint8)
     known[touched] = TOUCHED
     known[counted] = COUNTED

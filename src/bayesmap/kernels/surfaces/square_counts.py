@@ -46,7 +46,7 @@ from bayesmap.kernels.surfaces.stops import ChainArrays, TracedRays
 wp.set_module_options({"enable_backward": False})
 
 CANDIDATES, HALF, PER_HALF = wp.constant(32), wp.constant(16), wp.constant(wp.float64(1.0 / 16.0))
-"""How many candidates there are, how many in each half, and one over that."""
+"""The number of candidates, the number in each half, and one over the latter."""
 LOGISTIC = wp.constant(wp.float64(0.6))
 """Scale of the logistic distribution that stands for a standard normal one: its quantiles have a formula, and its tails
 are the longer ones."""
@@ -59,10 +59,7 @@ def stop_point_m(
     law: SensorLaw32, reading: wp.float32, decay: wp.float32, distance: wp.float32, variance: wp.float32,
     key: wp.uint64, counter: wp.uint64,
 ) -> wp.float64:  # fmt: skip
-    """Draw the distance at which a beam was stopped, given its reading, metres; never behind the beam's start.
-
-    Four counters are its own.
-    """
+    """Draw the distance at which a beam was stopped, given its reading, metres, never negative; takes 4 counters."""
     mean = wp.float64(distance)
     spread = wp.float64(variance)
     if law.kind == TABLE:

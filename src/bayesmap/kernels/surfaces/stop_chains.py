@@ -64,7 +64,7 @@ def load_stop_kernels(device: str) -> Iterator[int]:
 
 @dataclass(frozen=True, eq=False)
 class Plan:
-    """What the sweeps of all chains have in common.
+    """The parts that the sweeps of all chains share.
 
     Attributes:
         rays: with flat indices of the grid's cells.
@@ -168,10 +168,10 @@ class StopChains:
             beta: inverse temperature.
             steps: Metropolis steps of a surface in a sweep, at most `endpoint_cells.MOST_STEPS`; with
                 0 beams draw where they stop, and cells do nothing.
-            observing_after: from this sweep on it is counted of which cells beams say something; never if None. With
-                surfaces `in_squares` counts it.
-            before: given chain and number of each sweep before it.
-            after: likewise after it, by whatever thread has run it.
+            observing_after: the first sweep that counts the cells which beams observe; none if None. With surfaces
+                `in_squares` counts them.
+            before: called with the chain and the number of each sweep before it.
+            after: called after each sweep with the same arguments, by the thread that ran the sweep.
 
         Returns:
             log-likelihood and log prior of the cells as they were *before* each sweep, (chains, count) each.
@@ -285,7 +285,7 @@ class StopChains:
         wp.copy(self._state.cells[here], cells_to_device(states, self.device))
         if solid is not None:
             wp.copy(self._state.solid[here], wp.array(solid.astype(np.uint8), dtype=wp.uint8, device=self.device))
-        self._law, self._packed = (), None  # what was worked out of the cells before them is worthless
+        self._law, self._packed = (), None  # numbers computed from the cells before are out of date
 
     def solid(self, chain: int) -> NDArray[np.bool_]:
         """Return the labels of all cells of a chain, (N,), valid until the next sweep; all free if cells have none."""

@@ -217,7 +217,7 @@ class Sweeps:
 
 @wp.struct
 class Kept:
-    """What sweeps leave behind: the log densities after each, (chains, sweeps), and packed maps after some.
+    """Results of sweeps: the log densities after each, (chains, sweeps), and packed maps after some of them.
 
     Maps are kept after the sweeps of numbers ``first``, ``first + every``, ..., counted from 1, as far as ``draws`` has
     room.
