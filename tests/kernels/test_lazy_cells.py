@@ -15,63 +15,57 @@ PRIORS = {"reflectivities": bm.Beta(0.3, 1.0), "surfaces": bm.Surface(0.3, 1.0)}
 SWEEPS = 40
 
 
-def scans():
+@pytest.fixture(scope="module", params=PRIORS)
+def problem(request):
     """A square room, seen from many places."""
     rng = np.random.default_rng(5)
     poses = np.column_stack([*rng.uniform(3.0, 7.0, (2, 60)), rng.uniform(-np.pi, np.pi, 60)])
     walls = np.zeros(GRID.shape, dtype=bool)
     walls[4:36, [4, 35]] = walls[[4, 35], 4:36] = True
-    angles = np.linspace(-2.0, 2.0, 40)
-    return bm.simulate(walls, GRID, poses, angles, sensor=SENSOR, max_range_m=12.0, seed=3)
+    scans = bm.simulate(walls, GRID, poses, np.linspace(-2.0, 2.0, 40), sensor=SENSOR, max_range_m=12.0, seed=3)
+    return StopGibbs().prepare(Model(scans, GRID, PRIORS[request.param], SENSOR), "cpu", 1)
 
 
-def swept(kind, sweeps=SWEEPS, resume=None):
-    """Log-likelihoods of each sweep, (1, sweeps), and where the chain stands."""
+def swept(problem, sweeps=SWEEPS, resume=None):
+    """Log-likelihoods of each sweep, (1, sweeps), and a snapshot of the chain."""
     sampler = StopGibbs()
-    problem = sampler.prepare(Model(scans(), GRID, PRIORS[kind], SENSOR), "cpu", 1)
     state, info = sampler.step(sampler.init(problem, [0], 7, resume), sweeps)
     return info.log_likelihood, sampler.snapshot(state)
 
 
-@pytest.mark.parametrize("kind", PRIORS)
-def test_chains_are_those_of_beams_that_walk_all_their_cells(kind, monkeypatch):
-    fast, _ = swept(kind)
-    assert len({round(value, 3) for value in fast[0]}) > 4
+@pytest.fixture(scope="module")
+def whole(problem):
+    return swept(problem)
+
+
+def test_chains_are_those_of_beams_that_walk_all_their_cells(problem, whole, monkeypatch):
+    assert len({round(value, 3) for value in whole[0][0]}) > 4
     monkeypatch.setattr(stops.UpdateSchedule, "updates_lazy", lambda self, sweep: True)
-    plain, _ = swept(kind)
-    np.testing.assert_allclose(fast, plain, rtol=1e-5)
+    np.testing.assert_allclose(whole[0], swept(problem)[0], rtol=1e-5)
 
 
-@pytest.mark.parametrize("kind", PRIORS)
-def test_cells_that_were_let_pass_unseen_would_be_noticed(kind, monkeypatch):
+def test_cells_that_were_let_pass_unseen_would_be_noticed(problem, whole, monkeypatch):
     """The wrong twin: beams pass lazy cells as if these stopped none."""
-    fast, _ = swept(kind)
-    monkeypatch.setattr(stops.UpdateSchedule, "mark_watched", _forgetful(stops.UpdateSchedule.mark_watched))
-    wrong, _ = swept(kind)
-    assert abs(fast - wrong).max() > 1.0
+    mark_watched = stops.UpdateSchedule.mark_watched
+
+    def forgetful(self, rays, device):
+        lazy = mark_watched(self, rays, device)
+        lazy.zero_()
+        return lazy
+
+    monkeypatch.setattr(stops.UpdateSchedule, "mark_watched", forgetful)
+    assert abs(whole[0] - swept(problem)[0]).max() > 1.0
 
 
-def _forgetful(mark_watched):
-    def put(self, there, device):
-        holds = mark_watched(self, there, device)
-        holds.zero_()
-        return holds
-
-    return put
-
-
-@pytest.mark.parametrize("kind", PRIORS)
 @pytest.mark.parametrize("first", [3, 9, 16])
-def test_chains_that_go_on_between_two_turns_are_those_that_never_stopped(kind, first):
-    whole, there = swept(kind)
-    _, begun = swept(kind, first)
-    rest, resumed = swept(kind, SWEEPS - first, begun)
-    np.testing.assert_array_equal(whole[:, first:], rest)
-    np.testing.assert_array_equal(there.arrays["state"], resumed.arrays["state"])
+def test_chains_that_go_on_between_two_updates_are_those_that_never_stopped(problem, whole, first):
+    _, begun = swept(problem, first)
+    rest, resumed = swept(problem, SWEEPS - first, begun)
+    np.testing.assert_array_equal(whole[0][:, first:], rest)
+    np.testing.assert_array_equal(whole[1].arrays["state"], resumed.arrays["state"])
 
 
-def test_held_cells_have_their_turn_together_and_seldom():
-    problem = StopGibbs().prepare(Model(scans(), GRID, PRIORS["surfaces"], SENSOR), "cpu", 1)
+def test_lazy_cells_are_updated_together_and_seldom(problem):
     every = initial_estimate.update_periods(problem.estimate)
     assert {2, 8, 16} <= set(every.tolist())
     schedule = stops.UpdateSchedule(problem.rays, every)

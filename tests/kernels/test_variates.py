@@ -34,28 +34,33 @@ HUGE = 1e9
 KEY = wp.uint64(0x123456789ABCDEF)
 
 
+@wp.func
+def at(i: int) -> wp.uint64:
+    return wp.uint64(i) * wp.uint64(SPACING)
+
+
 @wp.kernel
 def draw_normal(key: wp.uint64, out: Float64s):
     i = wp.tid()
-    out[i] = normal(key, wp.uint64(i) * wp.uint64(SPACING))
+    out[i] = normal(key, at(i))
 
 
 @wp.kernel
 def draw_log_gamma(key: wp.uint64, shape: wp.float64, offset: wp.uint64, out: Float64s):
     i = wp.tid()
-    out[i] = log_gamma_variate(shape, key, wp.uint64(i) * wp.uint64(SPACING) + offset)
+    out[i] = log_gamma_variate(shape, key, at(i) + offset)
 
 
 @wp.kernel
 def draw_beta(key: wp.uint64, a: wp.float64, b: wp.float64, out: Float64s):
     i = wp.tid()
-    out[i] = beta_variate(a, b, key, wp.uint64(i) * wp.uint64(SPACING))
+    out[i] = beta_variate(a, b, key, at(i))
 
 
 @wp.kernel
 def draw_surface(prior: PriorNumbers, key: wp.uint64, out: wp.array(dtype=Cell)):
     i = wp.tid()
-    out[i] = fresh_surface(prior, wp.vec2(1.5, 2.5), Cell(), key, wp.uint64(i) * wp.uint64(SPACING))
+    out[i] = fresh_surface(prior, wp.vec2(1.5, 2.5), Cell(), key, at(i))
 
 
 def drawn(kernel, *numbers):
@@ -98,7 +103,7 @@ def test_beta_variates(a, b):
 @wp.kernel
 def draw_beta_or_nothing(key: wp.uint64, a: wp.float64, b: wp.float64, out: Float64s):
     i = wp.tid()
-    out[i] = beta_or_nothing(a, b, key, wp.uint64(i) * wp.uint64(SPACING))
+    out[i] = beta_or_nothing(a, b, key, at(i))
 
 
 @pytest.mark.parametrize(("a", "b"), [(0.01, 0.2), (0.01, 3.0), (0.02, 300.0), (2.0, 3.0)])
@@ -128,7 +133,7 @@ def test_nearly_normal_numbers_are_symmetric_and_have_a_normal_s_first_moments()
 
 def test_the_counters_of_one_variate_do_not_meet_those_of_the_next():
     """A gamma variate reads fewer counters than are set aside: neighbours at that distance are independent."""
-    logs, following = (drawn(draw_log_gamma, 0.7, at) for at in (0, PER_GAMMA))
+    logs, following = (drawn(draw_log_gamma, 0.7, offset) for offset in (0, PER_GAMMA))
     assert abs(np.corrcoef(scipy.stats.rankdata(logs), scipy.stats.rankdata(following))[0, 1]) < 4.5 / np.sqrt(COUNT)
 
 

@@ -166,8 +166,8 @@ def beta_variate(a: wp.float64, b: wp.float64, key: wp.uint64, counter: wp.uint6
 def beta_or_nothing(a: wp.float64, b: wp.float64, key: wp.uint64, counter: wp.uint64) -> wp.float64:
     """Return a beta variate, but 0 where it would be below e^-70; that mostly costs a single logarithm.
 
-    A gamma variate of a shape under one is another, of a + 1, times U^(1/a): of no more than e^-100 that makes nothing
-    beside a variate whose shape is over one.
+    A gamma variate of shape a < 1 is a variate of shape a + 1 times U^(1/a). If that factor is at most e^-100, the
+    variate is negligible beside one whose shape is over one.
     """
     one = wp.float64(1.0)
     if a < one and b > one and wp.log(to_uniform(random_bits(key, counter))) < NOTHING * a:

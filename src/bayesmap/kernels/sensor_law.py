@@ -46,7 +46,7 @@ def whole_power(power: float) -> int:
 def noise_density(law: Any, square: Any):
     """Return the density of the standard noise of a sensor's law, at a squared distance.
 
-    Of Student's t with an odd number of degrees of freedom height / (1 + square / dof)^power, without logarithms.
+    Student's t with an odd number of degrees of freedom is height / (1 + square / dof)^power, without logarithms.
     """
     if law.power > 0:
         base = type(square)(1.0) + square / law.dof
@@ -227,10 +227,7 @@ def unblocked(law: Any, distance_m: Any):
 
 @wp.func
 def object_decay(law: Any, reading_m: Any):
-    """Return exp(-rate z), by which passing objects are rarer at the reading than at distance 0; 0 for a typed reading.
-
-    It depends on the reading alone, and the densities below are given it.
-    """
+    """Return exp(-rate z), the decay of passing objects from distance 0 to the reading; 0 for a typed reading."""
     zero = type(reading_m)(0.0)
     if not wp.isfinite(reading_m):
         return zero
@@ -381,7 +378,7 @@ def random_below(law: Any, z: Any):
 def met_or_returned(law: Any, z: Any, decay: Any, distance_m: Any, variance: Any):
     """Return P(reading <= z | it is not random) of the mixture: from a passing object, or from the stop.
 
-    ``decay`` is `object_decay` of z, the same for all stops: one far behind z costs no exponential of its own.
+    ``decay`` is `object_decay` of z, which all stops share: a stop far behind z costs no exponential.
     """
     one = type(z)(1.0)
     if is_behind(law, z, distance_m, variance):

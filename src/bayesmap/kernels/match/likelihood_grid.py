@@ -21,8 +21,7 @@ def draw_points(
 ):  # fmt: skip
     """One thread per band of a grid: set each cell to the largest of all stamps that cover it.
 
-    Points of neighbouring beams on one surface that lie further apart than ``spacing`` have stamps in between: a wall
-    is a wall however far apart beams are.
+    Points of neighbouring beams on one surface that lie further apart than ``spacing`` have stamps in between.
     """
     t = first + wp.tid()
     g = t / bands

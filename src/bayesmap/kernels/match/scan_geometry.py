@@ -55,10 +55,7 @@ def scan_points(
     first: int, ranges: Float64Rows, angles: Float64Rows, nearest: wp.float64, farthest: wp.float64,
     points: wp.array2d(dtype=wp.vec2f), kind: Uint8Rows,
 ):  # fmt: skip
-    """One thread per scan: compute where its beams ended, in the laser's frame.
-
-    ``angles`` has one row for all scans, or one each.
-    """
+    """One thread per scan: compute where its beams ended, in its frame; ``angles`` has one row for all, or one each."""
     s = first + wp.tid()
     row = wp.min(s, angles.shape[0] - 1)
     for b in range(ranges.shape[1]):
@@ -77,11 +74,10 @@ def scan_normals(
 ):  # fmt: skip
     """One thread per scan: fit the line through each point's neighbours along the wall, by least squares.
 
-    Neighbours are consecutive beams without a gap. The fit begins with ``reach_m`` to either side and is widened,
-    twice as far each time, as long as the wall stays straight within ``noise_m``: the direction of a long wall is
-    known better by the power 3/2 of the length. A piece whose direction the noise hides has no normal, until a longer
-    one shows it. ``spread`` is the variance of the normal's angle per variance of a
-    point, in 1 / m^2: one over the sum of squared distances along the line.
+    Neighbours are consecutive beams without a gap. The fit begins with ``reach_m`` to either side. It is widened, twice
+    as far each time, as long as the wall stays straight within ``noise_m``. A piece whose direction the noise hides has
+    no normal, until a longer piece shows the direction. ``spread`` is the variance of the normal's angle per variance
+    of a point, in 1 / m^2: one over the sum of squared distances along the line.
     """
     s = first + wp.tid()
     beams = beams_of[s]

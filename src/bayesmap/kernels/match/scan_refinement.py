@@ -190,10 +190,7 @@ class Convergence:
 def refine_scans(
     geometry: Any, refinement: Refinement, convergence: Convergence, threads: int | None = None
 ) -> tuple[Floats, Floats, Floats]:
-    """Refine poses: (J, 3), information of the pairs (J, 3, 3), totals (J, 4) as those of `line_pairs.pair_sums`.
-
-    Information is in the world's axes.
-    """
+    """Refine poses: (J, 3), information of pairs in the world's axes (J, 3, 3), totals (J, 4) as of `pair_sums`."""
     device, count = geometry.device, len(refinement.scans)
     jobs = devices.pack(RefinementArrays, device, **vars(refinement))
     schedule = devices.pack(ConvergenceNumbers, device, **vars(convergence))

@@ -149,7 +149,7 @@ def scan_log_likelihoods(
 ):  # fmt: skip
     """One thread per pose and draw: sum log p(reading | map, pose) over beams.
 
-    ``in_turn``: pose p is weighed under draw p modulo so many alone; 0: under all.
+    If ``in_turn`` is positive, pose p is weighed under draw p modulo ``in_turn`` alone; else under all draws.
     """
     t = first + wp.tid()
     p = t / draws

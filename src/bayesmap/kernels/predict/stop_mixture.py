@@ -113,8 +113,7 @@ def mix_stops(rays: Rays, batches: Iterable[StopStates], hit_depth: float, *, de
 def mix_device_stops(rays: Rays, held: DeviceMaps, gone: float = float(LEAST_CHANCE)) -> StopMixture:
     """Average the stops of each beam over draws of all cells that are on a device already.
 
-    A beam that is less likely than ``gone`` to get to a cell is not followed so far, and counts as one that stops
-    nowhere: probabilities are off by no more than this.
+    A beam whose chance to get to a cell is below ``gone`` counts as one that stops nowhere.
     """
     return _mixed(rays, rays.cells, [(held.maps, held.draws)], held.hit_depth, held.device, gone)
 
@@ -171,8 +170,7 @@ def find_events(
     first: int, law: SensorLaw64, stops: StopMixtureArrays, rays: RayArrays, range_m: Float64s, chance: Float32s,
     stopped: wp.array(dtype=wp.int8),
 ):  # fmt: skip
-    """One thread per beam: for each stretch that its reading reaches, compute the chance that it ends there, and
-    whether it did.
+    """One thread per beam: the chance that its reading ends in each stretch that it reaches, and whether it did.
 
     ``stopped`` is -1 where the reading never gets, or where there is no stretch.
     """

@@ -104,13 +104,11 @@ def add_beam_information(
     first: int, frame: Frame, views: Views, occupied: Float64s, of_hit: Float64s, of_pass: Float64s,
     sigma_m: wp.float64, out: Float64s,
 ):  # fmt: skip
-    """One thread per beam: sum FSMI's information over pairs of a cell that stops the beam and a cell in which it is
-    read.
+    """One thread per beam: sum FSMI's information over cells that stop the beam and cells of the reading.
 
-    For the cell k in which the reading falls, what is learnt is C_k = f(hit, r_k) + sum_{i < k} f(pass, r_i), the
-    functions of the cells' odds r being ``of_hit`` and ``of_pass``; it falls
-    there with probability sum_j P(stop in j) G_kj, G_kj being the noise about cell j's distance between the edges of
-    cell k. The sum over j is over cells whose distance lies within some standard deviations of cell k.
+    A reading in cell k teaches C_k = f(hit, r_k) + sum_{i < k} f(pass, r_i); ``of_hit`` and ``of_pass`` are f of the
+    cells' odds r. The reading is in cell k with probability sum_j P(stop in j) G_kj, where G_kj is the noise about cell
+    j's distance between the edges of cell k. The sum over j takes the cells within some standard deviations of cell k.
     """
     b = first + wp.tid()
     beams = views.angles.shape[0]

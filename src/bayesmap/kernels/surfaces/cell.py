@@ -123,8 +123,8 @@ MEAN_TRIES = wp.constant(8)
 class PriorNumbers:
     """Beta(a, b) of the reflectivity, and the surface's prior as above.
 
-    At a coupling above 0 that is the Beta of free cells, and solid ones have their own; ``log_beta`` and
-    ``log_beta_solid`` are the logarithms of what the two densities are divided by, and 0 where there are no labels.
+    At a coupling above 0, a and b are those of free cells, and ``log_beta`` and ``log_beta_solid`` are the log
+    normalisers of both Betas; without labels they are 0.
     """
 
     a: wp.float64
@@ -175,10 +175,9 @@ def is_own(prior: PriorNumbers, centre: wp.vec2, cell: Cell) -> bool:
 
 @wp.func
 def mean_within(prior: PriorNumbers, key: wp.uint64, at: wp.uint64) -> wp.float32:
-    """Draw a coordinate of a mean from its prior, from the cell's centre; takes two times `MEAN_TRIES` counters.
+    """Draw a coordinate of a mean, from the cell's centre, by rejection; takes two times `MEAN_TRIES` counters.
 
-    By rejection: of the default prior one try in five fails, and all of them once in 300 000 times, when the candidate
-    is left out of the cell and is not accepted.
+    Under the default prior one try in five fails. All fail once in 300 000 times: such a candidate is not accepted.
     """
     x = prior.tau_m * normal(key, at)
     for i in range(1, MEAN_TRIES):
@@ -189,11 +188,10 @@ def mean_within(prior: PriorNumbers, key: wp.uint64, at: wp.uint64) -> wp.float3
 
 @wp.func
 def fresh_surface(prior: PriorNumbers, centre: wp.vec2, cell: Cell, key: wp.uint64, at: wp.uint64) -> Cell:
-    """Return the cell with a surface drawn from the prior, except for `log_size_penalty`, which the acceptance
-    includes.
+    """Return the cell with a surface drawn from the prior but for `log_size_penalty`, which the acceptance includes.
 
-    Sigma^-1 = A A' / psi with Bartlett's lower triangular A; its inverse has the upper factor A^-T sqrt(psi), which
-    turns into a lower one when x and y are exchanged, and the law does not care.
+    Sigma^-1 = A A' / psi with Bartlett's lower triangular A. The inverse has the upper factor A^-T sqrt(psi), which
+    becomes a lower factor when x and y are exchanged; the law is symmetric in them.
     """
     half = wp.float64(0.5)
     a11 = wp.exp(half * (log_gamma_variate(half * prior.nu, key, at) + wp.log(wp.float64(2.0))))

@@ -71,8 +71,8 @@ def tries(sweep: int, period: int, c: int) -> bool:
 def is_silent(sweep: int, period: int, c: int, m: wp.float32, stopped_in: int) -> bool:
     """Return whether a cell in which no reading ends takes another surface from the prior at the end of a sweep.
 
-    It does so in some sweeps, if it stopped no beam in this one, and if its reflectivity is so small that beams which
-    passed say nothing either.
+    It does so in some sweeps, if it stopped no beam in this one and its reflectivity is too small for passing beams to
+    tell anything.
     """
     return period != 0 and (sweep + c) % SILENT_EVERY == 0 and m <= CLEAR and stopped_in != sweep
 
@@ -93,10 +93,9 @@ def begin_sweep(
     first: int, sweep: int, without_surfaces: int, prior: PriorNumbers, prior_moved: int, active: ActiveCells,
     state: ChainArrays, log_prior: Float32s,
 ):  # fmt: skip
-    """One thread per chain's cell, at the start of a sweep: reset the counts of its beams, and perhaps name a
-    candidate.
+    """One thread per chain's cell, before a sweep: reset the counts of its beams, and perhaps name a candidate.
 
-    ``log_prior`` is that of the cells as they are, and is computed anew where the last sweep can have changed it.
+    ``log_prior`` of the present cells is computed again where the last sweep can have changed it.
     """
     i = first + wp.tid()
     chain = i // active.cell.shape[0]

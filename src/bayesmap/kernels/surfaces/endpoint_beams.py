@@ -43,9 +43,8 @@ FEWEST = wp.constant(wp.float32(1.0e-20))  # products are turned into logarithms
 class EndpointCells:
     """Incidences of the cells in which readings end: those of cell ``cell[u]`` are ``offsets[u]:offsets[u + 1]``.
 
-    For each its entry in the rays, its beam, how the beam passes the cell's centre (offset and direction), how far
-    ahead of its start that lies, and its reading; and for each cell the frame and sizes of its steps
-    (`bayesmap.kernels.surfaces.endpoint_cells`).
+    An incidence has its entry in the rays, its beam, and the offset and direction with which the beam passes the cell's
+    centre. A cell has the frame and the sizes of its steps (`bayesmap.kernels.surfaces.endpoint_cells`).
     """
 
     cell: Int32s
@@ -87,12 +86,7 @@ def crossing_probability_of(passing: wp.vec3, dx: wp.float32, dy: wp.float32, ce
 
 @wp.struct
 class Listed:
-    """The incidences of one cell, in a list of its chain: those of beams that pass it, and those of beams that it
-    stops.
-
-    ``entries[passing_begin:passing_end]`` and ``entries[stopped_begin:stopped_end]``, as numbers of incidences in
-    `EndpointCells`.
-    """
+    """The incidences of one cell, as numbers in `EndpointCells`: of beams that pass it, and of beams that it stops."""
 
     entries: Int32s
     passing_begin: int
@@ -108,8 +102,8 @@ def log_stops(
 ) -> wp.float64:  # fmt: skip
     """Evaluate the formula at the top, for one surface and the listed beams.
 
-    A sum that comes out under ``least`` need not be finished: what is returned then is under ``least``, too. Stopped
-    beams come first, for after them every further beam makes the sum smaller.
+    Once the sum is under ``least`` it is returned unfinished. Stopped beams come first, because every further beam
+    makes the sum smaller.
     """
     one = wp.float32(1.0)
     total = wp.float64(0.0)
@@ -166,7 +160,8 @@ UNKNOWN = wp.constant(wp.float64(1.0e300))
 class LaneBlocks:
     """Room for the blocks of one cell per thread: a row of numbers, and the same memory as lanes.
 
-    Cell u's begin at ``begin[u]`` of its row, counted in lanes: all at 0 where a row is one thread's alone.
+    The blocks of cell u begin at ``begin[u]`` of its row, counted in lanes; at 0 where a row belongs to one thread
+    alone.
     """
 
     numbers: Float32Rows
@@ -201,10 +196,9 @@ def blocks_of(beams: int) -> int:
 
 @wp.func
 def exponential(x: Lanes) -> Lanes:
-    """Compute exp(x) to a relative error of 5e-6 between -41 and 41, clipped beyond: Taylor's series at x / 64, squared
-    six times.
+    """Compute exp(x) of eight numbers to a relative error of 5e-6, clipped at -41 and 41.
 
-    An exponential of the C library has one number at a time.
+    By Taylor's series at x / 64, squared six times: an exponential of the C library takes one number at a time.
     """
     one = Lanes(wp.float32(1.0))
     most = Lanes(MOST_EXPONENT)
@@ -311,10 +305,10 @@ def put_stopped(
 def put_in_blocks(
     blocks: LaneBlocks, row: int, u: int, rays: TracedRays, endpoints: EndpointCells, listed: Listed
 ) -> int:
-    """Put a cell's listed beams into its blocks: all that pass it, and of those it stops the ones with a lane.
+    """Put a cell's listed beams into its blocks: all that pass it, and the stopped beams that can have a lane.
 
-    The others, with typed readings or with ends that are not near, go to the head of the list of stopped beams. How
-    many these are.
+    The others, with typed readings or with ends that are not near, go to the head of the list of stopped beams. Returns
+    their number.
     """
     passing = listed.passing_end - listed.passing_begin
     passing_at = blocks.begin[u] + PRODUCTS
@@ -362,8 +356,8 @@ def log_stops_in_lanes(
 ) -> wp.float64:  # fmt: skip
     """Compute `log_stops` of the beams in blocks, ``beams`` passing and stopped; UNKNOWN where a product was too small.
 
-    The product so far, and the smallest that it has been, are written to memory in every round, for compilers take
-    eight lanes together where they are stored together.
+    The product and the smallest product so far are stored in every round, because compilers vectorise eight lanes where
+    they are stored together.
     """
     begin = blocks.begin[u]
     one = Lanes(wp.float32(1.0))

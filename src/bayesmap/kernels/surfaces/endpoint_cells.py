@@ -109,8 +109,8 @@ def out_of_frame(cell: Cell, step: Cell, centre: wp.vec2) -> Cell:
 def stepped(cell: Cell, step: Cell, key: wp.uint64, at: wp.uint64, i: int) -> Cell:
     """Return the cell, in its frame, moved by a random step, half of the time a short one.
 
-    By turns what beams hardly say (logit m, mean along, size: a wide surface that stops few of the beams that meet it
-    looks like a small one that stops many) and what they say well (mean across, slope, thickness).
+    Even steps change the numbers that beams hardly determine (logit m, mean along, size: a wide surface that stops few
+    beams looks like a small one that stops many), odd steps the others (mean across, slope, thickness).
     """
     size = wp.where(random_bits(key, at) & wp.uint64(1) == wp.uint64(0), SHORT, wp.float32(1.0))
     one = wp.float64(1.0)
@@ -152,8 +152,7 @@ def log_cell_prior(prior: PriorNumbers, solid: wp.uint8, cell: Cell) -> wp.float
 class BeamLists:
     """Room for each chain's lists of incidences, a row a chain.
 
-    The list of a cell begins with the incidences of the beams that pass it, ``passes[chain, u]`` of them, and ends with
-    those of the beams that it stops.
+    The list of a cell begins with its ``passes[chain, u]`` passing beams, and ends with the beams that it stops.
     """
 
     entries: Int32Rows

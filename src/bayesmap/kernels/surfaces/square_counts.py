@@ -187,7 +187,7 @@ def draw_stop_chances(
 ):
     """One thread per touched cell: draw q as above, and compute its mean (a + S) / (a + b + S + P).
 
-    If the draw is kept, ``observed_counts`` counts it, and whether some beam comes to the square in it.
+    If the draw is kept, ``observed_counts`` counts the draw, and whether some beam comes to the square.
     """
     i = wp.tid()
     c = squares.touched[i]

@@ -294,17 +294,17 @@ class StopChains:
     def draw_untouched(self, sweep: int) -> None:
         """Draw the reflectivities of cells that no beam touches given their labels, before the sweep with this number.
 
-        No sweep does: until beams may come to such cells they say nothing.
+        No sweep does so: these cells matter only when beams may come to them.
         """
         assert self._packed is not None, "no sweep has been made"
         size = self.n_chains * self._state.n_cells
         self._launch(draw_untouched, size, [sweep, self._packed[1], self._known, self._state])
 
     def counted(self, chain: int) -> tuple[Ints, Ints]:
-        """Return the beams that stopped in each cell of a chain, and those that met its surface and passed, (N,) each,
-        valid until the next sweep.
+        """Return the beams that each cell of a chain stopped, and those that met its surface and passed, (N,) each.
 
-        They are those of the sweep in which the cell last drew its reflectivity; ``met`` is -1 if it has not yet.
+        Both are of the sweep in which the cell last drew its reflectivity, -1 met if none, and valid until the next
+        sweep.
         """
         return self._of(self._state.last_hits, chain), self._of(self._state.last_met, chain)
 
@@ -314,9 +314,10 @@ class StopChains:
         return self._packed is not None
 
     def in_squares(self, chain: int, sweep: int, kept: bool, solid: NDArray[np.bool_] | None = None) -> InSquares:
-        """Count the stops of the beams of a chain with surfaces by squares, after the sweep with this number, its last.
+        """Count the stops of a chain with surfaces by squares, after the sweep with this number, its last.
 
-        ``kept``: it counts in `observed_counts`. ``solid``: cells' labels before the sweep, (N,), if they have any.
+        If ``kept``, `observed_counts` counts the draw. ``solid`` are the labels before the sweep, (N,), if cells have
+        labels.
         """
         assert self._squares is not None, "cells without surfaces stop beams inside their own squares"
         assert self._packed is not None, "no sweep has been made"
@@ -324,10 +325,9 @@ class StopChains:
         return self._squares.of_chain(chain, sweep, law, prior, self._rays, self._state, kept, solid)
 
     def observed_counts(self, chain: int) -> Ints:
-        """Return the draws in which at least one beam observes each cell, and the draws inspected, (N, 2), valid until
-        the next sweep.
+        """Return the draws in which some beam observes each cell, and those inspected, (N, 2), until the next sweep.
 
-        Without surfaces those are the sweeps in which the cell had counted, with them the kept draws.
+        With surfaces the kept draws are inspected, without surfaces the sweeps in which the cell has counted.
         """
         return self._of(self._state.observed_counts, chain)
 

@@ -105,10 +105,9 @@ def traced_rays_to_device(rays: Rays, distance_m: Singles | None, device: str, c
 
 @wp.struct
 class ChainArrays:
-    """All chains on a device: their cells, what beams say of these in this sweep, and where the beams stopped.
+    """All chains on a device: their cells, the counts of beams in this sweep, and where the beams stopped.
 
-    Chain n's cell c is element ``n * n_cells + c``, its beam b element ``n * n_beams + b``. Cells are those of the
-    grid.
+    Cell c of the grid in chain n is element ``n * n_cells + c``, beam b is element ``n * n_beams + b``.
     """
 
     n_cells: int

@@ -50,9 +50,8 @@ NONE = wp.constant(wp.float64(0.0))
 class WallPriorArrays:
     """Wall probabilities, cell by cell, their log-odds, and the coupling of neighbours.
 
-    ``level`` is the probability in units of 2^-53, for draws without floating point. Pairs left out, ``log_all_free``
-    is the log prior of the map in which only the fixed walls are walls, and ``gain`` is what a wall adds to it: the
-    log-odds, but 0 in cells that the prior fixes.
+    ``level`` is the probability in units of 2^-53, for draws without floating point. Without pairs, ``log_all_free`` is
+    the log prior of the map that has only the fixed walls, and ``gain`` is the log-odds, but 0 in fixed cells.
     """
 
     level: wp.array(dtype=wp.uint64)
@@ -219,8 +218,7 @@ class Sweeps:
 class Kept:
     """Results of sweeps: the log densities after each, (chains, sweeps), and packed maps after some of them.
 
-    Maps are kept after the sweeps of numbers ``first``, ``first + every``, ..., counted from 1, as far as ``draws`` has
-    room.
+    Maps are kept after sweeps ``first``, ``first + every``, ..., counted from 1, as far as ``draws`` has room.
     """
 
     first: int

@@ -88,8 +88,8 @@ def fill_likelihood(
 ):  # fmt: skip
     """One thread per beam: compute the log-likelihood of each entry, and of no hit.
 
-    The normal noise of a mixture matters between two distances only, whose entries are found by halving: of walls
-    before them and behind them a range has one likelihood each.
+    The normal noise of a mixture matters between two distances only, whose entries are found by halving. Before and
+    behind them a range has one likelihood each.
     """
     b = first + wp.tid()
     z = range_m[b]
