@@ -39,14 +39,8 @@ def scans(poses=30, beams=40, sensor=TRUTH, seed=1, max_range_m=6.0):
 
 def infer(kind, data=None, **options):
     """A short run; everything but the room can be changed."""
-    chosen = {
-        "prior": (PRIORS | LABELLED)[kind],
-        "sensor": "fit",
-        "chains": 2,
-        "warmup": 12,
-        "draws": 6,
-        "hit_depth": 0.5,
-    } | options
+    chosen = {"prior": (PRIORS | LABELLED)[kind], "sensor": "fit", "chains": 2, "warmup": 12, "draws": 6}
+    chosen |= {"hit_depth": 0.5} | options
     return bm.infer(scans() if data is None else data, chosen.pop("grid", GRID), **grouped(**chosen))
 
 

@@ -117,28 +117,20 @@ def test_every_cell_of_the_grid_has_a_start_those_without_beams_from_the_prior()
     assert (states[0][problem.estimate.endpoint_cells] != states[1][problem.estimate.endpoint_cells]).all()
 
 
-def test_turns_are_the_rarer_the_further_readings_are(problem, monkeypatch):
-    monkeypatch.setattr(module, "FEW_PASSES", 0)
-    rays, ended = problem.rays, problem.estimate.endpoint
-    ny = rays.grid.shape[1]
-    where = np.stack([rays.touched // ny, rays.touched % ny], axis=-1)
-    nearest = np.abs(where[:, None] - where[ended]).max(axis=-1).min(axis=1)
-    every = update_periods(problem.estimate)
-    np.testing.assert_array_equal(every == 0, nearest == 0)
-    np.testing.assert_array_equal(every == 8, nearest == 1)
-    np.testing.assert_array_equal(every == 16, nearest > 1)
-
-
-def test_cells_that_few_beams_pass_have_their_turn_in_every_other_sweep(problem, monkeypatch):
+def test_update_periods_grow_with_the_distance_from_readings(problem, monkeypatch):
     estimate = problem.estimate
-    middle = int(np.median(estimate.passes[~estimate.endpoint]))
+    monkeypatch.setattr(module, "FEW_PASSES", 0)
+    where = np.stack(np.divmod(estimate.touched, problem.grid.shape[1]), axis=-1)
+    nearest = np.abs(where[:, None] - where[estimate.endpoint]).max(axis=-1).min(axis=1)
+    np.testing.assert_array_equal(update_periods(estimate), np.select([nearest == 0, nearest == 1], [0, 8], 16))
+    # Cells that few beams pass are updated in every other sweep.
+    middle, free = int(np.median(estimate.passes[~estimate.endpoint])), ~estimate.endpoint
     monkeypatch.setattr(module, "FEW_PASSES", middle)
-    every = update_periods(estimate)
-    few, free = estimate.passes < middle, ~estimate.endpoint
+    periods, few = update_periods(estimate), estimate.passes < middle
     assert (few & free).any()
     assert (~few & free).any()
-    assert (every[few & free] == 2).all()
-    assert (every[~few & free] > 2).all()
+    assert (periods[few & free] == 2).all()
+    assert (periods[~few & free] > 2).all()
 
 
 def test_end_points_outside_the_grid_or_past_what_beams_touch_belong_to_no_cell():

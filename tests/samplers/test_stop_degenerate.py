@@ -139,9 +139,8 @@ def test_other_methods_are_refused(kind, method):
 
 
 def test_runs_of_another_kind_or_with_other_settings_are_not_resumed():
-    walls = bm.infer(
-        room(), GRID, prior=bm.Independent(0.1), sensor=TRUTH, schedule=bm.Schedule(chains=1, warmup=2, draws=2)
-    )
+    short = bm.Schedule(chains=1, warmup=2, draws=2)
+    walls = bm.infer(room(), GRID, prior=bm.Independent(0.1), sensor=TRUTH, schedule=short)
     surfaces = infer("surfaces", room())
     with pytest.raises(bm.BadInput, match="one over walls or free, not over reflectivities and surfaces"):
         infer("surfaces", room(), resume=walls)

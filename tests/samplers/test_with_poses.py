@@ -113,14 +113,8 @@ def test_the_log_joint_is_the_models():
 
 def test_infer_takes_a_prior_of_poses_and_its_run_keeps_their_draws(tmp_path):
     model, _, _ = drawn_model(5, PRIORS["uncertain"])
-    run = bm.infer(
-        model.scans,
-        GRID,
-        prior=bm.Independent(0.25),
-        sensor=SENSOR,
-        poses=model.poses,
-        schedule=bm.Schedule(chains=2, warmup=10, draws=8),
-    )
+    options = {"prior": bm.Independent(0.25), "sensor": SENSOR, "schedule": bm.Schedule(chains=2, warmup=10, draws=8)}
+    run = bm.infer(model.scans, GRID, poses=model.poses, **options)
     assert run.poses.shape == (2, 8, 4, 3)
     assert run.poses.std(axis=1).min() > 0
     assert run.pose_summary().mean.shape == (4, 3)
@@ -128,10 +122,7 @@ def test_infer_takes_a_prior_of_poses_and_its_run_keeps_their_draws(tmp_path):
     again = bm.load(tmp_path / "run.nc")
     assert (again.poses == run.poses).all()
     assert again.posterior.settings["poses"] == model.poses.describe()
-    half = bm.infer(
-        model.scans, GRID, prior=bm.Independent(0.25), sensor=SENSOR, schedule=bm.Schedule(chains=2, warmup=10, draws=8)
-    )
-    assert (half.poses == model.scans.poses).all()
+    assert (bm.infer(model.scans, GRID, **options).poses == model.scans.poses).all()
 
 
 @pytest.mark.parametrize("prior", [bm.Beta(), bm.Surface()], ids=["reflectivity", "surface"])
@@ -142,18 +133,14 @@ def test_reflectivities_and_surfaces_have_poses_too(prior):
     rng = np.random.default_rng(0)
     truth = np.array(pose) + np.column_stack([rng.uniform(-1.5, 1.5, (12, 2)), rng.uniform(-3, 3, 12)])
     angles = np.arange(60) / 60 * 2 * np.pi
-    scans = bm.simulate(walls, grid, truth, angles, sensor=bm.BeamMixture(bm.Gaussian(0.05)), max_range_m=30.0, seed=0)
+    sensor = bm.BeamMixture(bm.Gaussian(0.05))
+    scans = bm.simulate(walls, grid, truth, angles, sensor=sensor, max_range_m=30.0, seed=0)
     said = truth + rng.normal(0, [0.2, 0.2, 0.05], truth.shape)
     run = bm.infer(
-        scans.at(said),
-        grid,
-        prior=prior,
-        sensor=bm.BeamMixture(bm.Gaussian(0.05)),
-        poses=Uncertain(0.2, 0.05),
-        method=bm.Gibbs(start_poses=said[None]),
-        schedule=bm.Schedule(chains=2, warmup=60, draws=30),
+        scans.at(said), grid, prior=prior, sensor=sensor, poses=Uncertain(0.2, 0.05),
+        method=bm.Gibbs(start_poses=said[None]), schedule=bm.Schedule(chains=2, warmup=60, draws=30),
         hit_depth=0.0 if prior == bm.Beta() else 0.5,
-    )
+    )  # fmt: skip
     found = run.pose_summary().mean
 
     # The whole map may lie elsewhere: what is compared is each pose in the frame of the others.

@@ -48,14 +48,7 @@ from bayesmap.space.grid import Grid
 
 @dataclass(frozen=True, eq=False)
 class BinaryWalls(CellPrior):
-    """A prior of walls.
-
-    Attributes:
-        p_wall: probability of a wall, one number for all cells or an array of shape (nx, ny); 0 and 1 fix cells.
-
-    Raises:
-        BadInput: a probability outside [0, 1].
-    """
+    """The base class of priors of walls, with the wall probability of `Independent`."""
 
     p_wall: float | Floats
 

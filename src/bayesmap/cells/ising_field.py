@@ -24,6 +24,7 @@ from numpy.typing import NDArray
 from scipy import special
 
 from bayesmap.cells.arrays import ArraySpec, Draws, count_walls, unpack
+from bayesmap.cells.kind import Floats
 from bayesmap.errors import BadInput
 
 MOST_SWEEPS = 4096
@@ -98,8 +99,6 @@ def _sweep(field: NDArray[np.int8], levels: NDArray[np.int8]) -> None:
         drawn = np.where(balance > levels, np.int8(1), np.int8(-1))
         np.copyto(inner, drawn, where=(x + y) % 2 == parity)
 
-
-Floats = NDArray[np.float64]
 
 SOLID = ArraySpec("solid", ("x", "y"), "bool", "bits", "whether the cell's label is solid; else it is free")
 

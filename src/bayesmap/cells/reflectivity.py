@@ -69,18 +69,7 @@ EXPECTED = ArraySpec(
 
 @dataclass(frozen=True)
 class Reflective(CellPrior):
-    """The base class of priors of reflectivities, with surfaces or without.
-
-    Attributes:
-        a, b: pseudo-counts of beams that were stopped, and of beams that were not; in free cells, where cells have
-            labels.
-        coupling: what each pair of neighbours (cells that share an edge) with the same label, free or solid, adds to
-            the log density; at 0 there are no labels, and cells are independent.
-        a_solid, b_solid: pseudo-counts in solid cells, where cells have labels.
-
-    Raises:
-        BadInput: a count that is not positive, or a coupling that is no number from 0 to 50.
-    """
+    """The base class of priors of reflectivities, with the attributes of `Beta`."""
 
     a: float = 0.02
     b: float = 0.2

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.cells.arrays import Draws
-from bayesmap.cells.kind import CellPrior
+from bayesmap.cells.kind import CellPrior, Floats
 from bayesmap.samplers.sampler import Info, Keep, Snapshot
 
 PRECISION = 0.03
@@ -67,9 +67,6 @@ class SweepPlan:
         assert self.precision is not None
         more = max(1.0, (error / self.precision) ** 2) if np.isfinite(error) else np.inf
         return int(min(self.warmup + more * (sweep - self.warmup), self.sweeps))
-
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

@@ -23,8 +23,6 @@ from bayesmap.run.runner import Job, no_draws, sweeps
 from bayesmap.samplers.sampler import ChainState, Snapshot
 from bayesmap.version import __version__
 
-Floats = NDArray[np.float64]
-
 
 def run_segment(
     job: Job, until: int, resume: Snapshot | None, state: ChainState | None = None

@@ -32,7 +32,7 @@ from numpy.typing import NDArray
 from scipy import special
 
 from bayesmap.cells.binary import Ising, counts, likeliest
-from bayesmap.cells.kind import CellPrior
+from bayesmap.cells.kind import CellPrior, Floats
 from bayesmap.cells.kinds import prior_from
 from bayesmap.cells.reflectivity import Beta, Reflective
 from bayesmap.model import Model
@@ -65,10 +65,10 @@ class StopResiduals:
         weight: the chance that the reading came from there.
     """
 
-    residual_m: NDArray[np.float64]
-    distance_m: NDArray[np.float64]
-    variance: NDArray[np.float64]
-    weight: NDArray[np.float64]
+    residual_m: Floats
+    distance_m: Floats
+    variance: Floats
+    weight: Floats
 
     def cost(self, dof: float, scale_m: float, per_m: float) -> float:
         """Return the mean negative log density of noise of scale sqrt((scale_m + per_m distance)^2 + variance)."""
@@ -76,7 +76,7 @@ class StopResiduals:
         log_density = noise_with(dof, 1.0, 0.0).log_density(self.residual_m / scale) - np.log(scale)
         return float(-(self.weight * log_density).sum() / self.weight.sum())
 
-    def likeliest(self, dof: float, scale_m: float, per_m: float) -> tuple[float, NDArray[np.float64]]:
+    def likeliest(self, dof: float, scale_m: float, per_m: float) -> tuple[float, Floats]:
         """Return the least cost of a shape, and the logarithms of its scale and growth, searched from the given."""
         first = np.log([scale_m, max(per_m, 1e-5)])
         result = scipy.optimize.minimize(
@@ -147,10 +147,10 @@ class Parameters:
 class DrawnStops:
     """Stops of some beams of all chains: readings, whether and where each beam stopped, and the variance of that."""
 
-    range_m: NDArray[np.float64]
+    range_m: Floats
     stopped: NDArray[np.bool_]
-    distance_m: NDArray[np.float64]
-    variance: NDArray[np.float64]
+    distance_m: Floats
+    variance: Floats
 
 
 def first_sensor(prior: CellPrior, resolution_m: float) -> BeamMixture:
@@ -339,7 +339,7 @@ def _likeliest_beta(
     pairs, times = np.unique(hits.astype(np.int64) * base + met, return_counts=True)
     h, p = (part.astype(np.float64) for part in np.divmod(pairs, base))
 
-    def cost(logs: NDArray[np.float64]) -> float:
+    def cost(logs: Floats) -> float:
         a, b = np.exp(logs)
         terms = special.betaln(a + h, b + p) - special.betaln(a, b)
         return float(-(times * terms).sum() / times.sum())

@@ -13,10 +13,9 @@ from scipy import ndimage, special
 
 from bayesmap.beams.rays import Rays
 from bayesmap.cells.ising_field import rough_draw
+from bayesmap.cells.kind import Floats
 from bayesmap.cells.reflectivity import Reflective
 from bayesmap.space.grid import Grid
-
-Floats = NDArray[np.float64]
 
 CENTRE_WEIGHT = 0.3  # hits that the prior's centre counts for
 FREE_PERIOD, FAR_PERIOD = 8, 16

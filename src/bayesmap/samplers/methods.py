@@ -9,6 +9,7 @@ from typing import Any, ClassVar, get_args
 import numpy as np
 from numpy.typing import NDArray
 
+from bayesmap.cells.kind import Floats
 from bayesmap.errors import BadInput, check_count
 from bayesmap.samplers.metropolis import Metropolis
 from bayesmap.samplers.progress import Watch
@@ -44,7 +45,7 @@ class Gibbs:
 
     order: Order = "radial"
     start: Start | NDArray[np.bool_] | None = None
-    start_poses: NDArray[np.float64] | None = None
+    start_poses: Floats | None = None
     rounds: int = ROUNDS
     name: ClassVar[str] = "gibbs"
 

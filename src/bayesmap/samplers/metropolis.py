@@ -17,12 +17,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.beams.rays import Rays
+from bayesmap.cells.kind import Floats
 from bayesmap.model import Model, log_likelihoods
 from bayesmap.samplers.progress import SILENT, Watch
 from bayesmap.samplers.sampler import NOTHING, STREAM_START, STREAM_SWEEPS, Info, Keep, Snapshot
 from bayesmap.space.grid import Grid
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

@@ -6,9 +6,9 @@ import time
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy import special
 
+from bayesmap.cells.kind import Floats
 from bayesmap.errors import BadInput, check_count
 from bayesmap.samplers.progress import SILENT, Watch
 from bayesmap.samplers.wall_problem import WallProblem
@@ -31,13 +31,13 @@ class Marginals:
         prior: wall probability without any beam, (nx, ny), where that is worth telling: None if it is the prior's own.
     """
 
-    p_wall: NDArray[np.float64]
-    changes: NDArray[np.float64]
-    mean_changes: NDArray[np.float64]
+    p_wall: Floats
+    changes: Floats
+    mean_changes: Floats
     converged: bool
     finished: bool
     seconds: float
-    prior: NDArray[np.float64] | None = None
+    prior: Floats | None = None
 
 
 def propagate(

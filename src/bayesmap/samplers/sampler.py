@@ -16,11 +16,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.cells.arrays import Draws
+from bayesmap.cells.kind import Floats
 from bayesmap.model import Model
 from bayesmap.samplers.progress import SILENT, Watch
 from bayesmap.space.grid import Grid
-
-Floats = NDArray[np.float64]
 
 STREAM_SWEEPS = 1
 STREAM_START = 2

@@ -36,6 +36,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import ndimage
 
+from bayesmap.cells.kind import Floats
 from bayesmap.cells.reflectivity import Reflective
 from bayesmap.samplers.initial_estimate import ALONG_WALL, INSIDE, end_cells, longer_axis
 from bayesmap.samplers.stop_problem import StopProblem
@@ -44,7 +45,6 @@ from bayesmap.space.grid import Grid
 if TYPE_CHECKING:
     from bayesmap.kernels.surfaces.stop_chains import StopChains
 
-Floats = NDArray[np.float64]
 Look = Callable[["ChainMaps"], Floats]
 
 NUMBERS = 5  # parameters of a surface: mean and covariance

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.cells.ising_field import SOLID
+from bayesmap.cells.kind import Floats
 from bayesmap.cells.reflectivity import Reflective, places_among
 from bayesmap.cells.surface import PARTS
 from bayesmap.model import Model
@@ -162,9 +163,9 @@ class StopState:
     chains: StopChains
     keys: Sequence[int]
     sweep: int
-    statistics: Mapping[str, NDArray[np.float64]]
+    statistics: Mapping[str, Floats]
     second: StopChains | None = None
-    evidence: NDArray[np.float64] | None = None
+    evidence: Floats | None = None
 
 
 @dataclass(frozen=True)

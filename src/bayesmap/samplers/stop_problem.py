@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from scipy import ndimage
 
 from bayesmap.beams.rays import Rays, around_readings
+from bayesmap.cells.kind import Floats
 from bayesmap.cells.reflectivity import Reflective
 from bayesmap.errors import BadInput
 from bayesmap.samplers.initial_estimate import InitialEstimate, initial_estimate
@@ -140,9 +141,7 @@ def trace_stops(
     return StopProblem(rays, prior, sensor, hit_depth, device, threads)
 
 
-def _spans(
-    scans: Scans, sensor: SensorModel, resolution_m: float
-) -> tuple[NDArray[np.float64], NDArray[np.float64] | None]:
+def _spans(scans: Scans, sensor: SensorModel, resolution_m: float) -> tuple[Floats, Floats | None]:
     """Return how far beams are followed, and from where on a stop can explain their readings (None: from the start)."""
     limits = RangeLimits(scans.min_range_m, scans.max_range_m)
     if isinstance(sensor, BeamMixture) and isinstance(sensor.noise, Gaussian | StudentT):
@@ -153,7 +152,7 @@ def _spans(
     return sensor.reach_m(scans.ranges_m.ravel(), limits) + CELLS_AROUND * resolution_m, None
 
 
-def _tail_m(noise: Gaussian | StudentT, range_m: NDArray[np.float64], floor: float) -> NDArray[np.float64]:
+def _tail_m(noise: Gaussian | StudentT, range_m: Floats, floor: float) -> Floats:
     """Return the distance from a stop within which readings are worth evaluating: `SIGMAS_AROUND` of normal noise; for
     Student's t as far as its density, c / scale (1 + (x / scale)^2 / dof)^-((dof + 1) / 2), is over ``floor``.
     """

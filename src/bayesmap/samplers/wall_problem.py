@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from bayesmap.beams.table import BeamTable, CellIndex
 from bayesmap.cells.binary import BinaryWalls
+from bayesmap.cells.kind import Floats
 from bayesmap.model import Model
 from bayesmap.space.grid import Grid
 
@@ -33,7 +34,7 @@ class WallProblem:
 
     table: BeamTable
     prior: BinaryWalls
-    poses: NDArray[np.float64]
+    poses: Floats
     device: str = "cpu"
     threads: int | None = None
 
@@ -84,7 +85,7 @@ class WallProblem:
         return table_to_device(self.table, self.index, self.device)
 
     @cached_property
-    def p_wall(self) -> NDArray[np.float64]:
+    def p_wall(self) -> Floats:
         """Prior wall probability of every cell, flat, (N,), without the coupling to its neighbours."""
         return np.ascontiguousarray(self.prior.probabilities(self.table.grid)).ravel()
 
@@ -94,7 +95,7 @@ class WallProblem:
         return self.prior.pair_coupling
 
     @cached_property
-    def logit(self) -> NDArray[np.float64]:
+    def logit(self) -> Floats:
         """Prior log-odds of every cell, flat, shape (N,); large but finite where the prior fixes a cell."""
         return log_odds(self.p_wall)
 
@@ -122,7 +123,7 @@ class WallProblem:
         return np.asarray(((np.asarray(walls) != 0) | (p == 1)) & (p != 0))
 
 
-def log_odds(p_wall: NDArray[np.float64]) -> NDArray[np.float64]:
+def log_odds(p_wall: Floats) -> Floats:
     """Return the log-odds of probabilities, (N,); large but finite where they are 0 or 1."""
     with np.errstate(divide="ignore"):
         return np.asarray(np.clip(np.log(p_wall) - np.log1p(-p_wall), -LOG_ODDS_OF_FIXED, LOG_ODDS_OF_FIXED))

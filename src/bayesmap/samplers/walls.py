@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.cells.arrays import unpack
+from bayesmap.cells.kind import Floats
 from bayesmap.errors import BadInput
 from bayesmap.model import Model
 from bayesmap.samplers.progress import SILENT, Watch
@@ -95,7 +96,7 @@ class WallState:
     sites: NDArray[np.int32]
     keys: Sequence[int]
     sweep: int
-    statistics: Mapping[str, NDArray[np.float64]]
+    statistics: Mapping[str, Floats]
 
     def walls(self) -> NDArray[np.uint8]:
         """Return the chains' maps, (chains, N), from which this state can be made again."""
@@ -141,7 +142,7 @@ class WallSampler(ABC):
         from bayesmap.kernels.walls.chains import WallChains
 
         kernel = self.kernel(problem)  # tables that are built on first use are built now, not in the first sweep
-        statistics: dict[str, NDArray[np.float64]] = {}
+        statistics: dict[str, Floats] = {}
         if resume is None:
             start, marginals = self.start if self.start is not None else default_start(problem.grid), None
             if isinstance(start, str) and start == "propagate":

@@ -22,7 +22,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.cells.kind import CellPrior
+from bayesmap.cells.kind import CellPrior, Floats
 from bayesmap.model import POSES, Model
 from bayesmap.poses.prior import PoseLaw
 from bayesmap.samplers.progress import SILENT, Watch
@@ -33,7 +33,6 @@ from bayesmap.space.grid import Grid
 if TYPE_CHECKING:
     from bayesmap.kernels.predict.scan_likelihood import ScanLikelihood
 
-Floats = NDArray[np.float64]
 
 STREAM_POSES = 4
 """Stream of random numbers, beside those of `bayesmap.samplers.sampler`."""

@@ -22,13 +22,12 @@ from numpy.typing import NDArray
 from scipy import special
 
 from bayesmap.cells.arrays import pack
+from bayesmap.cells.kind import Floats
 from bayesmap.errors import BadInput, check_count
 from bayesmap.samplers.progress import SILENT, Watch
 from bayesmap.samplers.propagate import Marginals, propagate
 from bayesmap.samplers.sampler import STREAM_PARTICLES, STREAM_START
 from bayesmap.samplers.wall_problem import WallProblem
-
-Floats = NDArray[np.float64]
 
 BATCH_CELLS = 1 << 23  # cells of maps that are drawn at a time
 COUPLED_CELLS = 1 << 13  # of maps of coupled cells that are drawn together
