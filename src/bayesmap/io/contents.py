@@ -1,4 +1,4 @@
-"""What is in a recording or a log, without having to choose anything."""
+"""The contents of a recording or a log, without having to choose anything."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ class Contents:
 
 
 def contents_of(path: str | os.PathLike[str]) -> Contents:
-    """Look into a log or a recording; malformed lines and messages are counted, not refused.
+    """Describe a log or a recording; malformed lines and messages are counted, not refused.
 
     Raises:
         BadInput: a file that cannot be read, or is of no known format.
@@ -142,7 +142,7 @@ def _without_scans(recording: Any) -> str:
 
 
 def _sensor(recording: Any, topic: Any) -> dict[str, Any]:
-    """Return what the scans of one topic look like, and by which poses they can be used."""
+    """Describe the scans of one topic, and the poses by which they can be used."""
     account: dict[str, Any] = {
         "topic": topic.name, "type": topic.type, "pose_topic": None, "error": None, "no_poses": None,
     }  # fmt: skip
@@ -186,7 +186,7 @@ def _account(reading: LogReading) -> dict[str, Any]:
 
 
 def _about_poses(reading: LogReading) -> list[str]:
-    """Say what to do with poses under which a wall stands in several places, and with scans that have none."""
+    """Return remedies for poses under which a wall stands in several places, and for scans without poses."""
     if not reading.posed:
         return [] if scans_come_often(reading.scans) else [f"{TOO_SELDOM}: give them poses"]
     if not look_like_odometry(reading.scans):
@@ -199,7 +199,7 @@ def _about_poses(reading: LogReading) -> list[str]:
 
 
 def scans_summary(scans: Scans) -> dict[str, Any]:
-    """Return what scans look like, ready for JSON: number, beams, readings, and how far they go."""
+    """Describe scans, ready for JSON: their number, beams, readings, and the way that they cover."""
     angles = np.degrees(scans.angles_rad)
     low, high = scans.poses[:, :2].min(axis=0), scans.poses[:, :2].max(axis=0)
     hits = scans.ranges_m[np.isfinite(scans.ranges_m)]

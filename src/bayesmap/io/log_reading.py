@@ -1,4 +1,4 @@
-"""What was read from a log: the scans, and an account of how they were read."""
+"""The reading of a log: its scans, and an account of how they were read."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ WITHOUT_POSES = "bayesmap slam --no-odometry needs no poses, if scans come at 5 
 
 @dataclass(frozen=True)
 class LogOptions:
-    """What a user says of a log beside its path. `bayesmap.io.logs.read_log` explains each option."""
+    """A user's options for reading a log, as `bayesmap.io.logs.read_log` explains them."""
 
     no_return: float | None = None
     skip_bad_lines: bool = False
@@ -165,7 +165,7 @@ class Account:
         return BadInput(f"{self.name}: nothing says where the scans were taken: {reason}; {WITHOUT_POSES}")
 
     def in_time_order(self, stamps_s: Floats | None, count: int) -> NDArray[np.intp]:
-        """Return the order of time of some scans, as indices, and keep their stamps; their own order without stamps."""
+        """Return the order of time of the scans, as indices, and keep their stamps; the file's order without stamps."""
         if stamps_s is None:
             return np.arange(count)
         timed = time_order(stamps_s)

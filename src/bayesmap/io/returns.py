@@ -1,4 +1,4 @@
-"""Which numbers of a log are hits, and which mean "no return", "too close" or nothing.
+"""Find the numbers of a log that are hits, and those that mean "no return", "too close" or nothing.
 
 **ROS** (https://www.ros.org/reps/rep-0117.html): +inf is no return, -inf too close, NaN an erroneous reading. Finite
 numbers within the stated limits are hits; the rest depends on the driver's age. A driver that writes infinities follows
@@ -50,7 +50,7 @@ FURTHEST_M = 1e6
 
 @dataclass(frozen=True)
 class NoReturn:
-    """What a log writes when nothing came back.
+    """The number that a log writes when nothing came back.
 
     Attributes:
         code_m: the number, in metres; readings of it and above are no return (if it is zero or negative:

@@ -1,4 +1,4 @@
-"""What stands in rooms, as a laser at shin height sees it: legs, cabinets, boxes, partitions.
+"""Furniture in rooms, as a laser at shin height sees it: legs, cabinets, boxes, partitions.
 
 Every piece is tried where it belongs (against a wall, in the middle, in front of a desk) and kept only if it
 leaves the door free and the rest of the room within reach of a robot.
@@ -73,7 +73,7 @@ class RoomFloor:
         return (nx - 2) * self.resolution, (ny - 2) * self.resolution
 
     def place(self, *rectangles: Rectangle) -> bool:
-        """Put a piece, given as its parts, if there is room for all of it; say whether it was put."""
+        """Put a piece, given as its parts, if there is room for all of it. Returns whether it was put."""
         trial = self.opacity.copy()
         nx, ny = trial.shape
         for x, y, width, depth, opacity in rectangles:

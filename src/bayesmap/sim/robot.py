@@ -264,7 +264,7 @@ def simulate_odometry(
 
 
 def travel_times_s(poses_world: ArrayLike, speed_m_per_s: float, turn_rad_per_s: float) -> NDArray[np.float64]:
-    """Compute when a robot of some speed comes by each pose of its path, seconds from the first, shape (S,).
+    """Compute the times at which a robot passes the poses of its path, seconds from the first, shape (S,).
 
     A step takes the longer of its way at full speed and its turn at the full rate.
 

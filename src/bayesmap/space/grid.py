@@ -196,7 +196,7 @@ def longest_m(scans: Scans) -> NDArray[np.float64]:
 
 
 def why_outlying(scans: Scans, scan: int) -> str:
-    """Say what is wrong with an outlying scan, and what to do about it, for an error."""
+    """Return the fault of an outlying scan and its remedy, for an error message."""
     when = "" if scans.stamps_s is None else f" (at {scans.stamps_s[scan]:.3f} s)"
     longest = longest_m(scans)[scan]
     if from_middle_m(scans)[scan] < longest:

@@ -1,4 +1,4 @@
-"""Recordings opened: ROS 1 bags, and ROS 2's folders, databases and MCAP files, by rosbags where it can.
+"""Open recordings: ROS 1 bags, and ROS 2's folders, databases and MCAP files, by rosbags where it can.
 
 Sound recordings that rosbags refuses (MCAP of ROS 1 messages, MCAP without an index and out of order) are read record
 by record, and so is the rest of a damaged recording, if the user asks for it.

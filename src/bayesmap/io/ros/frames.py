@@ -1,4 +1,4 @@
-"""The tree of frames that /tf and /tf_static tell, and chains of transforms through it.
+"""The tree of frames that /tf and /tf_static state, and chains of transforms through it.
 
 A transform that never changes in the whole recording, or that is static, holds at all times. Any other transform is
 known only from its first to its last message, and is interpolated between. Robots say where their frames are in three
@@ -159,7 +159,7 @@ class Chain:
         return np.asarray((stamps_ns >= span[0]) & (stamps_ns <= span[1]))
 
     def at(self, stamps_ns: NDArray[np.int64]) -> RigidTransform:
-        """Return where the last frame is in the first, at some times, (T,)."""
+        """Return the pose of the last frame in the first, at some times, (T,)."""
         result = RigidTransform.identity(len(stamps_ns))
         for link in self.links:
             result = result * link.at(stamps_ns)

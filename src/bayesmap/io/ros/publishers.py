@@ -1,7 +1,7 @@
 """Contradictions between publishers of one transform: on one topic, and between topics.
 
-A static transform that is stated twice, two sources of odometry, a robot's frames on two topics: whoever came last
-would win, or poses would go to and fro between both.
+Examples are a static transform that is stated twice, two sources of odometry, and a robot's frames on two topics. If
+these were not found, the last message would count, or poses would go to and fro between both.
 """
 
 from __future__ import annotations
@@ -147,7 +147,7 @@ def _apart(parts: Sequence[Samples]) -> tuple[tuple[str, Numbers], tuple[str, Nu
 
 
 def _off_the_way(one: Samples, other: Samples) -> tuple[Numbers, Numbers] | None:
-    """Return two values where half of the samples are further from another topic than it moves in one step."""
+    """Return two values where half of the samples lie further from another topic's motion than one of its steps."""
     track, stamps = one.track(), other.times_ns()
     inside = np.nonzero(track.covers(stamps))[0]
     if not len(inside):
