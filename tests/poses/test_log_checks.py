@@ -79,7 +79,7 @@ LATE = 3
 @pytest.fixture(scope="module")
 def drive():
     """True poses, odometry and scans of a robot that turns by 30 degrees a scan at corners."""
-    truth = path_around(1.2)
+    truth = path_around(0.8)
     turning = np.abs(np.diff(truth[:, 2], prepend=truth[0, 2])) > 0.1
     truth = truth[~turning | (np.cumsum(turning) % 2 == 0)]
     angles, ranges = scans_of(ring(), truth)

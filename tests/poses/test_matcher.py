@@ -85,8 +85,8 @@ def test_the_search_finds_what_looking_everywhere_finds(centre, pull):
 def test_further_modes_are_the_best_that_lie_apart():
     points = notched_geometry().points_of(2)
     centre = np.array([0.0, 0.0, 0.0])
-    score, poses = everywhere(0, points, centre, 1.0, 1.2, None)
-    found = match(notched_grids(), [points], [centre], 1.0, 1.2, step_rad=STEP, modes=3, apart_m=0.3, apart_rad=0.32)
+    score, poses = everywhere(0, points, centre, 0.8, 0.8, None)
+    found = match(notched_grids(), [points], [centre], 0.8, 0.8, step_rad=STEP, modes=3, apart_m=0.3, apart_rad=0.32)
     left = score.copy()
     for m in range(3):
         assert found.scores[0, m] == pytest.approx(left.max(), abs=1e-12)
