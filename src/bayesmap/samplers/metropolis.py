@@ -1,9 +1,9 @@
 """Metropolis sampling of any kind of cells, cell by cell, in plain NumPy: for kinds without a sampler of their own.
 
-In every sweep each cell is proposed another state (`CellPrior.propose`; by default one from the prior), which is taken
-with probability min(1, ratio), the ratio being that of the likelihoods of the beams that touch the cell times what the
-proposal says of priors and proposals (Metropolis et al., 1953; Hastings, 1970). It needs nothing from the kind of
-cells, and from the sensor only its density: on a small map that gives a first posterior of a new kind of cells.
+Every sweep proposes another state for each cell (`CellPrior.propose`; by default a state from the prior). It is
+accepted with probability min(1, ratio): the ratio of the likelihoods of the beams that touch the cell, times the ratio
+of priors and proposals (Metropolis et al., 1953; Hastings, 1970). The sensor needs a density and nothing else. On a
+small map this gives a first posterior of a new kind of cells.
 """
 
 from __future__ import annotations

@@ -1,9 +1,8 @@
 """The contract of all Markov chain samplers, as BlackJAX has it: `init` makes a state, `step` gives (state, info).
 
-A sampler is a value: it holds options and no state. What all its chains in one process share, such as traced beams, is
-made once by `prepare`. A chain has a number that does not depend on where it runs: every draw depends on (seed,
-number of the chain, sweep, site) alone, and neither on which other chains run beside it, nor on threads, nor on how
-sweeps are cut into steps, nor on stops and resumptions.
+A sampler is a value: it holds options and no state. `prepare` makes what all chains of a process share, such as traced
+beams. A chain has a number that does not depend on where it runs. Every draw depends on (seed, number of the chain,
+sweep, site) alone: not on other chains, threads, the division of sweeps into steps, or stops and resumptions.
 """
 
 from __future__ import annotations
