@@ -5,6 +5,7 @@ import json
 import re
 import subprocess
 import sys
+from collections import Counter
 from functools import cache
 from pathlib import Path
 
@@ -333,6 +334,12 @@ def test_long_and_idly_named_files_are_noticed():
     assert not list(faults(Path("a.ts"), "// Built by `make page` from page/src: edit there.\n" + 501 * line))
     assert not list(faults(Path("a.ts"), 500 * line))
     assert "does not say" in "".join(faults(Path("utils.py"), line))
+
+
+def test_modules_of_tests_have_names_of_their_own():
+    """Pytest imports them by name alone: two of one name end the run while it collects tests."""
+    names = Counter(path.name for path in Path(__file__).parent.rglob("test_*.py"))
+    assert [name for name, times in names.items() if times > 1] == []
 
 
 def defined_twice(tree):
