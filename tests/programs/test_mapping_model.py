@@ -1,7 +1,9 @@
 """The mapping model as a generative function: its densities are those of `infer`, and it composes."""
 
 import pickle
+import re
 from dataclasses import replace
+from pathlib import Path
 
 import jax
 import jax.numpy as jnp
@@ -20,6 +22,7 @@ from bayesmap.programs.mapping import sensor_model
 from bayesmap.samplers.wall_problem import WallProblem
 from bayesmap.sensors.model import RangeLimits
 
+PAGE = Path(__file__).resolve().parents[2] / "docs" / "mapping-model.md"
 ANGLES = np.arange(100) / 100 * 2 * np.pi
 SENSORS = {
     "gaussian": bm.Gaussian(0.5),
@@ -203,3 +206,17 @@ def test_bad_input_is_named():
     sensor = sensor_model(grid, [1, 1, 0], [0.0], bm.Gaussian(0.1), max_range_m=5.0)
     with pytest.raises(bm.BadInput, match=r"walls has shape \(2, 2\), expected \(3, 3\)"):
         sensor.simulate(jr.key(0), (np.zeros((2, 2), bool),))
+
+
+@pytest.mark.full
+def test_the_example_of_the_page_runs():
+    code = "\n".join(re.findall(r"```python\n(.*?)```", PAGE.read_text(), re.DOTALL))
+    names = {}
+    exec(compile(code, str(PAGE), "exec"), names)
+    model, run = names["model"], names["run"]
+    np.testing.assert_allclose(names["score"], run.log_joint[0, -1], rtol=1e-5)
+    change = names["edited"].get_score() - names["trace"].get_score()
+    np.testing.assert_allclose(names["weight"], change, rtol=1e-3, atol=0.5)  # scores near -1e6, in float32
+    moved = names["both"].assess(names["after"].get_choices(), ())[0]
+    np.testing.assert_allclose(names["pose_weight"], moved - names["start"].get_score(), rtol=1e-3, atol=0.05)
+    assert model.simulate(names["key"], ()).get_choices()["readings"].shape == (100,)
