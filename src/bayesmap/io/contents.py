@@ -28,18 +28,17 @@ CONVERTERS = {
 
 @dataclass(frozen=True, eq=False)
 class Contents:
-    """What is in a file.
+    """The contents of a file or folder, ready for JSON.
 
     Attributes:
         path: the file or folder.
         format: as `LogReading` calls it.
-        start_s: the first time in it; None if it says none.
-        end_s: the last.
-        topics: of a recording: name, type, count and rate of each topic; of a log: name and count of each message.
-        frames: of a recording: the frames that /tf knows.
-        sensors: one for each source of scans, ready for JSON: what its scans look like, and whether they have poses.
-        pose_sources: of a recording: topics that tell poses.
-        suggestion: a command that infers a map from it; None if there is nothing to infer from, or no way to do so.
+        start_s, end_s: the first and the last time in it; None if there are none.
+        topics: name, type, count and rate of each topic of a recording; name and count of each message of a log.
+        frames: the frames that /tf of a recording knows.
+        sensors: for each source of scans, what they look like, and whether they have poses.
+        pose_sources: the topics of a recording that tell poses.
+        suggestion: a command that infers a map from it; None if there is none.
         notes: what a user should know.
     """
 
@@ -96,14 +95,12 @@ def _of_recording(path: str | os.PathLike[str]) -> Contents:
     name = os.fspath(path)
     recording = open_recording(path, salvage=True, types=TYPES)
     spent_s = ((recording.end_ns or 0) - (recording.start_ns or 0)) * 1e-9
+    rates = {
+        t.name: round((t.count - 1) / spent_s, 3) if t.count > 1 and spent_s > 0 else None
+        for t in recording.topics.values()
+    }
     topics = [
-        {
-            "name": topic.name,
-            "type": topic.type,
-            "count": topic.count,
-            "rate_hz": round((topic.count - 1) / spent_s, 3) if topic.count > 1 and spent_s > 0 else None,
-        }
-        for topic in recording.topics.values()
+        {"name": t.name, "type": t.type, "count": t.count, "rate_hz": rates[t.name]} for t in recording.topics.values()
     ]
     poses = PoseMessages()
     read_messages(recording, topics_of_type(recording, TF_TYPES), None, poses, lambda *_: None)
@@ -112,7 +109,13 @@ def _of_recording(path: str | os.PathLike[str]) -> Contents:
     sensors = [_sensor(recording, topic) for topic in scan_topics]
     usable = [sensor for sensor in sensors if sensor["error"] is None]
     best = max(usable, key=lambda s: (s["no_poses"] is None, s["scans"] * s["beams"]), default=None)
-    nothing = () if scan_topics else (_without_scans(recording),)
+    types = {topic.type for topic in recording.topics.values() if topic.count}
+    remedy = next((f": {tool}" for kind, tool in CONVERTERS.items() if kind in types), "")
+    nothing = f"no topic holds range scans ({', '.join(SCAN_TYPES)}), so there is nothing to make a map from{remedy}"
+    suggestion = None
+    if best is not None:
+        scan_topic = best["topic"] if len(scan_topics) > 1 else None
+        suggestion = _command(name, best, scan_topic=scan_topic, skip=bool(recording.notes) or best["skipped"] > 0)
     return Contents(
         path=name,
         format=recording.format,
@@ -122,23 +125,9 @@ def _of_recording(path: str | os.PathLike[str]) -> Contents:
         frames=FrameTree(poses.transforms).frames(),
         sensors=sensors,
         pose_sources=[{"name": t.name, "type": t.type, "count": t.count} for t in pose_sources],
-        suggestion=None
-        if best is None
-        else _command(
-            name,
-            best,
-            scan_topic=best["topic"] if len(scan_topics) > 1 else None,
-            skip=bool(recording.notes) or best["skipped"] > 0,
-        ),
-        notes=(*recording.notes, *nothing),
+        suggestion=suggestion,
+        notes=(*recording.notes, *(() if scan_topics else (nothing,))),
     )
-
-
-def _without_scans(recording: Any) -> str:
-    """Return what is said of a recording that no map can be made from, and what would help."""
-    types = {topic.type for topic in recording.topics.values() if topic.count}
-    remedy = next((f": {tool}" for kind, tool in CONVERTERS.items() if kind in types), "")
-    return f"no topic holds range scans ({', '.join(SCAN_TYPES)}), so there is nothing to make a map from{remedy}"
 
 
 def _sensor(recording: Any, topic: Any) -> dict[str, Any]:

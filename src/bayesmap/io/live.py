@@ -57,16 +57,10 @@ def can_be_followed(name: str) -> bool:
 
 
 def live_scans(
-    name: str,
-    *,
-    max_range_m: float,
-    no_return: float | None = None,
-    skip_bad_lines: bool = False,
-    idle_s: float | None = None,
-    on_skipped: Callable[[int, str], None] = lambda line, reason: None,
-    laser: Pose | None = None,
-    without_poses: bool = False,
-) -> Iterator[Scans]:
+    name: str, *, max_range_m: float, no_return: float | None = None, skip_bad_lines: bool = False,
+    idle_s: float | None = None, on_skipped: Callable[[int, str], None] = lambda line, reason: None,
+    laser: Pose | None = None, without_poses: bool = False,
+) -> Iterator[Scans]:  # fmt: skip
     """Return the scans of a log as it is written, one at a time.
 
     Args:
@@ -82,9 +76,7 @@ def live_scans(
     Raises:
         BadInput: it cannot be read, is of another format, or has a malformed line.
     """
-    options = LogOptions(
-        no_return, skip_bad_lines, max_range_m=max_range_m, laser=laser, without_poses=without_poses
-    )  # fmt: skip
+    options = LogOptions(no_return, skip_bad_lines, max_range_m, laser=laser, without_poses=without_poses)
     account = Account(name, "", options)
 
     def bad(line: int, reason: str) -> None:
@@ -153,17 +145,17 @@ def _pieces(name: str, idle_s: float | None) -> Iterator[bytes]:
         descriptor = 0 if standard_input else os.open(name, os.O_RDONLY)
         try:
             grows = not standard_input and stat.S_ISREG(os.fstat(descriptor).st_mode)
-            yield from _of_file(name, descriptor, idle_s) if grows else _of_pipe(descriptor, idle_s)
+            if grows:
+                yield from _of_file(name, descriptor, idle_s)
+            while not grows and select.select([descriptor], [], [], idle_s)[0]:
+                if not (piece := os.read(descriptor, CHUNK_BYTES)):
+                    return
+                yield piece
         finally:
             if not standard_input:
                 os.close(descriptor)
     except OSError as error:
         raise BadInput(f"{name}: cannot be read: {error.strerror or error}") from None
-
-
-def _of_pipe(descriptor: int, idle_s: float | None) -> Iterator[bytes]:
-    while select.select([descriptor], [], [], idle_s)[0] and (piece := os.read(descriptor, CHUNK_BYTES)):
-        yield piece
 
 
 def _of_file(name: str, descriptor: int, idle_s: float | None) -> Iterator[bytes]:

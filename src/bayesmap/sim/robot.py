@@ -33,6 +33,11 @@ WALL_DISLIKE = 4.0
 
 SMOOTHING_M = 0.5
 HEADING_M = 0.2
+STANDING_M = 1e-9
+"""A shorter straight has no direction: the step is one turn."""
+NEAR_M = 4.0
+"""Poses further apart than this see different walls, and no ground truth is measured between them."""
+PAIRS_A_POSE = 3
 
 
 def patrol(building: Building, n_scans: int, seed: int = 0) -> NDArray[np.float64]:
@@ -179,15 +184,6 @@ def _smooth(path_m: NDArray[np.float64], lattice: _Lattice) -> NDArray[np.float6
     return np.where(clear[:, None], smooth, path_m)
 
 
-STANDING_M = 1e-9
-"""A shorter straight has no direction: the step is one turn."""
-
-NEAR_M = 4.0
-"""Poses further apart than this see different walls, and no ground truth is measured between them."""
-
-PAIRS_A_POSE = 3
-
-
 @dataclass(frozen=True)
 class OdometryNoise:
     """How a robot's odometry errs. The defaults are about those of a Pioneer in an office (Intel's raw log).
@@ -252,7 +248,9 @@ def simulate_odometry(
     if len(truth) == 0:
         return truth
     rng = np.random.default_rng(check_count("odometry", "seed", seed, 0))
-    reported = _accumulated(truth[0], _reported_steps(between(truth[:-1], truth[1:]), noise, rng))
+    reported = truth.copy()
+    for i, step in enumerate(_reported_steps(between(truth[:-1], truth[1:]), noise, rng)):
+        reported[i + 1] = compose(reported[i], step)
     if noise.lag_s == 0.0:
         return reported
     if stamps_s is None:
@@ -307,26 +305,11 @@ def _reported_steps(steps: NDArray[np.float64], noise: OdometryNoise, rng: np.ra
     return np.stack([reported * np.cos(first), reported * np.sin(first), wrapped(first + last)], axis=-1)
 
 
-def _accumulated(start: NDArray[np.float64], steps: NDArray[np.float64]) -> NDArray[np.float64]:
-    poses = np.empty((len(steps) + 1, 3))
-    poses[0] = start
-    for i, step in enumerate(steps):
-        poses[i + 1] = compose(poses[i], step)
-    return poses
-
-
 def related_pairs(poses_world: NDArray[np.float64], seed: int = 0) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
     """Choose pairs of poses up to `NEAR_M` apart: each with its next, and with two others, at all distances in time.
 
     Kuemmerle et al. (2009) relate poses whose scans a person can lay on top of each other: neighbours in time, and
-    places seen again.
-
-    Args:
-        poses_world: shape (S, 3).
-        seed: of the choice.
-
-    Returns:
-        Indices of the earlier and the later pose of each pair, ascending, each pair once.
+    places seen again. Returns the indices of the earlier and the later pose of each pair, ascending, each pair once.
     """
     count = len(poses_world)
     rng = np.random.default_rng(check_count("relations", "seed", seed, 0))

@@ -15,11 +15,7 @@ ROUNDING = 1e-5
 
 
 def as_array(values: ArrayLike, name: str) -> NDArray[np.float64]:
-    """Return an array of numbers of any shape.
-
-    Raises:
-        BadInput: something that is no array of numbers.
-    """
+    """Return an array of numbers of any shape; raise `BadInput` for anything else."""
     try:
         return np.asarray(values, dtype=np.float64)
     except (TypeError, ValueError) as error:

@@ -16,6 +16,10 @@ if TYPE_CHECKING:
 
 MAX_CELLS = 100_000_000
 """More cells than this is taken for a mistake in the units, not for a map."""
+FARTHER = 20.0
+"""Scans whose reach is so many times the median reach are wrong."""
+MOST = 0.1
+"""Share of scans that can be wrong; if more lie far away, they are as right as the others."""
 
 
 @dataclass(frozen=True)
@@ -107,13 +111,12 @@ class Grid:
         """
         low, high = bounds_m(scans, margin_m)
         (nx, ny), _ = _whole_cells(low, high, resolution)
-        shape = (nx, ny)
-        if shape[0] * shape[1] > MAX_CELLS:
+        if nx * ny > MAX_CELLS:
             wrong = outlying(scans)
             if len(wrong):
                 others = f" ({len(wrong)} scans are so far out, this one most)" if len(wrong) > 1 else ""
                 what = why_outlying(scans, int(wrong[0]))
-                raise BadInput(f"grid: covering the scans would take {_large(*shape)}: {what}{others}")
+                raise BadInput(f"grid: covering the scans would take {_large(nx, ny)}: {what}{others}")
         return cls.over(low, high, resolution)
 
     @classmethod
@@ -161,45 +164,29 @@ def _large(nx: int, ny: int) -> str:
     return f"{nx:.6g} x {ny:.6g} cells"
 
 
-FARTHER = 20.0
-"""Times as far from the middle as half of all scans reach."""
-
-MOST = 0.1
-"""Share of scans that can be wrong; if more lie far away, they are as right as the others."""
-
-
 def outlying(scans: Scans) -> NDArray[np.intp]:
     """Select scans whose pose, or longest hit, is `FARTHER` times as far out as half of them reach, the furthest first.
 
     Empty if that would be more than `MOST` of them (but one may be of any), so that there is no majority to go by.
     """
-    reach = reach_m(scans)
+    reach = np.add(*_offsets_m(scans))
     far = np.nonzero(reach > FARTHER * np.median(reach))[0]
     if len(far) > max(1.0, MOST * len(scans)):
         return np.empty(0, dtype=np.intp)
     return far[np.argsort(-reach[far], kind="stable")]
 
 
-def reach_m(scans: Scans) -> NDArray[np.float64]:
-    """Return how far each scan's pose and longest hit may be from the middle of all poses, metres, (S,)."""
-    return from_middle_m(scans) + longest_m(scans)
-
-
-def from_middle_m(scans: Scans) -> NDArray[np.float64]:
-    """Return each pose's distance along x or y, the larger, from the median pose, metres, (S,)."""
-    return np.asarray(np.abs(scans.poses[:, :2] - np.median(scans.poses[:, :2], axis=0)).max(axis=1))
-
-
-def longest_m(scans: Scans) -> NDArray[np.float64]:
-    """Return each scan's longest hit, metres, (S,); 0 without one."""
-    return np.asarray(np.where(np.isfinite(scans.ranges_m), scans.ranges_m, 0.0).max(axis=1))
+def _offsets_m(scans: Scans) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return each pose's larger distance along x or y from the median pose, and its longest hit, metres, (S,) each."""
+    away = np.abs(scans.poses[:, :2] - np.median(scans.poses[:, :2], axis=0)).max(axis=1)
+    return np.asarray(away), np.asarray(np.where(np.isfinite(scans.ranges_m), scans.ranges_m, 0.0).max(axis=1))
 
 
 def why_outlying(scans: Scans, scan: int) -> str:
     """Return the fault of an outlying scan and its remedy, for an error message."""
     when = "" if scans.stamps_s is None else f" (at {scans.stamps_s[scan]:.3f} s)"
-    longest = longest_m(scans)[scan]
-    if from_middle_m(scans)[scan] < longest:
+    away, longest = (offsets[scan] for offsets in _offsets_m(scans))
+    if away < longest:
         beam = int(np.argmax(np.where(np.isfinite(scans.ranges_m[scan]), scans.ranges_m[scan], -np.inf)))
         return (
             f"beam {beam} of scan {scan}{when} reads {longest:.6g} m, far more than others; "

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
+Numbers = NDArray[np.floating] | NDArray[np.integer]
 
 
 def wrapped(angle_rad: Floats) -> Floats:
@@ -40,46 +41,26 @@ def inverse(pose: Floats) -> Floats:
     return between(pose, np.zeros(3))
 
 
-def around(
-    known: NDArray[np.floating] | NDArray[np.integer], wanted: NDArray[np.floating] | NDArray[np.integer]
-) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Return the indices of what is known before and after each of some times, or other numbers.
+def around(known: Numbers, numbers: Numbers) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """Return the indices of the known numbers, (S,) ascending, before and after each of some others, (N,) each.
 
-    Args:
-        known: shape (S,), ascending.
-        wanted: shape (N,).
-
-    Returns:
-        Twice (N,): where wanted lies outside, the two at that end; of a single one that is known its own, twice.
+    Outside the known numbers these are the two at that end; a single known number is its own neighbour.
     """
     last = len(known) - 1
-    after = np.clip(np.searchsorted(known, wanted), 1, max(1, last))
+    after = np.clip(np.searchsorted(known, numbers), 1, max(1, last))
     return after - 1, np.minimum(after, last)
 
 
-def nearest(
-    known: NDArray[np.floating] | NDArray[np.integer], wanted: NDArray[np.floating] | NDArray[np.integer]
-) -> NDArray[np.intp]:
-    """Return the index of what is known nearest to each of some times, or other numbers, (N,); the earlier of two.
-
-    Args:
-        known: shape (S,), ascending.
-        wanted: shape (N,).
-    """
-    before, after = around(known, wanted)
-    return np.where(np.abs(wanted - known[before]) <= np.abs(known[after] - wanted), before, after)
+def nearest(known: Numbers, numbers: Numbers) -> NDArray[np.intp]:
+    """Return the index of the known number, (S,) ascending, nearest to each of others, (N,); of two the earlier."""
+    before, after = around(known, numbers)
+    return np.where(np.abs(numbers - known[before]) <= np.abs(known[after] - numbers), before, after)
 
 
 def interpolate(stamps_s: Floats, poses: Floats, at_s: Floats) -> Floats:
-    """Return poses at other times: along the straight relative motion between neighbours; outside, the nearest end.
+    """Return poses at other times, (N, 3): along the straight relative motion between neighbours; outside, at the end.
 
-    Args:
-        stamps_s: shape (S,), ascending; of equal stamps the later pose counts.
-        poses: shape (S, 3).
-        at_s: shape (N,).
-
-    Returns:
-        Shape (N, 3).
+    The stamps, (S,), ascend; of equal stamps the later pose counts.
     """
     if len(stamps_s) == 1:
         return np.repeat(poses, len(at_s), axis=0)
@@ -91,12 +72,12 @@ def interpolate(stamps_s: Floats, poses: Floats, at_s: Floats) -> Floats:
 
 
 def retract(poses: Floats, steps: Floats) -> Floats:
-    """Poses moved by steps (x, y, yaw), each given in its pose's own frame."""
+    """Return poses moved by steps (x, y, yaw), each given in its pose's own frame."""
     return compose(poses, steps)
 
 
 def transform(pose: Floats, points: Floats) -> Floats:
-    """Points (..., 2) given in a pose's frame, in the frame in which the pose is given."""
+    """Return points (..., 2) of a pose's frame in the frame in which the pose is given."""
     cosine, sine = np.cos(pose[..., 2]), np.sin(pose[..., 2])
     x = pose[..., 0] + cosine * points[..., 0] - sine * points[..., 1]
     y = pose[..., 1] + sine * points[..., 0] + cosine * points[..., 1]
@@ -104,7 +85,7 @@ def transform(pose: Floats, points: Floats) -> Floats:
 
 
 def between_jacobians(relative: Floats) -> tuple[Floats, Floats]:
-    """Derivatives of ``between(a, b)`` by steps of a and of b, each in its own frame: shapes (..., 3, 3).
+    """Return derivatives of ``between(a, b)`` by steps of a and of b, each in its own frame: shapes (..., 3, 3).
 
     Rows are the components (x, y, yaw) of the relative pose, which is given in the frame of a.
     """
@@ -122,7 +103,7 @@ def between_jacobians(relative: Floats) -> tuple[Floats, Floats]:
 
 
 def rotation(yaw_rad: Floats) -> Floats:
-    """3 x 3 matrices that turn steps (x, y, yaw) given in a frame at this yaw into the outer frame's axes."""
+    """Return 3 x 3 matrices that turn steps (x, y, yaw) given in a frame at this yaw into the outer frame's axes."""
     yaw = np.asarray(yaw_rad)
     matrix = np.zeros((*yaw.shape, 3, 3))
     cosine, sine = np.cos(yaw), np.sin(yaw)

@@ -6,6 +6,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from enum import IntEnum
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -81,14 +82,12 @@ class Scans:
                 f"need ({len(poses)}, {len(angles)})"
             )
         check_limits(self.min_range_m, self.max_range_m)
-        object.__setattr__(self, "poses", poses)
-        object.__setattr__(self, "angles_rad", angles)
-        object.__setattr__(self, "own_angles_rad", own)
-        object.__setattr__(self, "ranges_m", ranges)
-        object.__setattr__(self, "max_range_m", float(self.max_range_m))
-        object.__setattr__(self, "min_range_m", float(self.min_range_m))
+        checked: dict[str, Any] = {
+            "poses": poses, "angles_rad": angles, "own_angles_rad": own, "ranges_m": ranges,
+            "max_range_m": float(self.max_range_m), "min_range_m": float(self.min_range_m),
+        }  # fmt: skip
         if self.stamps_s is not None:
-            stamps = _as_floats(self.stamps_s, "stamps_s")
+            checked["stamps_s"] = stamps = _as_floats(self.stamps_s, "stamps_s")
             if stamps.shape != (len(poses),):
                 raise BadInput(f"scans: stamps_s has shape {stamps.shape}, expected ({len(poses)},)")
             if not np.isfinite(stamps).all():
@@ -96,9 +95,8 @@ class Scans:
                 raise BadInput(
                     f"scans: stamp of scan {scan} is not finite: {stamps[scan]}; leave stamps_s out if there are none"
                 )
-            object.__setattr__(self, "stamps_s", stamps)
         if self.beam_poses is not None:
-            beam_poses = _as_floats(self.beam_poses, "beam_poses")
+            checked["beam_poses"] = beam_poses = _as_floats(self.beam_poses, "beam_poses")
             if beam_poses.shape != (*ranges.shape, 3):
                 raise BadInput(f"scans: beam_poses has shape {beam_poses.shape}, expected {(*ranges.shape, 3)}")
             if not np.isfinite(beam_poses).all():
@@ -106,7 +104,8 @@ class Scans:
                 raise BadInput(
                     f"scans: pose of beam {beam} of scan {scan} is not finite: {beam_poses[scan, beam].tolist()}"
                 )
-            object.__setattr__(self, "beam_poses", beam_poses)
+        for name, value in checked.items():
+            object.__setattr__(self, name, value)
 
     def __len__(self) -> int:
         return len(self.poses)
@@ -175,17 +174,9 @@ class Scans:
 
     def select(self, scans: NDArray[np.intp] | NDArray[np.bool_] | slice) -> Scans:
         """Return the scans at the given indices, or where the mask is true, or in the slice."""
-        stamps = None if self.stamps_s is None else self.stamps_s[scans]
-        beam_poses = None if self.beam_poses is None else self.beam_poses[scans]
-        own = None if self.own_angles_rad is None else self.own_angles_rad[scans]
-        return replace(
-            self,
-            poses=self.poses[scans],
-            ranges_m=self.ranges_m[scans],
-            stamps_s=stamps,
-            beam_poses=beam_poses,
-            own_angles_rad=own,
-        )
+        names = ("poses", "ranges_m", "stamps_s", "beam_poses", "own_angles_rad")
+        held = {name: array for name in names if (array := getattr(self, name)) is not None}
+        return replace(self, **{name: array[scans] for name, array in held.items()})
 
     def stretched(self, ratio: float) -> Scans:
         """Return the scans with ``ratio`` times the angle between beams, about the first beam of each scan."""
@@ -251,11 +242,7 @@ class Scans:
 
 
 def as_poses(poses: ArrayLike) -> NDArray[np.float64]:
-    """Return poses as an (S, 3) array.
-
-    Raises:
-        BadInput: another shape, or a number that is not finite.
-    """
+    """Return poses as an (S, 3) array; raise `BadInput` for another shape, or a number that is not finite."""
     array = np.atleast_2d(_as_floats(poses, "poses"))
     if array.ndim != 2 or array.shape[1] != 3:
         raise BadInput(f"scans: poses has shape {array.shape}, expected (S, 3): x, y, yaw")
@@ -266,11 +253,7 @@ def as_poses(poses: ArrayLike) -> NDArray[np.float64]:
 
 
 def as_angles(angles_rad: ArrayLike) -> NDArray[np.float64]:
-    """Return beam angles as an (A,) array.
-
-    Raises:
-        BadInput: another shape, no angle at all, or one that is not finite.
-    """
+    """Return beam angles as an (A,) array; raise `BadInput` for another shape, no angle, or one that is not finite."""
     array = np.atleast_1d(_as_floats(angles_rad, "angles_rad"))
     if array.ndim != 1 or len(array) == 0:
         raise BadInput(f"scans: angles_rad has shape {array.shape}, expected (A,) with at least one beam")
@@ -298,10 +281,8 @@ def _as_own_angles(
         )
     lowest, highest = np.where(missing, np.inf, each).min(axis=1), np.where(missing, -np.inf, each).max(axis=1)
     for scan in np.flatnonzero((highest - lowest > math.tau) | (lowest > math.tau) | (highest < -math.tau)):
-        if (
-            lowest[scan] <= highest[scan]
-            and (fault := fan_fault(float(lowest[scan]), float(highest[scan]))) is not None
-        ):
+        fault = fan_fault(float(lowest[scan]), float(highest[scan])) if lowest[scan] <= highest[scan] else None
+        if fault is not None:
             raise BadInput(f"scans: angles_rad of scan {scan}: {fault}")
     if len(each) and not missing.any() and (each == each[:1]).all():
         return each[0].copy(), None
@@ -359,11 +340,7 @@ def fan_fault(lowest_rad: float, highest_rad: float) -> str | None:
 
 
 def check_limits(min_range_m: float, max_range_m: float) -> None:
-    """Check that the sensor's span makes sense.
-
-    Raises:
-        BadInput: a largest range that is not positive, or a smallest that is negative or not below it.
-    """
+    """Raise `BadInput` for a largest range that is not positive, or a smallest that is negative or not below it."""
     if not (math.isfinite(max_range_m) and max_range_m > 0):
         raise BadInput(f"scans: max_range_m must be a positive number of metres, got {max_range_m!r}")
     if not (math.isfinite(min_range_m) and 0 <= min_range_m < max_range_m):

@@ -9,13 +9,10 @@ from numpy.typing import NDArray
 
 STEP_S = 1.0
 """Stamps that go back by less are of scans that were written down late."""
-
 MANY = 10
 """Scans after a step back of the clock, and scans before it, whose stamps overlap."""
-
 SAME_S = 1e-3
 """Stamps that are closer are one: no laser sweeps so fast."""
-
 TURNS = 0.7
 """Changes from one group of scans to the other, per scan of the smaller group, if both take turns."""
 
@@ -56,10 +53,7 @@ def time_order(stamps_s: NDArray[np.float64]) -> TimeOrder:
 
     Scans that were written down late, one by one or in bursts, fill a gap between earlier scans: they are sorted. If
     stamps go back by more than a second, and the stamps of many scans lie among those of many earlier scans, sorting
-    would mix two times of the robot: the order of the log is kept there.
-
-    Args:
-        stamps_s: in the order of the log, (S,).
+    would mix two times of the robot: the order of the log is kept there. Stamps are (S,), in the order of the log.
     """
     stamps, steps, backs = np.array(stamps_s, dtype=np.float64), [], []
     start = 0  # of the part of the log since the last step
@@ -87,10 +81,7 @@ def elapsed_s(stamps_s: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArr
 
     Stamps that are all different are exact. Stamps that repeat were cut to a grain (whole seconds, six digits, single
     precision): the scans of one stamp lie anywhere between the stamps before and after it. At the ends of the log the
-    longest time is infinite.
-
-    Args:
-        stamps_s: in the order of time, (S,).
+    longest time is infinite. Stamps are (S,), in the order of time.
     """
     steps = np.abs(np.diff(stamps_s))
     same = steps < SAME_S
@@ -141,7 +132,7 @@ def _in_order(stamps: NDArray[np.float64]) -> bool:
     return bool((np.diff(stamps) < 0.0).sum() <= 1)
 
 
-def _alternate(some: NDArray[np.float64], others: NDArray[np.float64]) -> bool:
+def _alternate(first: NDArray[np.float64], second: NDArray[np.float64]) -> bool:
     """Return whether two groups of stamps take turns one by one, rather than in bursts."""
-    whose = np.repeat([False, True], [len(some), len(others)])[np.argsort(np.concatenate([some, others]))]
-    return bool((np.diff(whose)).sum() >= TURNS * min(len(some), len(others)))
+    group = np.repeat([False, True], [len(first), len(second)])[np.argsort(np.concatenate([first, second]))]
+    return bool((np.diff(group)).sum() >= TURNS * min(len(first), len(second)))

@@ -12,6 +12,9 @@ from bayesmap.errors import BadInput
 from bayesmap.space.planar import between, compose, interpolate, wrapped
 from bayesmap.space.scans import as_poses
 
+SLACK_S = 0.002
+"""A time so little outside a trajectory counts as its end's: logs are written with few digits."""
+
 Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
 
@@ -20,10 +23,8 @@ Indices = NDArray[np.intp]
 class RelativeLaw:
     """Student's t about the relative poses of a trajectory.
 
-    Attributes:
-        scales: a function of the numbers of the first and the second pose of N pairs. Returns the scale matrices of x,
-            y and yaw of the second pose in the frame of the first, (N, 3, 3).
-        dof: degrees of freedom; covariances are dof / (dof - 2) times the scale matrices.
+    ``scales`` takes the numbers of the first and the second pose of N pairs, and returns the scale matrices of x, y and
+    yaw of the second pose in the frame of the first, (N, 3, 3). Covariances are dof / (dof - 2) times these.
     """
 
     scales: Callable[[Indices, Indices], Floats]
@@ -34,12 +35,7 @@ class RelativeLaw:
         return self.dof / (self.dof - 2.0) * self.scales(first, second)
 
     def of_frame(self, poses: Floats, mount: Floats) -> RelativeLaw:
-        """Return the law of another frame that is fixed to this one.
-
-        Args:
-            poses: of this frame, (S, 3).
-            mount: where the other frame is in this one, (3,).
-        """
+        """Return the law of another frame, which lies at ``mount``, (3,), in this one, whose poses are (S, 3)."""
 
         def scales(first: Indices, second: Indices) -> Floats:
             yaw = between(poses[first], poses[second])[:, 2]
@@ -104,14 +100,7 @@ class Trajectory:
         """Return the trajectory of a posterior: mean and covariance of each pose over draws.
 
         A yaw's mean is that of its deviations from the first draw's, so that it may lie anywhere on the circle.
-
-        Args:
-            draws: shape (D, S, 3), or (chains, D, S, 3).
-            stamps_s: shape (S,).
-            known_by: what is said of the draws.
-
-        Raises:
-            BadInput: no draw.
+        ``draws`` have the shape (D, S, 3), or (chains, D, S, 3); none at all raises `BadInput`.
         """
         flat = np.asarray(draws, dtype=np.float64)
         flat = flat.reshape(-1, *flat.shape[-2:])
@@ -129,8 +118,7 @@ class Trajectory:
     def at(self, at_s: Floats) -> tuple[Floats, NDArray[np.bool_]]:
         """Return poses at other times, (N, 3), and which of those times lie between the first stamp and the last, (N,).
 
-        Raises:
-            BadInput: a trajectory without stamps, or without a pose.
+        A trajectory without stamps, or without a pose, raises `BadInput`.
         """
         if self.stamps_s is None or len(self) == 0:
             raise BadInput("trajectory: it has no stamps, so that its pose at a time is not known")
@@ -139,11 +127,7 @@ class Trajectory:
         return interpolate(self.stamps_s, self.poses, at), inside
 
     def of_frame(self, mount: Floats) -> Trajectory:
-        """Return the trajectory of another frame that is fixed to this one.
-
-        Args:
-            mount: where the other frame is in this one, shape (3,).
-        """
+        """Return the trajectory of another frame, which lies at ``mount``, (3,), in this one."""
         poses = compose(self.poses, mount)
         covariances = self.covariances
         if covariances is not None:
@@ -157,18 +141,11 @@ class Trajectory:
         return Trajectory(poses, self.stamps_s, covariances, draws, relative, self.known_by)
 
 
-SLACK_S = 0.002
-"""A time so little outside a trajectory counts as its end's: logs are written with few digits."""
-
-
 def ellipses(centres: Floats, covariances: Floats, level: float = 0.95, points: int = 32) -> Floats:
-    """Return outlines of the regions that hold normal positions with some probability, (S, points, 2), each closed.
+    """Return outlines of the regions that hold normal positions with a probability, (S, points, 2), each closed.
 
-    Args:
-        centres: mean positions, shape (S, 2).
-        covariances: of x and y, shape (S, 2, 2).
-        level: the probability; in the plane the squared Mahalanobis distance stays below -2 log(1 - level) with it.
-        points: of an outline; the last is the first.
+    The means are (S, 2), the covariances (S, 2, 2). In the plane the squared Mahalanobis distance stays below
+    -2 log(1 - level) with the probability ``level``.
     """
     angle = np.linspace(0.0, 2.0 * np.pi, points)
     circle = np.stack([np.cos(angle), np.sin(angle)], axis=-1) * np.sqrt(-2.0 * np.log1p(-level))

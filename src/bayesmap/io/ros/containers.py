@@ -57,11 +57,7 @@ class NotUnpacked(Exception):
 
 
 def unpack_zstd(packed: bytes, largest: int) -> bytes:
-    """Return what was compressed by zstd.
-
-    Raises:
-        NotUnpacked: data that are damaged, cut short, or larger than ``largest`` bytes.
-    """
+    """Unpack data, or raise `NotUnpacked` if they are damaged, cut short, or larger than ``largest`` bytes."""
     try:
         unpacker = zstd().ZstdDecompressor()
         data = bytes(unpacker.decompress(packed, largest))
@@ -102,11 +98,10 @@ def unpack_file(path: str | os.PathLike[str], on_damage: Callable[[str], None]) 
     Raises:
         OSError: there is no room for the copy.
     """
-    where = Path(path)
     folder = Path(tempfile.mkdtemp(prefix="bayesmap-"))
     copy = folder / "unpacked"
     try:
-        with where.open("rb") as file, copy.open("wb") as out:
+        with Path(path).open("rb") as file, copy.open("wb") as out:
             kind = compression_of(file.read(4))
             assert kind is not None
             file.seek(0)
@@ -150,12 +145,10 @@ def format_by_start(start: bytes) -> str | None:
 
 
 def open_recording(path: str | os.PathLike[str], *, salvage: bool, types: Collection[str]) -> Recording:
-    """Open a recording.
+    """Open a recording: a file of a format in `RECORD_READERS`, or a folder of rosbag2's.
 
-    Args:
-        path: a file of a format in `RECORD_READERS`, or a folder of rosbag2's.
-        salvage: if the recording is damaged, read what is there, and note what was wrong.
-        types: message types that will be read; with ``salvage`` their messages decide whether there is damage.
+    With ``salvage`` a damaged recording is read as far as it goes, and a note says what was wrong. The messages of the
+    types that will be read decide whether there is damage.
 
     Raises:
         BadInput: a recording that is damaged (without ``salvage``), or of which nothing can be read; a bag of another
@@ -217,7 +210,8 @@ def _whole(path: str | os.PathLike[str]) -> Recording:
         if (Path(path) / METADATA).exists():
             from rosbags.rosbag2 import Reader
 
-            return _by_rosbags(path, _folder_format(path), partial(Reader, Path(path)))
+            mcap = any(".mcap" in entry.name for entry in Path(path).iterdir())
+            return _by_rosbags(path, "mcap" if mcap else "rosbag2-sqlite3", partial(Reader, Path(path)))
         files, container = _files_of(path)
         notes = (f"the folder has no {METADATA}, as when a recording was not ended; its {len(files)} files were read",)
     assert container is not None
@@ -227,10 +221,6 @@ def _whole(path: str | os.PathLike[str]) -> Recording:
             for at in (_at_hand(file, stack, raw.refuse) for file in files)
         ]
         return _joined(os.fspath(path), container, parts, notes, stack)
-
-
-def _folder_format(path: str | os.PathLike[str]) -> str:
-    return "mcap" if any(".mcap" in entry.name for entry in Path(path).iterdir()) else "rosbag2-sqlite3"
 
 
 def _files_of(path: str | os.PathLike[str]) -> tuple[list[Path], str]:
@@ -326,15 +316,13 @@ def _rosbags_topics(make: Callable[[], Any], container: str) -> tuple[dict[str, 
                 before = topics.get(connection.topic)
                 if before is not None and before.type != connection.msgtype:
                     continue
+                count = connection.msgcount + (before.count if before else 0)
+                language = "idl" if connection.msgdef.format.name == "IDL" else "msg"
+                ros1 = ("ros1", connection.digest)
                 topics[connection.topic] = Topic(
-                    connection.topic,
-                    connection.msgtype,
-                    connection.msgcount + (before.count if before else 0),
-                    connection.msgdef.data,
-                    "idl" if connection.msgdef.format.name == "IDL" else "msg",
-                    "ros1" if container == "rosbag1" else connection.ext.serialization_format,
-                    connection.digest if container == "rosbag1" else "",
-                )
+                    connection.topic, connection.msgtype, count, connection.msgdef.data, language,
+                    *(ros1 if container == "rosbag1" else (connection.ext.serialization_format, "")),
+                )  # fmt: skip
             about = reader if container == "rosbag1" or not hasattr(reader, "metadata") else reader.metadata
             start_ns, end_ns = about.start_time, about.end_time - 1
     except Exception as error:  # rosbags raises whatever its parsing meets

@@ -72,14 +72,14 @@ class LaserMessage:
     """One scan as its message says it.
 
     Attributes:
-        number: of the message on its topic, from 1.
-        received_ns: when the recorder got it.
-        stamp_ns: of the first ray; 0 if the driver did not say.
-        layout: where its beams point.
-        ranges_m: readings as they are, shape (A,), single precision.
+        number: the message's number on its topic, from 1.
+        received_ns: the time of receipt.
+        stamp_ns: the time of the first ray; 0 if the driver did not say.
+        layout: the directions of the beams.
+        ranges_m: raw readings, (A,), single precision.
         limits_m: smallest and largest range.
         ray_interval_s: time from one ray to the next (``time_increment``).
-        odd: what was unusual but acceptable, one of a few sentences; empty if nothing.
+        odd: an unusual but acceptable property, in words; empty if there is none.
     """
 
     number: int
@@ -93,11 +93,7 @@ class LaserMessage:
 
 
 def laser_message(type_name: str, message: Any, number: int, received_ns: int) -> LaserMessage:
-    """Return a message as a scan.
-
-    Raises:
-        Malformed: no readings, or angles that do not fit them.
-    """
+    """Return a message as a scan; raise `Malformed` for angles that do not fit its readings."""
     if type_name == RANGE:
         layout, odd = Layout(1, 0.0, 0.0, frame_of(message.header.frame_id)), ""
         readings = np.array([message.range], dtype=np.float32)
@@ -139,10 +135,9 @@ def _odd_end(first: float, last: float, step: float, beams: int) -> str:
     if not math.isfinite(last):
         return f"angle_max is {last:g}; {TAKEN}"
     # The beams may pass behind the sensor.
-    counted = min(
-        (_counted(first, last + turn, step) for turn in (0.0, math.copysign(2 * math.pi, step))),
-        key=lambda count: abs(count - beams),
-    )
+    steps = ((last + turn - first) / step for turn in (0.0, math.copysign(2 * math.pi, step)))
+    counts = (round(min(max(count, -1e9), 1e9)) + 1 for count in steps)
+    counted = min(counts, key=lambda count: abs(count - beams))
     if counted == beams:
         return ""
     if abs(counted - beams) == 1:
@@ -153,10 +148,6 @@ def _odd_end(first: float, last: float, step: float, beams: int) -> str:
             f"angle_min; {TAKEN}. If the sensor turns the other way round, the map is a mirror image"
         )
     return f"angle_max does not fit the number of readings and angle_increment; {TAKEN}"
-
-
-def _counted(first: float, last: float, step: float) -> int:
-    return round(min(max((last - first) / step, -1e9), 1e9)) + 1
 
 
 @dataclass
@@ -206,22 +197,15 @@ def scan_topic_of(recording: Recording, given: str | None) -> Topic:
         BadInput: there is none, or none of that name, or several and none was named; the message lists them.
     """
     held = topics_of_type(recording, SCAN_TYPES)
-    have = (
-        f"scans are on {listed(held)}"
-        if held
-        else f"no topic holds {' or '.join(SCAN_TYPES)}; there are {listed(recording.topics.values())}"
-    )
+    have = f"no topic holds {' or '.join(SCAN_TYPES)}; there are {listed(recording.topics.values())}"
+    have = f"scans are on {listed(held)}" if held else have
     if given is not None:
-        topic = recording.topics.get(given) or recording.topics.get("/" + given)
-        fault = None
-        if topic is None:
-            fault = "there is no such topic"
-        elif topic.type not in SCAN_TYPES:
-            fault = f"it is a topic of {topic.type}"
-        elif not topic.count:
-            fault = "it has no message"
-        if topic is None or fault is not None:
+        named = recording.topics.get(given) or recording.topics.get("/" + given)
+        if named not in held:
+            fault = "there is no such topic" if named is None else f"it is a topic of {named.type}"
+            fault = fault if named is None or named.type not in SCAN_TYPES else "it has no message"
             raise BadInput(f"{recording.path}: --scan-topic {given}: {fault}; {have}")
+        topic = held[held.index(named)]
     else:
         lasers = [topic for topic in held if topic.type == LASER_SCAN] or held
         if not lasers:
@@ -268,11 +252,10 @@ def read_messages(
             number = numbers[topic.name]
             try:
                 content = types.read(topic.name, message.data)
-                if topic.type in SCAN_TYPES:
-                    if lasers is not None:
-                        lasers.scans.append(laser_message(topic.type, content, number, message.received_ns))
-                else:
+                if topic.type not in SCAN_TYPES:
                     poses.add(topic, content, message.received_ns)
+                elif lasers is not None:
+                    lasers.scans.append(laser_message(topic.type, content, number, message.received_ns))
             except Malformed as problem:
                 bad(topic.name, number, str(problem))
     except Damaged as problem:
@@ -293,11 +276,7 @@ class MessageTypes:
         self._stores = {topic.name: (_store(topic), topic) for topic in topics}
 
     def read(self, topic: str, data: bytes) -> Any:
-        """Return a message, with the fields of its definition as attributes.
-
-        Raises:
-            Malformed: data that do not follow the definition.
-        """
+        """Return a message with the fields of its definition as attributes; raise `Malformed` if it has others."""
         store, about = self._stores[topic]
         try:
             if about.encoding == "ros1":

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 from bayesmap.errors import BadInput
@@ -33,14 +33,9 @@ MOUNTS = ("base_link", "base_footprint", "base")
 
 @dataclass(frozen=True, eq=False)
 class PoseSource:
-    """The poses of the sensor over time, and how they are known.
+    """The poses of the sensor over time: by which topic, and the chain from the frame of the map to the sensor's.
 
-    Attributes:
-        label: the topic, such as ``"/tf"`` or ``"/odom"``.
-        fixed_frame: the frame in which the map is made.
-        chain: from that frame to the sensor's.
-        notes: what a user should know.
-        posed: whether the poses are known; if not, the chain only says which way up the sensor is.
+    Where the poses are not known (``posed`` is false), the chain only says which way up the sensor is.
     """
 
     label: str
@@ -50,21 +45,15 @@ class PoseSource:
     posed: bool = True
 
 
+@dataclass(eq=False)
 class PoseMessages:
-    """Transforms and poses, in the order of receipt."""
+    """Transforms by topic, parent and child, and poses by their frame and the body, in the order of receipt."""
 
-    def __init__(self) -> None:
-        self.transforms: dict[tuple[str, str, str], Samples] = {}
-        """By topic, parent and child."""
-        self.poses: dict[tuple[str, str], Samples] = {}
-        """By the frame in which poses are and the body whose they are."""
+    transforms: dict[tuple[str, str, str], Samples] = field(default_factory=dict)
+    poses: dict[tuple[str, str], Samples] = field(default_factory=dict)
 
     def add(self, topic: Topic, message: Any, received_ns: int) -> None:
-        """Append a message of one of `TF_TYPES` or `POSE_TYPES`.
-
-        Raises:
-            Malformed: a number that is not one, or a time.
-        """
+        """Append a message of one of `TF_TYPES` or `POSE_TYPES`; raise `Malformed` for bad numbers or times."""
         if topic.type in TF_TYPES:
             for entry in message.transforms:
                 ends = frame_of(entry.header.frame_id), frame_of(entry.child_frame_id)
@@ -150,12 +139,8 @@ def by_transforms(
 ) -> PoseSource | None:
     """Return the sensor's poses by transforms; None if no fixed frame is named or found.
 
-    Args:
-        recording: for its path and topics.
-        trees: of the topics that come first, and of all.
-        sensor: the frame of the scans.
-        fixed_frame: the frame of the map; None for the best of `FIXED_FRAMES` over the sensor.
-        chosen: whether the user chose the topics.
+    ``trees`` are those of the topics that come first, and of all. The map is made in the named frame, or else in the
+    best of `FIXED_FRAMES` over the sensor. ``chosen`` says whether the user chose the topics.
 
     Raises:
         BadInput: a frame that is not known, or that nothing connects with the sensor's; a transform with two values.
@@ -244,8 +229,7 @@ def body_of(path: str, trees: list[FrameTree], sensor: str) -> str | None:
         BadInput: several robots, and the sensor's frame does not say on which it is.
     """
     for tree in trees:
-        connected = tree.body(sensor, MOUNTS) if sensor in tree.frames() else None
-        if connected is not None:
+        if sensor in tree.frames() and (connected := tree.body(sensor, MOUNTS)) is not None:
             return connected
         for name in MOUNTS:
             frames = [frame for frame in tree.frames() if frame.rpartition("/")[2] == name]

@@ -42,12 +42,9 @@ OFTEN_AT_ONCE = 0.1
 
 @dataclass(frozen=True)
 class Contradiction:
-    """Two values of one transform.
+    """Two values of one transform: a text that names both, and the topics that contradict one another, if several.
 
-    Attributes:
-        text: which transform, on which topics, and both values.
-        topics: those that contradict one another, where there are several.
-        fatal: whether no value can be used without knowing more.
+    A fatal contradiction leaves no value that can be used without knowing more.
     """
 
     text: str
