@@ -133,7 +133,7 @@ def test_cancelled_and_few_sweeps_are_kept_and_judged_once_they_are_over():
     *before, last = [field for field in heard.all("field") if not field["approximate"]]
     assert all(field["verdict"] is None for field in before)
     assert (last["sweeps"], last["verdict"]["level"]) == (10, "bad")
-    large = new_document("building", (120, 80), tutorial_document())
+    heard, large = Heard(), new_document("building", (120, 80), tutorial_document())
     heard.infer(replace(large, sweeps=50_000), "run", steps=3)
     assert heard.last("field")[0]["verdict"] is None
     heard.ask(Cancel())
