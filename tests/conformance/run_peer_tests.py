@@ -26,7 +26,8 @@ def outcomes(*wanted: str) -> dict[str, bool]:
         options += ["-q", "--continue-on-collection-errors", f"--junitxml={report}"]
         path = os.pathsep.join([str(HERE), os.environ.get("PYTHONPATH", "")])
         command = [sys.executable, "-m", "pytest", *options, *paths]
-        env = {**os.environ, "PYTHONPATH": path}
+        # Without fusion emitters, which tests/conftest.py leaves out, one of them differs in the last bit of a float32.
+        env = {**os.environ, "PYTHONPATH": path, "XLA_FLAGS": "--xla_backend_optimization_level=0"}
         subprocess.run(command, check=False, env=env, cwd=scratch, capture_output=True)
         return {_name(case): len(case) == 0 for case in ET.parse(report).iter("testcase")}
 
