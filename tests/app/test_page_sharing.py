@@ -83,7 +83,7 @@ def test_a_token_that_is_refused_is_not_tried_for_ever(stranger, server):
 def test_a_damaged_link_says_so_and_the_page_works(open_page, server, damage):
     damaged = fragment({"version": 1, "grid": "none"}) if damage is None else f"#m={damage}"
     page = open_page(server + damaged)
-    page.get_by_role("status").get_by_text("cannot be read" if damage else "Grid: not an object").wait_for()
+    page.get_by_role("status").get_by_text("cannot be read" if damage else "Grid: 'none' is not an object").wait_for()
     assert snapshot(page)["document"]["version"] == 1
     other = 0.25 if snapshot(page)["document"]["prior"] != 0.25 else 0.3
     enter(page, "Prior P(wall)", other)
