@@ -115,7 +115,10 @@ def test_first_derivatives_equal_finite_differences_of_the_cost_with_fixed_pairs
 
 
 def test_along_a_corridor_there_is_only_slack():
-    """Two walls along x: what the sums claim about x is what noisy normals add, and is taken off."""
+    """Two walls along x: what the sums claim about x is what noisy normals add, and is taken off, in every pair.
+
+    A tenth of it that stayed would add up: hundreds of pairs made a corridor's length look certain to centimetres.
+    """
     rng = np.random.default_rng(2)
     angles = np.linspace(-np.pi, np.pi, 360, endpoint=False)
     exact = 1.0 / np.maximum(np.abs(np.sin(angles)), 1e-3)
@@ -126,7 +129,8 @@ def test_along_a_corridor_there_is_only_slack():
     second, slack, first, _ = pair_sums(geometry, None, one, two, np.zeros((20, 3)), 0.1, 0.05, 0.7)
     told, gradient = without_slack(second, slack, first, 0.01)
     along, across = second[:, 0, 0].mean(), second[:, 1, 1].mean()
-    assert told[:, 0, 0].mean() < along < 1e-3 * across
+    assert along < 1e-3 * across
+    assert told[:, 0, 0].mean() < 0.02 * along
     np.testing.assert_allclose(told[:, 1, 1], second[:, 1, 1], rtol=0.05)
     assert np.isfinite(gradient).all()
 

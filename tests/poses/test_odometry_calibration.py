@@ -77,6 +77,23 @@ def test_motions_that_the_laser_cannot_see_do_not_make_odometry_look_exact():
     np.testing.assert_array_equal(nothing.rates, USUAL)
 
 
+def test_the_noise_is_found_where_the_laser_tells_not_much_more_than_odometry():
+    """Motions were found by a laser half as noisy as odometry that is ten times as noisy as usual.
+
+    A motion that both found errs less than the laser alone, and differs from odometry by less than odometry errs.
+    """
+    ways, turns, scans = way(1500, 8)
+    noise = MotionNoise(100.0 * USUAL)
+    errors, variance = errors_of(noise, ways, turns, scans, 9), noise.over(ways, turns, scans)
+    laser = np.sqrt(0.25 * variance) * np.random.default_rng(10).normal(size=variance.shape)
+    left, known = (errors - laser) * 0.8, 0.2 * variance  # of stated less found, and of what was found
+    rates = fit_noise(left, ways, turns, scans, known, variance).rates
+    ratio = MotionNoise(rates).over(ways, turns, scans).mean(axis=0) / variance.mean(axis=0)
+    assert (np.abs(ratio - 1.0) < 0.25).all()
+    blind = fit_noise(np.zeros((1500, 3)), ways, turns, scans, variance, variance)
+    np.testing.assert_allclose(blind.over(ways, turns, scans).sum(axis=0), variance.sum(axis=0))
+
+
 def straight_on(noise_rad, count=800, scale=1.03, seed=7):
     """A robot that drives exactly straight, and odometry whose heading is noisy: poses found and stated."""
     rng = np.random.default_rng(seed)

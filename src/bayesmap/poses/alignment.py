@@ -44,6 +44,10 @@ REACH_M, SCALE_M = (0.3, 0.08), (0.12, 0.03)
 ALIKE, LEAST_MATCHED = 0.7, 0.2
 """Least cosine between the normals of paired points, and least share of a scan's points that match a partner."""
 
+SLACKS = 4.0
+"""What errors of normals add on average is taken off so many times: in a pair of scans it may be three times as much,
+and what was left over would add up over all pairs along a corridor."""
+
 SLIP = 25.0
 """Odometry's cost grows less than quadratically beyond this squared Mahalanobis distance: wheels slip."""
 
@@ -210,7 +214,7 @@ def without_slack(second: Floats, slack: Floats, first: Floats, sigma_m: float) 
 
     The minimum of the quadratic cost stays; along directions that only slack holds the cost becomes flat.
     """
-    laser_information = second - sigma_m**2 * slack
+    laser_information = second - SLACKS * sigma_m**2 * slack
     values, vectors = np.linalg.eigh(laser_information)
     laser_information = (vectors * np.maximum(values, 0.0)[:, None, :]) @ np.swapaxes(vectors, 1, 2)
     size = np.trace(second, axis1=1, axis2=2)[:, None, None]

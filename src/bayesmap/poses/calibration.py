@@ -192,7 +192,14 @@ class MotionNoise:
         )  # fmt: skip
 
 
-def fit_noise(errors: Floats, ways_m: Floats, turns_rad: Floats, scans: Floats, known_variance: Floats) -> MotionNoise:
+def fit_noise(
+    errors: Floats,
+    ways_m: Floats,
+    turns_rad: Floats,
+    scans: Floats,
+    known_variance: Floats,
+    expected_variance: Floats | None = None,
+) -> MotionNoise:
     """Fit variance rates to errors of M motions by maximum likelihood under a wide prior.
 
     The cost of an error e of variance v is log v / 2 + 1.27 (nu + 1) / 2 log(1 + e^2 / (nu v)): Student's t with
@@ -203,28 +210,35 @@ def fit_noise(errors: Floats, ways_m: Floats, turns_rad: Floats, scans: Floats, 
         ways_m: path length of each motion, (M,).
         turns_rad: total turn of each motion, absolute values summed, (M,).
         scans: number of motions from scan to scan that each is made of, (M,).
-        known_variance: variance of the errors that is not odometry's, (M, 3).
+        known_variance: variance of the motions as found by odometry and laser together, (M, 3).
+        expected_variance: of odometry's errors before the fit, (M, 3); by default of an ordinary robot's.
     """
     features = _features(ways_m, turns_rad, scans)
-    rates = USUAL.copy()
+    usual = features @ USUAL.T
+    expected = usual if expected_variance is None else expected_variance
+    # With too few motions that tell anything, the noise is as expected, and no less than usual.
+    rates = USUAL * np.maximum(1.0, expected.sum(axis=0) / np.maximum(usual.sum(axis=0), 1e-12))[:, None]
     for axis in range(3):
         # A motion that the laser knows hardly better than odometry does tells nothing about odometry.
-        tells = known_variance[:, axis] < TELLS * (features @ USUAL[axis])
+        tells = known_variance[:, axis] < TELLS * np.maximum(expected, usual)[:, axis]
         if tells.sum() >= FEWEST:
             rates[axis] = _rates(errors[tells, axis], features[tells], known_variance[tells, axis], USUAL[axis])
     return MotionNoise(rates)
 
 
 def _rates(errors: Floats, features: Floats, known_variance: Floats, usual: Floats) -> Floats:
-    """Fit the rates of one axis, (3,), by L-BFGS in their logarithms."""
+    """Fit the rates of one axis, (3,), by L-BFGS in their logarithms.
+
+    Odometry took part in finding the motions: the mean square of its error is that of the residual plus their variance.
+    """
     from scipy.optimize import minimize
 
     nu = DEGREES_OF_FREEDOM
 
     def cost(log_factors: Floats) -> tuple[float, Floats]:
         rates = usual * np.exp(log_factors)
-        variance = features @ rates + known_variance
-        ratio = errors**2 / (nu * variance)
+        variance = features @ rates
+        ratio = (errors**2 + known_variance) / (nu * variance)
         slope = 0.5 / variance - 0.5 * CONSISTENT * (nu + 1.0) * ratio / (1.0 + ratio) / variance
         value = 0.5 * np.log(variance).sum() + 0.5 * CONSISTENT * (nu + 1.0) * np.log1p(ratio).sum()
         prior = log_factors / FACTOR_SIGMA
@@ -302,7 +316,12 @@ def velocities(poses: Floats, stamps_s: Floats) -> Floats:
 
 
 def fit_odometry(
-    stated: Floats, stamps_s: Floats | None, known: Floats, scans: NDArray[np.intp], laser_variance: Floats
+    stated: Floats,
+    stamps_s: Floats | None,
+    known: Floats,
+    scans: NDArray[np.intp],
+    laser_variance: Floats,
+    expected_variance: Floats | None = None,
 ) -> OdometryFit:
     """Fit B, the lag and the noise to scans whose poses are known.
 
@@ -312,6 +331,7 @@ def fit_odometry(
         known: known poses of some scans, (K, 3).
         scans: indices of these scans, ascending, (K,).
         laser_variance: variances of x, y and yaw of the known motions, (K - 1, 3): large along corridors.
+        expected_variance: of odometry's errors before the fit, (K - 1, 3); by default of an ordinary robot's.
     """
     motion = between(known[:-1], known[1:])
     error = between(stated[scans[:-1]], stated[scans[1:]]) - motion
@@ -324,7 +344,7 @@ def fit_odometry(
     steps = between(stated[:-1], stated[1:])
     ways, turns = (_over(size, scans) for size in (np.hypot(steps[:, 0], steps[:, 1]), np.abs(steps[:, 2])))
     parts = np.diff(scans).astype(np.float64)
-    noise = fit_noise(error, ways, turns, parts, laser_variance)
+    noise = fit_noise(error, ways, turns, parts, laser_variance, expected_variance)
     coefficients = np.zeros(10)
     covariance = np.eye(10)
     for _ in range(6):
@@ -343,7 +363,7 @@ def fit_odometry(
         coefficients[9] = np.clip(coefficients[9], -MOST_LAG_S, MOST_LAG_S)
         covariance = np.linalg.inv(normal)
         rest = _left(error, motion, change, coefficients)
-        noise = fit_noise(rest, ways, turns, parts, laser_variance)
+        noise = fit_noise(rest, ways, turns, parts, laser_variance, expected_variance)
     deviation = np.sqrt(np.diag(covariance))
     return OdometryFit(
         inverse_slope(coefficients[:9].reshape(3, 3)), deviation[:9].reshape(3, 3),

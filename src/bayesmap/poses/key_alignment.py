@@ -108,13 +108,19 @@ FAR_BELOW = 0.55
 
 
 def flag_unexplained(explained: Floats, keys: NDArray[np.intp]) -> NDArray[np.bool_]:
-    """Flag scans that are explained far worse than usual, (S,), separately among key scans and among the others."""
+    """Flag scans that are explained far worse than usual, (S,), separately among key scans and among the others.
+
+    Where most scans are explained by none, usual is the median of those that are explained at all.
+    """
     flagged = np.zeros(len(explained), np.bool_)
     is_key = np.zeros(len(explained), np.bool_)
     is_key[keys] = True
     for group in (is_key, ~is_key):
-        if group.any():
-            flagged[group] = explained[group] < FAR_BELOW * np.median(explained[group])
+        usual = explained[group]
+        if len(usual) and np.median(usual) == 0.0:
+            usual = usual[usual > 0.0]
+        if len(usual):
+            flagged[group] = explained[group] < FAR_BELOW * np.median(usual)
     return flagged
 
 

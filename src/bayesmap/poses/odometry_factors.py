@@ -75,7 +75,9 @@ class StatedOdometry:
         order = np.arange(len(track.keys) - 1)
         covariance = relative_covariances(aligned.gaussian.precision, poses, order, order + 1)
         variance = np.diagonal(covariance, axis1=1, axis2=2)
-        fit = fit_odometry(self.poses, self.stamps_s, poses, track.keys, variance)
+        before = motion_variances(self.motions, track.noise_ratios)
+        expected = np.cumsum(np.vstack([np.zeros(3), before]), axis=0)[track.keys]
+        fit = fit_odometry(self.poses, self.stamps_s, poses, track.keys, variance, np.diff(expected, axis=0))
         return fit, self._corrected(track, poses, fit.slope, fit.noise.variances, fit.lag_s)
 
     def _corrected(

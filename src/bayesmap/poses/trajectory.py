@@ -85,6 +85,21 @@ def calibrated(scans: Scans, angle_step_ratio: float) -> Scans:
     return scans if angle_step_ratio == 1.0 else scans.stretched(angle_step_ratio)
 
 
+def with_arcs(scale: Floats, dof: float) -> Floats:
+    """Return scale matrices of relative poses, (N, 3, 3), with the second order of what errors of the heading do.
+
+    An error phi of the heading turns the way after it: its end moves by phi times the lever across, and by -phi^2 / 2
+    times the lever along. The lever is the covariance of position and heading over the variance of the heading, turned
+    by a right angle. The mean of phi^4 is that of Student's t. At a heading known to a few degrees nothing changes.
+
+    Args:
+        scale: x, y and yaw of the second pose in the frame of the first, (N, 3, 3).
+        dof: degrees of freedom of Student's t, over 4.
+    """
+    along = np.stack([scale[:, 1, 2], -scale[:, 0, 2], np.zeros(len(scale))], axis=1)
+    return np.asarray(scale + 0.75 * dof / (dof - 4.0) * along[:, :, None] * along[:, None, :])
+
+
 @dataclass(frozen=True, eq=False)
 class Trajectory:
     """Poses of all scans with their uncertainty.
@@ -110,7 +125,7 @@ class Trajectory:
         odometry: factors of corrected odometry between key scans; None where there was none.
         leaps: scans before which the poses move as neither odometry nor the front end did, because loops hold the
             path before and after where they cannot both be; or odometry refutes the motion, and the scans just before
-            explain the scan badly. Indices.
+            explain the scan badly; or another place that odometry allows explains it as usual. Indices.
         alternatives: poses if a visit was of another place that looks alike, or is one after all. Covariances and
             draws contain their spread.
     """
@@ -160,7 +175,7 @@ class Trajectory:
         by_first, by_second = between_jacobians(between(self.poses[first], self.poses[second]))
         for jacobian, scans in ((by_first, first), (by_second, second)):
             result += jacobian @ self.own_covariance[scans] @ np.swapaxes(jacobian, 1, 2)
-        return np.asarray(result)
+        return with_arcs(result, self.gaussian.dof)
 
     def covariances(self) -> Floats:
         """Return the covariance of each pose given the first, in the world's axes, (S, 3, 3)."""
