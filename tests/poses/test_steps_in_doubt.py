@@ -11,7 +11,7 @@ from simulated import recording
 from bayesmap.poses.front_end import AGAIN_BELOW, _Path, follow, grid_half_width
 from bayesmap.poses.key_graph import chain_of, unconfirmed_links
 from bayesmap.poses.matcher import likelihood_grids
-from bayesmap.poses.next_scans import Window, place_anywhere
+from bayesmap.poses.next_scans import Elsewhere, Placed, Window, place_anywhere
 from bayesmap.poses.odometry_factors import StatedOdometry, composed
 from bayesmap.poses.scan_geometry import scan_geometry
 from bayesmap.space.planar import between, compose
@@ -63,6 +63,36 @@ def test_a_front_end_that_had_the_wrong_step_too_does_not_confirm_it(steps):
     wrong = turned_from(track.poses, track.keys[6], np.array([1.5, 0.5, np.pi / 2]))
     misled = replace(track, poses=wrong)
     np.testing.assert_array_equal(np.nonzero(unconfirmed_links(geometry, misled, odometry, wrong[track.keys]))[0], [5])
+
+
+def test_a_step_that_odometry_allows_is_named_where_the_scans_fit_elsewhere(steps):
+    """In a room entered through a door a scan fits badly at a right angle; odometry is too noisy to refute that.
+
+    Where odometry excludes the place that fits, or the front end had a scan that fitted, nothing is named.
+    """
+    geometry, track, odometry, poses = steps
+    noisy = replace(odometry, information=np.tile(np.diag([1.0, 1.0, 0.6]), (len(odometry), 1, 1)))
+    scores = track.scores.copy()
+    scores[track.keys[6]] = 0.3
+    poor, wrong = replace(track, scores=scores), turned_from(poses, 6, np.array([1.5, 0.5, np.pi / 2]))
+    named = np.nonzero(unconfirmed_links(geometry, poor, noisy, wrong))[0]
+    np.testing.assert_array_equal(named, [5])
+    assert not unconfirmed_links(geometry, poor, noisy, poses).any()
+    assert not unconfirmed_links(geometry, track, noisy, wrong).any()
+    sure = replace(noisy, relative=between(wrong[:-1], wrong[1:]), information=100.0 * noisy.information)
+    assert not unconfirmed_links(geometry, poor, sure, wrong).any()
+
+
+@pytest.mark.parametrize(("sigma_rad", "taken"), [(0.6, True), (0.1, False)])
+def test_a_scan_is_taken_as_far_as_noisy_odometry_allows(sigma_rad, taken):
+    """The scan fits as usual 60 degrees from where odometry has it: odometry of 34 degrees does not contradict."""
+    geometry, _, _, truth = followed()
+    path = _Path(geometry, between(truth[:-1], truth[1:]), None, None)
+    variance = np.array([[0.1, 0.1, sigma_rad]]) ** 2
+    found = Elsewhere(between(truth[0], truth[1]), np.eye(3), 0.95, False)
+    stated = compose(found.pose, np.array([0.0, 0.0, 1.05]))[None]
+    placed = Placed(stated, variance, stated, np.eye(3)[None], np.zeros(1), np.zeros(1, bool))
+    assert path._slipped(1, placed, found) == taken
 
 
 @pytest.mark.parametrize(("score", "off_m", "kept"), [(0.95, 3.0, True), (0.4, 3.0, False), (0.95, 8.0, False)])

@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.poses.calibration import RunningOdometry
+from bayesmap.poses.graph import DOUBTFUL_SQ
 from bayesmap.poses.matcher import likelihood_grids
 from bayesmap.poses.next_scans import (
     Elsewhere,
@@ -29,7 +30,7 @@ from bayesmap.poses.next_scans import (
     predict,
 )
 from bayesmap.poses.scan_geometry import ScanGeometry
-from bayesmap.space.planar import between
+from bayesmap.space.planar import between, wrapped
 
 Floats = NDArray[np.float64]
 
@@ -203,8 +204,14 @@ class _Path:
         return place is not None and self._slipped(scan, placed, place)
 
     def _slipped(self, scan: int, placed: Placed, place: Elsewhere) -> bool:
-        """Accept a near place if the scan fits there as usual: wheels slipped. Returns False if it does not."""
-        if not place.near or place.score < self.usual - SLIPPED_BELOW:
+        """Accept a near place if the scan fits there as usual: wheels slipped. Returns False if it does not.
+
+        A place that noisy odometry allows is near.
+        """
+        off = between(placed.predicted[0], place.pose)
+        off[2] = wrapped(off[2])
+        allowed = float((off**2 / placed.variance[0]).sum()) < DOUBTFUL_SQ
+        if not (place.near or allowed) or place.score < self.usual - SLIPPED_BELOW:
             return False
         if contradicts(self.geometry, self.window, scan, place.pose):
             return False

@@ -12,8 +12,8 @@ from bayesmap.poses.front_end import SLIPPED_BELOW, UNKNOWN, WINDOW, Track, grid
 from bayesmap.poses.graph import Factors, optimise, quadratic, solve_step
 from bayesmap.poses.look_alikes import Weighed, weigh
 from bayesmap.poses.loops import Closures, KeyPath, Search, find_closures, key_path, no_closures
-from bayesmap.poses.matcher import likelihood_grids, score_at
-from bayesmap.poses.next_scans import POINTS
+from bayesmap.poses.matcher import LikelihoodGrids, likelihood_grids, match, score_at
+from bayesmap.poses.next_scans import POINTS, TELLING
 from bayesmap.poses.rejoin import AGREE, SAME_M, SAME_RAD, Joint, consistent, rejoin
 from bayesmap.poses.scan_geometry import ScanGeometry
 from bayesmap.space.planar import between, compose, rotation, wrapped
@@ -38,6 +38,9 @@ LEAP_M, LEAP_RAD, LEAP_SIGMAS = 0.3, np.radians(10.0), 8.0
 REFUSED_SIGMAS, CONFIRMED_BELOW = 5.0, 0.2
 """Odometry contradicts a step that differs by more of its standard deviations. The key scans before confirm the step if
 the score of the scan after it is at most the second number lower than usual."""
+
+WIDEST_M = 1.5
+"""Greatest distance from odometry's prediction at which another place is sought for a scan."""
 
 BOTH_SIGMAS = 4.0
 """A step that odometry contradicts is a leap from this many of the front end's standard deviations on."""
@@ -116,23 +119,54 @@ def unconfirmed_links(geometry: ScanGeometry, track: Track, odometry: Factors, p
     """Find steps of the keys' poses, (K, 3), that odometry contradicts and the scans before do not confirm, (K - 1,).
 
     The scans before do not confirm a step if they explain the next key scan badly, or if the front end, which matched
-    it to them, had it elsewhere. Where the path broke odometry decides nothing. There a step is in doubt if it is far
-    from the front end's, although the scan after the break fitted as well as usual where the front end had it.
+    it to them, had it elsewhere. A step that they explain badly is in doubt even where odometry does not contradict it,
+    if they explain the next key scan as usual at another place that odometry allows. Where the path broke odometry
+    decides nothing. There a step is in doubt if it is far from the front end's, although the scan after the break
+    fitted as well as usual where the front end had it.
     """
-    keys, usual = track.keys, float(np.median(track.scores))
-    refused = ~track.broken[keys[1:]] & (odometry.squares(poses) > REFUSED_SIGMAS**2)
+    keys, usual, whole = track.keys, float(np.median(track.scores)), ~track.broken[track.keys[1:]]
+    refused = whole & (odometry.squares(poses) > REFUSED_SIGMAS**2)
+    poor = whole & (track.scores[keys[1:]] < usual - CONFIRMED_BELOW)
     doubtful = refused & contradicted_links(track, poses, BOTH_SIGMAS)
     half_width_m, grid = grid_half_width(geometry), None
-    for k in np.nonzero(refused & ~doubtful)[0]:
+    for k in np.nonzero((refused | poor) & ~doubtful)[0]:
         before = np.arange(max(0, int(k) + 1 - WINDOW), int(k) + 1)
         seen = between(np.broadcast_to(poses[k], (len(before), 3)), poses[before])
         grid = likelihood_grids(geometry, [keys[before]], [seen], np.zeros(2), half_width_m, reuse=grid)
-        points = geometry.points_of(int(keys[k + 1]), POINTS)
-        doubtful[k] = score_at(grid, 0, points, between(poses[k], poses[k + 1]))[0] < usual - CONFIRMED_BELOW
+        points, step = geometry.points_of(int(keys[k + 1]), POINTS), between(poses[k], poses[k + 1])
+        score = float(score_at(grid, 0, points, step)[0])
+        doubtful[k] = score < usual - CONFIRMED_BELOW and (
+            refused[k] or _fits_elsewhere(grid, points, step, score, usual, odometry.select(np.array([k])))
+        )
     off = between(poses[:-1], poses[1:]) - between(track.poses[keys[:-1]], track.poses[keys[1:]])
     off[:, 2] = wrapped(off[:, 2])
     moved = ((off / UNKNOWN) ** 2).sum(axis=1) > GUESSED_SIGMAS**2
     return np.asarray(doubtful | (_fitted_after_break(track) & moved))
+
+
+def _fits_elsewhere(
+    grid: LikelihoodGrids,
+    points: Floats,
+    step: Floats,
+    score: float,
+    usual: float,
+    odometry: Factors,
+) -> bool:
+    """Check that a scan fits as usual, and clearly better, at another place that odometry allows than after a step."""
+    stated = odometry.relative
+    sigma = np.sqrt(np.diag(np.linalg.inv(odometry.information[0])))
+    least = max(usual - SLIPPED_BELOW, score + max(CONFIRMED_BELOW, TELLING / max(len(points), 1)))
+    best = match(
+        grid, [points], stated, min(REFUSED_SIGMAS * sigma[:2].max(), WIDEST_M), min(REFUSED_SIGMAS * sigma[2], np.pi),
+        least=least, step_rad=np.radians(1.0),
+    )  # fmt: skip
+    if not best.found[0, 0]:
+        return False
+    place = best.poses[0, 0]
+    error, off = place - stated[0], between(step, place)
+    error[2] = wrapped(error[2])
+    allowed = error @ odometry.information[0] @ error < REFUSED_SIGMAS**2
+    return bool(allowed and (np.hypot(off[0], off[1]) > LEAP_M or abs(wrapped(off[2])) > LEAP_RAD))
 
 
 def poses_between_keys(
