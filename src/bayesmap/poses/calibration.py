@@ -220,7 +220,7 @@ def fit_noise(
     rates = USUAL * np.maximum(1.0, expected.sum(axis=0) / np.maximum(usual.sum(axis=0), 1e-12))[:, None]
     for axis in range(3):
         # A motion that the laser knows hardly better than odometry does tells nothing about odometry.
-        tells = known_variance[:, axis] < TELLS * np.maximum(expected, usual)[:, axis]
+        tells = known_variance[:, axis] < TELLS * expected[:, axis]
         if tells.sum() >= FEWEST:
             rates[axis] = _rates(errors[tells, axis], features[tells], known_variance[tells, axis], USUAL[axis])
     return MotionNoise(rates)
