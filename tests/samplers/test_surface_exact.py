@@ -92,7 +92,7 @@ def test_draws_follow_the_posterior(name):
     """The landing run tries one of them, with its wrong twins."""
     case = CASES[name]
     law = by_importance(*case)
-    assert law.size > 8 * COPIES
+    assert law.size > 3 * COPIES
     assert p_values(drawn(*case, sweeps=400), law).min() > ALPHA / TESTS
 
 
