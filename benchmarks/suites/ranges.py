@@ -24,7 +24,7 @@ def run(device: str, with_peers: bool) -> Iterator[Figure]:
     visits = wp.empty(BEAMS, dtype=wp.int32, device=device)
 
     def work() -> float:
-        wp.launch(first_hit_ranges, BEAMS, [*inputs, wp.float64(2.0 * SIZE), distance, visits], device=device)
+        wp.launch(first_hit_ranges, BEAMS, [0, *inputs, wp.float64(2.0 * SIZE), distance, visits], device=device)
         return float(visits.numpy().sum()) * 1e-6
 
     yield rate("ranges/cell_visits", work, unit="M/s")
