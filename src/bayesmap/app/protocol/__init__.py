@@ -1,4 +1,4 @@
-"""The messages of page, session and worker, each declared once with its limits.
+"""The messages between page, session and worker, each declared once with its limits.
 
-The page's types are written from these declarations (`make page`).
+`make page` writes the page's types from these declarations.
 """
