@@ -583,7 +583,7 @@ export type Whereabouts = {
   trouble: string;
 };
 
-/** Progress in a stage of inferring a log's trajectory: `done` parts `of` all. `text` names the stage on the page. */
+/** Progress in a stage of inferring a log's trajectory: `done` parts `of` all. `text` names the stage for users. */
 export type Stage = {
   type: "stage";
   name: string;
@@ -618,27 +618,27 @@ export type Download = {
   mime: string;
 };
 
-/** Scans, one a row; of a simulation one a sensor. */
+/** Scans, one per row; in a simulation, one per sensor. */
 export type RecordedScans = {
   ids: number[];
   pose: ((number | null)[])[];
-  /** Of the beams: one row that all scans have, or a row a scan. */
+  /** Beam angles, radians: one row for all scans, or one row per scan. */
   angles: number[][];
   ranges: ((number | "-Infinity" | "NaN" | null)[])[];
-  /** Where the beams truly end; no row for a file. */
+  /** Noise-free ranges, metres; no row for a file. */
   exact: ((number | "-Infinity" | "NaN" | null)[])[];
-  /** Base64 of packed bits (S, A). */
+  /** Base64 of packed bits (S, A), 0 for a beam without a return. */
   hit: string;
 };
 
-/** Kept maps of walls: base64 of deflate-raw of packed bits, (chains, count, nx * ny) in one run. */
+/** Kept maps of walls. `data` is base64 of deflate-raw of packed bits, (chains, count, nx * ny). */
 export type RecordedDraws = {
   chains: number;
   count: number;
   data: string;
 };
 
-/** What a field says beside its picture. */
+/** The figures shown beside the picture, as in the message `Field`. */
 export type RecordedFigures = {
   method: string;
   quantity: Quantity;
@@ -648,17 +648,17 @@ export type RecordedFigures = {
   verdict: Verdict | null;
 };
 
-/** A result in a page in one file. */
+/** The result in a page in one file. */
 export type Recording = {
   version: 1;
   document: MapDocument;
   scans: RecordedScans;
-  /** Base64 of uint8 (nx, ny), in 255ths. */
+  /** Mean map: base64 of uint8 (nx, ny), in 255ths. */
   mean: string;
-  /** Base64 of packed bits. */
+  /** Observed cells: base64 of packed bits (nx, ny). */
   observed: string;
   draws: RecordedDraws;
-  /** Of each draw, a row a chain. */
+  /** Log joint of each draw, one row per chain. */
   log_joint: ((number | null)[])[];
   settings: RecordedFigures;
 };

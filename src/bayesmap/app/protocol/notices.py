@@ -381,7 +381,7 @@ class Whereabouts(Notice, frozen=True, tag="where"):
 
 
 class Stage(OfPicture, frozen=True, tag="stage"):
-    """Progress in a stage of inferring a log's trajectory: `done` parts `of` all. `text` names the stage on the page."""
+    """Progress in a stage of inferring a log's trajectory: `done` parts `of` all. `text` names the stage for users."""
 
     name: str
     text: str

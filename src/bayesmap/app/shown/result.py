@@ -49,7 +49,7 @@ FEWEST_DIAGNOSED = 4
 """The fewest sweeps for R-hat, which needs two draws in each half of a chain."""
 
 BAD_DIFFERENCE = 0.25
-"""The largest acceptable difference of P(wall) between chains: 5 standard errors for 200 independent draws at p = 1/2."""
+"""The largest good difference of P(wall) between two chains: 5 standard errors of 200 independent draws at p = 1/2."""
 
 
 @dataclass(frozen=True)
