@@ -76,10 +76,9 @@ export type MapDocument = {
   version: 1;
 };
 
-/** Report that a page has connected. */
+/** Report that a page has connected, perhaps with the document of a share link or from before a lost connection. */
 export type Hello = {
   type: "hello";
-  /** The document of a share link, or the one from before the connection was lost; else null. */
   document?: object | null;
   seq?: number;
 };
@@ -379,15 +378,11 @@ export type Verdict = {
   why: string;
 };
 
-/** The quantity that the map shows. */
+/** The quantity on the map: kind of cells, words for its mean and its value in a draw, and if it has intervals. */
 export type Quantity = {
-  /** Kind of cells. */
   kind: string;
-  /** Words for the mean map. */
   mean: string;
-  /** Words for the map of one draw. */
   value: string;
-  /** Whether the cells have credible intervals. */
   interval: boolean;
 };
 
@@ -481,13 +476,10 @@ export type Views = {
   generation: number;
 };
 
-/** The real scan nearest to a pose. */
+/** The real scan nearest to a pose: `away` metres from it, with its heading turned by `turn` radians against it. */
 export type Near = {
-  /** Index of the scan. */
   index: number;
-  /** Distance from the pose, metres. */
   away: number;
-  /** Heading relative to the pose, radians. */
   turn: number;
 };
 

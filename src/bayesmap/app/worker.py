@@ -100,7 +100,7 @@ def _warm() -> None:
 
 
 def main(arguments: list[str]) -> None:
-    """Run the worker. Arguments: ``descriptor [path reading]``, the pipe's inherited end, the file, its options as JSON."""
+    """Run the worker. Arguments: ``descriptor [path reading]``: the inherited pipe, the file, its options as JSON."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for the server, which closes the pipe
     with contextlib.suppress(AttributeError, OSError):
         os.nice(NICE)
@@ -191,7 +191,7 @@ class Supervisor:
         self._tasks.put(task)
 
     def stop(self) -> None:
-        """End the worker. The session keeps everything that is needed."""
+        """End the worker and the threads."""
         self._stopping.set()
         self._tasks.put(None)
         self._end()

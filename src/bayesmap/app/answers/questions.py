@@ -36,10 +36,8 @@ PASSABLE = 0.3
 """A sensor may stand in a cell whose probability of stopping a beam is below this."""
 
 HEADINGS = 8
-"""The number of headings tried at each place, unless the sensor sees all round."""
-
 MOST_ANGLES = 180
-"""The largest number of beams that judge a view, evenly chosen. Each also counts for the beams left out beside it."""
+"""The headings tried per place, and the most beams per view, evenly chosen. Each also counts for the beams left out."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,4 +1,1 @@
-"""The messages between page, session and worker, each declared once with its limits.
-
-`make page` writes the page's types from these declarations.
-"""
+"""The messages between page, session and worker, each declared once. `make page` writes the page's types from them."""

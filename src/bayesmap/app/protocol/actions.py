@@ -29,11 +29,7 @@ class Action(Struct, frozen=True, kw_only=True, tag_field="type"):
 
 
 class Hello(Action, frozen=True, tag="hello"):
-    """Report that a page has connected.
-
-    Attributes:
-        document: the document of a share link, or the one from before the connection was lost; else null.
-    """
+    """Report that a page has connected, perhaps with the document of a share link or from before a lost connection."""
 
     document: dict[str, Any] | None = None
 

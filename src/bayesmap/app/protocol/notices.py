@@ -132,14 +132,7 @@ class Scan(OfPicture, frozen=True, tag="scan"):
 
 
 class Quantity(Struct, frozen=True):
-    """The quantity that the map shows.
-
-    Attributes:
-        kind: kind of cells.
-        mean: words for the mean map.
-        value: words for the map of one draw.
-        interval: whether the cells have credible intervals.
-    """
+    """The quantity on the map: kind of cells, words for its mean and its value in a draw, and if it has intervals."""
 
     kind: str
     mean: str
@@ -262,13 +255,7 @@ class Views(OfPicture, frozen=True, tag="views"):
 
 
 class Near(Struct, frozen=True):
-    """The real scan nearest to a pose.
-
-    Attributes:
-        index: index of the scan.
-        away: distance from the pose, metres.
-        turn: heading relative to the pose, radians.
-    """
+    """The real scan nearest to a pose: `away` metres from it, with its heading turned by `turn` radians against it."""
 
     index: int
     away: float

@@ -115,11 +115,7 @@ class Found(ABC):
 
     @property
     def law(self) -> tuple[SensorModel, float] | None:
-        """The sensor model and the hit depth that predict readings, if they differ from the scene's.
-
-        Raises:
-            BadInput: the run's sensor model is not built in.
-        """
+        """The sensor model and the hit depth that predict readings, if they differ from the scene's."""
         return None if self.model is None else (self.model.sensor, self.model.hit_depth)
 
     @property
