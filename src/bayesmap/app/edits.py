@@ -45,7 +45,7 @@ from bayesmap.space.grid import Grid
 
 BUILDING_NOISE_M = 0.05
 ROOM_CELLS = 6
-"""The noise of a new building, and the free room around a first sensor, if there is that much."""
+"""The range noise of a new building, and the free cells around a first sensor, if there is that much room."""
 
 
 def tutorial_document(seed: int = 0) -> Document:

@@ -25,7 +25,7 @@ from bayesmap.space.scans import Scans
 
 MOST_BEAMS = 2000
 MOST_BEAMS_OF_STOPS = 500
-"""The largest number of beams evaluated per cell, for walls and with draws. Each also counts for beams left out."""
+"""The most beams evaluated per cell, for walls and for other kinds of cells. Each also counts for beams left out."""
 
 SILENT_NATS = 0.005
 """A beam with a smaller log ratio counts neither for nor against."""

@@ -85,8 +85,8 @@ class GhostPredictor:
         While chains run, the predictor is rebuilt after `STALE_SECONDS`.
         """
         found, now = result.found, time.perf_counter()
-        # Cache key: each result by itself, but one key for a whole run of chains (their scene, for a pilot, which is a
-        # new object after every sweep). So within a run only the age of the predictor decides.
+        # Cache key: the result of a method without chains, or the chains themselves. A pilot is a new object after
+        # every sweep, so its key is the scene. While chains run, the key stays, and only the predictor's age counts.
         of: object = result if not found.sweep else result.scene if isinstance(found, Pilot) else found
         stale = found.sweep != self._sweep and (found.done or now > self._until)
         if self._predictor is None or of is not self._of or stale:

@@ -2,8 +2,7 @@
 
 The pilot is a short chain that fits the sensor and the prior of reflectivities or surfaces. Like the chains that
 follow, it draws cells given all readings, but its sensor and prior still change. Both are near their final values after
-a few sweeps. The latter half of the pilot's draws is therefore the first estimate of the posterior; docs/app.md reports
-its accuracy.
+a few sweeps. The latter half of the pilot's draws is therefore the first estimate of the posterior (docs/app.md).
 """
 
 from __future__ import annotations
@@ -72,8 +71,8 @@ SMALLEST_HEADING_RAD = math.radians(0.05)
 
 FARTHEST_SIGMAS = 4.0
 EVENLY = (0.7548776662466927, 0.5698402909980532)
-"""The largest shift of a chain's start, in standard deviations, and the steps that spread shifts evenly over a square
-(the additive recurrence of Roberts, 2018)."""
+"""The largest shift of a chain's start, in standard deviations, and the steps of the sequence that spreads the shifts
+evenly (the additive recurrence of Roberts, 2018)."""
 
 
 def joined(before: Draws | None, after: Draws, most: int = RECENT) -> Draws:
