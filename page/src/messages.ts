@@ -20,63 +20,63 @@ export type Sensor = {
 
 /** The origin of the readings: simulated from the walls, or a file whose scans are shown. */
 export type Source = {
-  /** Simulation, run or log. */
+  /** Kind of source: simulation, run or log. */
   kind: "log" | "run" | "simulation";
-  /** The file's. */
+  /** Name of the file. */
   name: string;
-  /** The number of scans in the file. */
+  /** Number of scans in the file. */
   scans: number;
-  /** For a log, corners of what its scans saw, metres. Grids of any resolution cover them. */
+  /** For a log, corners of the area that its scans saw, metres. Grids of any resolution cover it. */
   bounds: [[number, number], [number, number]] | null;
 };
 
 /** Everything that determines the picture. */
 export type MapDocument = {
-  /** The cells. */
+  /** Grid of cells. */
   grid: Grid;
   /** Packed bits of the (nx, ny) map, C order (x * ny + y), most significant bit first; base64 in JSON. */
   walls: string;
-  /** Empty where a file is shown. */
+  /** Sensors of a simulation; empty for a file. */
   sensors: Sensor[];
-  /** Probability that a cell is a wall. */
+  /** Prior probability that a cell is a wall. */
   prior: number;
   /** Standard deviation of a range, metres. */
   noise: number;
-  /** Beams a scan. */
+  /** Number of beams per scan. */
   angles: number;
-  /** Metres. */
+  /** Longest range, metres. */
   max_range: number;
   /** Field of view of every sensor, radians. */
   fov: number;
-  /** With noise, or exact under the law that has the noise. */
+  /** 'noisy', or 'exact': noise-free ranges, still inferred with the noisy sensor law. */
   readings: "exact" | "noisy";
   /** Standard deviation of every sensor's position, metres. */
   pose_sigma: number;
   /** Standard deviation of every sensor's heading, radians. */
   heading_sigma: number;
-  /** For a log, whether the robot was where the log says, or that is raw odometry. */
+  /** For a log, 'logged' if its poses are known, or 'odometry' if they are raw odometry. */
   poses: "logged" | "odometry";
-  /** The kind of cells that a log is explained by, or that a run's maps are made of. */
+  /** Kind of cells: the kind to infer from a log, or the kind in a run's maps. */
   cells: "binary" | "reflectivity" | "surface";
-  /** How the posterior is found; auto is block where walls or free cells are rare, else gibbs. */
+  /** Inference method; 'auto' is 'block' if walls or free cells are rare, else 'gibbs'. */
   method: "auto" | "block" | "gibbs" | "importance" | "propagate";
-  /** In which cells are visited by gibbs. */
+  /** Order in which gibbs visits the cells. */
   order: "radial" | "random" | "raster";
-  /** Where chains start. */
+  /** Map from which chains start. */
   start: "auto" | "empty" | "prior";
-  /** Of the chains, or the number of particles. */
+  /** Number of sweeps of the chains, or number of particles. */
   sweeps: number;
-  /** Of all random numbers. */
+  /** Seed of all random numbers. */
   seed: number;
-  /** For a log, the number of its scans, from the first on, that make the map; null is all. */
+  /** For a log, number of first scans that make the map; null means all scans. */
   scans_used: number | null;
-  /** Where the readings come from. */
+  /** Origin of the readings. */
   source: Source;
-  /** Of this description. */
+  /** Version of this format. */
   version: 1;
 };
 
-/** A page has connected, perhaps with a document: of a share link, or from before its connection was lost. */
+/** Report that a page has connected, perhaps with the document of a share link or from before a lost connection. */
 export type Hello = {
   type: "hello";
   document?: object | null;
@@ -110,7 +110,7 @@ export type ChangeSettings = {
   patch: Patch;
   /** Number of the drag. All changes of one drag are one step of undo. */
   drag?: number;
-  /** Along a log, while the hand drags: counts of hits at once, and the posterior on the first `set` without. */
+  /** For a log, while the hand drags: show counts of hits only. The first `set` without it starts inference. */
   coarse?: boolean;
   seq?: number;
 };
@@ -118,14 +118,16 @@ export type ChangeSettings = {
 /** Draw walls in cells, or erase them. */
 export type Walls = {
   type: "walls";
+  /** Indices (x, y) of the cells. */
   cells: [number, number][];
+  /** True to draw walls, false to erase them. */
   wall: boolean;
   /** Number of the stroke. All messages of one stroke are one step of undo. */
   stroke?: number;
   seq?: number;
 };
 
-/** Place another sensor: metres and radians, world frame. */
+/** Place another sensor, at a pose in metres and radians, world frame. */
 export type AddSensor = {
   type: "add_sensor";
   x: number;
@@ -134,7 +136,7 @@ export type AddSensor = {
   seq?: number;
 };
 
-/** Move or turn a sensor; what is left out stays. All moves of one drag are one step of undo. */
+/** Move or turn a sensor. Fields that are left out stay. All moves of one drag are one step of undo. */
 export type MoveSensor = {
   type: "move_sensor";
   id: number;
@@ -167,25 +169,25 @@ export type New = {
   seq?: number;
 };
 
-/** Undo the last step, if it was this page's, or of a page that has gone. */
+/** Undo the last step, if this page made it, or a page that is no longer connected. */
 export type Undo = {
   type: "undo";
   seq?: number;
 };
 
-/** Redo the step that was undone last. */
+/** Redo the step that was undone last, under the same condition as `undo`. */
 export type Redo = {
   type: "redo";
   seq?: number;
 };
 
-/** Start the document's method for its number of sweeps (or particles), and keep draws. */
+/** Run the document's method for its number of sweeps or particles, and keep draws. */
 export type Run = {
   type: "run";
   seq?: number;
 };
 
-/** Stop; what there is stays. */
+/** Stop inference. The result so far stays. */
 export type Cancel = {
   type: "cancel";
   seq?: number;
@@ -198,7 +200,7 @@ export type Live = {
   seq?: number;
 };
 
-/** Choose the field that this page is sent from now on; without a number it is the last draw. */
+/** Choose the field that this page gets from now on. Layer "draw" without a draw number is the last draw. */
 export type ShowView = {
   type: "view";
   layer: "draw" | "entropy" | "mean" | "width";
@@ -207,28 +209,28 @@ export type ShowView = {
   seq?: number;
 };
 
-/** The first picture of a generation is on the canvas. It has no number, and no state confirms it. */
+/** Report that the first picture of a generation is on the canvas. No state confirms this message. */
 export type Painted = {
   type: "painted";
   generation: number;
   seq?: number;
 };
 
-/** Choose the scan of a file whose rays are shown. */
+/** Choose the scan whose rays are shown, for a file. */
 export type ShowScan = {
   type: "scan";
   index: number;
   seq?: number;
 };
 
-/** Ask for a file; answered by `download`. */
+/** Ask for a file of the result or the document; answered by `download`. */
 export type Export = {
   type: "export";
   what: "document" | "html" | "map" | "run";
   seq?: number;
 };
 
-/** Ask which beams go through a cell, and with `each` what each of them says; answered by `cell`. */
+/** Ask for the beams through a cell, and with `each` for the evidence of each beam; answered by `cell`. */
 export type Inspect = {
   type: "inspect";
   x: number;
@@ -240,37 +242,37 @@ export type Inspect = {
 /** Ask for a path for a disc; answered by `path` or `undecided`. */
 export type FindPath = {
   type: "path";
-  /** X, y in metres. */
+  /** Start of the path, x and y in metres. */
   start: [number, number];
-  /** X, y in metres. */
+  /** Goal of the path, x and y in metres. */
   goal: [number, number];
-  /** Metres. */
+  /** Radius of the disc, metres. */
   radius: number;
-  /** The largest probability that the disc touches something. */
+  /** Largest allowed probability that the disc touches something. */
   risk: number;
   seq?: number;
 };
 
-/** Ask where one more scan would tell most; answered by `views` or `undecided`. */
+/** Ask for the information expected from one more scan at free places; answered by `views` or `undecided`. */
 export type FindViews = {
   type: "views";
   seq?: number;
 };
 
-/** Ask where a scan may have been taken: of a sensor, or the scan on show of a file; answered by `where`. */
+/** Ask where a scan may have been taken: a sensor's scan, or a file's scan on show; answered by `where`. */
 export type WhereAmI = {
   type: "where";
   sensor?: number | null;
   seq?: number;
 };
 
-/** Ask what the laser would read at a pose, metres and radians; answered by `ghost` or `undecided`. */
+/** Ask for the virtual scan at a pose, metres and radians; answered by `ghost` or `undecided`. */
 export type MoveGhost = {
   type: "ghost";
   x: number;
   y: number;
   yaw: number;
-  /** The hand still moves, so a few draws will do. */
+  /** True while the hand moves: predict from a few draws only. */
   coarse?: boolean;
   seq?: number;
 };
@@ -278,14 +280,14 @@ export type MoveGhost = {
 /** Ask how a reading compares with its prediction; answered by `beam` or `undecided`. */
 export type CompareBeam = {
   type: "beam";
-  /** Index of the scan; in a simulation, of the sensor in the document. */
+  /** Index of the scan; in a simulation, index of the sensor in the document. */
   scan: number;
   /** Index of the beam. */
   beam: number;
   seq?: number;
 };
 
-/** Smallest and largest values of settings, in their units; of a path's radius and risk; of the cells a side of a drawn map (`side`) and of a log's map (`side_of_log`); of the number of sensors; of a log's cell size, metres. */
+/** Smallest and largest values: of settings, in their units; of a path's radius and risk; of the number of cells per side of a drawn map (`side`) and of a log's map (`side_of_log`); of the number of sensors; and of a log's cell size, metres. */
 export type Limits = {
   prior: [number, number];
   noise: [number, number];
@@ -307,9 +309,11 @@ export type Limits = {
 /** The first message of a connection. */
 export type Welcome = {
   type: "welcome";
+  /** Version of the document's format. */
   version: number;
-  /** Null for a recording, in which nothing can be set. */
+  /** Limits of the settings; null for a recording, which has no settings to change. */
   limits: Limits | null;
+  /** Whether the page plays a recording. */
   recorded: boolean;
 };
 
@@ -319,51 +323,51 @@ export type Worker = {
   state: "ready" | "restarted" | "starting";
 };
 
-/** The number of kept draws: `count` of each chain. */
+/** The number of kept draws: `count` per chain. */
 export type DrawCount = {
   chains: number;
   count: number;
 };
 
-/** The field that a page is shown; without a number it is the last draw. */
+/** The field that a page shows. Layer "draw" without a draw number is the last draw. */
 export type View = {
   layer: "draw" | "entropy" | "mean" | "width";
   chain: number | null;
   draw: number | null;
 };
 
-/** The present state, after every action that was applied. */
+/** The present state, sent after every action that was applied. */
 export type State = {
   type: "state";
   document: MapDocument;
-  /** Of the present picture. */
+  /** Number of the present picture. */
   generation: number;
   /** Number of the page's last action that was applied. */
   seq: number;
-  /** Whether the next step back is this page's, or of one that has gone. */
+  /** Whether this page may undo the last edit. */
   can_undo: boolean;
-  /** The same for the next step forth. */
+  /** Whether this page may redo the edit that was undone last. */
   can_redo: boolean;
   /** Whether edits restart the chains. */
   live: boolean;
   /** Whether a run is under way. */
   running: boolean;
-  /** Whether the picture is to change yet. */
+  /** Whether the picture is still being computed. */
   working: boolean;
-  /** Of the present result. */
+  /** Number of kept draws of the present result. */
   draws: DrawCount;
-  /** Index of the scan on show, of a file. */
+  /** Index of the scan on show, for a file. */
   scan: number;
-  /** The field that this page is sent. */
+  /** Field that this page gets. */
   view: View;
 };
 
-/** Readings: all scans of a simulation, or one scan of a file. Buffers: pose float64 (S, 3); angles float32 (A); ranges and exact float32 (S, A), exact being where the beams truly end, empty for a file; hit uint8 (S, A), 0 where a beam came back from nothing. */
+/** Readings: all scans of a simulation, or one scan of a file. Buffers: pose float64 (S, 3); angles float32 (A); ranges float32 (S, A); exact float32 (S, A), the noise-free ranges, empty for a file; hit uint8 (S, A), 0 for a beam without a return. */
 export type Scan = {
   type: "scan";
-  /** Of the sensors, one a row. */
+  /** Ids of the sensors, one per row. */
   ids: number[];
-  /** Of the scan, of a file. */
+  /** Index of the scan, for a file. */
   index: number | null;
   generation: number;
 };
@@ -374,7 +378,7 @@ export type Verdict = {
   why: string;
 };
 
-/** The numbers of the map: the kind of cells, and the words for their mean and for one draw's number. */
+/** The quantity on the map: kind of cells, words for its mean and its value in a draw, and if it has intervals. */
 export type Quantity = {
   kind: string;
   mean: string;
@@ -382,106 +386,121 @@ export type Quantity = {
   interval: boolean;
 };
 
-/** One picture of the posterior. Buffers: p uint8 (nx, ny), probability or width in 255ths; observed uint8, packed bits of (nx, ny); trace float32 (chains, n), the log joint at the sweeps of traced float32 (n): the first 100, then evenly spread; for importance sampling weights float32 (24), how many particles have which log weight, in equal bins. */
+/** One picture of the posterior. Buffers: p uint8 (nx, ny), probability or interval width in 255ths; observed uint8, packed bits of (nx, ny); traced float32 (n), sweep numbers: the first 100, then evenly spread; trace float32 (chains, n), the log joint at these sweeps; for importance sampling also weights float32 (24), a histogram of the particles' log weights. */
 export type Field = {
   type: "field";
-  /** What the numbers are. The page makes entropy of the mean. */
+  /** Layer of the numbers. The page computes the entropy from the mean. */
   layer: "draw" | "entropy" | "mean" | "width";
-  /** What found it. */
+  /** Name of the method. */
   method: string;
-  /** Whether it is quick and not the posterior. */
+  /** Whether the mean is a quick approximation of the posterior mean. */
   approximate: boolean;
-  /** Done; rounds, or particles. */
+  /** Number of sweeps, rounds or particles done. */
   sweeps: number;
+  /** Number of sweeps or particles to do. */
   total: number;
-  /** Effective sample size of the log joint. */
+  /** Effective sample size of the log joint, or of the weights. */
   ess: number | null;
+  /** R-hat of the log joint. */
   rhat: number | null;
-  /** Mean over the chains of its last value. */
+  /** Last log joint, averaged over the chains. */
   log_joint: number | null;
-  /** Null where it is too early. */
+  /** Verdict on the result; null while it is too early. */
   verdict: Verdict | null;
+  /** Number of kept draws. */
   draws: DrawCount;
+  /** Quantity that the numbers show. */
   quantity: Quantity;
+  /** Time since the job began. */
   milliseconds: number;
+  /** Index of the chain, for a draw. */
   chain: number | null;
+  /** Index of the draw. */
   draw: number | null;
-  /** For the chain that fits the sensor, the number of its draws that the mean is made of. */
+  /** Number of draws in the mean, for the chain that fits the sensor. */
   averaged: number | null;
-  /** Where the bins of weights begin, in nats below the largest, at which they end. */
+  /** Lower edge of the first bin of weights, in nats relative to the largest log weight, where the bins end. */
   lowest: number | null;
   generation: number;
 };
 
-/** The overlay of a run or a log. Buffers: strokes float32 (U, 5), surfaces from x, y to x, y in metres, with their reflectivity; trajectory float32 (S, 2), where the scans were taken. */
+/** The overlay of a run or a log. Buffers: strokes float32 (U, 5), surfaces as segments x, y, x, y in metres, and their reflectivity; trajectory float32 (S, 2), the positions of the scans in metres. */
 export type Overlay = {
   type: "overlay";
   generation: number;
 };
 
-/** The beams through a cell: how many speak for what is there and against it, and how much, in nats. Buffers of the strongest beams, with `each`: start and end float64 (M, 2), metres; nats, scan, beam float64 (M). */
+/** The evidence of the beams through a cell, for and against an obstacle in it. Buffers of the strongest beams, with `each`: start and end float64 (M, 2), metres; nats, scan, beam float64 (M). */
 export type CellFacts = {
   type: "cell";
   x: number;
   y: number;
   each: boolean;
+  /** Number of beams through the cell. */
   beams: number;
-  /** Null where nothing can be said. */
+  /** Number of beams for an obstacle; null, like the next fields, if the evidence cannot be computed. */
   beams_for: number | null;
+  /** Sum of the log ratios of these beams. */
   nats_for: number | null;
+  /** Number of beams against an obstacle. */
   beams_against: number | null;
+  /** Absolute sum of the log ratios of these beams. */
   nats_against: number | null;
 };
 
 /** The shortest path whose risk is low enough, or the safest. */
 export type SafePath = {
   type: "path";
-  /** Its corners, metres. */
+  /** Corners of the path, metres. */
   path: [number, number][];
   length_m: number;
-  /** Of the disc, metres. */
+  /** Radius of the disc, metres. */
   radius: number;
-  /** Whether its risk is low enough. */
+  /** Whether the risk of the path is low enough. */
   within_risk: boolean;
-  /** That it is free: its share of draws. */
+  /** Probability that the path is free: the share of draws in which it is. */
   probability: number;
+  /** Standard error of this probability. */
   standard_error: number;
-  /** The probability if cells were independent. */
+  /** Probability that the path is free if cells were independent. */
   independent: number;
+  /** Number of draws. */
   draws: number;
   generation: number;
 };
 
-/** The information expected from one more scan, at places `spacing` metres apart. Buffers: pose float32 (n, 3), the best heading at each place; nats float32 (n). */
+/** The information expected from one more scan, at places that are `spacing` metres apart. Buffers: pose float32 (n, 3), the best heading at each place; nats float32 (n). */
 export type Views = {
   type: "views";
   spacing: number;
   generation: number;
 };
 
-/** The scan that was taken nearest to a pose: how far away in metres, and turned by how much in radians. */
+/** The real scan nearest to a pose: `away` metres from it, with its heading turned by `turn` radians against it. */
 export type Near = {
   index: number;
   away: number;
   turn: number;
 };
 
-/** The virtual scan of a robot's laser at a pose, and the real scan that was taken nearest. Buffers: angles, low, median, high float32 (A), the central 80 % interval of each beam, metres, no return being infinite; of the scan near_pose float64 (3), near_ranges float32 (A), near_hit uint8 (A). */
+/** The virtual scan of a robot's laser at a pose, and the nearest real scan. Buffers: angles float32 (A); low, median, high float32 (A), the median and central 80 % interval of each beam in metres, infinite for no return; of the real scan near_pose float64 (3), near_ranges float32 (A), near_hit uint8 (A). */
 export type GhostScan = {
   type: "ghost";
   x: number;
   y: number;
   yaw: number;
-  /** By a few draws only, since the hand still moved. */
+  /** Whether only a few draws were used, since the hand still moved. */
   coarse: boolean;
-  /** That were asked; 0 where cells are taken for independent, for want of draws. */
+  /** Number of draws used; 0 without draws, when cells count as independent. */
   draws: number;
+  /** Nearest real scan, if one is near enough. */
   near: Near | null;
+  /** Time that the prediction took. */
   milliseconds: number;
   generation: number;
 };
 
-/** A reading in the frame of a surface: how far across and along it, and the surface's size. */
+/** A reading in the frame of a surface: its offsets across and along the surface, and the surface's size. */
 export type SurfaceOffset = {
   across_m: number;
   along_m: number;
@@ -490,26 +509,30 @@ export type SurfaceOffset = {
   incidence_rad: number;
 };
 
-/** One reading against its prediction: metres, null where infinite or unknown. */
+/** One reading compared with its prediction. Lengths are in metres; null means infinite or unknown. */
 export type ComparedBeam = {
   type: "beam";
   scan: number;
   beam: number;
-  /** That predict. */
+  /** Number of draws used. */
   draws: number;
+  /** Kind of reading: a range, no return, too close, or invalid. */
   reading: "bad" | "close" | "hit" | "none";
+  /** Reading. */
   range: number | null;
-  /** Where the central 80 % interval begins. */
+  /** Lower end of the central 80 % interval. */
   low: number | null;
+  /** Median of the prediction. */
   median: number | null;
+  /** Upper end of the central 80 % interval. */
   high: number | null;
-  /** The reading less the median. */
+  /** Reading minus median. */
   residual: number | null;
-  /** Minus the log density of the reading. */
+  /** Negative log density of the reading. */
   nats: number | null;
-  /** The probability that nothing comes back. */
+  /** Probability of no return. */
   no_return: number | null;
-  /** The reading in the frame of the surface at which the beam most probably stopped. */
+  /** Reading in the frame of the surface at which the beam most probably stopped. */
   wall: SurfaceOffset | null;
   generation: number;
 };
@@ -522,7 +545,7 @@ export type Undecided = {
   generation: number;
 };
 
-/** A place where the robot may be: mean and covariance of x, y (metres) and yaw (radians). */
+/** A mode of the pose's posterior: mean and covariance of x, y (metres) and yaw (radians). */
 export type Place = {
   mean: number[];
   covariance: number[][];
@@ -531,27 +554,28 @@ export type Place = {
   sigma_rad: number;
 };
 
-/** The posterior of the pose from which a scan was taken. Buffers: pose float32 (n, 3) and weight float32 (n), the lightest first. */
+/** The posterior of the pose from which a scan was taken. Buffers: pose float32 (n, 3) and weight float32 (n), the smallest weight first. */
 export type Whereabouts = {
   type: "where";
-  /** Generation of the picture. */
+  /** Number of the picture. */
   of: number;
-  /** Whose scan, in a drawn world. */
+  /** Id of the sensor, in a drawn world. */
   sensor: number | null;
-  /** Of the scan, of a file. */
+  /** Index of the scan, for a file. */
   index: number | null;
-  /** Where it was taken, as the document or the file says. */
+  /** Pose of the scan in the document or the file. */
   pose: number[];
-  /** The likeliest place first. */
+  /** Places where the robot may be, the most probable first. */
   modes: Place[];
-  /** The probability of being nowhere on the map. */
+  /** Probability that the pose is nowhere on the map. */
   p_lost: number;
+  /** Log density of the readings per beam, under the best pose. */
   nats_per_beam: number;
-  /** Why there is no answer; else empty. */
+  /** Reason why there is no answer; else empty. */
   trouble: string;
 };
 
-/** Progress of the inference of a log's trajectory; `text` is the name of the stage. */
+/** Progress in a stage of inferring a log's trajectory: `done` parts `of` all. `text` names the stage for users. */
 export type Stage = {
   type: "stage";
   name: string;
@@ -561,50 +585,52 @@ export type Stage = {
   generation: number;
 };
 
-/** A text for the status line. */
+/** A message for the status line. */
 export type Status = {
   type: "status";
   text: string;
   level: "error" | "info" | "warning";
 };
 
-/** A message was refused; nothing changed. */
+/** Report that a message was refused. Nothing has changed. */
 export type Refusal = {
   type: "error";
+  /** Description of the fault. */
   text: string;
+  /** What to do instead, or empty. */
   remedy: string;
-  /** The message's number, as far as it could be read. */
+  /** Number of the message, if it could be read. */
   seq: number | null;
 };
 
-/** A file. Buffers: data uint8. */
+/** A file to save. Buffers: data uint8. */
 export type Download = {
   type: "download";
   name: string;
   mime: string;
 };
 
-/** Scans, one a row; of a simulation one a sensor. */
+/** Scans, one per row; in a simulation, one per sensor. */
 export type RecordedScans = {
   ids: number[];
   pose: ((number | null)[])[];
-  /** Of the beams: one row that all scans have, or a row a scan. */
+  /** Beam angles, radians: one row for all scans, or one row per scan. */
   angles: number[][];
   ranges: ((number | "-Infinity" | "NaN" | null)[])[];
-  /** Where the beams truly end; no row for a file. */
+  /** Noise-free ranges, metres; no row for a file. */
   exact: ((number | "-Infinity" | "NaN" | null)[])[];
-  /** Base64 of packed bits (S, A). */
+  /** Base64 of packed bits (S, A), 0 for a beam without a return. */
   hit: string;
 };
 
-/** Kept maps of walls: base64 of deflate-raw of packed bits, (chains, count, nx * ny) in one run. */
+/** Kept maps of walls. `data` is base64 of deflate-raw of packed bits, (chains, count, nx * ny). */
 export type RecordedDraws = {
   chains: number;
   count: number;
   data: string;
 };
 
-/** What a field says beside its picture. */
+/** The figures shown beside the picture, as in the message `Field`. */
 export type RecordedFigures = {
   method: string;
   quantity: Quantity;
@@ -614,17 +640,17 @@ export type RecordedFigures = {
   verdict: Verdict | null;
 };
 
-/** A result in a page in one file. */
+/** The result in a page in one file. */
 export type Recording = {
   version: 1;
   document: MapDocument;
   scans: RecordedScans;
-  /** Base64 of uint8 (nx, ny), in 255ths. */
+  /** Mean map: base64 of uint8 (nx, ny), in 255ths. */
   mean: string;
-  /** Base64 of packed bits. */
+  /** Observed cells: base64 of packed bits (nx, ny). */
   observed: string;
   draws: RecordedDraws;
-  /** Of each draw, a row a chain. */
+  /** Log joint of each draw, one row per chain. */
   log_joint: ((number | null)[])[];
   settings: RecordedFigures;
 };

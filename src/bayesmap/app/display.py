@@ -1,4 +1,4 @@
-"""Reports of a job for the pages: fields, rays, overlays and progress."""
+"""Reports of a job to the pages: fields, rays, overlays and progress."""
 
 from __future__ import annotations
 
@@ -21,14 +21,14 @@ OVERLAY_SECONDS = 2.0
 LEVELS = 255
 TRACED = 300
 FIRST_SWEEPS = 100
-"""A field sends so many points of the trace, evenly chosen, and each of the first sweeps."""
+"""The number of evenly chosen points of the trace in a field, and the number of first sweeps that are all included."""
 
 LEAST_REFLECTIVITY = 0.1
-"""Surfaces that reflect less are not drawn."""
+"""Surfaces with a smaller reflectivity are not drawn."""
 
 WEIGHT_BINS = 24
 MOST_NATS = 60.0
-"""Weights that are less than exp(-60) of the largest are counted in the first bin."""
+"""The number of bins of a histogram of log weights. Weights below exp(-60) of the largest count in the first bin."""
 
 OnReport = Callable[[Report], None]
 
@@ -37,14 +37,14 @@ class Display:
     """Makes the reports of one job after another.
 
     Attributes:
-        generation: that of the present job.
-        grid: the grid on which pages show it.
+        generation: number of the present picture.
+        grid: grid on which pages show the picture.
     """
 
     def __init__(self, on_report: OnReport) -> None:
         self._send = on_report
         self.generation, self.grid = -1, Grid((1, 1))
-        self._views: dict[int, View] = {}  # of pages that are sent fields of their own
+        self._views: dict[int, View] = {}  # the views of pages that get their own fields
         self._began = 0.0
         self._framed = self._overlaid = 0.0
 
@@ -54,7 +54,7 @@ class Display:
         self._began = time.perf_counter()
 
     def show(self, task: Show, result: Result | None) -> None:
-        """Change the view of a page, and send it the field of that view, if there is a result."""
+        """Change the view of a page. If there is a result, send the page the field of that view."""
         self._views.pop(task.client, None)
         if task.view.layer in OWN_LAYERS:
             self._views[task.client] = task.view
@@ -90,7 +90,7 @@ class Display:
             self._overlaid = time.perf_counter()
 
     def on_grid(self, grid: Grid) -> None:
-        """Report the map's cells, where they have changed."""
+        """Report the map's grid if it has changed."""
         if grid != self.grid:
             self.grid = grid
             self.report(OnGrid(grid, generation=self.generation))
@@ -110,7 +110,7 @@ class Display:
 
 
 def field_of(result: Result, view: View, generation: int, milliseconds: float) -> tuple[Field, Buffers]:
-    """Make the field of a view; the mean, where the view asks for a draw or an interval and there is none."""
+    """Return the field of a view and its buffers. If the draw or the interval does not exist, return the mean."""
     found, layer, chain, number, lowest = result.found, view.layer, None, None, None
     trace, traced = trace_of(found.log_joint())
     buffers: dict[str, NDArray[np.generic]] = {"trace": trace, "traced": traced}
@@ -133,20 +133,20 @@ def field_of(result: Result, view: View, generation: int, milliseconds: float) -
 
 
 def trace_of(log_joint: NDArray[np.float64]) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
-    """Thin a trace, (chains, n), to each of the first sweeps and later sweeps that are evenly chosen.
+    """Thin a trace, (chains, n), to all of the first sweeps and evenly chosen later sweeps.
 
     Returns the log joint at these sweeps, (chains, m), and the sweeps, counted from 1, (m,).
     """
     count = log_joint.shape[1]
     later = np.linspace(1, count, min(count, TRACED)).round().astype(int) if count else np.zeros(0, dtype=int)
-    some = np.union1d(np.arange(1, min(count, FIRST_SWEEPS) + 1), later)
-    return log_joint[:, some - 1].astype(np.float32), some.astype(np.float32)
+    chosen = np.union1d(np.arange(1, min(count, FIRST_SWEEPS) + 1), later)
+    return log_joint[:, chosen - 1].astype(np.float32), chosen.astype(np.float32)
 
 
 def histogram(log_weights: NDArray[np.float64]) -> tuple[NDArray[np.float32], float]:
     """Count log weights in bins of equal width up to the largest.
 
-    Returns the counts, (WEIGHT_BINS,), and where the first bin begins, in nats relative to the largest log weight.
+    Returns the counts, (WEIGHT_BINS,), and the lower edge of the first bin, in nats relative to the largest log weight.
     """
     below = log_weights - log_weights.max()
     lowest = -float(min(MOST_NATS, max(1.0, -below.min())))
@@ -155,10 +155,11 @@ def histogram(log_weights: NDArray[np.float64]) -> tuple[NDArray[np.float32], fl
 
 
 def strokes_of(result: Result) -> NDArray[np.float32]:
-    """Return surfaces as strokes, (U, 5): from x, y to x, y in metres, and their reflectivity."""
+    """Return surfaces as segments, (U, 5): x, y, x, y in metres, and the reflectivity."""
     if result.surfaces is None:
         return np.zeros((0, 5), dtype=np.float32)
     _, mean, covariance, reflectivity = result.surfaces
+    # Each segment reaches two standard deviations to both sides, along the covariance's longest axis.
     values, vectors = np.linalg.eigh(covariance)
     half = 2.0 * np.sqrt(np.maximum(values[:, 1], 0.0))[:, None] * vectors[:, :, 1]
     strokes = np.column_stack([mean - half, mean + half, reflectivity])

@@ -1,7 +1,7 @@
-"""Edits of the document: first maps, the action that changes a document, and undo and pace of a hand's gestures.
+"""Edits of the document: first maps, actions that change a document, and the undo and pace of a hand's gestures.
 
 An edit of a gesture waits while the picture of the last edit is being computed, and while its page has pictures to
-paint. A page paints one picture while the worker computes the next; where painting takes longer, pictures would queue.
+paint. A page paints one picture while the worker computes the next. If painting takes longer, pictures would queue.
 """
 
 from __future__ import annotations
@@ -45,6 +45,7 @@ from bayesmap.space.grid import Grid
 
 BUILDING_NOISE_M = 0.05
 ROOM_CELLS = 6
+"""The range noise of a new building, and the free cells around a first sensor, if there is that much room."""
 
 
 def tutorial_document(seed: int = 0) -> Document:
@@ -56,12 +57,12 @@ def tutorial_document(seed: int = 0) -> Document:
 
 
 def new_document(world: World, shape: tuple[int, int], before: Document) -> Document:
-    """Return another map, with the settings of the document before as far as they fit.
+    """Return a document with a new map, and the settings of the document before as far as they fit.
 
-    The sensor's range is twice the longer side, as in the tutorial: every beam can leave the map.
+    The sensor's longest range is twice the longer side, as in the tutorial: every beam can leave the map.
 
     Raises:
-        Refused: a shape that the world cannot have.
+        Refused: the shape does not fit the world.
     """
     noise, sensor = 0.2, None
     if world == "blank":
@@ -81,7 +82,7 @@ def new_document(world: World, shape: tuple[int, int], before: Document) -> Docu
 
 
 def _centred(walls: NDArray[np.bool_], shape: tuple[int, int]) -> NDArray[np.bool_]:
-    """Return a map in the middle of a grid of another shape, cut where it does not fit."""
+    """Return a map moved to the middle of a grid of another shape; parts that do not fit are cut off."""
     result = np.zeros(shape, dtype=np.bool_)
     shift = [(want - have) // 2 for have, want in zip(walls.shape, shape, strict=True)]
     kept = np.argwhere(walls) + shift
@@ -104,7 +105,7 @@ def _floor(shape: tuple[int, int], seed: int) -> tuple[NDArray[np.bool_], Grid]:
 
 
 def _first_sensor(walls: NDArray[np.bool_], grid: Grid) -> Sensor:
-    """Return a sensor in the free cell nearest to the middle, with room around it where there is room."""
+    """Return a sensor in the free cell nearest to the middle, with free room around it if possible."""
     from scipy import ndimage
 
     room = ndimage.distance_transform_cdt(~walls) if walls.any() else np.full(walls.shape, ROOM_CELLS)
@@ -122,10 +123,10 @@ A = TypeVar("A", bound=Action)
 
 
 def edit(document: Document, action: Edit) -> tuple[Document, str]:
-    """Return the document after an action, and a remark where not all of it could be done.
+    """Return the document after an action, and a remark if only part of the action was possible.
 
     Raises:
-        Refused: nothing of it can be done.
+        Refused: the action is not possible.
     """
     if not document.simulated and not isinstance(action, ChangeSettings | New):
         raise Refused(f"{document.source.name} is a file, which cannot be edited", "begin a new map")
@@ -216,7 +217,7 @@ def gesture_of(action: Action, client: int) -> tuple[Any, ...] | None:
 
 
 def merged(before: Action, after: A) -> A | None:
-    """Return one action that does what two actions of one gesture do; None where they cannot be merged."""
+    """Return one action that replaces two actions of one gesture; None if they cannot be merged."""
     if isinstance(before, ChangeSettings) and isinstance(after, ChangeSettings):
         patch = structs.replace(before.patch, **changes(after.patch))
         return structs.replace(after, patch=patch)
@@ -230,15 +231,15 @@ def merged(before: Action, after: A) -> A | None:
 
 
 def adopted(present: Document, brought: Document) -> Document:
-    """Return the document to show: a simulation as it is, or the present file with the settings of the other document.
+    """Return the document to show: the brought simulation, or the present file with the settings of the brought one.
 
     Raises:
-        Refused: the two show different files, or one of them none.
+        Refused: the documents show different files, or only one of them shows a file.
     """
     if brought.simulated and present.simulated:
         return brought
     if brought.source == present.source:
-        # Where the trajectory is inferred, the map is as large as that turns out to be.
+        # The size of a map along an inferred trajectory is not known before.
         any_size = "odometry" in (brought.poses, present.poses)
         shown, resolution_m = present, brought.grid.resolution
         if brought.grid != present.grid and not (any_size and resolution_m == present.grid.resolution):
@@ -253,10 +254,10 @@ def adopted(present: Document, brought: Document) -> Document:
 
 
 def with_resolution(document: Document, resolution_m: float) -> Document:
-    """Return the document of a log on cells of another edge; its grid depends on the log and the edge alone.
+    """Return the document of a log with another cell size. The grid depends on the log and the cell size alone.
 
     Raises:
-        Refused: not a log, or cells so small that the map would have too many.
+        Refused: the document shows no log, or the map would have too many cells.
     """
     bounds = document.source.bounds
     if document.source.kind != "log" or bounds is None:
@@ -272,10 +273,10 @@ def with_resolution(document: Document, resolution_m: float) -> Document:
 
 
 def with_scans_used(document: Document, scans: int | None) -> Document:
-    """Return the document of a log with the map of its first scans alone; None means all scans.
+    """Return the document of a log with the map of its first scans only; None means all scans.
 
     Raises:
-        Refused: not a log.
+        Refused: the document shows no log.
     """
     if document.source.kind != "log":
         raise Refused("only of a log some of the scans can be left out")
@@ -285,20 +286,19 @@ def with_scans_used(document: Document, scans: int | None) -> Document:
 From = tuple[int, AnyAction]
 T = TypeVar("T")
 DEPTH = 200
-
 MOST_UNPAINTED = 2
-"""A page with so many pictures on their way is behind: one that it paints, and one that it paints next."""
+"""The number of steps that can be undone, and the number of unpainted pictures at which the edits of a page wait."""
 
 
 @dataclass(frozen=True)
 class History(Generic[T]):
-    """States before and after the present one, each with the author of the step between it and the next.
+    """The present state, and earlier and undone states, each with the author of the step towards the present.
 
     Attributes:
         present: the present state.
         past: earlier states, the latest last.
         future: undone states, the next to redo last.
-        gesture: the stroke or drag of the last step, or None where the step stands alone.
+        gesture: the stroke or drag of the last step, or None for a step by itself.
     """
 
     present: T
@@ -307,7 +307,7 @@ class History(Generic[T]):
     gesture: Hashable = None
 
     def push(self, state: T, gesture: Hashable = None, author: Hashable = None) -> History[T]:
-        """Return the history with another state, which replaces the present one where both are of one gesture."""
+        """Return the history with a new state. Within one gesture, it replaces the present state."""
         if state == self.present:
             return self
         if gesture is not None and gesture == self.gesture:
@@ -315,14 +315,14 @@ class History(Generic[T]):
         return History(state, (*self.past, (self.present, author))[-DEPTH:], (), gesture)
 
     def undo(self) -> History[T]:
-        """Return the history one step back; this history where there is none."""
+        """Return the history one step back, or this history if there is no earlier state."""
         if not self.past:
             return self
         *past, (state, author) = self.past
         return History(state, tuple(past), (*self.future, (self.present, author)))
 
     def redo(self) -> History[T]:
-        """Return the history one step forth; this history where there is none."""
+        """Return the history one step forward, or this history if there is no undone state."""
         if not self.future:
             return self
         *future, (state, author) = self.future
@@ -330,10 +330,10 @@ class History(Generic[T]):
 
 
 class Pace:
-    """Holds edits back until they are due. Edits of one gesture that wait together come out as one.
+    """Holds edits back until they are due. Waiting edits of one gesture are merged into one.
 
     Attributes:
-        computing: whether the first picture of the present generation is not there yet.
+        computing: whether the first picture of the present generation is still being computed.
     """
 
     def __init__(self) -> None:
@@ -342,34 +342,34 @@ class Pace:
         self._unpainted: dict[int, list[int]] = {}
 
     def take(self, client: int, action: AnyAction) -> list[From]:
-        """Take an action; return the actions to apply now, in order."""
+        """Accept an action; return the actions to apply now, in order."""
         if gesture_of(action, client) is None or not self._must_wait(client):
             return [*self._let_go(), (client, action)]
         before, self._waiting = self._waiting, (client, action)
         if before is None:
             return []
-        one = merged(before[1], action) if before[0] == client else None
-        if one is None:
+        both = merged(before[1], action) if before[0] == client else None
+        if both is None:
             return [before]
-        self._waiting = client, one
+        self._waiting = client, both
         return []
 
     def due(self) -> list[From]:
-        """Return the action that waited, if it need not wait any longer."""
+        """Return the waiting action, if it need not wait any longer."""
         return [] if self._waiting is None or self._must_wait(self._waiting[0]) else self._let_go()
 
     def sent(self, client: int | None, generation: int) -> None:
-        """Note that a picture goes to a page, or to all. Pages that never said what they painted are not waited for."""
+        """Record that a picture is sent to a page, or to all. Pages that never report painting are not waited for."""
         for page, generations in self._unpainted.items():
             if client in (page, None) and generation not in generations:
                 generations.append(generation)
 
     def painted(self, client: int, generation: int) -> None:
-        """Note that a page has painted a picture, and will paint no earlier one."""
+        """Record that a page has painted a picture. It paints no earlier picture after that."""
         self._unpainted[client] = [later for later in self._unpainted.get(client, []) if later > generation]
 
     def forget(self, client: int) -> None:
-        """Forget a page that has gone or connects anew."""
+        """Forget a page that has disconnected, or connects again."""
         self._unpainted.pop(client, None)
 
     def _must_wait(self, client: int) -> bool:

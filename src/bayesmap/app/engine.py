@@ -1,8 +1,8 @@
-"""The engine: from tasks to reports. One job at a time, done in short pieces, so that a new task never waits long.
+"""The engine turns tasks into reports. It does one job at a time, in short steps, so that a new task never waits long.
 
-A job depends on its document alone: readings depend on the seed, the start of live chains on the beliefs that follow
-from the readings, and every sweep's draws on (seed, chain, sweep, cell). So the same document gives the same posterior,
-however fast the hand was and however often it interrupted. The last state of earlier chains is therefore not used.
+A job depends on its document alone. Readings depend on the seed, and the start of live chains depends on the beliefs
+from these readings. Every sweep's draws depend on (seed, chain, sweep, cell). So the same document gives the same
+posterior, however often edits interrupted the chains. The last state of earlier chains is therefore not used.
 """
 
 from __future__ import annotations
@@ -40,11 +40,13 @@ from bayesmap.errors import BadInput
 
 PREVIEW_SECONDS = 0.015
 FEWEST_ROUNDS = 3
+"""The time and the rounds of belief propagation after which the first picture is shown."""
+
 PAUSE_SECONDS = 0.03
 """The pause after a long preview, before the chains are set up: a moving hand sends its next edit in this time."""
 
 GHOST_SECONDS, REST_SECONDS = 0.06, 0.002
-"""Chains rest for this time after a virtual scan, in short sleeps, so that its next pose need not wait for a sweep."""
+"""After a virtual scan, chains rest for this time, in short sleeps, so that the next pose need not wait for a sweep."""
 
 
 class Engine:
@@ -95,7 +97,7 @@ class Engine:
             self._localization.remember(task)
 
     def _ask(self, task: Ask) -> None:
-        """Answer a question; one that needs a result waits for the first."""
+        """Answer a question. If it needs a result and there is none yet, it waits."""
         question = task.question
         if isinstance(question, Export | WhereAmI) and self._result is None and self._job is not None:
             self._waiting.append(task)
@@ -108,7 +110,7 @@ class Engine:
                 self._rest_until = time.perf_counter() + GHOST_SECONDS
 
     def advance(self) -> None:
-        """Do a piece of the job: some milliseconds on a small map, one round or sweep on the largest."""
+        """Do a step of the job: some milliseconds on a small map, one round or sweep on the largest."""
         if self._job is None:
             return
         if time.perf_counter() < self._rest_until:
@@ -120,7 +122,7 @@ class Engine:
             self._job = None
         except (BadInput, MemoryError) as error:
             self._fail(str(error) or "out of memory; use a smaller map")
-        except Exception as error:  # a fault of this code: better reported than repeated by the next worker
+        except Exception as error:  # a fault of this code: report it, or the next worker would repeat it
             traceback.print_exc()
             self._fail(f"unexpected {type(error).__name__}: {error}")
         if self._waiting and (self._result is not None or self._job is None):
@@ -135,6 +137,7 @@ class Engine:
     # Jobs
 
     def _work(self, task: Infer) -> Iterator[None]:
+        """Do a job; yield after each step."""
         document = replace(task.document, method=task.document.sampler)
         if document.source.kind == "run":
             assert isinstance(self._opened, OpenedRun)
@@ -170,9 +173,9 @@ class Engine:
             yield from self._preview(scene, document, task)
 
     def _preview(self, scene: Scene, document: Document, task: Infer) -> Iterator[None]:
-        """Show belief propagation, then chains that start from it, unless the preview is all that is asked for."""
+        """Show belief propagation, then chains that start from it unless only the preview is asked for."""
         preview, chains = Preview(scene.near), task.mode != "preview" and document.method in CHAIN_METHODS
-        # Belief propagation takes poses as known. Where they are uncertain, the first picture is that of the chains.
+        # Belief propagation treats poses as known. If they are uncertain, chains make the first picture.
         quiet = task.mode != "preview" and pose_prior(document) is not None
         yield from self._propagate(scene, document, preview, quiet=quiet)
         if not chains:
@@ -183,7 +186,7 @@ class Engine:
         yield from self._sweep(scene, document, preview, keep=task.mode == "run")
 
     def _localize(self, task: Infer) -> Generator[None, None, bool]:
-        """Infer the trajectory of a log, with pictures; return whether it is known now."""
+        """Infer the trajectory of a log, with pictures of the stages; return whether it is known now."""
         localization = self._localization
         assert localization is not None
         with closing(localization.steps(task)) as steps:
@@ -213,7 +216,7 @@ class Engine:
         self._display.frame(self._result)
 
     def _readings(self, document: Document) -> tuple[Scene, Document]:
-        """Return the scene of a document, reused as far as it did not change, and the document on the scene's grid."""
+        """Return the scene of a document, and the document on the scene's grid. Unchanged readings are reused."""
         new = document.simulated  # a map may be begun where a log was opened
         log = None if new or self._localization is None else self._localization.log_of(document)
         if log is not None:
@@ -228,7 +231,7 @@ class Engine:
         return scene, document
 
     def _count(self, document: Document) -> None:
-        """Show the map that counts of hits and passes give for a log, at once."""
+        """Show the hit-count map of a log."""
         assert self._localization is not None
         self._result = self._localization.log_of(document).coarse(document)
         if self._result.prior.has_surfaces:  # the surfaces on show may be of other scans
@@ -236,8 +239,8 @@ class Engine:
         self._display.frame(self._result)
 
     def _propagate(self, scene: Scene, document: Document, preview: Preview, *, quiet: bool) -> Iterator[None]:
-        """Rounds until the picture's time is up, then the picture, then the rest of the rounds."""
-        shown = -1
+        """Do rounds of belief propagation, and show the picture when its time is up, now and then, and at the end."""
+        shown = -1  # the number of rounds in the last picture
         while True:
             enough = not quiet and preview.rounds >= FEWEST_ROUNDS and self._display.elapsed_s() > PREVIEW_SECONDS
             last = preview.converged and not quiet
@@ -248,12 +251,12 @@ class Engine:
             if preview.converged:
                 return
             preview.round()
-            # Until the first picture is out, a small map's rounds are too short to ask for tasks between them.
+            # Before the first picture, a small map's rounds are too short to look for tasks between them.
             if shown >= 0 or self._display.elapsed_s() > PREVIEW_SECONDS:
                 yield
 
     def _sweep(self, scene: Scene, document: Document, preview: Preview | None, *, keep: bool) -> Iterator[None]:
-        """Run chains of walls, with a frame now and then and one at the end."""
+        """Run chains of walls, with frames at intervals and one at the end."""
         begun = starts(scene.problem, document, preview)
         yield
         yield from self._stream(scene, document, chains_of_walls(scene, document, begun, keep=keep))
@@ -270,7 +273,7 @@ class Engine:
                 self._display.frame(self._result)
 
         if self._fitted is None or not self._fitted[0].alike_but(document, SETTINGS_OF_CHAINS):
-            self._fitted = None  # first: two problems may not fit
+            self._fitted = None  # free the old problem first: two may not fit in memory
             self._fitted = document, (yield from fit_by_pilot(scene, document, show))
         model, sampler, problem = self._fitted[1]
         stream = Stream(model, sampler, problem, document.sweeps, document.seed, keep=keep)
@@ -290,7 +293,7 @@ class Engine:
         self._display.finished(self._result)
 
     def _weigh(self, scene: Scene, document: Document) -> Iterator[None]:
-        """Run importance sampling, with a frame now and then and one at the end."""
+        """Run importance sampling, with frames at intervals and one at the end."""
         weighing = Weighing(scene.problem, document.sweeps, document.seed)
         while weighing.count < weighing.total:
             yield
@@ -301,7 +304,7 @@ class Engine:
         self._display.finished(self._result)
 
     def _cancel(self) -> None:
-        """Stop the job and show its result once more; where there is none yet, show the preview."""
+        """Stop the job and show its result once more. If there is none yet, show the preview."""
         if self._job is None or self._task is None:
             return
         if self._result is None:

@@ -1,6 +1,6 @@
 """Files of a result: the saved run, the map for map_server, and the page in one file.
 
-The page in one file holds its module, and the result as a recording that it plays without a server (docs/app.md).
+The page in one file holds the page's module and the result as a recording, and needs no server (docs/app.md).
 """
 
 from __future__ import annotations
@@ -33,21 +33,22 @@ from bayesmap.errors import BadInput
 MOST_DRAWS = 1000
 MOST_DRAW_BYTES = 16 << 20
 MOST_RAYS = 2_000_000
-"""A recording holds at most so many draws of all chains, so many bytes of them, and so many beams, evenly chosen."""
+"""The most draws of all chains in a recording, the most bytes of them, and the most beams. All are evenly chosen."""
 
 DECIMALS_M = 4
+"""The decimal places of ranges in metres."""
 
 Range = float | Literal["-Infinity", "NaN"] | None
 """Metres. None means no return, "-Infinity" too close, and "NaN" an invalid reading."""
 
 
 class RecordedScans(Struct, frozen=True):
-    """Scans, one a row; of a simulation one a sensor.
+    """Scans, one per row; in a simulation, one per sensor.
 
     Attributes:
-        angles: of the beams: one row that all scans have, or a row a scan.
-        exact: where the beams truly end; no row for a file.
-        hit: base64 of packed bits (S, A).
+        angles: beam angles, radians: one row for all scans, or one row per scan.
+        exact: noise-free ranges, metres; no row for a file.
+        hit: base64 of packed bits (S, A), 0 for a beam without a return.
     """
 
     ids: list[int]
@@ -59,7 +60,7 @@ class RecordedScans(Struct, frozen=True):
 
 
 class RecordedDraws(Struct, frozen=True):
-    """Kept maps of walls: base64 of deflate-raw of packed bits, (chains, count, nx * ny) in one run."""
+    """Kept maps of walls. `data` is base64 of deflate-raw of packed bits, (chains, count, nx * ny)."""
 
     chains: int
     count: int
@@ -67,7 +68,7 @@ class RecordedDraws(Struct, frozen=True):
 
 
 class RecordedFigures(Struct, frozen=True):
-    """What a field says beside its picture."""
+    """The figures shown beside the picture, as in the message `Field`."""
 
     method: str
     quantity: Quantity
@@ -78,12 +79,12 @@ class RecordedFigures(Struct, frozen=True):
 
 
 class Recording(Struct, frozen=True, kw_only=True):
-    """A result in a page in one file.
+    """The result in a page in one file.
 
     Attributes:
-        mean: base64 of uint8 (nx, ny), in 255ths.
-        observed: base64 of packed bits.
-        log_joint: of each draw, a row a chain.
+        mean: mean map: base64 of uint8 (nx, ny), in 255ths.
+        observed: observed cells: base64 of packed bits (nx, ny).
+        log_joint: log joint of each draw, one row per chain.
     """
 
     version: Literal[1] = 1
@@ -123,12 +124,12 @@ await import(URL.createObjectURL(new Blob([text], {{ type: "text/javascript" }})
 
 
 def static(name: str) -> str:
-    """Return the text of a file of the page."""
+    """Return the text of one of the page's static files."""
     return resources.files("bayesmap.app").joinpath("static", name).read_text(encoding="utf-8")
 
 
 def exported(question: Export, result: Result | None, client: int) -> Report:
-    """Return a file of a result, or why there is none."""
+    """Return a report with a file of the result, or with the reason why there is none."""
     try:
         if result is None:
             raise BadInput("there is nothing to export yet")
@@ -139,7 +140,7 @@ def exported(question: Export, result: Result | None, client: int) -> Report:
 
 
 def export(result: Result, what: str) -> tuple[str, str, bytes]:
-    """Return name, media type and bytes of a file: a "run", a "map", or the page as "html".
+    """Return the name, media type and bytes of a file: a "run", a "map", or the page as "html".
 
     Raises:
         BadInput: the result has no draws to save.
@@ -159,13 +160,13 @@ def export(result: Result, what: str) -> tuple[str, str, bytes]:
 
 
 def to_html(result: Result) -> str:
-    """Return a page that shows a result from its own file: it opens from a disk and reads nothing else."""
+    """Return a page in one file that shows a result. It can be opened from a disk and loads nothing else."""
     recording = msgspec.json.encode(record(result), enc_hook=plain).decode().replace("</", "<\\/")
     return PAGE.format(recording=recording, module=_text(_deflate(static("mapview.js").encode())))
 
 
 def record(result: Result) -> Recording:
-    """Return the recording that `recordedTransport` of the page plays."""
+    """Return the recording of a result, which the page's `recordedTransport` plays."""
     found, grid = result.found, result.document.grid
     figures = found.figures(result.over).as_fields()
     packed, joint = _thinned(result)
@@ -187,7 +188,7 @@ def record(result: Result) -> Recording:
 def _thinned(result: Result) -> tuple[NDArray[np.uint8], NDArray[np.float64]]:
     """Return packed maps of walls, evenly chosen from the kept draws, (chains, count, bytes), and their log joint.
 
-    There are none where a map's cells are numbers.
+    For other kinds of cells, both are empty.
     """
     kept, joint = result.found.kept, result.found.log_joint()
     if kept is None or kept.specs[0].storage != "bits" or kept.count == 0:
@@ -195,26 +196,26 @@ def _thinned(result: Result) -> tuple[NDArray[np.uint8], NDArray[np.float64]]:
     packed = np.asarray(kept.arrays[kept.specs[0].name])
     chains, count, size = packed.shape
     most = max(1, min(MOST_DRAWS // chains, MOST_DRAW_BYTES // (chains * max(1, size))))
-    some = np.unique(np.linspace(0, count - 1, min(count, most)).round().astype(int))
+    chosen = np.unique(np.linspace(0, count - 1, min(count, most)).round().astype(int))
     every = max(1, joint.shape[1] // count)  # a thinned chain has its log joint for every sweep
-    return packed[:, some], joint[:, np.minimum(some * every + every - 1, joint.shape[1] - 1)]
+    return packed[:, chosen], joint[:, np.minimum(chosen * every + every - 1, joint.shape[1] - 1)]
 
 
 def _scans(result: Result) -> RecordedScans:
-    """Return the scans; of a long log as many, evenly chosen, as make a file of a few megabytes."""
+    """Return the scans. Long logs are thinned evenly so that the file stays at a few megabytes."""
     scene, scans = result.scene, result.scene.scans
     most = max(1, MOST_RAYS // len(scans.angles_rad))
-    some = np.unique(np.linspace(0, len(scans) - 1, min(len(scans), most)).round().astype(int))
-    beams = scans.has_beam[some]
+    chosen = np.unique(np.linspace(0, len(scans) - 1, min(len(scans), most)).round().astype(int))
+    beams = scans.has_beam[chosen]
     own = scans.own_angles_rad is not None
-    angles = [scans.beams_of(int(i))[0] for i in some] if own else [scans.angles_rad]
+    angles = [scans.beams_of(int(i))[0] for i in chosen] if own else [scans.angles_rad]
     return RecordedScans(
-        ids=[scene.ids[i] for i in some],
-        pose=_numbers(scans.poses[some], 6),
+        ids=[scene.ids[i] for i in chosen],
+        pose=_numbers(scans.poses[chosen], 6),
         angles=[[round(float(angle), 7) for angle in row] for row in angles],
-        ranges=_readings(row[has] for row, has in zip(scans.ranges_m[some], beams, strict=True)),
-        exact=_readings(scene.exact_m[some] if len(scene.exact_m) else scene.exact_m),
-        hit=_text(np.packbits(hits(scene)[some][beams]).tobytes()),
+        ranges=_readings(row[has] for row, has in zip(scans.ranges_m[chosen], beams, strict=True)),
+        exact=_readings(scene.exact_m[chosen] if len(scene.exact_m) else scene.exact_m),
+        hit=_text(np.packbits(hits(scene)[chosen][beams]).tobytes()),
     )
 
 
@@ -230,13 +231,13 @@ def _readings(values: Iterable[NDArray[np.float64]]) -> list[list[Range]]:
 
 
 def _numbers(values: Iterable[NDArray[np.float64]], decimals: int) -> list[list[float | None]]:
-    """Return rows of rounded numbers; a number that is not finite becomes null."""
+    """Return rows of rounded numbers, with null for a number that is not finite."""
     return [[round(float(v), decimals) if math.isfinite(v) else None for v in row] for row in values]
 
 
 def _deflate(data: bytes) -> bytes:
     """Compress by raw deflate, which the browser's DecompressionStream reads."""
-    packer = zlib.compressobj(9, zlib.DEFLATED, -15)
+    packer = zlib.compressobj(9, zlib.DEFLATED, -15)  # the best compression, and no header around the data
     return packer.compress(data) + packer.flush()
 
 

@@ -1,4 +1,4 @@
-"""The hub of one session, one worker and any number of pages: it passes their messages on."""
+"""The hub passes messages between one session, one worker and any number of pages."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from bayesmap.app.worker import Supervisor
 from bayesmap.errors import BadInput
 
 REPLACED = (Field, Scan, State)
-"""Messages of which a page that is slow to read needs only the newest."""
+"""The types of messages of which a slow page needs only the newest."""
 
 
 class Outbox:
@@ -28,14 +28,14 @@ class Outbox:
         self._some = asyncio.Event()
 
     def put(self, message: AnyNotice, buffers: Buffers) -> None:
-        """Add a message; it takes the place of an older one of its kind where only the newest matters."""
+        """Add a message. It replaces a waiting message of its type if only the newest matters."""
         if isinstance(message, REPLACED):
             self._waiting = deque(entry for entry in self._waiting if type(entry[0]) is not type(message))
         self._waiting.append((message, buffers))
         self._some.set()
 
     async def get(self) -> str | bytes:
-        """Wait for the oldest message, and return it as it goes over the socket."""
+        """Wait for the oldest message, and return it in the socket's format."""
         while not self._waiting:
             self._some.clear()
             await self._some.wait()
@@ -43,11 +43,11 @@ class Outbox:
 
 
 class Hub:
-    """Connects pages and worker on one event loop, through which the reports of the supervisor's threads come in.
+    """Connects pages and worker on one event loop, which also receives the reports of the supervisor's threads.
 
     Attributes:
-        session: the session that pages share.
-        pictured: set when there is a first field.
+        session: the session that the pages share.
+        pictured: event that is set when there is a first field, or an error instead.
     """
 
     def __init__(self, document: Document, path: str | None = None, reading: Mapping[str, Any] | None = None) -> None:
@@ -123,7 +123,7 @@ class Hub:
         self._do(self.session.worker_lost())
 
     def _from_thread(self, call: Callable[..., None]) -> Callable[..., None]:
-        """Return a function for other threads that calls one on the loop."""
+        """Return a function for other threads that calls `call` on the event loop."""
 
         def later(*arguments: Report) -> None:
             if not self._loop.is_closed():

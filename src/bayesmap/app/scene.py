@@ -1,4 +1,4 @@
-"""Scenes: the readings of a document, simulated or from a file, and the inference problem that they pose."""
+"""Scenes: the readings of a document, simulated or from a file, and the inference problem built from them."""
 
 from __future__ import annotations
 
@@ -26,28 +26,30 @@ from bayesmap.space.scans import Scans, fan
 
 STREAM_NOISE = 11
 BLUR_SIGMAS = 5.0
+"""A reading within this many standard deviations of the longest range counts as no return."""
+
 NEAR_SIGMAS = 13.0
-"""For a preview, a beam is followed this far past its reading. A stop there is less than 1e-30 as likely as at the
-reading, which is 0 to `bayesmap.kernels.walls.propagate`, even where the reading is off by three sigmas itself."""
+"""A preview follows each beam this far past its reading. Farther stops are less than 1e-30 as likely as one at the
+reading, which `bayesmap.kernels.walls.propagate` takes as 0. This holds even for a reading that is three sigmas off."""
 
 
 @dataclass(frozen=True, eq=False)
 class Scene:
-    """Readings, and the inference problem that they pose.
+    """Readings, and the inference problem built from them.
 
-    Beam tables are traced when they are asked for: a moving hand is shown the next map before it needs them.
+    Beam tables are traced on first use: while the hand moves, the next scene often replaces this one before that.
 
     Attributes:
         scans: the readings of the sensors.
-        exact_m: noise-free ranges, (S, A); empty, (0, A), where nobody knows them.
+        exact_m: noise-free ranges, (S, A); empty, (0, A), if they are unknown.
         ids: ids of the sensors, (S,).
-        sensor: the law of the readings.
+        sensor: the sensor model.
         grid: the map's cells.
         prior: the prior of walls.
-        trace: traces the beams of the scans that the map is made of.
-        trace_near: traces these beams until a little past their readings, for belief propagation; None is `trace`.
-        hit_depth: where in a cell a beam is expected to stop.
-        used: the number of scans, from the first on, that the map is made of; None is all.
+        trace: function that traces the beams of the scans used for the map.
+        trace_near: function that traces these beams only a little past their readings; None means `trace`.
+        hit_depth: depth in a cell at which a beam is expected to stop.
+        used: number of first scans used for the map; None means all scans.
     """
 
     scans: Scans
@@ -63,12 +65,12 @@ class Scene:
 
     @property
     def used_scans(self) -> Scans:
-        """The scans that the map is made of."""
+        """The scans used for the map."""
         return self.scans if self.used is None else self.scans.select(slice(self.used))
 
     @cached_property
     def problem(self) -> WallProblem:
-        """Beam table and prior."""
+        """The problem of the beam table and the prior."""
         return WallProblem(self.trace(), self.prior, self.scans.poses[: self.used])
 
     @cached_property
@@ -81,7 +83,7 @@ class Scene:
         return Model(self.used_scans, self.grid, cells, self.sensor, hit_depth=self.hit_depth)
 
     def with_prior(self, p_wall: float) -> Scene:
-        """Return the scene under another prior; beam tables that have been traced are shared, and their index."""
+        """Return the scene under another prior, with the beam tables and indices that exist already."""
         other = replace(self, prior=Independent(p_wall))
         for name in ("problem", "near"):
             if (problem := vars(self).get(name)) is not None:
@@ -93,14 +95,14 @@ def scene_of_file(
     scans: Scans, grid: Grid, sensor: SensorModel, p_wall: float, table: BeamTable, hit_depth: float = 0.0,
     used: int | None = None,
 ) -> Scene:  # fmt: skip
-    """Return the scene of a file, whose scans are numbered from 1 and whose noise-free ranges nobody knows."""
+    """Return the scene of a file. Its scans are numbered from 1, and its noise-free ranges are unknown."""
     ids, exact_m = tuple(range(1, len(scans) + 1)), np.zeros((0, len(scans.angles_rad)))
     prior = Independent(p_wall)
     return Scene(scans, exact_m, ids, sensor, grid, prior, lambda: table, hit_depth=hit_depth, used=used)
 
 
 def standard_noise(seed: int, sensor: int, angles: int) -> NDArray[np.float64]:
-    """Draw standard normal numbers, (A,), each from the seed, the sensor and the beam's number alone."""
+    """Draw standard normal numbers, (A,). Each depends only on the seed, the sensor and the beam's number."""
     return np.random.default_rng([seed, sensor, STREAM_NOISE]).standard_normal(angles)
 
 
@@ -120,17 +122,17 @@ def simulated_scene(document: Document) -> Scene:
 
     scans, exact = simulate_document(document)
     sensor, grid, ids = Gaussian(document.sigma_m), document.grid, tuple(s.id for s in document.sensors)
-    # Belief propagation says the same of beams that end past their readings: what is left out would send messages of 1.
+    # Cutting beams past their readings does not change belief propagation: the omitted cells send messages equal to 1.
     near_m = scans.ranges_m.ravel() + NEAR_SIGMAS * sensor.sigma_m
     whole, near = partial(trace, scans, grid, sensor), partial(trace, scans, grid, sensor, reach_m=near_m)
     return Scene(scans, exact, ids, sensor, grid, Independent(document.prior), whole, near)
 
 
 def hits(scene: Scene) -> NDArray[np.bool_]:
-    """Find the beams that met something, (S, A): known in a simulation, else a finite reading below the longest range.
+    """Find the beams that hit something, (S, A): exactly in a simulation, else by readings below the longest range.
 
-    A beam without a return reads the longest range. Additive noise blurs that too, so readings within five standard
-    deviations of the longest range count as no return.
+    A beam without a return may read the longest range, plus additive noise. So readings within `BLUR_SIGMAS` of the
+    longest range count as no return.
     """
     limit = scene.scans.max_range_m
     if len(scene.exact_m):
@@ -142,15 +144,15 @@ def hits(scene: Scene) -> NDArray[np.bool_]:
 
 
 def rays(scene: Scene, scan: int | None, generation: int) -> tuple[Scan, Buffers]:
-    """Make the message `Scan`: all scans of a simulation, or one scan of a file."""
-    some = slice(None) if scan is None else slice(scan, scan + 1)
+    """Return the message `Scan` and its buffers: all scans of a simulation, or one scan of a file."""
+    rows = slice(None) if scan is None else slice(scan, scan + 1)
     ids = list(scene.ids) if scan is None else [scan + 1]
-    exact = scene.exact_m[some] if len(scene.exact_m) else scene.exact_m
+    exact = scene.exact_m[rows] if len(scene.exact_m) else scene.exact_m
     return Scan(ids, scan, generation=generation), {
-        "pose": scene.scans.poses[some],
-        # Only the scans of a file have beams of their own, and they are sent one at a time.
+        "pose": scene.scans.poses[rows],
+        # Only the scans of a file can differ in their beam angles, and they are sent one at a time.
         "angles": (scene.scans.angles_rad if scan is None else scene.scans.angles_by_scan()[scan]).astype(np.float32),
-        "ranges": scene.scans.ranges_m[some].astype(np.float32),
+        "ranges": scene.scans.ranges_m[rows].astype(np.float32),
         "exact": exact.astype(np.float32),
-        "hit": hits(scene)[some].astype(np.uint8),
+        "hit": hits(scene)[rows].astype(np.uint8),
     }

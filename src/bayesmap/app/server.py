@@ -1,6 +1,6 @@
-"""The server of the page, on loopback unless another host is named, and its guard (docs/app.md).
+"""The server of the page and its guard (docs/app.md). The server listens on loopback unless another host is given.
 
-The guard lets in requests that know the token, name the server as it was named, and come from its own page.
+The guard admits requests that have the token, address the server by one of its names, and come from its own page.
 """
 
 from __future__ import annotations
@@ -81,12 +81,12 @@ SCRIPT_HASH = "sha256-" + base64.b64encode(hashlib.sha256(SCRIPT.encode()).diges
 
 
 class Guard:
-    """Middleware that refuses requests without the token, under a strange Host, or from a strange Origin.
+    """Middleware that refuses requests without the token, with an unknown Host, or with a foreign Origin.
 
-    The Host is checked so that no web page can reach the server by a name of its own that resolves to this machine.
+    The Host is checked against foreign web pages whose own host name resolves to this machine.
 
     Args:
-        app: the application that is guarded.
+        app: the guarded application.
         token: the token that every query must have.
         host: the host on which the server listens.
         port: the port on which the server listens.
@@ -101,7 +101,7 @@ class Guard:
         self.names = frozenset(names)
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """Check a request, then pass it on."""
+        """Check a request, then pass it on or refuse it."""
         if scope["type"] not in ("http", "websocket"):
             await self.app(scope, receive, send)
             return
@@ -128,7 +128,7 @@ class Guard:
         await answer(scope, receive, with_headers if scope["type"] == "http" else send)
 
     def objection(self, scope: Scope) -> str | None:
-        """Return why a request is refused, or None."""
+        """Return the reason why a request is refused, or None."""
         if not self.knows(_header(scope, b"host")):
             return "this server does not go by that name"
         origin = _header(scope, b"origin")
@@ -149,7 +149,7 @@ class Guard:
 
 
 def _is_address(name: str) -> bool:
-    """Return whether a name is an address in numbers, which cannot be made to point elsewhere."""
+    """Return whether a name is a numeric address, which cannot be made to point to another machine."""
     try:
         ipaddress.ip_address(name.strip("[]"))
     except ValueError:
@@ -164,16 +164,16 @@ def _header(scope: Scope, name: bytes) -> str:
 MESSAGES_PER_SECOND = 200
 BURST = 400
 FLOOD = 2000
-"""A page is cut off after so many messages over the rate."""
+"""A page's rate of messages, the number that it may send at once, and the excess after which it is disconnected."""
 
 HARD_LIMIT_BYTES = 4 * MAX_BYTES
-"""A message over `MAX_BYTES` is answered by an error; over this limit, the connection is closed and nothing is read."""
+"""A message over `MAX_BYTES` is answered by an error. Over this limit, it is not read, and the connection is closed."""
 
 POLICY_VIOLATION = 1008
 
 
 class Rate:
-    """The rate of messages: a bucket that fills again with time."""
+    """Rate limit for messages by a token bucket: `BURST` tokens, refilled at `MESSAGES_PER_SECOND`."""
 
     def __init__(self) -> None:
         self._left, self._at = float(BURST), time.monotonic()
@@ -239,13 +239,13 @@ async def _receive(socket: WebSocket, hub: Hub, client: int) -> None:
 
 
 def listen(host: str, port: int) -> socket.socket:
-    """Return a listening socket; port 0 takes any that is free.
+    """Return a listening socket. Port 0 means any free port.
 
     Raises:
-        BadInput: the address cannot be had.
+        BadInput: the address is not available.
     """
     family = socket.AF_INET6 if ":" in host else socket.AF_INET
-    # With the protocol named, asyncio sends small messages at once; else each would wait for the last one's receipt.
+    # With TCP given explicitly, asyncio sends small messages at once. Else each waits for the last one's receipt.
     found = socket.socket(family, socket.SOCK_STREAM, socket.IPPROTO_TCP)
     found.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
     try:
@@ -259,7 +259,7 @@ def listen(host: str, port: int) -> socket.socket:
 
 
 class _Server(uvicorn.Server):
-    """A server that tells when it answers."""
+    """A server that calls `on_ready` when it accepts requests."""
 
     def __init__(self, config: uvicorn.Config, on_ready: Callable[[], None]) -> None:
         super().__init__(config)
@@ -271,7 +271,7 @@ class _Server(uvicorn.Server):
 
     @contextlib.contextmanager
     def capture_signals(self) -> Iterator[None]:
-        # uvicorn listens to Ctrl-C even in a process that was started to ignore it.
+        # uvicorn would handle Ctrl-C even in a process that was started to ignore it.
         before = signal.getsignal(signal.SIGINT)
         with super().capture_signals():
             if before is signal.SIG_IGN:
@@ -321,16 +321,16 @@ def serve(
     """Serve the page until Ctrl-C.
 
     Args:
-        document: the document shown first, where no file is.
+        document: the document shown first, if there is no file.
         path: a saved run or a log to show.
-        reading: the options with which `bayesmap.read_log` reads the log.
+        reading: options of `bayesmap.read_log` for the log.
         host: the host to listen on.
-        port: the port to listen on; 0 takes any that is free.
-        on_ready: called with the address of the page, when the server answers and there is a first picture.
+        port: the port to listen on; 0 means any free port.
+        on_ready: callback that gets the page's address when the server accepts requests and has a first picture.
 
     Raises:
         BadInput: the port is taken, or the file cannot be shown.
-        KeyboardInterrupt: Ctrl-C before that.
+        KeyboardInterrupt: Ctrl-C before the server is ready.
     """
     with contextlib.closing(listen(host, port)) as found:
         ready = False

@@ -1,7 +1,7 @@
-"""The session: it applies what pages ask for, and decides what the worker does and what pages are sent.
+"""The session applies the actions of pages, and decides on the tasks of the worker and the messages to pages.
 
-It has no sockets and no clocks. Edits of a gesture that arrive faster than pictures can be computed and painted are
-merged (`bayesmap.app.edits.Pace`). So a fast hand sees every picture that there is time for, and never falls behind.
+It uses no sockets and no clocks. Edits of a gesture that arrive faster than pictures can be computed and painted are
+merged (`bayesmap.app.edits.Pace`). So pictures never fall behind a fast hand.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from bayesmap.app.protocol.wire import parse_document
 
 QUESTIONS, EDITS = get_args(actions.Question), get_args(actions.Edit)
 REPLAYED = (notices.Scan, notices.Field, notices.Overlay)
-"""The messages that a page is sent again when it connects late."""
+"""The types of messages whose last one is sent again to a page that connects."""
 
 
 @dataclass(frozen=True)
@@ -41,13 +41,13 @@ class Session:
 
     Attributes:
         history: the document, and its states before and after.
-        generation: that of the present picture; see docs/app.md.
+        generation: number of the present picture (docs/app.md).
         live: whether edits restart the chains.
         running: whether a run is under way.
-        working: whether the picture will change: chains go on, or are about to begin.
-        draws: the number of draws of the present result.
+        working: whether the picture is still being computed.
+        draws: number of kept draws of the present result.
         scan: index of the scan on show, for a file.
-        worker_ready: whether there is a worker.
+        worker_ready: whether the worker is ready.
     """
 
     def __init__(self, document: Document) -> None:
@@ -58,7 +58,7 @@ class Session:
         self.draws = notices.DrawCount()
         self.scan = 0
         self.worker_ready = False
-        self._views: dict[int, notices.View] = {}  # of pages that asked for a view
+        self._views: dict[int, notices.View] = {}  # the views of pages that asked for one
         self._mode: tasks.Mode = "live"
         self._pace = Pace()
         self._seqs: dict[int, int] = {}  # the number of the last action of every page that was applied
@@ -86,7 +86,7 @@ class Session:
         return self._apply(self._pace.take(client, action))
 
     def join(self, client: int) -> Effects:
-        """Greet a page that has connected; it answers with hello."""
+        """Return the first messages for a page that has connected. It answers with `hello`."""
         self._seqs[client] = 0
         self._pace.forget(client)
         worker = notices.Worker("ready" if self.worker_ready else "starting")
@@ -97,7 +97,7 @@ class Session:
         ]
 
     def leave(self, client: int) -> Effects:
-        """Forget a page that has gone: the worker draws nothing for it, and any page may undo its steps."""
+        """Forget a page that has disconnected. The worker makes no fields for it, and any page may undo its steps."""
         self._pace.forget(client)
         last = self._apply(self._pace.due())
         self._seqs.pop(client, None)
@@ -190,7 +190,7 @@ class Session:
         return effects + [replace(self._last[kind], client=client) for kind in REPLAYED if kind in self._last]
 
     def _may_step(self, client: int, steps: Steps) -> bool:
-        """Return whether the last of some steps is this page's, or of a page that has gone."""
+        """Return whether the last step was made by this page, or by a page that has disconnected."""
         return bool(steps) and (steps[-1][1] == client or steps[-1][1] not in self._seqs)
 
     def _step(self, client: int, history: History[Document], steps: Steps, name: str) -> Effects:
@@ -203,7 +203,7 @@ class Session:
     # From the worker
 
     def hear(self, report: tasks.Report) -> Effects:
-        """Return the effects of a report of the worker; a report of an older generation has none."""
+        """Return the effects of a worker's report. A report of an older generation has none."""
         message = report.message
         if isinstance(message, tasks.Ready):
             return self._ready(message.document)
@@ -240,13 +240,13 @@ class Session:
         return [replace(notice, client=client) for client in pages]
 
     def worker_lost(self) -> Effects:
-        """Tell the pages that the worker died, and that another is being started."""
+        """Return messages to all pages that the worker stopped and is being restarted."""
         self.worker_ready = False
         text = "the worker stopped and is being restarted; the map is kept"
         return [ToPage(notices.Worker("restarted")), _status(text, "warning")]
 
     def _ready(self, document: Document | None) -> Effects:
-        """Give a new worker the document, or take the document of the file that it has opened."""
+        """Restart inference in a new worker, at first on the document of the file that it has opened."""
         self.worker_ready = True
         if document is not None and self.generation == 0:
             self.history = History(document)
@@ -273,10 +273,10 @@ class Session:
         self._pace.computing = True
         self._last.pop(notices.Field, None)
         if self.document.simulated:
-            self._last.pop(notices.Overlay, None)  # it is that of the file shown before
+            self._last.pop(notices.Overlay, None)  # it belongs to the file shown before
         self.scan = min(self.scan, max(0, self.document.source.scans - 1))
         task = tasks.Infer(self.generation, self.document, self._mode, self.scan)
-        # The state comes first: a page must know of a generation before it sees the picture.
+        # The state comes first: a page must get a generation's number before its picture.
         return [*self._states(), task]
 
     def _states(self) -> Effects:
@@ -295,10 +295,10 @@ class Session:
 
 
 def check_question(document: Document, question: actions.Question) -> None:
-    """Check that a question is about a cell or a beam that is there.
+    """Check that the cell or the beam of a question exists.
 
     Raises:
-        Refused: it is not.
+        Refused: it does not exist.
     """
     match question:
         case actions.Inspect():
@@ -311,7 +311,7 @@ def check_question(document: Document, question: actions.Question) -> None:
 
 
 def refusal(refused: Refused, seq: int | None = None) -> notices.Refusal:
-    """Return the answer to a message that was not understood."""
+    """Return the answer to a message that was refused."""
     return notices.Refusal(refused.text, refused.remedy, seq)
 
 

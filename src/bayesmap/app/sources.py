@@ -1,4 +1,4 @@
-"""Files that the page shows: a saved run, or a log from which the worker infers, on cells of any size."""
+"""Files that the page shows: a saved run, or a log on cells of any size, from which the worker infers a map."""
 
 from __future__ import annotations
 
@@ -38,6 +38,7 @@ from bayesmap.space.scans import Scans
 
 LOG_RESOLUTION_M = 0.1
 LOG_SWEEPS = 200
+"""The size of cells and the number of sweeps with which a log is opened."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,7 +50,7 @@ class OpenedRun:
 
     @cached_property
     def result(self) -> Result:
-        """The run, and its readings; their beam table only serves to count beams."""
+        """The run with its readings. The beam table only serves to count beams."""
         from bayesmap.kernels.walls.table import trace
 
         posterior = self.run.posterior
@@ -82,10 +83,10 @@ class SavedRun(Found):
 
     @property
     def law(self) -> None:
-        """None, since the readings have the run's law.
+        """None: the scene already has the run's sensor model.
 
         Raises:
-            BadInput: a sensor model that only the run's maker had.
+            BadInput: the run's sensor model is not built in.
         """
         if self.run.posterior.sensor is None:
             raise BadInput("the run's sensor model is not one of bayesmap's, so nothing can be predicted")
@@ -97,7 +98,7 @@ class SavedRun(Found):
 
     @property
     def scan_poses(self) -> Floats | None:
-        """The mean poses of the scans over the draws, (S, 3), where poses were inferred."""
+        """The mean poses of the scans over the draws, (S, 3), if poses were inferred."""
         if not self.run.n_draws or "poses" not in self.run.posterior.draws.arrays:
             return None
         x, y, yaw = np.moveaxis(self.run.poses, -1, 0).reshape(3, -1, len(self.run.posterior.scans))
@@ -105,7 +106,7 @@ class SavedRun(Found):
         return np.column_stack([x.mean(axis=0), y.mean(axis=0), heading])
 
     def mean(self) -> Floats:
-        """Return the run's mean, (nx, ny), 0.5 where it says nothing."""
+        """Return the run's mean, (nx, ny), with 0.5 in cells without a value."""
         return np.nan_to_num(self.run.occupancy, nan=0.5)
 
     def observed(self) -> NDArray[np.bool_]:
@@ -117,7 +118,7 @@ class SavedRun(Found):
         return self.run.log_joint
 
     def draw(self, chain: int | None, number: int | None) -> OneMap | None:
-        """Return a kept draw; the last, where there is none with that number."""
+        """Return a kept draw; the last one if that number does not exist."""
         if not self.run.n_draws:
             return None
         last = self.run.n_draws - 1
@@ -141,8 +142,8 @@ class Traced:
     Attributes:
         grid: the cells.
         sensor: the default sensor for logs.
-        table: the beams.
-        counts: their hits and passes, once they have been asked for.
+        table: beam table.
+        counts: hits and passes of the beams, once they have been asked for.
     """
 
     grid: Grid
@@ -159,9 +160,9 @@ class OpenedLog:
         self._traced: Traced | None = None
 
     def on_cells(self, document: Document) -> Document:
-        """Return a document of this log on cells of its size that cover what the scans saw.
+        """Return a document of this log on a grid of its cell size that covers what the scans saw.
 
-        Where these would be too many, the cells are those on which the log is first shown.
+        If this grid is too large, use the grid on which the log is first shown.
         """
         own, bounds = self.document.grid, self.document.source.bounds
         if bounds is None or document.grid.resolution == own.resolution:
@@ -170,14 +171,14 @@ class OpenedLog:
         return document.on_grid(own if max(grid.shape) > LARGEST_SIDE_OF_LOG else grid)
 
     def scene(self, document: Document) -> Scene:
-        """Return the first scans of the log under the document's prior. Each size of cells is traced once."""
+        """Return the scene of the log's first scans under the document's prior."""
         traced, used = self._trace(document.grid), document.scans_used
         table = traced.table if used is None else first_beams(traced.table, used * len(self.scans.angles_rad))
         depth = Independent.hit_depth
         return scene_of_file(self.scans, document.grid, traced.sensor, document.prior, table, depth, used)
 
     def coarse(self, document: Document) -> Result:
-        """Return the map that counts of hits give for the first scans."""
+        """Return the hit-count map of the first scans."""
         traced = self._trace(document.grid)
         if traced.counts is None:
             traced.counts = HitCounts(self.scans, traced.table)
@@ -189,12 +190,12 @@ class OpenedLog:
         return Result(self.scene(document), document, "hits", counted)
 
     def _trace(self, grid: Grid) -> Traced:
-        """Return the beams on a grid; those on the last grid are kept."""
+        """Return the beams traced on a grid. Those on the last grid are kept."""
         from bayesmap.cells.kinds import default_sensor
         from bayesmap.kernels.walls.table import trace
 
         if self._traced is None or self._traced.grid != grid:
-            self._traced = None  # first: two tables may not fit
+            self._traced = None  # free the old table first: two may not fit in memory
             sensor = default_sensor(grid.resolution)
             self._traced = Traced(grid, sensor, trace(self.scans, grid, sensor, hit_depth=Independent.hit_depth))
         return self._traced
@@ -227,10 +228,10 @@ def open_file(path: str, **reading: Any) -> OpenedRun | OpenedLog:
 
     Args:
         path: the file.
-        reading: the options with which `bayesmap.read_log` reads a log.
+        reading: options of `bayesmap.read_log` for a log.
 
     Raises:
-        BadInput: no such file, or one that cannot be read as either.
+        BadInput: the file does not exist, or is neither a saved run nor a log.
     """
     if not Path(path).exists():
         raise BadInput(f"{path}: no such file; give a saved run (.nc) or a log of range scans")
@@ -245,7 +246,7 @@ def opened_run(run: Run, name: str) -> OpenedRun:
     """Open a run that is in memory.
 
     Raises:
-        BadInput: a map that is too large for the page.
+        BadInput: the map is too large for the page.
     """
     settings, scans = run.posterior.settings, run.posterior.scans
     p = settings.get("prior", {}).get("p_wall", 0.5)
@@ -254,7 +255,7 @@ def opened_run(run: Run, name: str) -> OpenedRun:
     document = replace(
         document,
         method=method if method in METHODS else "gibbs",
-        order=settings.get("order") or "radial",  # cells of numbers have none
+        order=settings.get("order") or "radial",  # other kinds of cells than walls have no order
         cells=run.posterior.prior.words.kind,  # type: ignore[arg-type]
         sweeps=max(1, min(100_000, int(run.posterior.sweep))),
         seed=min(2**31 - 1, int(settings.get("seed", 0))),
@@ -263,12 +264,12 @@ def opened_run(run: Run, name: str) -> OpenedRun:
 
 
 def opened_log(scans: Scans, name: str) -> OpenedLog:
-    """Open scans as a log, on cells of 10 cm, or larger where the map would have more than a thousand a side.
+    """Open scans as a log, on cells of 10 cm, or on larger cells if a side would have more than 1000 cells.
 
-    Poses that look like raw odometry are taken for it at first.
+    Poses that look like raw odometry are at first treated as odometry.
 
     Raises:
-        BadInput: a log without scans.
+        BadInput: the log has no scans.
     """
     from bayesmap.cells.kinds import P_WALL
     from bayesmap.poses.log_checks import look_like_odometry

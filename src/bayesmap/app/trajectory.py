@@ -1,8 +1,8 @@
-"""The trajectory of a log: from raw odometry to the log along its inferred trajectory, with pictures of every stage.
+"""The trajectory of a log: inference from raw odometry, with pictures of every stage.
 
-`infer_trajectory` works on a thread of its own, so that the worker goes on answering. The thread puts finished pictures
-into a queue, and shares nothing else that would need a lock. A job that is cancelled ends at its next sign of progress.
-The next job waits for that end.
+`infer_trajectory` runs on its own thread, so that the worker goes on answering. The thread puts finished pictures into
+a queue, and shares nothing else that would need a lock. A cancelled job ends when it next reports progress. The next
+job waits for that end.
 """
 
 from __future__ import annotations
@@ -43,17 +43,17 @@ STAGES = {
     "aligned-rematched": "Aligning after some were moved",
     "placing": "Placing the other scans",
 }
-"""The names of the stages for the reader, in their order."""
+"""The names of the stages on the page, in their order."""
 
 
 @dataclass(frozen=True, eq=False)
 class Step:
-    """A step of the inference that pages are shown.
+    """A step of the inference, to be shown on pages.
 
     Attributes:
         grid: the grid of the map.
-        result: the map along the poses so far.
-        stage: progress of the inference, or None while nothing is inferred.
+        result: the map along the present poses.
+        stage: progress of the inference, or None if none is under way.
         text: text for the status line, or empty.
     """
 
@@ -101,11 +101,11 @@ class TrajectoryJob:
         self._thread.start()
 
     def cancel(self) -> None:
-        """End the job at its next sign of progress."""
+        """End the job when it next reports progress."""
         self._stop.set()
 
     def steps(self) -> Generator[Step | None, None, None]:
-        """Yield pictures as they come, and None while there is none, until the job has ended.
+        """Yield pictures as they are ready, and None while there is none, until the job has ended.
 
         Raises:
             BadInput: as `infer_trajectory`.
@@ -145,7 +145,7 @@ class TrajectoryJob:
         self._done, self._of = done, of
 
     def _on_poses(self, stage: str, poses: NDArray[np.float64]) -> None:
-        """Make a picture at the beginning of a stage and in every round of loops, and else now and then."""
+        """Queue a picture at the beginning of a stage, in every round of loops, and otherwise at intervals."""
         self._check()
         began = time.monotonic()
         if stage == self._told and stage != "loops" and began < self._next:
@@ -160,7 +160,7 @@ class TrajectoryJob:
 
 
 def in_time(scans: Scans) -> NDArray[np.intp]:
-    """Return the order of the scans in time, as `infer_trajectory` takes them, (S,)."""
+    """Return the order of the scans in time, in which `infer_trajectory` processes them, (S,)."""
     if scans.stamps_s is None:
         return np.arange(len(scans))
     return np.argsort(scans.stamps_s, kind="stable")
@@ -195,7 +195,7 @@ class Localization:
         self.placed: OpenedLog | None = None
 
     def log_of(self, document: Document) -> OpenedLog:
-        """Return the log of a document: along its inferred trajectory, if that is asked for and known."""
+        """Return the log for a document: along the inferred trajectory, if the document asks for it and it is known."""
         return self.placed if document.from_odometry and self.placed is not None else self.log
 
     def remember(self, known: Remember) -> None:
@@ -205,8 +205,8 @@ class Localization:
     def steps(self, task: Infer) -> Generator[Step | Located | Status | None, None, None]:
         """Yield steps and reports until the log can be mapped, and None while there is nothing new.
 
-        The mode "run" infers the trajectory, unless it is known; "clear" forgets it. While it is not known, other modes
-        show the map along the poses of the log at once.
+        The mode "run" infers the trajectory, unless it is known. "clear" forgets it. While it is unknown, other modes
+        show the map along the poses of the log.
 
         Raises:
             BadInput: as `bayesmap.poses.slam.infer_trajectory`.

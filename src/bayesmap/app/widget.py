@@ -1,4 +1,4 @@
-"""The page as a widget of a notebook: the same module and the same session, over the notebook's own channel."""
+"""The page as a widget in a notebook: it runs the page's module and session over the notebook's own channel."""
 
 from __future__ import annotations
 
@@ -33,9 +33,9 @@ CLIENT = 1
 class MapWidget(anywidget.AnyWidget):
     """The interactive page in Jupyter and marimo.
 
-    ``MapWidget()`` is the live page on the tutorial's map; ``MapWidget(run)`` shows a finished run, its draws and its
-    scans. The worker process starts when the widget is first shown, and ends with `close`, with the kernel, and in
-    marimo also when the cell is run again or the visitor of an app has gone.
+    ``MapWidget()`` is the live page on the tutorial's map. ``MapWidget(run)`` shows a finished run, its draws and its
+    scans. The worker process starts when the widget is first shown. It ends with `close` or with the kernel. In marimo
+    it also ends when the cell is run again, or when the visitor of an app has left.
 
     Args:
         run: the run to show; None for the live page.
@@ -43,7 +43,7 @@ class MapWidget(anywidget.AnyWidget):
         seed: the seed of all random numbers of the live page.
 
     Raises:
-        BadInput: a document that is not one.
+        BadInput: the document is invalid.
     """
 
     _esm = static("mapview.js")
@@ -77,7 +77,7 @@ class MapWidget(anywidget.AnyWidget):
         """Return a page in one file that shows the run.
 
         Raises:
-            BadInput: a live page; use its export.
+            BadInput: the widget is a live page; use the page's export.
         """
         if self._run is None:
             raise BadInput("MapWidget: a live page is exported from the page itself")
@@ -97,8 +97,8 @@ class MapWidget(anywidget.AnyWidget):
             self._folder = None
 
     def _end_with_notebook(self) -> None:
-        """End the worker also where the notebook forgets the widget without closing it, as marimo does."""
-        # when a cell is run again, the channels of its widgets are closed, and not the widgets
+        """End the worker also if the notebook drops the widget without closing it, as marimo does."""
+        # when a cell is run again, marimo closes the channels of its widgets, but not the widgets
         if (channel := self.comm) is not None:
             close = channel.close
 
@@ -108,7 +108,7 @@ class MapWidget(anywidget.AnyWidget):
 
             channel.close = close_and_end
 
-        # a visitor of an app has a thread; when the visitor has gone, nothing is closed, but the thread ends
+        # each visitor of an app has a thread; when the visitor leaves, nothing is closed, but the thread ends
         thread = threading.current_thread()
         if thread is not threading.main_thread() and _loop() is not None:
 
@@ -119,7 +119,7 @@ class MapWidget(anywidget.AnyWidget):
             threading.Thread(target=end_after, name="bayesmap-end", daemon=True).start()
 
     def _receive(self, _widget: object, content: Any, _buffers: object) -> None:
-        """Read and apply a message of the view."""
+        """Read and apply a message from the view."""
         self._start()
         with self._one_at_a_time:
             if isinstance(content, dict) and content.get("type") == "hello":
@@ -166,7 +166,7 @@ class MapWidget(anywidget.AnyWidget):
 
 
 def _on_this_loop() -> Callable[[Callable[[], None]], None]:
-    """Return how threads call into the notebook: through its event loop, or directly where there is none."""
+    """Return a function that runs a call on the notebook's event loop, or directly if there is no loop."""
     loop = _loop()
     if loop is None:
         return lambda call: call()

@@ -1,6 +1,6 @@
-"""The worker process, an engine at the end of a pipe, and the supervisor that starts, watches and replaces it.
+"""The worker process, which runs an engine behind a pipe, and the supervisor that starts, watches and replaces it.
 
-The worker ends when its pipe does. The supervisor works on threads of its own, so that no pipe blocks its caller.
+The worker ends when its pipe is closed. The supervisor works on its own threads, so that no pipe blocks its caller.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ NICE = 10
 
 
 class Reporter:
-    """Sends the reports of several threads over the pipe, and a sign of life now and then."""
+    """Sends the reports of several threads over the pipe, and an `Alive` signal every `ALIVE_SECONDS`."""
 
     def __init__(self, pipe: Connection) -> None:
         self._pipe, self._lock = pipe, threading.Lock()
@@ -47,15 +47,15 @@ class Reporter:
 
 
 def serve(pipe: Connection, path: str | None, reading: dict[str, Any]) -> None:
-    """Take tasks and answer them until the other end is closed.
+    """Do the tasks from the pipe until its other end is closed.
 
-    The first report is `Unusable` where the file cannot be opened. Else it is `Ready` with the file's document, after a
+    The first report is `Unusable` if the file cannot be opened. Else it is `Ready` with the file's document, after a
     small map has been inferred, so that all kernels are loaded.
 
     Args:
-        pipe: the worker's end.
+        pipe: the worker's end of the pipe.
         path: the file to show, if any.
-        reading: the options with which `bayesmap.read_log` reads it.
+        reading: options of `bayesmap.read_log` for this file.
     """
     from bayesmap.app.engine import Engine
     from bayesmap.app.sources import open_file
@@ -79,7 +79,7 @@ def serve(pipe: Connection, path: str | None, reading: dict[str, Any]) -> None:
 
 
 def still_valid(tasks: Sequence[T]) -> list[T]:
-    """Return tasks without those that begin a generation before the last: these are not even begun."""
+    """Return the tasks without outdated jobs: only the last `Infer` is kept."""
     latest = max((i for i, task in enumerate(tasks) if isinstance(task, Infer)), default=-1)
     return [task for i, task in enumerate(tasks) if i >= latest or not isinstance(task, Infer)]
 
@@ -100,7 +100,7 @@ def _warm() -> None:
 
 
 def main(arguments: list[str]) -> None:
-    """Serve ``descriptor [path reading]``: the inherited end of the pipe, the file to show, and its options as JSON."""
+    """Run the worker. Arguments: ``descriptor [path reading]``: the inherited pipe, the file, its options as JSON."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for the server, which closes the pipe
     with contextlib.suppress(AttributeError, OSError):
         os.nice(NICE)
@@ -117,18 +117,18 @@ if __name__ == "__main__":
 
 
 QUICK_DEATH_SECONDS = 5.0
-"""A worker that lived no longer than this is restarted after a pause, which grows with each death."""
+"""A worker that ends sooner than this is restarted after a pause. The pause grows each time, up to a limit."""
 
 LONGEST_PAUSE_SECONDS = 8.0
 SILENT_SECONDS = 15.0
-"""A worker that gives no sign of life for this time is replaced."""
+"""A worker that sends no report for this time is replaced."""
 
 SLOW_BIRTH_SECONDS = 60.0
-"""A new worker has this much longer: a cold disk has to load Python and its libraries first."""
+"""The extra time for a new worker, which may have to load Python and its libraries from a cold disk."""
 
 
 class Process(Protocol):
-    """A worker process, as its supervisor needs it."""
+    """The interface of a worker process for its supervisor."""
 
     @property
     def pid(self) -> int | None:
@@ -155,8 +155,8 @@ class Supervisor:
         on_report: called with every report, on a thread of the supervisor.
         on_lost: called when a worker has died, before another starts.
         path: the file that the worker opens.
-        silence_s: the time without a sign of life after which a worker is replaced.
-        reading: the options with which `bayesmap.read_log` reads a log.
+        silence_s: the time without a report after which a worker is replaced, seconds.
+        reading: options of `bayesmap.read_log` for a log.
     """
 
     def __init__(
@@ -187,11 +187,11 @@ class Supervisor:
             threading.Thread(target=run, name=f"bayesmap{run.__name__}", daemon=True).start()
 
     def send(self, task: Task) -> None:
-        """Hand a task to the worker; returns at once."""
+        """Queue a task for the worker, and return at once."""
         self._tasks.put(task)
 
     def stop(self) -> None:
-        """End the worker, which has nothing to lose."""
+        """End the worker and the threads."""
         self._stopping.set()
         self._tasks.put(None)
         self._end()
@@ -219,7 +219,7 @@ class Supervisor:
             return self._pipe
 
     def _listen(self) -> None:
-        """Start a worker and pass on its reports; when these end, start another."""
+        """Start a worker and pass on its reports. When its pipe ends, start another."""
         pause = 0.0
         while (pipe := self._spawn()) is not None:
             born = time.monotonic()
@@ -241,7 +241,7 @@ class Supervisor:
             self._stopping.wait(pause)
 
     def _watch(self) -> None:
-        """Kill a worker that hangs; `_listen` then meets the end of its pipe."""
+        """Kill a worker that hangs. Its pipe then ends, and `_listen` starts another."""
         while not self._stopping.wait(ALIVE_SECONDS):
             with self._lock:
                 process = self._process
@@ -249,7 +249,7 @@ class Supervisor:
                     process.kill()
 
     def _pass_on(self) -> None:
-        """Write tasks to the pipe, without those that a later task makes out of date."""
+        """Write tasks to the pipe, without outdated jobs."""
         while True:
             tasks = [self._tasks.get()]
             while not self._tasks.empty():

@@ -1,13 +1,13 @@
-"""Evidence of beams about one cell: how much each reading speaks for what is there, and how much against.
+"""Evidence of beams about one cell: how strongly each reading supports or contradicts an obstacle in the cell.
 
-For walls, the likelihood of a reading with a wall in the cell is compared with its likelihood with a free cell. Where
-cells stop some of the beams (reflectivities, surfaces), the map is compared with the map whose cell is emptied, its
-reflectivity 0 in every draw:
+For walls, the likelihood of a reading with a wall in the cell is compared with its likelihood with a free cell. If
+cells stop only some beams (reflectivities, surfaces), the map is compared with the same map with this cell emptied: its
+reflectivity is 0 in every draw.
 
     log [mean over draws of p(z | draw)] - log [mean over draws of p(z | draw with the cell emptied)].
 
-The draws are those of the posterior given all readings, this reading included. Each beam is averaged over the draws by
-itself, so the sum over beams is not the log ratio of all readings together.
+The draws are from the posterior given all readings, including this reading. Each beam is averaged over the draws
+separately. So the sum over beams is not the log ratio of all readings together.
 """
 
 from __future__ import annotations
@@ -25,13 +25,13 @@ from bayesmap.space.scans import Scans
 
 MOST_BEAMS = 2000
 MOST_BEAMS_OF_STOPS = 500
-"""At most this many beams of a cell are asked; fewer where draws have to be asked. Each counts for those left out."""
+"""The most beams evaluated per cell, for walls and for other kinds of cells. Each also counts for beams left out."""
 
 SILENT_NATS = 0.005
-"""A beam whose log-likelihood changes by less says nothing."""
+"""A beam with a smaller log ratio counts neither for nor against."""
 
 MOST_DRAWN = 100
-"""The number of beams of a cell that a page is told one by one: the strongest."""
+"""The largest number of beams per cell that a page gets one by one: those with the largest log ratios."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,10 +39,10 @@ class BeamRatios:
     """Log-likelihood ratios of the beams through a cell.
 
     Attributes:
-        beams: flat indices of the beams that were asked, (B,).
-        nats: log ratio of each beam's likelihoods with and without what may stand in the cell, (B,).
+        beams: flat indices of the evaluated beams, (B,).
+        nats: log ratio of each beam's likelihoods with and without an obstacle in the cell, (B,).
         through: number of beams that touch the cell.
-        every: number of beams for which each beam counts.
+        every: number of beams that each evaluated beam counts for.
     """
 
     beams: NDArray[np.intp]
@@ -57,10 +57,10 @@ class Evidence:
 
     Attributes:
         beams: number of beams that touch the cell.
-        beams_for: number of beams whose readings are likelier with what may stand there than without.
-        nats_for: the sum of their log ratios.
-        beams_against: number of beams whose readings are less likely.
-        nats_against: the sum of their log ratios, without its sign.
+        beams_for: number of beams whose readings are more likely with an obstacle than without.
+        nats_for: sum of the log ratios of these beams.
+        beams_against: number of beams whose readings are less likely with an obstacle.
+        nats_against: absolute sum of the log ratios of these beams.
     """
 
     beams: int
@@ -73,13 +73,13 @@ class Evidence:
 def wall_ratios(table: BeamTable, p_wall: NDArray[np.float64], cell: int) -> BeamRatios:
     """Compute log p(z | wall in the cell) - log p(z | cell free) of every beam through a cell.
 
-    Both are means over where the beam first meets a wall. Every other cell is a wall independently, with its
-    probability.
+    Both likelihoods are averaged over the cell at which the beam first meets a wall. Every other cell is a wall
+    independently, with its own probability.
 
     Args:
         table: the beams.
         p_wall: probability that each cell is a wall, (N,).
-        cell: flat index.
+        cell: flat index of the cell.
     """
     places, beams, every = _through(table, cell, MOST_BEAMS)
     pairs = zip(beams.tolist(), places[::every].tolist(), strict=True)
@@ -88,10 +88,10 @@ def wall_ratios(table: BeamTable, p_wall: NDArray[np.float64], cell: int) -> Bea
 
 
 def stop_ratios(result: Result, table: BeamTable, cell: int) -> BeamRatios | None:
-    """Compute how much likelier each reading is under the map than with the cell emptied; None without draws.
+    """Compute each reading's log likelihood ratio, under the map against the cell emptied; None without draws.
 
     Raises:
-        BadInput: a sensor model that only the run's maker had.
+        BadInput: the run's sensor model is not built in.
     """
     if result.found.at_hand is None:
         return None
@@ -102,14 +102,14 @@ def stop_ratios(result: Result, table: BeamTable, cell: int) -> BeamRatios | Non
 
 
 def _through(table: BeamTable, cell: int, most: int) -> tuple[NDArray[np.intp], NDArray[np.intp], int]:
-    """Return a cell's entries in a table, the beams of every n-th entry, and n, so that there are at most `most`."""
+    """Return a cell's entries in a table, the beams of every n-th entry, and n, chosen for at most `most` beams."""
     places = np.flatnonzero(table.cells == cell)
     every = max(1, -(-len(places) // most))
     return places, np.searchsorted(table.offsets, places[::every], side="right") - 1, every
 
 
 def summed(ratios: BeamRatios) -> Evidence:
-    """Count the beams that speak for what may stand in a cell and those against, and sum their log ratios."""
+    """Count the beams for and against an obstacle in the cell, and sum their log ratios."""
     nats, every = ratios.nats, ratios.every
     in_favour, against = nats > SILENT_NATS, nats < -SILENT_NATS
     return Evidence(
@@ -119,15 +119,15 @@ def summed(ratios: BeamRatios) -> Evidence:
 
 
 def strongest(ratios: BeamRatios, scans: Scans) -> dict[str, NDArray[np.float64]]:
-    """Return the beams that say most of a cell, the strongest first.
+    """Return the beams with the largest log ratios, the strongest first.
 
     Args:
-        ratios: those of the beams of some scans.
-        scans: these scans, at the poses from which they saw the cell.
+        ratios: log ratios of beams of the scans.
+        scans: the scans, at the poses from which they saw the cell.
 
     Returns:
-        Where each beam starts and ends in the world, ``start`` and ``end`` (M, 2), metres; a beam without a return ends
-        at the sensor's longest range. Its log ratio, ``nats`` (M,), and the indices of its ``scan`` and ``beam``, (M,).
+        Both ends of each beam in the world, ``start`` and ``end`` (M, 2), metres; the log ratio, ``nats`` (M,); and the
+        indices ``scan`` and ``beam``, (M,). A beam without a return ends at the sensor's longest range.
     """
     order = np.argsort(-np.abs(ratios.nats), kind="stable")[:MOST_DRAWN]
     order = order[np.abs(ratios.nats[order]) > SILENT_NATS]
@@ -143,6 +143,7 @@ def strongest(ratios: BeamRatios, scans: Scans) -> dict[str, NDArray[np.float64]
 
 
 def _log_ratio(table: BeamTable, p_wall: NDArray[np.float64], beam: int, place: int) -> float:
+    """Return log p(z | wall) - log p(z | free) of one beam; `place` is the table entry of the cell in question."""
     begin, end = int(table.offsets[beam]), int(table.offsets[beam + 1])
     log_p = np.append(table.loglik[begin:end], table.no_hit[beam]).astype(np.float64)
     density = np.exp(log_p - log_p.max())
@@ -156,7 +157,7 @@ def _log_ratio(table: BeamTable, p_wall: NDArray[np.float64], beam: int, place: 
 
 
 def one_beam_each(scans: Scans, beams: NDArray[np.intp]) -> Scans:
-    """Return some beams, given by their flat indices, each as a scan of its own."""
+    """Return the beams with these flat indices, each as a scan of its own."""
     start = scans.beam_starts_world().reshape(-1, 2)[beams]
     angle = scans.beam_angles_world().ravel()[beams]
     return Scans(
@@ -166,7 +167,7 @@ def one_beam_each(scans: Scans, beams: NDArray[np.intp]) -> Scans:
 
 
 def log_ratios(predictor: Predictor, scans: Scans, cell: int) -> NDArray[np.float64]:
-    """Return the log ratio above of each beam, nats, (B,); 0 for beams that do not reach the cell."""
+    """Return each beam's log ratio of the map against the cell emptied, nats, (B,); 0 if the cell is out of reach."""
     from bayesmap.kernels.predict.density import log_densities
     from bayesmap.kernels.rays import trace_rays
 
@@ -176,6 +177,7 @@ def log_ratios(predictor: Predictor, scans: Scans, cell: int) -> NDArray[np.floa
     column = int(np.searchsorted(rays.touched, cell))
     if column == len(rays.touched) or rays.touched[column] != cell:
         return np.zeros(scans.ranges_m.size)
+    # Copy the draws, and empty the cell in every copy.
     maps = list(predictor.batches(rays.touched))
     emptied = [batch.copy() for batch in maps]
     for batch in emptied:

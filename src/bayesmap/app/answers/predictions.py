@@ -1,4 +1,4 @@
-"""Predictions from the result on show: the virtual scan of a pose, and one reading against its predictive law."""
+"""Predictions from the result on show: the virtual scan at a pose, and one reading compared with its prediction."""
 
 from __future__ import annotations
 
@@ -25,24 +25,24 @@ from bayesmap.space.scans import Scans, fan
 
 MOST_DRAWS = 32
 HELD_BYTES = 192 << 20
-"""Predictions are averaged over at most this many draws, which take at most this much memory."""
+"""The largest number of draws over which predictions are averaged, and the memory that they may take."""
 
 FEW_DRAWS = 8
-"""The number of draws while the hand moves: the next pose comes before a page can look at one scan for long."""
+"""The number of draws while the hand moves, since each virtual scan is soon replaced by the next."""
 
 STALE_SECONDS = 3.0
-"""The draws of chains that go on are taken anew after this time."""
+"""While chains run, the predictor is rebuilt from their latest draws after this time."""
 
 NEARBY_M = 0.5
 LEAST_SHARED = 0.25
-"""A real scan is shown beside the virtual scan if it was taken this near and shares this part of its field of view."""
+"""A real scan is shown beside the virtual scan if its pose is this near and shares this part of the field of view."""
 
 NEAR_CELLS = 2.0
-"""A reading that is further than this from the mean of a surface, in cells, did not end at that surface."""
+"""The largest distance between a reading and the mean of the surface at which it may have ended, in cells."""
 
 
 class GhostPredictor:
-    """Predicts virtual scans, which messages call ghosts. Puts the draws on the device once, for many questions."""
+    """Predicts virtual scans ("ghosts" in messages). The draws stay on the device for many questions."""
 
     def __init__(self) -> None:
         self._of: object = None
@@ -52,15 +52,16 @@ class GhostPredictor:
         self._draws = 0
 
     def answer(self, result: Result, question: MoveGhost, generation: int) -> tuple[GhostScan, Buffers]:
-        """Predict the scan of a pose, and find the scan that was taken nearest.
+        """Predict the scan at a pose, and find the real scan that was taken nearest.
 
         Raises:
-            BadInput: there is nothing to predict from, or the sensor's law does not add up to one.
+            BadInput: there is nothing to predict from, or the sensor model's density does not integrate to one.
         """
         began = time.perf_counter()
         predictor, draws = self._ready(result, question.coarse)
         document, scans = result.document, result.scene.scans
         pose = (question.x, question.y, question.yaw)
+        # The angles of the beams: those of the nearest real scan, if there is one.
         near = None
         if document.simulated:
             angles = fan(document.angles, math.degrees(document.fov))
@@ -79,11 +80,13 @@ class GhostPredictor:
         return GhostScan(*pose, question.coarse, draws, near, milliseconds, generation=generation), buffers
 
     def _ready(self, result: Result, coarse: bool) -> tuple[ScanPredictor, int]:
-        """Return the predictor of a result and its number of draws; of `FEW_DRAWS` where coarse.
+        """Return the predictor of a result and its number of draws: at most `FEW_DRAWS` if coarse.
 
-        The predictor of chains that go on is made anew now and then.
+        While chains run, the predictor is rebuilt after `STALE_SECONDS`.
         """
         found, now = result.found, time.perf_counter()
+        # Cache key: the result of a method without chains, or the chains themselves. A pilot is a new object after
+        # every sweep, so its key is the scene. While chains run, the key stays, and only the predictor's age counts.
         of: object = result if not found.sweep else result.scene if isinstance(found, Pilot) else found
         stale = found.sweep != self._sweep and (found.done or now > self._until)
         if self._predictor is None or of is not self._of or stale:
@@ -99,10 +102,10 @@ class GhostPredictor:
 
 
 def predictor_of_result(result: Result) -> tuple[Predictor, int]:
-    """Return the predictor of a result and its number of draws; 0 without draws, when cells count as independent.
+    """Return the predictor of a result and its number of draws. Without draws it is 0, and cells count as independent.
 
     Raises:
-        BadInput: there is nothing to predict from, or a sensor model that only the run's maker had.
+        BadInput: there is nothing to predict from, or the run's sensor model is not built in.
     """
     scene, grid, draws, prior = result.scene, result.document.grid, result.found.at_hand, result.prior
     if isinstance(result.found, Nothing):
@@ -123,11 +126,11 @@ def predictor_of_result(result: Result) -> tuple[Predictor, int]:
 def nearest_scan(
     poses: NDArray[np.float64], pose: tuple[float, float, float], angles_rad: NDArray[np.float64]
 ) -> Near | None:
-    """Find the scan whose pose is most like a pose; None where none is within `NEARBY_M` and shares `LEAST_SHARED`."""
+    """Find the scan nearest to a pose; None if no scan is within `NEARBY_M` and shares `LEAST_SHARED` of its view."""
     field = float(np.ptp(angles_rad)) if len(angles_rad) > 1 else 0.0
     away = np.hypot(poses[:, 0] - pose[0], poses[:, 1] - pose[1])
     turn = np.remainder(poses[:, 2] - pose[2] + np.pi, 2 * np.pi) - np.pi
-    # fans that go all round share everything, whatever their headings
+    # fans that cover (nearly) the full circle share everything, whatever their headings
     shared = np.ones(len(poses)) if field > 1.9 * np.pi else 1.0 - np.abs(turn) / max(field, 1e-9)
     cost = np.where((away <= NEARBY_M) & (shared >= LEAST_SHARED), away / NEARBY_M + 1.0 - shared, np.inf)
     if not len(cost) or not np.isfinite(cost.min()):
@@ -140,18 +143,20 @@ def compared_beam(result: Result, question: CompareBeam, generation: int) -> Com
     """Compare a reading with its prediction.
 
     Raises:
-        BadInput: there is nothing to predict from, or the sensor's law does not add up to one.
+        BadInput: there is nothing to predict from, or the sensor model's density does not integrate to one.
     """
     from bayesmap.kernels.predict.density import forecast
     from bayesmap.kernels.predict.stop_mixture import mix_stops, range_quantiles
     from bayesmap.kernels.rays import trace_rays
 
+    # The beam as a scan of its own.
     predictor, draws = predictor_of_result(result)
     scans, row = result.scene.scans, [question.scan]
     one = Scans(
         result.scan_poses[row], scans.angles_by_scan()[question.scan, [question.beam]],
         scans.ranges_m[row, [question.beam]], max_range_m=scans.max_range_m, min_range_m=scans.min_range_m,
     )  # fmt: skip
+    # The distribution of the distance at which it stops, the quantiles of its reading, and the density of its reading.
     rays = trace_rays(one, predictor.grid)
     stops = mix_stops(rays, predictor.batches(rays.touched), predictor.hit_depth)
     low, median, high = range_quantiles(stops, np.array(CENTRAL_80), predictor.sensor)[0]
@@ -179,7 +184,7 @@ def _wall(
     result: Result, predictor: Predictor, rays: Rays, weight: NDArray[np.float64], distance_m: NDArray[np.float64],
     reading_m: float,
 ) -> SurfaceOffset | None:  # fmt: skip
-    """Return a reading in the frame of the surface at which its beam most probably stopped; None where none is near."""
+    """Return a reading in the frame of the surface at which its beam most probably stopped; None if none is near."""
     surfaces = result.surfaces
     if surfaces is None or not rays.n_incidences:
         return None

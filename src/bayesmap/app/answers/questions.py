@@ -1,4 +1,4 @@
-"""Answers to the questions of a page about the result on show, each a report for the page that asked."""
+"""Answers to a page's questions about the result on show. Each answer is a report for that page alone."""
 
 from __future__ import annotations
 
@@ -30,25 +30,25 @@ ANSWERED_BY: Mapping[type, Literal["path", "views", "ghost", "beam"]] = {
 """Questions about the posterior, and the types of the messages that answer them."""
 
 MOST_VIEWS = 400
-"""The largest number of places that the map of expected information has."""
+"""The largest number of places in the map of expected information."""
 
 PASSABLE = 0.3
-"""A sensor may stand where beams are stopped with at most this probability."""
+"""A sensor may stand in a cell whose probability of stopping a beam is below this."""
 
 HEADINGS = 8
 MOST_ANGLES = 180
-"""Views are judged by at most this many beams, evenly chosen. Each counts for the beams left out beside it."""
+"""The headings tried per place, and the most beams per view, evenly chosen. Each also counts for the beams left out."""
 
 
 @dataclass(frozen=True, eq=False)
 class Now:
-    """What the worker has when a question comes.
+    """The state of the worker when a question comes.
 
     Attributes:
         scene: the readings.
         result: the result on show.
         scan: index of the scan on show, for a file.
-        generation: that of the present job.
+        generation: number of the present picture.
     """
 
     scene: Scene | None
@@ -58,7 +58,7 @@ class Now:
 
 
 class Answers:
-    """Answers questions. Predictors and maps that serve several questions are kept."""
+    """Answers questions. Predictors and maps are kept for later questions."""
 
     def __init__(self) -> None:
         self._ghost = GhostPredictor()
@@ -88,7 +88,7 @@ class Answers:
 
 
 def cell_facts(question: Inspect, now: Now) -> tuple[AnyNotice, Buffers]:
-    """Count the beams that touch a cell, and sum what they say of a wall, or of what stands there."""
+    """Count the beams that touch a cell, and sum their evidence for and against an obstacle in it."""
     x, y, result = question.x, question.y, now.result
     table = None if now.scene is None else now.scene.problem.table
     if table is None or x >= table.grid.shape[0] or y >= table.grid.shape[1]:
@@ -102,7 +102,7 @@ def cell_facts(question: Inspect, now: Now) -> tuple[AnyNotice, Buffers]:
 
 
 def _ratios(result: Result, table: BeamTable, cell: int) -> BeamRatios | None:
-    """Return what beams say of a cell; None where nothing can be said."""
+    """Return the log ratios of the beams through a cell; None if they cannot be computed."""
     if result.prior.words.kind == "binary":
         return wall_ratios(table, result.found.mean().ravel(), cell)
     try:
@@ -115,7 +115,7 @@ def safe_path(result: Result, question: FindPath, generation: int) -> SafePath:
     """Find the shortest path that is safe enough, and the probability that it is free.
 
     Raises:
-        BadInput: no draws, or no path.
+        BadInput: there are no draws, or there is no path.
     """
     route = shortest_safe_path(result.maps, question.start, question.goal, question.radius, question.risk)
     free = route.free
@@ -127,26 +127,30 @@ def safe_path(result: Result, question: FindPath, generation: int) -> SafePath:
 
 
 def views(result: Result, generation: int) -> tuple[Views, Buffers]:
-    """Compute the nats expected from one more scan at poses on a lattice of free places.
+    """Compute the information expected from one more scan, in nats, at a lattice of free places.
 
-    The formula is that for independent cells and beams (`bayesmap.posterior.information.beam_information`).
+    The formula treats cells and beams as independent (`bayesmap.posterior.information.beam_information`).
 
     Raises:
-        BadInput: no place at which a sensor could stand.
+        BadInput: there is no place at which a sensor could stand.
     """
+    # Candidate places, and a thinned fan of beams.
     document, mean = result.document, result.found.mean()
     poses, spacing_m = _lattice(document, mean, result.found.observed())
     scans = result.scene.scans
     every = -(-len(scans.angles_rad) // MOST_ANGLES)
     angles = scans.angles_rad[::every]
+    # Headings to try at each place: one if the sensor sees all round. Even then its beams span a little under 2 pi rad.
     full = document.fov >= 2 * math.pi if document.simulated else np.ptp(angles) > 6.1
     turns = np.zeros(1) if full else np.arange(HEADINGS) * 2 * math.pi / HEADINGS
+    # Every place with every heading, and the information there, (places, headings).
     many = np.repeat(poses, len(turns), axis=0)
     many[:, 2] += np.tile(turns, len(poses))
     nats = every * beam_information(
         mean, document.grid, many, angles,
         max_range_m=scans.max_range_m, sigma_m=typical_sigma_m(result.scene.sensor, scans.max_range_m),
     ).reshape(len(poses), -1)  # fmt: skip
+    # Keep the best heading of each place.
     poses[:, 2] = turns[nats.argmax(axis=1)]
     buffers = {"pose": poses.astype(np.float32), "nats": nats.max(axis=1).astype(np.float32)}
     return Views(spacing_m, generation=generation), buffers
@@ -155,7 +159,7 @@ def views(result: Result, generation: int) -> tuple[Views, Buffers]:
 def _lattice(
     document: Document, mean: NDArray[np.float64], observed: NDArray[np.bool_]
 ) -> tuple[NDArray[np.float64], float]:
-    """Return poses at the centres of free cells, at most `MOST_VIEWS`, (P, 3), and their distance in metres."""
+    """Return poses at the centres of free cells, at most `MOST_VIEWS`, (P, 3), and their spacing in metres."""
     grid = document.grid
     free = observed & (mean < PASSABLE)
     if not free.any():

@@ -1,7 +1,7 @@
-"""The posterior of the pose from which one scan was taken, over all places and headings of a map.
+"""The posterior of the pose from which one scan was taken, over all positions and headings in a map.
 
-In a drawn world the map is known and readings follow their law beam by beam, so each beam counts in full. For a run, or
-a log that was run, the map is the posterior's draws, and beams count as `bayesmap.localization.known_map` says.
+In a drawn world the map is known, and readings follow their law independently, so each beam counts in full. For a run
+or a log with kept draws, the map is given by these draws. Beams then count as in `bayesmap.localization.known_map`.
 """
 
 from __future__ import annotations
@@ -31,17 +31,17 @@ from bayesmap.space.scans import Scans, fan
 
 FINEST_M = 0.125
 MOST_CELLS = 1_000_000
-"""A drawn map is searched on cells of this edge, if they are not too many: the search tries the centres of cells."""
+"""The search tries the centres of cells. Cells of a drawn map are divided to this edge, if these are not too many."""
 
 TYPICAL, STREAM_TYPICAL = 100, 12
-"""The number of typical scans of a drawn world, and the stream of random numbers that chooses their poses."""
+"""The number of typical scans of a drawn world, and the random stream of their poses."""
 
 MOST_POSES = 1000
-"""The number of poses in the cloud: those with the most weight."""
+"""The largest number of poses sent to the page: those with the largest weights."""
 
 
 class Locator:
-    """Locates one scan at a time. The map is prepared once."""
+    """Locates one scan at a time, and keeps the prepared map for the next."""
 
     def __init__(self) -> None:
         self._known: KnownMap | None = None
@@ -50,13 +50,13 @@ class Locator:
     def answer(
         self, question: WhereAmI, result: Result | None, scan: int, generation: int
     ) -> tuple[Whereabouts, Buffers]:
-        """Find the places where a scan may have been taken, or say what prevents it.
+        """Find the places where a scan may have been taken, or return the reason why there is no answer.
 
         Args:
-            question: names the sensor, in a drawn world.
+            question: the question, with the sensor's id in a drawn world.
             result: the result on show.
             scan: index of the scan on show, for a file.
-            generation: that of the picture.
+            generation: number of the present picture.
         """
         try:
             if result is None:
@@ -74,6 +74,7 @@ class Locator:
         ), {name: values.astype(np.float32) for name, values in cloud.items()}  # fmt: skip
 
     def _map(self, result: Result) -> KnownMap:
+        """Return the known map of a result, prepared anew only if what it depends on (the key `of`) has changed."""
         document = result.document
         of: Hashable = result.found
         if document.simulated:
@@ -88,7 +89,7 @@ def drawn_map(document: Document) -> KnownMap:
     """Return the walls of a drawn world as a known map.
 
     Raises:
-        BadInput: a world without a free cell.
+        BadInput: the world has no free cell.
     """
     grid, walls = document.grid, document.is_wall
     parts = max(1, math.ceil(grid.resolution / FINEST_M - 1e-9))
@@ -103,7 +104,7 @@ def drawn_map(document: Document) -> KnownMap:
 
 
 def _typical_scans(document: Document) -> Scans:
-    """Simulate scans from anywhere in a drawn world: a scan that could as well be from elsewhere tells nothing."""
+    """Simulate scans at random poses in a drawn world. They show what readings are typical anywhere in it."""
     grid = document.grid
     rng = np.random.default_rng([document.seed, STREAM_TYPICAL])
     free = np.argwhere(~document.is_wall)
@@ -125,7 +126,7 @@ def _located(known: KnownMap, scans: Scans, document: Document) -> PoseBelief:
 
 
 def places(belief: PoseBelief) -> list[Place]:
-    """Return the places where the robot may be, the likeliest first."""
+    """Return the modes of a belief as places where the robot may be, the most probable first."""
     found = []
     for mode in belief.modes:
         spread = np.linalg.eigvalsh(mode.covariance[:2, :2])[-1]
@@ -135,13 +136,13 @@ def places(belief: PoseBelief) -> list[Place]:
 
 
 def _scan_of(question: WhereAmI, result: Result, scan: int) -> tuple[Scans, int]:
-    """Return one scan, and its sensor's id in a drawn world, else its index."""
+    """Return one scan, and its number: the sensor's id in a drawn world, else the index of the scan."""
     scene = result.scene
     if not result.document.simulated:
         return scene.scans.select(slice(scan, scan + 1)), scan
     row = scene.ids.index(question.sensor) if question.sensor in scene.ids else 0
     one = scene.scans.select(slice(row, row + 1))
-    # Readings at the longest range, which noise blurs, are beams that met nothing.
+    # A beam that met nothing reads the longest range plus noise. Mark such readings as no return.
     readings = np.where(hits(scene)[[row]], one.ranges_m, np.inf)
     return replace(one, ranges_m=readings), scene.ids[row]
 

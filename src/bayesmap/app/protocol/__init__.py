@@ -1,4 +1,1 @@
-"""The messages of page, session and worker, each declared once with its limits.
-
-The page's types are written from these declarations (`make page`).
-"""
+"""The messages between page, session and worker, each declared once. `make page` writes the page's types from them."""

@@ -1,4 +1,4 @@
-"""Actions: the messages of the page, with the limits of what they hold."""
+"""Actions: the messages from the page, with the limits of their values."""
 
 from __future__ import annotations
 
@@ -19,17 +19,17 @@ Layer = Literal["mean", "draw", "entropy", "width"]
 
 
 class Action(Struct, frozen=True, kw_only=True, tag_field="type"):
-    """A message of the page.
+    """A message from the page.
 
     Attributes:
-        seq: its number, counting up. A `state` repeats the number of the last action that was applied.
+        seq: number of the message, counting up. A `state` repeats the number of the last action that was applied.
     """
 
     seq: Count = 0
 
 
 class Hello(Action, frozen=True, tag="hello"):
-    """A page has connected, perhaps with a document: of a share link, or from before its connection was lost."""
+    """Report that a page has connected, perhaps with the document of a share link or from before a lost connection."""
 
     document: dict[str, Any] | None = None
 
@@ -58,7 +58,7 @@ class ChangeSettings(Action, frozen=True, tag="set"):
 
     Attributes:
         drag: number of the drag. All changes of one drag are one step of undo.
-        coarse: along a log, while the hand drags: counts of hits at once, and the posterior on the first `set` without.
+        coarse: for a log, while the hand drags: show counts of hits only. The first `set` without it starts inference.
     """
 
     patch: Patch
@@ -70,6 +70,8 @@ class Walls(Action, frozen=True, tag="walls"):
     """Draw walls in cells, or erase them.
 
     Attributes:
+        cells: indices (x, y) of the cells.
+        wall: true to draw walls, false to erase them.
         stroke: number of the stroke. All messages of one stroke are one step of undo.
     """
 
@@ -79,7 +81,7 @@ class Walls(Action, frozen=True, tag="walls"):
 
 
 class AddSensor(Action, frozen=True, tag="add_sensor"):
-    """Place another sensor: metres and radians, world frame."""
+    """Place another sensor, at a pose in metres and radians, world frame."""
 
     x: Metres
     y: Metres
@@ -87,7 +89,7 @@ class AddSensor(Action, frozen=True, tag="add_sensor"):
 
 
 class MoveSensor(Action, frozen=True, tag="move_sensor"):
-    """Move or turn a sensor; what is left out stays. All moves of one drag are one step of undo."""
+    """Move or turn a sensor. Fields that are left out stay. All moves of one drag are one step of undo."""
 
     id: Id
     x: Metres | None = None
@@ -116,19 +118,19 @@ class New(Action, frozen=True, tag="new"):
 
 
 class Undo(Action, frozen=True, tag="undo"):
-    """Undo the last step, if it was this page's, or of a page that has gone."""
+    """Undo the last step, if this page made it, or a page that is no longer connected."""
 
 
 class Redo(Action, frozen=True, tag="redo"):
-    """Redo the step that was undone last."""
+    """Redo the step that was undone last, under the same condition as `undo`."""
 
 
 class Run(Action, frozen=True, tag="run"):
-    """Start the document's method for its number of sweeps (or particles), and keep draws."""
+    """Run the document's method for its number of sweeps or particles, and keep draws."""
 
 
 class Cancel(Action, frozen=True, tag="cancel"):
-    """Stop; what there is stays."""
+    """Stop inference. The result so far stays."""
 
 
 class Live(Action, frozen=True, tag="live"):
@@ -138,7 +140,7 @@ class Live(Action, frozen=True, tag="live"):
 
 
 class ShowView(Action, frozen=True, tag="view"):
-    """Choose the field that this page is sent from now on; without a number it is the last draw."""
+    """Choose the field that this page gets from now on. Layer "draw" without a draw number is the last draw."""
 
     layer: Layer
     chain: Count | None = None
@@ -146,25 +148,25 @@ class ShowView(Action, frozen=True, tag="view"):
 
 
 class Painted(Action, frozen=True, tag="painted"):
-    """The first picture of a generation is on the canvas. It has no number, and no state confirms it."""
+    """Report that the first picture of a generation is on the canvas. No state confirms this message."""
 
     generation: Count
 
 
 class ShowScan(Action, frozen=True, tag="scan"):
-    """Choose the scan of a file whose rays are shown."""
+    """Choose the scan whose rays are shown, for a file."""
 
     index: Count
 
 
 class Export(Action, frozen=True, tag="export"):
-    """Ask for a file; answered by `download`."""
+    """Ask for a file of the result or the document; answered by `download`."""
 
     what: Literal["run", "map", "html", "document"]
 
 
 class Inspect(Action, frozen=True, tag="inspect"):
-    """Ask which beams go through a cell, and with `each` what each of them says; answered by `cell`."""
+    """Ask for the beams through a cell, and with `each` for the evidence of each beam; answered by `cell`."""
 
     x: Index
     y: Index
@@ -175,10 +177,10 @@ class FindPath(Action, frozen=True, tag="path"):
     """Ask for a path for a disc; answered by `path` or `undecided`.
 
     Attributes:
-        start: x, y in metres.
-        goal: x, y in metres.
-        radius: metres.
-        risk: the largest probability that the disc touches something.
+        start: start of the path, x and y in metres.
+        goal: goal of the path, x and y in metres.
+        radius: radius of the disc, metres.
+        risk: largest allowed probability that the disc touches something.
     """
 
     start: tuple[Metres, Metres]
@@ -188,20 +190,20 @@ class FindPath(Action, frozen=True, tag="path"):
 
 
 class FindViews(Action, frozen=True, tag="views"):
-    """Ask where one more scan would tell most; answered by `views` or `undecided`."""
+    """Ask for the information expected from one more scan at free places; answered by `views` or `undecided`."""
 
 
 class WhereAmI(Action, frozen=True, tag="where"):
-    """Ask where a scan may have been taken: of a sensor, or the scan on show of a file; answered by `where`."""
+    """Ask where a scan may have been taken: a sensor's scan, or a file's scan on show; answered by `where`."""
 
     sensor: Id | None = None
 
 
 class MoveGhost(Action, frozen=True, tag="ghost"):
-    """Ask what the laser would read at a pose, metres and radians; answered by `ghost` or `undecided`.
+    """Ask for the virtual scan at a pose, metres and radians; answered by `ghost` or `undecided`.
 
     Attributes:
-        coarse: the hand still moves, so a few draws will do.
+        coarse: true while the hand moves: predict from a few draws only.
     """
 
     x: Metres
@@ -214,7 +216,7 @@ class CompareBeam(Action, frozen=True, tag="beam"):
     """Ask how a reading compares with its prediction; answered by `beam` or `undecided`.
 
     Attributes:
-        scan: index of the scan; in a simulation, of the sensor in the document.
+        scan: index of the scan; in a simulation, index of the sensor in the document.
         beam: index of the beam.
     """
 
@@ -223,10 +225,10 @@ class CompareBeam(Action, frozen=True, tag="beam"):
 
 
 Edit: TypeAlias = ChangeSettings | Walls | AddSensor | MoveSensor | RemoveSensor | Clear | New
-"""Actions that change the document (of `clear`, that of walls)."""
+"""Actions that change the document. `clear` does so only for walls."""
 
 Question: TypeAlias = Inspect | FindPath | FindViews | WhereAmI | MoveGhost | CompareBeam
-"""Actions that change nothing: no state confirms them, and they are answered to one page."""
+"""Actions that change nothing. No state confirms them, and the answer goes to one page."""
 
 AnyAction: TypeAlias = (
     Hello | Edit | Undo | Redo | Run | Cancel | Live | ShowView | Painted | ShowScan | Export | Question

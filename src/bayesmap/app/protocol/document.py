@@ -1,7 +1,7 @@
 """The document: everything that determines the picture. Its fields, units and limits are declared here once.
 
-Messages hold it as JSON, which `bayesmap.app.protocol.wire` reads. The page's types are written from these
-declarations, and the limits of the numbers are sent to every page that connects.
+Messages hold the document as JSON, which `bayesmap.app.protocol.wire` reads. The page's types are written from these
+declarations. Every page that connects gets the limits of the numbers.
 """
 
 from __future__ import annotations
@@ -25,25 +25,26 @@ CHAIN_METHODS = ("gibbs", "block")
 """Methods that are Markov chains."""
 
 RARE_WALLS = 0.2
-"""Where walls are at most this probable a priori, or free cells, single-site moves seldom leave a wrong map: a wall has
-to go before its neighbour can come. Method "auto" then is 2 x 2 blocks."""
+"""If walls or free cells are at most this probable a priori, method "auto" means 2 x 2 blocks. Single-site moves then
+seldom leave a wrong map: a wall has to go before its neighbour can come."""
 
 SMALLEST_NOISE_M = 0.01
-"""A noise of 0 is taken as this: a density needs a width."""
+"""The smallest noise that the sensor model uses, also for a noise of 0: a density needs a width."""
 
 SIDE = (2, 500)
 LARGEST_SIDE_OF_FILE = 4000
-"""Cells along a side of a drawn map, and of a map that comes from a file."""
+"""The smallest and largest number of cells per side of a drawn map, and the largest of a map from a file."""
 
 LARGEST_SIDE_OF_LOG = 1000
-"""Cells along a side of a map that is inferred from a log."""
+"""The largest number of cells per side of a map that is inferred from a log."""
 
 SENSORS = (1, 32)
 RESOLUTIONS_M = (0.02, 2.0)
-"""Cell sizes that a page can choose for a log."""
+"""The smallest and largest number of sensors, and the smallest and largest cells that a page can choose for a log."""
 
 ANY_RESOLUTION_M = (1e-3, 1e3)
 LARGEST_COORDINATE_M = 1e6
+"""The smallest and largest cells of any document, and the largest absolute coordinate."""
 
 Kind = Literal["simulation", "run", "log"]
 Method = Literal["auto", "gibbs", "block", "propagate", "importance"]
@@ -56,11 +57,11 @@ Radians = Annotated[float, Meta(ge=-1e3, le=1e3)]
 
 
 class Refused(BadInput):
-    """An action that is not done; nothing changed.
+    """Error for an action that is refused. Nothing has changed.
 
     Attributes:
-        text: what was wrong.
-        remedy: what would be right, perhaps empty.
+        text: description of the fault.
+        remedy: what to do instead, or empty.
     """
 
     def __init__(self, text: str, remedy: str = "") -> None:
@@ -88,10 +89,10 @@ class Source:
     """The origin of the readings: simulated from the walls, or a file whose scans are shown.
 
     Attributes:
-        kind: simulation, run or log.
-        name: the file's.
-        scans: the number of scans in the file.
-        bounds: for a log, corners of what its scans saw, metres. Grids of any resolution cover them.
+        kind: kind of source: simulation, run or log.
+        name: name of the file.
+        scans: number of scans in the file.
+        bounds: for a log, corners of the area that its scans saw, metres. Grids of any resolution cover it.
     """
 
     kind: Kind = "simulation"
@@ -102,25 +103,25 @@ class Source:
 
 @dataclass(frozen=True, kw_only=True)
 class Settings:
-    """The settings that sliders and choices of the page change.
+    """The settings that the page's sliders and choices change.
 
     Attributes:
-        prior: probability that a cell is a wall.
+        prior: prior probability that a cell is a wall.
         noise: standard deviation of a range, metres.
-        angles: beams a scan.
-        max_range: metres.
+        angles: number of beams per scan.
+        max_range: longest range, metres.
         fov: field of view of every sensor, radians.
-        readings: with noise, or exact under the law that has the noise.
+        readings: 'noisy', or 'exact': noise-free ranges, still inferred with the noisy sensor law.
         pose_sigma: standard deviation of every sensor's position, metres.
         heading_sigma: standard deviation of every sensor's heading, radians.
-        poses: for a log, whether the robot was where the log says, or that is raw odometry.
-        cells: the kind of cells that a log is explained by, or that a run's maps are made of.
-        method: how the posterior is found; auto is block where walls or free cells are rare, else gibbs.
-        order: in which cells are visited by gibbs.
-        start: where chains start.
-        sweeps: of the chains, or the number of particles.
-        seed: of all random numbers.
-        scans_used: for a log, the number of its scans, from the first on, that make the map; null is all.
+        poses: for a log, 'logged' if its poses are known, or 'odometry' if they are raw odometry.
+        cells: kind of cells: the kind to infer from a log, or the kind in a run's maps.
+        method: inference method; 'auto' is 'block' if walls or free cells are rare, else 'gibbs'.
+        order: order in which gibbs visits the cells.
+        start: map from which chains start.
+        sweeps: number of sweeps of the chains, or number of particles.
+        seed: seed of all random numbers.
+        scans_used: for a log, number of first scans that make the map; null means all scans.
     """
 
     prior: Annotated[float, Meta(ge=0, le=1)] = 0.5
@@ -143,14 +144,14 @@ class Settings:
 
 SETTINGS = tuple(one.name for one in fields(Settings))
 SETTINGS_OF_CHAINS = ("prior", "pose_sigma", "heading_sigma", "method", "order", "start", "sweeps")
-"""Settings on which neither the readings nor the pilot that fits the sensor depends."""
+"""Settings that affect only the chains: neither the readings nor the pilot that fits the sensor depends on them."""
 
 FIXED_BY_FILE: Mapping[Kind, tuple[str, ...]] = {
     "simulation": ("poses", "scans_used"),
     "log": ("noise", "angles", "max_range", "fov", "readings", "pose_sigma", "heading_sigma"),
     "run": SETTINGS,
 }
-"""Settings that a page cannot change: facts of the file, or settings that only a log has."""
+"""Settings that a page cannot change, because the file fixes them or because only a log has them."""
 
 
 @dataclass(frozen=True)
@@ -158,11 +159,11 @@ class Document(Settings):
     """Everything that determines the picture.
 
     Attributes:
-        grid: the cells.
+        grid: grid of cells.
         walls: packed bits of the (nx, ny) map, C order (x * ny + y), most significant bit first; base64 in JSON.
-        sensors: empty where a file is shown.
-        source: where the readings come from.
-        version: of this description.
+        sensors: sensors of a simulation; empty for a file.
+        source: origin of the readings.
+        version: version of this format.
     """
 
     grid: Grid
@@ -172,7 +173,7 @@ class Document(Settings):
     version: Literal[1] = VERSION
 
     def __getstate__(self) -> dict[str, Any]:
-        """Return the fields alone, for a pipe: cached values are computed anew."""
+        """Return the fields only, for pickling. Cached values are computed anew."""
         return {one.name: getattr(self, one.name) for one in fields(self)}
 
     @cached_property
@@ -185,17 +186,17 @@ class Document(Settings):
 
     @property
     def simulated(self) -> bool:
-        """Whether the readings follow from walls and sensors."""
+        """Whether the readings are simulated from walls and sensors."""
         return self.source.kind == "simulation"
 
     @property
     def from_odometry(self) -> bool:
-        """Whether the trajectory is to be inferred before the map."""
+        """Whether the trajectory has to be inferred before the map."""
         return self.source.kind == "log" and self.poses == "odometry"
 
     @property
     def sigma_m(self) -> float:
-        """The standard deviation of a range, metres."""
+        """The standard deviation of a range in the sensor model, metres."""
         return max(self.noise, SMALLEST_NOISE_M)
 
     @property
@@ -227,7 +228,7 @@ class Document(Settings):
         return replace(self, walls=no_walls(self.grid))
 
     def with_walls(self, is_wall: NDArray[np.bool_]) -> Document:
-        """Return the document with another map, (nx, ny); this document where the map is the same."""
+        """Return the document with another map, (nx, ny), or this document if the map is the same."""
         walls = packed(is_wall)
         return self if walls == self.walls else replace(self, walls=walls)
 
@@ -238,14 +239,14 @@ class Document(Settings):
 
 
 def plain(value: object) -> object:
-    """Return a number of NumPy as one of Python, for JSON."""
+    """Return a NumPy number as a Python number, for JSON."""
     if isinstance(value, np.generic):
         return value.item()
     raise NotImplementedError
 
 
 def packed(is_wall: NDArray[np.bool_]) -> bytes:
-    """Pack a map, (nx, ny), eight cells a byte."""
+    """Pack a map, (nx, ny), eight cells per byte."""
     return np.packbits(is_wall.ravel()).tobytes()
 
 
@@ -255,12 +256,12 @@ def no_walls(grid: Grid) -> bytes:
 
 
 def settings_of(kind: Kind) -> tuple[str, ...]:
-    """Return the names of the settings that a page can change, for a source of a kind."""
+    """Return the names of the settings that a page can change, for this kind of source."""
     return tuple(name for name in SETTINGS if name not in FIXED_BY_FILE[kind])
 
 
 def bounds_of(hint: object) -> tuple[float, float] | None:
-    """Return the smallest and the largest value of a number that is declared with limits; None for other types."""
+    """Return the smallest and largest value of a type that is declared with limits; None for other types."""
     (meta,) = getattr(hint, "__metadata__", None) or (None,)
     return None if meta is None else (meta.ge, meta.lt - 1 if meta.le is None else meta.le)
 
@@ -270,11 +271,11 @@ BOUNDS: Mapping[str, tuple[float, float]] = {
     for name, hint in get_type_hints(Settings, include_extras=True).items()
     if (bounds := bounds_of(hint)) is not None
 }
-"""Smallest and largest value of every number of the settings."""
+"""The smallest and largest value of every numeric setting."""
 
 
 def check_document(document: Document) -> None:
-    """Check what no single field shows: sizes that belong together, sensors in free cells, a file's name.
+    """Check what depends on more than one field: sizes that belong together, sensors in free cells, a file's name.
 
     Raises:
         Refused: the document is not consistent.

@@ -1,4 +1,4 @@
-"""Notices: the messages to the page. Arrays travel beside a message, as its buffers."""
+"""Notices: the messages to the page. Arrays are sent beside a message, as its buffers."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from bayesmap.app.protocol.document import (
 )
 
 OWN_LAYERS = ("draw", "width")
-"""Layers for which a page is sent fields of its own; the other layers are made of the mean."""
+"""Layers for which each page gets its own fields. The page computes the other layers from the mean."""
 
 Pair = tuple[float, float]
 
@@ -28,7 +28,7 @@ class Notice(Struct, frozen=True, kw_only=True, tag_field="type"):
 
 
 class OfPicture(Notice, frozen=True, kw_only=True):
-    """A message that belongs to a picture: `generation` is the picture's."""
+    """A message that belongs to one picture, whose number is `generation`."""
 
     generation: int
 
@@ -45,9 +45,9 @@ if TYPE_CHECKING:
         """Smallest and largest values."""
 else:
     Limits = defstruct("Limits", [(name, Pair) for name in _LIMITS], module=__name__, frozen=True)
-    Limits.__doc__ = """Smallest and largest values of settings, in their units; of a path's radius and risk; of the
-    cells a side of a drawn map (`side`) and of a log's map (`side_of_log`); of the number of sensors; of a log's cell
-    size, metres."""
+    Limits.__doc__ = """Smallest and largest values: of settings, in their units; of a path's radius and risk; of the
+    number of cells per side of a drawn map (`side`) and of a log's map (`side_of_log`); of the number of sensors; and
+    of a log's cell size, metres."""
 
 LIMITS = Limits(**_LIMITS)
 
@@ -56,7 +56,9 @@ class Welcome(Notice, frozen=True, tag="welcome"):
     """The first message of a connection.
 
     Attributes:
-        limits: null for a recording, in which nothing can be set.
+        version: version of the document's format.
+        limits: limits of the settings; null for a recording, which has no settings to change.
+        recorded: whether the page plays a recording.
     """
 
     version: int
@@ -71,14 +73,14 @@ class Worker(Notice, frozen=True, tag="worker"):
 
 
 class DrawCount(Struct, frozen=True):
-    """The number of kept draws: `count` of each chain."""
+    """The number of kept draws: `count` per chain."""
 
     chains: int = 0
     count: int = 0
 
 
 class View(Struct, frozen=True):
-    """The field that a page is shown; without a number it is the last draw."""
+    """The field that a page shows. Layer "draw" without a draw number is the last draw."""
 
     layer: Layer
     chain: int | None = None
@@ -86,19 +88,19 @@ class View(Struct, frozen=True):
 
 
 class State(Notice, frozen=True, tag="state"):
-    """The present state, after every action that was applied.
+    """The present state, sent after every action that was applied.
 
     Attributes:
-        generation: of the present picture.
+        generation: number of the present picture.
         seq: number of the page's last action that was applied.
-        can_undo: whether the next step back is this page's, or of one that has gone.
-        can_redo: the same for the next step forth.
+        can_undo: whether this page may undo the last edit.
+        can_redo: whether this page may redo the edit that was undone last.
         live: whether edits restart the chains.
         running: whether a run is under way.
-        working: whether the picture is to change yet.
-        draws: of the present result.
-        scan: index of the scan on show, of a file.
-        view: the field that this page is sent.
+        working: whether the picture is still being computed.
+        draws: number of kept draws of the present result.
+        scan: index of the scan on show, for a file.
+        view: field that this page gets.
     """
 
     document: Document
@@ -117,12 +119,12 @@ class State(Notice, frozen=True, tag="state"):
 class Scan(OfPicture, frozen=True, tag="scan"):
     """Readings: all scans of a simulation, or one scan of a file.
 
-    Buffers: pose float64 (S, 3); angles float32 (A); ranges and exact float32 (S, A), exact being where the beams truly
-    end, empty for a file; hit uint8 (S, A), 0 where a beam came back from nothing.
+    Buffers: pose float64 (S, 3); angles float32 (A); ranges float32 (S, A); exact float32 (S, A), the noise-free
+    ranges, empty for a file; hit uint8 (S, A), 0 for a beam without a return.
 
     Attributes:
-        ids: of the sensors, one a row.
-        index: of the scan, of a file.
+        ids: ids of the sensors, one per row.
+        index: index of the scan, for a file.
     """
 
     ids: list[int]
@@ -130,7 +132,7 @@ class Scan(OfPicture, frozen=True, tag="scan"):
 
 
 class Quantity(Struct, frozen=True):
-    """The numbers of the map: the kind of cells, and the words for their mean and for one draw's number."""
+    """The quantity on the map: kind of cells, words for its mean and its value in a draw, and if it has intervals."""
 
     kind: str
     mean: str
@@ -148,20 +150,27 @@ class Verdict(Struct, frozen=True):
 class Field(OfPicture, frozen=True, tag="field"):
     """One picture of the posterior.
 
-    Buffers: p uint8 (nx, ny), probability or width in 255ths; observed uint8, packed bits of (nx, ny); trace float32
-    (chains, n), the log joint at the sweeps of traced float32 (n): the first 100, then evenly spread; for importance
-    sampling weights float32 (24), how many particles have which log weight, in equal bins.
+    Buffers: p uint8 (nx, ny), probability or interval width in 255ths; observed uint8, packed bits of (nx, ny); traced
+    float32 (n), sweep numbers: the first 100, then evenly spread; trace float32 (chains, n), the log joint at these
+    sweeps; for importance sampling also weights float32 (24), a histogram of the particles' log weights.
 
     Attributes:
-        layer: what the numbers are. The page makes entropy of the mean.
-        method: what found it.
-        approximate: whether it is quick and not the posterior.
-        sweeps: done; rounds, or particles.
-        ess: effective sample size of the log joint.
-        log_joint: mean over the chains of its last value.
-        verdict: null where it is too early.
-        averaged: for the chain that fits the sensor, the number of its draws that the mean is made of.
-        lowest: where the bins of weights begin, in nats below the largest, at which they end.
+        layer: layer of the numbers. The page computes the entropy from the mean.
+        method: name of the method.
+        approximate: whether the mean is a quick approximation of the posterior mean.
+        sweeps: number of sweeps, rounds or particles done.
+        total: number of sweeps or particles to do.
+        ess: effective sample size of the log joint, or of the weights.
+        rhat: R-hat of the log joint.
+        log_joint: last log joint, averaged over the chains.
+        verdict: verdict on the result; null while it is too early.
+        draws: number of kept draws.
+        quantity: quantity that the numbers show.
+        milliseconds: time since the job began.
+        chain: index of the chain, for a draw.
+        draw: index of the draw.
+        averaged: number of draws in the mean, for the chain that fits the sensor.
+        lowest: lower edge of the first bin of weights, in nats relative to the largest log weight, where the bins end.
     """
 
     layer: Layer
@@ -185,18 +194,22 @@ class Field(OfPicture, frozen=True, tag="field"):
 class Overlay(OfPicture, frozen=True, tag="overlay"):
     """The overlay of a run or a log.
 
-    Buffers: strokes float32 (U, 5), surfaces from x, y to x, y in metres, with their reflectivity; trajectory float32
-    (S, 2), where the scans were taken.
+    Buffers: strokes float32 (U, 5), surfaces as segments x, y, x, y in metres, and their reflectivity; trajectory
+    float32 (S, 2), the positions of the scans in metres.
     """
 
 
 class CellFacts(Notice, frozen=True, tag="cell"):
-    """The beams through a cell: how many speak for what is there and against it, and how much, in nats.
+    """The evidence of the beams through a cell, for and against an obstacle in it.
 
     Buffers of the strongest beams, with `each`: start and end float64 (M, 2), metres; nats, scan, beam float64 (M).
 
     Attributes:
-        beams_for: null where nothing can be said.
+        beams: number of beams through the cell.
+        beams_for: number of beams for an obstacle; null, like the next fields, if the evidence cannot be computed.
+        nats_for: sum of the log ratios of these beams.
+        beams_against: number of beams against an obstacle.
+        nats_against: absolute sum of the log ratios of these beams.
     """
 
     x: int
@@ -213,11 +226,13 @@ class SafePath(OfPicture, frozen=True, tag="path"):
     """The shortest path whose risk is low enough, or the safest.
 
     Attributes:
-        path: its corners, metres.
-        radius: of the disc, metres.
-        within_risk: whether its risk is low enough.
-        probability: that it is free: its share of draws.
-        independent: the probability if cells were independent.
+        path: corners of the path, metres.
+        radius: radius of the disc, metres.
+        within_risk: whether the risk of the path is low enough.
+        probability: probability that the path is free: the share of draws in which it is.
+        standard_error: standard error of this probability.
+        independent: probability that the path is free if cells were independent.
+        draws: number of draws.
     """
 
     path: list[Pair]
@@ -231,7 +246,7 @@ class SafePath(OfPicture, frozen=True, tag="path"):
 
 
 class Views(OfPicture, frozen=True, tag="views"):
-    """The information expected from one more scan, at places `spacing` metres apart.
+    """The information expected from one more scan, at places that are `spacing` metres apart.
 
     Buffers: pose float32 (n, 3), the best heading at each place; nats float32 (n).
     """
@@ -240,7 +255,7 @@ class Views(OfPicture, frozen=True, tag="views"):
 
 
 class Near(Struct, frozen=True):
-    """The scan that was taken nearest to a pose: how far away in metres, and turned by how much in radians."""
+    """The real scan nearest to a pose: `away` metres from it, with its heading turned by `turn` radians against it."""
 
     index: int
     away: float
@@ -248,14 +263,16 @@ class Near(Struct, frozen=True):
 
 
 class GhostScan(OfPicture, frozen=True, tag="ghost"):
-    """The virtual scan of a robot's laser at a pose, and the real scan that was taken nearest.
+    """The virtual scan of a robot's laser at a pose, and the nearest real scan.
 
-    Buffers: angles, low, median, high float32 (A), the central 80 % interval of each beam, metres, no return being
-    infinite; of the scan near_pose float64 (3), near_ranges float32 (A), near_hit uint8 (A).
+    Buffers: angles float32 (A); low, median, high float32 (A), the median and central 80 % interval of each beam in
+    metres, infinite for no return; of the real scan near_pose float64 (3), near_ranges float32 (A), near_hit uint8 (A).
 
     Attributes:
-        coarse: by a few draws only, since the hand still moved.
-        draws: that were asked; 0 where cells are taken for independent, for want of draws.
+        coarse: whether only a few draws were used, since the hand still moved.
+        draws: number of draws used; 0 without draws, when cells count as independent.
+        near: nearest real scan, if one is near enough.
+        milliseconds: time that the prediction took.
     """
 
     x: float
@@ -268,7 +285,7 @@ class GhostScan(OfPicture, frozen=True, tag="ghost"):
 
 
 class SurfaceOffset(Struct, frozen=True):
-    """A reading in the frame of a surface: how far across and along it, and the surface's size."""
+    """A reading in the frame of a surface: its offsets across and along the surface, and the surface's size."""
 
     across_m: float
     along_m: float
@@ -278,15 +295,19 @@ class SurfaceOffset(Struct, frozen=True):
 
 
 class ComparedBeam(OfPicture, frozen=True, tag="beam"):
-    """One reading against its prediction: metres, null where infinite or unknown.
+    """One reading compared with its prediction. Lengths are in metres; null means infinite or unknown.
 
     Attributes:
-        draws: that predict.
-        low: where the central 80 % interval begins.
-        residual: the reading less the median.
-        nats: minus the log density of the reading.
-        no_return: the probability that nothing comes back.
-        wall: the reading in the frame of the surface at which the beam most probably stopped.
+        draws: number of draws used.
+        reading: kind of reading: a range, no return, too close, or invalid.
+        range: reading.
+        low: lower end of the central 80 % interval.
+        median: median of the prediction.
+        high: upper end of the central 80 % interval.
+        residual: reading minus median.
+        nats: negative log density of the reading.
+        no_return: probability of no return.
+        wall: reading in the frame of the surface at which the beam most probably stopped.
     """
 
     scan: int
@@ -311,7 +332,7 @@ class Undecided(OfPicture, frozen=True, tag="undecided"):
 
 
 class Place(Struct, frozen=True):
-    """A place where the robot may be: mean and covariance of x, y (metres) and yaw (radians)."""
+    """A mode of the pose's posterior: mean and covariance of x, y (metres) and yaw (radians)."""
 
     mean: list[float]
     covariance: list[list[float]]
@@ -323,16 +344,17 @@ class Place(Struct, frozen=True):
 class Whereabouts(Notice, frozen=True, tag="where"):
     """The posterior of the pose from which a scan was taken.
 
-    Buffers: pose float32 (n, 3) and weight float32 (n), the lightest first.
+    Buffers: pose float32 (n, 3) and weight float32 (n), the smallest weight first.
 
     Attributes:
-        of: generation of the picture.
-        sensor: whose scan, in a drawn world.
-        index: of the scan, of a file.
-        pose: where it was taken, as the document or the file says.
-        modes: the likeliest place first.
-        p_lost: the probability of being nowhere on the map.
-        trouble: why there is no answer; else empty.
+        of: number of the picture.
+        sensor: id of the sensor, in a drawn world.
+        index: index of the scan, for a file.
+        pose: pose of the scan in the document or the file.
+        modes: places where the robot may be, the most probable first.
+        p_lost: probability that the pose is nowhere on the map.
+        nats_per_beam: log density of the readings per beam, under the best pose.
+        trouble: reason why there is no answer; else empty.
     """
 
     of: int
@@ -346,7 +368,7 @@ class Whereabouts(Notice, frozen=True, tag="where"):
 
 
 class Stage(OfPicture, frozen=True, tag="stage"):
-    """Progress of the inference of a log's trajectory; `text` is the name of the stage."""
+    """Progress in a stage of inferring a log's trajectory: `done` parts `of` all. `text` names the stage for users."""
 
     name: str
     text: str
@@ -355,17 +377,19 @@ class Stage(OfPicture, frozen=True, tag="stage"):
 
 
 class Status(Notice, frozen=True, tag="status"):
-    """A text for the status line."""
+    """A message for the status line."""
 
     text: str
     level: Literal["info", "warning", "error"]
 
 
 class Refusal(Notice, frozen=True, tag="error"):
-    """A message was refused; nothing changed.
+    """Report that a message was refused. Nothing has changed.
 
     Attributes:
-        seq: the message's number, as far as it could be read.
+        text: description of the fault.
+        remedy: what to do instead, or empty.
+        seq: number of the message, if it could be read.
     """
 
     text: str
@@ -374,7 +398,7 @@ class Refusal(Notice, frozen=True, tag="error"):
 
 
 class Download(Notice, frozen=True, tag="download"):
-    """A file. Buffers: data uint8."""
+    """A file to save. Buffers: data uint8."""
 
     name: str
     mime: str

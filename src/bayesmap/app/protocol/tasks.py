@@ -15,20 +15,20 @@ from bayesmap.app.protocol.notices import AnyNotice, DrawCount, View
 from bayesmap.space.grid import Grid
 
 ALIVE_SECONDS = 1.0
-"""The time between two signs of life of the worker."""
+"""The time between two `Alive` signals of the worker."""
 
 Mode = Literal["coarse", "preview", "live", "run", "clear"]
 Buffers = Mapping[str, NDArray[Any] | bytes]
 
 
 class Infer(Struct, frozen=True):
-    """Begin a new generation; it takes the place of whatever the worker does.
+    """Begin a new generation: a new job that replaces the present one.
 
     Attributes:
-        generation: the number that every answer carries.
+        generation: number that every report of the job repeats.
         document: the document to infer from.
-        mode: "coarse": counts of hits alone, of a log; "preview": belief propagation alone; "live": then chains;
-            "run": the document's method from the prior, draws kept; "clear": back to the prior.
+        mode: "coarse": only counts of hits, for a log; "preview": only belief propagation; "live": belief propagation,
+            then chains; "run": the document's method from the prior, with draws kept; "clear": back to the prior.
         scan: the scan whose rays are shown, for a file.
     """
 
@@ -46,7 +46,7 @@ class Ask(Struct, frozen=True):
 
 
 class Show(Struct, frozen=True):
-    """Send a page the field of another view, at once and from now on."""
+    """Change the view of a page: send it that view's field now and from now on."""
 
     client: int
     view: View
@@ -68,13 +68,13 @@ Task: TypeAlias = Infer | Cancel | Show | ShowScan | Ask | Remember
 
 
 class OfJob(Struct, frozen=True, kw_only=True):
-    """A signal of the worker for the session: `generation` is that of the job."""
+    """A signal of the worker for the session about the job of one generation."""
 
     generation: int
 
 
 class Ready(Struct, frozen=True):
-    """The worker is there, with the document of the file that it has opened."""
+    """The worker is ready, with the document of the file that it has opened."""
 
     document: Document | None = None
 
@@ -86,7 +86,7 @@ class OnGrid(OfJob, frozen=True):
 
 
 class Located(OfJob, frozen=True, eq=False):
-    """The trajectory of the log is known, or forgotten where it is None."""
+    """The trajectory of the log is known; None if it was cleared."""
 
     trajectory: Remember | None
 
@@ -104,7 +104,7 @@ class Failed(OfJob, frozen=True):
 
 
 class Alive(Struct, frozen=True):
-    """A sign of life."""
+    """A signal that the worker is still responsive."""
 
 
 class Unusable(Struct, frozen=True):
@@ -123,7 +123,7 @@ class Report:
     Attributes:
         message: the notice or signal.
         buffers: arrays by name.
-        client: the page that asked, where the report is for one page alone.
+        client: number of the page that the report is for; None for all pages.
     """
 
     message: AnyNotice | Signal

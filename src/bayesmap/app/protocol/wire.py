@@ -1,4 +1,4 @@
-"""Messages on the wire: reads what a page sends, or refuses it by name, and frames messages with their arrays."""
+"""Messages on the wire: parsing and checking of a page's messages, and framing of messages with their arrays."""
 
 from __future__ import annotations
 
@@ -25,10 +25,10 @@ T = TypeVar("T")
 
 
 def parse(data: str | bytes) -> AnyAction:
-    """Read a message of the page, without fields that are not known.
+    """Read a message from the page; unknown fields are left out.
 
     Raises:
-        Refused: too long, not JSON, of no known type, or with a field that does not fit.
+        Refused: the message is too long, not JSON or of unknown type, or one of its values is invalid.
     """
     if len(data) > MAX_BYTES or (isinstance(data, str) and len(data.encode("utf-8", "replace")) > MAX_BYTES):
         raise Refused(f"a message of more than {MAX_BYTES:,} bytes", "send it in parts")
@@ -41,7 +41,7 @@ def parse(data: str | bytes) -> AnyAction:
 
 
 def check(value: object) -> AnyAction:
-    """Read a message that is JSON values.
+    """Read a message that has been decoded to JSON values.
 
     Raises:
         Refused: see `parse`.
@@ -65,11 +65,11 @@ def seq_of(data: str | bytes | Mapping[str, Any]) -> int | None:
 def parse_document(value: object) -> Document:
     """Read a document.
 
-    One that shows a file holds no walls and no sensors: it names the file, its grid and the settings that can be
-    changed, and `bayesmap.app.edits.adopted` decides what becomes of it.
+    A document that shows a file holds no walls and no sensors, only the file's name, its grid and the settings that can
+    be changed. `bayesmap.app.edits.adopted` decides how it is used.
 
     Raises:
-        Refused: anything that a document may not hold; the message names the place.
+        Refused: a value is invalid; the message names its place.
     """
     if not isinstance(value, Mapping):
         raise Refused("document: not an object", "send one as in docs/app.md")
@@ -78,17 +78,17 @@ def parse_document(value: object) -> Document:
     if source.kind != "simulation":
         known |= {"walls": "", "sensors": []}
     document = converted(known, Document)
-    # What is read holds no defaults of its own, and would be written without them.
+    # Rebuild sensors and source: as decoded, they would be written without their default values.
     document = replace(document, sensors=tuple(map(replace, document.sensors)), source=replace(document.source))
     check_document(document)
     return document if document.simulated else document.without_walls()
 
 
 def parse_simulation(value: object) -> Document:
-    """Read a document that shows no file.
+    """Read the document of a simulation.
 
     Raises:
-        Refused: see `parse_document`; or it shows a file.
+        Refused: see `parse_document`; or the document shows a file.
     """
     document = parse_document(value)
     if not document.simulated:
@@ -102,10 +102,10 @@ def converted(value: object, kind: type[T], place: str = "") -> T:
     Args:
         value: the values.
         kind: the type.
-        place: what to call the whole in an error.
+        place: name of the whole value in error messages.
 
     Raises:
-        Refused: a value that does not fit; the message names its place, and what would fit.
+        Refused: a value is invalid; the message names its place and the values allowed.
     """
     try:
         return msgspec.convert(value, kind)
@@ -117,9 +117,10 @@ def _explained(text: str, value: Any, kind: inspect.Type, place: str) -> Refused
     """Explain an error in the words of the page: "noise (m): 7 is not a number from 0 to 5"."""
     what, _, path = text.partition(" - at `$")
     if not re.match("Expected|Invalid|Object|Number|Integer", what):
-        return Refused(what)  # by a type's own check
+        return Refused(what)  # raised by a type's own check
     missing = re.fullmatch(r"Object missing required field `(\w+)`", what)
     unknown = re.fullmatch(r"Object contains unknown field `(\w+)`", what)
+    # Follow the path from field to field, to the type and value at its end.
     steps: list[str | int] = [int(index) if index else name for name, index in _STEP.findall(path)]
     title = ""
     for step in [*steps, *(missing.groups() if missing else ())]:
@@ -185,7 +186,7 @@ _ACTION: msgspec.json.Decoder[AnyAction] = msgspec.json.Decoder(AnyAction)
 
 
 def _decoded(data: str | bytes) -> Any:
-    """Return JSON values; None for what is not JSON."""
+    """Return the JSON values; None if the data is not JSON."""
     try:
         return json.loads(data)
     except (ValueError, RecursionError):
@@ -193,7 +194,7 @@ def _decoded(data: str | bytes) -> Any:
 
 
 def frame(message: object, buffers: Buffers) -> str | bytes:
-    """Return a message as it goes over the socket: text, or binary where it has buffers."""
+    """Return a message in the socket's format: text, or binary if it has buffers."""
     if not buffers:
         return msgspec.json.encode(message, enc_hook=plain).decode()
     header, arrays = with_arrays(message, buffers)
@@ -206,7 +207,7 @@ def frame(message: object, buffers: Buffers) -> str | bytes:
 
 
 def with_arrays(message: object, buffers: Buffers) -> tuple[dict[str, Any], list[NDArray[Any]]]:
-    """Return a message as JSON values that list its buffers, and the buffers, little-endian and contiguous."""
+    """Return a message as JSON values with a list of its buffers, and the buffers, little-endian and contiguous."""
     arrays = {name: _as_array(value) for name, value in buffers.items()}
     listed = [{"name": name, "dtype": str(a.dtype), "shape": list(a.shape)} for name, a in arrays.items()]
     return {**msgspec.to_builtins(message, enc_hook=plain), "buffers": listed}, list(arrays.values())

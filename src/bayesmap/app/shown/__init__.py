@@ -1,1 +1,1 @@
-"""What the worker has found so far: a class for each method, and the picture that shows it."""
+"""Results of the worker: one class per method, with the maps and figures that pages show."""

@@ -1,8 +1,8 @@
-"""Chains that are watched while they run: the pilot that fits the sensor, the starts, and the runner in short steps.
+"""Chains that are shown while they run: the pilot that fits the sensor, the starts, and the runner in short steps.
 
-The pilot is a short chain that fits sensor and prior of reflectivities and surfaces. It draws cells given all readings,
-as the chains that follow do, but under a sensor and a prior that still move. Both are near their place after a few
-sweeps, so the latter half of the pilot's draws is the first estimate of the posterior. docs/app.md says how good it is.
+The pilot is a short chain that fits the sensor and the prior of reflectivities or surfaces. Like the chains that
+follow, it draws cells given all readings, but its sensor and prior still change. Both are near their final values after
+a few sweeps. The latter half of the pilot's draws is therefore the first estimate of the posterior (docs/app.md).
 """
 
 from __future__ import annotations
@@ -48,35 +48,37 @@ from bayesmap.samplers.walls import Start, start_maps
 from bayesmap.samplers.with_poses import MovableSampler, PoseProblem, WithPoses
 
 POSE_CHAINS = 16
-"""The number of chains where poses are uncertain: a map holds its sensors in place, so a chain stays near its start."""
+"""The number of chains if poses are uncertain. A map holds its sensors in place, so each chain stays near its start."""
 
 STEP_SECONDS = 0.015
-"""The work between two looks at the pipe."""
+"""The duration of one step of the chains. The worker reads its pipe between two steps."""
 
 DRAW_BYTES = 128 << 20
-"""The memory for the kept draws of a run; more sweeps than fit are thinned."""
+"""The memory for the kept draws of a run. If the draws of all sweeps do not fit, they are thinned."""
 
 LOOKS = 32
-"""Observed cells are counted this often in a run, besides at sweeps 1, 2, 4 and so on."""
+"""The number of times per run that observed cells are counted, besides sweeps 1, 2, 4 and so on."""
 
 DIAGNOSIS_SHARE = 0.1
-"""The share of time for diagnostics of the growing trace; between two diagnoses the last one stands."""
+"""The largest share of time spent on diagnostics. Between two diagnoses, the figures of the last one are shown."""
 
 RECENT, RECENT_BYTES = 200, 16 << 20
-"""The number of latest maps of each chain that are remembered where none are kept, and their memory."""
+"""If no draws are kept: the number of latest draws per chain in memory, and the bytes that they may take together."""
 
 SMALLEST_POSE_M = 0.001
 SMALLEST_HEADING_RAD = math.radians(0.05)
-"""Where only position or heading is uncertain, the other has this deviation: a density needs a width."""
+"""If only position or heading is uncertain, the other gets this standard deviation: a density needs a width."""
 
 FARTHEST_SIGMAS = 4.0
 EVENLY = (0.7548776662466927, 0.5698402909980532)
+"""The largest shift of a chain's start, in standard deviations, and the steps of the sequence that spreads the shifts
+evenly (the additive recurrence of Roberts, 2018)."""
 
 
 def joined(before: Draws | None, after: Draws, most: int = RECENT) -> Draws:
-    """Return the last draws of both: at most `most` of each chain, and what fits in `RECENT_BYTES`."""
-    one = sum(a[:, :1].nbytes for a in after.arrays.values())
-    last = min(most, max(1, RECENT_BYTES // max(one, 1)))
+    """Return the last draws of two blocks: at most `most` per chain, and at most `RECENT_BYTES`."""
+    draw_bytes = sum(a[:, :1].nbytes for a in after.arrays.values())
+    last = min(most, max(1, RECENT_BYTES // max(draw_bytes, 1)))
     if before is None or before.index.keys() != after.index.keys():
         before = replace(after, arrays={name: a[:, :0] for name, a in after.arrays.items()})
     both = {name: np.concatenate([before.arrays[name], a], axis=1)[:, -last:] for name, a in after.arrays.items()}
@@ -84,15 +86,15 @@ def joined(before: Draws | None, after: Draws, most: int = RECENT) -> Draws:
 
 
 class Stream(Found):
-    """Chains from their start to their last sweep, for any kind of cells.
+    """Chains of any kind of cells, advanced step by step from their start to their last sweep.
 
     Attributes:
         model: the model that is sampled.
-        problem: the model as the sampler has prepared it.
+        problem: the problem that the sampler has prepared from the model.
         total: number of sweeps to do.
-        thin: sweeps from one kept map to the next; 1 unless the kept maps would not fit.
+        thin: number of sweeps per kept draw; 1 unless the kept draws would not fit in memory.
         n_chains: number of chains.
-        counted: number of maps in each chain's mean.
+        counted: number of draws in each chain's mean.
         sweep: number of sweeps done.
         done: whether all sweeps are done.
     """
@@ -104,19 +106,21 @@ class Stream(Found):
         self.problem, self._sampler, self.keep = problem, sampler, keep
         self.n_chains = POSE_CHAINS if model.poses.unknown else CHAINS
         self.state = sampler.init(problem, range(self.n_chains), seed)
+        # Thin the kept draws until they fit, and round the sweeps up to a whole number of kept draws.
         empty = no_draws(model, self.state, self.n_chains)
-        one = sum(spec.empty(self.n_chains, 1, empty.shape_of(spec)).nbytes for spec in empty.specs)
-        self.thin = math.ceil(total * one / DRAW_BYTES) if keep else 1
+        draw_bytes = sum(spec.empty(self.n_chains, 1, empty.shape_of(spec)).nbytes for spec in empty.specs)
+        self.thin = math.ceil(total * draw_bytes / DRAW_BYTES) if keep else 1
         self.total = math.ceil(total / self.thin) * self.thin
         schedule = SweepPlan(0, self.total // self.thin, self.thin)
         self._record = Record(empty, schedule if keep else SweepPlan(0, 0))
-        # At fixed sweeps: how long a step is depends on the machine, and the same actions make the same page.
+        # Count observed cells at fixed sweeps. The length of a step depends on the machine, but the page must not.
         doubling = (2**k for k in range(self.total.bit_length()))
         self._look_at = {*doubling, *(self.total * k // LOOKS for k in range(1, LOOKS + 1))}
         self._steps = sweeps(
             sampler, self.state, self.total, keep=schedule.keep, step_seconds=STEP_SECONDS,
-            most_kept=max(1, BUFFER_BYTES // max(one, 1)), stops=tuple(sorted(self._look_at)),
+            most_kept=max(1, BUFFER_BYTES // max(draw_bytes, 1)), stops=tuple(sorted(self._look_at)),
         )  # fmt: skip
+        # What the steps have found so far: latest draws, sums for the means, diagnostics, counts and trace.
         self.seconds, self.counted = 0.0, 0
         self._latest = self._recent = empty
         self._sums = np.zeros((self.n_chains, *model.grid.shape))
@@ -136,8 +140,8 @@ class Stream(Found):
             self._latest = latest
             self._recent = joined(self._recent, latest)
             for chain in range(self.n_chains):
-                one = replace(latest, arrays={name: a[chain : chain + 1] for name, a in info.draws.items()})
-                self._sums[chain] += self.model.cells.mean_map(one) * latest.count
+                of_chain = replace(latest, arrays={name: a[chain : chain + 1] for name, a in info.draws.items()})
+                self._sums[chain] += self.model.cells.mean_map(of_chain) * latest.count
             self.counted += latest.count
         if self.keep:
             self._record.add(info, before)
@@ -152,9 +156,10 @@ class Stream(Found):
         return self._record.draws
 
     def mean(self) -> Floats:
-        """Return the mean over the counted maps of the probability that a cell stops a beam, (nx, ny).
+        """Return the probability that a cell stops a beam, averaged over the counted draws, (nx, ny).
 
-        Where draws are not kept, cells that no beam touches have the prior's mean exactly: what their draws average to.
+        If no draws are kept and poses are known, cells that no beam touches get the exact prior mean. The mean of their
+        draws would converge to it.
         """
         mean = self._sums.mean(axis=0) / max(1, self.counted)
         if self.keep or self.model.poses.unknown:  # from other poses beams touch other cells
@@ -162,15 +167,15 @@ class Stream(Found):
         return np.where(self.problem.touched(), mean, self.model.cells.mean_stop(self.model.grid))
 
     def means(self) -> Floats:
-        """Return the mean of each chain, (chains, nx, ny)."""
+        """Return the mean map of each chain, (chains, nx, ny)."""
         return self._sums / max(1, self.counted)
 
     def observed(self) -> NDArray[np.bool_]:
-        """Return the cells that some beam observes in at least half of the maps inspected, (nx, ny)."""
+        """Return the cells that at least one beam observes in at least half of the draws inspected, (nx, ny)."""
         return np.asarray(2 * self._observed_counts[0] >= np.maximum(1, self._observed_counts[1]))
 
     def draw(self, chain: int | None, number: int | None) -> OneMap:
-        """Return a kept draw; the last where there is none with that number, the latest map where none are kept."""
+        """Return one kept draw; the last one if that number does not exist, or the latest draw if none are kept."""
         draws, which = self.draws, min(chain or 0, self.n_chains - 1)
         if draws.count == 0:
             return self.model.cells.map_of(self._latest, which, -1), which, 0
@@ -188,14 +193,14 @@ class Stream(Found):
 
     @property
     def at_hand(self) -> Draws | None:
-        """The kept draws, or the latest where none are kept."""
+        """The kept draws, or the latest draws if none are kept."""
         draws = self.draws if self.draws.count else self._recent
         return draws if draws.count else None
 
     def figures(self, over: bool) -> Figures:
         """Return the sweeps done, and the diagnostics of the chains.
 
-        While the chains run, R-hat and effective sample size may be those of a moment ago.
+        While the chains run, R-hat and effective sample size may be those of an earlier sweep.
         """
         joint, now = self.log_joint(), time.perf_counter()
         if now >= self._diagnose_at or (self.done and self._diagnosed < self.sweep):
@@ -226,7 +231,7 @@ class Stream(Found):
 
 
 def pose_prior(document: Document) -> PosePrior | None:
-    """Return the prior of the sensors' poses; None where they are known, or the method takes them as known."""
+    """Return the prior of the sensors' poses; None if they are known, or if the method treats them as known."""
     sigma_m, sigma_rad = document.pose_sigma, document.heading_sigma
     if not document.simulated or document.sampler not in CHAIN_METHODS or not (sigma_m > 0 or sigma_rad > 0):
         return None
@@ -234,19 +239,19 @@ def pose_prior(document: Document) -> PosePrior | None:
 
 
 def pose_starts(document: Document, chains: int) -> NDArray[np.float64]:
-    """Return the poses of all sensors from which chains start: the document's, shifted by whole cells, (chains, S, 3).
+    """Return the poses from which chains start: the document's poses, shifted by whole cells, (chains, S, 3).
 
-    A map and all its sensors can be shifted together by whole cells without a change of the likelihood, but for what
-    falls off the border. So the posterior has a mode at every shift s, as probable as the prior says: with S sensors
-    exp(-S s^2 / (2 sigma^2)). No chain moves from one mode to the next, so the chains are dealt out in these shares.
-    Between the cells walls do not fit, and chains that started there would take long to leave.
+    A map and all its sensors can be shifted together by whole cells. The likelihood then changes only at the border. So
+    the posterior has a mode at every shift s. With S sensors, the prior weight of a mode is exp(-S s^2 / (2 sigma^2)).
+    No chain moves from one mode to the next, so chains are distributed over the modes by these weights. Shifts by parts
+    of a cell are avoided: walls would not fit the cells, and chains would take long to leave such a start.
     """
     poses = np.array([(sensor.x, sensor.y, sensor.yaw) for sensor in document.sensors])
     sigma = max(document.pose_sigma, SMALLEST_POSE_M) / math.sqrt(len(poses)) / document.grid.resolution
     most = math.ceil(FARTHEST_SIGMAS * sigma)
     cells = np.arange(-most, most + 1)
     shares = np.cumsum(np.exp(-0.5 * (cells / sigma) ** 2))
-    # Points that fill the square evenly, however many are taken (the additive recurrence of Roberts, 2018).
+    # Evenly spread points of the unit square, one per chain, become shifts by the inverse distribution function.
     points = (0.5 + np.outer(np.arange(chains), EVENLY)) % 1.0
     shifts = cells[np.searchsorted(shares / shares[-1], points)] * document.grid.resolution
     starts = np.repeat(poses[None], chains, axis=0)
@@ -255,10 +260,10 @@ def pose_starts(document: Document, chains: int) -> NDArray[np.float64]:
 
 
 def chains_of_walls(scene: Scene, document: Document, begun: NDArray[np.bool_], *, keep: bool) -> Stream:
-    """Prepare chains that start from these maps, one a chain, (chains, nx, ny).
+    """Prepare chains that start from the maps `begun`, one per chain, (chains, nx, ny).
 
-    Uncertain poses are sampled along with the walls, as in `bayesmap.infer(..., poses=Uncertain(...))` without warm-up,
-    from `pose_starts`.
+    Uncertain poses are sampled together with the walls, as in `bayesmap.infer(..., poses=Uncertain(...))` without
+    warm-up. They start from `pose_starts`.
     """
     walls = scene.problem
     model = scene.model(walls.prior)
@@ -269,16 +274,17 @@ def chains_of_walls(scene: Scene, document: Document, begun: NDArray[np.bool_], 
         return Stream(model, sampler, walls, document.sweeps, document.seed, keep=keep)
     model = replace(model, poses=poses)
     joint = PoseProblem(model, walls.for_any_poses(), walls.device, walls.threads)
+    # 0: without warm-up, the sizes of pose steps are not adapted.
     both = WithPoses(cast(MovableSampler, sampler), 0, pose_starts(document, POSE_CHAINS))
     return Stream(model, both, joint, document.sweeps, document.seed, keep=keep)
 
 
 def starts(problem: WallProblem, document: Document, preview: Preview | None) -> NDArray[np.bool_]:
-    """Return the map from which each chain starts, (chains, nx, ny); it depends on the document alone.
+    """Return the map from which each chain starts, (chains, nx, ny). It depends on the document alone.
 
-    The start "auto" means prior draws where there is no preview. After a preview, the chains of a simulation start in
-    turn from the beliefs and from the empty map: chains that start alike agree on a wrong answer long before they have
-    left it. For a file, whose maps are large, all start from the beliefs, with prior draws where these say nothing.
+    Without a preview, the start "auto" means prior draws. After a preview, the chains of a simulation start alternately
+    from the beliefs and from the empty map: chains that start alike agree on a wrong answer long before they leave it.
+    For a file, whose maps are large, all chains start from the beliefs. Prior draws fill the cells without beliefs.
     """
     chains = CHAINS if pose_prior(document) is None else POSE_CHAINS
 
@@ -293,19 +299,19 @@ def starts(problem: WallProblem, document: Document, preview: Preview | None) ->
     if not document.simulated:
         return likely
     likely[1::2] = False
-    if chains > CHAINS:  # a map that is shifted starts empty: the beliefs are those of another place
+    if chains > CHAINS:  # shifted chains start empty: the beliefs belong to the poses without a shift
         likely[(pose_starts(document, chains) != pose_starts(document, 1)).any(axis=(1, 2))] = False
     return likely
 
 
 class Pilot(Found):
-    """The chain that fits sensor and prior, before the chains whose draws are kept begin.
+    """The chain that fits sensor and prior before the main chains begin.
 
     Attributes:
         model: the model under the sensor and the prior fitted so far.
-        draws: the latter half of its draws, one chain.
+        draws: the latter half of the pilot's draws, one chain.
         sweep: number of sweeps done.
-        total: number of sweeps that it will do.
+        total: number of sweeps to do.
     """
 
     approximate = True
@@ -317,7 +323,7 @@ class Pilot(Found):
 
     @property
     def at_hand(self) -> Draws:
-        """The latter half of its draws."""
+        """The latter half of the pilot's draws."""
         return self.draws
 
     def figures(self, over: bool) -> Figures:
@@ -337,7 +343,7 @@ class Pilot(Found):
         return self._touched
 
     def draw(self, chain: int | None, number: int | None) -> OneMap:
-        """Return its last draw."""
+        """Return the pilot's last draw."""
         return self.model.cells.map_of(self.draws, 0, -1), 0, 0
 
 
@@ -346,12 +352,12 @@ Fitted = tuple[Model, Any, Any]
 
 
 def fit_by_pilot(scene: Scene, document: Document, show: Callable[[Pilot], None]) -> Generator[None, None, Fitted]:
-    """Fit sensor and prior to the readings in short pieces.
+    """Fit sensor and prior to the readings in short steps; return the fitted model, its sampler and its problem.
 
     Args:
         scene: the readings.
-        document: names the kind of cells and the seed.
-        show: called with the pilot after every sweep.
+        document: the document, for its kind of cells and its seed.
+        show: callback that gets the pilot after every sweep.
     """
     prior = BUILT_IN[document.cells]()
     first = first_sensor(prior, document.grid.resolution)
@@ -362,10 +368,10 @@ def fit_by_pilot(scene: Scene, document: Document, show: Callable[[Pilot], None]
     pilot = pilot_sweeps(problem, document.seed, PILOT_SWEEPS, keep=Keep(every=1))
     draws: Draws | None = None
     touched = scene.problem.touched()
-    for sweep, (now, info) in enumerate(pilot, 1):
-        problem, model = problem.under(now.sensor, now.prior), replace(model, sensor=now.sensor, cells=now.prior)
-        latest = Draws(model.grid, now.prior.arrays, info.draws, problem.coordinates)
+    for sweep, (fit, info) in enumerate(pilot, 1):
+        problem, model = problem.under(fit.sensor, fit.prior), replace(model, sensor=fit.sensor, cells=fit.prior)
+        latest = Draws(model.grid, fit.prior.arrays, info.draws, problem.coordinates)
         draws = joined(draws, latest, math.ceil(sweep / 2))
         show(Pilot(model, draws, sweep, PILOT_SWEEPS, touched))
         yield
-    return model, sampler, sampler.prepare(model, "cpu")  # beams are followed as far as the fitted noise reaches
+    return model, sampler, sampler.prepare(model, "cpu")  # traces beams as far as the fitted noise reaches

@@ -1,7 +1,7 @@
-"""Maps of hits and passes, which are there at once: of the first scans of a log, and along poses that still change.
+"""Hit-count maps, available immediately: for the first scans of a log, or for a trajectory still being inferred.
 
-Along poses that are being inferred, walls that stand twice and beams that pass through walls show where poses are still
-wrong. Walls follow OctoMap's log-odds (`bayesmap.posterior.baselines`).
+Along such a trajectory, doubled walls and beams that pass through walls show which poses are still wrong. Wall
+probabilities are OctoMap's log-odds (`bayesmap.posterior.baselines`).
 """
 
 from __future__ import annotations
@@ -20,66 +20,72 @@ from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
 
 MOST_SCANS = 800
-"""A map along changing poses is made of at most so many scans, evenly chosen, since it is made again and again."""
+"""The largest number of scans in a map along changing poses, evenly chosen: the map is computed again and again."""
 
 
 class Counted(FixedMap):
-    """A map of hits and passes."""
+    """A map computed from counts of hits and passes."""
 
     approximate = True
 
 
 class HitCounts:
-    """Counts of the first scans of a log, for any number of them; each number is counted from the last.
+    """Hits and passes in the first n scans of a log, for any n. The counts for one n are updated to those for the next.
 
-    A beam without a return is left out: only the posterior can say how far it got.
+    A beam without a return is left out: only the posterior can estimate how far it got.
 
     Args:
         scans: S scans of A beams.
-        table: their beams, traced to their readings or past them. Beam ``s * A + a`` is beam a of scan s.
+        table: the beams of these scans, traced at least to their readings. Beam ``s * A + a`` is beam a of scan s.
     """
 
     def __init__(self, scans: Scans, table: BeamTable) -> None:
         grid, beams = table.grid, table.n_beams
-        hit = np.isfinite(scans.ranges_m).ravel()
-        end = np.full(beams, -1, dtype=np.int64)
-        at = np.floor(grid.to_cells(scans.hit_points_world())).astype(np.int64)
-        inside = ((at >= 0) & (at < grid.shape)).all(axis=1)
-        end[hit] = np.where(inside, at[:, 0] * grid.shape[1] + at[:, 1], -1)
-        lengths = np.diff(table.offsets)
-        ends_here = table.cells == np.repeat(end.astype(np.int32), lengths)
-        so_far = np.concatenate([[0], np.cumsum(ends_here, dtype=np.int32)])
-        passed = (so_far[1:] == np.repeat(so_far[table.offsets[:-1]], lengths)) & np.repeat(end >= 0, lengths)
         self._n_cells, self._scans = grid.n_cells, len(scans)
         width = len(scans.angles_rad)
+        # The cell that each beam hits; -1 without a return, or where the reading is off the grid.
+        has_return = np.isfinite(scans.ranges_m).ravel()
+        cells_xy = np.floor(grid.to_cells(scans.hit_points_world())).astype(np.int64)
+        inside = ((cells_xy >= 0) & (cells_xy < grid.shape)).all(axis=1)
+        hit_cell = np.full(beams, -1, dtype=np.int64)
+        hit_cell[has_return] = np.where(inside, cells_xy[:, 0] * grid.shape[1] + cells_xy[:, 1], -1)
+        has_hit = hit_cell >= 0
+        # A beam passes the table entries before its hit: there the count of hits is still that at the beam's start.
+        lengths = np.diff(table.offsets)
+        is_hit = table.cells == np.repeat(hit_cell.astype(np.int32), lengths)
+        hits_so_far = np.concatenate([[0], np.cumsum(is_hit, dtype=np.int32)])
+        before_hit = hits_so_far[1:] == np.repeat(hits_so_far[table.offsets[:-1]], lengths)
+        passed = before_hit & np.repeat(has_hit, lengths)
+        # The cells of all passes and of all hits, beam after beam, and the number of each before every scan.
         self._passes = table.cells[passed]
-        counted = np.concatenate([[0], np.cumsum(passed, dtype=np.int64)])
-        self._passes_before = counted[table.offsets[::width]]
-        ended = end >= 0
-        self._hits = end[ended]
-        self._hits_before = np.concatenate([[0], np.cumsum(ended)])[::width]
+        passes_so_far = np.concatenate([[0], np.cumsum(passed, dtype=np.int64)])
+        self._passes_before = passes_so_far[table.offsets[::width]]
+        self._hits = hit_cell[has_hit]
+        self._hits_before = np.concatenate([[0], np.cumsum(has_hit)])[::width]
+        # Counts of the first `_at` scans, (2, N): hits and passes.
         self._at = 0
         self._now = np.zeros((2, grid.n_cells), dtype=np.int64)
 
     def first(self, scans: int | None) -> NDArray[np.int64]:
-        """Return hits and passes of the first scans, of all if None, (2, N)."""
-        wanted = self._scans if scans is None else min(scans, self._scans)
-        low, high = sorted((self._at, wanted))
-        sign = 1 if wanted >= self._at else -1
+        """Return the hits and passes in the first scans, or in all scans if None, (2, N)."""
+        target = self._scans if scans is None else min(scans, self._scans)
+        # Add or subtract only the scans between the last number and this one.
+        low, high = sorted((self._at, target))
+        sign = 1 if target >= self._at else -1
         parts = ((self._hits, self._hits_before), (self._passes, self._passes_before))
         for row, (cells, before) in enumerate(parts):
             self._now[row] += sign * np.bincount(cells[before[low] : before[high]], minlength=self._n_cells)
-        self._at = wanted
+        self._at = target
         return self._now.copy()
 
 
 def coarse_map(counts: NDArray[np.int64], prior: CellPrior, p_wall: float) -> NDArray[np.float64]:
-    """Return each cell's wall probability by OctoMap, or its share of stopped beams where cells are no walls, (N,).
+    """Return each cell's wall probability by OctoMap, (N,); for other kinds of cells, the share of beams that stop.
 
     Args:
         counts: hits and passes, (2, N).
         prior: the prior of the cells.
-        p_wall: the prior probability of a wall, where cells are walls.
+        p_wall: the prior probability of a wall, used only for cells that are walls.
     """
     hits, passes = counts.astype(np.float64)
     a, b = getattr(prior, "a", None), getattr(prior, "b", None)
@@ -90,7 +96,7 @@ def coarse_map(counts: NDArray[np.int64], prior: CellPrior, p_wall: float) -> ND
 
 
 def counted_map(scans: Scans, grid: Grid) -> Counted:
-    """Return the map along the poses of some scans."""
+    """Return the hit-count map of scans at their poses."""
     from bayesmap.kernels.counts import count_hits
 
     hits, passes = (np.asarray(n, dtype=np.float64).reshape(grid.shape) for n in count_hits(thinned(scans), grid))
@@ -106,10 +112,11 @@ def thinned(scans: Scans) -> Scans:
 
 
 def grown(grid: Grid, scans: Scans) -> Grid:
-    """Return the grid, enlarged on its lattice of cells until it holds the scans.
+    """Return the grid, enlarged by whole cells until it covers the scans.
 
-    The picture must not jump with every correction, so the grid only grows.
+    The grid never shrinks, so that the picture does not jump with every correction of the poses.
     """
+    # The first cell and the end of the enlarged grid, in cells of the old grid. 1e-6 absorbs rounding.
     needed = Grid.covering(thinned(scans), grid.resolution, margin_m=0.0)
     low = np.minimum(np.floor((np.array(needed.origin) - grid.origin) / grid.resolution + 1e-6), 0).astype(int)
     ends = (np.array(needed.origin) - grid.origin) / grid.resolution + needed.shape
@@ -122,7 +129,7 @@ def grown(grid: Grid, scans: Scans) -> Grid:
 
 
 def scene_along(scans: Scans, grid: Grid, p_wall: float) -> Scene:
-    """Return the scene of scans whose beams are not traced: enough to show their rays and poses."""
+    """Return a scene of scans without tracing their beams: enough to show rays and poses."""
     none, empty = np.zeros(0, np.float32), np.zeros(0, np.int32)
     table = BeamTable(grid, np.zeros(1, np.int32), empty, none, none)
     return scene_of_file(scans, grid, default_sensor(grid.resolution), p_wall, table)

@@ -1,4 +1,4 @@
-"""Results: the posterior of a document as far as it is known, whatever the method, and the verdict on its chains."""
+"""Results: the posterior of a document as estimated so far by any method, and the verdict on its chains."""
 
 from __future__ import annotations
 
@@ -28,28 +28,28 @@ from bayesmap.sensors.model import SensorModel
 
 Floats = NDArray[np.float64]
 OneMap = tuple[NDArray[Any], int, int]
-"""A map, (nx, ny), its chain and its number."""
+"""A map, (nx, ny), the index of its chain and the index of its draw."""
 
 CHAINS = 2
 SAVED_DRAWS = 500
-"""The number of maps of each chain that are drawn for a saved run, where the method has no chains."""
+"""The number of chains, and the number of independent draws per chain in the saved run of a method without chains."""
 
 INTERVAL_DRAWS = 60
-"""The number of draws from which intervals are computed."""
+"""The number of draws used for credible intervals."""
 
 GOOD_RHAT = 1.01
 GOOD_ESS = 400.0
-"""Vehtari et al. (2021): R-hat below 1.01, and 400 effective draws, which make R-hat itself reliable."""
+"""Limits of Vehtari et al. (2021) for R-hat and effective sample size. 400 effective draws make R-hat reliable."""
 
 BAD_ESS = 50.0
 FEWEST_SWEEPS = 200
-"""With fewer sweeps there is no verdict on chains that go on, and none on cells on which chains differ."""
+"""With fewer sweeps, running chains get no verdict, and differences between the chains' means are not judged."""
 
 FEWEST_DIAGNOSED = 4
-"""R-hat needs two draws in each half of a chain."""
+"""The fewest sweeps for R-hat, which needs two draws in each half of a chain."""
 
 BAD_DIFFERENCE = 0.25
-"""Of P(wall) between two chains: five standard errors for two means of 200 independent draws with p = 1/2."""
+"""The largest good difference of P(wall) between two chains: 5 standard errors of 200 independent draws at p = 1/2."""
 
 
 @dataclass(frozen=True)
@@ -57,12 +57,12 @@ class Figures:
     """Progress and diagnostics of a result.
 
     Attributes:
-        sweeps: sweeps, rounds or particles that are done.
-        total: sweeps, rounds or particles to be done.
+        sweeps: number of sweeps, rounds or particles done.
+        total: number of sweeps, rounds or particles to do.
         ess: effective sample size of the log joint, or of the weights.
         rhat: R-hat of the log joint.
-        log_joint: mean over the chains of the last log joint.
-        verdict: None where it is too early.
+        log_joint: last log joint, averaged over the chains.
+        verdict: verdict on the result; None while it is too early.
     """
 
     sweeps: int = 0
@@ -80,14 +80,14 @@ class Figures:
 
 
 class Found(ABC):
-    """What one method has found. The defaults are those of a method without draws.
+    """The estimate of one method. The defaults fit a method without draws.
 
     Attributes:
-        approximate: whether the method is quick, and its mean not the posterior's.
-        model: the model that is sampled, where it is not the readings' own.
-        averaged: the number of draws in the mean, where the method says so.
-        sweep: number of sweeps that chains have done.
-        done: whether chains have done all their sweeps.
+        approximate: whether the mean is a quick approximation of the posterior mean.
+        model: the model that is sampled, if it differs from the scene's.
+        averaged: number of draws in the mean, if the method reports it.
+        sweep: number of sweeps that the chains have done.
+        done: whether the chains have done all their sweeps.
     """
 
     approximate = False
@@ -105,21 +105,17 @@ class Found(ABC):
         """Return the cells that a beam reaches, (nx, ny)."""
 
     def figures(self, over: bool) -> Figures:
-        """Return progress and diagnostics; `over` where the method will not go on."""
+        """Return progress and diagnostics; `over` means that the method will not go on."""
         return Figures()
 
     @property
     def prior(self) -> CellPrior | None:
-        """The prior of the cells on show, where it is not the readings' own."""
+        """The prior of the cells on show, if it differs from the scene's."""
         return None if self.model is None else self.model.cells
 
     @property
     def law(self) -> tuple[SensorModel, float] | None:
-        """The sensor model and the hit depth that predict readings, where they are not the readings' own.
-
-        Raises:
-            BadInput: a sensor model that only the run's maker had.
-        """
+        """The sensor model and the hit depth that predict readings, if they differ from the scene's."""
         return None if self.model is None else (self.model.sensor, self.model.hit_depth)
 
     @property
@@ -133,7 +129,7 @@ class Found(ABC):
         return self.kept
 
     def draw(self, chain: int | None, number: int | None) -> OneMap | None:
-        """Return one draw; the last draw where there is none with that number."""
+        """Return one draw; the last draw if that number does not exist."""
         return None
 
     def log_joint(self) -> Floats:
@@ -142,19 +138,19 @@ class Found(ABC):
 
     @property
     def log_weights(self) -> Floats | None:
-        """Log weights of particles, (n,), if there are any."""
+        """The log weights of particles, (n,), if there are any."""
         return None
 
     @property
     def scan_poses(self) -> Floats | None:
-        """The mean poses of the scans, (S, 3), where poses were inferred."""
+        """The mean poses of the scans, (S, 3), if poses were inferred."""
         return None
 
     def as_run(self, result: Result) -> Run:
-        """Return this as `bayesmap.infer` returns it.
+        """Return the estimate as a run, like that of `bayesmap.infer`.
 
         Raises:
-            BadInput: a method without draws, or a chain of which none was kept.
+            BadInput: the method has no draws, or none was kept.
         """
         raise BadInput("there are no draws to save; run inference first")
 
@@ -167,7 +163,7 @@ class Found(ABC):
 
 @dataclass(frozen=True)
 class Maps:
-    """Draws with the prior that knows what they mean, as `bayesmap.posterior.decisions` takes them."""
+    """Draws and the prior that interprets them, for `bayesmap.posterior.decisions`."""
 
     prior: CellPrior
     draws: Draws
@@ -175,13 +171,13 @@ class Maps:
 
 @dataclass(frozen=True, eq=False)
 class Result:
-    """What has been found of a document.
+    """The present result for a document.
 
     Attributes:
         scene: the readings.
         document: the document.
-        method: name of the method that found it.
-        found: what the method has found.
+        method: name of the inference method.
+        found: estimate of the method.
         over: whether chains were cancelled, and will not go on.
     """
 
@@ -193,7 +189,7 @@ class Result:
 
     @property
     def prior(self) -> CellPrior:
-        """The prior of the cells on show, which has the words for them."""
+        """The prior of the cells on show, which also names their quantities."""
         return self.found.prior or self.scene.prior
 
     @property
@@ -201,7 +197,7 @@ class Result:
         """The sensor model and the hit depth that predict readings.
 
         Raises:
-            BadInput: a sensor model that only the run's maker had.
+            BadInput: the run's sensor model is not built in.
         """
         return self.found.law or (self.scene.sensor, self.scene.hit_depth)
 
@@ -210,7 +206,7 @@ class Result:
         """The kept draws, or the latest draws of chains that keep none.
 
         Raises:
-            BadInput: a method without draws.
+            BadInput: the method has no draws.
         """
         if self.found.at_hand is not None:
             return Maps(self.prior, self.found.at_hand)
@@ -224,7 +220,7 @@ class Result:
 
     @cached_property
     def width(self) -> Floats | None:
-        """Width of each cell's central 90 % interval, (nx, ny); None for walls, which have none, or without draws."""
+        """The width of each cell's central 90 % interval, (nx, ny); None for walls, or without draws."""
         draws = self.found.at_hand
         if draws is None or not self.prior.has_interval:
             return None
@@ -233,9 +229,9 @@ class Result:
 
     @cached_property
     def surfaces(self) -> tuple[NDArray[np.int32], Floats, Floats, Floats] | None:
-        """Mean surfaces: their cells, means in the world frame (U, 2), covariances (U, 2, 2), reflectivities (U,).
+        """The mean surfaces: cells, means in the world frame (U, 2), covariances (U, 2, 2), reflectivities (U,).
 
-        None without draws, or where cells have none.
+        None without draws, or if cells have no surfaces.
         """
         draws = self.found.at_hand
         if draws is None or not self.prior.has_surfaces:
@@ -244,7 +240,7 @@ class Result:
 
     @property
     def quantity(self) -> Quantity:
-        """The kind of cells, and the words for the numbers of the map."""
+        """The quantity that the map shows: the kind of cells, and words for it."""
         words = self.prior.words
         return Quantity(words.kind, words.mean, words.value, self.prior.has_interval)
 
@@ -255,10 +251,10 @@ class Result:
         return DrawCount() if kept is None else DrawCount(kept.chains, kept.count)
 
     def as_run(self) -> Run:
-        """Return the result as `bayesmap.infer` returns it.
+        """Return the result as a run, like that of `bayesmap.infer`.
 
         Raises:
-            BadInput: a method without draws, or a chain of which none was kept.
+            BadInput: the method has no draws, or none was kept.
         """
         return self.found.as_run(self)
 
@@ -277,12 +273,12 @@ class Result:
 
 
 class FixedMap(Found):
-    """A map that no method refines.
+    """A map that does not change any more.
 
     Args:
         mean: the probability that a cell stops a beam, (nx, ny).
         observed: the cells that a beam reaches, (nx, ny).
-        prior: the prior of cells that are no walls, which has the words for the map.
+        prior: the prior of cells other than walls; None for walls.
     """
 
     def __init__(self, mean: Floats, observed: NDArray[np.bool_], prior: CellPrior | None = None) -> None:
@@ -290,7 +286,7 @@ class FixedMap(Found):
 
     @property
     def prior(self) -> CellPrior | None:
-        """The prior of the cells on show, where it is not the readings' own."""
+        """The prior of the cells on show, if it differs from the scene's."""
         return self._prior
 
     def mean(self) -> Floats:
@@ -303,12 +299,12 @@ class FixedMap(Found):
 
 
 class Nothing(FixedMap):
-    """The prior, before anything is found."""
+    """The prior, before inference begins."""
 
 
 def nothing_yet(scene: Scene, document: Document) -> Result:
-    """Return the result before anything is found."""
-    # Another kind of cells has its own prior, which is fitted once there are chains.
+    """Return the result before inference begins: the prior."""
+    # For other kinds of cells, the scene's prior of walls does not apply.
     other = document.cells != scene.prior.words.kind
     prior: CellPrior = BUILT_IN[document.cells]() if other else scene.prior
     found = Nothing(prior.mean_stop(scene.grid), np.zeros(scene.grid.shape, dtype=np.bool_), prior)
@@ -316,7 +312,7 @@ def nothing_yet(scene: Scene, document: Document) -> Result:
 
 
 def rhat_and_ess(log_joint: Floats) -> tuple[float, float]:
-    """Return R-hat and effective sample size of a trace, (chains, n); NaN where the log joint never changed."""
+    """Return R-hat and effective sample size of a trace, (chains, n); NaN if the log joint never changed."""
     constant = log_joint.size == 0 or float(np.ptp(log_joint)) == 0.0
     return (math.nan, math.nan) if constant else (rhat(log_joint), bulk_ess(log_joint))
 
@@ -330,9 +326,9 @@ class Difference:
 
 
 def difference(means: Floats, among: NDArray[np.bool_]) -> Difference | None:
-    """Find the largest difference of chains' means, (chains, nx, ny), among some cells, (nx, ny).
+    """Find the largest difference between chains' means, (chains, nx, ny), in the cells `among`, (nx, ny).
 
-    None with one chain or no cell.
+    Returns None for one chain, or without cells.
     """
     if len(means) < 2 or not among.any():
         return None
@@ -344,10 +340,10 @@ def difference(means: Floats, among: NDArray[np.bool_]) -> Difference | None:
 def judge_chains(
     rhat: float, ess: float, sweeps: int, apart: Difference | None, *, over: bool = False
 ) -> Verdict | None:
-    """Return the verdict on chains, or None where it is too early, or where the log joint never changed.
+    """Return the verdict on chains, or None if it is too early, or if the log joint never changed.
 
-    Chains that are over (finished, cancelled or saved) get a verdict however few their sweeps are. Means of few draws
-    differ by chance, so then the log joint alone decides.
+    Chains that are over (finished, cancelled or saved) get a verdict even after few sweeps. Means of few draws differ
+    by chance, so then only the log joint is judged.
     """
     few = sweeps < FEWEST_SWEEPS
     if few and not over:

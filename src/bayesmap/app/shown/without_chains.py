@@ -1,4 +1,4 @@
-"""Methods without chains, in short pieces: belief propagation while the hand moves, and importance sampling."""
+"""Methods without chains, run in short steps: belief propagation while the hand moves, and importance sampling."""
 
 from __future__ import annotations
 
@@ -29,16 +29,18 @@ from bayesmap.samplers.without_chains import (
 from bayesmap.space.grid import Grid
 
 TOLERANCE = 1e-3
+"""Belief propagation has converged when no probability changes by more than this in a round."""
+
 THREADS_FROM_INCIDENCES = 200_000
-"""Smaller tables leave the other cores to the page, which paints with them."""
+"""Smaller tables use one thread, so that the page has the other cores for painting."""
 
 PIECE_SECONDS = 0.015
 FIRST_PIECE = 64
-"""The time that a piece of importance sampling takes, and the number of particles in the first piece."""
+"""The duration of a step of importance sampling, and the number of particles in the first step."""
 
 
 def touched(table: BeamTable) -> tuple[NDArray[np.intp], BeamTable]:
-    """Return the flat indices of the cells that beams touch, (M,), and the table of the beams over cells 0..M-1."""
+    """Return the flat indices of the M cells that beams touch, and the beam table with cells renumbered 0 to M - 1."""
     seen = np.zeros(table.grid.n_cells, dtype=np.bool_)
     seen[table.cells] = True
     cells = np.flatnonzero(seen)
@@ -51,14 +53,14 @@ def touched(table: BeamTable) -> tuple[NDArray[np.intp], BeamTable]:
 class Preview(Found):
     """Belief propagation as in `bayesmap.samplers.propagate`, one round at a time.
 
-    Cells that no beam touches keep the prior exactly, so the rounds need not visit them: at 500 x 500 with one sensor
-    that is most of the map.
+    Cells that no beam touches keep the prior exactly, so the rounds leave them out. On 500 x 500 cells with one sensor
+    they are most of the map.
 
     Attributes:
         cells: flat indices of the cells that beams touch, (M,).
-        table: the beams over these cells.
+        table: beam table over these cells.
         rounds: number of rounds done.
-        converged: whether the last round changed no probability by more than the tolerance, or was the last allowed.
+        converged: whether the probabilities changed by less than `TOLERANCE`, or the last allowed round is done.
     """
 
     approximate = True
@@ -90,7 +92,7 @@ class Preview(Found):
         return p.reshape(self.problem.table.grid.shape)
 
     def observed(self) -> NDArray[np.bool_]:
-        """Return the cells that a beam reaches before the first likely wall, (nx, ny)."""
+        """Return the cells that a beam reaches before the first probable wall, (nx, ny)."""
         seen = np.zeros(self.problem.table.grid.n_cells, dtype=np.bool_)
         if len(self.cells):
             likely = (self._p > 0.5).reshape(1, *self.table.grid.shape)
@@ -98,7 +100,7 @@ class Preview(Found):
         return seen.reshape(self.problem.table.grid.shape)
 
     def marginals(self) -> Marginals:
-        """Return the marginals so far, from which chains start and independent draws are made."""
+        """Return the current marginals, for starts of chains and for independent draws."""
         return Marginals(self.mean(), np.zeros(0), np.zeros(0), self.converged, self.converged, 0.0)
 
     def figures(self, over: bool) -> Figures:
@@ -106,7 +108,7 @@ class Preview(Found):
         return Figures(sweeps=self.rounds)
 
     def as_run(self, result: Result) -> Run:
-        """Return independent draws from the beliefs, as a run."""
+        """Return a run of independent draws from the beliefs."""
         began, document = time.perf_counter(), result.document
         request = DrawRequest(CHAINS, SAVED_DRAWS, document.seed, document.sweeps, self.rounds)
         draws = draws_by_beliefs(result.scene.problem, request, replace(self.marginals(), finished=True))
@@ -114,7 +116,7 @@ class Preview(Found):
 
 
 class Weighing(Found):
-    """Importance sampling: the particles of `bayesmap.samplers.without_chains`, some at a time.
+    """Importance sampling with the particles of `bayesmap.samplers.without_chains`, weighed in short steps.
 
     Attributes:
         total: number of particles to weigh.
@@ -129,16 +131,17 @@ class Weighing(Found):
         self._seconds = 0.0
 
     def advance(self) -> None:
-        """Weigh some more particles: about `PIECE_SECONDS` of work."""
+        """Weigh more particles: about `PIECE_SECONDS` of work."""
         began = time.perf_counter()
-        now = min(self._piece, self.total - self.count)
+        n = min(self._piece, self.total - self.count)
         problem = self.problem
-        some = weigh(problem.device_table, problem.device_prior, self._key, self.count, now, problem.device)
-        self._log_weights[self.count : self.count + now] = some
-        self.count += now
+        log_weights = weigh(problem.device_table, problem.device_prior, self._key, self.count, n, problem.device)
+        self._log_weights[self.count : self.count + n] = log_weights
+        self.count += n
         spent = time.perf_counter() - began
         self._seconds += spent
-        self._piece = int(np.clip(now * PIECE_SECONDS / max(spent, 1e-9), 1, 4 * self._piece))
+        # Choose the next step's size by this step's speed; it grows at most fourfold.
+        self._piece = int(np.clip(n * PIECE_SECONDS / max(spent, 1e-9), 1, 4 * self._piece))
 
     @property
     def particles(self) -> Particles:
@@ -165,11 +168,11 @@ class Weighing(Found):
         return self.particles.occupancy()
 
     def observed(self) -> NDArray[np.bool_]:
-        """Return the cells that a beam reaches where walls are likely, (nx, ny)."""
+        """Return the cells that a beam reaches before the first probable wall, (nx, ny)."""
         return reach_frequency(self.problem.table, self.mean()[None] > 0.5) > 0
 
     def as_run(self, result: Result) -> Run:
-        """Return draws by weight, as a run."""
+        """Return a run of particles drawn by their weights."""
         began, document = time.perf_counter(), result.document
         request = DrawRequest(CHAINS, SAVED_DRAWS, document.seed, document.sweeps, 0)
         return _run_of_draws(result, self.problem, draws_by_importance(self.problem, request, self.particles), began)
