@@ -68,7 +68,7 @@ class Schedule:
 
 @dataclass(frozen=True)
 class Where:
-    """The threads, device and executor of a run. Draws do not depend on them, except for the last bits on another kind of device.
+    """The threads, device and executor of a run. Except for the last bits on another kind of device, draws ignore them.
 
     Attributes:
         threads: number of chains that run at once, and of threads of belief propagation; None: all cores. The beam
