@@ -57,7 +57,6 @@ if TYPE_CHECKING:
     from bayesmap.poses.trajectory import Trajectory
 
 FIT = "fit"
-"""Value of ``sensor`` that asks to fit the sensor."""
 
 TAKE_POSES = ("wall-gibbs", "wall-blocks", "stop-gibbs")
 """Samplers that can sample unknown poses."""

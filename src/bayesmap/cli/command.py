@@ -143,7 +143,6 @@ def _typed(text: str) -> Any:
 
 
 def _toml(value: bool | int | float | str) -> str:
-    """Return a value as TOML."""
     if isinstance(value, str):
         # A JSON string is a TOML string, except for surrogate pairs and a bare DEL.
         return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")

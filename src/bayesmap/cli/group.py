@@ -108,7 +108,6 @@ def explain(error: BaseException) -> tuple[int, str]:
 
 
 def _of_system(error: OSError) -> str:
-    """Return the file and the reason of an operating system error."""
     reason = error.strerror or str(error)
     return f"{error.filename}: {reason}" if error.filename else reason
 

@@ -56,7 +56,6 @@ def is_saved_run(file: str) -> bool:
 
 
 def _saved_run(file: str) -> dict[str, Any]:
-    """Return the description of a saved run."""
     from bayesmap.cli.folder import run_document
     from bayesmap.io.contents import scans_summary
     from bayesmap.result import load
@@ -74,7 +73,6 @@ def _saved_run(file: str) -> dict[str, Any]:
 
 
 def _log(file: str) -> dict[str, Any]:
-    """Return the description of a log or a recording."""
     from bayesmap.io.contents import contents_of
 
     contents = contents_of(file)

@@ -126,9 +126,7 @@ class _Question:
     """The scans of a log that are to be located in a map.
 
     Attributes:
-        call: the call of the command.
-        log: path of the log.
-        map: the map.
+        call, log, map: the call of the command, the path of the log, and the map.
         span: scans to locate, as FIRST:LAST; None for all.
         near: prior of the first pose; None if it may be anywhere.
         independent: locate each scan by itself.
@@ -220,13 +218,7 @@ class _RunMap:
 
 @dataclass(frozen=True, eq=False)
 class _ExternalMap:
-    """The map of another program.
-
-    Attributes:
-        occupancy: probability of a wall, (nx, ny); NaN where unknown.
-        grid: the grid of the cells.
-        settings: settings of the command.
-    """
+    """The map of another program: its wall probabilities, (nx, ny), NaN where unknown, and its grid."""
 
     occupancy: NDArray[np.float64]
     grid: Grid

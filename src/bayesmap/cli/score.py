@@ -22,7 +22,6 @@ if TYPE_CHECKING:
 
 FRAMES = ("base", "laser")
 
-# Columns of the table; docs/scoring.md has the formulas.
 HEADINGS = ("map", "nats/beam", "50 %", "80 %", "95 %", "80 % width", "PIT", "Brier", "log loss")
 
 
