@@ -89,11 +89,10 @@ class Run:
         draws = self.posterior.draws
         out: NDArray[Any] | None = None
         for chain, draw in draws.numbers():
-            cells = self.map_of(chain, draw)
+            one = self.map_of(chain, draw)
             if out is None:
-                kind = np.bool_ if cells.dtype == bool else np.float32
-                out = np.empty((draws.chains, draws.count, *cells.shape), kind)
-            out[chain, draw] = cells
+                out = np.empty((draws.chains, draws.count, *one.shape), np.bool_ if one.dtype == bool else np.float32)
+            out[chain, draw] = one
         return np.zeros((draws.chains, draws.count, *self.grid.shape), dtype=np.bool_) if out is None else out
 
     @property
