@@ -72,7 +72,7 @@ class Run:
 
     @property
     def entropy(self) -> Floats:
-        """Return the entropy, in bits, of the event that a cell stops the next beam, (nx, ny)."""
+        """Return the entropy, in bits, of the event that a cell stops a beam that meets its content, (nx, ny)."""
         return entropy_bits(self.posterior.occupancy)
 
     @property

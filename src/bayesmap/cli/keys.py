@@ -298,7 +298,7 @@ class ExploreSettings(Settings, kw_only=True, frozen=True):
     views: Annotated[Count, Help("Number of best views to show; views lie apart from each other.")] = 5
     radius: Radius = 0.25
     draws: Annotated[
-        Count, Help("Maps that are compared; more maps tighten the bounds, and the work grows as their square.")
+        Count, Help("Maps that are compared; more maps tighten the bounds; the work grows with their square.")
     ] = 50
     seed: Seed = 0
 
