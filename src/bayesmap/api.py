@@ -100,7 +100,7 @@ def infer(
         method: a method with its options, or its name for the defaults. Binary walls have `Gibbs` ("gibbs"), `Block`
             ("block"), `Propagate` ("propagate"), `Importance` ("importance") and `Exact` ("exact"); `Beta` and
             `Surface` have `Gibbs` alone. None: the first of the kind of cells.
-        schedule: how many chains, warm-up sweeps and draws.
+        schedule: numbers of chains, warm-up sweeps and draws.
         seed: seed of all random numbers.
         poses: prior of the scans' poses: `Known`, `Uncertain` about the log's, or `Odometry`. Unknown poses are sampled
             along with the map: ``run.poses``. None: ``Known()``.

@@ -38,9 +38,9 @@ class Schedule:
         chains: Markov chains; the methods without chains give ``chains * draws`` independent draws.
         warmup: sweeps of each chain that are not kept.
         draws: largest number of maps per chain; ``precision`` usually ends the chains sooner. None: 1000 for
-            binary walls. For `Beta` and `Surface`, whose draws are larger and mix in tens of sweeps, 100 to 200 (50 to
-            200 if ``thin`` is 1); fewer beams give more draws (`CellPrior.default_draws`). For "propagate" 0, since it
-            returns marginals.
+            binary walls; 0 for "propagate", which returns marginals; 100 to 200 for `Beta` and `Surface` (50 to 200 if
+            ``thin`` is 1). Their draws are larger, and mix in tens of sweeps. Fewer beams give more draws
+            (`CellPrior.default_draws`).
         thin: sweeps from one kept map to the next. None: 3 for `Beta` and `Surface` if ``draws`` is None too, and 1
             otherwise; `slam` takes 1.
         precision: Monte Carlo standard error of the mean map at which chains stop: 99 of 100 observed cells have this

@@ -407,8 +407,8 @@ def _threads(entry: Entry) -> int:
 def infer(call: Call[InferSettings], logs: tuple[str, ...], output: str | None, resume: bool, force: bool) -> None:
     r"""Infer the walls from LOG: a CARMEN log, a ROS 1 or ROS 2 bag, MCAP, g2o, CSV or .npz of range scans.
 
-    By default the state of a cell is a reflectivity (the chance that it stops a beam) and the position of its surface,
-    and the sensor is fitted to the log. With --cells binary a cell is a wall or free, and --sensor fit fits the sensor.
+    By default a cell has a reflectivity (the chance that it stops a beam) and the position of a surface. The sensor is
+    fitted to the log. With --cells binary a cell is a wall or free, and the sensor is fitted only with --sensor fit.
 
     The command writes into DIR the saved run (run.nc), a picture (posterior.png), the map for nav2 (map.yaml), the JSON
     document (summary.json) and the settings (config.toml). The run is saved at the end of warm-up, every 30 seconds,

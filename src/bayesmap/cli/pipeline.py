@@ -73,7 +73,7 @@ def infer_log(
     Args:
         task: the log, its folder and settings.
         reading: the log, if it has been read already.
-        executor: where chains run.
+        executor: object that runs the chains; None: this process.
         go_on: the command that resumes the run, printed after Ctrl-C.
         on_saved: called after each checkpoint.
         on_event: called with the progress of the run, like the progress bar.

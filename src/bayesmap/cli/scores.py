@@ -29,9 +29,9 @@ if TYPE_CHECKING:
     Floats = NDArray[np.float64]
 
 LITTLE_NATS, MUCH_NATS, MANY_STRAYS, VERDICT_M = 0.3, 1.0, 40.0, 3.0
-"""Thresholds of the verdict on a map. A map that gains less than the first number of nats per beam over no map does not
-agree with the scans; less than the second, or more than the third per cent of stray beams, is agreement in part. Stray
-beams meet something before a wall at the last distance."""
+"""Thresholds of the verdict on a map. The gain over no map, in nats per beam, must reach the first number for agreement
+in part, and the second for agreement. Above the third number agreement is only in part: it is the per cent of beams
+that meet something before a wall at the last distance."""
 
 
 @dataclass(frozen=True, eq=False)

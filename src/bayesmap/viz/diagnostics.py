@@ -29,7 +29,7 @@ def draw_log_joint(ax: Axes, log_joint: ArrayLike, *, first_sweep: int = 1) -> N
     """Draw the trace of the log joint density, a line per chain.
 
     Args:
-        ax: where to draw.
+        ax: axes to draw on.
         log_joint: log joint density in nats, shape (chain, draw), or (draw,) for one chain.
         first_sweep: number of the sweep that gave the first draw.
 
@@ -128,7 +128,7 @@ def draw_weights(
     the tutorial. Counts are on a logarithmic scale, so that a single sample is visible.
 
     Args:
-        ax: where to draw.
+        ax: axes to draw on.
         log_weights: log weight of each sample in nats, (n,), normalised or not; -inf is a weight of zero.
         range_nats: lower and upper end of the histogram; the number of weights below is written in the panel.
 

@@ -1,8 +1,8 @@
 """Overlays of a map: the true walls' outline, rays and readings, the sensor, and surfaces as short strokes.
 
-A cell's surface is the 2-D mean and covariance of the points where beams stop in it, as in maps of the normal
-distributions transform (Biber and Strasser 2003). Along a wall the covariance is long and thin. The stroke is its major
-axis, two standard deviations to each side. Small clutter becomes a dot.
+A cell's surface is the 2-D mean and covariance of the points where beams stop in it. Maps of the normal distributions
+transform (Biber and Strasser 2003) use the same description. Along a wall the covariance is long and thin. The stroke
+is its major axis, two standard deviations to each side. Small clutter becomes a dot.
 """
 
 from __future__ import annotations
