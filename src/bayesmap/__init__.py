@@ -1,7 +1,7 @@
 """bayesmap: given noisy range scans, where are the walls, and how sure are we?
 
-The public names are loaded on first use, so that importing this package costs nothing: neither JAX nor Warp nor
-matplotlib is loaded until something needs it.
+The public names are loaded on first use. Importing this package is therefore fast: JAX, Warp and matplotlib are loaded
+only when they are needed.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ import importlib
 
 from bayesmap.version import __version__ as __version__
 
-TYPE_CHECKING = False  # typing's own would load typing, in the first moments of every command
+TYPE_CHECKING = False  # importing typing for it would slow the start of every command
 if TYPE_CHECKING:
     from typing import Any
 

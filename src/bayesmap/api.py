@@ -1,9 +1,9 @@
-"""The public functions: `infer`, from scans to a posterior over maps, and `slam`, over maps and trajectories.
+"""The public functions: `infer` computes the posterior over maps, `slam` that over maps and trajectories.
 
-`slam` begins with an approximation of all poses (`bayesmap.poses.slam`: matching, loops, a Gaussian about the likeliest
-poses). Then chains sample the map and the poses of the key scans, each from its own draw of that approximation, under
-the forward law of `infer`. The chains correct the approximation's detail; which way a long loop bends stays near what
-they started from (docs/how/poses.md).
+`slam` first approximates all poses (`bayesmap.poses.slam`: matching, loops, a Gaussian about the likeliest poses). Then
+chains sample the map and the poses of the key scans under the forward law of `infer`. Each chain starts from its own
+draw of the approximation. The chains correct details of the approximation; the bend of a long loop stays near its start
+(docs/how/poses.md).
 """
 
 from __future__ import annotations
@@ -59,11 +59,11 @@ if TYPE_CHECKING:
 FIT = "fit"
 
 TAKE_POSES = ("wall-gibbs", "wall-blocks", "stop-gibbs")
-"""Samplers that move poses."""
+"""Samplers that can sample unknown poses."""
 
 P_SLIP = 0.01
-"""Probability that odometry says nothing of a motion. In the Intel log eight motions of 891 are off by 200 to 350
-standard deviations, since a pose is stated twice while the robot turns by 30 degrees. A normal law alone would turn the
+"""Probability that odometry is no evidence of a motion. In the Intel log eight motions of 891 are off by 200 to 350
+standard deviations, since a pose is repeated while the robot turns by 30 degrees. A normal law alone would turn the
 scans there until they contradict the walls."""
 
 
@@ -82,15 +82,14 @@ def infer(
     checkpoints: Checkpoints = Checkpoints(),
     on_progress: Callable[[Event], None] | None = None,
 ) -> Run:
-    """Infer the map from scans: where walls are, or how many beams cells stop, and where.
+    """Infer the map from scans: walls, or the share of beams that cells stop, and the surfaces in them.
 
-    The result depends on the arguments up to ``hit_depth`` alone, and on the kind of device in the last bits. It
-    depends neither on the number of threads nor on how often the run was stopped and resumed. What chain 5 draws
-    depends on its number and not on how many others there are, the fit included: a pilot of its own fits sensor and
-    prior beforehand.
+    The result depends only on the arguments up to ``hit_depth``, and in the last bits on the kind of device. It does
+    not depend on the number of threads, nor on stops and resumes of the run. The draws of a chain depend on its number,
+    not on the number of chains. This includes the fit: a separate pilot fits sensor and prior beforehand.
 
     Args:
-        scans: what the sensor reported, and from where.
+        scans: readings of the sensor, and the poses of the scans.
         grid: the map to infer.
         prior: decides what a cell's state is: `Independent` (binary walls) or `Ising` (binary walls that depend on
             their neighbours), `Beta` (reflectivities), `Surface` (reflectivities and surfaces; with a coupling
@@ -101,20 +100,20 @@ def infer(
         method: a method with its options, or its name for the defaults. Binary walls have `Gibbs` ("gibbs"), `Block`
             ("block"), `Propagate` ("propagate"), `Importance` ("importance") and `Exact` ("exact"); `Beta` and
             `Surface` have `Gibbs` alone. None: the first of the kind of cells.
-        schedule: how many chains, warm-up sweeps and draws.
-        seed: of all random numbers.
+        schedule: numbers of chains, warm-up sweeps and draws.
+        seed: seed of all random numbers.
         poses: prior of the scans' poses: `Known`, `Uncertain` about the log's, or `Odometry`. Unknown poses are sampled
             along with the map: ``run.poses``. None: ``Known()``.
-        hit_depth: where in a cell a beam stops, as a fraction of its chord: 0 at the near edge, as in the tutorial.
+        hit_depth: point in a cell where a beam stops, as a fraction of its chord; 0, as in the tutorial: the near edge.
         where: threads, device and executor; by default all cores of this machine.
-        checkpoints: a run to go on with, and what is called with the run so far; by default neither.
-        on_progress: called with how far the run is, about four times a second.
+        checkpoints: the run to resume, and the function that saves the run so far; by default neither.
+        on_progress: called with the progress of the run, about four times per second.
 
     Returns:
-        The run. Ctrl-C stops at the end of the current sweeps and returns what there is, with ``finished`` false.
+        The run. Ctrl-C stops at the end of the current sweeps and returns the run so far, with ``finished`` False.
 
     Raises:
-        BadInput: arguments that do not make sense, or a run to resume that was made with others.
+        BadInput: invalid arguments, or a run to resume that was made with other arguments.
     """
     inference = Inference.of(scans, grid, prior, sensor, method, schedule, seed, poses, hit_depth, where)
     need_value("infer", "checkpoints", checkpoints, Checkpoints)
@@ -127,12 +126,12 @@ class Inference:
     """The arguments of `infer`, checked.
 
     Attributes:
-        model: of the readings; where the sensor is fitted, with the one that the fit starts from.
-        name, method: of the method, and the method with its options.
+        model: model of the readings; if the sensor is fitted, with the sensor that the fit starts from.
+        name, method: name of the method, and the method with its options.
         plan: sweeps and draws of each chain.
-        asked: the same for methods without chains.
+        asked: number of draws, seed and options of methods without chains; chains take number and seed from it too.
         fitted: whether the sensor is to be fitted.
-        where: the work is done.
+        where: threads, device and executor.
     """
 
     model: Model
@@ -157,9 +156,10 @@ class Inference:
         hit_depth: float,
         where: Where,
     ) -> Inference:
-        """Check the arguments of `infer`; what they leave open is decided by the kind of cells."""
+        """Check the arguments of `infer`, and fill in the defaults of the kind of cells."""
         need_value("infer", "schedule", schedule, Schedule)
         need_value("infer", "where", where, Where)
+        # Check prior, sensor, poses and hit depth.
         prior = Surface() if prior is None else prior
         poses = Known() if poses is None else poses
         if not isinstance(prior, CellPrior):
@@ -175,6 +175,7 @@ class Inference:
             )
         if not 0.0 <= hit_depth <= 1.0:
             raise BadInput(f"infer: hit_depth must lie in [0, 1], got {hit_depth!r}")
+        # Choose the method, and make the model.
         name, method = method_of(method, prior.methods, type(prior).__name__)
         starts = getattr(method, "start_poses", None)
         if starts is not None and np.shape(starts)[1:] != scans.poses.shape:
@@ -186,6 +187,7 @@ class Inference:
                 f"infer: method {name!r} of {type(prior).__name__} takes poses as known; "
                 "leave poses out, or take another method"
             )
+        # Complete the schedule.
         thin = (prior.sweeps_a_draw if schedule.draws is None else 1) if schedule.thin is None else schedule.thin
         draws = schedule.draws
         if draws is None:
@@ -202,15 +204,15 @@ class Inference:
         return cls(model, name, method, plan, asked, isinstance(sensor, str), where)
 
     def run(self, checkpoints: Checkpoints, watch: Watch) -> Run:
-        """Fit sensor and prior, draw, and return the run."""
+        """Fit sensor and prior, sample the posterior, and return the run."""
         began = time.perf_counter()
         model, parameters = self.model, None
         executor = ThreadExecutor() if self.where.executor is None else self.where.executor
         self._check_memory(executor)
-        # Choose the sampler; the settings say what determines the draws.
+        # Choose the sampler. The settings hold everything that determines the draws.
         sampler, options = self._sampler()
         settings = self._settings(options)
-        # Take up the stopped run, if it was made with the same arguments.
+        # Load the stopped run, which must have the same arguments.
         stopped = self._stopped(checkpoints.resume, settings)
         spent = 0.0 if stopped is None else stopped.seconds["total"]
         # Fit the sensor, and with it the prior of reflectivities.
@@ -236,13 +238,13 @@ class Inference:
             settings["fitted"] = {**settings.get("fitted", {}), "prior": prior.describe()}
         seconds = {"fit": time.perf_counter() - began if "fitted" in settings else 0.0}
         settings["threads_used"] = self._threads_used()
-        # Draw: independent maps, or chains.
+        # Sample: independent maps, or chains.
         if sampler is None:
             problem = trace_walls(model, self.device, self.threads)
             seconds["trace"] = time.perf_counter() - began - seconds["fit"]
-            found = WITHOUT_CHAINS[self.kernel](problem, self.asked, watch)
+            draws = WITHOUT_CHAINS[self.kernel](problem, self.asked, watch)
             seconds["total"] = time.perf_counter() - began + spent
-            return Run(posterior_of_draws(model, found, problem.n_incidences, settings, seconds))
+            return Run(posterior_of_draws(model, draws, problem.n_incidences, settings, seconds))
 
         def as_run(chains: Chains) -> Run:
             seconds["total"] = time.perf_counter() - began + spent
@@ -264,7 +266,7 @@ class Inference:
 
     @property
     def kernel(self) -> str:
-        """Return the name of the sampler that the kind of cells means by the method's name."""
+        """Return the name of the sampler that implements the method for this kind of cells."""
         return self.model.cells.methods[self.name]
 
     @property
@@ -278,13 +280,13 @@ class Inference:
         return self.where.threads
 
     def _check_memory(self, executor: Executor) -> None:
-        """Refuse a map whose chains over hits would not fit into memory."""
+        """Refuse a map if its chains over hits would not fit into memory."""
         if self.kernel == "stop-gibbs" and self.device == "cpu":
             here = self.asked.chains if isinstance(executor, ThreadExecutor) else 1  # elsewhere: the pilot alone
             check_memory(self.model.grid, self.model.scans, self.model.cells.has_surfaces, here)
 
     def _sampler(self) -> tuple[Sampler[Any, Any] | None, dict[str, Any]]:
-        """Return the sampler of the chains, None for methods without; and its options as the settings say them."""
+        """Return the sampler of the chains, None for methods without chains, and its options for the settings."""
         if self.kernel in WITHOUT_CHAINS:
             return None, {"order": Gibbs.order, "start": default_start(self.model.grid)}
         method = cast(Gibbs, self.method)
@@ -294,10 +296,10 @@ class Inference:
         return WithPoses(cast(MovableSampler, sampler), self.plan.warmup, method.start_poses), options
 
     def _stopped(self, run: Run | None, settings: dict[str, Any]) -> Posterior | None:
-        """Return the run to go on with; None if there is none, or if it was stopped before its first sweep.
+        """Return the posterior of the run to resume; None without a run, or if it was stopped before its first sweep.
 
         Raises:
-            BadInput: it was made with other arguments.
+            BadInput: the run was made with other arguments.
         """
         start = getattr(self.method, "start", None)
         starts = None if isinstance(start, str) else start, getattr(self.method, "start_poses", None)
@@ -311,12 +313,13 @@ class Inference:
         return posterior if posterior.sweep > 0 else None
 
     def _pilot(self, sampler: Sampler[Any, Any], watch: Watch) -> Parameters:
-        """Fit sensor and prior by a pilot over the cells; what it needed for that is gone afterwards."""
+        """Fit sensor and prior by a pilot chain over the cells, and release its memory afterwards."""
         problem = sampler.prepare(self.model, self.device, self.threads, watch)
         cells = problem.cells if self.model.poses.unknown else problem
         return fit(cells, self.asked.seed, min(PILOT_SWEEPS, self.plan.warmup), watch)
 
     def _settings(self, options: dict[str, Any]) -> dict[str, Any]:
+        """Return everything that determines the draws, as JSON values."""
         asked, plan = self.asked, self.plan
         return {
             "method": self.name, **options, "chains": asked.chains, "warmup": plan.warmup,
@@ -329,7 +332,7 @@ class Inference:
     def _threads_used(self) -> int:
         from bayesmap.kernels.device import available_cores
 
-        # A GPU may be on another machine alone: whether there is one, those say who use it.
+        # The GPU may be on another machine, so this process does not look for it.
         return (self.threads or available_cores()) if self.device == "cpu" else 1
 
 
@@ -339,7 +342,7 @@ class KeyScans:
 
     Attributes:
         scans: the key scans at their most probable poses, beam angles calibrated.
-        prior: of their poses: odometry, corrected for its systematic error.
+        prior: prior of their poses: odometry, corrected for its systematic error.
         starts: poses from which chains start, one trajectory each, (chains, K, 3).
     """
 
@@ -349,13 +352,13 @@ class KeyScans:
 
 
 def key_scans(log: Scans, found: Trajectory, chains: int, seed: int) -> KeyScans:
-    """Return what the chains sample, from an approximation of the trajectory.
+    """Select the key scans for the chains, with prior and starts from the approximate trajectory.
 
     Args:
         log: the scans with raw odometry, in the order of the log.
-        found: their approximate posterior.
-        chains: how many starts.
-        seed: of the starts.
+        found: approximate posterior of the trajectory.
+        chains: number of starts.
+        seed: seed of the starts.
     """
     from bayesmap.poses.trajectory import calibrated
 
@@ -370,7 +373,7 @@ def key_scans(log: Scans, found: Trajectory, chains: int, seed: int) -> KeyScans
 
 
 def _prior_of(found: Trajectory) -> PosePrior:
-    """Return the prior of odometry between the key scans; without odometry a robot may have gone anywhere nearby."""
+    """Return the prior of motions between key scans: odometry, or a wide prior where there is none."""
     relative = np.zeros((len(found.keys) - 1, 3))
     sigmas = relative + FREE
     factors = found.odometry
@@ -401,18 +404,17 @@ def slam(
     Args:
         log: a file that `bayesmap.read_log` reads, or scans; their poses are raw odometry.
         resolution: edge of a cell, metres.
-        prior: kind of cells; `Surface()` if None.
+        prior: the kind of cells with its prior; `Surface()` if None.
         sensor: the law of the readings, or "fit".
-        fast: stop after the approximate trajectory: the map is then inferred with the poses as if they were known.
-        no_odometry: do not read the poses of the log; scans must come at 5 Hz or so.
-        schedule: how many chains over map and poses, warm-up sweeps and draws; every sweep is kept unless ``thin`` says
-            otherwise.
-        seed: of all random numbers.
-        hit_depth: where in a cell a beam stops, see `bayesmap.infer`; that of the kind of cells if None.
+        fast: stop after the approximate trajectory, and infer the map as if its poses were known.
+        no_odometry: do not read the poses of the log; scans must come at about 5 Hz.
+        schedule: numbers of chains, warm-up sweeps and draws; by default every sweep after warm-up is kept.
+        seed: seed of all random numbers.
+        hit_depth: point in a cell where a beam stops, see `bayesmap.infer`; None: that of the kind of cells.
         where: threads, device and executor; by default all cores of this machine.
-        checkpoints: a run to go on with, what is called with the run so far, and a folder for the finished stages of
+        checkpoints: the run to resume, the function that saves the run so far, and the folder for finished stages of
             the approximation; by default none of them.
-        on_progress: called with how far the run is.
+        on_progress: called with the progress of the run.
 
     Returns:
         The run over the key scans: ``run.poses`` are draws of their poses, ``run.trajectory`` has all scans.
@@ -445,7 +447,7 @@ def slam(
     keys = key_scans(log, trajectory, schedule.chains, seed)
     grid = Grid.covering(keys.scans, resolution)
     cells = Surface() if prior is None else prior
-    # Sample the map, and unless it is to be fast the poses of the key scans with it.
+    # Sample the map; unless ``fast``, sample the poses of the key scans too.
     save = checkpoints.save
     if save is not None:
         checkpoints = replace(checkpoints, save=lambda run: save(replace(run, trajectory=trajectory)))

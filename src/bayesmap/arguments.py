@@ -1,4 +1,4 @@
-"""Values that group the arguments of `bayesmap.infer` and `bayesmap.slam`: how long, where, and how a run is kept."""
+"""Groups of arguments of `bayesmap.infer` and `bayesmap.slam`: the schedule, the devices, and the checkpoints."""
 
 from __future__ import annotations
 
@@ -14,15 +14,16 @@ if TYPE_CHECKING:
     from bayesmap.result import Run
 
 CHECKPOINT_S = 30.0
+"""Default number of seconds between two checkpoints."""
 MORE_DRAWS = 10
-"""So many times the default draws are made at most where a better precision is asked for."""
+"""Factor on the default number of draws if the user asks for a better precision than the default."""
 
 
 def need_value(function: str, name: str, value: object, kind: type) -> None:
-    """Refuse an argument that is not of the class that groups it.
+    """Refuse an argument that is not of the class ``kind``.
 
     Raises:
-        BadInput: it is not; the message says what to write.
+        BadInput: the argument has another class; the message shows an example.
     """
     if not isinstance(value, kind):
         example = f"bm.{kind.__name__}()"
@@ -31,24 +32,23 @@ def need_value(function: str, name: str, value: object, kind: type) -> None:
 
 @dataclass(frozen=True)
 class Schedule:
-    """How many chains run, and for how long.
+    """The number of chains, and their numbers of sweeps and draws.
 
     Attributes:
         chains: Markov chains; the methods without chains give ``chains * draws`` independent draws.
         warmup: sweeps of each chain that are not kept.
-        draws: maps that each chain keeps. None: as many as suit the cells: 1000 for binary walls; 100 to 200 for `Beta`
-            and `Surface` (50 to 200 if ``thin`` is 1), whose draws are larger and mix in tens of sweeps, the
-            more the fewer beams there are (`CellPrior.default_draws`); and 0 for "propagate", whose answer is the
-            marginals. They are the most that chains make: as a rule ``precision`` ends them sooner.
-        thin: sweeps from one kept map to the next. None: 3 for `Beta` and `Surface` where ``draws`` is None too, and 1
+        draws: largest number of maps per chain; ``precision`` usually ends the chains sooner. None: 1000 for
+            binary walls; 0 for "propagate", which returns marginals; 100 to 200 for `Beta` and `Surface` (50 to 200 if
+            ``thin`` is 1). Their draws are larger, and mix in tens of sweeps. Fewer beams give more draws
+            (`CellPrior.default_draws`).
+        thin: sweeps from one kept map to the next. None: 3 for `Beta` and `Surface` if ``draws`` is None too, and 1
             otherwise; `slam` takes 1.
-
         precision: Monte Carlo standard error of the mean map at which chains stop: 99 of 100 observed cells have this
-            much or less (`bayesmap.run.chains.map_error`). None: 0.03, but no limit where ``draws`` is given. Below
-            0.03 up to ten times as many draws are made as without it.
+            error or less (`bayesmap.run.chains.map_error`). None: 0.03, but no limit if ``draws`` is given. A value
+            below 0.03 allows up to ten times the default number of draws.
 
     Raises:
-        BadInput: a number that is not a whole number, or too small; a precision that is not positive.
+        BadInput: a count that is not a whole number or is too small, or a precision that is not positive.
     """
 
     chains: int = 4
@@ -68,16 +68,16 @@ class Schedule:
 
 @dataclass(frozen=True)
 class Where:
-    """Where the work is done. Draws do not depend on it, but for the last bits between kinds of devices.
+    """The threads, device and executor of a run. Except for the last bits on another kind of device, draws ignore them.
 
     Attributes:
-        threads: chains that run at once, and threads of belief propagation; None: all cores. The beam table is built on
-            all cores in any case.
+        threads: number of chains that run at once, and of threads of belief propagation; None: all cores. The beam
+            table is always built on all cores.
         device: "cpu", or a CUDA device such as "cuda:0".
-        executor: where chains run, such as `RayExecutor`; None: in this process.
+        executor: object that runs the chains, such as `RayExecutor`; None: this process.
 
     Raises:
-        BadInput: no threads, or something that runs no chains.
+        BadInput: less than one thread, an invalid device, or an object that is no executor.
     """
 
     threads: int | None = None
@@ -98,19 +98,18 @@ class Where:
 
 @dataclass(frozen=True, eq=False)
 class Checkpoints:
-    """How a run is kept while it goes on, and from where it goes on.
+    """The run to resume, and how to save a run while it continues.
 
     Attributes:
-        resume: a run that was stopped early, made with the same arguments: go on where it stopped, bit for bit as if it
-            had never stopped.
-        save: called with the run so far at the end of warm-up and every ``every_s`` seconds, such as
+        resume: stopped run to resume, made with the same arguments. The result equals that of a run without a stop,
+            bit for bit.
+        save: function called with the run so far at the end of warm-up and every ``every_s`` seconds, such as
             ``lambda run: run.save("run.nc")``.
-        every_s: seconds from one call of ``save`` to the next; more where ``save`` takes so long that it would hold the
-            chains up.
-        stages: a folder for the finished stages of the trajectory, for `slam`; stages that are there already are taken.
+        every_s: seconds between two calls of ``save``; more if ``save`` is so slow that it would delay the chains.
+        stages: folder for the finished stages of the trajectory, for `slam`; existing stages are reused.
 
     Raises:
-        BadInput: something that is no run, or a negative number of seconds.
+        BadInput: an object that is no run, a ``save`` that is no function, or a negative number of seconds.
     """
 
     resume: Run | None = None

@@ -1,7 +1,7 @@
-"""The exception for input that cannot be used, and the check that raises it most often.
+"""The exception for invalid input, and a check of whole numbers that raises it.
 
-Every layer raises `BadInput` with a message that says what was wrong, where, and what would be right;
-the command line prints it on one line and exits with code 3.
+Every layer raises `BadInput` with a message that names the place, the error and the remedy. The command line prints the
+message on one line and exits with code 3.
 """
 
 from __future__ import annotations
@@ -10,20 +10,20 @@ import math
 
 
 class BadInput(ValueError):
-    """Input that cannot be used: the message names the place and the remedy."""
+    """Invalid input. The message names the place and the remedy."""
 
 
 def check_count(where: str, name: str, value: int, least: int) -> int:
-    """Return a value as a whole number, or refuse it.
+    """Return a value as a whole number, or raise an error.
 
     Args:
-        where: the function or object that was given the number.
-        name: of the argument.
-        value: what was given.
-        least: the smallest that makes sense.
+        where: function or object that takes the number, for the message.
+        name: name of the argument.
+        value: the value.
+        least: smallest allowed value.
 
     Raises:
-        BadInput: not a whole number, or below the least.
+        BadInput: the value is not a whole number, or is below ``least``.
     """
     number = hasattr(value, "__float__") and not isinstance(value, bool | str)
     if not number or not math.isfinite(value) or value != int(value) or value < least:

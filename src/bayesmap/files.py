@@ -1,4 +1,4 @@
-"""Files and folders that are written whole or not at all, and the formats that their names ask for."""
+"""Write files and folders whole or not at all, and check the endings of their names."""
 
 from __future__ import annotations
 
@@ -17,14 +17,13 @@ from bayesmap.errors import BadInput
 
 @contextlib.contextmanager
 def write_whole(path: str | os.PathLike[str]) -> Iterator[Path]:
-    """Give a temporary path; when the block ends well, what was written there becomes ``path``.
+    """Yield a temporary path. If the block succeeds, the file written there becomes ``path``.
 
-    The temporary file lies in the same folder (a rename within a file system is atomic) and keeps the suffix
-    of ``path`` (some libraries choose a format by it). It is flushed to disk before the rename, so that after
-    a crash or a kill ``path`` holds all of the old content or all of the new. A symbolic link is followed:
-    the file that it points to is replaced.
+    The temporary file lies in the same folder, since a rename within a file system is atomic. It keeps the suffix of
+    ``path``, since some libraries choose a format by it. It is flushed to disk before the rename: after a crash or a
+    kill ``path`` holds either the old or the new content. If ``path`` is a symbolic link, its target is replaced.
 
-    If the block raises, the temporary file is removed and ``path`` is as it was.
+    If the block raises an error, the temporary file is removed and ``path`` is unchanged.
 
     Raises:
         BadInput: the folder does not exist, or cannot be written to.
@@ -32,7 +31,7 @@ def write_whole(path: str | os.PathLike[str]) -> Iterator[Path]:
     """
     target = Path(os.path.realpath(path))
     temporary = target.with_name(f".{target.stem}.{secrets.token_hex(4)}.partial{target.suffix}")
-    # Made here, not by the block: the usual permissions apply, and a missing folder is noticed at once.
+    # Create the file before the block: it gets the usual permissions, and a missing folder fails at once.
     try:
         os.close(os.open(temporary, os.O_CREAT | os.O_EXCL | os.O_WRONLY, 0o666))
     except OSError as error:
@@ -50,7 +49,7 @@ def write_whole(path: str | os.PathLike[str]) -> Iterator[Path]:
 
 
 def write_text(path: str | os.PathLike[str], lines: Iterable[str]) -> Path:
-    """Write lines of ASCII text, whole or not at all; gzipped if the name ends in .gz. Returns the path.
+    """Write lines of ASCII text, whole or not at all, gzipped if the name ends in .gz. Return the path.
 
     Raises:
         BadInput: the folder does not exist, or cannot be written to.
@@ -64,17 +63,15 @@ def write_text(path: str | os.PathLike[str], lines: Iterable[str]) -> Path:
 
 @contextlib.contextmanager
 def write_whole_folder(path: str | os.PathLike[str], may_replace: Callable[[Path], bool]) -> Iterator[Path]:
-    """Give the name of a temporary folder; when the block ends well, what it made there becomes ``path``.
+    """Yield the name of a temporary folder. If the block succeeds, the folder made there becomes ``path``.
 
-    The temporary folder lies beside ``path``, hidden, and is not there yet: the block makes it. A folder of that name
-    goes as a whole, and only if ``may_replace`` says that it is of the kind that is written: a slip of the fingers must
-    not cost a folder of other things.
+    The temporary folder is hidden, lies beside ``path``, and is made by the block. An older folder at ``path`` is
+    removed whole, but only if ``may_replace`` accepts it: a typing error must not delete a folder with other content.
 
-    If the block raises, what it made is removed and ``path`` is as it was.
+    If the block raises an error, the temporary folder is removed and ``path`` is unchanged.
 
     Raises:
-        BadInput: ``path`` is something that may not be replaced, or the folder around it is not there or is not
-            writable.
+        BadInput: ``path`` may not be replaced, or its parent folder is missing or not writable.
         OSError: writing failed, as on a full disk; it names ``path``.
     """
     target = Path(os.path.realpath(path))
@@ -82,7 +79,7 @@ def write_whole_folder(path: str | os.PathLike[str], may_replace: Callable[[Path
         raise BadInput(f"{path}: is there already and holds other things; name a folder that is not there yet")
     mark = secrets.token_hex(4)
     temporary, old = (target.with_name(f".{target.name}.{mark}.{what}") for what in ("partial", "old"))
-    # Tried, not asked: only making a folder tells whether one can be made.
+    # Make a folder and remove it: no other check tells for sure that one can be made.
     try:
         temporary.mkdir()
         temporary.rmdir()
@@ -93,6 +90,7 @@ def write_whole_folder(path: str | os.PathLike[str], may_replace: Callable[[Path
     try:
         with naming(path, temporary):
             yield temporary
+        # Move the old folder away, and back again if the new one cannot take its place.
         if target.exists():
             os.replace(target, old)
         try:
@@ -108,7 +106,7 @@ def write_whole_folder(path: str | os.PathLike[str], may_replace: Callable[[Path
 
 @contextlib.contextmanager
 def naming(path: str | os.PathLike[str], temporary: Path) -> Iterator[None]:
-    """Turn a failure to write into an `OSError` that names ``path``, whichever library raised it."""
+    """Convert a write error of any library into an `OSError` that names ``path``."""
     try:
         yield
     except OSError as error:
@@ -122,6 +120,7 @@ def naming(path: str | os.PathLike[str], temporary: Path) -> Iterator[None]:
 
 
 def _flush(path: Path) -> None:
+    """Flush a file or a folder to disk."""
     descriptor = os.open(path, os.O_RDONLY)
     try:
         os.fsync(descriptor)
@@ -133,8 +132,7 @@ def need_ending(path: str | os.PathLike[str], endings: tuple[str, ...], kind: st
     """Return the path, and its ending in lower case without the dot.
 
     Raises:
-        BadInput: an ending that is not among ``endings``, or a folder that is not there. Both are checked
-            before anything is drawn, since drawing is what takes the time.
+        BadInput: an ending that is not among ``endings``, or a missing folder. Both are checked before the slow work.
     """
     target = Path(path)
     ending = target.suffix.lower().removeprefix(".")

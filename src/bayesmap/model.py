@@ -1,15 +1,16 @@
-"""The model: four unknowns, one law.
+"""The model: the joint law of cells, sensor, poses and readings.
 
     p(cells) p(sensor) p(poses | log) prod over beams of p(z | cells, sensor, pose)
 
-A beam stops in the i-th cell that it meets with probability ``w_i = a_i prod_{j < i} (1 - a_j)``, a_i being the chance
-that this cell stops a beam which gets there, at a distance d_i known up to a spread s_i
-(`bayesmap.beams.rays`), or nowhere in the map, and
+A beam stops in the i-th cell that it meets with probability ``w_i = a_i prod_{j < i} (1 - a_j)``, or nowhere in the
+map. Here a_i is the chance that the cell stops a beam which reaches it. The stop lies at a distance d_i, known up to a
+spread s_i (`bayesmap.beams.rays`). The law of a reading z is
 
     p(z | cells, sensor, pose) = sum_i w_i p(z | d_i, s_i) + prod_j (1 - a_j) p(z | infinity)
 
 with the sensor's law p(z | d, s) (`bayesmap.sensors.model`). Binary walls are the case a_i in {0, 1}: then one w is 1.
-Here it is written down in plain NumPy, in double precision, for every kind of cells; samplers are tested against it.
+This module computes the law in plain NumPy, in double precision, for every kind of cells. Samplers are tested against
+it.
 """
 
 from __future__ import annotations
@@ -30,9 +31,10 @@ from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
 
 BEAMS_AT_ONCE = 8192
+"""Number of beams that are traced together, which limits the memory."""
 
 POSES = ArraySpec("poses", ("scan", "pose"), "float64", what="x, y in metres and yaw in radians, in the world frame")
-"""The array that a draw holds beside its cells where poses are unknown."""
+"""The array of poses in a draw, if poses are unknown."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,9 +42,9 @@ class State:
     """One draw of all unknowns.
 
     Attributes:
-        cells: the arrays that the kind of cells declares, each over the whole grid.
+        cells: the arrays of the kind of cells, each over the whole grid.
         sensor: the law of the readings.
-        poses: of the scans, in the world frame, (S, 3).
+        poses: poses of the scans in the world frame, (S, 3).
     """
 
     cells: Cells
@@ -52,15 +54,15 @@ class State:
 
 @dataclass(frozen=True, eq=False)
 class Model:
-    """A question of inference: the data, the unknowns and their priors.
+    """The data of an inference, its unknowns and their priors.
 
     Attributes:
-        scans: what the sensor reported; their poses are those that the log states.
+        scans: readings of the sensor, with the poses of the log.
         grid: the map's cells.
         cells: the kind of cells, with its prior.
-        sensor: the law of the readings; where it is fitted, the law that the fit starts from.
+        sensor: the law of the readings; if the sensor is fitted, the law that the fit starts from.
         poses: the prior of the scans' poses.
-        hit_depth: where in a cell without a surface a beam stops, as a part of its stretch in the cell.
+        hit_depth: point where a beam stops in a cell without a surface, as a fraction of its path in the cell.
     """
 
     scans: Scans
@@ -72,16 +74,15 @@ class Model:
 
     @property
     def arrays(self) -> tuple[ArraySpec, ...]:
-        """Return the arrays of a draw: those of its cells, and the poses where they are unknown."""
+        """Return the arrays of a draw: those of its cells, and the poses if they are unknown."""
         return (*self.cells.arrays, POSES) if self.poses.unknown else self.cells.arrays
 
     def state(self, cells: Cells) -> State:
-        """Return a state with these cells, the model's sensor, and the poses that the log states.
+        """Return a state with these cells, the model's sensor, and the poses of the log.
 
         Args:
-            cells: arrays over the whole grid, such as those of a run's draw
-                (`bayesmap.cells.arrays.Draws.cells`); where it says nothing of a cell, the cell has a state of the
-                prior.
+            cells: arrays over the whole grid, such as those of a run's draw (`bayesmap.cells.arrays.Draws.cells`).
+                Cells without a value in the draw get a state of the prior.
         """
         return State(self.cells.completed(cells, self.grid), self.sensor, self.scans.poses)
 
@@ -95,7 +96,7 @@ class Model:
         return float(poses) + self.cells.log_prob(state.cells, self.grid) + self.log_likelihood(state)
 
     def log_likelihood(self, state: State) -> float:
-        """Compute log p(readings | state), nats: densities per metre of ranges, probabilities of typed readings."""
+        """Compute log p(readings | state) in nats: densities per metre for ranges, probabilities for typed readings."""
         return float(self.beam_log_likelihoods(state).sum())
 
     def beam_log_likelihoods(self, state: State) -> Floats:
@@ -111,12 +112,13 @@ class Model:
         return np.concatenate(parts) if parts else np.zeros(0)
 
     def _rays(self, poses: Floats) -> Iterator[Rays]:
+        """Trace the scans from these poses, `BEAMS_AT_ONCE` beams at a time."""
         from bayesmap.kernels.rays import trace_rays
 
         at_once = max(1, BEAMS_AT_ONCE // self.scans.ranges_m.shape[1])
         for i in range(0, len(self.scans), at_once):
-            some = slice(i, i + at_once)
-            yield trace_rays(self.scans.select(some), self.grid, poses_world=poses[some])
+            part = slice(i, i + at_once)
+            yield trace_rays(self.scans.select(part), self.grid, poses_world=poses[part])
 
 
 def log_likelihoods(
@@ -126,24 +128,25 @@ def log_likelihoods(
 
     Args:
         rays: beams and their readings.
-        states: the map, as `bayesmap.beams.rays.stops_of` takes it.
+        states: the map, in the form of `bayesmap.beams.rays.stops_of`.
         sensor: the law of the readings.
-        hit_depth: where in a cell without a surface a beam stops.
+        hit_depth: point where a beam stops in a cell without a surface.
         beta: inverse temperature, the power of the sensor's law p(z | stop).
     """
     stops = stops_of(rays, states, hit_depth)
     beam, last = rays.beam_of_entry(), np.arange(rays.n_beams)
-    # A row for each beam: its entries, and nowhere in the last column.
+    # One row per beam: its stops, and in the last column the case of no stop in the map.
     shape = rays.n_beams, int(rays.lengths.max(initial=0)) + 1
-    place = beam, np.arange(rays.n_incidences) - rays.offsets[beam]
+    entry = beam, np.arange(rays.n_incidences) - rays.offsets[beam]
     chance, law = np.zeros(shape), np.full(shape, -np.inf)
-    chance[place] = stops.chance
-    law[place] = sensor.stop_log_likelihood(rays.range_m[beam], stops.distance_m, stops.spread_m, rays.limits)
+    chance[entry] = stops.chance
+    law[entry] = sensor.stop_log_likelihood(rays.range_m[beam], stops.distance_m, stops.spread_m, rays.limits)
     law[:, -1] = sensor.log_likelihood(rays.range_m, np.full(rays.n_beams, np.inf), rays.limits)
+    # Weight of a stop: its chance, times the chance of passing all cells before it.
     passed = np.cumprod(1.0 - chance, axis=1)
     weight = chance
     weight[:, 1:] *= passed[:, :-1]
     weight[last, -1] = passed[:, -1]
-    tempered = beta * law if beta > 0 else np.zeros(shape)  # p^0 is 1, of impossible readings too
+    tempered = beta * law if beta > 0 else np.zeros(shape)  # p^0 is 1, also for impossible readings
     with np.errstate(divide="ignore"):
         return np.asarray(np.logaddexp.reduce(np.log(weight) + tempered, axis=1))

@@ -1,4 +1,4 @@
-"""The result that users hold: a posterior, and what can be done with it."""
+"""The result of an inference: a posterior, with its summaries, scores, plans, pictures and exports."""
 
 from __future__ import annotations
 
@@ -35,17 +35,16 @@ if TYPE_CHECKING:
 Floats = NDArray[np.float64]
 
 THUMBNAIL_PIXELS = 240
-"""Longer side of the picture of a run in a notebook."""
+"""Longer side, in pixels, of the picture of a run in a notebook."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Run:
-    """The posterior over a map, and over poses where they were unknown, that a call of `bayesmap.infer` found.
+    """The posterior over a map, and over poses if they were unknown, as `bayesmap.infer` returns it.
 
     Attributes:
-        posterior: everything that a saved run holds.
-        trajectory: after `bayesmap.slam`, the approximation of all scans' poses; None where poses were not inferred
-            so.
+        posterior: draws, marginals, settings and scans of the run.
+        trajectory: approximation of all scans' poses by `bayesmap.slam`; None after `bayesmap.infer`.
     """
 
     posterior: Posterior
@@ -58,7 +57,7 @@ class Run:
 
     @property
     def finished(self) -> bool:
-        """Return False if the run was stopped before its last draw: `bayesmap.Checkpoints(resume=run)` goes on."""
+        """Return False if the run was stopped before its last draw; `bayesmap.Checkpoints(resume=run)` resumes it."""
         return self.posterior.finished
 
     @property
@@ -66,14 +65,14 @@ class Run:
         """Return the posterior mean of the probability that a cell stops a beam, (nx, ny).
 
         For binary walls it is the probability of a wall. With surfaces it is the probability that a beam which enters
-        the cell's square stops inside it, whichever cell the surface belongs to (docs/surfaces.md). Except for walls it
-        averages the draws' expectations: the mean of ``draws`` has the same limit and more noise.
+        the cell's square stops inside it, at a surface of any cell (docs/surfaces.md). Except for walls it averages
+        the expectations of the draws: the mean of ``draws`` has the same limit, but more noise.
         """
         return self.posterior.occupancy
 
     @property
     def entropy(self) -> Floats:
-        """Return the entropy in bits of whether a cell stops the next beam that meets its content, (nx, ny)."""
+        """Return the entropy, in bits, of the event that a cell stops a beam that meets its content, (nx, ny)."""
         return entropy_bits(self.posterior.occupancy)
 
     @property
@@ -83,9 +82,9 @@ class Run:
 
     @cached_property
     def draws(self) -> NDArray[Any]:
-        """Return all kept maps, (chain, draw, nx, ny): walls, or chances to stop a beam; unobserved: the prior's mean.
+        """Return all kept maps, (chain, draw, nx, ny): walls, or chances to stop a beam.
 
-        Made on first use: a byte or four for each cell of each draw.
+        Unobserved cells have the prior's mean. The array is made on first use: 1 or 4 bytes per cell and draw.
         """
         draws = self.posterior.draws
         out: NDArray[Any] | None = None
@@ -98,21 +97,21 @@ class Run:
 
     @property
     def n_draws(self) -> int:
-        """Draws of each chain."""
+        """Return the number of draws per chain."""
         return self.posterior.draws.count
 
     def map_of(self, chain: int, draw: int) -> NDArray[Any]:
         """Return one draw, (nx, ny): walls, or chances to stop a beam.
 
-        Chain and draw are counted from 0, negative numbers from the end.
+        Chain and draw count from 0; negative numbers count from the end.
         """
         return self.posterior.prior.map_of(self.posterior.draws, chain, draw)
 
     @property
     def poses(self) -> Floats:
-        """Draws of the scans' poses in the world frame, (chain, draw, scan, 3): x and y in metres, yaw in radians.
+        """Return draws of the scans' poses in the world frame, (chain, draw, scan, 3): x, y in metres, yaw in radians.
 
-        Where poses were known, they are those of the log, in every draw.
+        Known poses are repeated in every draw.
         """
         draws = self.posterior.draws
         if "poses" in draws.arrays:
@@ -123,7 +122,7 @@ class Run:
     def pose_summary(self) -> PoseSummary:
         """Compute mean, covariance and R-hat of each scan's pose.
 
-        Where chains that started from an approximation have not mixed, mean and covariance are the approximation's.
+        If chains that started from an approximation have not mixed, return the approximation's mean and covariance.
 
         Raises:
             BadInput: a run that was stopped before its first draw.
@@ -131,19 +130,18 @@ class Run:
         from bayesmap.posterior.summary import summarise_poses
 
         self._need_marginals()
-        found = summarise_poses(self.poses)
-        if self.trajectory is None or found.mixed or len(self.trajectory.keys) != len(found.mean):
-            return found
+        summary = summarise_poses(self.poses)
+        if self.trajectory is None or summary.mixed or len(self.trajectory.keys) != len(summary.mean):
+            return summary
         keys = self.trajectory.keys
         mean, covariance = self.trajectory.poses[keys], self.trajectory.covariances()[keys]
-        return replace(found, mean=mean, covariance=covariance, by_approximation=True)
+        return replace(summary, mean=mean, covariance=covariance, by_approximation=True)
 
     def interval(self, level: float = 0.9) -> tuple[Floats, Floats]:
-        """Compute the central credible interval of each cell's chance to stop a beam: both ends, (nx, ny) each.
+        """Compute the central credible interval of each cell's chance to stop a beam: lower and upper ends, (nx, ny).
 
         Raises:
-            BadInput: a level outside (0, 1), a run that was stopped before its first draw, or binary walls, which have
-                no interval.
+            BadInput: a level outside (0, 1), a run that was stopped before its first draw, or a run over binary walls.
         """
         if not 0 < level < 1:
             raise BadInput(f"interval: level must lie inside (0, 1), got {level!r}")
@@ -161,7 +159,7 @@ class Run:
 
     @property
     def log_joint(self) -> Floats:
-        """Return log p(cells, readings) of every draw, nats, (chain, draw)."""
+        """Return log p(cells, readings) of every draw, in nats, (chain, draw)."""
         return self.posterior.log_joint
 
     @property
@@ -193,9 +191,9 @@ class Run:
         """Compute the mean log predictive density of the scans' valid readings: nats per beam, averaged over draws.
 
         Args:
-            heldout_scans: scans that had no part in the run.
-            sensor: another law of the readings; needed only for a loaded run whose sensor model is of your own making.
-            on_progress: called with how many of how many draws have been looked at.
+            heldout_scans: scans that the run has not seen.
+            sensor: another law of the readings; needed only for a loaded run with your own sensor model.
+            on_progress: called with the number of finished draws and their total.
             device: "cpu" or a CUDA device such as "cuda:0".
 
         Raises:
@@ -204,18 +202,18 @@ class Run:
         return log_score(self.posterior, heldout_scans, sensor, on_progress, device)
 
     def free_probability(self, path: ArrayLike, radius_m: float) -> FreeProbability:
-        """Compute the probability that a disc can go along a path without touching anything, counted over joint draws.
+        """Compute the probability that a disc moves along a path without touching anything: the share of joint draws.
 
         Args:
-            path: of the disc's centre: corners in the world frame, metres, (P, 2); one point for a place.
-            radius_m: of the disc.
+            path: corners of the path of the disc's centre, world frame, metres, (P, 2); one point for a standing disc.
+            radius_m: radius of the disc.
 
         Returns:
-            ``.probability`` with its Monte Carlo ``.standard_error``, and ``.independent``: what the product over
-            independent cells would say.
+            ``.probability`` with its Monte Carlo ``.standard_error``, and ``.independent``: the product over
+            independent cells.
 
         Raises:
-            BadInput: a run without draws, a path that is none or leaves the map, or a radius that is not positive.
+            BadInput: a run without draws, a path that is invalid or leaves the map, or a radius that is not positive.
         """
         from bayesmap.posterior.decisions import path_is_free
 
@@ -225,13 +223,13 @@ class Run:
         """Plan the shortest path of a disc from start to goal whose risk of touching something stays under a bound.
 
         Args:
-            start: in the world frame, metres, (2,).
-            goal: in the world frame, metres, (2,).
-            radius_m: of the disc.
-            risk: the most that the probability of touching something may be.
+            start: start in the world frame, metres, (2,).
+            goal: goal in the world frame, metres, (2,).
+            radius_m: radius of the disc.
+            risk: largest accepted probability of touching something.
 
         Returns:
-            The path with its `free_probability`; the safest that was found if none is ``.within_risk``.
+            The path with its `free_probability`. If no path is ``.within_risk``, it is the safest one.
 
         Raises:
             BadInput: a run without draws; start or goal outside the map or blocked in nearly every draw; no path.
@@ -250,22 +248,22 @@ class Run:
         draws: int | None = None,
         seed: int = 0,
     ) -> Information:
-        """Compute how much one more scan from each pose is expected to tell about the map, in nats.
+        """Compute the expected information about the map from one more scan at each pose, in nats.
 
         Args:
-            poses: in the world frame, (P, 3).
-            angles_rad: of the beams in the sensor's frame, (A,); those of the run's scans unless given.
-            max_range_m: of the sensor; that of the run's scans unless given.
-            sensor: the law of the new readings; the run's unless given.
-            draws: of the map that are compared: the more, the closer the bounds; the work grows with their square.
-            seed: of the simulated scans.
+            poses: poses in the world frame, (P, 3).
+            angles_rad: angles of the beams in the sensor's frame, (A,); None: those of the run's scans.
+            max_range_m: largest range of the sensor; None: that of the run's scans.
+            sensor: law of the new readings; None: the run's.
+            draws: number of compared draws; more draws tighten the bounds, and the work grows with their square.
+            seed: seed of the simulated scans.
 
         Returns:
             Bounds from joint draws, ``.at_least`` and ``.at_most`` with Monte Carlo errors, and ``.independent``: the
             formula for independent cells and beams (FSMI; Zhang et al., ICRA 2019).
 
         Raises:
-            BadInput: fewer than two draws, or poses, angles or a range that are none.
+            BadInput: fewer than two draws, or invalid poses, angles or range.
         """
         from bayesmap.posterior.decisions import information_of
 
@@ -276,8 +274,8 @@ class Run:
     def dataset(self) -> xarray.Dataset:
         """Return draws, log densities and marginals as an xarray dataset with named dimensions.
 
-        ``chain`` and ``draw`` count from 0, ``x`` and ``y`` are the cells' centres in the world frame, metres; arrays
-        of some cells only have their indices as ``cell_x`` and ``cell_y``.
+        ``chain`` and ``draw`` count from 0. ``x`` and ``y`` are the cells' centres in the world frame, metres. Arrays
+        over only a part of the cells have the indices of these cells as ``cell_x`` and ``cell_y``.
 
         Raises:
             BadInput: xarray is not installed.
@@ -286,6 +284,7 @@ class Run:
             import xarray
         except ImportError:
             raise BadInput("dataset: needs xarray: pip install 'bayesmap[arviz]'") from None
+        # Arrays of the draws, then densities, then marginals.
         posterior = self.posterior
         draws, ny = posterior.draws, posterior.grid.shape[1]
         x, y = posterior.grid.centers_m()
@@ -314,13 +313,13 @@ class Run:
     def save(
         self, path: str | os.PathLike[str], on_progress: Callable[[int, int], None] = lambda done, total: None
     ) -> None:
-        """Write everything to one netCDF file, whole or not at all; ``on_progress`` gets the part in hand."""
+        """Write the run to one netCDF file, whole or not at all. ``on_progress`` gets the count done and the total."""
         from bayesmap.io.saved import save
 
         save(self.posterior, path, on_progress, self.trajectory)
 
     def plot(self, **options: Any) -> Figure:
-        """Draw the mean map, how sure it is, the readings and one draw, with surfaces where they can be seen.
+        """Draw the mean map, its uncertainty, the readings and one draw, with surfaces if cells are large enough.
 
         Options are those of `bayesmap.viz.figure.posterior_figure`.
 
@@ -345,13 +344,13 @@ class Run:
     def export(self, path: str | os.PathLike[str], **options: Any) -> tuple[Any, ...]:
         """Write the map, or the trajectory, for other programs; the path's ending chooses the format.
 
-        A map_server YAML, recordings for ROS 1 and 2, GeoTIFF, rerun, TUM; options as in
-        `bayesmap.io.exports.export_run`. Maps of occupied, free and unknown cells take the thresholds of the kind of
-        cells unless some are given: a wall's probability must be over one half to say that it is likely there; a cell
-        that stops three beams in ten for certain is no place for a robot.
+        Formats are map_server YAML, recordings for ROS 1 and 2, GeoTIFF, rerun and TUM, with the options of
+        `bayesmap.io.exports.export_run`. Maps of occupied, free and unknown cells use the thresholds of the kind of
+        cells by default. A wall counts as occupied only if its probability is over one half. Reflectivities have a
+        lower threshold, since a robot cannot stand in a cell that surely stops three beams in ten.
 
         Returns:
-            The paths of what was written.
+            The paths of the written files.
 
         Raises:
             BadInput: a run that was stopped before its first draw, an unknown ending, or a file that cannot be written.
@@ -369,7 +368,7 @@ class Run:
         return export_run(path, self, self.posterior.scans, **options)
 
     def __repr__(self) -> str:
-        """Return five lines: what was inferred, from what, how, how well, and how long it took."""
+        """Return five lines: the map, the scans, the method, the log joint, and the time."""
         title, rows = _overview(self.posterior)
         return "\n".join([title, *(f"  {name}: {value}" for name, value in rows)])
 
@@ -389,12 +388,13 @@ class Run:
         )
 
     def _need_marginals(self) -> None:
+        """Refuse a run that was stopped before its first draw."""
         if np.isnan(self.posterior.occupancy).any():
             raise BadInput("run: stopped before its first draw, there is no posterior yet; resume it")
 
 
 def _overview(posterior: Posterior) -> tuple[str, list[tuple[str, str]]]:
-    """Return a title, and four rows of a name and a value: from what, how, how well, and how long it took."""
+    """Return a title, and four rows of name and value: scans, method, log joint and time."""
     (nx, ny), counts, joint = posterior.grid.shape, posterior.counts, posterior.log_joint
     title = f"Run: {posterior.prior.words.states}, {nx} x {ny} cells of {posterior.grid.resolution:g} m"
     chains, draws = joint.shape
@@ -417,7 +417,7 @@ def _overview(posterior: Posterior) -> tuple[str, list[tuple[str, str]]]:
 
 
 def _thumbnail(occupancy: Floats, observed: NDArray[np.bool_]) -> tuple[tuple[int, int], bytes]:
-    """Draw the mean map, x to the right and y up: width and height in pixels, and the PNG file."""
+    """Draw the mean map, x to the right and y up. Return width and height in pixels, and the PNG file."""
     from PIL import Image
 
     from bayesmap.viz import palette
@@ -437,7 +437,7 @@ def load(path: str | os.PathLike[str]) -> Run:
     """Read a saved run.
 
     Raises:
-        BadInput: no such file, or one that is damaged or not a run of bayesmap's.
+        BadInput: a file that is missing, damaged, or no run of bayesmap.
     """
     from bayesmap.io.saved import load_saved
 
@@ -453,15 +453,15 @@ def score(
     device: str = "cpu",
     on_progress: Callable[[float], None] = lambda share: None,
 ) -> Score:
-    """Score how well a run predicts scans that it has not seen, and how well calibrated it is.
+    """Score the predictions of a run on scans that it has not seen, and their calibration.
 
     Args:
-        run: what predicts: the mean over its draws.
-        heldout_scans: scans that had no part in it.
-        sensor: another law of the readings than the run's.
-        seed: of the randomised transform of typed readings, and of the bootstrap.
+        run: the run; the prediction is the mean over its draws.
+        heldout_scans: scans that the run has not seen.
+        sensor: another law of the readings; None: the run's.
+        seed: seed of the randomised transform of typed readings, and of the bootstrap.
         device: "cpu" or a CUDA device such as "cuda:0".
-        on_progress: called with which share is done, from 0 to 1.
+        on_progress: called with the share that is done, from 0 to 1.
 
     Raises:
         BadInput: no valid reading, no draws, no such device, or a sensor whose probabilities do not add up to one.

@@ -15,14 +15,14 @@ from bayesmap.cli.translation import LOG, need_file, reading_of
 @click.option("--host", default="127.0.0.1", show_default=True, help="Address to listen on.")
 @click.option("--port", type=click.IntRange(0, 65535), default=0, help="Port to listen on. [default: any free one]")
 @click.option("--no-browser", is_flag=True, help="Only print the address.")
-@click.option("--seed", type=click.IntRange(0, 2**31 - 1), default=0, show_default=True, help="Of all random numbers.")
+@click.option("--seed", type=click.IntRange(0, 2**31 - 1), default=0, show_default=True, help="Seed of random numbers.")
 def app(call: Call[AppSettings], file: str | None, host: str, port: int, no_browser: bool, seed: int) -> None:
-    r"""Draw walls, drag the robot, watch the posterior live, in the browser.
+    r"""Draw walls, drag the robot, and watch the posterior live in the browser.
 
-    Begins with the tutorial's map, or with a document that the page has exported; with a saved run (.nc) its draws and
-    scans can be looked through, with a log the map is inferred while you watch. Prints the address of the page when it
-    is ready; Ctrl-C ends the server, with exit code 0. Nothing is fetched from the network, and nobody without the
-    token in the address can reach the page.
+    The page starts with the tutorial's map, or with a document that the page has exported. With a saved run (.nc) it
+    shows the run's draws and scans. With a log it infers the map while you watch. The command prints the address of the
+    page when it is ready; Ctrl-C ends the server, with exit code 0. The page loads nothing from the network, and opens
+    only with the token in the address.
 
     \b
     bayesmap app

@@ -1,6 +1,6 @@
-"""Options that all commands share, and the settings that follow from them.
+"""Options that all commands share, and the settings of a call.
 
-Later values win: defaults, then a resumed run's own, then the file, then ``--set``, then flags.
+Later sources override earlier ones: defaults, a resumed run's settings, the file, ``--set``, flags.
 """
 
 from __future__ import annotations
@@ -24,14 +24,16 @@ from bayesmap.cli.keys import SECTIONS, Key, Settings, Value, WrongValue, checke
 from bayesmap.errors import BadInput
 
 Layer = Mapping[str, Mapping[str, Value]]
-"""Some values, by section and key."""
+"""Values of settings from one source, by section and key."""
 
 
 def read_file(path: str | Path) -> Layer:
-    """Read the settings of a TOML file: tables named like the commands; keys outside them hold for all.
+    """Read the settings of a TOML file.
+
+    Tables have the names of commands. Keys outside tables apply to all commands that have them.
 
     Raises:
-        BadInput: a file that cannot be read or is not TOML, an unknown table or key, a value it cannot have.
+        BadInput: an unreadable file, invalid TOML, an unknown table or key, or a value that is not allowed.
     """
     try:
         tables = tomllib.loads(Path(path).read_text(encoding="utf-8"))
@@ -39,30 +41,31 @@ def read_file(path: str | Path) -> Layer:
         raise BadInput(f"{path}: cannot be read: {getattr(error, 'strerror', None) or error}") from None
     except tomllib.TOMLDecodeError as error:
         raise BadInput(f"{path}: not valid TOML: {error}") from None
-    found: dict[str, dict[str, Value]] = {}
+    layer: dict[str, dict[str, Value]] = {}
     try:
+        # Store the keys outside tables first: a command's own table overrides them.
         for name, value in tables.items():
             if not isinstance(value, dict):
-                _put(found, _homes(name, SECTIONS), name, value)
+                _put(layer, _homes(name, SECTIONS), name, value)
         for name, value in tables.items():
             if isinstance(value, dict):
                 for key, entry in value.items():
-                    _put(found, [_known(name, SECTIONS, "table")], key, entry)
+                    _put(layer, [_known(name, SECTIONS, "table")], key, entry)
     except (WrongValue, BadInput) as problem:
         raise BadInput(f"{path}: {problem}") from None
-    return found
+    return layer
 
 
 def read_pairs(pairs: Iterable[str], section: str | None) -> Layer:
-    """Read the settings of ``--set key=value``: of the command's own section, or ``section.key=value``.
+    """Read the settings of ``--set key=value`` for the command's own section, or of ``--set section.key=value``.
 
-    Without a section, as in ``config``, a bare key holds for every section that has it.
+    A command without a section, such as ``config``, applies a bare key to every section that has it.
 
     Raises:
         click.BadParameter: no equals sign, an unknown key, a value that cannot be read.
-        BadInput: a number that the setting cannot have.
+        BadInput: a number that is not allowed.
     """
-    found: dict[str, dict[str, Value]] = {}
+    layer: dict[str, dict[str, Value]] = {}
     for pair in pairs:
         name, equals, text = pair.partition("=")
         table, dot, key = name.strip().rpartition(".")
@@ -73,14 +76,14 @@ def read_pairs(pairs: Iterable[str], section: str | None) -> Layer:
                 homes = [_known(table, SECTIONS, "table")]
             else:
                 homes = _homes(key, SECTIONS if section is None else [section])
-            _put(found, homes, key, _typed(text.strip()))
+            _put(layer, homes, key, _typed(text.strip()))
         except WrongValue as problem:
             raise click.BadParameter(str(problem), param_hint="'--set'") from None
-    return found
+    return layer
 
 
 def layered(section: str, *layers: Layer) -> Settings:
-    """Return all settings of a command: later layers win over earlier ones, and all over the defaults."""
+    """Return all settings of a command. Each layer overrides the defaults and the layers before it."""
     values: dict[str, Value] = {}
     for layer in layers:
         values.update(layer.get(section, {}))
@@ -88,7 +91,7 @@ def layered(section: str, *layers: Layer) -> Settings:
 
 
 def as_toml(settings: Mapping[str, Settings]) -> str:
-    """Return a file that `read_file` reads back as these settings; keys without a value appear as comments."""
+    """Return the settings as TOML, which `read_file` reads back; keys without a value appear as comments."""
     lines = []
     for section, values in settings.items():
         lines.append(f"[{section}]")
@@ -104,7 +107,7 @@ def as_toml(settings: Mapping[str, Settings]) -> str:
 
 
 def _homes(key: str, sections: Iterable[str]) -> list[str]:
-    """Return the sections that have a key."""
+    """Return the sections that have a key; refuse a key that none has."""
     names = list(sections)
     homes = [section for section in names if key in SECTIONS[section].__struct_fields__]
     if not homes:
@@ -113,6 +116,7 @@ def _homes(key: str, sections: Iterable[str]) -> list[str]:
 
 
 def _known(name: str, known: Iterable[str], what: str) -> str:
+    """Return a name if it is among the known ones, or refuse it and suggest the nearest."""
     names = list(known)
     if name in names:
         return name
@@ -123,14 +127,15 @@ def _known(name: str, known: Iterable[str], what: str) -> str:
     )
 
 
-def _put(found: dict[str, dict[str, Value]], homes: list[str], name: str, value: Any) -> None:
-    for section in homes:
+def _put(layer: dict[str, dict[str, Value]], sections: list[str], name: str, value: Any) -> None:
+    """Check a value, and store it in a layer for each of the sections."""
+    for section in sections:
         keys = {key.name: key for key in keys_of(section)}
-        found.setdefault(section, {})[name] = checked(keys[_known(name, keys, f"key of [{section}]")], value)
+        layer.setdefault(section, {})[name] = checked(keys[_known(name, keys, f"key of [{section}]")], value)
 
 
 def _typed(text: str) -> Any:
-    """Return a value as TOML reads it; a bare word is a text."""
+    """Return the value that TOML reads from a text; a bare word stays a text."""
     try:
         return tomllib.loads(f"v = {text}")["v"]
     except tomllib.TOMLDecodeError:
@@ -139,7 +144,7 @@ def _typed(text: str) -> Any:
 
 def _toml(value: bool | int | float | str) -> str:
     if isinstance(value, str):
-        # A JSON string is a TOML string, unless it escapes a character in two halves, or holds a bare DEL.
+        # A JSON string is a TOML string, except for surrogate pairs and a bare DEL.
         return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
     if isinstance(value, float) and not math.isfinite(value):
         return str(value)
@@ -147,6 +152,7 @@ def _toml(value: bool | int | float | str) -> str:
 
 
 def _remark(key: Key) -> str:
+    """Return the comment beside a key in TOML: its help, choices and default."""
     choices = f" One of {', '.join(key.choices)}." if key.choices and key.kind is str else ""
     unset = f" Default: {key.help.unset}." if key.help.unset else ""
     return key.help.text.replace("see above", "see infer --help") + choices + unset
@@ -156,7 +162,7 @@ S = TypeVar("S", bound=Settings)
 
 COMMON = (
     click.Option(["-c", "--config"], metavar="FILE", help="TOML file with settings, as printed by bayesmap config."),
-    click.Option(["--set", "pairs"], metavar="KEY=VALUE", multiple=True, help="One setting; wins over the file."),
+    click.Option(["--set", "pairs"], metavar="KEY=VALUE", multiple=True, help="One setting; overrides the file."),
     click.Option(["--json", "as_json"], is_flag=True, help="One JSON document on standard output."),
     click.Option(["-q", "--quiet"], is_flag=True, help="Only errors and warnings."),
     click.Option(["-v", "--verbose"], is_flag=True, help="Details, and the traceback of a failure."),
@@ -166,12 +172,12 @@ COMMON = (
 
 @dataclass(frozen=True)
 class Call(Generic[S]):
-    """One call of a command whose settings are of the class S.
+    """One call of a command with settings of the class S.
 
     Attributes:
-        console: what the command prints goes there.
+        console: prints the output of the command.
         section: the command's table of settings; "" if it has none.
-        layers: what the user set: in the file, by ``--set``, by flags.
+        layers: settings of the user: from the file, from ``--set``, from flags.
     """
 
     console: Console
@@ -179,7 +185,7 @@ class Call(Generic[S]):
     layers: tuple[Layer, ...]
 
     def settings(self, under: Layer | None = None) -> S:
-        """Return the command's settings; ``under`` lies between the defaults and what the user set."""
+        """Return the command's settings; ``under`` overrides the defaults, and the user's settings override it."""
         return cast(S, layered(self.section, under or {}, *self.layers))
 
     def all_settings(self) -> dict[str, Settings]:
@@ -188,10 +194,10 @@ class Call(Generic[S]):
 
 
 def takes(section: str | None) -> Callable[[Callable[..., None]], click.Command]:
-    """Make a function a command. The function is given a `Call`, and its own arguments by name.
+    """Return a decorator that makes a function a command. The function takes a `Call`, and its own arguments by name.
 
     Args:
-        section: the table whose settings become flags; None for a command without settings.
+        section: table of the settings that become flags; None for a command without settings.
     """
 
     def decorate(run: Callable[..., None]) -> click.Command:
@@ -199,42 +205,46 @@ def takes(section: str | None) -> Callable[[Callable[..., None]], click.Command]
 
         @click.pass_context
         def callback(context: click.Context, /, **arguments: Any) -> None:
+            # Refuse empty values, such as "$FOLDER" in a script that has not set it.
             for parameter in context.command.params:
                 value = arguments.get(parameter.name or "")
-                if value == "" or (
-                    isinstance(value, tuple) and "" in value
-                ):  # such as "$FOLDER" of a script that has set none
+                if value == "" or (isinstance(value, tuple) and "" in value):
                     raise click.BadParameter("it is empty; give a value", context, parameter)
+            # Collect the flags that the user typed.
             flags: dict[str, Value] = {}
             for key in keys:
                 value = arguments.pop(key.name)
                 if context.get_parameter_source(key.name) is ParameterSource.COMMANDLINE:
                     flags[key.name] = checked(key, value)
+            # Take out the common options, and make the console.
             config, pairs = arguments.pop("config"), arguments.pop("pairs")
             quiet, verbose = arguments.pop("quiet"), arguments.pop("verbose")
             context.meta[VERBOSE] = verbose
             console = Console(
                 quiet=quiet, verbose=verbose, as_json=arguments.pop("as_json"), bar=not arguments.pop("no_progress")
             )
+            # Stack the sources of settings, and run the command.
             by_file = read_file(config) if config is not None else {}
             by_flags = {section: flags} if section is not None else {}
             layers = by_file, read_pairs(pairs, section), by_flags
             run(Call[Any](console, section or "", layers), **arguments)
 
-        made = click.command(help=_help(run.__doc__ or ""))(callback)
-        made.params = list(getattr(run, "__click_params__", []))[::-1]
-        made.params += [_option(key) for key in keys] + list(COMMON)
-        return made
+        # The function's own options come first in the help, then the settings, then the common options.
+        command = click.command(help=_help(run.__doc__ or ""))(callback)
+        command.params = list(getattr(run, "__click_params__", []))[::-1]
+        command.params += [_option(key) for key in keys] + list(COMMON)
+        return command
 
     return decorate
 
 
 def _help(docstring: str) -> str:
-    """Return the docstring, in which a raw backslash-b keeps click from filling a paragraph."""
+    """Return the help text of a docstring: a raw backslash-b becomes the character that stops click from reflowing."""
     return inspect.cleandoc(docstring).replace("\\b\n", "\b\n")
 
 
 def _option(key: Key) -> click.Option:
+    """Return the flag of a setting."""
     if key.kind is bool:
         return click.Option([key.flag, key.name], is_flag=True, help=key.help.text)
     shown = key.help.unset if key.default is None else f"{key.default}"
@@ -250,10 +260,10 @@ def _click_type(key: Key) -> click.ParamType[Any]:
 
 
 class NumberOr(click.ParamType["float | str"]):
-    """A number, or a word.
+    """A click type for a number or one word.
 
     Attributes:
-        word: may stand in place of the number.
+        word: the word that is allowed instead of a number.
     """
 
     name = "number"
@@ -262,7 +272,7 @@ class NumberOr(click.ParamType["float | str"]):
         self.word = word
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float | str:
-        """Return the number or the word of a text; a number as it is."""
+        """Return the word, or the value as a number."""
         if value == self.word:
             return self.word
         try:

@@ -1,4 +1,4 @@
-"""The output of a command: results on standard output, all else on standard error, a bar on a terminal."""
+"""The output of a command: results on standard output, messages on standard error, a progress bar on a terminal."""
 
 from __future__ import annotations
 
@@ -19,24 +19,24 @@ if TYPE_CHECKING:
     from bayesmap.api import Event
 
 FAILURE, BAD_INPUT, PROBLEMS, INTERRUPTED = 1, 3, 4, 130
-"""Exit codes, beside click's own 2 for usage."""
+"""Exit codes. Click adds 2 for wrong usage."""
 
 VERBOSE = "bayesmap.verbose"
-"""Key of the click context under which a command says that it is verbose, for whoever prints its failure."""
+"""Key of the click context that stores whether the command is verbose; read when its failure is printed."""
 
 SCHEMA_VERSION = 1
-"""Raised when a key of the JSON documents changes its meaning or disappears; new keys do not raise it."""
+"""Version of the JSON documents. It grows when a key changes its meaning or disappears, not for new keys."""
 
 
 @dataclass(frozen=True)
 class Console:
-    """How much this call prints.
+    """The output of one call, and how much it prints.
 
     Attributes:
-        quiet: only errors and warnings.
-        verbose: details too.
-        as_json: standard output gets one JSON document.
-        bar: a progress bar may be drawn.
+        quiet: print only errors and warnings.
+        verbose: print details too.
+        as_json: print one JSON document on standard output.
+        bar: allow a progress bar.
     """
 
     quiet: bool = False
@@ -45,26 +45,26 @@ class Console:
     bar: bool = True
 
     def say(self, text: str) -> None:
-        """Write a line of progress or of advice."""
+        """Write a line of progress or advice, unless the call is quiet."""
         if not self.quiet:
             complain(text)
 
     def detail(self, text: str) -> None:
-        """Write a line that only a verbose call prints."""
+        """Write a line if the call is verbose."""
         if self.verbose:
             complain(text)
 
     def warn(self, text: str) -> None:
-        """Write a line that even a quiet call prints."""
+        """Write a warning, also if the call is quiet."""
         complain(f"bayesmap: warning: {text}")
 
     def result(self, document: dict[str, Any], paths: Iterable[str | Path]) -> None:
-        """Write the result: the document with ``--json``, otherwise the paths of what was written, one a line."""
+        """Write the result: the document with ``--json``, otherwise the paths of the written files, one per line."""
         write_out(as_json(document) if self.as_json else "".join(f"{path}\n" for path in paths))
 
     @property
     def draws_bar(self) -> bool:
-        """Return whether a bar is wanted, and standard error is a terminal."""
+        """Return whether to draw a progress bar: the user allows it, and standard error is a terminal."""
         return self.bar and not self.quiet and sys.stderr.isatty() and os.environ.get("TERM") != "dumb"
 
 
@@ -74,18 +74,18 @@ def counted(number: int, thing: str) -> str:
 
 
 def as_json(document: dict[str, Any]) -> str:
-    """Return one JSON document with the version of its schema, ending in a newline; NaN and infinity are refused."""
+    """Return a JSON document with the schema version, ending in a newline. NaN and infinity raise an error."""
     return json.dumps({"schema_version": SCHEMA_VERSION, **document}, indent=2, allow_nan=False) + "\n"
 
 
 RESULTS = "bayesmap.results"
-"""Key of the click context under which standard output is kept while others' prints go to standard error."""
+"""Key of the click context that stores standard output while prints of libraries go to standard error."""
 
 
 def reserve_stdout() -> None:
-    """Keep standard output for `write_out` until the command ends; what libraries print goes to standard error.
+    """Reserve standard output for `write_out` until the command ends. Prints of libraries go to standard error.
 
-    Ray prints on standard output what happens to its nodes, whenever it hears of it: also long after the chains.
+    Ray prints events of its nodes on standard output at any time, even long after the chains.
     """
     context = click.get_current_context()
     if RESULTS in context.meta:
@@ -100,7 +100,7 @@ def reserve_stdout() -> None:
 
 
 def write_out(text: str) -> bool:
-    """Write to standard output; a reader that has left, such as ``head``, is no error.
+    """Write to standard output. A reader that has closed it, such as ``head``, is no error.
 
     Returns:
         Whether there was still a reader.
@@ -112,7 +112,7 @@ def write_out(text: str) -> bool:
         click.echo(text, file=results, nl=False)
         results.flush()
     except BrokenPipeError:
-        # What Python would flush at exit must not complain again.
+        # Redirect the stream, so that Python's flush at exit raises no second error.
         os.dup2(os.open(os.devnull, os.O_WRONLY), results.fileno())
         return False
     return True
@@ -126,7 +126,7 @@ def complain(text: str) -> None:
 
 OnProgress = Callable[["Event"], None]
 Show = Callable[[str, str, int, int, str], None]
-"""Takes what is done now, what is counted, how many of how many, and what is known by then."""
+"""Takes the stage, the counted unit, the count, the total, and how well the map is known."""
 
 STAGES = {
     "compile": ("compiling kernels, once", "kernels"),
@@ -147,18 +147,18 @@ STAGES = {
     "save": ("saving", "%"),
     "score": ("scoring held-out beams", "draws"),
 }
-"""The stages of a run as a user reads them, and what is counted in each."""
+"""Names of the stages of a run for the user, and the unit that is counted in each."""
 
 SAMPLING = tuple(STAGES[stage][0] for stage in ("warm-up", "draws"))
 """Names of the stages that count sweeps of the chains."""
 
 SETTING_UP = ("compile", "trace", "start", "fit")
-"""Stages in which it may still turn out that a run cannot be."""
+"""Stages in which a run can still fail before it has changed its folder."""
 
 
 @contextlib.contextmanager
 def progress(console: Console, begin: str) -> Iterator[OnProgress]:
-    """Give the function that a run reports its events to; the bar is gone when the block ends.
+    """Yield a function that shows the events of a run in a progress bar. The bar disappears when the block ends.
 
     ``begin`` is shown before the first event.
     """
@@ -167,7 +167,7 @@ def progress(console: Console, begin: str) -> Iterator[OnProgress]:
 
 
 def known(event: Event) -> str:
-    """Return in words how well the map is known, or else the log joint; nothing before either."""
+    """Return the error of the map in words, or else the log joint; an empty text if there is neither."""
     if event.error is not None and event.error < 1.0:
         return f"map within {event.error:.3f}"
     return "" if event.log_joint is None else f"log joint {event.log_joint:,.1f}"
@@ -175,24 +175,25 @@ def known(event: Event) -> str:
 
 @contextlib.contextmanager
 def share(console: Console, name: str) -> Iterator[Callable[[float], None]]:
-    """Give a function for work that tells which share of it is done, from 0 to 1."""
+    """Yield a function that shows the share of the work that is done, from 0 to 1."""
     with described_share(console, name) as show:
         yield lambda done: show(name, done)
 
 
 @contextlib.contextmanager
 def described_share(console: Console, begin: str) -> Iterator[Callable[[str, float], None]]:
-    """Give a function for work that also says what it is doing."""
+    """Yield a function that shows the current step and the share of the work that is done."""
     with _bar(console, begin) as show:
         yield lambda name, done: show(name, "%", round(1000 * done), 1000, "")
 
 
 @contextlib.contextmanager
 def _bar(console: Console, begin: str) -> Iterator[Show]:
+    """Yield a function that draws the progress bar, or one that does nothing if no bar is allowed."""
     if not console.draws_bar:
         yield lambda name, unit, done, total, known: None
         return
-    # Loaded here alone: a tenth of a second that pipelines and batch jobs do not have to pay.
+    # Import only here: it takes a tenth of a second, which batch jobs without a bar can save.
     from rich.console import Console
     from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn, TimeRemainingColumn
 
@@ -208,13 +209,13 @@ def _bar(console: Console, begin: str) -> Iterator[Show]:
     )
     with bar:
         shown = bar.add_task(begin, total=None, count="", known="")
-        # A clock for each thing that is counted, or the estimate would mix rounds with sweeps. They go on when a
-        # checkpoint has come between.
+        # One task per counted unit, so that the estimated time does not mix rounds with sweeps. A task continues after
+        # a checkpoint.
         clocks: dict[tuple[str, int], TaskID] = {}
 
         def show(name: str, unit: str, done: int, total: int, known: str) -> None:
             nonlocal shown
-            # Where the precision decides how many sweeps there are, their number is an estimate that changes.
+            # If the precision ends the chains, the total of sweeps is an estimate that changes.
             clock = (unit, 0 if name in SAMPLING else total)
             if clock not in clocks:
                 clocks[clock] = bar.add_task(name, total=total, completed=done, count="", known="")
@@ -230,7 +231,7 @@ def _bar(console: Console, begin: str) -> Iterator[Show]:
 
 @contextlib.contextmanager
 def stage(console: Console, name: Literal["save", "score"]) -> Iterator[Callable[[int, int], None]]:
-    """Give a function for a single stage, which tells how much of how much is done."""
+    """Yield a function that shows the count and the total of a single stage."""
     from bayesmap.api import Event
 
     with progress(console, STAGES[name][0]) as report:

@@ -1,4 +1,4 @@
-"""``bayesmap plan`` and ``bayesmap explore``: a short safe path, and where to look next."""
+"""``bayesmap plan`` and ``bayesmap explore``: a short safe path, and the poses to scan from next."""
 
 from __future__ import annotations
 
@@ -22,8 +22,8 @@ if TYPE_CHECKING:
 
 @takes("plan")
 @click.argument("run_file", metavar="RUN.nc")
-@click.option("--from", "start", metavar="X,Y", required=True, help="Where the robot is, metres in the map's frame.")
-@click.option("--to", "goal", metavar="X,Y", required=True, help="Where it is to go.")
+@click.option("--from", "start", metavar="X,Y", required=True, help="Start of the robot, metres in the map's frame.")
+@click.option("--to", "goal", metavar="X,Y", required=True, help="Goal of the robot, metres in the map's frame.")
 @click.option("-o", "--output", metavar="FILE", help="Picture: .png, .pdf, .svg. [default: plan.png beside RUN.nc]")
 def plan(call: Call[PlanSettings], run_file: str, start: str, goal: str, output: str | None) -> None:
     r"""Plan a path for a disc in the map of a saved run.
@@ -32,10 +32,10 @@ def plan(call: Call[PlanSettings], run_file: str, start: str, goal: str, output:
     bayesmap plan runs/office/run.nc --from 0,0 --to 12.5,3 --radius 0.25 --risk 0.01
     bayesmap plan runs/office/run.nc --from 0,0 --to 12.5,3 --json | jq .path
 
-    The path is the shortest found whose risk of touching something stays under --risk; if there is none, the safest,
-    with a warning. Its probability of being free is the share of the posterior's joint draws of the map in which it is;
-    beside it stands what a product over independent cells would say. Prints the path's corners, a line each. An older
-    picture of the same name is replaced.
+    The path is the shortest found whose risk of touching something stays under --risk. If there is none, the command
+    returns the safest path, with a warning. The probability of a free path is the share of map draws in which the path
+    is free. The value for independent cells is printed beside it. The command prints one corner of the path per line,
+    and replaces an older picture of the same name.
     """
     settings = call.settings()
     ends = [numbers_of(text, flag, "X,Y", (2,)) for text, flag in ((start, "--from"), (goal, "--to"))]
@@ -66,7 +66,7 @@ def plan(call: Call[PlanSettings], run_file: str, start: str, goal: str, output:
 
 
 def _opened(run_file: str, output: str | None, name: str) -> tuple[Run, Path]:
-    """Load a run, and return it with the path of its picture, whose ending is checked first."""
+    """Check the ending of the picture's name, load the run, and return the run and the picture's path."""
     from bayesmap.files import need_ending
     from bayesmap.result import load
 
@@ -76,6 +76,7 @@ def _opened(run_file: str, output: str | None, name: str) -> tuple[Run, Path]:
 
 
 def _route_sentence(route: Route) -> str:
+    """Return the length of a path and its probability of being free, in words."""
     free = route.free
     return (
         f"{route.length_m:.2f} m, free with probability {free.probability:.3f} +- {free.standard_error:.3f} "
@@ -101,15 +102,15 @@ def _route_document(route: Route, settings: PlanSettings) -> dict[str, Any]:
 @click.argument("run_file", metavar="RUN.nc")
 @click.option("-o", "--output", metavar="FILE", help="Picture: .png, .pdf, .svg. [default: explore.png beside RUN.nc]")
 def explore(call: Call[ExploreSettings], run_file: str, output: str | None) -> None:
-    r"""Say from where to look next, in the map of a saved run.
+    r"""Rank the poses from which the next scan tells most about the map of a saved run.
 
     \b
     bayesmap explore runs/office/run.nc --candidates 200
     bayesmap explore runs/office/run.nc --views 1 --json | jq .views[0].pose
 
-    Candidates lie where the robot can get to. A fast formula that takes cells and beams for independent goes over all
-    of them; the best are compared by joint draws of the map: what a scan tells lies between two bounds. Prints a line
-    for each view, the best first. An older picture of the same name is replaced.
+    Candidates are poses that the robot can reach. A fast formula for independent cells and beams ranks all of them. The
+    best are compared by joint draws of the map: the expected information is given as a lower and an upper bound. The
+    command prints one view per line, the best first, and replaces an older picture of the same name.
     """
     settings = call.settings()
     run, target = _opened(run_file, output, "explore.png")
@@ -139,6 +140,7 @@ def explore(call: Call[ExploreSettings], run_file: str, output: str | None) -> N
 
 
 def _described_views(found: Views) -> list[dict[str, Any]]:
+    """Return the best views as JSON values, with their expected information in nats."""
     information = found.information
     assert information.independent is not None
     return [
@@ -155,6 +157,7 @@ def _described_views(found: Views) -> list[dict[str, Any]]:
 
 
 def _view_line(view: dict[str, Any]) -> str:
+    """Return a view as a line of text."""
     x, y, yaw = view["pose"]
     return (
         f"x {x:.2f} m  y {y:.2f} m  yaw {math.degrees(yaw):.0f} degrees  "

@@ -1,4 +1,4 @@
-"""``bayesmap demo``: the tutorial's map from one noisy scan, by the tutorial's methods."""
+"""``bayesmap demo``: infer the tutorial's map from one noisy scan, by the tutorial's methods."""
 
 from __future__ import annotations
 
@@ -17,11 +17,12 @@ if TYPE_CHECKING:
     from bayesmap.result import Run
 
 BEAMS, SIGMA_M, MAX_RANGE_M = 100, 0.2, 42.0
-"""The tutorial's sensor; the range is longer than the map's diagonal."""
+"""The tutorial's sensor: beams per scan, noise, and a range longer than the map's diagonal."""
 
 FILM_SWEEPS = 80
+"""Sweeps in the film of a chain, one frame each."""
 COLLAPSED = 10.0
-"""An effective sample size under this says nothing of a map."""
+"""Effective sample size below which importance sampling is reported as collapsed."""
 
 
 @takes("demo")
@@ -30,9 +31,10 @@ COLLAPSED = 10.0
 def demo(call: Call[DemoSettings], output: str, force: bool) -> None:
     """Map the tutorial's building from one scan of 100 noisy beams.
 
-    Three methods look at the same scan: single-site Gibbs with prior wall probability 0.5, 2 x 2 block Gibbs with
-    prior 0.05, and importance sampling, which collapses. Leaves in DIR pictures of the posteriors and of the weights, a
-    film of a chain (GIF and WebP), the saved run (run.nc), the map for nav2, and the JSON document (demo.json).
+    Three methods infer from the same scan: single-site Gibbs with prior wall probability 0.5, 2 x 2 block Gibbs with
+    prior 0.05, and importance sampling, which collapses. The command writes into DIR pictures of the posteriors and of
+    the weights, a film of a chain (GIF and WebP), the saved run (run.nc), the map for nav2, and the JSON document
+    (demo.json).
     """
     folder = Path(output)
     if (folder / "run.nc").exists() and not (folder / "demo.json").exists() and not force:
@@ -64,7 +66,7 @@ def demo(call: Call[DemoSettings], output: str, force: bool) -> None:
 
 
 def _runs(console: Console, settings: DemoSettings) -> dict[str, Run]:
-    """Infer the same scan by each method, and sample a chain from its first sweep on for the film."""
+    """Return the runs of the three methods on one scan, and a run without warm-up for the film."""
     import numpy as np
 
     from bayesmap.api import infer
@@ -76,11 +78,13 @@ def _runs(console: Console, settings: DemoSettings) -> dict[str, Run]:
     from bayesmap.sim.drawing import TUTORIAL_GRID, tutorial
     from bayesmap.sim.forward import simulate
 
+    # Simulate the scan.
     walls, pose = tutorial()
     sensor, seed = Gaussian(SIGMA_M), settings.seed
     angles = np.arange(BEAMS) * 2 * np.pi / BEAMS
     console.detail(f"simulating {BEAMS} beams with noise of {SIGMA_M} m")
     scans = simulate(walls, TUTORIAL_GRID, pose, angles, sensor=sensor, max_range_m=MAX_RANGE_M, seed=seed)
+    # Choose prior, method and schedule of each run.
     half, rare, where = Independent(0.5), Independent(0.05), Where(threads=settings.threads)
     long = Schedule(settings.chains, settings.warmup, settings.draws)
     asked: dict[str, tuple[CellPrior, Method, Schedule]] = {
@@ -102,7 +106,7 @@ def _runs(console: Console, settings: DemoSettings) -> dict[str, Run]:
 
 
 def _pictures(runs: dict[str, Run], folder: Path) -> list[Path]:
-    """Write the pictures and the film, the run itself, and its map."""
+    """Write the pictures, the film, the run and its map, and return their paths."""
     import numpy as np
 
     from bayesmap.sim.drawing import tutorial
@@ -121,7 +125,7 @@ def _pictures(runs: dict[str, Run], folder: Path) -> list[Path]:
     picture("posterior-block.png", runs["block"].plot(truth=walls, title="2 x 2 block Gibbs, prior 0.05"))
     picture("posterior-importance.png", runs["importance"].plot(truth=walls, title="importance sampling, prior 0.5"))
     weights = runs["importance"].log_weights
-    # The tutorial's axis ends at -10 000 nats; nearly all of this scan's weights are below that.
+    # The tutorial's axis ends at -10 000 nats, but nearly all weights of this scan are lower: extend the axis.
     low = min(-10_000.0, 10_000.0 * float(np.floor(np.quantile(weights, 0.01) / 10_000.0)))
     picture("weights.png", weights_figure(weights, range_nats=(low, 0.0)))
     film = runs["film"]
@@ -134,13 +138,14 @@ def _pictures(runs: dict[str, Run], folder: Path) -> list[Path]:
 
 
 def _in_short(run: Run) -> dict[str, Any]:
-    """Return what distinguishes the methods; the whole document is that of the first."""
+    """Return the part of a run's document in which the methods differ."""
     kept = ("method", "prior", "chains", "warmup", "draws", "sweeps", "seconds", "microseconds_per_sweep", "log_joint")
     document = run_document(run)
     return {name: document[name] for name in (*kept, "log_evidence", "diagnostics", "problems")}
 
 
 def _write_json(path: Path, document: dict[str, Any]) -> None:
+    """Write a JSON document, whole or not at all."""
     from bayesmap.files import write_whole
 
     with write_whole(path) as partial:
@@ -148,6 +153,7 @@ def _write_json(path: Path, document: dict[str, Any]) -> None:
 
 
 def _report(console: Console, runs: dict[str, Run], folder: Path) -> None:
+    """Print the diagnostics of the three methods."""
     for name, line in (("gibbs", "single-site Gibbs, prior 0.5:  "), ("block", "2 x 2 block Gibbs, prior 0.05: ")):
         summary, posterior = runs[name].summary(), runs[name].posterior
         console.say(

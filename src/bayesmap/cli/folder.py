@@ -1,4 +1,4 @@
-"""The folder that a run leaves behind: the saved run, and what is made from it, such as its JSON document."""
+"""The folder of a run: the saved run, and the files made from it, such as its JSON document."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 
 def run_document(run: Run) -> dict[str, Any]:
-    """Return what a run was asked, what it found, how long it took, and whether to trust it."""
+    """Return the JSON document of a run: its settings, result, timings, diagnostics and problems."""
     posterior, summary = run.posterior, run.summary()
     settings, grid = posterior.settings, run.grid
     joint = run.log_joint
@@ -55,7 +55,7 @@ def run_document(run: Run) -> dict[str, Any]:
 
 
 def work_done(document: dict[str, Any]) -> str:
-    """Return words such as "4 chains of 100 sweeps"; methods without chains keep independent maps."""
+    """Return the work of a run in words: "4 chains of 100 sweeps", or "4,000 independent maps" without chains."""
     from bayesmap.posterior.posterior import WITHOUT_CHAINS
 
     if document["method"] not in WITHOUT_CHAINS:
@@ -69,8 +69,8 @@ def finite(value: Any) -> float | None:
 
 
 def peak_memory_mb() -> float:
-    """Return the most memory that this process has held, in megabytes."""
-    with contextlib.suppress(OSError):  # Linux; what getrusage says there is inherited from whoever started us
+    """Return the peak memory of this process, in megabytes."""
+    with contextlib.suppress(OSError):  # Linux, where getrusage inherits the peak of the parent process
         for line in Path("/proc/self/status").read_text().splitlines():
             if line.startswith("VmHWM:"):
                 return round(int(line.split()[1]) / 1024, 1)
@@ -82,19 +82,20 @@ DERIVED = (
     "posterior.png", "map.yaml", "map.pgm", "summary.json", "trajectory.tum", "trajectory-covariances.txt",
     "trajectory.png", "odometry.png", "loops.png",
 )  # fmt: skip
-"""Made from the run: outdated as soon as another run takes its place."""
+"""Files made from the run. They are removed when another run takes its place."""
 
 
 @dataclass
 class Folder:
-    """Where `infer` writes. Nothing in it changes before `begin`, which a run that cannot start never reaches.
+    """The folder into which `infer` writes. Nothing in it changes before `begin`, when the run has really started.
 
-    A run that is to be replaced stays until `save` has something to put in its place.
+    An older run that is to be replaced stays until the first `save` of the new run.
 
     Attributes:
         path: the folder.
-        console: for details and warnings.
-        resuming: whether the run in it is to go on; not if it is outdated.
+        console: prints details and warnings.
+        resuming: whether to resume the run in the folder; False if that run is outdated.
+        begun: whether `begin` has been called.
     """
 
     path: Path
@@ -108,7 +109,7 @@ class Folder:
 
     @property
     def run(self) -> Path:
-        """Return the path of the saved run, which is the checkpoint while the run goes on."""
+        """Return the path of the saved run, which is also its checkpoint."""
         return self.path / "run.nc"
 
     @property
@@ -118,14 +119,14 @@ class Folder:
 
     @property
     def outdated(self) -> Path:
-        """Return the path of a mark beside a run that is to be replaced; it holds the settings of the run to come."""
+        """Return the path of the file that marks a run as to be replaced. It holds the settings of the new run."""
         return self.path / "outdated"
 
     def check(self, *, force: bool) -> None:
-        """Refuse to touch a run that nobody said to replace.
+        """Refuse a folder that holds a run which the user neither replaces nor resumes, or that cannot be written.
 
         Raises:
-            BadInput: there is a run already, or something that is no folder, or whose name netCDF could not take.
+            BadInput: the folder holds a run, is no folder, is not writable, or has a name that is not UTF-8.
         """
         try:
             str(self.path).encode()
@@ -140,17 +141,17 @@ class Folder:
             if place.exists():
                 if not place.is_dir():
                     raise BadInput(f"{place}: not a folder; choose another with -o")
-                if not os.access(place, os.W_OK):  # better now than after the hours of a run
+                if not os.access(place, os.W_OK):  # refuse before a long run, not after it
                     raise BadInput(f"{place}: no permission to write there; choose another folder with -o")
                 break
 
     def wait(self, toml: str) -> None:
-        """Mark the run in the folder, if there is one, as to be replaced later, perhaps by another process."""
+        """Mark an older run in the folder as to be replaced, perhaps by another process."""
         if self.run.exists() and not self.resuming:
             self._write(self.outdated, toml)
 
     def begin(self, toml: str) -> None:
-        """Keep the settings of a run that has started, so that it can be resumed without saying them again.
+        """Save the settings of a run that has started, so that it can be resumed without typing them again.
 
         Raises:
             BadInput: the folder cannot be written.
@@ -172,7 +173,7 @@ class Folder:
         self.begun = True
 
     def replace(self) -> None:
-        """Remove all that was made from an older run: the run that has begun takes its place."""
+        """Remove the files made from an older run, since the new run takes its place."""
         self._write(self.config, self._toml)
         for name in DERIVED:
             (self.path / name).unlink(missing_ok=True)
@@ -180,13 +181,14 @@ class Folder:
 
     @staticmethod
     def _write(path: Path, text: str) -> None:
+        """Write a text file, whole or not at all."""
         from bayesmap.files import write_whole
 
         with write_whole(path) as partial:
             partial.write_text(text, encoding="utf-8")
 
     def save(self, run: Run, on_progress: Callable[[int, int], None] = lambda done, total: None) -> None:
-        """Save the run, which has begun, in the place of an older one if it is to replace one."""
+        """Save the run. If it replaces an older run, remove the files made from that one."""
         try:
             run.save(self.run, on_progress)
         except OSError as error:
@@ -199,7 +201,7 @@ class Folder:
             self.replace()
 
     def checkpoint(self, run: Run, on_progress: Callable[[int, int], None] = lambda done, total: None) -> None:
-        """Save the run so far; a full disk is no reason to lose the hours to come."""
+        """Save the run so far. If this fails, as on a full disk, warn and let the run continue."""
         try:
             self.save(run, on_progress)
             self.console.detail(f"checkpoint after {counted(run.posterior.sweep, 'sweep')}: {self.run}")
@@ -207,10 +209,10 @@ class Folder:
             self.console.warn(f"{self.run}: checkpoint could not be written: {error.strerror or error}")
 
     def write_products(self, run: Run) -> list[Path]:
-        """Save the run, draw it, and export it for nav2, once it has draws.
+        """Save the run. If it has draws, also draw it and export it for nav2.
 
         Returns:
-            What was written.
+            The paths of the written files.
         """
         from bayesmap.viz.figure import write_figure
 
@@ -224,5 +226,5 @@ class Folder:
             return [self.run, picture, *run.export(self.path / "map.yaml")]
 
     def write_document(self, document: dict[str, Any]) -> None:
-        """Keep the JSON document."""
+        """Write the JSON document."""
         self._write(self.path / "summary.json", as_json(document))

@@ -1,7 +1,7 @@
-"""The commands, and what is said of a failure.
+"""The commands, and the error messages and exit codes of their failures.
 
-Exit codes: 0 fine, 1 failure, 2 usage, 3 bad input, 4 finished with ``--strict`` but the diagnostics found a
-problem, 130 interrupted.
+Exit codes: 0 success, 1 failure, 2 wrong usage, 3 bad input, 4 with ``--strict`` if the diagnostics find a problem,
+130 interrupted.
 """
 
 from __future__ import annotations
@@ -32,30 +32,30 @@ COMMANDS = {
     "app": "Draw walls, drag the robot, watch the posterior live.",
     "config": "Print the effective settings as TOML.",
 }
-"""The commands in the order of use. Each is a function of its name, in the module of its name or that of `HOMES`."""
+"""The commands in the order of use. Each is a function of the same name, in the module of that name or in `HOMES`."""
 
 HOMES = {"plan": "decisions", "explore": "decisions", "export": "render", "config": "info"}
-"""The modules of commands that do not have one of their own."""
+"""Modules of the commands that share a module."""
 
 EPILOG = """Results go to standard output, progress and messages to standard error. Exit codes: 0 fine, 1 failure,
 2 usage, 3 bad input, 4 with --strict: the diagnostics found a problem, 130 interrupted."""
 
 NO_PLACE = (errno.ENOENT, errno.ENOTDIR, errno.EEXIST, errno.EISDIR, errno.EACCES, errno.EPERM, errno.EROFS)
-"""Errors of the system that say that a file cannot be where it was asked for."""
+"""Operating system errors after which another path may help: bad input, not a failure."""
 
 NO_ROOM = "Failed to allocate"
-"""How Warp's error begins where there is no memory for an array."""
+"""First words of Warp's error when there is no memory for an array."""
 
 
 class Commands(click.Group):
-    """A group that loads a command when it is called, and turns exceptions into one line and an exit code."""
+    """A click group that loads commands on first use, and turns exceptions into one line and an exit code."""
 
     def list_commands(self, ctx: click.Context) -> list[str]:
         """Return the commands in the order of use."""
         return list(COMMANDS)
 
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
-        """Load the command's module."""
+        """Load a command from its module, or refuse an unknown name."""
         if cmd_name not in COMMANDS:
             near = difflib.get_close_matches(cmd_name, COMMANDS, n=1)
             hint = f"; did you mean {near[0]!r}?" if near else f"; there are: {', '.join(COMMANDS)}"
@@ -71,7 +71,7 @@ class Commands(click.Group):
             formatter.write_dl(list(COMMANDS.items()))
 
     def invoke(self, ctx: click.Context) -> Any:
-        """Run a command; a failure is one line on standard error."""
+        """Run a command; print a failure as one line on standard error, and exit with its code."""
         try:
             if ctx.obj is not None:
                 ctx.obj()  # from here on Ctrl-C is an exception
@@ -93,7 +93,7 @@ class Commands(click.Group):
 
 
 def explain(error: BaseException) -> tuple[int, str]:
-    """Return the exit code of an exception, and a line about it."""
+    """Return the exit code of an exception, and its message."""
     if isinstance(error, BadInput):
         return BAD_INPUT, str(error)
     if isinstance(error, KeyboardInterrupt | click.Abort):

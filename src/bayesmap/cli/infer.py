@@ -1,7 +1,6 @@
 """``bayesmap infer``: from logs to posteriors, pictures and maps.
 
-Several logs are a fleet: each is inferred into a folder of its own, one after the other, or each as a task of a Ray
-cluster.
+Several logs form a fleet. Each log is inferred into its own folder, one after the other, or as tasks of a Ray cluster.
 """
 
 from __future__ import annotations
@@ -32,29 +31,28 @@ if TYPE_CHECKING:
     from bayesmap.io.log_reading import LogReading
 
 SETTINGS = "fleet.toml"
-"""In the folder of the runs' folders: what the last fleet there was started with."""
+"""File beside the folders of the runs: the settings of the last fleet."""
 RETRIES = 3
-"""How often a log whose worker has died is begun again, at its last checkpoint."""
+"""Number of times that a log is restarted from its last checkpoint after its worker has died."""
 WAIT_S, EVENT_S, STOP_S = 0.25, 1.0, 30.0
-"""Seconds from one look at the workers to the next, from one word of a worker to the next, and for which workers that
-were asked to stop may take to send where their chains stand."""
+"""Seconds between two checks of the workers, between two progress messages of a worker, and of waiting after Ctrl-C."""
 SHOWN = 3
-"""Logs that the bar names."""
+"""Number of logs that the progress bar names."""
 SAMPLING = ("warm-up", "draws")
 
 
 @dataclass
 class Entry:
-    """One log of a fleet, and what has become of it.
+    """One log of a fleet, and its progress.
 
     Attributes:
-        log: as typed.
+        log: path of the log, as typed.
         path: folder of its run.
-        task: the log with its settings, once these are checked.
-        document: of the finished run.
-        error: why there is none.
-        event: how far a worker is.
-        deaths: of workers that had the log.
+        task: the log with its settings; None until these are checked.
+        document: JSON document of the finished run.
+        error: reason why there is no run.
+        event: latest progress of its worker.
+        deaths: number of workers that died with this log.
     """
 
     log: str
@@ -73,11 +71,11 @@ class Entry:
 
     @property
     def problems(self) -> list[str]:
-        """Return what the diagnostics found."""
+        """Return the problems that the diagnostics report."""
         return [] if self.document is None else list(self.document["problems"])
 
     def fail(self, error: Exception, console: Console) -> None:
-        """Note why there is no run, and say so; errors of usage are raised, since they are those of all logs."""
+        """Store and print why there is no run. Errors of usage are raised, since they concern all logs."""
         from bayesmap.cli.group import explain
 
         if isinstance(error, click.ClickException | click.exceptions.Exit):
@@ -86,22 +84,22 @@ class Entry:
         console.warn(f"{self.log}: {self.error}")
 
     def as_json(self) -> dict[str, Any]:
-        """Return what the JSON document says of the log."""
+        """Return the entry of the log in the JSON document."""
         return {"log": self.log, "folder": str(self.path), "error": self.error, "run": self.document}
 
 
 def infer_fleet(call: Call[InferSettings], logs: list[str], output: Path, *, resume: bool, force: bool) -> None:
-    """Infer each log into its own folder, and print a table; exits with 1 if one failed.
+    """Infer each log into its own folder, and print a table. Exit with code 1 if a log failed.
 
     Args:
-        call: of the command.
-        logs: two or more, or what a folder or a pattern held.
-        output: the folder of their folders.
-        resume: go on with the runs that there are.
-        force: replace them.
+        call: the call of the command.
+        logs: the logs: two or more, or those of a folder or a pattern.
+        output: parent of the runs' folders.
+        resume: resume the existing runs.
+        force: replace the existing runs.
 
     Raises:
-        BadInput: two logs of one name, or a cluster that cannot be had.
+        BadInput: two logs of one name, or a cluster that cannot be reached.
     """
     names = Counter(map(stem, logs))
     twice = next((name for name, times in names.items() if times > 1), None)
@@ -118,7 +116,7 @@ def infer_fleet(call: Call[InferSettings], logs: list[str], output: Path, *, res
         except Exception as error:
             entry.fail(error, call.console)
     ready = [entry for entry in entries if entry.task is not None]
-    # Keep the settings before the first log begins: the process that resumes may have to begin the others.
+    # Save the settings before the first log begins: a resuming process may have to begin the other logs.
     if ready:
         _keep_settings(ready, output, as_toml({"infer": settings}))
     # Infer the logs.
@@ -147,6 +145,7 @@ def infer_fleet(call: Call[InferSettings], logs: list[str], output: Path, *, res
 
 
 def _keep_settings(ready: list[Entry], output: Path, toml: str) -> None:
+    """Save the settings of the fleet, and mark older runs as to be replaced."""
     from bayesmap.files import write_whole
 
     output.mkdir(parents=True, exist_ok=True)
@@ -157,7 +156,7 @@ def _keep_settings(ready: list[Entry], output: Path, toml: str) -> None:
 
 
 def _infer_here(entry: Entry, console: Console) -> bool:
-    """Infer a log in this process; false if it was interrupted."""
+    """Infer a log in this process. Return False if it was interrupted."""
     try:
         document = infer_log(entry.ready)
     except Exception as error:
@@ -168,7 +167,7 @@ def _infer_here(entry: Entry, console: Console) -> bool:
 
 
 def table(entries: list[Entry]) -> Iterator[str]:
-    """Yield the lines of the table: a heading, and a line for each log."""
+    """Yield the lines of the table: a heading, and one line per log."""
     rows = [("log", "beams", "minutes", "R-hat", "held out", "folder, or what went wrong")]
     for entry in entries:
         if entry.document is None:
@@ -194,9 +193,9 @@ class Sent:
     """A message from a worker.
 
     Attributes:
-        files: contents of files of the run's folder, by name.
-        document: the JSON document, once the run is finished.
-        event: how far the run is.
+        files: contents of the files in the run's folder, by name.
+        document: JSON document of the finished run; None before.
+        event: progress of the run.
     """
 
     files: dict[str, bytes] = field(default_factory=dict)
@@ -205,19 +204,19 @@ class Sent:
 
 
 class Mailbox:
-    """An actor of the cluster between the workers of a fleet and the process that started it."""
+    """A Ray actor that passes messages from the workers of a fleet to the process that started it."""
 
     def __init__(self) -> None:
         self._sent: list[tuple[str, Sent]] = []
         self._stop = False
 
     def send(self, log: str, sent: Sent) -> bool:
-        """Leave what a worker has of a log. Returns whether the worker shall stop."""
+        """Store a worker's message about a log. Return whether the worker should stop."""
         self._sent.append((log, sent))
         return self._stop
 
     def take(self) -> list[tuple[str, Sent]]:
-        """Return what was left since the last call, in order."""
+        """Return the messages since the last call, in order."""
         sent, self._sent = self._sent, []
         return sent
 
@@ -227,9 +226,9 @@ class Mailbox:
 
 
 def work(task: Task[InferSettings], reading: LogReading, before: dict[str, bytes], mailbox: Any) -> None:
-    """Infer a log in a folder of a worker's machine, and send the files of the folder after each checkpoint.
+    """Infer a log in a temporary folder of a worker, and send the folder's files after each checkpoint.
 
-    ``before`` holds the files of the run to go on with, by name; none to begin.
+    ``before`` holds the files of the run to resume, by name; it is empty for a new run.
     """
     import ray
 
@@ -246,14 +245,14 @@ def work(task: Task[InferSettings], reading: LogReading, before: dict[str, bytes
         if time.monotonic() - sent_at >= EVENT_S:
             send(Sent(event=event))
 
-    with tempfile.TemporaryDirectory(prefix="bayesmap-") as place:
+    with tempfile.TemporaryDirectory(prefix="bayesmap-") as scratch:
 
         def files() -> dict[str, bytes]:
-            return {path.name: path.read_bytes() for path in Path(place).iterdir()}
+            return {path.name: path.read_bytes() for path in Path(scratch).iterdir()}
 
         for name, content in before.items():
-            (Path(place) / name).write_bytes(content)
-        folder = Folder(Path(place), Console(quiet=True, bar=False), resuming=bool(before))
+            (Path(scratch) / name).write_bytes(content)
+        folder = Folder(Path(scratch), Console(quiet=True, bar=False), resuming=bool(before))
         document = infer_log(
             replace(task, folder=folder), reading=reading, executor=ThreadExecutor(lambda: stopped),
             on_saved=lambda: send(Sent(files())), on_event=on_event,
@@ -262,7 +261,7 @@ def work(task: Task[InferSettings], reading: LogReading, before: dict[str, bytes
 
 
 class RayFleet:
-    """A fleet on a Ray cluster. Each log is read here, and inferred by a task of its own; files are written here."""
+    """A fleet on a Ray cluster. This process reads the logs and writes the files; one task per log infers."""
 
     def __init__(self, console: Console, address: str | None) -> None:
         from bayesmap.run.ray_executor import connect
@@ -271,7 +270,7 @@ class RayFleet:
         self.entries: dict[str, Entry] = {}
         self.running: dict[Any, Entry] = {}
         self.readings: dict[str, Any] = {}
-        # On this process's node, and on no other: if that node died, workers would not hear of Ctrl-C.
+        # Run the mailbox on this process's node: if another node died with it, Ctrl-C would not reach the workers.
         here = self.ray.util.scheduling_strategies.NodeAffinitySchedulingStrategy(
             self.ray.get_runtime_context().get_node_id(), soft=False
         )
@@ -279,7 +278,7 @@ class RayFleet:
         self.stopping = False
 
     def run(self, entries: list[Entry]) -> None:
-        """Infer all logs; as many are read ahead as the cluster can work on. Ctrl-C lets workers save first."""
+        """Infer all logs, at most as many at once as the cluster can run. After Ctrl-C workers save first."""
         waiting, self.entries = list(reversed(entries)), {entry.log: entry for entry in entries}
         try:
             with described_share(self.console, f"0 of {len(entries)} logs") as show:
@@ -292,12 +291,12 @@ class RayFleet:
             self._stop()
             raise
         finally:
-            # Not Ray's cancel, which can abort this process: a worker without a mailbox fails when it next writes.
+            # Ray's cancel could abort this process. Without a mailbox a worker fails at its next message instead.
             self.running.clear()
             self.ray.kill(self.mailbox)
 
     def most_at_once(self, entry: Entry) -> int:
-        """Return how many logs the cluster can work on."""
+        """Return the number of logs that the cluster can infer at the same time."""
         return max(1, int(self.ray.cluster_resources().get("CPU", 1)) // _threads(entry))
 
     def _begin(self, entry: Entry) -> None:
@@ -311,17 +310,18 @@ class RayFleet:
         self._submit(entry, resuming=entry.ready.folder.resuming)
 
     def _submit(self, entry: Entry, *, resuming: bool) -> None:
+        """Start a task for a log, with the files of the run to resume."""
         task, folder, before = entry.ready, entry.ready.folder, {}
         if resuming and folder.run.exists() and not folder.outdated.exists():
             before = {path.name: path.read_bytes() for path in (folder.run, folder.config) if path.exists()}
         cpus, gpus = _threads(entry), int(task.settings.device != "cpu")
-        # Without Ray's own retries, which know nothing of the last checkpoint.
+        # No retries by Ray: they would not resume from the last checkpoint.
         remote = self.ray.remote(work).options(num_cpus=cpus, num_gpus=gpus, max_retries=0)
         task = replace(task, settings=msgspec.structs.replace(task.settings, threads=cpus))
         self.running[remote.remote(task, self.readings[entry.log], before, self.mailbox)] = entry
 
     def _take_some(self) -> None:
-        """Wait a moment for what workers send and for workers that end, and keep what was sent."""
+        """Wait `WAIT_S` for workers, store their messages, and handle the tasks that have ended."""
         from bayesmap.run.ray_executor import failed, outcome
 
         ended, _ = self.ray.wait(list(self.running), timeout=WAIT_S) if self.running else ([], None)
@@ -346,7 +346,7 @@ class RayFleet:
                 entry.fail(error, self.console)
 
     def keep(self, entry: Entry, sent: Sent) -> None:
-        """Note how far a worker is, and write the files that it has sent into the log's folder."""
+        """Store a worker's progress, and write the files of its message into the log's folder."""
         from bayesmap.files import write_whole
 
         entry.event = sent.event or entry.event
@@ -369,7 +369,7 @@ class RayFleet:
             report(self.console, entry.document)
 
     def _stop(self) -> None:
-        """Ask workers to save where their chains stand, and take what they send, for some time."""
+        """Ask workers to save their chains, and store their messages for at most `STOP_S`."""
         if not self.running:
             return
         self.console.say("stopping: what the workers have is fetched; Ctrl-C again leaves it")
@@ -380,7 +380,7 @@ class RayFleet:
             self._take_some()
 
     def _progress(self, done: int, total: int) -> tuple[str, float]:
-        """Return the words of the bar, and the share of all logs that is done."""
+        """Return the text of the progress bar, and the share of the work that is done."""
         words, share = [f"{done} of {total} logs"], float(done)
         for entry in self.running.values():
             if (event := entry.event) is not None:
@@ -400,23 +400,23 @@ def _threads(entry: Entry) -> int:
     "-o",
     "--output",
     metavar="DIR",
-    help="Folder of the run; of several, their folders' folder. [default: runs/NAME-OF-LOG]",
+    help="Folder of the run; for several logs, the parent of their folders. [default: runs/NAME-OF-LOG]",
 )
-@click.option("--resume", is_flag=True, help="Go on with the run in DIR, bit for bit as if it had never stopped.")
+@click.option("--resume", is_flag=True, help="Resume the run in DIR, bit for bit as if it had never stopped.")
 @click.option("--force", is_flag=True, help="Replace the run in DIR.")
 def infer(call: Call[InferSettings], logs: tuple[str, ...], output: str | None, resume: bool, force: bool) -> None:
     r"""Infer the walls from LOG: a CARMEN log, a ROS 1 or ROS 2 bag, MCAP, g2o, CSV or .npz of range scans.
 
-    A cell's state is by default a reflectivity (the chance that it stops a beam) and the place of the surface in it,
-    and the sensor is fitted to the log; with --cells binary a cell is a wall or free, and --sensor fit says so.
+    By default a cell has a reflectivity (the chance that it stops a beam) and the position of a surface. The sensor is
+    fitted to the log. With --cells binary a cell is a wall or free, and the sensor is fitted only with --sensor fit.
 
-    Leaves in DIR the saved run (run.nc), a picture (posterior.png), the map for nav2 (map.yaml), the JSON document
-    (summary.json) and the settings (config.toml). The run is saved at the end of warm-up, every 30 seconds, and on
-    Ctrl-C; --resume goes on, with the settings that the run was started with.
+    The command writes into DIR the saved run (run.nc), a picture (posterior.png), the map for nav2 (map.yaml), the JSON
+    document (summary.json) and the settings (config.toml). The run is saved at the end of warm-up, every 30 seconds,
+    and on Ctrl-C. --resume continues it with its original settings.
 
-    Several logs, a folder of them or a quoted pattern are inferred each into a folder of its own, under -o or runs/;
-    one that cannot be is named, and the exit code is then 1. With --executor ray chains run on a Ray cluster, and of
-    several logs each is a task of its own.
+    Several logs, a folder of logs or a quoted pattern are each inferred into their own folder, under -o or runs/. If a
+    log fails, the table names it, and the exit code is 1. With --executor ray chains run on a Ray cluster; each of
+    several logs is one task.
 
     \b
     bayesmap infer office.log.gz -o runs/office
@@ -428,7 +428,7 @@ def infer(call: Call[InferSettings], logs: tuple[str, ...], output: str | None, 
     """
     if resume and force:
         raise click.UsageError("--resume goes on with a run and --force replaces it: give one of them")
-    # Several logs are a fleet.
+    # Several logs form a fleet.
     several = logs_of(logs)
     if several is not None:
         infer_fleet(call, several, Path(output or "runs"), resume=resume, force=force)
@@ -444,7 +444,7 @@ def infer(call: Call[InferSettings], logs: tuple[str, ...], output: str | None, 
     go_on = shlex.join(["bayesmap", "infer", log, "-o", str(folder), "--resume"])
     try:
         document = pipeline.infer_log(task, executor=executor, go_on=go_on)
-    except KeyboardInterrupt:  # while setting up, or once more while the chains were being stopped
+    except KeyboardInterrupt:  # during set-up, or a second Ctrl-C while the chains stop
         if (task.folder.begun or resume) and task.folder.run.exists():
             call.console.say(f"the last checkpoint is kept; go on with:\n  {go_on}")
         raise

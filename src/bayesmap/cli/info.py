@@ -1,4 +1,4 @@
-"""``bayesmap info`` and ``bayesmap config``: what is in a file, and which settings hold."""
+"""``bayesmap info`` and ``bayesmap config``: print the contents of a file, and the effective settings."""
 
 from __future__ import annotations
 
@@ -21,10 +21,10 @@ from bayesmap.version import __version__
 @takes(None)
 @click.argument("file")
 def info(call: Call[Settings], file: str) -> None:
-    r"""Say what is in FILE: a log, a robot's recording (a file or a folder), or a saved run.
+    r"""Describe FILE: a log, a robot's recording (a file or a folder), or a saved run.
 
-    For a recording it lists topics and frames, describes the scans, names the topics that can give poses, and prints
-    the command that infers a map. Damaged and malformed messages are counted, and the rest is described.
+    For a recording the command lists topics and frames, describes the scans, names the topics that can give poses, and
+    prints the command that infers a map. It counts damaged and malformed messages, and describes the others.
 
     \b
     bayesmap info recording.mcap
@@ -39,10 +39,10 @@ def info(call: Call[Settings], file: str) -> None:
 
 
 def is_saved_run(file: str) -> bool:
-    """Return whether a file begins as saved runs do.
+    """Return whether a file has the first bytes of a saved run.
 
     Raises:
-        BadInput: it cannot be read.
+        BadInput: the file cannot be read.
     """
     from bayesmap.io.logs import SAVED_RUNS
 
@@ -82,7 +82,7 @@ def _log(file: str) -> dict[str, Any]:
 
 
 def _lines(document: dict[str, Any]) -> list[str]:
-    """Return the document as lines of text."""
+    """Return a description as lines of text."""
     lines = [f"{document['path']}: {document['format']}"]
     if document.get("duration_s") is not None:
         lines[0] += f", {document['duration_s']:,.1f} s"
@@ -109,6 +109,7 @@ def _lines(document: dict[str, Any]) -> list[str]:
 
 
 def _run_lines(run: dict[str, Any]) -> list[str]:
+    """Return grid, method and fitted parameters of a run as lines."""
     from bayesmap.cli.folder import work_done
 
     (nx, ny), resolution = run["grid"]["shape"], run["grid"]["resolution"]
@@ -128,7 +129,7 @@ def _run_lines(run: dict[str, Any]) -> list[str]:
 
 
 def _sensor_words(sensor: dict[str, Any]) -> str:
-    """Describe the numbers of a beam mixture in words."""
+    """Return the parameters of a beam mixture in words."""
     from bayesmap.sensors.builtin import from_description
 
     model = from_description(sensor)
@@ -142,6 +143,7 @@ def _sensor_words(sensor: dict[str, Any]) -> str:
 
 
 def _sensor_lines(sensor: dict[str, Any]) -> list[str]:
+    """Return scans, ranges and poses of a sensor as lines."""
     name = sensor.get("topic") or sensor.get("message") or "readings"
     if sensor.get("error"):
         return [f"scans on {name}: {sensor['scans']:,}, which cannot be used: {sensor['error']}"]
@@ -168,6 +170,7 @@ def _sensor_lines(sensor: dict[str, Any]) -> list[str]:
 
 
 def _rest(sensor: dict[str, Any]) -> list[str]:
+    """Return the number of skipped messages and the notes of a sensor as lines."""
     skipped = sensor.get("skipped")
     left_out = [f"  {skipped:,} malformed messages or lines are left out"] if skipped else []
     return left_out + [f"  note: {note}" for note in sensor.get("notes", [])]
@@ -177,7 +180,7 @@ def _rest(sensor: dict[str, Any]) -> list[str]:
 def config(call: Call[Settings]) -> None:
     r"""Print the effective settings as TOML, ready for -c.
 
-    One table for each command. Keys outside the tables hold for every command that has them.
+    The output has one table per command. Keys outside the tables apply to every command that has them.
 
     \b
     bayesmap config > my.toml
@@ -195,5 +198,5 @@ def config(call: Call[Settings]) -> None:
 
 
 def _as_json(value: Value) -> Value:
-    """Return a value as JSON takes it: infinity becomes a text, which `--set` reads."""
+    """Return a value for JSON. Infinity becomes a text, which `--set` can read."""
     return str(value) if isinstance(value, float) and not math.isfinite(value) else value

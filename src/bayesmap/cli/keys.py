@@ -1,8 +1,8 @@
-"""Every setting that a user can make, once: flags, TOML keys, ``--set`` and their help are made from these classes.
+"""The settings of all commands. Flags, TOML keys, ``--set`` and help texts are generated from these classes.
 
-Each command has a class of settings. A setting has a type, a rule that its value keeps (`Rule`), a line of help
-(`Help`) and a default. Choices are written out because the modules that define them load NumPy and SciPy, and
-``--help`` must not wait for these; a test holds the two equal.
+Each command has a class of settings. A setting has a type, a rule for its value (`Rule`), a line of help (`Help`) and
+a default. The choices are repeated here because the modules that define them load NumPy and SciPy, which would slow
+``--help`` down. A test checks that both lists are equal.
 """
 
 import math
@@ -19,16 +19,16 @@ from bayesmap.errors import BadInput
 Value = bool | int | float | str | None
 
 MOST = 10**9
-"""The largest number of anything that is counted."""
+"""The largest value of any whole number, except the seed."""
 
 
 @dataclass(frozen=True)
 class Rule:
-    """A condition that a value must keep, beyond its type.
+    """A condition on a value, beyond its type.
 
     Attributes:
-        holds: whether it is.
-        words: what it must be, to follow "must be".
+        holds: returns whether a value satisfies the rule.
+        words: end of the error message "must be ...".
     """
 
     holds: Callable[[Any], bool]
@@ -41,8 +41,8 @@ class Help:
 
     Attributes:
         text: one sentence.
-        unset: what happens where the setting has no value.
-        metavar: how the value is called.
+        unset: the value, or the behaviour, if the setting has no value.
+        metavar: placeholder of the value in the help, such as METRES.
     """
 
     text: str
@@ -88,11 +88,11 @@ class Settings(msgspec.Struct, kw_only=True, frozen=True):
 
 
 class ReadingSettings(Settings, kw_only=True, frozen=True):
-    """How a log is read. A run is scored on its own log read as it was for the run."""
+    """Settings for reading a log. To score a run, read its log with the settings of the run."""
 
     no_return: Annotated[
         Annotated[float, Rule(lambda x: not math.isnan(x), "the log's number in metres, or inf if it has none")] | None,
-        Help("What the log writes for no return; inf: nothing.", "found in the log", "METRES"),
+        Help("Number that means no return in the log; inf: none.", "found in the log", "METRES"),
     ] = None
     skip_bad_lines: Annotated[bool, Help("Leave out malformed lines and messages instead of refusing the log.")] = False
     scan_topic: Annotated[
@@ -105,11 +105,11 @@ class ReadingSettings(Settings, kw_only=True, frozen=True):
         str | None, Help("Frame of the map in a recording's /tf.", "map, odom or world", "FRAME")
     ] = None
     laser: Annotated[str | None, Help("Where the laser sits on the robot.", "as the log says", "X,Y,DEGREES")] = None
-    deskew: Annotated[bool, Help("Give each beam the pose of its own time, by a recording's time_increment.")] = False
+    deskew: Annotated[bool, Help("Give each beam the pose of its own time, from a recording's time_increment.")] = False
     thin_scans: Annotated[
         float,
         Rule(lambda x: 0 <= x < math.inf, "0 or a positive number of metres"),
-        Help("Keep a scan each time the robot has gone this far; 0: all.", metavar="METRES"),
+        Help("Keep one scan each time the robot has moved this far; 0: all.", metavar="METRES"),
     ] = 0.0
 
 
@@ -118,9 +118,9 @@ class SamplingSettings(ReadingSettings, kw_only=True, frozen=True):
 
     resolution: Annotated[Length, Help("Edge of a cell in metres.")] = 0.1
     max_range: Annotated[
-        Length | None, Help("Longer readings are no return.", "the longest hit of the log", "METRES")
+        Length | None, Help("Treat longer readings as no return.", "the longest hit of the log", "METRES")
     ] = None
-    cells: Annotated[Cells, Help("A cell's state: reflectivity with or without a surface, or a wall.")] = "surface"
+    cells: Annotated[Cells, Help("State of a cell: reflectivity with or without a surface, or a wall.")] = "surface"
     chains: Chains = 4
     warmup: Warmup = 50
     draws: Annotated[
@@ -132,10 +132,10 @@ class SamplingSettings(ReadingSettings, kw_only=True, frozen=True):
     precision: Annotated[
         float | None,
         Rule(lambda x: 0 < x < 1, "a probability between 0 and 1"),
-        Help("Chains stop when 99 of 100 cells are known so well.", "0.03; with draws given, none", "P"),
+        Help("Stop chains when 99 of 100 cells have this standard error or less.", "0.03; with draws given, none", "P"),
     ] = None
     seed: Seed = 0
-    sensor: Annotated[str, Help("Sensor model: fit, or such as mixture:0.02 (see above).", metavar="MODEL")] = "default"
+    sensor: Annotated[str, Help("Sensor model: fit, or e.g. mixture:0.02 (see above).", metavar="MODEL")] = "default"
     hit_depth: Annotated[
         Share | None, Help("Where in a cell a beam stops, from 0 (its near edge) to 1.", "0.5; binary 0.25")
     ] = None
@@ -154,7 +154,7 @@ class InferSettings(SamplingSettings, kw_only=True, frozen=True):
 
     grid: Annotated[
         str | None,
-        Help("Take the cells of this map, whatever --resolution.", "poses, hits and 0.5 m around", "MAP.yaml"),
+        Help("Use the cells of this map and ignore --resolution.", "poses, hits and 0.5 m around", "MAP.yaml"),
     ] = None
     method: Annotated[Method, Help("Sampler; block suits rare walls, propagate is instant but rough.")] = "gibbs"
     order: Annotated[Order, Help("Order of the cells in a sweep.")] = "radial"
@@ -167,8 +167,8 @@ class InferSettings(SamplingSettings, kw_only=True, frozen=True):
         Rule(lambda x: x == "fit" or 0 <= x <= 50, "a number from 0 to 50, or fit"),
         Help("Coupling of neighbouring cells: a number, or (binary) fit.", "0: independent", "NATS"),
     ] = None
-    holdout: Annotated[Every, Help("Hold out every n-th scan, and score it; 0: none.", metavar="N")] = 0
-    executor: Annotated[str, Help("threads, or ray[://HOST:PORT]: on a Ray cluster.", metavar="WHERE")] = "threads"
+    holdout: Annotated[Every, Help("Hold out every n-th scan and score it; 0: none.", metavar="N")] = 0
+    executor: Annotated[str, Help("Run chains in threads, or on Ray: ray[://HOST:PORT].", metavar="WHERE")] = "threads"
 
 
 class SlamSettings(SamplingSettings, kw_only=True, frozen=True):
@@ -176,10 +176,8 @@ class SlamSettings(SamplingSettings, kw_only=True, frozen=True):
 
     draws: Annotated[Count | None, Help("Maps that each chain keeps, at most.", "50, to 200 for few beams")] = None
     thin: Annotated[Count, Help("Sweeps from one kept map to the next.")] = 1
-    fast: Annotated[bool, Help("Stop after the approximate trajectory: the map then takes it as known.")] = False
-    no_odometry: Annotated[bool, Help("Neither read nor need the log's poses; scans must come at 5 Hz or more.")] = (
-        False
-    )
+    fast: Annotated[bool, Help("Stop after the approximate trajectory, and infer the map as if it were known.")] = False
+    no_odometry: Annotated[bool, Help("Do not use the log's poses; scans must come at 5 Hz or more.")] = False
 
 
 class SimulateSettings(Settings, kw_only=True, frozen=True):
@@ -192,8 +190,8 @@ class SimulateSettings(Settings, kw_only=True, frozen=True):
         None
     )
     size: Annotated[str, Help("Size of a building, in metres.", metavar="WxD")] = "30x20"
-    scans: Annotated[Count, Help("Scans along a robot's round through a building.", metavar="N")] = 200
-    angles: Annotated[int | None, Help("Beams of a scan.", "100 in the tutorial, else 180", "N")] = None
+    scans: Annotated[Count, Help("Scans along the robot's path through a building.", metavar="N")] = 200
+    angles: Annotated[int | None, Help("Beams per scan.", "100 in the tutorial, else 180", "N")] = None
     fov: Annotated[float | None, Help("Field of view in degrees.", "360 in the tutorial, else 180", "DEGREES")] = None
     max_range: Annotated[
         Length | None, Help("Largest range of the sensor.", "42 in the tutorial, else 30", "METRES")
@@ -206,7 +204,7 @@ class SimulateSettings(Settings, kw_only=True, frozen=True):
     speed: Annotated[
         float,
         Rule(lambda x: 0 < x < math.inf, "a positive number of metres a second"),
-        Help("Speed of the robot with --odometry, for the stamps.", metavar="M_PER_S"),
+        Help("Speed of the robot, used for the time stamps with --odometry.", metavar="M_PER_S"),
     ] = 0.5
     seed: Seed = 0
 
@@ -234,22 +232,22 @@ class RenderSettings(ReadingSettings, kw_only=True, frozen=True):
         str | None, Help("Part of the map to draw, in metres, or: observed.", "all of it", "X0,X1,Y0,Y1")
     ] = None
     holdout: Annotated[
-        Every, Help("Every n-th scan of --heldout was held out; 0: another recording, whole.", metavar="N")
+        Every, Help("Every n-th scan of --heldout was held out; 0: use all scans of another recording.", metavar="N")
     ] = 10
 
 
 class ExportSettings(Settings, kw_only=True, frozen=True):
     """Settings of `export`."""
 
-    format: Annotated[Export, Help("What to write; auto: by the ending of -o.")] = "auto"
+    format: Annotated[Export, Help("Format of the file; auto: chosen by the ending of -o.")] = "auto"
     mode: Annotated[
         Mode | None, Help("Occupied, free and unknown; or per cent.", "trinary for map-server, scale for recordings")
     ] = None
     occupied_thresh: Annotated[
-        Share | None, Help("Above it a cell is occupied.", "walls 0.65, reflectivities 0.3; 1 with scale")
+        Share | None, Help("A cell above this probability is occupied.", "walls 0.65, reflectivities 0.3; 1 with scale")
     ] = None
     free_thresh: Annotated[
-        Share | None, Help("Below it a cell is free.", "walls 0.25, reflectivities 0.1; 0 with scale")
+        Share | None, Help("A cell below this probability is free.", "walls 0.25, reflectivities 0.1; 0 with scale")
     ] = None
 
 
@@ -258,7 +256,7 @@ class ScoreSettings(ReadingSettings, kw_only=True, frozen=True):
 
     holdout: Annotated[Every, Help("Every n-th scan was held out when the run was made.", metavar="N")] = 10
     resolution: Annotated[
-        Length, Help("Edge of a cell, in metres, of the map that is inferred for a trajectory without one.")
+        Length, Help("Edge of a cell in metres, for the map that is inferred if only a trajectory is given.")
     ] = 0.1
     seed: Seed = 0
     device: Device = "cpu"
@@ -270,7 +268,7 @@ class LocalizeSettings(ReadingSettings, kw_only=True, frozen=True):
     beam_weight: Annotated[
         Annotated[float, Rule(lambda x: 0 < x <= 1, "a number above 0, and 1 at most")] | None,
         Help(
-            "How much of an independent reading a beam is.",
+            "Weight of one beam, as a fraction of an independent reading.",
             "5.4 / beams; which of several places: 2.7, or as fitted to MAP.yaml",
         ),
     ] = None
@@ -289,18 +287,18 @@ class PlanSettings(Settings, kw_only=True, frozen=True):
     risk: Annotated[
         float,
         Rule(lambda x: 0 < x < 1, "a number above 0 and below 1"),
-        Help("Largest probability of touching something."),
+        Help("Largest accepted probability of touching something."),
     ] = 0.01
 
 
 class ExploreSettings(Settings, kw_only=True, frozen=True):
     """Settings of `explore`."""
 
-    candidates: Annotated[Count, Help("Places that are considered.")] = 200
-    views: Annotated[Count, Help("Best views to show, apart from each other.")] = 5
+    candidates: Annotated[Count, Help("Number of candidate poses.")] = 200
+    views: Annotated[Count, Help("Number of best views to show; views lie apart from each other.")] = 5
     radius: Radius = 0.25
     draws: Annotated[
-        Count, Help("Maps that are compared; more bring the bounds together, at the square of the work.")
+        Count, Help("Maps that are compared; more maps tighten the bounds; the work grows with their square.")
     ] = 50
     seed: Seed = 0
 
@@ -318,7 +316,7 @@ SECTIONS: Mapping[str, type[Settings]] = {
     "plan": PlanSettings,
     "explore": ExploreSettings,
 }
-"""The tables of a configuration file: one a command."""
+"""The tables of a configuration file: one per command."""
 
 
 @dataclass(frozen=True)
@@ -326,13 +324,13 @@ class Key:
     """One setting, as its class declares it.
 
     Attributes:
-        name: in TOML and for ``--set``; the flag is the same with dashes.
-        annotation: its type with all that stands beside it.
-        kind: bool, int, float or str; a number or the word of ``choices`` is a float.
-        choices: words that the value may be; none if it may be any of its kind.
-        default: its value unless the user says otherwise; None means what ``help.unset`` says.
-        help: what the help says of it.
-        rule: what the value must be.
+        name: name in TOML and for ``--set``; the flag has dashes instead of underscores.
+        annotation: the type, with its rules and help.
+        kind: bool, int, float or str; float also if the value is a number or the word in ``choices``.
+        choices: words that the value may be; empty if any value of this kind is allowed.
+        default: value if the user sets none; None has the meaning of ``help.unset``.
+        help: the help text.
+        rule: condition on the value, if there is one.
     """
 
     name: str
@@ -350,7 +348,7 @@ class Key:
 
     @property
     def words(self) -> str:
-        """Return the words that say what a value must be."""
+        """Return the end of the error message "must be ..."."""
         if self.rule is not None:
             return self.rule.words
         if self.choices:
@@ -359,12 +357,12 @@ class Key:
 
 
 class WrongValue(Exception):
-    """A value of another type than its key's; the text says which it must be."""
+    """A value of the wrong type; the message names the right one."""
 
 
 @cache
 def keys_of(section: str) -> tuple[Key, ...]:
-    """Return the settings of a command in the order in which they are shown: how a log is read comes last."""
+    """Return the settings of a command in the order of its help. The settings for reading a log come last."""
     settings = SECTIONS[section]
     of_reading = ReadingSettings.__struct_fields__ if issubclass(settings, ReadingSettings) else ()
     fields = sorted(msgspec.structs.fields(settings), key=lambda field: field.name in of_reading)
@@ -372,10 +370,11 @@ def keys_of(section: str) -> tuple[Key, ...]:
 
 
 def _key(name: str, annotation: Any, default: Value) -> Key:
-    """Return a setting by its annotation."""
+    """Return the setting that an annotation describes."""
     types: list[Any] = []
     beside: list[Any] = []
 
+    # Split the annotation, through unions and nesting, into types and what `Annotated` holds beside them.
     def look(part: Any) -> None:
         if get_origin(part) is Annotated:
             beside.extend(part.__metadata__)
@@ -395,11 +394,11 @@ def _key(name: str, annotation: Any, default: Value) -> Key:
 
 
 def checked(key: Key, value: Any) -> Value:
-    """Return a value as its key's type.
+    """Return a value, converted to its key's type.
 
     Raises:
-        WrongValue: it is of another type, or not one of the choices.
-        BadInput: it breaks its rule; the message names the flag, which is also how the setting is called elsewhere.
+        WrongValue: the value has another type, or is not one of the choices.
+        BadInput: the value breaks its rule; the message names the flag.
     """
     if key.kind is int and isinstance(value, float) and value.is_integer():
         value = int(value)

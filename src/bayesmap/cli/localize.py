@@ -1,4 +1,4 @@
-"""``bayesmap localize``: where in the map of a saved run was each scan of a log taken, and how sure is that?"""
+"""``bayesmap localize``: the posterior of the pose of each scan of a log, in the map of a saved run."""
 
 from __future__ import annotations
 
@@ -40,14 +40,14 @@ RECORDED = ("scan_topic", "pose_topic", "fixed_frame")
 @click.argument("run_file", metavar="RUN.nc|MAP.yaml")
 @click.argument("log")
 @click.option("-o", "--output", metavar="FILE", help=f"Trajectory: {', '.join(ENDINGS)}.")
-@click.option("--follow", is_flag=True, help="A JSON line on standard output for each scan, as it comes; see below.")
+@click.option("--follow", is_flag=True, help="Print a JSON line for each scan as it arrives; see below.")
 @click.option(
     "--for", "idle_s", type=click.FloatRange(min=0), metavar="SECONDS", help="With --follow: the longest wait."
 )
 @click.option("--prior", metavar="X,Y,DEGREES[,M,DEGREES]", help="First pose, and its standard deviations.")
-@click.option("--independent", is_flag=True, help="Locate each scan by itself; without the log's poses.")
-@click.option("--scans", "span", metavar="FIRST:LAST", help="Only these scans of the log, from 0; LAST is left out.")
-@click.option("--area", metavar="X0,X1,Y0,Y1", help="Also the probability of being in this rectangle, in metres.")
+@click.option("--independent", is_flag=True, help="Locate each scan by itself, without the log's poses.")
+@click.option("--scans", "span", metavar="FIRST:LAST", help="Only these scans of the log, from 0; LAST is excluded.")
+@click.option("--area", metavar="X0,X1,Y0,Y1", help="Also print the probability of being in this rectangle, in metres.")
 @click.option("--force", is_flag=True, help="Replace an existing file.")
 def localize(
     call: Call[LocalizeSettings],
@@ -62,7 +62,7 @@ def localize(
     area: str | None,
     force: bool,
 ) -> None:
-    r"""Locate the scans of LOG in the map of a saved run, or of another program: the posterior of each pose.
+    r"""Compute the posterior of the pose of each scan of LOG, in the map of a saved run or of another program.
 
     \b
     bayesmap localize runs/office/run.nc today.bag -o today.tum
@@ -70,16 +70,17 @@ def localize(
     bayesmap localize runs/office/run.nc today.bag --scans 0:1
     bayesmap localize map.yaml today.bag -o today.tum
 
-    With --follow LOG may be a CARMEN log or a CSV table that is being written: new lines are waited for until Ctrl-C,
-    or for as long as --for says. A pipe, or - for standard input, ends when its writer does. Other formats end where
-    the file ends.
+    With --follow LOG may be a CARMEN log or a CSV table that is still being written. The command then waits for new
+    lines until Ctrl-C, or for the seconds of --for. A pipe, or - for standard input, ends when its writer ends. Other
+    formats end at the end of the file.
 
-    The first scan may be anywhere on the map, unless --prior says where. From scan to scan the log's poses are taken
-    for odometry: only motions count. Answers: the likeliest place with its covariance, all places with their
-    probabilities, and the probability of being lost: that the scan is as scans are elsewhere, or the map outdated.
+    The first scan may be anywhere on the map, unless --prior gives its pose. The log's poses serve as odometry: only
+    motions between scans count. The command returns the likeliest pose with its covariance, all likely poses with
+    their probabilities, and the probability of being lost: the scan comes from outside the map, or the map is outdated.
 
-    A map of another program (map_server YAML) says nothing of the sensor or of its own errors: a law is fitted to those
-    scans of LOG that are surely located under a wary one, and told. With --follow the wary law is taken.
+    A map of another program (map_server YAML) has no sensor law. The command first locates scans under a cautious
+    sensor law. It fits the final law to the scans located with certainty, and prints it. With --follow it keeps the
+    cautious law.
     """
     # Check what was typed.
     if idle_s is not None and not follow:
@@ -122,7 +123,14 @@ def localize(
 
 @dataclass(frozen=True, eq=False)
 class _Question:
-    """The scans of a log (FIRST:LAST, None for all) that are to be located in a map, and a prior of the first pose."""
+    """The scans of a log that are to be located in a map.
+
+    Attributes:
+        call, log, map: the call of the command, the path of the log, and the map.
+        span: scans to locate, as FIRST:LAST; None for all.
+        near: prior of the first pose; None if it may be anywhere.
+        independent: locate each scan by itself.
+    """
 
     call: Call[LocalizeSettings]
     log: str
@@ -133,12 +141,12 @@ class _Question:
 
     @property
     def options(self) -> dict[str, Any]:
-        """Return the arguments that all localizations take."""
+        """Return the arguments that both ways of localization share."""
         return {"prior": self.near, "independent": self.independent, "seed": self.call.settings().seed}
 
 
 def _locate(question: _Question, tell: Callable[[int, PoseBelief], bool] | None) -> Localization:
-    """Locate the scans that a log holds now; ``tell`` is given the posterior of each."""
+    """Locate the scans that a log holds now; ``tell`` is called with the posterior of each."""
     from bayesmap.io.logs import describe_log
     from bayesmap.localization.localize import localize
 
@@ -162,10 +170,10 @@ def _locate(question: _Question, tell: Callable[[int, PoseBelief], bool] | None)
 def _locate_live(
     question: _Question, idle_s: float | None, tell: Callable[[int, PoseBelief], bool]
 ) -> tuple[Localization, bool]:
-    """Locate the scans of a log as they come, until there are no more, nobody listens, or Ctrl-C.
+    """Locate the scans of a log as they arrive, until the log ends, the reader closes the output, or Ctrl-C.
 
     Returns:
-        All posteriors, and whether Ctrl-C was the end.
+        All posteriors, and whether Ctrl-C ended the localization.
     """
     from bayesmap.localization.localize import Localization, follow_live
 
@@ -174,6 +182,7 @@ def _locate_live(
     beliefs: list[PoseBelief] = []
     interrupted = False
     try:
+        # Prepare the map with the first scan: an external map takes the law of readings from it.
         for first in scans:
             known = question.map.known(question.call.console, first, live=True)
             for belief in follow_live(known, itertools.chain([first], scans), **question.options):
@@ -201,7 +210,7 @@ class _RunMap:
         return self.run.posterior.scans.max_range_m
 
     def known(self, console: Console, scans: Scans, live: bool) -> KnownMap:
-        """Return the map, ready to locate scans in."""
+        """Return the map in the form in which scans are located."""
         from bayesmap.localization.known_map import KnownMap
 
         return KnownMap.of_run(self.run, beam_weight=self.settings.beam_weight, device=self.settings.device)
@@ -209,18 +218,18 @@ class _RunMap:
 
 @dataclass(frozen=True, eq=False)
 class _ExternalMap:
-    """The map of another program: its occupancy, (nx, ny), NaN where unknown, and its grid."""
+    """The map of another program: its wall probabilities, (nx, ny), NaN where unknown, and its grid."""
 
     occupancy: NDArray[np.float64]
     grid: Grid
     settings: LocalizeSettings
 
     def max_range_m(self, live: bool) -> float | None:
-        """Return the largest range of the sensor: live the map's diagonal, else None, which means that of the log."""
+        """Return the largest range: the map's diagonal for a live log, otherwise None, which takes that of the log."""
         return self.grid.resolution * math.hypot(*self.grid.shape) if live else None
 
     def known(self, console: Console, scans: Scans, live: bool) -> KnownMap:
-        """Return the map, ready to locate scans in: its law is fitted to the scans, or assumed while they come."""
+        """Return the map with a sensor law: fitted to the scans, or the cautious default for a live log."""
         from bayesmap.localization.external_map import external_map, fit_law
 
         settings, law = self.settings, None
@@ -237,7 +246,7 @@ _Map = _RunMap | _ExternalMap
 
 
 def _map_of(file: str, settings: LocalizeSettings) -> _Map:
-    """Read a map, by the ending of its name."""
+    """Read a map; the ending of its name tells a saved run from a map of another program."""
     if is_map(file):
         from bayesmap.io.ros.maps import read_map
 
@@ -251,6 +260,7 @@ def _map_of(file: str, settings: LocalizeSettings) -> _Map:
 
 
 def _answer(belief: PoseBelief, corners: list[float] | None) -> dict[str, Any]:
+    """Return a posterior as JSON values, with the probability of the area if there is one."""
     answer = belief.as_json()
     if corners is not None:
         answer["probability_in_area"] = belief.probability_in(corners)  # type: ignore[arg-type]
@@ -258,6 +268,7 @@ def _answer(belief: PoseBelief, corners: list[float] | None) -> dict[str, Any]:
 
 
 def _lines(found: Localization, corners: list[float] | None) -> list[str]:
+    """Return the posterior of the last pose as lines of text: at most five modes, lost, and the area."""
     lines = []
     for mode in found.modes[:5]:
         (x, y, yaw), sd = mode.mean, [math.sqrt(v) for v in mode.covariance.diagonal()]
@@ -272,13 +283,14 @@ def _lines(found: Localization, corners: list[float] | None) -> list[str]:
 
 
 def _per_cent(probability: float) -> str:
-    """Return a probability in per cent: two digits of a small one, one decimal of others."""
+    """Return a probability in per cent: two significant digits below 10 %, one decimal above."""
     if 0.0 < probability < 1e-4:
         return "under 0.01"
     return f"{100 * probability:.2g}" if probability < 0.1 else f"{100 * probability:.1f}"
 
 
 def _write(target: Path, found: Localization) -> list[Path]:
+    """Write the trajectory, or all posteriors for .jsonl, and return the paths."""
     from bayesmap.files import write_whole
     from bayesmap.io.exports import export_trajectory
 
@@ -291,6 +303,7 @@ def _write(target: Path, found: Localization) -> list[Path]:
 
 
 def _target(output: str, force: bool) -> Path:
+    """Return the output path, after checking its ending and that it may be written."""
     target = Path(output)
     if target.suffix.lower() not in ENDINGS:
         raise click.UsageError(f"-o {output}: end its name in one of {', '.join(ENDINGS)}")
@@ -299,6 +312,7 @@ def _target(output: str, force: bool) -> Path:
 
 
 def _near(text: str | None) -> Near | None:
+    """Return the prior of the first pose that --prior describes."""
     from bayesmap.localization.localize import Near
 
     if text is None:
@@ -309,6 +323,7 @@ def _near(text: str | None) -> Near | None:
 
 
 def _area(text: str | None) -> list[float] | None:
+    """Return the corners of the rectangle that --area describes, in metres."""
     if text is None:
         return None
     x0, x1, y0, y1 = corners = numbers_of(text, "--area", "X0,X1,Y0,Y1", (4,))
@@ -318,7 +333,7 @@ def _area(text: str | None) -> list[float] | None:
 
 
 def _span(text: str | None, count: int | None = None) -> slice:
-    """Return FIRST:LAST, as typed, as a slice of so many scans; None: of scans to come, which have no last one."""
+    """Return FIRST:LAST as a slice of ``count`` scans; None for a live log, whose number of scans is not known."""
     first, colon, last = (text or ":").partition(":")
     try:
         span = slice(int(first) if first else None, int(last) if last else None)
@@ -348,7 +363,7 @@ def can_follow(console: Console, log: str) -> bool:
 
 
 def scans_to_come(question: _Question, idle_s: float | None) -> Iterator[Scans]:
-    """Return the scans of a log that is still written, one at a time, until none has come for ``idle_s`` seconds.
+    """Return the scans of a log that is still being written, one at a time, until none arrives for ``idle_s`` seconds.
 
     Raises:
         BadInput: a setting that only recordings have.
@@ -376,7 +391,7 @@ def scans_to_come(question: _Question, idle_s: float | None) -> Iterator[Scans]:
 
 
 def _thinned(scans: Iterable[Scans], spacing_m: float) -> Iterator[Scans]:
-    """Yield the first scan, and then each by which the robot has travelled so far since the last one kept."""
+    """Yield the first scan, and then a scan each time the robot has travelled ``spacing_m``."""
     travelled_m, at = math.inf, None
     for scan in scans:
         x, y = scan.poses[0, :2]

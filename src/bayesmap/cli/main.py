@@ -1,4 +1,4 @@
-"""The entry point. It loads the commands only when Ctrl-C has been given a meaning."""
+"""The entry point of the command line: install the Ctrl-C handler, then load and run the commands."""
 
 from __future__ import annotations
 
@@ -7,7 +7,8 @@ import os
 import signal
 import sys
 
-TYPE_CHECKING = False  # what is loaded here is loaded before Ctrl-C has a meaning: as little as can be
+# Imports above run before the Ctrl-C handler is installed, so keep them few.
+TYPE_CHECKING = False
 if TYPE_CHECKING:
     from types import FrameType
 
@@ -15,9 +16,9 @@ if TYPE_CHECKING:
 def main(arguments: list[str] | None = None) -> None:
     """Run the command line and exit.
 
-    Ctrl-C before a command has begun ends the process with one line: there is nothing to save. Python's own answer, an
-    exception wherever it happens to be, would show the insides of whatever module is being loaded. A process that
-    ignores Ctrl-C, as under nohup, goes on ignoring it.
+    Ctrl-C before a command begins ends the process with one line, since there is nothing to save. Python's default
+    handler would print a traceback from the module that is being loaded. A process that ignores Ctrl-C, as under
+    nohup, still ignores it.
     """
     if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
         signal.signal(signal.SIGINT, _end)
@@ -34,30 +35,30 @@ def main(arguments: list[str] | None = None) -> None:
     except SystemExit as done:
         with contextlib.suppress(OSError):
             sys.stdout.flush()
-        sys.stdout = sys.stderr  # what a library says while the process ends is no result
+        sys.stdout = sys.stderr  # keep what libraries print at exit out of the results
         if done.code == INTERRUPTED:
             _leave_interrupted()
         raise
 
 
 def _end(number: int, frame: FrameType | None) -> None:
-    """End the process at once, with one line: the answer to Ctrl-C while commands are loaded."""
+    """Handle Ctrl-C while commands are loaded: print one line and end the process at once."""
     try:
         os.write(2, b"bayesmap: error: interrupted\n")
-    finally:  # nobody may be reading
+    finally:  # standard error may be closed
         os._exit(130)
 
 
 def _raise_again() -> None:
-    """Make Ctrl-C an exception again, since a command begins."""
+    """Restore Python's handler, which raises KeyboardInterrupt. Called when a command begins."""
     if signal.getsignal(signal.SIGINT) is _end:
         signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 def _leave_interrupted() -> None:
-    """Exit with 130 whatever was interrupted: after some imports Python would end the process by the signal itself."""
+    """Exit with code 130 after Ctrl-C. After some imports Python would end the process by the signal instead."""
     for stream in (sys.stdout, sys.stderr):
-        with contextlib.suppress(OSError):  # nobody may be reading
+        with contextlib.suppress(OSError):  # the reader may have closed the stream
             stream.flush()
     os._exit(130)
 

@@ -1,4 +1,4 @@
-"""One log from its file to the folder of its run: read, split, take up, sample, leave or finish, report."""
+"""Infer one log into the folder of its run: read, split, load an earlier run, sample, finish, report."""
 
 from __future__ import annotations
 
@@ -33,9 +33,9 @@ class Task(Generic[S]):
     """One log that is to be inferred.
 
     Attributes:
-        log: as typed.
-        folder: of its run.
-        settings: of the command.
+        log: path of the log, as typed.
+        folder: folder of its run.
+        settings: settings of the command.
     """
 
     log: str
@@ -44,12 +44,12 @@ class Task(Generic[S]):
 
 
 def prepare(call: Call[S], log: str, path: Path, *, resume: bool, force: bool, begun: Layer | None = None) -> Task[S]:
-    """Check what was typed for one log, before anything is read or written.
+    """Check the arguments for one log before anything is read or written, and return its task.
 
-    ``begun`` are settings to resume with where the folder has none.
+    ``begun`` are the settings to resume with if the folder holds none.
 
     Raises:
-        BadInput: no such log, settings that do not fit together, or a folder that may not be written.
+        BadInput: no such log, inconsistent settings, or a folder that may not be written.
     """
     need_file(log, f"{LOG} (bayesmap info FILE says what is in one)", runs=False)
     folder = Folder(path, call.console, resuming=resume)
@@ -68,15 +68,15 @@ def infer_log(
     on_saved: Callable[[], None] = lambda: None,
     on_event: Callable[[Event], None] = lambda event: None,
 ) -> dict[str, Any]:
-    """Infer one log into its folder, and say what came out.
+    """Infer one log into its folder, print a report, and return the JSON document.
 
     Args:
         task: the log, its folder and settings.
         reading: the log, if it has been read already.
-        executor: where chains run.
-        go_on: the command that goes on with the run, to be said after Ctrl-C.
+        executor: object that runs the chains; None: this process.
+        go_on: the command that resumes the run, printed after Ctrl-C.
         on_saved: called after each checkpoint.
-        on_event: called with how far the run is, as the bar is.
+        on_event: called with the progress of the run, like the progress bar.
 
     Returns:
         The JSON document of the run. After Ctrl-C its "finished" is false.
@@ -87,7 +87,7 @@ def infer_log(
         reading = read(folder.console, task.log, task.settings)
     # Split off the scans that are held out.
     train, heldout = reading.scans.holdout(every) if every else (reading.scans, None)
-    # Take up the run that is in the folder.
+    # Load the run to resume.
     saved = taken_up(folder) if folder.resuming else None
     # Sample the posterior, with checkpoints.
     run = sample(task, reading.scans, train, saved, executor, on_saved, on_event)
@@ -110,17 +110,17 @@ def stem(log: str) -> str:
 
 
 def settings_of(folder: Folder, section: str) -> Layer:
-    """Return what the run in the folder was started with, or the run that is to replace it; nothing without either."""
+    """Return the settings of the run in the folder, or of the run that replaces it; empty if there is neither."""
     return settings_in(folder.outdated if folder.outdated.exists() else folder.config, section)
 
 
 def settings_in(config: Path, section: str) -> Layer:
-    """Return a command's settings in a file; none if there is no file."""
+    """Return a command's settings from a file; empty if there is no file."""
     return {k: v for k, v in read_file(config).items() if k == section} if config.exists() else {}
 
 
 def taken_up(folder: Folder) -> Run | None:
-    """Load the run to go on with; None if it was stopped before its first checkpoint."""
+    """Load the run to resume; None if it was stopped before its first checkpoint."""
     from bayesmap.result import load
 
     if not folder.run.exists():
@@ -132,7 +132,7 @@ def taken_up(folder: Folder) -> Run | None:
 
 
 def read(console: Console, log: str, settings: SamplingSettings, *, without_poses: bool = False) -> LogReading:
-    """Read a log, and say what is in it."""
+    """Read a log, and print a summary of it."""
     from bayesmap.io.logs import describe_log
 
     options = translation.reading_of(settings)
@@ -164,9 +164,9 @@ def sample(
     on_saved: Callable[[], None],
     on_event: Callable[[Event], None],
 ) -> Run:
-    """Infer from the training scans, with checkpoints in the folder; ``scans`` are all of the log, and lay the grid.
+    """Infer from the training scans, with checkpoints in the folder. The grid covers ``scans``, all scans of the log.
 
-    ``on_saved`` is called after each checkpoint, ``on_event`` with how far the run is.
+    ``on_saved`` is called after each checkpoint, ``on_event`` with the progress of the run.
     """
     from bayesmap.api import Event, infer
     from bayesmap.arguments import Checkpoints, Where
@@ -174,27 +174,29 @@ def sample(
     from bayesmap.space.grid import Grid
 
     folder, settings = task.folder, task.settings
+    # Choose the grid.
     if saved is not None and settings.grid is not None and not os.path.exists(settings.grid):
-        grid = saved.grid  # the map that named the cells has gone, or the path was one from elsewhere
+        grid = saved.grid  # the map of --grid is gone, or its path belongs to another machine
     elif settings.grid is None:
-        # It holds the held-out scans too: the map shall be the same, and have a cell for each reading to score.
+        # Held-out scans count too: the map must not depend on the split, and needs a cell for each scored reading.
         grid = Grid.covering(scans, settings.resolution)
     else:
         _, grid = read_map(settings.grid)
     folder.console.say(f"grid: {grid.shape[0]} x {grid.shape[1]} cells of {grid.resolution:g} m")
+    # Complete the settings, and sample.
     settings = translation.with_schedule(settings, train.n_beams, grid.n_cells)
     toml = as_toml({"infer": settings})
-    with progress(folder.console, "tracing beams") as report:
+    with progress(folder.console, "tracing beams") as show:
 
         def on_progress(event: Event) -> None:
             if event.stage not in SETTING_UP:
                 folder.begin(toml)
-            report(event)
+            show(event)
             on_event(event)
 
         def on_checkpoint(run: Run) -> None:
-            folder.begin(toml)  # a short warm-up may be over before anything was reported
-            folder.checkpoint(run, lambda done, total: report(Event("save", done, total)))
+            folder.begin(toml)  # a short warm-up may end before the first event
+            folder.checkpoint(run, lambda done, total: show(Event("save", done, total)))
             on_saved()
 
         run = infer(
@@ -211,17 +213,17 @@ def sample(
             on_progress=on_progress,
         )
     if run.finished or run.posterior.sweep > 0 or not folder.run.exists():
-        folder.begin(toml)  # else there is nothing that could take an older run's place
+        folder.begin(toml)  # otherwise no sweep is done, and an older run keeps its place
     return run
 
 
 def score_of(console: Console, run: Run, heldout: Scans | None, every: int) -> dict[str, Any] | None:
-    """Score the scans that were held out."""
+    """Score the held-out scans; None if there are none."""
     if heldout is None:
         return None
     valid = heldout.n_beams - heldout.counts()["invalid"]
-    with stage(console, "score") as report:
-        nats = run.log_score(heldout, on_progress=report)
+    with stage(console, "score") as on_progress:
+        nats = run.log_score(heldout, on_progress=on_progress)
     return {"every": every, "beams": valid, "nats_per_beam": nats}
 
 
@@ -238,7 +240,7 @@ def document_of(run: Run, reading: LogReading, score: dict[str, Any] | None, out
 
 
 def report(console: Console, document: dict[str, Any]) -> None:
-    """Say what came out."""
+    """Print the work, the log joint, the held-out score and the problems of a run."""
     from bayesmap.cli.folder import work_done
 
     seconds, joint = document["seconds"], document["log_joint"]
@@ -256,9 +258,9 @@ def report(console: Console, document: dict[str, Any]) -> None:
 
 
 def leave(folder: Folder, run: Run, reading: LogReading, go_on: str | None) -> dict[str, Any]:
-    """Keep the chains of an interrupted run and its map so far, and say how to go on; returns the JSON document."""
+    """Save an interrupted run and its map so far, print how to resume it, and return the JSON document."""
     kept: list[Path] = []
-    # Chains that were stopped before their first sweep may have half a warm start: better none than that.
+    # Chains stopped before their first sweep may have an incomplete start, so they are not saved.
     if run.posterior.sweep > 0:
         kept = folder.write_products(run)
         done = counted(run.posterior.sweep, "sweep")
@@ -275,7 +277,7 @@ def leave(folder: Folder, run: Run, reading: LogReading, go_on: str | None) -> d
 
 
 def end(call: Call[Any], document: dict[str, Any], *, strict: bool) -> None:
-    """Print the result; exit with 130 if the run was interrupted, and if strict with 4 if it has problems."""
+    """Print the result. Exit with 130 if the run was interrupted, or with 4 if it is strict and has problems."""
     call.console.result(document, document["outputs"].values())
     if not document["finished"]:
         click.get_current_context().exit(INTERRUPTED)
@@ -284,7 +286,7 @@ def end(call: Call[Any], document: dict[str, Any], *, strict: bool) -> None:
 
 
 def finish(folder: Folder, run: Run, reading: LogReading, heldout: Scans | None, every: int) -> dict[str, Any]:
-    """Save a finished run, draw and score it, and keep its JSON document, which is returned."""
+    """Save, draw and score a finished run, write its JSON document, and return the document."""
     outputs = folder.write_products(run)
     score = score_of(folder.console, run, heldout, every)
     with progress(folder.console, "comparing the chains"):

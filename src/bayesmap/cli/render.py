@@ -1,4 +1,4 @@
-"""``bayesmap render`` and ``bayesmap export``: a saved run as pictures and films, and as files for other programs."""
+"""``bayesmap render`` and ``bayesmap export``: write a saved run as pictures, films, and files for other programs."""
 
 from __future__ import annotations
 
@@ -29,16 +29,16 @@ if TYPE_CHECKING:
     """Walls, or reflectivities in [0, 1]."""
 
 NAMES = {"figure": "posterior.png", "animation": "chain.gif"}
-"""Names of pictures unless the user says otherwise; the others are called what they show."""
+"""Default file names. Other pictures take the name of their kind, such as mean.png."""
 
 WHOLE = ("figure", "animation", "trace", "weights")
-"""Pictures that take no window."""
+"""Pictures that always show the whole map."""
 
 
 @takes("render")
 @click.argument("run_file", metavar="RUN.nc")
 @click.option("-o", "--output", metavar="FILE", help=".png, .pdf, .svg; .gif, .webp. [default: beside RUN.nc]")
-@click.option("--truth", metavar="MAP.yaml", help="Outline the true walls, a map_server map.")
+@click.option("--truth", metavar="MAP.yaml", help="Outline the true walls of this map_server map.")
 @click.option("--heldout", metavar="LOG", help="The log that the run was made from, or another of the same place.")
 def render(
     call: Call[RenderSettings], run_file: str, output: str | None, truth: str | None, heldout: str | None
@@ -48,19 +48,18 @@ def render(
     An older picture of the same name is replaced.
 
     \b
-    figure                  mean, how sure, readings and one draw
+    figure                  mean, uncertainty, readings and one draw
     mean, entropy, draw     one panel
-    deviation, width        how sure: the standard deviation of a wall's
-                            probability, the width of the 90 % interval of
-                            a reflectivity
+    deviation, width        uncertainty: standard deviation of a wall, width
+                            of the 90 % interval of a reflectivity
     residuals, surprise     held-out beams (--heldout LOG) over the map: reading
                             minus predicted median, and minus log score
     log-odds                the posterior beside the classic log-odds map
-    surfaces                a stroke a cell, where its hits lie
-    trace, weights          of the log joint; of importance sampling
-    animation               of a chain
+    surfaces                one stroke per cell, where its hits lie
+    trace, weights          trace of the log joint, importance weights
+    animation               film of a chain
 
-    LOG is read as it was for the run: give the same --no-return, topics, --deskew and --thin-scans as to infer.
+    Read LOG as for the run: give the same --no-return, topics, --deskew and --thin-scans as to infer.
     """
     from bayesmap.result import load
     from bayesmap.viz.figure import write_figure
@@ -69,11 +68,12 @@ def render(
     what = settings.what
     target = Path(output) if output else Path(run_file).with_name(NAMES.get(what, f"{what}.png"))
     run = load(run_file)
-    # Methods that compute marginals have an answer without a draw; chains in their warm-up have none.
+    # Methods that compute marginals have a map without draws; chains in warm-up have none.
     if run.n_draws == 0 and (what in ("draw", "animation") or run.posterior.has_chains):
         raise BadInput(f"{run_file}: the run has no draws yet; go on with it by bayesmap infer --resume")
     if settings.window is not None and what in WHOLE:
         raise BadInput(f"window: {what} shows the whole map; a single panel, such as --what mean, takes a window")
+    # Choose the part of the map, and draw.
     grid, window = part_of(run, settings.window)
     walls = None if truth is None else truth_on(grid, truth)
     if what == "animation":
@@ -108,7 +108,7 @@ def _whole_figure(run: Run, settings: RenderSettings, walls: Walls | None) -> Fi
 
 
 def _panel(run: Run, settings: RenderSettings, grid: Grid, window: tuple[slice, slice], walls: Walls | None) -> Figure:
-    """Draw one panel of a part of the map."""
+    """Draw a single panel of a part of the map."""
     from bayesmap.viz.figure import panel_figure
     from bayesmap.viz.overlays import surfaces_figure
 
@@ -141,7 +141,7 @@ def _panel(run: Run, settings: RenderSettings, grid: Grid, window: tuple[slice, 
 def _beams_figure(
     run: Run, scans: Scans, what: str, grid: Grid, window: tuple[slice, slice], on_progress: Callable[[float], None]
 ) -> Figure:
-    """Draw the end points of beams over the map: their residuals in metres, or their surprise in nats."""
+    """Draw the end points of held-out beams over the map, coloured by residual in metres or by surprise in nats."""
     from bayesmap.posterior.predictor import predictor_of, residuals_of
     from bayesmap.viz.scores import residuals_figure, surprise_scale
 
@@ -153,7 +153,7 @@ def _beams_figure(
 
 
 def one_draw(run: Run, chain: int, draw: int) -> Draw:
-    """Return a draw by its number and the number of its chain, from 1; draw -1 is the last.
+    """Return a draw. Chain and draw count from 1; draw -1 is the last.
 
     Raises:
         BadInput: there is no such chain or draw.
@@ -169,7 +169,7 @@ def one_draw(run: Run, chain: int, draw: int) -> Draw:
 
 
 def frames(run: Run, chain: int, most: int) -> tuple[Draw, list[int]]:
-    """Return draws of a chain, evenly spread, and the number of each."""
+    """Return at most ``most`` evenly spaced draws of a chain, and their numbers, from 1."""
     import numpy as np
 
     one_draw(run, chain, -1)
@@ -178,7 +178,7 @@ def frames(run: Run, chain: int, most: int) -> tuple[Draw, list[int]]:
 
 
 def truth_on(grid: Grid, path: str) -> Walls:
-    """Return the walls of a map_server map at the centres of another grid's cells; no walls outside of that map."""
+    """Return the walls of a map_server map at the cell centres of a grid, (nx, ny); none outside that map."""
     import numpy as np
 
     from bayesmap.io.ros.maps import read_map
@@ -194,10 +194,10 @@ def truth_on(grid: Grid, path: str) -> Walls:
 
 
 def part_of(run: Run, text: str | None) -> tuple[Grid, tuple[slice, slice]]:
-    """Return the part of the map that a window, as typed, leaves; all of it for None.
+    """Return the grid and the slices of the part of the map in a window; the whole map for None.
 
     Raises:
-        BadInput: neither four numbers nor "observed", or a window outside the map.
+        BadInput: a text other than four numbers or "observed", or a window outside the map.
     """
     from bayesmap.viz.maps import window, window_around
 
@@ -213,7 +213,7 @@ def part_of(run: Run, text: str | None) -> tuple[Grid, tuple[slice, slice]]:
 
 
 def log_odds_map(run: Run) -> tuple[NDArray[np.float64], Walls]:
-    """Compute the log-odds map of the run's scans, by OctoMap's numbers and unclamped, and the cells seen, (nx, ny)."""
+    """Compute the log-odds map of the run's scans, with OctoMap's numbers, unclamped, and a mask of the seen cells."""
     from bayesmap.kernels.counts import count_hits
     from bayesmap.posterior.baselines import log_odds_as_usual
 
@@ -234,15 +234,15 @@ def export(call: Call[ExportSettings], run_file: str, output: str | None, force:
     .yaml               map_server: YAML and image (--mode trinary, scale, raw)
     .bag, .mcap, .db3   occupancy grid in a recording, ROS 1 or 2; a name
                         without ending is a ROS 2 bag's folder;
-                        --format gridmap: all layers, as grid_map has them
-    .tif                GeoTIFF, a band a layer (needs bayesmap[geotiff])
+                        --format gridmap: all layers, for grid_map
+    .tif                GeoTIFF, one band per layer (needs bayesmap[geotiff])
     .rrd                layers and scans for rerun (needs bayesmap[rerun])
-    .tum                the poses, as evo reads them; covariances beside them
-    .g2o                the poses as a graph with information matrices
+    .tum                poses for evo, with covariances in a second file
+    .g2o                poses as a graph with information matrices
     --format trajectory nav_msgs/Path, and PoseWithCovarianceStamped, in a
                         recording
 
-    The layers are mean, entropy and, where a cell's state is a number, the bounds of its 90 % interval.
+    The layers are mean and entropy. If the state of a cell is a number, the bounds of its 90 % interval are layers too.
     """
     import numpy as np
 

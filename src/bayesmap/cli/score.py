@@ -1,4 +1,4 @@
-"""``bayesmap score``: how well do maps predict unseen beams, how good are poses, and how honest are both?"""
+"""``bayesmap score``: score the predictions of maps on unseen beams, the errors of poses, and their calibration."""
 
 from __future__ import annotations
 
@@ -29,14 +29,16 @@ HEADINGS = ("map", "nats/beam", "50 %", "80 %", "95 %", "80 % width", "PIT", "Br
 @click.argument("run_file", metavar="RUN.nc|MAP.yaml|LOG")
 @click.argument("log", required=False)
 @click.option("--all", "whole", is_flag=True, help="Score all scans of LOG, another recording of the same place.")
-@click.option("--compare", is_flag=True, help="Also hit ratios and log-odds, fitted on the same scans.")
-@click.option("--trajectory", metavar="FILE.tum", help="Where the laser was, by another program.")
-@click.option("--relations", metavar="FILE", help="True relative poses (Kuemmerle et al. 2009) to hold poses against.")
+@click.option("--compare", is_flag=True, help="Also score hit ratios and log-odds, fitted on the same scans.")
+@click.option("--trajectory", metavar="FILE.tum", help="Trajectory of the laser, by another program.")
+@click.option("--relations", metavar="FILE", help="True relative poses (Kuemmerle et al. 2009) to score poses.")
 @click.option(
-    "--frame", type=click.Choice(FRAMES), help="Whose relations are known. [default: base, if LOG says where]"
+    "--frame", type=click.Choice(FRAMES), help="Frame of --relations. [default: base, if LOG has the laser's mount]"
 )
-@click.option("--exact", is_flag=True, help="Only relations at times of poses; else also between close ones.")
-@click.option("--trajectory-frame", type=click.Choice(FRAMES), default="laser", show_default=True, help="Of FILE.tum.")
+@click.option("--exact", is_flag=True, help="Score only relations at times of poses, not between poses.")
+@click.option(
+    "--trajectory-frame", type=click.Choice(FRAMES), default="laser", show_default=True, help="Frame of FILE.tum."
+)
 @click.option("--picture", metavar="FILE", help="Draw calibration and errors: .png, .pdf or .svg.")
 def score(
     call: Call[ScoreSettings],
@@ -51,29 +53,29 @@ def score(
     trajectory_frame: str,
     picture: str | None,
 ) -> None:
-    r"""Score a saved run, or another program's map or trajectory, on the scans of LOG that had no part in it.
+    r"""Score a saved run, or another program's map or trajectory, on held-out scans of LOG.
 
     \b
     bayesmap infer office.log.gz --holdout 10 -o runs/office
     bayesmap score runs/office/run.nc office.log.gz --compare --picture calibration.png
 
-    LOG is read as it was for the run: give the same --no-return, topics, --deskew and --thin-scans as to infer.
+    Read LOG as for the run: give the same --no-return, topics, --deskew and --thin-scans as to infer.
 
-    Columns: mean log predictive density of a reading, with its standard error over scans; how many readings lie in
-    their central 50, 80 and 95 % intervals; median width of the 80 % interval; distance of the probability integral
-    transform from uniform; and Brier score and log loss of first hits. docs/scoring.md has the formulas.
+    The columns are: mean log predictive density of a reading, with its standard error over scans; per cent of readings
+    in their central 50, 80 and 95 % intervals; median width of the 80 % interval; distance of the probability integral
+    transform from uniform; Brier score and log loss of first hits. docs/scoring.md has the formulas.
 
-    With --relations poses are scored, too (of a run alone LOG is not needed): errors of translation and rotation, and
-    where covariances are known, how many true relations lie in their 50, 80 and 95 % regions, and NEES.
+    With --relations the command also scores poses: errors of translation and rotation. If covariances are known, it
+    adds the per cent of true relations in their 50, 80 and 95 % regions, and NEES. For a saved run LOG is optional.
 
     \b
     bayesmap score runs/office/run.nc --relations office.relations
     bayesmap score theirs.yaml office.log.gz --trajectory theirs.tum --relations office.relations
     bayesmap score office.log.gz --trajectory theirs.tum
 
-    A map of another program (map_server YAML) gets the sensor, and the meaning of occupied, free and unknown, that
-    suit it best, fitted on all scans but every --holdout-th, which are scored. Without --trajectory LOG's own poses are
-    taken; without a map one is inferred from the trajectory.
+    For a map of another program (map_server YAML) a sensor is fitted, with the meaning of occupied, free and unknown.
+    Every --holdout-th scan is scored, and the fit uses the others. Without --trajectory the command uses LOG's own
+    poses. Without a map it infers one from the trajectory.
     """
     settings, of_run = call.settings(), _is_run(run_file)
     if frame is not None and relations is None:
@@ -81,8 +83,8 @@ def score(
     if picture is not None:
         from bayesmap.files import need_ending
 
-        need_ending(picture, ("png", "pdf", "svg"), "figure")  # before the minutes of work
-    # Find out where the laser sits on the robot, if that matters.
+        need_ending(picture, ("png", "pdf", "svg"), "figure")  # check before minutes of computation
+    # Find the mount of the laser on the robot, if it is needed.
     own_log = log if of_run or is_map(run_file) else run_file
     matters = relations is not None or trajectory_frame == "base"
     mount = mount_of(settings.laser, frame, own_log, settings) if matters else None
@@ -124,13 +126,14 @@ def score(
 
 
 def _is_run(path: str) -> bool:
+    """Return whether a path is a saved run. A missing file that is no map counts as one."""
     from bayesmap.cli.info import is_saved_run
 
     return is_saved_run(path) or not (is_map(path) or Path(path).exists())
 
 
 def _draw(picture: str, rows: list[tuple[str, Score]], poses: TrajectoryScore | None) -> list[Path]:
-    """Draw what there is, and say where: errors of poses beside NAME.png in NAME-poses.png if it is taken."""
+    """Draw calibration and pose errors, and return the paths. With both, the errors go to NAME-poses.png."""
     from bayesmap.viz.figure import write_figure
     from bayesmap.viz.scores import calibration_figure, errors_figure
 
@@ -147,6 +150,7 @@ def _draw(picture: str, rows: list[tuple[str, Score]], poses: TrajectoryScore | 
 def _document(
     path: str, log: str | None, found: Scored, poses: dict[str, Any] | None, outputs: dict[str, str]
 ) -> dict[str, Any]:
+    """Return the JSON document of the scores."""
     baselines = [
         {
             "map": name,
@@ -172,7 +176,7 @@ def _document(
 
 
 def _cells(name: str, found: Score) -> tuple[str, ...]:
-    """Return a row of the table."""
+    """Return a row of the table as texts."""
     shares = [f"{100 * c.share.value:.1f}" for c in found.coverage]
     width = next(c.median_width_m for c in found.coverage if c.level == 0.8)
     nats = f"{found.nats_per_beam:.3f} +- {found.nats_per_beam_error:.3f}"
@@ -181,6 +185,7 @@ def _cells(name: str, found: Score) -> tuple[str, ...]:
 
 
 def _print_table(rows: list[tuple[str, Score]]) -> None:
+    """Print the table of scores: by rich on a terminal, as plain text elsewhere."""
     cells = [_cells(name, found) for name, found in rows]
     if sys.stdout.isatty():
         from rich.console import Console
@@ -205,8 +210,8 @@ def _print_table(rows: list[tuple[str, Score]]) -> None:
 def lines_of(found: TrajectoryScore, frame: str, *, exact: bool, of_run: bool) -> list[str]:
     """Return the score of poses as lines of text.
 
-    ``frame`` says whose relations they are, ``exact`` whether only times of poses count, and ``of_run`` whether a saved
-    run has the poses, for advice where they come without covariances.
+    ``frame`` is the frame of the relations. ``exact`` tells whether only relations at times of poses count, ``of_run``
+    whether the poses come from a saved run: the advice on missing covariances depends on it.
     """
     from bayesmap.posterior.trajectory_scores import LONGEST_GAP_S
 

@@ -1,4 +1,4 @@
-"""The work of ``bayesmap score``: scores of runs, of maps and trajectories of other programs, and of poses."""
+"""Compute the scores of ``bayesmap score``: of runs, of maps and trajectories of other programs, and of poses."""
 
 from __future__ import annotations
 
@@ -29,9 +29,9 @@ if TYPE_CHECKING:
     Floats = NDArray[np.float64]
 
 LITTLE_NATS, MUCH_NATS, MANY_STRAYS, VERDICT_M = 0.3, 1.0, 40.0, 3.0
-"""Thresholds of the verdict on a map. Under the first number of nats a beam, beside no map, the map does not agree with
-the scans; under the second only in part. From the third, the per cent of beams that meet something else, it also agrees
-only in part. All is said for a wall at the last distance."""
+"""Thresholds of the verdict on a map. The gain over no map, in nats per beam, must reach the first number for agreement
+in part, and the second for agreement. Above the third number agreement is only in part: it is the per cent of beams
+that meet something before a wall at the last distance."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,11 +39,11 @@ class Scored:
     """The scores that were computed.
 
     Attributes:
-        rows: name and score of each row of the table; the first is what was asked for.
-        fits: of all rows but the first.
-        every: how many scans make one that was held out; 0 if none was.
-        trajectory: of the laser.
-        verdict: on the map of another program, in words.
+        rows: name and score of each row of the table; the first row is the scored map.
+        fits: fits of the classic maps in the other rows.
+        every: one scan in so many was held out; 0 if none was.
+        trajectory: trajectory of the laser.
+        verdict: verdict on the map of another program, in words.
     """
 
     rows: list[tuple[str, Score]]
@@ -56,10 +56,10 @@ class Scored:
 def score_run(
     call: Call[ScoreSettings], path: str, log: str | None, *, whole: bool, compare: bool, poses_too: bool
 ) -> Scored:
-    """Score a saved run on the scans of a log that it has not seen; without a log only its trajectory is returned.
+    """Score a saved run on the scans of a log that it has not seen. Without a log return only its trajectory.
 
-    ``whole`` scores all scans of the log, ``compare`` classic maps too. If the poses are scored afterwards, a run
-    without held-out scans will do.
+    ``whole`` scores all scans of the log, ``compare`` classic maps too. With ``poses_too``, the poses are scored
+    afterwards, and a run without held-out scans is accepted.
     """
     from bayesmap.io.exports import trajectory_of
     from bayesmap.posterior.heldout import NoneHeldOut
@@ -95,19 +95,20 @@ def score_others(
     *,
     compare: bool,
 ) -> Scored:
-    """Score a map of another program, or a trajectory (a TUM file) by a map that is inferred from it.
+    """Score a map of another program, or a trajectory (a TUM file) by a map inferred from it.
 
     Args:
-        call: of the command.
-        path: of the map, or of the log.
-        log: whose scans score a map.
-        trajectory: poses of the scans; None for the log's own.
-        mount: where the laser is in the frame of the trajectory, (3,); None if it is the laser's own.
+        call: the call of the command.
+        path: path of the map, or of the log.
+        log: log with the scans that score a map.
+        trajectory: file with the poses of the scans; None for the log's own poses.
+        mount: pose of the laser in the trajectory's frame, (3,); None if that is the laser's frame.
         compare: score classic maps too.
     """
     from bayesmap.result import score
 
     settings, words = call.settings(), None
+    # Score a given map, or infer one from the trajectory and score that.
     if is_map(path):
         if log is None:
             raise click.UsageError(f"give the LOG whose scans score {path}")
@@ -131,7 +132,7 @@ def score_others(
 
 
 def _how(settings: ScoreSettings) -> dict[str, Any]:
-    """Return the arguments that all scores take."""
+    """Return the arguments that all scoring functions share."""
     return {"seed": settings.seed, "device": settings.device}
 
 
@@ -164,11 +165,11 @@ def _score_classic_maps(
 
 @dataclass(frozen=True, eq=False)
 class Placed:
-    """A log's scans at the poses that are judged.
+    """A log's scans at the poses that are scored.
 
     Attributes:
-        train, heldout: without and with every n-th scan.
-        trajectory: of the laser.
+        train, heldout: all scans but every n-th, and every n-th scan.
+        trajectory: trajectory of the laser.
     """
 
     train: Scans
@@ -177,12 +178,12 @@ class Placed:
 
 
 def placed_scans(log: str, settings: ScoreSettings, trajectory: str | None, mount: Floats | None) -> Placed:
-    """Return the scans of a log, at their own poses or at those of a trajectory (a TUM file).
+    """Return the scans of a log, at the log's poses or at the poses of a trajectory (a TUM file).
 
-    ``mount`` is the pose of the laser in the frame of the trajectory, (3,); None if it is the laser's own.
+    ``mount`` is the pose of the laser in the trajectory's frame, (3,); None if that is the laser's frame.
 
     Raises:
-        BadInput: files that cannot be read, no stamps, or a trajectory of another time.
+        BadInput: files that cannot be read, scans without stamps, or a trajectory of another time.
     """
     need_file(log, "the log that the map was made from", runs=False)
     from bayesmap.io.logs import read_log
@@ -212,7 +213,7 @@ def placed_scans(log: str, settings: ScoreSettings, trajectory: str | None, moun
 
 
 def score_map(call: Call[ScoreSettings], path: str, placed: Placed) -> tuple[Fitted, Score]:
-    """Fit a sensor to a map on the training scans, and score the map on the others."""
+    """Fit a sensor to a map on the training scans, and score the map on the held-out scans."""
     from bayesmap.io.ros.maps import read_map
     from bayesmap.posterior.baselines import fit_external_map
     from bayesmap.posterior.scores import score_prediction
@@ -226,15 +227,17 @@ def score_map(call: Call[ScoreSettings], path: str, placed: Placed) -> tuple[Fit
 
 
 def verdict(fit: Fitted, own: Score, placed: Placed) -> str:
-    """Say in words whether a map agrees with the held-out scans: by how much better it predicts them than no map."""
+    """Return in words whether a map agrees with the held-out scans, by its gain over no map in nats per beam."""
     import numpy as np
 
     from bayesmap.localization.known_map import log_anywhere, readings_anywhere
 
+    # Gain per beam over a prediction without a map.
     heldout, values = placed.heldout, fit.values
     law = readings_anywhere(placed.train)
     beams = max(1, int((~np.isnan(heldout.ranges_m)).sum()))
     gain = own.nats_per_beam - log_anywhere(law, heldout.ranges_m, placed.train.max_range_m) / beams
+    # Scatter about a wall at `VERDICT_M`, and beams that meet something else before it, in per cent.
     off_m = values["scale_m"] + values["scale_per_m"] * VERDICT_M
     met = values["p_short"] * -math.expm1(-values["rate_short_per_m"] * VERDICT_M)
     strays = 100 * (values["p_random"] + (1 - values["p_random"]) * met)
@@ -268,12 +271,12 @@ def infer_map(call: Call[ScoreSettings], placed: Placed) -> Run:
 
 
 def mount_of(typed: str | None, frame: str | None, log: str | None, settings: ScoreSettings) -> Floats | None:
-    """Return the pose of the laser on the robot, as typed or as the log says; None where neither says it.
+    """Return the pose of the laser on the robot, from the typed text or the log; None if neither has it.
 
-    With relations of the laser (``frame``) the log is not read.
+    If ``frame`` is "laser", the log is not read.
 
     Raises:
-        click.BadParameter: something that is not a pose.
+        click.BadParameter: a text that is not a pose.
         BadInput: a log that cannot be read.
     """
     import numpy as np
@@ -288,12 +291,12 @@ def mount_of(typed: str | None, frame: str | None, log: str | None, settings: Sc
 
 
 def base_in_laser(frame: str | None, mount: Floats | None) -> Floats | None:
-    """Return the pose of the frame whose relations are known as seen from the laser; None if they are the laser's.
+    """Return the pose of the robot's base in the laser's frame; None if the relations are in the laser's frame.
 
-    Without a ``frame`` the relations are the base's where the mount of the laser is known.
+    If ``frame`` is None, the relations are in the base's frame if the mount of the laser is known.
 
     Raises:
-        BadInput: relations of the base, and nobody knows where the laser sits.
+        BadInput: relations in the base's frame without a known mount of the laser.
     """
     from bayesmap.space.planar import inverse
 

@@ -1,4 +1,4 @@
-"""``bayesmap simulate``: the log of a robot in a known world, and the truth beside it."""
+"""``bayesmap simulate``: write the log of a robot in a known world, and the true map and trajectory."""
 
 from __future__ import annotations
 
@@ -23,31 +23,31 @@ if TYPE_CHECKING:
     from bayesmap.space.grid import Grid
 
 TURN_RAD_PER_S = 1.0
-"""Turning rate of a simulated robot."""
+"""Turning rate of a simulated robot, used for the time stamps."""
 
 RARE = 1e-5
-"""Probability that a simulated laser reads nonsense: small, since one such reading far outside makes a map larger."""
+"""Probability of a random reading of a simulated laser. It is small, since one far reading makes the map larger."""
 
 IMAGES = (".png", ".pgm", ".ppm", ".pbm", ".jpg", ".jpeg", ".bmp", ".gif", ".tif", ".tiff", ".webp")
 
 
 @takes("simulate")
 @click.option("-o", "--output", metavar="LOG", help="The log, .log or .log.gz. [default: WORLD.log]")
-@click.option("--pose", "poses", metavar="X,Y,DEGREES", multiple=True, help="One scan from here; may be repeated.")
+@click.option("--pose", "poses", metavar="X,Y,DEGREES", multiple=True, help="Take a scan from here; may be repeated.")
 @click.option("--force", is_flag=True, help="Replace existing files.")
 def simulate(call: Call[SimulateSettings], output: str | None, poses: tuple[str, ...], force: bool) -> None:
-    r"""Draw the scans of a robot in a known world, as a CARMEN log that infer reads.
+    r"""Simulate the scans of a robot in a known world, and write them as a CARMEN log for infer.
 
-    Beside LOG.log the truth is written as a map for nav2, LOG-truth.yaml. In a building the robot goes round
-    through the rooms; in the tutorial's map it stands in the middle; elsewhere say where with --pose.
+    The command writes the true map beside LOG.log, for nav2: LOG-truth.yaml. In a building the robot drives through
+    the rooms. In the tutorial's map it stands in the middle. In other worlds give its poses with --pose.
 
     \b
     bayesmap simulate --world building -o office.log
     bayesmap infer office.log -o runs/office
     bayesmap render runs/office/run.nc --truth office-truth.yaml
 
-    With --odometry the log says what the robot's odometry reports; the laser's true trajectory is written to
-    LOG-truth.tum, and true relations between poses of the robot's base (Kuemmerle et al. 2009) to LOG.relations.
+    With --odometry the log holds the poses of the robot's odometry. The command then writes the laser's true trajectory
+    to LOG-truth.tum, and true relations between poses of the base (Kuemmerle et al. 2009) to LOG.relations.
 
     \b
     bayesmap simulate --world building --odometry typical --laser 0.1,0,0 -o office.log
@@ -95,14 +95,14 @@ def simulate(call: Call[SimulateSettings], output: str | None, poses: tuple[str,
         world.walls, world.grid, laser, angles, sensor=sensor, max_range_m=max_range_m, seed=settings.seed,
         opacity=world.opacity, typed=True,
     )  # fmt: skip
-    # Draw what odometry reports, and let the log say that.
+    # Draw the poses of odometry, and put them into the log.
     if noise is not None:
         from bayesmap.sim.robot import simulate_odometry, travel_times_s
 
         stamps_s = travel_times_s(base, settings.speed, TURN_RAD_PER_S)
         base = simulate_odometry(base, noise, stamps_s=stamps_s, seed=settings.seed)
         scans = replace(scans, poses=compose(base, np.array(mount)), stamps_s=stamps_s)
-    # Write the log, and the truth beside it.
+    # Write the log and the truth.
     log.parent.mkdir(parents=True, exist_ok=True)
     message = write_carmen(log, scans, base)
     outputs = [log, *write_map(truth, world.walls.astype(float), world.grid)]
@@ -141,6 +141,7 @@ def _write_truth(
     stamps_s: NDArray[np.float64],
     seed: int,
 ) -> list[Path]:
+    """Write the laser's true trajectory and the true relations of the base, and return their paths."""
     from bayesmap.io.text.trajectories import write_relations, write_trajectory
     from bayesmap.sim.robot import related_pairs
     from bayesmap.space.planar import between
@@ -155,15 +156,15 @@ def _write_truth(
 
 @dataclass(frozen=True, eq=False)
 class World:
-    """A world with a robot in it, and the laser that the robot has unless the user says otherwise.
+    """A world with a robot in it, and the robot's default laser.
 
     Attributes:
-        walls: shape (nx, ny).
-        grid: where the cells are.
-        poses: of the robot, (S, 3).
-        opacity: probability that a wall stops a beam, or None if all do.
-        is_tutorial: whether it is the tutorial's world, with the tutorial's sensor.
-        beams, fov_deg, max_range_m: of the laser.
+        walls: true walls, (nx, ny).
+        grid: grid of the cells.
+        poses: poses of the robot, (S, 3).
+        opacity: probability that a wall stops a beam, (nx, ny); None if walls stop all beams.
+        is_tutorial: whether the world is the tutorial's, with the tutorial's sensor.
+        beams, fov_deg, max_range_m: beams per scan, field of view and largest range of the laser.
     """
 
     walls: NDArray[np.bool_]
@@ -176,7 +177,7 @@ class World:
     max_range_m: float = 30.0
 
     def sensor(self) -> SensorModel:
-        """Return the sensor where none is named: the tutorial noise with typed no-returns, or that of a good laser."""
+        """Return the default sensor: the tutorial's noise with typed no-returns, or that of a good laser."""
         from bayesmap.cells.kinds import LASER_SIGMA_M, LASER_SIGMA_PER_M
         from bayesmap.sensors.builtin import BeamMixture, Gaussian
 
@@ -186,10 +187,10 @@ class World:
 
 
 def world_of(settings: SimulateSettings, poses: Sequence[str]) -> World:
-    """Return the world that the settings name, with the robot at the typed poses, or at the world's own.
+    """Return the world that the settings name, with the robot at the typed poses or at the world's default poses.
 
     Raises:
-        BadInput: a file that cannot be read as a world, a size or a pose that is not one.
+        BadInput: a file that is no world, or an invalid size or pose.
         click.UsageError: a file, but no pose.
     """
     import numpy as np
@@ -211,6 +212,7 @@ def world_of(settings: SimulateSettings, poses: Sequence[str]) -> World:
 
 
 def _tutorial(resolution: float | None, typed: NDArray[np.float64] | None) -> World:
+    """Return the tutorial's world, scaled to the resolution."""
     from bayesmap.sim.drawing import TUTORIAL_GRID, tutorial
     from bayesmap.space.grid import Grid
 
@@ -224,15 +226,17 @@ def _tutorial(resolution: float | None, typed: NDArray[np.float64] | None) -> Wo
 
 
 def _building(settings: SimulateSettings, typed: NDArray[np.float64] | None) -> World:
+    """Return a random building, with the robot at the typed poses or on a patrol through the rooms."""
     from bayesmap.sim.building import building
     from bayesmap.sim.robot import patrol
 
-    made = building(settings.seed, _size(settings.size), settings.resolution or 0.1)
-    poses = patrol(made, settings.scans, settings.seed) if typed is None else typed
-    return World(made.walls, made.grid, poses, made.opacity)
+    plan = building(settings.seed, _size(settings.size), settings.resolution or 0.1)
+    poses = patrol(plan, settings.scans, settings.seed) if typed is None else typed
+    return World(plan.walls, plan.grid, poses, plan.opacity)
 
 
 def _from_file(path: Path, resolution: float | None) -> tuple[NDArray[np.bool_], Grid]:
+    """Return walls and grid of a map_server map, a picture, or a text drawing."""
     from bayesmap.io.ros.maps import from_image
     from bayesmap.sim.drawing import from_text
     from bayesmap.space.grid import Grid

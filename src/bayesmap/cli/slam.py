@@ -1,4 +1,4 @@
-"""``bayesmap slam``: from a log with raw odometry to the posterior over map and trajectory."""
+"""``bayesmap slam``: infer the posterior over map and trajectory from a log with raw odometry."""
 
 from __future__ import annotations
 
@@ -23,27 +23,28 @@ if TYPE_CHECKING:
     from bayesmap.result import Run
 
 SHOWN = 3
-"""Stretches of odometry in doubt that are named."""
+"""Number of doubtful stretches of odometry that are listed."""
 
 ALTERNATIVES_SHOWN = 5
-"""Alternatives to the trajectory that are described."""
+"""Number of alternatives to the trajectory that are described."""
 
 
 @takes("slam")
 @click.argument("log")
 @click.option("-o", "--output", metavar="DIR", help="Folder of the run. [default: runs/NAME-OF-LOG]")
-@click.option("--resume", is_flag=True, help="Go on with the run in DIR, bit for bit as if it had never stopped.")
+@click.option("--resume", is_flag=True, help="Resume the run in DIR, bit for bit as if it had never stopped.")
 @click.option("--force", is_flag=True, help="Replace the run in DIR.")
 def slam(call: Call[SlamSettings], log: str, output: str | None, resume: bool, force: bool) -> None:
-    r"""Infer map and trajectory from LOG, whose poses are raw odometry: any log that infer reads.
+    r"""Infer map and trajectory from LOG with poses of raw odometry; any log that infer reads.
 
-    All scans are matched, loops are closed, and every scan is matched against all others that see the same walls; the
-    result is a trajectory with covariances. Then chains sample the map and the poses of the key scans together, each
-    from its own draw of that trajectory; --fast leaves this out and takes the trajectory as known.
+    The command matches all scans, closes loops, and matches every scan against all others that see the same walls. The
+    result is a trajectory with covariances. Then chains sample the map and the poses of the key scans together. Each
+    chain starts from its own draw of that trajectory. With --fast no poses are sampled: the trajectory counts as known.
 
-    Leaves in DIR the saved run (run.nc), the trajectory of all scans (trajectory.tum, with its covariances beside it),
-    the map for nav2 (map.yaml), pictures (posterior.png, trajectory.png, odometry.png, loops.png), the JSON document
-    (summary.json) and the settings (config.toml). Ctrl-C keeps the stages and sweeps that are done; --resume goes on.
+    The command writes into DIR the saved run (run.nc), the trajectory of all scans (trajectory.tum, and its covariances
+    in a second file), the map for nav2 (map.yaml), pictures (posterior.png, trajectory.png, odometry.png, loops.png),
+    the JSON document (summary.json) and the settings (config.toml). Ctrl-C keeps finished stages and sweeps; --resume
+    continues from them.
 
     \b
     bayesmap slam recording.bag -o runs/office
@@ -60,7 +61,7 @@ def slam(call: Call[SlamSettings], log: str, output: str | None, resume: bool, f
     # Read the log.
     reading = pipeline.read(call.console, log, task.settings, without_poses=task.settings.no_odometry)
     _check(call.console, reading, task.settings)
-    # Take up the run that is in the folder.
+    # Load the run to resume.
     saved = pipeline.taken_up(task.folder) if task.folder.resuming else None
     if force:
         shutil.rmtree(_stages(task.folder), ignore_errors=True)
@@ -92,7 +93,7 @@ def _stages(folder: Folder) -> Path:
 
 
 def _check(console: Console, reading: LogReading, settings: SlamSettings) -> None:
-    """Refuse what cannot be inferred before an older run is touched, and name what looks wrong with odometry."""
+    """Refuse scans that cannot be inferred, before an older run is changed, and warn of doubtful odometry."""
     from bayesmap.poses.log_checks import check_scans, doubts
 
     check_scans(reading.scans, settings.no_odometry)
@@ -104,6 +105,7 @@ def _check(console: Console, reading: LogReading, settings: SlamSettings) -> Non
 
 
 def _slam(task: Task[SlamSettings], reading: LogReading, saved: Run | None) -> Run:
+    """Infer trajectory and map, with checkpoints in the folder."""
     from bayesmap.api import slam
     from bayesmap.arguments import Checkpoints, Where
 
@@ -121,7 +123,7 @@ def _slam(task: Task[SlamSettings], reading: LogReading, saved: Run | None) -> R
             folder.checkpoint(run, lambda done, total: show(Event("save", done, total)))
 
         if saved is None:
-            # Before the first stage: whatever is finished from here on is resumed with these settings.
+            # Save the settings before the first stage: they are needed to resume the finished stages.
             folder.begin(toml)
         run = slam(
             reading.scans,
@@ -138,7 +140,7 @@ def _slam(task: Task[SlamSettings], reading: LogReading, saved: Run | None) -> R
             on_progress=on_progress,
         )
         if run.finished or run.posterior.sweep > 0:
-            folder.begin(toml)  # one that had finished makes no sweep, of which it would be told
+            folder.begin(toml)  # a resumed run that had finished reports no sweep
         return run
 
 
@@ -182,7 +184,7 @@ def _write_trajectory(folder: Folder, reading: LogReading, run: Run) -> list[Pat
 
 
 def summary(run: Run) -> dict[str, Any]:
-    """Return what was found of the trajectory, as JSON values."""
+    """Return the inferred trajectory in short, as JSON values."""
     import numpy as np
 
     found = run.trajectory
@@ -208,7 +210,7 @@ def summary(run: Run) -> dict[str, Any]:
             "sigma_rad": float(np.median(poses.sigma_rad)),
             "by_approximation": poses.by_approximation,
             "ess_min": poses.ess_min,
-            # Of a few draws a chain may not have moved a pose at all: that has no R-hat.
+            # With few draws a chain may never move a pose; that pose has no R-hat.
             "rhat_max": float(poses.rhat[np.isfinite(poses.rhat)].max(initial=1.0)),
             "unmoved": int((~np.isfinite(poses.rhat)).any(axis=-1).sum()),
         }
@@ -216,7 +218,7 @@ def summary(run: Run) -> dict[str, Any]:
 
 
 def _alternative(found: Trajectory, number: int) -> dict[str, Any]:
-    """Return what is said of an alternative: its scans, its probability, and how far it moves one from the other."""
+    """Return an alternative as JSON values: its two scans, its probability, and the shift between them."""
     import numpy as np
 
     from bayesmap.space.planar import between
@@ -234,6 +236,7 @@ def _alternative(found: Trajectory, number: int) -> dict[str, Any]:
 
 
 def _report(call: Call[SlamSettings], trajectory: dict[str, Any]) -> None:
+    """Print the trajectory's figures, and warn of scans, breaks and alternatives to check."""
     call.console.say(
         f"trajectory: {trajectory['scans']:,} scans, {trajectory['key_scans']:,} of them in the map, "
         f"{trajectory['loop_closures']:,} loop closures, standard deviation "

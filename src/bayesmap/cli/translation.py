@@ -1,8 +1,8 @@
-"""Translate what a user typed into values of the library.
+"""Translate the texts and settings of a user into values of the library.
 
-First texts: points, poses, sensor models (``mixture:0.02``), odometry (``typical,lag_s=0.1``). Then settings: prior,
-sensor, method, schedule, executor, and how a log is read. Then logs: files that must exist, folders and patterns of
-logs, scans that a run has not seen.
+Three groups: texts (points, poses, sensor models such as ``mixture:0.02``, odometry such as ``typical,lag_s=0.1``);
+settings (prior, sensor, method, schedule, executor, options for reading a log); and logs (files that must exist,
+folders and patterns of logs, held-out scans).
 """
 
 from __future__ import annotations
@@ -32,10 +32,12 @@ if TYPE_CHECKING:
 
 
 def numbers_of(text: str, flag: str, form: str, counts: tuple[int, ...]) -> list[float]:
-    """Return the numbers of an option's text, of which there must be one of ``counts``, as ``form`` ("X,Y") says.
+    """Return the numbers of an option's text, separated by commas.
+
+    ``form``, such as "X,Y", names them in the error message.
 
     Raises:
-        click.BadParameter: another count, or something that is not a finite number.
+        click.BadParameter: a count of numbers that is not in ``counts``, or a number that is not finite.
     """
     try:
         numbers = [float(part) for part in text.split(",")]
@@ -47,10 +49,10 @@ def numbers_of(text: str, flag: str, form: str, counts: tuple[int, ...]) -> list
 
 
 def pose_of(text: str, flag: str = "--pose") -> tuple[float, float, float]:
-    """Return a pose, which is typed in metres and degrees, in metres and radians.
+    """Return a pose in metres and radians, from a text in metres and degrees.
 
     Raises:
-        click.BadParameter: something else; the message names the flag.
+        click.BadParameter: another text; the message names the flag.
     """
     x, y, degrees = numbers_of(text, flag, "X,Y,DEGREES", (3,))
     return x, y, math.radians(degrees)
@@ -68,22 +70,25 @@ def sensor_of(text: str) -> SensorModel | None:
     """Return the sensor model that a text describes; None for ``default``.
 
     Raises:
-        BadInput: an unknown kind or parameter, something that is not a number, or a value that the model refuses.
+        BadInput: an unknown kind or parameter, a text that is no number, or a value that the model refuses.
     """
     if text == "default":
         return None
     from bayesmap.sensors.builtin import KINDS, from_description
 
+    # Split the text into the kind of the model and its parameters.
     kind, _, rest = text.partition(":")
     if kind not in KINDS:
         raise BadInput(f"sensor {text!r}: unknown kind {kind!r}; known: default, fit (of infer), {', '.join(KINDS)}")
     values = _parameters(text, rest)
+    # The kind of noise decides the name of the number that has none.
     noise_kind = str(values.pop("noise", "gaussian")) if kind == "mixture" else kind
     if noise_kind not in _FIRST:
         raise BadInput(f"sensor {text!r}: noise must be {' or '.join(_FIRST)}, got {noise_kind!r}")
     if "" in values:
         values.setdefault(_FIRST[noise_kind], values.pop(""))
     if kind == "mixture":
+        # The mixture keeps its own parameters; all others describe its noise.
         own = {"p_random", "p_no_return", "p_short", "rate_short_per_m"}
         noise = {name: values.pop(name) for name in list(values) if name not in own}
         if noise or noise_kind != "gaussian":
@@ -96,7 +101,7 @@ def sensor_of(text: str) -> SensorModel | None:
 
 
 def _parameters(text: str, rest: str) -> dict[str, Any]:
-    """Return numbers by name; the first may go without one."""
+    """Return the parameters by name; the first may have no name, and is stored under ""."""
     values: dict[str, Any] = {}
     for position, part in enumerate(rest.split(",") if rest else []):
         name, equals, value = (piece.strip() for piece in part.partition("="))
@@ -120,7 +125,7 @@ def odometry_of(text: str) -> OdometryNoise | None:
     """Return the odometry that a text describes; None for ``true``.
 
     Raises:
-        BadInput: an unknown word or name, or a number that makes no sense.
+        BadInput: an unknown word or name, or a number that is not allowed.
     """
     if text == TRUE_ODOMETRY:
         return None
@@ -140,6 +145,7 @@ def odometry_of(text: str) -> OdometryNoise | None:
 
 
 def _number(text: str, where: str) -> float:
+    """Return the number of a text; ``where`` begins the error message."""
     try:
         return float(text)
     except ValueError:
@@ -149,16 +155,16 @@ def _number(text: str, where: str) -> float:
 S = TypeVar("S", bound=SamplingSettings)
 
 BINARY_DRAWS = 100
-"""Draws of a chain over binary walls unless the user says otherwise."""
+"""Default number of draws per chain over binary walls."""
 
 THREADS, RAY = "threads", "ray"
 
 
 def completed(settings: S) -> S:
-    """Return the settings with what follows from the kind of cells filled in.
+    """Check the settings against the kind of cells, and fill in its hit depth.
 
     Raises:
-        BadInput: settings that this kind of cells does not have, or a sensor that is none.
+        BadInput: a setting that this kind of cells does not have, or an invalid sensor.
     """
     from bayesmap.cells.kinds import BUILT_IN
 
@@ -176,7 +182,7 @@ def completed(settings: S) -> S:
 
 
 def with_schedule(settings: InferSettings, beams: int, cells: int) -> InferSettings:
-    """Return the settings with ``thin``, ``draws`` and ``precision`` that suit the kind of cells, beams and grid."""
+    """Fill in ``thin``, ``draws`` and ``precision`` for the kind of cells and the numbers of beams and cells."""
     from bayesmap.arguments import MORE_DRAWS
     from bayesmap.cells.kinds import BUILT_IN
     from bayesmap.run.chains import PRECISION
@@ -221,7 +227,7 @@ def prior_of(settings: SamplingSettings) -> CellPrior:
 
 
 def sensor_for(settings: SamplingSettings, resolution_m: float) -> SensorModel | Literal["fit"]:
-    """Return the sensor that was chosen; by default one that is fitted, but for binary walls that of a good laser."""
+    """Return the chosen sensor. By default it is fitted; for binary walls it is that of a good laser."""
     from bayesmap.cells.kinds import BUILT_IN, default_sensor
 
     if settings.sensor == "fit":
@@ -233,7 +239,7 @@ def sensor_for(settings: SamplingSettings, resolution_m: float) -> SensorModel |
 
 
 def ray_address(executor: str) -> tuple[bool, str | None]:
-    """Return whether chains run on a Ray cluster, and its address: None where Ray shall find one, or start one.
+    """Return whether chains run on a Ray cluster, and its address; None lets Ray find or start a cluster.
 
     Raises:
         BadInput: neither threads nor Ray.
@@ -268,19 +274,19 @@ def reading_of(settings: ReadingSettings) -> dict[str, Any]:
 
 
 RECORDED = (".db3", ".mcap", ".zstd")
-"""How the files of a ROS 2 bag end."""
+"""File endings of a ROS 2 bag."""
 MAPS = (".yaml", ".yml")
-"""How maps of map_server end."""
+"""File endings of map_server maps."""
 LOG = "a log or a recording of range scans"
 
 
 def need_file(file: str, wanted: str, *, runs: bool, pipes: bool = False) -> None:
-    """Refuse what cannot be opened before anything is loaded to open it.
+    """Refuse a path that cannot be opened, before slow modules are imported to open it.
 
-    The message tells to give ``wanted`` instead. ``runs`` and ``pipes`` say whether a saved run and a pipe would do.
+    The message asks for ``wanted`` instead. ``runs`` and ``pipes`` tell whether a saved run and a pipe are accepted.
 
     Raises:
-        BadInput: nothing is there, it is the folder that a run left behind, or a pipe.
+        BadInput: the path does not exist, is the folder of a run, or is a pipe.
     """
     if not pipes and (file in ("-", "/dev/stdin") or Path(file).is_fifo()):
         raise BadInput(f"{file}: a pipe, and this needs a file that can be read again; localize --follow reads pipes")
@@ -291,17 +297,18 @@ def need_file(file: str, wanted: str, *, runs: bool, pipes: bool = False) -> Non
 
 
 def logs_of(typed: Sequence[str]) -> list[str] | None:
-    """Return the logs that several names, a folder of logs, or a pattern mean; None if it is one log.
+    """Return the logs of several names, of a folder, or of a pattern; None for a single log.
 
-    A folder means the logs in it, by the endings of their names, and the folders of ROS 2 bags in it.
+    A folder stands for the logs in it, chosen by their endings, and for the folders of ROS 2 bags in it.
 
     Raises:
-        BadInput: a pattern or a folder with nothing in it.
+        BadInput: a pattern or a folder without logs.
     """
     logs: list[str] = []
     several = len(typed) > 1
     for name in typed:
         path = Path(name)
+        # A pattern, a folder of logs, or one log (a file, or the folder of a bag).
         if not path.exists() and any(sign in name for sign in "*?["):
             several = True
             matches = sorted(glob.glob(name))
@@ -337,12 +344,13 @@ def _is_recording(folder: Path) -> bool:
 
 
 def heldout_scans(run: Run, log: str, settings: ReadingSettings, every: int) -> Scans:
-    """Return the scans of a log that a run did not see, read with the run's largest range.
+    """Return the scans of a log that a run has not seen, read with the run's largest range.
 
-    The log is the run's own, of which every ``every``-th scan was held out, or with 0 another log of the same place.
+    If ``every`` is 0, the log is another one of the same place. Otherwise it is the run's own log, and the run held out
+    every ``every``-th scan.
 
     Raises:
-        BadInput: the log cannot be read, or the run was made from some of the scans.
+        BadInput: the log cannot be read, or the run was made from some of these scans.
     """
     need_file(log, "the log that the run was made from", runs=False)
     from bayesmap.io.logs import read_log
@@ -361,7 +369,7 @@ def heldout_scans(run: Run, log: str, settings: ReadingSettings, every: int) -> 
 
 
 def need_free(target: Path, older: Path | None, force: bool) -> None:
-    """Refuse to replace an older file unasked, or to write into a folder that is not there.
+    """Refuse to replace an older file without ``force``, or to write into a missing folder.
 
     Raises:
         BadInput: the message names the remedy.
@@ -373,5 +381,5 @@ def need_free(target: Path, older: Path | None, force: bool) -> None:
 
 
 def is_map(path: str) -> bool:
-    """Return whether a path ends as maps of map_server do."""
+    """Return whether a path has the ending of a map_server map."""
     return Path(path).suffix.lower() in MAPS

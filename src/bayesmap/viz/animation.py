@@ -1,7 +1,7 @@
-"""A chain as a moving picture: one frame per draw, GIF or WebP, written by Pillow.
+"""Write a chain as an animation: one frame per draw, GIF or WebP, by Pillow.
 
-Frames are images of palette indices, enlarged by a whole number: a hundred frames of the tutorial's map take
-a fraction of a second, where matplotlib's writer takes several seconds.
+Frames are images of palette indices, enlarged by a whole number. A hundred frames of the tutorial's map take a fraction
+of a second; matplotlib's writer takes several seconds.
 """
 
 from __future__ import annotations
@@ -25,19 +25,20 @@ from bayesmap.space.scans import as_poses
 from bayesmap.viz import palette
 
 LEVELS = 128
-"""Steps of probability in a frame: finer ones cannot be told apart, and fewer colours pack better."""
+"""Levels of probability in a frame. Finer levels look alike, and fewer colours give smaller files."""
 
 BACKGROUND, UNOBSERVED, HATCH, TRUTH, SENSOR, FRAME = range(LEVELS, LEVELS + 6)
-"""Palette indices after the levels of probability."""
+"""Palette indices of other colours, after the levels of probability."""
 
 TARGET_PX = 560
-"""Cells are enlarged by the least whole number that makes the longest side so long."""
+"""Least length of the longer side. Cells are enlarged by the smallest whole number that reaches it."""
 
 MARGIN_PX = 10
 CAPTION_PX = 30
 HATCH_PITCH_PX = 7
+"""Sizes in pixels: margin around the map, height of the caption, distance of hatch lines."""
 LAST_FRAME_MS = 1500
-"""The last frame stays longer, so that the eye can rest on the result before the film starts again."""
+"""Least time of the last frame: the result stays visible before the animation starts again."""
 
 
 def write_animation(
@@ -52,23 +53,23 @@ def write_animation(
     sweeps: Sequence[int] | None = None,
     frames_per_second: float = 10.0,
 ) -> None:
-    """Write a chain as an animation that repeats for ever, whole or not at all.
+    """Write a chain as an animation that repeats without end, whole or not at all.
 
     Args:
-        path: its ending, .gif or .webp, chooses the format.
-        grid: where the cells are.
-        draws: of one chain, shape (n, nx, ny): walls, or probabilities in [0, 1].
+        path: path of the file; its ending, .gif or .webp, chooses the format.
+        grid: grid of the cells.
+        draws: draws of one chain, shape (n, nx, ny): walls, or probabilities in [0, 1].
         running_mean: show the mean of all draws so far in place of the draws.
-        observed: true where some beam reached, shape (nx, ny); the rest is hatched. None for everywhere.
+        observed: mask of the cells that a beam reached, shape (nx, ny); the others are hatched. None: all cells.
         truth: the true walls, shape (nx, ny), outlined.
-        poses: the sensor's, x, y, yaw, shape (S, 3) or (3,): a dot each.
-        sweeps: the number to write under each frame; None for 1 to n.
-        frames_per_second: at most 50, since viewers slow down faster films.
+        poses: poses x, y, yaw of the sensor, shape (S, 3) or (3,), each drawn as a dot.
+        sweeps: number to write under each frame; None: 1 to n.
+        frames_per_second: frame rate, at most 50, since viewers slow down faster animations.
 
     Raises:
         BadInput: another ending, a folder that does not exist, no draw, shapes that differ from the grid's,
             numbers outside [0, 1], or a rate out of bounds.
-        OSError: the disk refuses.
+        OSError: writing failed.
     """
     target, ending = need_ending(path, ("gif", "webp"), "animation")
     if not 0.0 < frames_per_second <= 50.0:
@@ -76,7 +77,7 @@ def write_animation(
     frames = render_frames(
         grid, draws, running_mean=running_mean, observed=observed, truth=truth, poses=poses, sweeps=sweeps
     )
-    # GIF counts in hundredths of a second; anything else would be rounded by some viewers and not by others.
+    # GIF stores hundredths of a second. Viewers round other durations in different ways.
     step_ms = 10 * max(2, round(100.0 / frames_per_second))
     first = next(frames)
     n = len(np.asarray(draws))
@@ -87,7 +88,7 @@ def write_animation(
         first.save(buffer, "GIF", append_images=frames, optimize=False, disposal=1, **film)
     else:
         colors = (frame.convert("RGB") for frame in frames)
-        # Lossless keeps the edges of cells sharp; the least effort is three times faster and hardly larger.
+        # Lossless keeps the edges of cells sharp. The least effort is three times faster, and files are hardly larger.
         effort = {"lossless": True, "method": 0, "quality": 0}
         first.convert("RGB").save(buffer, "WEBP", append_images=colors, **effort, **film)
     with write_whole(target) as partial:
@@ -104,7 +105,7 @@ def render_frames(
     poses: ArrayLike | None = None,
     sweeps: Sequence[int] | None = None,
 ) -> Iterator[Image.Image]:
-    """Check everything at once, then render the frames one by one, as images of mode "P".
+    """Check the arguments, then return an iterator that renders the frames, as images of mode "P".
 
     Arguments and errors are those of `write_animation`.
     """
@@ -117,6 +118,7 @@ def render_frames(
 
 
 def _render(canvas: _Canvas, chain: NDArray[Any], labels: list[int], *, running_mean: bool) -> Iterator[Image.Image]:
+    """Yield a frame per draw, of the draw or of the mean so far."""
     total = np.zeros(chain.shape[1:])
     for count, (draw, label) in enumerate(zip(chain, labels, strict=True), start=1):
         if running_mean:
@@ -127,7 +129,7 @@ def _render(canvas: _Canvas, chain: NDArray[Any], labels: list[int], *, running_
 
 
 class _Canvas:
-    """The parts that all frames share: the size, the colours, and the marks over the map."""
+    """The parts that all frames share: size, colours, and the marks over the map."""
 
     def __init__(
         self, grid: Grid, observed: NDArray[np.bool_], truth: ArrayLike | None, poses: ArrayLike | None
@@ -137,13 +139,14 @@ class _Canvas:
         self.font = ImageFont.load_default(size=15)
         self.size = (width + 2 * MARGIN_PX, height + 2 * MARGIN_PX + CAPTION_PX)
         self.colors = _palette_bytes()
-        # The marks cover the map where they are not zero (no mark has the index 0, which is "surely free").
+        # The marks cover the map where they are not 0. No mark has the index 0, which is "surely free".
         self.marks = np.zeros((height + 2 * MARGIN_PX, width + 2 * MARGIN_PX), dtype=np.uint8)
         self.inside = (slice(MARGIN_PX, -MARGIN_PX), slice(MARGIN_PX, -MARGIN_PX))
         self.marks[:] = BACKGROUND
         edge = slice(MARGIN_PX - 1, 1 - MARGIN_PX)
         self.marks[edge, edge] = FRAME
         self.marks[self.inside] = self._enlarge(np.where(observed, 0, UNOBSERVED).astype(np.uint8))
+        # Hatch the unobserved cells, then add the true walls and the sensor.
         row, column = np.indices(self.marks.shape)
         self.marks[(self.marks == UNOBSERVED) & ((row + column) % HATCH_PITCH_PX == 0)] = HATCH
         if truth is not None:
@@ -153,6 +156,7 @@ class _Canvas:
         self.visible = self.marks == 0
 
     def frame(self, probability: NDArray[Any], text: str) -> Image.Image:
+        """Return a frame: the map below the marks, and the caption."""
         levels = self._enlarge(np.rint(np.clip(probability, 0.0, 1.0) * (LEVELS - 1)).astype(np.uint8))
         pixels = np.full((self.size[1], self.size[0]), BACKGROUND, dtype=np.uint8)
         area = pixels[: self.marks.shape[0]]
@@ -164,23 +168,24 @@ class _Canvas:
         return image
 
     def _caption(self, text: str) -> NDArray[np.uint8]:
-        """Draw the strip under the map: smooth type, whose shades are those of probability, from paper to ink."""
+        """Draw the caption under the map, in smooth type with the shades of probability."""
         strip = Image.new("L", (self.size[0], CAPTION_PX), 0)
-        place = (MARGIN_PX, CAPTION_PX // 2 - 4)
-        ImageDraw.Draw(strip).text(place, text, fill=LEVELS - 1, font=self.font, anchor="lm")
+        anchor = (MARGIN_PX, CAPTION_PX // 2 - 4)
+        ImageDraw.Draw(strip).text(anchor, text, fill=LEVELS - 1, font=self.font, anchor="lm")
         shades = np.asarray(strip)
         return np.where(shades > 0, shades, BACKGROUND).astype(np.uint8)
 
     def _enlarge(self, cells: NDArray[np.uint8]) -> NDArray[np.uint8]:
-        """Turn cells [x, y] into pixels [row, column], the first row on top."""
+        """Convert cells [x, y] to pixels [row, column], with the first row on top."""
         return cells.T[::-1].repeat(self.scale, axis=0).repeat(self.scale, axis=1)
 
     def _outline(self, walls: NDArray[np.bool_]) -> None:
-        """Draw a line around the walls, on the outside, so that it does not hide them."""
+        """Draw a line around the walls, outside them, so that the walls stay visible."""
         solid = np.zeros(self.marks.shape, dtype=np.bool_)
         solid[self.inside] = self._enlarge(walls.astype(np.uint8)) == 1
         thick = max(1, self.scale // 12)
         grown = solid.copy()
+        # Grow the walls by one pixel in the four directions, `thick` times.
         for _ in range(thick):
             step = grown.copy()
             step[1:] |= grown[:-1]
@@ -191,6 +196,7 @@ class _Canvas:
         self.marks[grown & ~solid] = TRUTH
 
     def _dots(self, grid: Grid, poses: NDArray[np.float64]) -> None:
+        """Draw a dot with a light rim at each pose."""
         radius = float(np.clip(0.3 * self.scale, 2.0, 6.0))
         image = Image.fromarray(self.marks)
         draw = ImageDraw.Draw(image)
@@ -209,7 +215,7 @@ def _palette_bytes() -> bytes:
 
 
 def _as_chain(grid: Grid, draws: ArrayLike) -> NDArray[Any]:
-    """Return the draws as they came: a long chain of a large map is bits, and would not fit as floats."""
+    """Check the draws and return them in their own type: a long chain of a large map would not fit as floats."""
     chain = np.asarray(draws)
     if chain.dtype.kind not in "buif":
         raise BadInput(f"animation: draws must be an array of numbers, not of {chain.dtype}")

@@ -1,4 +1,4 @@
-"""Pictures of decisions: the way to go, and where to look next, over the mean map."""
+"""Pictures of decisions over the mean map: a planned path, and the best next views."""
 
 from __future__ import annotations
 
@@ -20,8 +20,9 @@ from bayesmap.viz.overlays import draw_sensor
 Floats = NDArray[np.float64]
 
 FOOT_IN = 0.6
+"""Height of the legend below the map, inches."""
 CIRCLE = 24
-"""Corners of the outline of a disc."""
+"""Number of corners in the outline of a disc."""
 
 
 def route_figure(
@@ -34,7 +35,7 @@ def route_figure(
     title: str = "",
     label: str = "probability of wall",
 ) -> Figure:
-    """Draw a path, (P, 2) in the world frame, over the mean map, and all that a disc which moves along it sweeps.
+    """Draw a path, (P, 2) in the world frame, over the mean map, and the area that a disc sweeps along it.
 
     Raises:
         BadInput: shapes that do not fit.
@@ -46,7 +47,7 @@ def route_figure(
 
 
 def draw_route(ax: Axes, path: ArrayLike, radius_m: float) -> PathPatch:
-    """Draw a path, (P, 2) in the world frame, and the area that a disc sweeps which moves along it."""
+    """Draw a path, (P, 2) in the world frame, and the area that a disc sweeps along it."""
     corners = np.asarray(path, dtype=np.float64)
     if corners.ndim != 2 or corners.shape[1] != 2 or len(corners) == 0:
         raise BadInput(f"picture: the path has shape {corners.shape}; give (P, 2)")
@@ -69,9 +70,9 @@ def views_figure(
     *,
     label: str = "probability of wall",
 ) -> Figure:
-    """Draw candidate views, (P, 3), over the mean map, coloured by the nats expected from each, (P,).
+    """Draw candidate views, (P, 3), over the mean map, coloured by their expected information in nats, (P,).
 
-    ``best`` are indices of candidates, the best first: these are drawn as arrows and numbered.
+    ``best`` holds indices of candidates, the best first. These are drawn as numbered arrows.
 
     Raises:
         BadInput: shapes that do not fit.
@@ -91,7 +92,7 @@ def views_figure(
 
 
 def draw_candidates(ax: Axes, candidates: ArrayLike, nats: ArrayLike) -> PathCollection:
-    """Draw a dot at each candidate, those that tell most on top."""
+    """Draw a dot at each candidate, the most informative ones on top."""
     poses, gains = np.asarray(candidates, dtype=np.float64), np.asarray(nats, dtype=np.float64)
     if poses.ndim != 2 or poses.shape[1] != 3 or gains.shape != poses.shape[:1]:
         raise BadInput(f"picture: candidates have shape {poses.shape} and nats {gains.shape}; give (P, 3) and (P,)")
@@ -103,6 +104,7 @@ def draw_candidates(ax: Axes, candidates: ArrayLike, nats: ArrayLike) -> PathCol
 
 
 def _map_figure(grid: Grid, occupancy: ArrayLike, observed: ArrayLike | None, label: str) -> tuple[Figure, Axes]:
+    """Return a figure of the mean map with its colour bar."""
     figure, ax = maps.map_figure(grid, aspects=(0.5, 3.0), foot_in=FOOT_IN)
     image = maps.draw_probability(ax, grid, occupancy, observed)
     figure.colorbar(image, ax=ax, label=label, shrink=0.8)
@@ -115,11 +117,12 @@ def _with_legend(figure: Figure) -> Figure:
 
 
 def _swept(corners: Floats, radius_m: float) -> Path:
-    """Return the union of discs along a polyline, as overlapping outlines that wind the same way."""
+    """Return the union of discs along a polyline, as overlapping outlines of the same orientation."""
     turn = np.arange(CIRCLE) / CIRCLE * 2 * np.pi
     circle = radius_m * np.stack([np.cos(turn), np.sin(turn)], axis=-1)
     shapes = [corner + circle for corner in corners]
     for start, end in itertools.pairwise(corners):
+        # A rectangle joins the discs at both ends.
         way = end - start
         length = float(np.hypot(*way))
         if length > 0:

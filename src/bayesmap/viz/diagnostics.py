@@ -1,4 +1,4 @@
-"""Pictures that tell whether a sampler worked: the log joint by chain, and the weights of importance sampling."""
+"""Diagnostic pictures of a sampler: the log joint of each chain, and the weights of importance sampling."""
 
 from __future__ import annotations
 
@@ -13,22 +13,24 @@ from bayesmap.space.cell_arrays import as_array
 from bayesmap.viz import palette
 
 MAX_POINTS = 4000
-"""Longer traces are drawn by the least and greatest value in half as many stretches: no spike is lost."""
+"""Largest number of points of a trace. Longer traces show minimum and maximum of each stretch, so spikes stay."""
 
 MAX_KEYS = 8
-
+"""Largest number of chains in a legend."""
 BINS = 100
+"""Number of bins of the histogram of weights."""
 TUTORIAL_RANGE = (-10_000.0, 0.0)
+"""Range of the tutorial's histogram of weights, in nats."""
 ALL = 0.9995
-"""A share of the sum that, rounded to a tenth of a percent, is all of it."""
+"""Share of the sum of weights that rounds to all of it, in tenths of a per cent."""
 
 
 def draw_log_joint(ax: Axes, log_joint: ArrayLike, *, first_sweep: int = 1) -> None:
     """Draw the trace of the log joint density, a line per chain.
 
     Args:
-        ax: where to draw.
-        log_joint: in nats, shape (chain, draw), or (draw,) for one chain.
+        ax: axes to draw on.
+        log_joint: log joint density in nats, shape (chain, draw), or (draw,) for one chain.
         first_sweep: number of the sweep that gave the first draw.
 
     Raises:
@@ -42,10 +44,10 @@ def draw_log_joint(ax: Axes, log_joint: ArrayLike, *, first_sweep: int = 1) -> N
 
 
 def draw_running_mean(ax: Axes, log_joint: ArrayLike, *, first_sweep: int = 1) -> None:
-    """Draw the mean of the log joint over all draws so far, a line per chain; chains that agree run together.
+    """Draw the mean of the log joint over all draws so far, a line per chain.
 
-    The band is the mean over all chains plus and minus one standard deviation of the draws: lines that end
-    outside of each other's reach on this scale have not mixed. Arguments and errors are those of `draw_log_joint`.
+    The band is the mean over all chains, plus and minus one standard deviation of the draws. Chains have not mixed if
+    their lines end far apart on this scale. Arguments and errors are those of `draw_log_joint`.
     """
     traces = _as_traces(log_joint)
     means = np.cumsum(traces, axis=1) / np.arange(1, traces.shape[1] + 1)
@@ -58,7 +60,7 @@ def draw_running_mean(ax: Axes, log_joint: ArrayLike, *, first_sweep: int = 1) -
 
 
 def trace_figure(log_joint: ArrayLike, *, first_sweep: int = 1) -> Figure:
-    """Draw the trace, running mean and distribution of the log joint by chain, in one figure.
+    """Draw the trace, the running mean and the histogram of the log joint of each chain.
 
     Arguments and errors are those of `draw_log_joint`.
     """
@@ -68,7 +70,7 @@ def trace_figure(log_joint: ArrayLike, *, first_sweep: int = 1) -> Figure:
     draw_log_joint(axes[0, 0], traces, first_sweep=first_sweep)
     axes[0, 0].set_xlabel("")
     draw_running_mean(axes[1, 0], traces, first_sweep=first_sweep)
-
+    # Histograms beside the trace, with shared bins.
     low, high = float(traces.min()), float(traces.max())
     edges = np.linspace(low, high if high > low else low + 1.0, 41)
     for chain, trace in enumerate(traces):
@@ -84,6 +86,7 @@ def trace_figure(log_joint: ArrayLike, *, first_sweep: int = 1) -> Figure:
 
 
 def _as_traces(log_joint: ArrayLike) -> NDArray[np.float64]:
+    """Check the log joint, and return it as (chain, draw)."""
     traces = np.atleast_2d(as_array(log_joint, "log_joint"))
     if traces.ndim != 2 or traces.size == 0:
         raise BadInput(f"trace: log_joint has shape {traces.shape}; give (chain, draw), with at least one draw")
@@ -97,7 +100,7 @@ def _as_traces(log_joint: ArrayLike) -> NDArray[np.float64]:
 
 
 def _thinned(trace: NDArray[np.float64], first_sweep: int) -> tuple[NDArray[np.intp], NDArray[np.float64]]:
-    """Return sweep numbers and values to draw, at most `MAX_POINTS`."""
+    """Return the sweep numbers and values to draw, about `MAX_POINTS` at most."""
     n = len(trace)
     index = np.arange(n)
     if n > MAX_POINTS:
@@ -111,7 +114,7 @@ def _finish(ax: Axes, traces: NDArray[np.float64], first_sweep: int, label: str)
     n = traces.shape[1]
     ax.set(xlabel="sweep", ylabel=label, xlim=(first_sweep - 0.5, first_sweep + n - 0.5))
     ax.xaxis.set_major_locator(MaxNLocator(nbins=6, integer=True))
-    # An offset ("+1.2e5") in a corner is easily overlooked.
+    # Write full numbers: an offset ("+1.2e5") in a corner is easily overlooked.
     ax.ticklabel_format(axis="y", useOffset=False, style="plain")
     ax.spines[["top", "right"]].set_visible(False)
 
@@ -119,15 +122,15 @@ def _finish(ax: Axes, traces: NDArray[np.float64], first_sweep: int, label: str)
 def draw_weights(
     ax: Axes, log_weights: ArrayLike, *, range_nats: tuple[float, float] = TUTORIAL_RANGE
 ) -> NDArray[np.intp]:
-    """Draw a histogram of the normalised log weights, the largest marked, with the effective sample size as title.
+    """Draw a histogram of the normalised log weights, mark the largest, and write the effective sample size above.
 
-    If one sample has nearly all the weight, the effective sample size is 1 and the answer is that one sample:
-    the collapse that the tutorial shows. Counts are on a logarithmic scale, or that sample could not be seen.
+    If one sample has nearly all the weight, the effective sample size is 1: importance sampling has collapsed, as in
+    the tutorial. Counts are on a logarithmic scale, so that a single sample is visible.
 
     Args:
-        ax: where to draw.
-        log_weights: one per sample in nats, shape (n,), normalised or not; -inf is a weight of zero.
-        range_nats: lower and upper end of the histogram; how many weights are below is written in the panel.
+        ax: axes to draw on.
+        log_weights: log weight of each sample in nats, (n,), normalised or not; -inf is a weight of zero.
+        range_nats: lower and upper end of the histogram; the number of weights below is written in the panel.
 
     Returns:
         The counts, shape (100,).
@@ -139,6 +142,7 @@ def draw_weights(
     low, high = range_nats
     if not (np.isfinite(low) and np.isfinite(high) and low < high):
         raise BadInput(f"weights: range_nats must rise from a finite number to another, got ({low}, {high})")
+    # The histogram, with the effective sample size as title.
     counts, edges = np.histogram(logs, bins=BINS, range=(low, high))
     ax.stairs(counts, edges, fill=True, color=palette.RAY, alpha=0.85)
     ax.set_yscale("log")
@@ -148,7 +152,7 @@ def draw_weights(
     ax.set_ylabel("samples")
     size = effective_sample_size(logs)
     ax.set_title(f"{len(logs):,} samples, effective sample size {size:,.{1 if size < 100 else 0}f}")
-
+    # Mark the largest weight, and count the weights below the range.
     largest = float(logs.max())
     if largest >= low:
         share = float(np.exp(largest))
@@ -167,14 +171,14 @@ def draw_weights(
 
 
 def weights_figure(log_weights: ArrayLike, *, range_nats: tuple[float, float] = TUTORIAL_RANGE) -> Figure:
-    """Draw `draw_weights` as a figure of its own; arguments and errors as there."""
+    """Return a figure of `draw_weights`, with its arguments and errors."""
     figure = palette.blank_figure(6.4, 3.2)
     draw_weights(figure.add_subplot(), log_weights, range_nats=range_nats)
     return figure
 
 
 def normalized(log_weights: ArrayLike) -> NDArray[np.float64]:
-    """Return log weights whose weights add up to 1, shape (n,).
+    """Return the log weights, normalised so that the weights add up to 1, shape (n,).
 
     Raises:
         BadInput: no weight at all, all of them zero, or one that is NaN or +inf.

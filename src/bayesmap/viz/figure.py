@@ -1,7 +1,7 @@
-"""Figures of maps: a posterior at a glance, one map alone, and maps side by side.
+"""Figures of maps: an overview of a posterior, a single map, and maps side by side.
 
-The layout is in whole pixels, and computed here, not left to a layout engine, so that every cell of a map is the same
-whole number of pixels wide and high: walls one cell thick stay crisp, and equally thick, in a map of any size.
+This module computes the layout in whole pixels instead of using a layout engine. Every cell of a map is the same whole
+number of pixels wide and high, so walls one cell thick stay sharp and equally thick.
 """
 
 from __future__ import annotations
@@ -35,25 +35,25 @@ from bayesmap.viz.overlays import draw_surfaces, draw_truth_outline
 
 FONT_PT = 9.0
 COARSE_CELLS = 100
-"""In maps of at most so many cells a side a cell is large enough that an outline does not hide it."""
+"""Largest side of a map, in cells, in which an outline of the true walls does not hide cells."""
 LEAST_STROKE_PT = 2.5
-"""Strokes of surfaces are drawn where cells are at least so large on the page."""
+"""Least size of a cell on the page for strokes of surfaces."""
 
 PANEL_IN = 3.4
 """Longest side of a panel in inches."""
 TALL_IN = 5.0
-"""Height of a panel of a map at least twice as high as wide."""
+"""Height of a panel if the map is at least twice as high as wide."""
 WIDE_IN = 7.0
-"""Width of a panel when panels are stacked, as those of a long map are."""
+"""Width of stacked panels, for a map much wider than high."""
 LEAST_SLOT_IN = 1.9
-"""No panel's slot is narrower: its title and its colour bar need the room."""
+"""Least width for a panel with its title and colour bar."""
 LETTER_IN, LINE_IN = 0.075, 0.2
-"""Width of a digit, and height of a line with its lead, in the tick labels' type."""
+"""Width of a digit and line height of the tick labels."""
 LEAST_DPI, MOST_DPI = 160.0, 320.0
 
 LEFT_IN, RIGHT_IN, TOP_IN, GAP_IN = 0.46, 0.2, 0.32, 0.25
 TITLE_IN, LABEL_IN, BAR_IN, LEGEND_IN = 0.32, 0.42, 0.48, 0.36
-"""Room for the figure's title, the x axis' labels, the colour bar beneath them, and the legend."""
+"""Heights of the figure's title, the x axis' labels, the colour bar below them, and the legend."""
 
 Surfaces = tuple[ArrayLike, ArrayLike, ArrayLike]
 """Means (n, 2) and covariances (n, 2, 2) in metres, and reflectivities (n,)."""
@@ -70,9 +70,9 @@ class Layout:
         figure: width and height of the figure, pixels.
         panel: width and height of a panel, pixels.
         corners: lower-left corner of each panel, pixels from the figure's, in reading order.
-        exact: whether a cell is a whole number of pixels; not so in maps too large for it.
+        exact: whether a cell is a whole number of pixels; False for maps that are too large.
         columns: number of panels in a row.
-        most_ticks: the largest number of intervals between ticks on x and on y whose labels fit.
+        most_ticks: largest number of tick intervals on x and on y whose labels fit.
     """
 
     dpi: float
@@ -88,13 +88,13 @@ class Layout:
         return palette.blank_figure(self.figure[0] / self.dpi, self.figure[1] / self.dpi, self.dpi, arranged=False)
 
     def title(self, figure: Figure, text: str | None) -> None:
-        """Write a line over the figure, if there is a text."""
+        """Write a title over the figure, if there is a text."""
         if text is not None:
             top = 1.0 - 0.12 * self.dpi / self.figure[1]
             figure.text(0.5, top, text, ha="center", va="top", fontsize=FONT_PT + 2.0, color=palette.TEXT)
 
     def fractions(self, left: float, bottom: float, width: float, height: float) -> tuple[float, float, float, float]:
-        """Return a box in pixels as fractions of the figure, as `Figure.add_axes` takes it."""
+        """Convert a box in pixels to fractions of the figure, for `Figure.add_axes`."""
         wide, high = self.figure
         return left / wide, bottom / high, width / wide, height / high
 
@@ -104,6 +104,7 @@ def lay_out(grid: Grid, panels: int, *, bars: int, titled: bool) -> Layout:
 
     The first ``bars`` panels have a colour bar.
     """
+    # Columns and rows.
     nx, ny = grid.shape
     tall = ny >= 2 * nx
     columns = panels if panels < 4 or tall else 2
@@ -111,7 +112,7 @@ def lay_out(grid: Grid, panels: int, *, bars: int, titled: bool) -> Layout:
         columns = 1
     rows = panels // columns
     longest_in = WIDE_IN if columns == 1 else TALL_IN if tall else PANEL_IN
-
+    # Whole pixels per cell, with at least `LEAST_DPI`, unless that would exceed `MOST_DPI`.
     longest = max(nx, ny)
     cell = float(math.ceil(LEAST_DPI * longest_in / longest))
     dpi = cell * longest / longest_in
@@ -119,14 +120,14 @@ def lay_out(grid: Grid, panels: int, *, bars: int, titled: bool) -> Layout:
     if not exact:
         dpi, cell = MOST_DPI, MOST_DPI * longest_in / longest
     panel = (max(1, round(nx * cell)), max(1, round(ny * cell)))
-
+    # Ticks whose labels fit.
     x0, x1, y0, y1 = grid.extent_m
     x_letters, y_letters = _tick_letters(x0, x1), _tick_letters(y0, y1)
     most_ticks = (
         max(1, min(6, int(panel[0] / dpi / ((x_letters + 2) * LETTER_IN)))),
         max(1, min(6, int(panel[1] / dpi / LINE_IN))),
     )
-
+    # Margins and corners, in pixels.
     left_in = LEFT_IN + y_letters * LETTER_IN
     gap_in = max(GAP_IN, (x_letters + 2) * LETTER_IN)  # labels at the ends of two axes must not meet
     right_in = max(RIGHT_IN, (x_letters / 2 + 1) * LETTER_IN)
@@ -166,23 +167,22 @@ def posterior_figure(
     width: ArrayLike | None = None,
     surfaces: Surfaces | None = None,
 ) -> Figure:
-    """Draw the posterior at a glance: the mean, how sure it is, the readings, and one draw.
+    """Draw an overview of the posterior: the mean, its uncertainty, the readings, and one draw.
 
     The panels stand in a row, four in a square, or stacked if the map is long.
 
     Args:
-        grid: where the cells are.
+        grid: grid of the cells.
         occupancy: posterior probability of wall per cell, shape (nx, ny).
-        observed: true where some beam reached, shape (nx, ny); the rest is hatched. None for everywhere.
-        draw: one map from the posterior, walls or numbers in [0, 1], shape (nx, ny); without it its panel is left out.
-        truth: the true walls, shape (nx, ny): outlined over the readings; over mean and draw too if cells are
-            large enough that an outline does not hide them, or if there are no readings.
-        scans: rays, readings and poses; without them their panel is left out.
-        title: a line over the figure.
-        label: what ``occupancy`` is, and a draw of numbers.
-        width: of the 90 % interval of each cell's reflectivity, shape (nx, ny): drawn in place of the entropy in bits
-            of a wall.
-        surfaces: strokes over the mean, where cells are large enough on the page to show them.
+        observed: mask of the cells that a beam reached, shape (nx, ny); the others are hatched. None: all cells.
+        draw: one draw of the map, walls or numbers in [0, 1], shape (nx, ny); None: no such panel.
+        truth: true walls, shape (nx, ny), outlined over the readings. If cells are large enough, or without readings,
+            they are outlined over mean and draw too.
+        scans: scans with their rays, readings and poses; None: no such panel.
+        title: title over the figure.
+        label: name of the values of ``occupancy``, and of a draw of numbers.
+        width: width of the 90 % interval of each cell's reflectivity, (nx, ny), drawn instead of the entropy of a wall.
+        surfaces: surfaces, drawn as strokes over the mean if cells are large enough on the page.
 
     Returns:
         A figure with its own Agg canvas, outside pyplot's global state; write it with `write_figure`.
@@ -191,6 +191,7 @@ def posterior_figure(
         BadInput: an array whose shape differs from the grid's, probabilities outside [0, 1], or a truth
             that is not 0 or 1.
     """
+    # Choose the panels, and lay them out.
     seen = as_observed(grid, observed)
     scans = scans if scans is not None and len(scans) else None
     doubt = "entropy" if width is None else "width"
@@ -201,7 +202,7 @@ def posterior_figure(
         name: figure.add_axes(layout.fractions(*corner, *layout.panel), label=name)
         for name, corner in zip(shown, layout.corners, strict=True)
     }
-
+    # Draw the images, then the overlays.
     mean = maps.draw_probability(panels["mean"], grid, occupancy, seen)
     if width is None:
         uncertainty, unit = maps.draw_entropy(panels[doubt], grid, occupancy, seen), "entropy [bits]"
@@ -218,7 +219,7 @@ def posterior_figure(
     keys = _draw_overlays(panels, grid, truth, scans)
     if surfaces is not None:
         keys += _draw_strokes(panels["mean"], grid, surfaces, 72.0 * layout.panel[0] / layout.dpi / grid.shape[0])
-
+    # Write titles, colour bars and legend.
     titles = {"data": "readings", "mean": "posterior mean", doubt: "uncertainty", "draw": "one draw"}
     for position, (name, panel) in enumerate(panels.items()):
         letter(panel, titles[name], layout.most_ticks, leftmost=position % layout.columns == 0)
@@ -238,13 +239,13 @@ def write_figure(figure: Figure, path: str | os.PathLike[str]) -> None:
 
     Raises:
         BadInput: another ending than .png, .pdf or .svg, or a folder that does not exist.
-        OSError: the disk refuses.
+        OSError: writing failed.
     """
     target, ending = need_ending(path, ("png", "pdf", "svg"), "figure")
-    # No date and no random identifiers: a picture that did not change does not show up in a diff.
+    # No date and no random identifiers, so that equal pictures are equal files.
     undated = {"png": {}, "pdf": {"CreationDate": None}, "svg": {"Date": None}}[ending]
     buffer = io.BytesIO()
-    # The settings that matplotlib takes from nowhere else are global, hence the lock.
+    # These settings are global in matplotlib, hence the lock.
     with _rc_lock, rc_context({"svg.hashsalt": "bayesmap", "pdf.fonttype": 42}):
         figure.savefig(buffer, format=ending, dpi="figure", metadata=undated)
     with write_whole(target) as partial:
@@ -252,7 +253,7 @@ def write_figure(figure: Figure, path: str | os.PathLike[str]) -> None:
 
 
 def _draw_overlays(panels: dict[str, Axes], grid: Grid, truth: ArrayLike | None, scans: Scans | None) -> list[Artist]:
-    """Draw the truth, the rays and the sensor where they inform and do not hide; one legend key of each."""
+    """Draw the true walls, the rays and the sensor over suitable panels, and return one legend key of each."""
     coarse = max(grid.shape) <= COARSE_CELLS
     keys: list[Artist] = []
     if truth is not None:
@@ -270,7 +271,7 @@ def _draw_overlays(panels: dict[str, Axes], grid: Grid, truth: ArrayLike | None,
 
 
 def _draw_strokes(panel: Axes, grid: Grid, surfaces: Surfaces, cell_pt: float) -> list[Artist]:
-    """Draw the surfaces, as thick as a fifth of a cell, and their legend key; none in cells that are too small."""
+    """Draw the surfaces, a fifth of a cell thick, and return their legend key; draw none if cells are too small."""
     if cell_pt < LEAST_STROKE_PT:
         return []
     thickness_pt = float(np.clip(cell_pt / 5.0, 0.6, 1.6))
@@ -280,7 +281,7 @@ def _draw_strokes(panel: Axes, grid: Grid, surfaces: Surfaces, cell_pt: float) -
 
 
 def letter(panel: Axes, title: str, most_ticks: tuple[int, int], *, leftmost: bool) -> None:
-    """Set the panel's type, and label the y axis, which all panels share, only at the left."""
+    """Set the panel's title and fonts. Only the leftmost panel labels the y axis."""
     panel.set_title(title, fontsize=FONT_PT + 1.0, pad=5.0, color=palette.TEXT)
     panel.xaxis.label.set(fontsize=FONT_PT, color=palette.TEXT)
     panel.yaxis.label.set(fontsize=FONT_PT, color=palette.TEXT)
@@ -315,17 +316,17 @@ def _legend(figure: Figure, keys: list[Artist], *, walls: bool, unobserved: bool
 
 
 def place_legend(figure: Figure, handles: list[Artist]) -> None:
-    """Place the keys under the panels, in as many rows as they need; none if there is none."""
+    """Place the legend keys under the panels, in as many rows as they need."""
     if not handles:
         return
-    # Two rows where one would be wider than the figure: a key takes about 0.95 inch.
+    # A key takes about 0.95 inch; use more rows if one would be wider than the figure.
     per_row = max(1, int(figure.get_figwidth() / 0.95))
     legend = figure.legend(
         handles=handles, loc="lower center", bbox_to_anchor=(0.5, 0.0),
         ncols=-(-len(handles) // -(-len(handles) // per_row)), frameon=False, fontsize=FONT_PT,
         labelcolor=palette.TEXT, handlelength=1.6, handletextpad=0.6, columnspacing=1.4, borderaxespad=0.5,
     )  # fmt: skip
-    # On the map many marks are faint and small; their keys have to be legible alone.
+    # Many marks are faint and small on the map; their legend keys must be visible.
     for key in legend.legend_handles:
         if key is not None:
             key.set_alpha(1.0)
@@ -334,7 +335,7 @@ def place_legend(figure: Figure, handles: list[Artist]) -> None:
 
 
 NO_BAR_IN = 0.9
-"""How much narrower a panel is without a bar."""
+"""Width that a figure saves without a colour bar."""
 
 
 def panel_figure(
@@ -350,13 +351,12 @@ def panel_figure(
 
     Args:
         grid: the map's grid.
-        what: "mean" and "entropy" (values: probabilities of a wall), "deviation" (values: the same; drawn is the
-            standard deviation of a cell), "width" (values: upper minus lower bound of the interval), or "draw"
-            (values: walls, or numbers in [0, 1]).
-        values: shape (nx, ny).
-        observed: cells to draw; the others are hatched. All if None.
-        truth: true walls, (nx, ny), to be outlined.
-        label: what the values of "mean" and of a draw in [0, 1] are.
+        what: "mean", "entropy" or "deviation" (values: probabilities of a wall; "deviation" draws their standard
+            deviations), "width" (values: widths of intervals), or "draw" (values: walls or numbers in [0, 1]).
+        values: values of the cells, (nx, ny).
+        observed: mask of the cells to draw; the others are hatched. None: all cells.
+        truth: true walls, (nx, ny), to outline.
+        label: name of the values of "mean", and of a draw in [0, 1].
 
     Raises:
         BadInput: shapes or values that do not fit.
@@ -389,9 +389,9 @@ class Candidate:
     """A map to compare.
 
     Attributes:
-        title: over its panel.
+        title: title of its panel.
         occupancy: probability of a wall, or that a beam stops, per cell, shape (nx, ny).
-        observed: true where some beam reached, shape (nx, ny); None for everywhere.
+        observed: mask of the cells that a beam reached, shape (nx, ny); None: all cells.
         note: a line under the title, such as its held-out score.
     """
 

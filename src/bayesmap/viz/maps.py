@@ -1,10 +1,10 @@
-"""Panels that show a map of cells, windows for close-ups, and the edges that outlines and hatches are drawn from.
+"""Panels that show a map of cells, windows for close-ups, and the edges of outlines and hatches.
 
-All arrays are indexed ``[x, y]`` with shape ``(nx, ny)``; a panel shows metres of the world frame, x to the right and
-y up, at equal scale. `bayesmap.viz.overlays` draws what lies over a map: outlines, rays, sensors, surfaces.
+All arrays are indexed ``[x, y]`` with shape ``(nx, ny)``. A panel shows metres of the world frame, x to the right and y
+up, at equal scale. `bayesmap.viz.overlays` draws outlines, rays, sensors and surfaces over a map.
 
-One patch per cell makes a picture of a building take minutes. Runs of cells are found for the whole map at once, so the
-number of things to draw grows with the length of the boundary, not with the area.
+Cells are joined into runs, since a picture of a building with one patch per cell takes minutes. The number of runs
+grows with the length of the boundary, not with the area.
 """
 
 from __future__ import annotations
@@ -35,12 +35,13 @@ def boundary_segments(grid: Grid, mask: NDArray[np.bool_]) -> NDArray[np.float64
     Edges in a row are joined into one segment.
 
     Args:
-        grid: where the cells are.
-        mask: shape (nx, ny).
+        grid: grid of the cells.
+        mask: mask of cells, (nx, ny).
 
     Returns:
         Segments in metres, shape (M, 2, 2): segment, end, (x, y).
     """
+    # Edges where the mask changes, joined into runs in each direction.
     padded = np.pad(mask, 1)
     across_x = padded[1:, 1:-1] != padded[:-1, 1:-1]  # (nx + 1, ny): edges with x constant
     across_y = padded[1:-1, 1:] != padded[1:-1, :-1]  # (nx, ny + 1): edges with y constant
@@ -52,7 +53,7 @@ def boundary_segments(grid: Grid, mask: NDArray[np.bool_]) -> NDArray[np.float64
 
 
 def boxes(grid: Grid, mask: NDArray[np.bool_]) -> NDArray[np.float64]:
-    """Return disjoint boxes that cover the true cells, each a run of cells along y.
+    """Return disjoint boxes that cover the true cells; each box is a run of cells along y.
 
     Returns:
         Closed outlines in metres, counter-clockwise, shape (M, 5, 2).
@@ -63,7 +64,7 @@ def boxes(grid: Grid, mask: NDArray[np.bool_]) -> NDArray[np.float64]:
 
 
 def _runs(mask: NDArray[np.bool_]) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.intp]]:
-    """Return row, first column, and column after the last, of every run of true along axis 1."""
+    """Return the row, the first column and the column after the last of every run of true along axis 1."""
     steps = np.diff(np.pad(mask, ((0, 0), (1, 1))).astype(np.int8), axis=1)
     row, start = np.nonzero(steps == 1)
     stop = np.nonzero(steps == -1)[1]
@@ -78,12 +79,12 @@ def window(grid: Grid, x_m: tuple[float, float], y_m: tuple[float, float]) -> tu
     """Return the cells that a rectangle of the world touches.
 
     Args:
-        grid: where the cells are.
+        grid: grid of the cells.
         x_m: left and right edge of the rectangle, metres.
-        y_m: lower and upper edge.
+        y_m: lower and upper edge, metres.
 
     Returns:
-        The part's own grid, and the slices that take an array of shape (nx, ny) to it.
+        The grid of the window, and the slices that cut it from an array of shape (nx, ny).
 
     Raises:
         BadInput: edges out of order or not finite, or a rectangle outside the grid.
@@ -93,7 +94,7 @@ def window(grid: Grid, x_m: tuple[float, float], y_m: tuple[float, float]) -> tu
         if not (math.isfinite(low) and math.isfinite(high) and low < high):
             raise BadInput(f"picture: the window's edges must be finite, and the lower first, got {low:g} to {high:g}")
         cells = grid.shape[axis]
-        # Cut to the map before they become whole numbers, which have no infinity.
+        # Clip to the map first: infinity has no whole number.
         first, last = (
             min(max((edge - grid.origin[axis]) / grid.resolution, -1.0), cells + 1.0) for edge in (low, high)
         )
@@ -111,12 +112,12 @@ def window(grid: Grid, x_m: tuple[float, float], y_m: tuple[float, float]) -> tu
 
 
 def window_around(grid: Grid, mask: ArrayLike, margin_m: float = 1.0) -> tuple[Grid, Cut]:
-    """Return the window of the true cells with a margin: what is left of a map without its empty borders.
+    """Return the window around the true cells, with a margin.
 
     Args:
-        grid: where the cells are.
-        mask: such as the observed cells, shape (nx, ny); if none is true, the whole grid.
-        margin_m: left around them, as far as the grid goes.
+        grid: grid of the cells.
+        mask: mask of cells, such as the observed ones, (nx, ny); if none is true, the window is the whole grid.
+        margin_m: margin around the cells, at most to the end of the grid.
 
     Raises:
         BadInput: another shape than the grid's.
@@ -139,10 +140,10 @@ def draw_probability(ax: Axes, grid: Grid, occupancy: ArrayLike, observed: Array
     """Draw the posterior probability of wall: free is light, wall is dark, unobserved is hatched.
 
     Args:
-        ax: where to draw.
-        grid: where the cells are.
-        occupancy: probability per cell, shape (nx, ny).
-        observed: true where some beam reached, shape (nx, ny); None for everywhere.
+        ax: axes to draw on.
+        grid: grid of the cells.
+        occupancy: probability of wall per cell, shape (nx, ny).
+        observed: mask of the cells that a beam reached, shape (nx, ny); None: all cells.
 
     Returns:
         The image, from 0 to 1, for a colour bar.
@@ -155,7 +156,7 @@ def draw_probability(ax: Axes, grid: Grid, occupancy: ArrayLike, observed: Array
 
 
 def draw_entropy(ax: Axes, grid: Grid, occupancy: ArrayLike, observed: ArrayLike | None = None) -> AxesImage:
-    """Draw the entropy of each cell in bits: 0 where wall or free is certain, 1 where both are equally likely.
+    """Draw the entropy of each cell in bits: 0 if wall or free is certain, 1 if both are equally likely.
 
     Arguments and errors are those of `draw_probability`. The image is from 0 to 1 bit.
     """
@@ -188,6 +189,7 @@ def draw_width(ax: Axes, grid: Grid, width: ArrayLike, observed: ArrayLike | Non
 def _show_uncertainty(
     ax: Axes, grid: Grid, values: ArrayLike, observed: ArrayLike | None, name: str, top: float, reason: str
 ) -> AxesImage:
+    """Check that values lie between 0 and ``top``, and draw them as uncertainty."""
     numbers = as_numbers(grid, values, name)
     if numbers.min() < -ROUNDING or numbers.max() > top + ROUNDING:
         raise BadInput(f"picture: {name} runs from {numbers.min():g} to {numbers.max():g}, and {reason}")
@@ -195,7 +197,7 @@ def _show_uncertainty(
 
 
 def draw_sample(ax: Axes, grid: Grid, walls: ArrayLike, observed: ArrayLike | None = None) -> AxesImage:
-    """Draw one map of the posterior; cells that no beam reached are faded, since they are draws of the prior.
+    """Draw one draw of the map; cells that no beam reached are faded, since they are draws of the prior.
 
     Arguments and errors are those of `draw_probability`, with walls, true or 1, for probabilities. The image is in the
     colours of `palette.draw_colormap`.
@@ -206,7 +208,7 @@ def draw_sample(ax: Axes, grid: Grid, walls: ArrayLike, observed: ArrayLike | No
 
 
 def draw_one(ax: Axes, grid: Grid, draw: ArrayLike, observed: ArrayLike | None = None) -> AxesImage:
-    """Draw one map of the posterior: walls by `draw_sample`, reflectivities in [0, 1] by `draw_probability`."""
+    """Draw one draw of the map: walls by `draw_sample`, reflectivities in [0, 1] by `draw_probability`."""
     array = np.asarray(draw)
     if array.dtype == np.bool_ or np.isin(array, (0, 1)).all():
         return draw_sample(ax, grid, array, observed)
@@ -221,9 +223,9 @@ def map_figure(
     foot_in: float = 0.0,
     dpi: float = 160.0,
 ) -> tuple[Figure, Axes]:
-    """Return a figure of one panel, with room for a colour bar at the right and a legend at the foot, in inches.
+    """Return a figure of one panel, with room in inches for a colour bar at the right and a legend at the foot.
 
-    ``aspects`` are the smallest and the largest width of the panel, as a multiple of its height.
+    ``aspects`` are the smallest and the largest ratio of the panel's width to its height.
     """
     width_in = HEIGHT_IN * float(np.clip(grid.shape[0] / grid.shape[1], *aspects)) + bar_in
     figure = palette.blank_figure(width_in, HEIGHT_IN + foot_in, dpi)
@@ -231,7 +233,7 @@ def map_figure(
 
 
 def tick_locator(most: int) -> MaxNLocator:
-    """Return ticks at 1, 2 or 5 times a power of ten, with ``most`` intervals at most."""
+    """Return a locator of ticks in steps of 1, 2 or 5 times a power of ten, with at most ``most`` intervals."""
     return MaxNLocator(nbins=most, steps=[1, 2, 5, 10])
 
 
@@ -247,7 +249,7 @@ def frame_axes(ax: Axes, grid: Grid) -> None:
 
 
 def hatch_patch(path: Path | None = None) -> PathPatch:
-    """Return the mark of unobserved cells, over them or (with its own colour beneath) as a legend's key."""
+    """Return the hatch over unobserved cells; without a path, its legend key with the colour below."""
     square = Path(np.array([(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0), (0.0, 0.0)]), closed=True)
     patch = PathPatch(
         square if path is None else path,
@@ -279,8 +281,8 @@ def _show(
         vmax=top,
         extent=grid.extent_m,
         origin="lower",
-        # Cells stay crisp squares when enlarged; when there are more cells than pixels they are averaged,
-        # in colours, so that a thin wall fades instead of vanishing.
+        # Enlarged cells stay sharp squares. If there are more cells than pixels, colours are averaged, so that a thin
+        # wall fades instead of vanishing.
         interpolation="auto",
         interpolation_stage="auto",
     )
@@ -288,6 +290,6 @@ def _show(
     if not observed.all():
         outlines = boxes(grid, ~observed)
         codes = np.tile([Path.MOVETO, Path.LINETO, Path.LINETO, Path.LINETO, Path.CLOSEPOLY], len(outlines))
-        # Not add_patch: it walks the path in Python to find limits, which the panel has already.
+        # Not add_patch: it is slow, since it computes limits in Python that the panel already has.
         ax.add_artist(hatch_patch(Path(outlines.reshape(-1, 2), codes)))
     return image

@@ -1,8 +1,8 @@
 """Overlays of a map: the true walls' outline, rays and readings, the sensor, and surfaces as short strokes.
 
-A cell's surface is a 2-D mean and covariance of the points where beams stop in it (as normal-distributions-transform
-maps keep, Biber and Strasser 2003). Along a wall the covariance is long and thin; its major axis, two standard
-deviations each way, is the stroke. A speck of clutter is a dot.
+A cell's surface is the 2-D mean and covariance of the points where beams stop in it. Maps of the normal distributions
+transform (Biber and Strasser 2003) use the same description. Along a wall the covariance is long and thin. The stroke
+is its major axis, two standard deviations to each side. Small clutter becomes a dot.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ from bayesmap.viz import maps, palette
 from bayesmap.viz.maps import boundary_segments
 
 MAX_ARROWS = 12
-"""Up to so many poses each get an arrow; more are a trajectory, with one arrow where it ends."""
+"""Largest number of poses with an arrow each. More poses are drawn as a trajectory with one arrow at its end."""
 
 
 def draw_truth_outline(ax: Axes, grid: Grid, true_walls: ArrayLike) -> LineCollection:
@@ -51,11 +51,11 @@ def draw_truth_outline(ax: Axes, grid: Grid, true_walls: ArrayLike) -> LineColle
 def draw_rays(
     ax: Axes, scans: Scans, max_beams: int = 400, max_readings: int = 20_000
 ) -> list[LineCollection | PathCollection]:
-    """Draw beams, the end points of those that hit something, and those with no return, dashed to their limit.
+    """Draw beams with their end points, and beams without return as dashed lines to the largest range.
 
-    Readings that are too close or invalid have no end point and are left out. Beyond the limits evenly spaced beams and
-    end points are drawn, always the same ones. Points hide less than lines, so that their limit is higher: the readings
-    of a whole log show the building before any inference.
+    Readings that are too close or invalid have no end point and are left out. If there are more beams or end points
+    than the limits, an evenly spaced part is drawn, always the same one. Points hide less than lines, so their limit is
+    higher: the readings of a whole log show the building before any inference.
 
     Returns:
         The artists, labelled "beam", "reading" and "no return", in this order, without those missing.
@@ -69,7 +69,7 @@ def draw_rays(
     beams = _spread(np.flatnonzero((kinds == Reading.HIT) | (kinds == Reading.NO_RETURN)), max_beams)
     hit, lost = beams[kinds[beams] == Reading.HIT], beams[kinds[beams] == Reading.NO_RETURN]
     points = _spread(np.flatnonzero(kinds == Reading.HIT), max_readings)
-    # Many rays must not bury the map: each is fainter as they become more.
+    # The more rays, the fainter each: they must not hide the map.
     alpha = float(np.clip(60.0 / max(len(beams), 1), 0.12, 0.55))
     drawn: list[LineCollection | PathCollection] = []
     if len(hit):
@@ -101,10 +101,10 @@ def draw_rays(
 
 
 def draw_sensor(ax: Axes, poses: ArrayLike) -> list[Line2D]:
-    """Draw the sensor, as an arrow along its yaw; many poses are drawn as a trajectory that ends in an arrow.
+    """Draw the sensor as an arrow along its yaw. Many poses are drawn as a trajectory that ends in an arrow.
 
     Args:
-        ax: where to draw.
+        ax: axes to draw on.
         poses: x in metres, y in metres, yaw in radians: shape (S, 3), or (3,).
 
     Returns:
@@ -132,14 +132,14 @@ def draw_sensor(ax: Axes, poses: ArrayLike) -> list[Line2D]:
 
 
 def _spread(beams: NDArray[np.intp], most: int) -> NDArray[np.intp]:
-    """Select at most so many of the beams, evenly spaced, first and last among them."""
+    """Select at most ``most`` of the beams, evenly spaced, with the first and the last."""
     if len(beams) <= most:
         return beams
     return beams[np.linspace(0, len(beams) - 1, most).astype(np.intp)]
 
 
 def _rays(scans: Scans, beams: NDArray[np.intp]) -> NDArray[np.float64]:
-    """Return start and end in metres of the beams of these flat indices, (n, 2, 2); no return reaches the limit."""
+    """Return start and end of the beams with these flat indices, metres, (n, 2, 2); no return has the largest range."""
     scan = beams // scans.ranges_m.shape[1]
     angles = scans.beam_angles_world().ravel()[beams]
     ranges = scans.ranges_m.ravel()[beams]
@@ -150,7 +150,7 @@ def _rays(scans: Scans, beams: NDArray[np.intp]) -> NDArray[np.float64]:
 
 
 def _arrow(yaw_rad: float) -> MarkerStyle:
-    """Return a navigator's arrowhead that points along the yaw."""
+    """Return an arrowhead that points along the yaw."""
     outline = np.array([(1.0, 0.0), (-0.75, 0.7), (-0.4, 0.0), (-0.75, -0.7), (1.0, 0.0)])
     return MarkerStyle(Path(outline, closed=True), transform=Affine2D().rotate(yaw_rad))
 
@@ -159,7 +159,7 @@ DEVIATIONS = 2.0
 """Standard deviations from the mean to each end of a stroke."""
 
 FAINTEST = 0.02
-"""Less likely surfaces are left out: they could not be seen, and most cells are free."""
+"""Least weight of a drawn surface. Fainter ones would be invisible, and most cells are free."""
 
 LEAST_WIDTH_PT, MOST_WIDTH_PT = 0.8, 2.5
 
@@ -172,7 +172,7 @@ def surface_strokes(
     Args:
         means_world: centres in metres, shape (n, 2).
         covariances_m2: covariances in square metres, shape (n, 2, 2).
-        longest_m: strokes are cut to this length.
+        longest_m: largest length of a stroke; longer ones are cut.
 
     Raises:
         BadInput: shapes that do not fit, numbers that are not finite, or a matrix that is no covariance.
@@ -205,7 +205,7 @@ def draw_surfaces(
     longest_m: float = np.inf,
     color: str | None = None,
 ) -> LineCollection:
-    """Draw one stroke a surface, as `surface_strokes` makes them, as opaque as its weight in [0, 1], (n,).
+    """Draw one stroke per surface, from `surface_strokes`. Its opacity is the surface's weight in [0, 1], (n,).
 
     By default strokes have the colour of walls.
 
@@ -220,7 +220,7 @@ def draw_surfaces(
         raise BadInput(f"picture: weights must be {len(strokes)} numbers in [0, 1], one a surface")
     seen = alpha >= FAINTEST
     ink = to_rgba(tuple(palette.probability_colors(2)[1]) if color is None else color)
-    # A collection of nothing keeps one colour too: its key in a legend asks for it.
+    # An empty collection needs one colour too, for its legend key.
     colors = np.tile(ink, (max(int(seen.sum()), 1), 1))
     if seen.any():
         colors[:, 3] = alpha[seen]
@@ -234,16 +234,16 @@ def draw_surfaces(
 def surfaces_figure(
     grid: Grid, means_world: ArrayLike, covariances_m2: ArrayLike, weights: ArrayLike, observed: ArrayLike | None = None
 ) -> Figure:
-    """Draw all surfaces of a map, over hatched ground where no beam reached.
+    """Draw all surfaces of a map, and hatch the cells that no beam reached.
 
-    Arguments and errors are those of `draw_surfaces`; ``observed`` has shape (nx, ny), None for everywhere.
+    Arguments and errors are those of `draw_surfaces`. ``observed`` has shape (nx, ny); None: all cells.
     """
     figure, axes = maps.map_figure(grid, aspects=(0.4, 2.5), bar_in=0.7, foot_in=0.35, dpi=200)
     maps.draw_sample(axes, grid, np.zeros(grid.shape, dtype=np.bool_), observed)
-    # A stroke is as thick as a third of a cell where that can be seen.
+    # A stroke is a third of a cell thick, within limits.
     cell_pt = 72.0 * maps.HEIGHT_IN / max(grid.shape)
     width_pt = float(np.clip(cell_pt / 3.0, LEAST_WIDTH_PT, MOST_WIDTH_PT))
-    # Hits of a cell lie in it: a longer stroke shows only how little is known of the surface.
+    # Hits of a cell lie in the cell: a longer stroke only shows that the surface is uncertain.
     longest_m = 1.5 * grid.resolution
     draw_surfaces(axes, means_world, covariances_m2, weights, width_pt=width_pt, longest_m=longest_m)
     ink = tuple(palette.probability_colors(2)[1])

@@ -1,17 +1,15 @@
-"""The style of all pictures: every colour, why it was chosen, and the paper of a figure.
+"""The style of all pictures: the colours, the reasons for them, and an empty figure.
 
-- **Probability of wall** runs from paper to ink along one straight line in CIELAB, so equal steps in
-  probability look equally large, its lightness falls all the way (it survives grey printing), and no
-  kind of colour blindness confuses two of its colours.
-- **Uncertainty** (entropy, standard deviation) is cividis, made to look alike with and without a
-  red-green deficiency; bright is uncertain.
-- **Unobserved** is a warm paper colour under a hatch. Both maps above are cool where they are light or
-  grey, so "nobody looked here" is never taken for "free", nor for "as likely as not".
-- **Residuals** run from blue (shorter than predicted) over a light grey to vermilion (longer): the two hues of Okabe
-  and Ito that differ for every kind of colour vision, equally far from the grey. **Surprise** is their warm half,
-  deepened.
-- **Lines and marks** are from Okabe and Ito, "Color Universal Design" (2008), which stay apart for all
-  common kinds of colour vision.
+- **Probability of wall** runs from paper to ink on a straight line in CIELAB. Equal steps in probability look equally
+  large. Lightness falls all the way, so grey prints stay readable, and colour blindness confuses no two colours.
+- **Uncertainty** (entropy, standard deviation) is cividis, which looks alike with and without a red-green deficiency.
+  Bright is uncertain.
+- **Unobserved** is a warm paper colour under a hatch. The light and grey colours of both maps above are cool, so
+  unobserved cells look neither free nor undecided.
+- **Residuals** run from blue (shorter than predicted) over light grey to vermilion (longer). These two hues of Okabe
+  and Ito differ for every kind of colour vision, and are equally far from the grey. **Surprise** is the warm half,
+  made darker.
+- **Lines and marks** are from Okabe and Ito, "Color Universal Design" (2008): distinct for all common colour vision.
 """
 
 from __future__ import annotations
@@ -32,7 +30,7 @@ INK_LAB: Final = (14.0, 6.0, -24.0)
 UNOBSERVED: Final = "#EFE7D8"
 UNOBSERVED_HATCH: Final = "#BFAE92"
 UNOBSERVED_WALL: Final = "#C9BDA8"
-"""A draw's wall where no beam reached: there it is the prior that speaks, so it is shown faded."""
+"""Wall of a draw in a cell that no beam reached. It comes from the prior, so it is faded."""
 
 TRUTH: Final = "#D55E00"
 RAY: Final = "#0072B2"
@@ -47,9 +45,10 @@ SHORTER_LAB: Final = (46.0, -2.0, -44.0)
 NEUTRAL_LAB: Final = (88.0, 0.0, -1.0)
 LONGER_LAB: Final = (50.0, 48.0, 60.0)
 ALARMING_LAB: Final = (28.0, 40.0, 30.0)
+"""Colours of residuals and surprise in CIELAB; the last is for the largest surprise."""
 
 CHAINS: Final = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
-"""Lines of separate chains, in order; more chains than colours start again."""
+"""Line colours of the chains, in order, repeated for more chains."""
 
 HATCH: Final = "//////"
 HATCH_WIDTH_PT: Final = 0.6
@@ -87,7 +86,7 @@ def uncertainty_colormap() -> Colormap:
 
 
 def residual_colormap() -> Colormap:
-    """Return the colours of -limit to limit: shorter than predicted, as predicted, longer."""
+    """Return the colours of residuals, from shorter than predicted to longer."""
     return ListedColormap(_through(SHORTER_LAB, NEUTRAL_LAB, LONGER_LAB).tolist(), name="bayesmap.residual")
 
 
@@ -109,12 +108,12 @@ def draw_colormap() -> ListedColormap:
 
 
 def chain_color(chain: int) -> str:
-    """Return the colour of a chain's lines; more chains than colours start again."""
+    """Return the line colour of a chain; colours repeat for many chains."""
     return CHAINS[chain % len(CHAINS)]
 
 
 def blank_figure(width_in: float, height_in: float, dpi: float = 160.0, *, arranged: bool = True) -> Figure:
-    """Return an empty figure with its own Agg canvas, outside pyplot's global state; matplotlib arranges its panels."""
+    """Return an empty figure with its own Agg canvas, outside pyplot. If ``arranged``, matplotlib places its panels."""
     layout: Literal["constrained"] | None = "constrained" if arranged else None
     figure = Figure(figsize=(width_in, height_in), dpi=dpi, facecolor="white", layout=layout)
     FigureCanvasAgg(figure)

@@ -1,4 +1,4 @@
-"""Pictures of scores: calibration of predictions, beams that were predicted badly, errors of a trajectory."""
+"""Pictures of scores: calibration of predictions, badly predicted beams, and errors of a trajectory."""
 
 from __future__ import annotations
 
@@ -24,16 +24,16 @@ if TYPE_CHECKING:
 
 LEVELS = np.linspace(0.02, 0.98, 49)
 LEAST_EVENTS = 20
-"""Fewer say nothing about a share."""
+"""Least number of events for a share to be drawn."""
 
 Rows = Sequence[tuple[str, "Score"]]
 
 
 def draw_pit(ax: Axes, rows: Rows) -> None:
-    """Draw histograms of the probability integral transform: flat if the predictive laws are right.
+    """Draw histograms of the probability integral transform: flat if the predictive laws are calibrated.
 
-    High ends mean that predictions are too sure, a hump in the middle that they are not sure enough, a slope that they
-    are too far or too near.
+    High ends mean that predictions are too narrow, a hump in the middle that they are too wide. A slope means that they
+    are biased: too far or too near.
     """
     for i, (name, score) in enumerate(rows):
         bins = len(score.pit_histogram)
@@ -44,7 +44,7 @@ def draw_pit(ax: Axes, rows: Rows) -> None:
 
 
 def draw_coverage(ax: Axes, rows: Rows) -> None:
-    """Draw the share of readings in the central interval of every probability: the diagonal if intervals are right."""
+    """Draw the share of readings in central intervals against their probability: the diagonal is right."""
     from bayesmap.posterior.scores import inside
 
     for i, (name, score) in enumerate(rows):
@@ -56,7 +56,7 @@ def draw_coverage(ax: Axes, rows: Rows) -> None:
 
 
 def draw_reliability(ax: Axes, rows: Rows) -> None:
-    """Draw the share of first hits among events that were given a chance: the diagonal if chances are right."""
+    """Draw the share of first hits against their predicted chance: the diagonal is right."""
     for i, (name, score) in enumerate(rows):
         points = [(p, share) for p, share, count in score.reliability if count >= LEAST_EVENTS and share > 0]
         if points:
@@ -75,7 +75,7 @@ def draw_reliability(ax: Axes, rows: Rows) -> None:
 
 
 def calibration_figure(rows: Rows) -> Figure:
-    """Draw three panels, a line for each scored map, given by name and score.
+    """Draw PIT, coverage and reliability in three panels, with one line per scored map (name and score).
 
     Raises:
         BadInput: no score.
@@ -96,7 +96,7 @@ def calibration_figure(rows: Rows) -> Figure:
 
 
 def draw_distribution(ax: Axes, errors: NDArray[np.float64], label: str) -> None:
-    """Draw the cumulative distribution of errors, with mean and median."""
+    """Draw the cumulative distribution of errors, with its mean and median."""
     ordered = np.sort(errors)
     ax.step(
         ordered, np.arange(1, len(ordered) + 1) / len(ordered), where="post", color=palette.CHAINS[0], linewidth=1.2
@@ -111,7 +111,7 @@ def draw_distribution(ax: Axes, errors: NDArray[np.float64], label: str) -> None
 
 
 def draw_region_coverage(ax: Axes, score: TrajectoryScore) -> None:
-    """Draw the share of relations whose truth lies in the region of every probability: the diagonal is right."""
+    """Draw the share of true relations in regions against their probability: the diagonal is right."""
     levels = np.linspace(0.0, 1.0, 101)
     ax.plot(levels, [score.coverage(level) for level in levels], color=palette.CHAINS[0], linewidth=1.2)
     ax.plot([0, 1], [0, 1], color=palette.FRAME, linewidth=0.8, linestyle=":")
@@ -120,7 +120,7 @@ def draw_region_coverage(ax: Axes, score: TrajectoryScore) -> None:
 
 
 def errors_figure(score: TrajectoryScore) -> Figure:
-    """Draw the distributions of both errors, and coverage where the trajectory says how sure it is."""
+    """Draw the distributions of both errors, and coverage if the trajectory has covariances."""
     panels = 2 if score.region is None else 3
     figure = palette.blank_figure(3.4 * panels, 3.4)
     axes = figure.subplots(1, panels)
@@ -134,15 +134,15 @@ def errors_figure(score: TrajectoryScore) -> Figure:
 
 
 FAINT = 0.3
-"""Opacity of the map beneath."""
+"""Opacity of the map below the dots."""
 
 MAX_POINTS = 60_000
-"""More end points than this are thinned evenly, but for the worst, which are all kept."""
+"""Largest number of end points. More are thinned evenly, but the worst `MAX_POINTS` / 2 are all kept."""
 
 
 @dataclass(frozen=True)
 class Scale:
-    """How numbers become colours."""
+    """The scale that maps numbers to colours."""
 
     colors: Colormap
     low: float
@@ -151,7 +151,7 @@ class Scale:
 
 
 def residual_scale(residuals_m: ArrayLike, limit_m: float | None = None) -> Scale:
-    """Return a symmetric scale: by default to the residual that 90 % of the beams stay within, but 5 cm at least."""
+    """Return a symmetric scale. Its default limit is the 90 % quantile of the absolute residuals, at least 5 cm."""
     values = as_array(residuals_m, "residuals_m")
     if limit_m is None:
         limit_m = max(0.05, _rounded(float(np.quantile(np.abs(values), 0.9)) if values.size else 0.0))
@@ -161,14 +161,14 @@ def residual_scale(residuals_m: ArrayLike, limit_m: float | None = None) -> Scal
 
 
 def surprise_scale(surprises: ArrayLike) -> Scale:
-    """Return a scale of surprise, minus the log score in nats: from the median beam's to the 99th percentile's."""
+    """Return a scale of surprise, minus the log score in nats, from the median to the 99th percentile."""
     values = as_array(surprises, "surprises")
     low, high = (float(v) for v in np.quantile(values, [0.5, 0.99])) if values.size else (0.0, 1.0)
     return Scale(palette.surprise_colormap(), low, max(high, low + 1e-3), "surprise: minus log score [nats]")
 
 
 def draw_residuals(ax: Axes, ends_world: ArrayLike, values: ArrayLike, scale: Scale) -> PathCollection:
-    """Draw a dot at the end of every beam, (n, 2), coloured by its value, (n,); the worst are larger and lie on top.
+    """Draw a dot at the end of every beam, (n, 2), coloured by its value, (n,). The worst are larger and on top.
 
     Returns:
         The dots, for a colour bar.
@@ -181,6 +181,7 @@ def draw_residuals(ax: Axes, ends_world: ArrayLike, values: ArrayLike, scale: Sc
         raise BadInput(f"picture: end points have shape {ends.shape} and values {numbers.shape}; give (n, 2) and (n,)")
     if not (np.isfinite(ends).all() and np.isfinite(numbers).all()):
         raise BadInput("picture: an end point or its value is not finite; leave out invalid readings")
+    # Sort by severity, from 0 (as predicted) to 1 (the end of the scale), and thin.
     middle = 0.0 if scale.low == -scale.high else scale.low
     severity = np.clip((np.abs(numbers) if middle == 0.0 else numbers - middle) / (scale.high - middle), 0.0, 1.0)
     order = np.argsort(severity, kind="stable")
@@ -206,8 +207,8 @@ def residuals_figure(
 ) -> Figure:
     """Draw the end points of held-out beams, (n, 2), over the faded posterior mean.
 
-    The values, (n,), are residuals in metres, or surprises in nats with `surprise_scale`; the scale of residuals is
-    `residual_scale` unless one is given.
+    The values, (n,), are residuals in metres, or surprises in nats with `surprise_scale`. The default scale is
+    `residual_scale`.
 
     Raises:
         BadInput: shapes or values that do not fit.

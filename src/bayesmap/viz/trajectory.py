@@ -1,4 +1,4 @@
-"""Pictures of a trajectory: on its map with its uncertainty, beside raw odometry, and where it closes loops."""
+"""Pictures of a trajectory: on its map with its uncertainty, beside raw odometry, and with its loop closures."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from bayesmap.viz import maps, palette
 Floats = NDArray[np.float64]
 
 REGION = 5.991
-"""Square of the radius of the ellipse that holds 95 % of a normal distribution in the plane, in deviations."""
+"""Squared radius, in standard deviations, of the ellipse with 95 % of a normal distribution in the plane."""
 
 MOST_ELLIPSES = 300
 SIZE_IN = 8.0
@@ -24,7 +24,7 @@ BEFORE, AFTER, FLAGGED, LOOP = "#c1440e", "#0b7a5b", "#d6278a", "#3b6fb6"
 
 
 def draw_ellipses(ax: Axes, means: Floats, covariances: Floats, magnified: float = 1.0) -> EllipseCollection:
-    """Draw 95 % ellipses of positions, (n, 2), with covariances (n, 2, 2), metres, magnified by a factor."""
+    """Draw 95 % ellipses of positions, (n, 2), in metres, with covariances (n, 2, 2), magnified by a factor."""
     values, vectors = np.linalg.eigh(covariances)
     axes_m = 2.0 * np.sqrt(REGION * np.maximum(values, 0.0)) * magnified
     angle = np.degrees(np.arctan2(vectors[:, 1, 1], vectors[:, 0, 1]))
@@ -44,7 +44,7 @@ def trajectory_figure(
     covariances: Floats,
     flagged: NDArray[np.bool_] | None = None,
 ) -> Figure:
-    """Draw a map and a trajectory, (S, 3), with 95 % ellipses of its covariances, (S, 3, 3), and mark flagged scans."""
+    """Draw a map, a trajectory, (S, 3), and 95 % ellipses of its covariances, (S, 3, 3). Mark flagged scans."""
     figure, ax = _axes(grid.shape[1] / grid.shape[0])
     _draw_map(ax, grid, occupancy, observed, poses, covariances)
     if flagged is not None and flagged.any():
@@ -57,10 +57,10 @@ def _draw_map(
 ) -> None:
     maps.draw_probability(ax, grid, occupancy, observed)
     ax.plot(poses[:, 0], poses[:, 1], color=AFTER, linewidth=0.8, label="trajectory", zorder=3)
-    some = np.unique(np.linspace(0, len(poses) - 1, MOST_ELLIPSES).astype(int))
-    spread_m = float(np.sqrt(np.median(np.linalg.eigvalsh(covariances[some, :2, :2])[:, 1])))
+    shown = np.unique(np.linspace(0, len(poses) - 1, MOST_ELLIPSES).astype(int))
+    spread_m = float(np.sqrt(np.median(np.linalg.eigvalsh(covariances[shown, :2, :2])[:, 1])))
     magnified = _round_down(max(1.0, 0.01 * max(grid.shape) * grid.resolution / max(spread_m, 1e-6)))
-    draw_ellipses(ax, poses[some, :2], covariances[some, :2, :2], magnified)
+    draw_ellipses(ax, poses[shown, :2], covariances[shown, :2, :2], magnified)
     name = "95 % region" + (f", drawn {magnified:g} times as large" if magnified > 1 else "")
     ax.plot([], [], "o", markerfacecolor="none", markeredgecolor=AFTER, label=name)
 
@@ -68,10 +68,10 @@ def _draw_map(
 def before_and_after_figure(
     raw: Floats, ends: Floats, grid: Grid, occupancy: ArrayLike, observed: ArrayLike, poses: Floats, covariances: Floats
 ) -> Figure:
-    """Draw raw odometry with the walls that it makes, and the inferred trajectory on its map.
+    """Draw raw odometry with its end points, and beside it the inferred trajectory on its map.
 
-    ``raw`` and ``poses`` are (S, 3), ``covariances`` (S, 3, 3); ``ends`` are the end points of readings as seen from
-    the raw poses, (N, 2) in metres.
+    ``raw`` and ``poses`` are (S, 3), ``covariances`` (S, 3, 3). ``ends`` are the end points of readings from the raw
+    poses, (N, 2) in metres.
     """
     height = SIZE_IN * 0.75 * grid.shape[1] / grid.shape[0] + 0.8
     figure = palette.blank_figure(1.5 * SIZE_IN, height, dpi=110)
@@ -86,7 +86,7 @@ def before_and_after_figure(
 
 
 def odometry_figure(raw: Floats, inferred: Floats) -> Figure:
-    """Draw the trajectory of odometry and the inferred one, (S, 3) each, from one first pose."""
+    """Draw the trajectory of odometry and the inferred one, (S, 3) each, from the same first pose."""
     low = np.minimum(raw.min(axis=0), inferred.min(axis=0))[:2]
     high = np.maximum(raw.max(axis=0), inferred.max(axis=0))[:2]
     figure, ax = _axes(float((high - low)[1] / max((high - low)[0], 1e-3)))
@@ -105,15 +105,15 @@ def loops_figure(
     weights: Floats,
     alternatives: Sequence[tuple[Floats, float]] = (),
 ) -> Figure:
-    """Draw loop closures: the pairs of scans whose match says that the robot came back to a place.
+    """Draw loop closures: pairs of matched scans at which the robot has returned to a place.
 
     Args:
-        poses: (S, 3).
+        poses: poses of the trajectory, (S, 3).
         first: index of one scan of each closure, (M,).
         second: index of the other scan, (M,).
-        residuals: x, y and yaw of each, metres and radians, (M, 3).
-        weights: how far each was believed, from 0 to 1, (M,).
-        alternatives: poses of other trajectories that are not excluded, (S, 3) each, and their probabilities.
+        residuals: residuals of the closures, x, y and yaw, metres and radians, (M, 3).
+        weights: weights of the closures, from 0 (rejected) to 1, (M,).
+        alternatives: poses of other possible trajectories, (S, 3) each, and their probabilities.
     """
     first, second = np.asarray(first), np.asarray(second)
     spans = np.ptp(poses[:, :2], axis=0)
