@@ -143,7 +143,7 @@ WIDTH = 8
 Lanes = wp.types.vector(length=WIDTH, dtype=wp.float32)
 """One number of each of eight beams."""
 
-OF_STOPPED = wp.constant(7)  # per stopped beam: line (3 numbers), distance of the centre, reading, decay, 1 if it counts
+OF_STOPPED = wp.constant(7)  # per stopped beam: line (3), distance of the centre, reading, decay, 1 if it counts
 OF_PASSING = wp.constant(3)  # numbers per passing beam: offset and direction at the centre
 PRODUCTS = wp.constant(2)  # lanes before the blocks: product and least product, see `log_stops_in_lanes`
 CHUNK = wp.constant(4)  # blocks whose factors are multiplied before the product is turned into a logarithm

@@ -190,7 +190,7 @@ def log_beams(
 ) -> wp.float64:  # fmt: skip
     """Compute `log_stops` of a cell's beams: in lanes as far as possible, the rest one by one.
 
-    ``others`` is the number of stopped beams that are not in blocks, the first of their list; -1 if there are no blocks.
+    ``others`` is the number of stopped beams that are not in blocks, the first of their list; -1 without blocks.
     """
     passing_end = listed.passing_end
     stopped_end = listed.stopped_end
