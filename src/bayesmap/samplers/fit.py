@@ -90,8 +90,8 @@ class StopResiduals:
 
 
 def refit_noise(noise: AdditiveNoise, residuals: StopResiduals, step: float) -> AdditiveNoise:
-    """Move a noise by the share ``step`` of the way to the likeliest noise. If ``step`` is 1, its degrees of freedom may
-    also change, to the next value of `SHAPES`.
+    """Move a noise by the share ``step`` of the way to the likeliest noise. If ``step`` is 1, its degrees of freedom
+    may also change, to a neighbouring value of `SHAPES`.
     """
     readings = residuals.weight.sum()
     if readings < LEAST_WEIGHT:
@@ -115,13 +115,13 @@ SENSOR_SWEEPS = 30
 """Sweeps of the pilot that fits a sensor alone."""
 SPREAD_WITHOUT_SURFACE = 0.3
 """Standard deviation of stops within cells without surfaces, in edges: part of the noise that a fit starts from."""
-FIRST_SWEEP, WHOLE_UNTIL = 3, 20  # the first sweep that moves parameters, and the first that moves a share of the way
+FIRST_SWEEP, WHOLE_UNTIL = 3, 20  # the first sweep that moves parameters, and the last that moves them all the way
 PRIOR_EVERY = 2  # sweeps from one move of the prior to the next
 LEAST_SHARE = 1e-5
 LEAST_RANDOM = 5e-4
 """Least share of random readings: a map of few scans may explain all their readings, but not new ones."""
 PSEUDO_BEAMS = 2.0
-"""Weight of the present value of a share, in beams: keeps the share of a kind of readings that the log lacks above 0."""
+"""Weight of the present value of a share, in beams: a log without readings of a kind must not make its share zero."""
 
 
 @dataclass(frozen=True)
@@ -350,7 +350,7 @@ def _likeliest_beta(
 
 
 COUPLING_SWEEPS = 100
-COUPLING_WHOLE_UNTIL = 40  # the first sweep in which the coupling moves only a share of the way
+COUPLING_WHOLE_UNTIL = 40  # the last sweep in which the coupling moves all the way
 FIRST_COUPLING = 0.5
 """Start of the pilot: below about 0.88, the coupling at which, at p = 0.5, whole regions become alike."""
 

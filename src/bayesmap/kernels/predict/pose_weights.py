@@ -37,8 +37,8 @@ wp.set_module_options({"enable_backward": False})
 
 PAST_SCALES = wp.constant(wp.float32(6.0))
 PAST_CELLS = wp.constant(wp.float32(4.0))
-"""Distance from a reading within which the place of the stop matters: noise scales plus cells (a surface is smaller than
-its cell)."""
+"""Distance from a reading within which the place of the stop matters: noise scales plus cells (a surface is smaller
+than its cell)."""
 
 LEAST_CHANCE = 2e-3
 """Share of beams below which a cell counts as empty, unless the reading ended near it: there the beam may have met it.
