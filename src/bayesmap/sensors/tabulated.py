@@ -26,8 +26,8 @@ from bayesmap.sensors.model import Floats, RangeLimits, SensorModel
 Table = NDArray[np.float32]
 
 DISTANCES, SPREADS, OFFSETS, TYPED, NOWHERE = 33, 8, 193, 513, 4097
-"""Numbers of nodes: of distance, spread and offset of a range; of the distance for typed readings; and of the range of a
-beam that stops nowhere."""
+"""Numbers of nodes: of distance, spread and offset of a range; of the distance for typed readings; and of the range of
+a beam that stops nowhere."""
 
 WIDEST = 63.0
 """The widest spread, in scales: wider spreads are clipped to it."""
