@@ -68,11 +68,11 @@ class Rays:
         grid: the grid whose cells are meant.
         offsets: the entries of beam b are ``offsets[b]:offsets[b + 1]``; shape (B + 1,), int32.
         cells: flat index ``x * ny + y`` of the touched cell, shape (K,), int32.
-        near: the first entry at which a stop could explain the reading, of each beam, shape (B,), int32; its first
-            entry where nothing is known of that.
-        start_m: where each beam starts, shape (B, 2).
-        direction: its unit vector, shape (B, 2).
-        range_m: its reading, coded as in `bayesmap.space.scans.Scans`, shape (B,).
+        near: first entry of each beam at which a stop may explain the reading, shape (B,), int32; its first entry if
+            that is unknown.
+        start_m: start of each beam, shape (B, 2).
+        direction: unit vector of each beam, shape (B, 2).
+        range_m: reading of each beam, coded as in `bayesmap.space.scans.Scans`, shape (B,).
         limits: the sensor's span.
     """
 
@@ -156,9 +156,10 @@ class Rays:
         return (enter + hit_depth * (leave - enter)).astype(np.float32)
 
     def ends_m(self) -> Floats:
-        """Return where each cell's own part of the beam ends: where the next cell begins, or the last is left, (K,).
+        """Return the distance at which each cell's own part of the beam ends, metres, (K,).
 
-        Where a beam enters cells together, on lines and corners, only the last one's part has a length.
+        It ends where the next cell begins, or where the beam leaves the last cell. If a beam enters several cells at
+        once, on lines and corners, only the part of the last cell has a length.
         """
         enter, leave = self.stretches()
         ends = leave.copy()
@@ -168,27 +169,27 @@ class Rays:
         return ends
 
     def end_points_m(self) -> Floats:
-        """Return the point where each reading ends, (B, 2); NaN where it is no hit."""
+        """Return the end point of each reading, (B, 2); NaN if it is no hit."""
         range_m = np.where(np.isfinite(self.range_m), self.range_m, np.nan)
         return np.asarray(self.start_m + range_m[:, None] * self.direction)
 
     @cached_property
     def columns(self) -> NDArray[np.int32]:
-        """Return the place of each entry's cell among the touched cells, (K,), for maps that hold only those."""
+        """Return the position of each entry's cell among the touched cells, (K,), for maps of touched cells only."""
         number = np.empty(self.grid.n_cells, dtype=np.int32)
         number[self.touched] = np.arange(len(self.touched), dtype=np.int32)
         return number[self.cells]
 
 
 def around_readings(scans: Scans, margin_m: float | Floats, resolution_m: float) -> tuple[Floats, Floats]:
-    """Return how far to follow each beam, and from where stops may explain its reading, metres, (B,) each.
+    """Return how far to follow each beam, and from where on stops may explain its reading, metres, (B,) each.
 
-    They are ``reach_m`` and ``near_m`` of `bayesmap.kernels.rays.trace_rays`: where a reading is no hit, the sensor's
-    largest range and 0.
+    They are ``reach_m`` and ``near_m`` of `bayesmap.kernels.rays.trace_rays`. If a reading is no hit, they are the
+    sensor's largest range and 0.
 
     Args:
-        scans: B beams.
-        margin_m: how far from its reading a beam may have stopped, noise and surface included, one number or (B,).
+        scans: scans with B beams.
+        margin_m: largest distance of a stop from its reading, noise and surface included, one number or (B,).
         resolution_m: edge of a cell: stops are weighed from one cell before the margin on.
     """
     ranges = scans.ranges_m.ravel()
@@ -206,9 +207,9 @@ DIRECTION_RAD = 0.005
 
 
 class Stops(NamedTuple):
-    """For every entry of rays, (K,) each: the chance that a beam which gets there stops, and where, in metres.
+    """For every entry of rays, (K,) each: the chance that a beam which gets there stops, and the distance of the stop.
 
-    The distance is known up to a spread, its standard deviation.
+    The distance is known up to a spread, its standard deviation. The unit is metres.
     """
 
     chance: Floats

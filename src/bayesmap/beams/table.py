@@ -1,13 +1,13 @@
-"""The beam table: all that inference on binary walls needs to know about scans and sensor.
+"""The beam table: all data of scans and sensor that inference on binary walls uses.
 
-For every beam it lists the cells that the beam touches, in order, and a log-likelihood for "the first wall is
-there", and one for "there is no wall among them": past the sensor's range, past the grid, or past the point where
-the sensor model no longer cares. With ``first_hit(map, beam)`` the position of the first wall,
+For every beam it lists the cells that the beam touches, in order, each with a log-likelihood for "the first wall is in
+this cell". One more log-likelihood is for "no wall in these cells": the beam ends past the sensor's range, past the
+grid, or past the reach of the sensor model. With ``first_hit(map, beam)`` the position of the first wall,
 
     log p(z | map) = sum over beams of  loglik[beam, first_hit(map, beam)]
 
-Every sensor model, however rich, only fills in the table; every sampler only reads it. Memory: 8 bytes for each
-beam-cell incidence here, and 20 more in the index by cells that the Gibbs samplers walk (`CellIndex`).
+Every sensor model only fills in the table, and every sampler only reads it. Memory: 8 bytes per beam-cell incidence
+here, and 20 more in the index by cells that the Gibbs samplers use (`CellIndex`).
 """
 
 from __future__ import annotations
@@ -87,7 +87,7 @@ class BeamTable:
         return float(self.beam_log_likelihoods(walls).sum(dtype=np.float64))
 
     def check_walls(self, walls: NDArray[np.bool_]) -> None:
-        """Refuse a map of another shape.
+        """Check that a map has the grid's shape.
 
         Raises:
             BadInput: the shape is not the grid's.
@@ -105,11 +105,11 @@ class CellIndex:
         entry: index into the beam table, shape (K,), int32.
         beam: the beam of that entry, shape (K,), int32.
         loglik: the entry's log-likelihood, shape (K,), float32.
-        gain_bound: the most that this incidence and those after it in the cell could together add to the
-            log-odds of a wall, whatever the rest of the map, shape (K,), float32. Incidences that could gain
-            come first, so that a sampler can stop as soon as the outcome is certain.
-        advantage: how much likelier a first hit here is than the likeliest outcome behind it, shape (K,), float32: the
-            least that a wall which the beam hits is worth to it.
+        gain_bound: upper bound, for any map, of the sum that this incidence and those after it in the cell add to the
+            log-odds of a wall, shape (K,), float32. Incidences that can gain come first, so that a sampler can stop as
+            soon as the outcome is certain.
+        advantage: log-likelihood of a first hit here minus that of the likeliest outcome behind it, shape (K,),
+            float32: lower bound of the gain of a wall that the beam hits.
     """
 
     offsets: NDArray[np.int32]

@@ -18,7 +18,8 @@ wp.set_module_options({"enable_backward": False})
 def count_hits_and_passes(
     first: int, lines: Lines, reach_m: Float64s, hit: Uint8s, bounds: Int32s, hits: Int32Rows, passes: Int32Rows
 ):
-    """One thread per share of the beams, counting in rows of its own: no two threads write to the same number."""
+    """One thread per share of the beams: count in the thread's own rows, so that no two threads write to one number."""
+    # t: thread; b: beam; p, u: its start in cells and its direction; w: its walk; last: last cell of the grid touched.
     t = first + wp.tid()
     for b in range(bounds[t], bounds[t + 1]):
         p = lines.start_m[b] / lines.edge_m
@@ -43,9 +44,9 @@ def count_hits_and_passes(
 def count_hits(scans: Scans, grid: Grid, device: str = "cpu") -> tuple[Ints, Ints]:
     """Count the beams that stopped in each cell and the beams that passed it, (nx * ny,) each.
 
-    A hit beam stops in the last cell that it has touched at its range, and passes those before; if the range lies
-    outside the grid it passes all. No return passes all cells up to the sensor's range. Too close and invalid count
-    nowhere.
+    A beam that hit stops in the last cell that it has touched at its range, and passes the cells before. If the range
+    lies outside the grid, it passes all cells. A beam without return passes all cells up to the sensor's range. Beams
+    that are too close or invalid do not count.
     """
     device = devices.resolve(device)
     ranges = scans.ranges_m.ravel()

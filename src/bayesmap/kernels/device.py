@@ -1,8 +1,8 @@
 """Start Warp, put arrays on a device, and launch a kernel on all cores.
 
-Warp runs a CPU launch on the calling thread and releases the GIL, so `launch` splits a launch into slices, one a
-thread. Kernels launched here take the index of their first element as their first argument and write only to their own
-elements, so the result does not depend on the number of threads.
+Warp runs a CPU launch on the calling thread and releases the GIL, so `launch` splits a launch into slices, one per
+thread. Kernels take the index of their first element as their first argument, and write only to their own elements. So
+the result does not depend on the number of threads.
 """
 
 import contextlib
@@ -50,7 +50,7 @@ def _start() -> None:
 
 @contextlib.contextmanager
 def _no_stderr() -> Iterator[None]:
-    """Discard what is written to file descriptor 2: native code prints the warning."""
+    """Discard the output to file descriptor 2, where native code prints the warning."""
     try:
         sys.stderr.flush()
         saved = os.dup(2)
@@ -81,7 +81,7 @@ def resolve(name: str = "cpu") -> str:
 
 
 def to_device(array: np.ndarray[Any, Any], dtype: Any, device: str) -> Any:
-    """Put a NumPy array where kernels read it; on the CPU this shares memory when dtype and layout fit.
+    """Put a NumPy array on a device; on the CPU this shares memory if dtype and layout fit.
 
     The last axis of an array of vectors holds their components.
     """
@@ -91,7 +91,7 @@ def to_device(array: np.ndarray[Any, Any], dtype: Any, device: str) -> Any:
 
 
 def pack(kind: Any, device: str, /, **values: Any) -> Any:
-    """Make a struct for kernels; NumPy arrays among its values are put on the device as its fields ask."""
+    """Return a struct for kernels; NumPy arrays among its values are put on the device with the types of its fields."""
     packed = kind()
     for name, value in values.items():
         is_host = isinstance(value, np.ndarray)
@@ -101,12 +101,12 @@ def pack(kind: Any, device: str, /, **values: Any) -> Any:
 
 def load_kernels(kernel: Any, device: str) -> None:
     """Compile the module of a kernel for a device, or fetch it from Warp's cache, before its first launch."""
-    # Launches on the CPU use blocks of one; any other size would be another variant, compiled for nothing.
+    # Launches on the CPU use blocks of one. Any other size would compile a variant that is never used.
     kernel.module.load(wp.get_device(device), 1 if device == "cpu" else None)
 
 
 FEW_BEAMS = 1_000
-"""Fewer beams than this are traced before a second thread has begun: to start one takes 0.2 ms."""
+"""Fewer beams than this are traced before a second thread has started, which takes 0.2 ms."""
 
 
 def available_cores() -> int:
@@ -124,20 +124,20 @@ def threads_for(beams: int) -> int | None:
 
 @cache
 def thread_pool(threads: int) -> ThreadPoolExecutor:
-    """Return the thread pool of a width; each is kept for the life of the process."""
+    """Return the pool with this many threads; each pool lives as long as the process."""
     return ThreadPoolExecutor(threads, thread_name_prefix="bayesmap")
 
 
-if hasattr(os, "register_at_fork"):  # a forked child has the pools, but none of their threads
+if hasattr(os, "register_at_fork"):  # a forked child inherits the pools without their threads
     os.register_at_fork(after_in_child=thread_pool.cache_clear)
 
 
 def launch(
     kernel: Any, size: int, inputs: Sequence[Any], device: str, threads: int | None = None, begin: int = 0
 ) -> None:
-    """Run ``kernel(first, *inputs)`` over ``size`` elements from ``begin`` on; on the CPU a slice a thread.
+    """Run ``kernel(first, *inputs)`` over ``size`` elements from ``begin`` on; on the CPU, one slice per thread.
 
-    NumPy arrays among the inputs are put on the device as the kernel's arguments ask.
+    NumPy arrays among the inputs are put on the device with the types of the kernel's arguments.
     """
     if size == 0:
         return

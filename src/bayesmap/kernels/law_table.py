@@ -16,12 +16,12 @@ WIDEST_SPREAD = wp.constant(wp.float32(WIDEST))
 class LawTable:
     """A `TabulatedLaw` on a device."""
 
-    least: wp.float32  # log densities and log probabilities below it are taken for it
+    least: wp.float32  # log densities and log probabilities are raised to at least this
     typed: int
     most: wp.float32
-    low_m: wp.float32  # of the nodes of the range where the beam stops nowhere
-    high_m: wp.float32
-    min_m: wp.float32
+    low_m: wp.float32  # first node of the range of a beam that stops nowhere
+    high_m: wp.float32  # last node
+    min_m: wp.float32  # least range of the sensor
     scale_m: Float32s
     log_density: wp.array3d(dtype=wp.float32)
     below: wp.array3d(dtype=wp.float32)
@@ -32,7 +32,7 @@ class LawTable:
 
 
 def law_table_to_device(law: TabulatedLaw, device: str, least: float = -math.inf) -> Any:
-    """Put a tabulated law on a device; log densities and log probabilities below ``least`` are taken for it."""
+    """Put a tabulated law on a device; log densities and log probabilities are raised to at least ``least``."""
     low, high = (law.limits.min_m, law.limits.max_m) if law.typed else (-law.limits.max_m, 2.0 * law.limits.max_m)
     return devices.pack(
         LawTable, device, least=least, typed=int(law.typed), most=law.most, low_m=low, high_m=high,
@@ -44,7 +44,7 @@ def law_table_to_device(law: TabulatedLaw, device: str, least: float = -math.inf
 
 @wp.func
 def node(x: wp.float32, nodes: int) -> wp.vec2:
-    """Return the node below a place in [0, 1], and the place's share of the way to the next node."""
+    """Return the node below x in [0, 1], and the share of the way from there to the next node."""
     at = wp.clamp(x, wp.float32(0.0), wp.float32(1.0)) * wp.float32(nodes - 1)
     low = wp.min(wp.floor(at), wp.float32(nodes - 2))
     return wp.vec2(low, at - low)
@@ -84,14 +84,14 @@ def readings_scale_m(table: LawTable, distance_m: wp.float32, max_m: wp.float32)
 
 @wp.func
 def spread_node(scale: wp.float32, variance: wp.float32) -> wp.float32:
-    """Place of a spread among its nodes."""
+    """Return the place of a spread among its nodes, 0 to 1."""
     spread = wp.min(wp.sqrt(variance) / scale, WIDEST_SPREAD)
     return spread / (wp.float32(1.0) + spread) * (wp.float32(1.0) + WIDEST_SPREAD) / WIDEST_SPREAD
 
 
 @wp.func
 def offset_node(table: LawTable, off: wp.float32) -> wp.float32:
-    """Place of a standard offset among its nodes."""
+    """Return the place of a standard offset among its nodes, 0 to 1."""
     size = wp.abs(off)
     grown = wp.log(size + wp.sqrt(size * size + wp.float32(1.0)))
     return wp.float32(0.5) + wp.float32(0.5) * wp.sign(off) * grown / table.most
@@ -99,23 +99,26 @@ def offset_node(table: LawTable, off: wp.float32) -> wp.float32:
 
 @wp.func
 def table_log_density(table: LawTable, reading_m: Any, distance_m: Any, variance: Any, max_m: Any):
-    """Return log p(reading | the beam stops at about the distance), or the least that the table allows."""
+    """Return log p(reading | the beam stops at about the distance), at least ``table.least``."""
     return wp.max(unbounded_log_density(table, reading_m, distance_m, variance, max_m), type(reading_m)(table.least))
 
 
 @wp.func
 def unbounded_log_density(table: LawTable, reading_m: Any, distance_m: Any, variance: Any, max_m: Any):
     """Return log p(reading | the beam stops at about the distance) without a lower bound."""
+    # z: reading; d: distance; top: largest range. A typed reading of a law without such outcomes stands for a limit.
     z = wp.float32(reading_m)
     d = wp.float32(distance_m)
     top = wp.float32(max_m)
     typed = wp.isinf(z) and table.typed != 0
     if wp.isinf(z) and not typed:
         z = wp.where(z > wp.float32(0.0), top, table.min_m)
+    # The beam stops nowhere within the range.
     if d > top:
         if typed:
             return type(reading_m)(table.log_typed_nowhere[wp.where(z > wp.float32(0.0), 1, 0)])
         return type(reading_m)(interpolated(table.log_nowhere, (z - table.low_m) / (table.high_m - table.low_m)))
+    # Interpolate at distance, spread and offset.
     along = d / top
     scale = readings_scale_m(table, d, top)
     part = spread_node(scale, wp.float32(variance))
@@ -129,6 +132,7 @@ def unbounded_log_density(table: LawTable, reading_m: Any, distance_m: Any, vari
 @wp.func
 def table_cumulative(table: LawTable, reading_m: Any, distance_m: Any, variance: Any, max_m: Any):
     """Return P(reading <= range | the beam stops at about the distance)."""
+    # z: range; d: distance; top: largest range.
     z = wp.float32(reading_m)
     d = wp.float32(distance_m)
     top = wp.float32(max_m)

@@ -12,7 +12,7 @@ MIX_1 = wp.constant(wp.uint64(0xBF58476D1CE4E5B9))
 MIX_2 = wp.constant(wp.uint64(0x94D049BB133111EB))
 TO_UNIT = wp.constant(wp.float64(1.0 / 9007199254740992.0))  # 2^-53
 
-MASK = (1 << 64) - 1
+MASK = (1 << 64) - 1  # the lower 64 bits of a Python integer
 
 
 @wp.func
@@ -31,18 +31,18 @@ def to_uniform(bits: wp.uint64) -> wp.float64:
 
 
 BEAMS, CELLS, MEETINGS, SURFACES = (wp.constant(part) for part in range(4))
-"""Parts of a sweep: stops of beams; reflectivities, labels and free cells' surfaces; which passing beams met the
-surface of a cell in which readings end; and the steps of these cells' surfaces."""
+"""Parts of a sweep. BEAMS: stops of beams. CELLS: reflectivities, labels, and surfaces of free cells. In cells in which
+readings end, MEETINGS: which passing beams met the surface; SURFACES: the steps of the surface."""
 
 
 @wp.func
 def sweep_key(key: wp.uint64, sweep: int, part: int) -> wp.uint64:
-    """Return a key for each of the four parts of a chain's sweep, so that their counters may coincide."""
+    """Return the key of one of the four parts of a chain's sweep, so that their counters may coincide."""
     return random_bits(key, wp.uint64(4) * wp.uint64(sweep) + wp.uint64(part))
 
 
 def mix(*words: int) -> int:
-    """Mix whole numbers, such as (seed, chain, stream), into a 64-bit key: on the host, once per chain."""
+    """Mix integers, such as (seed, chain, stream), into a 64-bit key: on the host, once per chain."""
     state = 0
     for word in words:
         x = ((state ^ (word & MASK)) + 0x9E3779B97F4A7C15) & MASK
@@ -68,9 +68,8 @@ def scramble(x: wp.uint32, key: wp.uint32) -> wp.uint32:
 def shuffled(i: wp.uint32, size: wp.uint32, bits: wp.uint32, key: wp.uint64) -> wp.uint32:
     """Return element i of a pseudo-random permutation of range(size), for a size of at most 2^bits.
 
-    A Feistel cipher with four rounds permutes the numbers of that many bits; what falls outside the range is
-    enciphered again until it falls inside (cycle walking; Black and Rogaway, *Ciphers with arbitrary finite domains*,
-    2002).
+    A Feistel cipher with four rounds permutes all numbers of that many bits. A result outside the range is enciphered
+    again until it falls inside (cycle walking; Black and Rogaway, *Ciphers with arbitrary finite domains*, 2002).
     """
     low_bits = bits / wp.uint32(2)
     low_mask = (wp.uint32(1) << low_bits) - wp.uint32(1)
@@ -97,11 +96,11 @@ def cipher_bits(size: int) -> int:
 
 
 TWO_PI = wp.constant(wp.float64(6.283185307179586))
-SQUEEZE = wp.constant(wp.float64(0.0331))
-MIDDLE = wp.constant(wp.float32(2.0 * 0xFFFF))  # of the sum of four numbers from 0 to 0xFFFF
+SQUEEZE = wp.constant(wp.float64(0.0331))  # constant of Marsaglia and Tsang's quick acceptance
+MIDDLE = wp.constant(wp.float32(2.0 * 0xFFFF))  # mean of the sum of four numbers from 0 to 0xFFFF
 PER_DEVIATION = wp.constant(wp.float32((3.0 / (0x10000**2 - 1.0)) ** 0.5))  # their variance is (2^32 - 1) / 12 each
-NOTHING = wp.constant(wp.float64(-100.0))
-PER_GAMMA = 64  # counters set aside for a gamma variate: its rejection fails 1 in 20 times, never 30 times in a row
+NOTHING = wp.constant(wp.float64(-100.0))  # log of a negligible factor, see `beta_or_nothing`
+PER_GAMMA = 64  # counters reserved per gamma variate: its rejection fails 1 in 20 times, never 30 times in a row
 
 
 @wp.func
@@ -125,8 +124,10 @@ def nearly_normal(bits: wp.uint64) -> wp.float32:
 def log_gamma_variate(shape: wp.float64, key: wp.uint64, counter: wp.uint64) -> wp.float64:
     """Return the logarithm of a gamma variate of scale 1 (Marsaglia and Tsang, 2000); takes `PER_GAMMA` counters.
 
-    Shapes below one are drawn one higher and multiplied by U^(1/shape), which underflows unless kept as a logarithm.
+    A shape below one is raised by one, and the variate is multiplied by U^(1/shape). This factor can underflow, so the
+    result is a logarithm.
     """
+    # d, c: constants of the method; n: next counter; x: normal variate; u: uniform number; v: proposal over d.
     one = wp.float64(1.0)
     raised = wp.where(shape < one, shape + one, shape)
     d = raised - one / wp.float64(3.0)
@@ -142,7 +143,7 @@ def log_gamma_variate(shape: wp.float64, key: wp.uint64, counter: wp.uint64) -> 
             v = one + c * x
             if v > wp.float64(0.0):
                 v = v * v * v
-                accepted = u < one - SQUEEZE * x * x * x * x  # mostly, and then the logarithms would agree
+                accepted = u < one - SQUEEZE * x * x * x * x  # the usual case; the exact test would agree
                 if not accepted:
                     accepted = wp.log(u) < wp.float64(0.5) * x * x + d - d * v + d * wp.log(v)
                 if accepted:
@@ -164,10 +165,10 @@ def beta_variate(a: wp.float64, b: wp.float64, key: wp.uint64, counter: wp.uint6
 
 @wp.func
 def beta_or_nothing(a: wp.float64, b: wp.float64, key: wp.uint64, counter: wp.uint64) -> wp.float64:
-    """Return a beta variate, but 0 where it would be below e^-70; that mostly costs a single logarithm.
+    """Return a beta variate, or 0 if it would be below e^-70; the latter usually costs a single logarithm.
 
     A gamma variate of shape a < 1 is a variate of shape a + 1 times U^(1/a). If that factor is at most e^-100, the
-    variate is negligible beside one whose shape is over one.
+    variate is negligible beside a variate whose shape is over one.
     """
     one = wp.float64(1.0)
     if a < one and b > one and wp.log(to_uniform(random_bits(key, counter))) < NOTHING * a:

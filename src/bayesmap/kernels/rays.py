@@ -1,4 +1,4 @@
-"""Trace rays: count the cells of each beam, then list them; and compute where a beam crosses a cell."""
+"""Trace rays: count the cells of each beam, then list them. Compute where a beam crosses a cell."""
 
 from collections.abc import Callable, Iterator
 from typing import Any
@@ -19,20 +19,20 @@ from bayesmap.space.scans import Scans
 wp.set_module_options({"enable_backward": False})
 
 BEAMS_AT_ONCE = 1 << 16
-"""Traced before the next report."""
+"""Beams traced between two reports of progress."""
 
 LEAST_COSINE = wp.constant(wp.float64(PARALLEL))
 
 
 @wp.struct
 class Lines:
-    """Beams and the grid, on a device: starts in metres from its corner, unit vectors, its rows and its edge."""
+    """Beams and their grid, on a device."""
 
-    start_m: Vec2ds
-    direction: Vec2ds
+    start_m: Vec2ds  # from the grid's lower left corner
+    direction: Vec2ds  # unit vectors
     nx: int
     ny: int
-    edge_m: wp.float64
+    edge_m: wp.float64  # edge of a cell
 
 
 @wp.struct
@@ -50,14 +50,14 @@ class Slab:
 
     start: wp.float64
     per_cell: wp.float64  # from one grid line to the next, with the direction's sign; 0 if the line crosses none
-    first: int  # the cell of the start, as the walk has it
-    side: int  # 1 if cells are entered by their far side
-    onward: int
+    first: int  # the cell of the start: see `cell_before`
+    side: int  # 1 if the beam enters a cell by its upper side
+    onward: int  # sign of the direction; 0 if the line crosses no grid line
 
 
 @wp.func
 def slab_of(start: wp.float64, along: wp.float64) -> Slab:
-    """Return one axis of a line from its coordinates."""
+    """Return one axis of a line from its start and its direction, in units of cells."""
     s = Slab()
     s.start = start
     if wp.abs(along) >= LEAST_COSINE:
@@ -70,15 +70,15 @@ def slab_of(start: wp.float64, along: wp.float64) -> Slab:
 
 @wp.struct
 class Line:
-    """A beam's line: both axes, rows and edge of its grid; and start and direction again in single precision."""
+    """A beam's line in its grid."""
 
     x: Slab
     y: Slab
     ny: int
-    per_column: wp.float64
+    per_column: wp.float64  # 1 / ny
     edge_m: wp.float64
-    start_m: wp.vec2
-    direction: wp.vec2
+    start_m: wp.vec2  # in single precision
+    direction: wp.vec2  # in single precision
 
 
 @wp.func
@@ -100,6 +100,7 @@ def line_of(lines: Lines, b: int) -> Line:
 @wp.func
 def stretch(line: Line, cell: int) -> wp.vec2d:
     """Return the distances at which a beam enters and leaves a cell that it touches, metres (`Rays.stretches`)."""
+    # Intersect the stretches of the line between the cell's sides in x and in y.
     zero = wp.float64(0.0)
     x = int((wp.float64(cell) + wp.float64(0.5)) * line.per_column)  # a division of whole numbers takes longer
     y = cell - x * line.ny
@@ -117,6 +118,7 @@ def stretch(line: Line, cell: int) -> wp.vec2d:
         leave = wp.min(leave, (at_y + wp.float64(line.y.onward)) * line.y.per_cell)
         holds_start = holds_start and y == line.y.first
     leave = wp.max(leave, zero)
+    # The cell of the start is met where the beam leaves it.
     if holds_start:
         enter = leave
     return wp.vec2d(enter * line.edge_m, wp.max(leave, enter) * line.edge_m)
@@ -124,14 +126,14 @@ def stretch(line: Line, cell: int) -> wp.vec2d:
 
 @wp.func
 def distance_at(line: Line, cell: int, depth: wp.float64) -> wp.float64:
-    """Return the distance at which a beam stops in a cell, metres, given as a share of its stretch inside."""
+    """Return the distance at which a beam stops in a cell, metres; ``depth`` is a share of its stretch inside."""
     s = stretch(line, cell)
     return s[0] + depth * (s[1] - s[0])
 
 
 @wp.func
 def first_past(line: Line, cells: Int32s, begin: int, end: int, distance_m: wp.float64, depth: wp.float64) -> int:
-    """Return the first entry in [begin, end) whose stop lies at a distance or past it, or end: stops are in order."""
+    """Return the first entry in [begin, end) whose stop is at least so far away, or end, by bisection."""
     low = begin
     high = end
     while low < high:
@@ -146,6 +148,7 @@ def first_past(line: Line, cells: Int32s, begin: int, end: int, distance_m: wp.f
 @wp.kernel
 def count_cells(first: int, lines: Lines, reach_m: Float64s, counts: Int32s):
     """One thread per beam: count the cells that it touches."""
+    # b: beam; p, u: its start in cells and its direction; w: its walk; n: cells so far.
     b = first + wp.tid()
     p = lines.start_m[b] / lines.edge_m
     u = lines.direction[b]
@@ -162,7 +165,8 @@ def count_cells(first: int, lines: Lines, reach_m: Float64s, counts: Int32s):
 def fill_cells(
     first: int, lines: Lines, reach_m: Float64s, near_m: Float64s, offsets: Int32s, cells: Int32s, near: Int32s
 ):
-    """One thread per beam: write its cells, and find the first that it enters at a distance or past it."""
+    """One thread per beam: write its cells, and find the first cell that it enters at ``near_m`` or later."""
+    # b: beam; p, u: its start in cells and its direction; w: its walk; k: next entry.
     b = first + wp.tid()
     p = lines.start_m[b] / lines.edge_m
     u = lines.direction[b]
@@ -182,7 +186,7 @@ def fill_cells(
 
 @wp.kernel
 def fill_distances(first: int, rays: RayArrays, depth: wp.float64, distance_m: Float32s):
-    """One thread per beam: compute where it would stop in each of its cells."""
+    """One thread per beam: compute the distance at which it would stop in each of its cells."""
     b = first + wp.tid()
     line = line_of(rays.lines, b)
     for k in range(rays.offsets[b], rays.offsets[b + 1]):
@@ -198,13 +202,13 @@ def stop_distances(rays: Rays, hit_depth: float, device: str = "cpu") -> Singles
 
 
 def rays_to_device(rays: Rays, device: str) -> Any:
-    """Put rays where kernels read them."""
+    """Put rays on a device."""
     lines = lines_to_device(rays.start_m, rays.direction, rays.grid, device)
     return devices.pack(RayArrays, device, lines=lines, offsets=rays.offsets, cells=rays.cells)
 
 
 def lines_to_device(start_m: Floats, direction: Floats, grid: Grid, device: str) -> Any:
-    """Put beams where kernels read them, starts in metres from the grid's lower left corner."""
+    """Put the lines of beams on a device; starts are in metres from the grid's lower left corner."""
     (nx, ny), edge_m = grid.shape, grid.resolution
     return devices.pack(Lines, device, start_m=start_m, direction=direction, nx=nx, ny=ny, edge_m=edge_m)
 
@@ -224,14 +228,14 @@ def trace_rays(
     """Follow every beam of some scans through a grid.
 
     Args:
-        scans: S scans of A beams; beam ``s * A + a`` of the rays is beam a of scan s. An invalid reading says nothing:
-            its beam has no entry, nor has one that a scan does not have.
+        scans: S scans of A beams; beam ``s * A + a`` of the rays is beam a of scan s. Beams with invalid readings, and
+            beams that a scan does not have, get no entry.
         grid: the map's grid.
         poses_world: other poses for the scans, (S, 3), as `bayesmap.space.scans.Scans.at` takes them.
         reach_m: how far each beam is followed, (B,); to the sensor's largest range if None, and never further.
         near_m: distance before which no stop could explain the beam's reading, (B,); 0 if None.
         device: where to trace; the rays come back in main memory.
-        on_progress: given how many beams of how many are done; each is followed twice.
+        on_progress: callback that gets the beams done and all beams; each beam is followed twice.
 
     Raises:
         BadInput: more incidences than 32-bit indices can count.
@@ -246,10 +250,12 @@ def trace_rays(
     device_reach = devices.to_device(reach, wp.float64, device)
     device_near = devices.to_device(np.zeros(beams) if near_m is None else near_m, wp.float64, device)
 
+    # First walk: count the cells of each beam.
     counts = wp.empty(beams, dtype=wp.int32, device=device)
     for begin, size in _pieces(beams):
         devices.launch(count_cells, size, [lines, device_reach, counts], device, devices.threads_for(size), begin)
         on_progress((begin + size) // 2, beams)
+    # Second walk: list them.
     offsets = offsets_of(counts.numpy(), "beams")
     cells = wp.empty(int(offsets[-1]), dtype=wp.int32, device=device)
     near = wp.empty(beams, dtype=wp.int32, device=device)
@@ -263,7 +269,7 @@ def trace_rays(
 
 
 def offsets_of(counts: Ints, what: str) -> Ints:
-    """Return where the entries of each beam begin, and where those of the last one end, (B + 1,).
+    """Return the first entry of each beam, and the end of the last beam's entries, (B + 1,).
 
     Raises:
         BadInput: more entries than 32-bit indices can count.

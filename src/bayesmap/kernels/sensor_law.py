@@ -1,9 +1,11 @@
-"""The law of a reading, compiled: the formulas of `bayesmap.sensors`, once, in single and in double precision.
+"""The law of a reading, compiled: the formulas of `bayesmap.sensors`, in single and in double precision.
 
-Every kernel that asks how likely a reading is asks here. A beam stops at a distance known up to a variance, which
-widens the noise: its scale is ``sqrt(scale(d)^2 + variance)``. Functions take their precision from their arguments:
-chains weigh a beam's few stops in single precision (`SensorLaw32`), tables and predictions work in double
-(`SensorLaw64`). A model without a compiled formula is tabulated (`bayesmap.kernels.law_table`).
+All kernels compute the likelihood of a reading with this module. A beam stops at a distance known up to a variance. The
+variance widens the noise: its scale is ``sqrt(scale(d)^2 + variance)``.
+
+Functions take their precision from their arguments. Chains weigh a beam's few stops in single precision
+(`SensorLaw32`), tables and predictions work in double precision (`SensorLaw64`). A model without a compiled formula is
+tabulated (`bayesmap.kernels.law_table`).
 """
 
 import math
@@ -19,12 +21,12 @@ from bayesmap.sensors.tabulated import tabulated
 SIGMAS_TO_CERTAINTY = wp.constant(wp.float64(9.0))  # standard deviations past which the normal's cumulative is 0 or 1
 INV_SQRT_2 = wp.constant(wp.float64(0.7071067811865476))
 INV_PI = wp.constant(wp.float64(0.3183098861837907))
-MOST_TERMS = wp.constant(wp.float64(16.0))
+MOST_TERMS = wp.constant(wp.float64(16.0))  # of the finite sums in `student_below`
 ROUNDS = wp.constant(200)  # of the continued fraction, at most; it takes some tens
-TINY = wp.constant(wp.float64(1.0e-300))
-CLOSE = wp.constant(wp.float64(1.0e-14))
+TINY = wp.constant(wp.float64(1.0e-300))  # replaces zero in Lentz's method
+CLOSE = wp.constant(wp.float64(1.0e-14))  # relative change at which the continued fraction ends
 MOST_POWER = 16
-"""Largest whole power that is multiplied out: past 31 degrees of freedom a Student-t density is nearly normal."""
+"""Largest whole power computed by multiplication: past 31 degrees of freedom a Student-t density is nearly normal."""
 
 
 @wp.func
@@ -38,7 +40,7 @@ def noise_log_density(law: Any, square: Any):
 
 
 def whole_power(power: float) -> int:
-    """Return (dof + 1) / 2 where that is a whole number small enough to multiply out, else 0."""
+    """Return ``power``, (dof + 1) / 2, if it is a whole number of at most `MOST_POWER`, else 0."""
     return int(power) if power == int(power) and power <= MOST_POWER else 0
 
 
@@ -72,6 +74,7 @@ def noise_below(law: Any, x: Any):
 @wp.func
 def beta_fraction(a: wp.float64, b: wp.float64, x: wp.float64) -> wp.float64:
     """Return the continued fraction of the incomplete beta function (DLMF 8.17.22), by Lentz's method."""
+    # c: ratio of successive numerators; d: inverse ratio of successive denominators; h: value so far; m: step.
     one = wp.float64(1.0)
     tiny = TINY
     c = one
@@ -112,6 +115,7 @@ def student_below(dof: wp.float64, log_height: wp.float64, t: wp.float64) -> wp.
 
     For whole dof it is a finite sum (Abramowitz and Stegun 26.7.3 and 26.7.4), which is ten times as fast.
     """
+    # a: dof / 2; x: argument of the incomplete beta function; y: 1 - x.
     half = wp.float64(0.5)
     one = wp.float64(1.0)
     if t == wp.float64(0.0):
@@ -119,6 +123,7 @@ def student_below(dof: wp.float64, log_height: wp.float64, t: wp.float64) -> wp.
     a = half * dof
     y = t * t / (dof + t * t)
     x = dof / (dof + t * t)
+    # Even dof.
     if a == wp.floor(a) and a <= MOST_TERMS:
         term = one
         series = one
@@ -126,6 +131,7 @@ def student_below(dof: wp.float64, log_height: wp.float64, t: wp.float64) -> wp.
             term = term * x * (one - half / wp.float64(j))
             series += term
         return half + half * series * wp.sign(t) * wp.sqrt(y)
+    # Odd dof.
     if dof == wp.floor(dof) and a <= MOST_TERMS:
         angle = wp.atan(wp.abs(t) / wp.sqrt(dof))
         term_odd = wp.where(dof > one, wp.sqrt(x), wp.float64(0.0))
@@ -134,7 +140,7 @@ def student_below(dof: wp.float64, log_height: wp.float64, t: wp.float64) -> wp.
             term_odd = term_odd * x * (one - one / wp.float64(2 * j_odd + 1))
             series_odd += term_odd
         return half + wp.sign(t) * INV_PI * (angle + wp.sqrt(y) * series_odd)
-    # log 1 / B(dof / 2, 1 / 2) = log_height + log(dof) / 2
+    # Any other dof: log 1 / B(dof / 2, 1 / 2) = log_height + log(dof) / 2
     front = wp.exp(log_height + half * wp.log(dof) + a * wp.log(x) + half * wp.log(y))
     tail = wp.float64(0.0)
     if x < (a + one) / (a + wp.float64(2.5)):
@@ -145,23 +151,23 @@ def student_below(dof: wp.float64, log_height: wp.float64, t: wp.float64) -> wp.
 
 
 NOISE, MIXTURE, TABLE = (wp.constant(i) for i in range(3))
-"""Kinds of laws: noise alone, the robust mixture, any other model."""
+"""Kinds of laws: noise alone, the robust mixture, and the table of any other model."""
 
 FAR_SQ = wp.constant(wp.float64(81.0))  # squared standard distance past which normal noise adds nothing
-LEAST = wp.constant(wp.float64(math.exp(LOG_IMPOSSIBLE)))  # probability of a typed reading: no beam is impossible
+LEAST = wp.constant(wp.float64(math.exp(LOG_IMPOSSIBLE)))  # least probability of a typed reading
 THIRD = wp.constant(wp.float64(1.0 / 3.0))
 
 
 def _law(name: str, real: Any) -> Any:
-    """Make a struct of a sensor's numbers in a precision."""
+    """Return the struct of a sensor's numbers in single or double precision."""
     reals = (
         "sigma_m", "sigma_per_m", "dof", "p_random", "p_known", "p_return", "p_no_return", "p_short",
         "rate_short_per_m", "min_m", "max_m",
-        "log_height", "height",  # of the standard noise at 0
+        "log_height", "height",  # density of the standard noise at 0
         "uniform",  # density of a random reading
         "passing",  # density of a passing object at distance 0
-        "peak",  # no density of a finite reading is higher in the mixture
-        "series",  # below it the fifth term of exp(-x) is under the precision
+        "peak",  # upper bound of the mixture's density of a finite reading
+        "series",  # for smaller x the fifth term of exp(-x) is below the precision
     )  # fmt: skip
     whole = {"kind": int, "power": int}  # power: see `noise_density`
     annotations: dict[str, Any] = whole | {"table": LawTable} | dict.fromkeys(reals, real)
@@ -176,7 +182,7 @@ def sensor_law(sensor: SensorModel, limits: RangeLimits, device: str, law: Any =
     """Pack a sensor's numbers for kernels, as a `SensorLaw64` or a `SensorLaw32`.
 
     If a model has no compiled formula, its densities and probabilities in single precision are at least
-    exp(`LOG_IMPOSSIBLE`): the sampler of stops needs numbers that do not underflow, and one odd beam makes no map
+    exp(`LOG_IMPOSSIBLE`). So numbers do not underflow in the sampler of stops, and no single beam makes a map
     impossible. Predictions, in double precision, have no such bound.
 
     Raises:
@@ -216,6 +222,7 @@ def sensor_law(sensor: SensorModel, limits: RangeLimits, device: str, law: Any =
 @wp.func
 def blocked(law: Any, distance_m: Any):
     """Return the chance that a passing object stands before the distance."""
+    # type(x)(1.0) is a one in the precision of x, here and below.
     return law.p_short * (type(distance_m)(1.0) - wp.exp(-law.rate_short_per_m * distance_m))
 
 
@@ -236,7 +243,7 @@ def object_decay(law: Any, reading_m: Any):
 
 @wp.func
 def unblocked_near(law: Any, reading_m: Any, decay: Any, distance_m: Any):
-    """Compute `unblocked` without an exponential where distance and reading are close: exp(-x) by its series."""
+    """Compute `unblocked`; if distance and reading are close, exp(-x) is computed by its series."""
     one = type(distance_m)(1.0)
     x = law.rate_short_per_m * (distance_m - reading_m)
     if wp.abs(x) > law.series or reading_m < type(distance_m)(0.0):
@@ -249,14 +256,14 @@ def unblocked_near(law: Any, reading_m: Any, decay: Any, distance_m: Any):
 
 @wp.func
 def variance_at(law: Any, distance_m: Any, variance: Any):
-    """Return the squared scale of the noise around a stop: the sensor's and the stop's."""
+    """Return the squared scale of the noise around a stop: the sensor's squared scale plus the stop's variance."""
     scale = law.sigma_m + law.sigma_per_m * distance_m
     return scale * scale + variance
 
 
 @wp.func
 def returned_density(law: Any, reading_m: Any, decay: Any, distance_m: Any, variance: Any):
-    """Return the density, at a finite reading, of what comes back from a stop at the distance, in the mixture."""
+    """Return the mixture's density at a finite reading of beams that return from a stop at the distance."""
     total = variance_at(law, distance_m, variance)
     error = reading_m - distance_m
     square = error * error
@@ -283,6 +290,7 @@ def stop_density(law: Any, reading_m: Any, decay: Any, distance_m: Any, variance
 
     ``decay`` is `object_decay` of the reading. An infinite distance means that the beam stops nowhere.
     """
+    # wall: the distance, at most the largest range; free: chance that no passing object blocks the beam.
     if law.kind != MIXTURE:
         return wp.exp(stop_log_density_without_objects(law, reading_m, distance_m, variance))
     one = type(variance)(1.0)
@@ -290,6 +298,7 @@ def stop_density(law: Any, reading_m: Any, decay: Any, distance_m: Any, variance
     if wp.isfinite(reading_m):
         returned = returned_density(law, reading_m, decay, distance_m, variance)
         return mixed_density(law, reading_m, decay, distance_m, returned)
+    # A typed reading of a beam that stops nowhere within the range.
     free = unblocked(law, wall)
     if distance_m > law.max_m:
         if reading_m > type(reading_m)(0.0):
@@ -303,6 +312,7 @@ def stop_density(law: Any, reading_m: Any, decay: Any, distance_m: Any, variance
             above = noise_below(law, (wall - law.max_m) / scale)  # the noise is symmetric
         p_none = law.p_known * (free * law.p_no_return + hit * above)
         return wp.max(p_none, type(one)(LEAST))
+    # Too close.
     below = noise_below(law, (law.min_m - wall) / scale)
     return wp.max(law.p_known * (blocked(law, wp.min(wall, law.min_m)) + hit * below), type(one)(LEAST))
 
@@ -330,7 +340,7 @@ def lowest_density(law: Any, reading_m: Any):
 
 @wp.func
 def stop_log_density_without_objects(law: Any, reading_m: Any, distance_m: Any, variance: Any):
-    """Return log p(reading | stop) for noise alone, whose typed readings stand for the limits, and for a table."""
+    """Return log p(reading | stop) for noise alone and for a table; typed readings of noise stand for the limits."""
     if law.kind == TABLE:
         return table_log_density(law.table, reading_m, distance_m, variance, law.max_m)
     z = reading_m
@@ -343,7 +353,7 @@ def stop_log_density_without_objects(law: Any, reading_m: Any, distance_m: Any, 
 
 @wp.func
 def stop_log_density(law: Any, reading_m: Any, decay: Any, distance_m: Any, variance: Any):
-    """Return the logarithm of `stop_density`, also where that is smaller than any number."""
+    """Return the logarithm of `stop_density`, even if the density underflows."""
     if law.kind == MIXTURE:
         return wp.log(stop_density(law, reading_m, decay, distance_m, variance))
     return stop_log_density_without_objects(law, reading_m, distance_m, variance)
@@ -380,6 +390,7 @@ def met_or_returned(law: Any, z: Any, decay: Any, distance_m: Any, variance: Any
 
     ``decay`` is `object_decay` of z, which all stops share: a stop far behind z costs no exponential.
     """
+    # met: chance of a passing object before z and before the stop; returned: chance of a return below z.
     one = type(z)(1.0)
     if is_behind(law, z, distance_m, variance):
         return law.p_short * (one - decay)

@@ -1,9 +1,9 @@
 """The walk of a beam through the grid: every cell that it touches, in order, with the distance of the touch.
 
 Cells are closed squares: a beam through a corner touches all cells that meet there, and a beam along a grid line
-touches the cells on both sides. From inside a cell the touch is the exit edge. These are the rules of the tutorial's
-formula, the minimum over the four edges of every wall pixel. The stepping is that of Amanatides and Woo (1987), with
-ties kept.
+touches the cells on both sides. The cell of the start is touched where the beam leaves it. These are the rules of the
+tutorial's formula, the minimum over the four edges of every wall pixel. The steps are those of Amanatides and Woo
+(1987), with ties kept.
 
 The walk counts in units of cells. It starts one cell *before* any grid line that the start lies on, so that both sides
 of that line are touched at distance zero. It starts at the grid's border when the sensor is outside.
@@ -24,14 +24,14 @@ wp.set_module_options({"enable_backward": False})
 
 TIE = wp.constant(wp.float64(1.0e-9))  # cells: closer than this to a corner or a line is on it
 PARALLEL = wp.constant(wp.float64(1.0e-10))  # direction cosines below this are zero, as in the tutorial
-NEVER = wp.constant(wp.float64(1.0e300))
+NEVER = wp.constant(wp.float64(1.0e300))  # distance of a grid line that the beam does not cross
 SIDE_X = wp.constant(1)  # the cell beside the current one in x is touched too
 SIDE_Y = wp.constant(2)
 
 
 @wp.struct
 class Walk:
-    """The state of a walk: ``cell_x, cell_y`` is touched at ``distance``; the walk is over past ``end``."""
+    """The state of a walk, in cells: ``cell_x, cell_y`` is touched at ``distance``; the walk is over past ``end``."""
 
     cell_x: int
     cell_y: int
@@ -68,6 +68,7 @@ def walk_begin(
     """Start at (px, py) in direction (ux, uy), in a grid of nx x ny cells, for at most ``longest`` cells."""
     zero = wp.float64(0.0)
     one = wp.float64(1.0)
+    # w: the walk. Per axis: step and gap, and the distances at which the beam enters and leaves the grid.
     w = Walk()
     w.next_x = NEVER
     w.next_y = NEVER
@@ -91,13 +92,14 @@ def walk_begin(
         leave = -one
     w.end = leave + TIE
 
-    # A direction that counts as parallel keeps its coordinate.
+    # First cell and next grid lines. A direction that counts as parallel keeps its coordinate.
     w.x = cell_before(px + wp.where(w.step_x == 0, zero, enter * ux), w.step_x)
     w.y = cell_before(py + wp.where(w.step_y == 0, zero, enter * uy), w.step_y)
     if w.step_x != 0:
         w.next_x = (wp.float64(w.x + wp.max(w.step_x, 0)) - px) / ux
     if w.step_y != 0:
         w.next_y = (wp.float64(w.y + wp.max(w.step_y, 0)) - py) / uy
+    # A beam along a grid line touches the cells on its other side too.
     if w.step_x == 0 and wp.abs(px - wp.float64(w.x)) <= TIE:
         w.along_line = SIDE_X
         w.side_x = -1
@@ -160,6 +162,7 @@ def first_hit_ranges(
     distance: Float64s, visits: Int32s,
 ):  # fmt: skip
     """One thread per beam: walk to the first wall."""
+    # b: beam; w: its walk; n: cells of the grid visited.
     b = first + wp.tid()
     nx = walls.shape[0]
     ny = walls.shape[1]
@@ -180,13 +183,13 @@ def first_hit_ranges(
 def cast(
     walls: NDArray[Any], starts_cells: Floats, angles_rad: Floats, longest_cells: float, device: str = "cpu"
 ) -> tuple[Floats, Ints]:
-    """Compute each beam's distance to its first wall, in cells, capped, and the number of cells inspected, (B,) each.
+    """Compute each beam's capped distance to its first wall, in cells, and the number of cells visited, (B,) each.
 
     Args:
         walls: non-zero where there is a wall, (nx, ny).
         starts_cells: where each beam starts, in units of cells from the grid's origin, (B, 2).
         angles_rad: direction of each beam in the world frame, (B,).
-        longest_cells: the cap.
+        longest_cells: cap of the distance.
         device: "cpu" or a CUDA device.
     """
     device = devices.resolve(device)

@@ -1,22 +1,22 @@
 """Fit the sensor and the prior to the scans, by a pilot chain: stochastic expectation maximisation.
 
-The pilot is a short chain whose number no other chain has. It ends before the chains begin, and they run under the
-parameters that it found. So these depend on the seed and on the number of the pilot's sweeps, and not on the number of
-chains. Only the scans from which the map is inferred are used. Parameters move all the way in the first sweeps, and
-then a shrinking part of it (Delyon, Lavielle and Moulines, 1999).
+The pilot is a short chain with a chain number of its own. It ends before the other chains begin, and they use the
+fitted parameters. So the parameters depend on the seed and on the number of the pilot's sweeps, but not on the number
+of chains. Only the scans from which the map is inferred are used. In the first sweeps parameters move all the way to
+the new estimate, later a shrinking share of the way (Delyon, Lavielle and Moulines, 1999).
 
-Sensor and Beta prior. After each sweep the drawn stops say how far from its surface each reading fell. The expectation
-step splits the readings into those of walls, of passing objects and of chance. The maximisation step is in closed form
-but for the noise and the Beta. With 10^5 beams the posterior of these parameters is a point beside everything else
-that is unknown.
+Sensor and Beta prior. After each sweep, the drawn stops give the distance of each reading from its surface. The
+expectation step splits the readings into returns of walls, passing objects and random readings. The maximisation step
+is in closed form except for the noise and the Beta. With 10^5 beams the posterior of these parameters is much narrower
+than that of all other unknowns.
 
-Noise. Real readings scatter more at times than a normal law allows: the errors of poses differ from scan to scan, walls
-are hit at a slant, and an edge is half wall and half what lies behind it. So the noise may be Student's t, a mixture of
-normal laws of all scales.
+Noise. Real readings can scatter more than a normal law allows. Errors of poses differ from scan to scan, walls are hit
+at a slant, and readings at an edge mix the wall with the surface behind it. So the noise may be Student's t, a mixture
+of normal laws of all scales.
 
-Coupling of an Ising prior. Each sweep of the pilot gives a whole map, in which unseen cells are drawn too. The coupling
-moves towards the one of greatest pseudo-likelihood for this map (`bayesmap.cells.binary`). It settles where the slope
-of the pseudo-likelihood is zero on the mean over the posterior. Unknown poses are taken as the log states them.
+Coupling of an Ising prior. Each sweep of the pilot gives a whole map, with cells that no beam observes. The coupling
+moves towards the maximum of the pseudo-likelihood for this map (`bayesmap.cells.binary`). It converges where the
+posterior mean of the pseudo-likelihood's slope is zero. Unknown poses are fixed at the poses of the log.
 """
 
 from __future__ import annotations
@@ -45,13 +45,13 @@ from bayesmap.sensors.builtin import AdditiveNoise, BeamMixture, Gaussian, descr
 from bayesmap.sensors.model import RangeLimits
 
 SHAPES = (3.0, 5.0, 9.0, 17.0, math.inf)
-"""Degrees of freedom to try, infinite for normal noise: for odd numbers kernels need no logarithm."""
+"""Degrees of freedom to try, infinite for normal noise. With odd numbers, kernels need no logarithm."""
 LEAST_SCALE_M = 1e-3
-LEAST_GROWTH = 1e-6
+LEAST_GROWTH = 1e-6  # metres per metre
 FIRST_STEP, CLOSE = 0.1, 1e-3
-"""First step and final accuracy of the search, in logarithms."""
+"""First step and final accuracy of the search, in logarithms of the noise's parameters."""
 LEAST_WEIGHT = 10.0
-"""Fewest readings that change the noise."""
+"""Least number of readings, summed by weight, that changes the noise."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,10 +59,10 @@ class StopResiduals:
     """Readings of beams that were stopped, (N,) each.
 
     Attributes:
-        residual_m: reading less where the beam was stopped.
-        distance_m: where that was.
-        variance: of the surface along the beam, which adds to the noise's, square metres.
-        weight: the chance that the reading came from there.
+        residual_m: reading minus distance of the stop.
+        distance_m: distance of the stop.
+        variance: variance of the stop along the beam, square metres, added to that of the noise.
+        weight: probability that the reading returned from the stop.
     """
 
     residual_m: Floats
@@ -77,12 +77,12 @@ class StopResiduals:
         return float(-(self.weight * log_density).sum() / self.weight.sum())
 
     def likeliest(self, dof: float, scale_m: float, per_m: float) -> tuple[float, Floats]:
-        """Return the least cost of a shape, and the logarithms of its scale and growth, searched from the given."""
+        """Minimise the cost over scale and growth, from these values. Returns the cost, and the logarithms of both."""
         first = np.log([scale_m, max(per_m, 1e-5)])
         result = scipy.optimize.minimize(
             lambda logs: self.cost(dof, *np.exp(logs)),
             first,
-            method="Nelder-Mead",  # of two numbers as fast as any, and without the threads of linear algebra
+            method="Nelder-Mead",  # as fast as any with two numbers, and without threads of linear algebra
             bounds=[(math.log(LEAST_SCALE_M), math.log(10.0)), (math.log(LEAST_GROWTH), 0.0)],
             options={"initial_simplex": first + FIRST_STEP * np.eye(3, 2, -1), "xatol": CLOSE, "fatol": CLOSE**2},
         )
@@ -90,8 +90,8 @@ class StopResiduals:
 
 
 def refit_noise(noise: AdditiveNoise, residuals: StopResiduals, step: float) -> AdditiveNoise:
-    """Move a noise part of the way, ``step``, towards the likeliest; while steps are whole its shape may change to the
-    next of `SHAPES`.
+    """Move a noise by the share ``step`` of the way to the likeliest noise. If ``step`` is 1, its degrees of freedom
+    may also change, to a neighbouring value of `SHAPES`.
     """
     readings = residuals.weight.sum()
     if readings < LEAST_WEIGHT:
@@ -102,24 +102,24 @@ def refit_noise(noise: AdditiveNoise, residuals: StopResiduals, step: float) -> 
     place = SHAPES.index(dof)
     tried = SHAPES[max(place - 1, 0) : place + 2] if step == 1.0 else (dof,)
     costs = {shape: residuals.likeliest(shape, scale_m, per_m) for shape in tried}
-    a_number_more = 0.5 * math.log(readings) / readings  # must be worth that (Schwarz 1978)
+    a_number_more = 0.5 * math.log(readings) / readings  # cost of the parameter dof (Schwarz 1978)
     best = min(tried, key=lambda shape: costs[shape][0] + (a_number_more if shape < math.inf else 0.0))
     present = np.log([scale_m, max(per_m, LEAST_GROWTH)])
     return noise_with(best, *np.exp((1 - step) * present + step * costs[best][1]).tolist())
 
 
-BEAMS_LOOKED_AT = 40_000
+BEAMS_LOOKED_AT = 40_000  # beams used in each sweep, at most about
 PILOT_SWEEPS = 40
-"""Most sweeps of the pilot of reflectivities and surfaces; a shorter warm-up shortens it."""
+"""Most sweeps of the pilot of reflectivities and surfaces; a short warm-up has a shorter pilot."""
 SENSOR_SWEEPS = 30
 """Sweeps of the pilot that fits a sensor alone."""
 SPREAD_WITHOUT_SURFACE = 0.3
 """Standard deviation of stops within cells without surfaces, in edges: part of the noise that a fit starts from."""
-FIRST_SWEEP, WHOLE_UNTIL = 3, 20
-PRIOR_EVERY = 2
+FIRST_SWEEP, WHOLE_UNTIL = 3, 20  # the first sweep that moves parameters, and the last that moves them all the way
+PRIOR_EVERY = 2  # sweeps from one move of the prior to the next
 LEAST_SHARE = 1e-5
 LEAST_RANDOM = 5e-4
-"""Least share of random readings: a map of few scans can explain all of their readings, but not new ones."""
+"""Least share of random readings: a map of few scans may explain all their readings, but not new ones."""
 PSEUDO_BEAMS = 2.0
 """Weight of the present value of a share, in beams: a log without readings of a kind must not make its share zero."""
 
@@ -145,12 +145,12 @@ class Parameters:
 
 @dataclass(frozen=True, eq=False)
 class DrawnStops:
-    """Stops of some beams of all chains: readings, whether and where each beam stopped, and the variance of that."""
+    """Stops of some beams of all chains."""
 
-    range_m: Floats
-    stopped: NDArray[np.bool_]
-    distance_m: Floats
-    variance: Floats
+    range_m: Floats  # readings
+    stopped: NDArray[np.bool_]  # whether the beam stopped
+    distance_m: Floats  # distance of the stop
+    variance: Floats  # variance of this distance, square metres
 
 
 def first_sensor(prior: CellPrior, resolution_m: float) -> BeamMixture:
@@ -160,13 +160,13 @@ def first_sensor(prior: CellPrior, resolution_m: float) -> BeamMixture:
 
 
 def fit(problem: StopProblem, seed: int, sweeps: int, watch: Watch = SILENT) -> Parameters:
-    """Fit sensor and prior to the scans of a problem, from its own sensor and prior on.
+    """Fit sensor and prior to the scans of a problem, starting from the problem's sensor and prior.
 
     Args:
-        problem: rays, and where to begin.
-        seed: of the pilot.
-        sweeps: of the pilot; without any, nothing moves.
-        watch: gets progress after each sweep; a stop ends the pilot, and with it the run.
+        problem: rays, and the first sensor and prior.
+        seed: seed of the pilot.
+        sweeps: number of the pilot's sweeps; with 0, nothing moves.
+        watch: receiver of progress after each sweep; a stop ends the pilot, and with it the run.
     """
     fitted = _first(problem)
     for parameters, _ in pilot_sweeps(problem, seed, sweeps, watch):
@@ -185,9 +185,7 @@ def _first(problem: StopProblem) -> Parameters:
 def pilot_sweeps(
     problem: StopProblem, seed: int, sweeps: int, watch: Watch = SILENT, keep: Keep = NOTHING
 ) -> Iterator[tuple[Parameters, Info]]:
-    """Run the pilot: yield the parameters after each sweep, and what the sweep reports, with its draw where ``keep``
-    asks for it.
-    """
+    """Run the pilot. Yields the parameters after each sweep, and the sweep's report with its draw, if kept."""
     if sweeps == 0:
         return
     sampler, now = StopGibbs(), _first(problem)
@@ -213,7 +211,7 @@ def pilot_sweeps(
 def fit_sensor(
     model: Model, device: str, *, seed: int, threads: int | None = None, watch: Watch = SILENT
 ) -> BeamMixture:
-    """Fit the sensor to the model's scans, whatever its kind of cells: by a pilot over reflectivities.
+    """Fit the sensor to the model's scans, for any kind of cells, by a pilot over reflectivities.
 
     Raises:
         BadInput: too many incidences for the grid.
@@ -227,7 +225,7 @@ def fit_sensor(
 
 
 def stops_of(state: StopState, beams: slice) -> DrawnStops:
-    """Return the stops of the last sweep, of some of the beams, all chains together."""
+    """Return the stops of the given beams in the last sweep, all chains together."""
     rays, chains = state.problem.rays, range(state.chains.n_chains)
     parts = [state.chains.stops(chain) for chain in chains]
     return DrawnStops(
@@ -239,7 +237,7 @@ def stops_of(state: StopState, beams: slice) -> DrawnStops:
 
 
 def gain(sweep: int) -> float:
-    """Return the share of the way that parameters move after a sweep: 1 until `WHOLE_UNTIL`, and then less and less."""
+    """Return the share of the way that parameters move after a sweep: 1 until `WHOLE_UNTIL`, then decreasing."""
     return 1.0 if sweep < WHOLE_UNTIL else float((sweep - WHOLE_UNTIL + 1.0) ** -0.7)
 
 
@@ -250,7 +248,7 @@ def refit_sensor(sensor: BeamMixture, stops: DrawnStops, limits: RangeLimits, st
     silent = np.isposinf(z)
     known, rate = 1.0 - sensor.p_random, sensor.rate_short_per_m
 
-    # Expectation: is a reading the wall's, a passing object's, or anything?
+    # Expectation: probabilities that a reading is random, a passing object, or a return of the wall.
     t = np.where(stops.stopped, np.minimum(stops.distance_m, limits.max_m), limits.max_m)
     anything = np.where(hit, sensor.p_random / (limits.max_m - limits.min_m), 0.0)
     reading = np.where(hit, z, 0.0)
@@ -269,16 +267,16 @@ def refit_sensor(sensor: BeamMixture, stops: DrawnStops, limits: RangeLimits, st
     # Maximisation.
     valid = float((hit | silent).sum())
     p_random = _share(by_chance.sum(), valid, sensor.p_random)
-    # A stop within reach that did not return was missed, or its reading lay out of range.
+    # A stop within range without a return was missed, or its reading lay out of range.
     reached = stops.stopped & (stops.distance_m <= limits.max_m)
     out_of_range = (1.0 - sensor.p_no_return) * sensor.noise.tail((limits.max_m - t) / scale)
     share_missed = sensor.p_no_return / np.maximum(sensor.p_no_return + out_of_range, LEAST_SHARE)
     missing = float((silent & reached) @ share_missed)
     p_no_return = _share(missing, missing + by_wall.sum(), sensor.p_no_return)
-    # An object may also have stood behind where the beam ended, unseen.
+    # Passing objects may also be behind the end of the beam, unobserved.
     free = np.where(hit, by_wall, silent * 1.0)
     behind = free * sensor.p_short * np.exp(-rate * t) / unblocked
-    # Nor are those that stood too close to be measured: for each one further on there are so many.
+    # Objects too close to be measured are unobserved as well: this many per object further away.
     too_close = math.expm1(rate * limits.min_m)
     seen, further = by_object.sum(), by_object.sum() + behind.sum()
     objects = further * (1.0 + too_close)
@@ -315,8 +313,8 @@ def refit_prior(
 ) -> Reflective:
     """Move the Beta's counts towards those that make hits and passes likeliest, reflectivities integrated out.
 
-    Cells whose ``met`` is negative have not counted yet and are left out. With labels each Beta is that of the cells
-    that have its label; the coupling stays.
+    Cells with negative ``met`` have not counted yet and are left out. With labels, each label's Beta is fitted to the
+    cells that have this label; the coupling stays.
     """
     counted = met >= 0
     if solid is None:
@@ -334,7 +332,7 @@ def _likeliest_beta(
     """Move a Beta's counts towards those that make hits and passes likeliest; without counts they stay."""
     if not len(hits):
         return a, b
-    # Both counts as one number: a hundred times as fast as looking for equal pairs.
+    # Both counts as one integer: a hundred times as fast as searching equal pairs.
     base = int(met.max()) + 1
     pairs, times = np.unique(hits.astype(np.int64) * base + met, return_counts=True)
     h, p = (part.astype(np.float64) for part in np.divmod(pairs, base))
@@ -352,9 +350,9 @@ def _likeliest_beta(
 
 
 COUPLING_SWEEPS = 100
-COUPLING_WHOLE_UNTIL = 40
+COUPLING_WHOLE_UNTIL = 40  # the last sweep in which the coupling moves all the way
 FIRST_COUPLING = 0.5
-"""Start of the pilot: below the coupling of about 0.88 at which, at p = 0.5, whole regions become alike."""
+"""Start of the pilot: below about 0.88, the coupling at which, at p = 0.5, whole regions become alike."""
 
 
 def fit_coupling_to_scans(
@@ -363,12 +361,12 @@ def fit_coupling_to_scans(
     """Return a model's prior with the coupling that suits its scans.
 
     Args:
-        model: its cells an `Ising`, whose wall probability is held.
-        sampler: of the pilot.
+        model: a model whose cells are an `Ising`; its wall probability stays.
+        sampler: sampler of the pilot.
         device: where kernels run.
-        seed: of the pilot.
-        threads: of the CPU; all cores if None.
-        watch: gets progress after each sweep; a stop ends the pilot, and with it the run.
+        seed: seed of the pilot.
+        threads: number of CPU threads; all cores if None.
+        watch: receiver of progress after each sweep; a stop ends the pilot, and with it the run.
 
     Raises:
         BadInput: as `WallSampler.prepare`.

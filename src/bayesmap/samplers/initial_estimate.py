@@ -1,4 +1,4 @@
-"""An initial estimate of cells and surfaces from where readings end: the starts of chains, and the sizes of steps.
+"""Estimate cells and surfaces from where readings end: for the starts of chains, and the sizes of steps.
 
 Hits and their scatter per cell are what normal-distributions-transform maps keep (Stoyanov, Saarinen et al., 2013).
 """
@@ -17,22 +17,22 @@ from bayesmap.cells.kind import Floats
 from bayesmap.cells.reflectivity import Reflective
 from bayesmap.space.grid import Grid
 
-CENTRE_WEIGHT = 0.3  # hits that the prior's centre counts for
+CENTRE_WEIGHT = 0.3  # weight of the prior's centre, in hits
 FREE_PERIOD, FAR_PERIOD = 8, 16
-"""Update periods, in sweeps, of cells in which no reading ends, and of those around which none ends either."""
+"""Update periods, in sweeps, of cells in which no reading ends, and of cells around which no reading ends either."""
 FEW_PASSES, FEW_PERIOD = 16, 2
-"""A cell that fewer beams pass has this update period, in sweeps."""
+"""A cell that fewer than `FEW_PASSES` beams pass has the update period `FEW_PERIOD`, in sweeps."""
 ALONG_WALL = 1.5
 """First standard deviation of a surface along its wall, in standard deviations of its end points."""
-FRESH = 1 << 16  # surfaces that are drawn from the prior: more cells than that share them
-LABEL_SWEEPS = 30
+FRESH = 1 << 16  # most surfaces drawn from the prior; more cells than that share them
+LABEL_SWEEPS = 30  # sweeps of the first labels
 LOGIT_STEP = 1.0
-INSIDE = 0.98  # of a cell, in which means start
+INSIDE = 0.98  # share of a cell's edge within which means start
 ALONG = 0.25
 SIZE = 0.5
 ACROSS = 1.5
 THICKNESS = 1.2
-"""Sizes of steps: they accept a third to a half."""
+"""Relative sizes of steps, `LOGIT_STEP` and the four above: a third to a half of the steps are accepted."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,11 +43,11 @@ class InitialEstimate:
 
     Attributes:
         touched: flat indices of the cells, ascending, (T,).
-        hits, passes: readings that end there, and beams that pass, (T,).
-        far: cells in which no reading ends, nor in any of the eight around them, (T,).
-        mean_m: of each of the U endpoint cells: mean of the end points, drawn towards the centre, (U, 2), metres from
+        hits, passes: numbers of readings that end in the cell, and of beams that pass it, (T,).
+        far: mask of cells in which no reading ends, nor in any of the eight cells around them, (T,).
+        mean_m: mean of the end points in each of the U endpoint cells, shrunk towards the centre, (U, 2), metres from
             the grid's corner.
-        factor_m: Cholesky factor of the covariance of these end points, drawn towards the prior's size and `widened`:
+        factor_m: Cholesky factor of the covariance of these end points, shrunk towards the prior's size and `widened`:
             l11, l21, l22, metres, (U, 3).
     """
 
@@ -73,6 +73,7 @@ def initial_estimate(rays: Rays, prior: Reflective, device: str = "cpu") -> Init
     """Count hits and passes, and fit a normal distribution to each cell's end points."""
     from bayesmap.kernels.counts import count_passes
 
+    # Hits of each cell.
     grid, edge = rays.grid, rays.grid.resolution
     end_cell = end_cells(rays)
     ended = end_cell >= 0
@@ -84,6 +85,7 @@ def initial_estimate(rays: Rays, prior: Reflective, device: str = "cpu") -> Init
     def total(values: Floats) -> Floats:
         return np.bincount(place, values, len(ended_cells)).astype(np.float64)
 
+    # Means and covariances, shrunk towards the prior.
     weight = of_cell + CENTRE_WEIGHT
     mean = np.stack([total(points[:, i]) + CENTRE_WEIGHT * centre[:, i] for i in (0, 1)], axis=-1) / weight[:, None]
     away, off = points - mean[place], centre - mean
@@ -111,8 +113,8 @@ def initial_estimate(rays: Rays, prior: Reflective, device: str = "cpu") -> Init
 def widened(var_x: Floats, both: Floats, var_y: Floats) -> tuple[Floats, Floats, Floats]:
     """Return the covariances with `ALONG_WALL` times the standard deviation along their longer axis, as xx, xy and yy.
 
-    Readings that lie evenly along a wall up to w to either side have a standard deviation of w / sqrt(3), and beams
-    meet a surface up to 2.2 of its own: one that is met by all of them is wider than they are scattered.
+    Readings that lie evenly along a wall up to w to either side have a standard deviation of w / sqrt(3). Beams meet a
+    surface up to 2.2 of its standard deviations. So a surface that all these beams meet is wider than their scatter.
     """
     angle, along = longer_axis(var_x, both, var_y)
     more = (ALONG_WALL**2 - 1.0) * along
@@ -127,7 +129,7 @@ def longer_axis(var_x: Floats, both: Floats, var_y: Floats) -> tuple[Floats, Flo
 
 
 def end_cells(rays: Rays) -> NDArray[np.int32]:
-    """Return the flat index of the touched cell in which each reading ends; -1 for none, (B,)."""
+    """Return the flat index of the touched cell in which each reading ends, (B,); -1 if there is none."""
     nx, ny = rays.grid.shape
     points = rays.end_points_m()
     finite: NDArray[np.bool_] = np.asarray(np.isfinite(points).all(axis=1))
@@ -138,10 +140,10 @@ def end_cells(rays: Rays) -> NDArray[np.int32]:
 
 
 def counts_at_first(estimate: InitialEstimate, cells: int) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
-    """Estimate the beams that each cell of the grid stopped, and those that it met and let pass, (N,) each."""
+    """Estimate for each cell the beams that it stopped, and the beams that met it and passed, (N,) each."""
     stopped, passed = np.zeros(cells, np.float32), np.zeros(cells, np.float32)
     stopped[estimate.touched] = estimate.hits
-    # Half of the passes: those of a cell that a wall fills in part mostly go by beside the wall.
+    # Half of the passes: if a wall fills part of a cell, passing beams mostly go beside the wall.
     passed[estimate.touched] = 0.5 * estimate.passes
     return stopped, passed
 
@@ -149,9 +151,9 @@ def counts_at_first(estimate: InitialEstimate, cells: int) -> tuple[NDArray[np.f
 def first_labels(
     estimate: InitialEstimate, prior: Reflective, grid: Grid, rng: np.random.Generator
 ) -> NDArray[np.bool_]:
-    """Draw a chain's first labels of all cells of the grid, (N,), from the estimated counts, after some sweeps.
+    """Draw a chain's first labels of all cells of the grid, (N,), by sweeps of labels under the estimated counts.
 
-    Regions that no beam sees come to agree slowly, and sweeps of labels alone cost next to nothing.
+    Regions that no beam observes agree slowly, and sweeps of labels alone are cheap.
     """
     stopped, passed = (counts.astype(np.float64) for counts in counts_at_first(estimate, grid.n_cells))
     log_odds = special.betaln(prior.a_solid + stopped, prior.b_solid + passed)
@@ -167,11 +169,10 @@ def start(
     rng: np.random.Generator,
     solid: NDArray[np.bool_] | None = None,
 ) -> NDArray[np.float32]:
-    """Draw a chain's first state of all cells of the grid, (N, 6), scattered about the estimate as widely as the
-    posterior.
+    """Draw a chain's first state of all cells of the grid, (N, 6), scattered about the estimate like the posterior.
 
-    ``solid`` are their labels, (N,), if they have any. Cells in which no reading ends have surfaces from the prior, and
-    those that no beam touches all of their state.
+    ``solid`` holds their labels, (N,), if they have any. Cells in which no reading ends take surfaces from the prior.
+    Cells that no beam touches take their whole state from the prior.
     """
     grid, cells = rays.grid, rays.grid.n_cells
     state = np.zeros((cells, 6), dtype=np.float32)
@@ -200,19 +201,17 @@ def start(
 def update_periods(estimate: InitialEstimate) -> NDArray[np.uint8]:
     """Return the update period of each cell, in sweeps, (T,): 0 for endpoint cells, which every sweep updates.
 
-    A sweep tells little about free cells, above all far from all readings, and most cells that beams cross are free. A
-    cell that few beams pass costs little, and is not known to be free: a reflectivity at which it stops them would stay
-    until its next update.
+    Most cells that beams cross are free, and a sweep changes little in them, above all far from all readings. A cell
+    that few beams pass costs little, and may not be free: a large reflectivity would stay until its next update.
     """
     free = np.where(estimate.passes < FEW_PASSES, FEW_PERIOD, np.where(estimate.far, FAR_PERIOD, FREE_PERIOD))
     return np.where(estimate.endpoint, 0, free).astype(np.uint8)
 
 
 def steps(estimate: InitialEstimate, edge_m: float) -> NDArray[np.float32]:
-    """Return frames and step sizes of the endpoint cells, (U, 8), as `bayesmap.kernels.surfaces.endpoint_cells` reads
-    them.
+    """Return frames and step sizes of the endpoint cells, (U, 8), see `bayesmap.kernels.surfaces.endpoint_cells`.
 
-    Along the wall steps are a part of the cell; across it they shrink with the readings.
+    Steps along the wall are a share of the cell's edge; steps across it shrink with the number of readings.
     """
     l11, l21, l22 = estimate.factor_m.T
     hits, passes = estimate.hits[estimate.endpoint], estimate.passes[estimate.endpoint]

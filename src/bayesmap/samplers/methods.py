@@ -1,4 +1,4 @@
-"""Methods as users choose them, and the samplers that the kinds of cells have under their names."""
+"""Methods as users choose them, and the samplers by name."""
 
 from __future__ import annotations
 
@@ -32,12 +32,12 @@ class Gibbs:
     Reflectivities and surfaces have neither order nor start nor rounds.
 
     Attributes:
-        order: of the cells in a sweep: "radial", "raster" or "random".
-        start: "prior", "zeros", "ones", "propagate", a map (nx, ny), or a map for each chain, (chains, nx, ny). None:
+        order: order of the cells in a sweep: "radial", "raster" or "random".
+        start: "prior", "zeros", "ones", "propagate", a map (nx, ny), or one map per chain, (chains, nx, ny). None:
             "propagate" on maps of more than 10 000 cells, and "prior" on others.
-        start_poses: poses from which chains start where poses are unknown, a trajectory for each chain, (chains, S, 3).
-            None: draws of their prior.
-        rounds: of belief propagation, at most, for a start from it.
+        start_poses: first poses of the chains if poses are unknown, one trajectory per chain, (chains, S, 3). None:
+            draws of their prior.
+        rounds: most rounds of belief propagation, for a start from it.
 
     Raises:
         BadInput: an unknown order or start, or no rounds.
@@ -73,7 +73,7 @@ class Propagate:
     """Propagate beliefs along the beams, for binary walls: approximate marginals at once.
 
     Attributes:
-        rounds: at most.
+        rounds: most rounds.
 
     Raises:
         BadInput: no rounds.
@@ -91,7 +91,7 @@ class Importance:
     """Weigh maps that are drawn from the prior, for binary walls: for teaching, since the weights collapse.
 
     Attributes:
-        particles: maps that are drawn.
+        particles: number of maps drawn.
 
     Raises:
         BadInput: no particles.
@@ -126,9 +126,9 @@ def method_of(method: Method | str | None, known: Mapping[str, str], kind: str) 
     """Return the name of a method, and the method with its options.
 
     Args:
-        method: a method, its name, or None for the first of the kind of cells.
-        known: the methods of the kind of cells.
-        kind: its name.
+        method: a method, its name, or None for the first method of the kind of cells.
+        known: the names of the methods of the kind of cells, and of their samplers.
+        kind: name of the kind of cells.
 
     Raises:
         BadInput: this kind of cells has no such method.
@@ -143,14 +143,14 @@ def method_of(method: Method | str | None, known: Mapping[str, str], kind: str) 
 
 
 def sampler_on_walls(name: str) -> WallSampler:
-    """Return the sampler of walls that a method has, with its defaults; for a method without chains, single cells."""
+    """Return a method's sampler of walls, with defaults; single cells for a method without chains."""
     return ON_WALLS.get(name, WallGibbs)()
 
 
 def sampler_of(name: str, grid: Grid, method: Gibbs, warmup: int = 0) -> tuple[Sampler[Any, Any], dict[str, Any]]:
-    """Return a Markov chain sampler, and its options as the settings of a run say them.
+    """Return a Markov chain sampler, and its options for the settings of a run.
 
-    Surfaces search for where to start in the first part of ``warmup`` sweeps; without any they do not.
+    Surfaces search for their start in the first part of ``warmup`` sweeps; with 0 sweeps, there is no search.
     """
     if name in ON_ANY:
         sampler = StopGibbs(int(SEARCH_SHARE * warmup)) if name == "stop-gibbs" else ON_ANY[name]()

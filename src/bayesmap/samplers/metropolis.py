@@ -1,9 +1,9 @@
 """Metropolis sampling of any kind of cells, cell by cell, in plain NumPy: for kinds without a sampler of their own.
 
 Every sweep proposes another state for each cell (`CellPrior.propose`; by default a state from the prior). It is
-accepted with probability min(1, ratio): the ratio of the likelihoods of the beams that touch the cell, times the ratio
-of priors and proposals (Metropolis et al., 1953; Hastings, 1970). The sensor needs a density and nothing else. On a
-small map this gives a first posterior of a new kind of cells.
+accepted with probability min(1, ratio). The ratio is that of the likelihoods of the beams that touch the cell, times
+that of priors and proposals (Metropolis et al., 1953; Hastings, 1970). The sensor needs only a density. On a small map
+this gives a first posterior of a new kind of cells.
 """
 
 from __future__ import annotations
@@ -43,11 +43,11 @@ class MetropolisProblem:
 
     @property
     def coordinates(self) -> Mapping[str, NDArray[np.int32]]:
-        """Draws cover the grid."""
+        """Always empty: draws cover the grid."""
         return {}
 
     def touched(self) -> NDArray[np.bool_]:
-        """Return cells that some beam touches, (nx, ny)."""
+        """Mark the cells that at least one beam touches, (nx, ny)."""
         return self.rays.touched_map()
 
     @cached_property
@@ -60,11 +60,11 @@ class MetropolisProblem:
 
     @cached_property
     def rays_of(self) -> list[Rays]:
-        """Return the beams that touch a cell as rays."""
+        """The beams that touch each cell, as rays."""
         return [self.rays.select(beams) for beams in self.beams_of]
 
     def log_likelihoods(self, cells: Mapping[str, NDArray[Any]], beta: float, rays: Rays) -> Floats:
-        """Compute log p(reading | cells) of some beams at an inverse temperature."""
+        """Compute log p(reading | cells) of the beams in ``rays`` at an inverse temperature."""
         stops = self.model.cells.stops(cells, self.grid)
         return log_likelihoods(rays, stops, self.model.sensor, self.model.hit_depth, beta)
 
@@ -142,7 +142,7 @@ class Metropolis:
         return Snapshot(state.sweep, {name: np.stack([cells[name] for cells in state.maps]) for name in names})
 
     def observed_counts(self, state: MetropolisState, draws: Mapping[str, NDArray[Any]]) -> NDArray[np.int32]:
-        """Return the cells that beams touch, (2, nx, ny)."""
+        """Count each cell that a beam touches as observed in one draw. Returns (2, nx, ny)."""
         touched = state.problem.touched().astype(np.int32)
         return np.stack([touched, np.ones_like(touched)])
 

@@ -14,11 +14,11 @@ Stage = Literal[
 
 @dataclass(frozen=True)
 class Event:
-    """Progress of a run: ``done`` of ``total`` units of a stage, and what is known by then.
+    """Progress of a run: ``done`` of ``total`` units of a stage, and results so far.
 
     Attributes:
-        log_joint: mean over the chains.
-        error: Monte Carlo error of the map, see `bayesmap.run.chains.map_error`. Where it decides how long chains run,
+        log_joint: log joint, mean over the chains.
+        error: Monte Carlo error of the map, see `bayesmap.run.chains.map_error`. If it decides how long chains run,
             ``total`` is an estimate.
     """
 
@@ -35,7 +35,7 @@ class Watch:
 
     Attributes:
         on_progress: the progress callback.
-        should_stop: asked between two pieces of work.
+        should_stop: callback between two pieces of work; true stops the run.
     """
 
     on_progress: Callable[[Event], None] | None = None

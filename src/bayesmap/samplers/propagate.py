@@ -1,4 +1,7 @@
-"""Belief propagation with ray potentials: approximate marginals in a few rounds (the messages: see its kernel)."""
+"""Belief propagation with ray potentials: approximate marginals in a few rounds.
+
+`bayesmap.kernels.walls.propagate` states the messages.
+"""
 
 from __future__ import annotations
 
@@ -26,9 +29,9 @@ class Marginals:
         changes: largest change of any cell's probability in each round, (rounds,).
         mean_changes: mean change over the cells that beams touch, (rounds,).
         converged: whether the last largest change was below the tolerance.
-        finished: false if it was stopped before that, with rounds to go.
-        seconds: time in the rounds.
-        prior: wall probability without any beam, (nx, ny), where that is worth telling: None if it is the prior's own.
+        finished: whether it converged or made all rounds; false if it was stopped early.
+        seconds: time for the rounds.
+        prior: wall probability without any beam, (nx, ny); None if it is the prior's own.
     """
 
     p_wall: Floats
@@ -49,20 +52,20 @@ def propagate(
     beta: float = 1.0,
     watch: Watch = SILENT,
 ) -> Marginals:
-    """Flood messages between beams and cells until beliefs settle, or for a number of rounds.
+    """Pass messages between all beams and cells until beliefs converge, or for a number of rounds.
 
-    On a map where every beam is independent of the others (no cell on two beams, and neighbours not coupled) one
-    undamped round is exact. Where beams and coupled neighbours make a tree it is exact after as many rounds as the tree
-    is wide. Otherwise the marginals are approximate, usually too sure; above a coupling of about 0.7 they may come out
-    for one of two ways in which a whole region could be, and leave out the other.
+    If no cell lies on two beams and neighbours are not coupled, one undamped round is exact. If beams and coupled
+    neighbours form a tree, the result is exact after as many rounds as the tree is wide. Otherwise the marginals are
+    approximate, and usually too certain. Above a coupling of about 0.7, they may show only one of two possible states
+    of a whole region.
 
     Args:
         problem: table and prior.
-        rounds: at most this many.
+        rounds: most rounds.
         damping: weight of the old message in the new one, geometrically, in [0, 1).
-        tolerance: stop when no probability changed by more.
+        tolerance: largest change of a probability at which rounds end.
         beta: inverse temperature of the likelihood.
-        watch: gets progress after each round, and may stop the rounds.
+        watch: receiver of progress after each round; it may stop the rounds.
 
     Raises:
         BadInput: rounds or damping out of range.
@@ -99,7 +102,7 @@ def propagate(
 
 
 def propagate_to_start(problem: WallProblem, rounds: int = ROUNDS, watch: Watch = SILENT) -> Marginals:
-    """Propagate beliefs for a start; if neighbours are coupled, also without beams, to know where beams say nothing."""
+    """Propagate beliefs for a start; if neighbours are coupled, also without beams, to find the effect of beams."""
     marginals = propagate(problem, rounds=rounds, watch=watch)
     if problem.coupling == 0.0:
         return marginals

@@ -1,8 +1,9 @@
 """The contract of all Markov chain samplers, as BlackJAX has it: `init` makes a state, `step` gives (state, info).
 
-A sampler is a value: it holds options and no state. `prepare` makes what all chains of a process share, such as traced
-beams. A chain has a number that does not depend on where it runs. Every draw depends on (seed, number of the chain,
-sweep, site) alone: not on other chains, threads, the division of sweeps into steps, or stops and resumptions.
+A sampler is a value: it holds options and no state. `prepare` makes the data that all chains of a process share, such
+as traced beams. The number of a chain does not depend on where it runs. Every draw depends on (seed, number of the
+chain, sweep, site) alone. Other chains, threads, the division of sweeps into steps, and stops and resumptions do not
+matter.
 """
 
 from __future__ import annotations
@@ -25,10 +26,10 @@ STREAM_START = 2
 STREAM_PARTICLES = 3
 STREAM_LABELS = 7
 STREAM_SECOND_SWEEPS, STREAM_SECOND_START = 8, 9
-"""Streams of random numbers: with the seed and the chain, each makes a key of its own."""
+"""Streams of random numbers: each has its own key for a seed and a chain."""
 
 PILOT = 1 << 32
-"""Number of the chain to which a sensor is fitted: none that is kept has it."""
+"""Number of the pilot chain, which fits the sensor; no other chain has this number."""
 
 
 @dataclass(frozen=True)
@@ -36,7 +37,7 @@ class Keep:
     """The draws to keep: those of the sweeps ``after + every``, ``after + 2 every``, ..., counted from 1.
 
     Attributes:
-        after: sweeps of which none is kept.
+        after: number of first sweeps of which none is kept.
         every: sweeps from one kept draw to the next; 0 keeps none.
     """
 
@@ -55,7 +56,7 @@ class Keep:
 NOTHING = Keep()
 
 MAPS_TO_SEE = 8
-"""Draws of each chain that decide which cells count as observed, at most; they do not depend on the other chains."""
+"""Most draws per chain that decide which cells count as observed; they do not depend on the other chains."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,10 +64,9 @@ class Info:
     """The report of some sweeps.
 
     Attributes:
-        log_likelihood, log_prior: of each sweep, (chains, sweeps): of the map that its draw shows. At an inverse
-            temperature the likelihood is the tempered one.
-        draws: the kept draws, (chains, kept, ...), by the names of the arrays of the kind of cells and as these are
-            stored.
+        log_likelihood, log_prior: log densities of each sweep's draw, (chains, sweeps). At an inverse temperature the
+            likelihood is tempered.
+        draws: the kept draws, (chains, kept, ...), by the names of the cells' arrays, in their stored form.
     """
 
     log_likelihood: Floats
@@ -88,8 +88,8 @@ class Snapshot:
     """The states of chains: all that is needed to continue them.
 
     Attributes:
-        sweep: sweeps that each has made.
-        arrays: by name, (chains, ...).
+        sweep: number of sweeps that each chain has made.
+        arrays: arrays by name, (chains, ...).
     """
 
     sweep: int
@@ -97,7 +97,7 @@ class Snapshot:
 
 
 class Problem(Protocol):
-    """The result of `Sampler.prepare`: a model where a sampler's kernels can read it."""
+    """The result of `Sampler.prepare`: a model in the form that the sampler's kernels use."""
 
     @property
     def grid(self) -> Grid:
@@ -109,10 +109,10 @@ class Problem(Protocol):
 
     @property
     def coordinates(self) -> Mapping[str, NDArray[np.int32]]:
-        """For the dimensions of draws that count some cells only: these cells (see `bayesmap.cells.arrays.Draws`)."""
+        """The cells of each dimension of draws that covers only some cells (see `bayesmap.cells.arrays.Draws`)."""
 
     def touched(self) -> NDArray[np.bool_]:
-        """Return cells that some beam touches, (nx, ny): the others have the prior."""
+        """Mark the cells that at least one beam touches, (nx, ny); the others follow the prior."""
 
 
 class ChainState(Protocol):
@@ -128,7 +128,7 @@ class ChainState(Protocol):
 
     @property
     def statistics(self) -> Mapping[str, Floats]:
-        """Results of the start beside the chains, by name, such as the changes of belief propagation."""
+        """Further results of the start by name, such as the changes of belief propagation."""
 
 
 P = TypeVar("P", bound=Problem)
@@ -139,13 +139,13 @@ class Sampler(Protocol[P, S]):
     """A Markov chain sampler."""
 
     def prepare(self, model: Model, device: str, threads: int | None = None, watch: Watch = SILENT) -> P:
-        """Trace the model's beams, and prepare all else that chains share.
+        """Trace the model's beams, and prepare all other data that chains share.
 
         Args:
-            model: what is sampled.
+            model: the model to sample.
             device: where kernels run.
-            threads: of the CPU; all cores if None. Nothing depends on it but time.
-            watch: gets how far it is.
+            threads: number of CPU threads; all cores if None. Only the time depends on it.
+            watch: receiver of progress.
 
         Raises:
             BadInput: a model that this sampler cannot sample.
@@ -160,31 +160,31 @@ class Sampler(Protocol[P, S]):
         """Make some sweeps of all chains.
 
         Args:
-            state: not to be used afterwards.
-            sweeps: how many.
-            beta: inverse temperature: p(reading | stop) to this power, so that 0 samples the prior and 1 the posterior.
-                For binary walls that is the likelihood to this power.
-            keep: which draws are kept.
+            state: the chains; do not use this state afterwards.
+            sweeps: number of sweeps.
+            beta: inverse temperature, the power of p(reading | stop): 0 samples the prior and 1 the posterior. For
+                binary walls, this is the power of the likelihood.
+            keep: the draws to keep.
         """
 
     def snapshot(self, state: S) -> Snapshot:
-        """Copy what is needed to continue."""
+        """Copy the data that is needed to continue."""
 
     def observed_counts(self, state: S, draws: Mapping[str, NDArray[Any]]) -> NDArray[np.int32]:
         """Count the draws in which at least one beam observes each cell, and the draws inspected, of all chains.
-        Returns (2, nx, ny). Without draws, the maps at which the chains stand count.
+        Returns (2, nx, ny). Without draws, the present maps of the chains are inspected.
 
         Args:
-            state: of the chains.
-            draws: what `to_see` has chosen of theirs; {} for the maps at which they stand.
+            state: state of the chains.
+            draws: the draws that `to_see` has selected; {} for the present maps.
         """
 
 
 def to_see(draws: Draws) -> dict[str, NDArray[Any]]:
-    """Select the draws for `Sampler.observed_counts`: some maps, evenly spread, and none of arrays that cover some
-    cells only.
+    """Select the draws for `Sampler.observed_counts`: `MAPS_TO_SEE` maps, evenly spread. Arrays that cover only some
+    cells are emptied.
 
-    Which cells are observed hardly differs from draw to draw, and all draws may be gigabytes, or far away.
+    The observed cells hardly differ from draw to draw, and all draws may be gigabytes, or on another machine.
     """
     selected = np.unique(np.linspace(0, draws.count - 1, MAPS_TO_SEE).astype(np.intp)) if draws.count else slice(0)
     whole = {spec.name for spec in draws.specs if spec.dims == ("x", "y")}

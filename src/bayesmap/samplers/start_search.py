@@ -1,28 +1,27 @@
 """Search for better starts of chains of surfaces, during their warm-up.
 
-Sweeps change one cell at a time. A corner may be explained by the surfaces of one cell and its neighbour, by these two
-exchanged, or by a single wide surface; a wall by few long surfaces or by many short ones. Single steps do not lead from
-one explanation to another, or need hundreds of sweeps. So chains also try changes of several cells at once:
+Sweeps change one cell at a time. But a corner may be explained by the surfaces of two neighbouring cells, by these two
+exchanged, or by a single wide surface. A wall may be explained by few long surfaces or by many short ones. Single steps
+do not lead from one explanation to another, or need hundreds of sweeps. So chains also try joint changes of cells:
 
-Start selection. A chain makes its first sweeps twice, from two independent starts. Then it compares the two, square by
-square of some cells, and takes over the squares in which the second start explains the readings better. A square stays
-if it also does so among the chain's own cells: where a wall runs out of the square, its two halves may not fit
-together.
+Start selection. A chain makes its first sweeps twice, from two independent starts. Then it compares the two in squares
+of cells, and takes over the squares in which the second start explains the readings better. A square is kept if it also
+explains them better among the chain's own cells: the two halves of a wall that leaves the square may not fit together.
 
 Merge moves. Few long surfaces explain a wall as well as many short ones, and cost less. But a surface that grows over
 the readings of a neighbour gains nothing while the neighbour still stops those beams. In a merge move a cell that stops
-few beams becomes free, and the neighbour whose surface points best at its readings becomes longer along its own axis,
-to reach them.
+few beams becomes free. The neighbour whose axis lies closest to its readings becomes longer along this axis, to reach
+them.
 
-Changes in places that are far enough apart are tried together. One sweep over the beams tells for each place whether
-the map explains its readings better than before; the other changes are taken back. The criterion is the log likelihood
-of the readings that end in a square, less the cost of the surfaces that stop these beams. A surface has five
-parameters. Each costs half the logarithm of the number of beams that it stops (Schwarz 1978), and a solid cell costs
-the prior's log odds against it:
+Changes at places that are far enough apart are tried together. One sweep over the beams computes for each place whether
+the map explains its readings better than before; the other changes are undone. The criterion is the log likelihood of
+the readings that end in a square, less the cost of the surfaces that stop these beams. A surface has five parameters.
+Each costs half the logarithm of the number of beams that it stops (Schwarz 1978), and a solid cell costs the prior's
+log odds against it:
 
     sum over beams ( log p(z) - (log odds + 5/2 log (1 + n)) / n ),    n beams being stopped by the same cell.
 
-The search ends before a draw is kept, and no chain sees another one: chains that come to agree do so by themselves.
+The search ends before a draw is kept. Chains share no information: if they agree, they do so independently.
 """
 
 from __future__ import annotations
@@ -49,24 +48,24 @@ Look = Callable[["ChainMaps"], Floats]
 
 NUMBERS = 5  # parameters of a surface: mean and covariance
 UPDATES_ALL, UPDATES_FEW = 1 << 24, (1 << 24) + 1
-"""Numbers of two sweeps that no chain makes: the first updates all cells, the second few."""
+"""Sweep numbers that chains do not reach: the first updates all cells, the second few."""
 SEARCH_SHARE = 0.8
 """Share of the warm-up that start selection takes."""
 MERGED_AGAIN = 2
-"""Times that surfaces are merged once more, each after a tenth of the sweeps of start selection. By then surfaces have
-moved, and may take in others. With the share above all merges lie in the warm-up."""
+"""Number of further merges, each after another tenth of the sweeps of start selection. By then surfaces have moved, and
+may take in others. With `SEARCH_SHARE` as above, all merges lie in the warm-up."""
 
 
 @dataclass(frozen=True, eq=False)
 class ChainMaps:
-    """The maps at which chains stand, to be changed in place: states (C, N, 6) and labels (C, N)."""
+    """The present maps of chains, changed in place: states (C, N, 6) and labels (C, N)."""
 
     cells: NDArray[np.float32]
     solid: NDArray[np.bool_]
 
     @classmethod
     def of(cls, chains: StopChains) -> ChainMaps:
-        """Copy the maps at which chains stand."""
+        """Copy the present maps of chains."""
         each = range(chains.n_chains)
         return cls(np.stack([chains.cells(i) for i in each]), np.stack([chains.solid(i) for i in each]))
 
@@ -81,9 +80,9 @@ class Changes:
     """Changes to the map of one chain, in n places.
 
     Attributes:
-        middle: the cells around which the readings are compared, as places in the grid, (n, 2).
-        where: the cells that change, flat, (n, k).
-        cells, solid: what they become, (n, k, 6) and (n, k).
+        middle: x and y of the cells around which the readings are compared, (n, 2).
+        where: flat indices of the cells that change, (n, k).
+        cells, solid: new states and labels of these cells, (n, k, 6) and (n, k).
     """
 
     middle: NDArray[np.intp]
@@ -92,14 +91,14 @@ class Changes:
     solid: NDArray[np.bool_]
 
     def select(self, mask: NDArray[np.bool_]) -> Changes:
-        """Return the changes of some places."""
+        """Return the changes at the places of the mask, (n,)."""
         return Changes(self.middle[mask], self.where[mask], self.cells[mask], self.solid[mask])
 
 
 def evidence(chains: StopChains, chain: int, end_cell: NDArray[np.int32], prior: Reflective) -> Floats:
     """Compute the sum above over the beams whose readings end in each cell, (N,), for a chain's last sweep.
 
-    ``end_cell`` is that of `bayesmap.samplers.initial_estimate.end_cells`, (B,).
+    ``end_cell`` is the result of `bayesmap.samplers.initial_estimate.end_cells`, (B,).
     """
     cells = chains.plan.rays.grid.n_cells
     owner = chains.stopped_by(chain)
@@ -113,9 +112,7 @@ def evidence(chains: StopChains, chain: int, end_cell: NDArray[np.int32], prior:
 
 
 def look_with(problem: StopProblem, chains: StopChains, beta: float) -> Look:
-    """Return a function that puts chains on maps, draws where their beams stop, and returns their `evidence`, (C, nx,
-    ny).
-    """
+    """Return a function that puts maps into chains, draws stops of beams, and returns the `evidence`, (C, nx, ny)."""
     end_cell = end_cells(problem.rays)
     numbers = problem.prior.kernel_numbers(problem.grid.resolution)
 
@@ -132,18 +129,18 @@ def look_with(problem: StopProblem, chains: StopChains, beta: float) -> Look:
 def try_changes(
     maps: ChainMaps, changes: Sequence[Changes], look: Look, before: Floats, half: int, least: float
 ) -> list[NDArray[np.bool_]]:
-    """Change maps in some places, and take back the changes that do not gain ``least`` around their place.
+    """Change maps, and undo the changes that gain less than ``least`` around their place.
 
     Args:
-        maps: of all chains.
-        changes: of each chain, in places that do not touch.
-        look: at the maps.
-        before: what it saw before, (C, nx, ny); replaced by what it sees where a change stays.
-        half: cells around a place, to each side, whose readings are compared.
-        least: nats.
+        maps: maps of all chains.
+        changes: changes of each chain, at places that do not touch.
+        look: function that computes the evidence of maps, see `look_with`.
+        before: evidence before the changes, (C, nx, ny); updated around the changes that stay.
+        half: number of cells to each side of a place whose readings are compared.
+        least: least gain, nats.
 
     Returns:
-        Which changes stay, of each chain.
+        For each chain, the mask of changes that stay.
     """
     olds = []
     for cells, solid, new in zip(maps.cells, maps.solid, changes, strict=True):
@@ -188,18 +185,18 @@ def covered(middles: NDArray[np.intp], half: int, shape: tuple[int, int]) -> NDA
 
 
 def merge_sweeps(search_until: int) -> list[int]:
-    """Return the sweeps after which surfaces are merged, for chains that have two starts for so many sweeps."""
+    """Return the numbers of the sweeps after which surfaces are merged, given the sweeps of start selection."""
     return sorted({search_until + i * (search_until // 10) for i in range(1 + MERGED_AGAIN)} - {0})
 
 
 def select_starts(problem: StopProblem, chains: StopChains, second: StopChains, gain: Floats, beta: float) -> None:
-    """Let chains take over what is better in their second starts.
+    """Let chains take over the squares that are better in their second starts.
 
     Args:
-        problem: of both.
-        chains: as they stand; they continue from the selected maps.
+        problem: the problem of both.
+        chains: the chains; they continue from the selected maps.
         second: the chains from their second starts.
-        gain: by how much these explain the readings better that end in each cell, averaged over some sweeps, (C, N).
+        gain: evidence of the second starts minus that of the chains, averaged over some sweeps, (C, N).
         beta: inverse temperature.
     """
     maps = ChainMaps.of(chains)
@@ -210,25 +207,25 @@ def select_starts(problem: StopProblem, chains: StopChains, second: StopChains, 
 
 
 def merge(problem: StopProblem, chains: StopChains, beta: float) -> None:
-    """Merge surfaces of chains that stop few beams with those of neighbours, where that is better."""
+    """Merge surfaces that stop few beams with surfaces of neighbours, if that is better."""
     grid, rays, maps = problem.grid, problem.rays, ChainMaps.of(chains)
     look = look_with(problem, chains, beta)
     seen = look(maps)
     owners = [chains.stopped_by(chain) for chain in range(chains.n_chains)]
     range_m, known = np.where(np.isfinite(rays.range_m), rays.range_m, 0.0), problem.sensor.kernel_parameters()
-    # Without parameters of the sensor the surfaces' own thickness must do.
+    # Without parameters of the sensor, the thickness of surfaces is used alone.
     sigma_m = 0.0 * range_m if known is None else known.sigma_m + known.sigma_per_m * range_m
     merge_surfaces(maps, rays.end_points_m(), sigma_m**2, owners, grid, look, seen)
     maps.put(chains)
     chains.sweeps(UPDATES_ALL, 1, problem.sensor, problem.prior.kernel_numbers(grid.resolution), beta)
-    maps.put(chains)  # cells have counted beams under this map, but for those whose turn was to try a surface
+    maps.put(chains)  # the sweep updated the counts of beams, except in cells that tried a surface
 
 
 AVERAGED = 8  # last sweeps of start selection, over which the evidence is averaged
-HALF_WIDTHS = (4, 2, 1)  # of squares, in cells: large squares first, which have fewer seams
-BETTER_NATS = 20.0  # by which the second start must be better in a square
-MUST_STAY = 1 / 3  # share of that gain which must be left in the first sweep among the chain's own cells
-SQUARE_ROUNDS = 3  # at most, of squares of one size that are tried together
+HALF_WIDTHS = (4, 2, 1)  # half widths of squares, in cells: large squares first, which have fewer seams
+BETTER_NATS = 20.0  # least gain of the second start in a square
+MUST_STAY = 1 / 3  # share of `BETTER_NATS` that must be left in the first sweep among the chain's own cells
+SQUARE_ROUNDS = 3  # most rounds in which squares of one size are tried together
 MARGIN = 2  # cells around a square whose beams are compared as well
 
 
@@ -236,11 +233,10 @@ def take_better_squares(maps: ChainMaps, second: ChainMaps, gain: Floats, look: 
     """Let chains take over the squares of their second starts that explain the readings better.
 
     Args:
-        maps: of the chains, changed in place.
-        second: of the second starts, chain by chain.
-        gain: by how much these explain the readings better that end in each cell, averaged over some sweeps (C, nx,
-            ny).
-        look: at maps.
+        maps: maps of the chains, changed in place.
+        second: maps of the second starts of these chains.
+        gain: evidence of the second starts minus that of the chains, averaged over some sweeps, (C, nx, ny).
+        look: function that computes the evidence of maps, see `look_with`.
     """
     gain, shape = gain.copy(), (gain.shape[1], gain.shape[2])
     for half in HALF_WIDTHS:
@@ -258,8 +254,8 @@ def take_better_squares(maps: ChainMaps, second: ChainMaps, gain: Floats, look: 
 
 
 def squares(chain: int, second: ChainMaps, gain: Floats, half: int, tried: NDArray[np.bool_]) -> Changes:
-    """Select the squares of a chain that gain more than `BETTER_NATS`, best first, so far apart that no two use the
-    same beams; none about a cell that is in ``tried``, (nx, ny).
+    """Select the squares of a chain that gain more than `BETTER_NATS`, best first, so far apart that they share no
+    beams. Squares about a cell of the mask ``tried``, (nx, ny), are left out.
     """
     total, shape = sums_over_squares(gain, half), (gain.shape[0], gain.shape[1])
     middle = np.argwhere((total > BETTER_NATS) & ~tried)
@@ -270,25 +266,25 @@ def squares(chain: int, second: ChainMaps, gain: Floats, half: int, tried: NDArr
 
 
 def cells_of(middle: NDArray[np.intp], half: int, shape: tuple[int, int]) -> NDArray[np.intp]:
-    """Return the cells of squares, flat, (n, k); at the edge of the grid some occur more than once."""
+    """Return the flat indices of the cells of squares, (n, k); at the edge of the grid some occur repeatedly."""
     away = np.arange(-half, half + 1)
     x = np.clip(middle[:, 0, None] + away, 0, shape[0] - 1)
     y = np.clip(middle[:, 1, None] + away, 0, shape[1] - 1)
     return np.asarray((x[:, :, None] * shape[1] + y[:, None, :]).reshape(len(middle), (2 * half + 1) ** 2))
 
 
-MOST_READINGS = 12  # of a surface that may be merged: a surface that explains more is seldom better removed
-REACH = 2  # cells between a surface and the neighbour that takes it in, at most, in each direction
-CLOSE = 3.0  # cells between a reading and the mean of the surface that explains it, at most
+MOST_READINGS = 12  # most readings of a surface that may be merged: with more, removal is seldom better
+REACH = 2  # most cells, in x and in y, between a surface and the neighbour that takes it in
+CLOSE = 3.0  # most cells between a reading and the mean of the surface that explains it
 MOST_OFF = 2.5
 """Largest RMS distance of readings from the neighbour's axis, in standard deviations of surface and noise."""
 SOLID_FROM = 0.1  # reflectivity from which a cell counts as one that stops beams
 FREE = 1e-20  # reflectivity of a cell that became free
-AROUND = 3  # cells around a cell that becomes free whose beams are compared
+AROUND = 3  # readings within so many cells of a cell that becomes free are compared
 MERGED_NATS = 1.0
-"""Least gain of a merge. At 0 too many surfaces are merged, which sweeps then part again; at 2 too few."""
-LEVEL = 1e-9  # least component of an axis: no number is divided by less
-MERGE_ROUNDS = 8  # at most: later rounds would try one change in twenty
+"""Least gain of a merge. At 0 too many surfaces are merged, which sweeps then separate again; at 2 too few."""
+LEVEL = 1e-9  # least component of an axis, for divisions
+MERGE_ROUNDS = 8  # most rounds of merges: later rounds would try one change in twenty
 
 
 @dataclass(frozen=True, eq=False)
@@ -321,19 +317,19 @@ def merge_surfaces(
     look: Look,
     before: Floats,
 ) -> list[int]:
-    """Try for every surface that stops few beams whether a neighbour does better without it.
+    """Try for every surface that stops few beams whether a neighbour is better without it.
 
     Args:
-        maps: of all chains, changed in place.
-        end_points_m: where readings lie, metres from the grid's corner; NaN or infinite for none, (B, 2).
-        noise: variance of each reading's noise, (B,).
-        owners: the cell that stopped each beam, flat, -1 for none: of each chain, (B,).
-        grid: of the cells.
-        look: at maps.
-        before: what it saw of them, (C, nx, ny).
+        maps: maps of all chains, changed in place.
+        end_points_m: end points of readings, metres from the grid's corner, (B, 2); NaN or infinite if there is none.
+        noise: variance of each reading's noise, square metres, (B,).
+        owners: for each chain, the flat index of the cell that stopped each beam, (B,); -1 for none.
+        grid: grid of the cells.
+        look: function that computes the evidence of maps, see `look_with`.
+        before: evidence of the present maps, (C, nx, ny).
 
     Returns:
-        How many surfaces each chain is rid of.
+        Number of removed surfaces of each chain.
     """
     changes = [merge_moves(*of, end_points_m, noise, grid) for of in zip(maps.cells, maps.solid, owners, strict=True)]
     changed = np.zeros(maps.solid.shape, dtype=np.bool_)
@@ -341,7 +337,7 @@ def merge_surfaces(
     for _ in range(MERGE_ROUNDS):
         tried = []
         for chain, waiting in enumerate(changes):
-            # A surface that has taken in a neighbour is not what another change was made from.
+            # A change is valid only while the surfaces from which it was made are unchanged.
             valid = waiting.select(~changed[chain][waiting.where].any(axis=1))
             now = apart(valid.middle, 2 * AROUND, grid.shape)
             tried.append(valid.select(now))
@@ -363,8 +359,8 @@ def merge_moves(
     noise: Floats,
     grid: Grid,
 ) -> Changes:
-    """Propose for each surface that stops few beams its removal, and the longer surface of the neighbour that points
-    best at its readings. The best pointed moves come first.
+    """Propose for each surface that stops few beams its removal, and a longer surface of the neighbour whose axis lies
+    closest to its readings. The moves with the closest axes come first.
     """
     readings, axes = readings_of(cells, owner, end_points_m, noise, grid), axes_of(cells)
     source, target, off = best_neighbours(cells, readings, axes, grid)
@@ -401,7 +397,7 @@ def axes_of(cells: NDArray[np.float32]) -> SurfaceAxes:
     """Return the axes of the surfaces of cells, (N, 6)."""
     l11, l21, l22 = cells[:, 3:6].T.astype(np.float64)
     angle, along = longer_axis(l11**2, l11 * l21, l21**2 + l22**2)
-    across = (l11 * l22) ** 2 / along  # |Sigma| over the larger one: no difference of large numbers
+    across = (l11 * l22) ** 2 / along  # |Sigma| over the larger variance: no difference of large numbers
     return SurfaceAxes(np.stack([np.cos(angle), np.sin(angle)], axis=-1), along, across)
 
 
@@ -428,7 +424,7 @@ def best_neighbours(
             other_x, other_y = x + step_x, y + step_y
             inside = (other_x >= 0) & (other_x < grid.shape[0]) & (other_y >= 0) & (other_y < grid.shape[1])
             other = np.where(inside, other_x * grid.shape[1] + other_y, source)
-            # Two surfaces with equally many beams must not take in each other: the order of cells decides.
+            # Of two surfaces with equally many beams only one may take in the other: the order of cells decides.
             theirs, own = readings.count[other], readings.count[source]
             more = (theirs > own) | ((theirs == own) & (other > source))
             normal = np.stack([-axes.direction[other, 1], axes.direction[other, 0]], axis=-1)
@@ -451,15 +447,15 @@ def lengthened(
 ) -> Floats:
     """Lengthen the surfaces of ``target`` to reach the readings of ``source``. Returns mean, l11, l21, l22, (n, 5).
 
-    A surface moves along its axis towards the middle of both cells' readings, as far as its square allows, and becomes
-    as long as their scatter about it.
+    A surface moves along its axis towards the middle of both cells' readings, within its square. It becomes as long as
+    their scatter about its mean.
     """
     mean, axis = cells[target, 1:3].astype(np.float64), axes.direction[target]
     both = source, target
     places = [((readings.mean_m[of] - mean) * axis).sum(axis=1) for of in both]
     counts = [readings.count[of] for of in both]
     middle = (counts[0] * places[0] + counts[1] * places[1]) / (counts[0] + counts[1])
-    # Along the axis the square is left where the first of its four sides is crossed.
+    # The axis leaves the square at the first crossing of one of its four sides.
     sides = (grid.cell_centres_m(target) - mean)[..., None] + INSIDE * 0.5 * grid.resolution * np.array([-1.0, 1.0])
     at = np.sort(sides / np.where(np.abs(axis) < LEVEL, LEVEL, axis)[..., None], axis=-1)
     moved = np.clip(middle, np.minimum(at[..., 0].max(axis=-1), 0.0), np.maximum(at[..., 1].min(axis=-1), 0.0))

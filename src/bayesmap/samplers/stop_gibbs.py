@@ -1,8 +1,8 @@
 """Gibbs sampling of reflectivities, surfaces and the stops of beams (docs/surfaces.md).
 
-Given the cells, where each beam stops is drawn from its exact conditional in one walk along the beam. Given the stops,
-each cell's reflectivity is a Beta, and its surface takes a Metropolis step. The reflectivity half goes back to
-"counting" maps (Haehnel, 2004), which keep the counts of one assignment; here the assignments are drawn.
+Given the cells, the stop of each beam is drawn from its exact conditional in one walk along the beam. Given the stops,
+each cell's reflectivity follows a Beta, and its surface takes Metropolis steps. The update of reflectivities is related
+to "counting" maps (Haehnel, 2004), which keep the counts of one assignment; here the assignments are drawn.
 """
 
 from __future__ import annotations
@@ -41,12 +41,12 @@ if TYPE_CHECKING:
     from bayesmap.kernels.surfaces.stop_chains import Plan, StopChains
 
 HIGHEST = float(np.nextafter(np.float16(1), np.float16(0)))
-"""The largest number below 1 in half precision, 0.9995. A mean that was rounded to 1 would say that no beam ever comes
-past the cell, and then one that did costs any number of nats; this one costs less than 0.0005 nats a beam."""
+"""The largest number below 1 in half precision, 0.9995. A mean rounded to 1 would give a beam that passes the cell the
+likelihood 0; this one costs less than 0.0005 nats per beam."""
 
 
 class StopDraws:
-    """Room for the draws of some sweeps, filled chain by chain as they are made."""
+    """Arrays for the draws of some sweeps, filled during the sweeps, chain by chain."""
 
     def __init__(self, problem: StopProblem, chains: StopChains, kept: range) -> None:
         self._problem, self._chains = problem, chains
@@ -65,11 +65,11 @@ class StopDraws:
 
     @cached_property
     def _among_touched(self) -> tuple[NDArray[np.intp], NDArray[np.bool_]]:
-        """Positions of the kept cells among the cells that beams touch, and whether they are among them."""
+        """Positions of the kept cells among the cells that beams touch, and the mask of kept cells among these."""
         return places_among(self._problem.rays.touched, self._cells["cell"])
 
     def begin(self, chain: int, sweep: int) -> None:
-        """Record the cells as they stand before a sweep."""
+        """Record the cells before a sweep."""
         number = self._number.get(sweep)
         if number is None:
             return
@@ -85,7 +85,7 @@ class StopDraws:
                 self._put(f"surface_{part}", chain, number, values)
 
     def end(self, chain: int, sweep: int) -> None:
-        """Record what the sweep has counted for the cells as they stood before it."""
+        """Record the counts of the sweep for the cells before it."""
         number = self._number.get(sweep)
         if number is None:
             return
@@ -100,7 +100,7 @@ class StopDraws:
         self._put("expected", chain, number, expected_reflectivity(hits, met, prior, drawn, solid))
 
     def _put_chances(self, chain: int, number: int, squares: InSquares) -> None:
-        """Record the chances that squares stop beams; a square to which no beam can come has the prior's."""
+        """Record the chances that squares stop beams; a square that no beam can reach takes the prior mean."""
         prior, kept = self._problem.prior, self._cells["cell"]
         positions, known = self._among_touched
         for name, values in (("stop_chance", squares.drawn), ("expected_stop_chance", squares.expected)):
@@ -127,15 +127,16 @@ def expected_reflectivity(
     beam is linear in each. So the density under these means is the mean density under draws (Rao and Blackwell). The
     counts must be those of the sweep that began at the draw, with its surfaces.
 
-    The following is an approximation. A cell that the sweep did not update (`bayesmap.kernels.surfaces.cell_draws`; no
-    reading ends in it) has the counts of its last update. Its own mean stays right on average, but its correlation with
-    changes since then is lost. In a map of four cells and six beams this was under one per cent of a density.
+    The following is an approximation. A cell in which no reading ends may not be updated by the sweep
+    (`bayesmap.kernels.surfaces.cell_draws`). Then it has the counts of its last update. Its own mean stays right on
+    average, but its correlation with later changes is lost. In a map of four cells and six beams the effect was under
+    one per cent of a density.
 
     Args:
         hits: beams that each cell stopped, (T,).
         met: beams that each cell let pass, (T,); negative in cells that have not counted yet.
         prior: the prior of the sweep.
-        drawn: drawn reflectivities, for the cells that have not counted yet, (T,).
+        drawn: drawn reflectivities, used for cells that have not counted yet, (T,).
         solid: labels of the draw, which choose a and b, (T,).
     """
     counted = hits.astype(np.float32)
@@ -155,8 +156,8 @@ SECOND = "second_"
 class StopState:
     """Chains between two sweeps.
 
-    During start selection, ``second`` are these chains from their second starts, and ``evidence`` tells how well both
-    starts explain the readings so far, (C, 2, N) (`bayesmap.samplers.start_search`).
+    During start selection, ``second`` holds these chains from their second starts, and ``evidence`` the evidence of
+    both starts so far, (C, 2, N), in nats (`bayesmap.samplers.start_search`).
     """
 
     problem: StopProblem
@@ -173,9 +174,9 @@ class StopGibbs:
     """Sweeps of stops, labels, reflectivities and surfaces.
 
     Attributes:
-        search_until: sweeps of start selection, a part of the warm-up. Surfaces make them from two starts, with many
-            steps in each, and continue from the better start in each place; in the rest of the warm-up they are merged
-            (`bayesmap.samplers.start_search.merge_sweeps`). At 0 a chain has one start.
+        search_until: number of sweeps of start selection, a part of the warm-up. Surfaces make these sweeps from two
+            starts, with many steps in each, and continue from the better start in each square. In the rest of the
+            warm-up they are merged (`bayesmap.samplers.start_search.merge_sweeps`). At 0 a chain has one start.
     """
 
     search_until: int = 0
@@ -231,7 +232,7 @@ class StopGibbs:
         stored: Mapping[str, NDArray[Any]],
         stream: int = STREAM_START,
     ) -> StopChains:
-        """Make chains scattered about the initial estimate, or where they stood."""
+        """Make chains scattered about the initial estimate, or restore them from ``stored``."""
         from bayesmap.kernels.surfaces.stop_chains import StopChains
 
         estimate, kept = problem.estimate, problem.coordinates["cell"]
@@ -261,7 +262,7 @@ class StopGibbs:
     def _labels(
         self, problem: StopProblem, chain_ids: Sequence[int], seed: int, stored: Mapping[str, NDArray[Any]], stream: int
     ) -> NDArray[np.bool_] | None:
-        """Return the labels of all cells at which chains start, or where they stood, (C, N); None without labels."""
+        """Return the first labels of all cells, or the stored ones, (C, N); None without labels."""
         if not problem.prior.has_labels:
             return None
         cells = problem.grid.n_cells
@@ -280,7 +281,7 @@ class StopGibbs:
         return replace(retraced, kept=problem.kept)
 
     def moved(self, state: StopState, problem: StopProblem) -> StopState:
-        """Return the chains as they are, under another problem. Chains that search for their start have no other."""
+        """Return the chains with their present cells, under another problem. Not possible during start selection."""
         assert state.second is None, "beams move while chains have a second start"
         from bayesmap.kernels.surfaces.stop_chains import StopChains
 
@@ -294,9 +295,9 @@ class StopGibbs:
         return replace(state, problem=problem, chains=new)
 
     def stops(self, state: StopState) -> NDArray[np.float32]:
-        """Return the cells at which the chains stand: reflectivities (C, N), or surfaces (C, N, 6).
+        """Return the present cells of the chains: reflectivities (C, N), or surfaces (C, N, 6).
 
-        Where cells have labels, those that no beam touches get a reflectivity now, and no sweep sees it.
+        If cells have labels, cells that no beam touches draw a reflectivity now, which sweeps do not use.
         """
         if state.problem.prior.has_labels and state.chains.swept:
             state.chains.draw_untouched(state.sweep)
@@ -321,7 +322,7 @@ class StopGibbs:
     def _sweep(
         self, state: StopState, sweeps: int, beta: float, keep: Keep, steps: int | None = None, note: Note | None = None
     ) -> tuple[StopState, Info]:
-        """Make some sweeps of chains that have one start; ``note`` is called with each chain and sweep."""
+        """Make some sweeps of chains from one start; ``note`` is called after each sweep, with chain and sweep."""
         from bayesmap.kernels.surfaces.endpoint_cells import STEPS
 
         problem, chains = state.problem, state.chains
@@ -341,9 +342,7 @@ class StopGibbs:
         return replace(state, sweep=state.sweep + sweeps), Info(log_likelihood, log_prior, draws.arrays)
 
     def _search(self, state: StopState, sweeps: int, beta: float, keep: Keep) -> tuple[StopState, Info]:
-        """Make some sweeps from both starts; after the last sweep of the search the chains continue from the better
-        starts.
-        """
+        """Make some sweeps from both starts. After the last sweep of the search, select the better squares of both."""
         from bayesmap.kernels.surfaces.endpoint_cells import MOST_STEPS
 
         problem, chains, second = state.problem, state.chains, state.second
@@ -366,8 +365,8 @@ class StopGibbs:
         return state, info
 
     def snapshot(self, state: StopState) -> Snapshot:
-        """Return the kept cells' states and counts, (C, T, 6) and (C, 2, T), and labels of all cells, packed. States of
-        the other cells can be drawn anew: no beam observes them.
+        """Return the kept cells' states and counts, (C, T, 6) and (C, 2, T), and labels of all cells, packed. The other
+        cells can be drawn again: no beam observes them.
         """
         arrays = self._stored(state.problem, state.chains)
         if state.second is not None:
@@ -378,7 +377,7 @@ class StopGibbs:
         return Snapshot(state.sweep, arrays)
 
     def _stored(self, problem: StopProblem, chains: StopChains) -> dict[str, NDArray[Any]]:
-        """Return what a snapshot holds of chains."""
+        """Return the arrays of chains for a snapshot."""
         kept, each, labels = problem.coordinates["cell"], range(chains.n_chains), {}
         if problem.prior.has_labels:
             labels[SOLID.name] = np.packbits([chains.solid(chain) for chain in each], axis=-1)
@@ -390,15 +389,15 @@ class StopGibbs:
         }
 
     def observed_counts(self, state: StopState, draws: Mapping[str, NDArray[Any]]) -> NDArray[np.int32]:
-        """Count the kept sweeps in which at least one beam observes each cell, and the sweeps inspected; the last sweep
-        alone without draws. Returns (2, nx, ny).
+        """Count the kept sweeps in which at least one beam observes each cell, and the sweeps inspected. Without draws,
+        only the last sweep is inspected. Returns (2, nx, ny).
         """
         each = range(state.chains.n_chains)
         counts = [state.chains.observed_counts(i).T if draws else self._observed_now(state, i) for i in each]
         return np.reshape(np.sum(counts, axis=0), (2, *state.problem.grid.shape)).astype(np.int32)
 
     def _observed_now(self, state: StopState, chain: int) -> NDArray[np.bool_]:
-        """Return whether some beam observes each cell where a chain stands, and whether that is known, (2, N)."""
+        """Return whether a beam observes each cell in a chain's last sweep, and whether this is known, (2, N)."""
         if not state.problem.prior.has_surfaces:
             hits, met = state.chains.counted(chain)
             return np.stack([(met >= 0) & (hits + met > 0), met >= 0])
@@ -411,7 +410,7 @@ class StopGibbs:
 
 
 def _plan(problem: StopProblem) -> Plan:
-    """Return what the sweeps of all chains have in common."""
+    """Return the data that the sweeps of all chains share."""
     from bayesmap.kernels.surfaces.stop_chains import Plan
 
     estimate = problem.estimate

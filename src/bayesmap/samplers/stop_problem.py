@@ -24,13 +24,13 @@ from bayesmap.space.scans import Scans
 
 CELLS_AROUND = 1.5
 SIGMAS_AROUND = 6.0
-"""Cells and standard deviations from its stop within which a reading may be an echo; further away it is random."""
+"""Cells and standard deviations from a stop within which a reading may be its return; further away it is random."""
 
 SHARE_AROUND = 0.1
-"""Share of the density of a random reading down to which the heavy tails of Student's t are followed."""
+"""Density at which the tails of Student's t are cut off, as a share of the density of a random reading."""
 
 CELLS_MOVED = 2
-"""Cells by which readings may move when poses do: draws keep surfaces within this distance of the first readings."""
+"""Cells by which readings may move with the poses: draws keep surfaces within this distance of the first readings."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,13 +39,13 @@ class StopProblem:
 
     Attributes:
         rays: cells along every beam.
-        prior: of the cells.
+        prior: prior of the cells.
         sensor: the law of the readings.
         hit_depth: where in a cell without a surface a beam stops, as a fraction of its chord.
         device: where kernels run.
-        threads: of the CPU; all cores if None.
-        kept: the cells of which draws and snapshots keep reflectivities ("cell") and surfaces ("surface_cell"), flat;
-            if None, those that beams touch and those in which readings end.
+        threads: number of CPU threads; all cores if None.
+        kept: flat indices of the cells whose reflectivities ("cell") and surfaces ("surface_cell") are in draws and
+            snapshots; if None, the cells that beams touch and the cells in which readings end.
     """
 
     rays: Rays
@@ -73,16 +73,14 @@ class StopProblem:
 
     @property
     def coordinates(self) -> Mapping[str, NDArray[np.int32]]:
-        """The cells of which draws keep reflectivities, and those of which they keep surfaces."""
+        """The cells whose reflectivities are in draws, and the cells whose surfaces are."""
         if self.kept is not None:
             return self.kept
         surfaces = {"surface_cell": self.estimate.endpoint_cells} if self.prior.has_surfaces else {}
         return {"cell": self.estimate.touched} | surfaces
 
     def for_any_poses(self) -> StopProblem:
-        """Return this problem for poses that may move: draws keep all cells, and surfaces around where readings end
-        now.
-        """
+        """Return this problem for poses that may move: draws keep all cells, and surfaces around present end points."""
         ends = np.zeros(self.grid.n_cells, dtype=np.bool_)
         ends[self.estimate.endpoint_cells] = True
         near = ndimage.binary_dilation(ends.reshape(self.grid.shape), np.ones((3, 3)), iterations=CELLS_MOVED)
@@ -90,12 +88,12 @@ class StopProblem:
         return replace(self, kept={"cell": np.arange(self.grid.n_cells, dtype=np.int32)} | surfaces)
 
     def touched(self) -> NDArray[np.bool_]:
-        """Return cells that some beam touches, (nx, ny)."""
+        """Mark the cells that at least one beam touches, (nx, ny)."""
         return self.rays.touched_map()
 
     @cached_property
     def distance_m(self) -> NDArray[np.float32]:
-        """The distance at which each beam stops in each of its cells if these have no surfaces, (K,)."""
+        """The distance of a stop at each entry if cells have no surfaces, metres, (K,)."""
         from bayesmap.kernels.rays import stop_distances
 
         return stop_distances(self.rays, self.hit_depth, self.device)
@@ -121,7 +119,7 @@ def trace_stops(
     threads: int | None = None,
     watch: Watch = SILENT,
 ) -> StopProblem:
-    """Trace the scans' rays, as far as their readings can be explained.
+    """Trace the scans' rays, up to the distance at which a stop can explain the reading.
 
     Raises:
         BadInput: a sensor that is noise alone, or too many incidences.
@@ -142,7 +140,7 @@ def trace_stops(
 
 
 def _spans(scans: Scans, sensor: SensorModel, resolution_m: float) -> tuple[Floats, Floats | None]:
-    """Return how far beams are followed, and from where on a stop can explain their readings (None: from the start)."""
+    """Return how far beams are followed, and from where on stops may explain their readings (None: from the start)."""
     limits = RangeLimits(scans.min_range_m, scans.max_range_m)
     if isinstance(sensor, BeamMixture) and isinstance(sensor.noise, Gaussian | StudentT):
         ranges = np.where(np.isfinite(scans.ranges_m), scans.ranges_m, 0.0).ravel()
@@ -153,8 +151,10 @@ def _spans(scans: Scans, sensor: SensorModel, resolution_m: float) -> tuple[Floa
 
 
 def _tail_m(noise: Gaussian | StudentT, range_m: Floats, floor: float) -> Floats:
-    """Return the distance from a stop within which readings are worth evaluating: `SIGMAS_AROUND` of normal noise; for
-    Student's t as far as its density, c / scale (1 + (x / scale)^2 / dof)^-((dof + 1) / 2), is over ``floor``.
+    """Return the distance from a stop within which the noise of readings is evaluated, metres.
+
+    For normal noise it is `SIGMAS_AROUND` standard deviations. For Student's t it ends where the density,
+    c / scale (1 + (x / scale)^2 / dof)^-((dof + 1) / 2), falls to ``floor``, but not before `SIGMAS_AROUND` scales.
     """
     scale = noise.scale_at(range_m)
     if isinstance(noise, Gaussian):

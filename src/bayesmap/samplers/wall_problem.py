@@ -17,7 +17,7 @@ from bayesmap.model import Model
 from bayesmap.space.grid import Grid
 
 LOG_ODDS_OF_FIXED = 1e15
-"""Stands for infinite log-odds where the prior fixes a cell: more than any scan could outweigh."""
+"""Replaces infinite log-odds in cells that the prior fixes: more than any scan can outweigh."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -26,10 +26,10 @@ class WallProblem:
 
     Attributes:
         table: cells and likelihoods of every beam.
-        prior: of the walls.
-        poses: where the sensor stood, (S, 3) in the world frame: for orders that go outwards from it.
+        prior: prior of the walls.
+        poses: poses of the sensor in the world frame, (S, 3), for orders that go outwards from it.
         device: where kernels run.
-        threads: of the CPU; all cores if None.
+        threads: number of CPU threads; all cores if None.
     """
 
     table: BeamTable
@@ -58,7 +58,7 @@ class WallProblem:
         return self
 
     def touched(self) -> NDArray[np.bool_]:
-        """Return cells that some beam touches, (nx, ny)."""
+        """Mark the cells that at least one beam touches, (nx, ny)."""
         return self.table.observed()
 
     def under(self, prior: BinaryWalls) -> WallProblem:
@@ -79,7 +79,7 @@ class WallProblem:
 
     @cached_property
     def device_table(self) -> Any:
-        """Table and index where the kernels read them."""
+        """Table and index on the device."""
         from bayesmap.kernels.walls.chains import table_to_device
 
         return table_to_device(self.table, self.index, self.device)
@@ -101,13 +101,13 @@ class WallProblem:
 
     @cached_property
     def device_prior(self) -> Any:
-        """The prior where the kernels read it."""
+        """The prior on the device."""
         from bayesmap.kernels.walls.chains import wall_prior_to_device
 
         return wall_prior_to_device(self.p_wall, self.logit, self.coupling, self.grid.shape, self.device)
 
     def log_joint(self, walls: NDArray[np.bool_]) -> float:
-        """Compute log p(walls, readings): the plain reference for what the samplers report."""
+        """Compute log p(walls, readings), the plain reference for the reports of samplers."""
         return self.table.log_likelihood(walls) + self.prior.log_prob(walls, self.table.grid)
 
     def admit(self, walls: NDArray[np.bool_]) -> NDArray[np.bool_]:

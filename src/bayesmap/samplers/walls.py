@@ -48,16 +48,16 @@ def start_maps(
     """Return the maps at which chains start, (C, nx, ny).
 
     The start "propagate" thresholds the marginals of belief propagation. Cells whose marginal equals the prior take a
-    prior draw, another one in each chain. Chains that start alike can agree before they have forgotten their start:
-    start from "prior" to check that. Where neighbours are coupled, "prior" is only approximately a draw of the prior
+    prior draw, independent for each chain. Chains with similar starts can agree before they have forgotten their start:
+    start from "prior" to check this. If neighbours are coupled, "prior" is only approximately a draw of the prior
     (`bayesmap.cells.binary.Ising.start`).
 
     Args:
         problem: table and prior.
-        start: the kind of start, a map (nx, ny), or a map for each number of a chain, (N, nx, ny).
+        start: the kind of start, a map (nx, ny), or one map per chain number, (N, nx, ny).
         chains: numbers of the C chains.
-        seed: of prior draws.
-        marginals: those of belief propagation, for "propagate".
+        seed: seed of prior draws.
+        marginals: marginals of belief propagation, for "propagate".
 
     Raises:
         BadInput: maps of another shape than the grid's, or fewer than chains.
@@ -108,9 +108,9 @@ class WallSampler(ABC):
     """A sampler of binary walls.
 
     Attributes:
-        order: of the sites in a sweep: "radial", "raster" or "random".
-        start: where chains start, see `bayesmap.samplers.walls`; a default by the size of the map if None.
-        rounds: of belief propagation for a start from it, at most.
+        order: order of the sites in a sweep: "radial", "raster" or "random".
+        start: start of the chains, see `start_maps`; a default by the size of the map if None.
+        rounds: most rounds of belief propagation, for a start from it.
     """
 
     order: Order = "radial"
@@ -119,11 +119,11 @@ class WallSampler(ABC):
 
     @abstractmethod
     def sites(self, problem: WallProblem) -> NDArray[np.int32]:
-        """Return the sites of a sweep in their order (an order of "random" shuffles them afresh every sweep)."""
+        """Return the sites of a sweep in their order (the order "random" shuffles them in every sweep)."""
 
     @abstractmethod
     def kernel(self, problem: WallProblem) -> tuple[Any, list[Any]]:
-        """Return the sweep kernel, and the tables that it takes first."""
+        """Return the sweep kernel, and its first arguments, the tables."""
 
     def prepare(self, model: Model, device: str, threads: int | None = None, watch: Watch = SILENT) -> WallProblem:
         """Trace the beam table."""
@@ -141,7 +141,7 @@ class WallSampler(ABC):
         from bayesmap.kernels.random import mix
         from bayesmap.kernels.walls.chains import WallChains
 
-        kernel = self.kernel(problem)  # tables that are built on first use are built now, not in the first sweep
+        kernel = self.kernel(problem)  # builds tables now, not in the first sweep
         statistics: dict[str, Floats] = {}
         if resume is None:
             start, marginals = self.start if self.start is not None else default_start(problem.grid), None
@@ -181,14 +181,14 @@ class WallSampler(ABC):
         return trace_walls(model, problem.device, 1)
 
     def moved(self, state: WallState, problem: WallProblem) -> WallState:
-        """Return the chains as they are, under another problem."""
+        """Return the chains with their present maps, under another problem."""
         from bayesmap.kernels.walls.chains import WallChains
 
         chains = WallChains(problem.device_table, state.walls(), state.keys, problem.device)
         return replace(state, problem=problem, chains=chains, kernel=self.kernel(problem), sites=self.sites(problem))
 
     def stops(self, state: WallState) -> NDArray[np.float32]:
-        """Return the stop probabilities, 0 and 1, at which the chains stand, (C, N)."""
+        """Return the present stop probabilities of the chains, 0 and 1, (C, N)."""
         return state.walls().astype(np.float32)
 
     def snapshot(self, state: WallState) -> Snapshot:
@@ -197,7 +197,7 @@ class WallSampler(ABC):
 
     def observed_counts(self, state: WallState, draws: Mapping[str, NDArray[Any]]) -> NDArray[np.int32]:
         """Count the draws in which a beam reaches each cell, and the draws inspected. Returns (2, nx, ny). Without
-        draws, the maps at which the chains stand count.
+        draws, the present maps of the chains are inspected.
         """
         from bayesmap.kernels.walls.maps import reach_frequency
 
@@ -225,8 +225,8 @@ def radial_distance(problem: WallProblem) -> NDArray[np.int64]:
 class WallGibbs(WallSampler):
     """Every sweep draws each cell once from its conditional.
 
-    Orders: "raster" by rows of the array; "radial" outwards from the nearest sensor, so that what a wall shadowed is
-    drawn after it in the same sweep; "random", another permutation each sweep.
+    Orders: "raster" by rows of the array; "radial" outwards from the nearest sensor, so that the shadow of a wall is
+    drawn after the wall in the same sweep; "random", another permutation in each sweep.
     """
 
     def sites(self, problem: WallProblem) -> NDArray[np.int32]:
@@ -248,9 +248,9 @@ class WallGibbs(WallSampler):
 class WallBlocks(WallSampler):
     """Every sweep draws each of the overlapping 2 x 2 blocks once, its four cells together.
 
-    Where walls are rare, single-site sampling hardly converges. A wall too near the sensor can only go once the beams
-    that it stops meet a wall behind it, and the map behind a wall is almost empty. A block removes the wall and puts
-    another one beside or behind it in one step.
+    If walls are rare, single-site sampling hardly converges. A wall too near the sensor is only removed if its beams
+    meet a wall behind it, and the map behind a wall is almost empty. A block removes the wall and puts another one
+    beside or behind it in one step.
     """
 
     def sites(self, problem: WallProblem) -> NDArray[np.int32]:

@@ -1,14 +1,14 @@
 """Sample cells and poses together: sweeps of the cells at fixed poses, then steps of the poses given the cells.
 
-Both leave the joint posterior of map and trajectory invariant, so their alternation does (Gibbs sampling in two
-blocks). Each chain has poses of its own, and so beams that cross other cells: after its poses have moved, its rays are
-traced anew, and its cells stay what they are.
+Both leave the joint posterior of map and trajectory invariant, and so does their alternation (Gibbs sampling in two
+blocks). Each chain has its own poses, so its beams cross other cells. After its poses have moved, its rays are traced
+again, and its cells stay.
 
 Given the map, scans depend on each other through the prior of the poses alone. Under independent priors all scans can
 move at once, under a motion model every second scan (`bayesmap.poses.prior.PoseLaw.colours`). A proposal is a normal
 step with the covariance of the scan's own likelihood and prior: long along a corridor and short across it. The
-likelihood sums over the cells in which each beam may stop, and the next sweep of the cells draws these stops anew, so
-that cells and poses are sampled from their joint posterior (a collapsed Gibbs sampler: Liu, 1994).
+likelihood sums over the cells in which each beam may stop, and the next sweep of the cells draws these stops again. So
+cells and poses are sampled from their joint posterior (a collapsed Gibbs sampler: Liu, 1994).
 """
 
 from __future__ import annotations
@@ -41,22 +41,22 @@ OPTIMAL = 2.38 / np.sqrt(3.0)
 """Length of steps in three dimensions, in standard deviations (Roberts, Gelman and Gilks, 1997)."""
 
 WANTED_ACCEPTANCE = 0.35
-
+"""Share of accepted steps to which the sizes of steps adapt."""
 MOST_NATS = 2.0
-"""Largest change of one beam's log density that counts in a difference. Where a beam slips past an edge its density
-jumps, and the slope would say nothing of how far the pose may move."""
+"""Cap of the change of one beam's log density in a difference. If a beam slips past an edge, its density jumps, and the
+slope would be no measure of how far the pose may move."""
 
 
 @dataclass(frozen=True, eq=False)
 class PoseState:
-    """The poses at which some chains stand.
+    """The present poses of some chains.
 
     Attributes:
-        poses: in the world frame, (C, S, 3).
+        poses: poses in the world frame, (C, S, 3).
         log_scale: logarithm of the size of the steps of each scan, (C, S); warm-up adapts it.
         chain_ids: global numbers of the chains, (C,).
-        seed: of all random numbers.
-        step: steps made: with the seed and the chain's number it decides the next random numbers.
+        seed: seed of all random numbers.
+        step: number of steps made; seed, chain and step determine the next random numbers.
     """
 
     poses: Floats
@@ -71,9 +71,9 @@ class PoseMetropolis:
     """Metropolis steps of all poses of some chains.
 
     Attributes:
-        likelihood: of scans at poses.
-        prior: of the poses.
-        factor: Cholesky factor of each scan's proposal covariance in world axes, (S, 3, 3), or for each chain one,
+        likelihood: likelihood of scans at poses.
+        prior: prior of the poses.
+        factor: Cholesky factor of each scan's proposal covariance in world axes, (S, 3, 3), or one per chain,
             (C, S, 3, 3).
     """
 
@@ -92,10 +92,10 @@ class PoseMetropolis:
 
         Args:
             state: the chains.
-            cells: one map a chain, as `bayesmap.kernels.predict.scan_likelihood.ScanLikelihood.beams` takes them.
-            n: rounds over all scans.
+            cells: one map per chain, see `bayesmap.kernels.predict.scan_likelihood.ScanLikelihood.beams`.
+            n: number of rounds over all scans.
             beta: inverse temperature of the likelihood.
-            gain: how far the size of a scan's steps grows with an accepted step and shrinks with a rejected one
+            gain: rate at which the size of a scan's steps grows with accepted steps and shrinks with rejected ones
                 (Robbins and Monro, 1951); 0 once draws are kept.
         """
         chains, scans = state.poses.shape[:2]
@@ -142,14 +142,14 @@ def proposal_factors(
     """Compute Cholesky factors of steps that fit each scan's posterior given the map, (S, 3, 3).
 
     The likelihood's information is estimated by the sum over beams of the outer products of their log densities'
-    gradients, found by central differences: never negative, and without second derivatives.
+    gradients, from central differences. It is never negative and needs no second derivatives.
 
     Args:
-        likelihood: of the scans.
+        likelihood: likelihood of the scans.
         cells: one map, (1, N) or (1, N, 6).
-        poses: about which, (S, 3).
-        prior: of the poses.
-        step_m: of the differences, about the sensor's noise; angles take it at a lever of the scan's median range.
+        poses: poses at which gradients are taken, (S, 3).
+        prior: prior of the poses.
+        step_m: step of the differences, about the sensor's noise; angles move a point at the median range by it.
     """
     scans = len(poses)
     ranges = np.where(np.isfinite(likelihood.scans.ranges_m), likelihood.scans.ranges_m, np.nan)
@@ -186,21 +186,21 @@ class MovableSampler(Sampler[Any, Any], Protocol):
         """Return this problem with the scans moved to other poses. Draws keep their cells."""
 
     def moved(self, state: Any, problem: Any) -> Any:
-        """Return the chains as they are, under another problem of `retrace`."""
+        """Return the chains with their present cells, under another problem of `retrace`."""
 
     def stops(self, state: Any) -> NDArray[np.float32]:
-        """Return the cells at which the chains stand, as `bayesmap.cells.kind.CellPrior.stops`: (C, N) or (C, N, 6)."""
+        """Return the present cells of the chains, (C, N) or (C, N, 6), see `bayesmap.cells.kind.CellPrior.stops`."""
 
 
 @dataclass(frozen=True, eq=False)
 class PoseProblem:
-    """A model whose poses are unknown, where samplers can read it.
+    """A model with unknown poses, in the form that samplers use.
 
     Attributes:
-        model: what is sampled.
-        cells: the problem of the cells' sampler at the poses that the log states.
+        model: the model to sample.
+        cells: the problem of the cells' sampler at the poses of the log.
         device: where kernels run.
-        threads: of the CPU; all cores if None.
+        threads: number of CPU threads; all cores if None.
     """
 
     model: Model
@@ -219,7 +219,7 @@ class PoseProblem:
         return int(self.cells.n_incidences)
 
     def touched(self) -> NDArray[np.bool_]:
-        """Return cells that some beam touches at the poses that the log states, (nx, ny)."""
+        """Mark the cells that at least one beam touches at the poses of the log, (nx, ny)."""
         return np.asarray(self.cells.touched())
 
     @property
@@ -256,12 +256,12 @@ class JointState:
     """Chains between two sweeps.
 
     Attributes:
-        problem: what is sampled.
-        cells: one state of the cells' sampler a chain, each with rays of its own.
-        poses: of all chains.
+        problem: the problem of the chains.
+        cells: one state of the cells' sampler per chain, each with its own rays.
+        poses: poses of all chains.
         factor: Cholesky factors of the chains' proposals, (C, S, 3, 3); zero before the first round.
-        sweep: sweeps of the cells that each chain has made.
-        statistics: none.
+        sweep: number of sweeps of the cells that each chain has made.
+        statistics: always empty.
     """
 
     problem: PoseProblem
@@ -278,10 +278,10 @@ class WithPoses:
 
     Attributes:
         cells: the sampler of the cells.
-        adapt_until: the sweep after which the sizes of pose steps stand still: the end of warm-up.
-        start: poses at which chains start, by their numbers, (chains of the run, S, 3); draws of the prior if None.
-        every: sweeps of the cells between rounds of pose steps.
-        pose_steps: steps of every pose in a round.
+        adapt_until: the sweep after which the sizes of pose steps stay fixed, the end of warm-up.
+        start: first poses of the chains, by chain number, (chains of the run, S, 3); draws of the prior if None.
+        every: number of sweeps of the cells between rounds of pose steps.
+        pose_steps: number of steps of every pose in a round.
     """
 
     cells: MovableSampler
@@ -291,7 +291,7 @@ class WithPoses:
     pose_steps: int = STEPS
 
     def prepare(self, model: Model, device: str, threads: int | None = None, watch: Watch = SILENT) -> PoseProblem:
-        """Trace the beams at the poses that the log states.
+        """Trace the beams at the poses of the log.
 
         Raises:
             BadInput: as the sampler of the cells.
@@ -396,7 +396,7 @@ class WithPoses:
         return replace(state, cells=chains, poses=poses, factor=factor)
 
     def _each(self, problem: PoseProblem, work: Callable[[int], Any], count: int) -> list[Any]:
-        """Do some work for every chain: on the CPU as many at once as there are threads."""
+        """Run the work for every chain; on the CPU, as many at once as there are threads."""
         from bayesmap.kernels.device import available_cores
 
         threads = min(problem.threads or available_cores(), count) if problem.device == "cpu" else 1

@@ -1,11 +1,11 @@
 """Methods on binary walls that need no Markov chain: their draws are independent.
 
-Exact enumeration is for tiny maps, and the oracle against which every sampler is tested.
+Exact enumeration is for tiny maps. It is the reference against which every sampler is tested.
 
 Self-normalised importance sampling from the prior shows why better methods are needed: its weights collapse. A particle
-is a map drawn from the prior, its weight the likelihood of the readings. Maps are drawn by counter, so a particle is
-its number: a million of them take 8 MB for their log weights, and any map can be drawn again. Where neighbours are
-coupled, maps are drawn exactly (`bayesmap.cells.ising_field`), some at a time, by the number of their batch.
+is a map drawn from the prior; its weight is the likelihood of the readings. Maps are drawn by counter, so a particle is
+stored as its number: a million log weights take 8 MB, and any map can be drawn again. If neighbours are coupled, maps
+are drawn exactly (`bayesmap.cells.ising_field`), in batches, by the number of the batch.
 
 Belief propagation gives marginals, from which cells are drawn independently.
 """
@@ -29,8 +29,8 @@ from bayesmap.samplers.propagate import Marginals, propagate
 from bayesmap.samplers.sampler import STREAM_PARTICLES, STREAM_START
 from bayesmap.samplers.wall_problem import WallProblem
 
-BATCH_CELLS = 1 << 23  # cells of maps that are drawn at a time
-COUPLED_CELLS = 1 << 13  # of maps of coupled cells that are drawn together
+BATCH_CELLS = 1 << 23  # cells per batch of maps
+COUPLED_CELLS = 1 << 13  # cells per batch of maps with coupled neighbours
 NEGLIGIBLE_NATS = 40.0  # a particle this far below the best adds nothing to any mean
 
 
@@ -41,9 +41,9 @@ class Particles:
     Attributes:
         log_weights: normalised log weights, (particles,).
         log_evidence: log of the mean weight: an estimate of log p(readings).
-        problem, key: from which any particle's map can be drawn again.
-        seconds: time spent weighing.
-        finished: false if stopped early.
+        problem, key: the input from which any particle's map can be drawn again.
+        seconds: time for the weights.
+        finished: whether all particles were weighed; false if stopped early.
     """
 
     log_weights: Floats
@@ -55,7 +55,7 @@ class Particles:
 
     @property
     def effective_sample_size(self) -> float:
-        """1 / sum of squared weights; 1 means that a single particle carries all weight."""
+        """1 / sum of squared weights; 1 if a single particle has all weight."""
         return float(np.exp(-special.logsumexp(2 * self.log_weights)))
 
     def maps(self, particles: NDArray[np.intp]) -> NDArray[np.bool_]:
@@ -68,9 +68,7 @@ class Particles:
         return np.asarray(walls.reshape(len(particles), *self.problem.table.grid.shape) != 0)
 
     def occupancy(self) -> Floats:
-        """Return the weighted mean of the maps, (nx, ny), in batches; independent cells that no beam touches have the
-        prior's.
-        """
+        """Return the weighted mean of the maps, (nx, ny). Independent cells that no beam touches take the prior."""
         matter = np.nonzero(self.log_weights > self.log_weights.max() - NEGLIGIBLE_NATS)[0]
         mean = np.zeros(self.problem.table.grid.shape)
         batch = max(1, BATCH_CELLS // mean.size)
@@ -103,7 +101,7 @@ def sample_importance(
     batches: list[Floats] = []
     began = time.perf_counter()
     size, done = 256, 0
-    watch.report("particles", 0, particles)  # of a large map the first particles take a while
+    watch.report("particles", 0, particles)  # the first particles of a large map take long
     while done < particles and not (batches and watch.should_stop()):
         now = min(size, particles - done)
         batches.append(_weigh(problem, key, done, now))
@@ -154,12 +152,12 @@ class Enumeration:
     """The whole posterior, enumerated.
 
     Attributes:
-        unknown: flat indices of the cells that were enumerated, (n,): not fixed by the prior, and touched by a beam or
-            coupled to others.
+        unknown: flat indices of the enumerated cells, (n,): cells that the prior does not fix, and that a beam touches
+            or that are coupled to others.
         log_posterior: normalised log-probability of each of the 2^n states; bit i of the state's number is the
             wall in ``unknown[i]``.
         log_evidence: log p(readings).
-        problem: what was enumerated.
+        problem: the problem that was enumerated.
     """
 
     unknown: NDArray[np.intp]
@@ -173,7 +171,7 @@ class Enumeration:
         return np.asarray(state >> np.arange(len(self.unknown)) & 1 == 1)
 
     def marginals(self) -> Floats:
-        """Return the posterior wall probability of every cell, (nx, ny); the prior's where no beam observes it."""
+        """Return the posterior wall probability of every cell, (nx, ny); the prior's if no beam observes the cell."""
         p = self.problem.p_wall.copy()
         p[self.unknown] = np.exp(self.log_posterior) @ self.states()
         return p.reshape(self.problem.table.grid.shape)
@@ -200,7 +198,7 @@ def enumerate_maps(problem: WallProblem) -> Enumeration:
     """
     table, p = problem.table, problem.p_wall
     free_to_vary = (p > 0) & (p < 1)
-    # Coupled cells depend on their neighbours even where no beam touches them.
+    # Cells that no beam touches matter if neighbours are coupled.
     matters = table.observed().ravel() | (problem.coupling != 0.0)
     unknown = np.nonzero(matters & free_to_vary)[0]
     if len(unknown) > MAX_UNKNOWN:
@@ -208,6 +206,7 @@ def enumerate_maps(problem: WallProblem) -> Enumeration:
             f"exact: {len(unknown)} cells are unknown, and enumeration takes at most {MAX_UNKNOWN}; "
             "use method 'gibbs' or 'block', or fix cells with a prior of 0 or 1"
         )
+    # Log prior of each state.
     bit_of = np.full(table.grid.n_cells, -1)
     bit_of[unknown] = np.arange(len(unknown))
     state = np.arange(1 << len(unknown))
@@ -217,6 +216,7 @@ def enumerate_maps(problem: WallProblem) -> Enumeration:
     if problem.coupling != 0.0:
         log_p += problem.coupling * _pairs_alike(problem, state, bit_of)
         log_p -= special.logsumexp(log_p)
+    # Log-likelihood of each beam: its first wall in each state.
     for b in range(table.n_beams):
         still_free = np.ones(len(state), dtype=np.bool_)
         term = np.full(len(state), np.float64(table.no_hit[b]))
@@ -247,7 +247,7 @@ def _pairs_alike(problem: WallProblem, state: NDArray[np.int64], bit_of: NDArray
 
 @dataclass(frozen=True)
 class DrawRequest:
-    """A request of ``chains * draws`` draws by ``seed``, after ``particles`` or ``rounds`` of work."""
+    """A request of ``chains * draws`` draws with a seed, from a number of particles or rounds."""
 
     chains: int
     draws: int
@@ -258,16 +258,16 @@ class DrawRequest:
 
 @dataclass(frozen=True, eq=False)
 class IndependentDraws:
-    """Independent draws, and the results of the method beside them.
+    """Independent draws, and further results of the method.
 
     Attributes:
         walls: packed maps, (chains, draws, ceil(N / 8)).
-        log_likelihood, log_prior: of each, (chains, draws).
+        log_likelihood, log_prior: log densities of each map, (chains, draws).
         occupancy: marginals, (nx, ny).
         observed: cells that a beam reaches in at least half of the maps, (nx, ny).
-        seconds: of the method's own work.
-        finished: false if it was stopped early.
-        log_weights: normalised, of all particles.
+        seconds: time of the method before it draws.
+        finished: whether the method finished; false if it was stopped early.
+        log_weights: normalised log weights of all particles.
         statistics: other numbers by name.
         log_evidence: log p(readings).
     """

@@ -1,14 +1,14 @@
 r"""The built-in sensor models: additive noise, the beam mixture around it, and their description as JSON values.
 
-**Additive noise.** The reading is the distance of the first hit plus noise. This is the tutorial's sensor. It has no
-notion of "no return": a beam that meets nothing within the sensor's range reads ``max_range_m`` plus noise. So a typed
+**Additive noise.** The reading is the distance of the first hit plus noise. This is the tutorial's sensor. It does not
+model "no return": a beam that meets nothing within the sensor's range reads ``max_range_m`` plus noise. So a typed
 no-return is scored as the reading ``max_range_m``, and too close as ``min_range_m``.
 
-**The beam mixture** makes additive noise robust against everything that is not the first wall. It follows Thrun,
-Burgard and Fox, *Probabilistic Robotics* (2005), section 6.3, with hit, short, random and no-return components. The
-book renormalises its short component by the wall's distance. Here the same physics is a story that can be simulated,
-and whose density is *exactly* flat once the wall lies well past the reading: so the beam table can end early. For a
-first hit at distance d (infinite: nothing is hit):
+**The beam mixture** makes additive noise robust against all other causes of readings. It follows Thrun, Burgard and
+Fox, *Probabilistic Robotics* (2005), section 6.3, with hit, short, random and no-return components. The book
+renormalises its short component by the wall's distance. Here the law is a generative process. Its density is *exactly*
+flat once the wall lies well past the reading, so the beam table can end early. For a first hit at distance d (infinite
+if nothing is hit):
 
     with probability p_random         the reading is uniform over [min_range, max_range];
     else, with probability p_short    a passing object stands at e ~ Exponential(rate_short): if e < d, it is read;
@@ -189,7 +189,7 @@ def _check_scale(model: str, name: str, scale_m: float, per_m: float) -> None:
 
 
 FLAT_NATS = 1e-4
-"""The most that the noise may add to the log-likelihood past the end of a beam in the table."""
+"""Most nats that the noise may add to the log-likelihood past the end of a beam in the table."""
 
 
 @dataclass(frozen=True)
@@ -197,11 +197,11 @@ class BeamMixture(SensorModel):
     """Noise around the first hit, mixed with random, short and missing readings.
 
     Attributes:
-        noise: how a reading scatters around the wall that it hits.
+        noise: law of the scatter of a reading around the wall that it hits.
         p_random: probability of a reading that has nothing to do with the map.
         p_no_return: probability that a beam which meets a wall does not come back.
-        p_short: probability that a passing object is on the beam's way.
-        rate_short_per_m: how near such objects stand: the rate of their exponential distance.
+        p_short: probability that there is a passing object on the line of the beam.
+        rate_short_per_m: rate of the exponential distance of passing objects.
 
     Raises:
         BadInput: a probability outside its interval (``p_random`` must be positive: it keeps every reading
@@ -284,7 +284,7 @@ class BeamMixture(SensorModel):
         return np.asarray(np.where(np.isposinf(z), 1.0, p))
 
     def reach_m(self, range_m: Floats, limits: RangeLimits) -> Floats:
-        """Return where the wall's noise has sunk under `FLAT_NATS` of the random floor; infinity for typed readings."""
+        """Return where the wall's noise falls below `FLAT_NATS` of the random floor; infinity for typed readings."""
         z = np.asarray(range_m, dtype=np.float64)
         floor = self.p_random / (limits.max_m - limits.min_m) * FLAT_NATS
 
@@ -303,7 +303,7 @@ class BeamMixture(SensorModel):
         return np.where(finite, reach, np.where(np.isnan(range_m), 0.0, np.inf))
 
     def sample(self, rng: np.random.Generator, distance_m: Floats, limits: RangeLimits) -> Floats:
-        """Draw a reading for every distance, by the story above."""
+        """Draw a reading for every distance, by the process above."""
         d = np.asarray(distance_m, dtype=np.float64)
         wall_m = np.minimum(d, limits.max_m)
         reading = wall_m + self.noise.scale_at(wall_m) * self.noise.draw(rng, d.shape)
@@ -327,17 +327,17 @@ class BeamMixture(SensorModel):
 
 
 BISECTIONS = 16
-"""To find where a reading is flat within 1/65536 of the sensor's range; what is left over lies on the safe side."""
+"""Bisections in `BeamMixture.reach_m`: accurate to 1/65536 of the sensor's range, and rounded up to the safe side."""
 
 LOG_IMPOSSIBLE = -30.0
-"""Least log-likelihood of a typed reading, so that one odd beam never makes a whole map impossible."""
+"""Least log-likelihood of a typed reading, so that no single beam makes a map impossible."""
 
 
 KINDS: dict[str, type[Any]] = {"gaussian": Gaussian, "student-t": StudentT, "mixture": BeamMixture}
 
 
 def describe(sensor: SensorModel) -> dict[str, Any]:
-    """Return a model's kind and parameters as plain JSON values; of a model of the user's own, its name alone."""
+    """Return a model's kind and parameters as plain JSON values; for the user's own model, its name alone."""
     for kind, cls in KINDS.items():
         if type(sensor) is cls:
             values: dict[str, Any] = {f.name: _plain(getattr(sensor, f.name)) for f in fields(cls)}  # type: ignore[arg-type]
@@ -348,12 +348,12 @@ def describe(sensor: SensorModel) -> dict[str, Any]:
 
 
 def _plain(value: Any) -> Any:
-    """Turn NumPy's numbers into Python's, which JSON can hold."""
+    """Convert NumPy's numbers to Python's, for JSON."""
     return value.item() if isinstance(value, np.generic) else value
 
 
 def from_description(description: dict[str, Any]) -> SensorModel | None:
-    """Return the model of a description; None for a model of the user's own.
+    """Return the model of a description; None for the user's own model.
 
     Raises:
         BadInput: a parameter that the model does not have, or a value that it refuses.

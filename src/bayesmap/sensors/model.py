@@ -40,20 +40,20 @@ class SensorModel(ABC):
 
     @abstractmethod
     def reach_m(self, range_m: Floats, limits: RangeLimits) -> Floats:
-        """Return the distance past which `log_likelihood` no longer changes, for each reading; ``inf`` if none.
+        """Return for each reading the distance past which `log_likelihood` no longer changes; ``inf`` if none.
 
-        The rest of such a beam is one entry of the table, worth ``log_likelihood(range, inf)``.
+        The table has one entry for the rest of the beam, with ``log_likelihood(range, inf)``.
         """
 
     @abstractmethod
     def sample(self, rng: np.random.Generator, distance_m: Floats, limits: RangeLimits) -> Floats:
-        """Draw a reading for every distance; the law is the one that `log_likelihood` scores."""
+        """Draw a reading for every distance, from the law of `log_likelihood`."""
 
     def stop_log_likelihood(self, range_m: Floats, distance_m: Floats, spread_m: Floats, limits: RangeLimits) -> Floats:
         """Return log p(range | the beam stops at about a distance), broadcast over all: maps are inferred by it.
 
-        ``spread_m`` is the standard deviation of where the beam stops. Without a formula of its own a model has the
-        mean of its `log_likelihood` over a normal distribution of stops, by quadrature.
+        ``spread_m`` is the standard deviation of the stop's distance. By default, the likelihood is averaged over a
+        normal distribution of stops, by quadrature of `log_likelihood`.
         """
         z, d, s = np.broadcast_arrays(range_m, distance_m, spread_m)
         out = np.asarray(self.log_likelihood(z, d, limits), dtype=np.float64).copy()
@@ -65,8 +65,8 @@ class SensorModel(ABC):
     def cumulative(self, range_m: Floats, distance_m: Floats, limits: RangeLimits, spread_m: float = 0.0) -> Floats:
         """Return P(reading <= range | distance), broadcast over both; too close is -inf, no return +inf.
 
-        ``spread_m`` is a further standard deviation of where the beam stops. A model of your own needs this only for
-        `bayesmap.score`, whose calibration asks how often readings fall below a range.
+        ``spread_m`` is a further standard deviation of the stop's distance. Your own model needs this method only for
+        the calibration in `bayesmap.score`, which counts how often readings fall below a range.
 
         Raises:
             BadInput: the model has no such method.
@@ -85,8 +85,8 @@ STANDARD = np.linspace(-6.0, 6.0, 97)
 def _mean_over_stops(model: SensorModel, z: Floats, d: Floats, s: Floats, limits: RangeLimits) -> Floats:
     """Return the log of the mean of p(z | t) over t ~ N(d, s^2), t >= 0, by the midpoint rule, (n,).
 
-    A sensor may be far sharper than the spread. So there are nodes of the normal distribution, and as many that crowd
-    about the reading.
+    A sensor may be far sharper than the spread. So there are nodes over the normal distribution, and further nodes
+    close to the reading.
     """
     crowded = np.sinh(np.linspace(-9.0, 9.0, 122)) / math.sinh(9.0)
     near = np.where(np.isfinite(z), z, np.where(z > 0, limits.max_m, limits.min_m))
@@ -107,7 +107,7 @@ class KernelParameters:
         sigma_m: noise scale at distance 0.
         sigma_per_m: growth of the scale per metre of distance.
         dof: degrees of freedom of Student-t noise; 0 for Gaussian noise.
-        robust: whether the mixture applies; if not, the reading is distance plus noise and nothing else.
+        robust: true if the mixture applies; otherwise the reading is distance plus noise alone.
         p_random, p_no_return, p_short, rate_short_per_m: as in `bayesmap.sensors.builtin.BeamMixture`.
     """
 

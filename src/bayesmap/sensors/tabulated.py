@@ -1,15 +1,15 @@
 r"""Sensor models without a compiled formula, as tables that kernels can read.
 
 The three methods of a `SensorModel` define the law of a reading, but kernels cannot call them. So the law is computed
-once at nodes, and kernels interpolate its logarithm. Readings scatter about the stop on a scale
-that the table learns from the model's own `sample`, and nodes are dense there and sparse elsewhere. With
-w = sqrt(scale(d)^2 + s^2) for a stop at distance d known up to a spread s, the density is kept as
+once at nodes, and kernels interpolate its logarithm. The scale of readings about a stop is estimated with the model's
+own `sample`; nodes are dense within this scale and sparse elsewhere. Let a stop lie at distance d known up to a spread
+s, and let w = sqrt(scale(d)^2 + s^2). The density is stored as
 
     log (w p(z | d, s))  at nodes of  d,  s / (s + scale(d))  and  asinh((z - d) / w)
 
-in which it is smooth: without a spread it is the model's own law, with a wide one nearly a normal distribution. Typed
-readings have probabilities at nodes of the distance and of the spread, and the law of a beam that stops nowhere has
-nodes of the reading alone.
+It is smooth in these coordinates: without a spread it is the model's own law, with a wide spread nearly a normal
+distribution. Typed readings have probabilities at nodes of distance and spread. The law of a beam that stops nowhere
+has nodes of the reading alone.
 """
 
 from __future__ import annotations
@@ -26,16 +26,16 @@ from bayesmap.sensors.model import Floats, RangeLimits, SensorModel
 Table = NDArray[np.float32]
 
 DISTANCES, SPREADS, OFFSETS, TYPED, NOWHERE = 33, 8, 193, 513, 4097
-"""Nodes of the distance, of the spread, and of the offset of a range; of the distance for typed readings; and of the
-range where the beam stops nowhere."""
+"""Numbers of nodes: of distance, spread and offset of a range; of the distance for typed readings; and of the range of
+a beam that stops nowhere."""
 
 WIDEST = 63.0
-"""The widest spread, in scales: wider ones are taken for it."""
+"""The widest spread, in scales: wider spreads are clipped to it."""
 
 LOG_LEAST = -1e6
 """Least log density at a node, in nats: minus infinity cannot be interpolated."""
 
-SAMPLES = 512
+SAMPLES = 512  # samples per distance for the scale
 LEAST_SCALE_M = 1e-4
 SLACK = 0.05
 """Largest distance of a sum of probabilities from one, integration errors included."""
@@ -46,16 +46,16 @@ class TabulatedLaw:
     """A sensor's law at nodes; metres and nats.
 
     Attributes:
-        limits: of the sensor.
-        typed: whether no return and too close are outcomes of their own, so that ranges stay within the limits; else
-            they stand for the limits, as in `bayesmap.sensors.builtin.AdditiveNoise`.
-        scale_m: of the readings about a stop, at each distance, (D,).
+        limits: limits of the sensor.
+        typed: true if no return and too close are separate outcomes, and ranges stay within the limits. Otherwise they
+            stand for the limits, as in `bayesmap.sensors.builtin.AdditiveNoise`.
+        scale_m: scale of readings about a stop at each distance, (D,).
         most: the largest node of asinh((z - d) / w).
         log_density: log (w p(z | d, s)), (S, D, V).
         below: P(reading <= z | d, s), (S, D, V); NaN throughout where the density does not integrate to one.
         log_typed: log probabilities of too close and of no return, (2, S, T).
-        log_nowhere: log density of a range where the beam stops nowhere, (N,), and its cumulative, (N,).
-        log_typed_nowhere: log probabilities of too close and no return there.
+        log_nowhere, below_nowhere: log density and cumulative of the range of a beam that stops nowhere, (N,) each.
+        log_typed_nowhere: log probabilities of too close and no return of this beam.
     """
 
     limits: RangeLimits
@@ -76,7 +76,7 @@ class TabulatedLaw:
 
 
 def tabulated(sensor: SensorModel, limits: RangeLimits) -> TabulatedLaw:
-    """Compute a sensor's law at all nodes; the laws of sensors that can be hashed are kept."""
+    """Compute a sensor's law at all nodes; laws of hashable sensors are cached."""
     try:
         hash(sensor)
     except TypeError:
@@ -90,6 +90,7 @@ def _remembered(sensor: SensorModel, limits: RangeLimits) -> TabulatedLaw:
 
 
 def _tabulated(sensor: SensorModel, limits: RangeLimits) -> TabulatedLaw:
+    # Nodes of distance d, spread s and offset: d, s, w and z are (S, D, V).
     distance = np.linspace(0.0, limits.max_m, DISTANCES)
     scale = scales(sensor, distance, limits)
     part = np.linspace(0.0, WIDEST / (1.0 + WIDEST), SPREADS)[:, None]
@@ -106,10 +107,11 @@ def _tabulated(sensor: SensorModel, limits: RangeLimits) -> TabulatedLaw:
     typed = _is_typed(sensor, limits)
     log_density = _by_slices(sensor, z, d, s, limits)
     if typed:
-        # Nodes of neighbouring distances lie on both sides of a limit: past it the formula goes on, if it can.
+        # Interpolation needs nodes on both sides of a limit: if the formula ends there, the limit's value continues it.
         stuck = (log_density <= LOG_IMPOSSIBLE) & (inside != z)
         log_density[stuck] = sensor.stop_log_likelihood(inside[stuck], d[stuck], s[stuck], limits)
     log_density = _floored(log_density) + np.log(w)
+    # Typed readings, and the cumulative, which begins with too close.
     at = np.linspace(0.0, limits.max_m, TYPED)
     at_scale = np.interp(at, distance, scale)
     typed_spread = part / (1.0 - part) * at_scale
@@ -121,6 +123,7 @@ def _tabulated(sensor: SensorModel, limits: RangeLimits) -> TabulatedLaw:
             [np.interp(limits.min_m, *one) for one in zip(*some, strict=True)] for some in zip(z, below, strict=True)
         ]
         below += close - np.array(at_least)[..., None]
+    # Beams that stop nowhere.
     low, high = (limits.min_m, limits.max_m) if typed else (-limits.max_m, 2.0 * limits.max_m)
     r = np.linspace(low, high, NOWHERE)
     log_nowhere = _floored(sensor.log_likelihood(r, np.full(NOWHERE, np.inf), limits))
@@ -143,9 +146,9 @@ def _tabulated(sensor: SensorModel, limits: RangeLimits) -> TabulatedLaw:
 def scales(sensor: SensorModel, distance_m: Floats, limits: RangeLimits) -> Floats:
     """Return the scale on which readings scatter about stops at each distance, (D,): a line fitted to samples.
 
-    Nodes are laid out by it, so it has to be smooth, and roughly right where most of the density is.
+    Nodes depend on it, so it must be smooth, and roughly right where most of the density is.
     """
-    # Next to the limits half of the readings are lost, and who knows which.
+    # Next to the limits, an unknown half of the readings is lost.
     span = limits.max_m - limits.min_m
     stop = np.linspace(limits.min_m + 0.1 * span, limits.max_m - 0.1 * span, DISTANCES)
     drawn = sensor.sample(np.random.default_rng(0), np.repeat(stop[:, None], SAMPLES, axis=1), limits)
@@ -173,7 +176,7 @@ def _typed(sensor: SensorModel, code: float, d: Floats, s: Floats, limits: Range
 
 
 def _is_typed(sensor: SensorModel, limits: RangeLimits) -> bool:
-    """Return whether ranges within the limits and typed readings are all outcomes: their probabilities add to one."""
+    """Return whether the probabilities of ranges within the limits and of typed readings add up to one."""
     d = np.linspace(0.0, limits.max_m, 9)[:, None]
     return bool(np.abs(total_probability(sensor, d, limits) - 1.0).max() < SLACK)
 

@@ -1,9 +1,9 @@
 """Match points to likelihood grids by branch and bound (correlative scan matching).
 
-Hess, Kohler, Rapp and Andor (2016), "Real-time loop closure in 2D LIDAR SLAM", algorithm 3: a node is a block of
-2^h x 2^h translations at one angle; level h of the pyramid bounds the score of all of them. The search is exact: what
-it returns is what looking at every translation and every angle would, and the first of equals in the order of angle,
-x, y, whatever the number of threads.
+The method is algorithm 3 of Hess, Kohler, Rapp and Andor (2016), "Real-time loop closure in 2D LIDAR SLAM". A node is
+a block of 2^h x 2^h translations at one angle; level h of the pyramid bounds their scores. The search is exact: it
+returns the result of an exhaustive search. Among equal scores it returns the first in the order of angle, x and y, for
+any number of threads.
 """
 
 from dataclasses import dataclass
@@ -34,8 +34,8 @@ class SearchJobs:
     half_y: Int32s
     least: Float64s  # scores must exceed this
     across: Float64s  # cost of a squared cell off the centre, in units of the score
-    row_cost: Float64s  # of each angle
-    cells: wp.array2d(dtype=wp.vec2i)  # of each row, those of its points with the sensor at the window's centre
+    row_cost: Float64s  # cost of each angle
+    cells: wp.array2d(dtype=wp.vec2i)  # cells of each row's points, with the sensor at the window's centre
 
 
 @wp.struct
@@ -50,7 +50,7 @@ class Roots:
 
 @wp.struct
 class Taken:
-    """The poses found before, (J, modes), as (row, dx, dy), and how far a further mode must lie from them."""
+    """The earlier poses of each job, (J, modes), as (row, dx, dy), and how far a further mode must lie from them."""
 
     node: wp.array2d(dtype=wp.vec3i)
     apart: wp.vec3i
@@ -62,16 +62,16 @@ class Stack:
     """Blocks that each strand has still to search, the best on top."""
 
     bound: Float64Rows
-    node: wp.array2d(dtype=wp.vec4i)  # level, dx, dy
+    node: wp.array2d(dtype=wp.vec4i)  # level, dx, dy, unused
 
 
 @wp.struct
 class Best:
-    """The best of each strand, and the score of the best of each job so far."""
+    """The best poses so far."""
 
-    incumbent: Float64s
-    score: Float64s
-    node: wp.array(dtype=wp.vec3i)
+    incumbent: Float64s  # best score of each job
+    score: Float64s  # best score of each strand
+    node: wp.array(dtype=wp.vec3i)  # its row, dx, dy; row -1 if there is none
 
 
 @wp.func
@@ -152,7 +152,7 @@ def bound_blocks(first: int, jobs: SearchJobs, job_of_row: Int32s, node_begin: I
 
 @wp.func
 def is_taken(taken: Taken, j: int, row: int, dx: int, dy: int, width: int) -> bool:
-    """Return whether a whole block lies within the surroundings of a pose found before."""
+    """Return whether a whole block lies within ``taken.apart`` of an earlier pose."""
     apart = taken.apart
     for m in range(taken.count):
         t = taken.node[j, m]
@@ -169,8 +169,9 @@ def search_blocks(
 ):
     """One thread per strand of a job: search every ``strands``-th of its largest blocks depth first, best bound first.
 
-    Strands share the score of the best that any has found; a stale one costs time and changes nothing.
+    Strands share the best score of the job. An outdated value costs time, but does not change the result.
     """
+    # t: strand; j: job; q: position in the order of blocks; mine, winner: best of the strand; depth: size of its stack.
     t = first + wp.tid()
     j = t / strands
     mine = wp.float64(jobs.least[j])
@@ -194,6 +195,7 @@ def search_blocks(
             level = stack.node[t, depth][0]
             x0 = stack.node[t, depth][1]
             y0 = stack.node[t, depth][2]
+            # A single translation: keep it if it is better, or equal and earlier in the order.
             if level == 0:
                 better = value > mine
                 if value == mine and winner[0] >= 0:
@@ -207,6 +209,7 @@ def search_blocks(
                     if value > best.incumbent[j]:
                         best.incumbent[j] = value
                 continue
+            # Push the four halves of the block that can still win.
             half = 1 << (level - 1)
             base = depth
             for child in range(4):
@@ -238,14 +241,14 @@ class Windows:
     Attributes:
         points: all jobs' points one after the other, in the sensor's frame, (N, 2).
         point_offsets: job j has the points from point_offsets[j] to point_offsets[j + 1].
-        grid: the grid that each job searches, (J,).
+        grid: index of the grid that each job searches, (J,).
         centres: x and y of the middle of each window, (J, 2).
-        half_cells: half the widths of the windows, (J, 2).
-        angles_rad: of all rows.
-        angle_costs: what each angle costs, in units of the score.
+        half_cells: half widths of the windows, in cells, (J, 2).
+        angles_rad: angles of all rows.
+        angle_costs: cost of each angle, in units of the score.
         row_offsets: job j has the rows from row_offsets[j] to row_offsets[j + 1].
-        least: scores must exceed this, (J,).
-        across: what a squared cell off the centre costs, (J,).
+        least: bound that scores must exceed, (J,).
+        across: cost of a squared cell off the centre, in units of the score, (J,).
     """
 
     points: Floats
@@ -265,9 +268,9 @@ class Modes:
     """The number of poses searched in each job, and what makes a further pose another mode.
 
     Attributes:
-        count: poses a job.
-        share: of the first one's score that those of further ones must exceed.
-        apart: a further one differs by more than so many rows, cells in x or cells in y from those before.
+        count: number of poses per job.
+        share: share of the first pose's score that scores of further poses must exceed.
+        apart: a further pose differs from earlier poses by more than so many rows, cells in x, or cells in y.
     """
 
     count: int
@@ -296,7 +299,7 @@ def search_grids(
     nodes = np.zeros((count, modes.count, 3), dtype=np.int64)
     nodes[..., 0] = -1
     for mode in range(modes.count):
-        if mode > 0:  # where there is no first one there is no further one
+        if mode > 0:  # without a first pose there are no further ones
             least = np.where(np.isfinite(scores[:, 0]), np.maximum(least, modes.share * scores[:, 0]), np.inf)
         jobs.least = devices.to_device(least, wp.float64, device)
         known = np.where(nodes[..., :1] >= 0, nodes, -(1 << 28)).astype(np.int32)
@@ -343,7 +346,7 @@ def _prepared(grids: Any, windows: Windows, threads: int | None) -> tuple[Any, A
 
 
 def _first_of_best(best: Floats, best_nodes: Ints, scores: Floats, nodes: NDArray[np.int64], mode: int) -> None:
-    """Write the best of each job's strands as its next mode: among equals, the first by angle, x, y."""
+    """Store the best pose of each job's strands as its next mode; among equal scores, the first by angle, x, y."""
     valid = best_nodes[..., 0] >= 0
     value = np.where(valid, best, -np.inf)
     for j in np.nonzero(valid.any(axis=1))[0]:

@@ -41,7 +41,7 @@ def field_sums(field: NDArray[np.uint8], grid: Grid, points: Floats, poses: Floa
 
 
 REACH_SDS = wp.constant(wp.float32(3.0))
-"""Further from a surface than so many standard deviations nothing of it is left."""
+"""Standard deviations from a surface past which its density is not drawn."""
 
 
 @wp.kernel

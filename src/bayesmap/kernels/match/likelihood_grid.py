@@ -21,8 +21,9 @@ def draw_points(
 ):  # fmt: skip
     """One thread per band of a grid: set each cell to the largest of all stamps that cover it.
 
-    Points of neighbouring beams on one surface that lie further apart than ``spacing`` have stamps in between.
+    If points of neighbouring beams on one surface lie further apart than ``spacing``, stamps are put in between.
     """
+    # t: thread; g: grid; e: entry; s: its scan; p: its pose; b, c: neighbouring beams; k: stamp from b towards c.
     t = first + wp.tid()
     g = t / bands
     band = t - g * bands
@@ -65,7 +66,7 @@ def draw_points(
 
 @wp.kernel
 def next_level(first: int, level: int, pyramid: Pyramid):
-    """One thread per row: maxima over blocks of 2^level cells, from those over blocks half as long."""
+    """One thread per row: compute maxima over blocks of 2^level cells, from maxima over blocks half as long."""
     t = first + wp.tid()
     nx = pyramid.shape[2]
     ny = pyramid.shape[3]
@@ -87,9 +88,9 @@ def draw_grids(
 ) -> Any:  # fmt: skip
     """Draw grids of scans at poses, with their pyramids: (grids, levels, nx, ny) on the device.
 
-    Grid g, with its corner at ``origins[g]``, is made of the entries offsets[g] .. offsets[g + 1]: of each the scan in
-    ``geometry``, a `bayesmap.poses.scan_geometry.ScanGeometry`, and its pose. A point puts ``stamp``, an odd square,
-    around itself; stamps of a wall lie at most ``spacing_m`` apart. ``pyramid`` is an array to write into, if any.
+    Grid g, with its corner at ``origins[g]``, contains the entries offsets[g] .. offsets[g + 1]. An entry has a scan of
+    ``geometry``, a `bayesmap.poses.scan_geometry.ScanGeometry`, and its pose. ``stamp``, an odd square, is drawn around
+    each point; stamps of a wall lie at most ``spacing_m`` apart. ``pyramid`` is an array to write into, if any.
     """
     grids, device = len(offsets) - 1, geometry.device
     if pyramid is None:
@@ -113,7 +114,7 @@ def draw_grids(
 
 
 def widen(narrow: NDArray[np.uint8], wide: NDArray[np.uint8], half: int) -> None:
-    """Do what the kernel `next_level` does, ten times as fast on the CPU: NumPy takes maxima of 32 bytes at once."""
+    """Compute `next_level` ten times as fast on the CPU: NumPy takes maxima of 32 bytes at once."""
     for grid, out in zip(narrow, wide, strict=True):
         along = np.empty_like(out)
         np.maximum(grid[:-half], grid[half:], out=along[:-half])

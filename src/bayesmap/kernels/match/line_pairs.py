@@ -3,13 +3,13 @@
 A point of scan i, moved into the frame of scan j, is paired with the nearest point of j. That point is searched among
 the beams that point in its direction (Blais and Levine 1995; Censi 2008 for planar scans). The residual e is the
 distance of the point from the wall there, along the mean of the two normals, with the weight of Geman and McClure,
-(1 + e^2 / c^2)^-2. Where neither point has a normal, the residual is the offset itself, in x and y, with less weight:
-returns of one surface lie apart by the distance between beams, and two scans do not return the same points.
+(1 + e^2 / c^2)^-2. If neither point has a normal, the residual is the offset itself, in x and y, with less weight:
+returns of one surface are as far apart as beams, and two scans do not return the same points.
 
-With z = (x, y, yaw) the pose of i in j's frame, H = sum w J J^T and g = sum w J e are the second and first derivatives
-of half the cost by z (Gauss-Newton). ``slack`` is what errors of the normals add to H without information: sum w spread
-T T^T, T the derivative of the offset *along* the wall, spread the variance of the normal's angle for points of unit
-variance. Along a corridor H is slack alone.
+Let z = (x, y, yaw) be the pose of i in j's frame. H = sum w J J^T and g = sum w J e are the second and first
+derivatives of half the cost by z (Gauss-Newton). ``slack`` is the part of H that comes from errors of the normals and
+is no information: sum w spread T T^T. Here T is the derivative of the offset *along* the wall, and spread the variance
+of the normal's angle for points of unit variance. Along a corridor H is slack alone.
 
 `match_counts` counts the scans with which each beam is paired; `view_counts` the points that another scan sees, and
 those that stand where it saw through.
@@ -28,13 +28,13 @@ from bayesmap.space.planar import inverse
 
 wp.set_module_options({"enable_backward": False})
 
-MOST_BEAMS = wp.constant(25)  # looked at to either side
+MOST_BEAMS = wp.constant(25)  # most beams searched to either side
 DENSE = wp.constant(0.15)  # metres: points of less dense surfaces, such as walls that beams graze, fix no pose
 
 
 @wp.struct
 class PairRule:
-    """Which points are pairs, and their weight."""
+    """Rules of pairs of points, and of their weights."""
 
     reach: float  # furthest that they may lie apart
     scale: float  # Geman and McClure's c
@@ -50,7 +50,7 @@ class Sums:
     first: wp.vec3d
     cost: wp.float64
     weight: wp.float64
-    force_sq: wp.float64  # of the points' weighted residuals, each weighted once
+    force_sq: wp.float64  # sum of the squared weighted residuals; a point's own weight enters once
     matched: int
     seen: int  # points that fall between the beams of the other scan, within its range
 
@@ -139,6 +139,7 @@ def pair_scans(
     scene: ScanArrays, weights: Float32Rows, i: int, j: int, z: wp.vec3d, rule: PairRule, stride: int
 ) -> Sums:
     """Sum over every ``stride``-th point of scan i on scan j, with i at pose z in j's frame."""
+    # b: beam of i; (rx, ry): its point turned by z; (x, y): the point in j's frame; h, s, g: entries of H, slack and g.
     sums = Sums()
     cosine = float(wp.cos(z[2]))
     sine = float(wp.sin(z[2]))
@@ -184,6 +185,7 @@ def pair_scans(
         own = scene.kind[i, b] == wp.uint8(2)
         theirs = scene.kind[j, other] == wp.uint8(2)
         if own and theirs:
+            # Both points have normals, n and m: e is the offset along their mean u, with the derivative (ux, uy, j2).
             n = scene.normals[i, b]
             m = scene.normals[j, other]
             nx = cosine * n[0] - sine * n[1]
@@ -222,6 +224,7 @@ def pair_scans(
             total += w
             matched += 1
         elif not own and not theirs:
+            # Neither point has a normal: both components of the offset count.
             apart = 0.5 * neighbour_distance(scene, j, other)
             if apart > DENSE:
                 continue
@@ -376,7 +379,7 @@ def compare_views(
     first: int, scene: ScanArrays, source: Int32s, target: Int32s, relative: Vec3ds, near: float, clear: float,
     counts: Int32Rows,
 ):  # fmt: skip
-    """One thread per pair: count the points of the source on what the target saw, those that contradict it, and all.
+    """One thread per pair: count the points of the source that match the target, that contradict it, and all points.
 
     A point contradicts if three neighbouring beams of the target all hit something ``clear`` metres beyond it.
     """
@@ -422,12 +425,12 @@ def compare_views(
 
 @dataclass(frozen=True)
 class Agreement:
-    """When points of one scan count as seen by another, and when as contradicting it.
+    """Rules for points of one scan that match another scan, or contradict it.
 
     Attributes:
-        near_m: a point so near one of the other scan, or the wall between two neighbouring ones, is matched.
-        clear_m: one that stands so far before what the other saw contradicts.
-        beams: about so many of each scan are looked at.
+        near_m: distance to a point of the other scan, or to the wall between two neighbouring points, of a match.
+        clear_m: least distance of a contradicting point before the points that the other scan hit.
+        beams: number of beams of each scan that are compared, about.
     """
 
     near_m: float
@@ -440,7 +443,7 @@ def view_counts(
 ) -> Ints:
     """Count the points of each source: matched by the target, contradicting it, all; (P, 3).
 
-    ``relative`` are the poses of sources in the frames of targets, (P, 3).
+    ``relative`` holds the poses of sources in the frames of targets, (P, 3).
     """
     device, count = geometry.device, len(source)
     counts = wp.empty((count, 3), dtype=wp.int32, device=device)

@@ -26,7 +26,7 @@ class ScanArrays:
     kind: Uint8Rows
     spread: Float32Rows
     beam_of_angle: Int32Rows
-    layout: Int32s  # of each scan, its row of beam_of_angle
+    layout: Int32s  # row of beam_of_angle of each scan
     beams: Int32s
     step: Float32s
     full_circle: Int32s
@@ -162,13 +162,13 @@ def points_and_normals(
     Args:
         ranges_m: readings, (S, B); beams in the order of their angles, NaN past a scan's last.
         angles_rad: ascending, (1, B) for all scans, or (S, B).
-        nearest_m: shorter readings are no points.
-        farthest_m: longer readings are no points.
-        fans: where the beams point, a `bayesmap.poses.scan_geometry.Fans`.
-        reach_m: how far to either side a wall's direction is fitted at first.
+        nearest_m: least reading that is a point.
+        farthest_m: largest reading that is a point.
+        fans: directions of the beams, a `bayesmap.poses.scan_geometry.Fans`.
+        reach_m: distance to either side within which a wall's direction is fitted at first.
         noise_m: standard deviation of a point; a wall is straight if its points lie within about twice that of a line.
         device: "cpu" or a CUDA device.
-        threads: to compute with; all cores if None.
+        threads: number of threads; all cores if None.
     """
     device = devices.resolve(device)
     scans, beams = ranges_m.shape

@@ -1,4 +1,4 @@
-"""Refine the poses of scans against other scans that stay where they are: Gauss-Newton, one thread a scan."""
+"""Refine the poses of scans against fixed scans by Gauss-Newton, one thread per scan."""
 
 from dataclasses import dataclass
 from typing import Any
@@ -80,9 +80,10 @@ def refine(
 ):  # fmt: skip
     """One thread per job: minimise the cost of prior and pairs; reach and scale shrink from the first step to the last.
 
-    While they shrink every other point is enough. Coordinates are x, y and yaw in the world's axes. Information is that
-    of the pairs alone, less slack.
+    While they shrink, only every other point is used. Coordinates are x, y and yaw in the world's axes. The information
+    is that of the pairs alone, less slack.
     """
+    # k: job; i: its scan; x: its pose; q: entry of a fixed scan.
     k = first + wp.tid()
     i = jobs.scans[k]
     x = jobs.starts[k]
@@ -120,7 +121,7 @@ def refine(
             seen += sums.seen
         off = x - jobs.priors[k]
         off = wp.vec3d(off[0], off[1], wrapped(off[2]))
-        # H (H + s^2 S)^-1 H: H where slack is small against it, and never negative where it is not.
+        # H (H + s^2 S)^-1 H: about H if the slack S is small, and never negative.
         ridge = wp.identity(n=3, dtype=wp.float64) * wp.float64(1.0e-6)
         trusted = second * wp.inverse(second + slack * (schedule.sigma_m * schedule.sigma_m) + ridge)
         laser_information = trusted * second * gain
@@ -147,16 +148,16 @@ def refine(
 
 @dataclass(frozen=True, eq=False)
 class Refinement:
-    """Scans to move, each against others that stay where they are, under a Gaussian prior.
+    """Scans to move, each against fixed scans, under a Gaussian prior.
 
     Attributes:
         scans: the scan that job k moves, (J,).
-        offsets: job k has the others from offsets[k] to offsets[k + 1], (J + 1,).
-        others: the scans that stay, (N,).
-        other_poses: their poses, (N, 3).
-        starts: where the moving scans start, (J, 3).
-        priors: means of their priors, (J, 3).
-        prior_information: of the priors, in the world's axes, (J, 3, 3).
+        offsets: job k has the fixed scans offsets[k] to offsets[k + 1] of ``others``, (J + 1,).
+        others: the fixed scans, (N,).
+        other_poses: poses of the fixed scans, (N, 3).
+        starts: first poses of the moving scans, (J, 3).
+        priors: means of the priors of the moving scans, (J, 3).
+        prior_information: information of these priors, in the world's axes, (J, 3, 3).
     """
 
     scans: Ints
@@ -174,8 +175,8 @@ class Convergence:
 
     Attributes:
         sigma_m: standard deviation of a point.
-        steps: the most steps of Gauss and Newton.
-        reach_m: furthest that paired points may lie apart, in the first step and in the last.
+        steps: most Gauss-Newton steps.
+        reach_m: largest distance between paired points, in the first step and in the last.
         scale_m: c of Geman and McClure's weight, in the first step and in the last.
         alike: least cosine between the normals of a pair.
     """
@@ -190,7 +191,9 @@ class Convergence:
 def refine_scans(
     geometry: Any, refinement: Refinement, convergence: Convergence, threads: int | None = None
 ) -> tuple[Floats, Floats, Floats]:
-    """Refine poses: (J, 3), information of pairs in the world's axes (J, 3, 3), totals (J, 4) as of `pair_sums`."""
+    """Refine poses. Returns poses (J, 3), information of pairs in the world's axes (J, 3, 3), and the first four totals
+    of `pair_sums`, (J, 4).
+    """
     device, count = geometry.device, len(refinement.scans)
     jobs = devices.pack(RefinementArrays, device, **vars(refinement))
     schedule = devices.pack(ConvergenceNumbers, device, **vars(convergence))
@@ -207,7 +210,7 @@ _ONES: dict[tuple[int, int, str], Any] = {}
 
 
 def _ones(scans: int, beams: int, device: str) -> Any:
-    """Return equal weights of all beams; they are kept, because front ends ask for them with every scan."""
+    """Return equal weights of all beams; they are cached, because front ends use them for every scan."""
     key = (scans, beams, device)
     if key not in _ONES:
         _ONES.clear()

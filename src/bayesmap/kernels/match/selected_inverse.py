@@ -1,4 +1,4 @@
-"""Compute the entries of the inverse of a sparse symmetric matrix where its factor has entries, without the rest."""
+"""Compute the inverse of a sparse symmetric matrix on the pattern of its factor only."""
 
 import numpy as np
 import warp as wp
@@ -13,7 +13,8 @@ wp.set_module_options({"enable_backward": False})
 def invert_on_pattern(
     _first: int, begin: Int32s, row: Int32s, lower: Float64s, pivot: Float64s, column_sums: Float64s, inverse: Float64s
 ):
-    """One thread: columns from the last to the first. Z_rj = -sum_k L_kj Z_rk, and Z_jj = 1 / D_j - sum_k L_kj Z_kj."""
+    """One thread: compute Z_rj = -sum_k L_kj Z_rk and Z_jj = 1 / D_j - sum_k L_kj Z_kj, from the last column on."""
+    # j: column; a, b: its entries below the diagonal; p: entry of Z in the column row[a].
     columns = begin.shape[0] - 1
     for back in range(columns):
         j = columns - 1 - back
@@ -38,16 +39,17 @@ def invert_on_pattern(
 
 
 def selected_inverse(begin: Ints, row: Ints, lower: Floats, pivot: Floats) -> Floats:
-    """Compute the entries of (L D L^T)^-1 where L has entries, in the order of L's.
+    """Compute the entries of (L D L^T)^-1 on the pattern of L, in the order of L's entries.
 
     Takahashi, Fagan and Chin (1973), "Formation of a sparse bus impedance matrix and its application to short circuit
     study"; it takes about as many operations as the factorisation.
 
     Args:
         begin: column j of L has the entries begin[j] to begin[j + 1], (n + 1,).
-        row: of each entry, ascending in each column, the diagonal first. The pattern must be closed under elimination.
-        lower: L's entries, with a unit diagonal.
-        pivot: D, (n,).
+        row: row of each entry, ascending in each column, the diagonal first. The pattern must be closed under
+            elimination.
+        lower: entries of L, with a unit diagonal.
+        pivot: diagonal of D, (n,).
     """
     devices.start()
     inverse = wp.zeros(len(row), dtype=wp.float64, device="cpu")

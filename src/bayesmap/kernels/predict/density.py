@@ -1,13 +1,14 @@
 """Predict readings from draws of a map: densities and cumulative probabilities, averaged over the draws.
 
-To a prediction a map is a stop probability m in [0, 1] for every cell. A beam stops in the i-th cell that it meets with
-probability ``w_i = m_i prod_{j < i} (1 - m_j)``, at a distance d_i known up to a spread s_i, or nowhere in the map, and
+A prediction takes a map as a stop probability m in [0, 1] for every cell. A beam stops in the i-th cell that it meets
+with probability ``w_i = m_i prod_{j < i} (1 - m_j)``, at a distance d_i known up to a spread s_i, or nowhere in the
+map. Under one draw of the map,
 
     p(z) = sum_i w_i p(z | d_i, s_i) + prod_j (1 - m_j) p(z | infinity)
 
-under one draw of the map; the predictive law is its mean over draws. Binary walls are maps of 0 and 1.
+The predictive law is the mean over draws. Binary walls are maps of 0 and 1.
 
-`stop_in` is all that a prediction needs to know of a kind of cells; `maps_to_device` fills in what it reads.
+Only `stop_in` and `maps_to_device`, which fills in its arrays, depend on the kind of cells.
 """
 
 from collections.abc import Iterable
@@ -45,19 +46,19 @@ mean x and y in metres from the grid's lower left corner, and Cholesky factor l1
 
 @wp.struct
 class MapArrays:
-    """Maps on a device, one a row, and where beams stop in cells without a surface, as a part of their stretch."""
+    """Maps on a device, one per row."""
 
-    stop: Float32Rows
-    surface: wp.array2d(dtype=Cell)
-    surfaces: int
-    depth: wp.float64
+    stop: Float32Rows  # stop probabilities, if cells have no surfaces
+    surface: wp.array2d(dtype=Cell)  # otherwise, the surfaces
+    surfaces: int  # 1 if cells have surfaces
+    depth: wp.float64  # where beams stop in cells without a surface, as a share of their stretch
 
 
 @wp.func
 def stop_in(maps: MapArrays, row: int, column: int, line: Line, cell: int) -> wp.vec3d:
-    """Return the chance that a beam which reaches a cell stops in it, and distance and variance, metres, if it does.
+    """Return the chance that a beam which reaches a cell stops in it, and distance and variance of the stop.
 
-    The map is in ``row``, and has the cell in ``column``; ``cell`` is its flat index in the grid.
+    The map is in ``row``, and has the cell in ``column``; ``cell`` is its flat index in the grid. The unit is metres.
     """
     if maps.surfaces != 0:
         state = maps.surface[row, column]
@@ -71,7 +72,7 @@ def stop_in(maps: MapArrays, row: int, column: int, line: Line, cell: int) -> wp
 
 
 def maps_to_device(states: StopStates, hit_depth: float, device: str) -> Any:
-    """Put maps on a device; their number of dimensions tells the kind of cells."""
+    """Put maps on a device: stop probabilities (two dimensions) or surfaces (three), see `StopStates`."""
     cells = {"surface": cells_to_device(states, device)} if states.ndim == 3 else {"stop": states}
     return devices.pack(MapArrays, device, surfaces=int(states.ndim == 3), depth=hit_depth, **cells)
 
@@ -82,9 +83,9 @@ class DeviceMaps:
 
     Attributes:
         maps: `MapArrays` with a column for each of the grid's cells.
-        draws: rows of it.
-        hit_depth: where in a cell without a surface a beam stops, as a part of its stretch.
-        device: where they are.
+        draws: number of draws, the rows of ``maps``.
+        hit_depth: where in a cell without a surface a beam stops, as a share of its stretch.
+        device: the device that holds them.
     """
 
     maps: Any
@@ -115,15 +116,15 @@ def device_maps(batches: Iterable[StopStates], hit_depth: float, *, device: str 
     return DeviceMaps(maps_to_device(states, hit_depth, device), len(states), hit_depth, device)
 
 
-# A beam less likely than this to get so far is at its end: under noise alone the unlikely may be all that explains a
-# reading; the mixture has a floor.
+# A beam is followed until its chance to get so far is below this. The limit is lower for noise alone, under which an
+# unlikely stop may be the only one that explains a reading; the mixture has a floor.
 GONE = wp.constant(wp.float64(1.0e-30))
 GONE_ROBUST = wp.constant(wp.float64(1.0e-14))
 CELLS_PAST_REACH = 4.0
-"""Cells past a reading's reach whose surfaces may still explain it, by their extent along the beam."""
+"""Cells past a reading's reach whose surfaces may still explain it, because they extend along the beam."""
 
 FEW_BEAMS = 5_000
-"""Up to so many are done before a second thread has begun."""
+"""Fewer beams than this are done before a second thread has started."""
 
 
 @wp.func
@@ -136,7 +137,7 @@ def add_log(sums: wp.vec2d, value: wp.float64) -> wp.vec2d:
 
 @wp.func
 def no_sum(law: SensorLaw64) -> wp.vec2d:
-    """Return an empty running sum: of densities for a mixture, whose floor avoids underflow, else of logarithms."""
+    """Return an empty running sum: a log-sum-exp, or for a mixture, whose floor avoids underflow, a plain sum."""
     return wp.vec2d(wp.where(law.kind == MIXTURE, wp.float64(0.0), wp.float64(-1.0e300)), wp.float64(0.0))
 
 
@@ -158,15 +159,15 @@ def weight_of_nothing(law: SensorLaw64) -> wp.float64:
 
 @wp.struct
 class ForecastSums:
-    """Readings, how far stops may explain them, and running sums over draws: see `no_sum`, and cumulative ones."""
+    """Readings, and running sums over draws."""
 
-    range_m: Float64s
-    reach_m: Float64s
-    most: Float64s
+    range_m: Float64s  # readings
+    reach_m: Float64s  # distance up to which stops may explain them
+    most: Float64s  # density, see `no_sum`
     total: Float64s
-    below: Float64s  # of readings below the beam's own
-    below_max: Float64s  # below the largest range
-    below_min: Float64s  # below the smallest
+    below: Float64s  # cumulative probability at the beam's reading
+    below_max: Float64s  # at the largest range
+    below_min: Float64s  # at the smallest range
 
 
 @wp.kernel
@@ -176,8 +177,9 @@ def add_forecasts(
 ):  # fmt: skip
     """One thread per beam: add the law of its reading under each draw of a batch to running sums.
 
-    A stop in a cell that the beam enters past its reach explains the reading as well as none at all.
+    A stop past the beam's reach gives the reading the same density as no stop.
     """
+    # b: beam; z: its reading; d: draw; k: entry; past: first entry beyond the reach; at: the reading, or its limit.
     b = first + wp.tid()
     z = out.range_m[b]
     if wp.isnan(z):
@@ -226,8 +228,8 @@ class Forecast:
 
     Attributes:
         log_density: log predictive density of a range in nats per metre, log probability of a typed reading, (B,).
-        pit_low, pit_high: P(reading < the one that came) and P(reading <= it): equal for ranges, (B,).
-        p_no_return, p_too_close: predictive probabilities of the two, (B,); 0 for a sensor that is noise alone.
+        pit_low, pit_high: predictive P(value < reading) and P(value <= reading), equal for ranges, (B,).
+        p_no_return, p_too_close: predictive probabilities of these readings, (B,); 0 if the sensor is noise alone.
     """
 
     log_density: Floats
@@ -259,7 +261,7 @@ def are_typed(sensor: SensorModel, limits: RangeLimits) -> bool:
 
 
 def explained_within_m(range_m: Floats, sensor: SensorModel, limits: RangeLimits, resolution_m: float) -> Floats:
-    """Return how far a stop can be that makes each reading likelier than no stop, metres; infinite if any stop can."""
+    """Return the distance past which a stop explains a reading no better than no stop, metres; infinite if none."""
     return np.asarray(sensor.reach_m(range_m, limits) + CELLS_PAST_REACH * resolution_m)
 
 
@@ -296,8 +298,8 @@ def log_densities(
 ) -> Floats:  # fmt: skip
     """Compute the log predictive density of every reading, (B,): see `forecast`.
 
-    Here, and here alone, beams may have been traced no further than their reading reaches; and each entry's cell may
-    have a column of its own in the draws, ``columns``.
+    Unlike `forecast`, this function accepts beams that were traced only as far as their reading reaches. ``columns``
+    are the columns of the entries' cells in the draws, (K,).
     """
     return _sums(rays, rays.columns if columns is None else columns, batches, sensor, hit_depth, device, False)[0]
 
@@ -309,9 +311,9 @@ def forecast(
 
     Args:
         rays: beams traced over their whole length, and their readings.
-        batches: draws of the map, some at a time, whose columns are the cells ``rays.touched``.
+        batches: draws of the map in batches, whose columns are the cells ``rays.touched``.
         sensor: the law of a reading given where its beam stops.
-        hit_depth: where in a cell without a surface a beam stops, as a part of its stretch.
+        hit_depth: where in a cell without a surface a beam stops, as a share of its stretch.
         device: where to compute.
 
     Raises:

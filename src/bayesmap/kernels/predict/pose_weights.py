@@ -1,9 +1,12 @@
 """Weigh poses fast: the log-likelihood of a scan at many poses under many draws of a map.
 
-The law is that of `bayesmap.kernels.predict.scan_likelihood`, in single precision, for mixtures. The map stays where
-kernels read it from call to call, one thread does a whole scan, and a beam's walk ends where its reading is behind it:
-from there on all that stops have in common remains, the density of a beam that meets nothing. On the way to the reading
-it matters whether the beam is stopped, not where; cells that hardly ever stop one, most of a floor, are passed by.
+The law is that of `bayesmap.kernels.predict.scan_likelihood`, in single precision, for mixtures. Four things make it
+fast:
+
+- The map stays on the device between calls, and one thread does a whole scan.
+- A beam's walk ends a margin past its reading: the rest has the density of a beam that meets nothing.
+- Before the reading, it matters whether the beam is stopped, not where.
+- Cells that stop almost no beam, such as most of a floor, are skipped.
 """
 
 from dataclasses import dataclass
@@ -34,23 +37,23 @@ wp.set_module_options({"enable_backward": False})
 
 PAST_SCALES = wp.constant(wp.float32(6.0))
 PAST_CELLS = wp.constant(wp.float32(4.0))
-"""Distance before and past a reading within which the place of the stop matters: noise scales, and cells (a surface is
-smaller than its cell)."""
+"""Distance from a reading within which the place of the stop matters: noise scales plus cells (a surface is smaller
+than its cell)."""
 
 LEAST_CHANCE = 2e-3
-"""A cell that stops fewer beams than this counts as empty, but where the reading ended near it: there it may be what
-the beam met. Elsewhere it takes that share of the beams, from all poses alike."""
+"""Share of beams below which a cell counts as empty, unless the reading ended near it: there the beam may have met it.
+Elsewhere the cell would take this share from all poses alike."""
 
-UNLIKELY = wp.constant(wp.float32(1.0e-6))
-HUGE = wp.constant(wp.float32(1.0e30))
-GONE_FAST = wp.constant(wp.float32(1.0e-12))
+UNLIKELY = wp.constant(wp.float32(1.0e-6))  # a smaller chance of a stop is skipped
+HUGE = wp.constant(wp.float32(1.0e30))  # distance of a grid line that the beam does not cross
+GONE_FAST = wp.constant(wp.float32(1.0e-12))  # a beam is followed until its chance to get so far is below this
 ONE = wp.constant(wp.float32(1.0))
 ZERO = wp.constant(wp.float32(0.0))
 
 
 @wp.func
 def next_line(p: wp.float32, u: wp.float32) -> wp.float32:
-    """Return the distance in cells to the next grid line across one axis."""
+    """Return the distance to the next grid line of one axis, in cells."""
     if wp.abs(u) < wp.float32(1.0e-9):
         return HUGE
     cell = wp.floor(p)
@@ -66,9 +69,10 @@ def reading_log_density(
 ) -> wp.float32:  # fmt: skip
     """Return log p(reading | map, beam) for a beam from (x, y), in metres from the grid's corner.
 
-    The walk is that of Amanatides and Woo (1987). Corners, where `bayesmap.kernels.walk` touches all cells that meet,
-    are met with probability 0. The cell of the sensor itself is touched where the beam leaves it, as there.
+    The walk is that of Amanatides and Woo (1987). Unlike `bayesmap.kernels.walk` it has no rule for corners: beams meet
+    them with probability 0. The cell of the sensor is touched where the beam leaves it.
     """
+    # Start of the walk, in cells: position p, cell c, distance of the next grid lines, and gap between lines.
     resolution = wp.float32(frame.resolution)
     depth = wp.float32(maps.depth)
     ux = wp.cos(angle)
@@ -83,12 +87,13 @@ def reading_log_density(
     next_y = next_line(py, uy)
     gap_x = wp.where(next_x < HUGE, wp.abs(ONE / ux), HUGE)
     gap_y = wp.where(next_y < HUGE, wp.abs(ONE / uy), HUGE)
+    # Distances between which the place of the stop matters: near and past.
     ray = ray_from(wp.vec2(x, y), wp.vec2(ux, uy))
     decay = object_decay(law, z)
     past = law.max_m
     end = wp.clamp(z, ZERO, law.max_m)
     margin = PAST_SCALES * wp.sqrt(variance_at(law, end, ZERO)) + PAST_CELLS * resolution
-    near = (end - margin) / resolution  # from here on it matters where the beam is stopped
+    near = (end - margin) / resolution
     if wp.isfinite(z):
         past = wp.min(past, z + margin)
     past = past / resolution
@@ -128,6 +133,7 @@ def reading_log_density(
                     density = stop_density(law, z, decay, distance, ZERO)
                 total += survive * chance * density
                 survive = survive * (ONE - chance)
+        # Step to the next cell; end outside the grid.
         entered = left
         if next_x < next_y:
             cx += step_x
@@ -151,11 +157,12 @@ def scan_log_likelihoods(
 
     If ``in_turn`` is positive, pose p is weighed under draw p modulo ``in_turn`` alone; else under all draws.
     """
+    # t: thread; p: pose; d: draw; b: beam.
     t = first + wp.tid()
     p = t / draws
     column = t - p * draws
     d = column
-    if in_turn > 0:  # all poses of a draw one after the other: their beams meet the same cells
+    if in_turn > 0:  # threads are in the order of draws: poses of one draw read the same cells
         each = (poses.shape[0] + in_turn - 1) / in_turn
         d = t / each
         p = (t - d * each) * in_turn + d
@@ -179,10 +186,10 @@ class PackedMap:
 
     Attributes:
         maps: the draws.
-        empty: 1 where a cell stops fewer beams than `LEAST_CHANCE`, a row a draw.
-        draws: how many.
+        empty: 1 in cells that stop fewer beams than `LEAST_CHANCE`, one row per draw.
+        draws: number of draws.
         frame: the grid.
-        device: where they are.
+        device: the device that holds them.
     """
 
     maps: Any
@@ -195,7 +202,7 @@ class PackedMap:
 def pack_map(states: Singles, grid: Grid, hit_depth: float, device: str = "cpu") -> PackedMap:
     """Put draws of a map of a grid on a device: stop probabilities (D, N), or surfaces (D, N, 6).
 
-    In a cell without a surface a beam stops at the part ``hit_depth`` of its chord.
+    In a cell without a surface a beam stops at the share ``hit_depth`` of its chord.
     """
     device = devices.resolve(device)
     chances = states[..., 0] if states.ndim == 3 else states
@@ -205,7 +212,7 @@ def pack_map(states: Singles, grid: Grid, hit_depth: float, device: str = "cpu")
 
 
 def map_states(packed: PackedMap) -> Singles:
-    """Return the draws that `pack_map` was given; surfaces with two more numbers."""
+    """Return the draws given to `pack_map`; surfaces have two more numbers, see `Cell`."""
     held = packed.maps.surface if packed.maps.surfaces != 0 else packed.maps.stop
     return np.asarray(held.numpy())
 
@@ -223,15 +230,15 @@ def scan_log_likelihood(
 
     Args:
         packed: the draws.
-        poses: in the world frame, (P, 3).
-        angles_rad: of the beams, (A,).
+        poses: poses in the world frame, (P, 3).
+        angles_rad: angles of the beams, (A,).
         ranges_m: readings of one scan, (A,), or of several, (S, A).
         sensor: the law of a reading given where its beam stops.
-        limits: of the sensor.
-        scan: the scan that is weighed at each pose, (P,); the first if None.
-        draws: only the first so many draws; all if None.
-        in_turn: weigh each pose under one of them, one after the other: (P, 1).
-        threads: at once; all cores if None.
+        limits: limits of the sensor.
+        scan: index of the scan at each pose, (P,); the first scan if None.
+        draws: number of draws to use, from the first; all if None.
+        in_turn: weigh each pose under one draw, the draws in turn; the result is (P, 1).
+        threads: number of threads; all cores if None.
     """
     device, count = packed.device, len(poses)
     draws = packed.draws if draws is None else min(draws, packed.draws)

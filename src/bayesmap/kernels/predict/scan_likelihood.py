@@ -1,8 +1,8 @@
 """Compute the likelihood of whole scans at any poses, given the cells.
 
-Beams walk the grid from the pose itself, so nothing has to be traced beforehand. A beam stops in the i-th cell that it
-meets with probability ``w_i = a_i prod_{j < i} (1 - a_j)``, and its reading has the density ``sum_i w_i p(z | stop
-i)``, the law of `bayesmap.kernels.predict.density` under one map. Where each beam stopped is summed out.
+Beams walk the grid from the pose, so no rays are traced beforehand. A beam stops in the i-th cell that it meets with
+probability ``w_i = a_i prod_{j < i} (1 - a_j)``. Its reading has the density ``sum_i w_i p(z | stop i)``, the law of
+`bayesmap.kernels.predict.density` under one map. So the stops of beams are summed out.
 """
 
 from dataclasses import dataclass
@@ -41,7 +41,7 @@ class Frame:
 def stop_on_walk(
     maps: MapArrays, row: int, cell: int, start: wp.vec2, direction: wp.vec2, distance: wp.float64
 ) -> wp.vec3d:
-    """Return the chance that a beam which reaches a cell stops in it, and distance and spread, metres, if it does."""
+    """Return the chance that a beam which reaches a cell stops in it, and distance and spread of the stop, metres."""
     if maps.surfaces != 0:
         state = maps.surface[row, cell]
         met = cross_surface(state, ray_from(start, direction))
@@ -56,10 +56,11 @@ def beam_log_likelihoods(
     first: int, law: SensorLaw64, frame: Frame, maps: MapArrays, poses: Float64Rows, scan: Int32s, chain: Int32s,
     beams: int, mounts: Float64Rows, range_m: Float64s, out: Float64s,
 ):  # fmt: skip
-    """One thread per beam of a pose: log p(reading | cells, pose).
+    """One thread per beam of a pose: compute log p(reading | cells, pose).
 
-    A mount is a beam's start and angle in its scan's frame; ``mounts`` has one for each angle, or one for each beam.
+    A mount is a beam's start and angle in its scan's frame; ``mounts`` has one row per angle, or one per beam.
     """
+    # b: thread; row: pose; reading: beam of the scan; z: its reading; m: its mount; w: its walk.
     b = first + wp.tid()
     row = b / beams
     reading = scan[row] * beams + b % beams
@@ -86,6 +87,7 @@ def beam_log_likelihoods(
     w = walk_begin(x / frame.resolution, y / frame.resolution, ux, uy, frame.nx, frame.ny, law.max_m / frame.resolution)
     while w.distance <= w.end and survive >= gone:
         if is_inside(w, frame.nx, frame.ny):
+            # Length of the beam inside the cell: 0 if it only touches a corner.
             chord = wp.min(wp.min(w.next_x, w.next_y), NEVER) - w.distance
             if w.cell_x != w.x or w.cell_y != w.y:
                 chord = wp.where(w.along_line != 0, chord, wp.float64(0.0))
@@ -104,11 +106,12 @@ def beam_log_likelihoods(
 
 @dataclass(frozen=True, eq=False)
 class ScanLikelihood:
-    """Scans and the law of their readings, to be weighed at any poses under any cells.
+    """The likelihood of scans at any poses under any cells.
 
     Attributes:
-        scans: S scans of A beams; their own poses are where beams that left while the sensor moved are taken from.
-        grid: of the map.
+        scans: S scans of A beams. If the sensor moved during a scan, starts and angles of beams are relative to the
+            scan's own pose.
+        grid: the map's grid.
         sensor: the law of a reading given where its beam stops.
         hit_depth: where a beam stops in a cell without a surface, as a part of its chord.
         device: where to compute.
@@ -126,12 +129,11 @@ class ScanLikelihood:
         """Compute the log density of each reading, invalid ones 0, in nats, (P, A).
 
         Args:
-            cells: one map a chain: stop probabilities (C, N), or surfaces (C, N, 6) in metres from the grid's corner,
-                as `bayesmap.kernels.predict.density` has them; N cells of the whole grid. `DeviceMaps` of them are
-                not copied again.
+            cells: one map per chain, N cells of the whole grid: stop probabilities (C, N), or surfaces (C, N, 6) in
+                metres from the grid's corner (`bayesmap.kernels.predict.density`). `DeviceMaps` are not copied.
             poses: P poses in the world frame, (P, 3).
-            scan: which scan is weighed there, (P,).
-            chain: under which chain's cells, (P,).
+            scan: index of the scan at each pose, (P,).
+            chain: index of the chain whose cells are used, (P,).
         """
         device, beams = devices.resolve(self.device), self.scans.ranges_m.shape[1]
         limits = RangeLimits(self.scans.min_range_m, self.scans.max_range_m)

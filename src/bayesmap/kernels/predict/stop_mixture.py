@@ -1,11 +1,12 @@
 """Mix the stops of beams over draws, and predict from the mixture: chances of first hits, and quantiles of ranges.
 
-All that a prediction needs of many draws of a map is the mean weight of each stop, since the predictive law is linear
-in the weights. Where draws also differ in *where* a cell is hit, the places of one cell are merged into one, with their
-mean and with their scatter added to the spread.
+The predictive law is linear in the weights of stops, so a prediction needs only the mean weight of each stop over the
+draws. If draws also differ in *where* a cell is hit, the stops in one cell are merged into one: it has their mean
+distance, and their scatter is added to its spread.
 
-Quantiles are found by halving the span of ranges. Under the robust mixture the stops that lie far before or behind the
-remaining span need not be asked again. So a beam costs a few times its number of stops, not that times the halvings.
+Quantiles are found by bisection of the span of ranges. Under the robust mixture, stops far before or behind the
+remaining span are decided and not evaluated again. So a beam costs a few times its number of stops, however many
+halvings there are.
 """
 
 from collections.abc import Iterable
@@ -42,26 +43,27 @@ from bayesmap.kernels.sensor_law import (
 from bayesmap.sensors.model import SensorModel
 
 wp.set_module_options({"enable_backward": False, "max_unroll": 1})  # halvings unrolled take minutes to compile
-LEAST_CHANCE = wp.constant(wp.float64(1.0e-12))  # of an event, and of getting to it
-LEAST_WEIGHT = wp.constant(wp.float64(1.0e-10))  # of a stop that is looked at: a thousand less likely ones add nothing
-MOST_CHANCE = wp.constant(wp.float64(1.0 - 1.0e-7))  # what single precision can tell from one
+LEAST_CHANCE = wp.constant(wp.float64(1.0e-12))  # least chance of an event, and of getting to it
+LEAST_WEIGHT = wp.constant(wp.float64(1.0e-10))  # stops of less weight are skipped: a thousand of them add nothing
+MOST_CHANCE = wp.constant(wp.float64(1.0 - 1.0e-7))  # largest chance that single precision distinguishes from one
 
 
 @wp.struct
 class StopSums:
-    """Sums over draws: for each entry the weight, and the moments of its place; for each beam the chance of no stop."""
+    """Sums over draws, per entry and per beam."""
 
-    weight: Float32s
-    shift: Float32s
-    square: Float32s
-    no_stop: Float64s
+    weight: Float32s  # weight of the stop at each entry
+    shift: Float32s  # weighted distance of the stop, from where it is without a surface
+    square: Float32s  # weighted square of that, variance included
+    no_stop: Float64s  # chance that a beam stops nowhere
 
 
 @wp.kernel
 def add_stops(
     first: int, rays: RayArrays, columns: Int32s, maps: MapArrays, draws: int, gone: wp.float64, out: StopSums
 ):
-    """One thread per beam, followed until its chance is below ``gone``: add each stop's weight and moments."""
+    """One thread per beam: add each stop's weight and moments, until the beam's chance is below ``gone``."""
+    # b: beam; d: draw; k: entry; w: weight of its stop.
     b = first + wp.tid()
     line = line_of(rays.lines, b)
     for d in range(draws):
@@ -86,10 +88,10 @@ class StopMixture:
     """The stops of each beam: a mixture over the cells that it meets.
 
     Attributes:
-        rays: the beams; entries below are theirs.
-        weight: probability that the beam stops there, (K,), float32.
-        distance_m, spread_m: mean and standard deviation of where, metres, (K,), float32.
-        no_stop: probability that it stops nowhere in the map, (B,).
+        rays: the beams, with K entries.
+        weight: probability that the beam stops at the entry, (K,), float32.
+        distance_m, spread_m: mean and standard deviation of the distance of this stop, metres, (K,), float32.
+        no_stop: probability that the beam stops nowhere in the map, (B,).
     """
 
     rays: Rays
@@ -100,7 +102,7 @@ class StopMixture:
 
 
 def mix_stops(rays: Rays, batches: Iterable[StopStates], hit_depth: float, *, device: str = "cpu") -> StopMixture:
-    """Average the stops of each beam over draws; arguments as of `bayesmap.kernels.predict.density.forecast`.
+    """Average the stops of each beam over draws. For the arguments see `bayesmap.kernels.predict.density.forecast`.
 
     Raises:
         BadInput: no draws.
@@ -170,10 +172,11 @@ def find_events(
     first: int, law: SensorLaw64, stops: StopMixtureArrays, rays: RayArrays, range_m: Float64s, chance: Float32s,
     stopped: wp.array(dtype=wp.int8),
 ):  # fmt: skip
-    """One thread per beam: the chance that its reading ends in each stretch that it reaches, and whether it did.
+    """One thread per beam: compute the chance that its reading ends in each stretch that it reaches, and the outcome.
 
-    ``stopped`` is -1 where the reading never gets, or where there is no stretch.
+    ``stopped`` is -1 if the reading does not reach the stretch, or if the stretch has no length.
     """
+    # b: beam; z: its reading; k: entry; before, after: cumulative probability at the stretch's two ends.
     b = first + wp.tid()
     z = range_m[b]
     one = wp.float64(1.0)
@@ -201,7 +204,7 @@ def find_events(
 
 
 def stops_to_device(stops: StopMixture, device: str) -> Any:
-    """Put a mixture where kernels read it."""
+    """Put a mixture on a device."""
     return devices.pack(
         StopMixtureArrays, device, offsets=stops.rays.offsets, weight=stops.weight, distance_m=stops.distance_m,
         variance=stops.spread_m**2, no_stop=stops.no_stop,
@@ -211,11 +214,12 @@ def stops_to_device(stops: StopMixture, device: str) -> Any:
 def first_hit_events(stops: StopMixture, sensor: SensorModel, device: str = "cpu") -> tuple[Singles, NDArray[np.int8]]:
     """Predict, for each stretch of a beam in a cell that its reading reaches, whether the reading ends there.
 
-    With F the beam's predictive cumulative and [a, b) the stretch, the chance is ``(F(b) - F(a)) / (1 - F(a))``: the
-    probability of a reading in it, if it got there. The product over a beam's events is the probability of its cell.
+    Let F be the beam's predictive cumulative and [a, b) the stretch. The chance is ``(F(b) - F(a)) / (1 - F(a))``: the
+    probability of a reading in the stretch, given that it gets there. The product of the probabilities of a beam's
+    events is the probability of the cell in which its reading ends.
 
     Returns:
-        The chances, and 1 where the reading ended, 0 where it went on, -1 where there is no event; both (K,).
+        The chances, and the outcomes, (K,) each: 1 if the reading ended there, 0 if it went on, -1 without an event.
     """
     device = devices.resolve(device)
     rays, size = stops.rays, len(stops.weight)
@@ -227,28 +231,29 @@ def first_hit_events(stops: StopMixture, sensor: SensorModel, device: str = "cpu
     return chance.numpy(), stopped.numpy()
 
 
-HALVINGS = wp.constant(15)  # of the span of ranges: quantiles are off by at most a 30 000th of it
+HALVINGS = wp.constant(15)  # halvings of the span of ranges: quantiles are off by at most 1 / 30 000 of it
 
 
 @wp.struct
 class LevelSearch:
-    """The search for the range of a level, between two ranges, and the stops that are still undecided.
+    """The search for the range of a level. The range lies between ``low`` and ``high``.
 
-    All that returns from stops before ``begin`` lies below the range, from stops from ``end`` on behind it.
+    Stops before ``begin`` return readings below the range, and stops from ``end`` on return readings behind it.
     """
 
     low: wp.float64
     high: wp.float64
     begin: int
     end: int
-    below: wp.float64  # of the stops before begin: weight times the chance of a reading that is not random
-    behind: wp.float64  # of those from end on: weight
-    total: wp.float64  # of all
+    below: wp.float64  # sum over stops before begin: weight times the chance of a reading that is not random
+    behind: wp.float64  # weight of the stops from end on
+    total: wp.float64  # weight of all stops
 
 
 @wp.func
 def halved(law: SensorLaw64, stops: StopMixtureArrays, s: LevelSearch, level: wp.float64) -> LevelSearch:
-    """Return the half of the span that holds the level, for the robust mixture; decided stops are asked once."""
+    """Return the half of the span that holds the level, for the robust mixture; decided stops are evaluated once."""
+    # z: middle of the span; p: probability of a reading below z that is not random; k: entry.
     z = wp.float64(0.5) * (s.low + s.high)
     decay = wp.exp(-law.rate_short_per_m * z)
     p = s.below + s.behind * law.p_short * (wp.float64(1.0) - decay)
@@ -258,6 +263,7 @@ def halved(law: SensorLaw64, stops: StopMixtureArrays, s: LevelSearch, level: wp
             at = wp.float64(stops.distance_m[k])
             p += weight * met_or_returned(law, z, decay, at, wp.float64(stops.variance[k]))
     if s.total * random_below(law, z) + law.p_known * p < level:
+        # Upper half: decide the stops whose returns all lie below z.
         s.low = z
         going = bool(True)
         while going and s.begin < s.end:
@@ -271,6 +277,7 @@ def halved(law: SensorLaw64, stops: StopMixtureArrays, s: LevelSearch, level: wp
                     s.below += weight * met_or_returned(law, z, decay, at, variance)
                 s.begin += 1
     else:
+        # Lower half: decide the stops whose returns all lie behind z.
         s.high = z
         going = bool(True)
         while going and s.begin < s.end:
@@ -290,7 +297,7 @@ def find_quantiles(
     first: int, law: SensorLaw64, stops: StopMixtureArrays, levels: Float64s, low_m: wp.float64, high_m: wp.float64,
     quantiles: Float64Rows,
 ):  # fmt: skip
-    """One thread per beam: halve the span of ranges until each quantile is found; levels rise."""
+    """One thread per beam: find each quantile by bisection of the span of ranges; levels are ascending."""
     b = first + wp.tid()
     at_low = mixture_below(law, stops, b, low_m)
     at_high = mixture_below(law, stops, b, high_m)
@@ -328,10 +335,10 @@ def find_quantiles(
 
 
 def range_quantiles(stops: StopMixture, levels: Floats, sensor: SensorModel, device: str = "cpu") -> Floats:
-    """Compute the least range below which the reading falls with each of rising probabilities, metres, (B, levels).
+    """Compute quantiles of each beam's reading at ascending levels, metres, (B, levels).
 
     No return counts as +inf, too close as -inf. A sensor that is noise alone may read past its limits: its quantiles
-    are searched from one range below zero to two ranges.
+    are searched from minus the largest range to twice the largest range.
     """
     device = devices.resolve(device)
     limits = stops.rays.limits

@@ -1,4 +1,4 @@
-"""Compute what a sensor would see from a pose: where its beams would stop in given maps, and their information.
+"""Compute the view of a sensor from a pose: where its beams stop in given maps, and their information.
 
 Beams walk the grid from the pose, as in `bayesmap.kernels.predict.scan_likelihood`.
 """
@@ -20,18 +20,18 @@ from bayesmap.space.grid import Grid
 wp.set_module_options({"enable_backward": False})
 
 CERTAIN = wp.constant(wp.float64(1.0e-6))
-"""A beam less likely than this to get so far is at its end."""
+"""Chance of getting so far below which a beam is not followed further."""
 NEGLIGIBLE = wp.constant(wp.float64(4.0))
-"""Standard deviations past which a reading is not expected."""
+"""Standard deviations from a stop within which readings are integrated."""
 
 
 @wp.struct
 class Views:
-    """Poses in the world frame, and the beams of a scan at each: their angles, and how far they are followed."""
+    """Poses, and the beams of a scan at each."""
 
-    poses: Float64Rows
-    angles: Float64s
-    longest_m: wp.float64
+    poses: Float64Rows  # in the world frame
+    angles: Float64s  # of the beams, in the sensor's frame
+    longest_m: wp.float64  # distance to which beams are followed
 
 
 @wp.kernel
@@ -40,6 +40,7 @@ def draw_scan(
     spread_m: Float64s,
 ):  # fmt: skip
     """One thread per beam of a pose: draw the distance at which it stops; infinite if nowhere."""
+    # b: thread; row: pose; w: walk of the beam.
     b = first + wp.tid()
     beams = views.angles.shape[0]
     row = b / beams
@@ -50,7 +51,7 @@ def draw_scan(
     uy = wp.sin(angle)
     start = wp.vec2(wp.float32(x), wp.float32(y))
     direction = wp.vec2(wp.float32(ux), wp.float32(uy))
-    left = to_uniform(random_bits(key, wp.uint64(b)))  # stops where the chance of getting further falls below it
+    left = to_uniform(random_bits(key, wp.uint64(b)))  # the beam stops once ``survive`` is below this
     survive = wp.float64(1.0)
     distance_m[b] = wp.float64(wp.inf)
     spread_m[b] = wp.float64(0.0)
@@ -77,8 +78,8 @@ def draw_scan_stops(
 ) -> tuple[Floats, Floats]:
     """Draw where the beams of a scan at each pose stop, in the map of the pose.
 
-    ``held`` are draws of all cells of the grid, ``draw`` is the number of each pose's map, (P,), and ``poses`` are in
-    the world frame, (P, 3). Beams at ``angles_rad`` (A,) in the sensor's frame are followed to ``longest_m``.
+    ``held`` holds draws of all cells of the grid, ``draw`` the index of each pose's map, (P,), and ``poses`` the poses
+    in the world frame, (P, 3). Beams at ``angles_rad`` (A,) in the sensor's frame are followed to ``longest_m``.
 
     Returns:
         distance in metres, infinite for a beam that meets nothing, and its standard deviation, (P, A) each.
@@ -106,9 +107,10 @@ def add_beam_information(
 ):  # fmt: skip
     """One thread per beam: sum FSMI's information over cells that stop the beam and cells of the reading.
 
-    A reading in cell k teaches C_k = f(hit, r_k) + sum_{i < k} f(pass, r_i); ``of_hit`` and ``of_pass`` are f of the
-    cells' odds r. The reading is in cell k with probability sum_j P(stop in j) G_kj, where G_kj is the noise about cell
-    j's distance between the edges of cell k. The sum over j takes the cells within some standard deviations of cell k.
+    A reading in cell k has the information C_k = f(hit, r_k) + sum_{i < k} f(pass, r_i); ``of_hit`` and ``of_pass`` are
+    f of the cells' odds r. The reading is in cell k with probability sum_j P(stop in j) G_kj. Here G_kj is the
+    probability of the noise about cell j's distance between the edges of cell k. The sum over j takes the cells within
+    `NEGLIGIBLE` standard deviations of cell k. Distances are in cells.
     """
     b = first + wp.tid()
     beams = views.angles.shape[0]
@@ -124,8 +126,8 @@ def add_beam_information(
     half = wp.float64(0.5)
     total = wp.float64(0.0)
     survive = wp.float64(1.0)
-    # The outer walk goes over the cells that the beam may stop in; what was learnt before the first that a reading of
-    # such a stop can fall in is carried along by a second walk that trails behind.
+    # The outer walk w visits the cells j in which the beam may stop. A second walk, behind, trails it: it sums the
+    # information of passes before the first cell k that a reading of such a stop can fall into.
     behind = walk_begin(x, y, ux, uy, frame.nx, frame.ny, longest)
     behind_enter = wp.float64(0.0)  # the walk touches the cell in which it starts at its exit
     learnt = wp.float64(0.0)
@@ -147,6 +149,7 @@ def add_beam_information(
                         if is_inside(behind, frame.nx, frame.ny):
                             learnt += of_pass[behind.cell_x * frame.ny + behind.cell_y]
                     behind = walk_next(behind)
+                # A third walk, ahead, visits the cells k of readings about this stop.
                 ahead = behind
                 begin = behind_enter
                 known = learnt
@@ -166,7 +169,7 @@ def add_beam_information(
                     ahead = walk_next(ahead)
             enter = leave
         w = walk_next(w)
-    # The beam that meets nothing passes every cell.
+    # A beam that meets nothing passes every cell.
     if survive > CERTAIN:
         while behind.distance <= behind.end:
             if is_inside(behind, frame.nx, frame.ny) and behind.cell_x == behind.x and behind.cell_y == behind.y:
@@ -191,13 +194,13 @@ def independent_information(
 
     Args:
         occupied: probability that each cell stops a beam, inside (0, 1), (N,).
-        grid: of the map.
-        poses: (P, 3).
-        angles_rad: (A,).
-        longest_m: of beams.
-        sigma_m: of the readings.
-        hit_factor: by which a reading in a cell multiplies its odds, over 1.
-        pass_factor: by which one behind it does, below 1.
+        grid: the map's grid.
+        poses: poses in the world frame, (P, 3).
+        angles_rad: angles of the beams, (A,).
+        longest_m: distance to which beams are followed.
+        sigma_m: standard deviation of the readings.
+        hit_factor: factor of a cell's odds for a reading in it, over 1.
+        pass_factor: factor of a cell's odds for a reading behind it, below 1.
         device: where to compute.
     """
     device = devices.resolve(device)

@@ -1,11 +1,11 @@
 r"""A cell with a surface: the beams that meet it, and its prior.
 
-`bayesmap.beams.rays` has the law by which a beam meets the surface, and where it then stops; this is that law compiled.
+`bayesmap.beams.rays` states the law by which a beam meets the surface and stops there. This module compiles that law.
 
-The prior of a surface is mu ~ N(centre, tau^2 I) inside the cell's own square, and for Sigma an InverseWishart(nu,
-psi I) times exp(-tr Sigma / (2 kappa^2)): beams of other cells say nothing about a surface that grows beyond its own,
-and the Wishart's tail alone would let it. Steps are taken in mu, log l11, l21 and log l22 of Sigma = L L'. In these
-coordinates the density is, inside the square, proportional to
+The prior of a surface is mu ~ N(centre, tau^2 I) inside the cell's own square. Sigma has the density of an
+InverseWishart(nu, psi I) times exp(-tr Sigma / (2 kappa^2)). This factor keeps surfaces from growing beyond their cell:
+beams of other cells are no evidence against it, and the Wishart's heavy tail would allow it. Steps are taken in mu,
+log l11, l21 and log l22 of Sigma = L L'. In these coordinates the density inside the square is proportional to
 
     exp(-|mu - centre|^2 / (2 tau^2)) l11^-nu l22^-(nu + 1) exp(-psi/2 tr Sigma^-1 - tr Sigma / (2 kappa^2)):
 
@@ -23,19 +23,19 @@ from bayesmap.kernels import device as devices
 from bayesmap.kernels.device import Singles
 from bayesmap.kernels.random import PER_GAMMA, log_gamma_variate, normal
 
-CROSSING_WIDTH_SQ = wp.constant(wp.float32(2.2**2))
+CROSSING_WIDTH_SQ = wp.constant(wp.float32(2.2**2))  # w squared, see `bayesmap.beams.rays`
 DIRECTION_SQ = wp.constant(wp.float32(0.005**2))
 """Square of omega, radians: 4 to 8 thousandths predict held-out scans best (docs/lab/surfaces.md)."""
 
 Cell = wp.types.vector(length=8, dtype=wp.float32)
 """A cell's state: reflectivity, mean x and y (metres from the grid's corner), Cholesky factor l11, l21, l22 of Sigma,
-whether a candidate for its surface is being tried, and a number that is not used."""
+1 while a candidate for its surface is tried (else 0), and an unused number."""
 
 REFLECTIVITY, MEAN_X, MEAN_Y, L11, L21, L22, TRYING = range(7)
 
 
 def cells_to_device(states: Singles, device: str) -> Any:
-    """Put states alone, (..., 6), or without a surface, (..., 1), on a device as an array of `Cell`."""
+    """Put states, (..., 6), or reflectivities, (..., 1), on a device as an array of `Cell`."""
     padded = np.zeros((*states.shape[:-1], 8), dtype=np.float32)
     padded[..., : states.shape[-1]] = states
     return wp.array(padded, dtype=Cell, device=device, copy=device != "cpu")
@@ -68,7 +68,7 @@ def ray_from(start_m: wp.vec2, direction: wp.vec2) -> Ray:
 
 @wp.func
 def crossing_probability_at(offset: wp.float32, across: wp.float32) -> wp.float32:
-    """Return the chance of meeting a surface, by the offset of its mean and its variance across the beam."""
+    """Return the chance of meeting a surface, given the offset of its mean and its variance across the beam."""
     r = offset * offset / (CROSSING_WIDTH_SQ * across)
     return wp.float32(1.0) / (wp.float32(1.0) + r * r * r)
 
@@ -88,6 +88,7 @@ def cross_at(offset: wp.float32, ahead: wp.float32, cell: Cell, ux: wp.float32, 
     l11 = cell[L11]
     l21 = cell[L21]
     l22 = cell[L22]
+    # across, along: L' n and L' u; body: n' Sigma n; unsure: variance from the beam's direction.
     one = wp.float32(1.0)
     across_1 = l21 * ux - l11 * uy  # L' n
     across_2 = l22 * ux
@@ -109,14 +110,14 @@ def cross_at(offset: wp.float32, ahead: wp.float32, cell: Cell, ux: wp.float32, 
 
 @wp.func
 def cross_surface(cell: Cell, ray: Ray) -> Crossing:
-    """Return the chance that the beam meets the cell's surface, and the law of the distance at which."""
+    """Return the chance that the beam meets the cell's surface, and mean and variance of the distance."""
     rx = cell[MEAN_X] - ray.x
     ry = cell[MEAN_Y] - ray.y
     offset = ray.ux * ry - ray.uy * rx
     return cross_at(offset, ray.ux * rx + ray.uy * ry, cell, ray.ux, ray.uy)
 
 
-MEAN_TRIES = wp.constant(8)
+MEAN_TRIES = wp.constant(8)  # draws of a mean's coordinate, at most
 
 
 @wp.struct
@@ -175,9 +176,9 @@ def is_own(prior: PriorNumbers, centre: wp.vec2, cell: Cell) -> bool:
 
 @wp.func
 def mean_within(prior: PriorNumbers, key: wp.uint64, at: wp.uint64) -> wp.float32:
-    """Draw a coordinate of a mean, from the cell's centre, by rejection; takes two times `MEAN_TRIES` counters.
+    """Draw a coordinate of a mean, relative to the cell's centre, by rejection; takes 2 `MEAN_TRIES` counters.
 
-    Under the default prior one try in five fails. All fail once in 300 000 times: such a candidate is not accepted.
+    Under the default prior one try in five fails. All fail once in 300 000 times; that candidate is not accepted.
     """
     x = prior.tau_m * normal(key, at)
     for i in range(1, MEAN_TRIES):
@@ -188,7 +189,7 @@ def mean_within(prior: PriorNumbers, key: wp.uint64, at: wp.uint64) -> wp.float3
 
 @wp.func
 def fresh_surface(prior: PriorNumbers, centre: wp.vec2, cell: Cell, key: wp.uint64, at: wp.uint64) -> Cell:
-    """Return the cell with a surface drawn from the prior but for `log_size_penalty`, which the acceptance includes.
+    """Return the cell with a surface drawn from the prior without `log_size_penalty`, which the acceptance includes.
 
     Sigma^-1 = A A' / psi with Bartlett's lower triangular A. The inverse has the upper factor A^-T sqrt(psi), which
     becomes a lower factor when x and y are exchanged; the law is symmetric in them.
@@ -212,6 +213,7 @@ def fresh_surface(prior: PriorNumbers, centre: wp.vec2, cell: Cell, key: wp.uint
 @wp.func
 def log_surface_prior(prior: PriorNumbers, centre: wp.vec2, cell: Cell) -> wp.float64:
     """Return the log density of a surface in the coordinates above, up to a constant."""
+    # (x, y): mean relative to the centre; q: the lower left entry of L^-1, up to its sign.
     x = wp.float64(cell[MEAN_X] - centre[0])
     y = wp.float64(cell[MEAN_Y] - centre[1])
     l11 = wp.float64(cell[L11])

@@ -1,10 +1,12 @@
 r"""The second half of a sweep: draw the cells, given where the beams stopped, and sum the chain's log joint.
 
-Cells in which readings end have a kernel of their own (`bayesmap.kernels.surfaces.endpoint_cells`). Of the others, one
-that tries no candidate draws its reflectivity, m ~ Beta(a + hits, b + met), a and b being those of its label where
-cells have labels (`bayesmap.kernels.surfaces.labels`, which draws these before). One that tries a candidate for its
-surface, drawn from the prior, accepts it with probability min(1, exp(gain)), where the gain is the beams' part of the
-ratio (`bayesmap.kernels.surfaces.stops`).
+Cells in which readings end have their own kernel (`bayesmap.kernels.surfaces.endpoint_cells`). Each of the other cells
+does one of two things:
+
+- It draws its reflectivity, m ~ Beta(a + hits, b + met). If cells have labels, a and b are those of its label, which
+  `bayesmap.kernels.surfaces.labels` draws before.
+- It tries a candidate for its surface, drawn from the prior, and accepts it with probability min(1, exp(gain)). The
+  gain is the beams' part of the ratio (`bayesmap.kernels.surfaces.stops`).
 
 Sums run over slices of fixed size, so they depend neither on threads nor on the device.
 """
@@ -30,17 +32,17 @@ from bayesmap.kernels.surfaces.stops import CLEAR, GAIN_UNITS, LEARNS, ChainArra
 
 wp.set_module_options({"enable_backward": False})
 
-FROM_UNITS = wp.constant(wp.float64(1.0 / GAIN_UNITS))
-HIDDEN = wp.constant(wp.float32(0.0))
-FRESH = wp.constant(wp.float32(1.0))
+FROM_UNITS = wp.constant(wp.float64(1.0 / GAIN_UNITS))  # from units of `ChainArrays.gain` to nats
+HIDDEN = wp.constant(wp.float32(0.0))  # a cell that tries no candidate
+FRESH = wp.constant(wp.float32(1.0))  # a cell that tries a candidate from the prior
 TRIES_EVERY = wp.constant(4)
-"""In one of so many of its updates a cell in which no reading ends tries a candidate, unless it stops next to no beam;
-in the others it draws its reflectivity."""
+"""Updates per candidate of a cell in which no reading ends. It tries none if it stops almost no beam. In the other
+updates it draws its reflectivity."""
 
 SILENT_EVERY = wp.constant(3)
-"""In one of so many sweeps a cell whose surface no beam observes takes another surface from the prior."""
+"""Sweeps between two surfaces from the prior in a cell whose surface no beam observes."""
 
-# Counters of one cell in one sweep, of the part CELLS; others follow in `square_counts` and `labels`.
+# Random counters of one cell in one sweep, part CELLS; `square_counts` and `labels` define further ones.
 PER_CELL = wp.constant(wp.uint64(1024))
 AT_ACCEPT = wp.constant(wp.uint64(0))
 AT_BETA = wp.constant(wp.uint64(32))
@@ -50,15 +52,12 @@ AT_SILENT = wp.constant(wp.uint64(448))
 
 @wp.struct
 class ActiveCells:
-    """The cells that a sweep visits, those that beams touch, ascending, and their update periods, in sweeps.
+    """The cells that a sweep visits, and their update periods."""
 
-    The period is 0 for cells in which readings end: every sweep updates them. ``ny`` and ``edge_m`` are the grid's.
-    """
-
-    cell: Int32s
-    period: Uint8s
+    cell: Int32s  # cells that beams touch, ascending
+    period: Uint8s  # update period in sweeps; 0 for cells in which readings end: every sweep updates them
     ny: int
-    edge_m: wp.float64
+    edge_m: wp.float64  # edge of a cell
 
 
 @wp.func
@@ -71,15 +70,15 @@ def tries(sweep: int, period: int, c: int) -> bool:
 def is_silent(sweep: int, period: int, c: int, m: wp.float32, stopped_in: int) -> bool:
     """Return whether a cell in which no reading ends takes another surface from the prior at the end of a sweep.
 
-    It does so in some sweeps, if it stopped no beam in this one and its reflectivity is too small for passing beams to
-    tell anything.
+    It does so in some sweeps, if it stopped no beam in this sweep and its reflectivity is too small for passing beams
+    to be informative.
     """
     return period != 0 and (sweep + c) % SILENT_EVERY == 0 and m <= CLEAR and stopped_in != sweep
 
 
 @wp.func
 def renewed_surface(prior: PriorNumbers, centre: wp.vec2, cell: Cell, key: wp.uint64, at: wp.uint64) -> Cell:
-    """Draw another surface for a cell that no beam observes: from the prior, its penalty of size included."""
+    """Draw another surface for a cell that no beam observes, from the prior with its size penalty."""
     candidate = fresh_surface(prior, centre, cell, key, at + AT_SILENT)
     log_ratio = log_size_penalty(prior, candidate) - log_size_penalty(prior, cell)
     accepted = wp.log(to_uniform(random_bits(key, at + AT_SILENT - wp.uint64(1)))) < log_ratio
@@ -93,10 +92,11 @@ def begin_sweep(
     first: int, sweep: int, without_surfaces: int, prior: PriorNumbers, prior_moved: int, active: ActiveCells,
     state: ChainArrays, log_prior: Float32s,
 ):  # fmt: skip
-    """One thread per chain's cell, before a sweep: reset the counts of its beams, and perhaps name a candidate.
+    """One thread per chain's cell, before a sweep: reset the counts of its beams, and draw a candidate if it tries one.
 
-    ``log_prior`` of the present cells is computed again where the last sweep can have changed it.
+    ``log_prior`` of a cell is computed again if the last sweep can have changed it.
     """
+    # i: thread; a: position among the active cells; c: cell of the grid; here: cell in the arrays of all chains.
     i = first + wp.tid()
     chain = i // active.cell.shape[0]
     a = i - chain * active.cell.shape[0]
@@ -118,12 +118,13 @@ def begin_sweep(
         if without_surfaces == 0:
             density += wp.float32(log_surface_prior(prior, centre, cell))
         log_prior[i] = density
+    # Does the cell count beams in this sweep, and does it try a candidate?
     trying = HIDDEN
     if without_surfaces == 0:
         if period == 0:
-            learns = False  # a kernel of its own knows its beams
+            learns = False  # `endpoint_cells` counts its beams
         elif learns and tries(sweep, period, c):
-            # One of whose surface passing beams say nothing needs no candidate: it takes surfaces from the prior.
+            # If passing beams are not informative, the cell takes surfaces from the prior instead.
             learns = cell[REFLECTIVITY] > CLEAR
             if learns:
                 trying = FRESH
@@ -147,6 +148,7 @@ def update_free_cells(
     first: int, sweep: int, without_surfaces: int, prior: PriorNumbers, active: ActiveCells, state: ChainArrays
 ):
     """One thread per chain's cell: decide on its candidate, draw its reflectivity, or renew its surface."""
+    # i: thread; place: position among the active cells; c: cell of the grid; here: cell in the arrays of all chains.
     i = first + wp.tid()
     chain = i // active.cell.shape[0]
     place = i - chain * active.cell.shape[0]
@@ -161,6 +163,7 @@ def update_free_cells(
     key = sweep_key(state.keys[chain], sweep, CELLS)
     at = wp.uint64(c) * PER_CELL
     centre = centre_of(c, active.ny, active.edge_m)
+    # Sum the counts over the parts of the beams, then update reflectivity or surface.
     if learns:
         n_hits = int(0)
         n_met = int(0)
@@ -201,13 +204,13 @@ def count_observed(first: int, active: ActiveCells, state: ChainArrays):
         state.observed_counts[here] = state.observed_counts[here] + wp.vec2i(observed, 1)
 
 
-SLICE = 4096
+SLICE = 4096  # numbers summed by one thread
 WIDTH = wp.constant(SLICE)
 
 
 @wp.kernel
 def sum_slices(first: int, size: int, values: Float32s, slices: Float64Rows):
-    """One thread per chain's slice of its ``size`` values: sum it."""
+    """One thread per slice of a chain's ``size`` values: sum the slice."""
     i = first + wp.tid()
     chain = i // slices.shape[1]
     begin = (i - chain * slices.shape[1]) * WIDTH
@@ -240,7 +243,7 @@ def sum_of_slices(
     first: int, column: int, one: Float64Rows, other: Float64Rows, beside_other: Float64Rows, one_total: Float64Rows,
     other_total: Float64Rows,
 ):  # fmt: skip
-    """One thread per chain: sum the slices of two quantities into a column; the second has two sets."""
+    """One thread per chain: sum the slices of two quantities into a column; the second quantity has two sets."""
     chain = first + wp.tid()
     total = wp.float64(0.0)
     for k in range(one.shape[1]):

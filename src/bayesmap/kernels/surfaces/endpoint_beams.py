@@ -5,13 +5,12 @@ With g the chance of meeting the surface,
     log p(stops, readings | m, surface) = sum over passing beams log(1 - m g)
                                         + sum over stopped beams log(m g p(reading | stop)^beta).
 
-`log_stops` asks one beam after the other, through lists, whatever the sensor. A cell asks the same beams for every step
-of its surface. So they are copied side by side first, and `log_stops_in_lanes` weighs eight of them by the same
-arithmetic, which a processor with wide registers does at once. It takes what nearly all beams are: hits of a mixture
-that end near the cell, with noise that is normal or Student's t of few and odd degrees of freedom. The others are asked
-one by one.
+`log_stops` evaluates one beam after the other, through lists, for any sensor. A cell evaluates its beams again for
+every step of its surface. So most beams are copied side by side first, and `log_stops_in_lanes` evaluates eight of them
+at once in wide registers. It takes nearly all beams: hits of a mixture that end near the cell, if the noise is normal
+or Student's t of few and odd degrees of freedom. The other beams are evaluated one by one.
 
-A *block* is eight beams: one `Lanes` for each number of them. Lanes that are left over hold beams that count nothing.
+A *block* is eight beams: one `Lanes` for each of their numbers. Left-over lanes hold beams that do not count.
 """
 
 import numpy as np
@@ -41,23 +40,21 @@ FEWEST = wp.constant(wp.float32(1.0e-20))  # products are turned into logarithms
 
 @wp.struct
 class EndpointCells:
-    """Incidences of the cells in which readings end: those of cell ``cell[u]`` are ``offsets[u]:offsets[u + 1]``.
-
-    An incidence has its entry in the rays, its beam, and the offset and direction with which the beam passes the cell's
-    centre. A cell has the frame and the sizes of its steps (`bayesmap.kernels.surfaces.endpoint_cells`).
-    """
+    """Incidences of the cells in which readings end: those of cell ``cell[u]`` are ``offsets[u]:offsets[u + 1]``."""
 
     cell: Int32s
     offsets: Int32s
-    entry: Int32s
+    # of each incidence
+    entry: Int32s  # its entry in the rays
     beam: Int32s
-    passing: wp.array(dtype=wp.vec3)
-    reading: wp.array(dtype=wp.vec2)  # how far ahead the centre lies, and the reading, metres
-    step: wp.array(dtype=Cell)
+    passing: wp.array(dtype=wp.vec3)  # offset of the cell's centre from the beam, and direction of the beam
+    reading: wp.array(dtype=wp.vec2)  # distance of the centre along the beam, and the reading, metres
+    # of each cell
+    step: wp.array(dtype=Cell)  # frame and sizes of its steps, see `bayesmap.kernels.surfaces.endpoint_cells`
 
 
 def endpoint_cells_to_device(rays: Rays, cells: Ints, steps: Singles, device: str) -> EndpointCells:
-    """List the incidences of some cells, flat, ascending, (U,), on a device; ``steps`` are these cells', (U, 8)."""
+    """List the incidences of cells, flat, ascending, (U,), on a device; ``steps`` holds their steps, (U, 8)."""
     listed = np.zeros(rays.grid.n_cells, dtype=np.bool_)
     listed[cells] = True
     entry = np.nonzero(listed[rays.cells])[0].astype(np.int32)
@@ -86,7 +83,7 @@ def crossing_probability_of(passing: wp.vec3, dx: wp.float32, dy: wp.float32, ce
 
 @wp.struct
 class Listed:
-    """The incidences of one cell, as numbers in `EndpointCells`: of beams that pass it, and of beams that it stops."""
+    """Incidences of one cell, as indices into `EndpointCells`: beams that pass it, and beams that it stops."""
 
     entries: Int32s
     passing_begin: int
@@ -102,9 +99,10 @@ def log_stops(
 ) -> wp.float64:  # fmt: skip
     """Evaluate the formula at the top, for one surface and the listed beams.
 
-    Once the sum is under ``least`` it is returned unfinished. Stopped beams come first, because every further beam
+    If the sum falls below ``least``, it is returned unfinished. Stopped beams come first, because every passing beam
     makes the sum smaller.
     """
+    # i: position in the list; e: incidence; b: beam; product: factors since the last logarithm.
     one = wp.float32(1.0)
     total = wp.float64(0.0)
     product = one
@@ -143,25 +141,24 @@ def log_stops(
 
 WIDTH = 8
 Lanes = wp.types.vector(length=WIDTH, dtype=wp.float32)
-"""A number of eight beams."""
+"""One number of each of eight beams."""
 
-OF_STOPPED = wp.constant(7)  # offset and direction at the centre, how far ahead, reading, decay, and 1 for a beam
-OF_PASSING = wp.constant(3)  # offset and direction
-PRODUCTS = wp.constant(2)  # room before the blocks, see `log_stops_in_lanes`
+OF_STOPPED = wp.constant(7)  # per stopped beam: line (3), distance of the centre, reading, decay, 1 if it counts
+OF_PASSING = wp.constant(3)  # numbers per passing beam: offset and direction at the centre
+PRODUCTS = wp.constant(2)  # lanes before the blocks: product and least product, see `log_stops_in_lanes`
 CHUNK = wp.constant(4)  # blocks whose factors are multiplied before the product is turned into a logarithm
-SMALLEST = wp.constant(wp.float32(1.0e-35))
-STEEP = wp.constant(wp.float32(1.0e30))
+SMALLEST = wp.constant(wp.float32(1.0e-35))  # a smaller product may have underflowed
+STEEP = wp.constant(wp.float32(1.0e30))  # slope of the step function `positive`
 MOST_EXPONENT = wp.constant(wp.float32(41.0))
-AWAY = wp.constant(wp.float32(1.0e3))  # metres: no surface of a cell is met at such an offset
-UNKNOWN = wp.constant(wp.float64(1.0e300))
+AWAY = wp.constant(wp.float32(1.0e3))  # metres: no surface of a cell is met at this offset
+UNKNOWN = wp.constant(wp.float64(1.0e300))  # stands for a sum that could not be computed
 
 
 @wp.struct
 class LaneBlocks:
-    """Room for the blocks of one cell per thread: a row of numbers, and the same memory as lanes.
+    """Working memory for the blocks of one cell per thread: a row of numbers, and the same memory as lanes.
 
-    The blocks of cell u begin at ``begin[u]`` of its row, counted in lanes; at 0 where a row belongs to one thread
-    alone.
+    The blocks of cell u begin at ``begin[u]`` of its row, counted in lanes; at 0 if each row belongs to one thread.
     """
 
     numbers: Float32Rows
@@ -170,7 +167,7 @@ class LaneBlocks:
 
 
 def room_for_blocks(endpoints: EndpointCells, rows: int, device: str) -> LaneBlocks:
-    """Allocate blocks for each row: on a GPU for every cell, on the CPU for the cell that needs most."""
+    """Allocate blocks for each row: on a GPU for all cells, on the CPU for the cell with the most blocks."""
     incidences = np.diff(endpoints.offsets.numpy())
     lanes = int(PRODUCTS) + int(OF_PASSING) + int(OF_STOPPED) * (1 + -(-incidences // WIDTH))
     begin = np.zeros(len(lanes), dtype=np.int64) if device == "cpu" else np.cumsum(lanes) - lanes
@@ -190,15 +187,15 @@ def takes_lanes(law: SensorLaw32, beta: wp.float32) -> bool:
 
 @wp.func
 def blocks_of(beams: int) -> int:
-    """Return the number of blocks that some beams fill."""
+    """Return the number of blocks for a number of beams."""
     return (beams + WIDTH - 1) // WIDTH
 
 
 @wp.func
 def exponential(x: Lanes) -> Lanes:
-    """Compute exp(x) of eight numbers to a relative error of 5e-6, clipped at -41 and 41.
+    """Compute exp(x) of eight numbers to a relative error of 5e-6, x clipped at -41 and 41.
 
-    By Taylor's series at x / 64, squared six times: an exponential of the C library takes one number at a time.
+    The method is Taylor's series at x / 64, squared six times. The exponential of the C library takes one number only.
     """
     one = Lanes(wp.float32(1.0))
     most = Lanes(MOST_EXPONENT)
@@ -221,7 +218,7 @@ def exponential(x: Lanes) -> Lanes:
 
 @wp.func
 def square_root(x: Lanes) -> Lanes:
-    """Return the square root of each."""
+    """Return the square root of each number."""
     out = Lanes()
     for j in range(WIDTH):
         out[j] = wp.sqrt(x[j])
@@ -236,7 +233,7 @@ def positive(x: Lanes) -> Lanes:
 
 @wp.func
 def chance_of(offset: Lanes, across: Lanes) -> Lanes:
-    """Compute `crossing_probability_at` of each."""
+    """Compute `crossing_probability_at` for each beam."""
     one = Lanes(wp.float32(1.0))
     r = wp.cw_div(wp.cw_mul(offset, offset), CROSSING_WIDTH_SQ * across)
     return wp.cw_div(one, one + wp.cw_mul(r, wp.cw_mul(r, r)))
@@ -245,6 +242,7 @@ def chance_of(offset: Lanes, across: Lanes) -> Lanes:
 @wp.func
 def density_of(law: SensorLaw32, reading: Lanes, decay: Lanes, distance: Lanes, variance: Lanes) -> Lanes:
     """Compute `stop_density` of finite readings, for a mixture that `takes_lanes`."""
+    # known: 1 if the stop lies within the sensor's range (and near, for normal noise), else 0.
     one = Lanes(wp.float32(1.0))
     scale = Lanes(law.sigma_m) + law.sigma_per_m * distance
     total = wp.cw_mul(scale, scale) + variance
@@ -254,6 +252,7 @@ def density_of(law: SensorLaw32, reading: Lanes, decay: Lanes, distance: Lanes, 
     known = positive(limit - distance)
     precision = wp.cw_div(one, total)
     standard_sq = wp.cw_mul(square, precision)
+    # Density of the noise.
     noise = one
     if law.power > 0:
         base = one + (wp.float32(1.0) / law.dof) * standard_sq
@@ -265,6 +264,7 @@ def density_of(law: SensorLaw32, reading: Lanes, decay: Lanes, distance: Lanes, 
         known = wp.cw_mul(known, positive(wp.float32(FAR_SQ) * total - square))
         noise = exponential(wp.float32(-0.5) * standard_sq)
     noise = wp.cw_mul(noise, square_root(precision))
+    # Add returns, random readings and passing objects.
     past = wp.cw_mul(decay, exponential(law.rate_short_per_m * error))
     unblocked = (wp.float32(1.0) - law.p_short) * one + law.p_short * past
     returned = law.p_known * law.p_return * law.height * wp.cw_mul(unblocked, wp.cw_mul(known, noise))
@@ -274,13 +274,13 @@ def density_of(law: SensorLaw32, reading: Lanes, decay: Lanes, distance: Lanes, 
 
 @wp.func
 def stopped_blocks_at(passing: int) -> int:
-    """Return where the blocks of stopped beams begin in a cell's room: behind those of its passing beams."""
+    """Return where a cell's blocks of stopped beams begin, relative to its first lane: after the passing beams."""
     return PRODUCTS + OF_PASSING * blocks_of(passing)
 
 
 @wp.func
 def put_line(blocks: LaneBlocks, row: int, at: int, numbers: int, i: int, passing: wp.vec3) -> int:
-    """Put the line of the i-th beam into the blocks at ``at``, which hold so many ``numbers``; returns its place."""
+    """Put the line of beam i into the blocks at ``at``, with ``numbers`` per beam. Returns the index of its first."""
     first = (at + numbers * (i // WIDTH)) * WIDTH + i % WIDTH
     blocks.numbers[row, first] = passing[0]
     blocks.numbers[row, first + WIDTH] = passing[1]
@@ -305,17 +305,19 @@ def put_stopped(
 def put_in_blocks(
     blocks: LaneBlocks, row: int, u: int, rays: TracedRays, endpoints: EndpointCells, listed: Listed
 ) -> int:
-    """Put a cell's listed beams into its blocks: all that pass it, and the stopped beams that can have a lane.
+    """Put a cell's listed beams into its blocks: all passing beams, and the stopped beams that lanes can compute.
 
-    The others, with typed readings or with ends that are not near, go to the head of the list of stopped beams. Returns
+    Stopped beams with typed readings, or with stops before the near entries, move to the head of their list. Returns
     their number.
     """
+    # Passing beams, and beams far away that fill the last block.
     passing = listed.passing_end - listed.passing_begin
     passing_at = blocks.begin[u] + PRODUCTS
     for i in range(passing):
         put_line(blocks, row, passing_at, OF_PASSING, i, endpoints.passing[listed.entries[listed.passing_begin + i]])
     for i in range(passing, WIDTH * blocks_of(passing)):
         put_line(blocks, row, passing_at, OF_PASSING, i, wp.vec3(AWAY, wp.float32(0.0), wp.float32(1.0)))
+    # Stopped beams, and beams that do not count.
     at = blocks.begin[u] + stopped_blocks_at(passing)
     others = int(0)
     put = int(0)
@@ -339,7 +341,7 @@ def put_in_blocks(
 
 @wp.func
 def log_of_product(blocks: LaneBlocks, row: int, begin: int) -> wp.float64:
-    """Return the log of the product of all lanes at ``begin``; UNKNOWN if one has been too small for a number."""
+    """Return the log of the product of all lanes at ``begin``; UNKNOWN if one of them was too small."""
     if wp.min(blocks.lanes[row, begin + 1]) < SMALLEST:
         return UNKNOWN
     product = wp.float64(1.0)
@@ -354,10 +356,10 @@ def log_stops_in_lanes(
     law: SensorLaw32, blocks: LaneBlocks, row: int, u: int, beams: wp.vec2i, centre: wp.vec2, cell: Cell,
     least: wp.float64,
 ) -> wp.float64:  # fmt: skip
-    """Compute `log_stops` of the beams in blocks, ``beams`` passing and stopped; UNKNOWN where a product was too small.
+    """Compute `log_stops` of the beams in blocks; UNKNOWN if a product was too small.
 
-    The product and the smallest product so far are stored in every round, because compilers vectorise eight lanes where
-    they are stored together.
+    ``beams`` are the numbers of passing and of stopped beams. The product and the smallest product so far are stored in
+    every round, because compilers vectorise eight lanes that are stored together.
     """
     begin = blocks.begin[u]
     one = Lanes(wp.float32(1.0))
@@ -373,6 +375,7 @@ def log_stops_in_lanes(
     total = wp.float64(beams[1]) * wp.log(wp.float64(wp.max(m, LEAST)) * wp.float64(law.peak))
     area = l11 * l22
     per_peak = wp.float32(1.0) / law.peak
+    # Stopped beams: the arithmetic of `cross_at` and `stop_density`; i: block; at: its first lane.
     for chunk in range(0, stopped_blocks, CHUNK):
         product = one
         smallest = one
@@ -408,6 +411,7 @@ def log_stops_in_lanes(
     if total < least:
         return total
 
+    # Passing beams: the arithmetic of `crossing_probability`; i: block; place: its first lane.
     for chunk in range(0, passing_blocks, CHUNK):
         passed = one
         lowest = one

@@ -1,8 +1,8 @@
-"""Update the cells in which readings end: all of a sweep's work on such a cell.
+"""Update the cells in which readings end: all of a sweep's work on these cells.
 
-Such a cell knows its incidences. Given where the beams stopped, it counts the beams that met its surface and went on.
-Then labels are drawn, if cells have labels, and the cell draws its reflectivity. Then reflectivity and surface move
-together by a few Metropolis steps, which do not depend on the counts (`bayesmap.kernels.surfaces.endpoint_beams`).
+Each such cell has a list of its incidences. Given where the beams stopped, it counts the beams that met its surface and
+went on. Then labels are drawn, if cells have labels, and the cell draws its reflectivity. Then reflectivity and surface
+move together by a few Metropolis steps, which do not use the counts (`bayesmap.kernels.surfaces.endpoint_beams`).
 
 The beams hardly determine where *along* a wall a surface lies and how far it extends, as long as it fills its cell.
 They determine its place and its thickness *across* the wall to millimetres. So each cell has a frame whose first axis
@@ -10,9 +10,9 @@ points along its wall (`bayesmap.samplers.initial_estimate`), and steps have a s
 this frame. A cell in its frame is a `Cell` with the mean along and across, from the cell's centre, and the Cholesky
 factor of the covariance in these axes.
 
-A row of step sizes holds: sizes for logit m, mean along, mean across, log l11, l21, log l22, and the frame's cosine and
-sine. Frame and sizes are fixed beforehand, by where readings end. They may not depend on the cell that a step changes:
-the reverse step would have another size.
+A row of step sizes holds the sizes for logit m, mean along, mean across, log l11, l21 and log l22, and the frame's
+cosine and sine. Frame and sizes are fixed beforehand, by where readings end. They may not depend on the state that a
+step changes: the reverse step would have another size.
 """
 
 import warp as wp
@@ -61,11 +61,11 @@ from bayesmap.kernels.surfaces.stops import ChainArrays, TracedRays
 wp.set_module_options({"enable_backward": False})
 
 COSINE, SINE = 6, 7
-SHORT = wp.constant(wp.float32(0.3))
+SHORT = wp.constant(wp.float32(0.3))  # size of short steps, relative to the others
 LEAST_M = wp.constant(wp.float64(1.0e-30))
 MOST_M = wp.constant(wp.float64(1.0 - 1.0e-7))
-"""Beyond these logit m takes no step, neither there nor back: single precision could not undo it."""
-THINNEST = wp.constant(wp.float32(1.0e-12))  # variance that rounding must not take away, square metres
+"""Range of m within which logit m takes steps: beyond it, single precision could not reverse a step."""
+THINNEST = wp.constant(wp.float32(1.0e-12))  # least variance after rounding, square metres
 
 
 @wp.func
@@ -109,8 +109,8 @@ def out_of_frame(cell: Cell, step: Cell, centre: wp.vec2) -> Cell:
 def stepped(cell: Cell, step: Cell, key: wp.uint64, at: wp.uint64, i: int) -> Cell:
     """Return the cell, in its frame, moved by a random step, half of the time a short one.
 
-    Even steps change the numbers that beams hardly determine (logit m, mean along, size: a wide surface that stops few
-    beams looks like a small one that stops many), odd steps the others (mean across, slope, thickness).
+    Even steps i change logit m, mean along and size, which beams hardly determine: a wide surface that stops few beams
+    looks like a small one that stops many. Odd steps change mean across, slope and thickness.
     """
     size = wp.where(random_bits(key, at) & wp.uint64(1) == wp.uint64(0), SHORT, wp.float32(1.0))
     one = wp.float64(1.0)
@@ -135,10 +135,10 @@ def stepped(cell: Cell, step: Cell, key: wp.uint64, at: wp.uint64, i: int) -> Ce
 STEPS = 6
 """Metropolis steps of a surface in each sweep."""
 MOST_STEPS = 24
-"""As many as a cell has counters of random numbers for."""
-NO_LEAST = wp.constant(wp.float64(-1.0e300))
+"""Most steps in a sweep: a cell has random counters for this many."""
+NO_LEAST = wp.constant(wp.float64(-1.0e300))  # below every log joint: sums are finished
 AT_STEP = wp.constant(wp.uint64(32))
-"""Counters of a step of a cell's surface, of the part SURFACES."""
+"""Random counters per step of a cell's surface, part SURFACES."""
 
 
 @wp.func
@@ -150,7 +150,7 @@ def log_cell_prior(prior: PriorNumbers, solid: wp.uint8, cell: Cell) -> wp.float
 
 @wp.struct
 class BeamLists:
-    """Room for each chain's lists of incidences, a row a chain.
+    """Working memory for lists of incidences, one row per chain.
 
     The list of a cell begins with its ``passes[chain, u]`` passing beams, and ends with the beams that it stops.
     """
@@ -161,7 +161,7 @@ class BeamLists:
 
 @wp.func
 def listed_of(lists: BeamLists, chain: int, u: int, begin: int, end: int, hits: int) -> Listed:
-    """Return a cell's listed incidences; it has those from ``begin`` to ``end``, and stops ``hits`` beams."""
+    """Return the lists of a cell that has the incidences from ``begin`` to ``end`` and stops ``hits`` beams."""
     listed = Listed()
     listed.entries = lists.entries[chain]
     listed.passing_begin = begin
@@ -173,7 +173,7 @@ def listed_of(lists: BeamLists, chain: int, u: int, begin: int, end: int, hits: 
 
 @wp.func
 def listed_until(listed: Listed, passing_end: int, stopped_end: int) -> Listed:
-    """Return the first of some listed incidences."""
+    """Return the lists of passing and stopped beams, cut off at these ends."""
     rest = Listed()
     rest.entries = listed.entries
     rest.passing_begin = listed.passing_begin
@@ -188,7 +188,10 @@ def log_beams(
     law: SensorLaw32, beta: wp.float32, rays: TracedRays, endpoints: EndpointCells, blocks: LaneBlocks, row: int,
     u: int, listed: Listed, others: int, centre: wp.vec2, cell: Cell, least: wp.float64,
 ) -> wp.float64:  # fmt: skip
-    """Compute `log_stops` of the beams in blocks and of ``others``, the first of the stopped; -1: no blocks."""
+    """Compute `log_stops` of a cell's beams: in lanes as far as possible, the rest one by one.
+
+    ``others`` is the number of stopped beams that are not in blocks, the first of their list; -1 without blocks.
+    """
     passing_end = listed.passing_end
     stopped_end = listed.stopped_end
     total = wp.float64(0.0)
@@ -214,6 +217,7 @@ def count_endpoint_cells(
 
     ``last_hits`` counts the beams that stopped, ``last_met`` the passing beams that met the surface.
     """
+    # u: number of the endpoint cell; c: cell of the grid; here: cell in the arrays of all chains; e: incidence.
     i_cell = first + wp.tid()
     chain = i_cell // endpoints.cell.shape[0]
     u = i_cell - chain * endpoints.cell.shape[0]
@@ -230,6 +234,7 @@ def count_endpoint_cells(
     dy = cell[MEAN_Y] - centre[1]
     begin = endpoints.offsets[u]
     end = endpoints.offsets[u + 1]
+    # List passing beams from the front, stopped beams from the back.
     passed = begin
     stopped = end
     for e in range(begin, end):
@@ -241,6 +246,7 @@ def count_endpoint_cells(
         elif k == stop:
             stopped = stopped - 1
             entries[stopped] = e
+    # Draw which passing beams met the surface.
     n_met = int(0)
     for i in range(begin, passed):
         e = entries[i]
@@ -257,7 +263,8 @@ def update_endpoint_cells(
     first: int, part: int, sweep: int, steps: int, law: SensorLaw32, prior: PriorNumbers, rays: TracedRays,
     endpoints: EndpointCells, active: ActiveCells, state: ChainArrays, lists: BeamLists, blocks: LaneBlocks,
 ):  # fmt: skip
-    """One thread per chain's cell in which readings end: draw its reflectivity, then step both."""
+    """One thread per chain's cell in which readings end: draw its reflectivity, then step reflectivity and surface."""
+    # u: number of the endpoint cell; c: cell of the grid; here: cell in the arrays of all chains.
     i_cell = first + wp.tid()
     chain = i_cell // endpoints.cell.shape[0]
     u = i_cell - chain * endpoints.cell.shape[0]
@@ -285,7 +292,7 @@ def update_endpoint_cells(
     present = wp.float64(0.0)
     candidate = framed
     moved = cell
-    for i in range(steps + 1):  # round 0 asks for the cell as it is: one call of a long function, not two
+    for i in range(steps + 1):  # round 0 computes the present log joint: the long function is called in one place
         least = NO_LEAST
         if i > 0:
             here_at = at + AT_STEP * wp.uint64(i)

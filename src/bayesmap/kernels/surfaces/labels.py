@@ -1,19 +1,19 @@
 r"""Draw a label for every cell of the grid, free or solid, given its four neighbours' labels and its own counts.
 
-With its reflectivity integrated out a cell that h beams of those that met its surface were stopped in, and n were not,
-has
+Let h be the beams that met a cell's surface and were stopped, and n the beams that met it and passed. With the
+reflectivity integrated out,
 
     p(solid | all others) / p(free | all others)
         = exp(coupling * (solid - free among its neighbours)) * r(a_solid, b_solid) / r(a, b),
     r(a, b) = B(a + h, b + n) / B(a, b)
 
-(a Beta-binomial). Its reflectivity is then drawn given the label and the counts (`cell_draws`,
-`endpoint_cells`): both together are a Gibbs step of the pair. Cells that learn nothing in a sweep keep their
-label and reflectivity. Those that no beam touches have no counts and no reflectivity, until beams may come to them:
-then it is drawn given the label (`draw_untouched`).
+(a Beta-binomial). The reflectivity is then drawn given the label and the counts (`cell_draws`, `endpoint_cells`). Both
+together are a Gibbs step of the pair. Cells that learn nothing in a sweep keep their label and reflectivity. Cells that
+no beam touches have no counts. Their reflectivity is drawn given the label (`draw_untouched`) only when beams may come
+to them.
 
-The grid is a checkerboard: the cells of one colour have all their neighbours in the other, so they can be drawn at once
-and in any order.
+The grid is a checkerboard: all neighbours of a cell have the other colour. So the cells of one colour can be drawn at
+once and in any order.
 """
 
 import math
@@ -33,13 +33,13 @@ from bayesmap.kernels.walls.chains import draw_wall, walls_less_free
 wp.set_module_options({"enable_backward": False})
 
 UNTOUCHED, TOUCHED, COUNTED = 0, 1, 2
-"""Knowledge of a cell: no beam touches it; beams touch it; or a kernel of its own has counted its beams before."""
+"""Knowledge of a cell: no beam touches it; beams touch it; or `endpoint_cells` has counted its beams before."""
 
 AT_LABEL = wp.constant(wp.uint64(800))
-AT_UNTOUCHED = wp.constant(wp.uint64(832))  # of the counters of a cell in a sweep
+AT_UNTOUCHED = wp.constant(wp.uint64(832))  # random counters of a cell in a sweep
 
 HALF_LOG_TWO_PI = wp.constant(wp.float64(0.5 * math.log(2.0 * math.pi)))
-LARGE = wp.constant(wp.float64(10.0))
+LARGE = wp.constant(wp.float64(10.0))  # argument from which Stirling's series is used
 STIRLING_1, STIRLING_3, STIRLING_5 = (wp.constant(wp.float64(c)) for c in (1 / 12, -1 / 360, 1 / 1260))
 STIRLING_7, STIRLING_9, STIRLING_11 = (wp.constant(wp.float64(c)) for c in (-1 / 1680, 1 / 1188, -691 / 360360))
 
@@ -77,7 +77,8 @@ def log_beta(a: wp.float64, b: wp.float64) -> wp.float64:
 def draw_labels(
     first: int, colour: int, sweep: int, nx: int, ny: int, prior: PriorNumbers, known: Uint8s, state: ChainArrays
 ):
-    """One thread per chain's cell: draw the label of a cell of the colour that is updated now or untouched."""
+    """One thread per chain's cell: draw its label, if it has the colour and is updated in this sweep or untouched."""
+    # c: cell of the grid; here: cell in the arrays of all chains; h: hits; n: beams that met the surface and passed.
     here = first + wp.tid()
     chain = here // state.n_cells
     cell_0 = chain * state.n_cells

@@ -1,29 +1,32 @@
 r"""Count the beams stopped inside each square of the grid, and the beams that pass it, for maps of surfaces.
 
-A surface need not lie in the square of the cell that it belongs to, and which of two neighbouring cells a piece of wall
-belongs to is a label. So a beam's stop is counted in the square that holds the point at which it was stopped. The beam
-passes the squares that it crosses before that point, and says nothing of the squares behind it. With S beams stopped in
-a square and P beams that pass it, the chance q that a beam which comes to the square is stopped inside it is drawn from
+A surface may extend beyond the square of its cell, and the assignment of a piece of wall to one of two neighbouring
+cells is arbitrary. So a beam's stop is counted in the square that holds the point at which it was stopped. The beam
+passes the squares that it crosses before that point. It does not count in the squares behind the point.
+
+Let S be the beams stopped in a square, P the beams that pass it, and q the chance that a beam which comes to the square
+is stopped inside it. Then
 
     q | stops ~ Beta(a + S, b + P)
 
-with a and b of the label of the square's own cell, where cells have labels. The labels are those of the map with which
-the sweep began, because a kept draw shows that map.
+If cells have labels, a and b are those of the label of the square's own cell. The labels are those of the map with
+which the sweep began, because a kept draw shows that map.
 
-The point at which a beam was stopped is drawn given its reading. For a beam that a surface stops at about t* with
-variance s^2 (`bayesmap.kernels.surfaces.cell`), the distance t of the point follows
+The point at which a beam was stopped is drawn given its reading. If a surface stops a beam at about t* with variance
+s^2 (`bayesmap.kernels.surfaces.cell`), the distance t of the point follows
 
     p(t | z) proportional to N(t; t*, s^2) p(z | t).
 
-In the mixture, either the reading z came back from there, with the sensor's variance sigma^2, and then
+In the mixture there are two cases. If the reading z returned from the point, with the sensor's variance sigma^2,
 
-    t | z ~ N((sigma^2 t* + s^2 z) / (sigma^2 + s^2), sigma^2 s^2 / (sigma^2 + s^2)),
+    t | z ~ N((sigma^2 t* + s^2 z) / (sigma^2 + s^2), sigma^2 s^2 / (sigma^2 + s^2)).
 
-or it is a passing object, a random reading or no return, and says nothing of the point: t ~ N(t*, s^2). The law of a
-sensor in a table has no such parts. There t is one of some candidates, chosen with weights p(t | z) / q(t) (sampling
-importance resampling, Rubin 1987). Half of the candidates lie at quantiles of the surface's law and half at quantiles
-of the law that the reading suggests, evenly spread and shifted together at random; q is the density of both halves
-together.
+Otherwise z is a passing object, a random reading or no return, and is independent of the point: t ~ N(t*, s^2).
+
+The law of a tabulated sensor has no such parts. There t is chosen from candidates with weights p(t | z) / q(t)
+(sampling importance resampling, Rubin 1987). Half of the candidates lie at quantiles of the surface's law, half at
+quantiles of the law that the reading suggests. They are evenly spread and share one random shift; q is the density of
+both halves together.
 """
 
 from typing import NamedTuple
@@ -46,12 +49,12 @@ from bayesmap.kernels.surfaces.stops import ChainArrays, TracedRays
 wp.set_module_options({"enable_backward": False})
 
 CANDIDATES, HALF, PER_HALF = wp.constant(32), wp.constant(16), wp.constant(wp.float64(1.0 / 16.0))
-"""The number of candidates, the number in each half, and one over the latter."""
+"""The number of candidates, the number in each half, and one over the number in each half."""
 LOGISTIC = wp.constant(wp.float64(0.6))
-"""Scale of the logistic distribution that stands for a standard normal one: its quantiles have a formula, and its tails
-are the longer ones."""
-LEAST_SPREAD = wp.constant(wp.float64(1.0e-12))  # square metres; of a thinner surface all points are one
-NEVER = wp.constant(wp.float64(-1.0e300))
+"""Scale of the logistic distribution that replaces a standard normal: it has a formula for quantiles, and longer
+tails."""
+LEAST_SPREAD = wp.constant(wp.float64(1.0e-12))  # square metres: a thinner surface counts as one point
+NEVER = wp.constant(wp.float64(-1.0e300))  # log weight of an impossible candidate
 
 
 @wp.func
@@ -88,7 +91,8 @@ def logistic_density(x: wp.float64, middle: wp.float64, scale: wp.float64) -> wp
 def point_by_table_m(
     law: SensorLaw32, reading: wp.float32, mean: wp.float64, spread: wp.float64, key: wp.uint64, counter: wp.uint64
 ) -> wp.float64:
-    """Draw the distance under a law in a table, metres, perhaps behind the beam's start."""
+    """Draw the distance under a tabulated law, metres; it may be negative."""
+    # Middle and scale of the two laws of candidates: the surface's, and the one that the reading suggests.
     one = wp.float64(1.0)
     scale = LOGISTIC * wp.sqrt(spread)
     near = mean
@@ -100,9 +104,8 @@ def point_by_table_m(
         near_scale = LOGISTIC * wp.sqrt(spread * sigma * sigma / total)
     shift = to_uniform(random_bits(key, counter))
     target = to_uniform(random_bits(key, counter + wp.uint64(1)))
-    # Weights are added up on the scale of the largest one so far; each candidate takes the place of the chosen one with
-    # the probability that it has among those up to it. One uniform number serves all of these choices: what it says of
-    # one is taken out before the next.
+    # Weights are summed relative to the largest so far. Each candidate replaces the chosen one with its share of the
+    # weights so far. One uniform number serves all choices: it is rescaled to be uniform again after each.
     chosen = mean
     most = NEVER
     total_weight = wp.float64(0.0)
@@ -137,27 +140,28 @@ def point_by_table_m(
     return chosen
 
 
-AT_SQUARE = wp.constant(wp.uint64(640))  # of the counters of a cell in a sweep
-STREAM_POINT = wp.constant(wp.uint64(5 << 32))
+AT_SQUARE = wp.constant(wp.uint64(640))  # random counter of a cell in a sweep
+STREAM_POINT = wp.constant(wp.uint64(5 << 32))  # first random counter of the points of beams
 
 
 @wp.struct
 class SquareArrays:
     """The squares of the grid: counts of one chain's beams for each, and the chances drawn for each touched square."""
 
-    touched: Int32s  # their cells, flat
+    touched: Int32s  # cells of the touched squares, flat
     crossings: Int32s  # beams that cross the square
     stopped: Int32s  # beams stopped inside it
     behind: Int32s  # beams stopped before it
-    drawn: Float32s
-    expected: Float32s
+    drawn: Float32s  # chance q drawn for each touched square
+    expected: Float32s  # mean of q given the counts
 
 
 @wp.kernel
 def count_in_squares(
     chain: int, sweep: int, law: SensorLaw32, lines: Lines, rays: TracedRays, state: ChainArrays, squares: SquareArrays
 ):
-    """One thread per beam of a chain: add one to the square in which it was stopped, and to each that lies behind."""
+    """One thread per beam of a chain: count it in the square in which it was stopped, and in each square behind."""
+    # b: beam; i: beam in the arrays of all chains; k: entry, from the last one back to the stop.
     b = wp.tid()
     i = chain * state.n_beams + b
     begin = rays.offsets[b]
@@ -204,7 +208,7 @@ def draw_stop_chances(
 
 
 class InSquares(NamedTuple):
-    """The beams of each touched cell's square, (T,) each: stopped in it, passing it, chance of a stop, and its mean."""
+    """Counts of each touched square, (T,) each: beams stopped, beams passed, chance of a stop drawn, and its mean."""
 
     stopped: Ints
     passed: Ints
@@ -213,7 +217,7 @@ class InSquares(NamedTuple):
 
 
 class Squares:
-    """Room for each chain's counts, and the beams' lines, on a device."""
+    """Working memory for each chain's counts, and the lines of beams, on a device."""
 
     def __init__(self, rays: Rays, chains: int, device: str) -> None:
         self._rays, self._device = rays, device
@@ -235,8 +239,8 @@ class Squares:
     ) -> InSquares:  # fmt: skip
         """Count a chain's stops in a sweep that drew them, and draw the chances given the counts.
 
-        ``state.observed_counts`` counts this draw if it is ``kept``. ``solid`` are the labels of all cells when the
-        sweep began, (N,); those that the chain has now if None.
+        ``state.observed_counts`` counts this draw if it is ``kept``. ``solid`` holds the labels of all cells when the
+        sweep began, (N,); if None, the chain's present labels.
         """
         squares = self._squares[chain]
         squares.stopped.zero_()

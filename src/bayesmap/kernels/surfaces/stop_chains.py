@@ -1,11 +1,10 @@
-"""Chains of reflectivities and surfaces on a device, and their sweeps: name candidates, draw stops, draw labels and
-update cells.
+"""Chains of reflectivities and surfaces on a device, and their sweeps: draw candidates, stops and labels, and update
+cells.
 
-All chains stand in the same arrays. On a GPU each kernel is launched once for all of them, with a thread for each
-chain's cell or beam, and counts are atomic. On the CPU a chain is a task of its own from its first sweep to its last;
-where there are more threads than chains, its beams are cut into parts, one a thread, each with counts of its own.
-Counts are whole numbers, and sums of floating-point numbers are over slices of fixed size: the result depends on
-neither threads nor chains beside it.
+All chains share arrays. On a GPU each kernel is launched once for all chains, with one thread per chain's cell or beam,
+and counts are atomic. On the CPU each chain is one task from its first sweep to its last. If there are more threads
+than chains, a chain's beams are divided into parts, one per thread, each with its own counts. Counts are integers, and
+floating-point sums run over slices of fixed size. So the result does not depend on threads or on other chains.
 """
 
 from collections.abc import Callable, Iterator, Sequence
@@ -48,7 +47,7 @@ from bayesmap.kernels.surfaces.stops import (
 )
 from bayesmap.sensors.model import SensorModel
 
-STATE_SIZE = 6  # of a Cell's eight numbers: the others are no part of a state
+STATE_SIZE = 6  # numbers of a `Cell` that belong to its state; the other two do not
 KERNELS = (
     begin_sweep, pass_lazy_cells, draw_stops, count_endpoint_cells, draw_labels, draw_untouched, update_free_cells,
     update_endpoint_cells, count_in_squares, draw_stop_chances,
@@ -67,12 +66,13 @@ class Plan:
     """The parts that the sweeps of all chains share.
 
     Attributes:
-        rays: with flat indices of the grid's cells.
-        periods: update period of each touched cell, in sweeps; 0 where readings end: every sweep updates them, (T,).
+        rays: the beams, with flat indices of the grid's cells.
+        periods: update period of each touched cell, in sweeps, (T,); 0 for cells in which readings end: every sweep
+            updates them.
         endpoints: the cells in which readings end, flat, ascending, (U,).
         steps: sizes and frames of these cells' steps, (U, 8).
-        distance_m: where a beam stops in each cell, if cells have no surfaces, (K,).
-        device: where it is.
+        distance_m: distance of a stop at each entry, if cells have no surfaces, (K,).
+        device: the device of the chains.
     """
 
     rays: Rays
@@ -95,10 +95,10 @@ class StopChains:
         self, plan: Plan, states: Callable[[int], Singles], keys: Sequence[int], *, threads: int | None,
         counts: Ints | None = None, observed_counts: Ints | None = None, solid: NDArray[np.bool_] | None = None,
     ) -> None:  # fmt: skip
-        """Put chains on the device, one for each key.
+        """Put chains on the device, one per key.
 
-        ``states`` gives the cells at which a chain stands, (N, 6), and ``solid`` their labels, (C, N), if they have
-        any; ``counts`` (C, 2, N) and ``observed_counts`` (C, N, 2) are those of chains that go on.
+        ``states`` returns the cells of a chain, (N, 6); ``solid`` holds their labels, (C, N), if they have any.
+        ``counts`` (C, 2, N) and ``observed_counts`` (C, N, 2) are those of chains that continue.
         """
         self.plan, device = plan, plan.device
         self.device, self.without_surfaces, self.n_chains = device, int(plan.distance_m is not None), len(keys)
@@ -118,6 +118,7 @@ class StopChains:
         self._packed: tuple[Any, Any] | None = None
         self._squares = None if self.without_surfaces else Squares(plan.rays, chains, device)
 
+        # The state of all chains, with labels and counts from the host if given.
         empty = partial(wp.zeros, device=device)
         parts = max(1, -(-self.threads // chains))
         full = partial(wp.full, chains * cells, device=device)
@@ -135,7 +136,7 @@ class StopChains:
         state.candidates = empty(1 if self.without_surfaces else chains * cells, dtype=Cell)
         state.met, state.hits = (empty((chains * parts, cells), dtype=wp.int32) for _ in range(2))
         state.gain = empty((chains * parts, cells), dtype=wp.int64)
-        state.stop = wp.full(chains * beams, -1, dtype=wp.int32, device=device)  # nothing is known before a sweep
+        state.stop = wp.full(chains * beams, -1, dtype=wp.int32, device=device)  # unknown before the first sweep
         state.where = empty(chains * beams, dtype=wp.vec2)
         state.stopped_in = full(-1, dtype=wp.int32)
         state.log_likelihood, state.lazy_free = (empty(chains * beams, dtype=wp.float32) for _ in range(2))
@@ -144,13 +145,14 @@ class StopChains:
         self._state = state
         for chain in range(chains):
             self.put_cells(chain, states(chain))
+        # Working memory of the kernels.
         self._lists = devices.pack(
             BeamLists, device, entries=empty((chains, self._endpoints.entry.shape[0]), dtype=wp.int32),
             passes=empty((chains, len(plan.endpoints)), dtype=wp.int32),
         )  # fmt: skip
         self._blocks = room_for_blocks(self._endpoints, chains * parts, device)
         self._log_priors = empty(chains * touched, dtype=wp.float32)
-        slices = (-(-max(size, 1) // SLICE) for size in (beams, touched, cells))  # of labels zero where there are none
+        slices = (-(-max(size, 1) // SLICE) for size in (beams, touched, cells))  # label slices may stay zero
         self._slices = [empty((chains, count), dtype=wp.float64) for count in slices]
 
     def sweeps(
@@ -162,16 +164,16 @@ class StopChains:
 
         Args:
             first: number of the first sweep.
-            count: how many.
+            count: number of sweeps.
             sensor: the law of the readings.
-            prior: of the cells.
+            prior: prior of the cells.
             beta: inverse temperature.
-            steps: Metropolis steps of a surface in a sweep, at most `endpoint_cells.MOST_STEPS`; with
-                0 beams draw where they stop, and cells do nothing.
+            steps: Metropolis steps of a surface in a sweep, at most `endpoint_cells.MOST_STEPS`. With 0, stops are
+                drawn, and cells stay.
             observing_after: the first sweep that counts the cells which beams observe; none if None. With surfaces
                 `in_squares` counts them.
-            before: called with the chain and the number of each sweep before it.
-            after: called after each sweep with the same arguments, by the thread that ran the sweep.
+            before: callback before each sweep, with the numbers of chain and sweep.
+            after: callback after each sweep with the same arguments, on the thread that ran the sweep.
 
         Returns:
             log-likelihood and log prior of the cells as they were *before* each sweep, (chains, count) each.
@@ -280,7 +282,7 @@ class StopChains:
         return self._of(self._state.cells, chain)[:, :STATE_SIZE]
 
     def put_cells(self, chain: int, states: Singles, solid: NDArray[np.bool_] | None = None) -> None:
-        """Let a chain go on from other cells, (N, 6), and labels, (N,), if cells have labels."""
+        """Replace the cells of a chain, (N, 6), and their labels, (N,), if cells have labels."""
         here = slice(chain * self._state.n_cells, (chain + 1) * self._state.n_cells)
         wp.copy(self._state.cells[here], cells_to_device(states, self.device))
         if solid is not None:
@@ -294,7 +296,7 @@ class StopChains:
     def draw_untouched(self, sweep: int) -> None:
         """Draw the reflectivities of cells that no beam touches given their labels, before the sweep with this number.
 
-        No sweep does so: these cells matter only when beams may come to them.
+        Sweeps do not draw them: these cells matter only when beams may come to them.
         """
         assert self._packed is not None, "no sweep has been made"
         size = self.n_chains * self._state.n_cells
@@ -303,8 +305,8 @@ class StopChains:
     def counted(self, chain: int) -> tuple[Ints, Ints]:
         """Return the beams that each cell of a chain stopped, and those that met its surface and passed, (N,) each.
 
-        Both are of the sweep in which the cell last drew its reflectivity, -1 met if none, and valid until the next
-        sweep.
+        The counts are those of the sweep in which the cell last drew its reflectivity; before that, met is -1. They are
+        valid until the next sweep.
         """
         return self._of(self._state.last_hits, chain), self._of(self._state.last_met, chain)
 
@@ -314,9 +316,9 @@ class StopChains:
         return self._packed is not None
 
     def in_squares(self, chain: int, sweep: int, kept: bool, solid: NDArray[np.bool_] | None = None) -> InSquares:
-        """Count the stops of a chain with surfaces by squares, after the sweep with this number, its last.
+        """Count the stops of a chain with surfaces in each square, after its last sweep, which has this number.
 
-        If ``kept``, `observed_counts` counts the draw. ``solid`` are the labels before the sweep, (N,), if cells have
+        If ``kept``, `observed_counts` counts the draw. ``solid`` holds the labels before the sweep, (N,), if cells have
         labels.
         """
         assert self._squares is not None, "cells without surfaces stop beams inside their own squares"

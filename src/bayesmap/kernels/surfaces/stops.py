@@ -1,28 +1,29 @@
 """The first half of a sweep: draw where every beam stops, given the cells.
 
 A beam walks its cells in order. In each cell it meets the surface with chance g, and is then stopped with probability
-m. With a = m g it stops there with probability T a, T being the product of 1 - a over the cells before. The posterior
-probability of this stop is proportional to T a p(z | stop). Far before the reading, p(z | stop) is the constant density
-of a random reading, and the sum over those cells is that density times (1 - T): each costs one multiplication.
+m. Let a = m g, and let T be the product of 1 - a over the cells before. The beam stops in the cell with probability
+T a. The posterior probability of this stop is proportional to T a p(z | stop). Far before the reading, p(z | stop) is
+the constant density of a random reading. The sum over those cells is this density times (1 - T), so each cell costs one
+multiplication.
 
 A cell that a beam passes learns one of two things. In most sweeps it learns whether the beam *met* the surface without
-being stopped, which given that it passed has probability g (1 - m) / (1 - a). The beams that met the surface and those
-that were stopped make the Beta of the reflectivity. In sweeps that try a candidate for its surface it learns
-log (1 - m g') / (1 - m g), the beam's part of the Metropolis ratio. Both are added up in whole numbers, so that the
-result does not depend on the order of beams.
+being stopped. Given that the beam passed, this has probability g (1 - m) / (1 - a). The counts of beams that met the
+surface and of beams that were stopped are the counts of the reflectivity's Beta. In sweeps that try a candidate for its
+surface, the cell learns log (1 - m g') / (1 - m g), the beam's part of the Metropolis ratio. Both are summed as
+integers, so that the result does not depend on the order of beams.
 
-Most cells are free, and hundreds of beams say so in every sweep. Such a cell is updated *lazily*: only in some sweeps,
-and all lazy cells in the same ones. In the other sweeps it keeps its reflectivity, and its surface changes nothing that
-matters. So the product over a beam's lazy cells far before its reading,
+Most cells are free, with evidence of hundreds of beams in every sweep. These cells are updated *lazily*: in a few
+sweeps only, all lazy cells in the same sweeps. In the other sweeps their reflectivity stays, and changes of their
+surface have no noticeable effect. So the product over a beam's lazy cells far before its reading,
 
     prod over lazy far cells (1 - m g),
 
-is computed once after each update (`pass_lazy_cells`). The other far cells, those in which readings end or that few
-beams pass, are *watched*: each sweep walks them. A lazy cell whose reflectivity is below single precision does not
-change T, and is skipped without a look at its surface.
+is computed once after each update (`pass_lazy_cells`). The other far cells are *watched*: every sweep walks them. In
+these cells readings end, or few beams pass. A lazy cell whose reflectivity is below single precision does not change T,
+and is skipped.
 
-At an inverse temperature beta the law of the reading is p(z | stop)^beta; where beams stop given the cells is not
-tempered. For walls, 0 or 1, that is the likelihood to the power of beta.
+At an inverse temperature beta the law of the reading is p(z | stop)^beta; the law of stops given the cells is not
+tempered. For walls, 0 or 1, this is the likelihood to the power of beta.
 """
 
 from typing import Any
@@ -56,17 +57,17 @@ from bayesmap.kernels.surfaces.cell import (
 
 wp.set_module_options({"enable_backward": False})
 
-GAIN_UNITS = 1 << 24
+GAIN_UNITS = 1 << 24  # units of `ChainArrays.gain` per nat
 TO_UNITS = wp.constant(wp.float32(GAIN_UNITS))
-LEAST = wp.constant(wp.float32(1.0e-30))
-TO_UNIT_24 = wp.constant(wp.float32(1.0 / (1 << 24)))
+LEAST = wp.constant(wp.float32(1.0e-30))  # smaller factors are raised to this before a logarithm
+TO_UNIT_24 = wp.constant(wp.float32(1.0 / (1 << 24)))  # from 24 random bits to a number in [0, 1)
 
 FAR = wp.constant(-1)  # a stop before the near entries
-LEARNS = wp.constant(wp.float32(-1.0))
-CLEAR = wp.constant(wp.float32(2.0**-26))  # 1 - m is 1 in single precision
-NEGLIGIBLE = wp.constant(wp.float32(2.0**-26))
+LEARNS = wp.constant(wp.float32(-1.0))  # in `ChainArrays.fixed_m`: the cell counts beams in this sweep
+CLEAR = wp.constant(wp.float32(2.0**-26))  # for smaller m, 1 - m is 1 in single precision
+NEGLIGIBLE = wp.constant(wp.float32(2.0**-26))  # relative weight below single precision
 
-# Counters of a sweep's random numbers: one for each purpose and entry or beam.
+# First random counters of a sweep, one per purpose; the entry or beam is added.
 STREAM_CHOICE = wp.constant(wp.uint64(1 << 32))
 STREAM_END = wp.constant(wp.uint64(2 << 32))
 STREAM_FAR = wp.constant(wp.uint64(3 << 32))
@@ -74,9 +75,9 @@ STREAM_FAR = wp.constant(wp.uint64(3 << 32))
 
 @wp.struct
 class TracedRays:
-    """`Rays` on a device; ``without_surfaces`` says that cells have no surfaces, and stop beams at ``distance_m``."""
+    """`Rays` on a device."""
 
-    without_surfaces: int
+    without_surfaces: int  # 1 if cells have no surfaces, and stop beams at ``distance_m``
     offsets: Int32s
     cells: Int32s
     distance_m: Float32s
@@ -85,15 +86,15 @@ class TracedRays:
     direction: wp.array(dtype=wp.vec2)
     range_m: Float32s
     decay: Float32s  # see `decay_of_readings`
-    watched_offsets: Int32s  # of each beam, in `watched`
+    watched_offsets: Int32s  # first element of each beam in ``watched``
     watched: Int32s  # far entries whose cells are not lazy
 
 
 def traced_rays_to_device(rays: Rays, distance_m: Singles | None, device: str, cells: Ints | None = None) -> Any:
-    """Put rays where kernels read them.
+    """Put rays on a device.
 
-    ``distance_m`` is where a beam stops in each cell, if cells have no surfaces, (K,); ``cells`` are other numbers of
-    the cells than their places in the grid, (K,).
+    ``distance_m`` is the distance of a stop at each entry, if cells have no surfaces, (K,). ``cells`` replaces the flat
+    indices of the entries' cells by other numbers, (K,).
     """
     return devices.pack(
         TracedRays, device, without_surfaces=int(distance_m is not None), offsets=rays.offsets,
@@ -112,23 +113,23 @@ class ChainArrays:
 
     n_cells: int
     n_beams: int
-    parts: int  # of the beams, each counted by itself
+    parts: int  # parts of the beams, each with its own counts
     beta: wp.float32  # inverse temperature
-    keys: wp.array(dtype=wp.uint64)  # of each chain's random numbers
+    keys: wp.array(dtype=wp.uint64)  # key of each chain's random numbers
     cells: wp.array(dtype=Cell)
     solid: Uint8s  # labels; all zero where cells have none
     fixed_m: Float32s  # reflectivity of a cell that learns nothing in this sweep, else LEARNS
-    candidates: wp.array(dtype=Cell)  # for each cell's surface, while one is tried
+    candidates: wp.array(dtype=Cell)  # candidate for each cell's surface, while one is tried
     met: Int32Rows  # (chains * parts, n_cells): beams that met the surface and passed
     hits: Int32Rows  # beams that stopped
     gain: wp.array2d(dtype=wp.int64)  # log ratio for the candidate, in units of 2^-24 nats
     lazy_free: Float32s  # each beam's chance to pass its lazy far cells
-    stop: Int32s  # the entry at which the beam stopped, its end if nowhere
+    stop: Int32s  # the entry at which the beam stopped; the end of its entries if it stopped nowhere
     where: wp.array(dtype=wp.vec2)  # distance and variance of that stop
     stopped_in: Int32s  # the last sweep in which a cell stopped a beam
-    log_likelihood: Float32s  # of the beam's reading, summed over all stops
+    log_likelihood: Float32s  # log-likelihood of the beam's reading, summed over all stops
     last_hits: Int32s  # beams that stopped in a cell when it last drew its reflectivity
-    last_met: Int32s  # beams that met its surface then and passed; -1 before the first draw
+    last_met: Int32s  # beams that met its surface and passed at that draw; -1 before the first draw
     observed_counts: wp.array(dtype=wp.vec2i)  # draws in which some beam observes a cell, and draws inspected
 
 
@@ -154,7 +155,7 @@ def cross_cell(rays: TracedRays, k: int, cell: Cell, ray: Ray) -> Crossing:
 
 @wp.func
 def in_units(log_ratio: wp.float32) -> wp.int64:
-    """Return a logarithm as a whole number."""
+    """Return a logarithm in units of 1 / `GAIN_UNITS` nats, rounded."""
     return wp.int64(wp.round(wp.clamp(log_ratio, wp.float32(-1.0e6), wp.float32(1.0e6)) * TO_UNITS))
 
 
@@ -163,7 +164,8 @@ def pass_by(
     state: ChainArrays, chain: int, part: int, c: int, cell: Cell, g: wp.float32, ray: Ray, key: wp.uint64, k: int,
     sign: int,
 ):  # fmt: skip
-    """Count that a beam passed a cell; with sign -1 take the count back."""
+    """Count that a beam passed a cell; with sign -1, undo the count."""
+    # m: reflectivity; g, other: chances of meeting the cell's surface and its candidate; u: uniform number.
     one = wp.float32(1.0)
     m = cell[0]
     row = chain * state.parts + part
@@ -179,7 +181,7 @@ def pass_by(
 
 @wp.func
 def chance_at(rays: TracedRays, cell: Cell, ray: Ray) -> wp.float32:
-    """Return the chance of meeting a cell's surface: 1 where cells have no surfaces."""
+    """Return the chance of meeting a cell's surface; 1 if cells have no surfaces."""
     if rays.without_surfaces != 0:
         return wp.float32(1.0)
     return crossing_probability(cell, ray)
@@ -200,6 +202,7 @@ def draw_stops(
 
     ``lazy_updates`` is 1 in a sweep that updates lazy cells.
     """
+    # i: beam in the arrays of all chains; b: beam; k: entry; c: cell of the grid; m, g, a: see above; free: T.
     i = first + wp.tid()
     chain = i // state.n_beams
     b = i - chain * state.n_beams
@@ -219,6 +222,7 @@ def draw_stops(
         return
     ray = ray_from(rays.start_m[b], rays.direction[b])
 
+    # Far entries: multiply up T, and count passes in cells that learn.
     free = one
     far_begin = begin
     far_end = near
@@ -226,7 +230,7 @@ def draw_stops(
         free = state.lazy_free[i]
         far_begin = rays.watched_offsets[b]
         far_end = rays.watched_offsets[b + 1]
-    # Names of one loop are not used in another: Warp would carry them, and whole cells, from round to round.
+    # Each loop has its own names: Warp would carry shared ones, and whole cells, from round to round.
     for far in range(far_begin, far_end):
         k_far = far
         if lazy_updates == 0:
@@ -243,8 +247,8 @@ def draw_stops(
     total = wp.float64(tempered(law.uniform, state.beta)) * wp.float64(stopped_far)
     choice = FAR
 
-    # A stop whose weight is under single precision beside the others' is not weighed; all weights add up to at least
-    # that of the least likely stop.
+    # Near entries: choose a stop by weight. A stop is skipped if its weight is below single precision beside the total,
+    # which is at least the weight of the least likely stop.
     peak = tempered(highest_density(law, reading), state.beta)
     negligible = NEGLIGIBLE / peak
     bound = negligible * tempered(lowest_density(law, reading), state.beta)
@@ -270,16 +274,16 @@ def draw_stops(
             elif cell_near[0] > CLEAR:
                 free = free * (one - cell_near[0] * chance_at(rays, cell_near, ray))
             if free <= bound:
-                break  # the others have no weight, and behind a wall they are many
+                break  # further stops, often many behind a wall, have no weight
     nowhere = wp.float64(free * tempered(no_stop_density(law, reading, decay), state.beta))
     total += nowhere
     if to_uniform(random_bits(key, STREAM_END + wp.uint64(b))) * total < nowhere:
         choice = end
-        some_learn = 1  # perhaps behind where the walk ended
+        some_learn = 1  # perhaps a cell behind the end of the walk learns
     state.log_likelihood[i] = wp.float32(wp.log(wp.max(total, wp.float64(1.0e-300))))
 
     if choice == FAR:
-        # Rare. Find the cell, and take back what was counted in those from it on.
+        # Rare: find the far cell, and undo the counts from this cell on.
         target = wp.float32(to_uniform(random_bits(key, STREAM_FAR + wp.uint64(b)))) * stopped_far
         past = wp.float32(1.0)
         for k in range(begin, near):
@@ -291,6 +295,7 @@ def draw_stops(
                 choice = k
             if choice != FAR and state.fixed_m[cell_0 + c] < wp.float32(0.0):
                 pass_by(state, chain, part, c, cell, g, ray, key, k, -1)
+    # Count passes of near cells before the stop.
     for k_passed in range(near, wp.where(some_learn != 0, wp.min(choice, end), near)):
         c_passed = rays.cells[k_passed]
         if state.fixed_m[cell_0 + c_passed] < wp.float32(0.0):
@@ -298,6 +303,7 @@ def draw_stops(
             g_passed = chance_at(rays, cell_passed, ray)
             pass_by(state, chain, part, c_passed, cell_passed, g_passed, ray, key, k_passed, 1)
 
+    # Store the stop, and count it in its cell.
     state.stop[i] = choice
     if choice < end:
         c_stop = rays.cells[choice]
@@ -306,7 +312,7 @@ def draw_stops(
         state.where[i] = wp.vec2(stopped.distance_m, stopped.variance)
         state.stopped_in[cell_0 + c_stop] = sweep
         if state.fixed_m[cell_0 + c_stop] >= wp.float32(0.0):
-            return  # it counts no beams now, or has a kernel that does
+            return  # the cell does not count in this sweep, or `endpoint_cells` counts for it
         row = chain * state.parts + part
         wp.atomic_add(state.hits, row, c_stop, 1)
         if cell_stop[TRYING] != wp.float32(0.0):
@@ -320,19 +326,19 @@ def draw_stops(
 def hit_law(
     law: SensorLaw32, beta: wp.float32, k: int, near: int, reading: wp.float32, decay: wp.float32, met: Crossing
 ) -> wp.float32:
-    """Return p(z | stop)^beta at entry k: that of a random reading at entries that are not near."""
+    """Return p(z | stop)^beta at entry k; before the near entries, the density of a random reading."""
     if k < near:
         return tempered(law.uniform, beta)
     return tempered(stop_density(law, reading, decay, met.distance_m, met.variance), beta)
 
 
 OFTEN = 2
-"""Cells with an update period of so many sweeps or fewer are watched."""
+"""Longest update period of watched cells, in sweeps."""
 
 
 @wp.kernel
 def pass_lazy_cells(first: int, lazy: Uint8s, rays: TracedRays, state: ChainArrays):
-    """One thread per chain's beam: compute the product above, over the cells that ``lazy`` marks."""
+    """One thread per chain's beam: compute the product above over the far cells that ``lazy`` marks."""
     i = first + wp.tid()
     chain = i // state.n_beams
     b = i - chain * state.n_beams
@@ -351,7 +357,7 @@ class UpdateSchedule:
     """Update schedule: cells that most sweeps skip, and the sweeps that update them."""
 
     def __init__(self, rays: Rays, periods: NDArray[np.uint8]) -> None:
-        """``periods`` are those of `bayesmap.kernels.surfaces.stop_chains.Plan`, (T,)."""
+        """Select the lazy cells by ``periods``, see `bayesmap.kernels.surfaces.stop_chains.Plan`, (T,)."""
         self._periods = [int(period) for period in np.unique(periods[periods > OFTEN])]
         self._lazy = np.zeros(rays.grid.n_cells, dtype=np.bool_)
         self._lazy[rays.touched[periods > OFTEN]] = True
@@ -362,7 +368,7 @@ class UpdateSchedule:
         return any(sweep % period == 0 for period in self._periods)
 
     def mark_watched(self, on_device: TracedRays, device: str) -> Any:
-        """Mark the watched far entries of the rays on a device. Returns the marks of the lazy cells on it."""
+        """List the watched far entries in the rays on a device. Returns the mask of lazy cells, on the device."""
         rays = self._rays
         watched = np.flatnonzero(~self._lazy[rays.cells])
         beam = np.searchsorted(rays.offsets, watched, side="right") - 1

@@ -1,15 +1,15 @@
 """2 x 2 block Gibbs sweeps on binary walls.
 
-A sweep draws the four cells of a block together, from their 16 joint states given all other cells. Blocks overlap: one
-stands at every position of the grid, so every pair of neighbours is drawn together in some block. Such a step moves a
-wall sideways. Single cells cannot do that where free space is likely and a beam insists on a wall.
+A sweep draws the four cells of a block together, from their 16 joint states given all other cells. Blocks overlap:
+there is one at every position of the grid, so every pair of neighbours is drawn together in some block. Such a step can
+move a wall sideways. Single cells cannot, if free space is likely and a beam needs a wall.
 
-For each beam that reaches the block, let l_1, l_2, ... be the log-likelihoods of its hits on the block's cells in the
-order in which it meets them, before the first wall outside the block, and l_out that of the wall behind (or of
-"no hit"). A state is worth l_j for the first j that is a wall in it, else l_out; l_out is the same for all 16.
+Take a beam that reaches the block. Let l_1, l_2, ... be the log-likelihoods of its hits on the block's cells, in the
+order of the beam, before the first wall outside the block. Let l_out be that of this wall, or of "no hit". The beam
+adds to a state's log weight l_j for the first j that is a wall in the state, else l_out. All 16 states share l_out.
 
-Where neighbours are coupled, a state is also worth its equal pairs: those within the block, and those of its cells with
-the neighbours around it.
+If neighbours are coupled, a state's log weight also contains the coupling of its equal pairs: pairs within the block,
+and pairs of its cells with the neighbours around it.
 """
 
 import numpy as np
@@ -42,27 +42,28 @@ from bayesmap.kernels.walls.chains import (
 
 wp.set_module_options({"enable_backward": False, "max_unroll": 1})  # unrolled, it takes half a minute to compile
 
-LOOK_BACK = wp.constant(8)  # a beam's cells in one block lie close together, even where it runs along a line
+LOOK_BACK = wp.constant(8)  # entries: a beam's cells in one block lie close together, even if it runs along a line
 Weights = wp.types.vector(length=16, dtype=wp.float64)
+"""One number per state of a block; bit j of the state's number is 1 if cell j is a wall."""
 
 
 @wp.struct
 class BlockArrays:
-    """The beams that touch each block, and where."""
+    """The beams that touch each block, and their entries in it."""
 
-    offsets: Int32s
+    offsets: Int32s  # block i has the incidences offsets[i] to offsets[i + 1]
     beam: Int32s
     first: Int32s  # the first of the beam's entries in the block
     last: Int32s  # the last of them
     takes: wp.array(dtype=Weights)  # [free * 4 + j][state]: 1 if j is a wall there and the cells of `free` are not
-    rows: int
+    rows: int  # positions of a block in y
     nx: int
     ny: int
 
 
 @wp.func
 def cell_of_block(blocks: BlockArrays, x: int, y: int, j: int) -> int:
-    """Return the j-th cell of the block at (x, y), or -1 where a grid one cell wide has none."""
+    """Return the j-th cell of the block at (x, y), or -1 if it lies outside a grid that is one cell wide."""
     cx = x + j // 2
     cy = y + j % 2
     if cx >= blocks.nx or cy >= blocks.ny:
@@ -72,7 +73,7 @@ def cell_of_block(blocks: BlockArrays, x: int, y: int, j: int) -> int:
 
 @wp.func
 def place_in_block(c: int, x: int, y: int, ny: int) -> int:
-    """Return the place of cell c in the block at (x, y), 0 to 3, or -1."""
+    """Return the place of cell c in the block at (x, y), 0 to 3, or -1 if it lies outside."""
     dx = c // ny - x
     dy = c % ny - y
     if dx < 0 or dx > 1 or dy < 0 or dy > 1:
@@ -83,6 +84,7 @@ def place_in_block(c: int, x: int, y: int, ny: int) -> int:
 @wp.kernel
 def list_block_beams(first: int, filling: int, bounds: Int32s, t: Table, blocks: BlockArrays, counts: Int32s):
     """One thread per range of block columns: count the beams of each block, or fill in their entries."""
+    # b: beam; k, j: its entries; (x, y): one of the four blocks that hold the entry's cell; i: incidence of the block.
     thread = first + wp.tid()
     for b in range(t.offsets.shape[0] - 1):
         for k in range(t.offsets[b], t.offsets[b + 1]):
@@ -92,6 +94,7 @@ def list_block_beams(first: int, filling: int, bounds: Int32s, t: Table, blocks:
                 x = cx - corner // 2
                 y = cy - corner % 2
                 if x >= bounds[thread] and x < bounds[thread + 1] and y >= 0 and y < blocks.rows:
+                    # Has the beam met this block before?
                     seen = int(0)
                     for j in range(wp.max(t.offsets[b], k - LOOK_BACK), k):
                         if place_in_block(t.cells[j], x, y, blocks.ny) >= 0:
@@ -109,7 +112,8 @@ def list_block_beams(first: int, filling: int, bounds: Int32s, t: Table, blocks:
 
 
 def list_blocks(table: BeamTable, device: str) -> BlockArrays:
-    """List the beams of every block; memory is about 25 bytes for each incidence of the table."""
+    """List the beams of every block. Memory is about 25 bytes per incidence of the table."""
+    # First launch: count the beams of each block.
     nx, ny = table.grid.shape
     columns, rows = max(1, nx - 1), max(1, ny - 1)
     threads = min(devices.available_cores(), columns)
@@ -124,6 +128,7 @@ def list_blocks(table: BeamTable, device: str) -> BlockArrays:
             f"block: the beams meet {total:,} blocks, over the limit of {MAX_INCIDENCES:,}; "
             "use method 'gibbs', a coarser resolution, or fewer scans"
         )
+    # Second launch: fill in the beams and their entries.
     offsets = np.zeros(len(counts) + 1, dtype=np.int32)
     np.cumsum(counts, out=offsets[1:])
     blocks.beam, blocks.first, blocks.last = (
@@ -140,13 +145,14 @@ def list_blocks(table: BeamTable, device: str) -> BlockArrays:
 
 
 CERTAIN = wp.constant(wp.uint64(CERTAIN_LEVEL))
-IMPOSSIBLE = wp.constant(wp.float64(-1.0e300))
+IMPOSSIBLE = wp.constant(wp.float64(-1.0e300))  # log weight
 ZERO = wp.constant(wp.float64(0.0))
 
 
 @wp.func
 def block_weights(t: Table, blocks: BlockArrays, chain: Chain, block: int, x: int, y: int) -> Weights:
     """Return the log-likelihood of the 16 states, up to a constant; each beam is walked once."""
+    # i: incidence of the block; b: beam; f: entry of its first wall; k, last: its entries in the block; e: one of them.
     weights = Weights()
     for i in range(blocks.offsets[block], blocks.offsets[block + 1]):
         b = blocks.beam[i]
@@ -155,6 +161,7 @@ def block_weights(t: Table, blocks: BlockArrays, chain: Chain, block: int, x: in
         if f >= k:  # else a wall stands before the block
             last = blocks.last[i]
             end = t.offsets[b + 1]
+            # The first wall outside the block: the beam's first wall, or the next one if that lies in the block.
             out = f
             l_out = chain.current[b]
             if f <= last and place_in_block(t.cells[wp.min(f, end - 1)], x, y, blocks.ny) >= 0:
@@ -165,6 +172,7 @@ def block_weights(t: Table, blocks: BlockArrays, chain: Chain, block: int, x: in
                         break
                     out += 1
                 l_out = entry_loglik(t, b, out, end)
+            # Add l_j to the states in which j is the first wall of the beam.
             free = int(0)
             for e in range(k, wp.min(last + 1, out)):
                 j = place_in_block(t.cells[e], x, y, blocks.ny)
@@ -177,6 +185,7 @@ def block_weights(t: Table, blocks: BlockArrays, chain: Chain, block: int, x: in
 @wp.func
 def draw_state(weights: Weights, u: wp.float64) -> int:
     """Draw from a categorical law given by unnormalised log weights, by inversion."""
+    # m: state. States more than 40 nats below the largest weight are left out.
     most = weights[0]
     for m in range(1, 16):
         most = wp.max(most, weights[m])
@@ -196,7 +205,7 @@ def draw_state(weights: Weights, u: wp.float64) -> int:
 
 @wp.func
 def beams_reaching(blocks: BlockArrays, reached: Int32s, x: int, y: int) -> int:
-    """Count the beams that reach the block's cells, cell by cell."""
+    """Sum over the block's cells the number of beams that reach each."""
     total = int(0)
     for j in range(4):
         c = cell_of_block(blocks, x, y, j)
@@ -276,7 +285,8 @@ def block_sweeps(
     chain_0: int, t: Table, blocks: BlockArrays, prior: WallPriorArrays, sweeps: Sweeps, chains: WallChainArrays,
     kept: Kept,
 ):  # fmt: skip
-    """One thread per chain: several sweeps, each over all positions of a block."""
+    """One thread per chain: make several sweeps, each over all positions of a block."""
+    # n: chain; s: sweep of this launch; i: position in the sweep's order; (x, y): position of the block; j: its cell.
     n = chain_0 + wp.tid()
     chain = chain_of(chains, n)
     key = chains.keys[n]
@@ -294,6 +304,7 @@ def block_sweeps(
             if reaching == 0 and prior.coupling == ZERO:
                 draw_block_from_prior(blocks, prior, chain.walls, x, y, key, counter)
             else:
+                # Draw the block's state from its log weights.
                 weights = Weights()
                 if reaching > 0:
                     weights = sweeps.beta * block_weights(t, blocks, chain, block, x, y)
@@ -301,6 +312,7 @@ def block_sweeps(
                 if prior.coupling != ZERO:
                     weights = weights + coupling_weights(blocks, prior, chain.walls, x, y)
                 state = draw_state(weights, to_uniform(random_bits(key, counter)))
+                # Put or remove the walls that differ.
                 for j in range(4):
                     c = cell_of_block(blocks, x, y, j)
                     if c >= 0:

@@ -4,17 +4,19 @@ The prior is
 
     p(walls) proportional to  prod_c p_c^m_c (1 - p_c)^(1 - m_c)  exp(coupling * number of pairs of neighbours alike)
 
-over pairs of cells that share an edge (`bayesmap.cells.binary` has the source). Given all others a cell is a wall with
-the log-odds logit(p_c) + coupling * (walls - free cells among its neighbours). At a coupling of 0 cells are
-independent, and no neighbour is looked at.
+over pairs of cells that share an edge (`bayesmap.cells.binary` has the source). Given all other cells, a cell is a wall
+with the log-odds logit(p_c) + coupling * (walls - free cells among its neighbours). At a coupling of 0 cells are
+independent, and no neighbour is read.
 
-The state of a chain follows from its walls alone, so a chain is stored as its walls. It holds
+The walls alone determine the state of a chain, so only the walls are saved. The state holds
 
-- for every beam, the table entry of its first wall (`first`, the end of the beam's entries if there is none) and the
-  log-likelihood of that entry (`current`);
-- for every cell, the number of beams that reach it (`reached`), that is, have no wall before it; and what a wall there
-  adds to the log-likelihood (`gain`), as far as it is `known`: a beam that moves its first wall makes the gain unknown
-  in the cells that it reached or now reaches.
+- for every beam, `first`: the table entry of its first wall, or the end of the beam's entries if there is none;
+- for every beam, `current`: the log-likelihood of that entry;
+- for every cell, `reached`: the number of beams that reach it, that is, have no wall before it;
+- for every cell, `gain`: the log-likelihood with a wall there less the one without. By `known` it is the exact sum, a
+  bound, or unknown. If a beam's first wall moves, the gain becomes unknown in the cells that it reached or now reaches.
+
+Kernels of walls use these short names: t for the table, c for a cell, b for a beam, k and e for entries of the table.
 """
 
 from collections.abc import Sequence
@@ -43,30 +45,26 @@ from bayesmap.kernels.random import cipher_bits, shuffled, to_uniform
 wp.set_module_options({"enable_backward": False})
 
 CERTAIN_LEVEL = 1 << 53  # the level of probability one
-NONE = wp.constant(wp.float64(0.0))
+NONE = wp.constant(wp.float64(0.0))  # coupling of independent cells
 
 
 @wp.struct
 class WallPriorArrays:
-    """Wall probabilities, cell by cell, their log-odds, and the coupling of neighbours.
+    """Wall probability of each cell, its log-odds, and the coupling of neighbours."""
 
-    ``level`` is the probability in units of 2^-53, for draws without floating point. Without pairs, ``log_all_free`` is
-    the log prior of the map that has only the fixed walls, and ``gain`` is the log-odds, but 0 in fixed cells.
-    """
-
-    level: wp.array(dtype=wp.uint64)
-    logit: Float64s
-    gain: Float64s
-    log_all_free: wp.float64
-    uniform: int
-    coupling: wp.float64
+    level: wp.array(dtype=wp.uint64)  # probability in units of 2^-53, for draws without floating point
+    logit: Float64s  # log-odds
+    gain: Float64s  # log-odds, but 0 in cells that the prior fixes
+    log_all_free: wp.float64  # log prior, without pairs, of the map that has only the fixed walls
+    uniform: int  # 1 if all cells have one probability
+    coupling: wp.float64  # log prior that a pair of alike neighbours adds
     nx: int
     ny: int
 
 
 @wp.func
 def draw_from_prior(prior: WallPriorArrays, c: int, bits: wp.uint64) -> bool:
-    """Draw an uncoupled cell: return whether a uniform number made of these bits lies below its probability."""
+    """Draw an uncoupled cell: return whether the uniform number of these bits is below its probability."""
     return (bits >> wp.uint64(11)) < prior.level[c]
 
 
@@ -82,7 +80,7 @@ def draw_wall(log_odds: wp.float64, u: wp.float64) -> bool:
 
 @wp.func
 def walls_less_free(walls: Uint8s, cell_0: int, c: int, nx: int, ny: int) -> int:
-    """Return the number of walls less that of free cells among a cell's neighbours; the map begins at ``cell_0``."""
+    """Count walls minus free cells among the neighbours of cell c; the map begins at element ``cell_0``."""
     x = c // ny
     y = c - x * ny
     here = cell_0 + c
@@ -129,7 +127,7 @@ def pairs_alike(prior: WallPriorArrays, walls: Uint8s) -> int:
 
 @wp.func
 def log_prior(prior: WallPriorArrays, walls: Uint8s) -> wp.float64:
-    """Return log p(walls), where neighbours are coupled up to a constant."""
+    """Return log p(walls); if neighbours are coupled, up to a constant."""
     total = wp.float64(prior.log_all_free)
     if prior.coupling != NONE:
         total += prior.coupling * wp.float64(pairs_alike(prior, walls))
@@ -145,7 +143,7 @@ def log_prior(prior: WallPriorArrays, walls: Uint8s) -> wp.float64:
 
 
 def wall_prior_to_device(p_wall: Floats, logit: Floats, coupling: float, shape: tuple[int, int], device: str) -> Any:
-    """Put a prior on a device: probabilities and log-odds of all cells, (N,) each, of a grid of this shape."""
+    """Put a prior on a device: probabilities and log-odds of all cells, (N,) each, for a grid of this shape."""
     fixed = (p_wall == 0) | (p_wall == 1)
     return devices.pack(
         WallPriorArrays, device, level=np.round(p_wall * CERTAIN_LEVEL).astype(np.uint64), logit=logit,
@@ -158,15 +156,17 @@ def wall_prior_to_device(p_wall: Floats, logit: Floats, coupling: float, shape: 
 class Table:
     """The beam table and its index by cells, on a device."""
 
+    # the table: see `BeamTable`
     offsets: Int32s
     cells: Int32s
     loglik: Float32s
     no_hit: Float32s
+    # its index by cells: see `CellIndex`
     cell_offsets: Int32s
     cell_entry: Int32s
     cell_beam: Int32s
     cell_loglik: Float32s
-    cell_gain: Float32s
+    cell_gain: Float32s  # `CellIndex.gain_bound`
     cell_advantage: Float32s
 
 
@@ -179,17 +179,17 @@ EXACT = wp.constant(wp.uint8(2))  # the sum is `gain`
 class Chain:
     """The state of one chain, as described above."""
 
-    walls: Uint8s
+    walls: Uint8s  # 1 for a wall
     first: Int32s
     current: Float32s
     reached: Int32s
-    gain: Float32s
-    known: Uint8s
+    gain: Float32s  # exact sum or bound, depending on ``known``
+    known: Uint8s  # UNKNOWN, BOUND or EXACT
 
 
 @wp.struct
 class WallChainArrays:
-    """The states of several chains, one a row, and their keys of random numbers."""
+    """The states of several chains, one per row, and their keys of random numbers."""
 
     keys: wp.array(dtype=wp.uint64)
     walls: Uint8Rows
@@ -202,29 +202,23 @@ class WallChainArrays:
 
 @wp.struct
 class Sweeps:
-    """Sweeps to make: the number of the first, from 0, their count, and the order of the sites in each.
+    """The sweeps to make. If ``shuffle_bits`` is positive, every sweep shuffles the order anew."""
 
-    With ``shuffle_bits`` positive every sweep shuffles the order afresh. ``beta`` is the inverse temperature.
-    """
-
-    first: int
+    first: int  # number of the first sweep, from 0
     count: int
-    order: Int32s
-    shuffle_bits: wp.uint32
-    beta: wp.float64
+    order: Int32s  # sites in the order of a sweep
+    shuffle_bits: wp.uint32  # see `cipher_bits`
+    beta: wp.float64  # inverse temperature
 
 
 @wp.struct
 class Kept:
-    """Results of sweeps: the log densities after each, (chains, sweeps), and packed maps after some of them.
-
-    Maps are kept after sweeps ``first``, ``first + every``, ..., counted from 1, as far as ``draws`` has room.
-    """
+    """Results of sweeps. Maps are kept after sweeps ``first``, ``first + every``, ..., counted from 1."""
 
     first: int
     every: int
-    draws: wp.array3d(dtype=wp.uint8)
-    log_likelihoods: Float64Rows
+    draws: wp.array3d(dtype=wp.uint8)  # packed maps, (chains, kept, ceil(N / 8))
+    log_likelihoods: Float64Rows  # after each sweep, (chains, sweeps)
     log_priors: Float64Rows
 
 
@@ -271,15 +265,18 @@ def entry_loglik(t: Table, b: int, k: int, end: int) -> wp.float32:
 
 @wp.func
 def move_first_wall(t: Table, chain: Chain, b: int, k: int):
-    """Let beam b end at entry k, and update its numbers and those of the cells that it reached or now reaches."""
+    """Let beam b end at entry k. Update the beam, and the cells that it reached or now reaches."""
+    # f: entry of the first wall so far; j: entry whose cell is updated.
     start = t.offsets[b]
     end = t.offsets[b + 1]
     f = chain.first[b]
     chain.first[b] = k
     chain.current[b] = entry_loglik(t, b, k, end)
+    # Cells that the beam reaches before and after: their gains change.
     nearer = wp.min(f, k)
     for j in range(start, wp.min(nearer + 1, end)):
         chain.known[t.cells[j]] = UNKNOWN
+    # Cells between the two walls: the beam reaches them now, or no longer.
     change = wp.where(k > f, 1, -1)
     for j in range(nearer + 1, wp.min(wp.max(f, k) + 1, end)):
         c = t.cells[j]
@@ -289,7 +286,7 @@ def move_first_wall(t: Table, chain: Chain, b: int, k: int):
 
 @wp.kernel
 def derive_state(chain_0: int, t: Table, chains: WallChainArrays):
-    """One thread per chain: compute everything that follows from its walls."""
+    """One thread per chain: compute the rest of its state from its walls."""
     chain = chain_of(chains, chain_0 + wp.tid())
     for c in range(chain.reached.shape[0]):
         chain.reached[c] = 0
@@ -327,7 +324,7 @@ def remove_wall(t: Table, chain: Chain, c: int):
 
 @wp.func
 def keep_walls(walls: Uint8s, packed: Uint8s):
-    """Pack a map, eight cells to a byte, the first in its highest bit: as `numpy.packbits` does."""
+    """Pack a map as `numpy.packbits` does: eight cells per byte, the first in the highest bit."""
     for j in range(packed.shape[0]):
         bits = int(0)
         for c in range(8 * j, wp.min(8 * j + 8, walls.shape[0])):
@@ -346,7 +343,7 @@ def log_likelihood(current: Float32s) -> wp.float64:
 
 @wp.func
 def keep(kept: Kept, sweeps: Sweeps, n: int, s: int, chain: Chain, log_prior: wp.float64):
-    """Write down the state of chain n after sweep ``sweeps.first + s``."""
+    """Store the log densities of chain n after sweep ``sweeps.first + s``, and its map if it is kept."""
     kept.log_likelihoods[n, s] = sweeps.beta * log_likelihood(chain.current)
     kept.log_priors[n, s] = log_prior
     past = sweeps.first + s + 1 - kept.first
@@ -355,7 +352,7 @@ def keep(kept: Kept, sweeps: Sweeps, n: int, s: int, chain: Chain, log_prior: wp
 
 
 def table_to_device(table: BeamTable, index: CellIndex | None, device: str) -> Any:
-    """Put a table, and its index if there is one, on a device; on the CPU they share the arrays' memory."""
+    """Put a table, and its index if given, on a device; on the CPU they share the arrays' memory."""
     t = devices.pack(Table, device, offsets=table.offsets, cells=table.cells, loglik=table.loglik, no_hit=table.no_hit)
     if index is not None:
         t.cell_offsets, t.cell_entry, t.cell_beam = (
@@ -371,8 +368,8 @@ class WallChains:
     """The states of several chains on a device.
 
     Attributes:
-        states: the arrays, one row a chain.
-        device: where they are.
+        states: the arrays, one row per chain.
+        device: the device that holds them.
         shape: number of chains and of cells.
     """
 
@@ -400,11 +397,11 @@ def run_sweeps(
     kernel: Any, tables: Sequence[Any], prior: Any, order: Ints, shuffle: bool, chains: WallChains, *, first: int,
     count: int, kept: range, beta: float = 1.0, threads: int | None = None,
 ) -> tuple[Floats, Floats, NDArray[np.uint8]]:  # fmt: skip
-    """Advance the chains in place by ``count`` sweeps of a kernel, one chain a thread.
+    """Advance the chains in place by ``count`` sweeps of a kernel, one chain per thread.
 
-    The kernel takes ``tables`` first, then the walls' prior on the device. Each sweep visits the sites in their order,
-    or shuffles it. ``first`` is the number of the first sweep, from 0; ``kept`` are the numbers, from 1, of the sweeps
-    whose maps are kept; ``beta`` is the inverse temperature.
+    The kernel takes ``tables`` first, then the walls' prior on the device. Each sweep visits the sites in the given
+    order, or shuffles it. ``first`` is the number of the first sweep, from 0. ``kept`` holds the numbers, from 1, of
+    the sweeps whose maps are kept. ``beta`` is the inverse temperature.
 
     Returns:
         log-likelihoods and log priors after each sweep, (chains, sweeps), and the kept maps, packed, (chains, kept,

@@ -1,13 +1,18 @@
 """Single-site Gibbs sweeps on binary walls.
 
-The conditional of a cell is Bernoulli on its prior log-odds, given its neighbours where the prior couples them, plus
-the sum, over the beams that reach it, of what a wall there would add to their log-likelihood. One thread draws a
-chain's cells one after the other, so that no neighbour is ever out of date. Three things keep a sweep from visiting
-every incidence, and none changes a draw: a cell that no beam reaches takes a draw of the prior without its beams being
-looked at; a free cell's sum is kept until one of its beams moves; and where a bound already makes the cell's state
-certain up to a chance of e^-20 it serves instead of the sum (`CellIndex.gain_bound` for free cells,
-`CellIndex.advantage` for walls, which need not then look for the walls behind them), unless the uniform number turns
-out to be smaller than that. Sums and bounds are of likelihoods alone, and so hold whatever the neighbours become.
+The conditional of a cell is a Bernoulli law. Its log-odds are the prior's, given the neighbours if the prior couples
+them, plus the cell's gain. The gain is a sum over the beams that reach the cell: the log-likelihood of each with a wall
+there, less the one without. One thread draws a chain's cells one after the other, so neighbours are always up to date.
+
+Three shortcuts keep a sweep from visiting every incidence. None changes a draw.
+
+- A cell that no beam reaches is drawn from the prior. Its beams are not visited.
+- The sum of a free cell is stored until one of its beams moves.
+- If a bound leaves a chance below e^-20 of the other state, the bound replaces the sum. The exact sum is computed only
+  if the uniform number falls into that remainder. The bound is `CellIndex.gain_bound` for a free cell and
+  `CellIndex.advantage` for a wall; with it, no search for the wall behind is needed.
+
+Sums and bounds contain likelihoods alone, so they stay valid when neighbours change.
 """
 
 import warp as wp
@@ -38,13 +43,14 @@ from bayesmap.kernels.walls.chains import (
 
 wp.set_module_options({"enable_backward": False})
 
-CERTAIN = wp.constant(wp.float64(20.0))  # log-odds
-NO_BOUND = wp.constant(wp.float64(-1.0e300))
+CERTAIN = wp.constant(wp.float64(20.0))  # log-odds from which a bound replaces the sum
+NO_BOUND = wp.constant(wp.float64(-1.0e300))  # below every sum: the sum is computed exactly
 
 
 @wp.func
 def wall_gain(t: Table, chain: Chain, c: int) -> wp.float64:
-    """Return what the wall in a cell adds to the log-likelihood over free space there."""
+    """Return the log-likelihood with the wall in cell c less the log-likelihood without it."""
+    # i: incidence of the cell; b: its beam; e: its entry in the beam table; k: entry of the next wall behind.
     gain = wp.float64(0.0)
     for i in range(t.cell_offsets[c], t.cell_offsets[c + 1]):
         b = t.cell_beam[i]
@@ -58,7 +64,10 @@ def wall_gain(t: Table, chain: Chain, c: int) -> wp.float64:
 
 @wp.func
 def sum_gain(t: Table, chain: Chain, c: int, enough: wp.float64):
-    """Sum what a wall in a free cell would add; stop with a bound as soon as the sum must stay below ``enough``."""
+    """Store the gain of a wall in free cell c: the exact sum, or a bound as soon as the sum must stay below ``enough``.
+
+    `cell_gain` bounds the terms from incidence i on.
+    """
     gain = wp.float64(0.0)
     known = EXACT
     for i in range(t.cell_offsets[c], t.cell_offsets[c + 1]):
@@ -68,7 +77,7 @@ def sum_gain(t: Table, chain: Chain, c: int, enough: wp.float64):
             known = BOUND
             break
         b = t.cell_beam[i]
-        if chain.first[b] > t.cell_entry[i]:
+        if chain.first[b] > t.cell_entry[i]:  # the beam reaches the cell
             gain += wp.float64(t.cell_loglik[i] - chain.current[b])
     chain.gain[c] = wp.float32(gain)
     chain.known[c] = known
@@ -84,6 +93,7 @@ def draw_free_cell(t: Table, prior: WallPriorArrays, chain: Chain, beta: wp.floa
         return False
     if chain.known[c] == EXACT:
         return True
+    # The bound allows a wall: draw again with the exact sum and the same uniform number.
     sum_gain(t, chain, c, NO_BOUND)
     return draw_wall(logit + beta * wp.float64(chain.gain[c]), u)
 
@@ -93,6 +103,7 @@ def draw_wall_cell(t: Table, prior: WallPriorArrays, chain: Chain, beta: wp.floa
     """Draw whether a wall that beams reach stays a wall, at an inverse temperature."""
     logit = prior_log_odds(prior, chain.walls, c)
     if chain.known[c] == UNKNOWN:
+        # Lower bound: each beam that ends here has its advantage over all entries behind.
         least = wp.float64(0.0)
         for i in range(t.cell_offsets[c], t.cell_offsets[c + 1]):
             if chain.first[t.cell_beam[i]] == t.cell_entry[i]:
@@ -108,7 +119,8 @@ def draw_wall_cell(t: Table, prior: WallPriorArrays, chain: Chain, beta: wp.floa
 
 @wp.kernel
 def gibbs_sweeps(chain_0: int, t: Table, prior: WallPriorArrays, sweeps: Sweeps, chains: WallChainArrays, kept: Kept):
-    """One thread per chain: several sweeps, each over all cells."""
+    """One thread per chain: make several sweeps, each over all cells."""
+    # n: chain; s: sweep of this launch; i: position in the sweep's order; c: cell.
     n = chain_0 + wp.tid()
     chain = chain_of(chains, n)
     key = chains.keys[n]

@@ -1,6 +1,7 @@
 """Evaluate maps of binary walls on a beam table: importance weights, log-likelihoods, and the cells that beams reach.
 
-Importance sampling draws its particles from the prior. Their maps are never stored: a counter can draw each again.
+Importance sampling draws its particles from the prior. Their maps are not stored: each can be drawn again from its
+counter.
 """
 
 from typing import Any
@@ -28,7 +29,7 @@ def particle_wall(prior: WallPriorArrays, key: wp.uint64, particle: wp.uint64, c
 def weigh_particles(
     first: int, t: Table, prior: WallPriorArrays, key: wp.uint64, particle_0: wp.uint64, log_weights: Float64s
 ):
-    """One thread per particle: log p(readings | its map). Only cells that beams reach are ever drawn."""
+    """One thread per particle: compute log p(readings | its map). Only cells that beams reach are drawn."""
     i = first + wp.tid()
     particle = particle_0 + wp.uint64(i)
     cells = wp.uint64(prior.level.shape[0])
@@ -63,7 +64,7 @@ def weigh(table: Any, prior: Any, key: int, first: int, count: int, device: str)
 
 
 def particle_maps(prior: Any, key: int, particles: NDArray[np.intp], device: str) -> NDArray[np.uint8]:
-    """Return the maps of some particles, (n, N)."""
+    """Return the maps of the given particles, (n, N)."""
     cells = prior.level.shape[0]
     walls = wp.empty((len(particles), cells), dtype=wp.uint8, device=device)
     devices.launch(draw_particles, len(particles), [prior, key, particles, walls], device)
@@ -72,7 +73,7 @@ def particle_maps(prior: Any, key: int, particles: NDArray[np.intp], device: str
 
 @wp.kernel
 def sum_log_likelihoods(first: int, t: Table, packed: Uint8Rows, total: Float64s):
-    """One thread per packed map: log p(readings | map), each beam ending at its first wall."""
+    """One thread per packed map: compute log p(readings | map); each beam ends at its first wall."""
     d = first + wp.tid()
     value = wp.float64(0.0)
     for b in range(t.no_hit.shape[0]):

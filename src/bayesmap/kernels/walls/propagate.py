@@ -1,7 +1,7 @@
 """Belief propagation with ray potentials: all messages of a beam in one backward and one forward pass.
 
-For a beam with cells 1..n, cavity wall probabilities p_i, likelihoods l_i of a first hit on cell i and l_out of no hit
-(all relative to the beam's largest),
+A beam has the cells 1..n. Let p_i be their cavity wall probabilities, l_i the likelihood of a first hit on cell i and
+l_out that of no hit, all relative to the beam's largest. Then
 
     S_i = p_{i+1} l_{i+1} + (1 - p_{i+1}) S_{i+1},  S_n = l_out       expected likelihood if cells up to i are free
     T_i = prod_{j<i} (1 - p_j)                                        chance that all cells before i are free
@@ -10,11 +10,12 @@ For a beam with cells 1..n, cavity wall probabilities p_i, likelihoods l_i of a 
     message_i(wall) / message_i(free) = (A_i + T_i l_i) / (A_i + T_i S_i)
 
 (Ulusoy, Geiger and Black, *Towards probabilistic volumetric reconstruction using ray potentials*, 3DV 2015.)
-A pair of neighbours that are worth J more if they are alike sends, with the log-odds h of the sender without what it
-received from the other, log(exp(J + h) + 1) - log(exp(h) + exp(J)), which is 2 artanh(tanh(J / 2) tanh(h / 2)) (Pearl's
-messages of a pairwise field, as in Yedidia, Freeman and Weiss, 2003).
 
-Messages of beams are kept as ratios: then no logarithm and no exponential is needed along a beam, and damping by a half
+Let J be the log prior that a pair of alike neighbours adds, and h the sender's log-odds without the message of the
+receiver. The sender's message is log(exp(J + h) + 1) - log(exp(h) + exp(J)), which is
+2 artanh(tanh(J / 2) tanh(h / 2)) (Pearl's messages of a pairwise field, as in Yedidia, Freeman and Weiss, 2003).
+
+Messages of beams are stored as ratios, so no logarithm and no exponential is needed along a beam, and damping by a half
 is a square root. A cell's belief is its prior log-odds plus the logarithms of the messages that it receives.
 """
 
@@ -29,32 +30,32 @@ wp.set_module_options({"enable_backward": False})
 
 TINY = wp.constant(wp.float32(1.0e-30))
 LARGEST_RATIO = wp.constant(wp.float32(1.0e6))
-LARGEST_PRODUCT = wp.constant(wp.float32(1.0e30))
+LARGEST_PRODUCT = wp.constant(wp.float32(1.0e30))  # beyond it, a product is replaced by its logarithm
 FIXED = wp.constant(wp.float32(1.0e12))  # prior log-odds past any beam's
-LARGEST_LOG_ODDS = wp.constant(wp.float32(60.0))
+LARGEST_LOG_ODDS = wp.constant(wp.float32(60.0))  # log-odds are clipped before their exponential
 
 
 @wp.struct
 class BeliefArrays:
     """Messages and beliefs on a device. Each part of the beams has its own sums, so their order is always the same."""
 
-    bounds: Int32s  # of the parts, in beams
-    offsets: Int32s  # of the beam table
-    cells: Int32s
+    bounds: Int32s  # part i holds the beams bounds[i] to bounds[i + 1]
+    offsets: Int32s  # offsets of the beam table
+    cells: Int32s  # cells of the beam table
     relative: Float32s  # likelihood of each entry, relative to its beam's largest
-    relative_no_hit: Float32s
+    relative_no_hit: Float32s  # likelihood of no hit, likewise
     ratio: Float32s  # the message of each entry's beam to its cell
-    behind: Float32s  # room for S
-    product: Float32Rows  # of the messages to each cell, a row a part
-    received: Float32Rows  # their logarithms, as far as the product was cleared
-    logit: Float64s  # of the prior
-    odds: Float32s
-    belief: Float32s
+    behind: Float32s  # working memory for S
+    product: Float32Rows  # product of the messages to each cell, one row per part
+    received: Float32Rows  # sum of the logarithms of the products that were reset to 1
+    logit: Float64s  # prior log-odds
+    odds: Float32s  # exponential of the belief
+    belief: Float32s  # log-odds of a wall
 
 
 @wp.kernel
 def relative_likelihood(first: int, beta: wp.float32, loglik: Float32s, no_hit: Float32s, beliefs: BeliefArrays):
-    """One thread per beam: likelihoods relative to the beam's largest, at an inverse temperature."""
+    """One thread per beam: compute likelihoods relative to the beam's largest, at an inverse temperature."""
     b = first + wp.tid()
     most = no_hit[b]
     for k in range(beliefs.offsets[b], beliefs.offsets[b + 1]):
@@ -72,7 +73,8 @@ def relative_likelihood(first: int, beta: wp.float32, loglik: Float32s, no_hit: 
 
 @wp.kernel
 def beam_messages(part_0: int, damping: wp.float32, beliefs: BeliefArrays):
-    """One thread per part of the beams: new messages to their cells, and their logarithms summed by cell."""
+    """One thread per part of the beams: compute new messages to their cells, and sum their logarithms per cell."""
+    # b: beam; k: its entry; c: cell of the entry; o: odds of the cell's belief; p: cavity probability.
     part = part_0 + wp.tid()
     received = beliefs.received[part]
     product = beliefs.product[part]
@@ -88,6 +90,7 @@ def beam_messages(part_0: int, damping: wp.float32, beliefs: BeliefArrays):
     for b in range(beliefs.bounds[part], beliefs.bounds[part + 1]):
         start = beliefs.offsets[b]
         end = beliefs.offsets[b + 1]
+        # Backward pass: s is S.
         s = beliefs.relative_no_hit[b]
         for i in range(end - start):
             k = end - 1 - i
@@ -95,6 +98,7 @@ def beam_messages(part_0: int, damping: wp.float32, beliefs: BeliefArrays):
             o = odds[cells[k]]
             p = o / (o + ratio[k])  # the cavity: the belief without this beam's own message
             s += p * (relative[k] - s)
+        # Forward pass: free is T, and before is A.
         free = wp.float32(1.0)
         before = wp.float32(0.0)
         for k in range(start, end):
@@ -111,6 +115,7 @@ def beam_messages(part_0: int, damping: wp.float32, beliefs: BeliefArrays):
             else:
                 new = wp.pow(old, damping) * wp.pow(new, one - damping)
             ratio[k] = new
+            # Multiply the messages to the cell; take the logarithm before the product overflows.
             m = product[c] * new
             if m > LARGEST_PRODUCT or m < one / LARGEST_PRODUCT:
                 received[c] = received[c] + wp.log(m)
@@ -128,7 +133,7 @@ def softplus(x: wp.float64) -> wp.float64:
 
 @wp.func
 def from_neighbour(belief: wp.float32, received: wp.float32, coupling: wp.float64) -> wp.float64:
-    """Return the message of a cell to a neighbour, as log-odds: from its belief, less what it received from there."""
+    """Return the message of a cell to a neighbour, log-odds, from its belief less the message of that neighbour."""
     h = wp.clamp(wp.float64(belief - received), wp.float64(-1000.0), wp.float64(1000.0))
     return softplus(coupling + h) - (coupling + softplus(h - coupling))
 
@@ -142,6 +147,7 @@ def neighbour_messages(
 
     Rows of the messages are (x - 1, x + 1, y - 1, y + 1).
     """
+    # c: receiving cell; d: sending neighbour.
     c = first + wp.tid()
     x = c // ny
     y = c - x * ny
@@ -156,14 +162,14 @@ def neighbour_messages(
         if side == 3 and y < ny - 1:
             d = c + 1
         if d >= 0:
-            # What came from here to there is on the other side there.
+            # The neighbour stores the message of this cell in the row of the opposite side.
             message = wp.float32(from_neighbour(belief[d], last[side ^ 1, d], coupling))
             messages[side, c] = damping * last[side, c] + (wp.float32(1.0) - damping) * message
 
 
 @wp.kernel
 def cell_beliefs(first: int, from_neighbours: Float32Rows, beliefs: BeliefArrays):
-    """One thread per cell: sum prior log-odds and all messages; where nothing couples, neighbours send none."""
+    """One thread per cell: sum prior log-odds and all messages; uncoupled neighbours send none."""
     c = first + wp.tid()
     total = wp.float32(beliefs.logit[c])
     if wp.abs(total) < FIXED:  # else the prior fixes the cell, whatever the others say
@@ -182,7 +188,7 @@ GPU_PARTS = 256
 class Beliefs:
     """Messages and beliefs of one problem.
 
-    Memory: 12 bytes for each incidence of the table, and where neighbours are coupled 32 for each cell.
+    Memory: 12 bytes per incidence of the table and, if neighbours are coupled, 32 bytes per cell.
     """
 
     def __init__(self, table: BeamTable, logit: Floats, device: str, beta: float = 1.0, coupling: float = 0.0) -> None:
@@ -201,7 +207,7 @@ class Beliefs:
         self._arrays, self._device, self._cells, self._parts = arrays, device, cells, parts
         self._shape, self._coupling = table.grid.shape, coupling
         sides = 4 if coupling else 0
-        # Two of each: messages are made of those of the last round, whichever thread comes first.
+        # Two buffers: new messages depend on those of the last round only, whatever the order of threads.
         self._sides, self._next_sides = (wp.zeros((sides, cells), dtype=wp.float32, device=device) for _ in range(2))
         devices.launch(relative_likelihood, beams, [beta, table.loglik, table.no_hit, arrays], device)
         self._gather()

@@ -30,7 +30,7 @@ wp.set_module_options({"enable_backward": False})
 
 WIDTHS = wp.constant(wp.float64(9.0))  # scales past which normal noise adds nothing to a mixture
 GAIN = wp.constant(wp.float32(1.0e-3))  # nats: incidences that can gain less than this come last in their cell
-SLICE = 1 << 20  # entries handed to NumPy at a time, where a model has no compiled likelihood
+SLICE = 1 << 20  # entries per call of NumPy, if a model has no compiled likelihood
 
 
 def trace(
@@ -42,7 +42,7 @@ def trace(
     Args:
         scans: S scans of A beams; beam ``s * A + a`` of the table is beam a of scan s.
         grid: the map's grid.
-        sensor: fills in the likelihoods.
+        sensor: the model that fills in the likelihoods.
         hit_depth: where in a cell a beam is expected to stop, as a fraction of its chord: 0 is the edge where it
             enters (the tutorial's closed squares), 0.5 the middle.
         reach_m: how far each beam is followed, (B,); by default as far as its reading depends on stops.
@@ -57,7 +57,7 @@ def trace(
 
 
 def table_of(rays: Rays, sensor: SensorModel, *, hit_depth: float = 0.0, device: str = "cpu") -> BeamTable:
-    """Build the beam table of some rays, arguments as of `trace`."""
+    """Build the beam table of some rays; the arguments are those of `trace`."""
     device = devices.resolve(device)
     if sensor.kernel_parameters() is None:
         loglik, no_hit = _by_model(sensor, rays, stop_distances(rays, hit_depth, device))
@@ -88,9 +88,10 @@ def fill_likelihood(
 ):  # fmt: skip
     """One thread per beam: compute the log-likelihood of each entry, and of no hit.
 
-    The normal noise of a mixture matters between two distances only, whose entries are found by halving. Before and
-    behind them a range has one likelihood each.
+    The normal noise of a mixture matters between two distances only; bisection finds their entries. All stops before
+    them share one likelihood, and so do all stops behind them.
     """
+    # b: beam; z: its reading; k: its entry.
     b = first + wp.tid()
     z = range_m[b]
     no_hit[b] = wp.float32(0.0)
@@ -103,6 +104,7 @@ def fill_likelihood(
     line = line_of(rays.lines, b)
     decay = object_decay(law, z)
     no_hit[b] = wp.float32(stop_log_density(law, z, decay, wp.float64(wp.inf), zero))
+    # Entries [near, behind) depend on the noise.
     near = begin
     behind = end
     if law.kind == MIXTURE and law.dof == zero and wp.isfinite(z):
@@ -128,6 +130,7 @@ def fill_likelihood(
 @wp.kernel
 def beam_extremes(first: int, t: Table, lowest: Float32s, advantage: Float32s):
     """One thread per beam: find its least log-likelihood, and each entry's advantage over those behind it."""
+    # k goes from the last entry to the first; behind: largest log-likelihood of the entries after k, and of no hit.
     b = first + wp.tid()
     least = t.no_hit[b]
     behind = t.no_hit[b]
@@ -144,7 +147,7 @@ class IndexArrays:
     """A `CellIndex` on a device, and how far each cell's entries are filled in."""
 
     offsets: Int32s
-    filled: Int32s
+    filled: Int32s  # next free incidence of each cell
     entry: Int32s
     beam: Int32s
     loglik: Float32s
@@ -156,7 +159,11 @@ class IndexArrays:
 def scatter_entries(
     first: int, cell_bounds: Int32s, table: Table, lowest: Float32s, advantage: Float32s, index: IndexArrays
 ):
-    """One thread per range of cells: two passes over the table, gaining entries first, then bounds from behind."""
+    """One thread per range of cells: list their incidences in two passes over the table, then sum their bounds.
+
+    The first pass lists the incidences that can gain more than `GAIN`, the second pass the others.
+    """
+    # t: thread; c: cell; b: beam; k: entry of the table; i: incidence of the cell.
     t = first + wp.tid()
     low = cell_bounds[t]
     high = cell_bounds[t + 1]
@@ -177,6 +184,7 @@ def scatter_entries(
                         index.loglik[i] = table.loglik[k]
                         index.gain_bound[i] = gain
                         index.advantage[i] = advantage[k]
+    # A bound covers an incidence and all after it: sum from the last to the first.
     for c in range(low, high):
         bound = wp.float32(0.0)
         for j in range(index.offsets[c + 1] - index.offsets[c]):
@@ -187,6 +195,7 @@ def scatter_entries(
 
 def index_by_cell(table: BeamTable) -> CellIndex:
     """Index the table by cells, on the CPU, in an order that does not depend on the number of threads."""
+    # Divide the cells into ranges with about equally many incidences, one range per thread.
     cells, entries = table.grid.n_cells, table.n_incidences
     offsets = np.zeros(cells + 1, dtype=np.int32)
     np.cumsum(np.bincount(table.cells, minlength=cells), out=offsets[1:])
