@@ -28,7 +28,7 @@ class Reading(IntEnum):
     TOO_CLOSE = 2
     """-inf: something nearer than the sensor can measure."""
     INVALID = 3
-    """NaN: an erroneous reading; it says nothing about the map."""
+    """NaN: an erroneous reading; it is no information about the map."""
 
 
 @dataclass(frozen=True, eq=False)

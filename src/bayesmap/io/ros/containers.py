@@ -53,7 +53,7 @@ REMEDY = "repair it (rosbag reindex, ros2 bag reindex, mcap recover), or read wh
 
 
 class NotUnpacked(Exception):
-    """Data that cannot be unpacked; the text says why."""
+    """Data that cannot be unpacked; the text is the reason."""
 
 
 def unpack_zstd(packed: bytes, largest: int) -> bytes:

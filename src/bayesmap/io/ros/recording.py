@@ -188,7 +188,7 @@ OnDamage = Callable[[str], None]
 
 
 class _Unreadable(Exception):
-    """A record that does not follow the format; the text says why."""
+    """A record that does not follow the format; the text is the reason."""
 
 
 def zstd() -> Any:
