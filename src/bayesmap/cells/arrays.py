@@ -1,6 +1,6 @@
-"""Kept draws of a map: named arrays by chain and draw, as a kind of cells declares them.
+"""Stored draws of a map: the named arrays that a kind of cells declares, by chain and draw.
 
-They are kept small: binary maps eight cells to a byte, other numbers in half precision.
+Storage is compact: binary maps take one bit per cell, other numbers half precision.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from bayesmap.space.grid import Grid
 
-BATCH_BITS = 1 << 26
+BATCH_BITS = 1 << 26  # cells that `count_walls` unpacks at once
 LEAST_NORMAL = float(np.finfo(np.float16).smallest_normal)
 LEAST_HALF = float(np.finfo(np.float16).smallest_subnormal)
 
@@ -43,10 +43,10 @@ def count_walls(packed: NDArray[np.uint8], cells: int) -> NDArray[np.int64]:
 
 
 def as_halves(values: NDArray[np.floating]) -> NDArray[np.float16]:
-    """Return `values.astype(np.float16)`, bit for bit, in a fifth of the time where many numbers are close to zero.
+    """Return exactly `values.astype(np.float16)`, in a fifth of the time if many numbers are close to zero.
 
-    NumPy takes 80 ns for each number that is rounded to a subnormal half, and most reflectivities are. The bits of a
-    subnormal half, without its sign, count multiples of the smallest one.
+    NumPy takes 80 ns for each number that becomes a subnormal half, and most reflectivities do. The bits of a subnormal
+    half, without its sign, are its multiple of the smallest subnormal half.
     """
     size = np.abs(values)
     small = size < LEAST_NORMAL
@@ -57,7 +57,7 @@ def as_halves(values: NDArray[np.floating]) -> NDArray[np.float16]:
 
 
 OF_CELLS = ("cell", "surface_cell")
-"""Dimensions that index some of the grid's cells."""
+"""Dimensions that index a subset of the grid's cells."""
 
 
 @dataclass(frozen=True)
@@ -65,12 +65,12 @@ class ArraySpec:
     """An array of a draw.
 
     Attributes:
-        name: in `Cells`, in saved runs and in `Run.dataset`.
-        dims: its dimensions beside chain and draw: ("x", "y") for the whole grid, ("cell",) for the cells that some
-            beam touches, ("surface_cell",) for those in which a reading ends.
-        dtype: of its values.
-        storage: how draws are kept in memory: "bits" packs booleans, "half" rounds to half precision.
-        what: what it is, with its unit.
+        name: name in `Cells`, in saved runs and in `Run.dataset`.
+        dims: dimensions beside chain and draw: ("x", "y") for the whole grid, ("cell",) for the cells that a beam
+            touches, ("surface_cell",) for the cells in which a reading ends.
+        dtype: type of the values.
+        storage: storage of draws in memory: "bits" packs booleans, "half" rounds to half precision.
+        what: description, with the unit.
     """
 
     name: str
@@ -108,11 +108,11 @@ class Draws:
     """Draws of all chains.
 
     Attributes:
-        grid: where the cells are.
-        specs: what the arrays are.
-        arrays: by name, (chains, draws, ...), as `ArraySpec.stored` keeps them.
-        index: coordinates by dimension: for "cell" and "surface_cell" flat indices of cells, ascending, int32; for
-            others ("scan") numbers.
+        grid: grid of the cells.
+        specs: specifications of the arrays.
+        arrays: stored arrays by name, (chains, draws, ...), see `ArraySpec.stored`.
+        index: coordinates by dimension, int32: ascending flat indices of cells for "cell" and "surface_cell", numbers
+            for others ("scan").
     """
 
     grid: Grid
@@ -127,12 +127,12 @@ class Draws:
 
     @property
     def count(self) -> int:
-        """Draws of each chain."""
+        """Number of draws per chain."""
         return int(next(iter(self.arrays.values())).shape[1])
 
     @property
     def size(self) -> int:
-        """Draws of all chains together."""
+        """Number of draws of all chains together."""
         return self.chains * self.count
 
     def numbers(self) -> Iterator[tuple[int, int]]:
@@ -151,10 +151,10 @@ class Draws:
         return tuple(sizes[dim] if dim in sizes else len(self.index[dim]) for dim in spec.dims)
 
     def cells(self, chain: int, draw: int) -> dict[str, NDArray[Any]]:
-        """Return the arrays of one draw as values, those of cells on the grid, (nx, ny): NaN where the draw has no
-        value.
+        """Return the arrays of one draw as values.
 
-        `bayesmap.cells.kind.CellPrior.completed` puts a state of the prior there.
+        Arrays of cells are spread over the grid, (nx, ny), with NaN in cells that the draw does not store.
+        `bayesmap.cells.kind.CellPrior.completed` replaces NaN by a state of the prior.
         """
         arrays = {}
         for spec in self.specs:
@@ -168,7 +168,7 @@ class Draws:
         return spec.values(self.arrays[name], self.shape_of(spec))
 
     def to_grid(self, values: NDArray[Any], dimension: str, elsewhere: float | NDArray[Any]) -> NDArray[np.float64]:
-        """Spread values of some cells, (..., n), over the grid, (..., nx, ny)."""
+        """Spread the values of indexed cells, (..., n), over the grid, (..., nx, ny); other cells get ``elsewhere``."""
         out = np.empty((*values.shape[:-1], self.grid.n_cells))
         out[...] = np.ravel(elsewhere) if np.ndim(elsewhere) else elsewhere
         out[..., self.index[dimension]] = values

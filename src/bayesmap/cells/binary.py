@@ -1,29 +1,28 @@
 """Binary walls: a cell is a wall, which stops every beam, or free, which stops none.
 
-The base class of all priors of walls, and two priors. `Independent` takes cells as independent. `Ising` makes
-neighbours alike:
+This module has the base class of all priors of walls, and two priors. Cells of `Independent` are independent. `Ising`
+favours alike neighbours:
 
     p(walls) proportional to  prod_c p^m_c (1 - p)^(1 - m_c)  exp(coupling * sum over pairs [m_a = m_b])
 
-over all pairs of cells a, b of the grid that share an edge, m_c being 1 in a wall and 0 in a free cell (Ising, 1925; as
-a prior of pictures Besag, *Spatial interaction and the statistical analysis of lattice systems*, 1974, whose
-auto-logistic model this is, and Geman and Geman, 1984). In spins of -1 and 1 it is the Ising model at an inverse
-temperature of half the coupling, in a field of half the log-odds of p. Given its neighbours a cell is a wall with
-log-odds
+over all pairs of cells a, b of the grid that share an edge; m_c is 1 in a wall and 0 in a free cell. This is the model
+of Ising (1925), and the auto-logistic model of Besag (*Spatial interaction and the statistical analysis of lattice
+systems*, 1974; as a prior of pictures also Geman and Geman, 1984). In spins of -1 and 1, the inverse temperature is
+half the coupling, and the field is half the log-odds of p. Given its neighbours a cell is a wall with log-odds
 
     logit(p) + coupling * (walls - free cells among its neighbours)
 
 so p is the probability of a wall with as many walls as free cells around it. It is *not* the share of walls: among free
-neighbours a wall is rarer than p. At a coupling of 0 it is, and the prior is `Independent`. The normalising sum over
-all maps is left out of the density: it depends on p, the coupling and the grid, and on neither map nor data.
+neighbours a wall is rarer than p. At a coupling of 0, p is the share, and the prior is `Independent`. The density omits
+the normalising sum over all maps, which depends on p, the coupling and the grid, and on neither map nor data.
 
-That sum cannot be computed on grids of any size, so the coupling is fitted by the pseudo-likelihood, the product of
-every cell's probability given its neighbours (Besag, *Statistical analysis of non-lattice data*, 1975):
+That sum cannot be computed on large grids, so the coupling is fitted by the pseudo-likelihood, the product of every
+cell's probability given its neighbours (Besag, *Statistical analysis of non-lattice data*, 1975):
 
     log PL(coupling) = sum_c  m_c eta_c - log(1 + exp(eta_c)),     eta_c = logit(p_c) + coupling * balance_c
 
-with the balance of walls and free cells among c's neighbours. It is concave in the coupling, and its maximum comes to
-the truth as maps grow. Cells that the prior fixes count as neighbours and have no term of their own.
+The balance of c is the number of walls less that of free cells among its neighbours. The log PL is concave in the
+coupling, and its maximum is consistent as maps grow. Cells that the prior fixes count as neighbours only.
 """
 
 from __future__ import annotations
@@ -48,7 +47,7 @@ from bayesmap.space.grid import Grid
 
 @dataclass(frozen=True, eq=False)
 class BinaryWalls(CellPrior):
-    """The base class of priors of walls, with the wall probability of `Independent`."""
+    """The base class of priors of walls. `Independent` documents ``p_wall``."""
 
     p_wall: float | Floats
 
@@ -72,14 +71,14 @@ class BinaryWalls(CellPrior):
 
     @property
     def pair_coupling(self) -> float:
-        """The log prior that a pair of alike neighbours adds: 0 where cells are independent."""
+        """Log prior added by each pair of alike neighbours: 0 if cells are independent."""
         return 0.0
 
     def probabilities(self, grid: Grid) -> Floats:
-        """Return the wall probability of every cell at a balance of 0 of its neighbours, (nx, ny).
+        """Return the wall probability of every cell if its neighbours have a balance of 0, (nx, ny).
 
         Raises:
-            BadInput: an array of another shape than the grid's.
+            BadInput: ``p_wall`` is an array of another shape than the grid's.
         """
         p = np.asarray(self.p_wall, dtype=np.float64)
         if p.ndim == 2 and p.shape != grid.shape:
@@ -99,7 +98,7 @@ class BinaryWalls(CellPrior):
         return np.stack([self.sample(rng, grid) for _ in range(count)])
 
     def start(self, rng: np.random.Generator, grid: Grid) -> NDArray[np.bool_]:
-        """Return a map at which a chain starts, (nx, ny): a draw, or a map like one where draws take long."""
+        """Return the start of a chain, (nx, ny): a draw, or an approximate draw if exact draws take long."""
         return self.sample(rng, grid)
 
     def sample_cells(self, rng: np.random.Generator, grid: Grid) -> dict[str, NDArray[Any]]:
@@ -123,7 +122,7 @@ class BinaryWalls(CellPrior):
         return np.asarray((counts / draws.size).reshape(draws.grid.shape))
 
     def interval(self, draws: Draws, level: float) -> tuple[Floats, Floats]:
-        """Refused: quantiles of zeros and ones are 0 or 1 and say less than their mean.
+        """Raise an error: quantiles of zeros and ones are 0 or 1, and less informative than their mean.
 
         Raises:
             BadInput: always.
@@ -133,7 +132,7 @@ class BinaryWalls(CellPrior):
         )
 
     def traces(self, draws: Draws, cells: NDArray[np.intp]) -> NDArray[np.bool_]:
-        """Return some cells of all draws, (chains, draws, n)."""
+        """Return the walls of the given cells in all draws, (chains, draws, n)."""
         bytes_read, place = np.unique(cells // 8, return_inverse=True)
         bits = np.unpackbits(draws.arrays["walls"][:, :, bytes_read], axis=-1)
         return bits[:, :, place * 8 + cells % 8].view(np.bool_)
@@ -145,7 +144,7 @@ class BinaryWalls(CellPrior):
         return constant, constant & (walls == walls[0]).all(axis=0)
 
     def predictive_stops(self, draws: Draws, wanted: NDArray[np.int32] | None = None) -> Iterator[NDArray[np.float32]]:
-        """Yield stop probabilities 0 and 1 of each draw, (draws, n), some draws at a time."""
+        """Yield stop probabilities 0 and 1 of each draw, (draws, n), in batches of draws."""
         packed = draws.arrays["walls"].reshape(-1, draws.arrays["walls"].shape[-1])
         at_once = max(1, BATCH_BYTES // (4 * draws.grid.n_cells))
         for i in range(0, len(packed), at_once):
@@ -154,7 +153,7 @@ class BinaryWalls(CellPrior):
             yield (flat if wanted is None else flat[:, wanted]).astype(np.float32)
 
     def parameters(self) -> Mapping[str, NDArray[Any]]:
-        """Return the probabilities if each cell has its own."""
+        """Return the wall probabilities if each cell has its own; else nothing."""
         p = np.asarray(self.p_wall, dtype=np.float64)
         return {"p_wall": p} if p.ndim else {}
 
@@ -193,8 +192,8 @@ class Independent(BinaryWalls):
 
 FIT = "fit"
 LARGEST_COUPLING = 50.0
-"""A pair of unlike neighbours then costs a factor of e^50: more means nothing else."""
-START_SWEEPS = 50
+"""Each pair of unlike neighbours then costs a factor of e^50; a larger coupling has the same effect."""
+START_SWEEPS = 50  # from a map of independent cells to the start of a chain
 
 
 @dataclass(frozen=True, eq=False)
@@ -204,12 +203,12 @@ class Ising(BinaryWalls):
     Attributes:
         p_wall: probability of a wall that has as many walls as free cells around it, one number for all cells or an
             array of shape (nx, ny); 0 and 1 fix cells.
-        coupling: what each pair of neighbours (cells that share an edge) that are alike adds to the log density, from
-            0, at which it is `Independent`; or "fit", and `bayesmap.infer` fits it to the scans
-            (`bayesmap.fit_coupling` fits it to maps).
+        coupling: log density added by each pair of alike neighbours (cells that share an edge), from 0 to 50; at 0 the
+            prior is `Independent`. With "fit", `bayesmap.infer` fits it to the scans (`bayesmap.fit_coupling` fits it
+            to maps).
 
     Raises:
-        BadInput: a probability outside [0, 1], or a coupling that is no number from 0 to 50.
+        BadInput: a probability outside [0, 1], or a coupling outside [0, 50] that is not "fit".
     """
 
     coupling: float | Literal["fit"]
@@ -224,15 +223,15 @@ class Ising(BinaryWalls):
 
     @property
     def is_incomplete(self) -> bool:
-        """Whether the coupling is still to be fitted."""
+        """True if the coupling is still to be fitted."""
         return isinstance(self.coupling, str)
 
     @property
     def pair_coupling(self) -> float:
-        """The log prior that a pair of alike neighbours adds.
+        """Log prior added by each pair of alike neighbours.
 
         Raises:
-            BadInput: it is still to be fitted.
+            BadInput: the coupling is still to be fitted.
         """
         if isinstance(self.coupling, str):
             raise BadInput("Ising: the coupling is not fitted yet; infer does it, or fit_coupling, or give a number")
@@ -264,7 +263,7 @@ class Ising(BinaryWalls):
         return perfect_draws(rng, self._logit(grid), self.pair_coupling, count)
 
     def start(self, rng: np.random.Generator, grid: Grid) -> NDArray[np.bool_]:
-        """Return a map at which a chain starts, (nx, ny): independent walls after 50 sweeps, a matter of moments."""
+        """Return the start of a chain, (nx, ny): independent walls after 50 Gibbs sweeps of the prior."""
         if self.pair_coupling == 0.0:
             return self.sample(rng, grid)
         return rough_draw(rng, self._logit(grid), self.pair_coupling, START_SWEEPS)
@@ -278,7 +277,7 @@ class Ising(BinaryWalls):
         return {"walls": np.bool_(not walls[site])}, -log_odds if walls[site] else log_odds
 
     def mean_stop(self, grid: Grid) -> Floats:
-        """Return the prior probability of a wall, (nx, ny): from 200 draws where neighbours are coupled."""
+        """Return the prior probability of a wall, (nx, ny), estimated from 200 draws if neighbours are coupled."""
         return self.probabilities(grid) if self.pair_coupling == 0.0 else super().mean_stop(grid)
 
     def describe(self) -> dict[str, Any]:
@@ -294,21 +293,21 @@ class Ising(BinaryWalls):
 
 
 LARGEST_FITTED = 4.0
-"""Largest coupling of a fit: for a map without any boundary the likeliest is infinite."""
+"""Largest coupling of a fit: for a map of alike cells alone, the likeliest coupling is infinite."""
 
 
 def fit_coupling(walls: ArrayLike, p_wall: ArrayLike) -> float:
-    """Return the coupling under which known maps are likeliest, such as the floor plan of a similar building.
+    """Return the coupling that maximises the pseudo-likelihood of known maps, such as a similar building's plan.
 
     Args:
         walls: maps, (nx, ny) or (n, nx, ny).
-        p_wall: of `bayesmap.Ising`, held: one number, or one for each cell, (nx, ny).
+        p_wall: fixed wall probability as in `bayesmap.Ising`: one number, or one per cell, (nx, ny).
 
     Returns:
         The coupling of greatest pseudo-likelihood between 0 and 4.
 
     Raises:
-        BadInput: walls that are no maps, probabilities outside [0, 1], or of another shape.
+        BadInput: walls of a shape that is no map's, or probabilities outside [0, 1] or of another shape than a map.
     """
     maps = np.asarray(walls) != 0
     if maps.ndim not in (2, 3) or maps.size == 0:
@@ -324,7 +323,7 @@ def fit_coupling(walls: ArrayLike, p_wall: ArrayLike) -> float:
 def counts(maps: NDArray[np.bool_], p_wall: Floats) -> tuple[Floats, Floats, Floats, Floats]:
     """Count cells and walls by log-odds and balance. Returns log-odds, balances, and numbers of cells and of walls.
 
-    Cells that agree in both are counted together: with one probability for all there are nine kinds of them.
+    If all cells have one probability, there are nine entries, for the balances -4 to 4. Else each cell has its own.
     """
     balance = walls_less_free(maps)
     p = np.broadcast_to(p_wall, maps.shape)

@@ -1,20 +1,21 @@
 """Ising fields: their draws, and the labels of cells that stop beams.
 
-Exact draws come by coupling from the past (Propp and Wilson, *Exact sampling with coupled Markov chains and
-applications to statistical mechanics*, 1996). A sweep of Gibbs sampling draws the cells whose coordinates add up to an
-even number, then the others: no two of either half are neighbours, so each half is drawn at once. With one uniform
-number a cell, a sweep keeps the order of maps: more walls before it, more after it. Send the map of walls alone and the
-map of free cells alone through the same sweeps, from some time in the past. If the two meet, every map would have come
-there, and this map is a draw from the stationary law. The time is doubled, with the same numbers for the same sweeps,
-until they meet.
+Exact draws use coupling from the past (Propp and Wilson, *Exact sampling with coupled Markov chains and applications
+to statistical mechanics*, 1996). A Gibbs sweep draws the cells whose coordinates have an even sum, then the others. No
+two cells of a half are neighbours, so each half is drawn at once. A sweep uses one uniform number per cell, and keeps
+the order of maps: if one map has all walls of another before the sweep, it has them after the sweep.
 
-A label says whether a cell is free or solid, and neighbours tend to be alike:
+The algorithm sends two maps, all walls and all free, through the same sweeps from a time in the past to time 0. If the
+two maps meet, every starting map would have led to the same result, which is then a draw from the stationary law. Else
+the start moves twice as far back, with the same random numbers for the same sweeps.
+
+The label of a cell is free or solid, and neighbours tend to be alike:
 
     p(labels) proportional to  exp(coupling * sum over pairs [s_a = s_b])
 
-over all pairs of cells a, b that share an edge: the Ising field of `bayesmap.cells.binary` at p = 1/2. A reflectivity
-has one of two Betas, by its cell's label (a hidden Markov random field: Geman and Geman, 1984; Besag, *On the
-statistical analysis of dirty pictures*, 1986).
+over all pairs of cells a, b that share an edge: the Ising field of `bayesmap.cells.binary` at p = 1/2. The cell's
+label selects one of two Beta laws for its reflectivity (a hidden Markov random field: Geman and Geman, 1984; Besag, *On
+the statistical analysis of dirty pictures*, 1986).
 """
 
 from __future__ import annotations
@@ -28,7 +29,7 @@ from bayesmap.cells.kind import Floats
 from bayesmap.errors import BadInput
 
 MOST_SWEEPS = 4096
-"""Most sweeps from the past: where they are not enough, exact draws take forever."""
+"""Most sweeps from the past: if the maps have not met by then, exact draws take too long."""
 
 
 def perfect_draws(rng: np.random.Generator, logit: Floats, coupling: float, count: int) -> NDArray[np.bool_]:
@@ -37,13 +38,13 @@ def perfect_draws(rng: np.random.Generator, logit: Floats, coupling: float, coun
     Args:
         rng: source of the uniform numbers.
         logit: log-odds of a wall at a balance of 0, (nx, ny); infinite in fixed cells.
-        coupling: what a pair of neighbours that are alike adds to the log density; positive.
+        coupling: log density added by each pair of alike neighbours; positive.
         count: number of draws.
 
     Raises:
         BadInput: the coupling is so strong, and the log-odds so near to zero, that the maps do not meet.
     """
-    seeds: list[int] = []  # of the sweeps before time -2^(k - 1), and from -2^k on
+    seeds: list[int] = []  # seed k makes the numbers of the sweeps from time -2^k to -2^(k - 1); seed 0 from -1 to 0
     out = np.empty((count, *logit.shape), dtype=np.bool_)
     apart = np.arange(count)  # the draws whose two maps have not met yet
     while len(apart):
@@ -52,7 +53,9 @@ def perfect_draws(rng: np.random.Generator, logit: Floats, coupling: float, coun
                 f"Ising: at a coupling of {coupling:g} maps of {logit.shape[0]} x {logit.shape[1]} cells cannot be "
                 "drawn exactly in reasonable time; take a weaker coupling, or a wall probability further from 0.5"
             )
+        # Move the start twice as far back. Earlier seeds stay, so that later sweeps repeat their numbers.
         seeds.append(int(rng.integers(1 << 62)))
+        # Send the map of free cells (low) and the map of walls (high) through all sweeps, the oldest first.
         low, high = (_padded(np.full((len(apart), *logit.shape), state, dtype=np.int8)) for state in (-1, 1))
         for k in range(len(seeds) - 1, -1, -1):
             of_level = np.random.default_rng(seeds[k])
@@ -60,6 +63,7 @@ def perfect_draws(rng: np.random.Generator, logit: Floats, coupling: float, coun
                 levels = _levels(of_level.random((count, *logit.shape))[apart], logit, coupling)
                 _sweep(low, levels)
                 _sweep(high, levels)
+        # Draws whose two maps have met are done.
         met = (low == high).all(axis=(1, 2))
         out[apart[met]] = low[met, 1:-1, 1:-1] > 0
         apart = apart[~met]
@@ -67,7 +71,7 @@ def perfect_draws(rng: np.random.Generator, logit: Floats, coupling: float, coun
 
 
 def rough_draw(rng: np.random.Generator, logit: Floats, coupling: float, sweeps: int) -> NDArray[np.bool_]:
-    """Return a map, (nx, ny), after some sweeps from a map of independent cells."""
+    """Return a map, (nx, ny): independent cells after the given number of sweeps. It is no exact draw."""
     walls = rng.random(logit.shape) < special.expit(logit)
     field = _padded(np.where(walls, 1, -1).astype(np.int8)[None])
     for _ in range(sweeps):
@@ -76,12 +80,12 @@ def rough_draw(rng: np.random.Generator, logit: Floats, coupling: float, sweeps:
 
 
 def _padded(signs: NDArray[np.int8]) -> NDArray[np.int8]:
-    """Return signs with a rim of zeros: cells outside the grid count for neither side."""
+    """Return signs with a border of zeros, so that cells outside the grid add nothing to a balance."""
     return np.pad(signs, ((0, 0), (1, 1), (1, 1)))
 
 
 def _levels(u: Floats, logit: Floats, coupling: float) -> NDArray[np.int8]:
-    """Return the balances of neighbours above which cells become walls, given their uniform numbers.
+    """Return the balance of neighbours above which each cell becomes a wall, given its uniform number.
 
     A cell is a wall if u < expit(logit + coupling * balance), that is, if balance > (logit(u) - logit) / coupling.
     """
@@ -102,11 +106,11 @@ def _sweep(field: NDArray[np.int8], levels: NDArray[np.int8]) -> None:
 
 SOLID = ArraySpec("solid", ("x", "y"), "bool", "bits", "whether the cell's label is solid; else it is free")
 
-HALVINGS = 60
+HALVINGS = 60  # of [0, 1] in `mixture_quantiles`: below double precision
 
 
 def pairs_alike(cells: NDArray[np.bool_]) -> int:
-    """Count the pairs of cells that share an edge and are alike, of a map (nx, ny)."""
+    """Count the pairs of alike cells that share an edge, in a map (nx, ny)."""
     return int((cells[1:] == cells[:-1]).sum()) + int((cells[:, 1:] == cells[:, :-1]).sum())
 
 
@@ -132,14 +136,15 @@ def share_solid(draws: Draws) -> Floats:
 def mixture_quantiles(
     share: Floats, free: tuple[float, float], solid: tuple[float, float], tails: tuple[float, float]
 ) -> Floats:
-    """Compute quantiles of a reflectivity whose cell is solid with a known probability, (len(tails), N), by bisection.
+    """Compute quantiles of reflectivities by bisection, given the probability that each cell is solid: (len(tails), N).
 
     Args:
         share: probability that the cell is solid, (N,).
-        free: a and b of the Beta of free cells.
-        solid: of that of solid ones.
+        free: a and b of the Beta law of free cells.
+        solid: a and b of the Beta law of solid cells.
         tails: probabilities below the quantiles.
     """
+    # Cells with the same share have the same quantiles: compute them once per distinct share.
     kinds, which = np.unique(share, return_inverse=True)
     out = np.empty((len(tails), len(kinds)))
     for row, tail in zip(out, tails, strict=True):

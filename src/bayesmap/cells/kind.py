@@ -1,9 +1,9 @@
-"""The base class of a kind of cells: the prior that users pass, and everything that the rest of the package asks of it.
+"""The base class of all kinds of cells: the prior that users pass, and its interface to the rest of the package.
 
 A kind defines the state of a cell (its arrays), its prior probability, how it stops beams, and its names on maps and
-axes. Samplers, files, scores, pictures, the command line and the page ask the kind, and none of them knows which kinds
-there are. Built in are `bayesmap.cells.binary`, `bayesmap.cells.reflectivity` and
-`bayesmap.cells.surface`; a class of your own that extends `CellPrior` works everywhere, too.
+axes. Samplers, files, scores, pictures, the command line and the page use this interface only. The built-in kinds are
+in `bayesmap.cells.binary`, `bayesmap.cells.reflectivity` and `bayesmap.cells.surface`. A class of your own that extends
+`CellPrior` works everywhere, too.
 """
 
 from __future__ import annotations
@@ -22,10 +22,10 @@ from bayesmap.space.grid import Grid
 
 Floats = NDArray[np.float64]
 Cells = Mapping[str, NDArray[Any]]
-"""One map: the arrays that a kind declares, each (nx, ny)."""
+"""One map: the arrays of a kind by name, each (nx, ny)."""
 
 BATCH_BYTES = 12 << 20
-"""Most bytes of stops that are held at a time."""
+"""Most bytes of one batch of stops."""
 
 
 @dataclass(frozen=True)
@@ -33,10 +33,10 @@ class Words:
     """The words for a kind of cells and its maps.
 
     Attributes:
-        kind: in settings, documents and saved runs: one word.
+        kind: name of the kind in settings, documents and saved runs; one word.
         states: the states of the cells, in the plural: "walls or free".
-        mean: what the mean map shows, on colour bars.
-        value: what one draw's map shows.
+        mean: label of the mean map, on colour bars.
+        value: label of the map of one draw.
     """
 
     kind: str
@@ -46,26 +46,26 @@ class Words:
 
 
 KINDS: dict[str, type[CellPrior]] = {}
-"""The kinds that loaded modules define, by name: whoever extends `CellPrior` with words of its own is entered."""
+"""The kinds that loaded modules define, by name. Each subclass of `CellPrior` with its own ``words`` is entered."""
 
 
 class CellPrior(ABC):
     """A kind of cells with its prior.
 
     Attributes:
-        words: what it is called.
-        arrays: what a draw holds.
-        methods: the methods of `bayesmap.infer` that it has, the first being the default, and the sampler of each (see
+        words: names of the kind and its maps.
+        arrays: specifications of the arrays of a draw.
+        methods: sampler of each supported method of `bayesmap.infer`, the default first (see
             `bayesmap.samplers.methods`).
-        hit_depth: where in a cell a beam stops unless the caller says otherwise, as a fraction of the beam's chord.
-        sensor_is_fitted: whether the command line fits the sensor unless one is given.
-        has_interval: whether a cell's state is a number with an interval.
-        has_surfaces: whether cells have surfaces.
-        sweeps_a_draw: sweeps from one draw to the next where neither these nor draws are asked for.
-        has_walls: whether a cell is a wall or free: there are a wall probability, a start and an order of cells to
-            choose, and a coupling that can be fitted.
-        thresholds: mean stop probabilities above and below which a robot's map of occupied, free and unknown cells
-            calls a cell so; None leaves it to the format.
+        hit_depth: default stop of a beam in a cell, as a fraction of the beam's chord.
+        sensor_is_fitted: true if the command line fits the sensor unless one is given.
+        has_interval: true if a cell's state is a number with an interval.
+        has_surfaces: true if cells have surfaces.
+        sweeps_a_draw: default number of sweeps from one draw to the next.
+        has_walls: true if a cell is a wall or free. Users can then choose a wall probability, a start and an order of
+            cells, and fit a coupling.
+        thresholds: mean stop probabilities for a robot's map: a cell above the first is occupied, below the second
+            free, else unknown; None leaves them to the format.
     """
 
     words: ClassVar[Words]
@@ -81,7 +81,7 @@ class CellPrior(ABC):
 
     @property
     def is_incomplete(self) -> bool:
-        """Whether something of the prior is to be fitted to the scans before any map can be drawn."""
+        """True if a parameter of the prior must be fitted to the scans before a map can be drawn."""
         return False
 
     @classmethod
@@ -89,9 +89,9 @@ class CellPrior(ABC):
         """Return the prior itself if it is of this kind, for functions that work with one kind alone.
 
         Args:
-            prior: to be checked.
-            asked_by: what works with this kind alone, as the error is to name it.
-            remedy: what the error is to advise.
+            prior: the prior to check.
+            asked_by: name of the function that works with this kind alone, for the error message.
+            remedy: advice for the error message.
 
         Raises:
             BadInput: a prior of another kind.
@@ -121,10 +121,10 @@ class CellPrior(ABC):
     ) -> tuple[dict[str, Any], float]:
         """Propose another state for one cell, for `bayesmap.samplers.metropolis`.
 
-        By default a state from the prior, which is right where the prior makes cells independent.
+        The default draws a state from the prior, which is right if the prior makes cells independent.
 
         Returns:
-            the cell's new value of every array, and the log of prior ratio times proposal ratio.
+            The cell's new value of every array, and the log of prior ratio times proposal ratio.
         """
         fresh = self.sample_cells(rng, Grid((1, 1), grid.resolution))
         return {name: values[0, 0] for name, values in fresh.items()}, 0.0
@@ -133,18 +133,18 @@ class CellPrior(ABC):
 
     @abstractmethod
     def stops(self, cells: Cells, grid: Grid) -> NDArray[np.floating]:
-        """Return how the cells stop beams, in the form that the law of stops and the predictive kernel read.
+        """Return the cells' stops, in the form that the law of stops and the predictive kernel read.
 
         Returns:
-            the probability that a cell stops a beam which comes to it, (N,), the beam then stopping at the hit depth;
-            or surfaces, (N, 6): reflectivity, mean x and y in metres from the grid's lower left corner, and the
-            Cholesky factor l11, l21, l22 of the covariance in metres. N counts the grid's cells as ``x * ny + y``.
+            Without surfaces, the probability that each cell stops a beam that comes to it, (N,); a stopped beam stops
+            at the hit depth. With surfaces, (N, 6): reflectivity, mean x and y in metres from the grid's lower left
+            corner, and the Cholesky factor l11, l21, l22 of the covariance in metres. Cell (x, y) is ``x * ny + y``.
         """
 
     def mean_stop(self, grid: Grid) -> Floats:
         """Return the prior mean of the probability that a cell stops a beam that meets its surface, (nx, ny).
 
-        By default estimated from 200 prior draws; override it where it is known.
+        The default estimates it from 200 prior draws; override it if it is known.
         """
         rng = np.random.default_rng(0)
         maps = [self._chance(self.sample_cells(rng, grid), grid) for _ in range(200)]
@@ -155,9 +155,9 @@ class CellPrior(ABC):
         return (stops if stops.ndim == 1 else stops[:, 0]).reshape(grid.shape)
 
     def completed(self, cells: Cells, grid: Grid) -> Cells:
-        """Return the map with a state of the prior in the cells that are NaN, which their draw does not hold.
+        """Return the map with a state of the prior in the cells that are NaN because their draw does not store them.
 
-        By default the map itself, which is right where a draw holds all cells of the grid.
+        The default returns the map itself, which is right if a draw stores all cells of the grid.
         """
         return cells
 
@@ -185,18 +185,18 @@ class CellPrior(ABC):
         return lower, upper
 
     def traces(self, draws: Draws, cells: NDArray[np.intp]) -> NDArray[Any]:
-        """Return `map_of` of some cells in all draws, (chains, draws, n), for diagnostics of convergence."""
+        """Return `map_of` at the given cells in all draws, (chains, draws, n), for diagnostics of convergence."""
         out = [self.map_of(draws, chain, draw).ravel()[cells] for chain, draw in draws.numbers()]
         return np.reshape(out, (draws.chains, draws.count, len(cells)))
 
     def expected_traces(self, draws: Draws, cells: NDArray[np.intp]) -> NDArray[Any]:
-        """Return what draws expect of some cells, (chains, draws, n): `mean_map` is the mean over all draws."""
+        """Return the draws' expected values of the given cells, (chains, draws, n); their mean is `mean_map`."""
         return self.traces(draws, cells)
 
     def constant_cells(self, draws: Draws) -> tuple[NDArray[np.bool_] | None, NDArray[np.bool_] | None]:
         """Find the cells with one value in all draws of each chain, and in all draws of all chains, (N,) each.
 
-        None for both where a state is a number, which no two draws share.
+        Both are None if a state is a continuous number, which no two draws share.
         """
         return None, None
 
@@ -204,7 +204,7 @@ class CellPrior(ABC):
         """Return mean surfaces for pictures: means (U, 2) and covariances (U, 2, 2) in metres, and reflectivities (U,).
 
         Raises:
-            BadInput: a kind without surfaces.
+            BadInput: this kind has no surfaces.
         """
         raise BadInput(
             f"surfaces: the cells of this run are {self.words.states}, without surfaces; infer with prior=Surface(), "
@@ -212,7 +212,7 @@ class CellPrior(ABC):
         )
 
     def predictive_stops(self, draws: Draws, wanted: NDArray[np.int32] | None = None) -> Iterator[NDArray[np.float32]]:
-        """Yield the stops of each draw in some cells, by flat index (all if None), some draws at a time.
+        """Yield the stops of each draw in the cells ``wanted`` (flat indices; all if None), in batches of draws.
 
         Predictions read them: (draws, n), or (draws, n, 6) for surfaces, in the units of `stops`.
         """
@@ -229,13 +229,13 @@ class CellPrior(ABC):
     def drawn_stops(self, draws: Draws, wanted: NDArray[np.int32] | None = None) -> Iterator[NDArray[np.float32]]:
         """Yield the stops of each draw as `predictive_stops` does, but from drawn states alone, without expectations.
 
-        Decisions read them: whether a path is free in a draw, and how well two draws can be told apart. By default they
-        are those of `predictive_stops`, which is right where it yields drawn states.
+        Decisions read them, to see if a path is free in a draw, and how well two draws can be told apart. The default
+        is `predictive_stops`, which is right if it yields drawn states.
         """
         return self.predictive_stops(draws, wanted)
 
     def default_draws(self, beams: int, cells: int, chains: int, thin: int = 1) -> int:
-        """Return the default number of draws of each chain, ``thin`` sweeps apart."""
+        """Return the default number of draws per chain, ``thin`` sweeps apart."""
         return 1000
 
     # Files
@@ -245,10 +245,10 @@ class CellPrior(ABC):
         """Return the prior as plain JSON values; "kind" is its name."""
 
     def parameters(self) -> Mapping[str, NDArray[Any]]:
-        """Return the parameters that are arrays, which saved runs keep beside the description."""
+        """Return the array parameters, which saved runs store beside the description."""
         return {}
 
     @classmethod
     def from_description(cls, values: Mapping[str, Any]) -> CellPrior:
-        """Return the prior of a description: by default its other entries are the arguments."""
+        """Return the prior of a description. The default passes all entries but "kind" as arguments."""
         return cls(**{name: value for name, value in values.items() if name != "kind"})

@@ -1,7 +1,7 @@
 """The built-in kinds of cells by name, the prior of a description, and the defaults for a laser log.
 
-The defaults fit any building: the noise is a good laser's, widened because the place of a wall within its cell is
-unknown. They were chosen by held-out score among a few round values on a public office log (docs/lab/maps.md).
+The defaults fit any building: the noise is that of a good laser, widened because the wall's position within its cell
+is unknown. They were chosen among a few round values by held-out score on a public office log (docs/lab/maps.md).
 """
 
 from __future__ import annotations
@@ -22,14 +22,14 @@ BUILT_IN: dict[str, type[CellPrior]] = {cls.words.kind: cls for cls in (Independ
 _NAMED: dict[str, type[CellPrior]] = {
     "independent": Independent, "binary": Independent, "ising": Ising, "beta": Beta, "reflectivity": Beta,
 }  # fmt: skip
-"""Names of priors in descriptions, where these differ from the word of the kind."""
+"""Priors by names that descriptions use beside the words of the kinds."""
 
 
 def prior_from(description: Mapping[str, Any]) -> CellPrior:
     """Return the prior of a description.
 
     Raises:
-        BadInput: a kind that no loaded module defines.
+        BadInput: no loaded module defines the kind.
     """
     kind = str(description.get("kind"))
     named = _NAMED.get(kind, KINDS.get(kind))
@@ -39,14 +39,14 @@ def prior_from(description: Mapping[str, Any]) -> CellPrior:
 
 
 P_WALL = 0.2
-"""Prior wall probability: buildings are mostly free space, and unobserved cells should look unlike both."""
+"""Prior wall probability: buildings are mostly free space, and unobserved cells should look unlike walls and free."""
 
 HIT_DEPTH = Independent.hit_depth
 """The expected stop of a beam in a cell, as a fraction of its chord."""
 
-LASER_SIGMA_M = 0.02
-LASER_SIGMA_PER_M = 0.005
-CELL_SHARE = 0.35
+LASER_SIGMA_M = 0.02  # standard deviation of a reading at range 0
+LASER_SIGMA_PER_M = 0.005  # its growth per metre of range
+CELL_SHARE = 0.35  # standard deviation that the cell adds, as a share of its edge
 
 
 def default_sensor(resolution_m: float) -> BeamMixture:

@@ -1,11 +1,11 @@
 """Reflectivities: a cell stops some of the beams that come to it.
 
-A wall that is there or not is too stiff for glass, chair legs, people and cells that a wall fills in part. Here a cell
-has a reflectivity m in [0, 1], the chance that it stops a beam; a stopped beam stops at the cell's hit depth.
+Binary walls are too rigid for glass, chair legs, people and cells that a wall fills in part. Here a cell has a
+reflectivity m in [0, 1], the chance that it stops a beam. A stopped beam stops at the cell's hit depth.
 
-Cells may be independent, m ~ Beta(a, b) in each. Or, at a coupling above 0, each has a label, free or solid, that its
-four neighbours know of (`bayesmap.cells.ising_field`): m ~ Beta(a, b) in free cells, and Beta(a_solid, b_solid) in
-solid ones.
+At a coupling of 0, cells are independent: m ~ Beta(a, b) in each. At a coupling above 0, each cell has a label, free or
+solid, coupled to the labels of its four neighbours (`bayesmap.cells.ising_field`). Then m ~ Beta(a, b) in free cells,
+and m ~ Beta(a_solid, b_solid) in solid cells.
 """
 
 from __future__ import annotations
@@ -28,25 +28,26 @@ from bayesmap.space.grid import Grid
 LEAST_M, MOST_M = 1e-30, 1.0 - 1e-7
 """The range of reflectivities whose log odds single precision can hold."""
 
-CELLS_AT_ONCE = 8192
+CELLS_AT_ONCE = 8192  # per batch of `interval`
 
 FRESH_CELLS = 1 << 16
-"""States drawn from the prior, of which cells that no beam touched take theirs."""
+"""Size of the pool of states drawn from the prior; cells that no beam touched take their states from it."""
 
-FEWEST_DRAWS, MOST_DRAWS = 100, 200
-FEWEST_IN_A_ROW = 50  # where every sweep is kept, and neighbours say less
-BEAMS_OF_FEWEST = 100_000
+FEWEST_DRAWS, MOST_DRAWS = 100, 200  # per chain, by default
+FEWEST_IN_A_ROW = 50  # fewest if every sweep is kept: a further draw then adds less
+BEAMS_OF_FEWEST = 100_000  # with this many beams or more, the default is the fewest draws
 MOST_DRAW_BYTES = 1 << 30
 """Most bytes of all chains' draws, if beams were to touch every cell of the grid."""
-BYTES_A_CELL = 4
+BYTES_A_CELL = 4  # per draw: two arrays in half precision
 
 LARGEST_COUPLING = 50.0
-"""As of `bayesmap.cells.binary`: a larger coupling has the same effect."""
+"""A larger coupling has the same effect, as in `bayesmap.cells.binary`."""
 
 
 class KernelNumbers(NamedTuple):
-    """A prior as `bayesmap.kernels.surfaces.cell` takes it, lengths in metres: of reflectivities, labels, and a
-    surface's prior as `bayesmap.cells.surface` has it.
+    """The parameters of a prior in the form of `bayesmap.kernels.surfaces.cell`, lengths in metres.
+
+    They belong to reflectivities (a, b), labels (coupling, a_solid, b_solid) and surfaces (the others).
     """
 
     a: float
@@ -69,7 +70,7 @@ EXPECTED = ArraySpec(
 
 @dataclass(frozen=True)
 class Reflective(CellPrior):
-    """The base class of priors of reflectivities, with the attributes of `Beta`."""
+    """The base class of priors for reflectivities. `Beta` documents the attributes."""
 
     a: float = 0.02
     b: float = 0.2
@@ -81,8 +82,8 @@ class Reflective(CellPrior):
     sensor_is_fitted: ClassVar[bool] = True
     sweeps_a_draw: ClassVar[int] = 3
     shown: ClassVar[tuple[str, str]] = ("reflectivity", "expected")
-    """Arrays of what maps, intervals and diagnostics show: as drawn, and its mean given the draw's stops."""
-    thresholds: ClassVar[tuple[float, float] | None] = (0.3, 0.1)  # three beams in ten stopped is no place for a robot
+    """Names of the arrays that maps, intervals and diagnostics show: drawn values, and means given the draw's stops."""
+    thresholds: ClassVar[tuple[float, float] | None] = (0.3, 0.1)  # a cell that stops 3 of 10 beams is no free floor
 
     def __post_init__(self) -> None:
         name = type(self).__name__
@@ -90,10 +91,10 @@ class Reflective(CellPrior):
             value = getattr(self, which)
             if not (math.isfinite(value) and value > 0):
                 raise BadInput(f"{name}: {which} must be a positive number, got {value!r}")
-        coupling: Any = self.coupling  # perhaps "fit", which binary walls have
+        coupling: Any = self.coupling  # may be "fit", which only binary walls allow
         if isinstance(coupling, str) or not (0 <= coupling <= LARGEST_COUPLING):
             raise BadInput(f"{name}: coupling must be a number in [0, {LARGEST_COUPLING:g}], got {self.coupling!r}")
-        if self.has_labels:  # of this prior, not of its class: others keep no labels in their draws
+        if self.has_labels:  # set on the instance: priors of this class without labels store none
             object.__setattr__(self, "arrays", (*type(self).arrays, ising_field.SOLID))
 
     @property
@@ -103,7 +104,7 @@ class Reflective(CellPrior):
 
     @property
     def mean(self) -> float:
-        """Prior mean of the reflectivity; both labels are as likely."""
+        """Prior mean of the reflectivity; both labels are equally likely."""
         free = self.a / (self.a + self.b)
         return 0.5 * (free + self.a_solid / (self.a_solid + self.b_solid)) if self.has_labels else free
 
@@ -118,7 +119,7 @@ class Reflective(CellPrior):
 
     @property
     def first_spread(self) -> float:
-        """Size of what a cell's readings scatter about, in edges, for the initial estimate."""
+        """Spread of a cell's readings for the initial estimate, in edges of a cell."""
         return 0.3
 
     def log_prob(self, cells: Cells, grid: Grid) -> float:
@@ -135,7 +136,7 @@ class Reflective(CellPrior):
         """Draw a map.
 
         Raises:
-            BadInput: labels so strongly coupled, on so large a grid, that exact draws of them take too long.
+            BadInput: the coupling is so strong, and the grid so large, that exact draws of the labels take too long.
         """
         if not self.has_labels:
             m = rng.beta(self.a, self.b, grid.shape).astype(np.float32)
@@ -147,7 +148,7 @@ class Reflective(CellPrior):
     def propose(
         self, cells: Cells, site: tuple[int, int], rng: np.random.Generator, grid: Grid
     ) -> tuple[dict[str, Any], float]:
-        """Propose a state as if the cell had no neighbours. Returns it, and the log ratio that the neighbours add."""
+        """Propose a state from the prior without neighbours. Returns it, and the log prior ratio due to neighbours."""
         fresh, log_ratio = super().propose(cells, site, rng, grid)
         if self.has_labels:
             solid = np.asarray(cells["solid"]) != 0
@@ -156,13 +157,13 @@ class Reflective(CellPrior):
         return fresh, log_ratio
 
     def completed(self, cells: Cells, grid: Grid) -> Cells:
-        """Return the map with the prior's mean reflectivity, given the label if there is one, where no beam came."""
+        """Return the map with the prior's mean reflectivity in untouched cells, given the label if there is one."""
         m = np.asarray(cells["reflectivity"], dtype=np.float64)
         mean = self.mean_given(np.asarray(cells["solid"]) != 0) if self.has_labels else np.asarray(self.mean)
         return {**cells, "reflectivity": np.where(np.isnan(m), mean, m)}
 
     def sample_surfaces(self, rng: np.random.Generator, count: int) -> Floats:
-        """Return place-holders, (count, 5): these cells have no surfaces."""
+        """Return zeros as placeholders, (count, 5): these cells have no surfaces."""
         return np.zeros((count, 5))
 
     def stops(self, cells: Cells, grid: Grid) -> NDArray[np.floating]:
@@ -174,10 +175,11 @@ class Reflective(CellPrior):
         return np.full(grid.shape, self.mean)
 
     def default_draws(self, beams: int, cells: int, chains: int, thin: int = 1) -> int:
-        """Return as many draws as take the time of 100 with 100 000 beams (of 50 at a thin of 1), at most 200.
+        """Return the default number of draws per chain, between 100 (50 if ``thin`` is 1) and 200.
 
-        The fewer the beams, the less certain is the map, the more draws do its predictions need (docs/defaults.md), and
-        the sooner is a sweep over. On large grids the draws fit into 1 GiB, but are never fewer than 100 (or 50).
+        Their time is that of 100 (50) draws with 100 000 beams. With fewer beams the map is less certain, so its
+        predictions need more draws (docs/defaults.md), and a sweep is faster. Large grids reduce the number towards the
+        minimum, to fit the draws into 1 GiB.
         """
         fewest = FEWEST_IN_A_ROW if thin == 1 else FEWEST_DRAWS
         affordable = BEAMS_OF_FEWEST * fewest // max(beams, 1)
@@ -185,14 +187,15 @@ class Reflective(CellPrior):
         return max(fewest, min(affordable, fitting, MOST_DRAWS))
 
     def kernel_numbers(self, edge_m: float) -> KernelNumbers:
-        """Return the prior as kernels take it; they do not read the parameters of surfaces."""
+        """Return the prior's parameters for kernels, which ignore those of surfaces here."""
         return KernelNumbers(
             self.a, self.b, edge_m, edge_m**2, 3.0, edge_m, 0.5 * edge_m, self.coupling, self.a_solid, self.b_solid
         )
 
     def map_of(self, draws: Draws, chain: int, draw: int) -> Floats:
-        """Return the chances that cells stop a beam, (nx, ny); where no beam comes the prior's mean, given the label if
-        cells have labels.
+        """Return the chance that each cell stops a beam in one draw, (nx, ny).
+
+        Untouched cells have the prior's mean, given their label if cells have labels.
         """
         elsewhere: Floats | float = self.mean
         if self.has_labels:
@@ -200,10 +203,10 @@ class Reflective(CellPrior):
         return draws.to_grid(draws.arrays[self.shown[0]][chain, draw], "cell", elsewhere)
 
     def mean_map(self, draws: Draws) -> Floats:
-        """Return the posterior mean of the chances that cells stop a beam, (nx, ny); NaN without draws.
+        """Return the posterior mean of the chance that each cell stops a beam, (nx, ny); NaN without draws.
 
-        It is the mean of each draw's expected chances, which has the limit of the mean of drawn ones, and less noise.
-        Where no beam comes it is the prior's mean, given the drawn labels if cells have labels.
+        It averages the draws' expected chances, which has the same limit as averaging drawn chances, and less noise.
+        Untouched cells have the prior's mean, given the drawn labels if cells have labels.
         """
         if draws.size == 0:
             return np.full(draws.grid.shape, np.nan)
@@ -215,11 +218,13 @@ class Reflective(CellPrior):
         from scipy import stats
 
         tails = (0.5 * (1 - level), 0.5 * (1 + level))
+        # Touched cells: quantiles of the draws, some cells at a time.
         drawn = draws.arrays[self.shown[0]]
         ends = np.empty((2, drawn.shape[-1]))
         for i in range(0, drawn.shape[-1], CELLS_AT_ONCE):
             part = drawn[:, :, i : i + CELLS_AT_ONCE]
             ends[:, i : i + CELLS_AT_ONCE] = quantiles_of_halves(part.reshape(-1, part.shape[-1]), tails)
+        # Untouched cells: quantiles of the prior.
         if self.has_labels:
             betas = (self.a, self.b), (self.a_solid, self.b_solid)
             before = ising_field.mixture_quantiles(ising_field.share_solid(draws), *betas, tails)
@@ -229,21 +234,21 @@ class Reflective(CellPrior):
         return lower, upper
 
     def traces(self, draws: Draws, cells: NDArray[np.intp]) -> NDArray[np.float16]:
-        """Return the drawn chances of some touched cells in all draws, (chains, draws, n)."""
+        """Return the drawn chances of the given touched cells in all draws, (chains, draws, n)."""
         place = np.searchsorted(draws.index["cell"], cells)
         return np.asarray(draws.arrays[self.shown[0]][:, :, place])
 
     def expected_traces(self, draws: Draws, cells: NDArray[np.intp]) -> NDArray[np.float16]:
-        """Return the chances that draws expect of some touched cells, (chains, draws, n)."""
+        """Return the expected chances of the given touched cells in all draws, (chains, draws, n)."""
         place = np.searchsorted(draws.index["cell"], cells)
         return np.asarray(draws.arrays[self.shown[1]][:, :, place])
 
     def predictive_stops(self, draws: Draws, wanted: NDArray[np.int32] | None = None) -> Iterator[NDArray[np.float32]]:
-        """Yield the expected reflectivities of each draw, (draws, n), some draws at a time.
+        """Yield the expected reflectivities of each draw, (draws, n), in batches of draws.
 
-        The density of a reading is linear in each cell's reflectivity, so its mean over draws is that of drawn ones,
-        with less noise. Cells that no beam of the run touched have the prior's mean, given their label if cells have
-        labels.
+        The density of a reading is linear in each cell's reflectivity. So expected reflectivities give the same mean
+        density over draws as drawn reflectivities, with less noise. Untouched cells have the prior's mean, given their
+        label if cells have labels.
         """
         cells = np.arange(draws.grid.n_cells, dtype=np.int32) if wanted is None else wanted
         place, known = places_among(draws.index["cell"], cells)
@@ -259,16 +264,17 @@ class Reflective(CellPrior):
             yield stops
 
     def drawn_stops(self, draws: Draws, wanted: NDArray[np.int32] | None = None) -> Iterator[NDArray[np.float32]]:
-        """Yield the stops with drawn reflectivities; untouched cells draw theirs from the prior."""
+        """Yield the stops with drawn reflectivities; those of untouched cells are drawn from the prior."""
         cells = np.arange(draws.grid.n_cells, dtype=np.int32) if wanted is None else wanted
         place, known = places_among(draws.index["cell"], cells)
         drawn = draws.arrays["reflectivity"].reshape(draws.size, -1)
         rng = np.random.default_rng(1)
-        # States are drawn from the prior once; each draw of the map reads them from another offset.
+        # The pool of prior states is drawn once; each draw of the map reads it from another random offset.
         fresh = rng.beta(self.a, self.b, FRESH_CELLS).astype(np.float32)
         solid_ones = rng.beta(self.a_solid, self.b_solid, FRESH_CELLS).astype(np.float32) if self.has_labels else fresh
         numbers = list(draws.numbers())
         number = 0
+        # Replace the reflectivities of `predictive_stops`, in place: surfaces stay.
         for batch in self.predictive_stops(draws, wanted):
             for stops in batch if batch.ndim == 2 else batch[..., 0]:
                 taken = (cells + int(rng.integers(FRESH_CELLS))) % FRESH_CELLS
@@ -292,15 +298,14 @@ class Reflective(CellPrior):
 class Beta(Reflective):
     """A reflectivity in each cell; a stopped beam stops at the cell's hit depth.
 
-    It is Beta(a, b) in each cell by itself; or, at a coupling above 0, by the cell's label Beta(a, b) where it is free
-    and Beta(a_solid, b_solid) where it is solid.
+    At a coupling of 0, reflectivities are independent: Beta(a, b) in each cell. At a coupling above 0 each cell has a
+    label: the reflectivity is Beta(a, b) in free cells, and Beta(a_solid, b_solid) in solid cells.
 
     Attributes:
-        a, b: pseudo-counts of beams that were stopped, and of beams that were not; in free cells, where cells have
-            labels.
-        coupling: what each pair of neighbours (cells that share an edge) with the same label adds to the log density;
-            at 0 there are no labels, and cells are independent.
-        a_solid, b_solid: pseudo-counts in solid cells, where cells have labels.
+        a, b: pseudo-counts of stopped and of passing beams; for free cells only, if cells have labels.
+        coupling: log density added by each pair of neighbours (cells that share an edge) with the same label; at 0
+            there are no labels, and cells are independent.
+        a_solid, b_solid: pseudo-counts for solid cells, if cells have labels.
 
     Raises:
         BadInput: a count that is not positive, or a coupling that is no number from 0 to 50.
@@ -315,16 +320,16 @@ class Beta(Reflective):
 
 
 def places_among(held: NDArray[np.int32], cells: NDArray[np.int32]) -> tuple[NDArray[np.intp], NDArray[np.bool_]]:
-    """Return the position of each of some cells in the ascending ``held``, and whether it is there, (n,) each."""
+    """Return the position of each cell in the ascending ``held``, and whether ``held`` has the cell, (n,) each."""
     place = np.minimum(np.searchsorted(held, cells), max(len(held) - 1, 0))
     known = held[place] == cells if len(held) else np.zeros(len(cells), dtype=np.bool_)
     return place, known
 
 
 def quantiles_of_halves(draws: NDArray[np.float16], at: tuple[float, ...]) -> Floats:
-    """Compute quantiles of nonnegative numbers (draws, cells), linear between draws, (len(at), cells).
+    """Compute quantiles of nonnegative half-precision numbers (draws, cells), linear between draws: (len(at), cells).
 
-    As `numpy.quantile`, but ten times as fast: the bits of such numbers, read as integers, have the same order.
+    It equals `numpy.quantile`, ten times as fast: the bits of these numbers, read as integers, have the same order.
     """
     ordered = np.sort(np.ascontiguousarray(draws.T).view(np.uint16), axis=1).view(np.float16)
     place = np.array(at) * (len(draws) - 1)

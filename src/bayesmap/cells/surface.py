@@ -1,7 +1,7 @@
-"""Surfaces: reflectivities, and the place where each cell stops beams.
+"""Surfaces: each cell has a reflectivity, and a normal distribution of the points at which it stops beams.
 
-The place is a normal distribution of the points where beams stop, as normal-distributions-transform maps keep it (Biber
-and Strasser, 2003), but inferred. What it means for a beam is in `bayesmap.kernels.surfaces.cell`.
+Normal-distributions-transform maps (Biber and Strasser, 2003) store the same distribution; here it is inferred.
+`bayesmap.kernels.surfaces.cell` computes how a surface stops a beam.
 """
 
 from __future__ import annotations
@@ -22,8 +22,8 @@ from bayesmap.cells.reflectivity import EXPECTED, FRESH_CELLS, REFLECTIVITY, Ker
 from bayesmap.errors import BadInput
 from bayesmap.space.grid import Grid
 
-MOST_SPREAD = 3.0
-ROUNDING = 1e-3  # edges by which half precision may take a mean out of its cell
+MOST_SPREAD = 3.0  # largest spread in units of size_scale: beyond it, almost all prior draws are rejected
+ROUNDING = 1e-3  # edges by which rounding to half precision may move a mean out of its cell
 
 PARTS = ("mean_x", "mean_y", "l11", "l21", "l22")
 """Parts of a surface: its mean less the cell's centre, and the Cholesky factor of its covariance, in edges."""
@@ -41,25 +41,25 @@ STOP_CHANCES = tuple(
         ("expected_stop_chance", "mean of the stop chance given where the draw's beams stop"),
     )
 )
-"""The values of maps, whichever cell a surface belongs to (`bayesmap.kernels.surfaces.square_counts`)."""
+"""Values that maps show. They count all stops in a square, whichever cell the surface belongs to
+(`bayesmap.kernels.surfaces.square_counts`)."""
 
 
 @dataclass(frozen=True)
 class Surface(Reflective):
-    """A reflectivity in each cell as in `Beta`, and a surface: mu ~ N(centre, tau^2 I) inside the cell's own square,
-    Sigma ~ InverseWishart(nu, psi I) x exp(-tr Sigma / (2 kappa^2)).
+    """A reflectivity in each cell as in `Beta`, and a surface with mean mu and covariance Sigma.
 
-    Lengths are in edges of a cell, so that one prior serves all resolutions.
+    The prior is mu ~ N(centre, tau^2 I) inside the cell's own square, and Sigma ~ InverseWishart(nu, psi I) x
+    exp(-tr Sigma / (2 kappa^2)). Lengths are in edges of a cell, so that one prior serves all resolutions.
 
     Attributes:
-        a, b: of the reflectivity of what a beam meets; in free cells, where cells have labels.
-        coupling: what each pair of neighbours (cells that share an edge) with the same label, free or solid, adds to
-            the log density; at 0 there are no labels, and cells are independent.
-        a_solid, b_solid: of the reflectivity in solid cells, where cells have labels.
-        mean_scale: tau, how far a surface's mean lies from its cell's centre; it never lies outside
-            the cell: what stands there is another cell's.
-        spread: sqrt(psi), the size of surfaces.
-        dof: nu, how sure that is; more than 1.
+        a, b: pseudo-counts of stopped and of passing beams; for free cells only, if cells have labels.
+        coupling: log density added by each pair of neighbours (cells that share an edge) with the same label; at 0
+            there are no labels, and cells are independent.
+        a_solid, b_solid: pseudo-counts for solid cells, if cells have labels.
+        mean_scale: tau, standard deviation of a surface's mean about the cell's centre; the mean lies inside the cell.
+        spread: sqrt(psi), typical size of surfaces.
+        dof: nu, degrees of freedom of the size; more than 1.
         size_scale: kappa, the size beyond which surfaces are unlikely: about that of a cell.
 
     Raises:
@@ -87,7 +87,7 @@ class Surface(Reflective):
                 raise BadInput(f"Surface: {name} must be a positive number of cells, got {value!r}")
         if not (math.isfinite(self.dof) and self.dof > 1):
             raise BadInput(f"Surface: dof must exceed 1, got {self.dof!r}")
-        if self.spread > MOST_SPREAD * self.size_scale:  # next to no draw would be small enough
+        if self.spread > MOST_SPREAD * self.size_scale:  # almost no draw would be small enough
             raise BadInput(
                 f"Surface: spread must not exceed {MOST_SPREAD:g} times size_scale, got {self.spread!r} and "
                 f"{self.size_scale!r}"
@@ -101,13 +101,15 @@ class Surface(Reflective):
     def log_prob(self, cells: Cells, grid: Grid) -> float:
         """Compute the log density of (logit m, mean, log l11, l21, log l22) of all cells, up to a constant, in metres.
 
-        The Wishart's |Sigma|^-(nu + 3)/2 = (l11 l22)^-(nu + 3) times the Jacobian 4 l11^3 l22^2.
+        Powers of l11 and l22 combine |Sigma|^-(nu + 3)/2 = (l11 l22)^-(nu + 3) and the Jacobian 4 l11^3 l22^2.
         """
         edge = grid.resolution
         x, y, l11, l21, l22 = (np.asarray(cells[f"surface_{part}"], dtype=np.float64) * edge for part in PARTS)
+        # Inverse Wishart: determinant and Jacobian, then -psi / 2 times the trace of the inverse of Sigma.
         q = l21 / (l11 * l22)
         shape = -self.dof * np.log(l11) - (self.dof + 1) * np.log(l22)
         shape -= 0.5 * (self.spread * edge) ** 2 * (1 / l11**2 + 1 / l22**2 + q**2)
+        # The bound of the size, tr Sigma / kappa^2, and the normal law of the mean.
         size = (l11**2 + l21**2 + l22**2) / (self.size_scale * edge) ** 2
         mean = (x**2 + y**2) / (self.mean_scale * edge) ** 2
         if max(np.abs(x).max(initial=0.0), np.abs(y).max(initial=0.0)) > (0.5 + ROUNDING) * edge:
@@ -115,17 +117,18 @@ class Surface(Reflective):
         return super().log_prob(cells, grid) + float((shape - 0.5 * (size + mean)).sum())
 
     def sample_cells(self, rng: np.random.Generator, grid: Grid) -> dict[str, NDArray[Any]]:
-        """Draw a map: a surface in every cell."""
+        """Draw a map with a surface in every cell."""
         surfaces = self.sample_surfaces(rng, grid.n_cells).reshape(*grid.shape, len(PARTS))
         return super().sample_cells(rng, grid) | {f"surface_{part}": surfaces[..., i] for i, part in enumerate(PARTS)}
 
     def sample_surfaces(self, rng: np.random.Generator, count: int) -> Floats:
-        """Draw surfaces: mean x, y less the centre, and l11, l21, l22 of Sigma = L L', in edges, (count, 5)."""
+        """Draw surfaces in edges, (count, 5): mean x, y from the centre, then l11, l21, l22 of Sigma = L L'."""
+        # Rejection sampling: the factor exp(-tr Sigma / (2 kappa^2)) is the probability of acceptance.
         out = np.zeros((count, 5))
         left = np.arange(count)
         while len(left):
             drawn = self._sample_unbounded(rng, len(left))
-            with np.errstate(over="ignore"):  # what is too large for a number is too large
+            with np.errstate(over="ignore"):  # infinite sizes are rejected, as they should be
                 size = (drawn[:, 2:] ** 2).sum(axis=1) / self.size_scale**2
             accepted = rng.random(len(left)) < np.exp(-0.5 * size)
             out[left[accepted]] = drawn[accepted]
@@ -133,8 +136,9 @@ class Surface(Reflective):
         return out
 
     def _sample_unbounded(self, rng: np.random.Generator, count: int) -> Floats:
-        """Draw surfaces without the factor that bounds their size: a normal mean inside the cell by its inverse
-        distribution function, and Bartlett's factor of the Wishart, inverted.
+        """Draw surfaces without the factor that bounds their size, (count, 5).
+
+        Means are truncated normals by inversion; Cholesky factors invert Bartlett's factor of the Wishart law.
         """
         a11 = np.sqrt(rng.chisquare(self.dof, count))
         a22 = np.sqrt(rng.chisquare(self.dof - 1.0, count))
@@ -146,7 +150,7 @@ class Surface(Reflective):
         return np.stack([*mean, *shape], axis=-1)
 
     def stops(self, cells: Cells, grid: Grid) -> NDArray[np.floating]:
-        """Return surfaces, (N, 6), lengths in metres from the grid's corner."""
+        """Return reflectivities and surfaces, (N, 6), lengths in metres from the grid's corner."""
         parts = [np.ravel(cells[f"surface_{part}"]) for part in PARTS]
         out = np.stack([np.ravel(cells["reflectivity"]), *parts], axis=-1).astype(np.float32)
         out[:, 1:] *= grid.resolution
@@ -154,7 +158,7 @@ class Surface(Reflective):
         return out
 
     def completed(self, cells: Cells, grid: Grid) -> Cells:
-        """Return the map with surfaces from the prior in cells in which no reading ends; the seed is fixed."""
+        """Return the map with prior draws of surfaces in cells in which no reading ends; the seed is fixed."""
         fresh = self.sample_surfaces(np.random.default_rng(0), grid.n_cells).reshape(*grid.shape, len(PARTS))
         names = [f"surface_{part}" for part in PARTS]
         parts = {name: np.asarray(cells[name], dtype=np.float64) for name in names}
@@ -162,7 +166,7 @@ class Surface(Reflective):
         return {**super().completed(cells, grid), **drawn}
 
     def kernel_numbers(self, edge_m: float) -> KernelNumbers:
-        """Return the prior as kernels take it."""
+        """Return the prior's parameters for kernels."""
         return KernelNumbers(
             self.a, self.b, self.mean_scale * edge_m, (self.spread * edge_m) ** 2, self.dof, self.size_scale * edge_m,
             0.5 * edge_m, self.coupling, self.a_solid, self.b_solid,
@@ -172,11 +176,12 @@ class Surface(Reflective):
         """Compute the posterior mean surfaces of the cells in which a reading ends.
 
         Returns:
-            means in the world frame (U, 2), covariances of the points (U, 2, 2), both in metres, and the mean
-            reflectivity of their cells, (U,).
+            Means in the world frame in metres, (U, 2); covariances of the points in m^2, (U, 2, 2); and mean
+            reflectivities of the cells, (U,).
         """
         edge, held = draws.grid.resolution, draws.index["surface_cell"]
         mean, second = np.zeros((len(held), 2)), np.zeros((len(held), 2, 2))
+        # Sum means and covariances over draws.
         for chain, draw in draws.numbers():
             x, y, l11, l21, l22 = (
                 draws.arrays[f"surface_{part}"][chain, draw].astype(np.float64) * edge for part in PARTS
@@ -186,16 +191,17 @@ class Surface(Reflective):
             second[:, 0, 1] += l11 * l21
             second[:, 1, 1] += l21**2 + l22**2
         second[:, 1, 0] = second[:, 0, 1]
+        # Divide by the number of draws, and look up the reflectivities of the same cells.
         n = max(draws.size, 1)
         place, _ = places_among(draws.index["cell"], held)
         reflectivity = draws.arrays["expected"][..., place].mean(axis=(0, 1), dtype=np.float64)
         return draws.grid.cell_centres_m(held) + np.array(draws.grid.origin) + mean / n, second / n, reflectivity
 
     def predictive_stops(self, draws: Draws, wanted: NDArray[np.int32] | None = None) -> Iterator[NDArray[np.float32]]:
-        """Yield expected reflectivities and the draw's surfaces, (draws, n, 6), some draws at a time.
+        """Yield expected reflectivities and the draw's surfaces, (draws, n, 6), in batches of draws.
 
-        Draws keep the surfaces of cells in which some reading ends. Those of the other cells are almost draws from the
-        prior, and are drawn anew here.
+        Draws store the surfaces of cells in which a reading ends. Surfaces of other cells almost follow the prior, and
+        are drawn from it here.
         """
         cells = np.arange(draws.grid.n_cells, dtype=np.int32) if wanted is None else wanted
         place, known = places_among(draws.index["cell"], cells)
@@ -204,8 +210,8 @@ class Surface(Reflective):
         edge = draws.grid.resolution
         centre = draws.grid.cell_centres_m(cells)
         rng = np.random.default_rng(0)
-        # Surfaces are drawn from the prior once; each draw of the map reads them from another offset, and a cell's
-        # surface does not depend on which others are asked for.
+        # The pool of prior surfaces is drawn once; each draw of the map reads it from another random offset. The
+        # surface of a cell does not depend on the other cells in ``wanted``.
         fresh = np.zeros((FRESH_CELLS, 6), dtype=np.float32)
         fresh[:, 0] = self.mean
         fresh[:, 1:] = self.sample_surfaces(rng, len(fresh))

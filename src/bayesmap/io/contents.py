@@ -1,4 +1,4 @@
-"""The contents of a recording or a log, without having to choose anything."""
+"""Describe the contents of a recording or a log, without any option from the user."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ CONVERTERS = {
     "sensor_msgs/msg/MultiEchoLaserScan": "laser_proc turns its sensor_msgs/msg/MultiEchoLaserScan into scans",
     "sensor_msgs/msg/Image": "depthimage_to_laserscan turns depth images of sensor_msgs/msg/Image into scans",
 }
-"""ROS packages that make range scans of other messages."""
+"""ROS packages that turn other messages into range scans, by type of message."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,14 +32,14 @@ class Contents:
 
     Attributes:
         path: the file or folder.
-        format: as `LogReading` calls it.
-        start_s, end_s: the first and the last time in it; None if there are none.
+        format: name of the format, as in `LogReading`.
+        start_s, end_s: the first and the last time in seconds; None without times.
         topics: name, type, count and rate of each topic of a recording; name and count of each message of a log.
-        frames: the frames that /tf of a recording knows.
-        sensors: for each source of scans, what they look like, and whether they have poses.
-        pose_sources: the topics of a recording that tell poses.
-        suggestion: a command that infers a map from it; None if there is none.
-        notes: what a user should know.
+        frames: frames in /tf of a recording.
+        sensors: for each source of scans, a summary of the scans and their poses.
+        pose_sources: topics of a recording with poses.
+        suggestion: command that infers a map from the file; None if there is none.
+        notes: sentences for the user.
     """
 
     path: str
@@ -58,7 +58,7 @@ def contents_of(path: str | os.PathLike[str]) -> Contents:
     """Describe a log or a recording; malformed lines and messages are counted, not refused.
 
     Raises:
-        BadInput: a file that cannot be read, or is of no known format.
+        BadInput: a file that cannot be read, or a file of no known format.
     """
     if format_of(path) in RECORDINGS:
         return _of_recording(path)
@@ -92,6 +92,7 @@ def _of_recording(path: str | os.PathLike[str]) -> Contents:
     from bayesmap.io.ros.messages import read_messages  # loads rosbags
     from bayesmap.io.ros.poses import PoseMessages
 
+    # Topics with their rates, and the frames of /tf.
     name = os.fspath(path)
     recording = open_recording(path, salvage=True, types=TYPES)
     spent_s = ((recording.end_ns or 0) - (recording.start_ns or 0)) * 1e-9
@@ -105,6 +106,7 @@ def _of_recording(path: str | os.PathLike[str]) -> Contents:
     poses = PoseMessages()
     read_messages(recording, topics_of_type(recording, TF_TYPES), None, poses, lambda *_: None)
     pose_sources = topics_of_type(recording, (*TF_TYPES, *POSE_TYPES))
+    # Read the scans of each topic, and suggest a command for the best: with poses, then with most readings.
     scan_topics = topics_of_type(recording, SCAN_TYPES)
     sensors = [_sensor(recording, topic) for topic in scan_topics]
     usable = [sensor for sensor in sensors if sensor["error"] is None]
@@ -131,7 +133,7 @@ def _of_recording(path: str | os.PathLike[str]) -> Contents:
 
 
 def _sensor(recording: Any, topic: Any) -> dict[str, Any]:
-    """Describe the scans of one topic, and the poses by which they can be used."""
+    """Describe the scans of one topic, and the first source of poses that works for them."""
     account: dict[str, Any] = {
         "topic": topic.name, "type": topic.type, "pose_topic": None, "error": None, "no_poses": None,
     }  # fmt: skip
@@ -175,7 +177,7 @@ def _account(reading: LogReading) -> dict[str, Any]:
 
 
 def _about_poses(reading: LogReading) -> list[str]:
-    """Return remedies for poses under which a wall stands in several places, and for scans without poses."""
+    """Return remedies for poses at which one wall appears in several places, and for scans without poses."""
     if not reading.posed:
         return [] if scans_come_often(reading.scans) else [f"{TOO_SELDOM}: give them poses"]
     if not look_like_odometry(reading.scans):
@@ -188,7 +190,7 @@ def _about_poses(reading: LogReading) -> list[str]:
 
 
 def scans_summary(scans: Scans) -> dict[str, Any]:
-    """Describe scans, ready for JSON: their number, beams, readings, and the way that they cover."""
+    """Describe scans, ready for JSON: their number, beams, readings, extent and distance travelled."""
     angles = np.degrees(scans.angles_rad)
     low, high = scans.poses[:, :2].min(axis=0), scans.poses[:, :2].max(axis=0)
     hits = scans.ranges_m[np.isfinite(scans.ranges_m)]
@@ -209,7 +211,7 @@ def scans_summary(scans: Scans) -> dict[str, Any]:
 
 
 def _command(path: str, sensor: dict[str, Any], *, scan_topic: str | None = None, skip: bool = False) -> str | None:
-    """Return the command that makes a map of a sensor's scans; None if there is none that works."""
+    """Return the command that infers a map from a sensor's scans; None if none works."""
     if sensor["no_poses"] is not None and not sensor["followable"]:
         return None
     words = ["bayesmap", "slam" if sensor["raw_odometry"] or sensor["no_poses"] is not None else "infer", path]

@@ -1,35 +1,35 @@
-"""Write a posterior as a file that other programs read: which writer an ending, or a format's name, calls.
+"""Write a posterior as a file for other programs. The format's name, or the path's ending, selects the writer.
 
     format           endings                           what
     map-server       .yaml, .yml                       YAML and image, for nav2's map_server
     occupancy-grid   .bag, .mcap, .db3, or a folder    nav_msgs/OccupancyGrid in a recording
-    gridmap          the same, if asked for            grid_map_msgs/GridMap: all layers in a recording
+    gridmap          as occupancy-grid, by name        grid_map_msgs/GridMap: all layers in a recording
     rerun            .rrd                              layers, trajectory and scans for the rerun viewer
     tum              .tum                              the poses, and their covariances beside them
-    trajectory       as occupancy-grid, if asked for   nav_msgs/Path, and poses with covariances, in a recording
+    trajectory       as occupancy-grid, by name        nav_msgs/Path, and poses with covariances, in a recording
     g2o              .g2o                              the poses as a graph with information matrices
-    geotiff          .tif, .tiff                       all layers, a band each
+    geotiff          .tif, .tiff                       all layers, one band each
 
-The layers are ``mean``, ``entropy`` in bits, and, where a cell's state is a number with an interval (reflectivity),
-``lower`` and ``upper``, the bounds of its central 90 % interval. A wall is there or not: quantiles of a Bernoulli are 0
-or 1 and say less than its mean, so runs on binary walls have no such layers.
+The layers are ``mean``, and ``entropy`` in bits. If a cell's state is a number with an interval (reflectivity), there
+are also ``lower`` and ``upper``, the bounds of its central 90 % interval. Runs on binary walls have no such layers:
+quantiles of a Bernoulli are 0 or 1, and less informative than its mean.
 
-**GeoTIFF** (``bayesmap[geotiff]``, rasterio): one band a layer, which QGIS, GDAL and rasterio read. Row 0 is the top
+**GeoTIFF** (``bayesmap[geotiff]``, rasterio): one band per layer, for QGIS, GDAL and rasterio. Row 0 is the top
 (largest y). The affine transform takes (column, row) to metres of the map frame, from the upper-left corner of the
-upper-left cell. The frame of a robot's map is nowhere on Earth, so no coordinate reference system is written; a program
-that asks for one may be told any that counts in metres.
+upper-left cell. A robot's map has no known position on Earth, so no coordinate reference system is written. If a
+program asks for one, choose any in metres.
 
 **rerun** (``bayesmap[rerun]``, rerun-sdk): a recording (.rrd) of
 
     /map/NAME      picture of a layer: mean: dark is wall; others: yellow is 1, dark blue 0; sand where no beam reached
     /values/NAME   the layer's numbers, a tensor (row from the top, column), NaN where no beam reached
-    /trajectory    the poses, a line
-    /ellipses      regions that hold their positions with 95 % probability, where that is known
-    /sensor, /scan position and hits of each scan, on the timelines ``scan`` (its number) and ``stamp`` (where known)
-    /about         where the pixels are in the map's frame, in words
+    /trajectory    the poses, as a line
+    /ellipses      95 % regions of the positions, if known
+    /sensor, /scan position and hits of each scan, on the timelines ``scan`` (its number) and ``stamp`` (if known)
+    /about         the position of the pixels in the map's frame, in words
 
-Everything lies in the plane of the picture, whose unit is the cell: a point x, y in metres is at
-((x - x_min) / resolution, (y_max - y) / resolution), y downwards, as pictures have it.
+The coordinates are those of the picture, in cells: a point x, y in metres is at
+((x - x_min) / resolution, (y_max - y) / resolution), with y downwards.
 """
 
 from __future__ import annotations
@@ -66,20 +66,20 @@ FORMATS = {
     "g2o": (".g2o",),
     "geotiff": (".tif", ".tiff"),
 }
-"""Formats, and the endings by which each is chosen; a name without ending is an occupancy grid in a folder."""
+"""Formats with the endings that select them; a name without ending is an occupancy grid in a folder."""
 
 TRAJECTORIES = ("tum", "trajectory", "g2o")
 APPROXIMATION = "the Student-t approximation of all scans' poses"
 THRESHOLDED = ("map-server", "occupancy-grid")
 """Formats that turn probabilities into per cent, and take a mode and thresholds."""
 
-INTERVAL = 0.9
+INTERVAL = 0.9  # probability of the interval from the layer lower to upper
 
 
 class Mapped(Protocol):
-    """What an export needs of a run; one with intervals also has ``interval(level) -> (lower, upper)``.
+    """The attributes of a run that an export reads; a run with intervals also has ``interval(level)``.
 
-    Posterior mean, entropy and the cells that some beam reached are arrays of shape (nx, ny).
+    Posterior mean, entropy and the mask of observed cells are arrays of shape (nx, ny). Intervals are (lower, upper).
     """
 
     @property
@@ -93,10 +93,10 @@ class Mapped(Protocol):
 
 
 def export_format(path: str | os.PathLike[str], format: str | None = None) -> str:
-    """Return the format that a path's ending calls for, unless one is named.
+    """Return the given format, or else the format of the path's ending.
 
     Raises:
-        BadInput: an unknown ending or format; the message lists the known.
+        BadInput: an unknown ending or format; the message lists the known ones.
     """
     if format is not None:
         if format not in FORMATS:
@@ -124,16 +124,16 @@ def existing(path: str | os.PathLike[str], format: str | None = None) -> Path | 
     target = Path(path)
     images = [target.with_suffix(e) for e in (".pgm", ".png")] if export_format(path, format) == "map-server" else []
     places = [place for place in (target, *images) if os.path.lexists(place)]
-    # An empty folder was made for this; only what is in it can be lost.
+    # Nothing can be lost in an empty folder.
     if places == [target] and target.is_dir() and not any(target.iterdir()):
         return None
     return places[0] if places else None
 
 
 def layers_of(run: Mapped) -> dict[str, NDArray[np.float64]]:
-    """Return the layers of a run, each (nx, ny): mean, entropy, and lower and upper where a cell has an interval."""
+    """Return the layers of a run, each (nx, ny): mean, entropy, and lower and upper if cells have intervals."""
     layers = {"mean": run.occupancy, "entropy": run.entropy}
-    # Not part of the protocol: runs on binary walls need not have it, or may refuse.
+    # Not part of the protocol: runs on binary walls need not have the method, and may raise `BadInput`.
     interval = getattr(run, "interval", None)
     if interval is not None:
         with contextlib.suppress(BadInput):
@@ -142,10 +142,10 @@ def layers_of(run: Mapped) -> dict[str, NDArray[np.float64]]:
 
 
 def trajectory_of(run: object, scans: Scans) -> Trajectory:
-    """Return where a run says that the sensor was, and how sure that is.
+    """Return the trajectory of the sensor in a run, with its uncertainty.
 
-    A run of `bayesmap.slam` gives the poses of all scans by its approximation, unless its chains over the poses of the
-    key scans have mixed: then those. Other runs give their draws of poses, or else the poses of their scans.
+    A run of `bayesmap.slam` gives the draws of its chains over poses if these have mixed, else its approximation of the
+    poses of all scans. Other runs give their draws of poses, or else the poses of their scans.
     """
     approximate = getattr(run, "trajectory", None)
     draws = getattr(run, "poses", None)
@@ -181,17 +181,17 @@ def export_trajectory(
     edges: Edges | None = None,
     frame: str = "map",
 ) -> tuple[Path, ...]:
-    """Write a trajectory in another program's format; what was there of that name is replaced.
+    """Write a trajectory in another program's format; an existing file of that name is replaced.
 
     Args:
-        path: .tum, .g2o, or a recording (.bag, .mcap, .db3 or a folder).
-        trajectory: of a map's scans, of `bayesmap.localize`, or of anything else.
+        path: path with the ending .tum or .g2o, or of a recording (.bag, .mcap, .db3 or a folder).
+        trajectory: the trajectory, such as that of a map's scans or of `bayesmap.localize`.
         format: "tum", "g2o" or "trajectory" (a recording); by the path's ending if None.
-        edges: the pose graph that g2o holds; if None, the chain of steps (`bayesmap.io.text.g2o.chain_edges`).
-        frame: of a recording.
+        edges: pose graph for g2o; if None, the chain of steps (`bayesmap.io.text.g2o.chain_edges`).
+        frame: frame of the poses in a recording.
 
     Returns:
-        The paths of what was written: beside NAME.tum, NAME-covariances.txt where covariances are known.
+        The paths of the files written. If covariances are known, NAME-covariances.txt is written beside NAME.tum.
 
     Raises:
         BadInput: another ending or format, no pose, a graph of a trajectory without covariances, or a file that cannot
@@ -228,24 +228,24 @@ def export_run(
     occupied_thresh: float | None = None,
     free_thresh: float | None = None,
 ) -> tuple[Path, ...]:
-    """Write a run in another program's format; what was there of that name is replaced.
+    """Write a run in another program's format; an existing file of that name is replaced.
 
     Args:
         path: the file to write, or the folder of a ROS 2 bag.
         run: the posterior.
-        scans: what it was inferred from: their poses are the trajectory, and the stamp of the last is the map's.
+        scans: scans of the run; the stamp of the last is the map's, and their poses are the default trajectory.
         format: one of `FORMATS`; by the path's ending if None.
-        mode: trinary, scale or raw, see `bayesmap.io.ros.maps`; if None, trinary for map-server and scale, which is
-            the probability in per cent, for occupancy-grid. Other formats keep the numbers and take no mode.
-        occupied_thresh: above it a cell is occupied; 0.65 in trinary, 1 in scale.
-        free_thresh: below it a cell is free; 0.25 in trinary, 0 in scale.
+        mode: trinary, scale or raw, see `bayesmap.io.ros.maps`. If None, it is trinary for map-server, and scale, the
+            probability in per cent, for occupancy-grid. Other formats write exact numbers and take no mode.
+        occupied_thresh: threshold above which a cell is occupied; by default 0.65 in trinary, 1 in scale.
+        free_thresh: threshold below which a cell is free; by default 0.25 in trinary, 0 in scale.
 
     Returns:
-        The paths of what was written.
+        The paths of the files written.
 
     Raises:
         BadInput: an unknown ending, format or mode, a mode or threshold that the format does not take, an optional
-            package that is not installed, or a file that cannot be written; the message says what would be right.
+            package that is not installed, or a file that cannot be written; the message has the remedy.
     """
     chosen = export_format(path, format)
     thresholds = {"mode": mode, "occupied_thresh": occupied_thresh, "free_thresh": free_thresh}
@@ -275,7 +275,7 @@ def export_run(
     if chosen == "rerun":
         return (write_rerun(path, layers_of(run), grid, observed, scans=scans, trajectory=trajectory),)
     edges = None
-    if chosen == "g2o" and trajectory.relative is not None:  # the approximation tells where the scans are
+    if chosen == "g2o" and trajectory.relative is not None:  # the trajectory is slam's approximation
         from bayesmap.io.text.g2o import slam_edges
 
         edges = slam_edges(run.trajectory)  # type: ignore[attr-defined]
@@ -283,20 +283,20 @@ def export_run(
 
 
 EPOCH_FROM_S = 1e8
-"""Later stamps are dates, earlier ones count from some start."""
+"""Stamps above this, in seconds, are dates; smaller ones count from the start of the log."""
 SENSOR_COLOR, TRAJECTORY_COLOR, SCAN_COLOR = (0, 158, 115), (0, 158, 115), (213, 94, 0)
 WALL_COLORS = ((250, 250, 248), (20, 31, 66))
 UNCERTAINTY_COLORS = ((0, 32, 76), (124, 123, 120), (255, 233, 69))
-"""Of 0 to 1, in straight lines: those of `bayesmap.viz.palette`, near enough."""
-LEVEL = 0.95
+"""Colours from 0 to 1, interpolated linearly: approximately those of `bayesmap.viz.palette`."""
+LEVEL = 0.95  # probability of the ellipses
 UNKNOWN_COLOR = (214, 201, 176)
-"""Not transparent: the viewer shows that as black."""
+"""Colour of unknown cells. It is not transparent, because the viewer shows transparent pixels as black."""
 
 
 def write_geotiff(
     path: str | os.PathLike[str], layers: Mapping[str, ArrayLike], grid: Grid, observed: ArrayLike | None = None
 ) -> Path:
-    """Write layers, as `as_layers` takes them, as bands of a GeoTIFF, whole or not at all. Returns the path.
+    """Write layers (see `as_layers`) as bands of a GeoTIFF, whole or not at all. Returns the path.
 
     Cells that no beam reached are NaN, which is the bands' nodata value.
 
@@ -312,7 +312,7 @@ def write_geotiff(
     checked = as_layers(grid, layers, observed)
     x0, _, _, y1 = grid.extent_m
     target = Path(path)
-    # In memory first: GDAL only prints what goes wrong on a full disk.
+    # The file is made in memory first, because GDAL only prints errors of a full disk.
     with write_whole(target) as partial, MemoryFile() as memory:
         with memory.open(
             driver="GTiff", width=grid.shape[0], height=grid.shape[1], count=len(checked), dtype="float32",
@@ -330,9 +330,9 @@ def write_rerun(
     path: str | os.PathLike[str], layers: Mapping[str, ArrayLike], grid: Grid, observed: ArrayLike | None = None, *,
     scans: Scans | None = None, trajectory: Trajectory | None = None,
 ) -> Path:  # fmt: skip
-    """Write layers, as `as_layers` takes them, for the rerun viewer, whole or not at all. Returns the path.
+    """Write layers (see `as_layers`) for the rerun viewer, whole or not at all. Returns the path.
 
-    The scans are shown over the layers, and the trajectory with its ellipses, or else the scans' poses.
+    Over the layers the viewer shows the scans, and the trajectory with its ellipses, or else the scans' poses.
 
     Raises:
         BadInput: rerun-sdk is not installed, layers that do not fit, or a file that cannot be written.
@@ -397,7 +397,7 @@ def _log_trajectory(rr: Any, recording: Any, trajectory: Trajectory, grid: Grid)
 
 
 def _picture(values: NDArray[np.float32], colors: tuple[tuple[int, int, int], ...]) -> NDArray[np.uint8]:
-    """Return the colours of 0 to 1, shape (ny, nx, 3), the first row on top."""
+    """Return the colours of values from 0 to 1 as a picture, shape (ny, nx, 3), with the top row first."""
     knots = np.linspace(0.0, 1.0, len(colors))
     pixels = np.stack([np.interp(values, knots, shade) for shade in np.array(colors).T], axis=-1)
     pixels[np.isnan(values)] = UNKNOWN_COLOR

@@ -1,8 +1,8 @@
-"""Scans of a log that is still being written, one after the other: CARMEN lines, or CSV with one row a scan.
+"""Scans of a log that is still being written, one after the other: CARMEN lines, or CSV with one row per scan.
 
-Some things that `bayesmap.read_log` finds by looking at the whole log have to be known beforehand: the scans come in
-the order of the lines, those of the first kind of laser message are taken, and no return is only the number that is
-given or stated, beside what exceeds the largest range.
+`bayesmap.read_log` looks at the whole log, which is not possible here. So scans come in the order of the lines, and are
+those of the first kind of laser message. Readings are no return from the given or stated number on, or above the
+largest range.
 """
 
 from __future__ import annotations
@@ -29,15 +29,15 @@ from bayesmap.space.scans import Scans
 
 STANDARD_INPUT = ("-", "/dev/stdin")
 LOOK_EVERY_S = 0.05
-"""How often a file is looked at that has not grown."""
-CHUNK_BYTES = 1 << 16
+"""Seconds between two looks at a file that has not grown."""
+CHUNK_BYTES = 1 << 16  # read at a time
 
 
 def can_be_followed(name: str) -> bool:
-    """Return whether a log's scans can be read while it is written: a text, a pipe, or standard input.
+    """Return true if a log's scans can be read while it is written: a text, a pipe, or standard input.
 
     Raises:
-        BadInput: a file that cannot be read, or of no known format.
+        BadInput: a file that cannot be read, or a file of no known format.
     """
     if name in STANDARD_INPUT:
         return True
@@ -61,20 +61,20 @@ def live_scans(
     idle_s: float | None = None, on_skipped: Callable[[int, str], None] = lambda line, reason: None,
     laser: Pose | None = None, without_poses: bool = False,
 ) -> Iterator[Scans]:  # fmt: skip
-    """Return the scans of a log as it is written, one at a time.
+    """Yield the scans of a log as it is written, one at a time.
 
     Args:
-        name: a text that `live_lines` reads.
+        name: name of a text, a pipe or standard input, see `live_lines`.
         max_range_m: the sensor's largest range; longer readings are no return.
-        no_return: what the log writes for no return, if that is less.
-        skip_bad_lines: leave out malformed lines instead of ending with an error.
-        idle_s: end when nothing has come for so long.
-        on_skipped: told of lines that are left out.
-        laser: where the laser is on the robot, instead of what the log says.
-        without_poses: take tables without poses, too.
+        no_return: number that means no return in the log, if it is below ``max_range_m``.
+        skip_bad_lines: true to leave out malformed lines instead of ending with an error.
+        idle_s: end after so many seconds without new data; None to wait for ever.
+        on_skipped: called with the number of each line left out, and the reason.
+        laser: pose of the laser on the robot, which replaces that of the log.
+        without_poses: true to accept tables without poses, too.
 
     Raises:
-        BadInput: it cannot be read, is of another format, or has a malformed line.
+        BadInput: the log cannot be read, has another format, or has a malformed line.
     """
     options = LogOptions(no_return, skip_bad_lines, max_range_m, laser=laser, without_poses=without_poses)
     account = Account(name, "", options)
@@ -84,7 +84,7 @@ def live_scans(
         on_skipped(line, reason)
 
     lines = live_lines(name, idle_s)
-    before: list[tuple[int, bytes]] = []
+    before: list[tuple[int, bytes]] = []  # lines read until the format is known; its reader begins with them
     for number, line in lines:
         before.append((number, line))
         words = line.split(None, 1)
@@ -101,7 +101,7 @@ def live_scans(
 
 
 def _of_carmen(lines: Iterable[tuple[int, bytes]], bad: Bad, options: LogOptions) -> Iterator[Scans]:
-    """Return scans of the first kind of laser message that comes, each with its own beams, if it has readings."""
+    """Yield the scans of the first kind of laser message, each with its own beams, if it has readings."""
     kind, limit_m = "", options.max_range_m
     assert limit_m is not None
     for number, line in lines:
@@ -124,17 +124,17 @@ def _of_carmen(lines: Iterable[tuple[int, bytes]], bad: Bad, options: LogOptions
 
 
 def live_lines(name: str, idle_s: float | None = None) -> Iterator[tuple[int, bytes]]:
-    """Return the lines of a file, pipe or standard input with their numbers, from 1, as soon as each is whole.
+    """Yield the lines of a file, pipe or standard input with their numbers, from 1, as soon as each is whole.
 
-    A pipe and standard input end when nobody writes to them any more. A file never ends: what is added to it comes,
-    until the caller stops.
+    A pipe and standard input end when their last writer closes them. A file never ends: its new lines follow, until
+    the caller stops.
 
     Args:
-        name: of the file or pipe; "-" is standard input.
-        idle_s: end, too, when nothing has come for so long; then what stands after the last line end is a line.
+        name: name of the file or pipe; "-" is standard input.
+        idle_s: end after so many seconds without new data, too; a last line without line end is then a line.
 
     Raises:
-        BadInput: it cannot be read, was cut short, or has a line that is too long.
+        BadInput: the input cannot be read, was cut short, or has a line that is too long.
     """
     return split_lines(name, as_utf8(_pieces(name, idle_s)))
 
@@ -165,7 +165,7 @@ def _of_file(name: str, descriptor: int, idle_s: float | None) -> Iterator[bytes
         if piece:
             read_bytes += len(piece)
             yield piece
-            last = time.monotonic()  # how long the caller took does not count
+            last = time.monotonic()  # the caller's own time does not count
             continue
         if os.fstat(descriptor).st_size < read_bytes:
             raise BadInput(f"{name}: was cut short while it was followed")

@@ -1,4 +1,4 @@
-"""The reading of a log: its scans, and an account of how they were read."""
+"""The result of reading a log: its scans, and an account of how they were read."""
 
 from __future__ import annotations
 
@@ -21,15 +21,15 @@ Pose = tuple[float, float, float]
 """x and y in metres, yaw in radians."""
 
 STEEPEST, LEVEL = math.cos(math.radians(45.0)), math.cos(math.radians(5.0))
-"""A sensor that is tilted more does not scan the plane, and one that is tilted less is taken as level."""
+"""Cosines of tilt: a sensor tilted by more than 45 degrees is refused, one tilted by less than 5 counts as level."""
 
 WITHOUT_POSES = "bayesmap slam --no-odometry needs no poses, if scans come at 5 Hz or so"
-"""The remedy for scans alone."""
+"""The remedy for scans without poses."""
 
 
 @dataclass(frozen=True)
 class LogOptions:
-    """A user's options for reading a log, as `bayesmap.io.logs.read_log` explains them."""
+    """A user's options for reading a log, documented in `bayesmap.io.logs.read_log`."""
 
     no_return: float | None = None
     skip_bad_lines: bool = False
@@ -47,7 +47,7 @@ class LogOptions:
 class SkippedLine:
     """A line, or a message of a recording, that was left out on request: its number, from 1, and the reason.
 
-    ``what`` says what is counted: ``"line"``, ``"message on /scan"``.
+    ``what`` names the counted items: ``"line"``, ``"message on /scan"``.
     """
 
     line: int
@@ -67,26 +67,24 @@ class LogReading:
         path: the file or folder.
         format: ``"carmen"``, ``"g2o"``, ``"csv"``, ``"npz"``, ``"rawlog"``, ``"rosbag1"``, ``"rosbag2-sqlite3"`` or
             ``"mcap"``.
-        message: the kind of message that the scans come from, such as ``"FLASER"`` or
-            ``"sensor_msgs/msg/LaserScan"``.
-        scans: the scans in order of time; their poses are the laser's.
-        messages: how many lines of each kind (in a recording: messages on each topic) the file holds, malformed ones
-            included.
+        message: kind of message of the scans, such as ``"FLASER"`` or ``"sensor_msgs/msg/LaserScan"``.
+        scans: the scans in time order; their poses are the laser's.
+        messages: count of lines of each kind (in a recording: of messages on each topic), malformed ones included.
         skipped: malformed lines that were left out on request.
-        no_return: the number that means "no return" in this log, and how it is known.
-        max_range_origin: where ``scans.max_range_m`` comes from: ``"given"``, ``"message"`` (stated in the log) or
+        no_return: the number that means "no return" in this log, and its source.
+        max_range_origin: source of ``scans.max_range_m``: ``"given"``, ``"message"`` (stated in the log) or
             ``"readings"``.
         laser_offset: median pose of the laser in the robot's frame: x and y in metres, yaw in radians.
-        reordered: scans that the file holds before an earlier one.
-        notes: what a user should know, one sentence each: other lasers that were not used, and the like.
-        scan_topic: the topic of the scans; None in formats that have none.
-        pose_source: where the poses come from: ``"/tf"``, another topic, or None where the scans hold their poses.
-        fixed_frame: the frame of the poses; None where the format does not name it.
-        sensor_frame: the frame of the scans.
-        deskewed: whether each beam has a pose of its own.
-        thin_m: metres that the robot travels from one scan to the next at least; 0 if none was left out.
-        scans_read: how many scans there were before they were thinned.
-        posed: whether the poses are known; if not, all are zero.
+        reordered: number of scans that follow a later scan in the file.
+        notes: sentences for the user, for example about other lasers that were not used.
+        scan_topic: topic of the scans; None in formats without topics.
+        pose_source: source of the poses: ``"/tf"``, another topic, or None if the scans hold their poses.
+        fixed_frame: frame of the poses; None if the format does not name it.
+        sensor_frame: frame of the scans; None if the format does not name it.
+        deskewed: true if each beam has its own pose.
+        thin_m: least distance in metres that the robot travels between two scans; 0 if no scan was left out.
+        scans_read: number of scans before thinning; None if they were not thinned.
+        posed: true if the poses are known; if not, all are zero.
     """
 
     path: str
@@ -111,7 +109,7 @@ class LogReading:
 
     @property
     def no_return_m(self) -> float | None:
-        """The number, in metres, that means "no return" in this log, or None."""
+        """The number in metres that means "no return" in this log, or None."""
         return self.no_return.code_m
 
     def summary(self) -> dict[str, object]:
@@ -141,8 +139,8 @@ class LogReading:
 class Account:
     """The account of a log while it is read, under the names of `LogReading`.
 
-    ``name`` is the path, and ``counts`` holds how many lines, objects or messages of each kind there are. ``stamps_s``
-    are those of the scans, in the order of time; None if they have none.
+    ``name`` is the path, and ``counts`` holds the number of lines, objects or messages of each kind. ``stamps_s`` are
+    the stamps of the scans in time order; None without stamps.
     """
 
     name: str
@@ -155,17 +153,17 @@ class Account:
     reordered: int = 0
 
     def bad(self, line: int, reason: str) -> None:
-        """Leave a malformed line out; raise `BadInput` if the user did not ask for that."""
+        """Record a malformed line that is left out; raise `BadInput` if the options do not allow it."""
         if not self.options.skip_bad_lines:
             raise BadInput(f"{self.name}: line {line}: {reason}; repair it, or leave it out with --skip-bad-lines")
         self.skipped.append(SkippedLine(line, reason))
 
     def no_poses(self, reason: str) -> BadInput:
-        """Return the error for scans that have no poses, with what can be done with them all the same."""
+        """Return the error for scans without poses, with a remedy."""
         return BadInput(f"{self.name}: nothing says where the scans were taken: {reason}; {WITHOUT_POSES}")
 
     def in_time_order(self, stamps_s: Floats | None, count: int) -> NDArray[np.intp]:
-        """Return the order of time of the scans, as indices, and keep their stamps; the file's order without stamps."""
+        """Return the time order of the scans as indices, and store their stamps; without stamps, the file's order."""
         if stamps_s is None:
             return np.arange(count)
         timed = time_order(stamps_s)
@@ -177,12 +175,12 @@ class Account:
         """Return 1 for an upright sensor, -1 for one upside down, and note a tilt.
 
         Args:
-            heights: the vertical component of the sensor's z axis in each scan, (S,).
-            sensor: its name, for messages.
-            remedy: what to do if it does not scan the plane.
+            heights: vertical component of the sensor's z axis in each scan, (S,).
+            sensor: name of the sensor, for messages.
+            remedy: advice for the message if the sensor does not scan the plane.
 
         Raises:
-            BadInput: a sensor that does not scan the plane, or that is turned over on the way.
+            BadInput: a sensor that does not scan the plane, or that is upside down in some scans only.
         """
         steep = np.abs(heights) < STEEPEST
         if steep.any():
@@ -202,7 +200,7 @@ class Account:
         return -1.0 if heights[0] < 0 else 1.0
 
     def classify(self, readings_m: Floats, limits_m: tuple[float, float], poses: Floats, angles: Floats) -> Readings:
-        """Tell hits, no returns, too close and invalid readings apart, given the sensor's limits by the log."""
+        """Classify readings as hits, no return, too close or invalid, given the sensor's limits in the log."""
         return classify(
             self.name, readings_m, *limits_m, no_return=self.options.no_return, max_range_m=self.options.max_range_m,
             views=Views.of(poses, angles),
@@ -215,12 +213,12 @@ class Account:
         """Return the reading of the log.
 
         Args:
-            message: the kind of message that the scans come from.
-            poses: the laser's, in the order of time, (S, 3).
+            message: kind of message of the scans.
+            poses: poses of the laser in time order, (S, 3).
             angles_rad: beam angles, (A,) or (S, A).
-            readings: the readings of the beams, (S, A).
-            beam_poses: the pose of each beam, (S, A, 3).
-            mount: the laser on the robot, by the log.
+            readings: readings of the beams, (S, A).
+            beam_poses: pose of each beam, (S, A, 3).
+            mount: pose of the laser on the robot in the log.
             about: other attributes of `LogReading`.
         """
         limit_m = readings.max_range_m

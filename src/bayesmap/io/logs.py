@@ -1,10 +1,10 @@
-"""Logs of range scans, whatever their format, recognised by what is in them.
+"""Read logs of range scans of any known format. The content, not the name, decides the format.
 
 A NumPy archive (.npz) holds scans under the names of the fields of `bayesmap.Scans`: ``poses`` (S, 3), ``angles_rad``
-(A,) and ``ranges_m`` (S, A); ``angles_rad`` is (S, A) where the beams differ from scan to scan, with NaN where a scan
-has fewer. Optional are ``max_range_m``, ``min_range_m``, ``stamps_s`` (S,) and ``beam_poses`` (S, A, 3). Readings are
-coded as in `Scans`: +inf no return, -inf too close, NaN invalid, all else hits; a code is looked for only if
-``no_return`` names one.
+(A,) and ``ranges_m`` (S, A). If beams differ from scan to scan, ``angles_rad`` is (S, A), with NaN for missing beams.
+Optional are ``max_range_m``, ``min_range_m``, ``stamps_s`` (S,) and ``beam_poses`` (S, A, 3). Readings are coded as in
+`Scans`: +inf no return, -inf too close, NaN invalid, all other numbers hits. A no-return code is decoded only if
+``no_return`` is given.
 """
 
 from __future__ import annotations
@@ -45,13 +45,13 @@ FORMATS = (
     "NumPy .npz",
     "MRPT's .rawlog",
 )
-LINES_LOOKED_AT = 1000
+LINES_LOOKED_AT = 1000  # lines of a text that may decide its format
 ENDINGS = (".log", ".log.gz", ".clf", ".clf.gz", ".bag", ".g2o", ".csv", ".npz", ".rawlog")
-"""What logs that are files are usually called."""
+"""Usual endings of logs that are files."""
 SAVED_RUNS = (b"\x89HDF", b"CDF")
-"""How netCDF files begin."""
+"""First bytes of netCDF files."""
 LARGE_TURN_RAD, LARGE_TURNS, NEAR_A_TURN_DEG = 1.0, 0.05, 20.0
-"""No robot turns so far from scan to scan in so many scans; and where degrees wrap, they leap by 360, or nearly so."""
+"""Signs that yaw is in degrees: turns above 1 between scans, in over 5 % of them; or a step within 20 of 360."""
 GMAPPING = (b"LASER_READING", b"ODO_UPDATE", b"SM_UPDATE", b"RESAMPLE")
 """Messages of GMapping's own logs of its particles (.gfs)."""
 RECORDINGS = ("rosbag1", "rosbag2-sqlite3", "mcap", "folder")
@@ -62,11 +62,11 @@ NPZ_NEEDED = ("poses", "angles_rad", "ranges_m")
 NPZ_OPTIONAL = ("max_range_m", "min_range_m", "stamps_s", "beam_poses")
 
 FASTEST_M_PER_S = 10.0
-"""No robot in a building is faster."""
+"""Largest speed of a robot in a building."""
 SHORTEST_JUMP_M = 0.2
-"""Below this, the time between scans is too uncertain for a speed."""
+"""Shortest step whose speed is judged: the time of shorter steps is too uncertain."""
 LONGEST_STEP_M, USUAL_STEPS = 2.0, 10.0
-"""A step is a jump, whatever its time, if it is longer than 2 m and than this many usual steps."""
+"""A step longer than 2 m and than 10 median steps is a jump at any speed."""
 
 
 def read_log(
@@ -75,28 +75,27 @@ def read_log(
     fixed_frame: str | None = None, deskew: bool = False, thin_m: float = 0.0, laser: Pose | None = None,
     without_poses: bool = False,
 ) -> Scans:  # fmt: skip
-    """Read the scans of a log, in order of time, with poses of the laser in the world frame.
+    """Read the scans of a log, in time order, with poses of the laser in the world frame.
 
     Args:
-        path: the log, a file or the folder of a ROS 2 bag; its format is recognised by its content.
-        no_return: the number, in metres, that the log writes for "no return"; found if not given.
-        skip_bad_lines: leave out malformed lines or messages, and what cannot be read of a damaged recording, instead
-            of refusing the log.
-        max_range_m: the sensor's maximum range; longer readings become no return. By default what the log states, or
-            the largest hit, rounded up to a whole metre.
-        scan_topic: of a recording: the topic of the scans; needed only where there are several.
-        pose_topic: of a recording: the topic of the poses; by default /tf, or the only one where that does not help.
-        fixed_frame: of a recording: the frame of /tf in which to map; by default map, else odom, else world.
-        deskew: of a recording: give each beam the sensor's pose at the time when it was sent.
-        thin_m: keep the first scan and then each by which the robot has travelled so far; 0 keeps all.
-        laser: where the laser is on the robot, x and y in metres and yaw in radians, instead of what the log says: the
+        path: the log, a file or the folder of a ROS 2 bag; its content decides the format.
+        no_return: number in metres that means "no return" in the log; found if None.
+        skip_bad_lines: true to leave out malformed lines or messages, and unreadable parts of a damaged recording,
+            instead of refusing the log.
+        max_range_m: the sensor's maximum range; longer readings become no return. By default the range that the log
+            states, or the largest hit, rounded up to a whole metre.
+        scan_topic: topic of the scans in a recording; needed only if there are several.
+        pose_topic: topic of the poses in a recording; by default /tf, or the only other topic if /tf does not suffice.
+        fixed_frame: frame of /tf in which to map, in a recording; by default map, else odom, else world.
+        deskew: true to give each beam of a recording the sensor's pose at its own time.
+        thin_m: least distance in metres that the robot travels between two kept scans; 0 keeps all.
+        laser: pose of the laser on the robot, x and y in metres and yaw in radians, which replaces that of the log. The
             log's poses are then taken as the robot's.
-        without_poses: read scans alone: recordings' poses are not looked at, and are zero, and so are those of text
-            logs that have none.
+        without_poses: true to accept scans without poses, which become zero; poses of recordings are not read.
 
     Raises:
         BadInput: a file that cannot be read, an unknown format, no scans, a malformed line or message, or a topic or
-            frame that is not there or must be chosen; the message lists what there is.
+            frame that is missing or must be chosen; the message lists the choices.
     """
     options = LogOptions(
         no_return, skip_bad_lines, max_range_m, scan_topic, pose_topic, fixed_frame, deskew, thin_m, laser,
@@ -137,10 +136,10 @@ def _read(path: str | os.PathLike[str], options: LogOptions) -> LogReading:
 
 
 def format_of(path: str | os.PathLike[str]) -> str:
-    """Return the format of a log, by what is in it: one of `READERS` or of `RECORDINGS`.
+    """Return the format of a log by its content: one of `READERS` or of `RECORDINGS`.
 
     Raises:
-        BadInput: a file that cannot be read, is empty, or is of no known format.
+        BadInput: a file that cannot be read, is empty, or has no known format.
     """
     name, where = os.fspath(path), Path(path)
     try:
@@ -188,7 +187,7 @@ def _text_format(name: str) -> str:
                         "a CARMEN log of its best path: give that"
                     )
                 if words and words[0] in KNOWN_G2O:
-                    return "g2o"  # whose laser lines are CARMEN's: hence not earlier
+                    return "g2o"  # may come after laser lines, which are those of CARMEN logs
                 if words and words[0] in carmen:
                     kind = kind or "carmen"
                 if kind is None and not line.startswith(b"#") and starts_table(line):
@@ -263,7 +262,7 @@ def read_npz(path: str | os.PathLike[str], options: LogOptions) -> LogReading:
     """Read scans from an .npz archive.
 
     Raises:
-        BadInput: not such an archive, an array that is missing or does not fit, or no valid reading.
+        BadInput: a file that is no .npz archive, an array that is missing or does not fit, or no valid reading.
     """
     account = Account(os.fspath(path), "npz", options)
     name, arrays = account.name, _npz_arrays(os.fspath(path))
@@ -309,11 +308,11 @@ def _npz_arrays(name: str) -> Arrays:
     arrays: Arrays = {}
     try:
         with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # NumPy's about old or odd headers: the arrays are checked anyway
+            warnings.simplefilter("ignore")  # about old or odd headers: the arrays are checked below
             with Path(name).open("rb") as file, np.load(file, allow_pickle=False) as archive:
                 for key in archive.files:
                     arrays[key] = np.asarray(archive[key])
-    except Exception as error:  # NumPy and zipfile raise whatever their parsing meets
+    except Exception as error:  # NumPy and zipfile raise many kinds of errors
         reason = " ".join(str(error).split()) or type(error).__name__
         raise BadInput(f"{name}: not a readable .npz archive; damaged or cut short? ({reason})") from None
     for key in (*NPZ_NEEDED, *NPZ_OPTIONAL):
@@ -334,9 +333,9 @@ READERS = {"carmen": read_carmen, "csv": read_csv, "g2o": read_g2o, "npz": read_
 
 
 def thinned(scans: Scans, spacing_m: float) -> Scans:
-    """Select the first scan, and then each by which the robot has travelled ``spacing_m`` since the last selected.
+    """Select the first scan, and then each scan at least ``spacing_m`` of travel after the last selected one.
 
-    The distance is measured along the path through all the poses, turns on the spot do not count.
+    The distance is measured along the path through all poses; turns on the spot do not count.
 
     Raises:
         BadInput: a spacing that is negative or not finite.
@@ -349,7 +348,7 @@ def thinned(scans: Scans, spacing_m: float) -> Scans:
     kept, i = [], 0
     while i < len(scans):
         kept.append(i)
-        # A hair less, so that ten steps of 0.1 m make a metre; but further than here, however small the spacing.
+        # Slightly less, so that ten steps of 0.1 m make a metre; but always further than the present scan.
         far = np.searchsorted(travelled, travelled[i] + spacing_m * (1 - 1e-9), side="left")
         i = int(max(far, np.searchsorted(travelled, travelled[i], side="right")))
     return scans.select(np.array(kept, dtype=np.intp))
@@ -362,10 +361,10 @@ def steps_m(poses: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def jumps(scans: Scans) -> NDArray[np.intp]:
-    """Find scans whose pose is further from the one before than a robot can have moved: their indices, ascending.
+    """Find scans whose pose is too far from the pose before. Returns their indices, ascending.
 
-    A step is a jump if it is over 0.2 m and faster than 10 m/s, or over 2 m and ten times the median step. Stamps that
-    repeat say nothing of the speed between them.
+    A step is a jump if it is over 0.2 m and faster than 10 m/s, or over 2 m and ten times the median step. Repeated
+    stamps give no speed.
     """
     if len(scans) < 2:
         return np.empty(0, dtype=np.intp)

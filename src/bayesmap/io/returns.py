@@ -1,26 +1,26 @@
-"""Find the numbers of a log that are hits, and those that mean "no return", "too close" or nothing.
+"""Classify the readings of a log as hits, no return, too close or invalid.
 
 **ROS** (https://www.ros.org/reps/rep-0117.html): +inf is no return, -inf too close, NaN an erroneous reading. Finite
-numbers within the stated limits are hits; the rest depends on the driver's age. A driver that writes infinities follows
-REP-117: a reading of exactly ``range_max`` is a hit. An older driver writes a number for "no return": ``range_max``
-itself or more, or a code that stands out (below). In both cases a finite number above ``range_max`` is no return, and
-one below ``range_min``, zero and negative numbers included, is invalid: the message definition says that it should be
-discarded, and drivers write such numbers for several reasons. ``--no-return 0`` says that zeros mean no return.
+numbers within the stated limits are hits; other readings depend on the driver's age. A driver that writes infinities
+follows REP-117: a reading of exactly ``range_max`` is a hit. An older driver writes a number for "no return":
+``range_max`` or more, or a code that stands out (below). In both cases a finite number above ``range_max`` is no
+return. A number below ``range_min``, zero and negative numbers included, is invalid: the message definition asks to
+discard it, and drivers write it for several reasons. With ``--no-return 0`` zeros mean no return.
 
-**Codes.** Logs older than ROS have no infinity: a sensor that saw nothing wrote a number of its own, such as 81.83,
-81.91, 50, 51.15, 32.76, 0 or -1. Taken for ranges, these numbers would draw walls where nothing is.
+**Codes.** Logs older than ROS have no infinity: a sensor without a return wrote a number of its own, such as 81.83,
+81.91, 50, 51.15, 32.76, 0 or -1. As ranges, these numbers would add walls that do not exist.
 
-**The rule at the top.** A code is the largest number in the log, or nearly so, and it stands out by being repeated.
-Among the distinct readings within 20 % of the largest, take the smallest value v, with at most 8 different values above
-it, that
+**The rule at the top.** A code is the largest number in the log, or nearly the largest, and it is often repeated.
+The candidates are distinct readings within 20 % of the largest, with at most 8 different values above. The code is the
+smallest candidate v that
 
 - was reported at least 10 times, and 10 times as often as an average value of those in [0.8 v, v); or
 - was reported (or exceeded) at least 3 times, and is at least twice any smaller reading (for short logs);
 
-in both cases by at least 3 different beams, and from 3 places or in 3 separate directions. A robot that stands before
-one distant wall, or turns on the spot, makes no code: a number that is reported again from one place in one direction
-counts once. Readings of v *and above* are no return: sensors have several codes (a SICK in centimetres: 8183, 8187,
-8191).
+in both cases by at least 3 different beams, and from 3 places or in 3 separate directions. A number that is repeated
+from one place in one direction counts once, so a robot that stands in front of a distant wall, or turns on the spot,
+makes no code. Readings of v *and above* are no return, because sensors have several codes (a SICK in centimetres: 8183,
+8187, 8191).
 
 **The rule at the bottom.** No range is zero or negative. If the log has no code at the top and at least 3 different
 beams report zero or less, these numbers are its no-return code; otherwise they are invalid.
@@ -38,27 +38,28 @@ from bayesmap.errors import BadInput
 
 TOP_SHARE, MIN_REPEATS, MIN_BEAMS, ISOLATION, MAX_CODES = 0.8, 10, 3, 2.0, 8
 MIN_VIEWS = 3
-"""Places, or separate directions from one place, from which a code is reported."""
+"""Fewest places, or separate directions from one place, from which a code must be reported."""
 SAME_PLACE_M, SAME_DIRECTION_RAD = 0.05, math.radians(1.0)
 APART_STEPS = 2.5
-"""Neighbouring beams of a view that are more steps apart than this look in separate directions."""
+"""Largest gap, in steps between beams, within one direction; a larger gap separates two directions."""
 PRINT_PRECISION_M = 1e-3
-"""A code given as 81.83 is also met when the log says 81.8299."""
+"""Tolerance of a code: 81.83 also stands for 81.8299 in the log."""
 FURTHEST_M = 1e6
-"""A stated range above this is no limit that a sensor has."""
+"""Largest stated range that is accepted as a sensor's limit."""
 
 
 @dataclass(frozen=True)
 class NoReturn:
-    """The number that a log writes when nothing came back.
+    """The number that a log writes for no return.
 
     Attributes:
-        code_m: the number, in metres; readings of it and above are no return (if it is zero or negative:
-            all readings of zero and below). None if the log has no such number.
-        origin: ``"given"``, ``"found"``, ``"message"`` (the sensor's maximum range, in each line), or ``"none"``.
-        values_m: the distinct numbers that were taken for no return, ascending, at most ten.
-        doubtful_m: a number that stands out as a code does, but was reported from one place in one direction, as a
-            wall is. It was taken for a hit.
+        code_m: the number in metres; this and larger readings are no return (if it is zero or negative: all readings of
+            zero and below). None if the log has no such number.
+        origin: source of the number: ``"given"``, ``"found"``, ``"message"`` (the sensor's maximum range, in each
+            line), or ``"none"``.
+        values_m: distinct numbers that were taken for no return, ascending, at most ten.
+        doubtful_m: number that stands out like a code, but was reported from one place in one direction, like a wall;
+            it was taken for a hit. None if there is none.
     """
 
     code_m: float | None
@@ -78,9 +79,9 @@ class NoReturn:
 
 @dataclass(frozen=True, eq=False)
 class Views:
-    """The place from which each scan was taken, (S,), the direction of each reading in the world, (S, A), and the step.
+    """The place of each scan, (S,), the world direction of each reading, (S, A), and the angle between beams.
 
-    Consecutive scans from one place have one number; the step is the angle between neighbouring beams.
+    Consecutive scans from one place have the same place number.
     """
 
     place: NDArray[np.intp]
@@ -100,10 +101,11 @@ class Views:
         return cls(place, poses[:, 2:] + angles_rad, step)
 
     def repeated(self, readings_m: NDArray[np.float64], mask: NDArray[np.bool_]) -> NDArray[np.bool_]:
-        """Select the readings under a mask that were reported before from one place in one direction, (S, A)."""
+        """Select the readings under a mask that repeat an earlier one from the same place and direction, (S, A)."""
         repeated = np.zeros(readings_m.shape, dtype=np.bool_)
         stays = np.bincount(self.place)[self.place] > 1
         scan, beam = np.nonzero(mask & stays[:, None])
+        # Sort by reading, direction and place: equal neighbours are repetitions.
         if len(scan):
             bins = np.floor(self.direction_rad[scan, beam] % math.tau / SAME_DIRECTION_RAD)
             keys = np.stack([self.place[scan], bins, readings_m[scan, beam]])
@@ -129,15 +131,14 @@ def decode(
 
     Args:
         readings_m: raw numbers, shape (S, A); NaN and infinities keep their meaning.
-        given: the no-return code, if known; infinity says that the log has none. Otherwise the code is found by the
-            rules of this module.
-        sensor_max_m: the maximum range that the log itself states, or None. Readings there and above are no return,
-            whether or not they are repeated.
-        views: the places and directions of the readings; None if they are not known.
+        given: no-return code, if known; infinity if the log has none. If None, the rules of this module find the code.
+        sensor_max_m: maximum range that the log states, or None. This and larger readings are no return, even if they
+            are not repeated.
+        views: places and directions of the readings; None if they are not known.
 
     Returns:
-        The ranges, shape (S, A), +inf for no return and NaN for numbers that cannot be ranges; and what was taken for
-        no return.
+        The ranges, shape (S, A), with +inf for no return and NaN for numbers that cannot be ranges; and the no-return
+        code.
 
     Raises:
         BadInput: ``given`` is NaN or minus infinity.
@@ -146,6 +147,7 @@ def decode(
         raise BadInput(f"--no-return {given}: give the log's number in metres, or inf if it has none")
     finite = np.isfinite(readings_m)
     impossible = finite & (readings_m <= 0)
+    # The code: given, at the top, the stated maximum, or at the bottom.
     code, origin, doubtful = given, "given", None
     if given == math.inf:
         code = None
@@ -156,6 +158,7 @@ def decode(
             code, origin, doubtful = sensor_max_m, "message", None
         if code is None and _count_beams(impossible) >= MIN_BEAMS:
             code = float(readings_m[impossible].max())
+    # The readings that it covers.
     if code is None:
         coded = np.zeros(readings_m.shape, dtype=bool)
     elif code > 0:
@@ -171,13 +174,13 @@ def decode(
 
 
 def _code_at_top(readings_m: NDArray[np.float64], views: Views | None) -> tuple[float | None, float | None]:
-    """Find the smallest code, and a number that would be a code if more than one direction had it; None each."""
+    """Find the smallest code, and a number that stands out in one direction only; None for each that is missing."""
     usable = np.isfinite(readings_m) & (readings_m > 0)
     if not usable.any():
         return None, None
     if views is None:
         once = usable
-    else:  # The counts that matter begin at 0.8 of the smallest candidate, which is 0.8 of the largest reading.
+    else:  # Counts are needed from 0.8 of the smallest candidate, itself 0.8 of the largest reading.
         top = usable & (readings_m >= TOP_SHARE**2 * readings_m[usable].max())
         once = usable & ~views.repeated(readings_m, top)
     standing_out = _standing_out(readings_m, once)
@@ -187,18 +190,20 @@ def _code_at_top(readings_m: NDArray[np.float64], views: Views | None) -> tuple[
         return (standing_out[0] if standing_out else None), None
     doubtful = next(iter(_standing_out(readings_m, usable)), None)
     if doubtful is not None and 2 * (readings_m[usable] >= doubtful).sum() > usable.sum():
-        doubtful = None  # It stands out among nothing.
+        doubtful = None  # most readings reach it: it does not stand out
     return None, doubtful
 
 
 def _standing_out(readings_m: NDArray[np.float64], usable: NDArray[np.bool_]) -> list[float]:
-    """Return the numbers at the top that are repeated, or stand alone, among the usable readings; ascending."""
+    """Return the numbers at the top that are repeated, or isolated, among the usable readings; ascending."""
+    # Candidates at the top, and the usual count of a value in [0.8 v, v) for each candidate v.
     positive = readings_m[usable]
     values, counts = np.unique(positive, return_counts=True)
     before = np.concatenate([[0], np.cumsum(counts)])  # readings below values[i]
     candidates = np.nonzero(values >= TOP_SHARE * values[-1])[0][-1 - MAX_CODES :]
     window = np.searchsorted(values, TOP_SHARE * values[candidates])  # start of [0.8 v, v)
     usual = (before[candidates] - before[window]) / np.maximum(candidates - window, 1)
+    # Two ways to stand out: repetition, and a gap below.
     repeated = counts[candidates] >= MIN_REPEATS * np.maximum(usual, 1.0)
     below = np.where(candidates > 0, values[candidates - 1], np.inf)
     isolated = (values[candidates] >= ISOLATION * below) & (before[-1] - before[candidates] >= MIN_BEAMS)
@@ -216,7 +221,7 @@ def _count_beams(mask: NDArray[np.bool_]) -> int:
 
 @dataclass(frozen=True, eq=False)
 class Readings:
-    """Readings whose kinds are known, (S, A), coded as in REP-117, with no finite number outside the sensor's limits.
+    """Classified readings, (S, A), coded as in REP-117, with no finite number outside the sensor's limits.
 
     ``max_range_origin`` is ``"given"``, ``"message"`` (stated in the log) or ``"readings"``.
     """
@@ -233,20 +238,21 @@ def classify(
     name: str, readings_m: NDArray[np.float64], stated_min_m: float, stated_max_m: float, *,
     no_return: float | None, max_range_m: float | None, views: Views | None = None,
 ) -> Readings:  # fmt: skip
-    """Tell hits, no returns, too close and invalid readings apart.
+    """Classify readings as hits, no return, too close or invalid.
 
     Args:
-        name: of the file, for messages.
-        readings_m: as they lie in the log, shape (S, A).
-        stated_min_m: the sensor's smallest range by the log; 0, NaN or nonsense if the log does not say.
-        stated_max_m: the sensor's largest range by the log.
-        no_return: what the log writes for no return, if the user says so; infinity says that it has no such number.
-        max_range_m: the largest range, if the user gives one.
-        views: the places and directions of the readings, which tell a code from a wall.
+        name: name of the file, for messages.
+        readings_m: raw readings of the log, shape (S, A).
+        stated_min_m: the sensor's smallest range in the log; 0, NaN or nonsense if the log does not state it.
+        stated_max_m: the sensor's largest range in the log.
+        no_return: the user's no-return code; infinity if the log has none; None to find it.
+        max_range_m: the user's largest range; None to find it.
+        views: places and directions of the readings, which distinguish a code from a wall.
 
     Raises:
-        BadInput: not a single reading says anything, or a given number that makes no sense.
+        BadInput: all readings are invalid, or a given number makes no sense.
     """
+    # Check the stated limits.
     notes: list[str] = []
     largest = stated_max_m if math.isfinite(stated_max_m) and 0 < stated_max_m <= FURTHEST_M else None
     smallest = stated_min_m if math.isfinite(stated_min_m) and stated_min_m >= 0 else 0.0
@@ -255,6 +261,7 @@ def classify(
     if largest is not None and smallest >= largest:
         notes.append(f"the log states ranges from {smallest:g} to {largest:g} m: the smallest was not used")
         smallest = 0.0
+    # Codes: a log with infinities has none.
     if no_return is None and np.isinf(readings_m).any():
         ranges = np.where(np.isfinite(readings_m) & (readings_m <= 0), np.nan, readings_m)
         coded = NoReturn(None, "none")
@@ -268,6 +275,7 @@ def classify(
             f"{zeros:,} readings of {readings_m.size:,} are zero or negative, taken as invalid; "
             "--no-return 0 takes them as no return"
         )
+    # Finite numbers outside the limits.
     near = finite & (ranges < smallest)
     if near.any():
         notes.append(f"{int(near.sum()):,} readings below the smallest range of {smallest:g} m were taken as invalid")
@@ -282,6 +290,7 @@ def classify(
             f"{name}: none of {ranges.size:,} readings in {len(ranges):,} scans is valid (all are NaN, or outside "
             "the sensor's range); check the sensor and its range_min and range_max"
         )
+    # The largest range: given, stated, or the largest hit.
     limit = largest if max_range_m is None else max_range_m
     origin = "message" if max_range_m is None else "given"
     if limit is None:
@@ -292,7 +301,7 @@ def classify(
 
 
 def largest_hit_m(name: str, ranges_m: NDArray[np.float64], most_m: float = math.inf) -> float:
-    """Return the largest hit, rounded up to a whole metre, up to a limit: the sensor is known to see no further."""
+    """Return the largest hit, rounded up to a whole metre, but at most ``most_m``."""
     hits = ranges_m[np.isfinite(ranges_m)]
     limit = min(math.ceil(hits.max()) if hits.size and hits.max() > 0 else math.inf, most_m)
     if math.isinf(limit):

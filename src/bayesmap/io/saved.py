@@ -1,15 +1,16 @@
-"""The saved posterior: one netCDF-4 file in the arviz layout, that opens in arviz and xarray anywhere.
+"""The saved posterior: one netCDF-4 file in the arviz layout, for arviz, xarray and this package.
 
-Groups: ``posterior`` (what the kind of cells declares, by chain and draw), ``sample_stats`` (log joint and its parts),
-``observed_data`` (ranges), ``constant_data`` (poses, angles, marginals), ``chain_state`` (where the chains stand),
-``warmup_sample_stats``, and ``trajectory`` where one was inferred. Settings, grid, prior, sensor and timings are
-attributes of the root, as JSON. Arrays that count some cells only have these cells' indices beside them, as ``cell_x``
-and ``cell_y``. netCDF has neither bits nor half precision: booleans are deflated bytes in the file, and half precision
-is 32-bit floats, whose last bits are zero and compress well. HDF5 checks each array by its Fletcher-32 sum, and the
-header has a CRC: a damaged file is refused.
+Groups: ``posterior`` (the arrays of the kind of cells, by chain and draw), ``sample_stats`` (log joint and its parts),
+``observed_data`` (ranges), ``constant_data`` (poses, angles, marginals), ``chain_state`` (the snapshot of the chains),
+``warmup_sample_stats``, and ``trajectory`` if one was inferred. Settings, grid, prior, sensor and timings are
+attributes of the root, as JSON. For arrays over a subset of cells, ``cell_x`` and ``cell_y`` hold the cells' indices.
 
-A trajectory's group holds all that its approximation (`bayesmap.poses.trajectory`) was made from: covariances of
-relative poses and draws are computed when they are asked for.
+netCDF has neither bits nor half precision: booleans are deflated bytes in the file, and half precision is 32-bit
+floats, whose last bits are zero and compress well. HDF5 checks each array by its Fletcher-32 sum, and the header has a
+CRC, so a damaged file is refused.
+
+A trajectory's group holds the inputs of its approximation (`bayesmap.poses.trajectory`). Covariances of relative poses,
+and draws, are computed from them on demand.
 """
 
 from __future__ import annotations
@@ -46,7 +47,7 @@ FORMAT = "bayesmap run"
 FORMAT_VERSION = 1
 
 BLOCK = 1 << 22
-"""Numbers that are turned over at a time, so that no whole copy is made of the draws."""
+"""Numbers that are converted at a time, so that no whole copy of the draws is made."""
 CHUNK = 1 << 20
 """Numbers that are compressed together."""
 
@@ -59,7 +60,7 @@ def save(
 ) -> None:
     """Write a posterior, whole or not at all, with the approximation of all scans' poses, if there is one.
 
-    ``on_progress`` is told how many of all numbers of the draws have been written.
+    ``on_progress`` is called with the count of the draws' numbers written so far, and their total.
 
     Raises:
         BadInput: the folder cannot be written to.
@@ -71,6 +72,7 @@ def save(
 def _write(
     posterior: Posterior, file: Any, on_progress: Callable[[int, int], None], trajectory: Trajectory | None
 ) -> None:
+    # The header: all that is no array, as JSON with a checksum.
     grid, scans, draws = posterior.grid, posterior.scans, posterior.draws
     header = {
         "cells": posterior.kind, "settings": posterior.settings, "prior": posterior.prior.describe(),
@@ -88,6 +90,7 @@ def _write(
         "format": FORMAT, "format_version": FORMAT_VERSION, "inference_library": "bayesmap",
         "inference_library_version": __version__, "bayesmap": text, "checksum": zlib.crc32(text.encode()),
     })  # fmt: skip
+    # The draws, with their coordinates.
     group = _group(file, "posterior")
     x, y = grid.centers_m()
     for name, values in (("chain", np.arange(draws.chains)), ("draw", np.arange(draws.count)), ("x", x), ("y", y)):
@@ -107,6 +110,7 @@ def _write(
 
     for spec in draws.specs:
         write_draws(group, spec, draws.arrays[spec.name], draws.shape_of(spec), written)
+    # Log densities, scans, marginals, and the parameters and statistics that are arrays.
     densities = {
         "lp": posterior.log_joint, "log_likelihood": posterior.log_likelihood, "log_prior": posterior.log_prior,
     }  # fmt: skip
@@ -122,13 +126,13 @@ def _write(
         write_arrays(constant, tuple(f"{name}_{i}" for i in range(values.ndim)), {name: values})
     state = _group(file, "chain_state")
     for name, values in posterior.snapshot.arrays.items():
-        # Random numbers to the last bit, and many of them at a checkpoint: compression would only take time.
+        # Large arrays of random bits: compression would only take time.
         dimensions = ("chain", *(f"{name}_{i}" for i in range(1, values.ndim)))
         write_arrays(state, dimensions, {name: values}, compressed=values.dtype == np.uint8)
 
 
 def _write_scans(file: Any, scans: Scans) -> Any:
-    """Write what was conditioned on; the group of constants, for more of them."""
+    """Write the scans. Returns the group of constants."""
     write_arrays(_group(file, "observed_data"), ("scan", "beam"), {"range_m": scans.ranges_m})
     constant = _group(file, "constant_data")
     write_arrays(constant, ("scan", "pose_part"), {"pose_world": scans.poses})
@@ -143,10 +147,10 @@ def _write_scans(file: Any, scans: Scans) -> Any:
 
 
 def load_saved(path: str | os.PathLike[str]) -> tuple[Posterior, Trajectory | None]:
-    """Read a posterior back, and the approximation of the poses that it was made with, if any.
+    """Read a posterior, and its approximation of the poses, if any.
 
     Raises:
-        BadInput: no such file; not netCDF, or not a run of bayesmap's; a newer format; or damaged.
+        BadInput: no such file; a file that is not netCDF, or no run of bayesmap's; another format; or a damaged file.
     """
     path = Path(path)
     if not path.is_file():
@@ -171,7 +175,7 @@ def load_saved(path: str | os.PathLike[str]) -> tuple[Posterior, Trajectory | No
 
 
 def _not_ours(attributes: dict[str, Any]) -> str | None:
-    """Return why a sound netCDF file is not one that we can read, or None."""
+    """Return the reason why a sound netCDF file cannot be read, or None if it can."""
     if attributes.get("format") != FORMAT:
         return "a netCDF file, but not a saved run of bayesmap's"
     if int(attributes["format_version"]) == FORMAT_VERSION:
@@ -217,7 +221,7 @@ def _read(file: Any, header: dict[str, Any]) -> tuple[Posterior, Trajectory | No
 
 
 def _index(draws: Any, dimension: str, grid: Grid) -> NDArray[np.int32]:
-    """Return what a dimension counts: flat indices of cells, or numbers."""
+    """Return the coordinates of a dimension: flat indices of cells, or numbers."""
     if dimension.endswith("cell"):
         flat = read_array(draws[f"{dimension}_x"]) * grid.shape[1] + read_array(draws[f"{dimension}_y"])
         return np.asarray(flat, dtype=np.int32)
@@ -250,7 +254,7 @@ def _group(file: Any, name: str) -> Any:
 def write_arrays(
     group: Any, dimensions: tuple[str, ...], arrays: Mapping[str, NDArray[Any]], compressed: bool = True
 ) -> None:
-    """Write arrays of the same dimensions; dimensions that are new get the arrays' sizes."""
+    """Write arrays of the same dimensions; new dimensions get the arrays' sizes."""
     for name, values in arrays.items():
         _need_dimensions(group, dimensions, values.shape)
         variable = group.createVariable(
@@ -267,7 +271,8 @@ def read_array(variable: Any) -> NDArray[Any]:
 def write_draws(
     group: Any, spec: ArraySpec, stored: NDArray[Any], shape: tuple[int, ...], written: Callable[[int], None]
 ) -> None:
-    """Write an array of the draws, (chains, draws, ...), as it is kept, and tell how many numbers each block had."""
+    """Write a stored array of the draws, (chains, draws, ...); call ``written`` with the count of each block."""
+    # A chunk holds whole draws of one chain, about `CHUNK` numbers.
     chains, draws = stored.shape[:2]
     dimensions, sizes = ("chain", "draw", *spec.dims), (chains, draws, *shape)
     _need_dimensions(group, dimensions, sizes)
@@ -279,7 +284,7 @@ def write_draws(
         spec.name, dtype, dimensions, zlib=True, complevel=1, shuffle=spec.storage != "bits", chunksizes=chunks,
         fletcher32=True,
     )  # fmt: skip
-    # Whole chunks are written: by default netCDF would keep 64 MB of each array until the file is closed.
+    # Chunks are written whole, so a small cache suffices: the default keeps 64 MB per array until the file is closed.
     variable.set_var_chunk_cache(size=math.prod(chunks) * np.dtype(dtype).itemsize)
     variable.setncatts({"dtype": "bool"} if spec.storage == "bits" else {})
     if spec.what:
@@ -291,10 +296,10 @@ def write_draws(
 
 
 def read_draws(variable: Any, spec: ArraySpec, shape: tuple[int, ...]) -> NDArray[Any]:
-    """Return draws as they were kept.
+    """Return draws in their stored form.
 
     Raises:
-        ValueError: sizes that are not those of the file's cells.
+        ValueError: sizes that do not fit the file's cells.
     """
     chains, draws, *sizes = variable.shape
     if tuple(sizes) != shape:
@@ -314,12 +319,12 @@ def _need_dimensions(group: Any, dimensions: tuple[str, ...], sizes: tuple[int, 
 
 
 def _depth(draws: int, size: int) -> int:
-    """Return how many draws are compressed together."""
+    """Return the number of draws that are compressed together."""
     return max(1, min(draws, CHUNK // max(size, 1)))
 
 
 def _blocks(chains: int, draws: int, size: int) -> Iterator[tuple[int, slice]]:
-    """Return the blocks of draws that are turned over at a time, chain by chain."""
+    """Yield the blocks of draws that are converted at a time, chain by chain."""
     deep = _depth(draws, size)
     at_once = max(1, BLOCK // max(size * deep, 1)) * deep  # whole chunks
     for chain in range(chains if size else 0):
@@ -354,11 +359,11 @@ PARTS: dict[str, dict[str, tuple[str, ...]]] = {
     },
     "calibration": {"angles_rad": ("beam",)},
 }  # fmt: skip
-"""Arrays of its parts, saved as part_name."""
+"""Arrays of the trajectory's parts with their dimensions, saved as part_name."""
 
 
 def arrays_of(trajectory: Trajectory) -> dict[str, tuple[tuple[str, ...], NDArray[Any]]]:
-    """Return all arrays by the names under which they are saved, with their dimensions."""
+    """Return all arrays of a trajectory by their saved names, with their dimensions."""
     every = [(name, dims, getattr(trajectory, name)) for name, dims in FIELDS.items()]
     for part, fields in PARTS.items():
         holder = getattr(trajectory, part)
@@ -368,7 +373,7 @@ def arrays_of(trajectory: Trajectory) -> dict[str, tuple[tuple[str, ...], NDArra
 
 
 def numbers_of(trajectory: Trajectory) -> dict[str, Any]:
-    """Return the parts that are no arrays, as JSON values."""
+    """Return the parts of a trajectory that are no arrays, as JSON values."""
     about = trajectory.calibration
     fit = about.odometry
     odometry = None if fit is None else {
@@ -383,7 +388,7 @@ def numbers_of(trajectory: Trajectory) -> dict[str, Any]:
 
 
 def trajectory_from(arrays: Mapping[str, NDArray[Any]], numbers: Mapping[str, Any]) -> Trajectory:
-    """Return the trajectory of which `arrays_of` and `numbers_of` said all."""
+    """Return the trajectory, given the results of `arrays_of` and `numbers_of`."""
     from bayesmap.poses.calibration import MotionNoise, OdometryFit
     from bayesmap.poses.graph import Factors
     from bayesmap.poses.pose_gaussian import PoseGaussian
@@ -415,7 +420,7 @@ def trajectory_from(arrays: Mapping[str, NDArray[Any]], numbers: Mapping[str, An
 
 
 def _stored(values: NDArray[Any]) -> NDArray[Any]:
-    """Return truth values as bytes, and indices with 64 bits on every machine."""
+    """Return booleans as bytes, indices as 64-bit integers, and other numbers as double precision."""
     if values.dtype == np.bool_:
         return values.astype(np.int8)
     return values.astype(np.int64) if values.dtype.kind == "i" else np.asarray(values, dtype=np.float64)

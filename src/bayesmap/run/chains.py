@@ -1,4 +1,4 @@
-"""How long chains run, how well they know the map, and what they have done: checkpointed, resumed, and joined."""
+"""Chains: the plan of their sweeps, the Monte Carlo error of their map, and their results, which can be joined."""
 
 from __future__ import annotations
 
@@ -14,25 +14,25 @@ from bayesmap.cells.kind import CellPrior, Floats
 from bayesmap.samplers.sampler import Info, Keep, Snapshot
 
 PRECISION = 0.03
-"""Error of the mean map at which chains stop by default. On a map in greys a tenth is seen, a third of that is not."""
+"""Default error of the mean map at which chains stop. On a grey map an error of 0.1 is visible, a third is not."""
 FIRST_MARK = 10
-"""Draws of a chain after which the error of the map is estimated first."""
+"""Draws per chain at the first estimate of the map's error."""
 FEWEST_BATCHES = 8
-"""Batches that estimate it. With a batch a chain, and few chains, the estimates are scattered widely."""
+"""Fewest batches of an estimate. With one batch per chain, and few chains, estimates scatter widely."""
 KNOWN_SHARE = 0.99
-"""Share of the observed cells whose error is at most what a run reports. The worst cell of a map says nothing."""
-CELLS_AT_ONCE = 8192
+"""Share of the observed cells whose error is at most the reported error. The worst cell alone is uninformative."""
+CELLS_AT_ONCE = 8192  # per batch of `map_error`
 
 
 @dataclass(frozen=True)
 class SweepPlan:
-    """How long to run.
+    """The plan of a chain's sweeps.
 
     Attributes:
-        warmup: sweeps that are not kept.
-        draws: maps of each chain, at most.
-        thin: sweeps from one map to the next.
-        precision: Monte Carlo error of the map at which chains stop early, see `map_error`; None: never.
+        warmup: number of sweeps before the first draw.
+        draws: most draws per chain.
+        thin: sweeps from one draw to the next.
+        precision: Monte Carlo error of the map at which chains stop early, see `map_error`; None to never stop early.
     """
 
     warmup: int
@@ -42,19 +42,19 @@ class SweepPlan:
 
     @property
     def sweeps(self) -> int:
-        """The number of sweeps of one chain."""
+        """Number of sweeps of one chain."""
         return self.warmup + self.draws * self.thin
 
     @property
     def keep(self) -> Keep:
-        """The draws to keep."""
+        """Rule that selects the sweeps to keep as draws."""
         return Keep(self.warmup, self.thin if self.draws else 0)
 
     @property
     def marks(self) -> tuple[int, ...]:
         """Numbers of sweeps at which chains may stop early.
 
-        They are fixed, so that neither the number of threads nor a stop in between changes where chains end.
+        They are fixed, so that neither the number of threads nor an interruption changes where chains end.
         """
         marks, draws = [], FIRST_MARK
         while self.precision is not None and draws < self.draws:
@@ -63,7 +63,7 @@ class SweepPlan:
         return tuple(marks)
 
     def aim(self, sweep: int, error: float) -> int:
-        """Return after how many sweeps the map should be known, given its error now: it falls with their root."""
+        """Return the expected sweeps to the precision, given the error at a sweep: it falls with their square root."""
         assert self.precision is not None
         more = max(1.0, (error / self.precision) ** 2) if np.isfinite(error) else np.inf
         return int(min(self.warmup + more * (sweep - self.warmup), self.sweeps))
@@ -74,15 +74,15 @@ class Chains:
     """The draws and the states of chains so far.
 
     Attributes:
-        draws: the kept maps.
-        log_likelihood, log_prior: the two parts of the log joint, of each kept draw, (chains, kept).
-        warmup_log_joint: of each warm-up sweep, (chains, done warm-up sweeps).
-        snapshot: where the chains stand.
+        draws: kept draws.
+        log_likelihood, log_prior: the two parts of the log joint of each kept draw, (chains, kept).
+        warmup_log_joint: log joint of each warm-up sweep so far, (chains, warm-up sweeps).
+        snapshot: states of the chains.
         observed_counts: the draws in which at least one beam observes each cell, and the draws inspected, (2, nx, ny).
         statistics: results of the start, by name.
-        n_incidences: how many cells all beams cross together.
+        n_incidences: number of cells that beams cross, summed over beams.
         seconds: time spent in tracing ("trace"), at the start ("warm_start") and in sweeps ("sampling").
-        finished: whether all draws are made.
+        finished: true if all draws are made.
     """
 
     draws: Draws
@@ -103,7 +103,7 @@ class Chains:
 
     @property
     def sweep(self) -> int:
-        """Sweeps that each chain has made, warm-up included."""
+        """Number of sweeps of each chain, warm-up included."""
         return self.snapshot.sweep
 
     def error(self, cells: CellPrior) -> float:
@@ -111,28 +111,27 @@ class Chains:
         return map_error(cells, self.draws, self.observed())
 
     def observed(self) -> NDArray[np.bool_]:
-        """Return the cells that at least one beam observes in at least half of the maps, (nx, ny); the others have the
-        prior.
-        """
+        """Return the cells that at least one beam observes in at least half of the draws, (nx, ny)."""
         some, looked = self.observed_counts
         return np.asarray(2 * some >= np.maximum(looked, 1))
 
 
 def map_error(cells: CellPrior, draws: Draws, observed: NDArray[np.bool_]) -> float:
-    """Estimate the Monte Carlo standard error of the mean map: 99 of 100 observed cells have this much or less.
+    """Estimate the Monte Carlo standard error of the mean map: the 99 % quantile over observed cells.
 
-    By replicated batch means (Argon and Andradottir 2006): each chain is cut into batches of draws in a row, eight or
-    more over all chains, and the error of a mean over n batches is the standard deviation of theirs over sqrt(n).
-    Chains that disagree make it large, whatever each of them says of itself. So it judges convergence, too.
+    The method is replicated batch means (Argon and Andradottir 2006). Each chain is cut into batches of successive
+    draws, eight or more over all chains. The error of a mean over n batches is the standard deviation of the batch
+    means over sqrt(n). Chains that disagree make it large, so it also judges convergence.
 
     Args:
-        cells: what a cell's state is; the map is the mean of what its maps show.
-        draws: of all chains.
-        observed: cells that count, (nx, ny).
+        cells: kind of the cells, which defines the values of the map.
+        draws: draws of all chains.
+        observed: cells to include, (nx, ny).
 
     Returns:
-        The error, in units of the probability that maps show; inf of fewer than two draws a batch, 0 without cells.
+        The error, in units of the map's values; inf for fewer than two draws per batch, 0 without cells.
     """
+    # The first draws are left out if batches of equal length do not cover all.
     batches = -(-FEWEST_BATCHES // draws.chains)
     length = draws.count // batches
     if length < 2:
@@ -147,9 +146,9 @@ def map_error(cells: CellPrior, draws: Draws, observed: NDArray[np.bool_]) -> fl
 
 
 def join(parts: Sequence[Chains]) -> Chains:
-    """Join chains that ran apart, in the order in which they are given, as if they had run together.
+    """Join chains that ran separately, in the given order, as if they had run together.
 
-    All must have made equally many sweeps.
+    All must have made the same number of sweeps.
     """
     first = parts[0]
     if len(parts) == 1:
@@ -173,7 +172,7 @@ def join(parts: Sequence[Chains]) -> Chains:
 
 
 def some_chains(chains: Chains, which: slice) -> Chains:
-    """Return some of the chains, as if there were no others."""
+    """Return a slice of the chains."""
     draws = replace(chains.draws, arrays={name: array[which] for name, array in chains.draws.arrays.items()})
     snapshot = Snapshot(chains.sweep, {name: array[which] for name, array in chains.snapshot.arrays.items()})
     return replace(
@@ -199,10 +198,10 @@ def in_sequence(parts: Sequence[Chains]) -> Chains:
 
 
 class Record:
-    """Draws and traces of some chains, growing as they advance."""
+    """The draws and traces of chains, which grow as the chains advance."""
 
     def __init__(self, empty: Draws, schedule: SweepPlan, resume: Chains | None = None) -> None:
-        """Make room for the schedule's draws, after those of ``resume``; ``empty`` has specs and coordinates."""
+        """Allocate arrays for the schedule's draws, and copy those of ``resume``; ``empty`` has the specs."""
         chains = next(iter(empty.arrays.values())).shape[0]
         self._draws = replace(
             empty, arrays={spec.name: spec.empty(chains, schedule.draws, empty.shape_of(spec)) for spec in empty.specs}
@@ -221,11 +220,13 @@ class Record:
             self._warmup[:, : self.warmed] = resume.warmup_log_joint
 
     def add(self, info: Info, begin: int) -> None:
-        """Record some sweeps, the first of which came after ``begin`` others."""
+        """Record the sweeps of a step that began after ``begin`` sweeps."""
+        # Warm-up sweeps: the log joint alone.
         sweeps = info.log_likelihood.shape[1]
         warm = max(0, min(self._warmup.shape[1] - begin, sweeps))
         self._warmup[:, self.warmed : self.warmed + warm] = (info.log_likelihood + info.log_prior)[:, :warm]
         self.warmed += warm
+        # Kept sweeps: the parts of the log joint, and the draws.
         kept = self._keep.sweeps(begin, begin + sweeps)
         new, at = slice(self.kept, self.kept + len(kept)), [sweep - begin - 1 for sweep in kept]
         self._log_likelihood[:, new] = info.log_likelihood[:, at]

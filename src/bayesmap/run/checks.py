@@ -1,4 +1,4 @@
-"""Checks before chains run: they fit into memory, and a resumed run has the settings that it began with."""
+"""Checks before chains run: they fit into memory, and a resumed run has its original settings."""
 
 from __future__ import annotations
 
@@ -18,25 +18,25 @@ from bayesmap.space.grid import Grid, outlying, why_outlying
 from bayesmap.space.scans import Scans
 
 OF_A_CELL = {True: (200, 280), False: (120, 75)}
-"""Bytes for each cell of the grid, once and for each chain, of cells with surfaces and without: nine tenths of what was
-measured of maps of 2 million cells. Beams and draws come on top."""
+"""Bytes per cell of the grid, (once, per chain), for cells with surfaces (True) and without: nine tenths of the memory
+measured on maps of 2 million cells. Beams and draws need more."""
 
 GROUP_LIMITS = ("/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory/memory.limit_in_bytes")
-"""Files in which Linux states the memory limit of a container."""
+"""Files with the memory limit of a container on Linux."""
 
 
 def check_memory(grid: Grid, scans: Scans, surfaces: bool, chains: int) -> None:
     """Refuse a grid whose chains do not fit into memory.
 
     Args:
-        grid: of the map.
-        scans: those that it covers.
-        surfaces: whether cells have surfaces.
-        chains: that run on this machine together.
+        grid: grid of the map.
+        scans: scans that the grid covers.
+        surfaces: true if cells have surfaces.
+        chains: number of chains that run on this machine together.
 
     Raises:
-        BadInput: they take more than the machine has; if single scans lie so far out that it must be their fault, the
-            message names the worst of them.
+        BadInput: the chains take more memory than the machine has. If a few scans lie so far out that they make the
+            grid too large, the message names the worst.
     """
     once, each = OF_A_CELL[surfaces]
     needed, available = grid.n_cells * (once + chains * each), memory_bytes()
@@ -56,7 +56,7 @@ def check_memory(grid: Grid, scans: Scans, surfaces: bool, chains: int) -> None:
 
 
 def memory_bytes() -> int | None:
-    """Return the memory of this machine, or the limit of this container, in bytes; None where unknown."""
+    """Return the memory of this machine, or the limit of this container, in bytes; None if unknown."""
     try:
         sizes = [os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")]
     except (AttributeError, OSError, ValueError):
@@ -70,23 +70,23 @@ def memory_bytes() -> int | None:
 
 
 RANDOM_STREAMS = 8
-"""Version of how random numbers are dealt out: chains that were begun under another cannot go on."""
+"""Version of the assignment of random numbers: chains of another version cannot be continued."""
 
 NOT_ASKED_FOR = ("fingerprint", "threads_used", "fitted")
 """Entries of a run's settings that are not arguments."""
 
 PROBES = 64
-"""Readings and distances at which a sensor model is evaluated, to tell it from another model of its name."""
+"""Number of readings and of distances at which a sensor model is evaluated for the fingerprint."""
 
 
 def fingerprint(settings: dict[str, Any], model: Model, *starts: NDArray[Any] | None) -> str:
-    """Compute the fingerprint of a run: of settings, data, prior, sensor, and of where cells and poses start."""
+    """Compute the fingerprint of a run from its settings, data, prior, sensor, and starts of cells and poses."""
     scans, grid = model.scans, model.grid
     digest = hashlib.blake2b(json.dumps(settings, sort_keys=True).encode())
     digest.update(repr((grid.shape, grid.resolution, grid.origin, scans.min_range_m, scans.max_range_m)).encode())
     arrays = [scans.poses, scans.angles_rad, scans.ranges_m, scans.beam_poses, scans.own_angles_rad]
     arrays += [*model.cells.parameters().values()]
-    # A model of the user's own making is described by its name alone: what it says of some readings stands for it.
+    # A user's own sensor model is described by its name alone; its likelihood of some readings identifies it.
     limits = RangeLimits(scans.min_range_m, scans.max_range_m)
     readings = scans.ranges_m.ravel()[:: max(1, scans.ranges_m.size // PROBES)][:PROBES, None]
     arrays.append(model.sensor.log_likelihood(readings, np.linspace(0.0, limits.max_m, PROBES), limits))
@@ -100,11 +100,11 @@ def check_same(saved: dict[str, Any], asked: dict[str, Any]) -> None:
     """Refuse to continue a run that was made with other arguments.
 
     Args:
-        saved: the settings of the stopped run, with its fingerprint, which also stands for its scans and its grid.
-        asked: those that were asked for now.
+        saved: settings of the stopped run, with its fingerprint, which also covers its scans and its grid.
+        asked: settings of this call.
 
     Raises:
-        BadInput: they differ; the message says in what.
+        BadInput: the settings differ; the message names the differences.
     """
     if saved["fingerprint"] == asked["fingerprint"]:
         return
@@ -120,6 +120,6 @@ def check_same(saved: dict[str, Any], asked: dict[str, Any]) -> None:
 
 
 def difference(saved: dict[str, Any], asked: dict[str, Any]) -> str | None:
-    """Return in words the settings that differ; None if none does."""
+    """Return a description of the settings that differ; None if none does."""
     names = [name for name in asked if name not in (*NOT_ASKED_FOR, "streams") and saved.get(name) != asked[name]]
     return "; ".join(f"{name} ({saved.get(name)!r}, now {asked[name]!r})" for name in names) or None

@@ -1,11 +1,11 @@
-"""Chains on a Ray cluster (docs/scale.md), and the connection of this process to one.
+"""Chains on a Ray cluster (docs/scale.md), and the connection of this process to a cluster.
 
 The model and the traced beams go into the cluster's object store once. The chains are divided into groups, and each
-group runs in segments of a few seconds, every one a Ray task of its own: given where the chains stood it returns the
-new draws and where they stand. This process keeps both. When a worker or a node dies, Ray runs the lost segment again
-elsewhere, from where the one before it ended, and since segments depend on nothing else the draws are the same.
+group runs in segments of a few seconds. A segment is one Ray task: it takes a snapshot of the chains, and returns the
+new draws and the next snapshot, which this process stores. If a worker or a node dies, Ray runs the lost segment again
+elsewhere. The draws are the same, because a segment depends on its arguments only.
 
-All groups are cut into segments at the same numbers of sweeps, so that chains can be joined wherever the slowest is.
+All groups end segments at the same numbers of sweeps, so that chains can be joined at the sweep of the slowest group.
 """
 
 from __future__ import annotations
@@ -29,10 +29,10 @@ from bayesmap.version import __version__
 
 
 def connect(address: str | None) -> Any:
-    """Return the `ray` module, connected; an existing connection is used, and none is closed.
+    """Return the `ray` module, connected to a cluster. An existing connection is used, and stays open.
 
     Args:
-        address: see `bayesmap.run.ray_executor.RayExecutor`.
+        address: address of the cluster, see `bayesmap.run.ray_executor.RayExecutor`.
 
     Raises:
         BadInput: Ray is not installed, or there is no cluster at the address.
@@ -44,7 +44,7 @@ def connect(address: str | None) -> Any:
     if not ray.is_initialized():
         try:
             ray.init(address=address, log_to_driver=False, logging_level=logging.ERROR, include_dashboard=False)
-        except Exception as error:  # among others a bare Exception, of a node that does not come up in time
+        except Exception as error:  # Ray raises a bare Exception if a node does not start in time
             where = "on this machine" if address in (None, "auto") else f"at {address}"
             reason = " ".join(str(error).split())
             raise BadInput(
@@ -55,7 +55,7 @@ def connect(address: str | None) -> Any:
 
 
 def outcome(ray: Any, ref: Any) -> Any:
-    """Return what a task returned, or raise what it raised, as if it had run here."""
+    """Return the result of a task, or raise its error, as if it had run in this process."""
     try:
         return ray.get(ref)
     except ray.exceptions.RayTaskError as error:
@@ -72,29 +72,29 @@ def failed(error: Exception) -> ConnectionError:
 
 
 WAIT_S = 0.25
-"""How often this process looks whether it shall stop."""
+"""Longest time between two checks whether to stop, seconds."""
 GROWTH = 16
-"""A segment has at most so many times the sweeps of the one before."""
+"""Largest ratio of the sweeps of a segment to those of the segment before."""
 
 
 @dataclass(frozen=True)
 class RayExecutor:
     """Run the chains of one posterior on a Ray cluster, with the same draws as on threads, bit for bit.
 
-    Needs Ray (``pip install 'bayesmap[ray]'``), and the same version of bayesmap on every node. On a GPU each task
-    has one of its own.
+    It needs Ray (``pip install 'bayesmap[ray]'``), and the same version of bayesmap on every node. With GPUs, each task
+    has its own.
 
     Attributes:
-        address: of the cluster, as `ray.init` takes it ("auto", "host:6379", "ray://host:10001"). By default the one
-            that this process is connected to already, or that RAY_ADDRESS names, or that was started on this machine;
-            without any, one is started here, until this process ends.
-        cpus_per_task: CPUs that Ray reserves for a task, and threads that it has.
-        chains_per_task: chains that one task runs abreast; by default as many as give each CPU (each GPU) one task.
-        segment_s: seconds of work of a task: what is lost at most when a worker dies or a run is stopped.
-        retries: how often a task is run again whose worker has died.
+        address: address of the cluster, as in `ray.init` ("auto", "host:6379", "ray://host:10001"). If None, it is the
+            cluster that this process is connected to, or RAY_ADDRESS, or one that runs on this machine; else a new
+            cluster starts here, and ends with this process.
+        cpus_per_task: CPUs that Ray reserves for a task, and threads of the task.
+        chains_per_task: chains that one task runs together; by default as many as give each CPU (each GPU) one task.
+        segment_s: seconds of work per task, the most that is lost if a worker dies or a run is stopped.
+        retries: number of times that a task is run again if its worker dies.
 
     Raises:
-        BadInput: Ray is not installed, there is no cluster at the address, or a number that makes no sense.
+        BadInput: a number outside its range.
     """
 
     address: str | None = None
@@ -119,11 +119,11 @@ class RayExecutor:
         on_checkpoint: Callable[[Chains], None] | None,
         checkpoint_every_s: float,
     ) -> Chains:
-        """Run all chains of the job; stopped early, they have the sweeps that all chains have made.
+        """Run all chains of the job. If stopped early, they end at the last mark that all chains have reached.
 
         Raises:
-            BadInput: what the sampler refuses, or a cluster that cannot be had.
-            ConnectionError: a worker died more often than it may.
+            BadInput: the sampler refuses the model, Ray is not installed, or the cluster cannot be used.
+            ConnectionError: the workers of a task died more than ``retries`` times.
         """
         ray = connect(self.address)
         try:
@@ -146,10 +146,10 @@ class Marks:
     """Numbers of sweeps at which segments end, common to all groups.
 
     Attributes:
-        schedule: the end of warm-up and the end of all are marks.
+        schedule: plan of the sweeps: the end of warm-up, its own marks, and the end are marks.
         segment_s: seconds of work between two marks.
-        at: those so far, ascending.
-        per_sweep_s: what a sweep of the slowest group takes.
+        at: marks so far, ascending.
+        per_sweep_s: seconds per sweep of the slowest group; 0 before it is measured.
     """
 
     schedule: SweepPlan
@@ -172,14 +172,14 @@ class Marks:
 
 @dataclass
 class Group:
-    """Chains that advance together, and what they have done.
+    """Chains that advance together, with their results.
 
     Attributes:
-        which: of the job's chains.
-        chain_ids: their numbers.
-        resume: what they had done before this run.
-        segments: the consecutive parts of this run, whose snapshots have no arrays.
-        snapshots: where they stood after each number of sweeps that is still of use.
+        which: slice of the job's chains.
+        chain_ids: numbers of the chains.
+        resume: results from before this run; None if there are none.
+        segments: consecutive results of this run; their snapshots have no arrays.
+        snapshots: snapshots by number of sweeps, of the marks that may still be needed.
     """
 
     which: slice
@@ -190,11 +190,11 @@ class Group:
 
     @property
     def sweep(self) -> int:
-        """The number of sweeps that each has made; -1 before they are started."""
+        """Number of sweeps of each chain; -1 before the start."""
         return max(self.snapshots, default=-1)
 
     def up_to(self, sweep: int) -> Chains:
-        """Return what the chains have done up to a mark."""
+        """Return the results of the chains up to a mark."""
         parts = [] if self.resume is None else [self.resume]
         parts += takewhile(lambda segment: segment.sweep <= sweep, self.segments)
         return replace(in_sequence(parts), snapshot=self.snapshots[sweep])
@@ -204,6 +204,7 @@ class _RayRun:
     """One call of `RayExecutor.run`."""
 
     def __init__(self, ray: Any, executor: RayExecutor, job: Job, resume: Chains | None, watch: Watch) -> None:
+        # Check that the cluster can run a task, and divide the chains into groups.
         self.ray, self.executor, self.job, self.watch = ray, executor, job, watch
         on_gpu = job.device != "cpu"
         if on_gpu and job.device not in ("cuda", "cuda:0"):
@@ -250,11 +251,12 @@ class _RayRun:
 
         schedule, watch = self.job.schedule, self.watch
         last = self.sweep
-        self._look()  # a run that was stopped at a mark
+        self._look()  # a resumed run may stand at a mark
         for group in self.groups:
             if not self.known and group.sweep < schedule.sweeps:
                 submit(group)
         saved_at, pause_s = time.monotonic(), checkpoint_every_s
+        # Take segments as they end, and start the next segment of their group.
         while self.running and not self.known and not (watch.should_stop() and self.sweep >= 0):
             ready, _ = self.ray.wait(list(self.running), num_returns=1, timeout=WAIT_S)
             for ref in ready:
@@ -264,6 +266,7 @@ class _RayRun:
                     submit(group)
             if self.sweep == last:
                 continue
+            # The slowest group has reached a new mark: look at the error, drop old snapshots, perhaps checkpoint.
             warmed_up = last < schedule.warmup <= self.sweep
             last = self.sweep
             self._look()
@@ -276,8 +279,8 @@ class _RayRun:
                 on_checkpoint(replace(so_far, finished=False))
                 saved_at = time.monotonic()
                 pause_s = pause_after(saved_at - now, checkpoint_every_s)
-        # Segments that still run are left to end, in seconds. Never cancel them: Ray aborts this process when it
-        # cancels a task that has just returned (the race of its pull request 54798, which 2.60 still has).
+        # Segments that still run end by themselves, in seconds. Never cancel them: Ray aborts this process if it
+        # cancels a task that has just returned (a race, see its pull request 54798; 2.60 still has it).
         return replace(self.so_far(), finished=True) if self.known else self.so_far()
 
     def _look(self) -> None:
@@ -289,11 +292,11 @@ class _RayRun:
 
     @property
     def sweep(self) -> int:
-        """The number of sweeps that all chains have made; -1 while some are not started."""
+        """Number of sweeps that all chains have made; -1 before all have started."""
         return min(group.sweep for group in self.groups)
 
     def so_far(self) -> Chains:
-        """Return all chains at the sweep of the slowest."""
+        """Return all chains at the sweep of the slowest group."""
         parts = [group.up_to(self.sweep) for group in self.groups]
         count = self.remote(ray_worker.observed_counts)
         counts = [
@@ -309,7 +312,7 @@ class _RayRun:
         ])  # fmt: skip
 
     def _share(self) -> None:
-        """Put the model and what the sampler prepares of it into the object store."""
+        """Put the model and the sampler's prepared problem into the object store."""
         job, ray, beams = self.job, self.ray, self.job.model.scans.n_beams
         model = ray.put(replace(job, threads=self.executor.cpus_per_task))
         self.watch.report("trace", 0, beams)
@@ -319,7 +322,7 @@ class _RayRun:
         self.shared = (model, [problem])
 
     def _note(self, group: Group, segment: Chains) -> None:
-        """Keep the result of a task, and report the progress of all chains."""
+        """Store the result of a task, and report the progress of all chains."""
         made = segment.sweep - max(group.sweep, 0)
         group.snapshots[segment.sweep] = segment.snapshot
         group.segments.append(replace(segment, snapshot=Snapshot(segment.sweep)))

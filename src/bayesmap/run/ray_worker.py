@@ -1,10 +1,10 @@
-"""Run chains in segments, and the tasks of a Ray worker that do so for `bayesmap.run.ray_executor`.
+"""Run chains in segments, as tasks of a Ray worker for `bayesmap.run.ray_executor`.
 
-A segment is some consecutive sweeps. It depends on the job, the numbers of its chains and where they stood, and on
-nothing else. So a segment that is lost with the machine that made it can be made again elsewhere, with the same draws.
+A segment is a number of consecutive sweeps. It depends only on the job, the numbers of its chains, and their snapshot
+at its start. So a segment that is lost with its machine can run again elsewhere, with the same draws.
 
-A worker process keeps the problem, and the chains of its last segment, for the segments to come. This saves time only:
-the arguments of the next segment hold all that a process has lost.
+A worker process caches the problem, and the chains of its last segment, for later segments. This only saves time: the
+arguments of a segment suffice to run it in a new process.
 """
 
 from __future__ import annotations
@@ -29,13 +29,13 @@ def run_segment(
 ) -> tuple[Chains, ChainState]:
     """Run the chains of a job up to a number of sweeps. Returns the new draws of the chains, and their state.
 
-    It leaves counting the observed cells to `observed_counts`. The statistics of the start are empty with ``resume``.
+    Observed cells are counted later, by `observed_counts`. The statistics of the start are empty with ``resume``.
 
     Args:
-        job: with its problem prepared.
-        until: sweeps that each chain will have made; 0 only starts them.
-        resume: where the chains stand; None starts them.
-        state: the chains themselves, where this process still has them from the segment before.
+        job: the job, with its problem prepared.
+        until: total number of sweeps of each chain at the end; 0 only starts the chains.
+        resume: snapshot of the chains; None starts them.
+        state: state of the chains, if this process still has it from the segment before.
     """
     schedule, keep = job.schedule, job.schedule.keep
     began = time.perf_counter()
@@ -63,9 +63,9 @@ class Held:
     """The problem and the chains that this process keeps from task to task.
 
     Attributes:
-        run: name of the run whose problem it is.
-        problem: where the kernels read it.
-        chains: of the last segment, by their numbers.
+        run: name of the run that the problem belongs to.
+        problem: the prepared problem, under the job's parameters.
+        chains: numbers and state of the chains of the last segment.
     """
 
     run: str
@@ -77,7 +77,7 @@ _held: Held | None = None
 
 
 def prepare(job: Job, version: str) -> tuple[Any, float]:
-    """Prepare the job's problem. Returns it, and the seconds that it took.
+    """Prepare the job's problem. Returns the problem, and the seconds spent.
 
     Raises:
         BadInput: the versions of bayesmap here and in the calling process differ, or the sampler cannot sample the
@@ -92,14 +92,14 @@ def prepare(job: Job, version: str) -> tuple[Any, float]:
 
 
 def held(run: str, job: Job, problem: list[Any]) -> Held:
-    """Return this process's own problem of a run, under the job's parameters; taken from the object store on first use.
+    """Return this process's cached problem of a run; fetch it from the object store on first use.
 
     Args:
         run: name of the run.
-        job: of it.
-        problem: the reference to the problem, in a list: Ray would fetch a bare one for every segment.
+        job: job of the run; its parameters apply to the problem.
+        problem: reference to the problem, in a list: Ray would fetch a bare reference for every segment.
     """
-    global _held  # noqa: PLW0603 -- one a process, as the worker is
+    global _held  # noqa: PLW0603 -- one per process, as the worker is
     if _held is None or _held.run != run:
         import ray
 
@@ -113,8 +113,9 @@ def held(run: str, job: Job, problem: list[Any]) -> Held:
 def advance(
     run: str, job: Job, problem: list[Any], chain_ids: tuple[int, ...], until: int, resume: Snapshot | None
 ) -> Chains:
-    """Run some chains of a job up to a number of sweeps; see `run_segment`."""
+    """Run the given chains of a job up to a number of sweeps; see `run_segment`."""
     here = held(run, job, problem)
+    # Use the cached chains only if they are these chains, at the sweep of the snapshot.
     ids, state = here.chains or ((), None)
     here.chains = None
     if state is not None and (ids != chain_ids or resume is None or state.sweep != resume.sweep):
@@ -133,8 +134,9 @@ def observed_counts(
     snapshot: Snapshot,
     draws: Mapping[str, NDArray[Any]],
 ) -> NDArray[np.int32]:
-    """Compute `bayesmap.samplers.sampler.Sampler.observed_counts` of chains at a snapshot; the draws are those of
-    `to_see`.
+    """Compute `bayesmap.samplers.sampler.Sampler.observed_counts` of chains at a snapshot.
+
+    The draws come from `bayesmap.samplers.sampler.to_see`.
     """
     here = held(run, job, problem)
     state = job.sampler.init(here.problem, chain_ids, job.seed, snapshot)

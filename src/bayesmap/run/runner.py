@@ -1,9 +1,9 @@
-"""The one runner of all chains: an iterator of (state, info), and what is made of it.
+"""The one runner of all chains: an iterator of (state, info), and a loop that stores draws and writes checkpoints.
 
-All chains of a process advance together, in short steps: between two steps they have made the same number of sweeps, so
-a checkpoint is where each stands, that number, and the draws so far. A step is about a quarter of a second of work.
-`bayesmap.infer`, the page and the workers of a cluster either take the states of `sweeps` as they come, or let
-`run_chains` keep the draws. An `Executor` decides where the chains of a job run.
+All chains of a process advance together, in steps of about a quarter of a second of work. Between two steps they have
+made the same number of sweeps. So a checkpoint holds the state of each chain, this number, and the draws so far.
+`bayesmap.infer`, the page and the workers of a cluster either iterate over `sweeps`, or let `run_chains` store the
+draws. An `Executor` decides where the chains of a job run.
 """
 
 from __future__ import annotations
@@ -31,8 +31,8 @@ from bayesmap.samplers.sampler import NOTHING, ChainState, Info, Keep, Sampler, 
 def stop_on_interrupt() -> Iterator[Callable[[], bool]]:
     """Make the yielded function return True after the first Ctrl-C; a second one interrupts at once.
 
-    Outside the main thread, where Python takes no signals, the function always returns False; so it does in a process
-    that was started to ignore Ctrl-C, as shells start jobs in the background of a script.
+    The function always returns False outside the main thread, in which alone Python handles signals. It also does in a
+    process that was started to ignore Ctrl-C; shells start background jobs of a script this way.
     """
     stopped = False
 
@@ -53,29 +53,29 @@ def stop_on_interrupt() -> Iterator[Callable[[], bool]]:
         signal.signal(signal.SIGINT, signal.SIG_DFL if before is None else before)
 
 
-STEP_SECONDS = 0.25
-SECONDS_PER_INCIDENCE = 2e-8  # a first guess, for the first step
+STEP_SECONDS = 0.25  # of work per step
+SECONDS_PER_INCIDENCE = 2e-8  # a first guess, for the first step; later steps use the measured time
 FIRST_STEP = 16
-"""Sweeps of the first step, at most."""
+"""Most sweeps of the first step."""
 BUFFER_BYTES = 64 << 20
-"""Draws of one step, before they are put with the others."""
-CHECKPOINT_SHARE = 0.05  # of the time, at most: five seconds of every hundred
+"""Most bytes of the draws of one step."""
+CHECKPOINT_SHARE = 0.05  # largest share of the time that checkpoints may take
 
 
 @dataclass(frozen=True, eq=False)
 class Job:
-    """Some chains of one posterior: all that a process needs to run them.
+    """Chains of one posterior, with all that a process needs to run them.
 
     Attributes:
-        model: what is sampled.
-        sampler: how.
-        schedule: how long.
-        seed: of all random numbers.
-        chain_ids: numbers of the chains, wherever they run.
-        device: where kernels run.
-        threads: of the CPU; all cores if None.
-        parameters: sensor and prior that were fitted beforehand, under which the chains run.
-        problem: what the sampler has prepared of the model in this process already.
+        model: model to sample.
+        sampler: sampler of the model.
+        schedule: number of sweeps, draws and warm-up sweeps.
+        seed: seed of all random numbers.
+        chain_ids: numbers of the chains among all chains of the run.
+        device: device of the kernels.
+        threads: number of CPU threads; all cores if None.
+        parameters: sensor and prior that were fitted beforehand; None to run under those of the model.
+        problem: the sampler's prepared problem, if this process has it already.
     """
 
     model: Model
@@ -90,7 +90,7 @@ class Job:
 
     @property
     def model_to_trace(self) -> Model:
-        """The model under the fitted sensor: beams are followed as far as its noise reaches."""
+        """The model with the fitted sensor, whose noise decides how far beams are traced."""
         return self.model if self.parameters is None else replace(self.model, sensor=self.parameters.sensor)
 
 
@@ -107,21 +107,22 @@ def sweeps(
 ) -> Iterator[tuple[Any, Info]]:
     """Advance chains step by step: yield (state, info) after each step.
 
-    How long a step is depends on how fast they go; what they draw does not.
+    The number of sweeps in a step depends on their speed; the draws do not.
 
     Args:
-        sampler: what a sweep is.
-        state: where they stand.
-        until: sweeps that they will have made.
-        keep: which draws the infos hold.
+        sampler: sampler that makes the sweeps.
+        state: state of the chains.
+        until: total number of sweeps at the end.
+        keep: rule that selects the draws in the infos.
         beta: inverse temperature.
-        step_seconds: of work between two states; `STEP_SECONDS` if None.
-        most_kept: draws of a step, at most.
-        stops: numbers of sweeps that no step goes across.
+        step_seconds: work per step; `STEP_SECONDS` if None.
+        most_kept: most draws per step.
+        stops: numbers of sweeps at which a step must end.
     """
     seconds = STEP_SECONDS if step_seconds is None else step_seconds
     per_sweep, most = SECONDS_PER_INCIDENCE * state.problem.n_incidences, FIRST_STEP
     while state.sweep < until:
+        # Sweeps of this step: by the measured speed, up to the next stop, and with few enough draws.
         count = int(max(1, min(seconds / per_sweep if per_sweep > 0 else most, most, until - state.sweep)))
         count = min([count, *(stop - state.sweep for stop in stops if stop > state.sweep)])
         if most_kept is not None and keep.every:
@@ -134,7 +135,7 @@ def sweeps(
 
 
 def start_chains(job: Job, resume: Chains | None = None, watch: Watch = SILENT) -> tuple[ChainState, dict[str, float]]:
-    """Start the chains of a job, or continue them. Returns their state, and the seconds of tracing and starting."""
+    """Start or continue the chains of a job. Returns their state, and the seconds spent, by phase."""
     began = time.perf_counter()
     problem = job.problem
     if problem is None:
@@ -148,7 +149,7 @@ def start_chains(job: Job, resume: Chains | None = None, watch: Watch = SILENT) 
 
 
 def no_draws(model: Model, state: ChainState, chains: int) -> Draws:
-    """Return the draws of a model before there is any."""
+    """Return the empty draws of a model, for a number of chains."""
     empty = Draws(model.grid, model.arrays, {}, state.problem.coordinates)
     return replace(empty, arrays={spec.name: spec.empty(chains, 0, empty.shape_of(spec)) for spec in empty.specs})
 
@@ -164,17 +165,18 @@ def run_chains(
     """Run warm-up and draws of all chains of a job in this process.
 
     Args:
-        job: what to run.
-        resume: chains of this job to continue: the result is bit for bit that of chains that never stopped.
+        job: the job to run.
+        resume: chains of this job to continue. The result equals that of uninterrupted chains, bit for bit.
         watch: gets progress after every step, and may stop the chains between two steps.
-        on_checkpoint: given the chains so far at the end of warm-up, and every ``checkpoint_every_s`` seconds; less
-            often where it takes so long that it would hold the chains up.
-        checkpoint_every_s: see above.
+        on_checkpoint: called with the chains so far at the end of warm-up, and every ``checkpoint_every_s`` seconds;
+            less often if it would take more than 5 % of the time.
+        checkpoint_every_s: seconds between two checkpoints.
 
     Returns:
-        The chains, all draws made or the map known as well as was asked for; with ``finished`` false if they were asked
-        to stop, be it in the last step.
+        The chains, with all draws or with the map at the precision of the schedule. Their ``finished`` is false if the
+        watch stopped them, even in the last step.
     """
+    # Start the chains, and make room for their draws.
     schedule, chains = job.schedule, len(job.chain_ids)
     state, seconds = start_chains(job, resume, watch)
     statistics = state.statistics
@@ -205,7 +207,8 @@ def run_chains(
             error = so_far(state).error(job.model.cells)
             known, aim = error <= schedule.precision, schedule.aim(state.sweep, error)
 
-    look(state)  # a run that was stopped at a mark
+    look(state)  # a resumed run may stand at a mark
+    # Advance step by step: record draws, look at the error, report, write checkpoints.
     saved_at, pause_s = time.monotonic(), checkpoint_every_s
     began, before = time.perf_counter(), state.sweep
     stopped = watch.should_stop()
@@ -228,15 +231,15 @@ def run_chains(
             saved_at = time.monotonic()
             pause_s = pause_after(saved_at - now, checkpoint_every_s)
         began, stopped = time.perf_counter(), watch.should_stop()
-    # A stop in the last step must not wait for what follows the chains.
+    # A stop in the last step counts, too: the caller must not begin the work that follows the chains.
     return replace(so_far(state), finished=False) if stopped else so_far(state)
 
 
 def pause_after(checkpoint_s: float, every_s: float) -> float:
-    """Return the seconds to the next checkpoint, given the time that the last one took; as asked, where one is asked
-    for at every step.
+    """Return the seconds to the next checkpoint, given the seconds that the last one took.
 
-    It allows for twice the time, because the next one has more draws to write.
+    The next checkpoint is assumed to take twice the time, because it has more draws to write. ``every_s`` of 0, a
+    checkpoint at every step, stays 0.
     """
     return max(every_s, 2 * checkpoint_s * (1 / CHECKPOINT_SHARE - 1)) if every_s > 0 else every_s
 
@@ -262,7 +265,7 @@ class ThreadExecutor:
     """Runs all chains in this process, on its threads or its GPU.
 
     Attributes:
-        should_stop: asked between two steps, beside the watch of the run.
+        should_stop: function that returns true to stop between two steps, beside the watch of the run.
     """
 
     should_stop: Callable[[], bool] = lambda: False

@@ -1,6 +1,6 @@
 """Simulated office buildings: a floor plan, doors, windows, glass partitions, furniture.
 
-The plan is laid out along x, in whole cells. Rows of rooms alternate with corridors, so that every room touches one:
+The plan runs along x, in whole cells. Rows of rooms alternate with corridors, so that every room touches a corridor:
 
     row             facade, windows
     corridor
@@ -8,8 +8,8 @@ The plan is laid out along x, in whole cells. Rows of rooms alternate with corri
     corridor
     row             facade, windows
 
-Cross corridors join the corridors and cut the core; each piece of a row is then split at random, again and
-again, until its rooms have the sizes of rooms.
+Cross corridors join the corridors and cut the core. Each piece of a row is then split at random into rooms, until none
+is too wide.
 """
 
 from __future__ import annotations
@@ -26,16 +26,16 @@ from bayesmap.sim.furniture import RoomFloor, furnish
 from bayesmap.space.grid import Grid
 
 ROW_DEPTH_M, CORRIDOR_M, CROSS_CORRIDOR_M, CROSS_EVERY_M = 5.2, 1.8, 1.6, 16.0
-INNER_WALL_M, MIN_ROOM_M = 0.12, 2.6
+INNER_WALL_M, MIN_ROOM_M = 0.12, 2.6  # wall thickness, least width of a room
 OUTER_WALL_M = 0.3
 MARGIN_M = 0.5
-"""Open ground around the building."""
+"""Width of the open ground around the building."""
 DOOR_M, WIDE_DOOR_M = 0.9, 1.6
 DOOR_CLEAR_M = 1.1
 """Depth of the floor that is kept free on both sides of a door."""
-SMALLEST_M = (12.0, 8.0)
+SMALLEST_M = (12.0, 8.0)  # long and short side of the smallest building
 STOP_SPLITTING_M = ((3.4, 0.42), (4.6, 0.30), (6.5, 0.18), (9.5, 0.10))
-"""A piece narrower than the drawn width is a room: (width in metres, probability)."""
+"""Widths in metres with their probabilities: a piece narrower than a random one of these widths is not split."""
 
 
 @dataclass(frozen=True)
@@ -43,9 +43,9 @@ class Space:
     """A room or a corridor: the free cells ``x0 <= i < x1``, ``y0 <= j < y1``.
 
     Attributes:
-        kind: as `Room` calls it.
-        corridors: sides on which a corridor runs along it: -1 (towards smaller y), +1, or both.
-        facade: whether it touches the outer wall along its length.
+        kind: kind of the room, see `Room`.
+        corridors: sides with a corridor along them: -1 (towards smaller y), +1, or both.
+        facade: true if it touches the outer wall along its length.
     """
 
     kind: str
@@ -69,15 +69,17 @@ class Space:
 
 def lay_out(rng: np.random.Generator, x0: int, x1: int, y0: int, y1: int, resolution: float) -> tuple[Space, ...]:
     """Lay out corridors and rooms that fill the cells ``x0 <= i < x1``, ``y0 <= j < y1``, one inner wall apart."""
+    # Corridors along x, and cross corridors between the outermost of them; some run on to a window in the facade.
     wall = inner_wall_cells(resolution)
     bands = _bands(rng, y0, y1, resolution)
     corridors = [(low, high) for low, high, is_corridor in bands if is_corridor]
     cross = _cross_corridors(rng, x0, x1, len(corridors), resolution)
     spaces = [Space("corridor", x0, x1, low, high) for low, high in corridors]
     core = (corridors[0][1], corridors[-1][0])
-    through = [rng.random() < 0.5 for _ in cross]  # to a window in the facade
+    through = [rng.random() < 0.5 for _ in cross]
     for (a, b), to_facade in zip(cross, through, strict=True):
         spaces.append(Space("corridor", a, b, core[0], y1 if to_facade else core[1]))
+    # Split each row of rooms between the cross corridors.
     for index, (low, high, is_corridor) in enumerate(bands):
         if is_corridor:
             continue
@@ -98,9 +100,9 @@ def inner_wall_cells(resolution: float) -> int:
 
 
 def _bands(rng: np.random.Generator, y0: int, y1: int, resolution: float) -> list[tuple[int, int, bool]]:
-    """Divide y0 to y1 into rows of rooms and corridors: as many rows as come nearest to the usual depth.
+    """Divide y0 to y1 into rows of rooms and corridors, with room depths as near as possible to `ROW_DEPTH_M`.
 
-    Returns the first row of cells, one past the last, and whether it is a corridor, for each.
+    Returns a tuple for each row: its first cell, one past its last cell, and true for a corridor.
     """
     wall, corridor = inner_wall_cells(resolution), round(CORRIDOR_M / resolution)
 
@@ -121,7 +123,7 @@ def _bands(rng: np.random.Generator, y0: int, y1: int, resolution: float) -> lis
 
 
 def _order(rows: int) -> list[str]:
-    """Order rows with corridors between, so that every row touches one."""
+    """Return the order of rows and corridors in which every row touches a corridor."""
     order: list[str] = []
     for row in range(rows):
         order.append("row")
@@ -134,7 +136,7 @@ def _order(rows: int) -> list[str]:
 def _cross_corridors(
     rng: np.random.Generator, x0: int, x1: int, corridors: int, resolution: float
 ) -> list[tuple[int, int]]:
-    """Return column ranges of the cross corridors: none if there is only one corridor to join."""
+    """Return the column ranges of the cross corridors; none if there is only one corridor."""
     if corridors < 2:
         return []
     width, length = round(CROSS_CORRIDOR_M / resolution), x1 - x0
@@ -144,7 +146,7 @@ def _cross_corridors(
 
 
 def _between(x0: int, x1: int, gaps: list[tuple[int, int]], wall: int) -> Iterator[tuple[int, int]]:
-    """Return what is left of x0..x1 on both sides of the gaps and their walls."""
+    """Yield the parts of x0..x1 between the gaps and their walls."""
     start = x0
     for a, b in sorted(gaps):
         yield start, a - wall
@@ -153,7 +155,7 @@ def _between(x0: int, x1: int, gaps: list[tuple[int, int]], wall: int) -> Iterat
 
 
 def _split(rng: np.random.Generator, x0: int, x1: int, resolution: float) -> Iterator[tuple[int, int]]:
-    """Divide x0 to x1 into rooms, by splitting in two until pieces are narrow enough."""
+    """Yield the rooms of x0..x1, which is split in two recursively until pieces are narrow enough."""
     wall, least = inner_wall_cells(resolution), round(MIN_ROOM_M / resolution)
     widths, chances = zip(*STOP_SPLITTING_M, strict=True)
     if x1 - x0 < 2 * least + wall or (x1 - x0) * resolution < rng.choice(widths, p=chances):
@@ -166,7 +168,7 @@ def _split(rng: np.random.Generator, x0: int, x1: int, resolution: float) -> Ite
 
 
 def _name_rooms(rng: np.random.Generator, spaces: list[Space], resolution: float) -> tuple[Space, ...]:
-    """Name what each room is for, from its size and place; one facade room becomes the lobby."""
+    """Assign a kind to each room by its size and position; one facade room becomes the lobby."""
     facade = [k for k, space in enumerate(spaces) if space.facade]
     middle = np.mean([(spaces[k].x0 + spaces[k].x1) / 2 for k in facade])
     lobby = min(facade, key=lambda k: abs((spaces[k].x0 + spaces[k].x1) / 2 - middle) + 1e6 * spaces[k].y0)
@@ -208,7 +210,7 @@ class Building:
 
     Attributes:
         grid: the grid of the arrays.
-        walls: cells with something in them, furniture included, shape (nx, ny).
+        walls: true for cells that are not empty, furniture included, shape (nx, ny).
         glass: the wall cells that are glass, shape (nx, ny).
         opacity: the chance that a beam which enters a cell stops there, shape (nx, ny): 1 for walls,
             ``1 - glass_pass`` for glass, less than 1 for legs thinner than a cell, 0 for free cells.
@@ -232,16 +234,16 @@ def building(
     glass_pass: float = 0.7,
     clutter: float = 1.0,
 ) -> Building:
-    """Simulate an office floor: rooms along corridors, every one within reach, the outer wall closed.
+    """Simulate an office floor: rooms along corridors, all reachable, with a closed outer wall.
 
     The same arguments give the same building.
 
     Args:
-        seed: chooses the building.
+        seed: seed of the random building.
         size_m: outer width (x) and depth (y) in metres, at least 12 by 8 (or 8 by 12).
         resolution: edge of a cell in metres, 0.02 to 0.25.
         glass_pass: the chance that a beam passes a cell of glass, in [0, 1].
-        clutter: furniture, from 0 (none) over 1 (usual) to 2 (crowded).
+        clutter: amount of furniture: 0 for none, 1 for usual, 2 for crowded.
 
     Returns:
         The building, on a grid with half a metre of open ground around the outer wall, whose origin is the
@@ -261,11 +263,12 @@ def building(
         raise BadInput(f"building: size_m must be at least {SMALLEST_M} metres, got {size_m!r}")
     if long / resolution * short / resolution > 50_000_000:
         raise BadInput(f"building: {size_m!r} metres at {resolution} m is too many cells; use a coarser one")
+    # Build with the long side along x, then turn the arrays if that side is y.
     plan = _Construction(np.random.default_rng(check_count("building", "seed", seed, 0)), (long, short), resolution)
     plan.build(clutter)
     opacity = np.where(plan.glass, 1.0 - glass_pass, plan.opacity)
     walls, glass, spaces = plan.opacity > 0, plan.glass, plan.spaces
-    if size_m[0] < size_m[1]:  # the plan runs along the longer side
+    if size_m[0] < size_m[1]:
         walls, glass, opacity = walls.T.copy(), glass.T.copy(), opacity.T.copy()
     rooms = []
     for space in spaces:
@@ -276,7 +279,7 @@ def building(
 
 
 class _Construction:
-    """A building while it is being built, in cells, long side along x."""
+    """A building under construction, in cells, with the long side along x."""
 
     def __init__(self, rng: np.random.Generator, size_m: tuple[float, float], resolution: float) -> None:
         self.rng, self.resolution = rng, resolution
@@ -308,7 +311,7 @@ class _Construction:
             self.furnish(space, clutter)
 
     def doors(self, room: Space) -> None:
-        """Cut one door to the corridor near a corner, two for wide rooms; set glass along some meeting rooms."""
+        """Cut a door to the corridor near a corner, two for wide rooms; put glass along the lobby and some rooms."""
         side = int(self.rng.choice(room.corridors))
         wide = room.width * self.resolution > 6.2
         both_corners = [True, False] if wide else [bool(self.rng.random() < 0.5)]
@@ -331,7 +334,7 @@ class _Construction:
         clear, beside = self.cells(DOOR_CLEAR_M), self.cells(0.1)
         self.keep[a - beside : a + opening + beside, y0 - clear : y1 + clear] = True
         if not wide and self.rng.random() < 0.6:
-            # The leaf stands open, at a right angle, on the hinge nearer to the side wall.
+            # The leaf stands open at a right angle, with its hinge nearer to the side wall.
             hinge = a - 1 if left else a + opening
             leaf = slice(y0 - opening, y0) if side > 0 else slice(y1, y1 + opening)
             self.opacity[hinge, leaf] = 1.0
@@ -342,7 +345,7 @@ class _Construction:
         return (room.y1, room.y1 + thickness) if side > 0 else (room.y0 - thickness, room.y0)
 
     def windows(self, room: Space) -> None:
-        """Set glazing down to the floor in some facade rooms; elsewhere the sill is above the laser."""
+        """Put windows down to the floor in some facade rooms; the sill of other windows is above the laser."""
         ix0, ix1, iy0, iy1 = self.inside
         chance = {"lobby": 1.0, "open plan": 0.75, "meeting": 0.6}.get(room.kind, 0.4)
         if room.facade and self.rng.random() < chance:
@@ -356,7 +359,7 @@ class _Construction:
                 self.window(column, column + self.outer, middle - half, middle + half, along_x=False)
 
     def end_windows(self, corridor: Space) -> None:
-        """Set a window at each end of a corridor that meets the facade."""
+        """Put a window at each end of a corridor that meets the facade."""
         ix0, ix1, _, iy1 = self.inside
         edge = self.cells(0.3)
         if corridor.x0 == ix0:
@@ -367,14 +370,14 @@ class _Construction:
             self.window(corridor.x0 + edge, corridor.x1 - edge, iy1, iy1 + self.outer, along_x=True)
 
     def keep_junctions(self, cross: Space, corridors: list[Space]) -> None:
-        """Reserve the places where a cross corridor meets the others: nothing may stand there."""
+        """Keep furniture out of the junctions of a cross corridor with other corridors."""
         thickness, clear = inner_wall_cells(self.resolution), self.cells(DOOR_CLEAR_M)
         for corridor in corridors:
             if corridor.x0 < cross.x0 and corridor.y0 <= cross.y1 + thickness and cross.y0 <= corridor.y1:
                 self.keep[cross.x0 : cross.x1, corridor.y0 - clear : corridor.y1 + clear] = True
 
     def window(self, x0: int, x1: int, y0: int, y1: int, *, along_x: bool) -> None:
-        """Set a pane in the middle of the outer wall, with reveals on both sides."""
+        """Put a pane in the middle of the outer wall, with free cells on both sides."""
         self.opacity[x0:x1, y0:y1] = 0.0
         if along_x:
             self.pane(x0, x1, (y0 + y1) // 2, (y0 + y1) // 2 + 1, along_x=True)
@@ -382,7 +385,7 @@ class _Construction:
             self.pane((x0 + x1) // 2, (x0 + x1) // 2 + 1, y0, y1, along_x=False)
 
     def pane(self, x0: int, x1: int, y0: int, y1: int, *, along_x: bool) -> None:
-        """Set glass with a mullion every 1.2 m."""
+        """Put glass with a mullion every 1.2 m."""
         self.opacity[x0:x1, y0:y1] = 1.0
         self.glass[x0:x1, y0:y1] = True
         every = self.cells(1.2)

@@ -1,4 +1,4 @@
-"""Walls as text, one character a cell, and the tutorial's map: 21 x 21 cells of a metre, a robot in the middle."""
+"""Walls as text, one character per cell, and the tutorial's map: 21 x 21 cells of 1 m, with a robot in the middle."""
 
 from __future__ import annotations
 
@@ -10,19 +10,17 @@ from bayesmap.space.grid import Grid
 
 FREE = "."
 WALLS = "X#"
-"""Both characters are walls; `to_text` writes the first."""
+"""Characters of walls; `to_text` writes the first."""
 
 
 def from_text(text: str) -> NDArray[np.bool_]:
     """Read walls from a text drawing: ``.`` is free, ``X`` or ``#`` is a wall.
 
-    The text is read as the tutorial reads it: lines are the *first* index, so ``walls[i, j]`` is line ``i``,
-    column ``j``. On a map, where arrays are indexed ``[x, y]``, the first line is therefore the column of
-    cells furthest left, read from the bottom up: the drawing appears turned a quarter anticlockwise. Use
-    `from_image` for a picture that should appear as it is drawn.
+    As in the tutorial, lines are the *first* index: ``walls[i, j]`` is line ``i``, column ``j``. Maps are indexed
+    ``[x, y]``, so the first line becomes the leftmost column of cells, from the bottom up. The drawing appears on the
+    map turned a quarter anticlockwise. Use `from_image` for a picture that should appear as it is drawn.
 
-    Blank lines around the drawing, blanks at the ends of lines, and an indentation common to all lines are
-    ignored.
+    Blank lines around the drawing, blanks at the ends of lines, and an indentation common to all lines are ignored.
 
     Args:
         text: the drawing.
@@ -59,7 +57,7 @@ def from_text(text: str) -> NDArray[np.bool_]:
 
 
 def to_text(walls: ArrayLike) -> str:
-    """Return the drawing that `from_text` reads back as these walls.
+    """Return a drawing from which `from_text` reads these walls.
 
     Args:
         walls: boolean walls, shape (lines, columns), with at least one cell.

@@ -1,4 +1,4 @@
-"""The forward model: from a map and poses to ranges, without and with noise."""
+"""The forward model: ranges from a map and poses, without and with noise."""
 
 from __future__ import annotations
 
@@ -18,16 +18,16 @@ def ranges(
 ) -> NDArray[np.float64]:  # fmt: skip
     """Compute noise-free ranges: the distance from each pose to the first wall along each beam, capped.
 
-    Cells are closed squares: a beam that touches a corner hits all cells that meet there. From inside a wall the
-    range is that of the exit edge. This equals the minimum over the four edges of every wall cell.
+    Cells are closed squares: a beam that touches a corner hits all cells that meet there. From inside a wall the range
+    is the distance to the exit edge. Both rules follow from the minimum distance over the edges of all wall cells.
 
     Args:
-        walls: shape (nx, ny), true (or non-zero) where there is a wall.
-        grid: where the cells are.
+        walls: true (or non-zero) in wall cells, shape (nx, ny).
+        grid: grid of the cells.
         poses: (x, y, yaw) in the world frame, shape (3,) or (S, 3).
         angles_rad: beam angles in the sensor frame, shape (A,).
-        max_range_m: the cap.
-        device: where to cast the rays.
+        max_range_m: largest range that is returned.
+        device: device that casts the rays.
 
     Returns:
         Metres, shape (A,) for a single pose of shape (3,), else (S, A).
@@ -48,23 +48,24 @@ def simulate(
     """Draw scans from a sensor model in a known world.
 
     Args:
-        walls: shape (nx, ny).
-        grid: where the cells are.
+        walls: true (or non-zero) in wall cells, shape (nx, ny).
+        grid: grid of the cells.
         poses: (x, y, yaw) in the world frame, shape (3,) or (S, 3).
         angles_rad: beam angles in the sensor frame, shape (A,).
-        sensor: the law of the readings.
+        sensor: noise model of the readings.
         max_range_m: the sensor's largest range.
         min_range_m: the sensor's smallest range.
-        seed: chooses the noise.
-        opacity: chance, per cell, that a wall stops a scan's beams (1 where None): glass lets some through.
-        typed: whether a beam that meets nothing within ``max_range_m``, or reads more than that, reports no return, as
-            lasers do. If not, that is left to the sensor's law: additive noise alone reads the largest range plus
-            noise there, as in the tutorial.
-        device: where to cast the rays.
+        seed: seed of the noise.
+        opacity: chance that each wall cell stops the beams of a scan, shape (nx, ny); 1 if None. Glass has less.
+        typed: true to report no return, as lasers do, for a beam that meets nothing within ``max_range_m`` or reads
+            more. If false, the sensor model decides: additive noise reads the largest range plus noise, as in the
+            tutorial.
+        device: device that casts the rays.
 
     Raises:
         BadInput: as `ranges`, and for a pose inside a wall.
     """
+    # Check the arguments.
     many, angles = as_poses(poses), as_angles(angles_rad)
     check_limits(min_range_m, max_range_m)
     seed = check_count("simulate", "seed", seed, 0)
@@ -83,6 +84,7 @@ def simulate(
             raise BadInput(
                 f"simulate: opacity must be {grid.shape} numbers in [0, 1], one a cell; got shape {opacity.shape}"
             )
+    # Cast rays; with an opacity, each scan sees its own random walls. Then add noise.
     rng = np.random.default_rng(seed)
     if opacity is None:
         distances = _distances(solid, grid, many, angles, np.inf, device)
@@ -94,7 +96,7 @@ def simulate(
     readings = sensor.sample(rng, distances, RangeLimits(min_range_m, max_range_m))
     if typed:
         nothing = readings > max_range_m
-        if isinstance(sensor, AdditiveNoise):  # other sensors say by themselves what they report of nothing
+        if isinstance(sensor, AdditiveNoise):  # other sensor models produce no return themselves
             nothing |= distances > max_range_m
         readings = np.where(nothing, np.inf, readings)
     return Scans(many, angles, readings, max_range_m=max_range_m, min_range_m=min_range_m)

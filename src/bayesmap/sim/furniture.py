@@ -1,7 +1,7 @@
 """Furniture in rooms, as a laser at shin height sees it: legs, cabinets, boxes, partitions.
 
-Every piece is tried where it belongs (against a wall, in the middle, in front of a desk) and kept only if it
-leaves the door free and the rest of the room within reach of a robot.
+Every piece is tried in a typical position (against a wall, in the middle, in front of a desk). It is kept only if it
+leaves the door free and a robot can still reach the rest of the room. Sizes and positions are in metres.
 """
 
 from __future__ import annotations
@@ -14,25 +14,25 @@ import numpy as np
 from numpy.typing import NDArray
 
 ROBOT_CLEARANCE_M = 0.25
-"""No pose of a simulated robot is nearer to a wall than this."""
+"""Smallest distance between a pose of a simulated robot and a wall."""
 
 LATTICE_M = 0.1
-"""Paths are planned on every k-th cell, about this far apart (every cell, where cells are larger)."""
+"""Approximate distance between nodes of the planning lattice, on every k-th cell (every cell if cells are larger)."""
 
-SOLID = 1.0
+SOLID = 1.0  # opacity: the chance that a cell stops a beam
 LEG = 0.5
-"""A leg is thinner than a cell: about half of the beams that enter its cell pass."""
+"""Opacity of a leg, which is thinner than a cell: about half of the beams that enter its cell pass."""
 
 MAX_CUT_OFF_M2 = 0.4
-"""Floor that a piece may put out of a robot's reach, besides the floor that it stands on."""
+"""Largest floor that a piece may make unreachable, besides the floor under it."""
 
 Rectangle = tuple[float, float, float, float, float]
-"""Metres in the room's frame: x, y, width, depth; and the opacity."""
+"""A rectangle in the room's frame: x, y, width and depth in metres, and the opacity."""
 
 
 def wall_distance_m(walls: NDArray[np.bool_], resolution: float) -> NDArray[np.float64]:
     """Return the distance in metres between the centres of every cell and of the nearest wall cell, shape (nx, ny)."""
-    from scipy import ndimage  # half a second to import: only those who simulate buildings pay for it
+    from scipy import ndimage  # takes half a second, so it is imported only if needed
 
     if not walls.any():
         return np.full(walls.shape, np.inf)
@@ -45,20 +45,20 @@ def lattice_stride(resolution: float) -> int:
 
 
 def passage_m(resolution: float) -> float:
-    """Return the centre-to-centre distance from walls that keeps a path clear of them by `ROBOT_CLEARANCE_M`.
+    """Return the distance from a node to the centre of a wall cell that keeps paths clear by `ROBOT_CLEARANCE_M`.
 
-    A wall's edge is nearer than its centre by up to half a cell's diagonal, and a point of the path is off
-    the lattice by up to half the lattice's diagonal.
+    The edge of a wall is nearer than its centre by up to half a cell's diagonal. A point of the path is off the lattice
+    by up to half the lattice's diagonal.
     """
     return ROBOT_CLEARANCE_M + (1 + lattice_stride(resolution)) * resolution / math.sqrt(2)
 
 
 @dataclass
 class RoomFloor:
-    """A room being furnished. Its frame: x along the corridor wall, y away from the corridor, in metres.
+    """A room to furnish. Its frame, in metres: x along the corridor wall, y away from the corridor.
 
-    ``opacity`` holds the room's cells and the walls around them, (nx + 2, ny + 2), changed in place; ``keep`` marks the
-    cells in front of doors, and door openings, where nothing may stand.
+    ``opacity`` covers the room's cells and the walls around them, (nx + 2, ny + 2), and is changed in place. ``keep``
+    marks door openings and the cells in front of them, where nothing may stand.
     """
 
     opacity: NDArray[np.float64]
@@ -73,7 +73,8 @@ class RoomFloor:
         return (nx - 2) * self.resolution, (ny - 2) * self.resolution
 
     def place(self, *rectangles: Rectangle) -> bool:
-        """Put a piece, given as its parts, if there is room for all of it. Returns whether it was put."""
+        """Place a piece, given by its parts, if all of it fits. Returns true if it was placed."""
+        # Draw the parts, at least one cell wide each, unless a part meets a wall, a door area or another piece.
         trial = self.opacity.copy()
         nx, ny = trial.shape
         for x, y, width, depth, opacity in rectangles:
@@ -83,6 +84,7 @@ class RoomFloor:
             if min(a, c) < 1 or b > nx - 1 or d > ny - 1 or self.keep[a:b, c:d].any() or trial[a:b, c:d].any():
                 return False
             trial[a:b, c:d] = opacity
+        # The rest of the floor must remain reachable.
         passable = float(self._room_to_pass(trial).sum()) * self.resolution**2
         if self._reachable(trial) + MAX_CUT_OFF_M2 < passable:
             return False
@@ -90,7 +92,7 @@ class RoomFloor:
         return True
 
     def _reachable(self, opacity: NDArray[np.float64]) -> float:
-        """Return the square metres that a robot can reach; minus infinity if it cannot pass between the doors."""
+        """Return the floor that a robot can reach in m^2; minus infinity if it cannot pass between the doors."""
         from scipy import ndimage
 
         labels, _ = ndimage.label(self._room_to_pass(opacity))
@@ -105,9 +107,9 @@ class RoomFloor:
 
 
 def furnish(room: RoomFloor, kind: str, clutter: float) -> None:
-    """Furnish a room, in place, for its kind, as `bayesmap.sim.building.Room` calls it.
+    """Furnish a room, in place, for its kind, one of those of `bayesmap.sim.building.Room`.
 
-    Clutter goes from 0 (empty) over 1 (usual) upwards.
+    The clutter is 0 for an empty room, 1 for usual furniture, more for more.
     """
     if clutter <= 0:
         return
@@ -125,7 +127,7 @@ def _office(room: RoomFloor, clutter: float) -> None:
 
 
 def _desk_at_wall(room: RoomFloor, left: bool, y: float) -> None:
-    """Put a desk along a side wall: drawers under one end, two legs at the other, a chair before it."""
+    """Place a desk along a side wall: drawers under one end, legs at the other, a chair in front."""
     width, _ = room.size_m
     x_wall = 0.0 if left else width - 0.6
     x_edge = 0.6 if left else width - 0.7
@@ -134,7 +136,7 @@ def _desk_at_wall(room: RoomFloor, left: bool, y: float) -> None:
 
 
 def _chair(room: RoomFloor, x: float, y: float) -> None:
-    """Put a swivel chair: the column and five short feet fill about a square of 0.2 m."""
+    """Place a swivel chair: the column and five short feet fill about a square of 0.2 m."""
     room.place((x + room.rng.uniform(-0.2, 0.2), y + room.rng.uniform(-0.2, 0.2), 0.2, 0.2, LEG))
 
 
@@ -144,7 +146,7 @@ def _four_legs(x: float, y: float, width: float, depth: float) -> list[Rectangle
 
 
 def _table(room: RoomFloor, clutter: float) -> None:
-    """Put a table in the middle, with four legs, and chairs along its sides."""
+    """Place a table with four legs in the middle, and chairs along its sides."""
     width, depth = room.size_m
     along_x = width > depth
     length, across = min(max(width, depth) - 2.6, 3.6), 1.2
@@ -154,6 +156,7 @@ def _table(room: RoomFloor, clutter: float) -> None:
     x, y = (width - w) / 2, (depth - d) / 2
     if not room.place(*_four_legs(x, y, w, d)):
         return
+    # A chair per 0.8 m of each long side, if the clutter has it.
     for k in range(int(length / 0.8)):
         for side in (-1, 1):
             if room.rng.random() < 0.85 * min(clutter, 1):
@@ -168,7 +171,7 @@ def _meeting(room: RoomFloor, clutter: float) -> None:
 
 
 def _open_plan(room: RoomFloor, clutter: float) -> None:
-    """Put islands of four desks: a screen down the middle, drawers at the outer ends, a chair at each desk."""
+    """Place islands of four desks: a screen down the middle, drawers at the outer ends, a chair at each desk."""
     width, depth = room.size_m
     islands = max(1, int((width - 0.8) / 3.6))
     for k in range(islands):
@@ -184,7 +187,7 @@ def _open_plan(room: RoomFloor, clutter: float) -> None:
 
 
 def _store(room: RoomFloor, clutter: float) -> None:
-    """Put shelves along both side walls, boxes on the floor."""
+    """Place shelves along both side walls, and boxes on the floor."""
     width, depth = room.size_m
     for x in (0.0, width - 0.4):
         room.place((x, 1.3, 0.4, depth - 1.3, SOLID))
@@ -207,7 +210,7 @@ def _kitchen(room: RoomFloor, clutter: float) -> None:
 
 
 def _washroom(room: RoomFloor, clutter: float) -> None:
-    """Put stalls along the back wall, their doors open, and a row of basins."""
+    """Place stalls along the back wall, with open doors, and a row of basins."""
     width, depth = room.size_m
     stalls = max(1, int(width / 1.0))
     for k in range(stalls):
@@ -219,7 +222,7 @@ def _washroom(room: RoomFloor, clutter: float) -> None:
 
 
 def _lobby(room: RoomFloor, clutter: float) -> None:
-    """Put a reception desk, armchairs, a plant."""
+    """Place a reception desk, armchairs and a plant."""
     width, depth = room.size_m
     room.place((width * 0.15, depth * 0.45, min(2.2, width * 0.5), 0.6, SOLID))
     for _ in range(3):
@@ -228,7 +231,7 @@ def _lobby(room: RoomFloor, clutter: float) -> None:
 
 
 def _corridor(room: RoomFloor, clutter: float) -> None:
-    """Put a copier, a cabinet or a plant here and there, flat against a wall."""
+    """Place copiers, cabinets or plants at random, flat against a wall."""
     for _ in range(room.rng.poisson(0.12 * clutter * max(room.size_m))):
         length = room.rng.choice([0.3, 0.6, 0.8, 1.2])
         _against_wall(room, float(length), 0.4)
@@ -240,7 +243,7 @@ def _cabinets(room: RoomFloor, count: int) -> None:
 
 
 def _against_wall(room: RoomFloor, length: float, depth_of_piece: float, tries: int = 6) -> None:
-    """Put a solid piece with its back to a wall, at a random place."""
+    """Place a solid piece with its back to a wall, at a random position that fits, if one is found."""
     width, depth = room.size_m
     for _ in range(tries):
         side = room.rng.integers(4)

@@ -1,9 +1,9 @@
 """A simulated robot: its patrol through a building, and its wheel odometry with noise, bias, slip and lag.
 
-Odometry cuts the path into turn, straight, turn (Thrun, Burgard and Fox, *Probabilistic Robotics*, 2005, section 5.4).
-The book adds noise whose variance depends on the square of each part, so that the same path cut into smaller steps has
-less of it. Here variances grow with the way itself, as those of a random walk do, and a log at 1 Hz and one at 10 Hz
-drift alike: for a straight of d metres and turns of a_1 and a_2 radians, A = |a_1| + |a_2|,
+Odometry divides each step into turn, straight, turn (Thrun, Burgard and Fox, *Probabilistic Robotics*, 2005, section
+5.4). In the book the noise variance grows with the square of each part, so a path in smaller steps has less noise. Here
+variances grow with the distance, as in a random walk, so that logs at 1 Hz and at 10 Hz drift alike. For a straight of
+d metres and turns of a_1 and a_2 radians, with A = |a_1| + |a_2|, the reported parts are
 
     d'   = (1 + distance_scale) d + N(0, distance_per_m^2 d + distance_per_rad^2 A)
     a_i' = (1 + turn_scale) a_i + drift_rad_per_m d / 2 + N(0, turn_per_m^2 d / 2 + turn_per_rad^2 |a_i|)
@@ -29,34 +29,34 @@ if TYPE_CHECKING:
     from bayesmap.sim.building import Building
 
 WALL_DISLIKE = 4.0
-"""How many times dearer a path is close to the walls than in the open: robots keep to the middle."""
+"""Extra cost of a path close to walls, relative to open floor: robots keep to the middle."""
 
-SMOOTHING_M = 0.5
-HEADING_M = 0.2
+SMOOTHING_M = 0.5  # twice the standard deviation of the filter that rounds corners
+HEADING_M = 0.2  # distance over which the direction of travel is measured
 STANDING_M = 1e-9
-"""A shorter straight has no direction: the step is one turn."""
+"""Shortest straight with a direction; a shorter step is one turn."""
 NEAR_M = 4.0
-"""Poses further apart than this see different walls, and no ground truth is measured between them."""
-PAIRS_A_POSE = 3
+"""Largest distance of related poses: poses further apart see different walls."""
+PAIRS_A_POSE = 3  # on average
 
 
 def patrol(building: Building, n_scans: int, seed: int = 0) -> NDArray[np.float64]:
     """Simulate the poses of a robot that goes round a building and enters its rooms.
 
-    From the first corridor it goes to the nearest room that it has not seen, again and again, by shortest
-    paths that prefer open floor. Scans are taken at equal distances along the way.
+    The robot starts in the first corridor, and repeatedly goes to the nearest unvisited room. It takes shortest paths
+    that prefer open floor. Scans are taken at equal distances along the path.
 
     Args:
         building: the building.
-        n_scans: number of poses; a round needs about one for every metre to enter every room visibly.
-        seed: chooses where in each room the robot goes.
+        n_scans: number of poses; about one per metre of path shows every room from inside.
+        seed: seed of the robot's random goal in each room.
 
     Returns:
         Poses in the world frame, shape (n_scans, 3): x and y in metres, yaw in radians along the direction of
-        travel. None is within `ROBOT_CLEARANCE_M` of a wall.
+        travel. No pose is within `ROBOT_CLEARANCE_M` of a wall.
 
     Raises:
-        BadInput: no scans asked for, or a building without floor that a robot can pass.
+        BadInput: ``n_scans`` below 1, or a building without floor that a robot can pass.
     """
     if n_scans < 1:
         raise BadInput(f"patrol: n_scans must be at least 1, got {n_scans!r}")
@@ -67,7 +67,7 @@ def patrol(building: Building, n_scans: int, seed: int = 0) -> NDArray[np.float6
     along = np.concatenate([[0.0], np.cumsum(steps)])
     at = np.linspace(0.0, along[-1], n_scans)
     xy = _along(path, along, at)
-    # The direction of travel over the next few steps, not of one step of the lattice.
+    # The direction of travel over `HEADING_M`, not of one step of the lattice; at the end, over the last `HEADING_M`.
     heading = _along(path, along, at + HEADING_M) - xy
     arrived = np.hypot(*heading.T) < 1e-9
     heading[arrived] = (xy - _along(path, along, at - HEADING_M))[arrived]
@@ -77,23 +77,25 @@ def patrol(building: Building, n_scans: int, seed: int = 0) -> NDArray[np.float6
 def _along(
     path_m: NDArray[np.float64], length_m: NDArray[np.float64], at_m: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """Return points of a path at the given lengths along it, held at its ends."""
+    """Return the points of a path at lengths ``at_m`` along it; beyond the ends, the end points."""
     return np.stack([np.interp(at_m, length_m, path_m[:, k]) for k in (0, 1)], axis=1)
 
 
 class _Lattice:
-    """Every k-th cell where a robot fits, linked to its eight neighbours: the largest connected part."""
+    """The largest connected part of every k-th cell in which a robot fits, linked to eight neighbours."""
 
     def __init__(self, building: Building) -> None:
         from scipy import ndimage
 
         self.building, self.resolution = building, building.grid.resolution
+        # Distance to walls at every k-th cell.
         stride = lattice_stride(self.resolution)
         self.clearance_m = wall_distance_m(building.walls, self.resolution)
         start = stride // 2
         clearance = self.clearance_m[start::stride, start::stride].copy()
         centers = building.grid.centers_m()
         x, y = centers[0][start::stride], centers[1][start::stride]
+        # Keep the largest connected part inside the building.
         inside = _inside(building, x, y)
         fits = inside & (clearance >= passage_m(self.resolution))
         labels, count = ndimage.label(fits, structure=np.ones((3, 3)))
@@ -124,7 +126,7 @@ class _Lattice:
         return sparse.csr_array(entries, shape=(len(self.nodes), len(self.nodes)))
 
     def stops(self, rng: np.random.Generator) -> list[int]:
-        """Choose one node in each room within reach, in the open and near a random point of the room's middle."""
+        """Choose one node in each reachable room, on open floor near a random point of the room's middle."""
         stops = []
         x, y = self.points_m.T
         for room in sorted(self.building.rooms, key=lambda room: room.kind != "corridor"):
@@ -138,7 +140,7 @@ class _Lattice:
         return stops
 
     def tour(self, stops: list[int]) -> NDArray[np.float64]:
-        """Return the points of a path through all stops, from the first: always to the nearest that is left."""
+        """Return the points of a path through all stops, from the first, each time to the nearest remaining stop."""
         from scipy.sparse import csgraph
 
         if not stops:
@@ -148,6 +150,7 @@ class _Lattice:
         nodes = [stops[0]]
         while left:
             nearest = min(left, key=lambda k: cost[here, stops[k]])
+            # Follow the predecessors back from the next stop to the present one.
             leg = [stops[nearest]]
             while leg[-1] != stops[here]:
                 leg.append(int(before[here, leg[-1]]))
@@ -158,7 +161,7 @@ class _Lattice:
 
 
 def _inside(building: Building, x: NDArray[np.float64], y: NDArray[np.float64]) -> NDArray[np.bool_]:
-    """Select the lattice points that the ground around the building does not reach."""
+    """Select the lattice points that are not connected to the ground around the building."""
     from scipy import ndimage
 
     labels, _ = ndimage.label(~building.walls)
@@ -170,7 +173,7 @@ def _inside(building: Building, x: NDArray[np.float64], y: NDArray[np.float64]) 
 
 
 def _smooth(path_m: NDArray[np.float64], lattice: _Lattice) -> NDArray[np.float64]:
-    """Round the lattice's corners of a path, wherever that keeps it as clear of the walls."""
+    """Round the corners of a path, except where the rounded path would be too close to walls."""
     from scipy import ndimage
 
     spacing = lattice_stride(lattice.resolution) * lattice.resolution
@@ -179,27 +182,27 @@ def _smooth(path_m: NDArray[np.float64], lattice: _Lattice) -> NDArray[np.float6
     smooth = ndimage.gaussian_filter1d(path_m, SMOOTHING_M / spacing / 2, axis=0, mode="nearest")
     cells = np.floor(lattice.building.grid.to_cells(smooth)).astype(int)
     clear = lattice.clearance_m[cells[:, 0], cells[:, 1]] >= passage_m(lattice.resolution)
-    # A point that must stay keeps its neighbours too: no new step may cut a corner.
+    # The neighbours of a fixed point stay fixed, too, so that no step cuts a corner.
     clear = ndimage.binary_erosion(clear, iterations=2, border_value=1)
     return np.where(clear[:, None], smooth, path_m)
 
 
 @dataclass(frozen=True)
 class OdometryNoise:
-    """How a robot's odometry errs. The defaults are about those of a Pioneer in an office (Intel's raw log).
+    """The errors of a robot's odometry. The defaults are about those of a Pioneer in an office (Intel's raw log).
 
     Attributes:
         distance_per_m: standard deviation of the reported distance after one metre, m / sqrt(m).
-        distance_per_rad: the same after a turn of one radian on the spot, m / sqrt(rad).
+        distance_per_rad: standard deviation of the reported distance after a turn of one radian, m / sqrt(rad).
         turn_per_m: standard deviation of the reported yaw after one metre straight on, rad / sqrt(m).
-        turn_per_rad: the same after a turn of one radian, rad / sqrt(rad).
-        distance_scale: reported distances are longer by this share (a worn wheel).
-        turn_scale: reported turns are larger by this share (a wrong wheel base).
-        drift_rad_per_m: reported yaw turns away by this a metre (wheels of unequal size).
-        slips_per_m: how often the wheels slip, in slips a metre.
-        slip_m: in a slip the odometry reports on average so much more way than there was, metres.
-        slip_rad: standard deviation of what a slip does to the reported yaw, radians.
-        lag_s: the pose reported at a time is that of so many seconds before.
+        turn_per_rad: standard deviation of the reported yaw after a turn of one radian, rad / sqrt(rad).
+        distance_scale: relative excess of reported distances (a worn wheel).
+        turn_scale: relative excess of reported turns (a wrong wheel base).
+        drift_rad_per_m: drift of the reported yaw per metre (wheels of unequal size).
+        slips_per_m: mean number of wheel slips per metre.
+        slip_m: mean excess of the reported distance per slip, metres.
+        slip_rad: standard deviation of the reported yaw's error per slip, radians.
+        lag_s: delay of the reported pose, seconds.
 
     Raises:
         BadInput: a number that is not finite, or is negative where it must not be.
@@ -229,13 +232,13 @@ class OdometryNoise:
 def simulate_odometry(
     poses_world: ArrayLike, noise: OdometryNoise | None = None, *, stamps_s: ArrayLike | None = None, seed: int = 0
 ) -> NDArray[np.float64]:
-    """Return the poses that a robot's odometry reports along a path; it starts at the true first pose.
+    """Simulate the poses that a robot's odometry reports along a path, from the true first pose.
 
     Args:
-        poses_world: where the robot's base truly was, shape (S, 3): x, y in metres and yaw in radians.
-        noise: how the odometry errs.
-        stamps_s: when, shape (S,), strictly ascending; needed where ``noise.lag_s`` is not 0.
-        seed: of the noise. The noise of a step does not depend on the steps after it.
+        poses_world: true poses of the robot's base, shape (S, 3): x, y in metres and yaw in radians.
+        noise: errors of the odometry; the defaults of `OdometryNoise` if None.
+        stamps_s: time of each pose, shape (S,), strictly ascending; needed if ``noise.lag_s`` is not 0.
+        seed: seed of the noise. The noise of a step does not depend on later steps.
 
     Returns:
         Raw odometry, shape (S, 3), in a frame that drifts away from the world's.
@@ -264,7 +267,7 @@ def simulate_odometry(
 def travel_times_s(poses_world: ArrayLike, speed_m_per_s: float, turn_rad_per_s: float) -> NDArray[np.float64]:
     """Compute the times at which a robot passes the poses of its path, seconds from the first, shape (S,).
 
-    A step takes the longer of its way at full speed and its turn at the full rate.
+    A step takes the longer of two times: its distance at full speed, and its turn at the full rate.
 
     Raises:
         BadInput: a speed or rate that is not positive.
@@ -276,12 +279,13 @@ def travel_times_s(poses_world: ArrayLike, speed_m_per_s: float, turn_rad_per_s:
     steps = between(poses[:-1], poses[1:])
     ways, turns = np.hypot(steps[:, 0], steps[:, 1]), np.abs(steps[:, 2])
     took = np.maximum(ways / speed_m_per_s, turns / turn_rad_per_s)
-    # Two scans from the same place still come one after the other.
+    # Stamps ascend even if the robot stands still.
     return np.concatenate([[0.0], np.cumsum(np.maximum(took, 1e-3))])
 
 
 def _reported_steps(steps: NDArray[np.float64], noise: OdometryNoise, rng: np.random.Generator) -> NDArray[np.float64]:
-    """Return each true step as odometry reports it, as a pose in the frame of the step before, (S - 1, 3)."""
+    """Return the reported steps, (S - 1, 3), given true steps, each in the frame of its first pose."""
+    # Divide each step into turn, straight, turn.
     normals, slips = rng.standard_normal((len(steps), 4)), rng.random((len(steps), 2))
     distance = np.hypot(steps[:, 0], steps[:, 1])
     first = np.where(distance > STANDING_M, np.arctan2(steps[:, 1], steps[:, 0]), 0.0)
@@ -290,6 +294,7 @@ def _reported_steps(steps: NDArray[np.float64], noise: OdometryNoise, rng: np.ra
     last = wrapped(steps[:, 2] - first)
     signed = np.where(backwards, -distance, distance)
 
+    # Add noise to the straight and the turns.
     turned = np.abs(first) + np.abs(last)
     spread = np.sqrt(noise.distance_per_m**2 * distance + noise.distance_per_rad**2 * turned)
     reported = (1.0 + noise.distance_scale) * signed + spread * normals[:, 0]
@@ -299,6 +304,7 @@ def _reported_steps(steps: NDArray[np.float64], noise: OdometryNoise, rng: np.ra
         return np.asarray((1.0 + noise.turn_scale) * true + noise.drift_rad_per_m * distance / 2 + sigma * normal)
 
     first, last = turn(first, normals[:, 1]), turn(last, normals[:, 2])
+    # Slips: exponential distance, normal yaw.
     slipped = slips[:, 0] < -np.expm1(-noise.slips_per_m * (distance + turned))
     reported = reported + np.where(slipped, -noise.slip_m * np.log1p(-slips[:, 1]), 0.0)
     last = last + np.where(slipped, noise.slip_rad * normals[:, 3], 0.0)
@@ -306,10 +312,10 @@ def _reported_steps(steps: NDArray[np.float64], noise: OdometryNoise, rng: np.ra
 
 
 def related_pairs(poses_world: NDArray[np.float64], seed: int = 0) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Choose pairs of poses up to `NEAR_M` apart: each with its next, and with two others, at all distances in time.
+    """Choose pairs of poses up to `NEAR_M` apart: successive poses, and on average two others per pose.
 
-    Kuemmerle et al. (2009) relate poses whose scans a person can lay on top of each other: neighbours in time, and
-    places seen again. Returns the indices of the earlier and the later pose of each pair, ascending, each pair once.
+    Kuemmerle et al. (2009) relate poses whose scans a person can align: neighbours in time, and places seen again.
+    Returns the indices of the earlier and the later pose of each pair, ascending, each pair once.
     """
     count = len(poses_world)
     rng = np.random.default_rng(check_count("relations", "seed", seed, 0))
@@ -317,10 +323,11 @@ def related_pairs(poses_world: NDArray[np.float64], seed: int = 0) -> tuple[NDAr
         return np.empty(0, np.intp), np.empty(0, np.intp)
     pairs = np.stack([np.arange(count - 1), np.arange(1, count)], axis=1)
     start = rng.integers(0, count - 1, PAIRS_A_POSE * 4 * count)
-    # Log-uniform gaps: as many pairs seconds apart as minutes.
+    # Candidates at log-uniform gaps in time, so that pairs seconds apart are as frequent as pairs minutes apart.
     gap = np.exp(rng.uniform(0.0, np.log(count), len(start))).astype(np.intp)
     far = np.stack([start, start + gap], axis=1)[start + gap < count]
     pairs = np.concatenate([pairs, far])
+    # Keep distinct pairs that are close enough, up to the number wanted.
     apart = np.hypot(*(poses_world[pairs[:, 0], :2] - poses_world[pairs[:, 1], :2]).T)
     _, first = np.unique(pairs, axis=0, return_index=True)
     kept = pairs[np.sort(first)]

@@ -11,7 +11,7 @@ from bayesmap.errors import BadInput
 from bayesmap.space.grid import Grid
 
 ROUNDING = 1e-5
-"""A mean taken in single precision may leave its bounds by so much: no mistake of the caller's."""
+"""Largest excess over the bounds that is accepted: rounding of a mean in single precision, not a caller's mistake."""
 
 
 def as_array(values: ArrayLike, name: str) -> NDArray[np.float64]:
@@ -23,10 +23,10 @@ def as_array(values: ArrayLike, name: str) -> NDArray[np.float64]:
 
 
 def as_numbers(grid: Grid, values: ArrayLike, name: str, *, unknown: bool = False) -> NDArray[np.float64]:
-    """Return one finite number per cell, shape (nx, ny); with ``unknown`` also NaN.
+    """Return one finite number per cell, shape (nx, ny); with ``unknown``, NaN is accepted too.
 
     Raises:
-        BadInput: another shape than the grid's, something that is no number, or a number that is not finite.
+        BadInput: another shape than the grid's, a value that is no number, or a number that is not finite.
     """
     array = as_array(values, name)
     _need_shape(grid, array.shape, name)
@@ -39,7 +39,7 @@ def as_numbers(grid: Grid, values: ArrayLike, name: str, *, unknown: bool = Fals
 
 
 def as_probabilities(grid: Grid, values: ArrayLike, name: str, *, unknown: bool = False) -> NDArray[np.float64]:
-    """Return one probability per cell, shape (nx, ny); with ``unknown`` also NaN.
+    """Return one probability per cell, shape (nx, ny); with ``unknown``, NaN is accepted too.
 
     Raises:
         BadInput: as `as_numbers`, or a number outside [0, 1] by more than `ROUNDING`.
@@ -56,7 +56,7 @@ def as_probabilities(grid: Grid, values: ArrayLike, name: str, *, unknown: bool 
 
 
 def as_mask(grid: Grid, values: ArrayLike, name: str) -> NDArray[np.bool_]:
-    """Return true or false per cell, shape (nx, ny); numbers that are all 0 or 1 are taken too.
+    """Return true or false per cell, shape (nx, ny); numbers are accepted if all are 0 or 1.
 
     Raises:
         BadInput: another shape than the grid's, or another number than 0 and 1.
@@ -72,7 +72,7 @@ def as_mask(grid: Grid, values: ArrayLike, name: str) -> NDArray[np.bool_]:
 
 
 def as_observed(grid: Grid, observed: ArrayLike | None) -> NDArray[np.bool_]:
-    """Return the cells that some beam reached, shape (nx, ny); None stands for all."""
+    """Return the cells that a beam reached, shape (nx, ny); None stands for all."""
     return np.ones(grid.shape, dtype=np.bool_) if observed is None else as_mask(grid, observed, "observed")
 
 

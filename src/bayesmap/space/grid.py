@@ -1,4 +1,4 @@
-"""The grid of a map: square cells in the world frame, and the scans that lie too far out to be covered by one."""
+"""The grid of a map, square cells in the world frame, and a check for scans that lie too far out to be covered."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ if TYPE_CHECKING:
     from bayesmap.space.scans import Scans
 
 MAX_CELLS = 100_000_000
-"""More cells than this is taken for a mistake in the units, not for a map."""
+"""Most cells of a grid; more are taken for a mistake in the units."""
 FARTHER = 20.0
-"""Scans whose reach is so many times the median reach are wrong."""
+"""Ratio to the median reach above which the reach of a scan counts as wrong."""
 MOST = 0.1
-"""Share of scans that can be wrong; if more lie far away, they are as right as the others."""
+"""Largest share of scans that can be wrong; if more lie far away, none is taken for wrong."""
 
 
 @dataclass(frozen=True)
@@ -66,7 +66,7 @@ class Grid:
 
     @property
     def extent_m(self) -> tuple[float, float, float, float]:
-        """``(x_min, x_max, y_min, y_max)`` in metres, as matplotlib's ``extent`` takes it."""
+        """``(x_min, x_max, y_min, y_max)`` in metres, in the order of matplotlib's ``extent``."""
         (x0, y0), (nx, ny) = self.origin, self.shape
         return x0, x0 + nx * self.resolution, y0, y0 + ny * self.resolution
 
@@ -79,12 +79,12 @@ class Grid:
         )
 
     def cell_centres_m(self, cells: NDArray[np.integer]) -> NDArray[np.float64]:
-        """Return centres of cells by flat index ``x * ny + y``, metres from the grid's lower left corner, (n, 2)."""
+        """Return centres of cells, given flat indices ``x * ny + y``, in metres from the lower left corner, (n, 2)."""
         ny = self.shape[1]
         return np.stack([cells // ny + 0.5, cells % ny + 0.5], axis=-1) * self.resolution
 
     def to_cells(self, points_world: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Return positions in units of cells, from the origin: world ``(..., 2)`` in metres to ``(..., 2)``."""
+        """Return world points, ``(..., 2)`` in metres, in units of cells from the origin, ``(..., 2)``."""
         points = np.asarray(points_world, dtype=np.float64)
         return np.asarray((points - np.asarray(self.origin)) / self.resolution)
 
@@ -106,8 +106,8 @@ class Grid:
             margin_m: free border around poses and hits.
 
         Raises:
-            BadInput: no scan at all, or an extent whose grid is over `MAX_CELLS` cells; if single scans lie so far out
-                that it must be their fault, the message names the worst of them.
+            BadInput: no scan at all, or more than `MAX_CELLS` cells. If a few scans lie so far out that they make the
+                grid too large, the message names the worst.
         """
         low, high = bounds_m(scans, margin_m)
         (nx, ny), _ = _whole_cells(low, high, resolution)
@@ -136,7 +136,7 @@ class Grid:
 
 
 def bounds_m(scans: Scans, margin_m: float = 0.5) -> tuple[tuple[float, float], tuple[float, float]]:
-    """Return the lower left and the upper right corner of what scans saw, with a margin, metres in the world frame.
+    """Return the lower left and the upper right corner of all poses and hits, with a margin, world metres.
 
     Raises:
         BadInput: no scan at all.
@@ -151,7 +151,7 @@ def bounds_m(scans: Scans, margin_m: float = 0.5) -> tuple[tuple[float, float], 
 def _whole_cells(
     low: tuple[float, float], high: tuple[float, float], resolution: float
 ) -> tuple[tuple[int, int], tuple[int, int]]:
-    """Return how many cells cover a rectangle, and the number of the first, along x and y."""
+    """Return the number of cells that cover a rectangle, and the index of the first from 0 m, along x and y."""
     if not (math.isfinite(resolution) and resolution > 0):
         raise BadInput(f"grid: resolution must be a positive number of metres, got {resolution!r}")
     first = tuple(math.floor(v / resolution) for v in low)
@@ -160,14 +160,15 @@ def _whole_cells(
 
 
 def _large(nx: int, ny: int) -> str:
-    """Return a size that may have hundreds of digits."""
+    """Return a grid's size in words; rounded, because a size may have hundreds of digits."""
     return f"{nx:.6g} x {ny:.6g} cells"
 
 
 def outlying(scans: Scans) -> NDArray[np.intp]:
-    """Select scans whose pose, or longest hit, is `FARTHER` times as far out as half of them reach, the furthest first.
+    """Select scans whose reach exceeds `FARTHER` times the median reach. Returns indices, the furthest first.
 
-    Empty if that would be more than `MOST` of them (but one may be of any), so that there is no majority to go by.
+    The reach is the distance of the pose from the median pose plus the longest hit. If more than the share `MOST` of
+    scans (and more than one) would be selected, none is: there is no clear majority.
     """
     reach = np.add(*_offsets_m(scans))
     far = np.nonzero(reach > FARTHER * np.median(reach))[0]
@@ -183,7 +184,7 @@ def _offsets_m(scans: Scans) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
 
 
 def why_outlying(scans: Scans, scan: int) -> str:
-    """Return the fault of an outlying scan and its remedy, for an error message."""
+    """Return a description of an outlying scan's fault and the remedy, for an error message."""
     when = "" if scans.stamps_s is None else f" (at {scans.stamps_s[scan]:.3f} s)"
     away, longest = (offsets[scan] for offsets in _offsets_m(scans))
     if away < longest:

@@ -1,10 +1,10 @@
 """Rigid motions of the plane: poses (x, y, yaw), metres and radians, and how they combine.
 
-A pose is also the motion that takes the world's frame to the pose's; arrays broadcast, shape (..., 3).
+A pose is also the motion from the world's frame to the pose's frame. Arrays broadcast, shape (..., 3).
 
-For estimation: a small change of a pose is written in the pose's *own* frame: ``retract(pose, step) = compose(pose,
-step)``, and Jacobians are with respect to such steps (Sola, Deray, Atchuthan 2018, "A micro Lie theory", for the
-conventions; the retraction is the plain one, not the exponential map).
+For estimation, a small change of a pose is a step in the pose's *own* frame: ``retract(pose, step) = compose(pose,
+step)``. Jacobians are with respect to these steps. The conventions are those of Sola, Deray, Atchuthan 2018, "A micro
+Lie theory", but the retraction is plain composition, not the exponential map.
 """
 
 from __future__ import annotations
@@ -30,21 +30,21 @@ def compose(first: Floats, then: Floats) -> Floats:
 
 
 def between(first: Floats, second: Floats) -> Floats:
-    """Return the second pose as seen from the first: composed with the first, it makes the second."""
+    """Return the second pose in the frame of the first: composed with the first, it gives the second."""
     dx, dy = second[..., 0] - first[..., 0], second[..., 1] - first[..., 1]
     c, s = np.cos(first[..., 2]), np.sin(first[..., 2])
     return np.stack([c * dx + s * dy, c * dy - s * dx, wrapped(second[..., 2] - first[..., 2])], axis=-1)
 
 
 def inverse(pose: Floats) -> Floats:
-    """Return the frame in which a pose is given, as it is seen from the pose."""
+    """Return the pose of the outer frame in the pose's own frame."""
     return between(pose, np.zeros(3))
 
 
 def around(known: Numbers, numbers: Numbers) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Return the indices of the known numbers, (S,) ascending, before and after each of some others, (N,) each.
+    """Return the indices of the known numbers, (S,) ascending, before and after each of ``numbers``, (N,) each.
 
-    Outside the known numbers these are the two at that end; a single known number is its own neighbour.
+    Outside the known numbers, the indices are the two at that end; a single known number is its own neighbour.
     """
     last = len(known) - 1
     after = np.clip(np.searchsorted(known, numbers), 1, max(1, last))
@@ -52,15 +52,15 @@ def around(known: Numbers, numbers: Numbers) -> tuple[NDArray[np.intp], NDArray[
 
 
 def nearest(known: Numbers, numbers: Numbers) -> NDArray[np.intp]:
-    """Return the index of the known number, (S,) ascending, nearest to each of others, (N,); of two the earlier."""
+    """Return the index of the known number, (S,) ascending, nearest to each of ``numbers``, (N,); of two, the first."""
     before, after = around(known, numbers)
     return np.where(np.abs(numbers - known[before]) <= np.abs(known[after] - numbers), before, after)
 
 
 def interpolate(stamps_s: Floats, poses: Floats, at_s: Floats) -> Floats:
-    """Return poses at other times, (N, 3): along the straight relative motion between neighbours; outside, at the end.
+    """Return poses at times ``at_s``, (N, 3), interpolated along the relative motion between neighbours.
 
-    The stamps, (S,), ascend; of equal stamps the later pose counts.
+    Outside the stamps it is the pose at that end. The stamps, (S,), ascend; of equal stamps the later pose counts.
     """
     if len(stamps_s) == 1:
         return np.repeat(poses, len(at_s), axis=0)
@@ -77,7 +77,7 @@ def retract(poses: Floats, steps: Floats) -> Floats:
 
 
 def transform(pose: Floats, points: Floats) -> Floats:
-    """Return points (..., 2) of a pose's frame in the frame in which the pose is given."""
+    """Return points, (..., 2), of a pose's frame in the outer frame of the pose."""
     cosine, sine = np.cos(pose[..., 2]), np.sin(pose[..., 2])
     x = pose[..., 0] + cosine * points[..., 0] - sine * points[..., 1]
     y = pose[..., 1] + sine * points[..., 0] + cosine * points[..., 1]
@@ -85,7 +85,7 @@ def transform(pose: Floats, points: Floats) -> Floats:
 
 
 def between_jacobians(relative: Floats) -> tuple[Floats, Floats]:
-    """Return derivatives of ``between(a, b)`` by steps of a and of b, each in its own frame: shapes (..., 3, 3).
+    """Return the Jacobians of ``between(a, b)`` for steps of a and of b, each in its own frame: (..., 3, 3) each.
 
     Rows are the components (x, y, yaw) of the relative pose, which is given in the frame of a.
     """
@@ -103,7 +103,7 @@ def between_jacobians(relative: Floats) -> tuple[Floats, Floats]:
 
 
 def rotation(yaw_rad: Floats) -> Floats:
-    """Return 3 x 3 matrices that turn steps (x, y, yaw) given in a frame at this yaw into the outer frame's axes."""
+    """Return matrices, (..., 3, 3), that rotate steps (x, y, yaw) from a frame at this yaw into the outer frame."""
     yaw = np.asarray(yaw_rad)
     matrix = np.zeros((*yaw.shape, 3, 3))
     cosine, sine = np.cos(yaw), np.sin(yaw)

@@ -15,7 +15,7 @@ from bayesmap.errors import BadInput
 from bayesmap.space.planar import between, compose
 
 MOST_TURNS = 1.1
-"""A fan of beams is no wider, in turns: beams may overlap a little where a turn ends."""
+"""Largest width of a fan of beams in turns: beams may overlap a little at the end of a turn."""
 
 
 class Reading(IntEnum):
@@ -28,7 +28,7 @@ class Reading(IntEnum):
     TOO_CLOSE = 2
     """-inf: something nearer than the sensor can measure."""
     INVALID = 3
-    """NaN: an erroneous reading; it says nothing about the map."""
+    """NaN: an erroneous reading; it is no information about the map."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,19 +38,19 @@ class Scans:
     Attributes:
         poses: sensor poses in the world frame, shape (S, 3): x in metres, y in metres, yaw in radians,
             counter-clockwise from +x. A single pose of shape (3,) is taken as one scan.
-        angles_rad: beam angles in the sensor frame, shape (A,). Where beams differ from scan to scan, give shape
-            (S, A), NaN where a scan has fewer beams than others: the attribute then holds those of the largest scan,
-            and `own_angles_rad` those of each.
+        angles_rad: beam angles in the sensor frame, shape (A,). If beams differ from scan to scan, pass shape (S, A),
+            with NaN if a scan has fewer beams. The attribute then holds the angles of the largest scan, and
+            `own_angles_rad` the angles of each scan.
         ranges_m: readings, shape (S, A) (or (A,) for one scan), coded as in REP-117: +inf is no return,
             -inf too close, NaN invalid; every finite number is a hit. Additive noise may carry a short
             reading below zero, so negative numbers are not refused here: the log readers do that.
         max_range_m: the sensor's largest range.
         min_range_m: the sensor's smallest range.
         stamps_s: time of each scan in seconds, shape (S,), or None.
-        beam_poses: pose of the sensor in the world frame as each beam left it, shape (S, A, 3), where it moved
-            while it turned; None if every beam of a scan left from the scan's pose.
-        own_angles_rad: beam angles of each scan, shape (S, A), NaN where a scan has no such beam; None if all scans
-            have the beams ``angles_rad``. `angles_by_scan` and `beams_of` serve both cases.
+        beam_poses: sensor pose in the world frame for each beam, shape (S, A, 3), if the sensor moves during a sweep;
+            None if all beams of a scan leave from the scan's pose.
+        own_angles_rad: beam angles of each scan, shape (S, A), NaN if a scan has no such beam; None if all scans have
+            the beams ``angles_rad``. `angles_by_scan` and `beams_of` serve both cases.
 
     Raises:
         BadInput: shapes that do not fit together, poses or angles that are not finite, a fan of over a turn, a reading
@@ -117,22 +117,22 @@ class Scans:
 
     @property
     def has_beam(self) -> NDArray[np.bool_]:
-        """Which beams each scan has, shape (S, A)."""
+        """Mask of the beams that each scan has, shape (S, A)."""
         if self.own_angles_rad is None:
             return np.broadcast_to(np.True_, self.ranges_m.shape)
         return np.isfinite(self.own_angles_rad)
 
     def angles_by_scan(self) -> NDArray[np.float64]:
-        """Return beam angles in the sensor frame, (S, A), all finite: the largest scan's where a scan has no such beam.
+        """Return beam angles in the sensor frame, (S, A), all finite.
 
-        The readings there are NaN, so that the angle says nothing.
+        If a scan has no such beam, the angle is that of the largest scan; it has no effect, because the reading is NaN.
         """
         if self.own_angles_rad is None:
             return np.broadcast_to(self.angles_rad, self.ranges_m.shape)
         return np.where(np.isnan(self.own_angles_rad), self.angles_rad, self.own_angles_rad)
 
     def beams_of(self, scan: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Return angles and readings of the beams that one scan has, shape (N,) each."""
+        """Return angles and readings of the beams of one scan, shape (N,) each."""
         if self.own_angles_rad is None:
             return self.angles_rad, self.ranges_m[scan]
         beams = np.isfinite(self.own_angles_rad[scan])
@@ -159,7 +159,7 @@ class Scans:
         return np.asarray(yaw + self.angles_by_scan())
 
     def beam_starts_world(self) -> NDArray[np.float64]:
-        """Return where every beam leaves the sensor, metres in the world frame, shape (S, A, 2)."""
+        """Return the start of every beam, metres in the world frame, shape (S, A, 2)."""
         if self.beam_poses is not None:
             return self.beam_poses[..., :2]
         return np.broadcast_to(self.poses[:, None, :2], (*self.ranges_m.shape, 2))
@@ -173,13 +173,13 @@ class Scans:
         return np.asarray(self.beam_starts_world()[hit] + ends)
 
     def select(self, scans: NDArray[np.intp] | NDArray[np.bool_] | slice) -> Scans:
-        """Return the scans at the given indices, or where the mask is true, or in the slice."""
+        """Return the scans at the given indices, mask or slice."""
         names = ("poses", "ranges_m", "stamps_s", "beam_poses", "own_angles_rad")
         held = {name: array for name in names if (array := getattr(self, name)) is not None}
         return replace(self, **{name: array[scans] for name, array in held.items()})
 
     def stretched(self, ratio: float) -> Scans:
-        """Return the scans with ``ratio`` times the angle between beams, about the first beam of each scan."""
+        """Return the scans with angles between beams times ``ratio``, about the first beam of each scan."""
         angles = self.angles_rad[0] + ratio * (self.angles_rad - self.angles_rad[0])
         if self.own_angles_rad is None:
             return replace(self, angles_rad=angles)
@@ -196,21 +196,21 @@ class Scans:
 
     @property
     def steps_rad(self) -> NDArray[np.float64]:
-        """The angle from each beam to the next, (A - 1,), or (S, A - 1) with NaN where there is none."""
+        """The angle from each beam to the next, (A - 1,), or (S, A - 1) with NaN for missing beams."""
         return np.diff(self.angles_rad if self.own_angles_rad is None else self.own_angles_rad, axis=-1)
 
     def _first_and_last(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Return angles of the first and last beam of each scan, (S,) each; 0 of a scan without beams."""
+        """Return the angles of the first and last beam of each scan, (S,) each; 0 for a scan without beams."""
         has = self.has_beam
         ends = has.argmax(axis=1), has.shape[1] - 1 - has[:, ::-1].argmax(axis=1)
         angles = np.nan_to_num(np.asarray(self.own_angles_rad))
         return angles[np.arange(len(self)), ends[0]], angles[np.arange(len(self)), ends[1]]
 
     def at(self, poses_world: ArrayLike) -> Scans:
-        """Return the readings as taken from other poses, (S, 3). Poses of single beams move along with their scan's.
+        """Return the same readings at other scan poses, (S, 3). Poses of single beams move with their scan's pose.
 
         Raises:
-            BadInput: poses of another shape, or that are not finite.
+            BadInput: poses of another shape, or poses that are not finite.
         """
         poses = as_poses(poses_world)
         if poses.shape != self.poses.shape:
@@ -224,7 +224,7 @@ class Scans:
         """Split into (training, held out): every ``every``-th scan, from ``every // 2`` on, is held out.
 
         Raises:
-            BadInput: ``every`` below 2, or more than there are scans to hold one out.
+            BadInput: ``every`` below 2, or so large that no scan is held out.
         """
         if every < 2:
             raise BadInput(f"holdout: hold out every n-th scan with n >= 2, got {every}")
@@ -234,7 +234,7 @@ class Scans:
         return self.select(~held), self.select(held)
 
     def limited(self, max_range_m: float) -> Scans:
-        """Return the scans as of a sensor that sees no further: longer hits become no return."""
+        """Return the scans of a sensor with this largest range: longer hits become no return."""
         if not (math.isfinite(max_range_m) and max_range_m > self.min_range_m):
             raise BadInput(f"scans: max_range_m must exceed min_range_m, got {max_range_m!r}")
         ranges = np.where(self.ranges_m > max_range_m, np.inf, self.ranges_m)
@@ -268,7 +268,8 @@ def as_angles(angles_rad: ArrayLike) -> NDArray[np.float64]:
 def _as_own_angles(
     largest: ArrayLike, own: ArrayLike, ranges_m: NDArray[np.float64]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64] | None]:
-    """Return angles (A,) of the largest scan and (S, A) of each, or None for these if all scans have the same."""
+    """Return the angles of the largest scan, (A,), and of each scan, (S, A), or None if all scans have the same."""
+    # Check shapes and angles: a missing beam has the angle NaN and the reading NaN.
     each = _as_floats(own, "angles_rad")
     if each.shape != ranges_m.shape or not each.shape[1]:
         raise BadInput(f"scans: angles_rad has shape {each.shape}, expected (A,) or that of ranges_m, {ranges_m.shape}")
@@ -284,6 +285,7 @@ def _as_own_angles(
         fault = fan_fault(float(lowest[scan]), float(highest[scan])) if lowest[scan] <= highest[scan] else None
         if fault is not None:
             raise BadInput(f"scans: angles_rad of scan {scan}: {fault}")
+    # All scans have the same beams; else the angles of the largest scan are given, or selected here and padded.
     if len(each) and not missing.any() and (each == each[:1]).all():
         return each[0].copy(), None
     if np.shape(largest) == each.shape[1:]:
@@ -313,20 +315,20 @@ class Fan:
 def side_by_side(
     angles_rad: Sequence[NDArray[np.float64]], readings_m: Sequence[NDArray[np.floating]]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return angles and readings of scans of any lengths as arrays (S, A), NaN where a scan has fewer beams."""
+    """Return angles and readings of scans of any lengths as arrays (S, A), padded with NaN."""
     shape = len(readings_m), max((len(row) for row in readings_m), default=0)
     angles, readings = np.full(shape, np.nan), np.full(shape, np.nan)
-    with np.errstate(invalid="ignore"):  # NaN of the signalling kind
+    with np.errstate(invalid="ignore"):  # readings may hold signalling NaN
         for scan, (own, row) in enumerate(zip(angles_rad, readings_m, strict=True)):
             angles[scan, : len(own)], readings[scan, : len(row)] = own, row
     return angles, readings
 
 
 def fan_fault(lowest_rad: float, highest_rad: float) -> str | None:
-    """Return why beams cannot point from one angle to the other, or None if they can.
+    """Return the reason if beams cannot span these angles, or None if they can.
 
-    No sensor sees more than a turn, nor counts its angles from more than a turn away: such angles are degrees. Drivers
-    whose beams overlap at the end of a turn go over it by a few beams.
+    No sensor sees more than a turn, or counts its angles from more than a turn away: such angles are degrees. Some
+    drivers' beams overlap at the end of a turn, so a fan may exceed a turn by a few beams.
     """
     turns = (highest_rad - lowest_rad) / (2 * math.pi)
     away = 0.0 if lowest_rad <= 0 <= highest_rad else min(abs(lowest_rad), abs(highest_rad))
@@ -354,15 +356,15 @@ def _as_floats(values: ArrayLike, name: str) -> NDArray[np.float64]:
         raise BadInput(f"scans: {name} must be an array of numbers: {error}") from None
 
 
-MAX_BEAMS = 100_000
+MAX_BEAMS = 100_000  # per scan
 
 
 def fan(beams: int, fov_deg: float) -> NDArray[np.float64]:
     """Return beam angles in the sensor frame, radians, (beams,), from the right end of the field of view to the left.
 
-    An odd number of beams has one at each end, as lasers of 181 or 361 beams do. An even number leaves out the last,
-    as lasers of 180 or 360 do: 180 beams over 180 degrees are 1 degree apart. A full circle starts straight ahead, and
-    its last beam is one step before its first.
+    An odd number of beams has one at each end, as in lasers of 181 or 361 beams. An even number leaves out the last, as
+    in lasers of 180 or 360 beams: 180 beams over 180 degrees are 1 degree apart. A full circle starts straight ahead,
+    and its last beam is one step before its first.
 
     Raises:
         BadInput: fewer than two beams, or a field of view outside (0, 360] degrees.

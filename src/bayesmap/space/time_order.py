@@ -1,4 +1,4 @@
-"""The order of time of scans whose stamps may be coarse, come in bursts, or from a clock that was set back."""
+"""The time order of scans. Their stamps may be coarse, come in bursts, or come from a clock that was set back."""
 
 from __future__ import annotations
 
@@ -8,24 +8,24 @@ import numpy as np
 from numpy.typing import NDArray
 
 STEP_S = 1.0
-"""Stamps that go back by less are of scans that were written down late."""
+"""Largest step back of stamps, seconds, that counts as scans logged late rather than as a clock set back."""
 MANY = 10
-"""Scans after a step back of the clock, and scans before it, whose stamps overlap."""
+"""Fewest scans after a recognised step back of the clock; half as many on each side must overlap in time."""
 SAME_S = 1e-3
-"""Stamps that are closer are one: no laser sweeps so fast."""
+"""Stamps that are closer, in seconds, are equal: no laser sweeps so fast."""
 TURNS = 0.7
-"""Changes from one group of scans to the other, per scan of the smaller group, if both take turns."""
+"""Fewest changes between two groups of scans in time order, per scan of the smaller group, if the groups alternate."""
 
 
 @dataclass(frozen=True, eq=False)
 class TimeOrder:
-    """The order of time of scans.
+    """The time order of scans.
 
     Attributes:
-        order: indices of the scans, (S,).
-        stamps_s: in that order, never falling: after a clock was set back they go on from the last stamp, (S,).
-        steps: scans before which the clock was set back, as indices of the log, ascending.
-        back_s: by how many seconds, each.
+        order: indices of the scans in time order, (S,).
+        stamps_s: stamps in time order, (S,), never falling: after a step back of the clock they continue from the last.
+        steps: indices in the log of the scans before which the clock was set back, ascending.
+        back_s: size of each step back in seconds.
     """
 
     order: NDArray[np.intp]
@@ -40,7 +40,7 @@ class TimeOrder:
         return int((rank < np.maximum.accumulate(rank)).sum())
 
     def notes(self, stamps_s: NDArray[np.float64]) -> tuple[str, ...]:
-        """Return a sentence for each step, by the stamps of the log."""
+        """Return a sentence for each step of the clock, given the stamps of the log."""
         return tuple(
             f"the clock goes back by {back:.3g} s at scan {step} (at {stamps_s[step]:.3f} s) and stays so: the log's "
             "order was kept there, and stamps from there on are later than it says"
@@ -49,21 +49,22 @@ class TimeOrder:
 
 
 def time_order(stamps_s: NDArray[np.float64]) -> TimeOrder:
-    """Sort by stamps, but keep the order of the log where the clock was set back.
+    """Sort scans by their stamps, (S,) in the order of the log, but do not sort across a step back of the clock.
 
-    Scans that were written down late, one by one or in bursts, fill a gap between earlier scans: they are sorted. If
-    stamps go back by more than a second, and the stamps of many scans lie among those of many earlier scans, sorting
-    would mix two times of the robot: the order of the log is kept there. Stamps are (S,), in the order of the log.
+    Scans that were logged late, one by one or in bursts, fill a gap between earlier scans: they are sorted. If stamps
+    go back by more than a second, and many of them lie among those of many earlier scans, the clock was set back.
+    Sorting would then mix two passes of the robot, so the order of the log is kept there.
     """
     stamps, steps, backs = np.array(stamps_s, dtype=np.float64), [], []
     start = 0  # of the part of the log since the last step
     while (step := _step(stamps[start:])) is not None:
+        # Shift the stamps after the step, so that they continue at the usual interval.
         at = start + step
         before = float(stamps[start:at].max())
         usual = float(np.median(np.abs(np.diff(stamps[start:at])))) if at > start + 1 else 0.0
         backs.append(before - float(stamps[at]))
         steps.append(at)
-        # What was written down late of the time before the step is too rare to be told apart.
+        # Scans from before the step that were logged late are too rare to be recognised.
         stamps[at:] += before + usual - stamps[at]
         start = at
     order = np.argsort(stamps, kind="stable")
@@ -71,7 +72,7 @@ def time_order(stamps_s: NDArray[np.float64]) -> TimeOrder:
 
 
 def repeated_stamps(stamps_s: NDArray[np.float64]) -> NDArray[np.bool_]:
-    """Return which scans share their stamp with the scan before or after them, (S,)."""
+    """Return the mask of scans that share their stamp with the scan before or after them, (S,)."""
     same = np.abs(np.diff(stamps_s)) < SAME_S
     return np.concatenate([[False], same]) | np.concatenate([same, [False]]) if len(stamps_s) else same
 
@@ -79,15 +80,17 @@ def repeated_stamps(stamps_s: NDArray[np.float64]) -> NDArray[np.bool_]:
 def elapsed_s(stamps_s: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return the shortest and the longest time from each scan to the next that the stamps allow, (S - 1,) each.
 
-    Stamps that are all different are exact. Stamps that repeat were cut to a grain (whole seconds, six digits, single
-    precision): the scans of one stamp lie anywhere between the stamps before and after it. At the ends of the log the
-    longest time is infinite. Stamps are (S,), in the order of time.
+    If all stamps differ, they are exact. Repeated stamps were rounded (to whole seconds, six digits, single precision):
+    scans of one stamp may lie anywhere between the stamps before and after it. At the ends of the log the longest time
+    is infinite. Stamps are (S,), in time order.
     """
     steps = np.abs(np.diff(stamps_s))
     same = steps < SAME_S
-    run = np.concatenate([[0], np.cumsum(~same)])  # scans of one stamp have one number
+    # Runs of scans with one stamp: the number of each scan's run, and the gap before each run.
+    run = np.concatenate([[0], np.cumsum(~same)])
     gaps = np.concatenate([[np.inf], steps[~same], [np.inf]])  # before each run, and after the last
     several = np.bincount(run) > 1
+    # Within a run the time reaches up to both gaps; between runs it is uncertain by the nearest gap.
     first, second = run[:-1], run[1:]
     within = gaps[first] + gaps[first + 1]
     nearest = np.minimum(np.minimum(gaps[first], gaps[second + 1]), steps)
@@ -96,7 +99,7 @@ def elapsed_s(stamps_s: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArr
 
 
 def coarse_stamps_note(stamps_s: NDArray[np.float64]) -> str | None:
-    """Return a sentence about stamps that repeat; None where they do not, or in one scan of a hundred at most."""
+    """Return a sentence about repeated stamps; None if at most one scan of a hundred has one."""
     repeated = int(repeated_stamps(stamps_s).sum())
     if repeated <= max(2, 0.01 * len(stamps_s)):
         return None
@@ -111,6 +114,7 @@ def _step(stamps: NDArray[np.float64]) -> int | None:
     latest = np.maximum.accumulate(stamps)
     drops = np.nonzero(np.diff(stamps) < -STEP_S)[0] + 1
     for drop in drops:
+        # Scans after the drop, until stamps exceed all earlier ones again: there must be many.
         after = stamps[drop:]
         over = np.nonzero(after > latest[drop - 1])[0]
         back = after[: over[0]] if len(over) else after
@@ -118,7 +122,8 @@ def _step(stamps: NDArray[np.float64]) -> int | None:
             continue
         before = stamps[:drop]
         if not (_in_order(before[-MANY:]) and _in_order(back[:MANY])):
-            continue  # The log has no order that could be kept.
+            continue  # the log has no order that could be kept
+        # Scans before and after the drop must overlap in time, and alternate there.
         low, high = back[0], back.max()
         among = (before > low) & (before < high)
         mixed = (back > before[among].min()) & (back < before[among].max()) if among.any() else np.zeros(1, np.bool_)
@@ -128,11 +133,11 @@ def _step(stamps: NDArray[np.float64]) -> int | None:
 
 
 def _in_order(stamps: NDArray[np.float64]) -> bool:
-    """Return whether stamps ascend, but for one: of 10 shuffled scans, that happens in 3 of 10 000 cases."""
+    """Return true if stamps ascend with at most one exception: 3 of 10 000 shuffles of 10 scans do."""
     return bool((np.diff(stamps) < 0.0).sum() <= 1)
 
 
 def _alternate(first: NDArray[np.float64], second: NDArray[np.float64]) -> bool:
-    """Return whether two groups of stamps take turns one by one, rather than in bursts."""
+    """Return true if two groups of stamps alternate one by one, rather than in bursts."""
     group = np.repeat([False, True], [len(first), len(second)])[np.argsort(np.concatenate([first, second]))]
     return bool((np.diff(group)).sum() >= TURNS * min(len(first), len(second)))

@@ -1,4 +1,4 @@
-"""A trajectory: poses over time with their uncertainty. Plain data."""
+"""A trajectory: poses over time with their uncertainty, as plain data."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from bayesmap.space.planar import between, compose, interpolate, wrapped
 from bayesmap.space.scans import as_poses
 
 SLACK_S = 0.002
-"""A time so little outside a trajectory counts as its end's: logs are written with few digits."""
+"""Largest time outside a trajectory that counts as its end: logs are written with few digits."""
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
@@ -21,9 +21,9 @@ Indices = NDArray[np.intp]
 
 @dataclass(frozen=True, eq=False)
 class RelativeLaw:
-    """Student's t about the relative poses of a trajectory.
+    """Student's t distribution of the relative poses of a trajectory.
 
-    ``scales`` takes the numbers of the first and the second pose of N pairs, and returns the scale matrices of x, y and
+    ``scales`` takes the indices of the first and the second pose of N pairs. It returns the scale matrices of x, y and
     yaw of the second pose in the frame of the first, (N, 3, 3). Covariances are dof / (dof - 2) times these.
     """
 
@@ -35,13 +35,13 @@ class RelativeLaw:
         return self.dof / (self.dof - 2.0) * self.scales(first, second)
 
     def of_frame(self, poses: Floats, mount: Floats) -> RelativeLaw:
-        """Return the law of another frame, which lies at ``mount``, (3,), in this one, whose poses are (S, 3)."""
+        """Return the law of another frame, at ``mount``, (3,), in this frame, whose poses are ``poses``, (S, 3)."""
 
         def scales(first: Indices, second: Indices) -> Floats:
             yaw = between(poses[first], poses[second])[:, 2]
             cosine, sine = np.cos(mount[2]), np.sin(mount[2])
             back = np.array([[cosine, sine, 0.0], [-sine, cosine, 0.0], [0.0, 0.0, 1.0]])
-            swing = np.tile(np.eye(3), (len(yaw), 1, 1))  # a turn of this frame swings the other one round
+            swing = np.tile(np.eye(3), (len(yaw), 1, 1))  # a turn of this frame moves the other frame sideways
             swing[:, 0, 2] = -np.sin(yaw) * mount[0] - np.cos(yaw) * mount[1]
             swing[:, 1, 2] = np.cos(yaw) * mount[0] - np.sin(yaw) * mount[1]
             turn = back @ swing
@@ -52,15 +52,15 @@ class RelativeLaw:
 
 @dataclass(frozen=True, eq=False)
 class Trajectory:
-    """Poses over time, of one frame on a robot, such as its laser's.
+    """The poses over time of one frame on a robot, such as its laser's.
 
     Attributes:
         poses: x, y in metres and yaw in radians in the world frame, shape (S, 3).
-        stamps_s: time of each pose, seconds, shape (S,), ascending; None if unknown.
-        covariances: of x, y and yaw, in world axes (m^2, m rad, rad^2), shape (S, 3, 3); None if unknown.
-        draws: poses of whole trajectories drawn from a posterior, shape (D, S, 3); None where there are none.
-        relative: the uncertainty of relative poses; None if it follows from the draws, or is unknown.
-        known_by: the source of the uncertainty, in words; empty if there is none.
+        stamps_s: time of each pose in seconds, shape (S,), ascending; None if unknown.
+        covariances: covariances of x, y and yaw in world axes (m^2, m rad, rad^2), shape (S, 3, 3); None if unknown.
+        draws: poses of whole trajectories drawn from a posterior, shape (D, S, 3); None if there are none.
+        relative: law of relative poses; None if it follows from the draws, or is unknown.
+        known_by: source of the uncertainty, in words; empty if there is none.
 
     Raises:
         BadInput: shapes that do not fit, numbers that are not finite, or stamps that descend.
@@ -99,8 +99,8 @@ class Trajectory:
     def of_draws(cls, draws: Floats, stamps_s: Floats | None = None, known_by: str = "") -> Trajectory:
         """Return the trajectory of a posterior: mean and covariance of each pose over draws.
 
-        A yaw's mean is that of its deviations from the first draw's, so that it may lie anywhere on the circle.
-        ``draws`` have the shape (D, S, 3), or (chains, D, S, 3); none at all raises `BadInput`.
+        Yaws are averaged as deviations from the first draw, so that they may lie anywhere on the circle. ``draws`` have
+        the shape (D, S, 3), or (chains, D, S, 3); no draw at all raises `BadInput`.
         """
         flat = np.asarray(draws, dtype=np.float64)
         flat = flat.reshape(-1, *flat.shape[-2:])
@@ -116,7 +116,7 @@ class Trajectory:
         return cls(poses, stamps_s, covariances, flat, known_by=known_by)
 
     def at(self, at_s: Floats) -> tuple[Floats, NDArray[np.bool_]]:
-        """Return poses at other times, (N, 3), and which of those times lie between the first stamp and the last, (N,).
+        """Return interpolated poses at times ``at_s``, (N, 3), and the mask of times within the trajectory, (N,).
 
         A trajectory without stamps, or without a pose, raises `BadInput`.
         """
@@ -127,11 +127,11 @@ class Trajectory:
         return interpolate(self.stamps_s, self.poses, at), inside
 
     def of_frame(self, mount: Floats) -> Trajectory:
-        """Return the trajectory of another frame, which lies at ``mount``, (3,), in this one."""
+        """Return the trajectory of another frame, which lies at ``mount``, (3,), in this frame."""
         poses = compose(self.poses, mount)
         covariances = self.covariances
         if covariances is not None:
-            # A turn of the frame swings the other one round: d(x, y) / d(yaw) = (-(y' - y), x' - x).
+            # A turn of this frame moves the other frame sideways: d(x, y) / d(yaw) = (-(y' - y), x' - x).
             swing = np.broadcast_to(np.eye(3), (len(poses), 3, 3)).copy()
             swing[:, 0, 2] = -(poses[:, 1] - self.poses[:, 1])
             swing[:, 1, 2] = poses[:, 0] - self.poses[:, 0]
@@ -142,10 +142,10 @@ class Trajectory:
 
 
 def ellipses(centres: Floats, covariances: Floats, level: float = 0.95, points: int = 32) -> Floats:
-    """Return outlines of the regions that hold normal positions with a probability, (S, points, 2), each closed.
+    """Return the closed outlines of credible ellipses of normal positions, (S, points, 2).
 
-    The means are (S, 2), the covariances (S, 2, 2). In the plane the squared Mahalanobis distance stays below
-    -2 log(1 - level) with the probability ``level``.
+    The means are (S, 2), the covariances (S, 2, 2). In the plane the squared Mahalanobis distance is below
+    -2 log(1 - level) with probability ``level``.
     """
     angle = np.linspace(0.0, 2.0 * np.pi, points)
     circle = np.stack([np.cos(angle), np.sin(angle)], axis=-1) * np.sqrt(-2.0 * np.log1p(-level))

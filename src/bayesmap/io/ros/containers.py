@@ -1,11 +1,11 @@
-"""Open recordings: ROS 1 bags, and ROS 2's folders, databases and MCAP files, by rosbags where it can.
+"""Open recordings: ROS 1 bags, and ROS 2's folders, databases and MCAP files, through rosbags if possible.
 
-Sound recordings that rosbags refuses (MCAP of ROS 1 messages, MCAP without an index and out of order) are read record
-by record, and so is the rest of a damaged recording, if the user asks for it.
+Some sound recordings that rosbags refuses (MCAP of ROS 1 messages, MCAP without an index and out of order) are read
+record by record. Damaged recordings are read this way, too, if the user asks for it.
 
-``ros2 bag record --compression-mode file`` leaves ``.db3.zstd`` and ``.mcap.zstd`` files, and people pack recordings
-with gzip or bzip2, but rosbags unpacks only a folder whose ``metadata.yaml`` says so. Here compressed files are
-unpacked to temporary ones, which live as long as the recording is open.
+``ros2 bag record --compression-mode file`` writes ``.db3.zstd`` and ``.mcap.zstd`` files, and users compress recordings
+with gzip or bzip2. rosbags unpacks only folders whose ``metadata.yaml`` states the compression. Here compressed files
+are unpacked to temporary files, which exist as long as the recording is open.
 """
 
 from __future__ import annotations
@@ -36,15 +36,15 @@ UNPACKERS: dict[str, tuple[bytes, Callable[[Any], Any]]] = {
     "gzip": (b"\x1f\x8b", lambda file: gzip.GzipFile(fileobj=file)),
     "bzip2": (b"BZh", bz2.BZ2File),
 }
-"""How compressed files begin, and what unpacks them."""
-AT_ONCE = 1 << 16
+"""First bytes of compressed files, and functions that unpack them."""
+AT_ONCE = 1 << 16  # bytes unpacked at a time
 
 RECORD_READERS: dict[str, tuple[bytes, Callable[[str | os.PathLike[str], raw.OnDamage], raw.Records]]] = {
     "rosbag1": (raw.BAG_MAGIC, raw.bag_records),
     "rosbag2-sqlite3": (raw.SQLITE_MAGIC, raw.sqlite_records),
     "mcap": (raw.MCAP_MAGIC, raw.mcap_records),
 }
-"""By format: how its files begin, and what reads their records one by one."""
+"""First bytes of files by format, and functions that read their records one by one."""
 ANY_BAG = b"#ROSBAG V"
 
 ENDINGS = tuple(name + packed for name in (".db3", ".mcap") for packed in ("", ".zstd", ".zst"))
@@ -53,7 +53,7 @@ REMEDY = "repair it (rosbag reindex, ros2 bag reindex, mcap recover), or read wh
 
 
 class NotUnpacked(Exception):
-    """Data that cannot be unpacked; the text says why."""
+    """Data that cannot be unpacked; the text is the reason."""
 
 
 def unpack_zstd(packed: bytes, largest: int) -> bytes:
@@ -93,7 +93,7 @@ def unpack_file(path: str | os.PathLike[str], on_damage: Callable[[str], None]) 
 
     Args:
         path: the compressed file.
-        on_damage: is told why the file cannot be unpacked to its end; if it returns, what was unpacked remains.
+        on_damage: called with the reason if the file cannot be unpacked to its end; if it returns, the copy is partial.
 
     Raises:
         OSError: there is no room for the copy.
@@ -139,7 +139,7 @@ def container_of(path: str | os.PathLike[str]) -> str | None:
 
 def format_by_start(start: bytes) -> str | None:
     """Return the format of a recording by its first 16 bytes, unpacked; None for other files."""
-    if start.startswith(ANY_BAG):  # of whatever version: `open_recording` says which it cannot read
+    if start.startswith(ANY_BAG):  # of any version: `open_recording` refuses those that it cannot read
         return "rosbag1"
     return next((name for name, (magic, _) in RECORD_READERS.items() if start.startswith(magic)), None)
 
@@ -147,12 +147,11 @@ def format_by_start(start: bytes) -> str | None:
 def open_recording(path: str | os.PathLike[str], *, salvage: bool, types: Collection[str]) -> Recording:
     """Open a recording: a file of a format in `RECORD_READERS`, or a folder of rosbag2's.
 
-    With ``salvage`` a damaged recording is read as far as it goes, and a note says what was wrong. The messages of the
-    types that will be read decide whether there is damage.
+    With ``salvage`` a damaged recording is read as far as possible, and a note describes the damage. Only damage to
+    messages of ``types`` counts.
 
     Raises:
-        BadInput: a recording that is damaged (without ``salvage``), or of which nothing can be read; a bag of another
-            version.
+        BadInput: a recording that is damaged (without ``salvage``), or cannot be read at all; a bag of another version.
     """
     name = os.fspath(path)
     _check_version(path)
@@ -171,7 +170,7 @@ def open_recording(path: str | os.PathLike[str], *, salvage: bool, types: Collec
 
 
 def _check_version(path: str | os.PathLike[str]) -> None:
-    """Refuse bags of ROS 1 that are not of format 2.0, and name the remedy."""
+    """Raise `BadInput` for bags of ROS 1 that are not of format 2.0, with the remedy."""
     if Path(path).is_dir():
         return
     start = first_bytes(path, 16)
@@ -185,7 +184,7 @@ def _check_version(path: str | os.PathLike[str]) -> None:
 
 
 def _at_hand(path: Path, stack: ExitStack, on_damage: raw.OnDamage) -> Path:
-    """Return a file that can be read as it is: the file, or an unpacked copy, which the stack removes."""
+    """Return the file itself, or an unpacked copy of a compressed file, which the stack removes."""
     with path.open("rb") as file:
         packed = compression_of(file.read(4)) is not None
     if not packed:
@@ -202,7 +201,7 @@ def _at_hand(path: Path, stack: ExitStack, on_damage: raw.OnDamage) -> Path:
 
 
 def _whole(path: str | os.PathLike[str]) -> Recording:
-    """Return a recording that reads to its end."""
+    """Return a recording that is sound; raise `Damaged` for others."""
     container = container_of(path)
     files = [Path(path)]
     notes: tuple[str, ...] = ()
@@ -226,7 +225,7 @@ def _whole(path: str | os.PathLike[str]) -> Recording:
 def _files_of(path: str | os.PathLike[str]) -> tuple[list[Path], str]:
     """Return the storage files of a folder without metadata, in the order of their names, and their format."""
     files = [entry for entry in sorted(Path(path).iterdir()) if entry.name.endswith(ENDINGS)]
-    # Somebody may have unpacked a file beside the packed one.
+    # Leave out a packed file whose unpacked copy lies beside it.
     names = {file.name for file in files}
     files = [file for file in files if not (file.suffix in (".zstd", ".zst") and file.stem in names)]
     files = [file for file in files if container_of(file) is not None]
@@ -248,7 +247,7 @@ def _rosbags_reader(path: Path, container: str) -> Callable[[], Any]:
 
 @cache
 def _bag_reader() -> type:
-    """Return rosbags' reader of ROS 1 bags, which takes index records for as long as they count, as ROS does."""
+    """Return rosbags' reader of ROS 1 bags, changed to take the length of index records from their count."""
     from rosbags.rosbag1 import Reader
     from rosbags.rosbag1.reader import Header, IndexData, RecordType, read_bytes, read_uint32
 
@@ -272,7 +271,7 @@ def _bag_reader() -> type:
 def _by_rosbags(
     path: str | os.PathLike[str], container: str, reader: Callable[[], Any], *, is_file: bool = False
 ) -> Recording:
-    """Return a recording by rosbags; an MCAP file that it refuses is read by its records, if these are sound."""
+    """Return a recording that rosbags reads; an MCAP file that it refuses is read record by record."""
     by_records = container == "mcap" and is_file
     try:
         topics, start_ns, end_ns = _rosbags_topics(reader, container)
@@ -298,7 +297,7 @@ def _by_rosbags(
 def _by_records(
     path: str | os.PathLike[str], container: str, on_damage: raw.OnDamage, on_damage_again: raw.OnDamage
 ) -> Recording:
-    """Return a recording read record by record; damage is told once when it is opened, and again at each reading."""
+    """Return a recording read record by record. Opening it calls ``on_damage``, each reading ``on_damage_again``."""
     records = RECORD_READERS[container][1]
     topics, start_ns, end_ns = topics_of(records(path, on_damage))
 
@@ -355,7 +354,7 @@ def _reason(error: Exception) -> str:
 
 
 def _joined(path: str, container: str, parts: list[Recording], notes: tuple[str, ...], stack: ExitStack) -> Recording:
-    """Return several files as one recording, which closes the stack of its temporary files when it is not used."""
+    """Return several files as one recording, whose temporary files are removed when it is no longer used."""
     topics: dict[str, Topic] = {}
     for part in parts:
         for name, topic in part.topics.items():
@@ -376,7 +375,7 @@ def _joined(path: str, container: str, parts: list[Recording], notes: tuple[str,
 
 
 def _salvaged(path: str | os.PathLike[str], problem: str) -> Recording:
-    """Return what can be read of a damaged recording, record by record."""
+    """Return the readable part of a damaged recording, read record by record."""
     name, container, files = os.fspath(path), container_of(path), [Path(path)]
     try:
         if container == "folder":

@@ -1,9 +1,9 @@
-"""The tree of frames that /tf and /tf_static state, and chains of transforms through it.
+"""The tree of frames in /tf and /tf_static, and chains of transforms through it.
 
-A transform that never changes in the whole recording, or that is static, holds at all times. Any other transform is
-known only from its first to its last message, and is interpolated between. Robots say where their frames are in three
-dimensions, and a map of walls needs the part of it in the plane. A motion is SciPy's `RigidTransform`: where a frame is
-in another, p_parent = R p_child + t, once or at any number of times.
+A transform that is static, or never changes in the recording, holds at all times. Any other transform is known only
+from its first to its last message, and is interpolated between. Transforms are three-dimensional; a map needs their
+part in the plane. A motion is SciPy's `RigidTransform`, the pose of a frame in another, p_parent = R p_child + t, at
+one time or many.
 """
 
 from __future__ import annotations
@@ -23,10 +23,10 @@ from bayesmap.space.planar import around
 
 FURTHEST_M = 1e7
 ROUNDING = 1e-6
-"""A transform that changes by less, in metres and radians, does not change."""
+"""Largest change of a constant transform, in metres and radians."""
 
 FIXED_FRAMES = ("map", "odom", "world")
-"""Frames that stand still, the best first."""
+"""Names of fixed frames, in order of preference."""
 
 Floats = NDArray[np.float64]
 Numbers = tuple[float, float, float, float, float, float, float]
@@ -34,7 +34,7 @@ Numbers = tuple[float, float, float, float, float, float, float]
 
 
 def close(first: Numbers, second: Numbers, tolerance: float) -> bool:
-    """Return whether two poses agree, in metres and radians; a quaternion and its negative are one rotation."""
+    """Return true if two poses agree within a tolerance in metres and radians; q and -q are one rotation."""
     if first == second:
         return True
     sign = 1.0 if sum(a * b for a, b in zip(first[3:], second[3:], strict=True)) >= 0 else -1.0
@@ -78,11 +78,11 @@ class Samples:
 
     @property
     def unstamped(self) -> bool:
-        """Whether no message says its time."""
+        """True if no message has a stamp."""
         return not any(self.stamps_ns)
 
     def times_ns(self) -> NDArray[np.int64]:
-        """Return stamps, or times of receipt if no message says its own, (T,)."""
+        """Return stamps, or times of receipt if no message has a stamp, (T,)."""
         return np.array(self.received_ns if self.unstamped else self.stamps_ns, dtype=np.int64)
 
     def last(self) -> Numbers:
@@ -91,7 +91,7 @@ class Samples:
         return self.values[len(times) - 1 - int(np.argmax(times[::-1]))]
 
     def track(self) -> Track:
-        """Return the poses in the order of time; of several at one time, the last."""
+        """Return the poses in time order; of several at one time, the last."""
         stamps = self.times_ns()
         order = np.argsort(stamps, kind="stable")
         last = np.append(np.diff(stamps[order]) > 0, True)
@@ -100,7 +100,7 @@ class Samples:
         return Track(stamps[order], RigidTransform.from_components(values[:, :3], Rotation.from_quat(values[:, 3:])))
 
     def constant(self) -> bool:
-        """Return whether the pose is the same at all times."""
+        """Return true if the pose is the same at all times."""
         return self.static or all(close(value, self.values[0], ROUNDING) for value in self.values)
 
 
@@ -118,9 +118,9 @@ def numbers_of(position: object, rotation: object) -> Numbers:
 
 @dataclass(frozen=True, eq=False)
 class Link:
-    """One transform of a chain: the child's pose in the parent over time, and whether it holds at all times.
+    """One transform of a chain: the child's pose in the parent over time, or at all times if it is constant.
 
-    The chain leads from the child to the parent where the link is inverted.
+    If the link is inverted, the chain leads from the child to the parent.
     """
 
     track: Track
@@ -128,7 +128,7 @@ class Link:
     inverted: bool = False
 
     def at(self, stamps_ns: NDArray[np.int64]) -> RigidTransform:
-        """Return the motion along the chain at some times, (T,); the last message of one that holds at all times."""
+        """Return the motion along the chain at the given times, (T,); if it is constant, the last message."""
         if self.constant:
             return self.last()
         motion = self.track.at(stamps_ns)
@@ -142,31 +142,31 @@ class Link:
 
 @dataclass(frozen=True, eq=False)
 class Chain:
-    """The transforms between two frames, from the fixed one to the sensor's."""
+    """The transforms from a fixed frame to the sensor's frame."""
 
     links: tuple[Link, ...]
 
     def span_ns(self) -> tuple[int, int] | None:
-        """Return the first and the last time at which all of it is known; None if it always is."""
+        """Return the first and the last time at which all links are known; None if all are constant."""
         stamps = [link.track.stamps_ns for link in self.links if not link.constant]
         return (max(int(s[0]) for s in stamps), min(int(s[-1]) for s in stamps)) if stamps else None
 
     def covers(self, stamps_ns: NDArray[np.int64]) -> NDArray[np.bool_]:
-        """Select the times at which all of it is known."""
+        """Select the times at which all links are known."""
         span = self.span_ns()
         if span is None:
             return np.ones(np.shape(stamps_ns), dtype=bool)
         return np.asarray((stamps_ns >= span[0]) & (stamps_ns <= span[1]))
 
     def at(self, stamps_ns: NDArray[np.int64]) -> RigidTransform:
-        """Return the pose of the last frame in the first, at some times, (T,)."""
+        """Return the pose of the last frame in the first, at the given times, (T,)."""
         result = RigidTransform.identity(len(stamps_ns))
         for link in self.links:
             result = result * link.at(stamps_ns)
         return result
 
     def in_gaps(self, stamps_ns: NDArray[np.int64], longest_s: float, furthest_m: float) -> NDArray[np.bool_]:
-        """Select the times at which a transform is interpolated over a long time in which it moved far."""
+        """Select the times at which a transform is interpolated over a long time and a long way."""
         result = np.zeros(np.shape(stamps_ns), dtype=bool)
         for track in (link.track for link in self.links if not link.constant and len(link.track.stamps_ns) > 1):
             before, _ = around(track.stamps_ns, stamps_ns)
@@ -176,7 +176,7 @@ class Chain:
         return result
 
     def sensor_on_body(self) -> tuple[float, float, float]:
-        """Return the pose in the plane by the last transforms that hold at all times: metres and radians."""
+        """Return the pose of the sensor on the body, in the plane: the product of the last constant transforms."""
         result = RigidTransform.identity()
         for link in takewhile(lambda link: link.constant, reversed(self.links)):
             result = link.last() * result
@@ -188,13 +188,13 @@ class FrameTree:
     """Frames and the transforms between them.
 
     Args:
-        transforms: by topic, parent and child.
-        ranks: the topics that count, with their ranks: where several topics place a frame, the topics of the lowest
-            rank are believed. None: all topics, with one rank.
+        transforms: samples of transforms by topic, parent and child.
+        ranks: ranks of the topics to use. If several topics place a frame, those of the lowest rank count. None to use
+            all topics, with one rank.
 
     Attributes:
-        topics: that count.
-        notes: what a user should know of frames that have several parents, by frame.
+        topics: topics in use.
+        notes: sentences for the user about frames with several parents, by frame.
         rivals: topics that place a frame in different parents, by frame.
     """
 
@@ -205,6 +205,7 @@ class FrameTree:
         self.notes: dict[str, str] = {}
         self.rivals: dict[str, tuple[str, ...]] = {}
         self._edges: dict[str, tuple[str, tuple[Samples, ...]]] = {}
+        # The samples of each child by parent, from the topics of the lowest rank.
         places: dict[str, dict[str, list[Samples]]] = {}
         best: dict[str, int] = {}
         for (topic, parent, child), samples in transforms.items():
@@ -214,6 +215,7 @@ class FrameTree:
             if rank < best.get(child, rank + 1):
                 best[child], places[child] = rank, {}
             places[child].setdefault(parent, []).append(samples)
+        # The parent with most messages.
         for child, parents in places.items():
             often = sorted(parents, key=lambda parent: -sum(len(part.values) for part in parents[parent]))
             self._edges[child] = (often[0], tuple(parents[often[0]]))
@@ -237,7 +239,7 @@ class FrameTree:
         return path
 
     def _ways(self, fixed: str, sensor: str) -> tuple[list[str], list[str]] | None:
-        """Return the frames between two and their common ancestor, without it: up from one, down to the other."""
+        """Return the frames from one up to the common ancestor, and down to the other, without the ancestor."""
         up, down = self.upwards(fixed), self.upwards(sensor)
         common = next((frame for frame in down if frame in up), None)
         if common is None:
@@ -254,7 +256,7 @@ class FrameTree:
         return Chain((*(self._link(f, True) for f in ways[0]), *(self._link(f, False) for f in ways[1])))
 
     def links(self, fixed: str, sensor: str) -> list[tuple[str, str, tuple[Samples, ...]]]:
-        """Return parent, child and what each topic says, for the transforms of a chain."""
+        """Return parent, child and the samples of each topic, for the transforms of a chain."""
         up, down = self._ways(fixed, sensor) or ([], [])
         return [(self._edges[child][0], child, self._edges[child][1]) for child in (*up, *down)]
 
@@ -263,16 +265,16 @@ class FrameTree:
         return Link(samples.track(), samples.constant(), inverted)
 
     def root(self, sensor: str) -> str:
-        """Return the topmost frame over a sensor's."""
+        """Return the topmost frame above the sensor's frame."""
         return self.upwards(sensor)[-1]
 
     def above(self, sensor: str, names: Iterable[str]) -> str | None:
-        """Return the nearest frame over the sensor's with the first name possible (or ``robot/name``); None without."""
+        """Return the nearest frame above the sensor's with the first matching name (or ``robot/name``), or None."""
         over = self.upwards(sensor)[1:]
         return next((frame for name in names for frame in over if frame.rpartition("/")[2] == name), None)
 
     def body(self, sensor: str, names: Iterable[str]) -> str | None:
-        """Return the frame of a robot's body by its name: over the sensor's, or else at rest beside it."""
+        """Return the frame of the robot's body by its name: above the sensor's, or else fixed to it; or None."""
         names = tuple(names)
         over = self.above(sensor, names)
         if over is not None:
@@ -286,7 +288,7 @@ class FrameTree:
         return None
 
     def moves(self, frame: str) -> bool:
-        """Return whether some transform between a frame and its root changes."""
+        """Return true if a transform between a frame and its root changes."""
         return any(not Samples.joined(self._edges[f][1]).constant() for f in self.upwards(frame)[:-1])
 
 
@@ -303,20 +305,20 @@ def upright(motion: RigidTransform) -> Floats:
 
 @dataclass(frozen=True, eq=False)
 class Track:
-    """Where a frame is in another, over time: T motions, and their times in nanoseconds, strictly ascending."""
+    """The pose of a frame in another over time: T motions, and their times in nanoseconds, strictly ascending."""
 
     stamps_ns: NDArray[np.int64]
     motions: Any
 
     def covers(self, stamps_ns: NDArray[np.int64]) -> NDArray[np.bool_]:
-        """Select the times between the first and the last: elsewhere nothing is known."""
+        """Select the times between the first and the last."""
         return np.asarray((stamps_ns >= self.stamps_ns[0]) & (stamps_ns <= self.stamps_ns[-1]))
 
     def at(self, stamps_ns: NDArray[np.int64]) -> RigidTransform:
-        """Interpolate: the position along a line, the rotation along the shorter arc. Outside, take the nearest end."""
+        """Return motions interpolated along lines and along the shorter arcs of rotations; outside, the nearest end."""
         if len(self.stamps_ns) == 1:
             return self.motions[np.zeros(np.shape(stamps_ns), dtype=np.intp)]
-        # Nanoseconds since 1970 are too many for a double, those since the track began are not.
+        # Nanoseconds since 1970 exceed the precision of a double; those since the start of the track do not.
         known = (self.stamps_ns - self.stamps_ns[0]).astype(np.float64)
         wanted = (np.clip(stamps_ns, self.stamps_ns[0], self.stamps_ns[-1]) - self.stamps_ns[0]).astype(np.float64)
         translation = make_interp_spline(known, self.motions.translation, k=1)(wanted)

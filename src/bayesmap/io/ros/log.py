@@ -1,13 +1,13 @@
-"""Scans with their poses from a robot's recording (ROS 1 bag, ROS 2 bag, MCAP).
+"""Read scans with their poses from a robot's recording (ROS 1 bag, ROS 2 bag, MCAP).
 
-A scan's time is that of its first ray, and its pose is the sensor's at that time: along the chain of transforms from a
-fixed frame (map, odom or world, unless one is named) to the scan's frame, or by a topic of poses and the transform
-from the body to the sensor. Positions are interpolated along lines and rotations along the shorter arc; nothing is
-extrapolated: scans before the first pose and after the last are left out. The pose is projected to the plane; a sensor
-mounted upside down sweeps the other way.
+The time of a scan is that of its first ray, and its pose is the sensor's pose at that time. The pose comes from the
+transforms between a fixed frame (map, odom or world, unless one is named) and the scan's frame, or from a topic of
+poses and the transform from the body to the sensor. Positions are interpolated along lines, rotations along the shorter
+arc. Nothing is extrapolated: scans before the first pose and after the last are left out. The pose is projected to the
+plane; a sensor that is mounted upside down sweeps the other way.
 
-When a simulation is started again, its clock is set back: stamps begin anew while the time of receipt goes on. Sorted
-by stamps, both runs would be mixed, and scans of one would get poses of the other; the runs are therefore kept apart.
+If a simulation restarts, its clock is set back: stamps begin anew, while the time of receipt goes on. Sorting by stamps
+would mix both runs, and give scans of one the poses of the other. Therefore the runs are kept apart.
 """
 
 from __future__ import annotations
@@ -37,16 +37,16 @@ from bayesmap.io.ros.poses import PoseMessages
 from bayesmap.io.ros.recording import POSE_TYPES, TYPES, Recording, Topic, topics_of_type
 
 STEP_NS = 10**9
-"""Stamps that go back by less are of messages that came late."""
+"""Largest step back of stamps that counts as messages that came late."""
 SLACK_NS = 10**9
-"""All topics show a step of the clock within this time of each other."""
+"""Longest time between the same step of the clock on different topics."""
 FEWEST, SETTLED = 3, 5
-"""Messages before and after a step, and how many of them must be in order."""
+"""Fewest messages before and after a step, and the number of messages on each side that must be in order."""
 AT_ONCE = 1 << 18
-"""Beams whose poses are found at a time."""
-LONGEST_GAP_S, LONGEST_GAP_M = 1.0, 1.0
+"""Number of beams whose poses are computed at a time."""
+LONGEST_GAP_S, LONGEST_GAP_M = 1.0, 1.0  # a note names interpolations over more time and more distance
 LONGEST_SWEEP_S = 60.0
-"""A scan takes less; a longer time is damage."""
+"""Longest time of a scan; a longer time is taken for damage."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,11 +54,11 @@ class ClockRun:
     """The messages between two steps of the clock.
 
     Attributes:
-        scans: in the order of receipt.
-        poses: with the transforms that never change, which hold in all runs.
-        back_ns: by how much the clock was set back before the run; 0 for the first.
-        at_ns: the last stamp before.
-        last: whether no run follows.
+        scans: scans in the order of receipt.
+        poses: messages of poses, with constant transforms, which hold in all runs.
+        back_ns: size of the step back of the clock before the run; 0 for the first.
+        at_ns: last stamp before the step.
+        last: true if no run follows.
     """
 
     scans: list[LaserMessage]
@@ -76,7 +76,7 @@ class _Stream:
     received: NDArray[np.int64]
 
     def falls(self) -> NDArray[np.intp]:
-        """Return messages whose stamp is far below that of the message before."""
+        """Return the indices of messages whose stamp is far below that of the message before."""
         return np.nonzero(np.diff(self.stamps) < -STEP_NS)[0] + 1
 
     def steps(self) -> list[int]:
@@ -90,22 +90,23 @@ class _Stream:
         ]
 
     def fall_near(self, start_ns: int, end_ns: int) -> int | None:
-        """Return the first fall at which a clock that was set back within a time can have been met."""
+        """Return the first fall that a step of the clock between two times of receipt can explain; else None."""
         return next(
             (int(i) for i in self.falls() if self.received[i] >= start_ns and self.received[i - 1] <= end_ns), None
         )
 
     def spans(self, time_ns: int) -> bool:
-        """Return whether there are messages before and after a time."""
+        """Return true if there are messages before and after a time."""
         return bool(self.received[0] < time_ns - SLACK_NS and self.received[-1] > time_ns + SLACK_NS)
 
 
 def clock_runs(scans: list[LaserMessage], poses: PoseMessages) -> list[ClockRun]:
-    """Split a recording where its clock was set back: one run, if it was not.
+    """Split a recording where its clock was set back. Returns one run if it was not.
 
-    A step of the clock is one that all stamped topics make which have messages before and after it. Scans that came
-    late, alone or in any order, make none.
+    A step of the clock must show in all stamped topics that have messages before and after it. So scans that came late
+    make no step.
     """
+    # Find the steps in the topic with most of them, and check that all topics make them.
     samples = [*poses.transforms.values(), *poses.poses.values()]
     streams = [_stream([s.stamp_ns for s in scans], [s.received_ns for s in scans])]
     streams += [_stream(part.stamps_ns, part.received_ns) for part in samples if not part.static]
@@ -134,6 +135,7 @@ def clock_runs(scans: list[LaserMessage], poses: PoseMessages) -> list[ClockRun]
         constant = part.constant()
         return [part if constant else part.part(which) for which in slices]
 
+    # Cut every topic at the steps.
     runs = [PoseMessages() for _ in range(len(times) + 1)]
     for kind in ("transforms", "poses"):
         for key, part in getattr(poses, kind).items():
@@ -150,7 +152,7 @@ def clock_runs(scans: list[LaserMessage], poses: PoseMessages) -> list[ClockRun]
 
 
 def joined_stamps(parts: Sequence[tuple[NDArray[np.int64], list[LaserMessage]]]) -> NDArray[np.int64]:
-    """Return the stamps of the scans of all runs, which go on after a step by as much as was received later, (S,)."""
+    """Return the stamps of the scans of all runs, (S,). Across a step they advance like the times of receipt."""
     joined = [parts[0][0]]
     for (stamps, scans), (_, before) in zip(parts[1:], parts, strict=False):
         later = max(scans[0].received_ns - before[-1].received_ns, 1)
@@ -159,14 +161,14 @@ def joined_stamps(parts: Sequence[tuple[NDArray[np.int64], list[LaserMessage]]])
 
 
 def _stream(stamps: Sequence[int], received: Sequence[int]) -> _Stream | None:
-    """Return the stream, or None if no message says its time."""
+    """Return the stream, or None if no message has a stamp."""
     if not len(stamps) or not any(stamps):
         return None
     return _Stream(np.array(stamps, dtype=np.int64), np.array(received, dtype=np.int64))
 
 
 def _in_order(stamps: NDArray[np.int64]) -> bool:
-    """Return whether stamps ascend, but for one."""
+    """Return true if stamps ascend, with at most one exception."""
     return bool((np.diff(stamps) < 0).sum() <= 1)
 
 
@@ -174,8 +176,8 @@ def read_recording(path: str | os.PathLike[str], options: LogOptions) -> LogRead
     """Read the scans of one topic of a recording, with their poses.
 
     Raises:
-        BadInput: a damaged recording or message, a topic or frame that is not there, several to choose from, or no
-            scan with a pose; the message lists what there is and says what to give.
+        BadInput: a damaged recording or message, a missing topic or frame, several to choose from, or no scan with a
+            pose; the message lists the choices and names the option.
     """
     name = os.fspath(path)
     recording = open_recording(path, salvage=options.skip_bad_lines, types=TYPES)
@@ -191,6 +193,7 @@ def read_recording(path: str | os.PathLike[str], options: LogOptions) -> LogRead
             )
         account.skipped.append(SkippedLine(number, reason, f"message on {on_topic}"))
 
+    # Read the messages of scans and poses.
     topic = scan_topic_of(recording, options.scan_topic)
     pose_topic = None if options.pose_topic is None else pose_sources.pose_topic_of(recording, options.pose_topic)
     lasers, poses = scans_and_poses(recording, topic, pose_topic, bad)
@@ -204,6 +207,7 @@ def read_recording(path: str | os.PathLike[str], options: LogOptions) -> LogRead
     if pose_topic is None and options.fixed_frame is None and not options.without_poses:
         only = _only_topic(request, options, poses)
         request = replace(request, pose_topic=only)
+    # Give the scans of each run of the clock their poses.
     parts: list[_Placed] = []
     for run in clock_runs(scans, poses):
         try:
@@ -223,6 +227,7 @@ def read_recording(path: str | os.PathLike[str], options: LogOptions) -> LogRead
     source, sign = parts[0].source, parts[0].sign
     if any(part.sign != sign for part in parts):
         raise BadInput(f"{name}: the frame {request.sensor!r} is upright in some scans and upside down in others")
+    # Join the runs, and add the notes.
     scans = [scan for part in parts for scan in part.scans]
     if only is not None:
         several = len(topics_of_type(recording, POSE_TYPES)) > 1
@@ -261,10 +266,10 @@ class _Request:
 
 @dataclass(frozen=True, eq=False)
 class _Placed:
-    """The scans of one run of the clock that have a pose, in the order of time.
+    """The scans of one run of the clock that have a pose, in time order.
 
-    ``stamps`` are the times of the first rays, (S,), ``rays`` those of all rays, (S, A), or (S, 1) without ``deskew``;
-    ``at_first`` are the sensor's poses at the first rays, (S, 3). ``sign`` is -1 for a sensor that is upside down.
+    ``stamps`` are the times of the first rays, (S,), and ``rays`` those of all rays, (S, A), or (S, 1) without
+    ``deskew``. ``at_first`` are the sensor's poses at the first rays, (S, 3). ``sign`` is -1 for an inverted sensor.
     """
 
     source: pose_sources.PoseSource
@@ -278,7 +283,7 @@ class _Placed:
 
 
 def _placed(run: ClockRun, request: _Request, account: Account) -> _Placed:
-    """Sort the scans of a run by time and find where they were taken; leave out those that have no pose."""
+    """Return the scans of a run in time order with their poses, without the scans that have no pose."""
     if not run.scans:
         raise BadInput(f"{account.name}: no scan was received in it")
     source = _source(request, run.poses, account.options)
@@ -299,7 +304,8 @@ def _placed(run: ClockRun, request: _Request, account: Account) -> _Placed:
 def _in_order_of_time(
     scans: list[LaserMessage], request: _Request, account: Account
 ) -> tuple[NDArray[np.int64], list[LaserMessage], int]:
-    """Return times of the first rays, ascending, the scans in that order, and how many came before an earlier one."""
+    """Return the ascending times of the first rays, the scans in this order, and the number of late scans."""
+    # Times, or times of receipt if no message has a time.
     topic, notes = request.topic.name, account.notes
     if not any(scan.stamp_ns for scan in scans):
         notes.append(f"no message on {topic} says its time; the times of receipt were used")
@@ -315,6 +321,7 @@ def _in_order_of_time(
         notes.append(
             f"{reordered:,} scans of {topic} have an earlier time than one before them; all were sorted by time"
         )
+    # Sort, and leave out repetitions.
     order = np.argsort(stamps, kind="stable")
     kept: list[int] = []
     twice = repeated = 0
@@ -333,9 +340,9 @@ def _in_order_of_time(
 
 
 def _ray_times(stamps: NDArray[np.int64], scans: list[LaserMessage], account: Account) -> NDArray[np.int64]:
-    """Return when each ray was sent, shape (S, A); shape (S, 1), the first ray, without ``deskew``.
+    """Return the time of each ray, shape (S, A); without ``deskew``, that of the first ray, (S, 1).
 
-    Where a scan has fewer rays than the largest, its last ray's time stands for those that it does not have.
+    Missing rays of a scan get the time of its last ray.
     """
     if not account.options.deskew:
         return stamps[:, None]
@@ -355,7 +362,7 @@ def _left_out(
     """Return notes about the scans that are ``inside`` the time of the poses, and those that are not.
 
     Raises:
-        BadInput: none is.
+        BadInput: no scan is inside.
     """
     span = source.chain.span_ns()
     if span is None:
@@ -384,7 +391,7 @@ def _left_out(
 
 
 def _beam_poses(parts: list[_Placed]) -> NDArray[np.float64] | None:
-    """Return the poses of all rays, (S, A, 3); None if only times of first rays are known."""
+    """Return the poses of all rays, (S, A, 3); None if only the times of the first rays are known."""
     if not parts[0].source.posed or all(part.rays.shape[1] == 1 for part in parts):
         return None
     beams = max(scan.layout.beams for part in parts for scan in part.scans)
@@ -396,7 +403,7 @@ def _beam_poses(parts: list[_Placed]) -> NDArray[np.float64] | None:
 
 
 def _only_topic(request: _Request, options: LogOptions, poses: PoseMessages) -> Topic | None:
-    """Return the only topic of poses, with its messages read, if /tf does not help."""
+    """Read and return the only topic of poses if /tf does not place the sensor; else None."""
     only = pose_sources.only_pose_topic(request.recording, request.topic.name)
     if only is None:
         return None
@@ -409,9 +416,9 @@ def _only_topic(request: _Request, options: LogOptions, poses: PoseMessages) -> 
 
 
 def _source(request: _Request, poses: PoseMessages, options: LogOptions) -> pose_sources.PoseSource:
-    """Return where the sensor is: by the topic that was chosen, else by /tf.
+    """Return the source of the sensor's poses: the chosen topic, or else /tf.
 
-    With ``laser`` the sensor is there on the robot's body, whatever /tf says.
+    The option ``laser`` gives the sensor's pose on the robot's body instead of /tf.
     """
     recording, sensor, pose_topic, laser = request.recording, request.sensor, request.pose_topic, options.laser
     trees = pose_sources.frame_trees(poses, request.topic.name, None if pose_topic is None else pose_topic.name)

@@ -1,6 +1,6 @@
-"""Maps as pictures and as ROS counts them: occupancy grids in per cent, and the files of map_server and nav2.
+"""Maps as pictures, as ROS occupancy grids in per cent, and as the files of map_server and nav2.
 
-Three conventions meet here; everything returned is indexed ``[x, y]`` with y up:
+Sources have three conventions of order. All results are indexed ``[x, y]`` with y up:
 
 | source                        | first index | its first entry is |
 |-------------------------------|-------------|--------------------|
@@ -8,18 +8,17 @@ Three conventions meet here; everything returned is indexed ``[x, y]`` with y up
 | map_server image (PGM)        | row         | the top            |
 | `nav_msgs/OccupancyGrid` data | row         | the *bottom*       |
 
-**Per cent.** Occupancy is 0 to 100, and -1 is unknown. The three modes of map_server, by what it publishes of a
-probability p that was saved in them:
+**Per cent.** Occupancy is 0 to 100, and -1 is unknown. map_server has three modes, which publish a probability p as:
 
     trinary: p > occupied_thresh -> 100; p < free_thresh -> 0; otherwise -1
-    scale:   the same at both ends; between, round(100 (p - free_thresh) / (occupied_thresh - free_thresh))
-    raw:     round(100 p), whatever the thresholds
+    scale:   as trinary at both ends; between, round(100 (p - free_thresh) / (occupied_thresh - free_thresh))
+    raw:     round(100 p), independent of the thresholds
 
 **Files.** A map is a flat YAML file beside an image. nav2 decodes the image by ``occ = 1 - grey / 255`` (``grey / 255``
-if ``negate``), which it takes for p in trinary and scale; in raw the grey itself is the per cent if it is 0 to 100, and
-otherwise unknown. In scale, a pixel that is not opaque is unknown. (nav2 from 2025 on takes ``>=`` and ``<=`` in the
-first two, and a pixel that is not opaque is unknown in trinary maps too; what is written here means the same to both.)
-Two consequences, where map_saver itself loses information:
+if ``negate``), which is p in trinary and scale. In raw, a grey from 0 to 100 is the per cent, and other greys are
+unknown. In scale, a pixel that is not opaque is unknown. (nav2 from 2025 on uses ``>=`` and ``<=`` in the first two,
+and a pixel that is not opaque is unknown in trinary maps too. Files written here mean the same to both.) Two choices
+avoid a loss of information that map_saver has:
 
 - Unknown is written as grey 205, that is occ = 0.19608; a file that also says ``free_thresh: 0.25`` reads it as free.
   Trinary files therefore say 0.196, whatever threshold made the cells free.
@@ -55,13 +54,13 @@ MAX_PIXELS = 100_000_000
 
 
 def from_image(image: ImageLike | Image, threshold: float = 0.5) -> NDArray[np.bool_]:
-    """Return walls where a picture is dark. Row 0 is the top, so the map shows the picture as it is drawn.
+    """Return walls for the dark pixels of a picture. Row 0 is the top, so the map looks like the picture.
 
     Args:
         image: path to an image file, a PIL image, or an array of shape (height, width), (height, width, 3) or
             (height, width, 4): bool (True is bright), whole numbers 0..255, or floats 0..1. Transparent
             pixels count as white.
-        threshold: a pixel is a wall where its brightness, from 0 (black) to 1 (white), is below this.
+        threshold: brightness, from 0 (black) to 1 (white), below which a pixel is a wall.
 
     Returns:
         Walls, shape (width, height), indexed ``[x, y]`` with y up: pixel (row r, column c) is
@@ -97,7 +96,7 @@ def brightness(image: ImageLike | Image) -> NDArray[np.float64]:
     if isinstance(image, pil.Image):
         if image.mode == "1" or image.mode.startswith(("I", "F")):
             array = np.asarray(image)
-            # 16-bit greys: PIL opens them in a wider mode that does not say how many bits were used.
+            # PIL opens 16-bit greys in a wider mode that does not state the number of bits.
             image = array / 65535 if array.dtype != bool and array.max(initial=0) > 255 else array
         else:
             image = np.asarray(image.convert("RGBA"))
@@ -128,12 +127,12 @@ def _brightness_of_array(image: ArrayLike) -> NDArray[np.float64]:
 
 MODES = ("trinary", "scale", "raw")
 THRESHOLDS = {"trinary": (0.65, 0.25), "scale": (1.0, 0.0), "raw": (0.65, 0.25)}
-"""Occupied and free thresholds where none are given."""
+"""Default occupied and free thresholds by mode."""
 
 OCCUPIED_GREY, FREE_GREY, UNKNOWN_GREY = 0, 254, 205
 RAW_UNKNOWN_GREY = 255
 TRINARY_FILE_THRESHOLDS = (0.65, 0.196)
-"""Occupied and free thresholds by which nav2 tells the three greys apart."""
+"""Occupied and free thresholds in trinary files, with which nav2 separates the three greys."""
 
 
 def _check_thresholds(occupied_thresh: float, free_thresh: float) -> None:
@@ -146,7 +145,7 @@ def _check_thresholds(occupied_thresh: float, free_thresh: float) -> None:
 
 
 def _thresholds(mode: str, occupied_thresh: float | None, free_thresh: float | None) -> tuple[float, float]:
-    """Return the thresholds that hold, those given or the mode's own."""
+    """Return the given thresholds, or the defaults of the mode."""
     if mode not in MODES:
         raise BadInput(f"map: mode {mode!r} is not known; use one of {', '.join(MODES)}")
     occupied, free = THRESHOLDS[mode]
@@ -227,7 +226,7 @@ def write_map(
     elif mode == "raw":
         cells = np.where(known, percent.astype(np.int16), RAW_UNKNOWN_GREY)
     else:
-        # Not from the per cents: 256 greys are finer, for readers that look at the greys.
+        # From the probabilities: 256 greys are finer than per cents, for programs that read the greys.
         cells = np.rint(255 * (1 - np.where(known, np.asarray(occupancy, dtype=np.float64), 0.5)))
     rows = np.ascontiguousarray(cells.T[::-1].astype(np.uint8))
     if mode != "scale" or known.all():
@@ -300,9 +299,9 @@ def from_map_image(
         resolution: metres per pixel.
         origin: world position in metres of the image's lower-left corner.
         negate: white is occupied and black is free, instead of the other way round.
-        occupied_thresh: darker than this, on a scale from 0 (white) to 1 (black), is occupied.
-        free_thresh: lighter than this is free; what lies between is unknown.
-        unknown_is_wall: what to make of unknown cells.
+        occupied_thresh: shade, from 0 (white) to 1 (black), above which a pixel is occupied.
+        free_thresh: shade below which a pixel is free; pixels between the thresholds are unknown.
+        unknown_is_wall: true to return unknown cells as walls, false as free.
 
     Returns:
         Walls, shape (width, height), indexed ``[x, y]``, and the grid they lie on.
@@ -333,7 +332,7 @@ def from_occupancy(
         resolution: metres per cell.
         origin: world position in metres of the lower-left corner.
         threshold: cells above this are walls.
-        unknown_is_wall: what to make of unknown cells.
+        unknown_is_wall: true to return unknown cells as walls, false as free.
 
     Returns:
         Walls, shape (width, height), indexed ``[x, y]``, and the grid they lie on.
@@ -363,7 +362,7 @@ def from_occupancy(
 
 
 def _read_image(path: Path, with_alpha: bool) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
-    """Return the brightness of each pixel, and whether it is opaque, row 0 the top."""
+    """Return the brightness of each pixel, and the mask of opaque pixels, row 0 the top."""
     from PIL import Image
 
     try:
@@ -374,7 +373,7 @@ def _read_image(path: Path, with_alpha: bool) -> tuple[NDArray[np.float64], NDAr
             rgba = np.asarray(image.convert("RGBA"), dtype=np.float64) / 255
     except (OSError, Image.DecompressionBombError) as error:
         raise BadInput(f"{path}: cannot be read as an image: {error}") from None
-    # In trinary mode map_server averages opacity in with the colours, as a fourth channel.
+    # In trinary mode map_server averages the opacity with the colours, as a fourth channel.
     return rgba[..., : 4 if with_alpha else 3].mean(axis=2), rgba[..., 3] == 1
 
 

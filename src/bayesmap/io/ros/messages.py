@@ -1,13 +1,12 @@
-"""The messages of a recording as scans and poses: which topic to read, and by which definitions.
+"""Read the messages of a recording as scans and poses: select the topic, and find the definitions of messages.
 
-A message is read by the definition that the recording carries, completed by those that ROS ships. Bags of 2010 call the
-header ``roslib/Header``, and some publishers leave out the parts of a message. ROS reads these recordings, because a
-type and its MD5 sum say what a message is.
+The definition in the recording decides how a message is read; definitions that ROS ships complete it. Bags of 2010 call
+the header ``roslib/Header``, and some publishers leave out the parts of a message. These recordings are readable all
+the same, because the type and its MD5 sum identify a message.
 
-The i-th beam of a ``sensor_msgs/LaserScan`` points to ``angle_min + i * angle_increment``, as the message is defined: a
-scanner that turns clockwise has a negative increment. Drivers are often wrong in ``angle_max``, and it is not needed:
-where it contradicts the other numbers, a note says so. A fan of more than a turn is refused: its angles are not
-radians.
+By the definition of ``sensor_msgs/LaserScan``, beam i points to ``angle_min + i * angle_increment``. A scanner that
+turns clockwise has a negative increment. ``angle_max`` is often wrong, and not needed: if it contradicts the other
+numbers, a note is added. A fan of more than a turn is refused, because its angles are not radians.
 """
 
 from __future__ import annotations
@@ -46,7 +45,7 @@ from bayesmap.space.scans import Fan, fan_fault, side_by_side
 
 MAX_BEAMS = 100_000
 SAME_ANGLE_RAD = 1e-5
-"""Scans whose first and last beams agree this well have the same beams: angles are in single precision."""
+"""Largest difference of the first and last angles of equal fans: angles are in single precision."""
 
 TAKEN = "beam i was taken at angle_min + i * angle_increment, as the message is defined"
 
@@ -58,7 +57,7 @@ class Layout(Fan):
     frame: str
 
     def equals(self, other: Layout) -> bool:
-        """Return whether two scans have the same beams."""
+        """Return true if two scans have the same beams."""
         span = (self.beams - 1) * (self.step_rad - other.step_rad)
         return (
             (self.frame, self.beams) == (other.frame, other.beams)
@@ -69,17 +68,17 @@ class Layout(Fan):
 
 @dataclass(frozen=True, eq=False)
 class LaserMessage:
-    """One scan as its message says it.
+    """The scan of one message.
 
     Attributes:
-        number: the message's number on its topic, from 1.
-        received_ns: the time of receipt.
-        stamp_ns: the time of the first ray; 0 if the driver did not say.
-        layout: the directions of the beams.
+        number: number of the message on its topic, from 1.
+        received_ns: time of receipt.
+        stamp_ns: time of the first ray; 0 if the driver did not state it.
+        layout: beams and frame of the scan.
         ranges_m: raw readings, (A,), single precision.
         limits_m: smallest and largest range.
         ray_interval_s: time from one ray to the next (``time_increment``).
-        odd: an unusual but acceptable property, in words; empty if there is none.
+        odd: an unusual but acceptable property, in words; "" if there is none.
     """
 
     number: int
@@ -131,7 +130,7 @@ def _layout(message: Any, beams: int) -> tuple[Layout, str]:
 
 
 def _odd_end(first: float, last: float, step: float, beams: int) -> str:
-    """Return how ``angle_max`` contradicts the other angles, in words; empty if it does not."""
+    """Return the contradiction between ``angle_max`` and the other angles, in words; "" if there is none."""
     if not math.isfinite(last):
         return f"angle_max is {last:g}; {TAKEN}"
     # The beams may pass behind the sensor.
@@ -152,13 +151,13 @@ def _odd_end(first: float, last: float, step: float, beams: int) -> str:
 
 @dataclass
 class LaserMessages:
-    """The scans of a topic, as they come."""
+    """The scans of a topic, in the order of the recording."""
 
     topic: str
     scans: list[LaserMessage] = field(default_factory=list)
 
     def of_one_frame(self, bad: Callable[[int, str], None]) -> list[LaserMessage]:
-        """Return the scans with readings in the commonest frame; ``bad`` is told of the others."""
+        """Return the scans with readings in the commonest frame; ``bad`` is called with the others."""
         scans = [scan for scan in self.scans if scan.layout.beams]
         frame = Counter(scan.layout.frame for scan in scans).most_common(1)[0][0] if scans else ""
         for scan in scans:
@@ -170,31 +169,31 @@ class LaserMessages:
 def beams_of(scans: Sequence[LaserMessage]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return beam angles in the sensor's frame and readings (S, A) of scans.
 
-    Angles are (A,) where all scans have the same beams, else (S, A): each scan keeps its own.
+    Angles are (A,) if all scans have the same beams, else (S, A).
     """
     first = scans[0].layout
     if all(scan.layout is first or scan.layout.equals(first) for scan in scans):
-        with np.errstate(invalid="ignore"):  # NaN of the signalling kind
+        with np.errstate(invalid="ignore"):  # readings may hold signalling NaN
             return first.angles_rad(), np.array([scan.ranges_m for scan in scans], dtype=np.float64)
     return side_by_side([scan.layout.angles_rad() for scan in scans], [scan.ranges_m for scan in scans])
 
 
 Bad = Callable[[str, int, str], None]
-"""Is told of a message that cannot be used: topic, number, reason."""
+"""Function that is called with each message that cannot be used: topic, number, reason."""
 
 READABLE = ("cdr", "ros1")
 """Encodings that can be read."""
 
 IDL_SEPARATOR = "=" * 80 + "\n"
 MAX_MESSAGE_BYTES = 1 << 28
-"""More than this in one message is taken for damage."""
+"""Largest message; a larger size is taken for damage."""
 
 
 def scan_topic_of(recording: Recording, given: str | None) -> Topic:
-    """Return the topic to read: the one that is named, or the only one of laser scans, or of single ranges.
+    """Return the topic to read: the named one, or the only one of laser scans, or else of single ranges.
 
     Raises:
-        BadInput: there is none, or none of that name, or several and none was named; the message lists them.
+        BadInput: no topic of scans, none of that name, or several and none was named; the message lists them.
     """
     held = topics_of_type(recording, SCAN_TYPES)
     have = f"no topic holds {' or '.join(SCAN_TYPES)}; there are {listed(recording.topics.values())}"
@@ -225,7 +224,7 @@ def scan_topic_of(recording: Recording, given: str | None) -> Topic:
 def scans_and_poses(
     recording: Recording, topic: Topic, pose_topic: Topic | None, bad: Bad
 ) -> tuple[LaserMessages, PoseMessages]:
-    """Return the scans, and the messages of poses: of /tf, and of the topic of poses that was chosen."""
+    """Return the scans, and the messages of poses from /tf and from the chosen topic of poses."""
     topics = [topic, *(t for t in topics_of_type(recording, TF_TYPES) if t.encoding in READABLE)]
     if pose_topic is not None and pose_topic not in topics:
         topics.append(pose_topic)
@@ -237,10 +236,10 @@ def scans_and_poses(
 def read_messages(
     recording: Recording, topics: list[Topic], lasers: LaserMessages | None, poses: PoseMessages, bad: Bad
 ) -> None:
-    """Fill in scans and poses from the messages on some topics; ``bad`` is told of those that cannot be used.
+    """Add the messages on the given topics to scans and poses; call ``bad`` with those that cannot be used.
 
     Raises:
-        BadInput: the recording breaks off.
+        BadInput: the recording is damaged or cut short.
     """
     about = {topic.name: topic for topic in topics}
     numbers: Counter[str] = Counter()
@@ -263,10 +262,10 @@ def read_messages(
 
 
 class MessageTypes:
-    """Reads the messages of some topics.
+    """The reader of the messages of some topics.
 
-    Recordings before ROS 2 Iron carry no definitions in their databases; the messages that we read are the same in
-    all earlier versions.
+    Databases before ROS 2 Iron hold no definitions; the messages that are read here were the same in all versions
+    before.
 
     Raises:
         Damaged: a definition that cannot be parsed, of a type or an MD5 sum that ROS does not know.
@@ -276,7 +275,7 @@ class MessageTypes:
         self._stores = {topic.name: (_store(topic), topic) for topic in topics}
 
     def read(self, topic: str, data: bytes) -> Any:
-        """Return a message with the fields of its definition as attributes; raise `Malformed` if it has others."""
+        """Return a message with the fields of its definition as attributes; raise `Malformed` if they do not fit."""
         store, about = self._stores[topic]
         try:
             if about.encoding == "ros1":
@@ -286,7 +285,7 @@ class MessageTypes:
             return store.deserialize_cdr(data, about.type)
         except NotUnpacked as problem:
             raise Malformed(f"{about.type} is compressed by zstd and cannot be unpacked: {problem}") from None
-        except Exception as error:  # rosbags raises whatever its parsing meets
+        except Exception as error:  # rosbags raises many kinds of errors
             reason = " ".join(str(error).split()).rstrip(".") or type(error).__name__
             raise Malformed(f"{about.type} of {len(data):,} bytes cannot be read: {reason}") from None
 
@@ -303,7 +302,7 @@ def _shipped(encoding: str) -> Any:
 
 
 def _store(topic: Topic) -> Any:
-    """Return definitions by which the messages of a topic can be read."""
+    """Return the definitions to read the messages of a topic: the recording's, or else those that ROS ships."""
     shipped = _shipped(topic.encoding)
     if not topic.definition.strip():
         return shipped
@@ -316,9 +315,9 @@ def _store(topic: Topic) -> Any:
         if not completed or _sum_of(store, topic) in (topic.md5, None):
             return store
         problem = f"it lacks {', '.join(completed)}"
-    except Exception as error:  # the parser raises whatever it meets
+    except Exception as error:  # the parser raises many kinds of errors
         problem = " ".join(str(error).split())[:200] or type(error).__name__
-    # The type and its sum say what the messages are, whatever the definition says.
+    # The type and its sum identify the messages, even if the definition is unusable.
     if topic.type in shipped.fielddefs and _sum_of(shipped, topic) in (topic.md5, None):
         return shipped
     raise Damaged(f"the definition of {topic.type} on {topic.name} cannot be used: {problem}")
@@ -335,7 +334,7 @@ def _parsed(topic: Topic) -> dict[str, Any]:
 
 
 def _complete(store: Any, shipped: Any) -> list[str]:
-    """Add the types that the definitions of a store name and lack. Returns their names."""
+    """Add the missing types that the definitions of a store refer to. Returns their names."""
     added: list[str] = []
     while missing := sorted(
         {
@@ -351,14 +350,14 @@ def _complete(store: Any, shipped: Any) -> list[str]:
 
 
 def _named(node: Any, about: Any) -> str | None:
-    """Return the type of a field, or of its elements, where that is a message."""
+    """Return the type of a field, or of its elements, if it is a message; else None."""
     if node in (Nodetype.ARRAY, Nodetype.SEQUENCE):
         node, about = about[0]
     return str(about) if node == Nodetype.NAME else None
 
 
 def _sum_of(store: Any, topic: Topic) -> str | None:
-    """Return ROS 1's MD5 sum over a definition; None where the recording states none to compare with."""
+    """Return ROS 1's MD5 sum over a definition; None if the recording states no sum to compare with."""
     if not re.fullmatch("[0-9a-f]{32}", topic.md5):
         return None
     return str(store.generate_msgdef(topic.type, ros_version=1)[1])

@@ -1,4 +1,4 @@
-"""The poses of the sensor: by /tf, or by a topic of poses and the transform from the robot's body to the sensor."""
+"""The poses of the sensor, from /tf, or from a topic of poses and the transform from the robot's body to the sensor."""
 
 from __future__ import annotations
 
@@ -26,16 +26,16 @@ from bayesmap.io.ros.recording import (
 )  # fmt: skip
 
 BODIES = ("base_footprint", "base_link", "base")
-"""What a robot's body is called, where a pose does not say whose it is."""
+"""Names of a robot's body, for poses that do not name their frame."""
 MOUNTS = ("base_link", "base_footprint", "base")
-"""What a typed mount is relative to, the likeliest first."""
+"""Names of the frame that a user's mount refers to, the likeliest first."""
 
 
 @dataclass(frozen=True, eq=False)
 class PoseSource:
-    """The poses of the sensor over time: by which topic, and the chain from the frame of the map to the sensor's.
+    """The source of the sensor's poses: the topic's label, and the chain from the map's frame to the sensor's.
 
-    Where the poses are not known (``posed`` is false), the chain only says which way up the sensor is.
+    If the poses are not known (``posed`` is false), the chain only tells an upright sensor from an inverted one.
     """
 
     label: str
@@ -75,7 +75,7 @@ def pose_topic_of(recording: Recording, given: str) -> Topic:
     """Return the topic of poses that the user names.
 
     Raises:
-        BadInput: no such topic, or one of another type; the message lists those that there are.
+        BadInput: no such topic, or a topic of another type; the message lists the topics of poses.
     """
     topic = recording.topics.get(given) or recording.topics.get("/" + given)
     if topic is not None and topic.type in (*POSE_TYPES, *TF_TYPES):
@@ -89,7 +89,7 @@ def pose_topic_of(recording: Recording, given: str) -> Topic:
 
 
 def only_pose_topic(recording: Recording, scan_topic: str) -> Topic | None:
-    """Return the topic of poses to use where /tf does not help: the only one of the scans' namespace, or of all."""
+    """Return the topic of poses to use instead of /tf: the only one in the scans' namespace, or of all; or None."""
     topics = topics_of_type(recording, POSE_TYPES)
     for space in _spaces(scan_topic):
         inside = [topic for topic in topics if _space(topic.name) == space]
@@ -99,17 +99,17 @@ def only_pose_topic(recording: Recording, scan_topic: str) -> Topic | None:
 
 
 def frame_trees(messages: PoseMessages, scan_topic: str, pose_topic: str | None) -> list[FrameTree]:
-    """Return frames by the topics of transforms that come first, and by all topics, where there are others.
+    """Return the frame tree of the preferred topics of transforms, and that of all topics if there are others.
 
-    First come the topic that the user chose, the topics of its namespace and of the scans' namespace, and the topics of
-    the namespaces around these: in a recording of ``/robot1/tf`` and ``/robot2/tf`` each robot has frames of its own.
+    Preferred are the topic that the user chose, the topics in its namespace and in the scans' namespace, and the topics
+    in the enclosing namespaces. So in a recording of ``/robot1/tf`` and ``/robot2/tf`` each robot has its own frames.
     """
     topics = list(dict.fromkeys(topic for topic, _, _ in messages.transforms))
     spaces = [*(_spaces(pose_topic) if pose_topic else ()), *_spaces(scan_topic)]
     ranks = {topic: spaces.index(_space(topic)) for topic in topics if _space(topic) in spaces}
     if pose_topic in topics:
         ranks[pose_topic] = -1
-    # The others: those first whose namespace has most in common with the scans'.
+    # The other topics, in the order of what their namespace shares with that of the scans.
     shared = {topic: len({*_spaces(topic)} & {*_spaces(scan_topic)}) for topic in topics}
     every = {topic: ranks.get(topic, len(spaces) + 100 - shared[topic]) for topic in topics}
     near = FrameTree(messages.transforms, ranks)
@@ -117,7 +117,7 @@ def frame_trees(messages: PoseMessages, scan_topic: str, pose_topic: str | None)
 
 
 def fixed_frame_of(tree: FrameTree, sensor: str) -> str | None:
-    """Return the frame over a sensor's in which to map: by its name, or the topmost if the sensor moves in it."""
+    """Return the frame above a sensor's in which to map: by its name, or the topmost if the sensor moves in it."""
     named = tree.above(sensor, FIXED_FRAMES)
     return tree.root(sensor) if named is None and tree.moves(sensor) else named
 
@@ -127,7 +127,7 @@ def _space(topic: str) -> str:
 
 
 def _spaces(topic: str) -> list[str]:
-    """Return the namespace of a topic and those around it, the nearest first: ``/a/b``, ``/a``, and the empty one."""
+    """Return the namespaces around a topic, the nearest first: ``/a/b``, ``/a``, and the empty one."""
     spaces = [_space(topic)]
     while spaces[-1]:
         spaces.append(_space(spaces[-1]))
@@ -137,13 +137,13 @@ def _spaces(topic: str) -> list[str]:
 def by_transforms(
     recording: Recording, trees: list[FrameTree], sensor: str, fixed_frame: str | None, *, chosen: bool = False
 ) -> PoseSource | None:
-    """Return the sensor's poses by transforms; None if no fixed frame is named or found.
+    """Return the sensor's poses from transforms; None if no fixed frame is named or found.
 
-    ``trees`` are those of the topics that come first, and of all. The map is made in the named frame, or else in the
-    best of `FIXED_FRAMES` over the sensor. ``chosen`` says whether the user chose the topics.
+    ``trees`` are those of the preferred topics, and of all. The map is made in the named frame, or else in the best of
+    `FIXED_FRAMES` above the sensor. ``chosen`` is true if the user chose the topics.
 
     Raises:
-        BadInput: a frame that is not known, or that nothing connects with the sensor's; a transform with two values.
+        BadInput: an unknown frame, a frame that is not connected with the sensor's, or a transform with two values.
     """
     named = None if fixed_frame is None else frame_of(fixed_frame)
     for tree in trees:
@@ -189,10 +189,10 @@ def _beside(trees: list[FrameTree], tree: FrameTree, fixed: str, sensor: str) ->
 
 
 def checked(recording: Recording, tree: FrameTree, fixed: str, sensor: str) -> list[str]:
-    """Return notes on transforms between two frames of which a topic states several values.
+    """Return notes on transforms between two frames with several values.
 
     Raises:
-        BadInput: values that contradict each other, and nothing says which of them to use.
+        BadInput: values that contradict each other, if the user must choose between them.
     """
     notes = []
     for parent, child, parts in tree.links(fixed, sensor):
@@ -223,10 +223,10 @@ def _choose(recording: Recording, topics: Iterable[str]) -> str:
 
 
 def body_of(path: str, trees: list[FrameTree], sensor: str) -> str | None:
-    """Return the frame of the robot's body that a mount typed by the user refers to; None if /tf has none.
+    """Return the frame of the robot's body that a user's mount refers to; None if /tf has none.
 
     Raises:
-        BadInput: several robots, and the sensor's frame does not say on which it is.
+        BadInput: several robots, if the sensor's frame does not name its robot.
     """
     for tree in trees:
         if sensor in tree.frames() and (connected := tree.body(sensor, MOUNTS)) is not None:
@@ -253,7 +253,7 @@ def link_of(laser: Pose) -> Link:
 
 
 def standing_still(trees: list[FrameTree], sensor: str) -> PoseSource:
-    """Return a source without poses; a transform from the body, if there is one, says which way up the sensor is."""
+    """Return a source without poses. A constant transform from the body, if any, tells if the sensor is upside down."""
     tree = next((tree for tree in trees if sensor in tree.frames()), trees[-1])
     body = tree.body(sensor, BODIES) if sensor in tree.frames() else None
     chain = tree.chain(body, sensor) if body is not None else None
@@ -264,11 +264,12 @@ def standing_still(trees: list[FrameTree], sensor: str) -> PoseSource:
 def by_topic(
     recording: Recording, topic: Topic, messages: PoseMessages, trees: list[FrameTree], sensor: str, laser: Pose | None
 ) -> PoseSource:
-    """Return the sensor's poses by a topic of poses, and where the sensor is on the body, by /tf or as the user says.
+    """Return the sensor's poses from a topic of poses. Its mount on the body is the user's ``laser``, or that of /tf.
 
     Raises:
         BadInput: no pose at all, or a pose or transform with two values.
     """
+    # The frame and body with most poses.
     if not messages.poses:
         raise BadInput(f"{recording.path}: {topic.name} holds no pose that can be used")
     ends = max(messages.poses, key=lambda key: len(messages.poses[key].values))
@@ -287,10 +288,11 @@ def by_topic(
     track = Link(samples.track(), constant=False)
     if laser is not None:
         return PoseSource(topic.name, fixed or "?", Chain((track, link_of(laser))), tuple(notes))
+    # The mount by /tf.
     tree = next((tree for tree in trees if _body(tree, body, sensor)), trees[-1])
     guess = _body(tree, body, sensor) or body
     if guess != body:
-        # Without a name for it, or with one that /tf does not know: what robots' bodies are called.
+        # The topic names no body, or one that is not in /tf: a frame with a usual name is taken.
         notes.append(f"{topic.name} does not say whose pose it tells; taken as that of {guess!r}")
         body = guess
     offset = tree.chain(body, sensor) if body else None
@@ -308,7 +310,7 @@ def by_topic(
 
 
 def _body(tree: FrameTree, body: str, sensor: str) -> str | None:
-    """Return the frame whose poses a topic tells: the one that it names, or what robots' bodies are called."""
+    """Return the frame whose poses a topic has: the one that it names, or one with a usual name of a body."""
     if body == sensor:
         return sensor
     if body and body in tree.frames():
@@ -317,7 +319,7 @@ def _body(tree: FrameTree, body: str, sensor: str) -> str | None:
 
 
 def no_poses(path: str, tree: FrameTree, sensor: str, pose_topics: list[Topic]) -> BadInput:
-    """Return the error where nothing says where the sensor is."""
+    """Return the error for a recording without poses of the sensor, with a remedy."""
     if pose_topics:
         remedy = f"choose one with --pose-topic: there are {listed(pose_topics)}"
     elif not tree.frames():

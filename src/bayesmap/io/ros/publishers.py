@@ -1,7 +1,7 @@
-"""Contradictions between publishers of one transform: on one topic, and between topics.
+"""Find contradictions between publishers of one transform, on one topic and between topics.
 
-Examples are a static transform that is stated twice, two sources of odometry, and a robot's frames on two topics. If
-these were not found, the last message would count, or poses would go to and fro between both.
+Examples are a static transform with two values, two sources of odometry, and a robot's frames on two topics. Without
+this check, the last message would count, or poses would jump between the values.
 """
 
 from __future__ import annotations
@@ -18,33 +18,33 @@ from bayesmap.io.ros.frames import Numbers, Samples, close
 from bayesmap.space.planar import around
 
 SAME = 1e-4
-"""Values that differ by less, in metres and radians, are the same: 1 mm at 10 m."""
+"""Largest difference of equal values, in metres and radians: 1 mm at 10 m."""
 
 APART = 0.01
-"""Two sources of motion that lie no further apart, in metres and radians, are not told from noise."""
+"""Largest distance between two sources of motion, in metres and radians, that counts as noise."""
 
 MUCH_SMOOTHER = 0.15
-"""Samples are of two publishers if each one's own motion is smoother than the joint one by this factor."""
+"""Largest ratio of the roughness of each publisher's motion to that of the joint motion, if there are two."""
 
 FEWEST, FEWEST_BETWEEN = 5, 3
-"""Samples that must lie beside the motion of the others: of one topic, and of different topics."""
+"""Fewest samples beside the motion of their neighbours: on one topic, and on several topics."""
 
 STEADY = ((0.08, 0.35), (0.02, 0.2), (0.0, 0.1))
-"""Share of such samples among all, and by which share of them their offsets may usually change. In logs of one noisy
-odometry (Intel, ACES, MIT CSAIL) a hundredth of the samples is such, and their offsets change by half and more."""
+"""Pairs: share of samples beside the motion, and largest median relative change of their offsets. In logs of one noisy
+odometry (Intel, ACES, MIT CSAIL) a hundredth of the samples is beside, and the offsets change by half and more."""
 
 STEPS = 2.0
-"""Along the motion, samples that lie off by no more steps have stamps that are late."""
+"""Largest offset along the motion, in steps, that counts as a late stamp."""
 
 OFTEN_AT_ONCE = 0.1
-"""Where so many samples repeat a stamp, they are also looked at in the order of receipt."""
+"""Share of repeated stamps above which samples are also checked in the order of receipt."""
 
 
 @dataclass(frozen=True)
 class Contradiction:
-    """Two values of one transform: a text that names both, and the topics that contradict one another, if several.
+    """Two values of one transform: a text that names both, and the topics that contradict each other, if several.
 
-    A fatal contradiction leaves no value that can be used without knowing more.
+    After a fatal contradiction, no value can be used without a choice by the user.
     """
 
     text: str
@@ -53,7 +53,7 @@ class Contradiction:
 
 
 def contradiction(parent: str, child: str, parts: Sequence[Samples]) -> Contradiction | None:
-    """Compare what topics, one part each, say of a transform; None if they agree."""
+    """Return the contradiction between samples of a transform, one part per topic; None if they agree."""
     what = f"the transform {parent} -> {child}"
     if len(parts) > 1:
         pair = _apart(parts)
@@ -83,14 +83,14 @@ def contradiction(parent: str, child: str, parts: Sequence[Samples]) -> Contradi
 
 
 def differ(one: Numbers, other: Numbers) -> bool:
-    """Return whether two poses are not the same for a map."""
+    """Return true if two poses differ by more than `SAME`."""
     return not close(one, other, SAME)
 
 
 def told(values: Numbers) -> str:
-    """Return a pose for messages: x, y and yaw, and what else is not zero."""
+    """Return a pose in words: x, y and yaw, and z, roll and pitch unless they are zero."""
     x, y, z, *quaternion = values
-    # By hand: SciPy warns of rotations by which a sensor looks straight up.
+    # Not by SciPy, which warns if a sensor looks straight up.
     qx, qy, qz, qw = quaternion
     yaw = math.atan2(2 * (qw * qz + qx * qy), 1 - 2 * (qy * qy + qz * qz))
     roll = math.atan2(2 * (qw * qx + qy * qz), 1 - 2 * (qx * qx + qy * qy))
@@ -105,7 +105,7 @@ def told(values: Numbers) -> str:
 
 
 def _distinct(values: Sequence[Numbers]) -> list[tuple[Numbers, int]]:
-    """Return the values that differ, in the order of their first appearance, with their counts; at most ten."""
+    """Return the distinct values with their counts, in the order of first appearance; at most ten."""
     distinct: list[tuple[Numbers, int]] = []
     for value in values:
         at = next((i for i, (known, _) in enumerate(distinct) if not differ(known, value)), None)
@@ -118,6 +118,7 @@ def _distinct(values: Sequence[Numbers]) -> list[tuple[Numbers, int]]:
 
 def _apart(parts: Sequence[Samples]) -> tuple[tuple[str, Numbers], tuple[str, Numbers]] | None:
     """Return two topics with values that contradict each other; None if there are none."""
+    # A constant value contradicts another constant value, and a moving one.
     holds = [part for part in parts if part.constant()]
     moving = [part for part in parts if not part.constant()]
     for part in holds[1:]:
@@ -128,6 +129,7 @@ def _apart(parts: Sequence[Samples]) -> tuple[tuple[str, Numbers], tuple[str, Nu
         return (holds[0].topic, holds[0].last()), (part.topic, away)
     if len(moving) < 2:
         return None
+    # Motions contradict each other if they are far apart, differ at one time, or alternate.
     for other in moving[1:]:
         pair = _off_the_way(moving[0], other)
         if pair is not None:
@@ -144,7 +146,7 @@ def _apart(parts: Sequence[Samples]) -> tuple[tuple[str, Numbers], tuple[str, Nu
 
 
 def _off_the_way(one: Samples, other: Samples) -> tuple[Numbers, Numbers] | None:
-    """Return two values where half of the samples lie further from another topic's motion than one of its steps."""
+    """Return two values if half of the samples of a topic are over a step away from another topic's motion."""
     track, stamps = one.track(), other.times_ns()
     inside = np.nonzero(track.covers(stamps))[0]
     if not len(inside):
@@ -162,7 +164,7 @@ def _off_the_way(one: Samples, other: Samples) -> tuple[Numbers, Numbers] | None
 
 
 def _in_order(parts: Sequence[Samples]) -> tuple[NDArray[np.int64], list[Numbers], NDArray[np.intp]]:
-    """Return all samples by time, without repetitions: stamps, values, and the number of the part of each."""
+    """Return all samples by time, without repetitions: stamps, values, and the index of each sample's part."""
     stamps = np.concatenate([part.times_ns() for part in parts])
     values = [value for part in parts for value in part.values]
     whose = np.repeat(np.arange(len(parts)), [len(part.values) for part in parts])
@@ -174,7 +176,7 @@ def _in_order(parts: Sequence[Samples]) -> tuple[NDArray[np.int64], list[Numbers
 
 
 def _to_and_fro(part: Samples) -> tuple[float, Numbers, Numbers] | None:
-    """Return the time, a value and the one beside it where a topic has two publishers that differ; else None."""
+    """Return a time, the value and the value before it if a topic has two publishers that differ; else None."""
     if part.constant():
         return None
     stamps, values, whose = _in_order([part])
@@ -189,20 +191,20 @@ def _to_and_fro(part: Samples) -> tuple[float, Numbers, Numbers] | None:
 
 
 def two_motions(stamps_ns: NDArray[np.int64], values: NDArray[np.float64], whose: NDArray[np.intp]) -> int | None:
-    """Find a sample beside the motion of its neighbours, where samples come from two motions; None if from one.
+    """Return the index of a sample beside the motion of its neighbours if samples come from two motions; else None.
 
-    If two publishers take turns, the samples of each are smooth without those of the other, and the offset from one
-    motion to the other changes slowly. A jump, a corner or noise has one of these properties, but not both.
+    If two publishers alternate, the samples of each alone are smooth, and the offset between the two motions changes
+    slowly. A jump, a corner or noise has one of these properties, but not both.
 
     Args:
-        stamps_ns: in ascending order, (T,).
+        stamps_ns: stamps in ascending order, (T,).
         values: positions and quaternions, (T, 7).
-        whose: if several topics have samples, only those between samples of another topic are judged, (T,).
+        whose: topic of each sample, (T,). With several topics, only samples between those of another topic are judged.
     """
     if len(stamps_ns) < 7:
         return None
     seconds = (stamps_ns - stamps_ns[0]).astype(np.float64) * 1e-9
-    # Where the frame's x and y axes point: no rotation has two descriptions, and a small one counts by its angle.
+    # Rotations as the directions of the x and y axes: unique, and their differences are angles for small rotations.
     axes = Rotation.from_quat(values[:, 3:]).as_matrix()[:, :, :2].reshape(-1, 6) / math.sqrt(2)
     poses = np.concatenate([values[:, :3], axes], axis=1)
     middle = np.arange(3, len(seconds) - 3)
@@ -211,7 +213,7 @@ def two_motions(stamps_ns: NDArray[np.int64], values: NDArray[np.float64], whose
     ahead = np.where(length > 0, ahead / np.where(length > 0, length, 1.0), 0.0)
 
     def beside(at: int, before: int, after: int) -> NDArray[np.float64]:
-        """Return the way from the line between two neighbours to a third, without some steps along the motion."""
+        """Return the offset of a sample from the line between two neighbours, less `STEPS` steps along the motion."""
         i, j, k = middle + at, middle + before, middle + after
         span = seconds[k] - seconds[j]
         share = np.where(span > 0, (seconds[i] - seconds[j]) / np.where(span > 0, span, 1.0), 0.5)[:, None]
@@ -223,7 +225,7 @@ def two_motions(stamps_ns: NDArray[np.int64], values: NDArray[np.float64], whose
         return np.asarray(np.linalg.norm(beside(at, before, after), axis=1))
 
     away, joint = beside(0, -1, 1), off(0, -1, 1)
-    # The neighbours are of the other publisher, and go on smoothly to the next or next but one on their other side.
+    # The neighbours must belong to the other publisher: smooth with the next or second next sample on their far side.
     before = np.minimum(off(-1, -2, 1), off(-1, -3, 1))
     after = np.minimum(off(1, -1, 2), off(1, -1, 3))
     beyond = (joint > APART) & (np.maximum(before, after) < MUCH_SMOOTHER * joint)
@@ -233,6 +235,7 @@ def two_motions(stamps_ns: NDArray[np.int64], values: NDArray[np.float64], whose
     count = int(beyond.sum())
     if count < (FEWEST_BETWEEN if several else FEWEST):
         return None
+    # The offsets must change slowly.
     first, second = away[beyond][:-1], away[beyond][1:]  # offsets of successive samples
     largest = np.maximum(np.linalg.norm(first, axis=1), np.linalg.norm(second, axis=1))
     change = np.minimum(np.linalg.norm(first - second, axis=1), np.linalg.norm(first + second, axis=1)) / largest

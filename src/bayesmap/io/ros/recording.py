@@ -1,13 +1,13 @@
-"""A robot's recording, whatever its container: topics, raw messages, and the records of a file one by one.
+"""A robot's recording in any container: topics, raw messages, and readers of a file's records one by one.
 
-Records are read from the beginning of a file, without its index, as far as they can be read:
+Records are read from the beginning of a file, without its index, as far as possible:
 
     ROS 1 bags        http://wiki.ros.org/Bags/Format/2.0
     MCAP              https://mcap.dev/spec
     rosbag2's sqlite  tables topics, messages and, since Iron, message_definitions
 
-This serves recordings that break off or were never closed (``.bag.active``), MCAP of ROS 1 messages, and MCAP that is
-unindexed and out of order: rosbags reads none of these.
+rosbags cannot read recordings that are cut short or were never closed (``.bag.active``), MCAP of ROS 1 messages, or
+MCAP that is unindexed and out of order. These readers can.
 """
 
 from __future__ import annotations
@@ -31,13 +31,13 @@ TF_TYPES = ("tf2_msgs/msg/TFMessage", "tf/msg/tfMessage")
 ODOMETRY, POSE = "nav_msgs/msg/Odometry", "geometry_msgs/msg/PoseStamped"
 POSE_TYPES = (ODOMETRY, POSE, "geometry_msgs/msg/PoseWithCovarianceStamped")
 TYPES = (*SCAN_TYPES, *POSE_TYPES, *TF_TYPES)
-"""Messages that are read."""
+"""Types of messages that are read."""
 
 LATEST_NS = 2**62
 
 
 class Damaged(Exception):
-    """A recording that breaks off or contradicts itself; the text is the reason."""
+    """A recording that is cut short or contradicts itself; the text is the reason."""
 
 
 class Malformed(Exception):
@@ -45,7 +45,7 @@ class Malformed(Exception):
 
 
 class Message(NamedTuple):
-    """One message of the recording: its topic, the time of receipt, and the data as the topic encodes them."""
+    """One message of the recording: its topic, the time of receipt, and the data in the topic's encoding."""
 
     topic: str
     received_ns: int
@@ -57,13 +57,13 @@ class Topic:
     """A topic of a recording.
 
     Attributes:
-        name: such as ``"/scan"``.
-        type: in the ROS 2 spelling, such as ``"sensor_msgs/msg/LaserScan"``.
-        count: how many messages it has.
-        definition: the message definition that the recording carries; empty if none.
-        language: of the definition: ``"msg"`` or ``"idl"``.
-        encoding: of the messages: ``"cdr"``, ``"ros1"``, or another that we cannot read.
-        md5: ROS 1's sum over the definition, 32 hexadecimal digits; empty if the recording states none.
+        name: name, such as ``"/scan"``.
+        type: type of the messages in the ROS 2 spelling, such as ``"sensor_msgs/msg/LaserScan"``.
+        count: number of messages.
+        definition: message definition in the recording; "" if there is none.
+        language: language of the definition: ``"msg"`` or ``"idl"``.
+        encoding: encoding of the messages: ``"cdr"``, ``"ros1"``, or another that cannot be read.
+        md5: ROS 1's MD5 sum over the definition, 32 hexadecimal digits; "" if the recording states none.
     """
 
     name: str
@@ -82,11 +82,11 @@ class Recording:
     Attributes:
         path: the file or folder.
         format: ``"rosbag1"``, ``"rosbag2-sqlite3"`` or ``"mcap"``.
-        topics: by name, in the order of their names.
-        read: the messages on some topics; it raises `Damaged` where the recording does not read to its end.
-        start_ns: when the first message was received; None if the container does not say.
-        end_ns: when the last was.
-        notes: what a user should know, such as that only a part could be read.
+        topics: topics by name, in alphabetical order.
+        read: function that returns the messages on the given topics; it raises `Damaged` if it cannot read them all.
+        start_ns: time of receipt of the first message; None if the container does not state it.
+        end_ns: time of receipt of the last message.
+        notes: sentences for the user, for example that only a part could be read.
     """
 
     path: str
@@ -99,13 +99,13 @@ class Recording:
 
 
 def topics_of_type(recording: Recording, types: Iterable[str]) -> list[Topic]:
-    """Return the recording's topics of some types that have messages."""
+    """Return the recording's topics of the given types that have messages."""
     chosen = frozenset(types)
     return [topic for topic in recording.topics.values() if topic.type in chosen and topic.count]
 
 
 def listed(topics: Iterable[Topic]) -> str:
-    """Return topics with their types and counts, for messages."""
+    """Return topics with their types and counts in words, for error messages."""
     return ", ".join(f"{topic.name} ({topic.type}, {topic.count:,} messages)" for topic in topics)
 
 
@@ -122,19 +122,19 @@ def stamp_ns_of(header: Any) -> int:
 
 
 def frame_of(name: str) -> str:
-    """Return a frame's name without the slash that ROS 1 puts before some."""
+    """Return a frame's name without the leading slash of some ROS 1 names."""
     return name.lstrip("/")
 
 
 class Connection(NamedTuple):
-    """A stream of messages: the id by which they name it, and its topic, without a count."""
+    """A stream of messages: its id, which its messages refer to, and its topic, without a count."""
 
     id: int
     topic: Topic
 
 
 class Record(NamedTuple):
-    """A message with the id of its `Connection`, which came before, and the time of receipt in nanoseconds."""
+    """A message with the id of an earlier `Connection`, and the time of receipt in nanoseconds."""
 
     connection: int
     received_ns: int
@@ -145,7 +145,7 @@ Records = Iterator[Connection | Record]
 
 
 def topics_of(records: Records) -> tuple[dict[str, Topic], int | None, int | None]:
-    """Return the topics with their counts, and when the first and the last message were received."""
+    """Return the topics with their counts, and the times of receipt of the first and the last message."""
     connections: dict[int, Topic] = {}
     counts: dict[str, int] = {}
     start_ns = end_ns = None
@@ -164,7 +164,7 @@ def topics_of(records: Records) -> tuple[dict[str, Topic], int | None, int | Non
 
 
 def messages_of(records: Records, topics: Mapping[str, Topic], names: frozenset[str]) -> Iterator[Message]:
-    """Return the messages on some topics, without those of another type than the topic's."""
+    """Yield the messages on the topics ``names``, without those of another type than the topic's."""
     chosen: dict[int, str] = {}
     for record in records:
         if isinstance(record, Connection):
@@ -181,23 +181,23 @@ FOOTER, SCHEMA, CHANNEL, MESSAGE, CHUNK, DATA_END = 2, 3, 4, 5, 6, 15
 LANGUAGES = {"ros1msg": "msg", "ros2msg": "msg", "ros2idl": "idl", "omgidl": "idl"}
 INDEX_ENTRY_BYTES = 12
 MAX_HEADER_BYTES, MAX_DATA_BYTES = 1 << 24, 1 << 30
-"""More than this in one piece is taken for a damaged length."""
+"""Largest header and data of one record; a larger length is taken for damage."""
 
 OnDamage = Callable[[str], None]
-"""Is told why a part cannot be read; it raises to stop there, or returns to go on behind it."""
+"""Function that is called with the reason if a part cannot be read. It raises to stop, or returns to continue."""
 
 
 class _Unreadable(Exception):
-    """A record that does not follow the format; the text says why."""
+    """A record that does not follow the format; the text is the reason."""
 
 
 def zstd() -> Any:
-    """Return the library: Python's own from 3.14 on, before that the one that comes with rosbags."""
+    """Return the zstd library: Python's own from 3.14 on, else the one that comes with rosbags."""
     return importlib.import_module("compression.zstd" if sys.version_info >= (3, 14) else "backports.zstd")
 
 
 def refuse(reason: str) -> None:
-    """Raise `Damaged`: the `OnDamage` of a reader that wants all or nothing."""
+    """Raise `Damaged`: the `OnDamage` of a reader that must read everything."""
     raise Damaged(reason)
 
 
@@ -208,7 +208,7 @@ def spelled_as_in_ros2(name: str) -> str:
 
 
 def bag_records(path: str | os.PathLike[str], on_damage: OnDamage) -> Records:
-    """Return the connections and messages of a ROS 1 bag of format 2.0, in the order of the file."""
+    """Yield the connections and messages of a ROS 1 bag of format 2.0, in the order of the file."""
     size = os.path.getsize(path)
     at = len(BAG_MAGIC)
     with Path(path).open("rb") as file:
@@ -224,7 +224,7 @@ def bag_records(path: str | os.PathLike[str], on_damage: OnDamage) -> Records:
             data_at += at
             kind = header[b"op"]
             if kind == BAG_INDEX and len(header.get(b"count", b"")) == 4:
-                # ROS reads as many entries as the record counts; bags of 2010 state other lengths.
+                # As in ROS, the count decides the length: bags of 2010 state wrong lengths.
                 length = INDEX_ENTRY_BYTES * int.from_bytes(header[b"count"], "little")
             cut = data_at + length > size
             if cut:
@@ -249,7 +249,7 @@ def _until_damage(records: Records, what: str, on_damage: OnDamage) -> Records:
 
 
 def _bag_header(data: bytes | memoryview) -> tuple[dict[bytes, bytes], int, int]:
-    """Return a record's header fields, the length of its data, and where these start."""
+    """Return a record's header fields, and the length and the position of its data."""
     if len(data) < 4:
         raise _Unreadable("the header of a record is cut short")
     (length,) = struct.unpack_from("<I", data)
@@ -315,10 +315,9 @@ Schemas = dict[int, tuple[str, str, str]]
 
 
 def mcap_records(path: str | os.PathLike[str], on_damage: OnDamage) -> Records:
-    """Return the connections and messages of an MCAP file, in the order of the file.
+    """Yield the connections and messages of an MCAP file, in the order of the file.
 
-    If ``on_damage`` returns, reading goes on behind a damaged chunk, and the part of the last chunk that is there is
-    read.
+    If ``on_damage`` returns, reading continues after a damaged chunk, and an incomplete last chunk is read in part.
     """
     size = os.path.getsize(path)
     schemas: Schemas = {}
@@ -397,7 +396,7 @@ def _mcap_record(kind: int, data: bytes, schemas: Schemas) -> Records:
 
 
 def _texts(data: bytes, at: int, count: int) -> tuple[list[str], int]:
-    """Return texts with their lengths before them, and where the last ends."""
+    """Return texts, each stored after its length, and the end of the last."""
     texts = []
     for _ in range(count):
         (length,) = struct.unpack_from("<I", data, at)
@@ -427,9 +426,9 @@ def _unpacked(compression: str, packed: bytes, largest: int) -> bytes:
 
 
 def sqlite_records(path: str | os.PathLike[str], on_damage: OnDamage) -> Records:
-    """Return the connections and messages of a rosbag2 database, in the order in which they were written.
+    """Yield the connections and messages of a rosbag2 database, in the order in which they were written.
 
-    Rosbags asks a database for its index, which a file that breaks off no longer has.
+    This needs no index: rosbags uses the index of a database, which a file that is cut short has lost.
     """
     import sqlite3  # only a few recordings are read this way
 

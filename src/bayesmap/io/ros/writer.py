@@ -1,17 +1,17 @@
-"""Maps and trajectories as a recording that ROS plays: a ROS 1 bag, or ROS 2 in MCAP or sqlite.
+"""Write maps and trajectories as recordings that ROS plays: a ROS 1 bag, or ROS 2 in MCAP or sqlite.
 
     NAME.bag    ROS 1 bag, format 2.0, the connection latched
     NAME.mcap   one MCAP file, profile ros2, message definitions and the topic's quality of service inside
     NAME.db3    one sqlite file with the same (schema 4)
     NAME        a ROS 2 bag as ``ros2 bag record`` leaves it: a folder of metadata.yaml and NAME.db3
 
-``ros2 bag play`` takes all of the last three. A map's topic is offered as nav2's map_server offers its map, reliable
-and transient local (ROS 1: latched), so that whoever subscribes late gets the map too. The topics are:
+``ros2 bag play`` plays the last three. A map's topic has the quality of service of nav2's map_server, reliable and
+transient local (ROS 1: latched), so that late subscribers get the map, too. The topics are:
 
     /map          nav_msgs/OccupancyGrid, latched: what nav2, RViz and Foxglove show
     /grid_map     grid_map_msgs/GridMap, latched: all layers, for grid_map, its RViz plugin and Foxglove
     /trajectory   nav_msgs/Path, latched: all poses
-    /pose         geometry_msgs/PoseWithCovarianceStamped: a message a pose, at its time; where covariances are known
+    /pose         geometry_msgs/PoseWithCovarianceStamped: one message per pose, at its time; if covariances are known
 
 **OccupancyGrid.** Cells are signed bytes in per cent, -1 unknown, row by row from the lower left: cell (i, j) is
 ``data[j * width + i]``. The origin is the lower-left corner of cell (0, 0). The message keeps the resolution in single
@@ -20,11 +20,11 @@ precision: 0.1 m comes back as 0.100000001.
 **GridMap.** The conventions of grid_map (Fankhauser and Hutter 2016, "A Universal Grid Map Library"): the pose is the
 map's centre; row 0, column 0 is the corner with the largest x and y; rows run towards -x, columns towards -y; a layer
 is a matrix in Eigen's order, column by column, in single precision. So cell (i, j) of ours is row nx - 1 - i, column
-ny - 1 - j, at ``data[column * nx + row]``. Cells that no beam reached are NaN, and grid_map takes them for invalid,
-since ``mean`` is the basic layer.
+ny - 1 - j, at ``data[column * nx + row]``. Cells that no beam reached are NaN, and invalid in grid_map, because
+``mean`` is the basic layer.
 
-**Covariances** are ROS's: 6 x 6, row by row, of x, y, z and turns about the fixed axes x, y, z; what a pose in the
-plane does not have is 0.
+**Covariances** follow ROS: 6 x 6, row by row, of x, y, z and rotations about the fixed axes x, y, z. Components outside
+the plane are 0.
 """
 
 from __future__ import annotations
@@ -55,20 +55,20 @@ if TYPE_CHECKING:
 FOLDER = ""
 ENDINGS = (".bag", ".mcap", ".db3", FOLDER)
 ROS2_BAG_VERSION: Final = 8
-"""Of the metadata; the last that every release since Humble reads."""
+"""Version of the metadata, the last that every release since Humble reads."""
 
 NANOSECONDS = 1_000_000_000
 
 Message = Callable[["Typestore", int], Any]
-"""Makes the message out of a type store's types, for ROS version 1 or 2."""
+"""Function that makes a message from a type store, for ROS version 1 or 2."""
 
 
 @dataclass(frozen=True)
 class Channel:
     """A topic, the type of its messages, and the messages, each with its time of receipt in seconds.
 
-    Without a time, a message comes at a nanosecond: ROS refuses zero. ``latched`` says whether who subscribes late gets
-    the last one.
+    A message without a time gets 1 ns, because ROS refuses zero. If ``latched`` is true, late subscribers get the last
+    message.
     """
 
     topic: str
@@ -78,7 +78,7 @@ class Channel:
 
 
 def container_of(path: str | os.PathLike[str]) -> str:
-    """Return which of `ENDINGS` a path names; a trailing slash, an existing folder or no ending at all is a folder.
+    """Return the ending of a path, one of `ENDINGS`; a trailing slash, an existing folder or no ending is a folder.
 
     Raises:
         BadInput: another ending.
@@ -99,7 +99,7 @@ def write_channels(
     channels: Sequence[Channel],
     definitions: Callable[[int], dict[str, str]] = lambda ros: {},
 ) -> Path:
-    """Write topics as a recording, whole or not at all; ``definitions`` by type are those that rosbags lacks.
+    """Write topics as a recording, whole or not at all; ``definitions`` returns message definitions that rosbags lacks.
 
     Raises:
         BadInput: another ending, or a file or folder that cannot be written.
@@ -113,7 +113,7 @@ def write_channels(
         store.register(get_types_from_msg(text, name))
     target = Path(path)
     if ending == FOLDER:
-        # The bag names its file after its folder, so it is made in one of the right name and moved.
+        # The bag names its file after its folder, so it is made in a folder of the right name, and moved.
         with write_whole_folder(target, is_ros2_bag) as partial, _scratch(partial.parent) as scratch:
             made = scratch / target.name
             _write_ros2(made, ".db3", channels, store)
@@ -131,7 +131,7 @@ def write_channels(
 
 
 def is_ros2_bag(folder: Path) -> bool:
-    """Return whether a folder holds a ROS 2 bag and nothing else."""
+    """Return true if a folder holds a ROS 2 bag and nothing else."""
     files = list(folder.iterdir())
     return any(file.name == "metadata.yaml" for file in files) and all(
         file.name == "metadata.yaml" or file.suffix in (".db3", ".mcap") for file in files
@@ -139,14 +139,14 @@ def is_ros2_bag(folder: Path) -> bool:
 
 
 def header_of(store: Typestore, ros: int, frame: str, stamp_s: float | None) -> Any:
-    """Return a std_msgs/Header: in ROS 1 with a sequence number."""
+    """Return a std_msgs/Header, in ROS 1 with a sequence number."""
     stamp = time_of(store, stamp_s)
     header = store.types["std_msgs/msg/Header"]
     return header(seq=0, stamp=stamp, frame_id=frame) if ros == 1 else header(stamp=stamp, frame_id=frame)
 
 
 def time_of(store: Typestore, stamp_s: float | None) -> Any:
-    """Return a builtin_interfaces/Time; zero if there is none."""
+    """Return a builtin_interfaces/Time; zero without a stamp."""
     seconds, nanoseconds = divmod(round((stamp_s or 0.0) * NANOSECONDS), NANOSECONDS)
     return store.types["builtin_interfaces/msg/Time"](sec=seconds, nanosec=nanoseconds)
 
@@ -162,13 +162,13 @@ def pose_of(store: Typestore, x_m: float, y_m: float, yaw_rad: float = 0.0) -> A
 
 @contextlib.contextmanager
 def _scratch(parent: Path) -> Iterator[Path]:
-    """Give a folder for what the writers of bags leave, in the same file system as what it becomes."""
+    """Yield a temporary folder for the writers of bags, in the file system of the result."""
     with tempfile.TemporaryDirectory(prefix=".bayesmap-", dir=parent) as folder:
         yield Path(folder)
 
 
 def _in_order(channels: Sequence[Channel]) -> list[tuple[int, int, Message]]:
-    """Return the time in nanoseconds, the channel and the message of all, in order of time."""
+    """Return the time in nanoseconds, the channel and the message of all messages, in time order."""
     every = [
         (max(1, round((stamp_s or 0.0) * NANOSECONDS)), number, message)
         for number, channel in enumerate(channels)
@@ -203,7 +203,7 @@ def _write_ros2(path: Path, ending: str, channels: Sequence[Channel], store: Typ
 
 
 def _quality(latched: bool) -> Qos:
-    """Return the quality of service: if latched, as nav2's map_server offers its map, without deadlines."""
+    """Return the quality of service, without deadlines; if latched, that of nav2's map_server."""
     from rosbags.interfaces import Qos, QosDurability, QosHistory, QosLiveliness, QosReliability, QosTime
 
     never = QosTime(9_223_372_036, 854_775_807)  # RMW_DURATION_INFINITE
@@ -221,7 +221,7 @@ GRID_MAP, GRID_MAP_INFO = "grid_map_msgs/msg/GridMap", "grid_map_msgs/msg/GridMa
 PATH, POSE = "nav_msgs/msg/Path", "geometry_msgs/msg/PoseWithCovarianceStamped"
 
 IN_PLANE = np.array([0, 1, 5])
-"""Where x, y and yaw stand among ROS's six."""
+"""Indices of x, y and yaw among the six components of ROS covariances."""
 
 _HEADER = "std_msgs/Header header\n"
 _INFO = "float64 resolution\nfloat64 length_x\nfloat64 length_y\ngeometry_msgs/Pose pose\n"
@@ -261,9 +261,9 @@ def write_grid_map(
     path: str | os.PathLike[str], layers: Mapping[str, ArrayLike], grid: Grid, observed: ArrayLike | None = None, *,
     stamp_s: float | None = None,
 ) -> Path:  # fmt: skip
-    """Write layers, as `as_layers` takes them, as the one message of a recording, a GridMap. Returns the path.
+    """Write layers (see `as_layers`) as the one message of a recording, a GridMap. Returns the path.
 
-    The first is the basic layer.
+    The first layer is the basic layer.
 
     Raises:
         BadInput: layers that do not fit, another ending, or a file that cannot be written.
@@ -273,7 +273,7 @@ def write_grid_map(
     x_m, y_m = (float(v) for v in np.array(grid.origin) + length_m / 2)
 
     def message(store: Typestore, ros: int) -> Any:
-        # In ROS 1 the header is the info's, in ROS 2 the map's.
+        # In ROS 1 the header belongs to the info, in ROS 2 to the map.
         header = {"header": header_of(store, ros, FRAME, stamp_s)}
         info = store.types[GRID_MAP_INFO](
             **(header if ros == 1 else {}), resolution=grid.resolution, length_x=float(length_m[0]),
@@ -293,7 +293,7 @@ def write_grid_map(
 
 
 def _matrix(store: Typestore, values: NDArray[np.float32]) -> Any:
-    """Return a layer in Eigen's order, labelled as grid_map labels it."""
+    """Return a layer in Eigen's order, with the labels of grid_map."""
     rows, columns = values.shape
     dimension = store.types["std_msgs/msg/MultiArrayDimension"]
     dimensions = [
@@ -307,7 +307,7 @@ def _matrix(store: Typestore, values: NDArray[np.float32]) -> Any:
 def write_trajectory_recording(path: str | os.PathLike[str], trajectory: Trajectory, *, frame: str = FRAME) -> Path:
     """Write a trajectory as a recording, whole or not at all. Returns the path.
 
-    Poses without stamps lie a second apart.
+    Poses without stamps get stamps 0, 1, 2 and so on, in seconds.
 
     Raises:
         BadInput: no pose, another ending, or a file that cannot be written.

@@ -1,4 +1,4 @@
-"""CARMEN logs, read and written: one message a line, as the robots of the 2000s wrote them.
+"""Read and write CARMEN logs, the text logs of robots of the 2000s, with one message per line.
 
     FLASER n r_1 .. r_n  x y theta  odom_x odom_y odom_theta  ipc_timestamp host logger_timestamp
     ROBOTLASER1 type start_angle fov resolution maximum_range accuracy remission_mode
@@ -6,20 +6,20 @@
         tv rv forward_safety side_safety turn_axis  ipc_timestamp host logger_timestamp
     ODOM x y theta tv rv accel  ipc_timestamp host logger_timestamp
 
-RLASER and ROBOTLASER2 are the rear laser's, in the same two formats. RAWLASER1 to RAWLASER5 are ROBOTLASER1 without
-poses and velocities, and are read only where no poses are needed. Lines of other kinds are counted and left alone.
-Scans are put in the order of their ipc_timestamp (the time of measurement); logs are not always written in that order.
+RLASER and ROBOTLASER2 are the rear laser's messages, in the same two formats. RAWLASER1 to RAWLASER5 are ROBOTLASER1
+without poses and velocities, and are read only if no poses are needed. Other lines are counted and ignored. Scans are
+sorted by their ipc_timestamp (the time of measurement), because logs are not always in that order.
 
-**Angles.** FLASER lines do not say them. The first beam is at -90 degrees, and beams are 1 degree apart if
-there are 180 or 181, half a degree if 360 or 361, a quarter if 400 or 401; any other number spreads over 180
-degrees. This is CARMEN's own rule. (It puts 401 beams from -90 to +10 degrees, but a SICK in its 100-degree
-mode looked from -50 to +50.) ROBOTLASER1 lines state their first angle and the step.
+**Angles.** FLASER lines do not state angles. By CARMEN's own rule the first beam is at -90 degrees. Beams are 1 degree
+apart if there are 180 or 181, half a degree if 360 or 361, a quarter if 400 or 401; any other number spreads over 180
+degrees. (The rule puts 401 beams from -90 to +10 degrees, but a SICK in its 100-degree mode looked from -50 to +50.)
+ROBOTLASER1 lines state their first angle and the step.
 
-**Maximum range.** If it is not given: the largest hit, rounded up to a whole metre; further than this the
-sensor is not known to see. For no return see `bayesmap.io.returns`.
+**Maximum range.** By default it is the largest hit, rounded up to a whole metre. For no return see
+`bayesmap.io.returns`.
 
-**Writing.** FLASER lines, which every tool knows, are written where these rules find both the angles and what means no
-return; ROBOTLASER1 lines everywhere else.
+**Writing.** FLASER lines, which every tool reads, are written if the reader's rules find both the angles and no return
+in them; else ROBOTLASER1 lines.
 """
 
 from __future__ import annotations
@@ -47,7 +47,7 @@ Floats = NDArray[np.float64]
 
 IMPLICIT = ("FLASER", "RLASER")
 LASERS = ("FLASER", "ROBOTLASER1", "RLASER", "ROBOTLASER2")
-"""Messages that hold a scan with its pose, in order of preference where several are equally frequent."""
+"""Messages that hold a scan with its pose, in order of preference if several are equally frequent."""
 RAW = ("RAWLASER1", "RAWLASER2", "RAWLASER3", "RAWLASER4", "RAWLASER5")
 """Messages that hold a scan without a pose."""
 KNOWN = (*LASERS, "ODOM", "PARAM", "SYNC", "NEFF", "TRUEPOS", "LASER3", "LASER4", "MARKER", *RAW)
@@ -55,10 +55,10 @@ KNOWN = (*LASERS, "ODOM", "PARAM", "SYNC", "NEFF", "TRUEPOS", "LASER3", "LASER4"
 
 MAX_BEAMS = 100_000
 STEP_DEG = {180: 1.0, 181: 1.0, 360: 0.5, 361: 0.5, 400: 0.25, 401: 0.25}
-"""Degrees between beams by their number, where the message does not say."""
+"""Degrees between beams by their number, for messages that do not state it."""
 
 NO_RETURN_CODE_M = 81.83
-"""The number written for no return, that of a SICK laser, unless hits come so near that it would not stand out."""
+"""Least number written for no return, a SICK laser's code; a larger one is written if hits come too near."""
 ANGLE_TOLERANCE_RAD = 1e-6
 
 _NAME = re.compile(rb"[A-Za-z][A-Za-z0-9_.:-]*")
@@ -70,9 +70,9 @@ class Malformed(Exception):
 
 @dataclass(frozen=True)
 class LaserLine:
-    """One scan as its line says it: its beams, its raw readings, (A,), and the sensor's largest range, if stated.
+    """The scan of one line: its beams, its raw readings, (A,), and the sensor's largest range, if stated.
 
-    ``numbers`` are the laser's pose, the robot's pose and the time, (7,), all finite; poses are zero if there are none.
+    ``numbers`` are the laser's pose, the robot's pose and the time, (7,), all finite; missing poses are zero.
     """
 
     fan: Fan
@@ -81,7 +81,7 @@ class LaserLine:
     max_range_m: float | None
 
     def pose(self, mount: Pose | None) -> Floats:
-        """Return the pose of the laser, (3,), given where the laser is on the robot, or else by the line."""
+        """Return the pose of the laser, (3,): the robot's pose with the given mount, or the laser's in the line."""
         return self.numbers[:3] if mount is None else compose(self.numbers[3:6], np.array(mount))
 
 
@@ -96,7 +96,7 @@ class LaserScan:
 def read_carmen(path: str | os.PathLike[str], options: LogOptions) -> LogReading:
     """Read the scans of a CARMEN log, plain or gzipped.
 
-    If the log holds several lasers or kinds of message, the one with most scans is read, and a note says so.
+    Of several lasers or kinds of message, the kind with most scans is read, and a note names the others.
 
     Raises:
         BadInput: a file that cannot be read, holds no scans, or has a malformed line (unless the options skip it); the
@@ -124,14 +124,14 @@ def read_carmen(path: str | os.PathLike[str], options: LogOptions) -> LogReading
         f"the log also holds {account.counts[name]:,} {name} lines, which were not used: poses are those of the laser "
         "lines"
         for name in ("VERTEX_SE2", "VERTEX2")
-        if account.counts[name]  # so late that the file was taken for a log
+        if account.counts[name]  # they come so late that the file was taken for a CARMEN log
     ]
     unsure = _unsure_angles(fans) if reading.message in IMPLICIT else []
     return replace(reading, notes=(*reading.notes, *unsure, *vertices))
 
 
 def message_name(line: bytes) -> str:
-    """Return the line's first word, empty for comments and blank lines; raise `Malformed` if it names no message."""
+    """Return the line's first word, or "" for comments and blank lines; raise `Malformed` if it names no message."""
     if b"\0" in line:
         raise Malformed("binary data; a log is text")
     words = line.split(None, 1)
@@ -148,7 +148,8 @@ def message_name(line: bytes) -> str:
 
 
 def parse_laser(kind: str, words: list[bytes]) -> LaserLine:
-    """Return the scan that the words of a line hold; raise `Malformed` if they do not follow its format."""
+    """Return the scan in the words of a line; raise `Malformed` if they do not follow the format of their kind."""
+    # Positions of the readings and the poses, from the counts in the line.
     count_at = 1 if kind in IMPLICIT else 8
     beams = _count(kind, words, count_at, "readings")
     readings_end = count_at + 1 + beams
@@ -198,7 +199,7 @@ def _count(kind: str, words: list[bytes], at: int, what: str) -> int:
 
 
 def parse_floats(kind: str, words: list[bytes], at: int) -> Floats:
-    """Return words as numbers, (N,), or raise `Malformed`; ``at`` is the index of the first within its line."""
+    """Return words as numbers, (N,), or raise `Malformed`; ``at`` is the index of the first word in its line."""
     numbers = numbers_in(words)
     if isinstance(numbers, int):
         shown = words[numbers][:20].decode("ascii", "backslashreplace")
@@ -214,9 +215,9 @@ def _check_odometry(words: list[bytes]) -> None:
 
 
 def laser_reading(account: Account, lasers: Mapping[str, Sequence[LaserScan]]) -> tuple[LogReading, list[Fan]]:
-    """Return the reading of a log by the kind of message that has most scans, and its fans, the commonest first.
+    """Return the reading of a log from the kind of message with most scans, and its fans, the commonest first.
 
-    ``lasers`` holds scans by their kind of message, in the order of the file; at least one.
+    ``lasers`` holds at least one scan, by kind of message, in the order of the file.
 
     Raises:
         BadInput: no reading is a range, and the largest range is not given.
@@ -226,6 +227,7 @@ def laser_reading(account: Account, lasers: Mapping[str, Sequence[LaserScan]]) -
     empty = len(lasers[kind]) - len(scans)
     if not scans:
         raise BadInput(f"{account.name}: none of {empty:,} {kind} lines has a reading")
+    # Fans, poses and time order of the scans.
     fans = [fan for fan, _ in Counter(scan.laser.fan for scan in scans).most_common()]
     numbers = np.array([scan.laser.numbers for scan in scans])
     poses = np.array([scan.pose_world for scan in scans])
@@ -237,6 +239,7 @@ def laser_reading(account: Account, lasers: Mapping[str, Sequence[LaserScan]]) -
         for other, others in lasers.items()
         if other != kind and others
     ]
+    # Angles and readings as arrays, with NaN if scans differ in their beams; then the kinds of readings.
     readings = [scan.laser.readings_m for scan in scans]
     if len(fans) == 1:
         angles, raw = fans[0].angles_rad(), np.array(readings)
@@ -251,7 +254,7 @@ def laser_reading(account: Account, lasers: Mapping[str, Sequence[LaserScan]]) -
 
 
 def _typed(account: Account, raw: Floats, stated_m: float | None, views: Views) -> Readings:
-    """Return typed readings; the largest range is the largest hit in whole metres, up to the no-return code."""
+    """Classify readings. The default largest range is the largest hit in whole metres, up to the no-return code."""
     ranges, coded = decode(raw, account.options.no_return, stated_m, views)
     limit, origin = account.options.max_range_m, "given"
     if limit is None:
@@ -291,24 +294,26 @@ def write_carmen(path: str | os.PathLike[str], scans: Scans, robot_poses: Floats
 
     Args:
         path: the log to write.
-        scans: with stamps, or they are taken a second apart; their poses are the laser's.
-        robot_poses: of the robot's base, shape (S, 3), in the same frame; the laser's if None.
+        scans: scans to write, with the laser's poses; without stamps, they are written a second apart.
+        robot_poses: poses of the robot's base in the same frame, shape (S, 3); the laser's if None.
 
     Returns:
         The kind of message that was written: ``"FLASER"`` or ``"ROBOTLASER1"``.
 
     Raises:
         BadInput: no scan, a scan of less than two beams, or beams that are not equally far apart, which neither message
-            can say.
+            can state.
         OSError: the folder cannot be written.
     """
     if len(scans) == 0:
         raise BadInput("log: there are no scans to write")
+    # Beams as fans, and the kinds of readings after rounding.
     angles = [scans.beams_of(scan)[0] for scan in range(1 if scans.own_angles_rad is None else len(scans))]
     fans = [_even_fan(own) for own in angles]
     ranges = scans.ranges_m
     typed = np.where(np.isfinite(ranges) & (ranges > 0), np.round(ranges, 4), np.nan)
     typed[np.isposinf(ranges) | (typed >= scans.max_range_m)] = np.inf
+    # The kind of message, and the numbers of its readings.
     numbers = _flaser_numbers(typed, scans) if all(_is_implied(own) for own in angles) else None
     kind = "ROBOTLASER1" if numbers is None else "FLASER"
     if numbers is None:
@@ -336,7 +341,7 @@ def write_carmen(path: str | os.PathLike[str], scans: Scans, robot_poses: Floats
 
 
 def _even_fan(angles_rad: Floats) -> Fan:
-    """Return beams that are equally far apart, counter-clockwise."""
+    """Return the fan of counter-clockwise beams that are equally far apart; raise `BadInput` for other beams."""
     if len(angles_rad) < 2:
         raise BadInput("log: a CARMEN log cannot say the angle of a single beam; take two or more")
     step = float((angles_rad[-1] - angles_rad[0]) / (len(angles_rad) - 1))
@@ -347,7 +352,7 @@ def _even_fan(angles_rad: Floats) -> Fan:
 
 
 def _is_implied(angles_rad: Floats) -> bool:
-    """Return whether the reader finds these angles from their number alone, without a note."""
+    """Return true if the reader derives these angles from their number alone, without a note."""
     beams = len(angles_rad)
     if beams not in (180, 181, 360, 361):
         return False
@@ -355,7 +360,7 @@ def _is_implied(angles_rad: Floats) -> bool:
 
 
 def _flaser_numbers(typed: Floats, scans: Scans) -> Floats | None:
-    """Return the numbers of FLASER lines, or None if the reader would not find no return in them by itself."""
+    """Return the numbers of FLASER lines, or None if the reader would not decode no return from them."""
     hits = typed[np.isfinite(typed)]
     far = max(NO_RETURN_CODE_M, 2.0 * math.ceil(hits.max() + 1.0) if hits.size else 0.0)
     numbers = np.where(np.isnan(typed), 0.0, np.where(np.isposinf(typed), far, typed))

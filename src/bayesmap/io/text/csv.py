@@ -1,6 +1,6 @@
-"""Scans in a CSV table, one row a scan or one row a beam.
+"""Read scans from a CSV table, with one row per scan or one row per beam.
 
-One row a scan; comment lines before the header say where the beams point, and may say the sensor's limits:
+With one row per scan, comment lines before the header state the angles, and optionally the sensor's limits:
 
     # angle_min: -1.5708
     # angle_increment: 0.0174533
@@ -9,23 +9,22 @@ One row a scan; comment lines before the header say where the beams point, and m
     stamp,x,y,yaw,r_0,r_1,r_2
     0.0,1.0,2.0,0.5,3.25,inf,nan
 
-Where the beams differ from scan to scan, angle_min and angle_increment are columns; fields after a scan's last reading
-are empty.
+If beams differ from scan to scan, angle_min and angle_increment are columns, and fields after a scan's last reading are
+empty.
 
-One row a beam, for tables that come from elsewhere (a scan's rows stand together, told apart by ``scan`` or ``stamp``):
+With one row per beam, the rows of a scan are consecutive, and share their ``scan`` or ``stamp``:
 
     scan,stamp,x,y,yaw,angle,range
 
-There a scan has as many beams as rows, at angles of its own. Its rows may differ in their poses: then each beam has a
-pose of its own. Columns may stand in any order, and others are ignored; ``stamp`` is optional. Metres, radians,
-seconds; commas, semicolons or tabs; inf is no return, -inf too close, nan or an empty field invalid. Other numbers that
-may mean no return: `bayesmap.io.returns`. Between semicolons or tabs numbers may have decimal commas.
+The beams of a scan have the angles of its rows. If the poses of its rows differ, each beam has its own pose. Columns
+may have any order; other columns are ignored, and ``stamp`` is optional. Units are metres, radians and seconds; fields
+are separated by commas, semicolons or tabs. inf is no return, -inf too close, nan or an empty field invalid; for other
+no-return numbers see `bayesmap.io.returns`. Between semicolons or tabs numbers may have decimal commas.
 
-LaserScan messages that were turned into tables are read, too: by ``rostopic echo -p`` (``%time``,
-``field.header.stamp``, ``field.angle_min``, ``field.ranges0`` ..), or with the message's own names
-(``header.stamp.secs``, ``angle_min``, ``ranges_0`` ..). They have no poses, unless x, y and yaw were added. So are the
-rows of ``ros2 topic echo --csv --full-length``, which have no header: the fields of the message in their order, then
-the readings, and as many intensities or none.
+Tables of LaserScan messages are read, too: from ``rostopic echo -p`` (``%time``, ``field.header.stamp``,
+``field.angle_min``, ``field.ranges0`` ..), or with the message's own names (``header.stamp.secs``, ``angle_min``,
+``ranges_0`` ..). They have no poses, unless x, y and yaw were added. Rows of ``ros2 topic echo --csv --full-length``
+have no header: the fields of the message in their order, then the readings, and as many intensities or none.
 """
 
 from __future__ import annotations
@@ -48,16 +47,16 @@ from bayesmap.space.scans import Scans, fan_fault, side_by_side
 
 Floats = NDArray[np.float64]
 Bad = Callable[[int, str], None]
-"""Is told the number of a line and what is wrong with it."""
+"""Function that is called with the number of a malformed line and the reason."""
 
 DELIMITERS = (b",", b";", b"\t")
 POSE = ("x", "y", "yaw")
 OWN_ANGLES = ("angle_min", "angle_increment")
 NANOSECONDS, RECEIVED = "nanoseconds", "received"
 LATEST_S = 1e12
-"""Larger stamps count nanoseconds."""
+"""Largest stamp in seconds; larger stamps are nanoseconds."""
 SETTINGS = ("angle_min", "angle_increment", "angles", "range_min", "range_max")
-FURTHEST_M = 1e7
+FURTHEST_M = 1e7  # larger coordinates are malformed
 
 _SETTING = re.compile(rb"#+\s*([a-z_]+)\s*[:=,]\s*(.*)")
 _BEAM = re.compile(r"r_(\d+)")
@@ -70,34 +69,34 @@ ECHOED = {
     "%time": RECEIVED, "time": RECEIVED,
     "angle_min": "angle_min", "angle_increment": "angle_increment", "range_min": "range_min", "range_max": "range_max",
 }  # fmt: skip
-"""Columns of a LaserScan message as a table, and how they are called here."""
+"""Columns of tables of LaserScan messages, with their names in this module."""
 
 ROS2_FIELDS = ("stamp", NANOSECONDS, "", "angle_min", "", "angle_increment", "", "", "range_min", "range_max")
-"""Fields of a LaserScan before its readings, as they are called here; those that are not read are empty."""
+"""Fields of a LaserScan before its readings, by their names in this module; "" for fields that are not read."""
 ROS2_COLUMNS = [name for name in ROS2_FIELDS if name]
 
 
 @dataclass
 class _Table:
-    """What lies in the file: settings from comments, the header, and the rows with their line numbers."""
+    """The contents of the file: settings from comments, the header, and the rows with their line numbers."""
 
     name: str
     bad: Bad
     settings: dict[str, list[float]] = field(default_factory=dict)  # from comments, and columns that never change
-    columns: list[str] = field(default_factory=list)  # those that are read
-    at: list[int] = field(default_factory=list)  # where these stand in a line
-    width: int = 0  # fields of a line
-    lines: list[int] = field(default_factory=list)  # numbers of the lines of `rows`
-    rows: list[Floats] = field(default_factory=list)  # a number for each of `columns`
+    columns: list[str] = field(default_factory=list)  # names of the columns that are read
+    at: list[int] = field(default_factory=list)  # their positions in a line
+    width: int = 0  # fields per line
+    lines: list[int] = field(default_factory=list)  # line numbers of `rows`
+    rows: list[Floats] = field(default_factory=list)  # one number per column of `columns`
     delimiter: bytes = b","
-    headless: bool = False  # rows of ros2 topic echo --csv, of any number of readings each
+    headless: bool = False  # true for rows of ros2 topic echo --csv, whose numbers of readings may differ
 
     def limits(self) -> tuple[float, float]:
-        """Return the sensor's smallest and largest range, as far as comments say them."""
+        """Return the sensor's smallest and largest range in the settings; 0 and infinity if they are not stated."""
         return self.settings.get("range_min", [0.0])[0], self.settings.get("range_max", [math.inf])[0]
 
     def take(self, number: int, line: bytes) -> None:
-        """Take the next line of the file. Lines before the header that are no comments are passed over."""
+        """Read the next line of the file. Lines before the header that are no comments are ignored."""
         text = line.strip().lstrip(b'"')  # spreadsheets quote comments that hold a comma
         if text.startswith(b"#"):
             setting = _SETTING.fullmatch(text.rstrip(b'" \t,;'))
@@ -119,7 +118,7 @@ class _Table:
         elif text:
             fields = [part.strip().strip(b'"') for part in line.split(self.delimiter)]
             if not any(fields):
-                return  # how spreadsheets leave an empty row
+                return  # an empty row of a spreadsheet
             if len(fields) != self.width:
                 self.bad(number, f"the row has {len(fields)} fields where the header has {self.width}")
                 return
@@ -146,7 +145,7 @@ class _Table:
             )
         first = len(ROS2_FIELDS)
         after = len(fields) - first
-        # An empty array of intensities leaves an empty field.
+        # An empty array of intensities is one empty field.
         count = after - 1 if fields[-1] == b"" else after // 2
         if count < 1 or (fields[-1] != b"" and after % 2):
             self.bad(number, f"{after} fields follow range_max: not readings, and as many intensities or none")
@@ -155,15 +154,17 @@ class _Table:
         self._append(number, [fields[i] for i in at], at)
 
     def column(self, name: str, rows: Floats) -> Floats:
-        """Return a column of some rows, (N,); zeros if there is none of that name."""
+        """Return a column of the given rows, (N,); zeros if the table has no such column."""
         return rows[:, self.columns.index(name)] if name in self.columns else np.zeros(len(rows))
 
     def finish(self) -> None:
-        """Make one stamp of those of a message, in seconds, and settings of the limits that stand in columns."""
+        """Convert stamps to seconds in one column, and columns of limits to settings."""
+        # Pad rows without header to one length.
         if self.headless and self.rows:
             width = max(map(len, self.rows))
             self.rows = [np.pad(row, (0, width - len(row)), constant_values=np.nan) for row in self.rows]
             self.columns = [*ROS2_COLUMNS, *(f"r_{i}" for i in range(width - len(ROS2_COLUMNS)))]
+        # One stamp in seconds, from seconds and nanoseconds, or the time of receipt.
         rows = np.array(self.rows).reshape(-1, len(self.columns))
         stamps = self.column("stamp", rows) + 1e-9 * self.column(NANOSECONDS, rows)
         if not stamps.any():
@@ -179,11 +180,11 @@ class _Table:
 
     @property
     def posed(self) -> bool:
-        """Whether the table says where the scans were taken."""
+        """True if the table has the poses of the scans."""
         return set(POSE) <= set(self.columns)
 
     def scans(self) -> _Parts:
-        """Return the scans of the rows so far; raise `BadInput` without angles, or a column that tells scans apart."""
+        """Return the scans of the rows so far; raise `BadInput` if angles, or the column of scans, are missing."""
         return _one_row_a_scan(self) if "r_0" in self.columns else _one_row_a_beam(self)
 
 
@@ -192,7 +193,7 @@ _Parts = tuple[Floats, Floats, Floats, "Floats | None"]
 
 
 def starts_table(line: bytes) -> bool:
-    """Return whether such a table begins with a line: its header, or a row of ``ros2 topic echo --csv``."""
+    """Return true if a line begins a table: it is a header, or a row of ``ros2 topic echo --csv``."""
     return is_header(line) or _is_ros2_row(line)
 
 
@@ -204,7 +205,7 @@ def _is_ros2_row(line: bytes) -> bool:
 
 
 def is_header(line: bytes) -> bool:
-    """Return whether a line is the header of such a table."""
+    """Return true if a line is the header of a table of scans."""
     columns = set(_as_read(_names(line, max(DELIMITERS, key=line.count))))
     return "r_0" in columns or ({"angle", "range"} <= columns and bool({"scan", "stamp", *POSE} & columns))
 
@@ -214,7 +215,7 @@ def read_csv(path: str | os.PathLike[str], options: LogOptions) -> LogReading:
 
     Raises:
         BadInput: a file that cannot be read, no scan, no angles, no poses or a malformed row (unless the options take
-            these).
+            them).
     """
     account = Account(os.fspath(path), "csv", options)
     table = _Table(account.name, account.bad)
@@ -240,10 +241,10 @@ def read_csv(path: str | os.PathLike[str], options: LogOptions) -> LogReading:
 
 
 def live_rows(name: str, lines: Iterable[tuple[int, bytes]], bad: Bad, options: LogOptions) -> Iterator[Scans]:
-    """Return the scans of a table with one row a scan, each as soon as its line is there.
+    """Yield the scans of a table with one row per scan, each as soon as its line arrives.
 
     Raises:
-        BadInput: one row a beam, no angles, no poses, or what ``bad`` raises of a malformed row.
+        BadInput: a table with one row per beam, no angles, no poses, or a malformed row that ``bad`` refuses.
     """
     table, max_range_m = _Table(name, bad), options.max_range_m
     assert max_range_m is not None
@@ -281,7 +282,7 @@ def _names(line: bytes, delimiter: bytes) -> list[str]:
 
 
 def _as_read(names: list[str]) -> list[str]:
-    """Return the columns' names as they are read; empty for those that are not."""
+    """Return the names of columns in this module; "" for columns that are not read."""
     echoed = any(_ECHOED_BEAM.fullmatch(name) for name in names)
     read = []
     for name in names:
@@ -306,7 +307,7 @@ def _setting(name: str, line: int, key: str, text: bytes) -> list[float]:
 
 
 def _checked(table: _Table, needed: tuple[str, ...]) -> Floats:
-    """Return all rows as one array; rows without a finite pose, stamp or angle are bad."""
+    """Return all good rows as one array; rows without finite values in the ``needed`` columns are bad."""
     rows = np.array(table.rows).reshape(-1, len(table.columns))
     needed = tuple(name for name in needed if name in table.columns)
     columns = [table.columns.index(name) for name in needed]
@@ -322,6 +323,7 @@ def _one_row_a_scan(table: _Table) -> _Parts:
     beams = sorted(int(match[1]) for column in table.columns if (match := _BEAM.fullmatch(column)))
     if beams != list(range(len(beams))):
         raise BadInput(f"{table.name}: the columns of readings must be r_0 to r_{len(beams) - 1}, without gaps")
+    # Readings, and the angles of each row if it has its own.
     own = OWN_ANGLES if set(OWN_ANGLES) <= set(table.columns) else ()
     rows = _checked(table, (*POSE, *own, "stamp"))
     readings = rows[:, [table.columns.index(f"r_{beam}") for beam in beams]]
@@ -344,7 +346,7 @@ def _poses(table: _Table, rows: Floats) -> Floats:
 
 
 def _angles_of_rows(table: _Table, fans: Floats, readings: Floats) -> Floats:
-    """Return angles (S, A) by each row's first angle and step, NaN past its last reading and in bad rows."""
+    """Return angles, (S, A), from each row's first angle and step, with NaN after its last reading and in bad rows."""
     read = ~np.isnan(readings)
     counts = np.where(read.any(axis=1), readings.shape[1] - read[:, ::-1].argmax(axis=1), 1)
     angles = fans[:, :1] + fans[:, 1:] * np.arange(readings.shape[1])
@@ -382,6 +384,7 @@ def _one_row_a_beam(table: _Table) -> _Parts:
         return np.empty((0, 3)), np.empty(0), np.empty((0, 0)), None
     poses = _poses(table, rows)
     angles, ranges, stamps = (table.column(name, rows) for name in ("angle", "range", "stamp"))
+    # A scan ends where the key changes; scans with impossible angles are bad.
     starts = np.nonzero(np.append(True, np.diff(table.column(key, rows)) != 0))[0]
     scans = []
     for start, end in zip(starts, [*starts[1:], len(rows)], strict=True):
@@ -390,7 +393,7 @@ def _one_row_a_beam(table: _Table) -> _Parts:
         else:
             scans.append(slice(start, end))
     wide_angles, readings = side_by_side([angles[scan] for scan in scans], [ranges[scan] for scan in scans])
-    # Where a scan has fewer beams than others, its last pose stands for those that it does not have.
+    # Missing beams of a scan get the pose of its last beam.
     last = np.array([scan.stop - 1 for scan in scans], dtype=np.intp)
     at = np.array([scan.start for scan in scans], dtype=np.intp)[:, None] + np.arange(readings.shape[1])
     beam_poses = poses[np.minimum(at, last[:, None])]

@@ -4,14 +4,13 @@
     ROBOTLASER1 ...                                      (or FLASER: CARMEN's lines, see `bayesmap.io.text.carmen`)
     EDGE_SE2 i j dx dy dyaw  xx xy xyaw yy yyaw yawyaw   (TORO: EDGE2)
 
-A laser line belongs to the last vertex before it. The two poses in the line say where the laser is on the robot; the
-vertex, which an optimiser has moved, says where the robot is: the laser's pose is vertex * robot^-1 * laser. Edges and
-other elements are counted and left alone.
+A laser line belongs to the last vertex before it. The vertex, which an optimiser has moved, is the robot's pose. The
+two poses in the line give the mount of the laser, so the laser's pose is vertex * robot^-1 * laser. Edges and other
+elements are counted and ignored.
 
-g2o, GTSAM (``readG2o``), Ceres and SE-Sync read the graphs that are written. An edge is a measurement of pose j in the
-frame of pose i, with the upper triangle of its information matrix, the inverse of its covariance, in that frame. There
-is no line ``FIX 0``: g2o holds one pose by itself, GTSAM reads no edge that comes after such a line, and Ceres' reader
-refuses it.
+g2o, GTSAM (``readG2o``), Ceres and SE-Sync read the written graphs. An edge is a measurement of pose j in the frame of
+pose i, with the upper triangle of its information matrix, the inverse of its covariance, in that frame. No line
+``FIX 0`` is written: g2o fixes one pose by itself, GTSAM reads no edge after this line, and Ceres' reader refuses it.
 """
 
 from __future__ import annotations
@@ -41,16 +40,16 @@ Floats = NDArray[np.float64]
 VERTICES = (b"VERTEX_SE2", b"VERTEX2")
 KNOWN = (*VERTICES, b"EDGE_SE2", b"VERTEX_SE3:QUAT", b"VERTEX_XY", b"PARAMS_SE2OFFSET", b"VERTEX_SE2_XY")
 """Words by which a g2o file is recognised."""
-FURTHEST_M = 1e7
+FURTHEST_M = 1e7  # larger coordinates are malformed
 
 LEAST = 1e-3
-"""Information, 1 / m^2 and 1 / rad^2, where an edge says nothing: programs want matrices that can be inverted."""
+"""Least information of an edge, 1 / m^2 and 1 / rad^2: other programs need invertible matrices."""
 SAMPLED, SEED = 300, 1
-"""Pairs of key scans that show how much more uncertain common errors make relative poses."""
+"""Number and seed of the random pairs of key scans that measure the effect of common errors."""
 
 
 def read_g2o(path: str | os.PathLike[str], options: LogOptions) -> LogReading:
-    """Read the scans of a g2o file, plain or gzipped. The errors are those of `bayesmap.io.text.carmen.read_carmen`."""
+    """Read the scans of a g2o file, plain or gzipped. Errors are as in `bayesmap.io.text.carmen.read_carmen`."""
     account = Account(os.fspath(path), "g2o", options)
     lasers: dict[str, list[LaserScan]] = {kind: [] for kind in LASERS}
     vertex: Floats | None = None
@@ -63,7 +62,7 @@ def read_g2o(path: str | os.PathLike[str], options: LogOptions) -> LogReading:
         account.counts[kind] += 1
         try:
             if words[0] in VERTICES:
-                vertex = None  # if this vertex is malformed, its scans do not belong to the vertex before
+                vertex = None  # scans after a malformed vertex do not belong to the vertex before it
                 vertex = _vertex(kind, words)
             elif kind in LASERS:
                 scan = parse_laser(kind, words)
@@ -99,7 +98,7 @@ def _vertex(kind: str, words: list[bytes]) -> Floats:
 
 
 def _mount(numbers: Floats) -> Floats:
-    """Return the laser on the robot, robot^-1 * laser, from the poses in a line."""
+    """Return the pose of the laser on the robot, robot^-1 * laser, from the poses in a line."""
     laser, robot = numbers[:3], numbers[3:6]
     if np.abs(numbers[:6]).max() >= FURTHEST_M:
         raise Malformed(f"the laser is at {laser.tolist()} and the robot at {robot.tolist()}")
@@ -108,10 +107,10 @@ def _mount(numbers: Floats) -> Floats:
 
 @dataclass(frozen=True, eq=False)
 class Edges:
-    """Measured relative poses: the poses that each relates, (E,), and the second in the frame of the first, (E, 3).
+    """Measured relative poses: indices of the two poses, (E,) each, and the second in the frame of the first, (E, 3).
 
-    The information is the inverse covariance of the measurement in that frame, (E, 3, 3). Shapes that do not fit, or a
-    matrix that is not positive definite, raise `BadInput`.
+    The information is the inverse covariance of the measurement in the frame of the first, (E, 3, 3). Shapes that do
+    not fit, or a matrix that is not positive definite, raise `BadInput`.
     """
 
     first: NDArray[np.intp]
@@ -130,7 +129,7 @@ class Edges:
 
 
 def write_g2o(path: str | os.PathLike[str], poses_world: Floats, edges: Edges) -> Path:
-    """Write a pose graph, whole or not at all; raise `BadInput` for an edge to a pose that is not there."""
+    """Write a pose graph, whole or not at all; raise `BadInput` for an edge to a missing pose."""
     count = len(poses_world)
     ends = np.concatenate([edges.first, edges.second])
     if len(ends) and (ends.min() < 0 or ends.max() >= count):
@@ -144,10 +143,10 @@ def write_g2o(path: str | os.PathLike[str], poses_world: Floats, edges: Edges) -
 
 
 def chain_edges(trajectory: Trajectory) -> Edges:
-    """Return the graph of a trajectory of which only poses are known: each pose as seen from the one before.
+    """Return the graph of successive poses of a trajectory: each pose in the frame of the pose before.
 
-    The covariance of such a step is that of relative poses where it is known, or of the draws. Otherwise it is the sum
-    of both poses' own, as if they were independent, which overstates it.
+    The covariance of a step comes from the law of relative poses, or else from the draws. Without both, it is the sum
+    of the covariances of both poses, as if they were independent, which is too large.
 
     Raises:
         BadInput: a trajectory without draws and without covariances, or of a single pose.
@@ -173,15 +172,17 @@ def chain_edges(trajectory: Trajectory) -> Edges:
 
 
 def slam_edges(trajectory: Approximation) -> Edges:
-    """Return the pose graph that `bayesmap.slam` found: key scans that laser or odometry tie, others with their key.
+    """Return the pose graph of `bayesmap.slam`: its constraints between key scans, and each other scan with its key.
 
-    Informations are the curvatures of the cost, divided by two factors: what makes normal covariances of those of
-    Student's t, and by how much common errors of pairs enlarge covariances, on average. A graph cannot say either.
+    Informations are the curvatures of the cost, divided by two factors: the ratio of Student's t covariances to scales,
+    and the mean growth of covariances by common errors of pairs. A pose graph can represent neither.
     """
+    # Edges between key scans.
     gaussian, keys = trajectory.gaussian, trajectory.keys
     of_student = gaussian.dof / (gaussian.dof - 2.0)
     values, vectors = np.linalg.eigh(gaussian.curvature / (of_student * _growth(gaussian)))
     information = (vectors * np.maximum(values, LEAST)[:, None, :]) @ np.swapaxes(vectors, 1, 2)
+    # Edges from every other scan to its nearest key scan.
     others = np.setdiff1d(np.arange(len(trajectory)), keys)
     nearest = keys[trajectory.nearest_key[others]]
     beside = between(trajectory.poses[nearest], trajectory.poses[others])
@@ -196,7 +197,7 @@ def slam_edges(trajectory: Approximation) -> Edges:
 
 
 def _growth(gaussian: PoseGaussian) -> float:
-    """Return the geometric mean ratio of relative covariances with errors in common to those without."""
+    """Return the geometric mean ratio of relative covariances with common errors to those without."""
     from bayesmap.poses.graph import relative_covariances
 
     rng = np.random.default_rng(SEED)

@@ -1,4 +1,4 @@
-"""Lines of a text log, numbered, plain or gzipped, without holding the file in memory."""
+"""Read the numbered lines of a text log, plain or gzipped, without holding the file in memory."""
 
 from __future__ import annotations
 
@@ -20,18 +20,18 @@ GZIP_MAGIC = b"\x1f\x8b"
 GZIP_FORMAT = 16 + zlib.MAX_WBITS
 CHUNK_BYTES = 1 << 18
 MAX_LINE_BYTES = 1 << 20
-"""A scan of 50 000 beams fits; a longer line is not a log's."""
+"""Longest line: a scan of 50 000 beams fits. A file with a longer line is no text log."""
 
 
 class DamagedFile(BadInput):
-    """A compressed file that breaks off, or whose content is damaged, after the lines read so far."""
+    """A compressed file that is cut short or damaged after the lines read so far."""
 
 
 def read_lines(path: str | os.PathLike[str]) -> Generator[tuple[int, bytes]]:
-    """Return the lines of a file with their numbers, counted from 1, without their line ends.
+    """Yield the lines of a file with their numbers, counted from 1, without line ends.
 
     The first two bytes of a file, not its name, decide whether it is gzipped. A byte order mark, which spreadsheets and
-    editors write, is left out; UTF-16 behind one is turned into UTF-8.
+    editors write, is removed; UTF-16 after such a mark is turned into UTF-8.
 
     Raises:
         DamagedFile: a damaged or truncated gzip stream, after all the whole lines that could be read.
@@ -48,7 +48,7 @@ def read_lines(path: str | os.PathLike[str]) -> Generator[tuple[int, bytes]]:
 
 
 def log_lines(account: Account) -> Iterator[tuple[int, bytes]]:
-    """Return the lines of a log; those before the damage where the options ask for what is there."""
+    """Yield the lines of a log; of a damaged log, those before the damage if the options allow it."""
     number = 0
     try:
         for number, line in read_lines(account.name):
@@ -60,7 +60,7 @@ def log_lines(account: Account) -> Iterator[tuple[int, bytes]]:
 
 
 def split_lines(name: str, pieces: Iterable[bytes]) -> Iterator[tuple[int, bytes]]:
-    """Return the lines of a text that comes in pieces, with their numbers, each as soon as it is whole.
+    """Yield the lines of a text that comes in pieces, with their numbers, each as soon as it is whole.
 
     A line over `MAX_LINE_BYTES` raises `BadInput`.
     """
@@ -77,7 +77,7 @@ def split_lines(name: str, pieces: Iterable[bytes]) -> Iterator[tuple[int, bytes
 
 
 def file_chunks(path: str | os.PathLike[str], place: Callable[[], str] = str) -> Iterator[bytes]:
-    """Return the content of a file in pieces, decompressed if it is gzipped; ``place`` names the position in messages.
+    """Yield the content of a file in pieces, decompressed if it is gzipped; ``place`` names the position in messages.
 
     Raises:
         DamagedFile: a damaged or truncated gzip stream, after all that could be read.
@@ -97,14 +97,14 @@ def file_chunks(path: str | os.PathLike[str], place: Callable[[], str] = str) ->
 
 
 def _chunks(file: BinaryIO) -> Iterator[bytes]:
-    """Return the file's content in pieces of bounded size, decompressed."""
+    """Yield the file's content in pieces of bounded size, decompressed."""
     data = file.read(CHUNK_BYTES)
     if not data.startswith(GZIP_MAGIC):
         while data:
             yield data
             data = file.read(CHUNK_BYTES)
         return
-    # Not the gzip module: on a damaged file it would keep back what it has already decompressed.
+    # The gzip module would lose data that it has decompressed before the damage of a file.
     stream = zlib.decompressobj(GZIP_FORMAT)
     while data or not stream.eof:
         if not data:
@@ -118,7 +118,7 @@ def _chunks(file: BinaryIO) -> Iterator[bytes]:
 
 
 def as_utf8(pieces: Iterable[bytes]) -> Iterator[bytes]:
-    """Return the pieces of a text without its byte order mark, and UTF-16 that follows one as UTF-8."""
+    """Yield the pieces of a text without its byte order mark; UTF-16 after such a mark becomes UTF-8."""
     pieces, start = iter(pieces), b""
     while len(start) < len(codecs.BOM_UTF8) and (piece := next(pieces, b"")):
         start += piece
@@ -134,8 +134,8 @@ def as_utf8(pieces: Iterable[bytes]) -> Iterator[bytes]:
 
 
 def numbers_in(words: list[bytes]) -> NDArray[np.float64] | int:
-    """Return words as numbers, (N,), or the index of the first word that is none."""
-    # Python would read 1_0 as ten; no logger writes that.
+    """Return words as numbers, (N,), or the index of the first word that is no number."""
+    # Python reads 1_0 as ten, but no logger writes underscores in numbers.
     if b"_" not in b"".join(words):
         with contextlib.suppress(ValueError):
             return np.array(words, dtype=np.float64)
@@ -153,8 +153,8 @@ def read_table(path: str | os.PathLike[str], columns: int, form: str, nothing: s
     """Return the numbers of a text file, plain or gzipped, (N, columns); commas are white space, # begins a comment.
 
     Raises:
-        BadInput: a file that cannot be read, is empty (``nothing`` is the message), or has a line of another form; the
-            message names the line and the right ``form``.
+        BadInput: a file that cannot be read, is empty (with the message ``nothing``), or has a line of another form;
+            the message names the line and the right ``form``.
     """
     name, rows = os.fspath(path), []
     for number, line in read_lines(path):

@@ -1,17 +1,17 @@
-"""Logs of MRPT (.rawlog): a stream of serialised objects, gzipped or not.
+"""Read logs of MRPT (.rawlog): a stream of serialised objects, plain or gzipped.
 
-Read are the laser's scans (CObservation2DRangeScan, versions 0 to 8), and of poses either the robot's motions from one
-sensory frame to the next (CActionRobotMovement2D, versions 0 to 7), or its odometry (CObservationOdometry, versions 0
-to 2), between whose readings poses are interpolated. Classes since MRPT 2 are called ``mrpt::obs::NAME``.
+The reader takes the laser's scans (CObservation2DRangeScan, versions 0 to 8). Poses come from the robot's motions from
+one sensory frame to the next (CActionRobotMovement2D, versions 0 to 7), or else from its odometry, by interpolation
+(CObservationOdometry, versions 0 to 2). Classes since MRPT 2 are called ``mrpt::obs::NAME``.
 
     0x80 | length, class name, version, data, 0x88        since MRPT 0.5.5
     length (int32), class name, version (int32), data     before
 
-Objects do not say how long they are: those that are read are found by their headers, wherever they lie, and their
-layouts are those of MRPT's own classes, version by version.
+Objects do not state their length. So the reader finds the objects that it needs by their headers, and reads them by
+the layouts of MRPT's own classes, version by version.
 
-Ranges come with a flag whether they are valid. Of those that are not, ranges of the sensor's maximum and above are no
-return; the others are invalid, zero and negative ones unless ``--no-return 0`` says otherwise.
+Each range has a flag for validity. An invalid range of the sensor's maximum or more is no return; other invalid ranges
+stay invalid. With ``--no-return 0``, zero and negative ones are no return.
 """
 
 from __future__ import annotations
@@ -42,21 +42,21 @@ SECONDS_1601_TO_1970 = 11_644_473_600
 """Stamps count 100 ns from the year 1601."""
 MOST_BEAMS = 100_000
 BY_ODOMETRY = 0
-"""How a motion was estimated: by wheel odometry, not by matching scans."""
+"""MRPT's number for a motion that was estimated by wheel odometry, not by matching scans."""
 
 CLASS = re.compile(rb"(?:mrpt::\w+::)?(C(?:Observation|Action|SensoryFrame|Rawlog|Pose)\w*)")
-"""Names of classes of which objects are looked for."""
+"""Pattern of the names of classes whose objects are searched for."""
 
 
 class Unknown(Exception):
-    """An object that is not as MRPT writes it; the text is the reason."""
+    """An object that does not follow a known layout; the text is the reason."""
 
 
 @dataclass(frozen=True)
 class Header:
-    """Where an object begins: its class without namespace, the version of its layout, and where its data begin.
+    """The header of an object: its class without namespace, the version of its layout, and the position of its data.
 
-    ``ended`` says whether `END` follows the data.
+    ``ended`` is true if `END` follows the data.
     """
 
     name: str
@@ -67,18 +67,18 @@ class Header:
 
 @dataclass(frozen=True, eq=False)
 class RawScan:
-    """A scan as it lies in the log.
+    """A scan of the log.
 
     Attributes:
-        label: the sensor's name.
+        label: name of the sensor.
         stamp_s: seconds since 1970; None if the scan has no stamp.
         angles_rad: beam angles in the frame of the sensor seen from above, (A,).
         readings_m: readings, (A,); those that are not valid are coded.
-        mount: the sensor on the robot, in the plane.
-        upright: the vertical component of the sensor's z axis.
-        max_range_m: the stated largest range.
-        motions: how many motions of the robot came before.
-        odometry: the last pose of the odometry before the scan, if it has the scan's stamp.
+        mount: pose of the sensor on the robot, in the plane.
+        upright: vertical component of the sensor's z axis.
+        max_range_m: stated largest range.
+        motions: number of the robot's motions before the scan.
+        odometry: last pose of the odometry before the scan, if it has the scan's stamp.
     """
 
     label: str
@@ -99,7 +99,7 @@ def header_at(data: bytes, at: int) -> Header | None:
 
 
 def header_of(data: bytes, match: re.Match[bytes]) -> Header | None:
-    """Return the header around a class name that `CLASS` matches; None if what is there is none."""
+    """Return the header around a class name that `CLASS` matches; None if there is no header."""
     start, first = match.start(), data[match.start() - 1] if match.start() else 0
     if first & 0x80:
         end = start + (first & 0x7F)
@@ -152,7 +152,7 @@ class Reader:
         return word.decode("utf-8", "replace")
 
     def header(self, *names: str) -> Header:
-        """Return the header of an object within this one, which must be of one of some classes."""
+        """Return the header of an object within this one, which must belong to one of the classes ``names``."""
         first = self.data[self.at] if self.at < len(self.data) else 0
         start = self.at + (1 if first & 0x80 else 4)
         length = first & 0x7F if first & 0x80 else int.from_bytes(self.data[self.at : start], "little")
@@ -164,12 +164,12 @@ class Reader:
         return Header(name, version, self.at, bool(first & 0x80))
 
     def end(self, header: Header) -> None:
-        """Check the mark behind an object within this one."""
+        """Check the end mark of an object within this one."""
         if header.ended and self.number("B") != END:
             raise Unknown(f"holds a {header.name} of version {header.version} that does not end where it should")
 
     def matrix(self) -> Floats:
-        """Return a matrix that is an object."""
+        """Return the matrix in an object of a matrix class."""
         header = self.header("CMatrix", "CMatrixF", "CMatrixD")
         rows, columns = (int(v) for v in self.take("II"))
         if rows * columns > 10_000:
@@ -217,10 +217,10 @@ class Reader:
         return ticks * 1e-7 - SECONDS_1601_TO_1970 if ticks else None
 
     def finish(self, header: Header, rests: list[list[str]]) -> None:
-        """Read the fields that stand last, whose widths some releases changed without another version.
+        """Read the last fields, whose widths some releases changed without a new version.
 
-        ``rests`` holds the alternatives of each field as struct formats; the object's end tells which it was. T and F
-        at the start of one are a byte that must be 1, or 0.
+        ``rests`` holds the alternatives of each field as struct formats; the end mark decides between them. A format
+        that starts with T (F) starts with a byte that must be 1 (0).
         """
         start = self.at
         for forms in product(*rests):
@@ -231,7 +231,7 @@ class Reader:
         raise Unknown("does not end where it should")
 
     def _passed(self, form: str) -> bool:
-        """Pass over a field. Returns whether its flag is as it should be."""
+        """Skip a field. Returns true if its flag has the required value."""
         flag = {"T": 1, "F": 0}.get(form[:1])
         fits = flag is None or self.data[self.at : self.at + 1] == bytes([flag])
         self.at += struct.calcsize("<" + form.replace("T", "x").replace("F", "x"))
@@ -243,6 +243,7 @@ def scan_of(reader: Reader, header: Header, motions: int) -> RawScan:
     version = header.version
     if not 0 <= version <= 8:
         raise Unknown("is not known: versions 0 to 8 are read")
+    # The fields in their order, by version.
     aperture, right_to_left, max_range = reader.take("f?f")
     position, rotation = reader.pose_in_space()
     if version < 6:
@@ -267,6 +268,7 @@ def scan_of(reader: Reader, header: Header, motions: int) -> RawScan:
     if version >= 8:
         rests.append(["f", "d"])  # duration
     reader.finish(header, rests)
+    # Angles from the aperture, and readings with codes for the invalid ones.
     sweep = (aperture if right_to_left else -aperture) * np.linspace(-0.5, 0.5, count)
     angles = sweep if count > 1 else np.zeros(count)
     if not (math.isfinite(aperture) and np.isfinite(position).all() and np.isfinite(rotation).all()):
@@ -281,7 +283,7 @@ def scan_of(reader: Reader, header: Header, motions: int) -> RawScan:
 
 
 def motion_of(reader: Reader, header: Header) -> tuple[int, Floats]:
-    """Return how a CActionRobotMovement2D was estimated, and the motion, (3,); raise `Unknown` as `scan_of`."""
+    """Return the estimation method of a CActionRobotMovement2D, and the motion, (3,); raise `Unknown` as `scan_of`."""
     version = header.version
     if not 0 <= version <= 7:
         raise Unknown("is not known: versions 0 to 7 are read")
@@ -290,7 +292,7 @@ def motion_of(reader: Reader, header: Header) -> tuple[int, Floats]:
         reader.header("CPosePDFGaussian", "CPosePDFGaussianInf")
         return by, _checked(reader.pose_in_plane())  # what follows is not needed
     motion = _checked(reader.pose_in_plane())
-    # The models of noise, the velocities and the encoders' ticks; floats of old releases are doubles of later ones.
+    # Noise models, velocities and encoder ticks; old releases have floats, later ones doubles.
     if version == 2:
         rests = [["44x"]]
     else:
@@ -326,7 +328,7 @@ COLLECTION = "CActionCollection"
 
 
 def starts_as_rawlog(path: Path) -> bool:
-    """Return whether a file, gzipped or not, begins with an object of MRPT's."""
+    """Return true if a file, gzipped or not, begins with an object of MRPT's."""
     try:
         return header_at(next(file_chunks(path), b"")[:200], 0) is not None
     except BadInput:
@@ -337,8 +339,8 @@ def read_rawlog(path: str | os.PathLike[str], options: LogOptions) -> LogReading
     """Read the scans of a rawlog.
 
     Raises:
-        BadInput: a file that cannot be read, no scans, no poses (unless the options need none), or an object of another
-            version, or a damaged one (unless the options skip these); the message names the class.
+        BadInput: a file that cannot be read, no scans, no poses (unless the options need none), or an object that is
+            damaged or of an unknown version (unless the options skip it); the message names the class.
     """
     account = Account(os.fspath(path), "rawlog", options)
     objects = _Objects(account, _content(account))
@@ -347,6 +349,7 @@ def read_rawlog(path: str | os.PathLike[str], options: LogOptions) -> LogReading
         held = ", ".join(f"{count:,} {kind}" for kind, count in account.counts.most_common(5))
         bad = f"; the first that cannot be read: {account.skipped[0].reason}" if account.skipped else ""
         raise BadInput(f"{account.name}: the rawlog has no {SCAN}; it holds {held or 'nothing'}{bad}")
+    # Take the sensor with most scans.
     (label, _), *others = Counter(scan.label for scan in every).most_common()
     scans = [scan for scan in every if scan.label == label]
     account.notes += [
@@ -354,6 +357,7 @@ def read_rawlog(path: str | os.PathLike[str], options: LogOptions) -> LogReading
         "many"
         for other, count in others
     ]
+    # The robot's poses; scans outside the time of the odometry are left out.
     stamps = np.array([math.nan if scan.stamp_s is None else scan.stamp_s for scan in scans])
     stamped = bool(np.isfinite(stamps).all())
     robot, inside = objects.robot_poses(scans, stamps if stamped else None)
@@ -368,6 +372,7 @@ def read_rawlog(path: str | os.PathLike[str], options: LogOptions) -> LogReading
             f"{account.name}: no scan lies within the time of {ODOMETRY}; bayesmap slam --no-odometry needs none"
         )
     robot, stamps = robot[inside], stamps[inside]
+    # The laser's poses, in time order, and the readings of its beams.
     mounts = np.array([options.laser or scan.mount for scan in scans])
     sign = account.which_way_up(np.array([scan.upright for scan in scans]), f"the sensor {label!r}")
     order = account.in_time_order(stamps if stamped else None, len(scans))
@@ -394,7 +399,7 @@ def _content(account: Account) -> bytes:
 
 
 class _Objects:
-    """The objects of a log that are read."""
+    """The objects of a log that the reader needs."""
 
     def __init__(self, account: Account, data: bytes) -> None:
         self.account = account
@@ -441,8 +446,9 @@ class _Objects:
         self.read_until = reader.at
 
     def robot_poses(self, scans: list[RawScan], stamps_s: Floats | None) -> tuple[Floats | None, NDArray[np.bool_]]:
-        """Return where the robot was at each scan, (S, 3), or None, and for which scans that is known, (S,)."""
+        """Return the robot's pose at each scan, (S, 3), or None, and the mask of scans with a known pose, (S,)."""
         everywhere = np.ones(len(scans), np.bool_)
+        # By motions: compose them, preferring wheel odometry among the estimates of one motion.
         if any(self.collections):
             self.source = MOTION
             path = [np.zeros(3)]
@@ -452,6 +458,7 @@ class _Objects:
             return np.array([path[scan.motions] for scan in scans]), everywhere
         if not self.odometry or stamps_s is None:
             return None, everywhere
+        # By odometry: interpolate the label with most poses.
         self.source = ODOMETRY
         label = max(self.odometry, key=lambda label: len(self.odometry[label]))
         told = sorted(self.odometry[label], key=lambda reading: reading[0])
@@ -465,5 +472,5 @@ class _Objects:
         result = interpolate(times, poses, stamps_s)
         for pose, scan in zip(result, scans, strict=True):
             if scan.odometry is not None and len(self.odometry) == 1:
-                pose[:] = scan.odometry  # stamps that repeat cannot tell which is meant; the order of the log does
+                pose[:] = scan.odometry  # repeated stamps are ambiguous; the order of the log is not
         return result, inside

@@ -1,17 +1,17 @@
 """Trajectories as TUM text, which evo and the TUM RGB-D benchmark's tools read, and true relations between poses.
 
-TUM has a line a pose, ``timestamp tx ty tz qx qy qz qw``: seconds, metres, and a unit quaternion; lines that begin with
-``#`` are comments. A pose in the plane has tz = qx = qy = 0 and (qz, qw) = (sin, cos) of half its yaw.
+A TUM file has one line per pose, ``timestamp tx ty tz qx qy qz qw``: seconds, metres, and a unit quaternion. Lines that
+begin with ``#`` are comments. A pose in the plane has tz = qx = qy = 0 and (qz, qw) = (sin, cos) of half its yaw.
 
-TUM has no place for covariances; they go into a file beside it, a line a pose with the same stamps:
+TUM files cannot hold covariances, so these go into a second file, one line per pose with the same stamps:
 ``timestamp xx xy xyaw yy yyaw yawyaw`` in m^2, m rad and rad^2, along the axes of the world.
 
-A relation has a line in the format of Kuemmerle et al. (2009), "On measuring the accuracy of SLAM algorithms",
+Relations have one line each in the format of Kuemmerle et al. (2009), "On measuring the accuracy of SLAM algorithms":
 
     t_i t_j x y z roll pitch yaw
 
-the true pose of time t_j in the frame of the pose of time t_i, in metres and radians. In the plane z, roll and pitch
-are 0.
+This is the true pose at time t_j in the frame of the pose at time t_i, in metres and radians. In the plane z, roll and
+pitch are 0.
 """
 
 from __future__ import annotations
@@ -33,13 +33,13 @@ if TYPE_CHECKING:
     from bayesmap.posterior.trajectory_scores import Relations
 
 UPRIGHT = 0.1
-"""Sine of half the angle by which a pose may be tilted and still be one in the plane."""
+"""Sine of half the largest tilt of a pose in the plane."""
 
 
 def write_trajectory(path: str | os.PathLike[str], poses_world: ArrayLike, stamps_s: ArrayLike | None = None) -> Path:
     """Write poses, (S, 3), as a TUM trajectory, whole or not at all. Returns the path.
 
-    The stamps, (S,), are in seconds; 0, 1, 2 and so on if None.
+    The stamps, (S,), are in seconds; if None, they are 0, 1, 2 and so on.
 
     Raises:
         BadInput: shapes that do not fit, numbers that are not finite, no pose, or a file that cannot be written.
@@ -49,7 +49,7 @@ def write_trajectory(path: str | os.PathLike[str], poses_world: ArrayLike, stamp
         raise BadInput("trajectory: there is no pose to write")
     stamps, half_yaw = _stamps(stamps_s, len(poses)), poses[:, 2] / 2
     what = "scan number (the scans have no stamps)" if stamps_s is None else "timestamp"
-    # Nine decimals: nanoseconds of a stamp, and more than any sensor knows of a pose.
+    # Nine decimals: nanoseconds of a stamp, and more than any sensor's precision.
     rows = (
         f"{stamp:.9f} {x:.9f} {y:.9f} 0 0 0 {qz:.12f} {qw:.12f}"
         for stamp, (x, y, _), qz, qw in zip(stamps, poses, np.sin(half_yaw), np.cos(half_yaw), strict=True)
@@ -58,13 +58,13 @@ def write_trajectory(path: str | os.PathLike[str], poses_world: ArrayLike, stamp
 
 
 def covariances_path(path: str | os.PathLike[str]) -> Path:
-    """Return where the covariances of a trajectory lie: ``walk.tum`` has ``walk-covariances.txt`` beside it."""
+    """Return the path of a trajectory's covariances: ``walk-covariances.txt`` for ``walk.tum``."""
     target = Path(path)
     return target.with_name(f"{target.stem}-covariances.txt")
 
 
 def write_covariances(path: str | os.PathLike[str], covariances: ArrayLike, stamps_s: ArrayLike | None = None) -> Path:
-    """Write the covariances of a trajectory's poses in world axes, (S, 3, 3), as `write_trajectory`. Returns the path.
+    """Write the covariances of a trajectory's poses in world axes, (S, 3, 3), whole or not at all. Returns the path.
 
     Raises:
         BadInput: shapes that do not fit, numbers that are not finite, or a file that cannot be written.
@@ -85,12 +85,13 @@ def _stamps(stamps_s: ArrayLike | None, count: int) -> NDArray[np.float64]:
 
 
 def read_trajectory(path: str | os.PathLike[str]) -> Trajectory:
-    """Read a TUM trajectory, in order of time, with the covariances that `write_covariances` put beside it, if any.
+    """Read a TUM trajectory, in time order, with the file of `write_covariances` beside it, if any.
 
     Raises:
         BadInput: a file that cannot be read, a line that is not eight numbers, a pose that is tilted out of the plane,
             or covariances of another trajectory; the message names the line.
     """
+    # Poses: the yaw of each quaternion.
     name, nothing = os.fspath(path), "there is no pose in it"
     rows = read_table(name, 8, "timestamp tx ty tz qx qy qz qw, is this a TUM trajectory?", nothing)
     quaternion = rows[:, 4:8] / np.maximum(np.linalg.norm(rows[:, 4:8], axis=1, keepdims=True), 1e-12)
@@ -100,6 +101,7 @@ def read_trajectory(path: str | os.PathLike[str]) -> Trajectory:
     qx, qy, qz, qw = quaternion.T
     yaw = np.arctan2(2 * (qw * qz + qx * qy), 1 - 2 * (qy**2 + qz**2))
     order = np.argsort(rows[:, 0], kind="stable")
+    # Covariances: the upper triangle of each matrix.
     covariances, beside = None, covariances_path(path)
     if beside.is_file():
         table = read_table(beside, 7, "timestamp xx xy xyaw yy yyaw yawyaw", nothing)
@@ -124,7 +126,7 @@ def read_relations(path: str | os.PathLike[str]) -> Relations:
 def write_relations(path: str | os.PathLike[str], first_s: ArrayLike, second_s: ArrayLike, relative: ArrayLike) -> Path:
     """Write relations, whole or not at all; gzipped if the name ends in .gz. Returns the path.
 
-    The times of the first and the second pose are (N,); ``relative`` is the second pose in the first's frame, (N, 3).
+    The times of the first and the second poses are (N,). The second poses in the frames of the first are (N, 3).
 
     Raises:
         BadInput: shapes that do not fit, nothing to write, or a file that cannot be written.
