@@ -95,7 +95,7 @@ class UsualFit:
     missed: float
 
     def log_odds_wrong(self, nats_per_beam: float) -> float:
-        """Return the log odds of a wrong place against the right one, by the fit. Both laws of it are normal."""
+        """Return the log odds of a wrong place against the right one, from normal laws of the fit with equal width."""
         middle, apart = 0.5 * (self.right + self.wrong), max(self.right - self.wrong, 0.0)
         return float(np.clip(apart * (middle - nats_per_beam) / self.sd**2, -MOST_ODDS, MOST_ODDS))
 
