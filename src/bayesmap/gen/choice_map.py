@@ -75,9 +75,7 @@ def components(address: Any) -> tuple[Any, ...]:
 class Builder:
     """Builder of choice maps: `C["x", 0].set(v)`, `C.v(value)`, `C.d({...})`, `C.kw(...)` and `C.n()`.
 
-    Args:
-        base: map to change; None for the empty map.
-        address: address at which a value is set.
+    `base` is the map to change, None for the empty map. `address` is the address at which a value is set.
     """
 
     def __init__(self, base: "ChoiceMap | None", address: tuple[Any, ...]) -> None:
@@ -344,11 +342,7 @@ class Indexed(ChoiceMap):
 
     @staticmethod
     def build(chm: ChoiceMap, addr: Any) -> ChoiceMap:
-        """Return `chm` at the index `addr`.
-
-        Raises:
-            ValueError: `chm` already has an array of indices, and `addr` is another.
-        """
+        """Return `chm` at the index `addr`. Raises ValueError if `chm` and `addr` both have an array of indices."""
         if jnp.ndim(addr) > 0 and any(jnp.ndim(c) > 0 for path in chm.paths() for c in path if not isinstance(c, str)):
             raise ValueError("An address can hold one array of indices, and single indices before it")
         return Indexed(chm, addr)

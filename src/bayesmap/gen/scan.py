@@ -22,14 +22,7 @@ from bayesmap.gen.typing import Arguments, PRNGKey, Score, Weight
 
 @dataclass
 class ScanTrace(OuterTrace):
-    """The steps' traces, stacked and without their arguments.
-
-    Attributes:
-        inner: traces of the steps, with a leading axis.
-        carries: states before each step, with a leading axis.
-        retval: (last state, outputs of all steps).
-        score: sum of the steps' scores.
-    """
+    """The steps' traces, stacked and without their arguments. `carries` stores the state before each step."""
 
     gen_fn: Any
     args: Any
@@ -60,10 +53,7 @@ class Scan(GenerativeFunction):
         return self.n if self.n is not None else next(iter(sizes))
 
     def _loop(self, key: PRNGKey, args: Arguments, step: Callable[..., Any], mapped: Any) -> Any:
-        """Iterate `step(key, (state, x_t), mapped_t) -> (trace, weight, more)`, with the key of step t from step t - 1.
-
-        Returns (trace of all steps, sum of the weights, `more` of all steps stacked).
-        """
+        """Iterate `step(key, (state, x_t), mapped_t) -> (trace, weight, more)`, and return these for the whole scan."""
         n = self._length(args)
 
         def body(carry: Any, scanned: Any) -> Any:

@@ -23,12 +23,7 @@ from bayesmap.gen.typing import Arguments, PRNGKey, Score, StaticAddress, Weight
 
 
 class Replay(Handler):
-    """A run whose sites return given values. It collects each site's function and arguments.
-
-    Attributes:
-        retvals: value that each site returns, by address.
-        calls: function and arguments of each site, by address.
-    """
+    """A run whose sites return the values `retvals`. It collects each site's function and arguments in `calls`."""
 
     def __init__(self, retvals: dict[StaticAddress, Any]) -> None:
         super().__init__()
@@ -51,16 +46,8 @@ class Replay(Handler):
 class StaticTrace(Trace):
     """The calls of one run by address.
 
-    A leaf of the return value may come from a call or be computed by the body. If a call returned it, only the call's
-    trace stores it.
-
-    Attributes:
-        gen_fn: generative function that ran.
-        args: arguments of the run, or None if the trace is stored without them.
-        subtraces: traces of the calls, by address.
-        computed: leaves of the return value that the body computed.
-        retval_tree: tree structure of the return value.
-        sources: origin of each leaf of the return value: (address, number of the call's leaf), or None for `computed`.
+    If a call returned a leaf of the return value, only the call's trace stores the leaf, and its entry in `sources` is
+    (address, number of the call's leaf). Otherwise the entry is None, and `computed` stores the leaf.
     """
 
     gen_fn: Any
@@ -144,8 +131,6 @@ class _Run(Handler):
 
 
 class _Generate(_Run):
-    """A run that generates each site's trace under a constraint, and sums the weights."""
-
     def __init__(self, key: PRNGKey, constraint: ChoiceMap) -> None:
         super().__init__(key)
         self.constraint = constraint
@@ -158,8 +143,6 @@ class _Generate(_Run):
 
 
 class _Assess(Handler):
-    """A run that assesses each site at given choices, and sums the scores."""
-
     def __init__(self, choices: ChoiceMap) -> None:
         super().__init__()
         self.choices = choices
@@ -175,14 +158,8 @@ class _Assess(Handler):
 class _Edit(_Run):
     """A run that edits each site's trace, given which of the site's arguments changed.
 
-    Attributes:
-        old: trace that is edited.
-        request: function that returns the request for each site.
-        backward: backward request of each site.
-        flow: origins of each output of the body (`dataflow`), or None if they are unknown.
-        inputs: changes of the leaves of the function and of its arguments.
-        returned: changes of the leaves of each site's return value.
-        position: number of the body's outputs that were marked so far.
+    `flow` stores the origins of each output of the body, None if unknown. `inputs` and `returned` store the changes of
+    the leaves of its arguments and of its sites' return values. `position` counts the outputs so far.
     """
 
     def __init__(self, key: PRNGKey, old: StaticTrace, request: Callable[[StaticAddress], EditRequest], argdiffs: Any):
@@ -279,12 +256,9 @@ def _check_known(paths: Iterable[Any], visited: list[StaticAddress]) -> None:
 
 @dataclass
 class StaticGenerativeFunction(GenerativeFunction):
-    """A Python function under `@gen`.
+    """A Python function, `source`, under `@gen`. The fixed `partial_args` come before its arguments.
 
-    Attributes:
-        partial_args: fixed arguments, which come before the arguments of a call.
-        source: Python function.
-        by_name: True if arguments have the form `((positional, ...), {"name": value})`.
+    With `by_name` the arguments have the form `((positional, ...), {"name": value})`.
     """
 
     partial_args: tuple[Any, ...]

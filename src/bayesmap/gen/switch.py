@@ -26,12 +26,7 @@ from bayesmap.gen.typing import Arguments, PRNGKey, Score, Weight
 
 @dataclass
 class MaskTrace(OuterTrace):
-    """A trace whose choices and score count if `flag` is True.
-
-    Attributes:
-        inner: trace of the masked function. It has arguments if this trace has them.
-        flag: True, or a boolean array, shape ().
-    """
+    """The trace `inner`, whose choices and score count if `flag` is True. It has arguments if this trace has them."""
 
     gen_fn: Any
     args: Any
@@ -115,12 +110,7 @@ def mask(gen_fn: GenerativeFunction) -> MaskCombinator:
 
 @dataclass
 class SwitchTrace(Trace):
-    """One trace per branch. Only the trace of the branch that ran has values; the others are zeros.
-
-    Attributes:
-        index: number of the branch that ran.
-        branches: traces of all branches, without arguments.
-    """
+    """One trace per branch. Only the trace of branch number `index`, which ran, has values; the others are zeros."""
 
     gen_fn: Any
     args: Any
@@ -303,10 +293,7 @@ def _branch_of(flag: Any, if_args: Any, else_args: Any) -> tuple[Any, ...]:
 
 @method
 def or_else(if_fn: GenerativeFunction, else_fn: GenerativeFunction) -> Any:
-    """Return a function that runs `if_fn` if its first argument is True, else `else_fn`.
-
-    The other arguments are the tuples of arguments of the two functions.
-    """
+    """Return a function that runs `if_fn` or `else_fn`: its arguments are a flag, and the two tuples of arguments."""
     return contramap(_branch_of)(switch(if_fn, else_fn))
 
 

@@ -25,15 +25,7 @@ from bayesmap.gen.typing import Arguments, InAxes, PRNGKey, Score, Weight
 
 @dataclass
 class Product(ExactDensity):
-    """A distribution over arrays: `inner` once per element of the mapped arguments.
-
-    Element i is drawn with the key `split(key, n)[i]`.
-
-    Attributes:
-        inner: distribution of one element.
-        in_axes: mapped axes of the arguments, as for `jax.vmap`.
-        n: number of elements, if no argument determines it.
-    """
+    """A distribution over arrays: `inner` once per element of the mapped arguments, with the key `split(key, n)[i]`."""
 
     inner: ExactDensity
     in_axes: InAxes = static()
@@ -99,12 +91,7 @@ class Product(ExactDensity):
 
 @dataclass
 class VmapTrace(OuterTrace):
-    """The elements' traces, stacked and without their arguments. `args` stores a shared argument only once.
-
-    Attributes:
-        inner: traces of the elements, with a leading axis.
-        score: sum of the elements' scores.
-    """
+    """The elements' traces, stacked and without their arguments. `args` stores a shared argument only once."""
 
     gen_fn: Any
     args: Any

@@ -42,7 +42,6 @@ FITTED = (
     Parameter("stop_occupied", 0.05, 0.99, share=True),
     Parameter("stop_unknown", 1e-3, 0.5, share=True),
 )
-"""Numbers of the law that are fitted, with their bounds."""
 
 ASSUMED: Mapping[str, float] = {
     "scale_m": 0.08, "scale_per_m": 0.005, "p_random": 0.1, "p_no_return": 0.03, "p_short": 0.3,
@@ -178,7 +177,6 @@ def fit_law(occupancy: Floats, grid: Grid, scans: Scans, seed: int = 0, on_progr
     starts = [ASSUMED, {**ASSUMED, "p_short": 0.05, "scale_m": 0.04}]
     on_train = partial(score, train)
     values, _ = maximise(on_train, on_train, FITTED, starts, lambda share: on_progress(0.5 + 0.5 * share))
-    # Choose the law that predicts the judging scans best.
     halfway = {p.name: p.outer(0.5 * (p.inner(ASSUMED[p.name]) + p.inner(values[p.name]))) for p in FITTED}
     laws = [dict(ASSUMED), {**ASSUMED, **halfway}, {**ASSUMED, **values}]
     logs = [judging.log_densities(stops, law_values) for law_values in laws]
@@ -217,7 +215,6 @@ def searched(known: KnownMap, scans: Scans, poses: Floats, seed: int) -> tuple[U
         nats = known.log_likelihood(asked, angles, readings, limits, weight=1.0) / beams
         right.append(nats[0])
         wrong.extend([nats[1:].max()] if len(nats) > 1 else [])
-        # Log probability of the right place, under each power.
         own = away < NEAR_M
         missed += int(not own.any())
         if own.any():

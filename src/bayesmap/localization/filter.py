@@ -171,7 +171,6 @@ def update(known: KnownMap, prior: Prior, scan: Scan, rng: np.random.Generator, 
         if len(starts.means) > 1:
             # Drop negligible places by few draws of poses, under one draw of the map.
             starts = best(weighed(starts, draw_population(starts, target(thin, 1), FEW, rng)))
-        # Adapt the places to the exact law of thinned scans.
         for _ in range(ROUNDS):
             starts, power = adapted(
                 starts, draw_population(starts, target(thin), shared_out(starts, EACH, known.trust.least_draws), rng)
@@ -380,7 +379,6 @@ def locate(known: KnownMap, scan: Scan, rng: np.random.Generator) -> PoseBelief:
 
     thin = max(1, len(scan.angles_rad) // 60)
 
-    # Begin at the places of a search.
     candidates = search(known.field, scan.angles_rad, scan.ranges_m, SHARP_CANDIDATES)
     if len(candidates.poses) == 0:
         return belief_of(known, prior, scan, everywhere(known, target(last), rng), None)

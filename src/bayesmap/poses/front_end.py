@@ -49,8 +49,7 @@ POOR_SCORE, POOR_BELOW = 0.45, 0.25
 the second. It may then contradict the key scans."""
 
 LOST_SIGMA = np.array([0.5, 0.5, np.radians(30.0)])
-"""Standard deviations of a pose, x and y in metres and yaw in radians, above which a badly explained scan counts as
-contradicting the key scans."""
+"""A badly explained scan contradicts the key scans if standard deviations of its pose, x, y and yaw, exceed these."""
 
 SLIPPED_BELOW = 0.15
 """A wide search about odometry's pose may move a scan. The new score may be lower than usual by at most this."""
@@ -78,8 +77,7 @@ class Track:
 
     Attributes:
         poses: poses of the laser, (S, 3). The first is the origin.
-        information: information matrix of each pose by the laser alone, given the key scans before it, in the pose's
-            own frame, (S, 3, 3).
+        information: inverse covariance of each pose by the laser, given earlier key scans, in its own frame, (S, 3, 3).
         odometry_variance: variance of odometry's motion from the key scan before, x, y and yaw, (S, 3).
         scores: fit of each scan to the key scans, from 0 to 1, (S,); 1 for the first.
         keys: indices of the key scans, ascending.
@@ -127,17 +125,7 @@ def follow(
 
 
 class _Path:
-    """The path up to scan ``at``, the last one that has a pose.
-
-    Attributes beside the arguments and the fields of `Track`:
-        unknown: mask of the motions that are unknown, (S - 1,).
-        begin: number of the key that begins the present part of the path.
-        since_key: variance of the motion since the last key scan, (3,).
-        usual: running mean of the scores.
-        plain: True while all motions since the last key scan were usual.
-        left: variance of the last scan's pose, (3,).
-        window: latest key scans and their likelihood grid.
-    """
+    """The path up to scan ``at``, the last one that has a pose. ``begin`` is the key that begins its present part."""
 
     def __init__(
         self, geometry: ScanGeometry, motions: Floats | None, stamps_s: Floats | None,
@@ -156,6 +144,7 @@ class _Path:
         self.broken, self.against = np.zeros(count, np.bool_), np.zeros(count, np.bool_)
         self.at, self.keys, self.begin = 0, [0], 0
         self.since_key, self.usual = np.zeros(3), 0.6
+        # True if all motions since the last key scan were usual; and the variance of the last scan's pose.
         self.plain, self.left = True, np.zeros(3)
         self.window = self._window(None)
 
@@ -164,7 +153,7 @@ class _Path:
         if self.window.keys[0] != self.keys[-1]:
             self.window = self._window(self.window)
         batch = _batch(self.at, len(self.poses), self.motions, self.poses[self.at], self.poses[self.keys[-1]])
-        # Over an unknown motion: break the path.
+        # Break the path over an unknown motion.
         if self.unknown[self.at]:
             scan, placed = self.at + 1, self._near(batch[:1])[0]
             self._leap(scan, placed, self._anywhere(scan, placed.predicted[0], float(placed.scores[0])))
@@ -274,7 +263,6 @@ class _Path:
         self.since_key = self.since_key + variance - (placed.variance[k - 1] if k else 0.0)
         self.spread[scan] = self.since_key
         if self.motions is not None:
-            # Learn from the motion if the scan fits about as usual.
             left = np.diag(np.linalg.inv(placed.information[k] + np.diag(1.0 / variance)))
             usual = score > max(KEY_SCORE, self.usual - LEARN_BELOW)
             if usual and not placed.turned[k]:
@@ -300,7 +288,6 @@ class _Path:
         """Place the next scans near odometry's poses. Returns them, and which of them contradict the key scans."""
         span = slice(self.at, int(scans[-1]))
         predicted, variance = predict(self.poses, self.at, scans, self.motions, self.stamps_s, self.odometry)
-        # Poses for the motion backwards: short motions may have the wrong sign.
         backwards = None
         if self.motions is not None and np.hypot(*self.motions[span, :2].sum(axis=0)) < BACKWARDS_M:
             stated = self.odometry.corrected(self.motions[span]) * [-1.0, -1.0, 1.0]

@@ -33,8 +33,7 @@ SETTLED_M = 0.3
 """The search for loops ends after a round that moves no key scan further than this, metres."""
 
 LEAP_M, LEAP_RAD, LEAP_SIGMAS = 0.3, np.radians(10.0), 8.0
-"""A step is a leap if it differs from the front end's step by more than the distance or the angle, and by more than
-this many of the front end's standard deviations."""
+"""A leap differs from the front end's step by more than the distance or the angle, and by more standard deviations."""
 
 REFUSED_SIGMAS, CONFIRMED_BELOW = 5.0, 0.2
 """Odometry contradicts a step that differs by more than this many of odometry's standard deviations. The key scans
@@ -56,7 +55,6 @@ ROUNDS: tuple[Search, ...] = (
     Search(2.0, np.radians(20.0)),
 )
 """Limits of the search in each round. Windows are smaller if the covariance is.
-
 In the first round the graph is the chain alone, and its covariance is wide: a match far outside is another place that
 looks alike. Later rounds trust earlier closures to centimetres, and some of these are wrong. On logs and simulated
 robots, right closures lay up to 2.1 standard deviations off in the first round, and up to 3.2 later. Wrong closures
@@ -123,15 +121,12 @@ def contradicted_links(track: Track, poses: Floats, sigmas: float = LEAP_SIGMAS)
 
 
 def unconfirmed_links(geometry: ScanGeometry, track: Track, odometry: Factors, poses: Floats) -> NDArray[np.bool_]:
-    """Find doubtful steps of the keys' poses, (K, 3). Returns a mask, (K - 1,).
+    """Find doubtful steps of the keys' poses, (K, 3), and return a mask, (K - 1,). There are three cases.
 
-    A step is in doubt in three cases:
-
-    * Odometry contradicts it, and the key scans before do not confirm it. They explain the next key scan badly, or the
-      front end, which matched the next key scan to them, had it elsewhere.
+    * Odometry contradicts it, and the key scans before do not confirm it: they explain the next key scan badly, or the
+      front end had it elsewhere.
     * The key scans before explain the next one badly there, but as well as usual at another place that odometry allows.
-    * It leads over a break of the path, where odometry decides nothing. It is far from the front end's step, although
-      the scan after the break fitted as well as usual at the front end's pose.
+    * The step leads over a break of the path, and is far from the front end's step, although that one fitted as usual.
     """
     keys, usual, whole = track.keys, float(np.median(track.scores)), ~track.broken[track.keys[1:]]
     refused = whole & (odometry.squares(poses) > REFUSED_SIGMAS**2)
@@ -139,7 +134,6 @@ def unconfirmed_links(geometry: ScanGeometry, track: Track, odometry: Factors, p
     doubtful = refused & contradicted_links(track, poses, BOTH_SIGMAS)
     half_width_m, grid = grid_half_width(geometry), None
     for k in np.nonzero((refused | poor) & ~doubtful)[0]:
-        # Score the next key scan on a grid of the key scans before, at the given poses.
         before = np.arange(max(0, int(k) + 1 - WINDOW), int(k) + 1)
         seen = between(np.broadcast_to(poses[k], (len(before), 3)), poses[before])
         grid = likelihood_grids(geometry, [keys[before]], [seen], np.zeros(2), half_width_m, reuse=grid)
@@ -148,7 +142,6 @@ def unconfirmed_links(geometry: ScanGeometry, track: Track, odometry: Factors, p
         doubtful[k] = score < usual - CONFIRMED_BELOW and (
             refused[k] or _fits_elsewhere(grid, points, step, score, usual, odometry.select(np.array([k])))
         )
-    # Breaks: compare with the front end's guess.
     off = between(poses[:-1], poses[1:]) - between(track.poses[keys[:-1]], track.poses[keys[1:]])
     off[:, 2] = wrapped(off[:, 2])
     moved = ((off / UNKNOWN) ** 2).sum(axis=1) > GUESSED_SIGMAS**2
@@ -243,10 +236,7 @@ def _rounds(
     path: KeyPath, chain: Factors, rounds: tuple[Search, ...], half_width_m: float,
     on_progress: Callable[[int, Floats], None] | None = None, *, within_parts: bool = False,
 ) -> tuple[Weighed, Closures]:  # fmt: skip
-    """Close loops in rounds, of the whole path or only within its parts.
-
-    Returns the weighed graph and the last round's closures.
-    """
+    """Close loops in rounds, of the path or only within its parts. Returns the graph and the last round's closures."""
     poses, weights, closures = path.poses, np.empty(0), no_closures()
     for number, search in enumerate(rounds, start=1):
         # The graph's precision gives the search windows; the closures then give new poses.

@@ -86,7 +86,6 @@ def weigh(poses: Floats, weights: Floats, chain: Factors, loops: Factors, along:
     ``poses``, (K, 3), and ``weights`` of the loops, (M,), are the solution of the graph of chain and loops. ``along``
     is the distance of each key along the path, metres, (K,).
     """
-    # Prior log odds of each visit, by the length of path that it matches.
     label, out = visits(loops, poses, along), np.zeros(len(loops), np.bool_)
     odds = np.zeros(int(label.max(initial=-1)) + 1)
     for k in range(len(odds)):
@@ -115,11 +114,7 @@ def weigh(poses: Floats, weights: Floats, chain: Factors, loops: Factors, along:
 def _doubtful(
     poses: Floats, chain: Factors, loops: Factors, label: NDArray[np.intp], out: NDArray[np.bool_], odds: Floats
 ) -> Iterator[tuple[float, int, Floats]]:
-    """Yield visits that may be wrong: the log odds that each is right, its number, and the poses without it.
-
-    ``label`` is the visit of each closure, ``out`` marks closures of removed visits, and ``odds`` are the prior log
-    odds of each visit.
-    """
+    """Yield visits that may be wrong: the log odds that each is right, its number, and the poses without it."""
     weights = _weights(loops, poses)
     strain = chain.squares(poses)
     for k in range(len(odds)):
@@ -138,7 +133,6 @@ def _doubtful(
         middle = np.median(np.abs(off), axis=0)
         if np.hypot(middle[0], middle[1]) < SAME_M and middle[2] < SAME_RAD:
             continue
-        # Compute D by the relative covariance in the graph without the visit.
         loops_without = quadratic(rest, without, _weights(rest, without))
         _, precision = solve_step(len(without), [quadratic(chain, without), loops_without])
         covariance = relative_covariances(precision, without, own.first, own.second) + np.linalg.inv(own.information)

@@ -82,10 +82,7 @@ class KeyPath:
         return between(np.broadcast_to(self.poses[key], (len(members), 3)), self.poses[members])
 
     def points_around(self, key: int, around_m: float, most: int, most_of_each: int = 180) -> Floats:
-        """Return at most about ``most`` points of the submap around a key, in the key's frame, (N, 2).
-
-        ``around_m`` is the submap's half length along the path.
-        """
+        """Return at most about ``most`` points of the submap around a key, in the key's frame, (N, 2)."""
         members = self.around(key, around_m)
         points = [
             transform(pose, self.geometry.points_of(int(self.keys[m]), most_of_each))
@@ -111,8 +108,7 @@ def path_m(poses: Floats, begins: NDArray[np.bool_]) -> Floats:
 
 
 AROUND_M, NARROW_M, WIDE_M = 2.0, 0.7, 1.0
-"""Half lengths of submaps along the path, metres: the earlier submap, the later one that is matched to it, and the
-earlier one for the comparison of views."""
+"""Half lengths along the path, metres: of the earlier submap, of the later one, and of the earlier one in `_agrees`."""
 
 RESOLUTION_M, SIGMA_M, AT_ONCE = 0.1, 0.1, 24
 """Resolution and standard deviation of submaps' likelihood grids, and number of grids in memory at once."""
@@ -127,8 +123,7 @@ SEEN = Agreement(near_m=0.15, clear_m=0.4, beams=90)
 """Distances at which scans of two submaps agree and contradict each other, and beams per scan that are compared."""
 
 LEAST_MATCHED, MOST_AGAINST = 0.2, 0.15
-"""Least share of compared points that match, and most share of contradicting points among those that match or
-contradict."""
+"""Least share of points that match, and most share of points that contradict among those that match or contradict."""
 
 FLOOR = np.array([0.02, 0.02, np.radians(0.3)])
 """Least standard deviations of a closure, because submaps are bent: x and y in metres, yaw in radians."""
@@ -143,7 +138,6 @@ class Fineness:
 
 
 FINE = Fineness(350, np.radians(1.0))
-"""Fineness of the search for loops."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -179,7 +173,6 @@ def match_submaps(
     parts = [no_closures()]
     submaps = np.unique(first)
     for begin in range(0, len(submaps), AT_ONCE):
-        # Make the grids of a batch of first submaps, each in its key's frame.
         batch = submaps[begin : begin + AT_ONCE]
         members = [path.around(int(k), AROUND_M) for k in batch]
         local = [path.seen_from(int(k), m) for k, m in zip(batch, members, strict=True)]
@@ -215,7 +208,6 @@ def _refined(
     offsets = np.concatenate([[0], np.cumsum([len(m) for m in members])]).astype(np.int32)
     anchor = np.repeat(first, np.diff(offsets))
     other_poses = between(path.poses[anchor], path.poses[np.concatenate(members)])
-    # Refine, with a weak prior about the start.
     weak = np.tile(np.diag([1.0, 1.0, 4.0]), (len(first), 1, 1))
     refinement = Refinement(path.scans(second), offsets, others, other_poses, start, start, weak)
     convergence = Convergence(0.02, 15, (0.4, 0.12), (0.2, 0.05), ALIKE)
@@ -243,7 +235,6 @@ def _agrees(path: KeyPath, first: NDArray[np.intp], second: NDArray[np.intp], re
     poses = path.poses
     to_first, from_second = between(poses[starts], poses[first[of]]), between(poses[second[of]], poses[ends])
     across = compose(to_first, compose(relative[of], from_second))
-    # Count matching and contradicting points per closure.
     geometry = path.geometry
     counts = mutual_view_counts(geometry, path.scans(starts), path.scans(ends), across, SEEN, geometry.threads)
     matched, against, total = (np.bincount(of, weights=counts[:, c], minlength=len(first)) for c in range(3))
@@ -252,10 +243,7 @@ def _agrees(path: KeyPath, first: NDArray[np.intp], second: NDArray[np.intp], re
 
 
 def supported(closures: Closures, path: KeyPath) -> Closures:
-    """Select closures that agree with at least two other closures between nearby key scans.
-
-    Two closures agree if the loop over both of them and the path between their ends leads back to its start.
-    """
+    """Select closures that agree with at least two others nearby: a loop over both closures leads back to its start."""
     # Pairs of closures whose ends are less than 5 m apart along the path.
     along, a, b = path.along, closures.first, closures.second
     one, two = np.nonzero(

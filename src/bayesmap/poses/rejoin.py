@@ -60,19 +60,12 @@ MET_M, COMPARED = 5.0, 600
 """Greatest distance of key scans of two parts that are compared, metres, and most pairs of key scans."""
 
 SEEN, MOST_AGAINST = Agreement(near_m=0.2, clear_m=0.4, beams=60), 0.15
-"""Distances at which scans of two parts agree and contradict each other, beams per scan that are compared, and most
-share of contradicting points."""
+"""Distances at which scans of two parts agree or contradict, compared beams, and most share of contradicting points."""
 
 
 @dataclass(frozen=True, eq=False)
 class Joint:
-    """A relative pose of two parts.
-
-    Attributes:
-        earlier, later: numbers of the parts.
-        motion: transform of the later part's poses to the earlier part's frame, (3,).
-        votes: sum of the votes of the places that agree on it.
-    """
+    """A relative pose of two parts: ``motion`` transforms the later part's poses to the earlier part's frame."""
 
     earlier: int
     later: int
@@ -123,10 +116,7 @@ def _together(path: KeyPath, closures: Closures, agree: int) -> KeyPath:
 
 
 def _surest(pairs: Iterator[list[Joint]], islands: KeyPath, rival: float) -> Joint | None:
-    """Return the joint with the most votes among those that are consistent and have no rival; None if there is none.
-
-    ``pairs`` yields the joints of each pair of parts. A rival has at least the share ``rival`` of the best one's votes.
-    """
+    """Return the consistent joint with the most votes that has no rival with at least a share of its votes, or None."""
     best = None
     for candidates in pairs:
         if not candidates or (best is not None and candidates[0].votes <= best.votes):
@@ -148,7 +138,6 @@ def _near_pairs(path: KeyPath, turn: int) -> Windows:
     places, poses = path.places(SPACING_M), path.poses
     first, second = [], []
     for query in _queries(path, turn):
-        # Places of longer parts, nearest first.
         others = places[_longer(path)[path.parts[places]] > _longer(path)[path.parts[query]]]
         off = np.hypot(*(poses[others, :2] - poses[query, :2]).T)
         near = others[off < NEAR_M]

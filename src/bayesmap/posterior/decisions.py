@@ -128,7 +128,6 @@ def information_of(
     longest_m = scans.max_range_m if max_range_m is None else max_range_m
     if not 0 < longest_m < np.inf:
         raise BadInput(f"information_gain: max_range_m must be a positive number of metres, got {longest_m!r}")
-    # Compute the bounds from joint draws, and the formula for independent cells.
     thinned = posterior.draws.thinned(INFORMATION_DRAWS if draws is None else draws)
     joint = expected_information(
         np.concatenate(list(posterior.prior.drawn_stops(thinned))), posterior.grid, law, poses, angles,
@@ -143,10 +142,7 @@ def information_of(
 
 
 def typical_sigma_m(sensor: SensorModel, max_range_m: float) -> float:
-    """Return the standard deviation of hits on a wall at a quarter of the largest range, metres, robust to outliers.
-
-    It is half the width of the middle 68 % of 4000 drawn hits.
-    """
+    """Return a robust standard deviation of hits at a quarter of the largest range: half the middle 68 % of 4000, m."""
     from bayesmap.sensors.model import RangeLimits
 
     at_m = 0.25 * max_range_m
@@ -223,10 +219,7 @@ def next_views(
 
 
 def _spread(posterior: Posterior, blocked: Floats, count: int, seed: int) -> Floats:
-    """Draw at most ``count`` poses at random cells that the robot can reach, with yaw 0, (P, 3).
-
-    There are fewer poses if there are fewer cells. ``blocked`` is the probability that the disc is blocked, (nx, ny).
-    """
+    """Draw at most ``count`` poses at random cells that the robot can reach, with yaw 0, (P, 3)."""
     from scipy import ndimage
 
     grid = posterior.grid
@@ -234,7 +227,6 @@ def _spread(posterior: Posterior, blocked: Floats, count: int, seed: int) -> Flo
     labels, areas = ndimage.label(open_cells, structure=np.ones((3, 3)))
     if areas == 0:
         raise BadInput("explore: nowhere on the map is the disc free with probability one half; try a smaller radius")
-    # Select the connected area nearest to the robot's last position.
     x, y, _ = posterior.scans.poses[-1]
     centres = np.stack(np.meshgrid(*grid.centers_m(), indexing="ij"), axis=-1) + 0.0
     cells = np.argwhere(open_cells)

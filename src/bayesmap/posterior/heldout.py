@@ -126,8 +126,7 @@ def unseen_scans(train: Scans, scans: Scans, every: int, where: str) -> Scans:
 Floats = NDArray[np.float64]
 
 FOLDS = 10
-"""Number of folds: each leaves out every tenth scan, as the protocol itself does, so inner counts are nearly as
-dense as outer ones."""
+"""Each fold leaves out every tenth scan, as the protocol itself does: inner and outer counts are nearly as dense."""
 
 BEAMS_WANTED = 20_000
 """Number of valid beams for a fit. With a dozen parameters, over-fitting costs about 6 / 20 000 nats per beam."""
@@ -141,13 +140,7 @@ PAST_READING_M = 3.0
 
 @dataclass(frozen=True, eq=False)
 class Fold:
-    """A fold of the training scans.
-
-    Attributes:
-        hits, passes: counts of the other scans, per cell.
-        scans: scans of the fold, which are to be predicted.
-        rays: beams of these scans.
-    """
+    """A fold of the training scans: counts per cell of the other scans, and the fold's own scans and beams."""
 
     hits: Floats
     passes: Floats
@@ -180,7 +173,6 @@ def make_folds(train: Scans, grid: Grid) -> list[Fold]:
         raise BadInput("score: baselines are fitted by holding out training scans, which takes two scans or more")
     hits, passes = count_hits(train, grid)
     for i in np.random.default_rng(0).permutation(count).tolist():  # a fixed order, but not that of the protocol
-        # Take the fold's own counts from the counts of all scans.
         part = train.select(np.arange(len(train)) % count == i)
         valid = int((part.readings != Reading.INVALID).sum())
         if valid == 0:
