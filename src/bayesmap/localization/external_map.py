@@ -42,7 +42,6 @@ FITTED = (
     Parameter("stop_occupied", 0.05, 0.99, share=True),
     Parameter("stop_unknown", 1e-3, 0.5, share=True),
 )
-
 ASSUMED: Mapping[str, float] = {
     "scale_m": 0.08, "scale_per_m": 0.005, "p_random": 0.1, "p_no_return": 0.03, "p_short": 0.3,
     "rate_short_per_m": 0.3, "stop_occupied": 0.8, "stop_free": 1e-3, "stop_unknown": 0.05,

@@ -54,11 +54,10 @@ ROUNDS: tuple[Search, ...] = (
     Search(4.0, np.radians(30.0)),
     Search(2.0, np.radians(20.0)),
 )
-"""Limits of the search in each round. Windows are smaller if the covariance is.
-In the first round the graph is the chain alone, and its covariance is wide: a match far outside is another place that
-looks alike. Later rounds trust earlier closures to centimetres, and some of these are wrong. On logs and simulated
-robots, right closures lay up to 2.1 standard deviations off in the first round, and up to 3.2 later. Wrong closures
-that bent the path lay 3.3 and 3.8 off."""
+"""Limits of the search in each round. Windows are smaller if the covariance is. In the first round the graph is the
+chain alone, and its covariance is wide: a match far outside is another place that looks alike. Later rounds trust
+earlier closures to centimetres, and some of these are wrong. On logs and simulated robots, right closures lay up to 2.1
+standard deviations off in the first round, and up to 3.2 later. Wrong ones that bent the path lay 3.3 and 3.8 off."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -123,8 +122,8 @@ def contradicted_links(track: Track, poses: Floats, sigmas: float = LEAP_SIGMAS)
 def unconfirmed_links(geometry: ScanGeometry, track: Track, odometry: Factors, poses: Floats) -> NDArray[np.bool_]:
     """Find doubtful steps of the keys' poses, (K, 3), and return a mask, (K - 1,). There are three cases.
 
-    * Odometry contradicts it, and the key scans before do not confirm it: they explain the next key scan badly, or the
-      front end had it elsewhere.
+    * Odometry contradicts the step, and the key scans before do not confirm it: they explain the next key scan badly,
+      or the front end had it elsewhere.
     * The key scans before explain the next one badly there, but as well as usual at another place that odometry allows.
     * The step leads over a break of the path, and is far from the front end's step, although that one fitted as usual.
     """
