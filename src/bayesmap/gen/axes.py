@@ -19,7 +19,10 @@ from bayesmap.gen.typing import InAxes
 
 
 class Mapped(NamedTuple):
-    """Arguments as leaves, each with its mapped axis, or None if all elements share it."""
+    """Arguments as leaves, each with its mapped axis, or None if all elements share the leaf.
+
+    `rebuild` makes arguments of leaves again, and `n` is the number of elements.
+    """
 
     leaves: list[Any]
     axes: list[int | None]
@@ -32,7 +35,7 @@ class Mapped(NamedTuple):
         return self.rebuild([x if axis is None else jnp.take(x, i, axis=axis) for x, axis in pairs])
 
     def element_shapes(self) -> list[jax.ShapeDtypeStruct]:
-        """Return the shapes and dtypes of an element's leaves, also where n = 0."""
+        """Return the shapes and dtypes of an element's leaves, also if n = 0."""
         shapes = []
         for x, axis in zip(self.leaves, self.axes, strict=True):
             shape = list(jnp.shape(x))
@@ -52,16 +55,17 @@ class Mapped(NamedTuple):
 
 
 def map_over(in_axes: InAxes, args: tuple[Any, ...], n: int | None = None) -> Mapped:
-    """Match `in_axes` to `args`.
+    """Return the leaves of `args` with their mapped axes.
 
     Args:
-        in_axes: as for `jax.vmap`; None with `n` repeats the same arguments.
-        args: the arguments.
-        n: the number of elements, if no argument gives it.
+        in_axes: mapped axes as for `jax.vmap`; None with `n` repeats the same arguments.
+        args: arguments.
+        n: number of elements, if no argument determines it.
 
     Raises:
-        ValueError, TypeError: what `jax.vmap` raises for axes that do not fit.
+        ValueError, TypeError: the axes do not fit, as for `jax.vmap`.
     """
+    # Let `jax.vmap` check the axes; then give each leaf its axis.
     axes = tuple(in_axes) if isinstance(in_axes, list) else in_axes
     jax.vmap(lambda *_: 0, in_axes=axes, out_axes=None, axis_size=n)(*args)
     marked = jax.tree.map(lambda a: "shared" if a is None else a, axes, is_leaf=lambda a: a is None)
@@ -92,11 +96,11 @@ def dense(chm: ChoiceMap, shape: tuple[int, ...]) -> tuple[Any, Any] | None:
     """Return a choice map without names as one array, with a flag for each given element.
 
     Args:
-        chm: values, perhaps at indices.
-        shape: the leading axes that indices may select from.
+        chm: choice map of values, perhaps at indices.
+        shape: leading axes from which indices may select.
 
     Returns:
-        (array of shape `shape + ...`, flag of shape `shape` or None for "all"), or None for an empty map.
+        (array of shape `shape + ...`, flag of shape `shape`, or None if all elements are given); None for an empty map.
 
     Raises:
         ShapeMismatch: an array is too long or too short.
@@ -192,14 +196,14 @@ def _check_leading(value: Any, shape: tuple[int, ...]) -> None:
 def total(scores: Any) -> Any:
     """Return the sum of an array of scores, shape ().
 
-    Without the barrier XLA merges this sum with the sums that made the scores into one long loop, which loses a digit.
-    With it compiled and uncompiled scores agree.
+    Without the barrier XLA merges this sum with the sums inside the scores into one long loop, which loses a digit.
+    With the barrier compiled and uncompiled scores agree.
     """
     return jnp.sum(jax.lax.optimization_barrier(scores))  # type: ignore[no-untyped-call]
 
 
 def replace_term(sum_: Any, old: Any, new: Any, afresh: Callable[[], Any]) -> Any:
-    """Return a sum after one of its terms changed, in time that does not grow with their number.
+    """Return a sum after one of its terms changed, in time that does not grow with the number of terms.
 
     Rounding errors add up to about sqrt(k) units in the last place after k changes. A sum that is not finite is
     recomputed by `afresh`.
@@ -213,14 +217,14 @@ def replace_term(sum_: Any, old: Any, new: Any, afresh: Callable[[], Any]) -> An
 # Chunks -----------------------------------------------------------------------------------------------
 
 CACHE_BYTES, DEVICE_BYTES = 1 << 20, 1 << 28
-"""The largest size of an intermediate array of a chunk, on a CPU and on an accelerator."""
+"""Largest size of an intermediate array of a chunk, bytes: on a CPU, and on an accelerator."""
 
 
 def in_chunks(fn: Callable[..., Any], *args: Any) -> Any:
-    """Return `fn(*args)`. Under `jax.vmap` run as many elements at a time as keep every array small.
+    """Return `fn(*args)`. Under `jax.vmap` run elements in chunks, so that every intermediate array is small.
 
     Memory is then that of the results and of one chunk. XLA moves work that all elements share out of the loop over
-    chunks, so that it is done once; in one large batch XLA may repeat it for each element.
+    chunks, so it is done once. In one large batch XLA may repeat this work for each element.
     """
     leaves, treedef = jax.tree.flatten(args)
     traced = [k for k, x in enumerate(leaves) if isinstance(x, jax.core.Tracer)]
@@ -228,7 +232,7 @@ def in_chunks(fn: Callable[..., Any], *args: Any) -> Any:
         return fn(*args)
 
     def of_traced(*values: Any) -> Any:
-        # What is known stays known, so that errors can be raised while tracing.
+        # Values that are not traced stay concrete, so that errors can be raised while tracing.
         filled = dict(zip(traced, values, strict=True))
         return fn(*jax.tree.unflatten(treedef, [filled.get(k, x) for k, x in enumerate(leaves)]))
 
@@ -242,6 +246,7 @@ def in_chunks(fn: Callable[..., Any], *args: Any) -> Any:
             rest = iter(moving)
             return of_traced(*(next(rest) if b else v for v, b in zip(values, in_batched, strict=True)))
 
+        # Choose the chunk so that its largest array fits.
         largest = _largest_array(jax.make_jaxpr(one)([v[0] for v in moving]).jaxpr)
         chunk = (CACHE_BYTES if jax.default_backend() == "cpu" else DEVICE_BYTES) // largest
         if chunk >= axis_size:
@@ -258,7 +263,7 @@ def in_chunks(fn: Callable[..., Any], *args: Any) -> Any:
 
 
 def _even_share(size: int, most: int) -> int:
-    """Return a chunk that divides the batch, if one is near `most`: a remainder would copy all results once more."""
+    """Return a chunk size near `most` that divides the batch, else `most`: a remainder would copy all results again."""
     return next((chunk for chunk in range(most, max(1, most // 4), -1) if size % chunk == 0), most)
 
 

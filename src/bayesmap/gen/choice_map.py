@@ -1,11 +1,11 @@
-"""Values of random choices by address: `C["walls"].set(w) | C["readings"].set(z)`, and their text.
+"""Choice maps: values of random choices by address, as in `C["walls"].set(w) | C["readings"].set(z)`, and their text.
 
 An address is a name, an index, or a tuple of names and indices. A vectorised model stores its values as whole arrays:
 `chm["v"]` is `chm[:, "v"]`, and `chm[0, "v"]` is its first element. A name selects a submap; an index selects from the
 leading axis of everything below it.
 
-A flag that is an array, such as a mask's flag or a comparison of index arrays, never decides which addresses a map has:
-the map holds the value as a Mask.
+A flag may be an array, such as a mask's flag or a comparison of index arrays. Such a flag does not change which
+addresses a map has: the map stores the value as a Mask.
 """
 
 from collections.abc import Callable, Iterable, Iterator
@@ -26,10 +26,10 @@ from bayesmap.gen.selection import Selection
 
 
 class Outlined:
-    """Base of values that print as a tree, one choice a line."""
+    """Base of values that print as a tree, one choice per line."""
 
     def outline(self, label: str = "") -> list[str]:
-        """Return the lines; `label` goes before the first."""
+        """Return the lines. The first begins with `label`."""
         raise NotImplementedError
 
     def __repr__(self) -> str:
@@ -49,18 +49,18 @@ def leaf_text(value: Any) -> str:
 
 
 def pretty() -> None:
-    """Let notebooks show values by treescope, if it is installed. Without it they show the same tree as text."""
+    """Make notebooks show values by treescope, if it is installed. Without it they show the same tree as text."""
     try:
         import treescope
 
         treescope.register_as_default()
         treescope.register_autovisualize_magic()
-    except (ImportError, RuntimeError):  # the latter is what treescope raises outside IPython
+    except (ImportError, RuntimeError):  # treescope raises RuntimeError outside IPython
         return
 
 
 def render(value: Outlined) -> str:
-    """Return a trace or a choice map as a tree, one choice a line."""
+    """Return the text of a trace or a choice map as a tree, one choice per line."""
     return "\n".join(value.outline())
 
 
@@ -73,9 +73,9 @@ def components(address: Any) -> tuple[Any, ...]:
 
 
 class Builder:
-    """`C["x", 0].set(v)`; also `C.v(value)`, `C.d({...})`, `C.kw(...)`, `C.n()`.
+    """Builder of choice maps: `C["x", 0].set(v)`, `C.v(value)`, `C.d({...})`, `C.kw(...)` and `C.n()`.
 
-    `base` is the map to change, None for the empty map; `address` is what was indexed.
+    `base` is the map to change, None for the empty map. `address` is the address at which a value is set.
     """
 
     def __init__(self, base: "ChoiceMap | None", address: tuple[Any, ...]) -> None:
@@ -85,7 +85,7 @@ class Builder:
         return Builder(self._base, (*self._address, *components(address)))
 
     def set(self, value: Any) -> "ChoiceMap":
-        """Return the map (the empty one for `C`) with `value`, a value, dict or map, at the address."""
+        """Return the base map with `value` at the address. `value` is a value, a dict or a map."""
         new = ChoiceMap.entry(value, *self._address)
         if self._base is None:
             return new
@@ -122,12 +122,12 @@ def _index(tree: Any, at: Any) -> Any:
 
 
 class ChoiceMap(Outlined, Pytree):
-    """Base of choice maps; make one with `ChoiceMapBuilder`, conventionally called `C`."""
+    """Base of choice maps. `ChoiceMapBuilder`, conventionally called `C`, makes them."""
 
-    # What a kind of node implements, with `outline` -----------------------------------------------
+    # Methods that each kind of node implements, with `outline` ------------------------------------
 
     def get_value(self) -> Any:
-        """Return the value at the empty address, or None; a Mask if its presence is decided at run time."""
+        """Return the value at the empty address, or None. It is a Mask if its presence is decided at run time."""
         return None
 
     def get_inner_map(self, component: Any) -> "ChoiceMap":
@@ -135,7 +135,7 @@ class ChoiceMap(Outlined, Pytree):
         raise NotImplementedError
 
     def filter(self, selection: Any) -> "ChoiceMap":
-        """Return the part whose addresses are selected; a flag selects everything or nothing."""
+        """Return the part whose addresses are selected. A flag selects everything or nothing."""
         raise NotImplementedError
 
     def paths(self) -> Iterator[tuple[Any, ...]]:
@@ -143,13 +143,13 @@ class ChoiceMap(Outlined, Pytree):
         raise NotImplementedError
 
     def static_is_empty(self) -> bool:
-        """Return whether the map is known to be empty, whatever the arrays hold."""
+        """Return whether the map is known to be empty for all values of its arrays."""
         return False
 
     # Reading --------------------------------------------------------------------------------------
 
     def get_submap(self, *addresses: Any) -> "ChoiceMap":
-        """Return the submap at an address: the empty map where there is none."""
+        """Return the submap at an address; the empty map if there is none."""
         path = [c for address in addresses for c in components(address)]
         return reduce(lambda chm, component: chm.get_inner_map(component), path, self)
 
@@ -175,18 +175,18 @@ class ChoiceMap(Outlined, Pytree):
         return sel
 
     def invalid_subset(self, gen_fn: Any, args: tuple[Any, ...]) -> "ChoiceMap | None":
-        """Return the choices that `gen_fn`, run on `args`, never makes; None if there are none."""
+        """Return the choices of this map that `gen_fn` never makes on `args`; None if there are none."""
         rest = self.filter(~gen_fn.choice_shapes(args).get_selection())
         return None if rest.static_is_empty() else rest
 
     def simplify(self) -> "ChoiceMap":
-        """Return this map: filters are applied at once, so nothing is left to simplify."""
+        """Return this map: filters are applied immediately, so there is nothing to simplify."""
         return self
 
     # Combining ------------------------------------------------------------------------------------
 
     def __or__(self, other: "ChoiceMap") -> "ChoiceMap":
-        """Return everything in either map; where both have a value, this map's value."""
+        """Return everything in either map. If both have a value at an address, this map's value is returned."""
         return join(self, other)
 
     __add__ = __xor__ = merge = __or__
@@ -195,7 +195,7 @@ class ChoiceMap(Outlined, Pytree):
         return other.filter(self.get_selection())
 
     def mask(self, flag: Any) -> "ChoiceMap":
-        """Return the choices where `flag` is True, and none elsewhere."""
+        """Return the choices if `flag` is True, and no choices otherwise."""
         return self.filter(flag)
 
     def extend(self, *address: Any) -> "ChoiceMap":
@@ -216,7 +216,7 @@ class ChoiceMap(Outlined, Pytree):
 
     @property
     def at(self) -> Builder:
-        """A builder: `chm.at["x"].set(v)` is this map with the value at "x" replaced."""
+        """Builder from this map: `chm.at["x"].set(v)` is this map with the value at "x" replaced."""
         return Builder(self, ())
 
     # Making ---------------------------------------------------------------------------------------
@@ -262,7 +262,7 @@ class ChoiceMap(Outlined, Pytree):
 
     @staticmethod
     def switch(idx: Any, chms: Iterable["ChoiceMap"]) -> "ChoiceMap":
-        """Return the map numbered `idx`; for an index array, all maps, masked."""
+        """Return map number `idx`. For an index array, return all maps, masked."""
         chms = list(chms)
         if isinstance(idx, int):
             return chms[idx]
@@ -335,14 +335,14 @@ class Static(ChoiceMap):
 
 @dataclass
 class Indexed(ChoiceMap):
-    """A map for the element `addr`, an int or a scalar; or for k elements, with `addr` (k,) and values (k, ...)."""
+    """A map at the index `addr`: an int or a scalar, or for k elements an array (k,), with values (k, ...)."""
 
     c: ChoiceMap
     addr: Any
 
     @staticmethod
     def build(chm: ChoiceMap, addr: Any) -> ChoiceMap:
-        """Return `chm` at the index `addr`; refuse a second array of indices."""
+        """Return `chm` at the index `addr`. Raises ValueError if `chm` and `addr` both have an array of indices."""
         if jnp.ndim(addr) > 0 and any(jnp.ndim(c) > 0 for path in chm.paths() for c in path if not isinstance(c, str)):
             raise ValueError("An address can hold one array of indices, and single indices before it")
         return Indexed(chm, addr)
@@ -371,7 +371,7 @@ class Indexed(ChoiceMap):
 
 @dataclass
 class Or(ChoiceMap):
-    """Two maps, the left one first: what `|` returns if it cannot join them at once."""
+    """Two maps that `|` cannot join immediately. The left map, `c1`, takes precedence."""
 
     c1: ChoiceMap
     c2: ChoiceMap
@@ -392,7 +392,7 @@ class Or(ChoiceMap):
 
 @dataclass
 class Switch(ChoiceMap):
-    """Several maps, each masked by `idx == k` for the map's number k and the integer array `idx`."""
+    """Several maps. Map number k is masked by `idx == k`, with an integer array `idx`."""
 
     idx: Any
     chms: tuple[ChoiceMap, ...]
@@ -422,10 +422,10 @@ class Switch(ChoiceMap):
 
 
 def join(left: ChoiceMap, right: ChoiceMap) -> ChoiceMap:
-    """Return everything in either map; where both have a value, the left map's value.
+    """Return everything in either map. If both have a value at an address, the left map's value is returned.
 
     Raises:
-        ValueError: one map has a value where the other has names.
+        ValueError: one map has a value at an address at which the other has names.
     """
     if left.static_is_empty() or right.static_is_empty():
         return right if left.static_is_empty() else left

@@ -22,7 +22,7 @@ from bayesmap.gen.typing import Arguments, PRNGKey, Score, Weight
 
 @dataclass
 class ScanTrace(OuterTrace):
-    """The steps' traces, stacked and without their arguments; `carries` are the states before each step."""
+    """The steps' traces, stacked and without their arguments. `carries` stores the state before each step."""
 
     gen_fn: Any
     args: Any
@@ -34,12 +34,13 @@ class ScanTrace(OuterTrace):
 
 @dataclass
 class Scan(GenerativeFunction):
-    """See `scan`."""
+    """A generative function iterated over a state and inputs. See `scan`."""
 
     inner: GenerativeFunction
     n: int | None = static(default=None)
 
     def _length(self, args: Arguments) -> int:
+        """Return the number of steps, from `n` or the leading axis of the inputs."""
         if len(args) != 2:
             raise TypeError(f"scan takes two arguments, (state, inputs), not {len(args)}")
         sizes = dict.fromkeys(jnp.shape(leaf)[0] for leaf in jax.tree.leaves(args[1]))
@@ -52,7 +53,7 @@ class Scan(GenerativeFunction):
         return self.n if self.n is not None else next(iter(sizes))
 
     def _loop(self, key: PRNGKey, args: Arguments, step: Callable[..., Any], mapped: Any) -> Any:
-        """Iterate `step(key, (state, x_t), mapped_t) -> (trace, weight, more)` with chained keys."""
+        """Iterate `step(key, (state, x_t), mapped_t) -> (trace, weight, more)`, and return these for the whole scan."""
         n = self._length(args)
 
         def body(carry: Any, scanned: Any) -> Any:
@@ -87,7 +88,7 @@ class Scan(GenerativeFunction):
 
         n = self._length(args)
         each = vectorise(choices, n)
-        if n == 0:  # nothing is drawn, and what has no elements is in no choice map
+        if n == 0:  # arrays without elements are in no choice map, and simulating draws nothing
             none = self.simulate(jax.random.key(0), args)
             return none.get_score(), none.get_retval()
         start = jax.tree.map(jnp.asarray, args[0])
@@ -113,7 +114,7 @@ class Scan(GenerativeFunction):
         raise NotSupportedEditRequest(self, request)
 
     def _edit_all(self, key: PRNGKey, trace: Any, request: EditRequest, argdiffs: Any) -> Edited:
-        """Edit every step in turn; leaves of `request` have a leading axis."""
+        """Edit every step in turn. Leaves of `request` have a leading axis."""
         args = Diff.tree_primal(argdiffs)
         mark = Diff.no_change if Diff.static_check_no_change(argdiffs[1]) else Diff.unknown_change
 
@@ -129,6 +130,7 @@ class Scan(GenerativeFunction):
 
     def _edit_step(self, key: PRNGKey, trace: Any, t: Any, request: EditRequest, argdiffs: Any) -> Edited:
         """Edit step t, and the steps after it if the state after step t may differ."""
+        # Move the trace to the new arguments first, then edit step t alone.
         args = Diff.tree_primal(argdiffs)
         trace, before, _, _ = EmptyRequest().edit(key, trace, argdiffs)
         old, *step_args = jax.tree.map(lambda x: x[t], (trace.inner, trace.carries, args[1]))
@@ -139,6 +141,7 @@ class Scan(GenerativeFunction):
         def put(stack: Any, value: Any) -> Any:
             return jax.tree.map(lambda x, v: x.at[t].set(v), stack, value)
 
+        # If the state after step t cannot have changed, only this step's entries change.
         if Diff.static_check_no_change(state_diff):
             retval = (trace.retval[0], put(trace.retval[1], out))
             inner = put(trace.inner, new)
@@ -146,6 +149,7 @@ class Scan(GenerativeFunction):
             diff = (Diff.no_change(retval[0]), Diff.unknown_change(retval[1]))
             return result, before + weight, diff, IndexRequest(t, back)
 
+        # Otherwise run all steps: those before t stay, step t is the edited one, and later ones get their new state.
         def step(key: PRNGKey, step_args: Any, mapped: Any) -> Any:
             inner, s = mapped
 
@@ -165,10 +169,10 @@ class Scan(GenerativeFunction):
 def scan(*, n: int | None = None) -> Callable[[GenerativeFunction], Scan]:
     """Return a decorator that turns `(state, x) -> (state, y)` into `(state, xs) -> (last state, ys)`.
 
-    Step t uses the key `fold_in(key of step t - 1, t)`, and its choices' addresses begin with t.
+    Step t uses the key `fold_in(key of step t - 1, t)`. Addresses of its choices begin with t.
 
     Args:
-        n: the number of steps; needed if `xs` is None.
+        n: number of steps. It is needed if `xs` is None.
     """
     return lambda gen_fn: Scan(gen_fn.as_part(), n)
 
@@ -194,46 +198,46 @@ def _drop_input(state: Any, x: Any) -> tuple[Any]:
 
 
 def _steps(gen_fn: GenerativeFunction, n: int | None = None) -> Scan:
-    """Return the scan of a function of (state, x), or, with `n`, of the state alone."""
+    """Return the scan of a function `(state, x) -> state`, or with `n` of a function `state -> state`."""
     paired = map(_pair)(gen_fn)
     return scan(n=n)(paired if n is None else dimap(pre=_drop_input)(paired))
 
 
 @decorator_method
 def accumulate() -> Callable[[GenerativeFunction], Any]:
-    """Return a decorator that turns `(state, x) -> state` into `(state, xs) -> ` all n + 1 states."""
+    """Return a decorator that turns `(state, x) -> state` into `(state, xs) -> states`, with all n + 1 states."""
     return lambda gen_fn: dimap(post=_all)(_steps(gen_fn))
 
 
 @decorator_method
 def reduce() -> Callable[[GenerativeFunction], Any]:
-    """Return a decorator that turns `(state, x) -> state` into `(state, xs) -> ` the last state."""
+    """Return a decorator that turns `(state, x) -> state` into `(state, xs) -> last state`."""
     return lambda gen_fn: dimap(post=_last)(_steps(gen_fn))
 
 
 @decorator_method
 def iterate(*, n: int) -> Callable[[GenerativeFunction], Any]:
-    """Return a decorator that turns `state -> state` into `state -> ` all n + 1 states."""
+    """Return a decorator that turns `state -> state` into `state -> states`, with all n + 1 states."""
     return lambda gen_fn: dimap(pre=_first_only, post=_all)(_steps(gen_fn, n))
 
 
 @decorator_method
 def masked_iterate() -> Callable[[GenerativeFunction], Any]:
-    """Return a decorator that turns `state -> state` into `(state, flags) -> ` all n + 1 states.
+    """Return a decorator that turns `state -> state` into `(state, flags) -> states`, with all n + 1 states.
 
-    The choices of a step whose flag is False do not count, but the step still changes the state.
+    If a step's flag is False, its choices do not count, but the step still changes the state.
     """
     return lambda gen_fn: dimap(post=_all)(_steps(_flagged(gen_fn)))
 
 
 @decorator_method
 def masked_iterate_final() -> Callable[[GenerativeFunction], Any]:
-    """Return a decorator that turns `state -> state` into `(state, flags) -> ` the last state; see `masked_iterate`."""
+    """Return a decorator that turns `state -> state` into `(state, flags) -> last state`. See `masked_iterate`."""
     return lambda gen_fn: dimap(post=_last)(_steps(_flagged(gen_fn)))
 
 
 def _flagged(gen_fn: GenerativeFunction) -> Any:
-    """Turn `state -> state` into `(state, flag) -> state`."""
+    """Return `state -> state` as a function `(state, flag) -> state`."""
     return dimap(pre=_flag_first, post=_unmasked)(mask(gen_fn))
 
 
@@ -247,5 +251,5 @@ def _unmasked(args: Any, inner_args: Any, retval: Any) -> Any:
 
 @decorator_method
 def iterate_final(*, n: int) -> Callable[[GenerativeFunction], Any]:
-    """Return a decorator that turns `state -> state` into `state -> ` the last of n + 1 states."""
+    """Return a decorator that turns `state -> state` into `state -> last state`, after n steps."""
     return lambda gen_fn: dimap(pre=_first_only, post=_last)(_steps(gen_fn, n))

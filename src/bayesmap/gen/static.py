@@ -23,7 +23,7 @@ from bayesmap.gen.typing import Arguments, PRNGKey, Score, StaticAddress, Weight
 
 
 class Replay(Handler):
-    """A run whose sites return given values; it collects each site's function and arguments."""
+    """A run whose sites return the values `retvals`. It collects each site's function and arguments in `calls`."""
 
     def __init__(self, retvals: dict[StaticAddress, Any]) -> None:
         super().__init__()
@@ -46,8 +46,8 @@ class Replay(Handler):
 class StaticTrace(Trace):
     """The calls of one run by address.
 
-    A leaf of the return value that some call returned is stored with that call alone: its entry in `sources` is
-    (address, number of the leaf). Its entry is None for a leaf that the body computed, which `computed` stores.
+    If a call returned a leaf of the return value, only the call's trace stores the leaf, and its entry in `sources` is
+    (address, number of the call's leaf). Otherwise the entry is None, and `computed` stores the leaf.
     """
 
     gen_fn: Any
@@ -60,6 +60,7 @@ class StaticTrace(Trace):
     @staticmethod
     def build(gen_fn: Any, args: Any, retval: Any, subtraces: dict[StaticAddress, Trace]) -> "StaticTrace":
         """Return the trace of a run whose calls made `subtraces`, in order."""
+        # Leaves are recognised by identity: a leaf of a call that the body returns unchanged is the same object.
         origin: dict[int, tuple[StaticAddress, int]] = {}
         for path, trace in subtraces.items():
             for k, leaf in enumerate(jax.tree.leaves(trace.get_retval())):
@@ -89,6 +90,7 @@ class StaticTrace(Trace):
         if self.args is None:
             return self.subtraces[path]
 
+        # The trace stores no arguments of sites: run the body again. A vectorised trace needs one vmap per axis.
         def site_args(trace: StaticTrace) -> Any:
             replay = Replay({p: t.get_retval() for p, t in trace.subtraces.items()})
             replay.run(trace.gen_fn, trace.args)
@@ -100,7 +102,7 @@ class StaticTrace(Trace):
 
 
 class _Run(Handler):
-    """A run that records a trace for each site, with keys `fold_in(key, 1)`, `fold_in(key, 2)`, ..."""
+    """A run that records a trace for each site. The sites' keys are `fold_in(key, 1)`, `fold_in(key, 2)`, ..."""
 
     def __init__(self, key: PRNGKey) -> None:
         super().__init__()
@@ -154,7 +156,11 @@ class _Assess(Handler):
 
 
 class _Edit(_Run):
-    """A run that edits each site's trace, and tells the site which of its arguments changed."""
+    """A run that edits each site's trace, given which of the site's arguments changed.
+
+    `flow` stores the origins of each output of the body, None if unknown. `inputs` and `returned` store the changes of
+    the leaves of its arguments and of its sites' return values. `position` counts the outputs so far.
+    """
 
     def __init__(self, key: PRNGKey, old: StaticTrace, request: Callable[[StaticAddress], EditRequest], argdiffs: Any):
         super().__init__(key)
@@ -166,7 +172,7 @@ class _Edit(_Run):
         self.position = 0
 
     def mark(self, value: Any) -> Any:
-        """Return the next output of the body with what is known of its change."""
+        """Return the next output of the body as `Diff` leaves, with its change as far as that is known."""
         position, self.position = self.position, self.position + len(jax.tree.leaves(value))
         if self.flow is None:
             return Diff.unknown_change(value)
@@ -179,6 +185,7 @@ class _Edit(_Run):
     def call(self, path: StaticAddress, gen_fn: Any, args: Arguments) -> Trace:
         if path not in self.old.subtraces:
             raise UnknownAddress(path, "the trace that is edited has no such site")
+        # A function that the body defined again, and that may differ, needs a full rescoring.
         marked_fn, argdiffs = self.mark((gen_fn, args))
         subtrace, request, key = self.old.subtraces[path], self.request(path), self.next_key()
         same = bool(jax.tree.structure(gen_fn) == jax.tree.structure(subtrace.get_gen_fn()))  # type: ignore[operator]
@@ -205,10 +212,11 @@ def _flow_of_body(old: StaticTrace, args: Arguments) -> Any:
 
 
 def _edit_anew(key: PRNGKey, old: Trace, gen_fn: Any, request: EditRequest, args: Arguments) -> Edited:
-    """Edit the trace of a function that the body defined again and that may differ, by scoring all of it.
+    """Edit the trace of a function that the body defined again and that may differ, by scoring the whole trace.
 
-    `generate` answers requests that depend on addresses alone. Any other request edits a trace of the new function with
-    the old choices. The weights of these two steps add up, as for new arguments.
+    A request that depends on addresses alone becomes a call of `generate`. For any other request, the function first
+    gets a trace with the old choices, and the request then edits this trace. The weights of the two steps add up, as
+    for new arguments.
     """
     choices = old.get_choices()
     match request:
@@ -248,7 +256,7 @@ def _check_known(paths: Iterable[Any], visited: list[StaticAddress]) -> None:
 
 @dataclass
 class StaticGenerativeFunction(GenerativeFunction):
-    """A Python function under `@gen`; `partial_args` come before its arguments.
+    """A Python function, `source`, under `@gen`. The fixed `partial_args` come before its arguments.
 
     With `by_name` the arguments have the form `((positional, ...), {"name": value})`.
     """
@@ -305,6 +313,7 @@ class StaticGenerativeFunction(GenerativeFunction):
 
     def edit(self, key: PRNGKey, trace: Any, request: EditRequest, argdiffs: Any) -> Edited:
         sites = list(trace.subtraces)
+        # Make the request for each site.
         match request:
             case Update(constraint):
                 _check_known(constraint.paths(), sites)
@@ -322,13 +331,14 @@ class StaticGenerativeFunction(GenerativeFunction):
                 part = lambda path: Regenerate(selection(path))  # noqa: E731
             case _:
                 raise NotSupportedEditRequest(self, request)
+        # Run the body on the new arguments, and edit each site on the way.
         handler = _Edit(key, trace, part, argdiffs)
         new = handler.run(self, Diff.tree_primal(argdiffs))
         return new, handler.weight, handler.mark(new.get_retval()), _undo(request, handler.backward)
 
 
 def _undo(request: EditRequest, backward: dict[StaticAddress, EditRequest]) -> EditRequest:
-    """Join the sites' backward requests: into an Update if the request and all of them are updates."""
+    """Join the sites' backward requests. Returns an Update if the request and all of them are updates."""
     if isinstance(request, Update) and all(isinstance(b, Update | EmptyRequest) for b in backward.values()):
         parts = [b.constraint.extend(*path) for path, b in backward.items() if isinstance(b, Update)]
         return Update(functools.reduce(lambda a, b: a | b, parts, ChoiceMap.empty()))
@@ -336,6 +346,7 @@ def _undo(request: EditRequest, backward: dict[StaticAddress, EditRequest]) -> E
 
 
 def _unpickle(module: str, name: str, partial_args: Any, by_name: bool) -> StaticGenerativeFunction:
+    """Return the generative function of the source at `name` in a module, which may be decorated or plain."""
     found: Any = functools.reduce(getattr, name.split("."), importlib.import_module(module))
     source = found.source if isinstance(found, StaticGenerativeFunction) else found
     return StaticGenerativeFunction(partial_args, source, by_name)
@@ -344,12 +355,12 @@ def _unpickle(module: str, name: str, partial_args: Any, by_name: bool) -> Stati
 def gen(source: Callable[..., Any]) -> StaticGenerativeFunction:
     """Return a Python function as a generative function.
 
-    In its body `g(*args) @ "address"` calls a generative function and records its choices under the address; `@ ()`
-    records them as the function's own choices. The i-th call uses `fold_in(key, i)`, i from 1.
+    In its body `g(*args) @ "address"` calls a generative function and records its choices under the address. `@ ()`
+    records them as the function's own choices. The i-th call uses `fold_in(key, i)`, with i from 1.
 
     Raises, when it runs:
         AddressReuse: two calls have the same address.
-        MissingAddress, UnknownAddress: choices that were given do not match the addresses.
+        MissingAddress, UnknownAddress: given choices do not match the addresses.
     """
     made = StaticGenerativeFunction((), source)
     for name in (*functools.WRAPPER_ASSIGNMENTS, "__wrapped__"):

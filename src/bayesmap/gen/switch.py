@@ -1,4 +1,4 @@
-"""Choices made at run time: between generative functions, and whether a generative function counts at all."""
+"""Generative functions chosen at run time: one of several branches, or a mask that makes one count or not."""
 # ruff: noqa: D102 - the methods are those of the contract, documented with it.
 
 import operator
@@ -26,7 +26,7 @@ from bayesmap.gen.typing import Arguments, PRNGKey, Score, Weight
 
 @dataclass
 class MaskTrace(OuterTrace):
-    """The inner trace, whose choices and score count where `flag` holds. It has arguments if this trace has them."""
+    """The trace `inner`, whose choices and score count if `flag` is True. It has arguments if this trace has them."""
 
     gen_fn: Any
     args: Any
@@ -47,7 +47,7 @@ class MaskTrace(OuterTrace):
 
 
 def _flag(args: Arguments) -> Any:
-    """Return the first argument: Python's True, or an array, with which the choices stay in the map, masked.
+    """Return the first argument: Python's True, or an array. With an array the choices stay in the map, masked.
 
     Raises:
         BadArguments: the argument has a shape.
@@ -59,7 +59,7 @@ def _flag(args: Arguments) -> Any:
 
 @dataclass
 class MaskCombinator(GenerativeFunction):
-    """See `mask`."""
+    """A generative function whose first argument decides whether it counts. See `mask`."""
 
     inner: GenerativeFunction
 
@@ -80,13 +80,14 @@ class MaskCombinator(GenerativeFunction):
         return jnp.where(args[0], score, 0.0), Mask.build(retval, _flag(args))
 
     def edit(self, key: PRNGKey, trace: Any, request: EditRequest, argdiffs: Any) -> Edited:
-        """Edit the inner trace even where the flag is False; its choices weigh as soon as the flag is True."""
+        """Edit the inner trace even if the flag is False. Its choices count as soon as the flag is True."""
         if not isinstance(request, Update | EmptyRequest | Regenerate):
             raise NotSupportedEditRequest(self, request)
         args = Diff.tree_primal(argdiffs)
         before, after = jnp.asarray(trace.flag), jnp.asarray(_flag(args))
         inner, weight, retdiff, back = request.edit(key, trace.inner, argdiffs[1:])
         new = self._trace(args, inner)
+        # The edit's weight counts if the flag is and was True. A flag that changes adds or removes a score.
         switched = jnp.where(after, inner.get_score(), 0.0) - jnp.where(before, trace.inner.get_score(), 0.0)
         weight = jnp.where(before & after, weight, jnp.where(before == after, 0.0, switched))
         retval = new.get_retval()
@@ -99,17 +100,17 @@ class MaskCombinator(GenerativeFunction):
 
 @method
 def mask(gen_fn: GenerativeFunction) -> MaskCombinator:
-    """Return a generative function with one more argument, a flag, in first place.
+    """Return a generative function with an additional first argument, a flag.
 
-    Where the flag is False the choices do not count: the score is 0, and choices and return value are Masks whose flag
-    is False.
+    If the flag is False, the choices do not count: the score is 0, and choices and return value are Masks whose flag is
+    False.
     """
     return MaskCombinator(gen_fn.as_part())
 
 
 @dataclass
 class SwitchTrace(Trace):
-    """One trace for each branch; only the trace number `index` is filled in."""
+    """One trace per branch. Only the trace of branch number `index`, which ran, has values; the others are zeros."""
 
     gen_fn: Any
     args: Any
@@ -126,31 +127,32 @@ class SwitchTrace(Trace):
         return ChoiceMap.switch(self.index, [t.get_choices() for t in self.branches])
 
     def get_inner_trace(self, address: Any) -> Trace:
-        """Return the subtrace of the branch that ran; a traced index selects among the branches with the address."""
+        """Return the subtrace of the branch that ran. A traced index selects among the branches with the address."""
         all_args = [None] * len(self.branches) if self.args is None else self.args[1:]
         branches = [t.with_args(a) for t, a in zip(self.branches, all_args, strict=True)]
         if is_concrete(self.index) and jnp.ndim(self.index) == 0:
             return branches[int(self.index)].get_inner_trace(address)
-        found = {}
+        # The number is known at run time only: select among the subtraces of all branches with the address.
+        subtraces = {}
         for k, trace in enumerate(branches):
             with suppress(AddressError):
-                found[k] = trace.get_inner_trace(address)
-        if not found:
+                subtraces[k] = trace.get_inner_trace(address)
+        if not subtraces:
             raise UnknownAddress(address, "no branch has it")
-        if len({jax.tree.structure(t) for t in found.values()}) > 1:
+        if len({jax.tree.structure(t) for t in subtraces.values()}) > 1:
             raise AddressError(address, "the branches' traces differ there, and which one ran is not known")
-        chosen = next(iter(found.values()))
-        for k, trace in found.items():
+        chosen = next(iter(subtraces.values()))
+        for k, trace in subtraces.items():
             chosen = where(self.index == k, trace, chosen)
         return chosen
 
 
 def run_branch(index: Any, thunks: Sequence[Callable[[], tuple[Any, Any]]]) -> tuple[tuple[Any, ...], Any]:
-    """Run thunk number `index`; each thunk returns (own result, shared result).
+    """Run thunk number `index`. Each thunk returns (own result, shared result).
 
     Returns:
-        (the own results of all thunks, zeros for those not run; the shared result, in the thunks' common dtypes and
-        shapes).
+        (own results of all thunks, with zeros for those that did not run; shared result of the one that ran, in the
+        thunks' common dtypes and shapes).
 
     Raises:
         ValueError: the shapes of the shared results do not go together.
@@ -172,7 +174,7 @@ def run_branch(index: Any, thunks: Sequence[Callable[[], tuple[Any, Any]]]) -> t
 
 @dataclass
 class Switch(GenerativeFunction):
-    """See `switch`."""
+    """A generative function that runs one of several branches. See `switch`."""
 
     branches: tuple[GenerativeFunction, ...]
 
@@ -180,7 +182,7 @@ class Switch(GenerativeFunction):
         """Return (index, arguments of each branch).
 
         Raises:
-            BadArguments: the index is known and numbers no branch, or the number of arguments is wrong.
+            BadArguments: the index is known and out of range, or the number of arguments is wrong.
         """
         index, *rest = args
         index, n = Diff.tree_primal(index), len(self.branches)
@@ -191,6 +193,7 @@ class Switch(GenerativeFunction):
         return (index if isinstance(index, int) else jnp.clip(index, 0, n - 1)), rest
 
     def _build(self, args: Arguments, thunks: Sequence[Callable[[], Any]]) -> tuple[SwitchTrace, Weight]:
+        """Return the trace and the weight of the branch that runs. Each thunk returns a branch's (trace, weight)."""
         index, _ = self._read(args)
 
         def outcome(thunk: Callable[[], Any]) -> Callable[[], Any]:
@@ -205,7 +208,7 @@ class Switch(GenerativeFunction):
         return SwitchTrace(self, args, index, traces, retval, score), weight
 
     def _parts(self, choices: ChoiceMap, args: Sequence[Any]) -> list[ChoiceMap]:
-        """Return the choices that each branch has.
+        """Return for each branch the choices that it can make.
 
         Raises:
             UnknownAddress: no branch has a choice.
@@ -235,9 +238,9 @@ class Switch(GenerativeFunction):
             return run_branch(index, thunks)[1]  # type: ignore[no-any-return]
 
     def edit(self, key: PRNGKey, trace: Any, request: EditRequest, argdiffs: Any) -> Edited:
-        """Edit the branch that stays active, or draw a newly active branch anew; these draws add no weight.
+        """Edit the branch that stays active, or draw a newly active branch anew. These draws add no weight.
 
-        The backward request gives the old branch its old choices; the caller must restore the old index.
+        The backward request restores the old branch's choices. The caller must restore the old index.
         """
         if not isinstance(request, Update | EmptyRequest | Regenerate):
             raise NotSupportedEditRequest(self, request)
@@ -246,6 +249,7 @@ class Switch(GenerativeFunction):
         parts = self._parts(constraint, [Diff.tree_primal(d) for d in diffs])
         same_index = argdiffs[0].tangent == NoChange
 
+        # Thunk k edits branch k if it was active, and otherwise generates it.
         def thunk(k: int) -> Callable[[], Any]:
             fn, old, diff = self.branches[k], trace.branches[k], diffs[k]
             mine = Update(parts[k]) if isinstance(request, Update) else request
@@ -274,11 +278,11 @@ class Switch(GenerativeFunction):
 
 @method
 def switch(*gen_fns: GenerativeFunction) -> Switch:
-    """Return a generative function that runs the one of `gen_fns` that its first argument numbers.
+    """Return a generative function that runs one of `gen_fns`. Its first argument is the number of the function.
 
-    The other arguments are one tuple for each function. The return values have common shapes and dtypes. Unless the
-    number is a Python int, the choices are Masks. A known number that is out of range raises an error; a traced one
-    counts as the nearest branch.
+    The other arguments are one tuple per function. Return values are converted to common shapes and dtypes. Unless the
+    number is a Python int, the choices are Masks. A known number that is out of range raises an error. A traced number
+    out of range counts as the nearest one.
     """
     return Switch(tuple(fn.as_part() for fn in gen_fns))
 
@@ -289,15 +293,15 @@ def _branch_of(flag: Any, if_args: Any, else_args: Any) -> tuple[Any, ...]:
 
 @method
 def or_else(if_fn: GenerativeFunction, else_fn: GenerativeFunction) -> Any:
-    """Return `if_fn` if the first argument is True, else `else_fn`; their two tuples of arguments follow."""
+    """Return a function that runs `if_fn` or `else_fn`: its arguments are a flag, and the two tuples of arguments."""
     return contramap(_branch_of)(switch(if_fn, else_fn))
 
 
 @method
 def mix(*gen_fns: GenerativeFunction) -> Any:
-    """Return a mixture: its arguments are the logits, then one tuple of arguments for each component.
+    """Return a mixture. Its arguments are the logits, then one tuple of arguments per component.
 
-    Its choices are "mixture_component", and those of this component under "component_sample".
+    Its choices are "mixture_component", and the component's choices under "component_sample".
     """
     chosen = switch(*gen_fns)
 

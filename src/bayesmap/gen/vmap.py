@@ -25,7 +25,7 @@ from bayesmap.gen.typing import Arguments, InAxes, PRNGKey, Score, Weight
 
 @dataclass
 class Product(ExactDensity):
-    """`inner` drawn once for each element of the mapped arguments, element i with `split(key, n)[i]`."""
+    """A distribution over arrays: `inner` once per element of the mapped arguments, with the key `split(key, n)[i]`."""
 
     inner: ExactDensity
     in_axes: InAxes = static()
@@ -47,6 +47,7 @@ class Product(ExactDensity):
         return total(scores)  # type: ignore[no-any-return]
 
     def index_shape(self, args: Arguments) -> tuple[int, ...]:
+        # Trace `inner.index_shape` on abstract arguments of one element: it returns shapes, not arrays.
         mapped, below = self._map(args), []
 
         def of_element(leaves: list[Any]) -> None:
@@ -67,11 +68,13 @@ class Product(ExactDensity):
         return super().edit(key, trace, request, argdiffs)
 
     def _edit_element(self, key: PRNGKey, trace: Any, i: Any, request: EditRequest, argdiffs: Any) -> Edited:
-        """Change one element; no other is looked at."""
+        """Change one element, without reading any other."""
         args = Diff.tree_primal(argdiffs)
+        # Move the trace to the new arguments first.
         trace, before, _, _ = EmptyRequest().edit(key, trace, argdiffs)
         mapped = self._map(args)
         i = check_index(i, mapped.n)
+        # Edit the element's own trace, and store its value and score.
         here = mapped.element(i)
         value = trace.value[i]
         element = DistributionTrace(self.inner, here, value, self.inner.score(value, here))
@@ -88,7 +91,7 @@ class Product(ExactDensity):
 
 @dataclass
 class VmapTrace(OuterTrace):
-    """The elements' traces, stacked and without their arguments. `args` holds an argument that they share once."""
+    """The elements' traces, stacked and without their arguments. `args` stores a shared argument only once."""
 
     gen_fn: Any
     args: Any
@@ -101,7 +104,7 @@ class VmapTrace(OuterTrace):
 
 @dataclass
 class Vmap(GenerativeFunction):
-    """See `vmap` and `repeat`."""
+    """A generative function mapped over axes of its arguments. See `vmap` and `repeat`."""
 
     inner: GenerativeFunction
     in_axes: InAxes = static()
@@ -132,7 +135,7 @@ class Vmap(GenerativeFunction):
     def assess(self, choices: ChoiceMap, args: Arguments) -> tuple[Score, Any]:
         mapped = self._map(args)
         each = vectorise(choices, mapped.n)
-        if mapped.n == 0:  # nothing is drawn, and what has no elements is in no choice map
+        if mapped.n == 0:  # arrays without elements are in no choice map, and simulating draws nothing
             none = self.simulate(jax.random.key(0), args)
             return none.get_score(), none.get_retval()
         scores, retvals = mapped.vmap(self.inner.assess, each)
@@ -159,12 +162,12 @@ class Vmap(GenerativeFunction):
         raise NotSupportedEditRequest(self, request)
 
     def _edit_all(self, key: PRNGKey, trace: Any, request: EditRequest, argdiffs: Any) -> Edited:
-        """Edit every element; leaves of `request` have a leading axis."""
+        """Edit every element. Leaves of `request` have a leading axis."""
         args = Diff.tree_primal(argdiffs)
         mapped = self._map(args)
 
         def of_elements(tangent: Change) -> Change:
-            """Return the change of an element: an index of the whole says nothing about one element, nor vice versa."""
+            """Return the change of one element, unknown for an index change: that index refers to the whole array."""
             return UnknownChange if isinstance(tangent, IndexChange) else tangent
 
         pairs = zip(Diff.tangents(argdiffs), mapped.axes, strict=True)
@@ -181,8 +184,9 @@ class Vmap(GenerativeFunction):
         return self._trace(args, inner), total(weights), retdiff, undo
 
     def _edit_element(self, key: PRNGKey, trace: Any, i: Any, request: EditRequest, argdiffs: Any) -> Edited:
-        """Change one element; no other is looked at."""
+        """Change one element, without reading any other."""
         args = Diff.tree_primal(argdiffs)
+        # Move the trace to the new arguments first, then edit the element's own trace.
         trace, before, _, _ = EmptyRequest().edit(key, trace, argdiffs)
         mapped = self._map(args)
         i = check_index(i, mapped.n)
@@ -200,13 +204,14 @@ class Vmap(GenerativeFunction):
 
 
 def _at(i: Any, tangent: Change) -> Change:
-    """Return the change of the whole that a change of element `i` is."""
+    """Return the change of the whole array, given the change of its element `i`."""
     if tangent == NoChange:
         return NoChange
     return IndexChange((i, *(tangent.index if isinstance(tangent, IndexChange) else ())))
 
 
 def _mapped(gen_fn: GenerativeFunction, in_axes: InAxes, n: int | None) -> Any:
+    """Return the mapped function: a `Product` for an exact density, otherwise a `Vmap`."""
     kind: Any = Product if isinstance(gen_fn, ExactDensity) else Vmap
     return kind(gen_fn.as_part(), in_axes, n)
 
@@ -219,10 +224,10 @@ def vmap(*, in_axes: InAxes = 0) -> Callable[[GenerativeFunction], Any]:
     a choice of element i begins with i.
 
     Args:
-        in_axes: as for `jax.vmap`, one entry for each argument; None shares an argument among the elements.
+        in_axes: mapped axes as for `jax.vmap`, one entry per argument. None shares an argument among the elements.
 
     Raises, when it runs:
-        ValueError, TypeError: what `jax.vmap` raises if the axes do not fit.
+        ValueError, TypeError: the axes do not fit, as for `jax.vmap`.
         ShapeMismatch: a constraint's leading axis is not n.
     """
     return lambda gen_fn: _mapped(gen_fn, tuple(in_axes) if isinstance(in_axes, list) else in_axes, None)
@@ -230,5 +235,5 @@ def vmap(*, in_axes: InAxes = 0) -> Callable[[GenerativeFunction], Any]:
 
 @decorator_method
 def repeat(*, n: int) -> Callable[[GenerativeFunction], Any]:
-    """Return a decorator that calls a generative function `n` times with the same arguments; see `vmap`."""
+    """Return a decorator that calls a generative function `n` times with the same arguments. See `vmap`."""
     return lambda gen_fn: _mapped(gen_fn, None, n)

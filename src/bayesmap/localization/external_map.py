@@ -1,11 +1,13 @@
-"""Maps of other programs for localization: the law that such a map implies, fitted to the log that is located.
+"""Maps of other programs for localization: the law of readings in such a map, fitted to the log that is located.
 
-A map_server map says of each cell that it is occupied, free or unknown, or how likely it is occupied. The law is that
-of `bayesmap.posterior.baselines`: occupied cells stop beams with one probability, free ones with another, and those
-between along the logit. A reading scatters about the stop by the noise of sensor and map together. People, furniture
-and doors that the map lacks stand before the walls (`BeamMixture.p_short`), and some readings have nothing to do with
-the map. Errors that all beams of a scan share are no noise: a scan is worth few independent readings, scans along 1.5 m
-of path tell the same, and the pose itself is off by as much as the map (`Trust`).
+A map_server map marks each cell as occupied, free or unknown, or gives the probability that it is occupied. The law is
+that of `bayesmap.posterior.baselines`: occupied cells stop beams with one probability, free cells with another, and
+between the two the logit is linear. A reading scatters about the stop by the noise of sensor and map together. People,
+furniture and doors that the map lacks stand before the walls (`BeamMixture.p_short`), and some readings have nothing to
+do with the map.
+
+Errors that all beams of a scan share are no noise (`Trust`). A scan is worth few independent readings, scans along
+1.5 m of path share their errors, and the pose is off by as much as the map.
 """
 
 from __future__ import annotations
@@ -44,8 +46,8 @@ ASSUMED: Mapping[str, float] = {
     "scale_m": 0.08, "scale_per_m": 0.005, "p_random": 0.1, "p_no_return": 0.03, "p_short": 0.3,
     "rate_short_per_m": 0.3, "stop_occupied": 0.8, "stop_free": 1e-3, "stop_unknown": 0.05,
 }  # fmt: skip
-"""The law before it is fitted, and where too few scans are located to fit one. Free cells stop so few beams that
-kernels skip them (`bayesmap.kernels.predict.pose_weights`)."""
+"""The law before it is fitted, and if too few scans are located to fit one. Free cells stop so few beams that kernels
+skip them (`bayesmap.kernels.predict.pose_weights`)."""
 
 WARY = Trust(
     place_readings=3.8, shared_way_m=1.5, shared_error_m=0.08, carried=3e-3, search_way_m=1.0, kept=12,
@@ -54,25 +56,26 @@ WARY = Trust(
 """Trust in a map of unknown quality."""
 
 MOST_SCANS, APART_M = 150, 0.3
-"""Most scans of the log that are located to fit the law, and their least distance along the path."""
+"""Most scans of the log that are located to fit the law, and their least distance along the path, metres."""
 
 LIKELY, FEWEST_SCANS = 0.95, 20
-"""Probability of its likeliest place with which a scan serves the fit, and the fewest scans of a fit."""
+"""Least probability of a scan's likeliest place with which the scan is used in the fit, and fewest scans of a fit."""
 
 USUAL_WAY_M = 3.0
-"""Length of beam for which the share of beams that meet something else is reported."""
+"""Length of beam for which the share of beams that meet something else is reported, metres."""
 
 BLOCK, BEAMS = 5, 60
-"""Scans in a row that the fit is made on, before as many that judge it, and beams of a scan in the fit."""
+"""Successive scans for the fit, followed by as many scans that judge it, and beams per scan in the fit."""
 
 MOST_SEARCHES, NEAR_M, APART_PLACES_M = 40, 0.6, 1.0
-"""Most scans that are searched for singly; metres plus radians up to which a place is theirs, and beyond which not."""
+"""Most scans that are searched for singly, and two distances in metres plus radians: a place nearer than the first is
+right, and a place further than the second is wrong."""
 
 POWERS, FEWEST_SEARCHES = np.array([0.2, 0.3, 0.5, 0.7, 1.0]), 8
-"""Powers by which the evidence of a place may count, and the fewest searches that choose one; with fewer it is 0.5."""
+"""Powers that the evidence for a place may have, and fewest searches that choose one. With fewer, the power is 0.5."""
 
 LEAST_SD_NATS = 0.05
-"""Least standard deviation of the fit of scans, nats a beam."""
+"""Least standard deviation of the fit of scans, nats per beam."""
 
 
 @dataclass(frozen=True)
@@ -81,10 +84,10 @@ class MapLaw:
 
     Attributes:
         values: stop probabilities of cells, and the numbers of the beam model.
-        trust: how far the map is trusted.
-        scans: number of scans that the law was fitted on and judged by; 0: it is assumed.
+        trust: trust in the map.
+        scans: number of scans that the law was fitted on and judged by; 0 if it is assumed.
         nats_per_beam: mean log density of readings of the judging scans under this law; NaN if there are none.
-        usual_fit: of these scans at their own places and at others; None if unknown.
+        usual_fit: fit of these scans at their own places and at others; None if unknown.
     """
 
     values: Mapping[str, float]
@@ -94,7 +97,7 @@ class MapLaw:
     usual_fit: UsualFit | None = None
 
     def words(self) -> str:
-        """Return the law in a line."""
+        """Return a description of the law, one line."""
         v = self.values
         met = 100 * v["p_short"] * -math.expm1(-v["rate_short_per_m"] * USUAL_WAY_M)
         how = f"fitted on {self.scans} scans" if self.scans else "assumed: too few scans are located to fit it"
@@ -117,12 +120,12 @@ def external_map(
     """Return a map of another program, ready to locate scans in.
 
     Args:
-        occupancy: probability that each cell is occupied, NaN where unknown, (nx, ny), as `read_map` gives it.
-        grid: of the map.
-        scans: typical ones, for the law of readings anywhere.
-        law: what the map means; by default the assumed law.
-        beam_weight: weight of a beam, as a share of an independent reading; None: by the law's trust.
-        device: where to compute.
+        occupancy: probability that each cell is occupied, NaN where unknown, (nx, ny), as `read_map` returns it.
+        grid: grid of the map.
+        scans: typical scans, for the law of readings anywhere.
+        law: law of readings in the map; by default the assumed law.
+        beam_weight: weight of a beam, as a share of an independent reading; None for the weight by the law's trust.
+        device: device that computes.
 
     Raises:
         BadInput: no free cell, or no occupied one.
@@ -141,17 +144,18 @@ def external_map(
 def fit_law(occupancy: Floats, grid: Grid, scans: Scans, seed: int = 0, on_progress: OnShare = ignored) -> MapLaw:
     """Fit the law of a map to scans with odometry, whose places in the map are unknown.
 
-    The scans are located under the assumed law. The law is fitted on those that are surely located, five in a row of
-    ten; the others choose among the fitted law, the assumed one, and the one halfway. They are also searched for one
-    by one, which tells how well scans fit at their own places and elsewhere, and what a scan is worth.
+    The scans are located under the assumed law. Of the scans that are surely located, five in each ten fit the law. The
+    other five choose among the fitted law, the assumed law, and the law halfway between. They are also searched for one
+    by one. These searches give the usual fit of scans at right and wrong places, and the worth of a scan.
 
     Args:
         occupancy: probability that each cell is occupied, NaN where unknown, (nx, ny).
-        grid: of the map.
-        scans: in order of time, at poses of odometry.
-        seed: of the draws of poses.
-        on_progress: called with the share that is done.
+        grid: grid of the map.
+        scans: scans in order of time, at poses of odometry.
+        seed: seed of the draws of poses.
+        on_progress: function that is called with the completed share.
     """
+    # Locate the scans, and divide the surely located ones into scans for the fit and for judging.
     assumed = MapLaw(ASSUMED)
     spread = spread_out(scans)
     if len(spread) < FEWEST_SCANS:
@@ -168,6 +172,7 @@ def fit_law(occupancy: Floats, grid: Grid, scans: Scans, seed: int = 0, on_progr
     def score(placed: _Placed, values: Values) -> float:
         return float(np.nanmean(placed.log_densities(stops, {**ASSUMED, **values})))
 
+    # Fit from the assumed law, and from a law with fewer short readings and less noise.
     starts = [ASSUMED, {**ASSUMED, "p_short": 0.05, "scale_m": 0.04}]
     on_train = partial(score, train)
     values, _ = maximise(on_train, on_train, FITTED, starts, lambda share: on_progress(0.5 + 0.5 * share))
@@ -178,6 +183,7 @@ def fit_law(occupancy: Floats, grid: Grid, scans: Scans, seed: int = 0, on_progr
     best = int(np.argmax(nats))
     trust = replace(WARY, place_readings=WARY.pose_readings, shared_error_m=laws[best]["scale_m"])
     law = MapLaw(laws[best], trust, len(chosen), nats[best])
+    # Search for judging scans one by one: their usual fit, and the worth of a scan for choosing a place.
     judged = chosen[judges]
     judged = judged[:: max(1, len(judged) // MOST_SEARCHES)]
     usual, power = searched(external_map(occupancy, grid, scans, law), spread.select(judged), poses[judged], seed)
@@ -186,9 +192,9 @@ def fit_law(occupancy: Floats, grid: Grid, scans: Scans, seed: int = 0, on_progr
 
 
 def searched(known: KnownMap, scans: Scans, poses: Floats, seed: int) -> tuple[UsualFit, float]:
-    """Search for single scans at known poses. Returns their usual fit, and the power by which evidence counts.
+    """Search for single scans at known poses. Returns their usual fit, and the best power of a place's evidence.
 
-    The power is the one of `POWERS` under which the right place has the highest mean log probability.
+    The best of `POWERS` is the one under which the right place has the highest mean log probability.
     """
     from bayesmap.localization.filter import Prior, Scan, update
 
@@ -198,6 +204,7 @@ def searched(known: KnownMap, scans: Scans, poses: Floats, seed: int) -> tuple[U
     scores: list[Floats] = []
     for pose, angles, readings in zip(poses, scans.angles_by_scan(), scans.ranges_m, strict=True):
         belief = update(known, Prior(), Scan(angles, readings, limits), rng, look_everywhere=True)
+        # Compare the fit at the right pose with the best fit at a wrong place. The arguments are least probabilities.
         places = belief.places(1e-9)
         means = np.array([place.mean for place in places])
         off = between(pose, means)
@@ -220,7 +227,7 @@ def searched(known: KnownMap, scans: Scans, poses: Floats, seed: int) -> tuple[U
 
 
 def spread_out(scans: Scans) -> Scans:
-    """Select scans `APART_M` apart along the path, or further where they would be more than `MOST_SCANS`."""
+    """Select scans `APART_M` apart along the path, or further apart if there would be more than `MOST_SCANS`."""
     way = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(scans.poses[:, :2], axis=0).T))])
     step = max(APART_M, float(way[-1]) / MOST_SCANS)
     _, first = np.unique(np.floor(way / step), return_index=True)
@@ -228,7 +235,7 @@ def spread_out(scans: Scans) -> Scans:
 
 
 def _located(known: KnownMap, scans: Scans, seed: int, on_progress: OnShare) -> tuple[Floats, NDArray[np.bool_]]:
-    """Return the likeliest poses of scans, and which of them are nearly certain."""
+    """Return the likeliest poses of scans, (S, 3), and which of them are nearly certain, (S,)."""
     from bayesmap.localization.localize import localize
 
     located = localize(known, scans, seed=seed, on_belief=lambda k, _: on_progress(0.5 * (k + 1) / len(scans)))
@@ -238,7 +245,7 @@ def _located(known: KnownMap, scans: Scans, seed: int, on_progress: OnShare) -> 
 
 @dataclass(frozen=True, eq=False)
 class _Placed:
-    """Scans at poses in the map, of which every ``thin``-th beam is used."""
+    """Scans at poses in the map, (S, 3). Every ``thin``-th beam is used."""
 
     scans: Scans
     poses: Floats
@@ -250,7 +257,7 @@ class _Placed:
         packed = stops(values["stop_occupied"], values["stop_unknown"])
         readings = self.scans.ranges_m[:, :: self.thin]
         count, beams = readings.shape
-        # Scans of one beam each: the kernel sums over beams, and the densities of single beams are needed.
+        # Make scans of one beam each: the kernel sums over beams, but densities of single beams are needed.
         alone = np.full((count * beams, 1), np.nan)
         alone[:, 0] = readings.ravel()
         poses = np.repeat(self.poses, beams, axis=0)
@@ -262,7 +269,7 @@ class _Placed:
 
 
 def _stops_of(occupancy: Floats, grid: Grid) -> Callable[[float, float], PackedMap]:
-    """Return a function that packs the map for kernels, by the stop probabilities of occupied and unknown cells."""
+    """Return a function that packs the map for kernels, given the stop probabilities of occupied and unknown cells."""
 
     @lru_cache(maxsize=4)
     def packed(occupied: float, unknown: float) -> PackedMap:

@@ -1,14 +1,14 @@
 """The filter's step for one scan: from the prior of a pose to its posterior.
 
-The prior is a mixture of normal distributions (moved by odometry), or uniform over the map's free cells, or some of
-both: a robot may have been carried away. A search over the whole map proposes places where the prior is too wide, and
-the scan's end points narrow them. The exact forward law, averaged over draws of the map, weights the poses. The robot
-may also be elsewhere, or the map outdated: then readings come as they do anywhere.
+The prior is a mixture of normal distributions (moved by odometry), or uniform over the map's free cells, or a mixture
+of both, since a robot may have been carried away. If the prior is too wide, a search over the whole map proposes
+places. The scan's end points narrow them. The exact forward law, averaged over draws of the map, weights the poses. The
+robot may also be elsewhere, or the map outdated: then readings have the law of readings anywhere.
 
-In a map that is known exactly, each beam a reading of its own (`locate`), the posterior is narrow and may have many
-places. Beside a likelihood of a centimetre's width, the likelihood of a place whose proposal lies five centimetres off
-is nothing. So the likelihood's power rises from what a scan is worth in an inferred map to 1, while proposals follow,
-and places that have come together count as one.
+`locate` works in a map that is known exactly, with independent beams. The posterior is narrow there and may have many
+places. The likelihood is about a centimetre wide, so a proposal five centimetres off would get no weight. So the
+likelihood's power rises from the worth of a scan in an inferred map to 1, and proposals follow. Places that have come
+together count as one.
 """
 
 from __future__ import annotations
@@ -41,23 +41,23 @@ from bayesmap.space.planar import wrapped
 Floats = NDArray[np.float64]
 
 POINTS, SHARPER = 60, 2.0
-"""End points of a scan, and their weight relative to beams: their field is that of all draws of the map in one, and
-wider. They decide how many rounds the exact law needs, not its answer."""
+"""End points per scan, and their weight relative to beams: their field joins all draws of the map, and is wider. They
+affect how many rounds the exact law needs, not its result."""
 
 STEPS, NEARLY = 3, 0.6
-"""Most rounds, and the power of the weights at which they end; one round less for several places, which a search
-found."""
+"""Most rounds, and the power of the weights at which rounds end. Several places, which come from a search, get one
+round less."""
 
 DRAWS, LEAST = 240, 24
-"""Draws in a round, of all places together, and least of each."""
+"""Draws per round for all places together, and least draws per place."""
 
 
 def approached(
     places: PoseMixture, log_prior: Callable[[Floats], Floats], known: KnownMap, scan: Scan, rng: np.random.Generator
 ) -> PoseMixture:
-    """Move places to where prior and end points agree, and narrow them; a scan with too few hits changes nothing.
+    """Return places moved to where prior and end points agree, and narrowed. Too few hits leave them unchanged.
 
-    ``log_prior`` is the log density of poses (P, 3) before the scan, (P,).
+    ``log_prior`` computes the log density of poses (P, 3) before the scan, (P,).
     """
     points = end_points(scan.angles_rad, scan.ranges_m, POINTS)
     if len(points) < FEWEST:
@@ -78,26 +78,28 @@ def approached(
 
 
 CANDIDATES = 24
-"""Places of a search. With more, wrong places came before the right one: the search's score tells, too."""
+"""Most places of a search. With more, wrong places came before the right one, because the search's score matters."""
 
 ROUNDS = 5
-"""Most rounds in which places are adapted, until weights hardly have to be tempered."""
+"""Most rounds in which places are adapted, until weights are hardly tempered."""
 
 FEW, EACH, LAST = 8, 24, 32
-"""Draws of each place: to tell which count, of the likeliest in a round, and in the last round."""
+"""Draws per place: to select places, for the likeliest place in a round, and for it in the last round."""
 
 THINNED = 40
-"""About how many beams of a scan are used until the last round."""
+"""Approximate number of beams of a scan that are used before the last round."""
 
 FOUND_SD = np.array([0.06, 0.06, np.radians(1.2)])
 """Standard deviations of a searched pose from the best one near it."""
 
 UNIFORM_DRAWS = 3000
-"""Poses that are drawn over the whole map where a search finds nothing."""
+"""Poses that are drawn over the whole map if a search finds nothing."""
 
 LOST_AT_FIRST = 0.02
+"""Probability that the robot is not on the map, or the map outdated, before the first scan."""
+
 GETS_LOST, IS_FOUND = 1e-3, 0.05
-"""Probability, a scan, that a robot on the map gets lost, and that a lost one is back."""
+"""Probability per scan that a robot on the map gets lost, and that a lost robot is back on the map."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -105,11 +107,11 @@ class Scan:
     """One scan.
 
     Attributes:
-        angles_rad: of its beams, (A,).
+        angles_rad: angles of the beams, (A,).
         ranges_m: readings, (A,).
-        limits: of the sensor.
-        stamp_s: stamp, or None.
-        new: share of its evidence that earlier scans have not told, in (0, 1].
+        limits: range limits of the sensor.
+        stamp_s: time stamp, seconds, or None.
+        new: share of the scan's evidence that earlier scans do not contain, in (0, 1].
     """
 
     angles_rad: Floats
@@ -124,7 +126,7 @@ class Prior:
     """The distribution of the pose before a scan.
 
     Attributes:
-        components: normal distributions, their masses as logs; None: only that the robot is on the map is known.
+        components: normal distributions with log masses; None if the robot may be anywhere on the map.
         uniform: share of the mass that lies uniformly over the map's free cells; 1 without components.
         lost: probability that the robot is elsewhere, or the map outdated.
     """
@@ -147,7 +149,7 @@ class Prior:
 def update(known: KnownMap, prior: Prior, scan: Scan, rng: np.random.Generator, *, look_everywhere: bool) -> PoseBelief:
     """Compute the posterior of a scan's pose.
 
-    ``look_everywhere`` asks for a search of the whole map, which a prior without components needs in any case.
+    With ``look_everywhere`` the whole map is searched. A prior without components always needs this search.
     """
 
     def target(thin: int, draws: int | None = None) -> Target:
@@ -167,7 +169,7 @@ def update(known: KnownMap, prior: Prior, scan: Scan, rng: np.random.Generator, 
     else:
         starts = approached(starts, density, known, scan, rng)
         if len(starts.means) > 1:
-            # One draw of the map tells which places count at all.
+            # Drop negligible places by few draws of poses, under one draw of the map.
             starts = best(weighed(starts, draw_population(starts, target(thin, 1), FEW, rng)))
         for _ in range(ROUNDS):
             starts, power = adapted(
@@ -176,6 +178,7 @@ def update(known: KnownMap, prior: Prior, scan: Scan, rng: np.random.Generator, 
             starts = best(starts)
             if power > NEARLY:
                 break
+        # Draw and weight the final poses, with all beams.
         population = draw_population(starts, target(1), shared_out(starts, LAST, known.trust.least_draws), rng)
         group = groups_of(starts, population.poses)
         if known.trust.shared_way_m > 0.0:
@@ -185,7 +188,7 @@ def update(known: KnownMap, prior: Prior, scan: Scan, rng: np.random.Generator, 
 
 
 def _starts(known: KnownMap, prior: Prior, scan: Scan, *, look_everywhere: bool) -> PoseMixture | None:
-    """Return the places to begin with; None: uniform over the map."""
+    """Return the places to begin with, from the prior and a search; None if the prior is uniform and none was found."""
     searched = None
     if look_everywhere or prior.components is None:
         poses = search(known.field, scan.angles_rad, scan.ranges_m, CANDIDATES).poses
@@ -205,7 +208,7 @@ def _starts(known: KnownMap, prior: Prior, scan: Scan, *, look_everywhere: bool)
 class Target:
     """Log prior and likelihood of poses, with every ``thin``-th beam.
 
-    Each pose is weighted under one draw of the map, in turn: of the first ``draws``, or of all.
+    Each pose is weighted under one draw of the map, taken in turn from the first ``draws`` draws, or from all.
     """
 
     known: KnownMap
@@ -245,14 +248,15 @@ def belief_of(
 ) -> PoseBelief:  # fmt: skip
     """Return the posterior of a population, with the probability of being lost.
 
-    ``group`` is the place of each pose, (N,), or None if they are all over the map. Where only part of the scan's
-    evidence is new, ``mass_before`` is each place's share of the prior, (K,).
+    ``group`` is the place of each pose, (N,), or None if poses are spread over the whole map. ``mass_before`` is each
+    place's share of the prior, (K,). It is needed if only part of the scan's evidence is new.
     """
     weights = population.weights
     if not np.isfinite(population.log_evidence):
         weights = np.full(len(population.poses), 1.0 / len(population.poses))
     if group is None:
         group = np.zeros(len(weights), dtype=np.intp)  # one mode, spread over the whole map
+    # Share the mass among places: there a scan is worth fewer readings than for the pose within a place.
     likelihood = _log_likelihood(known, prior, population)
     power = known.weight_between_places(scan.ranges_m) / known.weight_of(scan.ranges_m)
     if mass_before is None:
@@ -262,6 +266,7 @@ def belief_of(
     unsure = PoseBelief(population.poses, weights, 0.0, 0.0, scan.stamp_s, group, known.shared_error)
     if not np.isfinite(scan.ranges_m).any():
         return replace(unsure, p_lost=prior.lost)  # a scan without hits does not tell whether the robot is lost
+    # Compare with the evidence of readings anywhere.
     evidence, fit = _fit(known, scan, population, likelihood, unsure)
     elsewhere = known.log_elsewhere(scan.ranges_m, known.weight_of_fit(scan.ranges_m))
     with np.errstate(divide="ignore"):
@@ -270,7 +275,7 @@ def belief_of(
 
 
 def shared_by_places(weights: Floats, group: NDArray[np.intp], log_weights: Floats) -> Floats:
-    """Give places the shares of other log weights, (N,), and keep the ratios of weights (N,) within each place.
+    """Return weights with places' shares by ``log_weights``, (N,), and the old ratios (N,) within each place.
 
     ``group`` is the place of each pose, (N,).
     """
@@ -281,10 +286,10 @@ def shared_by_places(weights: Floats, group: NDArray[np.intp], log_weights: Floa
 
 
 def shared_by_evidence(weights: Floats, group: NDArray[np.intp], mass: Floats, power: float) -> Floats:
-    """Change places' shares by a power of the evidence, and keep the ratios of weights (N,) within each place.
+    """Return weights with places' shares by a power of the evidence, and the old ratios (N,) within each place.
 
-    ``mass`` is the places' shares before the scan, (K,). With a power of 1 shares become the sums of the weights; with
-    0 they stay as before the scan.
+    ``mass`` is the places' shares before the scan, (K,). With a power of 1 shares become the sums of the weights. With
+    a power of 0 they stay as before the scan.
     """
     own = np.bincount(group, weights, len(mass))
     with np.errstate(divide="ignore"):
@@ -295,13 +300,13 @@ def shared_by_evidence(weights: Floats, group: NDArray[np.intp], mass: Floats, p
 
 
 def _shared(weights: Floats, group: NDArray[np.intp], shares: Floats) -> Floats:
-    """Scale weights such that each place has its share."""
+    """Scale weights so that each place has its share."""
     own = np.bincount(group, weights, len(shares))
     return np.asarray(weights * np.divide(shares, own, out=np.zeros_like(own), where=own > 0)[group])
 
 
 def _mass_before(prior: Prior, places: PoseMixture, count: int) -> Floats:
-    """Return each place's share of the prior, (count,): its components' mass, or that of being anywhere."""
+    """Return each place's share of the prior, (count,): its components' mass, plus the prior's uniform share."""
     mass = np.full(count, 1.0 if prior.components is None else prior.uniform)
     if prior.components is not None:
         own = prior.components.log_mass - log_sum(prior.components.log_mass) + np.log1p(-prior.uniform)
@@ -310,7 +315,7 @@ def _mass_before(prior: Prior, places: PoseMixture, count: int) -> Floats:
 
 
 def _log_likelihood(known: KnownMap, prior: Prior, population: Population) -> Floats:
-    """Return the scan's log-likelihood at each pose, by the beams' usual weight, (N,); -inf where no robot can be."""
+    """Return the scan's log-likelihood at each pose, with the beams' usual weight, (N,); -inf where no robot can be."""
     prior_density = prior.log_density(population.poses, known)
     possible = np.isfinite(prior_density)
     return np.where(possible, population.log_target - np.where(possible, prior_density, 0.0), -np.inf)
@@ -325,9 +330,9 @@ def _at_power(population: Population, likelihood: Floats, power: float) -> Float
 def _fit(
     known: KnownMap, scan: Scan, population: Population, likelihood: Floats, belief: PoseBelief
 ) -> tuple[float, float]:
-    """Return the log evidence of the likeliest mode, and nats a beam at the best pose.
+    """Return the log evidence of the likeliest mode, and the log-likelihood per beam at the best pose, nats.
 
-    Beams count more here: whether a scan fits at all is clearer than where exactly it does.
+    Beams have more weight here, because a scan tells more about whether it fits at all than about its exact pose.
     """
     weight, usual = known.weight_of_fit(scan.ranges_m), known.weight_of(scan.ranges_m)
     logs = _at_power(population, likelihood, weight / usual)
@@ -347,22 +352,22 @@ def _mixture_log_density(components: PoseMixture, poses: Floats) -> Floats:
 
 
 SHARP_CANDIDATES, KEPT = 32, 16
-"""Places of the search, and most places that are weighted, in a map that is known exactly."""
+"""Most places of the search, and most places that are weighted, in a map that is known exactly."""
 
 RISES, SETTLES = 6, 4
 """Rounds in which the power rises, and most rounds with the final power."""
 
 SHARP_EACH, SHARP_LAST = 24, 192
-"""Draws of each place, in a round and in the last."""
+"""Draws per place: in a round, and in the last round."""
 
 ONE_PLACE, ALIKE = 1.0, np.array([0.02, 0.02, np.radians(1.0)])
-"""Places nearer than this, in standard deviations, or than this in x, y and yaw, have come together."""
+"""Places count as one if they are nearer than the first, in standard deviations, or than the second in x, y and yaw."""
 
 
 def locate(known: KnownMap, scan: Scan, rng: np.random.Generator) -> PoseBelief:
     """Compute the posterior of a scan's pose anywhere on a map that is known exactly.
 
-    The map's ``beam_weight`` is the power that the likelihood ends at.
+    The map's ``beam_weight`` is the final power of the likelihood.
     """
     prior = Prior()
     valid = max(1, int((~np.isnan(scan.ranges_m)).sum()))
@@ -379,6 +384,7 @@ def locate(known: KnownMap, scan: Scan, rng: np.random.Generator) -> PoseBelief:
         return belief_of(known, prior, scan, everywhere(known, target(last), rng), None)
     count = len(candidates.poses)
     places = PoseMixture(candidates.poses, np.broadcast_to(np.diag(FOUND_SD**2), (count, 3, 3)), np.zeros(count))
+    # Adapt the places while the power rises, then at the final power.
     for weight in np.geomspace(first, last, RISES):
         places, _ = adapted(places, draw_population(places, target(float(weight), thin), SHARP_EACH, rng))
         places = distinct(places).best(KEPT)
@@ -392,7 +398,7 @@ def locate(known: KnownMap, scan: Scan, rng: np.random.Generator) -> PoseBelief:
 
 
 def distinct(places: PoseMixture) -> PoseMixture:
-    """Remove places that lie on a heavier one."""
+    """Remove places that coincide with a place of greater mass."""
     kept: list[int] = []
     for i in np.argsort(-places.log_mass, kind="stable").tolist():
         off = places.means[kept] - places.means[i]

@@ -28,23 +28,24 @@ DRAWS = 4
 """Draws of the map over which a scan's likelihood is averaged."""
 
 PASSABLE = 0.3
-"""Stop probability of observed cells below which a robot may be there."""
+"""Observed cells with a lower stop probability count as free: a robot may be there."""
 
 INDEPENDENT_BEAMS = 5.4
-"""Number of independent readings that a scan is worth: its log-likelihood counts by their share of its beams. Beams of
-one scan err together, by errors of the map and by what stands in the way; Thrun, Burgard and Fox (2005, section 6.3.4)
-advise such a power. With it, poses of the Intel log are as far off as they say (docs/lab/localization.md)."""
+"""Number of independent readings that a scan is worth. The log-likelihood is multiplied by this number over the number
+of beams. Beams of one scan share errors, from errors of the map and objects in the way. Thrun, Burgard and Fox (2005,
+section 6.3.4) advise such a power. With this value, errors of poses of the Intel log agree with their covariances
+(docs/lab/localization.md)."""
 
 BEAMS_BETWEEN_PLACES = 2.7
-"""Number of independent readings for the question which of several places it was: there a whole scan errs one way,
-where the map lacks something or the search missed a place. Set on four buildings, so that places are right as often as
-they say (docs/lab/localization.md)."""
+"""Number of independent readings that a scan is worth for choosing among several places. All beams share an error if
+the map lacks something there or the search missed a place. The value was set on four buildings, so that probabilities
+of places are calibrated (docs/lab/localization.md)."""
 
 BINS = 60
-"""Bins of range in the law of readings anywhere."""
+"""Number of range bins in the law of readings anywhere."""
 
 MOST_ODDS = 4.0
-"""Greatest log odds that the fit of one scan gives for or against its place."""
+"""Greatest log odds for or against a place from the fit of one scan."""
 
 
 @dataclass(frozen=True)
@@ -52,16 +53,17 @@ class Trust:
     """The trust in a map: the worth of a scan's evidence in it, and how long other places are kept.
 
     Attributes:
-        pose_readings: number of independent readings that a scan is worth for where in a place it was taken,
-        place_readings: for which place it was,
-        fit_readings: and for whether it was taken on the map at all.
-        shared_way_m: scans closer along the path share their errors: a scan counts by the share of this that is new.
-        carried: probability, a scan that counts in full, that the robot was carried to anywhere on the map.
+        pose_readings: number of independent readings that a scan is worth for the pose within a place.
+        place_readings: number of independent readings that a scan is worth for choosing among places.
+        fit_readings: number of independent readings that a scan is worth for deciding whether the robot is on the map.
+        shared_way_m: length of path over which scans share their errors. After a shorter way, a scan counts by the
+            way's share of this length.
+        carried: probability per scan, if the scan counts in full, that the robot was carried to anywhere on the map.
         shared_error_m: standard deviation of an error of the map that all beams of a scan share: it moves the pose.
-        search_way_m: the whole map is searched again after this way, also while one place is nearly certain.
+        search_way_m: way after which the whole map is searched again, even if one place is nearly certain.
         kept: most places that are weighted with all beams.
-        least_draws: draws of every place, at least, as a share of the likeliest place's draws.
-        forgotten_nats: places less likely than the likeliest by more than this are dropped.
+        least_draws: least draws per place, as a share of the likeliest place's draws.
+        forgotten_nats: difference in log probability from the likeliest place beyond which a place is dropped.
     """
 
     pose_readings: float = INDEPENDENT_BEAMS
@@ -78,7 +80,7 @@ class Trust:
 
 @dataclass(frozen=True)
 class UsualFit:
-    """The fit of scans to a map, at their own places and at others: mean log density of readings, nats a beam.
+    """The fit of scans to a map, at their own places and at others: mean log density of readings, nats per beam.
 
     Attributes:
         right: mean over scans, at the right place.
@@ -93,30 +95,31 @@ class UsualFit:
     missed: float
 
     def log_odds_wrong(self, nats_per_beam: float) -> float:
-        """Return the log odds of a fit under a wrong place against the right one: normal laws of one width."""
+        """Return the log odds of a wrong place against the right one, from normal laws of the fit with equal width."""
         middle, apart = 0.5 * (self.right + self.wrong), max(self.right - self.wrong, 0.0)
         return float(np.clip(apart * (middle - nats_per_beam) / self.sd**2, -MOST_ODDS, MOST_ODDS))
 
 
 @dataclass(frozen=True, eq=False)
 class KnownMap:
-    """A map posterior, ready to locate scans in. Made by `KnownMap.of_run`, once for any number of scans.
+    """A map posterior, ready to locate scans in. `KnownMap.of_run` makes it once for any number of scans.
 
     Attributes:
-        grid: of the map.
-        packed: some of its draws, for kernels.
-        sensor: the law of a reading.
-        field: for the search.
-        free: cells in which a robot may be, (nx, ny).
-        unknown: unknown cells, (nx, ny).
-        unknown_chance: stop probability of unknown cells for the search: the lesser of the draws' and the known cells'.
+        grid: grid of the map.
+        packed: some of the map's draws, for kernels.
+        sensor: law of a reading.
+        field: likelihood field for the search.
+        free: mask of cells in which a robot may be, (nx, ny).
+        unknown: mask of unknown cells, (nx, ny).
+        unknown_chance: stop probability of unknown cells in the search: their mean over draws, or the mean of known
+            cells if that is less.
         elsewhere: log density of a reading, per metre, in each of `BINS` bins up to the largest range, and log
             probability of no return, for scans taken anywhere.
-        max_range_m: of those scans.
-        typical_m: the median of their readings.
-        beam_weight: weight of a beam, as a share of an independent reading; None: by ``trust``.
-        trust: how far the map is trusted.
-        usual_fit: of scans at right and wrong places; None if unknown.
+        max_range_m: largest range of the scans behind ``elsewhere``.
+        typical_m: median of their readings.
+        beam_weight: weight of a beam, as a share of an independent reading; None for the weight by ``trust``.
+        trust: trust in the map.
+        usual_fit: fit of scans at right and wrong places; None if unknown.
     """
 
     grid: Grid
@@ -135,13 +138,14 @@ class KnownMap:
 
     @classmethod
     def of_run(cls, run: Any, *, draws: int = DRAWS, beam_weight: float | None = None, device: str = "cpu") -> KnownMap:
-        """Prepare the map of a run that `bayesmap.infer` or `bayesmap.load` gave.
+        """Return the prepared map of a run that `bayesmap.infer` or `bayesmap.load` returned.
 
         Args:
-            run: with draws.
-            draws: number of draws to use, spread over chains, or all if there are fewer.
-            beam_weight: weight of a beam, as a share of an independent reading; None: by `INDEPENDENT_BEAMS`.
-            device: where to compute.
+            run: run with draws.
+            draws: number of draws to use, spread over chains; all are used if there are fewer.
+            beam_weight: weight of a beam, as a share of an independent reading; None for the weight by
+                `INDEPENDENT_BEAMS`.
+            device: device that computes.
 
         Raises:
             BadInput: a run without draws, or a sensor model of the user's own.
@@ -175,18 +179,19 @@ class KnownMap:
         beam_weight: float | None = None,
         device: str = "cpu",
     ) -> KnownMap:
-        """Prepare a map by its draws.
+        """Return the prepared map of draws.
 
         Args:
             states: stop probabilities (D, N), or surfaces (D, N, 6), of all N cells.
-            grid: of the map.
-            sensor: the law of a reading.
-            scans: typical ones, for the law of readings anywhere.
+            grid: grid of the map.
+            sensor: law of a reading.
+            scans: typical scans, for the law of readings anywhere.
             occupancy: mean probability that each cell stops a beam, (nx, ny).
-            observed: known cells, (nx, ny).
-            hit_depth: where a beam stops in a cell without a surface, as a part of its chord.
-            beam_weight: weight of a beam, as a share of an independent reading; None: by `INDEPENDENT_BEAMS`.
-            device: where to compute.
+            observed: mask of known cells, (nx, ny).
+            hit_depth: depth of a stop in a cell without a surface, as a fraction of the beam's chord.
+            beam_weight: weight of a beam, as a share of an independent reading; None for the weight by
+                `INDEPENDENT_BEAMS`.
+            device: device that computes.
 
         Raises:
             BadInput: no free cell, or a sensor model of the user's own.
@@ -200,7 +205,7 @@ class KnownMap:
             raise BadInput("localize: the map has no free cell in which a robot could be")
         unknown = np.logical_not(observed)
         chances = (states[..., 0] if states.ndim == 3 else states)[:, unknown.ravel()]
-        # A prior may have far more walls than the building: a search would then find scans all over unknown cells.
+        # A prior may have far more walls than the building. A search would then prefer poses in unknown cells.
         chance = min(float(chances.mean()), float(known[observed].mean())) if chances.size else 0.0
         return cls(
             grid=grid, packed=pack_map(states, grid, hit_depth, device), sensor=_compilable(sensor),
@@ -220,39 +225,39 @@ class KnownMap:
 
     @cached_property
     def shared_error(self) -> Floats | None:
-        """Standard deviations of a pose's error by the map's shared error, (3,); None: there is none.
+        """Standard deviations of a pose's error from the map's shared error, (3,); None without a shared error.
 
-        A wall that is off to one side and not to the other turns the pose, by half as much over a typical reading.
+        The yaw's is half the shared error over a typical reading: walls on one side that are off turn the pose.
         """
         off = self.trust.shared_error_m
         return None if off == 0.0 else np.array([off, off, 0.5 * off / self.typical_m])
 
     def _readings(self, ranges_m: Floats, worth: float) -> float:
-        """Return the weight of each beam of a scan that is worth so many readings."""
+        """Return the weight of each beam of a scan that is worth ``worth`` independent readings."""
         valid = max(1, int((~np.isnan(ranges_m)).sum()))
         return min(1.0, worth / valid) if self.beam_weight is None else self.beam_weight
 
     @cached_property
     def free_area_m2(self) -> float:
-        """Area in which a robot may be."""
+        """Area in which a robot may be, square metres."""
         return float(self.free.sum() * self.grid.resolution**2)
 
     def weight_of(self, ranges_m: Floats) -> float:
-        """Return the weight of each beam of a scan."""
+        """Return the weight of each beam of a scan for the pose within a place."""
         return self._readings(ranges_m, self.trust.pose_readings)
 
     def weight_between_places(self, ranges_m: Floats) -> float:
-        """Return the weight of each beam for the question which of several places it was."""
+        """Return the weight of each beam for choosing among several places."""
         return self._readings(ranges_m, self.trust.place_readings)
 
     def weight_of_fit(self, ranges_m: Floats) -> float:
-        """Return the weight of each beam for the question whether the scan was taken on the map at all."""
+        """Return the weight of each beam for deciding whether the scan was taken on the map."""
         if self.beam_weight is not None:
             return min(1.0, self.beam_weight * self.trust.fit_readings / self.trust.pose_readings)
         return self._readings(ranges_m, self.trust.fit_readings)
 
     def is_free(self, poses: Floats) -> NDArray[np.bool_]:
-        """Return which poses lie in free cells, (P,)."""
+        """Return whether each pose lies in a free cell, (P,)."""
         x, y = np.floor(self.grid.to_cells(poses[:, :2])).astype(int).T
         nx, ny = self.grid.shape
         inside = (x >= 0) & (y >= 0) & (x < nx) & (y < ny)
@@ -262,20 +267,20 @@ class KnownMap:
         self, poses: Floats, angles_rad: Floats, ranges_m: Floats, limits: RangeLimits, thin: int = 1,
         draws: int | None = None, weight: float | None = None, *, in_turn: bool = False,
     ) -> Floats:  # fmt: skip
-        """Compute a scan's log-likelihood at each pose, averaged over draws of the map, each beam by its weight, (P,).
+        """Compute a scan's log-likelihood at each pose, averaged over draws of the map, with weighted beams, (P,).
 
-        It is log mean_d exp(w sum_b log p(z_b | map d, pose)) with the weight w, scaled up if beams are left out.
+        It is log mean_d exp(w sum_b log p(z_b | map d, pose)). The weight w is scaled up if beams are left out.
 
         Args:
-            poses: (P, 3).
-            angles_rad: of the beams, (A,).
-            ranges_m: the scan's readings, (A,).
-            limits: of the sensor.
-            thin: use every ``thin``-th beam.
-            draws: use this many draws.
-            weight: of a beam; the map's own if None.
-            in_turn: use one draw for each pose, one after the other, rather than all. That serves for poses that are
-                drawn and weighted: their weights are right on average over the draws of the map.
+            poses: poses of the sensor, (P, 3).
+            angles_rad: angles of the beams, (A,).
+            ranges_m: readings of the scan, (A,).
+            limits: range limits of the sensor.
+            thin: step between the beams that are used.
+            draws: number of draws that are used; all if None.
+            weight: weight of a beam; the map's own if None.
+            in_turn: True to use one draw per pose, in turn, rather than all. The weights of drawn poses are then right
+                on average over the draws of the map.
         """
         from bayesmap.kernels.predict.pose_weights import scan_log_likelihood
 
@@ -288,12 +293,12 @@ class KnownMap:
         return np.asarray(log_sum(scale * logs) - np.log(logs.shape[1]))
 
     def log_elsewhere(self, ranges_m: Floats, weight: float) -> float:
-        """Compute the log-likelihood of a scan that was taken somewhere else: each reading by how common it is."""
+        """Compute the log-likelihood of a scan that was taken elsewhere, by the law of readings anywhere."""
         return weight * log_anywhere(self.elsewhere, ranges_m, self.max_range_m)
 
 
 def log_anywhere(law: Floats, ranges_m: Floats, max_range_m: float) -> float:
-    """Compute the log density of readings under a law of `readings_anywhere`, without invalid ones."""
+    """Compute the log density of the valid readings under a law of `readings_anywhere`."""
     hit = np.isfinite(ranges_m)
     bins = np.clip((ranges_m[hit] / max_range_m * BINS).astype(int), 0, BINS - 1)
     total = law[bins].sum() + np.isposinf(ranges_m).sum() * law[BINS]
@@ -301,7 +306,7 @@ def log_anywhere(law: Floats, ranges_m: Floats, max_range_m: float) -> float:
 
 
 def readings_anywhere(scans: Scans) -> Floats:
-    """Return the log density of a reading at no particular pose, by bins, then the log probability of no return."""
+    """Return the law of a reading at no particular pose: log density per bin, then log probability of no return."""
     readings = scans.ranges_m
     counts, _ = np.histogram(readings[np.isfinite(readings)], bins=BINS, range=(0.0, scans.max_range_m))
     none = int(np.isposinf(readings).sum())
@@ -311,7 +316,7 @@ def readings_anywhere(scans: Scans) -> Floats:
 
 
 def _compilable(sensor: SensorModel) -> SensorModel:
-    """Return a mixture that kernels know: noise alone gets just enough outliers to keep every pose possible.
+    """Return a mixture that kernels can compute. Pure noise gets 1 % of each outlier, so that every pose is possible.
 
     Raises:
         BadInput: a model of the user's own.

@@ -30,10 +30,10 @@ SURE = 0.99
 """Probability of the likeliest mode below which every scan is searched for in the whole map."""
 
 LEAST_ON_MAP = 1e-3
-"""Least probability that a prior must have on the map."""
+"""Least probability of the map's area under a prior."""
 
 TURN_M = 0.5
-"""Length of path that shows as much that is new as a turn by one radian."""
+"""Length of path with as much new evidence as a turn by one radian, metres."""
 
 LEAST_NEW = 0.02
 """Least share of a scan's evidence that counts."""
@@ -77,10 +77,10 @@ class Near:
 
 @dataclass(frozen=True, eq=False)
 class Localization:
-    """Posteriors of the poses of some scans; its properties are those of the last one.
+    """Posteriors of the poses of scans. Its properties are those of the last scan.
 
     Attributes:
-        beliefs: one for each scan, given all scans up to it.
+        beliefs: posterior of each scan's pose, given all scans up to it.
     """
 
     beliefs: tuple[PoseBelief, ...]
@@ -105,7 +105,7 @@ class Localization:
 
     @property
     def modes(self) -> tuple[Mode, ...]:
-        """The places where the robot may be, the likeliest first."""
+        """The modes of the posterior, the likeliest first."""
         return self.last.modes
 
     @property
@@ -144,14 +144,14 @@ def localize(
 
     Args:
         run: a run with draws, or a `KnownMap` of one, which saves preparing it again.
-        scans: one, or several in order of time. Their poses are taken for odometry: only the motion from one to the
-            next is used, not the poses themselves.
-        prior: of the first scan's pose; None: it may be anywhere in the map.
-        odometry: how far off motions are; by default those of a usual robot.
-        independent: whether to locate each scan by itself, without odometry.
-        seed: of the draws of poses.
-        device: "cpu" or a CUDA device such as "cuda:0", where poses are weighted; a `KnownMap` has its own.
-        on_belief: called with the number of each scan and its posterior.
+        scans: one scan, or several in order of time. Their poses count as odometry: only the motion from one to the
+            next is used.
+        prior: prior of the first scan's pose; None if it may be anywhere in the map.
+        odometry: errors of the motions; by default those of a usual robot.
+        independent: True to locate each scan by itself, without odometry.
+        seed: seed of the draws of poses.
+        device: "cpu", or a CUDA device such as "cuda:0", that weights poses; a `KnownMap` has its own.
+        on_belief: function that is called with the number of each scan and its posterior.
 
     Raises:
         BadInput: no scan, a run without draws, no such device, a sensor model of the user's own, a prior that lies
@@ -178,7 +178,7 @@ def follow(
     independent: bool = False,
     seed: int = 0,
 ) -> Iterator[PoseBelief]:
-    """Yield the posteriors of scans, one after the other; arguments are those of `localize`."""
+    """Yield the posteriors of scans, one after the other. Arguments are those of `localize`."""
     each = (scans.select(slice(i, i + 1)) for i in range(len(scans)))
     return follow_live(known, each, prior, odometry, independent, seed)
 
@@ -204,9 +204,10 @@ def follow_live(
         stamp = None if one.stamps_s is None else float(one.stamps_s[0])
         limits = RangeLimits(one.min_range_m, one.max_range_m)
         angles, ranges = one.beams_of(0)
-        if not len(angles):  # a beam without a reading says as little as no beam
+        if not len(angles):  # a beam without a reading has no evidence, like no beam
             angles, ranges = one.angles_rad, one.ranges_m[0]
         before, pose, new = pose, one.poses[0], 1.0
+        # Predict by odometry; a short way makes only part of the scan's evidence new.
         if belief is not None and not independent:
             motion = between(before, pose)
             way_m = float(np.hypot(motion[0], motion[1]) + TURN_M * abs(motion[2]))
@@ -214,6 +215,7 @@ def follow_live(
             if way_m < trust.shared_way_m:
                 new = max(LEAST_NEW, way_m / trust.shared_way_m)
             believed = moved(belief, motion, odometry.sigmas(motion), trust, new)
+        # Search the whole map if the pose is uncertain, or after a long way.
         unsure = belief is None or belief.p_lost > 0.5 or belief.modes[0].probability < SURE
         everywhere = independent or unsure or since_search_m >= trust.search_way_m
         if everywhere:
@@ -234,7 +236,7 @@ def _known(run: Any, device: str) -> KnownMap:
 
 
 def _check(known: KnownMap, prior: Near | None, odometry: Odometry) -> None:
-    """Refuse a prior or odometry of another kind, and a prior under which the robot is not on the map."""
+    """Raise BadInput for a prior or odometry of another type, and for a prior outside the map."""
     if not isinstance(odometry, Odometry):
         raise BadInput(f"localize: odometry must be such as bm.Odometry(), got {odometry!r}")
     if prior is None:
@@ -270,6 +272,6 @@ def moved(belief: PoseBelief, motion: Floats, sigmas: Floats, trust: Trust, new:
     mass = np.log([mode.probability for mode in modes])
     components = PoseMixture(ends, swing @ covariances @ np.swapaxes(swing, 1, 2) + noise, mass)
     lost = belief.p_lost * (1.0 - new * IS_FOUND) + (1.0 - belief.p_lost) * new * GETS_LOST
-    # A robot that was lost may be back anywhere.
+    # A lost robot may return to any position.
     carried = new * trust.carried
     return Prior(components, carried + (1.0 - carried) * min(belief.p_lost * new * IS_FOUND, 0.5), lost)

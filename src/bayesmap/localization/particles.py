@@ -1,9 +1,9 @@
 """Importance sampling of poses: a mixture of proposals, adapted until it lies where the posterior does.
 
-Each round draws from a mixture of Student distributions about the places found so far, weights the draws by
+Each round draws from a mixture of Student distributions about the present places, weights the draws by
 target / proposal, and moves the places to the weighted means (population Monte Carlo; Cappe, Guillin, Marin and
 Robert 2004). The last round's weights are unbiased for the posterior, and their mean for its normaliser. Draws are
-spread evenly: points of a lattice that is shifted at random, each of which has the law of a single draw.
+spread evenly: they are points of a lattice with a random shift, so that each point has the law of a single draw.
 """
 
 from __future__ import annotations
@@ -26,17 +26,17 @@ LEAST_SD = np.array([0.004, 0.004, np.radians(0.1)])
 """Least standard deviations of a proposal."""
 
 OVERLAP, SAME = 2.0, np.array([0.2, 0.2, np.radians(7.0)])
-"""Places closer than this, in standard deviations, or than this in x, y and yaw, are one mode."""
+"""Two places are one mode if they are closer than the first, in standard deviations, or the second, in x, y and yaw."""
 
 COUNTING, ENOUGH = 0.3, 16.0
-"""Weights of a place's draws are tempered until this share of them, or this many, are effective."""
+"""Weights of a place's draws are tempered until this share of the draws, or this number, is effective."""
 
 NEGLIGIBLE_NATS = 15.0
-"""Places whose mass is less than the greatest by this are dropped."""
+"""Difference in log mass from the greatest beyond which places are dropped."""
 
 
 def log_sum(logs: Floats) -> Floats:
-    """Compute log sum exp over the last axis; SciPy's is far slower for small arrays."""
+    """Compute log sum exp over the last axis. SciPy's function is far slower for small arrays."""
     most = logs.max(axis=-1, keepdims=True)
     most = np.where(np.isfinite(most), most, 0.0)
     with np.errstate(divide="ignore"):
@@ -48,8 +48,8 @@ class PoseMixture:
     """K places, each with a mean pose, a covariance and a mass.
 
     Attributes:
-        means: (K, 3).
-        covariances: (K, 3, 3).
+        means: mean poses, (K, 3).
+        covariances: covariances of the poses, (K, 3, 3).
         log_mass: log of each place's share of the target, up to a constant, (K,).
     """
 
@@ -69,10 +69,10 @@ class Population:
     """N weighted poses.
 
     Attributes:
-        poses: (N, 3).
-        log_weights: target / proposal, not normalised, (N,): their mean estimates the target's normaliser.
-        place: the place that each was drawn from, (N,).
-        log_target: the target itself, (N,).
+        poses: drawn poses, (N, 3).
+        log_weights: log of target / proposal, not normalised, (N,). The mean weight estimates the target's normaliser.
+        place: number of the place from which each pose was drawn, (N,).
+        log_target: log of the target, (N,).
     """
 
     poses: Floats
@@ -94,7 +94,7 @@ class Population:
 def draw_population(
     components: PoseMixture, target: Callable[[Floats], Floats], each: int | NDArray[np.intp], rng: np.random.Generator
 ) -> Population:
-    """Draw ``each`` poses from each place, one number or (K,), and weight them; masses of places are not used.
+    """Draw ``each`` poses from each place, one number or (K,), and weight them. Masses of places are not used.
 
     ``target`` is the log density of poses (P, 3), not normalised, (P,).
     """
@@ -122,7 +122,7 @@ def student_draws(count: int, rng: np.random.Generator) -> Floats:
 
 
 def shared_out(components: PoseMixture, most: int, least: float = 1 / 3) -> NDArray[np.intp]:
-    """Return the number of draws of each place, (K,): by the root of its mass, at least a share of the most."""
+    """Return the number of draws of each place, (K,): by the root of its mass, at least ``least`` times ``most``."""
     shares = np.exp(0.5 * (components.log_mass - components.log_mass.max()))
     return np.asarray(np.maximum(np.round(most * shares), int(most * least)), dtype=np.intp)
 
@@ -163,15 +163,15 @@ def _student_logs(components: PoseMixture, poses: Floats) -> Floats:
 
 
 def weighed(components: PoseMixture, population: Population) -> PoseMixture:
-    """Return the places with the masses of a population that was drawn from them."""
+    """Return the places with new masses: the sums of the weights of the draws from each."""
     masses = [log_sum(population.log_weights[population.place == k]) for k in range(len(components.means))]
     return PoseMixture(components.means, components.covariances, np.array(masses))
 
 
 def adapted(components: PoseMixture, population: Population, widen: float = 1.5) -> tuple[PoseMixture, float]:
-    """Move places to the weighted moments of their draws; also returns the least power by which weights were tempered.
+    """Return the places at the weighted moments of their draws, and the least power by which weights were tempered.
 
-    A power of 1 means that the proposals are near the target; a lower one, that another round will improve them.
+    With a power of 1 the proposals are near the target. With a lower power, another round will improve them.
     """
     count, least = len(components.means), 1.0
     means, covariances, log_mass = components.means.copy(), components.covariances.copy(), np.full(count, -np.inf)
@@ -181,7 +181,7 @@ def adapted(components: PoseMixture, population: Population, widen: float = 1.5)
         most = logs.max()
         if not np.isfinite(most):
             continue
-        # Weights are tempered until several draws count: one that outweighs all others tells no spread.
+        # Temper the weights until several draws are effective: a single dominant draw has no spread.
         power = 1.0
         less = logs - most
         weights = np.exp(less)

@@ -1,18 +1,18 @@
 """Likelihood fields of a map, and the search in them for poses from which a scan could have been taken.
 
-A cell of `Field.fine` holds the largest of s exp(-d^2 / (2 sigma^2)) over cells at distance d, where s is the
-probability that they stop a beam, as a share of `SOLID` and at most 1 (Thrun, Burgard and Fox 2005, section 6.4, with a
-maximum for the nearest obstacle). Unknown cells may stop a beam, too, and are worth something in between: a place from
-which a scan looks past the map's edge must not lose to one where every beam meets some wall. A coarse cell holds the
-largest fine value within it, so that a pose near the right one still finds its walls.
+A cell of `Field.fine` has the largest value of s exp(-d^2 / (2 sigma^2)) over cells at distance d. Here s is a cell's
+stop probability as a share of `SOLID`, at most 1 (Thrun, Burgard and Fox 2005, section 6.4, with a maximum for the
+nearest obstacle). Unknown cells may stop a beam, too, and have a value in between. Otherwise a pose at which every beam
+meets some wall could beat the right pose of a scan that looks past the map's edge. A coarse cell has the largest fine
+value within it, so that a pose near the right one still scores well.
 
-`EndpointField` approximates the law of a scan to a few centimetres: each surface counts by its normal density, widened
-by the noise of a reading, its peak 1, above a floor. It leaves out what stands in the way of a beam. It proposes poses,
-and the exact law judges them.
+`EndpointField` approximates the law of a scan to a few centimetres. Each surface has its normal density, widened by the
+noise of a reading and scaled to a peak of 1, above a floor. Objects in the way of a beam are left out. The field
+proposes poses, and the exact law weights them.
 
-The search scores all positions and headings of a coarse lattice: for one heading the scores of all positions are the
+The search scores all positions and headings of a coarse lattice. For one heading the scores of all positions are the
 sum, over the scan's points, of the coarse field shifted by the point. The best squares are then refined on the fine
-field. (Branch and bound finds the single best pose as fast, but localization needs all that come near it.)
+field. (Branch and bound finds the single best pose as fast, but localization needs all poses with similar scores.)
 """
 
 from __future__ import annotations
@@ -29,13 +29,13 @@ from bayesmap.space.planar import wrapped
 Floats = NDArray[np.float64]
 
 SIGMA_M = 0.12
-"""Scale of the field about an obstacle: errors of map and pose that a search must tolerate."""
+"""Scale of the field about an obstacle, metres: errors of map and pose that a search must tolerate."""
 
 SOLID = 0.3
 """Stop probability from which a cell counts as a wall."""
 
 FLOOR = 0.01
-"""Worth of a point in the open, relative to one on a wall; values between the two go by the logarithm."""
+"""Worth of a point in the open, relative to one on a wall. Field values are linear in the logarithm of the worth."""
 
 COARSE_M, TOP = 0.3, 255
 """Width of a coarse cell, metres, and the value of a fine cell on a wall."""
@@ -46,11 +46,11 @@ class Field:
     """A likelihood field over a grid.
 
     Attributes:
-        grid: of the fine values.
-        fine: 0 to 255, (nx, ny).
-        coarse_grid: of the coarse values; its origin is that of the grid.
-        coarse: 0 to 255, (mx, my).
-        open: coarse cells in which a robot can be, (mx, my).
+        grid: grid of the fine values.
+        fine: fine values, 0 to 255, (nx, ny).
+        coarse_grid: grid of the coarse values, with the origin of the fine grid.
+        coarse: coarse values, 0 to 255, (mx, my).
+        open: mask of coarse cells in which a robot can be, (mx, my).
     """
 
     grid: Grid
@@ -60,7 +60,7 @@ class Field:
     open: NDArray[np.bool_]
 
     def score(self, points: Floats, poses: Floats) -> Floats:
-        """Average the fine values, scaled to [0, 1], over points (N, 2) in the sensor's frame, for each pose, (P,)."""
+        """Return the mean fine value, scaled to [0, 1], of points (N, 2) in the sensor's frame, at each pose, (P,)."""
         from bayesmap.kernels.match.fields import field_sums
 
         return np.asarray(field_sums(self.fine, self.grid, points, poses) / (TOP * max(1, len(points))))
@@ -77,11 +77,12 @@ def likelihood_field(
 
     Args:
         occupancy: probability that each cell stops a beam, (nx, ny); 0 where unknown.
-        grid: of the map.
-        robot_may_be: cells in which a robot may be, (nx, ny).
-        unknown: unknown cells, (nx, ny); by default none.
+        grid: grid of the map.
+        robot_may_be: mask of cells in which a robot may be, (nx, ny).
+        unknown: mask of unknown cells, (nx, ny); by default none.
         chance: probability that an unknown cell stops a beam.
     """
+    # Fine field: maximum over shifted copies of the strengths, out to two standard deviations.
     strength = np.clip(np.nan_to_num(occupancy) / SOLID, 0.0, 1.0)
     radius = max(1, math.ceil(2.0 * SIGMA_M / grid.resolution))
     padded = np.pad(strength, radius)
@@ -95,6 +96,7 @@ def likelihood_field(
     if unknown is not None:
         worth = worth_of_unknown(chance, SIGMA_M, grid.resolution)
         np.maximum(fine, np.where(unknown, 1.0 - math.log(max(worth, FLOOR)) / math.log(FLOOR), 0.0), out=fine)
+    # Coarse field: maximum over squares of fine cells.
     stride = max(1, round(COARSE_M / grid.resolution))
     shape = (-(-nx // stride), -(-ny // stride))
     coarse_grid = Grid(shape, grid.resolution * stride, grid.origin)
@@ -120,7 +122,7 @@ def _blocks(values: NDArray[np.generic], stride: int, shape: tuple[int, int]) ->
 
 
 FINE_M, MOST_CELLS = 0.025, 16_000_000
-"""Width and most number of the cells of an `EndpointField`."""
+"""Width of the cells of an `EndpointField`, metres, and greatest number of cells."""
 
 SURFACE_FLOOR = 0.02
 """Worth of a point far from all surfaces, relative to one on a surface."""
@@ -134,15 +136,15 @@ class EndpointField:
     """The logarithm of a point's worth, over a fine grid.
 
     Attributes:
-        grid: fine.
-        values: 0, far from all surfaces, to 255, on a surface, (nx, ny).
+        grid: fine grid.
+        values: 0 (far from all surfaces) to 255 (on a surface), (nx, ny).
     """
 
     grid: Grid
     values: NDArray[np.uint8]
 
     def log_worth(self, points: Floats, poses: Floats) -> Floats:
-        """Sum the log worth of points over that of a point far from all surfaces, at each pose, (P,), nats.
+        """Return the sum of the points' log worth, relative to points far from all surfaces, at each pose, (P,), nats.
 
         Points are in the sensor's frame, (N, 2), and poses in the world frame, (P, 3).
         """
@@ -154,13 +156,13 @@ class EndpointField:
 def endpoint_field(
     states: NDArray[np.float32], grid: Grid, noise_m: float, unknown: NDArray[np.bool_], chance: float
 ) -> EndpointField:
-    """Compute the field of some draws of a map.
+    """Compute the field of the draws of a map.
 
     Args:
         states: stop probabilities (D, N), or surfaces (D, N, 6 or more): see `KnownMap.of_draws`.
-        grid: of the map.
-        noise_m: standard deviation of a reading.
-        unknown: unknown cells, (nx, ny).
+        grid: grid of the map.
+        noise_m: standard deviation of a reading, metres.
+        unknown: mask of unknown cells, (nx, ny).
         chance: probability that an unknown cell stops a beam.
     """
     from bayesmap.kernels.match.fields import spread
@@ -183,7 +185,7 @@ def endpoint_field(
 def _surfaces(states: NDArray[np.float32], grid: Grid, known: NDArray[np.bool_]) -> tuple[Floats, Floats, Floats]:
     """Return means from the grid's corner (K, 2), covariances xx, xy, yy (K, 3), metres, and strengths, of all draws.
 
-    Unknown cells are left out: a few draws there tell of the prior, and together they have surfaces almost everywhere.
+    Unknown cells are left out: draws follow the prior there, and together they have surfaces almost everywhere.
     """
     chances = states[..., 0] if states.ndim == 3 else states
     which = np.nonzero((chances > FAINT) & known)
@@ -201,13 +203,13 @@ HEADINGS, POINTS, FINE_POINTS = 90, 48, 60
 """Headings and points of a scan in the coarse search, and points in the refinement, evenly spaced by beams."""
 
 FEWEST = 8
-"""Fewest points of a search: fewer fall on walls anywhere."""
+"""Fewest points of a search: fewer points fit walls anywhere."""
 
 BLOCK, SQUARES = 4, 240
-"""Side of the squares whose best position is kept for every heading, coarse cells, and how many are refined."""
+"""Side of the squares whose best position is kept per heading, in coarse cells, and number of squares to refine."""
 
 APART_M, APART_RAD = 0.3, np.radians(8.0)
-"""Candidates closer than this are one."""
+"""Least distances between candidates: in x or y, or in yaw."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -215,8 +217,8 @@ class Candidates:
     """K poses from which a scan could have been taken.
 
     Attributes:
-        poses: in the world frame, best first, (K, 3).
-        scores: mean of the field where points fall, from 0 to 1, (K,).
+        poses: poses in the world frame, best first, (K, 3).
+        scores: mean of the field at the scan's points, from 0 to 1, (K,).
     """
 
     poses: Floats
@@ -244,7 +246,7 @@ def search(field: Field, angles_rad: Floats, ranges_m: Floats, most: int) -> Can
 
 
 def refine(field: Field, points: Floats, poses: Floats, most: int) -> Candidates:
-    """Climb on the fine field from each pose by ever smaller steps, and keep the best that are apart."""
+    """Return the best poses that are apart, climbed on the fine field from each pose by ever smaller steps."""
     step_m, step_rad = 0.5 * field.coarse_grid.resolution, np.pi / HEADINGS
     scores = field.score(points, poses)
     offsets = np.stack(np.meshgrid([-1, 0, 1], [-1, 0, 1], [-1, 0, 1], indexing="ij"), axis=-1).reshape(-1, 3)
@@ -265,9 +267,9 @@ def _coarse_poses(field: Field, points: Floats) -> Floats:
     """Return the best position of each of the best squares and headings, (at most SQUARES, 3)."""
     resolution, (mx, my) = field.coarse_grid.resolution, field.coarse_grid.shape
     reach = int(np.ceil(np.hypot(*points.T).max() / resolution)) + 2
-    # Rows lie one after the other with gaps between them, in which points beyond a row's end fall.
+    # Flatten rows with gaps between them, into which points beyond a row's end fall.
     width = my + reach
-    # Sums of a few levels a point fit in a byte; fewer bytes are faster to add.
+    # Quantise so that the sum over all points fits in a byte: bytes are faster to add.
     levels = 255 // len(points)
     exact = np.pad(field.coarse, ((reach, reach + 1), (0, reach))).ravel()
     flat = ((exact * levels + TOP // 2) // TOP).astype(np.uint8)
@@ -284,6 +286,7 @@ def _coarse_poses(field: Field, points: Floats) -> Floats:
     best = np.empty((HEADINGS, bx, by), dtype=np.uint8)
     total = np.zeros(mx * width, dtype=np.uint8)
     framed = np.zeros((bx * BLOCK, by * BLOCK), dtype=np.uint8)
+    # Sum the shifted fields per heading, and keep the best position of each square.
     for h in range(HEADINGS):
         total[:] = 0
         for shift in shifts[h].tolist():

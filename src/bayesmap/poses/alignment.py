@@ -1,19 +1,19 @@
 """Alignment of scans with all others that see the same walls, and the precision of the result.
 
-Each scan is paired with those that share most of its points. The point-to-line pairs of all of them are summed to one
-quadratic cost over relative poses, odometry is added, and the sparse system is solved. In eight to ten rounds the
-reach of the pairs shrinks from decimetres to the noise (bundle adjustment of Lu and Milios 1997, with lines).
+Each scan is paired with the scans that share most of its points. The point-to-line pairs of all scans are summed to one
+quadratic cost over relative poses. Odometry is added, and the sparse system is solved. In eight to ten rounds the
+pairing distance shrinks from decimetres to the noise (bundle adjustment of Lu and Milios 1997, with lines).
 
-Two corrections keep the laser from claiming too much. A beam that is matched with m others counts 1 / (2 (m + 1)) in
-each pair: it is one measurement, not m. The information that errors of normals add along a corridor is taken off again
-(`bayesmap.kernels.match.line_pairs`, ``slack``), so that odometry decides there.
+Two corrections keep the laser's information from being too large. A beam that is matched with m others counts
+1 / (2 (m + 1)) in each pair: it is one measurement, not m. Errors of normals add information along a corridor. It is
+subtracted again (`bayesmap.kernels.match.line_pairs`, ``slack``), so that odometry decides there.
 
-The curvature of the robust cost by Gauss and Newton, over the variance of the residuals, claims too much as well. A
-residual e pulls with the force psi = w e, which grows more slowly than e, and at last falls; and when a scan moves, its
-points are paired with nearer ones. So a shift changes the forces by only a share k < 1 of the Gauss-Newton value. An
-M-estimator's variance is E[psi^2] / (k E[w])^2 for a point (Huber 1967), of which each of the two points of a pair has
-half. With noise of 1 cm k is 0.67, with 3 cm 0.57: among points that scatter as widely as they are apart the nearest
-is seldom the right one. `point_error` measures both from the pairs.
+The Gauss-Newton curvature of the robust cost, over the variance of the residuals, is too large as well. A residual e
+has the force psi = w e, which grows more slowly than e, and falls for large e. When a scan moves, its points are also
+paired with nearer ones. So a shift changes the forces by only a share k < 1 of the Gauss-Newton value. The variance of
+an M-estimator is E[psi^2] / (k E[w])^2 per point (Huber 1967). Each of the two points of a pair has half of it. With
+noise of 1 cm k is 0.67, with 3 cm 0.57: if points scatter as widely as they are apart, the nearest is seldom the right
+one. `point_error` measures k and the variance from the pairs.
 """
 
 from __future__ import annotations
@@ -36,17 +36,17 @@ PARTNERS, TRIED = 20, 64
 """Most partners of a scan, and the number of near scans among which they are chosen."""
 
 AT_ONCE = 10
-"""Partners within this many scans in the order of time share the drift; at least half are taken from elsewhere."""
+"""Partners within this many scans in the order of time share the drift. So at least half are from other times."""
 
 REACH_M, SCALE_M = (0.3, 0.08), (0.12, 0.03)
-"""Greatest distance of paired points, and Geman and McClure's c: in the first round, and from the middle one on."""
+"""Greatest distance of paired points, and Geman and McClure's c, metres: in round one, and from the middle round on."""
 
 ALIKE, LEAST_MATCHED = 0.7, 0.2
 """Least cosine between the normals of paired points, and least share of a scan's points that match a partner."""
 
 SLACKS = 4.0
-"""What errors of normals add on average is taken off so many times: in a pair of scans it may be three times as much,
-and what was left over would add up over all pairs along a corridor."""
+"""Multiple of the mean information from errors of normals that is subtracted. In a pair of scans it may be three times
+the mean, and the rest would add up over all pairs along a corridor."""
 
 SLIP = 25.0
 """Odometry's cost grows less than quadratically beyond this squared Mahalanobis distance: wheels slip."""
@@ -54,7 +54,7 @@ SLIP = 25.0
 
 @dataclass(frozen=True, eq=False)
 class Pairs:
-    """Scans that are compared: points of ``source`` with walls of ``target``; sorted by source, offsets (S + 1,)."""
+    """Pairs of scans, sorted by source: points of ``source`` and walls of ``target``. Offsets by source, (S + 1,)."""
 
     source: NDArray[np.int32]
     target: NDArray[np.int32]
@@ -69,10 +69,10 @@ class Alignment:
     """Poses of S scans that were aligned together.
 
     Attributes:
-        poses: (S, 3).
-        pairs: the scans that were compared.
+        poses: aligned poses, (S, 3).
+        pairs: scans that were compared.
         sigma_m: standard deviation of a point, from the residuals.
-        gaussian: the curvature of the cost about the poses, for covariances.
+        gaussian: curvature of the cost about the poses, for covariances.
         matched: mean share of each scan's points that its partners' walls explain, (S,).
     """
 
@@ -93,7 +93,7 @@ def overlapping_pairs(geometry: ScanGeometry, poses: Floats, reach_m: float) -> 
     count = len(poses)
     if count < 2:
         return Pairs(np.empty(0, np.int32), np.empty(0, np.int32), np.zeros(count + 1, np.int32))
-    # A heading that differs by half a turn is as far as 3 m.
+    # Find near scans, by a distance in which half a turn is as far as 3 m.
     tree = cKDTree(np.column_stack([poses[:, :2], np.cos(poses[:, 2]), np.sin(poses[:, 2])]) * [1.0, 1.0, 1.5, 1.5])
     _, near = tree.query(tree.data, k=min(4 * TRIED, count), workers=1)
     source = np.repeat(np.arange(count), near.shape[1])
@@ -101,10 +101,11 @@ def overlapping_pairs(geometry: ScanGeometry, poses: Floats, reach_m: float) -> 
     plain = np.hypot(*(poses[source, :2] - poses[target, :2]).T)
     kept = (source != target) & (plain < reach_m)
     close_in_time = np.abs(source - target) <= AT_ONCE
-    # All that are near in time, and the nearest of the others.
+    # Keep all scans that are near in time, and the nearest of the others.
     rank = np.cumsum((kept & ~close_in_time).reshape(count, -1), axis=1).ravel()
     kept &= close_in_time | (rank <= TRIED)
     source, target = source[kept].astype(np.int32), target[kept].astype(np.int32)
+    # Share of each scan's points that the other explains, from about 45 beams. 0.3 and 0.15 m are reach and scale.
     stride = max(1, geometry.beams // 45)
     relative = between(poses[target], poses[source])
     _, _, _, totals = pair_sums(geometry, None, source, target, relative, 0.3, 0.15, ALIKE, stride, geometry.threads)
@@ -112,6 +113,7 @@ def overlapping_pairs(geometry: ScanGeometry, poses: Floats, reach_m: float) -> 
     share = totals[:, 2] / sampled[source]
     good = share > LEAST_MATCHED
     source, target, share = source[good], target[good], share[good]
+    # Order the partners of each scan: other visits first, each group by share. Then fill the places of both groups.
     late = np.abs(source.astype(np.int64) - target) <= AT_ONCE
     order = np.lexsort((-share, late, source))
     source, target, late = source[order], target[order], late[order]
@@ -119,7 +121,7 @@ def overlapping_pairs(geometry: ScanGeometry, poses: Floats, reach_m: float) -> 
     others = np.bincount(source[~late], minlength=count)
     room = np.where(late, PARTNERS - np.minimum(others[source], PARTNERS // 2), PARTNERS // 2)
     within = np.where(late, number_all - others[source], number_all)
-    # Where few are near in time, others take their place.
+    # If few are near in time, other scans take their places.
     few = np.bincount(source[late], minlength=count)
     room = np.where(late, room, np.maximum(room, PARTNERS - few[source]))
     kept = within < room
@@ -136,22 +138,23 @@ def align(
     """Align S scans with all their partners and with odometry.
 
     Args:
-        geometry: of the scans.
-        poses: to start from, (S, 3).
-        odometry: relative poses of scans by odometry, or none.
-        pairs: the scans to compare.
-        rounds: of Gauss-Newton.
-        reach_m: greatest distance of paired points, in the first round, and from the middle one on.
-        scale_m: Geman and McClure's c, in the same rounds.
-        firm: relative poses by odometry over which no wheel can have slipped, (M,); by default none.
-        reselect: chooses pairs anew from the poses in the middle of the rounds.
-        on_progress: called with the number of rounds that are done and the poses, (S, 3).
+        geometry: geometry of the scans.
+        poses: poses to start from, (S, 3).
+        odometry: relative poses of scans by odometry; may be empty.
+        pairs: scans to compare.
+        rounds: number of Gauss-Newton rounds.
+        reach_m: greatest distance of paired points, in the first round, and from the middle round on.
+        scale_m: Geman and McClure's c, in the first round, and from the middle round on.
+        firm: mask of odometry's relative poses without slip, (M,); by default none.
+        reselect: function that returns new pairs from the poses in the middle of the rounds.
+        on_progress: function that is called with the number of completed rounds and the poses, (S, 3).
     """
     count, sigma = len(poses), geometry.noise_m
     reach_m, scale_m = geometry.reach_m(*reach_m), geometry.scale_m(*scale_m)
     weights = np.ones((count, geometry.beams), np.float32)
     gaussian, totals = None, np.zeros((len(pairs), 5))
     for number in range(rounds):
+        # Shrink reach and scale geometrically until the middle round.
         share = min(1.0, number / max(1.0, 0.5 * rounds))
         reach = reach_m[0] * (reach_m[1] / reach_m[0]) ** share
         scale = scale_m[0] * (scale_m[1] / scale_m[0]) ** share
@@ -160,6 +163,7 @@ def align(
         if number in (0, (rounds + 1) // 2, rounds - 2):
             seen = between(poses[pairs.target], poses[pairs.source])
             weights = _beam_weights(geometry, pairs, seen, reach, scale)
+        # Solve for one step of laser and odometry, and estimate the noise from the residuals.
         laser, totals = _laser(geometry, weights, poses, pairs, reach, scale, sigma)
         squares = odometry.squares(poses)
         slipping = 1.0 / (1.0 + squares / SLIP)
@@ -182,7 +186,7 @@ def align(
 def _beam_weights(
     geometry: ScanGeometry, pairs: Pairs, relative: Floats, reach: float, scale: float
 ) -> NDArray[np.float32]:
-    """Return the weight of each beam in each of its pairs, (S, B), by the number of scans that it is matched with."""
+    """Return the weight of each beam in its pairs, (S, B), by the number of scans with which it is matched."""
     counts = match_counts(geometry, pairs.offsets, pairs.target, relative, reach, scale, ALIKE, geometry.threads)
     return np.asarray(0.5 / (1.0 + counts), dtype=np.float32)
 
@@ -210,9 +214,9 @@ def _laser(
 
 
 def without_slack(second: Floats, slack: Floats, first: Floats, sigma_m: float) -> tuple[Floats, Floats]:
-    """Remove what errors of normals add to second derivatives, (M, 3, 3), and to first ones, (M, 3).
+    """Return second derivatives, (M, 3, 3), and first ones, (M, 3), without the part from errors of normals.
 
-    The minimum of the quadratic cost stays; along directions that only slack holds the cost becomes flat.
+    The minimum of the quadratic cost stays. The cost becomes flat along directions that have only slack.
     """
     laser_information = second - SLACKS * sigma_m**2 * slack
     values, vectors = np.linalg.eigh(laser_information)
@@ -231,14 +235,14 @@ def _number_within(groups: NDArray[np.int32]) -> NDArray[np.intp]:
 
 
 COUNTED_AGAIN = 0.1
-"""Share of the points' variance that the shared errors of pairs contain, too (`bayesmap.poses.pose_gaussian.bends`):
-their value in simulated offices, where nothing is shared."""
+"""Share of the points' variance that the shared errors of pairs also contain (`bayesmap.poses.pose_gaussian.bends`).
+It is their value in simulated offices, where no errors are shared."""
 
 LEVER_M = 4.0
-"""Typical distance of points from the laser, for turns."""
+"""Typical distance of points from the laser, metres, for turns."""
 
 LEAST_RESPONSE, MOST_RESPONSE = 0.2, 1.0
-"""Bounds on k: where the forces hardly answer to a shift there is too little to match."""
+"""Bounds on k. If forces hardly respond to a shift, there are too few points to match."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -255,7 +259,7 @@ class PointError:
 
     @property
     def sigma_m(self) -> float:
-        """Standard deviation of a point as shifts see it, metres."""
+        """Effective standard deviation of a point for shifts, metres."""
         return self.scatter_m / float(self.response[0])
 
 

@@ -1,28 +1,28 @@
 """Calibration of odometry and of the laser's beam angles from the scans.
 
-Systematic errors. Wheels of other sizes than assumed, a base of another width, or a laser beside the point that
-odometry follows make odometry state, to first order,
+Systematic errors. Wheels may have other sizes than assumed, the base another width, and the laser may be beside the
+point that odometry follows. To first order odometry then states
 
     stated = (1 + C) true - lag (v_end - v_begin).
 
-C is a constant matrix, the true motion is found by scan matching, and v is the stated velocity where the motion begins
-and ends: if odometry's stamps are late by ``lag``, its motion is that of another interval. The stated motion is
-regressed on the matched one, which errs less: the other way round, the noise of a robot that drives straight on passes
-for a scale of 0. A stated motion is corrected by 1 + B = 1 / (1 + C). B also gives the laser's place on the robot.
-`RunningOdometry` learns C and the size of the noise on the way by recursive least squares; `fit_odometry` fits C, the
-lag and the noise to aligned key scans by robust least squares.
+C is a constant matrix. Scan matching gives the true motion. v is the stated velocity at the motion's begin and end: if
+odometry's stamps are late by ``lag``, its motion is that of another interval. The stated motion is regressed on the
+matched one, which has smaller errors. (In the opposite regression, the noise of a robot that drives straight on would
+look like a scale of 0.) A stated motion is corrected by 1 + B = 1 / (1 + C). B also gives the laser's position on the
+robot. `RunningOdometry` learns C and the noise during the front end, by recursive least squares. `fit_odometry` fits C,
+the lag and the noise to aligned key scans, by robust least squares.
 
 Noise. Over n scans, d metres and turns of a radians in all (absolute values summed), the errors of x, y and yaw, in the
 frame of the motion, have the variances
 
     v = per_m d + per_rad a + per_scan n.
 
-So the variances of parts of a motion add up to that of the whole, whether a log has 1 scan a second or 10. (The squares
-of `bayesmap.poses.prior.Odometry` do not: ten short motions have a tenth of the variance of the one that they make.)
+So the variances of parts of a motion add up to that of the whole, with 1 scan per second as with 10. (The squares of
+`bayesmap.poses.prior.Odometry` do not: ten short motions have a tenth of the variance of the whole motion.)
 
-Angles. A scan with a wrong angle between its beams is stretched around the laser, so that neighbouring scans do not
-fit. The angle of the lowest residual is taken. The first beam's angle stays as stated: to turn all beams is to turn the
-laser on the robot, which B tells.
+Angles. A scan with a wrong angle between its beams is stretched around the laser, so that scans do not fit each other.
+The angle with the lowest residual is estimated. The first beam's angle stays as stated, because a turn of all beams is
+a turn of the laser on the robot, which B contains.
 """
 
 from __future__ import annotations
@@ -42,16 +42,16 @@ from bayesmap.space.time_order import elapsed_s, repeated_stamps
 Floats = NDArray[np.float64]
 
 FAST_M_PER_S = 3.0
-"""A robot that is faster is taken to be impossible."""
+"""Greatest possible speed of a robot: faster motions count as impossible."""
 
 COMMON = Odometry(0.1, 0.05, 0.05, 0.1, 0.01, 0.01)
-"""Noise of ordinary robots; the noise of the robot at hand is estimated as a multiple of it."""
+"""Noise of ordinary robots. The present robot's noise is estimated as a multiple of it."""
 
 FIRST_RATIO, PRIOR_COUNT = 3.0, 12.0
-"""Prior of that multiple, and the number of motions that it counts for."""
+"""Prior of this multiple, and the number of motions that the prior counts as."""
 
 MEMORY = 300.0
-"""Motions over which the size of the noise is averaged: floors differ."""
+"""Number of motions over which the noise is averaged, since floors differ."""
 
 SLOPE_SIGMA = 0.15
 """Prior standard deviation of the entries of C: 15 % of the motion."""
@@ -60,8 +60,8 @@ SLOPE_SIGMA = 0.15
 def stated_motions(poses: Floats, stamps_s: Floats | None) -> tuple[Floats, NDArray[np.bool_]]:
     """Return the motions from scan to scan in the earlier one's frame, (S - 1, 3), and which are impossible, (S - 1,).
 
-    Where stamps repeat, a motion is impossible if it is too fast for the longest time that the stamps allow, or if it
-    is much longer than usual and too fast for the shortest.
+    Repeated stamps bound the time of a motion. A motion is impossible if it is too fast for the longest time, or if it
+    is much longer than usual and too fast for the shortest time.
     """
     motions = between(poses[:-1], poses[1:])
     length = np.hypot(motions[:, 0], motions[:, 1])
@@ -77,9 +77,9 @@ def _farthest_m(elapsed: Floats) -> Floats:
 
 
 def motion_variances(motions: Floats, ratios: Floats) -> Floats:
-    """Return variances of x, y and yaw, (..., 3), of noise ``ratios`` times `COMMON`, of position and of heading, (2,).
+    """Return variances of x, y and yaw of motions, (..., 3), whose noise is ``ratios`` times `COMMON`.
 
-    An error of the heading half-way moves the rest of the motion sideways, which counts over long motions.
+    ``ratios`` are those of position and heading, (2,). A heading error half-way moves the rest of a motion sideways.
     """
     variance = (COMMON.sigmas(motions) * ratios[[0, 0, 1]]) ** 2
     lever_m = 0.5 * np.hypot(motions[..., 0], motions[..., 1])
@@ -158,7 +158,7 @@ FACTOR_SIGMA = np.log(10.0)
 """Prior standard deviation of the logarithm of each rate: a factor of ten either way."""
 
 TELLS, FEWEST = 0.5, 20
-"""A motion is used if its matched variance is below this share of the usual one; with fewer, rates stay `USUAL`."""
+"""A motion is used if its matched variance is below this share of the expected one; and the fewest motions of a fit."""
 
 DEGREES_OF_FREEDOM = 4.0
 CONSISTENT = 1.2718
@@ -206,20 +206,20 @@ def fit_noise(
     nu = 4, made consistent for the normal distribution and robust against slips.
 
     Args:
-        errors: x, y and yaw, (M, 3).
+        errors: errors of x, y and yaw, (M, 3).
         ways_m: path length of each motion, (M,).
-        turns_rad: total turn of each motion, absolute values summed, (M,).
-        scans: number of motions from scan to scan that each is made of, (M,).
-        known_variance: variance of the motions as found by odometry and laser together, (M, 3).
-        expected_variance: of odometry's errors before the fit, (M, 3); by default of an ordinary robot's.
+        turns_rad: total turn of each motion, as the sum of absolute values, (M,).
+        scans: number of motions from scan to scan in each motion, (M,).
+        known_variance: variance of the motions as estimated by odometry and laser together, (M, 3).
+        expected_variance: variance of odometry's errors before the fit, (M, 3); by default an ordinary robot's.
     """
     features = _features(ways_m, turns_rad, scans)
     usual = features @ USUAL.T
     expected = usual if expected_variance is None else expected_variance
-    # With too few motions that tell anything, the noise is as expected, and no less than usual.
+    # With too few informative motions, the noise is as expected, and no less than usual.
     rates = USUAL * np.maximum(1.0, expected.sum(axis=0) / np.maximum(usual.sum(axis=0), 1e-12))[:, None]
     for axis in range(3):
-        # A motion that the laser knows hardly better than odometry does tells nothing about odometry.
+        # Use motions that the laser measures much more precisely than odometry.
         tells = known_variance[:, axis] < TELLS * expected[:, axis]
         if tells.sum() >= FEWEST:
             rates[axis] = _rates(errors[tells, axis], features[tells], known_variance[tells, axis], USUAL[axis])
@@ -229,7 +229,8 @@ def fit_noise(
 def _rates(errors: Floats, features: Floats, known_variance: Floats, usual: Floats) -> Floats:
     """Fit the rates of one axis, (3,), by L-BFGS in their logarithms.
 
-    Odometry took part in finding the motions: the mean square of its error is that of the residual plus their variance.
+    The motions were estimated with odometry. So the mean square of its error is that of the residual plus the motions'
+    variance.
     """
     from scipy.optimize import minimize
 
@@ -253,7 +254,7 @@ def _features(ways_m: Floats, turns_rad: Floats, scans: Floats) -> Floats:
 
 
 VELOCITY_OVER_S = 0.4
-"""Time over which a stated velocity is averaged."""
+"""Time over which a stated velocity is averaged, seconds."""
 
 LAG_SIGMA_S, MOST_LAG_S = 0.2, 0.5
 """Prior standard deviation and greatest size of the lag."""
@@ -262,11 +263,11 @@ PAIRS = 400
 """Most pairs of scans from which the angle between beams is estimated."""
 
 GROUPS, SURE, SURE_OF_REGULAR = 20, 4.0, 2.0
-"""Groups of the jackknife. The angle is changed if it is more than the second number of standard errors off, or more
-than the third and within one standard error of a regular angle."""
+"""Groups of the jackknife, and standard errors beyond which the angle is changed: in general, and if the new angle is
+within one standard error of a regular angle."""
 
 REGULAR_WITHIN = 0.005
-"""Relative accuracy to which residuals tell the angle between beams."""
+"""Relative accuracy of the estimated angle between beams."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -274,11 +275,11 @@ class OdometryFit:
     """The errors of odometry.
 
     Attributes:
-        slope: B, (3, 3).
-        slope_sigma: standard deviations of its entries, (3, 3).
+        slope: matrix B, (3, 3).
+        slope_sigma: standard deviations of B's entries, (3, 3).
         lag_s: delay of odometry's stamps, seconds: the motion from t to t' is stated for t + lag to t' + lag.
-        lag_sigma_s: its standard deviation.
-        noise: variance rates of the rest.
+        lag_sigma_s: standard deviation of the lag, seconds.
+        noise: variance rates of the remaining errors.
     """
 
     slope: Floats
@@ -326,13 +327,14 @@ def fit_odometry(
     """Fit B, the lag and the noise to scans whose poses are known.
 
     Args:
-        stated: odometry's pose of all scans, (S, 3).
-        stamps_s: (S,), or None: the lag is then 0. Scans that share their stamp have no part in the lag.
-        known: known poses of some scans, (K, 3).
+        stated: odometry's poses of all scans, (S, 3).
+        stamps_s: stamps of the scans, seconds, (S,). If None, the lag is 0. Scans with equal stamps do not affect it.
+        known: known poses of K of the scans, (K, 3).
         scans: indices of these scans, ascending, (K,).
         laser_variance: variances of x, y and yaw of the known motions, (K - 1, 3): large along corridors.
-        expected_variance: of odometry's errors before the fit, (K - 1, 3); by default of an ordinary robot's.
+        expected_variance: variance of odometry's errors before the fit, (K - 1, 3); by default an ordinary robot's.
     """
+    # Errors of odometry between known scans, and the changes of velocity that a lag multiplies.
     motion = between(known[:-1], known[1:])
     error = between(stated[scans[:-1]], stated[scans[1:]]) - motion
     error[:, 2] = wrapped(error[:, 2])
@@ -345,6 +347,7 @@ def fit_odometry(
     ways, turns = (_over(size, scans) for size in (np.hypot(steps[:, 0], steps[:, 1]), np.abs(steps[:, 2])))
     parts = np.diff(scans).astype(np.float64)
     noise = fit_noise(error, ways, turns, parts, laser_variance, expected_variance)
+    # Ten coefficients: the entries of C, and the lag. Alternate robust least squares and the fit of the noise.
     coefficients = np.zeros(10)
     covariance = np.eye(10)
     for _ in range(6):
@@ -379,7 +382,7 @@ def _left(error: Floats, motion: Floats, change: Floats, coefficients: Floats) -
 
 
 def _over(sizes: Floats, scans: NDArray[np.intp]) -> Floats:
-    """Sum sizes of motions from scan to scan, (S - 1,), between some scans, (K - 1,)."""
+    """Return sums of sizes of motions from scan to scan, (S - 1,), between the given scans, (K - 1,)."""
     return np.asarray(np.diff(np.concatenate([[0.0], np.cumsum(sizes)])[scans]))
 
 
@@ -394,14 +397,14 @@ def angle_step_ratio(
 
     Args:
         scans: S scans.
-        poses: (S, 3).
-        source: the one scan of each pair of scans that overlap.
-        target: the other scan.
-        farthest_m: hits beyond are left out.
+        poses: poses of the scans, (S, 3).
+        source: first scan of each pair of scans that overlap.
+        target: second scan of each pair.
+        farthest_m: range beyond which hits are left out, metres.
         threads: number of threads, by default all cores.
 
     Returns:
-        The ratio; 1 where no scans are turned against each other, or where the estimate is not significant.
+        The ratio; 1 if no scans are turned against each other, or if the estimate is not significant.
     """
     turned = np.abs(wrapped(poses[source, 2] - poses[target, 2]))
     useful = np.nonzero((turned > np.radians(25.0)) & (turned < np.radians(130.0)))[0]
@@ -416,7 +419,7 @@ def angle_step_ratio(
 
     def residuals(factor: float) -> Floats:
         geometry = scan_geometry(selected.stretched(factor), farthest_m=farthest_m, threads=threads)
-        # Beams are stretched from the first on: the pose is turned back, so that the middle beam keeps its direction.
+        # Beams are stretched from the first one. Turn the pose back, so that the middle beam keeps its direction.
         start = selected_poses.copy()
         start[:, 2] -= 0.5 * (factor - 1.0) * selected.sweep_rad
         jobs = Refinement(first, offsets, second, start[second], start[first], start[first], weak)
@@ -432,7 +435,7 @@ def angle_step_ratio(
     # The jackknife's standard error (Efron and Tibshirani 1993, ch. 11).
     error = np.sqrt((GROUPS - 1) / GROUPS * ((without - without.mean()) ** 2).sum())
     if not abs(lowest - 1.0) <= 0.0125:
-        return 1.0  # outside what was tried: not a matter of the angle
+        return 1.0  # outside the range that was tried
     regular = _regular(lowest, float(np.degrees(np.nanmedian(scans.steps_rad))))
     sure = SURE_OF_REGULAR if regular != lowest and abs(lowest - regular) < error else SURE
     return regular if abs(lowest - 1.0) > sure * error else 1.0

@@ -1,11 +1,12 @@
 """The front end: every scan is matched to the latest key scans, in the order of time.
 
-Scans that lie close together are matched to the same key scans at once (`bayesmap.poses.next_scans`). The first one
-that has moved far enough, or that the key scans do not explain, becomes a key scan; later scans are matched anew.
+Scans that lie close together are matched to the same key scans at once (`bayesmap.poses.next_scans`). The first scan
+that has moved far enough, or that the key scans do not explain, becomes a key scan. Later scans are matched anew.
 
-A scan that contradicts the key scans wherever odometry allows is passed over if one of the next scans fits again:
-somebody walked by. If none does, odometry was wrong, or the robot was carried. The path then breaks, and later scans
-are matched to scans after the break alone. Places that were seen twice tell how parts lie (`bayesmap.poses.rejoin`).
+A scan may contradict the key scans at every pose that odometry allows. If one of the next scans fits again, somebody
+walked by, and the scan is passed over. If none fits, odometry was wrong, or the robot was carried. The path then
+breaks, and later scans are matched only to scans after the break. `bayesmap.poses.rejoin` joins the parts by places
+that were seen from both.
 """
 
 from __future__ import annotations
@@ -41,32 +42,33 @@ KEY_SCORE = 0.5
 """A scan with a lower score becomes a key scan, too."""
 
 WINDOW, BATCH = 12, 12
-"""Latest key scans that a scan is matched to, and most scans that are matched to them at once."""
+"""Number of latest key scans that a scan is matched to, and most scans that are matched to them at once."""
 
 POOR_SCORE, POOR_BELOW = 0.45, 0.25
-"""A score below the first, or lower than usual by the second, may contradict the key scans."""
+"""A scan is badly explained if its score is below the greater of two bounds: the first number, and the usual score less
+the second. It may then contradict the key scans."""
 
 LOST_SIGMA = np.array([0.5, 0.5, np.radians(30.0)])
-"""A badly explained scan whose pose is more uncertain than this, standard deviations, is taken to contradict them."""
+"""A badly explained scan contradicts the key scans if standard deviations of its pose, x, y and yaw, exceed these."""
 
 SLIPPED_BELOW = 0.15
-"""A scan whose score is at most this much lower than usual is accepted where a wide search about odometry has it."""
+"""A wide search about odometry's pose may move a scan. The new score may be lower than usual by at most this."""
 
 AGAIN_BELOW = 0.1
-"""A scan whose score is lower than usual by more than this is matched again, from the pose of the scan before it:
-odometry's errors add up over the scans of a batch, until the window lies elsewhere."""
+"""A scan whose score is lower than usual by more than this is matched again, from the pose of the scan before it.
+Odometry's errors add up over the scans of a batch, and the search window may have missed the pose."""
 
 LEARN_BELOW = 0.25
-"""Motions of scans whose score is lower than usual by more than this teach nothing about odometry."""
+"""If a scan's score is lower than usual by more than this, its motion is not used to calibrate odometry."""
 
 BACKWARDS_M = 1.0
-"""Longest motion that may have been stated the wrong way round."""
+"""Longest motion that odometry may have stated with the wrong sign, metres."""
 
 PATIENCE, PATIENCE_M, PATIENCE_RAD = 10, 1.5, np.radians(90.0)
-"""Scans after a contradiction that may show it to be an exception: how many, and over how much way by odometry."""
+"""Most scans after a contradiction in which a fitting scan is sought, and most way and turn by odometry until then."""
 
 UNKNOWN = np.array([1.0, 1.0, np.radians(60.0)])
-"""Standard deviations of a motion of which nothing is known."""
+"""Standard deviations of an unknown motion: x and y in metres, yaw in radians."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -74,13 +76,13 @@ class Track:
     """The result of the front end.
 
     Attributes:
-        poses: of the laser, (S, 3); the first is the origin.
-        information: of each pose by the laser alone, given the key scans before it, in the pose's own frame, (S, 3, 3).
-        odometry_variance: of the motion from the key scan before, x, y and yaw, (S, 3).
-        scores: how well the key scans explain each scan, from 0 to 1, (S,); 1 for the first.
+        poses: poses of the laser, (S, 3). The first is the origin.
+        information: inverse covariance of each pose by the laser, given earlier key scans, in its own frame, (S, 3, 3).
+        odometry_variance: variance of odometry's motion from the key scan before, x, y and yaw, (S, 3).
+        scores: fit of each scan to the key scans, from 0 to 1, (S,); 1 for the first.
         keys: indices of the key scans, ascending.
-        broken: scans that begin a new part of the path: nothing confirms the motion from the one before, (S,).
-        against: scans before which the robot moved the other way than odometry states, ahead or back, (S,).
+        broken: mask of scans that begin a new part of the path: nothing confirms the motion before them, (S,).
+        against: mask of scans before which the robot moved ahead although odometry states back, or vice versa, (S,).
         slope: correction of odometry's systematic error, (3, 3).
         noise_ratios: odometry's noise as a multiple of an ordinary robot's, position and heading, (2,).
     """
@@ -104,12 +106,12 @@ def follow(
 
     Args:
         geometry: S scans.
-        motions: odometry's, from scan to scan in the earlier one's frame, (S - 1, 3). If None, the robot is taken to
-            go on as it did.
-        stamps_s: (S,), needed where there is no odometry.
-        impossible: motions that no robot can have made, (S - 1,): they are taken to be unknown.
-        on_progress: called with the number of scans that are done and the poses, (S, 3), zero from there on. The array
-            is written on; a caller that keeps it copies it.
+        motions: odometry's motions from scan to scan in the earlier one's frame, (S - 1, 3). If None, each motion is
+            predicted from the motion before.
+        stamps_s: stamps of the scans, seconds, (S,). They are needed if there is no odometry.
+        impossible: mask of motions that no robot can have made, (S - 1,). They are taken to be unknown.
+        on_progress: function that is called with the number of matched scans and the poses, (S, 3), zero for the
+            other scans. The array changes afterwards, so a caller that keeps it must copy it.
     """
     path = _Path(geometry, motions, stamps_s, impossible)
     while path.at < len(geometry) - 1:
@@ -123,7 +125,7 @@ def follow(
 
 
 class _Path:
-    """The path up to scan ``at``, the last one that has a pose."""
+    """The path up to scan ``at``, the last one that has a pose. ``begin`` is the key that begins its present part."""
 
     def __init__(
         self, geometry: ScanGeometry, motions: Floats | None, stamps_s: Floats | None,
@@ -142,25 +144,28 @@ class _Path:
         self.broken, self.against = np.zeros(count, np.bool_), np.zeros(count, np.bool_)
         self.at, self.keys, self.begin = 0, [0], 0
         self.since_key, self.usual = np.zeros(3), 0.6
-        # Whether all motions since the last key scan were usual, and the variance of the last scan's pose.
+        # True if all motions since the last key scan were usual; and the variance of the last scan's pose.
         self.plain, self.left = True, np.zeros(3)
         self.window = self._window(None)
 
     def advance(self) -> None:
-        """Give poses to the next scans, at least to one."""
+        """Set the poses of the next scans, of at least one."""
         if self.window.keys[0] != self.keys[-1]:
             self.window = self._window(self.window)
         batch = _batch(self.at, len(self.poses), self.motions, self.poses[self.at], self.poses[self.keys[-1]])
+        # Break the path over an unknown motion.
         if self.unknown[self.at]:
             scan, placed = self.at + 1, self._near(batch[:1])[0]
             self._leap(scan, placed, self._anywhere(scan, placed.predicted[0], float(placed.scores[0])))
             return
-        known = np.nonzero(self.unknown[self.at : int(batch[-1])])[0]
-        batch = batch[: int(known[0]) if len(known) else len(batch)]
+        # Match the scans up to the next unknown motion; look further ahead if the first contradicts the key scans.
+        breaks = np.nonzero(self.unknown[self.at : int(batch[-1])])[0]
+        batch = batch[: int(breaks[0]) if len(breaks) else len(batch)]
         placed, wrong = self._near(batch)
         if wrong[0] and self.motions is not None:
             batch = self._patience()
             placed, wrong = self._near(batch)
+        # Accept scans, pass over an exception, move a scan that slipped, or break the path.
         if not wrong[0] and self._slips(int(batch[0]), placed):
             return
         if not wrong[0]:
@@ -187,7 +192,7 @@ class _Path:
                 break
 
     def _pass_over(self, batch: NDArray[np.intp], placed: Placed, fits: int) -> None:
-        """Leave scans that nothing explains where odometry has them; the one that fits again becomes a key scan."""
+        """Give odometry's poses to the unexplained scans. Scan number ``fits`` of the batch becomes a key scan."""
         for k in range(fits + 1):
             self._put(int(batch[k]), placed, k)
         skipped = batch[:fits]
@@ -196,7 +201,7 @@ class _Path:
         self._key(int(batch[fits]))
 
     def _slips(self, scan: int, placed: Placed) -> bool:
-        """Move a scan that fits worse than usual to a near place where it fits as usual, if there is one."""
+        """Move a scan that fits worse than usual to a near pose at which it fits as usual. Returns whether it moved."""
         score = float(placed.scores[0])
         if self.motions is None or score > self.usual - SLIPPED_BELOW:
             return False
@@ -204,9 +209,9 @@ class _Path:
         return place is not None and self._slipped(scan, placed, place)
 
     def _slipped(self, scan: int, placed: Placed, place: Elsewhere) -> bool:
-        """Accept a near place if the scan fits there as usual: wheels slipped. Returns False if it does not.
+        """Accept a near place if the scan fits there as usual: wheels slipped. Returns whether it is accepted.
 
-        A place that noisy odometry allows is near.
+        A place counts as near if the wide search says so, or if the noise of odometry allows it.
         """
         off = between(placed.predicted[0], place.pose)
         off[2] = wrapped(off[2])
@@ -222,9 +227,9 @@ class _Path:
         return True
 
     def _leap(self, scan: int, placed: Placed, place: Elsewhere | None) -> None:
-        """Break the path before a scan that nothing confirms, and go on from where a wide search, or odometry, has it.
+        """Break the path before an unconfirmed scan, and go on from the pose of a wide search, or of odometry.
 
-        Scans just before it with a score as poor go with it, though nothing contradicted them.
+        The break moves back over scans just before it that are badly explained, too.
         """
         pose, score, begin = placed.predicted[0], float(placed.scores[0]), scan
         while begin - 1 > self.keys[self.begin] and self.scores[begin - 1] < self._poor_below():
@@ -247,9 +252,11 @@ class _Path:
         return place_anywhere(self.geometry, self.window, scan, pose, score)
 
     def _poor_below(self) -> float:
+        """Return the score below which a scan is badly explained."""
         return max(POOR_SCORE, self.usual - POOR_BELOW)
 
     def _put(self, scan: int, placed: Placed, k: int) -> None:
+        """Store the pose of scan number ``k`` of a batch, and learn odometry's noise from its motion."""
         self.poses[scan], self.information[scan] = placed.poses[k], placed.information[k]
         self.scores[scan], self.against[scan] = placed.scores[k], placed.turned[k]
         variance, score = placed.variance[k], float(placed.scores[k])
@@ -268,6 +275,7 @@ class _Path:
         self.at = scan
 
     def _key(self, scan: int) -> None:
+        """Make a scan a key scan, and learn odometry's systematic error from the way to it."""
         if self.motions is not None and self.plain and not self.broken[scan]:
             before = self.keys[-1]
             stated = chained(np.zeros(3), self.motions[before:scan])[-1]
@@ -277,7 +285,7 @@ class _Path:
         self.since_key = np.zeros(3)
 
     def _near(self, scans: NDArray[np.intp]) -> tuple[Placed, NDArray[np.bool_]]:
-        """Place the scans that follow near odometry's poses; the second result says which contradict the key scans."""
+        """Place the next scans near odometry's poses. Returns them, and which of them contradict the key scans."""
         span = slice(self.at, int(scans[-1]))
         predicted, variance = predict(self.poses, self.at, scans, self.motions, self.stamps_s, self.odometry)
         backwards = None
@@ -291,9 +299,9 @@ class _Path:
         return placed, wrong
 
     def _doubtful(self, scan: int, placed: Placed, k: int) -> bool:
-        """Return whether a badly explained scan contradicts the key scans, fits far away, or may be anywhere.
+        """Return whether a badly explained scan contradicts the key scans, fits far away, or has an uncertain pose.
 
-        A scan that fits clearly better near by is moved there.
+        If the scan fits clearly better near by, ``placed`` gets that pose.
         """
         if contradicts(self.geometry, self.window, scan, placed.poses[k]):
             return True
@@ -306,7 +314,7 @@ class _Path:
         return place is not None and not place.near
 
     def _patience(self) -> NDArray[np.intp]:
-        """Return the next scans that may still fit the key scans."""
+        """Return the scans in which a fit is sought after a contradiction: at most `PATIENCE`, none over a break."""
         assert self.motions is not None
         steps = self.motions[self.at : self.at + PATIENCE]
         way, turn = np.cumsum(np.hypot(steps[:, 0], steps[:, 1])), np.cumsum(np.abs(steps[:, 2]))
@@ -315,7 +323,7 @@ class _Path:
         return np.arange(self.at + 1, self.at + 1 + count)
 
     def _window(self, before: Window | None) -> Window:
-        """Return the window of the latest key scans; the grid's memory is that of the window before."""
+        """Return the window of the latest key scans. Its grid reuses the memory of the window before."""
         latest = np.array(self.keys[self.begin :][-WINDOW:][::-1])
         poses, reuse = self.poses[latest], None if before is None else before.grid
         grid = likelihood_grids(self.geometry, [latest], [poses], poses[0, :2], self.half_width_m, reuse=reuse)
@@ -323,14 +331,18 @@ class _Path:
 
 
 def grid_half_width(geometry: ScanGeometry) -> float:
-    """Return half the width of grids that hold nearly all points of scans taken at their middle, metres."""
+    """Return the half width of grids that hold nearly all points of a scan taken at their middle, metres."""
     sampled = slice(None, None, max(1, len(geometry) // 500))
     distance = np.linalg.norm(geometry.host_points[sampled][geometry.host_kind[sampled] > 0], axis=-1)
     return float(np.clip(np.percentile(distance, 97.0) + 1.0, 4.0, 30.0)) if len(distance) else 4.0
 
 
 def _batch(i: int, count: int, motions: Floats | None, here: Floats, key: Floats) -> NDArray[np.intp]:
-    """Return the scans to match next: those that odometry has near the last key scan, and one more."""
+    """Return the scans to match next: those that odometry predicts near the last key scan, and one more.
+
+    ``i`` is the last scan with a pose, ``count`` the number of scans, and ``here`` and ``key`` are the poses of scan
+    ``i`` and of the last key scan.
+    """
     if motions is None:
         return np.array([i + 1])
     last = min(i + BATCH, count - 1)

@@ -4,9 +4,9 @@ The cost is the sum over factors of e^T W e / 2 with e = between(x_first, x_seco
 Grisetti et al. 2010, "A tutorial on graph-based SLAM"). Each step solves H d = -g with SciPy's sparse LU, d in the
 poses' own frames.
 
-The covariance matrix of thousands of poses is dense, but only some blocks of it are needed. Blocks of poses that a
-factor ties together lie in the pattern of the factorised matrix and come all at once (Takahashi, Fagan and Chin 1973).
-Other blocks are found by solving for the columns of one of the two poses.
+The covariance matrix of thousands of poses is dense, but only some blocks of it are needed. Blocks of poses that share
+a factor lie in the pattern of the factorised matrix, and are computed together (Takahashi, Fagan and Chin 1973). Other
+blocks are computed by solving for the columns of one of the two poses.
 """
 
 from __future__ import annotations
@@ -27,15 +27,15 @@ Floats = NDArray[np.float64]
 
 
 COLUMNS = 16
-"""Columns solved at once. With hundreds of them BLAS starts threads for blocks that are far too small: 555 columns of
-5271 rows took 23.5 s at once on two cores, and 0.3 s in groups of 16."""
+"""Columns solved at once. With hundreds of columns BLAS starts threads for blocks that are far too small. On two cores
+555 columns of 5271 rows took 23.5 s at once, and 0.3 s in groups of 16."""
 
 
 class Precision:
     """A sparse symmetric positive definite matrix (3 N, 3 N), factorised once.
 
     Args:
-        matrix: in compressed columns.
+        matrix: sparse matrix in compressed columns.
     """
 
     def __init__(self, matrix: Any) -> None:
@@ -43,7 +43,7 @@ class Precision:
         self._factor = splu(matrix, permc_spec="MMD_AT_PLUS_A", options={"SymmetricMode": True}, diag_pivot_thresh=0.0)
 
     def solve(self, right: Floats) -> Floats:
-        """Multiply the matrix's inverse by a vector or by the columns of a matrix."""
+        """Return the inverse times a vector, or times the columns of a matrix."""
         if right.ndim == 1 or right.shape[1] <= COLUMNS:
             return np.asarray(self._factor.solve(right))
         return np.concatenate(
@@ -53,10 +53,11 @@ class Precision:
     def blocks(self, first: NDArray[np.intp], second: NDArray[np.intp], at_once: int = 400) -> Floats:
         """Return the inverse's blocks of M pairs of poses, (M, 3, 3): rows of the first, columns of the second.
 
-        Columns are solved for ``at_once`` poses at a time: memory grows with the number of poses times this.
+        Columns are solved for ``at_once`` poses at a time. Memory grows with ``at_once`` times the number of poses.
         """
         three = np.arange(3)
         result, known = self._on_pattern(3 * first[:, None, None] + three[:, None], 3 * second[:, None, None] + three)
+        # Solve for the other blocks, by the columns of the side with fewer distinct poses.
         left = np.nonzero(~known.all(axis=(1, 2)))[0]
         if not len(left):
             return result
@@ -76,7 +77,7 @@ class Precision:
         return result
 
     def _on_pattern(self, row: NDArray[np.intp], column: NDArray[np.intp]) -> tuple[Floats, NDArray[np.bool_]]:
-        """Return entries of the inverse, and which of them the pattern holds."""
+        """Return entries of the inverse, and a mask of those in the pattern. Other entries are 0."""
         keys, values = self._selected
         place = self._factor.perm_c
         row, column = np.broadcast_arrays(place[row], place[column])
@@ -87,11 +88,11 @@ class Precision:
 
     @cached_property
     def _selected(self) -> tuple[NDArray[np.int64], Floats]:
-        """Column times size plus row of each entry of the pattern, ascending, and the inverse's values there."""
+        """Key of each entry of the pattern, column times size plus row, ascending; and the inverse's values there."""
         from bayesmap.kernels.match.selected_inverse import selected_inverse
 
         factor, size = self._factor, self._matrix.shape[0]
-        if not np.array_equal(factor.perm_r, factor.perm_c):  # rows were exchanged: not L D L^T any more
+        if not np.array_equal(factor.perm_r, factor.perm_c):  # rows were exchanged: the factors are not L D L^T
             return np.empty(0, np.int64), np.empty(0)
         begin, row = filled_pattern(self._matrix, factor.perm_c)
         keys = np.repeat(np.arange(size, dtype=np.int64), np.diff(begin)) * size + row
@@ -102,11 +103,11 @@ class Precision:
 
 
 def filled_pattern(matrix: Any, place: NDArray[np.integer]) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
-    """Find where the factor L of a permuted symmetric matrix may have entries: column offsets, and ascending rows.
+    """Return the pattern of the factor L of a permuted symmetric matrix: column offsets, and ascending rows.
 
-    A column has the rows of the matrix below the diagonal, and those of the columns whose first row it is (George and
-    Liu 1981, section 5.2). The factor's own entries are not enough, since some happen to be zero. The matrix, (n, n),
-    is in compressed columns, and ``place`` is the new position of each row and column, (n,).
+    Column j has the matrix's rows below the diagonal. It also has the rows of each earlier column whose first row below
+    the diagonal is j (George and Liu 1981, section 5.2). The factor's own entries are not enough, since some happen to
+    be zero. The matrix, (n, n), is in compressed columns. ``place`` is the new index of each row and column, (n,).
     """
     size = matrix.shape[0]
     entries = matrix.tocoo()
@@ -135,7 +136,7 @@ def relative_covariances(
 ) -> Floats:
     """Compute the covariance of between(first, second) for M pairs of poses, in the first's frame, (M, 3, 3).
 
-    The precision is that of steps in the own frames of the poses, (N, 3).
+    ``precision`` is that of steps in the poses' own frames.
     """
     by_first, by_second = between_jacobians(between(poses[first], poses[second]))
     every = np.arange(len(poses))
@@ -148,10 +149,10 @@ def relative_covariances(
 
 
 ANCHOR = 1e8
-"""Information that holds the first pose, 1 / m^2 and 1 / rad^2."""
+"""Information that fixes the first pose, 1 / m^2 and 1 / rad^2."""
 
 RIDGE = 1e-4
-"""Information added to every pose, so that the matrix is regular also where no factor holds a pose."""
+"""Information added to every pose, so that the matrix is regular even if a pose has no factor."""
 
 DOUBTFUL_SQ = 11.3
 """Squared Mahalanobis distance beyond which a loop is probably wrong: 99 % quantile of chi-squared, 3 degrees."""
@@ -187,13 +188,13 @@ class Factors:
         return np.asarray(np.einsum("mi,mij,mj->m", error, self.information, error))
 
     def disagreements(self, poses: Floats, one: NDArray[np.intp], two: NDArray[np.intp]) -> Floats:
-        """Return what each factor ``one`` is off from the relative pose that factor ``two`` implies for it, (P, 3)."""
+        """Return the difference of each factor ``one`` from the relative pose that factor ``two`` implies, (P, 3)."""
         first, second = self.first, self.second
         to_second = compose(self.relative[two], between(poses[second[two]], poses[second[one]]))
         return between(self.relative[one], compose(between(poses[first[one]], poses[first[two]]), to_second))
 
     def select(self, chosen: NDArray[np.bool_] | NDArray[np.intp]) -> Self:
-        """Return some of the factors."""
+        """Return the chosen factors."""
         return replace(self, **{field.name: getattr(self, field.name)[chosen] for field in fields(self)})
 
 
@@ -221,6 +222,7 @@ def normal_equations(count: int, parts: Sequence[Quadratic]) -> tuple[Any, Float
 
     `ANCHOR` holds the first pose, and `RIDGE` is added to every pose.
     """
+    # Sum blocks on the diagonal and gradients, and collect the blocks off the diagonal.
     diagonal = np.tile(np.eye(3) * RIDGE, (count, 1, 1))
     diagonal[0] += np.eye(3) * ANCHOR
     gradient = np.zeros((count, 3))
@@ -237,6 +239,7 @@ def normal_equations(count: int, parts: Sequence[Quadratic]) -> tuple[Any, Float
         rows += [part.first, part.second]
         columns += [part.second, part.first]
         blocks += [cross, np.swapaxes(cross, 1, 2)]
+    # Expand the blocks to single entries.
     every = np.arange(count)
     row, column = np.concatenate([*rows, every]), np.concatenate([*columns, every])
     block = np.concatenate([*blocks, diagonal])
@@ -269,10 +272,10 @@ def solve_step(count: int, parts: Sequence[Quadratic]) -> tuple[Floats, Precisio
 
 
 def optimise(poses: Floats, chain: Factors, loops: Factors, steps: int = 40) -> tuple[Floats, Floats]:
-    """Fit poses to a chain of factors, and to loops some of which may be wrong.
+    """Fit poses to a chain of factors and to loops. Some loops may be wrong.
 
-    Loops have Geman and McClure's cost, approached from a convex one (graduated non-convexity, Yang, Antonante, Tzoumas
-    and Carlone 2020): weights w = (mu c^2 / (r^2 + mu c^2))^2 with mu falling to 1.
+    Loops have Geman and McClure's cost, with weights w = (mu c^2 / (r^2 + mu c^2))^2. The cost begins nearly convex,
+    and mu falls to 1 (graduated non-convexity, Yang, Antonante, Tzoumas and Carlone 2020).
 
     Returns:
         poses (N, 3), and the final weight of each loop, from 0 to 1.
@@ -292,7 +295,7 @@ def optimise(poses: Floats, chain: Factors, loops: Factors, steps: int = 40) -> 
 
 
 def _add(into: Floats, where: NDArray[np.intp], values: Floats) -> None:
-    """Add values to rows, in their order: the result has the same bits every time."""
+    """Add values to rows, in order, so that the result has the same bits every time."""
     size = int(np.prod(values.shape[1:]))
     flat, target = values.reshape(len(values), size), into.reshape(len(into), size)
     for k in range(size):

@@ -1,8 +1,9 @@
-"""Alignment of key scans, and leave-one-out matching: is each scan where the others say that it should be?
+"""Alignment of key scans, and leave-one-out matching, which compares each scan with its partners alone.
 
 A scan that was aligned wrongly stays wrong, because the pairs that would move it are out of reach. So every scan is
-matched to the likelihood grid of its partners alone. Where another place explains it clearly better it is moved there;
-where none explains it well a wide window is searched. Scans that stay badly explained are flagged.
+matched to the likelihood grid of its partners, without itself. If the partners explain it clearly better at another
+pose, it is moved there. If no near pose explains it well, a wide window is searched. Scans that stay badly explained
+are flagged.
 """
 
 from __future__ import annotations
@@ -25,26 +26,27 @@ Floats = NDArray[np.float64]
 
 WINDOW_M, WINDOW_RAD = 0.3, np.radians(6.0)
 WIDE_M, WIDE_RAD = 1.5, np.radians(40.0)
-"""Half widths and half ranges of angle of the narrow and the wide window."""
+"""Half widths, metres, and half ranges of angle, radians, of the narrow and the wide window."""
 
 NEAR = Pull(0.2, np.radians(5.0), 0.005)
+"""Penalty in the narrow window for leaving the present pose."""
 
 CLEARLY_BETTER, WIDE_BETTER = 0.015, 0.12
-"""Gain in score, from 0 to 1, that a place in the narrow and in the wide window must bring."""
+"""Least gain in score of a better pose in the narrow and in the wide window. Scores are from 0 to 1."""
 
 AT_ONCE, POINTS, SIGMA_M = 24, 200, 0.06
-"""Scans matched at once, most points of a scan, and standard deviation of the likelihood grids."""
+"""Scans matched at once, most points per scan, and standard deviation of the likelihood grids, metres."""
 
 
 @dataclass(frozen=True, eq=False)
 class Rematch:
-    """The result of leave-one-out matching of S scans: how well the others explain each, and where best.
+    """The result of leave-one-out matching of S scans.
 
     Attributes:
-        scores: of each scan at its pose, by its partners alone, from 0 to 1, (S,); 0 where it has no partner.
-        best_scores: at the best pose in the window, (S,).
-        best_poses: (S, 3).
-        moved: where the best pose is clearly better, (S,).
+        scores: score of each scan at its pose, by its partners alone, from 0 to 1, (S,); 0 without partners.
+        best_scores: score at the best pose in the window, (S,).
+        best_poses: best pose in the window, (S, 3).
+        moved: mask of the scans whose best pose is clearly better, (S,).
     """
 
     scores: Floats
@@ -60,12 +62,12 @@ def rematch(
     """Match each of S scans to its partners' likelihood grid.
 
     Args:
-        geometry: of the scans.
-        poses: (S, 3).
-        pairs: the partners of each scan.
-        half_width_m: of the grids.
-        poor_score: scans whose best score in the narrow window is lower are sought in a wide one.
-        search: whether to look for better poses, or only to score the given ones.
+        geometry: geometry of the scans.
+        poses: poses of the scans, (S, 3).
+        pairs: partners of each scan.
+        half_width_m: half width of the grids, metres.
+        poor_score: score below which a scan is searched for in the wide window, too.
+        search: True to search for better poses; False only to score the given ones.
     """
     count = len(poses)
     scores, best_scores, best_poses = np.zeros(count), np.zeros(count), poses.copy()
@@ -73,18 +75,21 @@ def rematch(
     partnered = np.nonzero(np.diff(pairs.offsets) > 0)[0]
     grids: LikelihoodGrids | None = None
     for begin in range(0, len(partnered), AT_ONCE):
+        # Make the grid of each scan's partners, in the scan's frame.
         batch = partnered[begin : begin + AT_ONCE]
         others = [pairs.target[pairs.offsets[k] : pairs.offsets[k + 1]].astype(np.intp) for k in batch]
         local = [between(np.broadcast_to(poses[k], (len(m), 3)), poses[m]) for k, m in zip(batch, others, strict=True)]
         reuse = grids if grids is not None and len(grids) == len(batch) else None
         middles = np.zeros((len(batch), 2))
         grids = likelihood_grids(geometry, others, local, middles, half_width_m, sigma_m=SIGMA_M, reuse=reuse)
+        # Score each scan at its pose. The least score of -9 accepts any.
         points = [geometry.points_of(int(k), POINTS) for k in batch]
         origin = np.zeros((len(batch), 3))
         now = match(grids, points, origin, 0.0, 0.0, least=-9.0).scores[:, 0]
         scores[batch] = best_scores[batch] = now
         if not search:
             continue
+        # Search the narrow window, and the wide one for scans that still score badly.
         near = match(grids, points, origin, WINDOW_M, WINDOW_RAD, least=now, pull=NEAR)
         found = near.found[:, 0]
         best = np.where(found, near.scores[:, 0], now)
@@ -104,13 +109,13 @@ def rematch(
 
 
 FAR_BELOW = 0.55
-"""Share of the median score below which a scan is flagged."""
+"""A scan is flagged if its score is below this share of the median score."""
 
 
 def flag_unexplained(explained: Floats, keys: NDArray[np.intp]) -> NDArray[np.bool_]:
-    """Flag scans that are explained far worse than usual, (S,), separately among key scans and among the others.
+    """Flag scans whose scores ``explained``, (S,), are far below the median. Returns a mask, (S,).
 
-    Where most scans are explained by none, usual is the median of those that are explained at all.
+    Key scans and other scans have separate medians. A median of 0 is replaced by the median of the positive scores.
     """
     flagged = np.zeros(len(explained), np.bool_)
     is_key = np.zeros(len(explained), np.bool_)
@@ -125,15 +130,16 @@ def flag_unexplained(explained: Floats, keys: NDArray[np.intp]) -> NDArray[np.bo
 
 
 OnRound = Callable[[int, Floats], None]
+"""Function that is called after each round with its number and the poses, (K, 3)."""
 
 MATCH_REACH = 0.8
-"""Greatest distance of two scans' sensors, as a share of the grids' half width, at which scans are compared."""
+"""Greatest distance between the sensors of two scans that are compared, as a share of the grids' half width."""
 
 REMATCH_M = 14.0
-"""Most half width of the grids for leave-one-out matching."""
+"""Greatest half width of the grids for leave-one-out matching, metres."""
 
 NARROW = {"reach_m": (0.15, 0.08), "scale_m": (0.06, 0.03)}
-"""Arguments of `align` where poses are known to a decimetre."""
+"""Arguments of `align` for poses that are known to a decimetre."""
 
 IMPROVEMENTS = 2
 """Rounds of leave-one-out matching that move scans."""
@@ -141,7 +147,7 @@ IMPROVEMENTS = 2
 
 @dataclass(frozen=True, eq=False)
 class Rematched:
-    """An alignment of K scans, and how well the others alone explain each, from 0 to 1, (K,)."""
+    """An alignment of K scans, and the score of each scan by its partners alone, from 0 to 1, (K,)."""
 
     alignment: Alignment
     scores: Floats
@@ -152,10 +158,11 @@ class KeyAlignment:
     """The alignment of a track's key scans.
 
     Attributes:
-        geometry: of the key scans.
+        geometry: geometry of the key scans.
         track: result of the front end.
-        half_width_m: of the front end's grids.
-        report: returns the function to call after each round, given the track, a stage and its number of rounds.
+        half_width_m: half width of the front end's grids, metres.
+        report: function that takes the track, a stage and its number of rounds, and returns the function to call
+            after each round.
     """
 
     geometry: ScanGeometry
@@ -171,11 +178,11 @@ class KeyAlignment:
 
         Args:
             stage: name of the stage, for the report.
-            poses: to start from, (K, 3).
-            factors: of odometry.
-            rounds: of pairing and solving.
-            wide: whether poses may be decimetres off.
-            firm: links of odometry that stay firm, (K - 1,).
+            poses: poses to start from, (K, 3).
+            factors: factors of odometry.
+            rounds: number of rounds of pairing and solving.
+            wide: True if poses may be decimetres off.
+            firm: mask of odometry's links that keep their full weight, (K - 1,).
         """
         reach_m = MATCH_REACH * self.half_width_m
 
@@ -188,9 +195,9 @@ class KeyAlignment:
         )  # fmt: skip
 
     def improved(self, aligned: Alignment, factors: Factors) -> Rematched:
-        """Match each scan without itself, move those that others explain better elsewhere, and align all again.
+        """Match each scan to the others, move scans that the others explain better elsewhere, and align all again.
 
-        A scan that its new place and the alignment after it explain worse than before is put back, and stays.
+        A moved scan is put back for good if its score after the next alignment is lower than before the move.
         """
         count = len(aligned.poses)
         callback = self.report(self.track, "rematch", IMPROVEMENTS + 1)
@@ -202,6 +209,7 @@ class KeyAlignment:
                 search=number < IMPROVEMENTS,
             )  # fmt: skip
             callback(number + 1, np.where(again.moved[:, None], again.best_poses, aligned.poses))
+            # Put back moved scans whose score fell, and move the others that match better elsewhere.
             back = moved & (again.scores < before)
             stays |= back
             moved = again.moved & ~stays
@@ -216,9 +224,9 @@ class KeyAlignment:
         return Rematched(aligned, before)
 
     def without_leaps(self, matched: Rematched, factors: Factors) -> Rematched:
-        """Align once more, with firm odometry, where poses leap over a step on which odometry and front end agree.
+        """Align once more with firm odometry over leaps, if odometry agrees with the front end there.
 
-        The result is kept if it has fewer leaps.
+        A leap is a step that contradicts the front end's. The result is returned if it has fewer leaps.
         """
         aligned, track = matched.alignment, self.track
         leaps = contradicted_links(track, aligned.poses)
@@ -233,4 +241,5 @@ class KeyAlignment:
 
     @property
     def _rematch_m(self) -> float:
+        """Half width of the grids for leave-one-out matching, metres."""
         return min(self.half_width_m, REMATCH_M)

@@ -1,4 +1,4 @@
-"""The graph of key scans: the front end's chain, closed by loops in rounds."""
+"""The graph of key scans: the front end's chain of links and the loop closures, which are sought in rounds."""
 
 from __future__ import annotations
 
@@ -21,42 +21,43 @@ from bayesmap.space.planar import between, compose, rotation, wrapped
 Floats = NDArray[np.float64]
 
 DEFLATION = 4.0
-"""Divisor of the information of the front end's links, whose windows overlap."""
+"""Divisor of the information of the front end's links. Their windows overlap, so the links are not independent."""
 
 LINK_FLOOR = np.array([0.004, 0.004, np.radians(0.12)])
-"""Least standard deviations of a link between key scans."""
+"""Least standard deviations of a link between key scans: x and y in metres, yaw in radians."""
 
 BENT_M = 5.0
-"""Greatest bend of a path before loops are closed."""
+"""Greatest bend of a path before loops are closed, metres."""
 
 SETTLED_M = 0.3
-"""When a round moves no key scan further, no more loops are sought: alignment goes on from there."""
+"""The search for loops ends after a round that moves no key scan further than this, metres."""
 
 LEAP_M, LEAP_RAD, LEAP_SIGMAS = 0.3, np.radians(10.0), 8.0
-"""A step is a leap if it differs from the front end's by so much, and by so many of its standard deviations."""
+"""A leap differs from the front end's step by more than the distance or the angle, and by more standard deviations."""
 
 REFUSED_SIGMAS, CONFIRMED_BELOW = 5.0, 0.2
-"""Odometry contradicts a step that differs by more of its standard deviations. The key scans before confirm the step if
-the score of the scan after it is at most the second number lower than usual."""
+"""Odometry contradicts a step that differs by more than this many of odometry's standard deviations. The key scans
+before confirm a step if the next key scan's score is lower than usual by at most the second number."""
 
 WIDEST_M = 1.5
-"""Greatest distance from odometry's prediction at which another place is sought for a scan."""
+"""Greatest distance from odometry's prediction at which a scan is searched for elsewhere, metres."""
 
 BOTH_SIGMAS = 4.0
-"""A step that odometry contradicts is a leap from this many of the front end's standard deviations on."""
+"""`LEAP_SIGMAS` for steps that odometry contradicts, too."""
 
 GUESSED_SIGMAS = 3.0
-"""A part of the path that fitted where the front end guessed it is in doubt if it was joined further off than this."""
+"""A step over a break is in doubt if it lies further than this from the front end's guess, in units of `UNKNOWN`, and
+the scan after the break fitted as well as usual at the guess."""
 
 ROUNDS: tuple[Search, ...] = (
     Search(5.0, np.radians(45.0), most_off=3.0, passes=2, spacing_m=2.0),
     Search(4.0, np.radians(30.0)),
     Search(2.0, np.radians(20.0)),
 )
-"""Limits of the search in each round; within them windows shrink with the covariance. In the first round the graph is
-the chain alone, whose covariance is wide: a match far outside it is another place that looks alike. Later rounds
-believe earlier closures to centimetres, some of them wrongly. On logs and simulated robots right closures lay up to 2.1
-standard deviations off in the first round, and up to 3.2 later; wrong ones that bent the path 3.3 and 3.8."""
+"""Limits of the search in each round. Windows are smaller if the covariance is. In the first round the graph is the
+chain alone, and its covariance is wide: a match far outside is another place that looks alike. Later rounds trust
+earlier closures to centimetres, and some of these are wrong. On logs and simulated robots, right closures lay up to 2.1
+standard deviations off in the first round, and up to 3.2 later. Wrong ones that bent the path lay 3.3 and 3.8 off."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,9 +65,9 @@ class ClosedGraph:
     """Key scans with loops closed.
 
     Attributes:
-        closures: those of the last round.
-        joined: which parts of the path are joined to an earlier one by places that both saw, (P,).
-        weighed: poses of the keys, Geman and McClure's weights of the closures, and the alternatives to them.
+        closures: loop closures of the last round.
+        joined: mask of the parts of the path that are joined to an earlier part by places that both saw, (P,).
+        weighed: poses of the keys, Geman and McClure's weights of the closures, and alternative poses.
     """
 
     closures: Closures
@@ -77,15 +78,18 @@ class ClosedGraph:
 def chain_of(track: Track, poses: Floats) -> Factors:
     """Return links from each key scan to the next, by laser and odometry together.
 
-    Where the path breaks, links have hardly any information. They follow the given poses of the keys, (K, 3), or, if
-    the scan after the break fitted as well as usual and a bent path explains the difference, the front end's poses.
+    Links over a break of the path have hardly any information. Their relative poses are those of ``poses``, the poses
+    of the keys, (K, 3). They are the front end's instead if the scan after the break fitted as well as usual and the
+    two differ by less than `BENT_M`.
     """
     keys = track.keys
+    # Relative poses: the front end's, and over unconfirmed breaks those of the given poses.
     relative = between(track.poses[keys[:-1]], track.poses[keys[1:]])
     as_they_are = between(poses[:-1], poses[1:])
     off = np.hypot(*(as_they_are - relative)[:, :2].T)
     unknown = track.broken[keys[1:]] & ~(_fitted_after_break(track) & (off < BENT_M))
     relative[unknown] = as_they_are[unknown]
+    # Information of laser and odometry adds up; the covariance is then turned to the frame of the earlier key.
     laser = track.information[keys[1:]] / DEFLATION
     odometry = np.zeros_like(laser)
     index = np.arange(3)
@@ -98,16 +102,16 @@ def chain_of(track: Track, poses: Floats) -> Factors:
 
 
 def _fitted_after_break(track: Track) -> NDArray[np.bool_]:
-    """Return where the path broke and the scan after the break fitted as well as usual, (K - 1,)."""
+    """Select steps over a break of the path after which the next key scan fitted as well as usual, (K - 1,)."""
     after = track.keys[1:]
     return np.asarray(track.broken[after] & (track.scores[after] > np.median(track.scores) - SLIPPED_BELOW))
 
 
 def contradicted_links(track: Track, poses: Floats, sigmas: float = LEAP_SIGMAS) -> NDArray[np.bool_]:
-    """Find steps of the keys' poses, (K, 3), that contradict the front end's by ``sigmas``, and are far off, (K - 1,).
+    """Find the leaps in poses of the keys, (K, 3): steps that differ much from the front end's. Returns (K - 1,).
 
-    Where the front end was sure of a step and the poses leap, loops or pairs of scans pull the two sides apart; they
-    cannot all be right.
+    A leap lies more than ``sigmas`` standard deviations, and `LEAP_M` or `LEAP_RAD`, off the front end's step. There
+    loops or pairs of scans pull the two sides apart, and they cannot all be right.
     """
     chain = chain_of(track, track.poses[track.keys])
     off = chain.errors(poses)
@@ -116,13 +120,12 @@ def contradicted_links(track: Track, poses: Floats, sigmas: float = LEAP_SIGMAS)
 
 
 def unconfirmed_links(geometry: ScanGeometry, track: Track, odometry: Factors, poses: Floats) -> NDArray[np.bool_]:
-    """Find steps of the keys' poses, (K, 3), that odometry contradicts and the scans before do not confirm, (K - 1,).
+    """Find doubtful steps of the keys' poses, (K, 3), and return a mask, (K - 1,). There are three cases.
 
-    The scans before do not confirm a step if they explain the next key scan badly, or if the front end, which matched
-    it to them, had it elsewhere. A step that they explain badly is in doubt even where odometry does not contradict it,
-    if they explain the next key scan as usual at another place that odometry allows. Where the path broke odometry
-    decides nothing. There a step is in doubt if it is far from the front end's, although the scan after the break
-    fitted as well as usual where the front end had it.
+    * Odometry contradicts the step, and the key scans before do not confirm it: they explain the next key scan badly,
+      or the front end had it elsewhere.
+    * The key scans before explain the next one badly there, but as well as usual at another place that odometry allows.
+    * The step leads over a break of the path, and is far from the front end's step, although that one fitted as usual.
     """
     keys, usual, whole = track.keys, float(np.median(track.scores)), ~track.broken[track.keys[1:]]
     refused = whole & (odometry.squares(poses) > REFUSED_SIGMAS**2)
@@ -152,7 +155,10 @@ def _fits_elsewhere(
     usual: float,
     odometry: Factors,
 ) -> bool:
-    """Check that a scan fits as usual, and clearly better, at another place that odometry allows than after a step."""
+    """Check whether another place that odometry allows fits a scan as well as usual, and clearly better than a step.
+
+    ``points`` are the scan's, ``step`` its pose after the step, with the score ``score``; ``usual`` is the usual score.
+    """
     stated = odometry.relative
     sigma = np.sqrt(np.diag(np.linalg.inv(odometry.information[0])))
     least = max(usual - SLIPPED_BELOW, score + max(CONFIRMED_BELOW, TELLING / max(len(points), 1)))
@@ -174,8 +180,8 @@ def poses_between_keys(
 ) -> Floats:
     """Return all scans' poses, (S, 3), from new poses of the keys, (K, 3).
 
-    Each scan keeps its motion from the key before. The discrepancy at the next key is spread along the way, except
-    where the path is broken between the two, (S,).
+    Each scan keeps its motion from the key before. The discrepancy at the next key is spread evenly over the scans
+    between the two keys, unless the path is broken there: ``broken`` marks the scans after a break, (S,).
     """
     count = len(track_poses)
     before = np.clip(np.searchsorted(keys, np.arange(count), side="right") - 1, 0, len(keys) - 1)
@@ -197,21 +203,21 @@ def poses_between_keys(
 def close_loops(
     geometry: ScanGeometry, track: Track, on_progress: Callable[[int, Floats], None] | None = None
 ) -> ClosedGraph:
-    """Find loop closures and solve the graph, in rounds: closing the sure loops shows where the others are.
+    """Find loop closures and solve the graph, in rounds: each round's poses set the next round's search windows.
 
-    ``on_progress`` is called with the number of rounds that are done and the poses of the keys, (K, 3).
+    ``on_progress`` is called with the number of completed rounds and the poses of the keys, (K, 3).
     """
     keys, poses = track.keys, track.poses[track.keys]
     half_width_m = grid_half_width(geometry)
     path, rounds, joined = key_path(geometry, keys, poses, track.broken[keys]), ROUNDS, np.ones(1, np.bool_)
     if path.parts.any():
-        # Loops within a part first: parts that are bent by metres fit each other in several ways, all of them right.
+        # Loops within a part first: parts that are bent by metres fit each other at several relative poses.
         weighed, _ = _rounds(path, chain_of(track, poses), ROUNDS[:2], half_width_m, within_parts=True)
         poses, joined = rejoin(path.at(weighed.poses), half_width_m)
         path, rounds = path.at(poses), ROUNDS[1:]
     weighed, closures = _rounds(path, chain_of(track, poses), rounds, half_width_m, on_progress)
     guess, poses, weights = path.poses, weighed.poses, weighed.weights
-    # A part that was left where it was guessed, and that loops then found to be right there, is joined as well.
+    # Parts that `rejoin` left at the front end's guess count as joined, too, if enough closures confirm the guess.
     for k in np.nonzero(~joined)[0]:
         across = (path.parts[closures.first] < k) & (path.parts[closures.second] == k)
         begin = int(np.searchsorted(path.parts, k))
@@ -229,9 +235,10 @@ def _rounds(
     path: KeyPath, chain: Factors, rounds: tuple[Search, ...], half_width_m: float,
     on_progress: Callable[[int, Floats], None] | None = None, *, within_parts: bool = False,
 ) -> tuple[Weighed, Closures]:  # fmt: skip
-    """Close loops in rounds, of the whole path or within its parts; returns the graph and the last round's closures."""
+    """Close loops in rounds, of the path or only within its parts. Returns the graph and the last round's closures."""
     poses, weights, closures = path.poses, np.empty(0), no_closures()
     for number, search in enumerate(rounds, start=1):
+        # The graph's precision gives the search windows; the closures then give new poses.
         parts = [quadratic(chain, poses), quadratic(closures, poses, weights)]
         _, precision = solve_step(len(poses), parts)
         closures = find_closures(path.at(poses), precision, half_width_m, search, within_parts=within_parts)

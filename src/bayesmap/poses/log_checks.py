@@ -1,11 +1,11 @@
 """Checks of a log before its trajectory is inferred: enough scans, odometry that stands still, poses that are odometry.
 
-Odometry may stand still although the laser sees that the robot moves: for long, or until it catches up.
+Odometry may stand still although the robot moves in the scans: for a long time, or until odometry catches up.
 
-Where poses are raw odometry, one wall stands in several places, and beams pass through it. In a cell with h hits and p
-passes a beam stops with probability h / (h + p). The mean of that over all hits says how well scans agree at their
-poses. Odometry is right over a few scans and wrong over many, so the agreement of all scans is divided by that of
-windows of `WINDOW` scans, each in a map of its own. Measured: 0.87 with the corrected poses of the Intel log and with
+If poses are raw odometry, one wall appears at several positions, and beams pass through it. In a cell with h hits and p
+passes a beam stops with probability h / (h + p). The mean of this probability over all hits is the agreement of scans
+at their poses. Odometry is right over a few scans and wrong over many. So the agreement of all scans is divided by that
+of windows of `WINDOW` scans, each in its own map. Measured: 0.87 with the corrected poses of the Intel log and with
 true poses in a simulated office; 0.41 to 0.71 with raw odometry (Intel, ACES, Duke, simulated).
 """
 
@@ -25,50 +25,50 @@ from bayesmap.space.scans import Scans
 Floats = NDArray[np.float64]
 
 SLOWEST_S = 0.5
-"""Median time between scans above which they cannot be followed without odometry."""
+"""Median time between scans above which they cannot be matched without odometry, seconds."""
 TOO_SELDOM = "scans come too seldom to be followed without odometry, which takes 5 Hz or so"
 
 LONG = 10
-"""Scans at one pose that make a frozen stretch. Odometry that is merely slower than scans repeats itself less often."""
+"""Fewest scans at one pose in a frozen stretch. Odometry that is merely slower than scans repeats less often."""
 
 MOVED_M, SHARE = 0.2, 0.3
-"""The robot has moved between two scans if this share of their readings differs by more than this many metres. Along a
-corridor those of its walls stay as they are."""
+"""The robot has moved between two scans if more than the share of their readings differs by more than these metres.
+Readings of a corridor's walls do not change along it, so the share is small."""
 
 FEWEST = 8
-"""Beams that must have hit something in both scans."""
+"""Fewest beams with hits in both scans."""
 
 REPEATED = 1e-6
-"""Stated poses that differ by less, metres and radians, are equal: reading and interpolating them rounds."""
+"""Difference in metres and radians below which stated poses are equal, in spite of rounding."""
 
 CLEARLY = 0.05
-"""Difference in score, from 0 to 1, by which a scan must fit late odometry better than odometry as stated."""
+"""Least difference in score, from 0 to 1, by which a scan must fit late odometry better than stated odometry."""
 
 SIGMAS = 3.0
-"""Half the window about either place, in standard deviations of an ordinary robot's odometry."""
+"""Half the window about either pose, in standard deviations of an ordinary robot's odometry."""
 
 POINTS, WIDEST_M = 200, 20.0
-"""Most points of a scan that are matched, and most half width of the grid."""
+"""Most points per scan that are matched, and greatest half width of the grid, metres."""
 
 
 def gap_s(scans: Scans) -> float:
-    """Return the median time between scans, seconds; 0 where there are no stamps."""
+    """Return the median time between scans, seconds; 0 without stamps."""
     if scans.stamps_s is None or len(scans) < 2:
         return 0.0
     return float(np.median(np.diff(np.sort(scans.stamps_s))))
 
 
 def scans_come_often(scans: Scans) -> bool:
-    """Return whether scans come often enough to be followed without odometry, as far as stamps tell."""
+    """Return whether scans come often enough to be matched without odometry. Without stamps this is assumed."""
     return gap_s(scans) <= SLOWEST_S
 
 
 def check_scans(scans: Scans, no_odometry: bool) -> None:
-    """Refuse scans from which no trajectory can be inferred.
+    """Raise an error for scans from which no trajectory can be inferred.
 
     Raises:
         BadInput: fewer than two scans, scans without a single hit, odometry that stands still all the time although
-            the robot moves, or no odometry and too few scans a second.
+            the robot moves, or no odometry and too few scans per second.
     """
     if len(scans) < 2:
         raise BadInput(f"slam: a trajectory needs two scans or more, got {len(scans)}")
@@ -87,7 +87,7 @@ def check_scans(scans: Scans, no_odometry: bool) -> None:
 
 
 def doubts(scans: Scans, no_odometry: bool) -> list[str]:
-    """Return what looks wrong with the odometry of scans in the order of time, a sentence each."""
+    """Return warnings about the odometry of scans in the order of time, one sentence each."""
     if no_odometry:
         return []
     sentences = []
@@ -103,7 +103,7 @@ def doubts(scans: Scans, no_odometry: bool) -> list[str]:
 
 
 def frozen_stretches(scans: Scans) -> list[tuple[int, int]]:
-    """Find stretches of scans at one stated pose along which the robot moved: first and last scan of each, in order."""
+    """Return first and last scan of each stretch of scans with one stated pose in which the robot moved, in order."""
     stretches = _repeated(np.asarray((np.diff(scans.poses, axis=0) == 0.0).all(axis=1)))
     return [(first, last) for first, last in stretches if last - first + 1 >= LONG and _moved(scans, first, last)]
 
@@ -115,12 +115,12 @@ def _repeated(same: NDArray[np.bool_]) -> list[tuple[int, int]]:
 
 
 def caught_up(scans: Scans, geometry: ScanGeometry) -> Floats:
-    """Return the stated poses of S scans in the order of time, (S, 3), with late odometry mended.
+    """Return the stated poses of S scans in the order of time, (S, 3), with late odometry corrected.
 
-    A robot's computer that is busy writes the last known pose several times, and then the whole motion at once. This
-    motion is spread evenly in time over the scans from the first of the repeated poses to the next new pose.
-    A robot that stood still and then set off states the same numbers. The scans decide between the two: the motion
-    is spread only where the scan after it fits clearly better to the first of the repeated poses than to the last.
+    A busy computer of a robot writes the last known pose several times, and then the whole motion at once. This motion
+    is spread evenly in time over the scans from the first of the repeated poses to the next new pose. A robot that
+    stands still and then drives off states equal numbers. The scans decide: the motion is spread only if the scan after
+    it fits clearly better to the first scan of the repeated pose than to the last.
     """
     stated, result = scans.poses, scans.poses.copy()
     for first, last in _repeated(np.asarray((np.abs(np.diff(stated, axis=0)) < REPEATED).all(axis=1))):
@@ -138,7 +138,7 @@ def caught_up(scans: Scans, geometry: ScanGeometry) -> Floats:
 
 
 def _counted_twice(geometry: ScanGeometry, first: int, last: int, motion: Floats) -> bool:
-    """Check that a stated motion began at the first of some scans and not at the last, by where the next scan fits."""
+    """Check that the motion to scan ``last + 1`` began at scan ``first``, not at ``last``, by the fit of that scan."""
     width_m = float(np.clip(np.abs(geometry.points_of(first)).max(initial=0.0) + 1.0, 2.0, WIDEST_M))
     grids = likelihood_grids(
         geometry, [np.array([first]), np.array([last])], [np.zeros((1, 3))] * 2, np.zeros((2, 2)), width_m,
@@ -152,7 +152,7 @@ def _counted_twice(geometry: ScanGeometry, first: int, last: int, motion: Floats
 
 
 def _moved(scans: Scans, first: int, last: int) -> bool:
-    """Return whether most scans of a stretch's second half see something else than its first scan."""
+    """Return whether most scans of a stretch's second half differ from its first scan."""
     later = range(first + (last - first + 1) // 2, last + 1)
     off = [_differences(scans, first, scan) for scan in later]
     seen = [float(np.quantile(one, 1.0 - SHARE)) > MOVED_M for one in off if len(one) >= FEWEST]
@@ -160,7 +160,7 @@ def _moved(scans: Scans, first: int, last: int) -> bool:
 
 
 def _differences(scans: Scans, first: int, second: int) -> Floats:
-    """Return the differences of two scans' readings where both have a hit, metres: by beam, or by the nearest angle."""
+    """Return the absolute differences of two scans' hits, metres, of equal beams or of beams at the nearest angle."""
     (angles, reference), (own, ranges) = scans.beams_of(first), scans.beams_of(second)
     if scans.own_angles_rad is not None and len(angles) and len(own):
         order = np.argsort(angles, kind="stable")
@@ -173,21 +173,21 @@ def _differences(scans: Scans, first: int, second: int) -> Floats:
 
 
 WINDOW = 15
-"""Scans over which odometry is as good as the truth."""
+"""Number of scans over which odometry is as good as the truth."""
 
 RAW_BELOW = 0.8
 """Relative agreement below which poses are raw odometry."""
 
 CELL_M, MOST_SCANS = 0.2, 900
 FURTHEST_M = 15.0
-"""Range of hits that are used: an error of the heading moves far ones most, in any log."""
+"""Greatest range of hits that are used, metres: heading errors move far hits most, in any log."""
 
 
 def agreement(scans: Scans) -> float | None:
     """Compute the agreement of all scans at their poses, relative to that of neighbours: about 0.9 for right poses.
 
-    None where there are too few scans, or hits, to tell. A robot that never comes back to a place agrees with itself
-    whatever its odometry, and needs no other.
+    The result is None if there are too few scans or hits. If a robot never comes back to a place, its scans agree with
+    any odometry.
     """
     if len(scans) > MOST_SCANS:
         scans = scans.select(np.linspace(0, len(scans) - 1, MOST_SCANS).astype(np.intp))

@@ -1,12 +1,14 @@
 """Places that look alike: find loop closures that may be wrong, and the poses without them.
 
-All closures between two visits of a place stand or fall together: where the places only look alike, every pair of scans
-agrees. So a whole visit is tested against the graph without it. D is half its squared Mahalanobis distance there. For a
-right visit D is half of a chi-squared with three degrees of freedom, 1.5 on average, however uncertain the path was.
-The log odds that a visit is right are ``ODDS + FURTHER (places - 1) - D``: another place that looks alike lies anywhere
-in the window that was searched, and each further place along the path that matches makes that less likely. (Latif,
-Cadena and Neira 2013, "Robust loop closing over time", test such groups in a similar way.) On public logs D of right
-visits was 0.1 to 2.3, and that of wrong ones 11 to 20 (docs/lab/poses.md).
+All closures of one visit of a place are right together, or wrong together: if two places only look alike, every pair of
+their scans agrees. So a whole visit is tested against the graph without it. D is half of the visit's squared
+Mahalanobis distance from that graph. For a right visit, 2 D is chi-squared with three degrees of freedom, so D is 1.5
+on average, however uncertain the path was.
+
+The log odds that a visit is right are ``ODDS + FURTHER (places - 1) - D``. A place that only looks alike may lie
+anywhere in the search window, and each further matching place along the path makes such a chance less likely. (Latif,
+Cadena and Neira 2013, "Robust loop closing over time", test groups of closures in a similar way.) On public logs D of
+right visits was 0.1 to 2.3, and D of wrong visits 11 to 20 (docs/lab/poses.md).
 """
 
 from __future__ import annotations
@@ -23,13 +25,13 @@ from bayesmap.space.planar import between, retract, wrapped
 Floats = NDArray[np.float64]
 
 PLACE_M = 5.0
-"""Closures whose ends lie this near each other along the path belong to one visit; also the length of one place."""
+"""Greatest distance along the path between ends of closures of one visit, and length of one place, metres."""
 
 SAME_M, SAME_RAD = 0.4, np.radians(6.0)
 """Greatest difference between closures that agree."""
 
 ODDS, FURTHER = 5.0, 1.0
-"""Prior log odds that a visit of one place is right, and what each further place adds."""
+"""Prior log odds that a visit of one place is right, and addition per further place."""
 
 STEPS = 12
 """Most steps of Gauss-Newton."""
@@ -38,7 +40,7 @@ TOLD = 0.05
 """Least probability of an alternative that is reported."""
 
 DIFFERS_M, DIFFERS_RAD = 0.3, np.radians(5.0)
-"""An alternative moves some pose further than this."""
+"""An alternative must move at least one pose by more than one of these."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,10 +48,10 @@ class Weighed:
     """A graph whose visits have been weighed.
 
     Attributes:
-        poses: of the keys, without the visits that are wrong, (K, 3).
-        weights: of each closure, from 0 to 1; 0 where its visit is wrong, (M,).
-        alternatives: poses of the keys if a doubtful visit is decided the other way, (A, K, 3).
-        probabilities: of the alternatives, (A,).
+        poses: poses of the keys without the wrong visits, (K, 3).
+        weights: weight of each closure, from 0 to 1, (M,); 0 if its visit is wrong.
+        alternatives: poses of the keys if one doubtful visit is decided the other way, (A, K, 3).
+        probabilities: probabilities of the alternatives, (A,).
         first, last: first and last key of the stretch of path that depends on the visit, (A,) each.
     """
 
@@ -62,9 +64,10 @@ class Weighed:
 
 
 def visits(loops: Factors, poses: Floats, along: Floats) -> NDArray[np.intp]:
-    """Number the visit of each closure, (M,). Closures of one visit are near each other at both ends, and agree.
+    """Return the number of each closure's visit, (M,). Closures of a visit agree, and are near each other at both ends.
 
-    Poses of the keys, (K, 3), are right over some metres; ``along`` is the distance of each along the path, metres.
+    ``poses`` are those of the keys, (K, 3), and must be right over a few metres. ``along`` is the distance of each key
+    along the path, metres, (K,).
     """
     from scipy.sparse import coo_matrix
     from scipy.sparse.csgraph import connected_components
@@ -80,14 +83,15 @@ def visits(loops: Factors, poses: Floats, along: Floats) -> NDArray[np.intp]:
 def weigh(poses: Floats, weights: Floats, chain: Factors, loops: Factors, along: Floats) -> Weighed:
     """Remove the visits that are probably wrong, one after the other, and find the alternatives to the result.
 
-    Poses of the keys, (K, 3), and weights of the loops, (M,), are those of the graph of chain and loops; ``along`` is
-    the distance of each key along the path, metres, (K,).
+    ``poses``, (K, 3), and ``weights`` of the loops, (M,), are the solution of the graph of chain and loops. ``along``
+    is the distance of each key along the path, metres, (K,).
     """
     label, out = visits(loops, poses, along), np.zeros(len(loops), np.bool_)
     odds = np.zeros(int(label.max(initial=-1)) + 1)
     for k in range(len(odds)):
         span = min(np.ptp(along[ends[label == k]]) for ends in (loops.first, loops.second))
         odds[k] = ODDS + FURTHER * span / PLACE_M
+    # Remove the least certain visit until each is more likely right than wrong. Report the poses with it.
     reported: list[tuple[Floats, float, int]] = []
     while True:
         doubtful = sorted(_doubtful(poses, chain, loops, label, out, odds), key=lambda entry: entry[:2])
@@ -96,6 +100,7 @@ def weigh(poses: Floats, weights: Floats, chain: Factors, loops: Factors, along:
         certainty, worst, without = doubtful[0]
         reported.append((poses, _probability(certainty), worst))
         poses, out = without, out | (label == worst)
+    # Report the poses without each visit that stays, and keep the alternatives that are likely and differ.
     reported += [(without, _probability(-certainty), k) for certainty, k, without in doubtful]
     reported = [entry for entry in reported if entry[1] > TOLD and _differs(entry[0], poses)]
     weights = np.where(out, 0.0, _weights(loops, poses) if out.any() else weights)
@@ -116,7 +121,7 @@ def _doubtful(
         mine = (label == k) & ~out
         if not (weights[mine] > 0.5).any():
             continue
-        # The cost of the path between the two ends and of the loops bounds the distance.
+        # The cost of the path between the two ends, plus the loops' cost, bounds D. Skip visits that are surely right.
         begin, end = loops.first[mine].min(), loops.second[mine].max()
         bound = 0.5 * strain[begin:end].sum() + 0.5 * (loops.squares(poses) * weights)[~out].sum()
         if odds[k] - bound > -np.log(TOLD):
@@ -124,7 +129,7 @@ def _doubtful(
         rest, own = loops.select(~out & ~mine), loops.select(mine)
         without = settled(poses, chain, rest)
         off = own.errors(without)
-        # A visit that the rest of the graph confirms to within the bending of a path is no other place.
+        # Skip a visit that the rest of the graph confirms to within the bending of a path.
         middle = np.median(np.abs(off), axis=0)
         if np.hypot(middle[0], middle[1]) < SAME_M and middle[2] < SAME_RAD:
             continue
@@ -138,10 +143,10 @@ def _doubtful(
 def twist_squares(expected: Floats, measured: Floats, covariance: Floats) -> Floats:
     """Compute squared Mahalanobis distances between measured and expected relative poses, (M, 3), as twists, (M,).
 
-    Where a heading was lost half-way, later poses lie on an arc. A turn about any point is a twist, so that its length
-    grows as the turn's, where a straight ellipsoid holds little of the arc (Barfoot and Furgale 2014, "Associating
-    uncertainty with three-dimensional poses for use in estimation problems"). The covariance is that of the expected
-    relative poses, x, y and yaw in the first's frame, (M, 3, 3).
+    If a heading error arose half-way, later poses lie on an arc, of which a straight ellipsoid covers little. As a
+    twist, a turn about any point is a straight line (Barfoot and Furgale 2014, "Associating uncertainty with
+    three-dimensional poses for use in estimation problems"). ``covariance`` is that of the expected relative poses, x,
+    y and yaw in the first's frame, (M, 3, 3).
     """
     change = np.tile(np.eye(3), (len(expected), 1, 1))  # from steps of x, y and yaw to twists
     change[:, 0, 2], change[:, 1, 2] = expected[:, 1], -expected[:, 0]
@@ -149,7 +154,7 @@ def twist_squares(expected: Floats, measured: Floats, covariance: Floats) -> Flo
     cosine, sine = np.cos(yaw), np.sin(yaw)
     x = measured[:, 0] - (cosine * expected[:, 0] - sine * expected[:, 1])
     y = measured[:, 1] - (sine * expected[:, 0] + cosine * expected[:, 1])
-    # The inverse of the left Jacobian: h cot h and h, where h is half the turn.
+    # Multiply by the inverse of the left Jacobian: it has the entries h cot h and h, with h half the turn.
     half = 0.5 * yaw
     cotangent = np.where(np.abs(half) > 1e-6, half / np.tan(np.where(half == 0.0, 1.0, half)), 1.0)
     twist = np.stack([cotangent * x + half * y, -half * x + cotangent * y, yaw], axis=1)
@@ -158,7 +163,7 @@ def twist_squares(expected: Floats, measured: Floats, covariance: Floats) -> Flo
 
 
 def settled(poses: Floats, chain: Factors, loops: Factors) -> Floats:
-    """Return the nearest poses of least robust cost, (K, 3)."""
+    """Return the poses at the nearest minimum of the robust cost, (K, 3)."""
     for _ in range(STEPS):
         step, _ = solve_step(len(poses), [quadratic(chain, poses), quadratic(loops, poses, _weights(loops, poses))])
         poses = retract(poses, step)
@@ -177,5 +182,6 @@ def _probability(log_odds: float) -> float:
 
 
 def _differs(one: Floats, other: Floats) -> bool:
+    """Return whether any pose differs by more than `DIFFERS_M` or `DIFFERS_RAD`."""
     off = between(one, other)
     return bool((np.hypot(off[:, 0], off[:, 1]) > DIFFERS_M).any() or (np.abs(off[:, 2]) > DIFFERS_RAD).any())

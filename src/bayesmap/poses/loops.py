@@ -1,12 +1,11 @@
 """Loop closures: places that the robot came back to, found by matching submaps.
 
-A submap holds the key scans around one, along the path. How uncertain the relative pose of two places is says where to
-look: the window is three standard deviations of the graph's own relative covariance, so that a long loop is searched
-widely and a short one narrowly. Windows are as wide across as along; a match far outside the covariance's ellipsoid is
-another place that looks alike.
+A submap holds a key scan and its neighbours along the path. The search window is three standard deviations of the
+relative covariance of two places in the graph. So a long loop is searched widely and a short one narrowly. Windows have
+one half width for x and y. A match far outside the covariance's ellipsoid is another place that looks alike.
 
-The best places in a window compete. Each is refined, and kept if both ends see through nothing that the other sees, and
-if matches of key scans nearby imply the same relative pose.
+The best poses in a window compete. Each is refined. It is kept if neither end's beams pass through what the other end
+sees, and if matches of nearby key scans imply the same relative pose.
 """
 
 from __future__ import annotations
@@ -26,13 +25,13 @@ from bayesmap.space.planar import between, compose, transform, wrapped
 Floats = NDArray[np.float64]
 
 GAP_M = 1000.0
-"""Length of a break of the path: no submap reaches over it, and any two of its sides may close."""
+"""Length that a break of the path counts as, metres: no submap reaches over it, and places on both sides may close."""
 
 SHORT = 120.0
-"""Least number of places along a path: a small loop has few that close it."""
+"""Places that a path is divided into at least: a small loop has few places that close it."""
 
 MOST_MEMBERS = 16
-"""Most key scans of a submap; of more, every second, third or so is taken."""
+"""Most key scans of a submap. If there are more, every second, third or so is taken."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,9 +39,9 @@ class KeyPath:
     """K key scans in the order of time.
 
     Attributes:
-        geometry: of all scans.
+        geometry: geometry of all scans.
         keys: indices of the key scans, (K,).
-        poses: of the keys, (K, 3), right among those of a submap.
+        poses: poses of the keys, (K, 3). Relative poses within a submap must be right.
         along: distance of each key along the path, metres, with gaps of `GAP_M` where it breaks, (K,).
         parts: number of the part of the path that each key belongs to, ascending, (K,).
     """
@@ -61,18 +60,19 @@ class KeyPath:
         return key_path(self.geometry, self.keys, poses, np.diff(self.parts, prepend=self.parts[0]) > 0)
 
     def scans(self, members: NDArray[np.intp]) -> NDArray[np.int32]:
-        """Return the scans of some keys, as kernels take them, (N,)."""
+        """Return the scan indices of some keys, as kernels take them, (N,)."""
         return self.keys[members].astype(np.int32)
 
     def places(self, spacing_m: float) -> NDArray[np.intp]:
         """Select keys this far apart along the path, or nearer where the path is short, ascending."""
+        # Distances with breaks as long as one spacing, so that both sides of a break get places.
         steps = np.diff(self.along, prepend=0.0)
         ways = np.cumsum(np.where(steps < GAP_M, steps, spacing_m))
         spacing = float(np.clip(ways[-1] / SHORT, 0.4, spacing_m))
         return np.unique(np.searchsorted(ways, np.arange(0.0, ways[-1] + spacing, spacing)).clip(0, len(self) - 1))
 
     def around(self, key: int, around_m: float) -> NDArray[np.intp]:
-        """Return the members of a key's submap: keys within a distance along the path, ascending, itself included."""
+        """Return the members of a key's submap, ascending: the key and others within a distance along the path."""
         low, high = np.searchsorted(self.along, [self.along[key] - around_m, self.along[key] + around_m])
         members = np.arange(low, max(high, key + 1))
         return members if len(members) <= MOST_MEMBERS else members[:: int(np.ceil(len(members) / MOST_MEMBERS))]
@@ -82,7 +82,7 @@ class KeyPath:
         return between(np.broadcast_to(self.poses[key], (len(members), 3)), self.poses[members])
 
     def points_around(self, key: int, around_m: float, most: int, most_of_each: int = 180) -> Floats:
-        """Return points of the submap around a key in the key's frame, (N, 2), thinned to about ``most``, or fewer."""
+        """Return at most about ``most`` points of the submap around a key, in the key's frame, (N, 2)."""
         members = self.around(key, around_m)
         points = [
             transform(pose, self.geometry.points_of(int(self.keys[m]), most_of_each))
@@ -93,14 +93,14 @@ class KeyPath:
 
 
 def key_path(geometry: ScanGeometry, keys: NDArray[np.intp], poses: Floats, begins: NDArray[np.bool_]) -> KeyPath:
-    """Return the path of key scans at poses (K, 3); ``begins``, (K,), says which keys begin a new part."""
+    """Return the path of key scans at poses (K, 3). The mask ``begins``, (K,), marks keys that begin a new part."""
     return KeyPath(geometry, keys, poses, path_m(poses, begins), np.cumsum(begins).astype(np.intp))
 
 
 def path_m(poses: Floats, begins: NDArray[np.bool_]) -> Floats:
-    """Return the distance of each pose along the path, (S,): a radian of turning counts as half a metre.
+    """Return the distance of each pose along the path, metres, (S,): a radian of turning counts as half a metre.
 
-    Where a part of the path begins, (S,), the distance grows by `GAP_M`.
+    The distance grows by `GAP_M` at each pose that begins a part of the path; ``begins`` marks them, (S,).
     """
     step = between(poses[:-1], poses[1:])
     ways = np.hypot(step[:, 0], step[:, 1]) + 0.5 * np.abs(step[:, 2])
@@ -108,31 +108,30 @@ def path_m(poses: Floats, begins: NDArray[np.bool_]) -> Floats:
 
 
 AROUND_M, NARROW_M, WIDE_M = 2.0, 0.7, 1.0
-"""Half lengths along the path: of a submap, of the submap matched to it, and of those whose views are compared."""
+"""Half lengths along the path, metres: of the earlier submap, of the later one, and of the earlier one in `_agrees`."""
 
 RESOLUTION_M, SIGMA_M, AT_ONCE = 0.1, 0.1, 24
-"""Resolution and standard deviation of submaps' likelihood grids, and how many are in memory at once."""
+"""Resolution and standard deviation of submaps' likelihood grids, and number of grids in memory at once."""
 
 MODES, MODE_SHARE = 2, 0.92
-"""Places of a window that are refined: further ones whose score is at least this share of the best one's."""
+"""Most poses per window that are refined, and the least score of the second one as a share of the best one's."""
 
 ALIKE = 0.7
 """Least cosine between the normals of paired points."""
 
 SEEN = Agreement(near_m=0.15, clear_m=0.4, beams=90)
-"""When scans of two submaps agree, and when they contradict each other."""
+"""Distances at which scans of two submaps agree and contradict each other, and beams per scan that are compared."""
 
 LEAST_MATCHED, MOST_AGAINST = 0.2, 0.15
-"""Least share of points at two submaps' middles that match, and most share of contradicting points among those that
-tell."""
+"""Least share of points that match, and most share of points that contradict among those that match or contradict."""
 
 FLOOR = np.array([0.02, 0.02, np.radians(0.3)])
-"""Least standard deviations of a closure: submaps are bent."""
+"""Least standard deviations of a closure, because submaps are bent: x and y in metres, yaw in radians."""
 
 
 @dataclass(frozen=True)
 class Fineness:
-    """Fineness of a search: about how many points of a submap are matched, and the step between headings."""
+    """Fineness of a search: approximate number of submap points that are matched, and step between headings."""
 
     points: int
     step_rad: float
@@ -143,11 +142,11 @@ FINE = Fineness(350, np.radians(1.0))
 
 @dataclass(frozen=True, eq=False)
 class Closures(Factors):
-    """Relative poses between M pairs of key scans that saw the same place at different times; first is the earlier one.
+    """Relative poses between M pairs of key scans that saw the same place; the first of a pair is the earlier one.
 
     Attributes:
-        scores: how well the second's submap fits, from 0 to 1, (M,).
-        support: number of other closures that imply the same, (M,).
+        scores: fit of the second's submap, from 0 to 1, (M,).
+        support: number of other closures that imply the same relative pose, (M,).
     """
 
     scores: Floats
@@ -158,18 +157,18 @@ def match_submaps(
     path: KeyPath, first: NDArray[np.intp], second: NDArray[np.intp], centres: Floats, half_m: Floats,
     half_rad: Floats, half_width_m: float, least_score: float, fineness: Fineness = FINE,
 ) -> Closures:  # fmt: skip
-    """Match the submaps of M pairs of key scans.
+    """Match the submaps of M pairs of key scans, and return the closures that both ends confirm.
 
     Args:
-        path: the key scans; submaps do not reach over its breaks.
-        first: of the pairs, ascending.
-        second: of the pairs.
+        path: key scans. Submaps do not reach over breaks of the path.
+        first: first key of each pair, ascending, (M,).
+        second: second key of each pair, (M,).
         centres: middles of the windows for the second's pose in the first's frame, (M, 3).
-        half_m: half the windows' widths, (M,).
-        half_rad: half their ranges of angles, (M,).
-        half_width_m: of submaps' grids.
-        least_score: matches below are dropped.
-        fineness: of the search, before refinement.
+        half_m: half the windows' widths, metres, (M,).
+        half_rad: half the windows' ranges of angles, radians, (M,).
+        half_width_m: half width of submaps' grids, metres.
+        least_score: least score of a match.
+        fineness: fineness of the search before refinement.
     """
     parts = [no_closures()]
     submaps = np.unique(first)
@@ -181,6 +180,7 @@ def match_submaps(
             path.geometry, [path.keys[m] for m in members], local, np.zeros((len(batch), 2)), half_width_m,
             resolution=RESOLUTION_M, sigma_m=SIGMA_M, levels=6,
         )  # fmt: skip
+        # Match the second submaps to them, and refine the best poses of each window.
         jobs = np.nonzero((first >= batch[0]) & (first <= batch[-1]))[0]
         points = [path.points_around(int(q), NARROW_M, fineness.points) for q in second[jobs]]
         best = match(
@@ -198,7 +198,11 @@ def match_submaps(
 def _refined(
     path: KeyPath, first: NDArray[np.intp], second: NDArray[np.intp], start: Floats, scores: Floats
 ) -> Closures:
-    """Refine the second's scan against the scans of the first's submap, in the first's frame."""
+    """Refine the second's scan against the scans of the first's submap, in the first's frame, from ``start``, (M, 3).
+
+    Returns the closures that stay near the start and that the views of both ends confirm.
+    """
+    # List the scans of all first submaps one after the other, with their poses in the first key's frame.
     members = [path.around(int(k), AROUND_M) for k in first]
     others = path.scans(np.concatenate(members))
     offsets = np.concatenate([[0], np.cumsum([len(m) for m in members])]).astype(np.int32)
@@ -210,7 +214,7 @@ def _refined(
     refined, laser_information, _ = refine_scans(path.geometry, refinement, convergence, path.geometry.threads)
     covariance = np.linalg.inv(laser_information + np.diag([1e-2, 1e-2, 1e-1])) + np.diag(FLOOR**2)
     information = np.linalg.inv(covariance)
-    # A refinement that ends far from where it began has slid into something else.
+    # A refinement that ends far from its start has slid onto other surfaces.
     moved = between(start, refined)
     kept = (np.hypot(moved[:, 0], moved[:, 1]) < 0.4) & (np.abs(moved[:, 2]) < np.radians(6.0))
     kept &= _agrees(path, first, second, refined)
@@ -218,7 +222,8 @@ def _refined(
 
 
 def _agrees(path: KeyPath, first: NDArray[np.intp], second: NDArray[np.intp], relative: Floats) -> NDArray[np.bool_]:
-    """Return whether the scans about both ends see the same, as far as they see the same places, (M,)."""
+    """Return whether the scans around both ends of each closure agree on the surfaces that both can see, (M,)."""
+    # Pair every second scan around one end with every second scan around the other.
     one, two, job = [], [], []
     for k in range(len(first)):
         a, b = path.around(int(first[k]), WIDE_M)[::2], path.around(int(second[k]), NARROW_M)[::2]
@@ -226,7 +231,7 @@ def _agrees(path: KeyPath, first: NDArray[np.intp], second: NDArray[np.intp], re
         two.append(np.tile(b, len(a)))
         job.append(np.full(len(a) * len(b), k))
     starts, ends, of = np.concatenate(one), np.concatenate(two), np.concatenate(job)
-    # The poses of the later scans in the frames of the earlier ones, through the closure.
+    # Compute the poses of the later scans in the frames of the earlier ones, through the closure.
     poses = path.poses
     to_first, from_second = between(poses[starts], poses[first[of]]), between(poses[second[of]], poses[ends])
     across = compose(to_first, compose(relative[of], from_second))
@@ -238,7 +243,8 @@ def _agrees(path: KeyPath, first: NDArray[np.intp], second: NDArray[np.intp], re
 
 
 def supported(closures: Closures, path: KeyPath) -> Closures:
-    """Select closures that agree with two others between nearby scans: going round by these ends at the same place."""
+    """Select closures that agree with at least two others nearby: a loop over both closures leads back to its start."""
+    # Pairs of closures whose ends are less than 5 m apart along the path.
     along, a, b = path.along, closures.first, closures.second
     one, two = np.nonzero(
         (np.abs(along[a][:, None] - along[a][None]) < 5.0)
@@ -246,6 +252,7 @@ def supported(closures: Closures, path: KeyPath) -> Closures:
         & ((b[:, None] != b[None]) | (a[:, None] != a[None]))
     )
     off = closures.disagreements(path.poses, one, two)
+    # The tolerance grows with the length of path between the ends.
     between_m = np.abs(along[a][one] - along[a][two]) + np.abs(along[b][one] - along[b][two])
     agree = (np.hypot(off[:, 0], off[:, 1]) < 0.15 + 0.02 * between_m) & (
         np.abs(off[:, 2]) < np.radians(2.0) + np.radians(0.3) * between_m
@@ -266,13 +273,13 @@ def no_closures() -> Closures:
 
 
 OLD_M = 8.0
-"""Least length of a loop."""
+"""Least length of a loop along the path, metres."""
 
 SIGMAS = 3.0
 """Half the window in standard deviations."""
 
 BENT = np.array([0.3, 0.3, np.radians(5.0)])
-"""Standard deviations of bends that the graph does not model, added to its own."""
+"""Standard deviations of bends that the graph does not model. They are added to the graph's covariance."""
 
 
 @dataclass(frozen=True)
@@ -281,9 +288,9 @@ class Search:
 
     Attributes:
         most_m, most_rad: greatest half width and half range of angles of a window.
-        least_score: closures below are dropped.
-        most_off: closures more standard deviations off the graph's relative pose are dropped.
-        passes: earlier visits of a place that are tried for each submap, nearest first.
+        least_score: least score of a closure.
+        most_off: greatest distance of a closure from the graph's relative pose, in standard deviations.
+        passes: number of earlier visits of a place that are tried for each submap, nearest first.
         spacing_m: distance along the path between the key scans that are tried.
     """
 
@@ -298,9 +305,9 @@ class Search:
 def find_closures(
     path: KeyPath, precision: Precision, half_width_m: float, search: Search, *, within_parts: bool = False
 ) -> Closures:
-    """Find closures among key scans at their present poses, or only within the parts of a broken path.
+    """Find closures among all key scans, or only within the parts of a broken path.
 
-    The precision is that of the graph of the keys, and ``half_width_m`` that of submaps' grids.
+    ``precision`` is that of the graph of the keys, and ``half_width_m`` is the half width of submaps' grids.
     """
     first, second, sigma = _candidates(path, precision, half_width_m, search, within_parts)
     if not len(first):
@@ -313,7 +320,7 @@ def find_closures(
 
 
 def _possible(closures: Closures, path: KeyPath, precision: Precision, most_off: float) -> NDArray[np.bool_]:
-    """Return which closures the graph without them does not rule out, (M,)."""
+    """Return whether each closure is within ``most_off`` standard deviations of the graph's relative pose, (M,)."""
     if not len(closures):
         return np.zeros(0, np.bool_)
     off = closures.relative - between(path.poses[closures.first], path.poses[closures.second])
@@ -328,9 +335,10 @@ def _candidates(
 ) -> tuple[NDArray[np.intp], NDArray[np.intp], Floats]:
     """Return pairs (earlier, later) of key scans to try, and standard deviations of their relative poses, (M, 3).
 
-    Each visit of a place gives two pairs: the scan from the most similar pose, and the scan that looks at the same
-    spot, which may stand opposite if the laser sees half a circle.
+    Each visit of a place gives two pairs: with the scan from the most similar pose, and with the scan that looks at the
+    same spot. The two scans may face each other if the laser sees half a circle.
     """
+    # All pairs that are far apart along the path and near each other on the map.
     along, poses, middles = path.along, path.poses, _middles(path)
     sought = path.places(search.spacing_m)
     earlier, later = np.nonzero(along[sought][:, None] < along[sought][None, :] - OLD_M)
@@ -341,11 +349,12 @@ def _candidates(
     earlier, later, distance = sought[earlier[near]], sought[later[near]], distance[near]
     if not len(earlier):
         return earlier, later, np.empty((0, 3))
-    # The covariance of a key a few metres along is as good, and saves solving for each.
+    # Three neighbouring places share one covariance, which saves solves.
     nearby = sought[3 * (np.searchsorted(sought, later) // 3)]
     covariance = relative_covariances(precision, poses, earlier, nearby)
     sigma = np.sqrt(np.maximum(np.diagonal(covariance, axis1=1, axis2=2), 0.0))
     reach = np.minimum(SIGMAS * sigma[:, :2].max(axis=1), search.most_m) + np.minimum(0.7 * half_width_m, 8.0)
+    # Two costs of a pair: the difference of poses, and the distance between the spots that the scans look at.
     turned = np.abs(wrapped(poses[earlier, 2] - poses[later, 2]))
     alike = distance + 0.7 * turned
     looks_at = np.hypot(*(middles[earlier] - middles[later]).T)
@@ -355,6 +364,7 @@ def _candidates(
         near_group = group[distance[group] < reach[group]]
         if not len(near_group):
             continue
+        # A gap of 4 m along the path separates two visits. Take each visit's best pair, from the best visits.
         visits = np.split(near_group, np.nonzero(np.diff(along[earlier[near_group]]) > 4.0)[0] + 1)
         for cost in (alike, looks_at):
             best = sorted((float(cost[v].min()), int(v[np.argmin(cost[v])])) for v in visits)
@@ -364,7 +374,7 @@ def _candidates(
 
 
 def _middles(path: KeyPath) -> Floats:
-    """Return the median point of each key scan, in the world frame, (K, 2)."""
+    """Return the median point of each key scan, in the world frame, (K, 2): the spot that it looks at."""
     middle = np.zeros((len(path), 2))
     for k, scan in enumerate(path.keys):
         points = path.geometry.points_of(int(scan), 60)

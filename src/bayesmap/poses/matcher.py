@@ -1,10 +1,10 @@
-"""Match points to likelihood grids: the matcher of front end, loop closure and localization.
+"""Match points to likelihood grids: the matcher of front end and loop closure.
 
-A cell of a likelihood grid says how well a point there agrees with some scans: 255 exp(-d^2 / (2 sigma^2)), where d is
-its distance from the nearest point of the scans (Olson 2009, "Real-time correlative scan matching"; the likelihood
-field of Thrun, Burgard and Fox 2005, section 6.4, without the logarithm). Where neighbouring beams ended on one wall
-further apart than sigma, points are filled in between, so that grids do not depend on the number of beams. Level h of
-the pyramid holds at (x, y) the largest value of the cells (x .. x + 2^h - 1, y .. y + 2^h - 1) (Hess et al. 2016).
+A cell of a likelihood grid has the value 255 exp(-d^2 / (2 sigma^2)), where d is its distance from the nearest point of
+the grid's scans (Olson 2009, "Real-time correlative scan matching"; the likelihood field of Thrun, Burgard and Fox
+2005, section 6.4, without the logarithm). If neighbouring beams end on one wall further apart than sigma, points are
+filled in between, so that grids do not depend on the number of beams. Level h of the pyramid holds at (x, y) the
+largest value of the cells (x .. x + 2^h - 1, y .. y + 2^h - 1) (Hess et al. 2016).
 
 The score of a pose is the mean value of the cells in which the points fall, from 0 to 1, less a penalty for the
 distance from the centre of the window. Branch and bound finds its exact maximum over a window of whole cells and steps
@@ -91,7 +91,7 @@ def likelihood_grids(
 
 @dataclass(frozen=True)
 class Pull:
-    """The penalty for leaving the window's centre: one standard deviation off costs half of ``weight`` in score."""
+    """The penalty in score for leaving the window's centre. At one standard deviation it is half of ``weight``."""
 
     sigma_m: float
     sigma_rad: float
@@ -103,8 +103,8 @@ class Matches:
     """The best poses of J jobs, up to M each, best first.
 
     Attributes:
-        scores: (J, M); -inf where no further pose scores above the least.
-        poses: in the grids' frame, (J, M, 3); NaN where there is none.
+        scores: scores of the poses, (J, M); -inf where no further pose scores above the least.
+        poses: poses in the grids' frame, (J, M, 3); NaN where there is none.
     """
 
     scores: Floats
@@ -112,7 +112,7 @@ class Matches:
 
     @property
     def found(self) -> NDArray[np.bool_]:
-        """Which entries hold a pose, (J, M)."""
+        """Mask of the entries with a pose, (J, M)."""
         return np.isfinite(self.scores)
 
 
@@ -125,20 +125,20 @@ def match(
     """Match points to grids, J jobs at once.
 
     Args:
-        grids: the likelihood grids.
+        grids: likelihood grids.
         points: points of each job in the sensor's frame, (N, 2).
         centres: middle of each job's window, a pose in the grid's frame, (J, 3).
         half_m: half the window's width, metres: one number, (J,), or (J, 2) for x and y.
         half_rad: half the range of angles: one number or (J,); pi or more is the full circle.
-        grid_of: the grid of each job, (J,); by default grid j for job j, or the only grid.
+        grid_of: grid of each job, (J,); by default grid j for job j, or the only grid.
         step_rad: step between angles.
-        least: scores must exceed this; one number or (J,). High values end searches early.
+        least: number or (J,) that scores must exceed. High values end searches early.
         pull: penalty for leaving the centre; by default none.
-        modes: poses of each job: each further one is the best that is apart from all before it,
-        share: and scores above this share of the first one's score.
-        apart_m: poses are apart if they differ by more than this in x or in y,
-        apart_rad: or by more than this in yaw.
-        strands: number of threads that share one job; the result does not depend on it.
+        modes: most poses per job. Each further pose is the best that is apart from all before it.
+        share: least score of a further pose, as a share of the first one's score.
+        apart_m: difference in x or in y, metres, beyond which poses are apart.
+        apart_rad: difference in yaw beyond which poses are apart.
+        strands: number of threads that share one job. The result does not depend on it.
 
     Raises:
         BadInput: arrays that do not fit, or a window or step that is not positive.
@@ -164,6 +164,7 @@ def match(
         raise BadInput("match: half_m and half_rad must not be negative")
     if jobs == 0:
         return Matches(np.empty((0, modes)), np.empty((0, modes, 3)))
+    # List all angles of all jobs as rows, with the penalty of each angle and per cell of distance.
     deviations = [_deviations(float(t), step_rad) for t in turns]
     rows = np.concatenate([[0], np.cumsum([len(d) for d in deviations])]).astype(np.int32)
     off = np.concatenate(deviations)
@@ -173,6 +174,7 @@ def match(
     if pull is not None:
         across = pull.weight * grids.resolution**2 / (2.0 * pull.sigma_m**2)
         costs = pull.weight * off**2 / (2.0 * pull.sigma_rad**2)
+    # Search, and convert the best rows and shifts to poses.
     flat = np.concatenate([np.reshape(p, (-1, 2)) for p in points])
     offsets = np.concatenate([[0], np.cumsum([len(p) for p in points])]).astype(np.int32)
     cells = int(apart_m / grids.resolution + 1e-9)
@@ -204,7 +206,7 @@ def score_at(grids: LikelihoodGrids, grid: int, points: Floats, poses: Floats) -
 
 
 def _deviations(half_rad: float, step_rad: float) -> Floats:
-    """Return the angles off the centre: whole steps in the window, or once around."""
+    """Return the angles from the centre: whole steps in the window, or steps around the full circle."""
     if half_rad >= np.pi:
         count = int(np.ceil(2.0 * np.pi / step_rad))
         return np.asarray(-np.pi + np.arange(count) * (2.0 * np.pi / count))

@@ -1,9 +1,8 @@
 """Place the next scans, by odometry and by the latest key scans.
 
-A scan is sought in the window that odometry allows. The best place, by branch and bound over the likelihood grid of the
-latest key scans, is refined by point-to-line pairs under odometry's Gaussian. Free space tells whether a badly
-explained scan contradicts the key scans or merely sees what they did not: whether points of the one stand where the
-others saw through.
+A scan is searched for in the window that odometry allows. Branch and bound finds the best pose on the likelihood grid
+of the latest key scans. Point-to-line pairs refine it, with odometry's Gaussian as prior. A badly explained scan may
+contradict the key scans or see new surfaces. It contradicts them if points of one lie in free space of the other.
 """
 
 from __future__ import annotations
@@ -24,18 +23,18 @@ from bayesmap.space.time_order import SAME_S
 Floats = NDArray[np.float64]
 
 UNUSUAL = 0.04
-"""A scan whose score is lower than usual by more than this may have been taken going backwards, which some odometry
-does not tell."""
+"""If a scan's score is lower than usual by more than this, the robot may have gone backwards. Some odometry does not
+report that."""
 
 BACKWARDS_BETTER = 0.05
-"""Gain in score that going backwards must bring: along a wall that looks alike everywhere both ways fit as well."""
+"""Least gain in score for going backwards: along a uniform wall both directions fit equally well."""
 
 WIDE_M = 1.0
 WIDER = ((np.radians(45.0), 0.1), (np.pi, 0.15))
-"""Half width of the wide search, and its half ranges of angle, each with the gain in score that it must bring."""
+"""Half width of the wide search, metres, and its half ranges of angle, each with the least gain in score."""
 
 TELLING = 6.0
-"""The least such gain in points, for scans with few of them."""
+"""Least gain in score as a number of points, for scans with few points."""
 
 POINT_SIGMA_M = 0.02
 """Standard deviation of a point-to-line residual: the laser's noise, rough walls, a scan's own distortion."""
@@ -44,16 +43,16 @@ POINTS = 200
 """Most points of a scan that are matched."""
 
 REACH_M, SCALE_M, ALIKE, STEPS = (0.3, 0.12), (0.15, 0.05), 0.7, 8
-"""Refinement: first and last distance of paired points, outlier scale, least cosine of normals, and steps."""
+"""Refinement: first and last pairing distance, first and last outlier scale, least cosine of normals, and steps."""
 
 SEVERAL = 6
-"""Newest key scans against which scans are refined where several scans are placed at once."""
+"""Number of newest key scans against which scans are refined, if several scans are placed at once."""
 
 SEEN = Agreement(near_m=0.2, clear_m=0.5, beams=90)
-"""When a scan and a key scan agree, and when they contradict each other."""
+"""Distances at which a scan and a key scan agree and contradict each other, and beams that are compared."""
 
 MOST_AGAINST, LEAST_JUDGED = 0.2, 60
-"""Share of contradicting points that people who walk about explain, and the fewest points that tell anything."""
+"""Most share of contradicting points, which people who walk about may cause, and fewest points for a decision."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,12 +69,12 @@ class Placed:
     """Places of N scans, by odometry and the window.
 
     Attributes:
-        predicted: by odometry, (N, 3).
-        variance: of the prediction, x, y and yaw in their own frames, (N, 3).
-        poses: after matching, (N, 3).
-        information: of the laser alone, in the poses' own frames, (N, 3, 3).
-        scores: how well the window explains each scan, from 0 to 1, (N,).
-        turned: whether the robot moved the other way than odometry states, (N,).
+        predicted: poses predicted by odometry, (N, 3).
+        variance: variance of the prediction, x, y and yaw in the poses' own frames, (N, 3).
+        poses: poses after matching, (N, 3).
+        information: inverse covariance by the laser alone, in the poses' own frames, (N, 3, 3).
+        scores: fit of each scan to the window, from 0 to 1, (N,).
+        turned: mask of scans before which the robot moved in the direction opposite to odometry's, (N,).
     """
 
     predicted: Floats
@@ -115,11 +114,11 @@ def place_near(
     geometry: ScanGeometry, window: Window, scans: NDArray[np.intp], predicted: Floats, variance: Floats,
     backwards: Floats | None, usual: float,
 ) -> Placed:  # fmt: skip
-    """Place N scans near the poses that odometry predicts, (N, 3), with these variances in their own frames, (N, 3).
+    """Return N scans placed near the poses that odometry predicts, (N, 3), with variances in their own frames, (N, 3).
 
-    ``backwards`` are the poses if the robot moved the other way than odometry states, (N, 3), and ``usual`` is the
-    usual score.
+    ``backwards`` are the poses if the robot moved opposite to odometry, (N, 3). ``usual`` is the usual score.
     """
+    # Search the windows that odometry allows. The least score of -9 accepts any.
     points = [geometry.points_of(int(scan), POINTS) for scan in scans]
     sigma = np.sqrt(variance)
     half_m = np.clip(3.5 * sigma[:, :2].max(axis=1), 0.1, 1.5)
@@ -128,6 +127,7 @@ def place_near(
     pull = Pull(max(sigma_m, 0.03), max(sigma_rad, np.radians(1.0)))
     best = match(window.grid, points, predicted, half_m, half_rad, least=-9.0, pull=pull)
     start, score = best.poses[:, 0], best.scores[:, 0]
+    # Try the motion backwards for scans that fit worse than usual.
     centre, turned = predicted.copy(), np.zeros(len(scans), np.bool_)
     doubtful = np.nonzero(score < usual - UNUSUAL)[0]
     if backwards is not None and len(doubtful):
@@ -146,9 +146,9 @@ def place_near(
 
 @dataclass(frozen=True, eq=False)
 class Elsewhere:
-    """A place found by a wide search: pose (3,), the laser's information there, (3, 3), and score.
+    """A pose from a wide search, (3,), with the laser's information, (3, 3), and score.
 
-    ``near`` says whether it lies about the prediction, within `WIDE_M` and the first of `WIDER`.
+    ``near`` is True if it lies within `WIDE_M` and the first angle of `WIDER` of the prediction.
     """
 
     pose: Floats
@@ -160,7 +160,7 @@ class Elsewhere:
 def place_anywhere(
     geometry: ScanGeometry, window: Window, scan: int, predicted: Floats, score: float
 ) -> Elsewhere | None:
-    """Search wide windows about a prediction, (3,), for the best place with a score clearly above the given one."""
+    """Return the best pose in wide windows about a prediction, (3,), if its score is clearly above ``score``."""
     points = [geometry.points_of(scan, POINTS)]
     for number, (wide_rad, gain) in enumerate(WIDER):
         wide = match(
@@ -168,7 +168,7 @@ def place_anywhere(
             pull=Pull(WIDE_M, wide_rad), step_rad=np.radians(1.0),
         )  # fmt: skip
         if wide.found[0, 0]:
-            variance = np.array([[0.05, 0.05, 0.02]])  # odometry was wrong: the prior is about the place found instead
+            variance = np.array([[0.05, 0.05, 0.02]])  # odometry was wrong: centre the prior at the new pose instead
             start = wide.poses[:, 0]
             poses, information = _refined(geometry, window, np.array([scan]), start, start, variance)
             return Elsewhere(poses[0], information[0], float(wide.scores[0, 0]), number == 0)
@@ -181,7 +181,7 @@ def _clearly(gain: float, points: list[Floats]) -> Floats:
 
 
 def contradicts(geometry: ScanGeometry, window: Window, scan: int, pose: Floats) -> bool:
-    """Return whether a scan at a pose and the key scans of the window see through what the other one sees."""
+    """Return whether a scan at a pose contradicts the window's key scans: beams pass through surfaces of the other."""
     keys, count = window.keys.astype(np.int32), len(window.keys)
     seen = between(window.poses, np.broadcast_to(pose, (count, 3)))
     counts = mutual_view_counts(geometry, keys, np.full(count, scan, np.int32), seen, SEEN, geometry.threads)
@@ -193,11 +193,11 @@ def contradicts(geometry: ScanGeometry, window: Window, scan: int, pose: Floats)
 def _refined(
     geometry: ScanGeometry, window: Window, scans: NDArray[np.intp], start: Floats, predicted: Floats, variance: Floats
 ) -> tuple[Floats, Floats]:
-    """Refine poses under odometry's Gaussian; returns them and the laser's information in their own frames."""
+    """Return poses refined under odometry's Gaussian, and the laser's information in the poses' own frames."""
     jobs = len(scans)
     near = slice(None, None if jobs == 1 else SEVERAL)
     keys, poses = window.keys[near], window.poses[near]
-    # A pose before this one is itself off by about a centimetre.
+    # Add an error of about a centimetre for the pose before.
     certain = np.array([np.diag(1.0 / (v + np.array([1e-4, 1e-4, 2.5e-5]))) for v in variance])
     turn = rotation(predicted[:, 2])
     prior_information = turn @ certain @ np.swapaxes(turn, 1, 2)

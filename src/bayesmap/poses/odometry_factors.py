@@ -21,7 +21,7 @@ from bayesmap.space.scans import Scans
 Floats = NDArray[np.float64]
 
 STEADY = np.diag(1.0 / np.array([0.1, 0.1, np.radians(3.0)]) ** 2)
-"""Information of the front end's links where there is no odometry."""
+"""Information of the front end's links if there is no odometry."""
 
 NEIGHBOURS = 7
 """Successive motions over which the median variance is taken."""
@@ -36,10 +36,10 @@ class StatedOdometry:
 
     Attributes:
         poses: stated poses, (S, 3).
-        stamps_s: of the scans, (S,), or None.
-        motions: from scan to scan in the earlier one's frame, (S - 1, 3).
-        impossible: motions that no robot can have made, (S - 1,).
-        used: False where motions are to be inferred from the scans alone.
+        stamps_s: stamps of the scans, seconds, (S,), or None.
+        motions: motions from scan to scan in the earlier one's frame, (S - 1, 3).
+        impossible: mask of motions that no robot can have made, (S - 1,).
+        used: False if motions are inferred from the scans alone.
     """
 
     poses: Floats
@@ -50,11 +50,11 @@ class StatedOdometry:
 
     @property
     def used_motions(self) -> Floats | None:
-        """The motions, (S - 1, 3); None where they are not used."""
+        """The motions, (S - 1, 3); None if they are not used."""
         return self.motions if self.used else None
 
     def reversed_at(self, against: NDArray[np.bool_]) -> StatedOdometry:
-        """Return odometry with the motions before some scans, (S,), reversed."""
+        """Return odometry with the motions before the scans of a mask, (S,), reversed."""
         if not (self.used and against.any()):
             return self
         motions = np.where(against[1:, None], self.motions * [-1.0, -1.0, 1.0], self.motions)
@@ -68,7 +68,10 @@ class StatedOdometry:
         return self._corrected(track, poses, track.slope, lambda motions: motion_variances(motions, track.noise_ratios))
 
     def fitted(self, track: Track, aligned: Alignment) -> tuple[OdometryFit | None, Factors]:
-        """Fit odometry's errors to aligned key scans, None where it is not used, and return factors without them."""
+        """Return the fit of odometry's errors to aligned key scans, and factors without these errors.
+
+        If odometry is not used, the fit is None, and the factors are the front end's.
+        """
         poses = aligned.poses
         if not self.used:
             return None, chain_factors(track, poses)
@@ -85,8 +88,8 @@ class StatedOdometry:
     ) -> Factors:
         """Return factors between key scans at poses (K, 3), corrected for systematic error and lag.
 
-        Where a motion is impossible or the path breaks, the present poses of the keys hold loosely instead.
-        ``variances`` gives those of x, y and yaw of stated motions from scan to scan, (S - 1, 3).
+        Over an impossible motion or a break of the path, a weak link at the keys' present poses is used instead.
+        ``variances`` computes the variances of x, y and yaw of motions from scan to scan, (S - 1, 3).
         """
         motions, keys = self.motions, track.keys
         if lag_s != 0.0:
@@ -100,14 +103,14 @@ class StatedOdometry:
 
 
 def stated_odometry(scans: Scans, geometry: ScanGeometry | None) -> StatedOdometry:
-    """Return the odometry of scans in the order of time, late poses mended; without a geometry it is not used."""
+    """Return the odometry of scans in the order of time, with late poses corrected. Without geometry it is not used."""
     poses = scans.poses if geometry is None else caught_up(scans, geometry)
     motions, impossible = stated_motions(poses, scans.stamps_s)
     return StatedOdometry(poses, scans.stamps_s, motions, impossible, geometry is not None)
 
 
 def chain_factors(track: Track, poses: Floats) -> Factors:
-    """Return weak links between key scans as the front end found them; at breaks, those of the keys' poses, (K, 3)."""
+    """Return weak links between key scans, at the front end's poses; over breaks at the keys' poses, (K, 3)."""
     keys = track.keys
     order = np.arange(len(keys) - 1)
     relative = between(track.poses[keys[:-1]], track.poses[keys[1:]])
@@ -116,7 +119,7 @@ def chain_factors(track: Track, poses: Floats) -> Factors:
 
 
 def guessed(links: Factors, poses: Floats, where: NDArray[np.bool_]) -> Factors:
-    """Return links between key scans, some replaced by those of the keys' poses, (K, 3), with the weak `GUESSED`."""
+    """Return links between key scans. Those of ``where`` are replaced by weak ones at the keys' poses, (K, 3)."""
     relative, information = links.relative.copy(), links.information.copy()
     relative[where] = between(poses[:-1][where], poses[1:][where])
     information[where] = GUESSED
@@ -124,9 +127,9 @@ def guessed(links: Factors, poses: Floats, where: NDArray[np.bool_]) -> Factors:
 
 
 def _steadied(variances: Floats) -> Floats:
-    """Raise the variances of successive motions, (N, 3), to at least the median of those about each.
+    """Return variances of successive motions, (N, 3), raised to at least the median of their neighbours.
 
-    Noise grows with the true way, so a motion that noise has made too short is stated with too small a variance.
+    Noise grows with the true distance. So a motion that noise makes shorter would get too small a variance.
     """
     from scipy.ndimage import median_filter
 
@@ -134,11 +137,12 @@ def _steadied(variances: Floats) -> Floats:
 
 
 def composed(motions: Floats, variances: Floats, keys: NDArray[np.intp]) -> Factors:
-    """Compose corrected motions from scan to scan, (S - 1, 3), to factors between successive keys.
+    """Return factors between successive keys, composed of corrected motions from scan to scan, (S - 1, 3).
 
     Variances of x, y and yaw of the motions, (S - 1, 3), add up along the way.
     """
     relative, covariance = np.zeros((len(keys) - 1, 3)), np.zeros((len(keys) - 1, 3, 3))
+    # Step k adds the k-th motion after each key, for all keys at once.
     longest = int(np.diff(keys).max(initial=1))
     for k in range(longest):
         at = keys[:-1] + k
@@ -146,7 +150,7 @@ def composed(motions: Floats, variances: Floats, keys: NDArray[np.intp]) -> Fact
         motion, variance = motions[at[active]], variances[at[active]]
         turn = rotation(relative[active, 2])
         cosine, sine = turn[:, 0, 0], turn[:, 1, 0]
-        lever = np.tile(np.eye(3), (len(active), 1, 1))  # an earlier heading error moves what comes after
+        lever = np.tile(np.eye(3), (len(active), 1, 1))  # an earlier heading error shifts this motion's end
         lever[:, 0, 2] = -(sine * motion[:, 0] + cosine * motion[:, 1])
         lever[:, 1, 2] = cosine * motion[:, 0] - sine * motion[:, 1]
         covariance[active] = lever @ covariance[active] @ np.swapaxes(lever, 1, 2)

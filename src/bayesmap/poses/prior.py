@@ -22,8 +22,8 @@ Floats = NDArray[np.float64]
 LOG_ROOT_TWO_PI = 0.5 * math.log(2 * math.pi)
 
 FREE = np.array([1.0, 1.0, 1.0])
-"""Standard deviations, metres and radians, of a motion of which odometry says nothing: what robots typically move and
-turn from one kept scan to the next."""
+"""Standard deviations, metres and radians, of a motion that odometry does not know: typical motions of robots from one
+kept scan to the next."""
 
 
 class PoseLaw(ABC):
@@ -35,7 +35,7 @@ class PoseLaw(ABC):
 
     @abstractmethod
     def log_change(self, poses: Floats, proposed: Floats) -> Floats:
-        """Compute what each scan's move to its proposed pose alone would add to `log_prob`, (..., S)."""
+        """Compute the change of `log_prob` if one scan alone moves to its proposed pose, for each scan, (..., S)."""
 
     @abstractmethod
     def precision(self, poses: Floats) -> Floats:
@@ -43,7 +43,7 @@ class PoseLaw(ABC):
 
     @abstractmethod
     def colours(self, n_scans: int) -> tuple[NDArray[np.intp], ...]:
-        """Return groups of the scans that may move; scans of one group are independent given all others."""
+        """Return groups of the scans that may move. Scans of one group are independent given all others."""
 
     @abstractmethod
     def sample(self, rng: np.random.Generator) -> Floats:
@@ -54,8 +54,8 @@ class PosePrior(ABC):
     """The prior of the poses.
 
     Attributes:
-        kind: name in descriptions.
-        unknown: whether there is anything to infer.
+        kind: name of the prior in descriptions.
+        unknown: True if the poses are to be inferred.
     """
 
     kind: ClassVar[str]
@@ -88,7 +88,7 @@ class Uncertain(PosePrior):
 
     Attributes:
         sigma_m: standard deviation of x and of y, metres.
-        sigma_rad: of the heading, radians.
+        sigma_rad: standard deviation of the heading, radians.
 
     Raises:
         BadInput: a number that is not positive.
@@ -160,13 +160,13 @@ class Odometry(PosePrior):
 class Motions(PosePrior):
     """Each motion from scan to scan is normal about a given one, such as corrected odometry.
 
-    With probability ``p_slip`` the given motion says nothing of the true one: a wheel slipped, or the log states one
-    pose twice while the robot turned on. Then the motion is normal about the given one with the deviations of `FREE`.
+    With probability ``p_slip`` the given motion does not depend on the true one: a wheel slipped, or the log repeats a
+    pose while the robot turns. Then the motion is normal about the given one with the standard deviations of `FREE`.
 
     Attributes:
         relative: each scan's pose in the frame of the one before, (S - 1, 3).
         sigmas: standard deviations of their x, y and yaw, (S - 1, 3).
-        p_slip: probability that a motion is another one altogether.
+        p_slip: probability that a motion has errors of the size of `FREE`.
 
     Raises:
         BadInput: shapes that do not fit together, deviations that are not positive, or a probability outside [0, 1).
@@ -269,7 +269,7 @@ class _Markov(PoseLaw):
         return error
 
     def _kinds(self, error: Floats) -> tuple[Floats, Floats]:
-        """Return log densities of errors of motions that odometry knows, and of motions that it does not."""
+        """Return log joint densities of errors: of motions without slip, and of motions with slip."""
         known, free = _normal(error, self.sigmas), _normal(error, np.maximum(self.sigmas, FREE))
         return known + math.log1p(-self.p_slip), free + math.log(self.p_slip)
 

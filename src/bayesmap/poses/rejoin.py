@@ -1,9 +1,9 @@
 """Join the parts of a broken path by places that were seen from two of them.
 
-Where the front end broke the path, the relative pose of the two parts is unknown: wheels slipped, scans are missing, or
-the robot was carried. Submaps of each part are matched to those of all others, with any heading: near where a wide
-search or odometry puts them, and everywhere. A relative pose of two parts is believed if several pairs of places agree
-on it, and no other relative pose has nearly as many.
+At a break of the path the relative pose of the two parts is unknown: wheels slipped, scans are missing, or the robot
+was carried. Submaps of each part are matched to those of all other parts, with any heading. They are matched near the
+pose from a wide search or odometry, and everywhere. A relative pose of two parts is accepted if several pairs of places
+agree on it, and no other relative pose has nearly as many votes.
 """
 
 from __future__ import annotations
@@ -21,21 +21,22 @@ from bayesmap.space.planar import between, compose, inverse, wrapped
 Floats = NDArray[np.float64]
 
 NEAR_M, NEAR_PLACES = 3.0, 6
-"""Each place is compared with up to this many places of other parts within this distance, nearest first."""
+"""Distance within which each place is compared with places of other parts, metres, and most places, nearest first."""
 
 EVERYWHERE_M, SAME_PLACE_M, SAME_VIEW_RAD = 3.0, 1.5, np.radians(45.0)
-"""Each place is also compared with places everywhere, this far apart along the path, in windows of this half width.
-Places within the second and third number of an earlier one saw the same, and are left out."""
+"""Each place is also compared with places everywhere. The first number is their distance along the path, and the half
+width of these windows, metres. A place within the second and third number of an earlier one shows the same view, and is
+left out."""
 
 SPACING_M, QUERIES, QUERIES_IN_ALL, TURNS = 1.0, 24, 96, 3
-"""Places that are sought: their distance along a part, the most of a part, and the most of all parts, evenly spread.
-They are sought in turns; later turns are spared where the first turns join all parts surely."""
+"""Query places: their distance along a part, metres, the most per part and in all parts, and the turns over which they
+are spread. Later turns are skipped if earlier turns surely join all parts."""
 
 COARSE = Fineness(60, np.radians(2.0))
-"""Fineness of these searches: refinement uses whole scans, so that more points and headings would add little."""
+"""Fineness of these searches. Refinement uses whole scans, so more points and headings would add little."""
 
 NEAR_SCORE, FAR_SCORE = 0.6, 0.75
-"""Least scores of matches: among all places of other parts, chance finds better ones than among near places."""
+"""Least scores of matches, near and everywhere. With more places to compare, chance matches have better scores."""
 
 CHANCE = 0.5
 """A place votes with the square of its score above this."""
@@ -44,27 +45,27 @@ TRIED = 6
 """Most relative poses of two parts that are tested against free space."""
 
 AGREE, SURELY = 3, 4
-"""Places that must agree on the relative pose of two parts: after the last turn, and after earlier ones."""
+"""Places that must agree on the relative pose of two parts: after the last turn, and after earlier turns."""
 
 FEW = 2
-"""Places that make a rival relative pose before the last turn."""
+"""Places that must agree on a rival relative pose before the last turn."""
 
 RIVAL, RIVAL_EARLY = 0.5, 0.4
-"""Share of the best one's votes with which another relative pose makes both doubtful: after the last turn, before."""
+"""Share of the best relative pose's votes at which a rival makes both doubtful: after the last turn, and before."""
 
 SAME_M, SAME_RAD = 0.5, np.radians(6.0)
-"""Greatest difference between relative poses of parts that count as one: parts bend."""
+"""Greatest difference between relative poses of two parts that count as equal. It allows for bent parts."""
 
 MET_M, COMPARED = 5.0, 600
-"""Key scans of two joined parts that lie this near are compared, up to this many pairs."""
+"""Greatest distance of key scans of two parts that are compared, metres, and most pairs of key scans."""
 
 SEEN, MOST_AGAINST = Agreement(near_m=0.2, clear_m=0.4, beams=60), 0.15
-"""When scans of two parts agree or contradict each other, and the most share of contradicting points."""
+"""Distances at which scans of two parts agree or contradict, compared beams, and most share of contradicting points."""
 
 
 @dataclass(frozen=True, eq=False)
 class Joint:
-    """The relative pose of two parts: ``motion`` brings the later part's poses to the earlier one's frame."""
+    """A relative pose of two parts: ``motion`` transforms the later part's poses to the earlier part's frame."""
 
     earlier: int
     later: int
@@ -75,8 +76,8 @@ class Joint:
 def rejoin(path: KeyPath, half_width_m: float) -> tuple[Floats, NDArray[np.bool_]]:
     """Join the parts of a path of K key scans whose poses are right within each part.
 
-    Returns poses with every joined part moved, (K, 3), and which parts are joined to an earlier one by places that both
-    saw, (P,); part 0 is. ``half_width_m`` is that of submaps' grids.
+    Returns the poses with every joined part moved, (K, 3), and a mask of the parts that are joined to an earlier part,
+    (P,). Part 0 counts as joined. ``half_width_m`` is the half width of submaps' grids.
     """
     parts, islands = [no_closures()], path
     for turn in range(TURNS):
@@ -84,9 +85,11 @@ def rejoin(path: KeyPath, half_width_m: float) -> tuple[Floats, NDArray[np.bool_
             (_near_pairs(path, turn), NEAR_M, NEAR_SCORE),
             (_all_pairs(path, turn), EVERYWHERE_M, FAR_SCORE),
         ):
+            # Search with any heading: a half range of pi.
             every = np.ones(len(first))
             windows = centres, half_m * every, np.pi * every
             parts.append(match_submaps(path, first, second, *windows, half_width_m, least, COARSE))
+        # Join by all matches so far.
         islands = _together(path, joined(parts), AGREE if turn == TURNS - 1 else SURELY)
         if not islands.parts.any():
             break
@@ -94,7 +97,10 @@ def rejoin(path: KeyPath, half_width_m: float) -> tuple[Floats, NDArray[np.bool_
 
 
 def _together(path: KeyPath, closures: Closures, agree: int) -> KeyPath:
-    """Join the parts on which ``agree`` places agree: an island has the number of its first part, and right poses."""
+    """Return the path with parts joined to islands if ``agree`` places agree on their relative pose.
+
+    The key scans of an island have the number of its first part, and poses in that part's frame.
+    """
     islands = path
     while True:
         rival = RIVAL if agree == AGREE else RIVAL_EARLY
@@ -110,7 +116,7 @@ def _together(path: KeyPath, closures: Closures, agree: int) -> KeyPath:
 
 
 def _surest(pairs: Iterator[list[Joint]], islands: KeyPath, rival: float) -> Joint | None:
-    """Return the joint with the most votes that contradicts nothing and has no rival."""
+    """Return the consistent joint with the most votes that has no rival with at least a share of its votes, or None."""
     best = None
     for candidates in pairs:
         if not candidates or (best is not None and candidates[0].votes <= best.votes):
@@ -128,7 +134,7 @@ Windows = tuple[NDArray[np.intp], NDArray[np.intp], Floats]
 
 
 def _near_pairs(path: KeyPath, turn: int) -> Windows:
-    """Return pairs of a place of each part and the places of longer parts near it."""
+    """Return pairs of a query place and the nearest places of longer parts, with windows at their present poses."""
     places, poses = path.places(SPACING_M), path.poses
     first, second = [], []
     for query in _queries(path, turn):
@@ -138,6 +144,7 @@ def _near_pairs(path: KeyPath, turn: int) -> Windows:
         near = near[np.argsort(off[off < NEAR_M], kind="stable")][:NEAR_PLACES]
         first += near.tolist()
         second += [int(query)] * len(near)
+    # Sort by the first place, as `match_submaps` needs it.
     one, two = np.array(first, np.intp), np.array(second, np.intp)
     order = np.argsort(one, kind="stable")
     one, two = one[order], two[order]
@@ -145,7 +152,7 @@ def _near_pairs(path: KeyPath, turn: int) -> Windows:
 
 
 def _all_pairs(path: KeyPath, turn: int) -> Windows:
-    """Return pairs of some places of each part and all places of longer parts, as if both stood at the same point."""
+    """Return pairs of a query place and every place of longer parts, with windows around the same pose."""
     places = _different(path, path.places(EVERYWHERE_M))
     one, two = (grid.ravel() for grid in np.meshgrid(places, _queries(path, turn), indexing="ij"))
     apart = _longer(path)[path.parts[one]] > _longer(path)[path.parts[two]]
@@ -153,14 +160,14 @@ def _all_pairs(path: KeyPath, turn: int) -> Windows:
 
 
 def _longer(path: KeyPath) -> NDArray[np.intp]:
-    """Return the rank of each part by its number of key scans, (P,): the shorter part of a pair is sought."""
+    """Return the rank of each part by its number of key scans, (P,). The shorter part of a pair is searched for."""
     rank = np.empty(int(path.parts[-1]) + 1, np.intp)
     rank[np.lexsort((-np.arange(len(rank)), np.bincount(path.parts)))] = np.arange(len(rank))
     return rank
 
 
 def _different(path: KeyPath, places: NDArray[np.intp]) -> NDArray[np.intp]:
-    """Remove places that lie near an earlier one of the same part and look the same way."""
+    """Remove places that are near an earlier place of the same part, with a similar heading."""
     chosen: list[int] = []
     for place in places:
         off = between(path.poses[chosen], path.poses[place])
@@ -171,7 +178,7 @@ def _different(path: KeyPath, places: NDArray[np.intp]) -> NDArray[np.intp]:
 
 
 def _queries(path: KeyPath, turn: int) -> NDArray[np.intp]:
-    """Return the places that are sought in a turn: of all parts but the longest."""
+    """Return the query places of a turn, from all parts but the longest: every `TURNS`-th of an even selection."""
     places, count = path.places(SPACING_M), int(path.parts[-1]) + 1
     most, rank = min(QUERIES, max(2 * AGREE, QUERIES_IN_ALL // max(1, count - 1))), _longer(path)
     queries = [np.empty(0, np.intp)]
@@ -182,9 +189,9 @@ def _queries(path: KeyPath, turn: int) -> NDArray[np.intp]:
 
 
 def _candidates(closures: Closures, islands: KeyPath, agree: int) -> Iterator[list[Joint]]:
-    """Yield for each pair of parts the relative poses on which enough places agree, by votes, the most first."""
+    """Yield the relative poses of each pair of parts on which at least ``agree`` places agree, most votes first."""
     poses, parts = islands.poses, islands.parts
-    # The motion of the later part that brings its key to where the match has it.
+    # Each match implies a motion of the later part. Here the later part is the one with the higher number.
     motions = compose(compose(poses[closures.first], closures.relative), inverse(poses[closures.second]))
     swapped = parts[closures.first] > parts[closures.second]
     motions = np.where(swapped[:, None], inverse(motions), motions)
@@ -192,14 +199,15 @@ def _candidates(closures: Closures, islands: KeyPath, agree: int) -> Iterator[li
     pairs = np.sort(np.stack([parts[closures.first], parts[closures.second]], axis=1), axis=1)
     for earlier, later in np.unique(pairs[pairs[:, 0] != pairs[:, 1]], axis=0):
         own = np.nonzero((pairs == (earlier, later)).all(axis=1))[0]
-        # Compared where the later part's keys come to lie: a turn about a far origin moves them.
+        # Compare motions by the positions to which they bring the keys: a turn about a far origin moves them much.
         at = compose(motions[own][:, None], poses[brought[own]][None])
         off = np.hypot(*np.moveaxis((at - at[np.arange(len(own)), np.arange(len(own))][None])[..., :2], -1, 0))
         turn = np.abs(wrapped(motions[own][:, None, 2] - motions[own][None, :, 2]))
         same = (off < SAME_M) & (turn < SAME_RAD)
-        # Several matches of one place count as one vote, the highest.
+        # Each place has one vote, that of its best match.
         places, voice = np.unique(closures.second[own], return_inverse=True)
         loud = np.where(same, (closures.scores[own][None] - CHANCE) ** 2, 0.0)
+        # Take the motion with the most votes, remove the matches that agree with it, and repeat.
         joints: list[Joint] = []
         least = agree
         while len(joints) < TRIED:
@@ -209,13 +217,14 @@ def _candidates(closures: Closures, islands: KeyPath, agree: int) -> Iterator[li
             if not votes[best] > 0.0:
                 break
             joints.append(Joint(int(earlier), int(later), motions[own[best]], float(votes[best])))
-            loud[:, same[best]] = 0.0  # a match that agrees with one relative pose votes for no other: parts bend
+            loud[:, same[best]] = 0.0
             least = AGREE if agree == AGREE else FEW
         yield joints
 
 
 def consistent(islands: KeyPath, joint: Joint) -> bool:
-    """Check that two joined parts do not contradict each other: few points of one stand where the other saw through."""
+    """Check that two joined parts do not contradict each other: few points of one lie in the other's free space."""
+    # Select near pairs of key scans, evenly thinned to `COMPARED`.
     one, two = np.nonzero(islands.parts == joint.earlier)[0], np.nonzero(islands.parts == joint.later)[0]
     earlier, later = islands.poses[one], compose(joint.motion, islands.poses[two])
     a, b = np.nonzero(np.hypot(*np.moveaxis(earlier[:, None, :2] - later[None, :, :2], -1, 0)) < MET_M)
@@ -231,9 +240,10 @@ def consistent(islands: KeyPath, joint: Joint) -> bool:
 
 
 def _assembled(path: KeyPath, islands: KeyPath) -> tuple[Floats, NDArray[np.bool_]]:
-    """Bring all islands to one frame; one that nothing joins stays where the front end has it after the part before.
+    """Bring all islands to one frame. Returns poses, (K, 3), and which parts are joined to an earlier part, (P,).
 
-    Poses of the path are the front end's, right within a part; an island has the number of the first of its parts.
+    An island that is not joined keeps the front end's motion from the part before. ``path`` has the front end's poses,
+    which are right within a part. An island has the number of its first part.
     """
     poses, where, parts = path.poses, islands.poses, path.parts
     result, placed = where.copy(), np.ones(int(parts[-1]) + 1, np.bool_)

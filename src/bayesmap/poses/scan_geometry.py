@@ -14,14 +14,14 @@ from bayesmap.space.scans import Scans
 Floats = NDArray[np.float64]
 
 LEAST_M, MOST_M = 0.01, 0.05
-"""Bounds on the standard deviation of a range. Walls are rough and robots move while they scan, so that no point is
-trusted further than the first. Beyond the second, neighbouring walls could not be told apart."""
+"""Bounds on the standard deviation of a range. Walls are rough and robots move while they scan, so no point is more
+precise than the first. With more noise than the second, neighbouring walls could not be distinguished."""
 
 SCANS, FEWEST = 300, 100
-"""Scans that the noise is estimated from, and the fewest triples of beams that give an estimate."""
+"""Number of scans from which the noise is estimated, and fewest triples of beams for an estimate."""
 
 GAP_M, GAP_STEPS = 0.15, 3.5
-"""Neighbouring readings that differ by more than both together lie on different surfaces: metres, beam spacings."""
+"""Metres plus beam spacings beyond which neighbouring readings lie on different surfaces."""
 
 MEDIAN_OF_NORMAL = 0.6745
 
@@ -47,17 +47,17 @@ def range_noise_m(ranges_m: Floats, step_rad: float) -> float:
 
 
 REACH_M, REACH_SIGMAS = 0.12, 10.0
-"""Half the length of wall to which a normal is fitted: metres, and at least so many standard deviations of a point.
-Narrower fits let scans slide along walls."""
+"""Half the length of wall to which a normal is fitted: metres, and at least this many standard deviations of a point.
+With narrower fits scans slide along walls."""
 
 NEAREST_M = 0.05
-"""Readings closer than this hit the robot itself."""
+"""Range below which readings are hits on the robot itself, metres."""
 
 PAIR_SIGMAS, SCALE_SIGMAS = 6.0, 3.0
 """Least pairing distance and least outlier scale, in standard deviations of a range."""
 
 BINS_A_BEAM = 4
-"""Bins of angle for each beam in the table of `Fans`."""
+"""Bins of angle per beam in the table of `Fans`."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,10 +67,9 @@ class Fans:
     Attributes:
         beams: number of beams of each scan, (S,).
         step_rad: median angle between neighbouring beams of each scan, (S,).
-        full_circle: whether the last beam's neighbour is the first, (S,).
-        layout: row of ``beam_of_angle`` for each scan, (S,); scans with equal beams share a row.
-        beam_of_angle: the beam nearest to each of equal bins of angle from -pi to pi, (layouts, bins); -1 where none
-            is near.
+        full_circle: 1 if the last beam's neighbour is the first, else 0, (S,).
+        layout: row of ``beam_of_angle`` for each scan, (S,). Scans with equal beams share a row.
+        beam_of_angle: nearest beam to each of equal bins of angle from -pi to pi, (layouts, bins); -1 if none is near.
     """
 
     beams: NDArray[np.int32]
@@ -119,7 +118,7 @@ class ScanGeometry:
         kind: 0 no point, 1 a point, 2 a point with a normal, (S, B).
         spread: variance of the normal's angle for a unit variance of the points, 1 / m^2, (S, B).
         fans: directions of the beams.
-        farthest_m: hits beyond are left out.
+        farthest_m: range beyond which hits are left out, metres.
         noise_m: standard deviation of a range, estimated from the scans.
         device: device of the arrays.
         threads: number of threads for all that is computed from this geometry; all cores if None.
@@ -186,7 +185,7 @@ class ScanGeometry:
 def scan_geometry(
     scans: Scans, *, farthest_m: float | None = None, device: str = "cpu", threads: int | None = None
 ) -> ScanGeometry:
-    """Compute points and normals of scans, by the scans' own angles and limits; their poses are not used.
+    """Compute points and normals of scans, by the scans' own angles and limits. Their poses are not used.
 
     Args:
         scans: S scans.

@@ -4,11 +4,11 @@ Hit ratios and log-odds come from two counts: the beams that stopped in a cell, 
 becomes a map of stop probabilities, and predicts readings by the formula of a posterior
 (`bayesmap.kernels.predict.density`).
 
-A plug-in map has no sensor model of its own, so one is fitted to it, together with where in a cell beams stop and the
-row's own parameters. A fit on the scans that were counted would reward over-confidence, hence an inner hold-out: every
-tenth of the training scans is left out of the counts and predicted, in as many of the ten ways as it takes to have
-`BEAMS_WANTED` beams. Scans that are scored in the end have no part in it. Parameters have bounds, and the search is
-L-BFGS-B on their logarithms or logits, from several starts.
+A plug-in map has no sensor model, so one is fitted to it, together with the hit depth and the baseline's own
+parameters. A fit on the scans that were counted would reward over-confidence. So there is an inner hold-out: every
+tenth of the training scans is left out of the counts and predicted. This is repeated with other tenths until there are
+`BEAMS_WANTED` beams. Scans of the final score are not used. Parameters have bounds, and the search is L-BFGS-B on their
+logarithms or logits, from several starts.
 
 An external map, made by another program, gives for each cell the probability that it is occupied, or that it is
 unknown. It does not say what that means for a beam. So the stop probabilities of cells called occupied (probability 1),
@@ -37,16 +37,16 @@ from bayesmap.space.scans import Scans
 Values = dict[str, float]
 
 LAST_CLIMB = 8.0
-"""Time of the last climb, which uses the full score, in times of a rough climb."""
+"""Time of the last climb, which uses the full score, relative to a rough climb, for progress."""
 
 STEP = 2e-3
 """Step of the numeric gradient, in logarithms or logits: above the noise of stops in single precision."""
 
 GRADIENTS, MOST_STEPS = 20, 100
-"""Usual number of gradients of a climb, for progress, and most steps."""
+"""Usual number of gradients per climb, for progress, and most steps."""
 
 ROUGH, FINE = 1e-4, 1e-6
-"""Relative gain in score at which a climb ends: from every start, and then from the best place found."""
+"""Relative gain in score at which a climb ends: from each start, and then from the best of the results."""
 
 
 @dataclass(frozen=True)
@@ -56,7 +56,8 @@ class Parameter:
     Attributes:
         name: key in the values.
         low, high: bounds.
-        share: whether it is a share of one, searched by its logit; otherwise it is positive, searched by its logarithm.
+        share: True for a share of one, which is searched by its logit. Other parameters are positive and are searched
+            by their logarithm.
     """
 
     name: str
@@ -104,11 +105,11 @@ def maximise(
     """Find the values of the highest score, and that score.
 
     Args:
-        score: to be maximised, from the best end of the rough climbs.
-        rough_score: a cheap approximation of it, climbed from every start.
-        parameters: to be varied.
-        starts: values of all of them.
-        on_progress: called with the share that is done, as far as that can be known of a search.
+        score: score to maximise, from the best result of the rough climbs.
+        rough_score: cheap approximation of the score, climbed from every start.
+        parameters: parameters to vary.
+        starts: starting values of all parameters.
+        on_progress: function that is called with an estimate of the completed share.
     """
     names = [p.name for p in parameters]
 
@@ -145,10 +146,10 @@ Floats = NDArray[np.float64]
 
 P_HIT, P_MISS = 0.7, 0.4
 P_LEAST, P_MOST = 0.1192, 0.971
-"""OctoMap's defaults: what a hit and a miss say, and where the probability of a cell is clamped."""
+"""OctoMap's defaults: probabilities of a cell after a hit and after a miss, and bounds of a cell's probability."""
 
 NOISES: tuple[float | None, ...] = (None, 4.0)
-"""Degrees of freedom of the noises that are tried: normal, and Student-t with heavy tails."""
+"""Degrees of freedom of the noises that are tried: None for normal noise, and Student-t noise with heavy tails."""
 
 
 def hit_ratio(hits: Floats, passes: Floats, values: Mapping[str, float]) -> Floats:
@@ -172,7 +173,7 @@ def log_odds_as_usual(hits: Floats, passes: Floats, values: Mapping[str, float])
 def log_odds_clamped(hits: Floats, passes: Floats, values: Mapping[str, float]) -> Floats:
     """Compute `log_odds_as_usual`, clamped to OctoMap's interval.
 
-    OctoMap clamps after every update, so that the order of hits and misses matters; its tree is clamped at once here.
+    OctoMap clamps after every update, so the order of hits and misses matters. Here the result is clamped once.
     """
     return np.clip(log_odds_as_usual(hits, passes, values), P_LEAST, P_MOST)
 
@@ -182,10 +183,10 @@ class Baseline:
     """A kind of map.
 
     Attributes:
-        name: in tables.
-        stop: returns stop probabilities of all cells from their hits and passes, and the row's own parameters.
-        own: those parameters.
-        starts: where their fit starts.
+        name: name in tables.
+        stop: function that returns stop probabilities of all cells from their hits and passes and the own parameters.
+        own: parameters of this baseline alone.
+        starts: starting values of these parameters.
     """
 
     name: str
@@ -232,8 +233,8 @@ class Fitted:
     """A baseline ready to predict.
 
     Attributes:
-        name: of the baseline.
-        predictor: its map from all training scans, its sensor, its hit depth.
+        name: name of the baseline.
+        predictor: predictor with the map from all training scans, the sensor and the hit depth.
         values: all fitted numbers.
         inner_nats_per_beam: score on the inner hold-out.
     """
@@ -260,11 +261,11 @@ def fit_baseline(
     """Fit a baseline's sensor, hit depth and own parameters on the training scans alone.
 
     Args:
-        baseline: the kind of map.
-        train: the scans that the map is made from.
-        grid: its cells.
-        folds: of `make_folds`, to share between baselines.
-        on_progress: called with the share that is done, as far as that can be known of a search.
+        baseline: kind of map.
+        train: scans that the map is made from.
+        grid: grid of the map.
+        folds: folds of `make_folds`, to share between baselines.
+        on_progress: function that is called with an estimate of the completed share.
     """
     from bayesmap.kernels.counts import count_hits
 
@@ -283,7 +284,7 @@ def fit_baseline(
     best: tuple[float, Values, float | None] | None = None
     climbs = [len(starts) + LAST_CLIMB] + [1 + LAST_CLIMB] * (len(NOISES) - 1)
     for dof, on_share in zip(NOISES, parts(on_progress, *climbs), strict=True):
-        # Heavy tails start where normal noise ended: the rest is nearly the same.
+        # Heavy tails start from the fit of normal noise: the other parameters change little.
         begin = starts if best is None else [best[1] | {"scale_m": 0.7 * best[1]["scale_m"]}]
         scores = partial(inner_score, whole, baseline, dof), partial(inner_score, part, baseline, dof)
         values, score = maximise(*scores, (*SENSOR, *baseline.own), begin, on_share)
@@ -320,14 +321,14 @@ def stop_probabilities(occupancy: Floats, values: Mapping[str, float]) -> Floats
 
 
 def fit_external_map(name: str, occupancy: Floats, grid: Grid, train: Scans, on_progress: OnShare = ignored) -> Fitted:
-    """Fit a sensor to an external map, and what occupied, free and unknown mean in it.
+    """Fit a sensor to an external map, and the stop probabilities of its occupied, free and unknown cells.
 
     Args:
-        name: in tables.
+        name: name in tables.
         occupancy: probability that each cell is occupied, shape (nx, ny), NaN where unknown.
-        grid: of the map.
-        train: scans that will not be scored, at their poses in the map's frame.
-        on_progress: called with the share that is done.
+        grid: grid of the map.
+        train: scans that are not scored, at their poses in the map's frame.
+        on_progress: function that is called with the completed share.
 
     Raises:
         BadInput: shapes that do not fit, probabilities outside [0, 1], or scans that do not touch the map.

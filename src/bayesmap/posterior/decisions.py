@@ -1,6 +1,7 @@
 """Decisions from a posterior: whether a path is free, which route to take, where to look next.
 
-The algorithms are in `bayesmap.posterior.route` and `bayesmap.posterior.information`; here they get the draws of a run.
+The functions here apply the algorithms of `bayesmap.posterior.route` and `bayesmap.posterior.information` to the draws
+of a run.
 """
 
 from __future__ import annotations
@@ -36,28 +37,28 @@ if TYPE_CHECKING:
 Floats = NDArray[np.float64]
 
 SEARCH_DRAWS = 60
-"""Draws by which paths are proposed; all draws then judge each of them."""
+"""Number of draws that propose paths. All draws then judge each path."""
 
 INFORMATION_DRAWS = 50
-"""Default number of draws that are compared: the work grows with its square."""
+"""Default number of draws that are compared. The work grows with its square."""
 
 REACHABLE = 0.5
-"""Least probability that the disc touches nothing at a place to look from."""
+"""Least probability that the disc touches nothing at the position of a view."""
 
 HEADINGS, FULL_CIRCLE_RAD = 8, np.radians(350.0)
-"""Directions that are tried at each place, and the field of view from which one direction is enough."""
+"""Number of headings that are tried at each position, and field of view from which one heading is enough."""
 
 
 class Drawn(Protocol):
-    """A map by its draws: a posterior, or chains that are still running."""
+    """Draws of the map with their prior: a posterior, or chains that are still running."""
 
     @property
     def prior(self) -> CellPrior:
-        """The prior of the cells, which also tells how they stop beams."""
+        """The prior of the cells, which also computes how they stop beams."""
 
     @property
     def draws(self) -> Draws:
-        """The maps."""
+        """The draws of the map."""
 
 
 def path_is_free(posterior: Drawn, path: ArrayLike, radius_m: float) -> FreeProbability:
@@ -116,7 +117,7 @@ def information_of(
     device: str = "cpu",
     on_progress: OnShare = ignored,
 ) -> Information:
-    """Compute the expected information of one more scan from each pose; see `bayesmap.Run.information_gain`."""
+    """Compute the expected information of one more scan from each pose. See `bayesmap.Run.information_gain`."""
     _need_draws(posterior, "information_gain")
     if draws is not None and draws < 2:
         raise BadInput(f"information_gain: draws must be 2 or more, got {draws!r}")
@@ -141,7 +142,7 @@ def information_of(
 
 
 def typical_sigma_m(sensor: SensorModel, max_range_m: float) -> float:
-    """Return half the width of the middle 68 % of 4000 drawn hits on a wall at a quarter of the largest range, m."""
+    """Return a robust standard deviation of hits at a quarter of the largest range: half the middle 68 % of 4000, m."""
     from bayesmap.sensors.model import RangeLimits
 
     at_m = 0.25 * max_range_m
@@ -156,9 +157,9 @@ class Views:
 
     Attributes:
         candidates: poses that were considered, (P, 3).
-        independent: nats that the formula for independent cells and beams expects from each, (P,).
+        independent: expected information of each by the formula for independent cells and beams, nats, (P,).
         best: numbers of the best candidates by the upper bound from joint draws, the best first, (V,).
-        information: of these, (V,).
+        information: expected information of the best candidates, (V,).
     """
 
     candidates: Floats
@@ -179,9 +180,9 @@ def next_views(
 ) -> Views:
     """Find the most informative poses among candidates that a robot can reach.
 
-    Candidates are spread over the places at which a disc is free with probability `REACHABLE` and which such places
-    connect with where the robot was last. The fast formula ranks all; of the best, twice as many as needed, apart from
-    each other, are compared by joint draws.
+    Candidates are drawn at positions where a disc is free with probability `REACHABLE`, and which a path over such
+    positions connects with the robot's last position. The fast formula ranks all candidates. Joint draws then compare
+    twice as many as needed of the best, apart from each other.
 
     Raises:
         BadInput: no draws, counts below 1, or no such place.
@@ -195,6 +196,7 @@ def next_views(
     scans, law = posterior.scans, posterior.sensor
     if law is None:
         raise BadInput("explore: the sensor model of this run is not one of bayesmap's")
+    # Rank candidates with all headings by the fast formula, and keep each one's best heading.
     poses = _spread(posterior, blocked_anywhere(posterior, radius_m, search), candidates, seed)
     headings = _headings(scans.angles_rad)
     every = np.repeat(poses, len(headings), axis=0)
@@ -206,6 +208,7 @@ def next_views(
     turn = nats.argmax(axis=1)
     poses[:, 2] += headings[turn]
     nats = nats[np.arange(len(poses)), turn]
+    # Compare the best by joint draws. They are apart by at least 5 % of the map's diagonal.
     apart_m = 0.05 * float(np.hypot(*np.array(posterior.grid.shape))) * posterior.grid.resolution
     few = best_views(nats, poses, 2 * views, apart_m)
     expected = information_of(posterior, poses[few], draws=draws, seed=seed, on_progress=weigh)
@@ -216,7 +219,7 @@ def next_views(
 
 
 def _spread(posterior: Posterior, blocked: Floats, count: int, seed: int) -> Floats:
-    """Draw poses at random places that the robot can reach, (P, 3); ``count``, or fewer if there are fewer cells."""
+    """Draw at most ``count`` poses at random cells that the robot can reach, with yaw 0, (P, 3)."""
     from scipy import ndimage
 
     grid = posterior.grid
@@ -235,7 +238,7 @@ def _spread(posterior: Posterior, blocked: Floats, count: int, seed: int) -> Flo
 
 
 def _headings(angles_rad: Floats) -> Floats:
-    """Return the yaws to try: one for a full circle."""
+    """Return the yaws to try, radians: one if the sensor sees a full circle."""
     count = 1 if np.ptp(angles_rad) * (1 + 1 / max(len(angles_rad), 1)) >= FULL_CIRCLE_RAD else HEADINGS
     return np.arange(count) / count * 2 * np.pi
 

@@ -1,6 +1,6 @@
-"""Held-out scans: those of a log that may score a run, and folds of the training scans for fits.
+"""Held-out scans: scans of a log that may score a run, and folds of the training scans for fits.
 
-A run is scored on scans that it has not seen. Baselines and external maps are fitted on training scans that are left
+A run is scored on scans that it has not used. Baselines and external maps are fitted on training scans that are left
 out of their counts.
 """
 
@@ -18,34 +18,35 @@ from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Reading, Scans
 
 MOST_EVERY = 100
-"""Largest hold-out period that a message guesses."""
+"""Largest hold-out period that an error message suggests."""
 
 
 class NoneHeldOut(BadInput):
-    """The log is the run's own, and none of its scans can judge the map."""
+    """Error: the log is the run's own, and none of its scans can judge the map."""
 
 
 def seen_by(train: Scans, scans: Scans) -> NDArray[np.bool_]:
-    """Return which scans are among those of a run, by stamps and readings, (S,).
+    """Return whether each scan is one of a run's scans, by stamps and readings, (S,).
 
-    A run may have inferred its poses. So poses count only where scans have no stamps, or no hit, to tell them apart.
+    A run may have inferred its poses. So poses are compared only for scans without stamps, or without a hit.
     """
     return _matched(train, scans) >= 0
 
 
 def moved_by(train: Scans, scans: Scans) -> bool:
-    """Return whether scans that are among those of a run have other poses there."""
+    """Return whether any scan has another pose in the run."""
     match = _matched(train, scans)
     seen = match >= 0
     return not np.allclose(train.poses[match[seen]], scans.poses[seen], rtol=0.0, atol=1e-6)
 
 
 def _matched(train: Scans, scans: Scans) -> NDArray[np.intp]:
-    """Return the run's scan that equals each scan, -1 if none, (S,)."""
+    """Return the index of the run's scan that equals each scan, -1 if none, (S,)."""
     shared = train.own_angles_rad is None and scans.own_angles_rad is None
     if shared and not _alike(train.angles_rad, scans.angles_rad):
         return np.full(len(scans), -1)
     stamped = train.stamps_s is not None and scans.stamps_s is not None
+    # Match by fingerprints; then compare the angles of beams if scans have their own.
     known = {name: i for i, name in enumerate(_fingerprints(train, stamped))}
     match = np.array([known.get(name, -1) for name in _fingerprints(scans, stamped)], dtype=np.intp)
     if not shared:
@@ -56,12 +57,12 @@ def _matched(train: Scans, scans: Scans) -> NDArray[np.intp]:
 
 
 def _alike(first: NDArray[np.float64], second: NDArray[np.float64]) -> bool:
-    """Return whether the beams of two scans point the same way."""
+    """Return whether the beams of two scans have equal angles."""
     return first.shape == second.shape and np.allclose(first, second)
 
 
 def _fingerprints(scans: Scans, stamped: bool) -> list[bytes]:
-    """Return the readings with their stamp; with their pose where there is no stamp, or where no beam met anything."""
+    """Return each scan's stamp and readings as bytes; with the pose if there is no stamp or no hit."""
     names = []
     for i in range(len(scans)):
         ranges = scans.beams_of(i)[1]
@@ -72,18 +73,17 @@ def _fingerprints(scans: Scans, stamped: bool) -> list[bytes]:
 
 
 def unseen_scans(train: Scans, scans: Scans, every: int, where: str) -> Scans:
-    """Return every ``every``-th scan of a log, as `Scans.holdout` takes them, if the run has seen none of them.
+    """Return every ``every``-th scan of a log, as `Scans.holdout` selects them, if the run has used none of them.
 
     Args:
-        train: what the run was made from.
-        scans: the whole log, read as it was for the run.
-        every: of the hold-out; 0 takes all scans, for another recording of the same place.
-        where: the log's name, for messages.
+        train: scans that the run was made from.
+        scans: scans of the whole log, read as for the run.
+        every: period of the hold-out; 0 takes all scans, for another recording of the same building.
+        where: name of the log, for messages.
 
     Raises:
-        NoneHeldOut: the run has seen all scans, or has moved them, so that the poses of the others are
-            unknown.
-        BadInput: the run has seen some of them, so that the score would flatter it; or it is another log.
+        NoneHeldOut: the run has used all scans, or has moved its scans, so that the poses of the others are unknown.
+        BadInput: the run has used some of the held-out scans, which would bias the score; or it is another log.
     """
     seen = seen_by(train, scans)
     if every == 0:
@@ -103,6 +103,7 @@ def unseen_scans(train: Scans, scans: Scans, every: int, where: str) -> Scans:
             f"{where}: the run has its scans elsewhere than this log, as bayesmap slam does, so none is left to judge "
             f"its map by; bayesmap score {where} --trajectory DIR/trajectory.tum judges a map along its path"
         )
+    # Check that the run was made with this hold-out.
     held = np.arange(len(scans)) % every == every // 2 if every >= 2 else None
     if held is None or not held.any():
         scans.holdout(every)  # raises the fitting message
@@ -125,13 +126,13 @@ def unseen_scans(train: Scans, scans: Scans, every: int, where: str) -> Scans:
 Floats = NDArray[np.float64]
 
 FOLDS = 10
-"""Every tenth scan is left out, as in the protocol itself: inner and outer counts are nearly as dense."""
+"""Each fold leaves out every tenth scan, as the protocol itself does: inner and outer counts are nearly as dense."""
 
 BEAMS_WANTED = 20_000
-"""Valid beams to fit on: a dozen parameters cost about 6 / 20 000 nats a beam."""
+"""Number of valid beams for a fit. With a dozen parameters, over-fitting costs about 6 / 20 000 nats per beam."""
 
 THIN = 4
-"""Every fourth of a fold's scans, or of the folds, serves a rough search."""
+"""A rough search uses every fourth scan of a fold, or every fourth fold."""
 
 PAST_READING_M = 3.0
 """Distance past a reading to which a beam is traced for fitting: its density is flat there."""
@@ -139,7 +140,7 @@ PAST_READING_M = 3.0
 
 @dataclass(frozen=True, eq=False)
 class Fold:
-    """A fold of the training scans: the counts of the other scans, and the fold's own scans and beams to predict."""
+    """A fold of the training scans: counts per cell of the other scans, and the fold's own scans and beams."""
 
     hits: Floats
     passes: Floats
@@ -147,7 +148,7 @@ class Fold:
     rays: Rays
 
     def thinned(self) -> Fold:
-        """Return the counts with every `THIN`-th of the scans to predict, for a first rough search."""
+        """Return the fold with every `THIN`-th of its scans, for a rough search. The counts stay."""
         return _fold(self.hits, self.passes, self.scans.select(slice(None, None, THIN)), self.rays.grid)
 
 
@@ -159,7 +160,7 @@ def _fold(hits: Floats, passes: Floats, scans: Scans, grid: Grid) -> Fold:
 
 
 def make_folds(train: Scans, grid: Grid) -> list[Fold]:
-    """Make interleaved folds until they have `BEAMS_WANTED` beams.
+    """Make interleaved folds, as many as it takes to have `BEAMS_WANTED` beams.
 
     Raises:
         BadInput: fewer than two training scans with valid readings.
@@ -187,7 +188,7 @@ def make_folds(train: Scans, grid: Grid) -> list[Fold]:
 
 
 def one_fold(train: Scans, grid: Grid) -> list[Fold]:
-    """Make the fold for a map that scans do not change: at most `BEAMS_WANTED` beams, and no counts.
+    """Make one fold for a map that does not depend on scans: about `BEAMS_WANTED` beams, and zero counts.
 
     Raises:
         BadInput: no training scan with a valid reading.
@@ -206,10 +207,10 @@ class HeldOut:
     """Folds whose beams are predicted together, each under its own fold's map.
 
     Attributes:
-        folds: the F folds.
+        folds: folds, F of them.
         rays: beams of all folds, one after the other.
-        columns: place of each entry of the rays in the folds' maps, one after the other, each with the cells that its
-            own beams touch, (K,).
+        columns: index of each entry of the rays in the concatenated maps of the folds, (K,). Each fold's map contains
+            the cells that its own beams touch.
     """
 
     folds: tuple[Fold, ...]
@@ -220,6 +221,7 @@ class HeldOut:
 def together(folds: Sequence[Fold]) -> HeldOut:
     """Join folds for one prediction, which is faster than many small ones."""
     rays = [fold.rays for fold in folds]
+    # Offsets of each fold's entries in the joined rays, and of its cells in the joined maps.
     entries = np.cumsum([0, *(len(one.cells) for one in rays)])[:-1]
     places = np.cumsum([0, *(len(one.touched) for one in rays)])[:-1]
 

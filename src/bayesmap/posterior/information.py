@@ -2,8 +2,8 @@
 
 `expected_information` bounds the mutual information of a whole scan with the map from both sides, by joint draws: a
 scan is simulated in a draw and weighted in all of them. `beam_information` is the formula of FSMI for independent cells
-and beams. It is fast enough for thousands of poses, but it counts what beams tell twice, and takes a cell that is known
-to stop half of the beams for unknown.
+and beams. It is fast enough for thousands of poses. But it counts shared information of beams twice, and a cell that is
+known to stop half of the beams counts as unknown.
 """
 
 from __future__ import annotations
@@ -25,10 +25,10 @@ from bayesmap.space.scans import Scans, as_angles, as_poses
 Floats = NDArray[np.float64]
 
 STREAM_VIEW = 5
-"""Stream of random numbers."""
+"""Number of the stream of random numbers."""
 
 SURE = 1e-4
-"""Least distance of a stop probability from 0 and 1: a finite number of draws tells no more."""
+"""Least distance of a stop probability from 0 and 1: a finite number of draws is no more precise."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,12 +39,12 @@ class Information:
     more draws bring them closer.
 
     Attributes:
-        at_least: nats from each pose, (P,): a lower bound, no more than the logarithm of the number of draws.
-        at_least_error: its Monte Carlo standard error, (P,).
-        at_most: nats from each pose, (P,): an upper bound.
-        at_most_error: its Monte Carlo standard error, (P,).
+        at_least: lower bound for each pose, nats, (P,); no more than the logarithm of the number of draws.
+        at_least_error: Monte Carlo standard error of the lower bound, (P,).
+        at_most: upper bound for each pose, nats, (P,).
+        at_most_error: Monte Carlo standard error of the upper bound, (P,).
         draws: number of draws of the map that were compared.
-        independent: nats by the formula for independent cells and beams, (P,); None where it was not asked for.
+        independent: information by the formula for independent cells and beams, nats, (P,); None if not computed.
     """
 
     at_least: Floats
@@ -77,23 +77,23 @@ def expected_information(
         log p(z_d | d) - log (1 / (D - 1)) sum_{e != d} p(z_d | e)       d left out
 
     are at most, and at least, the information, on average over draws (Foster et al., "A unified stochastic gradient
-    approach to designing Bayesian-optimal experiments", AISTATS 2020). The first is never over log D, and the second is
-    far too large where every draw explains its own scan alone. But beams are independent given the map, so a scan tells
-    no more than the sum of what its beams tell, each by the second line: the smaller of the two is the upper bound.
+    approach to designing Bayesian-optimal experiments", AISTATS 2020). The first is never over log D. The second is far
+    too large if every draw explains only its own scan. But beams are independent given the map. So a scan's information
+    is at most the sum over its beams, each by the second line. The smaller of the two values is the upper bound.
 
     Args:
         cells: D draws of the map, (D, N) stop probabilities or (D, N, 6) surfaces, as
             `bayesmap.cells.kind.CellPrior.stops`.
-        grid: of the map.
-        sensor: the law of a reading given where its beam stops.
+        grid: grid of the map.
+        sensor: law of a reading given where its beam stops.
         poses: P poses in the world frame, (P, 3).
-        angles_rad: of the beams in the sensor's frame, (A,).
-        max_range_m: of the sensor.
-        min_range_m: of the sensor.
-        hit_depth: where a beam stops in a cell without a surface, as a part of its chord.
-        seed: of the simulated scans.
-        device: where to compute.
-        on_progress: called with the share that is done, from 0 to 1.
+        angles_rad: angles of the beams in the sensor's frame, (A,).
+        max_range_m: largest range of the sensor, metres.
+        min_range_m: least range of the sensor, metres.
+        hit_depth: depth of a stop in a cell without a surface, as a fraction of the beam's chord.
+        seed: seed of the simulated scans.
+        device: device that computes.
+        on_progress: function that is called with the completed share, from 0 to 1.
 
     Raises:
         BadInput: poses or angles that are not valid, or fewer than two draws.
@@ -111,6 +111,7 @@ def expected_information(
     maps, every = device_maps([cells], hit_depth, device=device), np.arange(draws)
     scan, chain = (a.ravel() for a in np.meshgrid(every, every, indexing="ij"))
     bounds = np.empty((4, len(where)))
+    # For each pose, simulate a scan in every draw, and weight each scan in every draw.
     for i, pose in enumerate(where):
         at = np.broadcast_to(pose, (draws, 3))
         key = mix(seed, i, STREAM_VIEW)
@@ -129,7 +130,7 @@ def expected_information(
 
 
 def _bounds(weighed: Floats) -> tuple[float, float, float, float]:
-    """Return lower bound, its error, upper bound, its error.
+    """Return the lower bound and its error, and the upper bound and its error.
 
     ``weighed`` is log p(beam b of the scan that was simulated in draw d | draw e), (d, e, b).
     """
@@ -163,18 +164,18 @@ def beam_information(
     p_right: float = 0.9,
     device: str = "cpu",
 ) -> Floats:
-    """Sum FSMI over a scan's beams: their information about a map of independent cells, in nats, (P,).
+    """Return the sum of FSMI over a scan's beams: their information about a map of independent cells, nats, (P,).
 
     Args:
         occupied: probability that each cell stops a beam, (nx, ny).
-        grid: of the map.
-        poses: (P, 3).
-        angles_rad: (A,).
-        max_range_m: of the sensor.
-        sigma_m: of the readings.
-        p_right: how sure a reading makes of a cell: it multiplies the odds of the cell in which it falls by
+        grid: grid of the map.
+        poses: poses of the scans, (P, 3).
+        angles_rad: angles of the beams, (A,).
+        max_range_m: largest range of the sensor, metres.
+        sigma_m: standard deviation of the readings, metres.
+        p_right: probability p that a reading is right. A reading multiplies the odds of the cell in which it falls by
             p / (1 - p), and those of the cells before it by (1 - p) / p.
-        device: where to compute.
+        device: device that computes.
     """
     from bayesmap.kernels.predict.view import independent_information
 

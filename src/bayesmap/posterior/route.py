@@ -1,15 +1,15 @@
 """The probability that a disc moves along a path without touching anything, and the shortest path of bounded risk.
 
-In each draw of the map the disc either touches something or it does not: the probability is the share of draws in which
-it does not. Cells that are uncertain together, such as a door that is open or shut, count once; the product over cells
-that planners use counts them as often as there are cells.
+In each draw of the map the disc either touches something or it does not. The probability is the share of draws in which
+it does not. Cells that are uncertain together, such as a door that is open or shut, count once. Planners use a product
+over cells, which counts such cells as often as there are cells.
 
-A robot must not touch a cell without a surface that stops at least `SOLID` of the beams that come to it: its square.
-Nor may it touch a surface that stops as many: the ellipse of two standard deviations of the points where it stops them.
+An obstacle stops at least `SOLID` of the beams that come to it. For a cell without a surface the obstacle is its
+square. For a surface it is the ellipse of two standard deviations of the points where it stops beams.
 
-The risk of a path is no sum over cells, so that no search on a graph minimises it; but a search can propose paths. Each
-path minimises length plus a price for every metre near what may be there. A ladder of prices gives paths from the
-shortest to the safest, the joint draws judge each, and the shortest that is safe enough is taken.
+The risk of a path is no sum over cells, so no search on a graph minimises it. But a search can propose paths. Each path
+minimises length plus a price per metre near possible obstacles. A ladder of prices gives paths from the shortest to the
+safest. The joint draws judge each, and the shortest path that is safe enough is returned.
 """
 
 from __future__ import annotations
@@ -29,13 +29,13 @@ from bayesmap.space.grid import Grid
 Floats = NDArray[np.float64]
 
 SOLID = 0.1
-"""Stop probability under which a cell holds nothing that a robot would notice; maps for navigation call it free."""
+"""Stop probability below which a cell counts as free, as in maps for navigation."""
 
 REACH_CELLS = 2.5
 """Greatest distance of any part of a surface from its cell's centre, in edges of a cell."""
 
 ALONG = np.array([-2.0, -1.0, 0.0, 1.0, 2.0])
-"""Points along its long axis at which an ellipse is probed, in standard deviations."""
+"""Points on the long axis of an ellipse at which its distance is computed, in standard deviations."""
 
 
 @dataclass(frozen=True)
@@ -43,10 +43,10 @@ class FreeProbability:
     """The probability that a path is free, from draws of the map.
 
     Attributes:
-        probability: that the disc touches nothing: the share of draws.
-        standard_error: of that, from a finite number of draws that depend on each other.
-        independent: the product over cells of the probability that each is not in the way, as planners have it.
-        blocked: whether something is in the way in each draw, (chains, draws).
+        probability: share of draws in which the disc touches nothing.
+        standard_error: standard error of the probability, from a finite number of dependent draws.
+        independent: product over cells of the probability that each is not in the way, as planners use it.
+        blocked: mask of the draws in which something is in the way, (chains, draws).
     """
 
     probability: float
@@ -87,7 +87,10 @@ def distance_to_path_m(points: Floats, path: Floats) -> Floats:
 
 
 def square_to_path_m(centres: Floats, edge_m: float, path: Floats) -> Floats:
-    """Compute the distance of axis-parallel squares, by their centres (n, 2), from a polyline, m; 0 if they meet."""
+    """Compute the distance of axis-parallel squares with centres (n, 2) from a polyline, metres, (n,); 0 if they meet.
+
+    It is the least of the distances from the squares' corners and from the polyline's corners, if no segment meets one.
+    """
     half = 0.5 * edge_m
     corners = np.array([[-half, -half], [-half, half], [half, -half], [half, half]])
     nearest = distance_to_path_m(centres[:, None] + corners, path).min(axis=1)
@@ -99,7 +102,7 @@ def square_to_path_m(centres: Floats, edge_m: float, path: Floats) -> Floats:
 
 
 def _crosses(centres: Floats, half: float, start: Floats, end: Floats) -> NDArray[np.bool_]:
-    """Return whether a segment meets each square, by the interval of the segment between each pair of sides (slabs)."""
+    """Return whether a segment meets each square, by the intervals of the segment between opposite sides (slabs)."""
     way, enter, leave = end - start, np.zeros(len(centres)), np.ones(len(centres))
     for axis in (0, 1):
         low, high = centres[:, axis] - half - start[axis], centres[:, axis] + half - start[axis]
@@ -138,12 +141,12 @@ def in_the_way(
     """Return which cells are in the way of the disc in each draw, (draws, n).
 
     Args:
-        batches: stops of the cells, some draws at a time: (draws, n), or (draws, n, 6) for surfaces in metres from the
-            grid's corner, as `bayesmap.cells.kind.CellPrior.stops` gives them.
-        cells: flat indices, (n,).
-        grid: of the cells.
-        path: of the disc's centre, (P, 2).
-        radius_m: of the disc.
+        batches: stops of the cells in batches of draws: (draws, n), or (draws, n, 6) for surfaces in metres from the
+            grid's corner, as `bayesmap.cells.kind.CellPrior.stops` returns them.
+        cells: flat indices of the cells, (n,).
+        grid: grid of the cells.
+        path: path of the disc's centre, (P, 2).
+        radius_m: radius of the disc, metres.
     """
     square_m = square_to_path_m(centres_world(cells, grid), grid.resolution, path)
     blocks = []
@@ -181,11 +184,11 @@ def _probes(surface: Floats, origin: Floats | float = 0.0) -> tuple[Floats, Floa
 def free_probability(blocking: NDArray[np.bool_], chains: int) -> FreeProbability:
     """Compute the probability that nothing is in the way, with its Monte Carlo error.
 
-    The error is that of a share of as many independent draws as the chains' draws are worth (their effective sample
-    size). Where all draws agree, one more draw that does not is assumed.
+    The error is that of a share of independent draws, as many as the effective sample size. Half a free and half a
+    blocked draw are added, so that the error is positive if all draws agree.
 
     Args:
-        blocking: which cells are in the way in each draw, chain after chain, (chains * draws, n).
+        blocking: mask of the cells in the way in each draw, chain after chain, (chains * draws, n).
         chains: number of chains.
     """
     from bayesmap.posterior.summary import plain_ess, split_chains
@@ -201,20 +204,21 @@ def free_probability(blocking: NDArray[np.bool_], chains: int) -> FreeProbabilit
 
 
 PRICES = (0.0, 0.1, 0.3, 1.0, 3.0, 10.0, 30.0, 100.0, 1000.0)
-"""Metres of detour that are worth one metre less where the disc is blocked with probability 1 - 1 / e."""
+"""Metres of detour that avoid one metre at which the disc is blocked with probability 1 - 1 / e."""
 
 STEPS = {
     (1, 0): (), (0, 1): (), (1, 1): ((1, 0), (0, 1)), (1, -1): ((1, 0), (0, -1)),
     (2, 1): ((1, 0), (1, 1), (0, 1), (2, 0)), (1, 2): ((0, 1), (1, 1), (1, 0), (0, 2)),
     (2, -1): ((1, 0), (1, -1), (0, -1), (2, 0)), (1, -2): ((0, -1), (1, -1), (1, 0), (0, -2)),
 }  # fmt: skip
-"""Offsets of the cells that an edge of the graph leads to, in sixteen directions with those back, and the cells that it
-crosses or nearly touches."""
+"""Edges of the graph: offset of the cell at the end, and offsets of the cells that the edge crosses or nearly touches.
+Together with the opposite edges there are sixteen directions."""
 
 SURE = 1.0 - 1e-6
-"""Probability of being blocked above which a cell is no part of the graph."""
+"""Probability of being blocked above which a cell is not in the graph."""
 
 MOST_DANGER = -math.log1p(-SURE)
+"""`SURE` as a danger, -log(1 - probability)."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -223,9 +227,9 @@ class Route:
 
     Attributes:
         path: corners in the world frame, (P, 2), start and goal included.
-        length_m: of the path.
-        free: the probability that the disc touches nothing, over joint draws.
-        within_risk: whether the risk is within the bound; if not, this is the safest path that was found.
+        length_m: length of the path, metres.
+        free: probability that the disc touches nothing, over joint draws.
+        within_risk: True if the risk is within the bound. Otherwise this is the safest of the proposed paths.
     """
 
     path: Floats
@@ -237,7 +241,7 @@ class Route:
 def blocked_probability(batches: Iterable[NDArray[np.float32]], grid: Grid, radius_m: float) -> Floats:
     """Compute the probability that a disc about each cell's centre touches something, (nx, ny).
 
-    ``batches`` gives stops of all cells, some draws at a time, as `in_the_way` takes them.
+    ``batches`` yields stops of all cells in batches of draws, as for `in_the_way`.
     """
     from scipy import ndimage
 
@@ -272,11 +276,11 @@ def plan_route(
 
     Args:
         blocked: probability that the disc is blocked at each cell's centre, (nx, ny).
-        grid: of these cells.
-        start: in the world frame, metres, (2,).
-        goal: in the world frame, metres, (2,).
+        grid: grid of these cells.
+        start: start in the world frame, metres, (2,).
+        goal: goal in the world frame, metres, (2,).
         risk: greatest probability of touching something, inside (0, 1).
-        judge: gives the probability of a path.
+        judge: function that returns the probability that a path is free.
 
     Raises:
         BadInput: start or goal outside the grid, or blocked in nearly every draw; or no path at all between them.
@@ -294,7 +298,7 @@ def plan_route(
                 "smaller radius"
             )
         whole = np.concatenate([start[None], centres_world(cells, grid)[1:-1], goal[None]])
-        # Obstacles between the centres of two cells show at neither: the straightened path may be the riskier one.
+        # Obstacles between the centres of two cells may be missed, so the straightened path may have the higher risk.
         for path in (_straightened(whole, danger, grid, price), whole):
             free = judge(path)
             length_m = float(np.hypot(*np.diff(path, axis=0).T).sum())
@@ -328,6 +332,7 @@ def _cheapest(danger: Floats, price: float, shape: tuple[int, int], start: int, 
     x, y = (a.ravel() for a in np.meshgrid(np.arange(nx), np.arange(ny), indexing="ij"))
     flat = danger.ravel()
     passable = flat < MOST_DANGER
+    # Edges cost their length, plus the price times the mean danger of the cells that they cross.
     rows, columns, costs = [], [], []
     for (dx, dy), crossed in STEPS.items():
         here = np.nonzero((x + dx < nx) & (y + dy >= 0) & (y + dy < ny))[0]
@@ -349,7 +354,7 @@ def _cheapest(danger: Floats, price: float, shape: tuple[int, int], start: int, 
 
 
 def _straightened(path: Floats, danger: Floats, grid: Grid, price: float) -> Floats:
-    """Return the path without the corners that a straight line avoids at no higher cost."""
+    """Return the path without corners that a straight line can skip at no higher cost."""
     kept, i = [0], 0
     while i < len(path) - 1:
         j = len(path) - 1
@@ -362,7 +367,7 @@ def _straightened(path: Floats, danger: Floats, grid: Grid, price: float) -> Flo
 
 
 def _cost(path: Floats, danger: Floats, grid: Grid, price: float) -> float:
-    """Sum length and price along a polyline, sampled every quarter cell; infinite through cells outside the graph."""
+    """Return length plus price of a polyline, sampled every quarter cell; infinite through cells outside the graph."""
     total = 0.0
     for start, end in itertools.pairwise(path):
         length = float(np.hypot(*(end - start)))

@@ -5,9 +5,9 @@ follow the predictive law, then the probability integral transform
 
     u = P(reading < z) + v P(reading = z),    v uniform on (0, 1),
 
-is uniform: v spreads the atoms at "no return" and "too close" over their share (Czado, Gneiting and Held, *Predictive
-model assessment for count data*, Biometrics 2009). A central interval of probability p holds the reading if
-``|u - 1/2| <= p / 2``.
+is uniform. The randomisation v spreads the atoms at "no return" and "too close" over their probability (Czado, Gneiting
+and Held, *Predictive model assessment for count data*, Biometrics 2009). A central interval of probability p contains
+the reading if ``|u - 1/2| <= p / 2``.
 
 Beams of one scan share the error of its pose, so standard errors come from a bootstrap whose blocks are whole scans.
 """
@@ -32,33 +32,34 @@ from bayesmap.space.scans import Reading, Scans
 Floats = NDArray[np.float64]
 
 REPLICATES = 1000
-"""Replicates of the bootstrap: standard errors are themselves good to about 2 %."""
+"""Replicates of the bootstrap. Standard errors are then accurate to about 2 %."""
 
 POINTS = 100
-"""Points at which the distribution of u is compared to the uniform one."""
+"""Number of intervals of u at whose ends its distribution is compared to the uniform one."""
 
 
 def randomised_pit(low: Floats, high: Floats, seed: int = 0) -> Floats:
-    """Compute the probability integral transform of each reading, (B,); NaN where ``low`` is.
+    """Compute the randomised probability integral transform of each reading, (B,); NaN where ``low`` is NaN.
 
-    ``low`` is P(reading < the one that came) and ``high`` P(reading <= it), (B,); ``seed`` is that of the v.
+    ``low`` and ``high`` are P(reading < z) and P(reading <= z) at the observed reading z, (B,). ``seed`` is that of the
+    randomisation v.
     """
     return low + np.random.default_rng([seed, 0x917]).random(low.shape) * (high - low)
 
 
 def pit_histogram(pit: Floats, bins: int) -> Floats:
-    """Return the share of the transforms in each of some equal bins: 1 / bins each, if the predictions are right."""
+    """Return the share of the transforms in each of ``bins`` equal bins: 1 / bins each if the predictions are right."""
     counts = np.histogram(pit, bins=bins, range=(0.0, 1.0))[0]
     return np.asarray(counts / max(len(pit), 1))
 
 
 def inside(pit: Floats, level: float) -> NDArray[np.bool_]:
-    """Return whether each reading lies in its central interval of a probability."""
+    """Return whether each reading lies in its central interval of probability ``level``."""
     return np.abs(pit - 0.5) <= 0.5 * level
 
 
 def binary_scores(chance: Floats, happened: NDArray[np.bool_]) -> tuple[Floats, Floats]:
-    """Compute each event's Brier score ``(p - y)^2`` and log loss ``-log p`` or ``-log(1 - p)``; less is better."""
+    """Compute each event's Brier score ``(p - y)^2`` and log loss ``-log p`` or ``-log(1 - p)``. Lower is better."""
     brier = (chance - happened) ** 2
     with np.errstate(divide="ignore"):
         loss = -np.where(happened, np.log(chance), np.log1p(-chance))
@@ -73,7 +74,7 @@ class Estimate:
     error: float
 
     def as_json(self) -> dict[str, float | None]:
-        """Return both, None where they are not finite."""
+        """Return value and error, None where not finite."""
         return {name: x if np.isfinite(x) else None for name, x in (("value", self.value), ("error", self.error))}
 
 
@@ -82,8 +83,8 @@ class ScanBlocks:
     """Items in blocks, and bootstrap replicates of the blocks.
 
     Attributes:
-        block: of each item, in [0, S), (n,).
-        weights: how often each replicate draws each block, (R, S).
+        block: block of each item, in [0, S), (n,).
+        weights: number of times that each replicate draws each block, (R, S).
     """
 
     block: NDArray[np.intp]
@@ -91,7 +92,7 @@ class ScanBlocks:
 
     @classmethod
     def make(cls, block: NDArray[np.intp], seed: int = 0, replicates: int = REPLICATES) -> ScanBlocks:
-        """Draw the replicates: for S blocks with items, S with replacement."""
+        """Draw the replicates: each draws S of the S blocks, with replacement."""
         _, compact = np.unique(block, return_inverse=True)
         size = int(compact.max()) + 1 if len(compact) else 1
         rng = np.random.default_rng([seed, 0xB00])
@@ -99,11 +100,11 @@ class ScanBlocks:
         return cls(compact, weights)
 
     def sums(self, values: Floats) -> Floats:
-        """Sum over each block, (S,)."""
+        """Return the sum of the values in each block, (S,)."""
         return np.bincount(self.block, values, minlength=self.weights.shape[1]).astype(np.float64)
 
     def mean(self, values: Floats) -> Estimate:
-        """Average all items; the error is the standard deviation over replicates, NaN with a single block."""
+        """Return the mean of all items. Its error is the standard deviation over replicates, NaN with one block."""
         total, count = self.sums(values), self.sums(np.ones(len(values)))
         if self.weights.shape[1] < 2:
             return Estimate(float(values.mean()), float("nan"))
@@ -111,12 +112,13 @@ class ScanBlocks:
         return Estimate(float(values.mean()), float(means.std()))
 
     def uniformity(self, pit: Floats) -> tuple[float, float]:
-        """Return the largest distance of the distribution of u from the uniform one, and the chance of a larger one.
+        """Return the Kolmogorov-Smirnov distance of the distribution of u from the uniform one, and its p-value.
 
-        The distance is that of Kolmogorov and Smirnov, at `POINTS` points. Its p-value is the share of replicates whose
-        distribution is further from that of all items than this is from the uniform one; the textbook's table would
-        take beams of one scan for independent. The p-value is NaN with a single block.
+        The distance is computed at the ends of `POINTS` intervals. The p-value is the share of replicates whose
+        distance from the distribution of all items is at least as large. (The textbook's table would take beams of one
+        scan for independent.) The p-value is NaN with a single block.
         """
+        # Count the items per block and interval.
         points = np.arange(1, POINTS) / POINTS
         blocks = self.weights.shape[1]
         cell = np.clip(np.ceil(pit * POINTS).astype(np.intp) - 1, 0, POINTS - 1)
@@ -127,15 +129,17 @@ class ScanBlocks:
         distance = float(np.abs(shape - points).max())
         if blocks < 2:
             return distance, float("nan")
+        # Compare each replicate's distribution with that of all items.
         replicates = self.weights @ reached
         away = np.abs(replicates[:, :-1] / replicates[:, -1:] - shape).max(axis=1)
         return distance, float((away >= distance).mean())
 
 
 def reliability(chance: Floats, happened: NDArray[np.bool_], bins: int = 10) -> list[tuple[float, float, int]]:
-    """Group events by predicted chance: (mean chance, share that happened, count) of each bin that is not empty.
+    """Group events by predicted chance. Returns (mean chance, share that happened, count) for each non-empty bin.
 
-    Chances of first hits are mostly small, so bins hold equal widths on the scale of ``log10 chance`` from -3 up.
+    Chances of first hits are mostly small. So bins have equal widths in ``log10 chance`` from -3 to 0. The first bin
+    also contains all smaller chances.
     """
     edges = np.concatenate([[0.0], np.logspace(-3, 0, bins)])
     at = np.clip(np.searchsorted(edges, chance, side="left") - 1, 0, bins - 1)
@@ -156,10 +160,10 @@ def beam_log_scores(
     equal those of `score_prediction` bit for bit.
 
     Args:
-        predictor: what predicts.
-        scans: held out.
-        on_progress: called with the number of draws that are done and of all draws.
-        device: where to compute.
+        predictor: predictor of readings.
+        scans: held-out scans.
+        on_progress: function that is called with the numbers of completed draws and of all draws.
+        device: device that computes.
 
     Raises:
         BadInput: no valid reading, or no draw.
@@ -183,7 +187,7 @@ def log_score(
     on_progress: Callable[[int, int], None] = lambda done, total: None,
     device: str = "cpu",
 ) -> float:
-    """Average `beam_log_scores` over valid readings, nats per beam; by the run's own sensor unless another is given.
+    """Return the mean of `beam_log_scores` over valid readings, nats per beam. ``sensor`` is by default the run's own.
 
     Raises:
         BadInput: as `beam_log_scores` and `predictor_of`.
@@ -196,18 +200,18 @@ LEVELS, BINS = (0.5, 0.8, 0.95), 20
 """Probabilities of central intervals, and bins of the histogram of u."""
 
 MIX, QUANTILES, EVENTS = 0.5, 12.0, 6.0
-"""Time of parts of a score, in times in which a draw forecasts its readings: mixing a draw, quantiles, and events."""
+"""Computing times of mixing a draw, of quantiles and of events, relative to the forecast of one draw, for progress."""
 
 
 @dataclass(frozen=True)
 class Coverage:
-    """The share of readings in the central interval of a probability, and the width of such intervals.
+    """The share of readings in central intervals of one probability, and the width of these intervals.
 
     Attributes:
-        level: the probability.
-        share: of the readings that lie inside, typed ones by their randomised share; with its error.
-        mean_width_m, median_width_m: of the intervals; an end at "no return" counts as the largest range, at "too
-            close" as the least.
+        level: probability of the intervals.
+        share: share of readings inside, with its error; typed readings are randomised.
+        mean_width_m, median_width_m: mean and median width of the intervals. An end at "no return" counts as the
+            largest range, an end at "too close" as the least.
     """
 
     level: float
@@ -221,20 +225,20 @@ class Score:
     """The score of a prediction on held-out beams. Errors are standard errors from a bootstrap over scans.
 
     Attributes:
-        scans, beams: numbers that were scored, without invalid readings.
+        scans, beams: numbers of scored scans and beams, without invalid readings.
         nats_per_beam: mean log predictive density of a reading: nats per metre for ranges, nats for typed readings.
-        nats_per_beam_error: its error.
-        coverage: of central intervals at 50, 80 and 95 %.
+        nats_per_beam_error: standard error of ``nats_per_beam``.
+        coverage: coverage of central intervals at 50, 80 and 95 %.
         pit: probability integral transform of each valid reading, (beams,): uniform if the predictions are right.
-        pit_histogram: its share in each of 20 bins.
-        pit_distance: largest distance of its distribution from the uniform one.
-        pit_p_value: how often chance alone would exceed that.
-        events: number of first-hit events: stretches of beams in cells that readings got to.
-        brier, log_loss: mean over events of the two scores of "does the reading end here?"; less is better.
-        reliability: of events by predicted chance: (mean chance, share that happened, count).
-        p_no_return: mean predicted probability of no return, and the share that came.
-        sensor: the sensor model of the prediction, described.
-        hit_depth: where in a plain cell a beam stops, as a fraction of its chord.
+        pit_histogram: share of ``pit`` in each of 20 bins.
+        pit_distance: largest distance of the distribution of ``pit`` from the uniform one.
+        pit_p_value: probability of a distance at least as large by chance alone.
+        events: number of first-hit events: stretches of beams in cells that readings reached.
+        brier, log_loss: mean over events of the two scores of "does the reading end here?". Lower is better.
+        reliability: groups of events by predicted chance: (mean chance, share that happened, count).
+        p_no_return: mean predicted probability of no return, and observed share.
+        sensor: description of the prediction's sensor model.
+        hit_depth: depth of a stop in a plain cell, as a fraction of the beam's chord.
     """
 
     scans: int
@@ -255,7 +259,7 @@ class Score:
     hit_depth: float
 
     def as_json(self) -> dict[str, Any]:
-        """Return everything but the single beams, as JSON values."""
+        """Return all fields except ``pit`` as JSON values."""
         widths = [
             {"mean_width_m": _number(c.mean_width_m), "median_width_m": _number(c.median_width_m)}
             for c in self.coverage
@@ -285,6 +289,7 @@ class Score:
 
 
 def _number(value: float) -> float | None:
+    """Return a number, or None if it is not finite."""
     return float(value) if math.isfinite(value) else None
 
 
@@ -294,11 +299,11 @@ def score_prediction(
     """Score a prediction on scans that had no part in it.
 
     Args:
-        predictor: what predicts.
-        scans: held out.
-        seed: of the randomised transform and of the bootstrap.
-        device: where to compute.
-        on_progress: called with the share that is done.
+        predictor: predictor of readings.
+        scans: held-out scans.
+        seed: seed of the randomised transform and of the bootstrap.
+        device: device that computes.
+        on_progress: function that is called with the completed share.
 
     Raises:
         BadInput: no valid reading, no draw, or a sensor model that kernels do not know.
@@ -313,6 +318,7 @@ def score_prediction(
     limits = RangeLimits(scans.min_range_m, scans.max_range_m)
     sensor, ranges = predictor.sensor, scans.ranges_m.ravel()
     rays = trace_rays(scans, predictor.grid, device=device)
+    # Predict: density and transform of each reading, quantiles of its law, and chances of first hits.
     depth, draws = predictor.hit_depth, predictor.draws
     forecasting, mixing, at_quantiles, at_events = parts(on_progress, draws, MIX * draws, QUANTILES, EVENTS)
     prediction = forecast(
@@ -325,6 +331,7 @@ def score_prediction(
     chance, stopped = first_hit_events(law, sensor, device)
     at_events(1.0)
 
+    # Score the valid readings, with a bootstrap over scans.
     scan = np.repeat(np.arange(len(scans)), len(scans.angles_rad))
     blocks = ScanBlocks.make(scan[valid], seed)
     nats = blocks.mean(prediction.log_density[valid])
@@ -338,6 +345,7 @@ def score_prediction(
         share = blocks.mean(inside(pit, level).astype(np.float64))
         return Coverage(level, share, float(width.mean()), float(np.median(width)))
 
+    # Score the events that a reading decides.
     event = stopped >= 0
     happened, p = stopped[event] == 1, chance[event].astype(np.float64)
     brier, loss = binary_scores(p, happened)

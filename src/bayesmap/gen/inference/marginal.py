@@ -21,7 +21,7 @@ from bayesmap.gen.typing import Arguments, PRNGKey, Score, Weight
 
 @dataclass
 class MarginalTrace(Trace):
-    """The shown choices, and an estimate of their log marginal density."""
+    """The shown choices, and `score`, an estimate of their log marginal density."""
 
     gen_fn: Any
     args: Any
@@ -35,7 +35,7 @@ class MarginalTrace(Trace):
 
 @dataclass
 class Marginal(SampleDistribution):
-    """See `marginal`."""
+    """The marginal distribution of the selected choices of a generative function. See `marginal`."""
 
     gen_fn: GenerativeFunction
     selection: Selection
@@ -50,7 +50,7 @@ class Marginal(SampleDistribution):
         return self.generate(key, value, args)[1]
 
     def check_conditioning(self, constraint: ChoiceMap, args: Arguments) -> None:
-        """Refuse to leave shown choices open: importance sampling needs their density, not an estimate of it."""
+        """Raise BadArguments for an open shown choice: importance sampling needs exact densities of drawn choices."""
         shown = self.gen_fn.choice_shapes(args)
         missing = [path for path in shown.filter(self.selection).paths() if not constraint.get_selection()[path]]
         if missing:
@@ -71,7 +71,7 @@ class Marginal(SampleDistribution):
                 estimate_key, target, hidden, trace.get_score()
             )
             return MarginalTrace(self, args, shown, trace.get_retval(), score)
-        # Conditional importance sampling: this run is one of the particles, otherwise 1 / density would be biased.
+        # Conditional importance sampling: this run is one of the particles. Without it, 1 / density would be biased.
         weights = trace.project(simulate_key, self.selection)[None]
         if self.particles > 1:
             _, others = self._estimate(estimate_key, shown, args, self.particles - 1)
@@ -126,10 +126,10 @@ class Marginal(SampleDistribution):
 def marginal(
     *, selection: Selection | None = None, algorithm: Algorithm | None = None, particles: int = 1
 ) -> Callable[[GenerativeFunction], Marginal]:
-    """Return a decorator that keeps the selected choices and sums the others out.
+    """Return a decorator that keeps the selected choices and marginalises the others.
 
-    The score is exact if nothing is summed out. Otherwise importance sampling with `particles` runs, or an algorithm,
-    estimates the score so that `generate` returns unbiased weights.
+    The score is exact if no choice is marginalised. Otherwise importance sampling with `particles` runs, or an
+    algorithm, estimates the score so that `generate` returns unbiased weights.
     """
     shown = Selection.all() if selection is None else selection
     return lambda gen_fn: Marginal(gen_fn.as_part(), shown, algorithm, particles)

@@ -14,7 +14,7 @@ Kernel = Callable[[PRNGKey, Any], tuple[Any, BoolArray]]
 
 
 class Chain(NamedTuple):
-    """The last trace, the values collected at each step (leading axis: step), and whether each step was accepted."""
+    """The last trace, the values of each step (leading axis: step), and whether each step was accepted."""
 
     last: Any
     draws: Any
@@ -25,7 +25,7 @@ def metropolis_hastings(request: EditRequest | Callable[[Trace], EditRequest]) -
     """Return a kernel that makes an edit and keeps it with probability min(1, exp(weight)).
 
     Args:
-        request: the edit, or a function of the trace that returns the edit.
+        request: edit, or function of the trace that returns the edit.
 
     Returns:
         (key, trace) -> (trace, accepted).
@@ -48,9 +48,9 @@ def run_chain(
     n: int,
     collect: Callable[[Trace], Any] = lambda trace: trace.get_choices(),
 ) -> Chain:
-    """Apply a kernel `n` times, step t with the key `fold_in(key, t)`, and collect values of each trace.
+    """Apply a kernel `n` times, with the key `fold_in(key, t)` in step t, and return values of each trace.
 
-    A longer run begins with the shorter one. For several chains use `jax.vmap` over keys and traces.
+    A longer run begins with the steps of a shorter one. For several chains use `jax.vmap` over keys and traces.
     """
 
     def step(trace: Any, t: Any) -> Any:
@@ -63,13 +63,13 @@ def run_chain(
 
 
 def split_rhat(draws: Array) -> Array:
-    """Return split R-hat, which is near 1 if chains agree: Gelman et al., Bayesian Data Analysis 3, section 11.4.
+    """Return split R-hat, which is near 1 if chains agree (Gelman et al., Bayesian Data Analysis 3, section 11.4).
 
     Args:
-        draws: (chains, draws, ...).
+        draws: draws of all chains, (chains, draws, ...).
 
     Returns:
-        (...): NaN where the draws do not vary.
+        R-hat of each variable, (...); NaN for draws that do not vary.
     """
     half = draws.shape[1] // 2
     halves = jnp.concatenate([draws[:, :half], draws[:, half : 2 * half]]).astype(jnp.result_type(float))
@@ -79,14 +79,15 @@ def split_rhat(draws: Array) -> Array:
 
 
 def effective_sample_size(draws: Array) -> Array:
-    """Return the bulk effective sample size by Geyer's initial positive sequence, BDA3 section 11.5.
+    """Return the bulk effective sample size by Geyer's initial positive sequence (BDA3, section 11.5).
 
     Args:
-        draws: (chains, draws, ...).
+        draws: draws of all chains, (chains, draws, ...).
 
     Returns:
-        (...): at most a little over chains * draws; NaN where the draws do not vary.
+        Effective sample size of each variable, (...), at most a little over chains * draws; NaN if draws do not vary.
     """
+    # Autocovariances by the Fourier transform, averaged over chains.
     m, n = draws.shape[:2]
     draws = draws.astype(jnp.result_type(float))
     centred = draws - jnp.mean(draws, axis=1, keepdims=True)
@@ -95,6 +96,7 @@ def effective_sample_size(draws: Array) -> Array:
     within = autocov[0] * n / (n - 1)
     spread = jnp.var(jnp.mean(draws, axis=1), axis=0, ddof=1) if m > 1 else 0.0
     total = within * (n - 1) / n + spread
+    # Autocorrelations, summed in pairs until the first pair that is not positive.
     rho = 1 - (within - autocov * n / (n - 1)) / total
     pairs = rho[: n // 2 * 2].reshape(n // 2, 2, *rho.shape[1:]).sum(axis=1)
     positive = jnp.cumprod(pairs > 0, axis=0)

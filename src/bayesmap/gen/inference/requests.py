@@ -22,8 +22,8 @@ from bayesmap.gen.typing import PRNGKey
 class Rejuvenate(EditRequest):
     """Propose new values from a generative function whose choices have the model's addresses.
 
-    `argument_mapping` turns choices into the proposal's arguments: the old choices for the way there, the new choices
-    for the way back.
+    `argument_mapping` turns choices into the proposal's arguments: the old choices for the forward move, the new
+    choices for the reverse move.
     """
 
     proposal: GenerativeFunction
@@ -40,10 +40,10 @@ class Rejuvenate(EditRequest):
 
 @dataclass
 class HMC(EditRequest):
-    """Hamiltonian Monte Carlo on the selected choices, which are real: `L` leapfrog steps of size `eps`.
+    """Hamiltonian Monte Carlo on the selected choices, which must be real: `L` leapfrog steps of size `eps`.
 
-    The steps are equations 5.18 to 5.20 of Neal, MCMC using Hamiltonian dynamics (2011). To accept the edit with
-    probability min(1, exp(weight)) leaves the posterior invariant for any step size.
+    The steps are equations 5.18 to 5.20 of Neal, MCMC using Hamiltonian dynamics (2011). Acceptance with probability
+    min(1, exp(weight)) leaves the posterior invariant for any step size.
     """
 
     selection: Selection
@@ -52,6 +52,7 @@ class HMC(EditRequest):
 
     def edit(self, key: PRNGKey, trace: Trace, argdiffs: Any) -> Edited:
         momentum_key, edit_key = jax.random.split(key)
+        # Move the trace to the new arguments, and check that the selected choices are real.
         current, before, _, _ = EmptyRequest().edit(edit_key, trace, argdiffs)
         args, choices = Diff.tree_primal(argdiffs), current.get_choices()
         start = choices.filter(self.selection)
@@ -68,12 +69,13 @@ class HMC(EditRequest):
             return jax.tree.map(lambda x, d: x + scale * d, tree, by)
 
         def leapfrog(_: Any, state: Any) -> Any:
-            """Join the second half of each momentum step with the first half of the next one."""
+            """Do a position step and a whole momentum step: two half steps of successive leapfrog steps."""
             position, momentum, _ = state
             position = drift(position, momentum, self.eps)
             gradient = jax.grad(log_density)(position)
             return position, drift(momentum, gradient, self.eps), gradient
 
+        # Half a momentum step, L steps, and half a momentum step back.
         gradient = jax.grad(log_density)(start)
         state = (start, drift(momentum, gradient, self.eps / 2), gradient)
         position, final, gradient = jax.lax.fori_loop(0, self.L, leapfrog, state)
@@ -83,7 +85,7 @@ class HMC(EditRequest):
 
 
 def _standard_normal(key: PRNGKey, like: Any) -> Any:
-    """Return a tree like `like` of independent standard normal draws, made by one call: each call has a cost."""
+    """Return a tree like `like` of independent standard normal draws, made by one call, which is faster."""
     flat, unflatten = ravel_pytree(like)
     return unflatten(jax.random.normal(key, flat.shape, flat.dtype))
 
@@ -93,12 +95,12 @@ def _kinetic(momentum: Any) -> Any:
 
 
 def mala(selection: Selection, eps: Any) -> HMC:
-    """Return the Metropolis-adjusted Langevin step: one leapfrog step, with the drift eps^2 / 2 times the gradient."""
+    """Return a Metropolis-adjusted Langevin request: one leapfrog step, with drift eps^2 / 2 times the gradient."""
     return HMC(selection, eps, 1)
 
 
 def SafeHMC(selection: Selection, eps: Any, L: int = 10) -> DiffAnnotate:
-    """Return `HMC` that refuses to change the return value.
+    """Return an `HMC` request that must not change the return value.
 
     Raises, when it runs:
         BadArguments: the return value depends on a selected choice.

@@ -21,7 +21,7 @@ from bayesmap.gen.typing import Array, IntArray, PRNGKey, Score, Weight
 
 @dataclass
 class Target(Pytree):
-    """The posterior of `p(*args)` given the choices in `constraint`; `target["y"]` is the given value at "y".
+    """The posterior of `p(*args)` given the choices in `constraint`. `target["y"]` is the given value at "y".
 
     Raises:
         BadArguments: `p` is a marginal, and the constraint lacks some of its choices.
@@ -51,7 +51,7 @@ class SampleDistribution(Distribution):
 
 
 class Algorithm(SampleDistribution):
-    """Base of inference algorithms: distributions of a target's open choices, with estimated densities.
+    """Base of inference algorithms: distributions over a target's open choices, with estimated densities.
 
     `random_weighted(key, target)` returns (log density estimate, choices), and `estimate_logpdf(key, choices, target)`
     returns the estimate for given choices.
@@ -64,13 +64,13 @@ class Algorithm(SampleDistribution):
     def estimate_reciprocal_normalizing_constant(
         self, key: PRNGKey, target: Target, latent_choices: ChoiceMap, w: Score
     ) -> Weight:
-        """Return an estimate of the log evidence; exp of its negative is an unbiased estimate of 1 / evidence.
+        """Return an estimate x of the log evidence, such that exp(-x) is an unbiased estimate of 1 / evidence.
 
         Args:
             key: random key.
-            target: the model with its given choices.
-            latent_choices: a draw from the target.
-            w: the log density of this draw and the given choices together.
+            target: model with its given choices.
+            latent_choices: draw from the target.
+            w: joint log density of this draw and the given choices.
         """
         raise NotImplementedError
 
@@ -99,7 +99,7 @@ class ParticleCollection(Pytree):
         return self.log_weights
 
     def get_log_marginal_likelihood_estimate(self) -> Array:
-        """Return the log of the mean weight; its exponential is an unbiased estimate of the evidence."""
+        """Return the log of the mean weight. Its exponential is an unbiased estimate of the evidence."""
         return logsumexp(self.log_weights) - jnp.log(self.log_weights.shape[0])
 
     def effective_sample_size(self) -> Array:
@@ -121,8 +121,8 @@ class ParticleCollection(Pytree):
 
         Args:
             key: random key, split over the particles.
-            request: the edit, the same for all traces.
-            argdiffs: new arguments as `Diff` leaves, the same for all traces; None keeps the arguments.
+            request: edit of all traces.
+            argdiffs: new arguments of all traces as `Diff` leaves; None keeps the arguments.
         """
 
         def one(key: PRNGKey, trace: Trace) -> Any:
@@ -135,7 +135,7 @@ class ParticleCollection(Pytree):
 
 
 def systematic(key: PRNGKey, log_weights: Array) -> IntArray:
-    """Return k indices, drawn by one uniform number, with expected counts k w_i for the normalised weights w."""
+    """Return k indices by systematic resampling, with expected counts k w_i for the normalised weights w."""
     k = log_weights.shape[0]
     edges = jnp.cumsum(jax.nn.softmax(log_weights))
     points = (jnp.arange(k) + jax.random.uniform(key)) / k
@@ -143,14 +143,14 @@ def systematic(key: PRNGKey, log_weights: Array) -> IntArray:
 
 
 class SMCAlgorithm(Algorithm):
-    """Base of algorithms that end with weighted particles: implement the first four methods."""
+    """Base of algorithms that return weighted particles. A subclass implements the first four methods."""
 
     def get_num_particles(self) -> int:
         """Return the number of particles."""
         raise NotImplementedError
 
     def get_final_target(self) -> Target:
-        """Return the target that the particles are weighted for."""
+        """Return the target of the particles' weights."""
         raise NotImplementedError
 
     def run_smc(self, key: PRNGKey) -> ParticleCollection:
@@ -162,7 +162,7 @@ class SMCAlgorithm(Algorithm):
         raise NotImplementedError
 
     def log_marginal_likelihood_estimate(self, key: PRNGKey, target: Target | None = None) -> Array:
-        """Return the log of an unbiased estimate of the evidence, of `target` if given."""
+        """Return the log of an unbiased estimate of the evidence of `target`, by default of the final target."""
         algorithm = self if target is None else ChangeTarget(self, target)
         return algorithm.run_smc(key).get_log_marginal_likelihood_estimate()
 
@@ -192,8 +192,8 @@ class SMCAlgorithm(Algorithm):
 class ImportanceK(SMCAlgorithm):
     """Importance sampling with `k_particles` traces.
 
-    Without a proposal the model draws the open choices. A proposal `q` is a generative function of the target, whose
-    choices are some of the model's choices, or a distribution over choice maps.
+    Without a proposal the model draws the open choices. A proposal `q` is a generative function of the target or a
+    distribution over choice maps. Its choices are some of the model's choices.
     """
 
     target: Target
@@ -234,9 +234,10 @@ class ImportanceK(SMCAlgorithm):
         return choices, score
 
     def _retained(self, key: PRNGKey, choices: ChoiceMap) -> tuple[Trace, Weight]:
-        """Return the trace with these open choices, and the weight that `_one` gives it."""
+        """Return the trace with these open choices, and the weight that it would have in `_one`."""
         trace_key, score_key, project_key = jax.random.split(key, 3)
         trace, _ = self.target.importance(trace_key, choices)
+        # The weight is the score, less the model's density of what it drew itself and the proposal's density.
         by_q = jax.eval_shape(lambda: self._propose(key)[0]).get_selection()
         by_model = ~(self.target.constraint.get_selection() | by_q)
         weight = trace.get_score() - trace.project(project_key, by_model)
@@ -248,7 +249,7 @@ class ImportanceK(SMCAlgorithm):
 
 
 def Importance(target: Target, q: GenerativeFunction | None = None) -> ImportanceK:
-    """Return importance sampling with one trace."""
+    """Return the algorithm of importance sampling with one trace."""
     return ImportanceK(target, q, 1)
 
 
@@ -300,16 +301,16 @@ def particle_filter(
 
     Args:
         key: random key.
-        kernel: `(state, x) -> (state, y)`.
-        args: (first state, xs); xs is stacked along its leading axis, or None.
-        constraint: the given choices, at the addresses of `kernel.scan()`.
-        k: the number of particles.
-        threshold: resample if the effective sample size falls below this fraction of k.
-        n: the number of steps; needed if xs is None.
-        history: keep whole trajectories, the ancestors of each last particle (smoothing).
+        kernel: generative function `(state, x) -> (state, y)`.
+        args: (first state, xs). The inputs xs are stacked along their leading axis, or None.
+        constraint: given choices, at the addresses of `kernel.scan()`.
+        k: number of particles.
+        threshold: fraction of k; particles are resampled if the effective sample size is lower.
+        n: number of steps. It is needed if xs is None.
+        history: True to keep whole trajectories, the ancestors of each last particle (smoothing).
 
     Returns:
-        (particles, log of an unbiased estimate of the evidence). The particles are traces of the last step; with
+        (particles, log of an unbiased estimate of the evidence). The particles are traces of the last step. With
         `history` they are traces of all steps, of `kernel.scan()` on `args`.
 
     Raises:
@@ -322,6 +323,7 @@ def particle_filter(
     n = leaves[0].shape[0] if n is None else n
 
     def step(carry: Any, scanned: Any) -> Any:
+        # Resample if few particles have most of the weight.
         states, log_weights, _ = carry
         t, x, choices = scanned
         resample_key, move_key = jax.random.split(jax.random.fold_in(key, t))
@@ -335,6 +337,7 @@ def particle_filter(
         low = now.effective_sample_size() < threshold * k
         states, log_weights, parents = jax.lax.cond(low, resample, lambda: (states, log_weights, jnp.arange(k)))
 
+        # Move each particle, and weight it by the step's given choices.
         def move(key: PRNGKey, state: Any) -> Any:
             trace, weight = kernel.generate(key, choices, (state, x))
             after, y = trace.get_retval()
@@ -347,7 +350,7 @@ def particle_filter(
     start = jax.tree.map(lambda s: jnp.broadcast_to(s, (k, *jnp.shape(s))), state)
     inputs = (jnp.arange(n), xs, vectorise(constraint, n))
     carry: Any = (start, jnp.zeros(k), None)
-    if not history:
+    if not history:  # the carry holds the last step's traces: begin with zeros of their shapes
         shapes = jax.eval_shape(lambda: step(carry, nth(inputs, 0))[0][2])
         carry = (*carry[:2], jax.tree.map(lambda s: jnp.zeros(s.shape, s.dtype), shapes))
     (states, log_weights, last), kept = jax.lax.scan(step, carry, inputs, length=n)
@@ -357,10 +360,10 @@ def particle_filter(
 
 
 def _streams(key: PRNGKey, k: int) -> PRNGKey:
-    """Return `k` keys of independent streams, like `jax.random.split`, but without a draw for each key.
+    """Return `k` keys of independent streams, like `jax.random.split`, but without a random draw per key.
 
     Threefry's streams are independent for any two keys (Salmon et al., Parallel random numbers: as easy as 1, 2, 3,
-    2011), so that consecutive numbers may be keys.
+    2011). So consecutive numbers may be keys.
     """
     if not jnp.issubdtype(key.dtype, jax.dtypes.prng_key) or "threefry" not in str(jax.random.key_impl(key)):
         return jax.random.split(key, k)
@@ -373,12 +376,13 @@ def _streams(key: PRNGKey, k: int) -> PRNGKey:
 def _trajectories(
     kernel: GenerativeFunction, args: Any, n: int, last: Any, traces: Any, carries: Any, y: Any, parents: Any
 ) -> ScanTrace:
-    """Return the traces of `kernel.scan(n=n)`, one for each particle, from the steps' traces (n, k, ...).
+    """Return the traces of `kernel.scan(n=n)`, one per particle, from the steps' traces (n, k, ...).
 
     Particle j of step t + 1 comes from particle `parents[t + 1, j]` of step t.
     """
     k = parents.shape[1]
 
+    # Follow the parents back from the last step: the lineage is each particle's ancestor at each step, (n, k).
     def back(index: IntArray, parents: IntArray) -> tuple[IntArray, IntArray]:
         return parents[index], index
 
