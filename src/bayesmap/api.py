@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any, Literal, cast
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.arguments import MORE_DRAWS, Checkpoints, Schedule, Where, need_value
+from bayesmap.arguments import Checkpoints, Schedule, Where, need_value
 from bayesmap.cells.kind import CellPrior
 from bayesmap.cells.surface import Surface
 from bayesmap.errors import BadInput, check_count
@@ -25,7 +25,7 @@ from bayesmap.model import Model
 from bayesmap.poses.prior import FREE, Known, Motions, PosePrior
 from bayesmap.posterior.posterior import Posterior, chains_of, posterior_of_chains, posterior_of_draws
 from bayesmap.result import Run
-from bayesmap.run.chains import PRECISION, Chains, SweepPlan
+from bayesmap.run.chains import Chains, SweepPlan
 from bayesmap.run.checks import RANDOM_STREAMS, check_memory, check_same, fingerprint
 from bayesmap.run.runner import Executor, Job, ThreadExecutor, stop_on_interrupt
 from bayesmap.samplers.fit import PILOT_SWEEPS, Parameters, first_sensor, fit, fit_coupling_to_scans, fit_sensor
@@ -187,20 +187,20 @@ class Inference:
                 f"infer: method {name!r} of {type(prior).__name__} takes poses as known; "
                 "leave poses out, or take another method"
             )
+
         # Complete the schedule.
-        thin = (prior.sweeps_a_draw if schedule.draws is None else 1) if schedule.thin is None else schedule.thin
-        draws = schedule.draws
-        if draws is None:
-            without = name == Propagate.name  # its answer is the marginals
-            draws = 0 if without else prior.default_draws(scans.n_beams, grid.n_cells, schedule.chains, thin)
-            if schedule.precision is not None and schedule.precision < PRECISION:
-                draws *= MORE_DRAWS
+        def default_draws(thin: int) -> int:
+            if name == Propagate.name:  # its answer is the marginals
+                return 0
+            return prior.default_draws(scans.n_beams, grid.n_cells, schedule.chains, thin)
+
+        complete = schedule.completed(prior.sweeps_a_draw, default_draws)
+        draws, thin = cast(int, complete.draws), cast(int, complete.thin)
         particles = getattr(method, "particles", PARTICLES)
         asked = DrawRequest(
             schedule.chains, draws, check_count("infer", "seed", seed, 0), particles, getattr(method, "rounds", ROUNDS)
         )
-        precision = PRECISION if schedule.draws is None and schedule.precision is None else schedule.precision
-        plan = SweepPlan(schedule.warmup, draws, thin, precision)
+        plan = SweepPlan(schedule.warmup, draws, thin, complete.precision)
         return cls(model, name, method, plan, asked, isinstance(sensor, str), where)
 
     def run(self, checkpoints: Checkpoints, watch: Watch) -> Run:

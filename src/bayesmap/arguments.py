@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from bayesmap.errors import BadInput, check_count
+from bayesmap.run.chains import PRECISION
 from bayesmap.run.runner import Executor
 
 if TYPE_CHECKING:
@@ -64,6 +65,20 @@ class Schedule:
                 object.__setattr__(self, name, check_count("Schedule", name, value, least))
         if self.precision is not None and not self.precision > 0:
             raise BadInput(f"Schedule: precision must be a positive probability, such as 0.03, got {self.precision!r}")
+
+    def completed(self, sweeps_a_draw: int, default_draws: Callable[[int], int]) -> Schedule:
+        """Return the schedule with ``thin``, ``draws`` and ``precision`` filled in.
+
+        Args:
+            sweeps_a_draw: ``thin`` if neither it nor ``draws`` is given.
+            default_draws: number of draws of a chain that suits the cells, for a given ``thin``.
+        """
+        thin = (sweeps_a_draw if self.draws is None else 1) if self.thin is None else self.thin
+        if self.draws is not None:
+            return replace(self, thin=thin)
+        precision = PRECISION if self.precision is None else self.precision
+        draws = default_draws(thin) * (MORE_DRAWS if precision < PRECISION else 1)
+        return replace(self, draws=draws, thin=thin, precision=precision)
 
 
 @dataclass(frozen=True)

@@ -149,8 +149,8 @@ STAGES = {
 }
 """Names of the stages of a run for the user, and the unit that is counted in each."""
 
-SAMPLING = tuple(STAGES[stage][0] for stage in ("warm-up", "draws"))
-"""Names of the stages that count sweeps of the chains."""
+SAMPLING = ("warm-up", "draws")
+"""Stages that count sweeps of the chains."""
 
 SETTING_UP = ("compile", "trace", "start", "fit")
 """Stages in which a run can still fail before it has changed its folder."""
@@ -212,11 +212,12 @@ def _bar(console: Console, begin: str) -> Iterator[Show]:
         # One task per counted unit, so that the estimated time does not mix rounds with sweeps. A task continues after
         # a checkpoint.
         clocks: dict[tuple[str, int], TaskID] = {}
+        sampling = [STAGES[stage][0] for stage in SAMPLING]
 
         def show(name: str, unit: str, done: int, total: int, known: str) -> None:
             nonlocal shown
             # If the precision ends the chains, the total of sweeps is an estimate that changes.
-            clock = (unit, 0 if name in SAMPLING else total)
+            clock = (unit, 0 if name in sampling else total)
             if clock not in clocks:
                 clocks[clock] = bar.add_task(name, total=total, completed=done, count="", known="")
             if shown != clocks[clock]:

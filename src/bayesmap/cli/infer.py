@@ -19,7 +19,16 @@ import msgspec
 
 from bayesmap.cli import pipeline
 from bayesmap.cli.command import Call, as_toml, takes
-from bayesmap.cli.console import FAILURE, INTERRUPTED, PROBLEMS, STAGES, Console, described_share, reserve_stdout
+from bayesmap.cli.console import (
+    FAILURE,
+    INTERRUPTED,
+    PROBLEMS,
+    SAMPLING,
+    STAGES,
+    Console,
+    described_share,
+    reserve_stdout,
+)
 from bayesmap.cli.folder import Folder
 from bayesmap.cli.keys import InferSettings
 from bayesmap.cli.pipeline import Task, infer_log, prepare, read, report, settings_in, stem
@@ -38,7 +47,6 @@ WAIT_S, EVENT_S, STOP_S = 0.25, 1.0, 30.0
 """Seconds between two checks of the workers, between two progress messages of a worker, and of waiting after Ctrl-C."""
 SHOWN = 3
 """Number of logs that the progress bar names."""
-SAMPLING = ("warm-up", "draws")
 
 
 @dataclass

@@ -183,18 +183,15 @@ def completed(settings: S) -> S:
 
 def with_schedule(settings: InferSettings, beams: int, cells: int) -> InferSettings:
     """Fill in ``thin``, ``draws`` and ``precision`` for the kind of cells and the numbers of beams and cells."""
-    from bayesmap.arguments import MORE_DRAWS
     from bayesmap.cells.kinds import BUILT_IN
-    from bayesmap.run.chains import PRECISION
 
-    kind, thin, draws, precision = BUILT_IN[settings.cells], settings.thin, settings.draws, settings.precision
-    if thin is None:
-        thin = kind.sweeps_a_draw if draws is None else 1
-    if draws is None:
-        draws = BINARY_DRAWS if kind.has_walls else kind().default_draws(beams, cells, settings.chains, thin)
-        precision = PRECISION if precision is None else precision
-        draws *= MORE_DRAWS if precision < PRECISION else 1
-    return msgspec.structs.replace(settings, thin=thin, draws=draws, precision=precision)
+    kind = BUILT_IN[settings.cells]
+
+    def default_draws(thin: int) -> int:
+        return BINARY_DRAWS if kind.has_walls else kind().default_draws(beams, cells, settings.chains, thin)
+
+    complete = schedule_of(settings).completed(kind.sweeps_a_draw, default_draws)
+    return msgspec.structs.replace(settings, thin=complete.thin, draws=complete.draws, precision=complete.precision)
 
 
 def schedule_of(settings: SamplingSettings) -> Schedule:
