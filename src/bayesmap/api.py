@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any, Literal, cast
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.arguments import Checkpoints, Schedule, Where, need_value
+from bayesmap.arguments import PREVIEW_FROM_S, Checkpoints, Schedule, Where, need_value
 from bayesmap.cells.kind import CellPrior
 from bayesmap.cells.surface import Surface
 from bayesmap.errors import BadInput, check_count
@@ -25,9 +25,9 @@ from bayesmap.model import Model
 from bayesmap.poses.prior import FREE, Known, Motions, PosePrior
 from bayesmap.posterior.posterior import Posterior, chains_of, posterior_of_chains, posterior_of_draws
 from bayesmap.result import Run
-from bayesmap.run.chains import Chains, SweepPlan
+from bayesmap.run.chains import FIRST_MARK, Chains, SweepPlan
 from bayesmap.run.checks import RANDOM_STREAMS, check_memory, check_same, fingerprint
-from bayesmap.run.runner import Executor, Job, ThreadExecutor, stop_on_interrupt
+from bayesmap.run.runner import Executor, Job, ThreadExecutor, first_map, stop_on_interrupt
 from bayesmap.samplers.fit import PILOT_SWEEPS, Parameters, first_sensor, fit, fit_coupling_to_scans, fit_sensor
 from bayesmap.samplers.methods import (
     PARTICLES,
@@ -43,6 +43,7 @@ from bayesmap.samplers.progress import Event as Event
 from bayesmap.samplers.progress import Watch
 from bayesmap.samplers.propagate import ROUNDS
 from bayesmap.samplers.sampler import Sampler
+from bayesmap.samplers.stop_gibbs import StopGibbs
 from bayesmap.samplers.wall_problem import trace_walls
 from bayesmap.samplers.walls import default_start
 from bayesmap.samplers.with_poses import MovableSampler, WithPoses
@@ -215,13 +216,23 @@ class Inference:
         # Load the stopped run, which must have the same arguments.
         stopped = self._stopped(checkpoints.resume, settings)
         spent = 0.0 if stopped is None else stopped.seconds["total"]
+
+        def preview(cells: Sampler[Any, Any], problem: Any) -> None:
+            """Show a first map if there is a callback and the chains take long."""
+            if checkpoints.preview is None:
+                return
+            chains, sweep_s = first_map(cells, problem, model, self.asked.seed)
+            if sweep_s * self.asked.chains * (self.plan.warmup + FIRST_MARK * self.plan.thin) >= PREVIEW_FROM_S:
+                total = {"total": time.perf_counter() - began, "fit": 0.0}
+                checkpoints.preview(Run(posterior_of_chains(model, chains, settings, total, None)))
+
         # Fit the sensor, and with it the prior of reflectivities.
         if self.fitted and self.kernel == "stop-gibbs":
             assert sampler is not None
             if stopped is not None:
                 parameters = Parameters.from_description(stopped.settings["fitted"])
             else:
-                parameters = self._pilot(sampler, watch)
+                parameters = self._pilot(sampler, watch, preview)
             settings["fitted"] = parameters.describe()
         elif self.fitted:
             model = replace(
@@ -250,10 +261,15 @@ class Inference:
             seconds["total"] = time.perf_counter() - began + spent
             return Run(posterior_of_chains(model, chains, settings, seconds, parameters))
 
+        # A pilot has shown a first map already. If the chains run elsewhere, no beams are traced here.
+        prepared, here = None, isinstance(executor, ThreadExecutor) and not model.poses.unknown
+        if checkpoints.preview is not None and parameters is None and stopped is None and here:
+            prepared = sampler.prepare(model, self.device, self.threads, watch)
+            preview(sampler, prepared)
         save = checkpoints.save
         job = Job(
             model, sampler, self.plan, self.asked.seed, tuple(range(self.asked.chains)), self.device, self.threads,
-            parameters,
+            parameters, prepared,
         )  # fmt: skip
         chains = executor.run(
             job,
@@ -312,10 +328,13 @@ class Inference:
         check_same(posterior.settings, settings)
         return posterior if posterior.sweep > 0 else None
 
-    def _pilot(self, sampler: Sampler[Any, Any], watch: Watch) -> Parameters:
+    def _pilot(
+        self, sampler: Sampler[Any, Any], watch: Watch, preview: Callable[[Sampler[Any, Any], Any], None]
+    ) -> Parameters:
         """Fit sensor and prior by a pilot chain over the cells, and release its memory afterwards."""
         problem = sampler.prepare(self.model, self.device, self.threads, watch)
         cells = problem.cells if self.model.poses.unknown else problem
+        preview(StopGibbs(), cells)
         return fit(cells, self.asked.seed, min(PILOT_SWEEPS, self.plan.warmup), watch)
 
     def _settings(self, options: dict[str, Any]) -> dict[str, Any]:

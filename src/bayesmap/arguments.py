@@ -16,6 +16,8 @@ if TYPE_CHECKING:
 
 CHECKPOINT_S = 30.0
 """Default number of seconds between two checkpoints."""
+PREVIEW_FROM_S = 5.0
+"""A first map is drawn if the chains are expected to take at least this many seconds."""
 MORE_DRAWS = 10
 """Factor on the default number of draws if the user asks for a better precision than the default."""
 
@@ -122,6 +124,8 @@ class Checkpoints:
             ``lambda run: run.save("run.nc")``.
         every_s: seconds between two calls of ``save``; more if ``save`` is so slow that it would delay the chains.
         stages: folder for the finished stages of the trajectory, for `slam`; existing stages are reused.
+        preview: function called a few seconds after the start with a run of one draw, a first rough map; not called if
+            the chains take less than `PREVIEW_FROM_S` or resume.
 
     Raises:
         BadInput: an object that is no run, a ``save`` that is no function, or a negative number of seconds.
@@ -131,11 +135,14 @@ class Checkpoints:
     save: Callable[[Run], None] | None = None
     every_s: float = CHECKPOINT_S
     stages: str | os.PathLike[str] | None = None
+    preview: Callable[[Run], None] | None = None
 
     def __post_init__(self) -> None:
         if self.resume is not None and not hasattr(self.resume, "posterior"):
             raise BadInput(f"Checkpoints: resume must be a run, such as bm.load('run.nc'), got {self.resume!r}")
         if self.save is not None and not callable(self.save):
             raise BadInput(f"Checkpoints: save must be a function that takes a run, got {self.save!r}")
+        if self.preview is not None and not callable(self.preview):
+            raise BadInput(f"Checkpoints: preview must be a function that takes a run, got {self.preview!r}")
         if not self.every_s >= 0:
             raise BadInput(f"Checkpoints: every_s must be 0 or a positive number of seconds, got {self.every_s!r}")

@@ -12,6 +12,7 @@ import bayesmap as bm
 from bayesmap.cells.kinds import prior_from
 from bayesmap.io.logs import read_log
 from bayesmap.io.ros.maps import read_map
+from bayesmap.run import runner
 from bayesmap.samplers.fit import first_sensor
 from bayesmap.sensors.builtin import describe
 from bayesmap.space.planar import compose, inverse
@@ -260,3 +261,22 @@ def test_where_the_laser_sits_is_said_and_kept_with_the_run(office, office_run, 
     told = [json.loads(one.stdout)["last"]["mean"] for one in where]
     np.testing.assert_allclose(told[0], told[1], atol=1e-6)
     assert "--laser" in refusal_of("infer", log, "-o", tmp_path / "other", "--laser 0.2,0", code=2)
+
+
+def test_a_first_map_stands_in_the_folder_at_once(office, tmp_path, short, monkeypatch):
+    monkeypatch.setattr("bayesmap.api.PREVIEW_FROM_S", 0.0)
+    shown, sampled, run_chains = [], [], runner.run_chains
+
+    def chains(*args, **options):
+        shown.append(sorted(path.name for path in tmp_path.iterdir()))
+        sampled.append((tmp_path / "posterior.png").read_bytes())
+        return run_chains(*args, **options)
+
+    monkeypatch.setattr(runner, "run_chains", chains)
+    assert "a first, rough map: " in succeed("infer", office, "-o", tmp_path, *short).stderr
+    assert shown[0][:3] == ["map.pgm", "map.yaml", "posterior.png"]
+    finished = (tmp_path / "posterior.png").read_bytes()
+    assert finished != sampled[0]
+    # A run that is to be replaced keeps its picture until the new run is saved.
+    assert "a first" not in succeed("infer", office, "-o", tmp_path, "--force", *short).stderr
+    assert sampled[1] == finished

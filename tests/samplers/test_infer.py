@@ -225,3 +225,22 @@ def test_a_sensor_model_of_one_s_own_works_and_equals_the_built_in_one(case, met
 def test_what_is_no_prior_or_no_sensor_is_refused(case, change, message):
     with pytest.raises(bm.BadInput, match=f"infer: {message}"):
         infer(case, draws=2, warmup=2, **change)
+
+
+@pytest.mark.parametrize(
+    "cells", [{"sensor": bm.Gaussian(0.5)}, {"prior": bm.Beta()}], ids=["walls", "fitted reflectivities"]
+)
+def test_a_first_map_is_shown_and_changes_no_draw(case, monkeypatch, cells):
+    previews = []
+    arguments = (case.scans, case.grid)
+    options = {"prior": bm.Independent(0.3), "schedule": bm.Schedule(chains=2, warmup=4, draws=6)} | cells
+    alone = bm.infer(*arguments, **options)
+    for least, shown in ((1e9, 0), (0.0, 1)):
+        monkeypatch.setattr("bayesmap.api.PREVIEW_FROM_S", least)
+        run = bm.infer(*arguments, **options, checkpoints=bm.Checkpoints(preview=previews.append))
+        np.testing.assert_array_equal(run.occupancy, alone.occupancy)
+        np.testing.assert_array_equal(run.log_joint, alone.log_joint)
+        assert len(previews) == shown
+    preview = previews[0]
+    assert (preview.n_draws, preview.finished) == (1, False)
+    assert preview.occupancy.shape == case.grid.shape

@@ -78,9 +78,9 @@ def by_importance(shape, scans, law, prior, beta=1.0, anywhere=False):
     return weighted(surface_coordinates(states, *centres), np.concatenate(log_weights))
 
 
-def drawn(shape, scans, law, prior, sweeps, seed=17, beta=1.0, search_until=0):
+def drawn(shape, scans, law, prior, sweeps, seed=17, beta=1.0, settle_sweeps=0):
     worlds = copies(scans, bm.Grid(shape, EDGE), prior, law, COPIES)
-    states = worlds.split(worlds.sweep(worlds.sampler(seed, search_until=search_until), sweeps, beta))
+    states = worlds.split(worlds.sweep(worlds.sampler(seed, settle_sweeps=settle_sweeps), sweeps, beta))
     nx, ny = shape
     cell = np.arange(nx * ny)
     return surface_coordinates(states, np.stack([cell // ny + 0.5, cell % ny + 0.5], axis=-1), 1.0)
@@ -100,7 +100,7 @@ def test_draws_follow_the_posterior(name):
 @pytest.mark.parametrize("name", ["one cell, sharp", "two cells"])
 def test_draws_after_a_search_for_a_start_follow_it_too(name):
     case = CASES[name]
-    assert p_values(drawn(*case, sweeps=300, search_until=20), by_importance(*case)).min() > ALPHA / TESTS
+    assert p_values(drawn(*case, sweeps=300, settle_sweeps=20), by_importance(*case)).min() > ALPHA / TESTS
 
 
 def test_a_cell_that_holds_its_reflectivity_for_most_of_a_round_follows_it_too(monkeypatch):

@@ -103,6 +103,7 @@ class Folder:
     resuming: bool = False
     begun: bool = field(default=False, init=False)
     _toml: str = field(default="", init=False)
+    _previewed: bool = field(default=False, init=False)
 
     def __post_init__(self) -> None:
         self.resuming = self.resuming and not self.outdated.exists()
@@ -175,7 +176,7 @@ class Folder:
     def replace(self) -> None:
         """Remove the files made from an older run, since the new run takes its place."""
         self._write(self.config, self._toml)
-        for name in DERIVED:
+        for name in () if self._previewed else DERIVED:
             (self.path / name).unlink(missing_ok=True)
         self.outdated.unlink(missing_ok=True)
 
@@ -200,10 +201,32 @@ class Folder:
         if self.outdated.exists():
             self.replace()
 
+    def preview(self, run: Run) -> None:
+        """Draw and export a first map. An older run in the folder keeps its picture."""
+        if not self.run.exists():
+            self.path.mkdir(parents=True, exist_ok=True)
+            self._previewed = True
+            self.console.say(f"a first, rough map: {self.draw(run)[0]}")
+
+    def draw(self, run: Run) -> list[Path]:
+        """Draw the map of a run, and export it for nav2. Returns the paths of the files.
+
+        The picture of a single draw leaves out the uncertainty.
+        """
+        from bayesmap.viz.figure import panel_figure, write_figure
+
+        picture, words = self.path / "posterior.png", run.posterior.prior.words
+        single = run.n_draws == 1 and not run.finished
+        figure = panel_figure(run.grid, "mean", run.occupancy, run.observed, label=words.mean) if single else run.plot()
+        write_figure(figure, picture)
+        return [picture, *run.export(self.path / "map.yaml")]
+
     def checkpoint(self, run: Run, on_progress: Callable[[int, int], None] = lambda done, total: None) -> None:
         """Save the run so far. If this fails, as on a full disk, warn and let the run continue."""
         try:
             self.save(run, on_progress)
+            if run.n_draws > 0:
+                self.draw(run)
             self.console.detail(f"checkpoint after {counted(run.posterior.sweep, 'sweep')}: {self.run}")
         except OSError as error:
             self.console.warn(f"{self.run}: checkpoint could not be written: {error.strerror or error}")
@@ -214,16 +237,12 @@ class Folder:
         Returns:
             The paths of the written files.
         """
-        from bayesmap.viz.figure import write_figure
-
         with stage(self.console, "save") as report:
             self.save(run, report)
         if run.n_draws == 0 and not run.finished:
             return [self.run]
-        picture = self.path / "posterior.png"
         with progress(self.console, "drawing the map"):
-            write_figure(run.plot(), picture)
-            return [self.run, picture, *run.export(self.path / "map.yaml")]
+            return [self.run, *self.draw(run)]
 
     def write_document(self, document: dict[str, Any]) -> None:
         """Write the JSON document."""

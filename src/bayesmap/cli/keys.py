@@ -122,7 +122,7 @@ class SamplingSettings(ReadingSettings, kw_only=True, frozen=True):
     ] = None
     cells: Annotated[Cells, Help("State of a cell: reflectivity with or without a surface, or a wall.")] = "surface"
     chains: Chains = 4
-    warmup: Warmup = 50
+    warmup: Warmup = 30
     draws: Annotated[
         Count | None, Help("Maps that each chain keeps, at most.", "100, to 200 for few beams; binary 100")
     ] = None

@@ -209,7 +209,7 @@ def sample(
             seed=settings.seed,
             hit_depth=settings.hit_depth or 0.0,
             where=Where(settings.threads, settings.device, executor),
-            checkpoints=Checkpoints(saved, on_checkpoint, settings.checkpoint_every),
+            checkpoints=Checkpoints(saved, on_checkpoint, settings.checkpoint_every, preview=folder.preview),
             on_progress=on_progress,
         )
     if run.finished or run.posterior.sweep > 0 or not folder.run.exists():

@@ -24,7 +24,7 @@ from bayesmap.model import Model
 from bayesmap.run.chains import Chains, Record, SweepPlan
 from bayesmap.samplers.fit import Parameters
 from bayesmap.samplers.progress import SILENT, Watch
-from bayesmap.samplers.sampler import NOTHING, ChainState, Info, Keep, Sampler, to_see
+from bayesmap.samplers.sampler import NOTHING, PILOT, ChainState, Info, Keep, Sampler, Snapshot, to_see
 
 
 @contextlib.contextmanager
@@ -152,6 +152,30 @@ def no_draws(model: Model, state: ChainState, chains: int) -> Draws:
     """Return the empty draws of a model, for a number of chains."""
     empty = Draws(model.grid, model.arrays, {}, state.problem.coordinates)
     return replace(empty, arrays={spec.name: spec.empty(chains, 0, empty.shape_of(spec)) for spec in empty.specs})
+
+
+FIRST_MAP_SWEEPS = 5
+"""Sweeps of the chain that draws a first map: its walls are where they stay, but still thick."""
+
+
+def first_map(sampler: Sampler[Any, Any], problem: Any, model: Model, seed: int) -> tuple[Chains, float]:
+    """Draw a first, rough map with a short chain of its own, which no other chain depends on.
+
+    Returns:
+        The chain with one draw, and the seconds of one of its sweeps on all threads.
+    """
+    state = sampler.init(problem, [PILOT], seed)
+    state, _ = sampler.step(state, 1)  # a first sweep is slower
+    began = time.perf_counter()
+    state, _ = sampler.step(state, FIRST_MAP_SWEEPS - 2)
+    seconds = (time.perf_counter() - began) / (FIRST_MAP_SWEEPS - 2)
+    state, info = sampler.step(state, 1, keep=Keep(state.sweep, 1))
+    draws = replace(no_draws(model, state, 1), arrays=info.draws)
+    chains = Chains(
+        draws, info.log_likelihood, info.log_prior, np.zeros((1, 0)), Snapshot(0),
+        sampler.observed_counts(state, to_see(draws)), {}, problem.n_incidences, {}, finished=False,
+    )  # fmt: skip
+    return chains, seconds
 
 
 def run_chains(

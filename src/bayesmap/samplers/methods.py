@@ -11,11 +11,11 @@ from numpy.typing import NDArray
 
 from bayesmap.cells.kind import Floats
 from bayesmap.errors import BadInput, check_count
+from bayesmap.samplers.merge_moves import SETTLE_SHARE
 from bayesmap.samplers.metropolis import Metropolis
 from bayesmap.samplers.progress import Watch
 from bayesmap.samplers.propagate import ROUNDS
 from bayesmap.samplers.sampler import Sampler
-from bayesmap.samplers.start_search import SEARCH_SHARE
 from bayesmap.samplers.stop_gibbs import StopGibbs
 from bayesmap.samplers.wall_problem import WallProblem
 from bayesmap.samplers.walls import Order, Start, WallBlocks, WallGibbs, WallSampler, default_start
@@ -150,10 +150,10 @@ def sampler_on_walls(name: str) -> WallSampler:
 def sampler_of(name: str, grid: Grid, method: Gibbs, warmup: int = 0) -> tuple[Sampler[Any, Any], dict[str, Any]]:
     """Return a Markov chain sampler, and its options for the settings of a run.
 
-    Surfaces search for their start in the first part of ``warmup`` sweeps; with 0 sweeps, there is no search.
+    Surfaces settle and merge during ``warmup`` sweeps; with 0 sweeps they are not merged.
     """
     if name in ON_ANY:
-        sampler = StopGibbs(int(SEARCH_SHARE * warmup)) if name == "stop-gibbs" else ON_ANY[name]()
+        sampler = StopGibbs(int(SETTLE_SHARE * warmup)) if name == "stop-gibbs" else ON_ANY[name]()
         return sampler, {"order": None, "start": "readings" if name == "stop-gibbs" else "prior"}
     start = default_start(grid) if method.start is None else method.start
     sampler = ON_WALLS[name](method.order, start, method.rounds)

@@ -25,7 +25,6 @@ STREAM_SWEEPS = 1
 STREAM_START = 2
 STREAM_PARTICLES = 3
 STREAM_LABELS = 7
-STREAM_SECOND_SWEEPS, STREAM_SECOND_START = 8, 9
 """Streams of random numbers: each has its own key for a seed and a chain."""
 
 PILOT = 1 << 32

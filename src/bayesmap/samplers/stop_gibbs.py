@@ -7,7 +7,7 @@ to "counting" maps (Haehnel, 2004), which keep the counts of one assignment; her
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -20,20 +20,18 @@ from bayesmap.cells.kind import Floats
 from bayesmap.cells.reflectivity import Reflective, places_among
 from bayesmap.cells.surface import PARTS
 from bayesmap.model import Model
-from bayesmap.samplers.initial_estimate import end_cells, first_labels, start, steps, update_periods
+from bayesmap.samplers.initial_estimate import first_labels, start, steps, update_periods
+from bayesmap.samplers.merge_moves import merge, merge_sweeps
 from bayesmap.samplers.progress import SILENT, Watch
 from bayesmap.samplers.sampler import (
     NOTHING,
     STREAM_LABELS,
-    STREAM_SECOND_START,
-    STREAM_SECOND_SWEEPS,
     STREAM_START,
     STREAM_SWEEPS,
     Info,
     Keep,
     Snapshot,
 )
-from bayesmap.samplers.start_search import AVERAGED, evidence, merge, merge_sweeps, select_starts
 from bayesmap.samplers.stop_problem import StopProblem, trace_stops
 
 if TYPE_CHECKING:
@@ -43,6 +41,10 @@ if TYPE_CHECKING:
 HIGHEST = float(np.nextafter(np.float16(1), np.float16(0)))
 """The largest number below 1 in half precision, 0.9995. A mean rounded to 1 would give a beam that passes the cell the
 likelihood 0; this one costs less than 0.0005 nats per beam."""
+
+
+SETTLE_STEPS = 12
+"""Metropolis steps of a surface in each of the first sweeps of a chain, in which surfaces move furthest."""
 
 
 class StopDraws:
@@ -147,26 +149,15 @@ def expected_reflectivity(
     return np.minimum(np.where(met >= 0, counted / total, drawn), np.float32(HIGHEST))
 
 
-Note = Callable[[int, int], None]
-SECOND = "second_"
-"""Prefix of the arrays of the second starts in a snapshot."""
-
-
 @dataclass(frozen=True, eq=False)
 class StopState:
-    """Chains between two sweeps.
-
-    During start selection, ``second`` holds these chains from their second starts, and ``evidence`` the evidence of
-    both starts so far, (C, 2, N), in nats (`bayesmap.samplers.start_search`).
-    """
+    """Chains between two sweeps."""
 
     problem: StopProblem
     chains: StopChains
     keys: Sequence[int]
     sweep: int
     statistics: Mapping[str, Floats]
-    second: StopChains | None = None
-    evidence: Floats | None = None
 
 
 @dataclass(frozen=True)
@@ -174,12 +165,11 @@ class StopGibbs:
     """Sweeps of stops, labels, reflectivities and surfaces.
 
     Attributes:
-        search_until: number of sweeps of start selection, a part of the warm-up. Surfaces make these sweeps from two
-            starts, with many steps in each, and continue from the better start in each square. In the rest of the
-            warm-up they are merged (`bayesmap.samplers.start_search.merge_sweeps`). At 0 a chain has one start.
+        settle_sweeps: first sweeps of the warm-up, in which surfaces take `SETTLE_STEPS` Metropolis steps instead of
+            `STEPS`. Surfaces are merged after them (`bayesmap.samplers.merge_moves.merge_sweeps`); not at all if 0.
     """
 
-    search_until: int = 0
+    settle_sweeps: int = 0
 
     def prepare(self, model: Model, device: str, threads: int | None = None, watch: Watch = SILENT) -> StopProblem:
         """Compile the kernels, trace the beams, and estimate where chains start."""
@@ -209,19 +199,9 @@ class StopGibbs:
         """Start chains scattered about the initial estimate, or continue from a snapshot."""
         from bayesmap.kernels.random import mix
 
-        sweep, stored = (0, {}) if resume is None else (resume.sweep, dict(resume.arrays))
-        second_stored = {name[len(SECOND) :]: stored.pop(name) for name in list(stored) if name.startswith(SECOND)}
-        stored_evidence = second_stored.pop("evidence", None)
+        sweep, stored = (0, {}) if resume is None else (resume.sweep, resume.arrays)
         keys = [mix(seed, chain, STREAM_SWEEPS) for chain in chain_ids]
-        state = StopState(problem, self._chains(problem, chain_ids, seed, keys, stored), keys, sweep, {})
-        if not problem.prior.has_surfaces or sweep >= self.search_until:
-            return state
-        keys = [mix(seed, chain, STREAM_SECOND_SWEEPS) for chain in chain_ids]
-        second = self._chains(problem, chain_ids, seed, keys, second_stored, STREAM_SECOND_START)
-        so_far = np.zeros((len(chain_ids), 2, problem.grid.n_cells))
-        if stored_evidence is not None:
-            so_far[..., problem.estimate.endpoint_cells] = stored_evidence
-        return replace(state, second=second, evidence=so_far)
+        return StopState(problem, self._chains(problem, chain_ids, seed, keys, stored), keys, sweep, {})
 
     def _chains(
         self,
@@ -230,16 +210,15 @@ class StopGibbs:
         seed: int,
         keys: Sequence[int],
         stored: Mapping[str, NDArray[Any]],
-        stream: int = STREAM_START,
     ) -> StopChains:
         """Make chains scattered about the initial estimate, or restore them from ``stored``."""
         from bayesmap.kernels.surfaces.stop_chains import StopChains
 
         estimate, kept = problem.estimate, problem.coordinates["cell"]
-        solid = self._labels(problem, chain_ids, seed, stored, stream)
+        solid = self._labels(problem, chain_ids, seed, stored)
 
         def states(chain: int) -> NDArray[np.float32]:
-            rng = np.random.default_rng([seed, chain_ids[chain], stream])
+            rng = np.random.default_rng([seed, chain_ids[chain], STREAM_START])
             state = start(estimate, problem.prior, problem.rays, rng, None if solid is None else solid[chain])
             if "state" in stored:
                 state[kept] = stored["state"][chain]
@@ -260,7 +239,7 @@ class StopGibbs:
         )  # fmt: skip
 
     def _labels(
-        self, problem: StopProblem, chain_ids: Sequence[int], seed: int, stored: Mapping[str, NDArray[Any]], stream: int
+        self, problem: StopProblem, chain_ids: Sequence[int], seed: int, stored: Mapping[str, NDArray[Any]]
     ) -> NDArray[np.bool_] | None:
         """Return the first labels of all cells, or the stored ones, (C, N); None without labels."""
         if not problem.prior.has_labels:
@@ -268,8 +247,7 @@ class StopGibbs:
         cells = problem.grid.n_cells
         if SOLID.name in stored:
             return np.unpackbits(stored[SOLID.name], axis=-1, count=cells).view(np.bool_)
-        streams = [STREAM_LABELS] if stream == STREAM_START else [STREAM_LABELS, stream]
-        rngs = [np.random.default_rng([seed, chain, *streams]) for chain in chain_ids]
+        rngs = [np.random.default_rng([seed, chain, STREAM_LABELS]) for chain in chain_ids]
         return np.stack([first_labels(problem.estimate, problem.prior, problem.grid, rng) for rng in rngs])
 
     def retrace(self, problem: StopProblem, model: Model) -> StopProblem:
@@ -281,8 +259,7 @@ class StopGibbs:
         return replace(retraced, kept=problem.kept)
 
     def moved(self, state: StopState, problem: StopProblem) -> StopState:
-        """Return the chains with their present cells, under another problem. Not possible during start selection."""
-        assert state.second is None, "beams move while chains have a second start"
+        """Return the chains with their present cells, under another problem."""
         from bayesmap.kernels.surfaces.stop_chains import StopChains
 
         old, chains = state.chains, range(state.chains.n_chains)
@@ -306,87 +283,51 @@ class StopGibbs:
 
     def step(self, state: StopState, sweeps: int, beta: float = 1.0, keep: Keep = NOTHING) -> tuple[StopState, Info]:
         """Make some sweeps of all chains."""
-        end, merging = state.sweep + sweeps, merge_sweeps(self.search_until)
+        end, merging = state.sweep + sweeps, merge_sweeps(self.settle_sweeps)
         if not state.problem.prior.has_surfaces or state.sweep >= max(merging, default=0):
             return self._sweep(state, sweeps, beta, keep)
         infos: list[Info] = []
         while not infos or state.sweep < end:
             count = min([end, *(sweep for sweep in merging if sweep > state.sweep)]) - state.sweep
-            advance = self._sweep if state.second is None else self._search
-            state, info = advance(state, count, beta, keep)
+            settling = state.sweep < self.settle_sweeps
+            state, info = self._sweep(state, count, beta, keep, SETTLE_STEPS if settling else None)
             infos.append(info)
             if count > 0 and state.sweep in merging:
                 merge(state.problem, state.chains, beta)
         return state, Info.joined(infos, axis=1)
 
     def _sweep(
-        self, state: StopState, sweeps: int, beta: float, keep: Keep, steps: int | None = None, note: Note | None = None
+        self, state: StopState, sweeps: int, beta: float, keep: Keep, steps: int | None = None
     ) -> tuple[StopState, Info]:
-        """Make some sweeps of chains from one start; ``note`` is called after each sweep, with chain and sweep."""
+        """Make some sweeps of the chains."""
         from bayesmap.kernels.surfaces.endpoint_cells import STEPS
 
         problem, chains = state.problem, state.chains
         kept = keep.sweeps(state.sweep, state.sweep + sweeps)
         draws = StopDraws(problem, chains, kept)
-
-        def after(chain: int, sweep: int) -> None:
-            draws.end(chain, sweep)
-            if note is not None:
-                note(chain, sweep)
-
         log_likelihood, log_prior = chains.sweeps(
             state.sweep, sweeps, problem.sensor, problem.prior.kernel_numbers(problem.grid.resolution), beta,
             steps=STEPS if steps is None else steps, observing_after=keep.after if keep.every else None,
-            before=draws.begin if kept else None, after=after if kept or note is not None else None,
+            before=draws.begin if kept else None, after=draws.end if kept else None,
         )  # fmt: skip
         return replace(state, sweep=state.sweep + sweeps), Info(log_likelihood, log_prior, draws.arrays)
-
-    def _search(self, state: StopState, sweeps: int, beta: float, keep: Keep) -> tuple[StopState, Info]:
-        """Make some sweeps from both starts. After the last sweep of the search, select the better squares of both."""
-        from bayesmap.kernels.surfaces.endpoint_cells import MOST_STEPS
-
-        problem, chains, second = state.problem, state.chains, state.second
-        assert second is not None
-        assert state.evidence is not None
-        total, end_cell, averaged = state.evidence, end_cells(problem.rays), min(AVERAGED, self.search_until)
-
-        def noted(of: StopChains, number: int) -> Note:
-            def note(chain: int, sweep: int) -> None:
-                if sweep >= self.search_until - averaged:
-                    total[chain, number] += evidence(of, chain, end_cell, problem.prior) / averaged
-
-            return note
-
-        self._sweep(replace(state, chains=second), sweeps, beta, NOTHING, MOST_STEPS, noted(second, 1))
-        state, info = self._sweep(state, sweeps, beta, keep, MOST_STEPS, noted(chains, 0))
-        if state.sweep == self.search_until:
-            select_starts(problem, chains, second, total[:, 1] - total[:, 0], beta)
-            state = replace(state, second=None, evidence=None)
-        return state, info
 
     def snapshot(self, state: StopState) -> Snapshot:
         """Return the kept cells' states and counts, (C, T, 6) and (C, 2, T), and labels of all cells, packed. The other
         cells can be drawn again: no beam observes them.
         """
-        arrays = self._stored(state.problem, state.chains)
-        if state.second is not None:
-            assert state.evidence is not None
-            second = self._stored(state.problem, state.second)
-            ended = np.ascontiguousarray(state.evidence[..., state.problem.estimate.endpoint_cells])
-            arrays |= {SECOND + name: array for name, array in {**second, "evidence": ended}.items()}
-        return Snapshot(state.sweep, arrays)
-
-    def _stored(self, problem: StopProblem, chains: StopChains) -> dict[str, NDArray[Any]]:
-        """Return the arrays of chains for a snapshot."""
-        kept, each, labels = problem.coordinates["cell"], range(chains.n_chains), {}
+        problem, chains = state.problem, state.chains
+        kept, each = problem.coordinates["cell"], range(chains.n_chains)
+        labels: dict[str, NDArray[Any]] = {}
         if problem.prior.has_labels:
             labels[SOLID.name] = np.packbits([chains.solid(chain) for chain in each], axis=-1)
-        return {
+        arrays: dict[str, NDArray[Any]] = {
             "state": np.stack([chains.cells(chain)[kept] for chain in each]),
             "counts": np.stack([np.stack(chains.counted(chain))[:, kept] for chain in each]),
             "observed_counts": np.stack([chains.observed_counts(chain)[kept].T for chain in each]),
             **labels,
         }
+        return Snapshot(state.sweep, arrays)
 
     def observed_counts(self, state: StopState, draws: Mapping[str, NDArray[Any]]) -> NDArray[np.int32]:
         """Count the kept sweeps in which at least one beam observes each cell, and the sweeps inspected. Without draws,

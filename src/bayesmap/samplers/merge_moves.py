@@ -1,17 +1,9 @@
-"""Search for better starts of chains of surfaces, during their warm-up.
+"""Merge moves: joint changes of two surfaces, during the warm-up of chains.
 
-Sweeps change one cell at a time. But a corner may be explained by the surfaces of two neighbouring cells, by these two
-exchanged, or by a single wide surface. A wall may be explained by few long surfaces or by many short ones. Single steps
-do not lead from one explanation to another, or need hundreds of sweeps. So chains also try joint changes of cells:
-
-Start selection. A chain makes its first sweeps twice, from two independent starts. Then it compares the two in squares
-of cells, and takes over the squares in which the second start explains the readings better. A square is kept if it also
-explains them better among the chain's own cells: the two halves of a wall that leaves the square may not fit together.
-
-Merge moves. Few long surfaces explain a wall as well as many short ones, and cost less. But a surface that grows over
-the readings of a neighbour gains nothing while the neighbour still stops those beams. In a merge move a cell that stops
-few beams becomes free. The neighbour whose axis lies closest to its readings becomes longer along this axis, to reach
-them.
+Sweeps change one cell at a time. Few long surfaces explain a wall as well as many short ones, and cost less. But a
+surface that grows over the readings of a neighbour gains nothing while the neighbour still stops those beams. In a
+merge move a cell that stops few beams becomes free. The neighbour whose axis lies closest to its readings becomes
+longer along this axis, to reach them.
 
 Changes at places that are far enough apart are tried together. One sweep over the beams computes for each place whether
 the map explains its readings better than before; the other changes are undone. The criterion is the log likelihood of
@@ -21,7 +13,8 @@ log odds against it:
 
     sum over beams ( log p(z) - (log odds + 5/2 log (1 + n)) / n ),    n beams being stopped by the same cell.
 
-The search ends before a draw is kept. Chains share no information: if they agree, they do so independently.
+These moves are a search and no step of a Markov chain. They end before a draw is kept. Chains share no information: if
+they agree, they do so independently.
 """
 
 from __future__ import annotations
@@ -49,11 +42,11 @@ Look = Callable[["ChainMaps"], Floats]
 NUMBERS = 5  # parameters of a surface: mean and covariance
 UPDATES_ALL, UPDATES_FEW = 1 << 24, (1 << 24) + 1
 """Sweep numbers that chains do not reach: the first updates all cells, the second few."""
-SEARCH_SHARE = 0.8
-"""Share of the warm-up that start selection takes."""
+SETTLE_SHARE = 0.8
+"""Share of the warm-up before the first merge moves."""
 MERGED_AGAIN = 2
-"""Number of further merges, each after another tenth of the sweeps of start selection. By then surfaces have moved, and
-may take in others. With `SEARCH_SHARE` as above, all merges lie in the warm-up."""
+"""Number of further merges, each after another tenth of the sweeps before the first. By then surfaces have moved, and
+may take in others. With `SETTLE_SHARE` as above, all merges lie in the warm-up."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -184,26 +177,9 @@ def covered(middles: NDArray[np.intp], half: int, shape: tuple[int, int]) -> NDA
     return out
 
 
-def merge_sweeps(search_until: int) -> list[int]:
-    """Return the numbers of the sweeps after which surfaces are merged, given the sweeps of start selection."""
-    return sorted({search_until + i * (search_until // 10) for i in range(1 + MERGED_AGAIN)} - {0})
-
-
-def select_starts(problem: StopProblem, chains: StopChains, second: StopChains, gain: Floats, beta: float) -> None:
-    """Let chains take over the squares that are better in their second starts.
-
-    Args:
-        problem: the problem of both.
-        chains: the chains; they continue from the selected maps.
-        second: the chains from their second starts.
-        gain: evidence of the second starts minus that of the chains, averaged over some sweeps, (C, N).
-        beta: inverse temperature.
-    """
-    maps = ChainMaps.of(chains)
-    take_better_squares(
-        maps, ChainMaps.of(second), gain.reshape(-1, *problem.grid.shape), look_with(problem, chains, beta)
-    )
-    maps.put(chains)
+def merge_sweeps(settle_sweeps: int) -> list[int]:
+    """Return the numbers of the sweeps after which surfaces are merged, given the number before the first merge."""
+    return sorted({settle_sweeps + i * (settle_sweeps // 10) for i in range(1 + MERGED_AGAIN)} - {0})
 
 
 def merge(problem: StopProblem, chains: StopChains, beta: float) -> None:
@@ -219,58 +195,6 @@ def merge(problem: StopProblem, chains: StopChains, beta: float) -> None:
     maps.put(chains)
     chains.sweeps(UPDATES_ALL, 1, problem.sensor, problem.prior.kernel_numbers(grid.resolution), beta)
     maps.put(chains)  # the sweep updated the counts of beams, except in cells that tried a surface
-
-
-AVERAGED = 8  # last sweeps of start selection, over which the evidence is averaged
-HALF_WIDTHS = (4, 2, 1)  # half widths of squares, in cells: large squares first, which have fewer seams
-BETTER_NATS = 20.0  # least gain of the second start in a square
-MUST_STAY = 1 / 3  # share of `BETTER_NATS` that must be left in the first sweep among the chain's own cells
-SQUARE_ROUNDS = 3  # most rounds in which squares of one size are tried together
-MARGIN = 2  # cells around a square whose beams are compared as well
-
-
-def take_better_squares(maps: ChainMaps, second: ChainMaps, gain: Floats, look: Look) -> None:
-    """Let chains take over the squares of their second starts that explain the readings better.
-
-    Args:
-        maps: maps of the chains, changed in place.
-        second: maps of the second starts of these chains.
-        gain: evidence of the second starts minus that of the chains, averaged over some sweeps, (C, nx, ny).
-        look: function that computes the evidence of maps, see `look_with`.
-    """
-    gain, shape = gain.copy(), (gain.shape[1], gain.shape[2])
-    for half in HALF_WIDTHS:
-        before, tried = look(maps), np.zeros(gain.shape, dtype=np.bool_)
-        for _ in range(SQUARE_ROUNDS):
-            changes = [
-                squares(i, second, one, half, done) for i, (one, done) in enumerate(zip(gain, tried, strict=True))
-            ]
-            if not any(len(new.middle) for new in changes):
-                break
-            stays = try_changes(maps, changes, look, before, half + MARGIN, MUST_STAY * BETTER_NATS)
-            for i, (new, stay) in enumerate(zip(changes, stays, strict=True)):
-                gain[i][covered(new.middle[stay], half, shape)] = 0.0
-                tried[i] |= covered(new.middle, half, shape)
-
-
-def squares(chain: int, second: ChainMaps, gain: Floats, half: int, tried: NDArray[np.bool_]) -> Changes:
-    """Select the squares of a chain that gain more than `BETTER_NATS`, best first, so far apart that they share no
-    beams. Squares about a cell of the mask ``tried``, (nx, ny), are left out.
-    """
-    total, shape = sums_over_squares(gain, half), (gain.shape[0], gain.shape[1])
-    middle = np.argwhere((total > BETTER_NATS) & ~tried)
-    middle = middle[np.argsort(-total[tuple(middle.T)], kind="stable")]
-    middle = middle[apart(middle, 2 * (half + MARGIN), shape)]
-    where = cells_of(middle, half, shape)
-    return Changes(middle, where, second.cells[chain][where], second.solid[chain][where])
-
-
-def cells_of(middle: NDArray[np.intp], half: int, shape: tuple[int, int]) -> NDArray[np.intp]:
-    """Return the flat indices of the cells of squares, (n, k); at the edge of the grid some occur repeatedly."""
-    away = np.arange(-half, half + 1)
-    x = np.clip(middle[:, 0, None] + away, 0, shape[0] - 1)
-    y = np.clip(middle[:, 1, None] + away, 0, shape[1] - 1)
-    return np.asarray((x[:, :, None] * shape[1] + y[:, None, :]).reshape(len(middle), (2 * half + 1) ** 2))
 
 
 MOST_READINGS = 12  # most readings of a surface that may be merged: with more, removal is seldom better
