@@ -404,8 +404,12 @@ def angle_step_ratio(
         threads: number of threads, by default all cores.
 
     Returns:
-        The ratio; 1 if no scans are turned against each other, or if the estimate is not significant.
+        The ratio; 1 if no scans are turned against each other, if the estimate is not significant, or if the beams
+        of a scan go full circle: the number of beams then says the angle.
     """
+    step = float(np.nanmedian(scans.steps_rad)) if scans.steps_rad.size else np.pi
+    if np.median(scans.sweep_rad) + 1.5 * step > 2.0 * np.pi:
+        return 1.0
     turned = np.abs(wrapped(poses[source, 2] - poses[target, 2]))
     useful = np.nonzero((turned > np.radians(25.0)) & (turned < np.radians(130.0)))[0]
     if len(useful) < 20:
@@ -436,7 +440,7 @@ def angle_step_ratio(
     error = np.sqrt((GROUPS - 1) / GROUPS * ((without - without.mean()) ** 2).sum())
     if not abs(lowest - 1.0) <= 0.0125:
         return 1.0  # outside the range that was tried
-    regular = _regular(lowest, float(np.degrees(np.nanmedian(scans.steps_rad))))
+    regular = _regular(lowest, float(np.degrees(step)))
     sure = SURE_OF_REGULAR if regular != lowest and abs(lowest - regular) < error else SURE
     return regular if abs(lowest - 1.0) > sure * error else 1.0
 

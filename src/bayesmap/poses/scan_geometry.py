@@ -56,6 +56,9 @@ NEAREST_M = 0.05
 PAIR_SIGMAS, SCALE_SIGMAS = 6.0, 3.0
 """Least pairing distance and least outlier scale, in standard deviations of a range."""
 
+MERGED_RAD = np.radians(1.0)
+"""Beams are merged to this spacing, if they are closer. Indoors their points are then about a cell apart."""
+
 BINS_A_BEAM = 4
 """Bins of angle per beam in the table of `Fans`."""
 
@@ -187,6 +190,8 @@ def scan_geometry(
 ) -> ScanGeometry:
     """Compute points and normals of scans, by the scans' own angles and limits. Their poses are not used.
 
+    Neighbouring beams that are closer than `MERGED_RAD` are merged, unless scans have beams of their own.
+
     Args:
         scans: S scans.
         farthest_m: leave out hits beyond; by default the sensor's largest range.
@@ -198,17 +203,59 @@ def scan_geometry(
     own = scans.angles_rad[None] if scans.own_angles_rad is None else scans.own_angles_rad
     order = np.argsort(own, axis=1, kind="stable")  # NaN, where a scan has no such beam, comes last
     angles = np.take_along_axis(own, order, axis=1)
-    fans = Fans.of(angles, len(scans))
-    step = float(np.median(fans.step_rad))
     limit = scans.max_range_m if farthest_m is None else min(farthest_m, scans.max_range_m)
-    shared = scans.own_angles_rad is None
-    ranges = scans.ranges_m[:, order[0]] if shared else np.take_along_axis(scans.ranges_m, order, axis=1)
-    ranges = np.ascontiguousarray(ranges)
     nearest = max(NEAREST_M, scans.min_range_m)
+    if scans.own_angles_rad is None:
+        ranges, angles, middles = merged(scans.ranges_m[:, order[0]], angles[0], nearest, limit)
+    else:
+        ranges, middles = np.take_along_axis(scans.ranges_m, order, axis=1), angles
+    ranges = np.ascontiguousarray(ranges)
+    fans = Fans.of(middles, len(scans))
+    step = float(np.median(fans.step_rad))
     noise = range_noise_m(np.where((ranges > nearest) & (ranges < limit), ranges, np.nan), step)
     reach = max(REACH_M, REACH_SIGMAS * noise)
     arrays = points_and_normals(ranges, angles, nearest, limit, fans, reach, noise, device, threads)
     return ScanGeometry(*arrays, fans, limit, noise, device, threads)
+
+
+def merged(
+    ranges_m: Floats, angles_rad: Floats, nearest_m: float, farthest_m: float, spacing_rad: float = MERGED_RAD
+) -> tuple[Floats, Floats, Floats]:
+    """Merge groups of neighbouring beams whose spacing is at most half of ``spacing_rad``.
+
+    A group's point lies at the mean angle of the readings on one surface, at their harmonic mean: inverse ranges of a
+    straight wall are linear in small angles. Readings on other surfaces than the median one are left out. Beams after
+    the last whole group are left out, too.
+
+    Args:
+        ranges_m: readings, (S, B).
+        angles_rad: angles of the beams, ascending, (B,).
+        nearest_m: least reading that is a point.
+        farthest_m: largest reading that is a point.
+        spacing_rad: greatest spacing of the groups.
+
+    Returns:
+        readings (S, G), their angles (1, G) or (S, G), and the middles of the groups, (1, G).
+    """
+    step = float(np.median(np.diff(angles_rad))) if len(angles_rad) > 1 else spacing_rad
+    size = int(spacing_rad / step + 1e-3) if step > 0.0 else 1
+    if size < 2:
+        return ranges_m, angles_rad[None], angles_rad[None]
+    groups = len(angles_rad) // size
+    readings = ranges_m[:, : groups * size].reshape(-1, groups, size)
+    angles = angles_rad[: groups * size].reshape(groups, size)
+    valid = (readings > nearest_m) & (readings < farthest_m)  # false for NaN and for either infinity
+    ordered = np.sort(np.where(valid, readings, np.inf), axis=2)
+    middle = np.maximum(valid.sum(axis=2, keepdims=True) - 1, 0) // 2
+    median = np.take_along_axis(ordered, middle, axis=2)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        used = valid & (np.abs(readings - median) < GAP_M + GAP_STEPS * step * median)
+        count = used.sum(axis=2)
+        mean = count / np.where(used, 1.0 / readings, 0.0).sum(axis=2)
+        angle = np.where(used, angles, 0.0).sum(axis=2) / count
+    none = count == 0
+    middles = angles.mean(axis=1)[None]
+    return np.where(none, readings[..., 0], mean), np.where(none, middles, angle), middles
 
 
 def _beam_of_angle(angles_rad: Floats, step_rad: float, bins: int) -> NDArray[np.int32]:

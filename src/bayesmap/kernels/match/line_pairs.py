@@ -84,30 +84,44 @@ def nearest_point(scene: ScanArrays, j: int, x: float, y: float, reach: float) -
     middle = beam_towards(scene, j, x, y)
     if middle < 0:
         return -2
-    u = wp.min(1.0, reach / wp.max(wp.sqrt(x * x + y * y), 1.0e-6))
+    away = wp.sqrt(x * x + y * y)
+    step = scene.step[j]
+    u = wp.min(1.0, reach / wp.max(away, 1.0e-6))
     # No point within reach is further off by angle than asin(u) <= u + (pi / 2 - 1) u^3.
-    wide = wp.min(MOST_BEAMS, int((u + 0.5708 * u * u * u) / scene.step[j]) + 1)
+    wide = wp.min(MOST_BEAMS, int((u + 0.5708 * u * u * u) / step) + 1)
     beams = scene.beams[j]
-    low = middle - wide
-    high = middle + wide
-    if scene.full_circle[j] == 0:
-        low = wp.max(low, 0)
-        high = wp.min(high, beams - 1)
+    circle = scene.full_circle[j] != 0
     closest = reach * reach
     nearest = int(-1)
-    for k in range(low, high + 1):
-        c = k
-        if c < 0:
-            c += beams
-        if c >= beams:
-            c -= beams
-        p = scene.points[j, c]
-        dx = p[0] - x
-        dy = p[1] - y
-        d = dx * dx + dy * dy
-        if d < closest:
-            closest = d
-            nearest = c
+    # Search outwards. Points of equal distance count in the order of beams, so that the lower side takes ties.
+    for k in range(wide + 1):
+        # A beam that is off by the angle a has no point nearer than away sin(a) >= away (a - a^3 / 6).
+        a = wp.min(float(k - 1) * step, 1.4)
+        bound = away * a * (1.0 - 0.16666667 * a * a)
+        if k > 1 and bound * bound > closest:
+            break
+        low = middle - k
+        if low < 0 and circle:
+            low += beams
+        if low >= 0:
+            p = scene.points[j, low]
+            dx = p[0] - x
+            dy = p[1] - y
+            d = dx * dx + dy * dy
+            if d <= closest:
+                closest = d
+                nearest = low
+        high = middle + k
+        if high >= beams and circle:
+            high -= beams
+        if k > 0 and high < beams:
+            q = scene.points[j, high]
+            dx = q[0] - x
+            dy = q[1] - y
+            d = dx * dx + dy * dy
+            if d < closest:
+                closest = d
+                nearest = high
     return nearest
 
 
