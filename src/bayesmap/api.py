@@ -12,17 +12,17 @@ import os
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any, Literal, cast
+from typing import Any, Literal, cast
 
 import numpy as np
-from numpy.typing import NDArray
 
 from bayesmap.arguments import PREVIEW_FROM_S, Checkpoints, Schedule, Where, need_value
 from bayesmap.cells.kind import CellPrior
 from bayesmap.cells.surface import Surface
 from bayesmap.errors import BadInput, check_count
 from bayesmap.model import Model
-from bayesmap.poses.prior import FREE, Known, Motions, PosePrior
+from bayesmap.poses.map_scans import SAMPLED, for_map, key_scans
+from bayesmap.poses.prior import Known, PosePrior
 from bayesmap.posterior.posterior import Posterior, chains_of, posterior_of_chains, posterior_of_draws
 from bayesmap.result import Run
 from bayesmap.run.chains import FIRST_MARK, Chains, SweepPlan
@@ -51,21 +51,12 @@ from bayesmap.samplers.without_chains import DrawRequest
 from bayesmap.sensors.builtin import describe
 from bayesmap.sensors.model import SensorModel
 from bayesmap.space.grid import Grid
-from bayesmap.space.planar import between, compose
 from bayesmap.space.scans import Scans
-
-if TYPE_CHECKING:
-    from bayesmap.poses.trajectory import Trajectory
 
 FIT = "fit"
 
 TAKE_POSES = ("wall-gibbs", "wall-blocks", "stop-gibbs")
 """Samplers that can sample unknown poses."""
-
-P_SLIP = 0.01
-"""Probability that odometry is no evidence of a motion. In the Intel log eight motions of 891 are off by 200 to 350
-standard deviations, since a pose is repeated while the robot turns by 30 degrees. A normal law alone would turn the
-scans there until they contradict the walls."""
 
 
 def infer(
@@ -355,69 +346,12 @@ class Inference:
         return (self.threads or available_cores()) if self.device == "cpu" else 1
 
 
-@dataclass(frozen=True, eq=False)
-class KeyScans:
-    """The scans that the map is made from, and the prior of their poses.
-
-    Attributes:
-        scans: the key scans at their most probable poses, beam angles calibrated.
-        prior: prior of their poses: odometry, corrected for its systematic error.
-        starts: poses from which chains start, one trajectory each, (chains, K, 3).
-    """
-
-    scans: Scans
-    prior: PosePrior
-    starts: NDArray[np.float64]
-
-
-def key_scans(log: Scans, found: Trajectory, chains: int, seed: int) -> KeyScans:
-    """Select the key scans for the chains, with prior and starts from the approximate trajectory.
-
-    Args:
-        log: the scans with raw odometry, in the order of the log.
-        found: approximate posterior of the trajectory.
-        chains: number of starts.
-        seed: seed of the starts.
-    """
-    from bayesmap.poses.trajectory import calibrated
-
-    keys = found.keys
-    poses = found.poses[keys]
-    in_time = log.select(found.order)
-    scans = calibrated(in_time, found.calibration.angle_step_ratio).select(keys).at(poses)
-    # All trajectories share the first pose: it is the frame of the map.
-    drawn = found.draw(chains, seed)[:, keys]
-    starts = compose(poses[0], between(drawn[:, :1], drawn))
-    return KeyScans(scans, _prior_of(found), starts)
-
-
-def _prior_of(found: Trajectory) -> PosePrior:
-    """Return the prior of motions between key scans: odometry, or a wide prior where there is none."""
-    relative = np.zeros((len(found.keys) - 1, 3))
-    sigmas = relative + FREE
-    factors = found.odometry
-    if factors is not None:
-        covariance = np.linalg.inv(factors.information)
-        relative[factors.first] = factors.relative
-        sigmas[factors.first] = np.sqrt(np.diagonal(covariance, axis1=1, axis2=2))
-    return Motions(relative, sigmas, P_SLIP)
-
-
 def slam(
-    log: str | os.PathLike[str] | Scans,
-    *,
-    resolution: float = 0.1,
-    prior: CellPrior | None = None,
-    sensor: SensorModel | Literal["fit"] = "fit",
-    fast: bool = False,
-    no_odometry: bool = False,
-    schedule: Schedule = Schedule(),
-    seed: int = 0,
-    hit_depth: float | None = None,
-    where: Where = Where(),
-    checkpoints: Checkpoints = Checkpoints(),
-    on_progress: Callable[[Event], None] | None = None,
-) -> Run:
+    log: str | os.PathLike[str] | Scans, *, resolution: float = 0.1, prior: CellPrior | None = None,
+    sensor: SensorModel | Literal["fit"] = "fit", fast: bool | None = None, no_odometry: bool = False,
+    schedule: Schedule = Schedule(), seed: int = 0, hit_depth: float | None = None, where: Where = Where(),
+    checkpoints: Checkpoints = Checkpoints(), on_progress: Callable[[Event], None] | None = None,
+) -> Run:  # fmt: skip
     """Infer map and trajectory from a log with raw odometry.
 
     Args:
@@ -425,7 +359,9 @@ def slam(
         resolution: edge of a cell, metres.
         prior: the kind of cells with its prior; `Surface()` if None.
         sensor: the law of the readings, or "fit".
-        fast: stop after the approximate trajectory, and infer the map as if its poses were known.
+        fast: True: infer the map as if the poses of the approximate trajectory were known, from as many scans and beams
+            as its cells need; False: sample the poses, too, from all beams of the key scans; None: sample the poses of
+            at most 100 key scans, since chains over more do not mix.
         no_odometry: do not read the poses of the log; scans must come at about 5 Hz.
         schedule: numbers of chains, warm-up sweeps and draws; by default every sweep after warm-up is kept.
         seed: seed of all random numbers.
@@ -466,12 +402,14 @@ def slam(
     keys = key_scans(log, trajectory, schedule.chains, seed)
     grid = Grid.covering(keys.scans, resolution)
     cells = Surface() if prior is None else prior
+    fast = len(keys.scans) > SAMPLED if fast is None else fast
     # Sample the map; unless ``fast``, sample the poses of the key scans too.
     save = checkpoints.save
     if save is not None:
         checkpoints = replace(checkpoints, save=lambda run: save(replace(run, trajectory=trajectory)))
     run = infer(
-        keys.scans, grid, prior=cells, sensor=sensor, method=None if fast else Gibbs(start_poses=keys.starts),
+        for_map(keys.scans, resolution) if fast else keys.scans, grid, prior=cells, sensor=sensor,
+        method=None if fast else Gibbs(start_poses=keys.starts),
         schedule=replace(schedule, thin=1 if schedule.thin is None else schedule.thin), seed=seed,
         poses=None if fast else keys.prior, hit_depth=cells.hit_depth if hit_depth is None else hit_depth, where=where,
         checkpoints=checkpoints, on_progress=on_progress,

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 import scipy
 
-from bayesmap.api import key_scans
 from bayesmap.errors import BadInput
 from bayesmap.poses.graph import Factors
+from bayesmap.poses.map_scans import key_scans
 from bayesmap.poses.prior import FREE, Known, Motions, Odometry, Uncertain
 from bayesmap.space.planar import between, compose, wrapped
 from bayesmap.space.scans import Scans

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 from simulated import RESOLUTION, odometry_of, off, path_around, ring, scans_of
 
-from bayesmap.api import key_scans
 from bayesmap.kernels.match.line_pairs import Agreement, pair_sums, view_counts
 from bayesmap.kernels.walk import cast
 from bayesmap.poses.log_checks import frozen_stretches
+from bayesmap.poses.map_scans import key_scans
 from bayesmap.poses.matcher import likelihood_grids
 from bayesmap.poses.scan_geometry import scan_geometry
 from bayesmap.poses.slam import infer_trajectory

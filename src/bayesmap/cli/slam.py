@@ -38,8 +38,9 @@ def slam(call: Call[SlamSettings], log: str, output: str | None, resume: bool, f
     r"""Infer map and trajectory from LOG with poses of raw odometry; any log that infer reads.
 
     The command matches all scans, closes loops, and matches every scan against all others that see the same walls. The
-    result is a trajectory with covariances. Then chains sample the map and the poses of the key scans together. Each
-    chain starts from its own draw of that trajectory. With --fast no poses are sampled: the trajectory counts as known.
+    result is a trajectory with covariances. Then chains sample the map. Of at most 100 key scans they sample the poses,
+    too, each chain from its own draw of the trajectory. Of more key scans, or with --fast, the trajectory counts as
+    known, and the map is made from as many scans and beams as its cells need.
 
     The command writes into DIR the saved run (run.nc), the trajectory of all scans (trajectory.tum, and its covariances
     in a second file), the map for nav2 (map.yaml), pictures (posterior.png, trajectory.png, odometry.png, loops.png),
@@ -54,6 +55,8 @@ def slam(call: Call[SlamSettings], log: str, output: str | None, resume: bool, f
     """
     if resume and force:
         raise click.UsageError("--resume goes on with a run and --force replaces it: give one of them")
+    if call.settings().fast and call.settings().sample_poses:
+        raise click.UsageError("--fast takes poses as known and --sample-poses samples them: give one of them")
     # Check what was typed.
     folder = Path(output) if output else Path("runs") / pipeline.stem(log)
     task = pipeline.prepare(call, log, folder, resume=resume, force=force)
@@ -130,7 +133,7 @@ def _slam(task: Task[SlamSettings], reading: LogReading, saved: Run | None) -> R
             resolution=settings.resolution,
             prior=translation.prior_of(settings),
             sensor=translation.sensor_for(settings, settings.resolution),
-            fast=settings.fast,
+            fast=True if settings.fast else False if settings.sample_poses else None,
             no_odometry=settings.no_odometry,
             schedule=translation.schedule_of(settings),
             seed=settings.seed,
@@ -194,6 +197,7 @@ def summary(run: Run) -> dict[str, Any]:
     out: dict[str, Any] = {
         "scans": len(found),
         "key_scans": len(found.keys),
+        "map": {"scans": len(run.posterior.scans), "beams": run.posterior.scans.ranges_m.size},
         "loop_closures": int((found.closures.weights > 0.5).sum()),
         "flagged": np.nonzero(found.flagged)[0].tolist(),
         "breaks": found.breaks.tolist(),
@@ -238,11 +242,16 @@ def _alternative(found: Trajectory, number: int) -> dict[str, Any]:
 def _report(call: Call[SlamSettings], trajectory: dict[str, Any]) -> None:
     """Print the trajectory's figures, and warn of scans, breaks and alternatives to check."""
     call.console.say(
-        f"trajectory: {trajectory['scans']:,} scans, {trajectory['key_scans']:,} of them in the map, "
+        f"trajectory: {trajectory['scans']:,} scans, {trajectory['key_scans']:,} of them key scans, "
         f"{trajectory['loop_closures']:,} loop closures, standard deviation "
         f"{100 * trajectory['sigma_m']['median']:.1f} cm (at most {100 * trajectory['sigma_m']['max']:.0f})"
     )
-    sampled = trajectory.get("sampled")
+    sampled, used = trajectory.get("sampled"), trajectory["map"]
+    if sampled is None:
+        call.console.say(
+            f"map: {used['beams']:,} beams of {used['scans']:,} key scans, at the poses of the trajectory; others are "
+            "left out, since these have seen the same (--sample-poses uses all beams of all key scans)"
+        )
     if sampled is not None and sampled["by_approximation"]:
         call.console.warn(
             f"the chains over poses have not mixed (R-hat up to {sampled['rhat_max']:.2f}, effective sample size from "

@@ -193,13 +193,9 @@ class MotionNoise:
 
 
 def fit_noise(
-    errors: Floats,
-    ways_m: Floats,
-    turns_rad: Floats,
-    scans: Floats,
-    known_variance: Floats,
+    errors: Floats, ways_m: Floats, turns_rad: Floats, scans: Floats, known_variance: Floats,
     expected_variance: Floats | None = None,
-) -> MotionNoise:
+) -> MotionNoise:  # fmt: skip
     """Fit variance rates to errors of M motions by maximum likelihood under a wide prior.
 
     The cost of an error e of variance v is log v / 2 + 1.27 (nu + 1) / 2 log(1 + e^2 / (nu v)): Student's t with
@@ -317,13 +313,9 @@ def velocities(poses: Floats, stamps_s: Floats) -> Floats:
 
 
 def fit_odometry(
-    stated: Floats,
-    stamps_s: Floats | None,
-    known: Floats,
-    scans: NDArray[np.intp],
-    laser_variance: Floats,
+    stated: Floats, stamps_s: Floats | None, known: Floats, scans: NDArray[np.intp], laser_variance: Floats,
     expected_variance: Floats | None = None,
-) -> OdometryFit:
+) -> OdometryFit:  # fmt: skip
     """Fit B, the lag and the noise to scans whose poses are known.
 
     Args:

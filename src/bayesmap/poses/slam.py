@@ -35,17 +35,10 @@ degree."""
 
 
 def infer_trajectory(
-    scans: Scans,
-    *,
-    no_odometry: bool = False,
-    calibrate_angles: bool = True,
-    seed: int = 0,
-    threads: int | None = None,
-    device: str = "cpu",
-    checkpoint: str | os.PathLike[str] | None = None,
-    on_progress: Progress | None = None,
-    on_poses: OnPoses | None = None,
-) -> Trajectory:
+    scans: Scans, *, no_odometry: bool = False, calibrate_angles: bool = True, seed: int = 0,
+    threads: int | None = None, device: str = "cpu", checkpoint: str | os.PathLike[str] | None = None,
+    on_progress: Progress | None = None, on_poses: OnPoses | None = None,
+) -> Trajectory:  # fmt: skip
     """Infer the trajectory of a robot from its scans and its raw odometry.
 
     Args:

@@ -300,13 +300,9 @@ class WithPoses:
         return PoseProblem(model, problem.for_any_poses(), problem.device, threads)
 
     def init(
-        self,
-        problem: PoseProblem,
-        chain_ids: Sequence[int],
-        seed: int,
-        resume: Snapshot | None = None,
+        self, problem: PoseProblem, chain_ids: Sequence[int], seed: int, resume: Snapshot | None = None,
         watch: Watch = SILENT,
-    ) -> JointState:
+    ) -> JointState:  # fmt: skip
         """Start chains, or continue from a snapshot."""
         scans = len(problem.model.scans)
         if resume is None:

@@ -1,0 +1,95 @@
+"""The scans that a map is made from, once the trajectory of a log is known."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bayesmap.poses.prior import FREE, Motions, PosePrior
+from bayesmap.poses.trajectory import Trajectory, calibrated
+from bayesmap.space.planar import between, compose
+from bayesmap.space.scans import Scans
+
+SAMPLED = 100
+"""Most key scans whose poses are sampled with the map. Chains over more poses do not mix."""
+
+MANY_BEAMS, STEP_RAD = 100_000, np.radians(1.0)
+"""If key scans have more beams, only beams at least so far apart are used."""
+
+ENOUGH, LEAST_NEW = 20, 0.2
+"""A scan is left out if less than this share of its hits fall in cells with fewer hits than the first number."""
+
+P_SLIP = 0.01
+"""Probability that odometry is no evidence of a motion. In the Intel log eight motions of 891 are off by 200 to 350
+standard deviations, since a pose is repeated while the robot turns by 30 degrees. A normal law alone would turn the
+scans there until they contradict the walls."""
+
+
+@dataclass(frozen=True, eq=False)
+class KeyScans:
+    """The scans that the map is made from, and the prior of their poses.
+
+    Attributes:
+        scans: the key scans at their most probable poses, beam angles calibrated.
+        prior: prior of their poses: odometry, corrected for its systematic error.
+        starts: poses from which chains start, one trajectory each, (chains, K, 3).
+    """
+
+    scans: Scans
+    prior: PosePrior
+    starts: NDArray[np.float64]
+
+
+def key_scans(log: Scans, found: Trajectory, chains: int, seed: int) -> KeyScans:
+    """Select the key scans for the chains, with prior and starts from the approximate trajectory.
+
+    Args:
+        log: the scans with raw odometry, in the order of the log.
+        found: approximate posterior of the trajectory.
+        chains: number of starts.
+        seed: seed of the starts.
+    """
+    keys = found.keys
+    poses = found.poses[keys]
+    in_time = log.select(found.order)
+    scans = calibrated(in_time, found.calibration.angle_step_ratio).select(keys).at(poses)
+    # All trajectories share the first pose: it is the frame of the map.
+    drawn = found.draw(chains, seed)[:, keys]
+    starts = compose(poses[0], between(drawn[:, :1], drawn))
+    return KeyScans(scans, _prior_of(found), starts)
+
+
+def _prior_of(found: Trajectory) -> PosePrior:
+    """Return the prior of motions between key scans: odometry, or a wide prior where there is none."""
+    relative = np.zeros((len(found.keys) - 1, 3))
+    sigmas = relative + FREE
+    factors = found.odometry
+    if factors is not None:
+        covariance = np.linalg.inv(factors.information)
+        relative[factors.first] = factors.relative
+        sigmas[factors.first] = np.sqrt(np.diagonal(covariance, axis1=1, axis2=2))
+    return Motions(relative, sigmas, P_SLIP)
+
+
+def for_map(keys: Scans, resolution: float) -> Scans:
+    """Select the beams of key scans, and the scans that see walls with few hits, so that cost follows the area seen.
+
+    Fewer than `MANY_BEAMS` beams are used whole. Scans are chosen in the order of time, by the hits of those before.
+    """
+    if keys.ranges_m.size <= MANY_BEAMS:
+        return keys
+    every = int(STEP_RAD / max(float(np.nanmedian(keys.steps_rad)), 1e-6) + 1e-3)
+    if every > 1 and keys.own_angles_rad is None:
+        beams = None if keys.beam_poses is None else keys.beam_poses[:, ::every]
+        angles, ranges = keys.angles_rad[::every], keys.ranges_m[:, ::every]
+        keys = replace(keys, angles_rad=angles, ranges_m=ranges, beam_poses=beams)
+    cells = np.floor(keys.hit_points_world() / resolution).astype(np.int64)
+    cell = np.unique(cells, axis=0, return_inverse=True)[1].ravel()
+    hits, chosen = np.zeros(cell.max(initial=0) + 1, np.int64), []
+    for scan, own in enumerate(np.split(cell, np.cumsum(np.isfinite(keys.ranges_m).sum(axis=1))[:-1])):
+        if not len(own) or (hits[own] < ENOUGH).mean() >= LEAST_NEW:
+            chosen.append(scan)
+            hits += np.bincount(own, minlength=len(hits))
+    return keys.select(np.array(chosen, np.intp))
