@@ -192,7 +192,7 @@ class Inference:
         asked = DrawRequest(
             schedule.chains, draws, check_count("infer", "seed", seed, 0), particles, getattr(method, "rounds", ROUNDS)
         )
-        plan = SweepPlan(schedule.warmup, draws, thin, complete.precision)
+        plan = SweepPlan(schedule.warmup, draws, thin, complete.precision, complete.seconds)
         return cls(model, name, method, plan, asked, isinstance(sensor, str), where)
 
     def run(self, checkpoints: Checkpoints, watch: Watch) -> Run:
@@ -202,20 +202,31 @@ class Inference:
         executor = ThreadExecutor() if self.where.executor is None else self.where.executor
         self._check_memory(executor)
         # Choose the sampler. The settings hold everything that determines the draws.
-        sampler, options = self._sampler()
+        plan = self.plan
+        sampler, options = self._sampler(plan.warmup)
         settings = self._settings(options)
         # Load the stopped run, which must have the same arguments.
         stopped = self._stopped(checkpoints.resume, settings)
         spent = 0.0 if stopped is None else stopped.seconds["total"]
+        if stopped is not None:
+            plan = replace(plan, warmup=stopped.settings["warmup"])
 
-        def preview(cells: Sampler[Any, Any], problem: Any) -> None:
-            """Show a first map if there is a callback and the chains take long."""
-            if checkpoints.preview is None:
+        def passed() -> float:
+            """Return the seconds since the start of the run, earlier parts included."""
+            return time.perf_counter() - began + spent
+
+        def begin(cells: Sampler[Any, Any], problem: Any) -> None:
+            """Show a first map if the chains take long, and shorten the warm-up if their time is limited."""
+            nonlocal plan
+            if checkpoints.preview is None and plan.seconds is None:
                 return
             chains, sweep_s = first_map(cells, problem, model, self.asked.seed)
-            if sweep_s * self.asked.chains * (self.plan.warmup + FIRST_MARK * self.plan.thin) >= PREVIEW_FROM_S:
-                total = {"total": time.perf_counter() - began, "fit": 0.0}
+            long = sweep_s * self.asked.chains * (plan.warmup + FIRST_MARK * plan.thin) >= PREVIEW_FROM_S
+            if checkpoints.preview is not None and long:
+                total = {"total": passed(), "fit": 0.0}
                 checkpoints.preview(Run(posterior_of_chains(model, chains, settings, total, None)))
+            if plan.seconds is not None:  # the pilot makes as many sweeps as the warm-up
+                plan = plan.shortened(sweep_s * (1 + self.asked.chains), plan.seconds - passed())
 
         # Fit the sensor, and with it the prior of reflectivities.
         if self.fitted and self.kernel == "stop-gibbs":
@@ -223,7 +234,11 @@ class Inference:
             if stopped is not None:
                 parameters = Parameters.from_description(stopped.settings["fitted"])
             else:
-                parameters = self._pilot(sampler, watch, preview)
+                problem = sampler.prepare(self.model, self.device, self.threads, watch)
+                cells = problem.cells if self.model.poses.unknown else problem
+                begin(StopGibbs(), cells)
+                parameters = fit(cells, self.asked.seed, min(PILOT_SWEEPS, plan.warmup), watch)
+                del problem, cells  # their memory is needed by the chains
             settings["fitted"] = parameters.describe()
         elif self.fitted:
             model = replace(
@@ -245,21 +260,27 @@ class Inference:
             problem = trace_walls(model, self.device, self.threads)
             seconds["trace"] = time.perf_counter() - began - seconds["fit"]
             draws = WITHOUT_CHAINS[self.kernel](problem, self.asked, watch)
-            seconds["total"] = time.perf_counter() - began + spent
+            seconds["total"] = passed()
             return Run(posterior_of_draws(model, draws, problem.n_incidences, settings, seconds))
 
         def as_run(chains: Chains) -> Run:
-            seconds["total"] = time.perf_counter() - began + spent
+            seconds["total"] = passed()
             return Run(posterior_of_chains(model, chains, settings, seconds, parameters))
 
-        # A pilot has shown a first map already. If the chains run elsewhere, no beams are traced here.
+        # A pilot has begun the run already. If the chains run elsewhere, no beams are traced here.
         prepared, here = None, isinstance(executor, ThreadExecutor) and not model.poses.unknown
-        if checkpoints.preview is not None and parameters is None and stopped is None and here:
+        first = checkpoints.preview is not None or plan.seconds is not None
+        if first and parameters is None and stopped is None and here:
             prepared = sampler.prepare(model, self.device, self.threads, watch)
-            preview(sampler, prepared)
+            begin(sampler, prepared)
+        settings["warmup"] = plan.warmup
+        if plan.seconds is not None:
+            plan = replace(plan, seconds=max(0.0, plan.seconds - passed()))
+        sampler, _ = self._sampler(plan.warmup)
+        assert sampler is not None
         save = checkpoints.save
         job = Job(
-            model, sampler, self.plan, self.asked.seed, tuple(range(self.asked.chains)), self.device, self.threads,
+            model, sampler, plan, self.asked.seed, tuple(range(self.asked.chains)), self.device, self.threads,
             parameters, prepared,
         )  # fmt: skip
         chains = executor.run(
@@ -292,15 +313,15 @@ class Inference:
             here = self.asked.chains if isinstance(executor, ThreadExecutor) else 1  # elsewhere: the pilot alone
             check_memory(self.model.grid, self.model.scans, self.model.cells.has_surfaces, here)
 
-    def _sampler(self) -> tuple[Sampler[Any, Any] | None, dict[str, Any]]:
+    def _sampler(self, warmup: int) -> tuple[Sampler[Any, Any] | None, dict[str, Any]]:
         """Return the sampler of the chains, None for methods without chains, and its options for the settings."""
         if self.kernel in WITHOUT_CHAINS:
             return None, {"order": Gibbs.order, "start": default_start(self.model.grid)}
         method = cast(Gibbs, self.method)
         if not self.model.poses.unknown:
-            return sampler_of(self.kernel, self.model.grid, method, self.plan.warmup)
+            return sampler_of(self.kernel, self.model.grid, method, warmup)
         sampler, options = sampler_of(self.kernel, self.model.grid, method)
-        return WithPoses(cast(MovableSampler, sampler), self.plan.warmup, method.start_poses), options
+        return WithPoses(cast(MovableSampler, sampler), warmup, method.start_poses), options
 
     def _stopped(self, run: Run | None, settings: dict[str, Any]) -> Posterior | None:
         """Return the posterior of the run to resume; None without a run, or if it was stopped before its first sweep.
@@ -318,15 +339,6 @@ class Inference:
             raise BadInput(f"resume: the saved run is one over {posterior.prior.words.states}, not over {words.states}")
         check_same(posterior.settings, settings)
         return posterior if posterior.sweep > 0 else None
-
-    def _pilot(
-        self, sampler: Sampler[Any, Any], watch: Watch, preview: Callable[[Sampler[Any, Any], Any], None]
-    ) -> Parameters:
-        """Fit sensor and prior by a pilot chain over the cells, and release its memory afterwards."""
-        problem = sampler.prepare(self.model, self.device, self.threads, watch)
-        cells = problem.cells if self.model.poses.unknown else problem
-        preview(StopGibbs(), cells)
-        return fit(cells, self.asked.seed, min(PILOT_SWEEPS, self.plan.warmup), watch)
 
     def _settings(self, options: dict[str, Any]) -> dict[str, Any]:
         """Return everything that determines the draws, as JSON values."""

@@ -49,9 +49,12 @@ class Schedule:
         precision: Monte Carlo standard error of the mean map at which chains stop: 99 of 100 observed cells have this
             error or less (`bayesmap.run.chains.map_error`). None: 0.03, but no limit if ``draws`` is given. A value
             below 0.03 allows up to ten times the default number of draws.
+        seconds: time after which chains stop with the draws that they have, at least two each, counted from the start
+            of the inference. A slow map has a shorter warm-up then. Without ``precision`` or ``draws``, chains use all
+            of the time. Draws are those of a longer run, but their number depends on the machine. None: no limit.
 
     Raises:
-        BadInput: a count that is not a whole number or is too small, or a precision that is not positive.
+        BadInput: a count that is not a whole number or is too small, or a precision or time that is not positive.
     """
 
     chains: int = 4
@@ -59,6 +62,7 @@ class Schedule:
     draws: int | None = None
     thin: int | None = None
     precision: float | None = None
+    seconds: float | None = None
 
     def __post_init__(self) -> None:
         for name, least in {"chains": 1, "warmup": 0, "draws": 0, "thin": 1}.items():
@@ -67,6 +71,8 @@ class Schedule:
                 object.__setattr__(self, name, check_count("Schedule", name, value, least))
         if self.precision is not None and not self.precision > 0:
             raise BadInput(f"Schedule: precision must be a positive probability, such as 0.03, got {self.precision!r}")
+        if self.seconds is not None and not self.seconds > 0:
+            raise BadInput(f"Schedule: seconds must be a positive number, such as 60, got {self.seconds!r}")
 
     def completed(self, sweeps_a_draw: int, default_draws: Callable[[int], int]) -> Schedule:
         """Return the schedule with ``thin``, ``draws`` and ``precision`` filled in.
@@ -78,8 +84,8 @@ class Schedule:
         thin = (sweeps_a_draw if self.draws is None else 1) if self.thin is None else self.thin
         if self.draws is not None:
             return replace(self, thin=thin)
-        precision = PRECISION if self.precision is None else self.precision
-        draws = default_draws(thin) * (MORE_DRAWS if precision < PRECISION else 1)
+        precision = PRECISION if self.precision is None and self.seconds is None else self.precision
+        draws = default_draws(thin) * (MORE_DRAWS if precision is None or precision < PRECISION else 1)
         return replace(self, draws=draws, thin=thin, precision=precision)
 
 

@@ -196,7 +196,7 @@ def test_interrupted_among_its_draws_a_run_leaves_its_map_so_far(office, tmp_pat
 
 
 @BOTH
-def test_interrupted_in_its_warm_up_a_run_has_no_picture_yet(office, tmp_path, monkeypatch, cells):
+def test_a_run_interrupted_in_its_warm_up_has_no_draws_yet(office, tmp_path, monkeypatch, cells):
     folder = tmp_path / "run"
     never = "--resolution 0.25 --warmup 20000 --draws 2 --checkpoint-every 0 --chains 1"
     interrupt_at_checkpoint(monkeypatch)
@@ -205,7 +205,7 @@ def test_interrupted_in_its_warm_up_a_run_has_no_picture_yet(office, tmp_path, m
     assert 0 < run.posterior.sweep < 20000
     for what in ("figure", "mean", "draw", "animation", *(("width", "surfaces") if cells == "surface" else ())):
         assert "the run has no draws yet" in refusal_of("render", folder / "run.nc", "--what", what)
-    assert "the run has no draws yet" in refusal_of("export", folder / "run.nc")
+    assert "the run has no draws yet" in refusal_of("export", folder / "run.nc", "-o", tmp_path / "map.yaml")
     with pytest.raises(bm.BadInput, match="stopped before its first draw"):
         run.plot()
     assert json.loads(call("info", folder / "run.nc", "--json").stdout)["run"]["draws"] == 0

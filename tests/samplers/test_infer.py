@@ -11,6 +11,7 @@ from oracle.worlds import make_case
 
 import bayesmap as bm
 from bayesmap.run import runner
+from bayesmap.run.chains import FEWEST_DRAWS
 
 MARKOV = ["gibbs", "block"]
 METHODS = [*MARKOV, "exact", "importance", "propagate"]
@@ -244,3 +245,28 @@ def test_a_first_map_is_shown_and_changes_no_draw(case, monkeypatch, cells):
     preview = previews[0]
     assert (preview.n_draws, preview.finished) == (1, False)
     assert preview.occupancy.shape == case.grid.shape
+
+
+def test_a_limited_time_ends_the_chains_with_what_they_have(case, monkeypatch):
+    options = {"prior": bm.Independent(0.3), "sensor": case.sensor}
+    short = bm.infer(case.scans, case.grid, **options, schedule=bm.Schedule(2, warmup=5, seconds=1e-3))
+    assert short.finished
+    draws = short.n_draws
+    assert FEWEST_DRAWS <= draws <= runner.FIRST_STEP  # those of one step
+    warmup = short.posterior.settings["warmup"]
+    assert warmup < 5  # five sweeps take longer
+    whole = bm.infer(case.scans, case.grid, **options, schedule=bm.Schedule(2, warmup=warmup, draws=draws))
+    np.testing.assert_array_equal(short.log_joint, whole.log_joint)
+    # Enough time: the draws that were asked for.
+    long = bm.infer(case.scans, case.grid, **options, schedule=bm.Schedule(2, warmup=5, draws=10, seconds=600))
+    assert long.n_draws == 10
+
+
+def test_a_run_of_limited_time_goes_on_with_its_own_warm_up(case):
+    options = {"prior": bm.Independent(0.3), "sensor": case.sensor}
+    short = bm.infer(case.scans, case.grid, **options, schedule=bm.Schedule(2, warmup=5, draws=10, seconds=1e-3))
+    longer = bm.Schedule(2, warmup=5, draws=10, seconds=600)
+    resumed = bm.infer(case.scans, case.grid, **options, schedule=longer, checkpoints=bm.Checkpoints(resume=short))
+    warmup = short.posterior.settings["warmup"]
+    whole = bm.infer(case.scans, case.grid, **options, schedule=bm.Schedule(2, warmup=warmup, draws=10))
+    np.testing.assert_array_equal(resumed.log_joint, whole.log_joint)

@@ -134,6 +134,11 @@ class SamplingSettings(ReadingSettings, kw_only=True, frozen=True):
         Rule(lambda x: 0 < x < 1, "a probability between 0 and 1"),
         Help("Stop chains when 99 of 100 cells have this standard error or less.", "0.03; with draws given, none", "P"),
     ] = None
+    seconds: Annotated[
+        float | None,
+        Rule(lambda x: 0 < x < math.inf, "a positive number of seconds"),
+        Help("Stop chains after this time, with the best map so far.", metavar="SECONDS"),
+    ] = None
     seed: Seed = 0
     sensor: Annotated[str, Help("Sensor model: fit, or e.g. mixture:0.02 (see above).", metavar="MODEL")] = "default"
     hit_depth: Annotated[

@@ -198,7 +198,9 @@ def schedule_of(settings: SamplingSettings) -> Schedule:
     """Return the schedule of the chains."""
     from bayesmap.arguments import Schedule
 
-    return Schedule(settings.chains, settings.warmup, settings.draws, settings.thin, settings.precision)
+    return Schedule(
+        settings.chains, settings.warmup, settings.draws, settings.thin, settings.precision, settings.seconds
+    )
 
 
 def method_of(settings: InferSettings) -> Method:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import time
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -17,6 +18,10 @@ PRECISION = 0.03
 """Default error of the mean map at which chains stop. On a grey map an error of 0.1 is visible, a third is not."""
 FIRST_MARK = 10
 """Draws per chain at the first estimate of the map's error."""
+FEWEST_DRAWS = 2
+"""Fewest draws per chain if the time ends a run."""
+WARMUP_SHARE = 0.4
+"""Largest share of a limited time that warm-up may take."""
 FEWEST_BATCHES = 8
 """Fewest batches of an estimate. With one batch per chain, and few chains, estimates scatter widely."""
 KNOWN_SHARE = 0.99
@@ -33,12 +38,14 @@ class SweepPlan:
         draws: most draws per chain.
         thin: sweeps from one draw to the next.
         precision: Monte Carlo error of the map at which chains stop early, see `map_error`; None to never stop early.
+        seconds: seconds after which chains stop early, once each has `FEWEST_DRAWS`; None for no limit.
     """
 
     warmup: int
     draws: int
     thin: int = 1
     precision: float | None = None
+    seconds: float | None = None
 
     @property
     def sweeps(self) -> int:
@@ -62,11 +69,44 @@ class SweepPlan:
             draws += max(5, draws // 4)
         return tuple(marks)
 
-    def aim(self, sweep: int, error: float) -> int:
-        """Return the expected sweeps to the precision, given the error at a sweep: it falls with their square root."""
-        assert self.precision is not None
-        more = max(1.0, (error / self.precision) ** 2) if np.isfinite(error) else np.inf
-        return int(min(self.warmup + more * (sweep - self.warmup), self.sweeps))
+    def shortened(self, sweep_s: float, left_s: float) -> SweepPlan:
+        """Return the plan with a warm-up of at most `WARMUP_SHARE` of the seconds left, given those of a sweep."""
+        return replace(self, warmup=min(self.warmup, max(1, int(WARMUP_SHARE * left_s / sweep_s))))
+
+
+class StopRule:
+    """Decides when chains may stop before all their draws: when the map is known, or when the time is over.
+
+    Attributes:
+        reached: whether they may stop.
+        error: latest estimate of the map's error, see `map_error`; None before the first mark.
+    """
+
+    def __init__(self, plan: SweepPlan, error_of_map: Callable[[], float]) -> None:
+        """Start the clock. ``error_of_map`` estimates the error of the map from all draws so far."""
+        self._plan, self._error_of_map, self._began = plan, error_of_map, time.monotonic()
+        self.reached, self._aim = False, plan.sweeps
+        self.error: float | None = None
+
+    def check(self, sweep: int) -> None:
+        """Update the decision after a number of sweeps."""
+        plan = self._plan
+        if plan.precision is not None and sweep in plan.marks:
+            error = self.error = self._error_of_map()
+            # The error falls with the square root of the number of draws.
+            more = max(1.0, (error / plan.precision) ** 2) if np.isfinite(error) else np.inf
+            self._aim = int(min(plan.warmup + more * (sweep - plan.warmup), plan.sweeps))
+            self.reached = error <= plan.precision
+        if plan.seconds is not None and sweep >= plan.warmup + FEWEST_DRAWS * plan.thin:
+            self.reached = self.reached or time.monotonic() - self._began >= plan.seconds
+
+    def aim(self, sweep: int) -> int:
+        """Return the expected number of sweeps at the end, by the error at the last mark and by the time."""
+        aim = self._aim
+        if self._plan.seconds is not None and sweep > 0:
+            spent = max(time.monotonic() - self._began, 1e-3)
+            aim = min(aim, int(sweep * max(1.0, self._plan.seconds / spent)))
+        return max(aim, sweep)
 
 
 @dataclass(frozen=True, eq=False)
@@ -106,14 +146,15 @@ class Chains:
         """Number of sweeps of each chain, warm-up included."""
         return self.snapshot.sweep
 
-    def error(self, cells: CellPrior) -> float:
-        """Estimate the Monte Carlo error of the map, see `map_error`."""
-        return map_error(cells, self.draws, self.observed())
-
     def observed(self) -> NDArray[np.bool_]:
         """Return the cells that at least one beam observes in at least half of the draws, (nx, ny)."""
-        some, looked = self.observed_counts
-        return np.asarray(2 * some >= np.maximum(looked, 1))
+        return observed_cells(self.observed_counts)
+
+
+def observed_cells(counts: NDArray[np.int32]) -> NDArray[np.bool_]:
+    """Return the cells that are observed in at least half of the inspected draws; both counts are (2, nx, ny)."""
+    observed_in, inspected = counts
+    return np.asarray(2 * observed_in >= np.maximum(inspected, 1))
 
 
 def map_error(cells: CellPrior, draws: Draws, observed: NDArray[np.bool_]) -> float:

@@ -21,7 +21,7 @@ from typing import Any
 
 from bayesmap.errors import BadInput, check_count
 from bayesmap.run import ray_worker
-from bayesmap.run.chains import Chains, SweepPlan, in_sequence, join, some_chains
+from bayesmap.run.chains import Chains, StopRule, SweepPlan, in_sequence, join, map_error, some_chains
 from bayesmap.run.runner import Job, pause_after
 from bayesmap.samplers.progress import Watch
 from bayesmap.samplers.sampler import Snapshot, to_see
@@ -233,8 +233,7 @@ class _RayRun:
         self.name = uuid.uuid4().hex
         self.shared: tuple[Any, ...] = ()
         self.trace_s = 0.0
-        self.known = False
-        self.error: float | None = None
+        self.rule = StopRule(job.schedule, self._error)
 
     def remote(self, function: Callable[..., Any], **options: Any) -> Any:
         return self.ray.remote(function).options(**self.options, **options).remote
@@ -251,13 +250,13 @@ class _RayRun:
 
         schedule, watch = self.job.schedule, self.watch
         last = self.sweep
-        self._look()  # a resumed run may stand at a mark
+        self.rule.check(last)  # a resumed run may stand at a mark
         for group in self.groups:
-            if not self.known and group.sweep < schedule.sweeps:
+            if not self.rule.reached and group.sweep < schedule.sweeps:
                 submit(group)
         saved_at, pause_s = time.monotonic(), checkpoint_every_s
         # Take segments as they end, and start the next segment of their group.
-        while self.running and not self.known and not (watch.should_stop() and self.sweep >= 0):
+        while self.running and not self.rule.reached and not (watch.should_stop() and self.sweep >= 0):
             ready, _ = self.ray.wait(list(self.running), num_returns=1, timeout=WAIT_S)
             for ref in ready:
                 group = self.running.pop(ref)
@@ -269,7 +268,7 @@ class _RayRun:
             # The slowest group has reached a new mark: look at the error, drop old snapshots, perhaps checkpoint.
             warmed_up = last < schedule.warmup <= self.sweep
             last = self.sweep
-            self._look()
+            self.rule.check(last)
             for group in self.groups:
                 group.snapshots = {at: snapshot for at, snapshot in group.snapshots.items() if at >= last}
             now = time.monotonic()
@@ -281,14 +280,12 @@ class _RayRun:
                 pause_s = pause_after(saved_at - now, checkpoint_every_s)
         # Segments that still run end by themselves, in seconds. Never cancel them: Ray aborts this process if it
         # cancels a task that has just returned (a race, see its pull request 54798; 2.60 still has it).
-        return replace(self.so_far(), finished=True) if self.known else self.so_far()
+        return replace(self.so_far(), finished=True) if self.rule.reached else self.so_far()
 
-    def _look(self) -> None:
-        """Estimate the error of the map at a mark, and note whether it is small enough."""
-        schedule = self.job.schedule
-        if schedule.precision is not None and self.sweep in schedule.marks:
-            self.error = self.so_far().error(self.job.model.cells)
-            self.known = self.error <= schedule.precision
+    def _error(self) -> float:
+        """Estimate the error of the map from all draws so far."""
+        chains = self.so_far()
+        return map_error(self.job.model.cells, chains.draws, chains.observed())
 
     @property
     def sweep(self) -> int:
@@ -328,12 +325,12 @@ class _RayRun:
         group.segments.append(replace(segment, snapshot=Snapshot(segment.sweep)))
         if made > 0:
             self.marks.per_sweep_s = max(self.marks.per_sweep_s, segment.seconds["sampling"] / made)
-        schedule, done = self.job.schedule, self.sweep
+        done = self.sweep
         if segment.sweep == 0 or done < 0:
             started = sum(group.sweep >= 0 for group in self.groups)
             self.watch.report("start", started, len(self.groups))
         elif done > 0:
-            warming = done <= schedule.warmup
+            warming = done <= self.job.schedule.warmup
             log_joint = segment.log_joint if segment.log_joint.size else segment.warmup_log_joint
             mean = float(log_joint[:, -1].mean()) if log_joint.size else None
-            self.watch.report("warm-up" if warming else "draws", done, schedule.sweeps, mean, self.error)
+            self.watch.report("warm-up" if warming else "draws", done, self.rule.aim(done), mean, self.rule.error)

@@ -21,7 +21,7 @@ import numpy as np
 
 from bayesmap.cells.arrays import Draws
 from bayesmap.model import Model
-from bayesmap.run.chains import Chains, Record, SweepPlan
+from bayesmap.run.chains import Chains, Record, StopRule, SweepPlan, map_error, observed_cells
 from bayesmap.samplers.fit import Parameters
 from bayesmap.samplers.progress import SILENT, Watch
 from bayesmap.samplers.sampler import NOTHING, PILOT, ChainState, Info, Keep, Sampler, Snapshot, to_see
@@ -213,7 +213,7 @@ def run_chains(
 
     def so_far(state: ChainState) -> Chains:
         return record.chains(
-            snapshot=job.sampler.snapshot(state), finished=known or state.sweep >= schedule.sweeps,
+            snapshot=job.sampler.snapshot(state), finished=rule.reached or state.sweep >= schedule.sweeps,
             statistics=statistics, observed_counts=job.sampler.observed_counts(state, to_see(record.draws)),
             n_incidences=state.problem.n_incidences, seconds=dict(seconds),
         )  # fmt: skip
@@ -222,21 +222,18 @@ def run_chains(
         job.sampler, state, schedule.sweeps, keep=schedule.keep, most_kept=max(1, BUFFER_BYTES // max(draw_bytes, 1)),
         stops=(schedule.warmup, *schedule.marks),
     )  # fmt: skip
-    known, error, aim = False, None, schedule.sweeps
 
-    def look(state: ChainState) -> None:
-        """Estimate the error of the map at a mark, and note whether it is small enough."""
-        nonlocal known, error, aim
-        if schedule.precision is not None and state.sweep in schedule.marks:
-            error = so_far(state).error(job.model.cells)
-            known, aim = error <= schedule.precision, schedule.aim(state.sweep, error)
+    def error() -> float:
+        counts = job.sampler.observed_counts(state, to_see(record.draws))
+        return map_error(job.model.cells, record.draws, observed_cells(counts))
 
-    look(state)  # a resumed run may stand at a mark
+    rule = StopRule(schedule, error)
+    rule.check(state.sweep)  # a resumed run may stand at a mark
     # Advance step by step: record draws, look at the error, report, write checkpoints.
     saved_at, pause_s = time.monotonic(), checkpoint_every_s
     began, before = time.perf_counter(), state.sweep
     stopped = watch.should_stop()
-    while not (stopped or known):
+    while not (stopped or rule.reached):
         state, info = next(steps, (state, None))
         if info is None:
             break
@@ -245,11 +242,11 @@ def run_chains(
         warming = before < schedule.warmup
         before = state.sweep
         log_joint = float(np.mean(info.log_likelihood[:, -1] + info.log_prior[:, -1]))
-        look(state)
-        watch.report("warm-up" if warming else "draws", state.sweep, max(aim, state.sweep), log_joint, error)
+        rule.check(state.sweep)
+        watch.report("warm-up" if warming else "draws", state.sweep, rule.aim(state.sweep), log_joint, rule.error)
         now = time.monotonic()
         warmed_up = warming and state.sweep == schedule.warmup
-        last = known or state.sweep >= schedule.sweeps
+        last = rule.reached or state.sweep >= schedule.sweeps
         if on_checkpoint is not None and (warmed_up or now - saved_at >= pause_s):
             on_checkpoint(replace(so_far(state), finished=False) if last else so_far(state))
             saved_at = time.monotonic()
