@@ -12,6 +12,7 @@ import math
 from typing import Any
 
 import warp as wp
+from scipy import special
 
 from bayesmap.kernels.law_table import LawTable, law_table_to_device, table_cumulative, table_log_density
 from bayesmap.sensors.builtin import LOG_IMPOSSIBLE
@@ -155,6 +156,7 @@ NOISE, MIXTURE, TABLE = (wp.constant(i) for i in range(3))
 
 FAR_SQ = wp.constant(wp.float64(81.0))  # squared standard distance past which normal noise adds nothing
 LEAST = wp.constant(wp.float64(math.exp(LOG_IMPOSSIBLE)))  # least probability of a typed reading
+TAIL = 1e-10  # probability of noise that cumulative probabilities leave out
 THIRD = wp.constant(wp.float64(1.0 / 3.0))
 
 
@@ -167,6 +169,7 @@ def _law(name: str, real: Any) -> Any:
         "uniform",  # density of a random reading
         "passing",  # density of a passing object at distance 0
         "peak",  # upper bound of the mixture's density of a finite reading
+        "certain_sq",  # squared standard distance past which the noise's tail is below `TAIL`
         "series",  # for smaller x the fifth term of exp(-x) is below the precision
     )  # fmt: skip
     whole = {"kind": int, "power": int}  # power: see `noise_density`
@@ -209,6 +212,7 @@ def sensor_law(sensor: SensorModel, limits: RangeLimits, device: str, law: Any =
     else:
         packed.log_height = -0.5 * math.log(2 * math.pi)
     packed.height = math.exp(packed.log_height)
+    packed.certain_sq = special.stdtrit(model.dof, TAIL) ** 2 if model.dof > 0 else float(FAR_SQ)
     packed.p_random, packed.p_known = model.p_random, 1.0 - model.p_random
     packed.p_return, packed.p_no_return = 1.0 - model.p_no_return, model.p_no_return
     packed.p_short, packed.rate_short_per_m = model.p_short, model.rate_short_per_m
@@ -411,15 +415,11 @@ def is_behind(law: Any, z: Any, distance_m: Any, variance: Any):
     if distance_m > law.max_m:
         return True
     error = distance_m - z
-    if error <= type(z)(0.0) or law.dof > type(z)(0.0):
-        return False
-    return error * error > type(z)(FAR_SQ) * variance_at(law, distance_m, variance)
+    return error > type(z)(0.0) and error * error > law.certain_sq * variance_at(law, distance_m, variance)
 
 
 @wp.func
 def is_before(law: Any, z: Any, distance_m: Any, variance: Any):
     """Return whether a stop lies so far before z that all that returns from it is below z."""
     error = z - wp.min(distance_m, law.max_m)
-    if error <= type(z)(0.0) or law.dof > type(z)(0.0):
-        return False
-    return error * error > type(z)(FAR_SQ) * variance_at(law, distance_m, variance)
+    return error > type(z)(0.0) and error * error > law.certain_sq * variance_at(law, distance_m, variance)
