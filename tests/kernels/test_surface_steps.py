@@ -22,7 +22,7 @@ from tiers import full_but
 
 import bayesmap as bm
 from bayesmap.kernels.sensor_law import SensorLaw32
-from bayesmap.kernels.surfaces import stop_chains as chains
+from bayesmap.kernels.surfaces import stops as stop_kernels
 from bayesmap.kernels.surfaces.cell import Cell
 from bayesmap.kernels.surfaces.stops import GAIN_UNITS, ChainArrays, TracedRays
 
@@ -100,7 +100,7 @@ def closed_form_p_values(surfaces):
 
 @pytest.mark.parametrize(("kernel", "right", "cells"), [(speak, True, CELLS), (speak_wrongly, False, CELLS // 4)])
 def test_draws_from_the_prior_are_accepted_as_often_as_they_should(kernel, right, cells, monkeypatch):
-    monkeypatch.setattr(chains, "draw_stops", kernel)
+    monkeypatch.setattr(stop_kernels, "draw_stops", kernel)
     scans = bm.Scans([-0.25, 0.25, 0.0], [0.0], [[1.2]], max_range_m=2.0)
     worlds = copies(scans, bm.Grid((1, 1), EDGE), UNBOUNDED, SENSOR, cells)
     assert not worlds.problem.estimate.endpoint.any()
@@ -139,7 +139,7 @@ def given_stops(prior):
 @pytest.mark.parametrize("name", full_but(PRIORS, "wide"))
 def test_an_endpoint_cell_comes_to_its_law_given_the_stops(name, monkeypatch):
     prior = PRIORS[name]
-    monkeypatch.setattr(chains, "draw_stops", stop_as_ever)
+    monkeypatch.setattr(stop_kernels, "draw_stops", stop_as_ever)
     worlds = copies(ENDING, bm.Grid((1, 1), EDGE), prior, SENSOR, 5000)
     assert worlds.problem.estimate.endpoint.all()
     states = worlds.split(worlds.sweep(worlds.sampler(9), 300))

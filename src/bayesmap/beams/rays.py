@@ -1,8 +1,5 @@
 r"""Rays: the cells of a grid that each beam crosses, where it crosses them, and where it may stop.
 
-`bayesmap.kernels.rays.trace_rays` traces them, for any scans from any poses. The beam table of binary walls, the stops
-of surfaces, predictions and the JAX model all start from them.
-
 Only the cells are kept, 4 bytes for each. Where a beam enters and leaves a cell follows from its line and the cell's
 square (`Rays.stretches`; `bayesmap.kernels.rays.stretch` compiled):
 
@@ -15,24 +12,22 @@ square (`Rays.stretches`; `bayesmap.kernels.rays.stretch` compiled):
 - a cell that is touched in a corner only has a stretch of no length;
 - an axis along which the beam does not move (a direction cosine below `PARALLEL`) limits nothing.
 
-`stops_of` is the plain reference for every kernel that draws or predicts stops. A cell that stops beams at its hit
-depth has one number, the probability that it does; for binary walls it is 0 or 1. A cell with a surface has six:
-reflectivity m, mean mu, and Cholesky factor of the covariance Sigma of the points where beams stop (normal
-distributions as normal-distributions-transform maps keep them: Biber and Strasser, 2003). A beam from p in direction u,
-with normal n, passes the mean at the offset o = n . (mu - p); across the beam the surface has the standard deviation
-v = sqrt(n' Sigma n). The beam crosses the surface with probability
+`stops_of` is the plain reference for every kernel that draws or predicts stops. A cell has a probability of stopping
+beams at its hit depth, or a surface: reflectivity m, mean mu, and covariance Sigma of the points where beams stop
+(normal distributions as in maps of Biber and Strasser, 2003). A beam from p in direction u, with normal n, passes the
+mean at the offset o = n . (mu - p); across the beam the surface has the standard deviation v = sqrt(n' Sigma n). The
+beam meets the surface with probability
 
     g = 1 / (1 + (o / (w v))^6)
 
-which is nearly one where the beam crosses the surface's body and nearly zero where it passes beside it; w = 2.2 was
-measured (docs/surfaces.md). A beam that crosses the surface is stopped with probability m, at the distance
-t ~ N(t*, s^2), the law of a point of the surface *given that it lies on the beam*:
+which is nearly one where it crosses the surface's body and nearly zero beside it; w = 2.2 was measured
+(docs/surfaces.md). It is then stopped with probability m, at the distance t ~ N(t*, s^2), the law of a point of the
+surface *given that it lies on the beam*:
 
     t* = u . (mu - p) - (u' Sigma n / c^2) o        s^2 = u' Sigma u - (u' Sigma n)^2 / c^2
 
-A beam's direction is known up to an angle omega only: at the mean's distance d = u . (mu - p) its line may lie off by
-omega d, which spreads the readings of a wall that it grazes. So c^2 = v^2 + (omega d)^2, the variance across the beam
-of the two together. The probability g keeps v: with c in it, held-out scans were predicted worse.
+A beam's direction is known up to an angle omega only, so c^2 = v^2 + (omega d)^2 at the mean's distance d = u . (mu -
+p). The probability g keeps v: with c in it, held-out scans were predicted worse.
 """
 
 from __future__ import annotations
@@ -128,9 +123,8 @@ class Rays:
         return seen.reshape(self.grid.shape)
 
     def stretches(self) -> tuple[Floats, Floats]:
-        """Return the distances at which each beam enters and leaves each of its cells, metres, (K,) each.
-
-        This is the plain reference for kernels, which compute them on the way.
+        """Return the distances at which each beam enters and leaves each of its cells, metres, (K,) each: the plain
+        reference.
         """
         beam, ny = self.beam_of_entry(), self.grid.shape[1]
         enter, leave = np.zeros(len(beam)), np.full(len(beam), np.inf)
@@ -182,15 +176,11 @@ class Rays:
 
 
 def around_readings(scans: Scans, margin_m: float | Floats, resolution_m: float) -> tuple[Floats, Floats]:
-    """Return how far to follow each beam, and from where on stops may explain its reading, metres, (B,) each.
+    """Return ``reach_m`` and ``near_m`` of `bayesmap.kernels.rays.trace_rays` around readings, (B,) each.
 
-    They are ``reach_m`` and ``near_m`` of `bayesmap.kernels.rays.trace_rays`. If a reading is no hit, they are the
-    sensor's largest range and 0.
-
-    Args:
-        scans: scans with B beams.
-        margin_m: largest distance of a stop from its reading, noise and surface included, one number or (B,).
-        resolution_m: edge of a cell: stops are weighed from one cell before the margin on.
+    If a reading is no hit, they are the sensor's largest range and 0. ``margin_m`` is the largest distance of a stop
+    from its reading, noise and surface included, one number or (B,). Stops are weighed from one cell before the margin
+    on.
     """
     ranges = scans.ranges_m.ravel()
     finite = np.isfinite(ranges)

@@ -1,13 +1,11 @@
 """The beam table: all data of scans and sensor that inference on binary walls uses.
 
 For every beam it lists the cells that the beam touches, in order, each with a log-likelihood for "the first wall is in
-this cell". One more log-likelihood is for "no wall in these cells": the beam ends past the sensor's range, past the
-grid, or past the reach of the sensor model. With ``first_hit(map, beam)`` the position of the first wall,
+this cell". One more is for "no wall in these cells". With ``first_hit(map, beam)`` the position of the first wall,
 
     log p(z | map) = sum over beams of  loglik[beam, first_hit(map, beam)]
 
-Every sensor model only fills in the table, and every sampler only reads it. Memory: 8 bytes per beam-cell incidence
-here, and 20 more in the index by cells that the Gibbs samplers use (`CellIndex`).
+Memory: 8 bytes per beam-cell incidence, and 20 more in the index by cells that the Gibbs samplers use (`CellIndex`).
 """
 
 from __future__ import annotations
@@ -61,10 +59,7 @@ class BeamTable:
         return seen.reshape(self.grid.shape)
 
     def first_hits(self, walls: NDArray[np.bool_]) -> NDArray[np.int32]:
-        """Return the position of the first wall along each beam, or the beam's length if there is none, (B,).
-
-        This is the plain reference for the numbers that samplers keep up to date.
-        """
+        """Return the position of the first wall along each beam, or the beam's length if there is none, (B,)."""
         self.check_walls(walls)
         lengths = np.diff(self.offsets)
         is_wall = np.asarray(walls, dtype=np.bool_).ravel()[self.cells]
@@ -87,11 +82,7 @@ class BeamTable:
         return float(self.beam_log_likelihoods(walls).sum(dtype=np.float64))
 
     def check_walls(self, walls: NDArray[np.bool_]) -> None:
-        """Check that a map has the grid's shape.
-
-        Raises:
-            BadInput: the shape is not the grid's.
-        """
+        """Raise `BadInput` if a map has another shape than the grid."""
         if np.shape(walls) != self.grid.shape:
             raise BadInput(f"map: walls have shape {np.shape(walls)}, but the grid is {self.grid.shape}")
 
@@ -106,10 +97,8 @@ class CellIndex:
         beam: the beam of that entry, shape (K,), int32.
         loglik: the entry's log-likelihood, shape (K,), float32.
         gain_bound: upper bound, for any map, of the sum that this incidence and those after it in the cell add to the
-            log-odds of a wall, shape (K,), float32. Incidences that can gain come first, so that a sampler can stop as
-            soon as the outcome is certain.
-        advantage: log-likelihood of a first hit here minus that of the likeliest outcome behind it, shape (K,),
-            float32: lower bound of the gain of a wall that the beam hits.
+            log-odds of a wall, shape (K,), float32. Incidences that can gain come first.
+        advantage: log-likelihood of a first hit here minus that of the likeliest outcome behind it, (K,), float32.
     """
 
     offsets: NDArray[np.int32]

@@ -91,11 +91,19 @@ def to_device(array: np.ndarray[Any, Any], dtype: Any, device: str) -> Any:
 
 
 def pack(kind: Any, device: str, /, **values: Any) -> Any:
-    """Return a struct for kernels; NumPy arrays among its values are put on the device with the types of its fields."""
+    """Return a struct for kernels, with arrays of the types of its fields.
+
+    A NumPy array is put on the device. A shape, a tuple, stands for an array of zeros.
+    """
     packed = kind()
     for name, value in values.items():
-        is_host = isinstance(value, np.ndarray)
-        setattr(packed, name, to_device(value, kind.vars[name].type.dtype, device) if is_host else value)
+        field = kind.vars[name].type
+        if isinstance(value, np.ndarray):
+            setattr(packed, name, to_device(value, field.dtype, device))
+        elif isinstance(value, tuple):
+            setattr(packed, name, wp.zeros(value, dtype=field.dtype, device=device))
+        else:
+            setattr(packed, name, value)
     return packed
 
 

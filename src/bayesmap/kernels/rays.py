@@ -232,7 +232,7 @@ def trace_rays(
             beams that a scan does not have, get no entry.
         grid: the map's grid.
         poses_world: other poses for the scans, (S, 3), as `bayesmap.space.scans.Scans.at` takes them.
-        reach_m: how far each beam is followed, (B,); to the sensor's largest range if None, and never further.
+        reach_m: how far each beam is followed, (B,), at most to the sensor's largest range, the default.
         near_m: distance before which no stop could explain the beam's reading, (B,); 0 if None.
         device: where to trace; the rays come back in main memory.
         on_progress: callback that gets the beams done and all beams; each beam is followed twice.
@@ -269,11 +269,7 @@ def trace_rays(
 
 
 def offsets_of(counts: Ints, what: str) -> Ints:
-    """Return the first entry of each beam, and the end of the last beam's entries, (B + 1,).
-
-    Raises:
-        BadInput: more entries than 32-bit indices can count.
-    """
+    """Return the first entry of each beam, and the end of the last beam's, (B + 1,); refuse over 2^31 entries."""
     ends = np.cumsum(counts, dtype=np.int64)
     total = int(ends[-1]) if len(ends) else 0
     if total > MAX_INCIDENCES:

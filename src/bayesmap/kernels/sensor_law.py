@@ -1,11 +1,9 @@
 """The law of a reading, compiled: the formulas of `bayesmap.sensors`, in single and in double precision.
 
-All kernels compute the likelihood of a reading with this module. A beam stops at a distance known up to a variance. The
-variance widens the noise: its scale is ``sqrt(scale(d)^2 + variance)``.
-
-Functions take their precision from their arguments. Chains weigh a beam's few stops in single precision
-(`SensorLaw32`), tables and predictions work in double precision (`SensorLaw64`). A model without a compiled formula is
-tabulated (`bayesmap.kernels.law_table`).
+A beam stops at a distance known up to a variance, which widens the noise to ``sqrt(scale(d)^2 + variance)``. Functions
+take their precision from their arguments: chains weigh stops in single precision (`SensorLaw32`), tables and
+predictions work in double precision (`SensorLaw64`). A model without a compiled formula is tabulated
+(`bayesmap.kernels.law_table`).
 """
 
 import math
@@ -184,12 +182,8 @@ SensorLaw32 = _law("SensorLaw32", wp.float32)
 def sensor_law(sensor: SensorModel, limits: RangeLimits, device: str, law: Any = SensorLaw64) -> Any:
     """Pack a sensor's numbers for kernels, as a `SensorLaw64` or a `SensorLaw32`.
 
-    If a model has no compiled formula, its densities and probabilities in single precision are at least
-    exp(`LOG_IMPOSSIBLE`). So numbers do not underflow in the sampler of stops, and no single beam makes a map
-    impossible. Predictions, in double precision, have no such bound.
-
-    Raises:
-        BadInput: a model without a compiled formula whose law cannot be tabulated.
+    Densities of a tabulated model are at least exp(`LOG_IMPOSSIBLE`) in single precision, so that no beam makes a map
+    impossible for the sampler of stops. Predictions, in double precision, have no such bound.
     """
     packed = law()
     packed.min_m, packed.max_m = limits.min_m, limits.max_m
@@ -292,7 +286,7 @@ def mixed_density(law: Any, reading_m: Any, decay: Any, distance_m: Any, returne
 def stop_density(law: Any, reading_m: Any, decay: Any, distance_m: Any, variance: Any):
     """Return p(reading | the beam stops at about the distance): a density, or the probability of a typed reading.
 
-    ``decay`` is `object_decay` of the reading. An infinite distance means that the beam stops nowhere.
+    ``decay`` is `object_decay` of the reading. The distance is infinite if the beam stops nowhere.
     """
     # wall: the distance, at most the largest range; free: chance that no passing object blocks the beam.
     if law.kind != MIXTURE:

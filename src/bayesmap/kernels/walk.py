@@ -3,12 +3,8 @@
 Cells are closed squares: a beam through a corner touches all cells that meet there, and a beam along a grid line
 touches the cells on both sides. The cell of the start is touched where the beam leaves it. These are the rules of the
 tutorial's formula, the minimum over the four edges of every wall pixel. The steps are those of Amanatides and Woo
-(1987), with ties kept.
-
-The walk counts in units of cells. It starts one cell *before* any grid line that the start lies on, so that both sides
-of that line are touched at distance zero. It starts at the grid's border when the sensor is outside.
-
-`cast` computes noise-free ranges: the distance at which a walk meets its first wall.
+(1987), with ties kept. The walk counts in units of cells. It starts one cell *before* any grid line that the start lies
+on, so that both sides are touched at distance zero, and at the grid's border when the sensor is outside.
 """
 
 from typing import Any
@@ -185,12 +181,8 @@ def cast(
 ) -> tuple[Floats, Ints]:
     """Compute each beam's capped distance to its first wall, in cells, and the number of cells visited, (B,) each.
 
-    Args:
-        walls: non-zero where there is a wall, (nx, ny).
-        starts_cells: where each beam starts, in units of cells from the grid's origin, (B, 2).
-        angles_rad: direction of each beam in the world frame, (B,).
-        longest_cells: cap of the distance.
-        device: "cpu" or a CUDA device.
+    Walls are non-zero elements, (nx, ny). Beams start at ``starts_cells`` in units of cells from the grid's origin, (B,
+    2).
     """
     device = devices.resolve(device)
     beams = len(angles_rad)

@@ -1,14 +1,11 @@
 r"""The built-in sensor models: additive noise, the beam mixture around it, and their description as JSON values.
 
-**Additive noise.** The reading is the distance of the first hit plus noise. This is the tutorial's sensor. It does not
-model "no return": a beam that meets nothing within the sensor's range reads ``max_range_m`` plus noise. So a typed
-no-return is scored as the reading ``max_range_m``, and too close as ``min_range_m``.
+**Additive noise.** The reading is the distance of the first hit, at most ``max_range_m``, plus noise: the tutorial's
+sensor. A typed no-return is scored as the reading ``max_range_m``, and too close as ``min_range_m``.
 
-**The beam mixture** makes additive noise robust against all other causes of readings. It follows Thrun, Burgard and
-Fox, *Probabilistic Robotics* (2005), section 6.3, with hit, short, random and no-return components. The book
-renormalises its short component by the wall's distance. Here the law is a generative process. Its density is *exactly*
-flat once the wall lies well past the reading, so the beam table can end early. For a first hit at distance d (infinite
-if nothing is hit):
+**The beam mixture** follows Thrun, Burgard and Fox, *Probabilistic Robotics* (2005), section 6.3, but is a generative
+process: its density is *exactly* flat once the wall lies well past the reading, so the beam table can end early. For a
+first hit at distance d (infinite if nothing is hit):
 
     with probability p_random         the reading is uniform over [min_range, max_range];
     else, with probability p_short    a passing object stands at e ~ Exponential(rate_short): if e < d, it is read;
@@ -24,13 +21,11 @@ With q(d) = 1 - p_short (1 - exp(-rate_short d)), the chance that no passing obj
     P(no return | d) = (1 - p_random) q(d) [p_no_return + (1 - p_no_return) P(d + noise > max)]
     P(too close | d) = (1 - p_random) [1 - q(min(d, min)) + q(d) (1 - p_no_return) P(d + noise < min)]
 
-and the three add up to one for every d. Added up from below, with wall = min(d, max) and the noise's cumulative N,
+and the three add up to one. For min <= z <= max, with wall = min(d, max) and the noise's cumulative N,
 
     P(reading <= z | d) = p_random (z - min) / (max - min)
                           + (1 - p_random) [p_short (1 - exp(-rate_short min(z, wall)))
                                             + q(d) (1 - p_no_return) 1(d <= max) N(z - d)]
-
-for min <= z <= max: at z = min it is P(too close), and 1 minus its value at z = max is P(no return).
 """
 
 from __future__ import annotations

@@ -26,9 +26,8 @@ class SensorModel(ABC):
     """p(reading | distance of the first hit), for one beam on its own.
 
     Distances are in metres; a distance of ``inf`` means that the beam meets nothing. Readings are coded as in
-    `bayesmap.space.scans.Scans`: a finite range is a hit, ``inf`` no return, ``-inf`` too close, NaN invalid.
-    To write a new sensor model, implement the three methods below: the beam table, and with it every sampler,
-    then works with it. The other methods are optional: they replace numerical defaults by formulas.
+    `bayesmap.space.scans.Scans`: a finite range is a hit, ``inf`` no return, ``-inf`` too close, NaN invalid. A new
+    model needs the three abstract methods; the other methods replace numerical defaults by formulas.
     """
 
     @abstractmethod

@@ -1,15 +1,13 @@
 r"""Sensor models without a compiled formula, as tables that kernels can read.
 
-The three methods of a `SensorModel` define the law of a reading, but kernels cannot call them. So the law is computed
-once at nodes, and kernels interpolate its logarithm. The scale of readings about a stop is estimated with the model's
-own `sample`; nodes are dense within this scale and sparse elsewhere. Let a stop lie at distance d known up to a spread
-s, and let w = sqrt(scale(d)^2 + s^2). The density is stored as
+Kernels cannot call a `SensorModel`. So its law is computed once at nodes, and kernels interpolate its logarithm. Nodes
+are dense within the scale of readings, which is estimated with the model's own `sample`. Let a stop lie at distance d
+known up to a spread s, and let w = sqrt(scale(d)^2 + s^2). The density is stored as
 
     log (w p(z | d, s))  at nodes of  d,  s / (s + scale(d))  and  asinh((z - d) / w)
 
-It is smooth in these coordinates: without a spread it is the model's own law, with a wide spread nearly a normal
-distribution. Typed readings have probabilities at nodes of distance and spread. The law of a beam that stops nowhere
-has nodes of the reading alone.
+where it is smooth. Typed readings have probabilities at nodes of distance and spread, the law of a beam that stops
+nowhere has nodes of the reading alone.
 """
 
 from __future__ import annotations

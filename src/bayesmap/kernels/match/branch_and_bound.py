@@ -1,9 +1,8 @@
 """Match points to likelihood grids by branch and bound (correlative scan matching).
 
-The method is algorithm 3 of Hess, Kohler, Rapp and Andor (2016), "Real-time loop closure in 2D LIDAR SLAM". A node is
-a block of 2^h x 2^h translations at one angle; level h of the pyramid bounds their scores. The search is exact: it
-returns the result of an exhaustive search. Among equal scores it returns the first in the order of angle, x and y, for
-any number of threads.
+Algorithm 3 of Hess, Kohler, Rapp and Andor (2016), "Real-time loop closure in 2D LIDAR SLAM". A node is a block of 2^h
+x 2^h translations at one angle; level h of the pyramid bounds their scores. The search is exact. Among equal scores it
+returns the first in the order of angle, x and y, for any number of threads.
 """
 
 from dataclasses import dataclass
@@ -267,10 +266,8 @@ class Windows:
 class Modes:
     """The number of poses searched in each job, and what makes a further pose another mode.
 
-    Attributes:
-        count: number of poses per job.
-        share: share of the first pose's score that scores of further poses must exceed.
-        apart: a further pose differs from earlier poses by more than so many rows, cells in x, or cells in y.
+    A further pose must exceed ``share`` of the first pose's score, and differ from earlier poses by more than ``apart``
+    rows, cells in x, or cells in y.
     """
 
     count: int
@@ -289,11 +286,9 @@ def search_grids(
     count, strands_of_all = len(windows.grid), len(windows.grid) * strands
     jobs, roots = _prepared(grids, windows, threads)
     deepest = 4 * pyramid.shape[1] + 4  # four children a level
-    taken, stack, best = devices.pack(Taken, device, apart=wp.vec3i(*modes.apart)), Stack(), Best()
-    stack.bound = wp.empty((strands_of_all, deepest), dtype=wp.float64, device=device)
-    stack.node = wp.empty((strands_of_all, deepest), dtype=wp.vec4i, device=device)
-    best.score = wp.empty(strands_of_all, dtype=wp.float64, device=device)
-    best.node = wp.empty(strands_of_all, dtype=wp.vec3i, device=device)
+    taken = devices.pack(Taken, device, apart=wp.vec3i(*modes.apart))
+    stack = devices.pack(Stack, device, bound=(strands_of_all, deepest), node=(strands_of_all, deepest))
+    best = devices.pack(Best, device, score=(strands_of_all,), node=(strands_of_all,))
     least = windows.least
     scores = np.full((count, modes.count), -np.inf)
     nodes = np.zeros((count, modes.count, 3), dtype=np.int64)
@@ -321,10 +316,8 @@ def _prepared(grids: Any, windows: Windows, threads: int | None) -> tuple[Any, A
     jobs = devices.pack(
         SearchJobs, device, point_begin=windows.point_offsets[:-1], point_end=windows.point_offsets[1:],
         grid=windows.grid, half_x=half_x, half_y=half_y, across=windows.across, row_cost=windows.angle_costs,
+        cells=(rows, int(np.diff(windows.point_offsets).max(initial=1))),
     )  # fmt: skip
-    most = int(np.diff(windows.point_offsets).max(initial=1))
-    jobs.cells = wp.empty((rows, max(most, 1)), dtype=wp.vec2i, device=device)
-
     job_of_row = np.repeat(np.arange(count, dtype=np.int32), np.diff(windows.row_offsets))
     blocks = np.prod(2 * windows.half_cells // width + 1, axis=1)
     node_begin = np.concatenate([[0], np.cumsum(blocks[job_of_row])])
@@ -332,9 +325,8 @@ def _prepared(grids: Any, windows: Windows, threads: int | None) -> tuple[Any, A
     inputs = [jobs, job_of_row, windows.angles_rad, windows.centres, grids.origins, grids.resolution, windows.points]
     devices.launch(turn_points, rows, inputs, device, threads)
 
-    roots = Roots()
-    roots.bound = wp.empty(int(node_begin[-1]), dtype=wp.float64, device=device)
-    roots.node = wp.empty(int(node_begin[-1]), dtype=wp.vec3i, device=device)
+    nodes = (int(node_begin[-1]),)
+    roots = devices.pack(Roots, device, bound=nodes, node=nodes)
     devices.launch(bound_blocks, rows, [jobs, job_of_row, node_begin[:-1], pyramid, roots], device, threads)
     bounds = roots.bound.numpy()
     if count == 1:

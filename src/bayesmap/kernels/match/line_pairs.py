@@ -1,18 +1,14 @@
 """Pair the points of one scan with the walls of another, sum the pairs to a quadratic, and count points that disagree.
 
-A point of scan i, moved into the frame of scan j, is paired with the nearest point of j. That point is searched among
-the beams that point in its direction (Blais and Levine 1995; Censi 2008 for planar scans). The residual e is the
-distance of the point from the wall there, along the mean of the two normals, with the weight of Geman and McClure,
-(1 + e^2 / c^2)^-2. If neither point has a normal, the residual is the offset itself, in x and y, with less weight:
-returns of one surface are as far apart as beams, and two scans do not return the same points.
+A point of scan i, moved into the frame of scan j, is paired with the nearest point of j among the beams that point in
+its direction (Blais and Levine 1995; Censi 2008). The residual e is the distance from the wall there, along the mean of
+the two normals, with the weight of Geman and McClure, (1 + e^2 / c^2)^-2. If neither point has a normal, it is the
+offset in x and y, with less weight: two scans do not return the same points.
 
 Let z = (x, y, yaw) be the pose of i in j's frame. H = sum w J J^T and g = sum w J e are the second and first
 derivatives of half the cost by z (Gauss-Newton). ``slack`` is the part of H that comes from errors of the normals and
 is no information: sum w spread T T^T. Here T is the derivative of the offset *along* the wall, and spread the variance
 of the normal's angle for points of unit variance. Along a corridor H is slack alone.
-
-`match_counts` counts the scans with which each beam is paired; `view_counts` the points that another scan sees, and
-those that stand where it saw through.
 """
 
 from dataclasses import dataclass
@@ -304,10 +300,8 @@ def pair_sums(
     device, count = geometry.device, len(source)
     if weights is None:
         weights = np.ones((len(geometry), geometry.beams), np.float32)
-    rule, out = devices.pack(PairRule, device, reach=reach_m, scale=scale_m, alike=alike), PairSums()
-    out.second, out.slack = (wp.empty(count, dtype=wp.mat33d, device=device) for _ in range(2))
-    out.gradient = wp.empty(count, dtype=wp.vec3d, device=device)
-    out.totals = wp.empty((count, 5), dtype=wp.float64, device=device)
+    rule = devices.pack(PairRule, device, reach=reach_m, scale=scale_m, alike=alike)
+    out = devices.pack(PairSums, device, second=(count,), slack=(count,), gradient=(count,), totals=(count, 5))
     inputs = [scan_arrays(geometry, stride), weights, source, target, relative, rule, out]
     devices.launch(sum_pairs, count, inputs, device, threads)
     return out.second.numpy(), out.slack.numpy(), out.gradient.numpy(), out.totals.numpy()

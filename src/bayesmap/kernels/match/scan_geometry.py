@@ -74,10 +74,10 @@ def scan_normals(
 ):  # fmt: skip
     """One thread per scan: fit the line through each point's neighbours along the wall, by least squares.
 
-    Neighbours are consecutive beams without a gap. The fit begins with ``reach_m`` to either side. It is widened, twice
-    as far each time, as long as the wall stays straight within ``noise_m``. A piece whose direction the noise hides has
-    no normal, until a longer piece shows the direction. ``spread`` is the variance of the normal's angle per variance
-    of a point, in 1 / m^2: one over the sum of squared distances along the line.
+    Neighbours are consecutive beams without a gap, at first within ``reach_m``. The reach is doubled as long as the
+    wall stays straight within ``noise_m``. A piece whose direction the noise hides has no normal. ``spread`` is the
+    variance of the normal's angle per variance of a point, in 1 / m^2: one over the sum of squared distances along the
+    line.
     """
     s = first + wp.tid()
     beams = beams_of[s]
@@ -167,7 +167,7 @@ def points_and_normals(
         fans: directions of the beams, a `bayesmap.poses.scan_geometry.Fans`.
         reach_m: distance to either side within which a wall's direction is fitted at first.
         noise_m: standard deviation of a point; a wall is straight if its points lie within about twice that of a line.
-        device: "cpu" or a CUDA device.
+        device: where to compute.
         threads: number of threads; all cores if None.
     """
     device = devices.resolve(device)

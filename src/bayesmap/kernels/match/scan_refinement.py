@@ -80,8 +80,8 @@ def refine(
 ):  # fmt: skip
     """One thread per job: minimise the cost of prior and pairs; reach and scale shrink from the first step to the last.
 
-    While they shrink, only every other point is used. Coordinates are x, y and yaw in the world's axes. The information
-    is that of the pairs alone, less slack.
+    While they shrink, only every other point is used. Coordinates are those of the world's axes. The information is
+    that of the pairs alone, less slack.
     """
     # k: job; i: its scan; x: its pose; q: entry of a fixed scan.
     k = first + wp.tid()
@@ -171,13 +171,13 @@ class Refinement:
 
 @dataclass(frozen=True)
 class Convergence:
-    """Rules of pairs and weights, from the first step of a refinement to the last.
+    """Rules of pairs and weights; of two numbers the first is for the first step, the second for the last.
 
     Attributes:
         sigma_m: standard deviation of a point.
         steps: most Gauss-Newton steps.
-        reach_m: largest distance between paired points, in the first step and in the last.
-        scale_m: c of Geman and McClure's weight, in the first step and in the last.
+        reach_m: largest distance between paired points.
+        scale_m: c of Geman and McClure's weight.
         alike: least cosine between the normals of a pair.
     """
 
@@ -197,10 +197,7 @@ def refine_scans(
     device, count = geometry.device, len(refinement.scans)
     jobs = devices.pack(RefinementArrays, device, **vars(refinement))
     schedule = devices.pack(ConvergenceNumbers, device, **vars(convergence))
-    out = Refined()
-    out.pose = wp.empty(count, dtype=wp.vec3d, device=device)
-    out.information = wp.empty(count, dtype=wp.mat33d, device=device)
-    out.totals = wp.zeros((count, 4), dtype=wp.float64, device=device)
+    out = devices.pack(Refined, device, pose=(count,), information=(count,), totals=(count, 4))
     weights = _ones(len(geometry), geometry.beams, device)
     devices.launch(refine, count, [scan_arrays(geometry), weights, jobs, schedule, out], device, threads)
     return out.pose.numpy(), out.information.numpy(), out.totals.numpy()

@@ -1,14 +1,11 @@
 """Predict readings from draws of a map: densities and cumulative probabilities, averaged over the draws.
 
-A prediction takes a map as a stop probability m in [0, 1] for every cell. A beam stops in the i-th cell that it meets
-with probability ``w_i = m_i prod_{j < i} (1 - m_j)``, at a distance d_i known up to a spread s_i, or nowhere in the
-map. Under one draw of the map,
+A map has a stop probability m in [0, 1] for every cell, 0 or 1 for binary walls. A beam stops in the i-th cell that it
+meets with probability ``w_i = m_i prod_{j < i} (1 - m_j)``, at a distance d_i known up to a spread s_i, or nowhere:
 
     p(z) = sum_i w_i p(z | d_i, s_i) + prod_j (1 - m_j) p(z | infinity)
 
-The predictive law is the mean over draws. Binary walls are maps of 0 and 1.
-
-Only `stop_in` and `maps_to_device`, which fills in its arrays, depend on the kind of cells.
+The predictive law is the mean over draws. Only `stop_in` and `maps_to_device` depend on the kind of cells.
 """
 
 from collections.abc import Iterable
@@ -81,11 +78,8 @@ def maps_to_device(states: StopStates, hit_depth: float, device: str) -> Any:
 class DeviceMaps:
     """Draws of whole maps on a device, for many predictions.
 
-    Attributes:
-        maps: `MapArrays` with a column for each of the grid's cells.
-        draws: number of draws, the rows of ``maps``.
-        hit_depth: where in a cell without a surface a beam stops, as a share of its stretch.
-        device: the device that holds them.
+    ``maps`` are `MapArrays` with a column for each of the grid's cells and a row for each of the ``draws``. A beam
+    stops in a cell without a surface at the share ``hit_depth`` of its stretch.
     """
 
     maps: Any
@@ -103,11 +97,7 @@ class DeviceMaps:
 
 
 def device_maps(batches: Iterable[StopStates], hit_depth: float, *, device: str = "cpu") -> DeviceMaps:
-    """Put draws of all cells of a grid on a device.
-
-    Raises:
-        BadInput: no draws.
-    """
+    """Put draws of all cells of a grid on a device; refuse none."""
     device = devices.resolve(device)
     draws = list(batches)
     if not sum(map(len, draws)):
@@ -240,11 +230,7 @@ class Forecast:
 
 
 def law_with_cumulative(sensor: SensorModel, limits: RangeLimits, device: str) -> Any:
-    """Return the sensor's law for kernels that need cumulative probabilities.
-
-    Raises:
-        BadInput: a model of the user's own whose probabilities do not add up to one.
-    """
+    """Return the law for kernels that need cumulatives; refuse a model whose probabilities do not add up to one."""
     law = sensor_law(sensor, limits, device)
     if sensor.kernel_parameters() is None and not tabulated(sensor, limits).has_cumulative:
         raise BadInput(
@@ -272,12 +258,12 @@ def _sums(
     """Compute log densities, and mean cumulative probabilities at the reading and at both limits."""
     device = devices.resolve(device)
     law = (law_with_cumulative if with_cumulative else sensor_law)(sensor, rays.limits, device)
-    beams, asked = rays.n_beams, rays.n_beams if with_cumulative else 1
+    beams, asked = rays.n_beams, (rays.n_beams if with_cumulative else 1,)
     reach_m = explained_within_m(rays.range_m, sensor, rays.limits, rays.grid.resolution)
-    sums = devices.pack(ForecastSums, device, range_m=rays.range_m, reach_m=reach_m)
-    sums.most = wp.full(beams, 0.0 if law.kind == MIXTURE else -1.0e300, dtype=wp.float64, device=device)
-    sums.total = wp.zeros(beams, dtype=wp.float64, device=device)
-    sums.below, sums.below_max, sums.below_min = (wp.zeros(asked, dtype=wp.float64, device=device) for _ in range(3))
+    sums = devices.pack(
+        ForecastSums, device, range_m=rays.range_m, reach_m=reach_m, total=(beams,), below=asked, below_max=asked,
+        below_min=asked, most=np.full(beams, 0.0 if law.kind == MIXTURE else -1.0e300),
+    )  # fmt: skip
     fixed = [rays_to_device(rays, device), devices.to_device(columns, wp.int32, device)]
     draws = 0
     for batch in batches:

@@ -1,12 +1,11 @@
 """Weigh poses fast: the log-likelihood of a scan at many poses under many draws of a map.
 
-The law is that of `bayesmap.kernels.predict.scan_likelihood`, in single precision, for mixtures. Four things make it
-fast:
+The law is that of `bayesmap.kernels.predict.scan_likelihood`, in single precision, for mixtures. It is fast because
 
-- The map stays on the device between calls, and one thread does a whole scan.
-- A beam's walk ends a margin past its reading: the rest has the density of a beam that meets nothing.
-- Before the reading, it matters whether the beam is stopped, not where.
-- Cells that stop almost no beam, such as most of a floor, are skipped.
+- the map stays on the device between calls, and one thread does a whole scan;
+- a beam's walk ends a margin past its reading: the rest has the density of a beam that meets nothing;
+- before the reading, it matters whether the beam is stopped, not where;
+- cells that stop almost no beam, such as most of a floor, are skipped.
 """
 
 from dataclasses import dataclass
@@ -182,15 +181,7 @@ def scan_log_likelihoods(
 
 @dataclass(frozen=True, eq=False)
 class PackedMap:
-    """Draws of a map on a device.
-
-    Attributes:
-        maps: the draws.
-        empty: 1 in cells that stop fewer beams than `LEAST_CHANCE`, one row per draw.
-        draws: number of draws.
-        frame: the grid.
-        device: the device that holds them.
-    """
+    """Draws of a map on a device; ``empty`` is 1 in cells that stop less than `LEAST_CHANCE`, one row per draw."""
 
     maps: Any
     empty: Any

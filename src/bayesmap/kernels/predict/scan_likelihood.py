@@ -1,8 +1,7 @@
 """Compute the likelihood of whole scans at any poses, given the cells.
 
-Beams walk the grid from the pose, so no rays are traced beforehand. A beam stops in the i-th cell that it meets with
-probability ``w_i = a_i prod_{j < i} (1 - a_j)``. Its reading has the density ``sum_i w_i p(z | stop i)``, the law of
-`bayesmap.kernels.predict.density` under one map. So the stops of beams are summed out.
+Beams walk the grid from the pose, so no rays are traced beforehand. The law is that of
+`bayesmap.kernels.predict.density` under one map: the stops of beams are summed out.
 """
 
 from dataclasses import dataclass
@@ -108,13 +107,8 @@ def beam_log_likelihoods(
 class ScanLikelihood:
     """The likelihood of scans at any poses under any cells.
 
-    Attributes:
-        scans: S scans of A beams. If the sensor moved during a scan, starts and angles of beams are relative to the
-            scan's own pose.
-        grid: the map's grid.
-        sensor: the law of a reading given where its beam stops.
-        hit_depth: where a beam stops in a cell without a surface, as a part of its chord.
-        device: where to compute.
+    If the sensor moved during a scan, starts and angles of its beams are relative to the scan's own pose. In a cell
+    without a surface a beam stops at the part ``hit_depth`` of its chord.
     """
 
     scans: Scans

@@ -1,12 +1,8 @@
 """Mix the stops of beams over draws, and predict from the mixture: chances of first hits, and quantiles of ranges.
 
-The predictive law is linear in the weights of stops, so a prediction needs only the mean weight of each stop over the
-draws. If draws also differ in *where* a cell is hit, the stops in one cell are merged into one: it has their mean
-distance, and their scatter is added to its spread.
-
-Quantiles are found by bisection of the span of ranges. Under the robust mixture, stops far before or behind the
-remaining span are decided and not evaluated again. So a beam costs a few times its number of stops, however many
-halvings there are.
+The predictive law is linear in the weights of stops, so a prediction needs only their means over the draws. The stops
+in one cell are merged into one with their mean distance; their scatter is added to its spread. Quantiles are found by
+bisection. Under the robust mixture, stops far before or behind the remaining span are not evaluated again.
 """
 
 from collections.abc import Iterable
@@ -20,26 +16,12 @@ from numpy.typing import NDArray
 from bayesmap.beams.rays import Rays
 from bayesmap.errors import BadInput
 from bayesmap.kernels import device as devices
+from bayesmap.kernels import sensor_law as laws
 from bayesmap.kernels.device import Float32s, Float64Rows, Float64s, Floats, Int32s, Ints, Singles
-from bayesmap.kernels.predict.density import (
-    DeviceMaps,
-    MapArrays,
-    StopStates,
-    are_typed,
-    law_with_cumulative,
-    maps_to_device,
-    stop_in,
-)
+from bayesmap.kernels.predict import density
+from bayesmap.kernels.predict.density import DeviceMaps, MapArrays, StopStates
 from bayesmap.kernels.rays import RayArrays, distance_at, line_of, rays_to_device, stop_distances, stretch
-from bayesmap.kernels.sensor_law import (
-    MIXTURE,
-    SensorLaw64,
-    cumulative,
-    is_before,
-    is_behind,
-    met_or_returned,
-    random_below,
-)
+from bayesmap.kernels.sensor_law import MIXTURE, SensorLaw64
 from bayesmap.sensors.model import SensorModel
 
 wp.set_module_options({"enable_backward": False, "max_unroll": 1})  # halvings unrolled take minutes to compile
@@ -69,7 +51,7 @@ def add_stops(
     for d in range(draws):
         survive = wp.float64(1.0)
         for k in range(rays.offsets[b], rays.offsets[b + 1]):
-            stop = stop_in(maps, d, columns[k], line, rays.cells[k])
+            stop = density.stop_in(maps, d, columns[k], line, rays.cells[k])
             w = survive * stop[0]
             survive = survive * (wp.float64(1.0) - stop[0])
             if w > wp.float64(0.0):
@@ -108,7 +90,7 @@ def mix_stops(rays: Rays, batches: Iterable[StopStates], hit_depth: float, *, de
         BadInput: no draws.
     """
     device = devices.resolve(device)
-    on_device = ((maps_to_device(batch, hit_depth, device), len(batch)) for batch in batches)
+    on_device = ((density.maps_to_device(batch, hit_depth, device), len(batch)) for batch in batches)
     return _mixed(rays, rays.columns, on_device, hit_depth, device, float(LEAST_CHANCE))
 
 
@@ -124,11 +106,8 @@ def _mixed(
     rays: Rays, columns: Ints, batches: Iterable[tuple[Any, int]], hit_depth: float, device: str, gone: float
 ) -> StopMixture:
     """Average over batches of maps; ``columns`` are the places of the entries' cells in the maps."""
-    sums = StopSums()
-    sums.weight, sums.shift, sums.square = (
-        wp.zeros(rays.n_incidences, dtype=wp.float32, device=device) for _ in range(3)
-    )
-    sums.no_stop = wp.zeros(rays.n_beams, dtype=wp.float64, device=device)
+    entries = (rays.n_incidences,)
+    sums = devices.pack(StopSums, device, weight=entries, shift=entries, square=entries, no_stop=(rays.n_beams,))
     fixed = [rays_to_device(rays, device), devices.to_device(columns, wp.int32, device)]
     draws = 0
     for maps, count in batches:
@@ -159,11 +138,11 @@ class StopMixtureArrays:
 @wp.func
 def mixture_below(law: SensorLaw64, stops: StopMixtureArrays, b: int, range_m: wp.float64) -> wp.float64:
     """Return P(reading <= range) of a beam."""
-    p = stops.no_stop[b] * cumulative(law, range_m, wp.float64(wp.inf), wp.float64(0.0))
+    p = stops.no_stop[b] * laws.cumulative(law, range_m, wp.float64(wp.inf), wp.float64(0.0))
     for k in range(stops.offsets[b], stops.offsets[b + 1]):
         weight = wp.float64(stops.weight[k])
         if weight > LEAST_WEIGHT:
-            p += weight * cumulative(law, range_m, wp.float64(stops.distance_m[k]), wp.float64(stops.variance[k]))
+            p += weight * laws.cumulative(law, range_m, wp.float64(stops.distance_m[k]), wp.float64(stops.variance[k]))
     return p
 
 
@@ -225,7 +204,7 @@ def first_hit_events(stops: StopMixture, sensor: SensorModel, device: str = "cpu
     rays, size = stops.rays, len(stops.weight)
     chance = wp.full(size, wp.nan, dtype=wp.float32, device=device)
     stopped = wp.full(size, -1, dtype=wp.int8, device=device)
-    inputs = [law_with_cumulative(sensor, rays.limits, device), stops_to_device(stops, device)]
+    inputs = [density.law_with_cumulative(sensor, rays.limits, device), stops_to_device(stops, device)]
     inputs += [rays_to_device(rays, device), rays.range_m, chance, stopped]
     devices.launch(find_events, rays.n_beams, inputs, device, devices.threads_for(rays.n_beams))
     return chance.numpy(), stopped.numpy()
@@ -261,8 +240,8 @@ def halved(law: SensorLaw64, stops: StopMixtureArrays, s: LevelSearch, level: wp
         weight = wp.float64(stops.weight[k])
         if weight > LEAST_WEIGHT:
             at = wp.float64(stops.distance_m[k])
-            p += weight * met_or_returned(law, z, decay, at, wp.float64(stops.variance[k]))
-    if s.total * random_below(law, z) + law.p_known * p < level:
+            p += weight * laws.met_or_returned(law, z, decay, at, wp.float64(stops.variance[k]))
+    if s.total * laws.random_below(law, z) + law.p_known * p < level:
         # Upper half: decide the stops whose returns all lie below z.
         s.low = z
         going = bool(True)
@@ -271,10 +250,10 @@ def halved(law: SensorLaw64, stops: StopMixtureArrays, s: LevelSearch, level: wp
             at = wp.float64(stops.distance_m[k])
             variance = wp.float64(stops.variance[k])
             weight = wp.float64(stops.weight[k])
-            going = is_before(law, z, at, variance) or weight <= LEAST_WEIGHT
+            going = laws.is_before(law, z, at, variance) or weight <= LEAST_WEIGHT
             if going:
                 if weight > LEAST_WEIGHT:
-                    s.below += weight * met_or_returned(law, z, decay, at, variance)
+                    s.below += weight * laws.met_or_returned(law, z, decay, at, variance)
                 s.begin += 1
     else:
         # Lower half: decide the stops whose returns all lie behind z.
@@ -283,7 +262,7 @@ def halved(law: SensorLaw64, stops: StopMixtureArrays, s: LevelSearch, level: wp
         while going and s.begin < s.end:
             k = s.end - 1
             weight = wp.float64(stops.weight[k])
-            behind = is_behind(law, z, wp.float64(stops.distance_m[k]), wp.float64(stops.variance[k]))
+            behind = laws.is_behind(law, z, wp.float64(stops.distance_m[k]), wp.float64(stops.variance[k]))
             going = behind or weight <= LEAST_WEIGHT
             if going:
                 if weight > LEAST_WEIGHT:
@@ -337,13 +316,14 @@ def find_quantiles(
 def range_quantiles(stops: StopMixture, levels: Floats, sensor: SensorModel, device: str = "cpu") -> Floats:
     """Compute quantiles of each beam's reading at ascending levels, metres, (B, levels).
 
-    No return counts as +inf, too close as -inf. A sensor that is noise alone may read past its limits: its quantiles
-    are searched from minus the largest range to twice the largest range.
+    No return counts as +inf, too close as -inf. A sensor that is noise alone may read from minus to twice its largest
+    range.
     """
     device = devices.resolve(device)
     limits = stops.rays.limits
-    law = law_with_cumulative(sensor, limits, device)
-    low, high = (limits.min_m, limits.max_m) if are_typed(sensor, limits) else (-limits.max_m, 2.0 * limits.max_m)
+    law = density.law_with_cumulative(sensor, limits, device)
+    typed = density.are_typed(sensor, limits)
+    low, high = (limits.min_m, limits.max_m) if typed else (-limits.max_m, 2.0 * limits.max_m)
     beams = stops.rays.n_beams
     out = wp.empty((beams, len(levels)), dtype=wp.float64, device=device)
     inputs = [law, stops_to_device(stops, device), np.asarray(levels), low, high, out]

@@ -200,7 +200,7 @@ def independent_information(
         longest_m: distance to which beams are followed.
         sigma_m: standard deviation of the readings.
         hit_factor: factor of a cell's odds for a reading in it, over 1.
-        pass_factor: factor of a cell's odds for a reading behind it, below 1.
+        pass_factor: the factor for a reading behind it, below 1.
         device: where to compute.
     """
     device = devices.resolve(device)

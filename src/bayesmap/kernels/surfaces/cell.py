@@ -1,11 +1,9 @@
-r"""A cell with a surface: the beams that meet it, and its prior.
-
-`bayesmap.beams.rays` states the law by which a beam meets the surface and stops there. This module compiles that law.
+r"""A cell with a surface: the beams that meet it (`bayesmap.beams.rays` states the law), and its prior.
 
 The prior of a surface is mu ~ N(centre, tau^2 I) inside the cell's own square. Sigma has the density of an
-InverseWishart(nu, psi I) times exp(-tr Sigma / (2 kappa^2)). This factor keeps surfaces from growing beyond their cell:
-beams of other cells are no evidence against it, and the Wishart's heavy tail would allow it. Steps are taken in mu,
-log l11, l21 and log l22 of Sigma = L L'. In these coordinates the density inside the square is proportional to
+InverseWishart(nu, psi I) times exp(-tr Sigma / (2 kappa^2)), which keeps surfaces from growing beyond their cell: beams
+of other cells are no evidence against it. Steps are taken in mu, log l11, l21 and log l22 of Sigma = L L'. In these
+coordinates the density inside the square is proportional to
 
     exp(-|mu - centre|^2 / (2 tau^2)) l11^-nu l22^-(nu + 1) exp(-psi/2 tr Sigma^-1 - tr Sigma / (2 kappa^2)):
 
@@ -124,8 +122,7 @@ MEAN_TRIES = wp.constant(8)  # draws of a mean's coordinate, at most
 class PriorNumbers:
     """Beta(a, b) of the reflectivity, and the surface's prior as above.
 
-    At a coupling above 0, a and b are those of free cells, and ``log_beta`` and ``log_beta_solid`` are the log
-    normalisers of both Betas; without labels they are 0.
+    With a coupling, a and b are those of free cells, and ``log_beta`` and ``log_beta_solid`` log normalisers; else 0.
     """
 
     a: wp.float64

@@ -3,8 +3,7 @@ r"""The second half of a sweep: draw the cells, given where the beams stopped, a
 Cells in which readings end have their own kernel (`bayesmap.kernels.surfaces.endpoint_cells`). Each of the other cells
 does one of two things:
 
-- It draws its reflectivity, m ~ Beta(a + hits, b + met). If cells have labels, a and b are those of its label, which
-  `bayesmap.kernels.surfaces.labels` draws before.
+- It draws its reflectivity, m ~ Beta(a + hits, b + met), with a and b those of its label if cells have labels.
 - It tries a candidate for its surface, drawn from the prior, and accepts it with probability min(1, exp(gain)). The
   gain is the beams' part of the ratio (`bayesmap.kernels.surfaces.stops`).
 

@@ -5,10 +5,9 @@ With g the chance of meeting the surface,
     log p(stops, readings | m, surface) = sum over passing beams log(1 - m g)
                                         + sum over stopped beams log(m g p(reading | stop)^beta).
 
-`log_stops` evaluates one beam after the other, through lists, for any sensor. A cell evaluates its beams again for
-every step of its surface. So most beams are copied side by side first, and `log_stops_in_lanes` evaluates eight of them
-at once in wide registers. It takes nearly all beams: hits of a mixture that end near the cell, if the noise is normal
-or Student's t of few and odd degrees of freedom. The other beams are evaluated one by one.
+A cell evaluates its beams again for every step of its surface. `log_stops` takes one beam after the other, for any
+sensor. `log_stops_in_lanes` evaluates eight at once in wide registers: nearly all hits of a mixture whose noise is
+normal or Student's t of few and odd degrees of freedom. These are copied side by side first.
 
 A *block* is eight beams: one `Lanes` for each of their numbers. Left-over lanes hold beams that do not count.
 """
@@ -307,8 +306,7 @@ def put_in_blocks(
 ) -> int:
     """Put a cell's listed beams into its blocks: all passing beams, and the stopped beams that lanes can compute.
 
-    Stopped beams with typed readings, or with stops before the near entries, move to the head of their list. Returns
-    their number.
+    Other stopped beams move to the head of their list. Returns their number.
     """
     # Passing beams, and beams far away that fill the last block.
     passing = listed.passing_end - listed.passing_begin

@@ -1,18 +1,15 @@
 """Update the cells in which readings end: all of a sweep's work on these cells.
 
-Each such cell has a list of its incidences. Given where the beams stopped, it counts the beams that met its surface and
-went on. Then labels are drawn, if cells have labels, and the cell draws its reflectivity. Then reflectivity and surface
-move together by a few Metropolis steps, which do not use the counts (`bayesmap.kernels.surfaces.endpoint_beams`).
+Given where the beams stopped, such a cell counts the beams that met its surface and went on. Labels are drawn, and the
+reflectivity. Then reflectivity and surface move together by a few Metropolis steps, which do not use the counts.
 
-The beams hardly determine where *along* a wall a surface lies and how far it extends, as long as it fills its cell.
-They determine its place and its thickness *across* the wall to millimetres. So each cell has a frame whose first axis
-points along its wall (`bayesmap.samplers.initial_estimate`), and steps have a size of their own for each coordinate in
-this frame. A cell in its frame is a `Cell` with the mean along and across, from the cell's centre, and the Cholesky
-factor of the covariance in these axes.
+The beams hardly determine where *along* a wall a surface lies and how far it extends. They determine its place and its
+thickness *across* the wall to millimetres. So each cell has a frame whose first axis points along its wall
+(`bayesmap.samplers.initial_estimate`). A cell in its frame is a `Cell` with the mean from the cell's centre and the
+Cholesky factor in these axes.
 
 A row of step sizes holds the sizes for logit m, mean along, mean across, log l11, l21 and log l22, and the frame's
-cosine and sine. Frame and sizes are fixed beforehand, by where readings end. They may not depend on the state that a
-step changes: the reverse step would have another size.
+cosine and sine. They are fixed beforehand: they may not depend on the state that a step changes.
 """
 
 import warp as wp

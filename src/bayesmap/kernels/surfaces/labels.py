@@ -1,19 +1,16 @@
 r"""Draw a label for every cell of the grid, free or solid, given its four neighbours' labels and its own counts.
 
 Let h be the beams that met a cell's surface and were stopped, and n the beams that met it and passed. With the
-reflectivity integrated out,
+reflectivity integrated out (a Beta-binomial),
 
     p(solid | all others) / p(free | all others)
         = exp(coupling * (solid - free among its neighbours)) * r(a_solid, b_solid) / r(a, b),
     r(a, b) = B(a + h, b + n) / B(a, b)
 
-(a Beta-binomial). The reflectivity is then drawn given the label and the counts (`cell_draws`, `endpoint_cells`). Both
-together are a Gibbs step of the pair. Cells that learn nothing in a sweep keep their label and reflectivity. Cells that
-no beam touches have no counts. Their reflectivity is drawn given the label (`draw_untouched`) only when beams may come
-to them.
+The reflectivity is then drawn given the label and the counts: together a Gibbs step of the pair. Cells that learn
+nothing in a sweep keep both. A cell that no beam touches draws its reflectivity only when beams may come to it.
 
-The grid is a checkerboard: all neighbours of a cell have the other colour. So the cells of one colour can be drawn at
-once and in any order.
+The grid is a checkerboard: cells of one colour have no neighbour among them, and can be drawn at once.
 """
 
 import math

@@ -1,32 +1,27 @@
 r"""Count the beams stopped inside each square of the grid, and the beams that pass it, for maps of surfaces.
 
-A surface may extend beyond the square of its cell, and the assignment of a piece of wall to one of two neighbouring
-cells is arbitrary. So a beam's stop is counted in the square that holds the point at which it was stopped. The beam
-passes the squares that it crosses before that point. It does not count in the squares behind the point.
-
-Let S be the beams stopped in a square, P the beams that pass it, and q the chance that a beam which comes to the square
-is stopped inside it. Then
+A surface may extend beyond the square of its cell. So a beam's stop is counted in the square that holds the point at
+which it was stopped. The beam passes the squares before that point, and does not count behind it. Let S be the beams
+stopped in a square, P the beams that pass it, and q the chance that a beam which comes to the square is stopped:
 
     q | stops ~ Beta(a + S, b + P)
 
-If cells have labels, a and b are those of the label of the square's own cell. The labels are those of the map with
-which the sweep began, because a kept draw shows that map.
+If cells have labels, a and b are those of the square's own cell when the sweep began: a kept draw shows that map.
 
-The point at which a beam was stopped is drawn given its reading. If a surface stops a beam at about t* with variance
-s^2 (`bayesmap.kernels.surfaces.cell`), the distance t of the point follows
+If a surface stops a beam at about t* with variance s^2 (`bayesmap.kernels.surfaces.cell`), the distance t of the point
+follows
 
     p(t | z) proportional to N(t; t*, s^2) p(z | t).
 
-In the mixture there are two cases. If the reading z returned from the point, with the sensor's variance sigma^2,
+If a mixture's reading z returned from the point, with the sensor's variance sigma^2,
 
     t | z ~ N((sigma^2 t* + s^2 z) / (sigma^2 + s^2), sigma^2 s^2 / (sigma^2 + s^2)).
 
-Otherwise z is a passing object, a random reading or no return, and is independent of the point: t ~ N(t*, s^2).
+Any other reading of a mixture is independent of the point: t ~ N(t*, s^2).
 
-The law of a tabulated sensor has no such parts. There t is chosen from candidates with weights p(t | z) / q(t)
-(sampling importance resampling, Rubin 1987). Half of the candidates lie at quantiles of the surface's law, half at
-quantiles of the law that the reading suggests. They are evenly spread and share one random shift; q is the density of
-both halves together.
+Under a tabulated law t is chosen from candidates with weights p(t | z) / q(t) (sampling importance resampling, Rubin
+1987). Half lie at quantiles of the surface's law, half at quantiles of the law that the reading suggests, evenly spread
+with one random shift; q is the density of both halves together.
 """
 
 from typing import NamedTuple
@@ -225,13 +220,13 @@ class Squares:
         self._crossings = np.bincount(rays.cells, minlength=cells).astype(np.int32)
         self._lines = lines_to_device(rays.start_m, rays.direction, rays.grid, device)
         shared = [devices.to_device(a, wp.int32, device) for a in (rays.touched, self._crossings)]
-        self._squares = []
-        for _ in range(chains):
-            squares = SquareArrays()
-            squares.touched, squares.crossings = shared
-            squares.stopped, squares.behind = (wp.zeros(cells, dtype=wp.int32, device=device) for _ in range(2))
-            squares.drawn, squares.expected = (wp.zeros(touched, dtype=wp.float32, device=device) for _ in range(2))
-            self._squares.append(squares)
+        self._squares = [
+            devices.pack(
+                SquareArrays, device, touched=shared[0], crossings=shared[1], stopped=(cells,), behind=(cells,),
+                drawn=(touched,), expected=(touched,),
+            )
+            for _ in range(chains)
+        ]  # fmt: skip
 
     def of_chain(
         self, chain: int, sweep: int, law: SensorLaw32, prior: PriorNumbers, rays: TracedRays, state: ChainArrays,

@@ -21,36 +21,17 @@ from bayesmap.cells.reflectivity import KernelNumbers
 from bayesmap.kernels import device as devices
 from bayesmap.kernels.device import Floats, Ints, Singles
 from bayesmap.kernels.sensor_law import SensorLaw32, sensor_law
-from bayesmap.kernels.surfaces.cell import Cell, cells_to_device, packed_prior
-from bayesmap.kernels.surfaces.cell_draws import (
-    SLICE,
-    ActiveCells,
-    begin_sweep,
-    count_observed,
-    sum_label_prior,
-    sum_of_slices,
-    sum_slices,
-    update_free_cells,
-)
+from bayesmap.kernels.surfaces import cell_draws, endpoint_cells, labels, stops
+from bayesmap.kernels.surfaces.cell import cells_to_device, packed_prior
 from bayesmap.kernels.surfaces.endpoint_beams import endpoint_cells_to_device, room_for_blocks
-from bayesmap.kernels.surfaces.endpoint_cells import STEPS, BeamLists, count_endpoint_cells, update_endpoint_cells
-from bayesmap.kernels.surfaces.labels import draw_labels, draw_untouched, known_to_device
 from bayesmap.kernels.surfaces.square_counts import InSquares, Squares, count_in_squares, draw_stop_chances
-from bayesmap.kernels.surfaces.stops import (
-    LEARNS,
-    ChainArrays,
-    UpdateSchedule,
-    decay_of_readings,
-    draw_stops,
-    pass_lazy_cells,
-    traced_rays_to_device,
-)
 from bayesmap.sensors.model import SensorModel
 
 STATE_SIZE = 6  # numbers of a `Cell` that belong to its state; the other two do not
 KERNELS = (
-    begin_sweep, pass_lazy_cells, draw_stops, count_endpoint_cells, draw_labels, draw_untouched, update_free_cells,
-    update_endpoint_cells, count_in_squares, draw_stop_chances,
+    cell_draws.begin_sweep, stops.pass_lazy_cells, stops.draw_stops, endpoint_cells.count_endpoint_cells,
+    labels.draw_labels, labels.draw_untouched, cell_draws.update_free_cells, endpoint_cells.update_endpoint_cells,
+    count_in_squares, draw_stop_chances,
 )  # fmt: skip
 
 
@@ -104,61 +85,50 @@ class StopChains:
         self.device, self.without_surfaces, self.n_chains = device, int(plan.distance_m is not None), len(keys)
         chains, cells, beams, touched = len(keys), plan.rays.grid.n_cells, plan.rays.n_beams, len(plan.touched)
         self.threads = (threads or devices.available_cores()) if device == "cpu" else 1
-        self._rays = traced_rays_to_device(plan.rays, plan.distance_m, device)
-        self._schedule = UpdateSchedule(plan.rays, plan.periods)
+        self._rays = stops.traced_rays_to_device(plan.rays, plan.distance_m, device)
+        self._schedule = stops.UpdateSchedule(plan.rays, plan.periods)
         self._lazy = self._schedule.mark_watched(self._rays, device)
         self._endpoints = endpoint_cells_to_device(plan.rays, plan.endpoints, plan.steps, device)
         self._active = devices.pack(
-            ActiveCells, device, cell=plan.touched, period=plan.periods, ny=plan.rays.grid.shape[1],
+            cell_draws.ActiveCells, device, cell=plan.touched, period=plan.periods, ny=plan.rays.grid.shape[1],
             edge_m=plan.rays.grid.resolution,
         )  # fmt: skip
         counted = plan.endpoints[: 0 if self.without_surfaces else None]
-        self._known = known_to_device(cells, plan.touched, counted, device)
+        self._known = labels.known_to_device(cells, plan.touched, counted, device)
         self._law: tuple[Any, ...] = ()
         self._packed: tuple[Any, Any] | None = None
         self._squares = None if self.without_surfaces else Squares(plan.rays, chains, device)
 
         # The state of all chains, with labels and counts from the host if given.
-        empty = partial(wp.zeros, device=device)
         parts = max(1, -(-self.threads // chains))
-        full = partial(wp.full, chains * cells, device=device)
-        host = {"keys": np.array(keys, dtype=np.uint64), "solid": np.zeros(chains * cells, dtype=np.uint8)}
-        host["observed_counts"] = np.zeros((chains * cells, 2), dtype=np.int32)
-        if solid is not None:
-            host["solid"] = solid.ravel().astype(np.uint8)
-        if observed_counts is not None:
-            host["observed_counts"] = np.array(observed_counts, dtype=np.int32).reshape(-1, 2)
-        if counts is not None:
-            host |= {"last_hits": counts[:, 0].flatten(), "last_met": counts[:, 1].flatten()}
-        state = devices.pack(ChainArrays, device, n_cells=cells, n_beams=beams, parts=parts, beta=1.0, **host)
-        state.cells = empty(chains * cells, dtype=Cell)
-        state.fixed_m = full(LEARNS, dtype=wp.float32)
-        state.candidates = empty(1 if self.without_surfaces else chains * cells, dtype=Cell)
-        state.met, state.hits = (empty((chains * parts, cells), dtype=wp.int32) for _ in range(2))
-        state.gain = empty((chains * parts, cells), dtype=wp.int64)
-        state.stop = wp.full(chains * beams, -1, dtype=wp.int32, device=device)  # unknown before the first sweep
-        state.where = empty(chains * beams, dtype=wp.vec2)
-        state.stopped_in = full(-1, dtype=wp.int32)
-        state.log_likelihood, state.lazy_free = (empty(chains * beams, dtype=wp.float32) for _ in range(2))
-        if counts is None:
-            state.last_hits, state.last_met = empty(chains * cells, dtype=wp.int32), full(-1, dtype=wp.int32)
-        self._state = state
+        of_cells, of_beams, of_parts = (chains * cells,), (chains * beams,), (chains * parts, cells)
+        unknown = np.full(of_cells, -1, dtype=np.int32)
+        self._state: Any = devices.pack(
+            stops.ChainArrays, device, n_cells=cells, n_beams=beams, parts=parts, beta=1.0,
+            keys=np.array(keys, dtype=np.uint64), cells=of_cells,
+            solid=of_cells if solid is None else solid.ravel().astype(np.uint8),
+            fixed_m=np.full(of_cells, stops.LEARNS, dtype=np.float32),
+            candidates=(1,) if self.without_surfaces else of_cells, met=of_parts, hits=of_parts, gain=of_parts,
+            stop=np.full(of_beams, -1, dtype=np.int32), where=of_beams, stopped_in=unknown, log_likelihood=of_beams,
+            lazy_free=of_beams, last_hits=of_cells if counts is None else counts[:, 0].flatten(),
+            last_met=unknown.copy() if counts is None else counts[:, 1].flatten(),
+            observed_counts=of_cells if observed_counts is None else np.array(observed_counts).reshape(-1, 2),
+        )  # fmt: skip
         for chain in range(chains):
             self.put_cells(chain, states(chain))
         # Working memory of the kernels.
-        self._lists = devices.pack(
-            BeamLists, device, entries=empty((chains, self._endpoints.entry.shape[0]), dtype=wp.int32),
-            passes=empty((chains, len(plan.endpoints)), dtype=wp.int32),
-        )  # fmt: skip
+        listed = (chains, self._endpoints.entry.shape[0])
+        passes = (chains, len(plan.endpoints))
+        self._lists = devices.pack(endpoint_cells.BeamLists, device, entries=listed, passes=passes)
         self._blocks = room_for_blocks(self._endpoints, chains * parts, device)
-        self._log_priors = empty(chains * touched, dtype=wp.float32)
-        slices = (-(-max(size, 1) // SLICE) for size in (beams, touched, cells))  # label slices may stay zero
-        self._slices = [empty((chains, count), dtype=wp.float64) for count in slices]
+        self._log_priors = wp.zeros(chains * touched, dtype=wp.float32, device=device)
+        slices = (-(-max(size, 1) // cell_draws.SLICE) for size in (beams, touched, cells))  # of labels: may stay zero
+        self._slices = [wp.zeros((chains, count), dtype=wp.float64, device=device) for count in slices]
 
     def sweeps(
         self, first: int, count: int, sensor: SensorModel, prior: KernelNumbers, beta: float = 1.0, *,
-        steps: int = STEPS, observing_after: int | None = None, before: Callable[[int, int], None] | None = None,
-        after: Callable[[int, int], None] | None = None,
+        steps: int = endpoint_cells.STEPS, observing_after: int | None = None,
+        before: Callable[[int, int], None] | None = None, after: Callable[[int, int], None] | None = None,
     ) -> tuple[Floats, Floats]:  # fmt: skip
         """Advance every chain by some sweeps, which are numbered from 0.
 
@@ -168,10 +138,8 @@ class StopChains:
             sensor: the law of the readings.
             prior: prior of the cells.
             beta: inverse temperature.
-            steps: Metropolis steps of a surface in a sweep, at most `endpoint_cells.MOST_STEPS`. With 0, stops are
-                drawn, and cells stay.
-            observing_after: the first sweep that counts the cells which beams observe; none if None. With surfaces
-                `in_squares` counts them.
+            steps: Metropolis steps of a surface in a sweep, at most `endpoint_cells.MOST_STEPS`; with 0, cells stay.
+            observing_after: the first sweep that counts the cells which beams observe. With surfaces `in_squares` does.
             before: callback before each sweep, with the numbers of chain and sweep.
             after: callback after each sweep with the same arguments, on the thread that ran the sweep.
 
@@ -183,7 +151,7 @@ class StopChains:
         moved, starts = self._law != (sensor, prior, beta), not self.swept
         self._law, self._packed, self._state.beta = (sensor, prior, beta), (law, packed), beta
         if moved:
-            self._launch(decay_of_readings, self.plan.rays.n_beams, [law, self._rays])
+            self._launch(stops.decay_of_readings, self.plan.rays.n_beams, [law, self._rays])
         zeros = partial(wp.zeros, (self.n_chains, count), dtype=wp.float64, device=self.device)
         likelihood, log_prior = zeros(), zeros()
         beams, touched = self.plan.rays.n_beams, len(self.plan.touched)
@@ -195,17 +163,18 @@ class StopChains:
 
         def of_cells(number: int) -> list[tuple[Any, int, list[Any]]]:
             """Return the kernels that draw the cells given the stops."""
-            out = [(count_endpoint_cells, endpoints, [number, *at_ends])]
+            out = [(endpoint_cells.count_endpoint_cells, endpoints, [number, *at_ends])]
             if prior.coupling > 0:
-                out.append((sum_label_prior, label_sums.shape[1], [*shape, packed, state, label_sums]))
+                out.append((cell_draws.sum_label_prior, label_sums.shape[1], [*shape, packed, state, label_sums]))
                 labelled = [number, *shape, packed, self._known, state]
-                out += [(draw_labels, cells, [colour, *labelled]) for colour in (0, 1)]
-            out += [
-                (update_free_cells, touched, [number, self.without_surfaces, packed, self._active, state]),
-                (update_endpoint_cells, endpoints, [number, steps, law, packed, self._rays, *at_ends, self._blocks]),
-            ]  # fmt: skip
+                out += [(labels.draw_labels, cells, [colour, *labelled]) for colour in (0, 1)]
+            out.append(
+                (cell_draws.update_free_cells, touched, [number, self.without_surfaces, packed, self._active, state])
+            )
+            inputs = [number, steps, law, packed, self._rays, *at_ends, self._blocks]
+            out.append((endpoint_cells.update_endpoint_cells, endpoints, inputs))
             if self.without_surfaces and observing_after is not None and number >= observing_after:
-                out.append((count_observed, touched, [self._active, state]))
+                out.append((cell_draws.count_observed, touched, [self._active, state]))
             return out
 
         def phases(i: int) -> list[tuple[Any, int, list[Any]]]:
@@ -213,15 +182,15 @@ class StopChains:
             number, changed = first + i, int(moved and i == 0)
             lazy, lazy_before = (int(self._schedule.updates_lazy(sweep)) for sweep in (number, number - 1))
             begin = [number, self.without_surfaces, packed, changed, self._active, state, self._log_priors]
-            out = [(begin_sweep, touched, begin)]
+            out = [(cell_draws.begin_sweep, touched, begin)]
             if not lazy and (lazy_before or (starts and i == 0)):
-                out.append((pass_lazy_cells, beams, [self._lazy, self._rays, state]))
-            out.append((draw_stops, beams, [number, lazy, law, self._rays, state]))
+                out.append((stops.pass_lazy_cells, beams, [self._lazy, self._rays, state]))
+            out.append((stops.draw_stops, beams, [number, lazy, law, self._rays, state]))
             if steps > 0:
                 out += of_cells(number)
-            out.append((sum_slices, beam_sums.shape[1], [beams, state.log_likelihood, beam_sums]))
-            out.append((sum_slices, cell_sums.shape[1], [touched, self._log_priors, cell_sums]))
-            out.append((sum_of_slices, 1, [i, beam_sums, cell_sums, label_sums, likelihood, log_prior]))
+            out.append((cell_draws.sum_slices, beam_sums.shape[1], [beams, state.log_likelihood, beam_sums]))
+            out.append((cell_draws.sum_slices, cell_sums.shape[1], [touched, self._log_priors, cell_sums]))
+            out.append((cell_draws.sum_of_slices, 1, [i, beam_sums, cell_sums, label_sums, likelihood, log_prior]))
             return out
 
         def note(call: Callable[[int, int], None] | None, chains: range, i: int) -> None:
@@ -257,7 +226,8 @@ class StopChains:
             end = size * len(chains)
         if end > begin:
             first = chains.start * size + begin
-            inputs = [first, part, *inputs] if kernel in (draw_stops, update_endpoint_cells) else [first, *inputs]
+            by_parts = kernel in (stops.draw_stops, endpoint_cells.update_endpoint_cells)
+            inputs = [first, part, *inputs] if by_parts else [first, *inputs]
             wp.launch(kernel, dim=end - begin, inputs=inputs, device=self.device)
 
     def _launch(self, kernel: Any, size: int, inputs: list[Any]) -> None:
@@ -268,7 +238,7 @@ class StopChains:
             for task in tasks:
                 work(task)
             return
-        for kernel in (*KERNELS, count_observed, sum_label_prior, sum_slices, sum_of_slices):
+        for kernel in KERNELS:
             devices.load_kernels(kernel, self.device)
         list(devices.thread_pool(self.threads).map(work, tasks))
 
@@ -300,7 +270,7 @@ class StopChains:
         """
         assert self._packed is not None, "no sweep has been made"
         size = self.n_chains * self._state.n_cells
-        self._launch(draw_untouched, size, [sweep, self._packed[1], self._known, self._state])
+        self._launch(labels.draw_untouched, size, [sweep, self._packed[1], self._known, self._state])
 
     def counted(self, chain: int) -> tuple[Ints, Ints]:
         """Return the beams that each cell of a chain stopped, and those that met its surface and passed, (N,) each.
@@ -318,8 +288,8 @@ class StopChains:
     def in_squares(self, chain: int, sweep: int, kept: bool, solid: NDArray[np.bool_] | None = None) -> InSquares:
         """Count the stops of a chain with surfaces in each square, after its last sweep, which has this number.
 
-        If ``kept``, `observed_counts` counts the draw. ``solid`` holds the labels before the sweep, (N,), if cells have
-        labels.
+        If ``kept``, `observed_counts` counts the draw. ``solid`` holds the labels before the sweep, (N,), if there are
+        any.
         """
         assert self._squares is not None, "cells without surfaces stop beams inside their own squares"
         assert self._packed is not None, "no sweep has been made"

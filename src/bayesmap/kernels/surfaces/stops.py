@@ -1,26 +1,21 @@
 """The first half of a sweep: draw where every beam stops, given the cells.
 
-A beam walks its cells in order. In each cell it meets the surface with chance g, and is then stopped with probability
-m. Let a = m g, and let T be the product of 1 - a over the cells before. The beam stops in the cell with probability
-T a. The posterior probability of this stop is proportional to T a p(z | stop). Far before the reading, p(z | stop) is
-the constant density of a random reading. The sum over those cells is this density times (1 - T), so each cell costs one
-multiplication.
+In each cell a beam meets the surface with chance g, and is then stopped with probability m. Let a = m g, and let T be
+the product of 1 - a over the cells before. The posterior probability of a stop is proportional to T a p(z | stop). Far
+before the reading, p(z | stop) is the constant density of a random reading: these cells cost one multiplication each.
 
-A cell that a beam passes learns one of two things. In most sweeps it learns whether the beam *met* the surface without
-being stopped. Given that the beam passed, this has probability g (1 - m) / (1 - a). The counts of beams that met the
-surface and of beams that were stopped are the counts of the reflectivity's Beta. In sweeps that try a candidate for its
-surface, the cell learns log (1 - m g') / (1 - m g), the beam's part of the Metropolis ratio. Both are summed as
-integers, so that the result does not depend on the order of beams.
+In most sweeps a cell learns whether a passing beam *met* the surface. Given that the beam passed, this has probability
+g (1 - m) / (1 - a). The counts of beams that met the surface and of beams that were stopped are those of the
+reflectivity's Beta. In sweeps that try a candidate for its surface, the cell learns log (1 - m g') / (1 - m g), the
+beam's part of the Metropolis ratio. Both are summed as integers: the result does not depend on the order of beams.
 
-Most cells are free, with evidence of hundreds of beams in every sweep. These cells are updated *lazily*: in a few
-sweeps only, all lazy cells in the same sweeps. In the other sweeps their reflectivity stays, and changes of their
-surface have no noticeable effect. So the product over a beam's lazy cells far before its reading,
+Most cells are free, with evidence of hundreds of beams in every sweep. They are updated *lazily*: in a few sweeps only,
+all lazy cells in the same sweeps. The product over a beam's lazy cells far before its reading,
 
     prod over lazy far cells (1 - m g),
 
-is computed once after each update (`pass_lazy_cells`). The other far cells are *watched*: every sweep walks them. In
-these cells readings end, or few beams pass. A lazy cell whose reflectivity is below single precision does not change T,
-and is skipped.
+is computed once after each update (`pass_lazy_cells`). The other far cells, in which readings end or few beams pass,
+are *watched*: every sweep walks them.
 
 At an inverse temperature beta the law of the reading is p(z | stop)^beta; the law of stops given the cells is not
 tempered. For walls, 0 or 1, this is the likelihood to the power of beta.

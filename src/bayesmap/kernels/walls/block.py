@@ -1,15 +1,11 @@
 """2 x 2 block Gibbs sweeps on binary walls.
 
-A sweep draws the four cells of a block together, from their 16 joint states given all other cells. Blocks overlap:
-there is one at every position of the grid, so every pair of neighbours is drawn together in some block. Such a step can
-move a wall sideways. Single cells cannot, if free space is likely and a beam needs a wall.
+A sweep draws the four cells of a block together, from their 16 joint states given all other cells. There is a block at
+every position of the grid, so every pair of neighbours is drawn together. Such a step can move a wall sideways.
 
 Take a beam that reaches the block. Let l_1, l_2, ... be the log-likelihoods of its hits on the block's cells, in the
-order of the beam, before the first wall outside the block. Let l_out be that of this wall, or of "no hit". The beam
-adds to a state's log weight l_j for the first j that is a wall in the state, else l_out. All 16 states share l_out.
-
-If neighbours are coupled, a state's log weight also contains the coupling of its equal pairs: pairs within the block,
-and pairs of its cells with the neighbours around it.
+order of the beam, and l_out that of its first wall outside the block, or of "no hit". The beam adds to a state's log
+weight l_j for the first j that is a wall in the state, else l_out. The coupling adds its equal pairs.
 """
 
 import numpy as np
@@ -21,24 +17,8 @@ from bayesmap.errors import BadInput
 from bayesmap.kernels import device as devices
 from bayesmap.kernels.device import Int32s, Uint8s
 from bayesmap.kernels.random import random_bits, to_uniform
-from bayesmap.kernels.walls.chains import (
-    CERTAIN_LEVEL,
-    Chain,
-    Kept,
-    Sweeps,
-    Table,
-    WallChainArrays,
-    WallPriorArrays,
-    chain_of,
-    draw_from_prior,
-    entry_loglik,
-    keep,
-    log_prior,
-    put_wall,
-    remove_wall,
-    site_of,
-    table_to_device,
-)
+from bayesmap.kernels.walls import chains
+from bayesmap.kernels.walls.chains import Chain, Kept, Sweeps, Table, WallChainArrays, WallPriorArrays
 
 wp.set_module_options({"enable_backward": False, "max_unroll": 1})  # unrolled, it takes half a minute to compile
 
@@ -119,7 +99,7 @@ def list_blocks(table: BeamTable, device: str) -> BlockArrays:
     threads = min(devices.available_cores(), columns)
     bounds = np.linspace(0, columns, threads + 1).astype(np.int32)
     counts = np.zeros(columns * rows, dtype=np.int32)
-    on_host = table_to_device(table, None, "cpu")
+    on_host = chains.table_to_device(table, None, "cpu")
     blocks = devices.pack(BlockArrays, "cpu", rows=rows, nx=nx, ny=ny)
     devices.launch(list_block_beams, threads, [0, bounds, on_host, blocks, counts], "cpu")
     total = int(counts.sum(dtype=np.int64))
@@ -144,7 +124,7 @@ def list_blocks(table: BeamTable, device: str) -> BlockArrays:
     return blocks
 
 
-CERTAIN = wp.constant(wp.uint64(CERTAIN_LEVEL))
+CERTAIN = wp.constant(wp.uint64(chains.CERTAIN_LEVEL))
 IMPOSSIBLE = wp.constant(wp.float64(-1.0e300))  # log weight
 ZERO = wp.constant(wp.float64(0.0))
 
@@ -171,7 +151,7 @@ def block_weights(t: Table, blocks: BlockArrays, chain: Chain, block: int, x: in
                     if chain.walls[c] != wp.uint8(0) and place_in_block(c, x, y, blocks.ny) < 0:
                         break
                     out += 1
-                l_out = entry_loglik(t, b, out, end)
+                l_out = chains.entry_loglik(t, b, out, end)
             # Add l_j to the states in which j is the first wall of the beam.
             free = int(0)
             for e in range(k, wp.min(last + 1, out)):
@@ -222,7 +202,7 @@ def draw_block_from_prior(
     for j in range(4):
         c = cell_of_block(blocks, x, y, j)
         if c >= 0:
-            walls[c] = wp.uint8(draw_from_prior(prior, c, random_bits(key, counter + wp.uint64(j))))
+            walls[c] = wp.uint8(chains.draw_from_prior(prior, c, random_bits(key, counter + wp.uint64(j))))
 
 
 @wp.func
@@ -282,21 +262,21 @@ def coupling_weights(blocks: BlockArrays, prior: WallPriorArrays, walls: Uint8s,
 
 @wp.kernel
 def block_sweeps(
-    chain_0: int, t: Table, blocks: BlockArrays, prior: WallPriorArrays, sweeps: Sweeps, chains: WallChainArrays,
+    chain_0: int, t: Table, blocks: BlockArrays, prior: WallPriorArrays, sweeps: Sweeps, states: WallChainArrays,
     kept: Kept,
 ):  # fmt: skip
     """One thread per chain: make several sweeps, each over all positions of a block."""
     # n: chain; s: sweep of this launch; i: position in the sweep's order; (x, y): position of the block; j: its cell.
     n = chain_0 + wp.tid()
-    chain = chain_of(chains, n)
-    key = chains.keys[n]
+    chain = chains.chain_of(states, n)
+    key = states.keys[n]
     size = sweeps.order.shape[0]
     for s in range(sweeps.count):
         sweep = wp.uint64(sweeps.first + s)
         base = sweep * wp.uint64(size) * wp.uint64(4)
         shuffle_key = random_bits(key, ~sweep)
         for i in range(size):
-            block = site_of(sweeps, i, shuffle_key)
+            block = chains.site_of(sweeps, i, shuffle_key)
             x = block // blocks.rows
             y = block % blocks.rows
             counter = base + wp.uint64(4 * block)
@@ -317,7 +297,7 @@ def block_sweeps(
                     c = cell_of_block(blocks, x, y, j)
                     if c >= 0:
                         if ((state >> j) & 1) != 0 and chain.walls[c] == wp.uint8(0):
-                            put_wall(t, chain, c)
+                            chains.put_wall(t, chain, c)
                         if ((state >> j) & 1) == 0 and chain.walls[c] != wp.uint8(0):
-                            remove_wall(t, chain, c)
-        keep(kept, sweeps, n, s, chain, log_prior(prior, chain.walls))
+                            chains.remove_wall(t, chain, c)
+        chains.keep(kept, sweeps, n, s, chain, chains.log_prior(prior, chain.walls))

@@ -1,18 +1,12 @@
 """Chains on binary walls: their prior, their state, the moves that keep it up to date, and how sweeps are run.
 
-The prior is
-
-    p(walls) proportional to  prod_c p_c^m_c (1 - p_c)^(1 - m_c)  exp(coupling * number of pairs of neighbours alike)
-
-over pairs of cells that share an edge (`bayesmap.cells.binary` has the source). Given all other cells, a cell is a wall
-with the log-odds logit(p_c) + coupling * (walls - free cells among its neighbours). At a coupling of 0 cells are
-independent, and no neighbour is read.
+`bayesmap.cells.binary` has the prior. Given all other cells, a cell is a wall with the log-odds logit(p) + coupling *
+(walls - free cells among its neighbours). At a coupling of 0 no neighbour is read.
 
 The walls alone determine the state of a chain, so only the walls are saved. The state holds
 
-- for every beam, `first`: the table entry of its first wall, or the end of the beam's entries if there is none;
-- for every beam, `current`: the log-likelihood of that entry;
-- for every cell, `reached`: the number of beams that reach it, that is, have no wall before it;
+- for every beam, `first`: the table entry of its first wall, or the end of its entries, and `current`: its likelihood;
+- for every cell, `reached`: the number of beams that have no wall before it;
 - for every cell, `gain`: the log-likelihood with a wall there less the one without. By `known` it is the exact sum, a
   bound, or unknown. If a beam's first wall moves, the gain becomes unknown in the cells that it reached or now reaches.
 
@@ -166,7 +160,7 @@ class Table:
     cell_entry: Int32s
     cell_beam: Int32s
     cell_loglik: Float32s
-    cell_gain: Float32s  # `CellIndex.gain_bound`
+    cell_gain_bound: Float32s
     cell_advantage: Float32s
 
 
@@ -324,7 +318,7 @@ def remove_wall(t: Table, chain: Chain, c: int):
 
 @wp.func
 def keep_walls(walls: Uint8s, packed: Uint8s):
-    """Pack a map as `numpy.packbits` does: eight cells per byte, the first in the highest bit."""
+    """Pack a map as `numpy.packbits` does."""
     for j in range(packed.shape[0]):
         bits = int(0)
         for c in range(8 * j, wp.min(8 * j + 8, walls.shape[0])):
@@ -353,40 +347,24 @@ def keep(kept: Kept, sweeps: Sweeps, n: int, s: int, chain: Chain, log_prior: wp
 
 def table_to_device(table: BeamTable, index: CellIndex | None, device: str) -> Any:
     """Put a table, and its index if given, on a device; on the CPU they share the arrays' memory."""
-    t = devices.pack(Table, device, offsets=table.offsets, cells=table.cells, loglik=table.loglik, no_hit=table.no_hit)
-    if index is not None:
-        t.cell_offsets, t.cell_entry, t.cell_beam = (
-            devices.to_device(a, wp.int32, device) for a in (index.offsets, index.entry, index.beam)
-        )
-        t.cell_loglik, t.cell_gain, t.cell_advantage = (
-            devices.to_device(a, wp.float32, device) for a in (index.loglik, index.gain_bound, index.advantage)
-        )
-    return t
+    parts = {name: array for name, array in vars(table).items() if name != "grid"}
+    parts |= {f"cell_{name}": array for name, array in vars(index).items()} if index else {}
+    return devices.pack(Table, device, **parts)
 
 
 class WallChains:
-    """The states of several chains on a device.
-
-    Attributes:
-        states: the arrays, one row per chain.
-        device: the device that holds them.
-        shape: number of chains and of cells.
-    """
+    """The states of several chains on a device, one row per chain; ``shape`` is the number of chains and of cells."""
 
     def __init__(self, table: Any, walls: NDArray[np.uint8], keys: Sequence[int], device: str) -> None:
         self.device = device
         self.shape = chains, cells = walls.shape
         beams = table.no_hit.shape[0]
-        states = devices.pack(
-            WallChainArrays, device, walls=np.array(walls, dtype=np.uint8), keys=np.array(keys, dtype=np.uint64)
-        )
-        states.first = wp.empty((chains, beams), dtype=wp.int32, device=device)
-        states.current = wp.empty((chains, beams), dtype=wp.float32, device=device)
-        states.reached = wp.empty((chains, cells), dtype=wp.int32, device=device)
-        states.gain = wp.empty((chains, cells), dtype=wp.float32, device=device)
-        states.known = wp.empty((chains, cells), dtype=wp.uint8, device=device)
-        self.states: Any = states
-        devices.launch(derive_state, chains, [table, states], device)
+        of_beams, of_cells = (chains, beams), (chains, cells)
+        self.states: Any = devices.pack(
+            WallChainArrays, device, walls=np.array(walls, dtype=np.uint8), keys=np.array(keys, dtype=np.uint64),
+            first=of_beams, current=of_beams, reached=of_cells, gain=of_cells, known=of_cells,
+        )  # fmt: skip
+        devices.launch(derive_state, chains, [table, self.states], device)
 
     def host_walls(self) -> NDArray[np.uint8]:
         """Copy the maps to main memory, (chains, N)."""
@@ -397,22 +375,21 @@ def run_sweeps(
     kernel: Any, tables: Sequence[Any], prior: Any, order: Ints, shuffle: bool, chains: WallChains, *, first: int,
     count: int, kept: range, beta: float = 1.0, threads: int | None = None,
 ) -> tuple[Floats, Floats, NDArray[np.uint8]]:  # fmt: skip
-    """Advance the chains in place by ``count`` sweeps of a kernel, one chain per thread.
+    """Advance the chains in place by ``count`` sweeps of a kernel, numbered from ``first``, one chain per thread.
 
-    The kernel takes ``tables`` first, then the walls' prior on the device. Each sweep visits the sites in the given
-    order, or shuffles it. ``first`` is the number of the first sweep, from 0. ``kept`` holds the numbers, from 1, of
-    the sweeps whose maps are kept. ``beta`` is the inverse temperature.
+    The kernel takes ``tables`` first, then the prior. Each sweep visits the sites in the given order, or shuffles it.
+    ``kept`` holds the numbers, from 1, of the sweeps whose maps are kept. ``beta`` is the inverse temperature.
 
     Returns:
-        log-likelihoods and log priors after each sweep, (chains, sweeps), and the kept maps, packed, (chains, kept,
-        ceil(N / 8)).
+        log-likelihoods and log priors after each sweep, (chains, sweeps), and the packed maps, (chains, kept, bytes).
     """
     n, cells = chains.shape
     device = chains.device
     bits = cipher_bits(len(order)) if shuffle else 0
     sweeps = devices.pack(Sweeps, device, first=first, count=count, beta=beta, order=order, shuffle_bits=bits)
-    out = devices.pack(Kept, device, first=kept.start, every=kept.step)
-    out.draws = wp.empty((n, len(kept), (cells + 7) // 8), dtype=wp.uint8, device=device)
-    out.log_likelihoods, out.log_priors = (wp.empty((n, count), dtype=wp.float64, device=device) for _ in range(2))
+    out = devices.pack(
+        Kept, device, first=kept.start, every=kept.step, draws=(n, len(kept), (cells + 7) // 8),
+        log_likelihoods=(n, count), log_priors=(n, count),
+    )  # fmt: skip
     devices.launch(kernel, n, [*tables, prior, sweeps, chains.states, out], device, threads=threads)
     return out.log_likelihoods.numpy(), out.log_priors.numpy(), out.draws.numpy()

@@ -1,45 +1,20 @@
 """Single-site Gibbs sweeps on binary walls.
 
-The conditional of a cell is a Bernoulli law. Its log-odds are the prior's, given the neighbours if the prior couples
-them, plus the cell's gain. The gain is a sum over the beams that reach the cell: the log-likelihood of each with a wall
-there, less the one without. One thread draws a chain's cells one after the other, so neighbours are always up to date.
-
-Three shortcuts keep a sweep from visiting every incidence. None changes a draw.
+The log-odds of a cell are the prior's, given its neighbours if they are coupled, plus the cell's gain: a sum over the
+beams that reach the cell. Three shortcuts keep a sweep from visiting every incidence. None changes a draw.
 
 - A cell that no beam reaches is drawn from the prior. Its beams are not visited.
-- The sum of a free cell is stored until one of its beams moves.
+- The sum of a free cell is stored until one of its beams moves. It contains likelihoods alone: neighbours may change.
 - If a bound leaves a chance below e^-20 of the other state, the bound replaces the sum. The exact sum is computed only
   if the uniform number falls into that remainder. The bound is `CellIndex.gain_bound` for a free cell and
-  `CellIndex.advantage` for a wall; with it, no search for the wall behind is needed.
-
-Sums and bounds contain likelihoods alone, so they stay valid when neighbours change.
+  `CellIndex.advantage` for a wall.
 """
 
 import warp as wp
 
 from bayesmap.kernels.random import random_bits, to_uniform
-from bayesmap.kernels.walls.chains import (
-    BOUND,
-    EXACT,
-    UNKNOWN,
-    Chain,
-    Kept,
-    Sweeps,
-    Table,
-    WallChainArrays,
-    WallPriorArrays,
-    chain_of,
-    draw_given_neighbours,
-    draw_wall,
-    entry_loglik,
-    keep,
-    log_prior,
-    next_wall,
-    prior_log_odds,
-    put_wall,
-    remove_wall,
-    site_of,
-)
+from bayesmap.kernels.walls import chains
+from bayesmap.kernels.walls.chains import BOUND, EXACT, UNKNOWN, Chain, Table, WallChainArrays, WallPriorArrays
 
 wp.set_module_options({"enable_backward": False})
 
@@ -57,8 +32,8 @@ def wall_gain(t: Table, chain: Chain, c: int) -> wp.float64:
         e = t.cell_entry[i]
         if chain.first[b] == e:
             end = t.offsets[b + 1]
-            k = next_wall(t, chain.walls, e + 1, end)
-            gain += wp.float64(t.cell_loglik[i] - entry_loglik(t, b, k, end))
+            k = chains.next_wall(t, chain.walls, e + 1, end)
+            gain += wp.float64(t.cell_loglik[i] - chains.entry_loglik(t, b, k, end))
     return gain
 
 
@@ -66,12 +41,12 @@ def wall_gain(t: Table, chain: Chain, c: int) -> wp.float64:
 def sum_gain(t: Table, chain: Chain, c: int, enough: wp.float64):
     """Store the gain of a wall in free cell c: the exact sum, or a bound as soon as the sum must stay below ``enough``.
 
-    `cell_gain` bounds the terms from incidence i on.
+    `cell_gain_bound` bounds the terms from incidence i on.
     """
     gain = wp.float64(0.0)
     known = EXACT
     for i in range(t.cell_offsets[c], t.cell_offsets[c + 1]):
-        bound = gain + wp.float64(t.cell_gain[i])
+        bound = gain + wp.float64(t.cell_gain_bound[i])
         if bound < enough:
             gain = bound
             known = BOUND
@@ -86,22 +61,22 @@ def sum_gain(t: Table, chain: Chain, c: int, enough: wp.float64):
 @wp.func
 def draw_free_cell(t: Table, prior: WallPriorArrays, chain: Chain, beta: wp.float64, c: int, u: wp.float64) -> bool:
     """Draw whether a free cell that beams reach becomes a wall, at an inverse temperature."""
-    logit = prior_log_odds(prior, chain.walls, c)
+    logit = chains.prior_log_odds(prior, chain.walls, c)
     if chain.known[c] == UNKNOWN:
         sum_gain(t, chain, c, (-CERTAIN - logit) / beta)
-    if not draw_wall(logit + beta * wp.float64(chain.gain[c]), u):
+    if not chains.draw_wall(logit + beta * wp.float64(chain.gain[c]), u):
         return False
     if chain.known[c] == EXACT:
         return True
     # The bound allows a wall: draw again with the exact sum and the same uniform number.
     sum_gain(t, chain, c, NO_BOUND)
-    return draw_wall(logit + beta * wp.float64(chain.gain[c]), u)
+    return chains.draw_wall(logit + beta * wp.float64(chain.gain[c]), u)
 
 
 @wp.func
 def draw_wall_cell(t: Table, prior: WallPriorArrays, chain: Chain, beta: wp.float64, c: int, u: wp.float64) -> bool:
     """Draw whether a wall that beams reach stays a wall, at an inverse temperature."""
-    logit = prior_log_odds(prior, chain.walls, c)
+    logit = chains.prior_log_odds(prior, chain.walls, c)
     if chain.known[c] == UNKNOWN:
         # Lower bound: each beam that ends here has its advantage over all entries behind.
         least = wp.float64(0.0)
@@ -112,31 +87,33 @@ def draw_wall_cell(t: Table, prior: WallPriorArrays, chain: Chain, beta: wp.floa
         chain.known[c] = BOUND
     if chain.known[c] == BOUND:
         least = logit + beta * wp.float64(chain.gain[c])
-        if least > CERTAIN and draw_wall(least, u):
+        if least > CERTAIN and chains.draw_wall(least, u):
             return True
-    return draw_wall(logit + beta * wall_gain(t, chain, c), u)
+    return chains.draw_wall(logit + beta * wall_gain(t, chain, c), u)
 
 
 @wp.kernel
-def gibbs_sweeps(chain_0: int, t: Table, prior: WallPriorArrays, sweeps: Sweeps, chains: WallChainArrays, kept: Kept):
+def gibbs_sweeps(
+    chain_0: int, t: Table, prior: WallPriorArrays, sweeps: chains.Sweeps, states: WallChainArrays, kept: chains.Kept
+):
     """One thread per chain: make several sweeps, each over all cells."""
     # n: chain; s: sweep of this launch; i: position in the sweep's order; c: cell.
     n = chain_0 + wp.tid()
-    chain = chain_of(chains, n)
-    key = chains.keys[n]
+    chain = chains.chain_of(states, n)
+    key = states.keys[n]
     size = sweeps.order.shape[0]
     for s in range(sweeps.count):
         sweep = wp.uint64(sweeps.first + s)
         base = sweep * wp.uint64(size)
         shuffle_key = random_bits(key, ~sweep)
         for i in range(size):
-            c = site_of(sweeps, i, shuffle_key)
+            c = chains.site_of(sweeps, i, shuffle_key)
             bits = random_bits(key, base + wp.uint64(c))
             if chain.reached[c] == 0:
-                chain.walls[c] = wp.uint8(draw_given_neighbours(prior, chain.walls, c, bits))
+                chain.walls[c] = wp.uint8(chains.draw_given_neighbours(prior, chain.walls, c, bits))
             elif chain.walls[c] != wp.uint8(0):
                 if not draw_wall_cell(t, prior, chain, sweeps.beta, c, to_uniform(bits)):
-                    remove_wall(t, chain, c)
+                    chains.remove_wall(t, chain, c)
             elif draw_free_cell(t, prior, chain, sweeps.beta, c, to_uniform(bits)):
-                put_wall(t, chain, c)
-        keep(kept, sweeps, n, s, chain, log_prior(prior, chain.walls))
+                chains.put_wall(t, chain, c)
+        chains.keep(kept, sweeps, n, s, chain, chains.log_prior(prior, chain.walls))

@@ -1,7 +1,6 @@
 """Evaluate maps of binary walls on a beam table: importance weights, log-likelihoods, and the cells that beams reach.
 
-Importance sampling draws its particles from the prior. Their maps are not stored: each can be drawn again from its
-counter.
+Maps of particles are not stored: each can be drawn again from its counter.
 """
 
 from typing import Any

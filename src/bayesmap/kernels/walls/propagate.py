@@ -11,12 +11,9 @@ l_out that of no hit, all relative to the beam's largest. Then
 
 (Ulusoy, Geiger and Black, *Towards probabilistic volumetric reconstruction using ray potentials*, 3DV 2015.)
 
-Let J be the log prior that a pair of alike neighbours adds, and h the sender's log-odds without the message of the
-receiver. The sender's message is log(exp(J + h) + 1) - log(exp(h) + exp(J)), which is
-2 artanh(tanh(J / 2) tanh(h / 2)) (Pearl's messages of a pairwise field, as in Yedidia, Freeman and Weiss, 2003).
-
-Messages of beams are stored as ratios, so no logarithm and no exponential is needed along a beam, and damping by a half
-is a square root. A cell's belief is its prior log-odds plus the logarithms of the messages that it receives.
+Let J be the coupling, and h the sender's log-odds without the receiver's message. A neighbour's message is log(exp(J +
+h) + 1) - log(exp(h) + exp(J)) (Pearl's messages of a pairwise field: Yedidia, Freeman and Weiss, 2003). Messages of
+beams are stored as ratios: no logarithm is needed along a beam, and damping by a half is a square root.
 """
 
 import numpy as np
@@ -197,13 +194,11 @@ class Beliefs:
         bounds = np.searchsorted(table.offsets, np.linspace(0, incidences, parts + 1))
         bounds[0], bounds[-1] = 0, beams
         arrays = devices.pack(
-            BeliefArrays, device, bounds=bounds.astype(np.int32), offsets=table.offsets, cells=table.cells, logit=logit
-        )
-        arrays.relative, arrays.behind = (wp.empty(incidences, dtype=wp.float32, device=device) for _ in range(2))
-        arrays.ratio = wp.full(incidences, 1.0, dtype=wp.float32, device=device)
-        arrays.relative_no_hit = wp.empty(beams, dtype=wp.float32, device=device)
-        arrays.product, arrays.received = (wp.zeros((parts, cells), dtype=wp.float32, device=device) for _ in range(2))
-        arrays.odds, arrays.belief = (wp.empty(cells, dtype=wp.float32, device=device) for _ in range(2))
+            BeliefArrays, device, bounds=bounds.astype(np.int32), offsets=table.offsets, cells=table.cells, logit=logit,
+            relative=(incidences,), behind=(incidences,), relative_no_hit=(beams,), product=(parts, cells),
+            received=(parts, cells), odds=(cells,), belief=(cells,),
+            ratio=wp.full(incidences, 1.0, dtype=wp.float32, device=device),
+        )  # fmt: skip
         self._arrays, self._device, self._cells, self._parts = arrays, device, cells, parts
         self._shape, self._coupling = table.grid.shape, coupling
         sides = 4 if coupling else 0

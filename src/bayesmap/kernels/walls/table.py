@@ -1,8 +1,4 @@
-"""Build the beam table of some scans, and its index by cells.
-
-The table holds, for each beam, the cells that it crosses and the log-likelihood of its reading for a first hit in each
-of them. The index lists, for each cell, the beams that cross it.
-"""
+"""Build the beam table of some scans, and its index by cells."""
 
 import numpy as np
 import warp as wp
@@ -88,8 +84,8 @@ def fill_likelihood(
 ):  # fmt: skip
     """One thread per beam: compute the log-likelihood of each entry, and of no hit.
 
-    The normal noise of a mixture matters between two distances only; bisection finds their entries. All stops before
-    them share one likelihood, and so do all stops behind them.
+    All stops before a mixture's normal noise share one likelihood, and so do all behind it; bisection finds their
+    entries.
     """
     # b: beam; z: its reading; k: its entry.
     b = first + wp.tid()
