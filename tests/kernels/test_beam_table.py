@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from oracle.enumeration import all_maps
-from oracle.formula import beams, distances, touches
+from oracle.formula import beams, distances
 from oracle.own_sensor import OwnSensor
 from oracle.worlds import make_case
 from test_rays import GRID, random_scans
@@ -55,21 +55,6 @@ def test_the_compiled_likelihood_equals_numpy_s(name, monkeypatch):
         np.testing.assert_allclose(compiled.no_hit, plain.no_hit, rtol=1e-6, atol=1e-6)
 
 
-def test_a_beam_lists_the_cells_that_it_touches_by_distance_each_once():
-    """On corners and lines too: the poses stand on multiples of half a cell, the angles are multiples of 15 degrees."""
-    rng = np.random.default_rng(7)
-    poses = np.column_stack([3.0 + rng.integers(-2, 28, 30) / 8, -1.0 + rng.integers(-2, 20, 30) / 8, np.zeros(30)])
-    angles = np.arange(24) * np.pi / 12
-    scans = bm.Scans(poses, angles, np.full((30, 24), 1.0), max_range_m=50.0)
-    table = trace(scans, GRID, bm.Gaussian(0.1))
-    met = touches(*beams(poses, angles, GRID), GRID.shape)
-    for b in range(table.n_beams):
-        cells = table.cells[table.offsets[b] : table.offsets[b + 1]]
-        assert len(set(cells.tolist())) == len(cells)
-        assert set(cells.tolist()) == set(np.flatnonzero(np.isfinite(met[b])).tolist())
-        assert (np.diff(met[b, cells]) >= -1e-9).all()
-
-
 def test_an_invalid_reading_has_no_entry_and_no_worth():
     scans = bm.Scans([4.0, 0.0, 0.0], [0.0, 1.0], [[np.nan, 1.0]], max_range_m=4.0)
     table = trace(scans, GRID, bm.Gaussian(0.1))
@@ -91,15 +76,6 @@ def test_hit_depth_moves_hits_into_the_cell_by_that_share_of_the_chord(depth):
     into = bm.Gaussian(0.3).log_likelihood(np.float64(1.5), (np.arange(13) + depth) * 0.25, limits)
     # the first cell is left, not entered: from inside, the hit is its exit
     np.testing.assert_allclose(table.loglik[-12:], into[1:], atol=FLOAT32)
-
-
-def test_observed_cells_are_those_that_some_beam_touches():
-    case = make_case(3)
-    table = case.problem().table
-    valid = ~np.isnan(case.scans.ranges_m.ravel())
-    met = touches(*beams(case.scans.poses, case.scans.angles_rad, case.grid), case.grid.shape)[valid]
-    near = (met * case.grid.resolution <= case.scans.max_range_m).any(axis=0)
-    np.testing.assert_array_equal(table.observed().ravel(), near)
 
 
 def test_a_map_of_another_shape_is_refused():

@@ -154,12 +154,13 @@ def test_events_multiply_to_the_chance_of_the_cell(name):
     scans = dataclasses.replace(scans, ranges_m=np.where(np.isfinite(scans.ranges_m), scans.ranges_m, 3.0))
     rays, z = trace_rays(scans, GRID), scans.ranges_m.ravel()
     chance, stopped = first_hit_events(mix_stops(rays, batches(rays, maps), DEPTH), sensor)
-    enter, end_of = rays.stretches()[0], rays.ends_m()
+    enter, leave = rays.stretches()
     checked = 0
     for b in range(rays.n_beams):
         mine = slice(rays.offsets[b], rays.offsets[b + 1])
         event = stopped[mine] >= 0
-        entry, end, p, y = (a[mine][event] for a in (enter, end_of, chance, stopped))
+        ends = np.append(enter[mine][1:], leave[mine][-1:])  # of each cell's own part of the beam
+        entry, end, p, y = (a[event] for a in (enter[mine], ends, chance[mine], stopped[mine]))
         assert (entry <= z[b]).all()
         np.testing.assert_array_equal(y, (entry <= z[b]) & (z[b] < np.minimum(end, LIMITS.max_m)))
         if not y.any():

@@ -7,7 +7,6 @@ import dataclasses
 import numpy as np
 import pytest
 from oracle.formula import beams, touches
-from oracle.stop_worlds import beam_rays
 
 import bayesmap as bm
 from bayesmap.beams.rays import Rays, around_readings
@@ -78,9 +77,9 @@ def test_cells_and_where_they_are_entered_are_the_formula_s(kind):
 
 
 @EVERYWHERE
-def test_a_stretch_begins_and_ends_on_its_cell_s_border_and_the_next_follows_without_a_gap(kind):
+def test_a_stretch_begins_and_ends_on_its_cell_s_border_and_the_next_begins_no_earlier(kind):
     rays, edge = trace_rays(random_scans(4, lattice=KINDS[kind]), GRID), GRID.resolution
-    (enter, leave), ends = rays.stretches(), rays.ends_m()
+    enter, leave = rays.stretches()
     beam, low = rays.beam_of_entry(), np.stack([rays.cells // GRID.shape[1], rays.cells % GRID.shape[1]], -1)
     for distance, on_border in ((enter, True), ((enter + leave) / 2, False), (leave, True)):
         at = (rays.start_m[beam] + distance[:, None] * rays.direction[beam]) / edge - low
@@ -89,8 +88,6 @@ def test_a_stretch_begins_and_ends_on_its_cell_s_border_and_the_next_follows_wit
             assert (np.minimum(np.abs(at), np.abs(1 - at)).min(axis=1) < 1e-8).all()
     assert (leave >= enter).all()
     for b in range(rays.n_beams):
-        np.testing.assert_allclose(of_beam(ends, rays, b)[:-1], of_beam(enter, rays, b)[1:], atol=1e-9)
-        assert (of_beam(ends, rays, b) >= of_beam(enter, rays, b) - 1e-9).all()
         assert (np.diff(of_beam(enter, rays, b)) > -1e-9).all()
 
 
@@ -159,29 +156,18 @@ def test_beams_are_traced_some_at_a_time_to_the_same_rays(monkeypatch):
 
 
 @EVERYWHERE
-def test_a_ray_ends_where_no_stop_can_explain_its_reading(kind):
+def test_a_ray_ends_where_no_stop_can_explain_its_reading_and_near_begins_not_far_before_it(kind):
     scans = random_scans(3, lattice=KINDS[kind])
     rays, whole = near_readings(scans, MARGIN_M), trace_rays(scans, GRID)
-    enter, _ = whole.stretches()
+    entered, entered_whole = rays.stretches()[0], whole.stretches()[0]
     for b, reading in enumerate(scans.ranges_m.ravel()):
-        wanted = of_beam(enter, whole, b) <= (reading + MARGIN_M if np.isfinite(reading) else np.inf) + 1e-6
-        np.testing.assert_array_equal(of_beam(rays.cells, rays, b), of_beam(whole.cells, whole, b)[wanted])
-    assert (rays.lengths[np.isnan(scans.ranges_m.ravel())] == 0).all()
-
-
-@EVERYWHERE
-def test_near_begins_at_the_first_entry_not_far_before_the_reading(kind):
-    scans = random_scans(3, lattice=KINDS[kind])
-    rays = near_readings(scans, MARGIN_M)
-    entered, _ = rays.stretches()
-    for b, reading in enumerate(scans.ranges_m.ravel()):
+        within = of_beam(entered_whole, whole, b) <= (reading + MARGIN_M if np.isfinite(reading) else np.inf) + 1e-6
+        np.testing.assert_array_equal(of_beam(rays.cells, rays, b), of_beam(whole.cells, whole, b)[within])
         enter, far = of_beam(entered, rays, b), int(rays.near[b] - rays.offsets[b])
-        if not np.isfinite(reading):
-            assert far == 0
-            continue
-        nearest = reading - MARGIN_M - GRID.resolution
+        nearest = reading - MARGIN_M - GRID.resolution if np.isfinite(reading) else -np.inf
         assert (enter[:far] < nearest).all()
         assert far == len(enter) or enter[far] >= nearest - 1e-6
+    assert (rays.lengths[np.isnan(scans.ranges_m.ravel())] == 0).all()
 
 
 def test_margins_may_differ_from_beam_to_beam():
@@ -208,7 +194,7 @@ def test_no_valid_beam_or_none_through_the_grid_is_no_entry(readings):
     rays = trace_rays(away, bm.Grid((4, 3)))
     assert rays.n_incidences == len(rays.touched) == 0
     assert rays.n_beams == 2
-    assert rays.ends_m().shape == rays.distance_m(0.5).shape == (0,)
+    assert rays.distance_m(0.5).shape == (0,)
     whole = near_readings(random_scans(3), np.inf)  # without a warning of readings that are too close
     assert (whole.near == whole.offsets[:-1]).all()
 
@@ -225,12 +211,12 @@ def test_hits_and_passes_are_those_of_a_slow_count(kind):
         scans = random_scans(seed, lattice=KINDS[kind])
         met = touches(*beams(scans.poses, scans.angles_rad, GRID), GRID.shape) * GRID.resolution
         rays = trace_rays(scans, GRID)
-        ends = rays.ends_m()
+        _, leave = rays.stretches()
         hits, passes = np.zeros((2, GRID.n_cells), int)
         for b, z in enumerate(scans.ranges_m.ravel()):
             reach = min(z, scans.max_range_m)
             cells = [c for c in of_beam(rays.cells, rays, b).tolist() if met[b, c] <= reach + 1e-9]
-            inside = len(cells) and z <= of_beam(ends, rays, b).max() + 1e-6
+            inside = len(cells) and z <= of_beam(leave, rays, b)[-1] + 1e-6
             stopped = np.isfinite(z) and inside
             if stopped:
                 hits[cells[-1]] += 1
@@ -241,14 +227,11 @@ def test_hits_and_passes_are_those_of_a_slow_count(kind):
         np.testing.assert_array_equal(found[1], passes)
 
 
-def test_some_beams_alone_are_those_beams():
-    scans = bm.Scans([[0.5, 1.5, 0.0], [2.2, 0.3, 2.0]], [-0.3, 0.0, 0.4], np.full((2, 3), 1.2), max_range_m=3.0)
-    rays = beam_rays(scans, bm.Grid((4, 3)), margin_m=0.5)
-    some = rays.select(np.array([4, 0, 4]))
-    assert some.n_beams == 3
-    for mine, whole in zip(range(3), (4, 0, 4), strict=True):
-        theirs = slice(*rays.offsets[whole : whole + 2])
-        np.testing.assert_array_equal(some.cells[slice(*some.offsets[mine : mine + 2])], rays.cells[theirs])
-        assert some.near[mine] - some.offsets[mine] == rays.near[whole] - rays.offsets[whole]
-        np.testing.assert_array_equal(some.direction[mine], rays.direction[whole])
-    assert some.range_m.tolist() == rays.range_m[[4, 0, 4]].tolist()
+def test_selected_beams_are_those_beams():
+    rays, beams = near_readings(random_scans(3), MARGIN_M), np.array([4, 0, 4])
+    selected = rays.select(beams)
+    for mine, whole in enumerate(beams):
+        np.testing.assert_array_equal(of_beam(selected.cells, selected, mine), of_beam(rays.cells, rays, whole))
+    np.testing.assert_array_equal(selected.near - selected.offsets[:-1], (rays.near - rays.offsets[:-1])[beams])
+    np.testing.assert_array_equal(selected.direction, rays.direction[beams])
+    np.testing.assert_array_equal(selected.range_m, rays.range_m[beams])

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 import warp as wp
 from oracle.own_sensor import OwnSensor
-from oracle.stop_law import Paths, draw_readings, draw_states, log_likelihoods, log_prior, paths_of
-from oracle.stop_worlds import Worlds, beam_rays, centres_of, draw_worlds, scans_of_all_kinds
+from oracle.stop_law import draw_readings, draw_states, log_likelihoods, log_prior, paths_of
+from oracle.stop_worlds import Worlds, beam_rays, centres_of, draw_worlds
 
 import bayesmap as bm
 from bayesmap.kernels.device import Float32Rows, Float32s
@@ -58,21 +58,6 @@ def test_a_sweep_s_log_likelihood_is_the_reference_s(name, sensor):
     expected = log_likelihoods(paths, truth.astype(np.float32).astype(float), sensor, isinstance(prior, bm.Beta))
     np.testing.assert_allclose(mine, expected, **CLOSE)
     assert total == pytest.approx(expected.sum(), rel=1e-4)
-
-
-@pytest.mark.parametrize("name", PRIORS)
-def test_a_prediction_s_density_is_the_reference_s_with_the_likelihood_of_every_entry(name):
-    prior = PRIORS[name]
-    plain = isinstance(prior, bm.Beta)
-    grid = bm.Grid((6, 5), 0.5, (-1.0, 2.0))
-    rays = beam_rays(scans_of_all_kinds(8, grid), grid, margin_m=0.0, whole=True)
-    states = draw_states(np.random.default_rng(9), prior, centres_of(rays), (5,)).astype(np.float32)
-    batch = states[..., 0] if plain else states
-    found = log_densities(rays, [batch[:2], batch[2:]], SENSOR, 0.5)
-    paths = paths_of(rays, far=False)
-    expected = np.log(np.exp(log_likelihoods(paths, states.astype(float), SENSOR, plain)).mean(axis=0))
-    expected[np.isnan(rays.range_m)] = np.nan
-    np.testing.assert_allclose(found, expected, **CLOSE)
 
 
 @pytest.mark.parametrize("noise", [bm.Gaussian(0.02, 0.003), bm.StudentT(0.01, 3.0, 0.002)], ids=["normal", "t"])
@@ -141,14 +126,6 @@ def test_nothing_is_impossible_but_no_density_is_nan(plain):
         batch = states[None].astype(np.float32)
         found = log_densities(problem.rays, [batch[..., 0] if plain else batch], sensor, 0.5)
         assert np.isfinite(found[~np.isnan(readings[0])]).all()
-
-
-def test_paths_hold_what_rays_hold():
-    worlds, _ = draw_worlds(13, LONE, bm.Beta(1, 1), SENSOR, 3)
-    rays, paths = worlds.problem.rays, paths_of(worlds.problem.rays)
-    assert isinstance(paths, Paths)
-    np.testing.assert_array_equal(rays.touched[paths.cell[paths.there]], rays.cells)
-    np.testing.assert_allclose(paths.plain_m[paths.there], worlds.problem.distance_m, atol=1e-6)
 
 
 LIMITS = RangeLimits(0.1, 6.0)

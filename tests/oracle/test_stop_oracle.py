@@ -11,7 +11,7 @@ import scipy
 from oracle import density
 from oracle.stop_exact import exact_reflectivities
 from oracle.stop_law import Paths, cross_surface, draw_readings, log_likelihoods, log_prior, paths_of, reading_law
-from oracle.stop_worlds import build_worlds, draw_worlds
+from oracle.stop_worlds import draw_worlds
 from oracle.verdict import ALPHA, goodness_of_fit
 from oracle.worlds import bm_limits
 
@@ -145,23 +145,3 @@ def test_the_enumeration_of_stops_equals_quadrature_over_reflectivities(prior):
         np.testing.assert_allclose(exact.mean(), p @ m / p.sum(), rtol=1e-8)
         np.testing.assert_allclose(exact.pairs(), (m * p[:, None]).T @ m / p.sum(), rtol=1e-8)
         assert exact.cdf(0)(1.0)[0] == pytest.approx(1.0)
-
-
-def test_worlds_side_by_side_are_each_what_they_are_alone():
-    worlds, truth = draw_worlds(6, bm.Grid((3, 2), 0.4), bm.Surface(1, 1), SENSOR, 5, poses=2, beams=4)
-    together = log_likelihoods(paths_of(worlds.problem.rays), truth, SENSOR, False).reshape(5, -1)
-    scans = worlds.problem.rays.range_m.reshape(10, 4)
-    assert np.isfinite(scans).any()
-    rng = np.random.default_rng(6)
-    size = np.array([1.2, 0.8])
-    xy = rng.uniform(-0.4, 1.4, (10, 2)) * size
-    there = rng.uniform(0.2, 0.8, (10, 2)) * size - xy
-    poses = np.column_stack([xy, np.arctan2(there[:, 1], there[:, 0])])
-    for w in range(5):
-        some = slice(2 * w, 2 * w + 2)
-        alone = bm.Scans(poses[some], np.linspace(-0.5, 0.5, 4), scans[some], max_range_m=3.0, min_range_m=0.1)
-        single = build_worlds(alone, bm.Grid((3, 2), 0.4), bm.Surface(1, 1), SENSOR, 1)
-        state = worlds.split(truth)[w]
-        state[:, 1:] *= 0.4
-        apart = log_likelihoods(paths_of(single.problem.rays), state, SENSOR, False)
-        np.testing.assert_allclose(apart, together[w], atol=1e-4)

@@ -96,37 +96,22 @@ def test_the_likelihood_is_flat_past_the_reach(name):
             assert abs(values - beyond).max() <= FLAT_NATS * (1 + 1e-6)
 
 
-def test_a_sharp_mixture_ends_most_beams_early():
-    reaches = MIXTURES["mixture"].reach_m(np.array([1.0, 2.0, 3.0]), LIMITS)
-    assert (reaches < np.array([1.5, 2.5, 3.5])).all()
-
-
-def test_additive_noise_is_nowhere_flat():
+def test_beams_of_sharp_mixtures_end_early_those_of_noise_never_and_invalid_ones_at_once():
+    assert (MIXTURES["mixture"].reach_m(np.array([1.0, 2.0, 3.0]), LIMITS) < np.array([1.5, 2.5, 3.5])).all()
     assert [name for name, noise in NOISES.items() if np.isfinite(noise.reach_m(SPAN, LIMITS)).any()] == []
-
-
-def test_an_invalid_reading_reaches_nothing():
     assert [name for name, sensor in ALL.items() if sensor.reach_m(np.array([np.nan]), LIMITS)[0] != 0.0] == []
 
 
 READINGS = np.array([0.6, 1.0, 2.9, 3.1, 4.8, np.inf, -np.inf, np.nan])
 
 
-@pytest.mark.parametrize("name", ALL)
-def test_without_a_spread_it_is_the_likelihood(name):
-    d = np.linspace(0.1, 12.0, 40)[:, None]
-    for distance in (d, np.full((1, 1), np.inf)):
-        np.testing.assert_array_equal(
-            ALL[name].stop_log_likelihood(READINGS, distance, np.zeros(()), LIMITS),
-            ALL[name].log_likelihood(READINGS, distance, LIMITS),
-        )
-
-
-def test_a_spread_widens_the_noise():
+def test_a_spread_adds_to_the_noise_in_quadrature():
     narrow, wide = (bm.BeamMixture(bm.Gaussian(s), 0.05, 0.1, 0.2, 0.4) for s in (0.3, 0.5))
     d = np.linspace(0.1, 12.0, 40)[:, None]
-    found = narrow.stop_log_likelihood(READINGS, d, np.full(d.shape, 0.4), LIMITS)
-    np.testing.assert_allclose(found, wide.log_likelihood(READINGS, d, LIMITS), atol=1e-12)
+    density = narrow.stop_log_likelihood(READINGS, d, np.full(d.shape, 0.4), LIMITS)
+    np.testing.assert_allclose(density, wide.log_likelihood(READINGS, d, LIMITS), atol=1e-12)
+    below = narrow.cumulative(RANGES, np.float64(3.0), LIMITS, spread_m=0.4)
+    np.testing.assert_allclose(below, wide.cumulative(RANGES, np.float64(3.0), LIMITS), rtol=1e-12)
 
 
 @pytest.mark.parametrize("sigma_m", [0.5, 0.05, 0.002])
@@ -181,12 +166,6 @@ def test_typed_readings(name):
     close = sensor.cumulative(np.full(len(d), -np.inf), d, LIMITS)
     np.testing.assert_array_equal(close, sensor.cumulative(np.full(len(d), LIMITS.min_m), d, LIMITS))
     assert np.isnan(sensor.cumulative(np.full(len(d), np.nan), d, LIMITS)).all()
-
-
-def test_a_spread_adds_to_the_noise_in_quadrature():
-    narrow, wide = (bm.BeamMixture(bm.Gaussian(sigma)) for sigma in (0.3, 0.5))
-    found = narrow.cumulative(RANGES, np.float64(3.0), LIMITS, spread_m=0.4)
-    np.testing.assert_allclose(found, wide.cumulative(RANGES, np.float64(3.0), LIMITS), rtol=1e-12)
 
 
 def test_a_model_of_one_s_own_is_told_what_it_lacks():

@@ -52,14 +52,8 @@ def test_readings_far_from_every_wall_are_scored_by_the_plain_law(sonar, sigma_m
 
 def test_the_likelihood_that_chains_of_surfaces_report_is_the_model_s(sonar):
     """The table against the plain formula: what a sweep sums up is the joint law's likelihood of the kept draw."""
-    run = bm.infer(
-        TRAIN,
-        GRID,
-        prior=bm.Beta(0.5, 1.0),
-        sensor=sonar,
-        schedule=bm.Schedule(chains=1, warmup=10, draws=3),
-        hit_depth=0.5,
-    )
+    schedule = bm.Schedule(chains=1, warmup=10, draws=3)
+    run = bm.infer(TRAIN, GRID, prior=bm.Beta(0.5, 1.0), sensor=sonar, schedule=schedule, hit_depth=0.5)
     model = bm.model.Model(TRAIN, GRID, bm.Beta(0.5, 1.0), sonar, hit_depth=0.5)
     for draw in range(3):
         cells = {"reflectivity": np.asarray(run.map_of(0, draw), dtype=float)}

@@ -149,19 +149,6 @@ class Rays:
         enter, leave = self.stretches()
         return (enter + hit_depth * (leave - enter)).astype(np.float32)
 
-    def ends_m(self) -> Floats:
-        """Return the distance at which each cell's own part of the beam ends, metres, (K,).
-
-        It ends where the next cell begins, or where the beam leaves the last cell. If a beam enters several cells at
-        once, on lines and corners, only the part of the last cell has a length.
-        """
-        enter, leave = self.stretches()
-        ends = leave.copy()
-        ends[:-1] = np.maximum(enter[1:], enter[:-1])
-        last = self.offsets[1:][self.lengths > 0] - 1
-        ends[last] = leave[last]
-        return ends
-
     def end_points_m(self) -> Floats:
         """Return the end point of each reading, (B, 2); NaN if it is no hit."""
         range_m = np.where(np.isfinite(self.range_m), self.range_m, np.nan)
