@@ -16,7 +16,7 @@ from samplers.stop_rooms import GRID, LABELLED, TRUTH, assert_same, infer, scans
 import bayesmap as bm
 from bayesmap.cells import ising_field
 from bayesmap.cells.kinds import prior_from
-from bayesmap.kernels.surfaces.labels import log_gamma
+from bayesmap.kernels.surfaces.cell_draws import log_gamma
 from bayesmap.model import Model
 from bayesmap.run import runner
 from bayesmap.samplers.fit import refit_prior

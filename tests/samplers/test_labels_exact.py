@@ -23,7 +23,7 @@ from test_surface_exact import BLUNT, NOTHING, TWO
 from tiers import full_but
 
 import bayesmap as bm
-from bayesmap.kernels.surfaces import labels as label_kernels
+from bayesmap.kernels.surfaces import cell_draws as label_kernels
 from bayesmap.kernels.surfaces import stop_chains
 from bayesmap.samplers import initial_estimate
 from bayesmap.samplers.stop_gibbs import StopGibbs

@@ -44,9 +44,8 @@ def count_hits_and_passes(
 def count_hits(scans: Scans, grid: Grid, device: str = "cpu") -> tuple[Ints, Ints]:
     """Count the beams that stopped in each cell and the beams that passed it, (nx * ny,) each.
 
-    A beam that hit stops in the last cell that it has touched at its range, and passes the cells before. If the range
-    lies outside the grid, it passes all cells. A beam without return passes all cells up to the sensor's range. Beams
-    that are too close or invalid do not count.
+    A beam that hit stops in the last cell touched at its range; outside the grid it passes all cells. A beam without
+    return passes all cells up to the sensor's range. Beams that are too close or invalid do not count.
     """
     device = devices.resolve(device)
     ranges = scans.ranges_m.ravel()

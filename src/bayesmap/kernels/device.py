@@ -1,8 +1,7 @@
 """Start Warp, put arrays on a device, and launch a kernel on all cores.
 
-Warp runs a CPU launch on the calling thread and releases the GIL, so `launch` splits a launch into slices, one per
-thread. Kernels take the index of their first element as their first argument, and write only to their own elements. So
-the result does not depend on the number of threads.
+Warp runs a CPU launch on the calling thread and releases the GIL, so `launch` runs one slice per thread. Kernels take
+the index of their first element first, and write only to their own elements: threads do not change the result.
 """
 
 import contextlib
@@ -81,10 +80,7 @@ def resolve(name: str = "cpu") -> str:
 
 
 def to_device(array: np.ndarray[Any, Any], dtype: Any, device: str) -> Any:
-    """Put a NumPy array on a device; on the CPU this shares memory if dtype and layout fit.
-
-    The last axis of an array of vectors holds their components.
-    """
+    """Put a NumPy array on a device, vectors along its last axis; on the CPU it shares memory if it can."""
     scalar = getattr(dtype, "_wp_scalar_type_", dtype)
     flat = np.ascontiguousarray(array, dtype=wp.dtype_to_numpy(scalar))
     return wp.array(flat, dtype=dtype, device=device, copy=device != "cpu")

@@ -68,8 +68,8 @@ def scramble(x: wp.uint32, key: wp.uint32) -> wp.uint32:
 def shuffled(i: wp.uint32, size: wp.uint32, bits: wp.uint32, key: wp.uint64) -> wp.uint32:
     """Return element i of a pseudo-random permutation of range(size), for a size of at most 2^bits.
 
-    A Feistel cipher with four rounds permutes all numbers of that many bits. A result outside the range is enciphered
-    again until it falls inside (cycle walking; Black and Rogaway, *Ciphers with arbitrary finite domains*, 2002).
+    A Feistel cipher with four rounds; a result outside the range is enciphered again until it falls inside (cycle
+    walking; Black and Rogaway, *Ciphers with arbitrary finite domains*, 2002).
     """
     low_bits = bits / wp.uint32(2)
     low_mask = (wp.uint32(1) << low_bits) - wp.uint32(1)

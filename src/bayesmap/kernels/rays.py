@@ -208,7 +208,7 @@ def rays_to_device(rays: Rays, device: str) -> Any:
 
 
 def lines_to_device(start_m: Floats, direction: Floats, grid: Grid, device: str) -> Any:
-    """Put the lines of beams on a device; starts are in metres from the grid's lower left corner."""
+    """Put lines on a device; starts are in metres from the grid's lower left corner."""
     (nx, ny), edge_m = grid.shape, grid.resolution
     return devices.pack(Lines, device, start_m=start_m, direction=direction, nx=nx, ny=ny, edge_m=edge_m)
 

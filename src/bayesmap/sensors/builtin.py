@@ -199,8 +199,7 @@ class BeamMixture(SensorModel):
         rate_short_per_m: rate of the exponential distance of passing objects.
 
     Raises:
-        BadInput: a probability outside its interval (``p_random`` must be positive: it keeps every reading
-            possible), or a rate that is not positive.
+        BadInput: a probability outside its interval (``p_random`` must be positive), or a rate that is not positive.
     """
 
     noise: AdditiveNoise = field(default_factory=lambda: Gaussian(0.05))

@@ -64,8 +64,8 @@ class SensorModel(ABC):
     def cumulative(self, range_m: Floats, distance_m: Floats, limits: RangeLimits, spread_m: float = 0.0) -> Floats:
         """Return P(reading <= range | distance), broadcast over both; too close is -inf, no return +inf.
 
-        ``spread_m`` is a further standard deviation of the stop's distance. Your own model needs this method only for
-        the calibration in `bayesmap.score`, which counts how often readings fall below a range.
+        ``spread_m`` is a further standard deviation of the stop's distance. Only the calibration in `bayesmap.score`
+        needs it.
 
         Raises:
             BadInput: the model has no such method.

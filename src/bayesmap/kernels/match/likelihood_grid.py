@@ -88,9 +88,9 @@ def draw_grids(
 ) -> Any:  # fmt: skip
     """Draw grids of scans at poses, with their pyramids: (grids, levels, nx, ny) on the device.
 
-    Grid g, with its corner at ``origins[g]``, contains the entries offsets[g] .. offsets[g + 1]. An entry has a scan of
-    ``geometry``, a `bayesmap.poses.scan_geometry.ScanGeometry`, and its pose. ``stamp``, an odd square, is drawn around
-    each point; stamps of a wall lie at most ``spacing_m`` apart. ``pyramid`` is an array to write into, if any.
+    Grid g, with its corner at ``origins[g]``, contains the entries offsets[g] .. offsets[g + 1]: a scan of ``geometry``
+    and its pose each. ``stamp``, an odd square, is drawn around each point; stamps of a wall lie at most ``spacing_m``
+    apart. ``pyramid`` is an array to write into, if any.
     """
     grids, device = len(offsets) - 1, geometry.device
     if pyramid is None:

@@ -42,14 +42,8 @@ def selected_inverse(begin: Ints, row: Ints, lower: Floats, pivot: Floats) -> Fl
     """Compute the entries of (L D L^T)^-1 on the pattern of L, in the order of L's entries.
 
     Takahashi, Fagan and Chin (1973), "Formation of a sparse bus impedance matrix and its application to short circuit
-    study"; it takes about as many operations as the factorisation.
-
-    Args:
-        begin: column j of L has the entries begin[j] to begin[j + 1], (n + 1,).
-        row: row of each entry, ascending in each column, the diagonal first. The pattern must be closed under
-            elimination.
-        lower: entries of L, with a unit diagonal.
-        pivot: diagonal of D, (n,).
+    study". Column j of L has the entries begin[j] to begin[j + 1], with ascending rows, the diagonal first; ``lower``
+    holds them with a unit diagonal, ``pivot`` the diagonal of D, (n,). The pattern must be closed under elimination.
     """
     devices.start()
     inverse = wp.zeros(len(row), dtype=wp.float64, device="cpu")

@@ -53,9 +53,9 @@ class MapArrays:
 
 @wp.func
 def stop_in(maps: MapArrays, row: int, column: int, line: Line, cell: int) -> wp.vec3d:
-    """Return the chance that a beam which reaches a cell stops in it, and distance and variance of the stop.
+    """Return the chance that a beam which reaches a cell stops in it, and distance and variance of the stop, metres.
 
-    The map is in ``row``, and has the cell in ``column``; ``cell`` is its flat index in the grid. The unit is metres.
+    The map is in ``row``, and has the cell in ``column``; ``cell`` is its flat index in the grid.
     """
     if maps.surfaces != 0:
         state = maps.surface[row, column]
@@ -282,10 +282,10 @@ def log_densities(
     rays: Rays, batches: Iterable[StopStates], sensor: SensorModel, hit_depth: float, *, columns: Ints | None = None,
     device: str = "cpu",
 ) -> Floats:  # fmt: skip
-    """Compute the log predictive density of every reading, (B,): see `forecast`.
+    """Compute the log predictive density of every reading, (B,), also of beams traced only as far as their reading
+    reaches.
 
-    Unlike `forecast`, this function accepts beams that were traced only as far as their reading reaches. ``columns``
-    are the columns of the entries' cells in the draws, (K,).
+    ``columns`` are the columns of the entries' cells in the draws, (K,).
     """
     return _sums(rays, rays.columns if columns is None else columns, batches, sensor, hit_depth, device, False)[0]
 

@@ -68,8 +68,8 @@ def reading_log_density(
 ) -> wp.float32:  # fmt: skip
     """Return log p(reading | map, beam) for a beam from (x, y), in metres from the grid's corner.
 
-    The walk is that of Amanatides and Woo (1987). Unlike `bayesmap.kernels.walk` it has no rule for corners: beams meet
-    them with probability 0. The cell of the sensor is touched where the beam leaves it.
+    The walk is that of Amanatides and Woo (1987), without a rule for corners. The cell of the sensor is touched where
+    the beam leaves it.
     """
     # Start of the walk, in cells: position p, cell c, distance of the next grid lines, and gap between lines.
     resolution = wp.float32(frame.resolution)
@@ -191,10 +191,7 @@ class PackedMap:
 
 
 def pack_map(states: Singles, grid: Grid, hit_depth: float, device: str = "cpu") -> PackedMap:
-    """Put draws of a map of a grid on a device: stop probabilities (D, N), or surfaces (D, N, 6).
-
-    In a cell without a surface a beam stops at the share ``hit_depth`` of its chord.
-    """
+    """Put draws of a map on a device: stop probabilities at ``hit_depth`` of chords (D, N), or surfaces (D, N, 6)."""
     device = devices.resolve(device)
     chances = states[..., 0] if states.ndim == 3 else states
     empty = devices.to_device((chances < LEAST_CHANCE).astype(np.uint8), wp.uint8, device)

@@ -193,9 +193,8 @@ def stops_to_device(stops: StopMixture, device: str) -> Any:
 def first_hit_events(stops: StopMixture, sensor: SensorModel, device: str = "cpu") -> tuple[Singles, NDArray[np.int8]]:
     """Predict, for each stretch of a beam in a cell that its reading reaches, whether the reading ends there.
 
-    Let F be the beam's predictive cumulative and [a, b) the stretch. The chance is ``(F(b) - F(a)) / (1 - F(a))``: the
-    probability of a reading in the stretch, given that it gets there. The product of the probabilities of a beam's
-    events is the probability of the cell in which its reading ends.
+    Let F be the beam's predictive cumulative and [a, b) the stretch. The chance is ``(F(b) - F(a)) / (1 - F(a))``. The
+    product of the probabilities of a beam's events is the probability of the cell in which its reading ends.
 
     Returns:
         The chances, and the outcomes, (K,) each: 1 if the reading ended there, 0 if it went on, -1 without an event.

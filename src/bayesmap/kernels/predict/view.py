@@ -1,7 +1,4 @@
-"""Compute the view of a sensor from a pose: where its beams stop in given maps, and their information.
-
-Beams walk the grid from the pose, as in `bayesmap.kernels.predict.scan_likelihood`.
-"""
+"""Compute the view of a sensor from a pose: where its beams stop in given maps, and their information."""
 
 from typing import Any
 
@@ -107,10 +104,9 @@ def add_beam_information(
 ):  # fmt: skip
     """One thread per beam: sum FSMI's information over cells that stop the beam and cells of the reading.
 
-    A reading in cell k has the information C_k = f(hit, r_k) + sum_{i < k} f(pass, r_i); ``of_hit`` and ``of_pass`` are
-    f of the cells' odds r. The reading is in cell k with probability sum_j P(stop in j) G_kj. Here G_kj is the
-    probability of the noise about cell j's distance between the edges of cell k. The sum over j takes the cells within
-    `NEGLIGIBLE` standard deviations of cell k. Distances are in cells.
+    A reading in cell k has the information C_k = f(hit, r_k) + sum_{i < k} f(pass, r_i), with f of the cells' odds r.
+    The reading is in cell k with probability sum_j P(stop in j) G_kj, G_kj the probability of the noise about cell j's
+    distance inside cell k. The sum takes cells within `NEGLIGIBLE` standard deviations. Distances are in cells.
     """
     b = first + wp.tid()
     beams = views.angles.shape[0]

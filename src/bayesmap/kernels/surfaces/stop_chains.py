@@ -1,10 +1,9 @@
-"""Chains of reflectivities and surfaces on a device, and their sweeps: draw candidates, stops and labels, and update
-cells.
+"""Chains of reflectivities and surfaces on a device, and their sweeps.
 
-All chains share arrays. On a GPU each kernel is launched once for all chains, with one thread per chain's cell or beam,
-and counts are atomic. On the CPU each chain is one task from its first sweep to its last. If there are more threads
-than chains, a chain's beams are divided into parts, one per thread, each with its own counts. Counts are integers, and
-floating-point sums run over slices of fixed size. So the result does not depend on threads or on other chains.
+On a GPU each kernel is launched once for all chains, with one thread per chain's cell or beam, and counts are atomic.
+On the CPU each chain is one task from its first sweep to its last. If there are more threads than chains, a chain's
+beams are divided into parts, one per thread, each with its own counts. Counts are integers, and floating-point sums run
+over slices of fixed size. So the result does not depend on threads or on other chains.
 """
 
 from collections.abc import Callable, Iterator, Sequence
@@ -21,7 +20,7 @@ from bayesmap.cells.reflectivity import KernelNumbers
 from bayesmap.kernels import device as devices
 from bayesmap.kernels.device import Floats, Ints, Singles
 from bayesmap.kernels.sensor_law import SensorLaw32, sensor_law
-from bayesmap.kernels.surfaces import cell_draws, endpoint_cells, labels, stops
+from bayesmap.kernels.surfaces import cell_draws, endpoint_cells, stops
 from bayesmap.kernels.surfaces.cell import cells_to_device, packed_prior
 from bayesmap.kernels.surfaces.endpoint_beams import endpoint_cells_to_device, room_for_blocks
 from bayesmap.kernels.surfaces.square_counts import InSquares, Squares, count_in_squares, draw_stop_chances
@@ -30,8 +29,8 @@ from bayesmap.sensors.model import SensorModel
 STATE_SIZE = 6  # numbers of a `Cell` that belong to its state; the other two do not
 KERNELS = (
     cell_draws.begin_sweep, stops.pass_lazy_cells, stops.draw_stops, endpoint_cells.count_endpoint_cells,
-    labels.draw_labels, labels.draw_untouched, cell_draws.update_free_cells, endpoint_cells.update_endpoint_cells,
-    count_in_squares, draw_stop_chances,
+    cell_draws.draw_labels, cell_draws.draw_untouched, cell_draws.update_free_cells,
+    endpoint_cells.update_endpoint_cells, count_in_squares, draw_stop_chances,
 )  # fmt: skip
 
 
@@ -94,7 +93,7 @@ class StopChains:
             edge_m=plan.rays.grid.resolution,
         )  # fmt: skip
         counted = plan.endpoints[: 0 if self.without_surfaces else None]
-        self._known = labels.known_to_device(cells, plan.touched, counted, device)
+        self._known = cell_draws.known_to_device(cells, plan.touched, counted, device)
         self._law: tuple[Any, ...] = ()
         self._packed: tuple[Any, Any] | None = None
         self._squares = None if self.without_surfaces else Squares(plan.rays, chains, device)
@@ -167,7 +166,7 @@ class StopChains:
             if prior.coupling > 0:
                 out.append((cell_draws.sum_label_prior, label_sums.shape[1], [*shape, packed, state, label_sums]))
                 labelled = [number, *shape, packed, self._known, state]
-                out += [(labels.draw_labels, cells, [colour, *labelled]) for colour in (0, 1)]
+                out += [(cell_draws.draw_labels, cells, [colour, *labelled]) for colour in (0, 1)]
             out.append(
                 (cell_draws.update_free_cells, touched, [number, self.without_surfaces, packed, self._active, state])
             )
@@ -270,13 +269,13 @@ class StopChains:
         """
         assert self._packed is not None, "no sweep has been made"
         size = self.n_chains * self._state.n_cells
-        self._launch(labels.draw_untouched, size, [sweep, self._packed[1], self._known, self._state])
+        self._launch(cell_draws.draw_untouched, size, [sweep, self._packed[1], self._known, self._state])
 
     def counted(self, chain: int) -> tuple[Ints, Ints]:
         """Return the beams that each cell of a chain stopped, and those that met its surface and passed, (N,) each.
 
-        The counts are those of the sweep in which the cell last drew its reflectivity; before that, met is -1. They are
-        valid until the next sweep.
+        They are of the sweep in which the cell last drew its reflectivity; before that, met is -1. Valid until the next
+        sweep.
         """
         return self._of(self._state.last_hits, chain), self._of(self._state.last_met, chain)
 
