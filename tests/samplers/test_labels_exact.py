@@ -23,8 +23,7 @@ from test_surface_exact import BLUNT, NOTHING, TWO
 from tiers import full_but
 
 import bayesmap as bm
-from bayesmap.kernels.surfaces import cell_draws as label_kernels
-from bayesmap.kernels.surfaces import stop_chains
+from bayesmap.kernels.surfaces import cell_draws, stop_chains
 from bayesmap.samplers import initial_estimate
 from bayesmap.samplers.stop_gibbs import StopGibbs
 from bayesmap.samplers.stop_problem import trace_stops
@@ -124,7 +123,7 @@ def test_wrong_betas_are_rejected():
 
 
 def test_a_conditional_that_does_not_look_at_the_cell_s_own_beams_is_rejected(monkeypatch):
-    monkeypatch.setattr(label_kernels, "TOUCHED", label_kernels.UNTOUCHED)
+    monkeypatch.setattr(cell_draws, "TOUCHED", cell_draws.UNTOUCHED)
     assert least("a square", drawn.__wrapped__("a square"), exact("a square")) < ALPHA / TESTS
 
 
@@ -133,7 +132,7 @@ def test_a_conditional_that_looks_at_half_of_the_cells_alone_is_rejected(monkeyp
     phases = stop_chains.StopChains._part
 
     def one_colour(self, phase, at):
-        if phase[0] is not stop_chains.draw_labels or phase[2][0] == 0:
+        if phase[0] is not cell_draws.draw_labels or phase[2][0] == 0:
             phases(self, phase, at)
 
     monkeypatch.setattr(stop_chains.StopChains, "_part", one_colour)
