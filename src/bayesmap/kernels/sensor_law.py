@@ -190,11 +190,8 @@ def sensor_law(sensor: SensorModel, limits: RangeLimits, device: str, law: Any =
     model = sensor.kernel_parameters()
     if model is None:
         least = LOG_IMPOSSIBLE if law is SensorLaw32 else -math.inf
-        packed.kind, packed.peak, packed.table = (
-            TABLE,
-            math.inf,
-            law_table_to_device(tabulated(sensor, limits), device, least),
-        )
+        packed.kind, packed.peak = TABLE, math.inf
+        packed.table = law_table_to_device(tabulated(sensor, limits), device, least)
         return packed
     packed.kind = MIXTURE if model.robust else NOISE
     packed.series = 0.1 if law is SensorLaw32 else 0.002

@@ -18,18 +18,10 @@ import warp as wp
 from bayesmap.beams.rays import Rays
 from bayesmap.errors import BadInput
 from bayesmap.kernels import device as devices
+from bayesmap.kernels import sensor_law as laws
 from bayesmap.kernels.device import Float32Rows, Float64s, Floats, Int32s, Ints, Singles
 from bayesmap.kernels.rays import Line, RayArrays, distance_at, first_past, line_of, rays_to_device
-from bayesmap.kernels.sensor_law import (
-    MIXTURE,
-    NOISE,
-    SensorLaw64,
-    cumulative,
-    object_decay,
-    sensor_law,
-    stop_density,
-    stop_log_density,
-)
+from bayesmap.kernels.sensor_law import MIXTURE, NOISE, SensorLaw64
 from bayesmap.kernels.surfaces.cell import Cell, cells_to_device, cross_surface, ray_from
 from bayesmap.sensors.model import RangeLimits, SensorModel
 from bayesmap.sensors.tabulated import tabulated
@@ -137,8 +129,8 @@ def add_stop(
 ) -> wp.vec2d:
     """Add a stop's share of the density to the sum: its weight times p(reading | stop)."""
     if law.kind == MIXTURE:
-        return wp.vec2d(sums[0], sums[1] + weight * stop_density(law, z, decay, stop[1], stop[2]))
-    return add_log(sums, wp.log(weight) + stop_log_density(law, z, decay, stop[1], stop[2]))
+        return wp.vec2d(sums[0], sums[1] + weight * laws.stop_density(law, z, decay, stop[1], stop[2]))
+    return add_log(sums, wp.log(weight) + laws.stop_log_density(law, z, decay, stop[1], stop[2]))
 
 
 @wp.func
@@ -182,7 +174,7 @@ def add_forecasts(
     if wp.isinf(z):
         at = wp.where(z > wp.float64(0.0), law.max_m, law.min_m)
     gone = weight_of_nothing(law)
-    decay = object_decay(law, z)
+    decay = laws.object_decay(law, z)
     past = first_past(line, rays.cells, rays.offsets[b], rays.offsets[b + 1], out.reach_m[b], wp.float64(0.0))
     for d in range(draws):
         survive = wp.float64(1.0)
@@ -202,10 +194,10 @@ def add_forecasts(
                 if k < past:
                     sums = add_stop(law, sums, weight, z, decay, stop)
                 if with_cumulative != 0:
-                    out.below[b] = out.below[b] + weight * cumulative(law, at, stop[1], stop[2])
+                    out.below[b] = out.below[b] + weight * laws.cumulative(law, at, stop[1], stop[2])
                     if law.kind != NOISE:
-                        out.below_max[b] = out.below_max[b] + weight * cumulative(law, law.max_m, stop[1], stop[2])
-                        out.below_min[b] = out.below_min[b] + weight * cumulative(law, law.min_m, stop[1], stop[2])
+                        out.below_max[b] = out.below_max[b] + weight * laws.cumulative(law, law.max_m, stop[1], stop[2])
+                        out.below_min[b] = out.below_min[b] + weight * laws.cumulative(law, law.min_m, stop[1], stop[2])
                 if survive < gone:
                     break
     out.most[b] = sums[0]
@@ -231,7 +223,7 @@ class Forecast:
 
 def law_with_cumulative(sensor: SensorModel, limits: RangeLimits, device: str) -> Any:
     """Return the law for kernels that need cumulatives; refuse a model whose probabilities do not add up to one."""
-    law = sensor_law(sensor, limits, device)
+    law = laws.sensor_law(sensor, limits, device)
     if sensor.kernel_parameters() is None and not tabulated(sensor, limits).has_cumulative:
         raise BadInput(
             f"score: the densities of {type(sensor).__name__} do not integrate to one, so only its log score can be "
@@ -257,7 +249,7 @@ def _sums(
 ) -> tuple[Floats, list[Floats]]:  # fmt: skip
     """Compute log densities, and mean cumulative probabilities at the reading and at both limits."""
     device = devices.resolve(device)
-    law = (law_with_cumulative if with_cumulative else sensor_law)(sensor, rays.limits, device)
+    law = (law_with_cumulative if with_cumulative else laws.sensor_law)(sensor, rays.limits, device)
     beams, asked = rays.n_beams, (rays.n_beams if with_cumulative else 1,)
     reach_m = explained_within_m(rays.range_m, sensor, rays.limits, rays.grid.resolution)
     sums = devices.pack(

@@ -17,17 +17,11 @@ import warp as wp
 from numpy.typing import NDArray
 
 from bayesmap.kernels import device as devices
+from bayesmap.kernels import sensor_law as laws
 from bayesmap.kernels.device import Float64Rows, Float64s, Floats, Int32s, Singles, Uint8Rows
 from bayesmap.kernels.predict.density import MapArrays, maps_to_device
 from bayesmap.kernels.predict.scan_likelihood import Frame, grid_frame
-from bayesmap.kernels.sensor_law import (
-    SensorLaw32,
-    no_stop_density,
-    object_decay,
-    sensor_law,
-    stop_density,
-    variance_at,
-)
+from bayesmap.kernels.sensor_law import SensorLaw32
 from bayesmap.kernels.surfaces.cell import cross_surface, crossing_probability, ray_from
 from bayesmap.sensors.model import RangeLimits, SensorModel
 from bayesmap.space.grid import Grid
@@ -88,10 +82,10 @@ def reading_log_density(
     gap_y = wp.where(next_y < HUGE, wp.abs(ONE / uy), HUGE)
     # Distances between which the place of the stop matters: near and past.
     ray = ray_from(wp.vec2(x, y), wp.vec2(ux, uy))
-    decay = object_decay(law, z)
+    decay = laws.object_decay(law, z)
     past = law.max_m
     end = wp.clamp(z, ZERO, law.max_m)
-    margin = PAST_SCALES * wp.sqrt(variance_at(law, end, ZERO)) + PAST_CELLS * resolution
+    margin = PAST_SCALES * wp.sqrt(laws.variance_at(law, end, ZERO)) + PAST_CELLS * resolution
     near = (end - margin) / resolution
     if wp.isfinite(z):
         past = wp.min(past, z + margin)
@@ -117,7 +111,7 @@ def reading_log_density(
                 else:
                     chance = maps.stop[draw, cell]
                 if chance > UNLIKELY:
-                    total += survive * chance * stop_density(law, z, decay, distance, variance)
+                    total += survive * chance * laws.stop_density(law, z, decay, distance, variance)
                     survive = survive * (ONE - chance)
             elif empty[draw, cell] == wp.uint8(0):
                 chance = ZERO
@@ -129,7 +123,7 @@ def reading_log_density(
                 density = law.uniform
                 if not wp.isfinite(z):
                     distance = (entered + depth * (left - entered)) * resolution
-                    density = stop_density(law, z, decay, distance, ZERO)
+                    density = laws.stop_density(law, z, decay, distance, ZERO)
                 total += survive * chance * density
                 survive = survive * (ONE - chance)
         # Step to the next cell; end outside the grid.
@@ -144,7 +138,7 @@ def reading_log_density(
             entered = HUGE
         if (cx >= frame.nx and step_x > 0) or (cy >= frame.ny and step_y > 0):
             entered = HUGE
-    return wp.log(wp.max(total + survive * no_stop_density(law, z, decay), wp.float32(1.0e-30)))
+    return wp.log(wp.max(total + survive * laws.no_stop_density(law, z, decay), wp.float32(1.0e-30)))
 
 
 @wp.kernel
@@ -207,7 +201,7 @@ def map_states(packed: PackedMap) -> Singles:
 
 @lru_cache(maxsize=64)
 def _law(sensor: SensorModel, limits: RangeLimits, device: str) -> Any:
-    return sensor_law(sensor, limits, device, SensorLaw32)
+    return laws.sensor_law(sensor, limits, device, SensorLaw32)
 
 
 def scan_log_likelihood(

@@ -29,19 +29,8 @@ import warp as wp
 from bayesmap.kernels import device as devices
 from bayesmap.kernels.device import Float32s, Float64Rows, Int32s, Ints, Uint8s
 from bayesmap.kernels.random import CELLS, beta_or_nothing, beta_variate, random_bits, sweep_key, to_uniform
-from bayesmap.kernels.surfaces.cell import (
-    REFLECTIVITY,
-    TRYING,
-    Cell,
-    PriorNumbers,
-    centre_of,
-    fresh_surface,
-    is_own,
-    log_reflectivity_prior,
-    log_size_penalty,
-    log_surface_prior,
-    pseudo_counts,
-)
+from bayesmap.kernels.surfaces import cell as surface
+from bayesmap.kernels.surfaces.cell import REFLECTIVITY, TRYING, Cell, PriorNumbers
 from bayesmap.kernels.surfaces.stops import CLEAR, GAIN_UNITS, LEARNS, ChainArrays
 from bayesmap.kernels.walls.chains import draw_wall, walls_less_free
 
@@ -96,10 +85,10 @@ def is_silent(sweep: int, period: int, c: int, m: wp.float32, stopped_in: int) -
 @wp.func
 def renewed_surface(prior: PriorNumbers, centre: wp.vec2, cell: Cell, key: wp.uint64, at: wp.uint64) -> Cell:
     """Draw another surface for a cell that no beam observes, from the prior with its size penalty."""
-    candidate = fresh_surface(prior, centre, cell, key, at + AT_SILENT)
-    log_ratio = log_size_penalty(prior, candidate) - log_size_penalty(prior, cell)
+    candidate = surface.fresh_surface(prior, centre, cell, key, at + AT_SILENT)
+    log_ratio = surface.log_size_penalty(prior, candidate) - surface.log_size_penalty(prior, cell)
     accepted = wp.log(to_uniform(random_bits(key, at + AT_SILENT - wp.uint64(1)))) < log_ratio
-    if accepted and is_own(prior, centre, candidate):
+    if accepted and surface.is_own(prior, centre, candidate):
         return candidate
     return cell
 
@@ -129,11 +118,11 @@ def begin_sweep(
     if not moved and not learns:
         return
     cell = state.cells[here]
-    centre = centre_of(c, active.ny, active.edge_m)
+    centre = surface.centre_of(c, active.ny, active.edge_m)
     if moved:
-        density = log_reflectivity_prior(prior, state.solid[here], cell[REFLECTIVITY])
+        density = surface.log_reflectivity_prior(prior, state.solid[here], cell[REFLECTIVITY])
         if without_surfaces == 0:
-            density += wp.float32(log_surface_prior(prior, centre, cell))
+            density += wp.float32(surface.log_surface_prior(prior, centre, cell))
         log_prior[i] = density
     # Does the cell count beams in this sweep, and does it try a candidate?
     trying = HIDDEN
@@ -147,7 +136,7 @@ def begin_sweep(
                 trying = FRESH
                 key = sweep_key(state.keys[chain], sweep, CELLS)
                 at = wp.uint64(c) * PER_CELL + AT_FRESH
-                state.candidates[here] = fresh_surface(prior, centre, cell, key, at)
+                state.candidates[here] = surface.fresh_surface(prior, centre, cell, key, at)
     if learns:
         for part in range(state.parts):
             row = chain * state.parts + part
@@ -179,7 +168,7 @@ def update_free_cells(
     cell = state.cells[here]
     key = sweep_key(state.keys[chain], sweep, CELLS)
     at = wp.uint64(c) * PER_CELL
-    centre = centre_of(c, active.ny, active.edge_m)
+    centre = surface.centre_of(c, active.ny, active.edge_m)
     # Sum the counts over the parts of the beams, then update reflectivity or surface.
     if learns:
         n_hits = int(0)
@@ -191,7 +180,7 @@ def update_free_cells(
             n_met += state.met[row, c]
             gain += state.gain[row, c]
         if cell[TRYING] == HIDDEN:
-            counts = pseudo_counts(prior, state.solid[here])
+            counts = surface.pseudo_counts(prior, state.solid[here])
             a = counts[0] + wp.float64(n_hits)
             b = counts[1] + wp.float64(n_met)
             cell[REFLECTIVITY] = wp.float32(beta_or_nothing(a, b, key, at + AT_BETA))
@@ -200,9 +189,9 @@ def update_free_cells(
         else:
             candidate = state.candidates[here]
             log_ratio = wp.float64(gain) * FROM_UNITS
-            log_ratio += log_size_penalty(prior, candidate) - log_size_penalty(prior, cell)
+            log_ratio += surface.log_size_penalty(prior, candidate) - surface.log_size_penalty(prior, cell)
             accepted = wp.log(to_uniform(random_bits(key, at + AT_ACCEPT))) < log_ratio
-            if accepted and is_own(prior, centre, candidate):
+            if accepted and surface.is_own(prior, centre, candidate):
                 cell = candidate
     if without_surfaces == 0 and is_silent(sweep, period, c, cell[REFLECTIVITY], state.stopped_in[here]):
         cell = renewed_surface(prior, centre, cell, key, at)
@@ -359,7 +348,7 @@ def draw_untouched(first: int, sweep: int, prior: PriorNumbers, known: Uint8s, s
     if int(known[c]) != UNTOUCHED:
         return
     at = wp.uint64(c) * PER_CELL + AT_UNTOUCHED
-    counts = pseudo_counts(prior, state.solid[here])
+    counts = surface.pseudo_counts(prior, state.solid[here])
     key = sweep_key(state.keys[chain], sweep, CELLS)
     cell = state.cells[here]
     cell[REFLECTIVITY] = wp.float32(beta_variate(counts[0], counts[1], key, at))

@@ -19,19 +19,8 @@ from bayesmap.beams.rays import Rays
 from bayesmap.kernels import device as devices
 from bayesmap.kernels.device import Float32Rows, Int32s, Ints, Singles
 from bayesmap.kernels.sensor_law import FAR_SQ, MIXTURE, SensorLaw32
-from bayesmap.kernels.surfaces.cell import (
-    CROSSING_WIDTH_SQ,
-    DIRECTION_SQ,
-    L11,
-    L21,
-    L22,
-    MEAN_X,
-    MEAN_Y,
-    REFLECTIVITY,
-    Cell,
-    cross_at,
-    crossing_probability_at,
-)
+from bayesmap.kernels.surfaces import cell as surface
+from bayesmap.kernels.surfaces.cell import CROSSING_WIDTH_SQ, L11, L21, L22, MEAN_X, MEAN_Y, REFLECTIVITY, Cell
 from bayesmap.kernels.surfaces.stops import LEAST, TracedRays, hit_law
 
 FEWEST = wp.constant(wp.float32(1.0e-20))  # products are turned into logarithms before they underflow
@@ -77,7 +66,7 @@ def crossing_probability_of(passing: wp.vec3, dx: wp.float32, dy: wp.float32, ce
     offset = passing[0] + passing[1] * dy - passing[2] * dx
     across_1 = cell[L21] * passing[1] - cell[L11] * passing[2]
     across_2 = cell[L22] * passing[1]
-    return crossing_probability_at(offset, across_1 * across_1 + across_2 * across_2)
+    return surface.crossing_probability_at(offset, across_1 * across_1 + across_2 * across_2)
 
 
 @wp.struct
@@ -114,7 +103,7 @@ def log_stops(
         way = endpoints.passing[e]
         offset = way[0] + way[1] * dy - way[2] * dx
         ahead = endpoints.reading[e][0] + way[1] * dx + way[2] * dy
-        met = cross_at(offset, ahead, cell, way[1], way[2])
+        met = surface.cross_at(offset, ahead, cell, way[1], way[2])
         p = hit_law(law, beta, endpoints.entry[e], rays.near[b], endpoints.reading[e][1], rays.decay[b], met)
         product = product * wp.max(m * met.chance * p, LEAST)
         if product < FEWEST or product > one / FEWEST:
@@ -389,7 +378,7 @@ def log_stops_in_lanes(
             along_2 = l22 * uy
             depth = wp.max(ahead, Lanes(wp.float32(0.0)))
             body = wp.cw_mul(across_1, across_1) + wp.cw_mul(across_2, across_2)
-            unsure = DIRECTION_SQ * wp.cw_mul(depth, depth)
+            unsure = surface.DIRECTION_SQ * wp.cw_mul(depth, depth)
             per_across = wp.cw_div(one, body + unsure)
             slope = wp.cw_mul(wp.cw_mul(along_1, across_1) + wp.cw_mul(along_2, across_2), per_across)
             distance = wp.max(ahead - wp.cw_mul(slope, offset), Lanes(wp.float32(0.0)))

@@ -26,33 +26,11 @@ from bayesmap.kernels.random import (
     to_uniform,
 )
 from bayesmap.kernels.sensor_law import SensorLaw32
-from bayesmap.kernels.surfaces.cell import (
-    L11,
-    L21,
-    L22,
-    MEAN_X,
-    MEAN_Y,
-    REFLECTIVITY,
-    Cell,
-    PriorNumbers,
-    centre_of,
-    is_own,
-    log_reflectivity_prior,
-    log_surface_prior,
-    pseudo_counts,
-)
+from bayesmap.kernels.surfaces import cell as surface
+from bayesmap.kernels.surfaces import endpoint_beams
+from bayesmap.kernels.surfaces.cell import L11, L21, L22, MEAN_X, MEAN_Y, REFLECTIVITY, Cell, PriorNumbers
 from bayesmap.kernels.surfaces.cell_draws import AT_ACCEPT, AT_BETA, PER_CELL, ActiveCells
-from bayesmap.kernels.surfaces.endpoint_beams import (
-    UNKNOWN,
-    EndpointCells,
-    LaneBlocks,
-    Listed,
-    crossing_probability_of,
-    log_stops,
-    log_stops_in_lanes,
-    put_in_blocks,
-    takes_lanes,
-)
+from bayesmap.kernels.surfaces.endpoint_beams import EndpointCells, LaneBlocks, Listed
 from bayesmap.kernels.surfaces.stops import ChainArrays, TracedRays
 
 wp.set_module_options({"enable_backward": False})
@@ -141,8 +119,8 @@ AT_STEP = wp.constant(wp.uint64(32))
 @wp.func
 def log_cell_prior(prior: PriorNumbers, solid: wp.uint8, cell: Cell) -> wp.float64:
     """Return the log prior of logit m and of the surface in its frame, up to a constant common to all frames."""
-    surface = log_surface_prior(prior, wp.vec2(wp.float32(0.0), wp.float32(0.0)), cell)
-    return surface + wp.float64(log_reflectivity_prior(prior, solid, cell[REFLECTIVITY]))
+    density = surface.log_surface_prior(prior, wp.vec2(wp.float32(0.0), wp.float32(0.0)), cell)
+    return density + wp.float64(surface.log_reflectivity_prior(prior, solid, cell[REFLECTIVITY]))
 
 
 @wp.struct
@@ -194,15 +172,17 @@ def log_beams(
     total = wp.float64(0.0)
     if others >= 0:
         beams = wp.vec2i(passing_end - listed.passing_begin, stopped_end - listed.stopped_begin - others)
-        total = log_stops_in_lanes(law, blocks, row, u, beams, centre, cell, wp.where(others == 0, least, NO_LEAST))
-        if total == UNKNOWN:
+        total = endpoint_beams.log_stops_in_lanes(
+            law, blocks, row, u, beams, centre, cell, wp.where(others == 0, least, NO_LEAST)
+        )
+        if total == endpoint_beams.UNKNOWN:
             total = wp.float64(0.0)
         else:
             passing_end = listed.passing_begin
             stopped_end = listed.stopped_begin + others
     if listed.passing_begin < passing_end or listed.stopped_begin < stopped_end:
         rest = listed_until(listed, passing_end, stopped_end)
-        total += log_stops(law, beta, rays, endpoints, rest, centre, cell, least - total)
+        total += endpoint_beams.log_stops(law, beta, rays, endpoints, rest, centre, cell, least - total)
     return total
 
 
@@ -225,7 +205,7 @@ def count_endpoint_cells(
     one = wp.float32(1.0)
     key = sweep_key(state.keys[chain], sweep, MEETINGS)
     cell = state.cells[here]
-    centre = centre_of(c, active.ny, active.edge_m)
+    centre = surface.centre_of(c, active.ny, active.edge_m)
     m = cell[REFLECTIVITY]
     dx = cell[MEAN_X] - centre[0]
     dy = cell[MEAN_Y] - centre[1]
@@ -247,7 +227,7 @@ def count_endpoint_cells(
     n_met = int(0)
     for i in range(begin, passed):
         e = entries[i]
-        g = crossing_probability_of(endpoints.passing[e], dx, dy, cell)
+        g = endpoint_beams.crossing_probability_of(endpoints.passing[e], dx, dy, cell)
         x = wp.float32(to_uniform(random_bits(key, wp.uint64(e))))
         n_met += wp.where(x * (one - m * g) < g * (one - m), 1, 0)
     lists.passes[chain, u] = passed - begin
@@ -271,11 +251,11 @@ def update_endpoint_cells(
     at = wp.uint64(c) * PER_CELL
     cell = state.cells[here]
     solid = state.solid[here]
-    centre = centre_of(c, active.ny, active.edge_m)
+    centre = surface.centre_of(c, active.ny, active.edge_m)
     begin = endpoints.offsets[u]
     end = endpoints.offsets[u + 1]
     listed = listed_of(lists, chain, u, begin, end, state.last_hits[here])
-    counts = pseudo_counts(prior, solid)
+    counts = surface.pseudo_counts(prior, solid)
     a = counts[0] + wp.float64(state.last_hits[here])
     b = counts[1] + wp.float64(state.last_met[here])
     cell[REFLECTIVITY] = wp.float32(beta_variate(a, b, sweep_key(state.keys[chain], sweep, CELLS), at + AT_BETA))
@@ -284,8 +264,8 @@ def update_endpoint_cells(
     framed = into_frame(cell, step, centre)
     row = chain * state.parts + part
     others = int(-1)
-    if takes_lanes(law, state.beta):
-        others = put_in_blocks(blocks, row, u, rays, endpoints, listed)
+    if endpoint_beams.takes_lanes(law, state.beta):
+        others = endpoint_beams.put_in_blocks(blocks, row, u, rays, endpoints, listed)
     present = wp.float64(0.0)
     candidate = framed
     moved = cell
@@ -296,7 +276,7 @@ def update_endpoint_cells(
             candidate = stepped(framed, step, key, here_at + wp.uint64(1), i - 1)
             moved = out_of_frame(candidate, step, centre)
             least = present + wp.log(to_uniform(random_bits(key, here_at + AT_ACCEPT)))
-        if i == 0 or is_own(prior, centre, moved):
+        if i == 0 or surface.is_own(prior, centre, moved):
             value = log_cell_prior(prior, solid, candidate)
             value += log_beams(
                 law, state.beta, rays, endpoints, blocks, row, u, listed, others, centre, moved, least - value

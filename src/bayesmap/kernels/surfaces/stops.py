@@ -29,26 +29,12 @@ from numpy.typing import NDArray
 
 from bayesmap.beams.rays import Rays
 from bayesmap.kernels import device as devices
+from bayesmap.kernels import sensor_law as laws
 from bayesmap.kernels.device import Float32s, Int32Rows, Int32s, Ints, Singles, Uint8s
 from bayesmap.kernels.random import BEAMS, random_bits, sweep_key, to_uniform
-from bayesmap.kernels.sensor_law import (
-    SensorLaw32,
-    highest_density,
-    lowest_density,
-    no_stop_density,
-    object_decay,
-    stop_density,
-)
-from bayesmap.kernels.surfaces.cell import (
-    REFLECTIVITY,
-    TRYING,
-    Cell,
-    Crossing,
-    Ray,
-    cross_surface,
-    crossing_probability,
-    ray_from,
-)
+from bayesmap.kernels.sensor_law import SensorLaw32
+from bayesmap.kernels.surfaces import cell as surface
+from bayesmap.kernels.surfaces.cell import REFLECTIVITY, TRYING, Cell, Crossing, Ray
 
 wp.set_module_options({"enable_backward": False})
 
@@ -145,7 +131,7 @@ def cross_cell(rays: TracedRays, k: int, cell: Cell, ray: Ray) -> Crossing:
         met.distance_m = rays.distance_m[k]
         met.variance = wp.float32(0.0)
         return met
-    return cross_surface(cell, ray)
+    return surface.cross_surface(cell, ray)
 
 
 @wp.func
@@ -165,7 +151,7 @@ def pass_by(
     m = cell[0]
     row = chain * state.parts + part
     if cell[TRYING] != wp.float32(0.0):
-        other = crossing_probability(state.candidates[chain * state.n_cells + c], ray)
+        other = surface.crossing_probability(state.candidates[chain * state.n_cells + c], ray)
         ratio = wp.log(wp.max(one - m * other, LEAST) / wp.max(one - m * g, LEAST))
         wp.atomic_add(state.gain, row, c, wp.int64(sign) * in_units(ratio))
         return
@@ -179,14 +165,14 @@ def chance_at(rays: TracedRays, cell: Cell, ray: Ray) -> wp.float32:
     """Return the chance of meeting a cell's surface; 1 if cells have no surfaces."""
     if rays.without_surfaces != 0:
         return wp.float32(1.0)
-    return crossing_probability(cell, ray)
+    return surface.crossing_probability(cell, ray)
 
 
 @wp.kernel
 def decay_of_readings(first: int, law: SensorLaw32, rays: TracedRays):
     """One thread per beam: compute `object_decay` of its reading, which all chains and sweeps share."""
     b = first + wp.tid()
-    rays.decay[b] = object_decay(law, rays.range_m[b])
+    rays.decay[b] = laws.object_decay(law, rays.range_m[b])
 
 
 @wp.kernel
@@ -213,9 +199,9 @@ def draw_stops(
         state.stop[i] = end
         state.log_likelihood[i] = wp.float32(0.0)
         if not wp.isnan(reading):
-            state.log_likelihood[i] = wp.log(tempered(no_stop_density(law, reading, decay), state.beta))
+            state.log_likelihood[i] = wp.log(tempered(laws.no_stop_density(law, reading, decay), state.beta))
         return
-    ray = ray_from(rays.start_m[b], rays.direction[b])
+    ray = surface.ray_from(rays.start_m[b], rays.direction[b])
 
     # Far entries: multiply up T, and count passes in cells that learn.
     free = one
@@ -244,9 +230,9 @@ def draw_stops(
 
     # Near entries: choose a stop by weight. A stop is skipped if its weight is below single precision beside the total,
     # which is at least the weight of the least likely stop.
-    peak = tempered(highest_density(law, reading), state.beta)
+    peak = tempered(laws.highest_density(law, reading), state.beta)
     negligible = NEGLIGIBLE / peak
-    bound = negligible * tempered(lowest_density(law, reading), state.beta)
+    bound = negligible * tempered(laws.lowest_density(law, reading), state.beta)
     some_learn = int(0)
     for k_near in range(near, end):
         c_near = rays.cells[k_near]
@@ -258,7 +244,7 @@ def draw_stops(
             if cell_near[0] * free > bound:
                 met = cross_cell(rays, k_near, cell_near, ray)
                 a = cell_near[0] * met.chance
-                p = tempered(stop_density(law, reading, decay, met.distance_m, met.variance), state.beta)
+                p = tempered(laws.stop_density(law, reading, decay, met.distance_m, met.variance), state.beta)
                 weight = wp.float64(free * a * p)
                 total += weight
                 bound = wp.max(bound, negligible * wp.float32(total))
@@ -270,7 +256,7 @@ def draw_stops(
                 free = free * (one - cell_near[0] * chance_at(rays, cell_near, ray))
             if free <= bound:
                 break  # further stops, often many behind a wall, have no weight
-    nowhere = wp.float64(free * tempered(no_stop_density(law, reading, decay), state.beta))
+    nowhere = wp.float64(free * tempered(laws.no_stop_density(law, reading, decay), state.beta))
     total += nowhere
     if to_uniform(random_bits(key, STREAM_END + wp.uint64(b))) * total < nowhere:
         choice = end
@@ -311,7 +297,7 @@ def draw_stops(
         row = chain * state.parts + part
         wp.atomic_add(state.hits, row, c_stop, 1)
         if cell_stop[TRYING] != wp.float32(0.0):
-            new = cross_surface(state.candidates[chain * state.n_cells + c_stop], ray)
+            new = surface.cross_surface(state.candidates[chain * state.n_cells + c_stop], ray)
             after = wp.max(new.chance * hit_law(law, state.beta, choice, near, reading, decay, new), LEAST)
             before = wp.max(stopped.chance * hit_law(law, state.beta, choice, near, reading, decay, stopped), LEAST)
             wp.atomic_add(state.gain, row, c_stop, in_units(wp.log(after / before)))
@@ -324,7 +310,7 @@ def hit_law(
     """Return p(z | stop)^beta at entry k; before the near entries, the density of a random reading."""
     if k < near:
         return tempered(law.uniform, beta)
-    return tempered(stop_density(law, reading, decay, met.distance_m, met.variance), beta)
+    return tempered(laws.stop_density(law, reading, decay, met.distance_m, met.variance), beta)
 
 
 OFTEN = 2
@@ -338,7 +324,7 @@ def pass_lazy_cells(first: int, lazy: Uint8s, rays: TracedRays, state: ChainArra
     chain = i // state.n_beams
     b = i - chain * state.n_beams
     cell_0 = chain * state.n_cells
-    ray = ray_from(rays.start_m[b], rays.direction[b])
+    ray = surface.ray_from(rays.start_m[b], rays.direction[b])
     free = wp.float32(1.0)
     for k in range(rays.offsets[b], rays.near[b]):
         c = rays.cells[k]

@@ -22,18 +22,7 @@ from numpy.typing import NDArray
 
 from bayesmap.beams.table import BeamTable, CellIndex
 from bayesmap.kernels import device as devices
-from bayesmap.kernels.device import (
-    Float32Rows,
-    Float32s,
-    Float64Rows,
-    Float64s,
-    Floats,
-    Int32Rows,
-    Int32s,
-    Ints,
-    Uint8Rows,
-    Uint8s,
-)
+from bayesmap.kernels.device import Float32Rows, Float32s, Float64Rows, Float64s, Int32Rows, Int32s, Uint8Rows, Uint8s
 from bayesmap.kernels.random import cipher_bits, shuffled, to_uniform
 
 wp.set_module_options({"enable_backward": False})
@@ -136,7 +125,9 @@ def log_prior(prior: WallPriorArrays, walls: Uint8s) -> wp.float64:
     return total
 
 
-def wall_prior_to_device(p_wall: Floats, logit: Floats, coupling: float, shape: tuple[int, int], device: str) -> Any:
+def wall_prior_to_device(
+    p_wall: devices.Floats, logit: devices.Floats, coupling: float, shape: tuple[int, int], device: str
+) -> Any:
     """Put a prior on a device: probabilities and log-odds of all cells, (N,) each, for a grid of this shape."""
     fixed = (p_wall == 0) | (p_wall == 1)
     return devices.pack(
@@ -372,9 +363,9 @@ class WallChains:
 
 
 def run_sweeps(
-    kernel: Any, tables: Sequence[Any], prior: Any, order: Ints, shuffle: bool, chains: WallChains, *, first: int,
-    count: int, kept: range, beta: float = 1.0, threads: int | None = None,
-) -> tuple[Floats, Floats, NDArray[np.uint8]]:  # fmt: skip
+    kernel: Any, tables: Sequence[Any], prior: Any, order: devices.Ints, shuffle: bool, chains: WallChains, *,
+    first: int, count: int, kept: range, beta: float = 1.0, threads: int | None = None,
+) -> tuple[devices.Floats, devices.Floats, NDArray[np.uint8]]:  # fmt: skip
     """Advance the chains in place by ``count`` sweeps of a kernel, numbered from ``first``, one chain per thread.
 
     The kernel takes ``tables`` first, then the prior. Each sweep visits the sites in the given order, or shuffles it.
