@@ -89,14 +89,14 @@ def to_device(array: np.ndarray[Any, Any], dtype: Any, device: str) -> Any:
 def pack(kind: Any, device: str, /, **values: Any) -> Any:
     """Return a struct for kernels, with arrays of the types of its fields.
 
-    A NumPy array is put on the device. A shape, a tuple, stands for an array of zeros.
+    A NumPy array is put on the device. A shape, a tuple, stands for an array of zeros where the field is an array.
     """
     packed = kind()
     for name, value in values.items():
         field = kind.vars[name].type
         if isinstance(value, np.ndarray):
             setattr(packed, name, to_device(value, field.dtype, device))
-        elif isinstance(value, tuple):
+        elif isinstance(value, tuple) and hasattr(field, "dtype"):
             setattr(packed, name, wp.zeros(value, dtype=field.dtype, device=device))
         else:
             setattr(packed, name, value)
