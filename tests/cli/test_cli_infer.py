@@ -280,3 +280,15 @@ def test_a_first_map_stands_in_the_folder_at_once(office, tmp_path, short, monke
     # A run that is to be replaced keeps its picture until the new run is saved.
     assert "a first" not in succeed("infer", office, "-o", tmp_path, "--force", *short).stderr
     assert sampled[1] == finished
+
+
+def test_raw_odometry_is_refused_unless_it_is_to_be_taken(tmp_path, short):
+    log = tmp_path / "drift.log"
+    drift = "--odometry typical,drift_rad_per_m=0.06"
+    size = "--size 12x8 --resolution 0.25 --scans 60 --angles 60 --max-range 12"
+    succeed("simulate", "--world building", size, drift, "-o", log)
+    refusal = refusal_of("infer", log, "-o", tmp_path / "run", *short)
+    assert f"`bayesmap slam {log}`" in refusal
+    assert "--poses-as-given" in refusal
+    assert not (tmp_path / "run").exists()
+    succeed("infer", log, "-o", tmp_path / "run", "--poses-as-given", *short)

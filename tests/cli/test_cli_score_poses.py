@@ -25,7 +25,7 @@ def raw(tmp_path_factory):
 def raw_run(raw):
     """What infer makes of the log as if its poses were true."""
     options = "--resolution 0.25 --chains 2 --warmup 5 --draws 5 --no-progress"
-    succeed("infer", raw / "office.log", "-o", raw / "run", "--max-range 12", options)
+    succeed("infer", raw / "office.log", "-o", raw / "run", "--max-range 12 --poses-as-given", options)
     return raw / "run" / "run.nc"
 
 

@@ -173,6 +173,7 @@ class InferSettings(SamplingSettings, kw_only=True, frozen=True):
         Help("Coupling of neighbouring cells: a number, or (binary) fit.", "0: independent", "NATS"),
     ] = None
     holdout: Annotated[Every, Help("Hold out every n-th scan and score it; 0: none.", metavar="N")] = 0
+    poses_as_given: Annotated[bool, Help("Take the log's poses even if they look like raw odometry.")] = False
     executor: Annotated[str, Help("Run chains in threads, or on Ray: ray[://HOST:PORT].", metavar="WHERE")] = "threads"
 
 

@@ -15,6 +15,7 @@ from bayesmap.cli.console import INTERRUPTED, PROBLEMS, SETTING_UP, Console, cou
 from bayesmap.cli.folder import Folder
 from bayesmap.cli.keys import InferSettings, SamplingSettings
 from bayesmap.cli.translation import LOG, need_file
+from bayesmap.errors import BadInput
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -85,6 +86,8 @@ def infer_log(
     # Read the log.
     if reading is None:
         reading = read(folder.console, task.log, task.settings)
+    if not (task.settings.poses_as_given or folder.resuming):
+        refuse_odometry(task.log, reading.scans)
     # Split off the scans that are held out.
     train, heldout = reading.scans.holdout(every) if every else (reading.scans, None)
     # Load the run to resume.
@@ -153,6 +156,22 @@ def read(console: Console, log: str, settings: SamplingSettings, *, without_pose
     for note in reading.notes:
         console.say(f"{log}: {note}")
     return reading
+
+
+def refuse_odometry(log: str, scans: Scans) -> None:
+    """Refuse scans at whose poses the same walls stand in several places.
+
+    Raises:
+        BadInput: the poses look like raw odometry.
+    """
+    from bayesmap.poses.log_checks import look_like_odometry
+
+    if look_like_odometry(scans):
+        raise BadInput(
+            f"{log}: at these poses the same walls stand in several places, as with raw odometry; "
+            f"`bayesmap slam {log}` infers the trajectory, too (bayesmap info says more). "
+            "To take the poses as they are, add --poses-as-given"
+        )
 
 
 def sample(
