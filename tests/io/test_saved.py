@@ -369,7 +369,8 @@ def test_alternatives_come_back_and_covariances_hold_them(saved, tmp_path):
     there = compose(plain.gaussian.poses[None], np.array([[[0.0, 0.0, 0.0]] * 8 + [[0.0, 2.0, 0.1]] * 8]))
     steps = between(plain.gaussian.poses[None], there) * np.sqrt(0.2)
     other = Alternatives(np.array([2], np.intp), np.array([12], np.intp), np.array([0.2]), there)
-    gaussian = dataclasses.replace(plain.gaussian, elsewhere=steps)
+    by_odometry = np.random.default_rng(1).normal(size=(9, 16, 3)) * 0.01
+    gaussian = dataclasses.replace(plain.gaussian, elsewhere=steps, by_odometry=by_odometry)
     found = dataclasses.replace(plain, gaussian=gaussian, alternatives=other)
     dataclasses.replace(saved[0], trajectory=found).save(tmp_path / "run.nc")
     back = bm.load(tmp_path / "run.nc").trajectory

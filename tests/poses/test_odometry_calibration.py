@@ -11,6 +11,7 @@ from bayesmap.poses import calibration
 from bayesmap.poses.calibration import (
     USUAL,
     MotionNoise,
+    OdometryFit,
     RunningOdometry,
     angle_step_ratio,
     fit_noise,
@@ -122,6 +123,21 @@ def test_the_correction_removes_the_systematic_error():
     motion = np.array([0.4, 0.01, 0.2])
     stated = motion + wrong @ motion
     np.testing.assert_allclose(stated + inverse_slope(wrong) @ stated, motion, atol=1e-12)
+
+
+def test_shifts_by_the_systematic_error_have_the_covariance_of_its_entries():
+    """Corrected motions for draws of C scatter as the shifts say."""
+    rng = np.random.default_rng(1)
+    wrong = np.array([[0.05, 0.0, 0.02], [0.0, 0.05, -0.1], [0.03, 0.0, -0.02]])
+    root = 2e-3 * rng.normal(size=(9, 9))
+    fit = OdometryFit(inverse_slope(wrong), root @ root.T, 0.0, 0.0, MotionNoise(USUAL))
+    motions = np.array([[0.4, 0.01, 0.2], [-0.1, 0.0, 1.0]])
+    stated = motions @ (np.eye(3) + wrong).T
+    draws = wrong + (rng.normal(size=(20_000, 9)) @ root.T).reshape(-1, 3, 3)
+    corrected = np.linalg.solve(np.eye(3) + draws[:, None], stated[None, :, :, None])[..., 0].reshape(-1, 6)
+    shifts = fit.shifts(motions).reshape(9, 6)
+    expected = shifts.T @ shifts
+    np.testing.assert_allclose(np.cov(corrected.T), expected, atol=0.05 * np.diag(expected).max())
 
 
 def test_stamps_that_repeat_tell_no_lag_and_move_no_pose():

@@ -93,3 +93,33 @@ def test_bends_move_relative_poses_as_they_move_poses():
     off = np.stack([between(poses[first], poses[second]) - now for poses in moved]) / small
     brute = np.einsum("nmi,nmj->mij", off, off) / len(off)
     np.testing.assert_allclose(bend_covariances(gaussian.bends, gaussian.poses, first, second), brute, rtol=2e-3)
+
+
+SCALE_SIGMA, STEPS = 0.05, 20
+
+
+def corridor(*, seen_m):
+    """A way of 10 m along x, known by odometry alone whose scale is uncertain, and which the laser measures once."""
+    order = np.arange(STEPS)
+    poses = np.column_stack([np.arange(STEPS + 1) * STEP_M, np.zeros(STEPS + 1), np.zeros(STEPS + 1)])
+    first, second = np.append(0, order), np.append(STEPS, order + 1)
+    curvature = np.tile(np.diag([1e4, 1e4, 1e6]), (STEPS + 1, 1, 1))
+    curvature[0] = np.diag([seen_m**-2.0, 1.0, 1.0])
+    relative = between(poses[first], poses[second])
+    gaussian = PoseGaussian(poses, first, second, relative, curvature, np.zeros((STEPS + 1, 3)))
+    return replace(gaussian, by_odometry=gaussian.steps_by(SCALE_SIGMA * relative[None, 1:])), gaussian
+
+
+def test_a_length_that_odometry_alone_knows_is_as_uncertain_as_its_scale():
+    found, plain = corridor(seen_m=1e3)
+    added = found.relative_covariances([0, 5], [STEPS, 9]) - plain.relative_covariances([0, 5], [STEPS, 9])
+    lengths = np.array([STEPS * STEP_M, 4 * STEP_M])
+    np.testing.assert_allclose(added[:, 0, 0], found.scale_of_covariance * (SCALE_SIGMA * lengths) ** 2, rtol=1e-3)
+    draws = replace(found, dof=1e6).draw(2000, seed=1)
+    assert draws[:, STEPS, 0].std() == pytest.approx(np.hypot(SCALE_SIGMA * 10.0, 0.01 * np.sqrt(STEPS)), rel=0.08)
+
+
+def test_a_length_that_the_laser_knows_does_not_depend_on_odometrys_scale():
+    found, plain = corridor(seen_m=1e-4)
+    added = found.relative_covariances([0], [STEPS]) - plain.relative_covariances([0], [STEPS])
+    assert added[0, 0, 0] < 1e-8

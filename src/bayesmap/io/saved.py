@@ -345,6 +345,7 @@ PARTS: dict[str, dict[str, tuple[str, ...]]] = {
     "gaussian": {
         "poses": ("key", *VECTOR), "first": ("pair",), "second": ("pair",), "relative": ("pair", *VECTOR),
         "curvature": ("pair", *MATRIX), "force": ("pair", *VECTOR), "elsewhere": ("alternative", "key", *VECTOR),
+        "by_odometry": ("coefficient", "key", *VECTOR),
     },
     "alternatives": {
         "first": ("alternative",), "last": ("alternative",), "probabilities": ("alternative",),
@@ -377,7 +378,8 @@ def numbers_of(trajectory: Trajectory) -> dict[str, Any]:
     about = trajectory.calibration
     fit = about.odometry
     odometry = None if fit is None else {
-        "slope": fit.slope.tolist(), "slope_sigma": fit.slope_sigma.tolist(), "lag_s": float(fit.lag_s),
+        "slope": fit.slope.tolist(), "slope_sigma": fit.slope_sigma.tolist(),
+        "systematic_covariance": fit.systematic_covariance.tolist(), "lag_s": float(fit.lag_s),
         "lag_sigma_s": float(fit.lag_sigma_s), "rates": fit.noise.rates.tolist(),
     }  # fmt: skip
     return {
@@ -404,7 +406,8 @@ def trajectory_from(arrays: Mapping[str, NDArray[Any]], numbers: Mapping[str, An
     fit = None
     if about is not None:
         slope, sigma, rates = (np.array(about[name]) for name in ("slope", "slope_sigma", "rates"))
-        fit = OdometryFit(slope, sigma, about["lag_s"], about["lag_sigma_s"], MotionNoise(rates))
+        covariance = np.array(about.get("systematic_covariance", np.diag(sigma.ravel() ** 2)))
+        fit = OdometryFit(slope, covariance, about["lag_s"], about["lag_sigma_s"], MotionNoise(rates))
     calibration = Calibration(
         angle_step_ratio=numbers["angle_step_ratio"], odometry=fit, noise=None if noise is None else Odometry(**noise),
         point_sigma_m=numbers["point_sigma_m"], **part("calibration"),

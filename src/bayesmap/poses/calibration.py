@@ -272,17 +272,31 @@ class OdometryFit:
 
     Attributes:
         slope: matrix B, (3, 3).
-        slope_sigma: standard deviations of B's entries, (3, 3).
+        systematic_covariance: covariance of the entries of C, row by row, (9, 9).
         lag_s: delay of odometry's stamps, seconds: the motion from t to t' is stated for t + lag to t' + lag.
         lag_sigma_s: standard deviation of the lag, seconds.
         noise: variance rates of the remaining errors.
     """
 
     slope: Floats
-    slope_sigma: Floats
+    systematic_covariance: Floats
     lag_s: float
     lag_sigma_s: float
     noise: MotionNoise
+
+    @property
+    def slope_sigma(self) -> Floats:
+        """Standard deviations of B's entries to first order, (3, 3)."""
+        return np.sqrt(np.diag(self.systematic_covariance)).reshape(3, 3)
+
+    def shifts(self, corrected: Floats) -> Floats:
+        """Return the changes of corrected motions, (M, 3), by the standard errors of C, (9, M, 3).
+
+        The changes are independent of each other. A change dC of C changes B by -(1 + B) dC (1 + B).
+        """
+        values, vectors = np.linalg.eigh(self.systematic_covariance)
+        changes = (vectors * np.sqrt(np.maximum(values, 0.0))).T.reshape(9, 3, 3)
+        return -corrected @ np.swapaxes((np.eye(3) + self.slope) @ changes, 1, 2)
 
     @property
     def laser_on_robot(self) -> Floats:
@@ -359,12 +373,9 @@ def fit_odometry(
         covariance = np.linalg.inv(normal)
         rest = _left(error, motion, change, coefficients)
         noise = fit_noise(rest, ways, turns, parts, laser_variance, expected_variance)
-    deviation = np.sqrt(np.diag(covariance))
-    return OdometryFit(
-        inverse_slope(coefficients[:9].reshape(3, 3)), deviation[:9].reshape(3, 3),
-        float(coefficients[9]) if timed else 0.0,
-        float(deviation[9]), noise,
-    )  # fmt: skip
+    lag_s = float(coefficients[9]) if timed else 0.0
+    slope = inverse_slope(coefficients[:9].reshape(3, 3))
+    return OdometryFit(slope, covariance[:9, :9], lag_s, float(np.sqrt(covariance[9, 9])), noise)
 
 
 def _left(error: Floats, motion: Floats, change: Floats, coefficients: Floats) -> Floats:

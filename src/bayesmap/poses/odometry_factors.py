@@ -14,6 +14,7 @@ from bayesmap.poses.front_end import UNKNOWN, Track
 from bayesmap.poses.graph import Factors, relative_covariances
 from bayesmap.poses.log_checks import caught_up
 from bayesmap.poses.next_scans import chained
+from bayesmap.poses.pose_gaussian import PoseGaussian
 from bayesmap.poses.scan_geometry import ScanGeometry
 from bayesmap.space.planar import between, compose, rotation, wrapped
 from bayesmap.space.scans import Scans
@@ -83,6 +84,19 @@ class StatedOdometry:
         fit = fit_odometry(self.poses, self.stamps_s, poses, track.keys, variance, np.diff(expected, axis=0))
         return fit, self._corrected(track, poses, fit.slope, fit.noise.variances, fit.lag_s)
 
+    def with_systematic_error(
+        self, gaussian: PoseGaussian, track: Track, fit: OdometryFit | None, factors: Factors
+    ) -> PoseGaussian:
+        """Return a Gaussian whose covariances hold the uncertainty of odometry's systematic error.
+
+        This error is common to the whole path: where odometry alone knows the length of a corridor, all of the length
+        may be wrong by some per cent. ``factors`` are the last parts of the Gaussian's cost.
+        """
+        if fit is None:
+            return gaussian
+        changes = np.where(self._lost(track)[:, None], 0.0, fit.shifts(factors.relative))
+        return replace(gaussian, by_odometry=gaussian.steps_by(changes))
+
     def _corrected(
         self, track: Track, poses: Floats, slope: Floats, variances: Callable[[Floats], Floats], lag_s: float = 0.0
     ) -> Factors:
@@ -97,9 +111,13 @@ class StatedOdometry:
             motions = between(late[:-1], late[1:])
         corrected = motions + motions @ slope.T
         corrected[:, 2] = wrapped(corrected[:, 2])
-        lost = np.concatenate([[0], np.cumsum(self.impossible | track.broken[1:])])
         links = composed(corrected, _steadied(variances(motions)), keys)
-        return guessed(links, poses, lost[keys[1:]] > lost[keys[:-1]])
+        return guessed(links, poses, self._lost(track))
+
+    def _lost(self, track: Track) -> NDArray[np.bool_]:
+        """Select steps between key scans that hold an impossible motion or a break of the path, (K - 1,)."""
+        lost = np.concatenate([[0], np.cumsum(self.impossible | track.broken[1:])])
+        return np.asarray(np.diff(lost[track.keys]) > 0)
 
 
 def stated_odometry(scans: Scans, geometry: ScanGeometry | None) -> StatedOdometry:

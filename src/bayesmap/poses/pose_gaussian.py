@@ -10,7 +10,7 @@ poses go where they then pull.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -86,6 +86,8 @@ class PoseGaussian:
             times the covariance of the parts' shared errors.
         elsewhere: steps of the poses to alternatives, times the square root of their probabilities, (A, K, 3); they
             count as bends do. None where there are no alternatives.
+        by_odometry: steps of the poses by the standard errors of odometry's systematic error, (C, K, 3); they count as
+            bends do. None without odometry.
     """
 
     poses: Floats
@@ -96,6 +98,7 @@ class PoseGaussian:
     force: Floats
     dof: float = DEGREES_OF_FREEDOM
     elsewhere: Floats | None = None
+    by_odometry: Floats | None = None
 
     @cached_property
     def precision(self) -> Precision:
@@ -104,13 +107,27 @@ class PoseGaussian:
 
     @cached_property
     def bends(self) -> Floats:
-        """Steps of the poses by shared errors of parts of the cost, and to alternatives, (N, K, 3)."""
+        """Steps of the poses by shared errors of parts of the cost and of odometry, and to alternatives, (N, K, 3)."""
         shared = bends(self.poses, self._part, self.precision)
-        if self.elsewhere is None:
-            return shared
+        others = [steps for steps in (self.elsewhere, self.by_odometry) if steps is not None]
         # Covariances are means over all of them.
-        count = len(shared) + len(self.elsewhere)
-        return np.concatenate([shared * np.sqrt(count / len(shared)), self.elsewhere * np.sqrt(count)])
+        count = len(shared) + sum(map(len, others))
+        return np.concatenate([shared * np.sqrt(count / len(shared)), *(steps * np.sqrt(count) for steps in others)])
+
+    def steps_by(self, changes: Floats) -> Floats:
+        """Return the steps of the poses if the last M parts measure other relative poses, (N, K, 3).
+
+        ``changes`` are those of the measured relative poses, (N, M, 3).
+        """
+        last = slice(len(self.first) - changes.shape[1], None)
+        part = Quadratic(
+            *(values[last] for values in (self.first, self.second, self.relative, self.curvature)), changes[0]
+        )
+        steps = np.empty((len(changes), len(self.poses), 3))
+        for n, change in enumerate(changes):
+            pulled = replace(part, gradient=np.einsum("mij,mj->mi", part.curvature, change))
+            steps[n] = self.precision.solve(summed(len(self.poses), part, *pulls(pulled)).ravel()).reshape(-1, 3)
+        return steps
 
     @property
     def scale_of_covariance(self) -> float:

@@ -119,7 +119,8 @@ def infer_trajectory(
     leaping = contradicted_links(track, final.poses)
     if odometry.used:
         leaping |= unconfirmed_links(geometry, track, factors, final.poses)
-    gaussian = replace(with_point_error(final, error), poses=compose(report.origin, final.poses))
+    gaussian = odometry.with_systematic_error(with_point_error(final, error), track, fit, factors)
+    gaussian = replace(gaussian, poses=compose(report.origin, final.poses))
     alternatives, elsewhere = alternatives_of(closed.weighed, keys, gaussian.poses)
     explained = placed.matched.copy()
     explained[keys] = matched.scores
