@@ -2,9 +2,14 @@
 
 import numpy as np
 import pytest
+from simulated import ring, scans_of
 
+from bayesmap.poses.alignment import Alignment, Pairs, PointError
 from bayesmap.poses.key_alignment import flag_unexplained
+from bayesmap.poses.placement import place_scans
+from bayesmap.poses.scan_geometry import scan_geometry
 from bayesmap.poses.trajectory import with_arcs
+from bayesmap.space.scans import Scans
 
 
 @pytest.mark.parametrize("sigma_rad", [0.02, 0.5])
@@ -27,3 +32,21 @@ def test_scans_of_nothing_are_flagged_where_they_are_most_of_all():
     explained[30] = 0.3
     flagged = flag_unexplained(explained, np.arange(0, 60, 2))
     np.testing.assert_array_equal(flagged, explained < 0.5)
+
+
+def test_a_scan_is_explained_by_what_several_key_scans_see_together():
+    """Two key scans see half of a scan's walls each: the mean of their shares was one half, and the scan was flagged.
+
+    The last scan was taken elsewhere: neither explains it.
+    """
+    poses = np.tile([1.0, 1.0, 0.4], (4, 1))
+    angles, ranges = scans_of(ring(), poses, full=True)
+    ranges[0, :90], ranges[2, 90:] = np.inf, np.inf
+    ranges[3] = scans_of(ring(), np.array([[8.0, 3.5, 2.0]]), full=True)[1]
+    geometry = scan_geometry(Scans(poses, angles, ranges, max_range_m=12.0))
+    keys, ends = np.array([0, 2]), np.array([0, 1], np.int32)
+    pairs = Pairs(ends, ends[::-1], np.arange(3, dtype=np.int32))
+    aligned = Alignment(poses[keys], pairs, 0.01, None, np.ones(2))
+    placed = place_scans(geometry, poses, keys, aligned, PointError(0.01, np.ones(3)))
+    assert placed.explained[1] > 0.75
+    assert placed.explained[3] < 0.4

@@ -36,12 +36,13 @@ class Placement:
     Attributes:
         poses: (S, 3).
         information: of each pose given the key scans, in its own frame, (S, 3, 3).
-        matched: share of the points in the other scans' view that lie on their walls, (S,).
+        explained: share of each scan's points on walls of any of the key scans that it was compared with, (S,);
+            1 for key scans.
     """
 
     poses: Floats
     information: Floats
-    matched: Floats
+    explained: Floats
 
     def own_covariance(self, keys: NDArray[np.intp]) -> Floats:
         """Return the scale matrix of Student's t of each scan's pose given the key scans, (S, 3, 3); zero for keys."""
@@ -59,10 +60,10 @@ def place_scans(
     """
     count, key_poses, pairs = len(poses), aligned.poses, aligned.pairs
     scans = np.setdiff1d(np.arange(count), keys)
-    result, information, matched = poses.copy(), np.zeros((count, 3, 3)), np.ones(count)
+    result, information, explained = poses.copy(), np.zeros((count, 3, 3)), np.ones(count)
     result[keys] = key_poses
     if not len(scans):
-        return Placement(result, information, matched)
+        return Placement(result, information, explained)
     before, after = around(keys, scans)
     near = nearest(keys, scans)
     other = np.where(near == before, after, before)
@@ -81,23 +82,26 @@ def place_scans(
         turn @ prior @ np.swapaxes(turn, 1, 2),
     )  # fmt: skip
     convergence = Convergence(CAUTION * max(aligned.sigma_m, LEAST_SIGMA_M), 10, reach, scale, ALIKE)
-    refined, _, totals = refine_scans(geometry, refinement, convergence, geometry.threads)
+    refined, _, _ = refine_scans(geometry, refinement, convergence, geometry.threads)
     result[scans] = refined
     source = np.repeat(scans, np.diff(offsets)).astype(np.int32)
-    per_pair = _information(
+    per_pair, shares = _information(
         geometry, source, keys[flat].astype(np.int32), between(key_poses[flat], result[source]), reach[1], scale[1],
         error,
     )  # fmt: skip
     information[scans] = np.add.reduceat(per_pair, offsets[:-1], axis=0)
-    matched[scans] = totals[:, 2] / np.maximum(totals[:, 3], 1.0)
-    return Placement(result, information, matched)
+    explained[scans] = shares[scans]
+    return Placement(result, information, explained)
 
 
 def _information(
     geometry: ScanGeometry, source: NDArray[np.int32], target: NDArray[np.int32], relative: Floats, reach_m: float,
     scale_m: float, error: PointError,
-) -> Floats:  # fmt: skip
+) -> tuple[Floats, Floats]:  # fmt: skip
     """Return the information of M pairs' points about the first scan's pose, in its frame, (M, 3, 3).
+
+    The second result is the share of each scan's points that any of its pairs explains, (S,). A point that fits one
+    wall well, or several walls half, counts fully. Points that lie out of sight of one key scan may be seen by another.
 
     The second scan's pose is known; relative poses, (M, 3), are the first's in the frame of the second, and pairs are
     sorted by the first. A beam that is matched with c scans has its own error once and the mean of c others':
@@ -112,7 +116,9 @@ def _information(
     told = without_slack(second, slack, first, error.scatter_m)[0] / error.scatter_m**2
     turn = rotation(relative[:, 2])
     own = np.swapaxes(turn, 1, 2) @ told @ turn
-    return np.asarray(error.response[:, None] * own * error.response)
+    points = np.maximum((geometry.host_kind > 0).sum(axis=1), 1)
+    explained = np.minimum(counts, 1.0).sum(axis=1) / points
+    return np.asarray(error.response[:, None] * own * error.response), np.asarray(explained, np.float64)
 
 
 def _spread(partners: NDArray[np.int32], most: int) -> NDArray[np.int32]:

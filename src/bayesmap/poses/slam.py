@@ -122,7 +122,7 @@ def infer_trajectory(
     gaussian = odometry.with_systematic_error(with_point_error(final, error), track, fit, factors)
     gaussian = replace(gaussian, poses=compose(report.origin, final.poses))
     alternatives, elsewhere = alternatives_of(closed.weighed, keys, gaussian.poses)
-    explained = placed.matched.copy()
+    explained = placed.explained.copy()
     explained[keys] = matched.scores
     noise = None if fit is None else fit.noise.of_scans(odometry.motions)
     return Trajectory(
