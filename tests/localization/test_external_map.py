@@ -9,7 +9,6 @@ from rooms import offset, scan_from, walls_of
 import bayesmap as bm
 from bayesmap.localization.external_map import ASSUMED, external_map, fit_law, searched
 from bayesmap.localization.filter import shared_by_evidence
-from bayesmap.localization.known_map import UsualFit
 from bayesmap.localization.localize import Near, localize
 
 LASER = bm.BeamMixture(bm.Gaussian(0.02), p_random=0.01, p_no_return=0.01, p_short=0.001)
@@ -68,7 +67,7 @@ def test_the_fitted_law_is_that_of_the_scans(room, law):
     assert 0.08 < law.values["p_short"] + law.values["p_random"] < 0.5
     assert 0.02 < law.values["scale_m"] < 0.15
     assert 1.0 <= law.trust.place_readings <= law.trust.pose_readings <= 5.4
-    assert law.usual_fit.right > law.usual_fit.wrong
+    assert 0.0 < law.usual_fit.missed < 0.5
     assert "independent readings (fitted on" in law.words()
 
 
@@ -122,15 +121,6 @@ def test_places_share_by_powers_of_their_evidence():
     np.testing.assert_allclose(half[:2] / half[:2].sum(), [0.625, 0.375])
     none = shared_by_evidence(weights, group, mass, 0.0)
     np.testing.assert_allclose([none[:2].sum(), none[2:].sum()], mass)
-
-
-def test_a_fit_as_at_wrong_places_speaks_for_a_wrong_place():
-    fit = UsualFit(right=1.0, wrong=0.0, sd=0.5, missed=0.1)
-    assert fit.log_odds_wrong(0.5) == 0.0
-    assert fit.log_odds_wrong(1.0) == pytest.approx(-2.0)
-    assert fit.log_odds_wrong(0.0) == pytest.approx(2.0)
-    assert fit.log_odds_wrong(-9.0) == 4.0
-    assert replace(fit, wrong=2.0).log_odds_wrong(0.0) == 0.0
 
 
 def test_maps_without_walls_or_free_cells_are_refused(room):

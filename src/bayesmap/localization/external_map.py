@@ -67,15 +67,11 @@ USUAL_WAY_M = 3.0
 BLOCK, BEAMS = 5, 60
 """Successive scans for the fit, followed by as many scans that judge it, and beams per scan in the fit."""
 
-MOST_SEARCHES, NEAR_M, APART_PLACES_M = 40, 0.6, 1.0
-"""Most scans that are searched for singly, and two distances in metres plus radians: a place nearer than the first is
-right, and a place further than the second is wrong."""
+MOST_SEARCHES, NEAR_M = 40, 0.6
+"""Most scans that are searched for singly, and the distance of a right place, metres plus radians."""
 
 POWERS, FEWEST_SEARCHES = np.array([0.2, 0.3, 0.5, 0.7, 1.0]), 8
 """Powers that the evidence for a place may have, and fewest searches that choose one. With fewer, the power is 0.5."""
-
-LEAST_SD_NATS = 0.05
-"""Least standard deviation of the fit of scans, nats per beam."""
 
 
 @dataclass(frozen=True)
@@ -87,7 +83,7 @@ class MapLaw:
         trust: trust in the map.
         scans: number of scans that the law was fitted on and judged by; 0 if it is assumed.
         nats_per_beam: mean log density of readings of the judging scans under this law; NaN if there are none.
-        usual_fit: fit of these scans at their own places and at others; None if unknown.
+        usual_fit: fit of these scans at their own places; None if unknown.
     """
 
     values: Mapping[str, float]
@@ -146,7 +142,7 @@ def fit_law(occupancy: Floats, grid: Grid, scans: Scans, seed: int = 0, on_progr
 
     The scans are located under the assumed law. Of the scans that are surely located, five in each ten fit the law. The
     other five choose among the fitted law, the assumed law, and the law halfway between. They are also searched for one
-    by one. These searches give the usual fit of scans at right and wrong places, and the worth of a scan.
+    by one. These searches give the usual fit of scans at their places, and the worth of a scan.
 
     Args:
         occupancy: probability that each cell is occupied, NaN where unknown, (nx, ny).
@@ -200,28 +196,21 @@ def searched(known: KnownMap, scans: Scans, poses: Floats, seed: int) -> tuple[U
 
     limits = RangeLimits(scans.min_range_m, scans.max_range_m)
     rng = np.random.default_rng(seed)
-    right, wrong, missed = [], [], 0
+    right, missed = [], 0
     scores: list[Floats] = []
     for pose, angles, readings in zip(poses, scans.angles_by_scan(), scans.ranges_m, strict=True):
         belief = update(known, Prior(), Scan(angles, readings, limits), rng, look_everywhere=True)
-        # Compare the fit at the right pose with the best fit at a wrong place. The arguments are least probabilities.
         places = belief.places(1e-9)
-        means = np.array([place.mean for place in places])
-        off = between(pose, means)
+        off = between(pose, np.array([place.mean for place in places]))
         away = np.hypot(off[:, 0], off[:, 1]) + np.abs(off[:, 2])
         beams = max(1, int((~np.isnan(readings)).sum()))
-        asked = np.concatenate([pose[None], means[away > APART_PLACES_M]])
-        nats = known.log_likelihood(asked, angles, readings, limits, weight=1.0) / beams
-        right.append(nats[0])
-        wrong.extend([nats[1:].max()] if len(nats) > 1 else [])
+        right.append(known.log_likelihood(pose[None], angles, readings, limits, weight=1.0)[0] / beams)
         own = away < NEAR_M
         missed += int(not own.any())
         if own.any():
             logs = POWERS[:, None] * np.log([place.probability for place in places])
             scores.append(log_sum(logs[:, own]) - log_sum(logs))
-    sd = max(float(np.std(right)), float(np.std(wrong)) if wrong else 0.0, LEAST_SD_NATS)
-    typical = float(np.mean(wrong)) if wrong else float(np.mean(right)) - 2.0 * sd
-    usual = UsualFit(float(np.mean(right)), typical, sd, (missed + 1.0) / (len(poses) + 2.0))
+    usual = UsualFit(float(np.mean(right)), (missed + 1.0) / (len(poses) + 2.0))
     power = float(POWERS[np.mean(scores, axis=0).argmax()]) if len(scores) >= FEWEST_SEARCHES else 0.5
     return usual, power
 

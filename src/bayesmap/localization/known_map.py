@@ -44,9 +44,6 @@ of places are calibrated (docs/lab/localization.md)."""
 BINS = 60
 """Number of range bins in the law of readings anywhere."""
 
-MOST_ODDS = 4.0
-"""Greatest log odds for or against a place from the fit of one scan."""
-
 
 @dataclass(frozen=True)
 class Trust:
@@ -80,24 +77,15 @@ class Trust:
 
 @dataclass(frozen=True)
 class UsualFit:
-    """The fit of scans to a map, at their own places and at others: mean log density of readings, nats per beam.
+    """The fit of scans to a map at their own places: mean log density of readings, nats per beam.
 
     Attributes:
         right: mean over scans, at the right place.
-        wrong: mean over scans, at the best of the wrong places.
-        sd: standard deviation over scans, of either.
         missed: share of scans whose right place a search does not find.
     """
 
     right: float
-    wrong: float
-    sd: float
     missed: float
-
-    def log_odds_wrong(self, nats_per_beam: float) -> float:
-        """Return the log odds of a wrong place against the right one, from normal laws of the fit with equal width."""
-        middle, apart = 0.5 * (self.right + self.wrong), max(self.right - self.wrong, 0.0)
-        return float(np.clip(apart * (middle - nats_per_beam) / self.sd**2, -MOST_ODDS, MOST_ODDS))
 
 
 @dataclass(frozen=True, eq=False)
@@ -119,7 +107,7 @@ class KnownMap:
         typical_m: median of their readings.
         beam_weight: weight of a beam, as a share of an independent reading; None for the weight by ``trust``.
         trust: trust in the map.
-        usual_fit: fit of scans at right and wrong places; None if unknown.
+        usual_fit: fit of scans at their own places; None if unknown.
     """
 
     grid: Grid

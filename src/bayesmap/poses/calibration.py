@@ -8,8 +8,8 @@ point that odometry follows. To first order odometry then states
 C is a constant matrix. Scan matching gives the true motion. v is the stated velocity at the motion's begin and end: if
 odometry's stamps are late by ``lag``, its motion is that of another interval. The stated motion is regressed on the
 matched one, which has smaller errors. (In the opposite regression, the noise of a robot that drives straight on would
-look like a scale of 0.) A stated motion is corrected by 1 + B = 1 / (1 + C). B also gives the laser's position on the
-robot. `RunningOdometry` learns C and the noise during the front end, by recursive least squares. `fit_odometry` fits C,
+look like a scale of 0.) A stated motion is corrected by 1 + B = 1 / (1 + C).
+`RunningOdometry` learns C and the noise during the front end, by recursive least squares. `fit_odometry` fits C,
 the lag and the noise to aligned key scans, by robust least squares.
 
 Noise. Over n scans, d metres and turns of a radians in all (absolute values summed), the errors of x, y and yaw, in the
@@ -297,14 +297,6 @@ class OdometryFit:
         values, vectors = np.linalg.eigh(self.systematic_covariance)
         changes = (vectors * np.sqrt(np.maximum(values, 0.0))).T.reshape(9, 3, 3)
         return -corrected @ np.swapaxes((np.eye(3) + self.slope) @ changes, 1, 2)
-
-    @property
-    def laser_on_robot(self) -> Floats:
-        """The laser's pose in odometry's frame beyond what the log states, x, y and yaw, (3,), to first order.
-
-        Turning by a moves a laser at (x, y) by a (-y, x); a laser turned by yaw sees a motion ahead turned by -yaw.
-        """
-        return np.array([self.slope[1, 2], -self.slope[0, 2], -self.slope[1, 0]])
 
 
 def stated_at(poses: Floats, stamps_s: Floats | None, lag_s: float) -> Floats:
