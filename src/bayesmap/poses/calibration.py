@@ -287,7 +287,7 @@ class OdometryFit:
     @property
     def slope_sigma(self) -> Floats:
         """Standard deviations of B's entries to first order, (3, 3)."""
-        return np.sqrt(np.diag(self.systematic_covariance)).reshape(3, 3)
+        return np.asarray(np.sqrt(np.diag(self.systematic_covariance)).reshape(3, 3))
 
     def shifts(self, corrected: Floats) -> Floats:
         """Return the changes of corrected motions, (M, 3), by the standard errors of C, (9, M, 3).
@@ -296,7 +296,7 @@ class OdometryFit:
         """
         values, vectors = np.linalg.eigh(self.systematic_covariance)
         changes = (vectors * np.sqrt(np.maximum(values, 0.0))).T.reshape(9, 3, 3)
-        return -corrected @ np.swapaxes((np.eye(3) + self.slope) @ changes, 1, 2)
+        return np.asarray(-corrected @ np.swapaxes((np.eye(3) + self.slope) @ changes, 1, 2))
 
 
 def stated_at(poses: Floats, stamps_s: Floats | None, lag_s: float) -> Floats:

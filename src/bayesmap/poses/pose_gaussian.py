@@ -10,7 +10,7 @@ poses go where they then pull.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
@@ -120,13 +120,13 @@ class PoseGaussian:
         ``changes`` are those of the measured relative poses, (N, M, 3).
         """
         last = slice(len(self.first) - changes.shape[1], None)
-        part = Quadratic(
-            *(values[last] for values in (self.first, self.second, self.relative, self.curvature)), changes[0]
-        )
+        first, second, relative, curvature = (
+            self.first[last], self.second[last], self.relative[last], self.curvature[last],
+        )  # fmt: skip
         steps = np.empty((len(changes), len(self.poses), 3))
         for n, change in enumerate(changes):
-            pulled = replace(part, gradient=np.einsum("mij,mj->mi", part.curvature, change))
-            steps[n] = self.precision.solve(summed(len(self.poses), part, *pulls(pulled)).ravel()).reshape(-1, 3)
+            part = Quadratic(first, second, relative, curvature, np.einsum("mij,mj->mi", curvature, change))
+            steps[n] = self.precision.solve(summed(len(self.poses), part, *pulls(part)).ravel()).reshape(-1, 3)
         return steps
 
     @property
