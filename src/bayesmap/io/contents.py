@@ -75,15 +75,11 @@ def contents_of(path: str | os.PathLike[str]) -> Contents:
     stamps = reading.scans.stamps_s
     sensor = {**scans_summary(reading.scans), **_account(reading), **account}
     return Contents(
-        path=name,
-        format=reading.format,
-        start_s=None if stamps is None else float(stamps[0]),
+        path=name, format=reading.format, start_s=None if stamps is None else float(stamps[0]),
         end_s=None if stamps is None else float(stamps[-1]),
-        topics=[{"name": kind, "count": count} for kind, count in reading.messages.items()],
-        sensors=[sensor],
-        suggestion=_command(name, sensor, skip=bool(reading.skipped)),
-        notes=(*reading.notes, *_about_poses(reading)),
-    )
+        topics=[{"name": kind, "count": count} for kind, count in reading.messages.items()], sensors=[sensor],
+        suggestion=_command(name, sensor, skip=bool(reading.skipped)), notes=(*reading.notes, *_about_poses(reading)),
+    )  # fmt: skip
 
 
 def _of_recording(path: str | os.PathLike[str]) -> Contents:
@@ -119,17 +115,12 @@ def _of_recording(path: str | os.PathLike[str]) -> Contents:
         scan_topic = best["topic"] if len(scan_topics) > 1 else None
         suggestion = _command(name, best, scan_topic=scan_topic, skip=bool(recording.notes) or best["skipped"] > 0)
     return Contents(
-        path=name,
-        format=recording.format,
-        start_s=None if recording.start_ns is None else recording.start_ns * 1e-9,
-        end_s=None if recording.end_ns is None else recording.end_ns * 1e-9,
-        topics=topics,
-        frames=FrameTree(poses.transforms).frames(),
-        sensors=sensors,
-        pose_sources=[{"name": t.name, "type": t.type, "count": t.count} for t in pose_sources],
-        suggestion=suggestion,
+        path=name, format=recording.format, start_s=None if recording.start_ns is None else recording.start_ns * 1e-9,
+        end_s=None if recording.end_ns is None else recording.end_ns * 1e-9, topics=topics,
+        frames=FrameTree(poses.transforms).frames(), sensors=sensors,
+        pose_sources=[{"name": t.name, "type": t.type, "count": t.count} for t in pose_sources], suggestion=suggestion,
         notes=(*recording.notes, *(() if scan_topics else (nothing,))),
-    )
+    )  # fmt: skip
 
 
 def _sensor(recording: Any, topic: Any) -> dict[str, Any]:
@@ -163,17 +154,12 @@ def _reason(path: str, problem: BadInput | None) -> str:
 
 def _account(reading: LogReading) -> dict[str, Any]:
     return {
-        "message": reading.message,
-        "frame": reading.sensor_frame,
-        "poses": reading.pose_source,
-        "fixed_frame": reading.fixed_frame,
-        "skipped": len(reading.skipped),
-        "no_return_m": reading.no_return_m,
+        "message": reading.message, "frame": reading.sensor_frame, "poses": reading.pose_source,
+        "fixed_frame": reading.fixed_frame, "skipped": len(reading.skipped), "no_return_m": reading.no_return_m,
         "max_range_origin": reading.max_range_origin,
         "raw_odometry": reading.posed and look_like_odometry(reading.scans),
-        "followable": scans_come_often(reading.scans),
-        "notes": list(reading.notes),
-    }
+        "followable": scans_come_often(reading.scans), "notes": list(reading.notes),
+    }  # fmt: skip
 
 
 def _about_poses(reading: LogReading) -> list[str]:
@@ -195,19 +181,14 @@ def scans_summary(scans: Scans) -> dict[str, Any]:
     low, high = scans.poses[:, :2].min(axis=0), scans.poses[:, :2].max(axis=0)
     hits = scans.ranges_m[np.isfinite(scans.ranges_m)]
     return {
-        "scans": len(scans),
-        "beams": len(scans.angles_rad),
-        "angle_first_deg": round(float(angles[0]), 4),
+        "scans": len(scans), "beams": len(scans.angles_rad), "angle_first_deg": round(float(angles[0]), 4),
         "angle_last_deg": round(float(angles[-1]), 4),
         "angle_step_deg": round(float(angles[-1] - angles[0]) / (len(angles) - 1), 4) if len(angles) > 1 else None,
-        "min_range_m": scans.min_range_m,
-        "max_range_m": scans.max_range_m,
-        "longest_hit_m": round(float(hits.max()), 3) if hits.size else None,
-        "readings": scans.counts(),
-        "poses_from_m": [round(float(v), 3) for v in low],
-        "poses_to_m": [round(float(v), 3) for v in high],
+        "min_range_m": scans.min_range_m, "max_range_m": scans.max_range_m,
+        "longest_hit_m": round(float(hits.max()), 3) if hits.size else None, "readings": scans.counts(),
+        "poses_from_m": [round(float(v), 3) for v in low], "poses_to_m": [round(float(v), 3) for v in high],
         "travelled_m": round(math.fsum(np.hypot(*np.diff(scans.poses[:, :2], axis=0).T)), 3),
-    }
+    }  # fmt: skip
 
 
 def _command(path: str, sensor: dict[str, Any], *, scan_topic: str | None = None, skip: bool = False) -> str | None:

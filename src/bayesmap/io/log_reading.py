@@ -119,20 +119,14 @@ class LogReading:
             "sensor_frame", "deskewed", "thin_m", "posed",
         )  # fmt: skip
         return {name: getattr(self, name) for name in same} | {
-            "scans": len(self.scans),
-            "beams": self.scans.n_beams,
-            "readings": self.scans.counts(),
-            "messages": dict(self.messages),
-            "skipped_lines": len(self.skipped),
+            "scans": len(self.scans), "beams": self.scans.n_beams, "readings": self.scans.counts(),
+            "messages": dict(self.messages), "skipped_lines": len(self.skipped),
             "skipped": [{"line": skip.line, "what": skip.what, "reason": skip.reason} for skip in self.skipped[:100]],
-            "no_return_m": self.no_return.code_m,
-            "no_return_origin": self.no_return.origin,
-            "no_return_values_m": list(self.no_return.values_m),
-            "max_range_m": self.scans.max_range_m,
-            "laser_offset": list(self.laser_offset),
-            "notes": list(self.notes),
+            "no_return_m": self.no_return.code_m, "no_return_origin": self.no_return.origin,
+            "no_return_values_m": list(self.no_return.values_m), "max_range_m": self.scans.max_range_m,
+            "laser_offset": list(self.laser_offset), "notes": list(self.notes),
             "scans_read": len(self.scans) if self.scans_read is None else self.scans_read,
-        }
+        }  # fmt: skip
 
 
 @dataclass

@@ -236,15 +236,11 @@ def _scans_from(file: Any, header: dict[str, Any]) -> Scans:
     """Return the scans that the posterior is conditioned on."""
     constant = file["constant_data"]
     return Scans(
-        poses=read_array(constant["pose_world"]),
-        angles_rad=read_array(constant["angle_rad"]),
-        ranges_m=read_array(file["observed_data"]["range_m"]),
-        min_range_m=header["limits"][0],
-        max_range_m=header["limits"][1],
-        stamps_s=_optional(constant, "stamp_s"),
-        beam_poses=_optional(constant, "beam_pose_world"),
-        own_angles_rad=_optional(constant, "own_angle_rad"),
-    )
+        poses=read_array(constant["pose_world"]), angles_rad=read_array(constant["angle_rad"]),
+        ranges_m=read_array(file["observed_data"]["range_m"]), min_range_m=header["limits"][0],
+        max_range_m=header["limits"][1], stamps_s=_optional(constant, "stamp_s"),
+        beam_poses=_optional(constant, "beam_pose_world"), own_angles_rad=_optional(constant, "own_angle_rad"),
+    )  # fmt: skip
 
 
 def _group(file: Any, name: str) -> Any:
@@ -413,13 +409,10 @@ def trajectory_from(arrays: Mapping[str, NDArray[Any]], numbers: Mapping[str, An
         point_sigma_m=numbers["point_sigma_m"], **part("calibration"),
     )  # fmt: skip
     return Trajectory(
-        **own,
-        gaussian=PoseGaussian(**part("gaussian"), dof=numbers["dof"]),
-        closures=LoopClosures(**part("closures")),
+        **own, gaussian=PoseGaussian(**part("gaussian"), dof=numbers["dof"]), closures=LoopClosures(**part("closures")),
         alternatives=Alternatives(**part("alternatives")) if "alternatives_first" in arrays else NO_ALTERNATIVES,
-        odometry=Factors(**part("odometry")) if "odometry_first" in arrays else None,
-        calibration=calibration,
-    )
+        odometry=Factors(**part("odometry")) if "odometry_first" in arrays else None, calibration=calibration,
+    )  # fmt: skip
 
 
 def _stored(values: NDArray[Any]) -> NDArray[Any]:

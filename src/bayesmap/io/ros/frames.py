@@ -90,14 +90,15 @@ class Samples:
         times = self.times_ns()
         return self.values[len(times) - 1 - int(np.argmax(times[::-1]))]
 
-    def track(self) -> Track:
-        """Return the poses in time order; of several at one time, the last."""
+    def track(self, constant: bool = False, inverted: bool = False) -> Track:
+        """Return the poses in time order; of several at one time, the last. The options are those of `Track`."""
         stamps = self.times_ns()
         order = np.argsort(stamps, kind="stable")
         last = np.append(np.diff(stamps[order]) > 0, True)
         order = order[last]
         values = np.array(self.values, dtype=np.float64)[order]
-        return Track(stamps[order], RigidTransform.from_components(values[:, :3], Rotation.from_quat(values[:, 3:])))
+        motions = RigidTransform.from_components(values[:, :3], Rotation.from_quat(values[:, 3:]))
+        return Track(stamps[order], motions, constant, inverted)
 
     def constant(self) -> bool:
         """Return true if the pose is the same at all times."""
@@ -117,38 +118,14 @@ def numbers_of(position: object, rotation: object) -> Numbers:
 
 
 @dataclass(frozen=True, eq=False)
-class Link:
-    """One transform of a chain: the child's pose in the parent over time, or at all times if it is constant.
-
-    If the link is inverted, the chain leads from the child to the parent.
-    """
-
-    track: Track
-    constant: bool
-    inverted: bool = False
-
-    def at(self, stamps_ns: NDArray[np.int64]) -> RigidTransform:
-        """Return the motion along the chain at the given times, (T,); if it is constant, the last message."""
-        if self.constant:
-            return self.last()
-        motion = self.track.at(stamps_ns)
-        return motion.inv() if self.inverted else motion
-
-    def last(self) -> RigidTransform:
-        """Return the last motion along the chain."""
-        motion = self.track.motions[-1]
-        return motion.inv() if self.inverted else motion
-
-
-@dataclass(frozen=True, eq=False)
 class Chain:
     """The transforms from a fixed frame to the sensor's frame."""
 
-    links: tuple[Link, ...]
+    links: tuple[Track, ...]
 
     def span_ns(self) -> tuple[int, int] | None:
         """Return the first and the last time at which all links are known; None if all are constant."""
-        stamps = [link.track.stamps_ns for link in self.links if not link.constant]
+        stamps = [link.stamps_ns for link in self.links if not link.constant]
         return (max(int(s[0]) for s in stamps), min(int(s[-1]) for s in stamps)) if stamps else None
 
     def covers(self, stamps_ns: NDArray[np.int64]) -> NDArray[np.bool_]:
@@ -168,7 +145,7 @@ class Chain:
     def in_gaps(self, stamps_ns: NDArray[np.int64], longest_s: float, furthest_m: float) -> NDArray[np.bool_]:
         """Select the times at which a transform is interpolated over a long time and a long way."""
         result = np.zeros(np.shape(stamps_ns), dtype=bool)
-        for track in (link.track for link in self.links if not link.constant and len(link.track.stamps_ns) > 1):
+        for track in (link for link in self.links if not link.constant and len(link.stamps_ns) > 1):
             before, _ = around(track.stamps_ns, stamps_ns)
             moved = np.diff(track.motions.translation, axis=0)[before]
             long = np.diff(track.stamps_ns)[before] > longest_s * 1e9
@@ -260,9 +237,9 @@ class FrameTree:
         up, down = self._ways(fixed, sensor) or ([], [])
         return [(self._edges[child][0], child, self._edges[child][1]) for child in (*up, *down)]
 
-    def _link(self, child: str, inverted: bool) -> Link:
+    def _link(self, child: str, inverted: bool) -> Track:
         samples = Samples.joined(self._edges[child][1])
-        return Link(samples.track(), samples.constant(), inverted)
+        return samples.track(samples.constant(), inverted)
 
     def root(self, sensor: str) -> str:
         """Return the topmost frame above the sensor's frame."""
@@ -305,10 +282,15 @@ def upright(motion: RigidTransform) -> Floats:
 
 @dataclass(frozen=True, eq=False)
 class Track:
-    """The pose of a frame in another over time: T motions, and their times in nanoseconds, strictly ascending."""
+    """The pose of a frame in another over time: T motions, and their times in nanoseconds, strictly ascending.
+
+    If it is constant, the last motion holds at all times. If it is inverted, `at` and `last` return inverse motions.
+    """
 
     stamps_ns: NDArray[np.int64]
     motions: Any
+    constant: bool = False
+    inverted: bool = False
 
     def covers(self, stamps_ns: NDArray[np.int64]) -> NDArray[np.bool_]:
         """Select the times between the first and the last."""
@@ -316,10 +298,19 @@ class Track:
 
     def at(self, stamps_ns: NDArray[np.int64]) -> RigidTransform:
         """Return motions interpolated along lines and along the shorter arcs of rotations; outside, the nearest end."""
+        if self.constant:
+            return self.last()
         if len(self.stamps_ns) == 1:
-            return self.motions[np.zeros(np.shape(stamps_ns), dtype=np.intp)]
+            motion = self.motions[np.zeros(np.shape(stamps_ns), dtype=np.intp)]
+            return motion.inv() if self.inverted else motion
         # Nanoseconds since 1970 exceed the precision of a double; those since the start of the track do not.
         known = (self.stamps_ns - self.stamps_ns[0]).astype(np.float64)
-        wanted = (np.clip(stamps_ns, self.stamps_ns[0], self.stamps_ns[-1]) - self.stamps_ns[0]).astype(np.float64)
-        translation = make_interp_spline(known, self.motions.translation, k=1)(wanted)
-        return RigidTransform.from_components(translation, Slerp(known, self.motions.rotation)(wanted))
+        at = (np.clip(stamps_ns, self.stamps_ns[0], self.stamps_ns[-1]) - self.stamps_ns[0]).astype(np.float64)
+        translation = make_interp_spline(known, self.motions.translation, k=1)(at)
+        motion = RigidTransform.from_components(translation, Slerp(known, self.motions.rotation)(at))
+        return motion.inv() if self.inverted else motion
+
+    def last(self) -> RigidTransform:
+        """Return the last motion."""
+        motion = self.motions[-1]
+        return motion.inv() if self.inverted else motion

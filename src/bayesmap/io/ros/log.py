@@ -29,10 +29,11 @@ from bayesmap.io.ros.messages import (
     Bad,
     LaserMessage,
     beams_of,
+    of_one_frame,
     read_messages,
     scan_topic_of,
     scans_and_poses,
-)  # fmt: skip
+)
 from bayesmap.io.ros.poses import PoseMessages
 from bayesmap.io.ros.recording import POSE_TYPES, TYPES, Recording, Topic, topics_of_type
 
@@ -196,10 +197,10 @@ def read_recording(path: str | os.PathLike[str], options: LogOptions) -> LogRead
     # Read the messages of scans and poses.
     topic = scan_topic_of(recording, options.scan_topic)
     pose_topic = None if options.pose_topic is None else pose_sources.pose_topic_of(recording, options.pose_topic)
-    lasers, poses = scans_and_poses(recording, topic, pose_topic, bad)
-    if not lasers.scans:
+    received, poses = scans_and_poses(recording, topic, pose_topic, bad)
+    if not received:
         raise BadInput(f"{name}: no message on {topic.name} can be used{_first(account.skipped)}")
-    scans = lasers.of_one_frame(lambda number, reason: bad(topic.name, number, reason))
+    scans = of_one_frame(topic.name, received, bad)
     if not scans:
         raise BadInput(f"{name}: no message on {topic.name} has a reading: their arrays of ranges are empty")
     request = _Request(recording, topic, pose_topic, scans[0].layout.frame, bad)
@@ -237,7 +238,7 @@ def read_recording(path: str | os.PathLike[str], options: LogOptions) -> LogRead
         )
     account.notes += dict.fromkeys(note for part in parts for note in part.notes)
     account.notes += _odd(scans)
-    if empty := sum(not scan.layout.beams for scan in lasers.scans):
+    if empty := sum(not scan.layout.beams for scan in received):
         account.notes.append(f"{empty:,} messages on {topic.name} have no readings, and were left out")
     account.stamps_s = np.asarray(joined_stamps([(part.stamps, part.scans) for part in parts]) * 1e-9)
     account.reordered = sum(part.reordered for part in parts)

@@ -15,7 +15,7 @@ import math
 import re
 from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cache
 from typing import Any
 
@@ -149,21 +149,14 @@ def _odd_end(first: float, last: float, step: float, beams: int) -> str:
     return f"angle_max does not fit the number of readings and angle_increment; {TAKEN}"
 
 
-@dataclass
-class LaserMessages:
-    """The scans of a topic, in the order of the recording."""
-
-    topic: str
-    scans: list[LaserMessage] = field(default_factory=list)
-
-    def of_one_frame(self, bad: Callable[[int, str], None]) -> list[LaserMessage]:
-        """Return the scans with readings in the commonest frame; ``bad`` is called with the others."""
-        scans = [scan for scan in self.scans if scan.layout.beams]
-        frame = Counter(scan.layout.frame for scan in scans).most_common(1)[0][0] if scans else ""
-        for scan in scans:
-            if scan.layout.frame != frame:
-                bad(scan.number, f"is in frame {scan.layout.frame!r}, but most scans of {self.topic} in {frame!r}")
-        return [scan for scan in scans if scan.layout.frame == frame]
+def of_one_frame(topic: str, scans: list[LaserMessage], bad: Bad) -> list[LaserMessage]:
+    """Return the scans with readings in the commonest frame; ``bad`` is called with the others."""
+    scans = [scan for scan in scans if scan.layout.beams]
+    frame = Counter(scan.layout.frame for scan in scans).most_common(1)[0][0] if scans else ""
+    for scan in scans:
+        if scan.layout.frame != frame:
+            bad(topic, scan.number, f"is in frame {scan.layout.frame!r}, but most scans of {topic} in {frame!r}")
+    return [scan for scan in scans if scan.layout.frame == frame]
 
 
 def beams_of(scans: Sequence[LaserMessage]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -223,18 +216,19 @@ def scan_topic_of(recording: Recording, given: str | None) -> Topic:
 
 def scans_and_poses(
     recording: Recording, topic: Topic, pose_topic: Topic | None, bad: Bad
-) -> tuple[LaserMessages, PoseMessages]:
+) -> tuple[list[LaserMessage], PoseMessages]:
     """Return the scans, and the messages of poses from /tf and from the chosen topic of poses."""
     topics = [topic, *(t for t in topics_of_type(recording, TF_TYPES) if t.encoding in READABLE)]
     if pose_topic is not None and pose_topic not in topics:
         topics.append(pose_topic)
-    lasers, poses = LaserMessages(topic.name), PoseMessages()
-    read_messages(recording, topics, lasers, poses, bad)
-    return lasers, poses
+    scans: list[LaserMessage] = []
+    poses = PoseMessages()
+    read_messages(recording, topics, scans, poses, bad)
+    return scans, poses
 
 
 def read_messages(
-    recording: Recording, topics: list[Topic], lasers: LaserMessages | None, poses: PoseMessages, bad: Bad
+    recording: Recording, topics: list[Topic], scans: list[LaserMessage] | None, poses: PoseMessages, bad: Bad
 ) -> None:
     """Add the messages on the given topics to scans and poses; call ``bad`` with those that cannot be used.
 
@@ -253,8 +247,8 @@ def read_messages(
                 content = types.read(topic.name, message.data)
                 if topic.type not in SCAN_TYPES:
                     poses.add(topic, content, message.received_ns)
-                elif lasers is not None:
-                    lasers.scans.append(laser_message(topic.type, content, number, message.received_ns))
+                elif scans is not None:
+                    scans.append(laser_message(topic.type, content, number, message.received_ns))
             except Malformed as problem:
                 bad(topic.name, number, str(problem))
     except Damaged as problem:

@@ -9,7 +9,7 @@ from typing import Any
 
 from bayesmap.errors import BadInput
 from bayesmap.io.log_reading import WITHOUT_POSES, Pose
-from bayesmap.io.ros.frames import FIXED_FRAMES, Chain, FrameTree, Link, Samples, numbers_of
+from bayesmap.io.ros.frames import FIXED_FRAMES, Chain, FrameTree, Samples, Track, numbers_of
 from bayesmap.io.ros.publishers import contradiction
 from bayesmap.io.ros.recording import (
     ODOMETRY,
@@ -245,11 +245,11 @@ def body_of(path: str, trees: list[FrameTree], sensor: str) -> str | None:
     return None
 
 
-def link_of(laser: Pose) -> Link:
+def link_of(laser: Pose) -> Track:
     """Return the link of a chain from the robot's body to a laser that is mounted level at a pose."""
     x, y, yaw = laser
     numbers = (x, y, 0.0, 0.0, 0.0, math.sin(0.5 * yaw), math.cos(0.5 * yaw))
-    return Link(Samples(True, "", [0], [0], [numbers]).track(), constant=True)
+    return Samples(True, "", [0], [0], [numbers]).track(constant=True)
 
 
 def standing_still(trees: list[FrameTree], sensor: str) -> PoseSource:
@@ -285,7 +285,7 @@ def by_topic(
         raise BadInput(f"{recording.path}: {conflict.text}; choose other poses with --pose-topic")
     if samples.unstamped:
         notes.append(f"no message on {topic.name} says its time; the times of receipt were used")
-    track = Link(samples.track(), constant=False)
+    track = samples.track()
     if laser is not None:
         return PoseSource(topic.name, fixed or "?", Chain((track, link_of(laser))), tuple(notes))
     # The mount by /tf.

@@ -21,8 +21,9 @@ from binascii import crc32
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import closing
 from dataclasses import dataclass, replace
+from io import BytesIO
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, BinaryIO, NamedTuple
 from urllib.parse import quote
 
 LASER_SCAN, RANGE = "sensor_msgs/msg/LaserScan", "sensor_msgs/msg/Range"
@@ -213,29 +214,23 @@ def bag_records(path: str | os.PathLike[str], on_damage: OnDamage) -> Records:
     at = len(BAG_MAGIC)
     with Path(path).open("rb") as file:
         while at < size:
-            file.seek(at)
             try:
-                start = file.read(4)
-                rest = file.read(min(int.from_bytes(start, "little"), MAX_HEADER_BYTES) + 4)
-                header, length, data_at = _bag_header(start + rest)
+                header, data_at, length = _bag_header(file, at)
             except _Unreadable as problem:
                 on_damage(f"at byte {at:,}: {problem}")
                 return
-            data_at += at
-            kind = header[b"op"]
-            if kind == BAG_INDEX and len(header.get(b"count", b"")) == 4:
+            kind = header["op"]
+            if kind == BAG_INDEX and len(header.get("count", b"")) == 4:
                 # As in ROS, the count decides the length: bags of 2010 state wrong lengths.
-                length = INDEX_ENTRY_BYTES * int.from_bytes(header[b"count"], "little")
+                length = INDEX_ENTRY_BYTES * header.get_uint32("count")
             cut = data_at + length > size
             if cut:
                 on_damage(f"the record at byte {at:,} is longer than the file")
-            file.seek(data_at)
             if kind == BAG_CHUNK:
                 data = file.read(min(length, size - data_at, MAX_DATA_BYTES))
                 yield from _until_damage(_bag_chunk(header, data, cut), f"the chunk at byte {at:,}", on_damage)
-            elif not cut and kind in (BAG_MESSAGE, BAG_CONNECTION) and length <= MAX_DATA_BYTES:
-                record = _bag_record(header, file.read(length))
-                yield from _until_damage(record, f"the record at byte {at:,}", on_damage)
+            elif not cut and length <= MAX_DATA_BYTES:
+                yield from _until_damage(_bag_record(header, file, length), f"the record at byte {at:,}", on_damage)
             if cut:
                 return
             at = data_at + length
@@ -248,66 +243,56 @@ def _until_damage(records: Records, what: str, on_damage: OnDamage) -> Records:
         on_damage(f"{what} cannot be read: {problem}")
 
 
-def _bag_header(data: bytes | memoryview) -> tuple[dict[bytes, bytes], int, int]:
-    """Return a record's header fields, and the length and the position of its data."""
-    if len(data) < 4:
-        raise _Unreadable("the header of a record is cut short")
-    (length,) = struct.unpack_from("<I", data)
-    if length > len(data) - 8:
-        raise _Unreadable(f"a record says that its header has {length:,} bytes")
-    fields = _bag_fields(bytes(data[4 : 4 + length]))
-    if b"op" not in fields:
+def _bag_header(file: BinaryIO, at: int) -> tuple[Any, int, int]:
+    """Return the header of the record at a byte, and the position and length of its data, where the file then is."""
+    from rosbags.rosbag1.reader import Header, ReaderError, read_uint32
+
+    file.seek(at)
+    stated = int.from_bytes(file.read(4), "little")
+    if stated > MAX_HEADER_BYTES:
+        raise _Unreadable(f"a record says that its header has {stated:,} bytes")
+    file.seek(at)
+    try:
+        header, length = Header.read(file), read_uint32(file)
+    except (ReaderError, UnicodeDecodeError) as error:
+        raise _Unreadable(str(error)) from None
+    if "op" not in header:
         raise _Unreadable("a record does not say its kind")
-    (data_length,) = struct.unpack_from("<I", data, 4 + length)
-    return fields, data_length, 8 + length
+    return header, file.tell(), length
 
 
-def _bag_fields(data: bytes) -> dict[bytes, bytes]:
-    fields, at = {}, 0
-    while at < len(data):
-        if at + 4 > len(data):
-            raise _Unreadable("a header field is cut short")
-        (length,) = struct.unpack_from("<I", data, at)
-        name, equals, value = data[at + 4 : at + 4 + length].partition(b"=")
-        if not equals or at + 4 + length > len(data):
-            raise _Unreadable("a header field has no value")
-        fields[name] = value
-        at += 4 + length
-    return fields
-
-
-def _bag_chunk(header: dict[bytes, bytes], packed: bytes, cut: bool) -> Records:
+def _bag_chunk(header: Any, packed: bytes, cut: bool) -> Records:
     """Return the records within a chunk; of one that is cut, those that are there."""
-    compression = header.get(b"compression", b"").decode("ascii", "replace")
-    view, at = memoryview(_unpacked(compression, packed, MAX_DATA_BYTES)), 0
-    while at < len(view):
+    data, at = _unpacked(header.get("compression", b"").decode("ascii", "replace"), packed, MAX_DATA_BYTES), 0
+    file = BytesIO(data)
+    while at < len(data):
         try:
-            inner, length, data_at = _bag_header(view[at:])
-            if at + data_at + length > len(view):
+            inner, data_at, length = _bag_header(file, at)
+            if data_at + length > len(data):
                 raise _Unreadable("its records are longer than it is")
         except _Unreadable:
             if cut:
                 return
             raise
-        yield from _bag_record(inner, bytes(view[at + data_at : at + data_at + length]))
-        at += data_at + length
+        yield from _bag_record(inner, file, length)
+        at = data_at + length
 
 
-def _bag_record(header: dict[bytes, bytes], data: bytes) -> Records:
+def _bag_record(header: Any, file: BinaryIO, length: int) -> Records:
+    """Return the message or connection whose data begin where the file is; nothing for other kinds of records."""
+    from rosbags.rosbag1.reader import Header, ReaderError
+
     try:
-        if header[b"op"] not in (BAG_MESSAGE, BAG_CONNECTION):
-            return
-        (connection,) = struct.unpack("<I", header[b"conn"])
-        if header[b"op"] == BAG_MESSAGE:
-            seconds, nanoseconds = struct.unpack("<II", header[b"time"])
-            yield Record(connection, seconds * 10**9 + nanoseconds, data)
-            return
-        fields = _bag_fields(data)
-        definition, md5 = (fields.get(key, b"").decode(errors="replace") for key in (b"message_definition", b"md5sum"))
-        name, type_name = header[b"topic"].decode(), spelled_as_in_ros2(fields[b"type"].decode())
-        yield Connection(connection, Topic(name, type_name, 0, definition, "msg", "ros1", md5))
-    except (KeyError, struct.error, UnicodeDecodeError) as error:
-        raise _Unreadable(f"its header lacks {error}" if isinstance(error, KeyError) else str(error)) from None
+        if header["op"] == BAG_MESSAGE:
+            yield Record(header.get_uint32("conn"), header.get_time("time"), file.read(length))
+        elif header["op"] == BAG_CONNECTION:
+            file.seek(-4, os.SEEK_CUR)  # the data are a second header, and the length before them is its length
+            about = Header.read(file)
+            definition, md5 = (about.get(key, b"").decode(errors="replace") for key in ("message_definition", "md5sum"))
+            name, type_name = header.get_string("topic"), spelled_as_in_ros2(about.get_string("type"))
+            yield Connection(header.get_uint32("conn"), Topic(name, type_name, 0, definition, "msg", "ros1", md5))
+    except (ReaderError, UnicodeDecodeError) as error:
+        raise _Unreadable(str(error)) from None
 
 
 Schemas = dict[int, tuple[str, str, str]]
