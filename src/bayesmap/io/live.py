@@ -127,11 +127,8 @@ def live_lines(name: str, idle_s: float | None = None) -> Iterator[tuple[int, by
     """Yield the lines of a file, pipe or standard input with their numbers, from 1, as soon as each is whole.
 
     A pipe and standard input end when their last writer closes them. A file never ends: its new lines follow, until
-    the caller stops.
-
-    Args:
-        name: name of the file or pipe; "-" is standard input.
-        idle_s: end after so many seconds without new data, too; a last line without line end is then a line.
+    the caller stops, or until ``idle_s`` seconds have passed without new data; a last line without line end is then a
+    line. The name "-" is standard input.
 
     Raises:
         BadInput: the input cannot be read, was cut short, or has a line that is too long.

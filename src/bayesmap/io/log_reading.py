@@ -168,13 +168,8 @@ class Account:
     def which_way_up(self, heights: Floats, sensor: str, remedy: str = "") -> float:
         """Return 1 for an upright sensor, -1 for one upside down, and note a tilt.
 
-        Args:
-            heights: vertical component of the sensor's z axis in each scan, (S,).
-            sensor: name of the sensor, for messages.
-            remedy: advice for the message if the sensor does not scan the plane.
-
-        Raises:
-            BadInput: a sensor that does not scan the plane, or that is upside down in some scans only.
+        ``heights`` are the vertical components of its z axis in each scan, (S,). It raises `BadInput`, with the remedy,
+        if the sensor does not scan the plane, or is upside down in some scans only.
         """
         steep = np.abs(heights) < STEEPEST
         if steep.any():
@@ -204,16 +199,10 @@ class Account:
         self, message: str, poses: Floats, angles_rad: Floats, readings: Readings, *,
         beam_poses: Floats | None = None, mount: Pose = (0.0, 0.0, 0.0), **about: Any,
     ) -> LogReading:  # fmt: skip
-        """Return the reading of the log.
+        """Return the reading of the log, given the laser's poses (S, 3), the beams' angles and their readings.
 
-        Args:
-            message: kind of message of the scans.
-            poses: poses of the laser in time order, (S, 3).
-            angles_rad: beam angles, (A,) or (S, A).
-            readings: readings of the beams, (S, A).
-            beam_poses: pose of each beam, (S, A, 3).
-            mount: pose of the laser on the robot in the log.
-            about: other attributes of `LogReading`.
+        ``beam_poses`` are the poses of all beams, (S, A, 3), ``mount`` is the laser's pose on the robot in the log, and
+        ``about`` are other attributes of `LogReading`.
         """
         limit_m = readings.max_range_m
         scans = Scans(

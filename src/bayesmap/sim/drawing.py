@@ -21,12 +21,7 @@ def from_text(text: str) -> NDArray[np.bool_]:
     map turned a quarter anticlockwise. Use `from_image` for a picture that should appear as it is drawn.
 
     Blank lines around the drawing, blanks at the ends of lines, and an indentation common to all lines are ignored.
-
-    Args:
-        text: the drawing.
-
-    Returns:
-        Walls, shape (lines, columns).
+    Returns walls, shape (lines, columns).
 
     Raises:
         BadInput: no lines, lines of different lengths, or an unknown character; the message names the line
@@ -57,13 +52,9 @@ def from_text(text: str) -> NDArray[np.bool_]:
 
 
 def to_text(walls: ArrayLike) -> str:
-    """Return a drawing from which `from_text` reads these walls.
+    """Return a drawing from which `from_text` reads these walls, shape (lines, columns).
 
-    Args:
-        walls: boolean walls, shape (lines, columns), with at least one cell.
-
-    Raises:
-        BadInput: an array that is not two-dimensional, or that is empty.
+    An array that is not two-dimensional, or that is empty, raises `BadInput`.
     """
     array = np.asarray(walls).astype(bool)
     if array.ndim != 2 or array.size == 0:
@@ -102,8 +93,7 @@ DRAWING = """
 def tutorial() -> tuple[NDArray[np.bool_], NDArray[np.float64]]:
     """Return the tutorial's walls and the robot's pose, on `TUTORIAL_GRID`.
 
-    Returns:
-        Walls, shape (21, 21), indexed ``[x, y]`` (line i of the drawing is x = i), and the pose
-        ``(x, y, yaw) = (10, 10, 0)`` in metres and radians, shape (3,).
+    Walls have the shape (21, 21) and are indexed ``[x, y]`` (line i of the drawing is x = i). The pose (x, y, yaw) is
+    (10, 10, 0) in metres and radians, shape (3,).
     """
     return from_text(DRAWING), np.array([10.0, 10.0, 0.0])

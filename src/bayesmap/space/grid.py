@@ -98,12 +98,8 @@ class Grid:
     def covering(cls, scans: Scans, resolution: float, margin_m: float = 0.5) -> Grid:
         """Return the smallest grid that holds every pose and every hit, with a margin.
 
-        The origin is a multiple of the resolution, so that maps of two recordings of a building line up.
-
-        Args:
-            scans: the scans to cover.
-            resolution: edge of a cell in metres.
-            margin_m: free border around poses and hits.
+        The origin is a multiple of the resolution, so that maps of two recordings of a building line up. The resolution
+        and the margin, a free border around poses and hits, are in metres.
 
         Raises:
             BadInput: no scan at all, or more than `MAX_CELLS` cells. If a few scans lie so far out that they make the
@@ -121,15 +117,10 @@ class Grid:
 
     @classmethod
     def over(cls, low: tuple[float, float], high: tuple[float, float], resolution: float) -> Grid:
-        """Return the smallest grid that holds a rectangle; its origin is a multiple of the resolution.
+        """Return the smallest grid that holds a rectangle from its lower left to its upper right corner, world metres.
 
-        Args:
-            low: lower left corner of the rectangle in the world frame, metres.
-            high: upper right corner.
-            resolution: edge of a cell in metres.
-
-        Raises:
-            BadInput: a resolution that is not positive, or more than `MAX_CELLS` cells.
+        The origin is a multiple of the resolution. A resolution that is not positive, or more than `MAX_CELLS` cells,
+        raise `BadInput`.
         """
         shape, (x, y) = _whole_cells(low, high, resolution)
         return cls(shape=shape, resolution=resolution, origin=(x * resolution, y * resolution))

@@ -91,12 +91,8 @@ def first_bytes(path: str | os.PathLike[str], count: int) -> bytes:
 def unpack_file(path: str | os.PathLike[str], on_damage: Callable[[str], None]) -> Path:
     """Unpack a compressed file. Returns the copy, alone in a folder of its own that the caller removes.
 
-    Args:
-        path: the compressed file.
-        on_damage: called with the reason if the file cannot be unpacked to its end; if it returns, the copy is partial.
-
-    Raises:
-        OSError: there is no room for the copy.
+    ``on_damage`` is called with the reason if the file cannot be unpacked to its end; if it returns, the copy is
+    partial. Without room for the copy, `OSError` is raised.
     """
     folder = Path(tempfile.mkdtemp(prefix="bayesmap-"))
     copy = folder / "unpacked"

@@ -71,11 +71,11 @@ def contradiction(parent: str, child: str, parts: Sequence[Samples]) -> Contradi
                 text = f"{what} has {number} values on {part.topic} that differ: {stated}; the last was used, {last} "
                 text += "(--laser X,Y,DEGREES says otherwise)"
                 return Contradiction(text, fatal=False)
-        elif (found := _to_and_fro(part)) is not None:
-            at_s, there, back = found
+        elif (swing := _to_and_fro(part)) is not None:
+            at_s, away, back = swing
             text = (
                 f"{what} on {part.topic} goes to and fro between values that differ: at {at_s:.3f} s it is "
-                f"{told(there)}, and just before and after {told(back)}; it has two publishers, or the clock of the "
+                f"{told(away)}, and just before and after {told(back)}; it has two publishers, or the clock of the "
                 "recording started again"
             )
             return Contradiction(text)
@@ -194,12 +194,9 @@ def two_motions(stamps_ns: NDArray[np.int64], values: NDArray[np.float64], whose
     """Return the index of a sample beside the motion of its neighbours if samples come from two motions; else None.
 
     If two publishers alternate, the samples of each alone are smooth, and the offset between the two motions changes
-    slowly. A jump, a corner or noise has one of these properties, but not both.
-
-    Args:
-        stamps_ns: stamps in ascending order, (T,).
-        values: positions and quaternions, (T, 7).
-        whose: topic of each sample, (T,). With several topics, only samples between those of another topic are judged.
+    slowly. A jump, a corner or noise has one of these properties, but not both. Stamps ascend, (T,); values are
+    positions and quaternions, (T, 7). ``whose`` is the topic of each sample, (T,). With several topics, only samples
+    between those of another topic are judged.
     """
     if len(stamps_ns) < 7:
         return None

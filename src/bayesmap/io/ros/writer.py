@@ -94,12 +94,8 @@ def container_of(path: str | os.PathLike[str]) -> str:
     return ending
 
 
-def write_channels(
-    path: str | os.PathLike[str],
-    channels: Sequence[Channel],
-    definitions: Callable[[int], dict[str, str]] = lambda ros: {},
-) -> Path:
-    """Write topics as a recording, whole or not at all; ``definitions`` returns message definitions that rosbags lacks.
+def write_channels(path: str | os.PathLike[str], channels: Sequence[Channel]) -> Path:
+    """Write topics as a recording, whole or not at all.
 
     Raises:
         BadInput: another ending, or a file or folder that cannot be written.
@@ -109,8 +105,9 @@ def write_channels(
     ending = container_of(path)
     ros = 1 if ending == ".bag" else 2
     store = get_typestore(Stores.ROS1_NOETIC if ros == 1 else Stores.ROS2_HUMBLE)
-    for name, text in definitions(ros).items():
-        store.register(get_types_from_msg(text, name))
+    # The messages of the package grid_map_msgs, which rosbags lacks.
+    info, whole = (_HEADER + _INFO, _MAP) if ros == 1 else (_INFO, _HEADER + _MAP)
+    store.register(get_types_from_msg(info, GRID_MAP_INFO) | get_types_from_msg(whole, GRID_MAP))
     target = Path(path)
     if ending == FOLDER:
         # The bag names its file after its folder, so it is made in a folder of the right name, and moved.
@@ -284,12 +281,7 @@ def write_grid_map(
             data=[_matrix(store, values) for values in checked.values()], outer_start_index=0, inner_start_index=0,
         )  # fmt: skip
 
-    def definitions(ros: int) -> dict[str, str]:
-        """Return the messages of the package grid_map_msgs, which rosbags lacks."""
-        info, whole = (_HEADER + _INFO, _MAP) if ros == 1 else (_INFO, _HEADER + _MAP)
-        return {GRID_MAP_INFO: info, GRID_MAP: whole}
-
-    return write_channels(path, [Channel("/grid_map", GRID_MAP, [(stamp_s, message)])], definitions)
+    return write_channels(path, [Channel("/grid_map", GRID_MAP, [(stamp_s, message)])])
 
 
 def _matrix(store: Typestore, values: NDArray[np.float32]) -> Any:

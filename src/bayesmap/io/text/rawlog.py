@@ -46,6 +46,7 @@ BY_ODOMETRY = 0
 
 CLASS = re.compile(rb"(?:mrpt::\w+::)?(C(?:Observation|Action|SensoryFrame|Rawlog|Pose)\w*)")
 """Pattern of the names of classes whose objects are searched for."""
+NAME, LONGEST_NAME = re.compile(rb"(?:mrpt::\w+::)?(C\w*)"), 120
 
 
 class Unknown(Exception):
@@ -92,29 +93,16 @@ class RawScan:
     odometry: Floats | None = None
 
 
-def header_at(data: bytes, at: int) -> Header | None:
-    """Return the header of an object that begins at a byte; None if none does."""
-    match = CLASS.match(data, at + 1) or CLASS.match(data, at + 4)
-    return None if match is None else header_of(data, match)
-
-
-def header_of(data: bytes, match: re.Match[bytes]) -> Header | None:
-    """Return the header around a class name that `CLASS` matches; None if there is no header."""
-    start, first = match.start(), data[match.start() - 1] if match.start() else 0
-    if first & 0x80:
-        end = start + (first & 0x7F)
-        whole = CLASS.fullmatch(data, start, end)
-        if whole is None or end >= len(data):
-            return None
-        return Header(whole[1].decode(), data[end], end + 1, True)
-    if start < 4:
+def object_at(data: bytes, at: int, names: re.Pattern[bytes]) -> Header | None:
+    """Return the header of an object that begins at a byte, if its class is one of ``names``; else None."""
+    flagged = at < len(data) and data[at] & 0x80
+    start = at + (1 if flagged else 4)
+    length = data[at] & 0x7F if flagged else int.from_bytes(data[at:start], "little")
+    end, size = start + length, 1 if flagged else 4
+    name = names.fullmatch(data, start, end) if length <= LONGEST_NAME else None
+    if name is None or end + size > len(data):
         return None
-    (length,) = struct.unpack_from("<i", data, start - 4)
-    whole = CLASS.fullmatch(data, start, start + max(length, 0))
-    if whole is None or start + length + 4 > len(data):
-        return None
-    (version,) = struct.unpack_from("<i", data, start + length)
-    return Header(whole[1].decode(), version, start + length + 4, False)
+    return Header(name[1].decode(), int.from_bytes(data[end : end + size], "little"), end + size, bool(flagged))
 
 
 class Reader:
@@ -153,15 +141,12 @@ class Reader:
 
     def header(self, *names: str) -> Header:
         """Return the header of an object within this one, which must belong to one of the classes ``names``."""
-        first = self.data[self.at] if self.at < len(self.data) else 0
-        start = self.at + (1 if first & 0x80 else 4)
-        length = first & 0x7F if first & 0x80 else int.from_bytes(self.data[self.at : start], "little")
-        name = self.data[start : start + min(length, 120)].rpartition(b"::")[2].decode("ascii", "replace")
-        if name not in names:
+        header = object_at(self.data, self.at, NAME)
+        if header is None or header.name not in names:
+            name = "" if header is None else header.name
             raise Unknown(f"holds {name!r} where {' or '.join(names)} is expected")
-        self.at = start + length
-        version = int(self.number("B" if first & 0x80 else "i"))
-        return Header(name, version, self.at, bool(first & 0x80))
+        self.at = header.data
+        return header
 
     def end(self, header: Header) -> None:
         """Check the end mark of an object within this one."""
@@ -330,7 +315,7 @@ COLLECTION = "CActionCollection"
 def starts_as_rawlog(path: Path) -> bool:
     """Return true if a file, gzipped or not, begins with an object of MRPT's."""
     try:
-        return header_at(next(file_chunks(path), b"")[:200], 0) is not None
+        return object_at(next(file_chunks(path), b"")[:200], 0, CLASS) is not None
     except BadInput:
         return False
 
@@ -410,7 +395,8 @@ class _Objects:
         self.read_until = 0
         self.latest: tuple[float, Floats] | None = None
         for match in CLASS.finditer(data):
-            header = header_of(data, match)
+            at = match.start() - (1 if match.start() and data[match.start() - 1] & 0x80 else 4)
+            header = object_at(data, at, CLASS) if at >= 0 else None
             if header is None or header.data <= self.read_until or header.name.startswith("CPose"):
                 continue
             account.counts[header.name] += 1
