@@ -43,13 +43,10 @@ def ros1():
 
 WRITERS = ("rosbag1", "sqlite3", "db3", "mcap-folder", "mcap", "mcap-zstd", "mcap-lz4", "mcap-plain", "mcap-ros1")
 COMPRESSED = {
-    "rosbag1-bz2": Writer1.CompressionFormat.BZ2,
-    "rosbag1-lz4": Writer1.CompressionFormat.LZ4,
-    "db3-messages": CompressionMode.MESSAGE,
-    "db3-file": CompressionMode.FILE,
-    "mcap-messages": CompressionMode.MESSAGE,
-    "mcap-file": CompressionMode.FILE,
-}
+    "rosbag1-bz2": Writer1.CompressionFormat.BZ2, "rosbag1-lz4": Writer1.CompressionFormat.LZ4,
+    "db3-messages": CompressionMode.MESSAGE, "db3-file": CompressionMode.FILE,
+    "mcap-messages": CompressionMode.MESSAGE, "mcap-file": CompressionMode.FILE,
+}  # fmt: skip
 """Bags whose chunks are compressed, and single files of a folder whose messages, or which themselves, are."""
 
 
@@ -183,34 +180,22 @@ def _mcap_ros2(path, messages, compression):
 
 
 def _mcap_ros1(path, messages, _):
-    from mcap_ros1._vendor.genpy.dynamic import generate_dynamic
-    from mcap_ros1.writer import Writer
+    from mcap.writer import Writer
 
     path.mkdir(parents=True, exist_ok=True)
     file = path / "recording.mcap"
     with file.open("wb") as out:
-        bag, classes = Writer(out), {}
+        bag, channels = Writer(out), {}
+        bag.start("ros1")
         for topic, kind, seconds, message in messages:
-            old = kind.replace("/msg/", "/")
-            if old not in classes:
-                classes[old] = generate_dynamic(old, ros1().generate_msgdef(kind)[0])
-            bag.write_message(topic, _genpy(classes[old], classes[old][old](), message), log_time=ns(seconds))
+            if topic not in channels:
+                text = ros1().generate_msgdef(kind)[0].encode()
+                schema = bag.register_schema(kind.replace("/msg/", "/"), "ros1msg", text)
+                channels[topic] = bag.register_channel(topic, "ros1", schema)
+            data = ros1().serialize_ros1(_built(ros1(), kind, message), kind)
+            bag.add_message(channels[topic], ns(seconds), data, ns(seconds))
         bag.finish()
     return file
-
-
-def _genpy(classes, empty, message):
-    for name, value in message.items():
-        if name == "stamp":
-            empty.stamp.secs, empty.stamp.nsecs = value["sec"], value["nanosec"]
-        elif isinstance(value, dict):
-            _genpy(classes, getattr(empty, name), value)
-        elif isinstance(value, list) and value and isinstance(value[0], dict):
-            kind = next(c for n, c in classes.items() if n.endswith("TransformStamped"))
-            setattr(empty, name, [_genpy(classes, kind(), entry) for entry in value])
-        else:
-            setattr(empty, name, value)
-    return empty
 
 
 def _built(store, kind, message):

@@ -1,14 +1,30 @@
+"""Exports: endings and formats; GeoTIFF by rasterio and without it; recordings for rerun by rerun's own reader."""
+
+import builtins
 import os
+import zlib
 from typing import get_args
 
 import numpy as np
 import pytest
-from map_case import BinaryRun, ReflectivityRun, observed, occupancy, scans
+from map_case import GRID, BinaryRun, ReflectivityRun, observed, occupancy, scans
+from PIL import Image
 from recorded import READERS
 
 from bayesmap.cli.keys import Export
 from bayesmap.errors import BadInput
-from bayesmap.io.exports import FORMATS, existing, export_format, export_run, layers_of
+from bayesmap.io.exports import (
+    FORMATS,
+    UNKNOWN_COLOR,
+    existing,
+    export_format,
+    export_run,
+    layers_of,
+    to_pixels,
+    write_geotiff,
+    write_rerun,
+)
+from bayesmap.space.trajectory import Trajectory
 
 NEEDS = {"geotiff": "rasterio", "rerun": "rerun"}
 
@@ -105,3 +121,147 @@ def test_a_folder_that_is_none_is_named(tmp_path, name):
         with pytest.raises(BadInput, match="cannot be written"):
             export_run(folder / name, BinaryRun(), scans())
     assert [path.name for path in tmp_path.iterdir()] == ["file"]
+
+
+LAYERS = {"mean": occupancy(), "entropy": 1 - occupancy()}
+
+
+def expected(values):
+    """Rows from the top, NaN where no beam reached."""
+    return np.where(observed(), values, np.nan).T[::-1].astype(np.float32)
+
+
+def test_rasterio_finds_every_value_at_its_place(tmp_path):
+    rasterio = pytest.importorskip("rasterio")
+    path = write_geotiff(tmp_path / "floor.tif", LAYERS, GRID, observed())
+    with rasterio.open(path) as file:
+        assert file.descriptions == ("mean", "entropy")
+        assert file.dtypes == ("float32", "float32")
+        assert np.isnan(file.nodata)
+        assert tuple(file.bounds) == (-1.5, 2.0, -0.25, 2.75)
+        assert file.crs is None
+        places = [(x, y) for x in GRID.centers_m()[0] for y in GRID.centers_m()[1]]
+        found = np.array(list(file.sample(places))).reshape(5, 3, 2)
+        np.testing.assert_array_equal(file.read_masks(1), np.where(np.isnan(expected(occupancy())), 0, 255))
+    for band, values in enumerate(LAYERS.values()):
+        np.testing.assert_array_equal(found[..., band], np.where(observed(), values, np.nan).astype(np.float32))
+
+
+def test_the_same_without_the_library_that_wrote_it(tmp_path):
+    """Pillow reads the tags, zlib the strips."""
+    pytest.importorskip("rasterio")
+    path = write_geotiff(tmp_path / "floor.tif", LAYERS, GRID, observed())
+    with open(path, "rb") as file:
+        assert file.read(4) in (b"II*\0", b"MM\0*")
+    content = path.read_bytes()
+    with Image.open(path) as image:
+        tags = dict(image.tag_v2)
+    assert (tags[256], tags[257], tags[258], tags[339]) == (5, 3, (32, 32), (3, 3))  # width, height, bits, floats
+    assert tags[284] == 2  # band after band
+    assert tags[33550] == (0.25, 0.25, 0.0)  # ModelPixelScale
+    assert tags[33922] == (0.0, 0.0, 0.0, -1.5, 2.75, 0.0)  # ModelTiepoint: the upper-left corner
+    assert tags[42113] == "nan"  # GDAL_NODATA
+    strips = [zlib.decompress(content[at : at + size]) for at, size in zip(tags[273], tags[279], strict=True)]
+    values = np.frombuffer(b"".join(strips), dtype="<f4" if content[:2] == b"II" else ">f4").reshape(2, 3, 5)
+    np.testing.assert_array_equal(values, [expected(layer) for layer in LAYERS.values()])
+
+
+def columns_of(path):
+    """Every column of the recording, by entity and component, as lists of rows."""
+    chunk = pytest.importorskip("rerun.chunk")
+    found = {}
+    for piece in chunk.RrdReader(path).stream():
+        batch = piece.to_record_batch()
+        for name, column in zip(batch.schema.names, batch.columns, strict=True):
+            found.setdefault((piece.entity_path, name), []).extend(column.to_pylist())
+    return found
+
+
+def find(columns, entity, ending):
+    (rows,) = [rows for (at, name), rows in columns.items() if at == entity and name.endswith(ending)]
+    return rows
+
+
+def test_the_layers_numbers_come_back(tmp_path):
+    columns = columns_of(write_rerun(tmp_path / "floor.rrd", LAYERS, GRID, observed()))
+    for name, values in LAYERS.items():
+        ((tensor,),) = find(columns, f"/values/{name}", "Tensor:data")
+        assert tensor["shape"] == [3, 5]
+        np.testing.assert_array_equal(
+            np.reshape(tensor["buffer"], (3, 5)), np.where(observed(), values, np.nan).T[::-1].astype(np.float32)
+        )
+
+
+def test_pictures_are_upright_and_show_walls_dark_uncertainty_bright_and_the_unknown_as_neither(tmp_path):
+    columns = columns_of(write_rerun(tmp_path / "floor.rrd", LAYERS, GRID, observed()))
+    pictures = {}
+    for name in LAYERS:
+        ((buffer,),) = find(columns, f"/map/{name}", "Image:buffer")
+        ((about,),) = find(columns, f"/map/{name}", "Image:format")
+        assert (about["width"], about["height"]) == (5, 3)
+        pictures[name] = np.array(buffer, dtype=np.uint8).reshape(3, 5, 3).astype(int)
+    seen, values = observed().T[::-1], occupancy().T[::-1]
+    rising = np.argsort(values[seen])
+    assert (np.diff(pictures["mean"].sum(axis=-1)[seen][rising]) < 0).all()
+    assert (np.diff(pictures["entropy"][..., 0][seen][rising]) < 0).all()  # of 1 - p
+    for picture in pictures.values():
+        np.testing.assert_array_equal((picture == UNKNOWN_COLOR).all(axis=-1), ~seen)
+
+
+def test_scans_lie_on_the_picture_at_their_numbers_and_times(tmp_path):
+    log = scans()
+    columns = columns_of(write_rerun(tmp_path / "floor.rrd", LAYERS, GRID, scans=log))
+    at = find(columns, "/sensor", "Points2D:positions")
+    np.testing.assert_allclose(np.concatenate(at), to_pixels(log.poses[:, :2], GRID), atol=1e-6)
+    ends = find(columns, "/scan", "Points2D:positions")
+    assert [len(points) for points in ends] == [1, 2, 0]
+    np.testing.assert_allclose(np.concatenate(ends[:2]), to_pixels(log.hit_points_world(), GRID), atol=1e-6)
+    assert find(columns, "/scan", "scan") == [0, 1, 2]
+    ((line,),) = find(columns, "/trajectory", "LineStrips2D:strips")
+    assert len(line) == 3
+    # From the numbers alone: the first pose is 0.1 m from the left edge and 0.65 m under the top.
+    np.testing.assert_allclose(line[0], [0.4, 2.6], atol=1e-6)
+
+
+def test_stamps_that_count_from_a_start_are_durations(tmp_path):
+    for stamps, kind in (((1.0, 2.0, 3.0), "duration"), ((1e9, 1e9 + 1, 1e9 + 2), "timestamp"), (None, None)):
+        path = write_rerun(tmp_path / "floor.rrd", LAYERS, GRID, scans=scans(stamps))
+        chunk = pytest.importorskip("rerun.chunk")
+        types = {
+            str(field.type)
+            for piece in chunk.RrdReader(path).stream()
+            for field in piece.to_record_batch().schema
+            if field.name == "stamp"
+        }
+        assert len(types) == (kind is not None)
+        assert all(kind in text for text in types)
+
+
+def test_a_trajectory_is_drawn_with_its_ellipses(tmp_path):
+    poses = np.array([[-1.0, 2.2, 0.0], [-0.5, 2.6, 1.0]])
+    covariances = np.stack([np.diag([0.01, 0.04, 0.01]), np.diag([0.01, 0.01, 0.01])])
+    there = Trajectory(poses, covariances=covariances)
+    columns = columns_of(write_rerun(tmp_path / "walk.rrd", LAYERS, GRID, trajectory=there))
+    ((line,),) = find(columns, "/trajectory", "LineStrips2D:strips")
+    np.testing.assert_allclose(line, to_pixels(poses[:, :2], GRID), rtol=1e-6)
+    (outlines,) = find(columns, "/ellipses", "LineStrips2D:strips")
+    assert len(outlines) == 2
+    width, height = np.ptp(np.array(outlines[0]), axis=0)
+    assert height / width == pytest.approx(2.0, rel=0.02)
+
+
+@pytest.mark.parametrize(
+    ("library", "extra", "write"), [("rasterio", "geotiff", write_geotiff), ("rerun", "rerun", write_rerun)]
+)
+def test_without_the_library_the_remedy_is_named(tmp_path, monkeypatch, library, extra, write):
+    real = builtins.__import__
+
+    def absent(name, *rest, **named):
+        if name.split(".")[0] == library:
+            raise ImportError(name)
+        return real(name, *rest, **named)
+
+    monkeypatch.setattr(builtins, "__import__", absent)
+    with pytest.raises(BadInput, match=rf"pip install 'bayesmap\[{extra}\]'"):
+        write(tmp_path / "floor", LAYERS, GRID)
+    assert list(tmp_path.iterdir()) == []

@@ -1,4 +1,7 @@
-"""Recordings that cannot be used: one sentence that says what is there and what to give; nothing else is raised."""
+"""Recordings that cannot be used: one sentence that says what is there and what to give; nothing else is raised.
+
+Whatever their bytes are, they are read or refused, and no warning is given.
+"""
 
 import math
 import sqlite3
@@ -6,12 +9,14 @@ import sqlite3
 import numpy as np
 import pytest
 import recordings as r
+from tiers import full_but, pairs_but
 
 import bayesmap as bm
+from bayesmap.io.contents import contents_of
 from bayesmap.io.logs import describe_log, read_log
 from bayesmap.io.ros.recording import zstd
 
-CONTAINERS = ("rosbag1", "db3", "mcap", "mcap-zstd", "mcap-lz4", "mcap-ros1")
+CONTAINERS = ("rosbag1", "db3", "mcap", "mcap-zstd", "mcap-lz4", "mcap-plain", "mcap-ros1")
 
 
 @pytest.fixture(scope="module")
@@ -252,3 +257,44 @@ def test_topics_mean_nothing_to_a_carmen_log(tmp_path):
     path = tmp_path / "robot.log"
     path.write_text("FLASER 3 1.0 2.0 1.5 0.1 0 0 0.1 0 0 1 host 1\n")
     assert "a carmen file has no topics" in r.refused(path, scan_topic="/scan")
+
+
+def tries(many, few, *landing):
+    """Return cases of writers with many tries, and of the landing run's writers with few."""
+    short = [(writer, few) for writer in landing]
+    return pairs_but([*((writer, many) for writer in CONTAINERS), *short], *short)
+
+
+@pytest.mark.parametrize(("writer", "count"), tries(40, 12, "rosbag1", "mcap"))
+def test_recordings_cut_anywhere(whole, tmp_path, writer, count):
+    content = whole[writer].read_bytes()
+    ends = np.random.default_rng(0).integers(0, len(content), count)
+    for end in [*ends, 1, 12, 13, 20, len(content) - 1, len(content) - 9]:
+        r.read_or_refused(tmp_path / "cut", content[:end])
+
+
+@pytest.mark.parametrize(("writer", "count"), tries(60, 16, "mcap-zstd", "mcap-plain"))
+def test_recordings_with_some_bytes_changed_inserted_or_removed(whole, tmp_path, writer, count):
+    rng, intact = np.random.default_rng(1), whole[writer].read_bytes()
+    for i in range(count):
+        content, at = bytearray(intact), int(rng.integers(len(intact)))
+        for _ in range(rng.integers(1, 6)):
+            content[rng.integers(len(content))] ^= 1 << rng.integers(8)
+        inserted, removed = intact[:at] + rng.bytes(5) + intact[at:], intact[:at] + intact[at + 9 :]
+        r.read_or_refused(tmp_path / "damaged", (bytes(content), inserted, bytes(content), removed)[i % 4])
+
+
+@pytest.mark.parametrize("writer", full_but(CONTAINERS, "db3", "mcap-ros1"))
+def test_looking_into_damaged_recordings(whole, tmp_path, writer):
+    rng, intact = np.random.default_rng(3), whole[writer].read_bytes()
+    path = tmp_path / "damaged"
+    for _ in range(15):
+        content = bytearray(intact[: rng.integers(len(intact))])
+        if content:
+            content[rng.integers(len(content))] ^= 0xFF
+        path.write_bytes(content)
+        try:
+            found = contents_of(path).path
+        except bm.BadInput as problem:
+            found = str(problem)
+        assert found.startswith(str(path))

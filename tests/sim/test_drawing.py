@@ -1,11 +1,15 @@
+"""Walls as text and as pictures."""
+
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
+from PIL import Image
 
 from bayesmap.errors import BadInput
 from bayesmap.sim.drawing import DRAWING, TUTORIAL_GRID, from_text, to_text, tutorial
+from bayesmap.worlds import from_image, from_map_image, from_occupancy
 
 maps = hnp.arrays(bool, hnp.array_shapes(min_dims=2, max_dims=2, min_side=1, max_side=12))
 
@@ -57,3 +61,118 @@ def test_the_tutorial_s_walls_are_indexed_as_it_indexes_them():
     assert TUTORIAL_GRID.cell_at(10.2, 9.8) == (10, 10)
     walls[:] = True
     assert not tutorial()[0].all()  # each call gives arrays of its own
+
+
+pictures = hnp.arrays(np.uint8, hnp.array_shapes(min_dims=2, max_dims=2, min_side=1, max_side=9))
+
+
+def picture_with_a_dark_top_left_corner():
+    image = np.full((3, 5), 255, dtype=np.uint8)  # 3 rows, 5 columns
+    image[0, 0] = 0
+    return image
+
+
+def test_the_top_left_of_a_picture_is_low_x_high_y():
+    walls = from_image(picture_with_a_dark_top_left_corner())
+    assert walls.shape == (5, 3)
+    assert np.argwhere(walls).tolist() == [[0, 2]]
+
+
+def test_row_zero_of_an_occupancy_grid_is_the_bottom():
+    cells = np.zeros((3, 5), dtype=np.int8)
+    cells[0, 4] = 100
+    walls, grid = from_occupancy(cells, 0.05, origin=(-1.0, 2.0))
+    assert np.argwhere(walls).tolist() == [[4, 0]]
+    assert (grid.shape, grid.resolution, grid.origin) == ((5, 3), 0.05, (-1.0, 2.0))
+
+
+@given(pictures)
+def test_files_pil_images_and_arrays_agree(tmp_path_factory, picture):
+    path = tmp_path_factory.mktemp("image") / "map.png"
+    Image.fromarray(picture).save(path)
+    walls = from_image(picture)
+    np.testing.assert_array_equal(from_image(path), walls)
+    np.testing.assert_array_equal(from_image(str(path)), walls)
+    np.testing.assert_array_equal(from_image(Image.fromarray(picture)), walls)
+    np.testing.assert_array_equal(from_image(picture / 255.0), walls)
+    np.testing.assert_array_equal(from_image(np.dstack([picture] * 3)), walls)
+
+
+def test_a_pixel_is_a_wall_below_the_threshold():
+    greys = np.array([[0.0, 0.29, 0.31, 1.0]])
+    np.testing.assert_array_equal(from_image(greys, threshold=0.3)[:, 0], [True, True, False, False])
+
+
+def test_transparent_pixels_are_free():
+    black_but_clear = np.zeros((1, 2, 4), dtype=np.uint8)
+    black_but_clear[0, 1, 3] = 255
+    np.testing.assert_array_equal(from_image(black_but_clear)[:, 0], [False, True])
+
+
+def test_black_and_white_images_are_read():
+    image = Image.fromarray(np.array([[True, False]]))
+    assert image.mode == "1"
+    np.testing.assert_array_equal(from_image(image)[:, 0], [False, True])
+
+
+def test_map_server_greys_are_occupied_unknown_free():
+    image = np.array([[0, 130, 205, 254]], dtype=np.uint8)  # darkness 1, .49, .196, .004
+    walls, _ = from_map_image(image, 0.1, free_thresh=0.196)
+    np.testing.assert_array_equal(walls[:, 0], [True, False, False, False])
+    walls, _ = from_map_image(image, 0.1, free_thresh=0.19, unknown_is_wall=True)
+    np.testing.assert_array_equal(walls[:, 0], [True, True, True, False])
+
+
+@given(pictures)
+def test_negate_swaps_black_and_white(picture):
+    plain, _ = from_map_image(picture, 0.1)
+    negated, _ = from_map_image(255 - picture, 0.1, negate=True)
+    np.testing.assert_array_equal(plain, negated)
+
+
+def test_unknown_cells_are_free_unless_asked_for():
+    cells = [[-1, 0, 100, 50, 51]]
+    np.testing.assert_array_equal(from_occupancy(cells, 0.1)[0][:, 0], [False, False, True, False, True])
+    np.testing.assert_array_equal(
+        from_occupancy(cells, 0.1, unknown_is_wall=True)[0][:, 0], [True, False, True, False, True]
+    )
+
+
+@pytest.mark.parametrize(
+    ("cells", "says"),
+    [
+        ([[0, 101]], "row 0, column 1 is 101"),
+        ([[0], [-2]], "row 1, column 0 is -2"),
+        ([[float("nan")]], "row 0, column 0 is nan"),
+        ([0, 100], "info.height and info.width"),
+        ([["wall"]], "array of numbers"),
+    ],
+)
+def test_a_bad_occupancy_grid_is_refused_with_its_place(cells, says):
+    with pytest.raises(BadInput) as error:
+        from_occupancy(cells, 0.1)
+    assert says in str(error.value)
+
+
+@pytest.mark.parametrize(
+    "image", [np.zeros(4), np.zeros((2, 2, 2)), np.full((2, 2), 1.5), np.full((2, 2), np.nan), np.zeros((0, 3))]
+)
+def test_an_array_that_is_no_picture_is_refused(image):
+    with pytest.raises(BadInput, match="image:"):
+        from_image(image)
+
+
+def test_a_file_that_is_no_picture_is_refused_by_name(tmp_path):
+    path = tmp_path / "map.png"
+    path.write_text("no picture")
+    with pytest.raises(BadInput, match=r"map\.png: cannot be read as an image"):
+        from_image(path)
+    with pytest.raises(BadInput, match=r"absent\.png"):
+        from_image(tmp_path / "absent.png")
+
+
+def test_thresholds_out_of_order_are_refused():
+    with pytest.raises(BadInput, match="free_thresh < occupied_thresh"):
+        from_map_image(np.zeros((2, 2)), 0.1, occupied_thresh=0.2, free_thresh=0.3)
+    with pytest.raises(BadInput, match="threshold"):
+        from_image(np.zeros((2, 2)), threshold=1.0)

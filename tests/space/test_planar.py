@@ -5,18 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from bayesmap.space.planar import (
-    around,
-    between,
-    between_jacobians,
-    compose,
-    interpolate,
-    inverse,
-    nearest,
-    retract,
-    transform,
-    wrapped,
-)  # fmt: skip
+from bayesmap.space import planar as p
 
 NUMBER = st.floats(-50, 50)
 POSE = st.tuples(NUMBER, NUMBER, NUMBER).map(np.array)
@@ -29,29 +18,29 @@ def matrix(pose):
 
 @given(POSE, POSE)
 def test_composition_is_that_of_matrices(a, b):
-    np.testing.assert_allclose(matrix(compose(a, b)), matrix(a) @ matrix(b), atol=1e-9)
+    np.testing.assert_allclose(matrix(p.compose(a, b)), matrix(a) @ matrix(b), atol=1e-9)
 
 
 @given(POSE)
 def test_a_pose_and_its_inverse_cancel(a):
-    np.testing.assert_allclose(matrix(compose(a, inverse(a))), np.eye(3), atol=1e-9)
-    np.testing.assert_allclose(matrix(inverse(a)), np.linalg.inv(matrix(a)), atol=1e-9)
+    np.testing.assert_allclose(matrix(p.compose(a, p.inverse(a))), np.eye(3), atol=1e-9)
+    np.testing.assert_allclose(matrix(p.inverse(a)), np.linalg.inv(matrix(a)), atol=1e-9)
 
 
 @given(POSE, POSE)
 def test_between_leads_from_one_to_the_other(a, b):
-    np.testing.assert_allclose(matrix(compose(a, between(a, b))), matrix(b), atol=1e-9)
+    np.testing.assert_allclose(matrix(p.compose(a, p.between(a, b))), matrix(b), atol=1e-9)
 
 
 @pytest.mark.parametrize(("angle", "same"), [(np.pi, -np.pi), (-np.pi, -np.pi), (7.0, 7.0 - 2 * np.pi), (0.5, 0.5)])
 def test_angles_are_wrapped_into_one_turn(angle, same):
-    assert wrapped(np.array(angle)) == pytest.approx(same)
+    assert p.wrapped(np.array(angle)) == pytest.approx(same)
 
 
 def test_interpolated_poses_pass_through_the_given_ones_and_turn_the_short_way():
     stamps = np.array([0.0, 1.0, 1.0, 3.0])
     poses = np.array([[0, 0, 3.0], [1, 0, -3.0], [1, 1, -3.0], [3, 1, -3.0]], dtype=float)
-    found = interpolate(stamps, poses, np.array([-1.0, 0.0, 0.5, 1.0, 2.0, 9.0]))
+    found = p.interpolate(stamps, poses, np.array([-1.0, 0.0, 0.5, 1.0, 2.0, 9.0]))
     np.testing.assert_allclose(found[[0, 1, 3, 5]], poses[[0, 0, 2, 3]], atol=1e-12)
     assert abs(abs(found[2, 2]) - np.pi) < 1e-9
     np.testing.assert_allclose(found[4], [2.0, 1.0, -3.0], atol=1e-12)
@@ -59,22 +48,22 @@ def test_interpolated_poses_pass_through_the_given_ones_and_turn_the_short_way()
 
 @pytest.mark.parametrize("count", [1, 2])
 def test_one_pose_holds_at_all_times(count):
-    found = interpolate(np.zeros(count), np.tile([[1.0, 2.0, 0.5]], (count, 1)), np.array([-1.0, 0.0, 1.0]))
+    found = p.interpolate(np.zeros(count), np.tile([[1.0, 2.0, 0.5]], (count, 1)), np.array([-1.0, 0.0, 1.0]))
     np.testing.assert_allclose(found, [[1.0, 2.0, 0.5]] * 3)
 
 
 def test_neighbours_are_those_before_and_after_and_the_two_at_the_end_outside():
-    before, after = around(np.array([1.0, 2.0, 4.0]), np.array([0.0, 1.5, 2.0, 3.0, 9.0]))
+    before, after = p.around(np.array([1.0, 2.0, 4.0]), np.array([0.0, 1.5, 2.0, 3.0, 9.0]))
     assert before.tolist() == [0, 0, 0, 1, 1]
     assert after.tolist() == [1, 1, 1, 2, 2]
     alone = np.array([5]), np.array([1, 5, 9])
-    assert [index.tolist() for index in (*around(*alone), nearest(*alone))] == [[0, 0, 0]] * 3
+    assert [index.tolist() for index in (*p.around(*alone), p.nearest(*alone))] == [[0, 0, 0]] * 3
 
 
 @given(st.lists(st.integers(-50, 50), min_size=1, max_size=8, unique=True), st.integers(-60, 60))
 def test_the_nearest_is_the_nearest_of_all_and_of_two_the_earlier(known, wanted):
     known = np.sort(known)
-    assert nearest(known, np.array([wanted]))[0] == np.argmin(np.abs(known - wanted))
+    assert p.nearest(known, np.array([wanted]))[0] == np.argmin(np.abs(known - wanted))
 
 
 A, B = np.random.default_rng(5).normal(0.0, 2.0, (2, 20, 3))
@@ -82,13 +71,13 @@ A, B = np.random.default_rng(5).normal(0.0, 2.0, (2, 20, 3))
 
 def test_points_follow_their_pose():
     points = np.random.default_rng(6).normal(size=(20, 2))
-    np.testing.assert_allclose(transform(A, transform(B, points)), transform(compose(A, B), points), atol=1e-12)
+    np.testing.assert_allclose(p.transform(A, p.transform(B, points)), p.transform(p.compose(A, B), points), atol=1e-12)
 
 
 def test_jacobians_of_a_relative_pose_equal_finite_differences():
-    by_a, by_b = between_jacobians(between(A, B))
+    by_a, by_b = p.between_jacobians(p.between(A, B))
     for k, h in enumerate(np.eye(3) * 1e-6):
-        change_a = (between(retract(A, h), B) - between(retract(A, -h), B)) / 2e-6
-        change_b = (between(A, retract(B, h)) - between(A, retract(B, -h))) / 2e-6
+        change_a = (p.between(p.retract(A, h), B) - p.between(p.retract(A, -h), B)) / 2e-6
+        change_b = (p.between(A, p.retract(B, h)) - p.between(A, p.retract(B, -h))) / 2e-6
         np.testing.assert_allclose(by_a[..., k], change_a, atol=1e-7)
         np.testing.assert_allclose(by_b[..., k], change_b, atol=1e-7)

@@ -28,29 +28,17 @@ CONVERTERS = {
 
 @dataclass(frozen=True, eq=False)
 class Contents:
-    """The contents of a file or folder, ready for JSON.
-
-    Attributes:
-        path: the file or folder.
-        format: name of the format, as in `LogReading`.
-        start_s, end_s: the first and the last time in seconds; None without times.
-        topics: name, type, count and rate of each topic of a recording; name and count of each message of a log.
-        frames: frames in /tf of a recording.
-        sensors: for each source of scans, a summary of the scans and their poses.
-        pose_sources: topics of a recording with poses.
-        suggestion: command that infers a map from the file; None if there is none.
-        notes: sentences for the user.
-    """
+    """The contents of a file or folder, ready for JSON, and sentences for the user."""
 
     path: str
-    format: str
-    start_s: float | None
+    format: str  # as in `LogReading`
+    start_s: float | None  # first time in seconds; None without times
     end_s: float | None
-    topics: list[dict[str, Any]]
-    frames: list[str] = field(default_factory=list)
-    sensors: list[dict[str, Any]] = field(default_factory=list)
-    pose_sources: list[dict[str, Any]] = field(default_factory=list)
-    suggestion: str | None = None
+    topics: list[dict[str, Any]]  # name, type, count and rate; in a log, name and count of each message
+    frames: list[str] = field(default_factory=list)  # in /tf of a recording
+    sensors: list[dict[str, Any]] = field(default_factory=list)  # a summary of scans and poses for each source
+    pose_sources: list[dict[str, Any]] = field(default_factory=list)  # topics of a recording with poses
+    suggestion: str | None = None  # command that infers a map from the file
     notes: tuple[str, ...] = ()
 
 

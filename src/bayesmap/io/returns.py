@@ -127,7 +127,9 @@ def decode(
     readings_m: NDArray[np.float64], given: float | None = None, sensor_max_m: float | None = None,
     views: Views | None = None,
 ) -> tuple[NDArray[np.float64], NoReturn]:  # fmt: skip
-    """Replace the codes of a log by those of REP-117.
+    """Replace the codes of a log by those of REP-117. Returns the ranges, (S, A), and the no-return code.
+
+    Ranges are +inf for no return, and NaN for numbers that cannot be ranges.
 
     Args:
         readings_m: raw numbers, shape (S, A); NaN and infinities keep their meaning.
@@ -135,10 +137,6 @@ def decode(
         sensor_max_m: maximum range that the log states, or None. This and larger readings are no return, even if they
             are not repeated.
         views: places and directions of the readings; None if they are not known.
-
-    Returns:
-        The ranges, shape (S, A), with +inf for no return and NaN for numbers that cannot be ranges; and the no-return
-        code.
 
     Raises:
         BadInput: ``given`` is NaN or minus infinity.

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from bayesmap.errors import BadInput
+from bayesmap.space.cell_arrays import as_array
 from bayesmap.space.planar import between, compose
 
 MOST_TURNS = 1.1
@@ -68,7 +69,7 @@ class Scans:
 
     def __post_init__(self) -> None:
         poses = as_poses(self.poses)
-        ranges = np.atleast_2d(_as_floats(self.ranges_m, "ranges_m"))
+        ranges = np.atleast_2d(as_array(self.ranges_m, "scans: ranges_m"))
         own = self.own_angles_rad
         if own is None and np.ndim(self.angles_rad) == 2:
             own = self.angles_rad
@@ -87,7 +88,7 @@ class Scans:
             "max_range_m": float(self.max_range_m), "min_range_m": float(self.min_range_m),
         }  # fmt: skip
         if self.stamps_s is not None:
-            checked["stamps_s"] = stamps = _as_floats(self.stamps_s, "stamps_s")
+            checked["stamps_s"] = stamps = as_array(self.stamps_s, "scans: stamps_s")
             if stamps.shape != (len(poses),):
                 raise BadInput(f"scans: stamps_s has shape {stamps.shape}, expected ({len(poses)},)")
             if not np.isfinite(stamps).all():
@@ -96,7 +97,7 @@ class Scans:
                     f"scans: stamp of scan {scan} is not finite: {stamps[scan]}; leave stamps_s out if there are none"
                 )
         if self.beam_poses is not None:
-            checked["beam_poses"] = beam_poses = _as_floats(self.beam_poses, "beam_poses")
+            checked["beam_poses"] = beam_poses = as_array(self.beam_poses, "scans: beam_poses")
             if beam_poses.shape != (*ranges.shape, 3):
                 raise BadInput(f"scans: beam_poses has shape {beam_poses.shape}, expected {(*ranges.shape, 3)}")
             if not np.isfinite(beam_poses).all():
@@ -243,7 +244,7 @@ class Scans:
 
 def as_poses(poses: ArrayLike) -> NDArray[np.float64]:
     """Return poses as an (S, 3) array; raise `BadInput` for another shape, or a number that is not finite."""
-    array = np.atleast_2d(_as_floats(poses, "poses"))
+    array = np.atleast_2d(as_array(poses, "scans: poses"))
     if array.ndim != 2 or array.shape[1] != 3:
         raise BadInput(f"scans: poses has shape {array.shape}, expected (S, 3): x, y, yaw")
     if not np.isfinite(array).all():
@@ -254,7 +255,7 @@ def as_poses(poses: ArrayLike) -> NDArray[np.float64]:
 
 def as_angles(angles_rad: ArrayLike) -> NDArray[np.float64]:
     """Return beam angles as an (A,) array; raise `BadInput` for another shape, no angle, or one that is not finite."""
-    array = np.atleast_1d(_as_floats(angles_rad, "angles_rad"))
+    array = np.atleast_1d(as_array(angles_rad, "scans: angles_rad"))
     if array.ndim != 1 or len(array) == 0:
         raise BadInput(f"scans: angles_rad has shape {array.shape}, expected (A,) with at least one beam")
     if not np.isfinite(array).all():
@@ -270,7 +271,7 @@ def _as_own_angles(
 ) -> tuple[NDArray[np.float64], NDArray[np.float64] | None]:
     """Return the angles of the largest scan, (A,), and of each scan, (S, A), or None if all scans have the same."""
     # Check shapes and angles: a missing beam has the angle NaN and the reading NaN.
-    each = _as_floats(own, "angles_rad")
+    each = as_array(own, "scans: angles_rad")
     if each.shape != ranges_m.shape or not each.shape[1]:
         raise BadInput(f"scans: angles_rad has shape {each.shape}, expected (A,) or that of ranges_m, {ranges_m.shape}")
     missing = np.isnan(each)
@@ -289,7 +290,7 @@ def _as_own_angles(
     if len(each) and not missing.any() and (each == each[:1]).all():
         return each[0].copy(), None
     if np.shape(largest) == each.shape[1:]:
-        return _as_floats(largest, "angles_rad"), each
+        return as_array(largest, "scans: angles_rad"), each
     most = each[int((~missing).sum(axis=1).argmax())] if len(each) else np.zeros(each.shape[1])
     most = most[np.isfinite(most)] if np.isfinite(most).any() else np.zeros(1)
     return np.append(most, np.full(each.shape[1] - len(most), most[-1])), each
@@ -347,13 +348,6 @@ def check_limits(min_range_m: float, max_range_m: float) -> None:
         raise BadInput(f"scans: max_range_m must be a positive number of metres, got {max_range_m!r}")
     if not (math.isfinite(min_range_m) and 0 <= min_range_m < max_range_m):
         raise BadInput(f"scans: min_range_m must lie in [0, {max_range_m:g}), got {min_range_m!r}")
-
-
-def _as_floats(values: ArrayLike, name: str) -> NDArray[np.float64]:
-    try:
-        return np.asarray(values, dtype=np.float64)
-    except (TypeError, ValueError) as error:
-        raise BadInput(f"scans: {name} must be an array of numbers: {error}") from None
 
 
 MAX_BEAMS = 100_000  # per scan

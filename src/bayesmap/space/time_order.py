@@ -21,17 +21,13 @@ TURNS = 0.7
 class TimeOrder:
     """The time order of scans.
 
-    Attributes:
-        order: indices of the scans in time order, (S,).
-        stamps_s: stamps in time order, (S,), never falling: after a step back of the clock they continue from the last.
-        steps: indices in the log of the scans before which the clock was set back, ascending.
-        back_s: size of each step back in seconds.
+    Stamps in time order never fall: after a step back of the clock they continue from the last.
     """
 
-    order: NDArray[np.intp]
-    stamps_s: NDArray[np.float64]
-    steps: tuple[int, ...] = ()
-    back_s: tuple[float, ...] = ()
+    order: NDArray[np.intp]  # indices of the scans in time order, (S,)
+    stamps_s: NDArray[np.float64]  # in time order, (S,)
+    steps: tuple[int, ...] = ()  # scans of the log before which the clock was set back, ascending
+    back_s: tuple[float, ...] = ()  # size of each step back in seconds
 
     @property
     def reordered(self) -> int:

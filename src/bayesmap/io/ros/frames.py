@@ -162,17 +162,11 @@ class Chain:
 
 
 class FrameTree:
-    """Frames and the transforms between them.
+    """Frames and the transforms between them, given the samples of transforms by topic, parent and child.
 
-    Args:
-        transforms: samples of transforms by topic, parent and child.
-        ranks: ranks of the topics to use. If several topics place a frame, those of the lowest rank count. None to use
-            all topics, with one rank.
-
-    Attributes:
-        topics: topics in use.
-        notes: sentences for the user about frames with several parents, by frame.
-        rivals: topics that place a frame in different parents, by frame.
+    ``ranks`` are those of the topics to use: if several topics place a frame, those of the lowest rank count. None uses
+    all topics, with one rank. ``topics`` are those in use. If a frame has several parents, ``notes`` has a sentence for
+    the user, and ``rivals`` the topics that place it.
     """
 
     def __init__(

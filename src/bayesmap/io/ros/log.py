@@ -52,21 +52,13 @@ LONGEST_SWEEP_S = 60.0
 
 @dataclass(frozen=True, eq=False)
 class ClockRun:
-    """The messages between two steps of the clock.
+    """The messages between two steps of the clock. Constant transforms hold in all runs."""
 
-    Attributes:
-        scans: scans in the order of receipt.
-        poses: messages of poses, with constant transforms, which hold in all runs.
-        back_ns: size of the step back of the clock before the run; 0 for the first.
-        at_ns: last stamp before the step.
-        last: true if no run follows.
-    """
-
-    scans: list[LaserMessage]
+    scans: list[LaserMessage]  # in the order of receipt
     poses: PoseMessages
-    back_ns: int = 0
-    at_ns: int = 0
-    last: bool = True
+    back_ns: int = 0  # size of the step back of the clock before the run; 0 for the first
+    at_ns: int = 0  # last stamp before the step
+    last: bool = True  # true if no run follows
 
 
 @dataclass(frozen=True, eq=False)

@@ -39,7 +39,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from bayesmap.errors import BadInput
 from bayesmap.files import write_whole
-from bayesmap.space.cell_arrays import as_observed, as_probabilities
+from bayesmap.space.cell_arrays import as_array, as_observed, as_probabilities
 from bayesmap.space.grid import Grid
 
 if TYPE_CHECKING:
@@ -340,10 +340,7 @@ def from_occupancy(
     Raises:
         BadInput: another shape, or a value outside -1..100; the message names the cell.
     """
-    try:
-        array = np.asarray(cells, dtype=np.float64)
-    except (TypeError, ValueError) as error:
-        raise BadInput(f"occupancy: cells must be an array of numbers: {error}") from None
+    array = as_array(cells, "occupancy: cells")
     if array.ndim != 2 or array.size == 0:
         raise BadInput(
             f"occupancy: cells have shape {array.shape}, expected (height, width); "

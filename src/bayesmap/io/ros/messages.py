@@ -41,9 +41,8 @@ from bayesmap.io.ros.recording import (
     stamp_ns_of,
     topics_of_type,
 )  # fmt: skip
-from bayesmap.space.scans import Fan, fan_fault, side_by_side
+from bayesmap.space.scans import MAX_BEAMS, Fan, fan_fault, side_by_side
 
-MAX_BEAMS = 100_000
 SAME_ANGLE_RAD = 1e-5
 """Largest difference of the first and last angles of equal fans: angles are in single precision."""
 
@@ -68,27 +67,16 @@ class Layout(Fan):
 
 @dataclass(frozen=True, eq=False)
 class LaserMessage:
-    """The scan of one message.
+    """The scan of one message."""
 
-    Attributes:
-        number: number of the message on its topic, from 1.
-        received_ns: time of receipt.
-        stamp_ns: time of the first ray; 0 if the driver did not state it.
-        layout: beams and frame of the scan.
-        ranges_m: raw readings, (A,), single precision.
-        limits_m: smallest and largest range.
-        ray_interval_s: time from one ray to the next (``time_increment``).
-        odd: an unusual but acceptable property, in words; "" if there is none.
-    """
-
-    number: int
+    number: int  # on its topic, from 1
     received_ns: int
-    stamp_ns: int
+    stamp_ns: int  # time of the first ray; 0 if the driver did not state it
     layout: Layout
-    ranges_m: NDArray[np.float32]
-    limits_m: tuple[float, float]
-    ray_interval_s: float
-    odd: str = ""
+    ranges_m: NDArray[np.float32]  # raw readings, (A,)
+    limits_m: tuple[float, float]  # smallest and largest range
+    ray_interval_s: float  # from one ray to the next (``time_increment``)
+    odd: str = ""  # an unusual but acceptable property, in words
 
 
 def laser_message(type_name: str, message: Any, number: int, received_ns: int) -> LaserMessage:

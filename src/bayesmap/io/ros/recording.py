@@ -55,47 +55,30 @@ class Message(NamedTuple):
 
 @dataclass(frozen=True)
 class Topic:
-    """A topic of a recording.
-
-    Attributes:
-        name: name, such as ``"/scan"``.
-        type: type of the messages in the ROS 2 spelling, such as ``"sensor_msgs/msg/LaserScan"``.
-        count: number of messages.
-        definition: message definition in the recording; "" if there is none.
-        language: language of the definition: ``"msg"`` or ``"idl"``.
-        encoding: encoding of the messages: ``"cdr"``, ``"ros1"``, or another that cannot be read.
-        md5: ROS 1's MD5 sum over the definition, 32 hexadecimal digits; "" if the recording states none.
-    """
+    """A topic of a recording."""
 
     name: str
-    type: str
-    count: int
-    definition: str = ""
-    language: str = "msg"
-    encoding: str = "cdr"
-    md5: str = ""
+    type: str  # in the ROS 2 spelling, such as ``"sensor_msgs/msg/LaserScan"``
+    count: int  # of messages
+    definition: str = ""  # message definition in the recording; "" if there is none
+    language: str = "msg"  # of the definition: ``"msg"`` or ``"idl"``
+    encoding: str = "cdr"  # ``"cdr"``, ``"ros1"``, or another that cannot be read
+    md5: str = ""  # ROS 1's MD5 sum over the definition, 32 hexadecimal digits; "" if none is stated
 
 
 @dataclass(frozen=True, eq=False)
 class Recording:
-    """An open recording.
+    """An open recording: topics in alphabetical order, times of receipt, and notes for the user.
 
-    Attributes:
-        path: the file or folder.
-        format: ``"rosbag1"``, ``"rosbag2-sqlite3"`` or ``"mcap"``.
-        topics: topics by name, in alphabetical order.
-        read: function that returns the messages on the given topics; it raises `Damaged` if it cannot read them all.
-        start_ns: time of receipt of the first message; None if the container does not state it.
-        end_ns: time of receipt of the last message.
-        notes: sentences for the user, for example that only a part could be read.
+    ``read`` returns the messages on the given topics. It raises `Damaged` if it cannot read them all.
     """
 
     path: str
-    format: str
+    format: str  # ``"rosbag1"``, ``"rosbag2-sqlite3"`` or ``"mcap"``
     topics: Mapping[str, Topic]
     read: Callable[[frozenset[str]], Iterable[Message]]
-    start_ns: int | None = None
-    end_ns: int | None = None
+    start_ns: int | None = None  # of the first message; None if the container does not state it
+    end_ns: int | None = None  # of the last message
     notes: tuple[str, ...] = ()
 
 

@@ -41,7 +41,7 @@ from bayesmap.io.log_reading import WITHOUT_POSES, Account, LogOptions, LogReadi
 from bayesmap.io.returns import Readings, Views, decode, largest_hit_m
 from bayesmap.io.text.lines import log_lines, numbers_in
 from bayesmap.space.planar import between, compose
-from bayesmap.space.scans import Fan, Scans, as_poses, fan_fault, side_by_side
+from bayesmap.space.scans import MAX_BEAMS, Fan, Scans, as_poses, fan_fault, side_by_side
 
 Floats = NDArray[np.float64]
 
@@ -53,7 +53,6 @@ RAW = ("RAWLASER1", "RAWLASER2", "RAWLASER3", "RAWLASER4", "RAWLASER5")
 KNOWN = (*LASERS, "ODOM", "PARAM", "SYNC", "NEFF", "TRUEPOS", "LASER3", "LASER4", "MARKER", *RAW)
 """Messages by which a CARMEN log is recognised."""
 
-MAX_BEAMS = 100_000
 STEP_DEG = {180: 1.0, 181: 1.0, 360: 0.5, 361: 0.5, 400: 0.25, 401: 0.25}
 """Degrees between beams by their number, for messages that do not state it."""
 

@@ -32,7 +32,7 @@ from bayesmap.errors import BadInput
 from bayesmap.io.log_reading import Account, LogOptions, LogReading, Pose, SkippedLine
 from bayesmap.io.text.lines import file_chunks
 from bayesmap.space.planar import compose, interpolate
-from bayesmap.space.scans import fan_fault, side_by_side
+from bayesmap.space.scans import MAX_BEAMS, fan_fault, side_by_side
 from bayesmap.space.time_order import SAME_S
 
 Floats = NDArray[np.float64]
@@ -40,7 +40,6 @@ Floats = NDArray[np.float64]
 END = 0x88
 SECONDS_1601_TO_1970 = 11_644_473_600
 """Stamps count 100 ns from the year 1601."""
-MOST_BEAMS = 100_000
 BY_ODOMETRY = 0
 """MRPT's number for a motion that was estimated by wheel odometry, not by matching scans."""
 
@@ -68,29 +67,17 @@ class Header:
 
 @dataclass(frozen=True, eq=False)
 class RawScan:
-    """A scan of the log.
+    """A scan of the log, with its beams as seen from above, and readings coded where they are not valid."""
 
-    Attributes:
-        label: name of the sensor.
-        stamp_s: seconds since 1970; None if the scan has no stamp.
-        angles_rad: beam angles in the frame of the sensor seen from above, (A,).
-        readings_m: readings, (A,); those that are not valid are coded.
-        mount: pose of the sensor on the robot, in the plane.
-        upright: vertical component of the sensor's z axis.
-        max_range_m: stated largest range.
-        motions: number of the robot's motions before the scan.
-        odometry: last pose of the odometry before the scan, if it has the scan's stamp.
-    """
-
-    label: str
-    stamp_s: float | None
-    angles_rad: Floats
-    readings_m: Floats
-    mount: Pose
-    upright: float
+    label: str  # name of the sensor
+    stamp_s: float | None  # seconds since 1970; None if it is not known
+    angles_rad: Floats  # (A,)
+    readings_m: Floats  # (A,)
+    mount: Pose  # of the sensor on the robot, in the plane
+    upright: float  # vertical component of the sensor's z axis
     max_range_m: float
-    motions: int
-    odometry: Floats | None = None
+    motions: int  # number of the robot's motions before the scan
+    odometry: Floats | None = None  # last pose of the odometry before the scan, if it has the scan's stamp
 
 
 def object_at(data: bytes, at: int, names: re.Pattern[bytes]) -> Header | None:
@@ -234,7 +221,7 @@ def scan_of(reader: Reader, header: Header, motions: int) -> RawScan:
     if version < 6:
         reader.matrix()  # covariance of the sensor's pose
     count = int(reader.number("I"))
-    if count > MOST_BEAMS:
+    if count > MAX_BEAMS:
         raise Unknown("is damaged")
     ranges = reader.array("<f4", count)
     valid = reader.array("u1", count) != 0 if version >= 1 else ranges < max_range
