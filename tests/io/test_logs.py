@@ -118,12 +118,9 @@ def scans_at(positions, stamps=None):
     return bm.Scans(poses, [0.0], np.arange(1.0, len(poses) + 1)[:, None], 1000.0, stamps_s=stamps)
 
 
-def test_steps_that_make_a_metre_keep_every_tenth_scan():
+def test_the_distance_is_that_of_the_path_and_steps_that_make_a_metre_keep_every_tenth_scan():
     scans = scans_at([(0.1 * i, 0.0) for i in range(31)])
     np.testing.assert_array_equal(thinned(scans, 1.0).ranges_m[:, 0], [1, 11, 21, 31])
-
-
-def test_the_distance_is_that_of_the_path_not_of_its_ends():
     there_and_back = [(0, 0), (0.6, 0), (0, 0), (0.6, 0), (0, 0)]
     np.testing.assert_array_equal(thinned(scans_at(there_and_back), 1.0).ranges_m[:, 0], [1, 3, 5])
 
@@ -146,23 +143,17 @@ def test_a_spacing_that_is_none_is_refused(spacing):
         thinned(scans_at([(0, 0)]), spacing)
 
 
-def test_a_step_faster_than_a_robot_is_a_jump():
-    stamps = 0.1 * np.arange(6)
-    walk = scans_at([(0, 0), (0.1, 0), (0.2, 0), (3.2, 0), (3.3, 0), (3.4, 0)], stamps)
-    np.testing.assert_array_equal(jumps(walk), [3])
-
-
-def test_a_long_step_among_short_ones_is_a_jump_without_any_time():
-    steps = [0.1] * 20 + [2.5] + [0.1] * 5
-    np.testing.assert_array_equal(jumps(scans_at([(x, 0) for x in np.cumsum(steps)])), [20])
-
-
-def test_scans_that_are_far_apart_throughout_do_not_jump():
-    assert len(jumps(scans_at([(3.0 * i, 0) for i in range(9)], 5.0 * np.arange(9)))) == 0
-
-
-def test_a_trembling_pose_does_not_jump_however_close_the_stamps():
-    assert len(jumps(scans_at([(0, 0), (0.1, 0), (0, 0)], np.array([0.0, 0.0, 1e-6])))) == 0
+@pytest.mark.parametrize(
+    ("x_m", "stamps", "jumped"),
+    [
+        ([0, 0.1, 0.2, 3.2, 3.3, 3.4], 0.1 * np.arange(6), [3]),  # faster than a robot
+        (np.cumsum([0.1] * 20 + [2.5] + [0.1] * 5), None, [20]),  # a long step among short ones, without any time
+        (3.0 * np.arange(9), 5.0 * np.arange(9), []),  # far apart throughout
+        ([0, 0.1, 0], np.array([0.0, 0.0, 1e-6]), []),  # a trembling pose, however close the stamps
+    ],
+)
+def test_a_step_is_a_jump_if_it_is_too_fast_or_far_longer_than_others(x_m, stamps, jumped):
+    np.testing.assert_array_equal(jumps(scans_at([(x, 0) for x in x_m], stamps)), jumped)
 
 
 @pytest.mark.parametrize("grain_s", [1.0, 10.0, 1e6])

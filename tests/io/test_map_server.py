@@ -100,18 +100,13 @@ def test_nav2_saturates_a_scaled_map_beyond_given_thresholds(tmp_path):
     np.testing.assert_array_equal(nav2_reads(path)[0].T, [[0, 0, 50, 100, 100]])
 
 
-def test_the_first_row_of_the_image_is_the_top_of_the_map(tmp_path):
+def test_the_first_row_of_the_image_is_the_top_and_unknown_cells_are_grey_205_and_not_free_for_nav2(tmp_path):
     occupancy = np.zeros((3, 2))
     occupancy[0, 1] = 1.0  # low x, high y
     _, image = write_map(tmp_path / "m.yaml", occupancy, Grid((3, 2)))
-    pixels = np.asarray(Image.open(image))
-    np.testing.assert_array_equal(pixels, [[0, 254, 254], [254, 254, 254]])
+    np.testing.assert_array_equal(np.asarray(Image.open(image)), [[0, 254, 254], [254, 254, 254]])
     assert image.read_bytes().startswith(b"P5")
-
-
-def test_unknown_cells_are_grey_205_and_not_free_for_nav2(tmp_path):
-    occupancy = np.array([[0.1, np.nan, 0.5]])
-    path, image = write_map(tmp_path / "m.yaml", occupancy, Grid((1, 3)))
+    path, image = write_map(tmp_path / "m.yaml", np.array([[0.1, np.nan, 0.5]]), Grid((1, 3)))
     np.testing.assert_array_equal(np.asarray(Image.open(image))[::-1, 0], [254, 205, 205])
     np.testing.assert_array_equal(nav2_reads(path)[0][:, 0], [0, -1, -1])
 

@@ -66,14 +66,10 @@ def test_the_tutorial_s_walls_are_indexed_as_it_indexes_them():
 pictures = hnp.arrays(np.uint8, hnp.array_shapes(min_dims=2, max_dims=2, min_side=1, max_side=9))
 
 
-def picture_with_a_dark_top_left_corner():
+def test_the_top_left_of_a_picture_is_low_x_high_y():
     image = np.full((3, 5), 255, dtype=np.uint8)  # 3 rows, 5 columns
     image[0, 0] = 0
-    return image
-
-
-def test_the_top_left_of_a_picture_is_low_x_high_y():
-    walls = from_image(picture_with_a_dark_top_left_corner())
+    walls = from_image(image)
     assert walls.shape == (5, 3)
     assert np.argwhere(walls).tolist() == [[0, 2]]
 
@@ -98,21 +94,15 @@ def test_files_pil_images_and_arrays_agree(tmp_path_factory, picture):
     np.testing.assert_array_equal(from_image(np.dstack([picture] * 3)), walls)
 
 
-def test_a_pixel_is_a_wall_below_the_threshold():
+def test_dark_pixels_are_walls_and_transparent_ones_are_free():
     greys = np.array([[0.0, 0.29, 0.31, 1.0]])
     np.testing.assert_array_equal(from_image(greys, threshold=0.3)[:, 0], [True, True, False, False])
-
-
-def test_transparent_pixels_are_free():
     black_but_clear = np.zeros((1, 2, 4), dtype=np.uint8)
     black_but_clear[0, 1, 3] = 255
     np.testing.assert_array_equal(from_image(black_but_clear)[:, 0], [False, True])
-
-
-def test_black_and_white_images_are_read():
-    image = Image.fromarray(np.array([[True, False]]))
-    assert image.mode == "1"
-    np.testing.assert_array_equal(from_image(image)[:, 0], [False, True])
+    bits = Image.fromarray(np.array([[True, False]]))
+    assert bits.mode == "1"
+    np.testing.assert_array_equal(from_image(bits)[:, 0], [False, True])
 
 
 def test_map_server_greys_are_occupied_unknown_free():
@@ -162,16 +152,11 @@ def test_an_array_that_is_no_picture_is_refused(image):
         from_image(image)
 
 
-def test_a_file_that_is_no_picture_is_refused_by_name(tmp_path):
-    path = tmp_path / "map.png"
-    path.write_text("no picture")
-    with pytest.raises(BadInput, match=r"map\.png: cannot be read as an image"):
-        from_image(path)
-    with pytest.raises(BadInput, match=r"absent\.png"):
-        from_image(tmp_path / "absent.png")
-
-
-def test_thresholds_out_of_order_are_refused():
+def test_files_that_are_no_pictures_and_thresholds_out_of_order_are_refused(tmp_path):
+    (tmp_path / "map.png").write_text("no picture")
+    for name, says in (("map.png", r"map\.png: cannot be read as an image"), ("absent.png", r"absent\.png")):
+        with pytest.raises(BadInput, match=says):
+            from_image(tmp_path / name)
     with pytest.raises(BadInput, match="free_thresh < occupied_thresh"):
         from_map_image(np.zeros((2, 2)), 0.1, occupied_thresh=0.2, free_thresh=0.3)
     with pytest.raises(BadInput, match="threshold"):

@@ -174,13 +174,9 @@ def _approximated(trajectory: Approximation, known_by: str) -> Trajectory:
 
 
 def export_trajectory(
-    path: str | os.PathLike[str],
-    trajectory: Trajectory,
-    *,
-    format: str | None = None,
-    edges: Edges | None = None,
+    path: str | os.PathLike[str], trajectory: Trajectory, *, format: str | None = None, edges: Edges | None = None,
     frame: str = "map",
-) -> tuple[Path, ...]:
+) -> tuple[Path, ...]:  # fmt: skip
     """Write a trajectory in another program's format; an existing file of that name is replaced.
 
     Args:
@@ -219,15 +215,9 @@ def export_trajectory(
 
 
 def export_run(
-    path: str | os.PathLike[str],
-    run: Mapped,
-    scans: Scans,
-    *,
-    format: str | None = None,
-    mode: str | None = None,
-    occupied_thresh: float | None = None,
-    free_thresh: float | None = None,
-) -> tuple[Path, ...]:
+    path: str | os.PathLike[str], run: Mapped, scans: Scans, *, format: str | None = None, mode: str | None = None,
+    occupied_thresh: float | None = None, free_thresh: float | None = None,
+) -> tuple[Path, ...]:  # fmt: skip
     """Write a run in another program's format; an existing file of that name is replaced.
 
     Args:

@@ -61,51 +61,27 @@ class SkippedLine:
 
 @dataclass(frozen=True, eq=False)
 class LogReading:
-    """A log's scans, and how they were read.
+    """A log's scans, and how they were read. What the format does not name is None."""
 
-    Attributes:
-        path: the file or folder.
-        format: ``"carmen"``, ``"g2o"``, ``"csv"``, ``"npz"``, ``"rawlog"``, ``"rosbag1"``, ``"rosbag2-sqlite3"`` or
-            ``"mcap"``.
-        message: kind of message of the scans, such as ``"FLASER"`` or ``"sensor_msgs/msg/LaserScan"``.
-        scans: the scans in time order; their poses are the laser's.
-        messages: count of lines of each kind (in a recording: of messages on each topic), malformed ones included.
-        skipped: malformed lines that were left out on request.
-        no_return: the number that means "no return" in this log, and its source.
-        max_range_origin: source of ``scans.max_range_m``: ``"given"``, ``"message"`` (stated in the log) or
-            ``"readings"``.
-        laser_offset: median pose of the laser in the robot's frame: x and y in metres, yaw in radians.
-        reordered: number of scans that follow a later scan in the file.
-        notes: sentences for the user, for example about other lasers that were not used.
-        scan_topic: topic of the scans; None in formats without topics.
-        pose_source: source of the poses: ``"/tf"``, another topic, or None if the scans hold their poses.
-        fixed_frame: frame of the poses; None if the format does not name it.
-        sensor_frame: frame of the scans; None if the format does not name it.
-        deskewed: true if each beam has its own pose.
-        thin_m: least distance in metres that the robot travels between two scans; 0 if no scan was left out.
-        scans_read: number of scans before thinning; None if they were not thinned.
-        posed: true if the poses are known; if not, all are zero.
-    """
-
-    path: str
-    format: str
-    message: str
-    scans: Scans
-    messages: Mapping[str, int]
-    skipped: tuple[SkippedLine, ...]
-    no_return: NoReturn
-    max_range_origin: str
-    laser_offset: tuple[float, float, float]
-    reordered: int
-    notes: tuple[str, ...]
+    path: str  # the file or folder
+    format: str  # "carmen", "g2o", "csv", "npz", "rawlog", "rosbag1", "rosbag2-sqlite3" or "mcap"
+    message: str  # kind of message of the scans, such as ``"FLASER"`` or ``"sensor_msgs/msg/LaserScan"``
+    scans: Scans  # in time order; their poses are the laser's
+    messages: Mapping[str, int]  # lines of each kind, or messages on each topic, malformed ones included
+    skipped: tuple[SkippedLine, ...]  # left out on request
+    no_return: NoReturn  # the number that means "no return" in this log, and its source
+    max_range_origin: str  # ``"given"``, ``"message"`` (stated in the log) or ``"readings"``
+    laser_offset: tuple[float, float, float]  # median pose of the laser on the robot
+    reordered: int  # number of scans that follow a later scan in the file
+    notes: tuple[str, ...]  # sentences for the user
     scan_topic: str | None = None
-    pose_source: str | None = None
-    fixed_frame: str | None = None
-    sensor_frame: str | None = None
-    deskewed: bool = False
-    thin_m: float = 0.0
-    scans_read: int | None = None
-    posed: bool = True
+    pose_source: str | None = None  # ``"/tf"``, another topic, or None if the scans hold their poses
+    fixed_frame: str | None = None  # of the poses
+    sensor_frame: str | None = None  # of the scans
+    deskewed: bool = False  # true if each beam has its own pose
+    thin_m: float = 0.0  # least distance between two scans; 0 if no scan was left out
+    scans_read: int | None = None  # before thinning; None if they were not thinned
+    posed: bool = True  # true if the poses are known; if not, all are zero
 
     @property
     def no_return_m(self) -> float | None:

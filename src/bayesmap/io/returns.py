@@ -52,20 +52,14 @@ FURTHEST_M = 1e6
 class NoReturn:
     """The number that a log writes for no return.
 
-    Attributes:
-        code_m: the number in metres; this and larger readings are no return (if it is zero or negative: all readings of
-            zero and below). None if the log has no such number.
-        origin: source of the number: ``"given"``, ``"found"``, ``"message"`` (the sensor's maximum range, in each
-            line), or ``"none"``.
-        values_m: distinct numbers that were taken for no return, ascending, at most ten.
-        doubtful_m: number that stands out like a code, but was reported from one place in one direction, like a wall;
-            it was taken for a hit. None if there is none.
+    This and larger readings are no return; if it is zero or negative, all readings of zero and below. A number is
+    doubtful if it stands out like a code, but was reported from one place in one direction, like a wall. It is a hit.
     """
 
-    code_m: float | None
-    origin: str
-    values_m: tuple[float, ...] = ()
-    doubtful_m: float | None = None
+    code_m: float | None  # metres; None if the log has no such number
+    origin: str  # "given", "found", "message" (the sensor's maximum range, in each line), or "none"
+    values_m: tuple[float, ...] = ()  # distinct numbers that were taken for no return, ascending, at most ten
+    doubtful_m: float | None = None  # metres
 
     def notes(self) -> tuple[str, ...]:
         """Return a sentence about `doubtful_m`, if there is such a number."""

@@ -53,11 +53,9 @@ CHUNK = 1 << 20
 
 
 def save(
-    posterior: Posterior,
-    path: str | os.PathLike[str],
-    on_progress: Callable[[int, int], None] = lambda done, total: None,
-    trajectory: Trajectory | None = None,
-) -> None:
+    posterior: Posterior, path: str | os.PathLike[str],
+    on_progress: Callable[[int, int], None] = lambda done, total: None, trajectory: Trajectory | None = None,
+) -> None:  # fmt: skip
     """Write a posterior, whole or not at all, with the approximation of all scans' poses, if there is one.
 
     ``on_progress`` is called with the count of the draws' numbers written so far, and their total.

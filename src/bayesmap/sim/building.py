@@ -227,13 +227,9 @@ class Building:
 
 
 def building(
-    seed: int = 0,
-    size_m: tuple[float, float] = (30.0, 20.0),
-    resolution: float = 0.1,
-    *,
-    glass_pass: float = 0.7,
+    seed: int = 0, size_m: tuple[float, float] = (30.0, 20.0), resolution: float = 0.1, *, glass_pass: float = 0.7,
     clutter: float = 1.0,
-) -> Building:
+) -> Building:  # fmt: skip
     """Simulate an office floor: rooms along corridors, all reachable, with a closed outer wall.
 
     The same arguments give the same building.

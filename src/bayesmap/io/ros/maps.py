@@ -283,15 +283,9 @@ def read_map(path_yaml: str | os.PathLike[str]) -> tuple[NDArray[np.float64], Gr
 
 
 def from_map_image(
-    image: ImageLike | Image,
-    resolution: float,
-    origin: tuple[float, float] = (0.0, 0.0),
-    *,
-    negate: bool = False,
-    occupied_thresh: float = 0.65,
-    free_thresh: float = 0.25,
-    unknown_is_wall: bool = False,
-) -> tuple[NDArray[np.bool_], Grid]:
+    image: ImageLike | Image, resolution: float, origin: tuple[float, float] = (0.0, 0.0), *, negate: bool = False,
+    occupied_thresh: float = 0.65, free_thresh: float = 0.25, unknown_is_wall: bool = False,
+) -> tuple[NDArray[np.bool_], Grid]:  # fmt: skip
     """Return walls and grid of a map_server image, by map_server's trinary rule.
 
     Args:
@@ -317,13 +311,9 @@ def from_map_image(
 
 
 def from_occupancy(
-    cells: ArrayLike,
-    resolution: float,
-    origin: tuple[float, float] = (0.0, 0.0),
-    *,
-    threshold: float = 50,
+    cells: ArrayLike, resolution: float, origin: tuple[float, float] = (0.0, 0.0), *, threshold: float = 50,
     unknown_is_wall: bool = False,
-) -> tuple[NDArray[np.bool_], Grid]:
+) -> tuple[NDArray[np.bool_], Grid]:  # fmt: skip
     """Return walls and grid of a ROS occupancy grid.
 
     Args:
