@@ -1,35 +1,11 @@
 """Write a posterior as a file for other programs. The format's name, or the path's ending, selects the writer.
 
-    format           endings                           what
-    map-server       .yaml, .yml                       YAML and image, for nav2's map_server
-    occupancy-grid   .bag, .mcap, .db3, or a folder    nav_msgs/OccupancyGrid in a recording
-    gridmap          as occupancy-grid, by name        grid_map_msgs/GridMap: all layers in a recording
-    rerun            .rrd                              layers, trajectory and scans for the rerun viewer
-    tum              .tum                              the poses, and their covariances beside them
-    trajectory       as occupancy-grid, by name        nav_msgs/Path, and poses with covariances, in a recording
-    g2o              .g2o                              the poses as a graph with information matrices
-    geotiff          .tif, .tiff                       all layers, one band each
+docs/file-formats.md describes the formats. The layers are ``mean``, and ``entropy`` in bits. If a cell's state is a
+number with an interval (reflectivity), there are also ``lower`` and ``upper``, the bounds of its central 90 % interval.
 
-The layers are ``mean``, and ``entropy`` in bits. If a cell's state is a number with an interval (reflectivity), there
-are also ``lower`` and ``upper``, the bounds of its central 90 % interval. Runs on binary walls have no such layers:
-quantiles of a Bernoulli are 0 or 1, and less informative than its mean.
-
-**GeoTIFF** (``bayesmap[geotiff]``, rasterio): one band per layer, for QGIS, GDAL and rasterio. Row 0 is the top
-(largest y). The affine transform takes (column, row) to metres of the map frame, from the upper-left corner of the
-upper-left cell. A robot's map has no known position on Earth, so no coordinate reference system is written. If a
-program asks for one, choose any in metres.
-
-**rerun** (``bayesmap[rerun]``, rerun-sdk): a recording (.rrd) of
-
-    /map/NAME      picture of a layer: mean: dark is wall; others: yellow is 1, dark blue 0; sand where no beam reached
-    /values/NAME   the layer's numbers, a tensor (row from the top, column), NaN where no beam reached
-    /trajectory    the poses, as a line
-    /ellipses      95 % regions of the positions, if known
-    /sensor, /scan position and hits of each scan, on the timelines ``scan`` (its number) and ``stamp`` (if known)
-    /about         the position of the pixels in the map's frame, in words
-
-The coordinates are those of the picture, in cells: a point x, y in metres is at
-((x - x_min) / resolution, (y_max - y) / resolution), with y downwards.
+Rows of a GeoTIFF (rasterio) and of rerun's pictures (rerun-sdk) run from the top, the largest y. A GeoTIFF's affine
+transform takes (column, row) to metres of the map frame, from the upper-left corner of the upper-left cell. rerun's
+coordinates are those of the picture, in cells: ((x - x_min) / resolution, (y_max - y) / resolution), with y downwards.
 """
 
 from __future__ import annotations

@@ -1,10 +1,7 @@
 """Read logs of range scans of any known format. The content, not the name, decides the format.
 
-A NumPy archive (.npz) holds scans under the names of the fields of `bayesmap.Scans`: ``poses`` (S, 3), ``angles_rad``
-(A,) and ``ranges_m`` (S, A). If beams differ from scan to scan, ``angles_rad`` is (S, A), with NaN for missing beams.
-Optional are ``max_range_m``, ``min_range_m``, ``stamps_s`` (S,) and ``beam_poses`` (S, A, 3). Readings are coded as in
-`Scans`: +inf no return, -inf too close, NaN invalid, all other numbers hits. A no-return code is decoded only if
-``no_return`` is given.
+docs/file-formats.md describes them. A NumPy archive (.npz) holds scans under the names of the fields of
+`bayesmap.Scans`, with their codes; a no-return code is decoded only if ``no_return`` is given.
 """
 
 from __future__ import annotations

@@ -19,7 +19,7 @@ import tempfile
 import weakref
 import zlib
 from collections.abc import Callable, Collection, Iterable, Iterator
-from contextlib import ExitStack, closing
+from contextlib import ExitStack, closing, contextmanager
 from dataclasses import replace
 from functools import cache, partial
 from heapq import merge
@@ -281,7 +281,7 @@ def _by_rosbags(
 
     def read(names: frozenset[str]) -> Iterable[Message]:
         try:
-            return list(_rosbags_messages(reader, container, topics, names))
+            return _rosbags_messages(reader, topics, names)
         except Damaged:
             if not by_records:
                 raise
@@ -305,44 +305,41 @@ def _by_records(
 
 def _rosbags_topics(make: Callable[[], Any], container: str) -> tuple[dict[str, Topic], int | None, int | None]:
     topics: dict[str, Topic] = {}
-    try:
-        with closing(_opened(make)) as reader:
-            for connection in sorted(reader.connections, key=lambda c: str(c.topic)):
-                before = topics.get(connection.topic)
-                if before is not None and before.type != connection.msgtype:
-                    continue
-                count = connection.msgcount + (before.count if before else 0)
-                language = "idl" if connection.msgdef.format.name == "IDL" else "msg"
-                ros1 = ("ros1", connection.digest)
-                topics[connection.topic] = Topic(
-                    connection.topic, connection.msgtype, count, connection.msgdef.data, language,
-                    *(ros1 if container == "rosbag1" else (connection.ext.serialization_format, "")),
-                )  # fmt: skip
-            about = reader if container == "rosbag1" or not hasattr(reader, "metadata") else reader.metadata
-            start_ns, end_ns = about.start_time, about.end_time - 1
-    except Exception as error:  # rosbags raises whatever its parsing meets
-        raise Damaged(_reason(error)) from None
+    with _opened(make) as reader:
+        for connection in sorted(reader.connections, key=lambda c: str(c.topic)):
+            before = topics.get(connection.topic)
+            if before is not None and before.type != connection.msgtype:
+                continue
+            count = connection.msgcount + (before.count if before else 0)
+            language = "idl" if connection.msgdef.format.name == "IDL" else "msg"
+            ros1 = ("ros1", connection.digest)
+            topics[connection.topic] = Topic(
+                connection.topic, connection.msgtype, count, connection.msgdef.data, language,
+                *(ros1 if container == "rosbag1" else (connection.ext.serialization_format, "")),
+            )  # fmt: skip
+        about = reader if container == "rosbag1" or not hasattr(reader, "metadata") else reader.metadata
+        start_ns, end_ns = about.start_time, about.end_time - 1
     held = any(topic.count for topic in topics.values())
     return topics, (start_ns if held else None), (end_ns if held else None)
 
 
-def _rosbags_messages(
-    make: Callable[[], Any], container: str, topics: dict[str, Topic], names: frozenset[str]
-) -> Iterator[Message]:
+def _rosbags_messages(make: Callable[[], Any], topics: dict[str, Topic], names: frozenset[str]) -> list[Message]:
+    with _opened(make) as reader:
+        connections = [c for c in reader.connections if c.topic in names and c.msgtype == topics[c.topic].type]
+        messages = reader.messages(connections) if connections else ()
+        return [Message(connection.topic, received_ns, bytes(data)) for connection, received_ns, data in messages]
+
+
+@contextmanager
+def _opened(make: Callable[[], Any]) -> Iterator[Any]:
+    """Open a reader of rosbags', and turn its errors, which are whatever its parsing meets, into `Damaged`."""
     try:
-        with closing(_opened(make)) as reader:
-            connections = [c for c in reader.connections if c.topic in names and c.msgtype == topics[c.topic].type]
-            if connections:
-                for connection, received_ns, data in reader.messages(connections):
-                    yield Message(connection.topic, received_ns, bytes(data))
-    except Exception as error:  # rosbags raises whatever its parsing meets
+        reader = make()
+        reader.open()
+        with closing(reader):
+            yield reader
+    except Exception as error:
         raise Damaged(_reason(error)) from None
-
-
-def _opened(make: Callable[[], Any]) -> Any:
-    reader = make()
-    reader.open()
-    return reader
 
 
 def _reason(error: Exception) -> str:

@@ -16,13 +16,9 @@ Sources have three conventions of order. All results are indexed ``[x, y]`` with
 
 **Files.** A map is a flat YAML file beside an image. nav2 decodes the image by ``occ = 1 - grey / 255`` (``grey / 255``
 if ``negate``), which is p in trinary and scale. In raw, a grey from 0 to 100 is the per cent, and other greys are
-unknown. In scale, a pixel that is not opaque is unknown. (nav2 from 2025 on uses ``>=`` and ``<=`` in the first two,
-and a pixel that is not opaque is unknown in trinary maps too. Files written here mean the same to both.) Two choices
-avoid a loss of information that map_saver has:
-
-- Unknown is written as grey 205, that is occ = 0.19608; a file that also says ``free_thresh: 0.25`` reads it as free.
-  Trinary files therefore say 0.196, whatever threshold made the cells free.
-- A PGM has no transparency. A scaled map with unknown cells is written as PNG; every other map as PGM.
+unknown. In scale, a pixel that is not opaque is unknown. docs/file-formats.md says where map_saver and newer nav2
+differ. Files written here mean the same to all: unknown is grey 205, that is occ = 0.19608, and trinary files
+therefore state a free_thresh of 0.196; a scaled map with unknown cells is written as PNG, every other map as PGM.
 """
 
 from __future__ import annotations

@@ -1,21 +1,8 @@
 """Write maps and trajectories as recordings that ROS plays: a ROS 1 bag, or ROS 2 in MCAP or sqlite.
 
-    NAME.bag    ROS 1 bag, format 2.0, the connection latched
-    NAME.mcap   one MCAP file, profile ros2, message definitions and the topic's quality of service inside
-    NAME.db3    one sqlite file with the same (schema 4)
-    NAME        a ROS 2 bag as ``ros2 bag record`` leaves it: a folder of metadata.yaml and NAME.db3
-
-``ros2 bag play`` plays the last three. A map's topic has the quality of service of nav2's map_server, reliable and
-transient local (ROS 1: latched), so that late subscribers get the map, too. The topics are:
-
-    /map          nav_msgs/OccupancyGrid, latched: what nav2, RViz and Foxglove show
-    /grid_map     grid_map_msgs/GridMap, latched: all layers, for grid_map, its RViz plugin and Foxglove
-    /trajectory   nav_msgs/Path, latched: all poses
-    /pose         geometry_msgs/PoseWithCovarianceStamped: one message per pose, at its time; if covariances are known
-
-**OccupancyGrid.** Cells are signed bytes in per cent, -1 unknown, row by row from the lower left: cell (i, j) is
-``data[j * width + i]``. The origin is the lower-left corner of cell (0, 0). The message keeps the resolution in single
-precision: 0.1 m comes back as 0.100000001.
+docs/file-formats.md describes files and topics. A map's topic has the quality of service of nav2's map_server, reliable
+and transient local (ROS 1: latched), so that late subscribers get the map, too. An OccupancyGrid has cell (i, j) at
+``data[j * width + i]``, in per cent, -1 unknown.
 
 **GridMap.** The conventions of grid_map (Fankhauser and Hutter 2016, "A Universal Grid Map Library"): the pose is the
 map's centre; row 0, column 0 is the corner with the largest x and y; rows run towards -x, columns towards -y; a layer

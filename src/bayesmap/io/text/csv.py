@@ -1,30 +1,12 @@
-"""Read scans from a CSV table, with one row per scan or one row per beam.
+"""Read scans from a CSV table, with one row per scan or one row per beam; docs/file-formats.md describes both.
 
-With one row per scan, comment lines before the header state the angles, and optionally the sensor's limits:
+With one row per scan, comment lines before the header, or columns, state the angles and limits. With one row per beam,
+the rows of a scan are consecutive, and share their ``scan`` or ``stamp``; if their poses differ, each beam has its own.
+Fields are separated by commas, semicolons or tabs. Between semicolons or tabs numbers may have decimal commas.
 
-    # angle_min: -1.5708
-    # angle_increment: 0.0174533
-    # range_min: 0.1
-    # range_max: 30
-    stamp,x,y,yaw,r_0,r_1,r_2
-    0.0,1.0,2.0,0.5,3.25,inf,nan
-
-If beams differ from scan to scan, angle_min and angle_increment are columns, and fields after a scan's last reading are
-empty.
-
-With one row per beam, the rows of a scan are consecutive, and share their ``scan`` or ``stamp``:
-
-    scan,stamp,x,y,yaw,angle,range
-
-The beams of a scan have the angles of its rows. If the poses of its rows differ, each beam has its own pose. Columns
-may have any order; other columns are ignored, and ``stamp`` is optional. Units are metres, radians and seconds; fields
-are separated by commas, semicolons or tabs. inf is no return, -inf too close, nan or an empty field invalid; for other
-no-return numbers see `bayesmap.io.returns`. Between semicolons or tabs numbers may have decimal commas.
-
-Tables of LaserScan messages are read, too: from ``rostopic echo -p`` (``%time``, ``field.header.stamp``,
-``field.angle_min``, ``field.ranges0`` ..), or with the message's own names (``header.stamp.secs``, ``angle_min``,
-``ranges_0`` ..). They have no poses, unless x, y and yaw were added. Rows of ``ros2 topic echo --csv --full-length``
-have no header: the fields of the message in their order, then the readings, and as many intensities or none.
+Tables of LaserScan messages are read, too: from ``rostopic echo -p``, or with the message's own names. They have no
+poses, unless x, y and yaw were added. Rows of ``ros2 topic echo --csv --full-length`` have no header: the fields of the
+message in their order, then the readings, and as many intensities or none.
 """
 
 from __future__ import annotations

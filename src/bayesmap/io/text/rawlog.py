@@ -1,8 +1,6 @@
 """Read logs of MRPT (.rawlog): a stream of serialised objects, plain or gzipped.
 
-The reader takes the laser's scans (CObservation2DRangeScan, versions 0 to 8). Poses come from the robot's motions from
-one sensory frame to the next (CActionRobotMovement2D, versions 0 to 7), or else from its odometry, by interpolation
-(CObservationOdometry, versions 0 to 2). Classes since MRPT 2 are called ``mrpt::obs::NAME``.
+docs/file-formats.md says which objects are read. Classes since MRPT 2 are called ``mrpt::obs::NAME``.
 
     0x80 | length, class name, version, data, 0x88        since MRPT 0.5.5
     length (int32), class name, version (int32), data     before

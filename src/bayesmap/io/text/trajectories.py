@@ -1,10 +1,7 @@
 """Trajectories as TUM text, which evo and the TUM RGB-D benchmark's tools read, and true relations between poses.
 
-A TUM file has one line per pose, ``timestamp tx ty tz qx qy qz qw``: seconds, metres, and a unit quaternion. Lines that
-begin with ``#`` are comments. A pose in the plane has tz = qx = qy = 0 and (qz, qw) = (sin, cos) of half its yaw.
-
-TUM files cannot hold covariances, so these go into a second file, one line per pose with the same stamps:
-``timestamp xx xy xyaw yy yyaw yawyaw`` in m^2, m rad and rad^2, along the axes of the world.
+docs/file-formats.md describes TUM files, and the second file for covariances. A pose in the plane has tz = qx = qy = 0
+and (qz, qw) = (sin, cos) of half its yaw.
 
 Relations have one line each in the format of Kuemmerle et al. (2009), "On measuring the accuracy of SLAM algorithms":
 
