@@ -13,17 +13,8 @@ from recorded import READERS
 
 from bayesmap.cli.keys import Export
 from bayesmap.errors import BadInput
-from bayesmap.io.exports import (
-    FORMATS,
-    UNKNOWN_COLOR,
-    existing,
-    export_format,
-    export_run,
-    layers_of,
-    to_pixels,
-    write_geotiff,
-    write_rerun,
-)
+from bayesmap.io import exports
+from bayesmap.io.exports import existing, export_format, export_run, layers_of, write_geotiff, write_rerun
 from bayesmap.space.trajectory import Trajectory
 
 NEEDS = {"geotiff": "rasterio", "rerun": "rerun"}
@@ -45,7 +36,7 @@ def test_the_ending_chooses_the_format(path, format):
 def test_a_named_format_wins_and_the_command_line_knows_the_same():
     assert export_format("map.mcap", "gridmap") == "gridmap"
     assert export_format("poses.txt", "tum") == "tum"
-    assert ("auto", *FORMATS) == get_args(Export)
+    assert ("auto", *exports.FORMATS) == get_args(Export)
 
 
 @pytest.mark.parametrize("path", ["map.txt", "map.pgm", "map.2024"])
@@ -205,17 +196,17 @@ def test_pictures_are_upright_and_show_walls_dark_uncertainty_bright_and_the_unk
     assert (np.diff(pictures["mean"].sum(axis=-1)[seen][rising]) < 0).all()
     assert (np.diff(pictures["entropy"][..., 0][seen][rising]) < 0).all()  # of 1 - p
     for picture in pictures.values():
-        np.testing.assert_array_equal((picture == UNKNOWN_COLOR).all(axis=-1), ~seen)
+        np.testing.assert_array_equal((picture == exports.UNKNOWN_COLOR).all(axis=-1), ~seen)
 
 
 def test_scans_lie_on_the_picture_at_their_numbers_and_times(tmp_path):
     log = scans()
     columns = columns_of(write_rerun(tmp_path / "floor.rrd", LAYERS, GRID, scans=log))
     at = find(columns, "/sensor", "Points2D:positions")
-    np.testing.assert_allclose(np.concatenate(at), to_pixels(log.poses[:, :2], GRID), atol=1e-6)
+    np.testing.assert_allclose(np.concatenate(at), exports.to_pixels(log.poses[:, :2], GRID), atol=1e-6)
     ends = find(columns, "/scan", "Points2D:positions")
     assert [len(points) for points in ends] == [1, 2, 0]
-    np.testing.assert_allclose(np.concatenate(ends[:2]), to_pixels(log.hit_points_world(), GRID), atol=1e-6)
+    np.testing.assert_allclose(np.concatenate(ends[:2]), exports.to_pixels(log.hit_points_world(), GRID), atol=1e-6)
     assert find(columns, "/scan", "scan") == [0, 1, 2]
     ((line,),) = find(columns, "/trajectory", "LineStrips2D:strips")
     assert len(line) == 3
@@ -243,7 +234,7 @@ def test_a_trajectory_is_drawn_with_its_ellipses(tmp_path):
     there = Trajectory(poses, covariances=covariances)
     columns = columns_of(write_rerun(tmp_path / "walk.rrd", LAYERS, GRID, trajectory=there))
     ((line,),) = find(columns, "/trajectory", "LineStrips2D:strips")
-    np.testing.assert_allclose(line, to_pixels(poses[:, :2], GRID), rtol=1e-6)
+    np.testing.assert_allclose(line, exports.to_pixels(poses[:, :2], GRID), rtol=1e-6)
     (outlines,) = find(columns, "/ellipses", "LineStrips2D:strips")
     assert len(outlines) == 2
     width, height = np.ptp(np.array(outlines[0]), axis=0)

@@ -161,19 +161,13 @@ def robots_of(draw, styles=("spaces", "prefixes", "both", "within")):
     for n in range(1, count + 1):
         space = f"/robot{n}" if count > 1 or draw(st.booleans()) else ""
         own = style in ("spaces", "both", "within")
-        robots.append(
-            Robot(
-                space=space + ("/front" if style == "within" and space else ""),
-                tf_space=space if own else "",
-                prefix="" if style in ("spaces", "within") else f"robot{n}" + draw(st.sampled_from("/_")),
-                mount=(draw(small), draw(small), draw(st.floats(-3.0, 3.0))),
-                phase=draw(st.floats(0, 1)),
-                turns=draw(st.floats(0.03, 0.1)) * draw(st.sampled_from([-1, 1])),
-                odom=(draw(small), draw(small), draw(st.floats(-3.0, 3.0))),
-                chain=chain,
-                angles=angles_of(draw),
-            )
-        )
+        robots.append(Robot(
+            space=space + ("/front" if style == "within" and space else ""), tf_space=space if own else "",
+            prefix="" if style in ("spaces", "within") else f"robot{n}" + draw(st.sampled_from("/_")),
+            mount=(draw(small), draw(small), draw(st.floats(-3.0, 3.0))), phase=draw(st.floats(0, 1)),
+            turns=draw(st.floats(0.03, 0.1)) * draw(st.sampled_from([-1, 1])),
+            odom=(draw(small), draw(small), draw(st.floats(-3.0, 3.0))), chain=chain, angles=angles_of(draw),
+        ))  # fmt: skip
     return robots
 
 

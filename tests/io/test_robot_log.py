@@ -364,14 +364,10 @@ TF_FIELDS, TF_SUM = "geometry_msgs/TransformStamped[] transforms\n", "94810edda5
     [
         {r.SCAN: (LASER_FIELDS + OLD_HEADER, LASER_SUM)},
         {r.SCAN: (LASER_FIELDS.replace("Header", "roslib/Header", 1) + OLD_HEADER, LASER_SUM)},
-        {r.SCAN: (LASER_FIELDS, LASER_SUM)},
-        {r.SCAN: (LASER_FIELDS, "*")},
-        {r.SCAN: ("", LASER_SUM)},
-        {r.SCAN: ("<definition>lost</definition>", LASER_SUM)},
-        {r.TF: (TF_FIELDS, TF_SUM)},
-        {r.TF: ("", TF_SUM)},
+        {r.SCAN: (LASER_FIELDS, LASER_SUM)}, {r.SCAN: (LASER_FIELDS, "*")}, {r.SCAN: ("", LASER_SUM)},
+        {r.SCAN: ("<definition>lost</definition>", LASER_SUM)}, {r.TF: (TF_FIELDS, TF_SUM)}, {r.TF: ("", TF_SUM)},
     ],
-)
+)  # fmt: skip
 def test_definitions_that_lack_parts_are_completed_by_those_of_ros(tmp_path, definitions):
     messages, scans = r.robot()
     reading = describe_log(r.written(tmp_path, messages, "rosbag1", definitions))

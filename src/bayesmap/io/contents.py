@@ -80,13 +80,10 @@ def _of_recording(path: str | os.PathLike[str]) -> Contents:
     name = os.fspath(path)
     recording = open_recording(path, salvage=True, types=TYPES)
     spent_s = ((recording.end_ns or 0) - (recording.start_ns or 0)) * 1e-9
-    rates = {
-        t.name: round((t.count - 1) / spent_s, 3) if t.count > 1 and spent_s > 0 else None
-        for t in recording.topics.values()
-    }
-    topics = [
-        {"name": t.name, "type": t.type, "count": t.count, "rate_hz": rates[t.name]} for t in recording.topics.values()
-    ]
+    topics: list[dict[str, Any]] = []
+    for t in recording.topics.values():
+        rate_hz = round((t.count - 1) / spent_s, 3) if t.count > 1 and spent_s > 0 else None
+        topics.append({"name": t.name, "type": t.type, "count": t.count, "rate_hz": rate_hz})
     poses = PoseMessages()
     read_messages(recording, topics_of_type(recording, TF_TYPES), None, poses, lambda *_: None)
     pose_sources = topics_of_type(recording, (*TF_TYPES, *POSE_TYPES))

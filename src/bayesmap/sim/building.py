@@ -40,21 +40,15 @@ STOP_SPLITTING_M = ((3.4, 0.42), (4.6, 0.30), (6.5, 0.18), (9.5, 0.10))
 
 @dataclass(frozen=True)
 class Space:
-    """A room or a corridor: the free cells ``x0 <= i < x1``, ``y0 <= j < y1``.
+    """A room or a corridor: the free cells ``x0 <= i < x1``, ``y0 <= j < y1``."""
 
-    Attributes:
-        kind: kind of the room, see `Room`.
-        corridors: sides with a corridor along them: -1 (towards smaller y), +1, or both.
-        facade: true if it touches the outer wall along its length.
-    """
-
-    kind: str
+    kind: str  # kind of the room, see `Room`
     x0: int
     x1: int
     y0: int
     y1: int
-    corridors: tuple[int, ...] = ()
-    facade: bool = False
+    corridors: tuple[int, ...] = ()  # sides with a corridor along them: -1 (towards smaller y), +1, or both
+    facade: bool = False  # true if it touches the outer wall along its length
 
     @property
     def width(self) -> int:

@@ -9,17 +9,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from bayesmap.errors import BadInput
 from bayesmap.space.grid import Grid
+from bayesmap.space.scans import as_array
 
 ROUNDING = 1e-5
 """Largest excess over the bounds that is accepted: rounding of a mean in single precision, not a caller's mistake."""
-
-
-def as_array(values: ArrayLike, name: str) -> NDArray[np.float64]:
-    """Return an array of numbers of any shape; raise `BadInput` for anything else."""
-    try:
-        return np.asarray(values, dtype=np.float64)
-    except (TypeError, ValueError) as error:
-        raise BadInput(f"{name} must be an array of numbers: {error}") from None
 
 
 def as_numbers(grid: Grid, values: ArrayLike, name: str, *, unknown: bool = False) -> NDArray[np.float64]:

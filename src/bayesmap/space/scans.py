@@ -12,7 +12,6 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from bayesmap.errors import BadInput
-from bayesmap.space.cell_arrays import as_array
 from bayesmap.space.planar import between, compose
 
 MOST_TURNS = 1.1
@@ -348,6 +347,14 @@ def check_limits(min_range_m: float, max_range_m: float) -> None:
         raise BadInput(f"scans: max_range_m must be a positive number of metres, got {max_range_m!r}")
     if not (math.isfinite(min_range_m) and 0 <= min_range_m < max_range_m):
         raise BadInput(f"scans: min_range_m must lie in [0, {max_range_m:g}), got {min_range_m!r}")
+
+
+def as_array(values: ArrayLike, name: str) -> NDArray[np.float64]:
+    """Return an array of numbers of any shape; raise `BadInput` for anything else."""
+    try:
+        return np.asarray(values, dtype=np.float64)
+    except (TypeError, ValueError) as error:
+        raise BadInput(f"{name} must be an array of numbers: {error}") from None
 
 
 MAX_BEAMS = 100_000  # per scan

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
-from bayesmap.space.planar import between, compose, interpolate, wrapped
+from bayesmap.space.planar import between, compose, interpolate, rotation, wrapped
 from bayesmap.space.scans import as_poses
 
 SLACK_S = 0.002
@@ -39,12 +39,10 @@ class RelativeLaw:
 
         def scales(first: Indices, second: Indices) -> Floats:
             yaw = between(poses[first], poses[second])[:, 2]
-            cosine, sine = np.cos(mount[2]), np.sin(mount[2])
-            back = np.array([[cosine, sine, 0.0], [-sine, cosine, 0.0], [0.0, 0.0, 1.0]])
             swing = np.tile(np.eye(3), (len(yaw), 1, 1))  # a turn of this frame moves the other frame sideways
             swing[:, 0, 2] = -np.sin(yaw) * mount[0] - np.cos(yaw) * mount[1]
             swing[:, 1, 2] = np.cos(yaw) * mount[0] - np.sin(yaw) * mount[1]
-            turn = back @ swing
+            turn = rotation(-mount[2]) @ swing
             return np.asarray(turn @ self.scales(first, second) @ np.swapaxes(turn, 1, 2))
 
         return RelativeLaw(scales, self.dof)

@@ -9,7 +9,7 @@ from matplotlib.ticker import MaxNLocator
 from numpy.typing import ArrayLike, NDArray
 
 from bayesmap.errors import BadInput
-from bayesmap.space.cell_arrays import as_array
+from bayesmap.space.scans import as_array
 from bayesmap.viz import palette
 
 MAX_POINTS = 4000

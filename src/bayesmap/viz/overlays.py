@@ -19,9 +19,9 @@ from matplotlib.transforms import Affine2D
 from numpy.typing import ArrayLike, NDArray
 
 from bayesmap.errors import BadInput
-from bayesmap.space.cell_arrays import as_array, as_mask
+from bayesmap.space.cell_arrays import as_mask
 from bayesmap.space.grid import Grid
-from bayesmap.space.scans import Reading, Scans, as_poses
+from bayesmap.space.scans import Reading, Scans, as_array, as_poses
 from bayesmap.viz import maps, palette
 from bayesmap.viz.maps import boundary_segments
 

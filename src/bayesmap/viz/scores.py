@@ -14,8 +14,8 @@ from matplotlib.figure import Figure
 from numpy.typing import ArrayLike, NDArray
 
 from bayesmap.errors import BadInput
-from bayesmap.space.cell_arrays import as_array
 from bayesmap.space.grid import Grid
+from bayesmap.space.scans import as_array
 from bayesmap.viz import maps, palette
 
 if TYPE_CHECKING:

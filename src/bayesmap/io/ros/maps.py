@@ -35,8 +35,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from bayesmap.errors import BadInput
 from bayesmap.files import write_whole
-from bayesmap.space.cell_arrays import as_array, as_observed, as_probabilities
+from bayesmap.space.cell_arrays import as_observed, as_probabilities
 from bayesmap.space.grid import Grid
+from bayesmap.space.scans import as_array
 
 if TYPE_CHECKING:
     from PIL.Image import Image
