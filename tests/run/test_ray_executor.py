@@ -88,8 +88,10 @@ def test_two_seeds_would_not_pass_for_one(scans):
 def test_chains_stop_where_those_of_threads_do(cluster, scans):
     """They stop at a precision, at marks that groups of chains reach at different times."""
     arguments = {**SHORT, **KINDS["walls"], "draws": 400, "precision": 0.05}
-    run = infer(scans, GRID, executor=quick(), **arguments)
+    events = []
+    run = infer(scans, GRID, executor=quick(), on_progress=events.append, **arguments)
     assert run.n_draws < 400
+    assert {event.total < 420 for event in events if event.error is not None} == {True}  # the estimated end
     assert_same(run, infer(scans, GRID, **arguments))
 
 

@@ -58,19 +58,13 @@ APART += [World(0.3, 0.1, False, (4, 4), 3, LATTICE), World(0.5, 0.5, True, (4, 
 APART += [World("cells", 0.3, False, (3, 4), 2, LATTICE), World(0.2, 0.2, False, (2, 5), 3, LATTICE)]
 # Weak and strong couplings, rare walls, large noise, narrow grids, fixed cells, poses on grid lines.
 COUPLED = [
-    World(0.5, 0.5, False, (4, 4), 1, 9, 0.3),
-    World(0.5, 2.0, True, (4, 4), 2, 9, 1.2),
-    World(0.3, 0.5, True, (3, 4), 3, 9, 0.8),
-    World(0.05, 0.5, False, (4, 4), 2, 9, 0.5),
-    World(0.05, 2.0, False, (4, 4), 2, 9, 1.0),
-    World(0.2, 0.1, False, (4, 3), 3, 70, 0.7),
-    World(0.2, 0.5, True, (2, 5), 2, 9, 2.5),
-    World("cells", 0.3, False, (4, 4), 2, 9, 0.6),
-    World("cells", 1.0, True, (3, 4), 3, LATTICE, 1.5),
-    World(0.4, 0.5, False, (1, 6), 1, 9, 0.9),
-    World(0.4, 0.5, True, (6, 1), 2, 9, 0.9),
-    World(0.3, 0.5, False, (2, 2), 2, 9, 0.8),
-]
+    World(0.5, 0.5, False, (4, 4), 1, 9, 0.3), World(0.5, 2.0, True, (4, 4), 2, 9, 1.2),
+    World(0.3, 0.5, True, (3, 4), 3, 9, 0.8), World(0.05, 0.5, False, (4, 4), 2, 9, 0.5),
+    World(0.05, 2.0, False, (4, 4), 2, 9, 1.0), World(0.2, 0.1, False, (4, 3), 3, 70, 0.7),
+    World(0.2, 0.5, True, (2, 5), 2, 9, 2.5), World("cells", 0.3, False, (4, 4), 2, 9, 0.6),
+    World("cells", 1.0, True, (3, 4), 3, LATTICE, 1.5), World(0.4, 0.5, False, (1, 6), 1, 9, 0.9),
+    World(0.4, 0.5, True, (6, 1), 2, 9, 0.9), World(0.3, 0.5, False, (2, 2), 2, 9, 0.8),
+]  # fmt: skip
 WORLDS = APART + COUPLED
 NAMES = [world.name for world in WORLDS]
 

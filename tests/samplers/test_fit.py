@@ -27,11 +27,11 @@ from bayesmap.samplers.fit import (
     first_sensor,
     fit,
     fit_sensor,
-    gain,
     refit_noise,
     refit_prior,
     refit_sensor,
-)
+    step_share,
+)  # fmt: skip
 from bayesmap.samplers.stop_problem import trace_stops
 
 SIX = ("sigma_m", "sigma_per_m", "p_random", "p_no_return", "p_short", "rate_short_per_m")
@@ -169,7 +169,7 @@ def test_the_prior_s_counts_are_found_from_hits_and_passes():
 
 
 def test_steps_are_whole_while_the_map_is_coming_about_and_then_shrink():
-    steps = [gain(sweep) for sweep in range(FIRST_SWEEP, PILOT_SWEEPS)]
+    steps = [step_share(sweep) for sweep in range(FIRST_SWEEP, PILOT_SWEEPS)]
     assert steps == sorted(steps, reverse=True)
     assert steps[0] == steps[WHOLE_UNTIL - FIRST_SWEEP] == 1.0 > steps[WHOLE_UNTIL - FIRST_SWEEP + 1]
     assert sum(step**2 for step in steps if step < 1) < 2  # noise is averaged out

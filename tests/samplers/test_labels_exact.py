@@ -83,8 +83,13 @@ def drawn(name, sweeps=120, seed=11):
     """Reflectivities and labels of all chains, (CHAINS, cells) each."""
     shape, sigma_m, prior = CASES[name]
     sampler, state = swept(scans_of(name), bm.Grid(shape, EDGE), prior, sensor(sigma_m), sweeps, seed)
-    m = sampler.stops(state)  # those that no beam touches are drawn here
-    return m.astype(float), np.stack([state.chains.solid(chain) for chain in range(CHAINS)])
+    return cells_of(sampler, state)
+
+
+def cells_of(sampler, state):
+    """Present cells and labels of all chains; those that no beam touches are drawn here."""
+    m = sampler.stops(state)
+    return m.astype(float), np.stack([state.chains.solid(chain) for chain in range(len(m))])
 
 
 def least(name, found, law):
@@ -145,7 +150,7 @@ def test_at_an_inverse_temperature_the_coupling_is_not_tempered(beta):
     law, grid = sensor(sigma_m), bm.Grid(CASES["a square"][0], EDGE)
     rays = build_worlds(scans_of("a square"), grid, prior, law, 1).problem.rays
     sampler, state = swept(scans_of("a square"), grid, prior, law, 120, 5, beta)
-    found = sampler.stops(state).astype(float), np.stack([state.chains.solid(chain) for chain in range(CHAINS)])
+    found = cells_of(sampler, state)
     assert least("a square", found, exact_labels(paths_of(rays), shape, prior, law, beta)) > ALPHA / TESTS
     assert least("a square", found, exact_labels(paths_of(rays), shape, prior, law, beta + 0.5)) < ALPHA / TESTS
 
@@ -186,8 +191,7 @@ def test_surfaces_and_labels_follow_weighted_draws_from_the_prior(name):
     scans, prior = SURFACES[name]
     chains = 1200
     sampler, state = swept(scans, bm.Grid((2, 1), EDGE), prior, BLUNT, 300, 3, chains=chains)
-    solid = np.stack([state.chains.solid(chain) for chain in range(chains)])
-    mine = coordinates(sampler.stops(state).astype(float), solid)
+    mine = coordinates(*cells_of(sampler, state))
     labels, values, log_weight = surfaces_by_importance(name)
     law = weighted(values, log_weight)
     assert law.size > 8 * chains

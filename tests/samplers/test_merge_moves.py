@@ -35,7 +35,7 @@ from bayesmap.samplers.merge_moves import (
     sums_over_squares,
     try_changes,
     variance_in,
-)
+)  # fmt: skip
 from bayesmap.samplers.methods import sampler_of
 from bayesmap.samplers.stop_gibbs import StopGibbs
 
@@ -146,17 +146,20 @@ def test_the_one_becomes_free_and_the_other_longer():
     np.testing.assert_array_equal(new.cells[:, 1, 0], cells[new.where[:, 1], 0])
 
 
+def merged_by(maps, owner, points, worth):
+    """Merge surfaces, if the removal of a cell that stops beams is worth so many nats."""
+
+    def look(maps):
+        return -worth * (maps.cells[..., 0] > 0.1).reshape(-1, *GRID.shape)
+
+    return merge_surfaces(maps, points, noise_of(owner), [owner], GRID, look, look(maps))
+
+
 @pytest.mark.parametrize(("worth", "pays"), [(2 * MERGED_NATS, True), (MERGED_NATS / 2, False), (-MERGED_NATS, False)])
 def test_what_does_not_pay_is_taken_back(worth, pays):
     cells, owner, points = wall()
     maps = ChainMaps(cells[None].copy(), np.zeros((1, GRID.n_cells), dtype=bool))
-
-    def look(maps):
-        """To be rid of a cell that stops beams is worth so many nats."""
-        stops = (maps.cells[..., 0] > 0.1).reshape(-1, *GRID.shape)
-        return -worth * stops
-
-    gone = merge_surfaces(maps, points, noise_of(owner), [owner], GRID, look, look(maps))
+    gone = merged_by(maps, owner, points, worth)
     left = np.flatnonzero(maps.cells[0, :, 0] > 0.1)
     if pays:
         assert gone == [3 - len(left)]
@@ -176,14 +179,7 @@ def test_a_surface_that_took_one_in_takes_no_other_from_what_it_was_before():
         one = cells.copy()
         one[flat(other, 5), 0] = FREE
         alone[x] = lengthened_by(one, owner, points, x)
-
-    def look(maps):
-        """Readings are explained better without a short one, by the long one next to it."""
-        stops = (maps.cells[..., 0] > 0.1).reshape(-1, *GRID.shape)
-        return -10.0 * stops
-
-    gone = merge_surfaces(maps, points, noise_of(owner), [owner], GRID, look, look(maps))
-    assert gone == [1]
+    assert merged_by(maps, owner, points, 10.0) == [1]
     left = [x for x in (3, 7) if maps.cells[0, flat(x, 5), 0] > 0.1]
     assert len(left) == 1
     taken_in = 10 - left[0]
@@ -295,8 +291,7 @@ def naive_evidence(chains, chain, problem):
 
 
 def test_evidence_is_the_sum_over_the_beams_whose_readings_end_in_a_cell():
-    sampler = StopGibbs()
-    problem = sampler.prepare(Model(scans(), ROOM, bm.Surface(), TRUTH, hit_depth=0.5), "cpu")
+    sampler, problem = prepared(bm.Surface())
     state, info = sampler.step(sampler.init(problem, [0, 1], 0), 3)
     for chain in (0, 1):
         assert state.chains.log_likelihood(chain).sum() == pytest.approx(info.log_likelihood[chain, -1], rel=1e-6)
@@ -306,8 +301,7 @@ def test_evidence_is_the_sum_over_the_beams_whose_readings_end_in_a_cell():
 
 
 def test_a_beam_is_stopped_by_a_cell_that_it_crosses_or_by_none():
-    sampler = StopGibbs()
-    problem = sampler.prepare(Model(scans(), ROOM, bm.Surface(), TRUTH, hit_depth=0.5), "cpu")
+    sampler, problem = prepared(bm.Surface())
     state, _ = sampler.step(sampler.init(problem, [0], 0), 3)
     by, (stopped, _, _) = state.chains.stopped_by(0), state.chains.stops(0)
     np.testing.assert_array_equal(by >= 0, stopped)
@@ -316,8 +310,7 @@ def test_a_beam_is_stopped_by_a_cell_that_it_crosses_or_by_none():
 
 
 def test_a_look_draws_the_stops_of_a_whole_sweep_and_moves_no_cell():
-    sampler = StopGibbs()
-    problem = sampler.prepare(Model(scans(), ROOM, bm.Surface(), TRUTH, hit_depth=0.5), "cpu")
+    sampler, problem = prepared(bm.Surface())
     state, _ = sampler.step(sampler.init(problem, [0, 1], 0), 3)
     maps, look = ChainMaps.of(state.chains), look_with(problem, state.chains, 1.0)
     seen = look(maps)

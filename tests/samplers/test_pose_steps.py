@@ -159,7 +159,7 @@ def test_warm_up_brings_the_acceptance_to_where_it_is_wanted():
     state = sampler.init(np.broadcast_to(scans.poses, (many, 3, 3)), np.arange(many), 0)
     cells = np.repeat(cells, many, axis=0)
     for step in range(200):
-        state, _ = sampler.step(state, cells, gain=(step + 1.0) ** -0.6)
+        state, _ = sampler.step(state, cells, adaptation_rate=(step + 1.0) ** -0.6)
     _, accepted = sampler.step(state, cells, 50)
     assert 0.25 < accepted.mean() < 0.45
 

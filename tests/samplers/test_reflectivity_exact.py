@@ -42,14 +42,12 @@ def scans_for(shape, seed):
 
 
 CASES = [
-    ((1, 1), 0.05, bm.Beta(1.0, 1.0)),
-    ((2, 1), 0.05, bm.Beta(0.5, 2.0)),
-    ((1, 2), 0.4, bm.Beta(2.0, 0.5)),
-    ((3, 1), 0.05, bm.Beta(1.0, 1.5)),
-    ((2, 2), 0.1, bm.Beta(0.5, 0.5)),
-    ((2, 2), 0.5, bm.Beta(1.5, 1.0)),
+    ((1, 1), 0.05, bm.Beta(1.0, 1.0)), ((2, 1), 0.05, bm.Beta(0.5, 2.0)), ((1, 2), 0.4, bm.Beta(2.0, 0.5)),
+    ((3, 1), 0.05, bm.Beta(1.0, 1.5)), ((2, 2), 0.1, bm.Beta(0.5, 0.5)), ((2, 2), 0.5, bm.Beta(1.5, 1.0)),
     ((4, 1), 0.03, bm.Beta(1.0, 2.0)),
-]
+]  # fmt: skip
+
+SQUARE = scans_for((2, 2), [4, 1]), bm.Grid((2, 2), 0.5), bm.Beta(1.0, 1.0), sensor(0.1)
 
 
 def exact_of(scans, grid, prior, law, hit_depth=0.5, beta=1.0):
@@ -86,8 +84,7 @@ def test_draws_follow_the_exact_posterior(case):
 def test_cells_that_hold_their_reflectivity_for_most_of_a_round_follow_it_too(monkeypatch):
     """As those do that many beams pass."""
     monkeypatch.setattr(initial_estimate, "FEW_PASSES", 0)
-    shape, prior, law = (2, 2), bm.Beta(1.0, 1.0), sensor(0.1)
-    grid, scans = bm.Grid(shape, 0.5), scans_for(shape, [4, 1])
+    scans, grid, prior, law = SQUARE
     m, exact = drawn(scans, grid, prior, law, 600), exact_of(scans, grid, prior, law)
     assert p_values(m, exact).min() > ALPHA / TESTS
     twin = exact_of(scans, grid, bm.Beta(1.0, 1.6), law)  # of another prior
@@ -123,16 +120,14 @@ def test_beams_along_lines_and_through_corners():
 
 @pytest.mark.parametrize("beta", full_but([0.0, 0.3, 0.7], 0.3))
 def test_at_an_inverse_temperature_draws_follow_the_tempered_posterior(beta):
-    shape, prior, law = (2, 2), bm.Beta(1.0, 1.0), sensor(0.1)
-    grid, scans = bm.Grid(shape, 0.5), scans_for(shape, [4, 1])
+    scans, grid, prior, law = SQUARE
     m = drawn(scans, grid, prior, law, 150, beta=beta)
     assert p_values(m, exact_of(scans, grid, prior, law, beta=beta)).min() > ALPHA / TESTS
     assert p_values(m, exact_of(scans, grid, prior, law, beta=beta + 0.3)).min() < ALPHA / TESTS  # the twin
 
 
 def test_wrong_twins_are_rejected():
-    shape, prior, law = (2, 2), bm.Beta(1.0, 1.0), sensor(0.1)
-    grid, scans = bm.Grid(shape, 0.5), scans_for(shape, [4, 1])
+    scans, grid, prior, law = SQUARE
     m = drawn(scans, grid, prior, law, 150)
     assert p_values(m, exact_of(scans, grid, prior, law)).min() > ALPHA / TESTS
     for other in (bm.Beta(1.15, 1.0), bm.Beta(1.0, 1.15)):

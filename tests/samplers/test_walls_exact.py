@@ -35,7 +35,7 @@ from sampler_cases import (
     first,
     problem_of,
     run_sweeps,
-)
+)  # fmt: skip
 from tiers import kept, latin, pairs_but
 
 import bayesmap as bm

@@ -1,23 +1,20 @@
 """Binary walls: a cell is a wall, which stops every beam, or free, which stops none.
 
-This module has the base class of all priors of walls, and two priors. Cells of `Independent` are independent. `Ising`
-favours alike neighbours:
+Cells of `Independent` are independent. `Ising` favours alike neighbours:
 
     p(walls) proportional to  prod_c p^m_c (1 - p)^(1 - m_c)  exp(coupling * sum over pairs [m_a = m_b])
 
 over all pairs of cells a, b of the grid that share an edge; m_c is 1 in a wall and 0 in a free cell. This is the model
 of Ising (1925), and the auto-logistic model of Besag (*Spatial interaction and the statistical analysis of lattice
-systems*, 1974; as a prior of pictures also Geman and Geman, 1984). In spins of -1 and 1, the inverse temperature is
-half the coupling, and the field is half the log-odds of p. Given its neighbours a cell is a wall with log-odds
+systems*, 1974). Given its neighbours a cell is a wall with log-odds
 
     logit(p) + coupling * (walls - free cells among its neighbours)
 
 so p is the probability of a wall with as many walls as free cells around it. It is *not* the share of walls: among free
 neighbours a wall is rarer than p. At a coupling of 0, p is the share, and the prior is `Independent`. The density omits
-the normalising sum over all maps, which depends on p, the coupling and the grid, and on neither map nor data.
-
-That sum cannot be computed on large grids, so the coupling is fitted by the pseudo-likelihood, the product of every
-cell's probability given its neighbours (Besag, *Statistical analysis of non-lattice data*, 1975):
+the normalising sum over all maps, which cannot be computed on large grids. So the coupling is fitted by the
+pseudo-likelihood, the product of every cell's probability given its neighbours (Besag, *Statistical analysis of
+non-lattice data*, 1975):
 
     log PL(coupling) = sum_c  m_c eta_c - log(1 + exp(eta_c)),     eta_c = logit(p_c) + coupling * balance_c
 
@@ -122,20 +119,16 @@ class BinaryWalls(CellPrior):
         return np.asarray((counts / draws.size).reshape(draws.grid.shape))
 
     def interval(self, draws: Draws, level: float) -> tuple[Floats, Floats]:
-        """Raise an error: quantiles of zeros and ones are 0 or 1, and less informative than their mean.
-
-        Raises:
-            BadInput: always.
-        """
+        """Raise `BadInput`: quantiles of zeros and ones are 0 or 1, and less informative than their mean."""
         raise BadInput(
             "interval: a wall is there or not, and has no interval; the entropy of its probability shows how sure it is"
         )
 
     def traces(self, draws: Draws, cells: NDArray[np.intp]) -> NDArray[np.bool_]:
         """Return the walls of the given cells in all draws, (chains, draws, n)."""
-        bytes_read, place = np.unique(cells // 8, return_inverse=True)
+        bytes_read, position = np.unique(cells // 8, return_inverse=True)
         bits = np.unpackbits(draws.arrays["walls"][:, :, bytes_read], axis=-1)
-        return bits[:, :, place * 8 + cells % 8].view(np.bool_)
+        return bits[:, :, position * 8 + cells % 8].view(np.bool_)
 
     def constant_cells(self, draws: Draws) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
         """Find the cells with one value in all draws of each chain, and in all draws of all chains, (N,) each."""
@@ -148,8 +141,8 @@ class BinaryWalls(CellPrior):
         packed = draws.arrays["walls"].reshape(-1, draws.arrays["walls"].shape[-1])
         at_once = max(1, BATCH_BYTES // (4 * draws.grid.n_cells))
         for i in range(0, len(packed), at_once):
-            some = packed[i : i + at_once]
-            flat = unpack(some, draws.grid.shape).reshape(len(some), -1)
+            batch = packed[i : i + at_once]
+            flat = unpack(batch, draws.grid.shape).reshape(len(batch), -1)
             yield (flat if wanted is None else flat[:, wanted]).astype(np.float32)
 
     def parameters(self) -> Mapping[str, NDArray[Any]]:
@@ -243,11 +236,7 @@ class Ising(BinaryWalls):
         return Independent(self.p_wall).log_prob(walls, grid) + self.pair_coupling * pairs_alike(walls)
 
     def sample(self, rng: np.random.Generator, grid: Grid) -> NDArray[np.bool_]:
-        """Draw a map of walls exactly, shape (nx, ny).
-
-        Raises:
-            BadInput: so strong a coupling that exact draws take too long.
-        """
+        """Draw a map of walls exactly, shape (nx, ny). Errors are those of `sample_maps`."""
         if self.pair_coupling == 0.0:
             return Independent(self.p_wall).sample(rng, grid)
         return np.asarray(perfect_draws(rng, self._logit(grid), self.pair_coupling, 1)[0])
@@ -332,19 +321,15 @@ def counts(maps: NDArray[np.bool_], p_wall: Floats) -> tuple[Floats, Floats, Flo
         n = np.bincount(balance[vary] + 4, minlength=9).astype(np.float64)
         m = np.bincount(balance[vary] + 4, weights=maps[vary], minlength=9).astype(np.float64)
         return np.full(9, float(special.logit(p_wall))), np.arange(-4.0, 5.0), n, m
-    one = np.ones(int(vary.sum()))
-    return np.asarray(special.logit(p[vary])), balance[vary].astype(np.float64), one, maps[vary].astype(np.float64)
+    cells = np.ones(int(vary.sum()))
+    return np.asarray(special.logit(p[vary])), balance[vary].astype(np.float64), cells, maps[vary].astype(np.float64)
 
 
 def walls_less_free(maps: NDArray[np.bool_]) -> NDArray[np.int64]:
     """Count the walls less the free cells among the neighbours of every cell, (..., nx, ny)."""
-    signs = np.where(maps, 1, -1)
-    balance = np.zeros(maps.shape, dtype=np.int64)
-    balance[..., 1:, :] += signs[..., :-1, :]
-    balance[..., :-1, :] += signs[..., 1:, :]
-    balance[..., :, 1:] += signs[..., :, :-1]
-    balance[..., :, :-1] += signs[..., :, 1:]
-    return balance
+    signs = np.pad(np.where(maps, 1, -1), [(0, 0)] * (maps.ndim - 2) + [(1, 1), (1, 1)])
+    across = signs[..., :-2, 1:-1] + signs[..., 2:, 1:-1]
+    return np.asarray(across + signs[..., 1:-1, :-2] + signs[..., 1:-1, 2:], dtype=np.int64)
 
 
 def likeliest(logit: Floats, balance: Floats, cells: Floats, walls: Floats) -> float:

@@ -9,13 +9,9 @@ The algorithm sends two maps, all walls and all free, through the same sweeps fr
 two maps meet, every starting map would have led to the same result, which is then a draw from the stationary law. Else
 the start moves twice as far back, with the same random numbers for the same sweeps.
 
-The label of a cell is free or solid, and neighbours tend to be alike:
-
-    p(labels) proportional to  exp(coupling * sum over pairs [s_a = s_b])
-
-over all pairs of cells a, b that share an edge: the Ising field of `bayesmap.cells.binary` at p = 1/2. The cell's
-label selects one of two Beta laws for its reflectivity (a hidden Markov random field: Geman and Geman, 1984; Besag, *On
-the statistical analysis of dirty pictures*, 1986).
+The label of a cell is free or solid: an Ising field as in `bayesmap.cells.binary` at p = 1/2. It selects one of two
+Beta laws for the cell's reflectivity (a hidden Markov random field: Geman and Geman, 1984; Besag, *On the statistical
+analysis of dirty pictures*, 1986).
 """
 
 from __future__ import annotations
@@ -33,13 +29,9 @@ MOST_SWEEPS = 4096
 
 
 def perfect_draws(rng: np.random.Generator, logit: Floats, coupling: float, count: int) -> NDArray[np.bool_]:
-    """Draw maps of an Ising field independently and exactly, (count, nx, ny).
+    """Draw maps of an Ising field of positive coupling independently and exactly, (count, nx, ny).
 
-    Args:
-        rng: source of the uniform numbers.
-        logit: log-odds of a wall at a balance of 0, (nx, ny); infinite in fixed cells.
-        coupling: log density added by each pair of alike neighbours; positive.
-        count: number of draws.
+    ``logit`` holds the log-odds of a wall at a balance of 0, (nx, ny); infinite in fixed cells.
 
     Raises:
         BadInput: the coupling is so strong, and the log-odds so near to zero, that the maps do not meet.
@@ -136,13 +128,9 @@ def share_solid(draws: Draws) -> Floats:
 def mixture_quantiles(
     share: Floats, free: tuple[float, float], solid: tuple[float, float], tails: tuple[float, float]
 ) -> Floats:
-    """Compute quantiles of reflectivities by bisection, given the probability that each cell is solid: (len(tails), N).
+    """Compute quantiles of reflectivities by bisection, (len(tails), N).
 
-    Args:
-        share: probability that the cell is solid, (N,).
-        free: a and b of the Beta law of free cells.
-        solid: a and b of the Beta law of solid cells.
-        tails: probabilities below the quantiles.
+    ``share`` is the probability that each cell is solid, (N,); ``free`` and ``solid`` hold a and b of two Beta laws.
     """
     # Cells with the same share have the same quantiles: compute them once per distinct share.
     kinds, which = np.unique(share, return_inverse=True)

@@ -1,9 +1,8 @@
 """The base class of all kinds of cells: the prior that users pass, and its interface to the rest of the package.
 
 A kind defines the state of a cell (its arrays), its prior probability, how it stops beams, and its names on maps and
-axes. Samplers, files, scores, pictures, the command line and the page use this interface only. The built-in kinds are
-in `bayesmap.cells.binary`, `bayesmap.cells.reflectivity` and `bayesmap.cells.surface`. A class of your own that extends
-`CellPrior` works everywhere, too.
+axes. Samplers, files, scores, pictures, the command line and the page use this interface only. A class of your own that
+extends `CellPrior` works everywhere, too.
 """
 
 from __future__ import annotations
@@ -88,13 +87,8 @@ class CellPrior(ABC):
     def of(cls, prior: CellPrior, asked_by: str, remedy: str = "") -> Self:
         """Return the prior itself if it is of this kind, for functions that work with one kind alone.
 
-        Args:
-            prior: the prior to check.
-            asked_by: name of the function that works with this kind alone, for the error message.
-            remedy: advice for the error message.
-
         Raises:
-            BadInput: a prior of another kind.
+            BadInput: a prior of another kind. The message names the function ``asked_by``, and the remedy.
         """
         if not isinstance(prior, cls):
             advice = f"; {remedy}" if remedy else ""
@@ -220,7 +214,7 @@ class CellPrior(ABC):
         for chain, draw in draws.numbers():
             stops = self.stops(draws.cells(chain, draw), draws.grid)
             batch.append(np.asarray(stops if wanted is None else stops[wanted], dtype=np.float32))
-            if sum(one.nbytes for one in batch) >= BATCH_BYTES:
+            if len(batch) * batch[0].nbytes >= BATCH_BYTES:
                 yield np.stack(batch)
                 batch = []
         if batch:

@@ -2,10 +2,7 @@
 
 Binary walls are too rigid for glass, chair legs, people and cells that a wall fills in part. Here a cell has a
 reflectivity m in [0, 1], the chance that it stops a beam. A stopped beam stops at the cell's hit depth.
-
-At a coupling of 0, cells are independent: m ~ Beta(a, b) in each. At a coupling above 0, each cell has a label, free or
-solid, coupled to the labels of its four neighbours (`bayesmap.cells.ising_field`). Then m ~ Beta(a, b) in free cells,
-and m ~ Beta(a_solid, b_solid) in solid cells.
+`Beta` says how cells are coupled.
 """
 
 from __future__ import annotations
@@ -235,13 +232,11 @@ class Reflective(CellPrior):
 
     def traces(self, draws: Draws, cells: NDArray[np.intp]) -> NDArray[np.float16]:
         """Return the drawn chances of the given touched cells in all draws, (chains, draws, n)."""
-        place = np.searchsorted(draws.index["cell"], cells)
-        return np.asarray(draws.arrays[self.shown[0]][:, :, place])
+        return np.asarray(draws.arrays[self.shown[0]][:, :, np.searchsorted(draws.index["cell"], cells)])
 
     def expected_traces(self, draws: Draws, cells: NDArray[np.intp]) -> NDArray[np.float16]:
         """Return the expected chances of the given touched cells in all draws, (chains, draws, n)."""
-        place = np.searchsorted(draws.index["cell"], cells)
-        return np.asarray(draws.arrays[self.shown[1]][:, :, place])
+        return np.asarray(draws.arrays[self.shown[1]][:, :, np.searchsorted(draws.index["cell"], cells)])
 
     def predictive_stops(self, draws: Draws, wanted: NDArray[np.int32] | None = None) -> Iterator[NDArray[np.float32]]:
         """Yield the expected reflectivities of each draw, (draws, n), in batches of draws.

@@ -164,13 +164,8 @@ def map_error(cells: CellPrior, draws: Draws, observed: NDArray[np.bool_]) -> fl
     draws, eight or more over all chains. The error of a mean over n batches is the standard deviation of the batch
     means over sqrt(n). Chains that disagree make it large, so it also judges convergence.
 
-    Args:
-        cells: kind of the cells, which defines the values of the map.
-        draws: draws of all chains.
-        observed: cells to include, (nx, ny).
-
     Returns:
-        The error, in units of the map's values; inf for fewer than two draws per batch, 0 without cells.
+        The error, in units of the map's values; inf for fewer than two draws per batch, 0 without observed cells.
     """
     # The first draws are left out if batches of equal length do not cover all.
     batches = -(-FEWEST_BATCHES // draws.chains)
@@ -197,7 +192,7 @@ def join(parts: Sequence[Chains]) -> Chains:
     assert len({part.sweep for part in parts}) == 1, "chains of different length cannot be joined"
 
     def joined(arrays: Sequence[Mapping[str, NDArray[Any]]]) -> dict[str, NDArray[Any]]:
-        return {name: np.concatenate([one[name] for one in arrays]) for name in arrays[0]}
+        return {name: np.concatenate([part[name] for part in arrays]) for name in arrays[0]}
 
     return replace(
         first,
@@ -223,10 +218,7 @@ def some_chains(chains: Chains, which: slice) -> Chains:
 
 
 def in_sequence(parts: Sequence[Chains]) -> Chains:
-    """Join consecutive sweeps of the same chains, as if they had never been interrupted.
-
-    The snapshot and the observed counts are those of the last part.
-    """
+    """Join consecutive sweeps of the same chains. Snapshot and observed counts are those of the last part."""
     first, last = parts[0], parts[-1]
     draws = {name: np.concatenate([part.draws.arrays[name] for part in parts], axis=1) for name in last.draws.arrays}
     return replace(

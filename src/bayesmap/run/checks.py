@@ -26,13 +26,7 @@ GROUP_LIMITS = ("/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory/memory.limit
 
 
 def check_memory(grid: Grid, scans: Scans, surfaces: bool, chains: int) -> None:
-    """Refuse a grid whose chains do not fit into memory.
-
-    Args:
-        grid: grid of the map.
-        scans: scans that the grid covers.
-        surfaces: true if cells have surfaces.
-        chains: number of chains that run on this machine together.
+    """Refuse a grid whose chains, which run on this machine together, do not fit into memory.
 
     Raises:
         BadInput: the chains take more memory than the machine has. If a few scans lie so far out that they make the
@@ -43,12 +37,9 @@ def check_memory(grid: Grid, scans: Scans, surfaces: bool, chains: int) -> None:
     if available is None or needed <= available:
         return
     nx, ny = grid.shape
-    wrong = outlying(scans)
-    remedy = (
-        why_outlying(scans, int(wrong[0]))
-        if len(wrong)
-        else "use a coarser resolution, or fewer chains, or a smaller map"
-    )
+    wrong, remedy = outlying(scans), "use a coarser resolution, or fewer chains, or a smaller map"
+    if len(wrong):
+        remedy = why_outlying(scans, int(wrong[0]))
     raise BadInput(
         f"grid: {chains} chains of {nx} x {ny} cells take at least {needed / 1e9:.0f} GB of memory, and there are "
         f"{available / 1e9:.0f}: {remedy}"
@@ -97,11 +88,7 @@ def fingerprint(settings: dict[str, Any], model: Model, *starts: NDArray[Any] | 
 
 
 def check_same(saved: dict[str, Any], asked: dict[str, Any]) -> None:
-    """Refuse to continue a run that was made with other arguments.
-
-    Args:
-        saved: settings of the stopped run, with its fingerprint, which also covers its scans and its grid.
-        asked: settings of this call.
+    """Refuse to continue a run that was made with other arguments; fingerprints also cover its scans and its grid.
 
     Raises:
         BadInput: the settings differ; the message names the differences.

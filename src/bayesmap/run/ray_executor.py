@@ -11,7 +11,6 @@ All groups end segments at the same numbers of sweeps, so that chains can be joi
 from __future__ import annotations
 
 import logging
-import time
 import uuid
 from bisect import bisect_right
 from collections.abc import Callable
@@ -22,7 +21,7 @@ from typing import Any
 from bayesmap.errors import BadInput, check_count
 from bayesmap.run import ray_worker
 from bayesmap.run.chains import Chains, StopRule, SweepPlan, in_sequence, join, map_error, some_chains
-from bayesmap.run.runner import Job, pause_after
+from bayesmap.run.runner import CheckpointTimer, Job
 from bayesmap.samplers.progress import Watch
 from bayesmap.samplers.sampler import Snapshot, to_see
 from bayesmap.version import __version__
@@ -112,13 +111,9 @@ class RayExecutor:
             raise BadInput(f"RayExecutor: segment_s must be a positive number of seconds, got {self.segment_s!r}")
 
     def run(
-        self,
-        job: Job,
-        resume: Chains | None,
-        watch: Watch,
-        on_checkpoint: Callable[[Chains], None] | None,
+        self, job: Job, resume: Chains | None, watch: Watch, on_checkpoint: Callable[[Chains], None] | None,
         checkpoint_every_s: float,
-    ) -> Chains:
+    ) -> Chains:  # fmt: skip
         """Run all chains of the job. If stopped early, they end at the last mark that all chains have reached.
 
         Raises:
@@ -145,8 +140,9 @@ class RayExecutor:
 class Marks:
     """Numbers of sweeps at which segments end, common to all groups.
 
+    The end of warm-up, the marks of the schedule, and its end are marks.
+
     Attributes:
-        schedule: plan of the sweeps: the end of warm-up, its own marks, and the end are marks.
         segment_s: seconds of work between two marks.
         at: marks so far, ascending.
         per_sweep_s: seconds per sweep of the slowest group; 0 before it is measured.
@@ -175,8 +171,6 @@ class Group:
     """Chains that advance together, with their results.
 
     Attributes:
-        which: slice of the job's chains.
-        chain_ids: numbers of the chains.
         resume: results from before this run; None if there are none.
         segments: consecutive results of this run; their snapshots have no arrays.
         snapshots: snapshots by number of sweeps, of the marks that may still be needed.
@@ -254,7 +248,7 @@ class _RayRun:
         for group in self.groups:
             if not self.rule.reached and group.sweep < schedule.sweeps:
                 submit(group)
-        saved_at, pause_s = time.monotonic(), checkpoint_every_s
+        checkpoints = CheckpointTimer(on_checkpoint, checkpoint_every_s)
         # Take segments as they end, and start the next segment of their group.
         while self.running and not self.rule.reached and not (watch.should_stop() and self.sweep >= 0):
             ready, _ = self.ray.wait(list(self.running), num_returns=1, timeout=WAIT_S)
@@ -265,19 +259,14 @@ class _RayRun:
                     submit(group)
             if self.sweep == last:
                 continue
-            # The slowest group has reached a new mark: look at the error, drop old snapshots, perhaps checkpoint.
+            # The slowest group has reached a new mark: estimate the error, drop old snapshots, perhaps checkpoint.
             warmed_up = last < schedule.warmup <= self.sweep
             last = self.sweep
             self.rule.check(last)
             for group in self.groups:
                 group.snapshots = {at: snapshot for at, snapshot in group.snapshots.items() if at >= last}
-            now = time.monotonic()
-            due = warmed_up or now - saved_at >= pause_s
-            if on_checkpoint is not None and last > 0 and due:
-                so_far = self.so_far()
-                on_checkpoint(replace(so_far, finished=False))
-                saved_at = time.monotonic()
-                pause_s = pause_after(saved_at - now, checkpoint_every_s)
+            if last > 0:
+                checkpoints.offer(lambda: replace(self.so_far(), finished=False), at_once=warmed_up)
         # Segments that still run end by themselves, in seconds. Never cancel them: Ray aborts this process if it
         # cancels a task that has just returned (a race, see its pull request 54798; 2.60 still has it).
         return replace(self.so_far(), finished=True) if self.rule.reached else self.so_far()

@@ -1,10 +1,7 @@
 """Run chains in segments, as tasks of a Ray worker for `bayesmap.run.ray_executor`.
 
-A segment is a number of consecutive sweeps. It depends only on the job, the numbers of its chains, and their snapshot
-at its start. So a segment that is lost with its machine can run again elsewhere, with the same draws.
-
-A worker process caches the problem, and the chains of its last segment, for later segments. This only saves time: the
-arguments of a segment suffice to run it in a new process.
+A segment is a number of consecutive sweeps. A worker process caches the problem, and the chains of its last segment,
+for later segments. This only saves time: the arguments of a segment suffice to run it in a new process.
 """
 
 from __future__ import annotations
@@ -29,13 +26,9 @@ def run_segment(
 ) -> tuple[Chains, ChainState]:
     """Run the chains of a job up to a number of sweeps. Returns the new draws of the chains, and their state.
 
-    Observed cells are counted later, by `observed_counts`. The statistics of the start are empty with ``resume``.
-
-    Args:
-        job: the job, with its problem prepared.
-        until: total number of sweeps of each chain at the end; 0 only starts the chains.
-        resume: snapshot of the chains; None starts them.
-        state: state of the chains, if this process still has it from the segment before.
+    The job has its problem prepared. ``until`` is the number of sweeps at the end; 0 only starts the chains. Observed
+    cells are counted later, by `observed_counts`. The statistics of the start are empty with ``resume``. ``state`` is
+    the state of the chains, if this process still has it from the segment before.
     """
     schedule, keep = job.schedule, job.schedule.keep
     began = time.perf_counter()
@@ -60,13 +53,7 @@ def run_segment(
 
 @dataclass
 class Held:
-    """The problem and the chains that this process keeps from task to task.
-
-    Attributes:
-        run: name of the run that the problem belongs to.
-        problem: the prepared problem, under the job's parameters.
-        chains: numbers and state of the chains of the last segment.
-    """
+    """The problem of a run that this process keeps, with numbers and state of the chains of the last segment."""
 
     run: str
     problem: Any
@@ -94,10 +81,7 @@ def prepare(job: Job, version: str) -> tuple[Any, float]:
 def held(run: str, job: Job, problem: list[Any]) -> Held:
     """Return this process's cached problem of a run; fetch it from the object store on first use.
 
-    Args:
-        run: name of the run.
-        job: job of the run; its parameters apply to the problem.
-        problem: reference to the problem, in a list: Ray would fetch a bare reference for every segment.
+    The reference to the problem stands in a list: Ray would fetch a bare reference for every segment.
     """
     global _held  # noqa: PLW0603 -- one per process, as the worker is
     if _held is None or _held.run != run:
@@ -127,13 +111,9 @@ def advance(
 
 
 def observed_counts(
-    run: str,
-    job: Job,
-    problem: list[Any],
-    chain_ids: tuple[int, ...],
-    snapshot: Snapshot,
+    run: str, job: Job, problem: list[Any], chain_ids: tuple[int, ...], snapshot: Snapshot,
     draws: Mapping[str, NDArray[Any]],
-) -> NDArray[np.int32]:
+) -> NDArray[np.int32]:  # fmt: skip
     """Compute `bayesmap.samplers.sampler.Sampler.observed_counts` of chains at a snapshot.
 
     The draws come from `bayesmap.samplers.sampler.to_see`.

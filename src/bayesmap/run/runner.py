@@ -18,6 +18,7 @@ from types import FrameType
 from typing import Any, Protocol
 
 import numpy as np
+from numpy.typing import NDArray
 
 from bayesmap.cells.arrays import Draws
 from bayesmap.model import Model
@@ -31,8 +32,8 @@ from bayesmap.samplers.sampler import NOTHING, PILOT, ChainState, Info, Keep, Sa
 def stop_on_interrupt() -> Iterator[Callable[[], bool]]:
     """Make the yielded function return True after the first Ctrl-C; a second one interrupts at once.
 
-    The function always returns False outside the main thread, in which alone Python handles signals. It also does in a
-    process that was started to ignore Ctrl-C; shells start background jobs of a script this way.
+    It always returns False outside the main thread, in which alone Python handles signals, and in a process that was
+    started to ignore Ctrl-C, as shells start background jobs of a script.
     """
     stopped = False
 
@@ -95,29 +96,13 @@ class Job:
 
 
 def sweeps(
-    sampler: Sampler[Any, Any],
-    state: Any,
-    until: int,
-    *,
-    keep: Keep = NOTHING,
-    beta: float = 1.0,
-    step_seconds: float | None = None,
-    most_kept: int | None = None,
-    stops: tuple[int, ...] = (),
-) -> Iterator[tuple[Any, Info]]:
-    """Advance chains step by step: yield (state, info) after each step.
+    sampler: Sampler[Any, Any], state: Any, until: int, *, keep: Keep = NOTHING, beta: float = 1.0,
+    step_seconds: float | None = None, most_kept: int | None = None, stops: tuple[int, ...] = (),
+) -> Iterator[tuple[Any, Info]]:  # fmt: skip
+    """Advance chains step by step until they have made ``until`` sweeps: yield (state, info) after each step.
 
-    The number of sweeps in a step depends on their speed; the draws do not.
-
-    Args:
-        sampler: sampler that makes the sweeps.
-        state: state of the chains.
-        until: total number of sweeps at the end.
-        keep: rule that selects the draws in the infos.
-        beta: inverse temperature.
-        step_seconds: work per step; `STEP_SECONDS` if None.
-        most_kept: most draws per step.
-        stops: numbers of sweeps at which a step must end.
+    The number of sweeps in a step depends on their speed; the draws do not. A step takes about ``step_seconds``
+    (`STEP_SECONDS` if None), keeps at most ``most_kept`` draws, and ends at each number of sweeps in ``stops``.
     """
     seconds = STEP_SECONDS if step_seconds is None else step_seconds
     per_sweep, most = SECONDS_PER_INCIDENCE * state.problem.n_incidences, FIRST_STEP
@@ -159,11 +144,7 @@ FIRST_MAP_SWEEPS = 5
 
 
 def first_map(sampler: Sampler[Any, Any], problem: Any, model: Model, seed: int) -> tuple[Chains, float]:
-    """Draw a first, rough map with a short chain of its own, which no other chain depends on.
-
-    Returns:
-        The chain with one draw, and the seconds of one of its sweeps on all threads.
-    """
+    """Draw a first, rough map with a short chain of its own. Returns it, and the seconds of a sweep on all threads."""
     state = sampler.init(problem, [PILOT], seed)
     state, _ = sampler.step(state, 1)  # a first sweep is slower
     began = time.perf_counter()
@@ -179,13 +160,9 @@ def first_map(sampler: Sampler[Any, Any], problem: Any, model: Model, seed: int)
 
 
 def run_chains(
-    job: Job,
-    *,
-    resume: Chains | None = None,
-    watch: Watch = SILENT,
-    on_checkpoint: Callable[[Chains], None] | None = None,
-    checkpoint_every_s: float = 30.0,
-) -> Chains:
+    job: Job, *, resume: Chains | None = None, watch: Watch = SILENT,
+    on_checkpoint: Callable[[Chains], None] | None = None, checkpoint_every_s: float = 30.0,
+) -> Chains:  # fmt: skip
     """Run warm-up and draws of all chains of a job in this process.
 
     Args:
@@ -211,11 +188,13 @@ def run_chains(
     record = Record(empty, schedule, resume)
     draw_bytes = sum(spec.empty(chains, 1, empty.shape_of(spec)).nbytes for spec in empty.specs)
 
-    def so_far(state: ChainState) -> Chains:
+    def observed_counts() -> NDArray[np.int32]:
+        return job.sampler.observed_counts(state, to_see(record.draws))
+
+    def so_far() -> Chains:
         return record.chains(
-            snapshot=job.sampler.snapshot(state), finished=rule.reached or state.sweep >= schedule.sweeps,
-            statistics=statistics, observed_counts=job.sampler.observed_counts(state, to_see(record.draws)),
-            n_incidences=state.problem.n_incidences, seconds=dict(seconds),
+            snapshot=job.sampler.snapshot(state), finished=False, statistics=statistics,
+            observed_counts=observed_counts(), n_incidences=state.problem.n_incidences, seconds=dict(seconds),
         )  # fmt: skip
 
     steps = sweeps(
@@ -224,13 +203,12 @@ def run_chains(
     )  # fmt: skip
 
     def error() -> float:
-        counts = job.sampler.observed_counts(state, to_see(record.draws))
-        return map_error(job.model.cells, record.draws, observed_cells(counts))
+        return map_error(job.model.cells, record.draws, observed_cells(observed_counts()))
 
     rule = StopRule(schedule, error)
     rule.check(state.sweep)  # a resumed run may stand at a mark
     # Advance step by step: record draws, look at the error, report, write checkpoints.
-    saved_at, pause_s = time.monotonic(), checkpoint_every_s
+    checkpoints = CheckpointTimer(on_checkpoint, checkpoint_every_s)
     began, before = time.perf_counter(), state.sweep
     stopped = watch.should_stop()
     while not (stopped or rule.reached):
@@ -244,16 +222,26 @@ def run_chains(
         log_joint = float(np.mean(info.log_likelihood[:, -1] + info.log_prior[:, -1]))
         rule.check(state.sweep)
         watch.report("warm-up" if warming else "draws", state.sweep, rule.aim(state.sweep), log_joint, rule.error)
-        now = time.monotonic()
-        warmed_up = warming and state.sweep == schedule.warmup
-        last = rule.reached or state.sweep >= schedule.sweeps
-        if on_checkpoint is not None and (warmed_up or now - saved_at >= pause_s):
-            on_checkpoint(replace(so_far(state), finished=False) if last else so_far(state))
-            saved_at = time.monotonic()
-            pause_s = pause_after(saved_at - now, checkpoint_every_s)
+        checkpoints.offer(so_far, at_once=warming and state.sweep == schedule.warmup)
         began, stopped = time.perf_counter(), watch.should_stop()
     # A stop in the last step counts, too: the caller must not begin the work that follows the chains.
-    return replace(so_far(state), finished=False) if stopped else so_far(state)
+    return replace(so_far(), finished=not stopped and (rule.reached or state.sweep >= schedule.sweeps))
+
+
+class CheckpointTimer:
+    """Writes a checkpoint of chains every ``every_s`` seconds, or less often if that takes too much of the time."""
+
+    def __init__(self, write: Callable[[Chains], None] | None, every_s: float) -> None:
+        self._write, self._every_s = write, every_s
+        self._written_at, self._pause_s = time.monotonic(), every_s
+
+    def offer(self, chains: Callable[[], Chains], at_once: bool) -> None:
+        """Write a checkpoint if one is due, or in any case if ``at_once``."""
+        now = time.monotonic()
+        if self._write is not None and (at_once or now - self._written_at >= self._pause_s):
+            self._write(replace(chains(), finished=False))
+            self._written_at = time.monotonic()
+            self._pause_s = pause_after(self._written_at - now, self._every_s)
 
 
 def pause_after(checkpoint_s: float, every_s: float) -> float:
@@ -269,16 +257,10 @@ class Executor(Protocol):
     """Runs the chains of a job on some machine."""
 
     def run(
-        self,
-        job: Job,
-        resume: Chains | None,
-        watch: Watch,
-        on_checkpoint: Callable[[Chains], None] | None,
+        self, job: Job, resume: Chains | None, watch: Watch, on_checkpoint: Callable[[Chains], None] | None,
         checkpoint_every_s: float,
-    ) -> Chains:
-        """Run all chains of the job and return them in the order of their numbers; see
-        `bayesmap.run.runner.run_chains`.
-        """
+    ) -> Chains:  # fmt: skip
+        """Run all chains of the job, see `run_chains`. Returns them in the order of their numbers."""
 
 
 @dataclass(frozen=True)
@@ -292,13 +274,9 @@ class ThreadExecutor:
     should_stop: Callable[[], bool] = lambda: False
 
     def run(
-        self,
-        job: Job,
-        resume: Chains | None,
-        watch: Watch,
-        on_checkpoint: Callable[[Chains], None] | None,
+        self, job: Job, resume: Chains | None, watch: Watch, on_checkpoint: Callable[[Chains], None] | None,
         checkpoint_every_s: float,
-    ) -> Chains:
+    ) -> Chains:  # fmt: skip
         """Run all chains in this process."""
         both = replace(watch, should_stop=lambda: watch.should_stop() or self.should_stop())
         return run_chains(

@@ -1,18 +1,16 @@
 """Fit the sensor and the prior to the scans, by a pilot chain: stochastic expectation maximisation.
 
-The pilot is a short chain with a chain number of its own. It ends before the other chains begin, and they use the
-fitted parameters. So the parameters depend on the seed and on the number of the pilot's sweeps, but not on the number
-of chains. Only the scans from which the map is inferred are used. In the first sweeps parameters move all the way to
-the new estimate, later a shrinking share of the way (Delyon, Lavielle and Moulines, 1999).
+The pilot is a short chain with a chain number of its own, which ends before the other chains begin. So the parameters
+depend on the seed and on the number of the pilot's sweeps, but not on the number of chains. In the first sweeps
+parameters move all the way to the new estimate, later a shrinking share of the way (Delyon, Lavielle and Moulines,
+1999).
 
 Sensor and Beta prior. After each sweep, the drawn stops give the distance of each reading from its surface. The
 expectation step splits the readings into returns of walls, passing objects and random readings. The maximisation step
-is in closed form except for the noise and the Beta. With 10^5 beams the posterior of these parameters is much narrower
-than that of all other unknowns.
+is in closed form except for the noise and the Beta.
 
-Noise. Real readings can scatter more than a normal law allows. Errors of poses differ from scan to scan, walls are hit
-at a slant, and readings at an edge mix the wall with the surface behind it. So the noise may be Student's t, a mixture
-of normal laws of all scales.
+Noise. Real readings can scatter more than a normal law allows, so the noise may be Student's t, a mixture of normal
+laws of all scales.
 
 Coupling of an Ising prior. Each sweep of the pilot gives a whole map, with cells that no beam observes. The coupling
 moves towards the maximum of the pseudo-likelihood for this map (`bayesmap.cells.binary`). It converges where the
@@ -90,8 +88,8 @@ class StopResiduals:
 
 
 def refit_noise(noise: AdditiveNoise, residuals: StopResiduals, step: float) -> AdditiveNoise:
-    """Move a noise by the share ``step`` of the way to the likeliest noise. If ``step`` is 1, its degrees of freedom
-    may also change, to a neighbouring value of `SHAPES`.
+    """Move a noise by the share ``step`` of the way to the likeliest. A whole step may also move its degrees of freedom
+    to a neighbouring value of `SHAPES`.
     """
     readings = residuals.weight.sum()
     if readings < LEAST_WEIGHT:
@@ -160,13 +158,9 @@ def first_sensor(prior: CellPrior, resolution_m: float) -> BeamMixture:
 
 
 def fit(problem: StopProblem, seed: int, sweeps: int, watch: Watch = SILENT) -> Parameters:
-    """Fit sensor and prior to the scans of a problem, starting from the problem's sensor and prior.
+    """Fit sensor and prior to the scans of a problem, starting from the problem's, by ``sweeps`` sweeps of the pilot.
 
-    Args:
-        problem: rays, and the first sensor and prior.
-        seed: seed of the pilot.
-        sweeps: number of the pilot's sweeps; with 0, nothing moves.
-        watch: receiver of progress after each sweep; a stop ends the pilot, and with it the run.
+    The watch gets progress after each sweep; a stop ends the pilot, and with it the run.
     """
     fitted = _first(problem)
     for parameters, _ in pilot_sweeps(problem, seed, sweeps, watch):
@@ -195,7 +189,7 @@ def pilot_sweeps(
     for sweep in range(sweeps):
         state, info = sampler.step(state, 1, keep=keep)
         if sweep >= FIRST_SWEEP:
-            step, sensor, prior = gain(sweep), now.sensor, now.prior
+            step, sensor, prior = step_share(sweep), now.sensor, now.prior
             sensor = refit_sensor(sensor, stops_of(state, beams), problem.rays.limits, step)
             if sweep % PRIOR_EVERY == 0:
                 touched = problem.estimate.touched
@@ -236,9 +230,9 @@ def stops_of(state: StopState, beams: slice) -> DrawnStops:
     )
 
 
-def gain(sweep: int) -> float:
-    """Return the share of the way that parameters move after a sweep: 1 until `WHOLE_UNTIL`, then decreasing."""
-    return 1.0 if sweep < WHOLE_UNTIL else float((sweep - WHOLE_UNTIL + 1.0) ** -0.7)
+def step_share(sweep: int, whole_until: int = WHOLE_UNTIL) -> float:
+    """Return the share of the way that parameters move after a sweep: 1 until ``whole_until``, then decreasing."""
+    return 1.0 if sweep < whole_until else float((sweep - whole_until + 1.0) ** -0.7)
 
 
 def refit_sensor(sensor: BeamMixture, stops: DrawnStops, limits: RangeLimits, step: float) -> BeamMixture:
@@ -305,12 +299,9 @@ def _share(part: float, whole: float, present: float) -> float:
 
 
 def refit_prior(
-    prior: Reflective,
-    hits: NDArray[np.int32],
-    met: NDArray[np.int32],
-    step: float,
+    prior: Reflective, hits: NDArray[np.int32], met: NDArray[np.int32], step: float,
     solid: NDArray[np.bool_] | None = None,
-) -> Reflective:
+) -> Reflective:  # fmt: skip
     """Move the Beta's counts towards those that make hits and passes likeliest, reflectivities integrated out.
 
     Cells with negative ``met`` have not counted yet and are left out. With labels, each label's Beta is fitted to the
@@ -358,18 +349,9 @@ FIRST_COUPLING = 0.5
 def fit_coupling_to_scans(
     model: Model, sampler: WallSampler, device: str, *, seed: int, threads: int | None = None, watch: Watch = SILENT
 ) -> Ising:
-    """Return a model's prior with the coupling that suits its scans.
+    """Return the `Ising` prior of a model with the coupling that suits its scans; its wall probability stays.
 
-    Args:
-        model: a model whose cells are an `Ising`; its wall probability stays.
-        sampler: sampler of the pilot.
-        device: where kernels run.
-        seed: seed of the pilot.
-        threads: number of CPU threads; all cores if None.
-        watch: receiver of progress after each sweep; a stop ends the pilot, and with it the run.
-
-    Raises:
-        BadInput: as `WallSampler.prepare`.
+    The watch gets progress after each sweep of the pilot; a stop ends the pilot, and with it the run.
     """
     now = replace(cast(Ising, model.cells), coupling=FIRST_COUPLING)
     problem = sampler.prepare(replace(model, cells=now), device, threads, watch)
@@ -378,7 +360,7 @@ def fit_coupling_to_scans(
         state, info = sampler.step(state, 1)
         walls = state.walls().reshape(problem.grid.shape) != 0
         best = likeliest(*counts(walls, np.asarray(now.p_wall, dtype=np.float64)))
-        step = 1.0 if sweep < COUPLING_WHOLE_UNTIL else (sweep - COUPLING_WHOLE_UNTIL + 1.0) ** -0.7
+        step = step_share(sweep, COUPLING_WHOLE_UNTIL)
         now = replace(now, coupling=now.pair_coupling + step * (best - now.pair_coupling))
         state = replace(state, problem=state.problem.under(now))
         watch.report("fit", sweep + 1, COUPLING_SWEEPS, float(info.log_likelihood[0, -1] + info.log_prior[0, -1]))

@@ -101,13 +101,9 @@ def initial_estimate(rays: Rays, prior: Reflective, device: str = "cpu") -> Init
     around = ndimage.binary_dilation((hits > 0).reshape(grid.shape), np.ones((3, 3))).ravel()
     touched = rays.touched
     return InitialEstimate(
-        touched=touched,
-        hits=hits[touched],
-        passes=count_passes(rays, end_cell, device)[touched],
-        far=~around[touched],
-        mean_m=mean,
-        factor_m=np.stack([l11, l21, l22], axis=-1),
-    )
+        touched=touched, hits=hits[touched], passes=count_passes(rays, end_cell, device)[touched], far=~around[touched],
+        mean_m=mean, factor_m=np.stack([l11, l21, l22], axis=-1),
+    )  # fmt: skip
 
 
 def widened(var_x: Floats, both: Floats, var_y: Floats) -> tuple[Floats, Floats, Floats]:
@@ -163,12 +159,9 @@ def first_labels(
 
 
 def start(
-    estimate: InitialEstimate,
-    prior: Reflective,
-    rays: Rays,
-    rng: np.random.Generator,
+    estimate: InitialEstimate, prior: Reflective, rays: Rays, rng: np.random.Generator,
     solid: NDArray[np.bool_] | None = None,
-) -> NDArray[np.float32]:
+) -> NDArray[np.float32]:  # fmt: skip
     """Draw a chain's first state of all cells of the grid, (N, 6), scattered about the estimate like the posterior.
 
     ``solid`` holds their labels, (N,), if they have any. Cells in which no reading ends take surfaces from the prior.

@@ -1,9 +1,8 @@
 """Merge moves: joint changes of two surfaces, during the warm-up of chains.
 
-Sweeps change one cell at a time. Few long surfaces explain a wall as well as many short ones, and cost less. But a
-surface that grows over the readings of a neighbour gains nothing while the neighbour still stops those beams. In a
-merge move a cell that stops few beams becomes free. The neighbour whose axis lies closest to its readings becomes
-longer along this axis, to reach them.
+Sweeps change one cell at a time: a surface that grows over the readings of a neighbour gains nothing while the
+neighbour still stops those beams. In a merge move a cell that stops few beams becomes free. The neighbour whose axis
+lies closest to its readings becomes longer along this axis, to reach them.
 
 Changes at places that are far enough apart are tried together. One sweep over the beams computes for each place whether
 the map explains its readings better than before; the other changes are undone. The criterion is the log likelihood of
@@ -13,8 +12,7 @@ log odds against it:
 
     sum over beams ( log p(z) - (log odds + 5/2 log (1 + n)) / n ),    n beams being stopped by the same cell.
 
-These moves are a search and no step of a Markov chain. They end before a draw is kept. Chains share no information: if
-they agree, they do so independently.
+These moves are a search and no step of a Markov chain. They end before a draw is kept. Chains share no information.
 """
 
 from __future__ import annotations
@@ -122,15 +120,10 @@ def look_with(problem: StopProblem, chains: StopChains, beta: float) -> Look:
 def try_changes(
     maps: ChainMaps, changes: Sequence[Changes], look: Look, before: Floats, half: int, least: float
 ) -> list[NDArray[np.bool_]]:
-    """Change maps, and undo the changes that gain less than ``least`` around their place.
+    """Change maps, and undo the changes that raise the evidence by less than ``least`` nats around their place.
 
-    Args:
-        maps: maps of all chains.
-        changes: changes of each chain, at places that do not touch.
-        look: function that computes the evidence of maps, see `look_with`.
-        before: evidence before the changes, (C, nx, ny); updated around the changes that stay.
-        half: number of cells to each side of a place whose readings are compared.
-        least: least gain, nats.
+    The readings of ``half`` cells to each side of a place are compared; the places of a chain do not touch. ``before``
+    is the evidence before the changes, (C, nx, ny); it is updated around the changes that stay.
 
     Returns:
         For each chain, the mask of changes that stay.
@@ -158,9 +151,7 @@ def sums_over_squares(values: Floats, half: int) -> Floats:
 
 
 def apart(places: NDArray[np.intp], cells: int, shape: tuple[int, int]) -> NDArray[np.bool_]:
-    """Select sites that can be proposed jointly: greedily, each more than ``cells`` cells from those already selected.
-    Returns a mask, (n,).
-    """
+    """Select sites greedily, each more than ``cells`` cells from those already selected. Returns a mask, (n,)."""
     near, chosen = np.zeros(shape, dtype=np.bool_), np.zeros(len(places), dtype=np.bool_)
     for i, (x, y) in enumerate(places):
         if not near[x, y]:
@@ -233,14 +224,9 @@ class SurfaceAxes:
 
 
 def merge_surfaces(
-    maps: ChainMaps,
-    end_points_m: Floats,
-    noise: Floats,
-    owners: list[NDArray[np.int32]],
-    grid: Grid,
-    look: Look,
+    maps: ChainMaps, end_points_m: Floats, noise: Floats, owners: list[NDArray[np.int32]], grid: Grid, look: Look,
     before: Floats,
-) -> list[int]:
+) -> list[int]:  # fmt: skip
     """Try for every surface that stops few beams whether a neighbour is better without it.
 
     Args:
@@ -276,13 +262,9 @@ def merge_surfaces(
 
 
 def merge_moves(
-    cells: NDArray[np.float32],
-    solid: NDArray[np.bool_],
-    owner: NDArray[np.int32],
-    end_points_m: Floats,
-    noise: Floats,
+    cells: NDArray[np.float32], solid: NDArray[np.bool_], owner: NDArray[np.int32], end_points_m: Floats, noise: Floats,
     grid: Grid,
-) -> Changes:
+) -> Changes:  # fmt: skip
     """Propose for each surface that stops few beams its removal, and a longer surface of the neighbour whose axis lies
     closest to its readings. The moves with the closest axes come first.
     """
@@ -362,13 +344,9 @@ def best_neighbours(
 
 
 def lengthened(
-    cells: NDArray[np.float32],
-    readings: ExplainedReadings,
-    axes: SurfaceAxes,
-    source: NDArray[np.intp],
-    target: NDArray[np.intp],
-    grid: Grid,
-) -> Floats:
+    cells: NDArray[np.float32], readings: ExplainedReadings, axes: SurfaceAxes, source: NDArray[np.intp],
+    target: NDArray[np.intp], grid: Grid,
+) -> Floats:  # fmt: skip
     """Lengthen the surfaces of ``target`` to reach the readings of ``source``. Returns mean, l11, l21, l22, (n, 5).
 
     A surface moves along its axis towards the middle of both cells' readings, within its square. It becomes as long as

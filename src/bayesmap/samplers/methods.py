@@ -123,12 +123,9 @@ WITHOUT_CHAINS: Mapping[str, Callable[[WallProblem, DrawRequest, Watch], Indepen
 
 
 def method_of(method: Method | str | None, known: Mapping[str, str], kind: str) -> tuple[str, Method]:
-    """Return the name of a method, and the method with its options.
+    """Return the name of a method, and the method with its options; None gives the first method of the kind of cells.
 
-    Args:
-        method: a method, its name, or None for the first method of the kind of cells.
-        known: the names of the methods of the kind of cells, and of their samplers.
-        kind: name of the kind of cells.
+    ``known`` holds the names of the kind's methods, and of their samplers.
 
     Raises:
         BadInput: this kind of cells has no such method.

@@ -1,9 +1,8 @@
 """Metropolis sampling of any kind of cells, cell by cell, in plain NumPy: for kinds without a sampler of their own.
 
-Every sweep proposes another state for each cell (`CellPrior.propose`; by default a state from the prior). It is
-accepted with probability min(1, ratio). The ratio is that of the likelihoods of the beams that touch the cell, times
-that of priors and proposals (Metropolis et al., 1953; Hastings, 1970). The sensor needs only a density. On a small map
-this gives a first posterior of a new kind of cells.
+Every sweep proposes another state for each cell (`CellPrior.propose`). It is accepted with probability min(1, ratio).
+The ratio is that of the likelihoods of the beams that touch the cell, times that of priors and proposals (Metropolis et
+al., 1953; Hastings, 1970). The sensor needs only a density.
 """
 
 from __future__ import annotations
@@ -20,35 +19,15 @@ from bayesmap.beams.rays import Rays
 from bayesmap.cells.kind import Floats
 from bayesmap.model import Model, log_likelihoods
 from bayesmap.samplers.progress import SILENT, Watch
-from bayesmap.samplers.sampler import NOTHING, STREAM_START, STREAM_SWEEPS, Info, Keep, Snapshot
-from bayesmap.space.grid import Grid
+from bayesmap.samplers.sampler import NOTHING, STREAM_START, STREAM_SWEEPS, Info, Keep, RaysProblem, Snapshot
 
 
 @dataclass(frozen=True, eq=False)
-class MetropolisProblem:
+class MetropolisProblem(RaysProblem):
     """A model, its rays, and the beams that touch each cell."""
 
     model: Model
     rays: Rays
-
-    @property
-    def grid(self) -> Grid:
-        """The map's cells."""
-        return self.model.grid
-
-    @property
-    def n_incidences(self) -> int:
-        """The number of cells that all beams cross together."""
-        return self.rays.n_incidences
-
-    @property
-    def coordinates(self) -> Mapping[str, NDArray[np.int32]]:
-        """Always empty: draws cover the grid."""
-        return {}
-
-    def touched(self) -> NDArray[np.bool_]:
-        """Mark the cells that at least one beam touches, (nx, ny)."""
-        return self.rays.touched_map()
 
     @cached_property
     def beams_of(self) -> list[NDArray[np.int32]]:
@@ -96,13 +75,9 @@ class Metropolis:
         return MetropolisProblem(model, rays)
 
     def init(
-        self,
-        problem: MetropolisProblem,
-        chain_ids: Sequence[int],
-        seed: int,
-        resume: Snapshot | None = None,
+        self, problem: MetropolisProblem, chain_ids: Sequence[int], seed: int, resume: Snapshot | None = None,
         watch: Watch = SILENT,
-    ) -> MetropolisState:
+    ) -> MetropolisState:  # fmt: skip
         """Start chains at draws from the prior, or at the maps of a snapshot."""
         prior, grid = problem.model.cells, problem.grid
         if resume is None:

@@ -44,14 +44,9 @@ class Marginals:
 
 
 def propagate(
-    problem: WallProblem,
-    *,
-    rounds: int = ROUNDS,
-    damping: float = DAMPING,
-    tolerance: float = 1e-3,
-    beta: float = 1.0,
+    problem: WallProblem, *, rounds: int = ROUNDS, damping: float = DAMPING, tolerance: float = 1e-3, beta: float = 1.0,
     watch: Watch = SILENT,
-) -> Marginals:
+) -> Marginals:  # fmt: skip
     """Pass messages between all beams and cells until beliefs converge, or for a number of rounds.
 
     If no cell lies on two beams and neighbours are not coupled, one undamped round is exact. If beams and coupled
@@ -59,13 +54,8 @@ def propagate(
     approximate, and usually too certain. Above a coupling of about 0.7, they may show only one of two possible states
     of a whole region.
 
-    Args:
-        problem: table and prior.
-        rounds: most rounds.
-        damping: weight of the old message in the new one, geometrically, in [0, 1).
-        tolerance: largest change of a probability at which rounds end.
-        beta: inverse temperature of the likelihood.
-        watch: receiver of progress after each round; it may stop the rounds.
+    Rounds end when no probability changes by more than ``tolerance``. ``damping`` in [0, 1) is the weight of the old
+    message in the new one, geometrically; ``beta`` is the inverse temperature of the likelihood.
 
     Raises:
         BadInput: rounds or damping out of range.
@@ -92,13 +82,10 @@ def propagate(
     fixed = (problem.p_wall == 0) | (problem.p_wall == 1)
     p_wall = np.where(fixed, problem.p_wall, p_wall)
     return Marginals(
-        p_wall=p_wall.reshape(problem.table.grid.shape),
-        changes=np.array(changes),
-        mean_changes=np.array(mean_changes),
-        converged=changes[-1] < tolerance,
-        finished=changes[-1] < tolerance or len(changes) == rounds,
+        p_wall=p_wall.reshape(problem.table.grid.shape), changes=np.array(changes), mean_changes=np.array(mean_changes),
+        converged=changes[-1] < tolerance, finished=changes[-1] < tolerance or len(changes) == rounds,
         seconds=time.perf_counter() - began,
-    )
+    )  # fmt: skip
 
 
 def propagate_to_start(problem: WallProblem, rounds: int = ROUNDS, watch: Watch = SILENT) -> Marginals:

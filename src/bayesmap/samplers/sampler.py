@@ -15,6 +15,7 @@ from typing import Any, Protocol, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from bayesmap.beams.rays import Rays
 from bayesmap.cells.arrays import Draws
 from bayesmap.cells.kind import Floats
 from bayesmap.model import Model
@@ -24,6 +25,8 @@ from bayesmap.space.grid import Grid
 STREAM_SWEEPS = 1
 STREAM_START = 2
 STREAM_PARTICLES = 3
+STREAM_POSES = 4
+STREAM_START_POSES = 6
 STREAM_LABELS = 7
 """Streams of random numbers: each has its own key for a seed and a chain."""
 
@@ -109,9 +112,36 @@ class Problem(Protocol):
     @property
     def coordinates(self) -> Mapping[str, NDArray[np.int32]]:
         """The cells of each dimension of draws that covers only some cells (see `bayesmap.cells.arrays.Draws`)."""
+        return {}
 
     def touched(self) -> NDArray[np.bool_]:
         """Mark the cells that at least one beam touches, (nx, ny); the others follow the prior."""
+
+
+class RaysProblem(Problem):
+    """A problem whose beams are traced as rays."""
+
+    rays: Rays
+
+    @property
+    def grid(self) -> Grid:
+        """The map's cells."""
+        return self.rays.grid
+
+    @property
+    def n_incidences(self) -> int:
+        """The number of cells that all beams cross together."""
+        return self.rays.n_incidences
+
+    def touched(self) -> NDArray[np.bool_]:
+        """Mark the cells that at least one beam touches, (nx, ny)."""
+        return self.rays.touched_map()
+
+
+def with_cached(changed: C, original: C, *names: str) -> C:
+    """Return a changed copy of a problem, with the cached properties of the original that the change left valid."""
+    vars(changed).update({name: value for name, value in vars(original).items() if name in names})
+    return changed
 
 
 class ChainState(Protocol):
@@ -130,6 +160,7 @@ class ChainState(Protocol):
         """Further results of the start by name, such as the changes of belief propagation."""
 
 
+C = TypeVar("C")
 P = TypeVar("P", bound=Problem)
 S = TypeVar("S", bound=ChainState)
 
@@ -138,13 +169,7 @@ class Sampler(Protocol[P, S]):
     """A Markov chain sampler."""
 
     def prepare(self, model: Model, device: str, threads: int | None = None, watch: Watch = SILENT) -> P:
-        """Trace the model's beams, and prepare all other data that chains share.
-
-        Args:
-            model: the model to sample.
-            device: where kernels run.
-            threads: number of CPU threads; all cores if None. Only the time depends on it.
-            watch: receiver of progress.
+        """Trace the model's beams, and prepare all other data that chains share, with all cores if ``threads`` is None.
 
         Raises:
             BadInput: a model that this sampler cannot sample.
@@ -156,14 +181,10 @@ class Sampler(Protocol[P, S]):
         """Start chains with these numbers, or continue from a snapshot of them."""
 
     def step(self, state: S, sweeps: int, beta: float = 1.0, keep: Keep = NOTHING) -> tuple[S, Info]:
-        """Make some sweeps of all chains.
+        """Make some sweeps of all chains. Do not use the given state afterwards.
 
-        Args:
-            state: the chains; do not use this state afterwards.
-            sweeps: number of sweeps.
-            beta: inverse temperature, the power of p(reading | stop): 0 samples the prior and 1 the posterior. For
-                binary walls, this is the power of the likelihood.
-            keep: the draws to keep.
+        ``beta`` is the inverse temperature, the power of p(reading | stop) (of the likelihood for binary walls): 0
+        samples the prior and 1 the posterior.
         """
 
     def snapshot(self, state: S) -> Snapshot:
@@ -171,17 +192,12 @@ class Sampler(Protocol[P, S]):
 
     def observed_counts(self, state: S, draws: Mapping[str, NDArray[Any]]) -> NDArray[np.int32]:
         """Count the draws in which at least one beam observes each cell, and the draws inspected, of all chains.
-        Returns (2, nx, ny). Without draws, the present maps of the chains are inspected.
-
-        Args:
-            state: state of the chains.
-            draws: the draws that `to_see` has selected; {} for the present maps.
+        Returns (2, nx, ny). ``draws`` are those that `to_see` has selected; without draws, present maps are inspected.
         """
 
 
 def to_see(draws: Draws) -> dict[str, NDArray[Any]]:
-    """Select the draws for `Sampler.observed_counts`: `MAPS_TO_SEE` maps, evenly spread. Arrays that cover only some
-    cells are emptied.
+    """Select the draws for `Sampler.observed_counts`: `MAPS_TO_SEE` maps, evenly spread, without partial arrays.
 
     The observed cells hardly differ from draw to draw, and all draws may be gigabytes, or on another machine.
     """

@@ -23,15 +23,7 @@ from bayesmap.model import Model
 from bayesmap.samplers.initial_estimate import first_labels, start, steps, update_periods
 from bayesmap.samplers.merge_moves import merge, merge_sweeps
 from bayesmap.samplers.progress import SILENT, Watch
-from bayesmap.samplers.sampler import (
-    NOTHING,
-    STREAM_LABELS,
-    STREAM_START,
-    STREAM_SWEEPS,
-    Info,
-    Keep,
-    Snapshot,
-)
+from bayesmap.samplers.sampler import NOTHING, STREAM_LABELS, STREAM_START, STREAM_SWEEPS, Info, Keep, Snapshot
 from bayesmap.samplers.stop_problem import StopProblem, trace_stops
 
 if TYPE_CHECKING:
@@ -117,22 +109,15 @@ class StopDraws:
 
 
 def expected_reflectivity(
-    hits: NDArray[np.int32],
-    met: NDArray[np.int32],
-    prior: Reflective,
-    drawn: NDArray[np.float16],
+    hits: NDArray[np.int32], met: NDArray[np.int32], prior: Reflective, drawn: NDArray[np.float16],
     solid: NDArray[np.bool_] | None = None,
-) -> NDArray[np.float32]:
+) -> NDArray[np.float32]:  # fmt: skip
     """Compute the mean of each cell's reflectivity given its counts, (a + hits) / (a + b + hits + met), (T,).
 
     Given the stops of all beams and the surfaces, reflectivities are independent Betas, and the density of one more
     beam is linear in each. So the density under these means is the mean density under draws (Rao and Blackwell). The
-    counts must be those of the sweep that began at the draw, with its surfaces.
-
-    The following is an approximation. A cell in which no reading ends may not be updated by the sweep
-    (`bayesmap.kernels.surfaces.cell_draws`). Then it has the counts of its last update. Its own mean stays right on
-    average, but its correlation with later changes is lost. In a map of four cells and six beams the effect was under
-    one per cent of a density.
+    counts must be those of the sweep that began at the draw, with its surfaces. A cell that this sweep did not update
+    has the counts of its last update, an approximation: its correlation with later changes is lost.
 
     Args:
         hits: beams that each cell stopped, (T,).
@@ -189,37 +174,21 @@ class StopGibbs:
         return problem
 
     def init(
-        self,
-        problem: StopProblem,
-        chain_ids: Sequence[int],
-        seed: int,
-        resume: Snapshot | None = None,
+        self, problem: StopProblem, chain_ids: Sequence[int], seed: int, resume: Snapshot | None = None,
         watch: Watch = SILENT,
-    ) -> StopState:
+    ) -> StopState:  # fmt: skip
         """Start chains scattered about the initial estimate, or continue from a snapshot."""
         from bayesmap.kernels.random import mix
-
-        sweep, stored = (0, {}) if resume is None else (resume.sweep, resume.arrays)
-        keys = [mix(seed, chain, STREAM_SWEEPS) for chain in chain_ids]
-        return StopState(problem, self._chains(problem, chain_ids, seed, keys, stored), keys, sweep, {})
-
-    def _chains(
-        self,
-        problem: StopProblem,
-        chain_ids: Sequence[int],
-        seed: int,
-        keys: Sequence[int],
-        stored: Mapping[str, NDArray[Any]],
-    ) -> StopChains:
-        """Make chains scattered about the initial estimate, or restore them from ``stored``."""
         from bayesmap.kernels.surfaces.stop_chains import StopChains
 
-        estimate, kept = problem.estimate, problem.coordinates["cell"]
+        resume = Snapshot(0) if resume is None else resume
+        stored, kept = resume.arrays, problem.coordinates["cell"]
+        keys = [mix(seed, chain, STREAM_SWEEPS) for chain in chain_ids]
         solid = self._labels(problem, chain_ids, seed, stored)
 
         def states(chain: int) -> NDArray[np.float32]:
             rng = np.random.default_rng([seed, chain_ids[chain], STREAM_START])
-            state = start(estimate, problem.prior, problem.rays, rng, None if solid is None else solid[chain])
+            state = start(problem.estimate, problem.prior, problem.rays, rng, None if solid is None else solid[chain])
             if "state" in stored:
                 state[kept] = stored["state"][chain]
             return state
@@ -233,10 +202,11 @@ class StopGibbs:
             return out
 
         observed = on_grid("observed_counts")
-        return StopChains(
+        chains = StopChains(
             _plan(problem), states, keys, threads=problem.threads, counts=on_grid("counts"), solid=solid,
             observed_counts=None if observed is None else np.ascontiguousarray(observed.transpose(0, 2, 1)),
         )  # fmt: skip
+        return StopState(problem, chains, keys, resume.sweep, {})
 
     def _labels(
         self, problem: StopProblem, chain_ids: Sequence[int], seed: int, stored: Mapping[str, NDArray[Any]]
@@ -313,9 +283,7 @@ class StopGibbs:
         return replace(state, sweep=state.sweep + sweeps), Info(log_likelihood, log_prior, draws.arrays)
 
     def snapshot(self, state: StopState) -> Snapshot:
-        """Return the kept cells' states and counts, (C, T, 6) and (C, 2, T), and labels of all cells, packed. The other
-        cells can be drawn again: no beam observes them.
-        """
+        """Return the kept cells' states and counts, (C, T, 6) and (C, 2, T), and labels of all cells, packed."""
         problem, chains = state.problem, state.chains
         kept, each = problem.coordinates["cell"], range(chains.n_chains)
         labels: dict[str, NDArray[Any]] = {}
@@ -330,9 +298,7 @@ class StopGibbs:
         return Snapshot(state.sweep, arrays)
 
     def observed_counts(self, state: StopState, draws: Mapping[str, NDArray[Any]]) -> NDArray[np.int32]:
-        """Count the kept sweeps in which at least one beam observes each cell, and the sweeps inspected. Without draws,
-        only the last sweep is inspected. Returns (2, nx, ny).
-        """
+        """Count the kept sweeps (or the last) in which a beam observes each cell, and those inspected, (2, nx, ny)."""
         each = range(state.chains.n_chains)
         counts = [state.chains.observed_counts(i).T if draws else self._observed_now(state, i) for i in each]
         return np.reshape(np.sum(counts, axis=0), (2, *state.problem.grid.shape)).astype(np.int32)

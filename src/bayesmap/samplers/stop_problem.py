@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,6 +16,7 @@ from bayesmap.cells.reflectivity import Reflective
 from bayesmap.errors import BadInput
 from bayesmap.samplers.initial_estimate import InitialEstimate, initial_estimate
 from bayesmap.samplers.progress import SILENT, Watch
+from bayesmap.samplers.sampler import RaysProblem, with_cached
 from bayesmap.sensors.builtin import BeamMixture, Gaussian, StudentT
 from bayesmap.sensors.model import RangeLimits, SensorModel
 from bayesmap.space.grid import Grid
@@ -34,15 +34,11 @@ CELLS_MOVED = 2
 
 
 @dataclass(frozen=True, eq=False)
-class StopProblem:
+class StopProblem(RaysProblem):
     """Rays through cells that stop some of them, under a prior.
 
     Attributes:
-        rays: cells along every beam.
-        prior: prior of the cells.
-        sensor: the law of the readings.
         hit_depth: where in a cell without a surface a beam stops, as a fraction of its chord.
-        device: where kernels run.
         threads: number of CPU threads; all cores if None.
         kept: flat indices of the cells whose reflectivities ("cell") and surfaces ("surface_cell") are in draws and
             snapshots; if None, the cells that beams touch and the cells in which readings end.
@@ -55,16 +51,6 @@ class StopProblem:
     device: str = "cpu"
     threads: int | None = None
     kept: Mapping[str, NDArray[np.int32]] | None = None
-
-    @property
-    def grid(self) -> Grid:
-        """The map's cells."""
-        return self.rays.grid
-
-    @property
-    def n_incidences(self) -> int:
-        """The number of cells that all beams cross together."""
-        return self.rays.n_incidences
 
     @cached_property
     def estimate(self) -> InitialEstimate:
@@ -87,10 +73,6 @@ class StopProblem:
         surfaces = {"surface_cell": np.nonzero(near.ravel())[0].astype(np.int32)} if self.prior.has_surfaces else {}
         return replace(self, kept={"cell": np.arange(self.grid.n_cells, dtype=np.int32)} | surfaces)
 
-    def touched(self) -> NDArray[np.bool_]:
-        """Mark the cells that at least one beam touches, (nx, ny)."""
-        return self.rays.touched_map()
-
     @cached_property
     def distance_m(self) -> NDArray[np.float32]:
         """The distance of a stop at each entry if cells have no surfaces, metres, (K,)."""
@@ -100,25 +82,13 @@ class StopProblem:
 
     def under(self, sensor: SensorModel, prior: Reflective) -> StopProblem:
         """Return the rays under another sensor and another prior."""
-        other = replace(self, sensor=sensor, prior=prior)
-        shared: dict[str, Any] = {
-            name: value for name, value in vars(self).items() if name in ("estimate", "distance_m")
-        }
-        vars(other).update(shared)
-        return other
+        return with_cached(replace(self, sensor=sensor, prior=prior), self, "estimate", "distance_m")
 
 
 def trace_stops(
-    scans: Scans,
-    grid: Grid,
-    prior: Reflective,
-    sensor: SensorModel,
-    *,
-    hit_depth: float = 0.5,
-    device: str = "cpu",
-    threads: int | None = None,
-    watch: Watch = SILENT,
-) -> StopProblem:
+    scans: Scans, grid: Grid, prior: Reflective, sensor: SensorModel, *, hit_depth: float = 0.5, device: str = "cpu",
+    threads: int | None = None, watch: Watch = SILENT,
+) -> StopProblem:  # fmt: skip
     """Trace the scans' rays, up to the distance at which a stop can explain the reading.
 
     Raises:

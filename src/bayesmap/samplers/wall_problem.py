@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
@@ -14,6 +13,7 @@ from bayesmap.beams.table import BeamTable, CellIndex
 from bayesmap.cells.binary import BinaryWalls
 from bayesmap.cells.kind import Floats
 from bayesmap.model import Model
+from bayesmap.samplers.sampler import Problem, with_cached
 from bayesmap.space.grid import Grid
 
 LOG_ODDS_OF_FIXED = 1e15
@@ -21,14 +21,11 @@ LOG_ODDS_OF_FIXED = 1e15
 
 
 @dataclass(frozen=True, eq=False)
-class WallProblem:
+class WallProblem(Problem):
     """Binary walls under a prior, seen through a beam table.
 
     Attributes:
-        table: cells and likelihoods of every beam.
-        prior: prior of the walls.
         poses: poses of the sensor in the world frame, (S, 3), for orders that go outwards from it.
-        device: where kernels run.
         threads: number of CPU threads; all cores if None.
     """
 
@@ -48,11 +45,6 @@ class WallProblem:
         """The number of cells that all beams cross together."""
         return self.table.n_incidences
 
-    @property
-    def coordinates(self) -> Mapping[str, NDArray[np.int32]]:
-        """Draws cover the grid."""
-        return {}
-
     def for_any_poses(self) -> WallProblem:
         """Return this problem: draws of walls cover the grid already."""
         return self
@@ -63,12 +55,7 @@ class WallProblem:
 
     def under(self, prior: BinaryWalls) -> WallProblem:
         """Return the table, and its index if there is one, under another prior."""
-        other = replace(self, prior=prior)
-        shared: dict[str, Any] = {
-            name: value for name, value in vars(self).items() if name in ("index", "device_table")
-        }
-        vars(other).update(shared)
-        return other
+        return with_cached(replace(self, prior=prior), self, "index", "device_table")
 
     @cached_property
     def index(self) -> CellIndex:

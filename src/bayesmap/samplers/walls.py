@@ -39,12 +39,9 @@ def default_start(grid: Grid) -> Start:
 
 
 def start_maps(
-    problem: WallProblem,
-    start: Start | NDArray[np.bool_],
-    chains: Sequence[int],
-    seed: int,
+    problem: WallProblem, start: Start | NDArray[np.bool_], chains: Sequence[int], seed: int,
     marginals: Marginals | None = None,
-) -> NDArray[np.bool_]:
+) -> NDArray[np.bool_]:  # fmt: skip
     """Return the maps at which chains start, (C, nx, ny).
 
     The start "propagate" thresholds the marginals of belief propagation. Cells whose marginal equals the prior take a
@@ -52,12 +49,7 @@ def start_maps(
     start from "prior" to check this. If neighbours are coupled, "prior" is only approximately a draw of the prior
     (`bayesmap.cells.binary.Ising.start`).
 
-    Args:
-        problem: table and prior.
-        start: the kind of start, a map (nx, ny), or one map per chain number, (N, nx, ny).
-        chains: numbers of the C chains.
-        seed: seed of prior draws.
-        marginals: marginals of belief propagation, for "propagate".
+    A start may also be a map (nx, ny), or one map per chain number, (N, nx, ny).
 
     Raises:
         BadInput: maps of another shape than the grid's, or fewer than chains.
@@ -105,13 +97,7 @@ class WallState:
 
 @dataclass(frozen=True, eq=False)
 class WallSampler(ABC):
-    """A sampler of binary walls.
-
-    Attributes:
-        order: order of the sites in a sweep: "radial", "raster" or "random".
-        start: start of the chains, see `start_maps`; a default by the size of the map if None.
-        rounds: most rounds of belief propagation, for a start from it.
-    """
+    """A sampler of binary walls; `bayesmap.Gibbs` documents the options."""
 
     order: Order = "radial"
     start: Start | NDArray[np.bool_] | None = None
@@ -130,13 +116,9 @@ class WallSampler(ABC):
         return trace_walls(model, device, threads)
 
     def init(
-        self,
-        problem: WallProblem,
-        chain_ids: Sequence[int],
-        seed: int,
-        resume: Snapshot | None = None,
+        self, problem: WallProblem, chain_ids: Sequence[int], seed: int, resume: Snapshot | None = None,
         watch: Watch = SILENT,
-    ) -> WallState:
+    ) -> WallState:  # fmt: skip
         """Start chains, or continue from the maps of a snapshot."""
         from bayesmap.kernels.random import mix
         from bayesmap.kernels.walls.chains import WallChains
@@ -163,17 +145,9 @@ class WallSampler(ABC):
 
         problem = state.problem
         log_likelihood, log_prior, draws = run_sweeps(
-            *state.kernel,
-            problem.device_prior,
-            state.sites,
-            self.order == "random",
-            state.chains,
-            first=state.sweep,
-            count=sweeps,
-            kept=keep.sweeps(state.sweep, state.sweep + sweeps),
-            beta=beta,
-            threads=problem.threads,
-        )
+            *state.kernel, problem.device_prior, state.sites, self.order == "random", state.chains, first=state.sweep,
+            count=sweeps, kept=keep.sweeps(state.sweep, state.sweep + sweeps), beta=beta, threads=problem.threads,
+        )  # fmt: skip
         return replace(state, sweep=state.sweep + sweeps), Info(log_likelihood, log_prior, {"walls": draws})
 
     def retrace(self, problem: WallProblem, model: Model) -> WallProblem:
@@ -196,9 +170,7 @@ class WallSampler(ABC):
         return Snapshot(state.sweep, {"walls": state.walls()})
 
     def observed_counts(self, state: WallState, draws: Mapping[str, NDArray[Any]]) -> NDArray[np.int32]:
-        """Count the draws in which a beam reaches each cell, and the draws inspected. Returns (2, nx, ny). Without
-        draws, the present maps of the chains are inspected.
-        """
+        """Count the draws (or present maps) in which a beam reaches each cell, and those inspected, (2, nx, ny)."""
         from bayesmap.kernels.walls.maps import reach_frequency
 
         packed, shape = draws.get("walls"), state.problem.grid.shape

@@ -1,14 +1,12 @@
 """Sample cells and poses together: sweeps of the cells at fixed poses, then steps of the poses given the cells.
 
-Both leave the joint posterior of map and trajectory invariant, and so does their alternation (Gibbs sampling in two
-blocks). Each chain has its own poses, so its beams cross other cells. After its poses have moved, its rays are traced
-again, and its cells stay.
+Both leave the joint posterior of map and trajectory invariant (Gibbs sampling in two blocks). Each chain has its own
+poses. After its poses have moved, its rays are traced again, and its cells stay.
 
 Given the map, scans depend on each other through the prior of the poses alone. Under independent priors all scans can
 move at once, under a motion model every second scan (`bayesmap.poses.prior.PoseLaw.colours`). A proposal is a normal
-step with the covariance of the scan's own likelihood and prior: long along a corridor and short across it. The
-likelihood sums over the cells in which each beam may stop, and the next sweep of the cells draws these stops again. So
-cells and poses are sampled from their joint posterior (a collapsed Gibbs sampler: Liu, 1994).
+step with the covariance of the scan's own likelihood and prior. The likelihood sums over the cells in which each beam
+may stop, and the next sweep draws these stops again (a collapsed Gibbs sampler: Liu, 1994).
 """
 
 from __future__ import annotations
@@ -26,16 +24,21 @@ from bayesmap.cells.kind import CellPrior, Floats
 from bayesmap.model import POSES, Model
 from bayesmap.poses.prior import PoseLaw
 from bayesmap.samplers.progress import SILENT, Watch
-from bayesmap.samplers.sampler import NOTHING, Info, Keep, Sampler, Snapshot
+from bayesmap.samplers.sampler import (
+    NOTHING,
+    STREAM_POSES,
+    STREAM_START_POSES,
+    Info,
+    Keep,
+    Problem,
+    Sampler,
+    Snapshot,
+)  # fmt: skip
 from bayesmap.sensors.model import SensorModel
 from bayesmap.space.grid import Grid
 
 if TYPE_CHECKING:
     from bayesmap.kernels.predict.scan_likelihood import ScanLikelihood
-
-
-STREAM_POSES = 4
-"""Stream of random numbers, beside those of `bayesmap.samplers.sampler`."""
 
 OPTIMAL = 2.38 / np.sqrt(3.0)
 """Length of steps in three dimensions, in standard deviations (Roberts, Gelman and Gilks, 1997)."""
@@ -71,10 +74,7 @@ class PoseMetropolis:
     """Metropolis steps of all poses of some chains.
 
     Attributes:
-        likelihood: likelihood of scans at poses.
-        prior: prior of the poses.
-        factor: Cholesky factor of each scan's proposal covariance in world axes, (S, 3, 3), or one per chain,
-            (C, S, 3, 3).
+        factor: Cholesky factor of each scan's proposal covariance in world axes, (S, 3, 3) or (C, S, 3, 3).
     """
 
     likelihood: ScanLikelihood
@@ -86,17 +86,19 @@ class PoseMetropolis:
         return PoseState(np.array(poses, dtype=np.float64), np.zeros(np.shape(poses)[:2]), np.asarray(chain_ids), seed)
 
     def step(
-        self, state: PoseState, cells: NDArray[np.float32], n: int = 1, *, beta: float = 1.0, gain: float = 0.0
+        self,
+        state: PoseState,
+        cells: NDArray[np.float32],
+        n: int = 1,
+        *,
+        beta: float = 1.0,
+        adaptation_rate: float = 0.0,
     ) -> tuple[PoseState, Floats]:
         """Propose a new pose for every scan ``n`` times. Returns the chains, and the share of accepted steps, (C,).
 
-        Args:
-            state: the chains.
-            cells: one map per chain, see `bayesmap.kernels.predict.scan_likelihood.ScanLikelihood.beams`.
-            n: number of rounds over all scans.
-            beta: inverse temperature of the likelihood.
-            gain: rate at which the size of a scan's steps grows with accepted steps and shrinks with rejected ones
-                (Robbins and Monro, 1951); 0 once draws are kept.
+        ``cells`` holds one map per chain, see `bayesmap.kernels.predict.scan_likelihood.ScanLikelihood.beams`. The size
+        of a scan's steps grows with accepted steps and shrinks with rejected ones (Robbins and Monro, 1951), at
+        ``adaptation_rate``; it is 0 once draws are kept.
         """
         chains, scans = state.poses.shape[:2]
         poses, log_scale = state.poses.copy(), state.log_scale.copy()
@@ -117,7 +119,7 @@ class PoseMetropolis:
                 poses[:, colour] = np.where(accept[..., None], proposed[:, colour], poses[:, colour])
                 log_lik[:, colour] = np.where(accept, proposed_log_lik, log_lik[:, colour])
             moved += accepted.mean(axis=1) / n
-            log_scale += gain * (accepted - WANTED_ACCEPTANCE)
+            log_scale += adaptation_rate * (accepted - WANTED_ACCEPTANCE)
         state = replace(state, poses=poses, log_scale=log_scale, step=state.step + n)
         return state, moved
 
@@ -142,14 +144,8 @@ def proposal_factors(
     """Compute Cholesky factors of steps that fit each scan's posterior given the map, (S, 3, 3).
 
     The likelihood's information is estimated by the sum over beams of the outer products of their log densities'
-    gradients, from central differences. It is never negative and needs no second derivatives.
-
-    Args:
-        likelihood: likelihood of the scans.
-        cells: one map, (1, N) or (1, N, 6).
-        poses: poses at which gradients are taken, (S, 3).
-        prior: prior of the poses.
-        step_m: step of the differences, about the sensor's noise; angles move a point at the median range by it.
+    gradients at the poses, (S, 3), from central differences. ``cells`` is one map, (1, N) or (1, N, 6). Steps of the
+    differences are about the sensor's noise; angles move a point at the median range by ``step_m``.
     """
     scans = len(poses)
     ranges = np.where(np.isfinite(likelihood.scans.ranges_m), likelihood.scans.ranges_m, np.nan)
@@ -173,7 +169,6 @@ EVERY = 5
 """Sweeps of the cells from one round of pose steps to the next."""
 STEPS = 3
 """Steps of every pose in a round."""
-STREAM_START_POSES = 6
 DIFFERENCE_M = 0.02
 """Step of the differences from which slopes of the likelihood are taken: about the noise of a laser."""
 OF_STEPS = ("pose_log_scale", "pose_factor")
@@ -193,14 +188,11 @@ class MovableSampler(Sampler[Any, Any], Protocol):
 
 
 @dataclass(frozen=True, eq=False)
-class PoseProblem:
+class PoseProblem(Problem):
     """A model with unknown poses, in the form that samplers use.
 
     Attributes:
-        model: the model to sample.
         cells: the problem of the cells' sampler at the poses of the log.
-        device: where kernels run.
-        threads: number of CPU threads; all cores if None.
     """
 
     model: Model
@@ -291,11 +283,7 @@ class WithPoses:
     pose_steps: int = STEPS
 
     def prepare(self, model: Model, device: str, threads: int | None = None, watch: Watch = SILENT) -> PoseProblem:
-        """Trace the beams at the poses of the log.
-
-        Raises:
-            BadInput: as the sampler of the cells.
-        """
+        """Trace the beams at the poses of the log."""
         problem = self.cells.prepare(model, device, threads, watch)
         return PoseProblem(model, problem.for_any_poses(), problem.device, threads)
 
@@ -326,9 +314,7 @@ class WithPoses:
         return JointState(problem, cells, state, factor, sweep, {})
 
     def step(self, state: JointState, sweeps: int, beta: float = 1.0, keep: Keep = NOTHING) -> tuple[JointState, Info]:
-        """Make some sweeps of all chains, with a round of pose steps after every few. A draw has the poses of its
-        sweep.
-        """
+        """Make some sweeps of all chains, with a round of pose steps after every few."""
         end, infos, poses = state.sweep + sweeps, [], []
         while state.sweep < end:
             count = min(end, (state.sweep // self.every + 1) * self.every) - state.sweep
@@ -378,9 +364,9 @@ class WithPoses:
                 for i, poses in enumerate(state.poses.poses)
             ])  # fmt: skip
         rounds = state.sweep // self.every
-        gain = float(rounds**-0.6) if state.sweep <= self.adapt_until else 0.0
+        rate = float(rounds**-0.6) if state.sweep <= self.adapt_until else 0.0
         steps = PoseMetropolis(problem.likelihood, problem.law, factor)
-        poses, _ = steps.step(state.poses, cells, self.pose_steps, beta=beta, gain=gain)
+        poses, _ = steps.step(state.poses, cells, self.pose_steps, beta=beta, adaptation_rate=rate)
 
         def moved(i: int) -> Any:
             if (poses.poses[i] == state.poses.poses[i]).all():

@@ -1,13 +1,8 @@
 """Methods on binary walls that need no Markov chain: their draws are independent.
 
-Exact enumeration is for tiny maps. It is the reference against which every sampler is tested.
-
-Self-normalised importance sampling from the prior shows why better methods are needed: its weights collapse. A particle
-is a map drawn from the prior; its weight is the likelihood of the readings. Maps are drawn by counter, so a particle is
-stored as its number: a million log weights take 8 MB, and any map can be drawn again. If neighbours are coupled, maps
-are drawn exactly (`bayesmap.cells.ising_field`), in batches, by the number of the batch.
-
-Belief propagation gives marginals, from which cells are drawn independently.
+Exact enumeration is the reference against which every sampler is tested. Self-normalised importance sampling from the
+prior shows why better methods are needed: its weights collapse. Belief propagation gives marginals, from which cells
+are drawn independently.
 """
 
 from __future__ import annotations
@@ -36,13 +31,11 @@ NEGLIGIBLE_NATS = 40.0  # a particle this far below the best adds nothing to any
 
 @dataclass(frozen=True, eq=False)
 class Particles:
-    """Weighted maps.
+    """Weighted maps that are drawn from the prior. A map is stored as its number, by which it can be drawn again.
 
     Attributes:
         log_weights: normalised log weights, (particles,).
         log_evidence: log of the mean weight: an estimate of log p(readings).
-        problem, key: the input from which any particle's map can be drawn again.
-        seconds: time for the weights.
         finished: whether all particles were weighed; false if stopped early.
     """
 
@@ -112,13 +105,9 @@ def sample_importance(
     log_weights = beta * np.concatenate(batches)
     log_total = float(special.logsumexp(log_weights))
     return Particles(
-        log_weights=log_weights - log_total,
-        log_evidence=log_total - float(np.log(done)),
-        problem=problem,
-        key=key,
-        seconds=time.perf_counter() - began,
-        finished=done == particles,
-    )
+        log_weights=log_weights - log_total, log_evidence=log_total - float(np.log(done)), problem=problem, key=key,
+        seconds=time.perf_counter() - began, finished=done == particles,
+    )  # fmt: skip
 
 
 def _weigh(problem: WallProblem, key: int, first: int, count: int) -> Floats:
@@ -299,15 +288,10 @@ def importance(problem: WallProblem, request: DrawRequest, watch: Watch) -> Inde
 def draws_by_importance(problem: WallProblem, request: DrawRequest, particles: Particles) -> IndependentDraws:
     """Resample draws from particles that have been weighed."""
     return _drawn(
-        problem,
-        request,
-        lambda rng, count: particles.maps(particles.resample(rng, count)),
-        particles.occupancy(),
-        log_weights=particles.log_weights,
-        log_evidence=particles.log_evidence,
-        seconds=particles.seconds,
+        problem, request, lambda rng, count: particles.maps(particles.resample(rng, count)), particles.occupancy(),
+        log_weights=particles.log_weights, log_evidence=particles.log_evidence, seconds=particles.seconds,
         finished=particles.finished,
-    )
+    )  # fmt: skip
 
 
 def belief_propagation(problem: WallProblem, request: DrawRequest, watch: Watch) -> IndependentDraws:
@@ -318,23 +302,16 @@ def belief_propagation(problem: WallProblem, request: DrawRequest, watch: Watch)
 def draws_by_beliefs(problem: WallProblem, request: DrawRequest, marginals: Marginals) -> IndependentDraws:
     """Draw each cell independently from beliefs that have been propagated."""
     return _drawn(
-        problem,
-        request,
-        lambda rng, count: rng.random((count, *marginals.p_wall.shape)) < marginals.p_wall,
-        marginals.p_wall,
-        statistics={"belief_changes": marginals.changes},
-        seconds=marginals.seconds,
+        problem, request, lambda rng, count: rng.random((count, *marginals.p_wall.shape)) < marginals.p_wall,
+        marginals.p_wall, statistics={"belief_changes": marginals.changes}, seconds=marginals.seconds,
         finished=marginals.finished,
-    )
+    )  # fmt: skip
 
 
 def _drawn(
-    problem: WallProblem,
-    request: DrawRequest,
-    draw: Callable[[np.random.Generator, int], NDArray[np.bool_]],
-    occupancy: Floats,
-    **results: Any,
-) -> IndependentDraws:
+    problem: WallProblem, request: DrawRequest, draw: Callable[[np.random.Generator, int], NDArray[np.bool_]],
+    occupancy: Floats, **results: Any,
+) -> IndependentDraws:  # fmt: skip
     """Draw maps for every chain; ``results`` are further fields of `IndependentDraws`."""
     from bayesmap.kernels.walls.maps import log_likelihoods, reach_frequency
 
