@@ -103,3 +103,25 @@ def test_every_stage_has_a_name():
 
     assert set(STAGES) == set(get_args(Stage))
     assert set(SETTING_UP) <= set(STAGES)
+
+
+def test_without_a_terminal_a_line_per_minute_says_how_far_it_is(monkeypatch, capsys):
+    now = [0.0]
+    monkeypatch.setattr("bayesmap.cli.console.time.monotonic", lambda: now[0])
+    with progress(Console(), "matching scans") as show:
+        for minute in range(4):
+            now[0] = 60.0 * minute
+            show(Event("draws", 10 + 20 * minute, 110))
+        now[0] += 59.0
+        show(Event("draws", 90, 110))
+    assert capsys.readouterr().err.splitlines() == [
+        "drawing: 30 of 110 sweeps, 60 s passed, about 240 s left",
+        "drawing: 50 of 110 sweeps, 120 s passed, about 180 s left",
+        "drawing: 70 of 110 sweeps, 180 s passed, about 120 s left",
+    ]
+    for silent in (Console(quiet=True), Console(bar=False)):
+        with progress(silent, "matching scans") as show:
+            for _ in range(3):
+                now[0] += 100.0
+                show(Event("draws", 10, 110))
+        assert capsys.readouterr().err == ""

@@ -6,6 +6,7 @@ import contextlib
 import json
 import os
 import sys
+import time
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -187,15 +188,42 @@ def described_share(console: Console, begin: str) -> Iterator[Callable[[str, flo
         yield lambda name, done: show(name, "%", round(1000 * done), 1000, "")
 
 
+SPEED_S = 600.0
+"""Seconds over which the progress bar averages the speed: sweeps of long logs take up to half a minute."""
+LINE_S = 60.0
+"""Seconds from one line of progress to the next if there is no terminal."""
+
+
+def _lines(console: Console) -> Show:
+    """Return a function that prints a line of progress every `LINE_S` seconds, with the time left in the stage."""
+    began = last = time.monotonic()
+    starts: dict[str, tuple[float, int]] = {}  # time and count at the first event of each stage
+
+    def show(name: str, unit: str, done: int, total: int, known: str) -> None:
+        nonlocal last
+        now = time.monotonic()
+        start, first = starts.setdefault(name, (now, done))
+        if now - last < LINE_S or not console.bar:
+            return
+        last = now
+        count = f"{100 * done // max(total, 1)} %" if unit == "%" else f"{done:,} of {total:,} {unit}"
+        words = [f"{name}: {count}", f"{now - began:.0f} s passed"]
+        if done > first:
+            words.append(f"about {(now - start) * (total - done) / (done - first):.0f} s left")
+        console.say(", ".join([*words, *([known] if known else [])]))
+
+    return show
+
+
 @contextlib.contextmanager
 def _bar(console: Console, begin: str) -> Iterator[Show]:
-    """Yield a function that draws the progress bar, or one that does nothing if no bar is allowed."""
+    """Yield a function that draws the progress bar; without a terminal, one that prints a line per minute."""
     if not console.draws_bar:
-        yield lambda name, unit, done, total, known: None
+        yield _lines(console)
         return
     # Import only here: it takes a tenth of a second, which batch jobs without a bar can save.
     from rich.console import Console
-    from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn, TimeRemainingColumn
+    from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 
     bar = Progress(
         SpinnerColumn(),
@@ -203,9 +231,11 @@ def _bar(console: Console, begin: str) -> Iterator[Show]:
         BarColumn(bar_width=24),
         TextColumn("{task.fields[count]}"),
         TimeRemainingColumn(),
+        TimeElapsedColumn(),
         TextColumn("{task.fields[known]}"),
         console=Console(stderr=True),
         transient=True,
+        speed_estimate_period=SPEED_S,
     )
     with bar:
         shown = bar.add_task(begin, total=None, count="", known="")
