@@ -29,6 +29,7 @@ from bayesmap.space.scans import Scans
 from benchmarks.figure import Figure
 from benchmarks.halves import difference_scales, every_other_beam
 from benchmarks.located import is_right, located, off_m
+from benchmarks.long_log import driven, write_mcap
 from benchmarks.peers import mrpt_localization as mrpt
 from benchmarks.pose_cases import FAR_OFF_M, off, office, record
 
@@ -58,6 +59,7 @@ def run(device: str, with_peers: bool, slow: bool = False) -> Iterator[Figure]:
         yield from relations("intel.sort.bag", "intel.relations.gz", "poses/intel_full_rate")
         yield from relations("aces.sort.bag", "aces.relations", "poses/aces")
     yield from simulated_office(900 if slow else 450)
+    yield from five_minutes(slow)
     if slow:
         yield from coverage_of_halves()
         yield from heldout()
@@ -102,6 +104,26 @@ def simulated_office(scans: int) -> Iterator[Figure]:
     truth = between(case.truth[first], case.truth[second])
     square = squares(between(found.poses[first], found.poses[second]), truth, found.relative_covariances(first, second))
     yield from coverage(name, square, np.hypot(*truth[:, :2].T), found.gaussian.dof)
+
+
+def five_minutes(slow: bool) -> Iterator[Figure]:
+    """Processor time from the recording of a laser of today to trajectory and, with ``slow``, map."""
+    _, made, truth, odometry = driven(5.0)
+    name, about = "poses/five_minutes", f"{len(made):,} scans of {made.ranges_m.shape[1]} beams"
+    with TemporaryDirectory() as folder:
+        write_mcap(Path(folder) / "five.mcap", made, odometry)
+        used = time.process_time()
+        scans = bm.read_log(Path(folder) / "five.mcap")
+    yield Figure(f"{name}/read", time.process_time() - used, "s processor", gated=False, against=about)
+    used = time.process_time()
+    found = infer_trajectory(scans)
+    yield Figure(f"{name}/trajectory", time.process_time() - used, "s processor", gated=False, against=about)
+    yield Figure(f"{name}/ate", 1e3 * float(np.sqrt((off(found.poses, truth) ** 2).mean())), "mm")
+    if slow:
+        used = time.process_time()
+        run = bm.slam(scans, seed=1)
+        beams = f"map of {run.posterior.scans.ranges_m.size:,} beams of {len(run.posterior.scans)} scans"
+        yield Figure(f"{name}/slam", time.process_time() - used, "s processor", gated=False, against=beams)
 
 
 def pairs_of(count: int, many: int = 3000) -> tuple[NDArray[np.intp], NDArray[np.intp]]:

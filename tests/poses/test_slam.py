@@ -10,6 +10,7 @@ from simulated import off, recording
 
 from bayesmap.errors import BadInput
 from bayesmap.poses import key_alignment
+from bayesmap.poses.alignment import Pairs
 from bayesmap.poses.key_alignment import KeyAlignment, Rematch
 from bayesmap.poses.slam import infer_trajectory
 from bayesmap.space.planar import between, compose
@@ -108,7 +109,7 @@ def test_odometry_that_never_goes_backwards_while_the_robot_does():
 
 
 def test_a_scan_that_its_new_place_explains_worse_is_put_back(monkeypatch):
-    """Two scans are moved; after alignment one is explained better than before, the other worse."""
+    """Two scans are moved; after alignment one is explained better than before, the other worse. Scan 3 has no part."""
     poses = np.zeros((4, 3))
     better = poses + np.array([1.0, 0.0, 0.0])
     answers = iter(
@@ -118,11 +119,14 @@ def test_a_scan_that_its_new_place_explains_worse_is_put_back(monkeypatch):
             Rematch(np.array([0.5, 0.8, 0.5, 0.5]), np.full(4, 0.9), better, np.zeros(4, bool)),
         ]
     )
-    monkeypatch.setattr(key_alignment, "rematch", lambda *args, **kwargs: next(answers))
-    aligned = lambda self, stage, at, *rest, **more: SimpleNamespace(poses=at, pairs=None)  # noqa: E731
+    asked = []
+    monkeypatch.setattr(key_alignment, "rematch", lambda *_, among, **more: asked.append(among) or next(answers))
+    pairs = Pairs(np.array([0, 3], np.int32), np.array([1, 0], np.int32), np.array([0, 1, 1, 1, 2], np.int32))
+    aligned = lambda self, stage, at, *rest, **more: SimpleNamespace(poses=at, pairs=pairs)  # noqa: E731
     monkeypatch.setattr(KeyAlignment, "align", aligned)
     alignment = KeyAlignment(None, None, 1.0, lambda track, stage, rounds: lambda done, at: None)
-    matched = alignment.improved(SimpleNamespace(poses=poses, pairs=None), None)
+    matched = alignment.improved(SimpleNamespace(poses=poses, pairs=pairs), None)
+    assert [None if mask is None else mask.tolist() for mask in asked[:2]] == [None, [True, True, True, False]]
     np.testing.assert_array_equal(matched.alignment.poses[:, 0], [0.0, 1.0, 0.0, 0.0])
     np.testing.assert_array_equal(matched.scores, [0.5, 0.8, 0.5, 0.5])
 

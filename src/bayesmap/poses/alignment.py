@@ -48,6 +48,9 @@ SLACKS = 4.0
 """Multiple of the mean information from errors of normals that is subtracted. In a pair of scans it may be three times
 the mean, and the rest would add up over all pairs along a corridor."""
 
+EARLY_BEAMS = 60
+"""About so many beams of a scan are used until reach and scale have shrunk; then all."""
+
 SLIP = 25.0
 """Odometry's cost grows less than quadratically beyond this squared Mahalanobis distance: wheels slip."""
 
@@ -158,13 +161,14 @@ def align(
         share = min(1.0, number / max(1.0, 0.5 * rounds))
         reach = reach_m[0] * (reach_m[1] / reach_m[0]) ** share
         scale = scale_m[0] * (scale_m[1] / scale_m[0]) ** share
+        stride = 1 if share >= 1.0 else max(1, geometry.beams // EARLY_BEAMS)
         if reselect is not None and number == (rounds + 1) // 2:
             pairs = reselect(poses)
         if number in (0, (rounds + 1) // 2, rounds - 2):
             seen = between(poses[pairs.target], poses[pairs.source])
-            weights = _beam_weights(geometry, pairs, seen, reach, scale)
+            weights = _beam_weights(geometry, pairs, seen, reach, scale, stride)
         # Solve for one step of laser and odometry, and estimate the noise from the residuals.
-        laser, totals = _laser(geometry, weights, poses, pairs, reach, scale, sigma)
+        laser, totals = _laser(geometry, weights, poses, pairs, reach, scale, sigma, stride)
         squares = odometry.squares(poses)
         slipping = 1.0 / (1.0 + squares / SLIP)
         wheels = quadratic(odometry, poses, slipping if firm is None else np.where(firm, 1.0, slipping))
@@ -184,10 +188,11 @@ def align(
 
 
 def _beam_weights(
-    geometry: ScanGeometry, pairs: Pairs, relative: Floats, reach: float, scale: float
+    geometry: ScanGeometry, pairs: Pairs, relative: Floats, reach: float, scale: float, stride: int = 1
 ) -> NDArray[np.float32]:
     """Return the weight of each beam in its pairs, (S, B), by the number of scans with which it is matched."""
-    counts = match_counts(geometry, pairs.offsets, pairs.target, relative, reach, scale, ALIKE, geometry.threads)
+    ends = pairs.offsets, pairs.target
+    counts = match_counts(geometry, *ends, relative, reach, scale, ALIKE, stride, geometry.threads)
     return np.asarray(0.5 / (1.0 + counts), dtype=np.float32)
 
 
@@ -200,16 +205,16 @@ def _gaussian(poses: Floats, laser: Quadratic, wheels: Quadratic) -> PoseGaussia
 
 def _laser(
     geometry: ScanGeometry, weights: NDArray[np.float32], poses: Floats, pairs: Pairs, reach: float, scale: float,
-    sigma: float,
+    sigma: float, stride: int,
 ) -> tuple[Quadratic, Floats]:  # fmt: skip
     """Return the laser's cost over the relative poses of pairs, and the totals of its sums."""
     relative = between(poses[pairs.target], poses[pairs.source])
     ends = pairs.source, pairs.target
     second, slack, first, totals = pair_sums(
-        geometry, weights, *ends, relative, reach, scale, ALIKE, threads=geometry.threads
+        geometry, weights, *ends, relative, reach, scale, ALIKE, stride, geometry.threads
     )
     laser_information, gradient = without_slack(second, slack, first, sigma)
-    scaled, target, source = 1.0 / sigma**2, pairs.target.astype(np.intp), pairs.source.astype(np.intp)
+    scaled, target, source = stride / sigma**2, pairs.target.astype(np.intp), pairs.source.astype(np.intp)
     return Quadratic(target, source, relative, laser_information * scaled, gradient * scaled), totals
 
 

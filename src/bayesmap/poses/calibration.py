@@ -223,26 +223,31 @@ def fit_noise(
 
 
 def _rates(errors: Floats, features: Floats, known_variance: Floats, usual: Floats) -> Floats:
-    """Fit the rates of one axis, (3,), by L-BFGS in their logarithms.
+    """Fit the rates of one axis, (3,), by Gauss-Newton with damping in their logarithms.
 
     The motions were estimated with odometry. So the mean square of its error is that of the residual plus the motions'
-    variance.
+    variance. Products are summed without BLAS, whose threads would take longer to meet than to add.
     """
-    from scipy.optimize import minimize
-
-    nu = DEGREES_OF_FREEDOM
-
-    def cost(log_factors: Floats) -> tuple[float, Floats]:
-        rates = usual * np.exp(log_factors)
-        variance = features @ rates
-        ratio = (errors**2 + known_variance) / (nu * variance)
-        slope = 0.5 / variance - 0.5 * CONSISTENT * (nu + 1.0) * ratio / (1.0 + ratio) / variance
+    nu, squares = DEGREES_OF_FREEDOM, errors**2 + known_variance
+    logs, damping, best, move = np.zeros(3), 1.0, np.inf, np.inf
+    trial: Floats = logs
+    while damping < 1e12 and move > 1e-7:
+        parts = features * (usual * np.exp(trial))
+        variance = parts.sum(axis=1)
+        ratio = squares / (nu * variance)
         value = 0.5 * np.log(variance).sum() + 0.5 * CONSISTENT * (nu + 1.0) * np.log1p(ratio).sum()
-        prior = log_factors / FACTOR_SIGMA
-        return float(value + 0.5 * (prior**2).sum()), (slope @ features) * rates + prior / FACTOR_SIGMA
-
-    optimum = minimize(cost, np.zeros(3), jac=True, method="L-BFGS-B", bounds=[(-9.0, 9.0)] * 3)
-    return np.asarray(usual * np.exp(optimum.x))
+        value += 0.5 * ((trial / FACTOR_SIGMA) ** 2).sum()
+        if value <= best:
+            logs, best, damping = trial, value, damping / 4.0
+            slopes = 0.5 / variance - 0.5 * CONSISTENT * (nu + 1.0) * ratio / (1.0 + ratio) / variance
+            slope = (slopes[:, None] * parts).sum(axis=0) + logs / FACTOR_SIGMA**2
+            shares = parts / variance[:, None]
+            bend = 0.5 * (shares[:, :, None] * shares[:, None, :]).sum(axis=0) + np.eye(3) / FACTOR_SIGMA**2
+        else:
+            damping *= 8.0
+        trial = np.clip(logs - np.linalg.solve(bend + damping * np.eye(3), slope), -9.0, 9.0)
+        move = float(np.abs(trial - logs).max())
+    return np.asarray(usual * np.exp(logs))
 
 
 def _features(ways_m: Floats, turns_rad: Floats, scans: Floats) -> Floats:

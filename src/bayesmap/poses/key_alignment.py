@@ -57,7 +57,7 @@ class Rematch:
 
 def rematch(
     geometry: ScanGeometry, poses: Floats, pairs: Pairs, half_width_m: float, *, poor_score: float = 0.0,
-    search: bool = True,
+    search: bool = True, before: Rematch | None = None, among: NDArray[np.bool_] | None = None,
 ) -> Rematch:  # fmt: skip
     """Match each of S scans to its partners' likelihood grid.
 
@@ -68,11 +68,18 @@ def rematch(
         half_width_m: half width of the grids, metres.
         poor_score: score below which a scan is searched for in the wide window, too.
         search: True to search for better poses; False only to score the given ones.
+        before: an earlier result; if it is given, scans outside ``among`` keep its scores.
+        among: mask of the scans to match, (S,).
     """
     count = len(poses)
     scores, best_scores, best_poses = np.zeros(count), np.zeros(count), poses.copy()
     wide = np.zeros(count, np.bool_)
-    partnered = np.nonzero(np.diff(pairs.offsets) > 0)[0]
+    wanted = np.diff(pairs.offsets) > 0
+    if before is not None and among is not None:
+        wanted &= among
+        scores = np.where(among, 0.0, before.scores)
+        best_scores = scores.copy()
+    partnered = np.nonzero(wanted)[0]
     grids: LikelihoodGrids | None = None
     for begin in range(0, len(partnered), AT_ONCE):
         # Make the grid of each scan's partners, in the scan's frame.
@@ -203,10 +210,11 @@ class KeyAlignment:
         callback = self.report(self.track, "rematch", IMPROVEMENTS + 1)
         poor, old, before = 0.0, aligned.poses, np.zeros(count)
         moved, stays = np.zeros(count, np.bool_), np.zeros(count, np.bool_)
+        again, near = None, None
         for number in range(IMPROVEMENTS + 1):
             again = rematch(
                 self.geometry, aligned.poses, aligned.pairs, self._rematch_m, poor_score=poor,
-                search=number < IMPROVEMENTS,
+                search=number < IMPROVEMENTS, before=again, among=near,
             )  # fmt: skip
             callback(number + 1, np.where(again.moved[:, None], again.best_poses, aligned.poses))
             # Put back moved scans whose score fell, and move the others that match better elsewhere.
@@ -221,6 +229,9 @@ class KeyAlignment:
             poses = np.where(moved[:, None], again.best_poses, poses)
             old = aligned.poses
             aligned = self.align("aligned-rematched", poses, factors, 6, wide=False)
+            # Match only scans again that a move concerns: the moved ones, and those of which they are partners.
+            near = moved | back
+            near[aligned.pairs.source[near[aligned.pairs.target]]] = True
         return Rematched(aligned, before)
 
     def without_leaps(self, matched: Rematched, factors: Factors) -> Rematched:

@@ -108,7 +108,7 @@ def _information(
     sigma^2 (1 + 1 / c), so that it counts 1 / (c + 1) in each pair.
     """
     offsets = np.searchsorted(source, np.arange(len(geometry) + 1)).astype(np.int32)
-    counts = match_counts(geometry, offsets, target, relative, reach_m, scale_m, ALIKE, geometry.threads)
+    counts = match_counts(geometry, offsets, target, relative, reach_m, scale_m, ALIKE, threads=geometry.threads)
     weights = (1.0 / (1.0 + counts)).astype(np.float32)
     second, slack, first, _ = pair_sums(
         geometry, weights, source, target, relative, reach_m, scale_m, ALIKE, threads=geometry.threads

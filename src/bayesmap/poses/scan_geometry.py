@@ -170,6 +170,11 @@ class ScanGeometry:
         """The kinds in main memory, (S, B)."""
         return np.asarray(self.kind.numpy())
 
+    @cached_property
+    def packed(self) -> dict[int, Any]:
+        """The structs that kernels read, by stride."""
+        return {}
+
     def select(self, scans: NDArray[np.intp]) -> ScanGeometry:
         """Return the geometry of some of the scans, copied."""
         from bayesmap.kernels.match.scan_geometry import selected

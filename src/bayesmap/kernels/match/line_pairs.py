@@ -321,7 +321,7 @@ def count_matches(
         j = target[p]
         cosine = float(wp.cos(z[2]))
         sine = float(wp.sin(z[2]))
-        for b in range(scene.kind.shape[1]):
+        for b in range(0, scene.kind.shape[1], scene.stride):
             if scene.kind[i, b] == wp.uint8(0):
                 continue
             q = scene.points[i, b]
@@ -347,13 +347,16 @@ def count_matches(
 
 def match_counts(
     geometry: Any, offsets: Ints, target: Ints, relative: Floats, reach_m: float, scale_m: float, alike: float,
-    threads: int | None = None,
+    stride: int = 1, threads: int | None = None,
 ) -> Singles:  # fmt: skip
-    """Count the partners with which each beam is paired, (S, B); scan s has the pairs offsets[s] .. offsets[s + 1]."""
+    """Count the partners with which each beam is paired, (S, B); scan s has the pairs offsets[s] .. offsets[s + 1].
+
+    Only every ``stride``-th beam is counted; the others have the count 0.
+    """
     device = geometry.device
     counts = wp.empty((len(geometry), geometry.beams), dtype=wp.float32, device=device)
     rule = devices.pack(PairRule, device, reach=reach_m, scale=scale_m, alike=alike)
-    inputs = [scan_arrays(geometry), offsets, target, relative, rule, counts]
+    inputs = [scan_arrays(geometry, stride), offsets, target, relative, rule, counts]
     devices.launch(count_matches, len(geometry), inputs, device, threads)
     return np.asarray(counts.numpy())
 

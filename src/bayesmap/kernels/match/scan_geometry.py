@@ -183,13 +183,15 @@ def points_and_normals(
 
 
 def scan_arrays(geometry: Any, stride: int = 1) -> Any:
-    """Return a `bayesmap.poses.scan_geometry.ScanGeometry` as kernels read it."""
-    fans = geometry.fans
-    return devices.pack(
-        ScanArrays, geometry.device, points=geometry.points, normals=geometry.normals, kind=geometry.kind,
-        spread=geometry.spread, beam_of_angle=fans.beam_of_angle, layout=fans.layout, beams=fans.beams,
-        step=fans.step_rad, full_circle=fans.full_circle, stride=stride,
-    )  # fmt: skip
+    """Return a `bayesmap.poses.scan_geometry.ScanGeometry` as kernels read it; it is packed once for each stride."""
+    fans, packed = geometry.fans, geometry.packed
+    if stride not in packed:
+        packed[stride] = devices.pack(
+            ScanArrays, geometry.device, points=geometry.points, normals=geometry.normals, kind=geometry.kind,
+            spread=geometry.spread, beam_of_angle=fans.beam_of_angle, layout=fans.layout, beams=fans.beams,
+            step=fans.step_rad, full_circle=fans.full_circle, stride=stride,
+        )  # fmt: skip
+    return packed[stride]
 
 
 def selected(array: Any, scans: NDArray[np.intp]) -> Any:
