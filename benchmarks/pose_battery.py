@@ -235,6 +235,8 @@ def case(number: int) -> Case:
     step_m = max(speed / hz, LENGTH_M / MOST_SCANS)
     base = drive(way, step_m, max(rate / hz, 0.05), [0.3, 0.7] if about else [])
     base = base[: np.searchsorted(np.cumsum(np.hypot(*np.diff(base[:, :2], axis=0).T)), LENGTH_M) + 1]
+    under = np.floor(base[:, :2] / CELL_M).astype(int)
+    walls[under[:, 0], under[:, 1]] = False  # a pillar of a hall may stand in the way
     noise = _times(OdometryNoise(slips_per_m=0.03 if slips else 0.0, slip_m=0.2, slip_rad=0.3), factor)
     stamps = travel_times_s(base, speed, rate)
     stated = simulate_odometry(base, noise, stamps_s=stamps, seed=number)
