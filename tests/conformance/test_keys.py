@@ -90,19 +90,10 @@ def test_distributions_draw_bit_for_bit():
     same(genjax.normal(1.5, 2.5)(jr.key(7)), "0x1.506530p+1")
     same(genjax.normal(jnp.arange(1.0, 4.0), 0.5)(jr.key(7)), "0x1.39c212p+0", "0x1.7d0558p+1", "0x1.5ef5eep+1")
     same(genjax.uniform(-1.0, 2.5)(jr.key(7)), "0x1.5bfc0cp+0")
-    same(
-        genjax.uniform(jnp.zeros(3), p[:3] * 0 + jnp.arange(1.0, 4.0))(jr.key(7)),
-        "0x1.592250p-1",
-        "0x1.f300fcp+0",
-        "0x1.d12af0p-1",
-    )
+    uniforms = genjax.uniform(jnp.zeros(3), jnp.arange(1.0, 4.0))(jr.key(7))
+    same(uniforms, "0x1.592250p-1", "0x1.f300fcp+0", "0x1.d12af0p-1")
     logits = jnp.arange(15.0).reshape(3, 5)
     np.testing.assert_array_equal(genjax.categorical(logits=logits)(jr.key(7)), jr.categorical(jr.key(7), logits))
     same(genjax.categorical(probs=jnp.array([0.1, 0.2, 0.7]))(jr.key(7)), "0x1p+0")
-    same(
-        genjax.normal.sample(jr.key(7), 0.0, 1.0, sample_shape=(4,)),
-        "0x1.ce1096p-2",
-        "0x1.f4155cp+0",
-        "-0x1.08508ap-1",
-        "-0x1.20a54ep-3",
-    )
+    normals = genjax.normal.sample(jr.key(7), 0.0, 1.0, sample_shape=(4,))
+    same(normals, "0x1.ce1096p-2", "0x1.f4155cp+0", "-0x1.08508ap-1", "-0x1.20a54ep-3")

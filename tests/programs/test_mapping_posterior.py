@@ -23,6 +23,10 @@ def case():
     return make_case(21, shape=(3, 3), n_poses=2, prior=0.3)
 
 
+def inferred(case, **options):
+    return bm.infer(case.scans, case.grid, prior=case.prior, sensor=case.sensor, **options)
+
+
 @pytest.fixture(scope="module")
 def model(case):
     scans = case.scans
@@ -65,34 +69,19 @@ def test_gibbs_by_edits_has_the_law_of_gibbs(case, chains, n):
 
 def test_infer_has_the_same_posterior(case):
     """Thinned by 30 sweeps, after which a chain has forgotten where it was (the test above)."""
-    run = bm.infer(
-        case.scans,
-        case.grid,
-        prior=case.prior,
-        sensor=case.sensor,
-        method=bm.Gibbs(order="raster"),
-        schedule=bm.Schedule(chains=4, warmup=30, draws=5000, thin=30),
-        seed=0,
-    )
+    schedule = bm.Schedule(chains=4, warmup=30, draws=5000, thin=30)
+    run = inferred(case, method=bm.Gibbs(order="raster"), schedule=schedule, seed=0)
     assert least_p_value(run.draws.reshape(-1, 9), case.exact.p) > ALPHA / TESTS
 
 
 def test_any_posterior_draw_is_a_trace(case, model):
-    run = bm.infer(
-        case.scans,
-        case.grid,
-        prior=case.prior,
-        sensor=case.sensor,
-        schedule=bm.Schedule(chains=2, warmup=5, draws=50),
-        seed=1,
-    )
+    run = inferred(case, schedule=bm.Schedule(chains=2, warmup=5, draws=50), seed=1)
+    readings = jnp.asarray(case.scans.ranges_m)
 
     @jax.jit
     @jax.vmap
     def as_trace(walls):
-        return model.importance(
-            jr.key(0), C["walls"].set(walls) | C["readings"].set(jnp.asarray(case.scans.ranges_m)), ()
-        )
+        return model.importance(jr.key(0), C["walls"].set(walls) | C["readings"].set(readings), ())
 
     traces, weights = as_trace(run.draws.reshape(-1, 3, 3))
     np.testing.assert_array_equal(traces.get_choices()["walls"], run.draws.reshape(-1, 3, 3))

@@ -127,6 +127,11 @@ def _loc_scale(loc: Any, scale: Any) -> Params:
     return loc, scale
 
 
+def _location_scale(name: str, standard: Callable[..., Any], logpdf: Callable[..., Any]) -> Named:
+    """Return the distribution of loc + scale * a draw of `standard`."""
+    return _named(name, _loc_scale, lambda key, shape, loc, scale: loc + scale * standard(key, shape), logpdf)
+
+
 def _event_batch(concentration: Any) -> tuple[int, ...]:
     return jnp.shape(concentration)[:-1]
 
@@ -199,9 +204,7 @@ categorical = _named(
     batch=_event_batch,
 )
 """An index into the last axis of `logits` or `probs`."""
-normal = _named(
-    "normal", _loc_scale, lambda key, shape, loc, scale: loc + scale * jr.normal(key, shape), st.norm.logpdf
-)
+normal = _location_scale("normal", jr.normal, st.norm.logpdf)
 uniform = _named(
     "uniform",
     lambda low, high: (low, high),
@@ -254,14 +257,9 @@ binomial = _named(
     st.binom.logpmf,
     support=_counts,
 )
-laplace = _named("laplace", _loc_scale, lambda key, shape, m, s: m + s * jr.laplace(key, shape), st.laplace.logpdf)
-cauchy = _named("cauchy", _loc_scale, lambda key, shape, m, s: m + s * jr.cauchy(key, shape), st.cauchy.logpdf)
-gumbel = _named(
-    "gumbel",
-    _loc_scale,
-    lambda key, shape, m, s: m + s * jr.gumbel(key, shape),
-    lambda v, m, s: -(v - m) / s - jnp.exp(-(v - m) / s) - jnp.log(s),
-)
+laplace = _location_scale("laplace", jr.laplace, st.laplace.logpdf)
+cauchy = _location_scale("cauchy", jr.cauchy, st.cauchy.logpdf)
+gumbel = _location_scale("gumbel", jr.gumbel, lambda v, m, s: -(v - m) / s - jnp.exp(-(v - m) / s) - jnp.log(s))
 student_t = _named(
     "student_t",
     lambda df, loc, scale: (df, loc, scale),

@@ -126,17 +126,8 @@ def beam_geometry(
     offsets = np.zeros(grid.n_cells + 1, dtype=np.int32)
     np.cumsum(np.bincount(rays.cells, minlength=grid.n_cells), out=offsets[1:])
     padding = np.zeros(GROUP, dtype=np.int32)
-    return BeamGeometry(
-        shape=grid.shape,
-        cells=cells,
-        distance_m=distance_m,
-        offsets=offsets,
-        beam=np.concatenate([beam[by_cell], padding]),
-        position=np.concatenate([position[by_cell], padding]),
-    )
-
-
-# ruff: noqa: D102 - the methods are those of the contract, documented with it.
+    beam, position = (np.concatenate([entries[by_cell], padding]) for entries in (beam, position))
+    return BeamGeometry(grid.shape, cells, distance_m, offsets, beam, position)
 
 
 class ReadingsTrace(Trace):

@@ -32,12 +32,7 @@ LEAST_COSINE = 1e-10
 
 
 class Beams(NamedTuple):
-    """Beams as rays.
-
-    Attributes:
-        start: the first points, (..., 2).
-        direction: unit vectors without zeros, (..., 2).
-    """
+    """Beams as rays: their first points and their directions, unit vectors without zeros, each (..., 2)."""
 
     start: Any
     direction: Any
@@ -56,8 +51,8 @@ def span(beams: Beams, low: Any, high: Any) -> tuple[Any, Any]:
     This is the slab method: a beam is in the rectangle where it lies between the sides in x and in y. A beam that
     leaves before it enters misses the rectangle. Distances behind the start are negative.
     """
-    one, other = (low - beams.start) / beams.direction, (high - beams.start) / beams.direction
-    return jnp.minimum(one, other).max(axis=-1), jnp.maximum(one, other).min(axis=-1)
+    to_low, to_high = (low - beams.start) / beams.direction, (high - beams.start) / beams.direction
+    return jnp.minimum(to_low, to_high).max(axis=-1), jnp.maximum(to_low, to_high).min(axis=-1)
 
 
 def cell_span(beams: Beams, cell: Any) -> tuple[Any, Any]:
@@ -163,9 +158,8 @@ class PoseSensor(RangeSensor):
         """Return the cells at which the beams of poses (S, 3) end, (S, A), by a walk of all beams."""
         beams = self.beams(poses)
         flat = Beams(*(part.reshape(-1, 2) for part in beams))
-        return first_walls(jnp.asarray(walls), flat, *first_cells(flat, self.grid.shape)).reshape(
-            beams.start.shape[:-1]
-        )
+        ends = first_walls(jnp.asarray(walls), flat, *first_cells(flat, self.grid.shape))
+        return ends.reshape(beams.start.shape[:-1])
 
     def distances_m(self, poses: Any, ends: Any) -> Any:
         """Return the distances in metres of the cells `ends` (..., S, A); inf where there is no cell."""
