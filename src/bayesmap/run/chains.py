@@ -85,7 +85,8 @@ class StopRule:
     def __init__(self, plan: SweepPlan, error_of_map: Callable[[], float]) -> None:
         """Start the clock. ``error_of_map`` estimates the error of the map from all draws so far."""
         self._plan, self._error_of_map, self._began = plan, error_of_map, time.monotonic()
-        self.reached, self._aim = False, plan.sweeps
+        # Before the first estimate chains are expected to stop there.
+        self.reached, self._aim = False, next(iter(plan.marks), plan.sweeps)
         self.error: float | None = None
 
     def check(self, sweep: int) -> None:
