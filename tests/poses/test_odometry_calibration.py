@@ -187,3 +187,28 @@ def test_noise_is_not_taken_for_wrong_angles(recorded, monkeypatch, case):
     monkeypatch.setattr(calibration, "SURE", 0.0)
     monkeypatch.setattr(calibration, "_regular", lambda factor, stated: factor)
     assert ratio(noisy, truth) != 1.0
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_rates_are_the_most_probable_ones_also_at_their_bounds(seed):
+    """Some motions do not turn and some do not err: their rates go to the bound. No step of 1 % makes them likelier."""
+    rng = np.random.default_rng(seed)
+    ways, turns, scans = way(200, seed)
+    features = np.stack([ways, turns * (seed % 2), scans], axis=-1)
+    errors = np.sqrt(features @ (USUAL[0] * np.exp(rng.normal(0.0, 3.0, 3)))) * rng.normal(size=200) * (seed > 1)
+    known = np.full(200, 1e-9)
+    found = calibration._rates(errors, features, known, USUAL[0])
+
+    def cost(rates):
+        variance, nu = features @ rates, calibration.DEGREES_OF_FREEDOM
+        tails = np.log1p((errors**2 + known) / (nu * variance)).sum()
+        logs = np.log(rates / USUAL[0])
+        assert np.abs(logs).max() <= calibration.MOST_LOG + 1e-9
+        prior = 0.5 * ((logs / calibration.FACTOR_SIGMA) ** 2).sum()
+        return 0.5 * np.log(variance).sum() + 0.5 * calibration.CONSISTENT * (nu + 1.0) * tails + prior
+
+    for axis in range(3):
+        for factor in (0.99, 1.01):
+            other = found * np.where(np.arange(3) == axis, factor, 1.0)
+            if np.abs(np.log(other / USUAL[0])).max() <= calibration.MOST_LOG:
+                assert cost(other) > cost(found)

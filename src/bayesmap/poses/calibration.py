@@ -160,6 +160,9 @@ FACTOR_SIGMA = np.log(10.0)
 TELLS, FEWEST = 0.5, 20
 """A motion is used if its matched variance is below this share of the expected one; and the fewest motions of a fit."""
 
+MOST_LOG, MOST_STEPS = 9.0, 200
+"""Greatest size of the logarithm of a rate, in units of `USUAL`, and most steps of its fit."""
+
 DEGREES_OF_FREEDOM = 4.0
 CONSISTENT = 1.2718
 """1 / E[(nu + 1) z^2 / (nu + z^2)] for a standard normal z and nu = 4."""
@@ -229,24 +232,28 @@ def _rates(errors: Floats, features: Floats, known_variance: Floats, usual: Floa
     variance. Products are summed without BLAS, whose threads would take longer to meet than to add.
     """
     nu, squares = DEGREES_OF_FREEDOM, errors**2 + known_variance
-    logs, damping, best, move = np.zeros(3), 1.0, np.inf, np.inf
+    logs, damping, best = np.zeros(3), 1.0, np.inf
     trial: Floats = logs
-    while damping < 1e12 and move > 1e-7:
+    for _ in range(MOST_STEPS):
         parts = features * (usual * np.exp(trial))
         variance = parts.sum(axis=1)
         ratio = squares / (nu * variance)
         value = 0.5 * np.log(variance).sum() + 0.5 * CONSISTENT * (nu + 1.0) * np.log1p(ratio).sum()
         value += 0.5 * ((trial / FACTOR_SIGMA) ** 2).sum()
-        if value <= best:
+        if value < best:
             logs, best, damping = trial, value, damping / 4.0
             slopes = 0.5 / variance - 0.5 * CONSISTENT * (nu + 1.0) * ratio / (1.0 + ratio) / variance
             slope = (slopes[:, None] * parts).sum(axis=0) + logs / FACTOR_SIGMA**2
             shares = parts / variance[:, None]
             bend = 0.5 * (shares[:, :, None] * shares[:, None, :]).sum(axis=0) + np.eye(3) / FACTOR_SIGMA**2
+            # A logarithm at its bound stays there while the slope points outwards.
+            free = np.abs(logs - np.sign(slope) * MOST_LOG) < 2.0 * MOST_LOG
+            slope, bend = np.where(free, slope, 0.0), bend * np.outer(free, free)
         else:
             damping *= 8.0
-        trial = np.clip(logs - np.linalg.solve(bend + damping * np.eye(3), slope), -9.0, 9.0)
-        move = float(np.abs(trial - logs).max())
+        trial = np.clip(logs - np.linalg.solve(bend + damping * np.eye(3), slope), -MOST_LOG, MOST_LOG)
+        if np.abs(trial - logs).max() < 1e-7:
+            break
     return np.asarray(usual * np.exp(logs))
 
 
