@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 CHECKPOINT_S = 30.0
 """Default number of seconds between two checkpoints."""
-PREVIEW_FROM_S = 5.0
+PREVIEW_FROM_S = 2.0
 """A first map is drawn if the chains are expected to take at least this many seconds."""
 MORE_DRAWS = 10
 """Factor on the default number of draws if the user asks for a better precision than the default."""

@@ -7,7 +7,8 @@ from simulated import odometry_of, off, path_around, ring, scans_of
 
 import bayesmap as bm
 from bayesmap.io.logs import read_log
-from bayesmap.poses.log_checks import agreement, caught_up, check_scans, doubts, frozen_stretches, look_like_odometry
+from bayesmap.poses.agreement import agreement, look_like_odometry
+from bayesmap.poses.log_checks import caught_up, check_scans, doubts, frozen_stretches
 from bayesmap.poses.scan_geometry import scan_geometry
 from bayesmap.poses.slam import infer_trajectory
 from bayesmap.space.planar import between

@@ -164,7 +164,7 @@ def refuse_odometry(log: str, scans: Scans) -> None:
     Raises:
         BadInput: the poses look like raw odometry.
     """
-    from bayesmap.poses.log_checks import look_like_odometry
+    from bayesmap.poses.agreement import look_like_odometry
 
     if look_like_odometry(scans):
         raise BadInput(

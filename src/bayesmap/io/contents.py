@@ -14,7 +14,8 @@ from bayesmap.errors import BadInput
 from bayesmap.io.log_reading import LogReading
 from bayesmap.io.logs import RECORDINGS, describe_log, format_of
 from bayesmap.io.ros.recording import POSE_TYPES, SCAN_TYPES, TF_TYPES, TYPES, topics_of_type
-from bayesmap.poses.log_checks import TOO_SELDOM, look_like_odometry, scans_come_often
+from bayesmap.poses.agreement import look_like_odometry
+from bayesmap.poses.log_checks import TOO_SELDOM, scans_come_often
 from bayesmap.space.scans import Scans
 
 CONVERTERS = {
