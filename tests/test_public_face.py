@@ -10,6 +10,8 @@ import pytest
 from flat_options import grouped
 
 import bayesmap as bm
+from bayesmap.poses import trajectory as poses
+from bayesmap.space import trajectory as space
 
 WALLS, POSE = np.array([[0, 0, 0], [0, 0, 1], [0, 0, 1]], dtype=bool), [0.5, 0.5, 0.3]
 GRID = bm.Grid((3, 3))
@@ -217,3 +219,28 @@ def test_nothing_is_printed():
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout == ""
     assert done.stderr == ""
+
+
+def test_results_print_as_a_few_short_lines(run, scans):
+    """An array in a repr fills a screen: 900 poses make the arrays of a trajectory long."""
+    many, own = np.zeros((900, 3)), np.array([np.eye(3)] * 900)
+    none, index = np.empty(0), np.empty(0, int)
+    results = [
+        run, bm.KnownMap.of_run(run), scans, scans.select(slice(0, 0)), run.pose_summary(), bm.score(run, scans),
+        bm.localize(run, scans, prior=bm.Near(POSE, 0.1, 0.1)), bm.localize(run, scans).last,
+        run.plan([0.5, 0.5], [1.5, 0.5], 0.05, 0.9), run.information_gain([POSE], ANGLES),
+        space.Trajectory(many, np.arange(900.0), own, many[None], known_by="wheels"), space.Trajectory(many),
+        poses.Trajectory(
+            many, None, index, None, index, own, many[:, 0], many[:, 0] > 0, index,
+            poses.LoopClosures(index, index, none, none, none), None, index,
+        ),
+    ]  # fmt: skip
+    for result in results:
+        title, *lines = repr(result).splitlines()
+        assert title.startswith(f"{type(result).__name__}: ")
+        assert len(lines) <= 5
+        assert max(map(len, (title, *lines))) <= 120
+        assert "array(" not in repr(result)
+    assert "900 scans" in repr(results[-1])
+    assert "899.0 s" in repr(results[-3])
+    assert "0.5" in repr(results[6])

@@ -91,6 +91,18 @@ class PoseBelief:
     mode_of: NDArray[np.intp] | None = None
     shared_error: Floats | None = None
 
+    def __repr__(self) -> str:
+        """Return four lines: size, the likeliest pose, its probability, and that of being lost."""
+        x, y, yaw = self.mean
+        sigma_x, sigma_y, sigma_yaw = np.sqrt(np.diag(self.covariance))
+        likely = f"{self.modes[0].probability:.1%}, the likeliest of {len(self.modes):,}"
+        return (
+            f"PoseBelief: {len(self.weights):,} weighted poses\n"
+            f"  pose: x {x:.3f} +- {sigma_x:.2g} m, y {y:.3f} +- {sigma_y:.2g} m, "
+            f"yaw {np.degrees(yaw):.2f} +- {np.degrees(sigma_yaw):.2g} degrees\n"
+            f"  probability of this place: {likely}\n  probability of being lost: {self.p_lost:.2g}"
+        )
+
     @cached_property
     def modes(self) -> tuple[Mode, ...]:
         """The places where the robot may be, the likeliest first."""

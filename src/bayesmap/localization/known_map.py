@@ -124,6 +124,12 @@ class KnownMap:
     trust: Trust = dataclasses.field(default_factory=Trust)
     usual_fit: UsualFit | None = None
 
+    def __repr__(self) -> str:
+        """Return two lines: the grid, and the cells in which a robot may be."""
+        (nx, ny), free, unknown = self.grid.shape, np.count_nonzero(self.free), np.count_nonzero(self.unknown)
+        title = f"KnownMap: {nx} x {ny} cells of {self.grid.resolution:g} m"
+        return f"{title}\n  cells: {free:,} in which a robot may be, {unknown:,} unknown"
+
     @classmethod
     def of_run(cls, run: Any, *, draws: int = DRAWS, beam_weight: float | None = None, device: str = "cpu") -> KnownMap:
         """Return the prepared map of a run that `bayesmap.infer` or `bayesmap.load` returned.

@@ -88,6 +88,11 @@ class Localization:
     def __len__(self) -> int:
         return len(self.beliefs)
 
+    def __repr__(self) -> str:
+        """Return four or five lines: size, and the belief about the last scan."""
+        last = repr(self.last).split("\n", 1)[1] if self.beliefs else "  no scan"
+        return f"Localization: {len(self):,} scans; of the last one:\n{last}"
+
     @property
     def last(self) -> PoseBelief:
         """The posterior of the last scan."""

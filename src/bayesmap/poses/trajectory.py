@@ -12,7 +12,7 @@ from bayesmap.poses.graph import Factors
 from bayesmap.poses.pose_gaussian import PoseGaussian
 from bayesmap.poses.prior import Odometry
 from bayesmap.space.planar import between, between_jacobians, compose, retract, rotation
-from bayesmap.space.scans import Scans
+from bayesmap.space.scans import Scans, path_words
 
 Floats = NDArray[np.float64]
 
@@ -148,6 +148,15 @@ class Trajectory:
 
     def __len__(self) -> int:
         return len(self.poses)
+
+    def __repr__(self) -> str:
+        """Return four lines: size, path, loops, and places in doubt."""
+        doubts = {"scans badly explained": self.flagged.sum(), "breaks": len(self.breaks), "leaps": len(self.leaps)}
+        return (
+            f"Trajectory: {len(self):,} scans, {len(self.keys):,} of them key scans\n"
+            f"  path: {path_words(self.poses, self.stamps_s)}\n  loop closures: {len(self.closures):,}\n"
+            f"  in doubt: {', '.join(f'{count:,} {name}' for name, count in doubts.items())}"
+        )
 
     def alternative_poses(self, number: int) -> Floats:
         """Return the poses of all scans in an alternative, (S, 3)."""

@@ -54,6 +54,18 @@ class Information:
     draws: int
     independent: Floats | None = None
 
+    def __repr__(self) -> str:
+        """Return two or three lines: size, and the bounds for the pose with the greatest upper bound."""
+        title = f"Information: {len(self.at_most):,} poses, {self.draws:,} draws of the map"
+        if not len(self.at_most):
+            return title
+        best = int(np.argmax(self.at_most))
+        low, high = (
+            f"{value[best]:.2f} +- {error[best]:.2g}"
+            for value, error in ((self.at_least, self.at_least_error), (self.at_most, self.at_most_error))
+        )
+        return f"{title}\n  greatest for pose {best}: at least {low} nats\n  at most {high} nats"
+
 
 def expected_information(
     cells: NDArray[np.float32],

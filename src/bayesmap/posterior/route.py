@@ -237,6 +237,15 @@ class Route:
     free: FreeProbability
     within_risk: bool
 
+    def __repr__(self) -> str:
+        """Return three lines: size, ends, and probability of a free path."""
+        (x0, y0), (x1, y1) = self.path[0], self.path[-1]
+        return (
+            f"Route: {self.length_m:.2f} m, {len(self.path):,} corners\n"
+            f"  from ({x0:.2f}, {y0:.2f}) to ({x1:.2f}, {y1:.2f})\n"
+            f"  free with probability {self.free.probability:.4g}: {'' if self.within_risk else 'not '}within the risk"
+        )
+
 
 def blocked_probability(batches: Iterable[NDArray[np.float32]], grid: Grid, radius_m: float) -> Floats:
     """Compute the probability that a disc about each cell's centre touches something, (nx, ny).

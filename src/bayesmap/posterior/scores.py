@@ -258,6 +258,17 @@ class Score:
     sensor: dict[str, Any]
     hit_depth: float
 
+    def __repr__(self) -> str:
+        """Return five lines: size, log density, coverage, calibration and events. `as_json` has all figures."""
+        coverage = ", ".join(f"{c.share.value:.1%} in {c.level:.0%}" for c in self.coverage)
+        return (
+            f"Score: {self.scans:,} scans, {self.beams:,} beams\n"
+            f"  log density: {self.nats_per_beam:.3f} +- {self.nats_per_beam_error:.3f} nats per beam\n"
+            f"  coverage of central intervals: {coverage}\n"
+            f"  distance of u from uniform: {self.pit_distance:.3f}, p = {self.pit_p_value:.2g}\n"
+            f"  Brier score: {self.brier.value:.4f} +- {self.brier.error:.4f}, over {self.events:,} events"
+        )
+
     def as_json(self) -> dict[str, Any]:
         """Return all fields except ``pit`` as JSON values."""
         widths = [

@@ -297,6 +297,21 @@ class PoseSummary:
     ess: Floats
     by_approximation: bool = False
 
+    def __repr__(self) -> str:
+        """Return four lines: size, standard deviations, mixing, and source."""
+        sigma_m, sigma_deg = (
+            np.nanmedian(value) if len(value) else np.nan for value in (self.sigma_m, np.degrees(self.sigma_rad))
+        )
+        mixing = f"largest R-hat {self.rhat_max:.3f}, least effective sample size {self.ess_min:,.0f}"
+        if np.isnan(self.rhat).all():
+            mixing = "not known, since no pose moved or there are too few draws"
+        source = "the approximation that chains started from" if self.by_approximation else "draws"
+        return (
+            f"PoseSummary: {len(self.mean):,} poses\n"
+            f"  median standard deviation: {sigma_m:.2g} m, {sigma_deg:.2g} degrees\n"
+            f"  mixing: {mixing}\n  by: {source}"
+        )
+
     @property
     def rhat_max(self) -> float:
         """The largest R-hat; infinite where chains of a pose are too short for one, or disagree."""

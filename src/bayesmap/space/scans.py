@@ -110,6 +110,19 @@ class Scans:
     def __len__(self) -> int:
         return len(self.poses)
 
+    def __repr__(self) -> str:
+        """Return four lines: size, readings, fan and range limits, and path."""
+        kinds = ", ".join(f"{count:,} {kind.replace('_', ' ')}" for kind, count in self.counts().items())
+        fan = "no beams"
+        if self.n_beams:
+            low, high = np.degrees([np.nanmin(self.angles_rad), np.nanmax(self.angles_rad)])
+            fan = f"{low:.1f} to {high:.1f} degrees"
+        return (
+            f"Scans: {len(self):,}, {self.n_beams:,} beams\n  readings: {kinds}\n"
+            f"  sensor: {fan}, {self.min_range_m:g} to {self.max_range_m:g} m\n"
+            f"  path: {path_words(self.poses, self.stamps_s)}"
+        )
+
     @property
     def n_beams(self) -> int:
         """Number of beams, over all scans."""
@@ -250,6 +263,12 @@ def as_poses(poses: ArrayLike) -> NDArray[np.float64]:
         scan = int(np.nonzero(~np.isfinite(array).all(axis=1))[0][0])
         raise BadInput(f"scans: pose of scan {scan} is not finite: {array[scan].tolist()}")
     return array
+
+
+def path_words(poses: NDArray[np.float64], stamps_s: NDArray[np.float64] | None) -> str:
+    """Return the length of a path, and its duration if there are stamps, in words."""
+    words = f"{np.hypot(*np.diff(poses[:, :2], axis=0).T).sum():,.1f} m"
+    return words if stamps_s is None or not len(stamps_s) else f"{words} in {np.ptp(stamps_s):,.1f} s"
 
 
 def as_angles(angles_rad: ArrayLike) -> NDArray[np.float64]:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
 from bayesmap.space.planar import between, compose, interpolate, rotation, wrapped
-from bayesmap.space.scans import as_poses
+from bayesmap.space.scans import as_poses, path_words
 
 SLACK_S = 0.002
 """Largest time outside a trajectory that counts as its end: logs are written with few digits."""
@@ -92,6 +92,18 @@ class Trajectory:
 
     def __len__(self) -> int:
         return len(self.poses)
+
+    def __repr__(self) -> str:
+        """Return three lines: size, path and uncertainty."""
+        draws = "" if self.draws is None else f", {len(self.draws):,} draws"
+        known = "unknown"
+        if self.covariances is not None and len(self):
+            sigma = np.sqrt(np.median(np.linalg.eigvalsh(self.covariances[:, :2, :2])[:, 1]))
+            known = f"median {sigma:.2g} m{draws}{', ' * bool(self.known_by)}{self.known_by}"
+        return (
+            f"Trajectory: {len(self):,} poses\n  path: {path_words(self.poses, self.stamps_s)}\n"
+            f"  standard deviation of position: {known}"
+        )
 
     @classmethod
     def of_draws(cls, draws: Floats, stamps_s: Floats | None = None, known_by: str = "") -> Trajectory:
