@@ -335,8 +335,7 @@ class Run:
         options.setdefault("scans", self.posterior.scans)
         options.setdefault("label", prior.words.value if prior.has_interval else prior.words.mean)
         if prior.has_interval and self.n_draws and "width" not in options:
-            lower, upper = self.interval(0.9)
-            options["width"] = upper - lower
+            options["width"] = prior.width(self.posterior.draws, 0.9)
         if prior.has_surfaces:
             options.setdefault("surfaces", self.surfaces())
         return posterior_figure(self.grid, self.occupancy, self.observed, **options)
@@ -347,7 +346,8 @@ class Run:
         Formats are map_server YAML, recordings for ROS 1 and 2, GeoTIFF, rerun and TUM, with the options of
         `bayesmap.io.exports.export_run`. Maps of occupied, free and unknown cells use the thresholds of the kind of
         cells by default. A wall counts as occupied only if its probability is over one half. Reflectivities have a
-        lower threshold, since a robot cannot stand in a cell that surely stops three beams in ten.
+        lower threshold, since a robot cannot stand in a cell that surely stops three beams in ten. A cell of
+        reflectivities below the free threshold is unknown unless enough beams passed it (docs/defaults.md).
 
         Returns:
             The paths of the written files.
@@ -365,7 +365,15 @@ class Run:
             if mode == "trinary":
                 for name, value in zip(("occupied_thresh", "free_thresh"), thresholds, strict=True):
                     options[name] = value if options.get(name) is None else options[name]
+            free_thresh = options.get("free_thresh")
+            unproven = ~self._seen_free() & (self.occupancy < (thresholds[1] if free_thresh is None else free_thresh))
+            return export_run(path, self, self.posterior.scans, known=self.observed & ~unproven, **options)
         return export_run(path, self, self.posterior.scans, **options)
+
+    def _seen_free(self) -> NDArray[np.bool_]:
+        """Mask the cells that the beams alone show to stop fewer than half of all beams: four passed, none stopped."""
+        evidence = self.posterior.prior.evidence_interval(self.posterior.draws, 0.9) if self.n_draws else None
+        return self.observed if evidence is None else evidence[1] < 0.5
 
     def __repr__(self) -> str:
         """Return five lines: the map, the scans, the method, the log joint, and the time."""

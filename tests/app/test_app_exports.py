@@ -125,8 +125,8 @@ def test_a_run_names_its_quantity_and_has_intervals_where_it_is_a_number(prior, 
     header, buffers = heard.answer(View("width"))
     assert header["layer"] == ("mean" if kind == "binary" else "width")
     if kind != "binary":
-        lower, upper = run.interval(0.9)
-        np.testing.assert_allclose(buffers["p"], 255 * (upper - lower), atol=0.51)
+        width = run.posterior.prior.width(run.posterior.draws, 0.9)
+        np.testing.assert_allclose(buffers["p"], 255 * width, atol=0.51)
 
 
 def test_surfaces_are_strokes_two_deviations_to_either_side_and_a_simulation_has_none():

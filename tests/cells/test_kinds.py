@@ -3,6 +3,8 @@ import pytest
 
 import bayesmap as bm
 from bayesmap.cells.kinds import prior_from
+from bayesmap.cells.reflectivity import counts_behind
+from bayesmap.io.ros.maps import read_map
 
 PRIORS = [bm.Beta(), bm.Beta(0.5, 3.0), bm.Surface(), bm.Surface(0.1, 2, 0.3, 0.2, 4.5)]
 
@@ -110,3 +112,30 @@ def test_thinned_draws_are_some_of_each_chain(run):
     np.testing.assert_array_equal(few.arrays[name], draws.arrays[name][:, [0, 6, 11]])
     assert draws.thinned(1).count == 1
     assert draws.thinned(1000).count == 12
+
+
+@pytest.mark.parametrize(("a", "b"), [(0.0213, 0.187), (0.0089, 0.0949)])
+def test_counts_of_beams_are_read_off_expected_chances(a, b):
+    stopped, passed = (counts.ravel().astype(float) for counts in np.mgrid[0:8, 0:12])
+    expected = ((a + stopped) / (a + b + stopped + passed)).astype(np.float16).astype(float)
+    found = counts_behind(expected, np.full_like(stopped, a), np.full_like(stopped, b))
+    np.testing.assert_array_equal(found, [stopped, passed])
+
+
+@pytest.mark.parametrize(
+    "prior", [bm.Beta(), bm.Surface(), bm.Beta(0.02, 0.2, coupling=0.5)], ids=["beta", "surface", "labels"]
+)
+def test_a_cell_is_free_and_certain_only_if_enough_beams_passed_it(prior, tmp_path):
+    sensor = bm.BeamMixture(bm.Gaussian(0.02), p_random=0.01, p_no_return=0.01)
+    schedule = bm.Schedule(chains=2, warmup=20, draws=20)
+    for beams, free, certain in ((1, False, False), (3, False, False), (8, True, True)):
+        ranges = np.full((beams, 1), 1.75)
+        scans = bm.Scans(np.tile([0.25, 0.25, 0.0], (beams, 1)), [0.0], ranges, max_range_m=5.0)
+        run = bm.infer(scans, bm.Grid((5, 1), 0.5), prior=prior, sensor=sensor, schedule=schedule)
+        run.export(tmp_path / "map.yaml")
+        occupancy, _ = read_map(tmp_path / "map.yaml")
+        passed = (slice(1, 3), 0)
+        assert prior.has_labels or (run.occupancy[passed] < 0.1).all()
+        assert (occupancy[passed] == 0).all() == free
+        assert np.isnan(occupancy[passed]).all() == (not free)
+        assert (run.posterior.prior.width(run.posterior.draws, 0.9)[passed] < 0.4).all() == certain

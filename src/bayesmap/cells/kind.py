@@ -64,7 +64,7 @@ class CellPrior(ABC):
         has_walls: true if a cell is a wall or free. Users can then choose a wall probability, a start and an order of
             cells, and fit a coupling.
         thresholds: mean stop probabilities for a robot's map: a cell above the first is occupied, below the second
-            free, else unknown; None leaves them to the format.
+            free if `evidence_interval` agrees (docs/defaults.md), else unknown; None leaves them to the format.
     """
 
     words: ClassVar[Words]
@@ -177,6 +177,23 @@ class CellPrior(ABC):
         maps = np.stack([self.map_of(draws, chain, draw) for chain, draw in draws.numbers()]).astype(np.float64)
         lower, upper = np.quantile(maps, [0.5 * (1 - level), 0.5 * (1 + level)], axis=0)
         return lower, upper
+
+    def evidence_interval(self, draws: Draws, level: float) -> tuple[Floats, Floats] | None:
+        """Return the central interval of each cell's chance to stop a beam under a uniform prior, (nx, ny) each.
+
+        It says what the beams alone tell: a cell that few beams reached has a wide one, whatever its prior says. The
+        default is None: this kind counts no beams.
+        """
+        return None
+
+    def width(self, draws: Draws, level: float) -> Floats:
+        """Return the width of each cell's interval, (nx, ny): the posterior's, or the evidence's where that is wider.
+
+        A prior that is nearly sure makes the posterior's interval narrow after a single beam.
+        """
+        posterior, evidence = self.interval(draws, level), self.evidence_interval(draws, level)
+        width = posterior[1] - posterior[0]
+        return width if evidence is None else np.maximum(width, evidence[1] - evidence[0])
 
     def traces(self, draws: Draws, cells: NDArray[np.intp]) -> NDArray[Any]:
         """Return `map_of` at the given cells in all draws, (chains, draws, n), for diagnostics of convergence."""

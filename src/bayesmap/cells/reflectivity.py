@@ -27,6 +27,10 @@ LEAST_M, MOST_M = 1e-30, 1.0 - 1e-7
 
 CELLS_AT_ONCE = 8192  # per batch of `interval`
 
+HALF_ROUNDING = 2.0**-11  # relative error of half precision
+MOST_STOPS = 32
+"""Stopped beams that `counts_behind` tries; a cell with more is well known."""
+
 FRESH_CELLS = 1 << 16
 """Size of the pool of states drawn from the prior; cells that no beam touched take their states from it."""
 
@@ -230,6 +234,20 @@ class Reflective(CellPrior):
         lower, upper = (draws.to_grid(ends[i], "cell", before[i]) for i in (0, 1))
         return lower, upper
 
+    def evidence_interval(self, draws: Draws, level: float) -> tuple[Floats, Floats]:
+        """Return the central interval under a uniform prior, by the beams counted in each chain's last draw."""
+        cells = draws.index["cell"]
+        counts = np.zeros((2, len(cells)))
+        for chain in range(draws.chains):
+            solid = ising_field.of_draw(draws, chain, -1)[cells] if self.has_labels else np.zeros(len(cells), np.bool_)
+            expected = draws.arrays[self.shown[1]][chain, -1].astype(np.float64)
+            counts += np.stack(counts_behind(expected, *self.beta_given(solid))) / draws.chains
+        tails = (0.5 * (1 - level), 0.5 * (1 + level))
+        (stopped, passed), place = np.unique(counts, axis=1, return_inverse=True)
+        ends = [special.betaincinv(1.0 + stopped, 1.0 + passed, tail)[place.ravel()] for tail in tails]
+        lower, upper = (draws.to_grid(end, "cell", tail) for end, tail in zip(ends, tails, strict=True))
+        return lower, upper
+
     def traces(self, draws: Draws, cells: NDArray[np.intp]) -> NDArray[np.float16]:
         """Return the drawn chances of the given touched cells in all draws, (chains, draws, n)."""
         return np.asarray(draws.arrays[self.shown[0]][:, :, np.searchsorted(draws.index["cell"], cells)])
@@ -319,6 +337,25 @@ def places_among(held: NDArray[np.int32], cells: NDArray[np.int32]) -> tuple[NDA
     place = np.minimum(np.searchsorted(held, cells), max(len(held) - 1, 0))
     known = held[place] == cells if len(held) else np.zeros(len(cells), dtype=np.bool_)
     return place, known
+
+
+def counts_behind(expected: Floats, a: Floats, b: Floats) -> tuple[Floats, Floats]:
+    """Find the least counts of stopped and of passing beams that give the expected chances (a + stopped) / (a + b + n).
+
+    The number n of beams must be whole, up to the rounding of half precision: this tells the counts apart. Counts above
+    `MOST_STOPS` stopped beams are returned as that many or more.
+    """
+    chance = np.clip(expected, HALF_ROUNDING**2, 1.0 - 0.5 * HALF_ROUNDING)
+    stopped, beams = np.zeros_like(chance), np.zeros_like(chance)
+    left = np.arange(len(chance))
+    for count in range(MOST_STOPS + 1):
+        n = (a[left] + count) / chance[left] - (a[left] + b[left])
+        whole = np.rint(n)
+        fits = (np.abs(n - whole) <= HALF_ROUNDING * (n + a[left] + b[left])) & (whole >= count)
+        fits |= count == MOST_STOPS
+        stopped[left[fits]], beams[left[fits]] = count, np.maximum(whole[fits], count)
+        left = left[~fits]
+    return stopped, beams - stopped
 
 
 def quantiles_of_halves(draws: NDArray[np.float16], at: tuple[float, ...]) -> Floats:

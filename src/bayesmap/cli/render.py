@@ -130,8 +130,8 @@ def _panel(run: Run, settings: RenderSettings, grid: Grid, window: tuple[slice, 
             raise BadInput(
                 "width: a wall is there or not, and has no interval; --what entropy or deviation shows how sure it is"
             )
-        lower, upper = run.interval(0.9)
-        shown = (upper - lower)[window]
+        run.interval(0.9)
+        shown = run.posterior.prior.width(run.posterior.draws, 0.9)[window]
     elif run.n_draws:
         draw = one_draw(run, settings.chain, settings.draw)
         shown = draw[window] if what == "draw" else shown

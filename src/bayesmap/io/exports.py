@@ -192,7 +192,7 @@ def export_trajectory(
 
 def export_run(
     path: str | os.PathLike[str], run: Mapped, scans: Scans, *, format: str | None = None, mode: str | None = None,
-    occupied_thresh: float | None = None, free_thresh: float | None = None,
+    occupied_thresh: float | None = None, free_thresh: float | None = None, known: NDArray[np.bool_] | None = None,
 ) -> tuple[Path, ...]:  # fmt: skip
     """Write a run in another program's format; an existing file of that name is replaced.
 
@@ -205,6 +205,7 @@ def export_run(
             probability in per cent, for occupancy-grid. Other formats write exact numbers and take no mode.
         occupied_thresh: threshold above which a cell is occupied; by default 0.65 in trinary, 1 in scale.
         free_thresh: threshold below which a cell is free; by default 0.25 in trinary, 0 in scale.
+        known: cells that map-server and occupancy-grid do not call unknown, (nx, ny); by default the observed ones.
 
     Returns:
         The paths of the files written.
@@ -226,11 +227,12 @@ def export_run(
     if chosen == "map-server":
         from bayesmap.io.ros.maps import write_map
 
-        return write_map(path, run.occupancy, grid, observed, **options)
+        return write_map(path, run.occupancy, grid, observed if known is None else known, **options)
     if chosen == "occupancy-grid":
         from bayesmap.io.ros.writer import write_occupancy_grid
 
-        return (write_occupancy_grid(path, run.occupancy, grid, observed, stamp_s=stamp_s, **options),)
+        known = observed if known is None else known
+        return (write_occupancy_grid(path, run.occupancy, grid, known, stamp_s=stamp_s, **options),)
     if chosen == "gridmap":
         from bayesmap.io.ros.writer import write_grid_map
 

@@ -181,7 +181,8 @@ def posterior_figure(
         scans: scans with their rays, readings and poses; None: no such panel.
         title: title over the figure.
         label: name of the values of ``occupancy``, and of a draw of numbers.
-        width: width of the 90 % interval of each cell's reflectivity, (nx, ny), drawn instead of the entropy of a wall.
+        width: width of the 90 % interval of each cell's reflectivity, (nx, ny), as `CellPrior.width` returns it; drawn
+            instead of the entropy of a wall.
         surfaces: surfaces, drawn as strokes over the mean if cells are large enough on the page.
 
     Returns:

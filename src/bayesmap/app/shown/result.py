@@ -224,8 +224,7 @@ class Result:
         draws = self.found.at_hand
         if draws is None or not self.prior.has_interval:
             return None
-        lower, upper = self.prior.interval(draws.thinned(INTERVAL_DRAWS), 0.9)
-        return np.asarray(upper - lower)
+        return self.prior.width(draws.thinned(INTERVAL_DRAWS), 0.9)
 
     @cached_property
     def surfaces(self) -> tuple[NDArray[np.int32], Floats, Floats, Floats] | None:
