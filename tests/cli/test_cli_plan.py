@@ -6,7 +6,9 @@ import numpy as np
 import pytest
 from shell import call, json_of, refusal_of, succeed
 
+from bayesmap.cli.decisions import more_than
 from bayesmap.io.logs import read_log
+from bayesmap.posterior.route import is_within_risk
 from bayesmap.result import load
 
 
@@ -53,6 +55,13 @@ def test_a_risk_that_no_path_keeps_is_warned_of(plan, tmp_path, risk):
     document = json.loads(result.stdout)
     assert document["within_risk"] == (1 - document["free_probability"] <= risk)
     assert ("this is the safest" in result.stderr) == (not document["within_risk"])
+
+
+def test_a_risk_is_told_from_its_bound_and_rounding_is_no_risk():
+    assert more_than(0.010004, 0.01) == "0.010004"
+    assert more_than(0.25, 0.01) == "0.25"
+    assert is_within_risk(0.99, 0.01)  # 1 - 0.99 > 0.01 in floating point
+    assert not is_within_risk(0.98999, 0.01)
 
 
 def test_views_are_printed_best_first_and_drawn(office_run, tmp_path):

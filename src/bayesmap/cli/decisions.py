@@ -55,7 +55,7 @@ def plan(call: Call[PlanSettings], run_file: str, start: str, goal: str, output:
     if not route.within_risk:
         call.console.warn(
             f"no path was found whose risk is {settings.risk:g} or less; this is the safest: "
-            f"{1 - route.free.probability:.3g}"
+            f"{more_than(1 - route.free.probability, settings.risk)}"
         )
     if call.console.as_json:
         document = {**_route_document(route, settings), "run": run_file, "outputs": {target.name: str(target)}}
@@ -82,6 +82,12 @@ def _route_sentence(route: Route) -> str:
         f"{route.length_m:.2f} m, free with probability {free.probability:.3f} +- {free.standard_error:.3f} "
         f"(independent cells: {free.independent:.3f})"
     )
+
+
+def more_than(value: float, bound: float) -> str:
+    """Return a number with 3 digits, or with as many as tell it from a bound."""
+    texts = (f"{value:.{digits}g}" for digits in range(3, 18))
+    return next((text for text in texts if float(text) != float(f"{bound:g}")), f"{value:.17g}")
 
 
 def _route_document(route: Route, settings: PlanSettings) -> dict[str, Any]:

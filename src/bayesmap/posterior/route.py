@@ -247,6 +247,11 @@ class Route:
         )
 
 
+def is_within_risk(free_probability: float, risk: float) -> bool:
+    """Return whether the risk keeps a bound, up to rounding: 1 - 0.99 is a little more than 0.01."""
+    return 1.0 - free_probability <= risk + 1e-12
+
+
 def blocked_probability(batches: Iterable[NDArray[np.float32]], grid: Grid, radius_m: float) -> Floats:
     """Compute the probability that a disc about each cell's centre touches something, (nx, ny).
 
@@ -311,7 +316,7 @@ def plan_route(
         for path in (_straightened(whole, danger, grid, price), whole):
             free = judge(path)
             length_m = float(np.hypot(*np.diff(path, axis=0).T).sum())
-            routes.append(Route(path, length_m, free, 1.0 - free.probability <= risk))
+            routes.append(Route(path, length_m, free, is_within_risk(free.probability, risk)))
             if routes[-1].within_risk:
                 break
         if routes[-1].within_risk:
