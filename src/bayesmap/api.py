@@ -220,11 +220,12 @@ class Inference:
             nonlocal plan
             if checkpoints.preview is None and plan.seconds is None:
                 return
-            chains, sweep_s = first_map(cells, problem, model, self.asked.seed)
+            at_known = replace(model, poses=Known())  # a first map samples no poses
+            chains, sweep_s = first_map(cells, problem, at_known, self.asked.seed)
             long = sweep_s * self.asked.chains * (plan.warmup + FIRST_MARK * plan.thin) >= PREVIEW_FROM_S
             if checkpoints.preview is not None and long:
                 total = {"total": passed(), "fit": 0.0}
-                checkpoints.preview(Run(posterior_of_chains(model, chains, settings, total, None)))
+                checkpoints.preview(Run(posterior_of_chains(at_known, chains, settings, total, None)))
             if plan.seconds is not None:  # the pilot makes as many sweeps as the warm-up
                 plan = plan.shortened(sweep_s * (1 + self.asked.chains), plan.seconds - passed())
 
@@ -410,20 +411,24 @@ def slam(
         log, no_odometry=no_odometry, seed=seed, threads=where.threads, device=where.device,
         checkpoint=checkpoints.stages, on_progress=on_stage,
     )  # fmt: skip
+    if checkpoints.trajectory is not None:
+        checkpoints.trajectory(trajectory)
     # Select the key scans, and lay the grid over them.
     keys = key_scans(log, trajectory, schedule.chains, seed)
     grid = Grid.covering(keys.scans, resolution)
     cells = Surface() if prior is None else prior
     fast = len(keys.scans) > SAMPLED if fast is None else fast
+
     # Sample the map; unless ``fast``, sample the poses of the key scans too.
-    save = checkpoints.save
-    if save is not None:
-        checkpoints = replace(checkpoints, save=lambda run: save(replace(run, trajectory=trajectory)))
+    def with_trajectory(use: Callable[[Run], None] | None) -> Callable[[Run], None] | None:
+        return None if use is None else lambda run: use(replace(run, trajectory=trajectory))
+
+    save, preview = with_trajectory(checkpoints.save), with_trajectory(checkpoints.preview)
     run = infer(
         for_map(keys.scans, resolution) if fast else keys.scans, grid, prior=cells, sensor=sensor,
         method=None if fast else Gibbs(start_poses=keys.starts),
         schedule=replace(schedule, thin=1 if schedule.thin is None else schedule.thin), seed=seed,
         poses=None if fast else keys.prior, hit_depth=cells.hit_depth if hit_depth is None else hit_depth, where=where,
-        checkpoints=checkpoints, on_progress=on_progress,
+        checkpoints=replace(checkpoints, save=save, preview=preview), on_progress=on_progress,
     )  # fmt: skip
     return replace(run, trajectory=trajectory)

@@ -12,6 +12,7 @@ from bayesmap.run.chains import PRECISION
 from bayesmap.run.runner import Executor
 
 if TYPE_CHECKING:
+    from bayesmap.poses.trajectory import Trajectory
     from bayesmap.result import Run
 
 CHECKPOINT_S = 30.0
@@ -132,9 +133,10 @@ class Checkpoints:
         stages: folder for the finished stages of the trajectory, for `slam`; existing stages are reused.
         preview: function called a few seconds after the start with a run of one draw, a first rough map; not called if
             the chains take less than `PREVIEW_FROM_S` or resume.
+        trajectory: function called by `slam` with the approximate trajectory of all scans, before the map is inferred.
 
     Raises:
-        BadInput: an object that is no run, a ``save`` that is no function, or a negative number of seconds.
+        BadInput: an object that is no run, a callback that is no function, or a negative number of seconds.
     """
 
     resume: Run | None = None
@@ -142,13 +144,14 @@ class Checkpoints:
     every_s: float = CHECKPOINT_S
     stages: str | os.PathLike[str] | None = None
     preview: Callable[[Run], None] | None = None
+    trajectory: Callable[[Trajectory], None] | None = None
 
     def __post_init__(self) -> None:
         if self.resume is not None and not hasattr(self.resume, "posterior"):
             raise BadInput(f"Checkpoints: resume must be a run, such as bm.load('run.nc'), got {self.resume!r}")
-        if self.save is not None and not callable(self.save):
-            raise BadInput(f"Checkpoints: save must be a function that takes a run, got {self.save!r}")
-        if self.preview is not None and not callable(self.preview):
-            raise BadInput(f"Checkpoints: preview must be a function that takes a run, got {self.preview!r}")
+        for name, what in (("save", "run"), ("preview", "run"), ("trajectory", "trajectory")):
+            given = getattr(self, name)
+            if given is not None and not callable(given):
+                raise BadInput(f"Checkpoints: {name} must be a function that takes a {what}, got {given!r}")
         if not self.every_s >= 0:
             raise BadInput(f"Checkpoints: every_s must be 0 or a positive number of seconds, got {self.every_s!r}")

@@ -353,11 +353,14 @@ class Run:
             The paths of the written files.
 
         Raises:
-            BadInput: a run that was stopped before its first draw, an unknown ending, or a file that cannot be written.
+            BadInput: the map of a run that was stopped before its first draw, an unknown ending, or a file that cannot
+                be written.
         """
-        from bayesmap.io.exports import export_format, export_run
+        from bayesmap.io.exports import TRAJECTORIES, export_format, export_run
 
-        self._need_marginals()
+        # The trajectory of `slam` is known before the first draw.
+        if self.trajectory is None or export_format(path, options.get("format")) not in TRAJECTORIES:
+            self._need_marginals()
         thresholds, mode = self.posterior.prior.thresholds, options.get("mode")
         if thresholds is not None:
             if mode is None and export_format(path, options.get("format")) == "map-server":

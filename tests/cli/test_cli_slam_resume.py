@@ -1,5 +1,6 @@
 """`bayesmap slam` stopped in any of its stages: the command that it prints ends as if nothing had stopped it."""
 
+import json
 import os
 import shlex
 import signal
@@ -77,18 +78,48 @@ def test_the_printed_command_ends_as_if_nothing_had_stopped_it(log, whole, tmp_p
     assert_same(folder, whole)
 
 
+@pytest.mark.parametrize("stage", ["fit", "warm-up"])
+def test_the_trajectory_and_a_first_map_stand_in_the_folder_before_the_chains(log, whole, tmp_path, monkeypatch, stage):
+    folder = tmp_path / "run"
+    monkeypatch.setattr("bayesmap.api.PREVIEW_FROM_S", 0.0)
+    with monkeypatch.context() as patch:
+        press_ctrl_c_in(patch, stage)
+        stopped = call("slam", log, "-o", folder, SETTINGS, "--json")
+    assert stopped.exit_code == 130, stopped.stderr
+    assert stopped.stderr.count("the trajectory of all scans: ") == 1
+    assert stopped.stderr.count("a first, rough map: ") == 1
+    for name in SAME[:2]:
+        assert (folder / name).read_bytes() == (whole / name).read_bytes(), name
+    files = {path.name for path in folder.iterdir()}
+    assert files >= {"trajectory.png", "odometry.png", "loops.png", "posterior.png", "map.yaml"}
+    assert json.loads(stopped.stdout)["outputs"].keys() >= {*SAME[:2], "trajectory.png", "loops.png"}
+    assert (folder / "trajectory.png").read_bytes() != (whole / "trajectory.png").read_bytes()
+    if stage == "fit":
+        assert f"{folder}/trajectory.tum is complete" in stopped.stderr
+        assert "run.nc" not in files
+        return
+    succeed("export", folder / "run.nc", "-o", tmp_path / "path.tum")
+    assert (tmp_path / "path.tum").read_bytes() == (whole / "trajectory.tum").read_bytes()
+    refusal = refusal_of("export", folder / "run.nc", "-o", tmp_path / "map.yaml")
+    assert f"go on with it by bayesmap slam LOG -o {folder} --resume" in refusal
+
+
 @pytest.mark.full
-def test_a_run_that_is_replaced_is_not_what_is_resumed(log, whole, tmp_path, monkeypatch):
+@pytest.mark.parametrize("stage", ["front end", "fit", "warm-up"])
+def test_a_run_that_is_replaced_is_not_what_is_resumed(log, whole, tmp_path, monkeypatch, stage):
     folder = tmp_path / "run"
     succeed("slam", log, "-o", folder, OTHERS)
     before = {path.name: path.read_bytes() for path in folder.iterdir() if path.is_file()}
     with monkeypatch.context() as patch:
-        press_ctrl_c_in(patch, "front end")
+        press_ctrl_c_in(patch, stage)
         stopped = call("slam", log, "-o", folder, SETTINGS, "--force")
     assert stopped.exit_code == 130, stopped.stderr
     left = {path.name: path.read_bytes() for path in folder.iterdir() if path.is_file()}
-    assert left.pop("outdated")
-    assert left == before
+    if stage == "warm-up":  # the new run has taken its place
+        assert all(left[name] == (whole / name).read_bytes() for name in SAME[:2])
+    else:
+        assert left.pop("outdated")
+        assert left == before
     succeed(*printed(stopped.stderr))
     assert_same(folder, whole)
     assert not (folder / "outdated").exists()

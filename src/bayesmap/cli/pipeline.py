@@ -18,7 +18,7 @@ from bayesmap.cli.translation import LOG, need_file
 from bayesmap.errors import BadInput
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
 
     from bayesmap.api import Event
     from bayesmap.io.log_reading import LogReading
@@ -276,8 +276,13 @@ def report(console: Console, document: dict[str, Any]) -> None:
         console.warn(problem)
 
 
-def leave(folder: Folder, run: Run, reading: LogReading, go_on: str | None) -> dict[str, Any]:
-    """Save an interrupted run and its map so far, print how to resume it, and return the JSON document."""
+def leave(
+    folder: Folder, run: Run, reading: LogReading, go_on: str | None, known: Sequence[Path] = ()
+) -> dict[str, Any]:
+    """Save an interrupted run and its map so far, print how to resume it, and return the JSON document.
+
+    ``known`` are files that were complete before the first sweep.
+    """
     kept: list[Path] = []
     # Chains stopped before their first sweep may have an incomplete start, so they are not saved.
     if run.posterior.sweep > 0:
@@ -288,6 +293,8 @@ def leave(folder: Folder, run: Run, reading: LogReading, go_on: str | None) -> d
         said = f"interrupted before the first sweep; {folder.run} is as it was; go on with:\n  {go_on}"
     elif folder.run.exists() and not folder.begun:
         said = f"interrupted before there was anything to save; {folder.run} is as it was"
+    elif known:
+        said = f"interrupted before the first sweep; {known[0]} is complete; go on with:\n  {go_on}"
     else:
         said = f"interrupted before there was anything to save; start again with:\n  {go_on}"
     if go_on is not None:

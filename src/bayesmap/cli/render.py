@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -70,7 +71,7 @@ def render(
     run = load(run_file)
     # Methods that compute marginals have a map without draws; chains in warm-up have none.
     if run.n_draws == 0 and (what in ("draw", "animation") or run.posterior.has_chains):
-        raise BadInput(f"{run_file}: the run has no draws yet; go on with it by bayesmap infer --resume")
+        raise _without_draws(run_file, run)
     if settings.window is not None and what in WHOLE:
         raise BadInput(f"window: {what} shows the whole map; a single panel, such as --what mean, takes a window")
     # Choose the part of the map, and draw.
@@ -212,6 +213,14 @@ def part_of(run: Run, text: str | None) -> tuple[Grid, tuple[slice, slice]]:
     return window(run.grid, (x0, x1), (y0, y1))
 
 
+def _without_draws(run_file: str, run: Run) -> BadInput:
+    """Return the error for a run that was stopped before its first draw, with the command that resumes it."""
+    command = "infer" if run.trajectory is None else "slam"
+    go_on = f"bayesmap {command} LOG -o {shlex.quote(str(Path(run_file).parent))} --resume"
+    also = "" if run.trajectory is None else "; its trajectory can be exported already, as with -o trajectory.tum"
+    return BadInput(f"{run_file}: the run has no draws yet; go on with it by {go_on}{also}")
+
+
 def log_odds_map(run: Run) -> tuple[NDArray[np.float64], Walls]:
     """Compute the log-odds map of the run's scans, with OctoMap's numbers, unclamped, and a mask of the seen cells."""
     from bayesmap.kernels.counts import count_hits
@@ -246,7 +255,7 @@ def export(call: Call[ExportSettings], run_file: str, output: str | None, force:
     """
     import numpy as np
 
-    from bayesmap.io.exports import existing
+    from bayesmap.io.exports import TRAJECTORIES, existing, export_format
     from bayesmap.result import load
 
     settings = call.settings()
@@ -254,8 +263,9 @@ def export(call: Call[ExportSettings], run_file: str, output: str | None, force:
     target = output or str(Path(run_file).with_name("map.yaml"))
     need_free(Path(target), existing(target, kind), force)
     run = load(run_file)
-    if np.isnan(run.occupancy).any():
-        raise BadInput(f"{run_file}: the run has no draws yet; go on with it by bayesmap infer --resume")
+    of_path = run.trajectory is not None and export_format(target, kind) in TRAJECTORIES
+    if np.isnan(run.occupancy).any() and not of_path:
+        raise _without_draws(run_file, run)
     outputs = run.export(
         target, format=kind, mode=settings.mode, occupied_thresh=settings.occupied_thresh,
         free_thresh=settings.free_thresh,

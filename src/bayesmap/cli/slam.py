@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import shlex
 import shutil
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -18,9 +19,13 @@ from bayesmap.cli.pipeline import Task
 from bayesmap.samplers.progress import Event
 
 if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
     from bayesmap.io.log_reading import LogReading
     from bayesmap.poses.trajectory import Trajectory
     from bayesmap.result import Run
+    from bayesmap.space.grid import Grid
 
 SHOWN = 3
 """Number of doubtful stretches of odometry that are listed."""
@@ -45,7 +50,7 @@ def slam(call: Call[SlamSettings], log: str, output: str | None, resume: bool, f
     The command writes into DIR the saved run (run.nc), the trajectory of all scans (trajectory.tum, and its covariances
     in a second file), the map for nav2 (map.yaml), pictures (posterior.png, trajectory.png, odometry.png, loops.png),
     the JSON document (summary.json) and the settings (config.toml). Ctrl-C keeps finished stages and sweeps; --resume
-    continues from them.
+    continues from them. The trajectory and its pictures are written before the chains begin.
 
     \b
     bayesmap slam recording.bag -o runs/office
@@ -68,15 +73,20 @@ def slam(call: Call[SlamSettings], log: str, output: str | None, resume: bool, f
     saved = pipeline.taken_up(task.folder) if task.folder.resuming else None
     if force:
         shutil.rmtree(_stages(task.folder), ignore_errors=True)
+    files = TrajectoryFiles(task.folder, reading, task.settings.resolution)
     try:
-        # Infer trajectory and map, with checkpoints.
-        run = _slam(task, reading, saved)
+        # Infer trajectory and map, with checkpoints. The trajectory is written before the chains of the map begin.
+        run = _slam(task, reading, saved, files)
         # After Ctrl-C: leave the folder so that the run can go on.
         if not run.finished:
-            document = pipeline.leave(task.folder, run, reading, go_on)
+            document = pipeline.leave(task.folder, run, reading, go_on, files.written)
+            files.write()  # if an older run has just been replaced
+            if run.n_draws > 0:
+                files.draw(run)
+            document["outputs"] |= {path.name: str(path) for path in files.written}
             pipeline.end(call, document, strict=task.settings.strict)
         # Finish: save the run, draw it, export it.
-        outputs = [*task.folder.write_products(run), *_write_trajectory(task.folder, reading, run)]
+        outputs = [*task.folder.write_products(run), *files.finish(run)]
     except KeyboardInterrupt:
         if task.folder.begun or resume:
             call.console.say(f"the stages that are done are kept; go on with:\n  {go_on}")
@@ -107,7 +117,7 @@ def _check(console: Console, reading: LogReading, settings: SlamSettings) -> Non
         console.warn(f"odometry stands still like that in {len(found) - SHOWN:,} more stretches")
 
 
-def _slam(task: Task[SlamSettings], reading: LogReading, saved: Run | None) -> Run:
+def _slam(task: Task[SlamSettings], reading: LogReading, saved: Run | None, files: TrajectoryFiles) -> Run:
     """Infer trajectory and map, with checkpoints in the folder."""
     from bayesmap.api import slam
     from bayesmap.arguments import Checkpoints, Where
@@ -119,11 +129,17 @@ def _slam(task: Task[SlamSettings], reading: LogReading, saved: Run | None) -> R
         def on_progress(event: Event) -> None:
             if event.stage in ("warm-up", "draws"):
                 folder.begin(toml)
+                files.write()
             show(event)
 
         def on_checkpoint(run: Run) -> None:
             folder.begin(toml)
             folder.checkpoint(run, lambda done, total: show(Event("save", done, total)))
+            files.write()
+
+        def on_preview(run: Run) -> None:
+            folder.preview(run)
+            files.draw(run)
 
         if saved is None:
             # Save the settings before the first stage: they are needed to resume the finished stages.
@@ -139,7 +155,9 @@ def _slam(task: Task[SlamSettings], reading: LogReading, saved: Run | None) -> R
             seed=settings.seed,
             hit_depth=settings.hit_depth,
             where=Where(settings.threads, settings.device),
-            checkpoints=Checkpoints(saved, on_checkpoint, settings.checkpoint_every, _stages(folder)),
+            checkpoints=Checkpoints(
+                saved, on_checkpoint, settings.checkpoint_every, _stages(folder), on_preview, files.write
+            ),
             on_progress=on_progress,
         )
         if run.finished or run.posterior.sweep > 0:
@@ -147,43 +165,87 @@ def _slam(task: Task[SlamSettings], reading: LogReading, saved: Run | None) -> R
         return run
 
 
-def _write_trajectory(folder: Folder, reading: LogReading, run: Run) -> list[Path]:
-    """Write the trajectory of all scans, its covariances and its pictures."""
-    from bayesmap.io.text.trajectories import covariances_path, write_covariances, write_trajectory
-    from bayesmap.space.planar import between, compose
-    from bayesmap.viz.figure import write_figure
-    from bayesmap.viz.trajectory import loops_figure, odometry_figure, trajectory_figure
+@dataclass
+class TrajectoryFiles:
+    """The trajectory of all scans in the folder, its covariances and its pictures.
 
-    found = run.trajectory
-    assert found is not None
-    tum = folder.path / "trajectory.tum"
-    covariances, closures = found.covariances(), found.closures
-    raw = reading.scans.poses[found.order]
-    pictures = {
-        "trajectory.png": trajectory_figure(
-            run.grid, run.occupancy, run.observed, found.poses, covariances, found.flagged
-        ),
-        **(
-            {"odometry.png": odometry_figure(compose(found.poses[0], between(raw[0], raw)), found.poses)}
-            if reading.posed
-            else {}
-        ),
-        "loops.png": loops_figure(
-            found.poses,
-            closures.first,
-            closures.second,
-            closures.residuals,
-            closures.weights,
-            [(found.alternative_poses(n), float(p)) for n, p in enumerate(found.alternatives.probabilities)],
-        ),
-    }
-    for name, figure in pictures.items():
-        write_figure(figure, folder.path / name)
-    return [
-        write_trajectory(tum, found.poses, found.stamps_s),
-        write_covariances(covariances_path(tum), covariances, found.stamps_s),
-        *(folder.path / name for name in pictures),
-    ]
+    The files are written once the trajectory is known and the folder holds no older run's files.
+    """
+
+    folder: Folder
+    reading: LogReading
+    resolution: float
+    written: list[Path] = field(default_factory=list)
+    _known: Trajectory | None = field(default=None, init=False)
+
+    def write(self, known: Trajectory | None = None) -> None:
+        """Write all files, unless that is done or must wait."""
+        self._known = self._known if known is None else known
+        if self.written or self._known is None or not self.folder.begun or self.folder.outdated.exists():
+            return
+        from bayesmap.errors import BadInput
+
+        try:
+            self.written = self._write(self._known)
+        except (OSError, BadInput) as error:
+            self.folder.console.warn(f"the trajectory could not be written yet: {error}")
+        else:
+            self.folder.console.say(f"the trajectory of all scans: {self.written[0]}")
+
+    def finish(self, run: Run) -> list[Path]:
+        """Write all files that are not written yet, and draw the trajectory on the map of the run."""
+        assert self._known is not None
+        self.written = self.written or self._write(self._known)
+        self.draw(run)
+        return self.written
+
+    def draw(self, run: Run) -> None:
+        """Draw the trajectory on the map of a run, if its files are written."""
+        if self.written and self._known is not None:
+            self._draw(self._known, run.grid, run.occupancy, run.observed)
+
+    def _draw(self, found: Trajectory, grid: Grid, occupancy: NDArray[Any], observed: NDArray[np.bool_]) -> None:
+        from bayesmap.viz.figure import write_figure
+        from bayesmap.viz.trajectory import trajectory_figure
+
+        figure = trajectory_figure(grid, occupancy, observed, found.poses, found.covariances(), found.flagged)
+        write_figure(figure, self.folder.path / "trajectory.png")
+
+    def _write(self, found: Trajectory) -> list[Path]:
+        """Write all files. The map in the picture is made of the cells that the key scans hit."""
+        import numpy as np
+
+        from bayesmap.io.text.trajectories import covariances_path, write_covariances, write_trajectory
+        from bayesmap.poses.trajectory import calibrated
+        from bayesmap.space.grid import Grid
+        from bayesmap.space.planar import between, compose
+        from bayesmap.viz.figure import write_figure
+        from bayesmap.viz.trajectory import loops_figure, odometry_figure
+
+        # Write the text files.
+        path, closures = self.folder.path, found.closures
+        tum = write_trajectory(path / "trajectory.tum", found.poses, found.stamps_s)
+        covariances = write_covariances(covariances_path(tum), found.covariances(), found.stamps_s)
+        # Draw the trajectory.
+        keys = self.reading.scans.select(found.order[found.keys]).at(found.poses[found.keys])
+        scans = calibrated(keys, found.calibration.angle_step_ratio)
+        grid = Grid.covering(scans, self.resolution)
+        hit = np.zeros(grid.shape, np.bool_)
+        hit[tuple(np.floor(grid.to_cells(scans.hit_points_world())).astype(np.intp).T)] = True
+        self._draw(found, grid, hit.astype(float), hit)
+        # Draw odometry and loop closures.
+        others = [(found.alternative_poses(n), float(p)) for n, p in enumerate(found.alternatives.probabilities)]
+        pictures = {
+            "loops.png": loops_figure(
+                found.poses, closures.first, closures.second, closures.residuals, closures.weights, others
+            )
+        }
+        if self.reading.posed:
+            raw = self.reading.scans.poses[found.order]
+            pictures["odometry.png"] = odometry_figure(compose(found.poses[0], between(raw[0], raw)), found.poses)
+        for name, figure in pictures.items():
+            write_figure(figure, path / name)
+        return [tum, covariances, *(path / name for name in ("trajectory.png", *pictures))]
 
 
 def summary(run: Run) -> dict[str, Any]:
