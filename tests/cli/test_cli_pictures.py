@@ -146,7 +146,8 @@ def test_export(office_run, tmp_path):
         assert grid == run.grid
         known = ~np.isnan(occupancy)
         if mode == "scale":
-            np.testing.assert_array_equal(known, run.observed)
+            assert not (known & ~run.observed).any()
+            assert (run.occupancy[run.observed & ~known] < 0.1).all()  # few beams passed these
             np.testing.assert_allclose(occupancy[known], run.occupancy[known], atol=0.011)
     assert ".yaml, .yml, .bag, .mcap, .db3, .rrd, .tum, .g2o, .tif, .tiff" in refusal_of(
         "export", office_run / "run.nc", "-o", tmp_path / "map.txt"
