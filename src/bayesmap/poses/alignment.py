@@ -48,8 +48,8 @@ SLACKS = 4.0
 """Multiple of the mean information from errors of normals that is subtracted. In a pair of scans it may be three times
 the mean, and the rest would add up over all pairs along a corridor."""
 
-EARLY_BEAMS = 60
-"""About so many beams of a scan are used until reach and scale have shrunk; then all."""
+EARLY_BEAMS = 180
+"""At least so many beams of a scan are used until reach and scale have shrunk; then all."""
 
 SLIP = 25.0
 """Odometry's cost grows less than quadratically beyond this squared Mahalanobis distance: wheels slip."""

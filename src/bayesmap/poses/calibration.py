@@ -160,8 +160,8 @@ FACTOR_SIGMA = np.log(10.0)
 TELLS, FEWEST = 0.5, 20
 """A motion is used if its matched variance is below this share of the expected one; and the fewest motions of a fit."""
 
-MOST_LOG, MOST_STEPS = 9.0, 200
-"""Greatest size of the logarithm of a rate, in units of `USUAL`, and most steps of its fit."""
+MOST_LOG = 9.0
+"""Greatest size of the logarithm of a rate, in units of `USUAL`."""
 
 DEGREES_OF_FREEDOM = 4.0
 CONSISTENT = 1.2718
@@ -226,35 +226,27 @@ def fit_noise(
 
 
 def _rates(errors: Floats, features: Floats, known_variance: Floats, usual: Floats) -> Floats:
-    """Fit the rates of one axis, (3,), by Gauss-Newton with damping in their logarithms.
+    """Fit the rates of one axis, (3,), by L-BFGS in their logarithms.
 
     The motions were estimated with odometry. So the mean square of its error is that of the residual plus the motions'
     variance. Products are summed without BLAS, whose threads would take longer to meet than to add.
     """
+    from scipy.optimize import minimize
+
     nu, squares = DEGREES_OF_FREEDOM, errors**2 + known_variance
-    logs, damping, best = np.zeros(3), 1.0, np.inf
-    trial: Floats = logs
-    for _ in range(MOST_STEPS):
-        parts = features * (usual * np.exp(trial))
+
+    def cost(log_factors: Floats) -> tuple[float, Floats]:
+        parts = features * (usual * np.exp(log_factors))
         variance = parts.sum(axis=1)
         ratio = squares / (nu * variance)
+        slopes = 0.5 / variance - 0.5 * CONSISTENT * (nu + 1.0) * ratio / (1.0 + ratio) / variance
         value = 0.5 * np.log(variance).sum() + 0.5 * CONSISTENT * (nu + 1.0) * np.log1p(ratio).sum()
-        value += 0.5 * ((trial / FACTOR_SIGMA) ** 2).sum()
-        if value < best:
-            logs, best, damping = trial, value, damping / 4.0
-            slopes = 0.5 / variance - 0.5 * CONSISTENT * (nu + 1.0) * ratio / (1.0 + ratio) / variance
-            slope = (slopes[:, None] * parts).sum(axis=0) + logs / FACTOR_SIGMA**2
-            shares = parts / variance[:, None]
-            bend = 0.5 * (shares[:, :, None] * shares[:, None, :]).sum(axis=0) + np.eye(3) / FACTOR_SIGMA**2
-            # A logarithm at its bound stays there while the slope points outwards.
-            free = np.abs(logs - np.sign(slope) * MOST_LOG) < 2.0 * MOST_LOG
-            slope, bend = np.where(free, slope, 0.0), bend * np.outer(free, free)
-        else:
-            damping *= 8.0
-        trial = np.clip(logs - np.linalg.solve(bend + damping * np.eye(3), slope), -MOST_LOG, MOST_LOG)
-        if np.abs(trial - logs).max() < 1e-7:
-            break
-    return np.asarray(usual * np.exp(logs))
+        prior = log_factors / FACTOR_SIGMA
+        slope = (slopes[:, None] * parts).sum(axis=0) + prior / FACTOR_SIGMA
+        return float(value + 0.5 * (prior**2).sum()), slope
+
+    optimum = minimize(cost, np.zeros(3), jac=True, method="L-BFGS-B", bounds=[(-MOST_LOG, MOST_LOG)] * 3)
+    return np.asarray(usual * np.exp(optimum.x))
 
 
 def _features(ways_m: Floats, turns_rad: Floats, scans: Floats) -> Floats:

@@ -86,7 +86,7 @@ def infer_trajectory(
     # Key scans are aligned with all others that see the same walls.
     alignment = KeyAlignment(geometry.select(keys), track, grid_half_width(geometry), report.of_keys)
     poses = closed.weighed.poses
-    first = alignment.align("aligned", poses, odometry.first_factors(track, poses), 6, wide=True)
+    first = alignment.align("aligned", poses, odometry.first_factors(track, poses), wide=True)
 
     # Laser and odometry are calibrated, and key scans aligned once more.
     poses, ratio = first.poses, 1.0

@@ -12,7 +12,7 @@ from bayesmap.kernels.match.scan_geometry import ScanArrays, scan_arrays
 
 wp.set_module_options({"enable_backward": False})
 
-STILL = wp.constant(wp.float64(1.0e-4))  # metres plus radians: steps below this end the iteration
+STILL = wp.constant(wp.float64(1.0e-5))  # metres plus radians: steps below this end the iteration
 
 
 @wp.func
