@@ -6,6 +6,8 @@
 import json
 import re
 from collections.abc import Iterator
+from contextlib import suppress
+from inspect import getsource
 from pathlib import Path
 from typing import get_args
 
@@ -101,10 +103,20 @@ def name_of(kind: type) -> str:
 
 
 def described(kind: type) -> tuple[str, dict[str, str]]:
-    """Return what a class's docstring says of it, and of its fields and those of its bases."""
+    """Return the text of a class, and the texts of its fields and of its bases' fields.
+
+    A field is described by the comment above or beside it, or under Attributes in the docstring.
+    """
     texts: dict[str, str] = {}
-    for one in reversed(kind.__mro__[: kind.__mro__.index(Action) if issubclass(kind, Action) else None]):
-        texts |= dict(re.findall(r"^ {8}(\w+): (.*(?:\n {12}.*)*)", one.__doc__ or "", flags=re.M))
+    for base in reversed(kind.__mro__[: kind.__mro__.index(Action) if issubclass(kind, Action) else None]):
+        texts |= dict(re.findall(r"^ {8}(\w+): (.*(?:\n {12}.*)*)", base.__doc__ or "", flags=re.M))
+        source = ""
+        with suppress(OSError, TypeError):  # a class made by a call has no source
+            source = getsource(base)
+        for above, name, beside in re.findall(r"((?:^ {4}# .*\n)*)^ {4}(\w+): .*?(?:  # (.*))?$", source, flags=re.M):
+            text = beside or above.replace("# ", "")
+            if text:
+                texts[name] = text.strip().removesuffix(".") + "."
     summary, *paragraphs = (kind.__doc__ or "").split("\n\n")
     buffers = [text for text in paragraphs if text.strip().startswith("Buffers")]
     return sentence(" ".join([summary, *buffers])), {name: sentence(text) for name, text in texts.items()}

@@ -292,19 +292,12 @@ MOST_UNPAINTED = 2
 
 @dataclass(frozen=True)
 class History(Generic[T]):
-    """The present state, and earlier and undone states, each with the author of the step towards the present.
+    """The present state, and earlier and undone states, each with the author of the step towards the present."""
 
-    Attributes:
-        present: the present state.
-        past: earlier states, the latest last.
-        future: undone states, the next to redo last.
-        gesture: the stroke or drag of the last step, or None for a step by itself.
-    """
-
-    present: T
-    past: tuple[tuple[T, Hashable], ...] = ()
-    future: tuple[tuple[T, Hashable], ...] = ()
-    gesture: Hashable = None
+    present: T  # the present state
+    past: tuple[tuple[T, Hashable], ...] = ()  # earlier states, the latest last
+    future: tuple[tuple[T, Hashable], ...] = ()  # undone states, the next to redo last
+    gesture: Hashable = None  # the stroke or drag of the last step, or None for a step by itself
 
     def push(self, state: T, gesture: Hashable = None, author: Hashable = None) -> History[T]:
         """Return the history with a new state. Within one gesture, it replaces the present state."""
@@ -330,14 +323,10 @@ class History(Generic[T]):
 
 
 class Pace:
-    """Holds edits back until they are due. Waiting edits of one gesture are merged into one.
-
-    Attributes:
-        computing: whether the first picture of the present generation is still being computed.
-    """
+    """Holds edits back until they are due. Waiting edits of one gesture are merged into one."""
 
     def __init__(self) -> None:
-        self.computing = False
+        self.computing = False  # whether the first picture of the present generation is still being computed
         self._waiting: From | None = None
         self._unpainted: dict[int, list[int]] = {}
 

@@ -43,20 +43,14 @@ Range = float | Literal["-Infinity", "NaN"] | None
 
 
 class RecordedScans(Struct, frozen=True):
-    """Scans, one per row; in a simulation, one per sensor.
-
-    Attributes:
-        angles: beam angles, radians: one row for all scans, or one row per scan.
-        exact: noise-free ranges, metres; no row for a file.
-        hit: base64 of packed bits (S, A), 0 for a beam without a return.
-    """
+    """Scans, one per row; in a simulation, one per sensor."""
 
     ids: list[int]
     pose: list[list[float | None]]
-    angles: list[list[float]]
+    angles: list[list[float]]  # beam angles, radians: one row for all scans, or one row per scan
     ranges: list[list[Range]]
-    exact: list[list[Range]]
-    hit: str
+    exact: list[list[Range]]  # noise-free ranges, metres; no row for a file
+    hit: str  # base64 of packed bits (S, A), 0 for a beam without a return
 
 
 class RecordedDraws(Struct, frozen=True):
@@ -79,21 +73,15 @@ class RecordedFigures(Struct, frozen=True):
 
 
 class Recording(Struct, frozen=True, kw_only=True):
-    """The result in a page in one file.
-
-    Attributes:
-        mean: mean map: base64 of uint8 (nx, ny), in 255ths.
-        observed: observed cells: base64 of packed bits (nx, ny).
-        log_joint: log joint of each draw, one row per chain.
-    """
+    """The result in a page in one file."""
 
     version: Literal[1] = 1
     document: Document
     scans: RecordedScans
-    mean: str
-    observed: str
+    mean: str  # mean map: base64 of uint8 (nx, ny), in 255ths
+    observed: str  # observed cells: base64 of packed bits (nx, ny)
     draws: RecordedDraws
-    log_joint: list[list[float | None]]
+    log_joint: list[list[float | None]]  # log joint of each draw, one row per chain
     settings: RecordedFigures
 
 

@@ -43,16 +43,11 @@ class Outbox:
 
 
 class Hub:
-    """Connects pages and worker on one event loop, which also receives the reports of the supervisor's threads.
-
-    Attributes:
-        session: the session that the pages share.
-        pictured: event that is set when there is a first field, or an error instead.
-    """
+    """Connects pages and worker on one event loop, which also receives the reports of the supervisor's threads."""
 
     def __init__(self, document: Document, path: str | None = None, reading: Mapping[str, Any] | None = None) -> None:
-        self.session = Session(document)
-        self.pictured = asyncio.Event()
+        self.session = Session(document)  # the session that the pages share
+        self.pictured = asyncio.Event()  # event that is set when there is a first field, or an error instead
         self._loop = asyncio.get_running_loop()
         self._supervisor = Supervisor(
             self._from_thread(self._hear), self._from_thread(self._lost), path, reading=reading

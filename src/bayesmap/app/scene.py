@@ -38,30 +38,19 @@ class Scene:
     """Readings, and the inference problem built from them.
 
     Beam tables are traced on first use: while the hand moves, the next scene often replaces this one before that.
-
-    Attributes:
-        scans: the readings of the sensors.
-        exact_m: noise-free ranges, (S, A); empty, (0, A), if they are unknown.
-        ids: ids of the sensors, (S,).
-        sensor: the sensor model.
-        grid: the map's cells.
-        prior: the prior of walls.
-        trace: function that traces the beams of the scans used for the map.
-        trace_near: function that traces these beams only a little past their readings; None means `trace`.
-        hit_depth: depth in a cell at which a beam is expected to stop.
-        used: number of first scans used for the map; None means all scans.
     """
 
-    scans: Scans
-    exact_m: NDArray[np.float64]
-    ids: tuple[int, ...]
-    sensor: SensorModel
-    grid: Grid
-    prior: BinaryWalls
-    trace: Callable[[], BeamTable]
+    scans: Scans  # the readings of the sensors
+    exact_m: NDArray[np.float64]  # noise-free ranges, (S, A); empty, (0, A), if they are unknown
+    ids: tuple[int, ...]  # ids of the sensors, (S,)
+    sensor: SensorModel  # the sensor model
+    grid: Grid  # the map's cells
+    prior: BinaryWalls  # the prior of walls
+    trace: Callable[[], BeamTable]  # function that traces the beams of the scans used for the map
+    # function that traces these beams only a little past their readings; None means `trace`
     trace_near: Callable[[], BeamTable] | None = None
-    hit_depth: float = 0.0
-    used: int | None = None
+    hit_depth: float = 0.0  # depth in a cell at which a beam is expected to stop
+    used: int | None = None  # number of first scans used for the map; None means all scans
 
     @property
     def used_scans(self) -> Scans:

@@ -137,19 +137,12 @@ class SavedRun(Found):
 
 @dataclass(eq=False)
 class Traced:
-    """All beams of a log on the cells of one grid.
+    """All beams of a log on the cells of one grid."""
 
-    Attributes:
-        grid: the cells.
-        sensor: the default sensor for logs.
-        table: beam table.
-        counts: hits and passes of the beams, once they have been asked for.
-    """
-
-    grid: Grid
-    sensor: SensorModel
-    table: BeamTable
-    counts: HitCounts | None = None
+    grid: Grid  # the cells
+    sensor: SensorModel  # the default sensor for logs
+    table: BeamTable  # beam table
+    counts: HitCounts | None = None  # hits and passes of the beams, once they have been asked for
 
 
 class OpenedLog:

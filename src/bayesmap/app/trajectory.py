@@ -48,19 +48,12 @@ STAGES = {
 
 @dataclass(frozen=True, eq=False)
 class Step:
-    """A step of the inference, to be shown on pages.
+    """A step of the inference, to be shown on pages."""
 
-    Attributes:
-        grid: the grid of the map.
-        result: the map along the present poses.
-        stage: progress of the inference, or None if none is under way.
-        text: text for the status line, or empty.
-    """
-
-    grid: Grid
-    result: Result
-    stage: Stage | None = None
-    text: str = ""
+    grid: Grid  # the grid of the map
+    result: Result  # the map along the present poses
+    stage: Stage | None = None  # progress of the inference, or None if none is under way
+    text: str = ""  # text for the status line, or empty
 
 
 def _step(task: Infer, scans: Scans, grid: Grid, counted: Counted, at: tuple[str, int, int] | None, text: str) -> Step:
@@ -78,18 +71,13 @@ class Stopped(Exception):
 
 
 class TrajectoryJob:
-    """One inference of a trajectory.
-
-    Attributes:
-        found: the trajectory, when the job has ended.
-        trouble: the error that ended the job instead.
-    """
+    """One inference of a trajectory."""
 
     _last: threading.Thread | None = None  # the thread of the process's last job
 
     def __init__(self, task: Infer, scans: Scans, grid: Grid) -> None:
-        self.found: Trajectory | None = None
-        self.trouble: BaseException | None = None
+        self.found: Trajectory | None = None  # the trajectory, when the job has ended
+        self.trouble: BaseException | None = None  # the error that ended the job instead
         self._task, self._scans, self._grid = task, scans, grid
         self._in_time = in_time(scans)
         self._steps: queue.SimpleQueue[Step] = queue.SimpleQueue()
@@ -183,16 +171,11 @@ def summary(scans: Scans, found: Trajectory) -> str:
 
 
 class Localization:
-    """The trajectory of one log.
-
-    Attributes:
-        log: the log as it was opened.
-        placed: the log along its inferred trajectory, once that is known.
-    """
+    """The trajectory of one log."""
 
     def __init__(self, log: OpenedLog) -> None:
-        self.log = log
-        self.placed: OpenedLog | None = None
+        self.log = log  # the log as it was opened
+        self.placed: OpenedLog | None = None  # the log along its inferred trajectory, once that is known
 
     def log_of(self, document: Document) -> OpenedLog:
         """Return the log for a document: along the inferred trajectory, if the document asks for it and it is known."""

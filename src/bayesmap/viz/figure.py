@@ -63,25 +63,15 @@ _rc_lock = threading.Lock()
 
 @dataclass(frozen=True)
 class Layout:
-    """A figure of panels of equal size.
+    """A figure of panels of equal size."""
 
-    Attributes:
-        dpi: pixels per inch.
-        figure: width and height of the figure, pixels.
-        panel: width and height of a panel, pixels.
-        corners: lower-left corner of each panel, pixels from the figure's, in reading order.
-        exact: whether a cell is a whole number of pixels; False for maps that are too large.
-        columns: number of panels in a row.
-        most_ticks: largest number of tick intervals on x and on y whose labels fit.
-    """
-
-    dpi: float
-    figure: tuple[int, int]
-    panel: tuple[int, int]
-    corners: list[tuple[int, int]]
-    exact: bool
-    columns: int
-    most_ticks: tuple[int, int]
+    dpi: float  # pixels per inch
+    figure: tuple[int, int]  # width and height of the figure, pixels
+    panel: tuple[int, int]  # width and height of a panel, pixels
+    corners: list[tuple[int, int]]  # lower-left corner of each panel, pixels from the figure's, in reading order
+    exact: bool  # whether a cell is a whole number of pixels; False for maps that are too large
+    columns: int  # number of panels in a row
+    most_ticks: tuple[int, int]  # largest number of tick intervals on x and on y whose labels fit
 
     def blank_figure(self) -> Figure:
         """Return the figure, without its panels."""
@@ -387,19 +377,12 @@ def panel_figure(
 
 @dataclass(frozen=True, eq=False)
 class Candidate:
-    """A map to compare.
+    """A map to compare."""
 
-    Attributes:
-        title: title of its panel.
-        occupancy: probability of a wall, or that a beam stops, per cell, shape (nx, ny).
-        observed: mask of the cells that a beam reached, shape (nx, ny); None: all cells.
-        note: a line under the title, such as its held-out score.
-    """
-
-    title: str
-    occupancy: ArrayLike
-    observed: ArrayLike | None = None
-    note: str = ""
+    title: str  # title of its panel
+    occupancy: ArrayLike  # probability of a wall, or that a beam stops, per cell, shape (nx, ny)
+    observed: ArrayLike | None = None  # mask of the cells that a beam reached, shape (nx, ny); None: all cells
+    note: str = ""  # a line under the title, such as its held-out score
 
 
 def comparison_figure(

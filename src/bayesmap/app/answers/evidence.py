@@ -36,38 +36,23 @@ MOST_DRAWN = 100
 
 @dataclass(frozen=True, eq=False)
 class BeamRatios:
-    """Log-likelihood ratios of the beams through a cell.
+    """Log-likelihood ratios of the beams through a cell."""
 
-    Attributes:
-        beams: flat indices of the evaluated beams, (B,).
-        nats: log ratio of each beam's likelihoods with and without an obstacle in the cell, (B,).
-        through: number of beams that touch the cell.
-        every: number of beams that each evaluated beam counts for.
-    """
-
-    beams: NDArray[np.intp]
-    nats: NDArray[np.float64]
-    through: int
-    every: int
+    beams: NDArray[np.intp]  # flat indices of the evaluated beams, (B,)
+    nats: NDArray[np.float64]  # log ratio of each beam's likelihoods with and without an obstacle in the cell, (B,)
+    through: int  # number of beams that touch the cell
+    every: int  # number of beams that each evaluated beam counts for
 
 
 @dataclass(frozen=True)
 class Evidence:
-    """Summed evidence about one cell.
+    """Summed evidence about one cell."""
 
-    Attributes:
-        beams: number of beams that touch the cell.
-        beams_for: number of beams whose readings are more likely with an obstacle than without.
-        nats_for: sum of the log ratios of these beams.
-        beams_against: number of beams whose readings are less likely with an obstacle.
-        nats_against: absolute sum of the log ratios of these beams.
-    """
-
-    beams: int
-    beams_for: int
-    nats_for: float
-    beams_against: int
-    nats_against: float
+    beams: int  # number of beams that touch the cell
+    beams_for: int  # number of beams whose readings are more likely with an obstacle than without
+    nats_for: float  # sum of the log ratios of these beams
+    beams_against: int  # number of beams whose readings are less likely with an obstacle
+    nats_against: float  # absolute sum of the log ratios of these beams
 
 
 def wall_ratios(table: BeamTable, p_wall: NDArray[np.float64], cell: int) -> BeamRatios:

@@ -42,19 +42,12 @@ MOST_ANGLES = 180
 
 @dataclass(frozen=True, eq=False)
 class Now:
-    """The state of the worker when a question comes.
+    """The state of the worker when a question comes."""
 
-    Attributes:
-        scene: the readings.
-        result: the result on show.
-        scan: index of the scan on show, for a file.
-        generation: number of the present picture.
-    """
-
-    scene: Scene | None
-    result: Result | None
-    scan: int
-    generation: int
+    scene: Scene | None  # the readings
+    result: Result | None  # the result on show
+    scan: int  # index of the scan on show, for a file
+    generation: int  # number of the present picture
 
 
 class Answers:

@@ -19,12 +19,9 @@ Layer = Literal["mean", "draw", "entropy", "width"]
 
 
 class Action(Struct, frozen=True, kw_only=True, tag_field="type"):
-    """A message from the page.
+    """A message from the page."""
 
-    Attributes:
-        seq: number of the message, counting up. A `state` repeats the number of the last action that was applied.
-    """
-
+    # number of the message, counting up. A `state` repeats the number of the last action that was applied.
     seq: Count = 0
 
 
@@ -54,30 +51,20 @@ def changes(patch: Patch) -> dict[str, Any]:
 
 
 class ChangeSettings(Action, frozen=True, tag="set"):
-    """Change settings.
-
-    Attributes:
-        drag: number of the drag. All changes of one drag are one step of undo.
-        coarse: for a log, while the hand drags: show counts of hits only. The first `set` without it starts inference.
-    """
+    """Change settings."""
 
     patch: Patch
-    drag: Count = 0
+    drag: Count = 0  # number of the drag. All changes of one drag are one step of undo.
+    # for a log, while the hand drags: show counts of hits only. The first `set` without it starts inference.
     coarse: bool = False
 
 
 class Walls(Action, frozen=True, tag="walls"):
-    """Draw walls in cells, or erase them.
+    """Draw walls in cells, or erase them."""
 
-    Attributes:
-        cells: indices (x, y) of the cells.
-        wall: true to draw walls, false to erase them.
-        stroke: number of the stroke. All messages of one stroke are one step of undo.
-    """
-
-    cells: Annotated[list[tuple[Index, Index]], Meta(min_length=1, max_length=MAX_CELLS)]
-    wall: bool
-    stroke: Count = 0
+    cells: Annotated[list[tuple[Index, Index]], Meta(min_length=1, max_length=MAX_CELLS)]  # indices (x, y) of the cells
+    wall: bool  # true to draw walls, false to erase them
+    stroke: Count = 0  # number of the stroke. All messages of one stroke are one step of undo.
 
 
 class AddSensor(Action, frozen=True, tag="add_sensor"):
@@ -174,19 +161,12 @@ class Inspect(Action, frozen=True, tag="inspect"):
 
 
 class FindPath(Action, frozen=True, tag="path"):
-    """Ask for a path for a disc; answered by `path` or `undecided`.
+    """Ask for a path for a disc; answered by `path` or `undecided`."""
 
-    Attributes:
-        start: start of the path, x and y in metres.
-        goal: goal of the path, x and y in metres.
-        radius: radius of the disc, metres.
-        risk: largest allowed probability that the disc touches something.
-    """
-
-    start: tuple[Metres, Metres]
-    goal: tuple[Metres, Metres]
-    radius: Annotated[float, Meta(ge=1e-3, le=100)]
-    risk: Annotated[float, Meta(ge=1e-6, le=1 - 1e-6)]
+    start: tuple[Metres, Metres]  # start of the path, x and y in metres
+    goal: tuple[Metres, Metres]  # goal of the path, x and y in metres
+    radius: Annotated[float, Meta(ge=1e-3, le=100)]  # radius of the disc, metres
+    risk: Annotated[float, Meta(ge=1e-6, le=1 - 1e-6)]  # largest allowed probability that the disc touches something
 
 
 class FindViews(Action, frozen=True, tag="views"):
@@ -200,28 +180,19 @@ class WhereAmI(Action, frozen=True, tag="where"):
 
 
 class MoveGhost(Action, frozen=True, tag="ghost"):
-    """Ask for the virtual scan at a pose, metres and radians; answered by `ghost` or `undecided`.
-
-    Attributes:
-        coarse: true while the hand moves: predict from a few draws only.
-    """
+    """Ask for the virtual scan at a pose, metres and radians; answered by `ghost` or `undecided`."""
 
     x: Metres
     y: Metres
     yaw: Radians
-    coarse: bool = False
+    coarse: bool = False  # true while the hand moves: predict from a few draws only
 
 
 class CompareBeam(Action, frozen=True, tag="beam"):
-    """Ask how a reading compares with its prediction; answered by `beam` or `undecided`.
+    """Ask how a reading compares with its prediction; answered by `beam` or `undecided`."""
 
-    Attributes:
-        scan: index of the scan; in a simulation, index of the sensor in the document.
-        beam: index of the beam.
-    """
-
-    scan: Index
-    beam: Index
+    scan: Index  # index of the scan; in a simulation, index of the sensor in the document
+    beam: Index  # index of the beam
 
 
 Edit: TypeAlias = ChangeSettings | Walls | AddSensor | MoveSensor | RemoveSensor | Clear | New

@@ -57,17 +57,12 @@ Radians = Annotated[float, Meta(ge=-1e3, le=1e3)]
 
 
 class Refused(BadInput):
-    """Error for an action that is refused. Nothing has changed.
-
-    Attributes:
-        text: description of the fault.
-        remedy: what to do instead, or empty.
-    """
+    """Error for an action that is refused. Nothing has changed."""
 
     def __init__(self, text: str, remedy: str = "") -> None:
         super().__init__(f"{text}; {remedy}" if remedy else text)
-        self.text = text
-        self.remedy = remedy
+        self.text = text  # description of the fault
+        self.remedy = remedy  # what to do instead, or empty
 
 
 @dataclass(frozen=True)
@@ -86,59 +81,41 @@ class Sensor:
 
 @dataclass(frozen=True)
 class Source:
-    """The origin of the readings: simulated from the walls, or a file whose scans are shown.
+    """The origin of the readings: simulated from the walls, or a file whose scans are shown."""
 
-    Attributes:
-        kind: kind of source: simulation, run or log.
-        name: name of the file.
-        scans: number of scans in the file.
-        bounds: for a log, corners of the area that its scans saw, metres. Grids of any resolution cover it.
-    """
-
-    kind: Kind = "simulation"
-    name: Annotated[str, Meta(max_length=300)] = ""
-    scans: Scans = 0
+    kind: Kind = "simulation"  # kind of source: simulation, run or log
+    name: Annotated[str, Meta(max_length=300)] = ""  # name of the file
+    scans: Scans = 0  # number of scans in the file
+    # for a log, corners of the area that its scans saw, metres. Grids of any resolution cover it.
     bounds: tuple[tuple[float, float], tuple[float, float]] | None = field(default=None, compare=False)
 
 
 @dataclass(frozen=True, kw_only=True)
 class Settings:
-    """The settings that the page's sliders and choices change.
+    """The settings that the page's sliders and choices change."""
 
-    Attributes:
-        prior: prior probability that a cell is a wall.
-        noise: standard deviation of a range, metres.
-        angles: number of beams per scan.
-        max_range: longest range, metres.
-        fov: field of view of every sensor, radians.
-        readings: 'noisy', or 'exact': noise-free ranges, still inferred with the noisy sensor law.
-        pose_sigma: standard deviation of every sensor's position, metres.
-        heading_sigma: standard deviation of every sensor's heading, radians.
-        poses: for a log, 'logged' if its poses are known, or 'odometry' if they are raw odometry.
-        cells: kind of cells: the kind to infer from a log, or the kind in a run's maps.
-        method: inference method; 'auto' is 'block' if walls or free cells are rare, else 'gibbs'.
-        order: order in which gibbs visits the cells.
-        start: map from which chains start.
-        sweeps: number of sweeps of the chains, or number of particles.
-        seed: seed of all random numbers.
-        scans_used: for a log, number of first scans that make the map; null means all scans.
-    """
-
-    prior: Annotated[float, Meta(ge=0, le=1)] = 0.5
-    noise: Annotated[float, Meta(ge=0, le=5, title="noise (m)")] = 0.2
-    angles: Annotated[int, Meta(ge=10, le=1000)] = 100
-    max_range: Annotated[float, Meta(ge=0.1, le=10_000, title="longest range (m)")] = 42.0
+    prior: Annotated[float, Meta(ge=0, le=1)] = 0.5  # prior probability that a cell is a wall
+    noise: Annotated[float, Meta(ge=0, le=5, title="noise (m)")] = 0.2  # standard deviation of a range, metres
+    angles: Annotated[int, Meta(ge=10, le=1000)] = 100  # number of beams per scan
+    max_range: Annotated[float, Meta(ge=0.1, le=10_000, title="longest range (m)")] = 42.0  # longest range, metres
+    # field of view of every sensor, radians
     fov: Annotated[float, Meta(ge=math.pi / 36, le=2 * math.pi, title="field of view (rad)")] = 2 * math.pi
+    # 'noisy', or 'exact': noise-free ranges, still inferred with the noisy sensor law
     readings: Literal["noisy", "exact"] = "noisy"
+    # standard deviation of every sensor's position, metres
     pose_sigma: Annotated[float, Meta(ge=0, le=2, title="uncertainty of the position (m)")] = 0.0
+    # standard deviation of every sensor's heading, radians
     heading_sigma: Annotated[float, Meta(ge=0, le=0.6, title="uncertainty of the heading (rad)")] = 0.0
+    # for a log, 'logged' if its poses are known, or 'odometry' if they are raw odometry
     poses: Literal["logged", "odometry"] = "logged"
+    # kind of cells: the kind to infer from a log, or the kind in a run's maps
     cells: Literal["binary", "reflectivity", "surface"] = "binary"
-    method: Method = "gibbs"
-    order: Literal["raster", "radial", "random"] = "radial"
-    start: Literal["auto", "prior", "empty"] = "auto"
-    sweeps: Annotated[int, Meta(ge=1, le=100_000)] = 1000
-    seed: Annotated[int, Meta(ge=0, lt=2**31)] = 0
+    method: Method = "gibbs"  # inference method; 'auto' is 'block' if walls or free cells are rare, else 'gibbs'
+    order: Literal["raster", "radial", "random"] = "radial"  # order in which gibbs visits the cells
+    start: Literal["auto", "prior", "empty"] = "auto"  # map from which chains start
+    sweeps: Annotated[int, Meta(ge=1, le=100_000)] = 1000  # number of sweeps of the chains, or number of particles
+    seed: Annotated[int, Meta(ge=0, lt=2**31)] = 0  # seed of all random numbers
+    # for a log, number of first scans that make the map; null means all scans
     scans_used: Annotated[int, Meta(ge=1, le=10**9, title="scans used")] | None = None
 
 
@@ -156,21 +133,13 @@ FIXED_BY_FILE: Mapping[Kind, tuple[str, ...]] = {
 
 @dataclass(frozen=True)
 class Document(Settings):
-    """Everything that determines the picture.
+    """Everything that determines the picture."""
 
-    Attributes:
-        grid: grid of cells.
-        walls: packed bits of the (nx, ny) map, C order (x * ny + y), most significant bit first; base64 in JSON.
-        sensors: sensors of a simulation; empty for a file.
-        source: origin of the readings.
-        version: version of this format.
-    """
-
-    grid: Grid
-    walls: bytes
-    sensors: Annotated[tuple[Sensor, ...], Meta(max_length=SENSORS[1])]
-    source: Source = Source()
-    version: Literal[1] = VERSION
+    grid: Grid  # grid of cells
+    walls: bytes  # packed bits of the (nx, ny) map, C order (x * ny + y), most significant bit first; base64 in JSON
+    sensors: Annotated[tuple[Sensor, ...], Meta(max_length=SENSORS[1])]  # sensors of a simulation; empty for a file
+    source: Source = Source()  # origin of the readings
+    version: Literal[1] = VERSION  # version of this format
 
     def __getstate__(self) -> dict[str, Any]:
         """Return the fields only, for pickling. Cached values are computed anew."""

@@ -53,17 +53,11 @@ LIMITS = Limits(**_LIMITS)
 
 
 class Welcome(Notice, frozen=True, tag="welcome"):
-    """The first message of a connection.
+    """The first message of a connection."""
 
-    Attributes:
-        version: version of the document's format.
-        limits: limits of the settings; null for a recording, which has no settings to change.
-        recorded: whether the page plays a recording.
-    """
-
-    version: int
-    limits: Limits | None
-    recorded: bool = False
+    version: int  # version of the document's format
+    limits: Limits | None  # limits of the settings; null for a recording, which has no settings to change
+    recorded: bool = False  # whether the page plays a recording
 
 
 class Worker(Notice, frozen=True, tag="worker"):
@@ -88,32 +82,19 @@ class View(Struct, frozen=True):
 
 
 class State(Notice, frozen=True, tag="state"):
-    """The present state, sent after every action that was applied.
-
-    Attributes:
-        generation: number of the present picture.
-        seq: number of the page's last action that was applied.
-        can_undo: whether this page may undo the last edit.
-        can_redo: whether this page may redo the edit that was undone last.
-        live: whether edits restart the chains.
-        running: whether a run is under way.
-        working: whether the picture is still being computed.
-        draws: number of kept draws of the present result.
-        scan: index of the scan on show, for a file.
-        view: field that this page gets.
-    """
+    """The present state, sent after every action that was applied."""
 
     document: Document
-    generation: int
-    seq: int
-    can_undo: bool
-    can_redo: bool
-    live: bool
-    running: bool
-    working: bool
-    draws: DrawCount
-    scan: int
-    view: View
+    generation: int  # number of the present picture
+    seq: int  # number of the page's last action that was applied
+    can_undo: bool  # whether this page may undo the last edit
+    can_redo: bool  # whether this page may redo the edit that was undone last
+    live: bool  # whether edits restart the chains
+    running: bool  # whether a run is under way
+    working: bool  # whether the picture is still being computed
+    draws: DrawCount  # number of kept draws of the present result
+    scan: int  # index of the scan on show, for a file
+    view: View  # field that this page gets
 
 
 class Scan(OfPicture, frozen=True, tag="scan"):
@@ -121,14 +102,10 @@ class Scan(OfPicture, frozen=True, tag="scan"):
 
     Buffers: pose float64 (S, 3); angles float32 (A); ranges float32 (S, A); exact float32 (S, A), the noise-free
     ranges, empty for a file; hit uint8 (S, A), 0 for a beam without a return.
-
-    Attributes:
-        ids: ids of the sensors, one per row.
-        index: index of the scan, for a file.
     """
 
-    ids: list[int]
-    index: int | None = None
+    ids: list[int]  # ids of the sensors, one per row
+    index: int | None = None  # index of the scan, for a file
 
 
 class Quantity(Struct, frozen=True):
@@ -153,41 +130,24 @@ class Field(OfPicture, frozen=True, tag="field"):
     Buffers: p uint8 (nx, ny), probability or interval width in 255ths; observed uint8, packed bits of (nx, ny); traced
     float32 (n), sweep numbers: the first 100, then evenly spread; trace float32 (chains, n), the log joint at these
     sweeps; for importance sampling also weights float32 (24), a histogram of the particles' log weights.
-
-    Attributes:
-        layer: layer of the numbers. The page computes the entropy from the mean.
-        method: name of the method.
-        approximate: whether the mean is a quick approximation of the posterior mean.
-        sweeps: number of sweeps, rounds or particles done.
-        total: number of sweeps or particles to do.
-        ess: effective sample size of the log joint, or of the weights.
-        rhat: R-hat of the log joint.
-        log_joint: last log joint, averaged over the chains.
-        verdict: verdict on the result; null while it is too early.
-        draws: number of kept draws.
-        quantity: quantity that the numbers show.
-        milliseconds: time since the job began.
-        chain: index of the chain, for a draw.
-        draw: index of the draw.
-        averaged: number of draws in the mean, for the chain that fits the sensor.
-        lowest: lower edge of the first bin of weights, in nats relative to the largest log weight, where the bins end.
     """
 
-    layer: Layer
-    method: str
-    approximate: bool
-    sweeps: int
-    total: int
-    ess: float | None
-    rhat: float | None
-    log_joint: float | None
-    verdict: Verdict | None
-    draws: DrawCount
-    quantity: Quantity
-    milliseconds: float
-    chain: int | None = None
-    draw: int | None = None
-    averaged: int | None = None
+    layer: Layer  # layer of the numbers. The page computes the entropy from the mean.
+    method: str  # name of the method
+    approximate: bool  # whether the mean is a quick approximation of the posterior mean
+    sweeps: int  # number of sweeps, rounds or particles done
+    total: int  # number of sweeps or particles to do
+    ess: float | None  # effective sample size of the log joint, or of the weights
+    rhat: float | None  # R-hat of the log joint
+    log_joint: float | None  # last log joint, averaged over the chains
+    verdict: Verdict | None  # verdict on the result; null while it is too early
+    draws: DrawCount  # number of kept draws
+    quantity: Quantity  # quantity that the numbers show
+    milliseconds: float  # time since the job began
+    chain: int | None = None  # index of the chain, for a draw
+    draw: int | None = None  # index of the draw
+    averaged: int | None = None  # number of draws in the mean, for the chain that fits the sensor
+    # lower edge of the first bin of weights, in nats relative to the largest log weight, where the bins end
     lowest: float | None = None
 
 
@@ -203,46 +163,30 @@ class CellFacts(Notice, frozen=True, tag="cell"):
     """The evidence of the beams through a cell, for and against an obstacle in it.
 
     Buffers of the strongest beams, with `each`: start and end float64 (M, 2), metres; nats, scan, beam float64 (M).
-
-    Attributes:
-        beams: number of beams through the cell.
-        beams_for: number of beams for an obstacle; null, like the next fields, if the evidence cannot be computed.
-        nats_for: sum of the log ratios of these beams.
-        beams_against: number of beams against an obstacle.
-        nats_against: absolute sum of the log ratios of these beams.
     """
 
     x: int
     y: int
     each: bool
-    beams: int
+    beams: int  # number of beams through the cell
+    # number of beams for an obstacle; null, like the next fields, if the evidence cannot be computed
     beams_for: int | None = None
-    nats_for: float | None = None
-    beams_against: int | None = None
-    nats_against: float | None = None
+    nats_for: float | None = None  # sum of the log ratios of these beams
+    beams_against: int | None = None  # number of beams against an obstacle
+    nats_against: float | None = None  # absolute sum of the log ratios of these beams
 
 
 class SafePath(OfPicture, frozen=True, tag="path"):
-    """The shortest path whose risk is low enough, or the safest.
+    """The shortest path whose risk is low enough, or the safest."""
 
-    Attributes:
-        path: corners of the path, metres.
-        radius: radius of the disc, metres.
-        within_risk: whether the risk of the path is low enough.
-        probability: probability that the path is free: the share of draws in which it is.
-        standard_error: standard error of this probability.
-        independent: probability that the path is free if cells were independent.
-        draws: number of draws.
-    """
-
-    path: list[Pair]
+    path: list[Pair]  # corners of the path, metres
     length_m: float
-    radius: float
-    within_risk: bool
-    probability: float
-    standard_error: float
-    independent: float
-    draws: int
+    radius: float  # radius of the disc, metres
+    within_risk: bool  # whether the risk of the path is low enough
+    probability: float  # probability that the path is free: the share of draws in which it is
+    standard_error: float  # standard error of this probability
+    independent: float  # probability that the path is free if cells were independent
+    draws: int  # number of draws
 
 
 class Views(OfPicture, frozen=True, tag="views"):
@@ -267,21 +211,15 @@ class GhostScan(OfPicture, frozen=True, tag="ghost"):
 
     Buffers: angles float32 (A); low, median, high float32 (A), the median and central 80 % interval of each beam in
     metres, infinite for no return; of the real scan near_pose float64 (3), near_ranges float32 (A), near_hit uint8 (A).
-
-    Attributes:
-        coarse: whether only a few draws were used, since the hand still moved.
-        draws: number of draws used; 0 without draws, when cells count as independent.
-        near: nearest real scan, if one is near enough.
-        milliseconds: time that the prediction took.
     """
 
     x: float
     y: float
     yaw: float
-    coarse: bool
-    draws: int
-    near: Near | None
-    milliseconds: float
+    coarse: bool  # whether only a few draws were used, since the hand still moved
+    draws: int  # number of draws used; 0 without draws, when cells count as independent
+    near: Near | None  # nearest real scan, if one is near enough
+    milliseconds: float  # time that the prediction took
 
 
 class SurfaceOffset(Struct, frozen=True):
@@ -295,33 +233,20 @@ class SurfaceOffset(Struct, frozen=True):
 
 
 class ComparedBeam(OfPicture, frozen=True, tag="beam"):
-    """One reading compared with its prediction. Lengths are in metres; null means infinite or unknown.
-
-    Attributes:
-        draws: number of draws used.
-        reading: kind of reading: a range, no return, too close, or invalid.
-        range: reading.
-        low: lower end of the central 80 % interval.
-        median: median of the prediction.
-        high: upper end of the central 80 % interval.
-        residual: reading minus median.
-        nats: negative log density of the reading.
-        no_return: probability of no return.
-        wall: reading in the frame of the surface at which the beam most probably stopped.
-    """
+    """One reading compared with its prediction. Lengths are in metres; null means infinite or unknown."""
 
     scan: int
     beam: int
-    draws: int
-    reading: Literal["hit", "none", "close", "bad"]
-    range: float | None
-    low: float | None
-    median: float | None
-    high: float | None
-    residual: float | None
-    nats: float | None
-    no_return: float | None
-    wall: SurfaceOffset | None
+    draws: int  # number of draws used
+    reading: Literal["hit", "none", "close", "bad"]  # kind of reading: a range, no return, too close, or invalid
+    range: float | None  # reading
+    low: float | None  # lower end of the central 80 % interval
+    median: float | None  # median of the prediction
+    high: float | None  # upper end of the central 80 % interval
+    residual: float | None  # reading minus median
+    nats: float | None  # negative log density of the reading
+    no_return: float | None  # probability of no return
+    wall: SurfaceOffset | None  # reading in the frame of the surface at which the beam most probably stopped
 
 
 class Undecided(OfPicture, frozen=True, tag="undecided"):
@@ -345,26 +270,16 @@ class Whereabouts(Notice, frozen=True, tag="where"):
     """The posterior of the pose from which a scan was taken.
 
     Buffers: pose float32 (n, 3) and weight float32 (n), the smallest weight first.
-
-    Attributes:
-        of: number of the picture.
-        sensor: id of the sensor, in a drawn world.
-        index: index of the scan, for a file.
-        pose: pose of the scan in the document or the file.
-        modes: places where the robot may be, the most probable first.
-        p_lost: probability that the pose is nowhere on the map.
-        nats_per_beam: log density of the readings per beam, under the best pose.
-        trouble: reason why there is no answer; else empty.
     """
 
-    of: int
-    sensor: int | None = None
-    index: int | None = None
-    pose: list[float] = []
-    modes: list[Place] = []
-    p_lost: float = 0.0
-    nats_per_beam: float = 0.0
-    trouble: str = ""
+    of: int  # number of the picture
+    sensor: int | None = None  # id of the sensor, in a drawn world
+    index: int | None = None  # index of the scan, for a file
+    pose: list[float] = []  # pose of the scan in the document or the file
+    modes: list[Place] = []  # places where the robot may be, the most probable first
+    p_lost: float = 0.0  # probability that the pose is nowhere on the map
+    nats_per_beam: float = 0.0  # log density of the readings per beam, under the best pose
+    trouble: str = ""  # reason why there is no answer; else empty
 
 
 class Stage(OfPicture, frozen=True, tag="stage"):
@@ -384,17 +299,11 @@ class Status(Notice, frozen=True, tag="status"):
 
 
 class Refusal(Notice, frozen=True, tag="error"):
-    """Report that a message was refused. Nothing has changed.
+    """Report that a message was refused. Nothing has changed."""
 
-    Attributes:
-        text: description of the fault.
-        remedy: what to do instead, or empty.
-        seq: number of the message, if it could be read.
-    """
-
-    text: str
-    remedy: str
-    seq: int | None
+    text: str  # description of the fault
+    remedy: str  # what to do instead, or empty
+    seq: int | None  # number of the message, if it could be read
 
 
 class Download(Notice, frozen=True, tag="download"):

@@ -22,20 +22,14 @@ Buffers = Mapping[str, NDArray[Any] | bytes]
 
 
 class Infer(Struct, frozen=True):
-    """Begin a new generation: a new job that replaces the present one.
+    """Begin a new generation: a new job that replaces the present one."""
 
-    Attributes:
-        generation: number that every report of the job repeats.
-        document: the document to infer from.
-        mode: "coarse": only counts of hits, for a log; "preview": only belief propagation; "live": belief propagation,
-            then chains; "run": the document's method from the prior, with draws kept; "clear": back to the prior.
-        scan: the scan whose rays are shown, for a file.
-    """
-
-    generation: int
-    document: Document
+    generation: int  # number that every report of the job repeats
+    document: Document  # the document to infer from
+    # "coarse": only counts of hits, for a log; "preview": only belief propagation; "live": belief propagation, then
+    # chains; "run": the document's method from the prior, with draws kept; "clear": back to the prior
     mode: Mode
-    scan: int = 0
+    scan: int = 0  # the scan whose rays are shown, for a file
 
 
 class Ask(Struct, frozen=True):
@@ -53,15 +47,10 @@ class Show(Struct, frozen=True):
 
 
 class Remember(Struct, frozen=True, eq=False):
-    """Take over the trajectory that an earlier worker inferred of the log.
+    """Take over the trajectory that an earlier worker inferred of the log."""
 
-    Attributes:
-        poses: the poses of all scans, in the order of the log, (S, 3).
-        angles_rad: the inferred angles of the beams, (A,), or (S, A) where they differ from scan to scan.
-    """
-
-    poses: NDArray[Any]
-    angles_rad: NDArray[Any]
+    poses: NDArray[Any]  # the poses of all scans, in the order of the log, (S, 3)
+    angles_rad: NDArray[Any]  # the inferred angles of the beams, (A,), or (S, A) where they differ from scan to scan
 
 
 Task: TypeAlias = Infer | Cancel | Show | ShowScan | Ask | Remember
@@ -118,14 +107,8 @@ Signal: TypeAlias = Ready | OnGrid | Located | Finished | Failed | Alive | Unusa
 
 @dataclass(frozen=True)
 class Report:
-    """A report of the worker: a notice for pages, or a signal.
+    """A report of the worker: a notice for pages, or a signal."""
 
-    Attributes:
-        message: the notice or signal.
-        buffers: arrays by name.
-        client: number of the page that the report is for; None for all pages.
-    """
-
-    message: AnyNotice | Signal
-    buffers: Buffers = field(default_factory=dict)
-    client: int | None = None
+    message: AnyNotice | Signal  # the notice or signal
+    buffers: Buffers = field(default_factory=dict)  # arrays by name
+    client: int | None = None  # number of the page that the report is for; None for all pages

@@ -54,23 +54,14 @@ BAD_DIFFERENCE = 0.25
 
 @dataclass(frozen=True)
 class Figures:
-    """Progress and diagnostics of a result.
+    """Progress and diagnostics of a result."""
 
-    Attributes:
-        sweeps: number of sweeps, rounds or particles done.
-        total: number of sweeps, rounds or particles to do.
-        ess: effective sample size of the log joint, or of the weights.
-        rhat: R-hat of the log joint.
-        log_joint: last log joint, averaged over the chains.
-        verdict: verdict on the result; None while it is too early.
-    """
-
-    sweeps: int = 0
-    total: int = 0
-    ess: float = math.nan
-    rhat: float = math.nan
-    log_joint: float = math.nan
-    verdict: Verdict | None = None
+    sweeps: int = 0  # number of sweeps, rounds or particles done
+    total: int = 0  # number of sweeps, rounds or particles to do
+    ess: float = math.nan  # effective sample size of the log joint, or of the weights
+    rhat: float = math.nan  # R-hat of the log joint
+    log_joint: float = math.nan  # last log joint, averaged over the chains
+    verdict: Verdict | None = None  # verdict on the result; None while it is too early
 
     def as_fields(self) -> dict[str, Any]:
         """Return the fields of a message; numbers that are not finite become None."""
@@ -171,21 +162,13 @@ class Maps:
 
 @dataclass(frozen=True, eq=False)
 class Result:
-    """The present result for a document.
+    """The present result for a document."""
 
-    Attributes:
-        scene: the readings.
-        document: the document.
-        method: name of the inference method.
-        found: estimate of the method.
-        over: whether chains were cancelled, and will not go on.
-    """
-
-    scene: Scene
-    document: Document
-    method: str
-    found: Found
-    over: bool = False
+    scene: Scene  # the readings
+    document: Document  # the document
+    method: str  # name of the inference method
+    found: Found  # estimate of the method
+    over: bool = False  # whether chains were cancelled, and will not go on
 
     @property
     def prior(self) -> CellPrior:
