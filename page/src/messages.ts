@@ -541,7 +541,7 @@ export type ComparedBeam = {
 export type Undecided = {
   type: "undecided";
   text: string;
-  of: "beam" | "ghost" | "path" | "views";
+  question: "beam" | "ghost" | "path" | "views";
   generation: number;
 };
 
@@ -558,7 +558,7 @@ export type Place = {
 export type Whereabouts = {
   type: "where";
   /** Number of the picture. */
-  of: number;
+  picture: number;
   /** Id of the sensor, in a drawn world. */
   sensor: number | null;
   /** Index of the scan, for a file. */
@@ -575,13 +575,13 @@ export type Whereabouts = {
   trouble: string;
 };
 
-/** Progress in a stage of inferring a log's trajectory: `done` parts `of` all. `text` names the stage for users. */
+/** Progress in a stage of inferring a log's trajectory: `done` parts of `total`. Users read `text`. */
 export type Stage = {
   type: "stage";
   name: string;
   text: string;
   done: number;
-  of: number;
+  total: number;
   generation: number;
 };
 

@@ -331,7 +331,7 @@ test("why there is no path is no answer about views", () => {
   const { decisions } = desk.session;
   decisions.look(true);
   assert.equal(asked(desk, "views"), 1);
-  desk.says("undecided", { of: "path", text: "plan: at the start the disc touches something" });
+  desk.says("undecided", { question: "path", text: "plan: at the start the disc touches something" });
   assert.deepEqual([decisions.trouble, decisions.viewTrouble], ["At the start the disc touches something.", ""]);
   const views = { pose: Float32Array.of(5, 1, 3, 5, 9, 0), nats: Float32Array.of(3, 7) };
   desk.says("views", { spacing: 1 }, views);
@@ -357,7 +357,7 @@ test("the ghost asks where it stands, two questions at a time, the next for wher
   ghost.rest();
   assert.deepEqual(desk.asked("ghost").at(-1), { type: "ghost", x: 8, y: 5, yaw: 0.5, coarse: false });
   assert.equal(ghost.answers, 2);
-  desk.says("undecided", { of: "ghost", text: "run inference first" });
+  desk.says("undecided", { question: "ghost", text: "run inference first" });
   assert.deepEqual([ghost.trouble, ghost.fan], ["run inference first", null]);
   ghost.hold(false);
   const before = asked(desk, "ghost");
@@ -405,7 +405,7 @@ test("the robot's place is asked for one question at a time, of the sensor in th
   where.follow(true, 1);
   assert.deepEqual(desk.asked("where"), [{ type: "where", sensor: 2 }]);
   const modes = [0.6, 0.398, 0.002].map((probability) => ({ probability, mean: [0, 0, 0] }));
-  desk.says("where", { of: 1, modes, pose: [0, 0, 0] }, { pose: new Float32Array(3), weight: Float32Array.of(1) });
+  desk.says("where", { picture: 1, modes, pose: [0, 0, 0] }, { pose: new Float32Array(3), weight: Float32Array.of(1) });
   assert.equal(where.found!.modes.length, 2); // the last is not worth words
   where.follow(true, 1);
   assert.deepEqual(desk.asked("where").at(-1), { type: "where", sensor: 1 });

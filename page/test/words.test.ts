@@ -159,7 +159,7 @@ test("a log's picture of the last question is not taken for the answer to the ne
   desk.field({ method: "counts", approximate: true });
   assert.match(found.text, /Run infers where the robot was/);
   desk.state({ running: true });
-  desk.says("stage", { generation: 9, name: "loops", text: "Closing loops", done: 3, of: 110 });
+  desk.says("stage", { generation: 9, name: "loops", text: "Closing loops", done: 3, total: 110 });
   assert.match(found.text, /Closing loops: 3 of 110 scans/);
 });
 
@@ -186,7 +186,7 @@ test("a path, and why there is none, in words", () => {
   assert.match(found.text, /Looking for a path/);
   desk.says("path", { length_m: 3.456, probability: 0.98765, standard_error: 0.001, draws: 40, independent: 0.5, within_risk: false });
   assert.match(found.text, /3.46 m, free with probability 0.988 \u00b1 0.001 by 40 draws. Independent cells would say 0.500. No path was found whose risk is low enough; this is the safest./);
-  desk.says("undecided", { of: "path", text: "path: there is no way" });
+  desk.says("undecided", { question: "path", text: "path: there is no way" });
   assert.match(found.text, /There is no way\.$/);
   desk.choose("look");
   assert.match(found.text, /^Where to look next Working out how much a scan would tell/);
@@ -210,7 +210,7 @@ test("the ghost in words", () => {
   desk.says("ghost", { draws: 0, near: null }, { ...fan, high: Float32Array.of(Infinity, Infinity, Infinity) });
   assert.match(found.text, /as wide as the laser's range, by the mean map/);
   assert.doesNotMatch(found.text, /hits of scan/);
-  desk.says("undecided", { of: "ghost", text: "run inference first" });
+  desk.says("undecided", { question: "ghost", text: "run inference first" });
   assert.match(found.text, /Run inference first\./);
 });
 
@@ -243,7 +243,7 @@ test("where the robot may be, in words", () => {
   assert.match(found.text, /Looking everywhere\./);
   const place = (probability: number, x = 3, sigma_m = 0.02) => ({ probability, mean: [x, 4, Math.PI / 2], sigma_m, sigma_rad: 0.01, covariance: [] });
   const said = (modes: object[], fields = {}) => {
-    desk.says("where", { of: 1, modes, pose: [3.1, 4, Math.PI / 2], p_lost: 0, ...fields }, { pose: new Float32Array(3), weight: new Float32Array(1) });
+    desk.says("where", { picture: 1, modes, pose: [3.1, 4, Math.PI / 2], p_lost: 0, ...fields }, { pose: new Float32Array(3), weight: new Float32Array(1) });
     return found.text;
   };
   assert.match(said([place(1)]), /One place: 3.00, 4.00 m, heading 90\u00b0, known to 2 cm and 0.6\u00b0. The robot stands 10 cm and 0.0\u00b0 from there\./);

@@ -18,7 +18,7 @@ from bayesmap.app.protocol.tasks import Infer, Remember
 from bayesmap.app.protocol.wire import parse_document
 from bayesmap.app.shown.hit_maps import MOST_SCANS, counted_map, grown, thinned
 from bayesmap.app.sources import opened_log
-from bayesmap.app.trajectory import ASK_TO_RUN, STAGES, TrajectoryJob, along, in_time
+from bayesmap.app.trajectory import ASK_TO_RUN, STAGE_TEXTS, TrajectoryJob, at_inferred_poses, time_order
 from bayesmap.space.grid import Grid
 
 
@@ -79,7 +79,7 @@ def test_run_bends_the_trajectory_stage_by_stage_and_then_samples_the_cells(foun
     assert stages[-1] == "placing"
     assert names.count("loops") >= 2  # one for each round
     said = [header["text"] for header in found.all("status")]
-    assert said[: len(stages)] == [STAGES[name] for name in stages]
+    assert said[: len(stages)] == [STAGE_TEXTS[name] for name in stages]
     assert said[-1].startswith("Trajectory inferred: odometry was off by up to")
     ways = [r.buffers["trajectory"] for r in found.reports if r.header["type"] == "overlay"]
     truth = recorded()[1][:, :2] - recorded()[1][0, :2]
@@ -103,7 +103,7 @@ def test_the_map_sharpens(found):
     """Of the cells with a hit, the share whose log-odds say wall: beams pass through walls at wrong poses."""
     fields = [r for r in found.reports if r.header["type"] == "field" and r.header["method"] == "counts"]
     grids = [header["grid"] for header in found.all("ongrid")]
-    placed = found.engine._localization.placed.scans
+    placed = found.engine._log_trajectory.placed.scans
     doubt = []
     for scans in (raw_scans(), placed):
         grid = Grid.covering(scans, 0.1)
@@ -141,7 +141,7 @@ def test_a_log_that_was_located_is_mapped_on_cells_of_any_size_from_the_first_of
     assert np.abs(buffers["p"] / 255 - counted_map(raw_scans().select(slice(40)), raw).mean()).max() <= 0.5 / 255 + 1e-9
     known = found.all("located")[0]["trajectory"]
     heard.engine.take(Remember(known.poses, known.angles_rad))
-    placed = heard.engine._localization.placed.scans
+    placed = heard.engine._log_trajectory.placed.scans
     grid = Grid.covering(placed, 0.2)
     assert grid != raw
     for mode, method in (("coarse", "hits"), ("live", "gibbs")):
@@ -168,7 +168,7 @@ def test_cancel_stops_at_any_stage_and_leaves_what_there_is(stage):
     assert heard.last("field")[0]["method"] == "counts"
     TrajectoryJob._last.join(20)
     assert not TrajectoryJob._last.is_alive()
-    assert heard.engine._localization.placed is None
+    assert heard.engine._log_trajectory.placed is None
 
 
 def test_another_job_takes_the_place_of_the_inference():
@@ -192,10 +192,10 @@ def test_the_same_log_gives_the_same_bits_again_and_scans_stay_in_its_order(foun
     scans = raw_scans().select(shuffled)
     job = TrajectoryJob(Infer(1, few_sweeps(), "run"), scans, raw_log().document.grid)
     steps = [step for step in job.steps() if step is not None]
-    last = along(scans, job.found)
-    assert np.array_equal(in_time(scans), np.argsort(scans.stamps_s))
+    last = at_inferred_poses(scans, job.trajectory)
+    assert np.array_equal(time_order(scans), np.argsort(scans.stamps_s))
     assert np.array_equal(last.stamps_s, scans.stamps_s)
-    assert np.array_equal(last.poses, found.engine._localization.placed.scans.poses[shuffled])
+    assert np.array_equal(last.poses, found.engine._log_trajectory.placed.scans.poses[shuffled])
     assert np.array_equal(steps[-1].result.scene.scans.poses, last.poses)
 
 

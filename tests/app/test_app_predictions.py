@@ -90,7 +90,7 @@ def test_it_works_on_live_posteriors_and_says_how_many_draws_there_are(mode, dra
     heard.infer(replace(tutorial_document(), sweeps=40), mode)
     header, buffers = heard.answer(MoveGhost(6.0, 15.0, 0.0))
     if draws is None:
-        assert (header["type"], header["of"]) == ("undecided", "ghost")
+        assert (header["type"], header["question"]) == ("undecided", "ghost")
         return
     assert header["draws"] == draws
     assert len(buffers["median"]) == 100

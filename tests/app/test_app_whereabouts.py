@@ -97,7 +97,7 @@ def test_a_question_waits_for_a_picture_or_says_why_there_is_no_answer(run):
     heard.infer(tutorial_document(), "preview", steps=0)
     assert heard.ask(WhereAmI(1)) == []
     heard.finish()
-    assert (heard.last("where")[0]["of"], heard.last("where")[0]["trouble"]) == (1, "")
+    assert (heard.last("where")[0]["picture"], heard.last("where")[0]["trouble"]) == (1, "")
     log = opened_log(run.posterior.scans, "x.log")
     heard = Heard(log)
     heard.infer(log.document, "preview")

@@ -30,7 +30,7 @@ def ask(page):
 
 
 def found(page):
-    until(page, "s.where.found && s.where.found.of === s.generation")
+    until(page, "s.where.found && s.where.found.picture === s.generation")
     return page.evaluate(FOUND)
 
 

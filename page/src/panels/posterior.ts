@@ -23,14 +23,14 @@ export function posteriorPanel(ui: Ui, ...charts: HTMLElement[]) {
     // what is on show may be the answer to the last question
     const old = field?.generation !== session.generation && (session.running || session.document?.source.kind === "log");
     const fitting = isFitting(session);
-    const share = stage ? stage.done / stage.of : field && !old && field.total > 0 && (fitting || !field.approximate) ? field.sweeps / field.total : 0;
+    const share = stage ? stage.done / stage.total : field && !old && field.total > 0 && (fitting || !field.approximate) ? field.sweeps / field.total : 0;
     put(progress, "value", share);
     const left = session.remaining_s();
     const unit = UNITS[field?.method ?? ""] ?? "sweeps";
     const done = field && !field.approximate && field.total ? `${field.sweeps} of ${field.total} ${unit}` : "";
     const state = left !== null ? (left < 1 ? "less than 1 s left" : `${Math.ceil(left)} s left`) : session.running ? "running" : "";
     const count = session.sampling || session.running || !field || field.sweeps >= field.total ? "" : "stopped";
-    if (stage) put(doing, "textContent", `${stage.text}: ${stage.done} of ${stage.of} ${stage.of > ROUNDS ? "scans" : "rounds"}`);
+    if (stage) put(doing, "textContent", `${stage.text}: ${stage.done} of ${stage.total} ${stage.total > ROUNDS ? "scans" : "rounds"}`);
     else if (old) put(doing, "textContent", "Computing");
     else if (field && fitting) put(doing, "textContent", `Fitting the sensor: sweep ${field.sweeps} of ${field.total}`);
     else put(doing, "textContent", sentence([done, state, done && count].filter(Boolean).join(", ")) || idle(session));

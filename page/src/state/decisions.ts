@@ -81,13 +81,13 @@ export class Decisions {
 
   receive(notice: SafePath | Spacing | Undecided, buffers: Buffers) {
     const text = notice.type === "undecided" ? said(notice.text) : "";
-    const of = notice.type === "undecided" ? notice.of : notice.type;
-    if (of === "views") this.viewTrouble = text;
+    const question = notice.type === "undecided" ? notice.question : notice.type;
+    if (question === "views") this.viewTrouble = text;
     else this.trouble = text;
     if (notice.type === "path") this.path = notice;
     else if (notice.type === "views" && this.looking) {
       this.views = { pose: buffers.pose as Float32Array, nats: buffers.nats as Float32Array, spacing: notice.spacing };
-    } else if (of === "path") this.path = null;
+    } else if (question === "path") this.path = null;
     this.version++;
   }
 

@@ -252,8 +252,8 @@ export class Session {
         this.reading.receive(notice);
         break;
       case "undecided":
-        if (notice.of === "ghost") this.ghost.receive(notice, buffers);
-        else if (notice.of === "beam") this.reading.receive(notice);
+        if (notice.question === "ghost") this.ghost.receive(notice, buffers);
+        else if (notice.question === "beam") this.reading.receive(notice);
         else this.decisions.receive(notice, buffers);
         break;
       case "status":

@@ -35,7 +35,7 @@ from bayesmap.app.shown.chains import (
 from bayesmap.app.shown.result import Result, nothing_yet
 from bayesmap.app.shown.without_chains import Preview, Weighing
 from bayesmap.app.sources import OpenedLog, OpenedRun
-from bayesmap.app.trajectory import Localization, Step
+from bayesmap.app.trajectory import LogTrajectory, Step
 from bayesmap.errors import BadInput
 
 PREVIEW_SECONDS = 0.015
@@ -59,7 +59,7 @@ class Engine:
     def __init__(self, on_report: OnReport, opened: OpenedRun | OpenedLog | None = None) -> None:
         self._send = on_report
         self._opened = opened
-        self._localization = Localization(opened) if isinstance(opened, OpenedLog) else None
+        self._log_trajectory = LogTrajectory(opened) if isinstance(opened, OpenedLog) else None
         self._display = Display(on_report)
         self._scan = 0
         self._job: Iterator[None] | None = None
@@ -93,8 +93,8 @@ class Engine:
                 self._display.rays(self._scene, task.index)
         elif isinstance(task, Ask):
             self._ask(task)
-        elif isinstance(task, Remember) and self._localization is not None:
-            self._localization.remember(task)
+        elif isinstance(task, Remember) and self._log_trajectory is not None:
+            self._log_trajectory.remember(task)
 
     def _ask(self, task: Ask) -> None:
         """Answer a question. If it needs a result and there is none yet, it waits."""
@@ -187,16 +187,16 @@ class Engine:
 
     def _localize(self, task: Infer) -> Generator[None, None, bool]:
         """Infer the trajectory of a log, with pictures of the stages; return whether it is known now."""
-        localization = self._localization
-        assert localization is not None
-        with closing(localization.steps(task)) as steps:
+        log_trajectory = self._log_trajectory
+        assert log_trajectory is not None
+        with closing(log_trajectory.steps(task)) as steps:
             for step in steps:
                 if isinstance(step, Step):
                     self._step(step)
                 elif step is not None:
                     self._display.report(step)
                 yield
-        if localization.placed is None:
+        if log_trajectory.placed is None:
             self._display.finished(self._result)
             return False
         self._result = None
@@ -218,7 +218,7 @@ class Engine:
     def _readings(self, document: Document) -> tuple[Scene, Document]:
         """Return the scene of a document, and the document on the scene's grid. Unchanged readings are reused."""
         new = document.simulated  # a map may be begun where a log was opened
-        log = None if new or self._localization is None else self._localization.log_of(document)
+        log = None if new or self._log_trajectory is None else self._log_trajectory.log_of(document)
         if log is not None:
             document = log.on_cells(document)
         self._display.on_grid(document.grid)
@@ -232,8 +232,8 @@ class Engine:
 
     def _count(self, document: Document) -> None:
         """Show the hit-count map of a log."""
-        assert self._localization is not None
-        self._result = self._localization.log_of(document).coarse(document)
+        assert self._log_trajectory is not None
+        self._result = self._log_trajectory.log_of(document).coarse(document)
         if self._result.prior.has_surfaces:  # the surfaces on show may be of other scans
             self._display.overlay(self._result)
         self._display.frame(self._result)

@@ -33,7 +33,7 @@ PICTURE_SECONDS, PICTURE_SHARE = 0.25, 0.1
 """The least time between two pictures of a stage, and the share of the time that pictures may take."""
 
 WAIT_SECONDS = 0.02
-STAGES = {
+STAGE_TEXTS = {
     "reading": "Reading the scans",
     "front end": "Matching scan to scan",
     "loops": "Closing loops",
@@ -61,12 +61,12 @@ def _step(task: Infer, scans: Scans, grid: Grid, counted: Counted, at: tuple[str
     result = Result(scene, task.document.on_grid(grid), "counts", counted)
     stage = None
     if at is not None:
-        name, done, of = at
-        stage = Stage(name, STAGES[name], done, of, generation=task.generation)
+        name, done, total = at
+        stage = Stage(name, STAGE_TEXTS[name], done, total, generation=task.generation)
     return Step(grid, result, stage, text)
 
 
-class Stopped(Exception):
+class Cancelled(Exception):
     """The job was cancelled."""
 
 
@@ -76,13 +76,13 @@ class TrajectoryJob:
     _last: threading.Thread | None = None  # the thread of the process's last job
 
     def __init__(self, task: Infer, scans: Scans, grid: Grid) -> None:
-        self.found: Trajectory | None = None  # the trajectory, when the job has ended
+        self.trajectory: Trajectory | None = None  # the trajectory, when the job has ended
         self.trouble: BaseException | None = None  # the error that ended the job instead
         self._task, self._scans, self._grid = task, scans, grid
-        self._in_time = in_time(scans)
+        self._time_order = time_order(scans)
         self._steps: queue.SimpleQueue[Step] = queue.SimpleQueue()
         self._stop = threading.Event()
-        self._told, self._done, self._of, self._next = "", 0, 1, 0.0
+        self._last_stage, self._done, self._total, self._next = "", 0, 1, 0.0
         self._before = TrajectoryJob._last
         self._thread = threading.Thread(target=self._run, name="bayesmap_trajectory", daemon=True)
         TrajectoryJob._last = self._thread
@@ -118,59 +118,58 @@ class TrajectoryJob:
             self._before = None
         try:
             self._check()
-            self.found = infer_trajectory(self._scans, on_progress=self._on_progress, on_poses=self._on_poses)
-        except Stopped:
+            self.trajectory = infer_trajectory(self._scans, on_progress=self._on_progress, on_poses=self._on_poses)
+        except Cancelled:
             pass
         except BaseException as trouble:
             self.trouble = trouble
 
     def _check(self) -> None:
         if self._stop.is_set():
-            raise Stopped
+            raise Cancelled
 
-    def _on_progress(self, stage: str, done: int, of: int) -> None:
+    def _on_progress(self, stage: str, done: int, total: int) -> None:
         self._check()
-        self._done, self._of = done, of
+        self._done, self._total = done, total
 
     def _on_poses(self, stage: str, poses: NDArray[np.float64]) -> None:
         """Queue a picture at the beginning of a stage, in every round of loops, and otherwise at intervals."""
         self._check()
         began = time.monotonic()
-        if stage == self._told and stage != "loops" and began < self._next:
+        if stage == self._last_stage and stage != "loops" and began < self._next:
             return
-        text, self._told = "" if stage == self._told else STAGES[stage], stage
-        scans = self._scans.at(poses[np.argsort(self._in_time)])
+        text, self._last_stage = "" if stage == self._last_stage else STAGE_TEXTS[stage], stage
+        scans = self._scans.at(poses[np.argsort(self._time_order)])
         self._grid = grown(self._grid, scans)
-        counted, at = counted_map(scans, self._grid), (stage, self._done, self._of)
+        counted, at = counted_map(scans, self._grid), (stage, self._done, self._total)
         self._steps.put(_step(self._task, scans, self._grid, counted, at, text))
         now = time.monotonic()
         self._next = now + max(PICTURE_SECONDS, (now - began) / PICTURE_SHARE)
 
 
-def in_time(scans: Scans) -> NDArray[np.intp]:
+def time_order(scans: Scans) -> NDArray[np.intp]:
     """Return the order of the scans in time, in which `infer_trajectory` processes them, (S,)."""
     if scans.stamps_s is None:
         return np.arange(len(scans))
     return np.argsort(scans.stamps_s, kind="stable")
 
 
-def along(scans: Scans, found: Trajectory) -> Scans:
+def at_inferred_poses(scans: Scans, trajectory: Trajectory) -> Scans:
     """Return the scans at their inferred poses, with the inferred angles between beams, in the order of the log."""
-    return calibrated(scans.at(found.poses[np.argsort(found.order)]), found.calibration.angle_step_ratio)
+    return calibrated(scans.at(trajectory.poses[np.argsort(trajectory.order)]), trajectory.calibration.angle_step_ratio)
 
 
-def summary(scans: Scans, found: Trajectory) -> str:
+def summary(scans: Scans, trajectory: Trajectory) -> str:
     """Describe an inferred trajectory in words."""
-    off = scans.poses - found.poses[np.argsort(found.order)]
-    moved_m = float(np.hypot(off[:, 0], off[:, 1]).max())
-    flagged = int(found.flagged.sum())
+    shift = scans.poses - trajectory.poses[np.argsort(trajectory.order)]
+    moved_m = float(np.hypot(shift[:, 0], shift[:, 1]).max())
+    flagged = int(trajectory.flagged.sum())
     doubt = f"; {flagged} scans stay badly explained" if flagged else ""
-    return (
-        f"Trajectory inferred: odometry was off by up to {moved_m:.1f} m; loop closures: {len(found.closures)}{doubt}"
-    )
+    loops = len(trajectory.closures)
+    return f"Trajectory inferred: odometry was off by up to {moved_m:.1f} m; loop closures: {loops}{doubt}"
 
 
-class Localization:
+class LogTrajectory:
     """The trajectory of one log."""
 
     def __init__(self, log: OpenedLog) -> None:
@@ -206,17 +205,17 @@ class Localization:
 
     def _infer(self, task: Infer) -> Generator[Step | Located | Status | None, None, None]:
         scans, grid = self.log.scans, self.log.on_cells(task.document).grid
-        yield _step(task, scans, grid, counted_map(scans, grid), ("reading", 0, 1), STAGES["reading"])
+        yield _step(task, scans, grid, counted_map(scans, grid), ("reading", 0, 1), STAGE_TEXTS["reading"])
         job = TrajectoryJob(task, scans, grid)
         with closing(job.steps()) as steps:
             yield from steps
-        assert job.found is not None
-        placed = along(scans, job.found)
+        assert job.trajectory is not None
+        placed = at_inferred_poses(scans, job.trajectory)
         self._place(placed)
         own = placed.own_angles_rad
         known = Remember(placed.poses, placed.angles_rad if own is None else own)
         yield Located(known, generation=task.generation)
-        yield Status(summary(scans, job.found), "info")
+        yield Status(summary(scans, job.trajectory), "info")
 
     def _place(self, scans: Scans) -> None:
         self.placed = opened_log(scans, self.log.document.source.name)

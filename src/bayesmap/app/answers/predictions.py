@@ -45,7 +45,7 @@ class GhostPredictor:
     """Predicts virtual scans ("ghosts" in messages). The draws stay on the device for many questions."""
 
     def __init__(self) -> None:
-        self._of: object = None
+        self._key: object = None
         self._sweep, self._until = 0, 0.0
         self._predictor: ScanPredictor | None = None
         self._few: ScanPredictor | None = None  # the predictor thinned to `FEW_DRAWS`, once it has been asked for
@@ -87,12 +87,12 @@ class GhostPredictor:
         found, now = result.found, time.perf_counter()
         # Cache key: the result of a method without chains, or the chains themselves. A pilot is a new object after
         # every sweep, so its key is the scene. While chains run, the key stays, and only the predictor's age counts.
-        of: object = result if not found.sweep else result.scene if isinstance(found, Pilot) else found
+        key: object = result if not found.sweep else result.scene if isinstance(found, Pilot) else found
         stale = found.sweep != self._sweep and (found.done or now > self._until)
-        if self._predictor is None or of is not self._of or stale:
+        if self._predictor is None or key is not self._key or stale:
             predictor, self._draws = predictor_of_result(result)
             limits = RangeLimits(result.scene.scans.min_range_m, result.scene.scans.max_range_m)
-            self._predictor, self._few, self._of = ScanPredictor.of(predictor, limits), None, of
+            self._predictor, self._few, self._key = ScanPredictor.of(predictor, limits), None, key
             self._sweep, self._until = found.sweep, time.perf_counter() + STALE_SECONDS
         if not coarse or self._draws <= FEW_DRAWS:
             return self._predictor, self._draws

@@ -45,7 +45,7 @@ class Locator:
 
     def __init__(self) -> None:
         self._known: KnownMap | None = None
-        self._of: Hashable = None
+        self._key: Hashable = None
 
     def answer(
         self, question: WhereAmI, result: Result | None, scan: int, generation: int
@@ -74,14 +74,14 @@ class Locator:
         ), {name: values.astype(np.float32) for name, values in cloud.items()}  # fmt: skip
 
     def _map(self, result: Result) -> KnownMap:
-        """Return the known map of a result, prepared anew only if what it depends on (the key `of`) has changed."""
+        """Return the known map of a result, prepared anew only if what it depends on (its key) has changed."""
         document = result.document
-        of: Hashable = result.found
+        key: Hashable = result.found
         if document.simulated:
-            of = (document.walls, document.grid, document.noise, document.max_range, document.angles, document.fov)
-        if self._known is None or of != self._of:
+            key = (document.walls, document.grid, document.noise, document.max_range, document.angles, document.fov)
+        if self._known is None or key != self._key:
             self._known = drawn_map(document) if document.simulated else _inferred_map(result)
-            self._of = of
+            self._key = key
         return self._known
 
 

@@ -253,7 +253,7 @@ class Undecided(OfPicture, frozen=True, tag="undecided"):
     """The reason why a question has no answer."""
 
     text: str
-    of: Literal["path", "views", "ghost", "beam"]
+    question: Literal["path", "views", "ghost", "beam"]
 
 
 class Place(Struct, frozen=True):
@@ -272,7 +272,7 @@ class Whereabouts(Notice, frozen=True, tag="where"):
     Buffers: pose float32 (n, 3) and weight float32 (n), the smallest weight first.
     """
 
-    of: int  # number of the picture
+    picture: int  # number of the picture
     sensor: int | None = None  # id of the sensor, in a drawn world
     index: int | None = None  # index of the scan, for a file
     pose: list[float] = []  # pose of the scan in the document or the file
@@ -283,12 +283,12 @@ class Whereabouts(Notice, frozen=True, tag="where"):
 
 
 class Stage(OfPicture, frozen=True, tag="stage"):
-    """Progress in a stage of inferring a log's trajectory: `done` parts `of` all. `text` names the stage for users."""
+    """Progress in a stage of inferring a log's trajectory: `done` parts of `total`. Users read `text`."""
 
     name: str
     text: str
     done: int
-    of: int
+    total: int
 
 
 class Status(Notice, frozen=True, tag="status"):

@@ -666,12 +666,12 @@ let i=t.section("Log",x("div",{className:"player bare"},n,o));return t.visible(i
 scans_used??a;C(n,"max",String(Math.max(1,a))),(!fn(n)||Number(n.value)!==c)&&C(n,"value",String(c));let h=c===a?`all ${a} scans`:`after ${c} of ${a}`;n.style.setProperty(
 "--fill",`${100*(c-1)/Math.max(1,a-1)}%`),ht(n,"aria-valuetext",h),C(o,"textContent",h)}),i}var Eu=20,Au={importance:"particles",propagate:"rounds"},xs=({working:t,shown:e})=>t&&e?.method==="pilot";function nc(t,...e){let{session:n}=t,o=x("progress",{max:1,
 value:0,"aria-label":"Progress"}),s=x("div",{className:"doing"});return t.each(()=>{let r=n.shown,{stage:i}=n,a=r?.generation!==n.generation&&(n.running||n.document?.
-source.kind==="log"),c=xs(n),h=i?i.done/i.of:r&&!a&&r.total>0&&(c||!r.approximate)?r.sweeps/r.total:0;C(o,"value",h);let u=n.remaining_s(),p=Au[r?.method??""]??
+source.kind==="log"),c=xs(n),h=i?i.done/i.total:r&&!a&&r.total>0&&(c||!r.approximate)?r.sweeps/r.total:0;C(o,"value",h);let u=n.remaining_s(),p=Au[r?.method??""]??
 "sweeps",f=r&&!r.approximate&&r.total?`${r.sweeps} of ${r.total} ${p}`:"",y=u!==null?u<1?"less than 1 s left":`${Math.ceil(u)} s left`:n.running?"running":"",w=n.
-sampling||n.running||!r||r.sweeps>=r.total?"":"stopped";i?C(s,"textContent",`${i.text}: ${i.done} of ${i.of} ${i.of>Eu?"scans":"rounds"}`):a?C(s,"textContent","\
-Computing"):r&&c?C(s,"textContent",`Fitting the sensor: sweep ${r.sweeps} of ${r.total}`):C(s,"textContent",xn([f,y,f&&w].filter(Boolean).join(", "))||Cu(n))}),
-t.section("Posterior",_u(t),o,s,Lu(t),Du(t),...e)}function Cu({shown:t,working:e}){return t?.method==="counts"?"Run infers where the robot was":t?.method==="pil\
-ot"?"Stopped while the sensor was fitted":e?"Computing":"No chain yet"}function _u(t){let{session:e}=t,n=t.button("play","Run",()=>e.act({type:"run"}),{className:"\
+sampling||n.running||!r||r.sweeps>=r.total?"":"stopped";i?C(s,"textContent",`${i.text}: ${i.done} of ${i.total} ${i.total>Eu?"scans":"rounds"}`):a?C(s,"textCont\
+ent","Computing"):r&&c?C(s,"textContent",`Fitting the sensor: sweep ${r.sweeps} of ${r.total}`):C(s,"textContent",xn([f,y,f&&w].filter(Boolean).join(", "))||Cu(
+n))}),t.section("Posterior",_u(t),o,s,Lu(t),Du(t),...e)}function Cu({shown:t,working:e}){return t?.method==="counts"?"Run infers where the robot was":t?.method===
+"pilot"?"Stopped while the sensor was fitted":e?"Computing":"No chain yet"}function _u(t){let{session:e}=t,n=t.button("play","Run",()=>e.act({type:"run"}),{className:"\
 primary",text:"Run",title:"Run (R)",when:()=>e.connection.connected}),o=t.button("close","Cancel",()=>e.act({type:"cancel"}),{text:"Cancel",title:"Cancel (Escap\
 e)",when:()=>e.running||e.sampling||xs(e)}),s=t.checkbox("Live",()=>!!(e.state?.live??!0),i=>e.act({type:"live",on:i}),"Every edit restarts the chain"),r=x("div",
 {className:"buttons"},n,o,s);return t.visible(r,()=>!e.recorded&&e.document?.source.kind!=="run"),r}function Lu(t){let{session:e}=t,n=x("dl"),o=(s,r,i,a=!1)=>{let c=x(
@@ -834,9 +834,9 @@ session.changed())}forget(){this.start=this.goal=this.path=this.views=null,this.
 risk:r}=this,{shown:i}=e;if(!i||i.generation!==e.generation||e.recorded)return;let a=`${i.generation} ${e.sampling}`,c=`${a} ${JSON.stringify([n,o,s,r])}`;n&&o&&
 !i.approximate&&c!==this.askedPath&&(this.askedPath=c,e.act({type:"path",start:[n.x,n.y],goal:[o.x,o.y],radius:s,risk:r})),this.looking&&(!i.approximate||e.document?.
 method==="propagate")&&a!==this.askedViews&&(this.askedViews=a,e.act({type:"views"}))}receive(e,n){let o=e.type==="undecided"?cf(e.text):"",s=e.type==="undecide\
-d"?e.of:e.type;s==="views"?this.viewTrouble=o:this.trouble=o,e.type==="path"?this.path=e:e.type==="views"&&this.looking?this.views={pose:n.pose,nats:n.nats,spacing:e.
-spacing}:s==="path"&&(this.path=null),this.version++}nearest(e){let{views:n}=this;if(!n?.nats.length)return null;let[o,s]=[0,1/0];for(let r=0;r<n.nats.length;r++){
-let i=Math.hypot(n.pose[3*r]-e.x,n.pose[3*r+1]-e.y);i<s&&([o,s]=[r,i])}return o}};var Es=class{constructor(e){this.session=e}facts=null;cell=null;together=null;each=null;version=0;held=!1;asked="";get cellShown(){return this.held&&this.cell!==
+d"?e.question:e.type;s==="views"?this.viewTrouble=o:this.trouble=o,e.type==="path"?this.path=e:e.type==="views"&&this.looking?this.views={pose:n.pose,nats:n.nats,
+spacing:e.spacing}:s==="path"&&(this.path=null),this.version++}nearest(e){let{views:n}=this;if(!n?.nats.length)return null;let[o,s]=[0,1/0];for(let r=0;r<n.nats.
+length;r++){let i=Math.hypot(n.pose[3*r]-e.x,n.pose[3*r+1]-e.y);i<s&&([o,s]=[r,i])}return o}};var Es=class{constructor(e){this.session=e}facts=null;cell=null;together=null;each=null;version=0;held=!1;asked="";get cellShown(){return this.held&&this.cell!==
 null}hold(e){this.held!==e&&(this.held=e,this.version++,this.ask())}pin(e){this.cell=Ot(e,this.session.shape)?e:null,this.together=this.each=null,this.asked="",
 this.version++,this.ask(),this.session.changed()}forget(){this.cell=this.together=this.each=this.facts=null,this.version++}ask(){let{session:e,cell:n}=this,{shown:o}=e;
 if(!this.held||!n||!o||o.generation!==e.generation||e.recorded)return;let s=`${o.generation} ${e.sampling} ${o.approximate} ${n.x} ${n.y}`;s!==this.asked&&(this.
@@ -895,12 +895,12 @@ this.say("Connected again"):this.notice&&this.say(this.notice.text,this.notice.l
 e.recorded,this.latency.forget(),this.next=null;break;case"state":this.receiveState(e);break;case"scan":e.generation>=this.generation&&this.receiveScan(e,n);break;case"\
 overlay":this.overlay=n;break;case"field":this.receiveField(e,n);break;case"stage":this.lastStage=e;break;case"where":this.where.receive(e,n);break;case"cell":this.
 evidence.receive(e,n);break;case"path":case"views":this.decisions.receive(e,n);break;case"ghost":this.ghost.receive(e,n);break;case"beam":this.reading.receive(e);
-break;case"undecided":e.of==="ghost"?this.ghost.receive(e,n):e.of==="beam"?this.reading.receive(e):this.decisions.receive(e,n);break;case"status":this.status.say(
-e.text,e.level,this.acted);break;case"error":this.receiveRefusal(e);break;case"worker":this.worker=e.state,this.status.worker(e.state);break;case"download":this.
-ondownload(e.name,e.mime,n.data),this.status.say(`Saved ${e.name}`,"info",this.acted);break}this.changed()}receiveScan({ids:e,index:n},{pose:o,angles:s,ranges:r,
-exact:i,hit:a}){this.scan?.index!==n&&this.reading.forget(),this.scan={ids:e,index:n,pose:o,angles:s,ranges:r,exact:i,hit:a}}receiveRefusal({seq:e,text:n,remedy:o}){
-let s=e!==null&&e===this.broughtAt;s&&(this.broughtAt=null,this.act({type:"hello"}));let r=[n,o].filter(Boolean).join("; ");this.status.say(s?`The map that was \
-brought along cannot be shown: ${r}`:r,"error",this.acted),this.pending=this.pending.filter(i=>i.seq!==e),e!==null&&this.latency.refused(e),this.rebuild()}receiveState(e){
+break;case"undecided":e.question==="ghost"?this.ghost.receive(e,n):e.question==="beam"?this.reading.receive(e):this.decisions.receive(e,n);break;case"status":this.
+status.say(e.text,e.level,this.acted);break;case"error":this.receiveRefusal(e);break;case"worker":this.worker=e.state,this.status.worker(e.state);break;case"dow\
+nload":this.ondownload(e.name,e.mime,n.data),this.status.say(`Saved ${e.name}`,"info",this.acted);break}this.changed()}receiveScan({ids:e,index:n},{pose:o,angles:s,
+ranges:r,exact:i,hit:a}){this.scan?.index!==n&&this.reading.forget(),this.scan={ids:e,index:n,pose:o,angles:s,ranges:r,exact:i,hit:a}}receiveRefusal({seq:e,text:n,
+remedy:o}){let s=e!==null&&e===this.broughtAt;s&&(this.broughtAt=null,this.act({type:"hello"}));let r=[n,o].filter(Boolean).join("; ");this.status.say(s?`The ma\
+p that was brought along cannot be shown: ${r}`:r,"error",this.acted),this.pending=this.pending.filter(i=>i.seq!==e),e!==null&&this.latency.refused(e),this.rebuild()}receiveState(e){
 this.status.confirmed(e.seq),this.state=e,e.document.source.kind==="simulation"&&(this.overlay=null,Sc()),this.generation=Math.max(this.generation,e.generation),
 this.latency.confirmed(e.generation,e.seq),this.pending=this.pending.filter(n=>n.seq>e.seq),this.rebuild()}receiveField(e,n){if(e.generation<this.generation){this.
 counts.stale++;return}this.generation=e.generation;let o=n.p,{trace:s,traced:r,weights:i}=n,a=n.observed,c=this.next??this.shown,u=c&&c.p.length===o.length&&c.bits.
