@@ -70,6 +70,14 @@ def test_many_beams_are_thinned_evenly_and_readings_less():
     np.testing.assert_allclose(ends[-1], [np.cos(6), np.sin(6)])
 
 
+def test_beams_of_a_moving_sensor_start_where_each_was_sent():
+    on_the_way = np.array([[[0.0, 0.0, 0.0], [0.5, 1.0, 0.0]]])
+    moving = Scans(np.zeros(3), [0.0, np.pi / 2], [1.0, 1.0], max_range_m=2.0, beam_poses=on_the_way)
+    beams, points = draw_rays(panel(), moving)
+    np.testing.assert_allclose(beams.get_segments(), [[[0, 0], [1, 0]], [[0.5, 1], [0.5, 2]]], atol=1e-12)
+    np.testing.assert_allclose(points.get_offsets(), moving.hit_points_world())
+
+
 def test_scans_without_any_end_point_draw_nothing():
     blind = Scans(poses=np.zeros(3), angles_rad=[0.0], ranges_m=[np.nan], max_range_m=2.0)
     assert draw_rays(panel(), blind) == []

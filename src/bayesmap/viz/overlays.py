@@ -140,11 +140,10 @@ def _spread(beams: NDArray[np.intp], most: int) -> NDArray[np.intp]:
 
 def _rays(scans: Scans, beams: NDArray[np.intp]) -> NDArray[np.float64]:
     """Return start and end of the beams with these flat indices, metres, (n, 2, 2); no return has the largest range."""
-    scan = beams // scans.ranges_m.shape[1]
     angles = scans.beam_angles_world().ravel()[beams]
     ranges = scans.ranges_m.ravel()[beams]
     ranges = np.where(np.isposinf(ranges), scans.max_range_m, ranges)
-    starts = scans.poses[scan, :2]
+    starts = scans.beam_starts_world().reshape(-1, 2)[beams]
     ends = starts + ranges[:, None] * np.stack([np.cos(angles), np.sin(angles)], axis=-1)
     return np.stack([starts, ends], axis=1)
 
