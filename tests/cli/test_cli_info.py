@@ -1,6 +1,8 @@
 """bayesmap info: what is in a file; and bayesmap infer on a recording."""
 
+import gzip
 import json
+import re
 
 import numpy as np
 import pytest
@@ -55,6 +57,14 @@ def test_a_cut_recording_is_bad_input_and_info_tells_what_is_left(recording, tmp
     told = succeed("info", cut)
     assert "damaged or cut short" in told.stdout
     assert len(read_log(cut, scan_topic="/scan", skip_bad_lines=True)) == 6
+
+
+def test_info_names_the_place_where_a_log_is_cut(office, tmp_path):
+    cut = tmp_path / "cut.log.gz"
+    whole = gzip.compress(office.read_bytes(), mtime=0)
+    cut.write_bytes(whole[: len(whole) // 2])
+    told = succeed("info", cut).stdout
+    assert re.search(r"first line [1-9]\d*: the gzip file is damaged or cut short", told)
 
 
 def test_info_on_a_carmen_log_and_on_a_saved_run(office, office_run):

@@ -172,7 +172,9 @@ def _sensor_lines(sensor: dict[str, Any]) -> list[str]:
 def _rest(sensor: dict[str, Any]) -> list[str]:
     """Return the number of skipped messages and the notes of a sensor as lines."""
     skipped = sensor.get("skipped")
-    left_out = [f"  {skipped:,} malformed messages or lines are left out"] if skipped else []
+    left_out = (
+        [f"  {skipped:,} malformed messages or lines are left out, first {sensor['first_skipped']}"] if skipped else []
+    )
     return left_out + [f"  note: {note}" for note in sensor.get("notes", [])]
 
 

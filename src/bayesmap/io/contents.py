@@ -139,8 +139,9 @@ def _reason(path: str, problem: BadInput | None) -> str:
 
 
 def _account(reading: LogReading) -> dict[str, Any]:
+    first = next((f"{skip.what} {skip.line}: {skip.reason}" for skip in reading.skipped), None)
     return {
-        "message": reading.message, "frame": reading.sensor_frame, "poses": reading.pose_source,
+        "first_skipped": first, "message": reading.message, "frame": reading.sensor_frame, "poses": reading.pose_source,
         "fixed_frame": reading.fixed_frame, "skipped": len(reading.skipped), "no_return_m": reading.no_return_m,
         "max_range_origin": reading.max_range_origin,
         "raw_odometry": reading.posed and look_like_odometry(reading.scans),
