@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import click
 
-from bayesmap.cli.command import Call, takes
+from bayesmap.cli.command import Call, command
 from bayesmap.cli.console import write_out
 from bayesmap.cli.keys import AppSettings
 from bayesmap.cli.translation import LOG, need_file, reading_of
 
 
-@takes("app")
+@command("app")
 @click.argument("file", metavar="[RUN.nc | LOG | DOCUMENT.json]", required=False)
 @click.option("--host", default="127.0.0.1", show_default=True, help="Address to listen on.")
 @click.option("--port", type=click.IntRange(0, 65535), default=0, help="Port to listen on. [default: any free one]")

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import difflib
 import inspect
+import itertools
 import json
 import math
 import tomllib
@@ -46,11 +47,11 @@ def read_file(path: str | Path) -> Layer:
         # Store the keys outside tables first: a command's own table overrides them.
         for name, value in tables.items():
             if not isinstance(value, dict):
-                _put(layer, _homes(name, SECTIONS), name, value)
+                _store(layer, _sections_with(name, SECTIONS), name, value)
         for name, value in tables.items():
             if isinstance(value, dict):
                 for key, entry in value.items():
-                    _put(layer, [_known(name, SECTIONS, "table")], key, entry)
+                    _store(layer, [_known_name(name, SECTIONS, "table")], key, entry)
     except (WrongValue, BadInput) as problem:
         raise BadInput(f"{path}: {problem}") from None
     return layer
@@ -73,10 +74,10 @@ def read_pairs(pairs: Iterable[str], section: str | None) -> Layer:
             if not equals:
                 raise WrongValue(f"{pair!r} has no '='; write key=value")
             if dot:
-                homes = [_known(table, SECTIONS, "table")]
+                sections = [_known_name(table, SECTIONS, "table")]
             else:
-                homes = _homes(key, SECTIONS if section is None else [section])
-            _put(layer, homes, key, _typed(text.strip()))
+                sections = _sections_with(key, SECTIONS if section is None else [section])
+            _store(layer, sections, key, _parsed(text.strip()))
         except WrongValue as problem:
             raise click.BadParameter(str(problem), param_hint="'--set'") from None
     return layer
@@ -106,16 +107,16 @@ def as_toml(settings: Mapping[str, Settings]) -> str:
     return "\n".join(lines)
 
 
-def _homes(key: str, sections: Iterable[str]) -> list[str]:
+def _sections_with(key: str, candidates: Iterable[str]) -> list[str]:
     """Return the sections that have a key; refuse a key that none has."""
-    names = list(sections)
-    homes = [section for section in names if key in SECTIONS[section].__struct_fields__]
-    if not homes:
-        _known(key, dict.fromkeys(name for section in names for name in SECTIONS[section].__struct_fields__), "key")
-    return homes
+    keys = {section: SECTIONS[section].__struct_fields__ for section in candidates}
+    sections = [section for section, names in keys.items() if key in names]
+    if not sections:
+        _known_name(key, dict.fromkeys(itertools.chain(*keys.values())), "key")
+    return sections
 
 
-def _known(name: str, known: Iterable[str], what: str) -> str:
+def _known_name(name: str, known: Iterable[str], what: str) -> str:
     """Return a name if it is among the known ones, or refuse it and suggest the nearest."""
     names = list(known)
     if name in names:
@@ -127,14 +128,14 @@ def _known(name: str, known: Iterable[str], what: str) -> str:
     )
 
 
-def _put(layer: dict[str, dict[str, Value]], sections: list[str], name: str, value: Any) -> None:
+def _store(layer: dict[str, dict[str, Value]], sections: list[str], name: str, value: Any) -> None:
     """Check a value, and store it in a layer for each of the sections."""
     for section in sections:
         keys = {key.name: key for key in keys_of(section)}
-        layer.setdefault(section, {})[name] = checked(keys[_known(name, keys, f"key of [{section}]")], value)
+        layer.setdefault(section, {})[name] = checked(keys[_known_name(name, keys, f"key of [{section}]")], value)
 
 
-def _typed(text: str) -> Any:
+def _parsed(text: str) -> Any:
     """Return the value that TOML reads from a text; a bare word stays a text."""
     try:
         return tomllib.loads(f"v = {text}")["v"]
@@ -172,7 +173,7 @@ COMMON = (
 
 @dataclass(frozen=True)
 class Call(Generic[S]):
-    """One call of a command with settings of the class S.
+    """One call of a command with settings of the class S."""
 
     Attributes:
         console: prints the output of the command.
@@ -193,7 +194,7 @@ class Call(Generic[S]):
         return {section: layered(section, *self.layers) for section in SECTIONS}
 
 
-def takes(section: str | None) -> Callable[[Callable[..., None]], click.Command]:
+def command(section: str | None) -> Callable[[Callable[..., None]], click.Command]:
     """Return a decorator that makes a function a command. The function takes a `Call`, and its own arguments by name.
 
     Args:
@@ -230,10 +231,10 @@ def takes(section: str | None) -> Callable[[Callable[..., None]], click.Command]
             run(Call[Any](console, section or "", layers), **arguments)
 
         # The function's own options come first in the help, then the settings, then the common options.
-        command = click.command(help=_help(run.__doc__ or ""))(callback)
-        command.params = list(getattr(run, "__click_params__", []))[::-1]
-        command.params += [_option(key) for key in keys] + list(COMMON)
-        return command
+        decorated = click.command(help=_help(run.__doc__ or ""))(callback)
+        decorated.params = list(getattr(run, "__click_params__", []))[::-1]
+        decorated.params += [_option(key) for key in keys] + list(COMMON)
+        return decorated
 
     return decorate
 

@@ -164,10 +164,10 @@ def progress(console: Console, begin: str) -> Iterator[OnProgress]:
     ``begin`` is shown before the first event.
     """
     with _bar(console, begin) as show:
-        yield lambda event: show(*STAGES[event.stage], event.done, event.total, known(event))
+        yield lambda event: show(*STAGES[event.stage], event.done, event.total, _quality(event))
 
 
-def known(event: Event) -> str:
+def _quality(event: Event) -> str:
     """Return the error of the map in words, or else the log joint; an empty text if there is neither."""
     if event.error is not None and event.error < 1.0:
         return f"map within {event.error:.3f}"

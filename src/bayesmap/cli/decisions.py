@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from bayesmap.cli.command import Call, takes
+from bayesmap.cli.command import Call, command
 from bayesmap.cli.console import share, write_out
 from bayesmap.cli.keys import ExploreSettings, PlanSettings
 from bayesmap.cli.translation import numbers_of
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from bayesmap.result import Run
 
 
-@takes("plan")
+@command("plan")
 @click.argument("run_file", metavar="RUN.nc")
 @click.option("--from", "start", metavar="X,Y", required=True, help="Start of the robot, metres in the map's frame.")
 @click.option("--to", "goal", metavar="X,Y", required=True, help="Goal of the robot, metres in the map's frame.")
@@ -104,7 +104,7 @@ def _route_document(route: Route, settings: PlanSettings) -> dict[str, Any]:
     }
 
 
-@takes("explore")
+@command("explore")
 @click.argument("run_file", metavar="RUN.nc")
 @click.option("-o", "--output", metavar="FILE", help="Picture: .png, .pdf, .svg. [default: explore.png beside RUN.nc]")
 def explore(call: Call[ExploreSettings], run_file: str, output: str | None) -> None:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from bayesmap.cli.command import Call, takes
+from bayesmap.cli.command import Call, command
 from bayesmap.cli.console import INTERRUPTED, PROBLEMS, Console, as_json, progress
 from bayesmap.cli.folder import run_document
 from bayesmap.cli.keys import DemoSettings
@@ -25,7 +25,7 @@ COLLAPSED = 10.0
 """Effective sample size below which importance sampling is reported as collapsed."""
 
 
-@takes("demo")
+@command("demo")
 @click.option("-o", "--output", metavar="DIR", default="runs/demo", help="Folder of results. [default: runs/demo]")
 @click.option("--force", is_flag=True, help="Write into DIR even if it holds a run that is no demo.")
 def demo(call: Call[DemoSettings], output: str, force: bool) -> None:

@@ -18,7 +18,7 @@ import click
 import msgspec
 
 from bayesmap.cli import pipeline
-from bayesmap.cli.command import Call, as_toml, takes
+from bayesmap.cli.command import Call, as_toml, command
 from bayesmap.cli.console import (
     FAILURE,
     INTERRUPTED,
@@ -402,7 +402,7 @@ def _threads(entry: Entry) -> int:
     return entry.ready.settings.threads or 1
 
 
-@takes("infer")
+@command("infer")
 @click.argument("logs", metavar="LOG...", nargs=-1, required=True)
 @click.option(
     "-o",
@@ -449,15 +449,15 @@ def infer(call: Call[InferSettings], logs: tuple[str, ...], output: str | None, 
     if executor is not None:
         reserve_stdout()
     # Infer the log.
-    go_on = shlex.join(["bayesmap", "infer", log, "-o", str(folder), "--resume"])
+    resume_command = shlex.join(["bayesmap", "infer", log, "-o", str(folder), "--resume"])
     try:
-        document = pipeline.infer_log(task, executor=executor, go_on=go_on)
+        document = pipeline.infer_log(task, executor=executor, resume_command=resume_command)
     except KeyboardInterrupt:  # during set-up, or a second Ctrl-C while the chains stop
         if (task.folder.begun or resume) and task.folder.run.exists():
-            call.console.say(f"the last checkpoint is kept; go on with:\n  {go_on}")
+            call.console.say(f"the last checkpoint is kept; go on with:\n  {resume_command}")
         raise
     # Print the result.
-    pipeline.end(call, document, strict=task.settings.strict)
+    pipeline.print_result(call, document, strict=task.settings.strict)
 
 
 infer.help = (infer.help or "").format(sensors=SENSOR_HELP)

@@ -10,7 +10,7 @@ from typing import Any
 import click
 import msgspec
 
-from bayesmap.cli.command import Call, as_toml, takes
+from bayesmap.cli.command import Call, as_toml, command
 from bayesmap.cli.console import counted, write_out
 from bayesmap.cli.keys import Settings, Value
 from bayesmap.cli.translation import LOG, need_file
@@ -18,7 +18,7 @@ from bayesmap.errors import BadInput
 from bayesmap.version import __version__
 
 
-@takes(None)
+@command(None)
 @click.argument("file")
 def info(call: Call[Settings], file: str) -> None:
     r"""Describe FILE: a log, a robot's recording (a file or a folder), or a saved run.
@@ -178,7 +178,7 @@ def _rest(sensor: dict[str, Any]) -> list[str]:
     return left_out + [f"  note: {note}" for note in sensor.get("notes", [])]
 
 
-@takes(None)
+@command(None)
 def config(call: Call[Settings]) -> None:
     r"""Print the effective settings as TOML, ready for -c.
 

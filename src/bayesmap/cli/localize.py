@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from bayesmap.cli.command import Call, takes
+from bayesmap.cli.command import Call, command
 from bayesmap.cli.console import INTERRUPTED, Console, share, write_out
 from bayesmap.cli.keys import LocalizeSettings
 from bayesmap.cli.translation import is_map, need_file, need_free, numbers_of, reading_of
@@ -36,7 +36,7 @@ RECORDED = ("scan_topic", "pose_topic", "fixed_frame")
 """Settings that only recordings have."""
 
 
-@takes("localize")
+@command("localize")
 @click.argument("run_file", metavar="RUN.nc|MAP.yaml")
 @click.argument("log")
 @click.option("-o", "--output", metavar="FILE", help=f"Trajectory: {', '.join(ENDINGS)}.")

@@ -65,7 +65,7 @@ def infer_log(
     *,
     reading: LogReading | None = None,
     executor: Executor | None = None,
-    go_on: str | None = None,
+    resume_command: str | None = None,
     on_saved: Callable[[], None] = lambda: None,
     on_event: Callable[[Event], None] = lambda event: None,
 ) -> dict[str, Any]:
@@ -75,7 +75,7 @@ def infer_log(
         task: the log, its folder and settings.
         reading: the log, if it has been read already.
         executor: object that runs the chains; None: this process.
-        go_on: the command that resumes the run, printed after Ctrl-C.
+        resume_command: the command that resumes the run, printed after Ctrl-C.
         on_saved: called after each checkpoint.
         on_event: called with the progress of the run, like the progress bar.
 
@@ -91,12 +91,12 @@ def infer_log(
     # Split off the scans that are held out.
     train, heldout = reading.scans.holdout(every) if every else (reading.scans, None)
     # Load the run to resume.
-    saved = taken_up(folder) if folder.resuming else None
+    saved = load_interrupted(folder) if folder.resuming else None
     # Sample the posterior, with checkpoints.
     run = sample(task, reading.scans, train, saved, executor, on_saved, on_event)
     # After Ctrl-C: leave the folder so that the run can go on.
     if not run.finished:
-        return leave(folder, run, reading, go_on)
+        return keep_interrupted(folder, run, reading, resume_command)
     # Finish: save the run, draw it, export it, score it.
     document = finish(folder, run, reading, heldout, every)
     # Report.
@@ -122,7 +122,7 @@ def settings_in(config: Path, section: str) -> Layer:
     return {k: v for k, v in read_file(config).items() if k == section} if config.exists() else {}
 
 
-def taken_up(folder: Folder) -> Run | None:
+def load_interrupted(folder: Folder) -> Run | None:
     """Load the run to resume; None if it was stopped before its first checkpoint."""
     from bayesmap.result import load
 
@@ -276,8 +276,8 @@ def report(console: Console, document: dict[str, Any]) -> None:
         console.warn(problem)
 
 
-def leave(
-    folder: Folder, run: Run, reading: LogReading, go_on: str | None, known: Sequence[Path] = ()
+def keep_interrupted(
+    folder: Folder, run: Run, reading: LogReading, resume_command: str | None, known: Sequence[Path] = ()
 ) -> dict[str, Any]:
     """Save an interrupted run and its map so far, print how to resume it, and return the JSON document.
 
@@ -288,21 +288,21 @@ def leave(
     if run.posterior.sweep > 0:
         kept = folder.write_products(run)
         done = counted(run.posterior.sweep, "sweep")
-        said = f"interrupted after {done}, saved in {folder.run}; go on with:\n  {go_on}"
+        said = f"interrupted after {done}, saved in {folder.run}; go on with:\n  {resume_command}"
     elif folder.resuming and folder.run.exists():
-        said = f"interrupted before the first sweep; {folder.run} is as it was; go on with:\n  {go_on}"
+        said = f"interrupted before the first sweep; {folder.run} is as it was; go on with:\n  {resume_command}"
     elif folder.run.exists() and not folder.begun:
         said = f"interrupted before there was anything to save; {folder.run} is as it was"
     elif known:
-        said = f"interrupted before the first sweep; {known[0]} is complete; go on with:\n  {go_on}"
+        said = f"interrupted before the first sweep; {known[0]} is complete; go on with:\n  {resume_command}"
     else:
-        said = f"interrupted before there was anything to save; start again with:\n  {go_on}"
-    if go_on is not None:
+        said = f"interrupted before there was anything to save; start again with:\n  {resume_command}"
+    if resume_command is not None:
         folder.console.say(said)
     return document_of(run, reading, None, kept)
 
 
-def end(call: Call[Any], document: dict[str, Any], *, strict: bool) -> None:
+def print_result(call: Call[Any], document: dict[str, Any], *, strict: bool) -> None:
     """Print the result. Exit with 130 if the run was interrupted, or with 4 if it is strict and has problems."""
     call.console.result(document, document["outputs"].values())
     if not document["finished"]:

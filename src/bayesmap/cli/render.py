@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from bayesmap.cli.command import Call, takes
+from bayesmap.cli.command import Call, command
 from bayesmap.cli.console import share
 from bayesmap.cli.keys import ExportSettings, RenderSettings
 from bayesmap.cli.translation import heldout_scans, need_free
@@ -36,7 +36,7 @@ WHOLE = ("figure", "animation", "trace", "weights")
 """Pictures that always show the whole map."""
 
 
-@takes("render")
+@command("render")
 @click.argument("run_file", metavar="RUN.nc")
 @click.option("-o", "--output", metavar="FILE", help=".png, .pdf, .svg; .gif, .webp. [default: beside RUN.nc]")
 @click.option("--truth", metavar="MAP.yaml", help="Outline the true walls of this map_server map.")
@@ -230,7 +230,7 @@ def log_odds_map(run: Run) -> tuple[NDArray[np.float64], Walls]:
     return log_odds_as_usual(hits.astype(float), passes.astype(float), {}), hits + passes > 0
 
 
-@takes("export")
+@command("export")
 @click.argument("run_file", metavar="RUN.nc")
 @click.option("-o", "--output", metavar="FILE", help="Its ending chooses the format. [default: map.yaml beside RUN.nc]")
 @click.option("--force", is_flag=True, help="Replace an existing file, or the folder of a bag.")

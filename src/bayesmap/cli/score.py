@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from bayesmap.cli.command import Call, takes
+from bayesmap.cli.command import Call, command
 from bayesmap.cli.console import write_out
 from bayesmap.cli.keys import ScoreSettings
 from bayesmap.cli.scores import Scored, base_in_laser, mount_of, score_others, score_run
@@ -25,7 +25,7 @@ FRAMES = ("base", "laser")
 HEADINGS = ("map", "nats/beam", "50 %", "80 %", "95 %", "80 % width", "PIT", "Brier", "log loss")
 
 
-@takes("score")
+@command("score")
 @click.argument("run_file", metavar="RUN.nc|MAP.yaml|LOG")
 @click.argument("log", required=False)
 @click.option("--all", "whole", is_flag=True, help="Score all scans of LOG, another recording of the same place.")

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from bayesmap.cli.command import Call, takes
+from bayesmap.cli.command import Call, command
 from bayesmap.cli.keys import SimulateSettings
 from bayesmap.cli.translation import MAPS, ODOMETRY_HELP, SENSOR_HELP, is_map, odometry_of, pose_of, sensor_of
 from bayesmap.errors import BadInput
@@ -31,7 +31,7 @@ RARE = 1e-5
 IMAGES = (".png", ".pgm", ".ppm", ".pbm", ".jpg", ".jpeg", ".bmp", ".gif", ".tif", ".tiff", ".webp")
 
 
-@takes("simulate")
+@command("simulate")
 @click.option("-o", "--output", metavar="LOG", help="The log, .log or .log.gz. [default: WORLD.log]")
 @click.option("--pose", "poses", metavar="X,Y,DEGREES", multiple=True, help="Take a scan from here; may be repeated.")
 @click.option("--force", is_flag=True, help="Replace existing files.")

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from bayesmap.cli import pipeline, translation
-from bayesmap.cli.command import Call, as_toml, takes
+from bayesmap.cli.command import Call, as_toml, command
 from bayesmap.cli.console import Console, progress
 from bayesmap.cli.folder import Folder
 from bayesmap.cli.keys import SlamSettings
@@ -34,7 +34,7 @@ ALTERNATIVES_SHOWN = 5
 """Number of alternatives to the trajectory that are described."""
 
 
-@takes("slam")
+@command("slam")
 @click.argument("log")
 @click.option("-o", "--output", metavar="DIR", help="Folder of the run. [default: runs/NAME-OF-LOG]")
 @click.option("--resume", is_flag=True, help="Resume the run in DIR, bit for bit as if it had never stopped.")
@@ -65,12 +65,12 @@ def slam(call: Call[SlamSettings], log: str, output: str | None, resume: bool, f
     # Check what was typed.
     folder = Path(output) if output else Path("runs") / pipeline.stem(log)
     task = pipeline.prepare(call, log, folder, resume=resume, force=force)
-    go_on = shlex.join(["bayesmap", "slam", log, "-o", str(folder), "--resume"])
+    resume_command = shlex.join(["bayesmap", "slam", log, "-o", str(folder), "--resume"])
     # Read the log.
     reading = pipeline.read(call.console, log, task.settings, without_poses=task.settings.no_odometry)
     _check(call.console, reading, task.settings)
     # Load the run to resume.
-    saved = pipeline.taken_up(task.folder) if task.folder.resuming else None
+    saved = pipeline.load_interrupted(task.folder) if task.folder.resuming else None
     if force:
         shutil.rmtree(_stages(task.folder), ignore_errors=True)
     files = TrajectoryFiles(task.folder, reading, task.settings.resolution)
@@ -79,17 +79,17 @@ def slam(call: Call[SlamSettings], log: str, output: str | None, resume: bool, f
         run = _slam(task, reading, saved, files)
         # After Ctrl-C: leave the folder so that the run can go on.
         if not run.finished:
-            document = pipeline.leave(task.folder, run, reading, go_on, files.written)
+            document = pipeline.keep_interrupted(task.folder, run, reading, resume_command, files.written)
             files.write()  # if an older run has just been replaced
             if run.n_draws > 0:
                 files.draw(run)
             document["outputs"] |= {path.name: str(path) for path in files.written}
-            pipeline.end(call, document, strict=task.settings.strict)
+            pipeline.print_result(call, document, strict=task.settings.strict)
         # Finish: save the run, draw it, export it.
         outputs = [*task.folder.write_products(run), *files.finish(run)]
     except KeyboardInterrupt:
         if task.folder.begun or resume:
-            call.console.say(f"the stages that are done are kept; go on with:\n  {go_on}")
+            call.console.say(f"the stages that are done are kept; go on with:\n  {resume_command}")
         raise
     outputs += [folder / "summary.json", task.folder.config]
     document = {**pipeline.document_of(run, reading, None, outputs), "trajectory": summary(run)}
@@ -97,7 +97,7 @@ def slam(call: Call[SlamSettings], log: str, output: str | None, resume: bool, f
     # Report.
     pipeline.report(call.console, document)
     _report(call, document["trajectory"])
-    pipeline.end(call, document, strict=task.settings.strict)
+    pipeline.print_result(call, document, strict=task.settings.strict)
 
 
 def _stages(folder: Folder) -> Path:
