@@ -39,17 +39,11 @@ POSES = ArraySpec("poses", ("scan", "pose"), "float64", what="x, y in metres and
 
 @dataclass(frozen=True, eq=False)
 class State:
-    """One draw of all unknowns.
+    """One draw of all unknowns."""
 
-    Attributes:
-        cells: the arrays of the kind of cells, each over the whole grid.
-        sensor: the law of the readings.
-        poses: poses of the scans in the world frame, (S, 3).
-    """
-
-    cells: Cells
-    sensor: SensorModel
-    poses: Floats
+    cells: Cells  # the arrays of the kind of cells, each over the whole grid
+    sensor: SensorModel  # the law of the readings
+    poses: Floats  # poses of the scans in the world frame, (S, 3)
 
 
 @dataclass(frozen=True, eq=False)

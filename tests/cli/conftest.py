@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from shell import call
+from shell import succeed
 
 from bayesmap.io.logs import read_log
 
@@ -17,8 +17,7 @@ def office(tmp_path_factory):
     """A log of 12 scans in a small building; its truth lies beside it."""
     log = tmp_path_factory.mktemp("office") / "office.log"
     size = "--size 12x8 --resolution 0.25 --scans 12 --angles 60 --max-range 12"
-    result = call("simulate", "--world building", size, "-o", log, "--set fov=180")
-    assert result.exit_code == 0, result.stderr
+    succeed("simulate", "--world building", size, "-o", log, "--set fov=180")
     return log
 
 
@@ -33,8 +32,7 @@ def prior(office):
 def office_run(office, tmp_path_factory):
     """That log, inferred."""
     folder = tmp_path_factory.mktemp("run") / "office"
-    result = call("infer", office, "-o", folder, *SHORT)
-    assert result.exit_code == 0, result.stderr
+    succeed("infer", office, "-o", folder, *SHORT)
     return folder
 
 

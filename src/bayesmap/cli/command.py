@@ -175,15 +175,9 @@ COMMON = (
 class Call(Generic[S]):
     """One call of a command with settings of the class S."""
 
-    Attributes:
-        console: prints the output of the command.
-        section: the command's table of settings; "" if it has none.
-        layers: settings of the user: from the file, from ``--set``, from flags.
-    """
-
-    console: Console
-    section: str
-    layers: tuple[Layer, ...]
+    console: Console  # prints the output of the command
+    section: str  # the command's table of settings; "" if it has none
+    layers: tuple[Layer, ...]  # settings of the user: from the file, from ``--set``, from flags
 
     def settings(self, under: Layer | None = None) -> S:
         """Return the command's settings; ``under`` overrides the defaults, and the user's settings override it."""

@@ -31,19 +31,12 @@ SCHEMA_VERSION = 1
 
 @dataclass(frozen=True)
 class Console:
-    """The output of one call, and how much it prints.
+    """The output of one call, and how much it prints."""
 
-    Attributes:
-        quiet: print only errors and warnings.
-        verbose: print details too.
-        as_json: print one JSON document on standard output.
-        bar: allow a progress bar.
-    """
-
-    quiet: bool = False
-    verbose: bool = False
-    as_json: bool = False
-    bar: bool = True
+    quiet: bool = False  # print only errors and warnings
+    verbose: bool = False  # print details too
+    as_json: bool = False  # print one JSON document on standard output
+    bar: bool = True  # allow a progress bar
 
     def say(self, text: str) -> None:
         """Write a line of progress or advice, unless the call is quiet."""

@@ -90,18 +90,12 @@ class Folder:
     """The folder into which `infer` writes. Nothing in it changes before `begin`, when the run has really started.
 
     An older run that is to be replaced stays until the first `save` of the new run.
-
-    Attributes:
-        path: the folder.
-        console: prints details and warnings.
-        resuming: whether to resume the run in the folder; False if that run is outdated.
-        begun: whether `begin` has been called.
     """
 
-    path: Path
-    console: Console
-    resuming: bool = False
-    begun: bool = field(default=False, init=False)
+    path: Path  # the folder
+    console: Console  # prints details and warnings
+    resuming: bool = False  # whether to resume the run in the folder; False if that run is outdated
+    begun: bool = field(default=False, init=False)  # whether `begin` has been called
     _toml: str = field(default="", init=False)
     _previewed: bool = field(default=False, init=False)
 

@@ -51,25 +51,15 @@ SHOWN = 3
 
 @dataclass
 class Entry:
-    """One log of a fleet, and its progress.
+    """One log of a fleet, and its progress."""
 
-    Attributes:
-        log: path of the log, as typed.
-        path: folder of its run.
-        task: the log with its settings; None until these are checked.
-        document: JSON document of the finished run.
-        error: reason why there is no run.
-        event: latest progress of its worker.
-        deaths: number of workers that died with this log.
-    """
-
-    log: str
-    path: Path
-    task: Task[InferSettings] | None = None
-    document: dict[str, Any] | None = None
-    error: str | None = None
-    event: Event | None = None
-    deaths: int = 0
+    log: str  # path of the log, as typed
+    path: Path  # folder of its run
+    task: Task[InferSettings] | None = None  # the log with its settings; None until these are checked
+    document: dict[str, Any] | None = None  # JSON document of the finished run
+    error: str | None = None  # reason why there is no run
+    event: Event | None = None  # latest progress of its worker
+    deaths: int = 0  # number of workers that died with this log
 
     @property
     def ready(self) -> Task[InferSettings]:
@@ -198,17 +188,11 @@ def table(entries: list[Entry]) -> Iterator[str]:
 
 @dataclass(frozen=True, eq=False)
 class Sent:
-    """A message from a worker.
+    """A message from a worker."""
 
-    Attributes:
-        files: contents of the files in the run's folder, by name.
-        document: JSON document of the finished run; None before.
-        event: progress of the run.
-    """
-
-    files: dict[str, bytes] = field(default_factory=dict)
-    document: dict[str, Any] | None = None
-    event: Event | None = None
+    files: dict[str, bytes] = field(default_factory=dict)  # contents of the files in the run's folder, by name
+    document: dict[str, Any] | None = None  # JSON document of the finished run; None before
+    event: Event | None = None  # progress of the run
 
 
 class Mailbox:

@@ -24,30 +24,19 @@ MOST = 10**9
 
 @dataclass(frozen=True)
 class Rule:
-    """A condition on a value, beyond its type.
+    """A condition on a value, beyond its type."""
 
-    Attributes:
-        holds: returns whether a value satisfies the rule.
-        words: end of the error message "must be ...".
-    """
-
-    holds: Callable[[Any], bool]
-    words: str
+    holds: Callable[[Any], bool]  # returns whether a value satisfies the rule
+    words: str  # end of the error message "must be ..."
 
 
 @dataclass(frozen=True)
 class Help:
-    """The help text of a setting.
+    """The help text of a setting."""
 
-    Attributes:
-        text: one sentence.
-        unset: the value, or the behaviour, if the setting has no value.
-        metavar: placeholder of the value in the help, such as METRES.
-    """
-
-    text: str
-    unset: str = ""
-    metavar: str | None = None
+    text: str  # one sentence
+    unset: str = ""  # the value, or the behaviour, if the setting has no value
+    metavar: str | None = None  # placeholder of the value in the help, such as METRES
 
 
 Count = Annotated[int, Rule(lambda n: n >= 1, "a whole number of 1 or more")]
@@ -328,25 +317,15 @@ SECTIONS: Mapping[str, type[Settings]] = {
 
 @dataclass(frozen=True)
 class Key:
-    """One setting, as its class declares it.
+    """One setting, as its class declares it."""
 
-    Attributes:
-        name: name in TOML and for ``--set``; the flag has dashes instead of underscores.
-        annotation: the type, with its rules and help.
-        kind: bool, int, float or str; float also if the value is a number or the word in ``choices``.
-        choices: words that the value may be; empty if any value of this kind is allowed.
-        default: value if the user sets none; None has the meaning of ``help.unset``.
-        help: the help text.
-        rule: condition on the value, if there is one.
-    """
-
-    name: str
-    annotation: Any
-    kind: type
-    choices: tuple[str, ...]
-    default: Value
+    name: str  # name in TOML and for ``--set``; the flag has dashes instead of underscores
+    annotation: Any  # the type, with its rules and help
+    kind: type  # bool, int, float or str; float also if the value is a number or the word in ``choices``
+    choices: tuple[str, ...]  # words that the value may be; empty if any value of this kind is allowed
+    default: Value  # value if the user sets none; None has the meaning of ``help.unset``
     help: Help
-    rule: Rule | None
+    rule: Rule | None  # condition on the value, if there is one
 
     @property
     def flag(self) -> str:

@@ -123,21 +123,14 @@ def localize(
 
 @dataclass(frozen=True, eq=False)
 class _Question:
-    """The scans of a log that are to be located in a map.
-
-    Attributes:
-        call, log, map: the call of the command, the path of the log, and the map.
-        span: scans to locate, as FIRST:LAST; None for all.
-        near: prior of the first pose; None if it may be anywhere.
-        independent: locate each scan by itself.
-    """
+    """The scans of a log that are to be located in a map."""
 
     call: Call[LocalizeSettings]
     log: str
     map: _Map
-    span: str | None
-    near: Near | None
-    independent: bool
+    span: str | None  # scans to locate, as FIRST:LAST; None for all
+    near: Near | None  # prior of the first pose; None if it may be anywhere
+    independent: bool  # locate each scan by itself
 
     @property
     def options(self) -> dict[str, Any]:

@@ -31,17 +31,11 @@ S = TypeVar("S", bound=SamplingSettings)
 
 @dataclass(frozen=True, eq=False)
 class Task(Generic[S]):
-    """One log that is to be inferred.
+    """One log that is to be inferred."""
 
-    Attributes:
-        log: path of the log, as typed.
-        folder: folder of its run.
-        settings: settings of the command.
-    """
-
-    log: str
-    folder: Folder
-    settings: S
+    log: str  # path of the log, as typed
+    folder: Folder  # folder of its run
+    settings: S  # settings of the command
 
 
 def prepare(call: Call[S], log: str, path: Path, *, resume: bool, force: bool, begun: Layer | None = None) -> Task[S]:

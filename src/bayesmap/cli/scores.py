@@ -36,21 +36,13 @@ that meet something before a wall at the last distance."""
 
 @dataclass(frozen=True, eq=False)
 class Scored:
-    """The scores that were computed.
+    """The scores that were computed."""
 
-    Attributes:
-        rows: name and score of each row of the table; the first row is the scored map.
-        fits: fits of the classic maps in the other rows.
-        every: one scan in so many was held out; 0 if none was.
-        trajectory: trajectory of the laser.
-        verdict: verdict on the map of another program, in words.
-    """
-
-    rows: list[tuple[str, Score]]
-    fits: list[Fitted]
-    every: int
-    trajectory: Trajectory
-    verdict: str | None = None
+    rows: list[tuple[str, Score]]  # name and score of each row of the table; the first row is the scored map
+    fits: list[Fitted]  # fits of the classic maps in the other rows
+    every: int  # one scan in so many was held out; 0 if none was
+    trajectory: Trajectory  # trajectory of the laser
+    verdict: str | None = None  # verdict on the map of another program, in words
 
 
 def score_run(
@@ -165,16 +157,11 @@ def _score_classic_maps(
 
 @dataclass(frozen=True, eq=False)
 class Placed:
-    """A log's scans at the poses that are scored.
+    """A log's scans at the poses that are scored."""
 
-    Attributes:
-        train, heldout: all scans but every n-th, and every n-th scan.
-        trajectory: trajectory of the laser.
-    """
-
-    train: Scans
+    train: Scans  # train, heldout: all scans but every n-th, and every n-th scan
     heldout: Scans
-    trajectory: Trajectory
+    trajectory: Trajectory  # trajectory of the laser
 
 
 def placed_scans(log: str, settings: ScoreSettings, trajectory: str | None, mount: Floats | None) -> Placed:

@@ -230,19 +230,12 @@ BASELINES = (
 
 @dataclass(frozen=True, eq=False)
 class Fitted:
-    """A baseline ready to predict.
-
-    Attributes:
-        name: name of the baseline.
-        predictor: predictor with the map from all training scans, the sensor and the hit depth.
-        values: all fitted numbers.
-        inner_nats_per_beam: score on the inner hold-out.
-    """
+    """A baseline ready to predict."""
 
     name: str
-    predictor: Predictor
-    values: Values
-    inner_nats_per_beam: float
+    predictor: Predictor  # predictor with the map from all training scans, the sensor and the hit depth
+    values: Values  # all fitted numbers
+    inner_nats_per_beam: float  # score on the inner hold-out
 
 
 def inner_score(held_out: HeldOut, baseline: Baseline, dof: float | None, values: Values) -> float:

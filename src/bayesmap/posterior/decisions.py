@@ -153,19 +153,12 @@ def typical_sigma_m(sensor: SensorModel, max_range_m: float) -> float:
 
 @dataclass(frozen=True, eq=False)
 class Views:
-    """The poses from which to look next.
+    """The poses from which to look next."""
 
-    Attributes:
-        candidates: poses that were considered, (P, 3).
-        independent: expected information of each by the formula for independent cells and beams, nats, (P,).
-        best: numbers of the best candidates by the upper bound from joint draws, the best first, (V,).
-        information: expected information of the best candidates, (V,).
-    """
-
-    candidates: Floats
-    independent: Floats
-    best: NDArray[np.intp]
-    information: Information
+    candidates: Floats  # poses that were considered, (P, 3)
+    independent: Floats  # expected information of each by the formula for independent cells and beams, nats, (P,)
+    best: NDArray[np.intp]  # numbers of the best candidates by the upper bound from joint draws, the best first, (V,)
+    information: Information  # expected information of the best candidates, (V,)
 
 
 def next_views(

@@ -73,20 +73,12 @@ class Batches(Protocol):
 
 @dataclass(frozen=True, eq=False)
 class Predictor:
-    """A map, certain or not, and its prediction of readings.
-
-    Attributes:
-        grid: where the cells are.
-        batches: gives the draws.
-        sensor: the law of a reading given where its beam stops.
-        hit_depth: where in a plain cell a beam stops, as a fraction of its chord.
-        draws: how many there are.
-    """
+    """A map, certain or not, and its prediction of readings."""
 
     grid: Grid
-    batches: Batches
-    sensor: SensorModel
-    hit_depth: float
+    batches: Batches  # yields the draws
+    sensor: SensorModel  # the law of a reading given where its beam stops
+    hit_depth: float  # where in a plain cell a beam stops, as a fraction of its chord
     draws: int = 1
 
 
@@ -130,19 +122,12 @@ GONE = 1e-3
 
 @dataclass(frozen=True, eq=False)
 class ScanPredictor:
-    """Draws of a map that are ready to predict scans.
-
-    Attributes:
-        grid: where the cells are.
-        held: the draws.
-        sensor: the law of a reading given where its beam stops.
-        limits: the sensor's span.
-    """
+    """Draws of a map that are ready to predict scans."""
 
     grid: Grid
-    held: DeviceMaps
-    sensor: SensorModel
-    limits: RangeLimits
+    held: DeviceMaps  # the draws
+    sensor: SensorModel  # the law of a reading given where its beam stops
+    limits: RangeLimits  # the sensor's span
 
     @classmethod
     def of(cls, predictor: Predictor, limits: RangeLimits, device: str = "cpu") -> ScanPredictor:
@@ -198,19 +183,12 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True, eq=False)
 class Residuals:
-    """Readings of the n beams that hit something or had no return, against their predictive laws.
+    """Readings of the n beams that hit something or had no return, against their predictive laws."""
 
-    Attributes:
-        ends_world: where a hit beam ended; for one without return, where its median was predicted, metres, (n, 2).
-        residual_m: reading minus predicted median, metres; no return counts as the sensor's largest range, (n,).
-        surprise_nats: minus the log predictive density of the reading, (n,).
-        beams: which of the scans' beams these are, flat, (n,).
-    """
-
-    ends_world: Floats
-    residual_m: Floats
-    surprise_nats: Floats
-    beams: NDArray[np.intp]
+    ends_world: Floats  # where a hit beam ended; for one without return, where its median was predicted, metres, (n, 2)
+    residual_m: Floats  # reading minus predicted median, metres; no return counts as the sensor's largest range, (n,)
+    surprise_nats: Floats  # minus the log predictive density of the reading, (n,)
+    beams: NDArray[np.intp]  # which of the scans' beams these are, flat, (n,)
 
 
 def residuals_of(predictor: Predictor, scans: Scans, device: str = "cpu", on_progress: OnShare = ignored) -> Residuals:
@@ -264,20 +242,13 @@ def compare(scans: Scans, median_m: Floats, log_density: Floats) -> Residuals:
 
 @dataclass(frozen=True)
 class SurfaceOffset:
-    """A point in the frame of a surface, whose normal is the direction of its least extent, towards the sensor.
+    """A point in the frame of a surface, whose normal is the direction of its least extent, towards the sensor."""
 
-    Attributes:
-        across_m: along the normal from the surface's mean: positive in front of it, negative behind.
-        along_m: along the wall from the mean: positive to the left as the sensor sees it.
-        thickness_m, length_m: standard deviations of the surface across and along.
-        incidence_rad: angle at the surface's mean between the normal and the sensor, in [0, pi / 2].
-    """
-
-    across_m: float
-    along_m: float
-    thickness_m: float
-    length_m: float
-    incidence_rad: float
+    across_m: float  # along the normal from the surface's mean: positive in front of it, negative behind
+    along_m: float  # along the wall from the mean: positive to the left as the sensor sees it
+    thickness_m: float  # standard deviation of the surface across
+    length_m: float  # and along
+    incidence_rad: float  # angle at the surface's mean between the normal and the sensor, in [0, pi / 2]
 
 
 def surface_offset(mean: Floats, covariance: Floats, point: Floats, sensor: Floats) -> SurfaceOffset:

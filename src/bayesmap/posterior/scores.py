@@ -80,15 +80,10 @@ class Estimate:
 
 @dataclass(frozen=True, eq=False)
 class ScanBlocks:
-    """Items in blocks, and bootstrap replicates of the blocks.
+    """Items in blocks, and bootstrap replicates of the blocks."""
 
-    Attributes:
-        block: block of each item, in [0, S), (n,).
-        weights: number of times that each replicate draws each block, (R, S).
-    """
-
-    block: NDArray[np.intp]
-    weights: Floats
+    block: NDArray[np.intp]  # block of each item, in [0, S), (n,)
+    weights: Floats  # number of times that each replicate draws each block, (R, S)
 
     @classmethod
     def make(cls, block: NDArray[np.intp], seed: int = 0, replicates: int = REPLICATES) -> ScanBlocks:

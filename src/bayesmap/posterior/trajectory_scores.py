@@ -39,16 +39,11 @@ LONGEST_GAP_S = 0.3
 
 @dataclass(frozen=True, eq=False)
 class Relations:
-    """True relative poses between N pairs of times.
+    """True relative poses between N pairs of times."""
 
-    Attributes:
-        first_s, second_s: stamps in seconds, (N,).
-        relative: pose at the second time in the frame at the first, (N, 3).
-    """
-
-    first_s: Floats
+    first_s: Floats  # stamps, (N,)
     second_s: Floats
-    relative: Floats
+    relative: Floats  # pose at the second time in the frame at the first, (N, 3)
 
     def __len__(self) -> int:
         return len(self.first_s)
@@ -60,17 +55,11 @@ class Relations:
 
 @dataclass(frozen=True, eq=False)
 class RelationErrors:
-    """Errors of a trajectory.
+    """Errors of a trajectory."""
 
-    Attributes:
-        errors: (x, y, yaw) of each relation that the trajectory covers, (M, 3).
-        covered: which relations those are, (N,).
-        in_gap: relations within the trajectory's time that lack poses near them, (N,).
-    """
-
-    errors: Floats
-    covered: NDArray[np.bool_]
-    in_gap: NDArray[np.bool_]
+    errors: Floats  # (x, y, yaw) of each relation that the trajectory covers, (M, 3)
+    covered: NDArray[np.bool_]  # which relations those are, (N,)
+    in_gap: NDArray[np.bool_]  # relations within the trajectory's time that lack poses near them, (N,)
 
     @property
     def translation_m(self) -> Floats:
