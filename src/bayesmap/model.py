@@ -48,23 +48,14 @@ class State:
 
 @dataclass(frozen=True, eq=False)
 class Model:
-    """The data of an inference, its unknowns and their priors.
+    """The data of an inference, its unknowns and their priors."""
 
-    Attributes:
-        scans: readings of the sensor, with the poses of the log.
-        grid: the map's cells.
-        cells: the kind of cells, with its prior.
-        sensor: the law of the readings; if the sensor is fitted, the law that the fit starts from.
-        poses: the prior of the scans' poses.
-        hit_depth: point where a beam stops in a cell without a surface, as a fraction of its path in the cell.
-    """
-
-    scans: Scans
+    scans: Scans  # readings of the sensor, with the poses of the log
     grid: Grid
-    cells: CellPrior
-    sensor: SensorModel
-    poses: PosePrior = field(default_factory=Known)
-    hit_depth: float = 0.0
+    cells: CellPrior  # the kind of cells, with its prior
+    sensor: SensorModel  # the law of the readings; if it is fitted, the law that the fit starts from
+    poses: PosePrior = field(default_factory=Known)  # the prior of the scans' poses
+    hit_depth: float = 0.0  # where a beam stops in a cell without a surface, as a fraction of its path in the cell
 
     @property
     def arrays(self) -> tuple[ArraySpec, ...]:

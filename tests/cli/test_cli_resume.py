@@ -260,13 +260,8 @@ def test_resumed_from_a_file_without_a_sweep_there_is_still_that_file(office, tm
     options = ("--cells binary --start prior", *short)
     scans = bm.read_log(office)
     grid = bm.Grid.covering(scans, 0.25)
-    empty = bm.infer(
-        scans,
-        grid,
-        prior=bm.Independent(0.2),
-        sensor=bm.Gaussian(0.1),
-        schedule=bm.Schedule(chains=2, warmup=5, draws=8),
-    )
+    schedule = bm.Schedule(chains=2, warmup=5, draws=8)
+    empty = bm.infer(scans, grid, prior=bm.Independent(0.2), sensor=bm.Gaussian(0.1), schedule=schedule)
     folder.mkdir()
     empty.save(folder / "run.nc")
     options = (*options, "--sensor", "gaussian:0.1", "--hit-depth", "0")

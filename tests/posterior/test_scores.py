@@ -162,9 +162,8 @@ def test_three_beams_by_hand():
     z = np.array([1.05, 2.4, np.inf])
     scans = bm.Scans(np.tile([-1.0, 0.5, 0.0], (3, 1)), [0.0], z[:, None], max_range_m=4.0)
     told = []
-    found = score_prediction(
-        Predictor(GRID, fixed_maps(np.array([[0.3, 0.5]])), SENSOR, 0.0), scans, on_progress=told.append
-    )
+    predictor = Predictor(GRID, fixed_maps(np.array([[0.3, 0.5]])), SENSOR, 0.0)
+    found = score_prediction(predictor, scans, on_progress=told.append)
     assert told == sorted(told)
     assert told[-1] == pytest.approx(1.0)
     p_none = 1.0 - below(4.0)

@@ -191,8 +191,7 @@ class Call(Generic[S]):
 def command(section: str | None) -> Callable[[Callable[..., None]], click.Command]:
     """Return a decorator that makes a function a command. The function takes a `Call`, and its own arguments by name.
 
-    Args:
-        section: table of the settings that become flags; None for a command without settings.
+    ``section`` is the table of the settings that become flags; None for a command without settings.
     """
 
     def decorate(run: Callable[..., None]) -> click.Command:

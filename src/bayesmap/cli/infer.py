@@ -89,12 +89,7 @@ class Entry:
 def infer_fleet(call: Call[InferSettings], logs: list[str], output: Path, *, resume: bool, force: bool) -> None:
     """Infer each log into its own folder, and print a table. Exit with code 1 if a log failed.
 
-    Args:
-        call: the call of the command.
-        logs: the logs: two or more, or those of a folder or a pattern.
-        output: parent of the runs' folders.
-        resume: resume the existing runs.
-        force: replace the existing runs.
+    ``output`` is the parent of the folders of the runs.
 
     Raises:
         BadInput: two logs of one name, or a cluster that cannot be reached.

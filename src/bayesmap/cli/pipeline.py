@@ -65,16 +65,8 @@ def infer_log(
 ) -> dict[str, Any]:
     """Infer one log into its folder, print a report, and return the JSON document.
 
-    Args:
-        task: the log, its folder and settings.
-        reading: the log, if it has been read already.
-        executor: object that runs the chains; None: this process.
-        resume_command: the command that resumes the run, printed after Ctrl-C.
-        on_saved: called after each checkpoint.
-        on_event: called with the progress of the run, like the progress bar.
-
-    Returns:
-        The JSON document of the run. After Ctrl-C its "finished" is false.
+    After Ctrl-C it prints ``resume_command``, and "finished" in the document is false. ``reading`` is the log if it has
+    been read already, ``executor`` runs the chains (None: this process), ``on_saved`` is called after each checkpoint.
     """
     folder, every = task.folder, task.settings.holdout
     # Read the log.

@@ -89,13 +89,8 @@ def score_others(
 ) -> Scored:
     """Score a map of another program, or a trajectory (a TUM file) by a map inferred from it.
 
-    Args:
-        call: the call of the command.
-        path: path of the map, or of the log.
-        log: log with the scans that score a map.
-        trajectory: file with the poses of the scans; None for the log's own poses.
-        mount: pose of the laser in the trajectory's frame, (3,); None if that is the laser's frame.
-        compare: score classic maps too.
+    ``log`` has the scans that score a map, ``trajectory`` the poses of the scans (None: the log has them). ``mount`` is
+    the pose of the laser in the trajectory's frame, (3,); None if that is the laser's frame.
     """
     from bayesmap.result import score
 
@@ -159,8 +154,8 @@ def _score_classic_maps(
 class Placed:
     """A log's scans at the poses that are scored."""
 
-    train: Scans  # train, heldout: all scans but every n-th, and every n-th scan
-    heldout: Scans
+    train: Scans  # all scans but every n-th
+    heldout: Scans  # every n-th scan
     trajectory: Trajectory  # trajectory of the laser
 
 

@@ -156,22 +156,13 @@ def _write_truth(
 
 @dataclass(frozen=True, eq=False)
 class World:
-    """A world with a robot in it, and the robot's default laser.
+    """A world with a robot in it, and the robot's default laser."""
 
-    Attributes:
-        walls: true walls, (nx, ny).
-        grid: grid of the cells.
-        poses: poses of the robot, (S, 3).
-        opacity: probability that a wall stops a beam, (nx, ny); None if walls stop all beams.
-        is_tutorial: whether the world is the tutorial's, with the tutorial's sensor.
-        beams, fov_deg, max_range_m: beams per scan, field of view and largest range of the laser.
-    """
-
-    walls: NDArray[np.bool_]
+    walls: NDArray[np.bool_]  # true walls, (nx, ny)
     grid: Grid
-    poses: NDArray[np.float64]
-    opacity: NDArray[np.float64] | None = None
-    is_tutorial: bool = False
+    poses: NDArray[np.float64]  # poses of the robot, (S, 3)
+    opacity: NDArray[np.float64] | None = None  # probability that a wall stops a beam, (nx, ny); None if all do
+    is_tutorial: bool = False  # whether the sensor is the tutorial's
     beams: int = 180
     fov_deg: float = 180.0
     max_range_m: float = 30.0

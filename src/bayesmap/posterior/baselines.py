@@ -51,19 +51,12 @@ ROUGH, FINE = 1e-4, 1e-6
 
 @dataclass(frozen=True)
 class Parameter:
-    """A number to be fitted.
+    """A number to be fitted between two bounds."""
 
-    Attributes:
-        name: key in the values.
-        low, high: bounds.
-        share: True for a share of one, which is searched by its logit. Other parameters are positive and are searched
-            by their logarithm.
-    """
-
-    name: str
+    name: str  # key in the values
     low: float
     high: float
-    share: bool = False
+    share: bool = False  # a share of one, searched by its logit; other parameters are positive: by their logarithm
 
     def inner(self, value: float) -> float:
         """Return the number that the search moves."""
@@ -104,12 +97,8 @@ def maximise(
 ) -> tuple[Values, float]:
     """Find the values of the highest score, and that score.
 
-    Args:
-        score: score to maximise, from the best result of the rough climbs.
-        rough_score: cheap approximation of the score, climbed from every start.
-        parameters: parameters to vary.
-        starts: starting values of all parameters.
-        on_progress: function that is called with an estimate of the completed share.
+    ``rough_score`` is a cheap approximation of the score. It is climbed from every start, and the score from the best
+    result of the rough climbs.
     """
     names = [p.name for p in parameters]
 
@@ -180,19 +169,12 @@ def log_odds_clamped(hits: Floats, passes: Floats, values: Mapping[str, float]) 
 
 @dataclass(frozen=True)
 class Baseline:
-    """A kind of map.
-
-    Attributes:
-        name: name in tables.
-        stop: function that returns stop probabilities of all cells from their hits and passes and the own parameters.
-        own: parameters of this baseline alone.
-        starts: starting values of these parameters.
-    """
+    """A kind of map. ``stop`` returns stop probabilities of all cells from hits, passes and its own parameters."""
 
     name: str
     stop: Callable[[Floats, Floats, Mapping[str, float]], Floats]
-    own: tuple[Parameter, ...] = ()
-    starts: tuple[Mapping[str, float], ...] = ({},)
+    own: tuple[Parameter, ...] = ()  # parameters of this baseline alone
+    starts: tuple[Mapping[str, float], ...] = ({},)  # starting values of these parameters
 
     def stops(self, hits: Floats, passes: Floats, values: Mapping[str, float]) -> Floats:
         """Return the probabilities of ``stop``, checked: one for every cell.
@@ -253,12 +235,7 @@ def fit_baseline(
 ) -> Fitted:
     """Fit a baseline's sensor, hit depth and own parameters on the training scans alone.
 
-    Args:
-        baseline: kind of map.
-        train: scans that the map is made from.
-        grid: grid of the map.
-        folds: folds of `make_folds`, to share between baselines.
-        on_progress: function that is called with an estimate of the completed share.
+    ``folds`` are those of `make_folds`, to share between baselines.
     """
     from bayesmap.kernels.counts import count_hits
 
@@ -316,12 +293,8 @@ def stop_probabilities(occupancy: Floats, values: Mapping[str, float]) -> Floats
 def fit_external_map(name: str, occupancy: Floats, grid: Grid, train: Scans, on_progress: OnShare = ignored) -> Fitted:
     """Fit a sensor to an external map, and the stop probabilities of its occupied, free and unknown cells.
 
-    Args:
-        name: name in tables.
-        occupancy: probability that each cell is occupied, shape (nx, ny), NaN where unknown.
-        grid: grid of the map.
-        train: scans that are not scored, at their poses in the map's frame.
-        on_progress: function that is called with the completed share.
+    ``occupancy`` is the probability that each cell is occupied, (nx, ny), NaN where unknown. ``train`` are scans that
+    are not scored, at their poses in the map's frame.
 
     Raises:
         BadInput: shapes that do not fit, probabilities outside [0, 1], or scans that do not touch the map.

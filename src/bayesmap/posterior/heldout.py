@@ -75,11 +75,7 @@ def _fingerprints(scans: Scans, stamped: bool) -> list[bytes]:
 def unseen_scans(train: Scans, scans: Scans, every: int, where: str) -> Scans:
     """Return every ``every``-th scan of a log, as `Scans.holdout` selects them, if the run has used none of them.
 
-    Args:
-        train: scans that the run was made from.
-        scans: scans of the whole log, read as for the run.
-        every: period of the hold-out; 0 takes all scans, for another recording of the same building.
-        where: name of the log, for messages.
+    ``every`` 0 takes all scans, for another recording of the same building. ``where`` names the log in messages.
 
     Raises:
         NoneHeldOut: the run has used all scans, or has moved its scans, so that the poses of the others are unknown.
@@ -204,18 +200,11 @@ def one_fold(train: Scans, grid: Grid) -> list[Fold]:
 
 @dataclass(frozen=True, eq=False)
 class HeldOut:
-    """Folds whose beams are predicted together, each under its own fold's map.
-
-    Attributes:
-        folds: folds, F of them.
-        rays: beams of all folds, one after the other.
-        columns: index of each entry of the rays in the concatenated maps of the folds, (K,). Each fold's map contains
-            the cells that its own beams touch.
-    """
+    """Folds whose beams are predicted together, each under its own fold's map: the cells that its own beams touch."""
 
     folds: tuple[Fold, ...]
-    rays: Rays
-    columns: NDArray[np.int32]
+    rays: Rays  # beams of all folds, one after the other
+    columns: NDArray[np.int32]  # index of each entry of the rays in the concatenated maps of the folds, (K,)
 
 
 def together(folds: Sequence[Fold]) -> HeldOut:

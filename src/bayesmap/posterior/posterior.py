@@ -112,12 +112,8 @@ def posterior_of_chains(
 ) -> Posterior:
     """Return the posterior of chains, finished or not.
 
-    Args:
-        model: what they sampled.
-        chains: their draws so far.
-        settings: what was asked for.
-        seconds: spent beside the chains, "total" and "fit".
-        parameters: fitted sensor and prior under which they ran, if there are any.
+    ``parameters`` are the fitted sensor and prior under which the chains ran, if there are any. ``seconds`` are those
+    beside the chains, "total" and "fit".
     """
     prior = model.cells if parameters is None else parameters.prior
     return Posterior(

@@ -194,12 +194,6 @@ class Residuals:
 def residuals_of(predictor: Predictor, scans: Scans, device: str = "cpu", on_progress: OnShare = ignored) -> Residuals:
     """Predict every beam of held-out scans and compare; too close and invalid readings are left out.
 
-    Args:
-        predictor: what predicts.
-        scans: held out.
-        device: where to compute.
-        on_progress: called with the share that is done.
-
     Raises:
         BadInput: no beam to compare, no draw, or a sensor model that kernels do not know.
     """

@@ -187,9 +187,7 @@ def free_probability(blocking: NDArray[np.bool_], chains: int) -> FreeProbabilit
     The error is that of a share of independent draws, as many as the effective sample size. Half a free and half a
     blocked draw are added, so that the error is positive if all draws agree.
 
-    Args:
-        blocking: mask of the cells in the way in each draw, chain after chain, (chains * draws, n).
-        chains: number of chains.
+    ``blocking`` tells which cells are in the way in each draw, chain after chain, (chains * draws, n).
     """
     from bayesmap.posterior.summary import plain_ess, split_chains
 

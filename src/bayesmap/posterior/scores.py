@@ -154,12 +154,6 @@ def beam_log_scores(
     Densities are per metre for hits, probabilities for typed readings, in nats; NaN where a reading is invalid. They
     equal those of `score_prediction` bit for bit.
 
-    Args:
-        predictor: predictor of readings.
-        scans: held-out scans.
-        on_progress: function that is called with the numbers of completed draws and of all draws.
-        device: device that computes.
-
     Raises:
         BadInput: no valid reading, or no draw.
     """
@@ -304,12 +298,7 @@ def score_prediction(
 ) -> Score:
     """Score a prediction on scans that had no part in it.
 
-    Args:
-        predictor: predictor of readings.
-        scans: held-out scans.
-        seed: seed of the randomised transform and of the bootstrap.
-        device: device that computes.
-        on_progress: function that is called with the completed share.
+    ``seed`` is that of the randomised transform and of the bootstrap.
 
     Raises:
         BadInput: no valid reading, no draw, or a sensor model that kernels do not know.

@@ -118,23 +118,15 @@ def tail_ess(values: Floats) -> float:
 class CellDiagnostics:
     """Convergence over all cells of a map.
 
-    Attributes:
-        rhat_max: largest split R-hat of any judged cell that changed in some chain; NaN if none did.
-        ess_min: smallest effective sample size of such a cell (for a 0/1 quantity bulk and tail are the same).
-        unchanged: number of cells with one value in every draw of every chain, which have no R-hat. None, as the next,
-            where a cell's state is a number, which no two draws share.
-        disagreeing: number of cells constant in each chain, but not the same in all: chains that never met.
-        high: number of cells with an R-hat over `RHAT_LIMIT`, those that disagree included.
-        low: number of cells with an effective sample size under `ESS_LIMIT`.
-        judged: number of cells of which both are known, and those that disagree.
+    A cell is judged if its R-hat and effective sample size are known, or if its chains disagree.
     """
 
-    rhat_max: float
-    ess_min: float
-    unchanged: int | None
-    disagreeing: int | None
-    high: int
-    low: int
+    rhat_max: float  # largest split R-hat of any judged cell that changed in some chain; NaN if none did
+    ess_min: float  # smallest effective sample size of such a cell; for a 0/1 quantity bulk and tail are the same
+    unchanged: int | None  # cells with one value in all draws, without R-hat; None if states are numbers
+    disagreeing: int | None  # cells constant in each chain, but not the same in all; None if states are numbers
+    high: int  # cells with an R-hat over `RHAT_LIMIT`, those that disagree included
+    low: int  # cells with an effective sample size under `ESS_LIMIT`
     judged: int
 
 

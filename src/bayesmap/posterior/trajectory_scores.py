@@ -36,6 +36,9 @@ Floats = NDArray[np.float64]
 LONGEST_GAP_S = 0.3
 """Longest time between two poses that are interpolated: in seconds a robot turns corners."""
 
+SLACK_S = 0.001
+"""A stamp this far outside the trajectory, or off a pose, still counts."""
+
 
 @dataclass(frozen=True, eq=False)
 class Relations:
@@ -89,26 +92,12 @@ class RelationErrors:
 
 
 def relation_errors(
-    stamps_s: Floats,
-    poses: Floats,
-    relations: Relations,
-    *,
-    frame_in_pose: Floats | None = None,
-    slack_s: float = 0.001,
-    exact: bool = False,
-    longest_gap_s: float = LONGEST_GAP_S,
+    stamps_s: Floats, poses: Floats, relations: Relations, *, exact: bool = False, longest_gap_s: float = LONGEST_GAP_S
 ) -> RelationErrors:
-    """Compute the errors of a trajectory by true relations.
+    """Compute the errors of a trajectory by true relations, given its ascending stamps, (S,), and poses, (S, 3).
 
-    Args:
-        stamps_s: times of the poses, seconds, (S,), ascending.
-        poses: of one frame on the robot, such as the laser's, (S, 3).
-        relations: the truth.
-        frame_in_pose: the frame whose relations are known, given in the frame of the poses, (3,): if poses are the
-            laser's and the relations the base's, the pose of the base in the laser's frame. None if they are equal.
-        slack_s: a stamp this far outside the trajectory, or off a pose, still counts.
-        exact: whether to use only relations whose both stamps are those of poses.
-        longest_gap_s: otherwise poses are interpolated, where those before and after are no further apart.
+    The poses are those of the frame that the relations are of. ``exact`` uses only relations whose both stamps are
+    those of poses. Otherwise poses are interpolated where their neighbours are at most ``longest_gap_s`` apart.
 
     Raises:
         BadInput: arrays that do not fit, stamps that descend, or no relation that the trajectory covers.
@@ -121,9 +110,9 @@ def relation_errors(
     ends = relations.first_s, relations.second_s
     within, near = (np.ones(len(relations), dtype=np.bool_) for _ in range(2))
     for at_s in ends:
-        within &= (at_s >= stamps_s[0] - slack_s) & (at_s <= stamps_s[-1] + slack_s)
+        within &= (at_s >= stamps_s[0] - SLACK_S) & (at_s <= stamps_s[-1] + SLACK_S)
         off_s, gap_s = _distance_to_nearest(stamps_s, at_s)
-        near &= (off_s <= slack_s) if exact else (off_s <= slack_s) | (gap_s <= longest_gap_s + slack_s)
+        near &= (off_s <= SLACK_S) if exact else (off_s <= SLACK_S) | (gap_s <= longest_gap_s + SLACK_S)
     covered = within & near
     if not within.any():
         raise BadInput(
@@ -137,8 +126,6 @@ def relation_errors(
             f"{wanted}; its poses are {np.median(np.diff(stamps_s)):.3g} s apart at the median: give one with more"
         )
     first, second = (interpolate(stamps_s, poses, at_s[covered]) for at_s in ends)
-    if frame_in_pose is not None:
-        first, second = compose(first, frame_in_pose), compose(second, frame_in_pose)
     errors = compose(inverse(relations.relative[covered]), between(first, second))
     return RelationErrors(errors, covered, within & ~covered)
 
