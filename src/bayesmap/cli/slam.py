@@ -216,7 +216,7 @@ class TrajectoryFiles:
         import numpy as np
 
         from bayesmap.io.text.trajectories import covariances_path, write_covariances, write_trajectory
-        from bayesmap.poses.trajectory import calibrated
+        from bayesmap.poses.map_scans import calibrated_keys
         from bayesmap.space.grid import Grid
         from bayesmap.space.planar import between, compose
         from bayesmap.viz.figure import write_figure
@@ -227,8 +227,7 @@ class TrajectoryFiles:
         tum = write_trajectory(path / "trajectory.tum", found.poses, found.stamps_s)
         covariances = write_covariances(covariances_path(tum), found.covariances(), found.stamps_s)
         # Draw the trajectory.
-        keys = self.reading.scans.select(found.order[found.keys]).at(found.poses[found.keys])
-        scans = calibrated(keys, found.calibration.angle_step_ratio)
+        scans = calibrated_keys(self.reading.scans, found)
         grid = Grid.covering(scans, self.resolution)
         hit = np.zeros(grid.shape, np.bool_)
         hit[tuple(np.floor(grid.to_cells(scans.hit_points_world())).astype(np.intp).T)] = True

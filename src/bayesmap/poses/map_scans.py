@@ -51,14 +51,18 @@ def key_scans(log: Scans, found: Trajectory, chains: int, seed: int) -> KeyScans
         chains: number of starts.
         seed: seed of the starts.
     """
-    keys = found.keys
-    poses = found.poses[keys]
-    in_time = log.select(found.order)
-    scans = calibrated(in_time, found.calibration.angle_step_ratio).select(keys).at(poses)
+    scans = calibrated_keys(log, found)
     # All trajectories share the first pose: it is the frame of the map.
-    drawn = found.draw(chains, seed)[:, keys]
-    starts = compose(poses[0], between(drawn[:, :1], drawn))
+    drawn = found.draw(chains, seed)[:, found.keys]
+    starts = compose(scans.poses[0], between(drawn[:, :1], drawn))
     return KeyScans(scans, _prior_of(found), starts)
+
+
+def calibrated_keys(log: Scans, found: Trajectory) -> Scans:
+    """Return the key scans of a log at their most probable poses, beam angles calibrated."""
+    keys = found.keys
+    in_time = log.select(found.order)
+    return calibrated(in_time, found.calibration.angle_step_ratio).select(keys).at(found.poses[keys])
 
 
 def _prior_of(found: Trajectory) -> PosePrior:
