@@ -60,20 +60,11 @@ TAKE_POSES = ("wall-gibbs", "wall-blocks", "stop-gibbs")
 
 
 def infer(
-    scans: Scans,
-    grid: Grid,
-    *,
-    prior: CellPrior | None = None,
-    sensor: SensorModel | Literal["fit"] = "fit",
-    method: Method | str | None = None,
-    schedule: Schedule = Schedule(),
-    seed: int = 0,
-    poses: PosePrior | None = None,
-    hit_depth: float = 0.0,
-    where: Where = Where(),
-    checkpoints: Checkpoints = Checkpoints(),
+    scans: Scans, grid: Grid, *, prior: CellPrior | None = None, sensor: SensorModel | Literal["fit"] = "fit",
+    method: Method | str | None = None, schedule: Schedule = Schedule(), seed: int = 0, poses: PosePrior | None = None,
+    hit_depth: float = 0.0, where: Where = Where(), checkpoints: Checkpoints = Checkpoints(),
     on_progress: Callable[[Event], None] | None = None,
-) -> Run:
+) -> Run:  # fmt: skip
     """Infer the map from scans: walls, or the share of beams that cells stop, and the surfaces in them.
 
     The result depends only on the arguments up to ``hit_depth``, and in the last bits on the kind of device. It does
@@ -136,18 +127,9 @@ class Inference:
 
     @classmethod
     def of(
-        cls,
-        scans: Scans,
-        grid: Grid,
-        prior: CellPrior | None,
-        sensor: SensorModel | str,
-        method: Method | str | None,
-        schedule: Schedule,
-        seed: int,
-        poses: PosePrior | None,
-        hit_depth: float,
-        where: Where,
-    ) -> Inference:
+        cls, scans: Scans, grid: Grid, prior: CellPrior | None, sensor: SensorModel | str, method: Method | str | None,
+        schedule: Schedule, seed: int, poses: PosePrior | None, hit_depth: float, where: Where,
+    ) -> Inference:  # fmt: skip
         """Check the arguments of `infer`, and fill in the defaults of the kind of cells."""
         need_value("infer", "schedule", schedule, Schedule)
         need_value("infer", "where", where, Where)
@@ -285,12 +267,9 @@ class Inference:
             parameters, prepared,
         )  # fmt: skip
         chains = executor.run(
-            job,
-            None if stopped is None else chains_of(stopped),
-            watch,
-            None if save is None else lambda chains: save(as_run(chains)),
-            checkpoints.every_s,
-        )
+            job, None if stopped is None else chains_of(stopped), watch,
+            None if save is None else lambda chains: save(as_run(chains)), checkpoints.every_s,
+        )  # fmt: skip
         return as_run(chains)
 
     @property

@@ -182,12 +182,9 @@ class Run:
         return summarise(self.posterior)
 
     def log_score(
-        self,
-        heldout_scans: Scans,
-        sensor: SensorModel | None = None,
-        on_progress: Callable[[int, int], None] = lambda done, total: None,
-        device: str = "cpu",
-    ) -> float:
+        self, heldout_scans: Scans, sensor: SensorModel | None = None,
+        on_progress: Callable[[int, int], None] = lambda done, total: None, device: str = "cpu",
+    ) -> float:  # fmt: skip
         """Compute the mean log predictive density of the scans' valid readings: nats per beam, averaged over draws.
 
         Args:
@@ -239,15 +236,9 @@ class Run:
         return shortest_safe_path(self.posterior, start, goal, radius_m, risk)
 
     def information_gain(
-        self,
-        poses: ArrayLike,
-        angles_rad: ArrayLike | None = None,
-        *,
-        max_range_m: float | None = None,
-        sensor: SensorModel | None = None,
-        draws: int | None = None,
-        seed: int = 0,
-    ) -> Information:
+        self, poses: ArrayLike, angles_rad: ArrayLike | None = None, *, max_range_m: float | None = None,
+        sensor: SensorModel | None = None, draws: int | None = None, seed: int = 0,
+    ) -> Information:  # fmt: skip
         """Compute the expected information about the map from one more scan at each pose, in nats.
 
         Args:
@@ -456,14 +447,9 @@ def load(path: str | os.PathLike[str]) -> Run:
 
 
 def score(
-    run: Run,
-    heldout_scans: Scans,
-    sensor: SensorModel | None = None,
-    *,
-    seed: int = 0,
-    device: str = "cpu",
+    run: Run, heldout_scans: Scans, sensor: SensorModel | None = None, *, seed: int = 0, device: str = "cpu",
     on_progress: Callable[[float], None] = lambda share: None,
-) -> Score:
+) -> Score:  # fmt: skip
     """Score the predictions of a run on scans that it has not seen, and their calibration.
 
     Args:

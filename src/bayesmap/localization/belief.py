@@ -187,14 +187,10 @@ class PoseBelief:
     def as_json(self) -> dict[str, Any]:
         """Return the posterior's moments, modes and probabilities as JSON values."""
         return {
-            "stamp_s": self.stamp_s,
-            "mean": self.mean.tolist(),
-            "covariance": self.covariance.tolist(),
-            "modes": [mode.as_json() for mode in self.modes],
-            "region_95_m2": self.region(0.95).area_m2,
-            "p_lost": float(self.p_lost),
-            "nats_per_beam": float(self.nats_per_beam),
-        }
+            "stamp_s": self.stamp_s, "mean": self.mean.tolist(), "covariance": self.covariance.tolist(),
+            "modes": [mode.as_json() for mode in self.modes], "region_95_m2": self.region(0.95).area_m2,
+            "p_lost": float(self.p_lost), "nats_per_beam": float(self.nats_per_beam),
+        }  # fmt: skip
 
 
 def _moments(poses: Floats, weights: Floats) -> tuple[Floats, Floats]:

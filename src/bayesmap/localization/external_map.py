@@ -34,14 +34,11 @@ from bayesmap.space.scans import Scans
 Floats = NDArray[np.float64]
 
 FITTED = (
-    Parameter("scale_m", 0.02, 0.5),
-    Parameter("p_random", 0.02, 0.5, share=True),
-    Parameter("p_no_return", 0.01, 0.5, share=True),
-    Parameter("p_short", 0.02, 0.9, share=True),
-    Parameter("rate_short_per_m", 0.05, 5.0),
-    Parameter("stop_occupied", 0.05, 0.99, share=True),
+    Parameter("scale_m", 0.02, 0.5), Parameter("p_random", 0.02, 0.5, share=True),
+    Parameter("p_no_return", 0.01, 0.5, share=True), Parameter("p_short", 0.02, 0.9, share=True),
+    Parameter("rate_short_per_m", 0.05, 5.0), Parameter("stop_occupied", 0.05, 0.99, share=True),
     Parameter("stop_unknown", 1e-3, 0.5, share=True),
-)
+)  # fmt: skip
 ASSUMED: Mapping[str, float] = {
     "scale_m": 0.08, "scale_per_m": 0.005, "p_random": 0.1, "p_no_return": 0.03, "p_short": 0.3,
     "rate_short_per_m": 0.3, "stop_occupied": 0.8, "stop_free": 1e-3, "stop_unknown": 0.05,
@@ -105,14 +102,9 @@ class MapLaw:
 
 
 def external_map(
-    occupancy: Floats,
-    grid: Grid,
-    scans: Scans,
-    law: MapLaw | None = None,
-    *,
-    beam_weight: float | None = None,
+    occupancy: Floats, grid: Grid, scans: Scans, law: MapLaw | None = None, *, beam_weight: float | None = None,
     device: str = "cpu",
-) -> KnownMap:
+) -> KnownMap:  # fmt: skip
     """Return a map of another program, ready to locate scans in.
 
     Args:

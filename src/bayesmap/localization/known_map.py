@@ -161,18 +161,9 @@ class KnownMap:
 
     @classmethod
     def of_draws(
-        cls,
-        states: NDArray[np.float32],
-        grid: Grid,
-        sensor: SensorModel,
-        scans: Scans,
-        *,
-        occupancy: Floats,
-        observed: NDArray[np.bool_],
-        hit_depth: float = 0.5,
-        beam_weight: float | None = None,
-        device: str = "cpu",
-    ) -> KnownMap:
+        cls, states: NDArray[np.float32], grid: Grid, sensor: SensorModel, scans: Scans, *, occupancy: Floats,
+        observed: NDArray[np.bool_], hit_depth: float = 0.5, beam_weight: float | None = None, device: str = "cpu",
+    ) -> KnownMap:  # fmt: skip
         """Return the prepared map of draws.
 
         Args:

@@ -135,16 +135,9 @@ class Localization:
 
 
 def localize(
-    run: Any,
-    scans: Scans,
-    *,
-    prior: Near | None = None,
-    odometry: Odometry | None = None,
-    independent: bool = False,
-    seed: int = 0,
-    device: str = "cpu",
-    on_belief: Callable[[int, PoseBelief], None] | None = None,
-) -> Localization:
+    run: Any, scans: Scans, *, prior: Near | None = None, odometry: Odometry | None = None, independent: bool = False,
+    seed: int = 0, device: str = "cpu", on_belief: Callable[[int, PoseBelief], None] | None = None,
+) -> Localization:  # fmt: skip
     """Locate scans in the map of a run.
 
     Args:
@@ -176,26 +169,18 @@ def localize(
 
 
 def follow(
-    known: KnownMap,
-    scans: Scans,
-    prior: Near | None = None,
-    odometry: Odometry | None = None,
-    independent: bool = False,
-    seed: int = 0,
-) -> Iterator[PoseBelief]:
+    known: KnownMap, scans: Scans, prior: Near | None = None, odometry: Odometry | None = None,
+    independent: bool = False, seed: int = 0,
+) -> Iterator[PoseBelief]:  # fmt: skip
     """Yield the posteriors of scans, one after the other. Arguments are those of `localize`."""
     each = (scans.select(slice(i, i + 1)) for i in range(len(scans)))
     return follow_live(known, each, prior, odometry, independent, seed)
 
 
 def follow_live(
-    known: KnownMap,
-    scans: Iterable[Scans],
-    prior: Near | None = None,
-    odometry: Odometry | None = None,
-    independent: bool = False,
-    seed: int = 0,
-) -> Iterator[PoseBelief]:
+    known: KnownMap, scans: Iterable[Scans], prior: Near | None = None, odometry: Odometry | None = None,
+    independent: bool = False, seed: int = 0,
+) -> Iterator[PoseBelief]:  # fmt: skip
     """Yield the posteriors of scans that come one at a time, each before the next scan is asked for, as `localize`."""
     odometry = Odometry() if odometry is None else odometry
     _check(known, prior, odometry)

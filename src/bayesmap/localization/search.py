@@ -67,12 +67,9 @@ class Field:
 
 
 def likelihood_field(
-    occupancy: Floats,
-    grid: Grid,
-    robot_may_be: NDArray[np.bool_],
-    unknown: NDArray[np.bool_] | None = None,
+    occupancy: Floats, grid: Grid, robot_may_be: NDArray[np.bool_], unknown: NDArray[np.bool_] | None = None,
     chance: float = 0.0,
-) -> Field:
+) -> Field:  # fmt: skip
     """Compute the likelihood field of a map.
 
     Args:

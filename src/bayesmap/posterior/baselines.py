@@ -69,14 +69,10 @@ class Parameter:
 
 
 SENSOR = (
-    Parameter("scale_m", 1e-3, 2.0),
-    Parameter("scale_per_m", 1e-6, 0.3),
-    Parameter("p_random", 1e-4, 0.95, share=True),
-    Parameter("p_no_return", 1e-5, 0.95, share=True),
-    Parameter("p_short", 1e-5, 0.95, share=True),
-    Parameter("rate_short_per_m", 1e-3, 50.0),
-    Parameter("hit_depth", 1e-3, 1.0 - 1e-3, share=True),
-)
+    Parameter("scale_m", 1e-3, 2.0), Parameter("scale_per_m", 1e-6, 0.3), Parameter("p_random", 1e-4, 0.95, share=True),
+    Parameter("p_no_return", 1e-5, 0.95, share=True), Parameter("p_short", 1e-5, 0.95, share=True),
+    Parameter("rate_short_per_m", 1e-3, 50.0), Parameter("hit_depth", 1e-3, 1.0 - 1e-3, share=True),
+)  # fmt: skip
 """Parameters of every prediction beside its map: the robust beam model, and where in a cell beams stop."""
 
 
@@ -89,12 +85,9 @@ def sensor_of(values: Mapping[str, float], dof: float | None) -> BeamMixture:
 
 
 def maximise(
-    score: Callable[[Values], float],
-    rough_score: Callable[[Values], float],
-    parameters: Sequence[Parameter],
-    starts: Sequence[Mapping[str, float]],
-    on_progress: OnShare = ignored,
-) -> tuple[Values, float]:
+    score: Callable[[Values], float], rough_score: Callable[[Values], float], parameters: Sequence[Parameter],
+    starts: Sequence[Mapping[str, float]], on_progress: OnShare = ignored,
+) -> tuple[Values, float]:  # fmt: skip
     """Find the values of the highest score, and that score.
 
     ``rough_score`` is a cheap approximation of the score. It is climbed from every start, and the score from the best

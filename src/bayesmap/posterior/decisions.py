@@ -106,17 +106,10 @@ def blocked_anywhere(posterior: Drawn, radius_m: float, on_progress: OnShare = i
 
 
 def information_of(
-    posterior: Posterior,
-    poses: ArrayLike,
-    angles_rad: ArrayLike | None = None,
-    *,
-    max_range_m: float | None = None,
-    sensor: SensorModel | None = None,
-    draws: int | None = None,
-    seed: int = 0,
-    device: str = "cpu",
+    posterior: Posterior, poses: ArrayLike, angles_rad: ArrayLike | None = None, *, max_range_m: float | None = None,
+    sensor: SensorModel | None = None, draws: int | None = None, seed: int = 0, device: str = "cpu",
     on_progress: OnShare = ignored,
-) -> Information:
+) -> Information:  # fmt: skip
     """Compute the expected information of one more scan from each pose. See `bayesmap.Run.information_gain`."""
     _need_draws(posterior, "information_gain")
     if draws is not None and draws < 2:
@@ -162,15 +155,9 @@ class Views:
 
 
 def next_views(
-    posterior: Posterior,
-    candidates: int,
-    views: int,
-    radius_m: float,
-    *,
-    draws: int | None = None,
-    seed: int = 0,
+    posterior: Posterior, candidates: int, views: int, radius_m: float, *, draws: int | None = None, seed: int = 0,
     on_progress: OnShare = ignored,
-) -> Views:
+) -> Views:  # fmt: skip
     """Find the most informative poses among candidates that a robot can reach.
 
     Candidates are drawn at positions where a disc is free with probability `REACHABLE`, and which a path over such

@@ -68,19 +68,10 @@ class Information:
 
 
 def expected_information(
-    cells: NDArray[np.float32],
-    grid: Grid,
-    sensor: SensorModel,
-    poses: ArrayLike,
-    angles_rad: ArrayLike,
-    *,
-    max_range_m: float,
-    min_range_m: float = 0.0,
-    hit_depth: float = 0.5,
-    seed: int = 0,
-    device: str = "cpu",
+    cells: NDArray[np.float32], grid: Grid, sensor: SensorModel, poses: ArrayLike, angles_rad: ArrayLike, *,
+    max_range_m: float, min_range_m: float = 0.0, hit_depth: float = 0.5, seed: int = 0, device: str = "cpu",
     on_progress: Callable[[float], None] = ignored,
-) -> Information:
+) -> Information:  # fmt: skip
     """Bound the mutual information of the map and one more scan from each pose, from joint draws of the map.
 
     In draw d a scan z_d is simulated. With its density p(z_d | e) in each of D draws e, the means over d of
@@ -166,16 +157,9 @@ def _bounds(weighed: Floats) -> tuple[float, float, float, float]:
 
 
 def beam_information(
-    occupied: Floats,
-    grid: Grid,
-    poses: ArrayLike,
-    angles_rad: ArrayLike,
-    *,
-    max_range_m: float,
-    sigma_m: float,
-    p_right: float = 0.9,
-    device: str = "cpu",
-) -> Floats:
+    occupied: Floats, grid: Grid, poses: ArrayLike, angles_rad: ArrayLike, *, max_range_m: float, sigma_m: float,
+    p_right: float = 0.9, device: str = "cpu",
+) -> Floats:  # fmt: skip
     """Return the sum of FSMI over a scan's beams: their information about a map of independent cells, nats, (P,).
 
     Args:

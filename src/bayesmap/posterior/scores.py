@@ -170,12 +170,9 @@ def beam_log_scores(
 
 
 def log_score(
-    posterior: Posterior,
-    scans: Scans,
-    sensor: SensorModel | None = None,
-    on_progress: Callable[[int, int], None] = lambda done, total: None,
-    device: str = "cpu",
-) -> float:
+    posterior: Posterior, scans: Scans, sensor: SensorModel | None = None,
+    on_progress: Callable[[int, int], None] = lambda done, total: None, device: str = "cpu",
+) -> float:  # fmt: skip
     """Return the mean of `beam_log_scores` over valid readings, nats per beam. ``sensor`` is by default the run's own.
 
     Raises:
@@ -358,14 +355,9 @@ def score_prediction(
 
 
 def score_posterior(
-    posterior: Posterior,
-    scans: Scans,
-    sensor: SensorModel | None = None,
-    *,
-    seed: int = 0,
-    device: str = "cpu",
+    posterior: Posterior, scans: Scans, sensor: SensorModel | None = None, *, seed: int = 0, device: str = "cpu",
     on_progress: OnShare = ignored,
-) -> Score:
+) -> Score:  # fmt: skip
     """Score a posterior on held-out scans: `score_prediction` under the mean over its draws.
 
     Raises:

@@ -33,7 +33,7 @@ from bayesmap.samplers.sampler import (
     Problem,
     Sampler,
     Snapshot,
-)  # fmt: skip
+)
 from bayesmap.sensors.model import SensorModel
 from bayesmap.space.grid import Grid
 
@@ -86,14 +86,9 @@ class PoseMetropolis:
         return PoseState(np.array(poses, dtype=np.float64), np.zeros(np.shape(poses)[:2]), np.asarray(chain_ids), seed)
 
     def step(
-        self,
-        state: PoseState,
-        cells: NDArray[np.float32],
-        n: int = 1,
-        *,
-        beta: float = 1.0,
+        self, state: PoseState, cells: NDArray[np.float32], n: int = 1, *, beta: float = 1.0,
         adaptation_rate: float = 0.0,
-    ) -> tuple[PoseState, Floats]:
+    ) -> tuple[PoseState, Floats]:  # fmt: skip
         """Propose a new pose for every scan ``n`` times. Returns the chains, and the share of accepted steps, (C,).
 
         ``cells`` holds one map per chain, see `bayesmap.kernels.predict.scan_likelihood.ScanLikelihood.beams`. The size

@@ -42,17 +42,10 @@ LAST_FRAME_MS = 1500
 
 
 def write_animation(
-    path: str | os.PathLike[str],
-    grid: Grid,
-    draws: ArrayLike,
-    *,
-    running_mean: bool = False,
-    observed: ArrayLike | None = None,
-    truth: ArrayLike | None = None,
-    poses: ArrayLike | None = None,
-    sweeps: Sequence[int] | None = None,
-    frames_per_second: float = 10.0,
-) -> None:
+    path: str | os.PathLike[str], grid: Grid, draws: ArrayLike, *, running_mean: bool = False,
+    observed: ArrayLike | None = None, truth: ArrayLike | None = None, poses: ArrayLike | None = None,
+    sweeps: Sequence[int] | None = None, frames_per_second: float = 10.0,
+) -> None:  # fmt: skip
     """Write a chain as an animation that repeats without end, whole or not at all.
 
     Args:
@@ -96,15 +89,9 @@ def write_animation(
 
 
 def render_frames(
-    grid: Grid,
-    draws: ArrayLike,
-    *,
-    running_mean: bool = False,
-    observed: ArrayLike | None = None,
-    truth: ArrayLike | None = None,
-    poses: ArrayLike | None = None,
-    sweeps: Sequence[int] | None = None,
-) -> Iterator[Image.Image]:
+    grid: Grid, draws: ArrayLike, *, running_mean: bool = False, observed: ArrayLike | None = None,
+    truth: ArrayLike | None = None, poses: ArrayLike | None = None, sweeps: Sequence[int] | None = None,
+) -> Iterator[Image.Image]:  # fmt: skip
     """Check the arguments, then return an iterator that renders the frames, as images of mode "P".
 
     Arguments and errors are those of `write_animation`.

@@ -26,15 +26,9 @@ CIRCLE = 24
 
 
 def route_figure(
-    grid: Grid,
-    occupancy: ArrayLike,
-    observed: ArrayLike | None,
-    path: ArrayLike,
-    radius_m: float,
-    *,
-    title: str = "",
+    grid: Grid, occupancy: ArrayLike, observed: ArrayLike | None, path: ArrayLike, radius_m: float, *, title: str = "",
     label: str = "probability of wall",
-) -> Figure:
+) -> Figure:  # fmt: skip
     """Draw a path, (P, 2) in the world frame, over the mean map, and the area that a disc sweeps along it.
 
     Raises:
@@ -61,15 +55,9 @@ def draw_route(ax: Axes, path: ArrayLike, radius_m: float) -> PathPatch:
 
 
 def views_figure(
-    grid: Grid,
-    occupancy: ArrayLike,
-    observed: ArrayLike | None,
-    candidates: ArrayLike,
-    nats: ArrayLike,
-    best: ArrayLike,
-    *,
-    label: str = "probability of wall",
-) -> Figure:
+    grid: Grid, occupancy: ArrayLike, observed: ArrayLike | None, candidates: ArrayLike, nats: ArrayLike,
+    best: ArrayLike, *, label: str = "probability of wall",
+) -> Figure:  # fmt: skip
     """Draw candidate views, (P, 3), over the mean map, coloured by their expected information in nats, (P,).
 
     ``best`` holds indices of candidates, the best first. These are drawn as numbered arrows.

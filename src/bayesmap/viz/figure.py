@@ -145,18 +145,10 @@ def _tick_letters(low: float, high: float) -> int:
 
 
 def posterior_figure(
-    grid: Grid,
-    occupancy: ArrayLike,
-    observed: ArrayLike | None = None,
-    *,
-    draw: ArrayLike | None = None,
-    truth: ArrayLike | None = None,
-    scans: Scans | None = None,
-    title: str | None = None,
-    label: str = "probability of wall",
-    width: ArrayLike | None = None,
-    surfaces: Surfaces | None = None,
-) -> Figure:
+    grid: Grid, occupancy: ArrayLike, observed: ArrayLike | None = None, *, draw: ArrayLike | None = None,
+    truth: ArrayLike | None = None, scans: Scans | None = None, title: str | None = None,
+    label: str = "probability of wall", width: ArrayLike | None = None, surfaces: Surfaces | None = None,
+) -> Figure:  # fmt: skip
     """Draw an overview of the posterior: the mean, its uncertainty, the readings, and one draw.
 
     The panels stand in a row, four in a square, or stacked if the map is long.
@@ -330,14 +322,9 @@ NO_BAR_IN = 0.9
 
 
 def panel_figure(
-    grid: Grid,
-    what: str,
-    values: NDArray[Any],
-    observed: ArrayLike | None = None,
-    *,
-    truth: ArrayLike | None = None,
+    grid: Grid, what: str, values: NDArray[Any], observed: ArrayLike | None = None, *, truth: ArrayLike | None = None,
     label: str = "probability of wall",
-) -> Figure:
+) -> Figure:  # fmt: skip
     """Draw a single map with its colour bar.
 
     Args:

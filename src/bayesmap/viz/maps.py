@@ -216,13 +216,9 @@ def draw_one(ax: Axes, grid: Grid, draw: ArrayLike, observed: ArrayLike | None =
 
 
 def map_figure(
-    grid: Grid,
-    *,
-    aspects: tuple[float, float] = (0.3, 3.0),
-    bar_in: float = BAR_IN,
-    foot_in: float = 0.0,
+    grid: Grid, *, aspects: tuple[float, float] = (0.3, 3.0), bar_in: float = BAR_IN, foot_in: float = 0.0,
     dpi: float = 160.0,
-) -> tuple[Figure, Axes]:
+) -> tuple[Figure, Axes]:  # fmt: skip
     """Return a figure of one panel, with room in inches for a colour bar at the right and a legend at the foot.
 
     ``aspects`` are the smallest and the largest ratio of the panel's width to its height.
@@ -252,27 +248,18 @@ def hatch_patch(path: Path | None = None) -> PathPatch:
     """Return the hatch over unobserved cells; without a path, its legend key with the colour below."""
     square = Path(np.array([(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0), (0.0, 0.0)]), closed=True)
     patch = PathPatch(
-        square if path is None else path,
-        facecolor=palette.UNOBSERVED if path is None else "none",
-        edgecolor=palette.UNOBSERVED_HATCH,
-        linewidth=0.0,
-        hatch=palette.HATCH,
+        square if path is None else path, facecolor=palette.UNOBSERVED if path is None else "none",
+        edgecolor=palette.UNOBSERVED_HATCH, linewidth=0.0, hatch=palette.HATCH,
         label=None if path is not None else "unobserved",
-    )
+    )  # fmt: skip
     patch.set_hatch_linewidth(palette.HATCH_WIDTH_PT)
     return patch
 
 
 def _show(
-    ax: Axes,
-    grid: Grid,
-    values: NDArray[np.float64],
-    observed: NDArray[np.bool_],
-    colors: Colormap,
-    top: float,
-    *,
+    ax: Axes, grid: Grid, values: NDArray[np.float64], observed: NDArray[np.bool_], colors: Colormap, top: float, *,
     hide: bool = True,
-) -> AxesImage:
+) -> AxesImage:  # fmt: skip
     """Draw an image of the cells from 0 to ``top``, hatched where unobserved; ``hide`` leaves out their values."""
     image = ax.imshow(
         np.ma.array(values, mask=~observed & hide).T,

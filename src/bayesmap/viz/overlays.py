@@ -36,13 +36,9 @@ def draw_truth_outline(ax: Axes, grid: Grid, true_walls: ArrayLike) -> LineColle
         BadInput: a shape that differs from the grid's, or other numbers than 0 and 1.
     """
     lines = LineCollection(
-        list(boundary_segments(grid, as_mask(grid, true_walls, "true_walls"))),
-        colors=palette.TRUTH,
-        linewidths=1.2 if max(grid.shape) <= 100 else 0.5,
-        capstyle="projecting",
-        label="true walls",
-        zorder=3.0,
-    )
+        list(boundary_segments(grid, as_mask(grid, true_walls, "true_walls"))), colors=palette.TRUTH,
+        linewidths=1.2 if max(grid.shape) <= 100 else 0.5, capstyle="projecting", label="true walls", zorder=3.0,
+    )  # fmt: skip
     ax.add_collection(lines)
     ax.autoscale_view()
     return lines
@@ -86,14 +82,9 @@ def draw_rays(
         )
     if len(lost):
         dashed = LineCollection(
-            list(_rays(scans, lost)),
-            colors=palette.NO_RETURN,
-            linewidths=0.7,
-            linestyles=[(0.0, (4.0, 3.0))],
-            alpha=min(1.0, 1.5 * alpha),
-            label="no return",
-            zorder=3.1,
-        )
+            list(_rays(scans, lost)), colors=palette.NO_RETURN, linewidths=0.7, linestyles=[(0.0, (4.0, 3.0))],
+            alpha=min(1.0, 1.5 * alpha), label="no return", zorder=3.1,
+        )  # fmt: skip
         drawn.append(dashed)
         ax.add_collection(dashed)
     ax.autoscale_view()
@@ -195,15 +186,9 @@ def surface_strokes(
 
 
 def draw_surfaces(
-    ax: Axes,
-    means_world: ArrayLike,
-    covariances_m2: ArrayLike,
-    weights: ArrayLike,
-    *,
-    width_pt: float = 1.0,
-    longest_m: float = np.inf,
-    color: str | None = None,
-) -> LineCollection:
+    ax: Axes, means_world: ArrayLike, covariances_m2: ArrayLike, weights: ArrayLike, *, width_pt: float = 1.0,
+    longest_m: float = np.inf, color: str | None = None,
+) -> LineCollection:  # fmt: skip
     """Draw one stroke per surface, from `surface_strokes`. Its opacity is the surface's weight in [0, 1], (n,).
 
     By default strokes have the colour of walls.

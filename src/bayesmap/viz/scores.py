@@ -61,13 +61,9 @@ def draw_reliability(ax: Axes, rows: Rows) -> None:
         points = [(p, share) for p, share, count in score.reliability if count >= LEAST_EVENTS and share > 0]
         if points:
             ax.plot(
-                *zip(*points, strict=True),
-                color=palette.chain_color(i),
-                marker="o",
-                markersize=3,
-                linewidth=1.0,
+                *zip(*points, strict=True), color=palette.chain_color(i), marker="o", markersize=3, linewidth=1.0,
                 label=name,
-            )
+            )  # fmt: skip
     ax.plot([1e-4, 1], [1e-4, 1], color=palette.FRAME, linewidth=0.8, linestyle=":")
     ax.set(xscale="log", yscale="log", xlim=(1e-4, 1.0), ylim=(1e-4, 1.0))
     ax.set(xlabel="predicted chance of a first hit", ylabel="share that were")
@@ -197,14 +193,9 @@ def draw_residuals(ax: Axes, ends_world: ArrayLike, values: ArrayLike, scale: Sc
 
 
 def residuals_figure(
-    grid: Grid,
-    occupancy: ArrayLike,
-    ends_world: ArrayLike,
-    values: ArrayLike,
-    observed: ArrayLike | None = None,
-    *,
+    grid: Grid, occupancy: ArrayLike, ends_world: ArrayLike, values: ArrayLike, observed: ArrayLike | None = None, *,
     scale: Scale | None = None,
-) -> Figure:
+) -> Figure:  # fmt: skip
     """Draw the end points of held-out beams, (n, 2), over the faded posterior mean.
 
     The values, (n,), are residuals in metres, or surprises in nats with `surprise_scale`. The default scale is

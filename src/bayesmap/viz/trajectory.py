@@ -37,13 +37,9 @@ def draw_ellipses(ax: Axes, means: Floats, covariances: Floats, magnified: float
 
 
 def trajectory_figure(
-    grid: Grid,
-    occupancy: ArrayLike,
-    observed: ArrayLike,
-    poses: Floats,
-    covariances: Floats,
+    grid: Grid, occupancy: ArrayLike, observed: ArrayLike, poses: Floats, covariances: Floats,
     flagged: NDArray[np.bool_] | None = None,
-) -> Figure:
+) -> Figure:  # fmt: skip
     """Draw a map, a trajectory, (S, 3), and 95 % ellipses of its covariances, (S, 3, 3). Mark flagged scans."""
     figure, ax = _axes(grid.shape[1] / grid.shape[0])
     _draw_map(ax, grid, occupancy, observed, poses, covariances)
@@ -98,13 +94,9 @@ def odometry_figure(raw: Floats, inferred: Floats) -> Figure:
 
 
 def loops_figure(
-    poses: Floats,
-    first: ArrayLike,
-    second: ArrayLike,
-    residuals: Floats,
-    weights: Floats,
+    poses: Floats, first: ArrayLike, second: ArrayLike, residuals: Floats, weights: Floats,
     alternatives: Sequence[tuple[Floats, float]] = (),
-) -> Figure:
+) -> Figure:  # fmt: skip
     """Draw loop closures: pairs of matched scans at which the robot has returned to a place.
 
     Args:
