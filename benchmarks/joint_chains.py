@@ -21,7 +21,7 @@ from scipy.stats import norm, qmc
 
 import bayesmap as bm
 from bayesmap.kernels.predict.scan_likelihood import ScanLikelihood
-from bayesmap.poses.prior import Uncertain
+from bayesmap.poses.prior import UncertainPoses
 from bayesmap.posterior.summary import rhat
 from bayesmap.sim.building import building
 from bayesmap.sim.robot import patrol
@@ -33,7 +33,7 @@ GRID = bm.Grid((3, 3), 0.5, (0.0, 0.0))
 P_WALL, MAX_RANGE_M = 0.3, 3.0
 NOISES_M = (0.25, 0.1)
 """Standard deviations of the readings: wide, and narrow beside cells of half a metre."""
-PRIOR = Uncertain(0.15, 0.2)
+PRIOR = UncertainPoses(0.15, 0.2)
 ANGLES = np.linspace(0, 2 * np.pi, 9, endpoint=False)
 SCANS, POINTS = 3, 2048
 WORLDS = range(2)

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from bayesmap.localization.belief import PoseBelief
 from bayesmap.localization.known_map import KnownMap
-from bayesmap.localization.localize import Near, follow, localize
+from bayesmap.localization.localize import InitialPose, follow, localize
 from bayesmap.space.planar import between, wrapped
 from bayesmap.space.scans import Scans
 
@@ -52,7 +52,7 @@ def located(known: KnownMap, scans: Scans, raw: Scans, place: int) -> dict[str, 
     begin = time.process_time()
     last = list(follow(known, moved))[-1]
     found["ten"] = judged(last, scans.poses[some[-1]], time.process_time() - begin)
-    tracked = follow(known, moved, Near(scans.poses[place], 0.1, 0.05))
+    tracked = follow(known, moved, InitialPose(scans.poses[place], 0.1, 0.05))
     next(tracked)
     begin = time.process_time()
     found["hz"] = len(list(tracked)) / (time.process_time() - begin)

@@ -69,8 +69,8 @@ METHODS = {
     "reflectivity": (bm.Beta(), {}),
     "surfaces": (bm.Surface(), {}),
     "coupled surfaces": (bm.Surface(coupling=0.5), {}),
-    "uncertain poses": (bm.Independent(0.2), {"poses": bm.Uncertain(0.05, 0.02)}),
-    "uncertain poses, surfaces": (bm.Surface(), {"poses": bm.Uncertain(0.05, 0.02)}),
+    "uncertain poses": (bm.Independent(0.2), {"poses": bm.UncertainPoses(0.05, 0.02)}),
+    "uncertain poses, surfaces": (bm.Surface(), {"poses": bm.UncertainPoses(0.05, 0.02)}),
 }
 SHORT = {"chains": 8, "warmup": 2, "draws": 4, "thin": 1, "seed": 5}
 

@@ -9,7 +9,7 @@ from oracle.stop_worlds import beam_rays, scans_of_all_kinds
 import bayesmap as bm
 from bayesmap.kernels.walls.table import trace
 from bayesmap.model import Model, State
-from bayesmap.poses.prior import Uncertain
+from bayesmap.poses.prior import UncertainPoses
 
 GRID = bm.Grid((6, 5), 0.5, (-1.0, 2.0))
 DEPTH = 0.3
@@ -91,7 +91,7 @@ def test_poses_that_move_are_weighed_where_they_are():
     rng = np.random.default_rng(4)
     poses = there.poses + rng.normal(0, 0.1, there.poses.shape)
     prior, cells = bm.Surface(0.5, 1.0), map_of(bm.Surface(0.5, 1.0), 4)
-    model = Model(there, GRID, prior, SENSOR, Uncertain(0.1, 0.1))
+    model = Model(there, GRID, prior, SENSOR, UncertainPoses(0.1, 0.1))
     moved = Model(there.at(poses), GRID, prior, SENSOR)
     at = State(cells, SENSOR, poses)
     assert model.log_likelihood(at) == pytest.approx(moved.log_likelihood(moved.state(cells)))

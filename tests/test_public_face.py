@@ -227,7 +227,7 @@ def test_results_print_as_a_few_short_lines(run, scans):
     none, index = np.empty(0), np.empty(0, int)
     results = [
         run, bm.KnownMap.of_run(run), scans, scans.select(slice(0, 0)), run.pose_summary(), bm.score(run, scans),
-        bm.localize(run, scans, prior=bm.Near(POSE, 0.1, 0.1)), bm.localize(run, scans).last,
+        bm.localize(run, scans, prior=bm.InitialPose(POSE, 0.1, 0.1)), bm.localize(run, scans).last,
         run.plan([0.5, 0.5], [1.5, 0.5], 0.05, 0.9), run.information_gain([POSE], ANGLES),
         space.Trajectory(many, np.arange(900.0), own, many[None], known_by="wheels"), space.Trajectory(many),
         poses.Trajectory(

@@ -25,9 +25,9 @@ if TYPE_CHECKING:
     from bayesmap.errors import BadInput as BadInput
     from bayesmap.io.logs import read_log as read_log
     from bayesmap.localization.known_map import KnownMap as KnownMap
-    from bayesmap.localization.localize import Near as Near, localize as localize
-    from bayesmap.poses.prior import Known as Known, Odometry as Odometry, Uncertain as Uncertain
-    from bayesmap.posterior.information import Information as Information
+    from bayesmap.localization.localize import InitialPose as InitialPose, localize as localize
+    from bayesmap.poses.prior import KnownPoses as KnownPoses, Odometry as Odometry, UncertainPoses as UncertainPoses
+    from bayesmap.posterior.information import InformationGain as InformationGain
     from bayesmap.posterior.route import FreeProbability as FreeProbability, Route as Route
     from bayesmap.programs.mapping import mapping_model as mapping_model
     from bayesmap.result import Run as Run, load as load, score as score
@@ -40,7 +40,7 @@ if TYPE_CHECKING:
     from bayesmap.sim.forward import ranges as ranges, simulate as simulate
     from bayesmap.sim.robot import OdometryNoise as OdometryNoise, simulate_odometry as simulate_odometry
     from bayesmap.space.grid import Grid as Grid
-    from bayesmap.space.scans import Reading as Reading, Scans as Scans
+    from bayesmap.space.scans import ReadingKind as ReadingKind, Scans as Scans
     # isort: on
 
 _NAMES = {
@@ -53,9 +53,9 @@ _NAMES = {
     "bayesmap.errors": ("BadInput",),
     "bayesmap.io.logs": ("read_log",),
     "bayesmap.localization.known_map": ("KnownMap",),
-    "bayesmap.localization.localize": ("Near", "localize"),
-    "bayesmap.poses.prior": ("Known", "Odometry", "Uncertain"),
-    "bayesmap.posterior.information": ("Information",),
+    "bayesmap.localization.localize": ("InitialPose", "localize"),
+    "bayesmap.poses.prior": ("KnownPoses", "Odometry", "UncertainPoses"),
+    "bayesmap.posterior.information": ("InformationGain",),
     "bayesmap.posterior.route": ("FreeProbability", "Route"),
     "bayesmap.programs.mapping": ("mapping_model",),
     "bayesmap.result": ("Run", "load", "score"),
@@ -66,7 +66,7 @@ _NAMES = {
     "bayesmap.sim.forward": ("ranges", "simulate"),
     "bayesmap.sim.robot": ("OdometryNoise", "simulate_odometry"),
     "bayesmap.space.grid": ("Grid",),
-    "bayesmap.space.scans": ("Reading", "Scans"),
+    "bayesmap.space.scans": ("ReadingKind", "Scans"),
     "bayesmap.worlds": ("worlds",),
 }
 _HOME = {name: module for module, names in _NAMES.items() for name in names}

@@ -22,7 +22,7 @@ from bayesmap.cells.surface import Surface
 from bayesmap.errors import BadInput, check_count
 from bayesmap.model import Model
 from bayesmap.poses.map_scans import SAMPLED, for_map, key_scans
-from bayesmap.poses.prior import Known, PosePrior
+from bayesmap.poses.prior import KnownPoses, PosePrior
 from bayesmap.posterior.posterior import Posterior, chains_of, posterior_of_chains, posterior_of_draws
 from bayesmap.result import Run
 from bayesmap.run.chains import FIRST_MARK, Chains, SweepPlan
@@ -85,8 +85,8 @@ def infer(
             `Surface` have `Gibbs` alone. None: the first of the kind of cells.
         schedule: numbers of chains, warm-up sweeps and draws.
         seed: seed of all random numbers.
-        poses: prior of the scans' poses: `Known`, `Uncertain` about the log's, or `Odometry`. Unknown poses are sampled
-            along with the map: ``run.poses``. None: ``Known()``.
+        poses: prior of the scans' poses: `KnownPoses`, `UncertainPoses` about the log's, or `Odometry`. Unknown poses
+            are sampled along with the map: ``run.poses``. None: ``KnownPoses()``.
         hit_depth: point in a cell where a beam stops, as a fraction of its chord; 0, as in the tutorial: the near edge.
         where: threads, device and executor; by default all cores of this machine.
         checkpoints: the run to resume, and the function that saves the run so far; by default neither.
@@ -135,7 +135,7 @@ class Inference:
         need_value("infer", "where", where, Where)
         # Check prior, sensor, poses and hit depth.
         prior = Surface() if prior is None else prior
-        poses = Known() if poses is None else poses
+        poses = KnownPoses() if poses is None else poses
         if not isinstance(prior, CellPrior):
             raise BadInput(
                 f"infer: prior must say what cells are, such as bm.Independent(0.2) or bm.Surface(), got {prior!r}"
@@ -144,8 +144,8 @@ class Inference:
             raise BadInput(f"infer: sensor must be a sensor model or {FIT!r}, got {sensor!r}")
         if not isinstance(poses, PosePrior):
             raise BadInput(
-                "infer: poses must say what is believed of them, such as bm.Uncertain(0.1, 0.05) or bm.Odometry(), "
-                f"got {poses!r}"
+                "infer: poses must say what is believed of them, such as bm.UncertainPoses(0.1, 0.05) or "
+                f"bm.Odometry(), got {poses!r}"
             )
         if not 0.0 <= hit_depth <= 1.0:
             raise BadInput(f"infer: hit_depth must lie in [0, 1], got {hit_depth!r}")
@@ -202,7 +202,7 @@ class Inference:
             nonlocal plan
             if checkpoints.preview is None and plan.seconds is None:
                 return
-            at_known = replace(model, poses=Known())  # a first map samples no poses
+            at_known = replace(model, poses=KnownPoses())  # a first map samples no poses
             chains, sweep_s = first_map(cells, problem, at_known, self.asked.seed)
             long = sweep_s * self.asked.chains * (plan.warmup + FIRST_MARK * plan.thin) >= PREVIEW_FROM_S
             if checkpoints.preview is not None and long:

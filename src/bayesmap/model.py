@@ -25,7 +25,7 @@ from bayesmap.beams.rays import Rays, stops_of
 from bayesmap.cells.arrays import ArraySpec
 from bayesmap.cells.kind import CellPrior, Cells
 from bayesmap.errors import BadInput
-from bayesmap.poses.prior import Known, PosePrior
+from bayesmap.poses.prior import KnownPoses, PosePrior
 from bayesmap.sensors.model import Floats, SensorModel
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
@@ -54,7 +54,7 @@ class Model:
     grid: Grid
     cells: CellPrior  # the kind of cells, with its prior
     sensor: SensorModel  # the law of the readings; if it is fitted, the law that the fit starts from
-    poses: PosePrior = field(default_factory=Known)  # the prior of the scans' poses
+    poses: PosePrior = field(default_factory=KnownPoses)  # the prior of the scans' poses
     hit_depth: float = 0.0  # where a beam stops in a cell without a surface, as a fraction of its path in the cell
 
     @property

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
     from bayesmap.poses.trajectory import Trajectory
-    from bayesmap.posterior.information import Information
+    from bayesmap.posterior.information import InformationGain
     from bayesmap.posterior.route import FreeProbability, Route
     from bayesmap.posterior.summary import PoseSummary
 
@@ -238,7 +238,7 @@ class Run:
     def information_gain(
         self, poses: ArrayLike, angles_rad: ArrayLike | None = None, *, max_range_m: float | None = None,
         sensor: SensorModel | None = None, draws: int | None = None, seed: int = 0,
-    ) -> Information:  # fmt: skip
+    ) -> InformationGain:  # fmt: skip
         """Compute the expected information about the map from one more scan at each pose, in nats.
 
         Args:

@@ -51,7 +51,7 @@ def test_a_run_is_that_of_the_library_and_saved_with_its_poses(changes, tmp_path
     run = infer(
         scans, document.grid, prior=bm.Independent(0.5), sensor=bm.Gaussian(0.2), method=document.sampler,
         chains=POSE_CHAINS, warmup=0, draws=6, start=starts(simulated_scene(document).problem, document, None),
-        poses=bm.Uncertain(sigma_m, max(document.heading_sigma, SMALLEST_HEADING_RAD)),
+        poses=bm.UncertainPoses(sigma_m, max(document.heading_sigma, SMALLEST_HEADING_RAD)),
         start_poses=pose_starts(document, POSE_CHAINS), seed=0,
     )  # fmt: skip
     stream = heard.engine._result.found

@@ -137,7 +137,7 @@ def test_poses_may_be_unknown_too():
     case = make_case(10, prior=0.3, coupling=0.7, shape=(3, 4))
     run = infer(
         case.scans, case.grid, prior=case.prior, sensor=case.sensor, chains=2, draws=20, warmup=10,
-        poses=bm.Uncertain(0.05, 0.02),
+        poses=bm.UncertainPoses(0.05, 0.02),
     )  # fmt: skip
     assert np.isfinite(run.log_joint).all()
 

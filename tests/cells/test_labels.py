@@ -96,7 +96,7 @@ def test_saved_loaded_and_resumed_bit_for_bit(kind, tmp_path):
 
 @KINDS
 def test_unknown_poses_go_with_labels_bit_for_bit(kind, tmp_path):
-    options = {"poses": bm.Uncertain(0.02, 0.01), "sensor": TRUTH, "warmup": 10, "draws": 6}
+    options = {"poses": bm.UncertainPoses(0.02, 0.01), "sensor": TRUTH, "warmup": 10, "draws": 6}
     stops = []
     whole = infer(kind, scans(poses=8), on_checkpoint=stops.append, checkpoint_every_s=0.0, **options)
     assert_same(infer(kind, scans(poses=8), threads=3, **options), whole)

@@ -9,7 +9,7 @@ from rooms import offset, scan_from, walls_of
 import bayesmap as bm
 from bayesmap.localization.external_map import ASSUMED, external_map, fit_law, searched
 from bayesmap.localization.filter import shared_by_evidence
-from bayesmap.localization.localize import Near, localize
+from bayesmap.localization.localize import InitialPose, localize
 
 LASER = bm.BeamMixture(bm.Gaussian(0.02), p_random=0.01, p_no_return=0.01, p_short=0.001)
 
@@ -101,7 +101,7 @@ def test_a_wrong_prior_is_given_up_when_the_scans_contradict_it():
     known = external_map(walls.astype(float), grid, scans)
 
     def off(here):
-        beliefs = localize(here, scans, prior=Near(turned, 0.2, 0.1)).beliefs[-8:]
+        beliefs = localize(here, scans, prior=InitialPose(turned, 0.2, 0.1)).beliefs[-8:]
         return np.median([offset(b.mean, pose)[1] for b, pose in zip(beliefs, truth[-8:], strict=True)])
 
     assert off(known) < 0.2

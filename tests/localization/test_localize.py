@@ -12,7 +12,7 @@ import bayesmap as bm
 from bayesmap.localization.belief import PoseBelief
 from bayesmap.localization.filter import shared_by_places
 from bayesmap.localization.known_map import KnownMap
-from bayesmap.localization.localize import Near, localize
+from bayesmap.localization.localize import InitialPose, localize
 from bayesmap.localization.search import likelihood_field
 from bayesmap.space.planar import between, compose
 from bayesmap.space.scans import side_by_side
@@ -41,7 +41,7 @@ def test_the_posterior_is_that_of_enumerated_poses():
     truth, sigma = np.array([1.52, 1.23, 0.4]), np.array([0.1, 0.1, 0.1])
     scans = scan_from(walls, grid, truth)
     here = known(walls, grid, scans, beam_weight=0.05)
-    found = [localize(here, scans, prior=Near(truth, 0.1, 0.1), seed=seed).last for seed in range(24)]
+    found = [localize(here, scans, prior=InitialPose(truth, 0.1, 0.1), seed=seed).last for seed in range(24)]
     means = np.array([belief.weights @ belief.poses for belief in found])
     spreads = np.array([np.diag(belief.total_covariance) for belief in found])
 
@@ -104,7 +104,7 @@ def test_an_asymmetric_room_has_one_mode_a_symmetric_one_two():
 def test_a_corridor_leaves_the_pose_along_it_open():
     walls, grid = walls_of(16.0, 2.0, alcove=False)
     scans = scan_from(walls, grid, np.array([8.0, 1.0, 0.0]), max_range_m=4.0)
-    found = localize(known(walls, grid, scans, beam_weight=0.3), scans, prior=Near([8.0, 1.0, 0.0], 0.6, 0.2))
+    found = localize(known(walls, grid, scans, beam_weight=0.3), scans, prior=InitialPose([8.0, 1.0, 0.0], 0.6, 0.2))
     along, across = np.sqrt(np.diag(found.covariance)[:2])
     assert along > 0.35
     assert across < 0.15
@@ -203,7 +203,9 @@ def test_map_uncertainty_counts():
             draws, grid, LASER, scans, occupancy=draws.mean(axis=0).reshape(grid.shape),
             observed=np.ones(grid.shape, bool), hit_depth=0.0, beam_weight=0.2,
         )  # fmt: skip
-        found = [localize(both, scans, prior=Near(middle, 0.3, 0.1), seed=s).last.total_covariance for s in range(6)]
+        found = [
+            localize(both, scans, prior=InitialPose(middle, 0.3, 0.1), seed=s).last.total_covariance for s in range(6)
+        ]
         return np.sqrt(np.mean(found, axis=0)[0, 0])
 
     assert sd(here, moved) > 1.5 * max(sd(here), sd(moved))
@@ -220,28 +222,28 @@ def test_impossible_localizations_are_refused():
     walls, grid = walls_of(4.0, 3.0)
     scans = scan_from(walls, grid, np.array([1.5, 1.2, 0.4]))
     with pytest.raises(bm.BadInput, match="sigma_m and sigma_rad above 0"):
-        Near([0, 0, 0], 0.0)
+        InitialPose([0, 0, 0], 0.0)
     with pytest.raises(bm.BadInput, match="Gaussian, StudentT or a BeamMixture with such noise"):
         known(walls, grid, scans, sensor=OwnSensor())
     with pytest.raises(bm.BadInput, match="no free cell"):
         known(np.ones_like(walls), grid, scans)
     sensor = bm.BeamMixture(bm.Gaussian(0.02))
     run = infer(scans, grid, prior=bm.Independent(0.2), sensor=sensor, chains=1, warmup=2, draws=2)
-    here, outside = known(walls, grid, scans), Near((40.0, 1.0, 0.0), 0.5)
+    here, outside = known(walls, grid, scans), InitialPose((40.0, 1.0, 0.0), 0.5)
     for where, given, options, message in (
         (here, scans.select(slice(0, 0)), {}, "there is no scan"),
         (run, scans, {"device": "tpu:7"}, "device: 'tpu:7' is not on this machine"),
         ("x", scans, {}, "give a run, such as bm.load gives"),
         (run, "x", {}, "scans must be those that bm.read_log gives, got 'x'"),
         (run, str, {}, "scans must be those that bm.read_log gives"),
-        (here, scans, {"prior": (0, 0, 0)}, r"prior must be such as bm.Near\(\(x, y, yaw\)\)"),
+        (here, scans, {"prior": (0, 0, 0)}, r"prior must be such as bm.InitialPose\(\(x, y, yaw\)\)"),
         (here, scans, {"odometry": bm.Odometry}, r"odometry must be such as bm.Odometry\(\)"),
         (here, scans, {"prior": outside}, r"prior: \(40, 1\) \+- 0.5 m lies outside the map, which is from"),
     ):
         with pytest.raises(bm.BadInput, match=message):
             bm.localize(where, given, **options)
     # One that reaches into the map is none.
-    assert len(localize(here, scans, prior=Near((-1.0, 1.0, 0.0), 1.0))) == 1
+    assert len(localize(here, scans, prior=InitialPose((-1.0, 1.0, 0.0), 1.0))) == 1
 
 
 def test_no_probability_exceeds_one_and_a_rectangle_has_an_inside():
@@ -294,13 +296,13 @@ def test_scans_of_unlike_beams_are_located_as_equal_ones_are():
         truth + np.array([0.05, -0.05, 0.02]), *side_by_side(fans, readings), 10.0, stamps_s=np.arange(6.0)
     )
     here = known(walls, grid, scans)
-    for i, belief in enumerate(localize(here, scans, prior=Near(truth[0], 0.3, 0.2)).beliefs):
+    for i, belief in enumerate(localize(here, scans, prior=InitialPose(truth[0], 0.3, 0.2)).beliefs):
         metres, radians = offset(belief.modes[0].mean, truth[i])
         assert metres < (0.3 if i == 4 else 0.1)
         assert np.degrees(radians) < 5.0
     shifted = replace(scans, own_angles_rad=scans.own_angles_rad + 0.3)  # a wrong twin: other beams
     off = [
         offset(b.modes[0].mean, truth[i])[1]
-        for i, b in enumerate(localize(here, shifted, prior=Near(truth[0], 0.3, 0.4)).beliefs)
+        for i, b in enumerate(localize(here, shifted, prior=InitialPose(truth[0], 0.3, 0.4)).beliefs)
     ]
     assert np.degrees(max(off)) > 10.0

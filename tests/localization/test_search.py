@@ -7,7 +7,7 @@ from rooms import ANGLES, known, offset, scan_from, walls_of
 from tiers import full_but
 
 from bayesmap.localization.filter import Prior, Scan, approached
-from bayesmap.localization.localize import Near
+from bayesmap.localization.localize import InitialPose
 from bayesmap.localization.particles import DOF, PoseMixture, draw_population, shared_out, student_draws
 from bayesmap.localization.search import (
     APART_M,
@@ -162,7 +162,7 @@ def test_a_wide_prior_is_narrowed_about_the_pose():
     truth = np.array([1.52, 1.23, 0.4])
     scans = scan_from(walls, grid, truth)
     here = known(walls, grid, scans, beam_weight=0.3)
-    guess = Near(truth + np.array([0.2, -0.15, 0.1]), 0.25, 0.15)
+    guess = InitialPose(truth + np.array([0.2, -0.15, 0.1]), 0.25, 0.15)
     prior = Prior(guess.components(), 0.0)
     scan = Scan(ANGLES, scans.ranges_m[0], RangeLimits(0.0, 10.0))
     rng = np.random.default_rng(0)
@@ -175,6 +175,6 @@ def test_a_wide_prior_is_narrowed_about_the_pose():
 def test_a_scan_with_few_hits_leaves_places_as_they_are():
     walls, grid = walls_of(4.0, 3.0)
     scans = scan_from(walls, grid, np.array([1.5, 1.2, 0.4]))
-    places = Near([1.0, 1.0, 0.0]).components()
+    places = InitialPose([1.0, 1.0, 0.0]).components()
     blind = Scan(ANGLES, np.full(len(ANGLES), np.inf), RangeLimits(0.0, 10.0))
     assert approached(places, np.zeros_like, known(walls, grid, scans), blind, np.random.default_rng(0)) is places

@@ -9,7 +9,7 @@ import scipy
 from bayesmap.errors import BadInput
 from bayesmap.poses.graph import Factors
 from bayesmap.poses.map_scans import key_scans
-from bayesmap.poses.prior import FREE, Known, Motions, Odometry, Uncertain
+from bayesmap.poses.prior import FREE, KnownPoses, Motions, Odometry, UncertainPoses
 from bayesmap.space.planar import between, compose, wrapped
 from bayesmap.space.scans import Scans
 
@@ -28,7 +28,7 @@ class Slipping:
 
 
 PRIORS = {
-    "uncertain": Uncertain(0.1, 0.05),
+    "uncertain": UncertainPoses(0.1, 0.05),
     "odometry": Odometry(0.1, 0.05, 0.04, 0.2, 0.02, 0.01),
     "slipping": Slipping(),
 }
@@ -154,7 +154,7 @@ def test_a_motion_that_odometry_missed_pulls_at_no_pose():
 
 def test_known_poses_do_not_move():
     log = trajectory(10)
-    law = Known().law(log)
+    law = KnownPoses().law(log)
     assert law.colours(len(log)) == ()
     assert law.log_prob(log) == 0
     assert law.log_prob(log + 1e-9) == -np.inf
@@ -170,8 +170,8 @@ def test_the_first_pose_of_odometry_is_the_frame():
 @pytest.mark.parametrize(
     "make",
     [
-        lambda: Uncertain(0.0, 0.1),
-        lambda: Uncertain(0.1, float("nan")),
+        lambda: UncertainPoses(0.0, 0.1),
+        lambda: UncertainPoses(0.1, float("nan")),
         lambda: Odometry(m_per_m=-1.0),
         lambda: Motions(np.zeros((1, 3)), np.ones((1, 3)), 1.0),
     ],

@@ -12,7 +12,7 @@ from tiers import full_but
 
 import bayesmap as bm
 from bayesmap.model import Model
-from bayesmap.poses.prior import Uncertain
+from bayesmap.poses.prior import UncertainPoses
 from bayesmap.run import ray_executor, ray_worker
 from bayesmap.run.chains import SweepPlan
 from bayesmap.run.runner import Job, ThreadExecutor
@@ -124,7 +124,7 @@ def test_a_node_that_dies_costs_nothing_but_time(cluster, scans, kind):
 @pytest.mark.full
 def test_unknown_poses_come_out_alike(cluster, scans):
     """Each chain has poses of its own, and rays that follow them."""
-    arguments = {**SHORT, **KINDS["reflectivities"], "poses": Uncertain(0.05, 0.01), "warmup": 7, "draws": 8}
+    arguments = {**SHORT, **KINDS["reflectivities"], "poses": UncertainPoses(0.05, 0.01), "warmup": 7, "draws": 8}
     assert_same(infer(scans, GRID, executor=quick(), **arguments), infer(scans, GRID, **arguments))
 
 

@@ -14,7 +14,7 @@ from tiers import latin
 
 import bayesmap as bm
 from bayesmap.kernels.predict.scan_likelihood import ScanLikelihood
-from bayesmap.poses.prior import Odometry, Uncertain
+from bayesmap.poses.prior import Odometry, UncertainPoses
 from bayesmap.samplers.with_poses import PoseMetropolis, PoseState, proposal_factors
 
 GRID = bm.Grid((4, 4), 0.5, (-1.0, 2.0))
@@ -22,7 +22,7 @@ SENSOR = bm.Gaussian(0.6)
 LIMITS = (0.1, 3.0)
 STEP = np.array([0.25, 0.25, np.pi / 6])
 OFFSETS = np.stack(np.meshgrid(*[[-1, 0, 1]] * 3, indexing="ij"), axis=-1).reshape(-1, 3)  # 27 poses a scan
-PRIORS = {"uncertain": Uncertain(0.3, 0.5), "odometry": Odometry(0.2, 0.1, 0.2, 0.3, 0.1, 0.2)}
+PRIORS = {"uncertain": UncertainPoses(0.3, 0.5), "odometry": Odometry(0.2, 0.1, 0.2, 0.3, 0.1, 0.2)}
 TESTS = 2 * 3 * 2  # priors, seeds, betas
 
 
@@ -137,8 +137,8 @@ def sampler_of(scans, walls, prior):
 
 
 def test_a_chain_is_the_same_whatever_its_company_and_however_its_steps_are_cut():
-    walls, scans, _ = scene(3, Uncertain(0.1, 0.1))
-    sampler, cells = sampler_of(scans, walls, Uncertain(0.1, 0.1))
+    walls, scans, _ = scene(3, UncertainPoses(0.1, 0.1))
+    sampler, cells = sampler_of(scans, walls, UncertainPoses(0.1, 0.1))
 
     def run(ids, cuts):
         state = sampler.init(np.broadcast_to(scans.poses, (len(ids), 3, 3)), np.array(ids), 7)
@@ -152,8 +152,8 @@ def test_a_chain_is_the_same_whatever_its_company_and_however_its_steps_are_cut(
 
 
 def test_warm_up_brings_the_acceptance_to_where_it_is_wanted():
-    walls, scans, _ = scene(4, Uncertain(0.1, 0.1))
-    sampler, cells = sampler_of(scans, walls, Uncertain(0.1, 0.1))
+    walls, scans, _ = scene(4, UncertainPoses(0.1, 0.1))
+    sampler, cells = sampler_of(scans, walls, UncertainPoses(0.1, 0.1))
     sampler = replace(sampler, factor=50 * sampler.factor)
     many = 200
     state = sampler.init(np.broadcast_to(scans.poses, (many, 3, 3)), np.arange(many), 0)
@@ -169,7 +169,7 @@ def test_an_empty_hall_returns_the_prior():
     empty = np.zeros(GRID.shape, dtype=bool)
     poses = np.tile([0.0, 3.0, 0.5], (200, 1))
     scans = bm.Scans(poses, [0.0, 1.0], np.full((200, 2), np.inf), max_range_m=3.0, min_range_m=0.1)
-    prior = Uncertain(0.2, 0.1)
+    prior = UncertainPoses(0.2, 0.1)
     sampler, cells = sampler_of(scans, empty, prior)
     state = sampler.init(poses[None], np.arange(1), 1)
     total, count = np.zeros(3), 0

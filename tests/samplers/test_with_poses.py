@@ -15,7 +15,7 @@ from oracle.verdict import ALPHA
 
 import bayesmap as bm
 from bayesmap.model import Model
-from bayesmap.poses.prior import Odometry, Uncertain
+from bayesmap.poses.prior import Odometry, UncertainPoses
 from bayesmap.run.chains import SweepPlan
 from bayesmap.run.runner import Job, run_chains
 from bayesmap.samplers.sampler import Keep
@@ -27,7 +27,7 @@ GRID = bm.Grid((8, 8), 0.5, (0.0, 0.0))
 LIMITS = RangeLimits(0.1, 5.0)
 ANGLES = np.linspace(0, 2 * np.pi, 9, endpoint=False)
 SENSOR = bm.Gaussian(0.25)
-PRIORS = {"uncertain": Uncertain(0.15, 0.2), "odometry": Odometry(0.2, 0.1, 0.2, 0.2, 0.05, 0.08)}
+PRIORS = {"uncertain": UncertainPoses(0.15, 0.2), "odometry": Odometry(0.2, 0.1, 0.2, 0.2, 0.05, 0.08)}
 
 
 def drawn_model(seed, prior, scans=4):
@@ -137,7 +137,7 @@ def test_reflectivities_and_surfaces_have_poses_too(prior):
     scans = bm.simulate(walls, grid, truth, angles, sensor=sensor, max_range_m=30.0, seed=0)
     said = truth + rng.normal(0, [0.2, 0.2, 0.05], truth.shape)
     run = bm.infer(
-        scans.at(said), grid, prior=prior, sensor=sensor, poses=Uncertain(0.2, 0.05),
+        scans.at(said), grid, prior=prior, sensor=sensor, poses=UncertainPoses(0.2, 0.05),
         method=bm.Gibbs(start_poses=said[None]), schedule=bm.Schedule(chains=2, warmup=60, draws=30),
         hit_depth=0.0 if prior == bm.Beta() else 0.5,
     )  # fmt: skip

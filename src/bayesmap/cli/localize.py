@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
     from bayesmap.localization.belief import PoseBelief
     from bayesmap.localization.known_map import KnownMap
-    from bayesmap.localization.localize import Localization, Near
+    from bayesmap.localization.localize import InitialPose, Localization
     from bayesmap.result import Run
     from bayesmap.space.grid import Grid
     from bayesmap.space.scans import Scans
@@ -129,7 +129,7 @@ class _Question:
     log: str
     map: _Map
     span: str | None  # scans to locate, as FIRST:LAST; None for all
-    near: Near | None  # prior of the first pose; None if it may be anywhere
+    near: InitialPose | None  # prior of the first pose; None if it may be anywhere
     independent: bool  # locate each scan by itself
 
     @property
@@ -304,15 +304,15 @@ def _target(output: str, force: bool) -> Path:
     return target
 
 
-def _near(text: str | None) -> Near | None:
+def _near(text: str | None) -> InitialPose | None:
     """Return the prior of the first pose that --prior describes."""
-    from bayesmap.localization.localize import Near
+    from bayesmap.localization.localize import InitialPose
 
     if text is None:
         return None
     x, y, degrees, *spread = numbers_of(text, "--prior", "X,Y,DEGREES or X,Y,DEGREES,M,DEGREES", (3, 5))
     pose = (x, y, math.radians(degrees))
-    return Near(pose, spread[0], math.radians(spread[1])) if spread else Near(pose)
+    return InitialPose(pose, spread[0], math.radians(spread[1])) if spread else InitialPose(pose)
 
 
 def _area(text: str | None) -> list[float] | None:

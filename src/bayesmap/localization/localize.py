@@ -40,7 +40,7 @@ LEAST_NEW = 0.02
 
 
 @dataclass(frozen=True, eq=False)
-class Near:
+class InitialPose:
     """A prior: the first pose is normal about a guess.
 
     Attributes:
@@ -59,7 +59,7 @@ class Near:
     def __post_init__(self) -> None:
         pose = np.asarray(self.pose, dtype=np.float64)
         if pose.shape != (3,) or not np.isfinite(pose).all() or not (self.sigma_m > 0 and self.sigma_rad > 0):
-            raise BadInput("Near: give pose (x, y, yaw), and sigma_m and sigma_rad above 0")
+            raise BadInput("InitialPose: give pose (x, y, yaw), and sigma_m and sigma_rad above 0")
         object.__setattr__(self, "pose", pose)
 
     def components(self) -> PoseMixture:
@@ -135,7 +135,7 @@ class Localization:
 
 
 def localize(
-    run: Any, scans: Scans, *, prior: Near | None = None, odometry: Odometry | None = None, independent: bool = False,
+    run: Any, scans: Scans, *, prior: InitialPose | None = None, odometry: Odometry | None = None, independent: bool = False,
     seed: int = 0, device: str = "cpu", on_belief: Callable[[int, PoseBelief], None] | None = None,
 ) -> Localization:  # fmt: skip
     """Locate scans in the map of a run.
@@ -169,7 +169,7 @@ def localize(
 
 
 def follow(
-    known: KnownMap, scans: Scans, prior: Near | None = None, odometry: Odometry | None = None,
+    known: KnownMap, scans: Scans, prior: InitialPose | None = None, odometry: Odometry | None = None,
     independent: bool = False, seed: int = 0,
 ) -> Iterator[PoseBelief]:  # fmt: skip
     """Yield the posteriors of scans, one after the other. Arguments are those of `localize`."""
@@ -178,7 +178,7 @@ def follow(
 
 
 def follow_live(
-    known: KnownMap, scans: Iterable[Scans], prior: Near | None = None, odometry: Odometry | None = None,
+    known: KnownMap, scans: Iterable[Scans], prior: InitialPose | None = None, odometry: Odometry | None = None,
     independent: bool = False, seed: int = 0,
 ) -> Iterator[PoseBelief]:  # fmt: skip
     """Yield the posteriors of scans that come one at a time, each before the next scan is asked for, as `localize`."""
@@ -225,14 +225,14 @@ def _known(run: Any, device: str) -> KnownMap:
     return KnownMap.of_run(run, device=device)
 
 
-def _check(known: KnownMap, prior: Near | None, odometry: Odometry) -> None:
+def _check(known: KnownMap, prior: InitialPose | None, odometry: Odometry) -> None:
     """Raise BadInput for a prior or odometry of another type, and for a prior outside the map."""
     if not isinstance(odometry, Odometry):
         raise BadInput(f"localize: odometry must be such as bm.Odometry(), got {odometry!r}")
     if prior is None:
         return
-    if not isinstance(prior, Near):
-        raise BadInput(f"localize: prior must be such as bm.Near((x, y, yaw)), or None for anywhere, got {prior!r}")
+    if not isinstance(prior, InitialPose):
+        raise BadInput(f"localize: prior must be such as bm.InitialPose((x, y, yaw)), or None: anywhere; got {prior!r}")
     if prior.share_in(known.grid) < LEAST_ON_MAP:
         low = np.array(known.grid.origin)
         high = low + known.grid.resolution * np.array(known.grid.shape)

@@ -71,7 +71,7 @@ class PosePrior(ABC):
 
 
 @dataclass(frozen=True)
-class Known(PosePrior):
+class KnownPoses(PosePrior):
     """The poses are those of the log."""
 
     kind = "known"
@@ -83,7 +83,7 @@ class Known(PosePrior):
 
 
 @dataclass(frozen=True)
-class Uncertain(PosePrior):
+class UncertainPoses(PosePrior):
     """Each pose is normal about the log's, independently.
 
     Attributes:
@@ -99,7 +99,7 @@ class Uncertain(PosePrior):
     sigma_rad: float
 
     def __post_init__(self) -> None:
-        _check_positive("Uncertain", sigma_m=self.sigma_m, sigma_rad=self.sigma_rad)
+        _check_positive("UncertainPoses", sigma_m=self.sigma_m, sigma_rad=self.sigma_rad)
 
     def law(self, log_poses: Floats) -> PoseLaw:
         """Return independent normal distributions about the log's poses."""

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from bayesmap.errors import BadInput
-from bayesmap.posterior.information import Information, beam_information, best_views, expected_information
+from bayesmap.posterior.information import InformationGain, beam_information, best_views, expected_information
 from bayesmap.posterior.posterior import Posterior
 from bayesmap.posterior.predictor import OnShare, ignored, parts, watched
 from bayesmap.posterior.route import (
@@ -109,7 +109,7 @@ def information_of(
     posterior: Posterior, poses: ArrayLike, angles_rad: ArrayLike | None = None, *, max_range_m: float | None = None,
     sensor: SensorModel | None = None, draws: int | None = None, seed: int = 0, device: str = "cpu",
     on_progress: OnShare = ignored,
-) -> Information:  # fmt: skip
+) -> InformationGain:  # fmt: skip
     """Compute the expected information of one more scan from each pose. See `bayesmap.Run.information_gain`."""
     _need_draws(posterior, "information_gain")
     if draws is not None and draws < 2:
@@ -151,7 +151,7 @@ class Views:
     candidates: Floats  # poses that were considered, (P, 3)
     independent: Floats  # expected information of each by the formula for independent cells and beams, nats, (P,)
     best: NDArray[np.intp]  # numbers of the best candidates by the upper bound from joint draws, the best first, (V,)
-    information: Information  # expected information of the best candidates, (V,)
+    information: InformationGain  # expected information of the best candidates, (V,)
 
 
 def next_views(

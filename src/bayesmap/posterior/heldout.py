@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from bayesmap.beams.rays import Rays
 from bayesmap.errors import BadInput
 from bayesmap.space.grid import Grid
-from bayesmap.space.scans import Reading, Scans
+from bayesmap.space.scans import ReadingKind, Scans
 
 MOST_EVERY = 100
 """Largest hold-out period that an error message suggests."""
@@ -170,7 +170,7 @@ def make_folds(train: Scans, grid: Grid) -> list[Fold]:
     hits, passes = count_hits(train, grid)
     for i in np.random.default_rng(0).permutation(count).tolist():  # a fixed order, but not that of the protocol
         part = train.select(np.arange(len(train)) % count == i)
-        valid = int((part.readings != Reading.INVALID).sum())
+        valid = int((part.readings != ReadingKind.INVALID).sum())
         if valid == 0:
             continue
         own_hits, own_passes = count_hits(part, grid)
@@ -189,7 +189,7 @@ def one_fold(train: Scans, grid: Grid) -> list[Fold]:
     Raises:
         BadInput: no training scan with a valid reading.
     """
-    valid = (train.readings != Reading.INVALID).sum(axis=1)
+    valid = (train.readings != ReadingKind.INVALID).sum(axis=1)
     train, valid = train.select(valid > 0), valid[valid > 0]
     if len(train) == 0:
         raise BadInput("score: none of the training scans has a valid reading to fit a sensor on")

@@ -32,7 +32,7 @@ SURE = 1e-4
 
 
 @dataclass(frozen=True, eq=False)
-class Information:
+class InformationGain:
     """Bounds on the expected information of one more scan from each of P poses.
 
     The information lies between two estimates, on average over draws. With many informative beams they lie apart, and
@@ -56,7 +56,7 @@ class Information:
 
     def __repr__(self) -> str:
         """Return two or three lines: size, and the bounds for the pose with the greatest upper bound."""
-        title = f"Information: {len(self.at_most):,} poses, {self.draws:,} draws of the map"
+        title = f"InformationGain: {len(self.at_most):,} poses, {self.draws:,} draws of the map"
         if not len(self.at_most):
             return title
         best = int(np.argmax(self.at_most))
@@ -71,7 +71,7 @@ def expected_information(
     cells: NDArray[np.float32], grid: Grid, sensor: SensorModel, poses: ArrayLike, angles_rad: ArrayLike, *,
     max_range_m: float, min_range_m: float = 0.0, hit_depth: float = 0.5, seed: int = 0, device: str = "cpu",
     on_progress: Callable[[float], None] = ignored,
-) -> Information:  # fmt: skip
+) -> InformationGain:  # fmt: skip
     """Bound the mutual information of the map and one more scan from each pose, from joint draws of the map.
 
     In draw d a scan z_d is simulated. With its density p(z_d | e) in each of D draws e, the means over d of
@@ -129,7 +129,7 @@ def expected_information(
         weighed = likelihood.beams(maps, np.broadcast_to(pose, (len(scan), 3)), scan, chain)
         bounds[:, i] = _bounds(weighed.reshape(draws, draws, len(angles)))
         on_progress((i + 1) / len(where))
-    return Information(bounds[0], bounds[1], bounds[2], bounds[3], draws)
+    return InformationGain(bounds[0], bounds[1], bounds[2], bounds[3], draws)
 
 
 def _bounds(weighed: Floats) -> tuple[float, float, float, float]:

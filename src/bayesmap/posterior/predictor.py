@@ -23,7 +23,7 @@ from bayesmap.errors import BadInput
 from bayesmap.posterior.posterior import Posterior
 from bayesmap.sensors.model import RangeLimits, SensorModel
 from bayesmap.space.grid import Grid
-from bayesmap.space.scans import Reading, Scans
+from bayesmap.space.scans import ReadingKind, Scans
 
 if TYPE_CHECKING:
     from bayesmap.kernels.predict.density import DeviceMaps
@@ -216,7 +216,7 @@ def residuals_of(predictor: Predictor, scans: Scans, device: str = "cpu", on_pro
 def placed(scans: Scans) -> NDArray[np.intp]:
     """Return the flat indices of the beams that hit something or had no return."""
     kinds = scans.readings.ravel()
-    return np.flatnonzero((kinds == Reading.HIT) | (kinds == Reading.NO_RETURN))
+    return np.flatnonzero((kinds == ReadingKind.HIT) | (kinds == ReadingKind.NO_RETURN))
 
 
 def compare(scans: Scans, median_m: Floats, log_density: Floats) -> Residuals:

@@ -27,7 +27,7 @@ from bayesmap.posterior.posterior import Posterior
 from bayesmap.posterior.predictor import OnShare, Predictor, ignored, parts, predictor_of, watched
 from bayesmap.sensors.builtin import describe
 from bayesmap.sensors.model import RangeLimits, SensorModel
-from bayesmap.space.scans import Reading, Scans
+from bayesmap.space.scans import ReadingKind, Scans
 
 Floats = NDArray[np.float64]
 
@@ -160,7 +160,7 @@ def beam_log_scores(
     from bayesmap.kernels.predict.density import explained_within_m, log_densities
     from bayesmap.kernels.rays import trace_rays
 
-    if not (scans.readings != Reading.INVALID).any():
+    if not (scans.readings != ReadingKind.INVALID).any():
         raise BadInput("score: none of the scans has a valid reading")
     sensor, limits = predictor.sensor, RangeLimits(scans.min_range_m, scans.max_range_m)
     reach_m = explained_within_m(scans.ranges_m.ravel(), sensor, limits, predictor.grid.resolution)
@@ -304,7 +304,7 @@ def score_prediction(
     from bayesmap.kernels.predict.stop_mixture import first_hit_events, mix_stops, range_quantiles
     from bayesmap.kernels.rays import trace_rays
 
-    valid = (scans.readings != Reading.INVALID).ravel()
+    valid = (scans.readings != ReadingKind.INVALID).ravel()
     if not valid.any():
         raise BadInput("score: none of the scans has a valid reading")
     limits = RangeLimits(scans.min_range_m, scans.max_range_m)

@@ -18,7 +18,7 @@ MOST_TURNS = 1.1
 """Largest width of a fan of beams in turns: beams may overlap a little at the end of a turn."""
 
 
-class Reading(IntEnum):
+class ReadingKind(IntEnum):
     """What a beam reported (REP-117)."""
 
     HIT = 0
@@ -153,18 +153,18 @@ class Scans:
 
     @property
     def readings(self) -> NDArray[np.uint8]:
-        """The kind of every reading, as `Reading`, shape (S, A)."""
-        kinds = np.full(self.ranges_m.shape, Reading.HIT, dtype=np.uint8)
-        kinds[np.isposinf(self.ranges_m)] = Reading.NO_RETURN
-        kinds[np.isneginf(self.ranges_m)] = Reading.TOO_CLOSE
-        kinds[np.isnan(self.ranges_m)] = Reading.INVALID
+        """The kind of every reading, as `ReadingKind`, shape (S, A)."""
+        kinds = np.full(self.ranges_m.shape, ReadingKind.HIT, dtype=np.uint8)
+        kinds[np.isposinf(self.ranges_m)] = ReadingKind.NO_RETURN
+        kinds[np.isneginf(self.ranges_m)] = ReadingKind.TOO_CLOSE
+        kinds[np.isnan(self.ranges_m)] = ReadingKind.INVALID
         return kinds
 
     def counts(self) -> dict[str, int]:
         """Count the readings of each kind."""
         kinds = self.readings if self.own_angles_rad is None else self.readings[self.has_beam]
-        tally = np.bincount(kinds.ravel(), minlength=len(Reading))
-        return {kind.name.lower(): int(tally[kind]) for kind in Reading}
+        tally = np.bincount(kinds.ravel(), minlength=len(ReadingKind))
+        return {kind.name.lower(): int(tally[kind]) for kind in ReadingKind}
 
     def beam_angles_world(self) -> NDArray[np.float64]:
         """Return the direction of every beam in the world frame, radians, shape (S, A)."""

@@ -21,7 +21,7 @@ from numpy.typing import ArrayLike, NDArray
 from bayesmap.errors import BadInput
 from bayesmap.space.cell_arrays import as_mask
 from bayesmap.space.grid import Grid
-from bayesmap.space.scans import Reading, Scans, as_array, as_poses
+from bayesmap.space.scans import ReadingKind, Scans, as_array, as_poses
 from bayesmap.viz import maps, palette
 from bayesmap.viz.maps import boundary_segments
 
@@ -62,9 +62,9 @@ def draw_rays(
     if max_beams < 1 or max_readings < 1:
         raise BadInput(f"picture: draw at least 1 beam and 1 reading, got {max_beams} and {max_readings}")
     kinds = scans.readings.ravel()
-    beams = _spread(np.flatnonzero((kinds == Reading.HIT) | (kinds == Reading.NO_RETURN)), max_beams)
-    hit, lost = beams[kinds[beams] == Reading.HIT], beams[kinds[beams] == Reading.NO_RETURN]
-    points = _spread(np.flatnonzero(kinds == Reading.HIT), max_readings)
+    beams = _spread(np.flatnonzero((kinds == ReadingKind.HIT) | (kinds == ReadingKind.NO_RETURN)), max_beams)
+    hit, lost = beams[kinds[beams] == ReadingKind.HIT], beams[kinds[beams] == ReadingKind.NO_RETURN]
+    points = _spread(np.flatnonzero(kinds == ReadingKind.HIT), max_readings)
     # The more rays, the fainter each: they must not hide the map.
     alpha = float(np.clip(60.0 / max(len(beams), 1), 0.12, 0.55))
     drawn: list[LineCollection | PathCollection] = []

@@ -34,7 +34,7 @@ from bayesmap.app.shown.without_chains import Preview
 from bayesmap.cells.arrays import Draws
 from bayesmap.cells.kinds import BUILT_IN
 from bayesmap.model import Model
-from bayesmap.poses.prior import PosePrior, Uncertain
+from bayesmap.poses.prior import PosePrior, UncertainPoses
 from bayesmap.posterior.posterior import posterior_of_chains
 from bayesmap.result import Run
 from bayesmap.run.chains import Record, SweepPlan
@@ -235,7 +235,7 @@ def pose_prior(document: Document) -> PosePrior | None:
     sigma_m, sigma_rad = document.pose_sigma, document.heading_sigma
     if not document.simulated or document.sampler not in CHAIN_METHODS or not (sigma_m > 0 or sigma_rad > 0):
         return None
-    return Uncertain(max(sigma_m, SMALLEST_POSE_M), max(sigma_rad, SMALLEST_HEADING_RAD))
+    return UncertainPoses(max(sigma_m, SMALLEST_POSE_M), max(sigma_rad, SMALLEST_HEADING_RAD))
 
 
 def pose_starts(document: Document, chains: int) -> NDArray[np.float64]:
@@ -262,7 +262,7 @@ def pose_starts(document: Document, chains: int) -> NDArray[np.float64]:
 def chains_of_walls(scene: Scene, document: Document, begun: NDArray[np.bool_], *, keep: bool) -> Stream:
     """Prepare chains that start from the maps `begun`, one per chain, (chains, nx, ny).
 
-    Uncertain poses are sampled together with the walls, as in `bayesmap.infer(..., poses=Uncertain(...))` without
+    Uncertain poses are sampled together with the walls, as in `bayesmap.infer(..., poses=UncertainPoses(...))` without
     warm-up. They start from `pose_starts`.
     """
     walls = scene.problem
