@@ -203,9 +203,8 @@ def test_map_uncertainty_counts():
             draws, grid, LASER, scans, occupancy=draws.mean(axis=0).reshape(grid.shape),
             observed=np.ones(grid.shape, bool), hit_depth=0.0, beam_weight=0.2,
         )  # fmt: skip
-        found = [
-            localize(both, scans, prior=InitialPose(middle, 0.3, 0.1), seed=s).last.total_covariance for s in range(6)
-        ]
+        near = InitialPose(middle, 0.3, 0.1)
+        found = [localize(both, scans, prior=near, seed=s).last.total_covariance for s in range(6)]
         return np.sqrt(np.mean(found, axis=0)[0, 0])
 
     assert sd(here, moved) > 1.5 * max(sd(here), sd(moved))

@@ -135,8 +135,9 @@ class Localization:
 
 
 def localize(
-    run: Any, scans: Scans, *, prior: InitialPose | None = None, odometry: Odometry | None = None, independent: bool = False,
-    seed: int = 0, device: str = "cpu", on_belief: Callable[[int, PoseBelief], None] | None = None,
+    run: Any, scans: Scans, *, prior: InitialPose | None = None, odometry: Odometry | None = None,
+    independent: bool = False, seed: int = 0, device: str = "cpu",
+    on_belief: Callable[[int, PoseBelief], None] | None = None,
 ) -> Localization:  # fmt: skip
     """Locate scans in the map of a run.
 
