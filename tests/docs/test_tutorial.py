@@ -26,8 +26,8 @@ def loaded(name):
 
 render = loaded("render")
 every_page = pytest.mark.parametrize("name", render.PAGES)
-OFTEN = ("mapping",)
-"""The notebook of the landing run; the others take 15 s or more each."""
+OFTEN = ("mapping", "odometry")
+"""The notebooks of the landing run; the others take half a minute or more each."""
 
 
 def source_of(name):

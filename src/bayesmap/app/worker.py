@@ -23,8 +23,8 @@ from bayesmap.app.protocol.tasks import ALIVE_SECONDS, Alive, Infer, Ready, Repo
 from bayesmap.errors import BadInput
 
 T = TypeVar("T")
-NICE = 10
-"""The niceness of the worker: the page and its server come first."""
+NICE = 3
+"""The niceness of the worker: the page and its server come first. At 10 other programs left it a tenth of a core."""
 
 
 class Reporter:
