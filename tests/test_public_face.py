@@ -99,6 +99,13 @@ def test_values_that_group_arguments_are_checked(scans, make, message):
         make(scans)
 
 
+@pytest.mark.parametrize("function", [bm.infer, bm.slam, bm.read_log, bm.simulate, bm.localize, bm.score])
+def test_an_unknown_keyword_is_answered_with_the_nearest(function):
+    name = next(reversed(inspect.signature(function).parameters))
+    with pytest.raises(TypeError, match=rf"got an unexpected keyword argument '{name}x'. Did you mean '{name}'\?"):
+        function(**{f"{name}x": 1})
+
+
 def test_importance_has_weights_and_other_methods_say_that_they_have_none(scans, run):
     weighted = bm.infer(
         scans, GRID, prior=PRIOR, sensor=SENSOR, method=bm.Importance(particles=500), schedule=bm.Schedule(draws=5)

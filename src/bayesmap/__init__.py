@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from bayesmap.cells.surface import Surface as Surface
     from bayesmap.errors import BadInput as BadInput
     from bayesmap.io.logs import read_log as read_log
+    from bayesmap.io.text.trajectories import read_trajectory as read_trajectory
     from bayesmap.localization.known_map import KnownMap as KnownMap
     from bayesmap.localization.localize import InitialPose as InitialPose, localize as localize
     from bayesmap.poses.prior import KnownPoses as KnownPoses, Odometry as Odometry, UncertainPoses as UncertainPoses
@@ -52,6 +53,7 @@ _NAMES = {
     "bayesmap.cells.surface": ("Surface",),
     "bayesmap.errors": ("BadInput",),
     "bayesmap.io.logs": ("read_log",),
+    "bayesmap.io.text.trajectories": ("read_trajectory",),
     "bayesmap.localization.known_map": ("KnownMap",),
     "bayesmap.localization.localize": ("InitialPose", "localize"),
     "bayesmap.poses.prior": ("KnownPoses", "Odometry", "UncertainPoses"),

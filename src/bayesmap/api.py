@@ -19,7 +19,7 @@ import numpy as np
 from bayesmap.arguments import PREVIEW_FROM_S, Checkpoints, Schedule, Where, need_value
 from bayesmap.cells.kind import CellPrior
 from bayesmap.cells.surface import Surface
-from bayesmap.errors import BadInput, check_count
+from bayesmap.errors import BadInput, check_count, near_names
 from bayesmap.model import Model
 from bayesmap.poses.map_scans import SAMPLED, for_map, key_scans
 from bayesmap.poses.prior import KnownPoses, PosePrior
@@ -59,6 +59,7 @@ TAKE_POSES = ("wall-gibbs", "wall-blocks", "stop-gibbs")
 """Samplers that can sample unknown poses."""
 
 
+@near_names
 def infer(
     scans: Scans, grid: Grid, *, prior: CellPrior | None = None, sensor: SensorModel | Literal["fit"] = "fit",
     method: Method | str | None = None, schedule: Schedule = Schedule(), seed: int = 0, poses: PosePrior | None = None,
@@ -338,6 +339,7 @@ class Inference:
         return (self.threads or available_cores()) if self.device == "cpu" else 1
 
 
+@near_names
 def slam(
     log: str | os.PathLike[str] | Scans, *, resolution: float = 0.1, prior: CellPrior | None = None,
     sensor: SensorModel | Literal["fit"] = "fit", fast: bool | None = None, no_odometry: bool = False,

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.errors import BadInput
+from bayesmap.errors import BadInput, near_names
 from bayesmap.posterior.posterior import Posterior, entropy_bits
 from bayesmap.posterior.scores import Score, log_score, score_posterior
 from bayesmap.posterior.summary import Summary, rhat, summarise
@@ -446,6 +446,7 @@ def load(path: str | os.PathLike[str]) -> Run:
     return Run(*load_saved(path))
 
 
+@near_names
 def score(
     run: Run, heldout_scans: Scans, sensor: SensorModel | None = None, *, seed: int = 0, device: str = "cpu",
     on_progress: Callable[[float], None] = lambda share: None,

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from shell import succeed
+from shell import SLAM, json_of, succeed
 
 from bayesmap.io.logs import read_log
 
@@ -34,6 +34,26 @@ def office_run(office, tmp_path_factory):
     folder = tmp_path_factory.mktemp("run") / "office"
     succeed("infer", office, "-o", folder, *SHORT)
     return folder
+
+
+MOUNT = "0.2,-0.1,0"
+"""Where the laser of the robot with raw odometry sits on it."""
+
+
+@pytest.fixture(scope="session")
+def raw_log(tmp_path_factory):
+    """A robot's round through a small office, with the odometry of a Pioneer."""
+    path = tmp_path_factory.mktemp("raw") / "office.log"
+    world = "--world building --size 12x8 --scans 40 --odometry typical --fov 360 --angles 120 --seed 4"
+    succeed("simulate", world, f"--laser {MOUNT}", "-o", path)
+    return path
+
+
+@pytest.fixture(scope="session")
+def slam_run(raw_log, tmp_path_factory):
+    """Its map and trajectory: the folder, and what the command printed as JSON."""
+    folder = tmp_path_factory.mktemp("slam") / "run"
+    return folder, json_of("slam", raw_log, "-o", folder, SLAM, "--checkpoint-every 600 --json")
 
 
 @pytest.fixture(scope="session")

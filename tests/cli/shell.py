@@ -20,6 +20,8 @@ from bayesmap.cli.group import cli
 from bayesmap.result import Run
 
 SOURCE = Path(__file__).resolve().parents[2] / "src"
+SLAM = "--chains 2 --warmup 3 --draws 4 --resolution 0.25 --max-range 7 --threads 2"
+"""Options of slam that take seconds."""
 COMMAND = [sys.executable, "-m", "bayesmap.cli.main"]
 
 

@@ -7,6 +7,7 @@ from shell import call, json_of, refusal_of, succeed
 from bayesmap.io.logs import read_log
 from bayesmap.io.text.trajectories import read_trajectory, write_trajectory
 from bayesmap.posterior import baselines
+from bayesmap.result import load
 
 SMALL = "--world building --size 12x8 --resolution 0.25 --scans 40 --angles 60"
 WHERE = "--laser 0.2,0,0"
@@ -47,7 +48,7 @@ def test_a_run_is_scored_by_relations_alone(raw, raw_run, tmp_path):
     assert found["relations"]["coverage"] is None  # known poses say nothing of how sure they are
     assert "score" not in found
     assert picture.stat().st_size > 1000
-    text = succeed("score", raw_run, "--relations", raw / "office.relations")
+    text = succeed("score", raw_run, "--relations", raw / "office.relations", "--frame laser")
     assert [line.split()[0] for line in text.stdout.splitlines()] == ["relations", "translation", "rotation", "regions"]
     assert "regions      unknown: the run takes its poses as known" in text.stdout
     assert "slam saves them" in text.stdout
@@ -104,14 +105,30 @@ def test_the_frame_matters(raw):
 
 @pytest.mark.full
 @pytest.mark.usefixtures("roughly")
-def test_the_trajectory_of_the_base_is_moved_to_the_laser(raw, tmp_path):
-    laser = read_trajectory(raw / "office-truth.tum")
-    base = laser.of_frame(np.array([-0.2, 0.0, 0.0]))
-    path = write_trajectory(tmp_path / "base.tum", base.poses, base.stamps_s)
+def test_the_trajectory_may_be_of_the_base_or_of_the_laser(raw, tmp_path):
+    base = read_trajectory(raw / "office-truth.tum")
+    laser = base.of_frame(np.array([0.2, 0.0, 0.0]))
+    path = write_trajectory(tmp_path / "laser.tum", laser.poses, laser.stamps_s)
     truth = (raw / "office-truth.yaml", raw / "office.log", "--holdout", "4")
-    moved = document_of(*truth, "--trajectory", path, "--trajectory-frame base")
+    moved = document_of(*truth, "--trajectory", path, "--trajectory-frame laser")
     same = document_of(*truth, "--trajectory", raw / "office-truth.tum")
     assert moved["score"]["nats_per_beam"] == pytest.approx(same["score"]["nats_per_beam"], abs=0.01)
+
+
+def test_a_map_is_inferred_and_scored_along_a_given_trajectory(raw, tmp_path):
+    """The poses of the log are raw odometry, which infer refuses; with the true ones it needs no --poses-as-given."""
+    log, given = raw / "office.log", ("--trajectory", raw / "office-truth.tum", "--max-range 12")
+    options = "--resolution 0.25 --chains 2 --warmup 5 --draws 5 --holdout 4 --no-progress"
+    result = succeed("infer", log, *given, "-o", tmp_path, options)
+    assert "the scans stand at the poses of the given trajectory, taken as those of the base" in result.stderr
+    truth = read_trajectory(raw / "office-truth.tum").of_frame(np.array([0.2, 0.0, 0.0]))
+    held = np.arange(40) % 4 == 2
+    np.testing.assert_allclose(load(tmp_path / "run.nc").posterior.scans.poses, truth.poses[~held], atol=1e-6)
+    own = document_of(tmp_path / "run.nc", log, "--holdout 4", *given[:2])
+    assert own["heldout"]["scans"] == 10
+    assert "--trajectory DIR/trajectory.tum" in refusal_of("score", tmp_path / "run.nc", log, "--holdout 4")
+    # Resumed with its own settings, the run is the one that it was.
+    succeed("infer", log, "-o", tmp_path, "--resume")
 
 
 @pytest.mark.full
@@ -129,7 +146,7 @@ def test_a_trajectory_without_a_map_gets_one(raw):
         (["office-truth.yaml"], 2, "give the LOG whose scans score"),
         (["run/run.nc"], 2, "give LOG, whose held-out scans score the run, or --relations"),
         (["run/run.nc", "--frame", "base"], 2, "--frame says whose --relations are known"),
-        (["run/run.nc", "--relations", "office.relations", "--frame", "base"], 3, "needs to know where the laser sits"),
+        (["office-truth.yaml", "office.log", "--trajectory-frame", "base"], 2, "give both"),
         (["office-truth.yaml", "office.log", "--trajectory", "late.tum"], 3, "are both of one clock?"),
         (["office-truth.yaml", "office.log", "--holdout", "0"], 3, "leaves nothing to score"),
         (["run/run.nc", "--relations", "office.log"], 3, "line"),

@@ -50,16 +50,16 @@ def test_raw_odometry_with_the_truth_beside_it(tmp_path):
     document = simulated(tmp_path, "--odometry typical,slips_per_m=0.05 --laser 0.1,-0.05,5")
     assert document["odometry"]["slips_per_m"] == 0.05
     reading = describe_log(tmp_path / "office.log")
-    stamps, laser = truth_of(tmp_path)
+    stamps, base = truth_of(tmp_path)
     mount = np.array([0.1, -0.05, np.radians(5.0)])
-    np.testing.assert_allclose(reading.laser_offset, mount, atol=1e-4)
+    laser = compose(base, mount)
+    np.testing.assert_allclose(reading.scans.mount, mount, atol=1e-4)
     np.testing.assert_allclose(reading.scans.stamps_s, stamps, atol=1e-5)
     drift = between(laser, reading.scans.poses)
     assert np.abs(drift[0]).max() < 1e-5
     assert np.hypot(*drift[:, :2].T).max() > 0.1
 
     relations = np.loadtxt(tmp_path / "office.relations")
-    base = compose(laser, between(mount, np.zeros(3)))
     start, end = (interpolate(stamps, base, relations[:, column]) for column in (0, 1))
     assert len(relations) > 20
     np.testing.assert_allclose(between(relations[:, [2, 3, 7]], between(start, end)), 0.0, atol=1e-4)

@@ -5,12 +5,14 @@ import signal
 
 import numpy as np
 import pytest
-from shell import json_of, refusal_of, start, succeed, wait_for
+from shell import SLAM, json_of, refusal_of, start, succeed, wait_for
 
 import bayesmap as bm
+from bayesmap.io.text.trajectories import read_trajectory
 from bayesmap.poses.slam import infer_trajectory
+from bayesmap.space.planar import compose, inverse
+from bayesmap.space.trajectory import FRAMES
 
-SHORT = "--chains 2 --warmup 4 --draws 6 --resolution 0.2 --threads 2"
 OUTPUTS = {
     "run.nc", "map.yaml", "map.pgm", "posterior.png", "trajectory.tum", "trajectory.png", "odometry.png", "loops.png",
     "summary.json", "config.toml",
@@ -18,17 +20,13 @@ OUTPUTS = {
 
 
 @pytest.fixture(scope="module")
-def log(tmp_path_factory):
-    """A robot's round through a small office, with the odometry of a Pioneer."""
-    path = tmp_path_factory.mktemp("log") / "office.log"
-    succeed("simulate", "--world building --size 12x8 --scans 70 --odometry typical --fov 360 --seed 4 -o", path)
-    return path
+def log(raw_log):
+    return raw_log
 
 
 @pytest.fixture(scope="module")
-def whole(log, tmp_path_factory):
-    folder = tmp_path_factory.mktemp("slam") / "run"
-    return folder, json_of("slam", log, "-o", folder, SHORT, "--checkpoint-every 600 --json")
+def whole(slam_run):
+    return slam_run
 
 
 def test_the_folder_holds_map_trajectory_covariances_and_pictures(whole, log):
@@ -40,8 +38,30 @@ def test_the_folder_holds_map_trajectory_covariances_and_pictures(whole, log):
     assert found["flagged"] == []
     assert found["sampled"]["sigma_m"] < 0.1
     run = bm.load(folder / "run.nc")
-    assert run.poses.shape == (2, 6, found["key_scans"], 3)
+    assert run.poses.shape == (2, 4, found["key_scans"], 3)
     assert len(np.loadtxt(folder / "trajectory.tum")) == found["scans"]
+    assert found["frame"] == "base"
+    assert (folder / "trajectory.tum").read_text().startswith("# poses of the base: timestamp ")
+
+
+@pytest.mark.parametrize("frame", FRAMES)
+@pytest.mark.parametrize("ending", ["tum", "g2o"])
+def test_export_writes_the_frame_that_is_asked_for(whole, tmp_path, frame, ending):
+    run, path = whole[0] / "run.nc", tmp_path / f"path.{ending}"
+    succeed("export", run, "-o", path, "--frame", frame)
+    text = path.read_text()
+    if ending == "g2o":
+        words = [line.split() for line in text.splitlines() if line.startswith("VERTEX_SE2")]
+        poses = np.array([row[2:] for row in words], float)
+    else:
+        assert text.startswith(f"# poses of the {frame}: ")
+        poses = read_trajectory(path).poses
+    laser = bm.load(run).trajectory.poses
+    mount = np.array([0.2, -0.1, 0.0])
+    np.testing.assert_allclose(
+        poses[:, :2], (laser if frame == "laser" else compose(laser, inverse(mount)))[:, :2], atol=1e-6
+    )
+    assert "holds a map, and takes no frame" in refusal_of("export", run, "-o", tmp_path / "map.yaml", "--frame", frame)
 
 
 def test_its_poses_are_scored_beside_its_log_which_says_where_the_laser_sits(whole, log):
@@ -57,7 +77,7 @@ def test_its_poses_are_scored_beside_its_log_which_says_where_the_laser_sits(who
 
 
 def test_chains_that_have_not_mixed_are_warned_of_and_not_believed(whole, log):
-    """Six draws of two chains: score and summary go by the approximation, which the saved run holds."""
+    """Four draws of two chains: score and summary go by the approximation, which the saved run holds."""
     folder, document = whole
     assert document["trajectory"]["sampled"]["by_approximation"]
     run = bm.load(folder / "run.nc")
@@ -74,16 +94,17 @@ def test_chains_that_have_not_mixed_are_warned_of_and_not_believed(whole, log):
 def test_the_trajectory_is_nearer_to_the_truth_than_odometry(whole, log):
     truth = np.loadtxt(log.with_name("office-truth.tum"))[:, 1:3]
     found = np.loadtxt(whole[0] / "trajectory.tum")[:, 1:3]
-    raw = bm.read_log(log).poses[:, :2]
-    # The log begins at the true pose, so the frames are the same.
-    assert np.hypot(*(raw - truth).T).max() > 0.5
+    raw = bm.read_log(log)
+    base = compose(raw.poses, inverse(raw.mount))[:, :2]
+    # The log begins at the true pose, so the frames are the same, and both files are of the base.
+    assert np.hypot(*(base - truth).T).max() > 0.5
     assert np.hypot(*(found - truth).T).max() < 0.1
 
 
 @pytest.mark.full
 def test_ctrl_c_keeps_what_is_done_and_resume_ends_as_if_nothing_had_stopped_it(whole, log, tmp_path):
     folder = tmp_path / "run"
-    process = start("slam", log, "-o", folder, SHORT, "--draws 60 --checkpoint-every 0 --no-progress")
+    process = start("slam", log, "-o", folder, SLAM, "--draws 60 --checkpoint-every 0 --no-progress")
     wait_for(folder / "run.nc", process)
     process.send_signal(signal.SIGINT)
     _, errors = process.communicate()
@@ -94,7 +115,7 @@ def test_ctrl_c_keeps_what_is_done_and_resume_ends_as_if_nothing_had_stopped_it(
     succeed("slam", log, "-o", folder, "--resume")
     run, uninterrupted = bm.load(folder / "run.nc"), bm.load(whole[0] / "run.nc")
     assert run.finished
-    np.testing.assert_array_equal(run.poses[:, :6], uninterrupted.poses)
+    np.testing.assert_array_equal(run.poses[:, :4], uninterrupted.poses)
     assert (folder / "trajectory.tum").read_bytes() == (whole[0] / "trajectory.tum").read_bytes()
 
 
@@ -103,7 +124,7 @@ def test_fast_stops_after_the_approximation_and_resume_uses_its_stages(log, tmp_
     folder = tmp_path / "run"
     (folder / "stages").mkdir(parents=True)
     infer_trajectory(bm.read_log(log), checkpoint=folder / "stages")
-    result = succeed("slam", log, "-o", folder, "--fast", SHORT, "--json -v")
+    result = succeed("slam", log, "-o", folder, "--fast", SLAM, "--json -v")
     assert "sampled" not in json.loads(result.stdout)["trajectory"]
     assert "front end" not in result.stderr
     assert bm.load(folder / "run.nc").trajectory is not None
@@ -112,6 +133,10 @@ def test_fast_stops_after_the_approximation_and_resume_uses_its_stages(log, tmp_
 def test_what_cannot_be_inferred_is_refused(log, tmp_path):
     assert "5 Hz" in refusal_of("slam", log, "--no-odometry -o", tmp_path / "run")
     refusal_of("slam", log, "--resume --force", code=2)
+    scans = bm.read_log(log)
+    np.savez(tmp_path / "scans.npz", poses=scans.poses, angles_rad=scans.angles_rad, ranges_m=scans.ranges_m)
+    refused = refusal_of("slam", tmp_path / "scans.npz", "--frame base -o", tmp_path / "run")
+    assert "those of the base need to know where the laser sits" in refused
 
 
 def rewritten(log, target, change):
@@ -143,13 +168,13 @@ def test_constant_odometry_is_refused_before_anything_is_written(log, tmp_path):
 @pytest.mark.full
 def test_frozen_odometry_and_a_clock_that_was_set_back_are_named(log, tmp_path):
     def worse(poses, stamps):
-        poses[20:40] = poses[20]
+        poses[12:24] = poses[12]
         stamps[:] = 0.2 * np.arange(len(stamps))
-        stamps[50:] -= 3.0
+        stamps[30:] -= 3.0
 
-    result = succeed("slam", rewritten(log, tmp_path / "worse.csv", worse), "-o", tmp_path / "run", "--fast", SHORT)
-    assert "warning: odometry stands still from scan 20 to 39" in result.stderr
-    assert "the clock goes back by 2.8 s at scan 50 (at 7.000 s) and stays so" in result.stderr
+    result = succeed("slam", rewritten(log, tmp_path / "worse.csv", worse), "-o", tmp_path / "run", "--fast", SLAM)
+    assert "warning: odometry stands still from scan 12 to 23" in result.stderr
+    assert "the clock goes back by 2.8 s at scan 30 (at 3.000 s) and stays so" in result.stderr
     stamps = np.loadtxt(tmp_path / "run" / "trajectory.tum")[:, 0]
     assert (np.diff(stamps) > 0).all()
 
@@ -162,8 +187,8 @@ def test_scans_alone_need_no_poses(tmp_path):
     scans = bm.read_log(log).select(slice(0, 40))
     path, folder = tmp_path / "scans.npz", tmp_path / "run"
     np.savez(path, angles_rad=scans.angles_rad, ranges_m=scans.ranges_m, stamps_s=0.2 * np.arange(40))
-    assert "--no-odometry" in refusal_of("slam", path, "-o", folder, SHORT)
-    succeed("slam", path, "-o", folder, SHORT, "--fast --no-odometry")
+    assert "--no-odometry" in refusal_of("slam", path, "-o", folder, SLAM)
+    succeed("slam", path, "-o", folder, SLAM, "--fast --no-odometry")
     assert not (folder / "odometry.png").exists()  # there is none to draw
     tum = np.loadtxt(folder / "trajectory.tum")[:, 1:3]
     ways = [np.linalg.norm(poses - poses[0], axis=1) for poses in (tum, scans.poses[:, :2])]

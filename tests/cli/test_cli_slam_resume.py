@@ -7,32 +7,25 @@ import signal
 
 import numpy as np
 import pytest
-from shell import call, refusal_of, succeed
+from shell import SLAM, call, refusal_of, succeed
 from tiers import full_but
 
 import bayesmap as bm
 import bayesmap.api
 
-SETTINGS = "--chains 2 --warmup 3 --draws 4 --resolution 0.25 --max-range 7 --threads 2"
 OTHERS = "--fast --resolution 0.5 --threads 2"
 SAME = ("trajectory.tum", "trajectory-covariances.txt", "map.pgm", "config.toml")
 
 
 @pytest.fixture(scope="module")
-def log(tmp_path_factory):
-    """A robot's round through a small office, with the odometry of a Pioneer."""
-    path = tmp_path_factory.mktemp("log") / "office.log"
-    world = "--world building --size 12x8 --scans 40 --odometry typical --fov 360 --angles 120 --seed 4"
-    succeed("simulate", world, "-o", path)
-    return path
+def log(raw_log):
+    return raw_log
 
 
 @pytest.fixture(scope="module")
-def whole(log, tmp_path_factory):
+def whole(slam_run):
     """The run that nothing stopped."""
-    folder = tmp_path_factory.mktemp("whole") / "run"
-    succeed("slam", log, "-o", folder, SETTINGS)
-    return folder
+    return slam_run[0]
 
 
 def press_ctrl_c_in(monkeypatch, stage):
@@ -72,7 +65,7 @@ def test_the_printed_command_ends_as_if_nothing_had_stopped_it(log, whole, tmp_p
     folder = tmp_path / "run"
     with monkeypatch.context() as patch:
         press_ctrl_c_in(patch, stage)
-        stopped = call("slam", log, "-o", folder, SETTINGS)
+        stopped = call("slam", log, "-o", folder, SLAM)
     assert stopped.exit_code == 130, stopped.stderr
     succeed(*printed(stopped.stderr))
     assert_same(folder, whole)
@@ -84,7 +77,7 @@ def test_the_trajectory_and_a_first_map_stand_in_the_folder_before_the_chains(lo
     monkeypatch.setattr("bayesmap.api.PREVIEW_FROM_S", 0.0)
     with monkeypatch.context() as patch:
         press_ctrl_c_in(patch, stage)
-        stopped = call("slam", log, "-o", folder, SETTINGS, "--json")
+        stopped = call("slam", log, "-o", folder, SLAM, "--json")
     assert stopped.exit_code == 130, stopped.stderr
     assert stopped.stderr.count("the trajectory of all scans: ") == 1
     assert stopped.stderr.count("a first, rough map: ") == 1
@@ -112,7 +105,7 @@ def test_a_run_that_is_replaced_is_not_what_is_resumed(log, whole, tmp_path, mon
     before = {path.name: path.read_bytes() for path in folder.iterdir() if path.is_file()}
     with monkeypatch.context() as patch:
         press_ctrl_c_in(patch, stage)
-        stopped = call("slam", log, "-o", folder, SETTINGS, "--force")
+        stopped = call("slam", log, "-o", folder, SLAM, "--force")
     assert stopped.exit_code == 130, stopped.stderr
     left = {path.name: path.read_bytes() for path in folder.iterdir() if path.is_file()}
     if stage == "warm-up":  # the new run has taken its place
@@ -138,4 +131,4 @@ def test_ctrl_c_before_the_run_has_begun_prints_no_command(log, whole, monkeypat
 
 
 def test_a_folder_that_cannot_be_written_is_bad_input(log):
-    assert refusal_of("slam", log, "-o", "/proc/run", SETTINGS).splitlines()[-1].startswith("bayesmap: error: /proc")
+    assert refusal_of("slam", log, "-o", "/proc/run", SLAM).splitlines()[-1].startswith("bayesmap: error: /proc")

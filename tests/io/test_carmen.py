@@ -115,7 +115,7 @@ def test_the_pose_is_the_lasers_and_its_offset_is_reported(read):
     laser = (2.0, 1.0 + offset, np.pi / 2)  # 0.3 m ahead of a robot that looks along +y
     reading = read(flaser([1.0, 2.0], laser, robot))
     np.testing.assert_array_equal(reading.scans.poses, [laser])
-    np.testing.assert_allclose(reading.laser_offset, [offset, 0, 0], atol=1e-12)
+    np.testing.assert_allclose(reading.scans.mount, [offset, 0, 0], atol=1e-12)
 
 
 def test_of_two_lasers_the_one_with_more_scans_is_read_and_the_other_noted(read):

@@ -99,7 +99,7 @@ def test_the_intel_log_is_read_as_its_description_says():
     np.testing.assert_allclose(np.degrees(scans.angles_rad), np.arange(-90, 90), atol=1e-9)
     assert reading.reordered > 0
     assert (np.diff(scans.stamps_s) >= 0).all()
-    assert reading.laser_offset == (0.0, 0.0, 0.0)
+    np.testing.assert_array_equal(scans.mount, 0.0)
     assert reading.skipped == ()
 
 

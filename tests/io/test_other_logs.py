@@ -51,7 +51,7 @@ def test_scans_on_the_vertices_of_a_graph(tmp_path):
     np.testing.assert_array_equal(reading.scans.ranges_m, scans.ranges_m)
     np.testing.assert_allclose(reading.scans.angles_rad, ANGLES, atol=1e-12)
     assert reading.messages == {"VERTEX_SE2": 6, "ROBOTLASER1": 6, "EDGE_SE2": 5, "FIX": 1}
-    np.testing.assert_allclose(reading.laser_offset, (0.2, -0.1, 0.3), atol=1e-9)
+    np.testing.assert_allclose(reading.scans.mount, (0.2, -0.1, 0.3), atol=1e-9)
     packed = tmp_path / "graph.g2o.gz"
     packed.write_bytes(gzip.compress(path.read_bytes()))
     np.testing.assert_array_equal(read_log(packed, max_range_m=42.0).ranges_m, scans.ranges_m)
@@ -296,7 +296,7 @@ def test_a_laser_that_sits_elsewhere_on_the_robot_than_the_log_says(tmp_path, ki
     expected = on(robot, MOUNTED)
     np.testing.assert_allclose(reading.scans.poses[:, :2], expected[:, :2], atol=1e-5)
     np.testing.assert_allclose(np.cos(reading.scans.poses[:, 2] - expected[:, 2]), 1.0, atol=1e-9)
-    np.testing.assert_allclose(reading.laser_offset, MOUNTED)
+    np.testing.assert_allclose(reading.scans.mount, MOUNTED)
     with pytest.raises(bm.BadInput, match="laser: give x and y in metres"):
         read_log(path, laser=(0.0, math.nan, 0.0))
 

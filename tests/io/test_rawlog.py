@@ -169,7 +169,7 @@ def test_scans_and_motions_of_each_release_are_those_that_were_simulated(tmp_pat
     assert format_of(path) == "rawlog"
     reading = describe_log(path)
     same(reading.scans, scans, timed=style.scan >= 3, atol=1e-9 if style.pose2 and style.pose3 else 1e-5)
-    np.testing.assert_allclose(reading.laser_offset, MOUNT, atol=1e-6)
+    np.testing.assert_allclose(reading.scans.mount, MOUNT, atol=1e-6)
     assert (reading.format, reading.pose_source) == ("rawlog", "CActionRobotMovement2D")
     assert reading.messages["CObservation2DRangeScan"] == len(TIMES)
     assert (reading.scans.stamps_s is None) == (style.scan < 3)

@@ -143,7 +143,7 @@ def test_a_static_transform_with_two_values_is_noted_with_both(tmp_path, other):
     (note,) = reading.notes
     assert note.startswith("the transform base_link -> laser has two values on /tf_static that differ: x 0.2 m, y ")
     assert "yaw 17.19 degrees (1 x); the last was used, x 0.2 m, y -0.1 m, yaw 17.19 degrees" in note
-    np.testing.assert_allclose(reading.laser_offset, r.MOUNT, atol=1e-9)
+    np.testing.assert_allclose(reading.scans.mount, r.MOUNT, atol=1e-9)
 
 
 def test_a_sensor_that_is_upside_down_by_one_publisher_only_is_noted(tmp_path):

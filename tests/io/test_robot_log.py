@@ -22,7 +22,7 @@ def test_scans_and_poses_by_tf_are_those_that_were_simulated(tmp_path, writer):
     r.same(reading.scans, scans)
     assert reading.notes == ()
     assert (reading.pose_source, reading.fixed_frame, reading.sensor_frame) == ("/tf", "map", "laser")
-    np.testing.assert_allclose(reading.laser_offset, r.MOUNT, atol=1e-9)
+    np.testing.assert_allclose(reading.scans.mount, r.MOUNT, atol=1e-9)
     assert reading.messages == {"/scan": 10, "/tf": 42, "/tf_static": 1}
     assert reading.summary()["scan_topic"] == "/scan"
 
@@ -260,7 +260,7 @@ def test_where_the_laser_sits_can_be_said_for_a_recording_that_does_not_know(tmp
     path = r.written(tmp_path, messages)
     reading = describe_log(path, laser=r.MOUNT)
     r.same(reading.scans, scans)
-    np.testing.assert_allclose(reading.laser_offset, r.MOUNT)
+    np.testing.assert_allclose(reading.scans.mount, r.MOUNT)
     assert not any("taken as the sensor's" in note for note in reading.notes)
     if poses == "odom":
         assert any("--laser X,Y,DEGREES" in note for note in describe_log(path).notes)

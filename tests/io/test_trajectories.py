@@ -15,9 +15,9 @@ from bayesmap.io.exports import export_run, export_trajectory, trajectory_of
 from bayesmap.io.text.g2o import Edges, chain_edges, slam_edges, write_g2o
 from bayesmap.io.text.trajectories import read_trajectory, write_relations, write_trajectory
 from bayesmap.poses.graph import Factors, Precision, normal_equations, quadratic, relative_covariances, solve_step
-from bayesmap.space.planar import between, compose
+from bayesmap.space.planar import between, compose, inverse
 from bayesmap.space.scans import Scans
-from bayesmap.space.trajectory import Trajectory, ellipses
+from bayesmap.space.trajectory import RelativeLaw, Trajectory, ellipses
 
 STAMPS = np.array([100.5, 101.25, 103.0])
 POSES = np.array([[-1.4, 2.1, 0.0], [-1.0, 2.2, 0.5], [-0.5, 2.6, -3.0]])
@@ -119,6 +119,15 @@ def test_a_step_is_as_sure_as_the_draws_say_not_as_two_poses_alone():
     assert np.linalg.eigvalsh(alone.information).max() < 200
 
 
+def test_a_graph_of_the_base_is_that_of_the_laser_moved():
+    """Edges that are moved say of the moved trajectory what its own steps say."""
+    mount, law = np.array([0.4, -0.2, 0.7]), RelativeLaw(lambda first, second: covariances()[first], 10.0)
+    laser = trajectory(relative=law, frame="laser")
+    moved, own = chain_edges(laser).of_frame(inverse(mount)), chain_edges(laser.of("base", mount))
+    np.testing.assert_allclose(moved.relative, own.relative, atol=1e-12)
+    np.testing.assert_allclose(moved.information, own.information, rtol=1e-5)
+
+
 def test_graphs_that_cannot_be(tmp_path):
     with pytest.raises(BadInput, match="a graph needs covariances or draws"):
         export_trajectory(tmp_path / "a.g2o", trajectory(covariances=None))
@@ -206,7 +215,7 @@ def test_what_is_no_trajectory_leaves_no_file(tmp_path, poses, stamps, says):
 def written(found, path):
     """The graph as a file's lines say it: vertices, and edges as factors."""
     run = SimpleNamespace(trajectory=found, grid=None, observed=None)
-    export_run(path, run, SimpleNamespace(stamps_s=None))
+    export_run(path, run, SimpleNamespace(stamps_s=None, mount=None))
     lines = [line.split() for line in path.read_text().splitlines()]
     tags = [line[0] for line in lines]
     assert tags == sorted(tags, reverse=True)  # vertices, then edges, and nothing else

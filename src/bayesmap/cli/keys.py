@@ -57,6 +57,7 @@ Export = Literal[
     "auto", "map-server", "occupancy-grid", "gridmap", "rerun", "tum", "trajectory", "g2o", "geotiff"
 ]  # fmt: skip
 Mode = Literal["trinary", "scale", "raw"]
+Frame = Literal["base", "laser"]
 
 Seed = Annotated[CountFromZero, Help("Seed of all random numbers.")]
 Device = Annotated[str, Help("cpu, or a CUDA device such as cuda:0.", metavar="NAME")]
@@ -68,6 +69,9 @@ Threads = Annotated[
 ]
 Particles = Annotated[Count, Help("Maps that the method importance draws.")]
 Strict = Annotated[bool, Help("Exit with 4 if the diagnostics find a problem.")]
+PosesOf = Annotated[
+    Frame | None, Help("Frame of the trajectory's poses.", "base, if the log says where the laser sits on it")
+]
 Radius = Annotated[Length, Help("Radius of the robot, a disc, in metres.")]
 SensorText = Annotated[str, Help("Sensor model, such as gaussian:0.2 (see above).", metavar="MODEL")]
 
@@ -100,6 +104,12 @@ class ReadingSettings(Settings, kw_only=True, frozen=True):
         Rule(lambda x: 0 <= x < math.inf, "0 or a positive number of metres"),
         Help("Keep one scan each time the robot has moved this far; 0: all.", metavar="METRES"),
     ] = 0.0
+    trajectory: Annotated[
+        str | None, Help("Poses by time from this TUM file instead of the log's.", "the log's poses", "FILE.tum")
+    ] = None
+    trajectory_frame: Annotated[
+        Frame | None, Help("Frame of FILE.tum.", "as its first line says; base, if it is known where the laser sits")
+    ] = None
 
 
 class SamplingSettings(ReadingSettings, kw_only=True, frozen=True):
@@ -174,6 +184,7 @@ class SlamSettings(SamplingSettings, kw_only=True, frozen=True):
     fast: Annotated[bool, Help("Stop after the approximate trajectory, and infer the map as if it were known.")] = False
     sample_poses: Annotated[bool, Help("Sample the poses of over 100 key scans, too, and use all their beams.")] = False
     no_odometry: Annotated[bool, Help("Do not use the log's poses; scans must come at 5 Hz or more.")] = False
+    frame: PosesOf = None
 
 
 class SimulateSettings(Settings, kw_only=True, frozen=True):
@@ -245,6 +256,7 @@ class ExportSettings(Settings, kw_only=True, frozen=True):
     free_thresh: Annotated[
         Share | None, Help("A cell below this probability is free.", "walls 0.25, reflectivities 0.1; 0 with scale")
     ] = None
+    frame: PosesOf = None
 
 
 class ScoreSettings(ReadingSettings, kw_only=True, frozen=True):

@@ -32,8 +32,8 @@ if TYPE_CHECKING:
 
 IMAGES = (".pgm", ".png", ".bmp")
 ENDINGS = (".tum", ".mcap", ".bag", ".db3", ".jsonl")
-RECORDED = ("scan_topic", "pose_topic", "fixed_frame")
-"""Settings that only recordings have."""
+NOT_LIVE = ("scan_topic", "pose_topic", "fixed_frame", "trajectory")
+"""Settings that a text which is still being written cannot have."""
 
 
 @command("localize")
@@ -359,15 +359,14 @@ def scans_to_come(question: _Question, idle_s: float | None) -> Iterator[Scans]:
     """Return the scans of a log that is still being written, one at a time, until none arrives for ``idle_s`` seconds.
 
     Raises:
-        BadInput: a setting that only recordings have.
+        BadInput: a setting that such a log cannot have.
     """
     from bayesmap.io.live import live_scans
 
     console, log, settings = question.call.console, question.log, question.call.settings()
-    for name in RECORDED:
-        value = getattr(settings, name)
-        if value is not None:
-            raise BadInput(f"{log}: --{name.replace('_', '-')} {value}: a text has no topics and no frames")
+    for name in NOT_LIVE:
+        if (value := getattr(settings, name)) is not None:
+            raise BadInput(f"{log}: --{name.replace('_', '-')} {value}: a log that is followed has its own poses alone")
     span, max_range_m = _span(question.span), question.map.max_range_m(live=True)
     assert max_range_m is not None
     scans = live_scans(

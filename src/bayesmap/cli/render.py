@@ -251,6 +251,7 @@ def export(call: Call[ExportSettings], run_file: str, output: str | None, force:
     --format trajectory nav_msgs/Path, and PoseWithCovarianceStamped, in a
                         recording
 
+    Poses are those of the robot's base, if the log says where the laser sits on it, and else of the laser (--frame).
     The layers are mean and entropy. If the state of a cell is a number, the bounds of its 90 % interval are layers too.
     """
     import numpy as np
@@ -268,7 +269,7 @@ def export(call: Call[ExportSettings], run_file: str, output: str | None, force:
         raise _without_draws(run_file, run)
     outputs = run.export(
         target, format=kind, mode=settings.mode, occupied_thresh=settings.occupied_thresh,
-        free_thresh=settings.free_thresh,
+        free_thresh=settings.free_thresh, frame=settings.frame,
     )  # fmt: skip
     document = {"version": __version__, "run": run_file, "outputs": {path.name: str(path) for path in outputs}}
     call.console.result(document, outputs)

@@ -4,23 +4,20 @@ from __future__ import annotations
 
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, get_args
 
 import click
 
 from bayesmap.cli.command import Call, command
 from bayesmap.cli.console import write_out
-from bayesmap.cli.keys import ScoreSettings
-from bayesmap.cli.scores import Scored, base_in_laser, mount_of, score_others, score_run
+from bayesmap.cli.keys import Frame, ScoreSettings
+from bayesmap.cli.scores import Scored, score_others, score_run
 from bayesmap.cli.translation import is_map
-from bayesmap.errors import BadInput
 from bayesmap.version import __version__
 
 if TYPE_CHECKING:
     from bayesmap.posterior.scores import Score
     from bayesmap.posterior.trajectory_scores import TrajectoryScore
-
-FRAMES = ("base", "laser")
 
 HEADINGS = ("map", "nats/beam", "50 %", "80 %", "95 %", "80 % width", "PIT", "Brier", "log loss")
 
@@ -30,15 +27,13 @@ HEADINGS = ("map", "nats/beam", "50 %", "80 %", "95 %", "80 % width", "PIT", "Br
 @click.argument("log", required=False)
 @click.option("--all", "whole", is_flag=True, help="Score all scans of LOG, another recording of the same place.")
 @click.option("--compare", is_flag=True, help="Also score hit ratios and log-odds, fitted on the same scans.")
-@click.option("--trajectory", metavar="FILE.tum", help="Trajectory of the laser, by another program.")
 @click.option("--relations", metavar="FILE", help="True relative poses (Kuemmerle et al. 2009) to score poses.")
 @click.option(
-    "--frame", type=click.Choice(FRAMES), help="Frame of --relations. [default: base, if LOG has the laser's mount]"
+    "--frame",
+    type=click.Choice(get_args(Frame)),
+    help="Frame of --relations. [default: base, if it is known where the laser sits on it]",
 )
 @click.option("--exact", is_flag=True, help="Score only relations at times of poses, not between poses.")
-@click.option(
-    "--trajectory-frame", type=click.Choice(FRAMES), default="laser", show_default=True, help="Frame of FILE.tum."
-)
 @click.option("--picture", metavar="FILE", help="Draw calibration and errors: .png, .pdf or .svg.")
 def score(
     call: Call[ScoreSettings],
@@ -46,11 +41,9 @@ def score(
     log: str | None,
     whole: bool,
     compare: bool,
-    trajectory: str | None,
     relations: str | None,
     frame: str | None,
     exact: bool,
-    trajectory_frame: str,
     picture: str | None,
 ) -> None:
     r"""Score a saved run, or another program's map or trajectory, on held-out scans of LOG.
@@ -77,42 +70,31 @@ def score(
     Every --holdout-th scan is scored, and the fit uses the others. Without --trajectory the command uses LOG's own
     poses. Without a map it infers one from the trajectory.
     """
-    settings, of_run = call.settings(), _is_run(run_file)
+    of_run = _is_run(run_file)
     if frame is not None and relations is None:
         raise click.UsageError("--frame says whose --relations are known; give both")
     if picture is not None:
         from bayesmap.files import need_ending
 
         need_ending(picture, ("png", "pdf", "svg"), "figure")  # check before minutes of computation
-    # Find the mount of the laser on the robot, if it is needed.
-    own_log = log if of_run or is_map(run_file) else run_file
-    matters = relations is not None or trajectory_frame == "base"
-    mount = mount_of(settings.laser, frame, own_log, settings) if matters else None
-    shift = base_in_laser(frame, mount) if matters else None
     # Score the map.
     if of_run:
-        if trajectory is not None:
-            raise click.UsageError("--trajectory goes with a map or a log; a run has poses of its own")
-        scored = score_run(call, run_file, log, whole=whole, compare=compare, poses_too=relations is not None)
         if log is None and relations is None:
             raise click.UsageError("give LOG, whose held-out scans score the run, or --relations, or both")
+        poses_too = relations is not None
+        scored = score_run(call, run_file, log, frame, whole=whole, compare=compare, poses_too=poses_too)
     else:
-        if trajectory_frame == "base" and mount is None:
-            raise BadInput(
-                "score: --trajectory-frame base needs to know where the laser sits: give --laser X,Y,DEGREES"
-            )
-        of_base = mount if trajectory_frame == "base" else None
-        scored = score_others(call, run_file, log, trajectory, of_base, compare=compare)
+        scored = score_others(call, run_file, log, frame, compare=compare)
     # Score the poses.
     poses = None
     if relations is not None:
         from bayesmap.io.text.trajectories import read_relations
         from bayesmap.posterior.trajectory_scores import score_trajectory
 
-        poses = score_trajectory(scored.trajectory, read_relations(relations), shift, exact=exact)
+        poses = score_trajectory(scored.trajectory, read_relations(relations), exact=exact)
     # Draw and print.
     outputs = {} if picture is None else {path.name: str(path) for path in _draw(picture, scored.rows, poses)}
-    whose = "laser" if shift is None else "base"
+    whose = str(scored.trajectory.frame)
     if call.console.as_json:
         about = None if poses is None else {"file": relations, "frame": whose, **poses.as_json()}
         call.console.result(_document(run_file, log, scored, about, outputs), [])
@@ -213,7 +195,7 @@ def lines_of(found: TrajectoryScore, frame: str, *, exact: bool, of_run: bool) -
     ``frame`` is the frame of the relations. ``exact`` tells whether only relations at times of poses count, ``of_run``
     whether the poses come from a saved run: the advice on missing covariances depends on it.
     """
-    from bayesmap.posterior.trajectory_scores import LONGEST_GAP_S
+    from bayesmap.space.trajectory import LONGEST_GAP_S
 
     figures = found.as_json()
     missing = ""

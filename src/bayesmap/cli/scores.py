@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -12,7 +12,7 @@ import click
 from bayesmap.cli.command import Call
 from bayesmap.cli.console import progress, share
 from bayesmap.cli.keys import ScoreSettings
-from bayesmap.cli.translation import heldout_scans, is_map, need_file, pose_of, reading_of
+from bayesmap.cli.translation import heldout_scans, is_map, need_file, reading_of
 from bayesmap.errors import BadInput
 
 if TYPE_CHECKING:
@@ -41,24 +41,27 @@ class Scored:
     rows: list[tuple[str, Score]]  # name and score of each row of the table; the first row is the scored map
     fits: list[Fitted]  # fits of the classic maps in the other rows
     every: int  # one scan in so many was held out; 0 if none was
-    trajectory: Trajectory  # trajectory of the laser
+    trajectory: Trajectory  # in the frame of the relations
     verdict: str | None = None  # verdict on the map of another program, in words
 
 
 def score_run(
-    call: Call[ScoreSettings], path: str, log: str | None, *, whole: bool, compare: bool, poses_too: bool
-) -> Scored:
+    call: Call[ScoreSettings], path: str, log: str | None, frame: str | None, *, whole: bool, compare: bool,
+    poses_too: bool,
+) -> Scored:  # fmt: skip
     """Score a saved run on the scans of a log that it has not seen. Without a log return only its trajectory.
 
-    ``whole`` scores all scans of the log, ``compare`` classic maps too. With ``poses_too``, the poses are scored
-    afterwards, and a run without held-out scans is accepted.
+    ``frame`` is that of the trajectory, see `bayesmap.space.trajectory.Trajectory.of`. ``whole`` scores all scans of
+    the log, ``compare`` classic maps too. With ``poses_too``, the poses are scored afterwards, and a run without
+    held-out scans is accepted.
     """
     from bayesmap.io.exports import trajectory_of
     from bayesmap.posterior.heldout import NoneHeldOut
     from bayesmap.result import load, score
 
     run, settings = load(path), call.settings()
-    trajectory = trajectory_of(run, run.posterior.scans)
+    mount = run.posterior.scans.mount if settings.laser is None else reading_of(settings)["laser"]
+    trajectory = trajectory_of(run, run.posterior.scans).of(frame, mount)
     if log is None:
         return Scored([], [], 0, trajectory)
     every = 0 if whole else settings.holdout
@@ -78,19 +81,10 @@ def score_run(
     return Scored(rows, fits, every, trajectory)
 
 
-def score_others(
-    call: Call[ScoreSettings],
-    path: str,
-    log: str | None,
-    trajectory: str | None,
-    mount: Floats | None,
-    *,
-    compare: bool,
-) -> Scored:
+def score_others(call: Call[ScoreSettings], path: str, log: str | None, frame: str | None, *, compare: bool) -> Scored:
     """Score a map of another program, or a trajectory (a TUM file) by a map inferred from it.
 
-    ``log`` has the scans that score a map, ``trajectory`` the poses of the scans (None: the log has them). ``mount`` is
-    the pose of the laser in the trajectory's frame, (3,); None if that is the laser's frame.
+    ``log`` has the scans that score a map, and ``frame`` is that of the returned trajectory.
     """
     from bayesmap.result import score
 
@@ -99,7 +93,7 @@ def score_others(
     if is_map(path):
         if log is None:
             raise click.UsageError(f"give the LOG whose scans score {path}")
-        placed = placed_scans(log, settings, trajectory, mount)
+        placed = placed_scans(log, settings, frame)
         call.console.say(f"scoring every {settings.holdout}-th scan of {log}: {len(placed.heldout):,}")
         fit, own = score_map(call, path, placed)
         rows, grid = [(fit.name, own)], fit.predictor.grid
@@ -107,9 +101,9 @@ def score_others(
     else:
         if log is not None:
             raise click.UsageError(f"{path}: neither a saved run (.nc) nor a map (.yaml)")
-        if trajectory is None:
+        if settings.trajectory is None:
             raise click.UsageError(f"{path}: a log by itself; give --trajectory, or the run or map to score on it")
-        placed = placed_scans(path, settings, trajectory, mount)
+        placed = placed_scans(path, settings, frame)
         run = infer_map(call, placed)
         with share(call.console, f"scoring the {_name(run)}") as report:
             rows = [(_name(run), score(run, placed.heldout, **_how(settings), on_progress=report))]
@@ -156,42 +150,26 @@ class Placed:
 
     train: Scans  # all scans but every n-th
     heldout: Scans  # every n-th scan
-    trajectory: Trajectory  # trajectory of the laser
+    trajectory: Trajectory
 
 
-def placed_scans(log: str, settings: ScoreSettings, trajectory: str | None, mount: Floats | None) -> Placed:
-    """Return the scans of a log, at the log's poses or at the poses of a trajectory (a TUM file).
-
-    ``mount`` is the pose of the laser in the trajectory's frame, (3,); None if that is the laser's frame.
+def placed_scans(log: str, settings: ScoreSettings, frame: str | None) -> Placed:
+    """Return the scans of a log, at the log's poses or at those of ``settings.trajectory``, and their trajectory.
 
     Raises:
         BadInput: files that cannot be read, scans without stamps, or a trajectory of another time.
     """
     need_file(log, "the log that the map was made from", runs=False)
     from bayesmap.io.logs import read_log
-    from bayesmap.io.text.trajectories import read_trajectory
     from bayesmap.space.trajectory import Trajectory
 
     if settings.holdout == 0:
         raise BadInput("score: --holdout 0 leaves nothing to score; the sensor is fitted on the other scans")
-    scans = read_log(log, **reading_of(settings))
-    if trajectory is None:
-        path = Trajectory(scans.poses, scans.stamps_s)
-    else:
-        path = read_trajectory(trajectory)
-        path = path if mount is None else path.of_frame(mount)
-        if scans.stamps_s is None:
-            raise BadInput(f"{log}: its scans have no stamps, so nobody can say where {trajectory} puts them")
-        poses, inside = path.at(scans.stamps_s)
-        if not inside.any():
-            assert path.stamps_s is not None
-            raise BadInput(
-                f"{trajectory}: it reaches from {path.stamps_s[0]:.3f} to {path.stamps_s[-1]:.3f} s, but the scans "
-                f"of {log} are from {scans.stamps_s[0]:.3f} to {scans.stamps_s[-1]:.3f} s; are both of one clock?"
-            )
-        scans = replace(scans, poses=poses, beam_poses=None).select(inside)
+    options = reading_of(settings)
+    scans = read_log(log, **options)
+    path = options["trajectory"] or Trajectory(scans.poses, scans.stamps_s, frame="laser")
     train, heldout = scans.holdout(settings.holdout)
-    return Placed(train, heldout, path)
+    return Placed(train, heldout, path.of(frame, scans.mount))
 
 
 def score_map(call: Call[ScoreSettings], path: str, placed: Placed) -> tuple[Fitted, Score]:
@@ -250,40 +228,3 @@ def infer_map(call: Call[ScoreSettings], placed: Placed) -> Run:
             placed.train, grid, prior=Surface(), sensor="fit", schedule=Schedule(warmup=50), seed=settings.seed,
             hit_depth=0.5, where=Where(device=settings.device), on_progress=on_progress,
         )  # fmt: skip
-
-
-def mount_of(typed: str | None, frame: str | None, log: str | None, settings: ScoreSettings) -> Floats | None:
-    """Return the pose of the laser on the robot, from the typed text or the log; None if neither has it.
-
-    If ``frame`` is "laser", the log is not read.
-
-    Raises:
-        click.BadParameter: a text that is not a pose.
-        BadInput: a log that cannot be read.
-    """
-    import numpy as np
-
-    if typed is not None:
-        return np.array(pose_of(typed, "--laser"))
-    if log is None or frame == "laser":
-        return None
-    from bayesmap.io.logs import describe_log
-
-    return np.array(describe_log(log, **reading_of(settings)).laser_offset)
-
-
-def base_in_laser(frame: str | None, mount: Floats | None) -> Floats | None:
-    """Return the pose of the robot's base in the laser's frame; None if the relations are in the laser's frame.
-
-    If ``frame`` is None, the relations are in the base's frame if the mount of the laser is known.
-
-    Raises:
-        BadInput: relations in the base's frame without a known mount of the laser.
-    """
-    from bayesmap.space.planar import inverse
-
-    if frame == "laser" or (frame is None and mount is None):
-        return None
-    if mount is None:
-        raise BadInput("score: --frame base needs to know where the laser sits: give LOG, or --laser X,Y,DEGREES")
-    return inverse(mount)

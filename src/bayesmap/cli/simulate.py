@@ -46,8 +46,8 @@ def simulate(call: Call[SimulateSettings], output: str | None, poses: tuple[str,
     bayesmap infer office.log -o runs/office
     bayesmap render runs/office/run.nc --truth office-truth.yaml
 
-    With --odometry the log holds the poses of the robot's odometry. The command then writes the laser's true trajectory
-    to LOG-truth.tum, and true relations between poses of the base (Kuemmerle et al. 2009) to LOG.relations.
+    With --odometry the log holds the poses of the robot's odometry. The command then writes the true trajectory of the
+    robot's base to LOG-truth.tum, and true relations between its poses (Kuemmerle et al. 2009) to LOG.relations.
 
     \b
     bayesmap simulate --world building --odometry typical --laser 0.1,0,0 -o office.log
@@ -107,7 +107,7 @@ def simulate(call: Call[SimulateSettings], output: str | None, poses: tuple[str,
     message = write_carmen(log, scans, base)
     outputs = [log, *write_map(truth, world.walls.astype(float), world.grid)]
     if noise is not None:
-        outputs += _write_truth(trajectory, relations, laser, world.poses, stamps_s, settings.seed)
+        outputs += _write_truth(trajectory, relations, world.poses, stamps_s, settings.seed)
     # Print the result.
     grid = world.grid
     document = {
@@ -136,17 +136,16 @@ def simulate(call: Call[SimulateSettings], output: str | None, poses: tuple[str,
 def _write_truth(
     trajectory: Path,
     relations: Path,
-    laser: NDArray[np.float64],
     base: NDArray[np.float64],
     stamps_s: NDArray[np.float64],
     seed: int,
 ) -> list[Path]:
-    """Write the laser's true trajectory and the true relations of the base, and return their paths."""
+    """Write the true trajectory and the true relations of the base, and return their paths."""
     from bayesmap.io.text.trajectories import write_relations, write_trajectory
     from bayesmap.sim.robot import related_pairs
     from bayesmap.space.planar import between
 
-    outputs = [write_trajectory(trajectory, laser, stamps_s)]
+    outputs = [write_trajectory(trajectory, base, stamps_s, "base")]
     start, end = related_pairs(base, seed)
     if len(start):
         true = between(base[start], base[end])

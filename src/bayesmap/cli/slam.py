@@ -73,7 +73,7 @@ def slam(call: Call[SlamSettings], log: str, output: str | None, resume: bool, f
     saved = pipeline.load_interrupted(task.folder) if task.folder.resuming else None
     if force:
         shutil.rmtree(_stages(task.folder), ignore_errors=True)
-    files = TrajectoryFiles(task.folder, reading, task.settings.resolution)
+    files = TrajectoryFiles(task.folder, reading, task.settings.resolution, _frame(reading, task.settings))
     try:
         # Infer trajectory and map, with checkpoints. The trajectory is written before the chains of the map begin.
         run = _slam(task, reading, saved, files)
@@ -92,7 +92,7 @@ def slam(call: Call[SlamSettings], log: str, output: str | None, resume: bool, f
             call.console.say(f"the stages that are done are kept; go on with:\n  {resume_command}")
         raise
     outputs += [folder / "summary.json", task.folder.config]
-    document = {**pipeline.document_of(run, reading, None, outputs), "trajectory": summary(run)}
+    document = {**pipeline.document_of(run, reading, None, outputs), "trajectory": summary(run, files.frame)}
     task.folder.write_document(document)
     # Report.
     pipeline.report(call.console, document)
@@ -103,6 +103,14 @@ def slam(call: Call[SlamSettings], log: str, output: str | None, resume: bool, f
 def _stages(folder: Folder) -> Path:
     """Return the folder of the finished stages of the approximation."""
     return folder.path / "stages"
+
+
+def _frame(reading: LogReading, settings: SlamSettings) -> str:
+    """Return the frame of the trajectory; refuse the base if nothing says where the laser sits on it."""
+    from bayesmap.space import trajectory
+
+    laser = trajectory.Trajectory(reading.scans.poses[:1], frame="laser")
+    return str(laser.of(settings.frame, reading.scans.mount).frame)
 
 
 def _check(console: Console, reading: LogReading, settings: SlamSettings) -> None:
@@ -175,6 +183,7 @@ class TrajectoryFiles:
     folder: Folder
     reading: LogReading
     resolution: float
+    frame: str  # frame on the robot whose poses are written
     written: list[Path] = field(default_factory=list)
     _known: Trajectory | None = field(default=None, init=False)
 
@@ -190,7 +199,7 @@ class TrajectoryFiles:
         except (OSError, BadInput) as error:
             self.folder.console.warn(f"the trajectory could not be written yet: {error}")
         else:
-            self.folder.console.say(f"the trajectory of all scans: {self.written[0]}")
+            self.folder.console.say(f"the trajectory of the {self.frame}, at all scans: {self.written[0]}")
 
     def finish(self, run: Run) -> list[Path]:
         """Write all files that are not written yet, and draw the trajectory on the map of the run."""
@@ -215,7 +224,7 @@ class TrajectoryFiles:
         """Write all files. The map in the picture is made of the cells that the key scans hit."""
         import numpy as np
 
-        from bayesmap.io.text.trajectories import covariances_path, write_covariances, write_trajectory
+        from bayesmap.io.exports import approximated, export_trajectory
         from bayesmap.poses.map_scans import calibrated_keys
         from bayesmap.space.grid import Grid
         from bayesmap.space.planar import between, compose
@@ -224,8 +233,8 @@ class TrajectoryFiles:
 
         # Write the text files.
         path, closures = self.folder.path, found.closures
-        tum = write_trajectory(path / "trajectory.tum", found.poses, found.stamps_s)
-        covariances = write_covariances(covariances_path(tum), found.covariances(), found.stamps_s)
+        moved = approximated(found).of(self.frame, self.reading.scans.mount)
+        texts = export_trajectory(path / "trajectory.tum", moved)
         # Draw the trajectory.
         scans = calibrated_keys(self.reading.scans, found)
         grid = Grid.covering(scans, self.resolution)
@@ -244,11 +253,11 @@ class TrajectoryFiles:
             pictures["odometry.png"] = odometry_figure(compose(found.poses[0], between(raw[0], raw)), found.poses)
         for name, figure in pictures.items():
             write_figure(figure, path / name)
-        return [tum, covariances, *(path / name for name in ("trajectory.png", *pictures))]
+        return [*texts, *(path / name for name in ("trajectory.png", *pictures))]
 
 
-def summary(run: Run) -> dict[str, Any]:
-    """Return the inferred trajectory in short, as JSON values."""
+def summary(run: Run, frame: str) -> dict[str, Any]:
+    """Return the inferred trajectory in short, as JSON values; ``frame`` is that of its file."""
     import numpy as np
 
     found = run.trajectory
@@ -256,6 +265,7 @@ def summary(run: Run) -> dict[str, Any]:
     sigma_m = np.sqrt(np.linalg.eigvalsh(found.covariances()[:, :2, :2])[:, 1])
     fit = found.calibration.odometry
     out: dict[str, Any] = {
+        "frame": frame,
         "scans": len(found),
         "key_scans": len(found.keys),
         "map": {"scans": len(run.posterior.scans), "beams": run.posterior.scans.ranges_m.size},
@@ -303,7 +313,8 @@ def _alternative(found: Trajectory, number: int) -> dict[str, Any]:
 def _report(call: Call[SlamSettings], trajectory: dict[str, Any]) -> None:
     """Print the trajectory's figures, and warn of scans, breaks and alternatives to check."""
     call.console.say(
-        f"trajectory: {trajectory['scans']:,} scans, {trajectory['key_scans']:,} of them key scans, "
+        f"trajectory of the {trajectory['frame']}: {trajectory['scans']:,} scans, "
+        f"{trajectory['key_scans']:,} of them key scans, "
         f"{trajectory['loop_closures']:,} loop closures, standard deviation "
         f"{100 * trajectory['sigma_m']['median']:.1f} cm (at most {100 * trajectory['sigma_m']['max']:.0f})"
     )

@@ -265,7 +265,15 @@ def executor_of(executor: str) -> Executor | None:
 def reading_of(settings: ReadingSettings) -> dict[str, Any]:
     """Return the arguments of `bayesmap.read_log`."""
     names = ("no_return", "skip_bad_lines", "scan_topic", "pose_topic", "fixed_frame", "deskew")
+    trajectory = None
+    if settings.trajectory is not None:
+        from bayesmap.io.text.trajectories import read_trajectory
+
+        trajectory = read_trajectory(settings.trajectory, settings.trajectory_frame)
+    elif settings.trajectory_frame is not None:
+        raise click.UsageError("--trajectory-frame is the frame of --trajectory: give both")
     return {
+        "trajectory": trajectory,
         **{name: getattr(settings, name) for name in names},
         "thin_m": settings.thin_scans,
         "laser": None if settings.laser is None else pose_of(settings.laser, "--laser"),
@@ -357,13 +365,12 @@ def heldout_scans(run: Run, log: str, settings: ReadingSettings, every: int) -> 
 
     train = run.posterior.scans
 
-    def scans_with(laser: str | None) -> Scans:
-        options = reading_of(msgspec.structs.replace(settings, laser=laser))
-        return read_log(log, max_range_m=train.max_range_m, **options)
-
-    scans = scans_with(None)
-    if settings.laser is not None and moved_by(train, scans):
-        scans = scans_with(settings.laser)  # as infer --laser read them
+    options = reading_of(settings)
+    laser = options.pop("laser")
+    needed = laser if settings.trajectory is not None else None
+    scans = read_log(log, max_range_m=train.max_range_m, laser=needed, **options)
+    if laser is not None and moved_by(train, scans):
+        scans = read_log(log, max_range_m=train.max_range_m, laser=laser, **options)  # as infer --laser read them
     return unseen_scans(train, scans, every, log)
 
 

@@ -13,6 +13,7 @@ from __future__ import annotations
 import contextlib
 import os
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
 
@@ -24,6 +25,7 @@ from bayesmap.files import write_whole
 from bayesmap.io.ros.writer import ENDINGS, FOLDER
 from bayesmap.space.cell_arrays import as_layers
 from bayesmap.space.grid import Grid
+from bayesmap.space.planar import inverse
 from bayesmap.space.scans import Scans
 from bayesmap.space.trajectory import RelativeLaw, Trajectory, ellipses
 
@@ -127,32 +129,32 @@ def trajectory_of(run: object, scans: Scans) -> Trajectory:
     draws = getattr(run, "poses", None)
     if draws is None or draws.ndim != 4 or draws.shape[0] * draws.shape[1] < 2 or (draws == draws[0, 0]).all():
         if approximate is None:
-            return Trajectory(scans.poses, scans.stamps_s)
-        return _approximated(approximate, APPROXIMATION)
+            return Trajectory(scans.poses, scans.stamps_s, frame="laser")
+        return approximated(approximate)
     from bayesmap.posterior.summary import summarise_poses
 
     mixing = summarise_poses(draws)
     figures = f"R-hat up to {mixing.rhat_max:.3g}, effective sample size from {mixing.ess_min:.0f}"
     if mixing.mixed:
-        return Trajectory.of_draws(
-            draws, scans.stamps_s, f"draws of the chains over poses, which have mixed ({figures})"
-        )
+        known_by = f"draws of the chains over poses, which have mixed ({figures})"
+        return replace(Trajectory.of_draws(draws, scans.stamps_s, known_by), frame="laser")
     unmixed = f"the chains over poses have not mixed ({figures})"
     if approximate is None:
         known_by = f"draws of poses, which are too alike: {unmixed}"
-        return Trajectory.of_draws(draws, scans.stamps_s, known_by)
-    return _approximated(approximate, f"{APPROXIMATION}: {unmixed}")
+        return replace(Trajectory.of_draws(draws, scans.stamps_s, known_by), frame="laser")
+    return approximated(approximate, f"{APPROXIMATION}: {unmixed}")
 
 
-def _approximated(trajectory: Approximation, known_by: str) -> Trajectory:
+def approximated(trajectory: Approximation, known_by: str = APPROXIMATION) -> Trajectory:
+    """Return the approximate trajectory of `bayesmap.slam` with its law of relative poses."""
     law = RelativeLaw(trajectory.relative_covariances, trajectory.gaussian.dof)
-    return Trajectory(trajectory.poses, trajectory.stamps_s, trajectory.covariances(), relative=law, known_by=known_by)
+    covariances = trajectory.covariances()
+    return Trajectory(trajectory.poses, trajectory.stamps_s, covariances, None, law, known_by, frame="laser")
 
 
 def export_trajectory(
-    path: str | os.PathLike[str], trajectory: Trajectory, *, format: str | None = None, edges: Edges | None = None,
-    frame: str = "map",
-) -> tuple[Path, ...]:  # fmt: skip
+    path: str | os.PathLike[str], trajectory: Trajectory, *, format: str | None = None, edges: Edges | None = None
+) -> tuple[Path, ...]:
     """Write a trajectory in another program's format; an existing file of that name is replaced.
 
     Args:
@@ -160,7 +162,6 @@ def export_trajectory(
         trajectory: the trajectory, such as that of a map's scans or of `bayesmap.localize`.
         format: "tum", "g2o" or "trajectory" (a recording); by the path's ending if None.
         edges: pose graph for g2o; if None, the chain of steps (`bayesmap.io.text.g2o.chain_edges`).
-        frame: frame of the poses in a recording.
 
     Returns:
         The paths of the files written. If covariances are known, NAME-covariances.txt is written beside NAME.tum.
@@ -178,7 +179,7 @@ def export_trajectory(
     if chosen == "tum":
         from bayesmap.io.text.trajectories import covariances_path, write_covariances, write_trajectory
 
-        written = (write_trajectory(path, trajectory.poses, trajectory.stamps_s),)
+        written = (write_trajectory(path, trajectory.poses, trajectory.stamps_s, trajectory.frame),)
         if trajectory.covariances is None:
             return written
         beside = covariances_path(path)
@@ -187,12 +188,13 @@ def export_trajectory(
         raise BadInput(f"export: a trajectory is written as {', '.join(TRAJECTORIES)}, not as {chosen!r}")
     from bayesmap.io.ros.writer import write_trajectory_recording
 
-    return (write_trajectory_recording(path, trajectory, frame=frame),)
+    return (write_trajectory_recording(path, trajectory),)
 
 
 def export_run(
     path: str | os.PathLike[str], run: Mapped, scans: Scans, *, format: str | None = None, mode: str | None = None,
     occupied_thresh: float | None = None, free_thresh: float | None = None, known: NDArray[np.bool_] | None = None,
+    frame: str | None = None,
 ) -> tuple[Path, ...]:  # fmt: skip
     """Write a run in another program's format; an existing file of that name is replaced.
 
@@ -206,6 +208,8 @@ def export_run(
         occupied_thresh: threshold above which a cell is occupied; by default 0.65 in trinary, 1 in scale.
         free_thresh: threshold below which a cell is free; by default 0.25 in trinary, 0 in scale.
         known: cells that map-server and occupancy-grid do not call unknown, (nx, ny); by default the observed ones.
+        frame: frame on the robot whose poses a trajectory has, "base" or "laser"; by default the base, if the log said
+            where the laser sits on it.
 
     Returns:
         The paths of the files written.
@@ -222,6 +226,8 @@ def export_run(
             f"{path}: {chosen} keeps the numbers and takes no {next(iter(options))}; leave it out, or choose "
             f"{' or '.join(THRESHOLDED)}"
         )
+    if frame is not None and chosen not in TRAJECTORIES:
+        raise BadInput(f"{path}: {chosen} holds a map, and takes no frame; {', '.join(TRAJECTORIES)} hold a trajectory")
     grid, observed = run.grid, run.observed
     stamp_s = float(scans.stamps_s[-1]) if scans.stamps_s is not None and len(scans) else None
     if chosen == "map-server":
@@ -242,12 +248,14 @@ def export_run(
     trajectory = trajectory_of(run, scans)
     if chosen == "rerun":
         return (write_rerun(path, layers_of(run), grid, observed, scans=scans, trajectory=trajectory),)
-    edges = None
+    moved, edges = trajectory.of(frame, scans.mount), None
     if chosen == "g2o" and trajectory.relative is not None:  # the trajectory is slam's approximation
         from bayesmap.io.text.g2o import slam_edges
 
         edges = slam_edges(run.trajectory)  # type: ignore[attr-defined]
-    return export_trajectory(path, trajectory, format=chosen, edges=edges)
+        if moved.frame == "base":
+            edges = edges.of_frame(inverse(np.asarray(scans.mount)))
+    return export_trajectory(path, moved, format=chosen, edges=edges)
 
 
 EPOCH_FROM_S = 1e8

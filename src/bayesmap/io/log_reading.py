@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -15,6 +15,7 @@ from bayesmap.errors import BadInput
 from bayesmap.io.returns import NoReturn, Readings, Views, classify
 from bayesmap.space.scans import Scans
 from bayesmap.space.time_order import time_order
+from bayesmap.space.trajectory import LONGEST_GAP_S, Trajectory
 
 Floats = NDArray[np.float64]
 Pose = tuple[float, float, float]
@@ -41,6 +42,7 @@ class LogOptions:
     thin_m: float = 0.0
     laser: Pose | None = None
     without_poses: bool = False
+    trajectory: Trajectory | None = None
 
 
 @dataclass(frozen=True)
@@ -71,7 +73,6 @@ class LogReading:
     skipped: tuple[SkippedLine, ...]  # left out on request
     no_return: NoReturn  # the number that means "no return" in this log, and its source
     max_range_origin: str  # ``"given"``, ``"message"`` (stated in the log) or ``"readings"``
-    laser_offset: tuple[float, float, float]  # median pose of the laser on the robot
     reordered: int  # number of scans that follow a later scan in the file
     notes: tuple[str, ...]  # sentences for the user
     scan_topic: str | None = None
@@ -88,6 +89,35 @@ class LogReading:
         """The number in metres that means "no return" in this log, or None."""
         return self.no_return.code_m
 
+    def placed(self, trajectory: Trajectory) -> LogReading:
+        """Return the scans at interpolated poses of a trajectory; scans outside its times and in gaps are left out.
+
+        Raises:
+            BadInput: scans or a trajectory without stamps, no scan within its time, or poses of a base on which the
+                place of the laser is not known.
+        """
+        scans, of_laser = self.scans, trajectory.of("laser", self.scans.mount)
+        if scans.stamps_s is None or of_laser.stamps_s is None:
+            raise BadInput(f"{self.path}: a trajectory places scans by their time, and {self.path} has no stamps")
+        poses, inside, near = of_laser.placed(scans.stamps_s)
+        start, end = of_laser.stamps_s[[0, -1]]
+        span = f"the trajectory reaches from {start:.3f} to {end:.3f} s"
+        if not (inside & near).any():
+            first, last = scans.stamps_s[[0, -1]]
+            raise BadInput(
+                f"{self.path}: its scans are from {first:.3f} to {last:.3f} s, and {span}"
+                + (f", with poses more than {LONGEST_GAP_S:g} s apart around each scan" if inside.any() else "")
+                + "; are both of one clock?"
+            )
+        frame = trajectory.frame or ("laser" if scans.mount is None else "base")
+        notes = [f"the scans stand at the poses of the given trajectory, taken as those of the {frame}"]
+        gap = f"its poses are over {LONGEST_GAP_S:g} s apart there"
+        for count, why in (((~inside).sum(), span), ((inside & ~near).sum(), gap)):
+            notes += [f"{count:,} scans were left out: {why}"] if count else []
+        scans = replace(scans, poses=poses, beam_poses=None).select(inside & near)
+        notes = [*self.notes, *notes]
+        return replace(self, scans=scans, posed=True, pose_source="trajectory", deskewed=False, notes=tuple(notes))
+
     def summary(self) -> dict[str, object]:
         """Return the account as plain data, ready for JSON."""
         same = (
@@ -100,7 +130,7 @@ class LogReading:
             "skipped": [{"line": skip.line, "what": skip.what, "reason": skip.reason} for skip in self.skipped[:100]],
             "no_return_m": self.no_return.code_m, "no_return_origin": self.no_return.origin,
             "no_return_values_m": list(self.no_return.values_m), "max_range_m": self.scans.max_range_m,
-            "laser_offset": list(self.laser_offset), "notes": list(self.notes),
+            "laser_offset": None if self.scans.mount is None else self.scans.mount.tolist(), "notes": list(self.notes),
             "scans_read": len(self.scans) if self.scans_read is None else self.scans_read,
         }  # fmt: skip
 
@@ -173,24 +203,23 @@ class Account:
 
     def reading(
         self, message: str, poses: Floats, angles_rad: Floats, readings: Readings, *,
-        beam_poses: Floats | None = None, mount: Pose = (0.0, 0.0, 0.0), **about: Any,
+        beam_poses: Floats | None = None, mount: Pose | None = None, **about: Any,
     ) -> LogReading:  # fmt: skip
         """Return the reading of the log, given the laser's poses (S, 3), the beams' angles and their readings.
 
-        ``beam_poses`` are the poses of all beams, (S, A, 3), ``mount`` is the laser's pose on the robot in the log, and
-        ``about`` are other attributes of `LogReading`.
+        ``beam_poses`` are the poses of all beams, (S, A, 3), ``mount`` is the laser's pose on the robot in the log if
+        it is known, and ``about`` are other attributes of `LogReading`.
         """
-        limit_m = readings.max_range_m
+        limit_m, mount = readings.max_range_m, self.options.laser or mount
         scans = Scans(
             poses, angles_rad, readings.ranges_m, limit_m, readings.min_range_m, stamps_s=self.stamps_s,
-            beam_poses=beam_poses,
+            beam_poses=beam_poses, mount=None if mount is None else np.array(mount),
         )  # fmt: skip
         return LogReading(
             path=self.name, format=self.format, message=message, scans=scans.limited(limit_m),
             messages=dict(self.counts), skipped=tuple(sorted(self.skipped, key=lambda skip: skip.line)),
             no_return=readings.no_return, max_range_origin=readings.max_range_origin,
-            laser_offset=self.options.laser or mount, reordered=self.reordered,
-            notes=(*self.notes, *readings.notes), deskewed=beam_poses is not None, **about,
+            reordered=self.reordered, notes=(*self.notes, *readings.notes), deskewed=beam_poses is not None, **about,
         )  # fmt: skip
 
 

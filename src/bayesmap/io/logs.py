@@ -19,7 +19,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.errors import BadInput
+from bayesmap.errors import BadInput, near_names
 from bayesmap.io.log_reading import Account, LogOptions, LogReading, Pose
 from bayesmap.io.returns import NoReturn, Readings, decode, largest_hit_m
 from bayesmap.io.ros.containers import METADATA, compression_of, container_of, first_bytes, format_by_start
@@ -29,9 +29,11 @@ from bayesmap.io.text.g2o import KNOWN as KNOWN_G2O
 from bayesmap.io.text.g2o import read_g2o
 from bayesmap.io.text.lines import DamagedFile, read_lines
 from bayesmap.io.text.rawlog import read_rawlog, starts_as_rawlog
+from bayesmap.io.text.trajectories import read_trajectory
 from bayesmap.space.planar import compose
 from bayesmap.space.scans import Scans
 from bayesmap.space.time_order import SAME_S, coarse_stamps_note, elapsed_s
+from bayesmap.space.trajectory import Trajectory
 
 FORMATS = (
     "CARMEN (lines of FLASER, ROBOTLASER1, ODOM; plain or gzipped)",
@@ -66,11 +68,12 @@ LONGEST_STEP_M, USUAL_STEPS = 2.0, 10.0
 """A step longer than 2 m and than 10 median steps is a jump at any speed."""
 
 
+@near_names
 def read_log(
     path: str | os.PathLike[str], *, no_return: float | None = None, skip_bad_lines: bool = False,
     max_range_m: float | None = None, scan_topic: str | None = None, pose_topic: str | None = None,
     fixed_frame: str | None = None, deskew: bool = False, thin_m: float = 0.0, laser: Pose | None = None,
-    without_poses: bool = False,
+    without_poses: bool = False, trajectory: str | os.PathLike[str] | Trajectory | None = None,
 ) -> Scans:  # fmt: skip
     """Read the scans of a log, in time order, with poses of the laser in the world frame.
 
@@ -89,27 +92,34 @@ def read_log(
         laser: pose of the laser on the robot, x and y in metres and yaw in radians, which replaces that of the log. The
             log's poses are then taken as the robot's.
         without_poses: true to accept scans without poses, which become zero; poses of recordings are not read.
+        trajectory: poses to use instead of the log's: a TUM file, or `read_trajectory`. A scan gets the pose at its
+            stamp, interpolated between poses at most 0.3 s apart; other scans are left out.
 
     Raises:
-        BadInput: a file that cannot be read, an unknown format, no scans, a malformed line or message, or a topic or
-            frame that is missing or must be chosen; the message lists the choices.
+        BadInput: a file that cannot be read, an unknown format, no scans, a malformed line or message, a topic or frame
+            that is missing or must be chosen (the message lists the choices), or a trajectory of another time.
     """
-    options = LogOptions(
-        no_return, skip_bad_lines, max_range_m, scan_topic, pose_topic, fixed_frame, deskew, thin_m, laser,
-        without_poses,
-    )  # fmt: skip
-    return _read(path, options).scans
+    return describe_log(
+        path, no_return=no_return, skip_bad_lines=skip_bad_lines, max_range_m=max_range_m, scan_topic=scan_topic,
+        pose_topic=pose_topic, fixed_frame=fixed_frame, deskew=deskew, thin_m=thin_m, laser=laser,
+        without_poses=without_poses, trajectory=trajectory,
+    ).scans  # fmt: skip
 
 
 def describe_log(path: str | os.PathLike[str], **options: Any) -> LogReading:
     """Read a log as `read_log` does. Returns the scans with an account: skipped lines, no-return code, notes."""
-    return _read(path, LogOptions(**options))
+    trajectory = options.get("trajectory")
+    if trajectory is not None and not isinstance(trajectory, Trajectory):
+        trajectory = read_trajectory(trajectory)
+    return _read(path, LogOptions(**{**options, "trajectory": trajectory}))
 
 
 def _read(path: str | os.PathLike[str], options: LogOptions) -> LogReading:
     laser = options.laser
     if laser is not None and not (len(laser) == 3 and all(map(math.isfinite, laser))):
         raise BadInput(f"laser: give x and y in metres and yaw in radians, got {laser!r}")
+    if options.trajectory is not None:
+        options = replace(options, without_poses=True)
     kind = format_of(path)
     if kind in RECORDINGS:
         from bayesmap.io.ros.log import read_recording  # loads rosbags
@@ -123,6 +133,8 @@ def _read(path: str | os.PathLike[str], options: LogOptions) -> LogReading:
         reading = READERS[kind](path, options)
         if options.deskew and not reading.deskewed:
             reading = _noted(reading, f"nothing to de-skew: a {kind} file does not say when each beam was sent")
+    if options.trajectory is not None:
+        reading = reading.placed(options.trajectory)
     findings = (_coarse_stamps, _jumps, _own_beams, *(() if kind in RECORDINGS else (_degrees,)))
     for finding in findings:
         reading = _noted(reading, finding(reading))

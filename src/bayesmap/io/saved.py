@@ -77,7 +77,7 @@ def _write(
         "sensor": None if posterior.sensor is None else describe(posterior.sensor), "grid": asdict(grid),
         "limits": [scans.min_range_m, scans.max_range_m], "seconds": posterior.seconds, "counts": posterior.counts,
         "sweep": posterior.sweep, "finished": posterior.finished, "log_evidence": posterior.log_evidence,
-        "notes": posterior.notes,
+        "notes": posterior.notes, "mount": None if scans.mount is None else scans.mount.tolist(),
     }  # fmt: skip
     if trajectory is not None:
         header["trajectory"] = numbers_of(trajectory)
@@ -238,6 +238,7 @@ def _scans_from(file: Any, header: dict[str, Any]) -> Scans:
         ranges_m=read_array(file["observed_data"]["range_m"]), min_range_m=header["limits"][0],
         max_range_m=header["limits"][1], stamps_s=_optional(constant, "stamp_s"),
         beam_poses=_optional(constant, "beam_pose_world"), own_angles_rad=_optional(constant, "own_angle_rad"),
+        mount=header.get("mount"),
     )  # fmt: skip
 
 

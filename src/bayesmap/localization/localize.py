@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.special import ndtr
 
-from bayesmap.errors import BadInput, check_count
+from bayesmap.errors import BadInput, check_count, near_names
 from bayesmap.localization.belief import Mode, PoseBelief, Region
 from bayesmap.localization.filter import GETS_LOST, IS_FOUND, LOST_AT_FIRST, Prior, Scan, update
 from bayesmap.localization.known_map import KnownMap, Trust
@@ -131,9 +131,11 @@ class Localization:
         stamps = [belief.stamp_s for belief in self.beliefs]
         known = None if any(stamp is None for stamp in stamps) else np.array(stamps, dtype=np.float64)
         poses = np.array([belief.mean for belief in self.beliefs])
-        return Trajectory(poses, known, np.array([belief.covariance for belief in self.beliefs]))
+        covariances = np.array([belief.covariance for belief in self.beliefs])
+        return Trajectory(poses, known, covariances, frame="laser")
 
 
+@near_names
 def localize(
     run: Any, scans: Scans, *, prior: InitialPose | None = None, odometry: Odometry | None = None,
     independent: bool = False, seed: int = 0, device: str = "cpu",

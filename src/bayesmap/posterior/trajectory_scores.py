@@ -29,12 +29,9 @@ from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
 from bayesmap.space.planar import around, between, between_jacobians, compose, interpolate, inverse, rotation, wrapped
-from bayesmap.space.trajectory import RelativeLaw, Trajectory
+from bayesmap.space.trajectory import LONGEST_GAP_S, RelativeLaw, Trajectory
 
 Floats = NDArray[np.float64]
-
-LONGEST_GAP_S = 0.3
-"""Longest time between two poses that are interpolated: in seconds a robot turns corners."""
 
 SLACK_S = 0.001
 """A stamp this far outside the trajectory, or off a pose, still counts."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from bayesmap.errors import BadInput, check_count
+from bayesmap.errors import BadInput, check_count, near_names
 from bayesmap.sensors.builtin import AdditiveNoise
 from bayesmap.sensors.model import RangeLimits, SensorModel
 from bayesmap.space.grid import Grid
@@ -40,6 +40,7 @@ def ranges(
     return distances[0] if np.ndim(poses) == 1 else distances
 
 
+@near_names
 def simulate(
     walls: NDArray[np.bool_], grid: Grid, poses: ArrayLike, angles_rad: ArrayLike, *, sensor: SensorModel,
     max_range_m: float, min_range_m: float = 0.0, seed: int = 0, opacity: NDArray[np.float64] | None = None,

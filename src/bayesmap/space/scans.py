@@ -51,6 +51,8 @@ class Scans:
             None if all beams of a scan leave from the scan's pose.
         own_angles_rad: beam angles of each scan, shape (S, A), NaN if a scan has no such beam; None if all scans have
             the beams ``angles_rad``. `angles_by_scan` and `beams_of` serve both cases.
+        mount: pose of the sensor on the robot's base (metres, radians), shape (3,), the median if it moves; None if
+            unknown.
 
     Raises:
         BadInput: shapes that do not fit together, poses or angles that are not finite, a fan of over a turn, a reading
@@ -65,6 +67,7 @@ class Scans:
     stamps_s: NDArray[np.float64] | None = None
     beam_poses: NDArray[np.float64] | None = None
     own_angles_rad: NDArray[np.float64] | None = None
+    mount: NDArray[np.float64] | None = None
 
     def __post_init__(self) -> None:
         poses = as_poses(self.poses)
@@ -104,6 +107,10 @@ class Scans:
                 raise BadInput(
                     f"scans: pose of beam {beam} of scan {scan} is not finite: {beam_poses[scan, beam].tolist()}"
                 )
+        if self.mount is not None:
+            checked["mount"] = mount = as_array(self.mount, "scans: mount")
+            if mount.shape != (3,) or not np.isfinite(mount).all():
+                raise BadInput(f"scans: mount must be x and y in metres and yaw in radians, got {mount.tolist()}")
         for name, value in checked.items():
             object.__setattr__(self, name, value)
 

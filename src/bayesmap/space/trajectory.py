@@ -3,17 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
-from bayesmap.space.planar import between, compose, interpolate, rotation, wrapped
+from bayesmap.space.planar import around, between, compose, interpolate, inverse, rotation, wrapped
 from bayesmap.space.scans import as_poses, path_words
 
 SLACK_S = 0.002
 """Largest time outside a trajectory that counts as its end: logs are written with few digits."""
+
+LONGEST_GAP_S = 0.3
+"""Longest time between two poses that are interpolated: in seconds a robot turns corners."""
+
+FRAMES = ("base", "laser")
+"""Frames on a robot whose poses a trajectory may have."""
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
@@ -38,14 +44,21 @@ class RelativeLaw:
         """Return the law of another frame, at ``mount``, (3,), in this frame, whose poses are ``poses``, (S, 3)."""
 
         def scales(first: Indices, second: Indices) -> Floats:
-            yaw = between(poses[first], poses[second])[:, 2]
-            swing = np.tile(np.eye(3), (len(yaw), 1, 1))  # a turn of this frame moves the other frame sideways
-            swing[:, 0, 2] = -np.sin(yaw) * mount[0] - np.cos(yaw) * mount[1]
-            swing[:, 1, 2] = np.cos(yaw) * mount[0] - np.sin(yaw) * mount[1]
-            turn = rotation(-mount[2]) @ swing
+            turn = lever(between(poses[first], poses[second])[:, 2], mount)
             return np.asarray(turn @ self.scales(first, second) @ np.swapaxes(turn, 1, 2))
 
         return RelativeLaw(scales, self.dof)
+
+
+def lever(yaw: Floats, mount: Floats) -> Floats:
+    """Return the derivatives of relative poses of a frame at ``mount``, (3,), by those of this frame, (N, 3, 3).
+
+    ``yaw`` are the turns from the first to the second poses, (N,): a turn moves the other frame sideways.
+    """
+    swing = np.tile(np.eye(3), (len(yaw), 1, 1))
+    swing[:, 0, 2] = -np.sin(yaw) * mount[0] - np.cos(yaw) * mount[1]
+    swing[:, 1, 2] = np.cos(yaw) * mount[0] - np.sin(yaw) * mount[1]
+    return np.asarray(rotation(-mount[2]) @ swing)
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,6 +72,7 @@ class Trajectory:
         draws: poses of whole trajectories drawn from a posterior, shape (D, S, 3); None if there are none.
         relative: law of relative poses; None if it follows from the draws, or is unknown.
         known_by: source of the uncertainty, in words; empty if there is none.
+        frame: frame on the robot whose poses these are, "base" or "laser"; None if unknown.
 
     Raises:
         BadInput: shapes that do not fit, numbers that are not finite, or stamps that descend.
@@ -70,6 +84,7 @@ class Trajectory:
     draws: Floats | None = None
     relative: RelativeLaw | None = None
     known_by: str = ""
+    frame: str | None = None
 
     def __post_init__(self) -> None:
         poses = as_poses(self.poses)
@@ -135,6 +150,36 @@ class Trajectory:
         at = np.asarray(at_s, dtype=np.float64)
         inside = (at >= self.stamps_s[0] - SLACK_S) & (at <= self.stamps_s[-1] + SLACK_S)
         return interpolate(self.stamps_s, self.poses, at), inside
+
+    def placed(self, at_s: Floats) -> tuple[Floats, NDArray[np.bool_], NDArray[np.bool_]]:
+        """Return poses at times as `at` does, (N, 3), and two masks, (N,): times within, and times without a gap.
+
+        A gap is a time between two poses more than `LONGEST_GAP_S` apart, and more than `SLACK_S` from both.
+        """
+        poses, inside = self.at(at_s)
+        assert self.stamps_s is not None
+        before, after = self.stamps_s[list(around(self.stamps_s, at_s))]
+        near = np.minimum(np.abs(at_s - before), np.abs(at_s - after)) <= SLACK_S
+        return poses, inside, near | (after - before <= LONGEST_GAP_S + SLACK_S)
+
+    def of(self, frame: str | None, mount: Floats | None) -> Trajectory:
+        """Return the trajectory of the robot's base, or of its laser, which sits at ``mount``, (3,), on the base.
+
+        ``frame`` is one of `FRAMES`. The default, also of a trajectory that does not name its own frame, is the base if
+        the mount is known, and else the laser. To change the frame without a mount raises `BadInput`.
+        """
+        default = "laser" if mount is None else "base"
+        own, asked = self.frame or default, frame or default
+        if asked not in FRAMES:
+            raise BadInput(f"trajectory: frame must be one of {', '.join(FRAMES)}, got {frame!r}")
+        if own == asked:
+            return replace(self, frame=own)
+        if mount is None:
+            raise BadInput(
+                f"trajectory: it has poses of the {own}; those of the {asked} need to know where the laser sits, which "
+                "the log does not say; give it by --laser X,Y,DEGREES (read_log: laser), when the log is read"
+            )
+        return replace(self.of_frame(np.asarray(mount) if own == "base" else inverse(np.asarray(mount))), frame=asked)
 
     def of_frame(self, mount: Floats) -> Trajectory:
         """Return the trajectory of another frame, which lies at ``mount``, (3,), in this frame."""

@@ -152,10 +152,16 @@ class Chain:
             result |= long & (np.linalg.norm(moved, axis=-1) > furthest_m)
         return result
 
-    def sensor_on_body(self) -> tuple[float, float, float]:
-        """Return the pose of the sensor on the body, in the plane: the product of the last constant transforms."""
+    def sensor_on_body(self) -> tuple[float, float, float] | None:
+        """Return the pose of the sensor on the body, in the plane: the product of the last constant transforms.
+
+        None if the last transform moves: then the body is not known.
+        """
+        fixed = list(takewhile(lambda link: link.constant, reversed(self.links)))
+        if not fixed:
+            return None
         result = RigidTransform.identity()
-        for link in takewhile(lambda link: link.constant, reversed(self.links)):
+        for link in fixed:
             result = link.last() * result
         x, y, yaw = (float(v) for v in planar(result))
         return x, y, yaw

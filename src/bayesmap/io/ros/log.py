@@ -236,11 +236,12 @@ def read_recording(path: str | os.PathLike[str], options: LogOptions) -> LogRead
     account.reordered = sum(part.reordered for part in parts)
 
     limits = Counter(scan.limits_m for scan in scans).most_common(1)[0][0]
+    moves = source.chain.span_ns() is not None or not source.posed  # otherwise no frame is known to be the body's
     angles, readings = beams_of(scans)
     angles, at_first = sign * angles, np.concatenate([part.at_first for part in parts])
     return account.reading(
         topic.type, at_first, angles, account.classify(readings, limits, at_first, angles),
-        beam_poses=_beam_poses(parts), mount=source.chain.sensor_on_body(), scan_topic=topic.name,
+        beam_poses=_beam_poses(parts), mount=source.chain.sensor_on_body() if moves else None, scan_topic=topic.name,
         pose_source=source.label if source.posed else None, fixed_frame=source.fixed_frame if source.posed else None,
         sensor_frame=request.sensor, posed=source.posed,
     )  # fmt: skip

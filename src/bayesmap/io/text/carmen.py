@@ -249,7 +249,8 @@ def laser_reading(account: Account, lasers: Mapping[str, Sequence[LaserScan]]) -
     typed = _typed(account, raw[order], stated_m, Views.of(poses[order], angles))
     # Median pose of the laser in the robot's frame.
     x, y, yaw = (float(v) for v in np.median(between(numbers[:, 3:6], numbers[:, :3]), axis=0))
-    return account.reading(kind, poses[order], angles, typed, mount=(x, y, yaw), posed=kind not in RAW), fans
+    posed = kind not in RAW
+    return account.reading(kind, poses[order], angles, typed, mount=(x, y, yaw) if posed else None, posed=posed), fans
 
 
 def _typed(account: Account, raw: Floats, stated_m: float | None, views: Views) -> Readings:

@@ -28,8 +28,8 @@ from bayesmap.files import write_text
 from bayesmap.io.log_reading import Account, LogOptions, LogReading
 from bayesmap.io.text.carmen import LASERS, LaserScan, Malformed, laser_reading, parse_floats, parse_laser
 from bayesmap.io.text.lines import log_lines
-from bayesmap.space.planar import between, between_jacobians, compose, rotation
-from bayesmap.space.trajectory import Trajectory
+from bayesmap.space.planar import between, between_jacobians, compose, inverse, rotation
+from bayesmap.space.trajectory import Trajectory, lever
 
 if TYPE_CHECKING:
     from bayesmap.poses.pose_gaussian import PoseGaussian
@@ -126,6 +126,12 @@ class Edges:
         if count and not (np.linalg.eigvalsh(self.information) > 0).all():
             edge = int(np.argmin(np.linalg.eigvalsh(self.information).min(axis=1)))
             raise BadInput(f"graph: the information matrix of edge {edge} is not positive definite")
+
+    def of_frame(self, mount: Floats) -> Edges:
+        """Return the edges between poses of another frame, which lies at ``mount``, (3,), in this frame."""
+        back = np.linalg.inv(lever(self.relative[:, 2], mount))
+        moved = compose(inverse(mount), compose(self.relative, mount))
+        return replace(self, relative=moved, information=np.swapaxes(back, 1, 2) @ self.information @ back)
 
 
 def write_g2o(path: str | os.PathLike[str], poses_world: Floats, edges: Edges) -> Path:

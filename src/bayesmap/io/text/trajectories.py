@@ -14,6 +14,7 @@ pitch are 0.
 from __future__ import annotations
 
 import os
+import re
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -22,7 +23,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from bayesmap.errors import BadInput
 from bayesmap.files import write_text
-from bayesmap.io.text.lines import read_table
+from bayesmap.io.text.lines import read_lines, read_table
 from bayesmap.space.scans import as_poses
 from bayesmap.space.trajectory import Trajectory
 
@@ -33,10 +34,16 @@ UPRIGHT = 0.1
 """Sine of half the largest tilt of a pose in the plane."""
 
 
-def write_trajectory(path: str | os.PathLike[str], poses_world: ArrayLike, stamps_s: ArrayLike | None = None) -> Path:
+OWNER = re.compile(rb"# poses of the (base|laser)\b")
+"""Beginning of the header, which names the frame whose poses follow."""
+
+
+def write_trajectory(
+    path: str | os.PathLike[str], poses_world: ArrayLike, stamps_s: ArrayLike | None = None, frame: str | None = None
+) -> Path:
     """Write poses, (S, 3), as a TUM trajectory, whole or not at all. Returns the path.
 
-    The stamps, (S,), are in seconds; if None, they are 0, 1, 2 and so on.
+    The stamps, (S,), are in seconds; if None, they are 0, 1, 2 and so on. The header names the frame, if it is known.
 
     Raises:
         BadInput: shapes that do not fit, numbers that are not finite, no pose, or a file that cannot be written.
@@ -51,7 +58,8 @@ def write_trajectory(path: str | os.PathLike[str], poses_world: ArrayLike, stamp
         f"{stamp:.9f} {x:.9f} {y:.9f} 0 0 0 {qz:.12f} {qw:.12f}"
         for stamp, (x, y, _), qz, qw in zip(stamps, poses, np.sin(half_yaw), np.cos(half_yaw), strict=True)
     )
-    return write_text(path, [f"# {what} tx ty tz qx qy qz qw", *rows])
+    of_frame = "" if frame is None else f"poses of the {frame}: "
+    return write_text(path, [f"# {of_frame}{what} tx ty tz qx qy qz qw", *rows])
 
 
 def covariances_path(path: str | os.PathLike[str]) -> Path:
@@ -81,8 +89,13 @@ def _stamps(stamps_s: ArrayLike | None, count: int) -> NDArray[np.float64]:
     return stamps
 
 
-def read_trajectory(path: str | os.PathLike[str]) -> Trajectory:
+def read_trajectory(path: str | os.PathLike[str], frame: str | None = None) -> Trajectory:
     """Read a TUM trajectory, in time order, with the file of `write_covariances` beside it, if any.
+
+    Args:
+        path: the file, plain or gzipped.
+        frame: frame on the robot whose poses it has, "base" or "laser"; by default the frame that its first line names,
+            if it was written by bayesmap, and else unknown.
 
     Raises:
         BadInput: a file that cannot be read, a line that is not eight numbers, a pose that is tilted out of the plane,
@@ -91,6 +104,8 @@ def read_trajectory(path: str | os.PathLike[str]) -> Trajectory:
     # Poses: the yaw of each quaternion.
     name, nothing = os.fspath(path), "there is no pose in it"
     rows = read_table(name, 8, "timestamp tx ty tz qx qy qz qw, is this a TUM trajectory?", nothing)
+    first = next((line for _, line in read_lines(name)), b"")
+    named = OWNER.match(first)
     quaternion = rows[:, 4:8] / np.maximum(np.linalg.norm(rows[:, 4:8], axis=1, keepdims=True), 1e-12)
     tilted = np.hypot(quaternion[:, 0], quaternion[:, 1]) > UPRIGHT
     if tilted.any():
@@ -105,7 +120,8 @@ def read_trajectory(path: str | os.PathLike[str]) -> Trajectory:
         if len(table) != len(rows) or np.abs(table[:, 0] - rows[:, 0]).max() > 1e-6:
             raise BadInput(f"{beside}: its stamps are not those of {name}; delete it, or write both anew")
         covariances = table[order][:, [1, 2, 3, 2, 4, 5, 3, 5, 6]].reshape(-1, 3, 3)
-    return Trajectory(np.column_stack([rows[:, 1:3], yaw])[order], rows[order, 0], covariances)
+    frame = frame or (named[1].decode() if named else None)
+    return Trajectory(np.column_stack([rows[:, 1:3], yaw])[order], rows[order, 0], covariances, frame=frame)
 
 
 def read_relations(path: str | os.PathLike[str]) -> Relations:
