@@ -53,7 +53,7 @@ def raw_log(tmp_path_factory):
 def slam_run(raw_log, tmp_path_factory):
     """Its map and trajectory: the folder, and what the command printed as JSON."""
     folder = tmp_path_factory.mktemp("slam") / "run"
-    return folder, json_of("slam", raw_log, "-o", folder, SLAM, "--checkpoint-every 600 --json")
+    return folder, json_of("slam", raw_log, "-o", folder, SLAM, "--json")
 
 
 @pytest.fixture(scope="session")

@@ -79,7 +79,7 @@ def test_the_trajectory_and_a_first_map_stand_in_the_folder_before_the_chains(lo
         press_ctrl_c_in(patch, stage)
         stopped = call("slam", log, "-o", folder, SLAM, "--json")
     assert stopped.exit_code == 130, stopped.stderr
-    assert stopped.stderr.count("the trajectory of all scans: ") == 1
+    assert stopped.stderr.count("the trajectory of the base, at all scans: ") == 1
     assert stopped.stderr.count("a first, rough map: ") == 1
     for name in SAME[:2]:
         assert (folder / name).read_bytes() == (whole / name).read_bytes(), name
