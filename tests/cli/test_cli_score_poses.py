@@ -103,18 +103,6 @@ def test_the_frame_matters(raw):
     assert wrong["relations"]["translation_m_mean"] > 0.005
 
 
-@pytest.mark.full
-@pytest.mark.usefixtures("roughly")
-def test_the_trajectory_may_be_of_the_base_or_of_the_laser(raw, tmp_path):
-    base = read_trajectory(raw / "office-truth.tum")
-    laser = base.of_frame(np.array([0.2, 0.0, 0.0]))
-    path = write_trajectory(tmp_path / "laser.tum", laser.poses, laser.stamps_s)
-    truth = (raw / "office-truth.yaml", raw / "office.log", "--holdout", "4")
-    moved = document_of(*truth, "--trajectory", path, "--trajectory-frame laser")
-    same = document_of(*truth, "--trajectory", raw / "office-truth.tum")
-    assert moved["score"]["nats_per_beam"] == pytest.approx(same["score"]["nats_per_beam"], abs=0.01)
-
-
 def test_a_map_is_inferred_and_scored_along_a_given_trajectory(raw, tmp_path):
     """The poses of the log are raw odometry, which infer refuses; with the true ones it needs no --poses-as-given."""
     log, given = raw / "office.log", ("--trajectory", raw / "office-truth.tum", "--max-range 12")

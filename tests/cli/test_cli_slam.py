@@ -1,11 +1,10 @@
 """`bayesmap slam`: from a log with raw odometry to map and trajectory, stopped and resumed."""
 
 import json
-import signal
 
 import numpy as np
 import pytest
-from shell import SLAM, json_of, refusal_of, start, succeed, wait_for
+from shell import SLAM, json_of, refusal_of, succeed
 
 import bayesmap as bm
 from bayesmap.io.text.trajectories import read_trajectory
@@ -19,21 +18,11 @@ OUTPUTS = {
 }  # fmt: skip
 
 
-@pytest.fixture(scope="module")
-def log(raw_log):
-    return raw_log
-
-
-@pytest.fixture(scope="module")
-def whole(slam_run):
-    return slam_run
-
-
-def test_the_folder_holds_map_trajectory_covariances_and_pictures(whole, log):
-    folder, document = whole
+def test_the_folder_holds_map_trajectory_covariances_and_pictures(slam_run, raw_log):
+    folder, document = slam_run
     assert {path.name for path in folder.iterdir()} >= OUTPUTS
     found = document["trajectory"]
-    assert found["scans"] == len(bm.read_log(log))
+    assert found["scans"] == len(bm.read_log(raw_log))
     assert found["breaks"] == []
     assert found["flagged"] == []
     assert found["sampled"]["sigma_m"] < 0.1
@@ -46,8 +35,8 @@ def test_the_folder_holds_map_trajectory_covariances_and_pictures(whole, log):
 
 @pytest.mark.parametrize("frame", FRAMES)
 @pytest.mark.parametrize("ending", ["tum", "g2o"])
-def test_export_writes_the_frame_that_is_asked_for(whole, tmp_path, frame, ending):
-    run, path = whole[0] / "run.nc", tmp_path / f"path.{ending}"
+def test_export_writes_the_frame_that_is_asked_for(slam_run, tmp_path, frame, ending):
+    run, path = slam_run[0] / "run.nc", tmp_path / f"path.{ending}"
     succeed("export", run, "-o", path, "--frame", frame)
     text = path.read_text()
     if ending == "g2o":
@@ -64,37 +53,37 @@ def test_export_writes_the_frame_that_is_asked_for(whole, tmp_path, frame, endin
     assert "holds a map, and takes no frame" in refusal_of("export", run, "-o", tmp_path / "map.yaml", "--frame", frame)
 
 
-def test_its_poses_are_scored_beside_its_log_which_says_where_the_laser_sits(whole, log):
+def test_its_poses_are_scored_beside_its_log_which_says_where_the_laser_sits(slam_run, raw_log):
     """The log's scans are found by stamps and readings, since slam has moved their poses."""
-    run, relations = whole[0] / "run.nc", ("--relations", log.with_name("office.relations"))
-    found = succeed("score", run, log, *relations, "--json")
+    run, relations = slam_run[0] / "run.nc", ("--relations", raw_log.with_name("office.relations"))
+    found = succeed("score", run, raw_log, *relations, "--json")
     document = json.loads(found.stdout)
     assert document["relations"]["frame"] == "base"
     assert document["relations"]["translation_m_mean"] < 0.05
     assert "score" not in document
     assert "only the poses are scored, not the map" in found.stderr
-    assert "the run has its scans elsewhere than this log" in refusal_of("score", run, log)
+    assert "the run has its scans elsewhere than this log" in refusal_of("score", run, raw_log)
 
 
-def test_chains_that_have_not_mixed_are_warned_of_and_not_believed(whole, log):
+def test_chains_that_have_not_mixed_are_warned_of_and_not_believed(slam_run, raw_log):
     """Four draws of two chains: score and summary go by the approximation, which the saved run holds."""
-    folder, document = whole
+    folder, document = slam_run
     assert document["trajectory"]["sampled"]["by_approximation"]
     run = bm.load(folder / "run.nc")
     assert run.trajectory is not None
     assert run.pose_summary().by_approximation
     relations = json_of(
-        "score", folder / "run.nc", "--relations", log.with_suffix(".relations"), "--laser 0,0,0 --json"
+        "score", folder / "run.nc", "--relations", raw_log.with_suffix(".relations"), "--laser 0,0,0 --json"
     )["relations"]
     assert relations["known_by"].startswith("the Student-t approximation")
     assert "have not mixed" in relations["known_by"]
     assert relations["nees"]["median"] > 0
 
 
-def test_the_trajectory_is_nearer_to_the_truth_than_odometry(whole, log):
-    truth = np.loadtxt(log.with_name("office-truth.tum"))[:, 1:3]
-    found = np.loadtxt(whole[0] / "trajectory.tum")[:, 1:3]
-    raw = bm.read_log(log)
+def test_the_trajectory_is_nearer_to_the_truth_than_odometry(slam_run, raw_log):
+    truth = np.loadtxt(raw_log.with_name("office-truth.tum"))[:, 1:3]
+    found = np.loadtxt(slam_run[0] / "trajectory.tum")[:, 1:3]
+    raw = bm.read_log(raw_log)
     base = compose(raw.poses, inverse(raw.mount))[:, :2]
     # The log begins at the true pose, so the frames are the same, and both files are of the base.
     assert np.hypot(*(base - truth).T).max() > 0.5
@@ -102,38 +91,20 @@ def test_the_trajectory_is_nearer_to_the_truth_than_odometry(whole, log):
 
 
 @pytest.mark.full
-def test_ctrl_c_keeps_what_is_done_and_resume_ends_as_if_nothing_had_stopped_it(whole, log, tmp_path):
-    folder = tmp_path / "run"
-    process = start("slam", log, "-o", folder, SLAM, "--draws 60 --checkpoint-every 0 --no-progress")
-    wait_for(folder / "run.nc", process)
-    process.send_signal(signal.SIGINT)
-    _, errors = process.communicate()
-    assert process.returncode == 130, errors
-    assert f"bayesmap slam {log} -o {folder} --resume" in errors
-    stopped = bm.load(folder / "run.nc")
-    assert not stopped.finished
-    succeed("slam", log, "-o", folder, "--resume")
-    run, uninterrupted = bm.load(folder / "run.nc"), bm.load(whole[0] / "run.nc")
-    assert run.finished
-    np.testing.assert_array_equal(run.poses[:, :4], uninterrupted.poses)
-    assert (folder / "trajectory.tum").read_bytes() == (whole[0] / "trajectory.tum").read_bytes()
-
-
-@pytest.mark.full
-def test_fast_stops_after_the_approximation_and_resume_uses_its_stages(log, tmp_path):
+def test_fast_stops_after_the_approximation_and_resume_uses_its_stages(raw_log, tmp_path):
     folder = tmp_path / "run"
     (folder / "stages").mkdir(parents=True)
-    infer_trajectory(bm.read_log(log), checkpoint=folder / "stages")
-    result = succeed("slam", log, "-o", folder, "--fast", SLAM, "--json -v")
+    infer_trajectory(bm.read_log(raw_log), checkpoint=folder / "stages")
+    result = succeed("slam", raw_log, "-o", folder, "--fast", SLAM, "--json -v")
     assert "sampled" not in json.loads(result.stdout)["trajectory"]
     assert "front end" not in result.stderr
     assert bm.load(folder / "run.nc").trajectory is not None
 
 
-def test_what_cannot_be_inferred_is_refused(log, tmp_path):
-    assert "5 Hz" in refusal_of("slam", log, "--no-odometry -o", tmp_path / "run")
-    refusal_of("slam", log, "--resume --force", code=2)
-    scans = bm.read_log(log)
+def test_what_cannot_be_inferred_is_refused(raw_log, tmp_path):
+    assert "5 Hz" in refusal_of("slam", raw_log, "--no-odometry -o", tmp_path / "run")
+    refusal_of("slam", raw_log, "--resume --force", code=2)
+    scans = bm.read_log(raw_log)
     np.savez(tmp_path / "scans.npz", poses=scans.poses, angles_rad=scans.angles_rad, ranges_m=scans.ranges_m)
     refused = refusal_of("slam", tmp_path / "scans.npz", "--frame base -o", tmp_path / "run")
     assert "those of the base need to know where the laser sits" in refused
@@ -155,24 +126,24 @@ def rewritten(log, target, change):
     return target
 
 
-def test_constant_odometry_is_refused_before_anything_is_written(log, tmp_path):
+def test_constant_odometry_is_refused_before_anything_is_written(raw_log, tmp_path):
     def constant(poses, stamps):
         poses[:] = 0.0
 
-    refused = refusal_of("slam", rewritten(log, tmp_path / "constant.csv", constant), "-o", tmp_path / "run")
+    refused = refusal_of("slam", rewritten(raw_log, tmp_path / "constant.csv", constant), "-o", tmp_path / "run")
     assert "odometry is constant, one pose for all scans" in refused
     assert "--no-odometry" in refused
     assert not (tmp_path / "run").exists()
 
 
 @pytest.mark.full
-def test_frozen_odometry_and_a_clock_that_was_set_back_are_named(log, tmp_path):
+def test_frozen_odometry_and_a_clock_that_was_set_back_are_named(raw_log, tmp_path):
     def worse(poses, stamps):
         poses[12:24] = poses[12]
         stamps[:] = 0.2 * np.arange(len(stamps))
         stamps[30:] -= 3.0
 
-    result = succeed("slam", rewritten(log, tmp_path / "worse.csv", worse), "-o", tmp_path / "run", "--fast", SLAM)
+    result = succeed("slam", rewritten(raw_log, tmp_path / "worse.csv", worse), "-o", tmp_path / "run", "--fast", SLAM)
     assert "warning: odometry stands still from scan 12 to 23" in result.stderr
     assert "the clock goes back by 2.8 s at scan 30 (at 3.000 s) and stays so" in result.stderr
     stamps = np.loadtxt(tmp_path / "run" / "trajectory.tum")[:, 0]

@@ -18,11 +18,6 @@ SAME = ("trajectory.tum", "trajectory-covariances.txt", "map.pgm", "config.toml"
 
 
 @pytest.fixture(scope="module")
-def log(raw_log):
-    return raw_log
-
-
-@pytest.fixture(scope="module")
 def whole(slam_run):
     """The run that nothing stopped."""
     return slam_run[0]
@@ -61,23 +56,25 @@ def assert_same(folder, whole):
 
 
 @pytest.mark.parametrize("stage", full_but(["front end", "loops", "aligned", "warm-up"], "loops"))
-def test_the_printed_command_ends_as_if_nothing_had_stopped_it(log, whole, tmp_path, monkeypatch, stage):
+def test_the_printed_command_ends_as_if_nothing_had_stopped_it(raw_log, whole, tmp_path, monkeypatch, stage):
     folder = tmp_path / "run"
     with monkeypatch.context() as patch:
         press_ctrl_c_in(patch, stage)
-        stopped = call("slam", log, "-o", folder, SLAM)
+        stopped = call("slam", raw_log, "-o", folder, SLAM)
     assert stopped.exit_code == 130, stopped.stderr
     succeed(*printed(stopped.stderr))
     assert_same(folder, whole)
 
 
 @pytest.mark.parametrize("stage", ["fit", "warm-up"])
-def test_the_trajectory_and_a_first_map_stand_in_the_folder_before_the_chains(log, whole, tmp_path, monkeypatch, stage):
+def test_the_trajectory_and_a_first_map_stand_in_the_folder_before_the_chains(
+    raw_log, whole, tmp_path, monkeypatch, stage
+):
     folder = tmp_path / "run"
     monkeypatch.setattr("bayesmap.api.PREVIEW_FROM_S", 0.0)
     with monkeypatch.context() as patch:
         press_ctrl_c_in(patch, stage)
-        stopped = call("slam", log, "-o", folder, SLAM, "--json")
+        stopped = call("slam", raw_log, "-o", folder, SLAM, "--json")
     assert stopped.exit_code == 130, stopped.stderr
     assert stopped.stderr.count("the trajectory of the base, at all scans: ") == 1
     assert stopped.stderr.count("a first, rough map: ") == 1
@@ -99,13 +96,13 @@ def test_the_trajectory_and_a_first_map_stand_in_the_folder_before_the_chains(lo
 
 @pytest.mark.full
 @pytest.mark.parametrize("stage", ["front end", "fit", "warm-up"])
-def test_a_run_that_is_replaced_is_not_what_is_resumed(log, whole, tmp_path, monkeypatch, stage):
+def test_a_run_that_is_replaced_is_not_what_is_resumed(raw_log, whole, tmp_path, monkeypatch, stage):
     folder = tmp_path / "run"
-    succeed("slam", log, "-o", folder, OTHERS)
+    succeed("slam", raw_log, "-o", folder, OTHERS)
     before = {path.name: path.read_bytes() for path in folder.iterdir() if path.is_file()}
     with monkeypatch.context() as patch:
         press_ctrl_c_in(patch, stage)
-        stopped = call("slam", log, "-o", folder, SLAM, "--force")
+        stopped = call("slam", raw_log, "-o", folder, SLAM, "--force")
     assert stopped.exit_code == 130, stopped.stderr
     left = {path.name: path.read_bytes() for path in folder.iterdir() if path.is_file()}
     if stage == "warm-up":  # the new run has taken its place
@@ -118,17 +115,17 @@ def test_a_run_that_is_replaced_is_not_what_is_resumed(log, whole, tmp_path, mon
     assert not (folder / "outdated").exists()
 
 
-def test_an_older_run_stays_where_nothing_can_be_inferred(log, whole):
+def test_an_older_run_stays_where_nothing_can_be_inferred(raw_log, whole):
     before = (whole / "run.nc").read_bytes()
-    refusal_of("slam", log, "-o", whole, "--force --no-odometry")
+    refusal_of("slam", raw_log, "-o", whole, "--force --no-odometry")
     assert (whole / "run.nc").read_bytes() == before
     assert (whole / "config.toml").exists()
 
 
-def test_ctrl_c_before_the_run_has_begun_prints_no_command(log, whole, monkeypatch):
+def test_ctrl_c_before_the_run_has_begun_prints_no_command(raw_log, whole, monkeypatch):
     monkeypatch.setattr("bayesmap.cli.folder.Folder.begin", lambda self, toml: os.kill(os.getpid(), signal.SIGINT))
-    assert "--resume" not in refusal_of("slam", log, "-o", whole, "--force", OTHERS, code=130)
+    assert "--resume" not in refusal_of("slam", raw_log, "-o", whole, "--force", OTHERS, code=130)
 
 
-def test_a_folder_that_cannot_be_written_is_bad_input(log):
-    assert refusal_of("slam", log, "-o", "/proc/run", SLAM).splitlines()[-1].startswith("bayesmap: error: /proc")
+def test_a_folder_that_cannot_be_written_is_bad_input(raw_log):
+    assert refusal_of("slam", raw_log, "-o", "/proc/run", SLAM).splitlines()[-1].startswith("bayesmap: error: /proc")
