@@ -14,15 +14,11 @@ import numpy as np
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
 
-WINDOW = 15
-"""Number of scans over which odometry is as good as the truth."""
-
-RAW_BELOW = 0.8
-"""Relative agreement below which poses are raw odometry."""
+WINDOW = 15  # number of scans over which odometry is as good as the truth
+RAW_BELOW = 0.8  # relative agreement below which poses are raw odometry
 
 CELL_M, MOST_SCANS = 0.2, 900
-FURTHEST_M = 15.0
-"""Greatest range of hits that are used, metres: heading errors move far hits most, in any log."""
+FURTHEST_M = 15.0  # greatest range of hits that are used, metres: heading errors move far hits most, in any log
 
 
 def agreement(scans: Scans) -> float | None:

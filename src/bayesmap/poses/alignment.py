@@ -28,31 +28,15 @@ from bayesmap.kernels.match.line_pairs import match_counts, pair_sums
 from bayesmap.poses.graph import Factors, Quadratic, quadratic, solve_step
 from bayesmap.poses.pose_gaussian import PoseGaussian
 from bayesmap.poses.scan_geometry import ScanGeometry
-from bayesmap.space.planar import between, retract
+from bayesmap.space.planar import Floats, between, retract
 
-Floats = NDArray[np.float64]
-
-PARTNERS, TRIED = 20, 64
-"""Most partners of a scan, and the number of near scans among which they are chosen."""
-
-AT_ONCE = 10
-"""Partners within this many scans in the order of time share the drift. So at least half are from other times."""
-
-REACH_M, SCALE_M = (0.3, 0.08), (0.12, 0.03)
-"""Greatest distance of paired points, and Geman and McClure's c, metres: in round one, and from the middle round on."""
-
-ALIKE, LEAST_MATCHED = 0.7, 0.2
-"""Least cosine between the normals of paired points, and least share of a scan's points that match a partner."""
-
-SLACKS = 4.0
-"""Multiple of the mean information from errors of normals that is subtracted. In a pair of scans it may be three times
-the mean, and the rest would add up over all pairs along a corridor."""
-
-EARLY_BEAMS = 180
-"""At least so many beams of a scan are used until reach and scale have shrunk; then all."""
-
-SLIP = 25.0
-"""Odometry's cost grows less than quadratically beyond this squared Mahalanobis distance: wheels slip."""
+PARTNERS, TRIED = 20, 64  # most partners of a scan, and the number of near scans among which they are chosen
+AT_ONCE = 10  # partners within this many scans in time share the drift: at least half are from other times
+REACH_M, SCALE_M = (0.3, 0.08), (0.12, 0.03)  # pairing distance, Geman and McClure's c: round one, middle and on
+ALIKE, LEAST_MATCHED = 0.7, 0.2  # least cosine of paired normals, and share of a scan's points that match a partner
+SLACKS = 4.0  # of the mean information from errors of normals, subtracted: a pair's may be three times the mean
+EARLY_BEAMS = 180  # at least so many beams of a scan are used until reach and scale have shrunk; then all
+SLIP = 25.0  # odometry's cost grows less than quadratically beyond this squared Mahalanobis distance: wheels slip
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,21 +53,13 @@ class Pairs:
 
 @dataclass(frozen=True, eq=False)
 class Alignment:
-    """Poses of S scans that were aligned together.
+    """Poses of S scans that were aligned together."""
 
-    Attributes:
-        poses: aligned poses, (S, 3).
-        pairs: scans that were compared.
-        sigma_m: standard deviation of a point, from the residuals.
-        gaussian: curvature of the cost about the poses, for covariances.
-        matched: mean share of each scan's points that its partners' walls explain, (S,).
-    """
-
-    poses: Floats
-    pairs: Pairs
-    sigma_m: float
-    gaussian: PoseGaussian
-    matched: Floats
+    poses: Floats  # aligned poses, (S, 3)
+    pairs: Pairs  # scans that were compared
+    sigma_m: float  # standard deviation of a point, from the residuals
+    gaussian: PoseGaussian  # curvature of the cost about the poses, for covariances
+    matched: Floats  # mean share of each scan's points that its partners' walls explain, (S,)
 
 
 def overlapping_pairs(geometry: ScanGeometry, poses: Floats, reach_m: float) -> Pairs:
@@ -140,17 +116,9 @@ def align(
 ) -> Alignment:  # fmt: skip
     """Align S scans with all their partners and with odometry.
 
-    Args:
-        geometry: geometry of the scans.
-        poses: poses to start from, (S, 3).
-        odometry: relative poses of scans by odometry; may be empty.
-        pairs: scans to compare.
-        rounds: number of Gauss-Newton rounds.
-        reach_m: greatest distance of paired points, in the first round, and from the middle round on.
-        scale_m: Geman and McClure's c, in the first round, and from the middle round on.
-        firm: mask of odometry's relative poses without slip, (M,); by default none.
-        reselect: function that returns new pairs from the poses in the middle of the rounds.
-        on_progress: function that is called with the number of completed rounds and the poses, (S, 3).
+    ``reach_m`` is the greatest distance of paired points, ``scale_m`` is Geman and McClure's c: in the first round, and
+    from the middle round on. In the middle ``reselect`` returns new pairs for the poses. ``firm`` is the mask of
+    odometry's relative poses without slip, (M,). ``on_progress`` is called with the number of rounds done and poses.
     """
     count, sigma = len(poses), geometry.noise_m
     reach_m, scale_m = geometry.reach_m(*reach_m), geometry.scale_m(*scale_m)
@@ -243,24 +211,16 @@ COUNTED_AGAIN = 0.1
 """Share of the points' variance that the shared errors of pairs also contain (`bayesmap.poses.pose_gaussian.bends`).
 It is their value in simulated offices, where no errors are shared."""
 
-LEVER_M = 4.0
-"""Typical distance of points from the laser, metres, for turns."""
-
-LEAST_RESPONSE, MOST_RESPONSE = 0.2, 1.0
-"""Bounds on k. If forces hardly respond to a shift, there are too few points to match."""
+LEVER_M = 4.0  # typical distance of points from the laser, metres, for turns
+LEAST_RESPONSE, MOST_RESPONSE = 0.2, 1.0  # bounds on k; if forces hardly respond to a shift, there are too few points
 
 
 @dataclass(frozen=True, eq=False)
 class PointError:
-    """The error of points, and the response of the forces to a shift.
+    """The error of points, and the response of the forces to a shift."""
 
-    Attributes:
-        scatter_m: standard deviation of a point's force over its mean weight, metres.
-        response: k for shifts along x and y and for turns, (3,).
-    """
-
-    scatter_m: float
-    response: Floats
+    scatter_m: float  # standard deviation of a point's force over its mean weight, metres
+    response: Floats  # k for shifts along x and y and for turns, (3,)
 
     @property
     def sigma_m(self) -> float:

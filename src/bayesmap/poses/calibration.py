@@ -35,26 +35,15 @@ from numpy.typing import NDArray
 from bayesmap.kernels.match.scan_refinement import Convergence, Refinement, refine_scans
 from bayesmap.poses.prior import Odometry
 from bayesmap.poses.scan_geometry import scan_geometry
-from bayesmap.space.planar import between, interpolate, wrapped
+from bayesmap.space.planar import Floats, between, interpolate, wrapped, yaw_wrapped
 from bayesmap.space.scans import Scans
 from bayesmap.space.time_order import elapsed_s, repeated_stamps
 
-Floats = NDArray[np.float64]
-
-FAST_M_PER_S = 3.0
-"""Greatest possible speed of a robot: faster motions count as impossible."""
-
-COMMON = Odometry(0.1, 0.05, 0.05, 0.1, 0.01, 0.01)
-"""Noise of ordinary robots. The present robot's noise is estimated as a multiple of it."""
-
-FIRST_RATIO, PRIOR_COUNT = 3.0, 12.0
-"""Prior of this multiple, and the number of motions that the prior counts as."""
-
-MEMORY = 300.0
-"""Number of motions over which the noise is averaged, since floors differ."""
-
-SLOPE_SIGMA = 0.15
-"""Prior standard deviation of the entries of C: 15 % of the motion."""
+FAST_M_PER_S = 3.0  # greatest possible speed of a robot: faster motions count as impossible
+COMMON = Odometry(0.1, 0.05, 0.05, 0.1, 0.01, 0.01)  # noise of ordinary robots; a robot's noise is a multiple
+FIRST_RATIO, PRIOR_COUNT = 3.0, 12.0  # prior of this multiple, and the number of motions that the prior counts as
+MEMORY = 300.0  # number of motions over which the noise is averaged, since floors differ
+SLOPE_SIGMA = 0.15  # prior standard deviation of the entries of C: 15 % of the motion
 
 
 def stated_motions(poses: Floats, stamps_s: Floats | None) -> tuple[Floats, NDArray[np.bool_]]:
@@ -115,9 +104,7 @@ class RunningOdometry:
 
     def corrected(self, motions: Floats) -> Floats:
         """Return stated motions with the systematic error removed, (..., 3)."""
-        out = motions + motions @ self._slope.T
-        out[..., 2] = wrapped(out[..., 2])
-        return out
+        return yaw_wrapped(motions + motions @ self._slope.T)
 
     def variances(self, motions: Floats) -> Floats:
         """Return variances of x, y and yaw of each motion's remaining error, (..., 3)."""
@@ -125,11 +112,9 @@ class RunningOdometry:
 
     def learn_slope(self, stated: Floats, matched: Floats, laser_variance: Floats) -> None:
         """Learn the systematic error from a longer motion: as stated, as matched, and the matching's variance, (3,)."""
-        error = stated - matched
-        error[2] = wrapped(error[2])
+        error = yaw_wrapped(stated - matched)
         variance = self.variances(stated) + laser_variance
-        rest = error - self._systematic @ matched
-        rest[2] = wrapped(rest[2])
+        rest = yaw_wrapped(error - self._systematic @ matched)
         if not (rest**2 < 16.0 * variance).all():
             return
         # One weight for the three: the entries of C share a normal matrix.
@@ -141,8 +126,7 @@ class RunningOdometry:
 
     def learn_noise(self, stated: Floats, matched: Floats, laser_variance: Floats) -> None:
         """Learn the noise from a motion from scan to scan: as stated, as matched, and the matching's variance, (3,)."""
-        rest = matched - stated - self._slope @ stated
-        rest[2] = wrapped(rest[2])
+        rest = yaw_wrapped(matched - stated - self._slope @ stated)
         base = COMMON.sigmas(stated) ** 2
         excess = np.maximum(rest**2 - laser_variance, 0.0) / base
         keep = 1.0 - 1.0 / MEMORY
@@ -154,18 +138,12 @@ class RunningOdometry:
 USUAL = np.array([[1e-3, 1e-3, 1e-5], [5e-4, 5e-4, 1e-5], [1e-3, 2e-3, 1e-6]])
 """Variance rates of ordinary robots: rows x, y, yaw; columns per metre, per radian, per scan."""
 
-FACTOR_SIGMA = np.log(10.0)
-"""Prior standard deviation of the logarithm of each rate: a factor of ten either way."""
-
-TELLS, FEWEST = 0.5, 20
-"""A motion is used if its matched variance is below this share of the expected one; and the fewest motions of a fit."""
-
-MOST_LOG = 9.0
-"""Greatest size of the logarithm of a rate, in units of `USUAL`."""
+FACTOR_SIGMA = np.log(10.0)  # prior standard deviation of the logarithm of each rate: a factor of ten either way
+TELLS, FEWEST = 0.5, 20  # a motion's matched variance is below this share of the expected one; fewest motions of a fit
+MOST_LOG = 9.0  # greatest size of the logarithm of a rate, in units of `USUAL`
 
 DEGREES_OF_FREEDOM = 4.0
-CONSISTENT = 1.2718
-"""1 / E[(nu + 1) z^2 / (nu + z^2)] for a standard normal z and nu = 4."""
+CONSISTENT = 1.2718  # 1 / E[(nu + 1) z^2 / (nu + z^2)] for a standard normal z and nu = 4
 
 
 @dataclass(frozen=True, eq=False)
@@ -204,13 +182,9 @@ def fit_noise(
     The cost of an error e of variance v is log v / 2 + 1.27 (nu + 1) / 2 log(1 + e^2 / (nu v)): Student's t with
     nu = 4, made consistent for the normal distribution and robust against slips.
 
-    Args:
-        errors: errors of x, y and yaw, (M, 3).
-        ways_m: path length of each motion, (M,).
-        turns_rad: total turn of each motion, as the sum of absolute values, (M,).
-        scans: number of motions from scan to scan in each motion, (M,).
-        known_variance: variance of the motions as estimated by odometry and laser together, (M, 3).
-        expected_variance: variance of odometry's errors before the fit, (M, 3); by default an ordinary robot's.
+    Each motion has a path length, a total turn (of absolute values) and a number of scans, (M,). ``known_variance`` is
+    that of the motions as estimated by odometry and laser together, (M, 3). ``expected_variance`` is that of odometry's
+    errors before the fit, (M, 3); by default an ordinary robot's.
     """
     features = _features(ways_m, turns_rad, scans)
     usual = features @ USUAL.T
@@ -253,40 +227,26 @@ def _features(ways_m: Floats, turns_rad: Floats, scans: Floats) -> Floats:
     return np.stack([ways_m, turns_rad, scans], axis=-1).astype(np.float64)
 
 
-VELOCITY_OVER_S = 0.4
-"""Time over which a stated velocity is averaged, seconds."""
-
-LAG_SIGMA_S, MOST_LAG_S = 0.2, 0.5
-"""Prior standard deviation and greatest size of the lag."""
-
-PAIRS = 400
-"""Most pairs of scans from which the angle between beams is estimated."""
+VELOCITY_OVER_S = 0.4  # time over which a stated velocity is averaged, seconds
+LAG_SIGMA_S, MOST_LAG_S = 0.2, 0.5  # prior standard deviation and greatest size of the lag
+PAIRS = 400  # most pairs of scans from which the angle between beams is estimated
 
 GROUPS, SURE, SURE_OF_REGULAR = 20, 4.0, 2.0
 """Groups of the jackknife, and standard errors beyond which the angle is changed: in general, and if the new angle is
 within one standard error of a regular angle."""
 
-REGULAR_WITHIN = 0.005
-"""Relative accuracy of the estimated angle between beams."""
+REGULAR_WITHIN = 0.005  # relative accuracy of the estimated angle between beams
 
 
 @dataclass(frozen=True, eq=False)
 class OdometryFit:
-    """The errors of odometry.
+    """The errors of odometry."""
 
-    Attributes:
-        slope: matrix B, (3, 3).
-        systematic_covariance: covariance of the entries of C, row by row, (9, 9).
-        lag_s: delay of odometry's stamps, seconds: the motion from t to t' is stated for t + lag to t' + lag.
-        lag_sigma_s: standard deviation of the lag, seconds.
-        noise: variance rates of the remaining errors.
-    """
-
-    slope: Floats
-    systematic_covariance: Floats
-    lag_s: float
-    lag_sigma_s: float
-    noise: MotionNoise
+    slope: Floats  # matrix B, (3, 3)
+    systematic_covariance: Floats  # covariance of the entries of C, row by row, (9, 9)
+    lag_s: float  # delay of odometry's stamps, seconds: the motion from t to t' is stated for t + lag to t' + lag
+    lag_sigma_s: float  # standard deviation of the lag, seconds
+    noise: MotionNoise  # variance rates of the remaining errors
 
     @property
     def slope_sigma(self) -> Floats:
@@ -326,20 +286,15 @@ def fit_odometry(
     stated: Floats, stamps_s: Floats | None, known: Floats, scans: NDArray[np.intp], laser_variance: Floats,
     expected_variance: Floats | None = None,
 ) -> OdometryFit:  # fmt: skip
-    """Fit B, the lag and the noise to scans whose poses are known.
+    """Fit B, the lag and the noise to K of the scans whose poses are ``known``, (K, 3); their indices ascend.
 
-    Args:
-        stated: odometry's poses of all scans, (S, 3).
-        stamps_s: stamps of the scans, seconds, (S,). If None, the lag is 0. Scans with equal stamps do not affect it.
-        known: known poses of K of the scans, (K, 3).
-        scans: indices of these scans, ascending, (K,).
-        laser_variance: variances of x, y and yaw of the known motions, (K - 1, 3): large along corridors.
-        expected_variance: variance of odometry's errors before the fit, (K - 1, 3); by default an ordinary robot's.
+    ``stated`` are odometry's poses of all scans, (S, 3). Without stamps, (S,), the lag is 0; scans with equal stamps do
+    not affect it. ``laser_variance`` is that of the known motions, (K - 1, 3): large along corridors.
+    ``expected_variance`` is that of odometry's errors before the fit, (K - 1, 3); by default an ordinary robot's.
     """
     # Errors of odometry between known scans, and the changes of velocity that a lag multiplies.
     motion = between(known[:-1], known[1:])
-    error = between(stated[scans[:-1]], stated[scans[1:]]) - motion
-    error[:, 2] = wrapped(error[:, 2])
+    error = yaw_wrapped(between(stated[scans[:-1]], stated[scans[1:]]) - motion)
     change = np.zeros_like(motion)
     if stamps_s is not None:
         speed, told = velocities(stated, stamps_s), ~repeated_stamps(stamps_s)[scans]
@@ -375,9 +330,7 @@ def fit_odometry(
 
 
 def _left(error: Floats, motion: Floats, change: Floats, coefficients: Floats) -> Floats:
-    rest: Floats = error - motion @ coefficients[:9].reshape(3, 3).T - coefficients[9] * change
-    rest[:, 2] = wrapped(rest[:, 2])
-    return rest
+    return yaw_wrapped(error - motion @ coefficients[:9].reshape(3, 3).T - coefficients[9] * change)
 
 
 def _over(sizes: Floats, scans: NDArray[np.intp]) -> Floats:
@@ -394,17 +347,9 @@ def angle_step_ratio(
     Stretched scans still fit each other if they look the same way. So the pairs that are compared are turned against
     each other.
 
-    Args:
-        scans: S scans.
-        poses: poses of the scans, (S, 3).
-        source: first scan of each pair of scans that overlap.
-        target: second scan of each pair.
-        farthest_m: range beyond which hits are left out, metres.
-        threads: number of threads, by default all cores.
-
-    Returns:
-        The ratio; 1 if no scans are turned against each other, if the estimate is not significant, or if the beams
-        of a scan go full circle: the number of beams then says the angle.
+    ``source`` and ``target`` are pairs of overlapping scans at poses (S, 3). Hits beyond ``farthest_m`` are left out.
+    The ratio is 1 if no scans are turned against each other, if the estimate is not significant, or if the beams of a
+    scan go full circle: the number of beams then says the angle.
     """
     step = float(np.nanmedian(scans.steps_rad)) if scans.steps_rad.size else np.pi
     if np.median(scans.sweep_rad) + 1.5 * step > 2.0 * np.pi:

@@ -31,71 +31,42 @@ from bayesmap.poses.next_scans import (
     predict,
 )
 from bayesmap.poses.scan_geometry import ScanGeometry
-from bayesmap.space.planar import between, wrapped
+from bayesmap.space.planar import Floats, between, yaw_wrapped
 
-Floats = NDArray[np.float64]
-
-KEY_DISTANCE_M, KEY_TURN_RAD = 0.4, np.radians(20.0)
-"""A scan that has moved or turned further than this since the last key scan becomes a key scan."""
-
-KEY_SCORE = 0.5
-"""A scan with a lower score becomes a key scan, too."""
-
-WINDOW, BATCH = 12, 12
-"""Number of latest key scans that a scan is matched to, and most scans that are matched to them at once."""
+KEY_DISTANCE_M, KEY_TURN_RAD = 0.4, np.radians(20.0)  # a scan this far from the last key scan becomes a key scan
+KEY_SCORE = 0.5  # a scan with a lower score becomes a key scan, too
+WINDOW, BATCH = 12, 12  # latest key scans that a scan is matched to, and most scans matched to them at once
 
 POOR_SCORE, POOR_BELOW = 0.45, 0.25
 """A scan is badly explained if its score is below the greater of two bounds: the first number, and the usual score less
 the second. It may then contradict the key scans."""
 
-LOST_SIGMA = np.array([0.5, 0.5, np.radians(30.0)])
-"""A badly explained scan contradicts the key scans if standard deviations of its pose, x, y and yaw, exceed these."""
-
-SLIPPED_BELOW = 0.15
-"""A wide search about odometry's pose may move a scan. The new score may be lower than usual by at most this."""
+LOST_SIGMA = np.array([0.5, 0.5, np.radians(30.0)])  # a badly explained scan with larger ones is a contradiction
+SLIPPED_BELOW = 0.15  # a wide search may move a scan to a score that is lower than usual by at most this
 
 AGAIN_BELOW = 0.1
 """A scan whose score is lower than usual by more than this is matched again, from the pose of the scan before it.
 Odometry's errors add up over the scans of a batch, and the search window may have missed the pose."""
 
-LEARN_BELOW = 0.25
-"""If a scan's score is lower than usual by more than this, its motion is not used to calibrate odometry."""
-
-BACKWARDS_M = 1.0
-"""Longest motion that odometry may have stated with the wrong sign, metres."""
-
-PATIENCE, PATIENCE_M, PATIENCE_RAD = 10, 1.5, np.radians(90.0)
-"""Most scans after a contradiction in which a fitting scan is sought, and most way and turn by odometry until then."""
-
-UNKNOWN = np.array([1.0, 1.0, np.radians(60.0)])
-"""Standard deviations of an unknown motion: x and y in metres, yaw in radians."""
+LEARN_BELOW = 0.25  # odometry is not calibrated by a scan whose score is lower than usual by more than this
+BACKWARDS_M = 1.0  # longest motion that odometry may have stated with the wrong sign, metres
+PATIENCE, PATIENCE_M, PATIENCE_RAD = 10, 1.5, np.radians(90.0)  # scans, way and turn in which a fit is sought
+UNKNOWN = np.array([1.0, 1.0, np.radians(60.0)])  # standard deviations of an unknown motion
 
 
 @dataclass(frozen=True, eq=False)
 class Track:
-    """The result of the front end.
+    """The result of the front end."""
 
-    Attributes:
-        poses: poses of the laser, (S, 3). The first is the origin.
-        information: inverse covariance of each pose by the laser, given earlier key scans, in its own frame, (S, 3, 3).
-        odometry_variance: variance of odometry's motion from the key scan before, x, y and yaw, (S, 3).
-        scores: fit of each scan to the key scans, from 0 to 1, (S,); 1 for the first.
-        keys: indices of the key scans, ascending.
-        broken: mask of scans that begin a new part of the path: nothing confirms the motion before them, (S,).
-        against: mask of scans before which the robot moved ahead although odometry states back, or vice versa, (S,).
-        slope: correction of odometry's systematic error, (3, 3).
-        noise_ratios: odometry's noise as a multiple of an ordinary robot's, position and heading, (2,).
-    """
-
-    poses: Floats
-    information: Floats
-    odometry_variance: Floats
-    scores: Floats
-    keys: NDArray[np.intp]
-    broken: NDArray[np.bool_]
-    against: NDArray[np.bool_]
-    slope: Floats
-    noise_ratios: Floats
+    poses: Floats  # poses of the laser, (S, 3). The first is the origin.
+    information: Floats  # of each pose by the laser, given earlier key scans, in its own frame, (S, 3, 3)
+    odometry_variance: Floats  # variance of odometry's motion from the key scan before, x, y and yaw, (S, 3)
+    scores: Floats  # fit of each scan to the key scans, from 0 to 1, (S,); 1 for the first
+    keys: NDArray[np.intp]  # indices of the key scans, ascending
+    broken: NDArray[np.bool_]  # scans that begin a new part of the path: nothing confirms the motion before them, (S,)
+    against: NDArray[np.bool_]  # scans before which the robot moved opposite to odometry, (S,)
+    slope: Floats  # correction of odometry's systematic error, (3, 3)
+    noise_ratios: Floats  # odometry's noise as a multiple of an ordinary robot's, position and heading, (2,)
 
 
 def follow(
@@ -104,14 +75,10 @@ def follow(
 ) -> Track:  # fmt: skip
     """Match every scan to those before it.
 
-    Args:
-        geometry: S scans.
-        motions: odometry's motions from scan to scan in the earlier one's frame, (S - 1, 3). If None, each motion is
-            predicted from the motion before.
-        stamps_s: stamps of the scans, seconds, (S,). They are needed if there is no odometry.
-        impossible: mask of motions that no robot can have made, (S - 1,). They are taken to be unknown.
-        on_progress: function that is called with the number of matched scans and the poses, (S, 3), zero for the
-            other scans. The array changes afterwards, so a caller that keeps it must copy it.
+    ``motions`` are odometry's from scan to scan in the earlier one's frame, (S - 1, 3); if None, each is predicted from
+    the one before by the stamps, (S,). Motions of the mask ``impossible``, (S - 1,), are taken to be unknown.
+    ``on_progress`` is called with the number of matched scans and the poses, (S, 3), zero for the other scans. The
+    array changes afterwards, so a caller that keeps it must copy it.
     """
     path = _Path(geometry, motions, stamps_s, impossible)
     while path.at < len(geometry) - 1:
@@ -213,8 +180,7 @@ class _Path:
 
         A place counts as near if the wide search says so, or if the noise of odometry allows it.
         """
-        off = between(placed.predicted[0], place.pose)
-        off[2] = wrapped(off[2])
+        off = yaw_wrapped(between(placed.predicted[0], place.pose))
         allowed = float((off**2 / placed.variance[0]).sum()) < DOUBTFUL_SQ
         if not (place.near or allowed) or place.score < self.usual - SLIPPED_BELOW:
             return False

@@ -21,10 +21,7 @@ from numpy.typing import NDArray
 from scipy import sparse
 from scipy.sparse.linalg import splu
 
-from bayesmap.space.planar import between, between_jacobians, compose, retract, wrapped
-
-Floats = NDArray[np.float64]
-
+from bayesmap.space.planar import Floats, between, between_jacobians, compose, retract, yaw_wrapped
 
 COLUMNS = 16
 """Columns solved at once. With hundreds of columns BLAS starts threads for blocks that are far too small. On two cores
@@ -32,11 +29,7 @@ COLUMNS = 16
 
 
 class Precision:
-    """A sparse symmetric positive definite matrix (3 N, 3 N), factorised once.
-
-    Args:
-        matrix: sparse matrix in compressed columns.
-    """
+    """A sparse symmetric positive definite matrix (3 N, 3 N) in compressed columns, factorised once."""
 
     def __init__(self, matrix: Any) -> None:
         self._matrix = matrix
@@ -148,39 +141,26 @@ def relative_covariances(
     return np.asarray(result + mixed + np.swapaxes(mixed, 1, 2))
 
 
-ANCHOR = 1e8
-"""Information that fixes the first pose, 1 / m^2 and 1 / rad^2."""
-
-RIDGE = 1e-4
-"""Information added to every pose, so that the matrix is regular even if a pose has no factor."""
-
-DOUBTFUL_SQ = 11.3
-"""Squared Mahalanobis distance beyond which a loop is probably wrong: 99 % quantile of chi-squared, 3 degrees."""
+ANCHOR = 1e8  # information that fixes the first pose, 1 / m^2 and 1 / rad^2
+RIDGE = 1e-4  # information added to every pose, so that the matrix is regular even if a pose has no factor
+DOUBTFUL_SQ = 11.3  # squared Mahalanobis distance of a doubtful loop: 99 % quantile of chi-squared, 3 degrees
 
 
 @dataclass(frozen=True, eq=False)
 class Factors:
-    """Measured relative poses between M pairs of poses.
+    """Measured relative poses between M pairs of poses."""
 
-    Attributes:
-        first, second: indices of the poses, (M,).
-        relative: the second pose in the frame of the first, as measured, (M, 3).
-        information: inverse covariance of the measured relative pose, in the first's frame, (M, 3, 3).
-    """
-
-    first: NDArray[np.intp]
+    first: NDArray[np.intp]  # indices of the poses, (M,)
     second: NDArray[np.intp]
-    relative: Floats
-    information: Floats
+    relative: Floats  # the second pose in the frame of the first, as measured, (M, 3)
+    information: Floats  # inverse covariance of the measured relative pose, in the first's frame, (M, 3, 3)
 
     def __len__(self) -> int:
         return len(self.first)
 
     def errors(self, poses: Floats) -> Floats:
         """Return the relative poses minus the measured ones, (M, 3)."""
-        error = between(poses[self.first], poses[self.second]) - self.relative
-        error[:, 2] = wrapped(error[:, 2])
-        return error
+        return yaw_wrapped(between(poses[self.first], poses[self.second]) - self.relative)
 
     def squares(self, poses: Floats) -> Floats:
         """Return the squared Mahalanobis lengths of the errors, (M,)."""

@@ -20,56 +20,35 @@ from bayesmap.poses.graph import DOUBTFUL_SQ, Factors
 from bayesmap.poses.key_graph import contradicted_links
 from bayesmap.poses.matcher import LikelihoodGrids, Pull, likelihood_grids, match
 from bayesmap.poses.scan_geometry import ScanGeometry
-from bayesmap.space.planar import between, compose
-
-Floats = NDArray[np.float64]
+from bayesmap.space.planar import Floats, between, compose
 
 WINDOW_M, WINDOW_RAD = 0.3, np.radians(6.0)
 WIDE_M, WIDE_RAD = 1.5, np.radians(40.0)
 """Half widths, metres, and half ranges of angle, radians, of the narrow and the wide window."""
 
-NEAR = Pull(0.2, np.radians(5.0), 0.005)
-"""Penalty in the narrow window for leaving the present pose."""
-
-CLEARLY_BETTER, WIDE_BETTER = 0.015, 0.12
-"""Least gain in score of a better pose in the narrow and in the wide window. Scores are from 0 to 1."""
-
-AT_ONCE, POINTS, SIGMA_M = 24, 200, 0.06
-"""Scans matched at once, most points per scan, and standard deviation of the likelihood grids, metres."""
+NEAR = Pull(0.2, np.radians(5.0), 0.005)  # penalty in the narrow window for leaving the present pose
+CLEARLY_BETTER, WIDE_BETTER = 0.015, 0.12  # least gain in score, from 0 to 1, in the narrow and in the wide window
+AT_ONCE, POINTS, SIGMA_M = 24, 200, 0.06  # scans and most points per scan at once, sigma of the grids
 
 
 @dataclass(frozen=True, eq=False)
 class Rematch:
-    """The result of leave-one-out matching of S scans.
+    """The result of leave-one-out matching of S scans."""
 
-    Attributes:
-        scores: score of each scan at its pose, by its partners alone, from 0 to 1, (S,); 0 without partners.
-        best_scores: score at the best pose in the window, (S,).
-        best_poses: best pose in the window, (S, 3).
-        moved: mask of the scans whose best pose is clearly better, (S,).
-    """
-
-    scores: Floats
-    best_scores: Floats
-    best_poses: Floats
-    moved: NDArray[np.bool_]
+    scores: Floats  # score of each scan at its pose, by its partners alone, from 0 to 1, (S,); 0 without partners
+    best_scores: Floats  # score at the best pose in the window, (S,)
+    best_poses: Floats  # best pose in the window, (S, 3)
+    moved: NDArray[np.bool_]  # mask of the scans whose best pose is clearly better, (S,)
 
 
 def rematch(
     geometry: ScanGeometry, poses: Floats, pairs: Pairs, half_width_m: float, *, poor_score: float = 0.0,
     search: bool = True, before: Rematch | None = None, among: NDArray[np.bool_] | None = None,
 ) -> Rematch:  # fmt: skip
-    """Match each of S scans to its partners' likelihood grid.
+    """Match each of S scans at poses (S, 3) to its partners' likelihood grid.
 
-    Args:
-        geometry: geometry of the scans.
-        poses: poses of the scans, (S, 3).
-        pairs: partners of each scan.
-        half_width_m: half width of the grids, metres.
-        poor_score: score below which a scan is searched for in the wide window, too.
-        search: True to search for better poses; False only to score the given ones.
-        before: an earlier result; if it is given, scans outside ``among`` keep its scores.
-        among: mask of the scans to match, (S,).
+    Scans with a score below ``poor_score`` are searched for in the wide window, too. Without ``search`` the given poses
+    are only scored. Scans outside the mask ``among``, (S,), keep the scores of an earlier result ``before``.
     """
     count = len(poses)
     scores, best_scores, best_poses = np.zeros(count), np.zeros(count), poses.copy()
@@ -115,8 +94,7 @@ def rematch(
     return Rematch(scores, best_scores, best_poses, moved)
 
 
-FAR_BELOW = 0.55
-"""A scan is flagged if its score is below this share of the median score."""
+FAR_BELOW = 0.55  # a scan is flagged if its score is below this share of the median score
 
 
 def flag_unexplained(explained: Floats, keys: NDArray[np.intp]) -> NDArray[np.bool_]:
@@ -136,20 +114,11 @@ def flag_unexplained(explained: Floats, keys: NDArray[np.intp]) -> NDArray[np.bo
     return flagged
 
 
-OnRound = Callable[[int, Floats], None]
-"""Function that is called after each round with its number and the poses, (K, 3)."""
-
-MATCH_REACH = 0.8
-"""Greatest distance between the sensors of two scans that are compared, as a share of the grids' half width."""
-
-REMATCH_M = 14.0
-"""Greatest half width of the grids for leave-one-out matching, metres."""
-
-NARROW = {"reach_m": (0.15, 0.08), "scale_m": (0.06, 0.03)}
-"""Arguments of `align` for poses that are known to a decimetre."""
-
-IMPROVEMENTS = 2
-"""Rounds of leave-one-out matching that move scans."""
+OnRound = Callable[[int, Floats], None]  # called after each round with its number and the poses, (K, 3)
+MATCH_REACH = 0.8  # greatest distance between the sensors of compared scans, as a share of the grids' half width
+REMATCH_M = 14.0  # greatest half width of the grids for leave-one-out matching, metres
+NARROW = {"reach_m": (0.15, 0.08), "scale_m": (0.06, 0.03)}  # for poses known to a decimetre
+IMPROVEMENTS = 2  # rounds of leave-one-out matching that move scans
 
 
 @dataclass(frozen=True, eq=False)
@@ -162,34 +131,20 @@ class Rematched:
 
 @dataclass(frozen=True, eq=False)
 class KeyAlignment:
-    """The alignment of a track's key scans.
+    """The alignment of a track's key scans."""
 
-    Attributes:
-        geometry: geometry of the key scans.
-        track: result of the front end.
-        half_width_m: half width of the front end's grids, metres.
-        report: function that takes the track, a stage and its number of rounds, and returns the function to call
-            after each round.
-    """
-
-    geometry: ScanGeometry
+    geometry: ScanGeometry  # of the key scans
     track: Track
-    half_width_m: float
-    report: Callable[[Track, str, int], OnRound]
+    half_width_m: float  # half width of the front end's grids, metres
+    report: Callable[[Track, str, int], OnRound]  # returns the callback of a stage with a number of rounds
 
     def align(
         self, stage: str, poses: Floats, factors: Factors, rounds: int = 8, *, wide: bool,
         firm: NDArray[np.bool_] | None = None,
     ) -> Alignment:  # fmt: skip
-        """Align the key scans.
+        """Align the key scans with odometry's factors, from poses (K, 3), which may be decimetres off if ``wide``.
 
-        Args:
-            stage: name of the stage, for the report.
-            poses: poses to start from, (K, 3).
-            factors: factors of odometry.
-            rounds: number of rounds of pairing and solving.
-            wide: True if poses may be decimetres off.
-            firm: mask of odometry's links that keep their full weight, (K - 1,).
+        ``firm`` is the mask of odometry's links that keep their full weight, (K - 1,).
         """
         reach_m = MATCH_REACH * self.half_width_m
 

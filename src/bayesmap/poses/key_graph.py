@@ -16,34 +16,20 @@ from bayesmap.poses.matcher import LikelihoodGrids, likelihood_grids, match, sco
 from bayesmap.poses.next_scans import POINTS, TELLING
 from bayesmap.poses.rejoin import AGREE, SAME_M, SAME_RAD, Joint, consistent, rejoin
 from bayesmap.poses.scan_geometry import ScanGeometry
-from bayesmap.space.planar import between, compose, rotation, wrapped
+from bayesmap.space.planar import Floats, between, compose, rotation, wrapped, yaw_wrapped
 
-Floats = NDArray[np.float64]
-
-DEFLATION = 4.0
-"""Divisor of the information of the front end's links. Their windows overlap, so the links are not independent."""
-
-LINK_FLOOR = np.array([0.004, 0.004, np.radians(0.12)])
-"""Least standard deviations of a link between key scans: x and y in metres, yaw in radians."""
-
-BENT_M = 5.0
-"""Greatest bend of a path before loops are closed, metres."""
-
-SETTLED_M = 0.3
-"""The search for loops ends after a round that moves no key scan further than this, metres."""
-
-LEAP_M, LEAP_RAD, LEAP_SIGMAS = 0.3, np.radians(10.0), 8.0
-"""A leap differs from the front end's step by more than the distance or the angle, and by more standard deviations."""
+DEFLATION = 4.0  # divisor of the information of the front end's links, whose windows overlap
+LINK_FLOOR = np.array([0.004, 0.004, np.radians(0.12)])  # least standard deviations of a link, m and rad
+BENT_M = 5.0  # greatest bend of a path before loops are closed, metres
+SETTLED_M = 0.3  # the search for loops ends after a round that moves no key scan further than this, metres
+LEAP_M, LEAP_RAD, LEAP_SIGMAS = 0.3, np.radians(10.0), 8.0  # a leap differs by more from the front end's step
 
 REFUSED_SIGMAS, CONFIRMED_BELOW = 5.0, 0.2
 """Odometry contradicts a step that differs by more than this many of odometry's standard deviations. The key scans
 before confirm a step if the next key scan's score is lower than usual by at most the second number."""
 
-WIDEST_M = 1.5
-"""Greatest distance from odometry's prediction at which a scan is searched for elsewhere, metres."""
-
-BOTH_SIGMAS = 4.0
-"""`LEAP_SIGMAS` for steps that odometry contradicts, too."""
+WIDEST_M = 1.5  # greatest distance from odometry's prediction at which a scan is searched for elsewhere, metres
+BOTH_SIGMAS = 4.0  # `LEAP_SIGMAS` for steps that odometry contradicts, too
 
 GUESSED_SIGMAS = 3.0
 """A step over a break is in doubt if it lies further than this from the front end's guess, in units of `UNKNOWN`, and
@@ -62,17 +48,11 @@ standard deviations off in the first round, and up to 3.2 later. Wrong ones that
 
 @dataclass(frozen=True, eq=False)
 class ClosedGraph:
-    """Key scans with loops closed.
+    """Key scans with loops closed."""
 
-    Attributes:
-        closures: loop closures of the last round.
-        joined: mask of the parts of the path that are joined to an earlier part by places that both saw, (P,).
-        weighed: poses of the keys, Geman and McClure's weights of the closures, and alternative poses.
-    """
-
-    closures: Closures
-    joined: NDArray[np.bool_]
-    weighed: Weighed
+    closures: Closures  # loop closures of the last round
+    joined: NDArray[np.bool_]  # parts of the path that are joined to an earlier part by places that both saw, (P,)
+    weighed: Weighed  # poses of the keys, Geman and McClure's weights of the closures, and alternative poses
 
 
 def chain_of(track: Track, poses: Floats) -> Factors:
@@ -141,19 +121,13 @@ def unconfirmed_links(geometry: ScanGeometry, track: Track, odometry: Factors, p
         doubtful[k] = score < usual - CONFIRMED_BELOW and (
             refused[k] or _fits_elsewhere(grid, points, step, score, usual, odometry.select(np.array([k])))
         )
-    off = between(poses[:-1], poses[1:]) - between(track.poses[keys[:-1]], track.poses[keys[1:]])
-    off[:, 2] = wrapped(off[:, 2])
+    off = yaw_wrapped(between(poses[:-1], poses[1:]) - between(track.poses[keys[:-1]], track.poses[keys[1:]]))
     moved = ((off / UNKNOWN) ** 2).sum(axis=1) > GUESSED_SIGMAS**2
     return np.asarray(doubtful | (_fitted_after_break(track) & moved))
 
 
 def _fits_elsewhere(
-    grid: LikelihoodGrids,
-    points: Floats,
-    step: Floats,
-    score: float,
-    usual: float,
-    odometry: Factors,
+    grid: LikelihoodGrids, points: Floats, step: Floats, score: float, usual: float, odometry: Factors
 ) -> bool:
     """Check whether another place that odometry allows fits a scan as well as usual, and clearly better than a step.
 
@@ -169,8 +143,7 @@ def _fits_elsewhere(
     if not best.found[0, 0]:
         return False
     place = best.poses[0, 0]
-    error, off = place - stated[0], between(step, place)
-    error[2] = wrapped(error[2])
+    error, off = yaw_wrapped(place - stated[0]), between(step, place)
     allowed = error @ odometry.information[0] @ error < REFUSED_SIGMAS**2
     return bool(allowed and (np.hypot(off[0], off[1]) > LEAP_M or abs(wrapped(off[2])) > LEAP_RAD))
 
@@ -189,15 +162,12 @@ def poses_between_keys(
     result = compose(key_poses[before], between(track_poses[keys[before]], track_poses))
     # The pose of the next key if nothing had changed.
     expected = compose(key_poses[before], between(track_poses[keys[before]], track_poses[keys[after]]))
-    change = key_poses[after] - expected
-    change[:, 2] = wrapped(change[:, 2])
+    change = yaw_wrapped(key_poses[after] - expected)
     if broken is not None:
         change[broken[keys[after]]] = 0.0
     step = np.maximum(keys[after] - keys[before], 1)
     share = (np.arange(count) - keys[before]) / step
-    result = result + change * np.where(after > before, share, 0.0)[:, None]
-    result[:, 2] = wrapped(result[:, 2])
-    return result
+    return yaw_wrapped(result + change * np.where(after > before, share, 0.0)[:, None])
 
 
 def close_loops(

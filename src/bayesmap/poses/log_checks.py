@@ -12,36 +12,23 @@ from bayesmap.errors import BadInput
 from bayesmap.poses.calibration import motion_variances
 from bayesmap.poses.matcher import likelihood_grids, match
 from bayesmap.poses.scan_geometry import ScanGeometry
-from bayesmap.space.planar import between, compose, interpolate
+from bayesmap.space.planar import Floats, between, compose, interpolate
 from bayesmap.space.scans import Scans
 
-Floats = NDArray[np.float64]
-
-SLOWEST_S = 0.5
-"""Median time between scans above which they cannot be matched without odometry, seconds."""
+SLOWEST_S = 0.5  # median time between scans above which they cannot be matched without odometry, seconds
 TOO_SELDOM = "scans come too seldom to be followed without odometry, which takes 5 Hz or so"
 
-LONG = 10
-"""Fewest scans at one pose in a frozen stretch. Odometry that is merely slower than scans repeats less often."""
+LONG = 10  # fewest scans at one pose in a frozen stretch: odometry that is merely slow repeats less often
 
 MOVED_M, SHARE = 0.2, 0.3
 """The robot has moved between two scans if more than the share of their readings differs by more than these metres.
 Readings of a corridor's walls do not change along it, so the share is small."""
 
-FEWEST = 8
-"""Fewest beams with hits in both scans."""
-
-REPEATED = 1e-6
-"""Difference in metres and radians below which stated poses are equal, in spite of rounding."""
-
-CLEARLY = 0.05
-"""Least difference in score, from 0 to 1, by which a scan must fit late odometry better than stated odometry."""
-
-SIGMAS = 3.0
-"""Half the window about either pose, in standard deviations of an ordinary robot's odometry."""
-
-POINTS, WIDEST_M = 200, 20.0
-"""Most points per scan that are matched, and greatest half width of the grid, metres."""
+FEWEST = 8  # fewest beams with hits in both scans
+REPEATED = 1e-6  # difference in metres and radians below which stated poses are equal, in spite of rounding
+CLEARLY = 0.05  # least gain in score, from 0 to 1, of a scan at late odometry over stated odometry
+SIGMAS = 3.0  # half the window about either pose, in standard deviations of an ordinary robot's odometry
+POINTS, WIDEST_M = 200, 20.0  # most points per scan that are matched, and greatest half width of the grid, metres
 
 
 def gap_s(scans: Scans) -> float:

@@ -20,47 +20,26 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.poses.graph import DOUBTFUL_SQ, Factors, quadratic, relative_covariances, solve_step
-from bayesmap.space.planar import between, retract, wrapped
+from bayesmap.space.planar import Floats, between, retract, wrapped
 
-Floats = NDArray[np.float64]
-
-PLACE_M = 5.0
-"""Greatest distance along the path between ends of closures of one visit, and length of one place, metres."""
-
-SAME_M, SAME_RAD = 0.4, np.radians(6.0)
-"""Greatest difference between closures that agree."""
-
-ODDS, FURTHER = 5.0, 1.0
-"""Prior log odds that a visit of one place is right, and addition per further place."""
-
-STEPS = 12
-"""Most steps of Gauss-Newton."""
-
-TOLD = 0.05
-"""Least probability of an alternative that is reported."""
-
-DIFFERS_M, DIFFERS_RAD = 0.3, np.radians(5.0)
-"""An alternative must move at least one pose by more than one of these."""
+PLACE_M = 5.0  # greatest distance along the path between ends of closures of one visit, and length of one place, metres
+SAME_M, SAME_RAD = 0.4, np.radians(6.0)  # greatest difference between closures that agree
+ODDS, FURTHER = 5.0, 1.0  # prior log odds that a visit of one place is right, and addition per further place
+STEPS = 12  # most steps of Gauss-Newton
+TOLD = 0.05  # least probability of an alternative that is reported
+DIFFERS_M, DIFFERS_RAD = 0.3, np.radians(5.0)  # an alternative must move at least one pose by more than one of these
 
 
 @dataclass(frozen=True, eq=False)
 class Weighed:
-    """A graph whose visits have been weighed.
+    """A graph whose visits have been weighed."""
 
-    Attributes:
-        poses: poses of the keys without the wrong visits, (K, 3).
-        weights: weight of each closure, from 0 to 1, (M,); 0 if its visit is wrong.
-        alternatives: poses of the keys if one doubtful visit is decided the other way, (A, K, 3).
-        probabilities: probabilities of the alternatives, (A,).
-        first, last: first and last key of the stretch of path that depends on the visit, (A,) each.
-    """
-
-    poses: Floats
-    weights: Floats
-    alternatives: Floats
-    probabilities: Floats
-    first: NDArray[np.intp]
-    last: NDArray[np.intp]
+    poses: Floats  # poses of the keys without the wrong visits, (K, 3)
+    weights: Floats  # weight of each closure, from 0 to 1, (M,); 0 if its visit is wrong
+    alternatives: Floats  # poses of the keys if one doubtful visit is decided the other way, (A, K, 3)
+    probabilities: Floats  # probabilities of the alternatives, (A,)
+    first: NDArray[np.intp]  # first key of the stretch of path that depends on the visit, (A,)
+    last: NDArray[np.intp]  # last key of this stretch, (A,)
 
 
 def visits(loops: Factors, poses: Floats, along: Floats) -> NDArray[np.intp]:

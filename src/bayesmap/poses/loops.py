@@ -20,37 +20,22 @@ from bayesmap.kernels.match.scan_refinement import Convergence, Refinement, refi
 from bayesmap.poses.graph import Factors, Precision, relative_covariances
 from bayesmap.poses.matcher import likelihood_grids, match
 from bayesmap.poses.scan_geometry import ScanGeometry
-from bayesmap.space.planar import between, compose, transform, wrapped
+from bayesmap.space.planar import Floats, between, compose, transform, wrapped, yaw_wrapped
 
-Floats = NDArray[np.float64]
-
-GAP_M = 1000.0
-"""Length that a break of the path counts as, metres: no submap reaches over it, and places on both sides may close."""
-
-SHORT = 120.0
-"""Places that a path is divided into at least: a small loop has few places that close it."""
-
-MOST_MEMBERS = 16
-"""Most key scans of a submap. If there are more, every second, third or so is taken."""
+GAP_M = 1000.0  # length that a break counts as: no submap reaches over it, and places on both sides may close
+SHORT = 120.0  # places that a path is divided into at least: a small loop has few places that close it
+MOST_MEMBERS = 16  # most key scans of a submap; of more, every second, third or so is taken
 
 
 @dataclass(frozen=True, eq=False)
 class KeyPath:
-    """K key scans in the order of time.
+    """K key scans in the order of time."""
 
-    Attributes:
-        geometry: geometry of all scans.
-        keys: indices of the key scans, (K,).
-        poses: poses of the keys, (K, 3). Relative poses within a submap must be right.
-        along: distance of each key along the path, metres, with gaps of `GAP_M` where it breaks, (K,).
-        parts: number of the part of the path that each key belongs to, ascending, (K,).
-    """
-
-    geometry: ScanGeometry
-    keys: NDArray[np.intp]
-    poses: Floats
-    along: Floats
-    parts: NDArray[np.intp]
+    geometry: ScanGeometry  # geometry of all scans
+    keys: NDArray[np.intp]  # indices of the key scans, (K,)
+    poses: Floats  # poses of the keys, (K, 3). Relative poses within a submap must be right.
+    along: Floats  # distance of each key along the path, metres, with gaps of `GAP_M` where it breaks, (K,)
+    parts: NDArray[np.intp]  # number of the part of the path that each key belongs to, ascending, (K,)
 
     def __len__(self) -> int:
         return len(self.keys)
@@ -107,26 +92,13 @@ def path_m(poses: Floats, begins: NDArray[np.bool_]) -> Floats:
     return np.concatenate([[0.0], np.cumsum(np.where(begins[1:], GAP_M, ways))])
 
 
-AROUND_M, NARROW_M, WIDE_M = 2.0, 0.7, 1.0
-"""Half lengths along the path, metres: of the earlier submap, of the later one, and of the earlier one in `_agrees`."""
-
-RESOLUTION_M, SIGMA_M, AT_ONCE = 0.1, 0.1, 24
-"""Resolution and standard deviation of submaps' likelihood grids, and number of grids in memory at once."""
-
-MODES, MODE_SHARE = 2, 0.92
-"""Most poses per window that are refined, and the least score of the second one as a share of the best one's."""
-
-ALIKE = 0.7
-"""Least cosine between the normals of paired points."""
-
-SEEN = Agreement(near_m=0.15, clear_m=0.4, beams=90)
-"""Distances at which scans of two submaps agree and contradict each other, and beams per scan that are compared."""
-
-LEAST_MATCHED, MOST_AGAINST = 0.2, 0.15
-"""Least share of points that match, and most share of points that contradict among those that match or contradict."""
-
-FLOOR = np.array([0.02, 0.02, np.radians(0.3)])
-"""Least standard deviations of a closure, because submaps are bent: x and y in metres, yaw in radians."""
+AROUND_M, NARROW_M, WIDE_M = 2.0, 0.7, 1.0  # half lengths along the path: earlier submap, later, earlier in `_agrees`
+RESOLUTION_M, SIGMA_M, AT_ONCE = 0.1, 0.1, 24  # of submaps' likelihood grids, and their number in memory
+MODES, MODE_SHARE = 2, 0.92  # most poses per window that are refined, and least score of the second by the best
+ALIKE = 0.7  # least cosine between the normals of paired points
+SEEN = Agreement(near_m=0.15, clear_m=0.4, beams=90)  # of scans of two submaps
+LEAST_MATCHED, MOST_AGAINST = 0.2, 0.15  # shares of matching points, and of contradicting among decided points
+FLOOR = np.array([0.02, 0.02, np.radians(0.3)])  # least standard deviations of a closure: submaps bend
 
 
 @dataclass(frozen=True)
@@ -142,15 +114,10 @@ FINE = Fineness(350, np.radians(1.0))
 
 @dataclass(frozen=True, eq=False)
 class Closures(Factors):
-    """Relative poses between M pairs of key scans that saw the same place; the first of a pair is the earlier one.
+    """Relative poses between M pairs of key scans that saw the same place; the first of a pair is the earlier one."""
 
-    Attributes:
-        scores: fit of the second's submap, from 0 to 1, (M,).
-        support: number of other closures that imply the same relative pose, (M,).
-    """
-
-    scores: Floats
-    support: NDArray[np.intp]
+    scores: Floats  # fit of the second's submap, from 0 to 1, (M,)
+    support: NDArray[np.intp]  # number of other closures that imply the same relative pose, (M,)
 
 
 def match_submaps(
@@ -159,16 +126,9 @@ def match_submaps(
 ) -> Closures:  # fmt: skip
     """Match the submaps of M pairs of key scans, and return the closures that both ends confirm.
 
-    Args:
-        path: key scans. Submaps do not reach over breaks of the path.
-        first: first key of each pair, ascending, (M,).
-        second: second key of each pair, (M,).
-        centres: middles of the windows for the second's pose in the first's frame, (M, 3).
-        half_m: half the windows' widths, metres, (M,).
-        half_rad: half the windows' ranges of angles, radians, (M,).
-        half_width_m: half width of submaps' grids, metres.
-        least_score: least score of a match.
-        fineness: fineness of the search before refinement.
+    The first keys ascend. Submaps do not reach over breaks of the path. ``centres`` are the middles of the windows for
+    the second's pose in the first's frame, (M, 3), and ``half_m`` and ``half_rad`` half their widths and ranges of
+    angles, (M,). ``half_width_m`` is the half width of submaps' grids. ``fineness`` is that before refinement.
     """
     parts = [no_closures()]
     submaps = np.unique(first)
@@ -272,34 +232,21 @@ def no_closures() -> Closures:
     return Closures(none, none, np.empty((0, 3)), np.empty((0, 3, 3)), np.empty(0), none)
 
 
-OLD_M = 8.0
-"""Least length of a loop along the path, metres."""
-
-SIGMAS = 3.0
-"""Half the window in standard deviations."""
-
-BENT = np.array([0.3, 0.3, np.radians(5.0)])
-"""Standard deviations of bends that the graph does not model. They are added to the graph's covariance."""
+OLD_M = 8.0  # least length of a loop along the path, metres
+SIGMAS = 3.0  # half the window in standard deviations
+BENT = np.array([0.3, 0.3, np.radians(5.0)])  # standard deviations of bends that the graph does not model
 
 
 @dataclass(frozen=True)
 class Search:
-    """The limits of a search for closures.
+    """The limits of a search for closures."""
 
-    Attributes:
-        most_m, most_rad: greatest half width and half range of angles of a window.
-        least_score: least score of a closure.
-        most_off: greatest distance of a closure from the graph's relative pose, in standard deviations.
-        passes: number of earlier visits of a place that are tried for each submap, nearest first.
-        spacing_m: distance along the path between the key scans that are tried.
-    """
-
-    most_m: float = 4.0
-    most_rad: float = np.radians(45.0)
-    least_score: float = 0.5
-    most_off: float = 3.5
-    passes: int = 4
-    spacing_m: float = 1.2
+    most_m: float = 4.0  # greatest half width of a window
+    most_rad: float = np.radians(45.0)  # greatest half range of angles
+    least_score: float = 0.5  # least score of a closure
+    most_off: float = 3.5  # greatest distance of a closure from the graph's relative pose, in standard deviations
+    passes: int = 4  # number of earlier visits of a place that are tried for each submap, nearest first
+    spacing_m: float = 1.2  # distance along the path between the key scans that are tried
 
 
 def find_closures(
@@ -323,8 +270,7 @@ def _possible(closures: Closures, path: KeyPath, precision: Precision, most_off:
     """Return whether each closure is within ``most_off`` standard deviations of the graph's relative pose, (M,)."""
     if not len(closures):
         return np.zeros(0, np.bool_)
-    off = closures.relative - between(path.poses[closures.first], path.poses[closures.second])
-    off[:, 2] = wrapped(off[:, 2])
+    off = yaw_wrapped(closures.relative - between(path.poses[closures.first], path.poses[closures.second]))
     covariance = relative_covariances(precision, path.poses, closures.first, closures.second) + np.diag(BENT**2)
     squares = np.einsum("mi,mij,mj->m", off, np.linalg.inv(covariance), off)
     return np.asarray(squares < most_off**2)

@@ -12,14 +12,9 @@ from bayesmap.poses.trajectory import Trajectory, calibrated
 from bayesmap.space.planar import between, compose
 from bayesmap.space.scans import Scans
 
-SAMPLED = 100
-"""Most key scans whose poses are sampled with the map. Chains over more poses do not mix."""
-
-MANY_BEAMS, STEP_RAD = 100_000, np.radians(1.0)
-"""If key scans have more beams, only beams at least so far apart are used."""
-
-ENOUGH, LEAST_NEW = 20, 0.2
-"""A scan is left out if less than this share of its hits fall in cells with fewer hits than the first number."""
+SAMPLED = 100  # most key scans whose poses are sampled with the map: chains over more do not mix
+MANY_BEAMS, STEP_RAD = 100_000, np.radians(1.0)  # with more beams, only beams so far apart are used
+ENOUGH, LEAST_NEW = 20, 0.2  # a scan is left out if a smaller share of its hits is in cells with few hits
 
 P_SLIP = 0.01
 """Probability that odometry is no evidence of a motion. In the Intel log eight motions of 891 are off by 200 to 350
@@ -29,28 +24,15 @@ scans there until they contradict the walls."""
 
 @dataclass(frozen=True, eq=False)
 class KeyScans:
-    """The scans that the map is made from, and the prior of their poses.
+    """The scans that the map is made from, and the prior of their poses."""
 
-    Attributes:
-        scans: the key scans at their most probable poses, beam angles calibrated.
-        prior: prior of their poses: odometry, corrected for its systematic error.
-        starts: poses from which chains start, one trajectory each, (chains, K, 3).
-    """
-
-    scans: Scans
-    prior: PosePrior
-    starts: NDArray[np.float64]
+    scans: Scans  # the key scans at their most probable poses, beam angles calibrated
+    prior: PosePrior  # prior of their poses: odometry, corrected for its systematic error
+    starts: NDArray[np.float64]  # poses from which chains start, one trajectory each, (chains, K, 3)
 
 
 def key_scans(log: Scans, found: Trajectory, chains: int, seed: int) -> KeyScans:
-    """Select the key scans for the chains, with prior and starts from the approximate trajectory.
-
-    Args:
-        log: the scans with raw odometry, in the order of the log.
-        found: approximate posterior of the trajectory.
-        chains: number of starts.
-        seed: seed of the starts.
-    """
+    """Select the key scans of a log with raw odometry, with prior and starts from the approximate trajectory."""
     scans = calibrated_keys(log, found)
     # All trajectories share the first pose: it is the frame of the map.
     drawn = found.draw(chains, seed)[:, found.keys]

@@ -22,28 +22,18 @@ from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
 from bayesmap.poses.scan_geometry import ScanGeometry
-from bayesmap.space.planar import transform, wrapped
-
-Floats = NDArray[np.float64]
+from bayesmap.space.planar import Floats, transform, wrapped
 
 
 @dataclass(frozen=True, eq=False)
 class LikelihoodGrids:
-    """Likelihood grids of one shape and resolution.
+    """Likelihood grids of one shape and resolution."""
 
-    Attributes:
-        pyramid: bytes on the device, (grids, levels, nx, ny); level 0 is the likelihood.
-        origins: corner of each grid, metres in the world frame, (grids, 2).
-        resolution: width of a cell, metres.
-        device: device of the pyramid.
-        threads: number of threads that search the grids; all cores if None.
-    """
-
-    pyramid: Any
-    origins: Floats
-    resolution: float
-    device: str = "cpu"
-    threads: int | None = None
+    pyramid: Any  # bytes on the device, (grids, levels, nx, ny); level 0 is the likelihood
+    origins: Floats  # corner of each grid, metres in the world frame, (grids, 2)
+    resolution: float  # width of a cell, metres
+    device: str = "cpu"  # device of the pyramid
+    threads: int | None = None  # number of threads that search the grids; all cores if None
 
     def __len__(self) -> int:
         return len(self.origins)
@@ -62,18 +52,10 @@ def likelihood_grids(
     half_width_m: float, *, resolution: float = 0.05, sigma_m: float = 0.07, levels: int = 4,
     reuse: LikelihoodGrids | None = None,
 ) -> LikelihoodGrids:  # fmt: skip
-    """Compute square likelihood grids, each from some scans at given poses.
+    """Compute square likelihood grids about their middles, (grids, 2), each from some scans at poses in its frame.
 
-    Args:
-        geometry: of all scans.
-        scans: the scans of each grid.
-        poses_world: the poses of these scans in the frame of the grid, (scans, 3) for each grid.
-        centres: middle of each grid, (grids, 2).
-        half_width_m: from the middle to each side.
-        resolution: width of a cell, metres.
-        sigma_m: standard deviation of the likelihood.
-        levels: of the pyramid; the search bounds blocks of up to 2^(levels - 1) cells at once.
-        reuse: grids of the same number, size and levels that are no longer needed: their memory is overwritten.
+    ``half_width_m`` is the distance from the middle to each side. The search bounds blocks of up to 2^(levels - 1)
+    cells at once. ``reuse`` are grids of the same number, size and levels, whose memory is overwritten.
     """
     from bayesmap.kernels.match.likelihood_grid import draw_grids
 
@@ -100,15 +82,10 @@ class Pull:
 
 @dataclass(frozen=True, eq=False)
 class Matches:
-    """The best poses of J jobs, up to M each, best first.
+    """The best poses of J jobs, up to M each, best first."""
 
-    Attributes:
-        scores: scores of the poses, (J, M); -inf where no further pose scores above the least.
-        poses: poses in the grids' frame, (J, M, 3); NaN where there is none.
-    """
-
-    scores: Floats
-    poses: Floats
+    scores: Floats  # scores of the poses, (J, M); -inf where no further pose scores above the least
+    poses: Floats  # poses in the grids' frame, (J, M, 3); NaN where there is none
 
     @property
     def found(self) -> NDArray[np.bool_]:
@@ -125,7 +102,7 @@ def match(
     """Match points to grids, J jobs at once.
 
     Args:
-        grids: likelihood grids.
+        grids: all grids.
         points: points of each job in the sensor's frame, (N, 2).
         centres: middle of each job's window, a pose in the grid's frame, (J, 3).
         half_m: half the window's width, metres: one number, (J,), or (J, 2) for x and y.

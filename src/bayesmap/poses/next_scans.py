@@ -17,42 +17,27 @@ from bayesmap.kernels.match.scan_refinement import Convergence, Refinement, refi
 from bayesmap.poses.calibration import RunningOdometry
 from bayesmap.poses.matcher import LikelihoodGrids, Pull, match
 from bayesmap.poses.scan_geometry import ScanGeometry
-from bayesmap.space.planar import between, compose, rotation
+from bayesmap.space.planar import Floats, between, compose, rotation
 from bayesmap.space.time_order import SAME_S
-
-Floats = NDArray[np.float64]
 
 UNUSUAL = 0.04
 """If a scan's score is lower than usual by more than this, the robot may have gone backwards. Some odometry does not
 report that."""
 
-BACKWARDS_BETTER = 0.05
-"""Least gain in score for going backwards: along a uniform wall both directions fit equally well."""
+BACKWARDS_BETTER = 0.05  # least gain in score for going backwards: along a wall both directions fit
 
 WIDE_M = 1.0
 WIDER = ((np.radians(45.0), 0.1), (np.pi, 0.15))
 """Half width of the wide search, metres, and its half ranges of angle, each with the least gain in score."""
 
-TELLING = 6.0
-"""Least gain in score as a number of points, for scans with few points."""
-
-POINT_SIGMA_M = 0.02
-"""Standard deviation of a point-to-line residual: the laser's noise, rough walls, a scan's own distortion."""
-
-POINTS = 200
-"""Most points of a scan that are matched."""
-
-REACH_M, SCALE_M, ALIKE, STEPS = (0.3, 0.12), (0.15, 0.05), 0.7, 8
-"""Refinement: first and last pairing distance, first and last outlier scale, least cosine of normals, and steps."""
-
-SEVERAL = 6
-"""Number of newest key scans against which scans are refined, if several scans are placed at once."""
-
-SEEN = Agreement(near_m=0.2, clear_m=0.5, beams=90)
-"""Distances at which a scan and a key scan agree and contradict each other, and beams that are compared."""
-
-MOST_AGAINST, LEAST_JUDGED = 0.2, 60
-"""Most share of contradicting points, which people who walk about may cause, and fewest points for a decision."""
+TELLING = 6.0  # least gain in score as a number of points, for scans with few points
+POINT_SIGMA_M = 0.02  # of a point-to-line residual: the laser's noise, rough walls, a scan's own distortion
+POINTS = 200  # most points of a scan that are matched
+REACH_M, SCALE_M = (0.3, 0.12), (0.15, 0.05)  # pairing distance and outlier scale: first step and last
+ALIKE, STEPS = 0.7, 8  # least cosine of paired normals, and steps of a refinement
+SEVERAL = 6  # number of newest key scans against which scans are refined, if several scans are placed at once
+SEEN = Agreement(near_m=0.2, clear_m=0.5, beams=90)  # of a scan and a key scan
+MOST_AGAINST, LEAST_JUDGED = 0.2, 60  # largest share of contradicting points (people walk), and fewest points to decide
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,23 +51,14 @@ class Window:
 
 @dataclass(frozen=True, eq=False)
 class Placed:
-    """Places of N scans, by odometry and the window.
+    """Places of N scans, by odometry and the window."""
 
-    Attributes:
-        predicted: poses predicted by odometry, (N, 3).
-        variance: variance of the prediction, x, y and yaw in the poses' own frames, (N, 3).
-        poses: poses after matching, (N, 3).
-        information: inverse covariance by the laser alone, in the poses' own frames, (N, 3, 3).
-        scores: fit of each scan to the window, from 0 to 1, (N,).
-        turned: mask of scans before which the robot moved in the direction opposite to odometry's, (N,).
-    """
-
-    predicted: Floats
-    variance: Floats
-    poses: Floats
-    information: Floats
-    scores: Floats
-    turned: NDArray[np.bool_]
+    predicted: Floats  # poses predicted by odometry, (N, 3)
+    variance: Floats  # variance of the prediction, x, y and yaw in the poses' own frames, (N, 3)
+    poses: Floats  # poses after matching, (N, 3)
+    information: Floats  # inverse covariance by the laser alone, in the poses' own frames, (N, 3, 3)
+    scores: Floats  # fit of each scan to the window, from 0 to 1, (N,)
+    turned: NDArray[np.bool_]  # scans before which the robot moved opposite to odometry, (N,)
 
 
 def predict(

@@ -16,38 +16,23 @@ from bayesmap.poses.log_checks import caught_up
 from bayesmap.poses.next_scans import chained
 from bayesmap.poses.pose_gaussian import PoseGaussian
 from bayesmap.poses.scan_geometry import ScanGeometry
-from bayesmap.space.planar import between, compose, rotation, wrapped
+from bayesmap.space.planar import Floats, between, compose, rotation, yaw_wrapped
 from bayesmap.space.scans import Scans
 
-Floats = NDArray[np.float64]
-
-STEADY = np.diag(1.0 / np.array([0.1, 0.1, np.radians(3.0)]) ** 2)
-"""Information of the front end's links if there is no odometry."""
-
-NEIGHBOURS = 7
-"""Successive motions over which the median variance is taken."""
-
-GUESSED = np.diag(1.0 / UNKNOWN**2)
-"""Information of an unknown motion: it keeps parts of the path from drifting away."""
+STEADY = np.diag(1.0 / np.array([0.1, 0.1, np.radians(3.0)]) ** 2)  # of the front end's links without odometry
+NEIGHBOURS = 7  # successive motions over which the median variance is taken
+GUESSED = np.diag(1.0 / UNKNOWN**2)  # information of an unknown motion: it keeps parts of the path from drifting away
 
 
 @dataclass(frozen=True, eq=False)
 class StatedOdometry:
-    """The robot's motion as a log states it.
+    """The robot's motion as a log states it."""
 
-    Attributes:
-        poses: stated poses, (S, 3).
-        stamps_s: stamps of the scans, seconds, (S,), or None.
-        motions: motions from scan to scan in the earlier one's frame, (S - 1, 3).
-        impossible: mask of motions that no robot can have made, (S - 1,).
-        used: False if motions are inferred from the scans alone.
-    """
-
-    poses: Floats
-    stamps_s: Floats | None
-    motions: Floats
-    impossible: NDArray[np.bool_]
-    used: bool
+    poses: Floats  # stated poses, (S, 3)
+    stamps_s: Floats | None  # stamps of the scans, seconds, (S,), or None
+    motions: Floats  # motions from scan to scan in the earlier one's frame, (S - 1, 3)
+    impossible: NDArray[np.bool_]  # mask of motions that no robot can have made, (S - 1,)
+    used: bool  # False if motions are inferred from the scans alone
 
     @property
     def used_motions(self) -> Floats | None:
@@ -109,8 +94,7 @@ class StatedOdometry:
         if lag_s != 0.0:
             late = stated_at(self.poses, self.stamps_s, lag_s)
             motions = between(late[:-1], late[1:])
-        corrected = motions + motions @ slope.T
-        corrected[:, 2] = wrapped(corrected[:, 2])
+        corrected = yaw_wrapped(motions + motions @ slope.T)
         links = composed(corrected, _steadied(variances(motions)), keys)
         return guessed(links, poses, self._lost(track))
 
@@ -174,6 +158,6 @@ def composed(motions: Floats, variances: Floats, keys: NDArray[np.intp]) -> Fact
         covariance[active] = lever @ covariance[active] @ np.swapaxes(lever, 1, 2)
         covariance[active] += (turn * variance[:, None, :]) @ np.swapaxes(turn, 1, 2)
         relative[active] = compose(relative[active], motion)
-    relative[:, 2] = wrapped(relative[:, 2])
     order = np.arange(len(keys) - 1)
-    return Factors(order, order + 1, relative, np.asarray(np.linalg.inv(covariance + np.eye(3) * 1e-9), np.float64))
+    information = np.asarray(np.linalg.inv(covariance + np.eye(3) * 1e-9), np.float64)
+    return Factors(order, order + 1, yaw_wrapped(relative), information)

@@ -11,38 +11,25 @@ from bayesmap.kernels.match.line_pairs import match_counts, pair_sums
 from bayesmap.kernels.match.scan_refinement import Convergence, Refinement, refine_scans
 from bayesmap.poses.alignment import ALIKE, Alignment, PointError, without_slack
 from bayesmap.poses.scan_geometry import ScanGeometry
-from bayesmap.space.planar import around, between, nearest, rotation
+from bayesmap.space.planar import Floats, around, between, nearest, rotation
 
-Floats = NDArray[np.float64]
-
-COMPARED = 10
-"""Key scans that each scan is compared with."""
-
-PRIOR_SIGMA = np.array([0.03, 0.03, np.radians(1.0)])
-"""Standard deviations of a scan's pose between the key scans around it, before its own beams are used."""
+COMPARED = 10  # key scans that each scan is compared with
+PRIOR_SIGMA = np.array([0.03, 0.03, np.radians(1.0)])  # of a scan between key scans, before its beams are used
 
 CAUTION, LEAST_SIGMA_M = 2.0, 0.005
 """Factor on the scatter of points, and the least scatter, during refinement: the rough first steps then stay near the
 prior. The final information is computed with the points' own scatter."""
 
-REACH_M, SCALE_M = (0.2, 0.08), (0.1, 0.03)
-"""Greatest distance of paired points and scale of outliers, in the first step and the last."""
+REACH_M, SCALE_M = (0.2, 0.08), (0.1, 0.03)  # of paired points and outliers: first step, last
 
 
 @dataclass(frozen=True, eq=False)
 class Placement:
-    """Poses of all scans.
+    """Poses of all scans."""
 
-    Attributes:
-        poses: (S, 3).
-        information: of each pose given the key scans, in its own frame, (S, 3, 3).
-        explained: share of each scan's points on walls of any of the key scans that it was compared with, (S,);
-            1 for key scans.
-    """
-
-    poses: Floats
-    information: Floats
-    explained: Floats
+    poses: Floats  # (S, 3)
+    information: Floats  # of each pose given the key scans, in its own frame, (S, 3, 3)
+    explained: Floats  # share of each scan's points on walls of compared key scans, (S,); 1 for key scans
 
     def own_covariance(self, keys: NDArray[np.intp]) -> Floats:
         """Return the scale matrix of Student's t of each scan's pose given the key scans, (S, 3, 3); zero for keys."""

@@ -15,9 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
-from bayesmap.space.planar import between, compose, rotation, wrapped
-
-Floats = NDArray[np.float64]
+from bayesmap.space.planar import Floats, between, compose, rotation, yaw_wrapped
 
 LOG_ROOT_TWO_PI = 0.5 * math.log(2 * math.pi)
 
@@ -229,9 +227,7 @@ class _Independent(PoseLaw):
     sigma: Floats
 
     def _each(self, poses: Floats) -> Floats:
-        error = poses - self.mean
-        error[..., 2] = wrapped(error[..., 2])
-        return _normal(error, self.sigma)
+        return _normal(yaw_wrapped(poses - self.mean), self.sigma)
 
     def log_prob(self, poses: Floats) -> Floats:
         return np.asarray(self._each(poses).sum(axis=-1))
@@ -264,9 +260,7 @@ class _Markov(PoseLaw):
         return np.logaddexp(*self._kinds(error))
 
     def _errors(self, before: Floats, after: Floats) -> Floats:
-        error = between(before, after) - self.motions
-        error[..., 2] = wrapped(error[..., 2])
-        return error
+        return yaw_wrapped(between(before, after) - self.motions)
 
     def _kinds(self, error: Floats) -> tuple[Floats, Floats]:
         """Return log joint densities of errors: of motions without slip, and of motions with slip."""

@@ -16,12 +16,9 @@ from numpy.typing import NDArray
 
 from bayesmap.kernels.match.line_pairs import Agreement, mutual_view_counts
 from bayesmap.poses.loops import Closures, Fineness, KeyPath, joined, match_submaps, no_closures
-from bayesmap.space.planar import between, compose, inverse, wrapped
+from bayesmap.space.planar import Floats, between, compose, inverse, wrapped
 
-Floats = NDArray[np.float64]
-
-NEAR_M, NEAR_PLACES = 3.0, 6
-"""Distance within which each place is compared with places of other parts, metres, and most places, nearest first."""
+NEAR_M, NEAR_PLACES = 3.0, 6  # distance and number of the nearest places of other parts that are compared
 
 EVERYWHERE_M, SAME_PLACE_M, SAME_VIEW_RAD = 3.0, 1.5, np.radians(45.0)
 """Each place is also compared with places everywhere. The first number is their distance along the path, and the half
@@ -32,32 +29,15 @@ SPACING_M, QUERIES, QUERIES_IN_ALL, TURNS = 1.0, 24, 96, 3
 """Query places: their distance along a part, metres, the most per part and in all parts, and the turns over which they
 are spread. Later turns are skipped if earlier turns surely join all parts."""
 
-COARSE = Fineness(60, np.radians(2.0))
-"""Fineness of these searches. Refinement uses whole scans, so more points and headings would add little."""
-
-NEAR_SCORE, FAR_SCORE = 0.6, 0.75
-"""Least scores of matches, near and everywhere. With more places to compare, chance matches have better scores."""
-
-CHANCE = 0.5
-"""A place votes with the square of its score above this."""
-
-TRIED = 6
-"""Most relative poses of two parts that are tested against free space."""
-
-AGREE, SURELY = 3, 4
-"""Places that must agree on the relative pose of two parts: after the last turn, and after earlier turns."""
-
-FEW = 2
-"""Places that must agree on a rival relative pose before the last turn."""
-
-RIVAL, RIVAL_EARLY = 0.5, 0.4
-"""Share of the best relative pose's votes at which a rival makes both doubtful: after the last turn, and before."""
-
-SAME_M, SAME_RAD = 0.5, np.radians(6.0)
-"""Greatest difference between relative poses of two parts that count as equal. It allows for bent parts."""
-
-MET_M, COMPARED = 5.0, 600
-"""Greatest distance of key scans of two parts that are compared, metres, and most pairs of key scans."""
+COARSE = Fineness(60, np.radians(2.0))  # refinement uses whole scans: more would add little
+NEAR_SCORE, FAR_SCORE = 0.6, 0.75  # least scores of matches; with more places, chance matches score better
+CHANCE = 0.5  # a place votes with the square of its score above this
+TRIED = 6  # most relative poses of two parts that are tested against free space
+AGREE, SURELY = 3, 4  # places that must agree on the relative pose of two parts: last turn, earlier turns
+FEW = 2  # places that must agree on a rival relative pose before the last turn
+RIVAL, RIVAL_EARLY = 0.5, 0.4  # share of the best pose's votes at which a rival makes it doubtful: last turn, earlier
+SAME_M, SAME_RAD = 0.5, np.radians(6.0)  # largest difference of equal relative poses: parts are bent
+MET_M, COMPARED = 5.0, 600  # distance of compared key scans of two parts, and most pairs of them
 
 SEEN, MOST_AGAINST = Agreement(near_m=0.2, clear_m=0.4, beams=60), 0.15
 """Distances at which scans of two parts agree or contradict, compared beams, and most share of contradicting points."""
@@ -129,8 +109,7 @@ def _surest(pairs: Iterator[list[Joint]], islands: KeyPath, rival: float) -> Joi
     return best
 
 
-Windows = tuple[NDArray[np.intp], NDArray[np.intp], Floats]
-"""Pairs of keys, the first ascending, and the middle of the window for the second's pose in the first's frame."""
+Windows = tuple[NDArray[np.intp], NDArray[np.intp], Floats]  # keys, first ascending; middles (first's frame)
 
 
 def _near_pairs(path: KeyPath, turn: int) -> Windows:

@@ -9,19 +9,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from bayesmap.space.planar import Floats
 from bayesmap.space.scans import Scans
-
-Floats = NDArray[np.float64]
 
 LEAST_M, MOST_M = 0.01, 0.05
 """Bounds on the standard deviation of a range. Walls are rough and robots move while they scan, so no point is more
 precise than the first. With more noise than the second, neighbouring walls could not be distinguished."""
 
-SCANS, FEWEST = 300, 100
-"""Number of scans from which the noise is estimated, and fewest triples of beams for an estimate."""
-
-GAP_M, GAP_STEPS = 0.15, 3.5
-"""Metres plus beam spacings beyond which neighbouring readings lie on different surfaces."""
+SCANS, FEWEST = 300, 100  # scans from which the noise is estimated, and fewest triples of beams
+GAP_M, GAP_STEPS = 0.15, 3.5  # metres plus beam spacings beyond which neighbouring readings lie on different surfaces
 
 MEDIAN_OF_NORMAL = 0.6745
 
@@ -50,36 +46,21 @@ REACH_M, REACH_SIGMAS = 0.12, 10.0
 """Half the length of wall to which a normal is fitted: metres, and at least this many standard deviations of a point.
 With narrower fits scans slide along walls."""
 
-NEAREST_M = 0.05
-"""Range below which readings are hits on the robot itself, metres."""
-
-PAIR_SIGMAS, SCALE_SIGMAS = 6.0, 3.0
-"""Least pairing distance and least outlier scale, in standard deviations of a range."""
-
-MERGED_RAD = np.radians(1.0)
-"""Beams are merged to this spacing, if they are closer. Indoors their points are then about a cell apart."""
-
-BINS_A_BEAM = 4
-"""Bins of angle per beam in the table of `Fans`."""
+NEAREST_M = 0.05  # range below which readings are hits on the robot itself, metres
+PAIR_SIGMAS, SCALE_SIGMAS = 6.0, 3.0  # least pairing distance and outlier scale, in sigmas of a range
+MERGED_RAD = np.radians(1.0)  # closer beams are merged to this spacing, so that points are about a cell apart
+BINS_A_BEAM = 4  # bins of angle per beam in the table of `Fans`
 
 
 @dataclass(frozen=True, eq=False)
 class Fans:
-    """The beam directions of S scans; beams are in the order of angles.
+    """The beam directions of S scans; beams are in the order of angles."""
 
-    Attributes:
-        beams: number of beams of each scan, (S,).
-        step_rad: median angle between neighbouring beams of each scan, (S,).
-        full_circle: 1 if the last beam's neighbour is the first, else 0, (S,).
-        layout: row of ``beam_of_angle`` for each scan, (S,). Scans with equal beams share a row.
-        beam_of_angle: nearest beam to each of equal bins of angle from -pi to pi, (layouts, bins); -1 if none is near.
-    """
-
-    beams: NDArray[np.int32]
-    step_rad: Floats
-    full_circle: NDArray[np.int32]
-    layout: NDArray[np.int32]
-    beam_of_angle: NDArray[np.int32]
+    beams: NDArray[np.int32]  # number of beams of each scan, (S,)
+    step_rad: Floats  # median angle between neighbouring beams of each scan, (S,)
+    full_circle: NDArray[np.int32]  # 1 if the last beam's neighbour is the first, else 0, (S,)
+    layout: NDArray[np.int32]  # row of ``beam_of_angle`` for each scan, (S,). Scans with equal beams share a row.
+    beam_of_angle: NDArray[np.int32]  # nearest to equal bins from -pi to pi, (layouts, bins); -1 if none is near
 
     @classmethod
     def of(cls, angles_rad: Floats, scans: int) -> Fans:
@@ -113,29 +94,17 @@ class Fans:
 
 @dataclass(frozen=True, eq=False)
 class ScanGeometry:
-    """Points and normals of S scans of up to B beams, as Warp arrays; beams in the order of angles.
+    """Points and normals of S scans of up to B beams, as Warp arrays; beams in the order of angles."""
 
-    Attributes:
-        points: end point of each beam, metres in the laser's frame, (S, B).
-        normals: unit normal of the wall there, towards the laser, (S, B); zero where there is none.
-        kind: 0 no point, 1 a point, 2 a point with a normal, (S, B).
-        spread: variance of the normal's angle for a unit variance of the points, 1 / m^2, (S, B).
-        fans: directions of the beams.
-        farthest_m: range beyond which hits are left out, metres.
-        noise_m: standard deviation of a range, estimated from the scans.
-        device: device of the arrays.
-        threads: number of threads for all that is computed from this geometry; all cores if None.
-    """
-
-    points: Any
-    normals: Any
-    kind: Any
-    spread: Any
-    fans: Fans
-    farthest_m: float
-    noise_m: float = LEAST_M
-    device: str = "cpu"
-    threads: int | None = None
+    points: Any  # end point of each beam, metres in the laser's frame, (S, B)
+    normals: Any  # unit normal of the wall there, towards the laser, (S, B); zero where there is none
+    kind: Any  # 0 no point, 1 a point, 2 a point with a normal, (S, B)
+    spread: Any  # variance of the normal's angle for a unit variance of the points, 1 / m^2, (S, B)
+    fans: Fans  # directions of the beams
+    farthest_m: float  # range beyond which hits are left out, metres
+    noise_m: float = LEAST_M  # standard deviation of a range, estimated from the scans
+    device: str = "cpu"  # device of the arrays
+    threads: int | None = None  # number of threads for all that is computed from this geometry; all cores if None
 
     def __len__(self) -> int:
         return int(self.kind.shape[0])
@@ -195,13 +164,8 @@ def scan_geometry(
 ) -> ScanGeometry:
     """Compute points and normals of scans, by the scans' own angles and limits. Their poses are not used.
 
-    Neighbouring beams that are closer than `MERGED_RAD` are merged, unless scans have beams of their own.
-
-    Args:
-        scans: S scans.
-        farthest_m: leave out hits beyond; by default the sensor's largest range.
-        device: "cpu" or a CUDA device.
-        threads: number of threads, by default all cores; matching uses as many.
+    Neighbouring beams that are closer than `MERGED_RAD` are merged, unless scans have beams of their own. Hits beyond
+    ``farthest_m``, by default the sensor's largest range, are left out. Matching uses as many threads.
     """
     from bayesmap.kernels.match.scan_geometry import points_and_normals
 
@@ -232,15 +196,8 @@ def merged(
     straight wall are linear in small angles. Readings on other surfaces than the median one are left out. Beams after
     the last whole group are left out, too.
 
-    Args:
-        ranges_m: readings, (S, B).
-        angles_rad: angles of the beams, ascending, (B,).
-        nearest_m: least reading that is a point.
-        farthest_m: largest reading that is a point.
-        spacing_rad: greatest spacing of the groups.
-
-    Returns:
-        readings (S, G), their angles (1, G) or (S, G), and the middles of the groups, (1, G).
+    Points are the readings, (S, B), from ``nearest_m`` to ``farthest_m``. Angles of the beams ascend, (B,). Returns
+    readings (S, G), their angles (1, G) or (S, G), and the middles of the groups, (1, G).
     """
     step = float(np.median(np.diff(angles_rad))) if len(angles_rad) > 1 else spacing_rad
     size = int(spacing_rad / step + 1e-3) if step > 0.0 else 1

@@ -20,14 +20,11 @@ from bayesmap.poses.placement import place_scans
 from bayesmap.poses.scan_geometry import scan_geometry
 from bayesmap.poses.stages import OnPoses, Progress, StageReport, Stages, fingerprint
 from bayesmap.poses.trajectory import NO_ALTERNATIVES, Alternatives, Calibration, LoopClosures, Trajectory, calibrated
-from bayesmap.space.planar import between, compose, nearest, wrapped
+from bayesmap.space.planar import Floats, between, compose, nearest, yaw_wrapped
 from bayesmap.space.scans import Scans
 from bayesmap.space.time_order import time_order
 
-Floats = NDArray[np.float64]
-
-FARTHEST_M = 30.0
-"""Hits beyond are not matched: there beams are half a metre apart and more."""
+FARTHEST_M = 30.0  # hits beyond are not matched: there beams are half a metre apart and more
 
 ANGLE_TOLERANCE = 0.003
 """Relative error of the angle between beams that is not corrected: it moves the last beam of half a circle by half a
@@ -147,8 +144,7 @@ def alternatives_of(weighed: Weighed, keys: NDArray[np.intp], poses: Floats) -> 
     """Return the alternatives to the keys' poses, (K, 3), and the steps to them that `PoseGaussian.elsewhere` holds."""
     if not len(weighed.probabilities):
         return NO_ALTERNATIVES, None
-    steps = between(weighed.poses[None], weighed.alternatives)
-    steps[..., 2] = wrapped(steps[..., 2])
+    steps = yaw_wrapped(between(weighed.poses[None], weighed.alternatives))
     first, last, probabilities = keys[weighed.first], keys[weighed.last], weighed.probabilities
     elsewhere = steps * np.sqrt(probabilities)[:, None, None]
     return Alternatives(first, last, probabilities, compose(poses[None], steps)), elsewhere

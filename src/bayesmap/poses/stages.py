@@ -17,17 +17,15 @@ from bayesmap.files import write_whole
 from bayesmap.poses.front_end import Track
 from bayesmap.poses.key_graph import poses_between_keys
 from bayesmap.poses.odometry_factors import StatedOdometry
-from bayesmap.space.planar import between, compose
+from bayesmap.space.planar import Floats, between, compose
 
-Floats = NDArray[np.float64]
 Progress = Callable[[str, int, int], None]
 OnPoses = Callable[[str, Floats], None]
 
 Arrays = dict[str, NDArray[Any]]
 Value = TypeVar("Value")
 
-LOOKS = 60
-"""Most reports of poses during the front end."""
+LOOKS = 60  # most reports of poses during the front end
 
 
 def fingerprint(*arrays: NDArray[Any] | None, settings: str = "") -> str:
@@ -91,17 +89,11 @@ class Stages:
 
 @dataclass(frozen=True, eq=False)
 class StageReport:
-    """Reports progress, and the poses of all scans in the map's frame; poses are given in the frame of the first scan.
+    """Reports progress, and poses of all scans in the map's frame, given poses in the frame of the first scan."""
 
-    Attributes:
-        origin: the first scan's pose in the map, (3,).
-        on_progress: called as (stage, done, of), or None.
-        on_poses: called as (stage, poses), or None.
-    """
-
-    origin: Floats
-    on_progress: Progress | None
-    on_poses: OnPoses | None
+    origin: Floats  # the first scan's pose in the map, (3,)
+    on_progress: Progress | None  # called as (stage, done, of), or None
+    on_poses: OnPoses | None  # called as (stage, poses), or None
 
     def finished(self, stage: str, done: int, of: int, poses: Floats | Callable[[], Floats]) -> None:
         """Report one round of a stage; a function for the poses is called only if somebody listens."""

@@ -11,10 +11,8 @@ from bayesmap.poses.calibration import OdometryFit
 from bayesmap.poses.graph import Factors
 from bayesmap.poses.pose_gaussian import PoseGaussian
 from bayesmap.poses.prior import Odometry
-from bayesmap.space.planar import between, between_jacobians, compose, retract, rotation
+from bayesmap.space.planar import Floats, between, between_jacobians, compose, retract, rotation
 from bayesmap.space.scans import Scans, path_words
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

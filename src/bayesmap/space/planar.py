@@ -21,6 +21,11 @@ def wrapped(angle_rad: Floats) -> Floats:
     return np.asarray((angle_rad + np.pi) % (2 * np.pi) - np.pi)
 
 
+def yaw_wrapped(poses: Floats) -> Floats:
+    """Return poses, or differences of poses, with yaw in [-pi, pi)."""
+    return np.concatenate([poses[..., :2], wrapped(poses[..., 2:])], axis=-1)
+
+
 def compose(first: Floats, then: Floats) -> Floats:
     """Return the pose that lies at ``then`` in the frame of ``first``."""
     c, s = np.cos(first[..., 2]), np.sin(first[..., 2])
