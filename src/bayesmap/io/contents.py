@@ -13,7 +13,7 @@ import numpy as np
 from bayesmap.errors import BadInput
 from bayesmap.io.log_reading import LogReading
 from bayesmap.io.logs import RECORDINGS, describe_log, format_of
-from bayesmap.io.ros.recording import POSE_TYPES, SCAN_TYPES, TF_TYPES, TYPES, topics_of_type
+from bayesmap.io.ros.recording import POSE_TYPES, SCAN_TYPES, TF_TYPES, TYPES
 from bayesmap.poses.agreement import look_like_odometry
 from bayesmap.poses.log_checks import TOO_SELDOM, scans_come_often
 from bayesmap.space.scans import Scans
@@ -46,8 +46,7 @@ class Contents:
 def contents_of(path: str | os.PathLike[str]) -> Contents:
     """Describe a log or a recording; malformed lines and messages are counted, not refused.
 
-    Raises:
-        BadInput: a file that cannot be read, or a file of no known format.
+    Raises `BadInput` for a file that cannot be read, or a file of no known format.
     """
     if format_of(path) in RECORDINGS:
         return _of_recording(path)
@@ -86,10 +85,10 @@ def _of_recording(path: str | os.PathLike[str]) -> Contents:
         rate_hz = round((t.count - 1) / spent_s, 3) if t.count > 1 and spent_s > 0 else None
         topics.append({"name": t.name, "type": t.type, "count": t.count, "rate_hz": rate_hz})
     poses = PoseMessages()
-    read_messages(recording, topics_of_type(recording, TF_TYPES), None, poses, lambda *_: None)
-    pose_sources = topics_of_type(recording, (*TF_TYPES, *POSE_TYPES))
+    read_messages(recording, recording.of_type(TF_TYPES), poses, lambda *_: None)
+    pose_sources = recording.of_type((*TF_TYPES, *POSE_TYPES))
     # Read the scans of each topic, and suggest a command for the best: with poses, then with most readings.
-    scan_topics = topics_of_type(recording, SCAN_TYPES)
+    scan_topics = recording.of_type(SCAN_TYPES)
     sensors = [_sensor(recording, topic) for topic in scan_topics]
     usable = [sensor for sensor in sensors if sensor["error"] is None]
     best = max(usable, key=lambda s: (s["no_poses"] is None, s["scans"] * s["beams"]), default=None)
@@ -114,7 +113,7 @@ def _sensor(recording: Any, topic: Any) -> dict[str, Any]:
     account: dict[str, Any] = {
         "topic": topic.name, "type": topic.type, "pose_topic": None, "error": None, "no_poses": None,
     }  # fmt: skip
-    tries: list[dict[str, Any]] = [{}, *({"pose_topic": t.name} for t in topics_of_type(recording, POSE_TYPES))]
+    tries: list[dict[str, Any]] = [{}, *({"pose_topic": t.name} for t in recording.of_type(POSE_TYPES))]
     first: BadInput | None = None
     for how in (*tries, {"without_poses": True}):
         try:

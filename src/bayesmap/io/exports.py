@@ -1,11 +1,7 @@
 """Write a posterior as a file for other programs. The format's name, or the path's ending, selects the writer.
 
-docs/file-formats.md describes the formats. The layers are ``mean``, and ``entropy`` in bits. If a cell's state is a
-number with an interval (reflectivity), there are also ``lower`` and ``upper``, the bounds of its central 90 % interval.
-
-Rows of a GeoTIFF (rasterio) and of rerun's pictures (rerun-sdk) run from the top, the largest y. A GeoTIFF's affine
-transform takes (column, row) to metres of the map frame, from the upper-left corner of the upper-left cell. rerun's
-coordinates are those of the picture, in cells: ((x - x_min) / resolution, (y_max - y) / resolution), with y downwards.
+docs/file-formats.md describes the formats. Rows of a GeoTIFF (rasterio) and of rerun's pictures (rerun-sdk) run from
+the top, the largest y. rerun's coordinates are those of the picture, in cells, with y downwards.
 """
 
 from __future__ import annotations
@@ -48,9 +44,7 @@ FORMATS = {
 
 TRAJECTORIES = ("tum", "trajectory", "g2o")
 APPROXIMATION = "the Student-t approximation of all scans' poses"
-THRESHOLDED = ("map-server", "occupancy-grid")
-"""Formats that turn probabilities into per cent, and take a mode and thresholds."""
-
+THRESHOLDED = ("map-server", "occupancy-grid")  # formats in per cent, which take a mode and thresholds
 INTERVAL = 0.9  # probability of the interval from the layer lower to upper
 
 
@@ -73,8 +67,7 @@ class Mapped(Protocol):
 def export_format(path: str | os.PathLike[str], format: str | None = None) -> str:
     """Return the given format, or else the format of the path's ending.
 
-    Raises:
-        BadInput: an unknown ending or format; the message lists the known ones.
+    Raises `BadInput` for an unknown ending or format; the message lists the known ones.
     """
     if format is not None:
         if format not in FORMATS:
@@ -96,8 +89,7 @@ def export_format(path: str | os.PathLike[str], format: str | None = None) -> st
 def existing(path: str | os.PathLike[str], format: str | None = None) -> Path | None:
     """Return a file or folder that an export to this path would replace, if there is one.
 
-    Raises:
-        BadInput: an unknown ending or format.
+    Raises `BadInput` for an unknown ending or format.
     """
     target = Path(path)
     images = [target.with_suffix(e) for e in (".pgm", ".png")] if export_format(path, format) == "map-server" else []
@@ -258,15 +250,12 @@ def export_run(
     return export_trajectory(path, moved, format=chosen, edges=edges)
 
 
-EPOCH_FROM_S = 1e8
-"""Stamps above this, in seconds, are dates; smaller ones count from the start of the log."""
+EPOCH_FROM_S = 1e8  # stamps above this, in seconds, are dates; smaller ones count from the start of the log
 SENSOR_COLOR, TRAJECTORY_COLOR, SCAN_COLOR = (0, 158, 115), (0, 158, 115), (213, 94, 0)
 WALL_COLORS = ((250, 250, 248), (20, 31, 66))
-UNCERTAINTY_COLORS = ((0, 32, 76), (124, 123, 120), (255, 233, 69))
-"""Colours from 0 to 1, interpolated linearly: approximately those of `bayesmap.viz.palette`."""
+UNCERTAINTY_COLORS = ((0, 32, 76), (124, 123, 120), (255, 233, 69))  # 0 to 1, linearly, as in `bayesmap.viz.palette`
 LEVEL = 0.95  # probability of the ellipses
-UNKNOWN_COLOR = (214, 201, 176)
-"""Colour of unknown cells. It is not transparent, because the viewer shows transparent pixels as black."""
+UNKNOWN_COLOR = (214, 201, 176)  # not transparent: the viewer shows transparent pixels as black
 
 
 def write_geotiff(
@@ -276,8 +265,7 @@ def write_geotiff(
 
     Cells that no beam reached are NaN, which is the bands' nodata value.
 
-    Raises:
-        BadInput: rasterio is not installed, layers that do not fit, or a file that cannot be written.
+    Raises `BadInput` if rasterio is not installed, for layers that do not fit, or a file that cannot be written.
     """
     try:
         from rasterio.io import MemoryFile  # type: ignore[import-untyped, import-not-found, unused-ignore]
@@ -310,8 +298,7 @@ def write_rerun(
 
     Over the layers the viewer shows the scans, and the trajectory with its ellipses, or else the scans' poses.
 
-    Raises:
-        BadInput: rerun-sdk is not installed, layers that do not fit, or a file that cannot be written.
+    Raises `BadInput` if rerun-sdk is not installed, for layers that do not fit, or a file that cannot be written.
     """
     try:
         import rerun as rr

@@ -28,16 +28,14 @@ from bayesmap.io.text.lines import GZIP_MAGIC, as_utf8, split_lines
 from bayesmap.space.scans import Scans
 
 STANDARD_INPUT = ("-", "/dev/stdin")
-LOOK_EVERY_S = 0.05
-"""Seconds between two looks at a file that has not grown."""
+LOOK_EVERY_S = 0.05  # seconds between two looks at a file that has not grown
 CHUNK_BYTES = 1 << 16  # read at a time
 
 
 def can_be_followed(name: str) -> bool:
     """Return true if a log's scans can be read while it is written: a text, a pipe, or standard input.
 
-    Raises:
-        BadInput: a file that cannot be read, or a file of no known format.
+    Raises `BadInput` for a file that cannot be read, or a file of no known format.
     """
     if name in STANDARD_INPUT:
         return True
@@ -61,20 +59,13 @@ def live_scans(
     idle_s: float | None = None, on_skipped: Callable[[int, str], None] = lambda line, reason: None,
     laser: Pose | None = None, without_poses: bool = False,
 ) -> Iterator[Scans]:  # fmt: skip
-    """Yield the scans of a log as it is written, one at a time.
+    """Yield the scans of a log as it is written, one at a time. The name is as for `live_lines`.
 
-    Args:
-        name: name of a text, a pipe or standard input, see `live_lines`.
-        max_range_m: the sensor's largest range; longer readings are no return.
-        no_return: number that means no return in the log, if it is below ``max_range_m``.
-        skip_bad_lines: true to leave out malformed lines instead of ending with an error.
-        idle_s: end after so many seconds without new data; None to wait for ever.
-        on_skipped: called with the number of each line left out, and the reason.
-        laser: pose of the laser on the robot, which replaces that of the log.
-        without_poses: true to accept tables without poses, too.
+    Longer readings than ``max_range_m`` are no return, and those from ``no_return`` on. ``on_skipped`` is called with
+    the number of each malformed line left out, and the reason. ``laser`` replaces the laser's pose on the robot in the
+    log. Tables without poses are accepted if ``without_poses`` is true.
 
-    Raises:
-        BadInput: the log cannot be read, has another format, or has a malformed line.
+    Raises `BadInput` for a log that cannot be read, has another format, or has a malformed line.
     """
     options = LogOptions(no_return, skip_bad_lines, max_range_m, laser=laser, without_poses=without_poses)
     account = Account(name, "", options)
@@ -130,8 +121,7 @@ def live_lines(name: str, idle_s: float | None = None) -> Iterator[tuple[int, by
     the caller stops, or until ``idle_s`` seconds have passed without new data; a last line without line end is then a
     line. The name "-" is standard input.
 
-    Raises:
-        BadInput: the input cannot be read, was cut short, or has a line that is too long.
+    Raises `BadInput` for an input that cannot be read, was cut short, or has a line that is too long.
     """
     return split_lines(name, as_utf8(_pieces(name, idle_s)))
 

@@ -13,19 +13,14 @@ from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
 from bayesmap.io.returns import NoReturn, Readings, Views, classify
+from bayesmap.space.planar import Floats
 from bayesmap.space.scans import Scans
 from bayesmap.space.time_order import time_order
 from bayesmap.space.trajectory import LONGEST_GAP_S, Trajectory
 
-Floats = NDArray[np.float64]
-Pose = tuple[float, float, float]
-"""x and y in metres, yaw in radians."""
-
-STEEPEST, LEVEL = math.cos(math.radians(45.0)), math.cos(math.radians(5.0))
-"""Cosines of tilt: a sensor tilted by more than 45 degrees is refused, one tilted by less than 5 counts as level."""
-
+Pose = tuple[float, float, float]  # x and y in metres, yaw in radians
+STEEPEST, LEVEL = math.cos(math.radians(45.0)), math.cos(math.radians(5.0))  # tilts: refused above, noted above
 WITHOUT_POSES = "bayesmap slam --no-odometry needs no poses, if scans come at 5 Hz or so"
-"""The remedy for scans without poses."""
 
 
 @dataclass(frozen=True)

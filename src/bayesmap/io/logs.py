@@ -46,13 +46,9 @@ FORMATS = (
 )
 LINES_LOOKED_AT = 1000  # lines of a text that may decide its format
 ENDINGS = (".log", ".log.gz", ".clf", ".clf.gz", ".bag", ".g2o", ".csv", ".npz", ".rawlog")
-"""Usual endings of logs that are files."""
-SAVED_RUNS = (b"\x89HDF", b"CDF")
-"""First bytes of netCDF files."""
-LARGE_TURN_RAD, LARGE_TURNS, NEAR_A_TURN_DEG = 1.0, 0.05, 20.0
-"""Signs that yaw is in degrees: turns above 1 between scans, in over 5 % of them; or a step within 20 of 360."""
-GMAPPING = (b"LASER_READING", b"ODO_UPDATE", b"SM_UPDATE", b"RESAMPLE")
-"""Messages of GMapping's own logs of its particles (.gfs)."""
+SAVED_RUNS = (b"\x89HDF", b"CDF")  # first bytes of netCDF files
+LARGE_TURN_RAD, LARGE_TURNS, NEAR_A_TURN_DEG = 1.0, 0.05, 20.0  # of yaw in degrees: over 5 % large, or near a turn
+GMAPPING = (b"LASER_READING", b"ODO_UPDATE", b"SM_UPDATE", b"RESAMPLE")  # of GMapping's own logs, .gfs
 RECORDINGS = ("rosbag1", "rosbag2-sqlite3", "mcap", "folder")
 
 Arrays = dict[str, NDArray[np.float64]]
@@ -60,12 +56,9 @@ NPZ_MAGIC = b"PK\x03\x04"
 NPZ_NEEDED = ("poses", "angles_rad", "ranges_m")
 NPZ_OPTIONAL = ("max_range_m", "min_range_m", "stamps_s", "beam_poses")
 
-FASTEST_M_PER_S = 10.0
-"""Largest speed of a robot in a building."""
-SHORTEST_JUMP_M = 0.2
-"""Shortest step whose speed is judged: the time of shorter steps is too uncertain."""
-LONGEST_STEP_M, USUAL_STEPS = 2.0, 10.0
-"""A step longer than 2 m and than 10 median steps is a jump at any speed."""
+FASTEST_M_PER_S = 10.0  # largest speed of a robot in a building
+SHORTEST_JUMP_M = 0.2  # shortest step whose speed is judged: the time of shorter steps is too uncertain
+LONGEST_STEP_M, USUAL_STEPS = 2.0, 10.0  # a step longer than 2 m and than 10 median steps is a jump at any speed
 
 
 @near_names
@@ -147,8 +140,7 @@ def _read(path: str | os.PathLike[str], options: LogOptions) -> LogReading:
 def format_of(path: str | os.PathLike[str]) -> str:
     """Return the format of a log by its content: one of `READERS` or of `RECORDINGS`.
 
-    Raises:
-        BadInput: a file that cannot be read, is empty, or has no known format.
+    Raises `BadInput` for a file that cannot be read, is empty, or has no known format.
     """
     name, where = os.fspath(path), Path(path)
     try:
@@ -270,8 +262,7 @@ def _degrees(reading: LogReading) -> str | None:
 def read_npz(path: str | os.PathLike[str], options: LogOptions) -> LogReading:
     """Read scans from an .npz archive.
 
-    Raises:
-        BadInput: a file that is no .npz archive, an array that is missing or does not fit, or no valid reading.
+    Raises `BadInput` for another file, an array that is missing or does not fit, or no valid reading.
     """
     account = Account(os.fspath(path), "npz", options)
     name, arrays = account.name, _npz_arrays(os.fspath(path))
@@ -346,8 +337,7 @@ def thinned(scans: Scans, spacing_m: float) -> Scans:
 
     The distance is measured along the path through all poses; turns on the spot do not count.
 
-    Raises:
-        BadInput: a spacing that is negative or not finite.
+    Raises `BadInput` for a spacing that is negative or not finite.
     """
     if not (math.isfinite(spacing_m) and spacing_m >= 0):
         raise BadInput(f"thin: give the metres that the robot travels from scan to scan, got {spacing_m!r}")

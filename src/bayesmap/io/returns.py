@@ -1,11 +1,7 @@
-"""Classify the readings of a log as hits, no return, too close or invalid.
+"""Classify the readings of a log as hits, no return, too close or invalid, as docs/file-formats.md says.
 
-**ROS** (https://www.ros.org/reps/rep-0117.html): +inf is no return, -inf too close, NaN an erroneous reading. Finite
-numbers within the stated limits are hits; other readings depend on the driver's age. A driver that writes infinities
-follows REP-117: a reading of exactly ``range_max`` is a hit. An older driver writes a number for "no return":
-``range_max`` or more, or a code that stands out (below). In both cases a finite number above ``range_max`` is no
-return. A number below ``range_min``, zero and negative numbers included, is invalid: the message definition asks to
-discard it, and drivers write it for several reasons. With ``--no-return 0`` zeros mean no return.
+A number below ``range_min``, zero and negative numbers included, is invalid: the message definition asks to discard it,
+and drivers write it for several reasons.
 
 **Codes.** Logs older than ROS have no infinity: a sensor without a return wrote a number of its own, such as 81.83,
 81.91, 50, 51.15, 32.76, 0 or -1. As ranges, these numbers would add walls that do not exist.
@@ -37,15 +33,11 @@ from numpy.typing import NDArray
 from bayesmap.errors import BadInput
 
 TOP_SHARE, MIN_REPEATS, MIN_BEAMS, ISOLATION, MAX_CODES = 0.8, 10, 3, 2.0, 8
-MIN_VIEWS = 3
-"""Fewest places, or separate directions from one place, from which a code must be reported."""
+MIN_VIEWS = 3  # fewest places, or separate directions from one place, from which a code must be reported
 SAME_PLACE_M, SAME_DIRECTION_RAD = 0.05, math.radians(1.0)
-APART_STEPS = 2.5
-"""Largest gap, in steps between beams, within one direction; a larger gap separates two directions."""
-PRINT_PRECISION_M = 1e-3
-"""Tolerance of a code: 81.83 also stands for 81.8299 in the log."""
-FURTHEST_M = 1e6
-"""Largest stated range that is accepted as a sensor's limit."""
+APART_STEPS = 2.5  # largest gap, in steps between beams, within one direction; a larger gap separates two directions
+PRINT_PRECISION_M = 1e-3  # tolerance of a code: 81.83 also stands for 81.8299 in the log
+FURTHEST_M = 1e6  # largest stated range that is accepted as a sensor's limit
 
 
 @dataclass(frozen=True)
@@ -121,19 +113,13 @@ def decode(
     readings_m: NDArray[np.float64], given: float | None = None, sensor_max_m: float | None = None,
     views: Views | None = None,
 ) -> tuple[NDArray[np.float64], NoReturn]:  # fmt: skip
-    """Replace the codes of a log by those of REP-117. Returns the ranges, (S, A), and the no-return code.
+    """Replace the codes in raw readings, (S, A), by those of REP-117. Returns the ranges, and the no-return code.
 
-    Ranges are +inf for no return, and NaN for numbers that cannot be ranges.
+    Ranges are +inf for no return, and NaN for numbers that cannot be ranges. A ``given`` code of infinity means that
+    the log has none; if it is None, the rules of this module find the code. Readings of the maximum range that the log
+    states, and larger ones, are no return, even if they are not repeated.
 
-    Args:
-        readings_m: raw numbers, shape (S, A); NaN and infinities keep their meaning.
-        given: no-return code, if known; infinity if the log has none. If None, the rules of this module find the code.
-        sensor_max_m: maximum range that the log states, or None. This and larger readings are no return, even if they
-            are not repeated.
-        views: places and directions of the readings; None if they are not known.
-
-    Raises:
-        BadInput: ``given`` is NaN or minus infinity.
+    Raises `BadInput` if ``given`` is NaN or minus infinity.
     """
     if given is not None and (math.isnan(given) or given == -math.inf):
         raise BadInput(f"--no-return {given}: give the log's number in metres, or inf if it has none")
@@ -230,19 +216,12 @@ def classify(
     name: str, readings_m: NDArray[np.float64], stated_min_m: float, stated_max_m: float, *,
     no_return: float | None, max_range_m: float | None, views: Views | None = None,
 ) -> Readings:  # fmt: skip
-    """Classify readings as hits, no return, too close or invalid.
+    """Classify raw readings, (S, A), as hits, no return, too close or invalid.
 
-    Args:
-        name: name of the file, for messages.
-        readings_m: raw readings of the log, shape (S, A).
-        stated_min_m: the sensor's smallest range in the log; 0, NaN or nonsense if the log does not state it.
-        stated_max_m: the sensor's largest range in the log.
-        no_return: the user's no-return code; infinity if the log has none; None to find it.
-        max_range_m: the user's largest range; None to find it.
-        views: places and directions of the readings, which distinguish a code from a wall.
+    The sensor's stated limits may be 0, NaN or nonsense. ``no_return`` and ``max_range_m`` are the user's, or None; a
+    no-return code of infinity means that the log has none. ``name`` is that of the file, for messages.
 
-    Raises:
-        BadInput: all readings are invalid, or a given number makes no sense.
+    Raises `BadInput` if all readings are invalid, or a given number makes no sense.
     """
     # Check the stated limits.
     notes: list[str] = []

@@ -1,16 +1,9 @@
-"""The saved posterior: one netCDF-4 file in the arviz layout, for arviz, xarray and this package.
+"""The saved posterior: one netCDF-4 file in the arviz layout, which docs/file-formats.md describes.
 
-Groups: ``posterior`` (the arrays of the kind of cells, by chain and draw), ``sample_stats`` (log joint and its parts),
-``observed_data`` (ranges), ``constant_data`` (poses, angles, marginals), ``chain_state`` (the snapshot of the chains),
-``warmup_sample_stats``, and ``trajectory`` if one was inferred. Settings, grid, prior, sensor and timings are
-attributes of the root, as JSON. For arrays over a subset of cells, ``cell_x`` and ``cell_y`` hold the cells' indices.
-
-netCDF has neither bits nor half precision: booleans are deflated bytes in the file, and half precision is 32-bit
-floats, whose last bits are zero and compress well. HDF5 checks each array by its Fletcher-32 sum, and the header has a
-CRC, so a damaged file is refused.
-
-A trajectory's group holds the inputs of its approximation (`bayesmap.poses.trajectory`). Covariances of relative poses,
-and draws, are computed from them on demand.
+Settings, grid, prior, sensor and timings are attributes of the root, as JSON. netCDF has neither bits nor half
+precision: booleans are deflated bytes in the file, and half precision is 32-bit floats, whose last bits are zero and
+compress well. HDF5 checks each array by its Fletcher-32 sum, and the header has a CRC, so a damaged file is refused.
+A trajectory's group holds the inputs of its approximation (`bayesmap.poses.trajectory`).
 """
 
 from __future__ import annotations
@@ -46,10 +39,8 @@ if TYPE_CHECKING:
 FORMAT = "bayesmap run"
 FORMAT_VERSION = 1
 
-BLOCK = 1 << 22
-"""Numbers that are converted at a time, so that no whole copy of the draws is made."""
-CHUNK = 1 << 20
-"""Numbers that are compressed together."""
+BLOCK = 1 << 22  # numbers that are converted at a time, so that no whole copy of the draws is made
+CHUNK = 1 << 20  # numbers that are compressed together
 
 
 def save(
@@ -60,8 +51,7 @@ def save(
 
     ``on_progress`` is called with the count of the draws' numbers written so far, and their total.
 
-    Raises:
-        BadInput: the folder cannot be written to.
+    Raises `BadInput` for a folder that cannot be written to.
     """
     with write_whole(Path(path)) as partial, netCDF4.Dataset(partial, "w", format="NETCDF4") as file:
         _write(posterior, file, on_progress, trajectory)
@@ -82,14 +72,14 @@ def _write(
     if trajectory is not None:
         header["trajectory"] = numbers_of(trajectory)
         for name, (dimensions, values) in arrays_of(trajectory).items():
-            write_arrays(_group(file, "trajectory"), dimensions, {name: values})
+            write_arrays(file.createGroup("trajectory"), dimensions, {name: values})
     text = json.dumps(header)
     file.setncatts({
         "format": FORMAT, "format_version": FORMAT_VERSION, "inference_library": "bayesmap",
         "inference_library_version": __version__, "bayesmap": text, "checksum": zlib.crc32(text.encode()),
     })  # fmt: skip
     # The draws, with their coordinates.
-    group = _group(file, "posterior")
+    group = file.createGroup("posterior")
     x, y = grid.centers_m()
     for name, values in (("chain", np.arange(draws.chains)), ("draw", np.arange(draws.count)), ("x", x), ("y", y)):
         write_arrays(group, (name,), {name: values}, compressed=False)
@@ -112,8 +102,8 @@ def _write(
     densities = {
         "lp": posterior.log_joint, "log_likelihood": posterior.log_likelihood, "log_prior": posterior.log_prior,
     }  # fmt: skip
-    write_arrays(_group(file, "sample_stats"), ("chain", "draw"), densities)
-    write_arrays(_group(file, "warmup_sample_stats"), ("chain", "draw"), {"lp": posterior.warmup_log_joint})
+    write_arrays(file.createGroup("sample_stats"), ("chain", "draw"), densities)
+    write_arrays(file.createGroup("warmup_sample_stats"), ("chain", "draw"), {"lp": posterior.warmup_log_joint})
     constant = _write_scans(file, scans)
     observed = posterior.observed.astype(np.int8)
     write_arrays(constant, ("x", "y"), {"occupancy": posterior.occupancy, "observed": observed})
@@ -122,7 +112,7 @@ def _write(
     some |= {} if posterior.log_weights is None else {"log_weight": posterior.log_weights}
     for name, values in some.items():
         write_arrays(constant, tuple(f"{name}_{i}" for i in range(values.ndim)), {name: values})
-    state = _group(file, "chain_state")
+    state = file.createGroup("chain_state")
     for name, values in posterior.snapshot.arrays.items():
         # Large arrays of random bits: compression would only take time.
         dimensions = ("chain", *(f"{name}_{i}" for i in range(1, values.ndim)))
@@ -131,8 +121,8 @@ def _write(
 
 def _write_scans(file: Any, scans: Scans) -> Any:
     """Write the scans. Returns the group of constants."""
-    write_arrays(_group(file, "observed_data"), ("scan", "beam"), {"range_m": scans.ranges_m})
-    constant = _group(file, "constant_data")
+    write_arrays(file.createGroup("observed_data"), ("scan", "beam"), {"range_m": scans.ranges_m})
+    constant = file.createGroup("constant_data")
     write_arrays(constant, ("scan", "pose_part"), {"pose_world": scans.poses})
     write_arrays(constant, ("beam",), {"angle_rad": scans.angles_rad})
     if scans.own_angles_rad is not None:
@@ -242,10 +232,6 @@ def _scans_from(file: Any, header: dict[str, Any]) -> Scans:
     )  # fmt: skip
 
 
-def _group(file: Any, name: str) -> Any:
-    return file.groups.get(name) or file.createGroup(name)
-
-
 def write_arrays(
     group: Any, dimensions: tuple[str, ...], arrays: Mapping[str, NDArray[Any]], compressed: bool = True
 ) -> None:
@@ -293,8 +279,7 @@ def write_draws(
 def read_draws(variable: Any, spec: ArraySpec, shape: tuple[int, ...]) -> NDArray[Any]:
     """Return draws in their stored form.
 
-    Raises:
-        ValueError: sizes that do not fit the file's cells.
+    Raises `ValueError` for sizes that do not fit the file's cells.
     """
     chains, draws, *sizes = variable.shape
     if tuple(sizes) != shape:

@@ -20,18 +20,9 @@ from numpy.typing import NDArray
 from bayesmap.poses.calibration import RunningOdometry
 from bayesmap.poses.graph import DOUBTFUL_SQ
 from bayesmap.poses.matcher import likelihood_grids
-from bayesmap.poses.next_scans import (
-    Elsewhere,
-    Placed,
-    Window,
-    chained,
-    contradicts,
-    place_anywhere,
-    place_near,
-    predict,
-)
+from bayesmap.poses.next_scans import Elsewhere, Placed, Window, contradicts, place_anywhere, place_near, predict
 from bayesmap.poses.scan_geometry import ScanGeometry
-from bayesmap.space.planar import Floats, between, yaw_wrapped
+from bayesmap.space.planar import Floats, between, chained, yaw_wrapped
 
 KEY_DISTANCE_M, KEY_TURN_RAD = 0.4, np.radians(20.0)  # a scan this far from the last key scan becomes a key scan
 KEY_SCORE = 0.5  # a scan with a lower score becomes a key scan, too

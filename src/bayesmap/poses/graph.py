@@ -188,6 +188,18 @@ class Quadratic:
     curvature: Floats
     gradient: Floats
 
+    def pulls(self) -> tuple[Floats, Floats]:
+        """Return the gradient of each pair's cost by steps of its first and its second pose, (M, 3) each."""
+        by_first, by_second = between_jacobians(self.relative)
+        return np.einsum("mji,mj->mi", by_first, self.gradient), np.einsum("mji,mj->mi", by_second, self.gradient)
+
+    def summed(self, count: int, on_first: Floats, on_second: Floats) -> Floats:
+        """Sum gradients of pairs, as `pulls` gives them, over each of N poses, (3 N,)."""
+        result = np.zeros((count, 3))
+        _add(result, self.first, on_first)
+        _add(result, self.second, on_second)
+        return result.ravel()
+
 
 def quadratic(factors: Factors, poses: Floats, weights: Floats | None = None) -> Quadratic:
     """Return the factors' cost about given poses, each factor weighted."""
@@ -228,20 +240,6 @@ def normal_equations(count: int, parts: Sequence[Quadratic]) -> tuple[Any, Float
     at_column = np.broadcast_to(3 * column[:, None, None] + three[None, None, :], block.shape)
     matrix = sparse.csc_matrix((block.ravel(), (at_row.ravel(), at_column.ravel())), shape=(3 * count, 3 * count))
     return matrix, gradient.ravel()
-
-
-def pulls(part: Quadratic) -> tuple[Floats, Floats]:
-    """Return the gradient of each pair's cost by steps of its first and its second pose, (M, 3) each."""
-    by_first, by_second = between_jacobians(part.relative)
-    return np.einsum("mji,mj->mi", by_first, part.gradient), np.einsum("mji,mj->mi", by_second, part.gradient)
-
-
-def summed(count: int, part: Quadratic, on_first: Floats, on_second: Floats) -> Floats:
-    """Sum gradients of pairs, as `pulls` gives them, over each pose, (N, 3)."""
-    result = np.zeros((count, 3))
-    _add(result, part.first, on_first)
-    _add(result, part.second, on_second)
-    return result
 
 
 def solve_step(count: int, parts: Sequence[Quadratic]) -> tuple[Floats, Precision]:

@@ -44,11 +44,10 @@ def scans_come_often(scans: Scans) -> bool:
 
 
 def check_scans(scans: Scans, no_odometry: bool) -> None:
-    """Raise an error for scans from which no trajectory can be inferred.
+    """Check that a trajectory can be inferred from scans.
 
-    Raises:
-        BadInput: fewer than two scans, scans without a single hit, odometry that stands still all the time although
-            the robot moves, or no odometry and too few scans per second.
+    Raises `BadInput` for fewer than two scans, scans without a single hit, odometry that stands still all the time
+    although the robot moves, or no odometry and too few scans per second.
     """
     if len(scans) < 2:
         raise BadInput(f"slam: a trajectory needs two scans or more, got {len(scans)}")

@@ -117,8 +117,7 @@ def match(
         apart_rad: difference in yaw beyond which poses are apart.
         strands: number of threads that share one job. The result does not depend on it.
 
-    Raises:
-        BadInput: arrays that do not fit, or a window or step that is not positive.
+    Raises `BadInput` for arrays that do not fit, or a window or step that is not positive.
     """
     from bayesmap.kernels.match.branch_and_bound import Modes, Windows, search_grids
 

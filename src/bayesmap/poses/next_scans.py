@@ -17,7 +17,7 @@ from bayesmap.kernels.match.scan_refinement import Convergence, Refinement, refi
 from bayesmap.poses.calibration import RunningOdometry
 from bayesmap.poses.matcher import LikelihoodGrids, Pull, match
 from bayesmap.poses.scan_geometry import ScanGeometry
-from bayesmap.space.planar import Floats, between, compose, rotation
+from bayesmap.space.planar import Floats, between, chained, compose, rotation
 from bayesmap.space.time_order import SAME_S
 
 UNUSUAL = 0.04
@@ -76,14 +76,6 @@ def predict(
         return compose(poses[i], last * share)[None], sigma[None] ** 2
     stated = motions[i : i + len(batch)]
     return chained(poses[i], odometry.corrected(stated)), np.cumsum(odometry.variances(stated), axis=0)
-
-
-def chained(start: Floats, motions: Floats) -> Floats:
-    """Return the poses after each of N motions, (N, 3)."""
-    poses, here = np.empty((len(motions), 3)), start
-    for k, motion in enumerate(motions):
-        here = poses[k] = compose(here, motion)
-    return poses
 
 
 def place_near(

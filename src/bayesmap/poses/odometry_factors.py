@@ -13,10 +13,9 @@ from bayesmap.poses.calibration import OdometryFit, fit_odometry, motion_varianc
 from bayesmap.poses.front_end import UNKNOWN, Track
 from bayesmap.poses.graph import Factors, relative_covariances
 from bayesmap.poses.log_checks import caught_up
-from bayesmap.poses.next_scans import chained
 from bayesmap.poses.pose_gaussian import PoseGaussian
 from bayesmap.poses.scan_geometry import ScanGeometry
-from bayesmap.space.planar import Floats, between, compose, rotation, yaw_wrapped
+from bayesmap.space.planar import Floats, between, chained, compose, rotation, yaw_wrapped
 from bayesmap.space.scans import Scans
 
 STEADY = np.diag(1.0 / np.array([0.1, 0.1, np.radians(3.0)]) ** 2)  # of the front end's links without odometry

@@ -16,16 +16,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.poses.graph import (
-    ANCHOR,
-    RIDGE,
-    Precision,
-    Quadratic,
-    normal_equations,
-    pulls,
-    relative_covariances,
-    summed,
-)
+from bayesmap.poses.graph import ANCHOR, RIDGE, Precision, Quadratic, normal_equations, relative_covariances
 from bayesmap.space.planar import Floats, between, between_jacobians, retract, wrapped
 
 STRETCH_M, TURN_M = 4.0, 0.5
@@ -44,13 +35,12 @@ def bends(poses: Floats, laser: Quadratic, precision: Precision) -> Floats:
     pairs = np.sort(np.stack([stretch[laser.first], stretch[laser.second]], axis=1), axis=1)
     clusters, cluster = np.unique(pairs, axis=0, return_inverse=True)
     signs = np.random.default_rng(SEED).choice([-1.0, 1.0], (DRAWS, len(clusters)))
-    on_first, on_second = pulls(laser)
+    on_first, on_second = laser.pulls()
     steps_of_draws = np.empty((DRAWS, len(poses), 3))
     for n in range(DRAWS):
         sign = signs[n][cluster.ravel()][:, None]
-        steps_of_draws[n] = precision.solve(
-            summed(len(poses), laser, sign * on_first, sign * on_second).ravel()
-        ).reshape(-1, 3)
+        force = laser.summed(len(poses), sign * on_first, sign * on_second)
+        steps_of_draws[n] = precision.solve(force).reshape(-1, 3)
     return steps_of_draws
 
 
@@ -108,13 +98,11 @@ class PoseGaussian:
         ``changes`` are those of the measured relative poses, (N, M, 3).
         """
         last = slice(len(self.first) - changes.shape[1], None)
-        first, second, relative, curvature = (
-            self.first[last], self.second[last], self.relative[last], self.curvature[last],
-        )  # fmt: skip
+        ends, relative, curvature = (self.first[last], self.second[last]), self.relative[last], self.curvature[last]
         steps = np.empty((len(changes), len(self.poses), 3))
         for n, change in enumerate(changes):
-            part = Quadratic(first, second, relative, curvature, np.einsum("mij,mj->mi", curvature, change))
-            steps[n] = self.precision.solve(summed(len(self.poses), part, *pulls(part)).ravel()).reshape(-1, 3)
+            part = Quadratic(*ends, relative, curvature, np.einsum("mij,mj->mi", curvature, change))
+            steps[n] = self.precision.solve(part.summed(len(self.poses), *part.pulls())).reshape(-1, 3)
         return steps
 
     @property

@@ -1,13 +1,19 @@
-"""Inference of a trajectory with covariances from scans and raw odometry: the stages, one after the other."""
+"""Inference of a trajectory with covariances from scans and raw odometry, in stages that are kept on disk."""
 
 from __future__ import annotations
 
+import hashlib
 import os
-from dataclasses import replace
+from collections.abc import Callable
+from dataclasses import dataclass, fields, is_dataclass, replace
+from pathlib import Path
+from typing import Any, TypeVar, get_type_hints
 
 import numpy as np
 from numpy.typing import NDArray
 
+from bayesmap.errors import BadInput
+from bayesmap.files import write_whole
 from bayesmap.poses.alignment import point_error, with_point_error
 from bayesmap.poses.calibration import angle_step_ratio
 from bayesmap.poses.front_end import Track, follow, grid_half_width
@@ -15,20 +21,23 @@ from bayesmap.poses.key_alignment import KeyAlignment, flag_unexplained
 from bayesmap.poses.key_graph import ClosedGraph, close_loops, contradicted_links, poses_between_keys, unconfirmed_links
 from bayesmap.poses.log_checks import check_scans
 from bayesmap.poses.look_alikes import Weighed
-from bayesmap.poses.odometry_factors import stated_odometry
+from bayesmap.poses.odometry_factors import StatedOdometry, stated_odometry
 from bayesmap.poses.placement import place_scans
 from bayesmap.poses.scan_geometry import scan_geometry
-from bayesmap.poses.stages import OnPoses, Progress, StageReport, Stages, fingerprint
 from bayesmap.poses.trajectory import NO_ALTERNATIVES, Alternatives, Calibration, LoopClosures, Trajectory, calibrated
 from bayesmap.space.planar import Floats, between, compose, nearest, yaw_wrapped
 from bayesmap.space.scans import Scans
 from bayesmap.space.time_order import time_order
 
-FARTHEST_M = 30.0  # hits beyond are not matched: there beams are half a metre apart and more
+Progress = Callable[[str, int, int], None]
+OnPoses = Callable[[str, Floats], None]
 
-ANGLE_TOLERANCE = 0.003
-"""Relative error of the angle between beams that is not corrected: it moves the last beam of half a circle by half a
-degree."""
+Arrays = dict[str, NDArray[Any]]
+Value = TypeVar("Value")
+
+LOOKS = 60  # most reports of poses during the front end
+FARTHEST_M = 30.0  # hits beyond are not matched: there beams are half a metre apart and more
+ANGLE_TOLERANCE = 0.003  # relative error of the angle between beams that is not corrected: half a degree in 180
 
 
 def infer_trajectory(
@@ -152,9 +161,11 @@ def alternatives_of(weighed: Weighed, keys: NDArray[np.intp], poses: Floats) -> 
 
 def _digest(scans: Scans, settings: str) -> str:
     """Return the digest that names the checkpoints of these scans and settings."""
+    digest = hashlib.sha256(f"{settings} {scans.max_range_m} {scans.min_range_m}".encode())
     own = () if scans.own_angles_rad is None else (scans.own_angles_rad,)
-    settings = f"{settings} {scans.max_range_m} {scans.min_range_m}"
-    return fingerprint(scans.poses, scans.ranges_m, scans.angles_rad, scans.stamps_s, *own, settings=settings)
+    for array in (scans.poses, scans.ranges_m, scans.angles_rad, scans.stamps_s, *own):
+        digest.update(b"-" if array is None else np.ascontiguousarray(array).tobytes())
+    return digest.hexdigest()[:16]
 
 
 def _closures(closed: ClosedGraph, keys: NDArray[np.intp], poses: Floats) -> LoopClosures:
@@ -162,3 +173,95 @@ def _closures(closed: ClosedGraph, keys: NDArray[np.intp], poses: Floats) -> Loo
     loops = closed.closures
     weights = closed.weighed.weights
     return LoopClosures(keys[loops.first], keys[loops.second], loops.relative, loops.errors(poses), weights)
+
+
+def flat(value: Any, name: str = "") -> Arrays:
+    """Return the arrays of a dataclass by name; those of a dataclass inside it are `outer.inner`."""
+    arrays: Arrays = {}
+    for field in fields(value):
+        inner, path = getattr(value, field.name), f"{name}{field.name}"
+        arrays |= flat(inner, f"{path}.") if is_dataclass(inner) else {path: np.asarray(inner)}
+    return arrays
+
+
+def built(kind: type[Value], arrays: Arrays, name: str = "") -> Value:
+    """Return the dataclass that `flat` took apart; KeyError where an array is missing."""
+    types = get_type_hints(kind)
+    return kind(
+        **{
+            field.name: built(types[field.name], arrays, f"{name}{field.name}.")
+            if is_dataclass(types[field.name])
+            else arrays[f"{name}{field.name}"]
+            for field in fields(kind)  # type: ignore[arg-type]
+        }
+    )
+
+
+class Stages:
+    """Results of a computation's stages, each a dataclass of arrays, kept in a folder or nowhere."""
+
+    def __init__(self, folder: str | os.PathLike[str] | None, digest: str) -> None:
+        self._folder = None if folder is None else Path(folder)
+        self._digest = digest
+        if self._folder is not None:
+            try:
+                self._folder.mkdir(parents=True, exist_ok=True)
+            except OSError as error:
+                raise BadInput(f"{folder}: cannot hold checkpoints: {error.strerror or error}") from None
+
+    def get(self, name: str, kind: type[Value], compute: Callable[[], Value]) -> Value:
+        """Return a stage's result: from the folder if it is there, else computed and written there whole."""
+        if self._folder is None:
+            return compute()
+        path = self._folder / f"{name}-{self._digest}.npz"
+        if path.exists():
+            try:
+                with np.load(path, allow_pickle=False) as saved:
+                    return built(kind, {key: saved[key] for key in saved.files})
+            except (OSError, ValueError, EOFError, KeyError):
+                pass  # damaged: computed again
+        found = compute()
+        with write_whole(path) as partial:
+            np.savez(partial, **flat(found))  # type: ignore[arg-type]
+        return found
+
+
+@dataclass(frozen=True, eq=False)
+class StageReport:
+    """Reports progress, and poses of all scans in the map's frame, given poses in the frame of the first scan."""
+
+    origin: Floats  # the first scan's pose in the map, (3,)
+    on_progress: Progress | None  # called as (stage, done, of), or None
+    on_poses: OnPoses | None  # called as (stage, poses), or None
+
+    def finished(self, stage: str, done: int, of: int, poses: Floats | Callable[[], Floats]) -> None:
+        """Report one round of a stage; a function for the poses is called only if somebody listens."""
+        if self.on_progress is not None:
+            self.on_progress(stage, done, of)
+        if self.on_poses is not None:
+            self.on_poses(stage, compose(self.origin, poses() if callable(poses) else poses))
+
+    def of_keys(self, track: Track, stage: str, rounds: int) -> Callable[[int, Floats], None]:
+        """Return the callback of a stage: number of rounds that are done, and poses of the keys, (K, 3)."""
+
+        def callback(done: int, poses: Floats) -> None:
+            self.finished(stage, done, rounds, lambda: poses_between_keys(track.poses, track.keys, poses, track.broken))
+
+        return callback
+
+    def of_front_end(self, odometry: StatedOdometry) -> Callable[[int, Floats], None]:
+        """Return the callback of the front end: number of scans that are done, and poses, (S, 3)."""
+        count, next_look = len(odometry.poses), 0
+
+        def callback(done: int, poses: Floats) -> None:
+            nonlocal next_look
+            if self.on_progress is not None:
+                self.on_progress("front end", done, count)
+            if self.on_poses is not None and done >= next_look:
+                next_look = done + -(-count // LOOKS)
+                stated = odometry.poses[done - 1 :]
+                rest = between(stated[:1], stated[1:]) * (1.0 if odometry.used else 0.0)
+                known = np.concatenate([poses[:done], compose(poses[done - 1], rest)])
+                self.on_poses("front end", compose(self.origin, known))
+
+        return callback

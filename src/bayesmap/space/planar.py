@@ -41,6 +41,14 @@ def between(first: Floats, second: Floats) -> Floats:
     return np.stack([c * dx + s * dy, c * dy - s * dx, wrapped(second[..., 2] - first[..., 2])], axis=-1)
 
 
+def chained(start: Floats, motions: Floats) -> Floats:
+    """Return the poses after each of N motions, (N, 3)."""
+    poses, here = np.empty((len(motions), 3)), start
+    for k, motion in enumerate(motions):
+        here = poses[k] = compose(here, motion)
+    return poses
+
+
 def inverse(pose: Floats) -> Floats:
     """Return the pose of the outer frame in the pose's own frame."""
     return between(pose, np.zeros(3))

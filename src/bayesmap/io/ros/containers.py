@@ -56,13 +56,18 @@ class NotUnpacked(Exception):
     """Data that cannot be unpacked; the text is the reason."""
 
 
+def reason_of(error: Exception) -> str:
+    """Return the text of any library's error on one line, or else its class."""
+    return " ".join(str(error).split()).rstrip(".") or type(error).__name__
+
+
 def unpack_zstd(packed: bytes, largest: int) -> bytes:
     """Unpack data, or raise `NotUnpacked` if they are damaged, cut short, or larger than ``largest`` bytes."""
     try:
         unpacker = zstd().ZstdDecompressor()
         data = bytes(unpacker.decompress(packed, largest))
     except (ArithmeticError, EOFError, MemoryError, RuntimeError, ValueError, zstd().ZstdError) as error:
-        raise NotUnpacked(str(error) or type(error).__name__) from None
+        raise NotUnpacked(reason_of(error)) from None
     if not unpacker.eof:
         raise NotUnpacked("it is cut short" if len(data) < largest else f"it has more than {largest:,} bytes")
     return data
@@ -88,36 +93,37 @@ def first_bytes(path: str | os.PathLike[str], count: int) -> bytes:
             return b""
 
 
-def unpack_file(path: str | os.PathLike[str], on_damage: Callable[[str], None]) -> Path:
-    """Unpack a compressed file. Returns the copy, alone in a folder of its own that the caller removes.
+def _at_hand(path: Path, stack: ExitStack, on_damage: raw.OnDamage) -> Path:
+    """Return the file itself, or an unpacked copy of a compressed file, which the stack removes.
 
-    ``on_damage`` is called with the reason if the file cannot be unpacked to its end; if it returns, the copy is
-    partial. Without room for the copy, `OSError` is raised.
+    If a file cannot be unpacked to its end and ``on_damage`` returns, the copy is partial.
     """
-    folder = Path(tempfile.mkdtemp(prefix="bayesmap-"))
-    copy = folder / "unpacked"
-    try:
-        with Path(path).open("rb") as file, copy.open("wb") as out:
-            kind = compression_of(file.read(4))
-            assert kind is not None
-            file.seek(0)
-            try:
-                with UNPACKERS[kind][1](file) as unpacked:
-                    while block := _read(unpacked):
-                        out.write(block)
-            except NotUnpacked as problem:
-                on_damage(f"it is compressed by {kind} and cannot be unpacked to its end: {problem}")
-    except BaseException:
-        shutil.rmtree(folder, ignore_errors=True)
-        raise
-    return copy
+    with path.open("rb") as file:
+        kind = compression_of(file.read(4))
+        if kind is None:
+            return path
+        file.seek(0)
+        try:
+            folder = Path(tempfile.mkdtemp(prefix="bayesmap-"))
+            stack.callback(shutil.rmtree, folder, ignore_errors=True)
+            with UNPACKERS[kind][1](file) as unpacked, (folder / "unpacked").open("wb") as out:
+                while block := _read(unpacked):
+                    out.write(block)
+        except NotUnpacked as problem:
+            on_damage(f"it is compressed by {kind} and cannot be unpacked to its end: {problem}")
+        except OSError as error:
+            raise BadInput(
+                f"{path}: it is compressed, and there is no room to unpack it ({error.strerror or error}); make room, "
+                "name another folder in TMPDIR, or unpack it yourself"
+            ) from None
+    return folder / "unpacked"
 
 
 def _read(unpacked: Any) -> bytes:
     try:
         return bytes(unpacked.read(AT_ONCE))
     except _failures() as problem:
-        raise NotUnpacked(str(problem) or type(problem).__name__) from None
+        raise NotUnpacked(reason_of(problem)) from None
 
 
 def _failures() -> tuple[type[Exception], ...]:
@@ -150,7 +156,13 @@ def open_recording(path: str | os.PathLike[str], *, salvage: bool, types: Collec
         BadInput: a recording that is damaged (without ``salvage``), or cannot be read at all; a bag of another version.
     """
     name = os.fspath(path)
-    _check_version(path)
+    start = b"" if Path(path).is_dir() else first_bytes(path, 16)
+    if start.startswith(ANY_BAG) and not start.startswith(raw.BAG_MAGIC):
+        version = start[len(ANY_BAG) :].split(b"\n")[0].decode("ascii", "replace").strip()
+        raise BadInput(
+            f"{name}: a ROS 1 bag of format {version}; only 2.0 is read. If ROS wrote it before 2010, convert it with "
+            "ROS 1: rosbag fix OLD.bag NEW.bag"
+        )
     try:
         recording = _whole(path)
         if salvage:  # damage within may show only in reading
@@ -163,37 +175,6 @@ def open_recording(path: str | os.PathLike[str], *, salvage: bool, types: Collec
     if not recording.topics:
         raise BadInput(f"{name}: the recording holds no topic at all" + "".join(f"; {n}" for n in recording.notes))
     return recording
-
-
-def _check_version(path: str | os.PathLike[str]) -> None:
-    """Raise `BadInput` for bags of ROS 1 that are not of format 2.0, with the remedy."""
-    if Path(path).is_dir():
-        return
-    start = first_bytes(path, 16)
-    if not start.startswith(ANY_BAG) or start.startswith(raw.BAG_MAGIC):
-        return
-    version = start[len(ANY_BAG) :].split(b"\n")[0].decode("ascii", "replace").strip()
-    raise BadInput(
-        f"{os.fspath(path)}: a ROS 1 bag of format {version}; only 2.0 is read. If ROS wrote it before 2010, convert "
-        "it with ROS 1: rosbag fix OLD.bag NEW.bag"
-    )
-
-
-def _at_hand(path: Path, stack: ExitStack, on_damage: raw.OnDamage) -> Path:
-    """Return the file itself, or an unpacked copy of a compressed file, which the stack removes."""
-    with path.open("rb") as file:
-        packed = compression_of(file.read(4)) is not None
-    if not packed:
-        return path
-    try:
-        copy = unpack_file(path, on_damage)
-    except OSError as error:
-        raise BadInput(
-            f"{path}: it is compressed, and there is no room to unpack it ({error.strerror or error}); make room, name "
-            "another folder in TMPDIR, or unpack it yourself"
-        ) from None
-    stack.callback(shutil.rmtree, copy.parent, ignore_errors=True)
-    return copy
 
 
 def _whole(path: str | os.PathLike[str]) -> Recording:
@@ -270,7 +251,7 @@ def _by_rosbags(
     """Return a recording that rosbags reads; an MCAP file that it refuses is read record by record."""
     by_records = container == "mcap" and is_file
     try:
-        topics, start_ns, end_ns = _rosbags_topics(reader, container)
+        topics, *times = _rosbags_topics(reader, container)
     except Damaged as problem:
         if not by_records:
             raise
@@ -287,7 +268,7 @@ def _by_rosbags(
                 raise
             return list(messages_of(raw.mcap_records(path, raw.refuse), topics, names))
 
-    return Recording(os.fspath(path), container, topics, read, start_ns, end_ns)
+    return Recording(os.fspath(path), container, topics, read, *times)
 
 
 def _by_records(
@@ -295,12 +276,12 @@ def _by_records(
 ) -> Recording:
     """Return a recording read record by record. Opening it calls ``on_damage``, each reading ``on_damage_again``."""
     records = RECORD_READERS[container][1]
-    topics, start_ns, end_ns = topics_of(records(path, on_damage))
+    topics, *times = topics_of(records(path, on_damage))
 
     def read(names: frozenset[str]) -> Iterable[Message]:
         return list(messages_of(records(path, on_damage_again), topics, names))
 
-    return Recording(os.fspath(path), container, topics, read, start_ns, end_ns)
+    return Recording(os.fspath(path), container, topics, read, *times)
 
 
 def _rosbags_topics(make: Callable[[], Any], container: str) -> tuple[dict[str, Topic], int | None, int | None]:
@@ -339,11 +320,7 @@ def _opened(make: Callable[[], Any]) -> Iterator[Any]:
         with closing(reader):
             yield reader
     except Exception as error:
-        raise Damaged(_reason(error)) from None
-
-
-def _reason(error: Exception) -> str:
-    return " ".join(str(error).split()).rstrip(".") or type(error).__name__
+        raise Damaged(reason_of(error)) from None
 
 
 def _joined(path: str, container: str, parts: list[Recording], notes: tuple[str, ...], stack: ExitStack) -> Recording:

@@ -19,18 +19,14 @@ from scipy.interpolate import make_interp_spline
 from scipy.spatial.transform import RigidTransform, Rotation, Slerp
 
 from bayesmap.io.ros.recording import Malformed
-from bayesmap.space.planar import around
+from bayesmap.space.planar import Floats, around
 
 FURTHEST_M = 1e7
-ROUNDING = 1e-6
-"""Largest change of a constant transform, in metres and radians."""
+LATEST_NS = 2**62
+ROUNDING = 1e-6  # largest change of a constant transform, in metres and radians
+FIXED_FRAMES = ("map", "odom", "world")  # names of fixed frames, in order of preference
 
-FIXED_FRAMES = ("map", "odom", "world")
-"""Names of fixed frames, in order of preference."""
-
-Floats = NDArray[np.float64]
-Numbers = tuple[float, float, float, float, float, float, float]
-"""Translation x, y, z and rotation x, y, z, w."""
+Numbers = tuple[float, float, float, float, float, float, float]  # translation x, y, z and rotation x, y, z, w
 
 
 def close(first: Numbers, second: Numbers, tolerance: float) -> bool:
@@ -115,6 +111,19 @@ def numbers_of(position: object, rotation: object) -> Numbers:
     if not 0.8 < qx * qx + qy * qy + qz * qz + qw * qw < 1.2:
         raise Malformed(f"has the orientation ({qx:g}, {qy:g}, {qz:g}, {qw:g}), which is no unit quaternion")
     return values
+
+
+def stamp_ns_of(header: Any) -> int:
+    """Return a header's time in nanoseconds; raise `Malformed` for a time before 1970, or after 2116."""
+    stamp_ns = int(header.stamp.sec) * 10**9 + int(header.stamp.nanosec)
+    if not 0 <= stamp_ns <= LATEST_NS:
+        raise Malformed(f"has the time {stamp_ns} ns")
+    return stamp_ns
+
+
+def frame_of(name: str) -> str:
+    """Return a frame's name without the leading slash of some ROS 1 names."""
+    return name.lstrip("/")
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,10 +1,4 @@
-"""Read scans with their poses from a robot's recording (ROS 1 bag, ROS 2 bag, MCAP).
-
-The time of a scan is that of its first ray, and its pose is the sensor's pose at that time. The pose comes from the
-transforms between a fixed frame (map, odom or world, unless one is named) and the scan's frame, or from a topic of
-poses and the transform from the body to the sensor. Positions are interpolated along lines, rotations along the shorter
-arc. Nothing is extrapolated: scans before the first pose and after the last are left out. The pose is projected to the
-plane; a sensor that is mounted upside down sweeps the other way.
+"""Read scans with their poses from a robot's recording; docs/file-formats.md describes which poses they get.
 
 If a simulation restarts, its clock is set back: stamps begin anew, while the time of receipt goes on. Sorting by stamps
 would mix both runs, and give scans of one the poses of the other. Therefore the runs are kept apart.
@@ -25,29 +19,16 @@ from bayesmap.io.log_reading import Account, LogOptions, LogReading, SkippedLine
 from bayesmap.io.ros import poses as pose_sources
 from bayesmap.io.ros.containers import open_recording
 from bayesmap.io.ros.frames import Chain, Samples, planar, upright
-from bayesmap.io.ros.messages import (
-    Bad,
-    LaserMessage,
-    beams_of,
-    of_one_frame,
-    read_messages,
-    scan_topic_of,
-    scans_and_poses,
-)
+from bayesmap.io.ros.messages import READABLE, Bad, LaserMessage, beams_of, of_one_frame, read_messages, scan_topic_of
 from bayesmap.io.ros.poses import PoseMessages
-from bayesmap.io.ros.recording import POSE_TYPES, TYPES, Recording, Topic, topics_of_type
+from bayesmap.io.ros.recording import POSE_TYPES, TF_TYPES, TYPES, Recording, Topic
 
-STEP_NS = 10**9
-"""Largest step back of stamps that counts as messages that came late."""
-SLACK_NS = 10**9
-"""Longest time between the same step of the clock on different topics."""
-FEWEST, SETTLED = 3, 5
-"""Fewest messages before and after a step, and the number of messages on each side that must be in order."""
-AT_ONCE = 1 << 18
-"""Number of beams whose poses are computed at a time."""
+STEP_NS = 10**9  # largest step back of stamps that counts as messages that came late
+SLACK_NS = 10**9  # longest time between the same step of the clock on different topics
+FEWEST, SETTLED = 3, 5  # fewest messages on each side of a step, and how many of them must be in order
+AT_ONCE = 1 << 18  # number of beams whose poses are computed at a time
 LONGEST_GAP_S, LONGEST_GAP_M = 1.0, 1.0  # a note names interpolations over more time and more distance
-LONGEST_SWEEP_S = 60.0
-"""Longest time of a scan; a longer time is taken for damage."""
+LONGEST_SWEEP_S = 60.0  # longest time of a scan; a longer time is taken for damage
 
 
 @dataclass(frozen=True, eq=False)
@@ -168,9 +149,8 @@ def _in_order(stamps: NDArray[np.int64]) -> bool:
 def read_recording(path: str | os.PathLike[str], options: LogOptions) -> LogReading:
     """Read the scans of one topic of a recording, with their poses.
 
-    Raises:
-        BadInput: a damaged recording or message, a missing topic or frame, several to choose from, or no scan with a
-            pose; the message lists the choices and names the option.
+    Raises `BadInput` for a damaged recording or message, a missing topic or frame, several to choose from, or no scan
+    with a pose; the message lists the choices and names the option.
     """
     name = os.fspath(path)
     recording = open_recording(path, salvage=options.skip_bad_lines, types=TYPES)
@@ -189,7 +169,9 @@ def read_recording(path: str | os.PathLike[str], options: LogOptions) -> LogRead
     # Read the messages of scans and poses.
     topic = scan_topic_of(recording, options.scan_topic)
     pose_topic = None if options.pose_topic is None else pose_sources.pose_topic_of(recording, options.pose_topic)
-    received, poses = scans_and_poses(recording, topic, pose_topic, bad)
+    tf_topics = [t for t in recording.of_type(TF_TYPES) if t.encoding in READABLE]
+    poses = PoseMessages()
+    received = read_messages(recording, [topic, *tf_topics, *([pose_topic] if pose_topic else [])], poses, bad)
     if not received:
         raise BadInput(f"{name}: no message on {topic.name} can be used{_first(account.skipped)}")
     scans = of_one_frame(topic.name, received, bad)
@@ -223,7 +205,7 @@ def read_recording(path: str | os.PathLike[str], options: LogOptions) -> LogRead
     # Join the runs, and add the notes.
     scans = [scan for part in parts for scan in part.scans]
     if only is not None:
-        several = len(topics_of_type(recording, POSE_TYPES)) > 1
+        several = len(recording.of_type(POSE_TYPES)) > 1
         account.notes.append(
             f"/tf connects {request.sensor!r} with no fixed frame; poses were taken from {only.name}, the only topic "
             "of poses" + (f" in the namespace of {topic.name}" if several else "")
@@ -353,11 +335,7 @@ def _ray_times(stamps: NDArray[np.int64], scans: list[LaserMessage], account: Ac
 def _left_out(
     name: str, stamps: NDArray[np.int64], inside: NDArray[np.bool_], source: pose_sources.PoseSource
 ) -> list[str]:
-    """Return notes about the scans that are ``inside`` the time of the poses, and those that are not.
-
-    Raises:
-        BadInput: no scan is inside.
-    """
+    """Return notes about scans that are ``inside`` the time of the poses, or not; raise `BadInput` if none is."""
     span = source.chain.span_ns()
     if span is None:
         return [f"{source.label} does not move the sensor in the whole recording"]
@@ -405,7 +383,7 @@ def _only_topic(request: _Request, options: LogOptions, poses: PoseMessages) -> 
     body = pose_sources.body_of(request.recording.path, trees, request.sensor) if options.laser else request.sensor
     if body is not None and any(pose_sources.fixed_frame_of(tree, body) is not None for tree in trees):
         return None
-    read_messages(request.recording, [only], None, poses, request.bad)
+    read_messages(request.recording, [only], poses, request.bad)
     return only
 
 
@@ -425,7 +403,7 @@ def _source(request: _Request, poses: PoseMessages, options: LogOptions) -> pose
     if body is not None:
         source = pose_sources.by_transforms(recording, trees, body, options.fixed_frame, chosen=pose_topic is not None)
     if source is None:
-        raise pose_sources.no_poses(recording.path, trees[-1], sensor, topics_of_type(recording, POSE_TYPES))
+        raise pose_sources.no_poses(recording.path, trees[-1], sensor, recording.of_type(POSE_TYPES))
     return source if laser is None else replace(source, chain=Chain((*source.chain.links, pose_sources.link_of(laser))))
 
 

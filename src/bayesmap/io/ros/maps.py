@@ -1,12 +1,7 @@
 """Maps as pictures, as ROS occupancy grids in per cent, and as the files of map_server and nav2.
 
-Sources have three conventions of order. All results are indexed ``[x, y]`` with y up:
-
-| source                        | first index | its first entry is |
-|-------------------------------|-------------|--------------------|
-| image                         | row         | the top            |
-| map_server image (PGM)        | row         | the top            |
-| `nav_msgs/OccupancyGrid` data | row         | the *bottom*       |
+Results are indexed ``[x, y]`` with y up. Rows of images, map_server's too, begin at the top, those of
+`nav_msgs/OccupancyGrid` at the *bottom*.
 
 **Per cent.** Occupancy is 0 to 100, and -1 is unknown. map_server has three modes, which publish a probability p as:
 
@@ -16,9 +11,7 @@ Sources have three conventions of order. All results are indexed ``[x, y]`` with
 
 **Files.** A map is a flat YAML file beside an image. nav2 decodes the image by ``occ = 1 - grey / 255`` (``grey / 255``
 if ``negate``), which is p in trinary and scale. In raw, a grey from 0 to 100 is the per cent, and other greys are
-unknown. In scale, a pixel that is not opaque is unknown. docs/file-formats.md says where map_saver and newer nav2
-differ. Files written here mean the same to all: unknown is grey 205, that is occ = 0.19608, and trinary files
-therefore state a free_thresh of 0.196; a scaled map with unknown cells is written as PNG, every other map as PGM.
+unknown. In scale, a pixel that is not opaque is unknown. docs/file-formats.md says how files mean the same to all.
 """
 
 from __future__ import annotations
@@ -44,8 +37,7 @@ if TYPE_CHECKING:
 
 T = TypeVar("T", bound=np.generic)
 
-ImageLike = str | os.PathLike[str] | ArrayLike
-"""A path, a PIL image, or an array of rows."""
+ImageLike = str | os.PathLike[str] | ArrayLike  # a path, a PIL image, or an array of rows
 
 MAX_PIXELS = 100_000_000
 
@@ -97,10 +89,6 @@ def brightness(image: ImageLike | Image) -> NDArray[np.float64]:
             image = array / 65535 if array.dtype != bool and array.max(initial=0) > 255 else array
         else:
             image = np.asarray(image.convert("RGBA"))
-    return _brightness_of_array(image)
-
-
-def _brightness_of_array(image: ArrayLike) -> NDArray[np.float64]:
     array = np.asarray(image)
     if array.size == 0 or array.size > 4 * MAX_PIXELS:
         raise BadInput(f"image: {array.shape} is not the shape of a map's picture")
@@ -123,13 +111,11 @@ def _brightness_of_array(image: ArrayLike) -> NDArray[np.float64]:
 
 
 MODES = ("trinary", "scale", "raw")
-THRESHOLDS = {"trinary": (0.65, 0.25), "scale": (1.0, 0.0), "raw": (0.65, 0.25)}
-"""Default occupied and free thresholds by mode."""
+THRESHOLDS = {"trinary": (0.65, 0.25), "scale": (1.0, 0.0), "raw": (0.65, 0.25)}  # occupied, free by default
 
 OCCUPIED_GREY, FREE_GREY, UNKNOWN_GREY = 0, 254, 205
 RAW_UNKNOWN_GREY = 255
-TRINARY_FILE_THRESHOLDS = (0.65, 0.196)
-"""Occupied and free thresholds in trinary files, with which nav2 separates the three greys."""
+TRINARY_FILE_THRESHOLDS = (0.65, 0.196)  # occupied and free, between the three greys for nav2
 
 
 def _check_thresholds(occupied_thresh: float, free_thresh: float) -> None:

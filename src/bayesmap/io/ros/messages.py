@@ -1,12 +1,7 @@
 """Read the messages of a recording as scans and poses: select the topic, and find the definitions of messages.
 
-The definition in the recording decides how a message is read; definitions that ROS ships complete it. Bags of 2010 call
-the header ``roslib/Header``, and some publishers leave out the parts of a message. These recordings are readable all
-the same, because the type and its MD5 sum identify a message.
-
-By the definition of ``sensor_msgs/LaserScan``, beam i points to ``angle_min + i * angle_increment``. A scanner that
-turns clockwise has a negative increment. ``angle_max`` is often wrong, and not needed: if it contradicts the other
-numbers, a note is added. A fan of more than a turn is refused, because its angles are not radians.
+The definition in the recording decides how a message is read; definitions that ROS ships complete it. By the definition
+of ``sensor_msgs/LaserScan``, beam i points to ``angle_min + i * angle_increment``; ``angle_max`` is not needed.
 """
 
 from __future__ import annotations
@@ -25,26 +20,13 @@ from rosbags.interfaces import Nodetype
 from rosbags.typesys import Stores, get_types_from_idl, get_types_from_msg, get_typestore
 
 from bayesmap.errors import BadInput
-from bayesmap.io.ros.containers import REMEDY, ZSTD, NotUnpacked, unpack_zstd
+from bayesmap.io.ros.containers import REMEDY, ZSTD, NotUnpacked, reason_of, unpack_zstd
+from bayesmap.io.ros.frames import frame_of, stamp_ns_of
 from bayesmap.io.ros.poses import PoseMessages
-from bayesmap.io.ros.recording import (
-    LASER_SCAN,
-    RANGE,
-    SCAN_TYPES,
-    TF_TYPES,
-    Damaged,
-    Malformed,
-    Recording,
-    Topic,
-    frame_of,
-    listed,
-    stamp_ns_of,
-    topics_of_type,
-)  # fmt: skip
+from bayesmap.io.ros.recording import LASER_SCAN, RANGE, SCAN_TYPES, Damaged, Malformed, Recording, Topic
 from bayesmap.space.scans import MAX_BEAMS, Fan, fan_fault, side_by_side
 
-SAME_ANGLE_RAD = 1e-5
-"""Largest difference of the first and last angles of equal fans: angles are in single precision."""
+SAME_ANGLE_RAD = 1e-5  # largest difference of the first and last angles of equal fans: angles are in single precision
 
 TAKEN = "beam i was taken at angle_min + i * angle_increment, as the message is defined"
 
@@ -159,41 +141,30 @@ def beams_of(scans: Sequence[LaserMessage]) -> tuple[NDArray[np.float64], NDArra
     return side_by_side([scan.layout.angles_rad() for scan in scans], [scan.ranges_m for scan in scans])
 
 
-Bad = Callable[[str, int, str], None]
-"""Function that is called with each message that cannot be used: topic, number, reason."""
-
-READABLE = ("cdr", "ros1")
-"""Encodings that can be read."""
+Bad = Callable[[str, int, str], None]  # called with unusable messages: topic, number, reason
+READABLE = ("cdr", "ros1")  # encodings that can be read
 
 IDL_SEPARATOR = "=" * 80 + "\n"
-MAX_MESSAGE_BYTES = 1 << 28
-"""Largest message; a larger size is taken for damage."""
+MAX_MESSAGE_BYTES = 1 << 28  # largest message; a larger size is taken for damage
 
 
 def scan_topic_of(recording: Recording, given: str | None) -> Topic:
     """Return the topic to read: the named one, or the only one of laser scans, or else of single ranges.
 
-    Raises:
-        BadInput: no topic of scans, none of that name, or several and none was named; the message lists them.
+    Raises `BadInput` for no topic of scans, none of that name, or several if none was named; the message lists them.
     """
-    held = topics_of_type(recording, SCAN_TYPES)
-    have = f"no topic holds {' or '.join(SCAN_TYPES)}; there are {listed(recording.topics.values())}"
-    have = f"scans are on {listed(held)}" if held else have
+    held = recording.of_type(SCAN_TYPES)
+    have = f"no topic holds {' or '.join(SCAN_TYPES)}; there are {', '.join(map(str, recording.topics.values()))}"
+    have = f"scans are on {', '.join(map(str, held))}" if held else have
     if given is not None:
-        named = recording.topics.get(given) or recording.topics.get("/" + given)
-        if named not in held:
-            fault = "there is no such topic" if named is None else f"it is a topic of {named.type}"
-            fault = fault if named is None or named.type not in SCAN_TYPES else "it has no message"
-            raise BadInput(f"{recording.path}: --scan-topic {given}: {fault}; {have}")
-        topic = held[held.index(named)]
+        topic = recording.named("--scan-topic", given, SCAN_TYPES, have)
     else:
         lasers = [topic for topic in held if topic.type == LASER_SCAN] or held
         if not lasers:
             raise BadInput(f"{recording.path}: {have}" + "".join(f" ({note})" for note in recording.notes))
         if len(lasers) > 1:
-            raise BadInput(
-                f"{recording.path}: several topics hold scans; choose one with --scan-topic: {listed(lasers)}"
-            )
+            choices = ", ".join(map(str, lasers))
+            raise BadInput(f"{recording.path}: several topics hold scans; choose one with --scan-topic: {choices}")
         topic = lasers[0]
     if topic.encoding not in READABLE:
         raise BadInput(
@@ -202,74 +173,44 @@ def scan_topic_of(recording: Recording, given: str | None) -> Topic:
     return topic
 
 
-def scans_and_poses(
-    recording: Recording, topic: Topic, pose_topic: Topic | None, bad: Bad
-) -> tuple[list[LaserMessage], PoseMessages]:
-    """Return the scans, and the messages of poses from /tf and from the chosen topic of poses."""
-    topics = [topic, *(t for t in topics_of_type(recording, TF_TYPES) if t.encoding in READABLE)]
-    if pose_topic is not None and pose_topic not in topics:
-        topics.append(pose_topic)
-    scans: list[LaserMessage] = []
-    poses = PoseMessages()
-    read_messages(recording, topics, scans, poses, bad)
-    return scans, poses
+def read_messages(recording: Recording, topics: Iterable[Topic], poses: PoseMessages, bad: Bad) -> list[LaserMessage]:
+    """Return the scans on the given topics, and add the other messages to poses; ``bad`` is called with unusable ones.
 
-
-def read_messages(
-    recording: Recording, topics: list[Topic], scans: list[LaserMessage] | None, poses: PoseMessages, bad: Bad
-) -> None:
-    """Add the messages on the given topics to scans and poses; call ``bad`` with those that cannot be used.
-
-    Raises:
-        BadInput: the recording is damaged or cut short.
+    Raises `BadInput` for a recording that is damaged or cut short.
     """
     about = {topic.name: topic for topic in topics}
-    numbers: Counter[str] = Counter()
+    scans, numbers = list[LaserMessage](), Counter[str]()
     try:
-        types = MessageTypes(topics)
+        stores = {topic.name: _store(topic) for topic in about.values()}
         for message in recording.read(frozenset(about)):
             topic = about[message.topic]
             numbers[topic.name] += 1
             number = numbers[topic.name]
             try:
-                content = types.read(topic.name, message.data)
-                if topic.type not in SCAN_TYPES:
-                    poses.add(topic, content, message.received_ns)
-                elif scans is not None:
+                content = _content(stores[topic.name], topic, message.data)
+                if topic.type in SCAN_TYPES:
                     scans.append(laser_message(topic.type, content, number, message.received_ns))
+                else:
+                    poses.add(topic, content, message.received_ns)
             except Malformed as problem:
                 bad(topic.name, number, str(problem))
     except Damaged as problem:
         raise BadInput(f"{recording.path}: the recording is damaged or cut short ({problem}); {REMEDY}") from None
+    return scans
 
 
-class MessageTypes:
-    """The reader of the messages of some topics.
-
-    Databases before ROS 2 Iron hold no definitions; the messages that are read here were the same in all versions
-    before.
-
-    Raises:
-        Damaged: a definition that cannot be parsed, of a type or an MD5 sum that ROS does not know.
-    """
-
-    def __init__(self, topics: Iterable[Topic]) -> None:
-        self._stores = {topic.name: (_store(topic), topic) for topic in topics}
-
-    def read(self, topic: str, data: bytes) -> Any:
-        """Return a message with the fields of its definition as attributes; raise `Malformed` if they do not fit."""
-        store, about = self._stores[topic]
-        try:
-            if about.encoding == "ros1":
-                return store.deserialize_ros1(data, about.type)
-            if data.startswith(ZSTD):  # recorded with --compression-mode message; CDR begins otherwise
-                data = unpack_zstd(data, MAX_MESSAGE_BYTES)
-            return store.deserialize_cdr(data, about.type)
-        except NotUnpacked as problem:
-            raise Malformed(f"{about.type} is compressed by zstd and cannot be unpacked: {problem}") from None
-        except Exception as error:  # rosbags raises many kinds of errors
-            reason = " ".join(str(error).split()).rstrip(".") or type(error).__name__
-            raise Malformed(f"{about.type} of {len(data):,} bytes cannot be read: {reason}") from None
+def _content(store: Any, topic: Topic, data: bytes) -> Any:
+    """Return a message with the fields of its definition as attributes; raise `Malformed` if they do not fit."""
+    try:
+        if topic.encoding == "ros1":
+            return store.deserialize_ros1(data, topic.type)
+        if data.startswith(ZSTD):  # recorded with --compression-mode message; CDR begins otherwise
+            data = unpack_zstd(data, MAX_MESSAGE_BYTES)
+        return store.deserialize_cdr(data, topic.type)
+    except NotUnpacked as problem:
+        raise Malformed(f"{topic.type} is compressed by zstd and cannot be unpacked: {problem}") from None
+    except Exception as error:  # rosbags raises many kinds of errors
+        raise Malformed(f"{topic.type} of {len(data):,} bytes cannot be read: {reason_of(error)}") from None
 
 
 @cache
@@ -284,21 +225,24 @@ def _shipped(encoding: str) -> Any:
 
 
 def _store(topic: Topic) -> Any:
-    """Return the definitions to read the messages of a topic: the recording's, or else those that ROS ships."""
+    """Return the definitions to read the messages of a topic: the recording's, or else those that ROS ships.
+
+    Databases before ROS 2 Iron hold no definitions; the messages that are read here were equal in all versions before.
+    A definition that cannot be parsed, of a type or an MD5 sum that ROS does not know, raises `Damaged`.
+    """
     shipped = _shipped(topic.encoding)
     if not topic.definition.strip():
         return shipped
-    store, problem = get_typestore(Stores.EMPTY), ""
+    store = get_typestore(Stores.EMPTY)
     try:
-        stated = _parsed(topic)
-        store.register(stated)
+        store.register(_parsed(topic))
         completed = _complete(store, shipped)
         store.get_msgdef(topic.type)
         if not completed or _sum_of(store, topic) in (topic.md5, None):
             return store
         problem = f"it lacks {', '.join(completed)}"
     except Exception as error:  # the parser raises many kinds of errors
-        problem = " ".join(str(error).split())[:200] or type(error).__name__
+        problem = reason_of(error)[:200]
     # The type and its sum identify the messages, even if the definition is unusable.
     if topic.type in shipped.fielddefs and _sum_of(shipped, topic) in (topic.md5, None):
         return shipped

@@ -9,26 +9,12 @@ from typing import Any
 
 from bayesmap.errors import BadInput
 from bayesmap.io.log_reading import WITHOUT_POSES, Pose
-from bayesmap.io.ros.frames import FIXED_FRAMES, Chain, FrameTree, Samples, Track, numbers_of
+from bayesmap.io.ros.frames import FIXED_FRAMES, Chain, FrameTree, Samples, Track, frame_of, numbers_of, stamp_ns_of
 from bayesmap.io.ros.publishers import contradiction
-from bayesmap.io.ros.recording import (
-    ODOMETRY,
-    POSE,
-    POSE_TYPES,
-    TF_TYPES,
-    Malformed,
-    Recording,
-    Topic,
-    frame_of,
-    listed,
-    stamp_ns_of,
-    topics_of_type,
-)  # fmt: skip
+from bayesmap.io.ros.recording import ODOMETRY, POSE, POSE_TYPES, TF_TYPES, Malformed, Recording, Topic
 
-BODIES = ("base_footprint", "base_link", "base")
-"""Names of a robot's body, for poses that do not name their frame."""
-MOUNTS = ("base_link", "base_footprint", "base")
-"""Names of the frame that a user's mount refers to, the likeliest first."""
+BODIES = ("base_footprint", "base_link", "base")  # names of a robot's body, for poses that do not name their frame
+MOUNTS = ("base_link", "base_footprint", "base")  # that a user's mount refers to, likeliest first
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,25 +58,15 @@ class PoseMessages:
 
 
 def pose_topic_of(recording: Recording, given: str) -> Topic:
-    """Return the topic of poses that the user names.
-
-    Raises:
-        BadInput: no such topic, or a topic of another type; the message lists the topics of poses.
-    """
-    topic = recording.topics.get(given) or recording.topics.get("/" + given)
-    if topic is not None and topic.type in (*POSE_TYPES, *TF_TYPES):
-        return topic
-    reason = "there is no such topic" if topic is None else f"it is a topic of {topic.type}"
-    have = listed(topics_of_type(recording, (*POSE_TYPES, *TF_TYPES)))
-    raise BadInput(
-        f"{recording.path}: --pose-topic {given}: {reason}; "
-        + (f"poses are on {have}" if have else f"no topic holds poses ({', '.join((*POSE_TYPES, TF_TYPES[0]))})")
-    )
+    """Return the topic of poses that the user names."""
+    held = ", ".join(map(str, recording.of_type((*POSE_TYPES, *TF_TYPES))))
+    have = f"poses are on {held}" if held else f"no topic holds poses ({', '.join((*POSE_TYPES, TF_TYPES[0]))})"
+    return recording.named("--pose-topic", given, (*POSE_TYPES, *TF_TYPES), have)
 
 
 def only_pose_topic(recording: Recording, scan_topic: str) -> Topic | None:
     """Return the topic of poses to use instead of /tf: the only one in the scans' namespace, or of all; or None."""
-    topics = topics_of_type(recording, POSE_TYPES)
+    topics = recording.of_type(POSE_TYPES)
     for space in _spaces(scan_topic):
         inside = [topic for topic in topics if _space(topic.name) == space]
         if inside:
@@ -167,7 +143,7 @@ def by_transforms(
         notes += checked(recording, tree, fixed, sensor)
         notes += _beside(trees, tree, fixed, sensor)
         if len(trees) > 1 and tree is not trees[-1] and not chosen:
-            others = [t.name for t in topics_of_type(recording, TF_TYPES) if t.name not in tree.topics]
+            others = [t.name for t in recording.of_type(TF_TYPES) if t.name not in tree.topics]
             notes.append(f"transforms of other namespaces were not used: {', '.join(others)} (--pose-topic)")
         moving = [parts for _, _, parts in links if not Samples.joined(parts).constant()]
         topics = dict.fromkeys(part.topic for parts in moving or [p for _, _, p in links] for part in parts)
@@ -191,8 +167,7 @@ def _beside(trees: list[FrameTree], tree: FrameTree, fixed: str, sensor: str) ->
 def checked(recording: Recording, tree: FrameTree, fixed: str, sensor: str) -> list[str]:
     """Return notes on transforms between two frames with several values.
 
-    Raises:
-        BadInput: values that contradict each other, if the user must choose between them.
+    Raises `BadInput` for values that contradict each other, if the user must choose between them.
     """
     notes = []
     for parent, child, parts in tree.links(fixed, sensor):
@@ -206,9 +181,9 @@ def checked(recording: Recording, tree: FrameTree, fixed: str, sensor: str) -> l
             notes.append(conflict.text)
         elif conflict is not None:
             remedies = [_choose(recording, conflict.topics)] if conflict.topics else []
-            others = topics_of_type(recording, POSE_TYPES)
+            others = recording.of_type(POSE_TYPES)
             if others and not remedies:
-                remedies.append(f"take the poses from another topic with --pose-topic: {listed(others)}")
+                remedies.append(f"take the poses from another topic with --pose-topic: {', '.join(map(str, others))}")
             below = tree.chain(child, sensor)
             if below is not None and below.span_ns() is not None:
                 remedies.append(f"map in a frame below it with --fixed-frame {child}")
@@ -219,14 +194,13 @@ def checked(recording: Recording, tree: FrameTree, fixed: str, sensor: str) -> l
 
 
 def _choose(recording: Recording, topics: Iterable[str]) -> str:
-    return f"choose one with --pose-topic: {listed(recording.topics[name] for name in topics)}"
+    return f"choose one with --pose-topic: {', '.join(str(recording.topics[name]) for name in topics)}"
 
 
 def body_of(path: str, trees: list[FrameTree], sensor: str) -> str | None:
     """Return the frame of the robot's body that a user's mount refers to; None if /tf has none.
 
-    Raises:
-        BadInput: several robots, if the sensor's frame does not name its robot.
+    Raises `BadInput` for several robots, if the sensor's frame does not name its robot.
     """
     for tree in trees:
         if sensor in tree.frames() and (connected := tree.body(sensor, MOUNTS)) is not None:
@@ -266,8 +240,7 @@ def by_topic(
 ) -> PoseSource:
     """Return the sensor's poses from a topic of poses. Its mount on the body is the user's ``laser``, or that of /tf.
 
-    Raises:
-        BadInput: no pose at all, or a pose or transform with two values.
+    Raises `BadInput` for no pose at all, or a pose or transform with two values.
     """
     # The frame and body with most poses.
     if not messages.poses:
@@ -321,7 +294,7 @@ def _body(tree: FrameTree, body: str, sensor: str) -> str | None:
 def no_poses(path: str, tree: FrameTree, sensor: str, pose_topics: list[Topic]) -> BadInput:
     """Return the error for a recording without poses of the sensor, with a remedy."""
     if pose_topics:
-        remedy = f"choose one with --pose-topic: there are {listed(pose_topics)}"
+        remedy = f"choose one with --pose-topic: there are {', '.join(map(str, pose_topics))}"
     elif not tree.frames():
         remedy = "a recording needs /tf and /tf_static, or a topic of poses such as nav_msgs/Odometry"
     elif sensor not in tree.frames():

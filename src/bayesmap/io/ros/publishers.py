@@ -17,27 +17,17 @@ from scipy.spatial.transform import Rotation
 from bayesmap.io.ros.frames import Numbers, Samples, close
 from bayesmap.space.planar import around
 
-SAME = 1e-4
-"""Largest difference of equal values, in metres and radians: 1 mm at 10 m."""
-
-APART = 0.01
-"""Largest distance between two sources of motion, in metres and radians, that counts as noise."""
-
-MUCH_SMOOTHER = 0.15
-"""Largest ratio of the roughness of each publisher's motion to that of the joint motion, if there are two."""
-
-FEWEST, FEWEST_BETWEEN = 5, 3
-"""Fewest samples beside the motion of their neighbours: on one topic, and on several topics."""
+SAME = 1e-4  # largest difference of equal values, in metres and radians: 1 mm at 10 m
+APART = 0.01  # largest distance between two sources of motion, in metres and radians, that counts as noise
+MUCH_SMOOTHER = 0.15  # largest ratio of the roughness of each of two publishers' motions to that of the joint one
+FEWEST, FEWEST_BETWEEN = 5, 3  # fewest samples beside their neighbours' motion: on one topic, on several
 
 STEADY = ((0.08, 0.35), (0.02, 0.2), (0.0, 0.1))
 """Pairs: share of samples beside the motion, and largest median relative change of their offsets. In logs of one noisy
 odometry (Intel, ACES, MIT CSAIL) a hundredth of the samples is beside, and the offsets change by half and more."""
 
-STEPS = 2.0
-"""Largest offset along the motion, in steps, that counts as a late stamp."""
-
-OFTEN_AT_ONCE = 0.1
-"""Share of repeated stamps above which samples are also checked in the order of receipt."""
+STEPS = 2.0  # largest offset along the motion, in steps, that counts as a late stamp
+OFTEN_AT_ONCE = 0.1  # share of repeated stamps above which samples are also checked in the order of receipt
 
 
 @dataclass(frozen=True)

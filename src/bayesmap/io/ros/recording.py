@@ -18,7 +18,7 @@ import os
 import struct
 import sys
 from binascii import crc32
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from contextlib import closing
 from dataclasses import dataclass, replace
 from io import BytesIO
@@ -26,15 +26,14 @@ from pathlib import Path
 from typing import Any, BinaryIO, NamedTuple
 from urllib.parse import quote
 
+from bayesmap.errors import BadInput
+
 LASER_SCAN, RANGE = "sensor_msgs/msg/LaserScan", "sensor_msgs/msg/Range"
 SCAN_TYPES = (LASER_SCAN, RANGE)
 TF_TYPES = ("tf2_msgs/msg/TFMessage", "tf/msg/tfMessage")
 ODOMETRY, POSE = "nav_msgs/msg/Odometry", "geometry_msgs/msg/PoseStamped"
 POSE_TYPES = (ODOMETRY, POSE, "geometry_msgs/msg/PoseWithCovarianceStamped")
-TYPES = (*SCAN_TYPES, *POSE_TYPES, *TF_TYPES)
-"""Types of messages that are read."""
-
-LATEST_NS = 2**62
+TYPES = (*SCAN_TYPES, *POSE_TYPES, *TF_TYPES)  # types of messages that are read
 
 
 class Damaged(Exception):
@@ -65,6 +64,9 @@ class Topic:
     encoding: str = "cdr"  # ``"cdr"``, ``"ros1"``, or another that cannot be read
     md5: str = ""  # ROS 1's MD5 sum over the definition, 32 hexadecimal digits; "" if none is stated
 
+    def __str__(self) -> str:
+        return f"{self.name} ({self.type}, {self.count:,} messages)"
+
 
 @dataclass(frozen=True, eq=False)
 class Recording:
@@ -81,33 +83,18 @@ class Recording:
     end_ns: int | None = None  # of the last message
     notes: tuple[str, ...] = ()
 
+    def of_type(self, types: Collection[str]) -> list[Topic]:
+        """Return the topics of the given types that have messages."""
+        return [topic for topic in self.topics.values() if topic.type in types and topic.count]
 
-def topics_of_type(recording: Recording, types: Iterable[str]) -> list[Topic]:
-    """Return the recording's topics of the given types that have messages."""
-    chosen = frozenset(types)
-    return [topic for topic in recording.topics.values() if topic.type in chosen and topic.count]
-
-
-def listed(topics: Iterable[Topic]) -> str:
-    """Return topics with their types and counts in words, for error messages."""
-    return ", ".join(f"{topic.name} ({topic.type}, {topic.count:,} messages)" for topic in topics)
-
-
-def stamp_ns_of(header: Any) -> int:
-    """Return a header's time in nanoseconds.
-
-    Raises:
-        Malformed: a time before 1970, or after 2116.
-    """
-    stamp_ns = int(header.stamp.sec) * 10**9 + int(header.stamp.nanosec)
-    if not 0 <= stamp_ns <= LATEST_NS:
-        raise Malformed(f"has the time {stamp_ns} ns")
-    return stamp_ns
-
-
-def frame_of(name: str) -> str:
-    """Return a frame's name without the leading slash of some ROS 1 names."""
-    return name.lstrip("/")
+    def named(self, option: str, name: str, types: Collection[str], have: str) -> Topic:
+        """Return the topic that the user names by an option; raise `BadInput`, ending with ``have``, for others."""
+        topic = self.topics.get(name) or self.topics.get("/" + name)
+        if topic is not None and topic.type in types and topic.count:
+            return topic
+        fault = "there is no such topic" if topic is None else f"it is a topic of {topic.type}"
+        fault = "it has no message" if topic is not None and topic.type in types else fault
+        raise BadInput(f"{self.path}: {option} {name}: {fault}; {have}")
 
 
 class Connection(NamedTuple):
@@ -164,11 +151,8 @@ BAG_MESSAGE, BAG_INDEX, BAG_CHUNK, BAG_CONNECTION = (bytes([op]) for op in (2, 4
 FOOTER, SCHEMA, CHANNEL, MESSAGE, CHUNK, DATA_END = 2, 3, 4, 5, 6, 15
 LANGUAGES = {"ros1msg": "msg", "ros2msg": "msg", "ros2idl": "idl", "omgidl": "idl"}
 INDEX_ENTRY_BYTES = 12
-MAX_HEADER_BYTES, MAX_DATA_BYTES = 1 << 24, 1 << 30
-"""Largest header and data of one record; a larger length is taken for damage."""
-
-OnDamage = Callable[[str], None]
-"""Function that is called with the reason if a part cannot be read. It raises to stop, or returns to continue."""
+MAX_HEADER_BYTES, MAX_DATA_BYTES = 1 << 24, 1 << 30  # of one record; larger lengths are taken for damage
+OnDamage = Callable[[str], None]  # called with the reason for an unreadable part; raises to stop
 
 
 class _Unreadable(Exception):
@@ -278,8 +262,7 @@ def _bag_record(header: Any, file: BinaryIO, length: int) -> Records:
         raise _Unreadable(str(error)) from None
 
 
-Schemas = dict[int, tuple[str, str, str]]
-"""Name, encoding and text of each schema, by its number."""
+Schemas = dict[int, tuple[str, str, str]]  # name, encoding and text of each schema, by its number
 
 
 def mcap_records(path: str | os.PathLike[str], on_damage: OnDamage) -> Records:

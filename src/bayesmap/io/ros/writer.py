@@ -1,17 +1,12 @@
 """Write maps and trajectories as recordings that ROS plays: a ROS 1 bag, or ROS 2 in MCAP or sqlite.
 
-docs/file-formats.md describes files and topics. A map's topic has the quality of service of nav2's map_server, reliable
-and transient local (ROS 1: latched), so that late subscribers get the map, too. An OccupancyGrid has cell (i, j) at
-``data[j * width + i]``, in per cent, -1 unknown.
+docs/file-formats.md describes files and topics. A map's topic has the quality of service of nav2's map_server, so that
+late subscribers get the map, too. Covariances are 6 x 6, of x, y, z and rotations about the fixed axes x, y, z.
 
-**GridMap.** The conventions of grid_map (Fankhauser and Hutter 2016, "A Universal Grid Map Library"): the pose is the
-map's centre; row 0, column 0 is the corner with the largest x and y; rows run towards -x, columns towards -y; a layer
-is a matrix in Eigen's order, column by column, in single precision. So cell (i, j) of ours is row nx - 1 - i, column
-ny - 1 - j, at ``data[column * nx + row]``. Cells that no beam reached are NaN, and invalid in grid_map, because
-``mean`` is the basic layer.
-
-**Covariances** follow ROS: 6 x 6, row by row, of x, y, z and rotations about the fixed axes x, y, z. Components outside
-the plane are 0.
+**GridMap** (Fankhauser and Hutter 2016, "A Universal Grid Map Library"): the pose is the map's centre; row 0, column 0
+is the corner with the largest x and y; rows run towards -x, columns towards -y; a layer is a matrix in Eigen's order,
+column by column. So cell (i, j) of ours is row nx - 1 - i, column ny - 1 - j, at ``data[column * nx + row]``. Cells
+that no beam reached are NaN, and invalid in grid_map, because ``mean`` is the basic layer.
 """
 
 from __future__ import annotations
@@ -41,13 +36,11 @@ if TYPE_CHECKING:
 
 FOLDER = ""
 ENDINGS = (".bag", ".mcap", ".db3", FOLDER)
-ROS2_BAG_VERSION: Final = 8
-"""Version of the metadata, the last that every release since Humble reads."""
+ROS2_BAG_VERSION: Final = 8  # version of the metadata, the last that every release since Humble reads
 
 NANOSECONDS = 1_000_000_000
 
-Message = Callable[["Typestore", int], Any]
-"""Function that makes a message from a type store, for ROS version 1 or 2."""
+Message = Callable[["Typestore", int], Any]  # function that makes a message from a type store, for ROS version 1 or 2
 
 
 @dataclass(frozen=True)
@@ -65,11 +58,7 @@ class Channel:
 
 
 def container_of(path: str | os.PathLike[str]) -> str:
-    """Return the ending of a path, one of `ENDINGS`; a trailing slash, an existing folder or no ending is a folder.
-
-    Raises:
-        BadInput: another ending.
-    """
+    """Return the ending of a path, one of `ENDINGS`, or raise `BadInput`. Without ending it is a folder."""
     name = os.fspath(path)
     if name.endswith(os.sep) or Path(path).is_dir():
         return FOLDER
@@ -82,11 +71,7 @@ def container_of(path: str | os.PathLike[str]) -> str:
 
 
 def write_channels(path: str | os.PathLike[str], channels: Sequence[Channel]) -> Path:
-    """Write topics as a recording, whole or not at all.
-
-    Raises:
-        BadInput: another ending, or a file or folder that cannot be written.
-    """
+    """Write topics as a recording, whole or not at all; raise `BadInput` if that is impossible."""
     from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
     ending = container_of(path)
@@ -204,8 +189,7 @@ OCCUPANCY_GRID = "nav_msgs/msg/OccupancyGrid"
 GRID_MAP, GRID_MAP_INFO = "grid_map_msgs/msg/GridMap", "grid_map_msgs/msg/GridMapInfo"
 PATH, POSE = "nav_msgs/msg/Path", "geometry_msgs/msg/PoseWithCovarianceStamped"
 
-IN_PLANE = np.array([0, 1, 5])
-"""Indices of x, y and yaw among the six components of ROS covariances."""
+IN_PLANE = np.array([0, 1, 5])  # indices of x, y and yaw among the six components of ROS covariances
 
 _HEADER = "std_msgs/Header header\n"
 _INFO = "float64 resolution\nfloat64 length_x\nfloat64 length_y\ngeometry_msgs/Pose pose\n"
@@ -223,8 +207,7 @@ def write_occupancy_grid(
 
     ``occupancy``, ``grid``, ``observed`` and ``thresholds`` are those of `bayesmap.io.ros.maps.in_percent`.
 
-    Raises:
-        BadInput: those of `in_percent`, another ending, or a file that cannot be written.
+    Raises `BadInput` as `in_percent`, for another ending, or a file that cannot be written.
     """
     from bayesmap.io.ros.maps import in_percent
 
@@ -249,8 +232,7 @@ def write_grid_map(
 
     The first layer is the basic layer.
 
-    Raises:
-        BadInput: layers that do not fit, another ending, or a file that cannot be written.
+    Raises `BadInput` for layers that do not fit, another ending, or a file that cannot be written.
     """
     checked = as_layers(grid, layers, observed)
     length_m = np.array(grid.shape) * grid.resolution
@@ -288,8 +270,7 @@ def write_trajectory_recording(path: str | os.PathLike[str], trajectory: Traject
 
     Poses without stamps get stamps 0, 1, 2 and so on, in seconds.
 
-    Raises:
-        BadInput: no pose, another ending, or a file that cannot be written.
+    Raises `BadInput` for no pose, another ending, or a file that cannot be written.
     """
     if len(trajectory) == 0:
         raise BadInput("trajectory: there is no pose to write")

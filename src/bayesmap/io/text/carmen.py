@@ -7,16 +7,13 @@
     ODOM x y theta tv rv accel  ipc_timestamp host logger_timestamp
 
 RLASER and ROBOTLASER2 are the rear laser's messages, in the same two formats. RAWLASER1 to RAWLASER5 are ROBOTLASER1
-without poses and velocities, and are read only if no poses are needed. Other lines are counted and ignored. Scans are
-sorted by their ipc_timestamp (the time of measurement), because logs are not always in that order.
+without poses and velocities, and are read only if no poses are needed. Scans are sorted by their ipc_timestamp, because
+logs are not always in that order.
 
-**Angles.** FLASER lines do not state angles. By CARMEN's own rule the first beam is at -90 degrees. Beams are 1 degree
-apart if there are 180 or 181, half a degree if 360 or 361, a quarter if 400 or 401; any other number spreads over 180
-degrees. (The rule puts 401 beams from -90 to +10 degrees, but a SICK in its 100-degree mode looked from -50 to +50.)
-ROBOTLASER1 lines state their first angle and the step.
-
-**Maximum range.** By default it is the largest hit, rounded up to a whole metre. For no return see
-`bayesmap.io.returns`.
+**Angles.** ROBOTLASER1 lines state their first angle and the step. By CARMEN's own rule the first beam of FLASER is at
+-90 degrees. Beams are 1 degree apart if there are 180 or 181, half a degree if 360 or 361, a quarter if 400 or 401; any
+other number spreads over 180 degrees. (The rule puts 401 beams from -90 to +10 degrees, but a SICK in its 100-degree
+mode looked from -50 to +50.)
 
 **Writing.** FLASER lines, which every tool reads, are written if the reader's rules find both the angles and no return
 in them; else ROBOTLASER1 lines.
@@ -33,31 +30,23 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
 from bayesmap.files import write_text
 from bayesmap.io.log_reading import WITHOUT_POSES, Account, LogOptions, LogReading, Pose
 from bayesmap.io.returns import Readings, Views, decode, largest_hit_m
 from bayesmap.io.text.lines import log_lines, numbers_in
-from bayesmap.space.planar import between, compose
+from bayesmap.space.planar import Floats, between, compose
 from bayesmap.space.scans import MAX_BEAMS, Fan, Scans, as_poses, fan_fault, side_by_side
 
-Floats = NDArray[np.float64]
-
 IMPLICIT = ("FLASER", "RLASER")
-LASERS = ("FLASER", "ROBOTLASER1", "RLASER", "ROBOTLASER2")
-"""Messages that hold a scan with its pose, in order of preference if several are equally frequent."""
-RAW = ("RAWLASER1", "RAWLASER2", "RAWLASER3", "RAWLASER4", "RAWLASER5")
-"""Messages that hold a scan without a pose."""
+LASERS = ("FLASER", "ROBOTLASER1", "RLASER", "ROBOTLASER2")  # with poses; preferred first
+RAW = ("RAWLASER1", "RAWLASER2", "RAWLASER3", "RAWLASER4", "RAWLASER5")  # messages that hold a scan without a pose
 KNOWN = (*LASERS, "ODOM", "PARAM", "SYNC", "NEFF", "TRUEPOS", "LASER3", "LASER4", "MARKER", *RAW)
 """Messages by which a CARMEN log is recognised."""
 
-STEP_DEG = {180: 1.0, 181: 1.0, 360: 0.5, 361: 0.5, 400: 0.25, 401: 0.25}
-"""Degrees between beams by their number, for messages that do not state it."""
-
-NO_RETURN_CODE_M = 81.83
-"""Least number written for no return, a SICK laser's code; a larger one is written if hits come too near."""
+STEP_DEG = {180: 1.0, 181: 1.0, 360: 0.5, 361: 0.5, 400: 0.25, 401: 0.25}  # by number of beams, if not stated
+NO_RETURN_CODE_M = 81.83  # least number written for no return, a SICK laser's; larger if hits come too near
 ANGLE_TOLERANCE_RAD = 1e-6
 
 _NAME = re.compile(rb"[A-Za-z][A-Za-z0-9_.:-]*")
@@ -84,12 +73,7 @@ class LaserLine:
         return self.numbers[:3] if mount is None else compose(self.numbers[3:6], np.array(mount))
 
 
-@dataclass(frozen=True, eq=False)
-class LaserScan:
-    """A scan of a log: its line, and the pose of the laser in the world, (3,)."""
-
-    laser: LaserLine
-    pose_world: Floats
+LaserScan = tuple[LaserLine, Floats]  # a scan of a log, and the pose of the laser in the world, (3,)
 
 
 def read_carmen(path: str | os.PathLike[str], options: LogOptions) -> LogReading:
@@ -97,9 +81,8 @@ def read_carmen(path: str | os.PathLike[str], options: LogOptions) -> LogReading
 
     Of several lasers or kinds of message, the kind with most scans is read, and a note names the others.
 
-    Raises:
-        BadInput: a file that cannot be read, holds no scans, or has a malformed line (unless the options skip it); the
-            message names the file, the line and the remedy.
+    Raises `BadInput` for a file that cannot be read, holds no scans, or has a malformed line (unless the options skip
+    it); the message names the file, the line and the remedy.
     """
     account = Account(os.fspath(path), "carmen", options)
     lasers: dict[str, list[LaserScan]] = {kind: [] for kind in (LASERS + RAW if options.without_poses else LASERS)}
@@ -110,7 +93,7 @@ def read_carmen(path: str | os.PathLike[str], options: LogOptions) -> LogReading
             account.counts[kind] += 1
             if kind in lasers:
                 scan = parse_laser(kind, line.split())
-                lasers[kind].append(LaserScan(scan, scan.pose(options.laser)))
+                lasers[kind].append((scan, scan.pose(options.laser)))
             elif kind == "ODOM":
                 _check_odometry(line.split())
         except Malformed as problem:
@@ -218,18 +201,17 @@ def laser_reading(account: Account, lasers: Mapping[str, Sequence[LaserScan]]) -
 
     ``lasers`` holds at least one scan, by kind of message, in the order of the file.
 
-    Raises:
-        BadInput: no reading is a range, and the largest range is not given.
+    Raises `BadInput` if no reading is a range, and the largest range is not given.
     """
     kind = max(lasers, key=lambda kind: len(lasers[kind]))
-    scans = [scan for scan in lasers[kind] if scan.laser.fan.beams]
+    scans = [scan for scan, _ in lasers[kind] if scan.fan.beams]
     empty = len(lasers[kind]) - len(scans)
     if not scans:
         raise BadInput(f"{account.name}: none of {empty:,} {kind} lines has a reading")
     # Fans, poses and time order of the scans.
-    fans = [fan for fan, _ in Counter(scan.laser.fan for scan in scans).most_common()]
-    numbers = np.array([scan.laser.numbers for scan in scans])
-    poses = np.array([scan.pose_world for scan in scans])
+    fans = [fan for fan, _ in Counter(scan.fan for scan in scans).most_common()]
+    numbers = np.array([scan.numbers for scan in scans])
+    poses = np.array([pose for scan, pose in lasers[kind] if scan.fan.beams])
     order = account.in_time_order(numbers[:, 6], len(scans))
     if empty:
         account.notes.append(f"{empty:,} {kind} lines have no readings, and were left out")
@@ -239,13 +221,13 @@ def laser_reading(account: Account, lasers: Mapping[str, Sequence[LaserScan]]) -
         if other != kind and others
     ]
     # Angles and readings as arrays, with NaN if scans differ in their beams; then the kinds of readings.
-    readings = [scan.laser.readings_m for scan in scans]
+    readings = [scan.readings_m for scan in scans]
     if len(fans) == 1:
         angles, raw = fans[0].angles_rad(), np.array(readings)
     else:
-        angles, raw = side_by_side([scan.laser.fan.angles_rad() for scan in scans], readings)
+        angles, raw = side_by_side([scan.fan.angles_rad() for scan in scans], readings)
         angles = angles[order]
-    stated_m = max((s.laser.max_range_m for s in scans if s.laser.max_range_m is not None), default=None)
+    stated_m = max((scan.max_range_m for scan in scans if scan.max_range_m is not None), default=None)
     typed = _typed(account, raw[order], stated_m, Views.of(poses[order], angles))
     # Median pose of the laser in the robot's frame.
     x, y, yaw = (float(v) for v in np.median(between(numbers[:, 3:6], numbers[:, :3]), axis=0))
@@ -300,10 +282,8 @@ def write_carmen(path: str | os.PathLike[str], scans: Scans, robot_poses: Floats
     Returns:
         The kind of message that was written: ``"FLASER"`` or ``"ROBOTLASER1"``.
 
-    Raises:
-        BadInput: no scan, a scan of less than two beams, or beams that are not equally far apart, which neither message
-            can state.
-        OSError: the folder cannot be written.
+    Raises `BadInput` for no scan, a scan of less than two beams, or beams that are not equally far apart, which neither
+    message can state.
     """
     if len(scans) == 0:
         raise BadInput("log: there are no scans to write")

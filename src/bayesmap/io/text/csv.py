@@ -1,12 +1,8 @@
 """Read scans from a CSV table, with one row per scan or one row per beam; docs/file-formats.md describes both.
 
-With one row per scan, comment lines before the header, or columns, state the angles and limits. With one row per beam,
-the rows of a scan are consecutive, and share their ``scan`` or ``stamp``; if their poses differ, each beam has its own.
-Fields are separated by commas, semicolons or tabs. Between semicolons or tabs numbers may have decimal commas.
-
-Tables of LaserScan messages are read, too: from ``rostopic echo -p``, or with the message's own names. They have no
-poses, unless x, y and yaw were added. Rows of ``ros2 topic echo --csv --full-length`` have no header: the fields of the
-message in their order, then the readings, and as many intensities or none.
+Tables of LaserScan messages are read, too: from ``rostopic echo -p``, or with the message's own names. Rows of ``ros2
+topic echo --csv --full-length`` have no header: the fields of the message in their order, then the readings, and as
+many intensities or none.
 """
 
 from __future__ import annotations
@@ -18,25 +14,21 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
 from bayesmap.io.log_reading import Account, LogOptions, LogReading
 from bayesmap.io.returns import classify
 from bayesmap.io.text.lines import log_lines, numbers_in
-from bayesmap.space.planar import compose
+from bayesmap.space.planar import Floats, compose
 from bayesmap.space.scans import Scans, fan_fault, side_by_side
 
-Floats = NDArray[np.float64]
-Bad = Callable[[int, str], None]
-"""Function that is called with the number of a malformed line and the reason."""
+Bad = Callable[[int, str], None]  # function that is called with the number of a malformed line and the reason
 
 DELIMITERS = (b",", b";", b"\t")
 POSE = ("x", "y", "yaw")
 OWN_ANGLES = ("angle_min", "angle_increment")
 NANOSECONDS, RECEIVED = "nanoseconds", "received"
-LATEST_S = 1e12
-"""Largest stamp in seconds; larger stamps are nanoseconds."""
+LATEST_S = 1e12  # largest stamp in seconds; larger stamps are nanoseconds
 SETTINGS = ("angle_min", "angle_increment", "angles", "range_min", "range_max")
 FURTHEST_M = 1e7  # larger coordinates are malformed
 
@@ -170,8 +162,7 @@ class _Table:
         return _one_row_a_scan(self) if "r_0" in self.columns else _one_row_a_beam(self)
 
 
-_Parts = tuple[Floats, Floats, Floats, "Floats | None"]
-"""Poses (S, 3) or (S, A, 3), angles (A,) or (S, A), readings (S, A), stamps (S,)."""
+_Parts = tuple[Floats, Floats, Floats, "Floats | None"]  # poses (S, 3) or (S, A, 3), angles, readings (S, A), stamps
 
 
 def starts_table(line: bytes) -> bool:
@@ -195,9 +186,8 @@ def is_header(line: bytes) -> bool:
 def read_csv(path: str | os.PathLike[str], options: LogOptions) -> LogReading:
     """Read scans from a CSV table, plain or gzipped.
 
-    Raises:
-        BadInput: a file that cannot be read, no scan, no angles, no poses or a malformed row (unless the options take
-            them).
+    Raises `BadInput` for a file that cannot be read, no scan, no angles, no poses or a malformed row (unless the
+    options take them).
     """
     account = Account(os.fspath(path), "csv", options)
     table = _Table(account.name, account.bad)
@@ -225,8 +215,7 @@ def read_csv(path: str | os.PathLike[str], options: LogOptions) -> LogReading:
 def live_rows(name: str, lines: Iterable[tuple[int, bytes]], bad: Bad, options: LogOptions) -> Iterator[Scans]:
     """Yield the scans of a table with one row per scan, each as soon as its line arrives.
 
-    Raises:
-        BadInput: a table with one row per beam, no angles, no poses, or a malformed row that ``bad`` refuses.
+    Raises `BadInput` for a table with one row per beam, no angles, no poses, or a malformed row that ``bad`` refuses.
     """
     table, max_range_m = _Table(name, bad), options.max_range_m
     assert max_range_m is not None

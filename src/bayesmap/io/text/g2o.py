@@ -4,13 +4,9 @@
     ROBOTLASER1 ...                                      (or FLASER: CARMEN's lines, see `bayesmap.io.text.carmen`)
     EDGE_SE2 i j dx dy dyaw  xx xy xyaw yy yyaw yawyaw   (TORO: EDGE2)
 
-A laser line belongs to the last vertex before it. The vertex, which an optimiser has moved, is the robot's pose. The
-two poses in the line give the mount of the laser, so the laser's pose is vertex * robot^-1 * laser. Edges and other
-elements are counted and ignored.
-
-g2o, GTSAM (``readG2o``), Ceres and SE-Sync read the written graphs. An edge is a measurement of pose j in the frame of
-pose i, with the upper triangle of its information matrix, the inverse of its covariance, in that frame. No line
-``FIX 0`` is written: g2o fixes one pose by itself, GTSAM reads no edge after this line, and Ceres' reader refuses it.
+A laser line belongs to the last vertex before it: the laser's pose is vertex * robot^-1 * laser. An edge is a
+measurement of pose j in the frame of pose i, with the upper triangle of its information matrix in that frame. No line
+``FIX 0`` is written (docs/file-formats.md).
 """
 
 from __future__ import annotations
@@ -28,24 +24,20 @@ from bayesmap.files import write_text
 from bayesmap.io.log_reading import Account, LogOptions, LogReading
 from bayesmap.io.text.carmen import LASERS, LaserScan, Malformed, laser_reading, parse_floats, parse_laser
 from bayesmap.io.text.lines import log_lines
-from bayesmap.space.planar import between, between_jacobians, compose, inverse, rotation
+from bayesmap.space.planar import Floats, between, between_jacobians, compose, inverse, rotation
 from bayesmap.space.trajectory import Trajectory, lever
 
 if TYPE_CHECKING:
     from bayesmap.poses.pose_gaussian import PoseGaussian
     from bayesmap.poses.trajectory import Trajectory as Approximation
 
-Floats = NDArray[np.float64]
 
 VERTICES = (b"VERTEX_SE2", b"VERTEX2")
 KNOWN = (*VERTICES, b"EDGE_SE2", b"VERTEX_SE3:QUAT", b"VERTEX_XY", b"PARAMS_SE2OFFSET", b"VERTEX_SE2_XY")
 """Words by which a g2o file is recognised."""
 FURTHEST_M = 1e7  # larger coordinates are malformed
-
-LEAST = 1e-3
-"""Least information of an edge, 1 / m^2 and 1 / rad^2: other programs need invertible matrices."""
-SAMPLED, SEED = 300, 1
-"""Number and seed of the random pairs of key scans that measure the effect of common errors."""
+LEAST = 1e-3  # least information of an edge, 1 / m^2 and 1 / rad^2: other programs need invertible matrices
+SAMPLED, SEED = 300, 1  # number and seed of the random pairs of key scans that measure the effect of common errors
 
 
 def read_g2o(path: str | os.PathLike[str], options: LogOptions) -> LogReading:
@@ -74,7 +66,7 @@ def read_g2o(path: str | os.PathLike[str], options: LogOptions) -> LogReading:
                 mount = _mount(scan.numbers) if options.laser is None else np.array(options.laser)
                 pose = compose(vertex, mount)
                 pose[2] = vertex[2] + mount[2]  # not wrapped: yaw beyond a turn may be in degrees, which a note says
-                lasers[kind].append(LaserScan(scan, pose))
+                lasers[kind].append((scan, pose))
         except Malformed as problem:
             account.bad(number, str(problem))
     if not any(lasers.values()):
@@ -154,8 +146,7 @@ def chain_edges(trajectory: Trajectory) -> Edges:
     The covariance of a step comes from the law of relative poses, or else from the draws. Without both, it is the sum
     of the covariances of both poses, as if they were independent, which is too large.
 
-    Raises:
-        BadInput: a trajectory without draws and without covariances, or of a single pose.
+    Raises `BadInput` for a trajectory without draws and without covariances, or of a single pose.
     """
     steps = len(trajectory) - 1
     if steps < 1:

@@ -19,8 +19,7 @@ from bayesmap.io.log_reading import Account, SkippedLine
 GZIP_MAGIC = b"\x1f\x8b"
 GZIP_FORMAT = 16 + zlib.MAX_WBITS
 CHUNK_BYTES = 1 << 18
-MAX_LINE_BYTES = 1 << 20
-"""Longest line: a scan of 50 000 beams fits. A file with a longer line is no text log."""
+MAX_LINE_BYTES = 1 << 20  # 50 000 beams fit; a file with a longer line is no text log
 
 
 class DamagedFile(BadInput):
@@ -33,9 +32,8 @@ def read_lines(path: str | os.PathLike[str]) -> Generator[tuple[int, bytes]]:
     The first two bytes of a file, not its name, decide whether it is gzipped. A byte order mark, which spreadsheets and
     editors write, is removed; UTF-16 after such a mark is turned into UTF-8.
 
-    Raises:
-        DamagedFile: a damaged or truncated gzip stream, after all the whole lines that could be read.
-        BadInput: no such file, no permission, or a line over `MAX_LINE_BYTES`.
+    Raises `DamagedFile` for a damaged or truncated gzip stream, after all the whole lines that could be read, and
+    `BadInput` for no such file, no permission, or a line over `MAX_LINE_BYTES`.
     """
     name, last = os.fspath(path), 0
     chunks = file_chunks(path, lambda: f" after line {last}")
@@ -79,9 +77,8 @@ def split_lines(name: str, pieces: Iterable[bytes]) -> Iterator[tuple[int, bytes
 def file_chunks(path: str | os.PathLike[str], place: Callable[[], str] = str) -> Iterator[bytes]:
     """Yield the content of a file in pieces, decompressed if it is gzipped; ``place`` names the position in messages.
 
-    Raises:
-        DamagedFile: a damaged or truncated gzip stream, after all that could be read.
-        BadInput: no such file, or no permission.
+    Raises `DamagedFile` for a damaged or truncated gzip stream, after all that could be read, and `BadInput` for no
+    such file, or no permission.
     """
     name = os.fspath(path)
     try:
@@ -152,9 +149,8 @@ def _is_number(word: bytes) -> bool:
 def read_table(path: str | os.PathLike[str], columns: int, form: str, nothing: str) -> NDArray[np.float64]:
     """Return the numbers of a text file, plain or gzipped, (N, columns); commas are white space, # begins a comment.
 
-    Raises:
-        BadInput: a file that cannot be read, is empty (with the message ``nothing``), or has a line of another form;
-            the message names the line and the right ``form``.
+    Raises `BadInput` for a file that cannot be read, is empty (with the message ``nothing``), or has a line of another
+    form; the message names the line and the right ``form``.
     """
     name, rows = os.fspath(path), []
     for number, line in read_lines(path):

@@ -29,17 +29,13 @@ from numpy.typing import NDArray
 from bayesmap.errors import BadInput
 from bayesmap.io.log_reading import Account, LogOptions, LogReading, Pose, SkippedLine
 from bayesmap.io.text.lines import file_chunks
-from bayesmap.space.planar import compose, interpolate
+from bayesmap.space.planar import Floats, compose, interpolate
 from bayesmap.space.scans import MAX_BEAMS, fan_fault, side_by_side
 from bayesmap.space.time_order import SAME_S
 
-Floats = NDArray[np.float64]
-
 END = 0x88
-SECONDS_1601_TO_1970 = 11_644_473_600
-"""Stamps count 100 ns from the year 1601."""
-BY_ODOMETRY = 0
-"""MRPT's number for a motion that was estimated by wheel odometry, not by matching scans."""
+SECONDS_1601_TO_1970 = 11_644_473_600  # stamps count 100 ns from the year 1601
+BY_ODOMETRY = 0  # MRPT's number for a motion that was estimated by wheel odometry, not by matching scans
 
 CLASS = re.compile(rb"(?:mrpt::\w+::)?(C(?:Observation|Action|SensoryFrame|Rawlog|Pose)\w*)")
 """Pattern of the names of classes whose objects are searched for."""
@@ -308,9 +304,8 @@ def starts_as_rawlog(path: Path) -> bool:
 def read_rawlog(path: str | os.PathLike[str], options: LogOptions) -> LogReading:
     """Read the scans of a rawlog.
 
-    Raises:
-        BadInput: a file that cannot be read, no scans, no poses (unless the options need none), or an object that is
-            damaged or of an unknown version (unless the options skip it); the message names the class.
+    Raises `BadInput` for a file that cannot be read, no scans, no poses (unless the options need none), or an object
+    that is damaged or of an unknown version (unless the options skip it); the message names the class.
     """
     account = Account(os.fspath(path), "rawlog", options)
     objects = _Objects(account, _content(account))

@@ -30,12 +30,8 @@ from bayesmap.space.trajectory import Trajectory
 if TYPE_CHECKING:
     from bayesmap.posterior.trajectory_scores import Relations
 
-UPRIGHT = 0.1
-"""Sine of half the largest tilt of a pose in the plane."""
-
-
-OWNER = re.compile(rb"# poses of the (base|laser)\b")
-"""Beginning of the header, which names the frame whose poses follow."""
+UPRIGHT = 0.1  # sine of half the largest tilt of a pose in the plane
+OWNER = re.compile(rb"# poses of the (base|laser)\b")  # beginning of the header, which names the frame
 
 
 def write_trajectory(
@@ -71,8 +67,7 @@ def covariances_path(path: str | os.PathLike[str]) -> Path:
 def write_covariances(path: str | os.PathLike[str], covariances: ArrayLike, stamps_s: ArrayLike | None = None) -> Path:
     """Write the covariances of a trajectory's poses in world axes, (S, 3, 3), whole or not at all. Returns the path.
 
-    Raises:
-        BadInput: shapes that do not fit, numbers that are not finite, or a file that cannot be written.
+    Raises `BadInput` for shapes that do not fit, numbers that are not finite, or a file that cannot be written.
     """
     values = np.asarray(covariances, dtype=np.float64)
     if values.ndim != 3 or values.shape[1:] != (3, 3) or len(values) == 0 or not np.isfinite(values).all():
@@ -92,14 +87,11 @@ def _stamps(stamps_s: ArrayLike | None, count: int) -> NDArray[np.float64]:
 def read_trajectory(path: str | os.PathLike[str], frame: str | None = None) -> Trajectory:
     """Read a TUM trajectory, in time order, with the file of `write_covariances` beside it, if any.
 
-    Args:
-        path: the file, plain or gzipped.
-        frame: frame on the robot whose poses it has, "base" or "laser"; by default the frame that its first line names,
-            if it was written by bayesmap, and else unknown.
+    ``frame`` is that on the robot whose poses it has, "base" or "laser"; by default the one that its first line names,
+    if it was written by bayesmap, and else unknown.
 
-    Raises:
-        BadInput: a file that cannot be read, a line that is not eight numbers, a pose that is tilted out of the plane,
-            or covariances of another trajectory; the message names the line.
+    Raises `BadInput` for a file that cannot be read, a line that is not eight numbers, a pose that is tilted out of the
+    plane, or covariances of another trajectory; the message names the line.
     """
     # Poses: the yaw of each quaternion.
     name, nothing = os.fspath(path), "there is no pose in it"
@@ -141,8 +133,7 @@ def write_relations(path: str | os.PathLike[str], first_s: ArrayLike, second_s: 
 
     The times of the first and the second poses are (N,). The second poses in the frames of the first are (N, 3).
 
-    Raises:
-        BadInput: shapes that do not fit, nothing to write, or a file that cannot be written.
+    Raises `BadInput` for shapes that do not fit, nothing to write, or a file that cannot be written.
     """
     starts, ends, poses = (np.asarray(a, dtype=np.float64) for a in (first_s, second_s, relative))
     if len(starts) == 0 or starts.shape != ends.shape or poses.shape != (len(starts), 3):
