@@ -117,27 +117,19 @@ def match(
         apart_rad: difference in yaw beyond which poses are apart.
         strands: number of threads that share one job. The result does not depend on it.
 
-    Raises `BadInput` for arrays that do not fit, or a window or step that is not positive.
+    Raises `BadInput` for a window's centre that is not finite.
     """
     from bayesmap.kernels.match.branch_and_bound import Modes, Windows, search_grids
 
     jobs = len(points)
     centres = np.asarray(centres, np.float64).reshape(-1, 3)
-    if len(centres) != jobs:
-        raise BadInput(f"match: {jobs} sets of points but {len(centres)} windows")
-    if not (step_rad > 0 and modes >= 1 and strands >= 1):
-        raise BadInput(f"match: step_rad, modes and strands must be positive, got {step_rad}, {modes}, {strands}")
     if not np.isfinite(centres).all():
         raise BadInput("match: a window's centre is not finite")
     if grid_of is None:
         grid_of = np.zeros(jobs, np.intp) if len(grids) == 1 else np.arange(jobs)
-    if len(grid_of) != jobs or (jobs and (np.min(grid_of) < 0 or np.max(grid_of) >= len(grids))):
-        raise BadInput(f"match: grid_of must name one of {len(grids)} grids for each of {jobs} jobs")
     half = np.asarray(half_m, np.float64)
     half = np.broadcast_to(half[:, None] if half.ndim == 1 else half, (jobs, 2))
     turns = np.broadcast_to(np.asarray(half_rad, np.float64), (jobs,))
-    if not ((half >= 0).all() and (turns >= 0).all()):
-        raise BadInput("match: half_m and half_rad must not be negative")
     if jobs == 0:
         return Matches(np.empty((0, modes)), np.empty((0, modes, 3)))
     # List all angles of all jobs as rows, with the penalty of each angle and per cell of distance.

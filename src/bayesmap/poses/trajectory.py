@@ -17,20 +17,13 @@ from bayesmap.space.scans import Scans, path_words
 
 @dataclass(frozen=True, eq=False)
 class LoopClosures:
-    """Places that the robot came back to.
+    """Places that the robot came back to."""
 
-    Attributes:
-        first, second: indices of the scans, (M,).
-        relative: the second's pose in the first's frame, as matched, (M, 3).
-        residuals: difference of the final poses from that, x, y, yaw, (M, 3).
-        weights: how far each was believed, from 0 to 1.
-    """
-
-    first: NDArray[np.intp]
+    first: NDArray[np.intp]  # indices of the scans, (M,)
     second: NDArray[np.intp]
-    relative: Floats
-    residuals: Floats
-    weights: Floats
+    relative: Floats  # the second's pose in the first's frame, as matched, (M, 3)
+    residuals: Floats  # difference of the final poses from that, x, y, yaw, (M, 3)
+    weights: Floats  # how far each is believed, from 0 to 1, (M,)
 
     def __len__(self) -> int:
         return len(self.first)
@@ -40,16 +33,13 @@ class LoopClosures:
 class Alternatives:
     """Other trajectories that are not excluded, each with another pose of one stretch of the path.
 
-    Attributes:
-        first, last: scans at the ends of the stretch, which depends on a visit that may be of another place, (A,).
-        probabilities: that the alternative is right and not the trajectory, (A,).
-        poses: of the key scans in each alternative, (A, K, 3).
+    The stretch depends on a visit that may be of another place.
     """
 
-    first: NDArray[np.intp]
-    last: NDArray[np.intp]
-    probabilities: Floats
-    poses: Floats
+    first: NDArray[np.intp]  # scan at the beginning of the stretch, (A,)
+    last: NDArray[np.intp]  # scan at its end, (A,)
+    probabilities: Floats  # that the alternative is right and not the trajectory, (A,)
+    poses: Floats  # of the key scans in each alternative, (A, K, 3)
 
     def __len__(self) -> int:
         return len(self.first)
@@ -60,22 +50,13 @@ NO_ALTERNATIVES = Alternatives(np.empty(0, np.intp), np.empty(0, np.intp), np.em
 
 @dataclass(frozen=True, eq=False)
 class Calibration:
-    """The calibration of laser and odometry.
+    """The calibration of laser and odometry."""
 
-    Attributes:
-        angle_step_ratio: the angle between beams, divided by the stated one.
-        angles_rad: the beam angles that were used, (A,); where they differ from scan to scan, those of the largest: use
-            `calibrated`.
-        odometry: systematic error, lag and noise of odometry; None where there was none.
-        noise: the noise as parameters of the prior `Odometry`; None where there was none.
-        point_sigma_m: standard deviation of a point of a scan about its wall.
-    """
-
-    angle_step_ratio: float
-    angles_rad: Floats
-    odometry: OdometryFit | None
-    noise: Odometry | None
-    point_sigma_m: float
+    angle_step_ratio: float  # the angle between beams, divided by the stated one
+    angles_rad: Floats  # beam angles that were used, (A,), of the largest scan if they differ: use `calibrated`
+    odometry: OdometryFit | None  # systematic error, lag and noise of odometry, if there is any
+    noise: Odometry | None  # the noise as parameters of the prior `Odometry`
+    point_sigma_m: float  # standard deviation of a point of a scan about its wall
 
 
 def calibrated(scans: Scans, angle_step_ratio: float) -> Scans:
@@ -88,11 +69,7 @@ def with_arcs(scale: Floats, dof: float) -> Floats:
 
     An error phi of the heading turns the way after it: its end moves by phi times the lever across, and by -phi^2 / 2
     times the lever along. The lever is the covariance of position and heading over the variance of the heading, turned
-    by a right angle. The mean of phi^4 is that of Student's t. At a heading known to a few degrees nothing changes.
-
-    Args:
-        scale: x, y and yaw of the second pose in the frame of the first, (N, 3, 3).
-        dof: degrees of freedom of Student's t, over 4.
+    by a right angle. The mean of phi^4 is that of Student's t, whose degrees of freedom are over 4.
     """
     along = np.stack([scale[:, 1, 2], -scale[:, 0, 2], np.zeros(len(scale))], axis=1)
     return np.asarray(scale + 0.75 * dof / (dof - 4.0) * along[:, :, None] * along[:, None, :])
