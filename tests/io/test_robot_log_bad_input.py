@@ -130,55 +130,56 @@ def test_a_folder_that_is_no_recording_is_refused(tmp_path):
     r.refused(tmp_path, skip_bad_lines=True)
 
 
-def test_a_missing_topic_is_answered_with_those_that_are_there(whole):
-    message = r.refused(whole["mcap"], scan_topic="/front/scan")
-    assert "/scan (sensor_msgs/msg/LaserScan, 10 messages)" in message
-    message = r.refused(whole["mcap"], scan_topic="/odom")
-    assert "it is a topic of nav_msgs/msg/Odometry" in message
-    message = r.refused(whole["mcap"], pose_topic="/amcl_pose")
-    assert "/odom (nav_msgs/msg/Odometry, 21 messages)" in message
-    assert "/tf (tf2_msgs/msg/TFMessage, 42 messages)" in message
-
-
-def test_a_recording_without_scans_lists_what_it_holds(tmp_path):
-    messages = r.without(r.robot(odom=True)[0], "/scan")
-    message = r.refused(r.written(tmp_path, messages))
-    assert "no topic holds sensor_msgs/msg/LaserScan or sensor_msgs/msg/Range" in message
-    assert "/odom (nav_msgs/msg/Odometry" in message
-
-
-def test_of_two_lasers_one_must_be_chosen(tmp_path):
+def two_lasers():
     messages, _ = r.robot()
-    rear = [("/rear", m[1], m[2], m[3]) for m in messages if m[0] == "/scan"][:4]
-    path = r.written(tmp_path, sorted([*messages, *rear], key=lambda m: m[2]))
-    message = r.refused(path)
-    assert "choose one with --scan-topic: /rear (" in message
-    assert "/scan (" in message
-    assert len(read_log(path, scan_topic="/rear")) == 4
+    return r.merged(messages, [("/rear", *m[1:]) for m in messages if m[0] == "/scan"][:4])
 
 
-def test_without_a_chain_of_frames_the_known_ones_are_listed(tmp_path):
-    messages = r.without(r.robot()[0], "/tf")
-    message = r.refused(r.written(tmp_path, messages))
-    assert "known frames: base_link, laser" in message
-    assert "--fixed-frame" in message
-    both = r.robot()[0]
-    path = r.written(tmp_path / "both", both)
-    assert "the frame 'earth' is not known; known frames: base_link, laser, map, odom" in r.refused(
-        path, fixed_frame="earth"
-    )
-
-
-def test_several_topics_of_poses_are_listed_where_tf_does_not_help(tmp_path):
+def two_odometries():
     messages, _ = r.robot(tf_poses=False, odom=True)
-    messages += [("/wheels", *m[1:]) for m in messages if m[0] == "/odom"]
-    message = r.refused(r.written(tmp_path, sorted(messages, key=lambda m: m[2])))
-    assert "choose one with --pose-topic: there are /odom (" in message
+    return r.merged(messages, [("/wheels", *m[1:]) for m in messages if m[0] == "/odom"])
 
 
-def test_poses_by_another_clock_are_noticed(tmp_path):
-    messages = r.with_scans(r.robot()[0], (1.0, r.laser(5000.0, [1.0] * 41, r.ANGLES)))
-    assert "are both by the same clock?" in r.refused(r.written(tmp_path, messages))
+def on_its_side():
+    side = r.transform(0.0, "base_link", "laser", *r.MOUNT, roll=math.pi / 2)
+    return [("/tf_static", r.TF, 0.0, r.tf(side)), *r.robot(static=False)[0]]
+
+
+REFUSED = {
+    "missing scans": (lambda: r.robot()[0], {"scan_topic": "/front/scan"}, ["/scan (sensor_msgs/msg/LaserScan, 10 "]),
+    "no scans": (lambda: r.robot(odom=True)[0], {"scan_topic": "/odom"}, ["it is a topic of nav_msgs/msg/Odometry"]),
+    "missing poses": (
+        lambda: r.robot(odom=True)[0], {"pose_topic": "/amcl_pose"},
+        ["/odom (nav_msgs/msg/Odometry, 21 messages)", "/tf (tf2_msgs/msg/TFMessage, 42 messages)"],
+    ),
+    "without scans": (
+        lambda: r.without(r.robot(odom=True)[0], "/scan"), {},
+        ["no topic holds sensor_msgs/msg/LaserScan or sensor_msgs/msg/Range", "/odom (nav_msgs/msg/Odometry"],
+    ),
+    "two lasers": (two_lasers, {}, ["choose one with --scan-topic: /rear (", "/scan ("]),
+    "no chain": (lambda: r.without(r.robot()[0], "/tf"), {}, ["known frames: base_link, laser", "--fixed-frame"]),
+    "unknown frame": (
+        lambda: r.robot()[0], {"fixed_frame": "earth"},
+        ["the frame 'earth' is not known; known frames: base_link, laser, map, odom"],
+    ),
+    "two odometries": (two_odometries, {}, ["choose one with --pose-topic: there are /odom ("]),
+    "another clock": (
+        lambda: r.with_scans(r.robot()[0], (1.0, r.laser(5000.0, [1.0] * 41, r.ANGLES))), {},
+        ["are both by the same clock?"],
+    ),
+    "on its side": (on_its_side, {}, ["is tilted by 90 degrees"]),
+}  # fmt: skip
+"""Recordings, options of the reader, and parts of the message that refuses them."""
+
+
+@pytest.mark.parametrize(("make", "options", "parts"), REFUSED.values(), ids=REFUSED)
+def test_what_must_be_chosen_or_cannot_be_used_is_refused_with_what_is_there(tmp_path, make, options, parts):
+    message = r.refused(r.written(tmp_path, make()), **options)
+    assert [part for part in parts if part not in message] == []
+
+
+def test_of_two_lasers_the_chosen_one_is_read(tmp_path):
+    assert len(read_log(r.written(tmp_path, two_lasers()), scan_topic="/rear")) == 4
 
 
 def replaced(change, which=4):
@@ -244,13 +245,6 @@ def test_a_storm_of_nan_leaves_the_other_scans_and_one_of_all_scans_is_refused(t
     np.testing.assert_array_equal(np.delete(read.ranges_m, 4, 0), np.delete(scans.ranges_m, 4, 0))
     every = [(*m[:3], {**m[3], "ranges": nothing}) if m[0] == "/scan" else m for m in messages]
     assert "none of 410 readings in 10 scans is valid" in r.refused(r.written(tmp_path / "all", every))
-
-
-def test_a_sensor_on_its_side_is_refused(tmp_path):
-    messages, _ = r.robot(static=False)
-    side = r.transform(0.0, "base_link", "laser", *r.MOUNT, roll=math.pi / 2)
-    path = r.written(tmp_path, [("/tf_static", r.TF, 0.0, r.tf(side)), *messages])
-    assert "is tilted by 90 degrees" in r.refused(path)
 
 
 def test_topics_mean_nothing_to_a_carmen_log(tmp_path):

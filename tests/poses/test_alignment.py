@@ -27,19 +27,18 @@ from bayesmap.space.planar import between, transform
 from bayesmap.space.scans import Scans
 
 TRUTH = path_around()
-REACH, SCALE, ALIKE = 0.3, 0.1, 0.7
+SCALE, ALIKE = 0.1, 0.7
 
 
 @cache
-def ring_geometry():
-    """Return the points and normals of twelve scans along the path."""
-    angles, ranges = scans_of(ring(), TRUTH[:12], noise_m=0.005)
+def ring_geometry(full):
+    """Return the points and normals of twelve scans along the path, of half a circle or a full one."""
+    angles, ranges = scans_of(ring(), TRUTH[:12], noise_m=0.02 if full else 0.005, full=full)
     return scan_geometry(Scans(TRUTH[:12], angles, ranges, max_range_m=12.0))
 
 
-def plain(i, j, z):
-    """The sums by NumPy: nearest point of j, mean normal, Geman and McClure's weight."""
-    geometry = ring_geometry()
+def plain(geometry, i, j, z, reach):
+    """The sums by NumPy: nearest point of all of j, mean normal, Geman and McClure's weight."""
     points, normals, kind = geometry.host_points, geometry.host_normals, geometry.host_kind
     second, first, cost = np.zeros((3, 3)), np.zeros(3), 0.0
     there = points[j][kind[j] > 0]
@@ -49,7 +48,7 @@ def plain(i, j, z):
         x = transform(z, points[i, b].astype(float))
         k = np.argmin(((there - x) ** 2).sum(axis=1))
         near = index[k]
-        if ((there[k] - x) ** 2).sum() >= REACH**2 or kind[j, near] != kind[i, b]:
+        if ((there[k] - x) ** 2).sum() >= reach**2 or kind[j, near] != kind[i, b]:
             continue
         if kind[i, b] == 1:  # no walls: point to point
             sides = [m for m in (near - 1, near + 1) if 0 <= m < kind.shape[1] and kind[j, m] > 0]
@@ -77,20 +76,17 @@ def plain(i, j, z):
     return second, first, cost
 
 
-def kernel(i, j, z):
-    one = [np.array([k], np.int32) for k in (i, j)]
-    second, slack, first, totals = pair_sums(ring_geometry(), None, *one, np.array([z]), REACH, SCALE, ALIKE)
-    return second[0], slack[0], first[0], totals[0]
-
-
-def test_sums_equal_the_plain_formula():
+@pytest.mark.parametrize(("full", "reach"), [(False, 0.3), (True, 0.08), (True, 0.6)])
+def test_sums_equal_the_plain_formula(full, reach):
+    geometry = ring_geometry(full)
     for i, j in ((3, 1), (5, 2), (11, 8)):
         z = between(TRUTH[j], TRUTH[i]) + np.array([0.02, -0.03, 0.01])
-        second, first, cost = plain(i, j, z)
-        found_second, _, found_first, totals = kernel(i, j, z)
-        np.testing.assert_allclose(found_second, second, rtol=2e-3, atol=2e-2)
-        np.testing.assert_allclose(found_first, first, rtol=2e-3, atol=2e-3)
-        np.testing.assert_allclose(totals[0], cost, rtol=2e-3, atol=1e-4)
+        pair = np.array([i], np.int32), np.array([j], np.int32), z[None]
+        found_second, _, found_first, totals = pair_sums(geometry, None, *pair, reach, SCALE, ALIKE)
+        second, first, cost = plain(geometry, i, j, z, reach)
+        np.testing.assert_allclose(found_second[0], second, rtol=2e-3, atol=2e-2)
+        np.testing.assert_allclose(found_first[0], first, rtol=2e-3, atol=2e-3)
+        np.testing.assert_allclose(totals[0, 0], cost, rtol=2e-3, atol=1e-4)
 
 
 def test_first_derivatives_equal_finite_differences_of_the_cost_with_fixed_pairs_and_normals():

@@ -251,7 +251,7 @@ def _by_rosbags(
     """Return a recording that rosbags reads; an MCAP file that it refuses is read record by record."""
     by_records = container == "mcap" and is_file
     try:
-        topics, *times = _rosbags_topics(reader, container)
+        topics, times = _rosbags_topics(reader, container)
     except Damaged as problem:
         if not by_records:
             raise
@@ -276,7 +276,7 @@ def _by_records(
 ) -> Recording:
     """Return a recording read record by record. Opening it calls ``on_damage``, each reading ``on_damage_again``."""
     records = RECORD_READERS[container][1]
-    topics, *times = topics_of(records(path, on_damage))
+    topics, times = topics_of(records(path, on_damage))
 
     def read(names: frozenset[str]) -> Iterable[Message]:
         return list(messages_of(records(path, on_damage_again), topics, names))
@@ -284,7 +284,7 @@ def _by_records(
     return Recording(os.fspath(path), container, topics, read, *times)
 
 
-def _rosbags_topics(make: Callable[[], Any], container: str) -> tuple[dict[str, Topic], int | None, int | None]:
+def _rosbags_topics(make: Callable[[], Any], container: str) -> tuple[dict[str, Topic], raw.Times]:
     topics: dict[str, Topic] = {}
     with _opened(make) as reader:
         for connection in sorted(reader.connections, key=lambda c: str(c.topic)):
@@ -299,9 +299,8 @@ def _rosbags_topics(make: Callable[[], Any], container: str) -> tuple[dict[str, 
                 *(ros1 if container == "rosbag1" else (connection.ext.serialization_format, "")),
             )  # fmt: skip
         about = reader if container == "rosbag1" or not hasattr(reader, "metadata") else reader.metadata
-        start_ns, end_ns = about.start_time, about.end_time - 1
-    held = any(topic.count for topic in topics.values())
-    return topics, (start_ns if held else None), (end_ns if held else None)
+        times = about.start_time, about.end_time - 1
+    return topics, times if any(topic.count for topic in topics.values()) else (None, None)
 
 
 def _rosbags_messages(make: Callable[[], Any], topics: dict[str, Topic], names: frozenset[str]) -> list[Message]:

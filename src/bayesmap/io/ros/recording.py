@@ -113,9 +113,10 @@ class Record(NamedTuple):
 
 
 Records = Iterator[Connection | Record]
+Times = tuple[int | None, int | None]  # of receipt of the first and the last message
 
 
-def topics_of(records: Records) -> tuple[dict[str, Topic], int | None, int | None]:
+def topics_of(records: Records) -> tuple[dict[str, Topic], Times]:
     """Return the topics with their counts, and the times of receipt of the first and the last message."""
     connections: dict[int, Topic] = {}
     counts: dict[str, int] = {}
@@ -131,7 +132,7 @@ def topics_of(records: Records) -> tuple[dict[str, Topic], int | None, int | Non
             end_ns = time if end_ns is None else max(end_ns, time)
     first = {topic.name: topic for topic in reversed(connections.values())}
     topics = {name: replace(first[name], count=counts[name]) for name in sorted(first)}
-    return topics, start_ns, end_ns
+    return topics, (start_ns, end_ns)
 
 
 def messages_of(records: Records, topics: Mapping[str, Topic], names: frozenset[str]) -> Iterator[Message]:

@@ -1,14 +1,15 @@
-"""Beams that are close together are merged before scans are matched, and points are paired with the nearest ones."""
+"""The laser's noise is found from scans alone, and beams that are close together are merged before they are matched."""
 
 import numpy as np
 import pytest
-from simulated import path_around, ring, scans_of
+from simulated import off, path_around, recording, ring, scans_of
+from tiers import latin
 
-from bayesmap.kernels.match.line_pairs import pair_sums
 from bayesmap.poses import calibration
+from bayesmap.poses import scan_geometry as geometry_module
 from bayesmap.poses.calibration import angle_step_ratio
-from bayesmap.poses.scan_geometry import merged, scan_geometry
-from bayesmap.space.planar import between, transform
+from bayesmap.poses.scan_geometry import LEAST_M, MOST_M, merged, range_noise_m, scan_geometry
+from bayesmap.poses.slam import infer_trajectory
 from bayesmap.space.scans import Scans
 
 ANGLES = np.radians(np.arange(-90.0, 90.0, 0.25))
@@ -62,27 +63,53 @@ def test_the_angle_between_beams_of_a_full_circle_is_their_number_s(monkeypatch)
         assert (ratio == 1.0) == full
 
 
-@pytest.mark.parametrize("reach_m", [0.08, 0.3, 0.6])
-def test_points_are_paired_with_the_nearest_of_all(reach_m):
-    """Cost and weight of the pairs, against a search among all points."""
-    poses = path_around(0.3)
-    angles, ranges = scans_of(ring(), poses, full=True, noise_m=0.02)
-    geometry = scan_geometry(Scans(poses, angles, ranges, 12.0))
-    source, target = np.arange(10), np.arange(10) + 2
-    relative = between(poses[target], poses[source]) + np.array([0.03, -0.02, 0.01])
-    _, _, _, totals = pair_sums(geometry, None, source, target, relative, reach_m, 0.1, 0.7)
-    for i, j, z, found in zip(source, target, relative, totals, strict=True):
-        mine, theirs = (geometry.host_kind[k] > 0 for k in (i, j))
-        points, normals = geometry.host_points[i][mine], geometry.host_normals[i][mine]
-        moved, turned = transform(z, points), transform(np.array([0.0, 0.0, z[2]]), normals)
-        walls, facing = geometry.host_points[j][theirs], geometry.host_normals[j][theirs]
-        apart = np.linalg.norm(moved[:, None] - walls[None], axis=-1)
-        near = apart.argmin(axis=1)
-        lines = (geometry.host_kind[i][mine] == 2) & (geometry.host_kind[j][theirs][near] == 2)
-        used = lines & (apart.min(axis=1) < reach_m) & ((turned * facing[near]).sum(axis=1) > 0.7)
-        mean = turned[used] + facing[near[used]]
-        mean /= np.linalg.norm(mean, axis=1, keepdims=True)
-        e = (mean * (moved[used] - walls[near[used]])).sum(axis=1)
-        w = (1.0 + (e / 0.1) ** 2) ** -2
-        assert found[1] == pytest.approx(w.sum(), rel=1e-3)
-        assert found[0] == pytest.approx((w * e**2).sum(), rel=1e-3)
+POSES = path_around(laps=1.0)[::2]
+
+
+def found_m(noise_m, beams=180):
+    angles, ranges = scans_of(ring(), POSES, beams=beams, noise_m=noise_m)
+    return range_noise_m(ranges, float(angles[1] - angles[0]))
+
+
+@pytest.mark.parametrize(("noise_m", "beams"), latin(3, [0.015, 0.03, 0.045], [90, 180, 720]))
+def test_the_noise_is_found_to_an_eighth(noise_m, beams):
+    assert found_m(noise_m, beams) == pytest.approx(noise_m, rel=0.125)
+
+
+def test_no_laser_is_taken_to_be_better_or_worse_than_walls_allow():
+    assert found_m(0.001) == LEAST_M
+    assert found_m(0.2) == MOST_M
+
+
+def test_scans_with_too_few_hits_tell_nothing():
+    assert range_noise_m(np.full((3, 180), np.inf), 0.0175) == LEAST_M
+    assert range_noise_m(np.full((3, 2), 1.0), 0.0175) == LEAST_M
+
+
+def test_noisy_scans_have_normals_too(monkeypatch):
+    """The twin: fitted as if the laser were a good one."""
+    angles, ranges = scans_of(ring(), POSES, noise_m=0.03)
+    scans = Scans(POSES, angles, ranges, max_range_m=12.0)
+
+    def share():
+        kind = scan_geometry(scans).host_kind
+        return (kind == 2).sum() / (kind > 0).sum()
+
+    assert share() > 0.6
+    monkeypatch.setattr(geometry_module, "range_noise_m", lambda *_: LEAST_M)
+    assert share() < 0.45
+
+
+@pytest.mark.full
+def test_a_noisy_laser_s_trajectory_is_right_and_knows_how_far(monkeypatch):
+    scans, truth = recording(noise=2.0, turn_bias=0.03, laser_noise_m=0.03)
+
+    def errors():
+        found = infer_trajectory(scans, threads=2)
+        error = off(found.poses, truth)
+        return np.hypot(error[:, 0], error[:, 1])
+
+    right = errors()
+    assert right.max() < 0.06
+    monkeypatch.setattr(geometry_module, "range_noise_m", lambda *_: LEAST_M)
+    assert np.sqrt((errors() ** 2).mean()) > 1.2 * np.sqrt((right**2).mean())
