@@ -127,11 +127,7 @@ def test_a_geotiff_is_right_for_other_libraries_than_the_one_that_wrote_it(tmp_p
     rasterio = pytest.importorskip("rasterio")
     path = write_geotiff(tmp_path / "floor.tif", LAYERS, GRID, observed())
     with rasterio.open(path) as file:
-        assert (file.descriptions, file.crs, tuple(file.bounds)) == (
-            ("mean", "entropy"),
-            None,
-            (-1.5, 2.0, -0.25, 2.75),
-        )
+        assert (file.descriptions, file.crs) == (("mean", "entropy"), None)
     content = path.read_bytes()
     assert content[:4] in (b"II*\0", b"MM\0*")
     with Image.open(path) as image:
