@@ -255,14 +255,6 @@ def test_an_edge_that_says_nothing_of_a_direction_can_still_be_read():
     assert np.linalg.eigvalsh(edges.information).min() == pytest.approx(1e-3)
 
 
-def test_gtsam_finds_nothing_to_mend(tmp_path):
-    gtsam = pytest.importorskip("gtsam")
-    poses, graph = written(round_way(), tmp_path / "walk.g2o")
-    read, values = gtsam.readG2o(str(tmp_path / "walk.g2o"), False)
-    assert (read.size(), values.size()) == (len(graph), len(poses))
-    assert read.error(values) < 1e-6
-
-
 @pytest.mark.parametrize("name", ["true.relations", "true.relations.gz"])
 def test_relations_are_written_with_all_their_digits(tmp_path, name):
     rng = np.random.default_rng(0)

@@ -3,7 +3,7 @@
 import numpy as np
 
 from bayesmap.kernels.walk import cast
-from bayesmap.space.planar import between, compose, retract
+from bayesmap.space.planar import between, compose
 from bayesmap.space.scans import Scans
 
 RESOLUTION = 0.02
@@ -85,6 +85,3 @@ def off(poses, truth):
     """Errors of poses relative to the first, (S, 3)."""
     mine, theirs = between(poses[:1], poses), between(truth[:1], truth)
     return between(theirs, mine)
-
-
-__all__ = ["odometry_of", "off", "path_around", "recording", "retract", "ring", "scans_of"]
