@@ -57,20 +57,6 @@ def test_scans_on_the_vertices_of_a_graph(tmp_path):
     np.testing.assert_array_equal(read_log(packed, max_range_m=42.0).ranges_m, scans.ranges_m)
 
 
-@pytest.mark.parametrize(
-    ("change", "message"),
-    [
-        (("VERTEX_SE2 3 ", "VERTEX_SE2 3 nan "), "line 9: VERTEX_SE2 has 6 fields"),
-        (("VERTEX_SE2 0 ", "# "), "line 2: ROBOTLASER1 does not follow a VERTEX_SE2"),
-        (("ROBOTLASER1 0 -2.0", "ROBOTLASER1 0 x"), "line 2: ROBOTLASER1 has 'x' for a number"),
-    ],
-)
-def test_malformed_lines_of_a_graph_are_named_and_left_out_on_request(tmp_path, change, message):
-    path = written(tmp_path / "graph.g2o", g2o(simulated(TIMES)).replace(*change, 1))
-    assert message in refused(path)
-    assert len(read_log(path, skip_bad_lines=True)) == 5
-
-
 @pytest.mark.parametrize("edges", ["", "EDGE2 0 1 1 0 0 1 0 1 1 0 0\n"])
 def test_toro_s_vertices_are_those_of_a_graph(tmp_path, edges):
     """VERTEX2 beside CARMEN lines: the optimised poses, not those of the laser lines."""
@@ -151,17 +137,25 @@ def test_tables_that_cannot_be_used(tmp_path, change, message):
 
 
 @pytest.mark.parametrize(
-    ("row", "message"),
+    ("text", "number", "line", "message"),
     [
-        ("1,2,3", "line 8: the row has 3 fields where the header has 45"),
-        (",".join(["1"] * 20 + ["x"] * 25), "line 8: field 21 is 'x', not a number"),
-        (",".join(["nan"] * 45), "line 8: a number that must be finite is not"),
+        (g2o, 8, "VERTEX_SE2 3 nan 0 0 0", "line 9: VERTEX_SE2 has 6 fields"),
+        (g2o, 0, "# 0", "line 2: ROBOTLASER1 does not follow a VERTEX_SE2"),
+        (
+            g2o,
+            1,
+            "ROBOTLASER1 0 -2.0 4.0 0.1 42.0 0.01 0 1 x 0" + " 0" * 12 + " h 0",
+            "line 2: ROBOTLASER1 has 'x'",
+        ),
+        (csv, 7, "1,2,3", "line 8: the row has 3 fields where the header has 45"),
+        (csv, 7, ",".join(["1"] * 20 + ["x"] * 25), "line 8: field 21 is 'x', not a number"),
+        (csv, 7, ",".join(["nan"] * 45), "line 8: a number that must be finite is not"),
     ],
 )
-def test_malformed_rows_are_named_and_left_out_on_request(tmp_path, row, message):
-    lines = csv(simulated(TIMES)).splitlines()
-    lines[7] = row
-    path = written(tmp_path / "scans.csv", "\n".join(lines))
+def test_malformed_lines_are_named_and_left_out_on_request(tmp_path, text, number, line, message):
+    lines = text(simulated(TIMES)).splitlines()
+    lines[number] = line
+    path = written(tmp_path / "log", "\n".join(lines))
     assert message in refused(path)
     assert len(read_log(path, skip_bad_lines=True)) == 5
 

@@ -60,23 +60,6 @@ def test_trinary_and_thresholds(tmp_path):
     assert list(found.message.data) == [0, -1, -1, 100]
 
 
-@pytest.mark.parametrize(
-    ("change", "says"),
-    [
-        ({"occupancy": np.zeros((3, 5))}, r"occupancy has shape \(3, 5\), but the grid has \(5, 3\)"),
-        ({"mode": "fuzzy"}, "use one of trinary, scale, raw"),
-        ({"path": "floor.txt"}, r"\.bag \(ROS 1\), \.mcap or \.db3 \(ROS 2\)"),
-        ({"path": "nowhere/floor"}, "cannot be written .*name a folder inside one"),
-    ],
-)
-def test_what_cannot_be_written_leaves_no_file(tmp_path, change, says):
-    arguments = {"path": "floor.mcap", "occupancy": occupancy(), "grid": GRID, **change}
-    arguments["path"] = tmp_path / arguments["path"]
-    with pytest.raises(BadInput, match=says):
-        write_occupancy_grid(**arguments)
-    assert list(tmp_path.iterdir()) == []
-
-
 def test_a_bag_in_a_folder_is_replaced_but_nothing_else_is(tmp_path):
     folder = tmp_path / "floor"
     folder.mkdir()  # an empty folder is as good as none
@@ -149,16 +132,23 @@ def test_the_matrices_are_labelled_as_grid_map_labels_eigens_and_ros_1_knows_the
     assert found.type_name == "grid_map_msgs/GridMap"
 
 
+CELLS, MAP = (occupancy(), GRID), "floor.mcap"
+
+
 @pytest.mark.parametrize(
-    ("layers", "says"),
+    ("write", "name", "arguments", "options", "says"),
     [
-        ({}, "no layer to write"),
-        ({"": occupancy()}, "needs a name"),
-        ({"mean": occupancy().T}, r"layer 'mean' has shape \(3, 5\)"),
-        ({"mean": np.full(GRID.shape, np.inf)}, r"layer 'mean'\[0, 0\] is inf"),
+        (write_occupancy_grid, MAP, (np.zeros((3, 5)), GRID), {}, r"has shape \(3, 5\), but the grid has \(5, 3\)"),
+        (write_occupancy_grid, MAP, CELLS, {"mode": "fuzzy"}, "use one of trinary, scale, raw"),
+        (write_occupancy_grid, "floor.txt", CELLS, {}, r"\.bag \(ROS 1\), \.mcap or \.db3 \(ROS 2\)"),
+        (write_occupancy_grid, "nowhere/floor", CELLS, {}, "cannot be written .*name a folder inside one"),
+        (write_grid_map, MAP, ({}, GRID), {}, "no layer to write"),
+        (write_grid_map, MAP, ({"": occupancy()}, GRID), {}, "needs a name"),
+        (write_grid_map, MAP, ({"mean": occupancy().T}, GRID), {}, r"layer 'mean' has shape \(3, 5\)"),
+        (write_grid_map, MAP, ({"mean": np.full(GRID.shape, np.inf)}, GRID), {}, r"layer 'mean'\[0, 0\] is inf"),
     ],
 )
-def test_layers_that_do_not_fit_are_named(tmp_path, layers, says):
+def test_what_cannot_be_written_leaves_no_file(tmp_path, write, name, arguments, options, says):
     with pytest.raises(BadInput, match=says):
-        write_grid_map(tmp_path / "floor.mcap", layers, GRID)
+        write(tmp_path / name, *arguments, **options)
     assert list(tmp_path.iterdir()) == []

@@ -106,10 +106,12 @@ def test_the_result_does_not_depend_on_threads():
         np.testing.assert_array_equal(one.poses, other.poses)
 
 
-def test_scans_are_found_where_they_were_taken():
-    found = match(
-        notched_grids(), [notched_geometry().points_of(2)], [[0.0, 0.0, 0.0]], 1.2, np.pi, step_rad=np.radians(1.0)
-    )
+def test_scans_are_found_where_they_were_taken_and_nothing_is_where_nothing_scores():
+    points = [notched_geometry().points_of(2)]
+    nothing = match(notched_grids(), points, [[50.0, 0.0, 0.0]], 0.5, 0.5, step_rad=STEP, least=0.1)
+    assert not nothing.found.any()
+    assert np.isnan(nothing.poses).all()
+    found = match(notched_grids(), points, [[0.0, 0.0, 0.0]], 1.2, np.pi, step_rad=np.radians(1.0))
     off = between(POSES[2], found.poses[0, 0])
     assert np.hypot(off[0], off[1]) < 0.06
     assert abs(off[2]) < np.radians(1.5)
@@ -124,14 +126,6 @@ def test_a_symmetrical_room_gives_both_poses():
     assert abs(abs(opposite[2]) - np.pi) < np.radians(3.0)
     np.testing.assert_allclose(found.poses[0, 0, :2], -found.poses[0, 1, :2], atol=0.11)
     assert found.scores[0, 1] > 0.95 * found.scores[0, 0]
-
-
-def test_nothing_is_found_where_nothing_scores():
-    found = match(
-        notched_grids(), [notched_geometry().points_of(2)], [[50.0, 0.0, 0.0]], 0.5, 0.5, step_rad=STEP, least=0.1
-    )
-    assert not found.found.any()
-    assert np.isnan(found.poses).all()
 
 
 def test_a_window_about_no_pose_is_refused():
