@@ -144,16 +144,8 @@ def in_percent(
 ) -> NDArray[np.int8]:  # fmt: skip
     """Return the occupancy of every cell in per cent, shape (nx, ny), -1 where unknown.
 
-    Args:
-        occupancy: probability that each cell is occupied, shape (nx, ny), NaN where unknown.
-        grid: the grid of the map.
-        observed: cells that some beam reached, shape (nx, ny); all by default.
-        mode: trinary, scale or raw, as above.
-        occupied_thresh: 0.65 for trinary, 1 for scale.
-        free_thresh: 0.25 for trinary, 0 for scale.
-
-    Raises:
-        BadInput: shapes that do not fit, probabilities outside [0, 1], an unknown mode, thresholds out of order.
+    Arguments are those of `write_map`. Raises `BadInput` for shapes that do not fit, probabilities outside [0, 1], an
+    unknown mode, or thresholds out of order.
     """
     occupied, free = _thresholds(mode, occupied_thresh, free_thresh)
     p = as_probabilities(grid, occupancy, "occupancy", unknown=True)

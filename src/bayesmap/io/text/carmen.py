@@ -272,15 +272,9 @@ def write_carmen(path: str | os.PathLike[str], scans: Scans, robot_poses: Floats
     """Write scans as a CARMEN log, whole or not at all; gzipped if the name ends in .gz.
 
     Ranges keep a tenth of a millimetre. A reading that is too close or invalid becomes 0, which is read back as
-    invalid; hits at the sensor's maximum range and beyond become no return.
-
-    Args:
-        path: the log to write.
-        scans: scans to write, with the laser's poses; without stamps, they are written a second apart.
-        robot_poses: poses of the robot's base in the same frame, shape (S, 3); the laser's if None.
-
-    Returns:
-        The kind of message that was written: ``"FLASER"`` or ``"ROBOTLASER1"``.
+    invalid; hits at the sensor's maximum range and beyond become no return. Scans without stamps are written a second
+    apart. ``robot_poses`` are those of the robot's base, (S, 3), by default the laser's. Returns the kind of message
+    that was written: ``"FLASER"`` or ``"ROBOTLASER1"``.
 
     Raises `BadInput` for no scan, a scan of less than two beams, or beams that are not equally far apart, which neither
     message can state.
