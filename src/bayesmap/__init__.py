@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     from bayesmap.poses.prior import KnownPoses as KnownPoses, Odometry as Odometry, UncertainPoses as UncertainPoses
     from bayesmap.posterior.information import InformationGain as InformationGain
     from bayesmap.posterior.route import FreeProbability as FreeProbability, Route as Route
+    from bayesmap.posterior.scores import compare_scores as compare_scores
     from bayesmap.programs.mapping import mapping_model as mapping_model
     from bayesmap.result import Run as Run, load as load, score as score
     from bayesmap.run.ray_executor import RayExecutor as RayExecutor
@@ -59,6 +60,7 @@ _NAMES = {
     "bayesmap.poses.prior": ("KnownPoses", "Odometry", "UncertainPoses"),
     "bayesmap.posterior.information": ("InformationGain",),
     "bayesmap.posterior.route": ("FreeProbability", "Route"),
+    "bayesmap.posterior.scores": ("compare_scores",),
     "bayesmap.programs.mapping": ("mapping_model",),
     "bayesmap.result": ("Run", "load", "score"),
     "bayesmap.run.ray_executor": ("RayExecutor",),

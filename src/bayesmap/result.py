@@ -6,7 +6,7 @@ import base64
 import html
 import io
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput, near_names
 from bayesmap.posterior.posterior import Posterior, entropy_bits
+from bayesmap.posterior.predictor import CENTRAL_80, PREDICTED_DRAWS
 from bayesmap.posterior.scores import Score, log_score, score_posterior
 from bayesmap.posterior.summary import Summary, rhat, summarise
 from bayesmap.sensors.model import SensorModel
@@ -27,8 +28,10 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from numpy.typing import ArrayLike
 
+    from bayesmap.cells.kind import CellPrior
     from bayesmap.poses.trajectory import Trajectory
     from bayesmap.posterior.information import InformationGain
+    from bayesmap.posterior.prediction import Prediction
     from bayesmap.posterior.route import FreeProbability, Route
     from bayesmap.posterior.summary import PoseSummary
 
@@ -54,6 +57,16 @@ class Run:
     def grid(self) -> Grid:
         """Return the grid of the cells."""
         return self.posterior.grid
+
+    @property
+    def sensor(self) -> SensorModel | None:
+        """Return the law of the readings, as fitted; None in a loaded run with a sensor model of your own."""
+        return self.posterior.sensor
+
+    @property
+    def prior(self) -> CellPrior:
+        """Return the prior of the cells, as fitted."""
+        return self.posterior.prior
 
     @property
     def finished(self) -> bool:
@@ -262,52 +275,60 @@ class Run:
             self.posterior, poses, angles_rad, max_range_m=max_range_m, sensor=sensor, draws=draws, seed=seed
         )
 
-    def dataset(self) -> xarray.Dataset:
+    def predict(
+        self, poses: ArrayLike, angles_rad: ArrayLike | None = None, *, levels: Sequence[float] = CENTRAL_80,
+        draws: int = PREDICTED_DRAWS, max_range_m: float | None = None, sensor: SensorModel | None = None,
+        seed: int = 0,
+    ) -> Prediction:  # fmt: skip
+        """Predict the readings of one scan from each pose: draws from their joint law, and quantiles of each reading.
+
+        Args:
+            poses: poses in the world frame, (3,) or (P, 3).
+            angles_rad: angles of the beams in the sensor's frame, (A,); None: those of the run's scans.
+            levels: probabilities of the quantiles, rising, inside (0, 1).
+            draws: largest number of maps that readings are drawn from.
+            max_range_m: largest range of the sensor; None: that of the run's scans.
+            sensor: law of the readings; None: the run's.
+            seed: seed of the drawn readings.
+
+        Returns:
+            ``.draws_m`` (draws, P, A) and ``.quantiles_m`` (P, A, levels), metres: +inf is no return, -inf too close.
+
+        Raises:
+            BadInput: a run without draws, poses outside the map, or invalid angles, levels or range.
+        """
+        from bayesmap.posterior.prediction import predict
+
+        return predict(
+            self.posterior, poses, angles_rad, levels=levels, draws=draws, max_range_m=max_range_m, sensor=sensor,
+            seed=seed,
+        )  # fmt: skip
+
+    def dataset(self, *, by_reading: bool = False) -> xarray.Dataset:
         """Return draws, log densities and marginals as an xarray dataset with named dimensions.
 
         ``chain`` and ``draw`` count from 0. ``x`` and ``y`` are the cells' centres in the world frame, metres. Arrays
-        over only a part of the cells have the indices of these cells as ``cell_x`` and ``cell_y``.
+        over only a part of the cells have the indices of these cells as ``cell_x`` and ``cell_y``. ``by_reading`` adds
+        the log likelihood of every valid reading in every draw, at 4 bytes each, as ``reading_log_likelihood``.
 
         Raises:
-            BadInput: xarray is not installed.
+            BadInput: xarray is not installed; with ``by_reading``, no draws or an unknown sensor model.
         """
-        try:
-            import xarray
-        except ImportError:
-            raise BadInput("dataset: needs xarray: pip install 'bayesmap[arviz]'") from None
-        # Arrays of the draws, then densities, then marginals.
-        posterior = self.posterior
-        draws, ny = posterior.draws, posterior.grid.shape[1]
-        x, y = posterior.grid.centers_m()
-        variables = {
-            spec.name: (("chain", "draw", *spec.dims), draws.values(spec.name), {"long_name": spec.what})
-            for spec in draws.specs
-        }
-        by_draw = {
-            "lp": posterior.log_joint,
-            "log_likelihood": posterior.log_likelihood,
-            "log_prior": posterior.log_prior,
-        }
-        variables |= {name: (("chain", "draw"), values, {"units": "nats"}) for name, values in by_draw.items()}
-        words = posterior.prior.words
-        variables["occupancy"] = (("x", "y"), posterior.occupancy, {"long_name": words.mean})
-        variables["observed"] = (("x", "y"), posterior.observed, {"long_name": "some beam says something of the cell"})
-        coordinates = {
-            "chain": np.arange(draws.chains), "draw": np.arange(draws.count),
-            "x": ("x", x, {"units": "m"}), "y": ("y", y, {"units": "m"}),
-        }  # fmt: skip
-        for dimension, cells in draws.index.items():
-            coordinates[f"{dimension}_x"] = (dimension, cells // ny)
-            coordinates[f"{dimension}_y"] = (dimension, cells % ny)
-        return xarray.Dataset(variables, coordinates, {"cells": words.kind, "method": posterior.settings["method"]})
+        from bayesmap.posterior.dataset import dataset_of
+
+        return dataset_of(self.posterior, by_reading)
 
     def save(
-        self, path: str | os.PathLike[str], on_progress: Callable[[int, int], None] = lambda done, total: None
-    ) -> None:
-        """Write the run to one netCDF file, whole or not at all. ``on_progress`` gets the count done and the total."""
+        self, path: str | os.PathLike[str], on_progress: Callable[[int, int], None] = lambda done, total: None, *,
+        by_reading: bool = False,
+    ) -> None:  # fmt: skip
+        """Write the run to one netCDF file, whole or not at all. ``on_progress`` gets the count done and the total.
+
+        ``by_reading`` adds the log likelihood of every valid reading in every draw, which arviz's ``loo`` needs.
+        """
         from bayesmap.io.saved import save
 
-        save(self.posterior, path, on_progress, self.trajectory)
+        save(self.posterior, path, on_progress, self.trajectory, by_reading=by_reading)
 
     def plot(self, **options: Any) -> Figure:
         """Draw the mean map, its uncertainty, the readings and one draw, with surfaces if cells are large enough.

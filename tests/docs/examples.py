@@ -3,6 +3,7 @@
 A comment above a Python block says what it needs; it does not show on the page:
 
     <!-- example: needs intel-corrected.log.gz -->   run where $BAYESMAP_DATA has that file, which then lies beside it
+    <!-- example: needs xarray_einstats -->          run where this module is installed
     <!-- example: not run, because REASON -->        compiled only
 """
 
@@ -31,7 +32,7 @@ class Example:
     Attributes:
         line: number of its first line in the page, from 1.
         text: the code.
-        needs: a file that it reads, or "".
+        needs: a file that it reads, or a module, or "".
         not_run: why it is compiled only, or "".
     """
 

@@ -9,6 +9,7 @@ import re
 import subprocess
 import sys
 import types
+from importlib.util import find_spec
 from pathlib import Path
 
 import click
@@ -43,6 +44,8 @@ SHELL = [(page, *found) for page in PAGES for found in shell_words(page.read_tex
 
 def why_not(example):
     """Why an example cannot run here; "" if it can."""
+    if example.needs.isidentifier():
+        return "" if find_spec(example.needs) else f"the module {example.needs} is not installed"
     missing = example.needs and not (FOLDER / example.needs).exists()
     return example.not_run or (f"{FOLDER / example.needs} is not there (set BAYESMAP_DATA)" if missing else "")
 
@@ -52,7 +55,7 @@ def execute(page, examples, folder):
     import json
 
     for example in examples:
-        if example.needs:
+        if example.needs and not example.needs.isidentifier():
             (folder / example.needs).symlink_to((FOLDER / example.needs).resolve())
     path = os.pathsep.join([str(ROOT / "src"), os.environ.get("PYTHONPATH", "")])
     return subprocess.run(

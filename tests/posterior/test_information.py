@@ -10,6 +10,8 @@ from bayesmap.errors import BadInput
 from bayesmap.kernels.predict.density import device_maps
 from bayesmap.kernels.predict.view import draw_scan_stops, independent_information
 from bayesmap.posterior.information import beam_information, best_views, expected_information
+from bayesmap.posterior.prediction import Fan
+from bayesmap.sensors.model import RangeLimits
 
 GRID = bm.Grid((5, 4), 0.5, (-1.0, 2.0))
 POSE = np.array([[-0.8, 2.9, 0.1]])
@@ -46,6 +48,10 @@ def test_stops_are_drawn_with_the_chances_that_beams_have():
         assert scipy.stats.chi2.sf(chi2, keep.sum() - 1) > 1e-4 / 3
 
 
+def fan(sensor, angles=ANGLES):
+    return Fan(angles, RangeLimits(0.0, 6.0), sensor)
+
+
 def exact_information(maps, weights, sensor, count, seed):
     """Mutual information of map and scan where the maps are few: the outer mean over many scans, the inner exact."""
     rng = np.random.default_rng(seed)
@@ -66,7 +72,7 @@ def test_joint_draws_give_the_information_of_enumeration():
     sensor = bm.Gaussian(0.4)
     exact, error = exact_information(maps, weights, sensor, 200_000, 2)
     draws = maps[rng.choice(6, size=600, p=weights)].astype(np.float32)
-    found = expected_information(draws, GRID, sensor, POSE, ANGLES, max_range_m=6.0, hit_depth=0.0)
+    found = expected_information(draws, GRID, fan(sensor), POSE, hit_depth=0.0)
     assert found.at_least[0] == pytest.approx(exact, abs=4 * np.hypot(found.at_least_error[0], error))
     assert found.at_most[0] == pytest.approx(exact, abs=4 * np.hypot(found.at_most_error[0], error))
     assert found.at_least_error[0] < 0.1 * exact
@@ -76,9 +82,23 @@ def test_joint_draws_give_the_information_of_enumeration():
 
 def test_a_map_that_is_known_leaves_nothing_to_learn():
     known = np.tile(np.random.default_rng(3).random(GRID.n_cells) < 0.3, (20, 1)).astype(np.float32)
-    found = expected_information(known, GRID, bm.Gaussian(0.2), POSE, ANGLES, max_range_m=6.0)
+    found = expected_information(known, GRID, fan(bm.Gaussian(0.2)), POSE)
     assert found.at_least[0] == pytest.approx(0.0, abs=1e-9)
     assert found.at_most[0] == pytest.approx(0.0, abs=1e-9)
+
+
+def test_chains_that_differ_by_a_cell_tell_nothing_and_cells_that_change_within_chains_do():
+    rng = np.random.default_rng(5)
+    chains = np.tile(rng.random((1, 1, GRID.n_cells)) < 0.15, (4, 15, 1)).astype(np.float32)
+    chains[:2, :, 10], chains[2:, :, 11] = 1.0, 1.0
+    stuck = chains.reshape(60, -1)
+    options = {"hit_depth": 0.0, "chains": 4}
+    around = fan(bm.Gaussian(0.05), np.linspace(-np.pi, np.pi, 24, endpoint=False))
+    pose = np.array([[0.3, 3.1, 0.1]])
+    assert expected_information(stuck, GRID, around, pose, hit_depth=0.0).at_least[0] > 0.5  # what pooling would say
+    assert expected_information(stuck, GRID, around, pose, **options).at_most[0] == pytest.approx(0.0, abs=1e-9)
+    chains[:, :, 6] = rng.random((4, 15)) < 0.5
+    assert expected_information(chains.reshape(60, -1), GRID, around, pose, **options).at_least[0] > 0.3
 
 
 def test_few_draws_of_an_unknown_map_give_bounds():
@@ -87,10 +107,10 @@ def test_few_draws_of_an_unknown_map_give_bounds():
     maps = rng.random((400, GRID.n_cells)) < 0.15
     sensor = bm.Gaussian(0.05)
     angles = np.linspace(-np.pi, np.pi, 24, endpoint=False)
-    options = {"max_range_m": 6.0, "hit_depth": 0.0}
+    options = {"hit_depth": 0.0}
     pose = np.array([[0.3, 3.1, 0.1]])
-    many = expected_information(maps.astype(np.float32), GRID, sensor, pose, angles, **options)
-    few = expected_information(maps[:8].astype(np.float32), GRID, sensor, pose, angles, **options)
+    many = expected_information(maps.astype(np.float32), GRID, fan(sensor, angles), pose, **options)
+    few = expected_information(maps[:8].astype(np.float32), GRID, fan(sensor, angles), pose, **options)
     assert few.at_least[0] <= np.log(8) + 1e-9 < many.at_least[0]
     assert few.at_least[0] < many.at_least[0] <= many.at_most[0] <= few.at_most[0] + 4 * few.at_most_error[0]
 
@@ -148,6 +168,4 @@ def test_the_best_views_are_apart():
 
 def test_one_draw_is_too_few():
     with pytest.raises(BadInput, match="draws"):
-        expected_information(
-            np.zeros((1, GRID.n_cells), np.float32), GRID, bm.Gaussian(0.1), POSE, ANGLES, max_range_m=5
-        )
+        expected_information(np.zeros((1, GRID.n_cells), np.float32), GRID, fan(bm.Gaussian(0.1)), POSE)

@@ -145,6 +145,10 @@ class Draws:
         chosen = np.linspace(0, self.count - 1, each).round().astype(np.intp)
         return replace(self, arrays={name: values[:, chosen] for name, values in self.arrays.items()})
 
+    def of_chain(self, chain: int) -> Draws:
+        """Select the draws of one chain."""
+        return replace(self, arrays={name: values[chain : chain + 1] for name, values in self.arrays.items()})
+
     def shape_of(self, spec: ArraySpec) -> tuple[int, ...]:
         """Return the sizes of an array's dimensions beside chain and draw."""
         sizes = {"x": self.grid.shape[0], "y": self.grid.shape[1]}

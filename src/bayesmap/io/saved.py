@@ -41,20 +41,39 @@ FORMAT_VERSION = 1
 
 BLOCK = 1 << 22  # numbers that are converted at a time, so that no whole copy of the draws is made
 CHUNK = 1 << 20  # numbers that are compressed together
+UNTIE_NATS = 1e-4  # noise on log likelihoods by reading: arviz refuses a tail of weights that are all equal
 
 
 def save(
     posterior: Posterior, path: str | os.PathLike[str],
     on_progress: Callable[[int, int], None] = lambda done, total: None, trajectory: Trajectory | None = None,
+    *, by_reading: bool = False,
 ) -> None:  # fmt: skip
     """Write a posterior, whole or not at all, with the approximation of all scans' poses, if there is one.
 
-    ``on_progress`` is called with the count of the draws' numbers written so far, and their total.
+    ``on_progress`` is called with the count of the draws' numbers written so far, and their total. ``by_reading`` adds
+    the group ``log_likelihood``, which is not read back.
 
     Raises `BadInput` for a folder that cannot be written to.
     """
     with write_whole(Path(path)) as partial, netCDF4.Dataset(partial, "w", format="NETCDF4") as file:
         _write(posterior, file, on_progress, trajectory)
+        if by_reading:
+            _write_by_reading(posterior, file)
+
+
+def _write_by_reading(posterior: Posterior, file: Any) -> None:
+    """Write the log likelihood of every valid reading in every draw, as arviz's ``loo`` reads it."""
+    from bayesmap.posterior.dataset import by_reading, valid_readings
+
+    group, draws = _group(file, "log_likelihood"), posterior.draws
+    for name, count in (("chain", draws.chains), ("draw", draws.count)):
+        write_arrays(group, (name,), {name: np.arange(count)}, compressed=False)
+    write_arrays(group, ("reading",), dict(zip(("scan", "beam"), valid_readings(posterior), strict=True)))
+    values = by_reading(posterior)
+    values += np.random.default_rng(0).uniform(0.0, UNTIE_NATS, values.shape).astype(np.float32)
+    write_arrays(group, ("chain", "draw", "reading"), {"range_m": values})
+    group["range_m"].coordinates = "scan beam"  # so that xarray takes them for no variables
 
 
 def _write(
@@ -98,6 +117,8 @@ def _write(
 
     for spec in draws.specs:
         write_draws(group, spec, draws.arrays[spec.name], draws.shape_of(spec), written)
+        if spec.dims[0].endswith("cell"):  # so that xarray takes the places of cells for coordinates
+            group[spec.name].coordinates = f"{spec.dims[0]}_x {spec.dims[0]}_y"
     # Log densities, scans, marginals, and the parameters and statistics that are arrays.
     densities = {
         "lp": posterior.log_joint, "log_likelihood": posterior.log_likelihood, "log_prior": posterior.log_prior,

@@ -17,8 +17,8 @@ from numpy.typing import ArrayLike, NDArray
 from scipy import special
 
 from bayesmap.errors import BadInput
+from bayesmap.posterior.prediction import Fan, draw_readings
 from bayesmap.posterior.predictor import ignored
-from bayesmap.sensors.model import SensorModel
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans, as_angles, as_poses
 
@@ -39,7 +39,7 @@ class InformationGain:
     more draws bring them closer.
 
     Attributes:
-        at_least: lower bound for each pose, nats, (P,); no more than the logarithm of the number of draws.
+        at_least: lower bound for each pose, nats, (P,); no more than the logarithm of the number of draws of a chain.
         at_least_error: Monte Carlo standard error of the lower bound, (P,).
         at_most: upper bound for each pose, nats, (P,).
         at_most_error: Monte Carlo standard error of the upper bound, (P,).
@@ -68,9 +68,8 @@ class InformationGain:
 
 
 def expected_information(
-    cells: NDArray[np.float32], grid: Grid, sensor: SensorModel, poses: ArrayLike, angles_rad: ArrayLike, *,
-    max_range_m: float, min_range_m: float = 0.0, hit_depth: float = 0.5, seed: int = 0, device: str = "cpu",
-    on_progress: Callable[[float], None] = ignored,
+    cells: NDArray[np.float32], grid: Grid, fan: Fan, poses: ArrayLike, *, hit_depth: float = 0.5, chains: int = 1,
+    seed: int = 0, device: str = "cpu", on_progress: Callable[[float], None] = ignored,
 ) -> InformationGain:  # fmt: skip
     """Bound the mutual information of the map and one more scan from each pose, from joint draws of the map.
 
@@ -84,50 +83,44 @@ def expected_information(
     too large if every draw explains only its own scan. But beams are independent given the map. So a scan's information
     is at most the sum over its beams, each by the second line. The smaller of the two values is the upper bound.
 
+    Draws are compared within each chain. Chains that have not mixed differ where the posterior does not, such as in
+    which of two cells a wall stands, and a scan would tell nearly all of them apart.
+
     Args:
-        cells: D draws of the map, (D, N) stop probabilities or (D, N, 6) surfaces, as
+        cells: D draws of the map, chain by chain, (D, N) stop probabilities or (D, N, 6) surfaces, as
             `bayesmap.cells.kind.CellPrior.stops`.
         grid: grid of the map.
-        sensor: law of a reading given where its beam stops.
+        fan: beams of the scan, and the law of their readings.
         poses: P poses in the world frame, (P, 3).
-        angles_rad: angles of the beams in the sensor's frame, (A,).
-        max_range_m: largest range of the sensor, metres.
-        min_range_m: least range of the sensor, metres.
         hit_depth: depth of a stop in a cell without a surface, as a fraction of the beam's chord.
+        chains: number of chains, with the same number of draws each.
         seed: seed of the simulated scans.
         device: device that computes.
         on_progress: function that is called with the completed share, from 0 to 1.
 
     Raises:
-        BadInput: poses or angles that are not valid, or fewer than two draws.
+        BadInput: poses that are not valid, or fewer than two draws of a chain.
     """
     from bayesmap.kernels.predict.density import device_maps
     from bayesmap.kernels.predict.scan_likelihood import ScanLikelihood
-    from bayesmap.kernels.predict.view import draw_scan_stops
-    from bayesmap.kernels.random import mix
-    from bayesmap.sensors.model import RangeLimits
 
-    where, angles, draws = as_poses(poses), as_angles(angles_rad), len(cells)
-    if draws < 2:
-        raise BadInput(f"information: {draws} draws of the map; two are the least that can differ")
-    limits = RangeLimits(min_range_m, max_range_m)
+    where, draws, each = as_poses(poses), len(cells), len(cells) // chains
+    if each < 2:
+        raise BadInput(f"information: {each} draws of the map from each chain; two are the least that can differ")
     maps, every = device_maps([cells], hit_depth, device=device), np.arange(draws)
-    scan, chain = (a.ravel() for a in np.meshgrid(every, every, indexing="ij"))
-    bounds = np.empty((4, len(where)))
-    # For each pose, simulate a scan in every draw, and weight each scan in every draw.
+    # Pairs of draws of one chain.
+    scan = np.repeat(every, each)
+    other = np.tile(every.reshape(chains, 1, each), (1, each, 1)).ravel()
+    bounds, limits = np.empty((4, len(where))), fan.limits
+    # For each pose, simulate a scan in every draw, and weight each scan in every draw of its chain.
     for i, pose in enumerate(where):
         at = np.broadcast_to(pose, (draws, 3))
-        key = mix(seed, i, STREAM_VIEW)
-        distance_m, spread_m = draw_scan_stops(maps, grid, at, every, angles, max_range_m, key)
-        rng = np.random.default_rng([seed, i, STREAM_VIEW])
-        met = np.isfinite(distance_m)
-        distance_m[met] += spread_m[met] * rng.standard_normal(met.sum())
-        readings = sensor.sample(rng, np.maximum(distance_m, 0.0), limits)
+        readings = draw_readings(maps, grid, fan, at, every, (seed, i, STREAM_VIEW))
         likelihood = ScanLikelihood(
-            Scans(at, angles, readings, max_range_m, min_range_m), grid, sensor, hit_depth, device
+            Scans(at, fan.angles_rad, readings, limits.max_m, limits.min_m), grid, fan.sensor, hit_depth, device
         )
-        weighed = likelihood.beams(maps, np.broadcast_to(pose, (len(scan), 3)), scan, chain)
-        bounds[:, i] = _bounds(weighed.reshape(draws, draws, len(angles)))
+        weighed = likelihood.beams(maps, np.broadcast_to(pose, (len(scan), 3)), scan, other)
+        bounds[:, i] = _bounds(weighed.reshape(chains, each, each, -1))
         on_progress((i + 1) / len(where))
     return InformationGain(bounds[0], bounds[1], bounds[2], bounds[3], draws)
 
@@ -135,24 +128,23 @@ def expected_information(
 def _bounds(weighed: Floats) -> tuple[float, float, float, float]:
     """Return the lower bound and its error, and the upper bound and its error.
 
-    ``weighed`` is log p(beam b of the scan that was simulated in draw d | draw e), (d, e, b).
+    ``weighed`` is log p(beam b of the scan that was simulated in draw d | draw e of its chain c), (c, d, e, b).
     """
-    draws = len(weighed)
+    chains, draws = weighed.shape[:2]
     every, others = np.arange(draws), np.where(np.eye(draws, dtype=bool), -np.inf, 0.0)
-    whole = weighed.sum(axis=2)
-    own = whole[every, every]
+    whole = weighed.sum(axis=3)
+    own = whole[:, every, every]
 
     def left_out(log_p: Floats) -> Floats:
-        hidden = log_p + others.reshape(draws, draws, *(1,) * (log_p.ndim - 2))
-        return np.asarray(special.logsumexp(hidden, axis=1) - math.log(draws - 1))
+        hidden = log_p + others.reshape(draws, draws, *(1,) * (log_p.ndim - 3))
+        return np.asarray(special.logsumexp(hidden, axis=2) - math.log(draws - 1))
 
-    lower = own - (special.logsumexp(whole, axis=1) - math.log(draws))
-    uppers = (own - left_out(whole), (weighed[every, every] - left_out(weighed)).sum(axis=1))
+    lower = own - (special.logsumexp(whole, axis=2) - math.log(draws))
+    uppers = (own - left_out(whole), (weighed[:, every, every] - left_out(weighed)).sum(axis=2))
     upper = min(uppers, key=lambda gains: float(gains.mean()))
-    per_draw = math.sqrt(draws)
+    root = math.sqrt(chains * draws)
     return (
-        float(lower.mean()), float(lower.std(ddof=1)) / per_draw,
-        float(upper.mean()), float(upper.std(ddof=1)) / per_draw,
+        float(lower.mean()), float(lower.std(ddof=1)) / root, float(upper.mean()), float(upper.std(ddof=1)) / root,
     )  # fmt: skip
 
 

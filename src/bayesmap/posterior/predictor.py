@@ -28,6 +28,8 @@ from bayesmap.space.scans import ReadingKind, Scans
 if TYPE_CHECKING:
     from bayesmap.kernels.predict.density import DeviceMaps
 
+Floats = NDArray[np.float64]
+
 OnShare = Callable[[float], None]
 """Called with the share of the work that is done, from 0 to 1."""
 
@@ -56,6 +58,14 @@ def watched(batches: Iterable[NDArray[Any]], total: int, on_progress: OnShare) -
         yield batch
         used += len(batch)
         on_progress(min(used / total, 1.0))
+
+
+def checked_levels(levels: Sequence[float]) -> Floats:
+    """Return the probabilities of quantiles as an array; refuse levels that do not rise or lie outside (0, 1)."""
+    asked = np.asarray(levels, dtype=np.float64)
+    if asked.size == 0 or (np.diff(asked) <= 0).any() or not ((asked > 0) & (asked < 1)).all():
+        raise BadInput(f"quantiles: levels must rise and lie inside (0, 1), got {list(levels)}")
+    return asked
 
 
 MapStates = NDArray[np.float32]
@@ -116,6 +126,9 @@ def predictor_of(posterior: Posterior, sensor: SensorModel | None = None) -> Pre
 CENTRAL_80 = (0.1, 0.5, 0.9)
 """Levels of the median and of the ends of the central 80 % interval."""
 
+PREDICTED_DRAWS = 200
+"""Largest number of maps that readings are drawn from."""
+
 GONE = 1e-3
 """Probability of getting further below which a beam is no longer followed: the greatest error of a level."""
 
@@ -165,9 +178,7 @@ class ScanPredictor:
         from bayesmap.kernels.predict.stop_mixture import mix_device_stops, range_quantiles
         from bayesmap.kernels.rays import trace_rays
 
-        asked = np.asarray(levels, dtype=np.float64)
-        if asked.size == 0 or (np.diff(asked) <= 0).any() or not ((asked > 0) & (asked < 1)).all():
-            raise BadInput(f"quantiles: levels must rise and lie inside (0, 1), got {list(levels)}")
+        asked = checked_levels(levels)
         angles = np.asarray(angles_rad, dtype=np.float64)
         # A reading is needed to trace a beam and has no part in its prediction.
         unread = np.full((1, len(angles)), np.inf)
@@ -176,9 +187,6 @@ class ScanPredictor:
         )
         rays = trace_rays(scan, self.grid, device=self.held.device)
         return range_quantiles(mix_device_stops(rays, self.held, GONE), asked, self.sensor, self.held.device)
-
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

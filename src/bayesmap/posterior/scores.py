@@ -216,6 +216,8 @@ class Score:
         nats_per_beam_error: standard error of ``nats_per_beam``.
         coverage: coverage of central intervals at 50, 80 and 95 %.
         pit: probability integral transform of each valid reading, (beams,): uniform if the predictions are right.
+        by_beam: log predictive density of each valid reading, nats, (beams,); `bayesmap.compare_scores` compares them.
+        scan_of_beam, reading_m: scan and reading of each beam, (beams,).
         pit_histogram: share of ``pit`` in each of 20 bins.
         pit_distance: largest distance of the distribution of ``pit`` from the uniform one.
         pit_p_value: probability of a distance at least as large by chance alone.
@@ -233,6 +235,9 @@ class Score:
     nats_per_beam_error: float
     coverage: tuple[Coverage, ...]
     pit: NDArray[np.float64] = field(repr=False)
+    by_beam: NDArray[np.float64] = field(repr=False)
+    scan_of_beam: NDArray[np.intp] = field(repr=False)
+    reading_m: NDArray[np.float64] = field(repr=False)
     pit_histogram: tuple[float, ...]
     pit_distance: float
     pit_p_value: float
@@ -256,7 +261,7 @@ class Score:
         )
 
     def as_json(self) -> dict[str, Any]:
-        """Return all fields except ``pit`` as JSON values."""
+        """Return all fields except those of single beams as JSON values."""
         widths = [
             {"mean_width_m": _number(c.mean_width_m), "median_width_m": _number(c.median_width_m)}
             for c in self.coverage
@@ -346,6 +351,7 @@ def score_prediction(
     return Score(
         scans=len(np.unique(scan[valid])), beams=int(valid.sum()), nats_per_beam=nats.value,
         nats_per_beam_error=nats.error, coverage=tuple(covers(level) for level in LEVELS), pit=pit,
+        by_beam=prediction.log_density[valid], scan_of_beam=scan[valid], reading_m=ranges[valid],
         pit_histogram=tuple(pit_histogram(pit, BINS).tolist()), pit_distance=distance, pit_p_value=p_value,
         events=len(p), brier=of_events.mean(brier) if len(p) else none,
         log_loss=of_events.mean(loss) if len(p) else none, reliability=tuple(reliability(p, happened)),
@@ -364,3 +370,45 @@ def score_posterior(
         BadInput: as `score_prediction` and `predictor_of`.
     """
     return score_prediction(predictor_of(posterior, sensor), scans, seed=seed, device=device, on_progress=on_progress)
+
+
+@dataclass(frozen=True)
+class ScoreDifference:
+    """The difference of two scores on the same beams: the first minus the second.
+
+    Attributes:
+        nats_per_beam: mean difference of the log predictive densities; positive if the first predicts better.
+        error: its standard error, from a bootstrap over scans of the paired differences.
+        beams, scans: numbers of compared beams and scans.
+    """
+
+    nats_per_beam: float
+    error: float
+    beams: int
+    scans: int
+
+    def __repr__(self) -> str:
+        """Return two lines: the difference, and its meaning."""
+        verdict = "neither predicts better by two standard errors"
+        if abs(self.nats_per_beam) > 2 * self.error:
+            verdict = f"the {'first' if self.nats_per_beam > 0 else 'second'} predicts better"
+        return (
+            f"ScoreDifference: {self.nats_per_beam:+.4f} +- {self.error:.4f} nats per beam, first minus second\n"
+            f"  {self.beams:,} beams of {self.scans:,} scans: {verdict}"
+        )
+
+
+def compare_scores(first: Score, second: Score, *, seed: int = 0) -> ScoreDifference:
+    """Compare two scores on the same held-out beams, by the mean difference with its paired standard error.
+
+    Both models find the same beams hard, so the error of the difference is mostly far below that of either score.
+    ``seed`` is that of the bootstrap over scans.
+
+    Raises:
+        BadInput: scores of different beams.
+    """
+    for name in ("scan_of_beam", "reading_m"):
+        if not np.array_equal(getattr(first, name), getattr(second, name)):
+            raise BadInput("compare_scores: the scores are of different beams; score both runs on the same scans")
+    gain = ScanBlocks.make(first.scan_of_beam, seed).mean(first.by_beam - second.by_beam)
+    return ScoreDifference(gain.value, gain.error, first.beams, first.scans)

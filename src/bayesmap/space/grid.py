@@ -70,6 +70,11 @@ class Grid:
         (x0, y0), (nx, ny) = self.origin, self.shape
         return x0, x0 + nx * self.resolution, y0, y0 + ny * self.resolution
 
+    def extent_words(self) -> str:
+        """Return the extent in words, for messages."""
+        x0, x1, y0, y1 = self.extent_m
+        return f"x {x0:g} to {x1:g}, y {y0:g} to {y1:g} m"
+
     def centers_m(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Return the world x of the cell columns, shape (nx,), and world y of the cell rows, shape (ny,)."""
         (x0, y0), (nx, ny) = self.origin, self.shape

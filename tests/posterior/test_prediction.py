@@ -1,0 +1,147 @@
+"""Predicted readings, log likelihoods by reading, and what arviz makes of a saved run."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+import scipy
+from flat_options import infer
+from oracle.formula import beams, distances
+from oracle.worlds import make_case
+
+import bayesmap as bm
+from bayesmap.sensors.model import RangeLimits
+
+SENSOR = bm.BeamMixture(bm.Gaussian(0.3), p_no_return=0.1)
+
+
+@pytest.fixture(scope="module")
+def case():
+    return make_case(21, sensor=SENSOR, n_poses=3)
+
+
+@pytest.fixture(scope="module", params=["binary", "surface", "moving"])
+def run(case, request):
+    """Walls, surfaces, and walls with poses that are drawn."""
+    options = {"chains": 2, "warmup": 30, "draws": 25, "sensor": SENSOR, "seed": 2}
+    prior = bm.Surface() if request.param == "surface" else case.prior
+    poses = bm.UncertainPoses(0.1, 0.05) if request.param == "moving" else None
+    return infer(case.scans, case.grid, prior=prior, poses=poses, **options)
+
+
+def test_drawn_readings_have_the_predicted_quantiles(run):
+    """The share of draws below a quantile is its level, within four standard errors."""
+    pose, angles = run.posterior.scans.poses[0], np.linspace(-3, 3, 7)
+    found = run.predict(np.tile(pose, (40, 1)), angles, levels=(0.2, 0.5, 0.8), draws=50)
+    assert found.draws_m.shape == (50, 40, 7)
+    assert found.quantiles_m.shape == (40, 7, 3)
+    np.testing.assert_array_equal(found.quantiles_m[0], found.quantiles_m[-1])
+    for level, at in zip(found.levels, found.quantiles_m[0].T, strict=True):
+        # Scans of one draw share a map, so the error is that of 50 maps.
+        below = (found.draws_m <= at + 1e-9).mean(axis=1)
+        error = np.maximum(below.std(axis=0) / np.sqrt(50), 0.01)
+        finite = np.isfinite(at)
+        assert (np.abs(below.mean(axis=0) - level) < 4 * error)[finite].all()
+        assert (below.mean(axis=0) >= level - 4 * error).all()  # at no return the probability is a step
+    assert str(found).startswith("Prediction: 40 poses, 7 beams each, 50 draws")
+
+
+def test_all_beams_of_a_drawn_scan_see_one_map(case):
+    """A wall that stands in half of the draws stops both beams through its cell, or neither."""
+    grid, scans = bm.Grid((6, 3)), case.scans
+    run = infer(scans, case.grid, prior=case.prior, sensor=SENSOR, chains=1, draws=40)
+    walls = np.zeros((1, 40, 6, 3), bool)
+    walls[:, ::2, 3, 1] = walls[..., 5, :] = True
+    spec = run.posterior.draws.specs[0]
+    draws = dataclasses.replace(run.posterior.draws, grid=grid, arrays={"walls": spec.stored(walls)})
+    half = bm.Run(dataclasses.replace(run.posterior, draws=draws))
+    found = half.predict([0.5, 1.5, 0.0], [-0.05, 0.05], sensor=bm.Gaussian(0.01), draws=40, max_range_m=20.0)
+    np.testing.assert_allclose(found.draws_m[::2, 0], 3 - 0.5, atol=0.1)
+    np.testing.assert_allclose(found.draws_m[1::2, 0], 5 - 0.5, atol=0.1)
+
+
+@pytest.mark.parametrize(
+    ("asked", "words"),
+    [
+        ({"poses": [99.0, 0.0, 0.0]}, "predict: pose 0, .* outside the map"),
+        ({"levels": (0.5, 0.2)}, "levels must rise"),
+        ({"draws": 0}, "draws"),
+        ({"max_range_m": -1.0}, "predict: max_range_m"),
+    ],
+)
+def test_impossible_predictions_are_refused(run, asked, words):
+    with pytest.raises(bm.BadInput, match=words):
+        run.predict(**{"poses": run.posterior.scans.poses[0], **asked})
+
+
+def test_log_likelihoods_by_reading_are_the_formula_s(case):
+    """Reading by reading at the oracle's distances; their sum is the log likelihood of the draw."""
+    readings = case.scans.ranges_m.copy()
+    readings[0, :2] = [np.nan, np.inf]
+    scans = dataclasses.replace(case.scans, ranges_m=readings)
+    run = infer(scans, case.grid, prior=case.prior, sensor=SENSOR, chains=2, draws=10)
+    found = run.dataset(by_reading=True)
+    nats = found["reading_log_likelihood"]
+    starts, angles = beams(scans.poses, scans.angles_rad, case.grid)
+    limits, z = RangeLimits(scans.min_range_m, scans.max_range_m), readings.ravel()
+    plain = np.array([
+        SENSOR.log_likelihood(z, distances(walls, starts, angles) * case.grid.resolution, limits)[~np.isnan(z)]
+        for walls in run.draws.reshape(-1, *case.grid.shape)
+    ])  # fmt: skip
+    np.testing.assert_allclose(nats.values.reshape(plain.shape), plain, atol=1e-4)
+    np.testing.assert_allclose(nats.sum("reading"), found["log_likelihood"], atol=1e-3)
+    assert nats["reading_scan"].values[0] == 0
+    assert nats["reading_beam"].values[0] == 1
+
+
+def test_drawn_poses_count_in_the_log_likelihoods_by_reading(case):
+    run = infer(case.scans, case.grid, prior=case.prior, sensor=SENSOR, poses=bm.UncertainPoses(0.1, 0.05), draws=10)
+    found = run.dataset(by_reading=True)
+    np.testing.assert_allclose(found["reading_log_likelihood"].sum("reading"), found["log_likelihood"], atol=1e-2)
+
+
+def test_sensor_and_prior_are_those_of_the_run(run, case):
+    assert run.sensor == run.posterior.sensor == SENSOR
+    assert run.prior is run.posterior.prior
+
+
+def test_two_models_are_compared_with_a_paired_error(case, run):
+    held = make_case(22, sensor=SENSOR, n_poses=12).scans
+    one, other = bm.score(run, held), bm.score(run, held, bm.BeamMixture(bm.Gaussian(0.31), p_no_return=0.1))
+    assert one.by_beam.shape == one.pit.shape
+    assert one.by_beam.mean() == one.nats_per_beam
+    found = bm.compare_scores(one, other)
+    assert found.nats_per_beam == pytest.approx(one.nats_per_beam - other.nats_per_beam)
+    assert 0 < found.error < 0.5 * one.nats_per_beam_error
+    # By hand: the standard error of a ratio of sums over scans.
+    off = np.bincount(one.scan_of_beam, one.by_beam - other.by_beam - found.nats_per_beam)
+    assert found.error == pytest.approx(np.sqrt((off**2).sum()) / one.beams, rel=0.15)
+    assert bm.compare_scores(one, one).nats_per_beam == 0.0
+    with pytest.raises(bm.BadInput, match="different beams"):
+        bm.compare_scores(one, bm.score(run, case.scans))
+
+
+@pytest.mark.filterwarnings("ignore:Estimated shape parameter")
+def test_arviz_reads_a_saved_run(run, tmp_path):
+    """Summary, R-hat, effective sample size and pointwise loo, by arviz's own functions on the file."""
+    pytest.importorskip("xarray_einstats", reason="arviz-stats needs it for loo")
+    import arviz_stats as az
+    import xarray as xr
+
+    path = tmp_path / "run.nc"
+    run.save(path, by_reading=True)
+    tree = xr.open_datatree(path)
+    assert list(az.summary(tree, group="sample_stats").index) == ["lp", "log_likelihood", "log_prior"]
+    joint = tree["sample_stats"].to_dataset()
+    assert float(az.rhat(joint)["lp"]) == pytest.approx(run.summary().rhat_log_joint, rel=1e-6)
+    assert float(az.ess(joint)["lp"]) == pytest.approx(run.summary().ess_log_joint_bulk, rel=1e-6)
+    loo = az.loo(tree, pointwise=True)
+    nats = run.dataset(by_reading=True)["reading_log_likelihood"].values.reshape(50, -1).astype(float)
+    assert loo.elpd_i.size == nats.shape[1]
+    # Plain importance sampling agrees with Pareto smoothing where weights are tame.
+    plain = -(scipy.special.logsumexp(-nats, axis=0) - np.log(50))
+    tame = np.asarray(loo.pareto_k) < 0.3
+    assert tame.any()
+    np.testing.assert_allclose(np.asarray(loo.elpd_i)[tame], plain[tame], atol=0.15)
+    assert bm.load(path).finished
+    tree.close()
