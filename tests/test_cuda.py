@@ -61,17 +61,14 @@ def room():
 
 METHODS = {
     **{f"gibbs, {order}": (bm.Independent(0.2), {"order": order}) for order in ("raster", "radial", "random")},
-    "block": (bm.Independent(0.2), {"method": "block"}),
-    "coupled cells": (bm.Ising(0.2, 0.5), {}),
+    "block": (bm.Independent(0.2), {"method": "block"}), "coupled cells": (bm.Ising(0.2, 0.5), {}),
     "coupled cells, block": (bm.Ising(0.2, 0.5), {"method": "block"}),
     "importance": (bm.Independent(0.2), {"method": "importance", "particles": 1000}),
-    "propagation": (bm.Independent(0.2), {"method": "propagate"}),
-    "reflectivity": (bm.Beta(), {}),
-    "surfaces": (bm.Surface(), {}),
-    "coupled surfaces": (bm.Surface(coupling=0.5), {}),
+    "propagation": (bm.Independent(0.2), {"method": "propagate"}), "reflectivity": (bm.Beta(), {}),
+    "surfaces": (bm.Surface(), {}), "coupled surfaces": (bm.Surface(coupling=0.5), {}),
     "uncertain poses": (bm.Independent(0.2), {"poses": bm.UncertainPoses(0.05, 0.02)}),
     "uncertain poses, surfaces": (bm.Surface(), {"poses": bm.UncertainPoses(0.05, 0.02)}),
-}
+}  # fmt: skip
 SHORT = {"chains": 8, "warmup": 2, "draws": 4, "thin": 1, "seed": 5}
 
 

@@ -6,15 +6,6 @@ from bayesmap.sim.drawing import TUTORIAL_GRID, from_text, to_text, tutorial
 from bayesmap.sim.robot import patrol
 
 __all__ = [
-    "TUTORIAL_GRID",
-    "Building",
-    "Room",
-    "building",
-    "from_image",
-    "from_map_image",
-    "from_occupancy",
-    "from_text",
-    "patrol",
-    "to_text",
-    "tutorial",
-]
+    "TUTORIAL_GRID", "Building", "Room", "building", "from_image", "from_map_image", "from_occupancy", "from_text",
+    "patrol", "to_text", "tutorial",
+]  # fmt: skip

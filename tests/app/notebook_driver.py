@@ -50,14 +50,10 @@ def jupyterlab(page, folder, source):
     (notebooks / "map.ipynb").write_text(json.dumps(notebook))
     port = free_port()
     options = {
-        "ServerApp.ip": "127.0.0.1",
-        "ServerApp.port": port,
-        "ServerApp.root_dir": notebooks,
-        "IdentityProvider.token": TOKEN,
-        "LabApp.news_url": None,
-        "LabApp.check_for_updates_class": "jupyterlab.NeverCheckForUpdate",
-        "LabApp.extension_manager": "readonly",
-    }
+        "ServerApp.ip": "127.0.0.1", "ServerApp.port": port, "ServerApp.root_dir": notebooks,
+        "IdentityProvider.token": TOKEN, "LabApp.news_url": None,
+        "LabApp.check_for_updates_class": "jupyterlab.NeverCheckForUpdate", "LabApp.extension_manager": "readonly",
+    }  # fmt: skip
     command = ["jupyterlab", "--no-browser", "--allow-root", *(f"--{key}={value}" for key, value in options.items())]
     address = f"http://127.0.0.1:{port}/lab/tree/map.ipynb?token={TOKEN}"
     with listening(command, folder, f"http://127.0.0.1:{port}/api") as process:

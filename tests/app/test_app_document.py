@@ -208,18 +208,13 @@ def test_random_fields_are_refused_or_make_a_message(kind, fields):
 PATH = {"type": "path", "start": [0, 0], "goal": [1, 2], "radius": 0.2, "risk": 0.1}
 BAD_PATHS = [("start", [0]), ("goal", "here"), ("goal", [0, np.inf]), ("radius", 0), ("risk", 1), ("risk", None)]
 MESSAGES = [
-    PATH,
-    {"type": "set", "patch": {"prior": 0.05, "method": "block"}, "drag": 3},
+    PATH, {"type": "set", "patch": {"prior": 0.05, "method": "block"}, "drag": 3},
     {"type": "walls", "cells": [[1, 2], [3, 4]], "wall": True, "stroke": 1},
-    {"type": "add_sensor", "x": 1, "y": 2.5, "yaw": 0},
-    {"type": "move_sensor", "id": 1, "yaw": 1.5},
-    {"type": "remove_sensor", "id": 2},
-    {"type": "clear", "what": "inference"},
-    {"type": "new", "shape": [500, 2], "world": "blank"},
-    {"type": "view", "layer": "draw", "chain": None, "draw": 7},
-    {"type": "hello"},
-    {"type": "export", "what": "html"},
-]
+    {"type": "add_sensor", "x": 1, "y": 2.5, "yaw": 0}, {"type": "move_sensor", "id": 1, "yaw": 1.5},
+    {"type": "remove_sensor", "id": 2}, {"type": "clear", "what": "inference"},
+    {"type": "new", "shape": [500, 2], "world": "blank"}, {"type": "view", "layer": "draw", "chain": None, "draw": 7},
+    {"type": "hello"}, {"type": "export", "what": "html"},
+]  # fmt: skip
 
 
 def test_good_messages_are_understood():

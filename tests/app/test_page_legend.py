@@ -51,11 +51,9 @@ def test_it_stays_on_a_drawn_map_too(open_page):
     settled(page)
     heights = page.evaluate(HEIGHTS)
     for tool, known, words in (
-        ("Where am I?", "s.where.found", "possible pose"),
-        ("Look next", "s.decisions.views", "one more scan tells"),
-        ("Ghost", "s.ghost.fan", "predicted reading"),
-        ("Entropy", "s.view.layer === 'entropy'", "entropy (bit)"),
-    ):
+        ("Where am I?", "s.where.found", "possible pose"), ("Look next", "s.decisions.views", "one more scan tells"),
+        ("Ghost", "s.ghost.fan", "predicted reading"), ("Entropy", "s.view.layer === 'entropy'", "entropy (bit)"),
+    ):  # fmt: skip
         choose(page, tool)
         until(page, known)
         playwright.expect(legend(page).get_by_text(words)).to_be_visible()

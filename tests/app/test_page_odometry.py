@@ -14,11 +14,9 @@ from bayesmap.cli.group import cli
 from bayesmap.space.planar import between
 
 WORDS = {
-    "front end": "Matching scan to scan",
-    "loops": "Closing loops",
-    "aligned": "Aligning the key scans",
+    "front end": "Matching scan to scan", "loops": "Closing loops", "aligned": "Aligning the key scans",
     "placing": "Placing the other scans",
-}
+}  # fmt: skip
 
 
 def raw_log(folder, size, scans, angles):

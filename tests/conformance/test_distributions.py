@@ -170,15 +170,13 @@ def test_draws_score_as_the_textbook_says(name):
 
 
 MEANS = {
-    "beta": (genjax.beta, (2.0, 3.0), 0.4, 0.2),
-    "gamma": (genjax.gamma, (2.0, 4.0), 0.5, 8**-0.5),
-    "exponential": (genjax.exponential, (2.0,), 0.5, 0.5),
-    "poisson": (genjax.poisson, (3.0,), 3.0, 3**0.5),
+    "beta": (genjax.beta, (2.0, 3.0), 0.4, 0.2), "gamma": (genjax.gamma, (2.0, 4.0), 0.5, 8**-0.5),
+    "exponential": (genjax.exponential, (2.0,), 0.5, 0.5), "poisson": (genjax.poisson, (3.0,), 3.0, 3**0.5),
     "inverse_gamma": (genjax.inverse_gamma, (5.0, 2.0), 0.5, (4 / 48) ** 0.5),
     "log_normal": (genjax.log_normal, (0.0, 0.5), np.exp(0.125), (np.exp(0.5) - np.exp(0.25)) ** 0.5),
     "half_normal": (genjax.half_normal, (2.0,), 2 * (2 / np.pi) ** 0.5, 2 * (1 - 2 / np.pi) ** 0.5),
     "weibull": (genjax.weibull, (1.0, 2.0), 2.0, 2.0),
-}
+}  # fmt: skip
 
 
 # In the landing run those whose density is not tested above, and one that has a rate where others have a scale.

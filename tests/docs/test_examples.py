@@ -59,15 +59,10 @@ def execute(page, examples, folder):
             (folder / example.needs).symlink_to((FOLDER / example.needs).resolve())
     path = os.pathsep.join([str(ROOT / "src"), os.environ.get("PYTHONPATH", "")])
     return subprocess.run(
-        [sys.executable, "-c", RUN, str(page)],
-        input=json.dumps([(e.line, e.text) for e in examples]),
-        cwd=folder,
-        env=os.environ | {"PYTHONPATH": path, "MPLBACKEND": "agg"},
-        capture_output=True,
-        text=True,
-        check=False,
+        [sys.executable, "-c", RUN, str(page)], input=json.dumps([(e.line, e.text) for e in examples]), cwd=folder,
+        env=os.environ | {"PYTHONPATH": path, "MPLBACKEND": "agg"}, capture_output=True, text=True, check=False,
         timeout=LIMIT_S,
-    )
+    )  # fmt: skip
 
 
 # The tutorial's pages are made of notebooks, which run in test_tutorial.py; the README runs below. The landing run
@@ -249,11 +244,9 @@ def test_examples_are_found_with_their_lines_and_marks():
         Example(20, "drive()\n", not_run="it asks for a robot"),
     ]
     assert shell_words(PAGE) == [
-        (7, ["bayesmap", "info", "FILE"]),
-        (9, ["bayesmap", "infer", "LOG", "-o", "a b"]),
-        (10, ["make", "bench"]),
+        (7, ["bayesmap", "info", "FILE"]), (9, ["bayesmap", "infer", "LOG", "-o", "a b"]), (10, ["make", "bench"]),
         (24, ["bayesmap", "app"]),
-    ]
+    ]  # fmt: skip
 
 
 @pytest.mark.parametrize(

@@ -181,14 +181,11 @@ def drive_of(draw, robot, **options):
 
 HARMLESS = ("none", "beams that vary", "late scans", "no stamps", "repeated mount", "relayed transforms", "clock")
 FAULTS = dict.fromkeys(HARMLESS, ()) | {
-    "moving world": ("the map is made in 'universe'",),
-    "two mounts": ("has two values on",),
-    "mounts on two topics": ("differs between topics",),
-    "static and moving": ("differs between topics",),
-    "two publishers": ("goes to and fro between values that differ",),
-    "other topic": ("differs between topics",),
+    "moving world": ("the map is made in 'universe'",), "two mounts": ("has two values on",),
+    "mounts on two topics": ("differs between topics",), "static and moving": ("differs between topics",),
+    "two publishers": ("goes to and fro between values that differ",), "other topic": ("differs between topics",),
     "others' transforms alone": ("other namespaces", "is called map, odom, world", "beside the namespace"),
-}
+}  # fmt: skip
 
 
 @st.composite

@@ -16,13 +16,11 @@ from bayesmap.sensors.builtin import FLAT_NATS
 from bayesmap.sensors.model import RangeLimits
 
 SENSORS = {
-    "gaussian": bm.Gaussian(0.3),
-    "growing": bm.Gaussian(0.1, 0.1),
-    "student-t": bm.StudentT(0.2, 3.0, 0.02),
+    "gaussian": bm.Gaussian(0.3), "growing": bm.Gaussian(0.1, 0.1), "student-t": bm.StudentT(0.2, 3.0, 0.02),
     "mixture": bm.BeamMixture(bm.Gaussian(0.05)),
     "wide mixture": bm.BeamMixture(bm.Gaussian(0.5, 0.05), 0.1, 0.1, 0.3, 1.0),
     "student-t mixture": bm.BeamMixture(bm.StudentT(0.05, 4.0)),
-}
+}  # fmt: skip
 FLOAT32 = 2e-5
 """Likelihoods, and the distances that NumPy is given, are in single precision: 3e-7 of 3 m, times slopes of some tens
 of nats a metre."""

@@ -30,12 +30,9 @@ SHARP = bm.BeamMixture(bm.Gaussian(0.004, 0.001), p_random=0.01, p_no_return=0.0
 TAILS = bm.BeamMixture(bm.StudentT(0.02, 3.0, 0.005), p_random=0.02, p_no_return=0.1, p_short=0.1)
 LONE = bm.Grid((5, 2), 0.4)
 PRIORS = {
-    "reflectivities": bm.Beta(0.8, 1.5),
-    "reflectivities by default": bm.Beta(),
-    "surfaces": bm.Surface(0.8, 1.5),
-    "thin surfaces": bm.Surface(0.8, 1.5, mean_scale=0.6, spread=0.05, dof=4.0),
-    "surfaces by default": bm.Surface(),
-}
+    "reflectivities": bm.Beta(0.8, 1.5), "reflectivities by default": bm.Beta(), "surfaces": bm.Surface(0.8, 1.5),
+    "thin surfaces": bm.Surface(0.8, 1.5, mean_scale=0.6, spread=0.05, dof=4.0), "surfaces by default": bm.Surface(),
+}  # fmt: skip
 # Single precision: a density is off by 1e-6 of itself, more where a surface is seen edge on.
 CLOSE = {"rtol": 3e-4, "atol": 3e-4}
 

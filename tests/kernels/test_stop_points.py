@@ -107,13 +107,10 @@ def plain_law(sensor, reading_m, distance_m, spread_m, given_reading=True):
 
 CASES = {
     "a thick surface and a sharp sensor": (0.02, 3.05, 3.0, 0.06),
-    "a thin surface and a blunt sensor": (0.3, 3.05, 2.95, 0.02),
-    "both alike": (0.1, 2.1, 2.0, 0.1),
-    "the surface's far end": (0.05, 3.25, 3.0, 0.08),
-    "a reading from elsewhere": (0.05, 6.0, 2.0, 0.08),
-    "a reading before the surface": (0.05, 1.0, 2.0, 0.08),
-    "no return": (0.05, np.inf, 4.0, 0.1),
-}
+    "a thin surface and a blunt sensor": (0.3, 3.05, 2.95, 0.02), "both alike": (0.1, 2.1, 2.0, 0.1),
+    "the surface's far end": (0.05, 3.25, 3.0, 0.08), "a reading from elsewhere": (0.05, 6.0, 2.0, 0.08),
+    "a reading before the surface": (0.05, 1.0, 2.0, 0.08), "no return": (0.05, np.inf, 4.0, 0.1),
+}  # fmt: skip
 
 
 @pytest.mark.parametrize("case", full_but(CASES, "the surface's far end", "no return"))

@@ -123,13 +123,11 @@ def test_a_long_motion_over_a_long_time_is_believed():
 
 
 COARSE = {
-    "whole seconds": np.floor,
-    "tens of seconds": lambda t: 10.0 * np.floor(t / 10.0),
-    "single precision": lambda t: t.astype(np.float32).astype(float),
-    "one value": lambda t: np.full(len(t), t[0]),
+    "whole seconds": np.floor, "tens of seconds": lambda t: 10.0 * np.floor(t / 10.0),
+    "single precision": lambda t: t.astype(np.float32).astype(float), "one value": lambda t: np.full(len(t), t[0]),
     "repeated at the end": lambda t: np.minimum(t, t[len(t) // 2]),
     "in bursts": lambda t: np.floor(t) + 1e-5 * np.arange(len(t)),
-}
+}  # fmt: skip
 
 
 @pytest.mark.parametrize("kind", COARSE)

@@ -202,10 +202,8 @@ def test_surfaces_block_where_they_lie():
 def test_impossible_plans_are_refused():
     draws = rooms(np.zeros(4, dtype=bool))
     for start, risk, message in (
-        ((-1.0, 1.0), 0.1, "outside"),
-        ((5.1, 4.0), 0.1, "touches"),
-        ((2.0, 5.7), 1.5, "risk"),
-    ):
+        ((-1.0, 1.0), 0.1, "outside"), ((5.1, 4.0), 0.1, "touches"), ((2.0, 5.7), 1.5, "risk"),
+    ):  # fmt: skip
         with pytest.raises(BadInput, match=message):
             route(draws, risk, start)
     draws.reshape(-1, *GRID.shape)[:, 20] = 1.0  # no door

@@ -25,12 +25,10 @@ from bayesmap.sensors.model import RangeLimits
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "mapping-model.md"
 ANGLES = np.arange(100) / 100 * 2 * np.pi
 SENSORS = {
-    "gaussian": bm.Gaussian(0.5),
-    "growing": bm.Gaussian(0.1, sigma_per_m=0.05),
-    "student": bm.StudentT(0.2, dof=3.0, scale_per_m=0.02),
-    "mixture": bm.BeamMixture(bm.Gaussian(0.1)),
+    "gaussian": bm.Gaussian(0.5), "growing": bm.Gaussian(0.1, sigma_per_m=0.05),
+    "student": bm.StudentT(0.2, dof=3.0, scale_per_m=0.02), "mixture": bm.BeamMixture(bm.Gaussian(0.1)),
     "student mixture": bm.BeamMixture(bm.StudentT(0.1, dof=2.5), p_random=0.1, p_no_return=0.2, p_short=0.3),
-}
+}  # fmt: skip
 TABLE_CUT = 1e-4  # nats a beam: where the mixture's beam table ends early (FLAT_NATS)
 
 

@@ -8,12 +8,9 @@ from bayesmap.sensors.model import RangeLimits
 LIMITS = RangeLimits(0.3, 8.0)
 
 NOISES = {
-    "gaussian": bm.Gaussian(0.2),
-    "gaussian, growing": bm.Gaussian(0.05, 0.1),
-    "student-t": bm.StudentT(0.2, 4.0),
-    "student-t, growing": bm.StudentT(0.1, 2.5, 0.05),
-    "cauchy": bm.StudentT(0.05, 1.0),
-}
+    "gaussian": bm.Gaussian(0.2), "gaussian, growing": bm.Gaussian(0.05, 0.1), "student-t": bm.StudentT(0.2, 4.0),
+    "student-t, growing": bm.StudentT(0.1, 2.5, 0.05), "cauchy": bm.StudentT(0.05, 1.0),
+}  # fmt: skip
 MIXTURES = {
     "mixture": bm.BeamMixture(),
     "mixture of wide noise": bm.BeamMixture(bm.Gaussian(0.7), 0.1, 0.2, 0.3, 1.5),

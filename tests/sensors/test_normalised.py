@@ -59,16 +59,10 @@ probability = st.floats(0.0, 0.9)
 
 
 @given(
-    st.floats(0.3, 8.0) | st.sampled_from([np.inf, -np.inf]),
-    st.floats(0.0, 9.0) | st.just(np.inf),
-    st.floats(0.02, 1.0),
-    st.floats(0.0, 0.2),
-    st.sampled_from([None, 1.0, 4.0]),
-    st.floats(0.01, 0.9),
-    probability,
-    probability,
-    st.floats(0.05, 3.0),
-)
+    st.floats(0.3, 8.0) | st.sampled_from([np.inf, -np.inf]), st.floats(0.0, 9.0) | st.just(np.inf),
+    st.floats(0.02, 1.0), st.floats(0.0, 0.2), st.sampled_from([None, 1.0, 4.0]), st.floats(0.01, 0.9), probability,
+    probability, st.floats(0.05, 3.0),
+)  # fmt: skip
 def test_the_mixture_is_the_story_that_its_docstring_tells(z, d, sigma, per_m, dof, random, lost, short, rate):
     noise = bm.Gaussian(sigma, per_m) if dof is None else bm.StudentT(sigma, dof, per_m)
     found = bm.BeamMixture(noise, random, lost, short, rate).log_likelihood(np.float64(z), np.float64(d), LIMITS)

@@ -111,11 +111,9 @@ def test_one_cell_has_four_edges_in_metres():
     mask[2, 0] = True
     found = {tuple(sorted(map(tuple, s))) for s in boundary_segments(grid, mask).tolist()}
     assert found == {
-        ((11.0, -1.0), (11.0, -0.5)),
-        ((11.5, -1.0), (11.5, -0.5)),
-        ((11.0, -1.0), (11.5, -1.0)),
+        ((11.0, -1.0), (11.0, -0.5)), ((11.5, -1.0), (11.5, -0.5)), ((11.0, -1.0), (11.5, -1.0)),
         ((11.0, -0.5), (11.5, -0.5)),
-    }
+    }  # fmt: skip
 
 
 @pytest.mark.parametrize("seed", range(5))

@@ -163,14 +163,12 @@ def record(result: Result) -> Recording:
     draws = _text(_deflate(np.packbits(bits.ravel()).tobytes()))
     numbers = (figures[name] for name in ("sweeps", "ess", "rhat", "verdict"))
     return Recording(
-        document=result.document,
-        scans=_scans(result),
+        document=result.document, scans=_scans(result),
         mean=_text(np.rint(found.mean() * LEVELS).astype(np.uint8).tobytes()),
         observed=_text(np.packbits(found.observed().ravel()).tobytes()),
-        draws=RecordedDraws(chains if count else 0, count, draws),
-        log_joint=_numbers(joint, 2),
+        draws=RecordedDraws(chains if count else 0, count, draws), log_joint=_numbers(joint, 2),
         settings=RecordedFigures(result.method, result.quantity, *numbers),
-    )
+    )  # fmt: skip
 
 
 def _thinned(result: Result) -> tuple[NDArray[np.uint8], NDArray[np.float64]]:

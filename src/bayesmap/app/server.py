@@ -280,12 +280,9 @@ class _Server(uvicorn.Server):
 
 
 async def _serve(
-    hub_of: Callable[[], Hub],
-    found: socket.socket,
-    host: str,
-    announce: Callable[[str], None],
+    hub_of: Callable[[], Hub], found: socket.socket, host: str, announce: Callable[[str], None],
     server_of: Callable[[uvicorn.Config, Callable[[], None]], uvicorn.Server] = _Server,
-) -> None:
+) -> None:  # fmt: skip
     port = found.getsockname()[1]
     token = secrets.token_urlsafe(24)
     hub = hub_of()
@@ -310,14 +307,9 @@ async def _serve(
 
 
 def serve(
-    document: Document,
-    *,
-    path: str | None = None,
-    reading: Mapping[str, Any] | None = None,
-    host: str = "127.0.0.1",
-    port: int = 0,
-    on_ready: Callable[[str], None],
-) -> None:
+    document: Document, *, path: str | None = None, reading: Mapping[str, Any] | None = None, host: str = "127.0.0.1",
+    port: int = 0, on_ready: Callable[[str], None],
+) -> None:  # fmt: skip
     """Serve the page until Ctrl-C.
 
     Args:

@@ -34,15 +34,11 @@ PICTURE_SECONDS, PICTURE_SHARE = 0.25, 0.1
 
 WAIT_SECONDS = 0.02
 STAGE_TEXTS = {
-    "reading": "Reading the scans",
-    "front end": "Matching scan to scan",
-    "loops": "Closing loops",
-    "aligned": "Aligning the key scans",
-    "aligned-again": "Aligning again, with odometry corrected",
-    "rematch": "Matching each key scan anew",
-    "aligned-rematched": "Aligning after some were moved",
+    "reading": "Reading the scans", "front end": "Matching scan to scan", "loops": "Closing loops",
+    "aligned": "Aligning the key scans", "aligned-again": "Aligning again, with odometry corrected",
+    "rematch": "Matching each key scan anew", "aligned-rematched": "Aligning after some were moved",
     "placing": "Placing the other scans",
-}
+}  # fmt: skip
 """The names of the stages on the page, in their order."""
 
 

@@ -160,13 +160,9 @@ class Supervisor:
     """
 
     def __init__(
-        self,
-        on_report: Callable[[Report], None],
-        on_lost: Callable[[], None],
-        path: str | None = None,
-        silence_s: float = SILENT_SECONDS,
-        reading: Mapping[str, Any] | None = None,
-    ) -> None:
+        self, on_report: Callable[[Report], None], on_lost: Callable[[], None], path: str | None = None,
+        silence_s: float = SILENT_SECONDS, reading: Mapping[str, Any] | None = None,
+    ) -> None:  # fmt: skip
         self._on_report, self._on_lost, self._path = on_report, on_lost, path
         self._silence_s, self._reading = silence_s, dict(reading or {})
         self._tasks: queue.SimpleQueue[Task | None] = queue.SimpleQueue()

@@ -188,35 +188,25 @@ flip = _named(
 )
 """True with probability `p`."""
 bernoulli = _named(
-    "bernoulli",
-    _bernoulli,
-    lambda key, shape, p, *_: (jr.uniform(key, shape) < p).astype(jnp.int32),
+    "bernoulli", _bernoulli, lambda key, shape, p, *_: (jr.uniform(key, shape) < p).astype(jnp.int32),
     lambda v, p, yes, no: jnp.where(v == 1, yes, jnp.where(v == 0, no, -jnp.inf)),
     support=lambda v: (v == 0) | (v == 1),
-)
+)  # fmt: skip
 """1 with probability `probs`, or log odds `logits`; int32."""
 categorical = _named(
-    "categorical",
-    _class_logits,
-    lambda key, shape, logits: jr.categorical(key, logits, shape=shape),
-    _categorical_logpdf,
-    support=_counts,
-    batch=_event_batch,
-)
+    "categorical", _class_logits, lambda key, shape, logits: jr.categorical(key, logits, shape=shape),
+    _categorical_logpdf, support=_counts, batch=_event_batch,
+)  # fmt: skip
 """An index into the last axis of `logits` or `probs`."""
 normal = _location_scale("normal", jr.normal, st.norm.logpdf)
 uniform = _named(
-    "uniform",
-    lambda low, high: (low, high),
-    lambda key, shape, low, high: low + (high - low) * jr.uniform(key, shape),
+    "uniform", lambda low, high: (low, high), lambda key, shape, low, high: low + (high - low) * jr.uniform(key, shape),
     lambda v, low, high: jnp.where((v >= low) & (v <= high), -jnp.log(high - low), -jnp.inf),
-)
+)  # fmt: skip
 beta = _named(
-    "beta",
-    lambda concentration1, concentration0: (concentration1, concentration0),
-    lambda key, shape, a, b: jr.beta(key, a, b, shape),
-    st.beta.logpdf,
-)
+    "beta", lambda concentration1, concentration0: (concentration1, concentration0),
+    lambda key, shape, a, b: jr.beta(key, a, b, shape), st.beta.logpdf,
+)  # fmt: skip
 gamma = _named(
     "gamma",
     lambda concentration, rate: (concentration, rate),
@@ -224,90 +214,62 @@ gamma = _named(
     lambda v, a, rate: st.gamma.logpdf(v, a, scale=1 / rate),
 )
 inverse_gamma = _named(
-    "inverse_gamma",
-    lambda concentration, scale: (concentration, scale),
-    lambda key, shape, a, scale: scale / jr.gamma(key, a, shape),
-    _inverse_gamma_logpdf,
-)
+    "inverse_gamma", lambda concentration, scale: (concentration, scale),
+    lambda key, shape, a, scale: scale / jr.gamma(key, a, shape), _inverse_gamma_logpdf,
+)  # fmt: skip
 exponential = _named(
-    "exponential",
-    lambda rate: (rate,),
-    lambda key, shape, rate: jr.exponential(key, shape) / rate,
+    "exponential", lambda rate: (rate,), lambda key, shape, rate: jr.exponential(key, shape) / rate,
     lambda v, rate: _positive(v, jnp.log(rate) - rate * v),
-)
+)  # fmt: skip
 poisson = _named(
-    "poisson",
-    lambda rate: (rate,),
-    _real(lambda key, shape, rate: jr.poisson(key, rate, shape)),
-    lambda v, rate: _positive(v, xlogy(v, rate) - rate - gammaln(v + 1.0)),
-    support=_counts,
-)
+    "poisson", lambda rate: (rate,), _real(lambda key, shape, rate: jr.poisson(key, rate, shape)),
+    lambda v, rate: _positive(v, xlogy(v, rate) - rate - gammaln(v + 1.0)), support=_counts,
+)  # fmt: skip
 geometric = _named(
-    "geometric",
-    _event,
-    _real(lambda key, shape, p, *_: jr.geometric(key, p, shape) - 1),
-    lambda v, p, yes, no: _positive(v, yes + xlog1py(v, -p)),
-    support=_counts,
-)
+    "geometric", _event, _real(lambda key, shape, p, *_: jr.geometric(key, p, shape) - 1),
+    lambda v, p, yes, no: _positive(v, yes + xlog1py(v, -p)), support=_counts,
+)  # fmt: skip
 """The number of failures before the first success."""
 binomial = _named(
-    "binomial",
-    _binomial,
-    _real(lambda key, shape, n, p: jr.binomial(key, n, p, shape)),
-    st.binom.logpmf,
+    "binomial", _binomial, _real(lambda key, shape, n, p: jr.binomial(key, n, p, shape)), st.binom.logpmf,
     support=_counts,
-)
+)  # fmt: skip
 laplace = _location_scale("laplace", jr.laplace, st.laplace.logpdf)
 cauchy = _location_scale("cauchy", jr.cauchy, st.cauchy.logpdf)
 gumbel = _location_scale("gumbel", jr.gumbel, lambda v, m, s: -(v - m) / s - jnp.exp(-(v - m) / s) - jnp.log(s))
 student_t = _named(
-    "student_t",
-    lambda df, loc, scale: (df, loc, scale),
-    lambda key, shape, df, m, s: m + s * jr.t(key, df, shape),
+    "student_t", lambda df, loc, scale: (df, loc, scale), lambda key, shape, df, m, s: m + s * jr.t(key, df, shape),
     st.t.logpdf,
-)
+)  # fmt: skip
 log_normal = _named(
     "log_normal", _loc_scale, lambda key, shape, m, s: jnp.exp(m + s * jr.normal(key, shape)), _log_normal_logpdf
 )
 half_normal = _named(
-    "half_normal",
-    lambda scale: (scale,),
-    lambda key, shape, s: s * jnp.abs(jr.normal(key, shape)),
+    "half_normal", lambda scale: (scale,), lambda key, shape, s: s * jnp.abs(jr.normal(key, shape)),
     lambda v, s: _positive(v, st.norm.logpdf(v, 0.0, s) + jnp.log(2.0)),
-)
+)  # fmt: skip
 half_cauchy = _named(
-    "half_cauchy",
-    _loc_scale,
-    lambda key, shape, m, s: m + s * jnp.abs(jr.cauchy(key, shape)),
+    "half_cauchy", _loc_scale, lambda key, shape, m, s: m + s * jnp.abs(jr.cauchy(key, shape)),
     lambda v, m, s: _positive(v - m, st.cauchy.logpdf(v, m, s) + jnp.log(2.0)),
-)
+)  # fmt: skip
 truncated_normal = _named(
-    "truncated_normal",
-    lambda loc, scale, low, high: (loc, scale, low, high),
-    _truncated_draw,
+    "truncated_normal", lambda loc, scale, low, high: (loc, scale, low, high), _truncated_draw,
     lambda v, m, s, low, high: st.truncnorm.logpdf(v, (low - m) / s, (high - m) / s, m, s),
-)
+)  # fmt: skip
 weibull = _named(
-    "weibull",
-    lambda concentration, scale: (concentration, scale),
-    lambda key, shape, k, s: jr.weibull_min(key, s, k, shape),
-    _weibull_logpdf,
-)
+    "weibull", lambda concentration, scale: (concentration, scale),
+    lambda key, shape, k, s: jr.weibull_min(key, s, k, shape), _weibull_logpdf,
+)  # fmt: skip
 chi2 = _named("chi2", lambda df: (df,), lambda key, shape, df: 2.0 * jr.gamma(key, df / 2, shape), st.chi2.logpdf)
 dirichlet = _named(
-    "dirichlet",
-    lambda concentration: (concentration,),
-    lambda key, shape, a: jr.dirichlet(key, a, shape),
-    lambda v, a: st.dirichlet.logpdf(jnp.moveaxis(v, -1, 0), a),
-    batch=_event_batch,
-)
+    "dirichlet", lambda concentration: (concentration,), lambda key, shape, a: jr.dirichlet(key, a, shape),
+    lambda v, a: st.dirichlet.logpdf(jnp.moveaxis(v, -1, 0), a), batch=_event_batch,
+)  # fmt: skip
 mv_normal = _named(
-    "mv_normal",
-    lambda loc, covariance_matrix: (loc, covariance_matrix),
-    lambda key, shape, m, cov: jr.multivariate_normal(key, m, cov, shape),
-    st.multivariate_normal.logpdf,
+    "mv_normal", lambda loc, covariance_matrix: (loc, covariance_matrix),
+    lambda key, shape, m, cov: jr.multivariate_normal(key, m, cov, shape), st.multivariate_normal.logpdf,
     batch=lambda m, cov: jnp.shape(m)[:-1],
-)
+)  # fmt: skip
 mv_normal_diag = _named(
     "mv_normal_diag",
     lambda loc, scale_diag=1.0: (loc, scale_diag),

@@ -31,15 +31,9 @@ if TYPE_CHECKING:
 
 RECORDINGS = tuple(ending for ending in ENDINGS if ending != FOLDER)
 FORMATS = {
-    "map-server": (".yaml", ".yml"),
-    "occupancy-grid": RECORDINGS,
-    "gridmap": (),
-    "rerun": (".rrd",),
-    "tum": (".tum",),
-    "trajectory": (),
-    "g2o": (".g2o",),
-    "geotiff": (".tif", ".tiff"),
-}
+    "map-server": (".yaml", ".yml"), "occupancy-grid": RECORDINGS, "gridmap": (), "rerun": (".rrd",), "tum": (".tum",),
+    "trajectory": (), "g2o": (".g2o",), "geotiff": (".tif", ".tiff"),
+}  # fmt: skip
 """Formats with the endings that select them; a name without ending is an occupancy grid in a folder."""
 
 TRAJECTORIES = ("tum", "trajectory", "g2o")

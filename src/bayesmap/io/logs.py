@@ -36,14 +36,11 @@ from bayesmap.space.time_order import SAME_S, coarse_stamps_note, elapsed_s
 from bayesmap.space.trajectory import Trajectory
 
 FORMATS = (
-    "CARMEN (lines of FLASER, ROBOTLASER1, ODOM; plain or gzipped)",
-    "ROS 1 bag",
-    "ROS 2 bag (a folder, .db3 or .mcap)",
+    "CARMEN (lines of FLASER, ROBOTLASER1, ODOM; plain or gzipped)", "ROS 1 bag", "ROS 2 bag (a folder, .db3 or .mcap)",
     "g2o and TORO (VERTEX_SE2 or VERTEX2 with laser lines)",
     "CSV (a header with x, y, yaw, r_0 .., or a LaserScan's by rostopic echo -p or ros2 topic echo --csv)",
-    "NumPy .npz",
-    "MRPT's .rawlog",
-)
+    "NumPy .npz", "MRPT's .rawlog",
+)  # fmt: skip
 LINES_LOOKED_AT = 1000  # lines of a text that may decide its format
 ENDINGS = (".log", ".log.gz", ".clf", ".clf.gz", ".bag", ".g2o", ".csv", ".npz", ".rawlog")
 SAVED_RUNS = (b"\x89HDF", b"CDF")  # first bytes of netCDF files

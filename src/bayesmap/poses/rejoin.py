@@ -210,10 +210,8 @@ def consistent(islands: KeyPath, joint: Joint) -> bool:
     kept = np.arange(min(len(a), COMPARED)) * len(a) // max(1, min(len(a), COMPARED))
     a, b = a[kept], b[kept]
     scans, seen, geometry = (
-        (islands.scans(one[a]), islands.scans(two[b])),
-        between(earlier[a], later[b]),
-        islands.geometry,
-    )
+        (islands.scans(one[a]), islands.scans(two[b])), between(earlier[a], later[b]), islands.geometry,
+    )  # fmt: skip
     matched, against, _ = mutual_view_counts(geometry, *scans, seen, SEEN, geometry.threads).sum(axis=0)
     return bool(against <= MOST_AGAINST * (matched + against))
 

@@ -110,12 +110,10 @@ def maximise(
             return -what(values_at(point))
 
         result = scipy.optimize.minimize(
-            descend,
-            np.array([p.inner(start[p.name]) for p in parameters]),
-            method="L-BFGS-B",
+            descend, np.array([p.inner(start[p.name]) for p in parameters]), method="L-BFGS-B",
             bounds=[(p.inner(p.low), p.inner(p.high)) for p in parameters],
             options={"eps": STEP, "ftol": tolerance, "maxiter": MOST_STEPS, "maxfun": 3000},
-        )
+        )  # fmt: skip
         on_share(1.0)
         return values_at(result.x), -float(result.fun)
 

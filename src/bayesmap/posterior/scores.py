@@ -144,11 +144,9 @@ def reliability(chance: Floats, happened: NDArray[np.bool_], bins: int = 10) -> 
 
 
 def beam_log_scores(
-    predictor: Predictor,
-    scans: Scans,
-    on_progress: Callable[[int, int], None] = lambda done, total: None,
+    predictor: Predictor, scans: Scans, on_progress: Callable[[int, int], None] = lambda done, total: None,
     device: str = "cpu",
-) -> Floats:
+) -> Floats:  # fmt: skip
     """Compute the log predictive density of every reading, log mean over draws of p(reading | draw), (B,).
 
     Densities are per metre for hits, probabilities for typed readings, in nats; NaN where a reading is invalid. They

@@ -78,10 +78,8 @@ class RelationErrors:
         """
         turned_deg = np.degrees(self.rotation_rad)
         result: dict[str, float] = {
-            "relations": len(self.errors),
-            "not_covered": int((~self.covered).sum()),
-            "in_gaps": int(self.in_gap.sum()),
-        }
+            "relations": len(self.errors), "not_covered": int((~self.covered).sum()), "in_gaps": int(self.in_gap.sum()),
+        }  # fmt: skip
         for name, values in (("translation_m", self.translation_m), ("rotation_deg", turned_deg)):
             for word, of in (("mean", np.mean), ("std", np.std), ("median", np.median)):
                 result[f"{name}_{word}"] = float(of(values)) if len(values) else float("nan")

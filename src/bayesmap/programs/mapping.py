@@ -65,16 +65,9 @@ class SetCells(EditRequest):
 
 
 def mapping_model(
-    grid: Grid,
-    poses: ArrayLike | GenerativeFunction,
-    angles_rad: ArrayLike,
-    prior: Independent,
-    sensor: SensorModel,
-    *,
-    max_range_m: float,
-    min_range_m: float = 0.0,
-    hit_depth: float = 0.0,
-) -> StaticGenerativeFunction:
+    grid: Grid, poses: ArrayLike | GenerativeFunction, angles_rad: ArrayLike, prior: Independent, sensor: SensorModel,
+    *, max_range_m: float, min_range_m: float = 0.0, hit_depth: float = 0.0,
+) -> StaticGenerativeFunction:  # fmt: skip
     """Return the joint law of a map and its readings, as a generative function without arguments.
 
     Its choices, which it also returns, are
@@ -126,15 +119,9 @@ def mapping_model(
 
 
 def sensor_model(
-    grid: Grid,
-    poses: ArrayLike,
-    angles_rad: ArrayLike,
-    sensor: SensorModel,
-    *,
-    max_range_m: float,
-    min_range_m: float = 0.0,
-    hit_depth: float = 0.0,
-) -> BeamSensor:
+    grid: Grid, poses: ArrayLike, angles_rad: ArrayLike, sensor: SensorModel, *, max_range_m: float,
+    min_range_m: float = 0.0, hit_depth: float = 0.0,
+) -> BeamSensor:  # fmt: skip
     """Return the sensor alone: a generative function of the walls (nx, ny), with the readings as its only choice.
 
     Use it in models with your own prior:
@@ -154,14 +141,9 @@ def sensor_model(
 
 
 def pose_sensor_model(
-    grid: Grid,
-    angles_rad: ArrayLike,
-    sensor: SensorModel,
-    *,
-    max_range_m: float,
-    min_range_m: float = 0.0,
+    grid: Grid, angles_rad: ArrayLike, sensor: SensorModel, *, max_range_m: float, min_range_m: float = 0.0,
     hit_depth: float = 0.0,
-) -> PoseSensor:
+) -> PoseSensor:  # fmt: skip
     """Return the sensor alone, for unknown poses: a generative function of walls (nx, ny) and poses (3,) or (S, 3).
 
     Use it in models with your own priors, or with known walls (localization):

@@ -42,12 +42,9 @@ def metropolis_hastings(request: EditRequest | Callable[[Trace], EditRequest]) -
 
 
 def run_chain(
-    key: PRNGKey,
-    trace: Trace,
-    kernel: Kernel,
-    n: int,
+    key: PRNGKey, trace: Trace, kernel: Kernel, n: int,
     collect: Callable[[Trace], Any] = lambda trace: trace.get_choices(),
-) -> Chain:
+) -> Chain:  # fmt: skip
     """Apply a kernel `n` times, with the key `fold_in(key, t)` in step t, and return values of each trace.
 
     A longer run begins with the steps of a shorter one. For several chains use `jax.vmap` over keys and traces.

@@ -287,16 +287,9 @@ class ChangeTarget(SMCAlgorithm):
 
 
 def particle_filter(
-    key: PRNGKey,
-    kernel: GenerativeFunction,
-    args: tuple[Any, Any],
-    constraint: ChoiceMap,
-    k: int,
-    threshold: float = 0.5,
-    *,
-    n: int | None = None,
-    history: bool = False,
-) -> tuple[ParticleCollection, Array]:
+    key: PRNGKey, kernel: GenerativeFunction, args: tuple[Any, Any], constraint: ChoiceMap, k: int,
+    threshold: float = 0.5, *, n: int | None = None, history: bool = False,
+) -> tuple[ParticleCollection, Array]:  # fmt: skip
     """Run the bootstrap filter of Gordon, Salmond and Smith (1993) for the model `kernel.scan()`.
 
     Args:
