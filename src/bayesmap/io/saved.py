@@ -66,7 +66,7 @@ def _write_by_reading(posterior: Posterior, file: Any) -> None:
     """Write the log likelihood of every valid reading in every draw, as arviz's ``loo`` reads it."""
     from bayesmap.posterior.dataset import by_reading, valid_readings
 
-    group, draws = _group(file, "log_likelihood"), posterior.draws
+    group, draws = file.createGroup("log_likelihood"), posterior.draws
     for name, count in (("chain", draws.chains), ("draw", draws.count)):
         write_arrays(group, (name,), {name: np.arange(count)}, compressed=False)
     write_arrays(group, ("reading",), dict(zip(("scan", "beam"), valid_readings(posterior), strict=True)))
