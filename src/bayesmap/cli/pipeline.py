@@ -150,13 +150,12 @@ def refuse_odometry(log: str, scans: Scans) -> None:
     Raises:
         BadInput: the poses look like raw odometry.
     """
-    from bayesmap.poses.agreement import look_like_odometry
+    from bayesmap.poses.agreement import DOUBLED, look_like_odometry
 
     if look_like_odometry(scans):
         raise BadInput(
-            f"{log}: at these poses the same walls stand in several places, as with raw odometry; "
-            f"`bayesmap slam {log}` infers the trajectory, too (bayesmap info says more). "
-            "To take the poses as they are, add --poses-as-given"
+            f"{log}: {DOUBLED}, as with raw odometry; `bayesmap slam {log}` infers the trajectory, too (bayesmap info "
+            "says more). To take the poses as they are, add --poses-as-given"
         )
 
 

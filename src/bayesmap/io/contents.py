@@ -14,7 +14,7 @@ from bayesmap.errors import BadInput
 from bayesmap.io.log_reading import LogReading
 from bayesmap.io.logs import RECORDINGS, describe_log, format_of
 from bayesmap.io.ros.recording import POSE_TYPES, SCAN_TYPES, TF_TYPES, TYPES
-from bayesmap.poses.agreement import look_like_odometry
+from bayesmap.poses.agreement import DOUBLED, look_like_odometry
 from bayesmap.poses.log_checks import TOO_SELDOM, scans_come_often
 from bayesmap.space.scans import Scans
 
@@ -155,9 +155,9 @@ def _about_poses(reading: LogReading) -> list[str]:
     if not look_like_odometry(reading.scans):
         return []
     return [
-        "at these poses the same walls stand in several places. If the poses are raw odometry, bayesmap slam finds "
-        "better ones; if they should be right, look at the notes, at where the laser sits (--laser X,Y,DEGREES; if it "
-        "is upside down, its beams sweep the other way), and, in a recording, at --pose-topic and --fixed-frame"
+        f"{DOUBLED}. If the poses are raw odometry, bayesmap slam finds better ones; if they should be right, look at "
+        "the notes, at where the laser sits (--laser X,Y,DEGREES; if it is upside down, its beams sweep the other "
+        "way), and, in a recording, at --pose-topic and --fixed-frame"
     ]
 
 

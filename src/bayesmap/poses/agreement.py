@@ -18,6 +18,7 @@ WINDOW = 15  # number of scans over which odometry is as good as the truth
 RAW_BELOW = 0.8  # relative agreement below which poses are raw odometry
 
 CELL_M, MOST_SCANS = 0.2, 900
+DOUBLED = "at these poses the same walls stand in several places"  # in words
 FURTHEST_M = 15.0  # greatest range of hits that are used, metres: heading errors move far hits most, in any log
 
 

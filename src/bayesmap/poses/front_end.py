@@ -32,7 +32,7 @@ POOR_SCORE, POOR_BELOW = 0.45, 0.25
 """A scan is badly explained if its score is below the greater of two bounds: the first number, and the usual score less
 the second. It may then contradict the key scans."""
 
-LOST_SIGMA = np.array([0.5, 0.5, np.radians(30.0)])  # a badly explained scan with larger ones is a contradiction
+LOST_SIGMA = np.array([0.5, 0.5, np.radians(30.0)])  # sigmas of a pose beyond which a poor scan is a contradiction
 SLIPPED_BELOW = 0.15  # a wide search may move a scan to a score that is lower than usual by at most this
 
 AGAIN_BELOW = 0.1

@@ -28,7 +28,7 @@ WIDE_M, WIDE_RAD = 1.5, np.radians(40.0)
 
 NEAR = Pull(0.2, np.radians(5.0), 0.005)  # penalty in the narrow window for leaving the present pose
 CLEARLY_BETTER, WIDE_BETTER = 0.015, 0.12  # least gain in score, from 0 to 1, in the narrow and in the wide window
-AT_ONCE, POINTS, SIGMA_M = 24, 200, 0.06  # scans and most points per scan at once, sigma of the grids
+AT_ONCE, POINTS, SIGMA_M = 24, 200, 0.06  # scans matched at once, their points, sigma of the grids, metres
 
 
 @dataclass(frozen=True, eq=False)

@@ -18,7 +18,7 @@ from bayesmap.poses.scan_geometry import ScanGeometry
 from bayesmap.space.planar import Floats, between, chained, compose, rotation, yaw_wrapped
 from bayesmap.space.scans import Scans
 
-STEADY = np.diag(1.0 / np.array([0.1, 0.1, np.radians(3.0)]) ** 2)  # of the front end's links without odometry
+STEADY = np.diag(1.0 / np.array([0.1, 0.1, np.radians(3.0)]) ** 2)  # information of links without odometry
 NEIGHBOURS = 7  # successive motions over which the median variance is taken
 GUESSED = np.diag(1.0 / UNKNOWN**2)  # information of an unknown motion: it keeps parts of the path from drifting away
 

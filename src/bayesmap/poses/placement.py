@@ -14,7 +14,7 @@ from bayesmap.poses.scan_geometry import ScanGeometry
 from bayesmap.space.planar import Floats, around, between, nearest, rotation
 
 COMPARED = 10  # key scans that each scan is compared with
-PRIOR_SIGMA = np.array([0.03, 0.03, np.radians(1.0)])  # of a scan between key scans, before its beams are used
+PRIOR_SIGMA = np.array([0.03, 0.03, np.radians(1.0)])  # sigmas of a scan before its beams are used
 
 CAUTION, LEAST_SIGMA_M = 2.0, 0.005
 """Factor on the scatter of points, and the least scatter, during refinement: the rough first steps then stay near the

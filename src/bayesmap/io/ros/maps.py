@@ -170,7 +170,7 @@ def write_map(
     Each file is written whole or not at all; the image comes first, so that a YAML file always has its image.
 
     Args:
-        path_yaml: the YAML file to write; the image gets its name with the suffix .pgm or .png.
+        path_yaml: the YAML file; the image gets its name with the suffix .pgm or .png.
         occupancy: probability that each cell is occupied, shape (nx, ny), NaN where unknown.
         grid: the grid of the map.
         observed: cells that some beam reached, shape (nx, ny); all by default.
@@ -180,11 +180,8 @@ def write_map(
         occupied_thresh: 0.65 for trinary. For scale 1: nav2 reads all above as 100. No effect in raw.
         free_thresh: 0.25 for trinary. For scale 0: nav2 reads all below as 0. No effect in raw.
 
-    Returns:
-        Paths of the YAML file and of the image.
-
-    Raises:
-        BadInput: those of `in_percent`, a path whose suffix is not .yaml or .yml, or a folder that cannot be written.
+    Returns the paths of both. Raises `BadInput` as `in_percent`, for a path whose suffix is not .yaml or .yml, or for a
+    folder that cannot be written.
     """
     from PIL import Image
 

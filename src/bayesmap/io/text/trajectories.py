@@ -40,9 +40,7 @@ def write_trajectory(
     """Write poses, (S, 3), as a TUM trajectory, whole or not at all. Returns the path.
 
     The stamps, (S,), are in seconds; if None, they are 0, 1, 2 and so on. The header names the frame, if it is known.
-
-    Raises:
-        BadInput: shapes that do not fit, numbers that are not finite, no pose, or a file that cannot be written.
+    Raises `BadInput` for shapes that do not fit, numbers that are not finite, no pose, or an unwritable file.
     """
     poses = as_poses(poses_world)
     if len(poses) == 0:
