@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from shell import json_of
+from shell import json_of, refusal_of
 
 import bayesmap as bm
 from bayesmap.cli.translation import odometry_of
@@ -63,6 +63,37 @@ def test_raw_odometry_with_the_truth_beside_it(tmp_path):
     start, end = (interpolate(stamps, base, relations[:, column]) for column in (0, 1))
     assert len(relations) > 20
     np.testing.assert_allclose(between(relations[:, [2, 3, 7]], between(start, end)), 0.0, atol=1e-4)
+
+
+def test_a_recording_holds_scans_odometry_and_the_place_of_the_laser(tmp_path):
+    document = json_of(
+        "simulate", "--format mcap --size 12x8 --resolution 0.25 --minutes 0.05 --angles 60 --laser 0.2,0,90 -o",
+        tmp_path / "robot.mcap", "--json",
+    )  # fmt: skip
+    assert (document["scans"], document["beams"]) == (30, 1800)
+    reading = describe_log(tmp_path / "robot.mcap")
+    mount = np.array([0.2, 0.0, np.pi / 2])
+    np.testing.assert_allclose(reading.laser_offset, mount, atol=1e-6)
+    rows = np.loadtxt(tmp_path / "robot-truth.tum")
+    np.testing.assert_allclose(reading.scans.stamps_s, rows[:, 0], atol=1e-5)
+    np.testing.assert_allclose(np.diff(rows[:, 0]), 0.1, atol=1e-5)
+    true = np.column_stack([rows[:, 1:3], 2 * np.arctan2(rows[:, 6], rows[:, 7])])
+    drift = between(true, reading.scans.poses)
+    assert np.abs(drift[0]).max() < 1e-5
+    assert np.abs(drift[-1]).max() > 0.01
+
+
+@pytest.mark.parametrize(
+    ("line", "message"),
+    [
+        ("--format carmen -o a.mcap", "ends differently"),
+        ("--format mcap -o a.log", "ends differently"),
+        ("--minutes 1 -o a.log", "--world building"),
+    ],
+)
+def test_a_recording_that_cannot_be_made_is_refused(tmp_path, monkeypatch, line, message):
+    monkeypatch.chdir(tmp_path)
+    assert message in refusal_of("simulate", line, code=3 if "minutes" in line else 2)
 
 
 def test_true_poses_come_with_no_trajectory_of_the_truth(tmp_path):

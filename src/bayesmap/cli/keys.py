@@ -191,24 +191,34 @@ class SlamSettings(SamplingSettings, kw_only=True, frozen=True):
 class SimulateSettings(Settings, kw_only=True, frozen=True):
     """Settings of `simulate`."""
 
+    format: Annotated[Literal["carmen", "mcap"] | None, Help("Format of the log.", "by the name of LOG, or carmen")] = (
+        None
+    )
     world: Annotated[
-        str, Help("tutorial, building, or a FILE: drawing, picture, map_server YAML.", metavar="WORLD")
-    ] = "tutorial"
+        str | None,
+        Help("tutorial, building, or a FILE: drawing, picture, map_server YAML.", "tutorial; mcap: building", "WORLD"),
+    ] = None
     resolution: Annotated[Length | None, Help("Edge of a cell in metres.", "1 for tutorial and drawings, else 0.1")] = (
         None
     )
     size: Annotated[str, Help("Size of a building, in metres.", metavar="WxD")] = "30x20"
     scans: Annotated[Count, Help("Scans along the robot's path through a building.", metavar="N")] = 200
-    angles: Annotated[int | None, Help("Beams per scan.", "100 in the tutorial, else 180", "N")] = None
-    fov: Annotated[float | None, Help("Field of view in degrees.", "360 in the tutorial, else 180", "DEGREES")] = None
+    minutes: Annotated[
+        Length | None, Help("Minutes of driving through a building, 10 scans a second.", "mcap: 2", "N")
+    ] = None
+    angles: Annotated[int | None, Help("Beams per scan.", "tutorial: 100; mcap: 720; else 180", "N")] = None
+    fov: Annotated[float | None, Help("Field of view in degrees.", "tutorial, mcap: 360; else 180", "DEGREES")] = None
     max_range: Annotated[
-        Length | None, Help("Largest range of the sensor.", "42 in the tutorial, else 30", "METRES")
+        Length | None, Help("Largest range of the sensor.", "tutorial: 42; mcap: 12; else 30", "METRES")
     ] = None
     sensor: SensorText = "default"
     odometry: Annotated[
-        str, Help("Poses of the log: true, typical, or with numbers (see above).", metavar="ODOMETRY")
-    ] = "true"
-    laser: Annotated[str, Help("Where the laser sits on the robot.", metavar="X,Y,DEGREES")] = "0,0,0"
+        str | None,
+        Help("Poses of the log: true, typical, or with numbers (see above).", "true; mcap: typical", "ODOMETRY"),
+    ] = None
+    laser: Annotated[
+        str | None, Help("Where the laser sits on the robot.", "0,0,0; mcap: -0.1,0.03,180", "X,Y,DEGREES")
+    ] = None
     speed: Annotated[
         float,
         Rule(lambda x: 0 < x < math.inf, "a positive number of metres a second"),

@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
+import msgspec
 
 from bayesmap.cli.command import Call, command
 from bayesmap.cli.keys import SimulateSettings
@@ -28,15 +29,23 @@ TURN_RAD_PER_S = 1.0
 RARE = 1e-5
 """Probability of a random reading of a simulated laser. It is small, since one far reading makes the map larger."""
 
+RATE_HZ = 10.0
+START_S = 1.7e9
+"""Scans a second, and the time stamp of the first scan, of a recording."""
+
+LOG_DEFAULTS: dict[str, Any] = {"world": "tutorial", "odometry": "true", "laser": "0,0,0"}
+RECORDING_DEFAULTS: dict[str, Any] = {"world": "building", "odometry": "typical", "laser": "-0.1,0.03,180"}
+RECORDING_DEFAULTS |= {"angles": 720, "fov": 360.0, "max_range": 12.0}
+
 IMAGES = (".png", ".pgm", ".ppm", ".pbm", ".jpg", ".jpeg", ".bmp", ".gif", ".tif", ".tiff", ".webp")
 
 
 @command("simulate")
-@click.option("-o", "--output", metavar="LOG", help="The log, .log or .log.gz. [default: WORLD.log]")
+@click.option("-o", "--output", metavar="LOG", help="The log: .log, .log.gz or .mcap. [default: WORLD.log]")
 @click.option("--pose", "poses", metavar="X,Y,DEGREES", multiple=True, help="Take a scan from here; may be repeated.")
 @click.option("--force", is_flag=True, help="Replace existing files.")
 def simulate(call: Call[SimulateSettings], output: str | None, poses: tuple[str, ...], force: bool) -> None:
-    r"""Simulate the scans of a robot in a known world, and write them as a CARMEN log for infer.
+    r"""Simulate the scans of a robot in a known world, and write them as a log for infer and slam.
 
     The command writes the true map beside LOG.log, for nav2: LOG-truth.yaml. In a building the robot drives through
     the rooms. In the tutorial's map it stands in the middle. In other worlds give its poses with --pose.
@@ -58,11 +67,24 @@ def simulate(call: Call[SimulateSettings], output: str | None, poses: tuple[str,
     """
     settings = call.settings()
     # Check what was typed.
+    recorded = settings.format == "mcap" if output is None else Path(output).suffix == ".mcap"
+    if output is not None and settings.format not in (None, "mcap" if recorded else "carmen"):
+        raise click.UsageError(f"-o {output}: the name of a log of --format {settings.format} ends differently")
+    defaults = RECORDING_DEFAULTS if recorded else LOG_DEFAULTS
+    settings = msgspec.structs.replace(settings, **{k: v for k, v in defaults.items() if getattr(settings, k) is None})
+    assert isinstance(settings.world, str)
+    assert isinstance(settings.odometry, str)
+    assert isinstance(settings.laser, str)
+    minutes = settings.minutes
+    if recorded and minutes is None and settings.world == "building" and not poses:
+        minutes = 2.0
+    if minutes is not None and (settings.world != "building" or poses):
+        raise BadInput("--minutes: the robot drives in --world building, without --pose, only")
     noise, mount = odometry_of(settings.odometry), pose_of(settings.laser, "--laser")
-    log = Path(output or f"{Path(settings.world).stem}.log")
-    if not {".log", ".gz"} & {log.suffix}:
-        raise click.UsageError(f"-o {log}: the name of a log ends in .log or .log.gz")
-    stem = log.name.removesuffix(".gz").removesuffix(".log")
+    log = Path(output or f"{Path(settings.world).stem}{'.mcap' if recorded else '.log'}")
+    if not {".log", ".gz", ".mcap"} & {log.suffix}:
+        raise click.UsageError(f"-o {log}: the name of a log ends in .log, .log.gz or .mcap")
+    stem = log.name.removesuffix(".gz").removesuffix(".log").removesuffix(".mcap")
     truth, relations = log.with_name(f"{stem}-truth.yaml"), log.with_name(f"{stem}.relations")
     trajectory = truth.with_suffix(".tum")
     written = [log, truth, truth.with_suffix(".pgm"), *([] if noise is None else [trajectory, relations])]
@@ -71,16 +93,18 @@ def simulate(call: Call[SimulateSettings], output: str | None, poses: tuple[str,
         raise BadInput(f"{existing[0]}: exists already; --force replaces it, -o takes another name")
     typed_sensor = sensor_of(settings.sensor)
     # Make the world and the sensor.
-    world = world_of(settings, poses)
+    world = world_of(settings, poses, minutes)
     sensor = world.sensor() if typed_sensor is None else typed_sensor
     max_range_m = world.max_range_m if settings.max_range is None else settings.max_range
 
     import numpy as np
 
     from bayesmap.io.ros.maps import write_map
+    from bayesmap.io.ros.writer import write_scans
     from bayesmap.io.text.carmen import write_carmen
     from bayesmap.sensors.builtin import describe
     from bayesmap.sim import forward
+    from bayesmap.sim.robot import simulate_odometry, travel_times_s
     from bayesmap.space.planar import compose
     from bayesmap.space.scans import fan
 
@@ -96,17 +120,24 @@ def simulate(call: Call[SimulateSettings], output: str | None, poses: tuple[str,
         opacity=world.opacity, typed=True,
     )  # fmt: skip
     # Draw the poses of odometry, and put them into the log.
-    if noise is not None:
-        from bayesmap.sim.robot import simulate_odometry, travel_times_s
-
+    stamps_s = world.stamps_s
+    if stamps_s is None and (recorded or noise is not None):
         stamps_s = travel_times_s(base, settings.speed, TURN_RAD_PER_S)
-        base = simulate_odometry(base, noise, stamps_s=stamps_s, seed=settings.seed)
+    if stamps_s is not None:
+        stamps_s = stamps_s + (START_S if recorded else 0.0)
+        if noise is not None:
+            base = simulate_odometry(base, noise, stamps_s=stamps_s, seed=settings.seed)
         scans = replace(scans, poses=compose(base, np.array(mount)), stamps_s=stamps_s)
     # Write the log and the truth.
     log.parent.mkdir(parents=True, exist_ok=True)
-    message = write_carmen(log, scans, base)
+    if recorded:
+        message = "/scan, /tf and /tf_static"
+        write_scans(log, scans, base, mount)
+    else:
+        message = write_carmen(log, scans, base)
     outputs = [log, *write_map(truth, world.walls.astype(float), world.grid)]
     if noise is not None:
+        assert stamps_s is not None
         outputs += _write_truth(trajectory, relations, world.poses, stamps_s, settings.seed)
     # Print the result.
     grid = world.grid
@@ -160,6 +191,7 @@ class World:
     walls: NDArray[np.bool_]  # true walls, (nx, ny)
     grid: Grid
     poses: NDArray[np.float64]  # poses of the robot, (S, 3)
+    stamps_s: NDArray[np.float64] | None = None  # time of each pose, (S,), where the robot drives
     opacity: NDArray[np.float64] | None = None  # probability that a wall stops a beam, (nx, ny); None if all do
     is_tutorial: bool = False  # whether the sensor is the tutorial's
     beams: int = 180
@@ -176,8 +208,10 @@ class World:
         return BeamMixture(Gaussian(LASER_SIGMA_M, LASER_SIGMA_PER_M), p_random=RARE)
 
 
-def world_of(settings: SimulateSettings, poses: Sequence[str]) -> World:
+def world_of(settings: SimulateSettings, poses: Sequence[str], minutes: float | None = None) -> World:
     """Return the world that the settings name, with the robot at the typed poses or at the world's default poses.
+
+    With ``minutes`` the robot drives that long through a building.
 
     Raises:
         BadInput: a file that is no world, or an invalid size or pose.
@@ -185,12 +219,12 @@ def world_of(settings: SimulateSettings, poses: Sequence[str]) -> World:
     """
     import numpy as np
 
-    name, resolution = settings.world, settings.resolution
+    name, resolution = settings.world or "tutorial", settings.resolution
     typed = np.array([pose_of(text) for text in poses]) if poses else None
     if name == "tutorial":
         return _tutorial(resolution, typed)
     if name == "building":
-        return _building(settings, typed)
+        return _building(settings, typed, minutes)
     path = Path(name)
     if not path.is_file():
         raise BadInput(
@@ -215,14 +249,20 @@ def _tutorial(resolution: float | None, typed: NDArray[np.float64] | None) -> Wo
     return World(walls, grid, poses, is_tutorial=True, beams=100, fov_deg=360.0, max_range_m=42.0)
 
 
-def _building(settings: SimulateSettings, typed: NDArray[np.float64] | None) -> World:
+def _building(settings: SimulateSettings, typed: NDArray[np.float64] | None, minutes: float | None) -> World:
     """Return a random building, with the robot at the typed poses or on a patrol through the rooms."""
     from bayesmap.sim.building import building
-    from bayesmap.sim.robot import patrol
+    from bayesmap.sim.robot import drive, patrol
 
-    plan = building(settings.seed, _size(settings.size), settings.resolution or 0.1)
-    poses = patrol(plan, settings.scans, settings.seed) if typed is None else typed
-    return World(plan.walls, plan.grid, poses, plan.opacity)
+    plan, stamps_s = building(settings.seed, _size(settings.size), settings.resolution or 0.1), None
+    if minutes is not None:
+        stamps_s, poses = drive(
+            plan, 60.0 * minutes, RATE_HZ,
+            speed_m_per_s=settings.speed, turn_rad_per_s=TURN_RAD_PER_S, seed=settings.seed,
+        )  # fmt: skip
+    else:
+        poses = patrol(plan, settings.scans, settings.seed) if typed is None else typed
+    return World(plan.walls, plan.grid, poses, stamps_s, plan.opacity)
 
 
 def _from_file(path: Path, resolution: float | None) -> tuple[NDArray[np.bool_], Grid]:

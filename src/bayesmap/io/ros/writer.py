@@ -28,6 +28,7 @@ from bayesmap.errors import BadInput
 from bayesmap.files import write_whole, write_whole_folder
 from bayesmap.space.cell_arrays import as_layers
 from bayesmap.space.grid import Grid
+from bayesmap.space.scans import Scans
 from bayesmap.space.trajectory import Trajectory
 
 if TYPE_CHECKING:
@@ -188,6 +189,7 @@ FRAME = "map"
 OCCUPANCY_GRID = "nav_msgs/msg/OccupancyGrid"
 GRID_MAP, GRID_MAP_INFO = "grid_map_msgs/msg/GridMap", "grid_map_msgs/msg/GridMapInfo"
 PATH, POSE = "nav_msgs/msg/Path", "geometry_msgs/msg/PoseWithCovarianceStamped"
+SCAN, TRANSFORMS = "sensor_msgs/msg/LaserScan", "tf2_msgs/msg/TFMessage"
 
 IN_PLANE = np.array([0, 1, 5])  # indices of x, y and yaw among the six components of ROS covariances
 
@@ -297,4 +299,46 @@ def write_trajectory_recording(path: str | os.PathLike[str], trajectory: Traject
     if trajectory.covariances is not None:
         messages = [(stamp, partial(pose_message, i)) for i, stamp in enumerate(times)]
         channels.append(Channel("/pose", POSE, messages, latched=False))
+    return write_channels(path, channels)
+
+
+def write_scans(path: str | os.PathLike[str], scans: Scans, base: ArrayLike, mount: Sequence[float]) -> Path:
+    """Write scans as a robot records them: /scan, odometry in /tf, and the laser's place in /tf_static.
+
+    Args:
+        path: the recording.
+        scans: scans of one fan of beams, with stamps of 1 ns and later.
+        base: poses of the robot's base as odometry reports them, shape (S, 3).
+        mount: pose of the laser in the frame of the base.
+
+    Raises:
+        BadInput: scans without stamps, another ending, or a file that cannot be written.
+    """
+    if scans.stamps_s is None or scans.own_angles_rad is not None:
+        raise BadInput("recording: scans need stamps and one fan of beams")
+    angles, stamps = scans.angles_rad, scans.stamps_s.tolist()
+
+    def transform(stamp_s: float, frames: tuple[str, str], pose: Sequence[float], store: Typestore, ros: int) -> Any:
+        types, posed = store.types, pose_of(store, *pose)
+        shift = types["geometry_msgs/msg/Vector3"](*(float(v) for v in (*pose[:2], 0.0)))
+        moved = types["geometry_msgs/msg/Transform"](translation=shift, rotation=posed.orientation)
+        stamped = types["geometry_msgs/msg/TransformStamped"]
+        header = header_of(store, ros, frames[0], stamp_s)
+        return types[TRANSFORMS](transforms=[stamped(header=header, child_frame_id=frames[1], transform=moved)])
+
+    def scan(at: int, store: Typestore, ros: int) -> Any:
+        return store.types[SCAN](
+            header=header_of(store, ros, "laser", stamps[at]), angle_min=float(angles[0]), angle_max=float(angles[-1]),
+            angle_increment=float(angles[1] - angles[0]), time_increment=0.0, scan_time=0.0,
+            range_min=float(scans.min_range_m), range_max=float(scans.max_range_m),
+            ranges=scans.ranges_m[at].astype(np.float32), intensities=np.zeros(0, np.float32),
+        )  # fmt: skip
+
+    poses = np.asarray(base, dtype=np.float64).tolist()
+    moving = [(s, partial(transform, s, ("odom", "base_link"), p)) for s, p in zip(stamps, poses, strict=True)]
+    channels = [
+        Channel("/tf_static", TRANSFORMS, [(stamps[0], partial(transform, stamps[0], ("base_link", "laser"), mount))]),
+        Channel("/tf", TRANSFORMS, moving, latched=False),
+        Channel("/scan", SCAN, [(stamp, partial(scan, i)) for i, stamp in enumerate(stamps)], latched=False),
+    ]
     return write_channels(path, channels)
