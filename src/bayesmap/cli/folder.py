@@ -80,7 +80,7 @@ def peak_memory_mb() -> float:
 
 DERIVED = (
     "posterior.png", "map.yaml", "map.pgm", "summary.json", "trajectory.tum", "trajectory-covariances.txt",
-    "trajectory.png", "odometry.png", "loops.png",
+    "trajectory.png", "odometry.png", "loops.png", "surfaces.png",
 )  # fmt: skip
 """Files made from the run. They are removed when another run takes its place."""
 
@@ -236,7 +236,18 @@ class Folder:
         if run.n_draws == 0 and not run.finished:
             return [self.run]
         with progress(self.console, "drawing the map"):
-            return [self.run, *self.draw(run)]
+            return [self.run, *self.draw(run), *self._draw_surfaces(run)]
+
+    def _draw_surfaces(self, run: Run) -> list[Path]:
+        """Draw the surfaces of a run, if its cells have any."""
+        if not run.posterior.prior.has_surfaces:
+            return []
+        from bayesmap.viz.figure import write_figure
+        from bayesmap.viz.overlays import surfaces_figure
+
+        path = self.path / "surfaces.png"
+        write_figure(surfaces_figure(run.grid, *run.surfaces(), run.observed), path)
+        return [path]
 
     def write_document(self, document: dict[str, Any]) -> None:
         """Write the JSON document."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+from collections.abc import Sequence
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -34,7 +35,9 @@ def route_figure(
     Raises:
         BadInput: shapes that do not fit.
     """
-    figure, ax = _map_figure(grid, occupancy, observed, label)
+    figure, ax = maps.map_figure(grid, aspects=(0.5, 3.0), foot_in=FOOT_IN)
+    image = maps.draw_probability(ax, grid, occupancy, observed)
+    figure.colorbar(image, ax=ax, label=label, shrink=0.8)
     draw_route(ax, path, radius_m)
     ax.set_title(title, fontsize=9)
     return _with_legend(figure)
@@ -56,23 +59,26 @@ def draw_route(ax: Axes, path: ArrayLike, radius_m: float) -> PathPatch:
 
 def views_figure(
     grid: Grid, occupancy: ArrayLike, observed: ArrayLike | None, candidates: ArrayLike, nats: ArrayLike,
-    best: ArrayLike, *, label: str = "probability of wall",
+    best: ArrayLike, values: Sequence[str] = (),
 ) -> Figure:  # fmt: skip
     """Draw candidate views, (P, 3), over the mean map, coloured by their expected information in nats, (P,).
 
-    ``best`` holds indices of candidates, the best first. These are drawn as numbered arrows.
+    ``best`` holds indices of candidates, the best first. These are drawn as numbered arrows, each with one of the texts
+    ``values``, such as its expected information.
 
     Raises:
         BadInput: shapes that do not fit.
     """
-    figure, ax = _map_figure(grid, occupancy, observed, label)
+    figure, ax = maps.map_figure(grid, aspects=(0.5, 3.0), foot_in=FOOT_IN)
+    maps.draw_probability(ax, grid, occupancy, observed)
     dots = draw_candidates(ax, candidates, nats)
     figure.colorbar(dots, ax=ax, label="expected information, independent cells [nats]", shrink=0.8)
     poses = np.asarray(candidates, dtype=np.float64)
     for rank, i in enumerate(np.asarray(best, dtype=np.intp).tolist(), 1):
         draw_sensor(ax, poses[i])[0].set_label("best views" if rank == 1 else "_")
         ax.annotate(
-            str(rank), (poses[i, 0], poses[i, 1]), xytext=(7, 7), textcoords="offset points", fontsize=10,
+            f"{rank}: {values[rank - 1]}" if values else str(rank),
+            (poses[i, 0], poses[i, 1]), xytext=(7, 7), textcoords="offset points", fontsize=8,
             fontweight="bold", color=palette.TEXT, zorder=3.8,
             bbox={"boxstyle": "round,pad=0.15", "fc": "white", "ec": "none", "alpha": 0.8},
         )  # fmt: skip
@@ -89,14 +95,6 @@ def draw_candidates(ax: Axes, candidates: ArrayLike, nats: ArrayLike) -> PathCol
         poses[order, 0], poses[order, 1], c=gains[order], cmap=palette.surprise_colormap(), s=16, linewidths=0.4,
         edgecolors="white", label="candidates", zorder=3.3,
     )  # fmt: skip
-
-
-def _map_figure(grid: Grid, occupancy: ArrayLike, observed: ArrayLike | None, label: str) -> tuple[Figure, Axes]:
-    """Return a figure of the mean map with its colour bar."""
-    figure, ax = maps.map_figure(grid, aspects=(0.5, 3.0), foot_in=FOOT_IN)
-    image = maps.draw_probability(ax, grid, occupancy, observed)
-    figure.colorbar(image, ax=ax, label=label, shrink=0.8)
-    return figure, ax
 
 
 def _with_legend(figure: Figure) -> Figure:

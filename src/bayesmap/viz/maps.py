@@ -132,6 +132,21 @@ def window_around(grid: Grid, mask: ArrayLike, margin_m: float = 1.0) -> tuple[G
     return window(grid, edges[0], edges[1])
 
 
+ALONE = 4
+"""A wall with fewer walls in the 5 x 5 cells around it, itself included, may be the end of a stray beam."""
+
+
+def window_of_walls(grid: Grid, walls: ArrayLike, points_m: ArrayLike, margin_m: float = 1.0) -> tuple[Grid, Cut]:
+    """Return the window around points, (n, 2), and walls, a mask (nx, ny), without walls that stand alone."""
+    from scipy.ndimage import convolve
+
+    mask = as_mask(grid, walls, "walls")
+    mask = mask & (convolve(mask.astype(np.uint8), np.ones((5, 5), np.uint8), mode="constant") >= ALONE)
+    cells = np.floor(grid.to_cells(np.asarray(points_m, dtype=np.float64))).astype(np.intp)
+    mask[tuple(np.clip(cells, 0, np.array(grid.shape) - 1).T)] = True
+    return window_around(grid, mask, margin_m)
+
+
 HEIGHT_IN, BAR_IN = 5.6, 1.3
 """Height of a map's panel, and the room for a colour bar at its right."""
 

@@ -14,13 +14,14 @@ from bayesmap.space.grid import Grid
 from bayesmap.viz import maps, palette
 
 Floats = NDArray[np.float64]
+Mask = NDArray[np.bool_]
 
 REGION = 5.991
 """Squared radius, in standard deviations, of the ellipse with 95 % of a normal distribution in the plane."""
 
 MOST_ELLIPSES = 300
 SIZE_IN = 8.0
-BEFORE, AFTER, FLAGGED, LOOP = "#c1440e", "#0b7a5b", "#d6278a", "#3b6fb6"
+BEFORE, AFTER, FLAGGED = "#c1440e", "#0b7a5b", "#d6278a"
 
 
 def draw_ellipses(ax: Axes, means: Floats, covariances: Floats, magnified: float = 1.0) -> EllipseCollection:
@@ -40,12 +41,23 @@ def trajectory_figure(
     grid: Grid, occupancy: ArrayLike, observed: ArrayLike, poses: Floats, covariances: Floats,
     flagged: NDArray[np.bool_] | None = None,
 ) -> Figure:  # fmt: skip
-    """Draw a map, a trajectory, (S, 3), and 95 % ellipses of its covariances, (S, 3, 3). Mark flagged scans."""
+    """Draw a map, a trajectory, (S, 3), and 95 % ellipses of its covariances, (S, 3, 3). Mark flagged scans.
+
+    The picture leaves out the parts of the map that hold no wall but the ends of stray beams.
+    """
+    grid, occupancy, observed = _inhabited(grid, occupancy, observed, poses)
     figure, ax = _axes(grid.shape[1] / grid.shape[0])
     _draw_map(ax, grid, occupancy, observed, poses, covariances)
     if flagged is not None and flagged.any():
         ax.plot(*poses[flagged, :2].T, "x", color=FLAGGED, markersize=5, label="badly explained scan", zorder=5)
     return _finished(figure, ax)
+
+
+def _inhabited(grid: Grid, occupancy: ArrayLike, observed: ArrayLike, poses: Floats) -> tuple[Grid, Floats, Mask]:
+    """Return grid, occupancy and mask of observed cells of the window around walls and poses."""
+    values, seen = np.asarray(occupancy, dtype=np.float64), np.asarray(observed, dtype=np.bool_)
+    inner, cut = maps.window_of_walls(grid, seen & (values > 0.5), poses[:, :2])
+    return inner, values[cut], seen[cut]
 
 
 def _draw_map(
@@ -69,6 +81,7 @@ def before_and_after_figure(
     ``raw`` and ``poses`` are (S, 3), ``covariances`` (S, 3, 3). ``ends`` are the end points of readings from the raw
     poses, (N, 2) in metres.
     """
+    grid, occupancy, observed = _inhabited(grid, occupancy, observed, poses)
     height = SIZE_IN * 0.75 * grid.shape[1] / grid.shape[0] + 0.8
     figure = palette.blank_figure(1.5 * SIZE_IN, height, dpi=110)
     left, right = figure.subplots(1, 2)
@@ -114,17 +127,25 @@ def loops_figure(
     for other, probability in alternatives:
         label = f"alternative, probability {probability:.2f}"
         ax.plot(other[:, 0], other[:, 1], color=FLAGGED, linewidth=0.8, linestyle="--", label=label)
+    ends = np.stack([poses[first, :2], poses[second, :2]], axis=1)
     believed = weights > 0.5
-    for chosen, colour, name in ((~believed, FLAGGED, "rejected loop closure"), (believed, LOOP, "loop closure")):
-        if chosen.any():
-            ends = np.stack([poses[first[chosen], :2], poses[second[chosen], :2]], axis=1)
-            ax.add_collection(LineCollection(list(ends), colors=colour, linewidths=0.9, label=name, zorder=3))
-    off_m = np.hypot(residuals[believed, 0], residuals[believed, 1])
-    if len(off_m):
-        turned = np.degrees(np.abs(residuals[believed, 2]))
+    if not believed.all():
+        name = "rejected loop closure"
+        ax.add_collection(LineCollection(list(ends[~believed]), colors=FLAGGED, linewidths=0.6, label=name, zorder=3))
+    if believed.any():
+        # Large residuals are drawn last, over the many small ones.
+        off_cm, turned = 100 * np.hypot(residuals[:, 0], residuals[:, 1]), np.degrees(np.abs(residuals[:, 2]))
+        order = np.nonzero(believed)[0][np.argsort(off_cm[believed])]
+        lines = LineCollection(list(ends[order]), array=off_cm[order], cmap=palette.surprise_colormap(), linewidths=1.0)
+        lines.set(zorder=3.1, label="loop closure", clim=(0.0, off_cm[order[-1]]))
+        ax.add_collection(lines)
+        figure.colorbar(lines, ax=ax, label="residual of a loop closure [cm]", shrink=0.8)
+        worst = order[-1]
+        ax.plot(*ends[worst].T, "o", color=palette.TEXT, markersize=4, zorder=4)
         ax.set_title(
-            f"{believed.sum()} loop closures: median residual {100 * np.median(off_m):.1f} cm, "
-            f"{np.median(turned):.2f} degrees", fontsize=9,
+            f"{len(order)} loop closures: median residual {np.median(off_cm[order]):.1f} cm, "
+            f"{np.median(turned[order]):.2f} degrees\nworst (dots): scans {first[worst]} and {second[worst]}, "
+            f"{off_cm[worst]:.1f} cm, {turned[worst]:.2f} degrees", fontsize=9,
         )  # fmt: skip
     ax.set_aspect("equal")
     return _finished(figure, ax)
