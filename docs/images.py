@@ -7,7 +7,7 @@ import os
 from pathlib import Path
 
 import numpy as np
-from bayesmap.cli.pictures import log_odds_map
+from bayesmap.cli.render import log_odds_map
 
 import bayesmap as bm
 from bayesmap.sim.drawing import TUTORIAL_GRID
