@@ -34,7 +34,7 @@ def building() -> None:
         Candidate("log-odds", log_odds[cut], seen[cut]),
         Candidate("posterior over surfaces", run.occupancy[cut], run.observed[cut]),
     ]
-    figure = comparison_figure(part, maps, label="chance that a beam stops")
+    figure = comparison_figure(part, maps, label="chance that a cell stops a beam")
     draw_surfaces(figure.axes[1], *run.surfaces(), color=SURFACE)
     write_figure(figure, IMAGES / "building.png")
 

@@ -18,6 +18,8 @@ PAGES = ("mapping", "gibbs", "kernels", "localization", "both", "odometry")
 """In the order in which they are read: each `NAME.py` makes `NAME.md`."""
 FOLDED = 'tags=["hide-input"]'
 """On the line that begins a cell: its code is folded away, as Jupyter Book does it; what it prints is shown."""
+FOLDED_WHOLE = 'tags=["hide-cell"]'
+"""On the line that begins a cell: its code and what it prints are folded away, as the answer of an exercise."""
 
 
 class Cell(NamedTuple):
@@ -28,12 +30,14 @@ class Cell(NamedTuple):
         text: without the line that begins the cell.
         line: of the file, on which the text begins.
         folded: the title of code that is folded away, else the empty string.
+        whole: whether what the code prints is folded away, too.
     """
 
     is_code: bool
     text: str
     line: int
     folded: str = ""
+    whole: bool = False
 
 
 def cells(source: str) -> list[Cell]:
@@ -48,9 +52,10 @@ def cells(source: str) -> list[Cell]:
             body = [line.removeprefix("#").removeprefix(" ") for line in body]
         text = "\n".join(body).strip("\n")
         skipped = next((n for n, line in enumerate(body) if line), 0)
-        title = lines[start].removeprefix("# %%").replace(FOLDED, "").strip()
-        folded = (title or "Code of the figure and the checks") if FOLDED in lines[start] else ""
-        found.append(Cell(is_code, text, start + 2 + skipped, folded))
+        title = lines[start].removeprefix("# %%").replace(FOLDED, "").replace(FOLDED_WHOLE, "").strip()
+        whole = FOLDED_WHOLE in lines[start]
+        folded = (title or "Code of the figure and the checks") if whole or FOLDED in lines[start] else ""
+        found.append(Cell(is_code, text, start + 2 + skipped, folded, whole))
     return found
 
 
@@ -81,9 +86,13 @@ def page(name: str, source: str, outputs: list[str]) -> str:
             parts.append(cell.text)
             continue
         code = f"```python\n{cell.text}\n```"
+        if cell.whole:
+            code += "\n\n" + _block([rounded(line) for line in next(printed).splitlines()])
         if cell.folded:
             code = f"<details><summary>{cell.folded}</summary>\n\n{code}\n\n</details>"
         parts.append(code)
+        if cell.whole:
+            continue
         text: list[str] = []
         for line in next(printed).splitlines():
             figure = re.fullmatch(r"figure: (\S+\.png): (.+)", line)

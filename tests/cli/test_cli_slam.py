@@ -14,6 +14,7 @@ from bayesmap.space.trajectory import FRAMES
 
 OUTPUTS = {
     "run.nc", "map.yaml", "map.pgm", "posterior.png", "trajectory.tum", "trajectory.png", "odometry.png", "loops.png",
+    "surfaces.png",
     "summary.json", "config.toml",
 }  # fmt: skip
 

@@ -69,7 +69,18 @@ def test_a_page_is_made_of_its_notebook(name):
     blocks = re.findall(r"^```python\n(.*?)^```$", page, re.DOTALL | re.MULTILINE)
     assert [block.rstrip("\n") for block in blocks] == [cell.text for cell in cells if cell.is_code]
     assert [cell.text for cell in cells if not cell.is_code and cell.text not in page] == []
-    assert page.count("<details>") == sum(bool(cell.folded) for cell in cells)
+    in_prose = sum(cell.text.count("<details>") for cell in cells if not cell.is_code)
+    assert page.count("<details>") == page.count("</details>") == in_prose + sum(bool(cell.folded) for cell in cells)
+
+
+@every_page
+def test_a_page_begins_with_its_aims_and_ends_with_exercises_whose_answers_are_folded(name):
+    page = page_of(name)
+    aims, exercises = page.index("**You will be able to**"), page.index("## Exercises")
+    assert aims < page.index("\n## ") < exercises
+    assert re.search(r"\*\*Reading time\*\*: \d+ minutes", page[:exercises])
+    asked, answers = page[exercises:].count("\n**Exercise "), page[exercises:].count("<summary>Answer")
+    assert asked == answers >= 2
 
 
 @every_page
@@ -121,6 +132,8 @@ def test_a_page_has_its_cells_in_order_and_folds_those_that_say_so(tmp_path):
     assert "One\n\ntwo\n\n```python\na = 3\nprint(a)\n```\n\n```text\n3\n```" in page
     assert "<details><summary>A check</summary>\n\n```python\nprint(a + 1)" in page
     assert page.endswith("</details>\n\n```text\n4\n```\n\n![F](figures/f.png)\n\n*F*\n")
+    answer = render.page("n", '# %% Answer tags=["hide-cell"]\nprint(1)\n', ["1\n"])
+    assert answer.endswith("<summary>Answer</summary>\n\n```python\nprint(1)\n```\n\n```text\n1\n```\n\n</details>\n")
 
 
 def recording(html):

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import bayesmap as bm
+from bayesmap.errors import BadInput
 from bayesmap.kernels.counts import count_hits
 from bayesmap.kernels.predict.density import log_densities
 from bayesmap.posterior.baselines import hit_ratio
@@ -152,3 +153,14 @@ def test_too_few_scans_are_refused(train):
         make_folds(blind, GRID)
     with pytest.raises(bm.BadInput, match="to fit a sensor on"):
         one_fold(blind, GRID)
+
+
+def test_a_map_of_thinned_scans_at_other_poses_is_known_as_such(stamped):
+    run = dataclasses.replace(
+        stamped, poses=stamped.poses + 1.0, ranges_m=stamped.ranges_m[:, ::2], angles_rad=stamped.angles_rad[::2]
+    )
+    with pytest.raises(NoneHeldOut, match="elsewhere"):
+        unseen_scans(run.select(slice(2, 8)), stamped, 4, "log")
+    other = dataclasses.replace(stamped, stamps_s=stamped.stamps_s + 0.5)
+    with pytest.raises(BadInput, match="none of the run's scans"):
+        unseen_scans(run, other, 4, "log")

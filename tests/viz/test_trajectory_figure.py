@@ -81,7 +81,8 @@ def test_a_route_is_named_and_drawn_over_the_map():
 def test_views_are_numbered_best_first():
     poses = np.column_stack([np.linspace(-1, 6, 8), np.full(8, 3.0), np.zeros(8)])
     figure = views_figure(GRID, MEAN, None, poses, np.arange(8.0), [7, 2])
-    assert [text.get_text() for text in figure.axes[0].texts] == ["1", "2"]
+    assert [text.get_text() for text in figure.axes[0].texts] == ["1: 7", "2: 2"]
+    assert len(figure.axes) == 2  # the map and one colour bar
     assert figure.axes[0].texts[0].xy[0] == pytest.approx(6.0)
     assert pixels(figure)
 
@@ -95,3 +96,29 @@ def test_a_path_that_is_none_is_refused(path):
 def test_candidates_and_their_numbers_must_match():
     with pytest.raises(BadInput, match="candidates"):
         views_figure(GRID, MEAN, None, np.zeros((4, 3)), np.zeros(3), [])
+
+
+def test_the_end_of_a_stray_beam_does_not_widen_the_picture():
+    grid = Grid((200, 100), 0.1)
+    walls = np.zeros(grid.shape, bool)
+    walls[10:60, 10] = walls[10:60, 50] = True
+    poses = np.column_stack([np.linspace(2.0, 5.0, 20), np.full(20, 3.0), np.zeros(20)])
+
+    def limits(walls):
+        figure = figures.trajectory_figure(grid, walls.astype(float), np.ones_like(walls), poses, COVARIANCES)
+        return figure.axes[0].get_xlim()
+
+    stray = walls.copy()
+    stray[190, 50] = True
+    assert limits(stray) == limits(walls) == pytest.approx((0.0, 7.0))
+    stray[188:193, 50] = True
+    assert limits(stray)[1] > 19.0
+
+
+def test_loops_are_coloured_by_residual_and_the_worst_is_named():
+    residuals = np.array([[0.01, 0.0, 0.0], [0.0, 0.08, 0.02], [5.0, 0.0, 0.0], [0.0, 0.02, 0.0]])
+    first, second = np.array([0, 2, 4, 6]), np.array([10, 12, 14, 16])
+    figure = figures.loops_figure(POSES, first, second, residuals, np.array([1.0, 0.9, 0.0, 1.0]))
+    (lines,) = [c for c in figure.axes[0].collections if c.get_array() is not None]
+    np.testing.assert_allclose(lines.get_array(), [1.0, 2.0, 8.0])  # the rejected closure has no colour
+    assert "scans 2 and 12, 8.0 cm" in figure.axes[0].get_title()

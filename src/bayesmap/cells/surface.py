@@ -72,8 +72,7 @@ class Surface(Reflective):
     size_scale: float = 0.35
 
     words: ClassVar[Words] = Words(
-        "surface", "reflectivities and surfaces", "mean chance that a square stops a beam",
-        "chance that a square stops a beam",
+        "surface", "reflectivities and surfaces", "chance that a cell stops a beam", "chance that a cell stops a beam",
     )  # fmt: skip
     arrays: ClassVar[tuple[ArraySpec, ...]] = (REFLECTIVITY, EXPECTED, *STOP_CHANCES, *(_spec(part) for part in PARTS))
     shown: ClassVar[tuple[str, str]] = ("stop_chance", "expected_stop_chance")

@@ -132,7 +132,6 @@ def explore(call: Call[ExploreSettings], run_file: str, output: str | None) -> N
 
     picture = views_figure(
         run.grid, run.occupancy, run.observed, found.candidates, found.independent, found.best,
-        [f"{v['at_least_nats']:.1f} to {v['at_most_nats']:.1f} nats" for v in _described_views(found)],
     )  # fmt: skip
     write_figure(picture, target)
     if call.console.as_json:

@@ -240,7 +240,7 @@ class Folder:
 
     def _draw_surfaces(self, run: Run) -> list[Path]:
         """Draw the surfaces of a run, if its cells have any."""
-        if not run.posterior.prior.has_surfaces:
+        if not run.posterior.prior.has_surfaces or run.n_draws == 0:
             return []
         from bayesmap.viz.figure import write_figure
         from bayesmap.viz.overlays import surfaces_figure

@@ -123,7 +123,7 @@ def _panel(run: Run, settings: RenderSettings, grid: Grid, window: tuple[slice, 
         log_odds, seen = log_odds_map(run)
         posterior = Candidate(f"posterior: {label}", shown, observed)
         both = [Candidate("log-odds", log_odds[window], seen[window]), posterior]
-        return comparison_figure(grid, both, label="chance that a beam stops")
+        return comparison_figure(grid, both, label="chance that a cell stops a beam")
     if what == "deviation" and run.posterior.prior.has_interval:
         raise BadInput("deviation: that of binary walls; --what width shows how sure a reflectivity is")
     if what == "width":

@@ -40,6 +40,13 @@ def moved_by(train: Scans, scans: Scans) -> bool:
     return not np.allclose(train.poses[match[seen]], scans.poses[seen], rtol=0.0, atol=1e-6)
 
 
+def _thinned_from(train: Scans, scans: Scans) -> bool:
+    """Return whether the run's scans have the stamps of a log's scans and fewer beams, as maps of `slam` have."""
+    if train.stamps_s is None or scans.stamps_s is None or train.ranges_m.shape[1] >= scans.ranges_m.shape[1]:
+        return False
+    return bool(np.isin(train.stamps_s, scans.stamps_s).all())
+
+
 def _matched(train: Scans, scans: Scans) -> NDArray[np.intp]:
     """Return the index of the run's scan that equals each scan, -1 if none, (S,)."""
     shared = train.own_angles_rad is None and scans.own_angles_rad is None
@@ -89,12 +96,13 @@ def unseen_scans(train: Scans, scans: Scans, every: int, where: str) -> Scans:
                 "recording, and scans that were trained on would flatter the run; leave it out, or give --holdout"
             )
         return scans
-    if not seen.any():
+    thinned = not seen.any() and _thinned_from(train, scans)
+    if not seen.any() and not thinned:
         raise BadInput(
             f"{where}: none of the run's scans is in it: not the log that the run was made from, or read with another "
             "--no-return, topic or --deskew; to score another recording of the same place whole, give --all"
         )
-    if moved_by(train, scans):
+    if thinned or moved_by(train, scans):
         raise NoneHeldOut(
             f"{where}: the run has its scans elsewhere than this log, as bayesmap slam does, so none is left to judge "
             f"its map by; bayesmap score {where} --trajectory DIR/trajectory.tum judges a map along its path"

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Sequence
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -59,12 +58,11 @@ def draw_route(ax: Axes, path: ArrayLike, radius_m: float) -> PathPatch:
 
 def views_figure(
     grid: Grid, occupancy: ArrayLike, observed: ArrayLike | None, candidates: ArrayLike, nats: ArrayLike,
-    best: ArrayLike, values: Sequence[str] = (),
+    best: ArrayLike,
 ) -> Figure:  # fmt: skip
     """Draw candidate views, (P, 3), over the mean map, coloured by their expected information in nats, (P,).
 
-    ``best`` holds indices of candidates, the best first. These are drawn as numbered arrows, each with one of the texts
-    ``values``, such as its expected information.
+    ``best`` holds indices of candidates, the best first. These are drawn as numbered arrows with their nats.
 
     Raises:
         BadInput: shapes that do not fit.
@@ -73,11 +71,11 @@ def views_figure(
     maps.draw_probability(ax, grid, occupancy, observed)
     dots = draw_candidates(ax, candidates, nats)
     figure.colorbar(dots, ax=ax, label="expected information, independent cells [nats]", shrink=0.8)
-    poses = np.asarray(candidates, dtype=np.float64)
+    poses, gains = np.asarray(candidates, dtype=np.float64), np.asarray(nats, dtype=np.float64)
     for rank, i in enumerate(np.asarray(best, dtype=np.intp).tolist(), 1):
         draw_sensor(ax, poses[i])[0].set_label("best views" if rank == 1 else "_")
         ax.annotate(
-            f"{rank}: {values[rank - 1]}" if values else str(rank),
+            f"{rank}: {gains[i]:.0f}",
             (poses[i, 0], poses[i, 1]), xytext=(7, 7), textcoords="offset points", fontsize=8,
             fontweight="bold", color=palette.TEXT, zorder=3.8,
             bbox={"boxstyle": "round,pad=0.15", "fc": "white", "ec": "none", "alpha": 0.8},

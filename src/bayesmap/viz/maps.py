@@ -132,7 +132,7 @@ def window_around(grid: Grid, mask: ArrayLike, margin_m: float = 1.0) -> tuple[G
     return window(grid, edges[0], edges[1])
 
 
-ALONE = 4
+ALONE = 3
 """A wall with fewer walls in the 5 x 5 cells around it, itself included, may be the end of a stray beam."""
 
 
@@ -148,7 +148,8 @@ def window_of_walls(grid: Grid, walls: ArrayLike, points_m: ArrayLike, margin_m:
 
 
 HEIGHT_IN, BAR_IN = 5.6, 1.3
-"""Height of a map's panel, and the room for a colour bar at its right."""
+"""Height of a map's panel with the labels below, and the room for labels at its left and a colour bar at its right."""
+LABELS_IN = 0.55
 
 
 def draw_probability(ax: Axes, grid: Grid, occupancy: ArrayLike, observed: ArrayLike | None = None) -> AxesImage:
@@ -238,7 +239,7 @@ def map_figure(
 
     ``aspects`` are the smallest and the largest ratio of the panel's width to its height.
     """
-    width_in = HEIGHT_IN * float(np.clip(grid.shape[0] / grid.shape[1], *aspects)) + bar_in
+    width_in = (HEIGHT_IN - LABELS_IN) * float(np.clip(grid.shape[0] / grid.shape[1], *aspects)) + bar_in
     figure = palette.blank_figure(width_in, HEIGHT_IN + foot_in, dpi)
     return figure, figure.subplots()
 

@@ -11,6 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.collections import PathCollection
 from matplotlib.colors import Colormap
 from matplotlib.figure import Figure
+from matplotlib.ticker import StrMethodFormatter
 from numpy.typing import ArrayLike, NDArray
 
 from bayesmap.errors import BadInput
@@ -103,7 +104,8 @@ def draw_distribution(ax: Axes, errors: NDArray[np.float64], label: str) -> None
     low = max(float(ordered[len(ordered) // 100]), 1e-6)
     ax.set(xscale="log", xlim=(low, max(float(ordered[-1]), 2 * low)), ylim=(0, 1))
     ax.set(xlabel=label, ylabel="share of relations")
-    ax.legend(frameon=False)
+    ax.xaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
+    ax.legend(loc="lower right", frameon=False)
 
 
 def draw_region_coverage(ax: Axes, score: TrajectoryScore) -> None:
@@ -120,8 +122,8 @@ def errors_figure(score: TrajectoryScore) -> Figure:
     panels = 2 if score.region is None else 3
     figure = palette.blank_figure(3.4 * panels, 3.4)
     axes = figure.subplots(1, panels)
-    draw_distribution(axes[0], score.errors.translation_m, "error of translation, metres")
-    draw_distribution(axes[1], np.degrees(score.errors.rotation_rad), "error of rotation, degrees")
+    draw_distribution(axes[0], 100 * score.errors.translation_m, "error of translation [cm]")
+    draw_distribution(axes[1], np.degrees(score.errors.rotation_rad), "error of rotation [degrees]")
     if score.region is not None:
         draw_region_coverage(axes[2], score)
     for ax in axes:

@@ -122,7 +122,7 @@ def loops_figure(
     """
     first, second = np.asarray(first), np.asarray(second)
     spans = np.ptp(poses[:, :2], axis=0)
-    figure, ax = _axes(float(spans[1] / max(spans[0], 1e-3)))
+    figure, ax = _axes(float(spans[1] / max(spans[0], 1e-3)), bar_in=1.0, title_in=0.4)
     ax.plot(poses[:, 0], poses[:, 1], color="#9a9a9a", linewidth=0.8, label="trajectory")
     for other, probability in alternatives:
         label = f"alternative, probability {probability:.2f}"
@@ -137,7 +137,7 @@ def loops_figure(
         off_cm, turned = 100 * np.hypot(residuals[:, 0], residuals[:, 1]), np.degrees(np.abs(residuals[:, 2]))
         order = np.nonzero(believed)[0][np.argsort(off_cm[believed])]
         lines = LineCollection(list(ends[order]), array=off_cm[order], cmap=palette.surprise_colormap(), linewidths=1.0)
-        lines.set(zorder=3.1, label="loop closure", clim=(0.0, off_cm[order[-1]]))
+        lines.set(zorder=3.1, clim=(0.0, off_cm[order[-1]]))
         ax.add_collection(lines)
         figure.colorbar(lines, ax=ax, label="residual of a loop closure [cm]", shrink=0.8)
         worst = order[-1]
@@ -151,8 +151,9 @@ def loops_figure(
     return _finished(figure, ax)
 
 
-def _axes(tall: float) -> tuple[Figure, Axes]:
-    height = SIZE_IN * float(np.clip(tall, 0.35, 1.6)) + 1.0
+def _axes(tall: float, bar_in: float = 0.0, title_in: float = 0.0) -> tuple[Figure, Axes]:
+    """Return a figure whose panel is so many times as high as wide, with room for a colour bar and a title."""
+    height = (SIZE_IN - 0.55 - bar_in) * float(np.clip(tall, 0.2, 1.6)) + 0.95 + title_in
     figure = palette.blank_figure(SIZE_IN, height, dpi=150)
     return figure, figure.add_subplot()
 
