@@ -7,9 +7,9 @@ import os
 from pathlib import Path
 
 import numpy as np
-from bayesmap.cli.render import log_odds_map
 
 import bayesmap as bm
+from bayesmap.cli.render import log_odds_map
 from bayesmap.sim.drawing import TUTORIAL_GRID
 from bayesmap.viz.figure import Candidate, comparison_figure, write_figure
 from bayesmap.viz.maps import window

@@ -14,13 +14,14 @@
 
 from __future__ import annotations
 
-from typing import Final, Literal
+from typing import Final
 
 import numpy as np
 from matplotlib import colormaps
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.colors import Colormap, ListedColormap
 from matplotlib.figure import Figure
+from matplotlib.layout_engine import ConstrainedLayoutEngine
 from numpy.typing import NDArray
 
 PAPER_LAB: Final = (98.0, 0.0, 1.0)
@@ -52,6 +53,9 @@ CHAINS: Final = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9
 
 HATCH: Final = "//////"
 HATCH_WIDTH_PT: Final = 0.6
+
+PAD_IN: Final = 0.08
+"""Margin around the panels of a figure, inches."""
 
 
 def lab_to_srgb(lab: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -114,7 +118,7 @@ def chain_color(chain: int) -> str:
 
 def blank_figure(width_in: float, height_in: float, dpi: float = 160.0, *, arranged: bool = True) -> Figure:
     """Return an empty figure with its own Agg canvas, outside pyplot. If ``arranged``, matplotlib places its panels."""
-    layout: Literal["constrained"] | None = "constrained" if arranged else None
+    layout = ConstrainedLayoutEngine(h_pad=PAD_IN, w_pad=PAD_IN) if arranged else None
     figure = Figure(figsize=(width_in, height_in), dpi=dpi, facecolor="white", layout=layout)
     FigureCanvasAgg(figure)
     return figure
