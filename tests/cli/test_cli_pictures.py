@@ -1,6 +1,7 @@
 """`demo`, `simulate`, `render` and `export`: files that open, and truth that comes back."""
 
 import json
+from typing import get_args
 
 import numpy as np
 import pytest
@@ -9,6 +10,9 @@ from shell import call, json_of, refusal_of, succeed
 from tiers import full_but, latin
 
 import bayesmap as bm
+from bayesmap.cli.folder import DERIVED
+from bayesmap.cli.keys import Picture
+from bayesmap.cli.render import default_name
 from bayesmap.io.ros.maps import read_map
 
 
@@ -114,11 +118,20 @@ def test_layers_of_walls_and_of_surfaces_in_a_geotiff(binary_run, office_run, tm
 def test_render_animation_and_default_names(office_run, tmp_path):
     copy = tmp_path / "run.nc"
     copy.write_bytes((office_run / "run.nc").read_bytes())
-    for what, name in (("animation", "chain.gif"), ("figure", "posterior.png"), ("entropy", "entropy.png")):
+    for what, name in (("animation", "animation.gif"), ("figure", "figure.png"), ("entropy", "entropy.png")):
         document = json.loads(call("render", copy, "--what", what, "--json --frames 3").stdout)
         assert document["outputs"] == {name: str(tmp_path / name)}
-    with Image.open(tmp_path / "chain.gif") as film:
+        assert f"{name}: exists already; --force replaces it" in refusal_of("render", copy, "--what", what)
+    with Image.open(tmp_path / "animation.gif") as film:
         assert film.n_frames == 3
+    own = {default_name(what) for what in get_args(Picture)} | {"plan.png", "explore.png", "export.yaml", "export.pgm"}
+    assert not own & {
+        *DERIVED,
+        "posterior-block.png",
+        "posterior-importance.png",
+        "weights-importance.png",
+        "chain.gif",
+    }
 
 
 def test_render_says_what_it_cannot_draw(office_run, tmp_path):

@@ -93,7 +93,7 @@ def test_a_recording_is_read_as_it_was_for_the_run(recording, tmp_path):
     held_out = ("--what residuals --heldout", recording, "--holdout 3 -o", picture)
     succeed("render", run, *held_out, asked)
     assert picture.exists()
-    for command in (("score", run, recording, "--holdout", "3"), ("render", run, *held_out)):
+    for command in (("score", run, recording, "--holdout", "3"), ("render", run, *held_out, "--force")):
         assert "choose one with --scan-topic" in refusal_of(*command)
 
 

@@ -171,6 +171,10 @@ COMMON = (
 )
 
 
+FORCE = click.option("--force", is_flag=True, help="Replace existing files.")
+"""The option of commands that write files."""
+
+
 @dataclass(frozen=True)
 class Call(Generic[S]):
     """One call of a command with settings of the class S."""

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from bayesmap.cli.command import Call, command
+from bayesmap.cli.command import FORCE, Call, command
 from bayesmap.cli.console import share, write_out
 from bayesmap.cli.keys import ExploreSettings, PlanSettings
-from bayesmap.cli.translation import numbers_of
+from bayesmap.cli.translation import need_free, numbers_of
 from bayesmap.version import __version__
 
 if TYPE_CHECKING:
@@ -25,7 +25,8 @@ if TYPE_CHECKING:
 @click.option("--from", "start", metavar="X,Y", required=True, help="Start of the robot, metres in the map's frame.")
 @click.option("--to", "goal", metavar="X,Y", required=True, help="Goal of the robot, metres in the map's frame.")
 @click.option("-o", "--output", metavar="FILE", help="Picture: .png, .pdf, .svg. [default: plan.png beside RUN.nc]")
-def plan(call: Call[PlanSettings], run_file: str, start: str, goal: str, output: str | None) -> None:
+@FORCE
+def plan(call: Call[PlanSettings], run_file: str, start: str, goal: str, output: str | None, force: bool) -> None:
     r"""Plan a path for a disc in the map of a saved run.
 
     \b
@@ -34,12 +35,11 @@ def plan(call: Call[PlanSettings], run_file: str, start: str, goal: str, output:
 
     The path is the shortest found whose risk of touching something stays under --risk. If there is none, the command
     returns the safest path, with a warning. The probability of a free path is the share of map draws in which the path
-    is free. The value for independent cells is printed beside it. The command prints one corner of the path per line,
-    and replaces an older picture of the same name.
+    is free. The value for independent cells is printed beside it. The command prints one corner of the path per line.
     """
     settings = call.settings()
     ends = [numbers_of(text, flag, "X,Y", (2,)) for text, flag in ((start, "--from"), (goal, "--to"))]
-    run, target = _opened(run_file, output, "plan.png")
+    run, target = _opened(run_file, output, "plan.png", force)
     from bayesmap.posterior.decisions import shortest_safe_path
 
     with share(call.console, "looking at draws of the map") as report:
@@ -54,8 +54,9 @@ def plan(call: Call[PlanSettings], run_file: str, start: str, goal: str, output:
     write_figure(picture, target)
     if not route.within_risk:
         call.console.warn(
-            f"no path was found whose risk is {settings.risk:g} or less; this is the safest: "
-            f"{more_than(1 - route.free.probability, settings.risk)}"
+            f"no path was found whose risk is {settings.risk:g} or less; the safest has a risk of "
+            f"{more_than(1 - route.free.probability, settings.risk)}: accept it with --risk, give a smaller --radius, "
+            "or map more of the way"
         )
     if call.console.as_json:
         document = {**_route_document(route, settings), "run": run_file, "outputs": {target.name: str(target)}}
@@ -65,13 +66,14 @@ def plan(call: Call[PlanSettings], run_file: str, start: str, goal: str, output:
     write_out(f"{corners}{_route_sentence(route)}\n{target}\n")
 
 
-def _opened(run_file: str, output: str | None, name: str) -> tuple[Run, Path]:
+def _opened(run_file: str, output: str | None, name: str, force: bool) -> tuple[Run, Path]:
     """Check the ending of the picture's name, load the run, and return the run and the picture's path."""
     from bayesmap.files import need_ending
     from bayesmap.result import load
 
     target = Path(output) if output else Path(run_file).with_name(name)
     need_ending(target, ("png", "pdf", "svg"), "figure")
+    need_free([target], force)
     return load(run_file), target
 
 
@@ -107,7 +109,8 @@ def _route_document(route: Route, settings: PlanSettings) -> dict[str, Any]:
 @command("explore")
 @click.argument("run_file", metavar="RUN.nc")
 @click.option("-o", "--output", metavar="FILE", help="Picture: .png, .pdf, .svg. [default: explore.png beside RUN.nc]")
-def explore(call: Call[ExploreSettings], run_file: str, output: str | None) -> None:
+@FORCE
+def explore(call: Call[ExploreSettings], run_file: str, output: str | None, force: bool) -> None:
     r"""Rank the poses from which the next scan tells most about the map of a saved run.
 
     \b
@@ -116,10 +119,10 @@ def explore(call: Call[ExploreSettings], run_file: str, output: str | None) -> N
 
     Candidates are poses that the robot can reach. A fast formula for independent cells and beams ranks all of them. The
     best are compared by joint draws of the map: the expected information is given as a lower and an upper bound. The
-    command prints one view per line, the best first, and replaces an older picture of the same name.
+    command prints one view per line, the best first.
     """
     settings = call.settings()
-    run, target = _opened(run_file, output, "explore.png")
+    run, target = _opened(run_file, output, "explore.png", force)
     from bayesmap.posterior.decisions import next_views
 
     with share(call.console, "comparing views") as report:

@@ -127,7 +127,7 @@ def _pictures(runs: dict[str, Run], folder: Path) -> list[Path]:
     weights = runs["importance"].log_weights
     # The tutorial's axis ends at -10 000 nats, but nearly all weights of this scan are lower: extend the axis.
     low = min(-10_000.0, 10_000.0 * float(np.floor(np.quantile(weights, 0.01) / 10_000.0)))
-    picture("weights.png", weights_figure(weights, range_nats=(low, 0.0)))
+    picture("weights-importance.png", weights_figure(weights, range_nats=(low, 0.0)))
     film = runs["film"]
     for ending in ("gif", "webp"):
         paths.append(folder / f"chain.{ending}")

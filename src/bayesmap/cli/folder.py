@@ -118,10 +118,11 @@ class Folder:
         return self.path / "outdated"
 
     def check(self, *, force: bool) -> None:
-        """Refuse a folder that holds a run which the user neither replaces nor resumes, or that cannot be written.
+        """Refuse a folder with a run, or files of its names, that the user neither replaces nor resumes; or unwritable.
 
         Raises:
-            BadInput: the folder holds a run, is no folder, is not writable, or has a name that is not UTF-8.
+            BadInput: the folder holds a run, or files that a run would replace, is no folder, is not writable, or has
+                a name that is not UTF-8.
         """
         try:
             str(self.path).encode()
@@ -132,6 +133,11 @@ class Folder:
                 f"{self.run}: there is a run already; --resume goes on with it, --force replaces it, "
                 "-o takes another folder"
             )
+        others = [self.path / name for name in DERIVED]
+        older = next((path for path in others if path.exists()), None)
+        if older is not None and not (self.run.exists() or force or self.resuming or self.outdated.exists()):
+            begun = "--resume goes on with the run that wrote it, " if self.config.exists() else ""
+            raise BadInput(f"{older}: exists already; {begun}--force replaces it, -o takes another folder")
         for place in (self.path, *self.path.parents):
             if place.exists():
                 if not place.is_dir():

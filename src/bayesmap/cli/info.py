@@ -17,6 +17,9 @@ from bayesmap.cli.translation import LOG, need_file
 from bayesmap.errors import BadInput
 from bayesmap.version import __version__
 
+CUT = "cut short"
+"""Words of the notes on damaged recordings."""
+
 
 @command(None)
 @click.argument("file")
@@ -24,7 +27,8 @@ def info(call: Call[Settings], file: str) -> None:
     r"""Describe FILE: a log, a robot's recording (a file or a folder), or a saved run.
 
     For a recording the command lists topics and frames, describes the scans, names the topics that can give poses, and
-    prints the command that infers a map. It counts damaged and malformed messages, and describes the others.
+    prints the command that infers a map. It counts damaged and malformed messages, and describes the others. If there
+    are any, it exits with 3.
 
     \b
     bayesmap info recording.mcap
@@ -36,6 +40,10 @@ def info(call: Call[Settings], file: str) -> None:
         call.console.result(document, [])
     else:
         write_out("\n".join(_lines(document)) + "\n")
+    if any(sensor.get("skipped") for sensor in document["sensors"]) or any(CUT in n for n in document["notes"]):
+        raise BadInput(
+            f"{file}: it is damaged in part, as said above; infer and slam read the rest with --skip-bad-lines"
+        )
 
 
 def is_saved_run(file: str) -> bool:

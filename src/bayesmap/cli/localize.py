@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from bayesmap.cli.command import Call, command
+from bayesmap.cli.command import FORCE, Call, command
 from bayesmap.cli.console import INTERRUPTED, Console, share, write_out
 from bayesmap.cli.keys import LocalizeSettings
 from bayesmap.cli.translation import is_map, need_file, need_free, numbers_of, reading_of
@@ -48,7 +48,7 @@ NOT_LIVE = ("scan_topic", "pose_topic", "fixed_frame", "trajectory")
 @click.option("--independent", is_flag=True, help="Locate each scan by itself, without the log's poses.")
 @click.option("--scans", "span", metavar="FIRST:LAST", help="Only these scans of the log, from 0; LAST is excluded.")
 @click.option("--area", metavar="X0,X1,Y0,Y1", help="Also print the probability of being in this rectangle, in metres.")
-@click.option("--force", is_flag=True, help="Replace an existing file.")
+@FORCE
 def localize(
     call: Call[LocalizeSettings],
     run_file: str,
@@ -297,10 +297,14 @@ def _write(target: Path, found: Localization) -> list[Path]:
 
 def _target(output: str, force: bool) -> Path:
     """Return the output path, after checking its ending and that it may be written."""
+    from bayesmap.io.text.trajectories import covariances_path
+
     target = Path(output)
     if target.suffix.lower() not in ENDINGS:
         raise click.UsageError(f"-o {output}: end its name in one of {', '.join(ENDINGS)}")
-    need_free(target, target if target.exists() else None, force)
+    need_free([target, covariances_path(target)] if target.suffix == ".tum" else [target], force)
+    if not target.parent.is_dir():
+        raise BadInput(f"{target.parent}: no such folder; make it first, or choose another with -o")
     return target
 
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from bayesmap.cli.command import Call, command
+from bayesmap.cli.command import FORCE, Call, command
 from bayesmap.cli.console import share
 from bayesmap.cli.keys import ExportSettings, RenderSettings
 from bayesmap.cli.translation import heldout_scans, need_free
@@ -29,9 +29,6 @@ if TYPE_CHECKING:
     Draw = NDArray[Any]
     """Walls, or reflectivities in [0, 1]."""
 
-NAMES = {"figure": "posterior.png", "animation": "chain.gif"}
-"""Default file names. Other pictures take the name of their kind, such as mean.png."""
-
 WHOLE = ("figure", "animation", "trace", "weights")
 """Pictures that always show the whole map."""
 
@@ -41,12 +38,13 @@ WHOLE = ("figure", "animation", "trace", "weights")
 @click.option("-o", "--output", metavar="FILE", help=".png, .pdf, .svg; .gif, .webp. [default: beside RUN.nc]")
 @click.option("--truth", metavar="MAP.yaml", help="Outline the true walls of this map_server map.")
 @click.option("--heldout", metavar="LOG", help="The log that the run was made from, or another of the same place.")
+@FORCE
 def render(
-    call: Call[RenderSettings], run_file: str, output: str | None, truth: str | None, heldout: str | None
+    call: Call[RenderSettings], run_file: str, output: str | None, truth: str | None, heldout: str | None, force: bool
 ) -> None:
     r"""Draw a saved run.
 
-    An older picture of the same name is replaced.
+    By default the picture has the name of its kind, such as mean.png or animation.gif.
 
     \b
     figure                  mean, uncertainty, readings and one draw
@@ -67,7 +65,8 @@ def render(
 
     settings = call.settings()
     what = settings.what
-    target = Path(output) if output else Path(run_file).with_name(NAMES.get(what, f"{what}.png"))
+    target = Path(output or Path(run_file).with_name(default_name(what)))
+    need_free([target], force)
     run = load(run_file)
     # Methods that compute marginals have a map without draws; chains in warm-up have none.
     if run.n_draws == 0 and (what in ("draw", "animation") or run.posterior.has_chains):
@@ -94,6 +93,11 @@ def render(
         write_figure(_panel(run, settings, grid, window, walls), target)
     document = {"version": __version__, "what": what, "run": run_file, "outputs": {target.name: str(target)}}
     call.console.result(document, [target])
+
+
+def default_name(what: str) -> str:
+    """Return the name of a picture that the user has not named."""
+    return f"{what}.gif" if what == "animation" else f"{what}.png"
 
 
 def _whole_figure(run: Run, settings: RenderSettings, walls: Walls | None) -> Figure:
@@ -232,8 +236,8 @@ def log_odds_map(run: Run) -> tuple[NDArray[np.float64], Walls]:
 
 @command("export")
 @click.argument("run_file", metavar="RUN.nc")
-@click.option("-o", "--output", metavar="FILE", help="Its ending chooses the format. [default: map.yaml beside RUN.nc]")
-@click.option("--force", is_flag=True, help="Replace an existing file, or the folder of a bag.")
+@click.option("-o", "--output", metavar="FILE", help="Its ending chooses the format. [default: export.yaml by RUN.nc]")
+@FORCE
 def export(call: Call[ExportSettings], run_file: str, output: str | None, force: bool) -> None:
     r"""Write the map of a saved run, or its trajectory, for robots and other programs.
 
@@ -261,8 +265,11 @@ def export(call: Call[ExportSettings], run_file: str, output: str | None, force:
 
     settings = call.settings()
     kind = None if settings.format == "auto" else settings.format
-    target = output or str(Path(run_file).with_name("map.yaml"))
-    need_free(Path(target), existing(target, kind), force)
+    target = output or str(Path(run_file).with_name("export.yaml"))
+    older = existing(target, kind)
+    need_free([] if older is None else [older], force)
+    if not Path(target).parent.is_dir():
+        raise BadInput(f"{Path(target).parent}: no such folder; make it first, or choose another with -o")
     run = load(run_file)
     of_path = run.trajectory is not None and export_format(target, kind) in TRAJECTORIES
     if np.isnan(run.occupancy).any() and not of_path:

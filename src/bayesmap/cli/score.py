@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING, Any, get_args
 
 import click
 
-from bayesmap.cli.command import Call, command
+from bayesmap.cli.command import FORCE, Call, command
 from bayesmap.cli.console import write_out
 from bayesmap.cli.keys import Frame, ScoreSettings
 from bayesmap.cli.scores import Scored, score_others, score_run
-from bayesmap.cli.translation import is_map
+from bayesmap.cli.translation import is_map, need_free
 from bayesmap.version import __version__
 
 if TYPE_CHECKING:
@@ -35,6 +35,7 @@ HEADINGS = ("map", "nats/beam", "50 %", "80 %", "95 %", "80 % width", "PIT", "Br
 )
 @click.option("--exact", is_flag=True, help="Score only relations at times of poses, not between poses.")
 @click.option("--picture", metavar="FILE", help="Draw calibration and errors: .png, .pdf or .svg.")
+@FORCE
 def score(
     call: Call[ScoreSettings],
     run_file: str,
@@ -45,6 +46,7 @@ def score(
     frame: str | None,
     exact: bool,
     picture: str | None,
+    force: bool,
 ) -> None:
     r"""Score a saved run, or another program's map or trajectory, on held-out scans of LOG.
 
@@ -77,6 +79,7 @@ def score(
         from bayesmap.files import need_ending
 
         need_ending(picture, ("png", "pdf", "svg"), "figure")  # check before minutes of computation
+        need_free([Path(picture), _beside(picture)], force, "--picture")
     # Score the map.
     if of_run:
         if log is None and relations is None:
@@ -114,6 +117,11 @@ def _is_run(path: str) -> bool:
     return is_saved_run(path) or not (is_map(path) or Path(path).exists())
 
 
+def _beside(picture: str) -> Path:
+    """Return the path of the picture of poses beside that of beams."""
+    return Path(picture).with_stem(f"{Path(picture).stem}-poses")
+
+
 def _draw(picture: str, rows: list[tuple[str, Score]], poses: TrajectoryScore | None) -> list[Path]:
     """Draw calibration and pose errors, and return the paths. With both, the errors go to NAME-poses.png."""
     from bayesmap.viz.figure import write_figure
@@ -124,7 +132,7 @@ def _draw(picture: str, rows: list[tuple[str, Score]], poses: TrajectoryScore | 
         write_figure(calibration_figure(rows), target)
         written.append(target)
     if poses is not None:
-        written.append(target.with_stem(f"{target.stem}-poses") if rows else target)
+        written.append(_beside(picture) if rows else target)
         write_figure(errors_figure(poses), written[-1])
     return written
 

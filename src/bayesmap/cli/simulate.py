@@ -10,9 +10,18 @@ from typing import TYPE_CHECKING, Any
 import click
 import msgspec
 
-from bayesmap.cli.command import Call, command
+from bayesmap.cli.command import FORCE, Call, command
 from bayesmap.cli.keys import SimulateSettings
-from bayesmap.cli.translation import MAPS, ODOMETRY_HELP, SENSOR_HELP, is_map, odometry_of, pose_of, sensor_of
+from bayesmap.cli.translation import (
+    MAPS,
+    ODOMETRY_HELP,
+    SENSOR_HELP,
+    is_map,
+    need_free,
+    odometry_of,
+    pose_of,
+    sensor_of,
+)
 from bayesmap.errors import BadInput
 from bayesmap.version import __version__
 
@@ -43,7 +52,7 @@ IMAGES = (".png", ".pgm", ".ppm", ".pbm", ".jpg", ".jpeg", ".bmp", ".gif", ".tif
 @command("simulate")
 @click.option("-o", "--output", metavar="LOG", help="The log: .log, .log.gz or .mcap. [default: WORLD.log]")
 @click.option("--pose", "poses", metavar="X,Y,DEGREES", multiple=True, help="Take a scan from here; may be repeated.")
-@click.option("--force", is_flag=True, help="Replace existing files.")
+@FORCE
 def simulate(call: Call[SimulateSettings], output: str | None, poses: tuple[str, ...], force: bool) -> None:
     r"""Simulate the scans of a robot in a known world, and write them as a log for infer and slam.
 
@@ -88,9 +97,7 @@ def simulate(call: Call[SimulateSettings], output: str | None, poses: tuple[str,
     truth, relations = log.with_name(f"{stem}-truth.yaml"), log.with_name(f"{stem}.relations")
     trajectory = truth.with_suffix(".tum")
     written = [log, truth, truth.with_suffix(".pgm"), *([] if noise is None else [trajectory, relations])]
-    existing = [path for path in written if path.exists()]
-    if existing and not force:
-        raise BadInput(f"{existing[0]}: exists already; --force replaces it, -o takes another name")
+    need_free(written, force)
     typed_sensor = sensor_of(settings.sensor)
     # Make the world and the sensor.
     world = world_of(settings, poses, minutes)

@@ -9,7 +9,8 @@ from __future__ import annotations
 
 import glob
 import math
-from collections.abc import Sequence
+import os
+from collections.abc import Iterable, Sequence
 from dataclasses import fields
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, TypeVar
@@ -374,16 +375,15 @@ def heldout_scans(run: Run, log: str, settings: ReadingSettings, every: int) -> 
     return unseen_scans(train, scans, every, log)
 
 
-def need_free(target: Path, older: Path | None, force: bool) -> None:
-    """Refuse to replace an older file without ``force``, or to write into a missing folder.
+def need_free(paths: Iterable[Path], force: bool, option: str = "-o") -> None:
+    """Refuse to replace an older file without ``force``: the rule of all commands for all files, before slow work.
 
     Raises:
-        BadInput: the message names the remedy.
+        BadInput: the message names the remedies, ``option`` among them.
     """
+    older = next((path for path in paths if os.path.lexists(path)), None)
     if older is not None and not force:
-        raise BadInput(f"{older}: exists already; --force replaces it, -o takes another name")
-    if not target.parent.is_dir():
-        raise BadInput(f"{target.parent}: no such folder; make it first, or choose another with -o")
+        raise BadInput(f"{older}: exists already; --force replaces it, {option} takes another name")
 
 
 def is_map(path: str) -> bool:

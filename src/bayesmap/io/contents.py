@@ -129,7 +129,8 @@ def _sensor(recording: Any, topic: Any) -> dict[str, Any]:
             sensor["notes"].append(
                 f"poses are those of {reading.pose_source}: without --pose-topic, {why.partition(';')[0]}"
             )
-        return {**sensor, "notes": [*sensor["notes"], *_about_poses(reading)]}
+        notes = [note for note in sensor["notes"] if note not in recording.notes]  # these are said once, of the file
+        return {**sensor, "notes": [*notes, *_about_poses(reading)]}
     return {**account, "scans": topic.count, "beams": None, "error": _reason(recording.path, first)}
 
 

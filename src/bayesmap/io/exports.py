@@ -86,8 +86,14 @@ def existing(path: str | os.PathLike[str], format: str | None = None) -> Path | 
     Raises `BadInput` for an unknown ending or format.
     """
     target = Path(path)
-    images = [target.with_suffix(e) for e in (".pgm", ".png")] if export_format(path, format) == "map-server" else []
-    places = [place for place in (target, *images) if os.path.lexists(place)]
+    chosen, beside = export_format(path, format), [target]
+    if chosen == "map-server":
+        beside += [target.with_suffix(ending) for ending in (".pgm", ".png")]
+    elif chosen == "tum":
+        from bayesmap.io.text.trajectories import covariances_path
+
+        beside.append(covariances_path(target))
+    places = [place for place in beside if os.path.lexists(place)]
     # Nothing can be lost in an empty folder.
     if places == [target] and target.is_dir() and not any(target.iterdir()):
         return None
