@@ -36,16 +36,12 @@ def office_run(office, tmp_path_factory):
     return folder
 
 
-MOUNT = "0.2,-0.1,0"
-"""Where the laser of the robot with raw odometry sits on it."""
-
-
 @pytest.fixture(scope="session")
 def raw_log(tmp_path_factory):
     """A robot's round through a small office, with the odometry of a Pioneer."""
     path = tmp_path_factory.mktemp("raw") / "office.log"
     world = "--world building --size 12x8 --scans 40 --odometry typical --fov 360 --angles 120 --seed 4"
-    succeed("simulate", world, f"--laser {MOUNT}", "-o", path)
+    succeed("simulate", world, "--laser 0.2,-0.1,0", "-o", path)
     return path
 
 
