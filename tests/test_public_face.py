@@ -84,6 +84,8 @@ def test_the_plain_call_needs_scans_and_a_grid_alone(scans):
         (lambda scans: bm.infer(scans, GRID, where="cuda:0"), r"where must be one such as bm.Where\(\), got 'cuda:0'"),
         (lambda scans: bm.infer(scans, GRID, checkpoints="run.nc"), r"checkpoints must be one such as bm.Checkpoints"),
         (lambda scans: bm.slam(scans, where=8), r"slam: where must be one such as bm.Where\(\), got 8"),
+        (lambda scans: bm.slam(scans, resolution=0.0), "grid: resolution must be a positive number of metres, got 0.0"),
+        (lambda scans: bm.slam(scans, resolution=1e-5), "cells is over the limit of 100,000,000; use a coarser"),
         (lambda scans: bm.infer(scans, GRID, method=bm.Block()), r"Surface has one method, 'gibbs', got Block\("),
         (lambda scans: bm.infer(scans, GRID, method=bm.Gibbs), "Surface has one method, 'gibbs', got <class"),
         (lambda scans: bm.Where(executor="ray"), r"executor must be one such as bm.RayExecutor\(\), .*got 'ray'"),

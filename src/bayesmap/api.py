@@ -382,6 +382,8 @@ def slam(
         from bayesmap.io.logs import read_log
 
         log = read_log(log)
+    # Refuse an impossible grid at once: the map will cover the first scan, whose pose stays as odometry stated it.
+    Grid.covering(log.select(slice(0, 1)), resolution)
 
     def on_stage(stage: str, done: int, of: int) -> None:
         if on_progress is not None:

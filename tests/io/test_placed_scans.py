@@ -40,7 +40,6 @@ def test_the_frame_is_what_the_file_says_or_the_base_if_it_is_known(log, tmp_pat
     expected = compose(BASE, np.array(MOUNT)) if of_base else BASE
     np.testing.assert_allclose(reading.scans.poses, expected, atol=1e-8)
     assert f"taken as those of the {'base' if of_base else 'laser'}" in reading.notes[0]
-    # A frame that the user names wins.
     scans = read_log(log, trajectory=read_trajectory(theirs, frame="laser"), laser=laser)
     np.testing.assert_allclose(scans.poses, BASE, atol=1e-8)
 
@@ -53,7 +52,6 @@ def test_poses_between_are_interpolated_and_scans_outside_or_in_gaps_are_left_ou
     np.testing.assert_allclose(reading.scans.poses[:, 0], reading.scans.stamps_s, atol=1e-9)
     assert "4 scans were left out: the trajectory reaches from 10.100 to 11.500 s" in reading.notes
     assert "2 scans were left out: its poses are over 0.3 s apart there" in reading.notes
-    # Thinning is by the way along the trajectory.
     assert len(read_log(log, trajectory=theirs, thin_m=0.5)) == 2
 
 
