@@ -357,7 +357,7 @@ def slam(
             as its cells need; False: sample the poses, too, from all beams of the key scans; None: sample the poses of
             at most 100 key scans, since chains over more do not mix.
         no_odometry: do not read the poses of the log; scans must come at about 5 Hz.
-        schedule: numbers of chains, warm-up sweeps and draws; by default every sweep is kept where poses are sampled.
+        schedule: numbers of chains, warm-up sweeps and draws; by default every sweep after warm-up is kept.
         seed: seed of all random numbers.
         hit_depth: point in a cell where a beam stops, see `bayesmap.infer`; None: that of the kind of cells.
         where: threads, device and executor; by default all cores of this machine.
@@ -402,7 +402,7 @@ def slam(
     cells = Surface() if prior is None else prior
     fast = len(keys.scans) > SAMPLED if fast is None else fast
 
-    # Sample the map; unless ``fast``, sample the poses of the key scans too, and keep every sweep.
+    # Sample the map; unless ``fast``, sample the poses of the key scans too.
     def with_trajectory(use: Callable[[Run], None] | None) -> Callable[[Run], None] | None:
         return None if use is None else lambda run: use(replace(run, trajectory=trajectory))
 
@@ -410,7 +410,7 @@ def slam(
     run = infer(
         for_map(keys.scans, resolution) if fast else keys.scans, grid, prior=cells, sensor=sensor,
         method=None if fast else Gibbs(start_poses=keys.starts),
-        schedule=schedule if fast or schedule.thin is not None else replace(schedule, thin=1), seed=seed,
+        schedule=replace(schedule, thin=1 if schedule.thin is None else schedule.thin), seed=seed,
         poses=None if fast else keys.prior, hit_depth=cells.hit_depth if hit_depth is None else hit_depth, where=where,
         checkpoints=replace(checkpoints, save=save, preview=preview), on_progress=on_progress,
     )  # fmt: skip

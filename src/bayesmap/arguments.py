@@ -46,7 +46,7 @@ class Schedule:
             ``thin`` is 1). Their draws are larger, and mix in tens of sweeps. Fewer beams give more draws
             (`CellPrior.default_draws`).
         thin: sweeps from one kept map to the next. None: 3 for `Beta` and `Surface` if ``draws`` is None too, and 1
-            otherwise; `slam` takes 1 where it samples poses.
+            otherwise; `slam` takes 1.
         precision: Monte Carlo standard error of the mean map at which chains stop: 99 of 100 observed cells have this
             error or less (`bayesmap.run.chains.map_error`). None: 0.03, but no limit if ``draws`` is given. A value
             below 0.03 allows up to ten times the default number of draws.

@@ -179,9 +179,8 @@ class InferSettings(SamplingSettings, kw_only=True, frozen=True):
 class SlamSettings(SamplingSettings, kw_only=True, frozen=True):
     """Settings of `slam`."""
 
-    thin: Annotated[
-        Count | None, Help("Sweeps from one kept map to the next.", "3; with poses sampled or draws given, 1")
-    ] = None
+    draws: Annotated[Count | None, Help("Maps that each chain keeps, at most.", "50, to 200 for few beams")] = None
+    thin: Annotated[Count, Help("Sweeps from one kept map to the next.")] = 1
     fast: Annotated[bool, Help("Stop after the approximate trajectory, and infer the map as if it were known.")] = False
     sample_poses: Annotated[bool, Help("Sample the poses of over 100 key scans, too, and use all their beams.")] = False
     no_odometry: Annotated[bool, Help("Do not use the log's poses; scans must come at 5 Hz or more.")] = False

@@ -165,6 +165,10 @@ CHANCE_SHARE = 0.01
 cell in a thousand has an R-hat over 1.05, and four in a thousand have an estimated effective sample size under 100, by
 chance."""
 
+TOLERANCE = 1.5
+"""Ratio of the map's error to the precision asked for from which a run warns: chains that end at their largest number
+of draws often fall a little short, and slow cells would take twice the time for it."""
+
 
 @dataclass(frozen=True)
 class Summary:
@@ -230,7 +234,7 @@ class Summary:
             problems.append("the run was stopped before it had finished")
         if self.disagreeing_cells and self.disagreeing_cells > CHANCE_SHARE * self.judged_cells:
             problems.append(f"{self.disagreeing_cells} cells are stuck at different values in different chains")
-        if self.precision < self.map_error < math.inf:
+        if TOLERANCE * self.precision < self.map_error < math.inf:
             problems.append(
                 f"the mean map is known to {self.map_error:.3f} in 99 of 100 observed cells, not to "
                 f"{self.precision:g}: draw more maps"
