@@ -74,16 +74,6 @@ def test_a_page_is_made_of_its_notebook(name):
 
 
 @every_page
-def test_a_page_begins_with_its_aims_and_ends_with_exercises_whose_answers_are_folded(name):
-    page = page_of(name)
-    aims, exercises = page.index("**You will be able to**"), page.index("## Exercises")
-    assert aims < page.index("\n## ") < exercises
-    assert re.search(r"\*\*Reading time\*\*: \d+ minutes", page[:exercises])
-    asked, answers = page[exercises:].count("\n**Exercise "), page[exercises:].count("<summary>Answer")
-    assert asked == answers >= 2
-
-
-@every_page
 def test_what_a_page_shows_of_its_checks_and_figures_is_folded(name):
     """The code that a reader sees first draws no figure."""
     shown = [cell.text for cell in render.cells(source_of(name)) if cell.is_code and not cell.folded]
