@@ -5,7 +5,8 @@ import pytest
 
 import bayesmap as bm
 from bayesmap.kernels.match.fields import field_sums
-from bayesmap.kernels.predict.pose_weights import LEAST_CHANCE, pack_map, scan_log_likelihood
+from bayesmap.kernels.predict.density import LEAST_CHANCE, device_maps
+from bayesmap.kernels.predict.pose_weights import scan_log_likelihood
 from bayesmap.kernels.predict.scan_likelihood import ScanLikelihood
 from bayesmap.sensors.model import RangeLimits
 
@@ -42,7 +43,7 @@ def test_the_fast_law_is_the_plain_one(kind, laser):
     scans = bm.Scans(np.zeros((2, 3)), ANGLES, ranges, 6.0, 0.1)
     which = rng.integers(0, 2, 40)
     fast = scan_log_likelihood(
-        pack_map(maps, GRID, 0.5), poses, ANGLES, ranges, laser, RangeLimits(0.1, 6.0), scan=which
+        device_maps([maps], GRID, 0.5), poses, ANGLES, ranges, laser, RangeLimits(0.1, 6.0), scan=which
     )
     plain = ScanLikelihood(scans, GRID, laser, 0.5)
     for draw in range(3):
@@ -57,7 +58,7 @@ def test_cells_that_hardly_ever_stop_a_beam_cost_all_poses_alike():
     maps[maps < 0.1] = 0.9 * LEAST_CHANCE
     poses = np.column_stack([rng.uniform(1, 3, 40), rng.uniform(4, 5, 40), rng.uniform(-4, 4, 40)])
     ranges = rng.uniform(0.0, 6.0, (1, 60))
-    fast = scan_log_likelihood(pack_map(maps, GRID, 0.5), poses, ANGLES, ranges, LASER, RangeLimits(0.1, 6.0))
+    fast = scan_log_likelihood(device_maps([maps], GRID, 0.5), poses, ANGLES, ranges, LASER, RangeLimits(0.1, 6.0))
     plain = ScanLikelihood(bm.Scans(np.zeros((1, 3)), ANGLES, ranges, 6.0, 0.1), GRID, LASER, 0.5)
     for draw in range(3):
         less = fast[:, draw] - plain(maps, poses, np.zeros(40, int), np.full(40, draw))
@@ -68,7 +69,7 @@ def test_cells_that_hardly_ever_stop_a_beam_cost_all_poses_alike():
 
 def test_poses_may_be_weighed_under_the_first_draws_or_each_under_one_draw_in_turn():
     rng = np.random.default_rng(4)
-    packed = pack_map(states("surfaces", rng), GRID, 0.5)
+    packed = device_maps([states("surfaces", rng)], GRID, 0.5)
     poses = np.column_stack([rng.uniform(0, 4, 7), rng.uniform(3, 6, 7), rng.uniform(-4, 4, 7)])
     given = (packed, poses, ANGLES, rng.uniform(0, 6, 60), LASER, RangeLimits(0.0, 6.0))
     every = scan_log_likelihood(*given)

@@ -24,8 +24,8 @@ def test_stops_are_drawn_with_the_chances_that_beams_have():
     stop = rng.beta(0.7, 1.0, GRID.n_cells).astype(np.float32)
     draws = 20_000
     at = np.broadcast_to(POSE[0], (draws, 3))
-    maps = device_maps([stop[None]], 0.0)
-    found, spread = draw_scan_stops(maps, GRID, at, np.zeros(draws, dtype=int), ANGLES, 9.0, 3)
+    maps = device_maps([stop[None]], GRID, 0.0)
+    found, spread = draw_scan_stops(maps, at, np.zeros(draws, dtype=int), ANGLES, 9.0, 3)
     assert (spread == 0).all()
     for a, angle in enumerate(ANGLES):
         start, direction = beams(POSE, [angle], GRID)

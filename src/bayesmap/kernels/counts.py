@@ -6,8 +6,8 @@ import warp as wp
 from bayesmap.beams.rays import Rays
 from bayesmap.kernels import device as devices
 from bayesmap.kernels.device import Float32s, Float64s, Int32Rows, Int32s, Ints, Uint8s
-from bayesmap.kernels.rays import Lines, beam_lines, lines_to_device, stop_distances
-from bayesmap.kernels.walk import is_inside, walk_begin, walk_next
+from bayesmap.kernels.rays import Lines, beam_lines, line_of, lines_to_device, stop_distances, walk_along
+from bayesmap.kernels.walk import is_inside, walk_next
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
 
@@ -19,14 +19,11 @@ def count_hits_and_passes(
     first: int, lines: Lines, reach_m: Float64s, hit: Uint8s, bounds: Int32s, hits: Int32Rows, passes: Int32Rows
 ):
     """One thread per share of the beams: count in the thread's own rows, so that no two threads write to one number."""
-    # t: thread; b: beam; p, u: its start in cells and its direction; w: its walk; last: last cell of the grid touched.
+    # t: thread; b: beam; w: its walk; last: last cell of the grid touched.
     t = first + wp.tid()
     for b in range(bounds[t], bounds[t + 1]):
-        p = lines.start_m[b] / lines.edge_m
-        u = lines.direction[b]
-        longest = reach_m[b] / lines.edge_m
-        w = walk_begin(p[0], p[1], u[0], u[1], lines.nx, lines.ny, longest)
-        ends_inside = w.end >= longest
+        w = walk_along(line_of(lines, b), lines.nx, reach_m[b])
+        ends_inside = w.end >= reach_m[b] / lines.edge_m
         last = int(-1)
         while w.distance <= w.end:
             if is_inside(w, lines.nx, lines.ny):
@@ -53,11 +50,10 @@ def count_hits(scans: Scans, grid: Grid, device: str = "cpu") -> tuple[Ints, Int
     reach_m = np.where(hit, ranges, np.where(np.isposinf(ranges), scans.max_range_m, -1.0))
     threads = devices.available_cores()
     bounds = np.linspace(0, len(ranges), threads + 1).astype(np.int32)
-    counts = [wp.zeros((threads, grid.n_cells), dtype=wp.int32, device=device) for _ in range(2)]
-    lines = lines_to_device(*beam_lines(scans, grid), grid, device)
-    devices.launch(count_hits_and_passes, threads, [lines, reach_m, hit, bounds, *counts], device)
-    hits, passes = (a.numpy().sum(axis=0, dtype=np.int32) for a in counts)
-    return hits, passes
+    counts = (threads, grid.n_cells)
+    inputs = [lines_to_device(*beam_lines(scans, grid), grid, device), reach_m, hit, bounds, counts, counts]
+    hits, passes = devices.launch(count_hits_and_passes, threads, inputs, device)
+    return hits.sum(axis=0, dtype=np.int32), passes.sum(axis=0, dtype=np.int32)
 
 
 @wp.kernel
@@ -79,7 +75,5 @@ def add_passes(
 
 def count_passes(rays: Rays, end_cell: Ints, device: str) -> Ints:
     """Count the beams that pass each cell of the grid before the cells in which they end, flat, (B,). Returns (N,)."""
-    passes = wp.zeros(rays.grid.n_cells, dtype=wp.int32, device=device)
-    inputs = [rays.offsets, rays.cells, stop_distances(rays, 0.0, device), rays.range_m, end_cell, passes]
-    devices.launch(add_passes, rays.n_beams, inputs, device, 1)
-    return np.array(passes.numpy())
+    inputs = [rays.offsets, rays.cells, stop_distances(rays, 0.0, device), rays.range_m, end_cell, (rays.grid.n_cells,)]
+    return np.asarray(devices.launch(add_passes, rays.n_beams, inputs, device, 1)[0])

@@ -93,14 +93,17 @@ def pack(kind: Any, device: str, /, **values: Any) -> Any:
     """
     packed = kind()
     for name, value in values.items():
-        field = kind.vars[name].type
-        if isinstance(value, np.ndarray):
-            setattr(packed, name, to_device(value, field.dtype, device))
-        elif isinstance(value, tuple) and hasattr(field, "dtype"):
-            setattr(packed, name, wp.zeros(value, dtype=field.dtype, device=device))
-        else:
-            setattr(packed, name, value)
+        setattr(packed, name, _argument(value, kind.vars[name].type, device))
     return packed
+
+
+def _argument(value: Any, kind: Any, device: str) -> Any:
+    """Return a value for a field or an argument of this type, see `pack`."""
+    if isinstance(value, np.ndarray):
+        return to_device(value, kind.dtype, device)
+    if isinstance(value, tuple) and hasattr(kind, "dtype"):
+        return wp.zeros(value, dtype=kind.dtype, device=device)
+    return value
 
 
 def load_kernels(kernel: Any, device: str) -> None:
@@ -138,26 +141,22 @@ if hasattr(os, "register_at_fork"):  # a forked child inherits the pools without
 
 def launch(
     kernel: Any, size: int, inputs: Sequence[Any], device: str, threads: int | None = None, begin: int = 0
-) -> None:
+) -> list[Any]:
     """Run ``kernel(first, *inputs)`` over ``size`` elements from ``begin`` on; on the CPU, one slice per thread.
 
-    NumPy arrays among the inputs are put on the device with the types of the kernel's arguments.
+    NumPy arrays among the inputs are put on the device with the types of the kernel's arguments. A shape, a tuple,
+    stands for an output, zero at first. Returns the outputs in main memory.
     """
-    if size == 0:
-        return
-    types = [argument.type for argument in kernel.adj.args[1:]]
-    inputs = [
-        to_device(value, kind.dtype, device) if isinstance(value, np.ndarray) else value
-        for value, kind in zip(inputs, types, strict=True)
-    ]
+    arguments = [_argument(value, a.type, device) for value, a in zip(inputs, kernel.adj.args[1:], strict=True)]
     threads = min(threads or available_cores(), size) if device == "cpu" else 1
-    if threads == 1:
-        wp.launch(kernel, dim=size, inputs=[begin, *inputs], device=device)
-        return
-    load_kernels(kernel, device)  # once, before the threads would all try
-    edges = [begin + size * i // threads for i in range(threads + 1)]
+    if size > 0 and threads == 1:
+        wp.launch(kernel, dim=size, inputs=[begin, *arguments], device=device)
+    elif size > 0:
+        load_kernels(kernel, device)  # once, before the threads would all try
+        edges = [begin + size * i // threads for i in range(threads + 1)]
 
-    def run(i: int) -> None:
-        wp.launch(kernel, dim=edges[i + 1] - edges[i], inputs=[edges[i], *inputs], device=device)
+        def run(i: int) -> None:
+            wp.launch(kernel, dim=edges[i + 1] - edges[i], inputs=[edges[i], *arguments], device=device)
 
-    list(thread_pool(threads).map(run, range(threads)))
+        list(thread_pool(threads).map(run, range(threads)))
+    return [a.numpy() for a, value in zip(arguments, inputs, strict=True) if isinstance(value, tuple)]

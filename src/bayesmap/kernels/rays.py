@@ -1,6 +1,6 @@
 """Trace rays: count the cells of each beam, then list them. Compute where a beam crosses a cell."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -11,7 +11,7 @@ from bayesmap.beams.rays import MAX_INCIDENCES, PARALLEL, Rays
 from bayesmap.errors import BadInput
 from bayesmap.kernels import device as devices
 from bayesmap.kernels.device import Float32s, Float64s, Floats, Int32s, Ints, Singles, Vec2ds
-from bayesmap.kernels.walk import cell_before, is_inside, walk_begin, walk_next
+from bayesmap.kernels.walk import Walk, cell_before, is_inside, walk_begin, walk_next
 from bayesmap.sensors.model import RangeLimits
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
@@ -77,24 +77,29 @@ class Line:
     ny: int
     per_column: wp.float64  # 1 / ny
     edge_m: wp.float64
-    start_m: wp.vec2  # in single precision
-    direction: wp.vec2  # in single precision
+    start_m: wp.vec2d
+    direction: wp.vec2d
+
+
+@wp.func
+def line_from(start_m: wp.vec2d, direction: wp.vec2d, ny: int, edge_m: wp.float64) -> Line:
+    """Return the line of a beam from its start, metres from the grid's corner, and its direction."""
+    x = slab_of(start_m[0] / edge_m, direction[0])
+    y = slab_of(start_m[1] / edge_m, direction[1])
+    return Line(x, y, ny, wp.float64(1.0) / wp.float64(ny), edge_m, start_m, direction)
 
 
 @wp.func
 def line_of(lines: Lines, b: int) -> Line:
     """Return the line of a beam."""
-    line = Line()
-    start = lines.start_m[b]
-    direction = lines.direction[b]
-    line.start_m = wp.vec2(wp.float32(start[0]), wp.float32(start[1]))
-    line.direction = wp.vec2(wp.float32(direction[0]), wp.float32(direction[1]))
-    line.x = slab_of(start[0] / lines.edge_m, direction[0])
-    line.y = slab_of(start[1] / lines.edge_m, direction[1])
-    line.ny = lines.ny
-    line.per_column = wp.float64(1.0) / wp.float64(lines.ny)
-    line.edge_m = lines.edge_m
-    return line
+    return line_from(lines.start_m[b], lines.direction[b], lines.ny, lines.edge_m)
+
+
+@wp.func
+def walk_along(line: Line, nx: int, longest_m: wp.float64) -> Walk:
+    """Start the walk along a line in its grid, ``nx`` cells wide."""
+    u = line.direction
+    return walk_begin(line.x.start, line.y.start, u[0], u[1], nx, line.ny, longest_m / line.edge_m)
 
 
 @wp.func
@@ -146,37 +151,23 @@ def first_past(line: Line, cells: Int32s, begin: int, end: int, distance_m: wp.f
 
 
 @wp.kernel
-def count_cells(first: int, lines: Lines, reach_m: Float64s, counts: Int32s):
-    """One thread per beam: count the cells that it touches."""
-    # b: beam; p, u: its start in cells and its direction; w: its walk; n: cells so far.
-    b = first + wp.tid()
-    p = lines.start_m[b] / lines.edge_m
-    u = lines.direction[b]
-    n = int(0)
-    w = walk_begin(p[0], p[1], u[0], u[1], lines.nx, lines.ny, reach_m[b] / lines.edge_m)
-    while w.distance <= w.end:
-        if is_inside(w, lines.nx, lines.ny):
-            n += 1
-        w = walk_next(w)
-    counts[b] = n
-
-
-@wp.kernel
-def fill_cells(
+def list_cells(
     first: int, lines: Lines, reach_m: Float64s, near_m: Float64s, offsets: Int32s, cells: Int32s, near: Int32s
 ):
-    """One thread per beam: write its cells, and find the first cell that it enters at ``near_m`` or later."""
-    # b: beam; p, u: its start in cells and its direction; w: its walk; k: next entry.
+    """One thread per beam: write its cells, and find the first cell that it enters at ``near_m`` or later.
+
+    Without room for cells nothing is written: at an infinite ``near_m``, ``near`` is then the number of cells.
+    """
+    # b: beam; w: its walk; k: next entry.
     b = first + wp.tid()
-    p = lines.start_m[b] / lines.edge_m
-    u = lines.direction[b]
     k = offsets[b]
     begins = near_m[b] / lines.edge_m
-    w = walk_begin(p[0], p[1], u[0], u[1], lines.nx, lines.ny, reach_m[b] / lines.edge_m)
+    w = walk_along(line_of(lines, b), lines.nx, reach_m[b])
     entered = int(k)
     while w.distance <= w.end:
         if is_inside(w, lines.nx, lines.ny):
-            cells[k] = w.cell_x * lines.ny + w.cell_y
+            if cells.shape[0] > 0:
+                cells[k] = w.cell_x * lines.ny + w.cell_y
             k += 1
             if w.distance < begins:
                 entered = k
@@ -247,40 +238,35 @@ def trace_rays(
     reach = np.where(np.isnan(ranges), -1.0, reach)
     start_m, direction = beam_lines(scans, grid)
     lines = lines_to_device(start_m, direction, grid, device)
-    device_reach = devices.to_device(reach, wp.float64, device)
-    device_near = devices.to_device(np.zeros(beams) if near_m is None else near_m, wp.float64, device)
+    reach = devices.to_device(reach, wp.float64, device)
 
-    # First walk: count the cells of each beam.
-    counts = wp.empty(beams, dtype=wp.int32, device=device)
-    for begin, size in _pieces(beams):
-        devices.launch(count_cells, size, [lines, device_reach, counts], device, devices.threads_for(size), begin)
-        on_progress((begin + size) // 2, beams)
-    # Second walk: list them.
-    offsets = offsets_of(counts.numpy(), "beams")
+    def follow(beams_before: int, near_m: Floats, offsets: Ints, cells: Any) -> Ints:
+        """Follow all beams, a piece at a time. Returns the ``near`` of `list_cells`."""
+        near = wp.empty(beams, dtype=wp.int32, device=device)
+        arrays = [devices.to_device(near_m, wp.float64, device), devices.to_device(offsets, wp.int32, device)]
+        for begin in range(0, beams, BEAMS_AT_ONCE):
+            size = min(BEAMS_AT_ONCE, beams - begin)
+            inputs = [lines, reach, *arrays, cells, near]
+            devices.launch(list_cells, size, inputs, device, devices.threads_for(size), begin)
+            on_progress((beams_before + begin + size) // 2, beams)
+        return np.asarray(near.numpy())
+
+    # The first walk counts the cells of each beam, the second lists them.
+    counts = follow(0, np.full(beams, np.inf), np.zeros(beams), wp.empty(0, dtype=wp.int32, device=device))
+    offsets = offsets_of(counts)
     cells = wp.empty(int(offsets[-1]), dtype=wp.int32, device=device)
-    near = wp.empty(beams, dtype=wp.int32, device=device)
-    device_offsets = devices.to_device(offsets, wp.int32, device)
-    for begin, size in _pieces(beams):
-        inputs = [lines, device_reach, device_near, device_offsets, cells, near]
-        devices.launch(fill_cells, size, inputs, device, devices.threads_for(size), begin)
-        on_progress((beams + begin + size) // 2, beams)
+    near = follow(beams, np.zeros(beams) if near_m is None else near_m, offsets, cells)
     limits = RangeLimits(scans.min_range_m, scans.max_range_m)
-    return Rays(grid, offsets, cells.numpy(), near.numpy(), start_m, direction, ranges, limits)
+    return Rays(grid, offsets, cells.numpy(), near, start_m, direction, ranges, limits)
 
 
-def offsets_of(counts: Ints, what: str) -> Ints:
+def offsets_of(counts: Ints) -> Ints:
     """Return the first entry of each beam, and the end of the last beam's, (B + 1,); refuse over 2^31 entries."""
     ends = np.cumsum(counts, dtype=np.int64)
     total = int(ends[-1]) if len(ends) else 0
     if total > MAX_INCIDENCES:
         raise BadInput(
-            f"scans: {len(counts):,} {what} cross {total:,} cells, over the limit of {MAX_INCIDENCES:,}; "
+            f"scans: {len(counts):,} beams cross {total:,} cells, over the limit of {MAX_INCIDENCES:,}; "
             "use a coarser resolution, a shorter --max-range, or fewer scans"
         )
     return np.concatenate([[0], ends]).astype(np.int32)
-
-
-def _pieces(beams: int) -> Iterator[tuple[int, int]]:
-    """Yield the first beam and the number of beams of each piece."""
-    for begin in range(0, beams, BEAMS_AT_ONCE):
-        yield begin, min(BEAMS_AT_ONCE, beams - begin)

@@ -185,9 +185,7 @@ def cast(
     2).
     """
     device = devices.resolve(device)
-    beams = len(angles_rad)
-    distance = wp.empty(beams, dtype=wp.float64, device=device)
-    visits = wp.empty(beams, dtype=wp.int32, device=device)
     x, y = np.asarray(starts_cells).T
-    devices.launch(first_hit_ranges, beams, [walls != 0, x, y, angles_rad, longest_cells, distance, visits], device, 1)
-    return distance.numpy(), visits.numpy()
+    inputs = [walls != 0, x, y, angles_rad, longest_cells, x.shape, x.shape]
+    distance, visits = devices.launch(first_hit_ranges, len(x), inputs, device, 1)
+    return distance, visits

@@ -21,7 +21,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
-from bayesmap.kernels.predict.pose_weights import PackedMap, pack_map, scan_log_likelihood
+from bayesmap.kernels.predict.density import DeviceMaps, device_maps
+from bayesmap.kernels.predict.pose_weights import scan_log_likelihood
 from bayesmap.localization.known_map import KnownMap, Trust, UsualFit
 from bayesmap.localization.particles import log_sum
 from bayesmap.posterior.baselines import Parameter, Values, maximise, sensor_of, stop_probabilities
@@ -232,7 +233,7 @@ class _Placed:
     poses: Floats
     thin: int
 
-    def log_densities(self, stops: Callable[[float, float], PackedMap], values: Mapping[str, float]) -> Floats:
+    def log_densities(self, stops: Callable[[float, float], DeviceMaps], values: Mapping[str, float]) -> Floats:
         """Compute log densities of the readings under the law, (S, A); NaN where invalid."""
         limits = RangeLimits(self.scans.min_range_m, self.scans.max_range_m)
         packed = stops(values["stop_occupied"], values["stop_unknown"])
@@ -249,12 +250,12 @@ class _Placed:
         return np.where(np.isnan(readings), np.nan, logs)
 
 
-def _stops_of(occupancy: Floats, grid: Grid) -> Callable[[float, float], PackedMap]:
+def _stops_of(occupancy: Floats, grid: Grid) -> Callable[[float, float], DeviceMaps]:
     """Return a function that packs the map for kernels, given the stop probabilities of occupied and unknown cells."""
 
     @lru_cache(maxsize=4)
-    def packed(occupied: float, unknown: float) -> PackedMap:
+    def packed(occupied: float, unknown: float) -> DeviceMaps:
         values = {**ASSUMED, "stop_occupied": occupied, "stop_unknown": unknown}
-        return pack_map(stop_probabilities(occupancy, values).ravel()[None].astype(np.float32), grid, 0.5)
+        return device_maps([stop_probabilities(occupancy, values).reshape(1, -1).astype(np.float32)], grid, 0.5)
 
     return packed

@@ -18,7 +18,7 @@ from bayesmap.sensors.builtin import BeamMixture, Gaussian, StudentT
 from bayesmap.sensors.model import RangeLimits, SensorModel
 
 if TYPE_CHECKING:
-    from bayesmap.kernels.predict.pose_weights import PackedMap
+    from bayesmap.kernels.predict.density import DeviceMaps
     from bayesmap.space.grid import Grid
     from bayesmap.space.scans import Scans
 
@@ -111,7 +111,7 @@ class KnownMap:
     """
 
     grid: Grid
-    packed: PackedMap
+    packed: DeviceMaps
     sensor: SensorModel
     field: Field
     free: NDArray[np.bool_]
@@ -181,7 +181,7 @@ class KnownMap:
         Raises:
             BadInput: no free cell, or a sensor model of the user's own.
         """
-        from bayesmap.kernels.predict.pose_weights import pack_map
+        from bayesmap.kernels.predict.density import device_maps
 
         readings = scans.ranges_m[np.isfinite(scans.ranges_m)]
         known = np.where(observed, np.asarray(occupancy, dtype=np.float64), 0.0)
@@ -193,7 +193,7 @@ class KnownMap:
         # A prior may have far more walls than the building. A search would then prefer poses in unknown cells.
         chance = min(float(chances.mean()), float(known[observed].mean())) if chances.size else 0.0
         return cls(
-            grid=grid, packed=pack_map(states, grid, hit_depth, device), sensor=_compilable(sensor),
+            grid=grid, packed=device_maps([states], grid, hit_depth, device=device), sensor=_compilable(sensor),
             field=likelihood_field(known, grid, free, unknown, chance), free=free, unknown=unknown,
             unknown_chance=chance, elsewhere=readings_anywhere(scans), max_range_m=scans.max_range_m,
             typical_m=float(np.median(readings)) if len(readings) else scans.max_range_m, beam_weight=beam_weight,
@@ -202,11 +202,9 @@ class KnownMap:
     @cached_property
     def endpoints(self) -> EndpointField:
         """Field of the surfaces on which end points of beams fall, for proposals."""
-        from bayesmap.kernels.predict.pose_weights import map_states
-
         assert isinstance(self.sensor, BeamMixture)
         scale_m = float(self.sensor.noise.scale_at(np.asarray(self.typical_m)))
-        return endpoint_field(map_states(self.packed), self.grid, scale_m, self.unknown, self.unknown_chance)
+        return endpoint_field(self.packed.states(), self.grid, scale_m, self.unknown, self.unknown_chance)
 
     @cached_property
     def shared_error(self) -> Floats | None:

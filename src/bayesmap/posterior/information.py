@@ -107,7 +107,7 @@ def expected_information(
     where, draws, each = as_poses(poses), len(cells), len(cells) // chains
     if each < 2:
         raise BadInput(f"information: {each} draws of the map from each chain; two are the least that can differ")
-    maps, every = device_maps([cells], hit_depth, device=device), np.arange(draws)
+    maps, every = device_maps([cells], grid, hit_depth, device=device), np.arange(draws)
     # Pairs of draws of one chain.
     scan = np.repeat(every, each)
     other = np.tile(every.reshape(chains, 1, each), (1, each, 1)).ravel()
@@ -115,7 +115,7 @@ def expected_information(
     # For each pose, simulate a scan in every draw, and weight each scan in every draw of its chain.
     for i, pose in enumerate(where):
         at = np.broadcast_to(pose, (draws, 3))
-        readings = draw_readings(maps, grid, fan, at, every, (seed, i, STREAM_VIEW))
+        readings = draw_readings(maps, fan, at, every, (seed, i, STREAM_VIEW))
         likelihood = ScanLikelihood(
             Scans(at, fan.angles_rad, readings, limits.max_m, limits.min_m), grid, fan.sensor, hit_depth, device
         )

@@ -17,7 +17,6 @@ from bayesmap.errors import BadInput, check_count
 from bayesmap.posterior.posterior import Posterior
 from bayesmap.posterior.predictor import CENTRAL_80, PREDICTED_DRAWS, checked_levels, predictor_of
 from bayesmap.sensors.model import RangeLimits, SensorModel
-from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans, as_angles, as_poses
 
 if TYPE_CHECKING:
@@ -89,14 +88,12 @@ class Fan:
         return cls(angles, RangeLimits(min(scans.min_range_m, longest_m), float(longest_m)), law)
 
 
-def draw_readings(
-    maps: DeviceMaps, grid: Grid, fan: Fan, poses: Floats, draw: NDArray[np.intp], key: tuple[int, ...]
-) -> Floats:
+def draw_readings(maps: DeviceMaps, fan: Fan, poses: Floats, draw: NDArray[np.intp], key: tuple[int, ...]) -> Floats:
     """Draw the readings of a scan at each of n poses in the map ``draw`` of each, (n, A). ``key`` seeds them."""
     from bayesmap.kernels.predict.view import draw_scan_stops
     from bayesmap.kernels.random import mix
 
-    distance_m, spread_m = draw_scan_stops(maps, grid, poses, draw, fan.angles_rad, fan.limits.max_m, mix(*key))
+    distance_m, spread_m = draw_scan_stops(maps, poses, draw, fan.angles_rad, fan.limits.max_m, mix(*key))
     rng = np.random.default_rng(key)
     met = np.isfinite(distance_m)
     distance_m[met] += spread_m[met] * rng.standard_normal(met.sum())
@@ -124,10 +121,10 @@ def predict(
     # Draw all scans in one map after the other.
     drawn: list[Floats] = []
     for batch in posterior.prior.drawn_stops(thinned):
-        maps, first = device_maps([batch], predictor.hit_depth, device=device), len(drawn)
+        maps, first = device_maps([batch], predictor.grid, predictor.hit_depth, device=device), len(drawn)
         for i in range(len(batch)):
             row = np.full(len(where), i)
-            drawn.append(draw_readings(maps, grid, fan, where, row, (seed, first + i, STREAM_READINGS)))
+            drawn.append(draw_readings(maps, fan, where, row, (seed, first + i, STREAM_READINGS)))
     # Mix the stops of all draws. A reading is needed to trace a beam and has no part in its prediction.
     unread = np.full((len(where), len(fan.angles_rad)), np.inf)
     scans = Scans(where, fan.angles_rad, unread, max_range_m=fan.limits.max_m, min_range_m=fan.limits.min_m)

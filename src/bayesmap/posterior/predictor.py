@@ -151,7 +151,7 @@ class ScanPredictor:
         """
         from bayesmap.kernels.predict.density import device_maps
 
-        held = device_maps(predictor.batches(), predictor.hit_depth, device=device)
+        held = device_maps(predictor.batches(), predictor.grid, predictor.hit_depth, device=device)
         return cls(predictor.grid, held, predictor.sensor, limits)
 
     def thinned(self, most: int) -> ScanPredictor:

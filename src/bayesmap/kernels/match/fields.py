@@ -34,10 +34,9 @@ def field_sums(field: NDArray[np.uint8], grid: Grid, points: Floats, poses: Floa
     ``points`` are in the sensor's frame, metres, (N, 2); ``poses`` in the world frame, (P, 3).
     """
     devices.start()
-    out = wp.zeros(len(poses), dtype=wp.int32, device="cpu")
     in_cells = np.column_stack([grid.to_cells(poses[:, :2]), poses[:, 2]])
-    devices.launch(sum_field, len(poses), [field, points / grid.resolution, in_cells, out], "cpu", 1)
-    return np.asarray(out.numpy())
+    inputs = [field, points / grid.resolution, in_cells, (len(poses),)]
+    return np.asarray(devices.launch(sum_field, len(poses), inputs, "cpu", 1)[0])
 
 
 REACH_SDS = wp.constant(wp.float32(3.0))
@@ -73,6 +72,4 @@ def spread(means: Floats, covariances: Floats, strengths: Floats, shape: tuple[i
     ``strengths`` the peaks s, (K,).
     """
     devices.start()
-    out = wp.zeros(shape, dtype=wp.float32, device="cpu")
-    devices.launch(spread_surfaces, len(means), [means, covariances, strengths, out], "cpu", 1)
-    return np.asarray(out.numpy())
+    return np.asarray(devices.launch(spread_surfaces, len(means), [means, covariances, strengths, shape], "cpu", 1)[0])

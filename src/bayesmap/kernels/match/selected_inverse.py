@@ -46,8 +46,5 @@ def selected_inverse(begin: Ints, row: Ints, lower: Floats, pivot: Floats) -> Fl
     holds them with a unit diagonal, ``pivot`` the diagonal of D, (n,). The pattern must be closed under elimination.
     """
     devices.start()
-    inverse = wp.zeros(len(row), dtype=wp.float64, device="cpu")
-    longest = int(np.diff(begin).max(initial=1))
-    sums = wp.zeros(longest, dtype=wp.float64, device="cpu")
-    devices.launch(invert_on_pattern, 1, [begin, row, lower, pivot, sums, inverse], "cpu")
-    return np.asarray(inverse.numpy())
+    sums = (int(np.diff(begin).max(initial=1)),)
+    return np.asarray(devices.launch(invert_on_pattern, 1, [begin, row, lower, pivot, sums, row.shape], "cpu")[1])

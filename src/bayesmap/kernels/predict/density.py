@@ -19,18 +19,24 @@ from bayesmap.beams.rays import Rays
 from bayesmap.errors import BadInput
 from bayesmap.kernels import device as devices
 from bayesmap.kernels import sensor_law as laws
-from bayesmap.kernels.device import Float32Rows, Float64s, Floats, Int32s, Ints, Singles
-from bayesmap.kernels.rays import Line, RayArrays, distance_at, first_past, line_of, rays_to_device
+from bayesmap.kernels.device import Float32Rows, Float64s, Floats, Int32s, Ints, Singles, Uint8Rows
+from bayesmap.kernels.rays import Line, RayArrays, distance_at, first_past, line_from, line_of, rays_to_device
 from bayesmap.kernels.sensor_law import MIXTURE, NOISE, SensorLaw64
 from bayesmap.kernels.surfaces.cell import Cell, cells_to_device, cross_surface, ray_from
 from bayesmap.sensors.model import RangeLimits, SensorModel
 from bayesmap.sensors.tabulated import tabulated
+from bayesmap.space.grid import Grid
 
 wp.set_module_options({"enable_backward": False})
 
 StopStates = Singles
 """Maps: stop probabilities of cells without a surface (maps, cells), or surfaces (maps, cells, 6): reflectivity,
 mean x and y in metres from the grid's lower left corner, and Cholesky factor l11, l21, l22."""
+
+
+LEAST_CHANCE = 2e-3
+"""Share of beams below which a cell counts as empty when poses are weighed fast, unless the reading ended near it:
+there the beam may have met it. Elsewhere the cell would take this share from all poses alike."""
 
 
 @wp.struct
@@ -41,6 +47,31 @@ class MapArrays:
     surface: wp.array2d(dtype=Cell)  # otherwise, the surfaces
     surfaces: int  # 1 if cells have surfaces
     depth: wp.float64  # where beams stop in cells without a surface, as a share of their stretch
+    empty: Uint8Rows  # 1 in cells that stop less than `LEAST_CHANCE`; only in maps of whole grids
+
+
+@wp.struct
+class Frame:
+    """The grid that beams walk."""
+
+    nx: int
+    ny: int
+    origin_x: wp.float64
+    origin_y: wp.float64
+    resolution: wp.float64
+
+
+@wp.func
+def line_in(frame: Frame, x: wp.float64, y: wp.float64, angle: wp.float64) -> Line:
+    """Return the line of a beam that leaves (x, y) in the world frame at an angle."""
+    start = wp.vec2d(x - frame.origin_x, y - frame.origin_y)
+    return line_from(start, wp.vec2d(wp.cos(angle), wp.sin(angle)), frame.ny, frame.resolution)
+
+
+def grid_frame(grid: Grid) -> Frame:
+    """Return a grid as kernels read it."""
+    (nx, ny), (x, y) = grid.shape, grid.origin
+    return devices.pack(Frame, "cpu", nx=nx, ny=ny, origin_x=x, origin_y=y, resolution=grid.resolution)
 
 
 @wp.func
@@ -51,7 +82,7 @@ def stop_in(maps: MapArrays, row: int, column: int, line: Line, cell: int) -> wp
     """
     if maps.surfaces != 0:
         state = maps.surface[row, column]
-        met = cross_surface(state, ray_from(line.start_m, line.direction))
+        met = cross_surface(state, ray_from(wp.vec2(line.start_m), wp.vec2(line.direction)))
         chance = wp.float64(state[0]) * wp.float64(met.chance)
         return wp.vec3d(chance, wp.float64(met.distance_m), wp.float64(met.variance))
     chance = wp.float64(maps.stop[row, column])
@@ -70,32 +101,36 @@ def maps_to_device(states: StopStates, hit_depth: float, device: str) -> Any:
 class DeviceMaps:
     """Draws of whole maps on a device, for many predictions.
 
-    ``maps`` are `MapArrays` with a column for each of the grid's cells and a row for each of the ``draws``. A beam
-    stops in a cell without a surface at the share ``hit_depth`` of its stretch.
+    ``arrays`` are `MapArrays` with a column for each of the grid's cells and a row for each of the ``draws``.
     """
 
-    maps: Any
+    arrays: Any
     draws: int
-    hit_depth: float
+    grid: Grid
     device: str
+
+    def states(self) -> Singles:
+        """Return the draws; surfaces have two more numbers, see `Cell`."""
+        return np.asarray((self.arrays.surface if self.arrays.surfaces else self.arrays.stop).numpy())
 
     def thinned(self, most: int) -> "DeviceMaps":
         """Return at most ``most`` of the draws, evenly spread."""
         if most >= self.draws:
             return self
         rows = np.linspace(0, self.draws - 1, most).round().astype(np.intp)
-        states = (self.maps.surface if self.maps.surfaces else self.maps.stop).numpy()[rows]
-        return DeviceMaps(maps_to_device(states, self.hit_depth, self.device), most, self.hit_depth, self.device)
+        return device_maps([self.states()[rows]], self.grid, self.arrays.depth, device=self.device)
 
 
-def device_maps(batches: Iterable[StopStates], hit_depth: float, *, device: str = "cpu") -> DeviceMaps:
+def device_maps(batches: Iterable[StopStates], grid: Grid, hit_depth: float, *, device: str = "cpu") -> DeviceMaps:
     """Put draws of all cells of a grid on a device; refuse none."""
     device = devices.resolve(device)
     draws = list(batches)
     if not sum(map(len, draws)):
         raise BadInput("score: there is no draw to predict from")
     states = np.concatenate(draws)
-    return DeviceMaps(maps_to_device(states, hit_depth, device), len(states), hit_depth, device)
+    arrays = maps_to_device(states, hit_depth, device)
+    arrays.empty = devices.to_device((states[..., 0] if states.ndim == 3 else states) < LEAST_CHANCE, wp.uint8, device)
+    return DeviceMaps(arrays, len(states), grid, device)
 
 
 # A beam is followed until its chance to get so far is below this. The limit is lower for noise alone, under which an

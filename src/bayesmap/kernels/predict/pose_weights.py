@@ -8,7 +8,6 @@ The law is that of `bayesmap.kernels.predict.scan_likelihood`, in single precisi
 - cells that stop almost no beam, such as most of a floor, are skipped.
 """
 
-from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
 
@@ -18,13 +17,11 @@ from numpy.typing import NDArray
 
 from bayesmap.kernels import device as devices
 from bayesmap.kernels import sensor_law as laws
-from bayesmap.kernels.device import Float64Rows, Float64s, Floats, Int32s, Singles, Uint8Rows
-from bayesmap.kernels.predict.density import MapArrays, maps_to_device
-from bayesmap.kernels.predict.scan_likelihood import Frame, grid_frame
+from bayesmap.kernels.device import Float64Rows, Float64s, Floats, Int32s
+from bayesmap.kernels.predict.density import DeviceMaps, Frame, MapArrays, grid_frame
 from bayesmap.kernels.sensor_law import SensorLaw32
 from bayesmap.kernels.surfaces.cell import cross_surface, crossing_probability, ray_from
 from bayesmap.sensors.model import RangeLimits, SensorModel
-from bayesmap.space.grid import Grid
 
 wp.set_module_options({"enable_backward": False})
 
@@ -33,9 +30,6 @@ PAST_CELLS = wp.constant(wp.float32(4.0))
 """Distance from a reading within which the place of the stop matters: noise scales plus cells (a surface is smaller
 than its cell)."""
 
-LEAST_CHANCE = 2e-3
-"""Share of beams below which a cell counts as empty, unless the reading ended near it: there the beam may have met it.
-Elsewhere the cell would take this share from all poses alike."""
 
 UNLIKELY = wp.constant(wp.float32(1.0e-6))  # a smaller chance of a stop is skipped
 HUGE = wp.constant(wp.float32(1.0e30))  # distance of a grid line that the beam does not cross
@@ -57,8 +51,8 @@ def next_line(p: wp.float32, u: wp.float32) -> wp.float32:
 
 @wp.func
 def reading_log_density(
-    law: SensorLaw32, frame: Frame, maps: MapArrays, empty: Uint8Rows, draw: int, x: wp.float32, y: wp.float32,
-    angle: wp.float32, z: wp.float32,
+    law: SensorLaw32, frame: Frame, maps: MapArrays, draw: int, x: wp.float32, y: wp.float32, angle: wp.float32,
+    z: wp.float32,
 ) -> wp.float32:  # fmt: skip
     """Return log p(reading | map, beam) for a beam from (x, y), in metres from the grid's corner.
 
@@ -113,7 +107,7 @@ def reading_log_density(
                 if chance > UNLIKELY:
                     total += survive * chance * laws.stop_density(law, z, decay, distance, variance)
                     survive = survive * (ONE - chance)
-            elif empty[draw, cell] == wp.uint8(0):
+            elif maps.empty[draw, cell] == wp.uint8(0):
                 chance = ZERO
                 if maps.surfaces != 0:
                     state = maps.surface[draw, cell]
@@ -143,8 +137,8 @@ def reading_log_density(
 
 @wp.kernel
 def scan_log_likelihoods(
-    first: int, law: SensorLaw32, frame: Frame, maps: MapArrays, empty: Uint8Rows, draws: int, in_turn: int,
-    poses: Float64Rows, scan: Int32s, angle_rad: Float64s, range_m: Float64Rows, out: Float64Rows,
+    first: int, law: SensorLaw32, frame: Frame, maps: MapArrays, draws: int, in_turn: int, poses: Float64Rows,
+    scan: Int32s, angle_rad: Float64s, range_m: Float64Rows, out: Float64Rows,
 ):  # fmt: skip
     """One thread per pose and draw: sum log p(reading | map, pose) over beams.
 
@@ -169,34 +163,8 @@ def scan_log_likelihoods(
         z = range_m[scan[p], b]
         if not wp.isnan(z):
             angle = wp.float32(poses[p, 2] + angle_rad[b])
-            total += wp.float64(reading_log_density(law, frame, maps, empty, d, x, y, angle, wp.float32(z)))
+            total += wp.float64(reading_log_density(law, frame, maps, d, x, y, angle, wp.float32(z)))
     out[p, column] = total
-
-
-@dataclass(frozen=True, eq=False)
-class PackedMap:
-    """Draws of a map on a device; ``empty`` is 1 in cells that stop less than `LEAST_CHANCE`, one row per draw."""
-
-    maps: Any
-    empty: Any
-    draws: int
-    frame: Any
-    device: str
-
-
-def pack_map(states: Singles, grid: Grid, hit_depth: float, device: str = "cpu") -> PackedMap:
-    """Put draws of a map on a device: stop probabilities at ``hit_depth`` of chords (D, N), or surfaces (D, N, 6)."""
-    device = devices.resolve(device)
-    chances = states[..., 0] if states.ndim == 3 else states
-    empty = devices.to_device((chances < LEAST_CHANCE).astype(np.uint8), wp.uint8, device)
-    maps = maps_to_device(np.ascontiguousarray(states), hit_depth, device)
-    return PackedMap(maps, empty, len(states), grid_frame(grid), device)
-
-
-def map_states(packed: PackedMap) -> Singles:
-    """Return the draws given to `pack_map`; surfaces have two more numbers, see `Cell`."""
-    held = packed.maps.surface if packed.maps.surfaces != 0 else packed.maps.stop
-    return np.asarray(held.numpy())
 
 
 @lru_cache(maxsize=64)
@@ -205,13 +173,13 @@ def _law(sensor: SensorModel, limits: RangeLimits, device: str) -> Any:
 
 
 def scan_log_likelihood(
-    packed: PackedMap, poses: Floats, angles_rad: Floats, ranges_m: Floats, sensor: SensorModel, limits: RangeLimits,
+    maps: DeviceMaps, poses: Floats, angles_rad: Floats, ranges_m: Floats, sensor: SensorModel, limits: RangeLimits,
     scan: NDArray[np.intp] | None = None, draws: int | None = None, in_turn: bool = False, threads: int | None = None,
 ) -> Floats:  # fmt: skip
     """Compute the log-likelihood of scans at poses under draws of the map, nats, (P, D); invalid readings count 0.
 
     Args:
-        packed: the draws.
+        maps: the draws.
         poses: poses in the world frame, (P, 3).
         angles_rad: angles of the beams, (A,).
         ranges_m: readings of one scan, (A,), or of several, (S, A).
@@ -222,15 +190,12 @@ def scan_log_likelihood(
         in_turn: weigh each pose under one draw, the draws in turn; the result is (P, 1).
         threads: number of threads; all cores if None.
     """
-    device, count = packed.device, len(poses)
-    draws = packed.draws if draws is None else min(draws, packed.draws)
+    count = len(poses)
+    draws = maps.draws if draws is None else min(draws, maps.draws)
     cycle = draws if in_turn else 0
     draws = 1 if in_turn else draws
-    out = wp.empty((count, draws), dtype=wp.float64, device=device)
-    which = np.zeros(count, np.int32) if scan is None else np.asarray(scan, np.int32)
-    readings = np.ascontiguousarray(np.atleast_2d(ranges_m), dtype=np.float64)
-    inputs = [_law(sensor, limits, device), packed.frame, packed.maps, packed.empty, draws, cycle]
-    inputs += [poses, which, angles_rad, readings, out]
+    scan = np.zeros(count, np.intp) if scan is None else scan
+    inputs = [_law(sensor, limits, maps.device), grid_frame(maps.grid), maps.arrays, draws, cycle]
+    inputs += [poses, scan, angles_rad, np.atleast_2d(ranges_m), (count, draws)]
     size = -(-count // cycle) * cycle if in_turn else count * draws
-    devices.launch(scan_log_likelihoods, size, inputs, device, threads)
-    return np.asarray(out.numpy())
+    return np.asarray(devices.launch(scan_log_likelihoods, size, inputs, maps.device, threads)[0])

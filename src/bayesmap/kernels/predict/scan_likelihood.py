@@ -14,40 +14,16 @@ from numpy.typing import NDArray
 
 from bayesmap.kernels import device as devices
 from bayesmap.kernels.device import Float64Rows, Float64s, Floats, Int32s, Singles
-from bayesmap.kernels.predict.density import DeviceMaps, MapArrays, add_stop, maps_to_device, no_sum, weight_of_nothing
+from bayesmap.kernels.predict import density
+from bayesmap.kernels.predict.density import DeviceMaps, Frame, MapArrays
+from bayesmap.kernels.rays import walk_along
 from bayesmap.kernels.sensor_law import SensorLaw64, object_decay, sensor_law
-from bayesmap.kernels.surfaces.cell import cross_surface, ray_from
-from bayesmap.kernels.walk import NEVER, is_inside, walk_begin, walk_next
+from bayesmap.kernels.walk import is_inside, walk_next
 from bayesmap.sensors.model import RangeLimits, SensorModel
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
 
 wp.set_module_options({"enable_backward": False})
-
-
-@wp.struct
-class Frame:
-    """The grid that beams walk."""
-
-    nx: int
-    ny: int
-    origin_x: wp.float64
-    origin_y: wp.float64
-    resolution: wp.float64
-
-
-@wp.func
-def stop_on_walk(
-    maps: MapArrays, row: int, cell: int, start: wp.vec2, direction: wp.vec2, distance: wp.float64
-) -> wp.vec3d:
-    """Return the chance that a beam which reaches a cell stops in it, and distance and spread of the stop, metres."""
-    if maps.surfaces != 0:
-        state = maps.surface[row, cell]
-        met = cross_surface(state, ray_from(start, direction))
-        return wp.vec3d(
-            wp.float64(state[0]) * wp.float64(met.chance), wp.float64(met.distance_m), wp.sqrt(wp.float64(met.variance))
-        )
-    return wp.vec3d(wp.float64(maps.stop[row, cell]), distance, wp.float64(0.0))
 
 
 @wp.kernel
@@ -64,7 +40,6 @@ def beam_log_likelihoods(
     row = b / beams
     reading = scan[row] * beams + b % beams
     z = range_m[reading]
-    out[b] = wp.float64(0.0)
     if wp.isnan(z):
         return
     m = b % beams
@@ -72,34 +47,25 @@ def beam_log_likelihoods(
         m = reading
     one = wp.float64(1.0)
     yaw = poses[row, 2]
-    x = poses[row, 0] + wp.cos(yaw) * mounts[m, 0] - wp.sin(yaw) * mounts[m, 1] - frame.origin_x
-    y = poses[row, 1] + wp.sin(yaw) * mounts[m, 0] + wp.cos(yaw) * mounts[m, 1] - frame.origin_y
-    angle = yaw + mounts[m, 2]
-    ux = wp.cos(angle)
-    uy = wp.sin(angle)
-    start = wp.vec2(wp.float32(x), wp.float32(y))
-    direction = wp.vec2(wp.float32(ux), wp.float32(uy))
-    gone = weight_of_nothing(law)
+    x = poses[row, 0] + wp.cos(yaw) * mounts[m, 0] - wp.sin(yaw) * mounts[m, 1]
+    y = poses[row, 1] + wp.sin(yaw) * mounts[m, 0] + wp.cos(yaw) * mounts[m, 1]
+    line = density.line_in(frame, x, y, yaw + mounts[m, 2])
+    gone = density.weight_of_nothing(law)
     decay = object_decay(law, z)
-    sums = no_sum(law)
+    sums = density.no_sum(law)
     survive = wp.float64(1.0)
-    w = walk_begin(x / frame.resolution, y / frame.resolution, ux, uy, frame.nx, frame.ny, law.max_m / frame.resolution)
+    w = walk_along(line, frame.nx, law.max_m)
     while w.distance <= w.end and survive >= gone:
         if is_inside(w, frame.nx, frame.ny):
-            # Length of the beam inside the cell: 0 if it only touches a corner.
-            chord = wp.min(wp.min(w.next_x, w.next_y), NEVER) - w.distance
-            if w.cell_x != w.x or w.cell_y != w.y:
-                chord = wp.where(w.along_line != 0, chord, wp.float64(0.0))
-            distance = wp.float64(wp.float32((w.distance + maps.depth * chord) * frame.resolution))
-            stop = stop_on_walk(maps, chain[row], w.cell_x * frame.ny + w.cell_y, start, direction, distance)
+            cell = w.cell_x * frame.ny + w.cell_y
+            stop = density.stop_in(maps, chain[row], cell, line, cell)
             weight = survive * stop[0]
             survive = survive * (one - stop[0])
             if weight > wp.float64(0.0):
-                known = wp.vec3d(weight, stop[1], stop[2] * stop[2])
-                sums = add_stop(law, sums, weight, z, decay, known)
+                sums = density.add_stop(law, sums, weight, z, decay, stop)
         w = walk_next(w)
     if survive > wp.float64(0.0):
-        sums = add_stop(law, sums, survive, z, decay, wp.vec3d(survive, wp.float64(wp.inf), wp.float64(0.0)))
+        sums = density.add_stop(law, sums, survive, z, decay, wp.vec3d(survive, wp.float64(wp.inf), wp.float64(0.0)))
     out[b] = sums[0] + wp.log(sums[1])
 
 
@@ -131,13 +97,11 @@ class ScanLikelihood:
         """
         device, beams = devices.resolve(self.device), self.scans.ranges_m.shape[1]
         limits = RangeLimits(self.scans.min_range_m, self.scans.max_range_m)
-        out = wp.zeros(len(poses) * beams, dtype=wp.float64, device=device)
-        mounts, readings = self._on_device
-        law, frame = sensor_law(self.sensor, limits, device), grid_frame(self.grid)
-        maps = cells.maps if isinstance(cells, DeviceMaps) else maps_to_device(cells, self.hit_depth, device)
-        inputs = [law, frame, maps, poses, scan, chain, beams, mounts, readings, out]
-        devices.launch(beam_log_likelihoods, len(out), inputs, device, devices.threads_for(len(out)))
-        return np.asarray(out.numpy().reshape(len(poses), beams))
+        law, size = sensor_law(self.sensor, limits, device), len(poses) * beams
+        maps = cells.arrays if isinstance(cells, DeviceMaps) else density.maps_to_device(cells, self.hit_depth, device)
+        inputs = [law, density.grid_frame(self.grid), maps, poses, scan, chain, beams, *self._on_device, (size,)]
+        (out,) = devices.launch(beam_log_likelihoods, size, inputs, device, devices.threads_for(size))
+        return np.asarray(out.reshape(len(poses), beams))
 
     def __call__(self, cells: Singles, poses: Floats, scan: NDArray[np.intp], chain: NDArray[np.intp]) -> Floats:
         """Compute the log-likelihood of each scan at its pose, (P,): the sum of `beams`."""
@@ -159,9 +123,3 @@ class ScanLikelihood:
             x, y = np.cos(yaw) * dx + np.sin(yaw) * dy, np.cos(yaw) * dy - np.sin(yaw) * dx
             mounts = np.stack([x, y, scans.beam_angles_world() - yaw], axis=-1).reshape(-1, 3)
         return devices.to_device(mounts, wp.float64, self.device), readings
-
-
-def grid_frame(grid: Grid) -> Frame:
-    """Return a grid as kernels read it."""
-    (nx, ny), (x, y) = grid.shape, grid.origin
-    return devices.pack(Frame, "cpu", nx=nx, ny=ny, origin_x=x, origin_y=y, resolution=grid.resolution)

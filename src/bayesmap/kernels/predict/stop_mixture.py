@@ -94,12 +94,12 @@ def mix_stops(rays: Rays, batches: Iterable[StopStates], hit_depth: float, *, de
     return _mixed(rays, rays.columns, on_device, hit_depth, device, float(LEAST_CHANCE))
 
 
-def mix_device_stops(rays: Rays, held: DeviceMaps, gone: float = float(LEAST_CHANCE)) -> StopMixture:
+def mix_device_stops(rays: Rays, maps: DeviceMaps, gone: float) -> StopMixture:
     """Average the stops of each beam over draws of all cells that are on a device already.
 
     A beam whose chance to get to a cell is below ``gone`` counts as one that stops nowhere.
     """
-    return _mixed(rays, rays.cells, [(held.maps, held.draws)], held.hit_depth, held.device, gone)
+    return _mixed(rays, rays.cells, [(maps.arrays, maps.draws)], maps.arrays.depth, maps.device, gone)
 
 
 def _mixed(
@@ -324,7 +324,5 @@ def range_quantiles(stops: StopMixture, levels: Floats, sensor: SensorModel, dev
     typed = density.are_typed(sensor, limits)
     low, high = (limits.min_m, limits.max_m) if typed else (-limits.max_m, 2.0 * limits.max_m)
     beams = stops.rays.n_beams
-    out = wp.empty((beams, len(levels)), dtype=wp.float64, device=device)
-    inputs = [law, stops_to_device(stops, device), np.asarray(levels), low, high, out]
-    devices.launch(find_quantiles, beams, inputs, device)
-    return np.asarray(out.numpy())
+    inputs = [law, stops_to_device(stops, device), np.asarray(levels), low, high, (beams, len(levels))]
+    return np.asarray(devices.launch(find_quantiles, beams, inputs, device)[0])

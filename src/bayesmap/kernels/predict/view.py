@@ -1,17 +1,15 @@
 """Compute the view of a sensor from a pose: where its beams stop in given maps, and their information."""
 
-from typing import Any
-
 import numpy as np
 import warp as wp
 from numpy.typing import NDArray
 
 from bayesmap.kernels import device as devices
 from bayesmap.kernels.device import Float64Rows, Float64s, Floats, Int32s
-from bayesmap.kernels.predict.density import DeviceMaps, MapArrays
-from bayesmap.kernels.predict.scan_likelihood import Frame, grid_frame, stop_on_walk
+from bayesmap.kernels.predict.density import DeviceMaps, Frame, MapArrays, grid_frame, line_in, stop_in
 from bayesmap.kernels.random import random_bits, to_uniform
-from bayesmap.kernels.walk import NEVER, is_inside, walk_begin, walk_next
+from bayesmap.kernels.rays import Line, walk_along
+from bayesmap.kernels.walk import is_inside, walk_next
 from bayesmap.space.grid import Grid
 
 wp.set_module_options({"enable_backward": False})
@@ -31,64 +29,55 @@ class Views:
     longest_m: wp.float64  # distance to which beams are followed
 
 
+@wp.func
+def line_of_view(frame: Frame, views: Views, b: int) -> Line:
+    """Return the line of beam b of all poses' beams."""
+    row = b / views.angles.shape[0]
+    angle = views.poses[row, 2] + views.angles[b % views.angles.shape[0]]
+    return line_in(frame, views.poses[row, 0], views.poses[row, 1], angle)
+
+
 @wp.kernel
 def draw_scan(
     first: int, frame: Frame, maps: MapArrays, views: Views, draw: Int32s, key: wp.uint64, distance_m: Float64s,
     spread_m: Float64s,
 ):  # fmt: skip
     """One thread per beam of a pose: draw the distance at which it stops; infinite if nowhere."""
-    # b: thread; row: pose; w: walk of the beam.
+    # b: thread; w: walk of the beam.
     b = first + wp.tid()
-    beams = views.angles.shape[0]
-    row = b / beams
-    x = views.poses[row, 0] - frame.origin_x
-    y = views.poses[row, 1] - frame.origin_y
-    angle = views.poses[row, 2] + views.angles[b % beams]
-    ux = wp.cos(angle)
-    uy = wp.sin(angle)
-    start = wp.vec2(wp.float32(x), wp.float32(y))
-    direction = wp.vec2(wp.float32(ux), wp.float32(uy))
+    line = line_of_view(frame, views, b)
     left = to_uniform(random_bits(key, wp.uint64(b)))  # the beam stops once ``survive`` is below this
     survive = wp.float64(1.0)
     distance_m[b] = wp.float64(wp.inf)
-    spread_m[b] = wp.float64(0.0)
-    w = walk_begin(
-        x / frame.resolution, y / frame.resolution, ux, uy, frame.nx, frame.ny, views.longest_m / frame.resolution
-    )
+    w = walk_along(line, frame.nx, views.longest_m)
     while w.distance <= w.end:
         if is_inside(w, frame.nx, frame.ny):
-            chord = wp.min(wp.min(w.next_x, w.next_y), NEVER) - w.distance
-            if w.cell_x != w.x or w.cell_y != w.y:
-                chord = wp.where(w.along_line != 0, chord, wp.float64(0.0))
-            distance = (w.distance + maps.depth * chord) * frame.resolution
-            stop = stop_on_walk(maps, draw[row], w.cell_x * frame.ny + w.cell_y, start, direction, distance)
+            cell = w.cell_x * frame.ny + w.cell_y
+            stop = stop_in(maps, draw[b / views.angles.shape[0]], cell, line, cell)
             survive = survive * (wp.float64(1.0) - stop[0])
             if survive < left:
                 distance_m[b] = stop[1]
-                spread_m[b] = stop[2]
+                spread_m[b] = wp.sqrt(stop[2])
                 return
         w = walk_next(w)
 
 
 def draw_scan_stops(
-    held: DeviceMaps, grid: Grid, poses: Floats, draw: NDArray[np.intp], angles_rad: Floats, longest_m: float, key: int
+    maps: DeviceMaps, poses: Floats, draw: NDArray[np.intp], angles_rad: Floats, longest_m: float, key: int
 ) -> tuple[Floats, Floats]:
     """Draw where the beams of a scan at each pose stop, in the map of the pose.
 
-    ``held`` holds draws of all cells of the grid, ``draw`` the index of each pose's map, (P,), and ``poses`` the poses
-    in the world frame, (P, 3). Beams at ``angles_rad`` (A,) in the sensor's frame are followed to ``longest_m``.
+    ``draw`` is the index of each pose's map, (P,), and ``poses`` are in the world frame, (P, 3). Beams at
+    ``angles_rad`` (A,) in the sensor's frame are followed to ``longest_m``.
 
     Returns:
         distance in metres, infinite for a beam that meets nothing, and its standard deviation, (P, A) each.
     """
-    device = held.device
-    beams = len(poses) * len(angles_rad)
-    out = [wp.zeros(beams, dtype=wp.float64, device=device) for _ in range(2)]
-    views = devices.pack(Views, device, poses=poses, angles=angles_rad, longest_m=longest_m)
-    inputs = [grid_frame(grid), held.maps, views, draw, key, *out]
-    devices.launch(draw_scan, beams, inputs, device)
-    distance_m, spread_m = (np.asarray(a.numpy().reshape(len(poses), -1)) for a in out)
-    return distance_m, spread_m
+    beams = (len(poses) * len(angles_rad),)
+    views = devices.pack(Views, maps.device, poses=poses, angles=angles_rad, longest_m=longest_m)
+    inputs = [grid_frame(maps.grid), maps.arrays, views, draw, key, beams, beams]
+    distance_m, spread_m = devices.launch(draw_scan, beams[0], inputs, maps.device)
+    return distance_m.reshape(len(poses), -1), spread_m.reshape(len(poses), -1)
 
 
 @wp.func
@@ -109,14 +98,6 @@ def add_beam_information(
     distance inside cell k. The sum takes cells within `NEGLIGIBLE` standard deviations. Distances are in cells.
     """
     b = first + wp.tid()
-    beams = views.angles.shape[0]
-    row = b / beams
-    x = (views.poses[row, 0] - frame.origin_x) / frame.resolution
-    y = (views.poses[row, 1] - frame.origin_y) / frame.resolution
-    angle = views.poses[row, 2] + views.angles[b % beams]
-    ux = wp.cos(angle)
-    uy = wp.sin(angle)
-    longest = views.longest_m / frame.resolution
     sigma = sigma_m / frame.resolution
     one = wp.float64(1.0)
     half = wp.float64(0.5)
@@ -124,10 +105,10 @@ def add_beam_information(
     survive = wp.float64(1.0)
     # The outer walk w visits the cells j in which the beam may stop. A second walk, behind, trails it: it sums the
     # information of passes before the first cell k that a reading of such a stop can fall into.
-    behind = walk_begin(x, y, ux, uy, frame.nx, frame.ny, longest)
+    behind = walk_along(line_of_view(frame, views, b), frame.nx, views.longest_m)
     behind_enter = wp.float64(0.0)  # the walk touches the cell in which it starts at its exit
     learnt = wp.float64(0.0)
-    w = walk_begin(x, y, ux, uy, frame.nx, frame.ny, longest)
+    w = behind
     enter = wp.float64(0.0)
     while w.distance <= w.end and survive > CERTAIN:
         if w.cell_x == w.x and w.cell_y == w.y:
@@ -199,11 +180,9 @@ def independent_information(
         pass_factor: the factor for a reading behind it, below 1.
         device: where to compute.
     """
-    device = devices.resolve(device)
-    out: Any = wp.zeros(len(poses) * len(angles_rad), dtype=wp.float64, device=device)
+    device, beams = devices.resolve(device), len(poses) * len(angles_rad)
     odds = occupied / (1.0 - occupied)
     information = [surprise(factor, odds) for factor in (hit_factor, pass_factor)]
     views = devices.pack(Views, device, poses=poses, angles=angles_rad, longest_m=longest_m)
-    inputs = [grid_frame(grid), views, occupied, *information, sigma_m, out]
-    devices.launch(add_beam_information, len(out), inputs, device)
-    return np.asarray(out.numpy().reshape(len(poses), -1))
+    inputs = [grid_frame(grid), views, occupied, *information, sigma_m, (beams,)]
+    return np.asarray(devices.launch(add_beam_information, beams, inputs, device)[0].reshape(len(poses), -1))

@@ -57,17 +57,13 @@ def draw_particles(
 
 def weigh(table: Any, prior: Any, key: int, first: int, count: int, device: str) -> Floats:
     """Compute the log weights of particles first .. first + count - 1."""
-    log_weights = wp.empty(count, dtype=wp.float64, device=device)
-    devices.launch(weigh_particles, count, [table, prior, key, first, log_weights], device)
-    return np.array(log_weights.numpy())
+    return np.asarray(devices.launch(weigh_particles, count, [table, prior, key, first, (count,)], device)[0])
 
 
 def particle_maps(prior: Any, key: int, particles: NDArray[np.intp], device: str) -> NDArray[np.uint8]:
     """Return the maps of the given particles, (n, N)."""
-    cells = prior.level.shape[0]
-    walls = wp.empty((len(particles), cells), dtype=wp.uint8, device=device)
-    devices.launch(draw_particles, len(particles), [prior, key, particles, walls], device)
-    return np.array(walls.numpy())
+    walls = (len(particles), prior.level.shape[0])
+    return np.asarray(devices.launch(draw_particles, len(particles), [prior, key, particles, walls], device)[0])
 
 
 @wp.kernel
@@ -89,9 +85,8 @@ def sum_log_likelihoods(first: int, t: Table, packed: Uint8Rows, total: Float64s
 def log_likelihoods(table: BeamTable, packed: NDArray[np.uint8], device: str = "cpu") -> Floats:
     """Compute log p(all readings | map) of each packed map (draws, bytes), (draws,)."""
     device = devices.resolve(device)
-    total = wp.empty(len(packed), dtype=wp.float64, device=device)
-    devices.launch(sum_log_likelihoods, len(packed), [table_to_device(table, None, device), packed, total], device)
-    return np.array(total.numpy())
+    inputs = [table_to_device(table, None, device), packed, (len(packed),)]
+    return np.asarray(devices.launch(sum_log_likelihoods, len(packed), inputs, device)[0])
 
 
 @wp.kernel
@@ -109,7 +104,8 @@ def mark_reached(first: int, t: Table, walls: Uint8Rows, reached: Uint8Rows):
 def reach_frequency(table: BeamTable, maps: NDArray[np.bool_], device: str = "cpu") -> Floats:
     """Compute the share of the maps (n, nx, ny) in which at least one beam reaches each cell, (nx, ny)."""
     device = devices.resolve(device)
-    flat = np.ascontiguousarray(maps).reshape(len(maps), -1).astype(np.uint8)
-    reached = wp.zeros(flat.shape, dtype=wp.uint8, device=device)
-    devices.launch(mark_reached, len(flat), [table_to_device(table, None, device), flat, reached], device)
-    return np.asarray(reached.numpy().mean(axis=0).reshape(table.grid.shape))
+    flat = np.reshape(maps, (len(maps), -1))
+    (reached,) = devices.launch(
+        mark_reached, len(flat), [table_to_device(table, None, device), flat, flat.shape], device
+    )
+    return np.asarray(reached.mean(axis=0).reshape(table.grid.shape))
