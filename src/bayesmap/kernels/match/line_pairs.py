@@ -41,46 +41,46 @@ class PairRule:
 class Sums:
     """Sums over the pairs of two scans."""
 
-    second: wp.mat33d
-    slack: wp.mat33d
-    first: wp.vec3d
-    cost: wp.float64
-    weight: wp.float64
-    force_sq: wp.float64  # sum of the squared weighted residuals; a point's own weight enters once
+    second: wp.mat33f  # above the diagonal
+    slack: wp.mat33f  # above the diagonal
+    first: wp.vec3f
+    cost: float
+    weight: float
+    force_sq: float  # sum of the squared weighted residuals; a point's own weight enters once
     matched: int
     seen: int  # points that fall between the beams of the other scan, within its range
 
 
 @wp.func
-def turns_of(x: float, y: float) -> float:
-    """Return the angle of (x, y) in turns, -1/2 to 1/2, to 0.05 degrees: a polynomial, faster than atan2."""
-    ax = wp.abs(x)
-    ay = wp.abs(y)
+def turns_of(p: wp.vec2f) -> float:
+    """Return the angle of a vector in turns, -1/2 to 1/2, to 0.05 degrees: a polynomial, faster than atan2."""
+    ax = wp.abs(p[0])
+    ay = wp.abs(p[1])
     t = wp.min(ax, ay) / wp.max(wp.max(ax, ay), 1.0e-9)
     t2 = t * t
     angle = (((-0.0464964749 * t2 + 0.15931422) * t2 - 0.327622764) * t2 + 1.0) * t * 0.15915494309
     if ay > ax:
         angle = 0.25 - angle
-    if x < 0.0:
+    if p[0] < 0.0:
         angle = 0.5 - angle
-    return wp.where(y < 0.0, -angle, angle)
+    return wp.where(p[1] < 0.0, -angle, angle)
 
 
 @wp.func
-def beam_towards(scene: ScanArrays, j: int, x: float, y: float) -> int:
-    """Return the beam of scan j that points towards (x, y); -1 where there is none."""
+def beam_towards(scene: ScanArrays, j: int, at: wp.vec2f) -> int:
+    """Return the beam of scan j that points towards a point; -1 where there is none."""
     bins = scene.beam_of_angle.shape[1]
-    bin = int((turns_of(x, y) + 0.5) * float(bins))
+    bin = int((turns_of(at) + 0.5) * float(bins))
     return scene.beam_of_angle[scene.layout[j], wp.clamp(bin, 0, bins - 1)]
 
 
 @wp.func
-def nearest_point(scene: ScanArrays, j: int, x: float, y: float, reach: float) -> int:
-    """Return the nearest point of scan j within reach, among beams towards (x, y); -1 for none, -2 out of view."""
-    middle = beam_towards(scene, j, x, y)
+def nearest_point(scene: ScanArrays, j: int, at: wp.vec2f, reach: float) -> int:
+    """Return the nearest point of scan j within reach, among beams towards ``at``; -1 for none, -2 out of view."""
+    middle = beam_towards(scene, j, at)
     if middle < 0:
         return -2
-    away = wp.sqrt(x * x + y * y)
+    away = wp.length(at)
     step = scene.step[j]
     u = wp.min(1.0, reach / wp.max(away, 1.0e-6))
     # No point within reach is further off by angle than asin(u) <= u + (pi / 2 - 1) u^3.
@@ -100,10 +100,7 @@ def nearest_point(scene: ScanArrays, j: int, x: float, y: float, reach: float) -
         if low < 0 and circle:
             low += beams
         if low >= 0:
-            p = scene.points[j, low]
-            dx = p[0] - x
-            dy = p[1] - y
-            d = dx * dx + dy * dy
+            d = wp.length_sq(scene.points[j, low] - at)
             if d <= closest:
                 closest = d
                 nearest = low
@@ -111,10 +108,7 @@ def nearest_point(scene: ScanArrays, j: int, x: float, y: float, reach: float) -
         if high >= beams and circle:
             high -= beams
         if k > 0 and high < beams:
-            q = scene.points[j, high]
-            dx = q[0] - x
-            dy = q[1] - y
-            d = dx * dx + dy * dy
+            d = wp.length_sq(scene.points[j, high] - at)
             if d < closest:
                 closest = d
                 nearest = high
@@ -136,12 +130,24 @@ def neighbour_distance(scene: ScanArrays, j: int, beam: int) -> float:
 
 
 @wp.func
-def symmetric(a: float, b: float, c: float, d: float, e: float, f: float) -> wp.mat33d:
-    """Return a symmetric matrix in double precision, from the rows of its upper triangle."""
-    b_64 = wp.float64(b)
-    c_64 = wp.float64(c)
-    e_64 = wp.float64(e)
-    return wp.mat33d(wp.float64(a), b_64, c_64, b_64, wp.float64(d), e_64, c_64, e_64, wp.float64(f))
+def symmetric(m: wp.mat33f) -> wp.mat33d:
+    """Return a symmetric matrix in double precision, from its part above the diagonal."""
+    d = wp.mat33d(m)
+    return wp.mat33d(d[0, 0], d[0, 1], d[0, 2], d[0, 1], d[1, 1], d[1, 2], d[0, 2], d[1, 2], d[2, 2])
+
+
+@wp.func
+def turn_by(z: wp.vec3d) -> wp.mat22f:
+    """Return the rotation of a pose."""
+    c = float(wp.cos(z[2]))
+    s = float(wp.sin(z[2]))
+    return wp.mat22f(c, -s, s, c)
+
+
+@wp.func
+def shift_by(z: wp.vec3d) -> wp.vec2f:
+    """Return the position of a pose."""
+    return wp.vec2f(float(z[0]), float(z[1]))
 
 
 @wp.func
@@ -149,27 +155,12 @@ def pair_scans(
     scene: ScanArrays, weights: Float32Rows, i: int, j: int, z: wp.vec3d, rule: PairRule, stride: int
 ) -> Sums:
     """Sum over every ``stride``-th point of scan i on scan j, with i at pose z in j's frame."""
-    # b: beam of i; (rx, ry): its point turned by z; (x, y): the point in j's frame; h, s, g: entries of H, slack and g.
-    sums = Sums()
-    cosine = float(wp.cos(z[2]))
-    sine = float(wp.sin(z[2]))
-    zx = float(z[0])
-    zy = float(z[1])
-    h00 = float(0.0)
-    h01 = float(0.0)
-    h02 = float(0.0)
-    h11 = float(0.0)
-    h12 = float(0.0)
-    h22 = float(0.0)
-    s00 = float(0.0)
-    s01 = float(0.0)
-    s02 = float(0.0)
-    s11 = float(0.0)
-    s12 = float(0.0)
-    s22 = float(0.0)
-    g0 = float(0.0)
-    g1 = float(0.0)
-    g2 = float(0.0)
+    # b: beam of i; r: its point turned by z; at: the point in j's frame; n, m: normals of the two points.
+    turn = turn_by(z)
+    shift = shift_by(z)
+    second = wp.mat33f()
+    slack = wp.mat33f()
+    first = wp.vec3f()
     cost = float(0.0)
     total = float(0.0)
     force_sq = float(0.0)
@@ -178,58 +169,35 @@ def pair_scans(
     for b in range(0, scene.kind.shape[1], stride):
         if scene.kind[i, b] == wp.uint8(0):
             continue
-        p = scene.points[i, b]
-        rx = cosine * p[0] - sine * p[1]
-        ry = sine * p[0] + cosine * p[1]
-        x = rx + zx
-        y = ry + zy
-        other = nearest_point(scene, j, x, y, rule.reach)
+        r = turn * scene.points[i, b]
+        at = r + shift
+        other = nearest_point(scene, j, at, rule.reach)
         if other == -2:
             continue
         seen += 1
         if other < 0:
             continue
-        q = scene.points[j, other]
-        dx = x - q[0]
-        dy = y - q[1]
+        d = at - scene.points[j, other]
         own = scene.kind[i, b] == wp.uint8(2)
         theirs = scene.kind[j, other] == wp.uint8(2)
         if own and theirs:
-            # Both points have normals, n and m: e is the offset along their mean u, with the derivative (ux, uy, j2).
-            n = scene.normals[i, b]
+            # Both points have normals: e is the offset along their mean u, with the derivative across.
+            n = turn * scene.normals[i, b]
             m = scene.normals[j, other]
-            nx = cosine * n[0] - sine * n[1]
-            ny = sine * n[0] + cosine * n[1]
-            if nx * m[0] + ny * m[1] < rule.alike:
+            if wp.dot(n, m) < rule.alike:
                 continue
-            ux = nx + m[0]
-            uy = ny + m[1]
-            size = wp.sqrt(ux * ux + uy * uy)
-            ux = ux / size
-            uy = uy / size
-            e = ux * dx + uy * dy
+            u = (n + m) / wp.length(n + m)
+            e = wp.dot(u, d)
             w = 1.0 / (1.0 + e * e / (rule.scale * rule.scale))
             w = w * w
             force_sq += weights[i, b] * w * w * e * e
             w = w * weights[i, b]
-            j2 = uy * rx - ux * ry
-            h00 += w * ux * ux
-            h01 += w * ux * uy
-            h02 += w * ux * j2
-            h11 += w * uy * uy
-            h12 += w * uy * j2
-            h22 += w * j2 * j2
-            g0 += w * ux * e
-            g1 += w * uy * e
-            g2 += w * j2 * e
+            across = wp.vec3f(u[0], u[1], u[1] * r[0] - u[0] * r[1])
+            second += wp.outer(w * across, across)
+            first += (w * across) * e
             v = w * 0.25 * (scene.spread[i, b] + scene.spread[j, other])
-            t2 = ux * rx + uy * ry  # the tangent is (-uy, ux)
-            s00 += v * uy * uy
-            s01 -= v * uy * ux
-            s02 -= v * uy * t2
-            s11 += v * ux * ux
-            s12 += v * ux * t2
-            s22 += v * t2 * t2
+            along = wp.vec3f(-u[1], u[0], wp.dot(u, r))
+            slack += wp.outer(v * along, along)
             cost += w * e * e
             total += w
             matched += 1
@@ -238,27 +206,12 @@ def pair_scans(
             apart = 0.5 * neighbour_distance(scene, j, other)
             if apart > DENSE:
                 continue
-            e2 = dx * dx + dy * dy
-            w = 1.0 / (1.0 + e2 / (rule.scale * rule.scale + apart * apart))
+            w = 1.0 / (1.0 + wp.length_sq(d) / (rule.scale * rule.scale + apart * apart))
             w = w * w * weights[i, b] * (0.01 * 0.01) / (apart * apart)
-            h00 += w
-            h02 -= w * ry
-            h11 += w
-            h12 += w * rx
-            h22 += w * (rx * rx + ry * ry)
-            g0 += w * dx
-            g1 += w * dy
-            g2 += w * (rx * dy - ry * dx)
+            second += wp.mat33f(w, 0.0, -w * r[1], 0.0, w, w * r[0], 0.0, 0.0, w * wp.length_sq(r))
+            first += w * wp.vec3f(d[0], d[1], r[0] * d[1] - r[1] * d[0])
             matched += 1
-    sums.second = symmetric(h00, h01, h02, h11, h12, h22)
-    sums.slack = symmetric(s00, s01, s02, s11, s12, s22)
-    sums.first = wp.vec3d(wp.float64(g0), wp.float64(g1), wp.float64(g2))
-    sums.cost = wp.float64(cost)
-    sums.weight = wp.float64(total)
-    sums.force_sq = wp.float64(force_sq)
-    sums.matched = matched
-    sums.seen = seen
-    return sums
+    return Sums(second, slack, first, cost, total, force_sq, matched, seen)
 
 
 @wp.struct
@@ -279,14 +232,14 @@ def sum_pairs(
     """One thread per pair of scans: sum over the pairs of their points."""
     p = first + wp.tid()
     sums = pair_scans(scene, weights, source[p], target[p], relative[p], rule, scene.stride)
-    out.second[p] = sums.second
-    out.slack[p] = sums.slack
-    out.gradient[p] = sums.first
-    out.totals[p, 0] = sums.cost
-    out.totals[p, 1] = sums.weight
+    out.second[p] = symmetric(sums.second)
+    out.slack[p] = symmetric(sums.slack)
+    out.gradient[p] = wp.vec3d(sums.first)
+    out.totals[p, 0] = wp.float64(sums.cost)
+    out.totals[p, 1] = wp.float64(sums.weight)
     out.totals[p, 2] = wp.float64(sums.matched)
     out.totals[p, 3] = wp.float64(sums.seen)
-    out.totals[p, 4] = sums.force_sq
+    out.totals[p, 4] = wp.float64(sums.force_sq)
 
 
 def pair_sums(
@@ -314,32 +267,24 @@ def count_matches(
 ):  # fmt: skip
     """One thread per scan: count the scans with which each beam is paired, weighted by how well it fits."""
     i = first + wp.tid()
-    for b in range(scene.kind.shape[1]):
-        counts[i, b] = 0.0
     for p in range(offsets[i], offsets[i + 1]):
-        z = relative[p]
         j = target[p]
-        cosine = float(wp.cos(z[2]))
-        sine = float(wp.sin(z[2]))
+        turn = turn_by(relative[p])
+        shift = shift_by(relative[p])
         for b in range(0, scene.kind.shape[1], scene.stride):
             if scene.kind[i, b] == wp.uint8(0):
                 continue
-            q = scene.points[i, b]
-            x = cosine * q[0] - sine * q[1] + float(z[0])
-            y = sine * q[0] + cosine * q[1] + float(z[1])
-            other = nearest_point(scene, j, x, y, rule.reach)
+            at = turn * scene.points[i, b] + shift
+            other = nearest_point(scene, j, at, rule.reach)
             if other < 0 or scene.kind[i, b] != scene.kind[j, wp.max(other, 0)]:
                 continue
-            d = wp.vec2f(x, y) - scene.points[j, other]
-            e2 = d[0] * d[0] + d[1] * d[1]
+            d = at - scene.points[j, other]
+            e2 = wp.length_sq(d)
             if scene.kind[i, b] == wp.uint8(2):
-                n = scene.normals[i, b]
                 m = scene.normals[j, other]
-                nx = cosine * n[0] - sine * n[1]
-                ny = sine * n[0] + cosine * n[1]
-                if nx * m[0] + ny * m[1] < rule.alike:
+                if wp.dot(turn * scene.normals[i, b], m) < rule.alike:
                     continue
-                e = m[0] * d[0] + m[1] * d[1]
+                e = wp.dot(m, d)
                 e2 = e * e
             w = 1.0 / (1.0 + e2 / (rule.scale * rule.scale))
             counts[i, b] = counts[i, b] + w * w
@@ -353,17 +298,14 @@ def match_counts(
 
     Only every ``stride``-th beam is counted; the others have the count 0.
     """
-    device = geometry.device
-    counts = wp.empty((len(geometry), geometry.beams), dtype=wp.float32, device=device)
-    rule = devices.pack(PairRule, device, reach=reach_m, scale=scale_m, alike=alike)
-    inputs = [scan_arrays(geometry, stride), offsets, target, relative, rule, counts]
-    devices.launch(count_matches, len(geometry), inputs, device, threads)
-    return np.asarray(counts.numpy())
+    scans, rule = len(geometry), devices.pack(PairRule, geometry.device, reach=reach_m, scale=scale_m, alike=alike)
+    inputs = [scan_arrays(geometry, stride), offsets, target, relative, rule, (scans, geometry.beams)]
+    return np.asarray(devices.launch(count_matches, scans, inputs, geometry.device, threads)[0])
 
 
 @wp.func
-def near_wall(scene: ScanArrays, j: int, beam: int, x: float, y: float, near: float) -> int:
-    """Return 1 if (x, y) is near the wall between the points of a beam of scan j and the next beam, else 0."""
+def near_wall(scene: ScanArrays, j: int, beam: int, at: wp.vec2f, near: float) -> int:
+    """Return 1 if a point is near the wall between the points of a beam of scan j and the next beam, else 0."""
     beams = scene.beams[j]
     a = beam
     if a < 0:
@@ -380,7 +322,7 @@ def near_wall(scene: ScanArrays, j: int, beam: int, x: float, y: float, near: fl
     size = wp.length(d)
     if size > widest_gap(scene.step[j], wp.length(p)):
         return 0
-    here = wp.vec2f(x, y) - p
+    here = at - p
     share = wp.clamp(wp.dot(here, d) / wp.max(size * size, 1.0e-9), 0.0, 1.0)
     return wp.where(wp.length(here - share * d) < near, 1, 0)
 
@@ -397,30 +339,26 @@ def compare_views(
     p = first + wp.tid()
     i = source[p]
     j = target[p]
-    z = relative[p]
-    cosine = float(wp.cos(z[2]))
-    sine = float(wp.sin(z[2]))
-    beams = scene.kind.shape[1]
+    turn = turn_by(relative[p])
+    shift = shift_by(relative[p])
     matched = int(0)
     against = int(0)
     total = int(0)
-    for k in range(0, beams, scene.stride):
+    for k in range(0, scene.kind.shape[1], scene.stride):
         if scene.kind[i, k] == wp.uint8(0):
             continue
         total += 1
-        q = scene.points[i, k]
-        x = cosine * q[0] - sine * q[1] + float(z[0])
-        y = sine * q[0] + cosine * q[1] + float(z[1])
-        if nearest_point(scene, j, x, y, near) >= 0:
+        at = turn * scene.points[i, k] + shift
+        if nearest_point(scene, j, at, near) >= 0:
             matched += 1
             continue
-        middle = beam_towards(scene, j, x, y)
+        middle = beam_towards(scene, j, at)
         if middle < 0:
             continue
-        if near_wall(scene, j, middle - 1, x, y, near) + near_wall(scene, j, middle, x, y, near) > 0:
+        if near_wall(scene, j, middle - 1, at, near) + near_wall(scene, j, middle, at, near) > 0:
             matched += 1
             continue
-        away = wp.sqrt(x * x + y * y)
+        away = wp.length(at)
         through = int(0)
         for d in range(-1, 2):
             c = neighbour(middle, d, scene.beams[j], scene.full_circle[j])
@@ -456,12 +394,9 @@ def view_counts(
 
     ``relative`` holds the poses of sources in the frames of targets, (P, 3).
     """
-    device, count = geometry.device, len(source)
-    counts = wp.empty((count, 3), dtype=wp.int32, device=device)
-    stride = max(1, geometry.beams // agreement.beams)
-    inputs = [scan_arrays(geometry, stride), source, target, relative, agreement.near_m, agreement.clear_m, counts]
-    devices.launch(compare_views, count, inputs, device, threads)
-    return np.asarray(counts.numpy())
+    scene, pairs = scan_arrays(geometry, max(1, geometry.beams // agreement.beams)), len(source)
+    inputs = [scene, source, target, relative, agreement.near_m, agreement.clear_m, (pairs, 3)]
+    return np.asarray(devices.launch(compare_views, pairs, inputs, geometry.device, threads)[0])
 
 
 def mutual_view_counts(

@@ -7,7 +7,7 @@ import warp as wp
 
 from bayesmap.kernels import device as devices
 from bayesmap.kernels.device import Float32Rows, Float64Rows, Floats, Int32s, Ints, Vec3ds
-from bayesmap.kernels.match.line_pairs import PairRule, pair_scans
+from bayesmap.kernels.match.line_pairs import PairRule, pair_scans, symmetric
 from bayesmap.kernels.match.scan_geometry import ScanArrays, scan_arrays
 
 wp.set_module_options({"enable_backward": False})
@@ -94,10 +94,9 @@ def refine(
         if converged >= 1:
             continue
         share = wp.min(1.0, 1.5 * float(step) / float(wp.max(schedule.steps - 1, 1)))
-        rule = PairRule()
-        rule.reach = schedule.reach_m[0] * wp.pow(schedule.reach_m[1] / schedule.reach_m[0], share)
-        rule.scale = schedule.scale_m[0] * wp.pow(schedule.scale_m[1] / schedule.scale_m[0], share)
-        rule.alike = schedule.alike
+        reach = schedule.reach_m[0] * wp.pow(schedule.reach_m[1] / schedule.reach_m[0], share)
+        scale = schedule.scale_m[0] * wp.pow(schedule.scale_m[1] / schedule.scale_m[0], share)
+        rule = PairRule(reach, scale, schedule.alike)
         sparse = wp.where(share < 1.0, 2, 1)
         gain = wp.float64(sparse) / (schedule.sigma_m * schedule.sigma_m * (count + wp.float64(1.0)))
         second = wp.mat33d()
@@ -112,11 +111,11 @@ def refine(
             relative = pose_between(frame, x)
             sums = pair_scans(scene, weights, i, jobs.others[q], relative, rule, sparse * scene.stride)
             turn = turn_of(frame[2])
-            second += turn * sums.second * wp.transpose(turn)
-            slack += turn * sums.slack * wp.transpose(turn)
-            gradient += turn * sums.first
-            cost += sums.cost
-            weight += sums.weight
+            second += turn * symmetric(sums.second) * wp.transpose(turn)
+            slack += turn * symmetric(sums.slack) * wp.transpose(turn)
+            gradient += turn * wp.vec3d(sums.first)
+            cost += wp.float64(sums.cost)
+            weight += wp.float64(sums.weight)
             matched += sums.matched
             seen += sums.seen
         off = x - jobs.priors[k]

@@ -140,10 +140,9 @@ def beam_extremes(first: int, t: Table, lowest: Float32s, advantage: Float32s):
 
 @wp.struct
 class IndexArrays:
-    """A `CellIndex` on a device, and how far each cell's entries are filled in."""
+    """A `CellIndex` on a device."""
 
     offsets: Int32s
-    filled: Int32s  # next free incidence of each cell
     entry: Int32s
     beam: Int32s
     loglik: Float32s
@@ -153,18 +152,18 @@ class IndexArrays:
 
 @wp.kernel
 def scatter_entries(
-    first: int, cell_bounds: Int32s, table: Table, lowest: Float32s, advantage: Float32s, index: IndexArrays
-):
+    first: int, cell_bounds: Int32s, table: Table, lowest: Float32s, advantage: Float32s, filled: Int32s,
+    index: IndexArrays,
+):  # fmt: skip
     """One thread per range of cells: list their incidences in two passes over the table, then sum their bounds.
 
-    The first pass lists the incidences that can gain more than `GAIN`, the second pass the others.
+    The first pass lists the incidences that can gain more than `GAIN`, the second pass the others. ``filled`` is the
+    next free incidence of each cell.
     """
     # t: thread; c: cell; b: beam; k: entry of the table; i: incidence of the cell.
     t = first + wp.tid()
     low = cell_bounds[t]
     high = cell_bounds[t + 1]
-    for c in range(low, high):
-        index.filled[c] = index.offsets[c]
     for gaining in range(2):
         for b in range(table.no_hit.shape[0]):
             least = lowest[b]
@@ -173,8 +172,8 @@ def scatter_entries(
                 if c >= low and c < high:
                     gain = table.loglik[k] - least
                     if (gain > GAIN) == (gaining == 0):
-                        i = index.filled[c]
-                        index.filled[c] = i + 1
+                        i = filled[c]
+                        filled[c] = i + 1
                         index.entry[i] = k
                         index.beam[i] = b
                         index.loglik[i] = table.loglik[k]
@@ -200,13 +199,9 @@ def index_by_cell(table: BeamTable) -> CellIndex:
     bounds = np.concatenate([[0], np.searchsorted(offsets, shares), [cells]]).astype(np.int32)
 
     on_host = table_to_device(table, None, "cpu")
-    lowest = wp.empty(table.n_beams, dtype=wp.float32, device="cpu")
-    advantage = wp.empty(entries, dtype=wp.float32, device="cpu")
-    devices.launch(beam_extremes, table.n_beams, [on_host, lowest, advantage], "cpu")
-
+    extremes = devices.launch(beam_extremes, table.n_beams, [on_host, (table.n_beams,), (entries,)], "cpu")
     integers = {name: np.empty(entries, dtype=np.int32) for name in ("entry", "beam")}
     reals = {name: np.empty(entries, dtype=np.float32) for name in ("loglik", "gain_bound", "advantage")}
-    filled = np.empty(cells, dtype=np.int32)
-    index = devices.pack(IndexArrays, "cpu", offsets=offsets, filled=filled, **integers, **reals)
-    devices.launch(scatter_entries, threads, [bounds, on_host, lowest, advantage, index], "cpu")
+    index = devices.pack(IndexArrays, "cpu", offsets=offsets, **integers, **reals)
+    devices.launch(scatter_entries, threads, [bounds, on_host, *extremes, offsets[:-1].copy(), index], "cpu")
     return CellIndex(offsets=offsets, **integers, **reals)
