@@ -33,13 +33,7 @@ class LawTable:
 
 def law_table_to_device(law: TabulatedLaw, device: str, least: float = -math.inf) -> Any:
     """Put a tabulated law on a device; log densities and log probabilities are raised to at least ``least``."""
-    low, high = (law.limits.min_m, law.limits.max_m) if law.typed else (-law.limits.max_m, 2.0 * law.limits.max_m)
-    return devices.pack(
-        LawTable, device, least=least, typed=int(law.typed), most=law.most, low_m=low, high_m=high,
-        min_m=law.limits.min_m, scale_m=law.scale_m, log_density=law.log_density, below=law.below,
-        log_typed=law.log_typed, log_nowhere=law.log_nowhere, below_nowhere=law.below_nowhere,
-        log_typed_nowhere=wp.vec2(*law.log_typed_nowhere),
-    )  # fmt: skip
+    return devices.pack(LawTable, device, least=least, **vars(law))
 
 
 @wp.func

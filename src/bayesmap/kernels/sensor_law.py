@@ -21,7 +21,7 @@ SIGMAS_TO_CERTAINTY = wp.constant(wp.float64(9.0))  # standard deviations past w
 INV_SQRT_2 = wp.constant(wp.float64(0.7071067811865476))
 INV_PI = wp.constant(wp.float64(0.3183098861837907))
 MOST_TERMS = wp.constant(wp.float64(16.0))  # of the finite sums in `student_below`
-ROUNDS = wp.constant(200)  # of the continued fraction, at most; it takes some tens
+STEPS = wp.constant(400)  # of the continued fraction, at most; it takes some tens
 TINY = wp.constant(wp.float64(1.0e-300))  # replaces zero in Lentz's method
 CLOSE = wp.constant(wp.float64(1.0e-14))  # relative change at which the continued fraction ends
 MOST_POWER = 16
@@ -73,39 +73,28 @@ def noise_below(law: Any, x: Any):
 @wp.func
 def beta_fraction(a: wp.float64, b: wp.float64, x: wp.float64) -> wp.float64:
     """Return the continued fraction of the incomplete beta function (DLMF 8.17.22), by Lentz's method."""
-    # c: ratio of successive numerators; d: inverse ratio of successive denominators; h: value so far; m: step.
+    # c: ratio of successive numerators; d: inverse ratio of successive denominators; h: value so far; 2 m: step.
     one = wp.float64(1.0)
-    tiny = TINY
     c = one
-    d = one - (a + b) * x / (a + one)
-    if wp.abs(d) < tiny:
-        d = tiny
-    d = one / d
+    d = one / not_zero(one - (a + b) * x / (a + one))
     h = d
-    for i in range(1, ROUNDS):
-        m = wp.float64(i)
-        even = m * (b - m) * x / ((a + m + m - one) * (a + m + m))
-        d = one + even * d
-        c = one + even / c
-        if wp.abs(d) < tiny:
-            d = tiny
-        if wp.abs(c) < tiny:
-            c = tiny
-        d = one / d
+    for i in range(2, STEPS):
+        m = wp.float64(i // 2)
+        term = m * (b - m) * x / ((a + m + m - one) * (a + m + m))
+        if i % 2 == 1:
+            term = -(a + m) * (a + b + m) * x / ((a + m + m) * (a + m + m + one))
+        c = not_zero(one + term / c)
+        d = one / not_zero(one + term * d)
         h = h * d * c
-        odd = -(a + m) * (a + b + m) * x / ((a + m + m) * (a + m + m + one))
-        d = one + odd * d
-        c = one + odd / c
-        if wp.abs(d) < tiny:
-            d = tiny
-        if wp.abs(c) < tiny:
-            c = tiny
-        d = one / d
-        step = d * c
-        h = h * step
-        if wp.abs(step - one) < CLOSE:
+        if i % 2 == 1 and wp.abs(d * c - one) < CLOSE:
             break
     return h
+
+
+@wp.func
+def not_zero(x: wp.float64) -> wp.float64:
+    """Return a number, or `TINY` in place of zero."""
+    return wp.where(wp.abs(x) < TINY, TINY, x)
 
 
 @wp.func
@@ -195,7 +184,9 @@ def sensor_law(sensor: SensorModel, limits: RangeLimits, device: str, law: Any =
         return packed
     packed.kind = MIXTURE if model.robust else NOISE
     packed.series = 0.1 if law is SensorLaw32 else 0.002
-    packed.sigma_m, packed.sigma_per_m, packed.dof = model.sigma_m, model.sigma_per_m, model.dof
+    for name, value in vars(model).items():
+        if name != "robust":
+            setattr(packed, name, value)
     if model.dof > 0:
         half = 0.5 * (model.dof + 1)
         packed.power = whole_power(half)
@@ -204,9 +195,7 @@ def sensor_law(sensor: SensorModel, limits: RangeLimits, device: str, law: Any =
         packed.log_height = -0.5 * math.log(2 * math.pi)
     packed.height = math.exp(packed.log_height)
     packed.certain_sq = special.stdtrit(model.dof, TAIL) ** 2 if model.dof > 0 else float(FAR_SQ)
-    packed.p_random, packed.p_known = model.p_random, 1.0 - model.p_random
-    packed.p_return, packed.p_no_return = 1.0 - model.p_no_return, model.p_no_return
-    packed.p_short, packed.rate_short_per_m = model.p_short, model.rate_short_per_m
+    packed.p_known, packed.p_return = 1.0 - model.p_random, 1.0 - model.p_no_return
     packed.uniform = model.p_random / (limits.max_m - limits.min_m)
     packed.passing = packed.p_known * model.p_short * model.rate_short_per_m
     densest = packed.height / model.sigma_m if model.sigma_m > 0 else math.inf

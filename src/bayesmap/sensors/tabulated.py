@@ -44,7 +44,8 @@ class TabulatedLaw:
     """A sensor's law at nodes; metres and nats.
 
     Attributes:
-        limits: limits of the sensor.
+        min_m: least range of the sensor.
+        low_m, high_m: first and last node of the range of a beam that stops nowhere.
         typed: true if no return and too close are separate outcomes, and ranges stay within the limits. Otherwise they
             stand for the limits, as in `bayesmap.sensors.builtin.AdditiveNoise`.
         scale_m: scale of readings about a stop at each distance, (D,).
@@ -56,7 +57,9 @@ class TabulatedLaw:
         log_typed_nowhere: log probabilities of too close and no return of this beam.
     """
 
-    limits: RangeLimits
+    min_m: float
+    low_m: float
+    high_m: float
     typed: bool
     scale_m: Table
     most: float
@@ -117,10 +120,8 @@ def _tabulated(sensor: SensorModel, limits: RangeLimits) -> TabulatedLaw:
     close = np.exp(np.stack([np.interp(distance, at, row) for row in log_typed[0]]))[..., None]
     below = _cumulated(np.exp(log_density) / w, z)
     if typed:
-        at_least = [
-            [np.interp(limits.min_m, *one) for one in zip(*some, strict=True)] for some in zip(z, below, strict=True)
-        ]
-        below += close - np.array(at_least)[..., None]
+        at_least = [np.interp(limits.min_m, z[i], below[i]) for i in np.ndindex(z.shape[:2])]
+        below += close - np.reshape(at_least, z.shape[:2])[..., None]
     # Beams that stop nowhere.
     low, high = (limits.min_m, limits.max_m) if typed else (-limits.max_m, 2.0 * limits.max_m)
     r = np.linspace(low, high, NOWHERE)
@@ -135,9 +136,9 @@ def _tabulated(sensor: SensorModel, limits: RangeLimits) -> TabulatedLaw:
     elif not typed and np.abs(below[0, :, -1] - 1.0).max() > SLACK:
         below, nowhere = np.full_like(below, np.nan), np.full_like(nowhere, np.nan)
     return TabulatedLaw(
-        limits, typed, scale.astype(f32), most, log_density.astype(f32), np.clip(below, 0.0, 1.0).astype(f32),
-        log_typed.astype(f32), log_nowhere.astype(f32), np.clip(nowhere, 0.0, 1.0).astype(f32),
-        (float(_floored(ends[0])), float(_floored(ends[1]))),
+        limits.min_m, low, high, typed, scale.astype(f32), most, log_density.astype(f32),
+        np.clip(below, 0.0, 1.0).astype(f32), log_typed.astype(f32), log_nowhere.astype(f32),
+        np.clip(nowhere, 0.0, 1.0).astype(f32), (float(_floored(ends[0])), float(_floored(ends[1]))),
     )  # fmt: skip
 
 

@@ -302,8 +302,11 @@ def search_grids(
         best.incumbent = devices.to_device(least.copy(), wp.float64, device)
         inputs = [strands, jobs, roots, pyramid, taken, stack, best]
         devices.launch(search_blocks, strands_of_all, inputs, device, threads)
-        of_strands = best.score.numpy().reshape(count, strands), best.node.numpy().reshape(count, strands, 3)
-        _first_of_best(*of_strands, scores, nodes, mode)
+        # Of each job's strands take the best, among equal scores the first by angle, x and y.
+        found = best.node.numpy().reshape(count, strands, 3)
+        value = np.where(found[..., 0] >= 0, best.score.numpy().reshape(count, strands), -np.inf)
+        winner = np.lexsort((found[..., 2], found[..., 1], found[..., 0], -value))[:, 0]
+        scores[:, mode], nodes[:, mode] = value[np.arange(count), winner], found[np.arange(count), winner]
     return scores, nodes
 
 
@@ -335,14 +338,3 @@ def _prepared(grids: Any, windows: Windows, threads: int | None) -> tuple[Any, A
         order = np.lexsort((-bounds, np.repeat(np.arange(count), np.diff(job_nodes))))
     roots.order, roots.begin = (devices.to_device(a, wp.int32, device) for a in (order, job_nodes))
     return jobs, roots
-
-
-def _first_of_best(best: Floats, best_nodes: Ints, scores: Floats, nodes: NDArray[np.int64], mode: int) -> None:
-    """Store the best pose of each job's strands as its next mode; among equal scores, the first by angle, x, y."""
-    valid = best_nodes[..., 0] >= 0
-    value = np.where(valid, best, -np.inf)
-    for j in np.nonzero(valid.any(axis=1))[0]:
-        top = np.nonzero(value[j] == value[j].max())[0]
-        winner = min((tuple(best_nodes[j, t]), t) for t in top)[1]
-        scores[j, mode] = value[j, winner]
-        nodes[j, mode] = best_nodes[j, winner]

@@ -96,11 +96,8 @@ def scan_normals(
         reach = reach_m
         for fit in range(REACHES):
             n = float(1.0)
-            sx = float(0.0)
-            sy = float(0.0)
-            sxx = float(0.0)
-            sxy = float(0.0)
-            syy = float(0.0)
+            sums = wp.vec2f()
+            squares = wp.mat22f()
             for side in range(2):
                 last = here
                 for k in range(1, 40):
@@ -119,17 +116,14 @@ def scan_normals(
                     if k > 2 and distance > reach:
                         break
                     n += 1.0
-                    sx += d[0]
-                    sy += d[1]
-                    sxx += d[0] * d[0]
-                    sxy += d[0] * d[1]
-                    syy += d[1] * d[1]
+                    sums += d
+                    squares += wp.outer(d, d)
                     last = other
             if n < 3.0:
                 break
-            a = sxx - sx * sx / n
-            h = sxy - sx * sy / n
-            c2 = syy - sy * sy / n
+            a = squares[0, 0] - sums[0] * sums[0] / n
+            h = squares[0, 1] - sums[0] * sums[1] / n
+            c2 = squares[1, 1] - sums[1] * sums[1] / n
             root = wp.sqrt(wp.max(wp.float32(0.0), (a - c2) * (a - c2) * wp.float32(0.25) + h * h))
             along = (a + c2) * wp.float32(0.5) + root
             across = wp.max((a + c2) * wp.float32(0.5) - root, wp.float32(0.0))

@@ -22,7 +22,7 @@ from bayesmap.kernels import sensor_law as laws
 from bayesmap.kernels.device import Float32Rows, Float64s, Floats, Int32s, Ints, Singles, Uint8Rows
 from bayesmap.kernels.rays import Line, RayArrays, distance_at, first_past, line_from, line_of, rays_to_device
 from bayesmap.kernels.sensor_law import MIXTURE, NOISE, SensorLaw64
-from bayesmap.kernels.surfaces.cell import Cell, cells_to_device, cross_surface, ray_from
+from bayesmap.kernels.surfaces.cell import Cell, Ray, cells_to_device, cross_surface
 from bayesmap.sensors.model import RangeLimits, SensorModel
 from bayesmap.sensors.tabulated import tabulated
 from bayesmap.space.grid import Grid
@@ -82,7 +82,7 @@ def stop_in(maps: MapArrays, row: int, column: int, line: Line, cell: int) -> wp
     """
     if maps.surfaces != 0:
         state = maps.surface[row, column]
-        met = cross_surface(state, ray_from(wp.vec2(line.start_m), wp.vec2(line.direction)))
+        met = cross_surface(state, Ray(wp.vec2(line.start_m), wp.vec2(line.direction)))
         chance = wp.float64(state[0]) * wp.float64(met.chance)
         return wp.vec3d(chance, wp.float64(met.distance_m), wp.float64(met.variance))
     chance = wp.float64(maps.stop[row, column])

@@ -20,7 +20,7 @@ from bayesmap.kernels import sensor_law as laws
 from bayesmap.kernels.device import Float64Rows, Float64s, Floats, Int32s
 from bayesmap.kernels.predict.density import DeviceMaps, Frame, MapArrays, grid_frame
 from bayesmap.kernels.sensor_law import SensorLaw32
-from bayesmap.kernels.surfaces.cell import cross_surface, crossing_probability, ray_from
+from bayesmap.kernels.surfaces.cell import Ray, cross_surface, crossing_probability
 from bayesmap.sensors.model import RangeLimits, SensorModel
 
 wp.set_module_options({"enable_backward": False})
@@ -75,7 +75,7 @@ def reading_log_density(
     gap_x = wp.where(next_x < HUGE, wp.abs(ONE / ux), HUGE)
     gap_y = wp.where(next_y < HUGE, wp.abs(ONE / uy), HUGE)
     # Distances between which the place of the stop matters: near and past.
-    ray = ray_from(wp.vec2(x, y), wp.vec2(ux, uy))
+    ray = Ray(wp.vec2(x, y), wp.vec2(ux, uy))
     decay = laws.object_decay(law, z)
     past = law.max_m
     end = wp.clamp(z, ZERO, law.max_m)

@@ -43,10 +43,8 @@ def cells_to_device(states: Singles, device: str) -> Any:
 class Ray:
     """A beam: start in metres from the grid's corner, and direction."""
 
-    x: wp.float32
-    y: wp.float32
-    ux: wp.float32
-    uy: wp.float32
+    start_m: wp.vec2
+    direction: wp.vec2
 
 
 @wp.struct
@@ -59,12 +57,6 @@ class Crossing:
 
 
 @wp.func
-def ray_from(start_m: wp.vec2, direction: wp.vec2) -> Ray:
-    """Make a ray from its start and its direction."""
-    return Ray(start_m[0], start_m[1], direction[0], direction[1])
-
-
-@wp.func
 def crossing_probability_at(offset: wp.float32, across: wp.float32) -> wp.float32:
     """Return the chance of meeting a surface, given the offset of its mean and its variance across the beam."""
     r = offset * offset / (CROSSING_WIDTH_SQ * across)
@@ -74,9 +66,10 @@ def crossing_probability_at(offset: wp.float32, across: wp.float32) -> wp.float3
 @wp.func
 def crossing_probability(cell: Cell, ray: Ray) -> wp.float32:
     """Return the chance that the beam meets the cell's surface."""
-    offset = ray.ux * (cell[MEAN_Y] - ray.y) - ray.uy * (cell[MEAN_X] - ray.x)
-    across_1 = cell[L21] * ray.ux - cell[L11] * ray.uy
-    across_2 = cell[L22] * ray.ux
+    u = ray.direction
+    offset = u[0] * (cell[MEAN_Y] - ray.start_m[1]) - u[1] * (cell[MEAN_X] - ray.start_m[0])
+    across_1 = cell[L21] * u[0] - cell[L11] * u[1]
+    across_2 = cell[L22] * u[0]
     return crossing_probability_at(offset, across_1 * across_1 + across_2 * across_2)
 
 
@@ -98,21 +91,18 @@ def cross_at(offset: wp.float32, ahead: wp.float32, cell: Cell, ux: wp.float32, 
     per_across = one / (body + unsure)
     slope = (along_1 * across_1 + along_2 * across_2) * per_across
     area = l11 * l22
-    met = Crossing()
-    met.chance = crossing_probability_at(offset, body)
-    met.distance_m = wp.max(ahead - slope * offset, wp.float32(0.0))
     # |Sigma + unsure n n'| / w^2 = (|Sigma| + unsure u' Sigma u) / w^2: no difference of large numbers
-    met.variance = (area * area + unsure * (along_1 * along_1 + along_2 * along_2)) * per_across
-    return met
+    variance = (area * area + unsure * (along_1 * along_1 + along_2 * along_2)) * per_across
+    return Crossing(crossing_probability_at(offset, body), wp.max(ahead - slope * offset, wp.float32(0.0)), variance)
 
 
 @wp.func
 def cross_surface(cell: Cell, ray: Ray) -> Crossing:
     """Return the chance that the beam meets the cell's surface, and mean and variance of the distance."""
-    rx = cell[MEAN_X] - ray.x
-    ry = cell[MEAN_Y] - ray.y
-    offset = ray.ux * ry - ray.uy * rx
-    return cross_at(offset, ray.ux * rx + ray.uy * ry, cell, ray.ux, ray.uy)
+    u = ray.direction
+    rx = cell[MEAN_X] - ray.start_m[0]
+    ry = cell[MEAN_Y] - ray.start_m[1]
+    return cross_at(u[0] * ry - u[1] * rx, u[0] * rx + u[1] * ry, cell, u[0], u[1])
 
 
 MEAN_TRIES = wp.constant(8)  # draws of a mean's coordinate, at most

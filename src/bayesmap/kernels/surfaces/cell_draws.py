@@ -32,7 +32,7 @@ from bayesmap.kernels.random import CELLS, beta_or_nothing, beta_variate, random
 from bayesmap.kernels.surfaces import cell as surface
 from bayesmap.kernels.surfaces.cell import REFLECTIVITY, TRYING, Cell, PriorNumbers
 from bayesmap.kernels.surfaces.stops import CLEAR, GAIN_UNITS, LEARNS, ChainArrays
-from bayesmap.kernels.walls.chains import draw_wall, walls_less_free
+from bayesmap.kernels.walls.chains import draw_wall, pairs_alike, walls_less_free
 
 wp.set_module_options({"enable_backward": False})
 
@@ -149,6 +149,16 @@ def begin_sweep(
         state.cells[here] = cell
 
 
+@wp.func
+def counted_beams(state: ChainArrays, chain: int, c: int) -> wp.vec2i:
+    """Sum a cell's hits, and the beams that met it and passed, over the parts of the beams."""
+    counts = wp.vec2i(0, 0)
+    for part in range(state.parts):
+        row = chain * state.parts + part
+        counts += wp.vec2i(state.hits[row, c], state.met[row, c])
+    return counts
+
+
 @wp.kernel
 def update_free_cells(
     first: int, sweep: int, without_surfaces: int, prior: PriorNumbers, active: ActiveCells, state: ChainArrays
@@ -169,24 +179,20 @@ def update_free_cells(
     key = sweep_key(state.keys[chain], sweep, CELLS)
     at = wp.uint64(c) * PER_CELL
     centre = surface.centre_of(c, active.ny, active.edge_m)
-    # Sum the counts over the parts of the beams, then update reflectivity or surface.
+    # Update reflectivity or surface.
     if learns:
-        n_hits = int(0)
-        n_met = int(0)
-        gain = wp.int64(0)
-        for part in range(state.parts):
-            row = chain * state.parts + part
-            n_hits += state.hits[row, c]
-            n_met += state.met[row, c]
-            gain += state.gain[row, c]
         if cell[TRYING] == HIDDEN:
+            beams = counted_beams(state, chain, c)
             counts = surface.pseudo_counts(prior, state.solid[here])
-            a = counts[0] + wp.float64(n_hits)
-            b = counts[1] + wp.float64(n_met)
+            a = counts[0] + wp.float64(beams[0])
+            b = counts[1] + wp.float64(beams[1])
             cell[REFLECTIVITY] = wp.float32(beta_or_nothing(a, b, key, at + AT_BETA))
-            state.last_hits[here] = n_hits
-            state.last_met[here] = n_met
+            state.last_hits[here] = beams[0]
+            state.last_met[here] = beams[1]
         else:
+            gain = wp.int64(0)
+            for part in range(state.parts):
+                gain += state.gain[chain * state.parts + part, c]
             candidate = state.candidates[here]
             log_ratio = wp.float64(gain) * FROM_UNITS
             log_ratio += surface.log_size_penalty(prior, candidate) - surface.log_size_penalty(prior, cell)
@@ -232,15 +238,8 @@ def sum_label_prior(first: int, nx: int, ny: int, prior: PriorNumbers, state: Ch
     i = first + wp.tid()
     chain = i // slices.shape[1]
     part = i - chain * slices.shape[1]
-    cell_0 = chain * state.n_cells
-    alike = int(0)
-    for c in range(part * WIDTH, wp.min((part + 1) * WIDTH, state.n_cells)):
-        x = c // ny
-        here = cell_0 + c
-        if x < nx - 1 and state.solid[here] == state.solid[here + ny]:
-            alike += 1
-        if c - x * ny < ny - 1 and state.solid[here] == state.solid[here + 1]:
-            alike += 1
+    end = wp.min((part + 1) * WIDTH, state.n_cells)
+    alike = pairs_alike(state.solid, chain * state.n_cells, part * WIDTH, end, nx, ny)
     slices[chain, part] = prior.coupling * wp.float64(alike)
 
 
@@ -318,20 +317,13 @@ def draw_labels(
     log_odds = prior.coupling * wp.float64(walls_less_free(state.solid, cell_0, c, nx, ny))
     what = int(known[c])
     if what != UNTOUCHED:
-        n_hits = int(0)
-        n_met = int(0)
-        if what == COUNTED:
-            n_hits = state.last_hits[here]
-            n_met = state.last_met[here]
-        else:
+        beams = wp.vec2i(state.last_hits[here], state.last_met[here])
+        if what != COUNTED:
             if state.fixed_m[here] != LEARNS or state.cells[here][TRYING] != wp.float32(0.0):
                 return
-            for part in range(state.parts):
-                row = chain * state.parts + part
-                n_hits += state.hits[row, c]
-                n_met += state.met[row, c]
-        h = wp.float64(n_hits)
-        n = wp.float64(n_met)
+            beams = counted_beams(state, chain, c)
+        h = wp.float64(beams[0])
+        n = wp.float64(beams[1])
         log_odds += log_beta(prior.a_solid + h, prior.b_solid + n) - prior.log_beta_solid
         log_odds -= log_beta(prior.a + h, prior.b + n) - prior.log_beta
     key = sweep_key(state.keys[chain], sweep, CELLS)

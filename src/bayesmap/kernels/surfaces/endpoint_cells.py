@@ -137,25 +137,7 @@ class BeamLists:
 @wp.func
 def listed_of(lists: BeamLists, chain: int, u: int, begin: int, end: int, hits: int) -> Listed:
     """Return the lists of a cell that has the incidences from ``begin`` to ``end`` and stops ``hits`` beams."""
-    listed = Listed()
-    listed.entries = lists.entries[chain]
-    listed.passing_begin = begin
-    listed.passing_end = begin + lists.passes[chain, u]
-    listed.stopped_begin = end - hits
-    listed.stopped_end = end
-    return listed
-
-
-@wp.func
-def listed_until(listed: Listed, passing_end: int, stopped_end: int) -> Listed:
-    """Return the lists of passing and stopped beams, cut off at these ends."""
-    rest = Listed()
-    rest.entries = listed.entries
-    rest.passing_begin = listed.passing_begin
-    rest.passing_end = passing_end
-    rest.stopped_begin = listed.stopped_begin
-    rest.stopped_end = stopped_end
-    return rest
+    return Listed(lists.entries[chain], begin, begin + lists.passes[chain, u], end - hits, end)
 
 
 @wp.func
@@ -181,7 +163,7 @@ def log_beams(
             passing_end = listed.passing_begin
             stopped_end = listed.stopped_begin + others
     if listed.passing_begin < passing_end or listed.stopped_begin < stopped_end:
-        rest = listed_until(listed, passing_end, stopped_end)
+        rest = Listed(listed.entries, listed.passing_begin, passing_end, listed.stopped_begin, stopped_end)
         total += endpoint_beams.log_stops(law, beta, rays, endpoints, rest, centre, cell, least - total)
     return total
 

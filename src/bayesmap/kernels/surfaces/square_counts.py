@@ -24,11 +24,10 @@ Under a tabulated law t is chosen from candidates with weights p(t | z) / q(t) (
 with one random shift; q is the density of both halves together.
 """
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 import warp as wp
-from numpy.typing import NDArray
 
 from bayesmap.beams.rays import Rays
 from bayesmap.kernels import device as devices
@@ -143,6 +142,7 @@ STREAM_POINT = wp.constant(wp.uint64(5 << 32))  # first random counter of the po
 class SquareArrays:
     """The squares of the grid: counts of one chain's beams for each, and the chances drawn for each touched square."""
 
+    lines: Lines  # of the beams
     touched: Int32s  # cells of the touched squares, flat
     crossings: Int32s  # beams that cross the square
     stopped: Int32s  # beams stopped inside it
@@ -153,7 +153,7 @@ class SquareArrays:
 
 @wp.kernel
 def count_in_squares(
-    chain: int, sweep: int, law: SensorLaw32, lines: Lines, rays: TracedRays, state: ChainArrays, squares: SquareArrays
+    chain: int, sweep: int, law: SensorLaw32, rays: TracedRays, state: ChainArrays, squares: SquareArrays
 ):
     """One thread per beam of a chain: count it in the square in which it was stopped, and in each square behind."""
     # b: beam; i: beam in the arrays of all chains; k: entry, from the last one back to the stop.
@@ -168,7 +168,7 @@ def count_in_squares(
     where = state.where[i]
     key = sweep_key(state.keys[chain], sweep, BEAMS)
     point = stop_point_m(law, rays.range_m[b], rays.decay[b], where[0], where[1], key, counter)
-    line = line_of(lines, b)
+    line = line_of(squares.lines, b)
     k = end - 1
     crossed = stretch(line, rays.cells[k])
     if point > crossed[1]:  # further than the beam is followed
@@ -211,43 +211,16 @@ class InSquares(NamedTuple):
     expected: Singles
 
 
-class Squares:
-    """Working memory for each chain's counts, and the lines of beams, on a device."""
-
-    def __init__(self, rays: Rays, chains: int, device: str) -> None:
-        self._rays, self._device = rays, device
-        cells, touched = rays.grid.n_cells, len(rays.touched)
-        self._crossings = np.bincount(rays.cells, minlength=cells).astype(np.int32)
-        self._lines = lines_to_device(rays.start_m, rays.direction, rays.grid, device)
-        shared = [devices.to_device(a, wp.int32, device) for a in (rays.touched, self._crossings)]
-        self._squares = [
-            devices.pack(
-                SquareArrays, device, touched=shared[0], crossings=shared[1], stopped=(cells,), behind=(cells,),
-                drawn=(touched,), expected=(touched,),
-            )
-            for _ in range(chains)
-        ]  # fmt: skip
-
-    def of_chain(
-        self, chain: int, sweep: int, law: SensorLaw32, prior: PriorNumbers, rays: TracedRays, state: ChainArrays,
-        kept: bool, solid: NDArray[np.bool_] | None = None,
-    ) -> InSquares:  # fmt: skip
-        """Count a chain's stops in a sweep that drew them, and draw the chances given the counts.
-
-        ``state.observed_counts`` counts this draw if it is ``kept``. ``solid`` holds the labels of all cells when the
-        sweep began, (N,); if None, the chain's present labels.
-        """
-        squares = self._squares[chain]
-        squares.stopped.zero_()
-        squares.behind.zero_()
-        inputs = [chain, sweep, law, self._lines, rays, state, squares]
-        wp.launch(count_in_squares, dim=self._rays.n_beams, inputs=inputs, device=self._device)
-        cells, touched = self._rays.grid.n_cells, self._rays.touched
-        labels = state.solid[chain * cells : (chain + 1) * cells]
-        if solid is not None:
-            labels = devices.to_device(solid, wp.uint8, self._device)
-        inputs = [chain, sweep, prior, state, squares, labels, int(kept)]
-        wp.launch(draw_stop_chances, dim=len(touched), inputs=inputs, device=self._device)
-        stopped, behind = (np.asarray(counts.numpy())[touched] for counts in (squares.stopped, squares.behind))
-        passed = self._crossings[touched] - stopped - behind
-        return InSquares(stopped, passed, np.array(squares.drawn.numpy()), np.array(squares.expected.numpy()))
+def square_arrays(rays: Rays, chains: int, device: str) -> list[Any]:
+    """Return working memory for the counts of each chain."""
+    cells, touched = (rays.grid.n_cells,), (len(rays.touched),)
+    lines = lines_to_device(rays.start_m, rays.direction, rays.grid, device)
+    crossings = np.bincount(rays.cells, minlength=rays.grid.n_cells)
+    shared = [devices.to_device(a, wp.int32, device) for a in (rays.touched, crossings)]
+    return [
+        devices.pack(
+            SquareArrays, device, lines=lines, touched=shared[0], crossings=shared[1], stopped=cells, behind=cells,
+            drawn=touched, expected=touched,
+        )
+        for _ in range(chains)
+    ]  # fmt: skip

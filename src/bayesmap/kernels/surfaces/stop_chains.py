@@ -23,7 +23,7 @@ from bayesmap.kernels.sensor_law import SensorLaw32, sensor_law
 from bayesmap.kernels.surfaces import cell_draws, endpoint_cells, stops
 from bayesmap.kernels.surfaces.cell import cells_to_device, packed_prior
 from bayesmap.kernels.surfaces.endpoint_beams import endpoint_cells_to_device, room_for_blocks
-from bayesmap.kernels.surfaces.square_counts import InSquares, Squares, count_in_squares, draw_stop_chances
+from bayesmap.kernels.surfaces.square_counts import InSquares, count_in_squares, draw_stop_chances, square_arrays
 from bayesmap.sensors.model import SensorModel
 
 STATE_SIZE = 6  # numbers of a `Cell` that belong to its state; the other two do not
@@ -62,11 +62,6 @@ class Plan:
     distance_m: Singles | None
     device: str
 
-    @property
-    def touched(self) -> Ints:
-        """The cells that beams touch, flat, ascending, (T,)."""
-        return self.rays.touched
-
 
 class StopChains:
     """Several chains on a device, advanced in place."""
@@ -82,21 +77,21 @@ class StopChains:
         """
         self.plan, device = plan, plan.device
         self.device, self.without_surfaces, self.n_chains = device, int(plan.distance_m is not None), len(keys)
-        chains, cells, beams, touched = len(keys), plan.rays.grid.n_cells, plan.rays.n_beams, len(plan.touched)
+        chains, cells, beams, touched = len(keys), plan.rays.grid.n_cells, plan.rays.n_beams, len(plan.rays.touched)
         self.threads = (threads or devices.available_cores()) if device == "cpu" else 1
         self._rays = stops.traced_rays_to_device(plan.rays, plan.distance_m, device)
         self._schedule = stops.UpdateSchedule(plan.rays, plan.periods)
         self._lazy = self._schedule.mark_watched(self._rays, device)
         self._endpoints = endpoint_cells_to_device(plan.rays, plan.endpoints, plan.steps, device)
         self._active = devices.pack(
-            cell_draws.ActiveCells, device, cell=plan.touched, period=plan.periods, ny=plan.rays.grid.shape[1],
+            cell_draws.ActiveCells, device, cell=plan.rays.touched, period=plan.periods, ny=plan.rays.grid.shape[1],
             edge_m=plan.rays.grid.resolution,
         )  # fmt: skip
         counted = plan.endpoints[: 0 if self.without_surfaces else None]
-        self._known = cell_draws.known_to_device(cells, plan.touched, counted, device)
+        self._known = cell_draws.known_to_device(cells, plan.rays.touched, counted, device)
         self._law: tuple[Any, ...] = ()
         self._packed: tuple[Any, Any] | None = None
-        self._squares = None if self.without_surfaces else Squares(plan.rays, chains, device)
+        self._squares = square_arrays(plan.rays, 0 if self.without_surfaces else chains, device)
 
         # The state of all chains, with labels and counts from the host if given.
         parts = max(1, -(-self.threads // chains))
@@ -153,7 +148,7 @@ class StopChains:
             self._launch(stops.decay_of_readings, self.plan.rays.n_beams, [law, self._rays])
         zeros = partial(wp.zeros, (self.n_chains, count), dtype=wp.float64, device=self.device)
         likelihood, log_prior = zeros(), zeros()
-        beams, touched = self.plan.rays.n_beams, len(self.plan.touched)
+        beams, touched = self.plan.rays.n_beams, len(self.plan.rays.touched)
         endpoints = 0 if self.without_surfaces else len(self.plan.endpoints)
         state = self._state
         shape, cells = self.plan.rays.grid.shape, state.n_cells
@@ -290,10 +285,21 @@ class StopChains:
         If ``kept``, `observed_counts` counts the draw. ``solid`` holds the labels before the sweep, (N,), if there are
         any.
         """
-        assert self._squares is not None, "cells without surfaces stop beams inside their own squares"
+        assert self._squares, "cells without surfaces stop beams inside their own squares"
         assert self._packed is not None, "no sweep has been made"
-        law, prior = self._packed
-        return self._squares.of_chain(chain, sweep, law, prior, self._rays, self._state, kept, solid)
+        (law, prior), squares, touched, state = self._packed, self._squares[chain], self.plan.rays.touched, self._state
+        squares.stopped.zero_()
+        squares.behind.zero_()
+        inputs = [chain, sweep, law, self._rays, state, squares]
+        wp.launch(count_in_squares, dim=state.n_beams, inputs=inputs, device=self.device)
+        labels = state.solid[chain * state.n_cells : (chain + 1) * state.n_cells]
+        if solid is not None:
+            labels = devices.to_device(solid, wp.uint8, self.device)
+        inputs = [chain, sweep, prior, state, squares, labels, int(kept)]
+        wp.launch(draw_stop_chances, dim=len(touched), inputs=inputs, device=self.device)
+        crossings, stopped, behind = (a.numpy()[touched] for a in (squares.crossings, squares.stopped, squares.behind))
+        chances = (np.array(a.numpy()) for a in (squares.drawn, squares.expected))
+        return InSquares(stopped, crossings - stopped - behind, *chances)
 
     def observed_counts(self, chain: int) -> Ints:
         """Return the draws in which some beam observes each cell, and those inspected, (N, 2), until the next sweep.

@@ -126,11 +126,7 @@ def tempered(p: wp.float32, beta: wp.float32) -> wp.float32:
 def cross_cell(rays: TracedRays, k: int, cell: Cell, ray: Ray) -> Crossing:
     """Return the crossing of the surface in the cell of entry k; without surfaces it has the chance 1."""
     if rays.without_surfaces != 0:
-        met = Crossing()
-        met.chance = wp.float32(1.0)
-        met.distance_m = rays.distance_m[k]
-        met.variance = wp.float32(0.0)
-        return met
+        return Crossing(wp.float32(1.0), rays.distance_m[k], wp.float32(0.0))
     return surface.cross_surface(cell, ray)
 
 
@@ -201,7 +197,7 @@ def draw_stops(
         if not wp.isnan(reading):
             state.log_likelihood[i] = wp.log(tempered(laws.no_stop_density(law, reading, decay), state.beta))
         return
-    ray = surface.ray_from(rays.start_m[b], rays.direction[b])
+    ray = Ray(rays.start_m[b], rays.direction[b])
 
     # Far entries: multiply up T, and count passes in cells that learn.
     free = one
@@ -324,7 +320,7 @@ def pass_lazy_cells(first: int, lazy: Uint8s, rays: TracedRays, state: ChainArra
     chain = i // state.n_beams
     b = i - chain * state.n_beams
     cell_0 = chain * state.n_cells
-    ray = surface.ray_from(rays.start_m[b], rays.direction[b])
+    ray = Ray(rays.start_m[b], rays.direction[b])
     free = wp.float32(1.0)
     for k in range(rays.offsets[b], rays.near[b]):
         c = rays.cells[k]

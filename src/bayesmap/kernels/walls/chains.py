@@ -96,14 +96,15 @@ def draw_given_neighbours(prior: WallPriorArrays, walls: Uint8s, c: int, bits: w
 
 
 @wp.func
-def pairs_alike(prior: WallPriorArrays, walls: Uint8s) -> int:
-    """Count the pairs of neighbours that are both walls or both free."""
+def pairs_alike(walls: Uint8s, cell_0: int, begin: int, end: int, nx: int, ny: int) -> int:
+    """Count the cells in [begin, end) that are like the next cell in x and in y; the map begins at ``cell_0``."""
     pairs = int(0)
-    for c in range(walls.shape[0]):
-        x = c // prior.ny
-        if x < prior.nx - 1 and walls[c] == walls[c + prior.ny]:
+    for c in range(begin, end):
+        x = c // ny
+        here = cell_0 + c
+        if x < nx - 1 and walls[here] == walls[here + ny]:
             pairs += 1
-        if c - x * prior.ny < prior.ny - 1 and walls[c] == walls[c + 1]:
+        if c - x * ny < ny - 1 and walls[here] == walls[here + 1]:
             pairs += 1
     return pairs
 
@@ -113,7 +114,7 @@ def log_prior(prior: WallPriorArrays, walls: Uint8s) -> wp.float64:
     """Return log p(walls); if neighbours are coupled, up to a constant."""
     total = wp.float64(prior.log_all_free)
     if prior.coupling != NONE:
-        total += prior.coupling * wp.float64(pairs_alike(prior, walls))
+        total += prior.coupling * wp.float64(pairs_alike(walls, 0, 0, walls.shape[0], prior.nx, prior.ny))
     if prior.uniform != 0:
         n = int(0)
         for c in range(walls.shape[0]):
@@ -219,14 +220,9 @@ def site_of(sweeps: Sweeps, i: int, shuffle_key: wp.uint64) -> int:
 @wp.func
 def chain_of(chains: WallChainArrays, i: int) -> Chain:
     """Return the i-th chain; its arrays are views."""
-    chain = Chain()
-    chain.walls = chains.walls[i]
-    chain.first = chains.first[i]
-    chain.current = chains.current[i]
-    chain.reached = chains.reached[i]
-    chain.gain = chains.gain[i]
-    chain.known = chains.known[i]
-    return chain
+    return Chain(
+        chains.walls[i], chains.first[i], chains.current[i], chains.reached[i], chains.gain[i], chains.known[i]
+    )
 
 
 @wp.func
