@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from oracle.stop_worlds import surfaces_of
 
 import bayesmap as bm
 from bayesmap.kernels.match.fields import field_sums
@@ -21,15 +22,7 @@ def states(kind, rng):
     stop = np.where(rng.random((3, GRID.n_cells)) < 0.05, rng.uniform(0.2, 1.0, (3, GRID.n_cells)), 4e-3)
     if kind == "plain":
         return stop.astype(np.float32)
-    x, y = np.meshgrid(np.arange(60) * 0.1 + 0.05, np.arange(50) * 0.1 + 0.05, indexing="ij")
-    out = np.zeros((3, GRID.n_cells, 6), dtype=np.float32)
-    out[..., 0] = stop
-    out[..., 1] = x.ravel() + rng.normal(size=stop.shape) * 0.02
-    out[..., 2] = y.ravel() + rng.normal(size=stop.shape) * 0.02
-    out[..., 3] = rng.uniform(0.01, 0.04, stop.shape)
-    out[..., 4] = rng.normal(size=stop.shape) * 0.01
-    out[..., 5] = rng.uniform(0.01, 0.04, stop.shape)
-    return out
+    return surfaces_of(rng, GRID, stop)
 
 
 @pytest.mark.parametrize("laser", [LASER, TAILS], ids=["normal", "heavy tails"])

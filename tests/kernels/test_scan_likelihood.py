@@ -4,14 +4,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from test_predictions import DEPTH, GRID, SENSORS, world
+from test_predictions import CASES, DEPTH, GRID, SENSORS, world
 
 import bayesmap as bm
 from bayesmap.kernels.predict.density import log_densities
 from bayesmap.kernels.predict.scan_likelihood import ScanLikelihood
 from bayesmap.kernels.rays import trace_rays
-
-EDGE = GRID.resolution
 
 
 def predicted(scans, maps, sensor):
@@ -26,38 +24,16 @@ def moved(scans, seed):
     return replace(scans, poses=scans.poses + rng.normal(0, [0.3, 0.3, 0.5], scans.poses.shape))
 
 
-@pytest.mark.parametrize("binary", [False, True])
-@pytest.mark.parametrize("name", SENSORS)
-def test_cells_without_surfaces(name, binary):
+@pytest.mark.parametrize(("name", "kind"), CASES)
+def test_scans_at_other_poses_have_the_likelihood_of_beams_traced_there(name, kind):
     for seed in range(4):
-        scans, maps = world(seed, binary=binary)
-        compare(scans, maps, SENSORS[name], seed)
-
-
-def compare(scans, maps, sensor, seed):
-    """Weigh the scans at other poses under all maps, and predict them there."""
-    there = moved(scans, seed)
-    chain, scan = (a.ravel() for a in np.meshgrid(np.arange(len(maps)), np.arange(len(scans)), indexing="ij"))
-    found = ScanLikelihood(scans, GRID, sensor, DEPTH).beams(maps, np.tile(there.poses, (len(maps), 1)), scan, chain)
-    expected = predicted(there, maps, sensor)
-    np.testing.assert_allclose(found.reshape(expected.shape), expected, atol=1e-5, rtol=1e-5)
-
-
-def surfaces(seed, maps):
-    """A surface in every cell of some maps, (maps, N, 6)."""
-    rng = np.random.default_rng(seed)
-    nx, ny = GRID.shape
-    x, y = np.meshgrid(np.arange(nx) + 0.5, np.arange(ny) + 0.5, indexing="ij")
-    out = np.zeros((maps, GRID.n_cells, 6), dtype=np.float32)
-    out[..., 0] = rng.beta(0.3, 1.0, out.shape[:2])
-    out[..., 1:3] = (np.stack([x, y], -1).reshape(-1, 2) + rng.normal(0, 0.3, (*out.shape[:2], 2))) * EDGE
-    out[..., 3:] = np.exp(rng.normal(-1.5, 0.3, (*out.shape[:2], 3))) * EDGE
-    return out
-
-
-def test_surfaces():
-    for seed in range(4):
-        compare(world(seed)[0], surfaces(seed, 2), SENSORS["mixture"], seed)
+        scans, maps = world(seed, kind)
+        there = moved(scans, seed)
+        chain, scan = (a.ravel() for a in np.meshgrid(np.arange(3), np.arange(len(scans)), indexing="ij"))
+        likelihood = ScanLikelihood(scans, GRID, SENSORS[name], DEPTH)
+        found = likelihood.beams(maps, np.tile(there.poses, (3, 1)), scan, chain)
+        expected = predicted(there, maps, SENSORS[name])
+        np.testing.assert_allclose(found.reshape(expected.shape), expected, atol=1e-5, rtol=1e-5)
 
 
 def test_beams_that_left_while_the_sensor_moved_move_with_their_scan():

@@ -88,6 +88,12 @@ def noise_of(sensor, wall, variance):
     return scale, scipy.stats.t(numbers.dof) if numbers.dof else scipy.stats.norm()
 
 
+def gaussian(z, d, *, sigma, per_m=0.0, max_m):
+    """log p(z | d) of the tutorial's sensor: the reading is the capped distance plus normal noise."""
+    d = np.minimum(d, max_m)
+    return scipy.stats.norm.logpdf(z, loc=d, scale=sigma + per_m * d)
+
+
 def reading_law(z, distance, variance, sensor, limits):
     """p(z | the beam stops at about the distance); an infinite distance means nowhere. A density where z is finite."""
     z, distance, variance = np.broadcast_arrays(z, distance, variance)
@@ -102,7 +108,8 @@ def reading_law(z, distance, variance, sensor, limits):
     short = np.where(inside < wall, shorts * rate * np.exp(-rate * inside), 0.0)
     finite = sensor.p_random / (limits.max_m - limits.min_m)
     finite = finite + known * (short + echo * noise.pdf(x) / scale)
-    silent = known * (clear - echo * noise.cdf((limits.max_m - wall) / scale))
+    lost = clear * np.where(distance <= limits.max_m, sensor.p_no_return, 1.0)
+    silent = known * (lost + echo * noise.sf((limits.max_m - wall) / scale))
     blocked = shorts * (1 - np.exp(-rate * np.minimum(wall, limits.min_m)))
     close = known * (blocked + echo * noise.cdf((limits.min_m - wall) / scale))
     return np.select([np.isposinf(z), np.isneginf(z), np.isfinite(z)], [silent, close, finite], 1.0)

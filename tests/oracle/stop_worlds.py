@@ -165,6 +165,18 @@ def draw_worlds(seed, grid, prior, sensor, worlds, *, poses=2, beams=5, limits=(
     return build_worlds(replace(whole, ranges_m=readings), grid, prior, sensor, worlds), truth
 
 
+def surfaces_of(rng, grid, stop):
+    """Surfaces about the centres of all cells with these reflectivities (draws, N); none is thin. (draws, N, 6)."""
+    out = np.zeros((*stop.shape, 6), dtype=np.float32)
+    out[..., 0] = stop
+    out[..., 1:3] = (
+        grid.cell_centres_m(np.arange(grid.n_cells)) + rng.normal(0, 0.2, (*stop.shape, 2)) * grid.resolution
+    )
+    out[..., 3], out[..., 5] = rng.uniform(0.1, 0.4, (2, *stop.shape)) * grid.resolution
+    out[..., 4] = rng.normal(0, 0.1, stop.shape) * grid.resolution
+    return out
+
+
 def scans_of_all_kinds(seed, grid, *, poses=5, beams=9, limits=(0.1, 3.0), lattice=False):
     """Readings of every kind from anywhere in and about a grid; on a ``lattice`` from corners and along lines."""
     rng = np.random.default_rng(seed)

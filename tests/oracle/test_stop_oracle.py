@@ -3,22 +3,19 @@
 False alarms: `ALPHA` = 1e-4 over this module.
 """
 
-from itertools import product
-
 import numpy as np
 import pytest
 import scipy
-from oracle import density
 from oracle.stop_exact import exact_reflectivities
-from oracle.stop_law import Paths, cross_surface, draw_readings, log_likelihoods, log_prior, paths_of, reading_law
+from oracle.stop_law import Paths, cross_surface, draw_readings, log_likelihoods, log_prior, paths_of
 from oracle.stop_worlds import draw_worlds
 from oracle.verdict import ALPHA, goodness_of_fit
-from oracle.worlds import bm_limits
 
 import bayesmap as bm
+from bayesmap.sensors.model import RangeLimits
 
 SENSOR = bm.BeamMixture(bm.Gaussian(0.06, 0.02), p_random=0.08, p_no_return=0.15, p_short=0.2, rate_short_per_m=0.7)
-LIMITS = bm_limits(0.2, 2.5)
+LIMITS = RangeLimits(0.2, 2.5)
 STATES = np.array(
     [[0.6, 0.45, 0.3, 0.10, 0.03, 0.05], [0.3, 1.10, 0.2, 0.02, -0.10, 0.15], [0.9, 1.70, 0.3, 0.15, 0.20, 0.02]]
 )
@@ -42,16 +39,6 @@ def same_path(z):
 def law_at(z, plain):
     """The density, or the probability, of each of some readings of that beam."""
     return np.exp(log_likelihoods(same_path(z), STATES, SENSOR, plain))
-
-
-def test_without_spread_the_law_of_a_reading_is_the_beam_mixture_s():
-    numbers = {
-        "sigma": 0.06, "per_m": 0.02, "min_m": 0.2, "max_m": 2.5,
-        "p_random": 0.08, "p_no_return": 0.15, "p_short": 0.2, "rate": 0.7,
-    }  # fmt: skip
-    cases = list(product([0.21, 0.9, 1.0, 2.49, np.inf, -np.inf], [0.0, 0.1, 0.9, 1.1, 2.45, 2.6, np.inf]))
-    found = {case: np.log(reading_law(*case, 0.0, SENSOR, LIMITS)) for case in cases}
-    assert found == pytest.approx({case: density.mixture(*case, **numbers) for case in cases}, rel=1e-9)
 
 
 def test_a_beam_meets_a_surface_where_the_surface_s_density_along_the_beam_says():

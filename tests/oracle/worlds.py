@@ -3,13 +3,14 @@
 from dataclasses import dataclass
 
 import numpy as np
-from oracle import density
 from oracle.enumeration import Exact, all_maps, enumerate_posterior, log_prior_of_all
 from oracle.formula import beams, distances
+from oracle.stop_law import gaussian, reading_law
 
 import bayesmap as bm
 from bayesmap.kernels.walls.table import trace
 from bayesmap.samplers.wall_problem import WallProblem
+from bayesmap.sensors.model import RangeLimits
 
 
 @dataclass(frozen=True, eq=False)
@@ -33,19 +34,12 @@ class Case:
 
 
 def scorer(sensor, limits):
-    """The oracle's log-likelihood of one reading at an array of distances, for the two sensors used here."""
+    """The oracle's log-likelihood of one reading at an array of distances, for normal noise and for mixtures."""
     low, high = limits
     if isinstance(sensor, bm.Gaussian):
-        return lambda z, d: density.gaussian(np.clip(z, low, high) if np.isinf(z) else z, d, sigma=sensor.sigma_m,
-                                             per_m=sensor.sigma_per_m, max_m=high)  # fmt: skip
-    noise = sensor.noise
-    gaussian = isinstance(noise, bm.Gaussian)
-    law = {"sigma": noise.sigma_m, "per_m": noise.sigma_per_m} if gaussian else {
-        "sigma": noise.scale_m, "per_m": noise.scale_per_m, "dof": noise.dof
-    }  # fmt: skip
-    weights = {"p_random": sensor.p_random, "p_no_return": sensor.p_no_return, "p_short": sensor.p_short}
-    rest = {"rate": sensor.rate_short_per_m, "min_m": low, "max_m": high}
-    return lambda z, d: np.array([density.mixture(z, one, **law, **weights, **rest) for one in d])
+        return lambda z, d: gaussian(np.clip(z, low, high) if np.isinf(z) else z, d, sigma=sensor.sigma_m,
+                                     per_m=sensor.sigma_per_m, max_m=high)  # fmt: skip
+    return lambda z, d: np.log(reading_law(z, d, 0.0, sensor, RangeLimits(low, high)))
 
 
 def random_prior(rng, kind, shape):
@@ -82,16 +76,9 @@ def make_case(seed, *, shape=(4, 4), n_poses=2, prior=0.3, sensor=None, beams_pe
         walls = walls.reshape(shape)
     starts, directions = beams(poses, angles, grid)
     metres = distances(walls, starts, directions) * grid.resolution
-    readings = sensor.sample(rng, metres, bm_limits(*limits)).reshape(n_poses, -1)
+    readings = sensor.sample(rng, metres, RangeLimits(*limits)).reshape(n_poses, -1)
     readings[rng.random(readings.shape) < 0.05] = np.nan
     scans = bm.Scans(poses, angles, readings, max_range_m=limits[1], min_range_m=limits[0])
     exact = enumerate_posterior(scans, grid, p_wall, scorer(sensor, limits), coupling)
     prior = bm.Ising(p_wall, coupling) if coupling else bm.Independent(p_wall)
     return Case(grid, scans, prior, sensor, walls, exact)
-
-
-def bm_limits(low, high):
-    """`RangeLimits`, which is not a public name."""
-    from bayesmap.sensors.model import RangeLimits
-
-    return RangeLimits(low, high)

@@ -11,7 +11,6 @@ import numpy as np
 import pytest
 from oracle.stop_law import draw_readings, draw_states, paths_of
 from oracle.stop_worlds import beam_rays, centres_of, touching
-from oracle.worlds import bm_limits
 from stop_rooms import GRID, TRUTH, assert_same, infer, scans
 from tiers import full_but
 
@@ -33,6 +32,7 @@ from bayesmap.samplers.fit import (
     step_share,
 )  # fmt: skip
 from bayesmap.samplers.stop_problem import trace_stops
+from bayesmap.sensors.model import RangeLimits
 
 SIX = ("sigma_m", "sigma_per_m", "p_random", "p_no_return", "p_short", "rate_short_per_m")
 
@@ -46,7 +46,7 @@ def numbers(sensor):
 
 def fitted_to_known_stops(seed, least_m, count=12_000):
     """Every beam's stop is given, up to a surface's spread; some lie out of range, some beams meet nothing."""
-    rng, limits = np.random.default_rng(seed), bm_limits(least_m, 8.0)
+    rng, limits = np.random.default_rng(seed), RangeLimits(least_m, 8.0)
     distance = np.where(rng.random(count) < 0.1, np.inf, rng.uniform(0.5, 10.0, count))
     variance = rng.uniform(0, 0.05**2, count)
     spread = np.where(np.isfinite(distance), np.sqrt(variance) * rng.standard_normal(count), 0.0)

@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
-from oracle.density import gaussian
 from oracle.formula import beams, distances
+from oracle.stop_law import gaussian
 from oracle.verdict import ALPHA, goodness_of_fit
 from tiers import latin
 
