@@ -7,6 +7,7 @@ import dataclasses
 import numpy as np
 import pytest
 from oracle.formula import beams, touches
+from oracle.stop_worlds import scans_of_all_kinds
 
 import bayesmap as bm
 from bayesmap.beams.rays import Rays, around_readings
@@ -20,20 +21,8 @@ KINDS = {"anywhere": False, "on lines and corners": True}
 EVERYWHERE = pytest.mark.parametrize("kind", KINDS)
 
 
-def random_scans(seed, *, lattice=False, poses=3, rays=30, grid=GRID):
-    """Poses in and around the grid, readings of all kinds."""
-    rng = np.random.default_rng(seed)
-    size = np.array(grid.shape) * grid.resolution
-    xy = np.array(grid.origin) + rng.uniform(-0.2, 1.2, (poses, 2)) * size
-    yaw, angles = rng.uniform(-4, 4, poses), rng.uniform(0, 2 * np.pi, rays)
-    if lattice:
-        xy, yaw, angles = np.round(xy * 8) / 8, np.zeros(poses), np.arange(rays) % 24 * np.pi / 12
-    readings = rng.uniform(0.1, 4.0, (poses, rays))
-    kinds = rng.random(readings.shape)
-    readings[kinds < 0.15] = np.inf
-    readings[(kinds >= 0.15) & (kinds < 0.2)] = -np.inf
-    readings[(kinds >= 0.2) & (kinds < 0.25)] = np.nan
-    return bm.Scans(np.column_stack([xy, yaw]), angles, readings, max_range_m=4.0, min_range_m=0.1)
+def random_scans(seed, *, lattice=False, poses=10):
+    return scans_of_all_kinds(seed, GRID, poses=poses, limits=(0.1, 4.0), lattice=lattice)
 
 
 def near_readings(scans, margin_m):
@@ -216,7 +205,7 @@ def test_hits_and_passes_are_those_of_a_slow_count(kind):
         for b, z in enumerate(scans.ranges_m.ravel()):
             reach = min(z, scans.max_range_m)
             cells = [c for c in of_beam(rays.cells, rays, b).tolist() if met[b, c] <= reach + 1e-9]
-            inside = len(cells) and z <= of_beam(leave, rays, b)[-1] + 1e-6
+            inside = len(cells) and z <= of_beam(leave, rays, b).max() + 1e-6
             stopped = np.isfinite(z) and inside
             if stopped:
                 hits[cells[-1]] += 1
