@@ -5,7 +5,7 @@ meets with probability ``w_i = m_i prod_{j < i} (1 - m_j)``, at a distance d_i k
 
     p(z) = sum_i w_i p(z | d_i, s_i) + prod_j (1 - m_j) p(z | infinity)
 
-The predictive law is the mean over draws. Only `stop_in` and `maps_to_device` depend on the kind of cells.
+The predictive law is the mean over draws.
 """
 
 from collections.abc import Iterable
@@ -23,6 +23,7 @@ from bayesmap.kernels.device import Float32Rows, Float64s, Floats, Int32s, Ints,
 from bayesmap.kernels.rays import Line, RayArrays, distance_at, first_past, line_from, line_of, rays_to_device
 from bayesmap.kernels.sensor_law import MIXTURE, NOISE, SensorLaw64
 from bayesmap.kernels.surfaces.cell import Cell, Ray, cells_to_device, cross_surface
+from bayesmap.kernels.walk import NEVER, Walk
 from bayesmap.sensors.model import RangeLimits, SensorModel
 from bayesmap.sensors.tabulated import tabulated
 from bayesmap.space.grid import Grid
@@ -75,16 +76,36 @@ def grid_frame(grid: Grid) -> Frame:
 
 
 @wp.func
+def surface_stop(maps: MapArrays, row: int, column: int, line: Line) -> wp.vec3d:
+    """Return the result of `stop_in` for a surface."""
+    state = maps.surface[row, column]
+    met = cross_surface(state, Ray(wp.vec2(line.start_m), wp.vec2(line.direction)))
+    chance = wp.float64(state[0]) * wp.float64(met.chance)
+    return wp.vec3d(chance, wp.float64(met.distance_m), wp.float64(met.variance))
+
+
+@wp.func
+def stop_on_walk(maps: MapArrays, row: int, line: Line, w: Walk) -> wp.vec3d:
+    """Return the result of `stop_in` for the cell that a walk along the line touches, in a map of the whole grid."""
+    cell = w.cell_x * line.ny + w.cell_y
+    if maps.surfaces != 0:
+        return surface_stop(maps, row, cell, line)
+    # Length of the beam inside the cell: 0 if it only touches a corner.
+    chord = wp.min(wp.min(w.next_x, w.next_y), NEVER) - w.distance
+    if w.cell_x != w.x or w.cell_y != w.y:
+        chord = wp.where(w.along_line != 0, chord, wp.float64(0.0))
+    distance = wp.float64(wp.float32((w.distance + maps.depth * chord) * line.edge_m))
+    return wp.vec3d(wp.float64(maps.stop[row, cell]), distance, wp.float64(0.0))
+
+
+@wp.func
 def stop_in(maps: MapArrays, row: int, column: int, line: Line, cell: int) -> wp.vec3d:
     """Return the chance that a beam which reaches a cell stops in it, and distance and variance of the stop, metres.
 
     The map is in ``row``, and has the cell in ``column``; ``cell`` is its flat index in the grid.
     """
     if maps.surfaces != 0:
-        state = maps.surface[row, column]
-        met = cross_surface(state, Ray(wp.vec2(line.start_m), wp.vec2(line.direction)))
-        chance = wp.float64(state[0]) * wp.float64(met.chance)
-        return wp.vec3d(chance, wp.float64(met.distance_m), wp.float64(met.variance))
+        return surface_stop(maps, row, column, line)
     chance = wp.float64(maps.stop[row, column])
     if chance == wp.float64(0.0):
         return wp.vec3d(chance, chance, chance)

@@ -57,8 +57,7 @@ def beam_log_likelihoods(
     w = walk_along(line, frame.nx, law.max_m)
     while w.distance <= w.end and survive >= gone:
         if is_inside(w, frame.nx, frame.ny):
-            cell = w.cell_x * frame.ny + w.cell_y
-            stop = density.stop_in(maps, chain[row], cell, line, cell)
+            stop = density.stop_on_walk(maps, chain[row], line, w)
             weight = survive * stop[0]
             survive = survive * (one - stop[0])
             if weight > wp.float64(0.0):

@@ -6,7 +6,7 @@ from numpy.typing import NDArray
 
 from bayesmap.kernels import device as devices
 from bayesmap.kernels.device import Float64Rows, Float64s, Floats, Int32s
-from bayesmap.kernels.predict.density import DeviceMaps, Frame, MapArrays, grid_frame, line_in, stop_in
+from bayesmap.kernels.predict.density import DeviceMaps, Frame, MapArrays, grid_frame, line_in, stop_on_walk
 from bayesmap.kernels.random import random_bits, to_uniform
 from bayesmap.kernels.rays import Line, walk_along
 from bayesmap.kernels.walk import is_inside, walk_next
@@ -52,8 +52,7 @@ def draw_scan(
     w = walk_along(line, frame.nx, views.longest_m)
     while w.distance <= w.end:
         if is_inside(w, frame.nx, frame.ny):
-            cell = w.cell_x * frame.ny + w.cell_y
-            stop = stop_in(maps, draw[b / views.angles.shape[0]], cell, line, cell)
+            stop = stop_on_walk(maps, draw[b / views.angles.shape[0]], line, w)
             survive = survive * (wp.float64(1.0) - stop[0])
             if survive < left:
                 distance_m[b] = stop[1]
