@@ -58,27 +58,18 @@ class Rays:
     """B beams and the K cells that they touch, beam after beam, in the order in which they are touched.
 
     Coordinates are metres from the grid's lower left corner.
-
-    Attributes:
-        grid: the grid whose cells are meant.
-        offsets: the entries of beam b are ``offsets[b]:offsets[b + 1]``; shape (B + 1,), int32.
-        cells: flat index ``x * ny + y`` of the touched cell, shape (K,), int32.
-        near: first entry of each beam at which a stop may explain the reading, shape (B,), int32; its first entry if
-            that is unknown.
-        start_m: start of each beam, shape (B, 2).
-        direction: unit vector of each beam, shape (B, 2).
-        range_m: reading of each beam, coded as in `bayesmap.space.scans.Scans`, shape (B,).
-        limits: the sensor's span.
     """
 
-    grid: Grid
-    offsets: NDArray[np.int32]
-    cells: NDArray[np.int32]
+    grid: Grid  # the grid whose cells are meant
+    offsets: NDArray[np.int32]  # the entries of beam b are offsets[b]:offsets[b + 1]; shape (B + 1,), int32
+    cells: NDArray[np.int32]  # flat index x * ny + y of the touched cell, shape (K,), int32
+    # first entry of each beam at which a stop may explain the reading, shape (B,), int32; its first entry if that is
+    # unknown
     near: NDArray[np.int32]
-    start_m: Floats
-    direction: Floats
-    range_m: Floats
-    limits: RangeLimits
+    start_m: Floats  # start of each beam, shape (B, 2)
+    direction: Floats  # unit vector of each beam, shape (B, 2)
+    range_m: Floats  # reading of each beam, coded as in `bayesmap.space.scans.Scans`, shape (B,)
+    limits: RangeLimits  # the sensor's span
 
     @property
     def n_beams(self) -> int:

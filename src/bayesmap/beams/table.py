@@ -21,21 +21,13 @@ from bayesmap.space.grid import Grid
 
 @dataclass(frozen=True, eq=False)
 class BeamTable:
-    """The cells that each beam crosses, and the log-likelihood of its reading for every possible first hit.
+    """The cells that each beam crosses, and the log-likelihood of its reading for every possible first hit."""
 
-    Attributes:
-        grid: the grid whose cells are meant.
-        offsets: the entries of beam b are ``offsets[b]:offsets[b + 1]``; shape (B + 1,), int32.
-        cells: flat index ``x * ny + y`` of the touched cell, shape (K,), int32.
-        loglik: log-likelihood of the reading if that cell is the first wall, shape (K,), float32.
-        no_hit: log-likelihood of the reading if no listed cell is a wall, shape (B,), float32.
-    """
-
-    grid: Grid
-    offsets: NDArray[np.int32]
-    cells: NDArray[np.int32]
-    loglik: NDArray[np.float32]
-    no_hit: NDArray[np.float32]
+    grid: Grid  # the grid whose cells are meant
+    offsets: NDArray[np.int32]  # the entries of beam b are offsets[b]:offsets[b + 1]; shape (B + 1,), int32
+    cells: NDArray[np.int32]  # flat index x * ny + y of the touched cell, shape (K,), int32
+    loglik: NDArray[np.float32]  # log-likelihood of the reading if that cell is the first wall, shape (K,), float32
+    no_hit: NDArray[np.float32]  # log-likelihood of the reading if no listed cell is a wall, shape (B,), float32
 
     @property
     def n_beams(self) -> int:
@@ -89,21 +81,14 @@ class BeamTable:
 
 @dataclass(frozen=True, eq=False)
 class CellIndex:
-    """The table turned round: for every cell, its entries in the beams.
+    """The table turned round: for every cell, its entries in the beams."""
 
-    Attributes:
-        offsets: the incidences of cell c are ``offsets[c]:offsets[c + 1]``; shape (N + 1,), int32.
-        entry: index into the beam table, shape (K,), int32.
-        beam: the beam of that entry, shape (K,), int32.
-        loglik: the entry's log-likelihood, shape (K,), float32.
-        gain_bound: upper bound, for any map, of the sum that this incidence and those after it in the cell add to the
-            log-odds of a wall, shape (K,), float32. Incidences that can gain come first.
-        advantage: log-likelihood of a first hit here minus that of the likeliest outcome behind it, (K,), float32.
-    """
-
-    offsets: NDArray[np.int32]
-    entry: NDArray[np.int32]
-    beam: NDArray[np.int32]
-    loglik: NDArray[np.float32]
+    offsets: NDArray[np.int32]  # the incidences of cell c are offsets[c]:offsets[c + 1]; shape (N + 1,), int32
+    entry: NDArray[np.int32]  # index into the beam table, shape (K,), int32
+    beam: NDArray[np.int32]  # the beam of that entry, shape (K,), int32
+    loglik: NDArray[np.float32]  # the entry's log-likelihood, shape (K,), float32
+    # upper bound, for any map, of the sum that this incidence and those after it in the cell add to the log-odds of a
+    # wall, shape (K,), float32. Incidences that can gain come first
     gain_bound: NDArray[np.float32]
+    # log-likelihood of a first hit here minus that of the likeliest outcome behind it, (K,), float32
     advantage: NDArray[np.float32]

@@ -100,20 +100,13 @@ def _mean_over_stops(model: SensorModel, z: Floats, d: Floats, s: Floats, limits
 
 @dataclass(frozen=True)
 class KernelParameters:
-    """Parameters of the compiled likelihood: additive noise inside an optional robust mixture.
+    """Parameters of the compiled likelihood: additive noise inside an optional robust mixture."""
 
-    Attributes:
-        sigma_m: noise scale at distance 0.
-        sigma_per_m: growth of the scale per metre of distance.
-        dof: degrees of freedom of Student-t noise; 0 for Gaussian noise.
-        robust: true if the mixture applies; otherwise the reading is distance plus noise alone.
-        p_random, p_no_return, p_short, rate_short_per_m: as in `bayesmap.sensors.builtin.BeamMixture`.
-    """
-
-    sigma_m: float
-    sigma_per_m: float = 0.0
-    dof: float = 0.0
-    robust: bool = False
+    sigma_m: float  # noise scale at distance 0
+    sigma_per_m: float = 0.0  # growth of the scale per metre of distance
+    dof: float = 0.0  # degrees of freedom of Student-t noise; 0 for Gaussian noise
+    robust: bool = False  # true if the mixture applies; otherwise the reading is distance plus noise alone
+    # As in `bayesmap.sensors.builtin.BeamMixture`:
     p_random: float = 0.0
     p_no_return: float = 0.0
     p_short: float = 0.0

@@ -41,34 +41,22 @@ SLACK = 0.05
 
 @dataclass(frozen=True, eq=False)
 class TabulatedLaw:
-    """A sensor's law at nodes; metres and nats.
+    """A sensor's law at nodes; metres and nats."""
 
-    Attributes:
-        min_m: least range of the sensor.
-        low_m, high_m: first and last node of the range of a beam that stops nowhere.
-        typed: true if no return and too close are separate outcomes, and ranges stay within the limits. Otherwise they
-            stand for the limits, as in `bayesmap.sensors.builtin.AdditiveNoise`.
-        scale_m: scale of readings about a stop at each distance, (D,).
-        most: the largest node of asinh((z - d) / w).
-        log_density: log (w p(z | d, s)), (S, D, V).
-        below: P(reading <= z | d, s), (S, D, V); NaN throughout where the density does not integrate to one.
-        log_typed: log probabilities of too close and of no return, (2, S, T).
-        log_nowhere, below_nowhere: log density and cumulative of the range of a beam that stops nowhere, (N,) each.
-        log_typed_nowhere: log probabilities of too close and no return of this beam.
-    """
-
-    min_m: float
-    low_m: float
-    high_m: float
+    min_m: float  # least range of the sensor
+    low_m: float  # first node of the range of a beam that stops nowhere
+    high_m: float  # last node of the range of a beam that stops nowhere
+    # true if no return and too close are separate outcomes, and ranges stay within the limits. Otherwise they stand
+    # for the limits, as in `bayesmap.sensors.builtin.AdditiveNoise`
     typed: bool
-    scale_m: Table
-    most: float
-    log_density: Table
-    below: Table
-    log_typed: Table
-    log_nowhere: Table
-    below_nowhere: Table
-    log_typed_nowhere: tuple[float, float]
+    scale_m: Table  # scale of readings about a stop at each distance, (D,)
+    most: float  # the largest node of asinh((z - d) / w)
+    log_density: Table  # log (w p(z | d, s)), (S, D, V)
+    below: Table  # P(reading <= z | d, s), (S, D, V); NaN throughout where the density does not integrate to one
+    log_typed: Table  # log probabilities of too close and of no return, (2, S, T)
+    log_nowhere: Table  # log density of the range of a beam that stops nowhere, (N,)
+    below_nowhere: Table  # cumulative of the range of a beam that stops nowhere, (N,)
+    log_typed_nowhere: tuple[float, float]  # log probabilities of too close and no return of this beam
 
     @property
     def has_cumulative(self) -> bool:

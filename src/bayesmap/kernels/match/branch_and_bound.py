@@ -235,31 +235,18 @@ def search_blocks(
 
 @dataclass(frozen=True, eq=False)
 class Windows:
-    """The searches of J jobs: their points, and the translations and angles to try.
+    """The searches of J jobs: their points, and the translations and angles to try."""
 
-    Attributes:
-        points: all jobs' points one after the other, in the sensor's frame, (N, 2).
-        point_offsets: job j has the points from point_offsets[j] to point_offsets[j + 1].
-        grid: index of the grid that each job searches, (J,).
-        centres: x and y of the middle of each window, (J, 2).
-        half_cells: half widths of the windows, in cells, (J, 2).
-        angles_rad: angles of all rows.
-        angle_costs: cost of each angle, in units of the score.
-        row_offsets: job j has the rows from row_offsets[j] to row_offsets[j + 1].
-        least: bound that scores must exceed, (J,).
-        across: cost of a squared cell off the centre, in units of the score, (J,).
-    """
-
-    points: Floats
-    point_offsets: Ints
-    grid: Ints
-    centres: Floats
-    half_cells: Ints
-    angles_rad: Floats
-    angle_costs: Floats
-    row_offsets: Ints
-    least: Floats
-    across: Floats
+    points: Floats  # all jobs' points one after the other, in the sensor's frame, (N, 2)
+    point_offsets: Ints  # job j has the points from point_offsets[j] to point_offsets[j + 1]
+    grid: Ints  # index of the grid that each job searches, (J,)
+    centres: Floats  # x and y of the middle of each window, (J, 2)
+    half_cells: Ints  # half widths of the windows, in cells, (J, 2)
+    angles_rad: Floats  # angles of all rows
+    angle_costs: Floats  # cost of each angle, in units of the score
+    row_offsets: Ints  # job j has the rows from row_offsets[j] to row_offsets[j + 1]
+    least: Floats  # bound that scores must exceed, (J,)
+    across: Floats  # cost of a squared cell off the centre, in units of the score, (J,)
 
 
 @dataclass(frozen=True)

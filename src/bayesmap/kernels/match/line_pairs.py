@@ -374,17 +374,11 @@ def compare_views(
 
 @dataclass(frozen=True)
 class Agreement:
-    """Rules for points of one scan that match another scan, or contradict it.
+    """Rules for points of one scan that match another scan, or contradict it."""
 
-    Attributes:
-        near_m: distance to a point of the other scan, or to the wall between two neighbouring points, of a match.
-        clear_m: least distance of a contradicting point before the points that the other scan hit.
-        beams: number of beams of each scan that are compared, about.
-    """
-
-    near_m: float
-    clear_m: float
-    beams: int
+    near_m: float  # distance to a point of the other scan, or to the wall between two neighbouring points, of a match
+    clear_m: float  # least distance of a contradicting point before the points that the other scan hit
+    beams: int  # number of beams of each scan that are compared, about
 
 
 def view_counts(

@@ -147,44 +147,26 @@ def refine(
 
 @dataclass(frozen=True, eq=False)
 class Refinement:
-    """Scans to move, each against fixed scans, under a Gaussian prior.
+    """Scans to move, each against fixed scans, under a Gaussian prior."""
 
-    Attributes:
-        scans: the scan that job k moves, (J,).
-        offsets: job k has the fixed scans offsets[k] to offsets[k + 1] of ``others``, (J + 1,).
-        others: the fixed scans, (N,).
-        other_poses: poses of the fixed scans, (N, 3).
-        starts: first poses of the moving scans, (J, 3).
-        priors: means of the priors of the moving scans, (J, 3).
-        prior_information: information of these priors, in the world's axes, (J, 3, 3).
-    """
-
-    scans: Ints
-    offsets: Ints
-    others: Ints
-    other_poses: Floats
-    starts: Floats
-    priors: Floats
-    prior_information: Floats
+    scans: Ints  # the scan that job k moves, (J,)
+    offsets: Ints  # job k has the fixed scans offsets[k] to offsets[k + 1] of others, (J + 1,)
+    others: Ints  # the fixed scans, (N,)
+    other_poses: Floats  # poses of the fixed scans, (N, 3)
+    starts: Floats  # first poses of the moving scans, (J, 3)
+    priors: Floats  # means of the priors of the moving scans, (J, 3)
+    prior_information: Floats  # information of these priors, in the world's axes, (J, 3, 3)
 
 
 @dataclass(frozen=True)
 class Convergence:
-    """Rules of pairs and weights; of two numbers the first is for the first step, the second for the last.
+    """Rules of pairs and weights; of two numbers the first is for the first step, the second for the last."""
 
-    Attributes:
-        sigma_m: standard deviation of a point.
-        steps: most Gauss-Newton steps.
-        reach_m: largest distance between paired points.
-        scale_m: c of Geman and McClure's weight.
-        alike: least cosine between the normals of a pair.
-    """
-
-    sigma_m: float
-    steps: int
-    reach_m: tuple[float, float]
-    scale_m: tuple[float, float]
-    alike: float
+    sigma_m: float  # standard deviation of a point
+    steps: int  # most Gauss-Newton steps
+    reach_m: tuple[float, float]  # largest distance between paired points
+    scale_m: tuple[float, float]  # c of Geman and McClure's weight
+    alike: float  # least cosine between the normals of a pair
 
 
 def refine_scans(

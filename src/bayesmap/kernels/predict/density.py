@@ -262,19 +262,13 @@ def add_forecasts(
 
 @dataclass(frozen=True, eq=False)
 class Forecast:
-    """The prediction of each beam's reading; NaN where the reading is invalid.
+    """The prediction of each beam's reading; NaN where the reading is invalid."""
 
-    Attributes:
-        log_density: log predictive density of a range in nats per metre, log probability of a typed reading, (B,).
-        pit_low, pit_high: predictive P(value < reading) and P(value <= reading), equal for ranges, (B,).
-        p_no_return, p_too_close: predictive probabilities of these readings, (B,); 0 if the sensor is noise alone.
-    """
-
-    log_density: Floats
-    pit_low: Floats
-    pit_high: Floats
-    p_no_return: Floats
-    p_too_close: Floats
+    log_density: Floats  # log predictive density of a range in nats per metre, log probability of a typed reading, (B,)
+    pit_low: Floats  # predictive P(value < reading), (B,)
+    pit_high: Floats  # predictive P(value <= reading), equal for ranges, (B,)
+    p_no_return: Floats  # predictive probability of this reading, (B,); 0 if the sensor is noise alone
+    p_too_close: Floats  # predictive probability of this reading, (B,); 0 if the sensor is noise alone
 
 
 def law_with_cumulative(sensor: SensorModel, limits: RangeLimits, device: str) -> Any:

@@ -67,20 +67,13 @@ def add_stops(
 
 @dataclass(frozen=True, eq=False)
 class StopMixture:
-    """The stops of each beam: a mixture over the cells that it meets.
+    """The stops of each beam: a mixture over the cells that it meets."""
 
-    Attributes:
-        rays: the beams, with K entries.
-        weight: probability that the beam stops at the entry, (K,), float32.
-        distance_m, spread_m: mean and standard deviation of the distance of this stop, metres, (K,), float32.
-        no_stop: probability that the beam stops nowhere in the map, (B,).
-    """
-
-    rays: Rays
-    weight: Singles
-    distance_m: Singles
-    spread_m: Singles
-    no_stop: Floats
+    rays: Rays  # the beams, with K entries
+    weight: Singles  # probability that the beam stops at the entry, (K,), float32
+    distance_m: Singles  # mean distance of this stop, metres, (K,), float32
+    spread_m: Singles  # standard deviation of the distance, metres, (K,), float32
+    no_stop: Floats  # probability that the beam stops nowhere in the map, (B,)
 
 
 def mix_stops(rays: Rays, batches: Iterable[StopStates], hit_depth: float, *, device: str = "cpu") -> StopMixture:

@@ -43,24 +43,15 @@ def load_stop_kernels(device: str) -> Iterator[int]:
 
 @dataclass(frozen=True, eq=False)
 class Plan:
-    """The parts that the sweeps of all chains share.
+    """The parts that the sweeps of all chains share."""
 
-    Attributes:
-        rays: the beams, with flat indices of the grid's cells.
-        periods: update period of each touched cell, in sweeps, (T,); 0 for cells in which readings end: every sweep
-            updates them.
-        endpoints: the cells in which readings end, flat, ascending, (U,).
-        steps: sizes and frames of these cells' steps, (U, 8).
-        distance_m: distance of a stop at each entry, if cells have no surfaces, (K,).
-        device: the device of the chains.
-    """
-
-    rays: Rays
+    rays: Rays  # the beams, with flat indices of the grid's cells
+    # update period of each touched cell, in sweeps, (T,); 0 for cells in which readings end: every sweep updates them
     periods: NDArray[np.uint8]
-    endpoints: Ints
-    steps: Singles
-    distance_m: Singles | None
-    device: str
+    endpoints: Ints  # the cells in which readings end, flat, ascending, (U,)
+    steps: Singles  # sizes and frames of these cells' steps, (U, 8)
+    distance_m: Singles | None  # distance of a stop at each entry, if cells have no surfaces, (K,)
+    device: str  # the device of the chains
 
 
 class StopChains:
