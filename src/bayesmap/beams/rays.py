@@ -188,11 +188,8 @@ class Stops(NamedTuple):
 def stops_of(rays: Rays, states: NDArray[np.floating], hit_depth: float) -> Stops:
     """Compute the stops that a map offers to rays.
 
-    Args:
-        rays: beams.
-        states: stop probabilities of the grid's cells, (N,), or surfaces, (N, 6): reflectivity, mean x and y in metres
-            from the grid's lower left corner, and l11, l21, l22 of Sigma = L L'.
-        hit_depth: where in a cell without a surface a beam stops, as a part of its stretch.
+    ``states`` are stop probabilities of the grid's cells, (N,), at ``hit_depth`` of their stretches, or surfaces, (N,
+    6): reflectivity, mean x and y in metres from the grid's lower left corner, and l11, l21, l22 of Sigma = L L'.
     """
     here = np.asarray(states, dtype=np.float64)[rays.cells]
     if here.ndim == 1:

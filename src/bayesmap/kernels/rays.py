@@ -216,16 +216,14 @@ def trace_rays(
     near_m: Floats | None = None, device: str = "cpu", on_progress: Callable[[int, int], None] = lambda done,
     total: None,
 ) -> Rays:  # fmt: skip
-    """Follow every beam of some scans through a grid.
+    """Follow every beam of S scans of A beams through a grid: beam ``s * A + a`` of the rays is beam a of scan s.
+
+    Beams with invalid readings, and beams that a scan does not have, get no entry.
 
     Args:
-        scans: S scans of A beams; beam ``s * A + a`` of the rays is beam a of scan s. Beams with invalid readings, and
-            beams that a scan does not have, get no entry.
-        grid: the map's grid.
         poses_world: other poses for the scans, (S, 3), as `bayesmap.space.scans.Scans.at` takes them.
         reach_m: how far each beam is followed, (B,), at most to the sensor's largest range, the default.
         near_m: distance before which no stop could explain the beam's reading, (B,); 0 if None.
-        device: where to trace; the rays come back in main memory.
         on_progress: callback that gets the beams done and all beams; each beam is followed twice.
 
     Raises:

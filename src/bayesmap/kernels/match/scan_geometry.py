@@ -153,16 +153,9 @@ def points_and_normals(
 ) -> tuple[Any, Any, Any, Any]:  # fmt: skip
     """Compute points (S, B), normals (S, B), kinds (S, B) and spreads (S, B) of scans, as arrays on the device.
 
-    Args:
-        ranges_m: readings, (S, B); beams in the order of their angles, NaN past a scan's last.
-        angles_rad: ascending, (1, B) for all scans, or (S, B).
-        nearest_m: least reading that is a point.
-        farthest_m: largest reading that is a point.
-        fans: directions of the beams, a `bayesmap.poses.scan_geometry.Fans`.
-        reach_m: distance to either side within which a wall's direction is fitted at first.
-        noise_m: standard deviation of a point; a wall is straight if its points lie within about twice that of a line.
-        device: where to compute.
-        threads: number of threads; all cores if None.
+    Readings are (S, B), NaN past a scan's last beam; ascending angles (1, B) for all scans, or (S, B). Points are those
+    between ``nearest_m`` and ``farthest_m``, with the standard deviation ``noise_m``. ``fans`` is a
+    `bayesmap.poses.scan_geometry.Fans`. For ``reach_m`` see `scan_normals`.
     """
     device = devices.resolve(device)
     scans, beams = ranges_m.shape

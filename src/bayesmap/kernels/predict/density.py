@@ -86,10 +86,11 @@ def surface_stop(maps: MapArrays, row: int, column: int, line: Line) -> wp.vec3d
 
 @wp.func
 def stop_on_walk(maps: MapArrays, row: int, line: Line, w: Walk) -> wp.vec3d:
-    """Return the result of `stop_in` for the cell that a walk along the line touches, in a map of the whole grid."""
+    """Return chance, distance and *spread* of the stop in the cell that a walk touches, in a map of the whole grid."""
     cell = w.cell_x * line.ny + w.cell_y
     if maps.surfaces != 0:
-        return surface_stop(maps, row, cell, line)
+        stop = surface_stop(maps, row, cell, line)
+        return wp.vec3d(stop[0], stop[1], wp.sqrt(stop[2]))
     # Length of the beam inside the cell: 0 if it only touches a corner.
     chord = wp.min(wp.min(w.next_x, w.next_y), NEVER) - w.distance
     if w.cell_x != w.x or w.cell_y != w.y:
@@ -335,14 +336,10 @@ def log_densities(
 def forecast(
     rays: Rays, batches: Iterable[StopStates], sensor: SensorModel, hit_depth: float, *, device: str = "cpu"
 ) -> Forecast:
-    """Predict the reading of every beam under the mean over draws of the law above.
+    """Predict the reading of every beam, traced over its whole length, under the mean over draws of the law above.
 
-    Args:
-        rays: beams traced over their whole length, and their readings.
-        batches: draws of the map in batches, whose columns are the cells ``rays.touched``.
-        sensor: the law of a reading given where its beam stops.
-        hit_depth: where in a cell without a surface a beam stops, as a share of its stretch.
-        device: where to compute.
+    The columns of the draws are the cells ``rays.touched``. In a cell without a surface, a beam stops at the share
+    ``hit_depth`` of its stretch.
 
     Raises:
         BadInput: no draws, or a sensor of the user's own whose probabilities do not add up to one.

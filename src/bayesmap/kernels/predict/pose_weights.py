@@ -179,16 +179,11 @@ def scan_log_likelihood(
     """Compute the log-likelihood of scans at poses under draws of the map, nats, (P, D); invalid readings count 0.
 
     Args:
-        maps: the draws.
         poses: poses in the world frame, (P, 3).
-        angles_rad: angles of the beams, (A,).
         ranges_m: readings of one scan, (A,), or of several, (S, A).
-        sensor: the law of a reading given where its beam stops.
-        limits: limits of the sensor.
         scan: index of the scan at each pose, (P,); the first scan if None.
         draws: number of draws to use, from the first; all if None.
         in_turn: weigh each pose under one draw, the draws in turn; the result is (P, 1).
-        threads: number of threads; all cores if None.
     """
     count = len(poses)
     draws = maps.draws if draws is None else min(draws, maps.draws)

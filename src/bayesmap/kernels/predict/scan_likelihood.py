@@ -61,7 +61,8 @@ def beam_log_likelihoods(
             weight = survive * stop[0]
             survive = survive * (one - stop[0])
             if weight > wp.float64(0.0):
-                sums = density.add_stop(law, sums, weight, z, decay, stop)
+                known = wp.vec3d(weight, stop[1], stop[2] * stop[2])
+                sums = density.add_stop(law, sums, weight, z, decay, known)
         w = walk_next(w)
     if survive > wp.float64(0.0):
         sums = density.add_stop(law, sums, survive, z, decay, wp.vec3d(survive, wp.float64(wp.inf), wp.float64(0.0)))
@@ -85,14 +86,10 @@ class ScanLikelihood:
     def beams(
         self, cells: Singles | DeviceMaps, poses: Floats, scan: NDArray[np.intp], chain: NDArray[np.intp]
     ) -> Floats:
-        """Compute the log density of each reading, invalid ones 0, in nats, (P, A).
+        """Compute the log density of each reading at poses in the world frame, invalid ones 0, in nats, (P, A).
 
-        Args:
-            cells: one map per chain, N cells of the whole grid: stop probabilities (C, N), or surfaces (C, N, 6) in
-                metres from the grid's corner (`bayesmap.kernels.predict.density`). `DeviceMaps` are not copied.
-            poses: P poses in the world frame, (P, 3).
-            scan: index of the scan at each pose, (P,).
-            chain: index of the chain whose cells are used, (P,).
+        ``cells`` holds a map of the whole grid per chain, see `density.StopStates`; `DeviceMaps` are not copied.
+        ``scan`` and ``chain`` are the indices of the scan and of the map at each pose, (P,).
         """
         device, beams = devices.resolve(self.device), self.scans.ranges_m.shape[1]
         limits = RangeLimits(self.scans.min_range_m, self.scans.max_range_m)

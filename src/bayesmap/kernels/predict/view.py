@@ -56,7 +56,7 @@ def draw_scan(
             survive = survive * (wp.float64(1.0) - stop[0])
             if survive < left:
                 distance_m[b] = stop[1]
-                spread_m[b] = wp.sqrt(stop[2])
+                spread_m[b] = stop[2]
                 return
         w = walk_next(w)
 
@@ -168,16 +168,8 @@ def independent_information(
 
     Zhang, Henderson, Sze and Karaman, *FSMI* (ICRA 2019), equation 14, with the exact integrals of the noise.
 
-    Args:
-        occupied: probability that each cell stops a beam, inside (0, 1), (N,).
-        grid: the map's grid.
-        poses: poses in the world frame, (P, 3).
-        angles_rad: angles of the beams, (A,).
-        longest_m: distance to which beams are followed.
-        sigma_m: standard deviation of the readings.
-        hit_factor: factor of a cell's odds for a reading in it, over 1.
-        pass_factor: the factor for a reading behind it, below 1.
-        device: where to compute.
+    Cells stop beams with probabilities inside (0, 1), (N,). Readings have the standard deviation ``sigma_m``. A
+    reading in a cell multiplies the cell's odds by ``hit_factor``, over 1; a reading behind it by ``pass_factor``.
     """
     device, beams = devices.resolve(device), len(poses) * len(angles_rad)
     odds = occupied / (1.0 - occupied)

@@ -109,8 +109,6 @@ def stepped(cell: Cell, step: Cell, key: wp.uint64, at: wp.uint64, i: int) -> Ce
 
 STEPS = 6
 """Metropolis steps of a surface in each sweep."""
-MOST_STEPS = 24
-"""Most steps in a sweep: a cell has random counters for this many."""
 NO_LEAST = wp.constant(wp.float64(-1.0e300))  # below every log joint: sums are finished
 AT_STEP = wp.constant(wp.uint64(32))
 """Random counters per step of a cell's surface, part SURFACES."""

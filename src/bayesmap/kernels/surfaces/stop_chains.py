@@ -118,12 +118,9 @@ class StopChains:
         """Advance every chain by some sweeps, which are numbered from 0.
 
         Args:
-            first: number of the first sweep.
-            count: number of sweeps.
-            sensor: the law of the readings.
-            prior: prior of the cells.
             beta: inverse temperature.
-            steps: Metropolis steps of a surface in a sweep, at most `endpoint_cells.MOST_STEPS`; with 0, cells stay.
+            steps: Metropolis steps of a surface in a sweep, at most 24: a cell has random counters for this many. With
+                0, cells stay.
             observing_after: the first sweep that counts the cells which beams observe. With surfaces `in_squares` does.
             before: callback before each sweep, with the numbers of chain and sweep.
             after: callback after each sweep with the same arguments, on the thread that ran the sweep.

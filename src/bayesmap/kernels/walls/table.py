@@ -33,16 +33,10 @@ def trace(
     scans: Scans, grid: Grid, sensor: SensorModel, *, hit_depth: float = 0.0, reach_m: Floats | None = None,
     device: str = "cpu",
 ) -> BeamTable:  # fmt: skip
-    """Build the beam table of some scans.
+    """Build the beam table of S scans of A beams: beam ``s * A + a`` of the table is beam a of scan s.
 
-    Args:
-        scans: S scans of A beams; beam ``s * A + a`` of the table is beam a of scan s.
-        grid: the map's grid.
-        sensor: the model that fills in the likelihoods.
-        hit_depth: where in a cell a beam is expected to stop, as a fraction of its chord: 0 is the edge where it
-            enters (the tutorial's closed squares), 0.5 the middle.
-        reach_m: how far each beam is followed, (B,); by default as far as its reading depends on stops.
-        device: where to trace; the table comes back in main memory.
+    A beam stops at the fraction ``hit_depth`` of its chord in a cell: 0 is the edge where it enters (the tutorial's
+    closed squares). It is followed ``reach_m`` far, (B,); by default as far as its reading depends on stops.
 
     Raises:
         BadInput: more incidences than 32-bit indices can count.
