@@ -218,13 +218,10 @@ def trace_rays(
 ) -> Rays:  # fmt: skip
     """Follow every beam of S scans of A beams through a grid: beam ``s * A + a`` of the rays is beam a of scan s.
 
-    Beams with invalid readings, and beams that a scan does not have, get no entry.
-
-    Args:
-        poses_world: other poses for the scans, (S, 3), as `bayesmap.space.scans.Scans.at` takes them.
-        reach_m: how far each beam is followed, (B,), at most to the sensor's largest range, the default.
-        near_m: distance before which no stop could explain the beam's reading, (B,); 0 if None.
-        on_progress: callback that gets the beams done and all beams; each beam is followed twice.
+    Beams with invalid readings, and beams that a scan does not have, get no entry. ``poses_world`` are other poses for
+    the scans, as `bayesmap.space.scans.Scans.at` takes them. Each beam is followed for ``reach_m``, (B,), at most to
+    the sensor's largest range, the default. No stop before ``near_m``, (B,), could explain its reading; 0 if None.
+    ``on_progress`` gets the beams done and all beams; each beam is followed twice.
 
     Raises:
         BadInput: more incidences than 32-bit indices can count.

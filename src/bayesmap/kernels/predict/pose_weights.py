@@ -178,12 +178,9 @@ def scan_log_likelihood(
 ) -> Floats:  # fmt: skip
     """Compute the log-likelihood of scans at poses under draws of the map, nats, (P, D); invalid readings count 0.
 
-    Args:
-        poses: poses in the world frame, (P, 3).
-        ranges_m: readings of one scan, (A,), or of several, (S, A).
-        scan: index of the scan at each pose, (P,); the first scan if None.
-        draws: number of draws to use, from the first; all if None.
-        in_turn: weigh each pose under one draw, the draws in turn; the result is (P, 1).
+    Readings are those of one scan, (A,), or of several, (S, A). ``scan`` is the index of the scan at each pose, (P,);
+    None for the first. The first ``draws`` of the map are used. If ``in_turn``, each pose is weighed under one draw,
+    the draws in turn; the result is (P, 1).
     """
     count = len(poses)
     draws = maps.draws if draws is None else min(draws, maps.draws)

@@ -115,15 +115,12 @@ class StopChains:
         steps: int = endpoint_cells.STEPS, observing_after: int | None = None,
         before: Callable[[int, int], None] | None = None, after: Callable[[int, int], None] | None = None,
     ) -> tuple[Floats, Floats]:  # fmt: skip
-        """Advance every chain by some sweeps, which are numbered from 0.
+        """Advance every chain by some sweeps, which are numbered from 0, at the inverse temperature ``beta``.
 
-        Args:
-            beta: inverse temperature.
-            steps: Metropolis steps of a surface in a sweep, at most 24: a cell has random counters for this many. With
-                0, cells stay.
-            observing_after: the first sweep that counts the cells which beams observe. With surfaces `in_squares` does.
-            before: callback before each sweep, with the numbers of chain and sweep.
-            after: callback after each sweep with the same arguments, on the thread that ran the sweep.
+        A surface makes ``steps`` Metropolis steps in a sweep, at most 24: a cell has random counters for this many.
+        With 0, cells stay. From sweep ``observing_after`` on, the cells which beams observe are counted; with surfaces
+        `in_squares` counts them. The callbacks get the numbers of chain and sweep, ``after`` on the thread of the
+        sweep.
 
         Returns:
             log-likelihood and log prior of the cells as they were *before* each sweep, (chains, count) each.
