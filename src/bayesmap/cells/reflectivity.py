@@ -8,7 +8,7 @@ reflectivity m in [0, 1], the chance that it stops a beam. A stopped beam stops 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any, ClassVar, NamedTuple
 
@@ -257,47 +257,50 @@ class Reflective(CellPrior):
         return np.asarray(draws.arrays[self.shown[1]][:, :, np.searchsorted(draws.index["cell"], cells)])
 
     def predictive_stops(self, draws: Draws, wanted: NDArray[np.int32] | None = None) -> Iterator[NDArray[np.float32]]:
-        """Yield the expected reflectivities of each draw, (draws, n), in batches of draws.
+        """Yield the stops of each draw with expected reflectivities, in batches of draws.
 
         The density of a reading is linear in each cell's reflectivity. So expected reflectivities give the same mean
         density over draws as drawn reflectivities, with less noise. Untouched cells have the prior's mean, given their
         label if cells have labels.
         """
-        cells = np.arange(draws.grid.n_cells, dtype=np.int32) if wanted is None else wanted
-        place, known = places_among(draws.index["cell"], cells)
-        expected = draws.arrays["expected"].reshape(draws.size, -1)
-        at_once, numbers = max(1, BATCH_BYTES // (4 * max(len(cells), 1))), list(draws.numbers())
-        for i in range(0, draws.size, at_once):
-            some = expected[i : i + at_once]
-            stops = np.full((len(some), len(cells)), self.mean, dtype=np.float32)
-            if self.has_labels:
-                for row, number in zip(stops, numbers[i : i + at_once], strict=True):
-                    row[:] = self.mean_given(ising_field.of_draw(draws, *number)[cells])
-            stops[:, known] = some[:, place[known]]
-            yield stops
+        return self._stops_of_draws(draws, wanted, drawn=False)
 
     def drawn_stops(self, draws: Draws, wanted: NDArray[np.int32] | None = None) -> Iterator[NDArray[np.float32]]:
         """Yield the stops with drawn reflectivities; those of untouched cells are drawn from the prior."""
+        return self._stops_of_draws(draws, wanted, drawn=True)
+
+    def _stops_of_draws(
+        self, draws: Draws, wanted: NDArray[np.int32] | None, *, drawn: bool
+    ) -> Iterator[NDArray[np.float32]]:
         cells = np.arange(draws.grid.n_cells, dtype=np.int32) if wanted is None else wanted
-        place, known = places_among(draws.index["cell"], cells)
-        drawn = draws.arrays["reflectivity"].reshape(draws.size, -1)
+        position, stored = places_among(draws.index["cell"], cells)
+        position, reflectivities = position[stored], draws.arrays["reflectivity" if drawn else "expected"]
         rng = np.random.default_rng(1)
         # The pool of prior states is drawn once; each draw of the map reads it from another random offset.
-        fresh = rng.beta(self.a, self.b, FRESH_CELLS).astype(np.float32)
-        solid_ones = rng.beta(self.a_solid, self.b_solid, FRESH_CELLS).astype(np.float32) if self.has_labels else fresh
-        numbers = list(draws.numbers())
-        number = 0
-        # Replace the reflectivities of `predictive_stops`, in place: surfaces stay.
-        for batch in self.predictive_stops(draws, wanted):
-            for stops in batch if batch.ndim == 2 else batch[..., 0]:
-                taken = (cells + int(rng.integers(FRESH_CELLS))) % FRESH_CELLS
-                stops[:] = fresh[taken]
-                if self.has_labels:
-                    solid = ising_field.of_draw(draws, *numbers[number])[cells]
-                    stops[solid] = solid_ones[taken[solid]]
-                stops[known] = drawn[number, place[known]]
-                number += 1
+        free_pool = rng.beta(self.a, self.b, FRESH_CELLS).astype(np.float32)
+        solid_pool = rng.beta(self.a_solid, self.b_solid, FRESH_CELLS).astype(np.float32) if self.has_labels else None
+        write_surfaces, numbers = self.surface_writer(draws, cells), list(draws.numbers())
+        shape = (len(cells), 6) if self.has_surfaces else (len(cells),)
+        at_once = max(1, BATCH_BYTES // ((32 if self.has_surfaces else 4) * max(len(cells), 1)))
+        for i in range(0, len(numbers), at_once):
+            batch = np.empty((len(numbers[i : i + at_once]), *shape), dtype=np.float32)
+            for stops, (chain, draw) in zip(batch, numbers[i : i + at_once], strict=True):
+                write_surfaces(stops, chain, draw)
+                m = stops[:, 0] if self.has_surfaces else stops
+                solid = ising_field.of_draw(draws, chain, draw)[cells] if self.has_labels else None
+                if drawn:
+                    pool_index = (cells + int(rng.integers(FRESH_CELLS))) % FRESH_CELLS
+                    m[:] = free_pool[pool_index]
+                    if solid is not None and solid_pool is not None:
+                        m[solid] = solid_pool[pool_index[solid]]
+                else:
+                    m[:] = self.mean if solid is None else self.mean_given(solid)
+                m[stored] = reflectivities[chain, draw, position]
             yield batch
+
+    def surface_writer(self, draws: Draws, cells: NDArray[np.int32]) -> Callable[[NDArray[np.float32], int, int], None]:
+        """Return a function that writes the surfaces of the cells in a draw, by chain and draw, into stops, (n, 6)."""
+        return lambda stops, chain, draw: None
 
     def _described(self) -> dict[str, Any]:
         """Return the parameters of reflectivities, and of labels where there are labels."""

@@ -7,7 +7,7 @@ Normal-distributions-transform maps (Biber and Strasser, 2003) store the same di
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
@@ -15,9 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import special
 
-from bayesmap.cells import ising_field
 from bayesmap.cells.arrays import ArraySpec, Draws
-from bayesmap.cells.kind import BATCH_BYTES, Cells, Floats, Words
+from bayesmap.cells.kind import Cells, Floats, Words
 from bayesmap.cells.reflectivity import EXPECTED, FRESH_CELLS, REFLECTIVITY, KernelNumbers, Reflective, places_among
 from bayesmap.errors import BadInput
 from bayesmap.space.grid import Grid
@@ -53,10 +52,7 @@ class Surface(Reflective):
     exp(-tr Sigma / (2 kappa^2)). Lengths are in edges of a cell, so that one prior serves all resolutions.
 
     Attributes:
-        a, b: pseudo-counts of stopped and of passing beams; for free cells only, if cells have labels.
-        coupling: log density added by each pair of neighbours (cells that share an edge) with the same label; at 0
-            there are no labels, and cells are independent.
-        a_solid, b_solid: pseudo-counts for solid cells, if cells have labels.
+        a, b, coupling, a_solid, b_solid: as in `Beta`.
         mean_scale: tau, standard deviation of a surface's mean about the cell's centre; the mean lies inside the cell.
         spread: sqrt(psi), typical size of surfaces.
         dof: nu, degrees of freedom of the size; more than 1.
@@ -178,8 +174,8 @@ class Surface(Reflective):
             Means in the world frame in metres, (U, 2); covariances of the points in m^2, (U, 2, 2); and mean
             reflectivities of the cells, (U,).
         """
-        edge, held = draws.grid.resolution, draws.index["surface_cell"]
-        mean, second = np.zeros((len(held), 2)), np.zeros((len(held), 2, 2))
+        edge, cells = draws.grid.resolution, draws.index["surface_cell"]
+        mean, second = np.zeros((len(cells), 2)), np.zeros((len(cells), 2, 2))
         # Sum means and covariances over draws.
         for chain, draw in draws.numbers():
             x, y, l11, l21, l22 = (
@@ -192,42 +188,31 @@ class Surface(Reflective):
         second[:, 1, 0] = second[:, 0, 1]
         # Divide by the number of draws, and look up the reflectivities of the same cells.
         n = max(draws.size, 1)
-        place, _ = places_among(draws.index["cell"], held)
-        reflectivity = draws.arrays["expected"][..., place].mean(axis=(0, 1), dtype=np.float64)
-        return draws.grid.cell_centres_m(held) + np.array(draws.grid.origin) + mean / n, second / n, reflectivity
+        position, _ = places_among(draws.index["cell"], cells)
+        reflectivity = draws.arrays["expected"][..., position].mean(axis=(0, 1), dtype=np.float64)
+        return draws.grid.cell_centres_m(cells) + np.array(draws.grid.origin) + mean / n, second / n, reflectivity
 
-    def predictive_stops(self, draws: Draws, wanted: NDArray[np.int32] | None = None) -> Iterator[NDArray[np.float32]]:
-        """Yield expected reflectivities and the draw's surfaces, (draws, n, 6), in batches of draws.
+    def surface_writer(self, draws: Draws, cells: NDArray[np.int32]) -> Callable[[NDArray[np.float32], int, int], None]:
+        """Return a function that writes the surfaces of the cells in a draw, by chain and draw, into stops, (n, 6).
 
         Draws store the surfaces of cells in which a reading ends. Surfaces of other cells almost follow the prior, and
         are drawn from it here.
         """
-        cells = np.arange(draws.grid.n_cells, dtype=np.int32) if wanted is None else wanted
-        place, known = places_among(draws.index["cell"], cells)
-        surface_place, with_surface = places_among(draws.index["surface_cell"], cells)
-        place, surface_place = place[known], surface_place[with_surface]
-        edge = draws.grid.resolution
-        centre = draws.grid.cell_centres_m(cells)
-        rng = np.random.default_rng(0)
+        position, stored = places_among(draws.index["surface_cell"], cells)
+        position, centre, rng = position[stored], draws.grid.cell_centres_m(cells), np.random.default_rng(0)
         # The pool of prior surfaces is drawn once; each draw of the map reads it from another random offset. The
-        # surface of a cell does not depend on the other cells in ``wanted``.
-        fresh = np.zeros((FRESH_CELLS, 6), dtype=np.float32)
-        fresh[:, 0] = self.mean
-        fresh[:, 1:] = self.sample_surfaces(rng, len(fresh))
-        numbers = list(draws.numbers())
-        at_once = max(1, BATCH_BYTES // (32 * max(len(cells), 1)))
-        for i in range(0, len(numbers), at_once):
-            batch = np.empty((len(numbers[i : i + at_once]), len(cells), 6), dtype=np.float32)
-            for states, (chain, draw) in zip(batch, numbers[i : i + at_once], strict=True):
-                states[:] = fresh[(cells + int(rng.integers(FRESH_CELLS))) % FRESH_CELLS]
-                if self.has_labels:
-                    states[:, 0] = self.mean_given(ising_field.of_draw(draws, chain, draw)[cells])
-                states[known, 0] = draws.arrays["expected"][chain, draw, place]
-                for part, name in enumerate(PARTS, 1):
-                    states[with_surface, part] = draws.arrays[f"surface_{name}"][chain, draw, surface_place]
-                states[:, 1:] *= edge
-                states[:, 1:3] += centre
-            yield batch
+        # surface of a cell does not depend on the other cells.
+        pool = self.sample_surfaces(rng, FRESH_CELLS).astype(np.float32)
+
+        def write(stops: NDArray[np.float32], chain: int, draw: int) -> None:
+            surfaces = stops[:, 1:]
+            surfaces[:] = pool[(cells + int(rng.integers(FRESH_CELLS))) % FRESH_CELLS]
+            for part, name in enumerate(PARTS):
+                surfaces[stored, part] = draws.arrays[f"surface_{name}"][chain, draw, position]
+            surfaces *= draws.grid.resolution
+            surfaces[:, :2] += centre
+
+        return write
 
     def describe(self) -> dict[str, Any]:
         """Return the prior as plain JSON values."""

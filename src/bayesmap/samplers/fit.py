@@ -54,19 +54,12 @@ LEAST_WEIGHT = 10.0
 
 @dataclass(frozen=True, eq=False)
 class StopResiduals:
-    """Readings of beams that were stopped, (N,) each.
+    """Readings of beams that were stopped, (N,) each."""
 
-    Attributes:
-        residual_m: reading minus distance of the stop.
-        distance_m: distance of the stop.
-        variance: variance of the stop along the beam, square metres, added to that of the noise.
-        weight: probability that the reading returned from the stop.
-    """
-
-    residual_m: Floats
-    distance_m: Floats
-    variance: Floats
-    weight: Floats
+    residual_m: Floats  # reading minus distance of the stop
+    distance_m: Floats  # distance of the stop
+    variance: Floats  # variance of the stop along the beam, square metres, added to that of the noise
+    weight: Floats  # probability that the reading returned from the stop
 
     def cost(self, dof: float, scale_m: float, per_m: float) -> float:
         """Return the mean negative log density of noise of scale sqrt((scale_m + per_m distance)^2 + variance)."""
@@ -97,8 +90,8 @@ def refit_noise(noise: AdditiveNoise, residuals: StopResiduals, step: float) -> 
     numbers = noise.kernel_parameters()
     assert numbers is not None
     dof, scale_m, per_m = numbers.dof or math.inf, numbers.sigma_m, numbers.sigma_per_m
-    place = SHAPES.index(dof)
-    tried = SHAPES[max(place - 1, 0) : place + 2] if step == 1.0 else (dof,)
+    index = SHAPES.index(dof)
+    tried = SHAPES[max(index - 1, 0) : index + 2] if step == 1.0 else (dof,)
     costs = {shape: residuals.likeliest(shape, scale_m, per_m) for shape in tried}
     a_number_more = 0.5 * math.log(readings) / readings  # cost of the parameter dof (Schwarz 1978)
     best = min(tried, key=lambda shape: costs[shape][0] + (a_number_more if shape < math.inf else 0.0))
@@ -162,18 +155,13 @@ def fit(problem: StopProblem, seed: int, sweeps: int, watch: Watch = SILENT) -> 
 
     The watch gets progress after each sweep; a stop ends the pilot, and with it the run.
     """
-    fitted = _first(problem)
+    assert isinstance(problem.sensor, BeamMixture)
+    fitted = Parameters(problem.sensor, problem.prior)
     for parameters, _ in pilot_sweeps(problem, seed, sweeps, watch):
         fitted = parameters
         if watch.should_stop():
             break
     return fitted
-
-
-def _first(problem: StopProblem) -> Parameters:
-    """Return the parameters with which a fit starts."""
-    assert isinstance(problem.sensor, BeamMixture)
-    return Parameters(problem.sensor, problem.prior)
 
 
 def pilot_sweeps(
@@ -182,24 +170,24 @@ def pilot_sweeps(
     """Run the pilot. Yields the parameters after each sweep, and the sweep's report with its draw, if kept."""
     if sweeps == 0:
         return
-    sampler, now = StopGibbs(), _first(problem)
+    assert isinstance(problem.sensor, BeamMixture)
+    sampler, sensor, prior = StopGibbs(), problem.sensor, problem.prior
     state = sampler.init(problem, [PILOT], seed)
     every = max(1, math.ceil(problem.rays.n_beams / BEAMS_LOOKED_AT))
     beams = slice(every // 2, None, every)
     for sweep in range(sweeps):
         state, info = sampler.step(state, 1, keep=keep)
         if sweep >= FIRST_SWEEP:
-            step, sensor, prior = step_share(sweep), now.sensor, now.prior
+            step = step_share(sweep)
             sensor = refit_sensor(sensor, stops_of(state, beams), problem.rays.limits, step)
             if sweep % PRIOR_EVERY == 0:
                 touched = problem.estimate.touched
                 hits, met = (count[touched] for count in state.chains.counted(0))
                 solid = state.chains.solid(0)[touched] if prior.has_labels else None
                 prior = refit_prior(prior, hits, met, step, solid)
-            now = Parameters(sensor, prior)
             state = replace(state, problem=problem.under(sensor, prior))
         watch.report("fit", sweep + 1, sweeps, float(info.log_likelihood[0, -1] + info.log_prior[0, -1]))
-        yield now, info
+        yield Parameters(sensor, prior), info
 
 
 def fit_sensor(
@@ -220,14 +208,10 @@ def fit_sensor(
 
 def stops_of(state: StopState, beams: slice) -> DrawnStops:
     """Return the stops of the given beams in the last sweep, all chains together."""
-    rays, chains = state.problem.rays, range(state.chains.n_chains)
-    parts = [state.chains.stops(chain) for chain in chains]
-    return DrawnStops(
-        range_m=np.tile(rays.range_m[beams], len(parts)),
-        stopped=np.concatenate([stopped[beams] for stopped, _, _ in parts]),
-        distance_m=np.concatenate([distance[beams] for _, distance, _ in parts]).astype(np.float64),
-        variance=np.concatenate([variance[beams] for _, _, variance in parts]).astype(np.float64),
-    )
+    each = [state.chains.stops(chain) for chain in range(state.chains.n_chains)]
+    stopped, distance_m, variance = (np.concatenate([p[beams] for p in parts]) for parts in zip(*each, strict=True))
+    range_m = np.tile(state.problem.rays.range_m[beams], len(each))
+    return DrawnStops(range_m, stopped, distance_m.astype(np.float64), variance.astype(np.float64))
 
 
 def step_share(sweep: int, whole_until: int = WHOLE_UNTIL) -> float:
@@ -353,17 +337,17 @@ def fit_coupling_to_scans(
 
     The watch gets progress after each sweep of the pilot; a stop ends the pilot, and with it the run.
     """
-    now = replace(cast(Ising, model.cells), coupling=FIRST_COUPLING)
-    problem = sampler.prepare(replace(model, cells=now), device, threads, watch)
+    prior = replace(cast(Ising, model.cells), coupling=FIRST_COUPLING)
+    problem = sampler.prepare(replace(model, cells=prior), device, threads, watch)
     state = sampler.init(problem, [PILOT], seed, watch=watch)
     for sweep in range(COUPLING_SWEEPS):
         state, info = sampler.step(state, 1)
         walls = state.walls().reshape(problem.grid.shape) != 0
-        best = likeliest(*counts(walls, np.asarray(now.p_wall, dtype=np.float64)))
+        best = likeliest(*counts(walls, np.asarray(prior.p_wall, dtype=np.float64)))
         step = step_share(sweep, COUPLING_WHOLE_UNTIL)
-        now = replace(now, coupling=now.pair_coupling + step * (best - now.pair_coupling))
-        state = replace(state, problem=state.problem.under(now))
+        prior = replace(prior, coupling=prior.pair_coupling + step * (best - prior.pair_coupling))
+        state = replace(state, problem=state.problem.under(prior))
         watch.report("fit", sweep + 1, COUPLING_SWEEPS, float(info.log_likelihood[0, -1] + info.log_prior[0, -1]))
         if watch.should_stop():
             break
-    return now
+    return prior

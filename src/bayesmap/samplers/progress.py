@@ -31,12 +31,7 @@ class Event:
 
 @dataclass(frozen=True)
 class Watch:
-    """The receiver of progress, and the callback that may stop a run.
-
-    Attributes:
-        on_progress: the progress callback.
-        should_stop: callback between two pieces of work; true stops the run.
-    """
+    """The receiver of progress, and the callback between two pieces of work that returns true to stop a run."""
 
     on_progress: Callable[[Event], None] | None = None
     should_stop: Callable[[], bool] = lambda: False
