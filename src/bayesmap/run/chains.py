@@ -27,6 +27,7 @@ FEWEST_BATCHES = 8
 KNOWN_SHARE = 0.99
 """Share of the observed cells whose error is at most the reported error. The worst cell alone is uninformative."""
 CELLS_AT_ONCE = 8192  # per batch of `map_error`
+DENSITIES = ("log_likelihood", "log_prior", "warmup_log_joint")
 
 
 @dataclass(frozen=True)
@@ -115,15 +116,12 @@ class Chains:
     """The draws and the states of chains so far.
 
     Attributes:
-        draws: kept draws.
         log_likelihood, log_prior: the two parts of the log joint of each kept draw, (chains, kept).
         warmup_log_joint: log joint of each warm-up sweep so far, (chains, warm-up sweeps).
-        snapshot: states of the chains.
         observed_counts: the draws in which at least one beam observes each cell, and the draws inspected, (2, nx, ny).
         statistics: results of the start, by name.
         n_incidences: number of cells that beams cross, summed over beams.
         seconds: time spent in tracing ("trace"), at the start ("warm_start") and in sweeps ("sampling").
-        finished: true if all draws are made.
     """
 
     draws: Draws
@@ -182,53 +180,44 @@ def map_error(cells: CellPrior, draws: Draws, observed: NDArray[np.bool_]) -> fl
     return float(np.quantile(errors, KNOWN_SHARE)) if len(which) else 0.0
 
 
+def _concatenated(parts: Sequence[Chains], axis: int) -> Chains:
+    """Return the last part with the draws and densities of all parts along an axis, and the sum of their seconds."""
+    last = parts[-1]
+    draws = {name: np.concatenate([part.draws.arrays[name] for part in parts], axis) for name in last.draws.arrays}
+    densities = {name: np.concatenate([getattr(part, name) for part in parts], axis) for name in DENSITIES}
+    seconds = {name: sum(part.seconds.get(name, 0.0) for part in parts) for name in last.seconds}
+    draws_of_all = replace(last.draws, arrays=draws)
+    return replace(last, draws=draws_of_all, seconds=seconds, statistics=parts[0].statistics, **densities)
+
+
 def join(parts: Sequence[Chains]) -> Chains:
     """Join chains that ran separately, in the given order, as if they had run together.
 
     All must have made the same number of sweeps.
     """
-    first = parts[0]
     if len(parts) == 1:
-        return first
+        return parts[0]
     assert len({part.sweep for part in parts}) == 1, "chains of different length cannot be joined"
-
-    def joined(arrays: Sequence[Mapping[str, NDArray[Any]]]) -> dict[str, NDArray[Any]]:
-        return {name: np.concatenate([part[name] for part in arrays]) for name in arrays[0]}
-
+    snapshots = [part.snapshot.arrays for part in parts]
+    arrays = {name: np.concatenate([snapshot[name] for snapshot in snapshots]) for name in snapshots[0]}
     return replace(
-        first,
-        draws=replace(first.draws, arrays=joined([part.draws.arrays for part in parts])),
-        log_likelihood=np.concatenate([part.log_likelihood for part in parts]),
-        log_prior=np.concatenate([part.log_prior for part in parts]),
-        warmup_log_joint=np.concatenate([part.warmup_log_joint for part in parts]),
-        snapshot=Snapshot(first.sweep, joined([part.snapshot.arrays for part in parts])),
+        _concatenated(parts, 0), snapshot=Snapshot(parts[0].sweep, arrays),
         observed_counts=np.sum([part.observed_counts for part in parts], axis=0),
-        seconds={name: sum(part.seconds[name] for part in parts) for name in first.seconds},
         finished=all(part.finished for part in parts),
-    )
+    )  # fmt: skip
 
 
 def some_chains(chains: Chains, which: slice) -> Chains:
     """Return a slice of the chains."""
     draws = replace(chains.draws, arrays={name: array[which] for name, array in chains.draws.arrays.items()})
     snapshot = Snapshot(chains.sweep, {name: array[which] for name, array in chains.snapshot.arrays.items()})
-    return replace(
-        chains, draws=draws, snapshot=snapshot, log_likelihood=chains.log_likelihood[which],
-        log_prior=chains.log_prior[which], warmup_log_joint=chains.warmup_log_joint[which],
-    )  # fmt: skip
+    densities = {name: getattr(chains, name)[which] for name in DENSITIES}
+    return replace(chains, draws=draws, snapshot=snapshot, **densities)
 
 
 def in_sequence(parts: Sequence[Chains]) -> Chains:
     """Join consecutive sweeps of the same chains. Snapshot and observed counts are those of the last part."""
-    first, last = parts[0], parts[-1]
-    draws = {name: np.concatenate([part.draws.arrays[name] for part in parts], axis=1) for name in last.draws.arrays}
-    return replace(
-        last, draws=replace(last.draws, arrays=draws), statistics=first.statistics,
-        log_likelihood=np.concatenate([part.log_likelihood for part in parts], axis=1),
-        log_prior=np.concatenate([part.log_prior for part in parts], axis=1),
-        warmup_log_joint=np.concatenate([part.warmup_log_joint for part in parts], axis=1),
-        seconds={name: sum(part.seconds.get(name, 0.0) for part in parts) for name in last.seconds},
-    )  # fmt: skip
+    return _concatenated(parts, 1)
 
 
 class Record:
@@ -241,8 +230,7 @@ class Record:
             empty, arrays={spec.name: spec.empty(chains, schedule.draws, empty.shape_of(spec)) for spec in empty.specs}
         )
         self._keep = schedule.keep
-        self._log_likelihood = np.zeros((chains, schedule.draws))
-        self._log_prior = np.zeros((chains, schedule.draws))
+        self._log_likelihood, self._log_prior = np.zeros((2, chains, schedule.draws))
         self._warmup = np.zeros((chains, schedule.warmup))
         self.kept = self.warmed = 0
         if resume is not None:

@@ -28,10 +28,9 @@ from bayesmap.version import __version__
 
 
 def connect(address: str | None) -> Any:
-    """Return the `ray` module, connected to a cluster. An existing connection is used, and stays open.
+    """Return the `ray` module, connected to the cluster at an address, see `RayExecutor`.
 
-    Args:
-        address: address of the cluster, see `bayesmap.run.ray_executor.RayExecutor`.
+    An existing connection is used, and stays open.
 
     Raises:
         BadInput: Ray is not installed, or there is no cluster at the address.
@@ -206,8 +205,8 @@ class _RayRun:
         resources = ray.cluster_resources()
         at_once = int(resources.get("GPU", 0) if on_gpu else resources.get("CPU", 0) // executor.cpus_per_task)
         if at_once == 0:
-            wanted = "a GPU" if on_gpu else f"{executor.cpus_per_task} CPUs"
-            raise BadInput(f"RayExecutor: no task can run: each needs {wanted}, and the cluster has too few")
+            need = "a GPU" if on_gpu else f"{executor.cpus_per_task} CPUs"
+            raise BadInput(f"RayExecutor: no task can run: each needs {need}, and the cluster has too few")
         self.options = {
             "num_cpus": executor.cpus_per_task, "num_gpus": int(on_gpu), "max_retries": executor.retries,
         }  # fmt: skip
@@ -216,13 +215,10 @@ class _RayRun:
             Group(which, ids[which], None if resume is None else some_chains(resume, which))
             for which in executor.groups(len(ids), at_once)
         ]
-        begin = 0
-        if resume is not None:
-            begin = resume.sweep
-            for group in self.groups:
-                assert group.resume is not None
-                group.snapshots[begin] = group.resume.snapshot
-        self.marks = Marks(job.schedule, executor.segment_s, [begin])
+        for group in self.groups:
+            if group.resume is not None:
+                group.snapshots[group.resume.sweep] = group.resume.snapshot
+        self.marks = Marks(job.schedule, executor.segment_s, [0 if resume is None else resume.sweep])
         self.running: dict[Any, Group] = {}
         self.name = uuid.uuid4().hex
         self.shared: tuple[Any, ...] = ()

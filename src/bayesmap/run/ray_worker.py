@@ -52,7 +52,7 @@ def run_segment(
 
 
 @dataclass
-class Held:
+class Cached:
     """The problem of a run that this process keeps, with numbers and state of the chains of the last segment."""
 
     run: str
@@ -60,7 +60,7 @@ class Held:
     chains: tuple[tuple[int, ...], ChainState] | None = None
 
 
-_held: Held | None = None
+_cached: Cached | None = None
 
 
 def prepare(job: Job, version: str) -> tuple[Any, float]:
@@ -78,35 +78,35 @@ def prepare(job: Job, version: str) -> tuple[Any, float]:
     return job.sampler.prepare(job.model_to_trace, job.device, job.threads), time.perf_counter() - began
 
 
-def held(run: str, job: Job, problem: list[Any]) -> Held:
+def cached(run: str, job: Job, problem: list[Any]) -> Cached:
     """Return this process's cached problem of a run; fetch it from the object store on first use.
 
     The reference to the problem stands in a list: Ray would fetch a bare reference for every segment.
     """
-    global _held  # noqa: PLW0603 -- one per process, as the worker is
-    if _held is None or _held.run != run:
+    global _cached  # noqa: PLW0603 -- one per process, as the worker is
+    if _cached is None or _cached.run != run:
         import ray
 
         prepared = ray.get(problem[0])
         if job.parameters is not None:
             prepared = prepared.under(job.parameters.sensor, job.parameters.prior)
-        _held = Held(run, prepared)
-    return _held
+        _cached = Cached(run, prepared)
+    return _cached
 
 
 def advance(
     run: str, job: Job, problem: list[Any], chain_ids: tuple[int, ...], until: int, resume: Snapshot | None
 ) -> Chains:
     """Run the given chains of a job up to a number of sweeps; see `run_segment`."""
-    here = held(run, job, problem)
+    cache = cached(run, job, problem)
     # Use the cached chains only if they are these chains, at the sweep of the snapshot.
-    ids, state = here.chains or ((), None)
-    here.chains = None
+    ids, state = cache.chains or ((), None)
+    cache.chains = None
     if state is not None and (ids != chain_ids or resume is None or state.sweep != resume.sweep):
         state = None
-    job = replace(job, problem=here.problem, chain_ids=chain_ids)
+    job = replace(job, problem=cache.problem, chain_ids=chain_ids)
     segment, state = run_segment(job, until, resume, state)
-    here.chains = (chain_ids, state)
+    cache.chains = (chain_ids, state)
     return segment
 
 
@@ -114,10 +114,6 @@ def observed_counts(
     run: str, job: Job, problem: list[Any], chain_ids: tuple[int, ...], snapshot: Snapshot,
     draws: Mapping[str, NDArray[Any]],
 ) -> NDArray[np.int32]:  # fmt: skip
-    """Compute `bayesmap.samplers.sampler.Sampler.observed_counts` of chains at a snapshot.
-
-    The draws come from `bayesmap.samplers.sampler.to_see`.
-    """
-    here = held(run, job, problem)
-    state = job.sampler.init(here.problem, chain_ids, job.seed, snapshot)
+    """Count observed cells of chains at a snapshot, see `Sampler.observed_counts`; `to_see` selects the draws."""
+    state = job.sampler.init(cached(run, job, problem).problem, chain_ids, job.seed, snapshot)
     return job.sampler.observed_counts(state, draws)

@@ -68,12 +68,7 @@ class Job:
     """Chains of one posterior, with all that a process needs to run them.
 
     Attributes:
-        model: model to sample.
-        sampler: sampler of the model.
-        schedule: number of sweeps, draws and warm-up sweeps.
-        seed: seed of all random numbers.
         chain_ids: numbers of the chains among all chains of the run.
-        device: device of the kernels.
         threads: number of CPU threads; all cores if None.
         parameters: sensor and prior that were fitted beforehand; None to run under those of the model.
         problem: the sampler's prepared problem, if this process has it already.
@@ -163,19 +158,11 @@ def run_chains(
     job: Job, *, resume: Chains | None = None, watch: Watch = SILENT,
     on_checkpoint: Callable[[Chains], None] | None = None, checkpoint_every_s: float = 30.0,
 ) -> Chains:  # fmt: skip
-    """Run warm-up and draws of all chains of a job in this process.
+    """Run warm-up and draws of all chains of a job in this process, or continue those of ``resume``, bit for bit.
 
-    Args:
-        job: the job to run.
-        resume: chains of this job to continue. The result equals that of uninterrupted chains, bit for bit.
-        watch: gets progress after every step, and may stop the chains between two steps.
-        on_checkpoint: called with the chains so far at the end of warm-up, and every ``checkpoint_every_s`` seconds;
-            less often if it would take more than 5 % of the time.
-        checkpoint_every_s: seconds between two checkpoints.
-
-    Returns:
-        The chains, with all draws or with the map at the precision of the schedule. Their ``finished`` is false if the
-        watch stopped them, even in the last step.
+    The watch gets progress after every step, and may stop the chains between two steps: then they are not ``finished``,
+    even in the last step. ``on_checkpoint`` gets the chains so far at the end of warm-up, and every
+    ``checkpoint_every_s`` seconds; less often if it would take more than 5 % of the time.
     """
     # Start the chains, and make room for their draws.
     schedule, chains = job.schedule, len(job.chain_ids)
@@ -265,11 +252,7 @@ class Executor(Protocol):
 
 @dataclass(frozen=True)
 class ThreadExecutor:
-    """Runs all chains in this process, on its threads or its GPU.
-
-    Attributes:
-        should_stop: function that returns true to stop between two steps, beside the watch of the run.
-    """
+    """Runs all chains in this process, on its threads or its GPU; ``should_stop`` may stop them, as the watch may."""
 
     should_stop: Callable[[], bool] = lambda: False
 

@@ -79,16 +79,16 @@ def initial_estimate(rays: Rays, prior: Reflective, device: str = "cpu") -> Init
     ended = end_cell >= 0
     hits = np.bincount(end_cell[ended], minlength=grid.n_cells).astype(np.int32)
     ended_cells = np.flatnonzero(hits)
-    place = np.searchsorted(ended_cells, end_cell[ended])
+    index = np.searchsorted(ended_cells, end_cell[ended])
     points, centre, of_cell = rays.end_points_m()[ended], grid.cell_centres_m(ended_cells), hits[ended_cells]
 
     def total(values: Floats) -> Floats:
-        return np.bincount(place, values, len(ended_cells)).astype(np.float64)
+        return np.bincount(index, values, len(ended_cells)).astype(np.float64)
 
     # Means and covariances, shrunk towards the prior.
     weight = of_cell + CENTRE_WEIGHT
     mean = np.stack([total(points[:, i]) + CENTRE_WEIGHT * centre[:, i] for i in (0, 1)], axis=-1) / weight[:, None]
-    away, off = points - mean[place], centre - mean
+    away, off = points - mean[index], centre - mean
 
     def second(i: int, j: int) -> Floats:
         scatter = total(away[:, i] * away[:, j]) + CENTRE_WEIGHT * off[:, i] * off[:, j]

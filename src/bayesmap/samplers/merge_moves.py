@@ -123,10 +123,8 @@ def try_changes(
     """Change maps, and undo the changes that raise the evidence by less than ``least`` nats around their place.
 
     The readings of ``half`` cells to each side of a place are compared; the places of a chain do not touch. ``before``
-    is the evidence before the changes, (C, nx, ny); it is updated around the changes that stay.
-
-    Returns:
-        For each chain, the mask of changes that stay.
+    is the evidence before the changes, (C, nx, ny); it is updated around the changes that stay. Returns the mask of
+    changes that stay, for each chain.
     """
     olds = []
     for cells, solid, new in zip(maps.cells, maps.solid, changes, strict=True):
@@ -150,10 +148,10 @@ def sums_over_squares(values: Floats, half: int) -> Floats:
     return np.asarray(ndimage.uniform_filter(values, 2 * half + 1, mode="constant") * (2 * half + 1) ** 2)
 
 
-def apart(places: NDArray[np.intp], cells: int, shape: tuple[int, int]) -> NDArray[np.bool_]:
+def apart(sites: NDArray[np.intp], cells: int, shape: tuple[int, int]) -> NDArray[np.bool_]:
     """Select sites greedily, each more than ``cells`` cells from those already selected. Returns a mask, (n,)."""
-    near, chosen = np.zeros(shape, dtype=np.bool_), np.zeros(len(places), dtype=np.bool_)
-    for i, (x, y) in enumerate(places):
+    near, chosen = np.zeros(shape, dtype=np.bool_), np.zeros(len(sites), dtype=np.bool_)
+    for i, (x, y) in enumerate(sites):
         if not near[x, y]:
             near[max(0, x - cells) : x + cells + 1, max(0, y - cells) : y + cells + 1] = True
             chosen[i] = True
@@ -227,38 +225,31 @@ def merge_surfaces(
     maps: ChainMaps, end_points_m: Floats, noise: Floats, owners: list[NDArray[np.int32]], grid: Grid, look: Look,
     before: Floats,
 ) -> list[int]:  # fmt: skip
-    """Try for every surface that stops few beams whether a neighbour is better without it.
+    """Try for every surface that stops few beams whether a neighbour is better without it; change maps in place.
 
-    Args:
-        maps: maps of all chains, changed in place.
-        end_points_m: end points of readings, metres from the grid's corner, (B, 2); NaN or infinite if there is none.
-        noise: variance of each reading's noise, square metres, (B,).
-        owners: for each chain, the flat index of the cell that stopped each beam, (B,); -1 for none.
-        grid: grid of the cells.
-        look: function that computes the evidence of maps, see `look_with`.
-        before: evidence of the present maps, (C, nx, ny).
-
-    Returns:
-        Number of removed surfaces of each chain.
+    For B beams ``end_points_m`` holds the readings' end points from the grid's corner, (B, 2), not finite if there is
+    none, and ``noise`` the variances of their noise, square metres, (B,). ``owners`` has for each chain the flat index
+    of the cell that stopped each beam, -1 for none, (B,). ``before`` is the evidence of the maps, (C, nx, ny).
+    Returns the number of removed surfaces of each chain.
     """
     changes = [merge_moves(*of, end_points_m, noise, grid) for of in zip(maps.cells, maps.solid, owners, strict=True)]
     changed = np.zeros(maps.solid.shape, dtype=np.bool_)
-    gone, before = [0] * len(changes), before.copy()
+    removed, before = [0] * len(changes), before.copy()
     for _ in range(MERGE_ROUNDS):
         tried = []
         for chain, waiting in enumerate(changes):
             # A change is valid only while the surfaces from which it was made are unchanged.
             valid = waiting.select(~changed[chain][waiting.where].any(axis=1))
-            now = apart(valid.middle, 2 * AROUND, grid.shape)
-            tried.append(valid.select(now))
-            changes[chain] = valid.select(~now)
+            mask = apart(valid.middle, 2 * AROUND, grid.shape)
+            tried.append(valid.select(mask))
+            changes[chain] = valid.select(~mask)
         if not any(len(new.middle) for new in tried):
             break
         stays = try_changes(maps, tried, look, before, AROUND, MERGED_NATS)
         for chain, (new, stay) in enumerate(zip(tried, stays, strict=True)):
             changed[chain][new.where[stay]] = True
-            gone[chain] += int(stay.sum())
-    return gone
+            removed[chain] += int(stay.sum())
+    return removed
 
 
 def merge_moves(

@@ -79,11 +79,9 @@ class Metropolis:
         watch: Watch = SILENT,
     ) -> MetropolisState:  # fmt: skip
         """Start chains at draws from the prior, or at the maps of a snapshot."""
-        prior, grid = problem.model.cells, problem.grid
         if resume is None:
-            starts = [
-                prior.sample_cells(np.random.default_rng([seed, chain, STREAM_START]), grid) for chain in chain_ids
-            ]
+            rngs = [np.random.default_rng([seed, chain, STREAM_START]) for chain in chain_ids]
+            starts = [problem.model.cells.sample_cells(rng, problem.grid) for rng in rngs]
         else:
             starts = [{name: a[i].copy() for name, a in resume.arrays.items()} for i in range(len(chain_ids))]
         sweep = 0 if resume is None else resume.sweep

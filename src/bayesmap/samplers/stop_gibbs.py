@@ -7,7 +7,7 @@ to "counting" maps (Haehnel, 2004), which keep the counts of one assignment; her
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -119,12 +119,8 @@ def expected_reflectivity(
     counts must be those of the sweep that began at the draw, with its surfaces. A cell that this sweep did not update
     has the counts of its last update, an approximation: its correlation with later changes is lost.
 
-    Args:
-        hits: beams that each cell stopped, (T,).
-        met: beams that each cell let pass, (T,); negative in cells that have not counted yet.
-        prior: the prior of the sweep.
-        drawn: drawn reflectivities, used for cells that have not counted yet, (T,).
-        solid: labels of the draw, which choose a and b, (T,).
+    Cells have stopped ``hits`` beams, and let ``met`` beams pass; where ``met`` is negative, a cell has not counted
+    yet, and the ``drawn`` reflectivity stays. Labels ``solid`` choose a and b. All are (T,).
     """
     counted = hits.astype(np.float32)
     total = counted + np.maximum(met, 0)
@@ -232,23 +228,21 @@ class StopGibbs:
         """Return the chains with their present cells, under another problem."""
         from bayesmap.kernels.surfaces.stop_chains import StopChains
 
-        old, chains = state.chains, range(state.chains.n_chains)
+        old = state.chains
         new = StopChains(
-            _plan(problem), old.cells, state.keys, threads=problem.threads,
-            counts=np.stack([np.stack(old.counted(chain)) for chain in chains]),
-            observed_counts=np.stack([old.observed_counts(chain) for chain in chains]),
-            solid=np.stack([old.solid(chain) for chain in chains]),
+            _plan(problem), old.cells, state.keys, threads=problem.threads, counts=_of_chains(old.counted, old),
+            observed_counts=_of_chains(old.observed_counts, old), solid=_of_chains(old.solid, old),
         )  # fmt: skip
         return replace(state, problem=problem, chains=new)
 
     def stops(self, state: StopState) -> NDArray[np.float32]:
         """Return the present cells of the chains: reflectivities (C, N), or surfaces (C, N, 6).
 
-        If cells have labels, cells that no beam touches draw a reflectivity now, which sweeps do not use.
+        If cells have labels, cells that no beam touches draw a reflectivity here, which sweeps do not use.
         """
         if state.problem.prior.has_labels and state.chains.swept:
             state.chains.draw_untouched(state.sweep)
-        cells = np.stack([state.chains.cells(chain) for chain in range(state.chains.n_chains)])
+        cells = _of_chains(state.chains.cells, state.chains)
         return np.ascontiguousarray(cells if state.problem.prior.has_surfaces else cells[..., 0])
 
     def step(self, state: StopState, sweeps: int, beta: float = 1.0, keep: Keep = NOTHING) -> tuple[StopState, Info]:
@@ -284,17 +278,14 @@ class StopGibbs:
 
     def snapshot(self, state: StopState) -> Snapshot:
         """Return the kept cells' states and counts, (C, T, 6) and (C, 2, T), and labels of all cells, packed."""
-        problem, chains = state.problem, state.chains
-        kept, each = problem.coordinates["cell"], range(chains.n_chains)
-        labels: dict[str, NDArray[Any]] = {}
-        if problem.prior.has_labels:
-            labels[SOLID.name] = np.packbits([chains.solid(chain) for chain in each], axis=-1)
-        arrays: dict[str, NDArray[Any]] = {
-            "state": np.stack([chains.cells(chain)[kept] for chain in each]),
-            "counts": np.stack([np.stack(chains.counted(chain))[:, kept] for chain in each]),
-            "observed_counts": np.stack([chains.observed_counts(chain)[kept].T for chain in each]),
-            **labels,
+        chains, kept = state.chains, state.problem.coordinates["cell"]
+        arrays = {
+            "state": _of_chains(chains.cells, chains, lambda cells: cells[kept]),
+            "counts": _of_chains(chains.counted, chains, lambda counts: np.stack(counts)[:, kept]),
+            "observed_counts": _of_chains(chains.observed_counts, chains, lambda counts: counts[kept].T),
         }
+        if state.problem.prior.has_labels:
+            arrays[SOLID.name] = np.packbits(_of_chains(chains.solid, chains), axis=-1)
         return Snapshot(state.sweep, arrays)
 
     def observed_counts(self, state: StopState, draws: Mapping[str, NDArray[Any]]) -> NDArray[np.int32]:
@@ -314,6 +305,13 @@ class StopGibbs:
             touched = state.problem.rays.touched
             out[0, touched], out[1, touched] = squares.stopped + squares.passed > 0, True
         return out
+
+
+def _of_chains(
+    values: Callable[[int], Any], chains: StopChains, part: Callable[[Any], Any] = lambda values: values
+) -> NDArray[Any]:
+    """Stack a part of the values of every chain, (C, ...)."""
+    return np.stack([part(values(chain)) for chain in range(chains.n_chains)])
 
 
 def _plan(problem: StopProblem) -> Plan:

@@ -96,9 +96,9 @@ def sample_importance(
     size, done = 256, 0
     watch.report("particles", 0, particles)  # the first particles of a large map take long
     while done < particles and not (batches and watch.should_stop()):
-        now = min(size, particles - done)
-        batches.append(_weigh(problem, key, done, now))
-        done += now
+        count = min(size, particles - done)
+        batches.append(_weigh(problem, key, done, count))
+        done += count
         elapsed = time.perf_counter() - began
         size = int(np.clip(0.25 * done / max(elapsed, 1e-9), 256, 1 << 20))
         watch.report("particles", done, particles)
@@ -146,7 +146,6 @@ class Enumeration:
         log_posterior: normalised log-probability of each of the 2^n states; bit i of the state's number is the
             wall in ``unknown[i]``.
         log_evidence: log p(readings).
-        problem: the problem that was enumerated.
     """
 
     unknown: NDArray[np.intp]
@@ -156,8 +155,7 @@ class Enumeration:
 
     def states(self) -> NDArray[np.bool_]:
         """Return the enumerated cells in each state, (2^n, n)."""
-        state = np.arange(len(self.log_posterior))[:, None]
-        return np.asarray(state >> np.arange(len(self.unknown)) & 1 == 1)
+        return _bits(np.arange(len(self.log_posterior))[:, None], np.arange(len(self.unknown)))
 
     def marginals(self) -> Floats:
         """Return the posterior wall probability of every cell, (nx, ny); the prior's if no beam observes the cell."""
@@ -211,7 +209,7 @@ def enumerate_maps(problem: WallProblem) -> Enumeration:
         term = np.full(len(state), np.float64(table.no_hit[b]))
         for k in range(table.offsets[b], table.offsets[b + 1]):
             cell = table.cells[k]
-            wall = (state >> bit_of[cell] & 1 == 1) if bit_of[cell] >= 0 else np.full(len(state), p[cell] == 1.0)
+            wall = _bits(state, bit_of[cell]) if bit_of[cell] >= 0 else np.full(len(state), p[cell] == 1.0)
             term[still_free & wall] = table.loglik[k]
             still_free &= ~wall
         log_p += term
@@ -219,17 +217,19 @@ def enumerate_maps(problem: WallProblem) -> Enumeration:
     return Enumeration(unknown, log_p - log_evidence, log_evidence, problem)
 
 
+def _bits(state: NDArray[np.int64], bit: NDArray[np.int64]) -> NDArray[np.bool_]:
+    return np.asarray(state >> bit & 1 == 1)
+
+
 def _pairs_alike(problem: WallProblem, state: NDArray[np.int64], bit_of: NDArray[np.int64]) -> NDArray[np.int64]:
     """Count the pairs of neighbours that are both walls or both free, in each state."""
     cells, pairs = np.arange(problem.grid.n_cells).reshape(problem.grid.shape), np.zeros(len(state), dtype=np.int64)
 
     def walls(cell: int) -> NDArray[np.bool_]:
-        if bit_of[cell] < 0:
-            return np.full(len(state), problem.p_wall[cell] == 1.0)
-        return np.asarray(state >> bit_of[cell] & 1 == 1)
+        return _bits(state, bit_of[cell]) if bit_of[cell] >= 0 else np.full(len(state), problem.p_wall[cell] == 1.0)
 
-    for one, other in ((cells[1:], cells[:-1]), (cells[:, 1:], cells[:, :-1])):
-        for a, b in zip(one.ravel().tolist(), other.ravel().tolist(), strict=True):
+    for cell, neighbour in ((cells[1:], cells[:-1]), (cells[:, 1:], cells[:, :-1])):
+        for a, b in zip(cell.ravel().tolist(), neighbour.ravel().tolist(), strict=True):
             pairs += walls(a) == walls(b)
     return pairs
 
@@ -256,9 +256,7 @@ class IndependentDraws:
         observed: cells that a beam reaches in at least half of the maps, (nx, ny).
         seconds: time of the method before it draws.
         finished: whether the method finished; false if it was stopped early.
-        log_weights: normalised log weights of all particles.
-        statistics: other numbers by name.
-        log_evidence: log p(readings).
+        log_weights, statistics, log_evidence: as in `bayesmap.posterior.posterior.Posterior`.
     """
 
     walls: NDArray[np.uint8]
