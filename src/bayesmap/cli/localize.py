@@ -168,7 +168,7 @@ def _locate_live(
     Returns:
         All posteriors, and whether Ctrl-C ended the localization.
     """
-    from bayesmap.localization.localize import Localization, follow_live
+    from bayesmap.localization.localize import Localization, follow
 
     scans = scans_to_come(question, idle_s)
     question.call.console.detail(f"{question.log}: waiting for scans")
@@ -178,7 +178,7 @@ def _locate_live(
         # Prepare the map with the first scan: an external map takes the law of readings from it.
         for first in scans:
             known = question.map.known(question.call.console, first, live=True)
-            for belief in follow_live(known, itertools.chain([first], scans), **question.options):
+            for belief in follow(known, itertools.chain([first], scans), **question.options):
                 beliefs.append(belief)
                 if not tell(len(beliefs) - 1, belief):
                     return Localization(tuple(beliefs)), False

@@ -106,18 +106,18 @@ class PoseBelief:
     @cached_property
     def modes(self) -> tuple[Mode, ...]:
         """The places where the robot may be, the likeliest first."""
-        found = self.places(LEAST_MODE)
+        modes = self.places(LEAST_MODE)
         if self.shared_error is None:
-            return found
+            return modes
         wider = np.diag(self.shared_error**2)
-        return tuple(replace(mode, covariance=mode.covariance + wider) for mode in found)
+        return tuple(replace(mode, covariance=mode.covariance + wider) for mode in modes)
 
     def places(self, least: float) -> tuple[Mode, ...]:
         """Return the places of at least this probability, the likeliest first, without the map's shared error."""
         label = _clusters(self.poses, self.weights) if self.mode_of is None else self.mode_of
         modes = []
-        for one in np.unique(label):
-            own = label == one
+        for number in np.unique(label):
+            own = label == number
             share = float(self.weights[own].sum())
             if share >= least:
                 mean, covariance = _moments(self.poses[own], self.weights[own] / share)

@@ -108,13 +108,8 @@ def external_map(
 ) -> KnownMap:  # fmt: skip
     """Return a map of another program, ready to locate scans in.
 
-    Args:
-        occupancy: probability that each cell is occupied, NaN where unknown, (nx, ny), as `read_map` returns it.
-        grid: grid of the map.
-        scans: typical scans, for the law of readings anywhere.
-        law: law of readings in the map; by default the assumed law.
-        beam_weight: weight of a beam, as a share of an independent reading; None for the weight by the law's trust.
-        device: device that computes.
+    ``occupancy`` is the probability that each cell is occupied, NaN where unknown, (nx, ny), as `read_map` returns it.
+    The law is by default the assumed one. ``scans`` and ``beam_weight`` are as in `KnownMap.of_draws`.
 
     Raises:
         BadInput: no free cell, or no occupied one.
@@ -137,12 +132,7 @@ def fit_law(occupancy: Floats, grid: Grid, scans: Scans, seed: int = 0, on_progr
     other five choose among the fitted law, the assumed law, and the law halfway between. They are also searched for one
     by one. These searches give the usual fit of scans at their places, and the worth of a scan.
 
-    Args:
-        occupancy: probability that each cell is occupied, NaN where unknown, (nx, ny).
-        grid: grid of the map.
-        scans: scans in order of time, at poses of odometry.
-        seed: seed of the draws of poses.
-        on_progress: function that is called with the completed share.
+    ``occupancy`` is as in `external_map`. ``scans`` are in order of time, at poses of odometry.
     """
     # Locate the scans, and divide the surely located ones into scans for the fit and for judging.
     assumed = MapLaw(ASSUMED)

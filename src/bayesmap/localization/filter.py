@@ -89,7 +89,7 @@ FEW, EACH, LAST = 8, 24, 32
 THINNED = 40
 """Approximate number of beams of a scan that are used before the last round."""
 
-FOUND_SD = np.array([0.06, 0.06, np.radians(1.2)])
+SEARCHED_SD = np.array([0.06, 0.06, np.radians(1.2)])
 """Standard deviations of a searched pose from the best one near it."""
 
 UNIFORM_DRAWS = 3000
@@ -104,36 +104,22 @@ GETS_LOST, IS_FOUND = 1e-3, 0.05
 
 @dataclass(frozen=True, eq=False)
 class Scan:
-    """One scan.
+    """One scan of A beams."""
 
-    Attributes:
-        angles_rad: angles of the beams, (A,).
-        ranges_m: readings, (A,).
-        limits: range limits of the sensor.
-        stamp_s: time stamp, seconds, or None.
-        new: share of the scan's evidence that earlier scans do not contain, in (0, 1].
-    """
-
-    angles_rad: Floats
-    ranges_m: Floats
+    angles_rad: Floats  # (A,)
+    ranges_m: Floats  # (A,)
     limits: RangeLimits
     stamp_s: float | None = None
-    new: float = 1.0
+    new: float = 1.0  # share of the scan's evidence that earlier scans do not contain, in (0, 1]
 
 
 @dataclass(frozen=True, eq=False)
 class Prior:
-    """The distribution of the pose before a scan.
+    """The distribution of the pose before a scan."""
 
-    Attributes:
-        components: normal distributions with log masses; None if the robot may be anywhere on the map.
-        uniform: share of the mass that lies uniformly over the map's free cells; 1 without components.
-        lost: probability that the robot is elsewhere, or the map outdated.
-    """
-
-    components: PoseMixture | None = None
-    uniform: float = 1.0
-    lost: float = LOST_AT_FIRST
+    components: PoseMixture | None = None  # normal distributions; None if the robot may be anywhere on the map
+    uniform: float = 1.0  # share of the mass that lies uniformly over the map's free cells; 1 without components
+    lost: float = LOST_AT_FIRST  # probability that the robot is elsewhere, or the map outdated
 
     def log_density(self, poses: Floats, known: KnownMap) -> Floats:
         """Compute the log density of poses on the map, (P,); -inf in walls."""
@@ -163,28 +149,25 @@ def update(known: KnownMap, prior: Prior, scan: Scan, rng: np.random.Generator, 
 
     thin = max(1, len(scan.angles_rad) // THINNED)
     starts = _starts(known, prior, scan, look_everywhere=look_everywhere)
-    group = None
+    group = mass = None
     if starts is None:
         population = everywhere(known, target(thin), rng)
     else:
-        starts = approached(starts, density, known, scan, rng)
+        starts, least = approached(starts, density, known, scan, rng), known.trust.least_draws
         if len(starts.means) > 1:
             # Drop negligible places by few draws of poses, under one draw of the map.
             starts = best(weighed(starts, draw_population(starts, target(thin, 1), FEW, rng)))
         for _ in range(ROUNDS):
-            starts, power = adapted(
-                starts, draw_population(starts, target(thin), shared_out(starts, EACH, known.trust.least_draws), rng)
-            )
+            starts, power = adapted(starts, draw_population(starts, target(thin), shared_out(starts, EACH, least), rng))
             starts = best(starts)
             if power > NEARLY:
                 break
         # Draw and weight the final poses, with all beams.
-        population = draw_population(starts, target(1), shared_out(starts, LAST, known.trust.least_draws), rng)
+        population = draw_population(starts, target(1), shared_out(starts, LAST, least), rng)
         group = groups_of(starts, population.poses)
         if known.trust.shared_way_m > 0.0:
             mass = _mass_before(prior, starts, int(group.max()) + 1)
-            return belief_of(known, prior, scan, population, group, mass)
-    return belief_of(known, prior, scan, population, group)
+    return belief_of(known, prior, scan, population, group, mass)
 
 
 def _starts(known: KnownMap, prior: Prior, scan: Scan, *, look_everywhere: bool) -> PoseMixture | None:
@@ -192,9 +175,7 @@ def _starts(known: KnownMap, prior: Prior, scan: Scan, *, look_everywhere: bool)
     searched = None
     if look_everywhere or prior.components is None:
         poses = search(known.field, scan.angles_rad, scan.ranges_m, CANDIDATES).poses
-        if len(poses):
-            covariances = np.broadcast_to(np.diag(FOUND_SD**2), (len(poses), 3, 3))
-            searched = PoseMixture(poses, covariances, np.zeros(len(poses)))
+        searched = _at_searched(poses) if len(poses) else None
     if prior.components is None or searched is None:
         return searched if prior.components is None else prior.components
     return PoseMixture(
@@ -202,6 +183,11 @@ def _starts(known: KnownMap, prior: Prior, scan: Scan, *, look_everywhere: bool)
         np.concatenate([prior.components.covariances, searched.covariances]),
         np.concatenate([prior.components.log_mass, searched.log_mass]),
     )
+
+
+def _at_searched(poses: Floats) -> PoseMixture:
+    """Return places at the poses of a search, (K, 3)."""
+    return PoseMixture(poses, np.broadcast_to(np.diag(SEARCHED_SD**2), (len(poses), 3, 3)), np.zeros(len(poses)))
 
 
 @dataclass(frozen=True, eq=False)
@@ -382,8 +368,7 @@ def locate(known: KnownMap, scan: Scan, rng: np.random.Generator) -> PoseBelief:
     candidates = search(known.field, scan.angles_rad, scan.ranges_m, SHARP_CANDIDATES)
     if len(candidates.poses) == 0:
         return belief_of(known, prior, scan, everywhere(known, target(last), rng), None)
-    count = len(candidates.poses)
-    places = PoseMixture(candidates.poses, np.broadcast_to(np.diag(FOUND_SD**2), (count, 3, 3)), np.zeros(count))
+    places = _at_searched(candidates.poses)
     # Adapt the places while the power rises, then at the final power.
     for weight in np.geomspace(first, last, RISES):
         places, _ = adapted(places, draw_population(places, target(float(weight), thin), SHARP_EACH, rng))
@@ -406,4 +391,4 @@ def distinct(places: PoseMixture) -> PoseMixture:
         within = np.einsum("ki,kij,kj->k", off, np.linalg.inv(places.covariances[kept]), off) < ONE_PLACE**2
         if not (within | (np.abs(off) < ALIKE).all(axis=1)).any():
             kept.append(i)
-    return PoseMixture(places.means[kept], places.covariances[kept], places.log_mass[kept])
+    return places.select(kept)

@@ -93,9 +93,7 @@ class KnownMap:
     """A map posterior, ready to locate scans in. `KnownMap.of_run` makes it once for any number of scans.
 
     Attributes:
-        grid: grid of the map.
         packed: some of the map's draws, for kernels.
-        sensor: law of a reading.
         field: likelihood field for the search.
         free: mask of cells in which a robot may be, (nx, ny).
         unknown: mask of unknown cells, (nx, ny).
@@ -134,12 +132,8 @@ class KnownMap:
     def of_run(cls, run: Any, *, draws: int = DRAWS, beam_weight: float | None = None, device: str = "cpu") -> KnownMap:
         """Return the prepared map of a run that `bayesmap.infer` or `bayesmap.load` returned.
 
-        Args:
-            run: run with draws.
-            draws: number of draws to use, spread over chains; all are used if there are fewer.
-            beam_weight: weight of a beam, as a share of an independent reading; None for the weight by
-                `INDEPENDENT_BEAMS`.
-            device: device that computes.
+        It uses ``draws`` draws, spread over chains, or all if there are fewer. ``beam_weight`` is the weight of a beam,
+        as a share of an independent reading; None for the weight by `INDEPENDENT_BEAMS`.
 
         Raises:
             BadInput: a run without draws, or a sensor model of the user's own.
@@ -147,15 +141,11 @@ class KnownMap:
         from bayesmap.posterior.predictor import predictor_of
 
         predictor = predictor_of(run.posterior)
-        wanted = set(np.unique(np.linspace(0, predictor.draws - 1, min(draws, predictor.draws)).astype(int)).tolist())
-        chosen, number = [], 0
-        for batch in predictor.batches(None):
-            for state in batch:
-                if number in wanted:
-                    chosen.append(state.copy())
-                number += 1
+        numbers = set(np.unique(np.linspace(0, predictor.draws - 1, min(draws, predictor.draws)).astype(int)).tolist())
+        every = enumerate(state for batch in predictor.batches(None) for state in batch)
+        states = np.stack([state.copy() for number, state in every if number in numbers])
         return cls.of_draws(
-            np.stack(chosen), run.grid, predictor.sensor, run.posterior.scans, occupancy=np.asarray(run.occupancy),
+            states, run.grid, predictor.sensor, run.posterior.scans, occupancy=np.asarray(run.occupancy),
             observed=np.asarray(run.observed), hit_depth=predictor.hit_depth, beam_weight=beam_weight, device=device,
         )  # fmt: skip
 
@@ -164,19 +154,10 @@ class KnownMap:
         cls, states: NDArray[np.float32], grid: Grid, sensor: SensorModel, scans: Scans, *, occupancy: Floats,
         observed: NDArray[np.bool_], hit_depth: float = 0.5, beam_weight: float | None = None, device: str = "cpu",
     ) -> KnownMap:  # fmt: skip
-        """Return the prepared map of draws.
+        """Return the prepared map of draws: stop probabilities (D, N), or surfaces (D, N, 6), of all N cells.
 
-        Args:
-            states: stop probabilities (D, N), or surfaces (D, N, 6), of all N cells.
-            grid: grid of the map.
-            sensor: law of a reading.
-            scans: typical scans, for the law of readings anywhere.
-            occupancy: mean probability that each cell stops a beam, (nx, ny).
-            observed: mask of known cells, (nx, ny).
-            hit_depth: depth of a stop in a cell without a surface, as a fraction of the beam's chord.
-            beam_weight: weight of a beam, as a share of an independent reading; None for the weight by
-                `INDEPENDENT_BEAMS`.
-            device: device that computes.
+        ``scans`` are typical scans, for the law of readings anywhere. ``occupancy`` is the mean probability that each
+        cell stops a beam, and ``observed`` the mask of known cells, (nx, ny). Other arguments are as in `of_run`.
 
         Raises:
             BadInput: no free cell, or a sensor model of the user's own.
@@ -252,18 +233,9 @@ class KnownMap:
     ) -> Floats:  # fmt: skip
         """Compute a scan's log-likelihood at each pose, averaged over draws of the map, with weighted beams, (P,).
 
-        It is log mean_d exp(w sum_b log p(z_b | map d, pose)). The weight w is scaled up if beams are left out.
-
-        Args:
-            poses: poses of the sensor, (P, 3).
-            angles_rad: angles of the beams, (A,).
-            ranges_m: readings of the scan, (A,).
-            limits: range limits of the sensor.
-            thin: step between the beams that are used.
-            draws: number of draws that are used; all if None.
-            weight: weight of a beam; the map's own if None.
-            in_turn: True to use one draw per pose, in turn, rather than all. The weights of drawn poses are then right
-                on average over the draws of the map.
+        It is log mean_d exp(w sum_b log p(z_b | map d, pose)), from every ``thin``-th beam and the first ``draws``
+        draws, or all. The weight w is scaled up if beams are left out; None is the map's own. With ``in_turn`` each
+        pose uses a single draw, in turn: weights of drawn poses are then right on average over the draws of the map.
         """
         from bayesmap.kernels.predict.pose_weights import scan_log_likelihood
 

@@ -69,8 +69,7 @@ class InitialPose:
 
     def share_in(self, grid: Grid) -> float:
         """Compute the probability of a position on the map's grid."""
-        low = np.array(grid.origin)
-        high = low + np.array(grid.shape) * grid.resolution
+        low, high = (np.array(grid.extent_m[side::2]) for side in (0, 1))
         at = np.asarray(self.pose)[:2]
         return float(np.prod(ndtr((high - at) / self.sigma_m) - ndtr((low - at) / self.sigma_m)))
 
@@ -144,7 +143,7 @@ def localize(
     """Locate scans in the map of a run.
 
     Args:
-        run: a run with draws, or a `KnownMap` of one, which saves preparing it again.
+        run: a run with draws, or a `KnownMap` of one, which need not be prepared again.
         scans: one scan, or several in order of time. Their poses count as odometry: only the motion from one to the
             next is used.
         prior: prior of the first scan's pose; None if it may be anywhere in the map.
@@ -163,8 +162,7 @@ def localize(
     if len(scans) == 0:
         raise BadInput("localize: there is no scan")
     beliefs = []
-    known = _known(run, device)
-    for number, belief in enumerate(follow(known, scans, prior, odometry, independent, seed)):
+    for number, belief in enumerate(follow(_known(run, device), scans, prior, odometry, independent, seed)):
         beliefs.append(belief)
         if on_belief is not None:
             on_belief(number, belief)
@@ -172,19 +170,13 @@ def localize(
 
 
 def follow(
-    known: KnownMap, scans: Scans, prior: InitialPose | None = None, odometry: Odometry | None = None,
+    known: KnownMap, scans: Scans | Iterable[Scans], prior: InitialPose | None = None, odometry: Odometry | None = None,
     independent: bool = False, seed: int = 0,
 ) -> Iterator[PoseBelief]:  # fmt: skip
-    """Yield the posteriors of scans, one after the other. Arguments are those of `localize`."""
-    each = (scans.select(slice(i, i + 1)) for i in range(len(scans)))
-    return follow_live(known, each, prior, odometry, independent, seed)
+    """Yield the posterior of each scan, with the arguments of `localize`.
 
-
-def follow_live(
-    known: KnownMap, scans: Iterable[Scans], prior: InitialPose | None = None, odometry: Odometry | None = None,
-    independent: bool = False, seed: int = 0,
-) -> Iterator[PoseBelief]:  # fmt: skip
-    """Yield the posteriors of scans that come one at a time, each before the next scan is asked for, as `localize`."""
+    Scans may also come one at a time: each posterior is yielded before the next scan is asked for.
+    """
     odometry = Odometry() if odometry is None else odometry
     _check(known, prior, odometry)
     rng = np.random.default_rng(check_count("localize", "seed", seed, 0))
@@ -193,13 +185,14 @@ def follow_live(
     believed, belief = first, None
     pose, since_search_m = np.zeros(3), 0.0
     trust = known.trust
-    for one in scans:
-        stamp = None if one.stamps_s is None else float(one.stamps_s[0])
-        limits = RangeLimits(one.min_range_m, one.max_range_m)
-        angles, ranges = one.beams_of(0)
+    each = (scans.select(slice(i, i + 1)) for i in range(len(scans))) if isinstance(scans, Scans) else scans
+    for single in each:
+        stamp = None if single.stamps_s is None else float(single.stamps_s[0])
+        limits = RangeLimits(single.min_range_m, single.max_range_m)
+        angles, ranges = single.beams_of(0)
         if not len(angles):  # a beam without a reading has no evidence, like no beam
-            angles, ranges = one.angles_rad, one.ranges_m[0]
-        before, pose, new = pose, one.poses[0], 1.0
+            angles, ranges = single.angles_rad, single.ranges_m[0]
+        before, pose, new = pose, single.poses[0], 1.0
         # Predict by odometry; a short way makes only part of the scan's evidence new.
         if belief is not None and not independent:
             motion = between(before, pose)
@@ -237,12 +230,10 @@ def _check(known: KnownMap, prior: InitialPose | None, odometry: Odometry) -> No
     if not isinstance(prior, InitialPose):
         raise BadInput(f"localize: prior must be such as bm.InitialPose((x, y, yaw)), or None: anywhere; got {prior!r}")
     if prior.share_in(known.grid) < LEAST_ON_MAP:
-        low = np.array(known.grid.origin)
-        high = low + known.grid.resolution * np.array(known.grid.shape)
-        x, y = np.asarray(prior.pose)[:2]
+        (x0, x1, y0, y1), (x, y) = known.grid.extent_m, np.asarray(prior.pose)[:2]
         raise BadInput(
-            f"prior: ({x:g}, {y:g}) +- {prior.sigma_m:g} m lies outside the map, which is from {low[0]:g} to "
-            f"{high[0]:g} m in x and from {low[1]:g} to {high[1]:g} m in y"
+            f"prior: ({x:g}, {y:g}) +- {prior.sigma_m:g} m lies outside the map, which is from {x0:g} to {x1:g} m in x "
+            f"and from {y0:g} to {y1:g} m in y"
         )
 
 

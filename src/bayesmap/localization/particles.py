@@ -8,7 +8,7 @@ spread evenly: they are points of a lattice with a random shift, so that each po
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -45,40 +45,31 @@ def log_sum(logs: Floats) -> Floats:
 
 @dataclass(frozen=True, eq=False)
 class PoseMixture:
-    """K places, each with a mean pose, a covariance and a mass.
+    """K places, each with a mean pose, a covariance and a mass."""
 
-    Attributes:
-        means: mean poses, (K, 3).
-        covariances: covariances of the poses, (K, 3, 3).
-        log_mass: log of each place's share of the target, up to a constant, (K,).
-    """
-
-    means: Floats
-    covariances: Floats
-    log_mass: Floats
+    means: Floats  # (K, 3)
+    covariances: Floats  # (K, 3, 3)
+    log_mass: Floats  # log of each place's share of the target, up to a constant, (K,)
 
     def best(self, most: int, within_nats: float = NEGLIGIBLE_NATS) -> PoseMixture:
         """Return the ``most`` places of greatest mass, without those more than ``within_nats`` below the first."""
         order = np.argsort(-self.log_mass, kind="stable")[:most]
         order = order[self.log_mass[order] > self.log_mass[order[0]] - within_nats]
-        return PoseMixture(self.means[order], self.covariances[order], self.log_mass[order])
+        return self.select(order)
+
+    def select(self, places: Sequence[int] | NDArray[np.intp]) -> PoseMixture:
+        """Return some of the places, by number."""
+        return PoseMixture(self.means[places], self.covariances[places], self.log_mass[places])
 
 
 @dataclass(frozen=True, eq=False)
 class Population:
-    """N weighted poses.
+    """N weighted poses. Their mean weight, of target / proposal, estimates the target's normaliser."""
 
-    Attributes:
-        poses: drawn poses, (N, 3).
-        log_weights: log of target / proposal, not normalised, (N,). The mean weight estimates the target's normaliser.
-        place: number of the place from which each pose was drawn, (N,).
-        log_target: log of the target, (N,).
-    """
-
-    poses: Floats
-    log_weights: Floats
-    place: NDArray[np.intp]
-    log_target: Floats
+    poses: Floats  # (N, 3)
+    log_weights: Floats  # log of target / proposal, not normalised, (N,)
+    place: NDArray[np.intp]  # number of the place from which each pose was drawn, (N,)
+    log_target: Floats  # (N,)
 
     @property
     def log_evidence(self) -> float:

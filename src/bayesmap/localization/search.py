@@ -43,21 +43,13 @@ COARSE_M, TOP = 0.3, 255
 
 @dataclass(frozen=True, eq=False)
 class Field:
-    """A likelihood field over a grid.
-
-    Attributes:
-        grid: grid of the fine values.
-        fine: fine values, 0 to 255, (nx, ny).
-        coarse_grid: grid of the coarse values, with the origin of the fine grid.
-        coarse: coarse values, 0 to 255, (mx, my).
-        open: mask of coarse cells in which a robot can be, (mx, my).
-    """
+    """A likelihood field over a grid."""
 
     grid: Grid
-    fine: NDArray[np.uint8]
-    coarse_grid: Grid
-    coarse: NDArray[np.uint16]
-    open: NDArray[np.bool_]
+    fine: NDArray[np.uint8]  # values from 0 to 255, (nx, ny)
+    coarse_grid: Grid  # with the origin of the fine grid
+    coarse: NDArray[np.uint16]  # values from 0 to 255, (mx, my)
+    open: NDArray[np.bool_]  # mask of coarse cells in which a robot can be, (mx, my)
 
     def score(self, points: Floats, poses: Floats) -> Floats:
         """Return the mean fine value, scaled to [0, 1], of points (N, 2) in the sensor's frame, at each pose, (P,)."""
@@ -70,14 +62,10 @@ def likelihood_field(
     occupancy: Floats, grid: Grid, robot_may_be: NDArray[np.bool_], unknown: NDArray[np.bool_] | None = None,
     chance: float = 0.0,
 ) -> Field:  # fmt: skip
-    """Compute the likelihood field of a map.
+    """Compute the likelihood field of a map from the probability that each cell stops a beam, 0 where unknown.
 
-    Args:
-        occupancy: probability that each cell stops a beam, (nx, ny); 0 where unknown.
-        grid: grid of the map.
-        robot_may_be: mask of cells in which a robot may be, (nx, ny).
-        unknown: mask of unknown cells, (nx, ny); by default none.
-        chance: probability that an unknown cell stops a beam.
+    ``robot_may_be`` and ``unknown`` are masks of cells, (nx, ny). ``chance`` is the probability that an unknown cell
+    stops a beam.
     """
     # Fine field: maximum over shifted copies of the strengths, out to two standard deviations.
     strength = np.clip(np.nan_to_num(occupancy) / SOLID, 0.0, 1.0)
@@ -130,15 +118,10 @@ FAINT = 0.1
 
 @dataclass(frozen=True, eq=False)
 class EndpointField:
-    """The logarithm of a point's worth, over a fine grid.
-
-    Attributes:
-        grid: fine grid.
-        values: 0 (far from all surfaces) to 255 (on a surface), (nx, ny).
-    """
+    """The logarithm of a point's worth, over a fine grid."""
 
     grid: Grid
-    values: NDArray[np.uint8]
+    values: NDArray[np.uint8]  # 0 (far from all surfaces) to 255 (on a surface), (nx, ny)
 
     def log_worth(self, points: Floats, poses: Floats) -> Floats:
         """Return the sum of the points' log worth, relative to points far from all surfaces, at each pose, (P,), nats.
@@ -153,14 +136,9 @@ class EndpointField:
 def endpoint_field(
     states: NDArray[np.float32], grid: Grid, noise_m: float, unknown: NDArray[np.bool_], chance: float
 ) -> EndpointField:
-    """Compute the field of the draws of a map.
+    """Compute the field of the draws of a map, as `KnownMap.of_draws` takes them.
 
-    Args:
-        states: stop probabilities (D, N), or surfaces (D, N, 6 or more): see `KnownMap.of_draws`.
-        grid: grid of the map.
-        noise_m: standard deviation of a reading, metres.
-        unknown: mask of unknown cells, (nx, ny).
-        chance: probability that an unknown cell stops a beam.
+    ``noise_m`` is the standard deviation of a reading. An ``unknown`` cell stops a beam with probability ``chance``.
     """
     from bayesmap.kernels.match.fields import spread
 
@@ -211,15 +189,10 @@ APART_M, APART_RAD = 0.3, np.radians(8.0)
 
 @dataclass(frozen=True, eq=False)
 class Candidates:
-    """K poses from which a scan could have been taken.
+    """K poses from which a scan could have been taken."""
 
-    Attributes:
-        poses: poses in the world frame, best first, (K, 3).
-        scores: mean of the field at the scan's points, from 0 to 1, (K,).
-    """
-
-    poses: Floats
-    scores: Floats
+    poses: Floats  # in the world frame, best first, (K, 3)
+    scores: Floats  # mean of the field at the scan's points, from 0 to 1, (K,)
 
 
 def end_points(angles_rad: Floats, ranges_m: Floats, most: int, furthest_m: float = np.inf) -> Floats:
