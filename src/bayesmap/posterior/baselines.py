@@ -93,13 +93,12 @@ def maximise(
     ``rough_score`` is a cheap approximation of the score. It is climbed from every start, and the score from the best
     result of the rough climbs.
     """
-    names = [p.name for p in parameters]
 
     def values_at(point: NDArray[np.float64]) -> Values:
-        return {n: p.outer(x) for n, p, x in zip(names, parameters, point.tolist(), strict=True)}
+        return {p.name: p.outer(x) for p, x in zip(parameters, point.tolist(), strict=True)}
 
     def climb(
-        what: Callable[[Values], float], start: Mapping[str, float], tolerance: float, on_share: OnShare
+        target: Callable[[Values], float], start: Mapping[str, float], tolerance: float, on_share: OnShare
     ) -> tuple[Values, float]:
         usual, calls = GRADIENTS * (len(parameters) + 1), 0
 
@@ -107,7 +106,7 @@ def maximise(
             nonlocal calls
             calls += 1
             on_share(0.9 * calls / usual if calls < usual else 1.0 - 0.1 * usual / calls)  # never all before the end
-            return -what(values_at(point))
+            return -target(values_at(point))
 
         result = scipy.optimize.minimize(
             descend, np.array([p.inner(start[p.name]) for p in parameters]), method="L-BFGS-B",
@@ -242,17 +241,15 @@ def fit_baseline(
     starts = [sensor | dict(own) for own in baseline.starts for sensor in (sensible, wary)]
     rough = [folds[0].thinned()] if len(folds[0].scans) >= 2 * THIN else folds[: -(-len(folds) // THIN)]
     whole, part = together(folds), together(rough)
-    best: tuple[float, Values, float | None] | None = None
+    fits: list[tuple[float, Values, float | None]] = []
     climbs = [len(starts) + LAST_CLIMB] + [1 + LAST_CLIMB] * (len(NOISES) - 1)
     for dof, on_share in zip(NOISES, parts(on_progress, *climbs), strict=True):
-        # Heavy tails start from the fit of normal noise: the other parameters change little.
-        begin = starts if best is None else [best[1] | {"scale_m": 0.7 * best[1]["scale_m"]}]
         scores = partial(inner_score, whole, baseline, dof), partial(inner_score, part, baseline, dof)
-        values, score = maximise(*scores, (*SENSOR, *baseline.own), begin, on_share)
-        if best is None or score > best[0]:
-            best = score, values, dof
-    assert best is not None
-    score, values, dof = best
+        values, score = maximise(*scores, (*SENSOR, *baseline.own), starts, on_share)
+        fits.append((score, values, dof))
+        # Heavy tails start from the fit of normal noise: the other parameters change little.
+        starts = [values | {"scale_m": 0.7 * values["scale_m"]}]
+    score, values, dof = max(fits, key=lambda fit: fit[0])
     hits, passes = count_hits(train, grid)
     stop = baseline.stops(hits.astype(float), passes.astype(float), values)
     predictor = Predictor(grid, fixed_maps(stop[None]), sensor_of(values, dof), values["hit_depth"])
@@ -272,11 +269,8 @@ EXTERNAL_STARTS = (
 
 def stop_probabilities(occupancy: Floats, values: Mapping[str, float]) -> Floats:
     """Return the chance that a beam stops in each cell, from its occupancy, NaN where unknown; same shape."""
-
-    def logit(p: float) -> float:
-        return float(np.log(p) - np.log1p(-p))
-
-    low, high = logit(values["stop_free"]), logit(values["stop_occupied"])
+    ends = np.array([values["stop_free"], values["stop_occupied"]])
+    low, high = np.log(ends) - np.log1p(-ends)
     known = 1.0 / (1.0 + np.exp(-(low + (high - low) * np.nan_to_num(occupancy))))
     return np.where(np.isnan(occupancy), values["stop_unknown"], known)
 

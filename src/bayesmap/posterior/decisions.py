@@ -55,7 +55,7 @@ class Drawn(Protocol):
 
     @property
     def prior(self) -> CellPrior:
-        """The prior of the cells, which also computes how they stop beams."""
+        """The prior of the cells."""
 
     @property
     def draws(self) -> Draws:
@@ -71,10 +71,10 @@ def path_is_free(posterior: Drawn, path: ArrayLike, radius_m: float) -> FreeProb
     _need_draws(posterior, "free_probability")
     corners, grid = checked_path(path), posterior.draws.grid
     _need_radius(radius_m)
-    inside = (corners >= np.array(grid.extent_m[::2])) & (corners <= np.array(grid.extent_m[1::2]))
+    inside = ((corners >= np.array(grid.extent_m[::2])) & (corners <= np.array(grid.extent_m[1::2]))).all(axis=1)
     if not inside.all():
-        place = int(np.nonzero(~inside.all(axis=1))[0][0])
-        raise BadInput(f"path: point {place}, {corners[place].tolist()}, lies outside the map, {grid.extent_words()}")
+        first = int(np.argmin(inside))
+        raise BadInput(f"path: point {first}, {corners[first].tolist()}, lies outside the map, {grid.extent_words()}")
     cells = cells_about(corners, radius_m, grid)
     batches = posterior.prior.drawn_stops(posterior.draws, cells)
     return free_probability(in_the_way(batches, cells, grid, corners, radius_m), posterior.draws.chains)

@@ -54,8 +54,8 @@ def _matched(train: Scans, scans: Scans) -> NDArray[np.intp]:
         return np.full(len(scans), -1)
     stamped = train.stamps_s is not None and scans.stamps_s is not None
     # Match by fingerprints; then compare the angles of beams if scans have their own.
-    known = {name: i for i, name in enumerate(_fingerprints(train, stamped))}
-    match = np.array([known.get(name, -1) for name in _fingerprints(scans, stamped)], dtype=np.intp)
+    number_of = {name: i for i, name in enumerate(_fingerprints(train, stamped))}
+    match = np.array([number_of.get(name, -1) for name in _fingerprints(scans, stamped)], dtype=np.intp)
     if not shared:
         for scan in np.flatnonzero(match >= 0):
             if not _alike(train.beams_of(int(match[scan]))[0], scans.beams_of(int(scan))[0]):
@@ -219,17 +219,15 @@ def together(folds: Sequence[Fold]) -> HeldOut:
     """Join folds for one prediction, which is faster than many small ones."""
     rays = [fold.rays for fold in folds]
     # Offsets of each fold's entries in the joined rays, and of its cells in the joined maps.
-    entries = np.cumsum([0, *(len(one.cells) for one in rays)])[:-1]
-    places = np.cumsum([0, *(len(one.touched) for one in rays)])[:-1]
+    entries = np.cumsum([0, *(len(part.cells) for part in rays)])[:-1]
+    places = np.cumsum([0, *(len(part.touched) for part in rays)])[:-1]
 
     def shifted(arrays: list[NDArray[np.int32]], by: NDArray[np.int_]) -> NDArray[np.int32]:
         return np.concatenate([array + at for array, at in zip(arrays, by, strict=True)]).astype(np.int32)
 
-    whole = {
-        name: np.concatenate([getattr(one, name) for one in rays])
-        for name in ("cells", "start_m", "direction", "range_m")
-    }
-    offsets = np.append(np.int32(0), shifted([one.offsets[1:] for one in rays], entries))
-    near = shifted([one.near for one in rays], entries)
+    names = ("cells", "start_m", "direction", "range_m")
+    whole = {name: np.concatenate([getattr(part, name) for part in rays]) for name in names}
+    offsets = np.append(np.int32(0), shifted([part.offsets[1:] for part in rays], entries))
+    near = shifted([part.near for part in rays], entries)
     joined = Rays(grid=rays[0].grid, offsets=offsets, near=near, limits=rays[0].limits, **whole)
-    return HeldOut(tuple(folds), joined, shifted([one.columns for one in rays], places))
+    return HeldOut(tuple(folds), joined, shifted([part.columns for part in rays], places))

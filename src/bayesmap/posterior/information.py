@@ -154,16 +154,9 @@ def beam_information(
 ) -> Floats:  # fmt: skip
     """Return the sum of FSMI over a scan's beams: their information about a map of independent cells, nats, (P,).
 
-    Args:
-        occupied: probability that each cell stops a beam, (nx, ny).
-        grid: grid of the map.
-        poses: poses of the scans, (P, 3).
-        angles_rad: angles of the beams, (A,).
-        max_range_m: largest range of the sensor, metres.
-        sigma_m: standard deviation of the readings, metres.
-        p_right: probability p that a reading is right. A reading multiplies the odds of the cell in which it falls by
-            p / (1 - p), and those of the cells before it by (1 - p) / p.
-        device: device that computes.
+    ``occupied`` is the probability that each cell stops a beam, (nx, ny), and ``sigma_m`` the standard deviation of
+    readings. A reading is right with probability p = ``p_right``: it multiplies the odds of the cell in which it falls
+    by p / (1 - p), and those of the cells before it by (1 - p) / p.
     """
     from bayesmap.kernels.predict.view import independent_information
 
@@ -178,10 +171,10 @@ def beam_information(
 
 def best_views(nats: Floats, poses: Floats, count: int, apart_m: float) -> NDArray[np.intp]:
     """Select the most informative poses that are not close to each other, best first: indices, at most ``count``."""
-    taken: list[int] = []
+    best: list[int] = []
     for i in np.argsort(-nats, kind="stable"):
-        if all(math.hypot(*(poses[i, :2] - poses[j, :2])) >= apart_m for j in taken):
-            taken.append(int(i))
-        if len(taken) == count:
+        if all(math.hypot(*(poses[i, :2] - poses[j, :2])) >= apart_m for j in best):
+            best.append(int(i))
+        if len(best) == count:
             break
-    return np.array(taken, dtype=np.intp)
+    return np.array(best, dtype=np.intp)

@@ -31,20 +31,15 @@ class Posterior:
     """The posterior of the cells given scans, as draws and marginals.
 
     Attributes:
-        scans: what was conditioned on.
-        sensor: the model that was used for the draws, fitted if that was asked for; None in a loaded run whose model
-            is not one of ours.
-        prior: of the cells, which also tells their kind.
-        settings: method, prior, sensor, seed and schedule as JSON values: what `bayesmap.infer` was asked to do.
-        draws: the kept maps.
+        scans: scans that the posterior is conditioned on.
+        sensor: sensor model of the draws, fitted or given; None in a loaded run with a model of the user's own.
+        settings: method, prior, sensor, seed and schedule as JSON values.
         occupancy: posterior mean of the probability that a cell stops a beam, (nx, ny): of the draws, or the method's
             own marginals where it computes them ("exact", "importance", "propagate"). For binary walls it is the
             probability of a wall.
         observed: cells that at least one beam observes in at least half of the draws, (nx, ny); in the others the
             posterior is the prior, or little more.
-        log_likelihood, log_prior: of every draw, (chains, draws).
-        warmup_log_joint: (chains, warm-up sweeps).
-        snapshot: state of the chains: all that is needed to go on.
+        log_likelihood, log_prior, warmup_log_joint, snapshot: as in `bayesmap.run.chains.Chains`.
         finished: false if the run was stopped early.
         seconds: {"trace", "warm_start", "sampling", "total", "fit"}.
         counts: {"scans", "beams", "incidences", ...}.
@@ -142,17 +137,13 @@ def posterior_of_draws(
 def chains_of(posterior: Posterior) -> Chains:
     """Return the chains of a posterior, to continue them."""
     return Chains(
-        draws=posterior.draws,
-        log_likelihood=posterior.log_likelihood,
-        log_prior=posterior.log_prior,
-        warmup_log_joint=posterior.warmup_log_joint,
-        snapshot=posterior.snapshot,
-        observed_counts=np.zeros((2, *posterior.grid.shape), dtype=np.int32),  # found again from draws and snapshot
-        statistics=posterior.statistics,
-        n_incidences=posterior.counts["incidences"],
+        draws=posterior.draws, log_likelihood=posterior.log_likelihood, log_prior=posterior.log_prior,
+        warmup_log_joint=posterior.warmup_log_joint, snapshot=posterior.snapshot,
+        observed_counts=np.zeros((2, *posterior.grid.shape), dtype=np.int32),  # counted again, by draws and snapshot
+        statistics=posterior.statistics, n_incidences=posterior.counts["incidences"],
         seconds={name: posterior.seconds[name] for name in ("trace", "warm_start", "sampling")},
         finished=posterior.finished,
-    )
+    )  # fmt: skip
 
 
 def _counts(model: Model, n_incidences: int) -> dict[str, int]:

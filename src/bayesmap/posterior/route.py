@@ -68,8 +68,8 @@ def checked_path(path: ArrayLike) -> Floats:
     if points.ndim != 2 or points.shape[1] != 2 or len(points) == 0:
         raise BadInput(f"path: shape {points.shape}, expected (P, 2): x, y in metres")
     if not np.isfinite(points).all():
-        place = int(np.nonzero(~np.isfinite(points).all(axis=1))[0][0])
-        raise BadInput(f"path: point {place} is not finite: {points[place].tolist()}")
+        first = int(np.argmin(np.isfinite(points).all(axis=1)))
+        raise BadInput(f"path: point {first} is not finite: {points[first].tolist()}")
     return points
 
 
@@ -138,15 +138,10 @@ def centres_world(flat: NDArray[np.integer], grid: Grid) -> Floats:
 def in_the_way(
     batches: Iterable[NDArray[np.float32]], cells: NDArray[np.int32], grid: Grid, path: Floats, radius_m: float
 ) -> NDArray[np.bool_]:
-    """Return which cells are in the way of the disc in each draw, (draws, n).
+    """Return which cells are in the way of a disc, whose centre moves along a path, (P, 2), in each draw, (draws, n).
 
-    Args:
-        batches: stops of the cells in batches of draws: (draws, n), or (draws, n, 6) for surfaces in metres from the
-            grid's corner, as `bayesmap.cells.kind.CellPrior.stops` returns them.
-        cells: flat indices of the cells, (n,).
-        grid: grid of the cells.
-        path: path of the disc's centre, (P, 2).
-        radius_m: radius of the disc, metres.
+    ``batches`` yields the stops of the cells, (n,) flat indices, in batches of draws: (draws, n), or (draws, n, 6) for
+    surfaces, as `bayesmap.cells.kind.CellPrior.stops` returns them.
     """
     square_m = square_to_path_m(centres_world(cells, grid), grid.resolution, path)
     blocks = []
@@ -284,15 +279,10 @@ def _solid_squares(stops: NDArray[np.float32], grid: Grid) -> NDArray[np.bool_]:
 def plan_route(
     blocked: Floats, grid: Grid, start: Floats, goal: Floats, risk: float, judge: Callable[[Floats], FreeProbability]
 ) -> Route:
-    """Find the shortest path from start to goal whose risk stays under a bound.
+    """Find the shortest path from start to goal, world frame, whose risk of touching something stays under a bound.
 
-    Args:
-        blocked: probability that the disc is blocked at each cell's centre, (nx, ny).
-        grid: grid of these cells.
-        start: start in the world frame, metres, (2,).
-        goal: goal in the world frame, metres, (2,).
-        risk: greatest probability of touching something, inside (0, 1).
-        judge: function that returns the probability that a path is free.
+    ``blocked`` is the probability that the disc is blocked at each cell's centre, (nx, ny). ``judge`` returns the
+    probability that a path is free.
 
     Raises:
         BadInput: start or goal outside the grid, or blocked in nearly every draw; or no path at all between them.
@@ -316,12 +306,7 @@ def plan_route(
             length_m = float(np.hypot(*np.diff(path, axis=0).T).sum())
             routes.append(Route(path, length_m, free, is_within_risk(free.probability, risk)))
             if routes[-1].within_risk:
-                break
-        if routes[-1].within_risk:
-            break
-    fit = [route for route in routes if route.within_risk]
-    if fit:
-        return min(fit, key=lambda route: route.length_m)
+                return routes[-1]
     return max(routes, key=lambda route: route.free.probability)
 
 

@@ -41,8 +41,7 @@ POINTS = 100
 def randomised_pit(low: Floats, high: Floats, seed: int = 0) -> Floats:
     """Compute the randomised probability integral transform of each reading, (B,); NaN where ``low`` is NaN.
 
-    ``low`` and ``high`` are P(reading < z) and P(reading <= z) at the observed reading z, (B,). ``seed`` is that of the
-    randomisation v.
+    ``low`` and ``high`` are P(reading < z) and P(reading <= z) at the observed reading z, (B,).
     """
     return low + np.random.default_rng([seed, 0x917]).random(low.shape) * (high - low)
 
@@ -75,7 +74,7 @@ class Estimate:
 
     def as_json(self) -> dict[str, float | None]:
         """Return value and error, None where not finite."""
-        return {name: x if np.isfinite(x) else None for name, x in (("value", self.value), ("error", self.error))}
+        return _numbers(value=self.value, error=self.error)
 
 
 @dataclass(frozen=True, eq=False)
@@ -260,37 +259,29 @@ class Score:
 
     def as_json(self) -> dict[str, Any]:
         """Return all fields except those of single beams as JSON values."""
-        widths = [
-            {"mean_width_m": _number(c.mean_width_m), "median_width_m": _number(c.median_width_m)}
-            for c in self.coverage
-        ]
+        predicted, observed = self.p_no_return
         return {
-            "scans": self.scans,
-            "beams": self.beams,
-            "nats_per_beam": _number(self.nats_per_beam),
-            "nats_per_beam_error": _number(self.nats_per_beam_error),
+            "scans": self.scans, "beams": self.beams,
+            **_numbers(nats_per_beam=self.nats_per_beam, nats_per_beam_error=self.nats_per_beam_error),
             "coverage": [
-                {"level": c.level, **c.share.as_json(), **width} for c, width in zip(self.coverage, widths, strict=True)
+                {"level": c.level, **c.share.as_json()}
+                | _numbers(mean_width_m=c.mean_width_m, median_width_m=c.median_width_m)
+                for c in self.coverage
             ],
             "pit_histogram": [round(x, 6) for x in self.pit_histogram],
-            "pit_distance": _number(self.pit_distance),
-            "pit_p_value": _number(self.pit_p_value),
-            "events": self.events,
-            "brier": self.brier.as_json(),
-            "log_loss": self.log_loss.as_json(),
+            **_numbers(pit_distance=self.pit_distance, pit_p_value=self.pit_p_value),
+            "events": self.events, "brier": self.brier.as_json(), "log_loss": self.log_loss.as_json(),
             "reliability": [
-                {"predicted": predicted, "observed": observed, "events": count}
-                for predicted, observed, count in self.reliability
+                {"predicted": chance, "observed": share, "events": count} for chance, share, count in self.reliability
             ],
-            "no_return": {"predicted": _number(self.p_no_return[0]), "observed": _number(self.p_no_return[1])},
-            "sensor": self.sensor,
+            "no_return": _numbers(predicted=predicted, observed=observed), "sensor": self.sensor,
             "hit_depth": self.hit_depth,
-        }
+        }  # fmt: skip
 
 
-def _number(value: float) -> float | None:
-    """Return a number, or None if it is not finite."""
-    return float(value) if math.isfinite(value) else None
+def _numbers(**values: float) -> dict[str, float | None]:
+    """Return the numbers by name, None where not finite."""
+    return {name: float(value) if math.isfinite(value) else None for name, value in values.items()}
 
 
 def score_prediction(

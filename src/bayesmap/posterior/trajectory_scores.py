@@ -77,12 +77,11 @@ class RelationErrors:
         ``in_gaps`` of those that are not covered lie between poses too far apart, the others outside the trajectory.
         """
         turned_deg = np.degrees(self.rotation_rad)
-        result: dict[str, float] = {
-            "relations": len(self.errors), "not_covered": int((~self.covered).sum()), "in_gaps": int(self.in_gap.sum()),
-        }  # fmt: skip
+        not_covered, in_gaps = int((~self.covered).sum()), int(self.in_gap.sum())
+        result: dict[str, float] = {"relations": len(self.errors), "not_covered": not_covered, "in_gaps": in_gaps}
         for name, values in (("translation_m", self.translation_m), ("rotation_deg", turned_deg)):
-            for word, of in (("mean", np.mean), ("std", np.std), ("median", np.median)):
-                result[f"{name}_{word}"] = float(of(values)) if len(values) else float("nan")
+            for word, statistic in (("mean", np.mean), ("std", np.std), ("median", np.median)):
+                result[f"{name}_{word}"] = float(statistic(values)) if len(values) else float("nan")
         return result
 
 
@@ -115,10 +114,10 @@ def relation_errors(
             f"{stamps_s[0]:.3f} to {stamps_s[-1]:.3f} s; are the stamps of one clock?"
         )
     if not covered.any():
-        wanted = "at a pose" if exact else f"at a pose, or between two at most {longest_gap_s:g} s apart"
+        needed = "at a pose" if exact else f"at a pose, or between two at most {longest_gap_s:g} s apart"
         raise BadInput(
             f"relations: none of the {within.sum():,} relations within the trajectory's time has both of its times "
-            f"{wanted}; its poses are {np.median(np.diff(stamps_s)):.3g} s apart at the median: give one with more"
+            f"{needed}; its poses are {np.median(np.diff(stamps_s)):.3g} s apart at the median: give one with more"
         )
     first, second = (interpolate(stamps_s, poses, at_s[covered]) for at_s in ends)
     errors = compose(inverse(relations.relative[covered]), between(first, second))
@@ -175,14 +174,10 @@ class TrajectoryScore:
 def score_trajectory(
     trajectory: Trajectory, relations: Relations, mount: Floats | None = None, *, exact: bool = False
 ) -> TrajectoryScore:
-    """Score a trajectory against true relative poses.
+    """Score a trajectory against true relative poses, whose stamps are of the same clock.
 
-    Args:
-        trajectory: with stamps, of the clock of the relations.
-        relations: the truth.
-        mount: the frame whose relations are known, given in the frame of the trajectory, (3,); None: the same frame.
-        exact: whether to use only relations whose both times are those of poses; otherwise poses are interpolated
-            where they are at most `LONGEST_GAP_S` apart.
+    ``mount`` is the frame whose relations are known, in the frame of the trajectory, (3,); None: the trajectory's own.
+    ``exact`` is as in `relation_errors`.
 
     Raises:
         BadInput: no relation within the trajectory's time, or none near enough to its poses.
@@ -229,8 +224,8 @@ def _by_draws(draws: Floats, stamps_s: Floats, relations: Relations) -> tuple[Fl
     for d, poses in enumerate(draws):
         first, second = (interpolate(stamps_s, poses, at) for at in (relations.first_s, relations.second_s))
         off[d] = compose(undo, between(first, second))
-    anchor = off[0].copy()
-    off[..., 2] = anchor[:, 2] + wrapped(off[..., 2] - anchor[:, 2])
+    anchor = off[0, :, 2].copy()
+    off[..., 2] = anchor + wrapped(off[..., 2] - anchor)
     mean = off.mean(axis=0)
     error = mean.copy()
     error[:, 2] = wrapped(error[:, 2])

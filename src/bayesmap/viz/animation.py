@@ -16,6 +16,7 @@ import numpy as np
 from matplotlib.colors import to_rgb
 from numpy.typing import ArrayLike, NDArray
 from PIL import Image, ImageDraw, ImageFont
+from scipy import ndimage
 
 from bayesmap.errors import BadInput
 from bayesmap.files import need_ending, write_whole
@@ -101,18 +102,16 @@ def render_frames(
     if len(labels) != len(chain):
         raise BadInput(f"animation: {len(labels)} sweep numbers for {len(chain)} draws; give one for each")
     canvas = _Canvas(grid, as_observed(grid, observed), truth, poses)
-    return _render(canvas, chain, labels, running_mean=running_mean)
 
+    def frames() -> Iterator[Image.Image]:
+        total = np.zeros(chain.shape[1:])
+        for count, (draw, label) in enumerate(zip(chain, labels, strict=True), start=1):
+            if running_mean:
+                total += draw
+            shown = total / count if running_mean else draw
+            yield canvas.frame(shown, f"mean of {count} draws, to sweep {label}" if running_mean else f"sweep {label}")
 
-def _render(canvas: _Canvas, chain: NDArray[Any], labels: list[int], *, running_mean: bool) -> Iterator[Image.Image]:
-    """Yield a frame per draw, of the draw or of the mean so far."""
-    total = np.zeros(chain.shape[1:])
-    for count, (draw, label) in enumerate(zip(chain, labels, strict=True), start=1):
-        if running_mean:
-            total += draw
-        shown = total / count if running_mean else draw
-        text = f"mean of {count} draws, to sweep {label}" if running_mean else f"sweep {label}"
-        yield canvas.frame(shown, text)
+    return frames()
 
 
 class _Canvas:
@@ -170,16 +169,7 @@ class _Canvas:
         """Draw a line around the walls, outside them, so that the walls stay visible."""
         solid = np.zeros(self.marks.shape, dtype=np.bool_)
         solid[self.inside] = self._enlarge(walls.astype(np.uint8)) == 1
-        thick = max(1, self.scale // 12)
-        grown = solid.copy()
-        # Grow the walls by one pixel in the four directions, `thick` times.
-        for _ in range(thick):
-            step = grown.copy()
-            step[1:] |= grown[:-1]
-            step[:-1] |= grown[1:]
-            grown = step.copy()
-            grown[:, 1:] |= step[:, :-1]
-            grown[:, :-1] |= step[:, 1:]
+        grown = ndimage.binary_dilation(solid, np.ones((3, 3)), iterations=max(1, self.scale // 12))
         self.marks[grown & ~solid] = TRUTH
 
     def _dots(self, grid: Grid, poses: NDArray[np.float64]) -> None:

@@ -26,21 +26,14 @@ ALL = 0.9995
 
 
 def draw_log_joint(ax: Axes, log_joint: ArrayLike, *, first_sweep: int = 1) -> None:
-    """Draw the trace of the log joint density, a line per chain.
+    """Draw the trace of the log joint density, nats, (chain, draw) or (draw,), a line per chain.
 
-    Args:
-        ax: axes to draw on.
-        log_joint: log joint density in nats, shape (chain, draw), or (draw,) for one chain.
-        first_sweep: number of the sweep that gave the first draw.
+    ``first_sweep`` is the number of the sweep that gave the first draw.
 
     Raises:
         BadInput: another shape, no draw at all, or a number that is not finite.
     """
-    traces = _as_traces(log_joint)
-    for chain, trace in enumerate(traces):
-        sweep, values = _thinned(trace, first_sweep)
-        ax.plot(sweep, values, color=palette.chain_color(chain), label=f"chain {chain + 1}", linewidth=0.8, alpha=0.9)
-    _finish(ax, traces, first_sweep, "log joint [nats]")
+    _draw_lines(ax, _as_traces(log_joint), first_sweep, "log joint [nats]", linewidth=0.8, alpha=0.9)
 
 
 def draw_running_mean(ax: Axes, log_joint: ArrayLike, *, first_sweep: int = 1) -> None:
@@ -53,10 +46,7 @@ def draw_running_mean(ax: Axes, log_joint: ArrayLike, *, first_sweep: int = 1) -
     means = np.cumsum(traces, axis=1) / np.arange(1, traces.shape[1] + 1)
     center, spread = float(traces.mean()), float(traces.std(axis=1).mean())
     ax.axhspan(center - spread, center + spread, color=palette.FRAME, alpha=0.12, linewidth=0.0)
-    for chain, trace in enumerate(means):
-        sweep, values = _thinned(trace, first_sweep)
-        ax.plot(sweep, values, color=palette.chain_color(chain), label=f"chain {chain + 1}", linewidth=1.2)
-    _finish(ax, traces, first_sweep, "running mean [nats]")
+    _draw_lines(ax, means, first_sweep, "running mean [nats]", linewidth=1.2)
 
 
 def trace_figure(log_joint: ArrayLike, *, first_sweep: int = 1) -> Figure:
@@ -110,7 +100,10 @@ def _thinned(trace: NDArray[np.float64], first_sweep: int) -> tuple[NDArray[np.i
     return index + first_sweep, trace[index]
 
 
-def _finish(ax: Axes, traces: NDArray[np.float64], first_sweep: int, label: str) -> None:
+def _draw_lines(ax: Axes, traces: NDArray[np.float64], first_sweep: int, label: str, **style: float) -> None:
+    for chain, trace in enumerate(traces):
+        sweep, values = _thinned(trace, first_sweep)
+        ax.plot(sweep, values, color=palette.chain_color(chain), label=f"chain {chain + 1}", **style)  # type: ignore[arg-type]
     n = traces.shape[1]
     ax.set(xlabel="sweep", ylabel=label, xlim=(first_sweep - 0.5, first_sweep + n - 0.5))
     ax.xaxis.set_major_locator(MaxNLocator(nbins=6, integer=True))
@@ -127,13 +120,8 @@ def draw_weights(
     If one sample has nearly all the weight, the effective sample size is 1: importance sampling has collapsed, as in
     the tutorial. Counts are on a logarithmic scale, so that a single sample is visible.
 
-    Args:
-        ax: axes to draw on.
-        log_weights: log weight of each sample in nats, (n,), normalised or not; -inf is a weight of zero.
-        range_nats: lower and upper end of the histogram; the number of weights below is written in the panel.
-
-    Returns:
-        The counts, shape (100,).
+    Weights need not be normalised; -inf is a weight of zero. The number of weights below the histogram's
+    ``range_nats`` is written in the panel. Returns the counts, (100,).
 
     Raises:
         BadInput: no weight at all, all of them zero, one that is NaN or +inf, or a range that is empty.

@@ -55,6 +55,8 @@ LEFT_IN, RIGHT_IN, TOP_IN, GAP_IN = 0.46, 0.2, 0.32, 0.25
 TITLE_IN, LABEL_IN, BAR_IN, LEGEND_IN = 0.32, 0.42, 0.48, 0.36
 """Heights of the figure's title, the x axis' labels, the colour bar below them, and the legend."""
 
+WIDTH_LABEL = "width of the 90 % interval"
+
 Surfaces = tuple[ArrayLike, ArrayLike, ArrayLike]
 """Means (n, 2) and covariances (n, 2, 2) in metres, and reflectivities (n,)."""
 
@@ -190,7 +192,7 @@ def posterior_figure(
     if width is None:
         uncertainty, unit = maps.draw_entropy(panels[doubt], grid, occupancy, seen), "entropy [bits]"
     else:
-        uncertainty, unit = maps.draw_width(panels[doubt], grid, width, seen), "width of the 90 % interval"
+        uncertainty, unit = maps.draw_width(panels[doubt], grid, width, seen), WIDTH_LABEL
     images = [mean, uncertainty]
     if "data" in panels:
         images.append(maps.draw_sample(panels["data"], grid, np.zeros(grid.shape, dtype=np.bool_), seen))
@@ -257,10 +259,8 @@ def _draw_strokes(panel: Axes, grid: Grid, surfaces: Surfaces, cell_pt: float) -
     """Draw the surfaces, a fifth of a cell thick, and return their legend key; draw none if cells are too small."""
     if cell_pt < LEAST_STROKE_PT:
         return []
-    thickness_pt = float(np.clip(cell_pt / 5.0, 0.6, 1.6))
-    color = palette.SURFACE
-    longest_m = 1.5 * grid.resolution
-    return [draw_surfaces(panel, *surfaces, width_pt=thickness_pt, longest_m=longest_m, color=color)]
+    width_pt, longest_m = float(np.clip(cell_pt / 5.0, 0.6, 1.6)), 1.5 * grid.resolution
+    return [draw_surfaces(panel, *surfaces, width_pt=width_pt, longest_m=longest_m, color=palette.SURFACE)]
 
 
 def letter(panel: Axes, title: str, most_ticks: tuple[int, int], *, leftmost: bool) -> None:
@@ -325,34 +325,24 @@ def panel_figure(
     grid: Grid, what: str, values: NDArray[Any], observed: ArrayLike | None = None, *, truth: ArrayLike | None = None,
     label: str = "probability of wall",
 ) -> Figure:  # fmt: skip
-    """Draw a single map with its colour bar.
+    """Draw a single map of values, (nx, ny), with its colour bar.
 
-    Args:
-        grid: the map's grid.
-        what: "mean", "entropy" or "deviation" (values: probabilities of a wall; "deviation" draws their standard
-            deviations), "width" (values: widths of intervals), or "draw" (values: walls or numbers in [0, 1]).
-        values: values of the cells, (nx, ny).
-        observed: mask of the cells to draw; the others are hatched. None: all cells.
-        truth: true walls, (nx, ny), to outline.
-        label: name of the values of "mean", and of a draw in [0, 1].
+    ``what`` is "mean", "entropy" or "deviation" (values: probabilities of a wall; "deviation" draws their standard
+    deviations), "width" (values: widths of intervals), or "draw" (values: walls or numbers in [0, 1]). Cells that are
+    not ``observed`` are hatched. ``truth``, (nx, ny), is outlined. ``label`` names the values of "mean", and of a draw
+    in [0, 1].
 
     Raises:
         BadInput: shapes or values that do not fit.
     """
     figure, axes = maps.map_figure(grid, dpi=max(160.0, 1.1 * max(grid.shape) / maps.HEIGHT_IN))
-    if what == "mean":
-        image, words = maps.draw_probability(axes, grid, values, observed), label
-    elif what == "entropy":
-        image, words = maps.draw_entropy(axes, grid, values, observed), "entropy [bits]"
-    elif what == "deviation":
-        spread = np.sqrt(values * (1.0 - values))
-        image, words = maps.draw_deviation(axes, grid, spread, observed), "standard deviation"
-    elif what == "width":
-        image, words = maps.draw_width(axes, grid, values, observed), "width of the 90 % interval"
-    elif np.isin(values, (0, 1)).all():
-        image, words = maps.draw_sample(axes, grid, values, observed), ""
-    else:
-        image, words = maps.draw_probability(axes, grid, values, observed), label.removeprefix("mean ")
+    walls = what == "draw" and np.isin(values, (0, 1)).all()
+    draw, words = {
+        "mean": (maps.draw_probability, label), "entropy": (maps.draw_entropy, "entropy [bits]"),
+        "deviation": (maps.draw_deviation, "standard deviation"), "width": (maps.draw_width, WIDTH_LABEL),
+        "draw": (maps.draw_one, "" if walls else label.removeprefix("mean ")),
+    }[what]  # fmt: skip
+    image = draw(axes, grid, np.sqrt(values * (1.0 - values)) if what == "deviation" else values, observed)
     if not words:
         figure.set_figwidth(figure.get_figwidth() - NO_BAR_IN)
     else:

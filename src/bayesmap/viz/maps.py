@@ -30,16 +30,9 @@ Cut = tuple[slice, slice]
 
 
 def boundary_segments(grid: Grid, mask: NDArray[np.bool_]) -> NDArray[np.float64]:
-    """Return the boundary between true and false cells; outside the grid counts as false.
+    """Return the boundary between true and false cells of a mask, (nx, ny), as segments, metres, (M, 2, 2).
 
-    Edges in a row are joined into one segment.
-
-    Args:
-        grid: grid of the cells.
-        mask: mask of cells, (nx, ny).
-
-    Returns:
-        Segments in metres, shape (M, 2, 2): segment, end, (x, y).
+    Outside the grid counts as false. Edges in a row are joined into one segment.
     """
     # Edges where the mask changes, joined into runs in each direction.
     padded = np.pad(mask, 1)
@@ -53,11 +46,7 @@ def boundary_segments(grid: Grid, mask: NDArray[np.bool_]) -> NDArray[np.float64
 
 
 def boxes(grid: Grid, mask: NDArray[np.bool_]) -> NDArray[np.float64]:
-    """Return disjoint boxes that cover the true cells; each box is a run of cells along y.
-
-    Returns:
-        Closed outlines in metres, counter-clockwise, shape (M, 5, 2).
-    """
+    """Return disjoint boxes that cover the true cells, each a run along y: counter-clockwise outlines, m, (M, 5, 2)."""
     x, y0, y1 = _runs(mask)
     corners = [(x, y0), (x + 1, y0), (x + 1, y1), (x, y1), (x, y0)]
     return _to_world(grid, np.stack([np.stack(corner, -1) for corner in corners], axis=1))
@@ -76,15 +65,9 @@ def _to_world(grid: Grid, cells: NDArray[np.intp]) -> NDArray[np.float64]:
 
 
 def window(grid: Grid, x_m: tuple[float, float], y_m: tuple[float, float]) -> tuple[Grid, Cut]:
-    """Return the cells that a rectangle of the world touches.
+    """Return the grid of the cells that a rectangle of the world touches, and the slices that cut it from (nx, ny).
 
-    Args:
-        grid: grid of the cells.
-        x_m: left and right edge of the rectangle, metres.
-        y_m: lower and upper edge, metres.
-
-    Returns:
-        The grid of the window, and the slices that cut it from an array of shape (nx, ny).
+    ``x_m`` are the rectangle's left and right edge, ``y_m`` its lower and upper edge.
 
     Raises:
         BadInput: edges out of order or not finite, or a rectangle outside the grid.
@@ -112,12 +95,7 @@ def window(grid: Grid, x_m: tuple[float, float], y_m: tuple[float, float]) -> tu
 
 
 def window_around(grid: Grid, mask: ArrayLike, margin_m: float = 1.0) -> tuple[Grid, Cut]:
-    """Return the window around the true cells, with a margin.
-
-    Args:
-        grid: grid of the cells.
-        mask: mask of cells, such as the observed ones, (nx, ny); if none is true, the window is the whole grid.
-        margin_m: margin around the cells, at most to the end of the grid.
+    """Return the `window` around the true cells of a mask, (nx, ny), with a margin; the whole grid if none is true.
 
     Raises:
         BadInput: another shape than the grid's.
@@ -125,8 +103,8 @@ def window_around(grid: Grid, mask: ArrayLike, margin_m: float = 1.0) -> tuple[G
     cells = as_mask(grid, mask, "mask")
     edges = []
     for axis in (0, 1):
-        held = np.flatnonzero(cells.any(axis=1 - axis))
-        low, high = (int(held[0]), int(held[-1]) + 1) if len(held) else (0, grid.shape[axis])
+        lines = np.flatnonzero(cells.any(axis=1 - axis))
+        low, high = (int(lines[0]), int(lines[-1]) + 1) if len(lines) else (0, grid.shape[axis])
         start = grid.origin[axis]
         edges.append((start + low * grid.resolution - margin_m, start + high * grid.resolution + margin_m))
     return window(grid, edges[0], edges[1])
@@ -153,16 +131,10 @@ LABELS_IN = 0.55
 
 
 def draw_probability(ax: Axes, grid: Grid, occupancy: ArrayLike, observed: ArrayLike | None = None) -> AxesImage:
-    """Draw the posterior probability of wall: free is light, wall is dark, unobserved is hatched.
+    """Draw the probability of wall per cell, (nx, ny): free is light, wall is dark, unobserved is hatched.
 
-    Args:
-        ax: axes to draw on.
-        grid: grid of the cells.
-        occupancy: probability of wall per cell, shape (nx, ny).
-        observed: mask of the cells that a beam reached, shape (nx, ny); None: all cells.
-
-    Returns:
-        The image, from 0 to 1, for a colour bar.
+    ``observed`` is a mask of the cells that a beam reached, (nx, ny); None: all cells. Returns the image, from 0 to 1,
+    for a colour bar.
 
     Raises:
         BadInput: shapes that differ from the grid's, or probabilities outside [0, 1].
@@ -242,6 +214,15 @@ def map_figure(
     width_in = (HEIGHT_IN - LABELS_IN) * float(np.clip(grid.shape[0] / grid.shape[1], *aspects)) + bar_in
     figure = palette.blank_figure(width_in, HEIGHT_IN + foot_in, dpi)
     return figure, figure.subplots()
+
+
+def round_number(value: float, *, up: bool) -> float:
+    """Round a positive number up or down to 1, 2 or 5 times a power of ten."""
+    power = 10.0 ** np.floor(np.log10(value))
+    steps = [step * power for step in (1.0, 2.0, 5.0, 10.0)]
+    if up:
+        return float(next(step for step in steps if value <= step * (1 + 1e-9)))
+    return float(max(step for step in steps if step <= value * (1 + 1e-9)))
 
 
 def tick_locator(most: int) -> MaxNLocator:

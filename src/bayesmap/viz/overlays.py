@@ -94,12 +94,8 @@ def draw_rays(
 def draw_sensor(ax: Axes, poses: ArrayLike) -> list[Line2D]:
     """Draw the sensor as an arrow along its yaw. Many poses are drawn as a trajectory that ends in an arrow.
 
-    Args:
-        ax: axes to draw on.
-        poses: x in metres, y in metres, yaw in radians: shape (S, 3), or (3,).
-
-    Returns:
-        The marks; the first is labelled "sensor" or "trajectory".
+    ``poses`` are (S, 3) or (3,): x, y in metres and yaw in radians. Returns the marks; the first is labelled "sensor"
+    or "trajectory".
 
     Raises:
         BadInput: another shape, no pose, or a number that is not finite.
@@ -157,12 +153,9 @@ LEAST_WIDTH_PT, MOST_WIDTH_PT = 0.8, 2.5
 def surface_strokes(
     means_world: ArrayLike, covariances_m2: ArrayLike, longest_m: float = np.inf
 ) -> NDArray[np.float64]:
-    """Return both ends of every stroke, metres, shape (n, 2, 2): surface, end, (x, y).
+    """Return both ends of the strokes of n surfaces, by means (n, 2) and covariances (n, 2, 2), metres, (n, 2, 2).
 
-    Args:
-        means_world: centres in metres, shape (n, 2).
-        covariances_m2: covariances in square metres, shape (n, 2, 2).
-        longest_m: largest length of a stroke; longer ones are cut.
+    Strokes longer than ``longest_m`` are cut.
 
     Raises:
         BadInput: shapes that do not fit, numbers that are not finite, or a matrix that is no covariance.

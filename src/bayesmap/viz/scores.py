@@ -95,9 +95,8 @@ def calibration_figure(rows: Rows) -> Figure:
 def draw_distribution(ax: Axes, errors: NDArray[np.float64], label: str) -> None:
     """Draw the cumulative distribution of errors, with its mean and median."""
     ordered = np.sort(errors)
-    ax.step(
-        ordered, np.arange(1, len(ordered) + 1) / len(ordered), where="post", color=palette.CHAINS[0], linewidth=1.2
-    )
+    share = np.arange(1, len(ordered) + 1) / len(ordered)
+    ax.step(ordered, share, where="post", color=palette.CHAINS[0], linewidth=1.2)
     ax.axvline(float(ordered.mean()), color=palette.CHAINS[1], linewidth=0.8, label=f"mean {ordered.mean():.3g}")
     median = float(np.median(ordered))
     ax.axvline(median, color=palette.CHAINS[1], linewidth=0.8, linestyle=":", label=f"median {median:.3g}")
@@ -152,7 +151,7 @@ def residual_scale(residuals_m: ArrayLike, limit_m: float | None = None) -> Scal
     """Return a symmetric scale. Its default limit is the 90 % quantile of the absolute residuals, at least 5 cm."""
     values = as_array(residuals_m, "residuals_m")
     if limit_m is None:
-        limit_m = max(0.05, _rounded(float(np.quantile(np.abs(values), 0.9)) if values.size else 0.0))
+        limit_m = maps.round_number(max(0.05, np.quantile(np.abs(values), 0.9) if values.size else 0.0), up=True)
     if not limit_m > 0.0:
         raise BadInput(f"picture: the limit of the residuals must be a positive number of metres, got {limit_m:g}")
     return Scale(palette.residual_colormap(), -limit_m, limit_m, "reading minus predicted median [m]")
@@ -214,11 +213,3 @@ def residuals_figure(
     bar.ax.tick_params(colors=palette.TEXT)
     bar.outline.set(edgecolor=palette.FRAME, linewidth=0.6)
     return figure
-
-
-def _rounded(value: float) -> float:
-    """Round up to the next of 1, 2 or 5 times a power of ten."""
-    if value <= 0.0:
-        return 0.0
-    power = 10.0 ** np.floor(np.log10(value))
-    return float(next(step * power for step in (1.0, 2.0, 5.0, 10.0) if value <= step * power * (1 + 1e-9)))

@@ -67,7 +67,7 @@ def _draw_map(
     ax.plot(poses[:, 0], poses[:, 1], color=AFTER, linewidth=0.8, label="trajectory", zorder=3)
     shown = np.unique(np.linspace(0, len(poses) - 1, MOST_ELLIPSES).astype(int))
     spread_m = float(np.sqrt(np.median(np.linalg.eigvalsh(covariances[shown, :2, :2])[:, 1])))
-    magnified = _round_down(max(1.0, 0.01 * max(grid.shape) * grid.resolution / max(spread_m, 1e-6)))
+    magnified = maps.round_number(max(1.0, 0.01 * max(grid.shape) * grid.resolution / max(spread_m, 1e-6)), up=False)
     draw_ellipses(ax, poses[shown, :2], covariances[shown, :2, :2], magnified)
     name = "95 % region" + (f", drawn {magnified:g} times as large" if magnified > 1 else "")
     ax.plot([], [], "o", markerfacecolor="none", markeredgecolor=AFTER, label=name)
@@ -110,15 +110,10 @@ def loops_figure(
     poses: Floats, first: ArrayLike, second: ArrayLike, residuals: Floats, weights: Floats,
     alternatives: Sequence[tuple[Floats, float]] = (),
 ) -> Figure:  # fmt: skip
-    """Draw loop closures: pairs of matched scans at which the robot has returned to a place.
+    """Draw M loop closures: pairs of matched scans at which the robot has returned to a place, by index in S poses.
 
-    Args:
-        poses: poses of the trajectory, (S, 3).
-        first: index of one scan of each closure, (M,).
-        second: index of the other scan, (M,).
-        residuals: residuals of the closures, x, y and yaw, metres and radians, (M, 3).
-        weights: weights of the closures, from 0 (rejected) to 1, (M,).
-        alternatives: poses of other possible trajectories, (S, 3) each, and their probabilities.
+    ``residuals`` are x, y and yaw, (M, 3), and ``weights`` run from 0 (rejected) to 1, (M,). ``alternatives`` are poses
+    of other possible trajectories, (S, 3), and their probabilities.
     """
     first, second = np.asarray(first), np.asarray(second)
     spans = np.ptp(poses[:, :2], axis=0)
@@ -163,9 +158,3 @@ def _finished(figure: Figure, ax: Axes) -> Figure:
     ax.set_ylabel("y [m]")
     figure.legend(loc="outside lower center", ncols=4, frameon=False, fontsize=8)
     return figure
-
-
-def _round_down(value: float) -> float:
-    """Round down to 1, 2 or 5 times a power of ten."""
-    ten = 10.0 ** np.floor(np.log10(value))
-    return float(ten * max(step for step in (1.0, 2.0, 5.0) if step * ten <= value * (1 + 1e-9)))
