@@ -184,7 +184,9 @@ def _concatenated(parts: Sequence[Chains], axis: int) -> Chains:
     """Return the last part with the draws and densities of all parts along an axis, and the sum of their seconds."""
     last = parts[-1]
     draws = {name: np.concatenate([part.draws.arrays[name] for part in parts], axis) for name in last.draws.arrays}
-    densities = {name: np.concatenate([getattr(part, name) for part in parts], axis) for name in DENSITIES}
+    densities: dict[str, Any] = {
+        name: np.concatenate([getattr(part, name) for part in parts], axis) for name in DENSITIES
+    }
     seconds = {name: sum(part.seconds.get(name, 0.0) for part in parts) for name in last.seconds}
     draws_of_all = replace(last.draws, arrays=draws)
     return replace(last, draws=draws_of_all, seconds=seconds, statistics=parts[0].statistics, **densities)
@@ -211,7 +213,7 @@ def some_chains(chains: Chains, which: slice) -> Chains:
     """Return a slice of the chains."""
     draws = replace(chains.draws, arrays={name: array[which] for name, array in chains.draws.arrays.items()})
     snapshot = Snapshot(chains.sweep, {name: array[which] for name, array in chains.snapshot.arrays.items()})
-    densities = {name: getattr(chains, name)[which] for name in DENSITIES}
+    densities: dict[str, Any] = {name: getattr(chains, name)[which] for name in DENSITIES}
     return replace(chains, draws=draws, snapshot=snapshot, **densities)
 
 
