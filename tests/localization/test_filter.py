@@ -51,9 +51,6 @@ def test_the_probability_of_an_area_leaves_room_for_being_lost():
     assert belief().probability_in(np.array(triangle)) == pytest.approx(0.375, abs=0.02)
     with pytest.raises(BadInput, match="give corners"):
         belief().probability_in([1, 2, 3])
-
-
-def test_levels_outside_zero_and_one_are_refused():
     with pytest.raises(BadInput, match="inside"):
         belief().region(1.0)
 

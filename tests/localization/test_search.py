@@ -6,24 +6,10 @@ import scipy
 from rooms import ANGLES, known, offset, scan_from, walls_of
 from tiers import full_but
 
+from bayesmap.localization import search
 from bayesmap.localization.filter import Prior, Scan, approached
 from bayesmap.localization.localize import InitialPose
 from bayesmap.localization.particles import DOF, PoseMixture, draw_population, shared_out, student_draws
-from bayesmap.localization.search import (
-    APART_M,
-    APART_RAD,
-    HEADINGS,
-    POINTS,
-    SURFACE_FLOOR,
-    TOP,
-    _coarse_poses,
-    end_points,
-    endpoint_field,
-    likelihood_field,
-    refine,
-    search,
-    worth_of_unknown,
-)
 from bayesmap.sensors.model import RangeLimits
 from bayesmap.space.planar import wrapped
 
@@ -31,14 +17,14 @@ from bayesmap.space.planar import wrapped
 @pytest.fixture(scope="module")
 def room():
     walls, grid = walls_of(6.0, 4.0)
-    return walls, grid, likelihood_field(walls.astype(float), grid, ~walls)
+    return walls, grid, search.likelihood_field(walls.astype(float), grid, ~walls)
 
 
 def test_the_coarse_search_scores_every_position_and_heading(room):
     """The best of its poses is the best of the whole lattice, by the plain sum."""
     walls, grid, field = room
     scans = scan_from(walls, grid, np.array([2.0, 1.7, 1.0]))
-    points = end_points(ANGLES, scans.ranges_m[0], POINTS)
+    points = search.end_points(ANGLES, scans.ranges_m[0], search.POINTS)
     (mx, my), size = field.coarse_grid.shape, field.coarse_grid.resolution
 
     def plain(cell, heading):
@@ -48,10 +34,10 @@ def test_the_coarse_search_scores_every_position_and_heading(room):
         inside = (i >= 0) & (j >= 0) & (i < mx) & (j < my)
         return int(field.coarse[i[inside], j[inside]].sum())
 
-    headings = np.arange(HEADINGS) * 2 * np.pi / HEADINGS
+    headings = np.arange(search.HEADINGS) * 2 * np.pi / search.HEADINGS
     cells = np.argwhere(field.open)
     best = max(plain(cell, heading) for cell in cells for heading in headings)
-    found = _coarse_poses(field, points)
+    found = search._coarse_poses(field, points)
     scores = [plain(np.floor(pose[:2] / size).astype(int), pose[2]) for pose in found]
     assert max(scores) == best
 
@@ -62,25 +48,22 @@ def test_the_true_pose_is_found(room, seed):
     rng = np.random.default_rng(seed)
     truth = np.array([rng.uniform(0.5, 4.5), rng.uniform(0.5, 2.5), rng.uniform(-np.pi, np.pi)])
     scans = scan_from(walls, grid, truth, seed=seed)
-    found = search(field, ANGLES, scans.ranges_m[0], 10)
+    found = search.search(field, ANGLES, scans.ranges_m[0], 10)
     off = [offset(pose, truth) for pose in found.poses]
     assert min(metres + radians for metres, radians in off) < 0.15
     assert (np.diff(found.scores) <= 0).all()
     for i, pose in enumerate(found.poses):
-        near = np.abs(found.poses[:i, :2] - pose[:2]).max(axis=1, initial=0) < APART_M
-        assert not (near & (np.abs(wrapped(found.poses[:i, 2] - pose[2])) < APART_RAD)).any()
+        near = np.abs(found.poses[:i, :2] - pose[:2]).max(axis=1, initial=0) < search.APART_M
+        assert not (near & (np.abs(wrapped(found.poses[:i, 2] - pose[2])) < search.APART_RAD)).any()
 
 
-def test_refining_never_loses(room):
+def test_refining_never_loses_and_a_scan_without_hits_has_no_candidates(room):
     walls, grid, field = room
+    assert len(search.search(field, ANGLES, np.full(len(ANGLES), np.inf), 5).poses) == 0
     scans = scan_from(walls, grid, np.array([2.0, 1.7, 1.0]))
-    points = end_points(ANGLES, scans.ranges_m[0], 90)
+    points = search.end_points(ANGLES, scans.ranges_m[0], 90)
     start = np.array([[2.1, 1.6, 1.05]])
-    assert refine(field, points, start, 1).scores[0] >= field.score(points, start)[0]
-
-
-def test_a_scan_without_hits_has_no_candidates(room):
-    assert len(search(room[2], ANGLES, np.full(len(ANGLES), np.inf), 5).poses) == 0
+    assert search.refine(field, points, start, 1).scores[0] >= field.score(points, start)[0]
 
 
 NOWHERE = (np.zeros((40, 30), dtype=bool), 0.0)
@@ -90,27 +73,27 @@ def test_the_field_of_a_surface_is_its_widened_density():
     _, grid = walls_of(4.0, 3.0)
     states = np.zeros((1, grid.n_cells, 6), dtype=np.float32)
     states[0, 20 * 30 + 10] = [0.9, 2.05, 1.07, 0.03, 0.01, 0.02]
-    field = endpoint_field(states, grid, 0.02, *NOWHERE)
+    field = search.endpoint_field(states, grid, 0.02, *NOWHERE)
     assert field.grid.resolution == pytest.approx(0.025)
     lower = np.array([[0.03, 0.0], [0.01, 0.02]])
     covariance = lower @ lower.T + (0.02**2 + 0.25 * 0.025**2) * np.eye(2)
     cells = np.array([[82, 42], [83, 44], [80, 41], [100, 42]])
     off = (cells + 0.5) * 0.025 - [2.05, 1.07]
     peak = np.exp(-0.5 * np.einsum("ni,ij,nj->n", off, np.linalg.inv(covariance), off))
-    expected = np.log(SURFACE_FLOOR + (1 - SURFACE_FLOOR) * peak)
+    expected = np.log(search.SURFACE_FLOOR + (1 - search.SURFACE_FLOOR) * peak)
     scores = field.log_worth(np.zeros((1, 2)), np.column_stack([(cells + 0.5) * 0.025, np.zeros(4)])) + np.log(
-        SURFACE_FLOOR
+        search.SURFACE_FLOOR
     )
     np.testing.assert_allclose(scores, expected, atol=0.02)
-    assert scores[3] == pytest.approx(np.log(SURFACE_FLOOR), abs=1e-9)
+    assert scores[3] == pytest.approx(np.log(search.SURFACE_FLOOR), abs=1e-9)
 
 
 def test_the_nearer_surface_of_two_draws_counts():
     _, grid = walls_of(4.0, 3.0)
     states = np.zeros((2, grid.n_cells), dtype=np.float32)
     states[0, 20 * 30 + 10] = states[1, 25 * 30 + 10] = 1.0
-    both = endpoint_field(states, grid, 0.02, *NOWHERE)
-    each = [endpoint_field(one[None], grid, 0.02, *NOWHERE) for one in states]
+    both = search.endpoint_field(states, grid, 0.02, *NOWHERE)
+    each = [search.endpoint_field(one[None], grid, 0.02, *NOWHERE) for one in states]
     np.testing.assert_array_equal(both.values, np.maximum(each[0].values, each[1].values))
     assert (each[0].values != each[1].values).any()
 
@@ -119,13 +102,13 @@ def test_unknown_cells_are_worth_more_than_open_ones_and_less_than_walls():
     walls, grid = walls_of(4.0, 3.0)
     unknown = np.zeros(grid.shape, dtype=bool)
     unknown[20:30, 12:20] = True
-    field = likelihood_field(walls.astype(float), grid, ~walls & ~unknown, unknown, 0.08)
+    field = search.likelihood_field(walls.astype(float), grid, ~walls & ~unknown, unknown, 0.08)
     open_, behind, wall = field.fine[10, 15], field.fine[25, 15], field.fine[0, 15]
-    assert open_ < behind < wall == TOP
-    assert field.coarse.max() == TOP
-    assert likelihood_field(walls.astype(float), grid, ~walls & ~unknown, unknown, 0.0).fine[25, 15] == open_
-    assert worth_of_unknown(0.08, 0.12, 0.1) == pytest.approx(0.08 / 0.1 * 0.12 * np.sqrt(2 * np.pi))
-    assert worth_of_unknown(0.5, 0.12, 0.1) == 1.0
+    assert open_ < behind < wall == search.TOP
+    assert field.coarse.max() == search.TOP
+    assert search.likelihood_field(walls.astype(float), grid, ~walls & ~unknown, unknown, 0.0).fine[25, 15] == open_
+    assert search.worth_of_unknown(0.08, 0.12, 0.1) == pytest.approx(0.08 / 0.1 * 0.12 * np.sqrt(2 * np.pi))
+    assert search.worth_of_unknown(0.5, 0.12, 0.1) == 1.0
 
 
 def test_evenly_spread_draws_have_the_student_distribution():

@@ -9,29 +9,16 @@ import bayesmap as bm
 from bayesmap.kernels.counts import count_hits
 from bayesmap.kernels.predict.density import log_densities
 from bayesmap.kernels.rays import trace_rays
-from bayesmap.posterior.baselines import (
-    BASELINES,
-    SENSOR,
-    Baseline,
-    Parameter,
-    fit_baseline,
-    fit_external_map,
-    hit_ratio,
-    inner_score,
-    log_odds,
-    maximise,
-    sensor_of,
-    stop_probabilities,
-)
+from bayesmap.posterior import baselines
 from bayesmap.posterior.heldout import make_folds, together
 from bayesmap.posterior.scores import score_prediction
 
-BY_NAME = {b.name: b for b in BASELINES}
+BY_NAME = {b.name: b for b in baselines.BASELINES}
 HITS, PASSES = np.array([0.0, 3.0, 1.0, 0.0]), np.array([0.0, 1.0, 9.0, 100.0])
 
 
 def test_hit_ratios_by_hand():
-    found = hit_ratio(HITS, PASSES, {"a": 0.5, "b": 1.5})
+    found = baselines.hit_ratio(HITS, PASSES, {"a": 0.5, "b": 1.5})
     np.testing.assert_allclose(found, [0.25, 3.5 / 6, 1.5 / 12, 0.5 / 102])
 
 
@@ -41,27 +28,29 @@ def test_log_odds_by_hand():
     np.testing.assert_allclose(
         BY_NAME["log-odds, clamped"].stop(HITS, PASSES, {}), np.clip(odds / (1 + odds), 0.1192, 0.971)
     )
-    tuned = log_odds(HITS, PASSES, {"p_hit": 0.6, "p_miss": 0.45, "p_start": 0.2})
+    tuned = baselines.log_odds(HITS, PASSES, {"p_hit": 0.6, "p_miss": 0.45, "p_start": 0.2})
     assert tuned[0] == pytest.approx(0.2)
     assert tuned[1] == pytest.approx(1 / (1 + 4 * (2 / 3) ** 3 * (11 / 9)))
-    assert log_odds(np.array([1e6]), np.array([0.0]), {"p_hit": 0.9, "p_miss": 0.4, "p_start": 0.5})[0] == 1.0
+    assert baselines.log_odds(np.array([1e6]), np.array([0.0]), {"p_hit": 0.9, "p_miss": 0.4, "p_start": 0.5})[0] == 1.0
 
 
 def test_a_climb_finds_the_top_within_the_box():
-    parameters = (Parameter("x", 0.1, 10.0), Parameter("share", 0.01, 0.99, share=True))
+    parameters = (baselines.Parameter("x", 0.1, 10.0), baselines.Parameter("share", 0.01, 0.99, share=True))
 
     def hill(v):
         return -(np.log(v["x"] / 3.0) ** 2) - (v["share"] - 0.4) ** 2
 
     told = []
-    found, top = maximise(hill, hill, parameters, [{"x": 0.2, "share": 0.9}, {"x": 9.0, "share": 0.1}], told.append)
+    found, top = baselines.maximise(
+        hill, hill, parameters, [{"x": 0.2, "share": 0.9}, {"x": 9.0, "share": 0.1}], told.append
+    )
     assert len(told) > 10
     assert told == sorted(told)
     assert told[-1] == pytest.approx(1.0)
     assert found["x"] == pytest.approx(3.0, rel=0.02)
     assert found["share"] == pytest.approx(0.4, abs=0.02)
     assert top == pytest.approx(0.0, abs=1e-4)
-    edge, _ = maximise(lambda v: v["x"], lambda v: v["x"], parameters[:1], [{"x": 1.0}])
+    edge, _ = baselines.maximise(lambda v: v["x"], lambda v: v["x"], parameters[:1], [{"x": 1.0}])
     assert edge["x"] == pytest.approx(10.0)
 
 
@@ -82,7 +71,7 @@ def room():
 @pytest.fixture(scope="module")
 def fitted(room):
     grid, train, _, _ = room
-    return fit_baseline(BY_NAME["hit ratio"], train, grid)
+    return baselines.fit_baseline(BY_NAME["hit ratio"], train, grid)
 
 
 def test_the_inner_score_is_the_mean_over_folds_of_whole_beams(room, fitted):
@@ -96,7 +85,7 @@ def test_the_inner_score_is_the_mean_over_folds_of_whole_beams(room, fitted):
         sensor, depth = fitted.predictor.sensor, fitted.values["hit_depth"]
         logs.append(log_densities(rays, [stop[:, rays.touched]], sensor, depth))
     dof = getattr(fitted.predictor.sensor.noise, "dof", None)
-    found = inner_score(together(folds), baseline, dof, fitted.values)
+    found = baselines.inner_score(together(folds), baseline, dof, fitted.values)
     assert found == pytest.approx(np.concatenate(logs).mean(), abs=1e-4)
     assert found == pytest.approx(fitted.inner_nats_per_beam, abs=1e-9)
 
@@ -105,11 +94,11 @@ def test_no_change_of_a_single_number_fits_better(room, fitted):
     grid, train, _, _ = room
     folds, baseline = make_folds(train, grid), BY_NAME["hit ratio"]
     dof = getattr(fitted.predictor.sensor.noise, "dof", None)
-    for parameter in (*SENSOR, *baseline.own):
+    for parameter in (*baselines.SENSOR, *baseline.own):
         at = parameter.inner(fitted.values[parameter.name])
         for step in (-0.3, -0.1, 0.1, 0.3):
             moved = fitted.values | {parameter.name: parameter.outer(at + step)}
-            assert inner_score(together(folds), baseline, dof, moved) < fitted.inner_nats_per_beam + 2e-4
+            assert baselines.inner_score(together(folds), baseline, dof, moved) < fitted.inner_nats_per_beam + 2e-4
 
 
 def test_the_fit_predicts_held_out_scans_about_as_well_as_the_truth_s_own_sensor(room, fitted):
@@ -122,16 +111,16 @@ def test_the_fit_predicts_held_out_scans_about_as_well_as_the_truth_s_own_sensor
     assert found > score_prediction(coarse, held).nats_per_beam + 0.1
     hits, passes = count_hits(train, grid)
     (stop,) = fitted.predictor.batches(np.arange(grid.n_cells))
-    np.testing.assert_allclose(stop[0], hit_ratio(hits, passes, fitted.values), rtol=1e-6)
+    np.testing.assert_allclose(stop[0], baselines.hit_ratio(hits, passes, fitted.values), rtol=1e-6)
 
 
 @pytest.mark.full
 def test_clamping_costs(room, fitted):
     grid, train, held, _ = room
-    clamped = fit_baseline(BY_NAME["log-odds, clamped"], train, grid)
+    clamped = baselines.fit_baseline(BY_NAME["log-odds, clamped"], train, grid)
     best = score_prediction(fitted.predictor, held)
     assert score_prediction(clamped.predictor, held).nats_per_beam < best.nats_per_beam - 0.5
-    assert sensor_of(clamped.values, None).p_random == clamped.values["p_random"]
+    assert baselines.sensor_of(clamped.values, None).p_random == clamped.values["p_random"]
 
 
 @pytest.fixture(scope="module")
@@ -153,14 +142,14 @@ def seen():
 @pytest.fixture(scope="module")
 def fit(seen):
     occupancy, grid, train, _ = seen
-    return fit_external_map("true.yaml", occupancy, grid, train)
+    return baselines.fit_external_map("true.yaml", occupancy, grid, train)
 
 
 def test_the_true_map_is_understood_and_predicts(seen, fit):
     """It was not, while cells that beams touch were given the values of the first ones of the grid."""
     occupancy, grid, _, held = seen
     (stop,) = fit.predictor.batches(np.arange(grid.n_cells))
-    np.testing.assert_allclose(stop[0], stop_probabilities(occupancy.ravel(), fit.values), rtol=1e-6)
+    np.testing.assert_allclose(stop[0], baselines.stop_probabilities(occupancy.ravel(), fit.values), rtol=1e-6)
     assert fit.values["stop_occupied"] > 0.3
     assert fit.values["stop_free"] < 0.01
     found = score_prediction(fit.predictor, held).nats_per_beam
@@ -173,14 +162,14 @@ def test_a_map_of_another_place_predicts_far_worse(seen, fit):
     occupancy, grid, train, held = seen
     found = score_prediction(fit.predictor, held).nats_per_beam
     shuffled = np.random.default_rng(1).permutation(occupancy.ravel()).reshape(grid.shape)
-    wrong = fit_external_map("shuffled.yaml", shuffled, grid, train)
+    wrong = baselines.fit_external_map("shuffled.yaml", shuffled, grid, train)
     assert score_prediction(wrong.predictor, held).nats_per_beam < found - 1.5
 
 
 def test_maps_of_another_shape_are_refused(seen):
     occupancy, grid, train, _ = seen
-    short = Baseline("short", lambda hits, passes, values: np.full(hits.size - 1, 0.1))
+    short = baselines.Baseline("short", lambda hits, passes, values: np.full(hits.size - 1, 0.1))
     with pytest.raises(ValueError, match="short: stop gave an array of shape"):
-        fit_baseline(short, train, grid)
+        baselines.fit_baseline(short, train, grid)
     with pytest.raises(bm.BadInput, match="must be probabilities of shape"):
-        fit_external_map("turned.yaml", occupancy.T, grid, train)
+        baselines.fit_external_map("turned.yaml", occupancy.T, grid, train)

@@ -9,17 +9,8 @@ import bayesmap as bm
 from bayesmap.errors import BadInput
 from bayesmap.kernels.counts import count_hits
 from bayesmap.kernels.predict.density import log_densities
+from bayesmap.posterior import heldout
 from bayesmap.posterior.baselines import hit_ratio
-from bayesmap.posterior.heldout import (
-    FOLDS,
-    NoneHeldOut,
-    make_folds,
-    moved_by,
-    one_fold,
-    seen_by,
-    together,
-    unseen_scans,
-)
 
 
 @pytest.fixture
@@ -39,48 +30,48 @@ def stamped(log):
 
 
 def test_a_scan_is_known_by_its_pose_and_readings(log):
-    seen = seen_by(log.select(slice(2, 5)), log)
+    seen = heldout.seen_by(log.select(slice(2, 5)), log)
     np.testing.assert_array_equal(np.flatnonzero(seen), [2, 3, 4])
     moved = dataclasses.replace(log, poses=log.poses + 1.0)
-    assert not seen_by(log, moved).any()
-    assert not seen_by(log, dataclasses.replace(log, angles_rad=log.angles_rad + 0.1)).any()
+    assert not heldout.seen_by(log, moved).any()
+    assert not heldout.seen_by(log, dataclasses.replace(log, angles_rad=log.angles_rad + 0.1)).any()
 
 
 def test_where_scans_have_stamps_their_poses_may_be_inferred(stamped):
     run = dataclasses.replace(stamped, poses=stamped.poses + 1.0).select(slice(2, 8))
-    np.testing.assert_array_equal(np.flatnonzero(seen_by(run, stamped)), np.arange(2, 8))
-    assert moved_by(run, stamped)
-    assert not moved_by(stamped.select(slice(2, 8)), stamped)
-    assert not seen_by(run, dataclasses.replace(stamped, ranges_m=stamped.ranges_m + 0.01)).any()
-    assert not seen_by(run, dataclasses.replace(stamped, stamps_s=stamped.stamps_s + 0.5)).any()
+    np.testing.assert_array_equal(np.flatnonzero(heldout.seen_by(run, stamped)), np.arange(2, 8))
+    assert heldout.moved_by(run, stamped)
+    assert not heldout.moved_by(stamped.select(slice(2, 8)), stamped)
+    assert not heldout.seen_by(run, dataclasses.replace(stamped, ranges_m=stamped.ranges_m + 0.01)).any()
+    assert not heldout.seen_by(run, dataclasses.replace(stamped, stamps_s=stamped.stamps_s + 0.5)).any()
 
 
 def test_a_scan_without_a_hit_is_that_of_a_run_only_where_it_stands(stamped):
     """Two recordings whose clocks both begin at 0 have such scans in common, but not their poses."""
     blind = dataclasses.replace(stamped, ranges_m=np.full(stamped.ranges_m.shape, np.inf))
-    assert seen_by(blind, blind).all()
-    assert not seen_by(dataclasses.replace(blind, poses=blind.poses + 1.0), blind).any()
+    assert heldout.seen_by(blind, blind).all()
+    assert not heldout.seen_by(dataclasses.replace(blind, poses=blind.poses + 1.0), blind).any()
 
 
 def test_scans_that_a_run_has_moved_cannot_judge_it(stamped):
     moved = dataclasses.replace(stamped, poses=stamped.poses + 1.0)
-    with pytest.raises(NoneHeldOut, match=r"a.log: the run has its scans elsewhere than this log"):
-        unseen_scans(moved.holdout(5)[0], stamped, 5, "a.log")
+    with pytest.raises(heldout.NoneHeldOut, match=r"a.log: the run has its scans elsewhere than this log"):
+        heldout.unseen_scans(moved.holdout(5)[0], stamped, 5, "a.log")
     with pytest.raises(bm.BadInput, match="the run was made from 20 of its 20 scans"):
-        unseen_scans(moved, stamped, 0, "a.log")
+        heldout.unseen_scans(moved, stamped, 0, "a.log")
 
 
 def test_the_held_out_scans_are_those_of_the_protocol(log):
     train, held = log.holdout(5)
-    found = unseen_scans(train, log, 5, "a.log")
+    found = heldout.unseen_scans(train, log, 5, "a.log")
     np.testing.assert_array_equal(found.ranges_m, held.ranges_m)
     thinned = train.select(slice(None, None, 2))
-    assert len(unseen_scans(thinned, log, 5, "a.log")) == len(held)
+    assert len(heldout.unseen_scans(thinned, log, 5, "a.log")) == len(held)
 
 
 def test_another_recording_is_taken_whole(log):
     other = dataclasses.replace(log, poses=log.poses + 1.0)
-    assert unseen_scans(log, other, 0, "b.log") is other
+    assert heldout.unseen_scans(log, other, 0, "b.log") is other
 
 
 @pytest.mark.parametrize(
@@ -97,7 +88,7 @@ def test_another_recording_is_taken_whole(log):
 )
 def test_scans_that_were_trained_on_are_refused(log, train, every, message):
     with pytest.raises(bm.BadInput, match=message):
-        unseen_scans(train(log), log, every, "a.log")
+        heldout.unseen_scans(train(log), log, every, "a.log")
 
 
 GRID = bm.Grid((20, 30), 0.2)
@@ -116,8 +107,8 @@ def train():
 
 
 def test_folds_leave_each_scan_out_of_its_own_counts(train):
-    folds = make_folds(train, GRID)
-    assert len(folds) == FOLDS  # so few beams that all ways are taken
+    folds = heldout.make_folds(train, GRID)
+    assert len(folds) == heldout.FOLDS  # so few beams that all ways are taken
     assert sum(len(fold.scans) for fold in folds) == len(train)
     for fold in folds:
         own = {pose.tobytes() for pose in fold.scans.poses}
@@ -130,13 +121,13 @@ def test_folds_leave_each_scan_out_of_its_own_counts(train):
 def test_together_they_are_predicted_as_each_alone(train):
     """Each under its own counts: the same bits, and other ones under another's."""
     sensor = bm.BeamMixture(bm.Gaussian(0.05))
-    folds = make_folds(train, GRID)[:3]
+    folds = heldout.make_folds(train, GRID)[:3]
 
     def maps(fold, of):
         return hit_ratio(of.hits, of.passes, {"a": 0.5, "b": 0.5})[fold.rays.touched][None].astype(np.float32)
 
     alone = [log_densities(fold.rays, [maps(fold, fold)], sensor, 0.5) for fold in folds]
-    joined = together(folds)
+    joined = heldout.together(folds)
     of_all = np.concatenate([maps(fold, fold) for fold in folds], axis=1)
     found = log_densities(joined.rays, [of_all], sensor, 0.5, columns=joined.columns)
     np.testing.assert_array_equal(found, np.concatenate(alone))
@@ -147,20 +138,20 @@ def test_together_they_are_predicted_as_each_alone(train):
 
 def test_too_few_scans_are_refused(train):
     with pytest.raises(bm.BadInput, match="takes two scans or more"):
-        make_folds(train.select(slice(0, 1)), GRID)
+        heldout.make_folds(train.select(slice(0, 1)), GRID)
     blind = dataclasses.replace(train, ranges_m=np.full(train.ranges_m.shape, np.nan))
     with pytest.raises(bm.BadInput, match="none of the training scans has a valid reading"):
-        make_folds(blind, GRID)
+        heldout.make_folds(blind, GRID)
     with pytest.raises(bm.BadInput, match="to fit a sensor on"):
-        one_fold(blind, GRID)
+        heldout.one_fold(blind, GRID)
 
 
 def test_a_map_of_thinned_scans_at_other_poses_is_known_as_such(stamped):
     run = dataclasses.replace(
         stamped, poses=stamped.poses + 1.0, ranges_m=stamped.ranges_m[:, ::2], angles_rad=stamped.angles_rad[::2]
     )
-    with pytest.raises(NoneHeldOut, match="elsewhere"):
-        unseen_scans(run.select(slice(2, 8)), stamped, 4, "log")
+    with pytest.raises(heldout.NoneHeldOut, match="elsewhere"):
+        heldout.unseen_scans(run.select(slice(2, 8)), stamped, 4, "log")
     other = dataclasses.replace(stamped, stamps_s=stamped.stamps_s + 0.5)
     with pytest.raises(BadInput, match="none of the run's scans"):
-        unseen_scans(run, other, 4, "log")
+        heldout.unseen_scans(run, other, 4, "log")

@@ -12,16 +12,8 @@ from oracle.verdict import ALPHA
 
 import bayesmap as bm
 from bayesmap.kernels.rays import trace_rays
+from bayesmap.posterior import scores
 from bayesmap.posterior.predictor import Predictor, fixed_maps
-from bayesmap.posterior.scores import (
-    ScanBlocks,
-    binary_scores,
-    inside,
-    pit_histogram,
-    randomised_pit,
-    reliability,
-    score_prediction,
-)
 from bayesmap.sensors.model import RangeLimits
 
 GRID = bm.Grid((20, 16), 0.25)
@@ -56,7 +48,7 @@ def drawn_from_the_model(sensor, seed, scans=150, rays=24):
 @pytest.mark.parametrize("name", SENSORS)
 def test_predictions_of_the_model_s_own_data_are_calibrated(name):
     predictor, scans = drawn_from_the_model(SENSORS[name], 1)
-    found = score_prediction(predictor, scans)
+    found = scores.score_prediction(predictor, scans)
     assert scipy.stats.kstest(found.pit, "uniform").pvalue > ALPHA
     for interval in found.coverage:
         inside_all = round(interval.share.value * found.beams)
@@ -83,8 +75,8 @@ def test_predictions_of_the_model_s_own_data_are_calibrated(name):
 def test_predictions_of_a_wrong_twin_are_not_calibrated(change):
     """Power of the test above, and what is wrong never scores better."""
     predictor, scans = drawn_from_the_model(SENSORS["mixture"], 1)
-    right = score_prediction(predictor, scans)
-    wrong = score_prediction(dataclasses.replace(predictor, **change), scans)
+    right = scores.score_prediction(predictor, scans)
+    wrong = scores.score_prediction(dataclasses.replace(predictor, **change), scans)
     assert scipy.stats.kstest(wrong.pit, "uniform").pvalue < ALPHA
     assert wrong.pit_p_value < 0.01 < right.pit_p_value
     assert wrong.nats_per_beam < right.nats_per_beam
@@ -92,30 +84,30 @@ def test_predictions_of_a_wrong_twin_are_not_calibrated(change):
 
 
 def test_the_transform_spreads_atoms_over_their_share():
-    u = randomised_pit(np.array([0.2, 0.7] * 5000), np.array([0.2, 0.9] * 5000), seed=3)
+    u = scores.randomised_pit(np.array([0.2, 0.7] * 5000), np.array([0.2, 0.9] * 5000), seed=3)
     assert (u[::2] == 0.2).all()
     assert scipy.stats.kstest(u[1::2], "uniform", args=(0.7, 0.2)).pvalue > ALPHA
     np.testing.assert_array_equal(
-        u[:100], randomised_pit(np.array([0.2, 0.7] * 5000), np.array([0.2, 0.9] * 5000), 3)[:100]
+        u[:100], scores.randomised_pit(np.array([0.2, 0.7] * 5000), np.array([0.2, 0.9] * 5000), 3)[:100]
     )
 
 
 def test_histogram_and_intervals():
     u = np.array([0.01, 0.3, 0.5, 0.74, 0.99])
-    np.testing.assert_allclose(pit_histogram(u, 4), [0.2, 0.2, 0.4, 0.2])
-    assert pit_histogram(np.array([0.0, 1.0]), 2).tolist() == [0.5, 0.5]
-    assert inside(u, 0.5).tolist() == [False, True, True, True, False]
+    np.testing.assert_allclose(scores.pit_histogram(u, 4), [0.2, 0.2, 0.4, 0.2])
+    assert scores.pit_histogram(np.array([0.0, 1.0]), 2).tolist() == [0.5, 0.5]
+    assert scores.inside(u, 0.5).tolist() == [False, True, True, True, False]
 
 
 def test_brier_and_log_loss_of_an_event():
-    brier, loss = binary_scores(np.array([0.2, 0.2]), np.array([True, False]))
+    brier, loss = scores.binary_scores(np.array([0.2, 0.2]), np.array([True, False]))
     np.testing.assert_allclose(brier, [0.64, 0.04])
     np.testing.assert_allclose(loss, [-np.log(0.2), -np.log(0.8)])
 
 
 def test_reliability_puts_events_of_like_chance_together():
     chance = np.array([1e-5, 5e-4, 0.6, 0.8])
-    rows = reliability(chance, np.array([False, False, True, True]), bins=10)
+    rows = scores.reliability(chance, np.array([False, False, True, True]), bins=10)
     assert [n for *_, n in rows] == [2, 2]
     np.testing.assert_allclose(rows[1][:2], (0.7, 1.0))
 
@@ -124,21 +116,17 @@ def test_errors_are_those_of_means_over_scans():
     """Items of a scan are copies of one number: a bootstrap over items would be seven times too sure."""
     rng = np.random.default_rng(1)
     of_scan = rng.normal(size=200)
-    found = ScanBlocks.make(np.repeat(np.arange(200), 50)).mean(np.repeat(of_scan, 50))
+    found = scores.ScanBlocks.make(np.repeat(np.arange(200), 50)).mean(np.repeat(of_scan, 50))
     assert found.value == pytest.approx(of_scan.mean())
     assert found.error == pytest.approx(of_scan.std() / np.sqrt(200), rel=0.1)
 
 
-def test_errors_of_scans_of_unequal_size_count_items():
-    block = np.array([0] * 9 + [1])
-    values = np.array([1.0] * 9 + [0.0])
-    assert ScanBlocks.make(block).mean(values).value == pytest.approx(0.9)
-
-
-def test_a_single_scan_has_no_error():
-    blocks = ScanBlocks.make(np.zeros(5, int))
-    assert np.isnan(blocks.mean(np.arange(5.0)).error)
-    distance, p = blocks.uniformity(np.linspace(0.01, 0.99, 5))
+def test_scans_of_unequal_size_count_items_and_a_single_one_has_no_error():
+    unequal = scores.ScanBlocks.make(np.array([0] * 9 + [1]))
+    assert unequal.mean(np.array([1.0] * 9 + [0.0])).value == pytest.approx(0.9)
+    single = scores.ScanBlocks.make(np.zeros(5, int))
+    assert np.isnan(single.mean(np.arange(5.0)).error)
+    distance, p = single.uniformity(np.linspace(0.01, 0.99, 5))
     assert np.isnan(p)
     assert 0 < distance < 0.5
 
@@ -150,5 +138,5 @@ def test_the_test_of_uniformity_respects_scans():
     u = np.where(rng.random(3200) < 0.5, u, u**1.15)
     block = np.repeat(rng.permutation(80), 40)
     assert scipy.stats.kstest(u, "uniform").pvalue < 0.05
-    assert ScanBlocks.make(block).uniformity(u)[1] > 0.2
-    assert ScanBlocks.make(block).uniformity(u**2)[1] == 0.0
+    assert scores.ScanBlocks.make(block).uniformity(u)[1] > 0.2
+    assert scores.ScanBlocks.make(block).uniformity(u**2)[1] == 0.0

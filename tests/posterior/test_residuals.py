@@ -109,20 +109,13 @@ def test_behind_the_wall_is_negative():
     assert found.incidence_rad == pytest.approx(0.0)
 
 
-def test_parts_follow_each_other_by_their_sizes():
-    told = []
-    first, second, third = parts(told.append, 1.0, 2.0, 5.0)
-    for tell, share in ((first, 0.5), (first, 1.0), (second, 0.5), (second, 1.0), (third, 0.2), (third, 1.0)):
-        tell(share)
-    assert told == pytest.approx([0.5 / 8, 1 / 8, 2 / 8, 3 / 8, 4 / 8, 1.0])
-
-
-def test_a_part_can_have_parts():
-    told = []
-    _, second = parts(told.append, 1.0, 1.0)
-    for tell in parts(second, 3.0, 1.0):
-        tell(1.0)
-    assert told == pytest.approx([0.875, 1.0])
+def test_parts_follow_each_other_by_their_sizes_and_have_parts():
+    shares = []
+    first, second, third = parts(shares.append, 1.0, 2.0, 5.0)
+    inner = parts(third, 1.0, 4.0)
+    for report, share in ((first, 0.5), (first, 1.0), (second, 0.5), (second, 1.0), (inner[0], 1.0), (inner[1], 1.0)):
+        report(share)
+    assert shares == pytest.approx([0.5 / 8, 1 / 8, 2 / 8, 3 / 8, 4 / 8, 1.0])
 
 
 def test_watched_batches_are_unchanged_and_reported_after_use():

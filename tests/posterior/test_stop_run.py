@@ -49,6 +49,7 @@ def test_draws_and_their_mean_cover_the_grid(kind):
     np.testing.assert_array_equal(run.draws.reshape(2, 8, -1)[..., of(run, "cell")], drawn)
     np.testing.assert_allclose(run.map_of(1, 3), run.draws[1, 3], atol=1e-6)
     assert run.log_joint.shape == (2, 8)
+    assert len(run.plot().axes) >= 3
 
 
 def test_draws_and_intervals_of_untouched_cells_are_the_prior_s():
@@ -168,11 +169,6 @@ def test_the_summary_judges_reflectivities(kind):
     assert summary.microseconds_per_sweep > 0
     short = run_of(kind, draws=2).summary()
     assert np.isnan(short.rhat_max)
-
-
-@KINDS
-def test_a_run_is_drawn(kind):
-    assert len(run_of(kind).plot().axes) >= 3
 
 
 def test_a_run_without_hits_has_no_surfaces_and_is_drawn():

@@ -10,8 +10,10 @@ FAR = bm.Scans([*SCANS.poses[:2], [900.0, 1.0, 0.0]], [0.0], SCANS.ranges_m, max
 SENSOR = bm.BeamMixture(bm.Gaussian(0.05))
 
 
-def test_the_machine_says_how_much_it_has():
+def test_the_machine_says_how_much_it_has_or_the_memory_is_not_asked_for(monkeypatch):
     assert checks.memory_bytes() is None or checks.memory_bytes() > 1 << 28
+    monkeypatch.setattr(checks, "memory_bytes", lambda: None)
+    checks.check_memory(bm.Grid((9000, 9000), 0.1), SCANS, True, 100)
 
 
 @pytest.mark.parametrize("prior", [bm.Surface(), bm.Beta()], ids=["surfaces", "reflectivities"])
@@ -35,11 +37,6 @@ def test_a_scan_that_is_far_from_all_others_is_named(monkeypatch):
     monkeypatch.setattr(checks, "memory_bytes", lambda: 1 << 20)
     with pytest.raises(bm.BadInput, match=r"scan 2 was taken at \(900, 1\) m, far from all others; correct its pose"):
         bm.infer(FAR, bm.Grid.covering(FAR, 0.5), prior=bm.Surface(), sensor=SENSOR)
-
-
-def test_it_is_not_asked_for_where_the_system_does_not_say(monkeypatch):
-    monkeypatch.setattr(checks, "memory_bytes", lambda: None)
-    checks.check_memory(bm.Grid((9000, 9000), 0.1), SCANS, True, 100)
 
 
 def test_containers_may_take_less_than_the_machine_has(monkeypatch, tmp_path):

@@ -108,10 +108,7 @@ def test_they_draw_what_chains_without_a_precision_draw():
     longer = infer(scans(), GRID, **ASKED)
     assert longer.n_draws == 400
     np.testing.assert_array_equal(longer.draws[:, : run.n_draws], run.draws)
-
-
-def test_the_number_of_threads_changes_nothing():
-    np.testing.assert_array_equal(stopped_early(1).draws, stopped_early().draws)
+    np.testing.assert_array_equal(stopped_early(threads=1).draws, run.draws)
 
 
 @pytest.mark.parametrize("after", [10, 20, 30, 41, 60])
@@ -140,12 +137,9 @@ def test_a_default_run_stops_early_and_a_number_of_draws_is_kept_to():
     cells = {"prior": bm.Independent(0.3), "sensor": bm.Gaussian(0.2), "seed": 3}
     assert bm.infer(scans(), GRID, **cells).n_draws < 1000
     assert bm.infer(scans(), GRID, schedule=bm.Schedule(draws=70), **cells).n_draws == 70
-
-
-@pytest.mark.parametrize("precision", [0.0, -1.0, float("nan")])
-def test_a_precision_that_is_none_is_refused(precision):
-    with pytest.raises(bm.BadInput, match="precision must be a positive probability"):
-        bm.Schedule(precision=precision)
+    for precision in (0.0, -1.0, float("nan")):
+        with pytest.raises(bm.BadInput, match="precision must be a positive probability"):
+            bm.Schedule(precision=precision)
 
 
 def test_progress_expects_the_first_mark_and_then_what_the_error_asks_for():

@@ -225,28 +225,23 @@ def test_a_checkpoint_does_not_send_all_draws_back(cluster, scans, kind, monkeyp
     assert counts == ({8} if kind == "walls" else {0})
 
 
-def test_what_a_sampler_refuses_is_refused_here_too(cluster, scans):
-    with pytest.raises(bm.BadInput, match="each task has a GPU of its own"):
-        infer(scans, GRID, executor=quick(), device="tpu:7", **{**SHORT, **KINDS["walls"]})
+def test_what_a_sampler_or_the_cluster_cannot_do_is_refused(cluster, scans):
+    for executor, device, message in (
+        (quick(), "tpu:7", "each task has a GPU of its own"), (quick(cpus_per_task=64), "cpu", "each needs 64 CPUs"),
+    ):  # fmt: skip
+        with pytest.raises(bm.BadInput, match=message):
+            infer(scans, GRID, executor=executor, device=device, **{**SHORT, **KINDS["walls"]})
 
 
-@pytest.mark.parametrize(
-    ("change", "message"),
-    [
+def test_numbers_that_make_no_sense_are_refused():
+    for change, message in (
         ({"cpus_per_task": 0}, "cpus_per_task must be a whole number of 1 or more"),
         ({"chains_per_task": 0}, "chains_per_task must be a whole number of 1 or more"),
         ({"retries": -1}, "retries must be a whole number of 0 or more"),
         ({"segment_s": 0.0}, "segment_s must be a positive number of seconds"),
-    ],
-)
-def test_numbers_that_make_no_sense_are_refused(change, message):
-    with pytest.raises(bm.BadInput, match=message):
-        bm.RayExecutor(**change)
-
-
-def test_more_cpus_than_the_cluster_has_are_refused(cluster, scans):
-    with pytest.raises(bm.BadInput, match="each needs 64 CPUs"):
-        infer(scans, GRID, executor=quick(cpus_per_task=64), **{**SHORT, **KINDS["walls"]})
+    ):
+        with pytest.raises(bm.BadInput, match=message):
+            bm.RayExecutor(**change)
 
 
 def test_without_ray_the_remedy_is_named(scans, monkeypatch):

@@ -88,46 +88,30 @@ def test_resumed_chains_equal_uninterrupted_ones_bit_for_bit(method, order, monk
     assert_same(part, whole)
 
 
-def test_a_stop_keeps_what_there_is_and_says_so(monkeypatch):
-    monkeypatch.setattr(runner, "STEP_SECONDS", 0.0)
-    problem = problem_8x8()
-    whole = chains_of(problem, "gibbs", "radial")
-    for after in (0, 5, 13, 20, 21, 29):
-        asked = iter(range(100))
-        part = chains_of(problem, "gibbs", "radial", should_stop=lambda asked=asked, after=after: next(asked) >= after)
-        assert not part.finished
-        kept, warmed = packed(part).shape[1], part.warmup_log_joint.shape[1]
-        assert part.sweep == after
-        assert (warmed, kept) == (min(after, 13), max(0, after - 13) // 3)
-        np.testing.assert_array_equal(packed(part), packed(whole)[:, :kept])
-        np.testing.assert_array_equal(part.log_joint, whole.log_joint[:, :kept])
-        np.testing.assert_array_equal(part.warmup_log_joint, whole.warmup_log_joint[:, :warmed])
-
-
-def test_a_stop_in_the_last_step_is_a_stop_and_resumed_there_is_nothing_left_to_do(monkeypatch):
+@pytest.mark.parametrize("after", [0, 5, 13, 20, 21, 29, SCHEDULE.sweeps])
+def test_a_stop_keeps_what_there_is_and_says_so(after, monkeypatch):
+    """Even in the last step: resumed there, nothing is left to do."""
     monkeypatch.setattr(runner, "STEP_SECONDS", 0.0)
     problem, asked = problem_8x8(), iter(range(100))
     whole = chains_of(problem, "gibbs", "radial")
-    part = chains_of(problem, "gibbs", "radial", should_stop=lambda: next(asked) >= SCHEDULE.sweeps)
-    assert (part.sweep, part.finished) == (SCHEDULE.sweeps, False)
+    part = chains_of(problem, "gibbs", "radial", should_stop=lambda: next(asked) >= after)
+    assert (part.sweep, part.finished) == (after, False)
+    kept, warmed = packed(part).shape[1], part.warmup_log_joint.shape[1]
+    assert (warmed, kept) == (min(after, 13), max(0, after - 13) // 3)
+    np.testing.assert_array_equal(packed(part), packed(whole)[:, :kept])
+    np.testing.assert_array_equal(part.log_joint, whole.log_joint[:, :kept])
+    np.testing.assert_array_equal(part.warmup_log_joint, whole.warmup_log_joint[:, :warmed])
     assert_same(chains_of(problem, "gibbs", "radial", resume=part), whole)
 
 
-def test_a_checkpoint_comes_at_the_end_of_warm_up_and_is_good_to_resume_from():
-    problem, seen = problem_8x8(), []
-    whole = chains_of(problem, "block", "random", on_checkpoint=seen.append, checkpoint_every_s=1e9)
-    assert [c.sweep for c in seen] == [SCHEDULE.warmup]
-    assert not seen[0].finished
-    assert_same(chains_of(problem, "block", "random", resume=seen[0]), whole)
-
-
-def test_checkpoints_come_as_often_as_asked(monkeypatch):
+@pytest.mark.parametrize(("every_s", "sweeps"), [(1e9, [SCHEDULE.warmup]), (0.0, range(1, SCHEDULE.sweeps + 1))])
+def test_checkpoints_come_after_warm_up_and_as_often_as_asked_and_are_good_to_resume_from(every_s, sweeps, monkeypatch):
     monkeypatch.setattr(runner, "STEP_SECONDS", 0.0)
     problem, seen = problem_8x8(), []
-    whole = chains_of(problem, "gibbs", "radial", on_checkpoint=seen.append, checkpoint_every_s=0.0)
-    assert [c.sweep for c in seen] == list(range(1, 65))
+    whole = chains_of(problem, "block", "random", on_checkpoint=seen.append, checkpoint_every_s=every_s)
+    assert [c.sweep for c in seen] == list(sweeps)
     assert not any(c.finished for c in seen)
-    assert_same(chains_of(problem, "gibbs", "radial", resume=seen[-3]), whole)
+    assert_same(chains_of(problem, "block", "random", resume=seen[max(0, len(seen) - 3)]), whole)
 
 
 def test_checkpoints_take_a_twentieth_of_the_time_at_most_unless_each_step_shall_have_one():
@@ -171,12 +155,11 @@ def test_a_chain_draws_the_same_wherever_it_runs_and_whichever_others_do(method,
 
 
 def test_the_runner_is_an_iterator_of_states_and_infos():
-    problem = problem_8x8()
     sampler = SAMPLERS["gibbs"][0]("raster", "prior")
-    state, sweeps = sampler.init(problem, [0, 1], 3), []
-    for now, info in runner.sweeps(sampler, state, 50, keep=Keep(20, 10), stops=(20,), step_seconds=1e-5):
-        sweeps.append(now.sweep)
-        assert info.log_likelihood.shape[0] == 2
+    state = sampler.init(problem_8x8(), [0, 1], 3)
+    steps = list(runner.sweeps(sampler, state, 50, keep=Keep(20, 10), stops=(20,), step_seconds=1e-5))
+    assert {info.log_likelihood.shape[0] for _, info in steps} == {2}
+    sweeps = [after.sweep for after, _ in steps]
     assert sweeps[-1] == 50
     assert 20 in sweeps
 

@@ -57,17 +57,14 @@ def test_maps_without_a_boundary_have_the_largest_and_scattered_ones_none():
     assert bm.fit_coupling(np.indices((20, 20)).sum(axis=0) % 2, 0.5) == 0.0
 
 
-@pytest.mark.parametrize(
-    ("arguments", "message"),
-    [
+def test_what_is_no_map_is_refused():
+    for arguments, message in (
         ((np.zeros(3), 0.5), r"walls must be a map \(nx, ny\), or several .* got shape \(3,\)"),
         ((np.zeros((3, 3)), np.full((2, 3), 0.5)), r"p_wall has shape \(2, 3\), but the maps are \(3, 3\)"),
         ((np.zeros((3, 3)), 1.5), "p_wall must lie in"),
-    ],
-)
-def test_what_is_no_map_is_refused(arguments, message):
-    with pytest.raises(bm.BadInput, match=message):
-        bm.fit_coupling(*arguments)
+    ):
+        with pytest.raises(bm.BadInput, match=message):
+            bm.fit_coupling(*arguments)
 
 
 @cache

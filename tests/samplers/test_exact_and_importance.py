@@ -132,19 +132,19 @@ def test_the_effective_sample_size_collapses_where_readings_are_sharp():
     assert ess[0] < 100 < ess[1]
 
 
-def test_a_particle_s_weight_does_not_depend_on_how_many_there_are_or_on_the_batches():
-    case = case_of(WIDE[0])
-    few, many = (sample_importance(case.problem(), n, seed=1) for n in (1000, 5000))
-    shift = many.log_weights[:1000] - few.log_weights
-    np.testing.assert_allclose(shift, shift[0], atol=1e-9)
-
-
-def test_a_stopped_run_keeps_its_particles():
-    case = case_of(WIDE[0])
-    found = sample_importance(case.problem(), 10**7, seed=1, watch=Watch(should_stop=lambda: True))
-    assert not found.finished
-    assert 0 < len(found.log_weights) < 10**7
-    assert np.exp(found.log_weights).sum() == pytest.approx(1.0)
+def test_a_particle_s_weight_does_not_depend_on_the_others_and_is_tempered():
+    """Neither on their number, nor on the batches, nor on a stop; beta is the power of the likelihood."""
+    problem = case_of(WIDE[0]).problem()
+    few, many = (sample_importance(problem, n, seed=1) for n in (1000, 5000))
+    stopped = sample_importance(problem, 10**7, seed=1, watch=Watch(should_stop=lambda: True))
+    assert (few.finished, stopped.finished) == (True, False)
+    assert 0 < len(stopped.log_weights) < 10**7
+    assert np.exp(stopped.log_weights).sum() == pytest.approx(1.0)
+    tempered = sample_importance(problem, 1000, seed=1, beta=0.25)
+    for other, beta in ((many, 1.0), (stopped, 1.0), (tempered, 0.25)):
+        count = min(1000, len(other.log_weights))
+        shift = other.log_weights[:count] - beta * few.log_weights[:count]
+        np.testing.assert_allclose(shift, shift[0], atol=1e-9)
 
 
 def test_neighbouring_particles_have_no_random_number_in_common():
@@ -154,9 +154,3 @@ def test_neighbouring_particles_have_no_random_number_in_common():
     maps = found.maps(np.arange(20_000)).reshape(-1, 16) - 0.5
     correlations = 4 * maps[:-1].T @ maps[1:] / len(maps)
     assert abs(correlations).max() < 5.5 / np.sqrt(20_000)
-
-
-def test_at_an_inverse_temperature_weights_are_the_likelihood_to_that_power():
-    problem = case_of(WIDE[0]).problem()
-    plain, tempered = (sample_importance(problem, 2000, seed=3, beta=beta).log_weights for beta in (1.0, 0.25))
-    np.testing.assert_allclose(np.diff(tempered), 0.25 * np.diff(plain), atol=1e-9)

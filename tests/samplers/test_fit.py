@@ -16,21 +16,7 @@ from tiers import full_but
 
 import bayesmap as bm
 from bayesmap.model import Model
-from bayesmap.samplers.fit import (
-    FIRST_SWEEP,
-    PILOT_SWEEPS,
-    SHAPES,
-    WHOLE_UNTIL,
-    DrawnStops,
-    StopResiduals,
-    first_sensor,
-    fit,
-    fit_sensor,
-    refit_noise,
-    refit_prior,
-    refit_sensor,
-    step_share,
-)  # fmt: skip
+from bayesmap.samplers import fit as fits
 from bayesmap.samplers.stop_problem import trace_stops
 from bayesmap.sensors.model import RangeLimits
 
@@ -51,12 +37,12 @@ def fitted_to_known_stops(seed, least_m, count=12_000):
     variance = rng.uniform(0, 0.05**2, count)
     spread = np.where(np.isfinite(distance), np.sqrt(variance) * rng.standard_normal(count), 0.0)
     stopped = np.isfinite(distance)
-    stops = DrawnStops(
+    stops = fits.DrawnStops(
         TRUTH.sample(rng, distance + spread, limits), stopped, np.where(stopped, distance, 0.0), variance
     )
     sensor = bm.BeamMixture(bm.Gaussian(0.1, 0.001), p_random=0.2, p_no_return=0.2, p_short=0.2, rate_short_per_m=2.0)
     for _ in range(40):
-        sensor = refit_sensor(sensor, stops, limits, 1.0)
+        sensor = fits.refit_sensor(sensor, stops, limits, 1.0)
     return numbers(sensor)
 
 
@@ -86,8 +72,8 @@ def test_with_an_unknown_map_the_fit_comes_near_the_truth(prior):
     """7500 beams, of which some thousand say something about each number: a standard error of 3 to 15 %."""
     data, grid = drawn_map(prior, 4)
     start = replace(prior, a=0.02, b=0.2)
-    problem = trace_stops(data, grid, start, first_sensor(prior, grid.resolution))
-    found = fit(problem, 0, 80)
+    problem = trace_stops(data, grid, start, fits.first_sensor(prior, grid.resolution))
+    found = fits.fit(problem, 0, 80)
     mine, truth = found.sensor, TRUTH
     for name, tolerance in (("p_random", 0.5), ("p_no_return", 0.5), ("p_short", 0.4), ("rate_short_per_m", 0.6)):
         assert abs(np.log(getattr(mine, name) / getattr(truth, name))) < tolerance, name
@@ -120,20 +106,20 @@ def test_a_pilot_fits_and_all_chains_run_under_what_it_found():
     stops = []
     run = infer("surfaces", on_checkpoint=stops.append, checkpoint_every_s=0.0)
     assert {stop.posterior.sensor for stop in stops} == {run.posterior.sensor}
-    problem = trace_stops(scans(), GRID, bm.Surface(), first_sensor(bm.Surface(), GRID.resolution))
-    found = fit(problem, 0, 12)
+    problem = trace_stops(scans(), GRID, bm.Surface(), fits.first_sensor(bm.Surface(), GRID.resolution))
+    found = fits.fit(problem, 0, 12)
     assert (run.posterior.sensor, run.posterior.prior) == (found.sensor, found.prior)
-    assert found != fit(problem, 1, 12)
-    assert found != fit(problem, 0, 11)
-    assert fit(problem, 0, 0).sensor == problem.sensor
+    assert found != fits.fit(problem, 1, 12)
+    assert found != fits.fit(problem, 0, 11)
+    assert fits.fit(problem, 0, 0).sensor == problem.sensor
 
 
 def test_a_pilot_is_as_long_as_the_warm_up_and_at_most_as_long_as_it_helps():
     events = []
-    infer("surfaces", scans(poses=3), warmup=PILOT_SWEEPS + 5, draws=0, chains=1, on_progress=events.append)
-    assert max(event.done for event in events if event.stage == "fit") == PILOT_SWEEPS
+    infer("surfaces", scans(poses=3), warmup=fits.PILOT_SWEEPS + 5, draws=0, chains=1, on_progress=events.append)
+    assert max(event.done for event in events if event.stage == "fit") == fits.PILOT_SWEEPS
     run = infer("surfaces", scans(poses=3), warmup=0, draws=1)
-    assert run.posterior.sensor == first_sensor(bm.Surface(), GRID.resolution)
+    assert run.posterior.sensor == fits.first_sensor(bm.Surface(), GRID.resolution)
 
 
 def test_a_given_sensor_and_prior_are_not_touched():
@@ -144,7 +130,7 @@ def test_a_given_sensor_and_prior_are_not_touched():
 
 def test_binary_walls_can_have_a_fitted_sensor():
     model = Model(scans(), GRID, bm.Independent(0.1), TRUTH, hit_depth=0.5)
-    found = fit_sensor(model, "cpu", seed=0)
+    found = fits.fit_sensor(model, "cpu", seed=0)
     assert 0.3 < found.p_random / TRUTH.p_random < 3
     run = bm.infer(
         scans(poses=5), GRID, prior=bm.Independent(0.1), sensor="fit", schedule=bm.Schedule(chains=1, warmup=5, draws=5)
@@ -157,21 +143,23 @@ def test_the_prior_s_counts_are_found_from_hits_and_passes():
     m = rng.beta(0.3, 1.2, 20_000)
     met = rng.integers(0, 30, m.size)
     hits = rng.binomial(met, m)
-    found = refit_prior(bm.Surface(0.02, 0.2, mean_scale=0.5), hits, met - hits, 1.0)
+    found = fits.refit_prior(bm.Surface(0.02, 0.2, mean_scale=0.5), hits, met - hits, 1.0)
     assert (found.a, found.b) == (pytest.approx(0.3, rel=0.06), pytest.approx(1.2, rel=0.06))
     assert found.mean_scale == 0.5
-    half = refit_prior(bm.Beta(0.02, 0.2), hits, met - hits, 0.5)
+    half = fits.refit_prior(bm.Beta(0.02, 0.2), hits, met - hits, 0.5)
     assert half.a == pytest.approx(np.sqrt(0.02 * found.a), rel=1e-3)
     # cells that have not counted yet are left out
-    some = refit_prior(bm.Surface(0.02, 0.2, mean_scale=0.5), hits, np.where(m > 0.9, -1, met - hits), 1.0)
+    some = fits.refit_prior(bm.Surface(0.02, 0.2, mean_scale=0.5), hits, np.where(m > 0.9, -1, met - hits), 1.0)
     assert some.a != found.a
-    assert refit_prior(bm.Beta(), hits, np.full(m.size, -1), 1.0) == bm.Beta()
+    assert fits.refit_prior(bm.Beta(), hits, np.full(m.size, -1), 1.0) == bm.Beta()
 
 
 def test_steps_are_whole_while_the_map_is_coming_about_and_then_shrink():
-    steps = [step_share(sweep) for sweep in range(FIRST_SWEEP, PILOT_SWEEPS)]
+    steps = [fits.step_share(sweep) for sweep in range(fits.FIRST_SWEEP, fits.PILOT_SWEEPS)]
     assert steps == sorted(steps, reverse=True)
-    assert steps[0] == steps[WHOLE_UNTIL - FIRST_SWEEP] == 1.0 > steps[WHOLE_UNTIL - FIRST_SWEEP + 1]
+    assert (
+        steps[0] == steps[fits.WHOLE_UNTIL - fits.FIRST_SWEEP] == 1.0 > steps[fits.WHOLE_UNTIL - fits.FIRST_SWEEP + 1]
+    )
     assert sum(step**2 for step in steps if step < 1) < 2  # noise is averaged out
 
 
@@ -185,17 +173,17 @@ def residuals(noise, seed, count=COUNT):
     distance = rng.uniform(1.0, 15.0, count)
     variance = rng.uniform(0.0, 0.03, count) ** 2
     scale = np.hypot(noise.scale_at(distance), np.sqrt(variance))
-    return StopResiduals(scale * noise.draw(rng, (count,)), distance, variance, np.ones(count))
+    return fits.StopResiduals(scale * noise.draw(rng, (count,)), distance, variance, np.ones(count))
 
 
 def fitted(found):
     noise = FIRST
-    for _ in SHAPES:
-        noise = refit_noise(noise, found, 1.0)
+    for _ in fits.SHAPES:
+        noise = fits.refit_noise(noise, found, 1.0)
     return noise
 
 
-@pytest.mark.parametrize("dof", SHAPES)
+@pytest.mark.parametrize("dof", fits.SHAPES)
 def test_shape_scale_and_growth_are_found(dof):
     truth = bm.Gaussian(0.01, 0.003) if dof == math.inf else bm.StudentT(0.01, dof, 0.003)
     found = [fitted(residuals(truth, seed)) for seed in range(6)]
@@ -217,12 +205,12 @@ def test_few_readings_do_not_make_heavy_tails():
 
 def test_a_part_of_a_step_goes_a_part_of_the_way_and_leaves_the_shape():
     found = residuals(bm.StudentT(0.01, 3.0, 0.003), 0)
-    whole = refit_noise(bm.StudentT(0.04, 9.0, 0.001), found, 1.0)
+    whole = fits.refit_noise(bm.StudentT(0.04, 9.0, 0.001), found, 1.0)
     assert whole.dof == 5.0  # one shape at a time
-    normal, half = refit_noise(FIRST, found, 0.5), refit_noise(FIRST, found, 0.25)
+    normal, half = fits.refit_noise(FIRST, found, 0.5), fits.refit_noise(FIRST, found, 0.25)
     assert isinstance(normal, bm.Gaussian)
     assert math.log(normal.sigma_m / FIRST.sigma_m) == pytest.approx(2 * math.log(half.sigma_m / FIRST.sigma_m))
 
 
 def test_too_few_readings_change_nothing():
-    assert refit_noise(FIRST, residuals(bm.Gaussian(0.02), 0, count=9), 1.0) is FIRST
+    assert fits.refit_noise(FIRST, residuals(bm.Gaussian(0.02), 0, count=9), 1.0) is FIRST

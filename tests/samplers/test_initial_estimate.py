@@ -6,16 +6,7 @@ import scipy
 from oracle.stop_worlds import beam_rays, scans_of_all_kinds
 
 import bayesmap as bm
-from bayesmap.samplers import initial_estimate as module
-from bayesmap.samplers.initial_estimate import (
-    ACROSS,
-    ALONG_WALL,
-    end_cells,
-    initial_estimate,
-    start,
-    steps,
-    update_periods,
-)
+from bayesmap.samplers import initial_estimate as estimates
 from bayesmap.samplers.stop_problem import trace_stops
 
 SENSOR = bm.BeamMixture(bm.Gaussian(0.05))
@@ -54,7 +45,7 @@ def naive(rays):
 def test_counts_are_naive_counts(problem):
     ends, hits, passes = naive(problem.rays)
     estimate = problem.estimate
-    np.testing.assert_array_equal(end_cells(problem.rays), ends)
+    np.testing.assert_array_equal(estimates.end_cells(problem.rays), ends)
     np.testing.assert_array_equal(estimate.touched, problem.rays.touched)
     np.testing.assert_array_equal(estimate.hits, hits)
     np.testing.assert_array_equal(estimate.passes, passes)
@@ -66,7 +57,7 @@ def test_counts_are_naive_counts(problem):
 def test_moments_are_those_of_the_end_points_drawn_towards_the_prior_and_widened(problem):
     rays, estimate = problem.rays, problem.estimate
     cells, hits = estimate.endpoint_cells, estimate.hits[estimate.endpoint]
-    ends, centres, spread = end_cells(rays), rays.grid.cell_centres_m(cells), 0.28 * rays.grid.resolution
+    ends, centres, spread = estimates.end_cells(rays), rays.grid.cell_centres_m(cells), 0.28 * rays.grid.resolution
     for u in np.argsort(hits)[[0, -5, -2, -1]]:
         points = rays.end_points_m()[ends == cells[u]]
         weights = np.append(np.ones(len(points)), 0.3)
@@ -78,12 +69,12 @@ def test_moments_are_those_of_the_end_points_drawn_towards_the_prior_and_widened
         factor = np.array([[l11, 0.0], [l21, l22]])
         np.testing.assert_allclose(estimate.mean_m[u], mean, atol=1e-6)
         (across, along), axes = np.linalg.eigh(covariance)
-        wide = axes @ np.diag([across, along * ALONG_WALL**2]) @ axes.T
+        wide = axes @ np.diag([across, along * estimates.ALONG_WALL**2]) @ axes.T
         np.testing.assert_allclose(factor @ factor.T, wide, atol=1e-7)
 
 
 def test_endpoint_cells_step_in_a_frame_along_their_longer_axis_and_by_their_thickness_across(problem):
-    moved = steps(problem.estimate, problem.grid.resolution)
+    moved = estimates.steps(problem.estimate, problem.grid.resolution)
     assert moved.shape == (problem.estimate.endpoint.sum(), 8)
     assert (moved[:, :6] > 0).all()
     hits = problem.estimate.hits[problem.estimate.endpoint]
@@ -94,7 +85,7 @@ def test_endpoint_cells_step_in_a_frame_along_their_longer_axis_and_by_their_thi
         assert np.linalg.norm(frame) == pytest.approx(1.0, rel=1e-5)
         if along > 1.01 * across:  # a round one has no longer axis
             assert abs(frame @ axes[:, 1]) == pytest.approx(1.0, abs=1e-4)
-        assert row[2] == pytest.approx(ACROSS * np.sqrt(across / (n + 1)), rel=1e-3)
+        assert row[2] == pytest.approx(estimates.ACROSS * np.sqrt(across / (n + 1)), rel=1e-3)
 
 
 def test_every_cell_of_the_grid_has_a_start_those_without_beams_from_the_prior():
@@ -104,7 +95,7 @@ def test_every_cell_of_the_grid_has_a_start_those_without_beams_from_the_prior()
     prior = bm.Surface(0.8, 1.5)
     problem = trace_stops(scans, grid, prior, SENSOR)
     rng = np.random.default_rng(3)
-    states = [start(problem.estimate, prior, problem.rays, rng) for _ in range(3)]
+    states = [estimates.start(problem.estimate, prior, problem.rays, rng) for _ in range(3)]
     untouched = np.setdiff1d(np.arange(grid.n_cells), problem.rays.touched)
     assert len(untouched) > 3000
     surfaces = prior.sample_surfaces(np.random.default_rng(4), 20_000) * grid.resolution
@@ -119,14 +110,16 @@ def test_every_cell_of_the_grid_has_a_start_those_without_beams_from_the_prior()
 
 def test_update_periods_grow_with_the_distance_from_readings(problem, monkeypatch):
     estimate = problem.estimate
-    monkeypatch.setattr(module, "FEW_PASSES", 0)
+    monkeypatch.setattr(estimates, "FEW_PASSES", 0)
     where = np.stack(np.divmod(estimate.touched, problem.grid.shape[1]), axis=-1)
     nearest = np.abs(where[:, None] - where[estimate.endpoint]).max(axis=-1).min(axis=1)
-    np.testing.assert_array_equal(update_periods(estimate), np.select([nearest == 0, nearest == 1], [0, 8], 16))
+    np.testing.assert_array_equal(
+        estimates.update_periods(estimate), np.select([nearest == 0, nearest == 1], [0, 8], 16)
+    )
     # Cells that few beams pass are updated in every other sweep.
     middle, free = int(np.median(estimate.passes[~estimate.endpoint])), ~estimate.endpoint
-    monkeypatch.setattr(module, "FEW_PASSES", middle)
-    periods, few = update_periods(estimate), estimate.passes < middle
+    monkeypatch.setattr(estimates, "FEW_PASSES", middle)
+    periods, few = estimates.update_periods(estimate), estimate.passes < middle
     assert (few & free).any()
     assert (~few & free).any()
     assert (periods[few & free] == 2).all()
@@ -136,8 +129,8 @@ def test_update_periods_grow_with_the_distance_from_readings(problem, monkeypatc
 def test_end_points_outside_the_grid_or_past_what_beams_touch_belong_to_no_cell():
     scans = bm.Scans([-0.5, 0.5, 0.0], [0.0, 0.4], [[7.0, 1.0]], max_range_m=9.0)
     rays = beam_rays(scans, bm.Grid((3, 1)), margin_m=0.1)
-    np.testing.assert_array_equal(end_cells(rays), [-1, 0])
-    found = initial_estimate(rays, bm.Beta())
+    np.testing.assert_array_equal(estimates.end_cells(rays), [-1, 0])
+    found = estimates.initial_estimate(rays, bm.Beta())
     np.testing.assert_array_equal(found.hits, found.touched == 0)
 
 
@@ -145,4 +138,4 @@ def test_readings_along_the_axes_that_did_not_return_end_nowhere():
     """Infinity times a direction of zero is not a number."""
     scans = bm.Scans([0.5, 0.5, 0.0], np.arange(4) * np.pi / 2, [[np.inf, -np.inf, np.nan, 0.3]], max_range_m=2.0)
     rays = beam_rays(scans, bm.Grid((1, 1)), margin_m=0.1)
-    np.testing.assert_array_equal(end_cells(rays), [-1, -1, -1, 0])
+    np.testing.assert_array_equal(estimates.end_cells(rays), [-1, -1, -1, 0])

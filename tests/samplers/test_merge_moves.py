@@ -10,32 +10,9 @@ from stop_rooms import LABELLED, PRIORS, TRUTH, scans
 import bayesmap as bm
 from bayesmap.kernels.surfaces.stop_chains import StopChains
 from bayesmap.model import Model
+from bayesmap.samplers import merge_moves as moves
 from bayesmap.samplers import stop_gibbs
 from bayesmap.samplers.initial_estimate import end_cells
-from bayesmap.samplers.merge_moves import (
-    FREE,
-    MERGED_NATS,
-    MOST_READINGS,
-    SETTLE_SHARE,
-    UPDATES_ALL,
-    UPDATES_FEW,
-    ChainMaps,
-    Changes,
-    apart,
-    axes_of,
-    best_neighbours,
-    evidence,
-    lengthened,
-    look_with,
-    merge,
-    merge_moves,
-    merge_surfaces,
-    merge_sweeps,
-    readings_of,
-    sums_over_squares,
-    try_changes,
-    variance_in,
-)  # fmt: skip
 from bayesmap.samplers.methods import sampler_of
 from bayesmap.samplers.stop_gibbs import StopGibbs
 
@@ -75,7 +52,7 @@ def noise_of(owner):
 def test_moments_are_those_of_the_readings_that_a_surface_stopped():
     cells, owner, points = wall()
     points[0] = [1.0, 0.85]  # far from the surface that stopped it: a passing object, or chance
-    found = readings_of(cells, owner, points, noise_of(owner), GRID)
+    found = moves.readings_of(cells, owner, points, noise_of(owner), GRID)
     for x, which in ((3, slice(1, 3)), (4, slice(3, 13)), (5, slice(13, 21))):
         mine, at = points[which], flat(x, 5)
         assert found.count[at] == len(mine)
@@ -85,7 +62,7 @@ def test_moments_are_those_of_the_readings_that_a_surface_stopped():
         assert found.noise[at] == pytest.approx(NOISE_M**2)
         for angle in (0.0, 0.7):
             u = np.array([np.cos(angle), np.sin(angle)])
-            assert variance_in(found.moments[[at]], u[None])[0] == pytest.approx(u @ covariance @ u)
+            assert moves.variance_in(found.moments[[at]], u[None])[0] == pytest.approx(u @ covariance @ u)
     assert found.count.sum() == 20
 
 
@@ -94,8 +71,8 @@ def test_the_readings_of_the_fewer_go_to_the_neighbour_whose_axis_they_lie_on():
     cells[flat(4, 6)] = surface(4, 6, angle=np.pi / 2)  # next to them, too, but they lie beside its axis
     owner = np.append(owner, [flat(4, 6)] * 11).astype(np.int32)
     points = np.vstack([points, np.column_stack([np.full(11, 0.45), np.linspace(0.6, 0.7, 11)])])
-    found = readings_of(cells, owner, points, noise_of(owner), GRID)
-    few, by, off = best_neighbours(cells, found, axes_of(cells), GRID)
+    found = moves.readings_of(cells, owner, points, noise_of(owner), GRID)
+    few, by, off = moves.best_neighbours(cells, found, moves.axes_of(cells), GRID)
     assert dict(zip(few.tolist(), by.tolist(), strict=True))[flat(3, 5)] in (flat(4, 5), flat(5, 5))
     assert dict(zip(few.tolist(), by.tolist(), strict=True))[flat(5, 5)] == flat(4, 5)
     assert flat(4, 6) not in by
@@ -103,26 +80,26 @@ def test_the_readings_of_the_fewer_go_to_the_neighbour_whose_axis_they_lie_on():
 
 
 def test_of_a_pair_only_one_gives_way_and_none_that_stops_many():
-    cells, owner, points = wall(((3, 5), (4, 5), (7, MOST_READINGS + 1), (8, MOST_READINGS + 2)))
-    found = readings_of(cells, owner, points, noise_of(owner), GRID)
-    few, by, _ = best_neighbours(cells, found, axes_of(cells), GRID)
+    cells, owner, points = wall(((3, 5), (4, 5), (7, moves.MOST_READINGS + 1), (8, moves.MOST_READINGS + 2)))
+    found = moves.readings_of(cells, owner, points, noise_of(owner), GRID)
+    few, by, _ = moves.best_neighbours(cells, found, moves.axes_of(cells), GRID)
     np.testing.assert_array_equal(np.stack([few, by], -1), [[flat(3, 5), flat(4, 5)]])
 
 
 def test_readings_beside_a_surface_stay_where_they_are():
     cells, owner, points = wall(((3, 3), (4, 10)))
     cells[flat(4, 5)] = surface(4, 5, angle=1.0)
-    found = readings_of(cells, owner, points, noise_of(owner), GRID)
-    assert len(best_neighbours(cells, found, axes_of(cells), GRID)[0]) == 0
+    found = moves.readings_of(cells, owner, points, noise_of(owner), GRID)
+    assert len(moves.best_neighbours(cells, found, moves.axes_of(cells), GRID)[0]) == 0
 
 
 @pytest.mark.parametrize("angle", [0.0, 0.05, np.pi, -0.05])
 def test_a_lengthened_surface_keeps_its_line_and_its_square_and_reaches_the_readings(angle):
     cells, owner, points = wall()
     cells[flat(4, 5)] = surface(4, 5, angle)
-    found, axes = readings_of(cells, owner, points, noise_of(owner), GRID), axes_of(cells)
+    found, axes = moves.readings_of(cells, owner, points, noise_of(owner), GRID), moves.axes_of(cells)
     few, by = np.array([flat(3, 5)]), np.array([flat(4, 5)])
-    x, y, l11, l21, l22 = lengthened(cells, found, axes, few, by, GRID)[0]
+    x, y, l11, l21, l22 = moves.lengthened(cells, found, axes, few, by, GRID)[0]
     assert abs(np.array([x - 0.45, y - 0.55])).max() <= 0.05
     off = -np.sin(angle) * (x - 0.45) + np.cos(angle) * (y - 0.55)
     assert off == pytest.approx(0, abs=1e-7)
@@ -138,10 +115,10 @@ def test_a_lengthened_surface_keeps_its_line_and_its_square_and_reaches_the_read
 def test_the_one_becomes_free_and_the_other_longer():
     cells, owner, points = wall()
     solid = np.zeros(GRID.n_cells, dtype=bool)
-    new = merge_moves(cells, solid, owner, points, noise_of(owner), GRID)
+    new = moves.merge_moves(cells, solid, owner, points, noise_of(owner), GRID)
     assert new.where.shape == (len(new.middle), 2)
     np.testing.assert_array_equal(new.middle, np.stack(np.divmod(new.where[:, 0], GRID.shape[1]), -1))
-    np.testing.assert_array_equal(new.cells[:, 0, 0], np.float32(FREE))
+    np.testing.assert_array_equal(new.cells[:, 0, 0], np.float32(moves.FREE))
     np.testing.assert_array_equal(new.cells[:, 0, 1:], cells[new.where[:, 0], 1:])
     np.testing.assert_array_equal(new.cells[:, 1, 0], cells[new.where[:, 1], 0])
 
@@ -152,13 +129,15 @@ def merged_by(maps, owner, points, worth):
     def look(maps):
         return -worth * (maps.cells[..., 0] > 0.1).reshape(-1, *GRID.shape)
 
-    return merge_surfaces(maps, points, noise_of(owner), [owner], GRID, look, look(maps))
+    return moves.merge_surfaces(maps, points, noise_of(owner), [owner], GRID, look, look(maps))
 
 
-@pytest.mark.parametrize(("worth", "pays"), [(2 * MERGED_NATS, True), (MERGED_NATS / 2, False), (-MERGED_NATS, False)])
+@pytest.mark.parametrize(
+    ("worth", "pays"), [(2 * moves.MERGED_NATS, True), (moves.MERGED_NATS / 2, False), (-moves.MERGED_NATS, False)]
+)
 def test_what_does_not_pay_is_taken_back(worth, pays):
     cells, owner, points = wall()
-    maps = ChainMaps(cells[None].copy(), np.zeros((1, GRID.n_cells), dtype=bool))
+    maps = moves.ChainMaps(cells[None].copy(), np.zeros((1, GRID.n_cells), dtype=bool))
     gone = merged_by(maps, owner, points, worth)
     left = np.flatnonzero(maps.cells[0, :, 0] > 0.1)
     if pays:
@@ -173,11 +152,11 @@ def test_what_does_not_pay_is_taken_back(worth, pays):
 def test_a_surface_that_took_one_in_takes_no_other_from_what_it_was_before():
     """Of two short ones, far apart on the same wall, each would be taken in by the long one between them."""
     cells, owner, points = wall(((3, 3), (5, 40), (7, 3)))
-    maps = ChainMaps(cells[None].copy(), np.zeros((1, GRID.n_cells), dtype=bool))
+    maps = moves.ChainMaps(cells[None].copy(), np.zeros((1, GRID.n_cells), dtype=bool))
     alone = {}
     for x, other in ((3, 7), (7, 3)):
         one = cells.copy()
-        one[flat(other, 5), 0] = FREE
+        one[flat(other, 5), 0] = moves.FREE
         alone[x] = lengthened_by(one, owner, points, x)
     assert merged_by(maps, owner, points, 10.0) == [1]
     left = [x for x in (3, 7) if maps.cells[0, flat(x, 5), 0] > 0.1]
@@ -188,7 +167,7 @@ def test_a_surface_that_took_one_in_takes_no_other_from_what_it_was_before():
 
 def lengthened_by(cells, owner, points, x):
     """What the surface in the middle becomes when it takes in that of column x."""
-    new = merge_moves(cells, np.zeros(GRID.n_cells, dtype=bool), owner, points, noise_of(owner), GRID)
+    new = moves.merge_moves(cells, np.zeros(GRID.n_cells, dtype=bool), owner, points, noise_of(owner), GRID)
     (at,) = np.flatnonzero(new.where[:, 0] == flat(x, 5))
     assert new.where[at, 1] == flat(5, 5)
     return new.cells[at, 1]
@@ -207,10 +186,10 @@ def merged(request):
     """Maps of chains after 20 sweeps, before and after merge moves, their evidence before, and the look."""
     sampler, problem = prepared(SURFACES[request.param])
     state, _ = sampler.step(sampler.init(problem, [0, 1], 0), 20)
-    look, before = look_with(problem, state.chains, 1.0), ChainMaps.of(state.chains)
+    look, before = moves.look_with(problem, state.chains, 1.0), moves.ChainMaps.of(state.chains)
     seen = look(before)
-    merge(problem, state.chains, 1.0)
-    return before, ChainMaps.of(state.chains), seen, look
+    moves.merge(problem, state.chains, 1.0)
+    return before, moves.ChainMaps.of(state.chains), seen, look
 
 
 def test_readings_are_explained_better_than_before(merged):
@@ -226,7 +205,7 @@ def test_no_surface_leaves_its_cell(merged):
 
 
 def test_surfaces_are_joined_in_the_warm_up_alone():
-    after = [merge_sweeps(int(SETTLE_SHARE * warmup)) for warmup in range(60)]
+    after = [moves.merge_sweeps(int(moves.SETTLE_SHARE * warmup)) for warmup in range(60)]
     assert [len(sweeps) for sweeps in after] == 2 * [0] + 11 * [1] + 47 * [3]
     assert [warmup for warmup, sweeps in enumerate(after) if len(set(sweeps)) < len(sweeps)] == []
     assert [warmup for warmup, sweeps in enumerate(after) if max(sweeps, default=0) > warmup] == []
@@ -238,7 +217,7 @@ def test_surfaces_are_joined_after_the_same_sweeps_however_these_are_cut(monkeyp
     made, joined, sweeps = {}, [], StopChains.sweeps
 
     def watched(chains, first, count, *args, **options):
-        if first < UPDATES_ALL:  # others are trials
+        if first < moves.UPDATES_ALL:  # others are trials
             made[id(chains)] = first + count
         return sweeps(chains, first, count, *args, **options)
 
@@ -249,12 +228,12 @@ def test_surfaces_are_joined_after_the_same_sweeps_however_these_are_cut(monkeyp
         state, info = sampler.step(state, count)
         assert info.log_likelihood.shape == info.log_prior.shape == (2, count)
     assert state.sweep == 30
-    assert joined == merge_sweeps(10) == [10, 11, 12]
+    assert joined == moves.merge_sweeps(10) == [10, 11, 12]
 
 
 def test_surfaces_settle_in_the_first_part_of_the_warm_up():
     sampler, _ = sampler_of("stop-gibbs", ROOM, bm.Gibbs("radial"), 50)
-    assert sampler == StopGibbs(settle_sweeps=int(50 * SETTLE_SHARE))
+    assert sampler == StopGibbs(settle_sweeps=int(50 * moves.SETTLE_SHARE))
     assert sampler_of("stop-gibbs", ROOM, bm.Gibbs("radial"))[0] == StopGibbs()
 
 
@@ -262,7 +241,7 @@ def test_a_sweep_without_steps_moves_no_surface_of_a_cell_in_which_readings_end(
     sampler, problem = prepared(PRIORS["surfaces"])
     state, _ = sampler.step(sampler.init(problem, [0], 0), 3)
     ends = np.unique(end_cells(problem.rays))[1:]
-    before, numbers = ChainMaps.of(state.chains).cells[0], problem.prior.kernel_numbers(ROOM.resolution)
+    before, numbers = moves.ChainMaps.of(state.chains).cells[0], problem.prior.kernel_numbers(ROOM.resolution)
     moved = []
     for steps in (0, 6, 24):
         state.chains.put_cells(0, before)
@@ -295,7 +274,7 @@ def test_evidence_is_the_sum_over_the_beams_whose_readings_end_in_a_cell():
     state, info = sampler.step(sampler.init(problem, [0, 1], 0), 3)
     for chain in (0, 1):
         assert state.chains.log_likelihood(chain).sum() == pytest.approx(info.log_likelihood[chain, -1], rel=1e-6)
-        found = evidence(state.chains, chain, end_cells(problem.rays), problem.prior)
+        found = moves.evidence(state.chains, chain, end_cells(problem.rays), problem.prior)
         np.testing.assert_allclose(found, naive_evidence(state.chains, chain, problem), rtol=1e-5, atol=1e-3)
         assert (found != 0).sum() > 50
 
@@ -312,15 +291,15 @@ def test_a_beam_is_stopped_by_a_cell_that_it_crosses_or_by_none():
 def test_a_look_draws_the_stops_of_a_whole_sweep_and_moves_no_cell():
     sampler, problem = prepared(bm.Surface())
     state, _ = sampler.step(sampler.init(problem, [0, 1], 0), 3)
-    maps, look = ChainMaps.of(state.chains), look_with(problem, state.chains, 1.0)
+    maps, look = moves.ChainMaps.of(state.chains), moves.look_with(problem, state.chains, 1.0)
     seen = look(maps)
-    assert np.array_equal(ChainMaps.of(state.chains).cells, maps.cells)
+    assert np.array_equal(moves.ChainMaps.of(state.chains).cells, maps.cells)
     stops = state.chains.stopped_by(0)
     numbers = problem.prior.kernel_numbers(ROOM.resolution)
-    state.chains.sweeps(UPDATES_FEW, 1, problem.sensor, numbers)  # the same random numbers, and cells that go on
+    state.chains.sweeps(moves.UPDATES_FEW, 1, problem.sensor, numbers)  # the same random numbers, and cells that go on
     assert np.array_equal(state.chains.stopped_by(0), stops)
-    assert not np.array_equal(ChainMaps.of(state.chains).cells, maps.cells)
-    found = evidence(state.chains, 0, end_cells(problem.rays), problem.prior)
+    assert not np.array_equal(moves.ChainMaps.of(state.chains).cells, maps.cells)
+    found = moves.evidence(state.chains, 0, end_cells(problem.rays), problem.prior)
     np.testing.assert_array_equal(found, seen[0].ravel())
 
 
@@ -332,7 +311,7 @@ def worth(truth):
 def maps_of(m):
     cells = np.zeros((len(m), SHAPE[0] * SHAPE[1], 6), dtype=np.float32)
     cells[..., 0] = m
-    return ChainMaps(cells, np.zeros(cells.shape[:2], dtype=bool))
+    return moves.ChainMaps(cells, np.zeros(cells.shape[:2], dtype=bool))
 
 
 def test_what_gains_stays_and_what_does_not_is_taken_back():
@@ -342,13 +321,10 @@ def test_what_gains_stays_and_what_does_not_is_taken_back():
     middle = np.argwhere(np.ones(SHAPE, dtype=bool))[:: 7 * SHAPE[1] // 4]
     where = (middle[:, 0] * SHAPE[1] + middle[:, 1])[:, None]
     new = [rng.random((len(where), 1)) for _ in range(2)]
-    changes = [
-        Changes(middle, where, np.concatenate([m_new[..., None], np.ones((len(where), 1, 5))], -1).astype(np.float32),
-                np.ones(where.shape, dtype=bool))
-        for m_new in new
-    ]  # fmt: skip
+    states = [np.concatenate([m_new[..., None], np.ones((len(where), 1, 5))], -1).astype(np.float32) for m_new in new]
+    changes = [moves.Changes(middle, where, cells, np.ones(where.shape, dtype=bool)) for cells in states]
     before = look(maps)
-    stays = try_changes(maps, changes, look, before, 0, 5.0)
+    stays = moves.try_changes(maps, changes, look, before, 0, 5.0)
     for chain in (0, 1):
         at = where[:, 0]
         gain = 1000 * ((m[chain, at] - truth[chain, at]) ** 2 - (new[chain][:, 0] - truth[chain, at]) ** 2)
@@ -366,13 +342,13 @@ def test_sums_over_squares_are_naive_sums():
     for half in (0, 1, 3):
         padded = np.pad(values, half)
         naive = [[padded[x : x + 2 * half + 1, y : y + 2 * half + 1].sum() for y in range(15)] for x in range(20)]
-        np.testing.assert_allclose(sums_over_squares(values, half), naive, atol=1e-9)
+        np.testing.assert_allclose(moves.sums_over_squares(values, half), naive, atol=1e-9)
 
 
 @pytest.mark.parametrize("cells", [1, 4])
 def test_places_that_are_tried_together_lie_apart_and_the_others_next_to_one_before_them(cells):
     places = np.random.default_rng(2).permutation(np.argwhere(np.ones(SHAPE, dtype=bool)))[:80]
-    chosen = apart(places, cells, SHAPE)
+    chosen = moves.apart(places, cells, SHAPE)
     distance = abs(places[:, None] - places).max(axis=-1)
     for i in range(len(places)):
         earlier = distance[i, :i][chosen[:i]]

@@ -8,32 +8,21 @@ from matplotlib.figure import Figure
 from viz_case import GRID, observed, occupancy, panel
 
 import bayesmap as bm
+from bayesmap import viz
 from bayesmap.errors import BadInput
 from bayesmap.posterior.predictor import Predictor, fixed_maps
 from bayesmap.posterior.scores import score_prediction
-from bayesmap.viz import (
-    draw_log_joint,
-    draw_residuals,
-    draw_running_mean,
-    draw_weights,
-    palette,
-    residual_scale,
-    residuals_figure,
-    surprise_scale,
-    trace_figure,
-    weights_figure,
-)
 from bayesmap.viz.diagnostics import effective_sample_size, normalized
 from bayesmap.viz.scores import MAX_POINTS, calibration_figure
 
 
 def draw_dots(ends, values):
-    return draw_residuals(panel(), ends, values, residual_scale([], 0.5))
+    return viz.draw_residuals(panel(), ends, values, viz.residual_scale([], 0.5))
 
 
 def test_shorter_is_blue_longer_is_orange_and_as_predicted_is_grey():
     ax = panel()
-    dots = draw_residuals(ax, [[0, 3], [0.5, 3], [1, 3]], [-1.0, 0.0, 1.0], residual_scale([], 0.5))
+    dots = viz.draw_residuals(ax, [[0, 3], [0.5, 3], [1, 3]], [-1.0, 0.0, 1.0], viz.residual_scale([], 0.5))
     ax.figure.canvas.draw()
     colors = {
         tuple(xy): color[:3] for xy, color in zip(dots.get_offsets().tolist(), dots.get_facecolors(), strict=True)
@@ -45,7 +34,7 @@ def test_shorter_is_blue_longer_is_orange_and_as_predicted_is_grey():
 
 
 def test_the_worst_are_larger_and_on_top():
-    dots = draw_residuals(panel(), np.zeros((4, 2)), [0.3, -0.5, 0.0, 0.1], residual_scale([], 0.5))
+    dots = viz.draw_residuals(panel(), np.zeros((4, 2)), [0.3, -0.5, 0.0, 0.1], viz.residual_scale([], 0.5))
     np.testing.assert_allclose(dots.get_array(), [0.0, 0.1, 0.3, -0.5])
     assert (np.diff(dots.get_sizes()) > 0).all()
 
@@ -54,7 +43,7 @@ def test_of_very_many_beams_the_worst_are_all_there():
     rng = np.random.default_rng(0)
     values = rng.normal(0.0, 0.01, 3 * MAX_POINTS)
     values[:100] = 2.0
-    dots = draw_residuals(panel(), np.zeros((len(values), 2)), values, residual_scale(values))
+    dots = viz.draw_residuals(panel(), np.zeros((len(values), 2)), values, viz.residual_scale(values))
     shown = dots.get_array()
     assert len(shown) <= MAX_POINTS
     assert (shown == 2.0).sum() == 100
@@ -62,32 +51,32 @@ def test_of_very_many_beams_the_worst_are_all_there():
 
 def test_scales():
     rng = np.random.default_rng(1)
-    scale = residual_scale(rng.normal(0.0, 0.2, 10_000))  # 90 % lie within 0.33
+    scale = viz.residual_scale(rng.normal(0.0, 0.2, 10_000))  # 90 % lie within 0.33
     assert (scale.low, scale.high) == (-0.5, 0.5)
-    assert residual_scale(np.zeros(5)).high == 0.05
-    assert residual_scale([]).high == 0.05
-    surprise = surprise_scale(np.linspace(-1.0, 1.0, 101))
+    assert viz.residual_scale(np.zeros(5)).high == 0.05
+    assert viz.residual_scale([]).high == 0.05
+    surprise = viz.surprise_scale(np.linspace(-1.0, 1.0, 101))
     assert (surprise.low, surprise.high) == pytest.approx((0.0, 0.98))
     with pytest.raises(BadInput, match="limit of the residuals"):
-        residual_scale([1.0], -1.0)
+        viz.residual_scale([1.0], -1.0)
 
 
 def test_colours_stay_apart_without_red_and_green():
     """As a deuteranope sees them (Vienot 1999): the ends differ from each other and from the middle."""
     seen = np.array([[0.29275, 0.70725, 0.0], [0.29275, 0.70725, 0.0], [-0.02234, 0.02234, 1.0]])
-    short, grey, long = (np.array(palette.residual_colormap()(v)[:3]) ** 2.2 @ seen.T for v in (0.0, 0.5, 1.0))
+    short, grey, long = (np.array(viz.palette.residual_colormap()(v)[:3]) ** 2.2 @ seen.T for v in (0.0, 0.5, 1.0))
     for a, b in ((short, grey), (grey, long), (short, long)):
         assert np.abs(a - b).max() > 0.15
 
 
 def test_the_figure_lays_the_beams_over_the_faded_map():
-    figure = residuals_figure(GRID, occupancy(), [[0.0, 3.0]], [0.1], observed())
+    figure = viz.residuals_figure(GRID, occupancy(), [[0.0, 3.0]], [0.1], observed())
     ax, bar = figure.axes
     assert ax.images[0].get_alpha() < 0.5
     assert len(ax.collections) == 1
     assert bar.get_ylabel() == "reading minus predicted median [m]"
-    surprise = surprise_scale([0.5, 3.0])
-    figure = residuals_figure(GRID, occupancy(), [[0.0, 3.0]] * 2, [0.5, 3.0], scale=surprise)
+    surprise = viz.surprise_scale([0.5, 3.0])
+    figure = viz.residuals_figure(GRID, occupancy(), [[0.0, 3.0]] * 2, [0.5, 3.0], scale=surprise)
     assert figure.axes[1].get_ylabel() == "surprise: minus log score [nats]"
 
 
@@ -119,7 +108,7 @@ def test_panels_hold_histogram_coverage_and_reliability(score):
 def test_a_line_per_chain_from_the_first_sweep():
     traces = np.arange(12.0).reshape(3, 4)
     ax = Figure().add_subplot()
-    draw_log_joint(ax, traces, first_sweep=11)
+    viz.draw_log_joint(ax, traces, first_sweep=11)
     assert [line.get_label() for line in ax.lines] == ["chain 1", "chain 2", "chain 3"]
     assert len({line.get_color() for line in ax.lines}) == 3
     np.testing.assert_array_equal(ax.lines[1].get_xdata(), [11, 12, 13, 14])
@@ -129,7 +118,7 @@ def test_a_line_per_chain_from_the_first_sweep():
 
 def test_running_mean():
     ax = Figure().add_subplot()
-    draw_running_mean(ax, [1.0, 3.0, 5.0])
+    viz.draw_running_mean(ax, [1.0, 3.0, 5.0])
     np.testing.assert_allclose(ax.lines[0].get_ydata(), [1.0, 2.0, 3.0])
 
 
@@ -137,7 +126,7 @@ def test_a_long_trace_keeps_its_one_spike():
     trace = np.zeros((1, 1_000_000))
     trace[0, 654_321] = -50.0
     ax = Figure().add_subplot()
-    draw_log_joint(ax, trace)
+    viz.draw_log_joint(ax, trace)
     x, y = ax.lines[0].get_data()
     assert len(x) < 5000
     assert x[np.argmin(y)] == 654_322
@@ -145,9 +134,9 @@ def test_a_long_trace_keeps_its_one_spike():
 
 
 def test_figure_has_a_legend_for_several_chains_only():
-    assert trace_figure(np.random.default_rng(0).random((2, 50))).axes[3].get_legend() is not None
-    assert trace_figure(np.zeros((1, 50))).axes[3].get_legend() is None
-    trace_figure(np.zeros((20, 1))).draw_without_rendering()
+    assert viz.trace_figure(np.random.default_rng(0).random((2, 50))).axes[3].get_legend() is not None
+    assert viz.trace_figure(np.zeros((1, 50))).axes[3].get_legend() is None
+    viz.trace_figure(np.zeros((20, 1))).draw_without_rendering()
 
 
 def texts(ax):
@@ -158,7 +147,7 @@ def test_collapse_shows_as_one_sample_at_the_right():
     logs = np.linspace(-20_000, -5_000, 1000)
     logs[123] = -700.0
     ax = Figure().add_subplot()
-    counts = draw_weights(ax, logs)
+    counts = viz.draw_weights(ax, logs)
     assert counts[-1] == 1
     assert counts[60:-1].sum() == 0
     assert "1,000 samples, effective sample size 1.0" in texts(ax)
@@ -170,49 +159,31 @@ def test_collapse_shows_as_one_sample_at_the_right():
     np.testing.assert_allclose(line.get_xdata(), 0.0, atol=1e-9)
 
 
-def test_equal_weights_have_full_size():
+def test_weights_are_normalised_without_overflow_and_may_be_zero():
     logs = normalized(np.full(250, -12_345.0))
     np.testing.assert_allclose(logs, -np.log(250))
     assert effective_sample_size(logs) == pytest.approx(250)
-
-
-def test_the_largest_weight_is_a_share_of_the_sum():
-    ax = Figure().add_subplot()
-    draw_weights(ax, np.log([1.0, 1.0, 2.0]), range_nats=(-5.0, 0.0))
+    np.testing.assert_allclose(np.exp(normalized([-np.inf, 1e6, 1e6 + np.log(3)])), [0.0, 0.25, 0.75])
+    ax = viz.weights_figure([-np.inf, 0.0]).axes[0]
+    viz.draw_weights(ax, np.log([1.0, 1.0, 2.0]), range_nats=(-5.0, 0.0))
     assert "largest weight: 50 % of the sum" in texts(ax)
-
-
-def test_normalising_neither_overflows_nor_minds_zero_weights():
-    logs = normalized([-np.inf, 1e6, 1e6 + np.log(3)])
-    np.testing.assert_allclose(np.exp(logs), [0.0, 0.25, 0.75])
-    weights_figure([-np.inf, 0.0])
-
-
-@pytest.mark.parametrize(
-    ("logs", "message"),
-    [
-        ([], r"shape \(0,\)"),
-        ([[0.0]], r"shape \(1, 1\)"),
-        ([0.0, np.nan], "sample 1 is nan"),
-        ([np.inf], "sample 0 is inf"),
-        ([-np.inf, -np.inf], "every sample has weight zero"),
-        (["a"], "array of numbers"),
-    ],
-)
-def test_bad_weights(logs, message):
-    with pytest.raises(BadInput, match=message):
-        weights_figure(logs)
 
 
 @pytest.mark.parametrize(
     ("draw", "numbers", "says"),
     [
         *(
-            (trace_figure, [traces], r"\(chain, draw\)")
+            (viz.trace_figure, [traces], r"\(chain, draw\)")
             for traces in (np.zeros((2, 0)), np.zeros(0), np.zeros((1, 2, 3)))
         ),
-        (trace_figure, [[[0.0, -np.inf]]], r"log_joint\[0, 1\] is -inf"),
-        (lambda logs: weights_figure(logs, range_nats=(0.0, -1.0)), [[0.0]], "range_nats"),
+        (viz.trace_figure, [[[0.0, -np.inf]]], r"log_joint\[0, 1\] is -inf"),
+        (lambda logs: viz.weights_figure(logs, range_nats=(0.0, -1.0)), [[0.0]], "range_nats"),
+        (viz.weights_figure, [[]], r"shape \(0,\)"),
+        (viz.weights_figure, [[[0.0]]], r"shape \(1, 1\)"),
+        (viz.weights_figure, [[0.0, np.nan]], "sample 1 is nan"),
+        (viz.weights_figure, [[np.inf]], "sample 0 is inf"),
+        (viz.weights_figure, [[-np.inf, -np.inf]], "every sample has weight zero"),
+        (viz.weights_figure, [["a"]], "array of numbers"),
         (calibration_figure, [[]], "at least one score"),
         (draw_dots, [np.zeros((2, 2)), [0.0]], r"shape \(2, 2\) and values \(1,\)"),
         (draw_dots, [np.zeros((1, 3)), [0.0]], r"give \(n, 2\) and \(n,\)"),

@@ -14,20 +14,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from bayesmap.errors import BadInput
+from bayesmap.posterior import route as routes
 from bayesmap.posterior.information import InformationGain, beam_information, best_views, expected_information
 from bayesmap.posterior.posterior import Posterior
 from bayesmap.posterior.prediction import Fan
 from bayesmap.posterior.predictor import OnShare, ignored, parts, watched
-from bayesmap.posterior.route import (
-    FreeProbability,
-    Route,
-    blocked_probability,
-    cells_about,
-    checked_path,
-    free_probability,
-    in_the_way,
-    plan_route,
-)
 from bayesmap.space.scans import as_poses
 
 if TYPE_CHECKING:
@@ -62,27 +53,27 @@ class Drawn(Protocol):
         """The draws of the map."""
 
 
-def path_is_free(posterior: Drawn, path: ArrayLike, radius_m: float) -> FreeProbability:
+def path_is_free(posterior: Drawn, path: ArrayLike, radius_m: float) -> routes.FreeProbability:
     """Compute the probability that a disc can move along a path (`bayesmap.posterior.route`).
 
     Raises:
         BadInput: no draws, no path, a path that leaves the map, or a radius that is not positive.
     """
     _need_draws(posterior, "free_probability")
-    corners, grid = checked_path(path), posterior.draws.grid
+    corners, grid = routes.checked_path(path), posterior.draws.grid
     _need_radius(radius_m)
     inside = ((corners >= np.array(grid.extent_m[::2])) & (corners <= np.array(grid.extent_m[1::2]))).all(axis=1)
     if not inside.all():
         first = int(np.argmin(inside))
         raise BadInput(f"path: point {first}, {corners[first].tolist()}, lies outside the map, {grid.extent_words()}")
-    cells = cells_about(corners, radius_m, grid)
+    cells = routes.cells_about(corners, radius_m, grid)
     batches = posterior.prior.drawn_stops(posterior.draws, cells)
-    return free_probability(in_the_way(batches, cells, grid, corners, radius_m), posterior.draws.chains)
+    return routes.free_probability(routes.in_the_way(batches, cells, grid, corners, radius_m), posterior.draws.chains)
 
 
 def shortest_safe_path(
     posterior: Drawn, start: ArrayLike, goal: ArrayLike, radius_m: float, risk: float, on_progress: OnShare = ignored
-) -> Route:
+) -> routes.Route:
     """Find the shortest path of a disc whose risk stays under a bound (`bayesmap.posterior.route`).
 
     Raises:
@@ -91,19 +82,19 @@ def shortest_safe_path(
     """
     _need_draws(posterior, "plan")
     _need_radius(radius_m)
-    ends = [checked_path(point) for point in (start, goal)]
+    ends = [routes.checked_path(point) for point in (start, goal)]
     if any(len(end) != 1 for end in ends):
         raise BadInput("plan: start and goal are one point each: x, y in metres")
     blocked = blocked_anywhere(posterior, radius_m, on_progress)
     judge = partial(path_is_free, posterior, radius_m=radius_m)
-    return plan_route(blocked, posterior.draws.grid, ends[0][0], ends[1][0], risk, judge)
+    return routes.plan_route(blocked, posterior.draws.grid, ends[0][0], ends[1][0], risk, judge)
 
 
 def blocked_anywhere(posterior: Drawn, radius_m: float, on_progress: OnShare = ignored) -> Floats:
     """Compute the probability that a disc about each cell's centre touches something, (nx, ny), by `SEARCH_DRAWS`."""
     draws = posterior.draws.thinned(SEARCH_DRAWS)
     batches = watched(posterior.prior.drawn_stops(draws), draws.size, on_progress)
-    return blocked_probability(batches, draws.grid, radius_m)
+    return routes.blocked_probability(batches, draws.grid, radius_m)
 
 
 def information_of(
