@@ -204,10 +204,9 @@ class Reflective(CellPrior):
         return draws.to_grid(draws.arrays[self.shown[0]][chain, draw], "cell", elsewhere)
 
     def mean_map(self, draws: Draws) -> Floats:
-        """Return the posterior mean of the chance that each cell stops a beam, (nx, ny); NaN without draws.
+        """Return the mean of the draws' expected chances to stop a beam, (nx, ny); NaN without draws.
 
-        It averages the draws' expected chances, which has the same limit as averaging drawn chances, and less noise.
-        Untouched cells have the prior's mean, given the drawn labels if cells have labels.
+        It has the same limit as the mean of drawn chances, and less noise. Untouched cells are as in `map_of`.
         """
         if draws.size == 0:
             return np.full(draws.grid.shape, np.nan)

@@ -30,17 +30,11 @@ LEAST_MODE = 1e-4
 
 @dataclass(frozen=True, eq=False)
 class Mode:
-    """One place where the robot may be.
+    """One place where the robot may be."""
 
-    Attributes:
-        mean: x, y in metres and yaw in radians, (3,).
-        covariance: of x, y and yaw in world axes, (3, 3).
-        probability: that the robot is there, if it is on the map at all.
-    """
-
-    mean: Floats
-    covariance: Floats
-    probability: float
+    mean: Floats  # x, y in metres and yaw in radians, (3,)
+    covariance: Floats  # of x, y and yaw in world axes, (3, 3)
+    probability: float  # that the robot is there, if it is on the map at all
 
     def as_json(self) -> dict[str, Any]:
         """Return the mode as JSON values."""
@@ -50,18 +44,11 @@ class Mode:
 
 @dataclass(frozen=True, eq=False)
 class Region:
-    """The smallest region of positions that holds a probability, of normal modes.
+    """The smallest region of positions that holds a probability, of normal modes."""
 
-    Attributes:
-        modes: means (K, 2), covariances (K, 2, 2), probabilities (K,).
-        density: least density of positions in the region, 1 / m^2.
-        level: the probability.
-        area_m2: the region's area.
-    """
-
-    modes: tuple[Floats, Floats, Floats]
-    density: float
-    level: float
+    modes: tuple[Floats, Floats, Floats]  # means (K, 2), covariances (K, 2, 2), probabilities (K,)
+    density: float  # least density of positions in the region, 1 / m^2
+    level: float  # the probability
     area_m2: float
 
     def contains(self, positions: Floats) -> NDArray[np.bool_]:

@@ -74,21 +74,13 @@ POWERS, FEWEST_SEARCHES = np.array([0.2, 0.3, 0.5, 0.7, 1.0]), 8
 
 @dataclass(frozen=True)
 class MapLaw:
-    """The law of a map of another program: its meaning for beams, and the worth of a scan in it.
+    """The law of a map of another program: its meaning for beams, and the worth of a scan in it."""
 
-    Attributes:
-        values: stop probabilities of cells, and the numbers of the beam model.
-        trust: trust in the map.
-        scans: number of scans that the law was fitted on and judged by; 0 if it is assumed.
-        nats_per_beam: mean log density of readings of the judging scans under this law; NaN if there are none.
-        usual_fit: fit of these scans at their own places; None if unknown.
-    """
-
-    values: Mapping[str, float]
+    values: Mapping[str, float]  # stop probabilities of cells, and the numbers of the beam model
     trust: Trust = WARY
-    scans: int = 0
-    nats_per_beam: float = float("nan")
-    usual_fit: UsualFit | None = None
+    scans: int = 0  # number of scans that the law was fitted on and judged by; 0 if it is assumed
+    nats_per_beam: float = float("nan")  # mean log density of readings of the judging scans; NaN if there are none
+    usual_fit: UsualFit | None = None  # fit of these scans at their own places; None if unknown
 
     def words(self) -> str:
         """Return a description of the law, one line."""

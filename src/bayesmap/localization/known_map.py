@@ -77,15 +77,10 @@ class Trust:
 
 @dataclass(frozen=True)
 class UsualFit:
-    """The fit of scans to a map at their own places: mean log density of readings, nats per beam.
+    """The fit of scans to a map at their own places: mean log density of readings, nats per beam."""
 
-    Attributes:
-        right: mean over scans, at the right place.
-        missed: share of scans whose right place a search does not find.
-    """
-
-    right: float
-    missed: float
+    right: float  # mean over scans, at the right place
+    missed: float  # share of scans whose right place a search does not find
 
 
 @dataclass(frozen=True, eq=False)

@@ -220,7 +220,6 @@ class Route:
 
     Attributes:
         path: corners in the world frame, (P, 2), start and goal included.
-        length_m: length of the path, metres.
         free: probability that the disc touches nothing, over joint draws.
         within_risk: True if the risk is within the bound. Otherwise this is the safest of the proposed paths.
     """

@@ -140,17 +140,12 @@ class Marks:
     """Numbers of sweeps at which segments end, common to all groups.
 
     The end of warm-up, the marks of the schedule, and its end are marks.
-
-    Attributes:
-        segment_s: seconds of work between two marks.
-        at: marks so far, ascending.
-        per_sweep_s: seconds per sweep of the slowest group; 0 before it is measured.
     """
 
     schedule: SweepPlan
-    segment_s: float
-    at: list[int]
-    per_sweep_s: float = 0.0
+    segment_s: float  # seconds of work between two marks
+    at: list[int]  # marks so far, ascending
+    per_sweep_s: float = 0.0  # seconds per sweep of the slowest group; 0 before it is measured
 
     def after(self, sweep: int) -> int:
         """Return the first mark after a number of sweeps."""
@@ -167,19 +162,13 @@ class Marks:
 
 @dataclass
 class Group:
-    """Chains that advance together, with their results.
-
-    Attributes:
-        resume: results from before this run; None if there are none.
-        segments: consecutive results of this run; their snapshots have no arrays.
-        snapshots: snapshots by number of sweeps, of the marks that may still be needed.
-    """
+    """Chains that advance together, with their results."""
 
     which: slice
     chain_ids: tuple[int, ...]
-    resume: Chains | None
-    segments: list[Chains] = field(default_factory=list)
-    snapshots: dict[int, Snapshot] = field(default_factory=dict)
+    resume: Chains | None  # results from before this run
+    segments: list[Chains] = field(default_factory=list)  # consecutive results of this run; snapshots without arrays
+    snapshots: dict[int, Snapshot] = field(default_factory=dict)  # by number of sweeps, as far as they may be needed
 
     @property
     def sweep(self) -> int:

@@ -65,24 +65,17 @@ CHECKPOINT_SHARE = 0.05  # largest share of the time that checkpoints may take
 
 @dataclass(frozen=True, eq=False)
 class Job:
-    """Chains of one posterior, with all that a process needs to run them.
-
-    Attributes:
-        chain_ids: numbers of the chains among all chains of the run.
-        threads: number of CPU threads; all cores if None.
-        parameters: sensor and prior that were fitted beforehand; None to run under those of the model.
-        problem: the sampler's prepared problem, if this process has it already.
-    """
+    """Chains of one posterior, with all that a process needs to run them."""
 
     model: Model
     sampler: Sampler[Any, Any]
     schedule: SweepPlan
     seed: int
-    chain_ids: tuple[int, ...]
+    chain_ids: tuple[int, ...]  # numbers of the chains among all chains of the run
     device: str = "cpu"
-    threads: int | None = None
-    parameters: Parameters | None = None
-    problem: Any = None
+    threads: int | None = None  # all cores if None
+    parameters: Parameters | None = None  # sensor and prior that were fitted beforehand; None for those of the model
+    problem: Any = None  # the sampler's prepared problem, if this process has it already
 
     @property
     def model_to_trace(self) -> Model:

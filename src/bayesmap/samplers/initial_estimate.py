@@ -39,24 +39,16 @@ THICKNESS = 1.2
 class InitialEstimate:
     """Counts and moments of the readings in each of the T cells that beams touch.
 
-    Endpoint cells are those in which a reading ends.
-
-    Attributes:
-        touched: flat indices of the cells, ascending, (T,).
-        hits, passes: numbers of readings that end in the cell, and of beams that pass it, (T,).
-        far: mask of cells in which no reading ends, nor in any of the eight cells around them, (T,).
-        mean_m: mean of the end points in each of the U endpoint cells, shrunk towards the centre, (U, 2), metres from
-            the grid's corner.
-        factor_m: Cholesky factor of the covariance of these end points, shrunk towards the prior's size and `widened`:
-            l11, l21, l22, metres, (U, 3).
+    Readings end in U of them, the endpoint cells. Means of their end points, from the grid's corner, are shrunk towards
+    the cell's centre; covariances are shrunk towards the prior's size, and `widened`.
     """
 
-    touched: NDArray[np.int32]
-    hits: NDArray[np.int32]
-    passes: NDArray[np.int32]
-    far: NDArray[np.bool_]
-    mean_m: Floats
-    factor_m: Floats
+    touched: NDArray[np.int32]  # flat indices of the cells, ascending, (T,)
+    hits: NDArray[np.int32]  # number of readings that end in the cell, (T,)
+    passes: NDArray[np.int32]  # number of beams that pass the cell, (T,)
+    far: NDArray[np.bool_]  # cells in which no reading ends, nor in any of the eight cells around them, (T,)
+    mean_m: Floats  # (U, 2)
+    factor_m: Floats  # Cholesky factors of the covariances: l11, l21, l22, (U, 3)
 
     @property
     def endpoint(self) -> NDArray[np.bool_]:

@@ -68,18 +68,12 @@ class ChainMaps:
 
 @dataclass(frozen=True, eq=False)
 class Changes:
-    """Changes to the map of one chain, in n places.
+    """Changes to the map of one chain, in n places."""
 
-    Attributes:
-        middle: x and y of the cells around which the readings are compared, (n, 2).
-        where: flat indices of the cells that change, (n, k).
-        cells, solid: new states and labels of these cells, (n, k, 6) and (n, k).
-    """
-
-    middle: NDArray[np.intp]
-    where: NDArray[np.intp]
-    cells: NDArray[np.float32]
-    solid: NDArray[np.bool_]
+    middle: NDArray[np.intp]  # x and y of the cells around which the readings are compared, (n, 2)
+    where: NDArray[np.intp]  # flat indices of the cells that change, (n, k)
+    cells: NDArray[np.float32]  # new states of these cells, (n, k, 6)
+    solid: NDArray[np.bool_]  # new labels, (n, k)
 
     def select(self, mask: NDArray[np.bool_]) -> Changes:
         """Return the changes at the places of the mask, (n,)."""

@@ -22,25 +22,15 @@ ROUNDS = 20
 
 @dataclass(frozen=True, eq=False)
 class Marginals:
-    """The marginals of belief propagation, and how it converged.
+    """The marginals of belief propagation, and how it converged."""
 
-    Attributes:
-        p_wall: approximate posterior wall probability, shape (nx, ny).
-        changes: largest change of any cell's probability in each round, (rounds,).
-        mean_changes: mean change over the cells that beams touch, (rounds,).
-        converged: whether the last largest change was below the tolerance.
-        finished: whether it converged or made all rounds; false if it was stopped early.
-        seconds: time for the rounds.
-        prior: wall probability without any beam, (nx, ny); None if it is the prior's own.
-    """
-
-    p_wall: Floats
-    changes: Floats
-    mean_changes: Floats
-    converged: bool
-    finished: bool
+    p_wall: Floats  # approximate posterior wall probability, (nx, ny)
+    changes: Floats  # largest change of any cell's probability in each round, (rounds,)
+    mean_changes: Floats  # mean change over the cells that beams touch, (rounds,)
+    converged: bool  # whether the last largest change was below the tolerance
+    finished: bool  # whether it converged or made all rounds; false if it was stopped early
     seconds: float
-    prior: Floats | None = None
+    prior: Floats | None = None  # wall probability without any beam, (nx, ny); None if it is the prior's own
 
 
 def propagate(

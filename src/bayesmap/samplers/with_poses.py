@@ -52,34 +52,22 @@ slope would be no measure of how far the pose may move."""
 
 @dataclass(frozen=True, eq=False)
 class PoseState:
-    """The present poses of some chains.
+    """The present poses of some chains. Seed, chain and step determine the next random numbers."""
 
-    Attributes:
-        poses: poses in the world frame, (C, S, 3).
-        log_scale: logarithm of the size of the steps of each scan, (C, S); warm-up adapts it.
-        chain_ids: global numbers of the chains, (C,).
-        seed: seed of all random numbers.
-        step: number of steps made; seed, chain and step determine the next random numbers.
-    """
-
-    poses: Floats
-    log_scale: Floats
-    chain_ids: NDArray[np.intp]
+    poses: Floats  # in the world frame, (C, S, 3)
+    log_scale: Floats  # logarithm of the size of the steps of each scan, (C, S); warm-up adapts it
+    chain_ids: NDArray[np.intp]  # numbers among all chains of the run, (C,)
     seed: int
-    step: int = 0
+    step: int = 0  # number of steps made
 
 
 @dataclass(frozen=True, eq=False)
 class PoseMetropolis:
-    """Metropolis steps of all poses of some chains.
-
-    Attributes:
-        factor: Cholesky factor of each scan's proposal covariance in world axes, (S, 3, 3) or (C, S, 3, 3).
-    """
+    """Metropolis steps of all poses of some chains."""
 
     likelihood: ScanLikelihood
     prior: PoseLaw
-    factor: Floats
+    factor: Floats  # Cholesky factor of each scan's proposal covariance in world axes, (S, 3, 3) or (C, S, 3, 3)
 
     def init(self, poses: Floats, chain_ids: NDArray[np.intp], seed: int) -> PoseState:
         """Start chains at the given poses, (C, S, 3)."""
@@ -184,14 +172,10 @@ class MovableSampler(Sampler[Any, Any], Protocol):
 
 @dataclass(frozen=True, eq=False)
 class PoseProblem(Problem):
-    """A model with unknown poses, in the form that samplers use.
-
-    Attributes:
-        cells: the problem of the cells' sampler at the poses of the log.
-    """
+    """A model with unknown poses, in the form that samplers use."""
 
     model: Model
-    cells: Any
+    cells: Any  # the problem of the cells' sampler at the poses of the log
     device: str
     threads: int | None
 
@@ -240,42 +224,25 @@ class PoseProblem(Problem):
 
 @dataclass(frozen=True, eq=False)
 class JointState:
-    """Chains between two sweeps.
-
-    Attributes:
-        problem: the problem of the chains.
-        cells: one state of the cells' sampler per chain, each with its own rays.
-        poses: poses of all chains.
-        factor: Cholesky factors of the chains' proposals, (C, S, 3, 3); zero before the first round.
-        sweep: number of sweeps of the cells that each chain has made.
-        statistics: always empty.
-    """
+    """Chains between two sweeps."""
 
     problem: PoseProblem
-    cells: tuple[Any, ...]
+    cells: tuple[Any, ...]  # one state of the cells' sampler per chain, each with its own rays
     poses: PoseState
-    factor: Floats
-    sweep: int
-    statistics: Mapping[str, Floats]
+    factor: Floats  # Cholesky factors of the chains' proposals, (C, S, 3, 3); zero before the first round
+    sweep: int  # number of sweeps of the cells that each chain has made
+    statistics: Mapping[str, Floats]  # always empty
 
 
 @dataclass(frozen=True, eq=False)
 class WithPoses:
-    """A sampler of cells turned into one of cells and poses.
-
-    Attributes:
-        cells: the sampler of the cells.
-        adapt_until: the sweep after which the sizes of pose steps stay fixed, the end of warm-up.
-        start: first poses of the chains, by chain number, (chains of the run, S, 3); draws of the prior if None.
-        every: number of sweeps of the cells between rounds of pose steps.
-        pose_steps: number of steps of every pose in a round.
-    """
+    """A sampler of cells turned into one of cells and poses."""
 
     cells: MovableSampler
-    adapt_until: int
-    start: Floats | None = None
-    every: int = EVERY
-    pose_steps: int = STEPS
+    adapt_until: int  # the sweep after which the sizes of pose steps stay fixed, the end of warm-up
+    start: Floats | None = None  # first poses by chain number, (chains of the run, S, 3); draws of the prior if None
+    every: int = EVERY  # sweeps of the cells between rounds of pose steps
+    pose_steps: int = STEPS  # steps of every pose in a round
 
     def prepare(self, model: Model, device: str, threads: int | None = None, watch: Watch = SILENT) -> PoseProblem:
         """Trace the beams at the poses of the log."""

@@ -31,20 +31,14 @@ NEGLIGIBLE_NATS = 40.0  # a particle this far below the best adds nothing to any
 
 @dataclass(frozen=True, eq=False)
 class Particles:
-    """Weighted maps that are drawn from the prior. A map is stored as its number, by which it can be drawn again.
+    """Weighted maps that are drawn from the prior. A map is stored as its number, by which it can be drawn again."""
 
-    Attributes:
-        log_weights: normalised log weights, (particles,).
-        log_evidence: log of the mean weight: an estimate of log p(readings).
-        finished: whether all particles were weighed; false if stopped early.
-    """
-
-    log_weights: Floats
-    log_evidence: float
+    log_weights: Floats  # normalised, (particles,)
+    log_evidence: float  # log of the mean weight: an estimate of log p(readings)
     problem: WallProblem
     key: int
     seconds: float
-    finished: bool
+    finished: bool  # whether all particles were weighed; false if stopped early
 
     @property
     def effective_sample_size(self) -> float:
@@ -138,19 +132,11 @@ MAX_UNKNOWN = 16
 
 @dataclass(frozen=True, eq=False)
 class Enumeration:
-    """The whole posterior, enumerated.
+    """The whole posterior, enumerated over n cells: those not fixed that a beam touches, or that are coupled."""
 
-    Attributes:
-        unknown: flat indices of the enumerated cells, (n,): cells that the prior does not fix, and that a beam touches
-            or that are coupled to others.
-        log_posterior: normalised log-probability of each of the 2^n states; bit i of the state's number is the
-            wall in ``unknown[i]``.
-        log_evidence: log p(readings).
-    """
-
-    unknown: NDArray[np.intp]
-    log_posterior: Floats
-    log_evidence: float
+    unknown: NDArray[np.intp]  # flat indices of the cells, (n,)
+    log_posterior: Floats  # normalised, of each of the 2^n states; bit i of a state is the wall in ``unknown[i]``
+    log_evidence: float  # log p(readings)
     problem: WallProblem
 
     def states(self) -> NDArray[np.bool_]:
@@ -247,25 +233,15 @@ class DrawRequest:
 
 @dataclass(frozen=True, eq=False)
 class IndependentDraws:
-    """Independent draws, and further results of the method.
+    """Independent draws, and further results of the method, as in `bayesmap.posterior.posterior.Posterior`."""
 
-    Attributes:
-        walls: packed maps, (chains, draws, ceil(N / 8)).
-        log_likelihood, log_prior: log densities of each map, (chains, draws).
-        occupancy: marginals, (nx, ny).
-        observed: cells that a beam reaches in at least half of the maps, (nx, ny).
-        seconds: time of the method before it draws.
-        finished: whether the method finished; false if it was stopped early.
-        log_weights, statistics, log_evidence: as in `bayesmap.posterior.posterior.Posterior`.
-    """
-
-    walls: NDArray[np.uint8]
-    log_likelihood: Floats
+    walls: NDArray[np.uint8]  # packed maps, (chains, draws, ceil(N / 8))
+    log_likelihood: Floats  # of each map, (chains, draws)
     log_prior: Floats
-    occupancy: Floats
-    observed: NDArray[np.bool_]
-    seconds: float = 0.0
-    finished: bool = True
+    occupancy: Floats  # marginals, (nx, ny)
+    observed: NDArray[np.bool_]  # cells that a beam reaches in at least half of the maps, (nx, ny)
+    seconds: float = 0.0  # time of the method before it draws
+    finished: bool = True  # false if the method was stopped early
     log_weights: Floats | None = None
     statistics: Mapping[str, Floats] = field(default_factory=dict)
     log_evidence: float | None = None

@@ -51,10 +51,7 @@ def draw_rays(
 
     Readings that are too close or invalid have no end point and are left out. If there are more beams or end points
     than the limits, an evenly spaced part is drawn, always the same one. Points hide less than lines, so their limit is
-    higher: the readings of a whole log show the building before any inference.
-
-    Returns:
-        The artists, labelled "beam", "reading" and "no return", in this order, without those missing.
+    higher. Returns the artists, labelled "beam", "reading" and "no return", in this order, without those missing.
 
     Raises:
         BadInput: ``max_beams`` or ``max_readings`` below 1.
@@ -184,10 +181,7 @@ def draw_surfaces(
 ) -> LineCollection:  # fmt: skip
     """Draw one stroke per surface, from `surface_strokes`. Its opacity is the surface's weight in [0, 1], (n,).
 
-    By default strokes have the colour of walls.
-
-    Returns:
-        All strokes, labelled "surface"; those fainter than `FAINTEST` are left out.
+    Strokes fainter than `FAINTEST` are left out. By default they have the colour of walls. The label is "surface".
 
     Raises:
         BadInput: shapes that do not fit, weights outside [0, 1], or what `surface_strokes` refuses.

@@ -167,9 +167,6 @@ def surprise_scale(surprises: ArrayLike) -> Scale:
 def draw_residuals(ax: Axes, ends_world: ArrayLike, values: ArrayLike, scale: Scale) -> PathCollection:
     """Draw a dot at the end of every beam, (n, 2), coloured by its value, (n,). The worst are larger and on top.
 
-    Returns:
-        The dots, for a colour bar.
-
     Raises:
         BadInput: shapes that do not fit, or a number that is not finite.
     """
