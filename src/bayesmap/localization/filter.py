@@ -261,10 +261,7 @@ def belief_of(
 
 
 def shared_by_places(weights: Floats, group: NDArray[np.intp], log_weights: Floats) -> Floats:
-    """Return weights with places' shares by ``log_weights``, (N,), and the old ratios (N,) within each place.
-
-    ``group`` is the place of each pose, (N,).
-    """
+    """Return weights with places' shares by ``log_weights``, (N,), and the old ratios within each place, ``group``."""
     if not group.any() or not np.isfinite(log_weights).any():
         return weights
     shares = np.bincount(group, np.exp(log_weights - log_sum(log_weights)), group.max() + 1)
@@ -272,10 +269,9 @@ def shared_by_places(weights: Floats, group: NDArray[np.intp], log_weights: Floa
 
 
 def shared_by_evidence(weights: Floats, group: NDArray[np.intp], mass: Floats, power: float) -> Floats:
-    """Return weights with places' shares by a power of the evidence, and the old ratios (N,) within each place.
+    """Return weights with places' shares by a power of the evidence, and the old ratios within each place.
 
-    ``mass`` is the places' shares before the scan, (K,). With a power of 1 shares become the sums of the weights. With
-    a power of 0 they stay as before the scan.
+    With a power of 0 shares stay as before the scan, ``mass``, (K,); with 1 they become the sums of the weights.
     """
     own = np.bincount(group, weights, len(mass))
     with np.errstate(divide="ignore"):

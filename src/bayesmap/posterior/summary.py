@@ -250,21 +250,22 @@ class Summary:
 def summarise(posterior: Posterior) -> Summary:
     """Compute the diagnostics of a run."""
     nan = float("nan")
-    markov, log_joint = posterior.has_chains, posterior.log_joint
+    markov, weights = posterior.has_chains, posterior.log_weights
+    # Traces without draws have no diagnostics.
+    log_joint, log_likelihood = (
+        trace if markov else trace[:, :0] for trace in (posterior.log_joint, posterior.log_likelihood)
+    )
     chains, draws = log_joint.shape
-    enough = markov and draws >= FEWEST_DRAWS
-    weights = posterior.log_weights
     sweeps = posterior.sweep * max(1, chains)
     threads = int(posterior.settings.get("threads_used", 1))
     cells = CellDiagnostics(nan, nan, 0, 0, 0, 0, 0)
     if markov:
         cells = diagnose_cells(posterior.prior, posterior.draws, posterior.observed)
+    enough = draws >= FEWEST_DRAWS
     return Summary(
-        rhat_log_joint=rhat(log_joint) if enough else nan,
-        rhat_log_likelihood=rhat(posterior.log_likelihood) if enough else nan,
-        ess_log_joint_bulk=bulk_ess(log_joint) if enough else nan,
-        ess_log_joint_tail=tail_ess(log_joint) if enough else nan, rhat_max=cells.rhat_max, ess_min=cells.ess_min,
-        unchanged_cells=cells.unchanged, disagreeing_cells=cells.disagreeing,
+        rhat_log_joint=rhat(log_joint), rhat_log_likelihood=rhat(log_likelihood),
+        ess_log_joint_bulk=bulk_ess(log_joint), ess_log_joint_tail=tail_ess(log_joint), rhat_max=cells.rhat_max,
+        ess_min=cells.ess_min, unchanged_cells=cells.unchanged, disagreeing_cells=cells.disagreeing,
         map_error=map_error(posterior.prior, posterior.draws, posterior.observed) if enough else nan,
         precision=(posterior.settings.get("precision") or PRECISION) if markov else nan, rhat_high_cells=cells.high,
         ess_low_cells=cells.low, judged_cells=cells.judged,

@@ -104,8 +104,7 @@ def look_with(problem: StopProblem, chains: StopChains, beta: float) -> Look:
     def look(maps: ChainMaps) -> Floats:
         maps.put(chains)
         chains.sweeps(UPDATES_FEW, 1, problem.sensor, numbers, beta, steps=0)
-        each = range(chains.n_chains)
-        nats = [evidence(chains, chain, end_cell, problem.prior) for chain in each]
+        nats = [evidence(chains, chain, end_cell, problem.prior) for chain in range(chains.n_chains)]
         return np.stack(nats).reshape(-1, *problem.grid.shape)
 
     return look

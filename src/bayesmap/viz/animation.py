@@ -47,16 +47,16 @@ def write_animation(
     observed: ArrayLike | None = None, truth: ArrayLike | None = None, poses: ArrayLike | None = None,
     sweeps: Sequence[int] | None = None, frames_per_second: float = 10.0,
 ) -> None:  # fmt: skip
-    """Write a chain as an animation that repeats without end, whole or not at all.
+    """Write the draws of one chain as an animation without end, .gif or .webp, whole or not at all.
 
     Args:
-        path: path of the file; its ending, .gif or .webp, chooses the format.
+        path: path of the file.
         grid: grid of the cells.
-        draws: draws of one chain, shape (n, nx, ny): walls, or probabilities in [0, 1].
+        draws: walls, or probabilities in [0, 1], (n, nx, ny).
         running_mean: show the mean of all draws so far in place of the draws.
-        observed: mask of the cells that a beam reached, shape (nx, ny); the others are hatched. None: all cells.
-        truth: the true walls, shape (nx, ny), outlined.
-        poses: poses x, y, yaw of the sensor, shape (S, 3) or (3,), each drawn as a dot.
+        observed: mask of the cells that a beam reached, (nx, ny); the others are hatched. None: all cells.
+        truth: the true walls, (nx, ny), outlined.
+        poses: poses x, y, yaw of the sensor, (S, 3) or (3,), each drawn as a dot.
         sweeps: number to write under each frame; None: 1 to n.
         frames_per_second: frame rate, at most 50, since viewers slow down faster animations.
 

@@ -153,15 +153,13 @@ def posterior_figure(
 ) -> Figure:  # fmt: skip
     """Draw an overview of the posterior: the mean, its uncertainty, the readings, and one draw.
 
-    The panels stand in a row, four in a square, or stacked if the map is long.
-
     Args:
         grid: grid of the cells.
-        occupancy: posterior probability of wall per cell, shape (nx, ny).
-        observed: mask of the cells that a beam reached, shape (nx, ny); the others are hatched. None: all cells.
-        draw: one draw of the map, walls or numbers in [0, 1], shape (nx, ny); None: no such panel.
-        truth: true walls, shape (nx, ny), outlined over the readings. If cells are large enough, or without readings,
-            they are outlined over mean and draw too.
+        occupancy: posterior probability of wall per cell, (nx, ny).
+        observed: mask of the cells that a beam reached, (nx, ny); the others are hatched. None: all cells.
+        draw: one draw of the map, walls or numbers in [0, 1], (nx, ny); None: no such panel.
+        truth: true walls, (nx, ny), outlined over the readings; if cells are large enough, or without readings, over
+            mean and draw too.
         scans: scans with their rays, readings and poses; None: no such panel.
         title: title over the figure.
         label: name of the values of ``occupancy``, and of a draw of numbers.
@@ -169,12 +167,8 @@ def posterior_figure(
             instead of the entropy of a wall.
         surfaces: surfaces, drawn as strokes over the mean if cells are large enough on the page.
 
-    Returns:
-        A figure with its own Agg canvas, outside pyplot's global state; write it with `write_figure`.
-
     Raises:
-        BadInput: an array whose shape differs from the grid's, probabilities outside [0, 1], or a truth
-            that is not 0 or 1.
+        BadInput: shapes that differ from the grid's, probabilities outside [0, 1], or a truth that is not 0 or 1.
     """
     # Choose the panels, and lay them out.
     seen = as_observed(grid, observed)
@@ -218,9 +212,7 @@ def posterior_figure(
 
 
 def write_figure(figure: Figure, path: str | os.PathLike[str]) -> None:
-    """Write a figure as PNG, PDF or SVG, whole or not at all; the same figure gives the same bytes.
-
-    The ending of the path chooses the format; PNG has the figure's own resolution.
+    """Write a figure as PNG, PDF or SVG, by the path's ending, whole or not at all; equal figures give equal bytes.
 
     Raises:
         BadInput: another ending than .png, .pdf or .svg, or a folder that does not exist.
@@ -290,12 +282,12 @@ def color_bar(
 
 
 def _legend(figure: Figure, keys: list[Artist], *, walls: bool, unobserved: bool) -> None:
-    free, wall = (tuple(color) for color in palette.probability_colors(2).tolist())
-    handles: list[Artist] = []
-    if walls:
-        handles.append(Patch(facecolor=free, edgecolor=palette.FRAME, linewidth=0.6, label="free"))
-        handles.append(Patch(facecolor=wall, edgecolor=palette.FRAME, linewidth=0.6, label="wall"))
-    place_legend(figure, [*handles, *([maps.hatch_patch()] if unobserved else []), *keys])
+    colors = (tuple(color) for color in palette.probability_colors(2).tolist())
+    patches: list[Artist] = [
+        Patch(facecolor=color, edgecolor=palette.FRAME, linewidth=0.6, label=label)
+        for color, label in zip(colors, ("free", "wall"), strict=True)
+    ]
+    place_legend(figure, [*(patches if walls else []), *([maps.hatch_patch()] if unobserved else []), *keys])
 
 
 def place_legend(figure: Figure, handles: list[Artist]) -> None:

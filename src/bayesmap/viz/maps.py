@@ -157,8 +157,7 @@ def draw_entropy(ax: Axes, grid: Grid, occupancy: ArrayLike, observed: ArrayLike
 def draw_deviation(ax: Axes, grid: Grid, deviation: ArrayLike, observed: ArrayLike | None = None) -> AxesImage:
     """Draw the posterior standard deviation of each cell's wall or reflectivity; 0.5 is the largest possible.
 
-    Arguments and errors are those of `draw_probability`, with a deviation in [0, 0.5] per cell. The image is from 0 to
-    0.5.
+    Arguments and errors are those of `draw_probability`, with a deviation in [0, 0.5] per cell, as the image has it.
     """
     reason = "the standard deviation of a number in [0, 1] lies in [0, 0.5]; take the square root if this is a variance"
     return _show_uncertainty(ax, grid, deviation, observed, "deviation", 0.5, reason)
@@ -167,8 +166,7 @@ def draw_deviation(ax: Axes, grid: Grid, deviation: ArrayLike, observed: ArrayLi
 def draw_width(ax: Axes, grid: Grid, width: ArrayLike, observed: ArrayLike | None = None) -> AxesImage:
     """Draw the width of each cell's posterior interval, such as the central 90 %: 0 is certain, 1 spans everything.
 
-    Arguments and errors are those of `draw_probability`, with the upper bound minus the lower bound, in [0, 1], per
-    cell. The image is from 0 to 1.
+    Arguments and errors are those of `draw_probability`, with the upper minus the lower bound, in [0, 1], per cell.
     """
     reason = "the bounds of a number in [0, 1] are 0 to 1 apart; give upper minus lower"
     return _show_uncertainty(ax, grid, width, observed, "width", 1.0, reason)
@@ -187,8 +185,7 @@ def _show_uncertainty(
 def draw_sample(ax: Axes, grid: Grid, walls: ArrayLike, observed: ArrayLike | None = None) -> AxesImage:
     """Draw one draw of the map; cells that no beam reached are faded, since they are draws of the prior.
 
-    Arguments and errors are those of `draw_probability`, with walls, true or 1, for probabilities. The image is in the
-    colours of `palette.draw_colormap`.
+    Arguments and errors are those of `draw_probability`, with walls, true or 1, for probabilities.
     """
     seen = as_observed(grid, observed)
     kind = np.where(seen, 0, 2) + as_mask(grid, walls, "walls")
