@@ -64,20 +64,15 @@ OF_CELLS = ("cell", "surface_cell")
 class ArraySpec:
     """An array of a draw.
 
-    Attributes:
-        name: name in `Cells`, in saved runs and in `Run.dataset`.
-        dims: dimensions beside chain and draw: ("x", "y") for the whole grid, ("cell",) for the cells that a beam
-            touches, ("surface_cell",) for the cells in which a reading ends.
-        dtype: type of the values.
-        storage: storage of draws in memory: "bits" packs booleans, "half" rounds to half precision.
-        what: description, with the unit.
+    ``dims`` are the dimensions beside chain and draw: ("x", "y") for the whole grid, ("cell",) for the cells that a
+    beam touches, ("surface_cell",) for the cells in which a reading ends.
     """
 
-    name: str
+    name: str  # in `Cells`, in saved runs and in `Run.dataset`
     dims: tuple[str, ...]
-    dtype: str
-    storage: Literal["bits", "half", "plain"] = "plain"
-    what: str = ""
+    dtype: str  # of the values
+    storage: Literal["bits", "half", "plain"] = "plain"  # in memory: packed booleans, half precision, or as they are
+    what: str = ""  # description, with the unit
 
     def stored(self, values: NDArray[Any]) -> NDArray[Any]:
         """Return values (..., *dims) in their stored form."""

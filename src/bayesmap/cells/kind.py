@@ -29,19 +29,12 @@ BATCH_BYTES = 12 << 20
 
 @dataclass(frozen=True)
 class Words:
-    """The words for a kind of cells and its maps.
+    """The words for a kind of cells and its maps."""
 
-    Attributes:
-        kind: name of the kind in settings, documents and saved runs; one word.
-        states: the states of the cells, in the plural: "walls or free".
-        mean: label of the mean map, on colour bars.
-        value: label of the map of one draw.
-    """
-
-    kind: str
-    states: str
-    mean: str
-    value: str
+    kind: str  # name of the kind in settings, documents and saved runs; one word
+    states: str  # the states of the cells, in the plural: "walls or free"
+    mean: str  # label of the mean map, on colour bars
+    value: str  # label of the map of one draw
 
 
 KINDS: dict[str, type[CellPrior]] = {}

@@ -58,25 +58,15 @@ class Region:
 
 @dataclass(frozen=True, eq=False)
 class PoseBelief:
-    """The posterior of a pose, as weighted poses.
+    """The posterior of a pose, as weighted poses."""
 
-    Attributes:
-        poses: in the world frame, (N, 3).
-        weights: of the poses, (N,), summing to 1: given that the robot is on the map, and the map is right.
-        p_lost: probability that the robot is elsewhere, or the map outdated.
-        nats_per_beam: log density of the scan's readings under the best pose, per beam.
-        stamp_s: stamp of the scan, or None.
-        mode_of: the mode of each pose, (N,); None: poses near each other make one.
-        shared_error: standard deviations of an error of the map that all beams share, (3,): modes are wider by it.
-    """
-
-    poses: Floats
-    weights: Floats
-    p_lost: float
-    nats_per_beam: float
-    stamp_s: float | None = None
-    mode_of: NDArray[np.intp] | None = None
-    shared_error: Floats | None = None
+    poses: Floats  # in the world frame, (N, 3)
+    weights: Floats  # of the poses, (N,), summing to 1: given that the robot is on the map, and the map is right
+    p_lost: float  # probability that the robot is elsewhere, or the map outdated
+    nats_per_beam: float  # log density of the scan's readings under the best pose, per beam
+    stamp_s: float | None = None  # stamp of the scan
+    mode_of: NDArray[np.intp] | None = None  # the mode of each pose, (N,); None: poses near each other make one
+    shared_error: Floats | None = None  # standard deviations of the map's error, (3,): modes are wider by it
 
     def __repr__(self) -> str:
         """Return four lines: size, the likeliest pose, its probability, and that of being lost."""

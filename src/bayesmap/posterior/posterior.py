@@ -30,44 +30,29 @@ WITHOUT_CHAINS = ("exact", "importance", "propagate")
 class Posterior:
     """The posterior of the cells given scans, as draws and marginals.
 
-    Attributes:
-        scans: scans that the posterior is conditioned on.
-        sensor: sensor model of the draws, fitted or given; None in a loaded run with a model of the user's own.
-        settings: method, prior, sensor, seed and schedule as JSON values.
-        occupancy: posterior mean of the probability that a cell stops a beam, (nx, ny): of the draws, or the method's
-            own marginals where it computes them ("exact", "importance", "propagate"). For binary walls it is the
-            probability of a wall.
-        observed: cells that at least one beam observes in at least half of the draws, (nx, ny); in the others the
-            posterior is the prior, or little more.
-        log_likelihood, log_prior, warmup_log_joint, snapshot: as in `bayesmap.run.chains.Chains`.
-        finished: false if the run was stopped early.
-        seconds: {"trace", "warm_start", "sampling", "total", "fit"}.
-        counts: {"scans", "beams", "incidences", ...}.
-        log_weights: normalised log weights of all particles, for "importance".
-        statistics: other numbers by name, such as "belief_changes": the largest change of any cell's probability in
-            each round of belief propagation.
-        log_evidence: log p(readings), exact or estimated, where the method gives it.
-        notes: messages for the user.
+    ``occupancy`` is the posterior mean of the probability that a cell stops a beam, for binary walls the probability of
+    a wall: the mean of the draws, or the marginals of a method that computes them ("exact", "importance", "propagate").
+    In cells that are not ``observed``, the posterior is the prior, or little more.
     """
 
     scans: Scans
-    sensor: SensorModel | None
+    sensor: SensorModel | None  # fitted or given; None in a loaded run with a model of the user's own
     prior: CellPrior
-    settings: dict[str, Any]
+    settings: dict[str, Any]  # method, prior, sensor, seed and schedule as JSON values
     draws: Draws
-    occupancy: Floats
-    observed: NDArray[np.bool_]
-    log_likelihood: Floats
-    log_prior: Floats
-    warmup_log_joint: Floats
-    snapshot: Snapshot
-    finished: bool
-    seconds: dict[str, float]
-    counts: dict[str, int]
-    log_weights: Floats | None = None
-    statistics: Mapping[str, Floats] = field(default_factory=dict)
-    log_evidence: float | None = None
-    notes: tuple[str, ...] = field(default=())
+    occupancy: Floats  # (nx, ny)
+    observed: NDArray[np.bool_]  # cells that at least one beam observes in at least half of the draws, (nx, ny)
+    log_likelihood: Floats  # of every draw, (chains, draws)
+    log_prior: Floats  # (chains, draws)
+    warmup_log_joint: Floats  # (chains, warm-up sweeps)
+    snapshot: Snapshot  # state of the chains
+    finished: bool  # false if the run was stopped early
+    seconds: dict[str, float]  # "trace", "warm_start", "sampling", "total", "fit"
+    counts: dict[str, int]  # "scans", "beams", "incidences", ...
+    log_weights: Floats | None = None  # normalised log weights of all particles, for "importance"
+    statistics: Mapping[str, Floats] = field(default_factory=dict)  # such as "belief_changes", (rounds,)
+    log_evidence: float | None = None  # log p(readings), exact or estimated, where the method gives it
+    notes: tuple[str, ...] = field(default=())  # messages for the user
 
     @property
     def grid(self) -> Grid:

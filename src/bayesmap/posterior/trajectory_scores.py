@@ -138,20 +138,15 @@ DIMENSIONS = 3
 class TrajectoryScore:
     """The accuracy of a trajectory, and the calibration of its regions.
 
-    Attributes:
-        errors: of each relation, in the true frame of its second pose.
-        nees: of each relation, (M,); None where the trajectory does not say how sure it is.
-        region: least probability of a region around the estimate that holds the truth, (M,): uniform if the covariances
-            are right; None where nees is.
-        assumed_independent: whether covariances of single poses were all there was.
-        known_by: what said how sure the poses are, in words.
+    ``region`` is the least probability of a region around the estimate that holds the truth, (M,): uniform if the
+    covariances are right. It is None, as ``nees`` is, if the trajectory has no covariances.
     """
 
-    errors: RelationErrors
-    nees: Floats | None = None
+    errors: RelationErrors  # of each relation, in the true frame of its second pose
+    nees: Floats | None = None  # of each relation, (M,)
     region: Floats | None = None
-    assumed_independent: bool = False
-    known_by: str = ""
+    assumed_independent: bool = False  # whether covariances of single poses were all there was
+    known_by: str = ""  # source of the covariances, in words
 
     def coverage(self, level: float) -> float:
         """Return the share of relations whose truth lies in the region of a probability; NaN without regions."""

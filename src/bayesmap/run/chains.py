@@ -34,17 +34,13 @@ DENSITIES = ("log_likelihood", "log_prior", "warmup_log_joint")
 class SweepPlan:
     """The plan of a chain's sweeps.
 
-    Attributes:
-        warmup: number of sweeps before the first draw.
-        draws: most draws per chain.
-        thin: sweeps from one draw to the next.
-        precision: Monte Carlo error of the map at which chains stop early, see `map_error`; None to never stop early.
-        seconds: seconds after which chains stop early, once each has `FEWEST_DRAWS`; None for no limit.
+    Chains stop early at a Monte Carlo error of ``precision``, see `map_error`, and after ``seconds``, once each has
+    `FEWEST_DRAWS`; not if they are None.
     """
 
-    warmup: int
-    draws: int
-    thin: int = 1
+    warmup: int  # number of sweeps before the first draw
+    draws: int  # most draws per chain
+    thin: int = 1  # sweeps from one draw to the next
     precision: float | None = None
     seconds: float | None = None
 
@@ -78,9 +74,7 @@ class SweepPlan:
 class StopRule:
     """Decides when chains may stop before all their draws: when the map is known, or when the time is over.
 
-    Attributes:
-        reached: whether they may stop.
-        error: latest estimate of the map's error, see `map_error`; None before the first mark.
+    ``reached`` tells if they may stop. ``error`` is the latest `map_error`; None before the first mark.
     """
 
     def __init__(self, plan: SweepPlan, error_of_map: Callable[[], float]) -> None:
@@ -113,26 +107,17 @@ class StopRule:
 
 @dataclass(frozen=True, eq=False)
 class Chains:
-    """The draws and the states of chains so far.
-
-    Attributes:
-        log_likelihood, log_prior: the two parts of the log joint of each kept draw, (chains, kept).
-        warmup_log_joint: log joint of each warm-up sweep so far, (chains, warm-up sweeps).
-        observed_counts: the draws in which at least one beam observes each cell, and the draws inspected, (2, nx, ny).
-        statistics: results of the start, by name.
-        n_incidences: number of cells that beams cross, summed over beams.
-        seconds: time spent in tracing ("trace"), at the start ("warm_start") and in sweeps ("sampling").
-    """
+    """The draws and the states of chains so far."""
 
     draws: Draws
-    log_likelihood: Floats
-    log_prior: Floats
-    warmup_log_joint: Floats
+    log_likelihood: Floats  # of each kept draw, (chains, kept)
+    log_prior: Floats  # (chains, kept)
+    warmup_log_joint: Floats  # of each warm-up sweep so far, (chains, warm-up sweeps)
     snapshot: Snapshot
-    observed_counts: NDArray[np.int32]
-    statistics: Mapping[str, Floats]
-    n_incidences: int
-    seconds: Mapping[str, float]
+    observed_counts: NDArray[np.int32]  # draws in which some beam observes each cell, and draws inspected, (2, nx, ny)
+    statistics: Mapping[str, Floats]  # results of the start, by name
+    n_incidences: int  # number of cells that beams cross, summed over beams
+    seconds: Mapping[str, float]  # time in tracing ("trace"), at the start ("warm_start") and in sweeps ("sampling")
     finished: bool
 
     @property

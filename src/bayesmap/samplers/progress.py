@@ -14,19 +14,13 @@ Stage = Literal[
 
 @dataclass(frozen=True)
 class Event:
-    """Progress of a run: ``done`` of ``total`` units of a stage, and results so far.
-
-    Attributes:
-        log_joint: log joint, mean over the chains.
-        error: Monte Carlo error of the map, see `bayesmap.run.chains.map_error`. If it decides how long chains run,
-            ``total`` is an estimate.
-    """
+    """Progress of a run: ``done`` of ``total`` units of a stage, and results so far."""
 
     stage: Stage
     done: int
-    total: int
-    log_joint: float | None = None
-    error: float | None = None
+    total: int  # an estimate, if the error decides how long chains run
+    log_joint: float | None = None  # mean over the chains
+    error: float | None = None  # Monte Carlo error of the map, see `bayesmap.run.chains.map_error`
 
 
 @dataclass(frozen=True)

@@ -36,15 +36,10 @@ PILOT = 1 << 32
 
 @dataclass(frozen=True)
 class Keep:
-    """The draws to keep: those of the sweeps ``after + every``, ``after + 2 every``, ..., counted from 1.
+    """The draws to keep: those of the sweeps ``after + every``, ``after + 2 every``, ..., counted from 1."""
 
-    Attributes:
-        after: number of first sweeps of which none is kept.
-        every: sweeps from one kept draw to the next; 0 keeps none.
-    """
-
-    after: int = 0
-    every: int = 0
+    after: int = 0  # number of first sweeps of which none is kept
+    every: int = 0  # sweeps from one kept draw to the next; 0 keeps none
 
     def sweeps(self, begin: int, end: int) -> range:
         """Return the sweeps that are kept among those after ``begin`` and up to ``end``."""
@@ -63,17 +58,11 @@ MAPS_TO_SEE = 8
 
 @dataclass(frozen=True, eq=False)
 class Info:
-    """The report of some sweeps.
+    """The report of some sweeps. At an inverse temperature the likelihood is tempered."""
 
-    Attributes:
-        log_likelihood, log_prior: log densities of each sweep's draw, (chains, sweeps). At an inverse temperature the
-            likelihood is tempered.
-        draws: the kept draws, (chains, kept, ...), by the names of the cells' arrays, in their stored form.
-    """
-
-    log_likelihood: Floats
-    log_prior: Floats
-    draws: Mapping[str, NDArray[Any]]
+    log_likelihood: Floats  # of each sweep's draw, (chains, sweeps)
+    log_prior: Floats  # (chains, sweeps)
+    draws: Mapping[str, NDArray[Any]]  # kept draws by the names of the cells' arrays, stored, (chains, kept, ...)
 
     @classmethod
     def joined(cls, infos: Sequence[Info], axis: int) -> Info:
@@ -87,15 +76,10 @@ class Info:
 
 @dataclass(frozen=True, eq=False)
 class Snapshot:
-    """The states of chains: all that is needed to continue them.
+    """The states of chains: all that is needed to continue them."""
 
-    Attributes:
-        sweep: number of sweeps that each chain has made.
-        arrays: arrays by name, (chains, ...).
-    """
-
-    sweep: int
-    arrays: Mapping[str, NDArray[Any]] = field(default_factory=dict)
+    sweep: int  # number of sweeps that each chain has made
+    arrays: Mapping[str, NDArray[Any]] = field(default_factory=dict)  # by name, (chains, ...)
 
 
 class Problem(Protocol):

@@ -145,9 +145,8 @@ class StopState:
 class StopGibbs:
     """Sweeps of stops, labels, reflectivities and surfaces.
 
-    Attributes:
-        settle_sweeps: first sweeps of the warm-up, in which surfaces take `SETTLE_STEPS` Metropolis steps instead of
-            `STEPS`. Surfaces are merged after them (`bayesmap.samplers.merge_moves.merge_sweeps`); not at all if 0.
+    In the first ``settle_sweeps`` sweeps, surfaces take `SETTLE_STEPS` Metropolis steps instead of `STEPS`. Surfaces
+    are merged after them (`bayesmap.samplers.merge_moves.merge_sweeps`); not at all if 0.
     """
 
     settle_sweeps: int = 0

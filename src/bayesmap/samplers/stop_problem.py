@@ -37,19 +37,16 @@ CELLS_MOVED = 2
 class StopProblem(RaysProblem):
     """Rays through cells that stop some of them, under a prior.
 
-    Attributes:
-        hit_depth: where in a cell without a surface a beam stops, as a fraction of its chord.
-        threads: number of CPU threads; all cores if None.
-        kept: flat indices of the cells whose reflectivities ("cell") and surfaces ("surface_cell") are in draws and
-            snapshots; if None, the cells that beams touch and the cells in which readings end.
+    ``kept`` holds the flat indices of the cells whose reflectivities ("cell") and surfaces ("surface_cell") are in
+    draws and snapshots; if None, the cells that beams touch and the cells in which readings end.
     """
 
     rays: Rays
     prior: Reflective
     sensor: SensorModel
-    hit_depth: float = 0.5
+    hit_depth: float = 0.5  # where in a cell without a surface a beam stops, as a fraction of its chord
     device: str = "cpu"
-    threads: int | None = None
+    threads: int | None = None  # all cores if None
     kept: Mapping[str, NDArray[np.int32]] | None = None
 
     @cached_property

@@ -22,18 +22,13 @@ LOG_ODDS_OF_FIXED = 1e15
 
 @dataclass(frozen=True, eq=False)
 class WallProblem(Problem):
-    """Binary walls under a prior, seen through a beam table.
-
-    Attributes:
-        poses: poses of the sensor in the world frame, (S, 3), for orders that go outwards from it.
-        threads: number of CPU threads; all cores if None.
-    """
+    """Binary walls under a prior, seen through a beam table."""
 
     table: BeamTable
     prior: BinaryWalls
-    poses: Floats
+    poses: Floats  # poses of the sensor in the world frame, (S, 3), for orders that go outwards from it
     device: str = "cpu"
-    threads: int | None = None
+    threads: int | None = None  # all cores if None
 
     @property
     def grid(self) -> Grid:
