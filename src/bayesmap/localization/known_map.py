@@ -49,30 +49,21 @@ BINS = 60
 class Trust:
     """The trust in a map: the worth of a scan's evidence in it, and how long other places are kept.
 
-    Attributes:
-        pose_readings: number of independent readings that a scan is worth for the pose within a place.
-        place_readings: number of independent readings that a scan is worth for choosing among places.
-        fit_readings: number of independent readings that a scan is worth for deciding whether the robot is on the map.
-        shared_way_m: length of path over which scans share their errors. After a shorter way, a scan counts by the
-            way's share of this length.
-        carried: probability per scan, if the scan counts in full, that the robot was carried to anywhere on the map.
-        shared_error_m: standard deviation of an error of the map that all beams of a scan share: it moves the pose.
-        search_way_m: way after which the whole map is searched again, even if one place is nearly certain.
-        kept: most places that are weighted with all beams.
-        least_draws: least draws per place, as a share of the likeliest place's draws.
-        forgotten_nats: difference in log probability from the likeliest place beyond which a place is dropped.
+    A scan is worth a number of independent readings for the pose within a place, for choosing among places, and for
+    deciding whether the robot is on the map. Scans along ``shared_way_m`` of path share their errors: after a shorter
+    way, a scan counts by the way's share of this length.
     """
 
     pose_readings: float = INDEPENDENT_BEAMS
     place_readings: float = BEAMS_BETWEEN_PLACES
     fit_readings: float = 5.0 * INDEPENDENT_BEAMS
     shared_way_m: float = 0.0
-    carried: float = 1e-3
-    shared_error_m: float = 0.0
-    search_way_m: float = math.inf
-    kept: int = 5
-    least_draws: float = 1 / 3
-    forgotten_nats: float = math.log(1e4)
+    carried: float = 1e-3  # probability per scan that counts in full that the robot was carried anywhere on the map
+    shared_error_m: float = 0.0  # standard deviation of an error of the map that all beams of a scan share
+    search_way_m: float = math.inf  # way after which the whole map is searched again, even if one place is certain
+    kept: int = 5  # most places that are weighted with all beams
+    least_draws: float = 1 / 3  # least draws per place, as a share of the likeliest place's draws
+    forgotten_nats: float = math.log(1e4)  # log probability below the likeliest place's at which a place is dropped
 
 
 @dataclass(frozen=True)

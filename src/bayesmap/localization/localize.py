@@ -76,13 +76,9 @@ class InitialPose:
 
 @dataclass(frozen=True, eq=False)
 class Localization:
-    """Posteriors of the poses of scans. Its properties are those of the last scan.
+    """Posteriors of the poses of scans. Its properties are those of the last scan."""
 
-    Attributes:
-        beliefs: posterior of each scan's pose, given all scans up to it.
-    """
-
-    beliefs: tuple[PoseBelief, ...]
+    beliefs: tuple[PoseBelief, ...]  # posterior of each scan's pose, given all scans up to it
 
     def __len__(self) -> int:
         return len(self.beliefs)

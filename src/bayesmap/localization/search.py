@@ -11,8 +11,7 @@ noise of a reading and scaled to a peak of 1, above a floor. Objects in the way 
 proposes poses, and the exact law weights them.
 
 The search scores all positions and headings of a coarse lattice. For one heading the scores of all positions are the
-sum, over the scan's points, of the coarse field shifted by the point. The best squares are then refined on the fine
-field. (Branch and bound finds the single best pose as fast, but localization needs all poses with similar scores.)
+sum, over the scan's points, of the coarse field shifted by the point. The best squares are refined on the fine field.
 """
 
 from __future__ import annotations

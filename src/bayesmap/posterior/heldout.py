@@ -80,9 +80,7 @@ def _fingerprints(scans: Scans, stamped: bool) -> list[bytes]:
 
 
 def unseen_scans(train: Scans, scans: Scans, every: int, where: str) -> Scans:
-    """Return every ``every``-th scan of a log, as `Scans.holdout` selects them, if the run has used none of them.
-
-    ``every`` 0 takes all scans, for another recording of the same building. ``where`` names the log in messages.
+    """Return every ``every``-th scan of a log, as `Scans.holdout` does, or all if 0. ``where`` names the log in errors.
 
     Raises:
         NoneHeldOut: the run has used all scans, or has moved its scans, so that the poses of the others are unknown.

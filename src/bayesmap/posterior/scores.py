@@ -190,15 +190,11 @@ MIX, QUANTILES, EVENTS = 0.5, 12.0, 6.0
 class Coverage:
     """The share of readings in central intervals of one probability, and the width of these intervals.
 
-    Attributes:
-        level: probability of the intervals.
-        share: share of readings inside, with its error; typed readings are randomised.
-        mean_width_m, median_width_m: mean and median width of the intervals. An end at "no return" counts as the
-            largest range, an end at "too close" as the least.
+    An end of an interval at "no return" counts as the largest range, an end at "too close" as the least.
     """
 
-    level: float
-    share: Estimate
+    level: float  # probability of the intervals
+    share: Estimate  # share of readings inside; typed readings are randomised
     mean_width_m: float
     median_width_m: float
 

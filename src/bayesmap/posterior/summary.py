@@ -279,20 +279,14 @@ def summarise(posterior: Posterior) -> Summary:
 class PoseSummary:
     """The posterior of each scan's pose, by its moments.
 
-    Attributes:
-        mean: in the world frame, (S, 3); of headings the circular mean.
-        covariance: of x, y and yaw, (S, 3, 3), metres and radians.
-        rhat: split R-hat of the three, (S, 3); NaN with fewer than four draws a chain, or of a pose that never moved.
-        ess: effective sample size of each part, (S, 3).
-        by_approximation: whether mean and covariance are those of the approximation that chains started from, because
-            the draws of chains that have not mixed are far too alike.
+    Mean and covariance are ``by_approximation`` if chains have not mixed: their draws are far too alike.
     """
 
-    mean: Floats
-    covariance: Floats
-    rhat: Floats
-    ess: Floats
-    by_approximation: bool = False
+    mean: Floats  # in the world frame, (S, 3); of headings the circular mean
+    covariance: Floats  # of x, y and yaw, (S, 3, 3), metres and radians
+    rhat: Floats  # split R-hat of the three, (S, 3); NaN below four draws a chain, or of a pose that never moved
+    ess: Floats  # effective sample size of each part, (S, 3)
+    by_approximation: bool = False  # whether they are those of the approximation that chains started from
 
     def __repr__(self) -> str:
         """Return four lines: size, standard deviations, mixing, and source."""

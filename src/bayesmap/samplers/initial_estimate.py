@@ -101,8 +101,7 @@ def initial_estimate(rays: Rays, prior: Reflective, device: str = "cpu") -> Init
 def widened(var_x: Floats, both: Floats, var_y: Floats) -> tuple[Floats, Floats, Floats]:
     """Return the covariances with `ALONG_WALL` times the standard deviation along their longer axis, as xx, xy and yy.
 
-    Readings that lie evenly along a wall up to w to either side have a standard deviation of w / sqrt(3). Beams meet a
-    surface up to 2.2 of its standard deviations. So a surface that all these beams meet is wider than their scatter.
+    A surface that all beams of even readings along a wall meet is wider than the readings' scatter.
     """
     angle, along = longer_axis(var_x, both, var_y)
     more = (ALONG_WALL**2 - 1.0) * along

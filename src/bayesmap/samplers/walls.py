@@ -42,14 +42,11 @@ def start_maps(
     problem: WallProblem, start: Start | NDArray[np.bool_], chains: Sequence[int], seed: int,
     marginals: Marginals | None = None,
 ) -> NDArray[np.bool_]:  # fmt: skip
-    """Return the maps at which chains start, (C, nx, ny).
+    """Return the maps at which chains start, (C, nx, ny), from a start by name, a map (nx, ny), or maps (N, nx, ny).
 
     The start "propagate" thresholds the marginals of belief propagation. Cells whose marginal equals the prior take a
     prior draw, independent for each chain. Chains with similar starts can agree before they have forgotten their start:
-    start from "prior" to check this. If neighbours are coupled, "prior" is only approximately a draw of the prior
-    (`bayesmap.cells.binary.Ising.start`).
-
-    A start may also be a map (nx, ny), or one map per chain number, (N, nx, ny).
+    start from "prior" to check this. If neighbours are coupled, "prior" is approximate (`Ising.start`).
 
     Raises:
         BadInput: maps of another shape than the grid's, or fewer than chains.
