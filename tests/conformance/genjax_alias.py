@@ -28,7 +28,6 @@ COUNTERPARTS = {
     "gen.masks": "checkify _src.checkify _src.core.compiler.staging _src.core.generative.functional_types",
     "gen.diff": "core.compiler incremental _src.core.compiler.interpreters.incremental",
     "gen.pytree": "core.pytree _src.core.pytree",
-    "gen.edits": "core.requests _src.core.generative.requests",
     "gen.static": "generative_functions.static _src.generative_functions.static",
     "gen.inference": "inference _src.inference",
     "gen.inference.requests": (
@@ -37,17 +36,20 @@ COUNTERPARTS = {
     "gen.inference.smc": "inference.smc _src.inference.smc _src.inference.sp",
     "gen.choice_map": "pretty _src.core.generative.choice_map",
     "gen.typing": "typing _src.core.generative.concepts _src.core.typing",
+    "gen.edits": "core.requests _src.core.generative.requests",
     "gen.generative_function": "_src.core.generative.generative_function",
-    "gen.dimap": "_src.generative_functions.combinators.dimap",
+    "gen.closure": "_src.generative_functions.combinators.dimap",
     "gen.switch": (
         "_src.generative_functions.combinators.mask _src.generative_functions.combinators.mixture "
         "_src.generative_functions.combinators.or_else _src.generative_functions.combinators.switch"
     ),
     "gen.vmap": "_src.generative_functions.combinators.repeat _src.generative_functions.combinators.vmap",
     "gen.scan": "_src.generative_functions.combinators.scan",
-    "gen.discrete_hmm": "_src.generative_functions.distributions.custom.discrete_hmm",
     "gen.distribution": "_src.generative_functions.distributions.distribution",
-    "gen.densities": "_src.generative_functions.distributions.tensorflow_probability",
+    "gen.densities": (
+        "_src.generative_functions.distributions.custom.discrete_hmm "
+        "_src.generative_functions.distributions.tensorflow_probability"
+    ),
 }
 """Each module of ours, and the modules of GenJAX 0.10.3 (without `genjax.`) whose names are looked for there first.
 

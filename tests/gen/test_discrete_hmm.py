@@ -9,7 +9,7 @@ import numpy as np
 
 from bayesmap.gen import ChoiceMapBuilder as C
 from bayesmap.gen import DiscreteHMM, DiscreteHMMConfiguration
-from bayesmap.gen.discrete_hmm import filter_states
+from bayesmap.gen.densities import filter_states
 
 CONFIG = DiscreteHMMConfiguration(4, 1, 1, 0.9, 0.8)
 SEEN = np.array([1, 1, 3])

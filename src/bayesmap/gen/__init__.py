@@ -8,8 +8,9 @@ The interface is that of GenJAX 0.10; `docs/coming-from-genjax.md` lists what di
 # fmt: off
 from bayesmap.gen import inference
 from bayesmap.gen.choice_map import ChoiceMap, ChoiceMapBuilder, pretty, render
-from bayesmap.gen.closure import GenerativeFunctionClosure
+from bayesmap.gen.closure import Dimap, GenerativeFunctionClosure, contramap, dimap, map
 from bayesmap.gen.densities import (
+    DiscreteHMM, DiscreteHMMConfiguration,
     bernoulli, beta, beta_binomial, beta_quotient, binomial, categorical, cauchy, chi, chi2, dirichlet,
     dirichlet_multinomial, double_sided_maxwell, exp_gamma, exp_inverse_gamma, exponential, flip, gamma, geometric,
     gumbel, half_cauchy, half_normal, half_student_t, inverse_gamma, inverse_gaussian, kumaraswamy,
@@ -18,8 +19,6 @@ from bayesmap.gen.densities import (
     truncated_cauchy, truncated_normal, uniform, von_mises, von_mises_fisher, weibull, zipf,
 )
 from bayesmap.gen.diff import Change, Diff, IndexChange, NoChange, UnknownChange
-from bayesmap.gen.dimap import Dimap, contramap, dimap, map
-from bayesmap.gen.discrete_hmm import DiscreteHMM, DiscreteHMMConfiguration
 from bayesmap.gen.distribution import Distribution, ExactDensity, exact_density
 from bayesmap.gen.edits import (
     DiffAnnotate, EditRequest, EmptyRequest, IndexRequest, Regenerate, StaticRequest, Update, VectorRequest,

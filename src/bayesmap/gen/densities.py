@@ -3,26 +3,29 @@
 The common distributions need JAX alone. The less common ones are read from TensorFlow Probability when they are used.
 This library is no dependency, since its releases lag behind JAX; its nightly builds (`tfp-nightly`) follow JAX.
 """
-# ruff: noqa: D102 - the methods are those of the contract, documented with it.
 
 import dataclasses
 import importlib
 import inspect
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import Any, NamedTuple
 
 import jax
 import jax.numpy as jnp
 import jax.random as jr
 import jax.scipy.stats as st
+import numpy as np
 from jax.nn import log_sigmoid, log_softmax
-from jax.scipy.special import gammaln, xlog1py, xlogy
+from jax.scipy.special import gammaln, logsumexp, xlog1py, xlogy
 
-from bayesmap.gen.distribution import KeywordDensity, draw_shape
+from bayesmap.gen.distribution import Distribution, KeywordDensity, draw_shape
 from bayesmap.gen.errors import BadArguments, MissingExtra
-from bayesmap.gen.pytree import dataclass, static
-from bayesmap.gen.typing import PRNGKey
+from bayesmap.gen.pytree import Pytree, dataclass, static
+from bayesmap.gen.typing import Array, IntArray, PRNGKey, Score
+
+# ruff: noqa: D102 - the methods are those of the contract, documented with it.
+
 
 Params = tuple[Any, ...]
 
@@ -76,10 +79,23 @@ class Named(KeywordDensity):
         return _FAMILIES[self.name].support(value)
 
 
-def _named(name: str, *functions: Any, **more: Any) -> Named:
-    """Register the family of these functions, and return its distribution."""
-    _FAMILIES[name] = Family(*functions, **more)
+def _named(name: str, parameters: str | Callable[..., Params], draw: Any, logpdf: Any, **more: Any) -> Named:
+    """Register a family, and return its distribution. `parameters` are names, or the function of `Family`."""
+    read = _parameters_named(parameters) if isinstance(parameters, str) else parameters
+    _FAMILIES[name] = Family(read, draw, logpdf, **more)
     return Named(name)
+
+
+def _parameters_named(names: str) -> Callable[..., Params]:
+    """Return a function of parameters with these names, which returns them."""
+    kind = inspect.Parameter.POSITIONAL_OR_KEYWORD
+    signature = inspect.Signature([inspect.Parameter(name, kind) for name in names.split()])
+
+    def read(*args: Any, **kwargs: Any) -> Params:
+        return signature.bind(*args, **kwargs).args
+
+    read.__signature__ = signature  # type: ignore[attr-defined]
+    return read
 
 
 # Parameters -------------------------------------------------------------------------------------------
@@ -123,25 +139,30 @@ def _binomial(total_count: Any, logits: Any = None, probs: Any = None) -> Params
     return total_count, *_event(logits, probs)[:1]
 
 
-def _loc_scale(loc: Any, scale: Any) -> Params:
-    return loc, scale
-
-
-def _location_scale(name: str, standard: Callable[..., Any], logpdf: Callable[..., Any]) -> Named:
-    """Return the distribution of loc + scale * a draw of `standard`."""
-    return _named(name, _loc_scale, lambda key, shape, loc, scale: loc + scale * standard(key, shape), logpdf)
-
-
-def _event_batch(concentration: Any) -> tuple[int, ...]:
-    return jnp.shape(concentration)[:-1]
+def _event_batch(parameter: Any, *others: Any) -> tuple[int, ...]:
+    return jnp.shape(parameter)[:-1]
 
 
 # Draws and densities ----------------------------------------------------------------------------------
 
 
+def _scaled(standard: Callable[..., Any]) -> Callable[..., Any]:
+    """Return the sampler of loc + scale * a draw of `standard`."""
+    return lambda key, shape, loc, scale: loc + scale * standard(key, shape)
+
+
+def _shaped(draw: Callable[..., Any]) -> Callable[..., Any]:
+    """Return a sampler of JAX, whose last argument is the shape, in our order of arguments."""
+    return lambda key, shape, *params: draw(key, *params, shape)  # noqa: PLW0108 - it reorders the arguments
+
+
 def _real(draw: Callable[..., Any]) -> Callable[..., Any]:
-    """Return `draw` with counts as real numbers, as TensorFlow Probability draws them."""
-    return lambda *args: draw(*args).astype(jnp.result_type(float))
+    """Return `_shaped(draw)` with counts as real numbers, as TensorFlow Probability draws them."""
+    return lambda key, shape, *params: draw(key, *params, shape).astype(jnp.result_type(float))
+
+
+def _failures(key: PRNGKey, p: Any, log_p: Any, log_not_p: Any, shape: tuple[int, ...]) -> Any:
+    return jr.geometric(key, p, shape) - 1
 
 
 def _truncated_draw(key: PRNGKey, shape: tuple[int, ...], loc: Any, scale: Any, low: Any, high: Any) -> Any:
@@ -165,20 +186,18 @@ def _categorical_logpdf(value: Any, logits: Any) -> Any:
     return jnp.where((value >= 0) & (value < k), jnp.take_along_axis(table, index, axis=-1)[..., 0], -jnp.inf)
 
 
-def _log_normal_logpdf(value: Any, loc: Any, scale: Any) -> Any:
-    safe = jnp.where(value > 0, value, 1.0)
-    return jnp.where(value > 0, st.norm.logpdf(jnp.log(safe), loc, scale) - jnp.log(safe), -jnp.inf)
+def _of_positive(logpdf: Callable[..., Any]) -> Callable[..., Any]:
+    """Return a log density that is -inf, with gradient 0, for values that are not positive."""
+    return lambda v, *params: jnp.where(v > 0, logpdf(jnp.where(v > 0, v, 1.0), *params), -jnp.inf)
 
 
-def _inverse_gamma_logpdf(value: Any, a: Any, scale: Any) -> Any:
-    safe = jnp.where(value > 0, value, 1.0)
-    logpdf = a * jnp.log(scale) - gammaln(a) - (a + 1) * jnp.log(safe) - scale / safe
-    return jnp.where(value > 0, logpdf, -jnp.inf)
+def _inverse_gamma_logpdf(v: Any, a: Any, scale: Any) -> Any:
+    return a * jnp.log(scale) - gammaln(a) - (a + 1) * jnp.log(v) - scale / v
 
 
-def _weibull_logpdf(value: Any, k: Any, scale: Any) -> Any:
-    z = jnp.where(value > 0, value, 1.0) / scale
-    return jnp.where(value > 0, jnp.log(k / scale) + (k - 1) * jnp.log(z) - z**k, -jnp.inf)
+def _weibull_logpdf(v: Any, k: Any, scale: Any) -> Any:
+    z = v / scale
+    return jnp.log(k / scale) + (k - 1) * jnp.log(z) - z**k
 
 
 # Families of JAX --------------------------------------------------------------------------------------
@@ -188,87 +207,83 @@ flip = _named(
 )
 """True with probability `p`."""
 bernoulli = _named(
-    "bernoulli", _bernoulli, lambda key, shape, p, *_: (jr.uniform(key, shape) < p).astype(jnp.int32),
+    "bernoulli",
+    _bernoulli,
+    lambda key, shape, p, *_: (jr.uniform(key, shape) < p).astype(jnp.int32),
     lambda v, p, yes, no: jnp.where(v == 1, yes, jnp.where(v == 0, no, -jnp.inf)),
     support=lambda v: (v == 0) | (v == 1),
-)  # fmt: skip
+)
 """1 with probability `probs`, or log odds `logits`; int32."""
 categorical = _named(
-    "categorical", _class_logits, lambda key, shape, logits: jr.categorical(key, logits, shape=shape),
+    "categorical", _class_logits, _shaped(lambda key, logits, shape: jr.categorical(key, logits, shape=shape)),
     _categorical_logpdf, support=_counts, batch=_event_batch,
 )  # fmt: skip
 """An index into the last axis of `logits` or `probs`."""
-normal = _location_scale("normal", jr.normal, st.norm.logpdf)
+normal = _named("normal", "loc scale", _scaled(jr.normal), st.norm.logpdf)
 uniform = _named(
-    "uniform", lambda low, high: (low, high), lambda key, shape, low, high: low + (high - low) * jr.uniform(key, shape),
+    "uniform",
+    "low high",
+    lambda key, shape, low, high: low + (high - low) * jr.uniform(key, shape),
     lambda v, low, high: jnp.where((v >= low) & (v <= high), -jnp.log(high - low), -jnp.inf),
-)  # fmt: skip
-beta = _named(
-    "beta", lambda concentration1, concentration0: (concentration1, concentration0),
-    lambda key, shape, a, b: jr.beta(key, a, b, shape), st.beta.logpdf,
-)  # fmt: skip
+)
+beta = _named("beta", "concentration1 concentration0", _shaped(jr.beta), st.beta.logpdf)
 gamma = _named(
     "gamma",
-    lambda concentration, rate: (concentration, rate),
+    "concentration rate",
     lambda key, shape, a, rate: jr.gamma(key, a, shape) / rate,
     lambda v, a, rate: st.gamma.logpdf(v, a, scale=1 / rate),
 )
 inverse_gamma = _named(
-    "inverse_gamma", lambda concentration, scale: (concentration, scale),
-    lambda key, shape, a, scale: scale / jr.gamma(key, a, shape), _inverse_gamma_logpdf,
+    "inverse_gamma", "concentration scale", lambda key, shape, a, scale: scale / jr.gamma(key, a, shape),
+    _of_positive(_inverse_gamma_logpdf),
 )  # fmt: skip
 exponential = _named(
-    "exponential", lambda rate: (rate,), lambda key, shape, rate: jr.exponential(key, shape) / rate,
+    "exponential", "rate", lambda key, shape, rate: jr.exponential(key, shape) / rate,
     lambda v, rate: _positive(v, jnp.log(rate) - rate * v),
 )  # fmt: skip
 poisson = _named(
-    "poisson", lambda rate: (rate,), _real(lambda key, shape, rate: jr.poisson(key, rate, shape)),
-    lambda v, rate: _positive(v, xlogy(v, rate) - rate - gammaln(v + 1.0)), support=_counts,
-)  # fmt: skip
-geometric = _named(
-    "geometric", _event, _real(lambda key, shape, p, *_: jr.geometric(key, p, shape) - 1),
-    lambda v, p, yes, no: _positive(v, yes + xlog1py(v, -p)), support=_counts,
-)  # fmt: skip
-"""The number of failures before the first success."""
-binomial = _named(
-    "binomial", _binomial, _real(lambda key, shape, n, p: jr.binomial(key, n, p, shape)), st.binom.logpmf,
+    "poisson", "rate", _real(jr.poisson), lambda v, rate: _positive(v, xlogy(v, rate) - rate - gammaln(v + 1.0)),
     support=_counts,
 )  # fmt: skip
-laplace = _location_scale("laplace", jr.laplace, st.laplace.logpdf)
-cauchy = _location_scale("cauchy", jr.cauchy, st.cauchy.logpdf)
-gumbel = _location_scale("gumbel", jr.gumbel, lambda v, m, s: -(v - m) / s - jnp.exp(-(v - m) / s) - jnp.log(s))
-student_t = _named(
-    "student_t", lambda df, loc, scale: (df, loc, scale), lambda key, shape, df, m, s: m + s * jr.t(key, df, shape),
-    st.t.logpdf,
-)  # fmt: skip
-log_normal = _named(
-    "log_normal", _loc_scale, lambda key, shape, m, s: jnp.exp(m + s * jr.normal(key, shape)), _log_normal_logpdf
+geometric = _named(
+    "geometric", _event, _real(_failures), lambda v, p, yes, no: _positive(v, yes + xlog1py(v, -p)), support=_counts
 )
+"""The number of failures before the first success."""
+binomial = _named("binomial", _binomial, _real(jr.binomial), st.binom.logpmf, support=_counts)
+laplace = _named("laplace", "loc scale", _scaled(jr.laplace), st.laplace.logpdf)
+cauchy = _named("cauchy", "loc scale", _scaled(jr.cauchy), st.cauchy.logpdf)
+gumbel = _named(
+    "gumbel", "loc scale", _scaled(jr.gumbel), lambda v, m, s: -(v - m) / s - jnp.exp(-(v - m) / s) - jnp.log(s)
+)
+student_t = _named("student_t", "df loc scale", lambda key, shape, df, m, s: m + s * jr.t(key, df, shape), st.t.logpdf)
+log_normal = _named(
+    "log_normal", "loc scale", lambda key, shape, m, s: jnp.exp(m + s * jr.normal(key, shape)),
+    _of_positive(lambda v, m, s: st.norm.logpdf(jnp.log(v), m, s) - jnp.log(v)),
+)  # fmt: skip
 half_normal = _named(
-    "half_normal", lambda scale: (scale,), lambda key, shape, s: s * jnp.abs(jr.normal(key, shape)),
+    "half_normal", "scale", lambda key, shape, s: s * jnp.abs(jr.normal(key, shape)),
     lambda v, s: _positive(v, st.norm.logpdf(v, 0.0, s) + jnp.log(2.0)),
 )  # fmt: skip
 half_cauchy = _named(
-    "half_cauchy", _loc_scale, lambda key, shape, m, s: m + s * jnp.abs(jr.cauchy(key, shape)),
+    "half_cauchy", "loc scale", lambda key, shape, m, s: m + s * jnp.abs(jr.cauchy(key, shape)),
     lambda v, m, s: _positive(v - m, st.cauchy.logpdf(v, m, s) + jnp.log(2.0)),
 )  # fmt: skip
 truncated_normal = _named(
-    "truncated_normal", lambda loc, scale, low, high: (loc, scale, low, high), _truncated_draw,
+    "truncated_normal", "loc scale low high", _truncated_draw,
     lambda v, m, s, low, high: st.truncnorm.logpdf(v, (low - m) / s, (high - m) / s, m, s),
 )  # fmt: skip
 weibull = _named(
-    "weibull", lambda concentration, scale: (concentration, scale),
-    lambda key, shape, k, s: jr.weibull_min(key, s, k, shape), _weibull_logpdf,
+    "weibull", "concentration scale", lambda key, shape, k, s: jr.weibull_min(key, s, k, shape),
+    _of_positive(_weibull_logpdf),
 )  # fmt: skip
-chi2 = _named("chi2", lambda df: (df,), lambda key, shape, df: 2.0 * jr.gamma(key, df / 2, shape), st.chi2.logpdf)
+chi2 = _named("chi2", "df", lambda key, shape, df: 2.0 * jr.gamma(key, df / 2, shape), st.chi2.logpdf)
 dirichlet = _named(
-    "dirichlet", lambda concentration: (concentration,), lambda key, shape, a: jr.dirichlet(key, a, shape),
+    "dirichlet", "concentration", _shaped(jr.dirichlet),
     lambda v, a: st.dirichlet.logpdf(jnp.moveaxis(v, -1, 0), a), batch=_event_batch,
 )  # fmt: skip
 mv_normal = _named(
-    "mv_normal", lambda loc, covariance_matrix: (loc, covariance_matrix),
-    lambda key, shape, m, cov: jr.multivariate_normal(key, m, cov, shape), st.multivariate_normal.logpdf,
-    batch=lambda m, cov: jnp.shape(m)[:-1],
+    "mv_normal", "loc covariance_matrix", _shaped(jr.multivariate_normal), st.multivariate_normal.logpdf,
+    batch=_event_batch,
 )  # fmt: skip
 mv_normal_diag = _named(
     "mv_normal_diag",
@@ -325,29 +340,114 @@ class _ByName:
         return getattr(library, self.class_name)(*args, **kwargs)
 
 
-def _tfp(class_name: str, name: str) -> TfpDistribution:
-    return TfpDistribution(_ByName(class_name), name)
+def _tfp(*class_names: str) -> Iterator[TfpDistribution]:
+    return (TfpDistribution(_ByName(name), name) for name in class_names)
 
 
-beta_binomial = _tfp("BetaBinomial", "beta_binomial")
-beta_quotient = _tfp("BetaQuotient", "beta_quotient")
-chi = _tfp("Chi", "chi")
-dirichlet_multinomial = _tfp("DirichletMultinomial", "dirichlet_multinomial")
-double_sided_maxwell = _tfp("DoublesidedMaxwell", "double_sided_maxwell")
-exp_gamma = _tfp("ExpGamma", "exp_gamma")
-exp_inverse_gamma = _tfp("ExpInverseGamma", "exp_inverse_gamma")
-half_student_t = _tfp("HalfStudentT", "half_student_t")
-inverse_gaussian = _tfp("InverseGaussian", "inverse_gaussian")
-kumaraswamy = _tfp("Kumaraswamy", "kumaraswamy")
-lambert_w_normal = _tfp("LambertWNormal", "lambert_w_normal")
-logit_normal = _tfp("LogitNormal", "logit_normal")
-moyal = _tfp("Moyal", "moyal")
-multinomial = _tfp("Multinomial", "multinomial")
-negative_binomial = _tfp("NegativeBinomial", "negative_binomial")
-non_central_chi2 = _tfp("NoncentralChi2", "non_central_chi2")
-power_spherical = _tfp("PowerSpherical", "power_spherical")
-skellam = _tfp("Skellam", "skellam")
-truncated_cauchy = _tfp("TruncatedCauchy", "truncated_cauchy")
-von_mises = _tfp("VonMises", "von_mises")
-von_mises_fisher = _tfp("VonMisesFisher", "von_mises_fisher")
-zipf = _tfp("Zipf", "zipf")
+beta_binomial, beta_quotient, chi, dirichlet_multinomial = _tfp(
+    "BetaBinomial", "BetaQuotient", "Chi", "DirichletMultinomial"
+)
+double_sided_maxwell, exp_gamma, exp_inverse_gamma, half_student_t = _tfp(
+    "DoublesidedMaxwell", "ExpGamma", "ExpInverseGamma", "HalfStudentT"
+)
+inverse_gaussian, kumaraswamy, lambert_w_normal, logit_normal, moyal, multinomial = _tfp(
+    "InverseGaussian", "Kumaraswamy", "LambertWNormal", "LogitNormal", "Moyal", "Multinomial"
+)
+negative_binomial, non_central_chi2, power_spherical, skellam, truncated_cauchy = _tfp(
+    "NegativeBinomial", "NoncentralChi2", "PowerSpherical", "Skellam", "TruncatedCauchy"
+)
+von_mises, von_mises_fisher, zipf = _tfp("VonMises", "VonMisesFisher", "Zipf")
+
+
+# The posterior of a discrete hidden Markov model --------------------------------------------------------
+
+
+@dataclass
+class DiscreteHMMConfiguration(Pytree):
+    """A hidden Markov model on a ring of `linear_grid_dim` places.
+
+    The logit of a place at distance d is sigma ** d within the adjacency distance, and -1 / sigma beyond it. The first
+    state follows a move from the middle of the ring.
+    """
+
+    linear_grid_dim: int = static()
+    adjacency_distance_trans: int = static()
+    adjacency_distance_obs: int = static()
+    sigma_trans: float = static()
+    sigma_obs: float = static()
+
+    def __post_init__(self) -> None:
+        # GenJAX's programs pass arrays, which a static field cannot hold.
+        for field in dataclasses.fields(self):
+            number = float if field.name.startswith("sigma") else int
+            object.__setattr__(self, field.name, number(getattr(self, field.name)))
+
+    def transition_tensor(self) -> Array:
+        """Return the logits of the next state, (from, to)."""
+        return self._ring(self.adjacency_distance_trans, self.sigma_trans)
+
+    def observation_tensor(self) -> Array:
+        """Return the logits of the observation, (state, observation)."""
+        return self._ring(self.adjacency_distance_obs, self.sigma_obs)
+
+    def _ring(self, reach: int, sigma: float) -> Array:
+        n = self.linear_grid_dim
+        apart = np.abs(np.arange(n)[:, None] - np.arange(n))
+        distance = np.minimum(apart, n - apart)
+        far = -1.0 / sigma if sigma > 0 else -np.inf
+        return jnp.asarray(np.where(distance <= reach, float(sigma) ** distance, far), jnp.result_type(float))
+
+
+class _Posterior(Distribution):
+    """`DiscreteHMM(config, observations)`: the hidden states given the observations, both (T,) integers."""
+
+    def random_weighted(self, key: PRNGKey, *args: Any) -> tuple[Score, Array]:
+        states = sample_states(key, *args)
+        return self.estimate_logpdf(key, states, *args), states
+
+    def estimate_logpdf(self, key: PRNGKey, value: Array, *args: Any) -> Score:
+        config, observations = args
+        start, move, emit = _log_probabilities(config)
+        steps = start[value[0]] + move[value[:-1], value[1:]].sum()
+        return steps + emit[value, observations].sum() - self.data_logpdf(config, observations)
+
+    def data_logpdf(self, config: DiscreteHMMConfiguration, observations: IntArray) -> Score:
+        """Return the log probability of the observations."""
+        return logsumexp(filter_states(config, observations)[-1])
+
+
+def _log_probabilities(config: DiscreteHMMConfiguration) -> tuple[Array, Array, Array]:
+    """Return the log probabilities of the first state, of moves (from, to), of observations (state, observation)."""
+    move = log_softmax(config.transition_tensor())
+    return move[config.linear_grid_dim // 2], move, log_softmax(config.observation_tensor())
+
+
+def filter_states(config: DiscreteHMMConfiguration, observations: IntArray) -> Array:
+    """Return log p(state t, observations 0 .. t), (T, n), by the forward recursion of Rabiner (1989), equation 20."""
+    start, move, emit = _log_probabilities(config)
+
+    def step(alpha: Array, seen: IntArray) -> tuple[Array, Array]:
+        alpha = logsumexp(alpha[:, None] + move, axis=0) + emit[:, seen]
+        return alpha, alpha
+
+    first = start + emit[:, observations[0]]
+    _, rest = jax.lax.scan(step, first, observations[1:])
+    return jnp.concatenate([first[None], rest])
+
+
+def sample_states(key: PRNGKey, config: DiscreteHMMConfiguration, observations: IntArray) -> Array:
+    """Return a draw of all states given all observations, (T,): filter forwards, sample backwards."""
+    alphas, move = filter_states(config, observations), _log_probabilities(config)[1]
+    keys = jax.random.split(key, len(observations))
+
+    def step(after: IntArray, scanned: Any) -> tuple[IntArray, IntArray]:
+        key, alpha = scanned
+        state = jax.random.categorical(key, alpha + move[:, after])
+        return state, state
+
+    last = jax.random.categorical(keys[-1], alphas[-1])
+    _, earlier = jax.lax.scan(step, last, (keys[:-1], alphas[:-1]), reverse=True)
+    return jnp.append(earlier, last)
+
+
+DiscreteHMM = dataclass(_Posterior)()
