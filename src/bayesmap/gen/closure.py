@@ -1,18 +1,19 @@
-"""Calls of generative functions: the stack of running `@gen` bodies, and functions with some of their arguments."""
+"""Calls of generative functions: running `@gen` bodies, fixed arguments, transformed arguments and return values."""
 
+import dataclasses
 import threading
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any
 
 from jax.extend.core import get_opaque_trace_state
 
 from bayesmap.gen.choice_map import ChoiceMap
-from bayesmap.gen.diff import Diff
+from bayesmap.gen.diff import Diff, dataflow
 from bayesmap.gen.edits import Edited, EditRequest
 from bayesmap.gen.errors import AddressError, AddressReuse, NotAnAddress
-from bayesmap.gen.generative_function import GenerativeFunction, OuterTrace, Trace, method
-from bayesmap.gen.pytree import dataclass
+from bayesmap.gen.generative_function import GenerativeFunction, OuterTrace, Trace, decorator_method, method
+from bayesmap.gen.pytree import dataclass, static
 from bayesmap.gen.selection import Selection
 from bayesmap.gen.typing import Arguments, PRNGKey, Score, StaticAddress, Weight
 
@@ -110,7 +111,7 @@ class GenerativeFunctionClosure(GenerativeFunction):
         return self
 
     def as_part(self) -> GenerativeFunction:
-        return Applied(self)
+        return Applied(self.gen_fn.handle_kwargs() if self.kwargs else self.gen_fn, self.args, self.kwargs)
 
     def simulate(self, key: PRNGKey, args: Arguments) -> Trace:
         gen_fn, full = self._full(args)
@@ -136,47 +137,157 @@ def _in_form(args: tuple[Any, ...], kwargs: dict[str, Any]) -> tuple[Any, ...]:
     return (args, kwargs) if kwargs else args
 
 
+class Outer(GenerativeFunction):
+    """Base of functions whose choices are those of one other function, `inner`. Their traces are `OuterTrace`."""
+
+    inner: GenerativeFunction
+
+    def inner_args(self, args: Arguments) -> Arguments:
+        """Return the inner function's arguments."""
+        raise NotImplementedError
+
+    def wrap(self, args: Arguments, inner: Any) -> OuterTrace:
+        """Return the trace of a run on `args`, given the trace of the inner function."""
+        raise NotImplementedError
+
+    def simulate(self, key: PRNGKey, args: Arguments) -> OuterTrace:
+        return self.wrap(args, self.inner.simulate(key, self.inner_args(args)))
+
+    def generate(self, key: PRNGKey, constraint: ChoiceMap, args: Arguments) -> tuple[OuterTrace, Weight]:
+        inner, weight = self.inner.generate(key, constraint, self.inner_args(args))
+        return self.wrap(args, inner), weight
+
+    def assess(self, choices: ChoiceMap, args: Arguments) -> tuple[Score, Any]:
+        return self.inner.assess(choices, self.inner_args(args))
+
+    def project(self, key: PRNGKey, trace: Any, selection: Selection) -> Weight:
+        return self.inner.project(key, trace.inner, selection)
+
+
 @dataclass
-class AppliedTrace(OuterTrace):
-    """The trace of the function within a closure; its arguments are the arguments that the closure lacked."""
+class TransformedTrace(OuterTrace):
+    """The inner trace, without its arguments, with the outer arguments and return value."""
 
     gen_fn: Any
     args: Any
     inner: Trace
-
-    def get_retval(self) -> Any:
-        return self.inner.get_retval()
+    retval: Any
 
     def get_score(self) -> Score:
         return self.inner.get_score()
 
+    def get_inner_trace(self, address: Any) -> Trace:
+        inner_args = None if self.args is None else self.gen_fn.inner_args(self.args)
+        return self.inner.with_args(inner_args).get_inner_trace(address)
+
 
 @dataclass
-class Applied(GenerativeFunction):
+class Applied(Outer):
     """A closure as a part of a combinator. Its traces know the closure, not only the function in the closure."""
 
-    closure: GenerativeFunctionClosure
+    inner: GenerativeFunction
+    held_args: tuple[Any, ...]
+    held_kwargs: dict[str, Any]
 
-    def simulate(self, key: PRNGKey, args: Arguments) -> AppliedTrace:
-        return AppliedTrace(self, args, self.closure.simulate(key, args))
+    def inner_args(self, args: Arguments) -> Arguments:
+        return _in_form((*self.held_args, *args), self.held_kwargs)
 
-    def assess(self, choices: ChoiceMap, args: Arguments) -> tuple[Score, Any]:
-        return self.closure.assess(choices, args)
-
-    def generate(self, key: PRNGKey, constraint: ChoiceMap, args: Arguments) -> tuple[AppliedTrace, Weight]:
-        inner, weight = self.closure.generate(key, constraint, args)
-        return AppliedTrace(self, args, inner), weight
+    def wrap(self, args: Arguments, inner: Trace) -> TransformedTrace:
+        return TransformedTrace(self, args, inner.with_args(None), inner.get_retval())
 
     def edit(self, key: PRNGKey, trace: Any, request: EditRequest, argdiffs: Any) -> Edited:
-        args, kwargs = Diff.no_change((self.closure.args, self.closure.kwargs))
-        inner, weight, retdiff, back = request.edit(key, trace.inner, _in_form((*args, *argdiffs), kwargs))
-        return AppliedTrace(self, Diff.tree_primal(argdiffs), inner), weight, retdiff, back
-
-    def project(self, key: PRNGKey, trace: Any, selection: Selection) -> Weight:
-        return trace.inner.project(key, selection)  # type: ignore[no-any-return]
+        held_args, held_kwargs = Diff.no_change((self.held_args, self.held_kwargs))
+        inner, weight, retdiff, back = request.edit(key, trace.inner, _in_form((*held_args, *argdiffs), held_kwargs))
+        return self.wrap(Diff.tree_primal(argdiffs), inner), weight, retdiff, back
 
 
 @method
 def apply(gen_fn: GenerativeFunction, args: tuple[Any, ...], kwargs: dict[str, Any]) -> GenerativeFunctionClosure:
     """Return `gen_fn(*args, **kwargs)`."""
     return GenerativeFunctionClosure(gen_fn, args, kwargs)
+
+
+def _changes(fn: Callable[..., Any], *inputs: Any) -> Any:
+    """Return `fn` of the primal inputs, marked with the change that follows from the marks of the inputs."""
+    primal = Diff.tree_primal(inputs)
+    flow, value = dataflow(fn, *primal), fn(*primal)
+    if flow is None:
+        return Diff.unknown_change(value)
+    tangents = Diff.tangents(inputs)
+    return Diff.zip(value, [origin.change(tangents) for origin in flow])
+
+
+@dataclass
+class Dimap(Outer):
+    """See `dimap`."""
+
+    inner: GenerativeFunction
+    pre: Callable[..., Any] = static()
+    post: Callable[..., Any] = static()
+
+    def inner_args(self, args: Arguments) -> Arguments:
+        inner_args = self.pre(*args)
+        if not isinstance(inner_args, tuple):
+            raise TypeError(f"the function of the arguments must return a tuple, not {type(inner_args).__name__}")
+        return inner_args
+
+    def wrap(self, args: Arguments, inner: Trace) -> TransformedTrace:
+        retval = self.post(args, inner.get_args(), inner.get_retval())
+        return TransformedTrace(self, args, inner.with_args(None), retval)
+
+    def assess(self, choices: ChoiceMap, args: Arguments) -> tuple[Score, Any]:
+        score, retval = super().assess(choices, args)
+        return score, self.post(args, self.inner_args(args), retval)
+
+    def edit(self, key: PRNGKey, trace: Any, request: EditRequest, argdiffs: Any) -> Edited:
+        inner_diffs = _changes(self.inner_args, argdiffs)
+        inner, weight, inner_retdiff, back = request.edit(key, trace.inner, inner_diffs)
+        retdiff = _changes(self.post, argdiffs, inner_diffs, inner_retdiff)
+        args, retval = Diff.tree_primal((argdiffs, retdiff))
+        return TransformedTrace(self, args, inner.with_args(None), retval), weight, retdiff, back
+
+
+def _same_args(*args: Any) -> tuple[Any, ...]:
+    return args
+
+
+def _same_retval(args: Any, inner_args: Any, retval: Any) -> Any:
+    return retval
+
+
+@dataclasses.dataclass(frozen=True)
+class _OfRetval:
+    """`f` of the return value alone; equal for equal `f`, so that traces can be compared."""
+
+    f: Callable[..., Any]
+
+    def __call__(self, args: Any, inner_args: Any, retval: Any) -> Any:
+        return self.f(retval)
+
+
+@decorator_method
+def dimap(
+    *, pre: Callable[..., Any] = _same_args, post: Callable[..., Any] = _same_retval
+) -> Callable[[GenerativeFunction], Dimap]:
+    """Return a decorator that transforms arguments by `pre` and the return value by `post`.
+
+    Args:
+        pre: takes the arguments, and returns the inner function's arguments as a tuple.
+        post: takes (arguments, inner arguments, inner return value).
+
+    Raises, when it runs:
+        TypeError: `pre` does not return a tuple.
+    """
+    return lambda gen_fn: Dimap(gen_fn.as_part(), pre, post)
+
+
+@decorator_method
+def map(f: Callable[[Any], Any]) -> Callable[[GenerativeFunction], Dimap]:
+    """Return a decorator that applies `f` to the return value."""
+    return dimap(post=_OfRetval(f))
+
+
+@decorator_method
+def contramap(f: Callable[..., Any]) -> Callable[[GenerativeFunction], Dimap]:
+    """Return a decorator that passes the arguments through `f`, which returns a tuple."""
+    return dimap(pre=f)

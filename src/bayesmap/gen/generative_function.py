@@ -132,12 +132,6 @@ class OuterTrace(Trace):
         return self.inner.get_inner_trace(address)
 
 
-def as_update(edited: Edited) -> Edited:
-    """Return the outcome of an update of one element, with the way back as an Update instead of an IndexRequest."""
-    new, weight, retdiff, back = edited
-    return new, weight, retdiff, Update(back.request.constraint.extend(back.idx))  # type: ignore[attr-defined]
-
-
 def in_dtypes_of(old: Any, new: Any) -> Any:
     """Return the trace `new` in the dtypes of `old`, so that both can be branches of `lax.cond`."""
     leaves, treedef = jax.tree.flatten(new)

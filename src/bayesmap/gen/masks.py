@@ -4,8 +4,9 @@ A Python bool is known while a program is traced, and decides which addresses a 
 this, even when its value is known: otherwise maps would have one structure inside `jax.jit` and another one outside.
 """
 
-from collections.abc import Iterator
-from contextlib import contextmanager
+import operator
+from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager, contextmanager
 from contextvars import ContextVar
 from functools import reduce
 from typing import Any
@@ -30,19 +31,14 @@ def is_known(flag: Any) -> bool:
     return isinstance(flag, bool | np.bool_)
 
 
-def both(f: Flag, g: Flag) -> Flag:
-    """Return f and g."""
-    return bool(f and g) if is_known(f) and is_known(g) else jnp.logical_and(f, g)
+def _on_flags(known: Callable[[Any, Any], Any], traced: Callable[[Any, Any], Any]) -> Callable[[Flag, Flag], Flag]:
+    """Return an operation on two flags whose result is a Python bool if both flags are."""
+    return lambda f, g: bool(known(bool(f), bool(g))) if is_known(f) and is_known(g) else traced(f, g)
 
 
-def either(f: Flag, g: Flag) -> Flag:
-    """Return f or g."""
-    return bool(f or g) if is_known(f) and is_known(g) else jnp.logical_or(f, g)
-
-
-def exactly_one(f: Flag, g: Flag) -> Flag:
-    """Return f or g, but not both."""
-    return bool(f) != bool(g) if is_known(f) and is_known(g) else jnp.logical_xor(f, g)
+both = _on_flags(operator.and_, jnp.logical_and)
+either = _on_flags(operator.or_, jnp.logical_or)
+exactly_one = _on_flags(operator.xor, jnp.logical_xor)
 
 
 def negation(f: Flag) -> Flag:
@@ -70,32 +66,31 @@ _optional: ContextVar[bool] = ContextVar("optional", default=False)
 
 
 @contextmanager
-def do_checkify() -> Iterator[None]:
+def _on(variable: ContextVar[bool]) -> Iterator[None]:
+    token = variable.set(True)
+    try:
+        yield
+    finally:
+        variable.reset(token)
+
+
+def do_checkify() -> AbstractContextManager[None]:
     """Let the code inside check that it uses no value whose flag is False.
 
     Compiled code reports through `jax.experimental.checkify.checkify`; other code raises at once.
     """
-    token = _checking.set(True)
-    try:
-        yield
-    finally:
-        _checking.reset(token)
+    return _on(_checking)
+
+
+def optional_part() -> AbstractContextManager[None]:
+    """Let choices be absent in the code inside, which scores a part of a model that a flag may switch off."""
+    return _on(_optional)
 
 
 def check(condition: Any, message: str) -> None:
     """Inside `do_checkify`, report an error if some element of `condition` is False."""
     if _checking.get():
         checkify.check(jnp.all(condition), message)
-
-
-@contextmanager
-def optional_part() -> Iterator[None]:
-    """Let choices be absent in the code inside, which scores a part of a model that a flag may switch off."""
-    token = _optional.set(True)
-    try:
-        yield
-    finally:
-        _optional.reset(token)
 
 
 def in_optional_part() -> bool:
@@ -116,8 +111,7 @@ class Mask(Pytree):
         prefix = jnp.shape(self.primal_flag())
         for leaf in jax.tree.leaves(self.value):
             if jnp.shape(leaf)[: len(prefix)] != prefix:
-                problem = f"A flag's shape {prefix} must be a prefix of all leaf shapes. Found {jnp.shape(leaf)}."
-                raise ValueError(problem)
+                raise ValueError(f"The shape {prefix} must be a prefix of all leaf shapes. Found {jnp.shape(leaf)}")
 
     @staticmethod
     def build(value: Any, flag: Flag = True) -> "Mask":

@@ -7,17 +7,16 @@ from typing import Any
 import jax
 import jax.numpy as jnp
 
-from bayesmap.gen.axes import check_index, total, vectorise
-from bayesmap.gen.choice_map import ChoiceMap, Indexed
+from bayesmap.gen.axes import total, vectorise
+from bayesmap.gen.choice_map import ChoiceMap
+from bayesmap.gen.closure import dimap, map
 from bayesmap.gen.diff import Diff
-from bayesmap.gen.dimap import dimap, map
-from bayesmap.gen.edits import Edited, EditRequest, EmptyRequest, IndexRequest, Regenerate, Update, VectorRequest
-from bayesmap.gen.errors import NotSupportedEditRequest
-from bayesmap.gen.generative_function import GenerativeFunction, OuterTrace, Trace, as_update, decorator_method
-from bayesmap.gen.pytree import dataclass, static
-from bayesmap.gen.selection import Selection
+from bayesmap.gen.edits import Edited, EditRequest, EmptyRequest, IndexRequest
+from bayesmap.gen.generative_function import GenerativeFunction, OuterTrace, Trace, decorator_method
+from bayesmap.gen.pytree import dataclass, nth, static
 from bayesmap.gen.switch import mask
 from bayesmap.gen.typing import Arguments, PRNGKey, Score, Weight
+from bayesmap.gen.vmap import Vectorised, undo_all
 
 
 @dataclass
@@ -33,13 +32,13 @@ class ScanTrace(OuterTrace):
 
 
 @dataclass
-class Scan(GenerativeFunction):
+class Scan(Vectorised):
     """A generative function iterated over a state and inputs. See `scan`."""
 
     inner: GenerativeFunction
     n: int | None = static(default=None)
 
-    def _length(self, args: Arguments) -> int:
+    def length(self, args: Arguments) -> int:
         """Return the number of steps, from `n` or the leading axis of the inputs."""
         if len(args) != 2:
             raise TypeError(f"scan takes two arguments, (state, inputs), not {len(args)}")
@@ -54,7 +53,7 @@ class Scan(GenerativeFunction):
 
     def _loop(self, key: PRNGKey, args: Arguments, step: Callable[..., Any], mapped: Any) -> Any:
         """Iterate `step(key, (state, x_t), mapped_t) -> (trace, weight, more)`, and return these for the whole scan."""
-        n = self._length(args)
+        n = self.length(args)
 
         def body(carry: Any, scanned: Any) -> Any:
             key, state = carry
@@ -76,7 +75,7 @@ class Scan(GenerativeFunction):
         return trace  # type: ignore[no-any-return]
 
     def generate(self, key: PRNGKey, constraint: ChoiceMap, args: Arguments) -> tuple[ScanTrace, Weight]:
-        each = vectorise(constraint, self._length(args))
+        each = vectorise(constraint, self.length(args))
         trace, weight, _ = self._loop(key, args, lambda k, a, c: (*self.inner.generate(k, c, a), None), each)
         return trace, weight
 
@@ -86,7 +85,7 @@ class Scan(GenerativeFunction):
             score, (state, out) = self.inner.assess(choices, (state, x))
             return state, (score, out)
 
-        n = self._length(args)
+        n = self.length(args)
         each = vectorise(choices, n)
         if n == 0:  # arrays without elements are in no choice map, and simulating draws nothing
             none = self.simulate(jax.random.key(0), args)
@@ -95,26 +94,7 @@ class Scan(GenerativeFunction):
         state, (scores, out) = jax.lax.scan(step, start, (args[1], each), length=n)
         return total(scores), (state, out)
 
-    def project(self, key: PRNGKey, trace: Any, selection: Selection) -> Weight:
-        return jnp.sum(jax.vmap(lambda t: self.inner.project(key, t, selection))(trace.inner))
-
-    def edit(self, key: PRNGKey, trace: Any, request: EditRequest, argdiffs: Any) -> Edited:
-        n = self._length(argdiffs)
-        match request:
-            case IndexRequest(t, inner):
-                return self._edit_step(key, trace, check_index(t, n), inner, argdiffs)
-            case Update(Indexed(inner, t)) if jnp.ndim(t) == 0:
-                return as_update(self.edit(key, trace, IndexRequest(t, Update(inner)), argdiffs))
-            case Update(constraint):
-                return self._edit_all(key, trace, Update(vectorise(constraint, n)), argdiffs)
-            case VectorRequest(each):
-                return self._edit_all(key, trace, each, argdiffs)
-            case Regenerate():
-                return self._edit_all(key, trace, request, argdiffs)
-        raise NotSupportedEditRequest(self, request)
-
-    def _edit_all(self, key: PRNGKey, trace: Any, request: EditRequest, argdiffs: Any) -> Edited:
-        """Edit every step in turn. Leaves of `request` have a leading axis."""
+    def edit_all(self, key: PRNGKey, trace: Any, request: EditRequest, argdiffs: Any) -> Edited:
         args = Diff.tree_primal(argdiffs)
         mark = Diff.no_change if Diff.static_check_no_change(argdiffs[1]) else Diff.unknown_change
 
@@ -125,31 +105,30 @@ class Scan(GenerativeFunction):
             return new, weight, back
 
         new, weight, back = self._loop(key, args, step, (trace.inner, request))
-        undo = back if isinstance(back, Update | EmptyRequest) else VectorRequest(back)
-        return new, weight, Diff.unknown_change(new.retval), undo
+        return new, weight, Diff.unknown_change(new.retval), undo_all(back)
 
-    def _edit_step(self, key: PRNGKey, trace: Any, t: Any, request: EditRequest, argdiffs: Any) -> Edited:
-        """Edit step t, and the steps after it if the state after step t may differ."""
-        # Move the trace to the new arguments first, then edit step t alone.
+    def edit_one(self, key: PRNGKey, trace: Any, i: Any, request: EditRequest, argdiffs: Any) -> Edited:
+        """Edit step i, and the steps after it if the state after step i may differ."""
+        # Move the trace to the new arguments first, then edit step i alone.
         args = Diff.tree_primal(argdiffs)
         trace, before, _, _ = EmptyRequest().edit(key, trace, argdiffs)
-        old, *step_args = jax.tree.map(lambda x: x[t], (trace.inner, trace.carries, args[1]))
+        old, *step_args = nth((trace.inner, trace.carries, args[1]), i)
         new, weight, retdiff, back = request.edit(key, old, Diff.no_change(tuple(step_args)))
         state_diff, out = retdiff[0], new.get_retval()[1]
         new = new.with_args(None)
 
         def put(stack: Any, value: Any) -> Any:
-            return jax.tree.map(lambda x, v: x.at[t].set(v), stack, value)
+            return jax.tree.map(lambda x, v: x.at[i].set(v), stack, value)
 
-        # If the state after step t cannot have changed, only this step's entries change.
+        # If the state after step i cannot have changed, only this step's entries change.
         if Diff.static_check_no_change(state_diff):
             retval = (trace.retval[0], put(trace.retval[1], out))
             inner = put(trace.inner, new)
             result = ScanTrace(self, args, inner, trace.carries, retval, total(inner.get_score()))
             diff = (Diff.no_change(retval[0]), Diff.unknown_change(retval[1]))
-            return result, before + weight, diff, IndexRequest(t, back)
+            return result, before + weight, diff, IndexRequest(i, back)
 
-        # Otherwise run all steps: those before t stay, step t is the edited one, and later ones get their new state.
+        # Otherwise run all steps: those before i stay, step i is the edited one, and later ones get their new state.
         def step(key: PRNGKey, step_args: Any, mapped: Any) -> Any:
             inner, s = mapped
 
@@ -159,10 +138,10 @@ class Scan(GenerativeFunction):
                 return moved.with_args(None), weight
 
             options = [lambda: (inner, jnp.zeros(())), lambda: (new, weight), follow]
-            return (*jax.lax.switch(jnp.sign(s - t) + 1, options), None)
+            return (*jax.lax.switch(jnp.sign(s - i) + 1, options), None)
 
-        result, change, _ = self._loop(key, args, step, (trace.inner, jnp.arange(self._length(args))))
-        return result, before + change, Diff.unknown_change(result.retval), IndexRequest(t, back)
+        result, change, _ = self._loop(key, args, step, (trace.inner, jnp.arange(self.length(args))))
+        return result, before + change, Diff.unknown_change(result.retval), IndexRequest(i, back)
 
 
 @decorator_method

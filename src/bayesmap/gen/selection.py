@@ -15,11 +15,11 @@ class SelectionBuilderType:
 
     @property
     def all(self) -> "Selection":
-        return _All()
+        return _ALL
 
     @property
     def none(self) -> "Selection":
-        return _None()
+        return _NONE
 
     @property
     def leaf(self) -> "Selection":
@@ -45,12 +45,12 @@ class Selection(Pytree):
     @staticmethod
     def all() -> "Selection":
         """Return the selection of every address."""
-        return _All()
+        return _ALL
 
     @staticmethod
     def none() -> "Selection":
         """Return the selection of no address."""
-        return _None()
+        return _NONE
 
     @staticmethod
     def leaf() -> "Selection":
@@ -61,7 +61,7 @@ class Selection(Pytree):
         """Return this selection moved below `address`."""
         acc = self
         for component in reversed(address):
-            acc = acc if isinstance(acc, _None) else _At(acc, component)
+            acc = acc if acc == _NONE else _At(acc, component)
         return acc
 
     def complement(self) -> "Selection":
@@ -87,42 +87,33 @@ class Selection(Pytree):
         return self[address]
 
     def __or__(self, other: "Selection") -> "Selection":
-        if isinstance(self, _None) or isinstance(other, _All) or self == other:
+        if self in (_NONE, other) or other == _ALL:
             return other
-        return self if isinstance(self, _All) or isinstance(other, _None) else _Or(self, other)
+        return self if self == _ALL or other == _NONE else _Or(self, other)
 
     def __and__(self, other: "Selection") -> "Selection":
-        if isinstance(self, _All) or isinstance(other, _None) or self == other:
-            return other
-        return self if isinstance(self, _None) or isinstance(other, _All) else _And(self, other)
+        return ~(~self | ~other)
 
     def __invert__(self) -> "Selection":
-        match self:
-            case _All():
-                return _None()
-            case _None():
-                return _All()
-            case _Not(inner):
-                return inner
-        return _Not(self)
+        if isinstance(self, _Every):
+            return _Every(not self.selected)
+        return self.inner if isinstance(self, _Not) else _Not(self)
 
 
 @dataclass
-class _All(Selection):
+class _Every(Selection):
+    """All addresses, or none."""
+
+    selected: bool = static()
+
     def check(self) -> bool:
-        return True
+        return self.selected
 
     def get_subselection(self, component: Any) -> Selection:
         return self
 
 
-@dataclass
-class _None(Selection):
-    def check(self) -> bool:
-        return False
-
-    def get_subselection(self, component: Any) -> Selection:
-        return self
+_ALL, _NONE = _Every(True), _Every(False)
 
 
 @dataclass
@@ -131,7 +122,7 @@ class _Leaf(Selection):
         return True
 
     def get_subselection(self, component: Any) -> Selection:
-        return _None()
+        return _NONE
 
 
 @dataclass
@@ -143,7 +134,7 @@ class _At(Selection):
         return False
 
     def get_subselection(self, component: Any) -> Selection:
-        return self.inner if self.component is ... or component == self.component else _None()
+        return self.inner if self.component is ... or component == self.component else _NONE
 
 
 @dataclass
@@ -167,18 +158,6 @@ class _Or(Selection):
 
     def get_subselection(self, component: Any) -> Selection:
         return self.left.get_subselection(component) | self.right.get_subselection(component)
-
-
-@dataclass
-class _And(Selection):
-    left: Selection
-    right: Selection
-
-    def check(self) -> bool:
-        return self.left.check() and self.right.check()
-
-    def get_subselection(self, component: Any) -> Selection:
-        return self.left.get_subselection(component) & self.right.get_subselection(component)
 
 
 SelectionBuilder = SelectionBuilderType()

@@ -102,44 +102,31 @@ class StaticTrace(Trace):
 
 
 class _Run(Handler):
-    """A run that records a trace for each site. The sites' keys are `fold_in(key, 1)`, `fold_in(key, 2)`, ..."""
+    """A run that records a trace for each site.
 
-    def __init__(self, key: PRNGKey) -> None:
+    `make(path, function, arguments, key)` returns the site's (trace, weight). The keys are `fold_in(key, 1)`,
+    `fold_in(key, 2)`, ...
+    """
+
+    def __init__(self, key: PRNGKey, make: Callable[..., tuple[Trace, Weight]]) -> None:
         super().__init__()
-        self.key = key
+        self.key, self.make = key, make
         self.traces: dict[StaticAddress, Trace] = {}
-        self.weight: Weight = jnp.zeros(())
+        self.weight: Any = 0.0
 
-    def run(self, gen_fn: "StaticGenerativeFunction", args: Arguments) -> StaticTrace:
+    def run(self, gen_fn: "StaticGenerativeFunction", args: Arguments) -> tuple[StaticTrace, Weight]:
         if not isinstance(args, tuple):
             raise TypeError(f"args must be a tuple of arguments, not {type(args).__name__}")
         with running(self):
             retval = gen_fn.call(args)
-        return StaticTrace.build(gen_fn, args, retval, self.traces)
-
-    def next_key(self) -> PRNGKey:
-        return jax.random.fold_in(self.key, len(self.visited))
+        return StaticTrace.build(gen_fn, args, retval, self.traces), jnp.asarray(self.weight, jnp.result_type(float))
 
     def visit(self, path: StaticAddress, gen_fn: Any, args: Arguments) -> Any:
-        trace = self.call(path, gen_fn, args)
+        with _located(path):
+            trace, weight = self.make(path, gen_fn, args, jax.random.fold_in(self.key, len(self.visited)))
+        self.weight += weight
         self.traces[path] = trace.with_args(None)
         return trace.get_retval()
-
-    def call(self, path: StaticAddress, gen_fn: Any, args: Arguments) -> Trace:
-        trace: Trace = gen_fn.simulate(self.next_key(), args)
-        return trace
-
-
-class _Generate(_Run):
-    def __init__(self, key: PRNGKey, constraint: ChoiceMap) -> None:
-        super().__init__(key)
-        self.constraint = constraint
-
-    def call(self, path: StaticAddress, gen_fn: Any, args: Arguments) -> Trace:
-        with _located(path):
-            trace, weight = gen_fn.generate(self.next_key(), self.constraint(path), args)
-        self.weight += weight
-        return trace  # type: ignore[no-any-return]
 
 
 class _Assess(Handler):
@@ -163,7 +150,7 @@ class _Edit(_Run):
     """
 
     def __init__(self, key: PRNGKey, old: StaticTrace, request: Callable[[StaticAddress], EditRequest], argdiffs: Any):
-        super().__init__(key)
+        super().__init__(key, self.edit_site)
         self.old, self.request = old, request
         self.backward: dict[StaticAddress, EditRequest] = {}
         self.flow = _flow_of_body(old, Diff.tree_primal(argdiffs))
@@ -182,22 +169,20 @@ class _Edit(_Run):
             tangents += self.returned.get(path, unknown)
         return Diff.zip(value, [origin.change(tangents) for origin in self.flow[position : self.position]])
 
-    def call(self, path: StaticAddress, gen_fn: Any, args: Arguments) -> Trace:
+    def edit_site(self, path: StaticAddress, gen_fn: Any, args: Arguments, key: PRNGKey) -> tuple[Trace, Weight]:
         if path not in self.old.subtraces:
-            raise UnknownAddress(path, "the trace that is edited has no such site")
+            raise UnknownAddress((), "the trace that is edited has no such site")
         # A function that the body defined again, and that may differ, needs a full rescoring.
         marked_fn, argdiffs = self.mark((gen_fn, args))
-        subtrace, request, key = self.old.subtraces[path], self.request(path), self.next_key()
+        subtrace, request = self.old.subtraces[path], self.request(path)
         same = bool(jax.tree.structure(gen_fn) == jax.tree.structure(subtrace.get_gen_fn()))  # type: ignore[operator]
-        with _located(path):
-            if same and Diff.static_check_no_change(marked_fn):
-                trace, weight, retdiff, back = request.edit(key, subtrace, argdiffs)
-            else:
-                trace, weight, retdiff, back = _edit_anew(key, subtrace, gen_fn, request, args)
-        self.weight += weight
+        if same and Diff.static_check_no_change(marked_fn):
+            trace, weight, retdiff, back = request.edit(key, subtrace, argdiffs)
+        else:
+            trace, weight, retdiff, back = _edit_anew(key, subtrace, gen_fn, request, args)
         self.returned[path] = Diff.tangents(retdiff)
         self.backward[path] = back
-        return trace  # type: ignore[no-any-return]
+        return trace, weight
 
 
 def _flow_of_body(old: StaticTrace, args: Arguments) -> Any:
@@ -292,13 +277,13 @@ class StaticGenerativeFunction(GenerativeFunction):
         return _unpickle, (*where, self.partial_args, self.by_name)
 
     def simulate(self, key: PRNGKey, args: Arguments) -> StaticTrace:
-        return _Run(key).run(self, args)
+        return _Run(key, lambda path, gen_fn, args, key: (gen_fn.simulate(key, args), 0.0)).run(self, args)[0]
 
     def generate(self, key: PRNGKey, constraint: ChoiceMap, args: Arguments) -> tuple[StaticTrace, Weight]:
-        handler = _Generate(key, constraint)
-        trace = handler.run(self, args)
+        handler = _Run(key, lambda path, gen_fn, args, key: gen_fn.generate(key, constraint(path), args))
+        outcome = handler.run(self, args)
         _check_known(constraint.paths(), handler.visited)
-        return trace, handler.weight
+        return outcome
 
     def assess(self, choices: ChoiceMap, args: Arguments) -> tuple[Score, Any]:
         handler = _Assess(choices)
@@ -333,8 +318,8 @@ class StaticGenerativeFunction(GenerativeFunction):
                 raise NotSupportedEditRequest(self, request)
         # Run the body on the new arguments, and edit each site on the way.
         handler = _Edit(key, trace, part, argdiffs)
-        new = handler.run(self, Diff.tree_primal(argdiffs))
-        return new, handler.weight, handler.mark(new.get_retval()), _undo(request, handler.backward)
+        new, weight = handler.run(self, Diff.tree_primal(argdiffs))
+        return new, weight, handler.mark(new.get_retval()), _undo(request, handler.backward)
 
 
 def _undo(request: EditRequest, backward: dict[StaticAddress, EditRequest]) -> EditRequest:

@@ -11,9 +11,9 @@ import jax
 import jax.numpy as jnp
 
 from bayesmap.gen.choice_map import ChoiceMap
+from bayesmap.gen.closure import Outer, contramap
 from bayesmap.gen.densities import categorical
 from bayesmap.gen.diff import Diff, NoChange
-from bayesmap.gen.dimap import contramap
 from bayesmap.gen.edits import Edited, EditRequest, EmptyRequest, Regenerate, Update
 from bayesmap.gen.errors import AddressError, BadArguments, NotSupportedEditRequest, UnknownAddress
 from bayesmap.gen.generative_function import GenerativeFunction, OuterTrace, Trace, in_dtypes_of, method
@@ -58,25 +58,25 @@ def _flag(args: Arguments) -> Any:
 
 
 @dataclass
-class MaskCombinator(GenerativeFunction):
+class MaskCombinator(Outer):
     """A generative function whose first argument decides whether it counts. See `mask`."""
 
     inner: GenerativeFunction
 
-    def _trace(self, args: Arguments, inner: Trace) -> MaskTrace:
+    def inner_args(self, args: Arguments) -> Arguments:
+        _flag(args)
+        return args[1:]
+
+    def wrap(self, args: Arguments, inner: Trace) -> MaskTrace:
         return MaskTrace(self, args, inner, _flag(args))
 
-    def simulate(self, key: PRNGKey, args: Arguments) -> MaskTrace:
-        _flag(args)
-        return self._trace(args, self.inner.simulate(key, args[1:]))
-
-    def generate(self, key: PRNGKey, constraint: ChoiceMap, args: Arguments) -> tuple[MaskTrace, Weight]:
-        inner, weight = self.inner.generate(key, constraint, args[1:])
-        return self._trace(args, inner), jnp.where(args[0], weight, 0.0)
+    def generate(self, key: PRNGKey, constraint: ChoiceMap, args: Arguments) -> tuple[OuterTrace, Weight]:
+        trace, weight = super().generate(key, constraint, args)
+        return trace, jnp.where(args[0], weight, 0.0)
 
     def assess(self, choices: ChoiceMap, args: Arguments) -> tuple[Score, Mask]:
         with optional_part():
-            score, retval = self.inner.assess(choices, args[1:])
+            score, retval = super().assess(choices, args)
         return jnp.where(args[0], score, 0.0), Mask.build(retval, _flag(args))
 
     def edit(self, key: PRNGKey, trace: Any, request: EditRequest, argdiffs: Any) -> Edited:
@@ -86,7 +86,7 @@ class MaskCombinator(GenerativeFunction):
         args = Diff.tree_primal(argdiffs)
         before, after = jnp.asarray(trace.flag), jnp.asarray(_flag(args))
         inner, weight, retdiff, back = request.edit(key, trace.inner, argdiffs[1:])
-        new = self._trace(args, inner)
+        new = self.wrap(args, inner)
         # The edit's weight counts if the flag is and was True. A flag that changes adds or removes a score.
         switched = jnp.where(after, inner.get_score(), 0.0) - jnp.where(before, trace.inner.get_score(), 0.0)
         weight = jnp.where(before & after, weight, jnp.where(before == after, 0.0, switched))
@@ -95,7 +95,7 @@ class MaskCombinator(GenerativeFunction):
         return new, weight, (Diff.no_change if unchanged else Diff.unknown_change)(retval), back
 
     def project(self, key: PRNGKey, trace: Any, selection: Selection) -> Weight:
-        return jnp.where(trace.flag, self.inner.project(key, trace.inner, selection), 0.0)
+        return jnp.where(trace.flag, super().project(key, trace, selection), 0.0)
 
 
 @method

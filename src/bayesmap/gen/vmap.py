@@ -17,8 +17,8 @@ from bayesmap.gen.diff import Change, Diff, IndexChange, NoChange, UnknownChange
 from bayesmap.gen.distribution import DistributionTrace, ExactDensity
 from bayesmap.gen.edits import Edited, EditRequest, EmptyRequest, IndexRequest, Regenerate, Update, VectorRequest
 from bayesmap.gen.errors import NotSupportedEditRequest
-from bayesmap.gen.generative_function import GenerativeFunction, OuterTrace, Trace, as_update, decorator_method
-from bayesmap.gen.pytree import dataclass, static
+from bayesmap.gen.generative_function import GenerativeFunction, OuterTrace, Trace, decorator_method
+from bayesmap.gen.pytree import dataclass, nth, static
 from bayesmap.gen.selection import Selection
 from bayesmap.gen.typing import Arguments, InAxes, PRNGKey, Score, Weight
 
@@ -86,7 +86,56 @@ class Product(ExactDensity):
         return new, before + weight, Diff(new_value, IndexChange((i, *below))), IndexRequest(i, back)
 
 
-# ruff: noqa: D102 - the methods are those of the contract, documented with it.
+class Vectorised(GenerativeFunction):
+    """Base of functions that run one function, `inner`, many times; their traces store the runs' traces, stacked.
+
+    A subclass implements `length` with the two edits below, and the contract except `edit` and `project`.
+    """
+
+    inner: GenerativeFunction
+
+    def length(self, args: Arguments) -> int:
+        """Return the number of runs."""
+        raise NotImplementedError
+
+    def edit_all(self, key: PRNGKey, trace: Any, request: EditRequest, argdiffs: Any) -> Edited:
+        """Edit every run. Leaves of `request` have a leading axis."""
+        raise NotImplementedError
+
+    def edit_one(self, key: PRNGKey, trace: Any, i: Any, request: EditRequest, argdiffs: Any) -> Edited:
+        """Edit run number `i`."""
+        raise NotImplementedError
+
+    def edit(self, key: PRNGKey, trace: Any, request: EditRequest, argdiffs: Any) -> Edited:
+        n = self.length(Diff.tree_primal(argdiffs))
+        match request:
+            case IndexRequest(i, inner):
+                return self.edit_one(key, trace, check_index(i, n), inner, argdiffs)
+            case Update(Indexed(inner, i)) if jnp.ndim(i) == 0:
+                return as_update(self.edit_one(key, trace, check_index(i, n), Update(inner), argdiffs))
+            case Update(constraint) if constraint.static_is_empty():
+                return self.edit_all(key, trace, EmptyRequest(), argdiffs)
+            case Update(constraint):
+                return self.edit_all(key, trace, Update(vectorise(constraint, n)), argdiffs)
+            case VectorRequest(each):
+                return self.edit_all(key, trace, each, argdiffs)
+            case Regenerate():
+                return self.edit_all(key, trace, request, argdiffs)
+        raise NotSupportedEditRequest(self, request)
+
+    def project(self, key: PRNGKey, trace: Any, selection: Selection) -> Weight:
+        return jnp.sum(jax.vmap(lambda t: self.inner.project(key, t, selection))(trace.inner))
+
+
+def as_update(edited: Edited) -> Edited:
+    """Return the outcome of an update of one element, with the way back as an Update instead of an IndexRequest."""
+    new, weight, retdiff, back = edited
+    return new, weight, retdiff, Update(back.request.constraint.extend(back.idx))  # type: ignore[attr-defined]
+
+
+def undo_all(back: EditRequest) -> EditRequest:
+    """Return the request that undoes an edit of every run, given the runs' backward requests, stacked."""
+    return back if isinstance(back, Update | EmptyRequest) else VectorRequest(back)
 
 
 @dataclass
@@ -103,7 +152,7 @@ class VmapTrace(OuterTrace):
 
 
 @dataclass
-class Vmap(GenerativeFunction):
+class Vmap(Vectorised):
     """A generative function mapped over axes of its arguments. See `vmap` and `repeat`."""
 
     inner: GenerativeFunction
@@ -112,6 +161,9 @@ class Vmap(GenerativeFunction):
 
     def _map(self, args: Arguments) -> Mapped:
         return map_over(self.in_axes, args, self.n)
+
+    def length(self, args: Arguments) -> int:
+        return self._map(args).n
 
     def _trace(self, args: Arguments, inner: Trace) -> VmapTrace:
         return VmapTrace(self, args, inner, total(inner.get_score()))
@@ -141,28 +193,7 @@ class Vmap(GenerativeFunction):
         scores, retvals = mapped.vmap(self.inner.assess, each)
         return total(scores), retvals
 
-    def project(self, key: PRNGKey, trace: Any, selection: Selection) -> Weight:
-        return jnp.sum(jax.vmap(lambda t: self.inner.project(key, t, selection))(trace.inner))
-
-    def edit(self, key: PRNGKey, trace: Any, request: EditRequest, argdiffs: Any) -> Edited:
-        n = self._map(Diff.tree_primal(argdiffs)).n
-        match request:
-            case IndexRequest(i, inner):
-                return self._edit_element(key, trace, i, inner, argdiffs)
-            case Update(Indexed(inner, i)) if jnp.ndim(i) == 0:
-                return as_update(self._edit_element(key, trace, i, Update(inner), argdiffs))
-            case Update(constraint) if constraint.static_is_empty():
-                return self._edit_all(key, trace, EmptyRequest(), argdiffs)
-            case Update(constraint):
-                return self._edit_all(key, trace, Update(vectorise(constraint, n)), argdiffs)
-            case VectorRequest(each):
-                return self._edit_all(key, trace, each, argdiffs)
-            case Regenerate():
-                return self._edit_all(key, trace, request, argdiffs)
-        raise NotSupportedEditRequest(self, request)
-
-    def _edit_all(self, key: PRNGKey, trace: Any, request: EditRequest, argdiffs: Any) -> Edited:
-        """Edit every element. Leaves of `request` have a leading axis."""
+    def edit_all(self, key: PRNGKey, trace: Any, request: EditRequest, argdiffs: Any) -> Edited:
         args = Diff.tree_primal(argdiffs)
         mapped = self._map(args)
 
@@ -180,18 +211,15 @@ class Vmap(GenerativeFunction):
 
         keys = jax.random.split(key, mapped.n)
         inner, weights, retdiff, back = mapped.vmap(element, keys, trace.inner, request)
-        undo = back if isinstance(back, Update | EmptyRequest) else VectorRequest(back)
-        return self._trace(args, inner), total(weights), retdiff, undo
+        return self._trace(args, inner), total(weights), retdiff, undo_all(back)
 
-    def _edit_element(self, key: PRNGKey, trace: Any, i: Any, request: EditRequest, argdiffs: Any) -> Edited:
+    def edit_one(self, key: PRNGKey, trace: Any, i: Any, request: EditRequest, argdiffs: Any) -> Edited:
         """Change one element, without reading any other."""
         args = Diff.tree_primal(argdiffs)
         # Move the trace to the new arguments first, then edit the element's own trace.
         trace, before, _, _ = EmptyRequest().edit(key, trace, argdiffs)
-        mapped = self._map(args)
-        i = check_index(i, mapped.n)
-        element = jax.tree.map(lambda x: x[i], trace.inner)
-        new, weight, retdiff, back = request.edit(key, element, Diff.no_change(mapped.element(i)))
+        element = nth(trace.inner, i)
+        new, weight, retdiff, back = request.edit(key, element, Diff.no_change(self._map(args).element(i)))
 
         def store(old: Any, was: Any, now: Any) -> Any:
             return old if now is was else old.at[i].set(now)
