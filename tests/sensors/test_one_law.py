@@ -58,7 +58,7 @@ def test_the_compiled_law_is_numpy_s(name, precision):
 def test_jax_s_law_is_numpy_s(name):
     import jax.numpy as jnp
 
-    from bayesmap.programs.reading_law import reading_law
+    from bayesmap.programs.beam_sensor import reading_law
 
     z, d = np.broadcast_arrays(READINGS[:, None], DISTANCES[None])
     found = reading_law(ALL[name], LIMITS).logpdf(jnp.asarray(z), jnp.asarray(d))

@@ -1,38 +1,151 @@
-"""Sensors as generative functions of the walls: the base of all of them, and the sensor at known poses.
+"""Sensors as generative functions of the walls: the law of readings, the base of all sensors, the one at known poses.
 
 A trace at known poses keeps the readings and the position of each beam's first hit. Let a cell stand at position m of a
 beam whose first hit is at position f. A change of the cell matters to this beam only if the cell becomes a wall before
 the hit (m < f), or if the cell was the hit and is removed (m = f); then the hit moves to the next wall behind it. An
 edit of a cell reads the beams through this cell alone.
 """
-# ruff: noqa: D102 - the methods are those of the contract, documented with it.
 
 from __future__ import annotations
 
 import dataclasses
 import hashlib
+import math
 from collections.abc import Sequence
 from functools import cached_property, partial
 from typing import Any
 
 import jax
 import jax.numpy as jnp
+import jax.random as jr
 import numpy as np
+from jax.scipy.special import betainc, ndtr
 from numpy.typing import ArrayLike, NDArray
 
 from bayesmap.errors import BadInput
 from bayesmap.gen.choice_map import ChoiceMap
 from bayesmap.gen.diff import Change, Diff, IndexChange
-from bayesmap.gen.distribution import DistributionTrace
+from bayesmap.gen.distribution import DistributionTrace, ExactDensity
 from bayesmap.gen.edits import Edited, EditRequest, EmptyRequest, IndexRequest, Regenerate, Update
 from bayesmap.gen.generative_function import GenerativeFunction, Trace
 from bayesmap.gen.pytree import dataclass, static
 from bayesmap.gen.selection import Selection
 from bayesmap.gen.typing import Arguments, PRNGKey, Score, Weight
-from bayesmap.programs.reading_law import ReadingLaw
-from bayesmap.sensors.model import RangeLimits
+from bayesmap.sensors.builtin import LOG_IMPOSSIBLE
+from bayesmap.sensors.model import KernelParameters, RangeLimits, SensorModel
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
+
+# ruff: noqa: D102 - the methods are those of the contract, documented with it.
+
+
+@dataclass
+class ReadingLaw(ExactDensity):
+    """`law(distance_m)`: independent readings in metres, in the distances' shape; formulas of `bayesmap.sensors`.
+
+    The distance `inf` means that the beam meets nothing. Readings are coded as in `Scans`: `inf` is no return, `-inf`
+    is too close, and NaN is invalid. An invalid reading scores 0 and is never drawn.
+    """
+
+    parameters: KernelParameters = static()
+    limits: RangeLimits = static()
+
+    def sample(self, key: PRNGKey, distance_m: Any, /) -> Any:
+        d = jnp.asarray(distance_m, jnp.result_type(float))
+        s, limits = self.parameters, self.limits
+        keys = jr.split(key, 6)
+        wall = jnp.minimum(d, limits.max_m)
+        noise = jr.t(keys[0], s.dof, d.shape) if s.dof > 0 else jr.normal(keys[0], d.shape)
+        reading = wall + (s.sigma_m + s.sigma_per_m * wall) * noise
+        if not s.robust:
+            return reading
+        # The events of `BeamMixture` in reverse order: an earlier event there overrules a later one.
+        lost = (jr.uniform(keys[1], d.shape) < s.p_no_return) | (d > limits.max_m)
+        reading = jnp.where(lost, jnp.inf, reading)
+        object_m = jr.exponential(keys[2], d.shape) / s.rate_short_per_m
+        passing = jr.uniform(keys[3], d.shape) < s.p_short
+        reading = jnp.where(passing & (object_m < wall), object_m, reading)
+        reading = jnp.where(reading > limits.max_m, jnp.inf, reading)
+        reading = jnp.where(reading < limits.min_m, -jnp.inf, reading)
+        uniform = jr.uniform(keys[4], d.shape, minval=limits.min_m, maxval=limits.max_m)
+        return jnp.where(jr.uniform(keys[5], d.shape) < s.p_random, uniform, reading)
+
+    def index_shape(self, args: Arguments) -> tuple[int, ...]:
+        return jnp.shape(args[0])
+
+    def logpdf(self, value: Any, distance_m: Any, /) -> Any:
+        """Return the log density in nats, elementwise over readings and distances in metres."""
+        z, d = jnp.asarray(value), jnp.asarray(distance_m)
+        wall = jnp.minimum(d, self.limits.max_m)
+        if self.parameters.robust:
+            by_kind = self._mixture(z, wall, d <= self.limits.max_m)
+        else:
+            # Plain noise has no typed readings: they count as the range limits.
+            reading = jnp.nan_to_num(z, posinf=self.limits.max_m, neginf=self.limits.min_m)
+            by_kind = self._log_noise(reading, wall)
+        return jnp.where(jnp.isnan(z), 0.0, by_kind)
+
+    def _scale(self, wall: Any) -> Any:
+        return self.parameters.sigma_m + self.parameters.sigma_per_m * wall
+
+    def _log_noise(self, reading: Any, wall: Any) -> Any:
+        """Return the log density of wall + noise."""
+        scale, dof = self._scale(wall), self.parameters.dof
+        x = (reading - wall) / scale
+        if dof > 0:
+            half = 0.5 * (dof + 1)
+            constant = math.lgamma(half) - math.lgamma(0.5 * dof) - 0.5 * math.log(dof * math.pi)
+            return constant - half * jnp.log1p(x * x / dof) - jnp.log(scale)
+        return -0.5 * x * x - 0.5 * math.log(2 * math.pi) - jnp.log(scale)
+
+    def _tail(self, x: Any) -> Any:
+        """Return P(standard noise > x)."""
+        dof = self.parameters.dof
+        if dof > 0:
+            half = 0.5 * betainc(0.5 * dof, 0.5, dof / (dof + x * x))
+            return jnp.where(x > 0, half, 1.0 - half)
+        return ndtr(-x)
+
+    def _mixture(self, z: Any, wall: Any, seen: Any) -> Any:
+        """Return the log density by the formula of `bayesmap.sensors.builtin` for the kind of each reading."""
+        s, limits = self.parameters, self.limits
+
+        def unblocked(distance: Any) -> Any:
+            return 1.0 + s.p_short * jnp.expm1(-s.rate_short_per_m * distance)
+
+        finite = jnp.isfinite(z)
+        reading = jnp.where(finite, z, limits.max_m)
+        returned = jnp.where(seen, unblocked(wall) * (1.0 - s.p_no_return), 0.0)
+        lost = unblocked(wall) * jnp.where(seen, s.p_no_return, 1.0)
+        passing = s.p_short * s.rate_short_per_m * jnp.exp(-s.rate_short_per_m * jnp.maximum(reading, 0.0))
+        short = jnp.where(reading < wall, passing, 0.0)
+        noise = jnp.exp(self._log_noise(reading, wall))
+        hit = s.p_random / (limits.max_m - limits.min_m) + (1 - s.p_random) * (short + returned * noise)
+
+        scale = self._scale(wall)
+        above = self._tail((limits.max_m - wall) / scale)
+        below = self._tail((wall - limits.min_m) / scale)  # the noise is symmetric
+        none = (1 - s.p_random) * (lost + returned * above)
+        blocked = -s.p_short * jnp.expm1(-s.rate_short_per_m * jnp.minimum(wall, limits.min_m))
+        close = (1 - s.p_random) * (blocked + returned * below)
+        by_kind = jnp.where(finite, hit, jnp.where(z > 0, none, close))
+        return jnp.maximum(jnp.log(by_kind), LOG_IMPOSSIBLE)
+
+
+def reading_law(sensor: SensorModel, limits: RangeLimits) -> ReadingLaw:
+    """Return the law of a sensor model.
+
+    Raises:
+        BadInput: the sensor model has no `kernel_parameters`.
+    """
+    parameters = sensor.kernel_parameters()
+    if parameters is None:
+        raise BadInput(
+            f"mapping_model: {type(sensor).__name__} has no likelihood on JAX, because it gives no "
+            "kernel_parameters(); use Gaussian, StudentT or BeamMixture"
+        )
+    return ReadingLaw(parameters, limits)
+
 
 LOOK = 16
 """The number of a beam's cells that are read at once."""
@@ -44,10 +157,8 @@ GROUP = 8
 class BeamGeometry:
     """The cells that each of B beams crosses on a grid of N cells, and their distances.
 
-    Position l of a beam is the l-th cell that it touches. `cells` lists cells by beam, to search along a beam; `beam`
-    and `position` list beams by cell, to find the beams through a cell. A geometry is compared by content and can be
-    hashed, so that it may be a static part of JAX's trees: models of equal geometry share one compilation, and a batch
-    of traces holds no copies of it.
+    Position l of a beam is the l-th cell that it touches. A geometry is compared and hashed by content, so that it may
+    be a static part of JAX's trees: models of equal geometry share one compilation, and traces hold no copies of it.
 
     Attributes:
         shape: (nx, ny) of the grid.
@@ -81,9 +192,9 @@ class BeamGeometry:
         """Return L + 1, the number of outcomes of the longest beam; its last position is a sentinel."""
         return int(self.cells.shape[1]) - LOOK + 1
 
-    @cached_property
+    @property
     def position_dtype(self) -> np.dtype[np.unsignedinteger]:
-        """Return the smallest type that holds a position; a trace keeps one position for each beam."""
+        """Return the smallest type that holds a position."""
         return np.min_scalar_type(self.longest)
 
     @cached_property
@@ -154,17 +265,17 @@ class ReadingsTrace(Trace):
 class RangeSensor(GenerativeFunction):
     """Base of sensors: readings in metres, at the address (), that follow `law` given the distances of the first walls.
 
-    A sensor implements `look`, `law_args`, `trace` and `change`, and inherits the contract.
+    A sensor implements the four methods below, and inherits the contract.
     """
 
     law: ReadingLaw
 
     def look(self, args: Arguments) -> Any:
-        """Return where all beams hit, in the form that traces keep."""
+        """Return where all beams hit, in the form that traces keep as `seen`."""
         raise NotImplementedError
 
     def law_args(self, args: Arguments, seen: Any) -> Arguments:
-        """Return the law's arguments for what `look` returned."""
+        """Return the law's arguments."""
         raise NotImplementedError
 
     def trace(self, args: Arguments, seen: Any, readings: Any) -> Trace:
@@ -172,10 +283,7 @@ class RangeSensor(GenerativeFunction):
         raise NotImplementedError
 
     def change(self, trace: Any, args: Arguments, tangents: Sequence[Change]) -> tuple[Any, Weight] | None:
-        """Return where beams hit after a small change of arguments, and the change of the log-likelihood.
-
-        Returns None if the change is not a small one.
-        """
+        """Return where beams hit after a small change of arguments, and the log-likelihood's change; else None."""
         raise NotImplementedError
 
     def simulate(self, key: PRNGKey, args: Arguments) -> Trace:
@@ -299,11 +407,11 @@ class BeamSensor(RangeSensor):
         if len(cells) == 1:
             return self._change_cell(walls, cells[0], first_hit, readings)
 
-        def one(k: Any, state: tuple[Any, Any]) -> tuple[Any, Any]:
+        def change(k: Any, state: tuple[Any, Any]) -> tuple[Any, Any]:
             first_hit, gain = self._change_cell(walls, cells[k], state[0], readings)
             return first_hit, state[1] + gain
 
-        return jax.lax.fori_loop(0, len(cells), one, (first_hit, jnp.zeros((), readings.dtype)))  # type: ignore[no-any-return]
+        return jax.lax.fori_loop(0, len(cells), change, (first_hit, jnp.zeros((), readings.dtype)))  # type: ignore[no-any-return]
 
     def _change_cell(self, walls: Any, cell: Any, first_hit: Any, readings: Any) -> tuple[Any, Weight]:
         geometry, is_wall = self.geometry, self._wall_at(walls, cell)
@@ -346,9 +454,9 @@ class BeamSensor(RangeSensor):
             seen = cells[beam[:, None], position[:, None] + 1 + ahead]
             wall = (seen == n_cells) | self._wall_at(walls, jnp.minimum(seen, n_cells - 1))
             step = jnp.where(wall, ahead, LOOK).min(axis=1)
-            found = step < LOOK
-            position = jnp.where(searching, position + jnp.where(found, step + 1, LOOK), position)
-            return position, searching & ~found
+            hit = step < LOOK
+            position = jnp.where(searching, position + jnp.where(hit, step + 1, LOOK), position)
+            return position, searching & ~hit
 
         position, _ = jax.lax.while_loop(lambda state: state[1].any(), look, (position, uncovered))
         return position

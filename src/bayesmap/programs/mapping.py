@@ -27,9 +27,8 @@ from bayesmap.gen.generative_function import GenerativeFunction, Trace
 from bayesmap.gen.pytree import Pytree, dataclass, static
 from bayesmap.gen.static import StaticGenerativeFunction, gen
 from bayesmap.gen.typing import PRNGKey
-from bayesmap.programs.beam_sensor import BeamSensor, beam_geometry
+from bayesmap.programs.beam_sensor import BeamSensor, beam_geometry, reading_law
 from bayesmap.programs.pose_sensor import PoseSensor
-from bayesmap.programs.reading_law import reading_law
 from bayesmap.sensors.model import RangeLimits, SensorModel
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import as_angles, as_poses, check_limits
@@ -40,11 +39,7 @@ class SetCells(EditRequest):
     """A request for the address "walls" that gives the cells (i[k], j[k]) of a map the values `values[k]`.
 
     A 2 x 2 block is `SetCells(i + jnp.array([0, 0, 1, 1]), j + jnp.array([0, 1, 0, 1]), values)`. The work is that of
-    one edit for each cell.
-
-    Attributes:
-        i, j: cells, integers, shape (k,). The shape must be known when the program is compiled, the cells need not.
-        values: the new values, shape (k,).
+    one edit for each cell. All fields have shape (k,), with k known when the program is compiled.
     """
 
     i: Any
@@ -106,21 +101,18 @@ def mapping_model(
     remedy = "use infer, or write a program that draws its walls and gives them to sensor_model"
     prior = Independent.of(prior, "mapping_model", remedy)
     walls = _Walls.of(prior.probabilities(grid))
+    options = {"max_range_m": max_range_m, "min_range_m": min_range_m, "hit_depth": hit_depth}
     if isinstance(poses, GenerativeFunction):
         _check_pose_prior(poses)
-        moving = pose_sensor_model(
-            grid, angles_rad, sensor, max_range_m=max_range_m, min_range_m=min_range_m, hit_depth=hit_depth
-        )
+        moving = pose_sensor_model(grid, angles_rad, sensor, **options)
         return _poses_map_and_readings.partial_apply(poses, walls, moving)
-    beams = sensor_model(
-        grid, poses, angles_rad, sensor, max_range_m=max_range_m, min_range_m=min_range_m, hit_depth=hit_depth
-    )
+    beams = sensor_model(grid, poses, angles_rad, sensor, **options)
     return _map_and_readings.partial_apply(walls, beams)
 
 
 def sensor_model(
-    grid: Grid, poses: ArrayLike, angles_rad: ArrayLike, sensor: SensorModel, *, max_range_m: float,
-    min_range_m: float = 0.0, hit_depth: float = 0.0,
+    grid: Grid, poses: ArrayLike, angles_rad: ArrayLike, sensor: SensorModel, *,
+    max_range_m: float, min_range_m: float = 0.0, hit_depth: float = 0.0,
 ) -> BeamSensor:  # fmt: skip
     """Return the sensor alone: a generative function of the walls (nx, ny), with the readings as its only choice.
 
@@ -133,16 +125,14 @@ def sensor_model(
 
     Arguments and errors as for `mapping_model`.
     """
-    many, angles = as_poses(poses), as_angles(angles_rad)
-    check_limits(min_range_m, max_range_m)
-    limits = RangeLimits(float(min_range_m), float(max_range_m))
+    many, angles, limits = as_poses(poses), as_angles(angles_rad), _limits(min_range_m, max_range_m)
     shape = (len(angles),) if np.ndim(poses) == 1 else (len(many), len(angles))
     return BeamSensor(beam_geometry(grid, many, angles, limits, hit_depth), reading_law(sensor, limits), shape)
 
 
 def pose_sensor_model(
-    grid: Grid, angles_rad: ArrayLike, sensor: SensorModel, *, max_range_m: float, min_range_m: float = 0.0,
-    hit_depth: float = 0.0,
+    grid: Grid, angles_rad: ArrayLike, sensor: SensorModel, *,
+    max_range_m: float, min_range_m: float = 0.0, hit_depth: float = 0.0,
 ) -> PoseSensor:  # fmt: skip
     """Return the sensor alone, for unknown poses: a generative function of walls (nx, ny) and poses (3,) or (S, 3).
 
@@ -155,10 +145,13 @@ def pose_sensor_model(
 
     Arguments and errors as for `mapping_model`.
     """
-    angles = as_angles(angles_rad)
+    angles, law = as_angles(angles_rad), reading_law(sensor, _limits(min_range_m, max_range_m))
+    return PoseSensor(grid, tuple(angles.tolist()), law, float(hit_depth))
+
+
+def _limits(min_range_m: float, max_range_m: float) -> RangeLimits:
     check_limits(min_range_m, max_range_m)
-    limits = RangeLimits(float(min_range_m), float(max_range_m))
-    return PoseSensor(grid, tuple(angles.tolist()), reading_law(sensor, limits), float(hit_depth))
+    return RangeLimits(float(min_range_m), float(max_range_m))
 
 
 def _check_pose_prior(prior: GenerativeFunction) -> None:

@@ -23,8 +23,7 @@ from bayesmap.errors import BadInput
 from bayesmap.gen.diff import Change, IndexChange, NoChange
 from bayesmap.gen.pytree import dataclass, static
 from bayesmap.gen.typing import Arguments, Score, Weight
-from bayesmap.programs.beam_sensor import RangeSensor, ReadingsTrace, checked_walls
-from bayesmap.programs.reading_law import ReadingLaw
+from bayesmap.programs.beam_sensor import RangeSensor, ReadingLaw, ReadingsTrace, checked_walls
 from bayesmap.space.grid import Grid
 
 LEAST_COSINE = 1e-10
@@ -48,8 +47,7 @@ def beams_of(start: Any, angle_rad: Any) -> Beams:
 def span(beams: Beams, low: Any, high: Any) -> tuple[Any, Any]:
     """Return the distances at which beams enter and leave the rectangle from `low` to `high`, each (...).
 
-    This is the slab method: a beam is in the rectangle where it lies between the sides in x and in y. A beam that
-    leaves before it enters misses the rectangle. Distances behind the start are negative.
+    A beam that leaves before it enters misses the rectangle (slab method). Distances behind the start are negative.
     """
     to_low, to_high = (low - beams.start) / beams.direction, (high - beams.start) / beams.direction
     return jnp.minimum(to_low, to_high).max(axis=-1), jnp.maximum(to_low, to_high).min(axis=-1)
@@ -70,16 +68,9 @@ def first_cells(beams: Beams, shape: tuple[int, int]) -> tuple[Any, Any]:
 
 
 def first_walls(walls: Any, beams: Beams, cell: Any, active: Any) -> Any:
-    """Return the first wall at or behind a cell of each active beam.
+    """Return the first wall at or behind a cell, (K, 2), of each active beam, on a map (nx, ny).
 
-    Args:
-        walls: (nx, ny), non-zero where there is a wall.
-        beams: K beams.
-        cell: the cell of each beam where its walk begins, (K, 2).
-        active: mask of the beams that walk, (K,).
-
-    Returns:
-        Flat indices x * ny + y, (K,) int32; nx * ny for a beam that meets no wall or is not active.
+    Returns flat indices x * ny + y, (K,) int32; nx * ny for a beam that meets no wall or is not active.
     """
     shape = jnp.array(jnp.shape(walls))
     nx, ny = jnp.shape(walls)
@@ -89,14 +80,14 @@ def first_walls(walls: Any, beams: Beams, cell: Any, active: Any) -> Any:
     border = (cell + forward - beams.start) / beams.direction  # distance of the next line in x and in y
 
     def walk(state: tuple[Any, Any, Any, Any]) -> tuple[Any, Any, Any, Any]:
-        cell, border, found, active = state
+        cell, border, hit, active = state
         is_wall = active & (walls[cell[:, 0], cell[:, 1]] != 0)
-        found = jnp.where(is_wall, cell[:, 0] * ny + cell[:, 1], found)
+        hit = jnp.where(is_wall, cell[:, 0] * ny + cell[:, 1], hit)
         along_x = border[:, 0] < border[:, 1]
         crossed = jnp.stack([along_x, ~along_x], axis=-1)
         cell = cell + jnp.where(crossed, step, 0)
         border = border + jnp.where(crossed, gap, 0)
-        return cell, border, found, active & ~is_wall & ((cell >= 0) & (cell < shape)).all(axis=-1)
+        return cell, border, hit, active & ~is_wall & ((cell >= 0) & (cell < shape)).all(axis=-1)
 
     none = jnp.full(jnp.shape(active), nx * ny, jnp.int32)
     return jax.lax.while_loop(lambda state: state[3].any(), walk, (cell, border, none, active))[2]
@@ -249,8 +240,7 @@ class PoseSensor(RangeSensor):
         enter, leave = cell_span(beams, cell)
         end_enter, _ = cell_span(beams, jnp.stack([ends // ny, ends % ny], axis=-1))
         nearer = (ends == none) | (enter < end_enter)
-        taken = is_wall & (enter <= leave) & (leave >= 0) & nearer
-        ends = jnp.where(taken, here, ends)
+        ends = jnp.where(is_wall & (enter <= leave) & (leave >= 0) & nearer, here, ends)
 
         def walk_on(state: tuple[Any, Any]) -> tuple[Any, Any]:
             ends, lost = state
