@@ -19,8 +19,7 @@ from numpy.typing import ArrayLike, NDArray
 from bayesmap.errors import BadInput
 from bayesmap.files import write_whole
 from bayesmap.io.ros.writer import ENDINGS, FOLDER
-from bayesmap.space.cell_arrays import as_layers
-from bayesmap.space.grid import Grid
+from bayesmap.space.grid import Grid, as_layers
 from bayesmap.space.planar import inverse
 from bayesmap.space.scans import Scans
 from bayesmap.space.trajectory import RelativeLaw, Trajectory, ellipses

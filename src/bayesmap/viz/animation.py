@@ -20,8 +20,7 @@ from scipy import ndimage
 
 from bayesmap.errors import BadInput
 from bayesmap.files import need_ending, write_whole
-from bayesmap.space.cell_arrays import ROUNDING, as_mask, as_observed
-from bayesmap.space.grid import Grid
+from bayesmap.space.grid import ROUNDING, Grid, as_mask, as_observed
 from bayesmap.space.scans import as_poses
 from bayesmap.viz import palette
 

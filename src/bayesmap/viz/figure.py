@@ -27,8 +27,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from bayesmap.errors import BadInput
 from bayesmap.files import need_ending, write_whole
-from bayesmap.space.cell_arrays import as_observed
-from bayesmap.space.grid import Grid
+from bayesmap.space.grid import Grid, as_observed
 from bayesmap.space.scans import Scans
 from bayesmap.viz import maps, overlays, palette
 from bayesmap.viz.overlays import draw_surfaces, draw_truth_outline

@@ -22,8 +22,7 @@ from matplotlib.ticker import MaxNLocator, ScalarFormatter
 from numpy.typing import ArrayLike, NDArray
 
 from bayesmap.errors import BadInput
-from bayesmap.space.cell_arrays import ROUNDING, as_mask, as_numbers, as_observed, as_probabilities
-from bayesmap.space.grid import Grid
+from bayesmap.space.grid import ROUNDING, Grid, as_mask, as_numbers, as_observed, as_probabilities
 from bayesmap.viz import palette
 
 Cut = tuple[slice, slice]

@@ -19,8 +19,7 @@ from matplotlib.transforms import Affine2D
 from numpy.typing import ArrayLike, NDArray
 
 from bayesmap.errors import BadInput
-from bayesmap.space.cell_arrays import as_mask
-from bayesmap.space.grid import Grid
+from bayesmap.space.grid import Grid, as_mask
 from bayesmap.space.scans import ReadingKind, Scans, as_array, as_poses
 from bayesmap.viz import maps, palette
 from bayesmap.viz.maps import boundary_segments

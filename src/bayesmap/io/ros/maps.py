@@ -28,8 +28,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from bayesmap.errors import BadInput
 from bayesmap.files import write_whole
-from bayesmap.space.cell_arrays import as_observed, as_probabilities
-from bayesmap.space.grid import Grid
+from bayesmap.space.grid import Grid, as_observed, as_probabilities
 from bayesmap.space.scans import as_array
 
 if TYPE_CHECKING:
