@@ -121,8 +121,7 @@ def _order(rows: int) -> list[str]:
     order: list[str] = []
     for row in range(rows):
         order.append("row")
-        last = row == rows - 1
-        if (row % 2 == 0 and not last) or rows == 1 or (rows % 2 == 1 and row == rows - 2):
+        if rows == 1 or (row % 2 == 0 and row < rows - 1) or (rows % 2 == 1 and row == rows - 2):
             order.append("corridor")
     return order
 
@@ -163,15 +162,16 @@ def _split(rng: np.random.Generator, x0: int, x1: int, resolution: float) -> Ite
 
 def _name_rooms(rng: np.random.Generator, spaces: list[Space], resolution: float) -> tuple[Space, ...]:
     """Assign a kind to each room by its size and position; one facade room becomes the lobby."""
-    facade = [k for k, space in enumerate(spaces) if space.facade]
-    middle = np.mean([(spaces[k].x0 + spaces[k].x1) / 2 for k in facade])
-    lobby = min(facade, key=lambda k: abs((spaces[k].x0 + spaces[k].x1) / 2 - middle) + 1e6 * spaces[k].y0)
-    return tuple(
-        replace(space, kind="lobby" if k == lobby else _kind(rng, space.width * resolution, space.facade))
-        if space.kind != "corridor"
-        else space
-        for k, space in enumerate(spaces)
-    )
+    facade = [space for space in spaces if space.facade]
+    middle = np.mean([(space.x0 + space.x1) / 2 for space in facade])
+    lobby = min(facade, key=lambda space: abs((space.x0 + space.x1) / 2 - middle) + 1e6 * space.y0)
+
+    def named(space: Space) -> Space:
+        if space.kind == "corridor":
+            return space
+        return replace(space, kind="lobby" if space is lobby else _kind(rng, space.width * resolution, space.facade))
+
+    return tuple(map(named, spaces))
 
 
 def _kind(rng: np.random.Generator, width_m: float, facade: bool) -> str:
@@ -208,7 +208,6 @@ class Building:
         glass: the wall cells that are glass, shape (nx, ny).
         opacity: the chance that a beam which enters a cell stops there, shape (nx, ny): 1 for walls,
             ``1 - glass_pass`` for glass, less than 1 for legs thinner than a cell, 0 for free cells.
-        rooms: rooms and corridors.
         glass_pass: the chance that a beam passes a cell of glass.
     """
 
@@ -257,13 +256,13 @@ def building(
     plan = _Construction(np.random.default_rng(check_count("building", "seed", seed, 0)), (long, short), resolution)
     plan.build(clutter)
     opacity = np.where(plan.glass, 1.0 - glass_pass, plan.opacity)
-    walls, glass, spaces = plan.opacity > 0, plan.glass, plan.spaces
-    if size_m[0] < size_m[1]:
+    walls, glass, turned = plan.opacity > 0, plan.glass, size_m[0] < size_m[1]
+    if turned:
         walls, glass, opacity = walls.T.copy(), glass.T.copy(), opacity.T.copy()
     rooms = []
-    for space in spaces:
+    for space in plan.spaces:
         x0, x1, y0, y1 = (float(v * resolution) for v in (space.x0, space.x1, space.y0, space.y1))
-        rooms.append(Room(space.kind, (y0, y1, x0, x1) if size_m[0] < size_m[1] else (x0, x1, y0, y1)))
+        rooms.append(Room(space.kind, (y0, y1, x0, x1) if turned else (x0, x1, y0, y1)))
     nx, ny = walls.shape
     return Building(Grid((nx, ny), resolution), walls, glass, opacity, tuple(rooms), glass_pass)
 
@@ -289,11 +288,11 @@ class _Construction:
     def build(self, clutter: float) -> None:
         for space in self.spaces:
             self.opacity[space.x0 : space.x1, space.y0 : space.y1] = 0.0
-        rooms = [space for space in self.spaces if space.kind != "corridor"]
-        for room in rooms:
-            self.doors(room)
-            self.windows(room)
         corridors = [space for space in self.spaces if space.kind == "corridor"]
+        for room in self.spaces:
+            if room.kind != "corridor":
+                self.doors(room)
+                self.windows(room)
         for corridor in corridors:
             self.end_windows(corridor)
             self.keep_junctions(corridor, corridors)
@@ -339,8 +338,7 @@ class _Construction:
         ix0, ix1, iy0, iy1 = self.inside
         chance = {"lobby": 1.0, "open plan": 0.75, "meeting": 0.6}.get(room.kind, 0.4)
         if room.facade and self.rng.random() < chance:
-            share, middle = self.rng.uniform(0.5, 0.85), (room.x0 + room.x1) // 2
-            half = int(room.width * share / 2)
+            half, middle = int(room.width * self.rng.uniform(0.5, 0.85) / 2), (room.x0 + room.x1) // 2
             for row in (iy0 - self.outer,) * (room.y0 == iy0) + (iy1,) * (room.y1 == iy1):
                 self.window(middle - half, middle + half, row, row + self.outer, along_x=True)
         for touches, column in ((room.x0 == ix0, ix0 - self.outer), (room.x1 == ix1, ix1)):

@@ -28,12 +28,10 @@ def from_text(text: str) -> NDArray[np.bool_]:
             (counted from 1 in the whole text) and the column.
     """
     numbered = [(number, line.rstrip()) for number, line in enumerate(text.splitlines(), start=1)]
-    while numbered and not numbered[0][1]:
-        numbered.pop(0)
-    while numbered and not numbered[-1][1]:
-        numbered.pop()
-    if not numbered:
+    drawn = [k for k, (_, line) in enumerate(numbered) if line]
+    if not drawn:
         raise BadInput("drawing: the text has no lines; draw free cells as '.' and walls as 'X' or '#'")
+    numbered = numbered[drawn[0] : drawn[-1] + 1]
     indent = min(len(line) - len(line.lstrip()) for _, line in numbered)
     first, width = numbered[0][0], len(numbered[0][1]) - indent
     for number, line in numbered:

@@ -84,26 +84,22 @@ class RoomFloor:
             if min(a, c) < 1 or b > nx - 1 or d > ny - 1 or self.keep[a:b, c:d].any() or trial[a:b, c:d].any():
                 return False
             trial[a:b, c:d] = opacity
-        # The rest of the floor must remain reachable.
-        passable = float(self._room_to_pass(trial).sum()) * self.resolution**2
-        if self._reachable(trial) + MAX_CUT_OFF_M2 < passable:
+        if not self._leaves_floor_reachable(trial):
             return False
         self.opacity[...] = trial
         return True
 
-    def _reachable(self, opacity: NDArray[np.float64]) -> float:
-        """Return the floor that a robot can reach in m^2; minus infinity if it cannot pass between the doors."""
+    def _leaves_floor_reachable(self, opacity: NDArray[np.float64]) -> bool:
+        """Return true if a robot can pass between all doors, and reach all floor but `MAX_CUT_OFF_M2`."""
         from scipy import ndimage
 
-        labels, _ = ndimage.label(self._room_to_pass(opacity))
-        doors = np.unique(labels[self.keep])
-        doors = doors[doors > 0]
+        passable = wall_distance_m(opacity > 0, self.resolution) >= passage_m(self.resolution)
+        labels, _ = ndimage.label(passable)
+        doors = np.unique(labels[self.keep & passable])
         if len(doors) != 1:
-            return -np.inf
-        return float((labels == doors[0]).sum()) * self.resolution**2
-
-    def _room_to_pass(self, opacity: NDArray[np.float64]) -> NDArray[np.bool_]:
-        return wall_distance_m(opacity > 0, self.resolution) >= passage_m(self.resolution)
+            return False
+        reached_m2, floor_m2 = (float(mask.sum()) * self.resolution**2 for mask in (labels == doors[0], passable))
+        return reached_m2 + MAX_CUT_OFF_M2 >= floor_m2
 
 
 def furnish(room: RoomFloor, kind: str, clutter: float) -> None:

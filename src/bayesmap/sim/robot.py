@@ -20,7 +20,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from bayesmap.errors import BadInput, check_count
 from bayesmap.sim.furniture import lattice_stride, passage_m, wall_distance_m
-from bayesmap.space.planar import between, compose, interpolate, wrapped
+from bayesmap.space.planar import Floats, between, compose, interpolate, wrapped
 from bayesmap.space.scans import as_poses
 
 if TYPE_CHECKING:
@@ -41,16 +41,12 @@ PAIRS_A_POSE = 3  # on average
 PATROL_POSES = 4000  # of one round of a driven building
 
 
-def patrol(building: Building, n_scans: int, seed: int = 0) -> NDArray[np.float64]:
+def patrol(building: Building, n_scans: int, seed: int = 0) -> Floats:
     """Simulate the poses of a robot that goes round a building and enters its rooms.
 
-    The robot starts in the first corridor, and repeatedly goes to the nearest unvisited room. It takes shortest paths
-    that prefer open floor. Scans are taken at equal distances along the path.
-
-    Args:
-        building: the building.
-        n_scans: number of poses; about one per metre of path shows every room from inside.
-        seed: seed of the robot's random goal in each room.
+    The robot starts in the first corridor, and repeatedly goes to the nearest unvisited room, to a goal that ``seed``
+    decides. It takes shortest paths that prefer open floor. Scans are taken at equal distances along the path; about
+    one per metre shows every room from inside.
 
     Returns:
         Poses in the world frame, shape (n_scans, 3): x and y in metres, yaw in radians along the direction of
@@ -75,31 +71,7 @@ def patrol(building: Building, n_scans: int, seed: int = 0) -> NDArray[np.float6
     return np.column_stack([xy, np.arctan2(heading[:, 1], heading[:, 0])])
 
 
-def drive(
-    building: Building, seconds: float, rate_hz: float = 10.0, *, speed_m_per_s: float = 0.5,
-    turn_rad_per_s: float = 1.0, seed: int = 0,
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:  # fmt: skip
-    """Simulate times and poses of a robot that goes round a building, turns about, goes back, and so on.
-
-    Returns:
-        Times in seconds from 0, shape (S,), and poses in the world frame, shape (S, 3).
-    """
-    once = patrol(building, PATROL_POSES, seed)
-    rounds = [once]
-    while travel_times_s(np.concatenate(rounds), speed_m_per_s, turn_rad_per_s)[-1] < seconds:
-        rounds.append(once if len(rounds) % 2 == 0 else once[::-1] + np.array([0.0, 0.0, math.pi]))
-    way = np.concatenate(rounds)
-    times_s = travel_times_s(way, speed_m_per_s, turn_rad_per_s)
-    yaw = way[0, 2] + np.concatenate([[0.0], np.cumsum(wrapped(np.diff(way[:, 2])))])
-    at_s = np.arange(0.0, seconds, 1.0 / rate_hz)
-    poses = np.column_stack([np.interp(at_s, times_s, column) for column in (way[:, 0], way[:, 1], yaw)])
-    poses[:, 2] = wrapped(poses[:, 2])
-    return at_s, poses
-
-
-def _along(
-    path_m: NDArray[np.float64], length_m: NDArray[np.float64], at_m: NDArray[np.float64]
-) -> NDArray[np.float64]:
+def _along(path_m: Floats, length_m: Floats, at_m: Floats) -> Floats:
     """Return the points of a path at lengths ``at_m`` along it; beyond the ends, the end points."""
     return np.stack([np.interp(at_m, length_m, path_m[:, k]) for k in (0, 1)], axis=1)
 
@@ -119,7 +91,8 @@ class _Lattice:
         centers = building.grid.centers_m()
         x, y = centers[0][start::stride], centers[1][start::stride]
         # Keep the largest connected part inside the building.
-        inside = _inside(building, x, y)
+        grounds, _ = ndimage.label(~building.walls)
+        inside = grounds[start::stride, start::stride] != grounds[0, 0]
         fits = inside & (clearance >= passage_m(self.resolution))
         labels, count = ndimage.label(fits, structure=np.ones((3, 3)))
         if count == 0:
@@ -141,10 +114,9 @@ class _Lattice:
         for di, dj in ((1, 0), (0, 1), (1, 1), (1, -1)):
             other = padded[1 + di : 1 + di + shape[0], 1 + dj : 1 + dj + shape[1]]
             linked = (number >= 0) & (other >= 0)
-            a, b = number[linked], other[linked]
-            rows.append(a)
-            columns.append(b)
-            costs.append(spacing_m * np.hypot(di, dj) * (dislike[a] + dislike[b]) / 2)
+            rows.append(number[linked])
+            columns.append(other[linked])
+            costs.append(spacing_m * np.hypot(di, dj) * (dislike[rows[-1]] + dislike[columns[-1]]) / 2)
         entries = (np.concatenate(costs), (np.concatenate(rows), np.concatenate(columns)))
         return sparse.csr_array(entries, shape=(len(self.nodes), len(self.nodes)))
 
@@ -162,7 +134,7 @@ class _Lattice:
             stops.append(int(here[np.argmin(distance - np.minimum(self.node_clearance_m[here], 0.8))]))
         return stops
 
-    def tour(self, stops: list[int]) -> NDArray[np.float64]:
+    def tour(self, stops: list[int]) -> Floats:
         """Return the points of a path through all stops, from the first, each time to the nearest remaining stop."""
         from scipy.sparse import csgraph
 
@@ -183,19 +155,7 @@ class _Lattice:
         return np.asarray(self.points_m[nodes])
 
 
-def _inside(building: Building, x: NDArray[np.float64], y: NDArray[np.float64]) -> NDArray[np.bool_]:
-    """Select the lattice points that are not connected to the ground around the building."""
-    from scipy import ndimage
-
-    labels, _ = ndimage.label(~building.walls)
-    cells = [
-        np.floor((v - o) / building.grid.resolution).astype(int)
-        for v, o in zip((x, y), building.grid.origin, strict=True)
-    ]
-    return np.asarray(labels[np.ix_(*cells)] != labels[0, 0])
-
-
-def _smooth(path_m: NDArray[np.float64], lattice: _Lattice) -> NDArray[np.float64]:
+def _smooth(path_m: Floats, lattice: _Lattice) -> Floats:
     """Round the corners of a path, except where the rounded path would be too close to walls."""
     from scipy import ndimage
 
@@ -254,7 +214,7 @@ class OdometryNoise:
 
 def simulate_odometry(
     poses_world: ArrayLike, noise: OdometryNoise | None = None, *, stamps_s: ArrayLike | None = None, seed: int = 0
-) -> NDArray[np.float64]:
+) -> Floats:
     """Simulate the poses that a robot's odometry reports along a path, from the true first pose.
 
     Args:
@@ -287,7 +247,7 @@ def simulate_odometry(
     return interpolate(stamps, reported, stamps - noise.lag_s)
 
 
-def travel_times_s(poses_world: ArrayLike, speed_m_per_s: float, turn_rad_per_s: float) -> NDArray[np.float64]:
+def travel_times_s(poses_world: ArrayLike, speed_m_per_s: float, turn_rad_per_s: float) -> Floats:
     """Compute the times at which a robot passes the poses of its path, seconds from the first, shape (S,).
 
     A step takes the longer of two times: its distance at full speed, and its turn at the full rate.
@@ -306,7 +266,7 @@ def travel_times_s(poses_world: ArrayLike, speed_m_per_s: float, turn_rad_per_s:
     return np.concatenate([[0.0], np.cumsum(np.maximum(took, 1e-3))])
 
 
-def _reported_steps(steps: NDArray[np.float64], noise: OdometryNoise, rng: np.random.Generator) -> NDArray[np.float64]:
+def _reported_steps(steps: Floats, noise: OdometryNoise, rng: np.random.Generator) -> Floats:
     """Return the reported steps, (S - 1, 3), given true steps, each in the frame of its first pose."""
     # Divide each step into turn, straight, turn.
     normals, slips = rng.standard_normal((len(steps), 4)), rng.random((len(steps), 2))
@@ -322,7 +282,7 @@ def _reported_steps(steps: NDArray[np.float64], noise: OdometryNoise, rng: np.ra
     spread = np.sqrt(noise.distance_per_m**2 * distance + noise.distance_per_rad**2 * turned)
     reported = (1.0 + noise.distance_scale) * signed + spread * normals[:, 0]
 
-    def turn(true: NDArray[np.float64], normal: NDArray[np.float64]) -> NDArray[np.float64]:
+    def turn(true: Floats, normal: Floats) -> Floats:
         sigma = np.sqrt(noise.turn_per_m**2 * distance / 2 + noise.turn_per_rad**2 * np.abs(true))
         return np.asarray((1.0 + noise.turn_scale) * true + noise.drift_rad_per_m * distance / 2 + sigma * normal)
 
@@ -334,7 +294,7 @@ def _reported_steps(steps: NDArray[np.float64], noise: OdometryNoise, rng: np.ra
     return np.stack([reported * np.cos(first), reported * np.sin(first), wrapped(first + last)], axis=-1)
 
 
-def related_pairs(poses_world: NDArray[np.float64], seed: int = 0) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+def related_pairs(poses_world: Floats, seed: int = 0) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
     """Choose pairs of poses up to `NEAR_M` apart: successive poses, and on average two others per pose.
 
     Kuemmerle et al. (2009) relate poses whose scans a person can align: neighbours in time, and places seen again.
@@ -351,9 +311,8 @@ def related_pairs(poses_world: NDArray[np.float64], seed: int = 0) -> tuple[NDAr
     far = np.stack([start, start + gap], axis=1)[start + gap < count]
     pairs = np.concatenate([pairs, far])
     # Keep distinct pairs that are close enough, up to the number wanted.
+    pairs = pairs[np.sort(np.unique(pairs, axis=0, return_index=True)[1])]
     apart = np.hypot(*(poses_world[pairs[:, 0], :2] - poses_world[pairs[:, 1], :2]).T)
-    _, first = np.unique(pairs, axis=0, return_index=True)
-    kept = pairs[np.sort(first)]
-    kept = kept[apart[np.sort(first)] <= NEAR_M][: PAIRS_A_POSE * count]
+    kept = pairs[apart <= NEAR_M][: PAIRS_A_POSE * count]
     order = np.lexsort((kept[:, 1], kept[:, 0]))
     return kept[order, 0], kept[order, 1]
