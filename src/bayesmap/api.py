@@ -54,7 +54,6 @@ from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
 
 FIT = "fit"
-
 TAKE_POSES = ("wall-gibbs", "wall-blocks", "stop-gibbs")
 """Samplers that can sample unknown poses."""
 
@@ -107,23 +106,14 @@ def infer(
 
 @dataclass(frozen=True, eq=False)
 class Inference:
-    """The arguments of `infer`, checked.
+    """The arguments of `infer`, checked."""
 
-    Attributes:
-        model: model of the readings; if the sensor is fitted, with the sensor that the fit starts from.
-        name, method: name of the method, and the method with its options.
-        plan: sweeps and draws of each chain.
-        asked: number of draws, seed and options of methods without chains; chains take number and seed from it too.
-        fitted: whether the sensor is to be fitted.
-        where: threads, device and executor.
-    """
-
-    model: Model
-    name: str
+    model: Model  # if the sensor is fitted, with the sensor that the fit starts from
+    name: str  # of the method
     method: Method
-    plan: SweepPlan
-    asked: DrawRequest
-    fitted: bool
+    plan: SweepPlan  # of each chain
+    asked: DrawRequest  # for methods without chains; chains take their number and seed from it too
+    fitted: bool  # whether the sensor is to be fitted
     where: Where
 
     @classmethod
@@ -218,30 +208,29 @@ class Inference:
             if stopped is not None:
                 parameters = Parameters.from_description(stopped.settings["fitted"])
             else:
-                problem = sampler.prepare(self.model, self.device, self.threads, watch)
+                problem = sampler.prepare(self.model, self.where.device, self.where.threads, watch)
                 cells = problem.cells if self.model.poses.unknown else problem
                 begin(StopGibbs(), cells)
                 parameters = fit(cells, self.asked.seed, min(PILOT_SWEEPS, plan.warmup), watch)
                 del problem, cells  # their memory is needed by the chains
             settings["fitted"] = parameters.describe()
         elif self.fitted:
-            model = replace(
-                model, sensor=fit_sensor(model, self.device, seed=self.asked.seed, threads=self.threads, watch=watch)
-            )
+            sensor = fit_sensor(model, self.where.device, seed=self.asked.seed, threads=self.where.threads, watch=watch)
+            model = replace(model, sensor=sensor)
             settings["fitted"] = {"sensor": describe(model.sensor)}
         # Fit the coupling of walls.
         if model.cells.is_incomplete:
-            walls = sampler_on_walls(self.kernel)
             prior = fit_coupling_to_scans(
-                model, walls, self.device, seed=self.asked.seed, threads=self.threads, watch=watch
-            )
+                model, sampler_on_walls(self.kernel), self.where.device,
+                seed=self.asked.seed, threads=self.where.threads, watch=watch,
+            )  # fmt: skip
             model = replace(model, cells=prior)
             settings["fitted"] = {**settings.get("fitted", {}), "prior": prior.describe()}
         seconds = {"fit": time.perf_counter() - began if "fitted" in settings else 0.0}
         settings["threads_used"] = self._threads_used()
         # Sample: independent maps, or chains.
         if sampler is None:
-            problem = trace_walls(model, self.device, self.threads)
+            problem = trace_walls(model, self.where.device, self.where.threads)
             seconds["trace"] = time.perf_counter() - began - seconds["fit"]
             draws = WITHOUT_CHAINS[self.kernel](problem, self.asked, watch)
             seconds["total"] = passed()
@@ -255,7 +244,7 @@ class Inference:
         prepared, here = None, isinstance(executor, ThreadExecutor) and not model.poses.unknown
         first = checkpoints.preview is not None or plan.seconds is not None
         if first and parameters is None and stopped is None and here:
-            prepared = sampler.prepare(model, self.device, self.threads, watch)
+            prepared = sampler.prepare(model, self.where.device, self.where.threads, watch)
             begin(sampler, prepared)
         settings["warmup"] = plan.warmup
         if plan.seconds is not None:
@@ -264,13 +253,12 @@ class Inference:
         assert sampler is not None
         save = checkpoints.save
         job = Job(
-            model, sampler, plan, self.asked.seed, tuple(range(self.asked.chains)), self.device, self.threads,
-            parameters, prepared,
+            model, sampler, plan, self.asked.seed, tuple(range(self.asked.chains)),
+            self.where.device, self.where.threads, parameters, prepared,
         )  # fmt: skip
-        chains = executor.run(
-            job, None if stopped is None else chains_of(stopped), watch,
-            None if save is None else lambda chains: save(as_run(chains)), checkpoints.every_s,
-        )  # fmt: skip
+        started = None if stopped is None else chains_of(stopped)
+        keep = None if save is None else lambda chains: save(as_run(chains))
+        chains = executor.run(job, started, watch, keep, checkpoints.every_s)
         return as_run(chains)
 
     @property
@@ -278,19 +266,9 @@ class Inference:
         """Return the name of the sampler that implements the method for this kind of cells."""
         return self.model.cells.methods[self.name]
 
-    @property
-    def device(self) -> str:
-        """Return the device on which kernels run."""
-        return self.where.device
-
-    @property
-    def threads(self) -> int | None:
-        """Return the number of CPU threads; None for all cores."""
-        return self.where.threads
-
     def _check_memory(self, executor: Executor) -> None:
         """Refuse a map if its chains over hits would not fit into memory."""
-        if self.kernel == "stop-gibbs" and self.device == "cpu":
+        if self.kernel == "stop-gibbs" and self.where.device == "cpu":
             here = self.asked.chains if isinstance(executor, ThreadExecutor) else 1  # elsewhere: the pilot alone
             check_memory(self.model.grid, self.model.scans, self.model.cells.has_surfaces, here)
 
@@ -336,7 +314,7 @@ class Inference:
         from bayesmap.kernels.device import available_cores
 
         # The GPU may be on another machine, so this process does not look for it.
-        return (self.threads or available_cores()) if self.device == "cpu" else 1
+        return (self.where.threads or available_cores()) if self.where.device == "cpu" else 1
 
 
 @near_names

@@ -24,11 +24,7 @@ MORE_DRAWS = 10
 
 
 def need_value(function: str, name: str, value: object, kind: type) -> None:
-    """Refuse an argument that is not of the class ``kind``.
-
-    Raises:
-        BadInput: the argument has another class; the message shows an example.
-    """
+    """Raise BadInput, with an example, for an argument that is not of the class ``kind``."""
     if not isinstance(value, kind):
         example = f"bm.{kind.__name__}()"
         raise BadInput(f"{function}: {name} must be one such as {example}, got {value!r}")
@@ -78,9 +74,7 @@ class Schedule:
     def completed(self, sweeps_a_draw: int, default_draws: Callable[[int], int]) -> Schedule:
         """Return the schedule with ``thin``, ``draws`` and ``precision`` filled in.
 
-        Args:
-            sweeps_a_draw: ``thin`` if neither it nor ``draws`` is given.
-            default_draws: number of draws of a chain that suits the cells, for a given ``thin``.
+        ``sweeps_a_draw`` is ``thin`` if neither it nor ``draws`` is given. ``default_draws`` takes ``thin``.
         """
         thin = (sweeps_a_draw if self.draws is None else 1) if self.thin is None else self.thin
         if self.draws is not None:
@@ -150,8 +144,8 @@ class Checkpoints:
         if self.resume is not None and not hasattr(self.resume, "posterior"):
             raise BadInput(f"Checkpoints: resume must be a run, such as bm.load('run.nc'), got {self.resume!r}")
         for name, what in (("save", "run"), ("preview", "run"), ("trajectory", "trajectory")):
-            given = getattr(self, name)
-            if given is not None and not callable(given):
-                raise BadInput(f"Checkpoints: {name} must be a function that takes a {what}, got {given!r}")
+            callback = getattr(self, name)
+            if callback is not None and not callable(callback):
+                raise BadInput(f"Checkpoints: {name} must be a function that takes a {what}, got {callback!r}")
         if not self.every_s >= 0:
             raise BadInput(f"Checkpoints: every_s must be 0 or a positive number of seconds, got {self.every_s!r}")

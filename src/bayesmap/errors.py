@@ -22,17 +22,7 @@ class BadInput(ValueError):
 
 
 def check_count(where: str, name: str, value: int, least: int) -> int:
-    """Return a value as a whole number, or raise an error.
-
-    Args:
-        where: function or object that takes the number, for the message.
-        name: name of the argument.
-        value: the value.
-        least: smallest allowed value.
-
-    Raises:
-        BadInput: the value is not a whole number, or is below ``least``.
-    """
+    """Return the argument ``name`` of ``where`` as an int; raise BadInput unless it is whole and at least ``least``."""
     number = hasattr(value, "__float__") and not isinstance(value, bool | str)
     if not number or not math.isfinite(value) or value != int(value) or value < least:
         raise BadInput(f"{where}: {name} must be a whole number of {least} or more, got {value!r}")

@@ -19,11 +19,9 @@ from bayesmap.errors import BadInput
 def write_whole(path: str | os.PathLike[str]) -> Iterator[Path]:
     """Yield a temporary path. If the block succeeds, the file written there becomes ``path``.
 
-    The temporary file lies in the same folder, since a rename within a file system is atomic. It keeps the suffix of
-    ``path``, since some libraries choose a format by it. It is flushed to disk before the rename: after a crash or a
-    kill ``path`` holds either the old or the new content. If ``path`` is a symbolic link, its target is replaced.
-
-    If the block raises an error, the temporary file is removed and ``path`` is unchanged.
+    The temporary file lies in the same folder, since a rename within a file system is atomic, and has the suffix of
+    ``path``, since some libraries choose a format by it. It is flushed to disk before the rename: after an error, a
+    crash or a kill ``path`` holds either the old or the new content. A symbolic link's target is replaced.
 
     Raises:
         BadInput: the folder does not exist, or cannot be written to.
@@ -63,12 +61,10 @@ def write_text(path: str | os.PathLike[str], lines: Iterable[str]) -> Path:
 
 @contextlib.contextmanager
 def write_whole_folder(path: str | os.PathLike[str], may_replace: Callable[[Path], bool]) -> Iterator[Path]:
-    """Yield the name of a temporary folder. If the block succeeds, the folder made there becomes ``path``.
+    """Yield the name of a temporary folder, to be made by the block. If the block succeeds, it becomes ``path``.
 
-    The temporary folder is hidden, lies beside ``path``, and is made by the block. An older folder at ``path`` is
-    removed whole, but only if ``may_replace`` accepts it: a typing error must not delete a folder with other content.
-
-    If the block raises an error, the temporary folder is removed and ``path`` is unchanged.
+    An older folder at ``path`` is removed whole, but only if ``may_replace`` accepts it: a typing error must not delete
+    a folder with other content. If the block raises an error, ``path`` is unchanged.
 
     Raises:
         BadInput: ``path`` may not be replaced, or its parent folder is missing or not writable.

@@ -63,12 +63,7 @@ class Model:
         return (*self.cells.arrays, POSES) if self.poses.unknown else self.cells.arrays
 
     def state(self, cells: Cells) -> State:
-        """Return a state with these cells, the model's sensor, and the poses of the log.
-
-        Args:
-            cells: arrays over the whole grid, such as those of a run's draw (`bayesmap.cells.arrays.Draws.cells`).
-                Cells without a value in the draw get a state of the prior.
-        """
+        """Return a state with these cells, arrays over the whole grid; cells without a value get one of the prior."""
         return State(self.cells.completed(cells, self.grid), self.sensor, self.scans.poses)
 
     def log_joint(self, state: State) -> float:
@@ -111,12 +106,8 @@ def log_likelihoods(
 ) -> Floats:
     """Compute log p(reading | map) of every beam, (B,), by the formula of this module; 0 for an invalid reading.
 
-    Args:
-        rays: beams and their readings.
-        states: the map, in the form of `bayesmap.beams.rays.stops_of`.
-        sensor: the law of the readings.
-        hit_depth: point where a beam stops in a cell without a surface.
-        beta: inverse temperature, the power of the sensor's law p(z | stop).
+    The map ``states`` has the form of `bayesmap.beams.rays.stops_of`. The inverse temperature ``beta`` is the power of
+    the sensor's law p(z | stop).
     """
     stops = stops_of(rays, states, hit_depth)
     beam, last = rays.beam_of_entry(), np.arange(rays.n_beams)

@@ -78,8 +78,8 @@ class Run:
         """Return the posterior mean of the probability that a cell stops a beam, (nx, ny).
 
         For binary walls it is the probability of a wall. With surfaces it is the probability that a beam which enters
-        the cell's square stops inside it, at a surface of any cell (docs/surfaces.md). Except for walls it averages
-        the expectations of the draws: the mean of ``draws`` has the same limit, but more noise.
+        the cell's square stops inside it (docs/surfaces.md). Except for walls it has less noise than the mean of
+        ``draws``.
         """
         return self.posterior.occupancy
 
@@ -100,13 +100,11 @@ class Run:
         Unobserved cells have the prior's mean. The array is made on first use: 1 or 4 bytes per cell and draw.
         """
         draws = self.posterior.draws
-        out: NDArray[Any] | None = None
+        walls = self.n_draws == 0 or self.map_of(0, 0).dtype == np.bool_
+        maps = np.empty((draws.chains, draws.count, *self.grid.shape), np.bool_ if walls else np.float32)
         for chain, draw in draws.numbers():
-            one = self.map_of(chain, draw)
-            if out is None:
-                out = np.empty((draws.chains, draws.count, *one.shape), np.bool_ if one.dtype == bool else np.float32)
-            out[chain, draw] = one
-        return np.zeros((draws.chains, draws.count, *self.grid.shape), dtype=np.bool_) if out is None else out
+            maps[chain, draw] = self.map_of(chain, draw)
+        return maps
 
     @property
     def n_draws(self) -> int:
@@ -200,11 +198,9 @@ class Run:
     ) -> float:  # fmt: skip
         """Compute the mean log predictive density of the scans' valid readings: nats per beam, averaged over draws.
 
-        Args:
-            heldout_scans: scans that the run has not seen.
-            sensor: another law of the readings; needed only for a loaded run with your own sensor model.
-            on_progress: called with the number of finished draws and their total.
-            device: "cpu" or a CUDA device such as "cuda:0".
+        The run has not seen these scans. Another ``sensor`` is needed only for a loaded run with your own sensor model.
+        ``on_progress`` is called with the number of finished draws and their total. The device is "cpu", or a CUDA
+        device such as "cuda:0".
 
         Raises:
             BadInput: no draws, no valid reading, a sensor that cannot score this run, or no such device.
@@ -214,13 +210,9 @@ class Run:
     def free_probability(self, path: ArrayLike, radius_m: float) -> FreeProbability:
         """Compute the probability that a disc moves along a path without touching anything: the share of joint draws.
 
-        Args:
-            path: corners of the path of the disc's centre, world frame, metres, (P, 2); one point for a standing disc.
-            radius_m: radius of the disc.
-
-        Returns:
-            ``.probability`` with its Monte Carlo ``.standard_error``, and ``.independent``: the product over
-            independent cells.
+        The path has the corners of the way of the disc's centre, world frame, metres, (P, 2); one point for a standing
+        disc. Returns ``.probability`` with its Monte Carlo ``.standard_error``, and ``.independent``: the product over
+        independent cells.
 
         Raises:
             BadInput: a run without draws, a path that is invalid or leaves the map, or a radius that is not positive.
@@ -230,16 +222,10 @@ class Run:
         return path_is_free(self.posterior, path, radius_m)
 
     def plan(self, start: ArrayLike, goal: ArrayLike, radius_m: float, risk: float = 0.01) -> Route:
-        """Plan the shortest path of a disc from start to goal whose risk of touching something stays under a bound.
+        """Plan the shortest path of a disc whose probability of touching something is at most ``risk``.
 
-        Args:
-            start: start in the world frame, metres, (2,).
-            goal: goal in the world frame, metres, (2,).
-            radius_m: radius of the disc.
-            risk: largest accepted probability of touching something.
-
-        Returns:
-            The path with its `free_probability`. If no path is ``.within_risk``, it is the safest one.
+        Start and goal are points of the world frame in metres, (2,). Returns the path with its `free_probability`. If
+        no path is ``.within_risk``, it is the safest one.
 
         Raises:
             BadInput: a run without draws; start or goal outside the map or blocked in nearly every draw; no path.
@@ -314,9 +300,32 @@ class Run:
         Raises:
             BadInput: xarray is not installed; with ``by_reading``, no draws or an unknown sensor model.
         """
-        from bayesmap.posterior.dataset import dataset_of
-
-        return dataset_of(self.posterior, by_reading)
+        try:
+            import xarray
+        except ImportError:
+            raise BadInput("dataset: needs xarray: pip install 'bayesmap[arviz]'") from None
+        # Arrays of the draws, then densities, then marginals.
+        posterior = self.posterior
+        draws, ny = posterior.draws, posterior.grid.shape[1]
+        x, y = posterior.grid.centers_m()
+        variables = {
+            spec.name: (("chain", "draw", *spec.dims), draws.values(spec.name), {"long_name": spec.what})
+            for spec in draws.specs
+        }
+        for name in ("log_joint", "log_likelihood", "log_prior"):
+            values = getattr(posterior, name)
+            variables["lp" if name == "log_joint" else name] = (("chain", "draw"), values, {"units": "nats"})
+        words = posterior.prior.words
+        variables["occupancy"] = (("x", "y"), posterior.occupancy, {"long_name": words.mean})
+        variables["observed"] = (("x", "y"), posterior.observed, {"long_name": "some beam says something of the cell"})
+        coordinates = {
+            "chain": np.arange(draws.chains), "draw": np.arange(draws.count),
+            "x": ("x", x, {"units": "m"}), "y": ("y", y, {"units": "m"}),
+        }  # fmt: skip
+        for dimension, cells in draws.index.items():
+            coordinates[f"{dimension}_x"] = (dimension, cells // ny)
+            coordinates[f"{dimension}_y"] = (dimension, cells % ny)
+        return xarray.Dataset(variables, coordinates, {"cells": words.kind, "method": posterior.settings["method"]})
 
     def save(
         self, path: str | os.PathLike[str], on_progress: Callable[[int, int], None] = lambda done, total: None, *,
@@ -353,16 +362,12 @@ class Run:
         return posterior_figure(self.grid, self.occupancy, self.observed, **options)
 
     def export(self, path: str | os.PathLike[str], **options: Any) -> tuple[Any, ...]:
-        """Write the map, or the trajectory, for other programs; the path's ending chooses the format.
+        """Write the map, or the trajectory, for other programs, and return the paths of the written files.
 
-        Formats are map_server YAML, recordings for ROS 1 and 2, GeoTIFF, rerun and TUM, with the options of
-        `bayesmap.io.exports.export_run`. Maps of occupied, free and unknown cells use the thresholds of the kind of
-        cells by default. A wall counts as occupied only if its probability is over one half. Reflectivities have a
-        lower threshold, since a robot cannot stand in a cell that surely stops three beams in ten. A cell of
-        reflectivities below the free threshold is unknown unless enough beams passed it (docs/defaults.md).
-
-        Returns:
-            The paths of the written files.
+        The path's ending chooses the format: map_server YAML, recordings for ROS 1 and 2, GeoTIFF, rerun or TUM, with
+        the options of `bayesmap.io.exports.export_run`. Maps of occupied, free and unknown cells use the thresholds of
+        the kind of cells by default. A cell of reflectivities below the free threshold is unknown unless enough beams
+        passed it (docs/defaults.md).
 
         Raises:
             BadInput: the map of a run that was stopped before its first draw, an unknown ending, or a file that cannot
@@ -425,11 +430,9 @@ def _overview(posterior: Posterior) -> tuple[str, list[tuple[str, str]]]:
     if not posterior.has_chains:
         work = f"{chains * draws:,} independent draws"
     state = "finished" if posterior.finished else "not finished"
-    fit = "no draws yet"
-    if joint.size:
-        fit = f"{joint.mean():,.1f} on average"
-        if posterior.has_chains and draws >= 4:
-            fit += f", R-hat {rhat(joint):.3f}"
+    fit = f"{joint.mean():,.1f} on average" if joint.size else "no draws yet"
+    if joint.size and posterior.has_chains and draws >= 4:
+        fit += f", R-hat {rhat(joint):.3f}"
     seen = f"{np.count_nonzero(posterior.observed):,} of {posterior.observed.size:,} cells observed"
     return title, [
         ("scans", f"{counts['scans']:,}, {counts['beams']:,} beams; {seen}"),
