@@ -55,15 +55,9 @@ class Mapped(NamedTuple):
 
 
 def map_over(in_axes: InAxes, args: tuple[Any, ...], n: int | None = None) -> Mapped:
-    """Return the leaves of `args` with their mapped axes.
+    """Return the leaves of `args` with their mapped axes, which are given and checked as for `jax.vmap`.
 
-    Args:
-        in_axes: mapped axes as for `jax.vmap`; None with `n` repeats the same arguments.
-        args: arguments.
-        n: number of elements, if no argument determines it.
-
-    Raises:
-        ValueError, TypeError: the axes do not fit, as for `jax.vmap`.
+    None with the number `n` of elements repeats the same arguments.
     """
     # Let `jax.vmap` check the axes; then give each leaf its axis.
     axes = tuple(in_axes) if isinstance(in_axes, list) else in_axes
@@ -77,11 +71,7 @@ def map_over(in_axes: InAxes, args: tuple[Any, ...], n: int | None = None) -> Ma
 
 
 def check_index(index: Any, n: int) -> Any:
-    """Return the index, made non-negative if it is known.
-
-    Raises:
-        UnknownAddress: the index is known to lie outside 0 .. n - 1 and -n .. -1.
-    """
+    """Return the index, made non-negative if it is known; raise UnknownAddress if it is known to be out of range."""
     if is_concrete(index) and jnp.ndim(index) == 0:
         if not -n <= int(index) < n:
             raise UnknownAddress(int(index), f"there are {n} elements")
@@ -93,18 +83,10 @@ def check_index(index: Any, n: int) -> Any:
 
 
 def dense(chm: ChoiceMap, shape: tuple[int, ...]) -> tuple[Any, Any] | None:
-    """Return a choice map without names as one array, with a flag for each given element.
+    """Return a choice map of values, perhaps at indices into `shape`, as one array, with a flag for each element.
 
-    Args:
-        chm: choice map of values, perhaps at indices.
-        shape: leading axes from which indices may select.
-
-    Returns:
-        (array of shape `shape + ...`, flag of shape `shape`, or None if all elements are given); None for an empty map.
-
-    Raises:
-        ShapeMismatch: an array is too long or too short.
-        UnknownAddress: the map has a name, or an index out of range.
+    Returns (array of shape `shape + ...`, flag of shape `shape`, or None if all elements are given); None for an empty
+    map. Raises ShapeMismatch for an array of the wrong length, UnknownAddress for a name or an index out of range.
     """
     if chm.static_is_empty():
         return None
@@ -118,13 +100,13 @@ def dense(chm: ChoiceMap, shape: tuple[int, ...]) -> tuple[Any, Any] | None:
             return value, None
         case Indexed(inner, index) if shape:
             index = check_index(index, shape[0])
-            value, given = dense(inner, jnp.shape(index) + shape[1:]) or (None, None)
-            present = True if given is None else given
-            return _put(value, index, shape[0]), jnp.zeros(shape, bool).at[index].set(present)
+            value, flag = dense(inner, jnp.shape(index) + shape[1:]) or (None, None)
+            present = jnp.zeros(shape, bool).at[index].set(True if flag is None else flag)
+            return _put(value, index, shape[0]), present
         case Or() | Switch():
             parts = (chm.c1, chm.c2) if isinstance(chm, Or) else chm.chms
-            found = [Mask(v, True if f is None else f) for v, f in filter(None, (dense(p, shape) for p in parts))]
-            joined = reduce(overlay, found)
+            masks = [Mask(v, True if f is None else f) for v, f in filter(None, (dense(p, shape) for p in parts))]
+            joined = reduce(overlay, masks)
             return joined.value, jnp.broadcast_to(joined.flag, shape)
     raise UnknownAddress(next(chm.paths()), "the model has a bare value or an array there")
 
@@ -132,9 +114,7 @@ def dense(chm: ChoiceMap, shape: tuple[int, ...]) -> tuple[Any, Any] | None:
 def vectorise(chm: ChoiceMap, n: int) -> ChoiceMap:
     """Return the choice map with a leading axis of length `n` on every leaf, ready to be mapped over.
 
-    Raises:
-        ShapeMismatch: an array's leading axis is not `n`.
-        UnknownAddress: an index is out of range.
+    Raises ShapeMismatch for an array of another length, UnknownAddress for an index out of range.
     """
     match chm:
         case Choice(Mask(value, flag)):
@@ -197,7 +177,6 @@ def total(scores: Any) -> Any:
     """Return the sum of an array of scores, shape ().
 
     Without the barrier XLA merges this sum with the sums inside the scores into one long loop, which loses a digit.
-    With the barrier compiled and uncompiled scores agree.
     """
     return jnp.sum(jax.lax.optimization_barrier(scores))  # type: ignore[no-untyped-call]
 
@@ -223,8 +202,7 @@ CACHE_BYTES, DEVICE_BYTES = 1 << 20, 1 << 28
 def in_chunks(fn: Callable[..., Any], *args: Any) -> Any:
     """Return `fn(*args)`. Under `jax.vmap` run elements in chunks, so that every intermediate array is small.
 
-    Memory is then that of the results and of one chunk. XLA moves work that all elements share out of the loop over
-    chunks, so it is done once. In one large batch XLA may repeat this work for each element.
+    XLA moves work that all elements share out of the loop over chunks. In one large batch it may repeat this work.
     """
     leaves, treedef = jax.tree.flatten(args)
     traced = [k for k, x in enumerate(leaves) if isinstance(x, jax.core.Tracer)]
@@ -242,18 +220,18 @@ def in_chunks(fn: Callable[..., Any], *args: Any) -> Any:
     def _(axis_size: int, in_batched: list[bool], *values: Any) -> Any:
         moving = [v for v, b in zip(values, in_batched, strict=True) if b]
 
-        def one(moving: list[Any]) -> Any:
+        def of_element(moving: list[Any]) -> Any:
             rest = iter(moving)
             return of_traced(*(next(rest) if b else v for v, b in zip(values, in_batched, strict=True)))
 
         # Choose the chunk so that its largest array fits.
-        largest = _largest_array(jax.make_jaxpr(one)([v[0] for v in moving]).jaxpr)
+        largest = _largest_array(jax.make_jaxpr(of_element)([v[0] for v in moving]).jaxpr)
         chunk = (CACHE_BYTES if jax.default_backend() == "cpu" else DEVICE_BYTES) // largest
         if chunk >= axis_size:
-            out = jax.vmap(one)(moving)
+            out = jax.vmap(of_element)(moving)
         else:
             chunk = _even_share(axis_size, chunk)
-            out = jax.lax.map(one, moving, batch_size=chunk if chunk > 1 else None)
+            out = jax.lax.map(of_element, moving, batch_size=chunk if chunk > 1 else None)
         return out, jax.tree.map(lambda _: True, out)
 
     # Derivatives are those of the function itself: custom_vmap has no reverse mode.

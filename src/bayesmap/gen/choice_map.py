@@ -9,6 +9,7 @@ addresses a map has: the map stores the value as a Mask.
 """
 
 from collections.abc import Callable, Iterable, Iterator
+from contextlib import suppress
 from functools import reduce
 from typing import Any
 
@@ -50,18 +51,16 @@ def leaf_text(value: Any) -> str:
 
 def pretty() -> None:
     """Make notebooks show values by treescope, if it is installed. Without it they show the same tree as text."""
-    try:
+    with suppress(ImportError, RuntimeError):  # treescope raises RuntimeError outside IPython
         import treescope
 
         treescope.register_as_default()
         treescope.register_autovisualize_magic()
-    except (ImportError, RuntimeError):  # treescope raises RuntimeError outside IPython
-        return
 
 
 def render(value: Outlined) -> str:
     """Return the text of a trace or a choice map as a tree, one choice per line."""
-    return "\n".join(value.outline())
+    return repr(value)
 
 
 # Maps -------------------------------------------------------------------------------------------------
@@ -95,8 +94,8 @@ class Builder:
         return new | self._base
 
     def update(self, f: Callable[[Any], Any]) -> "ChoiceMap":
-        here = (ChoiceMap.empty() if self._base is None else self._base).get_submap(self._address)
-        return self.set(f(here.get_value() if here.has_value() else here))
+        submap = (ChoiceMap.empty() if self._base is None else self._base).get_submap(self._address)
+        return self.set(f(submap.get_value() if submap.has_value() else submap))
 
     def v(self, value: Any) -> "ChoiceMap":
         return self.set(ChoiceMap.choice(value))
@@ -199,11 +198,7 @@ class ChoiceMap(Outlined, Pytree):
         return self.filter(flag)
 
     def extend(self, *address: Any) -> "ChoiceMap":
-        """Return this map moved below `address`.
-
-        Raises:
-            ValueError: the address has a partial slice, or a second array of indices.
-        """
+        """Return this map moved below `address`, which has no partial slice, and at most one array of indices."""
         acc = self
         for component in reversed(address):
             if isinstance(component, str):
@@ -351,8 +346,9 @@ class Indexed(ChoiceMap):
         if isinstance(component, str):
             return Static({})
         if isinstance(component, slice):
-            problem = f"Slices are not allowed against array-shaped dynamic addresses: there is {self.addr} only"
-            raise ValueError(problem)
+            raise ValueError(
+                f"Slices are not allowed against array-shaped dynamic addresses: only {self.addr} is there"
+            )
         hits = same_index(self.addr, component)
         if jnp.ndim(self.addr) == 0:
             return self.c.filter(hits)
@@ -422,11 +418,7 @@ class Switch(ChoiceMap):
 
 
 def join(left: ChoiceMap, right: ChoiceMap) -> ChoiceMap:
-    """Return everything in either map. If both have a value at an address, the left map's value is returned.
-
-    Raises:
-        ValueError: one map has a value at an address at which the other has names.
-    """
+    """Return everything in either map. If both have a value at an address, the left map's value is returned."""
     if left.static_is_empty() or right.static_is_empty():
         return right if left.static_is_empty() else left
     match left, right:
@@ -445,9 +437,8 @@ def join(left: ChoiceMap, right: ChoiceMap) -> ChoiceMap:
         case (other, Switch(idx, chms)) if jnp.ndim(idx) == 0 and not isinstance(other, Switch):
             return Switch(idx, tuple(other.mask(idx == k) | chm for k, chm in enumerate(chms)))
         case (Choice(), Static()) | (Static(), Choice()):
-            names = next(path for chm in (left, right) for path in chm.paths() if path)
-            problem = f"one has a bare value where the other has a choice {show(names)}"
-            raise ValueError(f"Choice and non-Choice in Or: {problem}")
+            names = show(next(path for chm in (left, right) for path in chm.paths() if path))
+            raise ValueError(f"Choice and non-Choice in Or: one has a bare value where the other has a choice {names}")
     return Or(left, right)
 
 

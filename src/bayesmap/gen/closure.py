@@ -23,11 +23,7 @@ _local = threading.local()
 
 
 def as_path(address: Any) -> StaticAddress:
-    """Return an address of names as a tuple.
-
-    Raises:
-        NotAnAddress: some component is not a string.
-    """
+    """Return an address of names as a tuple; raise NotAnAddress if some component is not a string."""
     path = address if isinstance(address, tuple) else (address,)
     if not all(isinstance(component, str) for component in path):
         raise NotAnAddress(path, "the address of a site is a string or a tuple of strings")
@@ -50,12 +46,7 @@ class Handler:
         raise NotImplementedError
 
     def enter(self, path: StaticAddress) -> None:
-        """Record a site.
-
-        Raises:
-            AddressReuse: another site is at, above or below the same address.
-            AddressError: the site lies in a JAX transformation within the body.
-        """
+        """Record a site. Raise an AddressError if its address is in use, or if it lies in a JAX transformation."""
         for other in self.visited:
             shared = min(len(other), len(path))
             if other[:shared] == path[:shared]:
@@ -271,12 +262,8 @@ def dimap(
 ) -> Callable[[GenerativeFunction], Dimap]:
     """Return a decorator that transforms arguments by `pre` and the return value by `post`.
 
-    Args:
-        pre: takes the arguments, and returns the inner function's arguments as a tuple.
-        post: takes (arguments, inner arguments, inner return value).
-
-    Raises, when it runs:
-        TypeError: `pre` does not return a tuple.
+    `pre` returns the inner function's arguments as a tuple. `post` takes (arguments, inner arguments, inner return
+    value).
     """
     return lambda gen_fn: Dimap(gen_fn.as_part(), pre, post)
 

@@ -1,8 +1,6 @@
 """Values with what is known of their change since a trace was made, and how functions pass changes on.
 
-`edit` takes its arguments as a tree of `Diff` leaves, and returns its return value as one. A tangent is `NoChange`,
-`UnknownChange` or `IndexChange(index)`. The last one says that the array differs from the old one at `index` alone, so
-that a generative function can recompute only what this element affects.
+`edit` takes its arguments as a tree of `Diff` leaves, and returns its return value as one.
 """
 
 import dataclasses
@@ -152,10 +150,7 @@ class _Origin:
 
 
 def dataflow(fn: Callable[..., Any], *inputs: Any) -> list[_Origin] | None:
-    """Return the origin of each output leaf of `fn` among the input leaves, read off its jaxpr.
-
-    Returns None if `fn` cannot run without the inputs' concrete values.
-    """
+    """Return the origin of each output leaf of `fn`, read off its jaxpr; None if `fn` needs the inputs' values."""
     try:
         jaxpr = jax.make_jaxpr(fn)(*inputs).jaxpr
     except TypeError:  # what JAX raises when Python needs the value of a tracer

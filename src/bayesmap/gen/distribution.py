@@ -63,7 +63,8 @@ class Distribution(GenerativeFunction):
         return jax.tree.map(lambda v, o: jnp.asarray(v, jnp.result_type(o)), value, old)
 
     def simulate(self, key: PRNGKey, args: Arguments) -> Trace:
-        _check_tuple(args)
+        if not isinstance(args, tuple):
+            raise TypeError(f"args must be a tuple of arguments, not {type(args).__name__}")
         score, value = self.random_weighted(key, *args)
         return DistributionTrace(self, args, value, score)
 
@@ -124,26 +125,14 @@ class Distribution(GenerativeFunction):
 
 
 def draw_shape(sample_shape: Any) -> tuple[int, ...]:
-    """Return the shape of independent draws as a tuple.
-
-    Args:
-        sample_shape: a number of draws, a sequence of lengths, or a `Const` of either.
-
-    Raises:
-        BadArguments: `sample_shape` is none of them.
-    """
-    given = Const.unwrap(sample_shape)
+    """Return `sample_shape`, a number of draws, a sequence of lengths, or a `Const` of either, as a tuple."""
+    shape = Const.unwrap(sample_shape)
     try:
-        return tuple(map(operator.index, given)) if np.ndim(given) else (operator.index(given),)
+        return tuple(map(operator.index, shape)) if np.ndim(shape) else (operator.index(shape),)
     except TypeError:
         raise BadArguments(
-            f"sample_shape is a number of draws or a tuple of lengths (under jit as a Const), not {given!r}"
+            f"sample_shape is a number of draws or a tuple of lengths (under jit as a Const), not {shape!r}"
         ) from None
-
-
-def _check_tuple(args: Any) -> None:
-    if not isinstance(args, tuple):
-        raise TypeError(f"args must be a tuple of arguments, not {type(args).__name__}")
 
 
 class ExactDensity(Distribution):
@@ -196,20 +185,16 @@ class ExactDensity(Distribution):
     def read(self, choices: ChoiceMap, args: Arguments) -> tuple[Any, Any, Any]:
         """Return (value or None, flag of the given elements or None for all, 0 or -inf if impossible).
 
-        The value has the shape of a draw and keeps its dtype. Integers become real where draws are real, because later
-        edits keep the trace's dtypes and could not move integers.
-
-        Raises:
-            ShapeMismatch: the value does not have the shape of a draw.
-            OutsideSupport: the value is known, and a discrete distribution never draws it.
+        The value keeps its dtype, but integers become real where draws are real: later edits keep the trace's dtypes
+        and could not move integers. Raises ShapeMismatch, and OutsideSupport if a known value is never drawn.
         """
-        found = dense(choices, self.index_shape(args))
+        constraint = dense(choices, self.index_shape(args))
         # The arguments are closed over, not traced: one of them may be a shape.
         expected = jax.eval_shape(lambda key: self.draw(key, args), jax.random.key(0))
-        if found is None:
+        if constraint is None:
             # What has no elements is in no choice map, and needs no value.
             return (jnp.zeros(expected.shape, expected.dtype) if 0 in expected.shape else None), None, 0.0
-        value, given = found
+        value, given = constraint
         if jnp.shape(value) != expected.shape:
             raise ShapeMismatch((), f"found {jnp.shape(value)}, expected {expected.shape}")
         value = jnp.asarray(value)

@@ -37,9 +37,8 @@ from bayesmap.gen.typing import Arguments, PRNGKey, Score, Weight
 class Trace(Outlined, Pytree):
     """A record of one run: arguments, choices, return value, score.
 
-    The fields hold arrays. A batch of traces, from `jax.vmap`, is a trace whose leaves have a leading axis, and the
-    methods below answer for the whole batch. A subclass has the fields `gen_fn` and `args`, and either the fields
-    `retval` and `score` or the methods `get_retval` and `get_score`.
+    A batch of traces, from `jax.vmap`, is a trace whose leaves have a leading axis. A subclass has the fields `gen_fn`
+    and `args`, and either the fields `retval` and `score` or the methods `get_retval` and `get_score`.
     """
 
     gen_fn: Any
@@ -88,17 +87,15 @@ class Trace(Outlined, Pytree):
     def with_args(self, args: Arguments | None) -> "Trace":
         """Return this trace with other arguments.
 
-        A combinator stores the traces of its parts `with_args(None)`, and recomputes their arguments when needed. A
-        batch of traces then holds an argument that all parts share only once. Override this method in a trace whose
-        own edits need the old arguments.
+        A combinator stores the traces of its parts `with_args(None)`, so that a batch of traces holds an argument that
+        all parts share only once. Override this method in a trace whose own edits need the old arguments.
         """
         return self.replace(args=args)
 
     def edit(self, key: PRNGKey, request: EditRequest, argdiffs: Any = None) -> Edited:
         """Carry out a request. Without `argdiffs` the arguments stay the same.
 
-        Returns:
-            (new trace, weight, retdiff, backward request)
+        Returns (new trace, weight, retdiff, backward request).
         """
         if not isinstance(request, EditRequest):
             raise TypeError(f"edit takes an EditRequest, such as Update(choices), not {type(request).__name__}")
@@ -141,8 +138,7 @@ def in_dtypes_of(old: Any, new: Any) -> Any:
 
 # Generative functions ---------------------------------------------------------------------------------
 
-# Combinators are made of generative functions, so `GenerativeFunction` cannot import them. Each combinator registers
-# itself here when its module is imported, and the methods look it up: `model.vmap(in_axes=0)`.
+# `GenerativeFunction` cannot import combinators, which are made of it. Each registers itself here for its method.
 _COMBINATORS: dict[str, Callable[..., Any]] = {}
 
 F = TypeVar("F", bound=Callable[..., Any])
@@ -188,12 +184,7 @@ class GenerativeFunction(Pytree):
         raise NotImplementedError
 
     def assess(self, choices: ChoiceMap, args: Arguments) -> tuple[Score, Any]:
-        """Return (log density of `choices`, return value).
-
-        Raises:
-            MissingAddress: a choice has no value.
-            UnknownAddress: a value belongs to no choice.
-        """
+        """Return (log density of `choices`, return value). Raise MissingAddress or UnknownAddress if choices differ."""
         raise NotImplementedError
 
     def generate(self, key: PRNGKey, constraint: ChoiceMap, args: Arguments) -> tuple[Trace, Weight]:
@@ -209,11 +200,7 @@ class GenerativeFunction(Pytree):
         raise NotImplementedError
 
     def handle_kwargs(self) -> "GenerativeFunction":
-        """Return this function with arguments in the form `((positional, ...), {"name": value, ...})`.
-
-        Raises:
-            TypeError: the function takes no arguments by name.
-        """
+        """Return this function with arguments in the form `((positional, ...), {"name": value, ...})`."""
         raise TypeError(f"a {type(self).__name__} takes no arguments by name")
 
     def as_part(self) -> "GenerativeFunction":

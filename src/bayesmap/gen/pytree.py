@@ -1,8 +1,7 @@
 """Frozen dataclasses that JAX can flatten: the base of every value in this package.
 
 A field declared with `Pytree.static()` belongs to the tree's definition and must be hashable; every other field is a
-subtree. The base provides `tree_flatten_with_keys` and `tree_unflatten`, so that a class decorated by
-`penzai.pz.pytree_dataclass` may inherit from it.
+subtree. A class decorated by `penzai.pz.pytree_dataclass` may inherit from the base.
 """
 
 import dataclasses

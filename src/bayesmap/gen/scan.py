@@ -148,10 +148,8 @@ class Scan(Vectorised):
 def scan(*, n: int | None = None) -> Callable[[GenerativeFunction], Scan]:
     """Return a decorator that turns `(state, x) -> (state, y)` into `(state, xs) -> (last state, ys)`.
 
-    Step t uses the key `fold_in(key of step t - 1, t)`. Addresses of its choices begin with t.
-
-    Args:
-        n: number of steps. It is needed if `xs` is None.
+    Step t uses the key `fold_in(key of step t - 1, t)`. Addresses of its choices begin with t. The number `n` of steps
+    is needed if `xs` is None.
     """
     return lambda gen_fn: Scan(gen_fn.as_part(), n)
 

@@ -145,8 +145,8 @@ class _Assess(Handler):
 class _Edit(_Run):
     """A run that edits each site's trace, given which of the site's arguments changed.
 
-    `flow` stores the origins of each output of the body, None if unknown. `inputs` and `returned` store the changes of
-    the leaves of its arguments and of its sites' return values. `position` counts the outputs so far.
+    `inputs` and `returned` store the changes of the leaves of the body's arguments and of its sites' return values.
+    `position` counts the body's outputs so far.
     """
 
     def __init__(self, key: PRNGKey, old: StaticTrace, request: Callable[[StaticAddress], EditRequest], argdiffs: Any):
@@ -199,9 +199,8 @@ def _flow_of_body(old: StaticTrace, args: Arguments) -> Any:
 def _edit_anew(key: PRNGKey, old: Trace, gen_fn: Any, request: EditRequest, args: Arguments) -> Edited:
     """Edit the trace of a function that the body defined again and that may differ, by scoring the whole trace.
 
-    A request that depends on addresses alone becomes a call of `generate`. For any other request, the function first
-    gets a trace with the old choices, and the request then edits this trace. The weights of the two steps add up, as
-    for new arguments.
+    A request that depends on addresses alone becomes a call of `generate`. Any other request edits the function's trace
+    with the old choices; the weights of the two steps add up.
     """
     choices = old.get_choices()
     match request:
@@ -332,20 +331,17 @@ def _undo(request: EditRequest, backward: dict[StaticAddress, EditRequest]) -> E
 
 def _unpickle(module: str, name: str, partial_args: Any, by_name: bool) -> StaticGenerativeFunction:
     """Return the generative function of the source at `name` in a module, which may be decorated or plain."""
-    found: Any = functools.reduce(getattr, name.split("."), importlib.import_module(module))
-    source = found.source if isinstance(found, StaticGenerativeFunction) else found
+    member: Any = functools.reduce(getattr, name.split("."), importlib.import_module(module))
+    source = member.source if isinstance(member, StaticGenerativeFunction) else member
     return StaticGenerativeFunction(partial_args, source, by_name)
 
 
 def gen(source: Callable[..., Any]) -> StaticGenerativeFunction:
     """Return a Python function as a generative function.
 
-    In its body `g(*args) @ "address"` calls a generative function and records its choices under the address. `@ ()`
-    records them as the function's own choices. The i-th call uses `fold_in(key, i)`, with i from 1.
-
-    Raises, when it runs:
-        AddressReuse: two calls have the same address.
-        MissingAddress, UnknownAddress: given choices do not match the addresses.
+    In its body `g(*args) @ "address"` calls a generative function and records its choices under the address, which no
+    other call may have. `@ ()` records them as the function's own choices. The i-th call uses `fold_in(key, i)`, with i
+    from 1.
     """
     made = StaticGenerativeFunction((), source)
     for name in (*functools.WRAPPER_ASSIGNMENTS, "__wrapped__"):

@@ -47,11 +47,7 @@ class MaskTrace(OuterTrace):
 
 
 def _flag(args: Arguments) -> Any:
-    """Return the first argument: Python's True, or an array. With an array the choices stay in the map, masked.
-
-    Raises:
-        BadArguments: the argument has a shape.
-    """
+    """Return the first argument: Python's True, or an array () with which the choices stay in the map, masked."""
     if jnp.ndim(args[0]) > 0:
         raise BadArguments(f"mask: the flag is an array of shape {jnp.shape(args[0])}; map over it with .mask().vmap()")
     return True if args[0] is True else jnp.asarray(args[0], bool)
@@ -132,7 +128,6 @@ class SwitchTrace(Trace):
         branches = [t.with_args(a) for t, a in zip(self.branches, all_args, strict=True)]
         if is_concrete(self.index) and jnp.ndim(self.index) == 0:
             return branches[int(self.index)].get_inner_trace(address)
-        # The number is known at run time only: select among the subtraces of all branches with the address.
         subtraces = {}
         for k, trace in enumerate(branches):
             with suppress(AddressError):
@@ -150,12 +145,8 @@ class SwitchTrace(Trace):
 def run_branch(index: Any, thunks: Sequence[Callable[[], tuple[Any, Any]]]) -> tuple[tuple[Any, ...], Any]:
     """Run thunk number `index`. Each thunk returns (own result, shared result).
 
-    Returns:
-        (own results of all thunks, with zeros for those that did not run; shared result of the one that ran, in the
-        thunks' common dtypes and shapes).
-
-    Raises:
-        ValueError: the shapes of the shared results do not go together.
+    Returns (own results of all thunks, with zeros for those that did not run; shared result of the one that ran, in the
+    thunks' common dtypes and shapes).
     """
     blank, shapes = zip(*(jax.eval_shape(t) for t in thunks), strict=True)
     common = jax.tree.map(lambda *s: (jnp.broadcast_shapes(*(x.shape for x in s)), jnp.result_type(*s)), *shapes)
@@ -179,11 +170,7 @@ class Switch(GenerativeFunction):
     branches: tuple[GenerativeFunction, ...]
 
     def _read(self, args: Any) -> tuple[Any, list[Any]]:
-        """Return (index, arguments of each branch).
-
-        Raises:
-            BadArguments: the index is known and out of range, or the number of arguments is wrong.
-        """
+        """Return (index, arguments of each branch). Raise BadArguments for a known index out of range."""
         index, *rest = args
         index, n = Diff.tree_primal(index), len(self.branches)
         if len(rest) != n:
@@ -208,11 +195,7 @@ class Switch(GenerativeFunction):
         return SwitchTrace(self, args, index, traces, retval, score), weight
 
     def _parts(self, choices: ChoiceMap, args: Sequence[Any]) -> list[ChoiceMap]:
-        """Return for each branch the choices that it can make.
-
-        Raises:
-            UnknownAddress: no branch has a choice.
-        """
+        """Return for each branch the choices that it can make; raise UnknownAddress if no branch has a choice."""
         known = [fn.choice_shapes(a).get_selection() for fn, a in zip(self.branches, args, strict=True)]
         everything = reduce(operator.or_, known)
         for path in choices.filter(~everything).paths():

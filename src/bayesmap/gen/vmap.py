@@ -251,12 +251,8 @@ def vmap(*, in_axes: InAxes = 0) -> Callable[[GenerativeFunction], Any]:
     The i-th element uses the key `split(key, n)[i]`. Choices and return values have a leading axis, and the address of
     a choice of element i begins with i.
 
-    Args:
-        in_axes: mapped axes as for `jax.vmap`, one entry per argument. None shares an argument among the elements.
-
-    Raises, when it runs:
-        ValueError, TypeError: the axes do not fit, as for `jax.vmap`.
-        ShapeMismatch: a constraint's leading axis is not n.
+    The axes `in_axes` are given and checked as for `jax.vmap`, one entry per argument. None shares an argument among
+    the elements.
     """
     return lambda gen_fn: _mapped(gen_fn, tuple(in_axes) if isinstance(in_axes, list) else in_axes, None)
 

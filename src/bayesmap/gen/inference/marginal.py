@@ -71,7 +71,7 @@ class Marginal(SampleDistribution):
                 estimate_key, target, hidden, trace.get_score()
             )
             return MarginalTrace(self, args, shown, trace.get_retval(), score)
-        # Conditional importance sampling: this run is one of the particles. Without it, 1 / density would be biased.
+        # Conditional importance sampling: this run is one of the particles, else 1 / density would be biased.
         weights = trace.project(simulate_key, self.selection)[None]
         if self.particles > 1:
             _, others = self._estimate(estimate_key, shown, args, self.particles - 1)
@@ -128,8 +128,8 @@ def marginal(
 ) -> Callable[[GenerativeFunction], Marginal]:
     """Return a decorator that keeps the selected choices and marginalises the others.
 
-    The score is exact if no choice is marginalised. Otherwise importance sampling with `particles` runs, or an
-    algorithm, estimates the score so that `generate` returns unbiased weights.
+    Unless the score is exact, importance sampling with `particles` runs, or an algorithm, estimates it so that
+    `generate` returns unbiased weights.
     """
     shown = Selection.all() if selection is None else selection
     return lambda gen_fn: Marginal(gen_fn.as_part(), shown, algorithm, particles)

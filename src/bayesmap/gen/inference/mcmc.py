@@ -22,13 +22,9 @@ class Chain(NamedTuple):
 
 
 def metropolis_hastings(request: EditRequest | Callable[[Trace], EditRequest]) -> Kernel:
-    """Return a kernel that makes an edit and keeps it with probability min(1, exp(weight)).
+    """Return a kernel (key, trace) -> (trace, accepted) that makes an edit with probability min(1, exp(weight)).
 
-    Args:
-        request: edit, or function of the trace that returns the edit.
-
-    Returns:
-        (key, trace) -> (trace, accepted).
+    The request is an edit, or a function of the trace that returns the edit.
     """
 
     def kernel(key: PRNGKey, trace: Trace) -> tuple[Trace, BoolArray]:
@@ -62,11 +58,7 @@ def run_chain(
 def split_rhat(draws: Array) -> Array:
     """Return split R-hat, which is near 1 if chains agree (Gelman et al., Bayesian Data Analysis 3, section 11.4).
 
-    Args:
-        draws: draws of all chains, (chains, draws, ...).
-
-    Returns:
-        R-hat of each variable, (...); NaN for draws that do not vary.
+    Draws are (chains, draws, ...), and R-hat is (...), one for each variable; NaN for draws that do not vary.
     """
     half = draws.shape[1] // 2
     halves = jnp.concatenate([draws[:, :half], draws[:, half : 2 * half]]).astype(jnp.result_type(float))
@@ -78,11 +70,7 @@ def split_rhat(draws: Array) -> Array:
 def effective_sample_size(draws: Array) -> Array:
     """Return the bulk effective sample size by Geyer's initial positive sequence (BDA3, section 11.5).
 
-    Args:
-        draws: draws of all chains, (chains, draws, ...).
-
-    Returns:
-        Effective sample size of each variable, (...), at most a little over chains * draws; NaN if draws do not vary.
+    Draws are (chains, draws, ...), and the result is (...), one for each variable; NaN for draws that do not vary.
     """
     # Autocovariances by the Fourier transform, averaged over chains.
     m, n = draws.shape[:2]

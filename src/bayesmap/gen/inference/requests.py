@@ -22,8 +22,7 @@ from bayesmap.gen.typing import PRNGKey
 class Rejuvenate(EditRequest):
     """Propose new values from a generative function whose choices have the model's addresses.
 
-    `argument_mapping` turns choices into the proposal's arguments: the old choices for the forward move, the new
-    choices for the reverse move.
+    `argument_mapping` turns choices into the proposal's arguments: the old choices, or the new ones for the way back.
     """
 
     proposal: GenerativeFunction
@@ -100,11 +99,7 @@ def mala(selection: Selection, eps: Any) -> HMC:
 
 
 def SafeHMC(selection: Selection, eps: Any, L: int = 10) -> DiffAnnotate:
-    """Return an `HMC` request that must not change the return value.
-
-    Raises, when it runs:
-        BadArguments: the return value depends on a selected choice.
-    """
+    """Return an `HMC` request that raises BadArguments if the return value depends on a selected choice."""
     return HMC(selection, eps, L).map(_unchanged)
 
 

@@ -23,8 +23,7 @@ from bayesmap.gen.typing import Array, IntArray, PRNGKey, Score, Weight
 class Target(Pytree):
     """The posterior of `p(*args)` given the choices in `constraint`. `target["y"]` is the given value at "y".
 
-    Raises:
-        BadArguments: `p` is a marginal, and the constraint lacks some of its choices.
+    A marginal `p` raises BadArguments unless all of its choices are given.
     """
 
     p: GenerativeFunction
@@ -66,11 +65,7 @@ class Algorithm(SampleDistribution):
     ) -> Weight:
         """Return an estimate x of the log evidence, such that exp(-x) is an unbiased estimate of 1 / evidence.
 
-        Args:
-            key: random key.
-            target: model with its given choices.
-            latent_choices: draw from the target.
-            w: joint log density of this draw and the given choices.
+        `latent_choices` are a draw from the target, and `w` is their joint log density with the given choices.
         """
         raise NotImplementedError
 
@@ -119,18 +114,10 @@ class ParticleCollection(Pytree):
     def edit(self, key: PRNGKey, request: EditRequest, argdiffs: Any = None) -> "ParticleCollection":
         """Edit every trace, and multiply its weight by the edit's weight: a step of sequential Monte Carlo.
 
-        Args:
-            key: random key, split over the particles.
-            request: edit of all traces.
-            argdiffs: new arguments of all traces as `Diff` leaves; None keeps the arguments.
+        The new arguments of all traces are `argdiffs`, as `Diff` leaves; None keeps the arguments.
         """
-
-        def one(key: PRNGKey, trace: Trace) -> Any:
-            new, weight, _, _ = trace.edit(key, request, argdiffs)
-            return new, weight
-
         keys = jax.random.split(key, self.log_weights.shape[0])
-        particles, weights = jax.vmap(one)(keys, self.particles)
+        particles, weights = jax.vmap(lambda key, trace: trace.edit(key, request, argdiffs)[:2])(keys, self.particles)
         return ParticleCollection(particles, self.log_weights + weights)
 
 
@@ -192,8 +179,8 @@ class SMCAlgorithm(Algorithm):
 class ImportanceK(SMCAlgorithm):
     """Importance sampling with `k_particles` traces.
 
-    Without a proposal the model draws the open choices. A proposal `q` is a generative function of the target or a
-    distribution over choice maps. Its choices are some of the model's choices.
+    Without a proposal the model draws the open choices. A proposal `q` is a generative function of the target, or a
+    distribution over choice maps, of some of the model's choices.
     """
 
     target: Target
@@ -277,13 +264,13 @@ class ChangeTarget(SMCAlgorithm):
     def _reweighted(self, key: PRNGKey, old: ParticleCollection) -> ParticleCollection:
         before = self.prev.get_final_target()
 
-        def one(key: PRNGKey, particle: Trace, log_weight: Weight) -> tuple[Trace, Weight]:
+        def reweighted(key: PRNGKey, particle: Trace, log_weight: Weight) -> tuple[Trace, Weight]:
             latent = before.filter_to_unconstrained(particle.get_choices())
             new, weight = self.target.importance(key, latent)
             return new, log_weight + weight - particle.get_score()
 
         keys = jax.random.split(key, self.get_num_particles())
-        return ParticleCollection(*jax.vmap(one)(keys, old.particles, old.log_weights))
+        return ParticleCollection(*jax.vmap(reweighted)(keys, old.particles, old.log_weights))
 
 
 def particle_filter(
@@ -303,11 +290,8 @@ def particle_filter(
         history: True to keep whole trajectories, the ancestors of each last particle (smoothing).
 
     Returns:
-        (particles, log of an unbiased estimate of the evidence). The particles are traces of the last step. With
-        `history` they are traces of all steps, of `kernel.scan()` on `args`.
-
-    Raises:
-        BadArguments: neither xs nor n gives the number of steps.
+        (particles, log of an unbiased estimate of the evidence). The particles are traces of the last step, or with
+        `history` of `kernel.scan()` on `args`.
     """
     state, xs = args
     leaves = jax.tree.leaves(xs)
@@ -320,14 +304,14 @@ def particle_filter(
         states, log_weights, _ = carry
         t, x, choices = scanned
         resample_key, move_key = jax.random.split(jax.random.fold_in(key, t))
-        now = ParticleCollection(states, log_weights)
+        before = ParticleCollection(states, log_weights)
 
         def resample() -> tuple[Any, Array, IntArray]:
-            chosen = systematic(resample_key, log_weights)
-            mean = jnp.full_like(log_weights, now.get_log_marginal_likelihood_estimate())
-            return nth(states, chosen), mean, chosen
+            parents = systematic(resample_key, log_weights)
+            mean = jnp.full_like(log_weights, before.get_log_marginal_likelihood_estimate())
+            return nth(states, parents), mean, parents
 
-        low = now.effective_sample_size() < threshold * k
+        low = before.effective_sample_size() < threshold * k
         states, log_weights, parents = jax.lax.cond(low, resample, lambda: (states, log_weights, jnp.arange(k)))
 
         # Move each particle, and weight it by the step's given choices.
@@ -355,8 +339,7 @@ def particle_filter(
 def _streams(key: PRNGKey, k: int) -> PRNGKey:
     """Return `k` keys of independent streams, like `jax.random.split`, but without a random draw per key.
 
-    Threefry's streams are independent for any two keys (Salmon et al., Parallel random numbers: as easy as 1, 2, 3,
-    2011). So consecutive numbers may be keys.
+    Threefry's streams are independent for any two keys (Salmon et al. 2011), so consecutive numbers may be keys.
     """
     if not jnp.issubdtype(key.dtype, jax.dtypes.prng_key) or "threefry" not in str(jax.random.key_impl(key)):
         return jax.random.split(key, k)
