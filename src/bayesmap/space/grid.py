@@ -76,10 +76,8 @@ class Grid:
     def centers_m(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Return the world x of the cell columns, shape (nx,), and world y of the cell rows, shape (ny,)."""
         (x0, y0), (nx, ny) = self.origin, self.shape
-        return (
-            np.asarray(x0 + self.resolution * (np.arange(nx) + 0.5), dtype=np.float64),
-            np.asarray(y0 + self.resolution * (np.arange(ny) + 0.5), dtype=np.float64),
-        )
+        x, y = (np.arange(n) + 0.5 for n in (nx, ny))
+        return np.asarray(x0 + self.resolution * x), np.asarray(y0 + self.resolution * y)
 
     def cell_centres_m(self, cells: NDArray[np.integer]) -> NDArray[np.float64]:
         """Return centres of cells, given flat indices ``x * ny + y``, in metres from the lower left corner, (n, 2)."""
@@ -99,10 +97,9 @@ class Grid:
 
     @classmethod
     def covering(cls, scans: Scans, resolution: float, margin_m: float = 0.5) -> Grid:
-        """Return the smallest grid that holds every pose and every hit, with a margin.
+        """Return the smallest grid that holds every pose and every hit, with a free border of ``margin_m``, metres.
 
-        The origin is a multiple of the resolution, so that maps of two recordings of a building line up. The resolution
-        and the margin, a free border around poses and hits, are in metres.
+        The origin is a multiple of the resolution, so that maps of two recordings of a building line up.
 
         Raises:
             BadInput: no scan at all, or more than `MAX_CELLS` cells. If a few scans lie so far out that they make the
@@ -110,31 +107,24 @@ class Grid:
         """
         low, high = bounds_m(scans, margin_m)
         (nx, ny), _ = _whole_cells(low, high, resolution)
-        if nx * ny > MAX_CELLS:
-            wrong = outlying(scans)
-            if len(wrong):
-                others = f" ({len(wrong)} scans are so far out, this one most)" if len(wrong) > 1 else ""
-                what = why_outlying(scans, int(wrong[0]))
-                raise BadInput(f"grid: covering the scans would take {_large(nx, ny)}: {what}{others}")
+        if nx * ny > MAX_CELLS and len(wrong := outlying(scans)):
+            others = f" ({len(wrong)} scans are so far out, this one most)" if len(wrong) > 1 else ""
+            what = why_outlying(scans, int(wrong[0]))
+            raise BadInput(f"grid: covering the scans would take {_large(nx, ny)}: {what}{others}")
         return cls.over(low, high, resolution)
 
     @classmethod
     def over(cls, low: tuple[float, float], high: tuple[float, float], resolution: float) -> Grid:
         """Return the smallest grid that holds a rectangle from its lower left to its upper right corner, world metres.
 
-        The origin is a multiple of the resolution. A resolution that is not positive, or more than `MAX_CELLS` cells,
-        raise `BadInput`.
+        The origin is a multiple of the resolution. More than `MAX_CELLS` cells raise `BadInput`.
         """
         shape, (x, y) = _whole_cells(low, high, resolution)
         return cls(shape=shape, resolution=resolution, origin=(x * resolution, y * resolution))
 
 
 def bounds_m(scans: Scans, margin_m: float = 0.5) -> tuple[tuple[float, float], tuple[float, float]]:
-    """Return the lower left and the upper right corner of all poses and hits, with a margin, world metres.
-
-    Raises:
-        BadInput: no scan at all.
-    """
+    """Return the lower left and the upper right corner of all poses and hits, with a margin, world metres."""
     points = np.concatenate([scans.poses[:, :2], scans.hit_points_world()])
     if len(points) == 0:
         raise BadInput("grid: there are no scans to cover")
@@ -199,11 +189,7 @@ ROUNDING = 1e-5
 
 
 def as_numbers(grid: Grid, values: ArrayLike, name: str, *, unknown: bool = False) -> NDArray[np.float64]:
-    """Return one finite number per cell, shape (nx, ny); with ``unknown``, NaN is accepted too.
-
-    Raises:
-        BadInput: another shape than the grid's, a value that is no number, or a number that is not finite.
-    """
+    """Return one finite number per cell, shape (nx, ny), or raise BadInput; with ``unknown``, NaN is accepted too."""
     array = as_array(values, name)
     _need_shape(grid, array.shape, name)
     fine = np.isfinite(array) | (unknown & np.isnan(array))
@@ -215,11 +201,7 @@ def as_numbers(grid: Grid, values: ArrayLike, name: str, *, unknown: bool = Fals
 
 
 def as_probabilities(grid: Grid, values: ArrayLike, name: str, *, unknown: bool = False) -> NDArray[np.float64]:
-    """Return one probability per cell, shape (nx, ny); with ``unknown``, NaN is accepted too.
-
-    Raises:
-        BadInput: as `as_numbers`, or a number outside [0, 1] by more than `ROUNDING`.
-    """
+    """Return one probability per cell, shape (nx, ny), as `as_numbers`; `ROUNDING` outside [0, 1] is accepted."""
     array = as_numbers(grid, values, name, unknown=unknown)
     outside = (array < -ROUNDING) | (array > 1.0 + ROUNDING)
     if outside.any():
@@ -232,11 +214,7 @@ def as_probabilities(grid: Grid, values: ArrayLike, name: str, *, unknown: bool 
 
 
 def as_mask(grid: Grid, values: ArrayLike, name: str) -> NDArray[np.bool_]:
-    """Return true or false per cell, shape (nx, ny); numbers are accepted if all are 0 or 1.
-
-    Raises:
-        BadInput: another shape than the grid's, or another number than 0 and 1.
-    """
+    """Return true or false per cell, shape (nx, ny), or raise BadInput; numbers are accepted if all are 0 or 1."""
     array = np.asarray(values)
     _need_shape(grid, array.shape, name)
     if array.dtype == np.bool_:
@@ -255,11 +233,7 @@ def as_observed(grid: Grid, observed: ArrayLike | None) -> NDArray[np.bool_]:
 def as_layers(
     grid: Grid, layers: Mapping[str, ArrayLike], observed: ArrayLike | None = None
 ) -> dict[str, NDArray[np.float32]]:
-    """Return named layers in single precision, each of shape (nx, ny), NaN where no beam reached.
-
-    Raises:
-        BadInput: no layer, one without a name, another shape than the grid's, or an infinite number.
-    """
+    """Return named layers in single precision, each of shape (nx, ny), NaN where no beam reached, or raise BadInput."""
     if not layers:
         raise BadInput("map: there is no layer to write; give one array of the grid's shape, such as mean")
     if not all(layers):
@@ -273,8 +247,7 @@ def as_layers(
 
 
 def _need_shape(grid: Grid, shape: tuple[int, ...], name: str) -> None:
-    if shape == grid.shape:
-        return
-    turned = shape == grid.shape[::-1]
-    remedy = "arrays are indexed [x, y], so transpose it" if turned else "give one value per cell, as [x, y]"
-    raise BadInput(f"map: {name} has shape {shape}, but the grid has {grid.shape}; {remedy}")
+    if shape != grid.shape:
+        turned = shape == grid.shape[::-1]
+        remedy = "arrays are indexed [x, y], so transpose it" if turned else "give one value per cell, as [x, y]"
+        raise BadInput(f"map: {name} has shape {shape}, but the grid has {grid.shape}; {remedy}")

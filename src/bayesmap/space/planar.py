@@ -54,20 +54,20 @@ def inverse(pose: Floats) -> Floats:
     return between(pose, np.zeros(3))
 
 
-def around(known: Numbers, numbers: Numbers) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Return the indices of the known numbers, (S,) ascending, before and after each of ``numbers``, (N,) each.
+def around(ascending: Numbers, numbers: Numbers) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """Return the indices in ``ascending``, (S,), before and after each of ``numbers``, (N,) each.
 
-    Outside the known numbers, the indices are the two at that end; a single known number is its own neighbour.
+    Outside, the indices are the two at that end; a single ascending number is its own neighbour.
     """
-    last = len(known) - 1
-    after = np.clip(np.searchsorted(known, numbers), 1, max(1, last))
+    last = len(ascending) - 1
+    after = np.clip(np.searchsorted(ascending, numbers), 1, max(1, last))
     return after - 1, np.minimum(after, last)
 
 
-def nearest(known: Numbers, numbers: Numbers) -> NDArray[np.intp]:
-    """Return the index of the known number, (S,) ascending, nearest to each of ``numbers``, (N,); of two, the first."""
-    before, after = around(known, numbers)
-    return np.where(np.abs(numbers - known[before]) <= np.abs(known[after] - numbers), before, after)
+def nearest(ascending: Numbers, numbers: Numbers) -> NDArray[np.intp]:
+    """Return the index in ``ascending``, (S,), nearest to each of ``numbers``, (N,); of two, the first."""
+    before, after = around(ascending, numbers)
+    return np.where(np.abs(numbers - ascending[before]) <= np.abs(ascending[after] - numbers), before, after)
 
 
 def interpolate(stamps_s: Floats, poses: Floats, at_s: Floats) -> Floats:
@@ -102,17 +102,11 @@ def between_jacobians(relative: Floats) -> tuple[Floats, Floats]:
 
     Rows are the components (x, y, yaw) of the relative pose, which is given in the frame of a.
     """
-    shape = (*relative.shape[:-1], 3, 3)
-    by_a, by_b = np.zeros(shape), np.zeros(shape)
-    cosine, sine = np.cos(relative[..., 2]), np.sin(relative[..., 2])
+    by_a = np.zeros((*relative.shape[:-1], 3, 3))
     by_a[..., 0, 0] = by_a[..., 1, 1] = by_a[..., 2, 2] = -1.0
     by_a[..., 0, 2] = relative[..., 1]
     by_a[..., 1, 2] = -relative[..., 0]
-    by_b[..., 0, 0] = by_b[..., 1, 1] = cosine
-    by_b[..., 0, 1] = -sine
-    by_b[..., 1, 0] = sine
-    by_b[..., 2, 2] = 1.0
-    return by_a, by_b
+    return by_a, rotation(relative[..., 2])
 
 
 def rotation(yaw_rad: Floats) -> Floats:

@@ -89,24 +89,19 @@ class Scans:
             "poses": poses, "angles_rad": angles, "own_angles_rad": own, "ranges_m": ranges,
             "max_range_m": float(self.max_range_m), "min_range_m": float(self.min_range_m),
         }  # fmt: skip
-        if self.stamps_s is not None:
-            checked["stamps_s"] = stamps = as_array(self.stamps_s, "scans: stamps_s")
-            if stamps.shape != (len(poses),):
-                raise BadInput(f"scans: stamps_s has shape {stamps.shape}, expected ({len(poses)},)")
-            if not np.isfinite(stamps).all():
-                scan = int(np.flatnonzero(~np.isfinite(stamps))[0])
-                raise BadInput(
-                    f"scans: stamp of scan {scan} is not finite: {stamps[scan]}; leave stamps_s out if there are none"
-                )
-        if self.beam_poses is not None:
-            checked["beam_poses"] = beam_poses = as_array(self.beam_poses, "scans: beam_poses")
-            if beam_poses.shape != (*ranges.shape, 3):
-                raise BadInput(f"scans: beam_poses has shape {beam_poses.shape}, expected {(*ranges.shape, 3)}")
-            if not np.isfinite(beam_poses).all():
-                scan, beam, _ = np.argwhere(~np.isfinite(beam_poses))[0]
-                raise BadInput(
-                    f"scans: pose of beam {beam} of scan {scan} is not finite: {beam_poses[scan, beam].tolist()}"
-                )
+        for name, shape in (("stamps_s", (len(poses),)), ("beam_poses", (*ranges.shape, 3))):
+            if getattr(self, name) is not None:
+                checked[name] = array = as_array(getattr(self, name), f"scans: {name}")
+                if array.shape != shape:
+                    raise BadInput(f"scans: {name} has shape {array.shape}, expected {shape}")
+        stamps, beam_poses = checked.get("stamps_s", np.zeros(0)), checked.get("beam_poses", np.zeros((0, 0, 3)))
+        for scan in np.flatnonzero(~np.isfinite(stamps)):
+            raise BadInput(
+                f"scans: stamp of scan {scan} is not finite: {stamps[scan]}; leave stamps_s out if there are none"
+            )
+        for scan, beam, _ in np.argwhere(~np.isfinite(beam_poses)):
+            pose = beam_poses[scan, beam].tolist()
+            raise BadInput(f"scans: pose of beam {beam} of scan {scan} is not finite: {pose}")
         if self.mount is not None:
             checked["mount"] = mount = as_array(self.mount, "scans: mount")
             if mount.shape != (3,) or not np.isfinite(mount).all():
@@ -200,11 +195,11 @@ class Scans:
 
     def stretched(self, ratio: float) -> Scans:
         """Return the scans with angles between beams times ``ratio``, about the first beam of each scan."""
-        angles = self.angles_rad[0] + ratio * (self.angles_rad - self.angles_rad[0])
-        if self.own_angles_rad is None:
-            return replace(self, angles_rad=angles)
-        first = self._first_and_last()[0][:, None]
-        return replace(self, angles_rad=angles, own_angles_rad=first + ratio * (self.own_angles_rad - first))
+        angles, own = self.angles_rad[0] + ratio * (self.angles_rad - self.angles_rad[0]), self.own_angles_rad
+        if own is not None:
+            first = self._first_and_last()[0][:, None]
+            own = first + ratio * (own - first)
+        return replace(self, angles_rad=angles, own_angles_rad=own)
 
     @property
     def sweep_rad(self) -> NDArray[np.float64]:
@@ -227,11 +222,7 @@ class Scans:
         return angles[np.arange(len(self)), ends[0]], angles[np.arange(len(self)), ends[1]]
 
     def at(self, poses_world: ArrayLike) -> Scans:
-        """Return the same readings at other scan poses, (S, 3). Poses of single beams move with their scan's pose.
-
-        Raises:
-            BadInput: poses of another shape, or poses that are not finite.
-        """
+        """Return the same readings at other scan poses, (S, 3). Poses of single beams move with their scan's pose."""
         poses = as_poses(poses_world)
         if poses.shape != self.poses.shape:
             raise BadInput(f"scans: poses has shape {poses.shape}, expected {self.poses.shape}")
@@ -241,11 +232,7 @@ class Scans:
         return replace(self, poses=poses, beam_poses=compose(poses[:, None], seen_from_scan))
 
     def holdout(self, every: int) -> tuple[Scans, Scans]:
-        """Split into (training, held out): every ``every``-th scan, from ``every // 2`` on, is held out.
-
-        Raises:
-            BadInput: ``every`` below 2, or so large that no scan is held out.
-        """
+        """Split into (training, held out): every ``every``-th scan, from ``every // 2`` on, is held out."""
         if every < 2:
             raise BadInput(f"holdout: hold out every n-th scan with n >= 2, got {every}")
         held = np.arange(len(self)) % every == every // 2
@@ -343,7 +330,7 @@ def side_by_side(
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return angles and readings of scans of any lengths as arrays (S, A), padded with NaN."""
     shape = len(readings_m), max((len(row) for row in readings_m), default=0)
-    angles, readings = np.full(shape, np.nan), np.full(shape, np.nan)
+    angles, readings = np.full((2, *shape), np.nan)
     with np.errstate(invalid="ignore"):  # readings may hold signalling NaN
         for scan, (own, row) in enumerate(zip(angles_rad, readings_m, strict=True)):
             angles[scan, : len(own)], readings[scan, : len(row)] = own, row
@@ -353,8 +340,7 @@ def side_by_side(
 def fan_fault(lowest_rad: float, highest_rad: float) -> str | None:
     """Return the reason if beams cannot span these angles, or None if they can.
 
-    No sensor sees more than a turn, or counts its angles from more than a turn away: such angles are degrees. Some
-    drivers' beams overlap at the end of a turn, so a fan may exceed a turn by a few beams.
+    No sensor sees more than a turn with a few beams twice, or counts angles from more than a turn away.
     """
     turns = (highest_rad - lowest_rad) / (2 * math.pi)
     away = 0.0 if lowest_rad <= 0 <= highest_rad else min(abs(lowest_rad), abs(highest_rad))
@@ -390,11 +376,8 @@ def fan(beams: int, fov_deg: float) -> NDArray[np.float64]:
     """Return beam angles in the sensor frame, radians, (beams,), from the right end of the field of view to the left.
 
     An odd number of beams has one at each end, as in lasers of 181 or 361 beams. An even number leaves out the last, as
-    in lasers of 180 or 360 beams: 180 beams over 180 degrees are 1 degree apart. A full circle starts straight ahead,
-    and its last beam is one step before its first.
-
-    Raises:
-        BadInput: fewer than two beams, or a field of view outside (0, 360] degrees.
+    in lasers of 180 or 360 beams. A full circle starts straight ahead. Fewer than two beams, or a field of view outside
+    (0, 360] degrees, raise `BadInput`.
     """
     if not 2 <= beams <= MAX_BEAMS:
         raise BadInput(f"angles: give 2 to {MAX_BEAMS:,} beams a scan, got {beams}")

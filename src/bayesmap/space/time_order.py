@@ -19,10 +19,7 @@ TURNS = 0.7
 
 @dataclass(frozen=True, eq=False)
 class TimeOrder:
-    """The time order of scans.
-
-    Stamps in time order never fall: after a step back of the clock they continue from the last.
-    """
+    """The time order of scans. Its stamps never fall: after a step back of the clock they continue from the last."""
 
     order: NDArray[np.intp]  # indices of the scans in time order, (S,)
     stamps_s: NDArray[np.float64]  # in time order, (S,)
@@ -76,9 +73,8 @@ def repeated_stamps(stamps_s: NDArray[np.float64]) -> NDArray[np.bool_]:
 def elapsed_s(stamps_s: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return the shortest and the longest time from each scan to the next that the stamps allow, (S - 1,) each.
 
-    If all stamps differ, they are exact. Repeated stamps were rounded (to whole seconds, six digits, single precision):
-    scans of one stamp may lie anywhere between the stamps before and after it. At the ends of the log the longest time
-    is infinite. Stamps are (S,), in time order.
+    Stamps are (S,), in time order. Repeated stamps were rounded: scans of one stamp may lie anywhere between the stamps
+    before and after it. At the ends of the log the longest time is then infinite.
     """
     steps = np.abs(np.diff(stamps_s))
     same = steps < SAME_S
@@ -108,8 +104,7 @@ def coarse_stamps_note(stamps_s: NDArray[np.float64]) -> str | None:
 def _step(stamps: NDArray[np.float64]) -> int | None:
     """Find the first scan before which the clock was set back, or None."""
     latest = np.maximum.accumulate(stamps)
-    drops = np.nonzero(np.diff(stamps) < -STEP_S)[0] + 1
-    for drop in drops:
+    for drop in np.nonzero(np.diff(stamps) < -STEP_S)[0] + 1:
         # Scans after the drop, until stamps exceed all earlier ones again: there must be many.
         after = stamps[drop:]
         over = np.nonzero(after > latest[drop - 1])[0]

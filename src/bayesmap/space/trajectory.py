@@ -124,8 +124,7 @@ class Trajectory:
     def of_draws(cls, draws: Floats, stamps_s: Floats | None = None, known_by: str = "") -> Trajectory:
         """Return the trajectory of a posterior: mean and covariance of each pose over draws.
 
-        Yaws are averaged as deviations from the first draw, so that they may lie anywhere on the circle. ``draws`` have
-        the shape (D, S, 3), or (chains, D, S, 3); no draw at all raises `BadInput`.
+        Draws are (D, S, 3) or (chains, D, S, 3). Yaws may lie anywhere on the circle. No draw raises `BadInput`.
         """
         flat = np.asarray(draws, dtype=np.float64)
         flat = flat.reshape(-1, *flat.shape[-2:])
@@ -141,10 +140,7 @@ class Trajectory:
         return cls(poses, stamps_s, covariances, flat, known_by=known_by)
 
     def at(self, at_s: Floats) -> tuple[Floats, NDArray[np.bool_]]:
-        """Return interpolated poses at times ``at_s``, (N, 3), and the mask of times within the trajectory, (N,).
-
-        A trajectory without stamps, or without a pose, raises `BadInput`.
-        """
+        """Return interpolated poses at times ``at_s``, (N, 3), and the mask of times within the trajectory, (N,)."""
         if self.stamps_s is None or len(self) == 0:
             raise BadInput("trajectory: it has no stamps, so that its pose at a time is not known")
         at = np.asarray(at_s, dtype=np.float64)
