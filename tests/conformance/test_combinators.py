@@ -35,24 +35,18 @@ def agrees(trace, tolerance=1e-5):
     jax.tree.map(lambda a, b: np.testing.assert_allclose(a, b, rtol=1e-6), retval, trace.get_retval())
 
 
-def test_repeat_takes_its_number_by_name():
-    with pytest.raises(TypeError):
-        genjax.flip.repeat(3)
-
-
-def test_repeats_of_a_flip_are_one_array():
+def test_repeats_of_a_distribution_are_one_array_that_indices_select_from():
     trace = genjax.flip.repeat(n=4).repeat(n=3)(0.5).simulate(jr.key(0), ())
     assert (trace.get_retval().shape, trace.get_retval().dtype, trace.get_score().shape) == ((3, 4), bool, ())
-    assert [leaf.shape for leaf in jax.tree.leaves(trace.get_choices())] == [(3, 4)]
-    agrees(trace)
-
-
-def test_choices_are_indexed_like_the_array_that_they_are():
-    chm = genjax.normal.repeat(n=4).repeat(n=3)(0.0, 1.0).simulate(jr.key(0), ()).get_choices()
+    chm = trace.get_choices()
+    assert [leaf.shape for leaf in jax.tree.leaves(chm)] == [(3, 4)]
     whole = chm[()]
     for index in (0, (0, 1), slice(None), ()):
         np.testing.assert_array_equal(chm[index], whole[index])
     assert jax.jit(lambda i: chm[i, 1])(2) == whole[2, 1]
+    agrees(trace)
+    with pytest.raises(TypeError):
+        genjax.flip.repeat(3)  # its number is given by name
 
 
 def test_names_below_an_index_hold_whole_arrays():
@@ -81,25 +75,18 @@ def test_a_constraint_array_of_the_wrong_length_raises(model, args, constraint):
             use()
 
 
-def test_an_index_out_of_range_raises():
-    with pytest.raises(UnknownAddress, match="4: there are 4 elements"):
-        genjax.normal.repeat(n=4).importance(jr.key(0), C[4].set(0.0), (0.0, 1.0))
-
-
 def test_some_elements_can_be_constrained():
     """The others draw what they would have drawn."""
     model, free = genjax.normal.repeat(n=4), genjax.normal.repeat(n=4)(0.0, 1.0)(jr.key(0))
-    trace, weight = model.importance(
-        jr.key(0), C[1].set(0.5) | C[jnp.array([2, 3])].set(jnp.array([1.0, 2.0])), (0.0, 1.0)
-    )
+    several = C[1].set(0.5) | C[jnp.array([2, 3])].set(jnp.array([1.0, 2.0]))
+    trace, weight = model.importance(jr.key(0), several, (0.0, 1.0))
     np.testing.assert_array_equal(trace.get_retval(), jnp.array([free[0], 0.5, 1.0, 2.0]))
     expected = sum(genjax.normal.assess(C.v(v), (0.0, 1.0))[0] for v in (0.5, 1.0, 2.0))
     np.testing.assert_allclose(weight, expected, rtol=1e-6)
-
-
-def test_assess_with_some_elements_missing_raises():
     with pytest.raises(MissingAddress):
-        genjax.normal.repeat(n=4).assess(C[1].set(0.5), (0.0, 1.0))
+        model.assess(several, (0.0, 1.0))
+    with pytest.raises(UnknownAddress, match="4: there are 4 elements"):
+        model.importance(jr.key(0), C[4].set(0.0), (0.0, 1.0))
 
 
 def test_values_keep_the_dtype_in_which_they_are_given():
@@ -122,19 +109,14 @@ def test_an_edit_keeps_the_dtype_of_the_trace(dtype):
         assert trace.update(jr.key(0), C.v(value))[0].get_retval().dtype == dtype
 
 
-def test_vmap_errors_are_those_of_jax():
-    model = genjax.normal.vmap(in_axes=(0, 0))
-    with pytest.raises(ValueError, match="inconsistent sizes"):
-        model.simulate(jr.key(0), (jnp.zeros(3), jnp.zeros(4)))
-    with pytest.raises(ValueError, match="vmap in_axes"):
-        model.simulate(jr.key(0), (jnp.zeros(3),))
-
-
-def test_vmap_maps_the_axes_that_it_is_told():
+def test_vmap_maps_the_axes_that_it_is_told_with_the_errors_of_jax():
     locs = jnp.arange(6.0).reshape(2, 3)
     trace = draw.vmap(in_axes=1).vmap(in_axes=(0,)).simulate(jr.key(0), (locs[:, None, :],))
     assert trace.get_choices()["v"].shape == (2, 3, 1)
     agrees(draw.vmap(in_axes=-1).simulate(jr.key(0), (locs[0],)))
+    for args, message in (((jnp.zeros(3), jnp.zeros(4)), "inconsistent sizes"), ((jnp.zeros(3),), "vmap in_axes")):
+        with pytest.raises(ValueError, match=message):
+            genjax.normal.vmap(in_axes=(0, 0)).simulate(jr.key(0), args)
 
 
 def test_broadcast_arguments_are_stored_once():
@@ -152,6 +134,8 @@ def test_scan_returns_the_last_state_and_the_stacked_outputs():
     np.testing.assert_array_equal(trace.get_retval()[1], 2 * z)
     assert trace.get_choices()[1, "z"] == z[1]
     agrees(trace)
+    with pytest.raises(TypeError, match="n="):
+        step.scan().simulate(jr.key(0), (0.0, None))
 
 
 EMPTY = np.zeros(0, np.float32)
@@ -194,11 +178,6 @@ def test_iterate_and_accumulate_return_every_state_the_others_the_last():
         agrees(trace)
 
 
-def test_scan_without_inputs_needs_a_length():
-    with pytest.raises(TypeError, match="n="):
-        step.scan().simulate(jr.key(0), (0.0, None))
-
-
 def test_a_mask_that_is_true_means_that_the_choices_score():
     on, off = (draw.mask().simulate(jr.key(0), (flag, 0.0)) for flag in (True, False))
     np.testing.assert_allclose(on.get_score(), draw.simulate(jr.key(0), (0.0,)).get_score(), rtol=1e-6)
@@ -220,24 +199,18 @@ def test_switching_a_mask_weighs_its_score(turn_on):
     np.testing.assert_allclose(new.get_score(), score if turn_on else 0.0, rtol=1e-6)
 
 
-def test_or_else_runs_the_first_branch_where_the_flag_holds():
+def test_or_else_and_switch_run_the_branch_that_is_named():
     other = genjax.gen(lambda loc: genjax.normal(loc, 1.0) @ "w")
-    model = draw.or_else(other)
     for flag, name, loc in ((True, "v", 0.0), (False, "w", 50.0)):
-        trace = jax.jit(model.simulate)(jr.key(0), (flag, (0.0,), (50.0,)))
-        value = trace.get_choices()[name].unmask()
-        assert abs(float(value) - loc) < 6
+        trace = jax.jit(draw.or_else(other).simulate)(jr.key(0), (flag, (0.0,), (50.0,)))
+        assert abs(float(trace.get_choices()[name].unmask()) - loc) < 6
         agrees(trace)
-
-
-def test_switch_runs_the_branch_that_is_numbered():
-    branches = [genjax.gen(lambda loc: genjax.normal(loc, 1.0) @ "v") for _ in range(3)]
-    model = genjax.switch(*branches)
+    model = genjax.switch(walk, walk, walk)
     for k in range(3):
         trace = model.simulate(jr.key(0), (k, (0.0,), (10.0,), (20.0,)))
         assert abs(float(trace.get_retval()) - 10 * k) < 5
         agrees(trace)
-    constrained, weight = model.importance(jr.key(0), C["v"].set(10.0), (1, (0.0,), (10.0,), (20.0,)))
+    constrained, weight = model.importance(jr.key(0), C["z"].set(10.0), (1, (0.0,), (10.0,), (20.0,)))
     np.testing.assert_allclose(weight, constrained.get_score())
     with pytest.raises(UnknownAddress, match="no branch has it"):
         model.importance(jr.key(0), C["w"].set(10.0), (1, (0.0,), (10.0,), (20.0,)))
@@ -251,19 +224,13 @@ def test_the_addresses_of_a_mixture():
     agrees(trace)
 
 
-def test_map_transforms_the_return_value():
+def test_arguments_and_return_values_can_be_transformed():
     trace = draw.map(lambda x: x + 100).simulate(jr.key(0), (0.0,))
     assert trace.get_retval() == draw(0.0)(jr.key(0)) + 100
     agrees(trace)
-
-
-def test_contramap_returns_a_tuple_of_arguments():
     assert draw.contramap(lambda a, b: (a + b,))(1.0, 2.0)(jr.key(0)) == draw(3.0)(jr.key(0))
     with pytest.raises(TypeError, match="must return a tuple"):
         draw.contramap(lambda a: a)(1.0)(jr.key(0))
-
-
-def test_dimap_post_sees_arguments_inner_arguments_and_value():
     seen = draw.dimap(pre=lambda a: (a + 1,), post=lambda args, inner, ret: (args, inner, ret))
     trace = seen.simulate(jr.key(0), (1.0,))
     assert trace.get_retval() == ((1.0,), (2.0,), draw(2.0)(jr.key(0)))

@@ -32,9 +32,6 @@ def test_and_filters_the_right_map_by_the_left_ones_addresses():
     both = C["x"].set(1.0) & (C["x"].set(3.0) | C["y"].set(2.0))
     assert both["x"] == 3.0
     assert "y" not in both
-
-
-def test_a_value_against_names_raises():
     with pytest.raises(ValueError, match="bare value"):
         C["x"].set(1.0) | C["x", "y"].set(2.0)
 
@@ -48,15 +45,6 @@ def test_at_set_replaces():
         chm.at["x"].set(jnp.ones(2))
 
 
-def test_asking_for_what_is_not_there_raises():
-    chm = C["x", "y"].set(1.0)
-    assert ("x", "y") in chm
-    assert "x" not in chm
-    for address in ("z", ("x", "z"), "x"):
-        with pytest.raises(ChoiceMapNoValueAtAddress):
-            chm[address]
-
-
 def test_filter_mask_selection_and_extend():
     chm = C["x"].set(1.0) | C["y", "z"].set(2.0)
     kept = chm.filter(S["y"])
@@ -68,6 +56,10 @@ def test_filter_mask_selection_and_extend():
     assert chm.get_selection()["y", "z"]
     assert not chm.get_selection()["y"]
     assert chm.extend("a", "b")["a", "b", "x"] == 1.0
+    assert ("y", "z") in chm
+    for address in ("z", ("y", "x"), "y"):
+        with pytest.raises(ChoiceMapNoValueAtAddress):
+            chm[address]
 
 
 def test_invalid_subset_is_what_the_model_would_never_choose():
@@ -97,33 +89,16 @@ def test_maps_can_hold_indices():
     assert jax.jit(lambda i: several[i].unmask(default=0.0))(3) == 0.0
 
 
-def test_a_selection_matches_everything_below():
-    sel = Selection.at["x"]
-    assert sel["x"]
-    assert sel["x", "y", "z"]
-    assert not sel["y"]
-    assert sel("x") == Selection.all()
-
-
-def test_selections_combine():
+def test_selections_match_everything_below_and_combine():
     x, y = Selection.at["x"], Selection.at["y"]
-    assert (x | y)["y"]
-    assert not (x & y)["x"]
-    assert (~x)["y"]
-    assert not (~x)["x", "z"]
+    wild, leaf = Selection.at[..., "y"], Selection.leaf().extend("x")
+    inside = [(x, "x"), (x, ("x", "y", "z")), (x | y, "y"), (~x, "y"), (wild, ("a", "y")), (leaf, "x")]
+    inside += [(Selection.all(), ("anything", "at", "all")), (Selection.all(), ())]
+    outside = [(x, "y"), (x & y, "x"), (~x, ("x", "z")), (wild, ("a", "z")), (leaf, ("x", "y")), (Selection.none(), ())]
+    assert all(sel[address] for sel, address in inside)
+    assert not any(sel[address] for sel, address in outside)
+    assert x("x") == Selection.all()
     assert ~~x == x
-    wild = Selection.at[..., "y"]
-    assert wild["a", "y"]
-    assert not wild["a", "z"]
-
-
-def test_leaf_all_and_none():
-    leaf = Selection.leaf().extend("x")
-    assert leaf["x"]
-    assert not leaf["x", "y"]
-    assert Selection.all()["anything", "at", "all"]
-    assert Selection.all()[()]
-    assert not Selection.none()[()]
     assert S[()] == Selection.leaf()
 
 
@@ -159,17 +134,14 @@ def test_pytree_dataclasses_are_frozen_with_static_fields_in_the_definition():
     assert jax.jit(lambda p: jnp.zeros(p.count) + p.scale)(params).shape == (3,)
 
 
-def test_traces_of_module_level_models_pickle():
+def test_traces_pickle_and_can_be_copied():
     trace = model.simulate(jr.key(0), (1.0,))
     loaded = pickle.loads(pickle.dumps(trace))
     assert loaded.get_gen_fn() == model
     np.testing.assert_array_equal(loaded.get_choices()["y", "z"], trace.get_choices()["y", "z"])
     assert loaded.update(jr.key(0), C["x"].set(0.0))[0].get_choices()["x"] == 0.0
-
-
-def test_traces_of_local_models_can_be_copied():
-    trace = genjax.gen(lambda: genjax.normal(0.0, 1.0) @ "x").simulate(jr.key(0), ())
-    assert copy.deepcopy(trace).get_choices()["x"] == trace.get_choices()["x"]
+    local = genjax.gen(lambda: genjax.normal(0.0, 1.0) @ "x").simulate(jr.key(0), ())
+    assert copy.deepcopy(local).get_choices()["x"] == local.get_choices()["x"]
 
 
 def test_traces_survive_jit_vmap_scan_and_cond():

@@ -63,12 +63,13 @@ def test_edit_gives_trace_weight_retdiff_and_the_way_back(trace, table):
     restored, undone, _, _ = new.edit(jr.key(0), back)
     jax.tree.map(np.testing.assert_array_equal, restored.get_choices(), trace.get_choices())
     np.testing.assert_allclose(undone, -weight, rtol=1e-5)
-
-
-def test_update_returns_the_choices_that_it_replaced_last(trace, table):
-    _, _, _, discard = trace.update(jr.key(0), C["table"].set(~table))
+    discard = trace.update(jr.key(0), C["table"].set(~table))[3]
     np.testing.assert_array_equal(discard["table"], table)
     assert "readings" not in {path[0] for path in discard.paths()}
+    with pytest.raises(TypeError, match="EditRequest"):
+        trace.edit(jr.key(0), C["table"].set(table))
+    with pytest.raises(UnknownAddress, match=r"\('table', 3\)"):
+        trace.edit(jr.key(0), Update(C["table", 3, 0].set(True)))
 
 
 def test_argdiffs_change_the_arguments(trace):
@@ -140,11 +141,6 @@ def test_an_edit_can_leave_and_return_from_an_impossible_value():
     assert restored.get_score() == trace.get_score() == 0.0
 
 
-def test_an_edit_of_an_element_outside_raises(trace):
-    with pytest.raises(UnknownAddress, match=r"\('table', 3\)"):
-        trace.edit(jr.key(0), Update(C["table", 3, 0].set(True)))
-
-
 def test_old_and_new_trace_can_be_branches_of_cond(trace, table):
     """The new value is a float, and the trace keeps its Boolean dtype."""
 
@@ -157,14 +153,11 @@ def test_old_and_new_trace_can_be_branches_of_cond(trace, table):
     np.testing.assert_array_equal(flip_if(True), table.at[0, 0].set(~table[0, 0]))
 
 
-def test_an_empty_request_weighs_nothing_when_nothing_changed(trace):
+def test_an_empty_request_rescores_if_arguments_changed_and_else_returns_the_trace(trace):
     new, weight, retdiff, _ = trace.edit(jr.key(0), EmptyRequest())
     assert weight == 0.0
     assert new is trace
     assert Diff.static_check_no_change(retdiff)
-
-
-def test_an_empty_request_rescores_when_arguments_changed(trace):
     new, weight, _, _ = trace.edit(jr.key(0), EmptyRequest(), Diff.unknown_change((0.3, 2.0)))
     assert weight != 0.0
     changes_by_the_joint(trace, new, weight)
@@ -176,11 +169,6 @@ def test_project_sums_the_selected_scores(trace):
     np.testing.assert_allclose(sum(parts), trace.get_score(), rtol=1e-6)
     assert trace.project(jr.key(0), Selection.none()) == 0.0
     np.testing.assert_allclose(trace.project(jr.key(0), Selection.at["readings", "r"]), parts[1], rtol=1e-6)
-
-
-def test_edit_takes_requests_only(trace, table):
-    with pytest.raises(TypeError, match="EditRequest"):
-        trace.edit(jr.key(0), C["table"].set(table))
 
 
 def test_unchanged_sites_keep_their_traces(trace):

@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 from conformance.gen_tutorial_model import CENTER, PARAMS, full_model
 from oracle.worlds import make_case
+from programs.edits import of_case
 from tiers import full_but, latin
 
 import bayesmap as bm
@@ -30,14 +31,6 @@ SENSORS = {
     "student mixture": bm.BeamMixture(bm.StudentT(0.1, dof=2.5), p_random=0.1, p_no_return=0.2, p_short=0.3),
 }  # fmt: skip
 TABLE_CUT = 1e-4  # nats a beam: where the mixture's beam table ends early (FLAT_NATS)
-
-
-def of_case(case):
-    scans = case.scans
-    return bm.mapping_model(
-        case.grid, scans.poses, scans.angles_rad, case.prior, case.sensor, max_range_m=scans.max_range_m,
-        min_range_m=scans.min_range_m,
-    )  # fmt: skip
 
 
 def both(walls, readings):
@@ -178,32 +171,27 @@ class Odd(bm.Gaussian):
 
 
 def test_bad_input_is_named():
-    grid, p = bm.Grid((3, 3)), bm.Independent(0.5)
-    model = bm.mapping_model(grid, [1.5, 1.5, 0.0], [0.0, 1.0], p, bm.Gaussian(0.1), max_range_m=5.0)
-    walls, readings = np.zeros((3, 3), bool), np.ones(2)
-    with pytest.raises(bm.BadInput, match=r"'walls': found \(3, 4\), expected \(3, 3\)"):
-        model.assess(both(np.zeros((3, 4), bool), readings), ())
-    with pytest.raises(bm.BadInput, match=r"'readings': found \(1, 2\), expected \(2,\)"):
-        model.importance(jr.key(0), C["readings"].set(np.ones((1, 2))), ())
-    with pytest.raises(bm.BadInput, match=r"'walls'.*0\.5"):
-        model.assess(both(walls + 0.5, readings), ())
-    with pytest.raises(bm.BadInput, match="'wals'"):
-        model.importance(jr.key(0), C["wals"].set(walls), ())
-    with pytest.raises(bm.BadInput, match="'readings'"):
-        model.assess(C["walls"].set(walls), ())
-    with pytest.raises(bm.BadInput, match=r"p_wall must lie in \[0, 1\]"):
-        bm.mapping_model(grid, [1, 1, 0], [0.0], bm.Independent(1.5), bm.Gaussian(0.1), max_range_m=5.0)
-    with pytest.raises(bm.BadInput, match=r"p_wall has shape \(2, 2\), but the grid is \(3, 3\)"):
-        bm.mapping_model(
-            grid, [1, 1, 0], [0.0], bm.Independent(np.full((2, 2), 0.5)), bm.Gaussian(0.1), max_range_m=5.0
-        )
-    with pytest.raises(bm.BadInput, match="Odd has no likelihood on JAX"):
-        bm.mapping_model(grid, [1, 1, 0], [0.0], p, Odd(0.1), max_range_m=5.0)
-    with pytest.raises(bm.BadInput, match="max_range_m must be a positive"):
-        bm.mapping_model(grid, [1, 1, 0], [0.0], p, bm.Gaussian(0.1), max_range_m=-1.0)
-    sensor = sensor_model(grid, [1, 1, 0], [0.0], bm.Gaussian(0.1), max_range_m=5.0)
-    with pytest.raises(bm.BadInput, match=r"walls has shape \(2, 2\), expected \(3, 3\)"):
-        sensor.simulate(jr.key(0), (np.zeros((2, 2), bool),))
+    noise, walls, readings = bm.Gaussian(0.1), np.zeros((3, 3), bool), np.ones(2)
+    alone = sensor_model(bm.Grid((3, 3)), [1, 1, 0], [0.0], noise, max_range_m=5.0)
+
+    def model(p_wall=0.5, sensor=noise, max_range_m=5.0):
+        prior = bm.Independent(p_wall)
+        return bm.mapping_model(bm.Grid((3, 3)), [1, 1, 0], [0.0, 1.0], prior, sensor, max_range_m=max_range_m)
+
+    for message, use in {
+        r"'walls': found \(3, 4\), expected \(3, 3\)": lambda: model().assess(both(np.zeros((3, 4)), readings), ()),
+        r"'readings': found \(1, 2\), expected \(2,\)": lambda: model().assess(both(walls, np.ones((1, 2))), ()),
+        r"'walls'.*0\.5": lambda: model().assess(both(walls + 0.5, readings), ()),
+        "'wals'": lambda: model().importance(jr.key(0), C["wals"].set(walls), ()),
+        "'readings'": lambda: model().assess(C["walls"].set(walls), ()),
+        r"p_wall must lie in \[0, 1\]": lambda: model(1.5),
+        r"p_wall has shape \(2, 2\), but the grid is \(3, 3\)": lambda: model(np.full((2, 2), 0.5)),
+        "Odd has no likelihood on JAX": lambda: model(sensor=Odd(0.1)),
+        "max_range_m must be a positive": lambda: model(max_range_m=-1.0),
+        r"walls has shape \(2, 2\), expected \(3, 3\)": lambda: alone.simulate(jr.key(0), (np.zeros((2, 2), bool),)),
+    }.items():
+        with pytest.raises(bm.BadInput, match=message):
+            use()
 
 
 @pytest.mark.full

@@ -8,11 +8,11 @@ import pytest
 from oracle.transitions import sweeps
 from oracle.verdict import ALPHA, least_p_value
 from oracle.worlds import make_case
+from programs.edits import of_case, single
 from tiers import full_but
 
 import bayesmap as bm
 from bayesmap.gen import ChoiceMapBuilder as C
-from bayesmap.gen import IndexRequest, StaticRequest, Update
 
 TESTS = 3  # statistical tests in this module: together they fail for one in ten thousand seeds (ALPHA)
 CHAINS = 20_000
@@ -29,11 +29,7 @@ def inferred(case, **options):
 
 @pytest.fixture(scope="module")
 def model(case):
-    scans = case.scans
-    return bm.mapping_model(
-        case.grid, scans.poses, scans.angles_rad, case.prior, case.sensor, max_range_m=scans.max_range_m,
-        min_range_m=scans.min_range_m,
-    )  # fmt: skip
+    return of_case(case)
 
 
 @pytest.fixture(scope="module")
@@ -44,9 +40,7 @@ def chains(case, model):
 
     def step(k, trace, key):
         i, j = k // 3 % 3, k % 3
-        value = ~trace.get_choices()["walls"][i, j]
-        request = StaticRequest({"walls": IndexRequest(i, IndexRequest(j, Update(C.v(value))))})
-        new, weight, _, _ = trace.edit(key, request)
+        new, weight, _, _ = trace.edit(key, single(i, j, ~trace.get_choices()["walls"][i, j]))
         accept = jr.bernoulli(jr.fold_in(key, k), jax.nn.sigmoid(weight))  # two outcomes: this is Gibbs
         return jax.lax.cond(accept, lambda: new, lambda: trace)
 

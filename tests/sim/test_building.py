@@ -42,6 +42,8 @@ def test_every_room_can_be_reached_from_the_first_corridor(made):
 
 
 def test_the_outer_wall_is_closed_and_rooms_share_no_floor(made):
+    kinds = [room.kind for room in made.rooms]
+    assert (kinds.count("corridor") >= 1, kinds.count("lobby"), len(kinds) >= 4) == (True, 1, True)
     outside = flooded(~made.walls, (0, 0))
     times = np.zeros(made.walls.shape, dtype=int)
     for room in made.rooms:
@@ -52,20 +54,12 @@ def test_the_outer_wall_is_closed_and_rooms_share_no_floor(made):
             assert times[cells_of(room, made)].max() == 1, room
 
 
-def test_a_building_has_corridors_rooms_and_one_lobby(made):
-    kinds = [room.kind for room in made.rooms]
-    assert (kinds.count("corridor") >= 1, kinds.count("lobby"), len(kinds) >= 4) == (True, 1, True)
-
-
-def test_opacity_says_what_the_walls_and_the_glass_are(made):
+def test_opacity_shows_walls_and_glass_and_the_size_is_the_one_asked_for(made, request):
     np.testing.assert_array_equal(made.opacity > 0, made.walls)
     assert made.opacity.max() == 1
     assert made.glass.any()
     assert made.walls[made.glass].all()
     np.testing.assert_allclose(made.opacity[made.glass], 1 - made.glass_pass)
-
-
-def test_the_outer_walls_are_as_far_apart_as_was_asked_for(made, request):
     _, size_m, resolution = request.node.callspec.params["made"]
     solid = np.argwhere(made.walls)
     size = (solid.max(axis=0) - solid.min(axis=0) + 1) * resolution
@@ -80,16 +74,13 @@ def test_the_same_seed_gives_the_same_building_and_another_seed_another():
     assert not np.array_equal(first.opacity, other.opacity)
 
 
-def test_without_clutter_rooms_hold_only_walls_and_doors():
+def test_clutter_and_clear_glass_can_be_chosen():
     empty, usual = building(3, clutter=0.0), building(3)
     assert empty.walls.sum() < usual.walls.sum()
     assert set(np.unique(empty.opacity[~empty.glass])) <= {0.0, 1.0}
-
-
-def test_opaque_glass_and_clear_glass_are_possible():
-    assert building(0, glass_pass=0.0).opacity[building(0).glass].min() == 1
-    clear = building(0, glass_pass=0.95)
-    np.testing.assert_allclose(clear.opacity[clear.glass], 0.05)
+    for glass_pass in (0.0, 0.95):
+        made = building(0, glass_pass=glass_pass)
+        np.testing.assert_allclose(made.opacity[made.glass], 1 - glass_pass)
 
 
 @pytest.mark.parametrize(
@@ -132,14 +123,11 @@ def test_no_pose_is_within_a_quarter_of_a_metre_of_a_wall(toured, poses):
     assert distance_to_walls(poses[:, :2], toured).min() >= 0.25
 
 
-def test_the_robot_enters_every_room(toured, poses):
+def test_the_robot_enters_every_room_and_passes_no_wall(toured, poses):
     x, y = poses[:, 0], poses[:, 1]
     for room in toured.rooms:
         x0, x1, y0, y1 = room.extent_m
         assert ((x > x0) & (x < x1) & (y > y0) & (y < y1)).any(), room
-
-
-def test_the_robot_passes_no_wall(toured, poses):
     step = np.hypot(*np.diff(poses[:, :2], axis=0).T)
     assert step.max() < 1.5 * np.median(step)
     for a, b in zip(poses[:-1, :2], poses[1:, :2], strict=True):
@@ -155,12 +143,9 @@ def test_the_robot_looks_where_it_goes(poses):
     assert (along > 0.5).mean() > 0.9  # it turns on the spot at the end of a room
 
 
-def test_the_same_seed_gives_the_same_round(toured, poses):
+def test_any_number_of_scans_covers_the_round_and_a_seed_repeats_it(toured, poses):
     np.testing.assert_array_equal(patrol(toured, 500, seed=3), poses)
     assert not np.array_equal(patrol(toured, 500, seed=4), poses)
-
-
-def test_any_number_of_scans_covers_the_round(toured):
     assert patrol(toured, 1).shape == (1, 3)
     assert patrol(toured, 7).shape == (7, 3)
     with pytest.raises(BadInput, match="n_scans"):

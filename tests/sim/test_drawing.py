@@ -14,19 +14,9 @@ from bayesmap.worlds import from_image, from_map_image, from_occupancy
 maps = hnp.arrays(bool, hnp.array_shapes(min_dims=2, max_dims=2, min_side=1, max_side=12))
 
 
-def test_lines_are_the_first_index():
-    walls = from_text("..X\n#..\n")
-    assert walls.shape == (2, 3)
-    assert np.argwhere(walls).tolist() == [[0, 2], [1, 0]]
-
-
-@given(maps)
-def test_what_is_written_is_read_back(walls):
-    np.testing.assert_array_equal(from_text(to_text(walls)), walls)
-
-
 @given(maps, st.integers(0, 4), st.integers(0, 3), st.sampled_from(["\n", "\r\n"]))
-def test_indentation_blank_lines_and_line_ends_do_not_matter(walls, indent, blank, newline):
+def test_drawings_are_read_back_whatever_their_blanks_and_line_ends(walls, indent, blank, newline):
+    np.testing.assert_array_equal(from_text(to_text(walls)), walls)
     lines = [" " * indent + line + "  " for line in to_text(walls).splitlines()]
     framed = newline.join([""] * blank + lines + [" "] * blank)
     np.testing.assert_array_equal(from_text(framed), walls)
@@ -35,14 +25,11 @@ def test_indentation_blank_lines_and_line_ends_do_not_matter(walls, indent, blan
 @pytest.mark.parametrize(
     ("text", "place"),
     [
-        ("...\n..\n", "line 2 has 2 cells, but line 1 has 3"),
-        ("...\n\n...\n", "line 2 has 0 cells"),
-        ("..\n.o\n", "line 2, column 2: unknown character 'o'"),
-        ("\n\n  .X\n  ?.", "line 4, column 3: unknown character '?'"),
-        ("", "no lines"),
-        (" \n\n", "no lines"),
+        ("...\n..\n", "line 2 has 2 cells, but line 1 has 3"), ("...\n\n...\n", "line 2 has 0 cells"),
+        ("..\n.o\n", "line 2, column 2: unknown character 'o'"), (" \n\n", "no lines"),
+        ("\n\n  .X\n  ?.", "line 4, column 3: unknown character '?'"), ("", "no lines"),
     ],
-)
+)  # fmt: skip
 def test_a_bad_drawing_is_refused_with_its_place(text, place):
     with pytest.raises(BadInput) as error:
         from_text(text)
@@ -52,6 +39,7 @@ def test_a_bad_drawing_is_refused_with_its_place(text, place):
 
 
 def test_the_tutorial_s_walls_are_indexed_as_it_indexes_them():
+    assert np.argwhere(from_text("..X\n#..\n")).tolist() == [[0, 2], [1, 0]]
     walls, pose = tutorial()
     lines = DRAWING.strip().split("\n")
     assert walls.tolist() == [[character == "X" for character in line] for line in lines]  # the tutorial's own reading
@@ -74,7 +62,10 @@ def test_the_top_left_of_a_picture_is_low_x_high_y():
     assert np.argwhere(walls).tolist() == [[0, 2]]
 
 
-def test_row_zero_of_an_occupancy_grid_is_the_bottom():
+def test_row_zero_of_an_occupancy_grid_is_the_bottom_and_unknown_is_free_unless_asked_for():
+    for unknown_is_wall in (False, True):
+        walls, _ = from_occupancy([[-1, 0, 100, 50, 51]], 0.1, unknown_is_wall=unknown_is_wall)
+        np.testing.assert_array_equal(walls[:, 0], [unknown_is_wall, False, True, False, True])
     cells = np.zeros((3, 5), dtype=np.int8)
     cells[0, 4] = 100
     walls, grid = from_occupancy(cells, 0.05, origin=(-1.0, 2.0))
@@ -120,24 +111,14 @@ def test_negate_swaps_black_and_white(picture):
     np.testing.assert_array_equal(plain, negated)
 
 
-def test_unknown_cells_are_free_unless_asked_for():
-    cells = [[-1, 0, 100, 50, 51]]
-    np.testing.assert_array_equal(from_occupancy(cells, 0.1)[0][:, 0], [False, False, True, False, True])
-    np.testing.assert_array_equal(
-        from_occupancy(cells, 0.1, unknown_is_wall=True)[0][:, 0], [True, False, True, False, True]
-    )
-
-
 @pytest.mark.parametrize(
     ("cells", "says"),
     [
-        ([[0, 101]], "row 0, column 1 is 101"),
-        ([[0], [-2]], "row 1, column 0 is -2"),
-        ([[float("nan")]], "row 0, column 0 is nan"),
-        ([0, 100], "info.height and info.width"),
+        ([[0, 101]], "row 0, column 1 is 101"), ([[0], [-2]], "row 1, column 0 is -2"),
+        ([[float("nan")]], "row 0, column 0 is nan"), ([0, 100], "info.height and info.width"),
         ([["wall"]], "array of numbers"),
     ],
-)
+)  # fmt: skip
 def test_a_bad_occupancy_grid_is_refused_with_its_place(cells, says):
     with pytest.raises(BadInput) as error:
         from_occupancy(cells, 0.1)

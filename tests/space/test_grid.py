@@ -29,12 +29,9 @@ def read(scans, scan, beam, range_m):
     return replace(scans, ranges_m=ranges)
 
 
-def test_none_of_an_ordinary_walk(walk):
+def test_the_furthest_comes_first_and_an_ordinary_walk_has_none(walk):
     assert len(outlying(walk)) == 0
     assert bm.Grid.covering(walk, 0.1).n_cells < 100_000
-
-
-def test_the_furthest_comes_first(walk):
     wrong = read(moved(moved(walk, 7, 1e6), 9, -1e9), 3, 1, 1e7)
     assert outlying(wrong).tolist() == [9, 3, 7]
 
@@ -58,11 +55,8 @@ def test_a_wild_pose_is_named(walk, x_m):
     assert len(message) < 300
 
 
-def test_a_wild_reading_is_named_with_its_beam(walk):
+def test_a_wild_reading_is_named_with_its_beam_and_others_are_counted(walk):
     with pytest.raises(bm.BadInput, match=r"beam 1 of scan 3 .* reads 1e\+07 m.*--max-range"):
         bm.Grid.covering(read(walk, 3, 1, 1e7), 0.1)
-
-
-def test_others_are_counted(walk):
     with pytest.raises(bm.BadInput, match=r"scan 9 .*\(2 scans are so far out, this one most\)"):
         bm.Grid.covering(moved(moved(walk, 7, 1e8), 9, -1e9), 0.1)

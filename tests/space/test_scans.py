@@ -109,11 +109,7 @@ def test_the_beams_are_those_of_the_windows(log):
     moved = own.at(own.poses + 1.0).limited(2.0)
     np.testing.assert_array_equal(moved.own_angles_rad, own.own_angles_rad)
     assert len(train) + len(held) == SCANS
-
-
-def test_equal_angles_are_those_of_all_scans(log):
-    whole = log[2]["whole"]
-    again = replace(whole, angles_rad=np.tile(whole.angles_rad, (SCANS, 1)))
+    again = replace(whole, angles_rad=np.tile(whole.angles_rad, (SCANS, 1)))  # equal angles are those of all scans
     assert again.own_angles_rad is None
     np.testing.assert_array_equal(again.angles_rad, whole.angles_rad)
 
@@ -138,15 +134,13 @@ def test_scans_without_beams_and_alone(log):
 @pytest.mark.parametrize("cells", [bm.Independent(0.2), bm.Surface()])
 def test_the_model_says_the_same(log, name, cells):
     grid, _, logs = log
-    rng = np.random.default_rng(0)
-    said = []
-    drawn = cells.sample_cells(rng, grid)
-    for scans in (logs["whole"], logs[name]):
-        model = Model(scans, grid, cells, SENSOR)
-        said.append(model.beam_log_likelihoods(model.state(drawn)))
-    assert len(said[1]) == logs[name].ranges_m.size
-    np.testing.assert_allclose(said[1].sum(), said[0].sum(), rtol=1e-6)
-    np.testing.assert_allclose(np.sort(said[1][said[1] != 0]), np.sort(said[0][said[0] != 0]), rtol=1e-3, atol=1e-6)
+    drawn = cells.sample_cells(np.random.default_rng(0), grid)
+    models = [Model(scans, grid, cells, SENSOR) for scans in (logs["whole"], logs[name])]
+    expected, likelihoods = (model.beam_log_likelihoods(model.state(drawn)) for model in models)
+    assert len(likelihoods) == logs[name].ranges_m.size
+    np.testing.assert_allclose(likelihoods.sum(), expected.sum(), rtol=1e-6)
+    valid = [np.sort(values[values != 0]) for values in (likelihoods, expected)]
+    np.testing.assert_allclose(*valid, rtol=1e-3, atol=1e-6)
 
 
 @pytest.mark.parametrize("name", ["own", "turned"])
@@ -184,8 +178,8 @@ def test_poses_are_inferred_as_from_equal_scans(log, name):
     walls = (rng.random((1, grid.n_cells)) < 0.2).astype(np.float32)
     scan = rng.integers(0, SCANS, 40)
     shift = rng.normal(0, 0.05, (40, 3))
-    said = []
-    for scans in (logs["whole"], logs[name]):
-        likelihood = ScanLikelihood(scans, grid, SENSOR, 0.0)
-        said.append(likelihood(walls, scans.poses[scan] + shift, scan, np.zeros(40, np.intp)))
-    np.testing.assert_allclose(said[1], said[0], rtol=1e-6)
+    expected, likelihoods = (
+        ScanLikelihood(scans, grid, SENSOR, 0.0)(walls, scans.poses[scan] + shift, scan, np.zeros(40, np.intp))
+        for scans in (logs["whole"], logs[name])
+    )
+    np.testing.assert_allclose(likelihoods, expected, rtol=1e-6)

@@ -8,27 +8,21 @@ from bayesmap.space.time_order import coarse_stamps_note, elapsed_s, repeated_st
 EVEN = np.arange(400) * 0.1
 
 
-def test_stamps_in_order_stay_as_they_are():
-    found = time_order(EVEN)
-    np.testing.assert_array_equal(found.order, np.arange(400))
-    np.testing.assert_array_equal(found.stamps_s, EVEN)
-    assert found.steps == ()
-    assert found.reordered == 0
+def is_sorted(stamps_s, expected_s=EVEN):
+    ordered = time_order(stamps_s)
+    np.testing.assert_array_equal(ordered.stamps_s, expected_s)
+    np.testing.assert_array_equal(stamps_s[ordered.order], expected_s)
+    assert ordered.steps == ()
+    return ordered
 
 
 @pytest.mark.parametrize("burst", [5, 20, 50])
-@pytest.mark.parametrize("seed", range(3))
-def test_bursts_that_were_written_late_are_sorted(burst, seed):
-    order = np.random.default_rng(seed).permutation(400 // burst)
-    found = time_order(EVEN.reshape(-1, burst)[order].ravel())
-    np.testing.assert_array_equal(found.stamps_s, EVEN)
-    assert found.steps == ()
-    assert found.reordered > 0
-
-
-def test_single_late_scans_are_sorted():
-    late = np.concatenate([EVEN[:50], EVEN[51:100], EVEN[50:51], EVEN[100:]])
-    np.testing.assert_array_equal(time_order(late).stamps_s, EVEN)
+def test_bursts_and_single_scans_that_were_written_late_are_sorted(burst):
+    assert is_sorted(EVEN).reordered == 0
+    for seed in range(3):
+        order = np.random.default_rng(seed).permutation(400 // burst)
+        assert is_sorted(EVEN.reshape(-1, burst)[order].ravel()).reordered > 0
+    is_sorted(np.concatenate([EVEN[:50], EVEN[51:100], EVEN[50:51], EVEN[100:]]))
 
 
 @pytest.mark.parametrize("back_s", [1.6, 3.0, 15.0])
@@ -37,13 +31,13 @@ def test_a_clock_that_was_set_back_keeps_the_order_of_the_log(back_s):
     stamps = EVEN + rng.uniform(-0.02, 0.02, 400)
     stamps[200:] -= back_s
     stamps[300:] -= back_s
-    found = time_order(stamps)
-    assert found.steps == (200, 300)
-    np.testing.assert_array_equal(found.order, np.arange(400))
-    assert (np.diff(found.stamps_s) > 0).all()
-    np.testing.assert_allclose(found.stamps_s, EVEN, atol=0.15)
-    np.testing.assert_allclose(found.back_s, back_s - 0.1, atol=0.05)
-    first, second = found.notes(stamps)
+    ordered = time_order(stamps)
+    assert ordered.steps == (200, 300)
+    np.testing.assert_array_equal(ordered.order, np.arange(400))
+    assert (np.diff(ordered.stamps_s) > 0).all()
+    np.testing.assert_allclose(ordered.stamps_s, EVEN, atol=0.15)
+    np.testing.assert_allclose(ordered.back_s, back_s - 0.1, atol=0.05)
+    first, second = ordered.notes(stamps)
     assert f"at scan 200 (at {stamps[200]:.3f} s) and stays so" in first
     assert "at scan 300" in second
 
@@ -53,9 +47,7 @@ def test_a_shuffled_log_is_sorted(scans):
     """Its stamps go back every other scan, which no clock does: 20 shuffles each."""
     stamps = np.arange(scans) * 0.7
     for seed in range(20):
-        found = time_order(np.random.default_rng(seed).permutation(stamps))
-        np.testing.assert_array_equal(found.stamps_s, stamps)
-        assert found.steps == ()
+        is_sorted(np.random.default_rng(seed).permutation(stamps), stamps)
 
 
 EVERY_FIFTH = 1.7e9 + 0.2 * np.arange(200)
@@ -84,13 +76,10 @@ def test_the_true_time_lies_between_the_bounds_of_coarse_stamps(coarse):
     assert "stamps are coarse: " in coarse_stamps_note(stamps)
 
 
-def test_a_pause_in_coarse_stamps_is_still_a_pause():
+def test_a_pause_in_coarse_stamps_is_still_a_pause_and_only_repeated_stamps_are_coarse():
     stamps = np.floor(EVERY_FIFTH + 60.0 * (np.arange(200) >= 100))
     least_s, most_s = elapsed_s(stamps)
     assert 59.0 <= least_s[99] <= 60.2 <= most_s[99] <= 62.0
-
-
-def test_only_the_stamps_that_repeat_are_coarse():
     stamps = np.append(EVERY_FIFTH[:100], np.repeat(EVERY_FIFTH[99], 20))
     least_s, most_s = elapsed_s(stamps)
     np.testing.assert_allclose(least_s[:98], 0.2, atol=1e-6)

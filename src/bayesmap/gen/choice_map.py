@@ -21,8 +21,6 @@ from bayesmap.gen.masks import Mask, overlay, same_index, where
 from bayesmap.gen.pytree import Pytree, dataclass
 from bayesmap.gen.selection import Selection
 
-# ruff: noqa: D102 - the nodes' methods are those of ChoiceMap, documented with it.
-
 # Text -------------------------------------------------------------------------------------------------
 
 

@@ -17,8 +17,6 @@ from bayesmap.gen.pytree import dataclass, static
 from bayesmap.gen.selection import Selection
 from bayesmap.gen.typing import Arguments, PRNGKey, Score, StaticAddress, Weight
 
-# ruff: noqa: D102 - the methods are those of the contract, documented with it.
-
 _local = threading.local()
 
 
@@ -159,9 +157,6 @@ class Outer(GenerativeFunction):
 class TransformedTrace(OuterTrace):
     """The inner trace, without its arguments, with the outer arguments and return value."""
 
-    gen_fn: Any
-    args: Any
-    inner: Trace
     retval: Any
 
     def get_score(self) -> Score:

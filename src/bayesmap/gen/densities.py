@@ -24,9 +24,6 @@ from bayesmap.gen.errors import BadArguments, MissingExtra
 from bayesmap.gen.pytree import Pytree, dataclass, static
 from bayesmap.gen.typing import Array, IntArray, PRNGKey, Score
 
-# ruff: noqa: D102 - the methods are those of the contract, documented with it.
-
-
 Params = tuple[Any, ...]
 
 

@@ -38,10 +38,6 @@ NoChange = _NoChange()
 UnknownChange = _UnknownChange()
 
 
-def _is_diff(value: Any) -> bool:
-    return isinstance(value, Diff)
-
-
 @dataclass
 class Diff(Pytree):
     """A new leaf value, `primal`, and the mark of its change, `tangent`."""
@@ -65,12 +61,12 @@ class Diff(Pytree):
     @staticmethod
     def tree_tangent(value: Any) -> Any:
         """Return the tree of marks; an unmarked leaf counts as unchanged."""
-        return jax.tree.map(lambda leaf: leaf.tangent if _is_diff(leaf) else NoChange, value, is_leaf=_is_diff)
+        return jax.tree.map(lambda leaf: leaf.tangent if Diff.is_diff(leaf) else NoChange, value, is_leaf=Diff.is_diff)
 
     @staticmethod
     def is_diff(value: Any) -> bool:
         """Return whether `value` is a `Diff`."""
-        return _is_diff(value)
+        return isinstance(value, Diff)
 
     @staticmethod
     def is_change_tangent(value: Any) -> bool:
@@ -80,7 +76,7 @@ class Diff(Pytree):
     @staticmethod
     def static_check_tree_diff(value: Any) -> bool:
         """Return whether every leaf is marked."""
-        return all(_is_diff(leaf) for leaf in jax.tree.leaves(value, is_leaf=_is_diff))
+        return all(Diff.is_diff(leaf) for leaf in jax.tree.leaves(value, is_leaf=Diff.is_diff))
 
     @staticmethod
     def tree(value: Any, tangent: Change) -> Any:
@@ -105,13 +101,13 @@ class Diff(Pytree):
     @staticmethod
     def tree_primal(value: Any) -> Any:
         """Return `value` without its marks."""
-        return jax.tree.map(lambda leaf: leaf.primal if _is_diff(leaf) else leaf, value, is_leaf=_is_diff)
+        return jax.tree.map(lambda leaf: leaf.primal if Diff.is_diff(leaf) else leaf, value, is_leaf=Diff.is_diff)
 
     @staticmethod
     def tangents(value: Any) -> list[Change]:
         """Return the marks of the leaves in order; an unmarked leaf counts as changed."""
-        leaves = jax.tree.leaves(value, is_leaf=_is_diff)
-        return [leaf.tangent if _is_diff(leaf) else UnknownChange for leaf in leaves]
+        leaves = jax.tree.leaves(value, is_leaf=Diff.is_diff)
+        return [leaf.tangent if Diff.is_diff(leaf) else UnknownChange for leaf in leaves]
 
     @staticmethod
     def zip(value: Any, tangents: Sequence[Change]) -> Any:

@@ -1,5 +1,4 @@
 """Distributions: generative functions with one choice, at the empty address."""
-# ruff: noqa: D102 - the methods are those of the contract, documented with it.
 
 import operator
 from collections.abc import Callable
@@ -25,8 +24,6 @@ from bayesmap.gen.typing import Arguments, PRNGKey, Score, Weight
 class DistributionTrace(Trace):
     """A draw and its log density."""
 
-    gen_fn: Any
-    args: Any
     value: Any
     score: Score
 

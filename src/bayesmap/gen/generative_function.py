@@ -27,18 +27,19 @@ from bayesmap.gen.choice_map import ChoiceMap, Outlined, leaf_text
 from bayesmap.gen.diff import Diff
 from bayesmap.gen.edits import Edited, EditRequest, EmptyRequest, Update
 from bayesmap.gen.errors import AddressError
-from bayesmap.gen.pytree import Pytree
+from bayesmap.gen.pytree import Pytree, dataclass
 from bayesmap.gen.selection import Selection
 from bayesmap.gen.typing import Arguments, PRNGKey, Score, Weight
 
 # Traces -----------------------------------------------------------------------------------------------
 
 
+@dataclass
 class Trace(Outlined, Pytree):
     """A record of one run: arguments, choices, return value, score.
 
-    A batch of traces, from `jax.vmap`, is a trace whose leaves have a leading axis. A subclass has the fields `gen_fn`
-    and `args`, and either the fields `retval` and `score` or the methods `get_retval` and `get_score`.
+    A batch of traces, from `jax.vmap`, is a trace whose leaves have a leading axis. A subclass has either the fields
+    `retval` and `score` or the methods `get_retval` and `get_score`.
     """
 
     gen_fn: Any
@@ -115,6 +116,7 @@ class Trace(Outlined, Pytree):
         return self.get_gen_fn().project(key, self, selection)
 
 
+@dataclass
 class OuterTrace(Trace):
     """Base of traces whose choices are those of one other trace, the field `inner`."""
 

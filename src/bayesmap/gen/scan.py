@@ -1,5 +1,4 @@
 """Generative functions iterated: the state of each step is an argument of the next step."""
-# ruff: noqa: D102 - the methods are those of the contract, documented with it.
 
 from collections.abc import Callable
 from typing import Any
@@ -23,9 +22,6 @@ from bayesmap.gen.vmap import Vectorised, undo_all
 class ScanTrace(OuterTrace):
     """The steps' traces, stacked and without their arguments. `carries` stores the state before each step."""
 
-    gen_fn: Any
-    args: Any
-    inner: Trace
     carries: Any
     retval: Any
     score: Score

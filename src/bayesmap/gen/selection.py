@@ -1,5 +1,4 @@
 """Sets of addresses: `Selection.at["x"] | Selection.at["y", "z"]`."""
-# ruff: noqa: D102 - the kinds' methods are those of Selection, documented with it.
 
 from typing import Any
 

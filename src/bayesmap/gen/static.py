@@ -19,8 +19,6 @@ from bayesmap.gen.pytree import dataclass, static
 from bayesmap.gen.selection import Selection
 from bayesmap.gen.typing import Arguments, PRNGKey, Score, StaticAddress, Weight
 
-# ruff: noqa: D102 - the methods are those of the contract, documented with it.
-
 
 class Replay(Handler):
     """A run whose sites return the values `retvals`. It collects each site's function and arguments in `calls`."""
@@ -50,8 +48,6 @@ class StaticTrace(Trace):
     (address, number of the call's leaf). Otherwise the entry is None, and `computed` stores the leaf.
     """
 
-    gen_fn: Any
-    args: Any
     subtraces: dict[StaticAddress, Trace]
     computed: list[Any]
     retval_tree: Any = static()

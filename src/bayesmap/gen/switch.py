@@ -1,5 +1,4 @@
 """Generative functions chosen at run time: one of several branches, or a mask that makes one count or not."""
-# ruff: noqa: D102 - the methods are those of the contract, documented with it.
 
 import operator
 from collections.abc import Callable, Sequence
@@ -28,9 +27,6 @@ from bayesmap.gen.typing import Arguments, PRNGKey, Score, Weight
 class MaskTrace(OuterTrace):
     """The trace `inner`, whose choices and score count if `flag` is True. It has arguments if this trace has them."""
 
-    gen_fn: Any
-    args: Any
-    inner: Trace
     flag: Any
 
     def get_retval(self) -> Mask:
@@ -108,8 +104,6 @@ def mask(gen_fn: GenerativeFunction) -> MaskCombinator:
 class SwitchTrace(Trace):
     """One trace per branch. Only the trace of branch number `index`, which ran, has values; the others are zeros."""
 
-    gen_fn: Any
-    args: Any
     index: Any
     branches: tuple[Trace, ...]
     retval: Any

@@ -3,7 +3,6 @@
 A mapped distribution is a distribution over arrays: `flip.repeat(n=21).repeat(n=21)` stores one (21, 21) array and one
 score.
 """
-# ruff: noqa: D102 - the methods are those of the contract, documented with it.
 
 from collections.abc import Callable
 from typing import Any
@@ -142,9 +141,6 @@ def undo_all(back: EditRequest) -> EditRequest:
 class VmapTrace(OuterTrace):
     """The elements' traces, stacked and without their arguments. `args` stores a shared argument only once."""
 
-    gen_fn: Any
-    args: Any
-    inner: Trace
     score: Score
 
     def get_retval(self) -> Any:

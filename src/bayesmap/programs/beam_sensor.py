@@ -36,8 +36,6 @@ from bayesmap.sensors.model import KernelParameters, RangeLimits, SensorModel
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
 
-# ruff: noqa: D102 - the methods are those of the contract, documented with it.
-
 
 @dataclass
 class ReadingLaw(ExactDensity):
@@ -339,8 +337,6 @@ class BeamTrace(ReadingsTrace):
         readings: metres, in the sensor's `readings_shape`.
     """
 
-    gen_fn: Any
-    args: Any
     first_hit: Any
     readings: Any
 

@@ -8,7 +8,6 @@ The cells of beams from unknown poses cannot be listed in advance, as `bayesmap.
 poses. Each beam walks from cell to cell: Amanatides and Woo, "A fast voxel traversal algorithm for ray tracing" (1987).
 Lengths are in units of cells from the grid's lower left corner.
 """
-# ruff: noqa: D102 - the methods are those of the contract, documented with it.
 
 from __future__ import annotations
 
@@ -107,8 +106,6 @@ class PoseTrace(ReadingsTrace):
         readings: metres, (A,) or (S, A).
     """
 
-    gen_fn: Any
-    args: Any
     poses: Any
     ends: Any
     readings: Any

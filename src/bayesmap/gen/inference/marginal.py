@@ -1,5 +1,4 @@
 """Marginals: generative functions that show only some of their choices."""
-# ruff: noqa: D102 - the methods are those of the contract, documented with it.
 
 from collections.abc import Callable
 from typing import Any
@@ -23,8 +22,6 @@ from bayesmap.gen.typing import Arguments, PRNGKey, Score, Weight
 class MarginalTrace(Trace):
     """The shown choices, and `score`, an estimate of their log marginal density."""
 
-    gen_fn: Any
-    args: Any
     choices: ChoiceMap
     retval: Any
     score: Score

@@ -1,5 +1,4 @@
 """Edit requests that propose new values. Their weight is the log Metropolis-Hastings ratio of the move."""
-# ruff: noqa: D102 - the methods are those of the contract, documented with it.
 
 from collections.abc import Callable
 from typing import Any

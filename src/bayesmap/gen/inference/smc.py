@@ -16,8 +16,6 @@ from bayesmap.gen.pytree import Pytree, dataclass, nth, static
 from bayesmap.gen.scan import ScanTrace, scan
 from bayesmap.gen.typing import Array, IntArray, PRNGKey, Score, Weight
 
-# ruff: noqa: D102 - the methods of algorithms are those of their base, documented with it.
-
 
 @dataclass
 class Target(Pytree):
