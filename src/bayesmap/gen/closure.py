@@ -66,66 +66,6 @@ def running(handler: Handler) -> Iterator[None]:
         stack.pop()
 
 
-@dataclass
-class GenerativeFunctionClosure(GenerativeFunction):
-    """`m(x)`: a site with `@ "address"`, a draw with `(key)`, or `m` with `x` before its arguments.
-
-    Its traces are traces of `m`, whose arguments include `x`. Where some arguments are given by name, the traces'
-    arguments have the form that `m.handle_kwargs()` takes.
-    """
-
-    gen_fn: GenerativeFunction
-    args: tuple[Any, ...]
-    kwargs: dict[str, Any]
-
-    def _full(self, rest: tuple[Any, ...], by_name: dict[str, Any] | None = None) -> tuple[Any, Arguments]:
-        """Return (the function to run, all of its arguments)."""
-        args, kwargs = (*self.args, *rest), {**self.kwargs, **(by_name or {})}
-        return (self.gen_fn.handle_kwargs(), (args, kwargs)) if kwargs else (self.gen_fn, args)
-
-    def __matmul__(self, address: Any) -> Any:
-        stack, path = getattr(_local, "stack", []), as_path(address)
-        if not stack:
-            raise AddressError(path, "`@` is for the body of a @gen function; call the closure with a key instead")
-        stack[-1].enter(path)
-        return stack[-1].visit(path, *self._full(()))
-
-    def __call__(self, key: PRNGKey, *rest: Any, **by_name: Any) -> Any:
-        """Simulate, and return the return value alone."""
-        gen_fn, args = self._full(rest, by_name)
-        return gen_fn.simulate(key, args).get_retval()
-
-    def handle_kwargs(self) -> GenerativeFunction:
-        """Return this closure, which takes arguments by name when it is called."""
-        return self
-
-    def as_part(self) -> GenerativeFunction:
-        return Applied(self.gen_fn.handle_kwargs() if self.kwargs else self.gen_fn, self.args, self.kwargs)
-
-    def simulate(self, key: PRNGKey, args: Arguments) -> Trace:
-        gen_fn, full = self._full(args)
-        return gen_fn.simulate(key, full)  # type: ignore[no-any-return]
-
-    def assess(self, choices: ChoiceMap, args: Arguments) -> tuple[Score, Any]:
-        gen_fn, full = self._full(args)
-        return gen_fn.assess(choices, full)  # type: ignore[no-any-return]
-
-    def generate(self, key: PRNGKey, constraint: ChoiceMap, args: Arguments) -> tuple[Trace, Weight]:
-        gen_fn, full = self._full(args)
-        return gen_fn.generate(key, constraint, full)  # type: ignore[no-any-return]
-
-    def edit(self, key: PRNGKey, trace: Any, request: EditRequest, argdiffs: Any) -> Edited:
-        held = Diff.unknown_change(self.args)
-        return request.edit(key, trace, _in_form((*held, *argdiffs), Diff.unknown_change(self.kwargs)))
-
-    def project(self, key: PRNGKey, trace: Any, selection: Selection) -> Weight:
-        return trace.project(key, selection)  # type: ignore[no-any-return]
-
-
-def _in_form(args: tuple[Any, ...], kwargs: dict[str, Any]) -> tuple[Any, ...]:
-    return (args, kwargs) if kwargs else args
-
-
 class Outer(GenerativeFunction):
     """Base of functions whose choices are those of one other function, `inner`. Their traces are `OuterTrace`."""
 
@@ -151,6 +91,59 @@ class Outer(GenerativeFunction):
 
     def project(self, key: PRNGKey, trace: Any, selection: Selection) -> Weight:
         return self.inner.project(key, trace.inner, selection)
+
+
+def _in_form(args: tuple[Any, ...], kwargs: dict[str, Any]) -> tuple[Any, ...]:
+    return (args, kwargs) if kwargs else args
+
+
+@dataclass
+class GenerativeFunctionClosure(Outer):
+    """`m(x)`: a site with `@ "address"`, a draw with `(key)`, or `m` with `x` before its arguments.
+
+    Its traces are traces of `m`, whose arguments include `x`. Where some arguments are given by name, the traces'
+    arguments have the form that `m.handle_kwargs()` takes.
+    """
+
+    gen_fn: GenerativeFunction
+    args: tuple[Any, ...]
+    kwargs: dict[str, Any]
+
+    @property
+    def inner(self) -> GenerativeFunction:  # type: ignore[override]
+        return self.gen_fn.handle_kwargs() if self.kwargs else self.gen_fn
+
+    def inner_args(self, args: Arguments) -> Arguments:
+        return _in_form((*self.args, *args), self.kwargs)
+
+    def wrap(self, args: Arguments, inner: Any) -> Any:
+        return inner
+
+    def __matmul__(self, address: Any) -> Any:
+        stack, path = getattr(_local, "stack", []), as_path(address)
+        if not stack:
+            raise AddressError(path, "`@` is for the body of a @gen function; call the closure with a key instead")
+        stack[-1].enter(path)
+        return stack[-1].visit(path, self.inner, self.inner_args(()))
+
+    def __call__(self, key: PRNGKey, *rest: Any, **by_name: Any) -> Any:
+        """Simulate, and return the return value alone."""
+        closure = self.replace(kwargs={**self.kwargs, **by_name})
+        return closure.simulate(key, rest).get_retval()
+
+    def handle_kwargs(self) -> GenerativeFunction:
+        """Return this closure, which takes arguments by name when it is called."""
+        return self
+
+    def as_part(self) -> GenerativeFunction:
+        return Applied(self.inner, self.args, self.kwargs)
+
+    def edit(self, key: PRNGKey, trace: Any, request: EditRequest, argdiffs: Any) -> Edited:
+        held = Diff.unknown_change(self.args)
+        return request.edit(key, trace, _in_form((*held, *argdiffs), Diff.unknown_change(self.kwargs)))
+
+    def project(self, key: PRNGKey, trace: Any, selection: Selection) -> Weight:
+        return trace.project(key, selection)  # type: ignore[no-any-return]
 
 
 @dataclass
