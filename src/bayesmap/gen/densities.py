@@ -28,20 +28,13 @@ Params = tuple[Any, ...]
 
 
 class Family(NamedTuple):
-    """Functions that read the parameters, draw, and score.
+    """Functions that read the parameters, draw, and score."""
 
-    Attributes:
-        parameters: takes a user's arguments, and returns the parameters of the functions below.
-        draw: takes a key, the shape of independent draws and the parameters.
-        logpdf: takes a value and the parameters, elementwise.
-        support: takes a value, and returns whether some parameters can give it.
-        batch: takes the parameters, and returns the shape of independent draws that they imply.
-    """
-
-    parameters: Callable[..., Params]
-    draw: Callable[..., Any]
-    logpdf: Callable[..., Any]
-    support: Callable[[Any], Any] = lambda value: True
+    parameters: Callable[..., Params]  # from a user's arguments
+    draw: Callable[..., Any]  # from a key, the shape of independent draws, and the parameters
+    logpdf: Callable[..., Any]  # from a value and the parameters, elementwise
+    support: Callable[[Any], Any] = lambda value: True  # whether some parameters can give the value
+    # The shape of independent draws that the parameters imply.
     batch: Callable[..., tuple[int, ...]] = lambda *params: jnp.broadcast_shapes(*map(jnp.shape, params))
 
 

@@ -336,8 +336,9 @@ def gen(source: Callable[..., Any]) -> StaticGenerativeFunction:
     """Return a Python function as a generative function.
 
     In its body `g(*args) @ "address"` calls a generative function and records its choices under the address, which no
-    other call may have. `@ ()` records them as the function's own choices. The i-th call uses `fold_in(key, i)`, with i
-    from 1.
+    other call may have (AddressReuse). `@ ()` records them as the function's own choices. The i-th call uses
+    `fold_in(key, i)`, with i from 1. Given choices that do not match the addresses raise MissingAddress or
+    UnknownAddress.
     """
     made = StaticGenerativeFunction((), source)
     for name in (*functools.WRAPPER_ASSIGNMENTS, "__wrapped__"):

@@ -157,23 +157,15 @@ class BeamGeometry:
 
     Position l of a beam is the l-th cell that it touches. A geometry is compared and hashed by content, so that it may
     be a static part of JAX's trees: models of equal geometry share one compilation, and traces hold no copies of it.
-
-    Attributes:
-        shape: (nx, ny) of the grid.
-        cells: (B, L + LOOK) int32, flat indices x * ny + y in the order of touch, then sentinels N. A sentinel counts
-            as a wall, so that every search along a beam ends.
-        distance_m: (B, L + LOOK) float32, the distance at which the beam hits each cell; inf at sentinels.
-        offsets: (N + 1,) int32; cell c has the entries offsets[c] : offsets[c + 1] of the two arrays below.
-        beam: (K + GROUP,) int32, the beams through the cells; the last GROUP entries are padding.
-        position: (K + GROUP,) int32, the position of the cell in that beam.
     """
 
-    shape: tuple[int, int]
+    shape: tuple[int, int]  # of the grid
+    # Flat indices x * ny + y in the order of touch, then sentinels N, which count as walls: (B, L + LOOK).
     cells: NDArray[np.int32]
-    distance_m: NDArray[np.float32]
-    offsets: NDArray[np.int32]
-    beam: NDArray[np.int32]
-    position: NDArray[np.int32]
+    distance_m: NDArray[np.float32]  # at which the beam hits each cell; inf at sentinels
+    offsets: NDArray[np.int32]  # (N + 1,); cell c has the entries offsets[c] : offsets[c + 1] of the two arrays below
+    beam: NDArray[np.int32]  # (K + GROUP,), the beams through the cells; the last GROUP entries are padding
+    position: NDArray[np.int32]  # (K + GROUP,), the position of the cell in that beam
 
     @property
     def n_beams(self) -> int:
@@ -330,15 +322,10 @@ def checked_walls(walls: Any, shape: tuple[int, int]) -> Any:
 
 @dataclass
 class BeamTrace(ReadingsTrace):
-    """Readings with the first hits of their beams.
+    """Readings with the first hits of their beams."""
 
-    Attributes:
-        first_hit: (B,) unsigned, the position of each beam's first wall.
-        readings: metres, in the sensor's `readings_shape`.
-    """
-
-    first_hit: Any
-    readings: Any
+    first_hit: Any  # (B,) unsigned, the position of each beam's first wall
+    readings: Any  # metres, in the sensor's `readings_shape`
 
     @property
     def seen(self) -> Any:

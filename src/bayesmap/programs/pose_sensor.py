@@ -98,17 +98,11 @@ GROUP = 8
 
 @dataclass
 class PoseTrace(ReadingsTrace):
-    """Readings with the poses of the scans and the cells at which the beams end.
+    """Readings with the poses of the scans and the cells at which the beams end."""
 
-    Attributes:
-        poses: (S, 3) float.
-        ends: (S, A) int32, the flat index of each beam's first wall, or the number of cells if there is none.
-        readings: metres, (A,) or (S, A).
-    """
-
-    poses: Any
-    ends: Any
-    readings: Any
+    poses: Any  # (S, 3)
+    ends: Any  # (S, A) int32, the flat index of each beam's first wall, or the number of cells if there is none
+    readings: Any  # metres, (A,) or (S, A)
 
     @property
     def seen(self) -> tuple[Any, Any]:
@@ -122,19 +116,12 @@ class PoseTrace(ReadingsTrace):
 
 @dataclass
 class PoseSensor(RangeSensor):
-    """`sensor(walls, poses)`: walls (nx, ny), poses (3,) or (S, 3); readings in metres, (A,) or (S, A), at address ().
-
-    Attributes:
-        grid: the grid of the walls.
-        angles_rad: the A beam angles in the sensor frame.
-        law: the law of a reading given the distance of the first wall.
-        hit_depth: where in a cell a beam stops, as a fraction of its chord.
-    """
+    """`sensor(walls, poses)`: walls (nx, ny), poses (3,) or (S, 3); readings in metres, (A,) or (S, A), at ()."""
 
     grid: Grid = static()
-    angles_rad: tuple[float, ...] = static()
+    angles_rad: tuple[float, ...] = static()  # of the A beams, in the sensor frame
     law: ReadingLaw = static()
-    hit_depth: float = static()
+    hit_depth: float = static()  # where in a cell a beam stops, as a fraction of its chord
 
     def beams(self, poses: Any) -> Beams:
         """Return the beams of poses (..., 3), shape (..., A)."""

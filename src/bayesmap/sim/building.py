@@ -55,11 +55,6 @@ class Space:
         """Number of columns of cells."""
         return self.x1 - self.x0
 
-    @property
-    def depth(self) -> int:
-        """Number of rows of cells."""
-        return self.y1 - self.y0
-
 
 def lay_out(rng: np.random.Generator, x0: int, x1: int, y0: int, y1: int, resolution: float) -> tuple[Space, ...]:
     """Lay out corridors and rooms that fill the cells ``x0 <= i < x1``, ``y0 <= j < y1``, one inner wall apart."""
@@ -343,7 +338,7 @@ class _Construction:
                 self.window(middle - half, middle + half, row, row + self.outer, along_x=True)
         for touches, column in ((room.x0 == ix0, ix0 - self.outer), (room.x1 == ix1, ix1)):
             if touches and self.rng.random() < 0.5:
-                half, middle = int(room.depth * 0.3), (room.y0 + room.y1) // 2
+                half, middle = int((room.y1 - room.y0) * 0.3), (room.y0 + room.y1) // 2
                 self.window(column, column + self.outer, middle - half, middle + half, along_x=False)
 
     def end_windows(self, corridor: Space) -> None:
@@ -367,10 +362,8 @@ class _Construction:
     def window(self, x0: int, x1: int, y0: int, y1: int, *, along_x: bool) -> None:
         """Put a pane in the middle of the outer wall, with free cells on both sides."""
         self.opacity[x0:x1, y0:y1] = 0.0
-        if along_x:
-            self.pane(x0, x1, (y0 + y1) // 2, (y0 + y1) // 2 + 1, along_x=True)
-        else:
-            self.pane((x0 + x1) // 2, (x0 + x1) // 2 + 1, y0, y1, along_x=False)
+        x, y = (x0 + x1) // 2, (y0 + y1) // 2
+        self.pane(*((x0, x1, y, y + 1) if along_x else (x, x + 1, y0, y1)), along_x=along_x)
 
     def pane(self, x0: int, x1: int, y0: int, y1: int, *, along_x: bool) -> None:
         """Put glass with a mullion every 1.2 m."""

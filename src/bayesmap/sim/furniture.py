@@ -55,14 +55,10 @@ def passage_m(resolution: float) -> float:
 
 @dataclass
 class RoomFloor:
-    """A room to furnish. Its frame, in metres: x along the corridor wall, y away from the corridor.
+    """A room to furnish. Its frame, in metres: x along the corridor wall, y away from the corridor."""
 
-    ``opacity`` covers the room's cells and the walls around them, (nx + 2, ny + 2), and is changed in place. ``keep``
-    marks door openings and the cells in front of them, where nothing may stand.
-    """
-
-    opacity: NDArray[np.float64]
-    keep: NDArray[np.bool_]
+    opacity: NDArray[np.float64]  # of the room's cells and the walls around them, (nx + 2, ny + 2), changed in place
+    keep: NDArray[np.bool_]  # mask of door openings and the cells in front of them, where nothing may stand
     resolution: float
     rng: np.random.Generator
 
@@ -103,10 +99,7 @@ class RoomFloor:
 
 
 def furnish(room: RoomFloor, kind: str, clutter: float) -> None:
-    """Furnish a room, in place, for its kind, one of those of `bayesmap.sim.building.Room`.
-
-    The clutter is 0 for an empty room, 1 for usual furniture, more for more.
-    """
+    """Furnish a room, in place, for its kind (`bayesmap.sim.building.Room`); clutter 1 is usual furniture."""
     if clutter <= 0:
         return
     FURNISHERS[kind](room, clutter)

@@ -250,10 +250,8 @@ def simulate_odometry(
 def travel_times_s(poses_world: ArrayLike, speed_m_per_s: float, turn_rad_per_s: float) -> Floats:
     """Compute the times at which a robot passes the poses of its path, seconds from the first, shape (S,).
 
-    A step takes the longer of two times: its distance at full speed, and its turn at the full rate.
-
-    Raises:
-        BadInput: a speed or rate that is not positive.
+    A step takes the longer of two times: its distance at full speed, and its turn at the full rate. Both must be
+    positive.
     """
     for name, value in (("speed", speed_m_per_s), ("turn rate", turn_rad_per_s)):
         if not (math.isfinite(value) and value > 0):

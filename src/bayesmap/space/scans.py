@@ -222,7 +222,10 @@ class Scans:
         return angles[np.arange(len(self)), ends[0]], angles[np.arange(len(self)), ends[1]]
 
     def at(self, poses_world: ArrayLike) -> Scans:
-        """Return the same readings at other scan poses, (S, 3). Poses of single beams move with their scan's pose."""
+        """Return the same readings at other scan poses, (S, 3). Poses of single beams move with their scan's pose.
+
+        Poses of another shape, or poses that are not finite, raise `BadInput`.
+        """
         poses = as_poses(poses_world)
         if poses.shape != self.poses.shape:
             raise BadInput(f"scans: poses has shape {poses.shape}, expected {self.poses.shape}")
@@ -232,7 +235,10 @@ class Scans:
         return replace(self, poses=poses, beam_poses=compose(poses[:, None], seen_from_scan))
 
     def holdout(self, every: int) -> tuple[Scans, Scans]:
-        """Split into (training, held out): every ``every``-th scan, from ``every // 2`` on, is held out."""
+        """Split into (training, held out): every ``every``-th scan, from ``every // 2`` on, is held out.
+
+        A number below 2, or so large that no scan is held out, raises `BadInput`.
+        """
         if every < 2:
             raise BadInput(f"holdout: hold out every n-th scan with n >= 2, got {every}")
         held = np.arange(len(self)) % every == every // 2

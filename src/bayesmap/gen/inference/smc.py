@@ -128,14 +128,12 @@ def systematic(key: PRNGKey, log_weights: Array) -> IntArray:
 
 
 class SMCAlgorithm(Algorithm):
-    """Base of algorithms that return weighted particles. A subclass implements the first four methods."""
+    """Base of algorithms that return weighted particles for `target`. A subclass implements the first three methods."""
+
+    target: Target
 
     def get_num_particles(self) -> int:
         """Return the number of particles."""
-        raise NotImplementedError
-
-    def get_final_target(self) -> Target:
-        """Return the target of the particles' weights."""
         raise NotImplementedError
 
     def run_smc(self, key: PRNGKey) -> ParticleCollection:
@@ -145,6 +143,10 @@ class SMCAlgorithm(Algorithm):
     def run_csmc(self, key: PRNGKey, retained: ChoiceMap) -> ParticleCollection:
         """Draw all particles except the last one, whose open choices are `retained` (conditional SMC)."""
         raise NotImplementedError
+
+    def get_final_target(self) -> Target:
+        """Return the target of the particles' weights."""
+        return self.target
 
     def log_marginal_likelihood_estimate(self, key: PRNGKey, target: Target | None = None) -> Array:
         """Return the log of an unbiased estimate of the evidence of `target`, by default of the final target."""
@@ -187,9 +189,6 @@ class ImportanceK(SMCAlgorithm):
 
     def get_num_particles(self) -> int:
         return self.k_particles
-
-    def get_final_target(self) -> Target:
-        return self.target
 
     def run_smc(self, key: PRNGKey) -> ParticleCollection:
         return ParticleCollection(*jax.vmap(self._one)(jax.random.split(key, self.k_particles)))
@@ -247,9 +246,6 @@ class ChangeTarget(SMCAlgorithm):
 
     def get_num_particles(self) -> int:
         return self.prev.get_num_particles()
-
-    def get_final_target(self) -> Target:
-        return self.target
 
     def run_smc(self, key: PRNGKey) -> ParticleCollection:
         run_key, key = jax.random.split(key)
