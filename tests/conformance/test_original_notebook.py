@@ -10,7 +10,7 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 import pytest
-from peers import notebook_cells
+from run_peer_tests import notebook_cells
 
 import bayesmap.gen as genjax
 

@@ -1,11 +1,14 @@
-"""Single scans that are absurdly far out: found, named, and told apart from maps that are large."""
+"""Poses in the plane; single scans that are absurdly far out: found, named, and told apart from maps that are large."""
 
 from dataclasses import replace
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 import bayesmap as bm
+from bayesmap.space import planar as p
 from bayesmap.space.grid import outlying
 
 
@@ -60,3 +63,67 @@ def test_a_wild_reading_is_named_with_its_beam_and_others_are_counted(walk):
         bm.Grid.covering(read(walk, 3, 1, 1e7), 0.1)
     with pytest.raises(bm.BadInput, match=r"scan 9 .*\(2 scans are so far out, this one most\)"):
         bm.Grid.covering(moved(moved(walk, 7, 1e8), 9, -1e9), 0.1)
+
+
+NUMBER = st.floats(-50, 50)
+POSE = st.tuples(NUMBER, NUMBER, NUMBER).map(np.array)
+
+
+def matrix(pose):
+    cos, sin = np.cos(pose[2]), np.sin(pose[2])
+    return np.array([[cos, -sin, pose[0]], [sin, cos, pose[1]], [0, 0, 1]])
+
+
+@given(POSE, POSE)
+def test_composition_and_inverse_are_those_of_matrices(a, b):
+    np.testing.assert_allclose(matrix(p.compose(a, b)), matrix(a) @ matrix(b), atol=1e-9)
+    np.testing.assert_allclose(matrix(p.inverse(a)), np.linalg.inv(matrix(a)), atol=1e-9)
+    np.testing.assert_allclose(matrix(p.compose(a, p.between(a, b))), matrix(b), atol=1e-9)
+
+
+@pytest.mark.parametrize(("angle", "same"), [(np.pi, -np.pi), (-np.pi, -np.pi), (7.0, 7.0 - 2 * np.pi), (0.5, 0.5)])
+def test_angles_are_wrapped_into_one_turn(angle, same):
+    assert p.wrapped(np.array(angle)) == pytest.approx(same)
+
+
+def test_interpolated_poses_pass_through_the_given_ones_and_turn_the_short_way():
+    stamps = np.array([0.0, 1.0, 1.0, 3.0])
+    poses = np.array([[0, 0, 3.0], [1, 0, -3.0], [1, 1, -3.0], [3, 1, -3.0]], dtype=float)
+    found = p.interpolate(stamps, poses, np.array([-1.0, 0.0, 0.5, 1.0, 2.0, 9.0]))
+    np.testing.assert_allclose(found[[0, 1, 3, 5]], poses[[0, 0, 2, 3]], atol=1e-12)
+    assert abs(abs(found[2, 2]) - np.pi) < 1e-9
+    np.testing.assert_allclose(found[4], [2.0, 1.0, -3.0], atol=1e-12)
+    for count in (1, 2):  # one pose holds at all times
+        alone = p.interpolate(np.zeros(count), np.tile([[1.0, 2.0, 0.5]], (count, 1)), np.array([-1.0, 0.0, 1.0]))
+        np.testing.assert_allclose(alone, [[1.0, 2.0, 0.5]] * 3)
+
+
+def test_neighbours_are_those_before_and_after_and_the_two_at_the_end_outside():
+    before, after = p.around(np.array([1.0, 2.0, 4.0]), np.array([0.0, 1.5, 2.0, 3.0, 9.0]))
+    assert before.tolist() == [0, 0, 0, 1, 1]
+    assert after.tolist() == [1, 1, 1, 2, 2]
+    alone = np.array([5]), np.array([1, 5, 9])
+    assert [index.tolist() for index in (*p.around(*alone), p.nearest(*alone))] == [[0, 0, 0]] * 3
+
+
+@given(st.lists(st.integers(-50, 50), min_size=1, max_size=8, unique=True), st.integers(-60, 60))
+def test_the_nearest_is_the_nearest_of_all_and_of_two_the_earlier(numbers, number):
+    ascending = np.sort(numbers)
+    assert p.nearest(ascending, np.array([number]))[0] == np.argmin(np.abs(ascending - number))
+
+
+A, B = np.random.default_rng(5).normal(0.0, 2.0, (2, 20, 3))
+
+
+def test_points_follow_their_pose():
+    points = np.random.default_rng(6).normal(size=(20, 2))
+    np.testing.assert_allclose(p.transform(A, p.transform(B, points)), p.transform(p.compose(A, B), points), atol=1e-12)
+
+
+def test_jacobians_of_a_relative_pose_equal_finite_differences():
+    by_a, by_b = p.between_jacobians(p.between(A, B))
+    for k, h in enumerate(np.eye(3) * 1e-6):
+        change_a = (p.between(p.retract(A, h), B) - p.between(p.retract(A, -h), B)) / 2e-6
+        change_b = (p.between(A, p.retract(B, h)) - p.between(A, p.retract(B, -h))) / 2e-6
+        np.testing.assert_allclose(by_a[..., k], change_a, atol=1e-7)
+        np.testing.assert_allclose(by_b[..., k], change_b, atol=1e-7)

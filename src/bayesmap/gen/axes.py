@@ -100,8 +100,8 @@ def dense(chm: ChoiceMap, shape: tuple[int, ...]) -> tuple[Any, Any] | None:
             return value, None
         case Indexed(inner, index) if shape:
             index = check_index(index, shape[0])
-            value, flag = dense(inner, jnp.shape(index) + shape[1:]) or (None, None)
-            present = jnp.zeros(shape, bool).at[index].set(True if flag is None else flag)
+            value, below = dense(inner, jnp.shape(index) + shape[1:]) or (None, None)
+            present = jnp.zeros(shape, bool).at[index].set(True if below is None else below)
             return _put(value, index, shape[0]), present
         case Or() | Switch():
             parts = (chm.c1, chm.c2) if isinstance(chm, Or) else chm.chms

@@ -104,7 +104,7 @@ class _Run(Handler):
     `fold_in(key, 2)`, ...
     """
 
-    def __init__(self, key: PRNGKey, make: Callable[..., tuple[Trace, Weight]]) -> None:
+    def __init__(self, key: PRNGKey, make: Callable[..., tuple[Trace, Any]]) -> None:
         super().__init__()
         self.key, self.make = key, make
         self.traces: dict[StaticAddress, Trace] = {}
