@@ -45,35 +45,22 @@ if TYPE_CHECKING:
     from bayesmap.space.scans import ReadingKind as ReadingKind, Scans as Scans
     # isort: on
 
+# fmt: off
 _NAMES = {
-    "bayesmap.api": ("infer", "slam"),
-    "bayesmap.app.widget": ("MapWidget",),
-    "bayesmap.arguments": ("Checkpoints", "Schedule", "Where"),
-    "bayesmap.cells.binary": ("Independent", "Ising", "fit_coupling"),
-    "bayesmap.cells.reflectivity": ("Beta",),
-    "bayesmap.cells.surface": ("Surface",),
-    "bayesmap.errors": ("BadInput",),
-    "bayesmap.io.logs": ("read_log",),
-    "bayesmap.io.text.trajectories": ("read_trajectory",),
-    "bayesmap.localization.known_map": ("KnownMap",),
-    "bayesmap.localization.localize": ("InitialPose", "localize"),
-    "bayesmap.poses.prior": ("KnownPoses", "Odometry", "UncertainPoses"),
-    "bayesmap.posterior.information": ("InformationGain",),
-    "bayesmap.posterior.route": ("FreeProbability", "Route"),
-    "bayesmap.posterior.scores": ("compare_scores",),
-    "bayesmap.programs.mapping": ("mapping_model",),
-    "bayesmap.result": ("Run", "load", "score"),
-    "bayesmap.run.ray_executor": ("RayExecutor",),
-    "bayesmap.samplers.methods": ("Block", "Exact", "Gibbs", "Importance", "Propagate"),
-    "bayesmap.sensors.builtin": ("BeamMixture", "Gaussian", "StudentT"),
-    "bayesmap.sensors.model": ("SensorModel",),
-    "bayesmap.sim.forward": ("ranges", "simulate"),
-    "bayesmap.sim.robot": ("OdometryNoise", "simulate_odometry"),
-    "bayesmap.space.grid": ("Grid",),
-    "bayesmap.space.scans": ("ReadingKind", "Scans"),
-    "bayesmap.worlds": ("worlds",),
+    "api": ("infer", "slam"), "app.widget": ("MapWidget",), "arguments": ("Checkpoints", "Schedule", "Where"),
+    "cells.binary": ("Independent", "Ising", "fit_coupling"), "cells.reflectivity": ("Beta",),
+    "cells.surface": ("Surface",), "errors": ("BadInput",), "io.logs": ("read_log",),
+    "io.text.trajectories": ("read_trajectory",), "localization.known_map": ("KnownMap",),
+    "localization.localize": ("InitialPose", "localize"), "poses.prior": ("KnownPoses", "Odometry", "UncertainPoses"),
+    "posterior.information": ("InformationGain",), "posterior.route": ("FreeProbability", "Route"),
+    "programs.mapping": ("mapping_model",), "result": ("Run", "load", "score"), "run.ray_executor": ("RayExecutor",),
+    "samplers.methods": ("Block", "Exact", "Gibbs", "Importance", "Propagate"),
+    "sensors.builtin": ("BeamMixture", "Gaussian", "StudentT"), "sensors.model": ("SensorModel",),
+    "sim.forward": ("ranges", "simulate"), "sim.robot": ("OdometryNoise", "simulate_odometry"), "space.grid": ("Grid",),
+    "space.scans": ("ReadingKind", "Scans"), "worlds": ("worlds",),
 }
-_HOME = {name: module for module, names in _NAMES.items() for name in names}
+# fmt: on
+_HOME = {name: f"bayesmap.{module}" for module, names in _NAMES.items() for name in names}
 
 __all__ = ["__version__", *_HOME]  # noqa: PLE0604 -- the strings are in _HOME
 

@@ -8,6 +8,7 @@ A flag may be an array, such as a mask's flag or a comparison of index arrays. S
 addresses a map has: the map stores the value as a Mask.
 """
 
+import operator
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import suppress
 from functools import reduce
@@ -39,11 +40,9 @@ def leaf_text(value: Any) -> str:
     """Return the text of a short array's elements, or of a long array's dtype and shape."""
     if isinstance(value, Mask):
         return f"{leaf_text(value.value)} where {leaf_text(value.flag)}"
-    try:
+    with suppress(TypeError):  # not an array, or several
         if isinstance(value, jax.core.Tracer) or jnp.size(value) > 8:
             return f"{jnp.result_type(value)}{list(jnp.shape(value))}"
-    except TypeError:  # not an array, or several
-        return str(value)
     return str(value)
 
 
@@ -70,12 +69,10 @@ def components(address: Any) -> tuple[Any, ...]:
 
 
 class Builder:
-    """Builder of choice maps: `C["x", 0].set(v)`, `C.v(value)`, `C.d({...})`, `C.kw(...)` and `C.n()`.
-
-    `base` is the map to change, None for the empty map. `address` is the address at which a value is set.
-    """
+    """Builder of choice maps: `C["x", 0].set(v)`, `C.v(value)`, `C.d({...})`, `C.kw(...)` and `C.n()`."""
 
     def __init__(self, base: "ChoiceMap | None", address: tuple[Any, ...]) -> None:
+        # The map to change, None for the empty map, and the address at which a value is set.
         self._base, self._address = base, address
 
     def __getitem__(self, address: Any) -> "Builder":
@@ -166,10 +163,8 @@ class ChoiceMap(Outlined, Pytree):
 
     def get_selection(self) -> Selection:
         """Return the selection of exactly the addresses that hold a value."""
-        sel = Selection.none()
-        for path in self.paths():
-            sel = sel | Selection.leaf().extend(*(c for c in path if isinstance(c, str)))
-        return sel
+        names = ((c for c in path if isinstance(c, str)) for path in self.paths())
+        return reduce(operator.or_, (Selection.leaf().extend(*path) for path in names), Selection.none())
 
     def invalid_subset(self, gen_fn: Any, args: tuple[Any, ...]) -> "ChoiceMap | None":
         """Return the choices of this map that `gen_fn` never makes on `args`; None if there are none."""
@@ -240,8 +235,8 @@ class ChoiceMap(Outlined, Pytree):
     @staticmethod
     def from_mapping(pairs: Iterable[tuple[Any, Any]]) -> "ChoiceMap":
         """Return the map of (address, value) pairs."""
-        entries = [ChoiceMap.entry(value, *components(address)) for address, value in pairs]
-        return reduce(lambda a, b: a | b, entries, ChoiceMap.empty())
+        entries = (ChoiceMap.entry(value, *components(address)) for address, value in pairs)
+        return reduce(operator.or_, entries, ChoiceMap.empty())
 
     @staticmethod
     def d(mapping: dict[Any, Any]) -> "ChoiceMap":

@@ -76,13 +76,12 @@ class StaticTrace(Trace):
         return sum((t.get_score() for t in self.subtraces.values()), start=jnp.zeros(()))
 
     def get_choices(self) -> ChoiceMap:
-        parts = [t.get_choices().extend(*path) for path, t in self.subtraces.items()]
-        return functools.reduce(lambda a, b: a | b, parts, ChoiceMap.empty())
+        parts = ((path, t.get_choices()) for path, t in self.subtraces.items())
+        return ChoiceMap.from_mapping(parts)
 
     def get_inner_trace(self, address: Any) -> Trace:
         path = as_path(address)
-        if path not in self.subtraces:
-            raise UnknownAddress(path, f"its sites are {', '.join(map(show, self.subtraces))}")
+        _check_sites([path], list(self.subtraces))
         if self.args is None:
             return self.subtraces[path]
 
@@ -224,6 +223,13 @@ def _located(path: StaticAddress) -> Iterator[None]:
         raise error.under(path) from None
 
 
+def _check_sites(paths: Iterable[Any], sites: list[StaticAddress]) -> None:
+    """Raise UnknownAddress for a path that is not the address of a site."""
+    for path in paths:
+        if path not in sites:
+            raise UnknownAddress(path, f"its sites are {', '.join(map(show, sites))}")
+
+
 def _check_known(paths: Iterable[Any], visited: list[StaticAddress]) -> None:
     """Raise UnknownAddress for a path that lies at or below no site."""
     sites = ", ".join(map(show, visited)) or "none"
@@ -303,9 +309,7 @@ class StaticGenerativeFunction(GenerativeFunction):
                     return EmptyRequest() if below.static_is_empty() else Update(below)
 
             case StaticRequest(addressed):
-                for path in addressed:
-                    if path not in sites:
-                        raise UnknownAddress(path, f"its sites are {', '.join(map(show, sites))}")
+                _check_sites(addressed, sites)
                 part = lambda path: addressed.get(path, EmptyRequest())  # noqa: E731
             case Regenerate(selection):
                 part = lambda path: Regenerate(selection(path))  # noqa: E731
@@ -320,8 +324,8 @@ class StaticGenerativeFunction(GenerativeFunction):
 def _undo(request: EditRequest, backward: dict[StaticAddress, EditRequest]) -> EditRequest:
     """Join the sites' backward requests. Returns an Update if the request and all of them are updates."""
     if isinstance(request, Update) and all(isinstance(b, Update | EmptyRequest) for b in backward.values()):
-        parts = [b.constraint.extend(*path) for path, b in backward.items() if isinstance(b, Update)]
-        return Update(functools.reduce(lambda a, b: a | b, parts, ChoiceMap.empty()))
+        parts = ((path, b.constraint) for path, b in backward.items() if isinstance(b, Update))
+        return Update(ChoiceMap.from_mapping(parts))
     return StaticRequest(dict(backward))
 
 
