@@ -113,13 +113,13 @@ class Scan(Vectorised):
         state_diff, out = retdiff[0], new.get_retval()[1]
         new = new.with_args(None)
 
-        def put(stack: Any, value: Any) -> Any:
+        def store(stack: Any, value: Any) -> Any:
             return jax.tree.map(lambda x, v: x.at[i].set(v), stack, value)
 
         # If the state after step i cannot have changed, only this step's entries change.
         if Diff.static_check_no_change(state_diff):
-            retval = (trace.retval[0], put(trace.retval[1], out))
-            inner = put(trace.inner, new)
+            retval = (trace.retval[0], store(trace.retval[1], out))
+            inner = store(trace.inner, new)
             result = ScanTrace(self, args, inner, trace.carries, retval, total(inner.get_score()))
             diff = (Diff.no_change(retval[0]), Diff.unknown_change(retval[1]))
             return result, before + weight, diff, IndexRequest(i, back)

@@ -190,9 +190,9 @@ class PoseSensor(RangeSensor):
             moved, ends, weight = state
             s = moved.argmax()
             old_m = self.distances_m(before[s], ends[s])
-            now = self.ends(walls, poses[s][None])[0]
-            gain = self.law.logpdf(readings[s], self.distances_m(poses[s], now)) - self.law.logpdf(readings[s], old_m)
-            return moved.at[s].set(False), ends.at[s].set(now), weight + gain.sum()
+            new = self.ends(walls, poses[s][None])[0]
+            gain = self.law.logpdf(readings[s], self.distances_m(poses[s], new)) - self.law.logpdf(readings[s], old_m)
+            return moved.at[s].set(False), ends.at[s].set(new), weight + gain.sum()
 
         moved = (before != poses).any(axis=-1)
         start = (moved, ends, jnp.zeros((), readings.dtype))

@@ -60,18 +60,17 @@ def patrol(building: Building, n_scans: int, seed: int = 0) -> Floats:
     lattice = _Lattice(building)
     stops = lattice.stops(np.random.default_rng(check_count("patrol", "seed", seed, 0)))
     path = _smooth(lattice.tour(stops), lattice)
-    steps = np.hypot(*np.diff(path, axis=0).T)
-    along = np.concatenate([[0.0], np.cumsum(steps)])
-    at = np.linspace(0.0, along[-1], n_scans)
-    xy = _along(path, along, at)
+    length_m = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(path, axis=0).T))])
+    at_m = np.linspace(0.0, length_m[-1], n_scans)
+    xy = _points_along(path, length_m, at_m)
     # The direction of travel over `HEADING_M`, not of one step of the lattice; at the end, over the last `HEADING_M`.
-    heading = _along(path, along, at + HEADING_M) - xy
+    heading = _points_along(path, length_m, at_m + HEADING_M) - xy
     arrived = np.hypot(*heading.T) < 1e-9
-    heading[arrived] = (xy - _along(path, along, at - HEADING_M))[arrived]
+    heading[arrived] = (xy - _points_along(path, length_m, at_m - HEADING_M))[arrived]
     return np.column_stack([xy, np.arctan2(heading[:, 1], heading[:, 0])])
 
 
-def _along(path_m: Floats, length_m: Floats, at_m: Floats) -> Floats:
+def _points_along(path_m: Floats, length_m: Floats, at_m: Floats) -> Floats:
     """Return the points of a path at lengths ``at_m`` along it; beyond the ends, the end points."""
     return np.stack([np.interp(at_m, length_m, path_m[:, k]) for k in (0, 1)], axis=1)
 
