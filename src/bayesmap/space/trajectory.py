@@ -182,10 +182,7 @@ class Trajectory:
         poses = compose(self.poses, mount)
         covariances = self.covariances
         if covariances is not None:
-            # A turn of this frame moves the other frame sideways: d(x, y) / d(yaw) = (-(y' - y), x' - x).
-            swing = np.broadcast_to(np.eye(3), (len(poses), 3, 3)).copy()
-            swing[:, 0, 2] = -(poses[:, 1] - self.poses[:, 1])
-            swing[:, 1, 2] = poses[:, 0] - self.poses[:, 0]
+            swing = lever(self.poses[:, 2], np.array([*mount[:2], 0.0]))
             covariances = swing @ covariances @ np.swapaxes(swing, 1, 2)
         draws = None if self.draws is None else compose(self.draws, mount)
         relative = None if self.relative is None else self.relative.of_frame(self.poses, np.asarray(mount))
