@@ -101,7 +101,7 @@ class Run:
         """
         draws = self.posterior.draws
         walls = self.n_draws == 0 or self.map_of(0, 0).dtype == np.bool_
-        maps = np.empty((draws.chains, draws.count, *self.grid.shape), np.bool_ if walls else np.float32)
+        maps: NDArray[Any] = np.empty((draws.chains, draws.count, *self.grid.shape), np.bool_ if walls else np.float32)
         for chain, draw in draws.numbers():
             maps[chain, draw] = self.map_of(chain, draw)
         return maps
