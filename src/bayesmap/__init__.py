@@ -53,6 +53,7 @@ _NAMES = {
     "io.text.trajectories": ("read_trajectory",), "localization.known_map": ("KnownMap",),
     "localization.localize": ("InitialPose", "localize"), "poses.prior": ("KnownPoses", "Odometry", "UncertainPoses"),
     "posterior.information": ("InformationGain",), "posterior.route": ("FreeProbability", "Route"),
+    "posterior.scores": ("compare_scores",),
     "programs.mapping": ("mapping_model",), "result": ("Run", "load", "score"), "run.ray_executor": ("RayExecutor",),
     "samplers.methods": ("Block", "Exact", "Gibbs", "Importance", "Propagate"),
     "sensors.builtin": ("BeamMixture", "Gaussian", "StudentT"), "sensors.model": ("SensorModel",),

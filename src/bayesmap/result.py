@@ -300,32 +300,9 @@ class Run:
         Raises:
             BadInput: xarray is not installed; with ``by_reading``, no draws or an unknown sensor model.
         """
-        try:
-            import xarray
-        except ImportError:
-            raise BadInput("dataset: needs xarray: pip install 'bayesmap[arviz]'") from None
-        # Arrays of the draws, then densities, then marginals.
-        posterior = self.posterior
-        draws, ny = posterior.draws, posterior.grid.shape[1]
-        x, y = posterior.grid.centers_m()
-        variables = {
-            spec.name: (("chain", "draw", *spec.dims), draws.values(spec.name), {"long_name": spec.what})
-            for spec in draws.specs
-        }
-        for name in ("log_joint", "log_likelihood", "log_prior"):
-            values = getattr(posterior, name)
-            variables["lp" if name == "log_joint" else name] = (("chain", "draw"), values, {"units": "nats"})
-        words = posterior.prior.words
-        variables["occupancy"] = (("x", "y"), posterior.occupancy, {"long_name": words.mean})
-        variables["observed"] = (("x", "y"), posterior.observed, {"long_name": "some beam says something of the cell"})
-        coordinates = {
-            "chain": np.arange(draws.chains), "draw": np.arange(draws.count),
-            "x": ("x", x, {"units": "m"}), "y": ("y", y, {"units": "m"}),
-        }  # fmt: skip
-        for dimension, cells in draws.index.items():
-            coordinates[f"{dimension}_x"] = (dimension, cells // ny)
-            coordinates[f"{dimension}_y"] = (dimension, cells % ny)
-        return xarray.Dataset(variables, coordinates, {"cells": words.kind, "method": posterior.settings["method"]})
+        from bayesmap.posterior.dataset import dataset_of
+
+        return dataset_of(self.posterior, by_reading)
 
     def save(
         self, path: str | os.PathLike[str], on_progress: Callable[[int, int], None] = lambda done, total: None, *,

@@ -70,6 +70,28 @@ def patrol(building: Building, n_scans: int, seed: int = 0) -> Floats:
     return np.column_stack([xy, np.arctan2(heading[:, 1], heading[:, 0])])
 
 
+def drive(
+    building: Building, seconds: float, rate_hz: float = 10.0, *, speed_m_per_s: float = 0.5,
+    turn_rad_per_s: float = 1.0, seed: int = 0,
+) -> tuple[Floats, Floats]:  # fmt: skip
+    """Simulate times and poses of a robot that goes round a building, turns about, goes back, and so on.
+
+    Returns:
+        Times in seconds from 0, shape (S,), and poses in the world frame, shape (S, 3).
+    """
+    once = patrol(building, PATROL_POSES, seed)
+    rounds = [once]
+    while travel_times_s(np.concatenate(rounds), speed_m_per_s, turn_rad_per_s)[-1] < seconds:
+        rounds.append(once if len(rounds) % 2 == 0 else once[::-1] + np.array([0.0, 0.0, math.pi]))
+    way = np.concatenate(rounds)
+    times_s = travel_times_s(way, speed_m_per_s, turn_rad_per_s)
+    yaw = way[0, 2] + np.concatenate([[0.0], np.cumsum(wrapped(np.diff(way[:, 2])))])
+    at_s = np.arange(0.0, seconds, 1.0 / rate_hz)
+    poses = np.column_stack([np.interp(at_s, times_s, column) for column in (way[:, 0], way[:, 1], yaw)])
+    poses[:, 2] = wrapped(poses[:, 2])
+    return at_s, poses
+
+
 def _points_along(path_m: Floats, length_m: Floats, at_m: Floats) -> Floats:
     """Return the points of a path at lengths ``at_m`` along it; beyond the ends, the end points."""
     return np.stack([np.interp(at_m, length_m, path_m[:, k]) for k in (0, 1)], axis=1)

@@ -27,6 +27,7 @@ from numpy.typing import ArrayLike, NDArray
 from bayesmap.errors import BadInput
 from bayesmap.files import write_whole, write_whole_folder
 from bayesmap.space.grid import Grid, as_layers
+from bayesmap.space.scans import Scans
 from bayesmap.space.trajectory import Trajectory
 
 if TYPE_CHECKING:
