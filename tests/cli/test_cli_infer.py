@@ -20,7 +20,8 @@ from bayesmap.space.planar import compose, inverse
 KEYS = {
     "schema_version", "version", "grid", "scans", "beams", "incidences", "method", "order", "prior", "sensor", "chains",
     "warmup", "draws", "thin", "sweeps", "finished", "seconds", "microseconds_per_sweep", "log_joint", "rhat_max",
-    "ess_min", "unchanged_cells", "diagnostics", "problems", "heldout", "peak_memory_mb", "seed", "outputs", "log",
+    "ess_min", "unchanged_cells", "diagnostics", "good", "problems", "heldout", "peak_memory_mb", "seed", "outputs",
+    "log",
 }  # fmt: skip
 FILES = {"run.nc", "posterior.png", "map.yaml", "map.pgm", "summary.json", "config.toml"}
 WITH_SURFACES = FILES | {"surfaces.png"}
@@ -99,6 +100,8 @@ def test_a_run_is_not_overwritten_unless_told(office, tmp_path, short):
     result = succeed("infer", office, "-o", folder, *short)
     assert {line.rsplit("/", 1)[-1] for line in result.stdout.split()} == WITH_SURFACES
     assert "grid: " in result.stderr
+    commands = "\n".join(f"  bayesmap {name} {folder}/run.nc" for name in ("app", "explore", "render"))
+    assert result.stderr.endswith(f"next:\n{commands}\n")
     assert "no reading is a hit" not in result.stderr
     before = (folder / "run.nc").read_bytes()
     assert "--resume goes on with it, --force replaces it" in refusal_of("infer", office, "-o", folder, *short)

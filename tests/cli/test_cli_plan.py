@@ -1,5 +1,6 @@
 """`plan` and `explore`: decisions as text, as JSON, as a picture."""
 
+import dataclasses
 import json
 
 import numpy as np
@@ -9,7 +10,7 @@ from shell import call, json_of, refusal_of, succeed
 from bayesmap.cli.decisions import more_than
 from bayesmap.io.logs import read_log
 from bayesmap.posterior.route import is_within_risk
-from bayesmap.result import load
+from bayesmap.result import Run, load
 
 
 @pytest.fixture(scope="module")
@@ -47,6 +48,17 @@ def test_a_plan_as_json_is_what_the_run_says(office_run, plan, tmp_path):
     length = np.hypot(*np.diff(document["path"], axis=0).T).sum()
     assert document["length_m"] == pytest.approx(length)
     assert (tmp_path / "way.svg").exists()
+
+
+@pytest.mark.parametrize("command", ["plan", "explore"])
+def test_chains_are_looked_at_first(office_run, plan, tmp_path, command, monkeypatch):
+    """A run whose chains are stuck is warned of before the answer, in text and in JSON."""
+    words = plan if command == "plan" else ("explore", office_run / "run.nc", "--candidates 5 --views 1")
+    stuck = dataclasses.replace(load(office_run / "run.nc").summary(), disagreeing_cells=50, judged_cells=100)
+    monkeypatch.setattr(Run, "summary", lambda run: stuck)
+    result = succeed(*words, "--radius 0.1 -o", tmp_path / "way.png", "--json")
+    assert "warning: what follows may be wrong: 50 cells are stuck" in result.stderr
+    assert any("50 cells are stuck" in problem for problem in json.loads(result.stdout)["problems"])
 
 
 @pytest.mark.parametrize("risk", [1e-9, 0.999])

@@ -7,6 +7,9 @@ import pytest
 from shell import SLAM, json_of, refusal_of, succeed
 
 import bayesmap as bm
+from bayesmap.cli.console import Console
+from bayesmap.cli.pipeline import report
+from bayesmap.cli.slam import _doubtful, _good
 from bayesmap.io.text.trajectories import read_trajectory
 from bayesmap.poses.slam import infer_trajectory
 from bayesmap.space.planar import compose, inverse
@@ -32,6 +35,18 @@ def test_the_folder_holds_map_trajectory_covariances_and_pictures(slam_run, raw_
     assert len(np.loadtxt(folder / "trajectory.tum")) == found["scans"]
     assert found["frame"] == "base"
     assert (folder / "trajectory.tum").read_text().startswith("# poses of the base: timestamp ")
+
+
+def test_the_end_says_what_is_good_then_what_is_doubtful_then_what_to_do(slam_run, capsys):
+    document = slam_run[1]
+    told = {**document["trajectory"], "flagged": [7], "breaks": [9]}
+    report(Console(), document, good=_good(told), doubtful=_doubtful(told), commands=[["app", "a b.nc"]])
+    lines = capsys.readouterr().err.splitlines()[1:]
+    kinds = ["warning" if "warning" in line else line.split(":")[0] for line in lines]
+    assert kinds == sorted(kinds, key=["good", "warning", "next", "  bayesmap app 'a b.nc'"].index)
+    assert lines[0].startswith("good: the trajectory of the base at ")
+    assert "1 scans see what few others see: people, glass, a new place, or a wrong pose" in "".join(lines)
+    assert lines[-1] == "  bayesmap app 'a b.nc'"
 
 
 @pytest.mark.parametrize("frame", FRAMES)

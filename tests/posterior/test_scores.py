@@ -133,7 +133,7 @@ def test_a_run_is_judged_by_its_map_and_not_by_single_cells_or_sums(run):
         ess_low_cells=20, disagreeing_cells=1, judged_cells=100, map_error=0.03, precision=0.03,
     )  # fmt: skip
     assert good.problems() == []
-    assert "rhat log likelihood        1.2" in str(good)
+    assert "1.200 of the likelihood" in str(good)
 
 
 @pytest.mark.parametrize("method", ["exact", "importance", "propagate"])

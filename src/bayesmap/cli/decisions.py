@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from bayesmap.cli.command import FORCE, Call, command
-from bayesmap.cli.console import share, write_out
+from bayesmap.cli.console import progress, share, write_out
 from bayesmap.cli.keys import ExploreSettings, PlanSettings
 from bayesmap.cli.translation import need_free, numbers_of
 from bayesmap.version import __version__
@@ -36,10 +36,11 @@ def plan(call: Call[PlanSettings], run_file: str, start: str, goal: str, output:
     The path is the shortest found whose risk of touching something stays under --risk. If there is none, the command
     returns the safest path, with a warning. The probability of a free path is the share of map draws in which the path
     is free. The value for independent cells is printed beside it. The command prints one corner of the path per line.
+    It warns first if the chains of the run have not converged.
     """
     settings = call.settings()
     ends = [numbers_of(text, flag, "X,Y", (2,)) for text, flag in ((start, "--from"), (goal, "--to"))]
-    run, target = _opened(run_file, output, "plan.png", force)
+    run, target = _opened(call, run_file, output, "plan.png", force)
     from bayesmap.posterior.decisions import shortest_safe_path
 
     with share(call.console, "looking at draws of the map") as report:
@@ -59,22 +60,37 @@ def plan(call: Call[PlanSettings], run_file: str, start: str, goal: str, output:
             "or map more of the way"
         )
     if call.console.as_json:
-        document = {**_route_document(route, settings), "run": run_file, "outputs": {target.name: str(target)}}
+        document = {
+            **_route_document(route, settings), "run": run_file, "problems": run.summary().problems(),
+            "outputs": {target.name: str(target)},
+        }  # fmt: skip
         call.console.result(document, [])
         return
     corners = "".join(f"{x:.3f},{y:.3f}\n" for x, y in route.path)
     write_out(f"{corners}{_route_sentence(route)}\n{target}\n")
 
 
-def _opened(run_file: str, output: str | None, name: str, force: bool) -> tuple[Run, Path]:
-    """Check the ending of the picture's name, load the run, and return the run and the picture's path."""
+def _opened(call: Call[Any], run_file: str, output: str | None, name: str, force: bool) -> tuple[Run, Path]:
+    """Check the ending of the picture's name, load the run, and say whether its chains have converged.
+
+    Returns:
+        The run and the picture's path.
+    """
     from bayesmap.files import need_ending
     from bayesmap.result import load
 
     target = Path(output) if output else Path(run_file).with_name(name)
     need_ending(target, ("png", "pdf", "svg"), "figure")
     need_free([target], force)
-    return load(run_file), target
+    run = load(run_file)
+    if run.n_draws:
+        with progress(call.console, "comparing the chains"):
+            summary = run.summary()
+        for good in summary.strengths():
+            call.console.say(f"good: {good}")
+        for problem in summary.problems():
+            call.console.warn(f"what follows may be wrong: {problem}")
+    return run, target
 
 
 def _route_sentence(route: Route) -> str:
@@ -119,10 +135,11 @@ def explore(call: Call[ExploreSettings], run_file: str, output: str | None, forc
 
     Candidates are poses that the robot can reach. A fast formula for independent cells and beams ranks all of them. The
     best are compared by joint draws of the map: the expected information is given as a lower and an upper bound. The
-    command prints one view per line, the best first.
+    command prints one view per line, the best first. It warns first if the chains of the run have not converged. Draws
+    are compared within each chain.
     """
     settings = call.settings()
-    run, target = _opened(run_file, output, "explore.png", force)
+    run, target = _opened(call, run_file, output, "explore.png", force)
     from bayesmap.posterior.decisions import next_views
 
     with share(call.console, "comparing views") as report:
@@ -139,7 +156,8 @@ def explore(call: Call[ExploreSettings], run_file: str, output: str | None, forc
     write_figure(picture, target)
     if call.console.as_json:
         document = {
-            "version": __version__, "run": run_file, "candidates": len(found.candidates),
+            "version": __version__, "run": run_file, "problems": run.summary().problems(),
+            "candidates": len(found.candidates),
             "draws": found.information.draws, "views": _described_views(found), "outputs": {target.name: str(target)},
         }  # fmt: skip
         call.console.result(document, [])

@@ -49,6 +49,7 @@ def run_document(run: Run) -> dict[str, Any]:
         "ess_min": diagnostics["ess_min"],
         "unchanged_cells": diagnostics["unchanged_cells"] or 0,
         "diagnostics": diagnostics,
+        "good": summary.strengths(),
         "problems": summary.problems(),
         "peak_memory_mb": peak_memory_mb(),
     }

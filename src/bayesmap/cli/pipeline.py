@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import shlex
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
@@ -86,7 +87,9 @@ def infer_log(
     # Finish: save the run, draw it, export it, score it.
     document = finish(folder, run, reading, heldout, every)
     # Report.
-    report(folder.console, document)
+    saved = str(folder.run)
+    judge = ["score", saved, task.log, "--holdout", str(every)] if every else ["explore", saved]
+    report(folder.console, document, commands=[["app", saved], judge, ["render", saved]] if resume_command else ())
     return document
 
 
@@ -243,22 +246,29 @@ def document_of(run: Run, reading: LogReading, score: dict[str, Any] | None, out
     }
 
 
-def report(console: Console, document: dict[str, Any]) -> None:
-    """Print the work, the log joint, the held-out score and the problems of a run."""
+def report(
+    console: Console, document: dict[str, Any], *, good: Sequence[str] = (), doubtful: Sequence[str] = (),
+    commands: Sequence[Sequence[str]] = (),
+) -> None:  # fmt: skip
+    """Print the work of a run, then what is good, what is doubtful with its remedy, and commands to give next.
+
+    ``good`` and ``doubtful`` add to what the document says.
+    """
     from bayesmap.cli.folder import work_done
 
-    seconds, joint = document["seconds"], document["log_joint"]
+    seconds, joint, score = document["seconds"], document["log_joint"], document["heldout"]
+    mean = "" if joint["mean"] is None else f"; log joint {joint['mean']:,.1f} on average"
     console.say(
         f"{document['method']}: {work_done(document)} over {document['incidences']:,} incidences "
-        f"in {seconds['total']:.1f} s"
+        f"in {seconds['total']:.1f} s{mean}"
     )
-    if joint["mean"] is not None:
-        console.say(f"log joint {joint['mean']:,.1f} on average, {joint['last']:,.1f} at the end")
-    if document["heldout"]:
-        score = document["heldout"]
-        console.say(f"held out: {score['nats_per_beam']:.4f} nats per beam over {score['beams']:,} beams")
-    for problem in document["problems"]:
-        console.warn(problem)
+    heldout = [f"held out: {score['nats_per_beam']:.4f} nats per beam over {score['beams']:,} beams"] if score else []
+    for text in [*good, *document["good"], *heldout]:
+        console.say(f"good: {text}")
+    for text in [*doubtful, *document["problems"]]:
+        console.warn(text)
+    if commands:
+        console.say("next:\n" + "\n".join(f"  {shlex.join(['bayesmap', *words])}" for words in commands))
 
 
 def keep_interrupted(

@@ -95,8 +95,9 @@ def slam(call: Call[SlamSettings], log: str, output: str | None, resume: bool, f
     document = {**pipeline.document_of(run, reading, None, outputs), "trajectory": summary(run, files.frame)}
     task.folder.write_document(document)
     # Report.
-    pipeline.report(call.console, document)
-    _report(call, document["trajectory"])
+    told, saved = document["trajectory"], str(task.folder.run)
+    commands = [["app", saved], ["score", log, "--trajectory", str(folder / "trajectory.tum")], ["explore", saved]]
+    pipeline.report(call.console, document, good=_good(told), doubtful=_doubtful(told), commands=commands)
     pipeline.print_result(call, document, strict=task.settings.strict)
 
 
@@ -310,52 +311,57 @@ def _alternative(found: Trajectory, number: int) -> dict[str, Any]:
     }
 
 
-def _report(call: Call[SlamSettings], trajectory: dict[str, Any]) -> None:
-    """Print the trajectory's figures, and warn of scans, breaks and alternatives to check."""
-    call.console.say(
-        f"trajectory of the {trajectory['frame']}: {trajectory['scans']:,} scans, "
-        f"{trajectory['key_scans']:,} of them key scans, "
-        f"{trajectory['loop_closures']:,} loop closures, standard deviation "
-        f"{100 * trajectory['sigma_m']['median']:.1f} cm (at most {100 * trajectory['sigma_m']['max']:.0f})"
-    )
-    sampled, used = trajectory.get("sampled"), trajectory["map"]
+def _good(trajectory: dict[str, Any]) -> list[str]:
+    """Return what is good about the trajectory and how good, in words."""
+    sampled, used, sigma = trajectory.get("sampled"), trajectory["map"], trajectory["sigma_m"]
+    good = [
+        f"the trajectory of the {trajectory['frame']} at {trajectory['scans']:,} scans, with "
+        f"{trajectory['loop_closures']:,} loop closures: standard deviation {100 * sigma['median']:.1f} cm, "
+        f"at most {100 * sigma['max']:.0f} cm"
+    ]
     if sampled is None:
-        call.console.say(
-            f"map: {used['beams']:,} beams of {used['scans']:,} key scans, at the poses of the trajectory; others are "
-            "left out, since these have seen the same (--sample-poses uses all beams of all key scans)"
+        good.append(
+            f"the map of {used['beams']:,} beams of {used['scans']:,} key scans, at the poses of the trajectory; the "
+            "others have seen the same (--sample-poses uses all beams of all key scans)"
         )
-    if sampled is not None and sampled["by_approximation"]:
-        call.console.warn(
-            f"the chains over poses have not mixed (R-hat up to {sampled['rhat_max']:.2f}, effective sample size from "
-            f"{sampled['ess_min']:.0f}): poses and covariances are those of the approximation, also in scores and "
-            "exports"
+    elif sampled["by_approximation"]:
+        good.append(
+            "poses and covariances are those of the approximation, also in scores and exports, since the chains over "
+            f"poses were too short to replace it (R-hat up to {sampled['rhat_max']:.2f}, effective sample size from "
+            f"{sampled['ess_min']:.0f})"
         )
+    return good
+
+
+def _doubtful(trajectory: dict[str, Any]) -> list[str]:
+    """Return the scans, breaks and alternatives that are in doubt, with what to do, in words."""
+    doubtful = []
     if trajectory["flagged"]:
-        call.console.warn(
-            f"{len(trajectory['flagged'])} scans do not agree with all others; do not trust their poses: "
+        doubtful.append(
+            f"{len(trajectory['flagged'])} scans see what few others see: people, glass, a new place, or a wrong pose "
+            "(one in two, in simulated logs); compare them with the map in trajectory.png, where they have crosses: "
             f"{_first_of(trajectory['flagged'])}"
         )
     if trajectory["breaks"]:
-        call.console.warn(
-            "before these scans the robot seems to have been carried, or data are missing: "
-            f"{_first_of(trajectory['breaks'])}"
+        doubtful.append(
+            "before these scans the robot seems to have been carried, or data are missing; if it was not, look for "
+            f"gaps with bayesmap info: {_first_of(trajectory['breaks'])}"
         )
     if trajectory["leaps"]:
-        call.console.warn(
+        doubtful.append(
             "before these scans the trajectory moves as odometry did not, and the scans just before do not confirm it; "
-            f"what lies before and after may be shifted against each other: {_first_of(trajectory['leaps'])}"
+            "what lies before and after may be shifted against each other, as loops.png shows: "
+            f"{_first_of(trajectory['leaps'])}"
         )
-
-    for other in trajectory["alternatives"][:ALTERNATIVES_SHOWN]:
-        call.console.warn(
-            f"from scan {other['first']} to {other['last']} the trajectory hangs on one visit of places that look "
-            f"alike: with probability {other['probability']:.2f} scan {other['last']} lies {other['off_m']:.1f} m and "
-            f"{other['off_degrees']:.0f} degrees elsewhere, as in loops.png; covariances cover both"
-        )
+    doubtful += [
+        f"from scan {other['first']} to {other['last']} the trajectory hangs on one visit of places that look alike: "
+        f"with probability {other['probability']:.2f} scan {other['last']} lies {other['off_m']:.1f} m and "
+        f"{other['off_degrees']:.0f} degrees elsewhere, as in loops.png; covariances cover both"
+        for other in trajectory["alternatives"][:ALTERNATIVES_SHOWN]
+    ]
     if len(trajectory["alternatives"]) > ALTERNATIVES_SHOWN:
-        call.console.warn(
-            f"{len(trajectory['alternatives']) - ALTERNATIVES_SHOWN} more alternatives are in summary.json"
-        )
+        doubtful.append(f"{len(trajectory['alternatives']) - ALTERNATIVES_SHOWN} more alternatives are in summary.json")
+    return doubtful
 
 
 def _first_of(scans: list[int]) -> str:

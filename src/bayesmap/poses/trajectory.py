@@ -91,7 +91,7 @@ class Trajectory:
         own_covariance: scale matrix of Student's t of each scan about its key scan, in its own frame, (S, 3, 3); zero
             for key scans.
         explained: share of each scan's points that other scans explain, from 0 to 1, (S,).
-        flagged: scans that stay badly explained, whose poses are not to be trusted, (S,).
+        flagged: scans that stay badly explained by the others, (S,): one in two was off in simulated logs.
         breaks: scans before which neither odometry nor the laser confirms the motion: the robot was carried, or data
             are missing; indices.
         closures: loop closures.

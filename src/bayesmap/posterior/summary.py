@@ -218,33 +218,74 @@ class Summary:
         }
 
     def __str__(self) -> str:
-        """Write one line a diagnostic that the method has, then the problems, if any."""
-        lines = []
-        for name, value in asdict(self).items():
-            if value is None or (isinstance(value, float) and math.isnan(value)):
-                continue
-            shown = f"{value:.4g}" if isinstance(value, float) else str(value)
-            lines.append(f"{name.replace('_', ' '):26} {shown}")
-        return "\n".join([*lines, *(f"! {problem}" for problem in self.problems())])
+        """Write what is good, what is doubtful with its remedy, the figures in words, and what they mean."""
+        lines = [*(f"good: {good}" for good in self.strengths()), *(f"doubtful: {one}" for one in self.problems())]
+        if not math.isnan(self.rhat_log_joint):
+            lines += [
+                f"R-hat: {self.rhat_log_joint:.3f} of the log joint, {self.rhat_log_likelihood:.3f} of the likelihood",
+                f"effective sample size of the log joint: {self.ess_log_joint_bulk:,.0f} in its middle, "
+                f"{self.ess_log_joint_tail:,.0f} in its tails",
+            ]
+        if not math.isnan(self.rhat_max):
+            lines.append(
+                f"observed cells that changed: {self.judged_cells - (self.disagreeing_cells or 0):,}; R-hat is over "
+                f"{RHAT_LIMIT} in {self.rhat_high_cells:,}, the effective sample size is under {ESS_LIMIT:.0f} in "
+                f"{self.ess_low_cells:,}; the worst cell has {self.rhat_max:.3g} and {self.ess_min:,.0f}"
+            )
+        if self.unchanged_cells is not None and not math.isnan(self.precision):
+            lines.append(
+                f"cells with one value in all draws: {self.unchanged_cells:,}; in each chain, but not the same in all: "
+                f"{self.disagreeing_cells:,}"
+            )
+        if not math.isnan(self.microseconds_per_sweep):
+            lines.append(f"one sweep of one chain: {self.microseconds_per_sweep:,.0f} microseconds on one core")
+        if not math.isnan(self.rhat_log_joint):
+            lines.append(LEGEND)
+        return "\n".join(lines)
+
+    def strengths(self) -> list[str]:
+        """Return what is good about the run and how good, in words; empty where nothing is known to be."""
+        strengths = []
+        if self.map_error <= TOLERANCE * self.precision:
+            strengths.append(
+                f"the mean map is known to {self.map_error:.3f} in 99 of 100 observed cells; asked: {self.precision:g}"
+            )
+        if self.rhat_log_likelihood <= RHAT_LIMIT:
+            strengths.append(f"the chains agree: R-hat of the log likelihood is {self.rhat_log_likelihood:.3f}")
+        if self.effective_sample_size >= ESS_LIMIT:
+            strengths.append(f"the particles are worth {self.effective_sample_size:,.0f} independent draws")
+        return strengths
 
     def problems(self) -> list[str]:
-        """Return reasons not to trust the run, in words; empty where there are none."""
+        """Return what is doubtful about the run and what to do, in words; empty where nothing is."""
         problems = []
         if not self.finished:
-            problems.append("the run was stopped before it had finished")
+            problems.append("the run was stopped before it had finished: resume it")
         if self.disagreeing_cells and self.disagreeing_cells > CHANCE_SHARE * self.judged_cells:
-            problems.append(f"{self.disagreeing_cells} cells are stuck at different values in different chains")
+            problems.append(
+                f"{self.disagreeing_cells} cells are stuck at different values in different chains: warm up longer "
+                "(warmup), or use method 'block'"
+            )
         if TOLERANCE * self.precision < self.map_error < math.inf:
             problems.append(
                 f"the mean map is known to {self.map_error:.3f} in 99 of 100 observed cells, not to "
-                f"{self.precision:g}: draw more maps"
+                f"{self.precision:g}: draw more maps (draws)"
             )
         swept = not math.isnan(self.microseconds_per_sweep)
         if self.finished and swept and math.isnan(self.rhat_log_joint):
-            problems.append(f"nothing can be judged: under {FEWEST_DRAWS} draws of each chain, or none that differ")
+            problems.append(
+                f"nothing can be judged: under {FEWEST_DRAWS} draws of each chain, or none that differ; draw more maps "
+                "(draws)"
+            )
         if self.effective_sample_size < ESS_LIMIT:
-            problems.append(f"importance sampling has an effective sample size of {self.effective_sample_size:.1f}")
+            problems.append(
+                f"importance sampling has an effective sample size of {self.effective_sample_size:.1f}: use 'gibbs'"
+            )
         return problems
+
+
+LEGEND = """R-hat compares chains with one another: 1 is equal, and over 1.05 they have not mixed. A cell that
+changed only once in one chain has a large R-hat. The map is judged by the error of its mean, not by single cells."""
 
 
 def summarise(posterior: Posterior) -> Summary:
