@@ -36,7 +36,7 @@ def test_a_collapsed_importance_sampler_says_so():
 
 
 def test_a_run_too_short_to_judge_is_not_called_converged():
-    summary = run_of("gibbs", draws=8).summary()
+    summary = run_of("gibbs", draws=20, precision=0.01).summary()
     assert any("the mean map is known to" in problem for problem in summary.problems())
     assert summary.as_json()["effective_sample_size"] is None
 

@@ -87,9 +87,9 @@ def infer_log(
     # Finish: save the run, draw it, export it, score it.
     document = finish(folder, run, reading, heldout, every)
     # Report.
-    saved = str(folder.run)
-    judge = ["score", saved, task.log, "--holdout", str(every)] if every else ["explore", saved]
-    report(folder.console, document, commands=[["app", saved], judge, ["render", saved]] if resume_command else ())
+    file = str(folder.run)
+    judge = ["score", file, task.log, "--holdout", str(every)] if every else ["explore", file]
+    report(folder.console, document, commands=[["app", file], judge, ["render", file]] if resume_command else ())
     return document
 
 

@@ -95,8 +95,8 @@ def slam(call: Call[SlamSettings], log: str, output: str | None, resume: bool, f
     document = {**pipeline.document_of(run, reading, None, outputs), "trajectory": summary(run, files.frame)}
     task.folder.write_document(document)
     # Report.
-    told, saved = document["trajectory"], str(task.folder.run)
-    commands = [["app", saved], ["score", log, "--trajectory", str(folder / "trajectory.tum")], ["explore", saved]]
+    told, file = document["trajectory"], str(task.folder.run)
+    commands = [["app", file], ["score", log, "--trajectory", str(folder / "trajectory.tum")], ["explore", file]]
     pipeline.report(call.console, document, good=_good(told), doubtful=_doubtful(told), commands=commands)
     pipeline.print_result(call, document, strict=task.settings.strict)
 
