@@ -14,7 +14,8 @@ import numpy as np
 import bayesmap as bm
 from bayesmap.posterior.baselines import BASELINES, fit_baseline
 from bayesmap.posterior.posterior import Posterior
-from bayesmap.posterior.scores import score_posterior, score_prediction
+from bayesmap.posterior.predictor import predictor_of
+from bayesmap.posterior.scores import score_prediction
 from bayesmap.result import load
 from bayesmap.samplers.fit import first_sensor, fit
 from bayesmap.samplers.stop_gibbs import StopGibbs
@@ -115,7 +116,7 @@ def whole_program(scans: Scans, resolution_m: float, repeats: int) -> Iterator[F
 def score(name: str, scans: Scans, posterior: Posterior) -> Iterator[Figure]:
     """Held-out beams: how much better than the hit-count ratio tuned on the training scans, and how honest."""
     train, heldout = scans.holdout(EVERY)
-    ours = score_posterior(posterior, heldout)
+    ours = score_prediction(predictor_of(posterior), heldout)
     fitted = fit_baseline(BASELINES[0], train, posterior.grid)
     theirs = score_prediction(fitted.predictor, heldout)
     above = ours.nats_per_beam - theirs.nats_per_beam

@@ -12,7 +12,7 @@ from bayesmap.kernels.counts import count_hits
 from bayesmap.kernels.rays import trace_rays
 from bayesmap.posterior.baselines import BASELINES, fit_baseline
 from bayesmap.posterior.posterior import Posterior
-from bayesmap.posterior.scores import score_posterior, score_prediction
+from bayesmap.posterior.scores import score_prediction
 from bayesmap.posterior.summary import diagnose_cells
 from bayesmap.sim.building import Building, building
 from bayesmap.sim.robot import patrol
@@ -150,7 +150,7 @@ def few_scans(device: str) -> Figure:
     truth = simulated(3, FEW_SCANS)
     grid = Grid.covering(truth.train, RESOLUTION_M)
     found = bm.infer(truth.train, grid, prior=bm.Surface(), sensor="fit", where=bm.Where(device=device))
-    ours = score_posterior(found.posterior, truth.heldout).nats_per_beam
+    ours = bm.score(found, truth.heldout).nats_per_beam
     theirs = score_prediction(fit_baseline(BASELINES[0], truth.train, grid).predictor, truth.heldout).nats_per_beam
     return Figure(
         "walls/few_scans", ours - theirs, "nats/beam", "higher", against=f"{ours:.3f}; hit ratio {theirs:.3f}"

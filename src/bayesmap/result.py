@@ -16,8 +16,8 @@ from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput, near_names
 from bayesmap.posterior.posterior import Posterior, entropy_bits
-from bayesmap.posterior.predictor import CENTRAL_80, PREDICTED_DRAWS
-from bayesmap.posterior.scores import Score, log_score, score_posterior
+from bayesmap.posterior.predictor import CENTRAL_80, PREDICTED_DRAWS, predictor_of
+from bayesmap.posterior.scores import Score, beam_log_scores, score_prediction
 from bayesmap.posterior.summary import Summary, rhat, summarise
 from bayesmap.sensors.model import SensorModel
 from bayesmap.space.grid import Grid
@@ -205,7 +205,8 @@ class Run:
         Raises:
             BadInput: no draws, no valid reading, a sensor that cannot score this run, or no such device.
         """
-        return log_score(self.posterior, heldout_scans, sensor, on_progress, device)
+        scores = beam_log_scores(predictor_of(self.posterior, sensor), heldout_scans, on_progress, device)
+        return float(scores[~np.isnan(scores)].mean())
 
     def free_probability(self, path: ArrayLike, radius_m: float) -> FreeProbability:
         """Compute the probability that a disc moves along a path without touching anything: the share of joint draws.
@@ -465,4 +466,5 @@ def score(
     Raises:
         BadInput: no valid reading, no draws, no such device, or a sensor whose probabilities do not add up to one.
     """
-    return score_posterior(run.posterior, heldout_scans, sensor, seed=seed, device=device, on_progress=on_progress)
+    predictor = predictor_of(run.posterior, sensor)
+    return score_prediction(predictor, heldout_scans, seed=seed, device=device, on_progress=on_progress)

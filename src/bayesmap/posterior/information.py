@@ -86,17 +86,8 @@ def expected_information(
     Draws are compared within each chain. Chains that have not mixed differ where the posterior does not, such as in
     which of two cells a wall stands, and a scan would tell nearly all of them apart.
 
-    Args:
-        cells: D draws of the map, chain by chain, (D, N) stop probabilities or (D, N, 6) surfaces, as
-            `bayesmap.cells.kind.CellPrior.stops`.
-        grid: grid of the map.
-        fan: beams of the scan, and the law of their readings.
-        poses: P poses in the world frame, (P, 3).
-        hit_depth: depth of a stop in a cell without a surface, as a fraction of the beam's chord.
-        chains: number of chains, with the same number of draws each.
-        seed: seed of the simulated scans.
-        device: device that computes.
-        on_progress: function that is called with the completed share, from 0 to 1.
+    ``cells`` holds the draws of the map, equally many of each chain, chain by chain: (D, N) stop probabilities or
+    (D, N, 6) surfaces, as `bayesmap.cells.kind.CellPrior.stops`. Poses are in the world frame, (P, 3).
 
     Raises:
         BadInput: poses that are not valid, or fewer than two draws of a chain.

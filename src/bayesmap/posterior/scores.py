@@ -23,10 +23,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
-from bayesmap.posterior.posterior import Posterior
-from bayesmap.posterior.predictor import OnShare, Predictor, ignored, parts, predictor_of, watched
+from bayesmap.posterior.predictor import OnShare, Predictor, ignored, parts, watched
 from bayesmap.sensors.builtin import describe
-from bayesmap.sensors.model import RangeLimits, SensorModel
+from bayesmap.sensors.model import RangeLimits
 from bayesmap.space.scans import ReadingKind, Scans
 
 Floats = NDArray[np.float64]
@@ -164,19 +163,6 @@ def beam_log_scores(
     rays, draws = trace_rays(scans, predictor.grid, reach_m=reach_m, device=device), predictor.draws
     batches = watched(predictor.batches(rays.touched), draws, lambda share: on_progress(round(share * draws), draws))
     return log_densities(rays, batches, sensor, predictor.hit_depth, device=device)
-
-
-def log_score(
-    posterior: Posterior, scans: Scans, sensor: SensorModel | None = None,
-    on_progress: Callable[[int, int], None] = lambda done, total: None, device: str = "cpu",
-) -> float:  # fmt: skip
-    """Return the mean of `beam_log_scores` over valid readings, nats per beam. ``sensor`` is by default the run's own.
-
-    Raises:
-        BadInput: as `beam_log_scores` and `predictor_of`.
-    """
-    scores = beam_log_scores(predictor_of(posterior, sensor), scans, on_progress, device)
-    return float(scores[~np.isnan(scores)].mean())
 
 
 LEVELS, BINS = (0.5, 0.8, 0.95), 20
@@ -343,18 +329,6 @@ def score_prediction(
         p_no_return=(float(prediction.p_no_return[valid].mean()), float(np.isposinf(ranges[valid]).mean())),
         sensor=describe(sensor), hit_depth=predictor.hit_depth,
     )  # fmt: skip
-
-
-def score_posterior(
-    posterior: Posterior, scans: Scans, sensor: SensorModel | None = None, *, seed: int = 0, device: str = "cpu",
-    on_progress: OnShare = ignored,
-) -> Score:  # fmt: skip
-    """Score a posterior on held-out scans: `score_prediction` under the mean over its draws.
-
-    Raises:
-        BadInput: as `score_prediction` and `predictor_of`.
-    """
-    return score_prediction(predictor_of(posterior, sensor), scans, seed=seed, device=device, on_progress=on_progress)
 
 
 @dataclass(frozen=True)
