@@ -136,14 +136,14 @@ class BinaryWalls(CellPrior):
         constant = ((walls == 0) | (walls == draws.count)).all(axis=0)
         return constant, constant & (walls == walls[0]).all(axis=0)
 
-    def predictive_stops(self, draws: Draws, wanted: NDArray[np.int32] | None = None) -> Iterator[NDArray[np.float32]]:
+    def predictive_stops(self, draws: Draws, cells: NDArray[np.int32] | None = None) -> Iterator[NDArray[np.float32]]:
         """Yield stop probabilities 0 and 1 of each draw, (draws, n), in batches of draws."""
         packed = draws.arrays["walls"].reshape(-1, draws.arrays["walls"].shape[-1])
         at_once = max(1, BATCH_BYTES // (4 * draws.grid.n_cells))
         for i in range(0, len(packed), at_once):
             batch = packed[i : i + at_once]
             flat = unpack(batch, draws.grid.shape).reshape(len(batch), -1)
-            yield (flat if wanted is None else flat[:, wanted]).astype(np.float32)
+            yield (flat if cells is None else flat[:, cells]).astype(np.float32)
 
     def parameters(self) -> Mapping[str, NDArray[Any]]:
         """Return the wall probabilities if each cell has its own; else nothing."""

@@ -215,28 +215,28 @@ class CellPrior(ABC):
             "or --cells surface"
         )
 
-    def predictive_stops(self, draws: Draws, wanted: NDArray[np.int32] | None = None) -> Iterator[NDArray[np.float32]]:
-        """Yield the stops of each draw in the cells ``wanted`` (flat indices; all if None), in batches of draws.
+    def predictive_stops(self, draws: Draws, cells: NDArray[np.int32] | None = None) -> Iterator[NDArray[np.float32]]:
+        """Yield the stops of each draw in the ``cells`` (flat indices; all if None), in batches of draws.
 
         Predictions read them: (draws, n), or (draws, n, 6) for surfaces, in the units of `stops`.
         """
         batch: list[NDArray[np.float32]] = []
         for chain, draw in draws.numbers():
             stops = self.stops(draws.cells(chain, draw), draws.grid)
-            batch.append(np.asarray(stops if wanted is None else stops[wanted], dtype=np.float32))
+            batch.append(np.asarray(stops if cells is None else stops[cells], dtype=np.float32))
             if len(batch) * batch[0].nbytes >= BATCH_BYTES:
                 yield np.stack(batch)
                 batch = []
         if batch:
             yield np.stack(batch)
 
-    def drawn_stops(self, draws: Draws, wanted: NDArray[np.int32] | None = None) -> Iterator[NDArray[np.float32]]:
+    def drawn_stops(self, draws: Draws, cells: NDArray[np.int32] | None = None) -> Iterator[NDArray[np.float32]]:
         """Yield the stops of each draw as `predictive_stops` does, but from drawn states alone, without expectations.
 
         Decisions read them, to see if a path is free in a draw, and how well two draws can be told apart. The default
         is `predictive_stops`, which is right if it yields drawn states.
         """
-        return self.predictive_stops(draws, wanted)
+        return self.predictive_stops(draws, cells)
 
     def default_draws(self, beams: int, cells: int, chains: int, thin: int = 1) -> int:
         """Return the default number of draws per chain, ``thin`` sweeps apart."""

@@ -242,8 +242,8 @@ class Reflective(CellPrior):
             expected = draws.arrays[self.shown[1]][chain, -1].astype(np.float64)
             counts += np.stack(counts_behind(expected, *self.beta_given(solid))) / draws.chains
         tails = (0.5 * (1 - level), 0.5 * (1 + level))
-        (stopped, passed), place = np.unique(counts, axis=1, return_inverse=True)
-        ends = [special.betaincinv(1.0 + stopped, 1.0 + passed, tail)[place.ravel()] for tail in tails]
+        (stopped, passed), group = np.unique(counts, axis=1, return_inverse=True)
+        ends = [special.betaincinv(1.0 + stopped, 1.0 + passed, tail)[group.ravel()] for tail in tails]
         lower, upper = (draws.to_grid(end, "cell", tail) for end, tail in zip(ends, tails, strict=True))
         return lower, upper
 
@@ -255,24 +255,24 @@ class Reflective(CellPrior):
         """Return the expected chances of the given touched cells in all draws, (chains, draws, n)."""
         return np.asarray(draws.arrays[self.shown[1]][:, :, np.searchsorted(draws.index["cell"], cells)])
 
-    def predictive_stops(self, draws: Draws, wanted: NDArray[np.int32] | None = None) -> Iterator[NDArray[np.float32]]:
+    def predictive_stops(self, draws: Draws, cells: NDArray[np.int32] | None = None) -> Iterator[NDArray[np.float32]]:
         """Yield the stops of each draw with expected reflectivities, in batches of draws.
 
         The density of a reading is linear in each cell's reflectivity. So expected reflectivities give the same mean
         density over draws as drawn reflectivities, with less noise. Untouched cells have the prior's mean, given their
         label if cells have labels.
         """
-        return self._stops_of_draws(draws, wanted, drawn=False)
+        return self._stops_of_draws(draws, cells, drawn=False)
 
-    def drawn_stops(self, draws: Draws, wanted: NDArray[np.int32] | None = None) -> Iterator[NDArray[np.float32]]:
+    def drawn_stops(self, draws: Draws, cells: NDArray[np.int32] | None = None) -> Iterator[NDArray[np.float32]]:
         """Yield the stops with drawn reflectivities; those of untouched cells are drawn from the prior."""
-        return self._stops_of_draws(draws, wanted, drawn=True)
+        return self._stops_of_draws(draws, cells, drawn=True)
 
     def _stops_of_draws(
-        self, draws: Draws, wanted: NDArray[np.int32] | None, *, drawn: bool
+        self, draws: Draws, cells: NDArray[np.int32] | None, *, drawn: bool
     ) -> Iterator[NDArray[np.float32]]:
-        cells = np.arange(draws.grid.n_cells, dtype=np.int32) if wanted is None else wanted
-        position, stored = places_among(draws.index["cell"], cells)
+        cells = np.arange(draws.grid.n_cells, dtype=np.int32) if cells is None else cells
+        position, stored = positions_in(draws.index["cell"], cells)
         position, reflectivities = position[stored], draws.arrays["reflectivity" if drawn else "expected"]
         rng = np.random.default_rng(1)
         # The pool of prior states is drawn once; each draw of the map reads it from another random offset.
@@ -334,11 +334,11 @@ class Beta(Reflective):
         return {"kind": "beta", **self._described()}
 
 
-def places_among(held: NDArray[np.int32], cells: NDArray[np.int32]) -> tuple[NDArray[np.intp], NDArray[np.bool_]]:
-    """Return the position of each cell in the ascending ``held``, and whether ``held`` has the cell, (n,) each."""
-    place = np.minimum(np.searchsorted(held, cells), max(len(held) - 1, 0))
-    known = held[place] == cells if len(held) else np.zeros(len(cells), dtype=np.bool_)
-    return place, known
+def positions_in(stored: NDArray[np.int32], cells: NDArray[np.int32]) -> tuple[NDArray[np.intp], NDArray[np.bool_]]:
+    """Return the position of each cell in the ascending ``stored``, and whether it is there, (n,) each."""
+    position = np.minimum(np.searchsorted(stored, cells), max(len(stored) - 1, 0))
+    is_stored = stored[position] == cells if len(stored) else np.zeros(len(cells), dtype=np.bool_)
+    return position, is_stored
 
 
 def counts_behind(expected: Floats, a: Floats, b: Floats) -> tuple[Floats, Floats]:
@@ -366,7 +366,7 @@ def quantiles_of_halves(draws: NDArray[np.float16], at: tuple[float, ...]) -> Fl
     It equals `numpy.quantile`, ten times as fast: the bits of these numbers, read as integers, have the same order.
     """
     ordered = np.sort(np.ascontiguousarray(draws.T).view(np.uint16), axis=1).view(np.float16)
-    place = np.array(at) * (len(draws) - 1)
-    below = np.floor(place).astype(np.intp)
+    rank = np.array(at) * (len(draws) - 1)
+    below = np.floor(rank).astype(np.intp)
     low, high = (ordered[:, k].T.astype(np.float64) for k in (below, np.minimum(below + 1, len(draws) - 1)))
-    return np.asarray(low + (high - low) * (place - below)[:, None])
+    return np.asarray(low + (high - low) * (rank - below)[:, None])

@@ -17,7 +17,7 @@ from scipy import special
 
 from bayesmap.cells.arrays import ArraySpec, Draws
 from bayesmap.cells.kind import Cells, Floats, Words
-from bayesmap.cells.reflectivity import EXPECTED, FRESH_CELLS, REFLECTIVITY, KernelNumbers, Reflective, places_among
+from bayesmap.cells.reflectivity import EXPECTED, FRESH_CELLS, REFLECTIVITY, KernelNumbers, Reflective, positions_in
 from bayesmap.errors import BadInput
 from bayesmap.space.grid import Grid
 
@@ -188,7 +188,7 @@ class Surface(Reflective):
         second[:, 1, 0] = second[:, 0, 1]
         # Divide by the number of draws, and look up the reflectivities of the same cells.
         n = max(draws.size, 1)
-        position, _ = places_among(draws.index["cell"], cells)
+        position, _ = positions_in(draws.index["cell"], cells)
         reflectivity = draws.arrays["expected"][..., position].mean(axis=(0, 1), dtype=np.float64)
         return draws.grid.cell_centres_m(cells) + np.array(draws.grid.origin) + mean / n, second / n, reflectivity
 
@@ -198,7 +198,7 @@ class Surface(Reflective):
         Draws store the surfaces of cells in which a reading ends. Surfaces of other cells almost follow the prior, and
         are drawn from it here.
         """
-        position, stored = places_among(draws.index["surface_cell"], cells)
+        position, stored = positions_in(draws.index["surface_cell"], cells)
         position, centre, rng = position[stored], draws.grid.cell_centres_m(cells), np.random.default_rng(0)
         # The pool of prior surfaces is drawn once; each draw of the map reads it from another random offset. The
         # surface of a cell does not depend on the other cells.

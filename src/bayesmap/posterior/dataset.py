@@ -42,7 +42,7 @@ def by_reading(posterior: Posterior, device: str = "cpu") -> NDArray[np.float32]
     valid, every = valid_readings(posterior), np.arange(len(scans))
     out = np.empty((draws.chains, draws.count, len(valid[0])), np.float32)
     stops: Iterator[NDArray[np.float32]] = (
-        one for batch in posterior.prior.drawn_stops(draws) for one in np.split(batch, len(batch))
+        cells for batch in posterior.prior.drawn_stops(draws) for cells in np.split(batch, len(batch))
     )
     for (chain, draw), cells in zip(draws.numbers(), stops, strict=True):
         poses = scans.poses if moved is None else moved[chain, draw]

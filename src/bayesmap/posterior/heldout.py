@@ -106,12 +106,12 @@ def unseen_scans(train: Scans, scans: Scans, every: int, where: str) -> Scans:
             f"its map by; bayesmap score {where} --trajectory DIR/trajectory.tum judges a map along its path"
         )
     # Check that the run was made with this hold-out.
-    held = np.arange(len(scans)) % every == every // 2 if every >= 2 else None
-    if held is None or not held.any():
+    mask = np.arange(len(scans)) % every == every // 2 if every >= 2 else None
+    if mask is None or not mask.any():
         scans.holdout(every)  # raises the fitting message
-    assert held is not None
-    if not (held & seen).any():
-        return scans.select(held)
+    assert mask is not None
+    if not (mask & seen).any():
+        return scans.select(mask)
     if seen.all():
         raise NoneHeldOut(
             f"{where}: the run was made without holding scans out, so there is none to score it on; make one with "
@@ -120,7 +120,7 @@ def unseen_scans(train: Scans, scans: Scans, every: int, where: str) -> Scans:
     fitting = [n for n in range(2, MOST_EVERY) if (~seen == (np.arange(len(scans)) % n == n // 2)).all()]
     hint = f"it was made with --holdout {fitting[0]}" if fitting else "other scans were held out"
     raise BadInput(
-        f"{where}: with --holdout {every} the run has seen {(held & seen).sum():,} of the {held.sum():,} scans that "
+        f"{where}: with --holdout {every} the run has seen {(mask & seen).sum():,} of the {mask.sum():,} scans that "
         f"would score it; {hint}"
     )
 

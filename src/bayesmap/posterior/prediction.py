@@ -130,5 +130,5 @@ def predict(
     scans = Scans(where, fan.angles_rad, unread, max_range_m=fan.limits.max_m, min_range_m=fan.limits.min_m)
     rays = trace_rays(scans, grid, device=device)
     law = mix_stops(rays, predictor.batches(rays.touched), predictor.hit_depth, device=device)
-    found = range_quantiles(law, quantiles, fan.sensor, device).reshape(*unread.shape, -1)
-    return Prediction(where, fan.angles_rad, np.stack(drawn), quantiles, found)
+    quantiles_m = range_quantiles(law, quantiles, fan.sensor, device).reshape(*unread.shape, -1)
+    return Prediction(where, fan.angles_rad, np.stack(drawn), quantiles, quantiles_m)

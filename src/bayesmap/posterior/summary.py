@@ -40,8 +40,8 @@ def split_chains(values: Floats) -> Floats:
 
 def rank_normalise(values: Floats) -> Floats:
     """Return the normal scores of the ranks over all chains, (C, D)."""
-    _, place, count = np.unique(values, return_inverse=True, return_counts=True)
-    ranks = (np.cumsum(count) - (count - 1) / 2)[place].reshape(values.shape)  # ties share their mean rank
+    _, group, count = np.unique(values, return_inverse=True, return_counts=True)
+    ranks = (np.cumsum(count) - (count - 1) / 2)[group].reshape(values.shape)  # ties share their mean rank
     return np.asarray(special.ndtri((ranks - 0.375) / (values.size + 0.25)))
 
 

@@ -40,9 +40,9 @@ def run_segment(
     empty = no_draws(job.model, state, len(job.chain_ids))
     kept = len(keep.sweeps(begin, until)) if schedule.draws else 0
     record, before = Record(empty, SweepPlan(schedule.warmup, kept, schedule.thin)), begin
-    for now, info in sweeps(job.sampler, state, until, keep=keep):
+    for advanced, info in sweeps(job.sampler, state, until, keep=keep):
         record.add(info, before)
-        before, state = now.sweep, now
+        before, state = advanced.sweep, advanced
     seconds = {"trace": 0.0, "warm_start": started - began, "sampling": time.perf_counter() - started}
     segment = record.chains(
         snapshot=job.sampler.snapshot(state), finished=state.sweep >= schedule.sweeps, statistics=statistics,

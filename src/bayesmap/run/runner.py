@@ -217,11 +217,11 @@ class CheckpointTimer:
 
     def offer(self, chains: Callable[[], Chains], at_once: bool) -> None:
         """Write a checkpoint if one is due, or in any case if ``at_once``."""
-        now = time.monotonic()
-        if self._write is not None and (at_once or now - self._written_at >= self._pause_s):
+        began = time.monotonic()
+        if self._write is not None and (at_once or began - self._written_at >= self._pause_s):
             self._write(replace(chains(), finished=False))
             self._written_at = time.monotonic()
-            self._pause_s = pause_after(self._written_at - now, self._every_s)
+            self._pause_s = pause_after(self._written_at - began, self._every_s)
 
 
 def pause_after(checkpoint_s: float, every_s: float) -> float:

@@ -225,7 +225,8 @@ def merge_surfaces(
     of the cell that stopped each beam, -1 for none, (B,). ``before`` is the evidence of the maps, (C, nx, ny).
     Returns the number of removed surfaces of each chain.
     """
-    changes = [merge_moves(*of, end_points_m, noise, grid) for of in zip(maps.cells, maps.solid, owners, strict=True)]
+    chains = zip(maps.cells, maps.solid, owners, strict=True)
+    changes = [merge_moves(*chain, end_points_m, noise, grid) for chain in chains]
     changed = np.zeros(maps.solid.shape, dtype=np.bool_)
     removed, before = [0] * len(changes), before.copy()
     for _ in range(MERGE_ROUNDS):
@@ -270,14 +271,14 @@ def readings_of(
     stopped = np.flatnonzero((owner >= 0) & np.isfinite(end_points_m).all(axis=1))
     away = end_points_m[stopped] - cells[owner[stopped], 1:3]
     stopped = stopped[np.hypot(*away.T) < CLOSE * grid.resolution]
-    of, points = owner[stopped], end_points_m[stopped]
-    count = np.bincount(of, minlength=grid.n_cells)
+    cell, points = owner[stopped], end_points_m[stopped]
+    count = np.bincount(cell, minlength=grid.n_cells)
 
     def mean(values: Floats) -> Floats:
-        return np.asarray(np.bincount(of, values, grid.n_cells) / np.maximum(count, 1))
+        return np.asarray(np.bincount(cell, values, grid.n_cells) / np.maximum(count, 1))
 
     middle = np.stack([mean(points[:, 0]), mean(points[:, 1])], axis=-1)
-    x, y = (points - middle[of]).T
+    x, y = (points - middle[cell]).T
     return ExplainedReadings(
         count, middle, np.stack([mean(x * x), mean(x * y), mean(y * y)], axis=-1), mean(noise[stopped])
     )
@@ -338,14 +339,14 @@ def lengthened(
     """
     mean, axis = cells[target, 1:3].astype(np.float64), axes.direction[target]
     both = source, target
-    places = [((readings.mean_m[of] - mean) * axis).sum(axis=1) for of in both]
-    counts = [readings.count[of] for of in both]
-    middle = (counts[0] * places[0] + counts[1] * places[1]) / (counts[0] + counts[1])
+    means = [((readings.mean_m[cell] - mean) * axis).sum(axis=1) for cell in both]
+    counts = [readings.count[cell] for cell in both]
+    middle = (counts[0] * means[0] + counts[1] * means[1]) / (counts[0] + counts[1])
     # The axis leaves the square at the first crossing of one of its four sides.
     sides = (grid.cell_centres_m(target) - mean)[..., None] + INSIDE * 0.5 * grid.resolution * np.array([-1.0, 1.0])
     at = np.sort(sides / np.where(np.abs(axis) < LEVEL, LEVEL, axis)[..., None], axis=-1)
     moved = np.clip(middle, np.minimum(at[..., 0].max(axis=-1), 0.0), np.maximum(at[..., 1].min(axis=-1), 0.0))
-    spread = [variance_in(readings.moments[of], axis) + (places[i] - moved) ** 2 for i, of in enumerate(both)]
+    spread = [variance_in(readings.moments[cell], axis) + (means[i] - moved) ** 2 for i, cell in enumerate(both)]
     scatter = (counts[0] * spread[0] + counts[1] * spread[1]) / (counts[0] + counts[1])
     along, across, (x, y) = np.maximum(axes.along[target], ALONG_WALL**2 * scatter), axes.across[target], axis.T
     l11 = np.sqrt(along * x**2 + across * y**2)

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from bayesmap.cells.ising_field import SOLID
 from bayesmap.cells.kind import Floats
-from bayesmap.cells.reflectivity import Reflective, places_among
+from bayesmap.cells.reflectivity import Reflective, positions_in
 from bayesmap.cells.surface import PARTS
 from bayesmap.model import Model
 from bayesmap.samplers.initial_estimate import first_labels, start, steps, update_periods
@@ -60,7 +60,7 @@ class StopDraws:
     @cached_property
     def _among_touched(self) -> tuple[NDArray[np.intp], NDArray[np.bool_]]:
         """Positions of the kept cells among the cells that beams touch, and the mask of kept cells among these."""
-        return places_among(self._problem.rays.touched, self._cells["cell"])
+        return positions_in(self._problem.rays.touched, self._cells["cell"])
 
     def begin(self, chain: int, sweep: int) -> None:
         """Record the cells before a sweep."""

@@ -56,13 +56,13 @@ class Particles:
 
     def occupancy(self) -> Floats:
         """Return the weighted mean of the maps, (nx, ny). Independent cells that no beam touches take the prior."""
-        matter = np.nonzero(self.log_weights > self.log_weights.max() - NEGLIGIBLE_NATS)[0]
+        heavy = np.nonzero(self.log_weights > self.log_weights.max() - NEGLIGIBLE_NATS)[0]
         mean = np.zeros(self.problem.table.grid.shape)
         batch = max(1, BATCH_CELLS // mean.size)
-        for i in range(0, len(matter), batch):
-            part = matter[i : i + batch]
+        for i in range(0, len(heavy), batch):
+            part = heavy[i : i + batch]
             mean += np.tensordot(np.exp(self.log_weights[part]), self.maps(part), axes=1)
-        mean /= np.exp(self.log_weights[matter]).sum()
+        mean /= np.exp(self.log_weights[heavy]).sum()
         if self.problem.coupling != 0.0:
             return mean
         return np.where(self.problem.table.observed(), mean, self.problem.p_wall.reshape(mean.shape))
@@ -122,8 +122,8 @@ def _coupled_maps(problem: WallProblem, key: int, particles: NDArray[np.intp]) -
     for batch in np.unique(batch_of).tolist():
         rng = np.random.default_rng([key, batch])
         maps = problem.prior.sample_maps(rng, problem.grid, together)
-        mine = batch_of == batch
-        out[mine] = maps[particles[mine] % together]
+        mask = batch_of == batch
+        out[mask] = maps[particles[mask] % together]
     return out
 
 
