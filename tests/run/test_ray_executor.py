@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 from flat_options import infer
+from samplers.stop_rooms import assert_same
 from tiers import full_but
 
 import bayesmap as bm
@@ -50,26 +51,6 @@ KINDS = {
 def quick(**change):
     """An executor whose segments are so short that a small run has many."""
     return bm.RayExecutor(**{"segment_s": 0.01} | change)
-
-
-def arrays_of(run):
-    """All that the chains of a run have found."""
-    posterior = run.posterior
-    found = {f"draws {name}": values for name, values in posterior.draws.arrays.items()}
-    found |= {f"snapshot {name}": values for name, values in posterior.snapshot.arrays.items()}
-    found |= {f"statistics {name}": values for name, values in posterior.statistics.items()}
-    found |= {"log joint": run.log_joint, "warm-up": posterior.warmup_log_joint, "observed": posterior.observed}
-    return found
-
-
-def assert_same(run, expected):
-    assert run.finished == expected.finished
-    assert run.posterior.sweep == expected.posterior.sweep
-    got, want = arrays_of(run), arrays_of(expected)
-    assert got.keys() == want.keys()
-    for name, values in want.items():
-        assert values.dtype == got[name].dtype
-        np.testing.assert_array_equal(got[name], values, err_msg=name)
 
 
 @pytest.mark.parametrize("kind", full_but(list(KINDS), "surfaces and a fitted sensor"))

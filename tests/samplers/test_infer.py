@@ -8,6 +8,7 @@ import pytest
 from flat_options import grouped
 from oracle.enumeration import marginals, number_of
 from oracle.worlds import make_case
+from stop_rooms import assert_same
 
 import bayesmap as bm
 from bayesmap.run import runner
@@ -24,14 +25,6 @@ def case():
 
 def infer(case, **options):
     return bm.infer(case.scans, case.grid, **grouped(**{"prior": case.prior, "sensor": case.sensor, **options}))
-
-
-def assert_same_run(one, other):
-    for name in ("log_likelihood", "log_prior", "warmup_log_joint", "occupancy", "sweep", "finished"):
-        np.testing.assert_array_equal(getattr(one.posterior, name), getattr(other.posterior, name), err_msg=name)
-    np.testing.assert_array_equal(one.posterior.draws.arrays["walls"], other.posterior.draws.arrays["walls"])
-    for name, values in one.posterior.snapshot.arrays.items():
-        np.testing.assert_array_equal(values, other.posterior.snapshot.arrays[name], err_msg=name)
 
 
 @pytest.mark.parametrize("method", METHODS)
@@ -62,7 +55,7 @@ def test_the_log_joint_is_that_of_the_draws(case, method):
 @pytest.mark.parametrize("method", METHODS)
 def test_the_same_arguments_give_the_same_run_whatever_the_threads(case, method):
     options = {"method": method, "draws": 50, "particles": 1000, "seed": 3}
-    assert_same_run(infer(case, threads=1, **options), infer(case, threads=7, **options))
+    assert_same(infer(case, threads=1, **options), infer(case, threads=7, **options))
     assert (infer(case, **(options | {"seed": 4})).draws != infer(case, **options).draws).any()
 
 
@@ -95,7 +88,7 @@ def test_a_run_stopped_by_ctrl_c_goes_on_to_the_same_end(case, method, start, mo
     assert not second.finished
     assert second.posterior.sweep == 30
     assert second.draws.shape[1] == 10
-    assert_same_run(infer(case, resume=second, **options), whole)
+    assert_same(infer(case, resume=second, **options), whole)
 
 
 def test_ctrl_c_during_the_warm_start_goes_on_to_the_same_end():
@@ -115,17 +108,15 @@ def test_ctrl_c_during_the_warm_start_goes_on_to_the_same_end():
 
     part = bm.infer(scans, grid, on_progress=interrupt, **grouped(**options))
     assert not part.finished
-    assert_same_run(bm.infer(scans, grid, **grouped(**options, resume=part)), whole)
+    assert_same(bm.infer(scans, grid, **grouped(**options, resume=part)), whole)
 
 
 def test_checkpoints_are_runs_that_can_be_resumed_and_know_their_warm_start(case):
     options, seen = {"start": "propagate", "warmup": 10, "draws": 20, "seed": 5}, []
     whole = infer(case, on_checkpoint=seen.append, **options)
     assert [run.posterior.sweep for run in seen] == [10]
-    resumed = infer(case, resume=seen[0], **options)
-    assert_same_run(resumed, whole)
-    changes = (run.posterior.statistics["belief_changes"] for run in (resumed, whole))
-    np.testing.assert_array_equal(*changes)
+    assert "belief_changes" in whole.posterior.statistics
+    assert_same(infer(case, resume=seen[0], **options), whole)
 
 
 def test_belief_propagation_stopped_by_ctrl_c_is_not_finished(case):

@@ -79,18 +79,13 @@ def test_the_readings_of_the_fewer_go_to_the_neighbour_whose_axis_they_lie_on():
     assert (off < 1.0).all()
 
 
-def test_of_a_pair_only_one_gives_way_and_none_that_stops_many():
+def test_of_a_pair_only_one_gives_way_and_none_that_stops_many_or_whose_readings_lie_beside():
     cells, owner, points = wall(((3, 5), (4, 5), (7, moves.MOST_READINGS + 1), (8, moves.MOST_READINGS + 2)))
-    found = moves.readings_of(cells, owner, points, noise_of(owner), GRID)
-    few, by, _ = moves.best_neighbours(cells, found, moves.axes_of(cells), GRID)
-    np.testing.assert_array_equal(np.stack([few, by], -1), [[flat(3, 5), flat(4, 5)]])
-
-
-def test_readings_beside_a_surface_stay_where_they_are():
-    cells, owner, points = wall(((3, 3), (4, 10)))
-    cells[flat(4, 5)] = surface(4, 5, angle=1.0)
-    found = moves.readings_of(cells, owner, points, noise_of(owner), GRID)
-    assert len(moves.best_neighbours(cells, found, moves.axes_of(cells), GRID)[0]) == 0
+    for angle, pairs in ((0.0, [[flat(3, 5), flat(4, 5)]]), (1.0, np.zeros((0, 2)))):
+        cells[flat(4, 5)] = surface(4, 5, angle)
+        found = moves.readings_of(cells, owner, points, noise_of(owner), GRID)
+        few, by, _ = moves.best_neighbours(cells, found, moves.axes_of(cells), GRID)
+        np.testing.assert_array_equal(np.stack([few, by], -1), pairs)
 
 
 @pytest.mark.parametrize("angle", [0.0, 0.05, np.pi, -0.05])
@@ -192,14 +187,10 @@ def merged(request):
     return before, moves.ChainMaps.of(state.chains), seen, look
 
 
-def test_readings_are_explained_better_than_before(merged):
+def test_readings_are_explained_better_than_before_and_no_surface_leaves_its_cell(merged):
     before, after, seen, look = merged
     assert not np.array_equal(before.cells, after.cells)
     assert (look(after) - seen).sum() > 0
-
-
-def test_no_surface_leaves_its_cell(merged):
-    _, after, _, _ = merged
     away = after.cells[..., 1:3] - ROOM.cell_centres_m(np.arange(ROOM.n_cells))
     assert abs(away).max() <= 0.5 * ROOM.resolution + 1e-6
 
@@ -269,7 +260,7 @@ def naive_evidence(chains, chain, problem):
     return out
 
 
-def test_evidence_is_the_sum_over_the_beams_whose_readings_end_in_a_cell():
+def test_evidence_is_the_sum_over_the_beams_whose_readings_end_in_a_cell_and_beams_are_stopped_by_what_they_cross():
     sampler, problem = prepared(bm.Surface())
     state, info = sampler.step(sampler.init(problem, [0, 1], 0), 3)
     for chain in (0, 1):
@@ -277,11 +268,6 @@ def test_evidence_is_the_sum_over_the_beams_whose_readings_end_in_a_cell():
         found = moves.evidence(state.chains, chain, end_cells(problem.rays), problem.prior)
         np.testing.assert_allclose(found, naive_evidence(state.chains, chain, problem), rtol=1e-5, atol=1e-3)
         assert (found != 0).sum() > 50
-
-
-def test_a_beam_is_stopped_by_a_cell_that_it_crosses_or_by_none():
-    sampler, problem = prepared(bm.Surface())
-    state, _ = sampler.step(sampler.init(problem, [0], 0), 3)
     by, (stopped, _, _) = state.chains.stopped_by(0), state.chains.stops(0)
     np.testing.assert_array_equal(by >= 0, stopped)
     offsets = problem.rays.offsets
