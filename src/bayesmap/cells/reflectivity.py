@@ -273,11 +273,12 @@ class Reflective(CellPrior):
     ) -> Iterator[NDArray[np.float32]]:
         cells = np.arange(draws.grid.n_cells, dtype=np.int32) if cells is None else cells
         position, stored = positions_in(draws.index["cell"], cells)
-        position, reflectivities = position[stored], draws.arrays["reflectivity" if drawn else "expected"]
+        position, stored_at = position[stored], np.flatnonzero(stored)
+        reflectivities = draws.arrays["reflectivity" if drawn else "expected"]
         rng = np.random.default_rng(1)
-        # The pool of prior states is drawn once; each draw of the map reads it from another random offset.
-        free_pool = rng.beta(self.a, self.b, FRESH_CELLS).astype(np.float32)
-        solid_pool = rng.beta(self.a_solid, self.b_solid, FRESH_CELLS).astype(np.float32) if self.has_labels else None
+        # The pools of prior states are drawn once; each draw of the map reads them from another random offset.
+        betas = [(self.a, self.b), (self.a_solid, self.b_solid)][: 1 + self.has_labels] if drawn else []
+        pools = [rng.beta(a, b, FRESH_CELLS).astype(np.float32) for a, b in betas]
         write_surfaces, numbers = self.surface_writer(draws, cells), list(draws.numbers())
         shape = (len(cells), 6) if self.has_surfaces else (len(cells),)
         at_once = max(1, BATCH_BYTES // ((32 if self.has_surfaces else 4) * max(len(cells), 1)))
@@ -289,12 +290,12 @@ class Reflective(CellPrior):
                 solid = ising_field.of_draw(draws, chain, draw)[cells] if self.has_labels else None
                 if drawn:
                     pool_index = (cells + int(rng.integers(FRESH_CELLS))) % FRESH_CELLS
-                    m[:] = free_pool[pool_index]
-                    if solid is not None and solid_pool is not None:
-                        m[solid] = solid_pool[pool_index[solid]]
+                    m[:] = pools[0][pool_index]
+                    if solid is not None:
+                        m[solid] = pools[1][pool_index[solid]]
                 else:
                     m[:] = self.mean if solid is None else self.mean_given(solid)
-                m[stored] = reflectivities[chain, draw, position]
+                m[stored_at] = reflectivities[chain, draw][position]
             yield batch
 
     def surface_writer(self, draws: Draws, cells: NDArray[np.int32]) -> Callable[[NDArray[np.float32], int, int], None]:

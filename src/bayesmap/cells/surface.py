@@ -208,7 +208,7 @@ class Surface(Reflective):
             surfaces = stops[:, 1:]
             surfaces[:] = pool[(cells + int(rng.integers(FRESH_CELLS))) % FRESH_CELLS]
             for part, name in enumerate(PARTS):
-                surfaces[stored, part] = draws.arrays[f"surface_{name}"][chain, draw, position]
+                surfaces[stored, part] = draws.arrays[f"surface_{name}"][chain, draw][position]
             surfaces *= draws.grid.resolution
             surfaces[:, :2] += centre
 
