@@ -253,3 +253,11 @@ def test_results_print_as_a_few_short_lines(run, scans):
     assert "900 scans" in repr(results[-1])
     assert "899.0 s" in repr(results[-3])
     assert "0.5" in repr(results[6])
+
+
+def test_without_jax_programs_say_how_to_install_it():
+    """In a process of its own, in which JAX cannot be imported."""
+    for use in ("import bayesmap.gen", "import bayesmap as bm; bm.mapping_model"):
+        code = f"import sys; sys.modules['jax'] = None\n{use}"
+        done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False, timeout=300)
+        assert done.stderr.splitlines()[-1] == "ImportError: bayesmap.gen needs JAX: pip install 'bayesmap[gen]'"

@@ -145,6 +145,7 @@ class Inference:
         starts = getattr(method, "start_poses", None)
         if starts is not None and np.shape(starts)[1:] != scans.poses.shape:
             raise BadInput(f"infer: start_poses has shape {np.shape(starts)}, expected (chains, {len(scans)}, 3)")
+        _check_scans(scans, grid)
         first = first_sensor(prior, grid.resolution) if isinstance(sensor, str) else sensor
         model = Model(scans, grid, prior, first, poses, float(hit_depth))
         if poses.unknown and prior.methods[name] not in TAKE_POSES:
@@ -315,6 +316,22 @@ class Inference:
 
         # The GPU may be on another machine, so this process does not look for it.
         return (self.where.threads or available_cores()) if self.where.device == "cpu" else 1
+
+
+def _check_scans(scans: Scans, grid: Grid) -> None:
+    """Refuse scans that can say nothing of the map: all readings are invalid, or all scans are outside of the grid."""
+    if not len(scans):
+        return
+    if np.isnan(scans.ranges_m).all():
+        raise BadInput(f"infer: all {scans.n_beams:,} readings are NaN, which is invalid; no return is inf")
+    points = np.concatenate([scans.poses[:, :2], scans.hit_points_world()])
+    cells = np.floor(grid.to_cells(points))
+    if not ((cells >= 0) & (cells < grid.shape)).all(axis=1).any():
+        (x0, y0), (x1, y1) = points.min(axis=0), points.max(axis=0)
+        raise BadInput(
+            f"infer: no scan and no hit lies on the grid, {grid.extent_words()}; they lie at x {x0:g} to {x1:g}, "
+            f"y {y0:g} to {y1:g} m, which bm.Grid.covering(scans, resolution) holds"
+        )
 
 
 @near_names

@@ -146,3 +146,8 @@ def test_programs_refuse_it_with_the_remedy():
     pytest.importorskip("jax")
     with pytest.raises(bm.BadInput, match="mapping_model: the prior must be Independent, got Ising; use infer"):
         bm.mapping_model(bm.Grid((2, 2)), [0.5, 0.5, 0], [0.0], bm.Ising(0.5, 1.0), bm.Gaussian(0.1), max_range_m=5.0)
+
+
+def test_an_ising_prior_without_coupling_says_what_is_missing():
+    with pytest.raises(bm.BadInput, match=r"give the coupling, too, .* as in bm\.Ising\(0\.3, 'fit'\)"):
+        bm.Ising(0.3)

@@ -156,12 +156,11 @@ def test_a_run_made_with_other_arguments_is_not_resumed(case, change, message):
 
 @pytest.mark.parametrize("method", METHODS)
 def test_scans_that_say_nothing_leave_the_prior(method):
-    """No scan at all, invalid readings, and beams that never meet the grid: 8000 draws, five standard errors."""
+    """No scan at all, or an invalid reading and a beam that never meets the grid: 8000 draws, five standard errors."""
     grid, prior = bm.Grid((3, 3)), bm.Independent(np.linspace(0, 1, 9).reshape(3, 3))
     silent = [
         bm.Scans(np.zeros((0, 3)), [0.0], np.zeros((0, 1)), max_range_m=5.0),
-        bm.Scans([[1.0, 1.0, 0.0]], [0.0], [[np.nan]], max_range_m=5.0),
-        bm.Scans([[9.0, 9.0, 0.0]], [0.0], [[1.0]], max_range_m=5.0),
+        bm.Scans([[1.0, 1.0, 0.0], [9.0, 9.0, 0.0]], [0.0], [[np.nan], [1.0]], max_range_m=5.0),
     ]
     for scans in silent:
         options = grouped(method=method, draws=2000, warmup=0, particles=20_000)
@@ -250,3 +249,13 @@ def test_a_limited_time_ends_the_chains_with_what_they_have(case, monkeypatch):
     warmup = short.posterior.settings["warmup"]
     whole = bm.infer(case.scans, case.grid, **options, schedule=bm.Schedule(2, warmup=warmup, draws=10))
     np.testing.assert_array_equal(resumed.log_joint, whole.log_joint)
+
+
+def test_scans_that_say_nothing_of_the_map_are_refused():
+    grid, sensor, angles = bm.Grid((10, 8), 0.5), bm.Gaussian(0.2), np.linspace(-3, 3, 9)
+    scans = bm.simulate(np.eye(10, 8), grid, [1.3, 2.8, 0.0], angles, sensor=sensor, max_range_m=9.0)
+    with pytest.raises(bm.BadInput, match=r"no scan and no hit lies on the grid, x 0 to 5.* they lie at x 4\d"):
+        bm.infer(scans.at(scans.poses + np.array([50.0, 0.0, 0.0])), grid, prior=bm.Independent(0.2), sensor=sensor)
+    nothing = bm.Scans(scans.poses, angles, np.full((1, 9), np.nan), max_range_m=9.0)
+    with pytest.raises(bm.BadInput, match="all 9 readings are NaN"):
+        bm.infer(nothing, grid, prior=bm.Independent(0.2), sensor=sensor)

@@ -183,3 +183,16 @@ def test_poses_are_inferred_as_from_equal_scans(log, name):
         for scans in (logs["whole"], logs[name])
     )
     np.testing.assert_allclose(likelihoods, expected, rtol=1e-6)
+
+
+def test_headings_in_degrees_are_refused():
+    walls, grid = np.zeros((4, 4)), bm.Grid((4, 4))
+    for call in (
+        lambda: bm.simulate(walls, grid, [1, 1, 90.0], [0.0], sensor=bm.Gaussian(0.1), max_range_m=9.0),
+        lambda: bm.InitialPose((1, 1, 90.0)), lambda: bm.InitialPose((1, 1, 0.0), 0.1, 5.0),
+        lambda: bm.UncertainPoses(0.1, 5.0),
+    ):  # fmt: skip
+        with pytest.raises(bm.BadInput, match="are these degrees"):
+            call()
+    turning = np.column_stack([np.ones(9), np.ones(9), np.linspace(0, 30, 9)])  # headings may add up
+    assert len(bm.simulate(walls, grid, turning, [0.0], sensor=bm.Gaussian(0.1), max_range_m=9.0)) == 9

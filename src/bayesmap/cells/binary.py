@@ -204,10 +204,12 @@ class Ising(BinaryWalls):
         BadInput: a probability outside [0, 1], or a coupling outside [0, 50] that is not "fit".
     """
 
-    coupling: float | Literal["fit"]
+    coupling: float | Literal["fit"] = None  # type: ignore[assignment]  # so that the message says what is missing
 
     def __post_init__(self) -> None:
         super().__post_init__()
+        if self.coupling is None:
+            raise BadInput(f"Ising: give the coupling, too, a number or {FIT!r}, as in bm.Ising(0.3, {FIT!r})")
         if isinstance(self.coupling, str):
             if self.coupling != FIT:
                 raise BadInput(f"Ising: coupling must be a number or {FIT!r}, got {self.coupling!r}")

@@ -3,6 +3,11 @@
 The interface is that of GenJAX 0.10; `docs/coming-from-genjax.md` lists what differs.
 """
 
+try:
+    import jax as _jax  # noqa: F401 -- the first import says what is missing
+except ModuleNotFoundError:
+    raise ImportError("bayesmap.gen needs JAX: pip install 'bayesmap[gen]'") from None
+
 # Long lists of names are filled, not one name a line.
 # isort: off
 # fmt: off

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
 from bayesmap.space.planar import Floats, between, compose, rotation, yaw_wrapped
+from bayesmap.space.scans import check_sigma_rad
 
 LOG_ROOT_TWO_PI = 0.5 * math.log(2 * math.pi)
 
@@ -98,6 +99,7 @@ class UncertainPoses(PosePrior):
 
     def __post_init__(self) -> None:
         _check_positive("UncertainPoses", sigma_m=self.sigma_m, sigma_rad=self.sigma_rad)
+        check_sigma_rad("UncertainPoses", self.sigma_rad)
 
     def law(self, log_poses: Floats) -> PoseLaw:
         """Return independent normal distributions about the log's poses."""

@@ -19,7 +19,7 @@ from bayesmap.posterior.information import InformationGain, beam_information, be
 from bayesmap.posterior.posterior import Posterior
 from bayesmap.posterior.prediction import Fan
 from bayesmap.posterior.predictor import OnShare, ignored, parts, watched
-from bayesmap.space.scans import as_poses
+from bayesmap.space.scans import asked_poses
 
 if TYPE_CHECKING:
     from bayesmap.cells.arrays import Draws
@@ -107,15 +107,16 @@ def information_of(
     if draws is not None and draws < 2:
         raise BadInput(f"information_gain: draws must be 2 or more, got {draws!r}")
     fan = Fan.of("information_gain", posterior, angles_rad, max_range_m, sensor)
+    where = asked_poses("information_gain", poses)
     chains = posterior.draws.chains if posterior.has_chains and posterior.draws.count > 1 else 1
     each = int((INFORMATION_PAIRS / chains) ** 0.5) if draws is None else max(2, draws // chains)
     thinned = posterior.draws.thinned(each * posterior.draws.chains if chains > 1 else each)
     joint = expected_information(
-        np.concatenate(list(posterior.prior.drawn_stops(thinned))), posterior.grid, fan, poses,
+        np.concatenate(list(posterior.prior.drawn_stops(thinned))), posterior.grid, fan, where,
         hit_depth=float(posterior.settings["hit_depth"]), chains=chains, seed=seed, device=device,
         on_progress=on_progress,
     )  # fmt: skip
-    return replace(joint, independent=independent_information(posterior, as_poses(poses), fan, device))
+    return replace(joint, independent=independent_information(posterior, where, fan, device))
 
 
 def independent_information(posterior: Posterior, poses: Floats, fan: Fan, device: str = "cpu") -> Floats:

@@ -17,7 +17,7 @@ from bayesmap.errors import BadInput, check_count
 from bayesmap.posterior.posterior import Posterior
 from bayesmap.posterior.predictor import CENTRAL_80, PREDICTED_DRAWS, checked_levels, predictor_of
 from bayesmap.sensors.model import RangeLimits, SensorModel
-from bayesmap.space.scans import Scans, as_angles, as_poses
+from bayesmap.space.scans import Scans, as_angles, asked_poses
 
 if TYPE_CHECKING:
     from bayesmap.kernels.predict.density import DeviceMaps
@@ -110,7 +110,7 @@ def predict(
     from bayesmap.kernels.predict.stop_mixture import mix_stops, range_quantiles
     from bayesmap.kernels.rays import trace_rays
 
-    fan, where = Fan.of("predict", posterior, angles_rad, max_range_m, sensor), as_poses(poses)
+    fan, where = Fan.of("predict", posterior, angles_rad, max_range_m, sensor), asked_poses("predict", poses)
     grid, predictor = posterior.grid, predictor_of(posterior, fan.sensor)
     outside = [i for i, (x, y, _) in enumerate(where) if grid.cell_at(x, y) is None]
     if outside:

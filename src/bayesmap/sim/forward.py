@@ -9,7 +9,7 @@ from bayesmap.errors import BadInput, check_count, near_names
 from bayesmap.sensors.builtin import AdditiveNoise
 from bayesmap.sensors.model import RangeLimits, SensorModel
 from bayesmap.space.grid import Grid
-from bayesmap.space.scans import Scans, as_angles, as_poses, check_limits
+from bayesmap.space.scans import Scans, as_angles, as_poses, asked_poses, check_limits
 
 
 def ranges(
@@ -67,7 +67,7 @@ def simulate(
         BadInput: as `ranges`, and for a pose inside a wall.
     """
     # Check the arguments.
-    many, angles = as_poses(poses), as_angles(angles_rad)
+    many, angles = asked_poses("simulate", poses), as_angles(angles_rad)
     check_limits(min_range_m, max_range_m)
     seed = check_count("simulate", "seed", seed, 0)
     solid = np.asarray(walls) != 0

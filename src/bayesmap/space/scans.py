@@ -265,6 +265,27 @@ def as_poses(poses: ArrayLike) -> NDArray[np.float64]:
     return array
 
 
+def asked_poses(asked_by: str, poses: ArrayLike) -> NDArray[np.float64]:
+    """Return poses that a user stated, (P, 3); raise `BadInput` as `as_poses`, or for headings that are degrees.
+
+    Headings may add up along a path, so those are refused that begin, or change at once, by over two turns.
+    """
+    array = as_poses(poses)
+    far = np.flatnonzero(np.abs(np.diff(array[:, 2], prepend=0.0)) > 4 * math.pi)
+    if len(far):
+        raise BadInput(
+            f"{asked_by}: heading of pose {far[0]} is {array[far[0], 2]:g} radians, two turns or more away; headings "
+            "must be in radians: are these degrees?"
+        )
+    return array
+
+
+def check_sigma_rad(asked_by: str, sigma_rad: float) -> None:
+    """Raise `BadInput` for a standard deviation of a heading over half a turn."""
+    if sigma_rad > math.pi:
+        raise BadInput(f"{asked_by}: sigma_rad is over half a turn: {sigma_rad:g} radians; are these degrees?")
+
+
 def path_words(poses: NDArray[np.float64], stamps_s: NDArray[np.float64] | None) -> str:
     """Return the length of a path, and its duration if there are stamps, in words."""
     words = f"{np.hypot(*np.diff(poses[:, :2], axis=0).T).sum():,.1f} m"
