@@ -1,7 +1,7 @@
 """Makes interactive.html: the tutorial's map with draws of its posterior, as a page in one file.
 
 Run `python docs/tutorial/interactive.py` from the repository's root. It does what a reader does who starts
-`bayesmap app`, presses *Run* and then *Export, Page with its draws*.
+`bayesmap app`, presses *Run* and then *Export, Page in one file*.
 """
 
 from pathlib import Path

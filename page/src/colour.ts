@@ -80,14 +80,15 @@ export function entropyRgb(bits: number): Triple {
   return mix(hexRgb(CIVIDIS, 6 * i), hexRgb(CIVIDIS, 6 * i + 6), bits * 16 - i);
 }
 
-/** 512 packed pixels: by probability in 255ths where a beam has been, and 256 on where none has. */
+/** Packed pixels: 256 by probability in 255ths, for each sixteenth of the probability that a beam reaches the cell. */
 export function paletteOf(theme: Theme, layer: "value" | "entropy" | "width"): Uint32Array {
-  const pixels = new Uint8ClampedArray(4 * 512).fill(255);
+  const pixels = new Uint8ClampedArray(4 * 256 * 17).fill(255);
   const [free, wall] = [hexRgb(theme.unobserved), hexRgb(theme.unobservedWall)];
   for (let i = 0; i < 256; i++) {
     const doubt = layer === "entropy" ? entropyBits(i / 255) : i / 255;
-    pixels.set(layer === "value" ? probabilityRgb(theme, i / 255) : entropyRgb(doubt), 4 * i);
-    pixels.set(mix(free, wall, layer === "value" ? i / 255 : 0), 4 * (i + 256));
+    const known = layer === "value" ? probabilityRgb(theme, i / 255) : entropyRgb(doubt);
+    const unknown = mix(free, wall, layer === "value" ? i / 255 : 0);
+    for (let share = 0; share <= 16; share++) pixels.set(mix(unknown, known, share / 16), 4 * (i + 256 * share));
   }
   return new Uint32Array(pixels.buffer);
 }

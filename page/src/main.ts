@@ -4,11 +4,11 @@
 import { DAMAGED, takeFragment } from "./fragment";
 import { mount, type Handle } from "./mount";
 import { keepToken, keptDocument, onToken } from "./state/kept";
-import { recordedTransport } from "./transport/recorded";
+import { readRecording, recordedTransport } from "./transport/recorded";
 import { webSocketTransport } from "./transport/socket";
 import { widgetTransport, type Model } from "./transport/widget";
 
-export { mount, recordedTransport, webSocketTransport, widgetTransport };
+export { mount, readRecording, recordedTransport, webSocketTransport, widgetTransport };
 
 const KEPT = "This is the map that was drawn here when the connection was lost; undo leads back";
 
@@ -26,6 +26,16 @@ export default {
   },
 };
 
+/** Shows a recording in an element, and in its place any that is dropped onto it. */
+function play(host: HTMLElement, recording: Parameters<typeof recordedTransport>[0]) {
+  const handle = mount(host, recordedTransport(recording), { play: replay(host, () => handle) });
+  expose(handle);
+}
+const replay = (host: HTMLElement, shown: () => Handle) => (recording: Parameters<typeof recordedTransport>[0]) => {
+  shown().destroy();
+  play(host, recording);
+};
+
 /** Mounts the page of the server, or the recording of a static export, where a document asks for it. */
 async function start() {
   const host = document.querySelector<HTMLElement>("[data-bayesmap]");
@@ -35,7 +45,7 @@ async function start() {
   document.adoptedStyleSheets.push(sheet);
   const recording = document.querySelector("script[data-recording]");
   if (recording) {
-    expose(mount(host, recordedTransport(JSON.parse(recording.textContent ?? ""))));
+    play(host, await readRecording(recording.textContent ?? ""));
     return;
   }
   keepToken(new URLSearchParams(location.search).get("token"));
@@ -47,6 +57,7 @@ async function start() {
     transport.retry?.();
   });
   const notice = damaged ? ({ text: DAMAGED, level: "error" } as const) : kept ? ({ text: KEPT, level: "info" } as const) : null;
-  expose(mount(host, transport, { adopt: linked ?? kept, notice }));
+  const handle: Handle = mount(host, transport, { adopt: linked ?? kept, notice, play: replay(host, () => handle) });
+  expose(handle);
 }
 start();

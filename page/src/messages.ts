@@ -66,6 +66,8 @@ export type MapDocument = {
   start: "auto" | "empty" | "prior";
   /** Number of sweeps of the chains, or number of particles. */
   sweeps: number;
+  /** Share of the sweeps done, the first ones, that is left out of the mean, R-hat and the effective sample size. */
+  burn_in: number;
   /** Seed of all random numbers. */
   seed: number;
   /** For a log, number of first scans that make the map; null means all scans. */
@@ -99,6 +101,7 @@ export type Patch = {
   order?: "radial" | "random" | "raster";
   start?: "auto" | "empty" | "prior";
   sweeps?: number;
+  burn_in?: number;
   seed?: number;
   scans_used?: number | null;
   resolution?: number;
@@ -297,6 +300,7 @@ export type Limits = {
   pose_sigma: [number, number];
   heading_sigma: [number, number];
   sweeps: [number, number];
+  burn_in: [number, number];
   seed: [number, number];
   radius: [number, number];
   risk: [number, number];
@@ -315,6 +319,8 @@ export type Welcome = {
   limits: Limits | null;
   /** Whether the page plays a recording. */
   recorded: boolean;
+  /** Layers for which a recording has no numbers. */
+  lacks: ("draw" | "entropy" | "mean" | "width")[];
 };
 
 /** The state of the worker. */
@@ -376,6 +382,8 @@ export type Scan = {
 export type Verdict = {
   level: "bad" | "fair" | "good";
   why: string;
+  /** The cell that the reason names. */
+  cell: [number, number] | null;
 };
 
 /** The quantity on the map: kind of cells, words for its mean and its value in a draw, and if it has intervals. */
@@ -386,7 +394,7 @@ export type Quantity = {
   interval: boolean;
 };
 
-/** One picture of the posterior. Buffers: p uint8 (nx, ny), probability or interval width in 255ths; observed uint8, packed bits of (nx, ny); traced float32 (n), sweep numbers: the first 100, then evenly spread; trace float32 (chains, n), the log joint at these sweeps; for importance sampling also weights float32 (24), a histogram of the particles' log weights. */
+/** One picture of the posterior. Buffers: p uint8 (nx, ny), probability or interval width in 255ths; reached uint8 (nx, ny), how probably a beam reaches each cell, in 255ths; traced float32 (n), sweep numbers: the first 100, then evenly spread; trace float32 (chains, n), the log joint at these sweeps; for importance sampling also weights float32 (24), a histogram of the particles' log weights. */
 export type Field = {
   type: "field";
   /** Layer of the numbers. The page computes the entropy from the mean. */
@@ -421,6 +429,12 @@ export type Field = {
   averaged: number | null;
   /** Lower edge of the first bin of weights, in nats relative to the largest log weight, where the bins end. */
   lowest: number | null;
+  /** Number of first sweeps that are left out of the mean, R-hat and the effective sample size. */
+  burned: number;
+  /** Time spent on sweeps, rounds or particles. */
+  seconds: number | null;
+  /** The method, the prior, the sensor and the poses of what is shown, in words. */
+  about: [string, string][];
   generation: number;
 };
 
@@ -608,51 +622,29 @@ export type Download = {
   type: "download";
   name: string;
   mime: string;
+  /** What the file holds, for the status line. */
+  note: string;
 };
 
-/** Scans, one per row; in a simulation, one per sensor. */
-export type RecordedScans = {
-  ids: number[];
-  pose: ((number | null)[])[];
-  /** Beam angles, radians: one row for all scans, or one row per scan. */
-  angles: number[][];
-  ranges: ((number | "-Infinity" | "NaN" | null)[])[];
-  /** Noise-free ranges, metres; no row for a file. */
-  exact: ((number | "-Infinity" | "NaN" | null)[])[];
-  /** Base64 of packed bits (S, A), 0 for a beam without a return. */
-  hit: string;
-};
-
-/** Kept maps of walls. `data` is base64 of deflate-raw of packed bits, (chains, count, nx * ny). */
+/** Draws in a recording: `count` of the `kept` draws of each chain, as packed `bits` or in 255ths. */
 export type RecordedDraws = {
   chains: number;
   count: number;
-  data: string;
+  kept: number;
+  bits: boolean;
 };
 
-/** The figures shown beside the picture, as in the message `Field`. */
-export type RecordedFigures = {
-  method: string;
-  quantity: Quantity;
-  sweeps: number;
-  ess: number | null;
-  rhat: number | null;
-  verdict: Verdict | null;
-};
-
-/** The result in a page in one file. */
+/** The result in a page in one file: the messages of a session, for a page without one. Buffers: those of `Field` for the mean; width uint8 (nx, ny) if there are intervals; beams uint32 (nx, ny), the beams through each cell; draws uint8 (chains, count, bytes of a map); those of `Scan` for all recorded scans, with one row of angles for each scan if scans differ in them; for a file those of `Overlay`. */
 export type Recording = {
   version: 1;
   document: MapDocument;
-  scans: RecordedScans;
-  /** Mean map: base64 of uint8 (nx, ny), in 255ths. */
-  mean: string;
-  /** Observed cells: base64 of packed bits (nx, ny). */
-  observed: string;
+  /** The mean. */
+  field: Field;
+  /** Id of each recorded scan: of its sensor, or its index in the file plus 1. */
+  ids: number[];
   draws: RecordedDraws;
   /** Log joint of each draw, one row per chain. */
-  log_joint: ((number | null)[])[];
-  settings: RecordedFigures;
+  log_joint: number[][];
 };
 
 export type Action =

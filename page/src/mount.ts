@@ -1,6 +1,7 @@
 // Puts the page into an element: makes its parts and ties them together.
 
 import { DAMAGED, takeFragment, toFragment } from "./fragment";
+import { openDropped, type Play } from "./input/dropped";
 import { Editor } from "./input/editor";
 import { Hand, READING } from "./input/hand";
 import { MapKeys, pageKey } from "./input/keys";
@@ -46,6 +47,9 @@ import CHARTS from "uplot/dist/uPlot.min.css";
 import STYLE from "./style.css";
 import { ThemeChoice } from "./theme";
 
+/** Pixels a cell from which on one cell is easily seen. */
+const SEEN_FROM_SCALE = 12;
+
 export type Options = {
   /** In a notebook. */
   embedded?: boolean;
@@ -53,9 +57,11 @@ export type Options = {
   adopt?: MapDocument | null;
   /** What to say once it is connected. */
   notice?: { text: string; level: Level } | null;
+  /** Plays a recording that is dropped onto the page. */
+  play?: Play;
 };
 
-export function mount(element: HTMLElement, transport: Transport, { embedded = false, adopt = null, notice = null }: Options = {}) {
+export function mount(element: HTMLElement, transport: Transport, { embedded = false, adopt = null, notice = null, play }: Options = {}) {
   const shadow = element.shadowRoot ?? element.attachShadow({ mode: "open" });
   const sheet = new CSSStyleSheet();
   sheet.replaceSync(CHARTS + STYLE);
@@ -160,10 +166,21 @@ export function mount(element: HTMLElement, transport: Transport, { embedded = f
   });
   observer.observe(stage);
 
+  /** Puts the cursor on a cell, in the middle of the stage and large enough to be seen. */
+  function show([x, y]: number[]) {
+    const { scale } = view.transform;
+    if (scale < SEEN_FROM_SCALE) view.zoom(SEEN_FROM_SCALE / scale, view.middle, session.shape);
+    const at = view.fromGrid({ x: x + 0.5, y: y + 0.5 }, session.shape[1]);
+    view.pan(view.middle.x - at.x, view.middle.y - at.y, session.shape);
+    keys.focus();
+    hand.setCursor({ x, y });
+  }
+
   /** Does what is no message. */
   async function command(what: string) {
     if (what === "in" || what === "out") view.zoom(what === "in" ? 1.4 : 1 / 1.4, view.middle, session.shape);
     else if (what === "fit") view.fit(session.shape);
+    else if (what.startsWith("cell ")) show(what.slice(5).split(",").map(Number));
     else if (what === "help") dialogs.help.showModal();
     else if (what === "new") dialogs.new.showModal();
     else if (what === "theme") themes.next();
@@ -203,6 +220,12 @@ export function mount(element: HTMLElement, transport: Transport, { embedded = f
     [embedded ? element : window, "keydown", key as EventListener],
     [window, "online", online],
     [window, "hashchange", hash],
+    [element, "dragover", (event) => event.preventDefault()],
+    [element, "drop", (event) => {
+      event.preventDefault();
+      const file = (event as DragEvent).dataTransfer?.files[0];
+      if (file) openDropped(file, session, play);
+    }],
   ];
   for (const [target, type, listener] of listeners) target.addEventListener(type, listener);
   themes.dress();

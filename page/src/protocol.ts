@@ -7,7 +7,7 @@ export type { Action, CellFacts, DrawCount, Grid, Limits, MapDocument, Notice, P
 export type Pair = [number, number];
 export type Point = { x: number; y: number };
 
-export type Numbers = Uint8Array | Float32Array | Float64Array;
+export type Numbers = Uint8Array | Uint32Array | Float32Array | Float64Array;
 export type Buffers = { [name: string]: Numbers };
 /** An action with its number. */
 export type Sent = wire.Action & { seq: number };
@@ -25,10 +25,8 @@ export type Field = Omit<wire.Field, "type"> & {
   weights?: Float32Array;
   /** (nx, ny), in 255ths. */
   p: Uint8Array;
-  /** (nx, ny), 0 or 1. */
-  observed: Uint8Array;
-  /** `observed` as it came, packed. */
-  bits: Uint8Array;
+  /** (nx, ny), how probably a beam reaches the cell, in 255ths. */
+  reached: Uint8Array;
 };
 
 /** Readings and where they were taken: row s of pose (S, 3), ranges and exact (S, A) is the sensor `ids[s]`. */

@@ -27,7 +27,7 @@ export function snapshot(session: Session, view: Viewport, stack: Stack) {
       draw: shown.draw,
     },
     probability: shown?.p ?? new Uint8Array(0),
-    observed: shown?.observed ?? new Uint8Array(0),
+    reached: shown?.reached ?? new Uint8Array(0),
     walls: session.walls,
     sensors: session.document?.sensors ?? [],
     scan: session.scan,

@@ -18,8 +18,8 @@ export type Message = { type: string; [field: string]: any };
 
 /** As a server has them; where these are the library's, tests/app/test_page_logic.py passes the library's. */
 export const LIMITS: Limits = {
-  prior: [0, 1], noise: [0, 5], angles: [10, 1000], max_range: [0.1, 10000], fov: [Math.PI / 36, 2 * Math.PI], pose_sigma: [0, 2],
-  heading_sigma: [0, 0.6], sweeps: [1, 100000], seed: [0, 2 ** 31 - 1], radius: [0.001, 100], risk: [1e-6, 1 - 1e-6], side: [2, 500],
+  prior: [0, 1], noise: [0.01, 5], angles: [10, 1000], max_range: [0.1, 10000], fov: [Math.PI / 36, 2 * Math.PI], pose_sigma: [0, 2],
+  heading_sigma: [0, 0.6], sweeps: [1, 100000], burn_in: [0, 0.9], seed: [0, 2 ** 31 - 1], radius: [0.001, 100], risk: [1e-6, 1 - 1e-6], side: [2, 500],
   sensors: [1, 32], resolution: [0.02, 2], side_of_log: [1, 1000],
 };
 
@@ -34,7 +34,7 @@ export function aDocument(changes: Partial<MapDocument> = {}): MapDocument {
     sensors: [{ id: 1, x: 10, y: 10, yaw: 0 }],
     prior: 0.5, noise: 0.2, angles: 100, max_range: 42, fov: 2 * Math.PI, readings: "noisy",
     pose_sigma: 0, heading_sigma: 0, poses: "logged", cells: "binary",
-    method: "auto", order: "radial", start: "auto", sweeps: 1000, seed: 0, scans_used: null, source: { kind: "simulation", name: "", scans: 0, bounds: null },
+    method: "auto", order: "radial", start: "auto", sweeps: 1000, burn_in: 0.1, seed: 0, scans_used: null, source: { kind: "simulation", name: "", scans: 0, bounds: null },
     ...changes,
   };
 }
@@ -87,7 +87,7 @@ export class Desk {
   /** The line is there: welcome, the state, and a picture. */
   connect() {
     this.transport.onstatus({ connected: true });
-    this.says("welcome", { limits: LIMITS, recorded: false });
+    this.says("welcome", { limits: LIMITS, recorded: false, lacks: [] });
     this.confirm();
     this.says("worker", { state: "ready" });
     this.view.fit(this.session.shape);
@@ -120,11 +120,10 @@ export class Desk {
 
   /** A picture of the present generation, painted. */
   field(field: Partial<Field> = {}, { paint = true } = {}) {
-    const { p, observed, trace, traced, weights, ...header } = field;
+    const { p, reached, trace, traced, weights, ...header } = field;
     const cells = this.document.grid.shape[0] * this.document.grid.shape[1];
-    const known = { generation: this.generation, layer: "mean", method: "gibbs", approximate: false, sweeps: 1000, total: 1000 };
-    const seen = packBits(observed ?? new Uint8Array(cells).fill(1));
-    const buffers = { p: p ?? new Uint8Array(cells), observed: seen, trace: trace ?? new Float32Array(0), traced: traced ?? new Float32Array(0) };
+    const known = { generation: this.generation, layer: "mean", method: "gibbs", approximate: false, sweeps: 1000, total: 1000, burned: 0, about: [] };
+    const buffers = { p: p ?? new Uint8Array(cells), reached: reached ?? new Uint8Array(cells).fill(255), trace: trace ?? new Float32Array(0), traced: traced ?? new Float32Array(0) };
     this.says("field", { ...known, ...header }, weights ? { ...buffers, weights } : buffers);
     if (paint) this.paint();
   }

@@ -21,17 +21,19 @@ test("probability runs from paper to ink in steps that never turn back, in both 
 
 test("unobserved cells are warm, and entropy is cividis from dark to bright", () => {
   const pixels = new Uint8ClampedArray(paletteOf(THEMES.light, "value").buffer);
-  const at = (i: number) => [...pixels.subarray(4 * i, 4 * i + 4)];
+  const at = (i: number, share = 16) => [...pixels.subarray(4 * (256 * share + i), 4 * (256 * share + i) + 4)];
   assert.deepEqual(at(0).slice(0, 3), probabilityRgb(THEMES.light, 0));
   assert.deepEqual(at(255).slice(0, 3), probabilityRgb(THEMES.light, 1));
-  for (const i of [256, 511]) assert(at(i)[0] - at(i)[2] > 12, String(i));
+  const warmth = (i: number, share: number) => at(i, share)[0] - at(i, share)[2];
+  for (const i of [0, 255]) for (let share = 1; share <= 16; share++) assert(warmth(i, share) <= warmth(i, share - 1), `${i} ${share}`);
+  for (const i of [0, 255]) assert(warmth(i, 0) > 12, String(i));
   assert.deepEqual(entropyRgb(0), [0x00, 0x22, 0x4e]);
   assert.deepEqual(entropyRgb(1).map(Math.round), [0xfe, 0xe8, 0x38]);
   const doubt = new Uint8ClampedArray(paletteOf(THEMES.light, "entropy").buffer);
-  const bright = (i: number) => brightness([...doubt.subarray(4 * i, 4 * i + 3)]);
+  const bright = (i: number) => brightness([...doubt.subarray(4 * (4096 + i), 4 * (4096 + i) + 3)]);
   assert(bright(128) > bright(30) && bright(30) > bright(0) && Math.abs(bright(64) - bright(255 - 64)) < 2);
   const width = new Uint8ClampedArray(paletteOf(THEMES.light, "width").buffer);
-  assert(brightness([...width.subarray(4 * 255, 4 * 255 + 3)]) > brightness([...width.subarray(4 * 128, 4 * 128 + 3)]));
+  assert(brightness([...width.subarray(4 * 4351, 4 * 4351 + 3)]) > brightness([...width.subarray(4 * 4224, 4 * 4224 + 3)]));
   assert.match(gradient(entropyRgb), /^linear-gradient\(90deg,rgb\(0,34,78\),.*rgb\(254,232,56\)\)$/);
 });
 

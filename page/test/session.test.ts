@@ -99,11 +99,11 @@ test("readings of an older generation are not taken", () => {
 
 test("a frame of the same cells seen shares them, and of others does not", () => {
   const desk = new Desk();
-  const { observed } = desk.session.shown!;
+  const { reached } = desk.session.shown!;
   desk.field({ sweeps: 1 });
-  assert.equal(desk.session.shown!.observed, observed);
-  desk.field({ observed: new Uint8Array(441) });
-  assert.deepEqual(desk.session.shown!.observed, new Uint8Array(441));
+  assert.equal(desk.session.shown!.reached, reached);
+  desk.field({ reached: new Uint8Array(441) });
+  assert.deepEqual(desk.session.shown!.reached, new Uint8Array(441));
 });
 
 test("a field of a chain that comes before the first state waits for it", () => {

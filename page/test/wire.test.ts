@@ -3,11 +3,11 @@ import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { mock, test } from "node:test";
 import { fromFragment, takeFragment, toFragment } from "../src/fragment";
-import { deflate, fromBase64, packBits, toBase64, unpackBits } from "../src/geometry/bits";
-import type { Action, Buffers, Connection, MapDocument, Notice, Recording } from "../src/protocol";
+import { fromBase64, packBits } from "../src/geometry/bits";
+import type { Action, Buffers, Connection, Field, MapDocument, Notice, Recording } from "../src/protocol";
 import { forget, keep, keptDocument, keepToken, onToken } from "../src/state/kept";
 import { unpackFrame, type WithBuffers } from "../src/transport/frame";
-import { recordedTransport } from "../src/transport/recorded";
+import { readRecording, recordedTransport } from "../src/transport/recorded";
 import { webSocketTransport } from "../src/transport/socket";
 import { widgetTransport, type Model } from "../src/transport/widget";
 import { aDocument, LIMITS, LOG, wallsOf, type Message } from "./desk";
@@ -232,57 +232,47 @@ test("a notebook's kernel sends buffers beside their message", () => {
   assert.equal(listener, null);
 });
 
-/** What a recording answers to some actions, after the draws were unpacked. */
-async function played(recording: Recording, ...asked: Action[]) {
+/** What a recording answers to some actions. */
+function played(recording: [Recording, Buffers], ...asked: Action[]) {
   const heard: [Message, Buffers][] = [];
   const transport = recordedTransport(recording);
   Object.assign(transport, { onmessage: (...message: [Notice, Buffers]) => heard.push(message) });
-  let seq = 0;
   transport.open();
-  transport.send({ type: "hello", seq: ++seq });
-  for (let tries = 0; recording.draws.count && tries < 1000 && !heard.some(([message]) => message.type === "state" && message.draws.count); tries++) {
-    await new Promise((done) => setTimeout(done, 1));
-  }
+  transport.send({ type: "hello", seq: 1 });
   const first = heard.splice(0);
-  for (const action of asked) transport.send({ ...action, seq: ++seq });
+  asked.forEach((action, i) => transport.send({ ...action, seq: i + 2 }));
   return { first, heard };
 }
 
 const SMALL: MapDocument = aDocument({ grid: { shape: [3, 2], resolution: 1, origin: [0, 0] }, walls: wallsOf([[2, 0]], [3, 2]), sensors: [{ id: 1, x: 0.5, y: 0.5, yaw: 0 }], angles: 2 });
+const FIELD = { type: "field", generation: 1, layer: "mean", method: "gibbs", sweeps: 30, total: 30, ess: 12, log_joint: -6, quantity: { kind: "binary" }, burned: 0, about: [], draws: { chains: 2, count: 3 } } as unknown as Field;
 
 /** Two chains of three draws of six cells: draw d of chain c has walls in the cells below c + d. */
-async function recording(changes: Partial<Recording> = {}): Promise<Recording> {
-  const bits = Uint8Array.from({ length: 36 }, (_, i) => Number(i % 6 < Math.floor(i / 18) + (Math.floor(i / 6) % 3)));
-  return {
-    version: 1,
-    document: SMALL,
-    scans: { ids: [1], pose: [[0.5, 0.5, 0]], angles: [[0, Math.PI / 2]], ranges: [[1.5, null]], exact: [[1.4, null]], hit: toBase64(packBits(Uint8Array.of(1, 0))) },
-    mean: toBase64(Uint8Array.of(0, 51, 102, 153, 204, 255)),
-    observed: toBase64(packBits(Uint8Array.of(1, 1, 1, 0, 0, 1))),
-    draws: { chains: 2, count: 3, data: toBase64(await deflate(packBits(bits))) },
-    log_joint: [[-9, -8, -7], [-6, -5, -4]],
-    settings: { method: "gibbs", quantity: { kind: "binary", mean: "P(wall)", value: "wall", interval: false }, sweeps: 30, ess: 12, rhat: null, verdict: null },
-    ...changes,
+function recording(changes: Partial<Recording> = {}, buffers: Buffers = {}): [Recording, Buffers] {
+  const draws = [0, 1, 2, 1, 2, 3].flatMap((walls) => [...packBits(Uint8Array.from({ length: 6 }, (_, cell) => Number(cell < walls)))]);
+  const known = {
+    p: Uint8Array.of(0, 51, 102, 153, 204, 255), reached: Uint8Array.of(255, 255, 255, 0, 0, 255), beams: Uint32Array.of(2, 1, 0, 1, 0, 0), draws: Uint8Array.from(draws),
+    trace: Float32Array.of(-9, -8), traced: Float32Array.of(1), pose: Float64Array.of(0.5, 0.5, 0), angles: Float32Array.of(0, 1.5), ranges: Float32Array.of(1.5, Infinity),
+    exact: Float32Array.of(1.4, Infinity), hit: Uint8Array.of(1, 0),
   };
+  const whole = { version: 1, document: SMALL, field: FIELD, ids: [1], draws: { chains: 2, count: 3, kept: 30, bits: true }, log_joint: [[-9, -8, -7], [-6, -5, -4]], ...changes } as Recording;
+  return [whole, { ...known, ...buffers }];
 }
 
-test("a recording says hello as a session does, and tells of its draws once they are unpacked", async () => {
-  const { first } = await played(await recording());
-  assert.deepEqual(first.map(([{ type }]) => type), ["welcome", "state", "scan", "field", "state"]);
-  const [[welcome], [state], [scan, { ranges, exact, hit }], [field, { p, observed, trace, traced }], [last]] = first;
+test("a recording says hello as a session does, and passes on what the session said", () => {
+  const { first } = played(recording());
+  assert.deepEqual(first.map(([{ type }]) => type), ["welcome", "state", "scan", "field"]);
+  const [[welcome], [state], [scan, rays], [field, { p, reached, trace, traced }]] = first;
   assert(welcome.recorded && !state.running && !state.can_undo);
-  assert.deepEqual([state.draws.count, last.draws], [0, { chains: 2, count: 3 }]);
-  assert.deepEqual([scan.ids, scan.index], [[1], null]);
-  assert.deepEqual([ranges, exact, hit], [Float32Array.of(1.5, Infinity), Float32Array.of(1.4, Infinity), Uint8Array.of(1, 0)]);
-  assert.deepEqual([field.layer, field.sweeps, field.total, field.ess, field.log_joint], ["mean", 30, 30, 12, -7]);
-  assert.deepEqual([...p], [0, 51, 102, 153, 204, 255]);
-  assert.deepEqual([...unpackBits(observed as Uint8Array, 6)], [1, 1, 1, 0, 0, 1]);
-  assert.deepEqual([[...trace], [...traced]], [[-9, -8, -7, -6, -5, -4], [10, 20, 30]]);
+  assert.deepEqual([state.draws, welcome.lacks], [{ chains: 2, count: 3 }, ["width"]]);
+  const [, { pose, angles, ranges, exact, hit, ...known }] = recording();
+  assert.deepEqual([scan.ids, scan.index, rays], [[1], null, { pose, angles, ranges, exact, hit }]);
+  assert.deepEqual([field, { p, reached, trace, traced }], [FIELD, { p: known.p, reached: known.reached, trace: known.trace, traced: known.traced }]);
 });
 
-test("each draw of a recording is that chain's that draw", async () => {
+test("each draw of a recording is that chain's that draw, of walls and of numbers", () => {
   const views = [0, 1].flatMap((chain) => [0, 1, 2].map((draw) => ({ type: "view", layer: "draw", chain, draw }) as const));
-  const { heard } = await played(await recording(), ...views, { type: "view", layer: "draw", chain: 0 }, { type: "view", layer: "entropy" });
+  const { heard } = played(recording(), ...views, { type: "view", layer: "draw", chain: 0 }, { type: "view", layer: "entropy" });
   const fields = heard.filter(([{ type }]) => type === "field");
   views.forEach(({ chain, draw }, i) => {
     const [message, { p }] = fields[i];
@@ -293,43 +283,43 @@ test("each draw of a recording is that chain's that draw", async () => {
   assert.equal(fields[6][0].draw, 2); // without a number the last
   assert.equal(fields[7][0].layer, "entropy");
   assert.deepEqual([...fields[7][1].p], [0, 51, 102, 153, 204, 255]); // of the mean, made by the page
+  const numbers = recording({ draws: { chains: 1, count: 2, kept: 2, bits: false } }, { draws: Uint8Array.from({ length: 12 }, (_, i) => i), width: Uint8Array.of(9, 9, 9, 9, 9, 9) });
+  const shown = played(numbers, { type: "view", layer: "draw", chain: 0, draw: 1 }, { type: "view", layer: "width" }).heard.filter(([{ type }]) => type === "field");
+  assert.deepEqual(shown.map(([{ layer }, { p }]) => [layer, ...p]), [["draw", 6, 7, 8, 9, 10, 11], ["width", 9, 9, 9, 9, 9, 9]]);
 });
 
-test("of a file's recording one scan is shown at a time", async () => {
-  const scans = { ids: [], pose: [[0.5, 0.5, 0], [1.5, 0.5, 1]], angles: [[0, 1]], ranges: [[1, 2], [3, null]], exact: [], hit: toBase64(packBits(Uint8Array.of(1, 1, 1, 0))) };
-  const document = { ...SMALL, source: { kind: "run", name: "run.nc", scans: 2, bounds: null } as const };
-  const { first, heard } = await played(await recording({ scans, document }), { type: "scan", index: 1 });
+test("of a file's recording one scan is shown at a time, with its trajectory; of scans left out the nearest", () => {
+  const buffers = {
+    pose: Float64Array.of(0.5, 0.5, 0, 1.5, 0.5, 1), angles: Float32Array.of(0, 1, 2, 3), ranges: Float32Array.of(1, 2, 3, Infinity), exact: new Float32Array(0),
+    hit: Uint8Array.of(1, 1, 1, 0), strokes: new Float32Array(0), trajectory: Float32Array.of(0.5, 0.5, 1.5, 0.5),
+  };
+  const document = { ...SMALL, source: { kind: "run", name: "run.nc", scans: 9, bounds: null } as const };
+  const { first, heard } = played(recording({ ids: [1, 9], document }, buffers), { type: "scan", index: 6 });
+  assert.deepEqual(first.find(([{ type }]) => type === "overlay")![1].trajectory, buffers.trajectory);
   const [[before, at], [after, then]] = [...first, ...heard].filter(([{ type }]) => type === "scan");
-  assert.deepEqual([before.index, after.index], [0, 1]);
-  assert.deepEqual([[...at.ranges], [...then.ranges], [...then.hit], [...then.pose]], [[1, 2], [3, Infinity], [1, 0], [1.5, 0.5, 1]]);
+  assert.deepEqual([before.index, after.index], [0, 8]);
+  assert.deepEqual([[...at.ranges], [...then.ranges], [...then.hit], [...then.pose], [...then.angles]], [[1, 2], [3, Infinity], [1, 0], [1.5, 0.5, 1], [2, 3]]);
+  const same = played(recording({ ids: [1, 9], document }, { ...buffers, angles: Float32Array.of(0, 1) }), { type: "scan", index: 8 }).heard.find(([{ type }]) => type === "scan")!;
+  assert.deepEqual([...same[1].angles], [0, 1]);
 });
 
-test("a recording tells no return, too close and an invalid reading apart", async () => {
-  const scans = { ids: [1], pose: [[0.5, 0.5, 0]], angles: [[0, 0, 0, Math.PI / 2]], exact: [], ranges: [["NaN", "-Infinity", 1.5, null]], hit: toBase64(packBits(Uint8Array.of(0, 0, 1, 0))) };
-  const { first, heard } = await played(await recording({ scans } as Partial<Recording>), { type: "inspect", x: 1, y: 0 });
-  const [, { ranges }] = first.find(([{ type }]) => type === "scan")!;
-  assert.deepEqual([...ranges], [NaN, -Infinity, 1.5, Infinity]);
-  assert.equal(heard[0][0].beams, 1); // nothing is known to have passed but the beam that ended behind
-});
-
-test("a recording without draws shows its mean where a draw is asked for", async () => {
-  const { heard } = await played(await recording({ draws: { chains: 0, count: 0, data: "" }, log_joint: [] }), { type: "view", layer: "draw", chain: 0 });
+test("a recording without draws shows its mean where a draw is asked for", () => {
+  const { first, heard } = played(recording({ draws: { chains: 0, count: 0, kept: 0, bits: false }, log_joint: [] }), { type: "view", layer: "draw", chain: 0 });
   const [field, { p }] = heard.find(([{ type }]) => type === "field")!;
-  assert.deepEqual([field.layer, p[5], field.method], ["mean", 255, "gibbs"]);
+  assert.deepEqual([field.layer, p[5], field.method, first[0][0].lacks], ["mean", 255, "gibbs", ["draw", "width"]]);
 });
 
-test("the beams through a cell of a recording are those that reach it", async () => {
-  const cells = [[0, 0], [1, 0], [2, 0], [0, 1], [1, 1]];
-  const { heard } = await played(await recording(), ...cells.map(([x, y]) => ({ type: "inspect", x, y }) as const));
-  // the beam to the right ends at 2.0, the one upwards never
-  assert.deepEqual(heard.map(([{ beams }]) => beams), [2, 1, 0, 1, 0]);
+test("the beams through a cell of a recording are those that the session counted", () => {
+  const cells = [[0, 0], [0, 1], [1, 0], [1, 1]];
+  const { heard } = played(recording(), ...cells.map(([x, y]) => ({ type: "inspect", x, y }) as const));
+  assert.deepEqual(heard.map(([{ beams }]) => beams), [2, 1, 0, 1]);
 });
 
 test("the tutorial's page plays", async (context) => {
   if (!library) return context.skip(withoutLibrary);
   const html = readFileSync(library.tutorial, "utf8");
-  const found: Recording = JSON.parse(/<script[^>]*data-recording[^>]*>(.*?)<\/script>/s.exec(html)![1]);
-  const { first, heard } = await played(found, { type: "view", layer: "draw", chain: 0 });
+  const found = await readRecording(/<script[^>]*data-recording[^>]*>(.*?)<\/script>/s.exec(html)![1]);
+  const { first, heard } = played(found, { type: "view", layer: "draw", chain: 0 });
   const field = first.find(([{ type }]) => type === "field")!;
   assert.equal(field[0].sweeps, 1000);
   assert.equal(field[1].p.length, 441);

@@ -33,29 +33,32 @@ test("the map says what it shows, and what a quick answer is made of", () => {
   assert.match(found.text, /^hits and passes \u00b7 along raw odometry/);
 });
 
-const BAD = { verdict: { level: "bad" as const, why: "R-hat 1.3" } };
+const BAD = { verdict: { level: "bad" as const, why: "R-hat 1.3", cell: null } };
 test("what to do where chains have not converged is one click, and none where nothing can be done", () => {
   const cases: [Partial<MapDocument>, object, string | null, object?][] = [
     [{ method: "gibbs" }, { method: "gibbs", sweeps: 1000 }, "try blocks", { method: "block" }],
-    [{ method: "importance" }, { method: "importance" }, "try Gibbs", { method: "auto" }],
     [{ method: "gibbs", sweeps: 10 }, { method: "gibbs", sweeps: 10, total: 10 }, "try 200 sweeps", { sweeps: 200 }],
     [{ method: "block", sweeps: 300 }, { method: "block", sweeps: 300, total: 300 }, "try 1200 sweeps", { sweeps: 1200 }],
     [{ method: "block", sweeps: 60_000 }, { method: "block", sweeps: 60_000, total: 60_000 }, "try 100000 sweeps", { sweeps: 100_000 }],
-    [{ method: "block", sweeps: 100_000 }, { method: "block", sweeps: 100_000, total: 100_000 }, null],
+    [{ method: "block", sweeps: 100_000 }, { method: "block", sweeps: 100_000, total: 100_000 }, ""],
+    [{ method: "gibbs", pose_sigma: 0.5 }, { method: "gibbs" }, "poses are too uncertain"],
     [{ method: "block" }, { method: "block", sweeps: 300 }, null], // it goes on
     [{ ...LOG, method: "gibbs" }, { method: "gibbs" }, "try 4000 sweeps", { sweeps: 4000 }],
-    [RUN, { method: "gibbs" }, null],
+    [RUN, { method: "gibbs" }, ""],
   ];
   for (const [document, field, words, patch] of cases) {
     const [desk, found] = panel(chip, document);
     desk.field({ ...BAD, ...field });
-    if (!words) assert.doesNotMatch(found.text, /not converged/);
-    else {
+    if (words === null) assert.doesNotMatch(found.text, /not converged/);
+    else if (!patch) {
+      assert.match(found.text, new RegExp(`not converged${words && `: ${words}`}$`));
+      assert(found.control(words ? `Not converged: ${words}` : "Not converged").disabled);
+    } else {
       assert.match(found.text, new RegExp(`not converged: ${words}$`));
       found.control(`Not converged: ${words}`).click();
       assert.deepEqual(last(desk), patch);
     }
-    desk.field({ verdict: { level: "fair", why: "" } });
+    desk.field({ verdict: { level: "fair", why: "", cell: null } });
     assert.doesNotMatch(found.text, /not converged/);
   }
 });
@@ -78,9 +81,9 @@ test("the status says that chains have not converged, that a sensor is fitted, a
 test("the read-out tells of the cell under the hand: place, posterior, beams", () => {
   const [desk, found] = panel(status);
   const p = new Uint8Array(441).fill(51);
-  const observed = new Uint8Array(441).fill(1);
-  observed[440] = 0;
-  desk.field({ p, observed });
+  const reached = new Uint8Array(441).fill(255);
+  [reached[439], reached[440]] = [51, 0];
+  desk.field({ p, reached });
   desk.hand.point({ x: 10, y: 12 });
   assert.match(found.text, /Cell 10, 12 \u00b7 10.0, 12.0 m \u00b7 P\(wall\) 0.20 \u00b7 entropy 0.72 bit/);
   desk.says("cell", { x: 10, y: 12, beams: 1, beams_for: 0, nats_for: 0, beams_against: 1, nats_against: 2.345 });
@@ -89,6 +92,8 @@ test("the read-out tells of the cell under the hand: place, posterior, beams", (
   assert.doesNotMatch(found.text, /beam/); // those were another cell's
   desk.hand.point({ x: 20, y: 20 });
   assert.match(found.text, /Cell 20, 20 .* unobserved/);
+  desk.hand.point({ x: 20, y: 19 });
+  assert.match(found.text, /Cell 20, 19 .* reached by a beam with probability 0.20/);
   desk.field({ p: new Uint8Array(441).fill(255), layer: "draw" });
   assert.match(found.text, /wall in this draw/);
   desk.field({ p, quantity: SURFACES });
@@ -165,14 +170,29 @@ test("a log's picture of the last question is not taken for the answer to the ne
 
 test("figures are shown with their verdict, and a dash where there are none", () => {
   const [desk, found] = panel(posterior);
-  desk.field({ ess: 812.4, rhat: 1.0123, log_joint: -123.456, verdict: { level: "good", why: "R-hat 1.01" } });
+  desk.field({ ess: 812.4, rhat: 1.0123, log_joint: -123.456, verdict: { level: "good", why: "R-hat 1.01", cell: null } });
   assert.match(found.text, /ESS 812 R-hat 1.012 log joint -123.5/);
   assert.match(found.text, /Converged: R-hat 1.01/);
   assert.equal(found.find((one) => one.tagName === "dd" && one.className === "good").length, 2);
-  desk.field({ ...BAD, ess: null, rhat: Infinity });
+  assert(!found.sees("Show the cell"));
+  desk.field({ ess: 1, method: "importance", verdict: { level: "bad", why: "one particle", cell: null } });
+  assert.match(found.text, /Collapsed: one particle/);
+  desk.field({ verdict: { ...BAD.verdict, cell: [3, 4] }, ess: null, rhat: Infinity });
   assert.match(found.text, /ESS \u2013 R-hat \u2013/);
   assert.match(found.text, /Not converged: R-hat 1.3/);
   assert.equal(found.find((one) => one.className === "bad").length, 2);
+  found.control("Show the cell").click();
+  assert.deepEqual(desk.commands, ["cell 3,4"]);
+});
+
+test("what is left out, how long it took, and of which model and method the picture is", () => {
+  const [desk, found] = panel(posterior);
+  desk.field({ burned: 100, seconds: 3.21, about: [["Method", "Gibbs sampling"], ["Prior", "independent: p wall 0.5"]] });
+  assert.match(found.text, /1000 of 1000 sweeps, the first 100 left out/);
+  assert.match(found.text, /time 3.2 s/);
+  assert.match(found.text, /Model and method of this picture Method Gibbs sampling Prior independent: p wall 0.5/);
+  desk.field({ method: "propagate", approximate: true, sweeps: 7, total: 0 });
+  assert.match(found.text, /7 rounds of belief propagation/);
 });
 
 test("a path, and why there is none, in words", () => {

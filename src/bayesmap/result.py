@@ -351,7 +351,7 @@ class Run:
             BadInput: the map of a run that was stopped before its first draw, an unknown ending, or a file that cannot
                 be written.
         """
-        from bayesmap.io.exports import TRAJECTORIES, export_format, export_run
+        from bayesmap.io.exports import TRAJECTORIES, export_format, export_run, known_cells
 
         # The trajectory of `slam` is known before the first draw.
         if self.trajectory is None or export_format(path, options.get("format")) not in TRAJECTORIES:
@@ -363,15 +363,10 @@ class Run:
             if mode == "trinary":
                 for name, value in zip(("occupied_thresh", "free_thresh"), thresholds, strict=True):
                     options[name] = value if options.get(name) is None else options[name]
-            free_thresh = options.get("free_thresh")
-            unproven = ~self._seen_free() & (self.occupancy < (thresholds[1] if free_thresh is None else free_thresh))
-            return export_run(path, self, self.posterior.scans, known=self.observed & ~unproven, **options)
+            prior, draws, free_thresh = self.posterior.prior, self.posterior.draws, options.get("free_thresh")
+            known = known_cells(prior, draws, self.occupancy, self.observed, free_thresh)
+            return export_run(path, self, self.posterior.scans, known=known, **options)
         return export_run(path, self, self.posterior.scans, **options)
-
-    def _seen_free(self) -> NDArray[np.bool_]:
-        """Mask the cells that the beams alone show to stop fewer than half of all beams: four passed, none stopped."""
-        evidence = self.posterior.prior.evidence_interval(self.posterior.draws, 0.9) if self.n_draws else None
-        return self.observed if evidence is None else evidence[1] < 0.5
 
     def __repr__(self) -> str:
         """Return five lines: the map, the scans, the method, the log joint, and the time."""

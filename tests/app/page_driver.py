@@ -42,7 +42,8 @@ READ = """
   const bytes = (a) => { let t = ""; for (const v of a) t += String.fromCharCode(v); return btoa(t); };
   const plain = ([name, value]) => [name, value?.buffer ? Array.from(value, String) : value];
   const scan = s.scan && Object.fromEntries(Object.entries(s.scan).map(plain));
-  return {...s, probability: bytes(s.probability), observed: bytes(s.observed), walls: bytes(s.walls), scan};
+  const observed = bytes(s.reached.map((share) => Number(share >= 128)));
+  return {...s, probability: bytes(s.probability), observed, walls: bytes(s.walls), scan};
 }
 """
 

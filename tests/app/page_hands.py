@@ -12,6 +12,9 @@ def act(page, action):
 
 def choose(page, name):
     """Choose a tool or a layer."""
+    more = page.get_by_role("button", name="More tools")
+    if more.is_visible():
+        more.click()
     page.get_by_role("radio", name=name, exact=True).check()
 
 

@@ -43,7 +43,7 @@ def test_known_poses_are_sampled_as_known():
     "changes", [{"pose_sigma": 0.5}, {"heading_sigma": 0.1}, {"pose_sigma": 0.5, "method": "block"}]
 )
 def test_a_run_is_that_of_the_library_and_saved_with_its_poses(changes, tmp_path):
-    document = replace(tutorial_document(), sweeps=6, angles=40, **changes)
+    document = replace(tutorial_document(), sweeps=6, angles=40, burn_in=0.0, **changes)
     heard = Heard()
     heard.infer(document, "run")
     scans, _ = simulate_document(document)
@@ -94,7 +94,7 @@ def test_walls_blur_as_positions_become_uncertain_by_whole_cells():
     for sigma_m in (0.0, 0.5, 1.0):
         heard = Heard()
         _, buffers = heard.infer(replace(tutorial_document(), sweeps=30, pose_sigma=sigma_m))
-        seen = np.unpackbits(buffers["observed"], count=drawn.size).reshape(drawn.shape) > 0
+        seen = buffers["reached"] >= 128
         sure.append((buffers["p"][drawn & seen] / 255).mean())
         if sigma_m > 0:  # no picture of known poses in between
             assert {header["method"] for header in heard.all("field")} == {"gibbs"}
@@ -122,3 +122,17 @@ def test_methods_that_take_poses_as_known_do_so(method):
     assert pose_prior(document) is None
     _, buffers = Heard().infer(document, "run")
     assert np.array_equal(buffers["p"], Heard().infer(replace(document, pose_sigma=0.0), "run")[1]["p"])
+
+
+def test_chains_at_several_shifts_are_judged_at_each_and_told_what_would_help():
+    heard = Heard()
+    header, _ = heard.infer(replace(tutorial_document(), pose_sigma=1.0, sweeps=400))
+    found = heard.engine._result.found
+    places = np.unique(found.shifts, axis=0)
+    assert len(places) > 1
+    verdict = header["verdict"]
+    assert header["rhat"] > 1.05
+    assert f"chains stand at {len(places)} shifts" in verdict["why"]
+    assert "another sensor or surer poses" in verdict["why"]
+    same = replace(tutorial_document(), pose_sigma=0.01, sweeps=400)
+    assert "shifts" not in (heard.infer(same)[0]["verdict"] or {"why": ""})["why"]

@@ -77,8 +77,7 @@ def test_unobserved_cells_follow_the_prior(method):
     for prior in (0.5, 0.05):
         document = replace(new_document("tutorial", (31, 31), tutorial_document()), prior=prior, method=method)
         _, buffers = heard.infer(document)
-        observed = np.unpackbits(buffers["observed"], count=31 * 31).astype(bool)
-        hidden = buffers["p"].ravel()[~observed]
+        hidden = buffers["p"][buffers["reached"] < 128]
         assert 100 < len(hidden) < 31 * 31
         assert abs(hidden.mean() / 255 - prior) < 0.02
 
@@ -94,7 +93,7 @@ def test_a_job_is_a_preview_and_then_chains_to_their_last_sweep():
     assert fields[0]["approximate"]
     assert fields[-1]["sweeps"] == fields[-1]["total"] == 1000
     assert 0.9 < fields[-1]["rhat"] < 1.1
-    assert fields[-1]["ess"] == pytest.approx(bulk_ess(heard.engine._result.found.log_joint()))  # of every sweep
+    assert fields[-1]["ess"] == pytest.approx(bulk_ess(heard.engine._result.found.log_joint()[:, 100:]))
     assert heard.all("finished")[-1]["draws"] == DrawCount(0, 0)
 
 
@@ -109,6 +108,27 @@ def test_the_same_document_gives_the_same_posterior_however_it_was_interrupted()
     assert not np.array_equal(probability(heard.infer(replace(document, seed=1))), alone)
 
 
+@pytest.mark.parametrize("burn_in", [0.0, 0.3, 0.9])
+@pytest.mark.parametrize("mode", ["live", "run"])
+def test_the_burn_in_is_left_out_of_mean_diagnostics_and_saved_runs(burn_in, mode, tmp_path):
+    document = replace(tutorial_document(), sweeps=100, start="empty", burn_in=burn_in)
+    heard = Heard()
+    heard.infer(document, mode)
+    fields = [(header, buffers) for header, buffers in heard.every("field") if not header["approximate"]]
+    assert all(header["burned"] <= burn_in * header["sweeps"] for header, _ in fields)
+    header, buffers = fields[-1]
+    first = header["burned"]
+    assert first == round(100 * burn_in)
+    found = heard.engine._result.found
+    assert header["ess"] == pytest.approx(bulk_ess(found.log_joint()[:, first:]))
+    if mode == "run":
+        (tmp_path / "run.nc").write_bytes(export(heard.engine._result, "run")[2])
+        saved = bm.load(tmp_path / "run.nc")
+        np.testing.assert_allclose(buffers["p"], 255 * saved.occupancy, atol=0.5001)
+        assert (saved.posterior.settings["warmup"], saved.posterior.warmup_log_joint.shape[1]) == (first, first)
+        assert np.array_equal(saved.log_joint, found.log_joint()[:, first:])
+
+
 @pytest.mark.parametrize("method", ["gibbs", "block"])
 def test_a_run_is_that_of_the_library(method):
     document = replace(tutorial_document(), sweeps=40, method=method)
@@ -119,7 +139,8 @@ def test_a_run_is_that_of_the_library(method):
         method=method, chains=2, warmup=0, draws=40, seed=0, start="prior",
     )  # fmt: skip
     assert header["draws"] == {"chains": 2, "count": 40}
-    assert np.array_equal(buffers["p"], np.rint(255 * run.occupancy))
+    assert header["burned"] == 4  # a tenth is left out of the mean
+    assert np.array_equal(buffers["p"], np.rint(255 * run.draws[:, 4:].mean(axis=(0, 1))))
     for chain, draw in ((0, 0), (1, 39), (0, 17)):
         header, buffers = heard.answer(View("draw", chain, draw))
         assert (header["chain"], header["draw"]) == (chain, draw)
@@ -185,25 +206,26 @@ def test_clearing_inference_shows_the_prior():
     header, buffers = Heard().infer(replace(tutorial_document(), prior=0.2), "clear")
     assert header["method"] == "none"
     assert (buffers["p"] == 51).all()
-    assert not buffers["observed"].any()
+    assert not buffers["reached"].any()
 
 
 def test_the_scan_says_where_beams_truly_end_and_a_cell_counts_its_beams():
     heard = Heard()
-    heard.infer(replace(tutorial_document(), noise=0.0), "preview")
+    heard.infer(replace(tutorial_document(), noise=0.01), "preview")
     header, buffers = heard.last("scan")
     assert header["ids"] == [1]
     assert {name: a.shape for name, a in buffers.items()} == {
         "pose": (1, 3), "angles": (100,), "ranges": (1, 100), "exact": (1, 100), "hit": (1, 100)
     }  # fmt: skip
-    assert np.abs(buffers["ranges"] - buffers["exact"]).max() < 0.06  # noise of 0 is taken as 0.01
+    assert np.abs(buffers["ranges"] - buffers["exact"]).max() < 0.06
     assert [heard.answer(Inspect(at, at))[0]["beams"] for at in (10, 999)] == [100, 0]
 
 
 def test_many_sweeps_of_a_large_map_are_thinned_to_fit():
     scene = simulated_scene(new_document("blank", (500, 500), tutorial_document()))
     model, start = scene.model(scene.problem.prior), np.zeros((2, 500, 500), dtype=bool)
-    stream = Stream(model, WallGibbs("radial", start), scene.problem, 6000, 0, keep=True)
+    document = replace(tutorial_document(), sweeps=6000)
+    stream = Stream(model, WallGibbs("radial", start), scene.problem, document, keep=True)
     assert (stream.thin, stream.total) == (3, 6000)
     assert stream._record._draws.arrays["walls"].nbytes <= DRAW_BYTES
 
@@ -211,7 +233,7 @@ def test_many_sweeps_of_a_large_map_are_thinned_to_fit():
 @pytest.mark.parametrize("cells", ["reflectivity", "surface"])
 def test_other_kinds_of_cells_run_on_the_page_as_in_the_library_and_are_saved(cells, tmp_path):
     """The same runner: a pilot fits the sensor, and the draws are those of the library's chains under it."""
-    document = replace(tutorial_document(), cells=cells, sweeps=8, noise=0.1, angles=40)
+    document = replace(tutorial_document(), cells=cells, sweeps=8, noise=0.1, angles=40, burn_in=0.0)
     heard = Heard()
     header, field = heard.infer(document, "run")
     assert header["sweeps"] == header["total"] == 8

@@ -17,6 +17,7 @@ from bayesmap.app.answers.evidence import (
     summed,
     wall_ratios,
 )
+from bayesmap.app.display import histogram
 from bayesmap.app.edits import tutorial_document
 from bayesmap.app.protocol.actions import Inspect
 from bayesmap.kernels.rays import trace_rays
@@ -52,10 +53,32 @@ def test_for_a_wall_it_is_the_mean_over_all_maps_of_the_other_cells():
     assert found.beams_against == sum(r < -0.005 for r in ratios)
 
 
+def test_the_evidence_of_a_beam_has_no_cap():
+    """A reading a thousand standard deviations before the only other wall: half a million nats."""
+    grid = bm.Grid((12, 1), 1.0)
+    scans = bm.Scans(np.array([[0.5, 0.5, 0.0]]), np.zeros(1), np.array([[5.0]]), max_range_m=20.0)
+    table = trace(scans, grid, bm.Gaussian(0.001))
+    p = np.zeros(12)
+    p[8] = 1.0
+    (nats,) = wall_ratios(table, p, 5).nats
+    begin = int(np.flatnonzero(table.cells == 5)[0])
+    other = int(np.flatnonzero(table.cells == 8)[0])
+    assert nats == pytest.approx(float(table.loglik[begin]) - float(table.loglik[other]), rel=1e-6)
+    assert nats > 1000
+
+
+def test_the_histogram_reaches_to_the_lightest_particle():
+    log_weights = np.concatenate([np.linspace(-178_000.0, -90_000.0, 19_999), [0.0], [-np.inf]])
+    counts, lowest = histogram(log_weights)
+    assert lowest == -178_000.0
+    assert counts.sum() == 20_000
+    assert (counts[0] > 0, counts[-1]) == (True, 1)
+
+
 def test_a_wall_is_spoken_for_and_floor_against_and_each_beam_is_told_where_it_is_asked_for():
     heard = Heard()
     _, field = heard.infer(tutorial_document())
-    seen = np.unpackbits(field["observed"], count=441).reshape(21, 21).astype(bool)
+    seen = field["reached"] >= 128
     wall = tuple(np.argwhere(seen & (field["p"].reshape(21, 21) == 255))[0].tolist())
     (of_wall, _), (of_floor, nothing) = (heard.answer(Inspect(*cell)) for cell in (wall, (10, 12)))
     assert of_wall["nats_for"] > of_wall["nats_against"]

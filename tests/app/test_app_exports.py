@@ -2,7 +2,6 @@
 
 import base64
 import io
-import json
 import re
 import zipfile
 import zlib
@@ -18,6 +17,7 @@ from bayesmap.app.edits import tutorial_document
 from bayesmap.app.protocol.actions import Export, ShowScan
 from bayesmap.app.protocol.document import Source
 from bayesmap.app.protocol.notices import DrawCount, View
+from bayesmap.app.protocol.wire import unframe
 from bayesmap.app.sources import open_file
 from bayesmap.io.ros.maps import read_map
 
@@ -45,19 +45,21 @@ def saved_map(heard, folder):
 
 
 def recording_of(html):
-    return json.loads(re.search(r"data-recording>(.*?)</script>", html, re.DOTALL)[1])
+    """The recording in a page: its header and its buffers."""
+    packed = base64.b64decode(re.search(r"data-recording>(.*?)</script>", html, re.DOTALL)[1])
+    return unframe(zlib.decompress(packed, -15))
 
 
 def test_a_saved_run_holds_the_draws_and_is_shown_with_them_and_its_scans(heard, tmp_path):
     run = saved_run(heard, tmp_path)
     assert exported(heard, "run")[0]["name"] == "run.nc"
-    assert run.draws.shape == (2, 1000, 21, 21)
+    assert run.draws.shape == (2, 900, 21, 21)  # without the burn-in
     assert np.array_equal(np.rint(255 * run.occupancy), heard.answer(View("mean"))[1]["p"])
     opened = open_file(str(tmp_path / "run.nc"))
     assert opened.document.source == Source("run", "run.nc", 1)
     again = Heard(opened)
     header, buffers = again.infer(opened.document)
-    assert header["draws"] == {"chains": 2, "count": 1000}
+    assert header["draws"] == {"chains": 2, "count": 900}
     assert np.array_equal(buffers["p"], np.rint(255 * run.occupancy))
     assert np.array_equal(again.answer(View("draw", 1, 3))[1]["p"] > 0, run.draws[1, 3])
     assert again.last("scan")[1]["exact"].size == 0
@@ -92,17 +94,17 @@ def test_the_map_is_one_that_map_server_reads(heard, tmp_path):
 
 
 def test_the_page_in_one_file_is_small_and_whole(heard):
-    html = exported(heard, "html")[1].decode()
+    header, data = exported(heard, "html")
+    html = data.decode()
     assert len(html.encode()) < 200_000
-    recording = recording_of(html)
-    assert recording["draws"] == {"chains": 2, "count": 500, "data": recording["draws"]["data"]}
-    bits = np.unpackbits(np.frombuffer(zlib.decompress(base64.b64decode(recording["draws"]["data"]), -15), np.uint8))
-    draws = bits[: 1000 * 441].reshape(2, 500, 21, 21)
+    recording, buffers = recording_of(html)
+    assert recording["draws"] == {"chains": 2, "count": 500, "kept": 1000, "bits": True}
+    draws = np.unpackbits(buffers["draws"], axis=-1, count=441).reshape(2, 500, 21, 21)
     assert np.array_equal(draws[1, -1] * 255, heard.answer(View("draw", 1, 999))[1]["p"])
     assert [len(chain) for chain in recording["log_joint"]] == [500, 500]
-    mean = np.frombuffer(base64.b64decode(recording["mean"]), np.uint8).reshape(21, 21)
-    assert np.array_equal(mean, heard.answer(View("mean"))[1]["p"])
-    assert np.abs(draws.mean(axis=(0, 1)) - mean / 255).max() < 0.1
+    assert np.array_equal(buffers["p"], heard.answer(View("mean"))[1]["p"])
+    assert np.abs(draws[:, 50:].mean(axis=(0, 1)) - buffers["p"] / 255).max() < 0.1
+    assert header["note"] == "with 500 of the 1,000 draws of each chain; at most 1,000 draws and 16 MB fit"
     packed = re.search(r"data-module>(.*?)</script>", html, re.DOTALL)[1]
     assert re.search(rb"export\{[^}]* as mount\b", zlib.decompress(base64.b64decode(packed), -15))
     assert "http" not in re.sub(r">[^<]{1000,}<", "><", html)
@@ -111,7 +113,7 @@ def test_the_page_in_one_file_is_small_and_whole(heard):
 @pytest.mark.parametrize(
     ("prior", "kind", "mean"),
     [(bm.Independent(0.2), "binary", None), (bm.Beta(), "reflectivity", "mean reflectivity"),
-     (bm.Surface(), "surface", "mean chance that a square stops a beam")],
+     (bm.Surface(), "surface", "chance that a cell stops a beam")],
 )  # fmt: skip
 def test_a_run_names_its_quantity_and_has_intervals_where_it_is_a_number(prior, kind, mean):
     run = room_run(prior)
@@ -152,11 +154,27 @@ def test_a_run_of_reflectivities_is_exported_too(tmp_path):
     assert header["draws"] == {"chains": 2, "count": 10}
     assert np.array_equal(buffers["p"], np.rint(255 * run.occupancy))
     assert np.abs(heard.answer(View("draw", 1, 2))[1]["p"] / 255.0 - run.map_of(1, 2)).max() < 0.005
-    recording = recording_of(exported(heard, "html")[1].decode())
-    assert recording["draws"]["count"] == 0  # a recording holds walls alone
+    recording, numbers = recording_of(exported(heard, "html")[1].decode())
+    assert recording["draws"] == {"chains": 2, "count": 10, "kept": 10, "bits": False}
+    assert np.array_equal(numbers["draws"][1, 2].reshape(run.grid.shape), heard.answer(View("draw", 1, 2))[1]["p"])
+    assert np.array_equal(numbers["width"], heard.answer(View("width"))[1]["p"])
     occupancy, _ = saved_map(heard, tmp_path)
     assert np.array_equal(occupancy == 1, run.observed & (run.occupancy > 0.3))
+    run.export(tmp_path / "own.yaml")
+    assert np.array_equal(occupancy, read_map(tmp_path / "own.yaml")[0], equal_nan=True)
     assert np.array_equal(saved_run(heard, tmp_path).occupancy, run.occupancy)
+
+
+def test_the_map_of_chains_calls_free_what_four_beams_passed_as_that_of_a_run(tmp_path):
+    document = replace(tutorial_document(), cells="reflectivity", sweeps=12, noise=0.1, angles=40, burn_in=0.0)
+    heard = Heard()
+    heard.infer(document, "run")
+    saved_run(heard, tmp_path).export(tmp_path / "own.yaml")
+    occupancy, _ = saved_map(heard, tmp_path)
+    assert np.array_equal(occupancy, read_map(tmp_path / "own.yaml")[0], equal_nan=True)
+    found = heard.engine._result.found
+    thin = found.observed() & (found.mean() < found.prior.thresholds[1]) & np.isnan(occupancy)
+    assert thin.any()  # few beams passed there
 
 
 def test_a_log_is_inferred_from_with_the_defaults_for_logs(tmp_path):

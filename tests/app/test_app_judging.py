@@ -32,7 +32,9 @@ NAN = math.nan
     ],
 )
 def test_verdicts(rhat, ess, sweeps, apart, over, level, why):
-    found = judge_chains(rhat, ess, sweeps, None if apart is None else Difference(apart, (3, 4)), over=over)
+    found = judge_chains(
+        rhat, ess, sweeps, None if apart is None else Difference(apart, (3, 4), 2 * (apart > 0.25), 100), over=over
+    )
     assert (found and found.level) == level
     assert found is None or why in found.why
     assert found is None or ("(3, 4)" in found.why) == ("(3, 4)" in why)
@@ -42,9 +44,9 @@ def test_the_difference_is_the_largest_among_the_observed_cells():
     means = np.zeros((3, 4, 5))
     means[0, 1, 2], means[2, 3, 3] = 0.5, 0.9
     among = np.ones((4, 5), dtype=bool)
-    assert difference(means, among) == Difference(0.9, (3, 3))
+    assert difference(means, among) == Difference(0.9, (3, 3), 2, 20)
     among[3, 3] = False
-    assert difference(means, among) == Difference(0.5, (1, 2))
+    assert difference(means, among) == Difference(0.5, (1, 2), 1, 19)
     assert difference(means[:1], among) is None
     assert difference(means, np.zeros((4, 5), dtype=bool)) is None
 
@@ -57,3 +59,12 @@ def test_the_difference_is_the_largest_among_the_observed_cells():
 def test_particles(ess, level, why):
     found = judge_particles(ess)
     assert (found.level, found.why) == (level, why)
+
+
+def test_one_cell_of_a_hundred_makes_no_verdict_red_and_the_words_are_the_kind_s():
+    def judged(cells):
+        return judge_chains(1.001, 900, 1000, Difference(0.9, (3, 4), cells, 200), mean="mean reflectivity")
+
+    assert judged(2).level == "good"
+    assert (judged(3).level, judged(3).cell) == ("bad", (3, 4))
+    assert judged(3).why.startswith("mean reflectivity differs by over 0.25 between the chains in 3 of 200")

@@ -43,7 +43,7 @@ def test_a_new_map_where_a_log_was_opened_has_its_own_readings(log):
     here.infer(replace(log.document, sweeps=2))
     (_, found), (_, expected) = here.infer(new), Heard().infer(new)
     assert here.last("scan")[1]["ranges"].shape == (1, len(ANGLES))
-    assert all(np.array_equal(found[name], expected[name]) for name in ("p", "observed"))
+    assert all(np.array_equal(found[name], expected[name]) for name in ("p", "reached"))
     assert here.infer(replace(log.document, sweeps=2))[1]["p"].shape == log.document.grid.shape  # and back
 
 
@@ -208,7 +208,7 @@ def test_the_coarse_picture_is_made_of_counts_at_once(log, cells):
     counts = HitCounts(scene.scans, scene.problem.table).first(6)
     prior = {"binary": bm.Independent(0.2), "reflectivity": bm.Beta(), "surface": bm.Surface()}[cells]
     np.testing.assert_array_equal(buffers["p"].ravel(), np.rint(255 * coarse_map(counts, prior, 0.2)))
-    observed = np.unpackbits(buffers["observed"], count=document.grid.n_cells).astype(bool)
+    observed = buffers["reached"].ravel() > 0
     np.testing.assert_array_equal(observed, counts.any(axis=0))
     p = buffers["p"].ravel() / 255
     often = counts[0] > 4

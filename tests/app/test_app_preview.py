@@ -21,7 +21,7 @@ CASES = {
     "tutorial": tutorial_document(),
     "much noise": replace(tutorial_document(), noise=3.0),
     "rare walls": replace(tutorial_document(), prior=0.02),
-    "exact readings, no noise": replace(tutorial_document(), readings="exact", noise=0.0),
+    "exact readings, no noise": replace(tutorial_document(), readings="exact", noise=0.01),
     "a short range": replace(BUILDING, max_range=1.5),
     "a fan of two": replace(BUILDING, fov=math.pi / 2, sensors=(SENSOR, Sensor(2, SENSOR.x + 0.3, SENSOR.y, 2.0))),
     "a building": BUILDING,

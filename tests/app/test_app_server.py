@@ -160,7 +160,7 @@ def test_a_page_is_welcomed_and_shown_the_picture(address):
         assert buffers["ranges"].shape == (1, len(buffers["angles"]))
         header, buffers = page.until("field")
         assert buffers["p"].shape == (21, 21)
-        assert buffers["observed"].shape == (56,)
+        assert buffers["reached"].shape == (21, 21)
 
 
 def test_an_edit_is_confirmed_and_a_run_ends_with_draws_and_files(page):

@@ -11,6 +11,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from export_twins import twins
 from msgspec import to_builtins
 from page_driver import document, fragment
 
@@ -82,6 +83,7 @@ def test_the_logic_of_the_page(npm, tmp_path):
         "document": document(prior=0.375),
         "fragment": fragment(document(prior=0.375)),
         "tutorial": str(ROOT / "docs/tutorial/interactive.html"),
+        "twins": twins(tmp_path),
     }
     (tmp_path / "library.json").write_text(json.dumps(library))
     done = npm("test", BAYESMAP_LIBRARY=str(tmp_path / "library.json"), NO_COLOR="1")

@@ -32,7 +32,7 @@ def test_a_draw_lies_over_the_mean(open_page, room):
     still(page)
     shown = snapshot(page)
     draw = posterior.map_of(0, shown["painted"]["draw"])
-    expected = np.where(shown["observed"] > 0, np.rint(255 * draw), 0)
+    expected = np.where(shown["observed"] > 0, np.rint(255 * draw), 0)  # of a saved run either is known, or not
     assert np.abs(np.array(page.evaluate(OPACITY)) - expected).max() <= 2
     playwright.expect(page.locator(".chips")).to_contain_text("over the mean")
     playwright.expect(page.get_by_role("list", name="Legend")).to_contain_text("this draw")

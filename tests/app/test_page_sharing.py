@@ -100,7 +100,7 @@ def test_what_a_run_is_exported_to_opens_again_with_all_its_draws(drawn, open_pa
     with zipfile.ZipFile(io.BytesIO(saved(drawn, "Map for robots").path().read_bytes())) as archive:
         assert {name.rsplit(".")[-1] for name in archive.namelist()} == {"pgm", "yaml"}
     assert json.loads(saved(drawn, "Document").path().read_text()) == here["document"]
-    saved(drawn, "Page with its draws").save_as(tmp_path / "page.html")
+    saved(drawn, "Page in one file").save_as(tmp_path / "page.html")
     page = open_page((tmp_path / "page.html").as_uri())
     until(page, "s.draws.count > 0")
     there = snapshot(page)

@@ -107,5 +107,5 @@ def test_importance_sampling_shows_its_weights(open_page):
     assert counts[-1] >= 1
     assert snapshot(page)["painted"]["verdict"]["level"] == "bad"
     page.get_by_role("img", name="Histogram of the particles").wait_for()
-    act(page, lambda: press(page, "Not converged: try Gibbs"))
+    act(page, lambda: press(page, "Collapsed: try Gibbs"))
     assert settled(page)["painted"]["method"] == "gibbs"

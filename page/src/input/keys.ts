@@ -22,6 +22,7 @@ export const KEYS: readonly (readonly [string, string, KeysFor?])[] = [
   ["[ and ]", "turn the sensor or the ghost", "asked"],
   ["A, Delete", "add, remove a sensor", "drawn"],
   ["R, Escape", "run, cancel", "inferred"],
+  ["Escape", "take a path off the map", "asked"],
   ["M, N, H", "show the mean, a draw, the entropy or the width"],
   ["Ctrl+Z, Ctrl+Y", "undo, redo", "asked"],
   ["+, \u2212, 0", "zoom in, out, whole map"],
@@ -151,6 +152,7 @@ export function pageKey(
   else if (LAYERS[letter]) chosen.layer(letter === "h" && session.quantity.interval ? "width" : LAYERS[letter]);
   else if (COMMANDS[event.key]) chosen.command(COMMANDS[event.key]);
   else if (letter === "r" && !session.recorded) session.act({ type: "run" });
+  else if (event.key === "Escape" && session.decisions.start) session.decisions.forgetPath();
   else if (event.key === "Escape" && (session.running || session.working)) session.act({ type: "cancel" });
   else return;
   event.preventDefault();

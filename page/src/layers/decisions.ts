@@ -3,7 +3,9 @@
 import { entropyRgb } from "../colour";
 import { clamp, toCells } from "../geometry/cells";
 import type { Point } from "../protocol";
+import { figure } from "../panels/dom";
 import { clipToMap, type Layer, type Scene } from "./layer";
+import { Labels } from "./text";
 
 const LARGEST_DOT = 9;
 const SMALLEST_DOT = 2.5;
@@ -23,11 +25,12 @@ export class DecisionsLayer implements Layer {
     const { session } = scene;
     if (!session.document) return;
     clipToMap(context, scene);
-    if (session.decisions.looking) this.views(context, scene);
-    this.path(context, scene);
+    const labels = new Labels(context, scene.look.theme, scene.view.width);
+    if (session.decisions.looking) this.views(context, scene, labels);
+    this.path(context, scene, labels);
   }
 
-  private views(context: CanvasRenderingContext2D, { session, view, look }: Scene) {
+  private views(context: CanvasRenderingContext2D, { session, view, look }: Scene, labels: Labels) {
     const { views } = session.decisions;
     const grid = session.document?.grid;
     if (!views?.nats.length || !grid) return;
@@ -44,10 +47,11 @@ export class DecisionsLayer implements Layer {
       context.lineWidth = 2.5;
       context.strokeStyle = look.theme.truth;
       context.stroke();
+      labels.write(`${figure(high, 1)} nats`, place.x, place.y, radius);
     }
   }
 
-  private path(context: CanvasRenderingContext2D, { session, view, look }: Scene) {
+  private path(context: CanvasRenderingContext2D, { session, view, look }: Scene, labels: Labels) {
     const { start, goal, path, radius } = session.decisions;
     const grid = session.document?.grid;
     if (!grid || !start) return;
@@ -77,5 +81,11 @@ export class DecisionsLayer implements Layer {
       context.strokeStyle = look.theme.halo;
       context.stroke();
     }
+    if (path) {
+      const corners = path.path.length;
+      const [[x0, y0], [x1, y1]] = [path.path[(corners - 1) >> 1], path.path[corners >> 1]];
+      const middle = at({ x: (x0 + x1) / 2, y: (y0 + y1) / 2 });
+      labels.write(`${figure(path.length_m, 1)} m, free with probability ${figure(path.probability, 3)}`, middle.x, middle.y, 4);
+    } else if (goal && session.decisions.trouble) labels.write("no path", at(goal).x, at(goal).y, 7);
   }
 }

@@ -1,4 +1,4 @@
-// The field: a colour for every cell, a hatch where no beam has been, the lines between large cells.
+// The field: a colour for every cell, a hatch the denser the less probably a beam reaches it, the lines between large cells.
 
 import { paletteOf, type Theme } from "../colour";
 import type { Field, Layer as FieldName } from "../protocol";
@@ -18,13 +18,13 @@ const sheet = () => document.createElement("canvas").getContext("2d") as CanvasR
 export class FieldLayer implements Layer {
   readonly name = "field";
   private readonly cells = sheet();
-  /** Opaque where no beam has been. */
+  /** As opaque as it is improbable that a beam reaches the cell. */
   private readonly mask = sheet();
   /** The mask at the canvas's size, filled with oblique lines. */
   private readonly hatch = sheet();
   private readonly palettes = new Map<string, Uint32Array>();
   private image = new ImageData(1, 1);
-  private drawn = { field: null as Field | null, bits: null as Uint8Array | null, palette: "", hatch: "" };
+  private drawn = { field: null as Field | null, reached: null as Uint8Array | null, palette: "", hatch: "" };
 
   depends({ session }: Scene) {
     return [session.flicker.under ?? session.shown, session.view.layer === "entropy", ...session.shape];
@@ -64,24 +64,24 @@ export class FieldLayer implements Layer {
     if (this.image.width !== nx || this.image.height !== ny) {
       this.image = new ImageData(nx, ny);
       for (const { canvas } of [cells, mask]) Object.assign(canvas, { width: nx, height: ny });
-      drawn.bits = null;
+      drawn.reached = null;
     }
     const pixels = new Uint32Array(this.image.data.buffer);
     for (let row = 0, k = 0; row < ny; row++) {
-      for (let i = ny - 1 - row; i < nx * ny; i += ny) pixels[k++] = palette[field.p[i] + (field.observed[i] ? 0 : 256)];
+      for (let i = ny - 1 - row; i < nx * ny; i += ny) pixels[k++] = palette[field.p[i] + 256 * ((field.reached[i] + 8) >> 4)];
     }
     cells.putImageData(this.image, 0, 0);
-    if (drawn.bits !== field.bits) {
+    if (drawn.reached !== field.reached) {
       for (let row = 0, k = 0; row < ny; row++) {
-        for (let i = ny - 1 - row; i < nx * ny; i += ny) pixels[k++] = field.observed[i] ? 0 : 0xff000000;
+        for (let i = ny - 1 - row; i < nx * ny; i += ny) pixels[k++] = (255 - field.reached[i]) << 24;
       }
       mask.putImageData(this.image, 0, 0);
       drawn.hatch = "";
     }
-    Object.assign(drawn, { field, bits: field.bits, palette: name });
+    Object.assign(drawn, { field, reached: field.reached, palette: name });
   }
 
-  /** Oblique lines where no beam has been, at the same distance on screen at any zoom. */
+  /** Oblique lines where beams may not reach, at the same distance on screen at any zoom. */
   private fillHatch({ session, view, look }: Scene) {
     const { hatch, mask, drawn } = this;
     const { ratio, width, height } = view;

@@ -36,7 +36,7 @@ export class HypothesisLayer implements Layer {
     for (let row = 0, k = 0; row < ny; row++) {
       for (let i = ny - 1 - row; i < nx * ny; i += ny, k += 4) {
         // where no beam has been the draw is the prior's, and would only be noise
-        image.data.set([red, green, blue, field.observed[i] ? field.p[i] : 0], k);
+        image.data.set([red, green, blue, Math.round((field.p[i] * field.reached[i]) / 255)], k);
       }
     }
     this.cells.putImageData(image, 0, 0);

@@ -4,7 +4,7 @@ import { toCells } from "../geometry/cells";
 import type { Grid } from "../protocol";
 import type { Place } from "../messages";
 import { clipToMap, type Layer, type Scene } from "./layer";
-import { write } from "./text";
+import { Labels } from "./text";
 
 const DOT = 2.2;
 const TICK = 7;
@@ -31,7 +31,8 @@ export class WhereLayer implements Layer {
     if (!found || !grid) return;
     clipToMap(context, scene);
     this.cloud(context, scene, grid);
-    for (const place of found.modes) this.place(context, scene, grid, place, found.modes.length > 1);
+    const labels = new Labels(context, scene.look.theme, scene.view.width);
+    for (const place of found.modes) this.place(context, scene, grid, place, labels); // the likeliest first: it has the best room
   }
 
   private cloud(context: CanvasRenderingContext2D, { session, view, look }: Scene, grid: Grid) {
@@ -55,7 +56,7 @@ export class WhereLayer implements Layer {
     context.globalAlpha = 1;
   }
 
-  private place(context: CanvasRenderingContext2D, { view, look }: Scene, grid: Grid, place: Place, labelled: boolean) {
+  private place(context: CanvasRenderingContext2D, { view, look }: Scene, grid: Grid, place: Place, labels: Labels) {
     const [x, y, yaw] = place.mean;
     const at = view.fromGrid(toCells({ x, y }, grid), grid.shape[1]);
     const pixels = (RADIUS_95 * view.transform.scale) / grid.resolution;
@@ -73,7 +74,7 @@ export class WhereLayer implements Layer {
     context.strokeStyle = look.theme.belief;
     context.lineWidth = 2;
     context.stroke();
-    if (labelled) write(context, percent(place.probability), at.x, at.y - short - 9, look.theme, "center", true);
+    labels.write(percent(place.probability), at.x, at.y, short);
   }
 }
 

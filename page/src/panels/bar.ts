@@ -1,7 +1,8 @@
 // The tools of the hand, and zoom.
 
 import { READING, type Tool } from "../input/hand";
-import { h } from "./dom";
+import { allTools, showAllTools } from "../state/kept";
+import { h, mark, put } from "./dom";
 import type { Ui } from "./ui";
 
 const TOOLS = [
@@ -9,12 +10,14 @@ const TOOLS = [
   ["erase", "Erase", "erase"],
   ["sensor", "Sensor", "sensor"],
   ["pan", "Pan", "pan"],
-  ["path", "Path", "path"],
-  ["look", "Look next", "look"],
   ["where", "Where am I?", "where"],
-  ["ghost", "Ghost", "ghost"],
+  ["path", "Path", "path"],
   ["evidence", "Evidence", "evidence"],
+  ["look", "Look next", "look"],
+  ["ghost", "Ghost", "ghost"],
 ] as const;
+/** At first use so many are shown, and the others by a button. */
+const FIRST = 5;
 
 export function bar(ui: Ui) {
   const { hand, session } = ui;
@@ -26,13 +29,25 @@ export function bar(ui: Ui) {
     (tool) => session.editable || (READING.has(tool) && !session.recorded) || tool === "pan",
   );
   ui.visible(tools, () => !session.recorded);
-  TOOLS.forEach(([tool], i) => {
-    if (!READING.has(tool)) ui.visible(tools.children[i] as HTMLElement, () => !session.document || session.editable);
+  let all = allTools();
+  const more = ui.button(null, "More tools", () => {
+    showAllTools((all = !all));
+    session.changed();
+  }, { text: "More" });
+  ui.visible(more, () => !session.recorded);
+  ui.each(() => {
+    const offered = TOOLS.filter(([tool]) => READING.has(tool) || !session.document || session.editable).map(([tool]) => tool);
+    const first = new Set(all ? offered : offered.slice(0, FIRST));
+    TOOLS.forEach(([tool], i) => put(tools.children[i] as HTMLElement, "hidden", !first.has(tool) && !(tool === hand.tool && offered.includes(tool))));
+    put(more.lastElementChild as HTMLElement, "textContent", all ? "Fewer" : "More");
+    mark(more, "aria-label", all ? "Fewer tools" : "More tools");
+    put(more, "title", all ? "Fewer tools" : "More tools: paths, evidence, where to look next, the ghost");
   });
   return h(
     "div",
     { className: "bar" },
     tools,
+    more,
     h("span", { className: "space" }),
     ui.button("minus", "Zoom out", () => ui.command("out"), { title: "Zoom out (\u2212)" }),
     ui.button("plus", "Zoom in", () => ui.command("in"), { title: "Zoom in (+)" }),

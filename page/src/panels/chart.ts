@@ -80,7 +80,7 @@ export function traceChart(ui: Ui, theme: () => Theme) {
         scales: { x: { time: false, range: (_, low, high) => [low, Math.max(high, low + 1)] }, y: { range: (_, low, high) => padded(Math.max(low, settled), high) } },
         axes: [axis(theme, 26), axis(theme, asWideAsNumbers)],
         series: [{ label: "sweep" }, ...series],
-        hooks: { draw: [(chart) => mark(chart, marked, theme())] },
+        hooks: { draw: [(chart) => mark(chart, marked, theme()), (chart) => shade(chart, drawn?.burned ?? 0, theme())] },
       },
       [[], ...series.map(() => [])],
       place,
@@ -138,6 +138,17 @@ export function lowestSettled({ trace, traced }: Field, chains: number) {
 function padded(low: number, high: number): [number, number] {
   const pad = Math.max(0.06 * (high - low), 0.5);
   return [low - pad, high + pad];
+}
+
+/** A veil over the sweeps that are left out. */
+function shade(chart: uPlot, burned: number, theme: Theme) {
+  const { left, top, width, height } = chart.bbox;
+  if (!burned) return;
+  chart.ctx.save();
+  chart.ctx.globalAlpha = 0.12;
+  chart.ctx.fillStyle = theme.axis;
+  chart.ctx.fillRect(left, top, Math.min(width, Math.max(0, chart.valToPos(burned, "x", true) - left)), height);
+  chart.ctx.restore();
 }
 
 /** A vertical bar at a sweep. */

@@ -13,9 +13,9 @@ const WORLDS: [New["world"], string][] = [
 ];
 const DRAWN = "Draw walls, and drag the robot: a beam reads the first wall that it hits, with noise.";
 const WALLS =
-  "Shown is what the readings tell about the walls: how probable each is (mean), one whole map that explains them (one draw), and where doubt remains (entropy). No beam has been where it is hatched.";
+  "Shown is what the readings tell about the walls: how probable each is (mean), one whole map that explains them (one draw), and where doubt remains (entropy). The denser the hatch, the less probably a beam reaches the cell; where it is full, the prior is all there is.";
 const NUMBERS =
-  "Shown is what the readings tell about how likely each cell is to stop a beam: what is expected (mean), one whole map that explains them (one draw), and how wide the 90 % interval is (width). No beam has been where it is hatched.";
+  "Shown is what the readings tell about how likely each cell is to stop a beam: what is expected (mean), one whole map that explains them (one draw), and how wide the 90 % interval is (width). The denser the hatch, the less probably a beam reaches the cell; where it is full, the prior is all there is.";
 const EDITED = "While you edit, the answer is belief propagation, which is approximate. Gibbs sampling follows, and is exact in the long run.";
 const LOG = "The map is made from the scans of this log. Where its poses are raw odometry, Run first infers where the robot was; then it samples maps, and keeps them as draws.";
 const RUN = "This is a saved run: its draws, and what they say together.";

@@ -15,8 +15,8 @@ export function head(ui: Ui) {
   });
   const live = () => !session.recorded && Boolean(session.document);
   const only = [
-    ui.button("undo", "Undo", () => session.act({ type: "undo" }), { title: "Undo (Ctrl+Z)", when: () => Boolean(session.state?.can_undo) }),
-    ui.button("redo", "Redo", () => session.act({ type: "redo" }), { title: "Redo (Ctrl+Y)", when: () => Boolean(session.state?.can_redo) }),
+    ui.button("undo", "Undo", () => session.act({ type: "undo" }), { title: "Undo (Ctrl+Z)", when: () => Boolean(session.state?.can_undo), why: "Nothing of this page to undo" }),
+    ui.button("redo", "Redo", () => session.act({ type: "redo" }), { title: "Redo (Ctrl+Y)", when: () => Boolean(session.state?.can_redo), why: "Nothing to redo" }),
     h("span", { className: "gap" }),
     ui.button("grid", "New map", () => ui.command("new"), { text: "New map", when: live }),
     // a notebook's address holds no map, and may hold the notebook's token
@@ -42,8 +42,8 @@ const hasRun = ({ shown, draws }: Session) => draws.count > 0 || /importance|pro
 
 function exportMenu(ui: Ui) {
   const { session } = ui;
-  const item = (label: string, value: string, onServer: boolean, when?: () => boolean) => {
-    const element = ui.button(null, label, () => ui.command(`export ${value}`), { text: label, when });
+  const item = (label: string, value: string, onServer: boolean, when?: () => boolean, why?: string) => {
+    const element = ui.button(null, label, () => ui.command(`export ${value}`), { text: label, when, why });
     if (onServer) ui.visible(element, () => !session.recorded);
     return element;
   };
@@ -51,9 +51,9 @@ function exportMenu(ui: Ui) {
     "div",
     { className: "menu", hidden: true },
     item("Picture (PNG)", "png", false),
-    item("Saved run (netCDF)", "run", true, () => hasRun(session)),
+    item("Saved run (netCDF)", "run", true, () => hasRun(session), "No draws are kept yet: Run keeps them"),
     item("Map for robots (YAML and PGM)", "map", true),
-    item("Page with its draws (HTML)", "html", true),
+    item("Page in one file (HTML)", "html", true),
     item("Document (JSON)", "document", true),
   );
   const toggle = ui.button("save", "Export", () => open(menu.hidden), { text: "Export", when: () => Boolean(session.document) });

@@ -4,6 +4,7 @@ import { entropyRgb, gradient, probabilityRgb, type Theme } from "../colour";
 import { strokesShowAt } from "../layers/overlay";
 import type { Layer } from "../protocol";
 import type { Session } from "../state/session";
+import { sentence } from "../state/status";
 import { figure, h, put } from "./dom";
 import { icon } from "./icons";
 import type { Ui } from "./ui";
@@ -47,7 +48,29 @@ const BEAMS: Entry[] = [
 ];
 
 export function legend(ui: Ui, theme: () => Theme, scale: Scale) {
-  return h("div", { className: "legend" }, list(ui, theme, scale), room(ui));
+  const caption = h("p", { className: "sentence" });
+  ui.each(() => put(caption, "textContent", captionOf(ui.session)));
+  return h("div", { className: "legend" }, caption, list(ui, theme, scale), room(ui));
+}
+
+const counted = (n: number, word: string) => `${n.toLocaleString("en")} ${word}${n === 1 ? "" : "s"}`;
+
+/** What one sees, in one sentence. */
+export function captionOf(session: Session) {
+  const { shown, document, layer, quantity, draws } = session;
+  if (!shown || !document) return "";
+  const { kind, mean, value } = quantity;
+  const what = {
+    mean: kind === "binary" ? "How probable a wall is in each cell" : sentence(`${mean} of each cell`),
+    draw: `One map drawn from the posterior${kind === "binary" ? "" : `, by its ${value}`}${draws.count ? `, ${session.draw + 1} of ${draws.count}` : ""}`,
+    entropy: "How uncertain each cell is, in bits", width: "How wide the 90 % interval of each cell is",
+  }[layer];
+  if (shown.method === "none") return `${what} before any reading: the prior.`;
+  const { source, angles, sensors, scans_used } = document;
+  const given = source.kind === "simulation" ? `${counted(angles * sensors.length, "beam")} of ${counted(sensors.length, "sensor")}` : counted(scans_used ?? source.scans, "scan");
+  const quick = shown.method === "propagate" || shown.method === "pilot" || /hits|counts/.test(shown.method);
+  const by = quick && shown.approximate ? ", approximately" : layer !== "draw" && shown.burned ? `: the mean of the sweeps after the first ${shown.burned}` : "";
+  return `${what}, given ${given}${by}.`;
 }
 
 /** What is seen. */

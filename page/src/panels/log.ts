@@ -46,7 +46,7 @@ export function logPanel(ui: Ui) {
     ui.endDrag();
   });
   const section = ui.section("Log", h("div", { className: "player bare" }, slider, count));
-  ui.visible(section, () => session.document?.source.kind === "log" && all() > 1);
+  ui.visible(section, () => !session.recorded && session.document?.source.kind === "log" && all() > 1);
   ui.each(() => {
     const scans = all();
     const used = session.document?.scans_used ?? scans;

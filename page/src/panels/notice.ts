@@ -4,7 +4,7 @@ import { centreOf, entropyBits } from "../geometry/cells";
 import type { Field, Patch, Point } from "../protocol";
 import type { Session } from "../state/session";
 import { h, mark, put } from "./dom";
-import { isFitting } from "./posterior";
+import { isFitting, verdictNames } from "./posterior";
 import type { Ui } from "./ui";
 
 const REFUSED =
@@ -23,15 +23,17 @@ const NEIGHBOURS = "Emptied means without the surface that the cell owns: where 
 export function chip(ui: Ui) {
   const { session } = ui;
   const what = h("span", { className: "chip" });
-  const remedy = ui.button(null, "Not converged", () => tryRemedy(session)?.apply(), { text: "Not converged", className: "chip doubt" });
+  const remedy = ui.button(null, "Not converged", () => tryRemedy(session)?.apply?.(), { text: "Not converged", className: "chip doubt" });
   const element = h("div", { className: "chips" }, what, remedy);
   ui.each(() => {
     const found = tryRemedy(session);
     put(remedy, "hidden", !found);
     if (found) {
-      put(remedy.firstElementChild as HTMLElement, "textContent", `not converged: ${found.text}`);
-      put(remedy, "title", `${session.shown?.verdict?.why}. Click to ${found.text}.`);
-      mark(remedy, "aria-label", `Not converged: ${found.text}`);
+      const words = [verdictNames(session).bad, found.text].filter(Boolean).join(": ");
+      put(remedy.firstElementChild as HTMLElement, "textContent", words.charAt(0).toLowerCase() + words.slice(1));
+      put(remedy, "title", `${session.shown?.verdict?.why}.${found.apply ? ` Click to ${found.text}.` : ""}`);
+      put(remedy, "disabled", !found.apply);
+      mark(remedy, "aria-label", words);
     }
     const field = session.shown;
     if (!field || !session.document) return put(element, "hidden", true);
@@ -60,17 +62,21 @@ function quick({ method, sweeps, total, averaged }: Field, working: boolean) {
   return `${draws} of one chain, sensor ${working ? "being" : "half"} fitted: sweep ${sweeps} of ${total}`;
 }
 
-/** What to do where the result on show is bad; null where it is not, or nothing can be done here. */
-function tryRemedy(session: Session): { text: string; apply: () => void } | null {
+/** What to do where the result on show is bad, and no way where nothing can be done here; null where it is not bad. */
+function tryRemedy(session: Session): { text: string; apply?: () => void } | null {
   const { shown, document } = session;
-  if (shown?.verdict?.level !== "bad" || !document || session.recorded || document.source.kind === "run") return null;
+  if (shown?.verdict?.level !== "bad" || !document) return null;
+  if (session.recorded || document.source.kind === "run") return { text: "" };
   const set = (patch: Patch) => () => session.act({ type: "set", patch });
   const few = shown.sweeps < FEWEST_SWEEPS;
-  if (shown.method === "gibbs" && document.source.kind === "simulation" && !few) return { text: "try blocks", apply: set({ method: "block" }) };
+  const sure = document.pose_sigma === 0 && document.heading_sigma === 0;
+  if (shown.method === "gibbs" && document.source.kind === "simulation" && !few && sure) return { text: "try blocks", apply: set({ method: "block" }) };
   if (shown.method === "importance") return { text: "try Gibbs", apply: set({ method: "auto" }) };
   if (shown.sweeps < shown.total) return null; // it goes on, or was cancelled
+  // chains keep to their shifts of the map
+  if (!sure && !few) return { text: "poses are too uncertain" };
   const sweeps = Math.min(session.limits?.sweeps[1] ?? 0, Math.max(FEWEST_SWEEPS, 4 * document.sweeps));
-  return sweeps > document.sweeps ? { text: `try ${sweeps} sweeps`, apply: set({ sweeps }) } : null;
+  return sweeps > document.sweeps ? { text: `try ${sweeps} sweeps`, apply: set({ sweeps }) } : { text: "" };
 }
 
 /** Says that the connection or the worker is lost. */
@@ -109,8 +115,10 @@ export function foot(ui: Ui) {
     put(readout, "textContent", cell ? describeCell(session, cell) : idle);
     const doubt = session.status.text === "Ready" && session.shown?.verdict?.level === "bad";
     const fitting = session.status.text === "Ready" && isFitting(session);
-    put(status, "textContent", doubt ? "Ready, but the chains have not converged" : fitting ? "Fitting the sensor" : session.status.text);
-    put(status, "className", doubt ? "warning" : fitting ? "busy" : session.status.level);
+    const bad = session.shown?.method === "importance" ? "Ready, but importance sampling has collapsed" : "Ready, but the chains have not converged";
+    const lost = session.everConnected && !session.connection.connected && session.status.level === "info";
+    put(status, "textContent", lost ? "Connection lost" : doubt ? bad : fitting ? "Fitting the sensor" : session.status.text);
+    put(status, "className", lost ? "error" : doubt ? "warning" : fitting ? "busy" : session.status.level);
   });
   return { element: h("footer", {}, status, readout, spoken), readout };
 }
@@ -135,9 +143,12 @@ function describeCell(session: Session, cell: Point) {
     const about = session.evidence.facts;
     const facts = about?.x === cell.x && about.y === cell.y ? about : null;
     const beams = facts ? facts.beams : null;
-    if (!shown.observed[i]) parts.push("unobserved");
-    else if (beams !== null) parts.push(beams === 1 ? "1 beam" : `${beams} beams`);
-    if (shown.observed[i] && facts && facts.nats_for !== null && facts.nats_against !== null && beams) {
+    const reached = shown.reached[i] / 255;
+    const whole = document.source.kind === "run"; // of a saved run only the half is known
+    if (!reached) parts.push(whole ? "reached by a beam in less than half of the draws" : "unobserved");
+    else if (!whole && reached < 0.995) parts.push(`reached by a beam with probability ${reached.toFixed(2)}`);
+    if (reached && beams !== null) parts.push(beams === 1 ? "1 beam" : `${beams} beams`);
+    if (reached && facts && facts.nats_for !== null && facts.nats_against !== null && beams) {
       const what = { binary: "a wall", surface: "its surface" }[session.quantity.kind] ?? "what is there";
       parts.push(`for ${what} ${facts.beams_for}, ${facts.nats_for.toFixed(1)} nats`, `against ${facts.beams_against}, ${facts.nats_against.toFixed(1)} nats`);
     }

@@ -29,17 +29,20 @@ export function posteriorPanel(ui: Ui, ...charts: HTMLElement[]) {
     const unit = UNITS[field?.method ?? ""] ?? "sweeps";
     const done = field && !field.approximate && field.total ? `${field.sweeps} of ${field.total} ${unit}` : "";
     const state = left !== null ? (left < 1 ? "less than 1 s left" : `${Math.ceil(left)} s left`) : session.running ? "running" : "";
+    const burned = done && field?.burned ? `the first ${field.burned} left out` : "";
     const count = session.sampling || session.running || !field || field.sweeps >= field.total ? "" : "stopped";
     if (stage) put(doing, "textContent", `${stage.text}: ${stage.done} of ${stage.total} ${stage.total > ROUNDS ? "scans" : "rounds"}`);
     else if (old) put(doing, "textContent", "Computing");
     else if (field && fitting) put(doing, "textContent", `Fitting the sensor: sweep ${field.sweeps} of ${field.total}`);
-    else put(doing, "textContent", sentence([done, state, done && count].filter(Boolean).join(", ")) || idle(session));
+    else put(doing, "textContent", sentence([done, burned, state, done && count].filter(Boolean).join(", ")) || idle(session));
   });
-  return ui.section("Posterior", buttons(ui), progress, doing, figures(ui), verdict(ui), ...charts);
+  return ui.section("Posterior", buttons(ui), progress, doing, figures(ui), verdict(ui), ...charts, about(ui));
 }
 
 /** Where there are no sweeps to count. */
 function idle({ shown, working }: Session) {
+  if (shown?.method === "propagate") return `${shown.sweeps} rounds of belief propagation`;
+  if (shown?.method === "hits") return "Counts of hits and passes";
   if (shown?.method === "counts") return "Run infers where the robot was";
   if (shown?.method === "pilot") return "Stopped while the sensor was fitted";
   return working ? "Computing" : "No chain yet";
@@ -47,11 +50,12 @@ function idle({ shown, working }: Session) {
 
 function buttons(ui: Ui) {
   const { session } = ui;
-  const run = ui.button("play", "Run", () => session.act({ type: "run" }), { className: "primary", text: "Run", title: "Run (R)", when: () => session.connection.connected });
+  const run = ui.button("play", "Run", () => session.act({ type: "run" }), { className: "primary", text: "Run", title: "Run (R)", when: () => session.connection.connected, why: "Not while the connection is lost" });
   const cancel = ui.button("close", "Cancel", () => session.act({ type: "cancel" }), {
     text: "Cancel",
     title: "Cancel (Escape)",
     when: () => session.running || session.sampling || isFitting(session),
+    why: "Nothing is running",
   });
   const live = ui.checkbox(
     "Live",
@@ -69,29 +73,57 @@ function figures(ui: Ui) {
   const values = h("dl");
   const add = (label: string, title: string, read: (field: Field) => string, judged = false) => {
     const value = h("dd", { textContent: "\u2013" });
-    values.append(h("div", { title }, h("dt", { textContent: label }), value));
+    const entry = h("div", { title }, h("dt", { textContent: label }), value);
+    values.append(entry);
     ui.each(() => {
       put(value, "textContent", session.shown ? read(session.shown) : "\u2013");
       if (judged) put(value, "className", session.shown?.verdict?.level ?? "");
     });
+    return entry;
   };
   add("ESS", "Effective sample size of the log joint", (field) => figure(field.ess, 0), true);
   add("R-hat", "Agreement of the chains on the log joint; 1 is full", (field) => figure(field.rhat, 3), true);
   add("log joint", "Log of prior times likelihood at the last sweep", (field) => figure(field.log_joint, Math.abs(field.log_joint ?? 0) < 1e5 ? 1 : 0));
-  add("reply", "From the hand's last move to its picture", () => figure(session.latency.eventToPaint_ms.at(-1), 0, " ms"));
+  add("time", "Time spent on sweeps, rounds or particles", (field) => figure(field.seconds, 1, " s"));
+  const reply = add("reply", "From the hand's last move to its picture", () => figure(session.latency.eventToPaint_ms.at(-1), 0, " ms"));
+  ui.visible(reply, () => !session.recorded);
   return values;
+}
+
+/** What a verdict is called: importance sampling has no chains that could converge. */
+export const verdictNames = ({ shown }: Session) =>
+  shown?.method === "importance"
+    ? { good: "Enough particles", fair: "Few particles", bad: "Collapsed" }
+    : { good: "Converged", fair: "Nearly converged", bad: "Not converged" };
+
+/** The method, prior, sensor and poses of what is shown. */
+function about(ui: Ui) {
+  const { session } = ui;
+  const list = h("dl", { className: "about" });
+  const element = h("details", {}, h("summary", { textContent: "Model and method of this picture" }), list);
+  let known = "";
+  ui.each(() => {
+    const rows = session.shown?.about ?? [];
+    put(element, "hidden", !rows.length);
+    if (String(rows) === known) return;
+    known = String(rows);
+    list.replaceChildren(...rows.flatMap(([name, words]) => [h("dt", { textContent: name }), h("dd", { textContent: words })]));
+  });
+  return element;
 }
 
 /** The verdict in words. */
 function verdict(ui: Ui) {
   const { session } = ui;
-  const element = h("div", { className: "verdict" });
+  const text = h("span");
+  const show = ui.button(null, "Show the cell", () => ui.command(`cell ${session.shown?.verdict?.cell}`), { text: "Show the cell" });
+  ui.visible(show, () => Boolean(session.shown?.verdict?.cell));
+  const element = h("div", { className: "verdict" }, text, show);
   ui.each(() => {
     const found = session.shown?.verdict;
     put(element, "hidden", !found);
     if (!found) return;
-    const named = { good: "Converged", fair: "Nearly converged", bad: "Not converged" }[found.level];
-    put(element, "textContent", `${named}: ${found.why}`);
+    put(text, "textContent", `${verdictNames(session)[found.level]}: ${found.why}`);
     put(element, "className", `verdict ${found.level}`);
   });
   return element;

@@ -51,6 +51,7 @@ export function sensorPanel(ui: Ui) {
   const remove = ui.button("minus", "Remove the sensor", () => editor.removeSensor(), {
     text: "Remove",
     when: () => (session.document?.sensors.length ?? 0) > 1,
+    why: "The last sensor stays",
   });
   // in a full circle all headings are alike
   ui.visible(heading, () => (session.document?.fov ?? FULL_CIRCLE) < FULL_CIRCLE);
@@ -89,13 +90,16 @@ export function inferencePanel(ui: Ui) {
   const isChain = () => /auto|gibbs|block/.test(method());
   const ofWalls = [
     ui.select("Method", METHODS, method, (value) => ui.set({ method: value })),
-    ui.select("Order", ORDERS, () => session.document?.order ?? "radial", (order) => ui.set({ order }), () => method() === "gibbs" || method() === "auto"),
-    ui.select("Start", STARTS, () => session.document?.start ?? "auto", (start) => ui.set({ start }), isChain),
+    ui.select("Order", ORDERS, () => session.document?.order ?? "radial", (order) => ui.set({ order }), () => method() === "gibbs" || method() === "auto", "Only Gibbs, cell by cell, has an order"),
+    ui.select("Start", STARTS, () => session.document?.start ?? "auto", (start) => ui.set({ start }), isChain, "Only chains have a start"),
   ];
   for (const element of ofWalls) ui.visible(element, isWalls); // other cells have one sampler
+  const burnIn = ui.slider("burn_in", () => "Burn-in (%)", { step: 5, scale: 100 });
+  ui.visible(burnIn, () => isChain() || !isWalls());
   return ui.section(
     "Inference",
     ...ofWalls,
+    burnIn,
     ui.slider("sweeps", () => UNITS[method()] ?? "Sweeps", { step: 1, log: true }),
     ui.numberInput("Seed", () => session.document?.seed ?? 0, (seed) => ui.set({ seed: Math.round(seed) }), { step: 1, limits: "seed" }),
   );

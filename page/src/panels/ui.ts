@@ -10,11 +10,12 @@ import { icon, type IconName } from "./icons";
 
 let count = 0; // several pages may stand in one notebook
 
-type ButtonOptions = { className?: string; text?: string; when?: () => boolean; title?: string };
+/** `why` is said where the button is disabled. */
+type ButtonOptions = { className?: string; text?: string; when?: () => boolean; why?: string; title?: string };
 /** `scale` is for people who read degrees where the document holds radians: the number on show is that many times the document's. */
 type Range = { step: number; log?: boolean; unit?: string; scale?: number };
 type NumberOptions = { step: number | "any"; limits?: keyof Limits; scale?: number };
-type SliderKey = "prior" | "noise" | "angles" | "sweeps" | "pose_sigma" | "heading_sigma";
+type SliderKey = "prior" | "noise" | "angles" | "sweeps" | "pose_sigma" | "heading_sigma" | "burn_in";
 
 export class Ui {
   /** Makes ids of elements unique. */
@@ -76,11 +77,15 @@ export class Ui {
     this.each(() => put(element, "hidden", !when()));
   }
 
-  button(image: IconName | null, label: string, action: () => void, { className = "", text = "", when, title }: ButtonOptions = {}) {
+  button(image: IconName | null, label: string, action: () => void, { className = "", text = "", when, why, title }: ButtonOptions = {}) {
     const element = h("button", { type: "button", className, title: title ?? label, onclick: action }, image && icon(image));
     if (text) element.append(h("span", { textContent: text }));
     if (text !== label) element.setAttribute("aria-label", label);
-    if (when) this.each(() => put(element, "disabled", !when()));
+    if (when)
+      this.each(() => {
+        put(element, "disabled", !when());
+        if (why) put(element, "title", element.disabled ? why : (title ?? label));
+      });
     return element;
   }
 
@@ -159,12 +164,13 @@ export class Ui {
     return h("div", { className: "row slider" }, text, range, exact);
   }
 
-  select<T extends string>(label: string, options: Record<T, string>, current: () => T, choose: (value: T) => void, when?: () => boolean) {
+  select<T extends string>(label: string, options: Record<T, string>, current: () => T, choose: (value: T) => void, when?: () => boolean, why = "") {
     const element = h("select", { onchange: () => choose(element.value as T) });
     for (const [value, text] of Object.entries<string>(options)) element.append(h("option", { value, textContent: text }));
     this.each(() => {
       put(element, "value", current());
       if (when) put(element, "disabled", !when());
+      if (why) put(element, "title", element.disabled ? why : "");
     });
     return this.row(label, element);
   }

@@ -13,6 +13,7 @@ const LAYERS = [
   ["entropy", "Entropy"],
   ["width", "Width"],
 ] as const;
+const NO_DRAWS = "No draws are kept yet: Run keeps them";
 /** Draws a second. */
 const SPEEDS: Record<string, string> = { "2": "2 / s", "10": "10 / s", "30": "30 / s", "1000": "fastest" };
 
@@ -92,7 +93,7 @@ export type Shown = { truth: boolean; rays: boolean; readings: boolean; strokes:
 
 export function viewPanel(ui: Ui, player: Player, shown: Shown, scale: () => number) {
   const { session } = ui;
-  const layers = ui.segmented<Layer>("Show", LAYERS, () => session.view.layer, (layer) => player.showLayer(layer), (layer) => layer !== "draw" || session.hasDraws);
+  const layers = ui.segmented<Layer>("Show", LAYERS, () => session.view.layer, (layer) => player.showLayer(layer), (layer) => (layer === "draw" ? session.hasDraws : !session.lacks.includes(layer)));
   // walls have no interval, and the entropy of a reflectivity is none of the map's
   const [, , entropy, width] = Array.from(layers.children) as HTMLElement[];
   put(width, "title", "Width of each cell's 90 % interval");
@@ -120,7 +121,7 @@ function playerControls(ui: Ui, player: Player) {
     player.play(false);
     player.showDraw(Number(slider.value));
   });
-  const play = ui.button("play", "Play the draws", () => player.play(!player.playing), { when: () => session.draws.count > 1 });
+  const play = ui.button("play", "Play the draws", () => player.play(!player.playing), { when: () => session.draws.count > 1, why: NO_DRAWS });
   const count = h("output");
   const chain = h("select", { "aria-label": "Chain" });
   chain.addEventListener("change", () => player.showDraw(session.draw, Number(chain.value)));
@@ -148,7 +149,7 @@ function playerControls(ui: Ui, player: Player) {
   for (const [value, text] of Object.entries(SPEEDS)) speed.append(h("option", { value, textContent: text }));
   speed.value = String(player.drawsPerSecond);
   speed.addEventListener("change", () => (player.drawsPerSecond = Number(speed.value)));
-  const first = ui.button(null, "From the first sweep", () => player.playFromStart(), { text: "From the first", when: () => session.draws.count > 1 });
+  const first = ui.button(null, "From the first sweep", () => player.playFromStart(), { text: "From the first", when: () => session.draws.count > 1, why: NO_DRAWS });
   ui.each(() => put(speed, "disabled", session.draws.count < 2 || session.flicker.still));
   const over = ui.checkbox("Draws over the mean", () => session.flicker.on, (on) => player.over(on), "Each draw in its own colour over the mean, as one of the maps that the scans leave possible");
   ui.visible(over, () => session.draws.count > 1);

@@ -57,9 +57,16 @@ export class Decisions {
   }
 
   forget() {
-    this.start = this.goal = this.path = this.views = null;
-    this.askedPath = this.askedViews = "";
+    this.forgetPath();
+    this.views = null;
+    this.askedViews = "";
+  }
+
+  forgetPath() {
+    this.start = this.goal = this.path = null;
+    this.askedPath = this.trouble = "";
     this.version++;
+    this.session.changed();
   }
 
   /** Asks where the question or the picture is another than at the last time: once while chains run, and at their end. */

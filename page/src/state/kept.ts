@@ -5,6 +5,7 @@ import type { MapDocument } from "../protocol";
 
 const TOKEN = "bayesmap-token";
 const DOCUMENT = "bayesmap-kept";
+const TOOLS = "bayesmap-tools";
 
 function stored(key: string): string | null {
   try {
@@ -41,6 +42,10 @@ export function keptDocument(): MapDocument | null {
     return null;
   }
 }
+
+/** Whether all tools are shown, as this browser was last asked for. */
+export const allTools = () => stored(TOOLS) !== null;
+export const showAllTools = (on: boolean) => store(TOOLS, on ? "all" : null);
 
 /** Remembers the token of the page's address. */
 export function keepToken(token: string | null) {

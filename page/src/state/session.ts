@@ -41,6 +41,8 @@ export class Session {
   limits: Limits | null = null;
   /** Whether the page plays a recording. */
   recorded = false;
+  /** Layers for which a recording has no numbers. */
+  lacks: Layer[] = [];
   /** The newest generation that was seen. */
   generation = -1;
   /** Number of the last message that changes something. */
@@ -217,6 +219,7 @@ export class Session {
         this.generation = this.reported = -1;
         this.limits = notice.limits;
         this.recorded = notice.recorded;
+        this.lacks = notice.lacks;
         this.latency.forget();
         this.next = null;
         break;
@@ -268,7 +271,7 @@ export class Session {
         break;
       case "download":
         this.ondownload(notice.name, notice.mime, buffers.data as Uint8Array);
-        this.status.say(`Saved ${notice.name}`, "info", this.acted);
+        this.status.say(`Saved ${notice.name}${notice.note && `, ${notice.note}`}`, "info", this.acted);
         break;
     }
     this.changed();
@@ -314,12 +317,11 @@ export class Session {
     this.generation = picture.generation;
     const p = buffers.p as Uint8Array;
     const { trace, traced, weights } = buffers as { [name: string]: Float32Array };
-    const bits = buffers.observed as Uint8Array;
     const old = this.next ?? this.shown;
+    const now = buffers.reached as Uint8Array;
     // most frames of a chain see the same cells
-    const same = old && old.p.length === p.length && old.bits.every((byte, i) => byte === bits[i]);
-    const seen = same ? { observed: old.observed, bits: old.bits } : { observed: unpackBits(bits, p.length), bits };
-    this.next = { ...picture, p, trace, traced, weights, ...seen };
+    const reached = old && old.p.length === p.length && old.reached.every((share, i) => share === now[i]) ? old.reached : now;
+    this.next = { ...picture, p, trace, traced, weights, reached };
     this.progress.hear(this.next);
   }
 

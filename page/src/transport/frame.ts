@@ -8,6 +8,7 @@ export type WithBuffers = Notice & { buffers?: Entry[] };
 
 const ARRAYS: { [dtype: string]: { new (buffer: ArrayBuffer): Numbers; readonly BYTES_PER_ELEMENT: number } } = {
   uint8: Uint8Array,
+  uint32: Uint32Array,
   float32: Float32Array,
   float64: Float64Array,
 };
@@ -17,9 +18,9 @@ const ALIGNMENT = 8;
 export const deaf = (): Pick<Transport, "onmessage" | "onstatus"> => ({ onmessage: () => {}, onstatus: () => {} });
 
 /** A binary frame: length, JSON, buffers padded to 8 bytes. */
-export function unpackFrame(frame: ArrayBuffer): [Notice, Buffers] {
+export function unpackFrame<Message = Notice>(frame: ArrayBuffer): [Message, Buffers] {
   const length = new DataView(frame).getUint32(0, true);
-  const message: WithBuffers = JSON.parse(new TextDecoder().decode(new Uint8Array(frame, 4, length)));
+  const message: Message & { buffers?: Entry[] } = JSON.parse(new TextDecoder().decode(new Uint8Array(frame, 4, length)));
   const buffers: Buffers = {};
   let at = 4 + length;
   for (const { name, dtype, shape } of message.buffers ?? []) {

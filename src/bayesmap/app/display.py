@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,8 +29,7 @@ LEAST_REFLECTIVITY = 0.1
 """Surfaces with a smaller reflectivity are not drawn."""
 
 WEIGHT_BINS = 24
-MOST_NATS = 60.0
-"""The number of bins of a histogram of log weights. Weights below exp(-60) of the largest count in the first bin."""
+"""The number of bins of a histogram of log weights."""
 
 OnReport = Callable[[Report], None]
 
@@ -84,9 +85,7 @@ class Display:
     def overlay(self, result: Result) -> None:
         """Send the overlay of a file: surfaces and trajectory."""
         if not result.document.simulated:
-            trajectory = result.scan_poses[:, :2].astype(np.float32)
-            buffers = {"strokes": strokes_of(result), "trajectory": trajectory}
-            self.report(Overlay(generation=self.generation), buffers)
+            self.report(Overlay(generation=self.generation), overlay_of(result))
             self._overlaid = time.perf_counter()
 
     def on_grid(self, grid: Grid) -> None:
@@ -117,19 +116,30 @@ def field_of(result: Result, view: View, generation: int, milliseconds: float) -
     if found.log_weights is not None:
         buffers["weights"], lowest = histogram(found.log_weights)
     one = found.draw(view.chain, view.draw) if layer == "draw" else None
+    figures = found.figures(result.over)
     if one is not None:
         numbers, chain, number = one
+        figures = replace(figures, log_joint=found.log_joint_of_draw(chain, number))
     elif layer == "width" and result.width is not None:
         numbers = result.width
     else:
         layer, numbers = "mean" if layer in OWN_LAYERS else layer, found.mean()
     field = Field(
         generation=generation, layer=layer, method=result.method, approximate=found.approximate,
-        **found.figures(result.over).as_fields(), draws=result.draw_count, quantity=result.quantity,
-        milliseconds=milliseconds, chain=chain, draw=number, averaged=found.averaged, lowest=lowest,
+        **figures.as_fields(), draws=result.draw_count, quantity=result.quantity,
+        about=result.about, milliseconds=milliseconds, chain=chain, draw=number, averaged=found.averaged, lowest=lowest,
     )  # fmt: skip
-    p = np.rint(numbers * np.float32(LEVELS)).astype(np.uint8)
-    return field, {"p": p, "observed": np.packbits(found.observed().ravel()), **buffers}
+    return field, {"p": levels(numbers), "reached": levels(found.reached()), **buffers}
+
+
+def levels(numbers: NDArray[Any]) -> NDArray[np.uint8]:
+    """Return numbers from 0 to 1 in 255ths."""
+    return np.rint(numbers * np.float32(LEVELS)).astype(np.uint8)
+
+
+def overlay_of(result: Result) -> dict[str, NDArray[np.float32]]:
+    """Return the buffers of the overlay of a file: surfaces and trajectory."""
+    return {"strokes": strokes_of(result), "trajectory": result.scan_poses[:, :2].astype(np.float32)}
 
 
 def trace_of(log_joint: NDArray[np.float64]) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
@@ -149,8 +159,8 @@ def histogram(log_weights: NDArray[np.float64]) -> tuple[NDArray[np.float32], fl
     Returns the counts, (WEIGHT_BINS,), and the lower edge of the first bin, in nats relative to the largest log weight.
     """
     below = log_weights - log_weights.max()
-    lowest = -float(min(MOST_NATS, max(1.0, -below.min())))
-    counts, _ = np.histogram(np.maximum(below, lowest), WEIGHT_BINS, (lowest, 0.0))
+    lowest = min(-1.0, float(below[np.isfinite(below)].min()))
+    counts, _ = np.histogram(below, WEIGHT_BINS, (lowest, 0.0))
     return counts.astype(np.float32), lowest
 
 

@@ -276,7 +276,7 @@ class Engine:
             self._fitted = None  # free the old problem first: two may not fit in memory
             self._fitted = document, (yield from fit_by_pilot(scene, document, show))
         model, sampler, problem = self._fitted[1]
-        stream = Stream(model, sampler, problem, document.sweeps, document.seed, keep=keep)
+        stream = Stream(model, sampler, problem, document, keep=keep)
         yield from self._stream(scene, document, stream)
 
     def _stream(self, scene: Scene, document: Document, stream: Stream) -> Iterator[None]:

@@ -7,26 +7,24 @@ from __future__ import annotations
 
 import base64
 import io
-import math
 import tempfile
 import zipfile
 import zlib
-from collections.abc import Iterable
 from importlib import resources
 from pathlib import Path
-from typing import Literal
+from typing import Any, Literal
 
-import msgspec
 import numpy as np
-from msgspec import Struct
+from msgspec import Struct, structs
 from numpy.typing import NDArray
 
-from bayesmap.app.display import LEVELS
+from bayesmap.app.display import field_of, levels, overlay_of
 from bayesmap.app.protocol.actions import Export
-from bayesmap.app.protocol.document import Document, plain
-from bayesmap.app.protocol.notices import Download, Quantity, Status, Verdict
-from bayesmap.app.protocol.tasks import Report
-from bayesmap.app.scene import hits
+from bayesmap.app.protocol.document import Document
+from bayesmap.app.protocol.notices import Download, DrawCount, Field, Status, View
+from bayesmap.app.protocol.tasks import Buffers, Report
+from bayesmap.app.protocol.wire import frame
+from bayesmap.app.scene import ray_buffers
 from bayesmap.app.shown.result import Result
 from bayesmap.errors import BadInput
 
@@ -35,54 +33,30 @@ MOST_DRAW_BYTES = 16 << 20
 MOST_RAYS = 2_000_000
 """The most draws of all chains in a recording, the most bytes of them, and the most beams. All are evenly chosen."""
 
-DECIMALS_M = 4
-"""The decimal places of ranges in metres."""
-
-Range = float | Literal["-Infinity", "NaN"] | None
-"""Metres. None means no return, "-Infinity" too close, and "NaN" an invalid reading."""
-
-
-class RecordedScans(Struct, frozen=True):
-    """Scans, one per row; in a simulation, one per sensor."""
-
-    ids: list[int]
-    pose: list[list[float | None]]
-    angles: list[list[float]]  # beam angles, radians: one row for all scans, or one row per scan
-    ranges: list[list[Range]]
-    exact: list[list[Range]]  # noise-free ranges, metres; no row for a file
-    hit: str  # base64 of packed bits (S, A), 0 for a beam without a return
-
 
 class RecordedDraws(Struct, frozen=True):
-    """Kept maps of walls. `data` is base64 of deflate-raw of packed bits, (chains, count, nx * ny)."""
+    """Draws in a recording: `count` of the `kept` draws of each chain, as packed `bits` or in 255ths."""
 
-    chains: int
-    count: int
-    data: str
-
-
-class RecordedFigures(Struct, frozen=True):
-    """The figures shown beside the picture, as in the message `Field`."""
-
-    method: str
-    quantity: Quantity
-    sweeps: int
-    ess: float | None
-    rhat: float | None
-    verdict: Verdict | None
+    chains: int = 0
+    count: int = 0
+    kept: int = 0
+    bits: bool = False
 
 
 class Recording(Struct, frozen=True, kw_only=True):
-    """The result in a page in one file."""
+    """The result in a page in one file: the messages of a session, for a page without one.
+
+    Buffers: those of `Field` for the mean; width uint8 (nx, ny) if there are intervals; beams uint32 (nx, ny), the
+    beams through each cell; draws uint8 (chains, count, bytes of a map); those of `Scan` for all recorded scans, with
+    one row of angles for each scan if scans differ in them; for a file those of `Overlay`.
+    """
 
     version: Literal[1] = 1
     document: Document
-    scans: RecordedScans
-    mean: str  # mean map: base64 of uint8 (nx, ny), in 255ths
-    observed: str  # observed cells: base64 of packed bits (nx, ny)
+    field: Field  # the mean
+    ids: list[int]  # id of each recorded scan: of its sensor, or its index in the file plus 1
     draws: RecordedDraws
-    log_joint: list[list[float | None]]  # log joint of each draw, one row per chain
-    settings: RecordedFigures
+    log_joint: list[list[float]]  # log joint of each draw, one row per chain
 
 
 PAGE = """<!doctype html>
@@ -97,7 +71,7 @@ PAGE = """<!doctype html>
 <body>
 <div data-bayesmap></div>
 <noscript>This page needs JavaScript.</noscript>
-<script type="application/json" data-recording>{recording}</script>
+<script type="application/octet-stream" data-recording>{recording}</script>
 <script type="application/octet-stream" data-module>{module}</script>
 <script type="module">
 const packed = atob(document.querySelector("script[data-module]").textContent);
@@ -124,7 +98,7 @@ def exported(question: Export, result: Result | None, client: int) -> Report:
         name, mime, data = export(result, question.what)
     except (BadInput, OSError) as error:
         return Report(Status(str(error), "warning"), {}, client)
-    return Report(Download(name, mime), {"data": data}, client)
+    return Report(Download(name, mime, _share(result) if question.what == "html" else ""), {"data": data}, client)
 
 
 def export(result: Result, what: str) -> tuple[str, str, bytes]:
@@ -149,83 +123,71 @@ def export(result: Result, what: str) -> tuple[str, str, bytes]:
 
 def to_html(result: Result) -> str:
     """Return a page in one file that shows a result. It can be opened from a disk and loads nothing else."""
-    recording = msgspec.json.encode(record(result), enc_hook=plain).decode().replace("</", "<\\/")
-    return PAGE.format(recording=recording, module=_text(_deflate(static("mapview.js").encode())))
+    recording = frame(*record(result))
+    assert isinstance(recording, bytes)
+    return PAGE.format(recording=_packed(recording), module=_packed(static("mapview.js").encode()))
 
 
-def record(result: Result) -> Recording:
-    """Return the recording of a result, which the page's `recordedTransport` plays."""
-    found, grid = result.found, result.document.grid
-    figures = found.figures(result.over).as_fields()
-    packed, joint = _thinned(result)
-    chains, count = packed.shape[:2]
-    bits = np.unpackbits(packed, axis=-1, count=grid.n_cells)
-    draws = _text(_deflate(np.packbits(bits.ravel()).tobytes()))
-    numbers = (figures[name] for name in ("sweeps", "ess", "rhat", "verdict"))
-    return Recording(
-        document=result.document, scans=_scans(result),
-        mean=_text(np.rint(found.mean() * LEVELS).astype(np.uint8).tobytes()),
-        observed=_text(np.packbits(found.observed().ravel()).tobytes()),
-        draws=RecordedDraws(chains if count else 0, count, draws), log_joint=_numbers(joint, 2),
-        settings=RecordedFigures(result.method, result.quantity, *numbers),
+def record(result: Result) -> tuple[Recording, Buffers]:
+    """Return the recording of a result, which the page's `recordedTransport` plays, and its buffers."""
+    chosen, _ = _chosen(result)
+    draws, buffers = _draws(result, chosen)
+    field, of_field = field_of(result, View("mean"), 1, 0.0)
+    buffers |= of_field
+    if result.width is not None:
+        buffers["width"] = field_of(result, View("width"), 1, 0.0)[1]["p"]
+    cells = result.scene.problem.table.cells
+    buffers["beams"] = np.bincount(cells, minlength=result.document.grid.n_cells).astype(np.uint32)
+    if not result.document.simulated:
+        buffers |= overlay_of(result)
+    # Long logs are thinned evenly, so that the file stays at a few megabytes.
+    scans = evenly(len(result.scene.scans), MOST_RAYS // len(result.scene.scans.angles_rad))
+    recording = Recording(
+        document=result.document, field=structs.replace(field, draws=DrawCount(draws.chains, draws.count)),
+        ids=[result.scene.ids[i] for i in scans], draws=draws,
+        log_joint=result.found.log_joint_of_draws()[:, chosen].tolist(),
     )  # fmt: skip
+    return recording, {**buffers, **ray_buffers(result.scene, scans)}
 
 
-def _thinned(result: Result) -> tuple[NDArray[np.uint8], NDArray[np.float64]]:
-    """Return packed maps of walls, evenly chosen from the kept draws, (chains, count, bytes), and their log joint.
-
-    For other kinds of cells, both are empty.
-    """
-    kept, joint = result.found.kept, result.found.log_joint()
-    if kept is None or kept.specs[0].storage != "bits" or kept.count == 0:
-        return np.zeros((0, 0, 0), dtype=np.uint8), np.zeros((0, 0))
-    packed = np.asarray(kept.arrays[kept.specs[0].name])
-    chains, count, size = packed.shape
-    most = max(1, min(MOST_DRAWS // chains, MOST_DRAW_BYTES // (chains * max(1, size))))
-    chosen = np.unique(np.linspace(0, count - 1, min(count, most)).round().astype(int))
-    every = max(1, joint.shape[1] // count)  # a thinned chain has its log joint for every sweep
-    return packed[:, chosen], joint[:, np.minimum(chosen * every + every - 1, joint.shape[1] - 1)]
+def _chosen(result: Result) -> tuple[NDArray[np.intp], int]:
+    """Return the indices of the draws in a recording, and the number of kept draws per chain."""
+    kept = result.found.kept
+    if kept is None:
+        return np.zeros(0, dtype=np.intp), 0
+    size = kept.chains * result.document.grid.n_cells // (8 if kept.specs[0].storage == "bits" else 1)
+    return evenly(kept.count, min(MOST_DRAWS // kept.chains, MOST_DRAW_BYTES // max(1, size))), kept.count
 
 
-def _scans(result: Result) -> RecordedScans:
-    """Return the scans. Long logs are thinned evenly so that the file stays at a few megabytes."""
-    scene, scans = result.scene, result.scene.scans
-    most = max(1, MOST_RAYS // len(scans.angles_rad))
-    chosen = np.unique(np.linspace(0, len(scans) - 1, min(len(scans), most)).round().astype(int))
-    beams = scans.has_beam[chosen]
-    own = scans.own_angles_rad is not None
-    angles = [scans.beams_of(int(i))[0] for i in chosen] if own else [scans.angles_rad]
-    return RecordedScans(
-        ids=[scene.ids[i] for i in chosen],
-        pose=_numbers(scans.poses[chosen], 6),
-        angles=[[round(float(angle), 7) for angle in row] for row in angles],
-        ranges=_readings(row[has] for row, has in zip(scans.ranges_m[chosen], beams, strict=True)),
-        exact=_readings(scene.exact_m[chosen] if len(scene.exact_m) else scene.exact_m),
-        hit=_text(np.packbits(hits(scene)[chosen][beams]).tobytes()),
-    )
+def _draws(result: Result, chosen: NDArray[np.intp]) -> tuple[RecordedDraws, dict[str, NDArray[Any] | bytes]]:
+    """Return the chosen draws: packed walls, or maps in 255ths."""
+    kept = result.found.kept
+    if kept is None:
+        return RecordedDraws(), {"draws": np.zeros((0, 0, 0), dtype=np.uint8)}
+    bits = kept.specs[0].storage == "bits"
+    if bits:
+        draws = np.asarray(kept.arrays[kept.specs[0].name])[:, chosen]
+    else:
+        chains = range(kept.chains)
+        draws = np.array([[levels(result.prior.map_of(kept, c, int(d))).ravel() for d in chosen] for c in chains])
+    return RecordedDraws(kept.chains, len(chosen), kept.count, bits), {"draws": draws}
 
 
-def _readings(values: Iterable[NDArray[np.float64]]) -> list[list[Range]]:
-    """Return rows of ranges in metres."""
-
-    def reading(value: float) -> Range:
-        if math.isfinite(value):
-            return round(float(value), DECIMALS_M)
-        return None if value > 0 else "-Infinity" if value < 0 else "NaN"
-
-    return [[reading(value) for value in row] for row in values]
+def _share(result: Result) -> str:
+    """Say how many of the draws are in the file."""
+    chosen, kept = _chosen(result)
+    if not kept:
+        return "without draws: none were kept"
+    limit = f"; at most {MOST_DRAWS:,} draws and {MOST_DRAW_BYTES >> 20} MB fit" if len(chosen) < kept else ""
+    return f"with {len(chosen):,} of the {kept:,} draws of each chain{limit}"
 
 
-def _numbers(values: Iterable[NDArray[np.float64]], decimals: int) -> list[list[float | None]]:
-    """Return rows of rounded numbers, with null for a number that is not finite."""
-    return [[round(float(v), decimals) if math.isfinite(v) else None for v in row] for row in values]
+def evenly(count: int, most: int) -> NDArray[np.intp]:
+    """Return at most `most` indices below `count`, evenly chosen, but at least one."""
+    return np.unique(np.linspace(0, count - 1, max(1, min(count, most))).round().astype(np.intp))
 
 
-def _deflate(data: bytes) -> bytes:
-    """Compress by raw deflate, which the browser's DecompressionStream reads."""
+def _packed(data: bytes) -> str:
+    """Compress by raw deflate, which the browser's DecompressionStream reads, and return base64."""
     packer = zlib.compressobj(9, zlib.DEFLATED, -15)  # the best compression, and no header around the data
-    return packer.compress(data) + packer.flush()
-
-
-def _text(data: bytes) -> str:
-    return base64.b64encode(data).decode()
+    return base64.b64encode(packer.compress(data) + packer.flush()).decode()

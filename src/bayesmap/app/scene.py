@@ -101,7 +101,7 @@ def simulate_document(document: Document) -> tuple[Scans, NDArray[np.float64]]:
     angles = fan(document.angles, math.degrees(document.fov))
     exact = ranges(document.is_wall, document.grid, poses, angles, document.max_range)
     noise = np.stack([standard_noise(document.seed, s.id, document.angles) for s in document.sensors])
-    readings = exact + (document.sigma_m if document.readings == "noisy" else 0.0) * noise
+    readings = exact + (document.noise if document.readings == "noisy" else 0.0) * noise
     return Scans(poses, angles, readings, max_range_m=document.max_range), exact
 
 
@@ -110,7 +110,7 @@ def simulated_scene(document: Document) -> Scene:
     from bayesmap.kernels.walls.table import trace
 
     scans, exact = simulate_document(document)
-    sensor, grid, ids = Gaussian(document.sigma_m), document.grid, tuple(s.id for s in document.sensors)
+    sensor, grid, ids = Gaussian(document.noise), document.grid, tuple(s.id for s in document.sensors)
     # Cutting beams past their readings does not change belief propagation: the omitted cells send messages equal to 1.
     near_m = scans.ranges_m.ravel() + NEAR_SIGMAS * sensor.sigma_m
     whole, near = partial(trace, scans, grid, sensor), partial(trace, scans, grid, sensor, reach_m=near_m)
@@ -134,14 +134,18 @@ def hits(scene: Scene) -> NDArray[np.bool_]:
 
 def rays(scene: Scene, scan: int | None, generation: int) -> tuple[Scan, Buffers]:
     """Return the message `Scan` and its buffers: all scans of a simulation, or one scan of a file."""
-    rows = slice(None) if scan is None else slice(scan, scan + 1)
-    ids = list(scene.ids) if scan is None else [scan + 1]
-    exact = scene.exact_m[rows] if len(scene.exact_m) else scene.exact_m
-    return Scan(ids, scan, generation=generation), {
-        "pose": scene.scans.poses[rows],
-        # Only the scans of a file can differ in their beam angles, and they are sent one at a time.
-        "angles": (scene.scans.angles_rad if scan is None else scene.scans.angles_by_scan()[scan]).astype(np.float32),
-        "ranges": scene.scans.ranges_m[rows].astype(np.float32),
-        "exact": exact.astype(np.float32),
+    rows = np.arange(len(scene.scans)) if scan is None else np.array([scan])
+    return Scan([scene.ids[i] for i in rows], scan, generation=generation), ray_buffers(scene, rows)
+
+
+def ray_buffers(scene: Scene, rows: NDArray[np.intp]) -> Buffers:
+    """Return the buffers of some scans. If scans differ in their beam angles, angles have one row per scan."""
+    scans, exact = scene.scans, scene.exact_m
+    angles = scans.angles_rad if scans.own_angles_rad is None else scans.angles_by_scan()[rows]
+    return {
+        "pose": scans.poses[rows],
+        "angles": angles.astype(np.float32),
+        "ranges": scans.ranges_m[rows].astype(np.float32),
+        "exact": (exact[rows] if len(exact) else exact).astype(np.float32),
         "hit": hits(scene)[rows].astype(np.uint8),
     }

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from bayesmap.app.protocol.document import (
     LARGEST_SIDE_OF_FILE,
@@ -70,16 +70,22 @@ class SavedRun(Found):
     def figures(self, over: bool) -> Figures:
         """Return the sweeps, and the diagnostics of the kept draws."""
         sweeps, joint = self.run.posterior.sweep, self.run.log_joint
+        seconds = self.run.posterior.seconds["total"]
         if not joint.size:
-            return Figures(sweeps, sweeps)
+            return Figures(sweeps, sweeps, seconds=seconds)
         rhat, ess = rhat_and_ess(joint)
         verdict = judge_chains(rhat, ess, sweeps, None, over=True)
-        return Figures(sweeps, sweeps, ess, rhat, float(joint[:, -1].mean()), verdict)
+        return Figures(sweeps, sweeps, ess, rhat, float(joint[:, -1].mean()), verdict, seconds=seconds)
 
     @property
     def prior(self) -> CellPrior:
         """The run's prior."""
         return self.run.posterior.prior
+
+    @property
+    def poses(self) -> Mapping[str, Any]:
+        """The description of the prior of the poses."""
+        return self.run.posterior.settings.get("poses") or {"kind": "known"}
 
     @property
     def law(self) -> None:
@@ -109,9 +115,9 @@ class SavedRun(Found):
         """Return the run's mean, (nx, ny), with 0.5 in cells without a value."""
         return np.nan_to_num(self.run.occupancy, nan=0.5)
 
-    def observed(self) -> NDArray[np.bool_]:
-        """Return the cells that the run observed, (nx, ny)."""
-        return self.run.observed
+    def reached(self) -> Floats:
+        """Return 1 in the cells that a beam observes in at least half of the draws, and 0 in the others, (nx, ny)."""
+        return self.run.observed.astype(np.float64)
 
     def log_joint(self) -> Floats:
         """Return the log joint of every kept draw, (chains, n)."""
@@ -129,10 +135,6 @@ class SavedRun(Found):
     def as_run(self, result: Result) -> Run:
         """Return the run."""
         return self.run
-
-    def write_map(self, target: Path, result: Result) -> list[Path]:
-        """Write the run's map for map_server, by its own thresholds; return the files."""
-        return list(self.run.export(target))
 
 
 @dataclass(eq=False)

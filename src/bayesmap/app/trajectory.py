@@ -52,14 +52,17 @@ class Step:
     text: str = ""  # text for the status line, or empty
 
 
-def _step(task: Infer, scans: Scans, grid: Grid, counted: Counted, at: tuple[str, int, int] | None, text: str) -> Step:
+def _step(
+    task: Infer, scans: Scans, grid: Grid, counted: Counted, at: tuple[str, int, int] | None, text: str = ""
+) -> Step:
     scene = scene_along(scans, grid, task.document.prior)
     result = Result(scene, task.document.on_grid(grid), "counts", counted)
-    stage = None
-    if at is not None:
-        name, done, total = at
-        stage = Stage(name, STAGE_TEXTS[name], done, total, generation=task.generation)
-    return Step(grid, result, stage, text)
+    return Step(grid, result, None if at is None else _stage(task, at), text)
+
+
+def _stage(task: Infer, at: tuple[str, int, int]) -> Stage:
+    name, done, total = at
+    return Stage(name, STAGE_TEXTS[name], done, total, generation=task.generation)
 
 
 class Cancelled(Exception):
@@ -76,9 +79,9 @@ class TrajectoryJob:
         self.trouble: BaseException | None = None  # the error that ended the job instead
         self._task, self._scans, self._grid = task, scans, grid
         self._time_order = time_order(scans)
-        self._steps: queue.SimpleQueue[Step] = queue.SimpleQueue()
+        self._steps: queue.SimpleQueue[Step | Stage | Status] = queue.SimpleQueue()
         self._stop = threading.Event()
-        self._last_stage, self._done, self._total, self._next = "", 0, 1, 0.0
+        self._at, self._next_stage, self._drawn_stage, self._next = ("", 0, 1), 0.0, "", 0.0
         self._before = TrajectoryJob._last
         self._thread = threading.Thread(target=self._run, name="bayesmap_trajectory", daemon=True)
         TrajectoryJob._last = self._thread
@@ -88,8 +91,8 @@ class TrajectoryJob:
         """End the job when it next reports progress."""
         self._stop.set()
 
-    def steps(self) -> Generator[Step | None, None, None]:
-        """Yield pictures as they are ready, and None while there is none, until the job has ended.
+    def steps(self) -> Generator[Step | Stage | Status | None, None, None]:
+        """Yield pictures and progress as they are ready, and None while there is none, until the job has ended.
 
         Raises:
             BadInput: as `infer_trajectory`.
@@ -125,20 +128,26 @@ class TrajectoryJob:
             raise Cancelled
 
     def _on_progress(self, stage: str, done: int, total: int) -> None:
+        """Queue the progress, at once where a stage begins, and otherwise at intervals."""
         self._check()
-        self._done, self._total = done, total
+        began, now = stage != self._at[0], time.monotonic()
+        self._at = stage, done, total
+        if began:
+            self._steps.put(Status(STAGE_TEXTS[stage], "info"))
+        if began or now >= self._next_stage:
+            self._steps.put(_stage(self._task, self._at))
+            self._next_stage = now + PICTURE_SECONDS
 
     def _on_poses(self, stage: str, poses: NDArray[np.float64]) -> None:
         """Queue a picture at the beginning of a stage, in every round of loops, and otherwise at intervals."""
         self._check()
         began = time.monotonic()
-        if stage == self._last_stage and stage != "loops" and began < self._next:
+        if stage == self._drawn_stage and stage != "loops" and began < self._next:
             return
-        text, self._last_stage = "" if stage == self._last_stage else STAGE_TEXTS[stage], stage
+        self._drawn_stage = stage
         scans = self._scans.at(poses[np.argsort(self._time_order)])
         self._grid = grown(self._grid, scans)
-        counted, at = counted_map(scans, self._grid), (stage, self._done, self._total)
-        self._steps.put(_step(self._task, scans, self._grid, counted, at, text))
+        self._steps.put(_step(self._task, scans, self._grid, counted_map(scans, self._grid), self._at))
         now = time.monotonic()
         self._next = now + max(PICTURE_SECONDS, (now - began) / PICTURE_SHARE)
 
@@ -180,7 +189,7 @@ class LogTrajectory:
         """Take over the trajectory that an earlier worker inferred."""
         self._place(replace(self.log.scans.at(known.poses), angles_rad=known.angles_rad, own_angles_rad=None))
 
-    def steps(self, task: Infer) -> Generator[Step | Located | Status | None, None, None]:
+    def steps(self, task: Infer) -> Generator[Step | Stage | Located | Status | None, None, None]:
         """Yield steps and reports until the log can be mapped, and None while there is nothing new.
 
         The mode "run" infers the trajectory, unless it is known. "clear" forgets it. While it is unknown, other modes
@@ -199,7 +208,7 @@ class LogTrajectory:
             counted = counted_map(self.log.scans.select(slice(task.document.scans_used)), grid)
             yield _step(task, self.log.scans, grid, counted, None, ASK_TO_RUN)
 
-    def _infer(self, task: Infer) -> Generator[Step | Located | Status | None, None, None]:
+    def _infer(self, task: Infer) -> Generator[Step | Stage | Located | Status | None, None, None]:
         scans, grid = self.log.scans, self.log.on_cells(task.document).grid
         yield _step(task, scans, grid, counted_map(scans, grid), ("reading", 0, 1), STAGE_TEXTS["reading"])
         job = TrajectoryJob(task, scans, grid)

@@ -144,6 +144,10 @@ class Draws:
         """Select the draws of one chain."""
         return replace(self, arrays={name: values[chain : chain + 1] for name, values in self.arrays.items()})
 
+    def after(self, count: int) -> Draws:
+        """Leave out the first ``count`` draws of every chain."""
+        return replace(self, arrays={name: values[:, count:] for name, values in self.arrays.items()})
+
     def shape_of(self, spec: ArraySpec) -> tuple[int, ...]:
         """Return the sizes of an array's dimensions beside chain and draw."""
         sizes = {"x": self.grid.shape[0], "y": self.grid.shape[1]}

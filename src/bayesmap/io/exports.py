@@ -25,6 +25,8 @@ from bayesmap.space.scans import Scans
 from bayesmap.space.trajectory import RelativeLaw, Trajectory, ellipses
 
 if TYPE_CHECKING:
+    from bayesmap.cells.arrays import Draws
+    from bayesmap.cells.kind import CellPrior
     from bayesmap.io.text.g2o import Edges
     from bayesmap.poses.trajectory import Trajectory as Approximation
 
@@ -180,6 +182,22 @@ def export_trajectory(
     from bayesmap.io.ros.writer import write_trajectory_recording
 
     return (write_trajectory_recording(path, trajectory),)
+
+
+def known_cells(
+    prior: CellPrior, draws: Draws | None, occupancy: NDArray[np.float64], observed: NDArray[np.bool_],
+    free_thresh: float | None = None,
+) -> NDArray[np.bool_]:  # fmt: skip
+    """Select the cells that a map of occupied, free and unknown cells does not call unknown, (nx, ny).
+
+    An observed cell below the free threshold is unknown unless the beams alone show that it stops fewer than half of
+    all beams: four passed it, and none stopped. This holds for kinds of cells that count beams.
+    """
+    evidence = prior.evidence_interval(draws, 0.9) if draws is not None and draws.count else None
+    if prior.thresholds is None or evidence is None:
+        return observed
+    limit = prior.thresholds[1] if free_thresh is None else free_thresh
+    return observed & ((evidence[1] < 0.5) | (occupancy >= limit))
 
 
 def export_run(

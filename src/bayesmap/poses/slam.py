@@ -118,6 +118,7 @@ def infer_trajectory(
     # The other scans are placed between the key scans.
     start = poses_between_keys(track.poses, keys, final.poses, track.broken)
     error = point_error(alignment.geometry, final)
+    report.begun("placing", len(scans))
     placed = place_scans(geometry, start, keys, final, error)
     report.finished("placing", len(scans), len(scans), placed.poses)
 
@@ -234,6 +235,11 @@ class StageReport:
     on_progress: Progress | None  # called as (stage, done, of), or None
     on_poses: OnPoses | None  # called as (stage, poses), or None
 
+    def begun(self, stage: str, of: int) -> None:
+        """Report that a stage of some rounds begins."""
+        if self.on_progress is not None:
+            self.on_progress(stage, 0, of)
+
     def finished(self, stage: str, done: int, of: int, poses: Floats | Callable[[], Floats]) -> None:
         """Report one round of a stage; a function for the poses is called only if somebody listens."""
         if self.on_progress is not None:
@@ -242,7 +248,8 @@ class StageReport:
             self.on_poses(stage, compose(self.origin, poses() if callable(poses) else poses))
 
     def of_keys(self, track: Track, stage: str, rounds: int) -> Callable[[int, Floats], None]:
-        """Return the callback of a stage: number of rounds that are done, and poses of the keys, (K, 3)."""
+        """Report that a stage begins. Return its callback: number of rounds done, and poses of the keys, (K, 3)."""
+        self.begun(stage, rounds)
 
         def callback(done: int, poses: Floats) -> None:
             self.finished(stage, done, rounds, lambda: poses_between_keys(track.poses, track.keys, poses, track.broken))

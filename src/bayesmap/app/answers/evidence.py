@@ -16,6 +16,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy import special
 
 from bayesmap.app.answers.predictions import predictor_of_result
 from bayesmap.app.shown.result import Result
@@ -131,14 +132,14 @@ def _log_ratio(table: BeamTable, p_wall: NDArray[np.float64], beam: int, place: 
     """Return log p(z | wall) - log p(z | free) of one beam; `place` is the table entry of the cell in question."""
     begin, end = int(table.offsets[beam]), int(table.offsets[beam + 1])
     log_p = np.append(table.loglik[begin:end], table.no_hit[beam]).astype(np.float64)
-    density = np.exp(log_p - log_p.max())
     stop = np.append(p_wall[table.cells[begin:end]], 1.0)  # past the last cell the beam meets nothing
     means = []
     for state in (1.0, 0.0):
         stop[place - begin] = state
-        arrives = np.cumprod(np.append(1.0, 1.0 - stop[:-1]))
-        means.append(max(float((arrives * stop * density).sum()), 1e-300))
-    return float(np.log(means[0]) - np.log(means[1]))
+        with np.errstate(divide="ignore"):  # log 0 of a sure or an impossible wall
+            log_stop, log_pass = np.log(stop), np.log1p(-stop[:-1])
+        means.append(special.logsumexp(np.append(0.0, np.cumsum(log_pass)) + log_stop + log_p))
+    return float(np.nan_to_num(means[0] - means[1]))
 
 
 def one_beam_each(scans: Scans, beams: NDArray[np.intp]) -> Scans:

@@ -98,7 +98,7 @@ def drawn_map(document: Document) -> KnownMap:
     shape = (fine.shape[0], fine.shape[1])
     return KnownMap.of_draws(
         fine.reshape(1, -1).astype(np.float32), Grid(shape, grid.resolution / parts, grid.origin),
-        Gaussian(document.sigma_m), _typical_scans(document), occupancy=fine,
+        Gaussian(document.noise), _typical_scans(document), occupancy=fine,
         observed=np.ones(shape, dtype=np.bool_), hit_depth=0.0, beam_weight=1.0,
     )  # fmt: skip
 
@@ -114,7 +114,7 @@ def _typical_scans(document: Document) -> Scans:
     poses = np.column_stack([np.array(grid.origin) + cells * grid.resolution, rng.uniform(-np.pi, np.pi, TYPICAL)])
     angles = fan(document.angles, math.degrees(document.fov))
     exact = ranges(document.is_wall, grid, poses, angles, document.max_range)
-    noisy = exact + document.sigma_m * rng.standard_normal(exact.shape)
+    noisy = exact + document.noise * rng.standard_normal(exact.shape)
     return Scans(poses, angles, np.where(exact < document.max_range, noisy, np.inf), max_range_m=document.max_range)
 
 

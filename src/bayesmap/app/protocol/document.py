@@ -29,7 +29,7 @@ RARE_WALLS = 0.2
 seldom leave a wrong map: a wall has to go before its neighbour can come."""
 
 SMALLEST_NOISE_M = 0.01
-"""The smallest noise that the sensor model uses, also for a noise of 0: a density needs a width."""
+"""The smallest noise of the sensor model: a density needs a width."""
 
 SIDE = (2, 500)
 LARGEST_SIDE_OF_FILE = 4000
@@ -95,7 +95,8 @@ class Settings:
     """The settings that the page's sliders and choices change."""
 
     prior: Annotated[float, Meta(ge=0, le=1)] = 0.5  # prior probability that a cell is a wall
-    noise: Annotated[float, Meta(ge=0, le=5, title="noise (m)")] = 0.2  # standard deviation of a range, metres
+    # standard deviation of a range, metres
+    noise: Annotated[float, Meta(ge=SMALLEST_NOISE_M, le=5, title="noise (m)")] = 0.2
     angles: Annotated[int, Meta(ge=10, le=1000)] = 100  # number of beams per scan
     max_range: Annotated[float, Meta(ge=0.1, le=10_000, title="longest range (m)")] = 42.0  # longest range, metres
     # field of view of every sensor, radians
@@ -114,13 +115,15 @@ class Settings:
     order: Literal["raster", "radial", "random"] = "radial"  # order in which gibbs visits the cells
     start: Literal["auto", "prior", "empty"] = "auto"  # map from which chains start
     sweeps: Annotated[int, Meta(ge=1, le=100_000)] = 1000  # number of sweeps of the chains, or number of particles
+    # share of the sweeps done, the first ones, that is left out of the mean, R-hat and the effective sample size
+    burn_in: Annotated[float, Meta(ge=0, le=0.9, title="burn-in")] = 0.1
     seed: Annotated[int, Meta(ge=0, lt=2**31)] = 0  # seed of all random numbers
     # for a log, number of first scans that make the map; null means all scans
     scans_used: Annotated[int, Meta(ge=1, le=10**9, title="scans used")] | None = None
 
 
 SETTINGS = tuple(one.name for one in fields(Settings))
-SETTINGS_OF_CHAINS = ("prior", "pose_sigma", "heading_sigma", "method", "order", "start", "sweeps")
+SETTINGS_OF_CHAINS = ("prior", "pose_sigma", "heading_sigma", "method", "order", "start", "sweeps", "burn_in")
 """Settings that affect only the chains: neither the readings nor the pilot that fits the sensor depends on them."""
 
 FIXED_BY_FILE: Mapping[Kind, tuple[str, ...]] = {
@@ -162,11 +165,6 @@ class Document(Settings):
     def from_odometry(self) -> bool:
         """Whether the trajectory has to be inferred before the map."""
         return self.source.kind == "log" and self.poses == "odometry"
-
-    @property
-    def sigma_m(self) -> float:
-        """The standard deviation of a range in the sensor model, metres."""
-        return max(self.noise, SMALLEST_NOISE_M)
 
     @property
     def sampler(self) -> Method:

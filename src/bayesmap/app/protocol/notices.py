@@ -58,6 +58,7 @@ class Welcome(Notice, frozen=True, tag="welcome"):
     version: int  # version of the document's format
     limits: Limits | None  # limits of the settings; null for a recording, which has no settings to change
     recorded: bool = False  # whether the page plays a recording
+    lacks: list[Layer] = []  # layers for which a recording has no numbers
 
 
 class Worker(Notice, frozen=True, tag="worker"):
@@ -122,12 +123,14 @@ class Verdict(Struct, frozen=True):
 
     level: Literal["good", "fair", "bad"]
     why: str
+    cell: tuple[int, int] | None = None  # the cell that the reason names
 
 
 class Field(OfPicture, frozen=True, tag="field"):
     """One picture of the posterior.
 
-    Buffers: p uint8 (nx, ny), probability or interval width in 255ths; observed uint8, packed bits of (nx, ny); traced
+    Buffers: p uint8 (nx, ny), probability or interval width in 255ths; reached uint8 (nx, ny), how probably a beam
+    reaches each cell, in 255ths; traced
     float32 (n), sweep numbers: the first 100, then evenly spread; trace float32 (chains, n), the log joint at these
     sweeps; for importance sampling also weights float32 (24), a histogram of the particles' log weights.
     """
@@ -149,6 +152,9 @@ class Field(OfPicture, frozen=True, tag="field"):
     averaged: int | None = None  # number of draws in the mean, for the chain that fits the sensor
     # lower edge of the first bin of weights, in nats relative to the largest log weight, where the bins end
     lowest: float | None = None
+    burned: int = 0  # number of first sweeps that are left out of the mean, R-hat and the effective sample size
+    seconds: float | None = None  # time spent on sweeps, rounds or particles
+    about: list[tuple[str, str]] = []  # the method, the prior, the sensor and the poses of what is shown, in words
 
 
 class Overlay(OfPicture, frozen=True, tag="overlay"):
@@ -311,6 +317,7 @@ class Download(Notice, frozen=True, tag="download"):
 
     name: str
     mime: str
+    note: str = ""  # what the file holds, for the status line
 
 
 AnyNotice: TypeAlias = (

@@ -12,15 +12,17 @@ import time
 from collections.abc import Callable, Generator
 from dataclasses import replace
 from functools import cached_property
-from typing import Any, cast
+from typing import Any, NamedTuple, cast
 
 import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.app.protocol.document import CHAIN_METHODS, Document
+from bayesmap.app.protocol.notices import Verdict
 from bayesmap.app.scene import Scene
 from bayesmap.app.shown.result import (
     CHAINS,
+    FEWEST_SWEEPS,
     Figures,
     Floats,
     Found,
@@ -36,6 +38,7 @@ from bayesmap.cells.kinds import BUILT_IN
 from bayesmap.model import Model
 from bayesmap.poses.prior import PosePrior, UncertainPoses
 from bayesmap.posterior.posterior import posterior_of_chains
+from bayesmap.posterior.summary import RHAT_LIMIT
 from bayesmap.result import Run
 from bayesmap.run.chains import Record, SweepPlan
 from bayesmap.run.runner import BUFFER_BYTES, no_draws, sweeps
@@ -85,6 +88,15 @@ def joined(before: Draws | None, after: Draws, most: int = RECENT) -> Draws:
     return replace(after, arrays=both)
 
 
+class Past(NamedTuple):
+    """Sums of a stream after some sweeps."""
+
+    sweep: int  # number of sweeps done
+    counted: int  # number of draws in the sums
+    sums: Floats  # sums of the chains' maps, (chains, nx, ny)
+    observed_counts: NDArray[np.int32]  # see `Sampler.observed_counts`
+
+
 class Stream(Found):
     """Chains of any kind of cells, advanced step by step from their start to their last sweep.
 
@@ -94,14 +106,16 @@ class Stream(Found):
         total: number of sweeps to do.
         thin: number of sweeps per kept draw; 1 unless the kept draws would not fit in memory.
         n_chains: number of chains.
-        counted: number of draws in each chain's mean.
+        counted: number of draws of each chain, those of the burn-in included.
+        shifts: shift of map and sensors at which each chain stands, (chains, 2) in cells; it never leaves it.
         sweep: number of sweeps done.
         done: whether all sweeps are done.
     """
 
     def __init__(
-        self, model: Model, sampler: Sampler[Any, Any], problem: Problem, total: int, seed: int, *, keep: bool
+        self, model: Model, sampler: Sampler[Any, Any], problem: Problem, document: Document, *, keep: bool
     ) -> None:
+        total, seed, self._burn_in = document.sweeps, document.seed, document.burn_in
         self.model: Model = model
         self.problem, self._sampler, self.keep = problem, sampler, keep
         self.n_chains = POSE_CHAINS if model.poses.unknown else CHAINS
@@ -115,19 +129,23 @@ class Stream(Found):
         self._record = Record(empty, schedule if keep else SweepPlan(0, 0))
         # Count observed cells at fixed sweeps. The length of a step depends on the machine, but the page must not.
         doubling = (2**k for k in range(self.total.bit_length()))
-        self._look_at = {*doubling, *(self.total * k // LOOKS for k in range(1, LOOKS + 1))}
+        self._last_burned = int(self._burn_in * self.total) // self.thin * self.thin
+        self._look_at = {*doubling, *(self.total * k // LOOKS for k in range(1, LOOKS + 1)), self._last_burned} - {0}
         self._steps = sweeps(
             sampler, self.state, self.total, keep=schedule.keep, step_seconds=STEP_SECONDS,
             most_kept=max(1, BUFFER_BYTES // max(draw_bytes, 1)), stops=tuple(sorted(self._look_at)),
         )  # fmt: skip
         # What the steps have found so far: latest draws, sums for the means, diagnostics, counts and trace.
         self.seconds, self.counted = 0.0, 0
+        self.shifts = np.zeros((self.n_chains, 2))
         self._latest = self._recent = empty
         self._sums = np.zeros((self.n_chains, *model.grid.shape))
         self._rhat = self._ess = math.nan
         self._diagnose_at, self._diagnosed = 0.0, 0
         self._observed_counts = np.zeros((2, *model.grid.shape), dtype=np.int32)
         self._log_joint = np.zeros((self.n_chains, self.total))
+        # The sums after the burn-in, and after later sweeps at which a longer burn-in may end.
+        self._past = [Past(0, 0, np.zeros_like(self._sums), self._observed_counts.copy())]
 
     def advance(self) -> None:
         """Do some sweeps: about `STEP_SECONDS` of work."""
@@ -148,6 +166,10 @@ class Stream(Found):
         self._log_joint[:, before : self.sweep] = info.log_likelihood + info.log_prior
         if self.sweep in self._look_at:
             self._observed_counts += self._sampler.observed_counts(self.state, {})
+            if self.sweep <= self._last_burned:
+                self._past.append(Past(self.sweep, self.counted, self._sums.copy(), self._observed_counts.copy()))
+            while len(self._past) > 1 and self._past[1].sweep <= self._burn_in * self.sweep:
+                del self._past[0]
         self.seconds += time.perf_counter() - began
 
     @property
@@ -161,18 +183,20 @@ class Stream(Found):
         If no draws are kept and poses are known, cells that no beam touches get the exact prior mean. The mean of their
         draws would converge to it.
         """
-        mean = self._sums.mean(axis=0) / max(1, self.counted)
+        mean = self.means().mean(axis=0)
         if self.keep or self.model.poses.unknown:  # from other poses beams touch other cells
             return np.asarray(mean)
         return np.where(self.problem.touched(), mean, self.model.cells.mean_stop(self.model.grid))
 
     def means(self) -> Floats:
         """Return the mean map of each chain, (chains, nx, ny)."""
-        return self._sums / max(1, self.counted)
+        burned = self._past[0]
+        return (self._sums - burned.sums) / max(1, self.counted - burned.counted)
 
-    def observed(self) -> NDArray[np.bool_]:
-        """Return the cells that at least one beam observes in at least half of the draws inspected, (nx, ny)."""
-        return np.asarray(2 * self._observed_counts[0] >= np.maximum(1, self._observed_counts[1]))
+    def reached(self) -> Floats:
+        """Return the share of the draws inspected in which at least one beam observes each cell, (nx, ny)."""
+        observed, inspected = self._observed_counts - self._past[0].observed_counts
+        return np.asarray(observed / np.maximum(1, inspected))
 
     def draw(self, chain: int | None, number: int | None) -> OneMap:
         """Return one kept draw; the last one if that number does not exist, or the latest draw if none are kept."""
@@ -193,8 +217,8 @@ class Stream(Found):
 
     @property
     def at_hand(self) -> Draws | None:
-        """The kept draws, or the latest draws if none are kept."""
-        draws = self.draws if self.draws.count else self._recent
+        """The kept draws after the burn-in, or the latest draws if none are kept."""
+        draws = self.draws.after(self._past[0].counted) if self.draws.count else self._recent
         return draws if draws.count else None
 
     def figures(self, over: bool) -> Figures:
@@ -204,13 +228,31 @@ class Stream(Found):
         """
         joint, now = self.log_joint(), time.perf_counter()
         if now >= self._diagnose_at or (self.done and self._diagnosed < self.sweep):
-            self._rhat, self._ess = rhat_and_ess(joint)
+            self._rhat, self._ess = rhat_and_ess(joint[:, self._past[0].sweep :])
             self._diagnosed = self.sweep
             self._diagnose_at = math.inf if self.done else now + (time.perf_counter() - now) / DIAGNOSIS_SHARE
         last = float(joint[:, -1].mean()) if joint.shape[1] else math.nan
         apart = difference(self.means(), self.observed())
-        verdict = judge_chains(self._rhat, self._ess, self.sweep, apart, over=over or self.done)
-        return Figures(self.sweep, self.total, self._ess, self._rhat, last, verdict)
+        mean = self.model.cells.words.mean
+        verdict = judge_chains(self._rhat, self._ess, self.sweep, apart, over=over or self.done, mean=mean)
+        verdict = self._at_shifts(verdict)
+        return Figures(
+            self.sweep, self.total, self._ess, self._rhat, last, verdict, self._past[0].sweep, self.seconds
+        )  # fmt: skip
+
+    def _at_shifts(self, verdict: Verdict | None) -> Verdict | None:
+        """Return the verdict on chains that stand at several shifts: that of those which share one."""
+        places, which = np.unique(self.shifts, axis=0, return_inverse=True)
+        if verdict is None or verdict.level != "bad" or len(places) < 2 or self.sweep < FEWEST_SWEEPS:
+            return verdict
+        joint = self.log_joint()[:, self._past[0].sweep :]
+        largest = np.nanmax([1.0, *(rhat_and_ess(joint[which.ravel() == k])[0] for k in range(len(places)))])
+        why = (
+            f"chains stand at {len(places)} shifts of map and sensors together, in the shares that the poses' prior "
+            f"gives them, and none moves from one to another. Blocks and more sweeps do not change that; another "
+            f"sensor or surer poses leave fewer. At each shift R-hat is at most {largest:.2f}"
+        )
+        return Verdict("fair" if largest <= RHAT_LIMIT else "bad", why)
 
     def as_run(self, result: Result) -> Run:
         """Return the kept draws as a run.
@@ -225,8 +267,16 @@ class Stream(Found):
             n_incidences=self.problem.n_incidences, finished=self.done,
             seconds={"trace": 0.0, "warm_start": 0.0, "sampling": self.seconds},
         )  # fmt: skip
-        count = self.total // self.thin
-        settings = result.settings_of_run(self.model, chains=self.n_chains, draws=count, thin=self.thin)
+        burned = self._past[0]
+        chains = replace(
+            chains, draws=chains.draws.after(burned.counted), log_likelihood=chains.log_likelihood[:, burned.counted :],
+            log_prior=chains.log_prior[:, burned.counted :], warmup_log_joint=self.log_joint()[:, : burned.sweep],
+            observed_counts=self._observed_counts - burned.observed_counts,
+        )  # fmt: skip
+        count = self.total // self.thin - burned.counted
+        settings = result.settings_of_run(
+            self.model, chains=self.n_chains, draws=count, warmup=burned.sweep, thin=self.thin
+        )
         return Run(posterior_of_chains(self.model, chains, settings, {"total": self.seconds}, None))
 
 
@@ -271,12 +321,15 @@ def chains_of_walls(scene: Scene, document: Document, begun: NDArray[np.bool_], 
     sampler, _ = sampler_of(name, walls.grid, Gibbs(document.order, begun))
     poses = pose_prior(document)
     if poses is None:
-        return Stream(model, sampler, walls, document.sweeps, document.seed, keep=keep)
+        return Stream(model, sampler, walls, document, keep=keep)
     model = replace(model, poses=poses)
     joint = PoseProblem(model, walls.for_any_poses(), walls.device, walls.threads)
     # 0: without warm-up, the sizes of pose steps are not adapted.
     both = WithPoses(cast(MovableSampler, sampler), 0, pose_starts(document, POSE_CHAINS))
-    return Stream(model, both, joint, document.sweeps, document.seed, keep=keep)
+    stream = Stream(model, both, joint, document, keep=keep)
+    first = pose_starts(document, POSE_CHAINS)[:, 0, :2] - pose_starts(document, 1)[0, 0, :2]
+    stream.shifts = np.rint(first / document.grid.resolution)
+    return stream
 
 
 def starts(problem: WallProblem, document: Document, preview: Preview | None) -> NDArray[np.bool_]:
@@ -338,9 +391,9 @@ class Pilot(Found):
         """Return the mean over the draws, (nx, ny)."""
         return self._mean
 
-    def observed(self) -> NDArray[np.bool_]:
-        """Return the cells that a beam touches, (nx, ny)."""
-        return self._touched
+    def reached(self) -> Floats:
+        """Return 1 in the cells that a beam touches, and 0 in the others, (nx, ny)."""
+        return self._touched.astype(np.float64)
 
     def draw(self, chain: int | None, number: int | None) -> OneMap:
         """Return the pilot's last draw."""

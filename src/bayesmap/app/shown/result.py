@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from abc import ABC, abstractmethod
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -20,7 +21,7 @@ from bayesmap.cells.kind import CellPrior
 from bayesmap.cells.kinds import BUILT_IN
 from bayesmap.errors import BadInput
 from bayesmap.model import Model
-from bayesmap.posterior.summary import RHAT_LIMIT, bulk_ess, rhat
+from bayesmap.posterior.summary import CHANCE_SHARE, RHAT_LIMIT, bulk_ess, rhat
 from bayesmap.result import Run
 from bayesmap.run.checks import RANDOM_STREAMS
 from bayesmap.sensors.builtin import describe
@@ -49,7 +50,30 @@ FEWEST_DIAGNOSED = 4
 """The fewest sweeps for R-hat, which needs two draws in each half of a chain."""
 
 BAD_DIFFERENCE = 0.25
-"""The largest good difference of P(wall) between two chains: 5 standard errors of 200 independent draws at p = 1/2."""
+"""The largest good difference of a cell's mean between two chains: 5 standard errors of 200 draws at p = 1/2."""
+
+
+METHODS = {
+    "gibbs": "Gibbs sampling, cell by cell", "block": "Gibbs sampling, 2 x 2 blocks", "exact": "all maps enumerated",
+    "propagate": "belief propagation", "importance": "importance sampling", "metropolis": "Metropolis sampling",
+    "pilot": "Gibbs sampling, while the sensor is fitted", "none": "none yet: this is the prior",
+    "hits": "counts of hits and passes", "counts": "counts of hits and passes",
+}  # fmt: skip
+COUNTS = ("hits", "counts")
+"""The methods in words, and those without prior and sensor."""
+
+
+def in_words(description: Mapping[str, Any]) -> str:
+    """Return a description of a prior or a sensor in words: "gaussian: sigma 0.2 m"."""
+    parts = []
+    for name, value in description.items():
+        unit = next((u for u in ("m", "rad") if name.endswith(f"_{u}") and not name.endswith(f"_per_{u}")), "")
+        if isinstance(value, Mapping):
+            parts.append(f"{name} {in_words(value)}")
+        elif name != "kind" and value not in (None, 0):
+            number = f"{value:.4g}" if isinstance(value, float) else str(value)
+            parts.append(f"{name.removesuffix(f'_{unit}').replace('_', ' ')} {number} {unit}".strip())
+    return f"{description['kind']}: {', '.join(parts)}" if parts else str(description["kind"])
 
 
 @dataclass(frozen=True)
@@ -62,12 +86,15 @@ class Figures:
     rhat: float = math.nan  # R-hat of the log joint
     log_joint: float = math.nan  # last log joint, averaged over the chains
     verdict: Verdict | None = None  # verdict on the result; None while it is too early
+    burned: int = 0  # number of first sweeps that are left out of the mean and the diagnostics
+    seconds: float = math.nan  # time spent on sweeps, rounds or particles
 
     def as_fields(self) -> dict[str, Any]:
         """Return the fields of a message; numbers that are not finite become None."""
-        numbers = {"ess": self.ess, "rhat": self.rhat, "log_joint": self.log_joint}
+        numbers = {"ess": self.ess, "rhat": self.rhat, "log_joint": self.log_joint, "seconds": self.seconds}
         finite = {name: float(value) if math.isfinite(value) else None for name, value in numbers.items()}
-        return {"sweeps": self.sweeps, "total": self.total, **finite, "verdict": self.verdict}
+        counts = {"sweeps": self.sweeps, "total": self.total, "burned": self.burned}
+        return {**counts, **finite, "verdict": self.verdict}
 
 
 class Found(ABC):
@@ -92,8 +119,12 @@ class Found(ABC):
         """Return the posterior probability that a cell stops a beam, (nx, ny)."""
 
     @abstractmethod
+    def reached(self) -> Floats:
+        """Return the probability that a beam reaches each cell, (nx, ny): the share of draws in which one does."""
+
     def observed(self) -> NDArray[np.bool_]:
-        """Return the cells that a beam reaches, (nx, ny)."""
+        """Return the cells that a beam reaches with a probability of at least a half, (nx, ny)."""
+        return self.reached() >= 0.5
 
     def figures(self, over: bool) -> Figures:
         """Return progress and diagnostics; `over` means that the method will not go on."""
@@ -103,6 +134,11 @@ class Found(ABC):
     def prior(self) -> CellPrior | None:
         """The prior of the cells on show, if it differs from the scene's."""
         return None if self.model is None else self.model.cells
+
+    @property
+    def poses(self) -> Mapping[str, Any]:
+        """The description of the prior of the poses."""
+        return {"kind": "known"} if self.model is None else self.model.poses.describe()
 
     @property
     def law(self) -> tuple[SensorModel, float] | None:
@@ -127,6 +163,17 @@ class Found(ABC):
         """Return the log joint of every sweep or kept draw, (chains, n)."""
         return np.zeros((0, 0))
 
+    def log_joint_of_draws(self) -> Floats:
+        """Return the log joint of every kept draw, (chains, n)."""
+        joint, count = self.log_joint(), 0 if self.kept is None else self.kept.count
+        every = max(1, joint.shape[1] // max(1, count))  # a thinned chain has a log joint for every sweep
+        return joint[:, every - 1 :: every][:, :count]
+
+    def log_joint_of_draw(self, chain: int, number: int) -> float:
+        """Return the log joint of one draw; without kept draws, that of the chain's last sweep."""
+        joint = self.log_joint() if self.kept is None else self.log_joint_of_draws()
+        return float(joint[chain, -1 if self.kept is None else number]) if joint.size else math.nan
+
     @property
     def log_weights(self) -> Floats | None:
         """The log weights of particles, (n,), if there are any."""
@@ -147,9 +194,14 @@ class Found(ABC):
 
     def write_map(self, target: Path, result: Result) -> list[Path]:
         """Write the map for map_server; return the files."""
+        from bayesmap.io.exports import known_cells
         from bayesmap.io.ros.maps import write_map
 
-        return list(write_map(target, np.clip(self.mean(), 0.0, 1.0), result.document.grid, self.observed()))
+        mean, prior = np.clip(self.mean(), 0.0, 1.0), result.prior
+        occupied, free = prior.thresholds or (None, None)
+        known = known_cells(prior, self.at_hand, mean, self.observed())
+        grid = result.document.grid
+        return list(write_map(target, mean, grid, known, occupied_thresh=occupied, free_thresh=free))
 
 
 @dataclass(frozen=True)
@@ -227,6 +279,23 @@ class Result:
         return Quantity(words.kind, words.mean, words.value, self.prior.has_interval)
 
     @property
+    def about(self) -> list[tuple[str, str]]:
+        """The method, the prior, the sensor and the poses, in words."""
+        method = METHODS.get(self.method, self.method)
+        if self.method == "gibbs" and self.document.cells == "binary":
+            method += f", {self.document.order} order"
+        rows = [("Method", method)]
+        if self.method in COUNTS:
+            return rows
+        try:
+            sensor, depth = self.law
+            law = in_words(describe(sensor)) + (f", {depth:g} cells deep" if depth else "")
+        except BadInput:
+            law = "not one of bayesmap's"
+        poses = in_words(self.found.poses)
+        return [*rows, ("Prior", in_words(self.prior.describe())), ("Sensor", law), ("Poses", poses)]
+
+    @property
     def draw_count(self) -> DrawCount:
         """The number of kept draws."""
         kept = self.found.kept
@@ -241,14 +310,14 @@ class Result:
         return self.found.as_run(self)
 
     def settings_of_run(
-        self, model: Model, *, chains: int, draws: int, thin: int = 1, rounds: int = 0
+        self, model: Model, *, chains: int, draws: int, warmup: int = 0, thin: int = 1, rounds: int = 0
     ) -> dict[str, Any]:
         """Return the settings that `bayesmap.infer` writes into a saved run."""
         asked = self.document
         return {
-            "method": self.method, "order": asked.order, "chains": chains, "warmup": 0, "draws": draws, "thin": thin,
-            "seed": asked.seed, "start": "prior" if asked.simulated else "propagate", "particles": asked.sweeps,
-            "rounds": rounds, "hit_depth": model.hit_depth, "prior": model.cells.describe(),
+            "method": self.method, "order": asked.order, "chains": chains, "warmup": warmup, "draws": draws,
+            "thin": thin, "seed": asked.seed, "start": "prior" if asked.simulated else "propagate",
+            "particles": asked.sweeps, "rounds": rounds, "hit_depth": model.hit_depth, "prior": model.cells.describe(),
             "sensor": describe(model.sensor), "streams": RANDOM_STREAMS, "poses": model.poses.describe(),
             "fingerprint": "made by the page",
         }  # fmt: skip
@@ -275,9 +344,9 @@ class FixedMap(Found):
         """Return the probability that a cell stops a beam, (nx, ny)."""
         return self._mean
 
-    def observed(self) -> NDArray[np.bool_]:
-        """Return the cells that a beam reaches, (nx, ny)."""
-        return self._observed
+    def reached(self) -> Floats:
+        """Return 1 in the cells that a beam reaches, and 0 in the others, (nx, ny)."""
+        return self._observed.astype(np.float64)
 
 
 class Nothing(FixedMap):
@@ -301,10 +370,12 @@ def rhat_and_ess(log_joint: Floats) -> tuple[float, float]:
 
 @dataclass(frozen=True)
 class Difference:
-    """The cell in which the means of chains differ most, and the difference of P(wall)."""
+    """Differences between the means of chains."""
 
-    by: float
-    cell: tuple[int, int]
+    by: float  # largest difference
+    cell: tuple[int, int]  # cell in which it is
+    cells: int  # number of cells in which it is more than `BAD_DIFFERENCE`
+    among: int  # number of cells compared
 
 
 def difference(means: Floats, among: NDArray[np.bool_]) -> Difference | None:
@@ -316,23 +387,26 @@ def difference(means: Floats, among: NDArray[np.bool_]) -> Difference | None:
         return None
     spread = np.where(among, means.max(axis=0) - means.min(axis=0), 0.0)
     i, j = np.unravel_index(np.argmax(spread), spread.shape)
-    return Difference(float(spread[i, j]), (int(i), int(j)))
+    far = int((spread > BAD_DIFFERENCE).sum())
+    return Difference(float(spread[i, j]), (int(i), int(j)), far, int(among.sum()))
 
 
 def judge_chains(
-    rhat: float, ess: float, sweeps: int, apart: Difference | None, *, over: bool = False
+    rhat: float, ess: float, sweeps: int, apart: Difference | None, *, over: bool = False, mean: str = "P(wall)"
 ) -> Verdict | None:
     """Return the verdict on chains, or None if it is too early, or if the log joint never changed.
 
     Chains that are over (finished, cancelled or saved) get a verdict even after few sweeps. Means of few draws differ
-    by chance, so then only the log joint is judged.
+    by chance, so then only the log joint is judged. As in the summary of a run, one cell in a hundred may differ.
+    `mean` is the name of what differs.
     """
     few = sweeps < FEWEST_SWEEPS
     if few and not over:
         return None
-    if apart is not None and apart.by > BAD_DIFFERENCE and not few:
+    if apart is not None and apart.cells > CHANCE_SHARE * apart.among and not few:
         x, y = apart.cell
-        return Verdict("bad", f"P(wall) of cell ({x}, {y}) differs by {apart.by:.2f} between the chains")
+        where = f"in {apart.cells:,} of {apart.among:,} observed cells, most in cell ({x}, {y}), by {apart.by:.2f}"
+        return Verdict("bad", f"{mean} differs by over {BAD_DIFFERENCE} between the chains {where}", apart.cell)
     if 0 < sweeps < FEWEST_DIAGNOSED:
         return Verdict("bad", f"{sweeps} {'sweep is' if sweeps == 1 else 'sweeps are'} too few to judge")
     if not (np.isfinite(rhat) and np.isfinite(ess)):

@@ -50,6 +50,14 @@ def touched(table: BeamTable) -> tuple[NDArray[np.intp], BeamTable]:
     return cells, BeamTable(small, table.offsets, place[table.cells], table.loglik, table.no_hit)
 
 
+def reach_by_means(table: BeamTable, p_wall: Floats) -> Floats:
+    """Return the share of maps in which a beam reaches each cell, (nx, ny).
+
+    The maps have walls where the probability of a wall exceeds 0.1, 0.3, 0.5, 0.7 and 0.9.
+    """
+    return reach_frequency(table, p_wall > np.arange(0.1, 1.0, 0.2)[:, None, None])
+
+
 class Preview(Found):
     """Belief propagation as in `bayesmap.samplers.propagate`, one round at a time.
 
@@ -68,7 +76,7 @@ class Preview(Found):
     def __init__(self, problem: WallProblem) -> None:
         self.problem = problem
         self.cells, self.table = touched(problem.table)
-        self.rounds = 0
+        self.rounds, self._seconds = 0, 0.0
         self._threads = 1 if problem.table.n_incidences < THREADS_FROM_INCIDENCES else None
         self._p = problem.p_wall[self.cells]
         self._fixed = (self._p == 0) | (self._p == 1)
@@ -78,10 +86,12 @@ class Preview(Found):
 
     def round(self) -> None:
         """Do one more round."""
+        began = time.perf_counter()
         self._beliefs.round(DAMPING, self._threads)
         before, p = self._p, special.expit(self._beliefs.log_odds())
         self._p = np.where(self._fixed, before, p)
         self.rounds += 1
+        self._seconds += time.perf_counter() - began
         change = float(np.abs(self._p - before).max())
         self.converged = self.rounds >= ROUNDS or change < TOLERANCE
 
@@ -91,13 +101,12 @@ class Preview(Found):
         p[self.cells] = self._p
         return p.reshape(self.problem.table.grid.shape)
 
-    def observed(self) -> NDArray[np.bool_]:
-        """Return the cells that a beam reaches before the first probable wall, (nx, ny)."""
-        seen = np.zeros(self.problem.table.grid.n_cells, dtype=np.bool_)
+    def reached(self) -> Floats:
+        """Return about how probably a beam reaches each cell, (nx, ny), as `reach_by_means` does."""
+        reached = np.zeros(self.problem.table.grid.n_cells)
         if len(self.cells):
-            likely = (self._p > 0.5).reshape(1, *self.table.grid.shape)
-            seen[self.cells] = reach_frequency(self.table, likely).ravel() > 0
-        return seen.reshape(self.problem.table.grid.shape)
+            reached[self.cells] = reach_by_means(self.table, self._p.reshape(self.table.grid.shape)).ravel()
+        return reached.reshape(self.problem.table.grid.shape)
 
     def marginals(self) -> Marginals:
         """Return the current marginals, for starts of chains and for independent draws."""
@@ -105,7 +114,7 @@ class Preview(Found):
 
     def figures(self, over: bool) -> Figures:
         """Return the rounds done."""
-        return Figures(sweeps=self.rounds)
+        return Figures(sweeps=self.rounds, seconds=self._seconds)
 
     def as_run(self, result: Result) -> Run:
         """Return a run of independent draws from the beliefs."""
@@ -156,7 +165,7 @@ class Weighing(Found):
     def figures(self, over: bool) -> Figures:
         """Return the number of particles weighed, and their effective sample size."""
         ess = self.particles.effective_sample_size
-        return Figures(self.count, self.total, ess, verdict=judge_particles(ess))
+        return Figures(self.count, self.total, ess, verdict=judge_particles(ess), seconds=self._seconds)
 
     @property
     def log_weights(self) -> Floats:
@@ -167,9 +176,9 @@ class Weighing(Found):
         """Return the posterior wall probability, (nx, ny)."""
         return self.particles.occupancy()
 
-    def observed(self) -> NDArray[np.bool_]:
-        """Return the cells that a beam reaches before the first probable wall, (nx, ny)."""
-        return reach_frequency(self.problem.table, self.mean()[None] > 0.5) > 0
+    def reached(self) -> Floats:
+        """Return about how probably a beam reaches each cell, (nx, ny), as `reach_by_means` does."""
+        return reach_by_means(self.problem.table, self.mean())
 
     def as_run(self, result: Result) -> Run:
         """Return a run of particles drawn by their weights."""

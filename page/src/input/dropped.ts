@@ -1,0 +1,34 @@
+// Files that are dropped onto the page: a page in one file is played, a document is shown.
+
+import type { Buffers, Recording } from "../protocol";
+import type { Session } from "../state/session";
+import { readRecording } from "../transport/recorded";
+
+/** Plays a recording in the place of what is shown. */
+export type Play = (recording: [Recording, Buffers]) => void;
+
+/** The text of a file, piece by piece. */
+async function read(file: File, heard: (share: number) => void) {
+  const decoder = new TextDecoder();
+  const reader = file.stream().getReader();
+  let [text, done] = ["", 0];
+  for (let piece = await reader.read(); !piece.done; piece = await reader.read()) {
+    text += decoder.decode(piece.value, { stream: true });
+    heard((done += piece.value.length) / file.size);
+  }
+  return text;
+}
+
+export async function openDropped(file: File, session: Session, play: Play | undefined) {
+  const { name } = file;
+  if (!/\.(html|json)$/.test(name)) return session.say(`${name} is not read in the page: start bayesmap app with it`, "warning");
+  try {
+    const text = await read(file, (share) => session.say(`Reading ${name}: ${Math.round(100 * share)} %`));
+    const recording = /data-recording>(.*?)<\/script>/s.exec(text)?.[1];
+    if (recording && play) play(await readRecording(recording));
+    else if (name.endsWith(".json") && !session.recorded) session.bring(JSON.parse(text));
+    else session.say(`${name} holds nothing that can be shown here`, "warning");
+  } catch {
+    session.say(`${name} cannot be read: export it again, whole`, "error");
+  }
+}
