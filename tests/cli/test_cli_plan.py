@@ -112,6 +112,7 @@ def test_what_is_refused(office_run, arguments, code, message):
 
 def test_a_missing_run_is_bad_input():
     assert "nowhere.nc" in refusal_of("explore", "nowhere.nc")
+    assert "run.nc: no such file" in refusal_of("explore", "no_folder/run.nc")  # not that its picture has no folder
 
 
 def test_ctrl_c_leaves_no_picture(plan, tmp_path, monkeypatch):

@@ -80,7 +80,8 @@ def _opened(call: Call[Any], run_file: str, output: str | None, name: str, force
     from bayesmap.result import load
 
     target = Path(output) if output else Path(run_file).with_name(name)
-    need_ending(target, ("png", "pdf", "svg"), "figure")
+    if output:
+        need_ending(target, ("png", "pdf", "svg"), "figure")
     need_free([target], force)
     run = load(run_file)
     if run.n_draws:
