@@ -236,12 +236,19 @@ def coupling_weights(blocks: BlockArrays, prior: WallPriorArrays, walls: Uint8s,
     for j in range(4):
         c = cell_of_block(blocks, x, y, j)
         if c >= 0:
-            # Walls less free cells among the neighbours outside the block.
-            around = chains.walls_less_free(walls, 0, c, blocks.nx, blocks.ny)
-            for side in range(1, 3):
-                inside = cell_of_block(blocks, x, y, j ^ side)
-                if inside >= 0:
-                    around -= wp.where(walls[inside] != wp.uint8(0), 1, -1)
+            around = int(0)  # walls less free cells among the neighbours outside the block
+            cx = c // blocks.ny
+            cy = c % blocks.ny
+            if j < 2:
+                if cx > 0:
+                    around += wp.where(walls[c - blocks.ny] != wp.uint8(0), 1, -1)
+            elif cx < blocks.nx - 1:
+                around += wp.where(walls[c + blocks.ny] != wp.uint8(0), 1, -1)
+            if j % 2 == 0:
+                if cy > 0:
+                    around += wp.where(walls[c - 1] != wp.uint8(0), 1, -1)
+            elif cy < blocks.ny - 1:
+                around += wp.where(walls[c + 1] != wp.uint8(0), 1, -1)
             weights = weights + wp.float64(around) * blocks.takes[j]
     # A cell that is outside of a narrow grid is free in all possible states, and has no pairs.
     if blocks.ny > 1:
