@@ -72,9 +72,15 @@ def test_looking_where_most_is_to_be_learnt_closes_the_loop(page):
     choose(page, "Look next")
     before = settled(page)
     until(page, "s.decisions.views && s.decisions.views.nats.length > 5")
-    views = page.evaluate(VIEWS)
-    pose, nats = np.reshape(views["pose"], (-1, 3)), np.array(views["nats"])
-    playwright.expect(page.locator(".said")).to_contain_text(f"{nats.max():.1f} nats")
+    for _ in range(2000):  # views may come anew: words and numbers are read until they are of the same ones
+        views, words = page.evaluate(VIEWS), page.locator(".said").inner_text()
+        nats = np.array(views["nats"])
+        if f"{nats.max():.1f} nats" in words:
+            break
+        page.wait_for_timeout(15)
+    else:
+        pytest.fail(f"{words!r} is not of {nats}")
+    pose = np.reshape(views["pose"], (-1, 3))
     cells = np.round(pose[:, :2]).astype(int)
     best = next(i for i in np.argsort(-nats) if not before["walls"][tuple(cells[i])])
     act(page, lambda: click(page, *cells[best].tolist()))

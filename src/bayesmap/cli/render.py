@@ -44,7 +44,7 @@ def render(
 ) -> None:
     r"""Draw a saved run.
 
-    By default the picture has the name of its kind, such as mean.png or animation.gif.
+    By default the picture has the name of its kind, such as mean.png or animation.gif; surfaces are strokes.png.
 
     \b
     figure                  mean, uncertainty, readings and one draw
@@ -96,8 +96,8 @@ def render(
 
 
 def default_name(what: str) -> str:
-    """Return the name of a picture that the user has not named."""
-    return f"{what}.gif" if what == "animation" else f"{what}.png"
+    """Return the name of a picture that the user has not named. `infer` and `slam` write surfaces.png themselves."""
+    return f"{what}.gif" if what == "animation" else f"{'strokes' if what == 'surfaces' else what}.png"
 
 
 def _whole_figure(run: Run, settings: RenderSettings, walls: Walls | None) -> Figure:
