@@ -36,6 +36,7 @@ from bayesmap.samplers.methods import (
     Method,
     Propagate,
     method_of,
+    options_of,
     sampler_of,
     sampler_on_walls,
 )
@@ -45,7 +46,6 @@ from bayesmap.samplers.propagate import ROUNDS
 from bayesmap.samplers.sampler import Sampler
 from bayesmap.samplers.stop_gibbs import StopGibbs
 from bayesmap.samplers.wall_problem import trace_walls
-from bayesmap.samplers.walls import default_start
 from bayesmap.samplers.with_poses import MovableSampler, WithPoses
 from bayesmap.samplers.without_chains import DrawRequest
 from bayesmap.sensors.builtin import describe
@@ -112,8 +112,8 @@ class Inference:
     name: str  # of the method
     method: Method
     plan: SweepPlan  # of each chain
-    asked: DrawRequest  # for methods without chains; chains take their number and seed from it too
-    fitted: bool  # whether the sensor is to be fitted
+    request: DrawRequest  # for methods without chains; chains take their number and seed from it too
+    is_fitted: bool  # whether the sensor is to be fitted
     where: Where
 
     @classmethod
@@ -163,104 +163,78 @@ class Inference:
         complete = schedule.completed(prior.sweeps_a_draw, default_draws)
         draws, thin = cast(int, complete.draws), cast(int, complete.thin)
         particles = getattr(method, "particles", PARTICLES)
-        asked = DrawRequest(
+        request = DrawRequest(
             schedule.chains, draws, check_count("infer", "seed", seed, 0), particles, getattr(method, "rounds", ROUNDS)
         )
         plan = SweepPlan(schedule.warmup, draws, thin, complete.precision, complete.seconds)
-        return cls(model, name, method, plan, asked, isinstance(sensor, str), where)
+        return cls(model, name, method, plan, request, isinstance(sensor, str), where)
 
     def run(self, checkpoints: Checkpoints, watch: Watch) -> Run:
         """Fit sensor and prior, sample the posterior, and return the run."""
         began = time.perf_counter()
-        model, parameters = self.model, None
         executor = ThreadExecutor() if self.where.executor is None else self.where.executor
         self._check_memory(executor)
-        # Choose the sampler. The settings hold everything that determines the draws.
-        plan = self.plan
-        sampler, options = self._sampler(plan.warmup)
-        settings = self._settings(options)
-        # Load the stopped run, which must have the same arguments.
+        # The settings hold everything that determines the draws. A stopped run must have the same arguments.
+        settings = self._settings()
         stopped = self._stopped(checkpoints.resume, settings)
-        spent = 0.0 if stopped is None else stopped.seconds["total"]
-        if stopped is not None:
-            plan = replace(plan, warmup=stopped.settings["warmup"])
-
-        def passed() -> float:
-            """Return the seconds since the start of the run, earlier parts included."""
-            return time.perf_counter() - began + spent
-
-        def begin(cells: Sampler[Any, Any], problem: Any) -> None:
-            """Show a first map if the chains take long, and shorten the warm-up if their time is limited."""
-            nonlocal plan
-            if checkpoints.preview is None and plan.seconds is None:
-                return
-            at_known = replace(model, poses=KnownPoses())  # a first map samples no poses
-            chains, sweep_s = first_map(cells, problem, at_known, self.asked.seed)
-            long = sweep_s * self.asked.chains * (plan.warmup + FIRST_MARK * plan.thin) >= PREVIEW_FROM_S
-            if checkpoints.preview is not None and long:
-                total = {"total": passed(), "fit": 0.0}
-                checkpoints.preview(Run(posterior_of_chains(at_known, chains, settings, total, None)))
-            if plan.seconds is not None:  # the pilot makes as many sweeps as the warm-up
-                plan = plan.shortened(sweep_s * (1 + self.asked.chains), plan.seconds - passed())
-
-        # Fit the sensor, and with it the prior of reflectivities.
-        if self.fitted and self.kernel == "stop-gibbs":
-            assert sampler is not None
-            if stopped is not None:
-                parameters = Parameters.from_description(stopped.settings["fitted"])
-            else:
-                problem = sampler.prepare(self.model, self.where.device, self.where.threads, watch)
-                cells = problem.cells if self.model.poses.unknown else problem
-                begin(StopGibbs(), cells)
-                parameters = fit(cells, self.asked.seed, min(PILOT_SWEEPS, plan.warmup), watch)
-                del problem, cells  # their memory is needed by the chains
-            settings["fitted"] = parameters.describe()
-        elif self.fitted:
-            sensor = fit_sensor(model, self.where.device, seed=self.asked.seed, threads=self.where.threads, watch=watch)
-            model = replace(model, sensor=sensor)
-            settings["fitted"] = {"sensor": describe(model.sensor)}
-        # Fit the coupling of walls.
-        if model.cells.is_incomplete:
-            prior = fit_coupling_to_scans(
-                model, sampler_on_walls(self.kernel), self.where.device,
-                seed=self.asked.seed, threads=self.where.threads, watch=watch,
-            )  # fmt: skip
-            model = replace(model, cells=prior)
-            settings["fitted"] = {**settings.get("fitted", {}), "prior": prior.describe()}
+        opening = _Opening(self, checkpoints, settings, stopped, began)
+        # Fit the sensor and the prior.
+        model, parameters = self._fitted(opening, settings, stopped, watch)
         seconds = {"fit": time.perf_counter() - began if "fitted" in settings else 0.0}
         settings["threads_used"] = self._threads_used()
         # Sample: independent maps, or chains.
-        if sampler is None:
-            problem = trace_walls(model, self.where.device, self.where.threads)
+        device, threads = self.where.device, self.where.threads
+        if self.kernel in WITHOUT_CHAINS:
+            problem = trace_walls(model, device, threads)
             seconds["trace"] = time.perf_counter() - began - seconds["fit"]
-            draws = WITHOUT_CHAINS[self.kernel](problem, self.asked, watch)
-            seconds["total"] = passed()
+            draws = WITHOUT_CHAINS[self.kernel](problem, self.request, watch)
+            seconds["total"] = opening.passed()
             return Run(posterior_of_draws(model, draws, problem.n_incidences, settings, seconds))
 
         def as_run(chains: Chains) -> Run:
-            seconds["total"] = passed()
+            seconds["total"] = opening.passed()
             return Run(posterior_of_chains(model, chains, settings, seconds, parameters))
 
         # A pilot has begun the run already. If the chains run elsewhere, no beams are traced here.
         prepared, here = None, isinstance(executor, ThreadExecutor) and not model.poses.unknown
-        first = checkpoints.preview is not None or plan.seconds is not None
-        if first and parameters is None and stopped is None and here:
-            prepared = sampler.prepare(model, self.where.device, self.where.threads, watch)
-            begin(sampler, prepared)
+        if opening.is_needed and parameters is None and stopped is None and here:
+            sampler = self._sampler(opening.plan.warmup)
+            prepared = sampler.prepare(model, device, threads, watch)
+            opening.begin(model, sampler, prepared)
+        plan = opening.remaining()
         settings["warmup"] = plan.warmup
-        if plan.seconds is not None:
-            plan = replace(plan, seconds=max(0.0, plan.seconds - passed()))
-        sampler, _ = self._sampler(plan.warmup)
-        assert sampler is not None
-        save = checkpoints.save
         job = Job(
-            model, sampler, plan, self.asked.seed, tuple(range(self.asked.chains)),
-            self.where.device, self.where.threads, parameters, prepared,
+            model, self._sampler(plan.warmup), plan, self.request.seed, tuple(range(self.request.chains)), device,
+            threads, parameters, prepared,
         )  # fmt: skip
-        started = None if stopped is None else chains_of(stopped)
-        keep = None if save is None else lambda chains: save(as_run(chains))
-        chains = executor.run(job, started, watch, keep, checkpoints.every_s)
-        return as_run(chains)
+        save, begun = checkpoints.save, None if stopped is None else chains_of(stopped)
+        on_checkpoint = None if save is None else lambda chains: save(as_run(chains))
+        return as_run(executor.run(job, begun, watch, on_checkpoint, checkpoints.every_s))
+
+    def _fitted(
+        self, opening: _Opening, settings: dict[str, Any], stopped: Posterior | None, watch: Watch
+    ) -> tuple[Model, Parameters | None]:
+        """Fit sensor and prior where asked for. Returns the model of the chains, and the parameters of a pilot."""
+        model, parameters = self.model, None
+        device, threads, seed = self.where.device, self.where.threads, self.request.seed
+        if self.is_fitted and self.kernel == "stop-gibbs":  # the sensor, and with it the prior of reflectivities
+            if stopped is not None:
+                parameters = Parameters.from_description(stopped.settings["fitted"])
+            else:
+                problem = self._sampler(opening.plan.warmup).prepare(model, device, threads, watch)
+                cells = problem.cells if model.poses.unknown else problem
+                opening.begin(model, StopGibbs(), cells)
+                parameters = fit(cells, seed, min(PILOT_SWEEPS, opening.plan.warmup), watch)
+            settings["fitted"] = parameters.describe()
+        elif self.is_fitted:
+            model = replace(model, sensor=fit_sensor(model, device, seed=seed, threads=threads, watch=watch))
+            settings["fitted"] = {"sensor": describe(model.sensor)}
+        if model.cells.is_incomplete:  # the coupling of walls
+            walls = sampler_on_walls(self.kernel)
+            prior = fit_coupling_to_scans(model, walls, device, seed=seed, threads=threads, watch=watch)
+            model = replace(model, cells=prior)
+            settings["fitted"] = {**settings.get("fitted", {}), "prior": prior.describe()}
+        return model, parameters
 
     @property
     def kernel(self) -> str:
@@ -270,18 +244,16 @@ class Inference:
     def _check_memory(self, executor: Executor) -> None:
         """Refuse a map if its chains over hits would not fit into memory."""
         if self.kernel == "stop-gibbs" and self.where.device == "cpu":
-            here = self.asked.chains if isinstance(executor, ThreadExecutor) else 1  # elsewhere: the pilot alone
+            here = self.request.chains if isinstance(executor, ThreadExecutor) else 1  # elsewhere: the pilot alone
             check_memory(self.model.grid, self.model.scans, self.model.cells.has_surfaces, here)
 
-    def _sampler(self, warmup: int) -> tuple[Sampler[Any, Any] | None, dict[str, Any]]:
-        """Return the sampler of the chains, None for methods without chains, and its options for the settings."""
-        if self.kernel in WITHOUT_CHAINS:
-            return None, {"order": Gibbs.order, "start": default_start(self.model.grid)}
+    def _sampler(self, warmup: int) -> Sampler[Any, Any]:
+        """Return the sampler of the chains."""
         method = cast(Gibbs, self.method)
         if not self.model.poses.unknown:
             return sampler_of(self.kernel, self.model.grid, method, warmup)
-        sampler, options = sampler_of(self.kernel, self.model.grid, method)
-        return WithPoses(cast(MovableSampler, sampler), warmup, method.start_poses), options
+        sampler = sampler_of(self.kernel, self.model.grid, method)
+        return WithPoses(cast(MovableSampler, sampler), warmup, method.start_poses)
 
     def _stopped(self, run: Run | None, settings: dict[str, Any]) -> Posterior | None:
         """Return the posterior of the run to resume; None without a run, or if it was stopped before its first sweep.
@@ -300,15 +272,16 @@ class Inference:
         check_same(posterior.settings, settings)
         return posterior if posterior.sweep > 0 else None
 
-    def _settings(self, options: dict[str, Any]) -> dict[str, Any]:
+    def _settings(self) -> dict[str, Any]:
         """Return everything that determines the draws, as JSON values."""
-        asked, plan = self.asked, self.plan
+        request, plan = self.request, self.plan
         return {
-            "method": self.name, **options, "chains": asked.chains, "warmup": plan.warmup,
-            "draws": plan.draws, "thin": plan.thin, "precision": plan.precision, "seed": asked.seed,
-            "particles": asked.particles, "rounds": asked.rounds, "hit_depth": self.model.hit_depth,
-            "prior": self.model.cells.describe(), "sensor": FIT if self.fitted else describe(self.model.sensor),
-            "streams": RANDOM_STREAMS, "poses": self.model.poses.describe(),
+            "method": self.name, **options_of(self.kernel, self.model.grid, self.method), "chains": request.chains,
+            "warmup": plan.warmup, "draws": plan.draws, "thin": plan.thin, "precision": plan.precision,
+            "seed": request.seed, "particles": request.particles, "rounds": request.rounds,
+            "hit_depth": self.model.hit_depth, "prior": self.model.cells.describe(),
+            "sensor": FIT if self.is_fitted else describe(self.model.sensor), "streams": RANDOM_STREAMS,
+            "poses": self.model.poses.describe(),
         }  # fmt: skip
 
     def _threads_used(self) -> int:
@@ -332,6 +305,46 @@ def _check_scans(scans: Scans, grid: Grid) -> None:
             f"infer: no scan and no hit lies on the grid, {grid.extent_words()}; they lie at x {x0:g} to {x1:g}, "
             f"y {y0:g} to {y1:g} m, which bm.Grid.covering(scans, resolution) holds"
         )
+
+
+class _Opening:
+    """The start of a run: its clock, a first map if the chains take long, and their plan in a limited time."""
+
+    def __init__(
+        self, inference: Inference, checkpoints: Checkpoints, settings: dict[str, Any], stopped: Posterior | None,
+        began: float,
+    ) -> None:  # fmt: skip
+        self._request, self._preview, self._settings = inference.request, checkpoints.preview, settings
+        self._began = began - (0.0 if stopped is None else stopped.seconds["total"])
+        self.plan = inference.plan if stopped is None else replace(inference.plan, warmup=stopped.settings["warmup"])
+
+    @property
+    def is_needed(self) -> bool:
+        """Return whether a first map is to be shown, or the time is limited."""
+        return self._preview is not None or self.plan.seconds is not None
+
+    def passed(self) -> float:
+        """Return the seconds since the start of the run, earlier parts included."""
+        return time.perf_counter() - self._began
+
+    def begin(self, model: Model, sampler: Sampler[Any, Any], problem: Any) -> None:
+        """Show a first map if the chains take long, and shorten the warm-up if their time is limited."""
+        if not self.is_needed:
+            return
+        plan, chains = self.plan, self._request.chains
+        at_known = replace(model, poses=KnownPoses())  # a first map samples no poses
+        first, sweep_s = first_map(sampler, problem, at_known, self._request.seed)
+        is_long = sweep_s * chains * (plan.warmup + FIRST_MARK * plan.thin) >= PREVIEW_FROM_S
+        if self._preview is not None and is_long:
+            seconds = {"total": self.passed(), "fit": 0.0}
+            self._preview(Run(posterior_of_chains(at_known, first, self._settings, seconds, None)))
+        if plan.seconds is not None:  # the pilot makes as many sweeps as the warm-up
+            self.plan = plan.shortened(sweep_s * (1 + chains), plan.seconds - self.passed())
+
+    def remaining(self) -> SweepPlan:
+        """Return the plan of the chains in the time that is left."""
+        seconds = self.plan.seconds
+        return self.plan if seconds is None else replace(self.plan, seconds=max(0.0, seconds - self.passed()))
 
 
 @near_names

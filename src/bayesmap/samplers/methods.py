@@ -144,14 +144,17 @@ def sampler_on_walls(name: str) -> WallSampler:
     return ON_WALLS.get(name, WallGibbs)()
 
 
-def sampler_of(name: str, grid: Grid, method: Gibbs, warmup: int = 0) -> tuple[Sampler[Any, Any], dict[str, Any]]:
-    """Return a Markov chain sampler, and its options for the settings of a run.
-
-    Surfaces settle and merge during ``warmup`` sweeps; with 0 sweeps they are not merged.
-    """
+def sampler_of(name: str, grid: Grid, method: Gibbs, warmup: int = 0) -> Sampler[Any, Any]:
+    """Return a Markov chain sampler. Surfaces settle and merge during ``warmup`` sweeps; with 0 they are not merged."""
     if name in ON_ANY:
-        sampler = StopGibbs(int(SETTLE_SHARE * warmup)) if name == "stop-gibbs" else ON_ANY[name]()
-        return sampler, {"order": None, "start": "readings" if name == "stop-gibbs" else "prior"}
-    start = default_start(grid) if method.start is None else method.start
-    sampler = ON_WALLS[name](method.order, start, method.rounds)
-    return sampler, {"order": method.order, "start": start if isinstance(start, str) else "given map"}
+        return StopGibbs(int(SETTLE_SHARE * warmup)) if name == "stop-gibbs" else ON_ANY[name]()
+    return ON_WALLS[name](method.order, default_start(grid) if method.start is None else method.start, method.rounds)
+
+
+def options_of(name: str, grid: Grid, method: Method) -> dict[str, Any]:
+    """Return the order and the start of a sampler, as the settings of a run have them."""
+    if name in ON_ANY:
+        return {"order": None, "start": "readings" if name == "stop-gibbs" else "prior"}
+    start = getattr(method, "start", None)
+    words = start if isinstance(start, str) else default_start(grid) if start is None else "given map"
+    return {"order": getattr(method, "order", Gibbs.order), "start": words}

@@ -318,7 +318,7 @@ def chains_of_walls(scene: Scene, document: Document, begun: NDArray[np.bool_], 
     walls = scene.problem
     model = scene.model(walls.prior)
     name = walls.prior.methods[document.sampler]
-    sampler, _ = sampler_of(name, walls.grid, Gibbs(document.order, begun))
+    sampler = sampler_of(name, walls.grid, Gibbs(document.order, begun))
     poses = pose_prior(document)
     if poses is None:
         return Stream(model, sampler, walls, document, keep=keep)
@@ -415,7 +415,7 @@ def fit_by_pilot(scene: Scene, document: Document, show: Callable[[Pilot], None]
     prior = BUILT_IN[document.cells]()
     first = first_sensor(prior, document.grid.resolution)
     model = replace(scene.model(prior), sensor=first, hit_depth=prior.hit_depth)
-    sampler, _ = sampler_of(prior.methods["gibbs"], model.grid, Gibbs())
+    sampler = sampler_of(prior.methods["gibbs"], model.grid, Gibbs())
     problem = sampler.prepare(model, "cpu")
     yield
     pilot = pilot_sweeps(problem, document.seed, PILOT_SWEEPS, keep=Keep(every=1))
