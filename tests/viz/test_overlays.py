@@ -154,9 +154,8 @@ def test_the_figure_hatches_what_nobody_saw_and_takes_maps_without_surfaces():
     figure.canvas.draw()
 
 
-@pytest.mark.parametrize(
-    ("means", "covariances", "weights", "says"),
-    [
+def test_what_is_no_surface_is_named():
+    for means, covariances, weights, says in (
         (np.zeros((2, 2)), np.zeros((1, 2, 2)), [1, 1], r"2 surfaces need .* got \(1, 2, 2\)"),
         (np.zeros((1, 3)), np.zeros((1, 2, 2)), [1], r"means \(n, 2\)"),
         ([[0, np.nan]], np.zeros((1, 2, 2)), [1], "surface 0 is not finite"),
@@ -165,11 +164,9 @@ def test_the_figure_hatches_what_nobody_saw_and_takes_maps_without_surfaces():
         (np.zeros((1, 2)), [np.eye(2)], [1.5], r"weights must be 1 numbers in \[0, 1\]"),
         (np.zeros((1, 2)), [np.eye(2)], [np.nan], "weights must be"),
         (np.zeros((1, 2)), [np.eye(2)], [1, 1], "one a surface"),
-    ],
-)
-def test_what_is_no_surface_is_named(means, covariances, weights, says):
-    with pytest.raises(BadInput, match=says):
-        viz.draw_surfaces(panel(), means, covariances, weights)
+    ):
+        with pytest.raises(BadInput, match=says):
+            viz.draw_surfaces(panel(), means, covariances, weights)
 
 
 def test_surfaces_too_faint_to_be_seen_still_have_a_key():

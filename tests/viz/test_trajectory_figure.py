@@ -87,13 +87,10 @@ def test_views_are_numbered_best_first():
     assert pixels(figure)
 
 
-@pytest.mark.parametrize("path", [[], [[1.0]], 3.0])
-def test_a_path_that_is_none_is_refused(path):
-    with pytest.raises(BadInput, match="path"):
-        draw_route(Figure().subplots(), path, 0.3)
-
-
-def test_candidates_and_their_numbers_must_match():
+def test_a_path_that_is_none_and_candidates_without_numbers_are_refused():
+    for path in ([], [[1.0]], 3.0):
+        with pytest.raises(BadInput, match="path"):
+            draw_route(Figure().subplots(), path, 0.3)
     with pytest.raises(BadInput, match="candidates"):
         views_figure(GRID, MEAN, None, np.zeros((4, 3)), np.zeros(3), [])
 
