@@ -8,10 +8,19 @@
 # %% [markdown]
 # # Neither is known
 #
-# First the [walls](mapping.md) were unknown, then the [pose](localization.md). A robot that explores has neither: it
-# does not know the map, and of its poses it knows only what its wheels have told it. To find both at once is called
-# *simultaneous localization and mapping*. As a probabilistic program it is the two models put together: a prior over
-# poses, a prior over walls, and readings that depend on both.
+# First the [walls](mapping.md) were unknown, then the [pose](localization.md). A robot that explores knows neither the
+# map nor its poses; the wheels report the poses only roughly. Inferring both together is called *simultaneous
+# localization and mapping*. The probabilistic program joins the two models: a prior over poses, a prior over walls, and
+# readings that depend on both.
+#
+# **After this page you will be able to**
+#
+# - write a model in which both the poses and the walls are unknown;
+# - infer both in turns: cells and blocks by Gibbs sampling, poses by Metropolis-Hastings;
+# - check whether the errors of the poses are as large as the posterior says;
+# - say why a sensor model without outliers can stop a chain from moving.
+#
+# Reading time: about 15 minutes, without the exercises.
 #
 # Code that only draws a figure or checks what the text says is folded away. In lines that begin with `time:` measured
 # figures are rounded.
@@ -29,21 +38,22 @@ import bayesmap as bm
 from bayesmap import gen, viz
 from bayesmap.gen import ChoiceMapBuilder as C
 from bayesmap.programs.mapping import SetCells
+from bayesmap.sensors.model import RangeLimits
 from bayesmap.viz.palette import CHAINS, SENSOR, TRUTH
 
 # %% [markdown]
 # ## The model
 #
 # The robot scans at eight places, with sixty beams each. Its guess of each pose is normally distributed around the
-# truth, with a standard deviation of 0.4 m in x and y and of 0.06 rad, three and a half degrees. Of the first pose it
-# is sure, for it is the place from which it counts. Walls are rare.
+# truth. The standard deviation is 0.4 m in x and y, and 0.06 rad, three and a half degrees, in the heading. The first
+# pose is known, since this pose defines the frame of the map. Walls are rare.
 #
-# The sensor is a little more like a real one: a reading has 0.2 m of noise, but now and then it has nothing to do
-# with the walls, because somebody walks by or because a beam does not come back (`bm.BeamMixture`). This matters for
-# more than realism, as we shall see.
+# The sensor is a little more like a real one (`bm.BeamMixture`). A reading has 0.2 m of noise. But some readings have
+# nothing to do with the walls, because somebody walks by or because a beam does not come back. The end of the page
+# shows how much the inference depends on such readings.
 #
-# `bm.mapping_model` takes a generative function in place of known poses. Then the poses are choices of the model too,
-# at the address `"poses"`.
+# `bm.mapping_model` takes either known poses or a generative function of poses. With a generative function, the poses
+# are choices of the model, at the address `"poses"`.
 
 # %%
 P_WALL, MAX_RANGE_M = 0.05, 42.0
@@ -81,8 +91,8 @@ print(f"the guessed poses are {off_m(guesses)[1:].mean():.2f} m off on average")
 # %% [markdown]
 # ## The guesses taken for granted
 #
-# What if we take the guesses for the truth, and infer the walls alone? `bm.infer` does it with blocks of cells, once
-# with the true poses and once with the guessed ones.
+# Suppose that we take the guesses for the truth, and infer the walls alone. `bm.infer` runs block Gibbs, once with the
+# true poses and once with the guessed poses.
 
 # %%
 
@@ -111,17 +121,18 @@ for name, run in (("true", at_truth), ("guessed", at_guesses)):
     print(f"log likelihood of the readings {np.median(run.posterior.log_likelihood):.0f}")
 
 # %% [markdown]
-# With wrong poses the map is wrong in places, and sure of it. The log likelihood shows that something is amiss: no map
-# explains these readings from these poses.
+# With the guessed poses some cells are wrong, although the posterior calls them certain. The log likelihood shows the
+# fault: no map explains these readings from these poses.
 #
 # ## Poses and walls together
 #
-# A trace of the model has both. We go on as on the pages before, by edits, in turns:
+# A trace of the model holds both the poses and the walls. As on the pages before, we change the trace by edits. Walls
+# and poses take turns:
 #
-# - *walls*: a Gibbs sweep over all cells, and now and then one over blocks of 2 x 2 cells. `SetCells` is a request that
-#   changes some cells at once; the 16 states of a block are scored by 16 edits, and one of them is drawn.
-# - *poses*: for each scan ten Metropolis-Hastings moves. An edit of one pose by `IndexRequest` visits the beams of that
-#   scan and of no other: they walk through the map as it is.
+# - *Walls*: a Gibbs sweep over all cells, and in every tenth round a sweep over blocks of 2 x 2 cells. The request
+#   `SetCells` changes several cells together. 16 edits score the 16 states of a block, and one state is drawn.
+# - *Poses*: ten Metropolis-Hastings moves for each scan. An edit of one pose by `IndexRequest` recomputes only the
+#   beams of this scan, in the present map.
 
 # %%
 BLOCKS = jnp.asarray((np.arange(16)[:, None] >> np.arange(4) & 1).astype(bool))  # (16, 4)
@@ -199,8 +210,8 @@ for n in (1, 5, 10, 20, N_ROUNDS):
     print(f"after round {n:3d}: poses", np.round(off, 2), "m off on average; log joint", np.round(scores[:, n - 1]))
 
 # %% [markdown]
-# Four chains, two from the wrong map of above and two from an empty one. They come to the same poses within some
-# twenty rounds. What do they agree on?
+# Two of the four chains start from the wrong map above, and two from an empty map. All four arrive at the same poses
+# within some twenty rounds. How good are these poses, and how good is the map?
 
 # %%
 poses, walls = poses[:, N_WARM:], walls[:, N_WARM:]
@@ -256,13 +267,13 @@ axes[0].legend(fontsize=8)
 show(figure, "both-pose.png", "How one pose is found: thirty rounds of a chain, and the draws of all four.")
 
 # %% [markdown]
-# The map is as good as if the poses had been known, and the poses are known to a few centimetres, in a world whose
-# cells are a metre wide. And the errors are about as large as the posterior says that they are.
+# The map is as good as the map from known poses. The poses are known to a few centimetres, although the cells are a
+# metre wide. And the errors are about as large as the posterior says.
 #
 # ## Why the sensor matters
 #
-# Take the same readings without their outliers, and a model that knows of none: normal noise and nothing else. A
-# single stray wall in the way of one beam is then all but forbidden, whatever the other beams say.
+# Now we take readings without outliers, and a model that allows only normal noise. Under this model, one wrong wall in
+# the way of one beam makes a map nearly impossible. This holds even if the wall fits all other beams.
 
 # %%
 plain = bm.simulate(true_walls, grid, true_poses, angles_rad, sensor=bm.Gaussian(0.2), max_range_m=MAX_RANGE_M, seed=0)
@@ -278,11 +289,51 @@ assert off_m(strict_poses[-1])[1:].mean() > 0.15
 assert strict_scores[-1] < at_truth_score - 300
 
 # %% [markdown]
-# The chain is stuck, with poses and a map that fit each other badly: to move a pose, walls must move with it, and
-# halfway both are forbidden. Nothing is wrong with the posterior of this model, which is highest near the truth. It is
-# the way there that is blocked. A sensor model with room for the odd reading describes real sensors better, and it
-# also leaves the chain a way through.
+# The chain is stuck, with poses and a map that fit each other badly. A pose can move only if walls move, too, and
+# every state in between is nearly impossible. The posterior of this model is right: the density is high near the truth.
+# But the chain cannot get there in small steps. A sensor model that allows outliers describes real sensors better, and
+# makes the states in between possible.
 #
+# ## Exercises
+#
+# **1.** A beam should read 6 m, but somebody walks by and the beam reads 3 m. Compute how many nats this reading costs,
+# compared with a reading of 6 m, under `bm.Gaussian(0.2)` and under `bm.BeamMixture(bm.Gaussian(0.2))`.
+
+# %% Answer 1 tags=["hide-cell"]
+costs = {}
+for law in (bm.Gaussian(0.2), SENSOR_MODEL):
+    right, short = law.log_likelihood(np.array([6.0, 3.0]), np.array([6.0, 6.0]), RangeLimits(0.0, MAX_RANGE_M))
+    costs[type(law).__name__] = right - short
+    print(f"{type(law).__name__}: {right - short:.1f} nats")
+assert np.isclose(costs["Gaussian"], (3.0 / 0.2) ** 2 / 2)
+assert costs["BeamMixture"] < 8
+
+# %% [markdown]
+# **2.** The page prints the errors of seven poses in units of their standard deviations, as a root mean square over 21
+# numbers. If the posterior is right, between which two values does this number lie in 95 % of all cases? Take the 21
+# errors as independent and normal.
+
+# %% Answer 2 tags=["hide-cell"]
+rms = np.sqrt((np.random.default_rng(0).normal(size=(20_000, 21)) ** 2).mean(axis=1))
+low, high = np.percentile(rms, [2.5, 97.5])
+print(f"between {low:.2f} and {high:.2f}")
+assert np.allclose([low, high], [0.70, 1.30], atol=0.02)
+
+# %% [markdown]
+# **3.** We fixed the first pose. Suppose instead that all eight poses have a standard deviation of 0.4 m. Which shifts
+# of all poses and walls together leave every reading unchanged? How many nats does the prior of the poses take from the
+# smallest of these shifts, if the guesses are right on average? And how many with cells of 5 cm?
+
+# %% Answer 3 tags=["hide-cell"]
+print("Walls fill cells of a fixed grid, so these are the shifts by whole cells.")
+taken = {shift_m: S * (shift_m / 0.4) ** 2 / 2 for shift_m in (1.0, 0.05)}
+for shift_m, nats in taken.items():
+    print(f"A shift by one cell of {shift_m} m takes {nats:.2f} nats.")
+print("Cells of a metre fix the place of the map. With cells of 5 cm the place stays open, unless one pose is fixed.")
+assert np.isclose(taken[1.0], 25.0)
+assert taken[0.05] < 0.1
+
+# %% [markdown]
 # ## Where to go from here
 #
 # - The robot took eight scans. For logs of thousands bayesmap has compiled kernels: the [next page](odometry.md)

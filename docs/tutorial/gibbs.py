@@ -8,11 +8,20 @@
 # %% [markdown]
 # # Gibbs sampling
 #
-# The [first page](mapping.md) built a model of a map and of a robot's readings in it, and saw that guessing whole maps
-# does not find the walls. Here we change a map one cell at a time. That works. Then we make it work faster: by editing
-# traces, by visiting the cells in a better order, and by changing several cells together.
+# The [first page](mapping.md) built a model of a map and a robot's readings. Guessing whole maps did not find the
+# walls. Here we change a map one cell at a time, and find them. Then we make the sampler faster: we edit traces, visit
+# the cells in a better order, and change several cells together.
 #
-# Code that only draws a figure or checks what the text says is folded away; so is the model, which is that of the
+# **After this page you will be able to**
+#
+# - draw maps from the posterior, one cell at a time, by Gibbs sampling;
+# - change a trace with `edit`, either by a whole new map or by the index of one cell;
+# - choose an order of the cells in which a chain needs fewer sweeps;
+# - recognise a chain that is stuck, and free it with blocks of cells.
+#
+# Reading time: about 20 minutes, without the exercises.
+#
+# Code that only draws a figure or checks the text is folded away. The model is folded away, too: it is that of the
 # first page, word for word. In lines that begin with `time:` measured figures are rounded.
 
 # %%
@@ -89,9 +98,10 @@ def log_joint(walls, p_wall=P_WALL):
 # %% [markdown]
 # ## One cell at a time
 #
-# Go through the cells, and draw each one from its distribution *given all the others and the readings*. For a cell
-# that can only be a wall or free, this conditional is easy: score the map both ways, and compare. One walk over all
-# cells is a *sweep*. Whatever map we start from, maps after many sweeps are draws from the posterior.
+# Gibbs sampling goes through the cells, and draws each cell from its distribution *given all other cells and the
+# readings*. A cell has only two states, so this conditional distribution is easy to compute: score the map with the
+# cell as a wall and with the cell free, and compare. One pass over all cells is a *sweep*. From any start, the maps
+# after many sweeps are draws from the posterior.
 
 # %%
 
@@ -143,9 +153,9 @@ for ax, n in zip(axes, (1, 3, 6, 12), strict=True):
 show(figure, "gibbs.png", "The chain after some sweeps, from an empty map. Outlined: the true walls.")
 
 # %% [markdown]
-# The free space grows from sweep to sweep, and after some ten sweeps the maps explain the readings as well as the true
-# map does. Behind a wall that should not be there nothing is seen, so cells there are drawn from the prior: half of
-# them are walls. When the wall in front falls, those stand in the light, and must go in turn.
+# The free space grows from sweep to sweep. After some ten sweeps the maps explain the readings as well as the true map
+# does. No beam passes a wall that stands too near, so the cells behind this wall are drawn from the prior: half of them
+# are walls. When the near wall is removed, beams reach the walls behind it, which are then removed in turn.
 #
 # One map is one draw. The share of draws in which a cell is a wall is its posterior probability:
 
@@ -168,17 +178,17 @@ for ax in axes[:2]:
 show(figure, "posterior.png", "A draw of the posterior, the mean of a hundred, and its entropy: bright is uncertain.")
 
 # %% [markdown]
-# The inside of the room is free and its walls stand. Behind the walls the posterior is the prior, 0.5: no beam has
-# been there. A single best map could not say so.
+# The inside of the room is free, and the walls of the room are found. Behind the walls the posterior equals the prior,
+# 0.5, because no beam has been there. A single best map could not show this.
 #
 # ## Incremental edits
 #
-# To score the whole model twice for a change of one cell is wasteful. A trace can be *edited* instead: `edit` takes a
-# request, and returns the new trace and the change of its log probability. That change is all that Gibbs needs: keep
-# the flipped cell with probability 1 / (1 + exp(-change)).
+# Scoring the whole model twice for a change of one cell is wasteful. A trace can be *edited* instead: `edit` takes a
+# request, and returns the new trace and the change of its log probability. Gibbs sampling needs only this change, and
+# keeps the flipped cell with probability 1 / (1 + exp(-change)).
 #
-# There are two ways to ask. We can hand over a whole new map by `Update`, or say by `IndexRequest` which element of
-# the choice changes. They must agree, with each other and with `assess`.
+# Two requests can flip a cell. `Update` hands over a whole new map; `IndexRequest` names the one element that changes.
+# Both must give the same trace, and the score that `assess` gives.
 
 # %%
 
@@ -219,18 +229,19 @@ assert same
 assert np.isclose(by_index.get_score(), log_joint(by_index.get_choices()["walls"]), rtol=1e-5)
 
 # %% [markdown]
-# An edit by index visits one element of the prior, not 441. But it still computes all hundred beams, for the sensor
-# sees only that its argument `walls` has changed. It could do better: a cell concerns only the beams that cross it.
-# How many are those?
+# An edit by index visits one element of the prior instead of 441. The sensor still computes all hundred beams, since
+# the sensor learns only that its argument `walls` has changed. Yet a cell changes only those beams that cross the cell.
+# How many beams cross a cell?
 
 # %%
 crossing = np.isfinite(np.asarray(to_cells)).sum(axis=0)
 print(f"beams through a cell: {crossing.mean():.1f} on average, {np.median(crossing):.0f} at the median, of {N_BEAMS}")
 
 # %% [markdown]
-# bayesmap's own mapping model makes use of that. `bm.mapping_model` is a generative function like ours, but its sensor
-# answers an edit of one wall by visiting the beams through it ([mapping-model.md](../mapping-model.md)). The same
-# sweep of edits runs on it unchanged, and ends in a map that its own `assess`, ours and the edits score alike.
+# `bm.mapping_model` is a generative function like ours. After an edit of one cell, its sensor computes only the beams
+# that cross this cell ([mapping-model.md](../mapping-model.md)). Our sweep of edits runs on `bm.mapping_model`
+# unchanged. Three scores of the last map agree: the score that the edits keep up, the model's `assess`, and our
+# `assess`.
 
 # %%
 
@@ -265,10 +276,9 @@ assert np.isclose(by_fast_model, log_joint(fast_end.get_choices()["walls"]), rto
 # %% [markdown]
 # ## A better order
 #
-# Gibbs may visit the cells in any order. The order so far begins at a corner of the map. But we saw that free space
-# grows outwards from the robot: what lies in the shadow of a wall has to wait until the wall falls. If the sweep
-# itself goes outwards, then a wall falls first, and the cells that come to light behind it are drawn in the same
-# sweep.
+# Gibbs sampling may visit the cells in any order. So far, each sweep began at a corner of the map. But free space grows
+# outwards from the robot: a cell behind a wall can be found free only after this wall has been removed. A sweep that
+# goes outwards removes the wall first, and then draws the cells behind it in the same sweep.
 #
 # So we visit the robot's own cell, then the ring of four cells around it, then the next ring, and so on. A cell's ring
 # is its distance to the robot, counted in steps along x and along y.
@@ -299,9 +309,9 @@ for ax, walls in zip(axes, (chain[1], chain[3], radial_chain[1], radial_chain[3]
 show(figure, "orders.png", "The same random numbers in two orders, from an empty map. Outlined: the true walls.")
 
 # %% [markdown]
-# How much is gained? We count. The cells below the robot (y < 10) that both chains have emptied in the end are to be
-# cleared; a chain is done after the first sweep in which none of them is a wall. Two hundred chains for each order, by
-# edits of the fast model.
+# How many sweeps does the better order save? We look at the cells below the robot (y < 10) that a beam passes two
+# metres before its end. We count the sweeps until none of these cells is a wall, in two hundred chains for each order.
+# The chains use edits of the fast model.
 
 # %%
 N_CHAINS, MOST_SWEEPS = 200, 20
@@ -342,8 +352,8 @@ show(figure, "order.png", "Sweeps until the space below the robot is clear, by o
 # %% [markdown]
 # ## Where walls are rare
 #
-# A prior of 0.5 is not how buildings are. Say that walls are rare: 0.05. We start again from an empty map, with the
-# better order.
+# In real buildings fewer than half of the cells are walls. So let each cell be a wall with probability 0.05. We start
+# again from an empty map, with the better order.
 
 # %%
 RARE = 0.05
@@ -366,18 +376,18 @@ assert near
 assert log_joint(stuck, RARE) < log_joint(true_walls, RARE) - 10_000
 
 # %% [markdown]
-# The robot has walled itself in, and a hundred sweeps do not free it. In an empty map beams fly on to 42 m; the first
-# cells that the sweep visits can stop them, and to stop them too early is the lesser evil. Now those cells throw their
-# shadows over the map. To take one away alone sends its beams off to whatever stands behind; and behind, in the
-# shadow, cells are drawn from the prior. Where half of all cells are walls, something catches the beams. Where one in
-# twenty is, many fly on, which their readings forbid. The wall and what stands behind it depend on each other, and an
-# update of one cell can change only one of them.
+# The chain has put walls right beside the robot, and a hundred sweeps do not remove them. In an empty map every beam
+# reads 42 m. A wall that stops a beam too early explains the reading better than 42 m does, so the first cells of the
+# sweep become walls. Such a wall hides all cells behind it, and hidden cells follow the prior. If this wall is removed,
+# its beams travel on among the hidden cells. With a prior of 0.5, another wall soon stops each beam. With a prior of
+# 0.05, many beams travel too far, and their readings forbid that. So a near wall can be removed only if a wall behind
+# it appears at the same time. An update of one cell cannot make both changes.
 #
 # ## Block Gibbs
 #
-# So change cells together. Take a block of 2 x 2 cells: it has 16 states. Score the map with each, and draw one of
-# them. That can take a wall away and put another one behind it in a single step. A sweep visits all blocks, and
-# blocks may overlap.
+# The remedy is to change cells together. A block of 2 x 2 cells has 16 states. *Block Gibbs* scores the map with each
+# state, and draws one of the 16. One step can then remove a wall and put another one behind it. A sweep visits all
+# blocks, and blocks overlap.
 
 # %%
 BLOCKS = (np.arange(16)[:, None] >> np.arange(4) & 1).astype(bool).reshape(16, 2, 2)
@@ -414,9 +424,9 @@ show(figure, "blocks.png", "Walls are rare: single cells are stuck, blocks are n
 # %% [markdown]
 # Each sweep pushes the walls that stand too near outwards, until they match the readings.
 #
-# How large is the difference? Take the worst case, a wall in the robot's own cell, and compute the chance that one
-# update takes it away: fill the rest of the map, its shadow, from the prior, a thousand times, and average the
-# probability that the update leaves the robot's cell free.
+# How much easier does a block remove a wall? We take the worst case, a wall in the robot's own cell, which hides all
+# other cells. We draw the other cells from the prior, a thousand times. For each of these maps we compute the
+# probability that one update frees the robot's cell, and then average the thousand probabilities.
 
 # %%
 
@@ -444,10 +454,49 @@ assert chances[0] > 0.9
 assert chances[2] > 20 * chances[1]
 
 # %% [markdown]
-# The same model, the same readings: what differs is which cells change together.
+# Model and readings are the same for cell and block. Only the set of cells that change together differs.
 #
-# **Try it yourself**: [interactive.html](interactive.html), downloaded and opened in a browser, holds draws of this
-# posterior. In the live page, `bayesmap app`, set the prior to 0.05 and compare the methods *gibbs* and *block*.
+# **Try it yourself**: start the live page with `bayesmap app`, set the prior to 0.05, and compare the methods *gibbs*
+# and *block*.
 #
-# Next: [the same samplers as compiled kernels](kernels.md), on this map and on a building; or
-# [where is the robot?](localization.md), the opposite question.
+# ## Exercises
+#
+# **1.** A cell lies behind the walls, where no beam comes. Give its conditional probability of being a wall, for a
+# prior of 0.5 and for a prior of 0.05. Check your answer with `log_joint`.
+
+# %% Answer 1 tags=["hide-cell"]
+i, j = np.argwhere(unseen)[0]
+as_free, as_wall = true_walls.copy(), true_walls.copy()
+as_free[i, j], as_wall[i, j] = False, True
+for p_wall in (P_WALL, RARE):
+    change = float(log_joint(as_wall, p_wall) - log_joint(as_free, p_wall))
+    print(f"prior {p_wall}: the cell {int(i), int(j)} is a wall with probability {1 / (1 + np.exp(-change)):.3f}")
+    assert np.isclose(1 / (1 + np.exp(-change)), p_wall, atol=1e-3)
+print("No reading depends on the cell, so the probability is that of the prior.")
+
+# %% [markdown]
+# **2.** A block of 3 x 3 cells removes a near wall more easily still. How many maps does a sweep over all overlapping
+# 3 x 3 blocks score, and how many does a sweep over 2 x 2 blocks?
+
+# %% Answer 2 tags=["hide-cell"]
+maps_scored = {side: (21 - side + 1) ** 2 * 2 ** (side * side) for side in (2, 3)}
+print(f"2 x 2: 20 * 20 blocks of 2^4 states, {maps_scored[2]:,} maps")
+print(
+    f"3 x 3: 19 * 19 blocks of 2^9 states, {maps_scored[3]:,} maps, {maps_scored[3] / maps_scored[2]:.0f} times as many"
+)
+assert maps_scored == {2: len(BLOCKS) * 400, 3: 361 * 512}
+
+# %% [markdown]
+# **3.** A chain in the radial order needs fewer sweeps than a chain in the raster order. Does the posterior depend on
+# the order, too?
+#
+# <details><summary>Answer 3</summary>
+#
+# No. An update draws one cell from its conditional distribution. If the map is a draw from the posterior before the
+# update, the map is a draw from the posterior after the update. This holds for every cell, and so for any fixed
+# sequence of cells. The order changes only how many sweeps a chain needs until its start is forgotten.
+#
+# </details>
+#
+# Next: [the same samplers as compiled kernels](kernels.md), on this map and on a building; or [where is the
+# robot?](localization.md), the opposite question.

@@ -8,10 +8,19 @@
 # %% [markdown]
 # # The same samplers, compiled
 #
-# The [page before](gibbs.md) wrote Gibbs sampling as programs of `bayesmap.gen`. bayesmap has the same samplers as
-# compiled kernels, which are thousands of times faster; `bm.infer` runs them. Here we check that they sample the same
-# posterior, use their speed to count what the programs could only show, look at a quite different method, belief
-# propagation, and end with a building.
+# The [page before](gibbs.md) wrote Gibbs sampling as programs of `bayesmap.gen`. bayesmap has these samplers as
+# compiled kernels, too, which are thousands of times faster; `bm.infer` runs the kernels. First we check that programs
+# and kernels sample the same posterior. Then we use the speed of the kernels to measure how many sweeps a chain needs.
+# We compare Gibbs sampling with belief propagation, and end with a building.
+#
+# **After this page you will be able to**
+#
+# - check that two samplers draw from the same posterior;
+# - judge with R-hat whether chains from different starts have converged;
+# - say which answers belief propagation gives, and when these are too sure;
+# - map a building with `bm.infer`, and score the map on held-out beams.
+#
+# Reading time: about 20 minutes, without the exercises.
 #
 # Code that only draws a figure or checks what the text says is folded away. In lines that begin with `time:` measured
 # figures are rounded.
@@ -33,12 +42,12 @@ from bayesmap.viz.palette import CHAINS
 # %% [markdown]
 # ## The same posterior
 #
-# For every beam the kernels keep a list of the cells on its way, and for each the log-likelihood of the reading if that
-# cell is the first wall. To update a cell, they visit the beams that cross it and nothing else
-# ([beam-table.md](../beam-table.md)).
+# For every beam the kernels keep a list of the cells that the beam crosses. Beside each cell of the list stands the log
+# likelihood of the reading if that cell is the first wall. An update of a cell visits only the beams that cross the
+# cell ([beam-table.md](../beam-table.md)).
 #
-# The map, the robot and its sensor are those of the pages before. Here are four draws of the kernels' chains, scored by
-# the kernels and by the generative function `bm.mapping_model`.
+# The map, the robot and its sensor are those of the pages before. We score four draws from the kernels' chains twice:
+# by the kernels, and by the generative function `bm.mapping_model`.
 
 # %%
 MAX_RANGE_M = 42.0
@@ -58,8 +67,8 @@ print("log joint by the kernels:", np.round(run.log_joint[:, 0], 2))
 assert np.allclose(by_gen, run.log_joint[:, 0], atol=0.05)
 
 # %% [markdown]
-# So the two score alike. Do they sample alike? We let the program of the last page, a Gibbs sweep by edits of a trace,
-# run for a few thousand sweeps, and compare how often each cell is a wall.
+# The two scores agree. Do the draws agree, too? We run the program of the last page, Gibbs sampling by edits of a
+# trace, for a few thousand sweeps. Then we compare how often each cell is a wall.
 
 # %%
 N_SWEEPS = 4_000
@@ -107,11 +116,11 @@ show(figure, "agree.png", "Posterior probability of a wall, twice, and its entro
 # %% [markdown]
 # ## Where walls are rare, counted
 #
-# On the last page a chain that changes single cells was stuck where the prior of a wall was 0.05, and blocks were
-# not. One chain is an anecdote. We start chains from an empty map, from a map full of walls, and from prior draws, and
-# let each run. If they have converged, they agree. *R-hat* compares the spread between chains with the spread within
-# them: 1 means agreement, and over 1.05 is not to be trusted. It is computed here of the log joint, over the second
-# half of the first n sweeps.
+# On the last page walls had a prior probability of 0.05. A chain that changed single cells was stuck there, and a chain
+# that changed blocks was not. One chain proves little. So we start chains from an empty map, from a map full of walls,
+# and from draws of the prior. Converged chains agree, wherever they started. *R-hat* compares the spread between chains
+# with the spread within chains: 1 means agreement, and chains with an R-hat over 1.05 have not converged. Here R-hat is
+# that of the log joint, over the second half of the first n sweeps.
 
 # %%
 RARE = 0.05
@@ -161,14 +170,14 @@ axes[2].legend(frameon=False, fontsize=8)
 show(figure, "rare.png", "Prior 0.05. Twelve chains by single cells and by blocks, and R-hat of both. Dashed: 1.05.")
 
 # %% [markdown]
-# After a thousand sweeps over single cells the chains still disagree, by thousands of nats. Only after some thousand
-# more do they meet. One chain that is watched for a hundred sweeps is flat, and looks as if it had arrived. The chains
-# that start full of walls fare best: their first sweep, going outwards, carves free space until it meets the readings.
-# That is luck of the start, not a cure. Blocks agree within tens of sweeps, from wherever they start.
+# After a thousand sweeps over single cells the chains still disagree, by thousands of nats. They agree only after some
+# thousand sweeps more. A single chain hides this: over a hundred sweeps its log joint is flat, as if the chain had
+# converged. The chains that start full of walls do best, because their first sweep goes outwards and removes walls
+# until the readings are explained. This start happens to suit this map, and does not mend the sampler. Chains that
+# change blocks agree within tens of sweeps, from every start.
 #
-# How long does one chain take to arrive? Say that it has when its log joint is as high as all but the lowest
-# thousandth of the posterior's. And since a sweep over blocks costs more than one over cells, we give the ratio of
-# their times too.
+# How many sweeps does one chain need? We say that a chain has arrived when its log joint first exceeds the posterior's
+# 0.1 % quantile. A sweep over blocks costs more than a sweep over cells, so we also give the ratio of their times.
 
 # %%
 reference = bm.infer(**rare, method="block", schedule=bm.Schedule(chains=4, warmup=200, draws=3_000), seed=4)
@@ -194,11 +203,12 @@ assert np.median(arrived["gibbs"]) > 20 * np.median(arrived["block"])
 # %% [markdown]
 # ## Belief propagation
 #
-# Sampling is one road. Belief propagation is another: beams and cells exchange messages, "given what I have heard
-# from the others, this is what I think of you", until nobody changes its mind. It gives the probability of each cell
-# in a few rounds, and nothing else. These *marginals* are exact where no two beams share a cell, and approximate
-# otherwise. How good are they here? Block Gibbs, long converged, is the judge. Then we ask again with a worse sensor,
-# 0.5 m of noise, where the readings leave more open.
+# *Belief propagation* computes probabilities without sampling. Beams and cells send messages to each other. A message
+# from a beam to a cell says how probable this beam makes a wall in the cell. The beam computes the message from the
+# messages of its other cells. The rounds of messages end when the messages no longer change. The result is one
+# probability for each cell, its *marginal*. The marginals are exact if no two beams share a cell, and approximate
+# otherwise. We compare the marginals with converged chains of block Gibbs, first for our sensor, and then for a sensor
+# with 0.5 m of noise.
 
 # %%
 compared = []
@@ -234,18 +244,18 @@ for ax, (gibbs, belief) in zip(axes, compared, strict=True):
 show(figure, "beliefs.png", "Wall probability of each cell, by beliefs and by block Gibbs. On the line they agree.")
 
 # %% [markdown]
-# With the good sensor the marginals are right to about a percent. With the worse one, beliefs are too sure: the cells
-# off the line at the top of the figure are walls for certain, by beliefs, while the posterior leaves them open. Beams
-# that share cells pass for independent witnesses. And in both cases marginals are not maps. "The wall is here or
-# there" cannot be said cell by cell: whole maps drawn from the beliefs are less likely than the posterior's own draws
-# by thousands of nats.
+# With the good sensor the marginals are right to about a percent. With the worse sensor they are too sure. The cells
+# off the line at the top of the figure are certain walls by belief propagation, but the posterior leaves them open. The
+# reason is that belief propagation counts beams that share cells as independent evidence. With both sensors, marginals
+# say nothing about how cells depend on each other. "The wall is in this cell or in the next" cannot be said cell by
+# cell. So whole maps drawn from the marginals are thousands of nats less likely than draws from the posterior.
 #
-# So bayesmap uses belief propagation to start chains on large maps, and where marginals are all that is asked for.
+# bayesmap uses belief propagation to start chains on large maps, and where only marginals are needed.
 #
 # ## More than one place
 #
-# From the middle of the room some corners are not to be seen. Nothing in the model says that there is one pose only:
-# more poses are more beams. The noise is 0.5 m again.
+# From the middle of the room the robot cannot see some corners. The model allows more than one pose: more poses are
+# more beams. The noise is 0.5 m again.
 
 # %%
 stops = np.array([pose, [6.0, 9.0, 0.0], [13.0, 10.0, 0.0], [9.0, 5.0, 0.0], [9.0, 14.0, 0.0]])
@@ -275,11 +285,11 @@ show(figure, "poses.png", "The posterior and its entropy after a scan from one p
 # %% [markdown]
 # ## A building
 #
-# A robot's log is the same thing, only larger: thousands of beams, cells of 10 cm, and readings that no wall
-# explains, because people walk by and glass lets beams through. `bm.read_log` reads one; here we simulate a robot's
-# round through an office, so that there is a truth to compare with. The sensor model is a mixture with room for
-# outliers ([defaults.md](../defaults.md)). The chains start from belief propagation. Every tenth scan is held out,
-# and the posterior is asked to predict it.
+# A robot's log has thousands of beams, and its map has cells of 10 cm. Some readings fit no wall, because people walk
+# by and glass lets beams through. `bm.read_log` reads such a log. Here we simulate a robot's round through an office,
+# so that we can compare the map with the truth. The sensor model is a mixture that allows outliers
+# ([defaults.md](../defaults.md)). The chains start from belief propagation. Every tenth scan is held out, and we score
+# how well the posterior predicts these scans.
 
 # %%
 office = bm.worlds.building(seed=3, size_m=(14.0, 9.0), resolution=0.1)
@@ -323,10 +333,43 @@ viz.draw_entropy(axes[1], office.grid, mapped.occupancy, mapped.observed)
 show(figure, "building.png", "An office, with the robot's way. Outlined: the true walls. Hatched: no beam came there.")
 
 # %% [markdown]
-# The uncertain cells lie at the rims of what was seen. After 400 sweeps the mean map is known well enough. In single
-# cells the chains still disagree, and the summary counts them. For such a map beliefs predict the held-out beams about
-# as well as the chains, and sooner.
+# The uncertain cells lie at the edge of the observed area. After 400 sweeps the mean map is known to 0.03. In some
+# single cells the chains still disagree, and the summary counts these cells. For this map belief propagation predicts
+# the held-out beams about as well as the chains do, in a fraction of the time.
 #
+# ## Exercises
+#
+# **1.** Two chains of a thousand normal draws have standard deviation 1, and means that differ by d. Compute R-hat for
+# d = 0, 0.5, 1 and 2. From which of these differences on would you not trust the chains?
+
+# %% Answer 1 tags=["hide-cell"]
+noise = np.random.default_rng(0).normal(size=(2, 1_000))
+by_difference = {d: rhat(noise + np.array([[0.0], [d]])) for d in (0.0, 0.5, 1.0, 2.0)}
+for d, value in by_difference.items():
+    print(f"means that differ by {d}: R-hat {value:.3f}")
+print("At 0.5 standard deviations R-hat is just under 1.05; at 1 the chains have clearly not converged.")
+assert by_difference[0.0] < 1.01 < by_difference[0.5] < 1.05 < 1.1 < by_difference[1.0] < by_difference[2.0]
+
+# %% [markdown]
+# **2.** A wall stands in one of two cells, and both are equally probable. Give the marginals of the two cells. If maps
+# are drawn cell by cell from the marginals, which share of the maps has exactly one wall?
+
+# %% Answer 2 tags=["hide-cell"]
+by_cell = np.random.default_rng(1).random((10_000, 2)) < 0.5
+print(f"each marginal is 0.5; {(by_cell.sum(axis=1) == 1).mean():.2f} of the maps have exactly one wall")
+assert abs((by_cell.sum(axis=1) == 1).mean() - 0.5) < 0.03
+
+# %% [markdown]
+# **3.** We called a cell certain if its entropy is below 0.1 bits. Which probabilities of a wall does this mean?
+
+# %% Answer 3 tags=["hide-cell"]
+p = np.linspace(1e-4, 0.5, 5_000)
+bits = -p * np.log2(p) - (1 - p) * np.log2(1 - p)
+limit = p[bits < 0.1].max()
+print(f"below {limit:.3f}, or above {1 - limit:.3f}")
+assert np.isclose(limit, 0.013, atol=5e-4)
+
+# %% [markdown]
 # ## Where to go from here
 #
 # - [Where is the robot?](localization.md) The map is known, and the pose is not.

@@ -8,13 +8,22 @@
 # %% [markdown]
 # # Where is the robot?
 #
-# On the pages before, the robot knew where it stood and not where the walls were. Here it is the other way round: the
-# robot has a map of the room, wakes up somewhere in it, and measures a few distances. Where is it, and which way does
-# it look? This is *localization*.
+# On the pages before, the robot knew its place and did not know the walls. Here the robot knows the walls and does not
+# know its place. The robot wakes up somewhere in the room, and measures a few distances. Where is the robot, and in
+# which direction does it look? This question is called *localization*.
 #
 # The unknown is now a *pose*: x, y and the heading, three numbers instead of 441 cells. So the simplest method,
-# importance sampling, works if it is done with some care. Then the robot drives, and we follow it with a particle
-# filter; in the end we look back and ask where it has been.
+# importance sampling, works if we choose well from where we draw. Then the robot drives, and we follow its pose with a
+# particle filter. In the end we infer the whole way from all readings.
+#
+# **After this page you will be able to**
+#
+# - find a pose by importance sampling with a proposal, and compare proposals by their effective sample size;
+# - follow a moving robot with a particle filter: move, weigh, resample, rejuvenate;
+# - draw whole trajectories, given all readings, backwards through the particles;
+# - check such trajectories with Metropolis-Hastings on one trace.
+#
+# Reading time: about 30 minutes, without the exercises.
 #
 # The programs use `bayesmap.gen` as introduced on the [first page](mapping.md). Code that only draws a figure or checks
 # what the text says is folded away.
@@ -34,12 +43,12 @@ from bayesmap.viz.palette import CHAINS, SENSOR, TRUTH
 # %% [markdown]
 # ## The map and the sensor
 #
-# The map is that of the first page, and now it is known. So only the 54 cells that are walls matter: a beam reads the
-# distance to the nearest of them. The formula for one cell is that of the first page. The beams turn with the robot:
-# an angle of zero is straight ahead.
+# The map is that of the first page, and now this map is known. So only the 54 wall cells matter: the range of a beam is
+# the distance to the first of these cells. The formula for one cell is that of the first page. The beams turn with the
+# robot: an angle of zero is straight ahead.
 #
-# The sensor is as noisy as before, 0.2 m, but it has only six beams, 60 degrees apart. So one scan leaves something
-# open.
+# The noise of the sensor is 0.2 m, as before. But the sensor has only six beams, 60 degrees apart. So more than one
+# pose explains a scan.
 
 # %%
 SIGMA_M, N_BEAMS, MAX_RANGE_M = 0.2, 6, 42.0
@@ -75,7 +84,8 @@ assert np.allclose(ours, theirs, atol=1e-3)
 # %% [markdown]
 # ## The model
 #
-# The prior over poses: anywhere on the map, looking anywhere. The readings are a scan from there.
+# The prior of the pose is uniform: every place on the map and every heading is equally probable. The readings are a
+# scan from this pose.
 
 # %%
 LOW, HIGH = jnp.array([-0.5, -0.5, -jnp.pi]), jnp.array([20.5, 20.5, jnp.pi])
@@ -144,14 +154,14 @@ def effective_sample_size(log_weights):
 print(f"{N_PRIOR} poses from the prior: effective sample size {effective_sample_size(log_weights):.1f}")
 
 # %% [markdown]
-# On the first page a million maps were worth one. Here a hundred thousand poses are worth little more than one: nearly
-# all of them are at places that the readings rule out. But a pose is three numbers, and three numbers can be searched.
+# On the first page a million maps had an effective sample size of one. Here a hundred thousand poses have little more,
+# because the readings rule out nearly all of them. But a pose is three numbers, and three numbers can be searched.
 #
 # ## A grid of poses
 #
-# We can spread the effort evenly. Lay a grid over all poses: squares of 0.25 m, headings of 5 degrees. For each cell of
-# the grid fix the pose to its centre; `importance` then has nothing to draw, and its weight is the log joint of pose
-# and readings.
+# We lay a grid over all poses, with squares of 0.25 m and headings 5 degrees apart. For each cell of the grid, we fix
+# the pose to the cell's centre. Then `importance` has nothing to draw, and its log weight is the log joint of the pose
+# and the readings.
 
 # %%
 SIDE = jnp.array([0.25, 0.25, 2 * jnp.pi / 72])
@@ -172,13 +182,13 @@ print(f"{len(centres)} poses on a grid: effective sample size {effective_sample_
 print(f"the best is at {best[0]:.2f} m, {best[1]:.2f} m, {best[2]:.2f} rad")
 
 # %% [markdown]
-# Half a million poses, and a few of them have most of the weight: even this grid is coarse. A cell's centre may explain
-# the readings badly, although other poses in the cell explain them well.
+# A few of these half a million poses have most of the weight: even this grid is coarse. The centre of a cell may
+# explain the readings badly, although other poses in the cell explain them well.
 #
-# So we use the grid only to see where it pays to look. Draw a cell with a probability that falls off more slowly than
-# the posterior, and now and then any cell; draw a pose anywhere in it; and weigh the pose by its log joint minus the
-# log density with which it was proposed. That is importance sampling with a *proposal*. It is right however coarse the
-# grid is, since every pose can be proposed.
+# So the grid only tells us where to draw from. First we draw a cell. Its probability is a mixture: 90 % of a flattened
+# posterior of the centres, and 10 % of the uniform distribution over all cells. Then we draw a pose uniformly in this
+# cell. The log weight of the pose is its log joint minus the log density with which the pose was drawn. This is
+# importance sampling with a *proposal*. The result is right for a coarse grid, too, since every pose can be proposed.
 
 # %%
 
@@ -198,8 +208,8 @@ evidence = [jax.scipy.special.logsumexp(w) - jnp.log(len(w)) for w in (weights, 
 print(f"log p(readings), from the mean weight: {evidence[0]:.2f}, and {evidence[1]:.2f} with other random numbers")
 
 # %% [markdown]
-# Fewer than half as many poses as we drew from the prior, and they are worth more than a thousand times as many. Draw
-# from them by weight, and we have the posterior:
+# We drew fewer than half as many poses as from the prior. But their effective sample size is more than a thousand times
+# as large. Poses that are resampled by weight are draws from the posterior:
 
 # %%
 N = 2_000
@@ -242,15 +252,15 @@ for ax in axes:
 show(figure, "pose-posterior.png", "Where the robot may be after one scan. The arrow is where it is.")
 
 # %% [markdown]
-# Two places explain the scan, the wrong one even a little better, and the posterior says so. A method that returned a
-# single best pose would have had to guess.
+# Two places explain the scan, and the posterior shows both. The wrong place even explains the scan a little better, so
+# a method that returns a single best pose would be wrong here.
 #
 # ## The robot moves
 #
-# Now it turns on the spot, and then drives a bend. It knows what it told its wheels, a distance and a turn, but the
-# wheels slip: the new pose is normally distributed around the commanded one. After each move it measures again. A
-# generative function of one step takes the pose and the command, and returns the new pose; `scan` strings steps
-# together, so that each takes the pose at which the one before has ended.
+# Now the robot turns on the spot, and then drives along a bend. The robot knows the commands that it gave its wheels, a
+# distance and a turn. But the wheels slip: the new pose is normally distributed around the commanded pose. After each
+# move the robot measures again. The generative function `step` takes a pose and a command, and returns the new pose.
+# `step.scan()` repeats the step: each step begins at the pose at which the step before ended.
 
 # %%
 N_STEPS, SLIP = 15, jnp.array([0.1, 0.1, 0.05])
@@ -287,14 +297,15 @@ print(f"had it known where it began, its commands alone would put it {distance_m
 # %% [markdown]
 # ## A particle filter
 #
-# Keep two thousand poses, *particles*: at first the draws of the posterior after the first scan. In each step
+# A particle filter keeps two thousand poses, the *particles*. At first they are the draws from the posterior after the
+# first scan. Each step has three parts:
 #
-# 1. *move and weigh*: `importance` of `step` draws a new pose for each particle, and weighs it by how well it explains
-#    the new readings;
-# 2. *resample*: draw particles by weight, so that good ones are kept several times and bad ones are dropped;
-# 3. *rejuvenate*: copies are of no use, so let each wander a little, by Metropolis-Hastings: propose a pose nearby, and
-#    accept it with the probability that leaves the posterior as it is. `Rejuvenate` makes the proposal, and
-#    `metropolis_hastings` accepts or rejects the edited trace.
+# 1. *Move and weigh*: `importance` of `step` draws a new pose for each particle, and weighs the pose by how well it
+#    explains the new readings.
+# 2. *Resample*: draw particles by weight. Good particles are copied, and bad ones are dropped.
+# 3. *Rejuvenate*: two equal particles are worth no more than one, so each particle moves a little. Metropolis-Hastings
+#    proposes a pose nearby, and accepts this pose with the probability that leaves the posterior unchanged.
+#    `Rejuvenate` makes the proposal, and `metropolis_hastings` accepts or rejects the edited trace.
 
 # %%
 
@@ -355,10 +366,10 @@ show(
 )
 
 # %% [markdown]
-# One step, and the wrong place is ruled out: from there, the readings would have been others.
+# One step rules out the wrong place: the readings after the step do not fit there.
 #
-# What is rejuvenation good for? With two thousand particles not much is lost without it. With few it shows. We run the
-# filter a hundred times with ten particles, with and without the third part.
+# How much does rejuvenation help? With two thousand particles the results hardly change; with few particles they do. We
+# run the filter a hundred times with ten particles, with and without rejuvenation.
 
 # %%
 off_m = {}
@@ -377,12 +388,13 @@ assert late["with rejuvenation"] < 0.9 * late["without rejuvenation"]
 # %% [markdown]
 # ## Looking back: the whole trajectory
 #
-# A filter answers "where is the robot now?" with what it knows so far. When the drive is over, later readings also say
-# something about earlier poses: we want the *smoothed* trajectory, p(all poses | all readings).
+# A filter says where the robot is now, given the readings so far. But later readings also say something about earlier
+# poses. So after the drive we want the *smoothed* trajectory, p(all poses | all readings).
 #
-# Given the pose at step t + 1, the particles of step t are weighted by how likely the move from each of them to that
-# pose is: no reading after step t says more. So trajectories are drawn backwards, from the last step to the first
-# (Godsill, Doucet and West 2004). The density of a move is a part of `step`, its choice `"pose"`.
+# Trajectories are drawn backwards, from the last step to the first (Godsill, Doucet and West 2004). Suppose that the
+# pose at step t + 1 has been drawn. The weight of a particle of step t is then the density of the move from this
+# particle to the drawn pose. One particle is drawn by weight. No later reading is needed: given the pose at step
+# t + 1, later readings say nothing more about step t. The density of a move is that of the choice `"pose"` of `step`.
 
 # %%
 move = gen.mv_normal_diag
@@ -417,15 +429,14 @@ for name, mean in (("filtered", filtered.mean(axis=1)), ("smoothed", smoothed[:,
     print(f"{name}: {error:.3f} m off from step 4 on (root mean square); its own spread says {claimed:.3f} m")
 
 # %% [markdown]
-# The two places of the beginning were indistinguishable then; looking back, there is no doubt.
+# The first scan alone could not tell the two places apart. All scans together leave no doubt.
 #
 # ## The same by editing one trace
 #
-# Is the smoothed trajectory right? There is a quite different way to compute it. Take one trace of `journey`, the
-# whole trajectory with all readings, and run Metropolis-Hastings on it: change one pose at a time. A step of a
-# scanned function is edited by `IndexRequest(t, ...)`; the change touches the readings at t and the moves to t and
-# from t, and nothing else. The first pose is an argument of `journey` and not a choice, so we put it into a program
-# of its own.
+# Is the smoothed trajectory right? We check the trajectory with a quite different method. A trace of `journey` holds
+# the whole trajectory with all readings. Metropolis-Hastings on this trace changes one pose at a time. `IndexRequest(t,
+# ...)` edits step t. Such an edit recomputes only the readings at t, the move to t and the move from t. The first pose
+# is an argument of `journey` and not a choice. So the program `whole_drive` draws the first pose, too.
 
 # %%
 
@@ -497,12 +508,51 @@ for ax in axes:
     ax.plot(*dead_reckoning[:, :2].T, color=SENSOR, linewidth=1, linestyle="--", label="commands alone")
     ax.set(xlim=(2, 12), ylim=(5.5, 15.5))
 axes[1].legend(fontsize=8, loc="lower left")
-show(figure, "smoothed.png", "What the robot knew on its way, and what it knows of its way in the end.")
+show(figure, "smoothed.png", "Poses by the readings up to each step, and trajectories by all readings.")
 
 # %% [markdown]
-# Two programs that have only the model in common, particles drawn backwards and Metropolis-Hastings on one trace, agree
-# to a few centimetres. Where they begin makes a difference, though: chains that begin at the other place would stay
-# there for a long time, since a chain that changes one pose at a time cannot jump across the room. Particles
-# found the right place; that is their strength.
+# Particles drawn backwards and Metropolis-Hastings on one trace share only the model, and they agree to a few
+# centimetres. But the chains began near the truth. A chain that begins at the other place would stay there for a long
+# time: a change of one pose cannot move the whole trajectory across the room. The particle filter needed no such start
+# to find the right place.
 #
+# ## Exercises
+#
+# **1.** The six beams are 60 degrees apart. If the robot turns by 60 degrees on the spot, its readings are the same six
+# numbers. Why does the scan tell the robot its heading nevertheless?
+
+# %% Answer 1 tags=["hide-cell"]
+before, after = (
+    bm.ranges(true_walls, grid, np.array([8.0, 14.0, yaw]), np.asarray(ANGLES), max_range_m=MAX_RANGE_M)
+    for yaw in (2.0, 2.0 + np.pi / 3)
+)
+print("before the turn:", np.round(before, 1))
+print("after the turn: ", np.round(after, 1))
+print("The numbers are the same, but each comes from another beam, and the robot knows which beam gave which reading.")
+assert np.allclose(after, np.roll(before, -1), atol=1e-3)
+assert not np.allclose(after, before, atol=1.0)
+
+# %% [markdown]
+# **2.** A hundred thousand poses from the prior had an effective sample size of about 1.4, in three dimensions. Suppose
+# that each further dimension divides the effective sample size by the same factor as each of these three. How many
+# draws from the prior does a problem with six dimensions need for an effective sample size of 100?
+
+# %% Answer 2 tags=["hide-cell"]
+factor = (N_PRIOR / 1.4) ** (1 / 3)
+needed = 100 * factor**6
+print(f"each dimension divides by about {factor:.0f}: six dimensions need {needed:.0e} draws")
+assert 35 < factor < 50
+assert 1e11 < needed < 1e12
+
+# %% [markdown]
+# **3.** One of ten particles has the weight 0.1. With which probability does resampling drop this particle? And how
+# many of ten equally weighted particles are still there, on average, after one resampling?
+
+# %% Answer 3 tags=["hide-cell"]
+dropped = 0.9**10
+kept = np.mean([len(set(row)) for row in np.random.default_rng(0).integers(10, size=(2_000, 10))])
+print(f"dropped with probability 0.9^10 = {dropped:.2f}; {10 * (1 - dropped):.1f} of ten stay, {kept:.1f} in a trial")
+assert abs(kept - 10 * (1 - dropped)) < 0.1
+
+# %% [markdown]
 # Next: [neither is known](both.md), poses and walls in one model.

@@ -3,41 +3,47 @@
 #   jupytext:
 #     formats: py:percent
 # ---
-# ruff: noqa: D100
+# ruff: noqa: D100, E402
 
 # %% [markdown]
 # # Where are the walls?
 #
-# A robot stands in a room that it has never seen. It measures the distance to the nearest wall in a hundred
-# directions, with some noise. It knows where it stands. It wants to know two things: where the walls are, and how
-# sure it can be of each.
+# A robot stands in an unknown room. The robot knows its own place. Its laser measures the distance to the first wall in
+# a hundred directions, with some noise. Two questions follow: where are the walls, and how sure can the robot be of
+# each?
 #
-# On this page we write down a probabilistic model of this story, and then try the simplest way to infer the walls,
-# importance sampling. It fails, and we see why. The [next page](gibbs.md) does better.
+# On this page we write down a probabilistic model of this story: first in plain NumPy, then as a probabilistic program.
+# Then we try the simplest way to infer the walls, importance sampling. Importance sampling fails here, and we see why.
+# The [next page](gibbs.md) does better.
 #
-# Every number in the text is computed in a cell near it. Code that only draws a figure or checks what the text says is
-# folded away; click on its title to see it. In lines that begin with `time:` this page rounds measured figures to 1, 2
-# or 5 times a power of ten.
+# **After this page you will be able to**
+#
+# - write the likelihood of a laser scan in a few lines of NumPy;
+# - write a prior and a sensor as one generative function, and score maps with that function;
+# - weigh maps from the prior by how well they explain a scan, and compute the effective sample size of the weights;
+# - say why importance sampling does not find a map of 441 cells.
+#
+# Reading time: about 20 minutes, without the exercises.
+#
+# Every number in the text is computed in a cell nearby. Code that only draws a figure or checks the text is folded
+# away; click on the title of such a cell to see the code. In lines that begin with `time:` measured figures are rounded
+# to 1, 2 or 5 times a power of ten.
 #
 # The story follows a tutorial that was written for GenJAX; the code here runs on bayesmap alone. This page is made
-# from [`mapping.py`](mapping.py), which is a notebook (jupytext opens it) and a plain script.
+# from [`mapping.py`](mapping.py), which is a jupytext notebook and a plain script.
 
 # %%
-import jax
-import jax.numpy as jnp
-import jax.random as jrand
 import numpy as np
 from drawing import panels, show
 
 import bayesmap as bm
-from bayesmap import gen, viz
-from bayesmap.gen import ChoiceMapBuilder as C
+from bayesmap import viz
 
 # %% [markdown]
 # ## The map
 #
-# The world is a grid of 21 x 21 square cells, a metre wide. A cell is a wall or it is free. `walls[i, j]` is the cell
-# around the point (i, j): the first index runs along x, the second along y.
+# The world is a grid of 21 x 21 square cells, each a metre wide. A cell is either a wall or free. `walls[i, j]` is the
+# cell around the point (i, j): the first index runs along x, the second along y.
 
 # %%
 true_walls, pose = bm.worlds.tutorial()
@@ -52,22 +58,93 @@ viz.draw_sensor(ax, pose)
 show(figure, "map.png", "The true map. Dark cells are walls; the arrow is the robot.")
 
 # %% [markdown]
-# **Try it yourself.** [interactive.html](interactive.html) is this map as a page: download the file and open it in a
-# browser. It holds a thousand draws of the posterior that the next page computes; step through them, look at
-# their mean and at its uncertainty, and click a cell to see the beams through it. To draw walls of your own and
-# drag the robot about, while the posterior follows, start the live page with `bayesmap app` ([how it
-# works](../app.md)).
+# **Try it yourself.** [interactive.html](interactive.html) is this map as a page: download the file and open the file
+# in a browser. The page holds a thousand draws of the posterior that we compute on the next page. Step through the
+# draws, look at their mean and its uncertainty, and click a cell to see the beams through that cell. On the live page
+# you draw walls of your own and drag the robot about, while the posterior follows: start it with `bayesmap app` ([how
+# the page works](../app.md)).
 #
+# ## A beam and its likelihood, in NumPy
+#
+# A beam leaves the robot in some direction and stops at the first wall. The simplest program walks along the beam, a
+# centimetre a step, and looks whether each point lies in a wall. A beam that meets no wall reads 42 m.
+
+# %%
+N_BEAMS, MAX_RANGE_M = 100, 42.0
+angles_rad = np.arange(N_BEAMS) / N_BEAMS * 2 * np.pi
+
+
+def walked_range_m(walls, angle_rad):
+    """Return the distance to the first wall along a beam, in metres, to a centimetre."""
+    way_m = np.arange(0, MAX_RANGE_M, 0.01)
+    i = np.rint(pose[0] + way_m * np.cos(angle_rad)).astype(int)
+    j = np.rint(pose[1] + way_m * np.sin(angle_rad)).astype(int)
+    on_map = (i >= 0) & (i < 21) & (j >= 0) & (j < 21)
+    blocked = on_map & (walls[i.clip(0, 20), j.clip(0, 20)] != 0)
+    return way_m[blocked.argmax()] if blocked.any() else MAX_RANGE_M
+
+
+for k in (0, 25, 40):
+    print(f"beam {k}, at {np.degrees(angles_rad[k]):3.0f} degrees: {walked_range_m(true_walls, angles_rad[k]):5.2f} m")
+
+# %% [markdown]
+# A real reading is not exact. Ours is normally distributed around the exact range, with a standard deviation of 0.2 m.
+# The *likelihood* of a map is the probability density of the readings if that map is true. The hundred errors are
+# independent. So the log likelihood is a sum of a hundred normal log densities.
+
+# %%
+SIGMA_M = 0.2
+
+
+def log_likelihood(walls, readings_m):
+    """Return log p(readings | walls)."""
+    exact_m = np.array([walked_range_m(walls, angle_rad) for angle_rad in angles_rad])
+    return np.sum(-0.5 * ((readings_m - exact_m) / SIGMA_M) ** 2 - np.log(SIGMA_M * np.sqrt(2 * np.pi)))
+
+
+rng = np.random.default_rng(0)
+first_readings_m = np.array([walked_range_m(true_walls, angle_rad) for angle_rad in angles_rad])
+first_readings_m += SIGMA_M * rng.normal(size=N_BEAMS)
+one_wall_less = true_walls.copy()
+one_wall_less[12, 13] = False
+candidates = {"the true map": true_walls, "without the wall at (12, 13)": one_wall_less, "an empty map": 0 * true_walls}
+first_fits = {name: log_likelihood(walls, first_readings_m) for name, walls in candidates.items()}
+for name, fit in first_fits.items():
+    print(f"{name:28s}: log likelihood {fit:11.1f}")
+
+# %% tags=["hide-input"]
+assert list(first_fits.values()) == sorted(first_fits.values(), reverse=True)
+
+# %% [markdown]
+# The true map explains the readings best. Differences of log probabilities are called *nats* on these pages: a map
+# that is 10 nats better is exp(10), some twenty thousand times, as probable.
+#
+# This is the whole sensor. Inferring the walls takes the scores of many maps, and random choices that have names. For
+# that we use JAX, which compiles functions of arrays, and `bayesmap.gen`, in which a model is a program. Three tools of
+# JAX occur again and again:
+#
+# - `jax.jit` compiles a function.
+# - `jax.vmap` turns a function of one thing into a function of many: no loop over beams is needed.
+# - A *key* stands for a sequence of random numbers. The same key gives the same numbers, and `split` makes many keys
+#   from one.
+
+# %%
+import jax
+import jax.numpy as jnp
+import jax.random as jrand
+
+from bayesmap import gen
+from bayesmap.gen import ChoiceMapBuilder as C
+
+# %% [markdown]
 # ## The prior
 #
-# Before it measures, what does the robot believe? To begin with: nothing. Each cell is a wall with probability 0.5,
-# whatever its neighbours are.
+# The *prior* says how probable each map is before the first reading. Here the robot knows nothing: each cell is a wall
+# with probability 0.5, independently of all other cells.
 #
 # In `bayesmap.gen` a *generative function* is a program that makes random choices. `flip` makes one choice; `repeat`
-# makes many independent ones. To run the program is to `simulate` it. What comes back is a *trace*: the choices that
-# were made, the value returned, and the score, which is the log probability of those choices.
-#
-# Random numbers in JAX come from a *key*. The same key gives the same numbers, and `split` makes many keys from one.
+# makes many independent ones. The method `simulate` runs the program, and returns a *trace*: the choices that
+# were made, the value that the program returned, and the score. The score is the log probability of the choices.
 
 # %%
 P_WALL = 0.5
@@ -101,17 +178,15 @@ show(
 # %% [markdown]
 # ## The exact sensor
 #
-# A beam leaves the robot in some direction and stops at the first wall that it meets. So there are two questions, and
-# it pays to keep them apart. How far along the beam is each cell? That is geometry; it does not depend on the walls.
-# And which cell is the first wall? That is a minimum over the cells that are walls.
+# The walk in steps looks at the walls anew for each map. We can do better, since the range of a beam has two parts. The
+# first part is geometry: how far along the beam does each cell begin? That distance does not depend on the walls, so we
+# compute it once. The second part is a minimum: the range is the smallest of these distances among the wall cells.
 #
-# A cell is a square. A beam enters it through its later entry into the two strips that make the square, and leaves it
-# through its earlier exit. If the entry comes before the exit, the beam crosses the cell. A beam that meets no wall
-# reads 42 m.
+# A cell is a square, the intersection of a vertical and a horizontal strip. The beam is in the square while it is in
+# both strips. So the beam enters the square when it enters the second strip, and leaves the square when it leaves one
+# of them. If the entry comes after the exit, the beam misses the cell.
 
 # %%
-N_BEAMS, MAX_RANGE_M = 100, 42.0
-angles_rad = np.arange(N_BEAMS) / N_BEAMS * 2 * np.pi
 position = jnp.array(pose[:2], jnp.float32)
 centres = jnp.stack(jnp.meshgrid(jnp.arange(21.0), jnp.arange(21.0), indexing="ij"), axis=-1)
 
@@ -133,26 +208,26 @@ def exact_range(to_cells, walls):
 to_cells = jax.vmap(distances_to_cells, in_axes=(None, 0))(position, jnp.array(angles_rad))  # (100, 21, 21)
 exact = np.asarray(jax.vmap(exact_range, in_axes=(0, None))(to_cells, true_walls))
 print(f"nearest wall {exact.min():.2f} m; {(exact == MAX_RANGE_M).sum()} of the beams meet no wall")
+walked = np.array([walked_range_m(true_walls, angle_rad) for angle_rad in angles_rad])
+print(f"the walk in steps of a centimetre differs by {100 * np.abs(walked - exact).max():.1f} cm at most")
 
 # %% A check against the library's own ray casting tags=["hide-input"]
 library = bm.ranges(true_walls, grid, pose, angles_rad, max_range_m=MAX_RANGE_M)
 agree = np.allclose(exact, library, rtol=0, atol=1e-4)
 print(f"bm.ranges, which walks from cell to cell instead, agrees to 0.1 mm: {agree}")
 assert agree
+assert np.abs(walked - exact).max() < 0.0101
 
 # %% [markdown]
 # The room is open on its left side; the beams that leave there meet no wall.
 #
 # ## The noisy sensor
 #
-# A real reading is not exact. Ours is normally distributed around the exact range, with a standard deviation of 0.2
-# m. The generative function for one beam makes one choice, the reading; `@ ()` says that this choice is all there is,
-# so it needs no name of its own. `vmap` makes a scan of it, a beam for each angle.
+# The generative function for one beam makes one choice, the reading. `@ ()` says that the function makes no other
+# choice, so the reading needs no name. `vmap` makes a scan from the function: one beam for each angle.
+
 
 # %%
-SIGMA_M = 0.2
-
-
 @gen.gen
 def beam(to_cells, walls, sigma_m):
     """One noisy reading."""
@@ -180,8 +255,8 @@ show(figure, "readings.png", "Exact readings, noisy readings, and the noisy ones
 # %% [markdown]
 # ## The full model
 #
-# The prior makes the walls, the sensor makes the readings: that is the model. The two parts get addresses, `"walls"`
-# and `"readings"`, under which their choices can be found, fixed or changed.
+# The model is the prior, which makes the walls, and the sensor, which makes the readings. Each part gets an address:
+# `"walls"` and `"readings"`. Under its address a choice can be found, fixed or changed.
 
 # %%
 
@@ -199,8 +274,8 @@ trace = full_model.simulate(jrand.key(1), ARGS)
 print(trace)
 
 # %% [markdown]
-# A generative function does not only draw. It also *scores*: given all choices, `assess` returns their joint log
-# probability. Here is the true map with our readings, and a map without walls with the same readings.
+# A generative function also *scores*: given all choices, `assess` returns their joint log probability. We score the
+# true map with our readings, and an empty map with the same readings.
 
 # %%
 assess = jax.jit(full_model.assess)
@@ -215,24 +290,30 @@ def log_joint(walls, p_wall=P_WALL):
 print(f"log p(true map, readings)  = {log_joint(true_walls):12.1f}")
 print(f"log p(empty map, readings) = {log_joint(0 * true_walls):12.1f}")
 
-# %% The first number, worked out by hand tags=["hide-input"]
+# %% [markdown]
+# The NumPy functions from above say the same. They lack the prior, which gives every map 441 log(0.5), and they are
+# exact only to a centimetre a beam.
+
+# %%
+by_numpy = 441 * np.log(0.5) + log_likelihood(true_walls, np.asarray(readings))
+print(f"the first number by NumPy  = {by_numpy:12.1f}")
+
+# %% The first number, worked out by hand from the errors tags=["hide-input"]
 by_hand = 441 * np.log(0.5) + (-0.5 * (errors / SIGMA_M) ** 2 - np.log(SIGMA_M * np.sqrt(2 * np.pi))).sum()
-print(f"the first one by hand      = {by_hand:12.1f}")
+print(f"the first number by hand   = {by_hand:12.1f}")
 assert np.isclose(log_joint(true_walls), by_hand, atol=0.1)
+assert abs(by_numpy - by_hand) < 2.0
 
 # %% [markdown]
-# Differences of log probabilities are called *nats* on these pages: a map that is 10 nats better is exp(10), some
-# twenty thousand times, as probable.
-#
 # ## Importance sampling, and why it collapses
 #
-# What we want is the posterior: maps, given the readings. The plainest idea is to draw many maps from the prior and
-# to weigh each by how well it explains the readings. `importance` does that. It fixes the choices that we give it,
-# draws the others, and returns the log weight, here log p(readings | walls). Divided by their sum, the weights say
-# how much each map counts.
+# We want the posterior: the probability of each map, given the readings. The plainest method draws many maps from the
+# prior, and weighs each map by how well that map explains the readings. `importance` does this. The function fixes the
+# choices that we hand over, draws the others, and returns the log weight. Here the log weight is log p(readings |
+# walls). Divided by their sum, the weights say how much each map counts.
 #
-# The *effective sample size*, one over the sum of the squared weights, says how many equally weighted maps they are
-# worth. To *resample* is to draw from the maps, each with its weight as its probability.
+# The *effective sample size* is one over the sum of the squared weights. This number says how many equally weighted
+# maps the weighted maps are worth. *Resampling* draws from the maps, each with a probability equal to its weight.
 
 # %%
 N_PARTICLES = 10_000
@@ -255,8 +336,8 @@ print(f"the second-best map is {best - second:.0f} nats behind the best")
 assert len(set(resampled.tolist())) == 1
 
 # %% [markdown]
-# All hundred are the same map. Perhaps more maps help? bayesmap has compiled kernels that do the same work much
-# faster, so we can afford a hundred times as many. `bm.infer` is the door to all of them.
+# All hundred resampled maps are the same map. Would more maps help? The compiled kernels of bayesmap do this work much
+# faster, so we can afford a hundred times as many maps. `bm.infer` runs them.
 
 # %%
 problem = {"scans": scans, "grid": grid, "prior": bm.Independent(P_WALL), "sensor": bm.Gaussian(SIGMA_M)}
@@ -285,9 +366,9 @@ viz.draw_sensor(ax, pose)
 show(figure, "importance.png", "The map that has all the weight. Outlined: the true walls.")
 
 # %% [markdown]
-# A thousand times as many maps, and the answer is still one map, and a bad one. A map that explains the readings must
-# have its first wall right in a hundred directions at once. How often does the prior draw that? At the least, every
-# cell that the beams pass on their way must be free:
+# With a thousand times as many maps, one map still has all the weight, and that map is bad. A map that explains the
+# readings must have the first wall right in a hundred directions at once. How often does the prior draw such a map? At
+# the least, every cell that a beam passes before its wall must be free:
 
 # %%
 passed = np.asarray((to_cells < exact[:, None, None] - 1e-3).any(axis=0))
@@ -295,7 +376,48 @@ print(f"cells that a beam passes before its first wall: {passed.sum()}")
 print(f"the prior leaves them all free with probability 0.5^{passed.sum()} = 1e{np.log10(0.5) * passed.sum():.0f}")
 
 # %% [markdown]
-# No number of maps that a computer can draw is enough. Importance sampling is not useless, though: where the unknown
-# has three numbers instead of 441 cells, as on the page on [localization](localization.md), it works well.
+# No computer can draw enough maps. Importance sampling still has its use: the method works well where the unknown has
+# three numbers instead of 441 cells, as on the page on [localization](localization.md).
 #
+# ## Exercises
+#
+# **1.** The map without the wall at (12, 13) was 64 nats worse than the true map; six beams end at that wall. At
+# the wall at (17, 10) only three beams end. Compute how many nats the map loses without this wall, and explain the
+# difference.
+
+# %% Answer 1 tags=["hide-cell"]
+without = true_walls.copy()
+without[17, 10] = False
+loss = log_likelihood(true_walls, first_readings_m) - log_likelihood(without, first_readings_m)
+print(f"without the wall at (17, 10) the map is {loss:.0f} nats worse")
+print("Behind (12, 13) the six beams soon meet another wall, so their readings are wrong by little.")
+print("Behind (17, 10) there is none: three beams should then read 42 m instead of 6.5 m.")
+print(f"A normal error of 35.5 m costs (35.5 / 0.2)^2 / 2 = {(35.5 / SIGMA_M) ** 2 / 2:.0f} nats.")
+assert loss > 2 * (34.0 / SIGMA_M) ** 2 / 2
+
+# %% [markdown]
+# **2.** Three maps have the weights 1/2, 1/4 and 1/4. Compute their effective sample size. Compute also the effective
+# sample size of ten thousand maps, one of which has all the weight.
+
+# %% Answer 2 tags=["hide-cell"]
+of_three = 1 / np.sum(np.array([1 / 2, 1 / 4, 1 / 4]) ** 2)
+of_one = 1 / np.sum(np.eye(10_000)[0] ** 2)
+print(f"{of_three:.2f} of three maps, and {of_one:.0f} of ten thousand")
+assert np.isclose(of_three, 8 / 3)
+assert of_one == 1
+
+# %% [markdown]
+# **3.** Let walls be rare: each cell is a wall with probability 0.05. With which probability does a map from the prior
+# now leave all passed cells free? Does importance sampling find the walls with this prior?
+
+# %% Answer 3 tags=["hide-cell"]
+hits = np.where(true_walls, to_cells, np.inf).reshape(N_BEAMS, -1).argmin(axis=1)[exact < MAX_RANGE_M]
+n_hit = len(np.unique(hits))
+print(f"all {passed.sum()} passed cells are free with probability 0.95^{passed.sum()} = {0.95 ** passed.sum():.0e}")
+print(f"all {n_hit} cells at which beams end are walls with probability 0.05^{n_hit} = 1e{n_hit * np.log10(0.05):.0f}")
+print("So importance sampling fails with this prior too: now the walls are too rare to be guessed.")
+assert 0.95 ** passed.sum() > 1e-5
+assert n_hit * np.log10(0.05) < -40
+
+# %% [markdown]
 # Next: [Gibbs sampling](gibbs.md), which changes one cell at a time.

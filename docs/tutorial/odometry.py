@@ -8,12 +8,21 @@
 # %% [markdown]
 # # A building, from odometry to map
 #
-# On the page before, eight scans and a hundred cells were enough to see how poses and walls are inferred together. Here
-# a robot drives through a whole floor with nothing but its wheels and its laser. What comes out is a trajectory with
-# its uncertainty, a map, and answers to "where am I?" in that map.
+# On the page before, poses and walls were inferred together from eight scans. Here a robot drives through a whole floor
+# with its wheels and its laser. From the log of both we infer the trajectory with its uncertainty, and the map. Then we
+# find in this map the places at which other scans were taken.
 #
-# The programs of this page are compiled; what they compute is described in [poses.md](../poses.md) and
-# [localization.md](../localization.md). Code that only draws a figure or checks what the text says is folded away.
+# The programs of this page are compiled. [poses.md](../poses.md) and [localization.md](../localization.md) describe
+# their methods. Code that only draws a figure or checks what the text says is folded away.
+#
+# **After this page you will be able to**
+#
+# - infer a trajectory and a map from raw odometry and scans, with one call;
+# - check whether the covariances of the poses fit their errors;
+# - find the pose of the robot that you can trust least;
+# - find where a single scan was taken, and follow a robot through a known map.
+#
+# Reading time: about 15 minutes, without the exercises.
 
 # %%
 import numpy as np
@@ -27,11 +36,11 @@ from bayesmap.space.planar import between, compose, wrapped
 from bayesmap.viz.trajectory import AFTER, BEFORE, draw_ellipses
 
 # %% [markdown]
-# ## What the robot reports
+# ## The robot's log
 #
-# A simulated office, and a round through its rooms. The laser has 180 beams over half a circle and errs by a
-# centimetre. The wheels err as those of a real robot: reported ways are 3.5 % too long, a metre straight on turns the
-# reported heading by three degrees, and there is noise on top.
+# We simulate an office, and a robot's round through its rooms. The laser has 180 beams over half a circle, and noise of
+# one centimetre. The wheels have the errors of a real robot's wheels: reported distances are 3.5 % too long, each metre
+# straight ahead turns the reported heading by three degrees, and both have noise.
 
 # %%
 office = building(3, (16.0, 11.0))
@@ -46,12 +55,12 @@ print(f"{len(log)} scans on a way of {way_m:.0f} m through {len(office.rooms)} r
 
 
 def in_frame_of_first(poses):
-    """Poses as seen from the first."""
+    """Return the poses in the frame of the first pose."""
     return between(poses[0], poses)
 
 
 def off_m(poses, truth):
-    """How far each pose is from the truth, if both begin at the same pose, metres."""
+    """Return the distance of each pose from the truth, in metres, if both begin at the same pose."""
     return np.hypot(*(in_frame_of_first(poses) - in_frame_of_first(truth))[:, :2].T)
 
 
@@ -97,10 +106,11 @@ show(
 # %% [markdown]
 # ## The trajectory
 #
-# `bm.slam` takes the log as it is. It first looks for the trajectory: scans are matched to those before, places that
-# the robot came back to are recognised and closed to loops, and then every scan is aligned with all others that see the
-# same walls. Next to the poses it finds what is wrong with the wheels, and how sure each pose is. Then chains draw the
-# map, and with `fast=False` the poses too, under the same law of a reading as on all pages.
+# `bm.slam` takes the log as recorded. The trajectory comes first, in three steps. Each scan is matched to the scans
+# before. Places that the robot came back to are recognised, and close loops. Then every scan is aligned with all other
+# scans that see the same walls. Beside the poses, `bm.slam` estimates the errors of the wheels and the covariance of
+# each pose. Then chains draw the map. With `fast=False` they draw the poses, too, from the joint posterior of poses and
+# map.
 
 # %%
 stages = []
@@ -123,9 +133,9 @@ slope = found.calibration.odometry.slope
 print(f"the wheels report a metre as {1 / (1 + slope[0, 0]):.3f} m")
 
 # %% [markdown]
-# Is it as far off as it says? The error of each pose, seen from the first, divided by its covariance, is a squared
-# length that should be near 3 on average, since a pose has three numbers. And a 95 % region should hold the truth 19
-# times out of 20.
+# Are the errors as large as the covariances say? Take the error of each pose in the frame of the first pose. Its
+# squared Mahalanobis distance is the squared error, in units of the covariance. This number should be 3 on average,
+# because a pose has three components.
 
 # %%
 covariances = found.covariances()
@@ -153,14 +163,14 @@ draw_ellipses(axes[1], found.poses[some, :2], covariances[some, :2, :2], 20.0)
 show(
     figure,
     "odometry-trajectory.png",
-    "Regions are of positions as seen from the first: they grow with the way and shrink where the robot comes back.",
+    "95 % regions of positions in the frame of the first pose: they grow along the way and shrink at known places.",
 )
 
 # %% [markdown]
 # ## The map
 #
-# A cell's value is the chance that it stops a beam. Where glass, legs of chairs or the edges of things stop some beams
-# and let others pass, it lies between 0 and 1; where no beam came, there is nothing to say.
+# The value of a cell is the probability that the cell stops a beam. Glass, legs of chairs and edges of things stop some
+# beams and let others pass, so their cells have values between 0 and 1. Cells that no beam reached are not observed.
 
 # %%
 print(f"map of {run.grid.shape[0]} x {run.grid.shape[1]} cells, {run.observed.mean():.0%} of them seen")
@@ -186,10 +196,10 @@ for ax in axes:
 show(figure, "odometry-map.png", "The map, and the standard deviation of its draws: bright is uncertain.")
 
 # %% [markdown]
-# ## Where it is uncertain
+# ## Where map and poses are uncertain
 #
-# A draw of the posterior is a whole map with the poses that it was seen from. Where the robot has been once and looked
-# at little, draws differ; and so do the poses, most where the way back to a known place is long.
+# Each draw of the posterior holds a whole map and the poses of its scans. The draws differ in cells that few scans have
+# observed. The poses of the draws differ most where the way back to a known place is long.
 
 # %%
 worst = found.keys[int(np.argmax(sigma_mm[found.keys]))]
@@ -222,14 +232,14 @@ show(
 )
 
 # %% [markdown]
-# Each chain started from a draw of the approximation and stays near it: what the chains correct is the detail, and
-# [poses.md](../poses.md) says how far that goes.
+# Each chain started from a draw of the approximation, and stays near this draw. So the chains correct details only;
+# [poses.md](../poses.md) says how much.
 #
 # ## Where am I?
 #
-# The next day the robot is switched on somewhere in the building, and makes one scan: of 60 degrees only, since
-# something stands in the laser's way. `bm.localize` searches the whole map, and answers with all places that the scan
-# may have been taken at.
+# The next day the robot is switched on somewhere in the building, and takes one scan. The scan covers only 60 degrees,
+# because something stands in front of the laser. `bm.localize` searches the whole map, and returns all places at which
+# the scan may have been taken.
 
 # %%
 rng = np.random.default_rng(5)
@@ -257,10 +267,10 @@ for mode in alone[least].modes[:3]:
     print(f"  {mode.probability:.2f} at x = {x_m:.1f} m, y = {y_m:.1f} m, heading {yaw_rad:.1f} rad")
 
 # %% [markdown]
-# It is too sure of itself: so narrow a scan fits at many walls, and about a third of the right places are not among
-# those that the search lists ([localization.md](../localization.md)).
+# The stated probabilities are too high. So narrow a scan fits at many walls, and the search does not list about a third
+# of the right places ([localization.md](../localization.md)).
 #
-# With a few scans more, and the odometry between them, places that only look alike drop out.
+# A few more scans, with the odometry between them, rule out the places that only look alike.
 
 # %%
 way = np.arange(100, 112)
@@ -301,9 +311,44 @@ show(
 # %% [markdown]
 # ## With your own recording
 #
-# The same two steps from a shell, with pictures like these and files for other programs:
+# Two commands do these two steps in a shell. They also write pictures, and files for other programs:
 #
 #     bayesmap slam recording.bag -o runs/office
 #     bayesmap localize runs/office/run.nc today.bag -o today.tum
 #
-# What was measured on real recordings is in [poses.md](../poses.md) and [localization.md](../localization.md).
+# [poses.md](../poses.md) and [localization.md](../localization.md) give results on real recordings.
+#
+# ## Exercises
+#
+# **1.** A robot drives 5 m straight ahead, and its wheels have the errors of this page, without noise. How far from the
+# true end is the end that the wheels report?
+
+# %% Answer 1 tags=["hide-cell"]
+ahead_m = np.linspace(0.0, 5.0, 1001)
+heading_rad = np.radians(3.0) * ahead_m[:-1]
+reported = 1.035 * np.diff(ahead_m) @ np.stack([np.cos(heading_rad), np.sin(heading_rad)], axis=-1)
+print(f"the wheels report x = {reported[0]:.2f} m, y = {reported[1]:.2f} m instead of x = 5 m, y = 0 m")
+print(f"{np.hypot(reported[0] - 5.0, reported[1]):.2f} m off: most of the error comes from the heading")
+assert abs(reported[0] - 5.0) < 0.2 < 0.6 < reported[1] < 0.7
+
+# %% [markdown]
+# **2.** Suppose that all covariances are four times too small, so that each standard deviation is half as large as it
+# should be. By how much does the average of the squared Mahalanobis distances change? Check your answer with the errors
+# of this page.
+
+# %% Answer 2 tags=["hide-cell"]
+too_sure = np.einsum("si,sij,sj->s", error[1:], np.linalg.inv(relative[1:] / 4), error[1:])
+print(
+    f"the average is {too_sure.mean() / squares.mean():.0f} times as large; a right program would then give 12, not 3"
+)
+assert np.isclose(too_sure.mean(), 4 * squares.mean())
+
+# %% [markdown]
+# **3.** `bm.localize` stated a probability for the likeliest place of each narrow scan. How often is the place right if
+# the stated probability is over 0.9, and how often if the probability is lower?
+
+# %% Answer 3 tags=["hide-cell"]
+sure = np.array(said) > 0.9
+print(f"over 0.9: {np.array(right)[sure].mean():.0%} of {sure.sum()} places are right")
+print(f"lower:    {np.array(right)[~sure].mean():.0%} of {(~sure).sum()} places are right")
+assert np.array(right)[sure].mean() > np.array(right)[~sure].mean()

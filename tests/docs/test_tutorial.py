@@ -108,6 +108,50 @@ def test_what_two_pages_define_is_the_same_on_both():
     assert [name for name in first.keys() & second.keys() if first[name] != second[name]] == []
 
 
+def prose_of(name):
+    return "\n\n".join(cell.text for cell in render.cells(source_of(name)) if not cell.is_code)
+
+
+@every_page
+def test_a_page_begins_with_its_aims_and_a_reading_time(name):
+    """The time is that of 130 words and 15 lines of shown code a minute, and the first page of all names it, too."""
+    head = prose_of(name).split("\n## ")[0]
+    aims = re.search(r"\n\n\*\*After this page you will be able to\*\*\n\n(.*?)\n\n", head, re.DOTALL)[1]
+    assert 2 <= len(re.findall(r"^- ", aims, re.MULTILINE)) <= 4
+    shown = [cell.text for cell in render.cells(source_of(name)) if cell.is_code and not cell.folded]
+    estimate = len(prose_of(name).split()) / 130 + sum(text.count("\n") + 1 for text in shown) / 15
+    minutes = int(re.search(r"\n\nReading time: about (\d+) minutes", head)[1])
+    assert abs(minutes - estimate) < 5
+    contents = (TUTORIAL / "README.md").read_text(encoding="utf-8")
+    assert re.search(rf"\({name}\.md\)[^\]]* {minutes}\s+minutes\.", contents)
+
+
+@every_page
+def test_a_page_ends_with_exercises_whose_answers_are_folded_and_checked(name):
+    exercises = page_of(name).split("\n## Exercises\n")[1]
+    n = len(re.findall(r"^\*\*\d\.\*\* ", exercises, re.MULTILINE))
+    answers = re.findall(r"^<details><summary>Answer (\d)</summary>", exercises, re.MULTILINE)
+    assert 2 <= n <= 3
+    assert answers == [str(k) for k in range(1, n + 1)]
+    code = [cell.text for cell in render.cells(source_of(name)) if cell.whole]
+    assert code
+    assert [text for text in code if not re.search(r"^    assert|^assert", text, re.MULTILINE)] == []
+
+
+@every_page
+def test_no_sentence_begins_with_of_or_what(name):
+    captions = re.findall(r"^\*([^*\n]+)\*$", page_of(name), re.MULTILINE)
+    texts = [" ".join(part.split()) for part in (*prose_of(name).split("\n\n"), *captions)]
+    assert [text for text in texts if re.search(r"(^|[.:;?!] |[#*] )(Of|What)\b", text)] == []
+
+
+def test_the_first_page_has_the_beam_and_its_likelihood_before_jax():
+    before, jax, _ = source_of("mapping").partition("import jax\n")
+    assert jax
+    assert {"walked_range_m", "log_likelihood"} <= definitions(before).keys()
+    assert not re.search(r"\b(jnp|jrand|vmap|gen)\.", before)
+
+
 def test_measured_times_are_rounded():
     assert render.rounded("time: 123 sweeps, 0.0024 s, 8 ms") == "time: 100 sweeps, 0.002 s, 10 ms"
     assert render.rounded("time: 93456.7 sweeps") == "time: 100,000 sweeps"
