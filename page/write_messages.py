@@ -14,6 +14,7 @@ from typing import get_args
 from msgspec import inspect
 
 from bayesmap.app.exports import Recording
+from bayesmap.app.figures import Figure
 from bayesmap.app.protocol.actions import Action, AnyAction, Patch
 from bayesmap.app.protocol.document import Document
 from bayesmap.app.protocol.notices import AnyNotice
@@ -27,7 +28,7 @@ RENAMED = {"Document": "MapDocument"}
 def messages() -> str:
     """Return the text of the file."""
     found: dict[str, str] = {}
-    for kind in (Document, *get_args(AnyAction), *get_args(AnyNotice), Recording):
+    for kind in (Document, *get_args(AnyAction), *get_args(AnyNotice), Recording, Figure):
         declare(inspect.type_info(kind), found)
     unions = (union(name, get_args(kinds)) for name, kinds in (("Action", AnyAction), ("Notice", AnyNotice)))
     return "\n".join([HEAD, *found.values(), *unions])

@@ -1,14 +1,15 @@
 // bayesmap's page: draw walls, drag the robot, watch the posterior. One module, three homes: the page of `bayesmap
-// app` (WebSocket), the notebook widget (anywidget), and the static export (a recording inside the file).
+// app` (WebSocket), the notebook widget (anywidget), and a file (a recording, or a figure that samples in the page).
 
 import { DAMAGED, takeFragment } from "./fragment";
 import { mount, type Handle } from "./mount";
 import { keepToken, keptDocument, onToken } from "./state/kept";
+import { localTransport, readFigure } from "./transport/local";
 import { readRecording, recordedTransport } from "./transport/recorded";
 import { webSocketTransport } from "./transport/socket";
 import { widgetTransport, type Model } from "./transport/widget";
 
-export { mount, readRecording, recordedTransport, webSocketTransport, widgetTransport };
+export { localTransport, mount, readFigure, readRecording, recordedTransport, webSocketTransport, widgetTransport };
 
 const KEPT = "This is the map that was drawn here when the connection was lost; undo leads back";
 
@@ -46,6 +47,14 @@ async function start() {
   const recording = document.querySelector("script[data-recording]");
   if (recording) {
     play(host, await readRecording(recording.textContent ?? ""));
+    return;
+  }
+  const figure = document.querySelector("script[data-figure]");
+  if (figure) {
+    const [{ document: linked, damaged }, read] = await Promise.all([takeFragment(), readFigure(figure.textContent ?? "")]);
+    const notice = damaged ? ({ text: DAMAGED, level: "error" } as const) : null;
+    const handle: Handle = mount(host, localTransport(read), { adopt: linked, notice, play: replay(host, () => handle) });
+    expose(handle);
     return;
   }
   keepToken(new URLSearchParams(location.search).get("token"));

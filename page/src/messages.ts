@@ -229,7 +229,7 @@ export type ShowScan = {
 /** Ask for a file of the result or the document; answered by `download`. */
 export type Export = {
   type: "export";
-  what: "document" | "html" | "map" | "run";
+  what: "document" | "figure" | "html" | "map" | "run";
   seq?: number;
 };
 
@@ -319,6 +319,8 @@ export type Welcome = {
   limits: Limits | null;
   /** Whether the page plays a recording. */
   recorded: boolean;
+  /** Whether the page samples by itself, without a server. */
+  figure: boolean;
   /** Layers for which a recording has no numbers. */
   lacks: ("draw" | "entropy" | "mean" | "width")[];
 };
@@ -645,6 +647,30 @@ export type Recording = {
   draws: RecordedDraws;
   /** Log joint of each draw, one row per chain. */
   log_joint: number[][];
+};
+
+/** The limits by which chains and particles are judged. */
+export type Judging = {
+  rhat_limit: number;
+  good_rhat: number;
+  good_ess: number;
+  bad_ess: number;
+  /** Of chains that go on. */
+  fewest_sweeps: number;
+  fewest_diagnosed: number;
+  bad_difference: number;
+  /** Share of the cells in which means of chains may differ by more. */
+  chance_share: number;
+};
+
+/** The data of a figure that samples in the page: what a session without a server starts from. */
+export type Figure = {
+  version: 1;
+  document: MapDocument;
+  limits: Limits;
+  /** Prior of walls or free cells up to which method "auto" means blocks. */
+  rare_walls: number;
+  judging: Judging;
 };
 
 export type Action =

@@ -188,7 +188,7 @@ export function mount(element: HTMLElement, transport: Transport, { embedded = f
     else if (what === "share") {
       const whole = session.portableDocument();
       // without the token: who has it need not be told, and nobody else shall have it
-      if (whole) share.show(location.origin + location.pathname + (await toFragment(whole)));
+      if (whole) share.show(location.href.replace(/[?#].*/, "") + (await toFragment(whole)));
     } else if (what === "export png") {
       const blob = await picture(scene());
       if (blob) download("bayesmap.png", blob);

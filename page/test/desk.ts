@@ -87,7 +87,7 @@ export class Desk {
   /** The line is there: welcome, the state, and a picture. */
   connect() {
     this.transport.onstatus({ connected: true });
-    this.says("welcome", { limits: LIMITS, recorded: false, lacks: [] });
+    this.says("welcome", { limits: LIMITS, recorded: false, figure: false, lacks: [] });
     this.confirm();
     this.says("worker", { state: "ready" });
     this.view.fit(this.session.shape);

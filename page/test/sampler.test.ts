@@ -7,14 +7,15 @@ import { packBits, toBase64 } from "../src/geometry/bits";
 import type { MapDocument } from "../src/protocol";
 import { blockSweep, listBlocks } from "../src/sampler/blocks";
 import { Chain } from "../src/sampler/chain";
+import { rhatAndEss } from "../src/sampler/diagnostics";
 import { normalised, particleMap, weighParticles } from "../src/sampler/importance";
-import { mix, STREAM_PARTICLES, STREAM_SWEEPS } from "../src/sampler/random";
+import { mix, normal, STREAM_PARTICLES, STREAM_SWEEPS } from "../src/sampler/random";
 import { beamsOf, problemOf, rangesOf, sitesOf } from "../src/sampler/world";
 
 type World = {
   document: MapDocument; readings: number[]; exact: number[]; offsets: number[]; cells: number[]; loglik: number[]; no_hit: number[];
 };
-type Chains = World & { sites: number[]; draws: string[][]; log_likelihood: number[][]; log_prior: number[][] };
+type Chains = World & { sites: number[]; draws: string[][]; log_likelihood: number[][]; log_prior: number[][]; rhat: number | null; ess: number | null };
 type Particles = World & { log_weights: number[]; log_evidence: number; effective_sample_size: number; heaviest: string };
 
 const file = process.env.BAYESMAP_LIBRARY;
@@ -59,6 +60,10 @@ test("chains draw what the library's chains draw, cell by cell", (context) => {
       near(logs.map((log) => log.likelihood), world.log_likelihood[n], name, 1e-6);
       near(logs.map((log) => log.prior), world.log_prior[n], name);
     });
+    const joint = world.log_likelihood.map((row, n) => row.map((value, i) => value + world.log_prior[n][i]));
+    const found = rhatAndEss(joint);
+    if (found) near([found.rhat, found.ess], [world.rhat!, world.ess!], `R-hat and effective sample size of ${name}`, 1e-9);
+    else assert.equal(document.prior, 0, name); // a chain that cannot move has neither
   }
 });
 
@@ -75,4 +80,10 @@ test("particles have the library's weights and maps", (context) => {
     const heaviest = logWeights.indexOf(Math.max(...logWeights));
     assert.equal(toBase64(packBits(particleMap(made, key, heaviest))), world.heaviest);
   }
+});
+
+test("noise has mean 0 and variance 1, and as many large values as normal noise", () => {
+  const draws = Array.from({ length: 20000 }, (_, i) => normal(mix(5, 1, 11), 2 * i));
+  const moment = (power: number) => draws.reduce((sum, draw) => sum + draw ** power, 0) / draws.length;
+  near([moment(1), moment(2), moment(3), moment(4) / 3], [0, 1, 0, 1], "moment", 0.05);
 });

@@ -9,6 +9,7 @@ import bayesmap as bm
 from bayesmap.app.edits import tutorial_document
 from bayesmap.app.protocol.document import Sensor, packed
 from bayesmap.app.scene import simulated_scene
+from bayesmap.posterior.summary import bulk_ess, rhat
 from bayesmap.samplers.walls import WallBlocks, WallGibbs
 from bayesmap.samplers.without_chains import sample_importance
 
@@ -42,6 +43,8 @@ def chains_of(document):
         "draws": [[base64.b64encode(one.tobytes()).decode() for one in chain] for chain in draws],
         "log_likelihood": run.posterior.log_likelihood.tolist(),
         "log_prior": run.posterior.log_prior.tolist(),
+        "rhat": None if document.prior == 0 else rhat(run.log_joint),
+        "ess": None if document.prior == 0 else bulk_ess(run.log_joint),
     }
 
 

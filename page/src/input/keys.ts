@@ -8,8 +8,8 @@ import type { Editor } from "./editor";
 import { READING, type Hand, type Tool } from "./hand";
 import { pick, PICKING } from "./picking";
 
-/** Whom keys are for: where a map can be drawn, where the posterior can be asked, where there is something to infer. */
-export type KeysFor = "all" | "drawn" | "asked" | "inferred";
+/** Whom keys are for: where a map can be drawn, where the posterior can be asked, where edits can be undone, where there is something to infer. */
+export type KeysFor = "all" | "drawn" | "asked" | "edited" | "inferred";
 
 /** What keys do, for the help. */
 export const KEYS: readonly (readonly [string, string, KeysFor?])[] = [
@@ -24,7 +24,7 @@ export const KEYS: readonly (readonly [string, string, KeysFor?])[] = [
   ["R, Escape", "run, cancel", "inferred"],
   ["Escape", "take a path off the map", "asked"],
   ["M, N, H", "show the mean, a draw, the entropy or the width"],
-  ["Ctrl+Z, Ctrl+Y", "undo, redo", "asked"],
+  ["Ctrl+Z, Ctrl+Y", "undo, redo", "edited"],
   ["+, \u2212, 0", "zoom in, out, whole map"],
   ["?", "this help"],
 ];
@@ -148,7 +148,7 @@ export function pageKey(
     return;
   }
   if (typing || event.altKey) return;
-  if (TOOLS[letter] && (session.editable || (READING.has(TOOLS[letter]) && !session.recorded))) chosen.tool(TOOLS[letter]);
+  if (TOOLS[letter] && (READING.has(TOOLS[letter]) ? session.answers || (TOOLS[letter] === "pan" && session.editable) : session.editable)) chosen.tool(TOOLS[letter]);
   else if (LAYERS[letter]) chosen.layer(letter === "h" && session.quantity.interval ? "width" : LAYERS[letter]);
   else if (COMMANDS[event.key]) chosen.command(COMMANDS[event.key]);
   else if (letter === "r" && !session.recorded) session.act({ type: "run" });

@@ -17,6 +17,7 @@ const WALLS =
 const NUMBERS =
   "Shown is what the readings tell about how likely each cell is to stop a beam: what is expected (mean), one whole map that explains them (one draw), and how wide the 90 % interval is (width). The denser the hatch, the less probably a beam reaches the cell; where it is full, the prior is all there is.";
 const EDITED = "While you edit, the answer is belief propagation, which is approximate. Gibbs sampling follows, and is exact in the long run.";
+const FIGURE = "This page samples by itself: the answer is that of the chosen method after as many sweeps as are shown, and gets better as they go on.";
 const LOG = "The map is made from the scans of this log. Where its poses are raw odometry, Run first infers where the robot was; then it samples maps, and keeps them as draws.";
 const RUN = "This is a saved run: its draws, and what they say together.";
 const MOUSE = "Mouse: the wheel zooms, the middle button pans.";
@@ -36,7 +37,7 @@ export function helpDialog(ui: Ui) {
   ui.each(() => {
     const kind = session.document?.source.kind;
     const shown = session.quantity.interval ? NUMBERS : WALLS;
-    const texts = session.editable ? [`${DRAWN} ${shown}`, EDITED] : kind === "log" ? [shown, LOG] : kind === "run" ? [shown, RUN] : [shown];
+    const texts = session.editable ? [`${DRAWN} ${shown}`, session.figure ? FIGURE : EDITED] : kind === "log" ? [shown, LOG] : kind === "run" ? [shown, RUN] : [shown];
     if (texts.join() !== known) said.replaceChildren(...texts.map((text) => h("p", { textContent: text })));
     known = texts.join();
     put(mouse, "textContent", [MOUSE, ...(session.editable ? [MOUSE_DRAWS] : []), TOUCH].join(" "));
@@ -48,7 +49,8 @@ export function helpDialog(ui: Ui) {
 const KEYS_OF: Record<KeysFor, (session: Session) => boolean> = {
   all: () => true,
   drawn: (session) => session.editable,
-  asked: (session) => !session.recorded,
+  asked: (session) => session.answers,
+  edited: (session) => !session.recorded,
   inferred: (session) => !session.recorded && session.document?.source.kind !== "run",
 };
 
@@ -57,7 +59,12 @@ export function newDialog(ui: Ui) {
   const [width, height] = [size(), size()];
   for (const field of [width, height]) ui.bounded(field, "side");
   const world = h("select", {});
-  for (const [value, text] of WORLDS) world.append(h("option", { value, textContent: text }));
+  for (const [value, text] of WORLDS) {
+    const option = h("option", { value, textContent: text });
+    world.append(option);
+    if (value !== "blank") ui.each(() => put(option, "disabled", ui.session.figure)); // a figure has no other worlds
+  }
+  ui.each(() => ui.session.figure && put(world, "value", "blank"));
   world.addEventListener("change", () => {
     if (world.value === "building" && Number(width.value) < 60) [width.value, height.value] = ["120", "80"];
   });
@@ -78,6 +85,7 @@ export function newDialog(ui: Ui) {
 
 const OF_DRAWN =
   "The link holds the walls, the sensors and all settings after its #, and no token. It opens in this browser while the server runs; the part from # on can be put after the address of any bayesmap page.";
+const OF_FIGURE = "The link holds the walls, the sensors and all settings after its #. The part from # on can be put after the address of any bayesmap page.";
 const OF_FILE =
   "The link holds the file's name and all settings after its #, but no scans and no token. It opens in this browser while the server shows this file; the part from # on can be put after the address of any bayesmap page that shows it.";
 
@@ -96,7 +104,7 @@ export function shareDialog(ui: Ui) {
   };
   const button = ui.button(null, "Copy the link", copy, { className: "primary", text: "Copy" });
   const explained = h("p");
-  ui.each(() => put(explained, "textContent", ui.session.document?.source.kind === "simulation" ? OF_DRAWN : OF_FILE));
+  ui.each(() => put(explained, "textContent", ui.session.figure ? OF_FIGURE : ui.session.document?.source.kind === "simulation" ? OF_DRAWN : OF_FILE));
   const dialog = ui.dialog("Share", explained, h("div", { className: "buttons" }, link, button), copied);
   return {
     dialog,

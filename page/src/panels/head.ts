@@ -42,19 +42,22 @@ const hasRun = ({ shown, draws }: Session) => draws.count > 0 || /importance|pro
 
 function exportMenu(ui: Ui) {
   const { session } = ui;
-  const item = (label: string, value: string, onServer: boolean, when?: () => boolean, why?: string) => {
+  const item = (label: string, value: string, where: "all" | "document" | "server", when?: () => boolean, why?: string) => {
     const element = ui.button(null, label, () => ui.command(`export ${value}`), { text: label, when, why });
-    if (onServer) ui.visible(element, () => !session.recorded);
+    if (where !== "all") ui.visible(element, () => !session.recorded && (where === "document" || !session.figure));
     return element;
   };
+  const figure = item("Figure that samples by itself (HTML)", "figure", "server");
+  ui.visible(figure, () => session.editable && !session.figure);
   const menu = h(
     "div",
     { className: "menu", hidden: true },
-    item("Picture (PNG)", "png", false),
-    item("Saved run (netCDF)", "run", true, () => hasRun(session), "No draws are kept yet: Run keeps them"),
-    item("Map for robots (YAML and PGM)", "map", true),
-    item("Page in one file (HTML)", "html", true),
-    item("Document (JSON)", "document", true),
+    item("Picture (PNG)", "png", "all"),
+    item("Saved run (netCDF)", "run", "server", () => hasRun(session), "No draws are kept yet: Run keeps them"),
+    item("Map for robots (YAML and PGM)", "map", "server"),
+    item("Page in one file (HTML)", "html", "server"),
+    figure,
+    item("Document (JSON)", "document", "document"),
   );
   const toggle = ui.button("save", "Export", () => open(menu.hidden), { text: "Export", when: () => Boolean(session.document) });
   const open = (on: boolean) => {

@@ -20,7 +20,7 @@ type Entry = {
 };
 
 const simulated = ({ document }: Session) => !document || document.source.kind === "simulation";
-const asked = ({ recorded }: Session) => !recorded;
+const asked = ({ answers }: Session) => answers;
 /** Where strokes would be too small to tell apart, none are drawn. */
 const FAR = "surface (zoom in)";
 

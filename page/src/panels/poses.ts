@@ -26,6 +26,6 @@ export function posesPanel(ui: Ui) {
     put(remark, "textContent", raw ? "Run infers where the robot was." : "This method takes poses as known; Gibbs does not.");
   });
   const section = ui.section("Where the robot was", poses, ...uncertain, remark);
-  ui.visible(section, () => session.editable || (isLog() && !session.recorded));
+  ui.visible(section, () => (session.editable && !session.figure) || (isLog() && !session.recorded));
   return section;
 }

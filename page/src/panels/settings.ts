@@ -93,6 +93,8 @@ export function inferencePanel(ui: Ui) {
     ui.select("Order", ORDERS, () => session.document?.order ?? "radial", (order) => ui.set({ order }), () => method() === "gibbs" || method() === "auto", "Only Gibbs, cell by cell, has an order"),
     ui.select("Start", STARTS, () => session.document?.start ?? "auto", (start) => ui.set({ start }), isChain, "Only chains have a start"),
   ];
+  const options = Array.from((ofWalls[0].lastElementChild as HTMLSelectElement).children) as HTMLOptionElement[];
+  for (const option of options) if (option.value === "propagate") ui.visible(option, () => !session.figure); // which samples, and nothing else
   for (const element of ofWalls) ui.visible(element, isWalls); // other cells have one sampler
   const burnIn = ui.slider("burn_in", () => "Burn-in (%)", { step: 5, scale: 100 });
   ui.visible(burnIn, () => isChain() || !isWalls());

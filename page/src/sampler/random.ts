@@ -97,3 +97,12 @@ export function shuffled(i: number, size: number, bits: number, key: Word): numb
 
 /** Width in bits of the cipher that shuffles `size` elements. */
 export const cipherBits = (size: number) => Math.max(2, 32 - Math.clz32(size - 1));
+
+/** A standard normal number (Box and Muller, 1958); takes two counters. */
+export function normal(key: Word, counter: number): number {
+  const word = { high: 0, low: 0 };
+  randomBits(key, counter, word);
+  const u = toUniform(word);
+  randomBits(key, counter + 1, word);
+  return Math.sqrt(-2 * Math.log(u)) * Math.cos(2 * Math.PI * toUniform(word));
+}

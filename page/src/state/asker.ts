@@ -17,6 +17,8 @@ export interface Asker {
   readonly editable: boolean;
   /** Whether the page plays a recording. */
   readonly recorded: boolean;
+  /** Whether there is a server that answers questions about the posterior. */
+  readonly answers: boolean;
   readonly worker: string;
   act(action: Action): void;
   /** Is called after every change of what is shown. */

@@ -73,7 +73,7 @@ export class Decisions {
   ask() {
     const { session, start, goal, radius, risk } = this;
     const { shown } = session;
-    if (!shown || shown.generation !== session.generation || session.recorded) return;
+    if (!shown || shown.generation !== session.generation || !session.answers) return;
     const picture = `${shown.generation} ${session.sampling}`;
     const question = `${picture} ${JSON.stringify([start, goal, radius, risk])}`;
     if (start && goal && !shown.approximate && question !== this.askedPath) {

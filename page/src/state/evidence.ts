@@ -53,7 +53,7 @@ export class Evidence {
   ask() {
     const { session, cell } = this;
     const { shown } = session;
-    if (!this.held || !cell || !shown || shown.generation !== session.generation || session.recorded) return;
+    if (!this.held || !cell || !shown || shown.generation !== session.generation || !session.answers) return;
     const question = `${shown.generation} ${session.sampling} ${shown.approximate} ${cell.x} ${cell.y}`;
     if (question === this.asked) return;
     this.asked = question;

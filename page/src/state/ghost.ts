@@ -87,7 +87,7 @@ export class Ghost {
   ask() {
     const { session } = this;
     const { shown, scan } = session;
-    if (!this.held || session.recorded || !shown || shown.generation !== session.generation) return;
+    if (!this.held || !session.answers || !shown || shown.generation !== session.generation) return;
     // at first it stands where the scan on show was taken
     if (!this.pose && scan?.pose.length) this.pose = { x: scan.pose[0], y: scan.pose[1], yaw: scan.pose[2] };
     const { pose } = this;

@@ -41,6 +41,8 @@ export class Session {
   limits: Limits | null = null;
   /** Whether the page plays a recording. */
   recorded = false;
+  /** Whether the page samples by itself, without a server. */
+  figure = false;
   /** Layers for which a recording has no numbers. */
   lacks: Layer[] = [];
   /** The newest generation that was seen. */
@@ -86,6 +88,10 @@ export class Session {
   }
   get editable() {
     return !this.recorded && this.document?.source.kind === "simulation";
+  }
+  /** Whether there is a server that answers questions about the posterior. */
+  get answers() {
+    return !this.recorded && !this.figure;
   }
   get running() {
     return this.connection.connected && Boolean(this.state?.running);
@@ -219,6 +225,7 @@ export class Session {
         this.generation = this.reported = -1;
         this.limits = notice.limits;
         this.recorded = notice.recorded;
+        this.figure = notice.figure;
         this.lacks = notice.lacks;
         this.latency.forget();
         this.next = null;

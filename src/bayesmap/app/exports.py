@@ -5,12 +5,9 @@ The page in one file holds the page's module and the result as a recording, and 
 
 from __future__ import annotations
 
-import base64
 import io
 import tempfile
 import zipfile
-import zlib
-from importlib import resources
 from pathlib import Path
 from typing import Any, Literal
 
@@ -19,6 +16,7 @@ from msgspec import Struct, structs
 from numpy.typing import NDArray
 
 from bayesmap.app.display import field_of, levels, overlay_of
+from bayesmap.app.figures import one_file
 from bayesmap.app.protocol.actions import Export
 from bayesmap.app.protocol.document import Document
 from bayesmap.app.protocol.notices import Download, DrawCount, Field, Status, View
@@ -59,37 +57,6 @@ class Recording(Struct, frozen=True, kw_only=True):
     log_joint: list[list[float]]  # log joint of each draw, one row per chain
 
 
-PAGE = """<!doctype html>
-<html lang="en">
-<head>
-<meta charset="utf-8">
-<meta name="viewport" content="width=device-width, initial-scale=1">
-<meta name="color-scheme" content="light dark">
-<title>bayesmap</title>
-<link rel="icon" href="data:,">
-</head>
-<body>
-<div data-bayesmap></div>
-<noscript>This page needs JavaScript.</noscript>
-<script type="application/octet-stream" data-recording>{recording}</script>
-<script type="application/octet-stream" data-module>{module}</script>
-<script type="module">
-const packed = atob(document.querySelector("script[data-module]").textContent);
-const bytes = Uint8Array.from(packed, (character) => character.charCodeAt(0));
-const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate-raw"));
-const text = await new Response(stream).text();
-await import(URL.createObjectURL(new Blob([text], {{ type: "text/javascript" }})));
-</script>
-</body>
-</html>
-"""
-
-
-def static(name: str) -> str:
-    """Return the text of one of the page's static files."""
-    return resources.files("bayesmap.app").joinpath("static", name).read_text(encoding="utf-8")
-
-
 def exported(question: Export, result: Result | None, client: int) -> Report:
     """Return a report with a file of the result, or with the reason why there is none."""
     try:
@@ -125,7 +92,7 @@ def to_html(result: Result) -> str:
     """Return a page in one file that shows a result. It can be opened from a disk and loads nothing else."""
     recording = frame(*record(result))
     assert isinstance(recording, bytes)
-    return PAGE.format(recording=_packed(recording), module=_packed(static("mapview.js").encode()))
+    return one_file("recording", recording)
 
 
 def record(result: Result) -> tuple[Recording, Buffers]:
@@ -185,9 +152,3 @@ def _share(result: Result) -> str:
 def evenly(count: int, most: int) -> NDArray[np.intp]:
     """Return at most `most` indices below `count`, evenly chosen, but at least one."""
     return np.unique(np.linspace(0, count - 1, max(1, min(count, most))).round().astype(np.intp))
-
-
-def _packed(data: bytes) -> str:
-    """Compress by raw deflate, which the browser's DecompressionStream reads, and return base64."""
-    packer = zlib.compressobj(9, zlib.DEFLATED, -15)  # the best compression, and no header around the data
-    return base64.b64encode(packer.compress(data) + packer.flush()).decode()

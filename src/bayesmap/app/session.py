@@ -13,6 +13,7 @@ from typing import Literal, get_args
 import msgspec
 
 from bayesmap.app.edits import From, History, Pace, adopted, edit, gesture_of
+from bayesmap.app.figures import to_figure
 from bayesmap.app.protocol import actions, notices, tasks
 from bayesmap.app.protocol.document import VERSION, Document, Refused, plain
 from bayesmap.app.protocol.wire import parse_document
@@ -150,6 +151,9 @@ class Session:
             case actions.Export(what="document"):
                 data = msgspec.json.format(msgspec.json.encode(self.document, enc_hook=plain), indent=1) + b"\n"
                 return [ToPage(notices.Download("document.json", "application/json"), {"data": data}, client)]
+            case actions.Export(what="figure"):
+                download = notices.Download("figure.html", "text/html", "which samples by itself")
+                return [ToPage(download, {"data": to_figure(self.document).encode()}, client)]
             case actions.Export():
                 return [tasks.Ask(client, action), *self._states()]
             case _:

@@ -11,7 +11,8 @@ from pathlib import Path
 from typing import Any
 
 from bayesmap.app.edits import tutorial_document
-from bayesmap.app.exports import static, to_html
+from bayesmap.app.exports import to_html
+from bayesmap.app.figures import static
 from bayesmap.app.protocol.document import Refused
 from bayesmap.app.protocol.notices import AnyNotice
 from bayesmap.app.protocol.tasks import Buffers, Report, Unusable

@@ -2,12 +2,19 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import click
 
 from bayesmap.cli.command import Call, command
 from bayesmap.cli.console import write_out
 from bayesmap.cli.keys import AppSettings
 from bayesmap.cli.translation import LOG, need_file, reading_of
+from bayesmap.errors import BadInput
+from bayesmap.files import need_ending, write_whole
+
+if TYPE_CHECKING:
+    from bayesmap.app.protocol.document import Document
 
 
 @command("app")
@@ -15,8 +22,11 @@ from bayesmap.cli.translation import LOG, need_file, reading_of
 @click.option("--host", default="127.0.0.1", show_default=True, help="Address to listen on.")
 @click.option("--port", type=click.IntRange(0, 65535), default=0, help="Port to listen on. [default: any free one]")
 @click.option("--no-browser", is_flag=True, help="Only print the address.")
+@click.option("--export", metavar="FILE.html", help="Write a page that samples by itself, and start no server.")
 @click.option("--seed", type=click.IntRange(0, 2**31 - 1), default=0, show_default=True, help="Seed of random numbers.")
-def app(call: Call[AppSettings], file: str | None, host: str, port: int, no_browser: bool, seed: int) -> None:
+def app(
+    call: Call[AppSettings], file: str | None, host: str, port: int, no_browser: bool, export: str | None, seed: int
+) -> None:  # fmt: skip
     r"""Draw walls, drag the robot, and watch the posterior live in the browser.
 
     The page starts with the tutorial's map, or with a document that the page has exported. With a saved run (.nc) it
@@ -24,11 +34,15 @@ def app(call: Call[AppSettings], file: str | None, host: str, port: int, no_brow
     page when it is ready; Ctrl-C ends the server, with exit code 0. The page loads nothing from the network, and opens
     only with the token in the address.
 
+    With --export it writes one file with the drawn world, in which a reader draws walls, drags the robot and changes
+    every setting, and the posterior follows: the samplers run in the reader's browser, without a server.
+
     \b
     bayesmap app
     bayesmap app runs/office/run.nc --no-browser --port 8000
     bayesmap app office.log.gz --skip-bad-lines
     bayesmap app document.json
+    bayesmap app document.json --export figure.html
     """
     reading = reading_of(call.settings())
     if file is not None:
@@ -41,6 +55,15 @@ def app(call: Call[AppSettings], file: str | None, host: str, port: int, no_brow
     first = tutorial_document(seed)
     if file is not None and file.endswith(".json"):
         first, file = read_document(file), None
+
+    if export is not None:
+        if file is not None:
+            raise BadInput(
+                f"--export: {file} is no drawn world; open it with bayesmap app, and choose Export there, "
+                "which writes a page with its draws"
+            )
+        _export(call, first, export)
+        return
 
     call.console.say("starting the worker ..." if file is None else f"opening {file} ...")
 
@@ -56,3 +79,14 @@ def app(call: Call[AppSettings], file: str | None, host: str, port: int, no_brow
             webbrowser.open(address)
 
     serve(first, path=file, reading=reading, host=host, port=port, on_ready=ready)
+
+
+def _export(call: Call[AppSettings], document: Document, file: str) -> None:
+    """Write a figure that samples by itself."""
+    from bayesmap.app.figures import to_figure
+
+    target, _ = need_ending(file, ("html",), "--export")
+    page = to_figure(document).encode()
+    with write_whole(target) as partial:
+        partial.write_bytes(page)
+    call.console.result({"path": str(target), "bytes": len(page)}, [target])

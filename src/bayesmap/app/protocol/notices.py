@@ -58,6 +58,7 @@ class Welcome(Notice, frozen=True, tag="welcome"):
     version: int  # version of the document's format
     limits: Limits | None  # limits of the settings; null for a recording, which has no settings to change
     recorded: bool = False  # whether the page plays a recording
+    figure: bool = False  # whether the page samples by itself, without a server
     lacks: list[Layer] = []  # layers for which a recording has no numbers
 
 

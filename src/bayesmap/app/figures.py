@@ -1,0 +1,103 @@
+"""Pages in one file: their frame, and the figure that samples in the page, without a server (docs/app.md)."""
+
+from __future__ import annotations
+
+import base64
+import zlib
+from importlib import resources
+from typing import Literal
+
+import msgspec
+from msgspec import Struct
+
+from bayesmap.app.protocol.document import RARE_WALLS, Document, Refused, plain
+from bayesmap.app.protocol.notices import LIMITS, Limits
+from bayesmap.app.shown.result import (
+    BAD_DIFFERENCE,
+    BAD_ESS,
+    FEWEST_DIAGNOSED,
+    FEWEST_SWEEPS,
+    GOOD_ESS,
+    GOOD_RHAT,
+)
+from bayesmap.posterior.summary import CHANCE_SHARE, RHAT_LIMIT
+
+
+class Judging(Struct, frozen=True):
+    """The limits by which chains and particles are judged."""
+
+    rhat_limit: float = RHAT_LIMIT
+    good_rhat: float = GOOD_RHAT
+    good_ess: float = GOOD_ESS
+    bad_ess: float = BAD_ESS
+    fewest_sweeps: int = FEWEST_SWEEPS  # of chains that go on
+    fewest_diagnosed: int = FEWEST_DIAGNOSED
+    bad_difference: float = BAD_DIFFERENCE
+    chance_share: float = CHANCE_SHARE  # share of the cells in which means of chains may differ by more
+
+
+class Figure(Struct, frozen=True, kw_only=True):
+    """The data of a figure that samples in the page: what a session without a server starts from."""
+
+    version: Literal[1] = 1
+    document: Document
+    limits: Limits = LIMITS
+    rare_walls: float = RARE_WALLS  # prior of walls or free cells up to which method "auto" means blocks
+    judging: Judging = Judging()
+
+
+PAGE = """<!doctype html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<meta name="color-scheme" content="light dark">
+<title>bayesmap</title>
+<link rel="icon" href="data:,">
+</head>
+<body>
+<div data-bayesmap></div>
+<noscript>This page needs JavaScript.</noscript>
+<script type="application/octet-stream" data-{kind}>{data}</script>
+<script type="application/octet-stream" data-module>{module}</script>
+<script type="module">
+const packed = atob(document.querySelector("script[data-module]").textContent);
+const bytes = Uint8Array.from(packed, (character) => character.charCodeAt(0));
+const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate-raw"));
+const text = await new Response(stream).text();
+await import(URL.createObjectURL(new Blob([text], {{ type: "text/javascript" }})));
+</script>
+</body>
+</html>
+"""
+
+
+def static(name: str) -> str:
+    """Return the text of one of the page's static files."""
+    return resources.files("bayesmap.app").joinpath("static", name).read_text(encoding="utf-8")
+
+
+def one_file(kind: Literal["recording", "figure"], data: bytes) -> str:
+    """Return a page in one file, with the page's module and its data. It loads nothing else."""
+    return PAGE.format(kind=kind, data=_packed(data), module=_packed(static("mapview.js").encode()))
+
+
+def to_figure(document: Document) -> str:
+    """Return a page in one file in which a drawn world can be edited and is sampled, without a server.
+
+    Raises:
+        Refused: the document shows a file, has uncertain poses, or asks for belief propagation.
+    """
+    if not document.simulated:
+        raise Refused(f"{document.source.name} is a file, and a figure shows a drawn world", "begin a new map")
+    if document.pose_sigma > 0 or document.heading_sigma > 0:
+        raise Refused("a figure samples maps from known poses alone", "set the uncertainty of the poses to 0")
+    if document.method == "propagate":
+        raise Refused("a figure has no belief propagation", "choose another method")
+    return one_file("figure", msgspec.json.encode(Figure(document=document), enc_hook=plain))
+
+
+def _packed(data: bytes) -> str:
+    """Compress by raw deflate, which the browser's DecompressionStream reads, and return base64."""
+    packer = zlib.compressobj(9, zlib.DEFLATED, -15)  # the best compression, and no header around the data
+    return base64.b64encode(packer.compress(data) + packer.flush()).decode()
