@@ -21,13 +21,14 @@ from bayesmap.cells.kind import CellPrior
 from bayesmap.cells.surface import Surface
 from bayesmap.errors import BadInput, check_count, near_names
 from bayesmap.model import Model
-from bayesmap.poses.map_scans import SAMPLED, for_map, key_scans
-from bayesmap.poses.prior import KnownPoses, PosePrior
+from bayesmap.poses.map_scans import SAMPLED, for_map, key_scans, keys_by_odometry
+from bayesmap.poses.prior import KnownPoses, PosePrior, UncertainPoses
 from bayesmap.posterior.posterior import Posterior, chains_of, posterior_of_chains, posterior_of_draws
 from bayesmap.result import Run
 from bayesmap.run.chains import FIRST_MARK, Chains, SweepPlan
-from bayesmap.run.checks import RANDOM_STREAMS, check_memory, check_same, fingerprint
-from bayesmap.run.runner import Executor, Job, ThreadExecutor, first_map, stop_on_interrupt
+from bayesmap.run.checks import RANDOM_STREAMS, check_same, fingerprint
+from bayesmap.run.cost import TOUCHED_SHARE, Estimate, Sampling, estimate, size_of
+from bayesmap.run.runner import Job, ThreadExecutor, first_map, stop_on_interrupt
 from bayesmap.samplers.fit import PILOT_SWEEPS, Parameters, first_sensor, fit, fit_coupling_to_scans, fit_sensor
 from bayesmap.samplers.methods import (
     PARTICLES,
@@ -173,7 +174,8 @@ class Inference:
         """Fit sensor and prior, sample the posterior, and return the run."""
         began = time.perf_counter()
         executor = ThreadExecutor() if self.where.executor is None else self.where.executor
-        self._check_memory(executor)
+        if not self.where.any_size and (foreseen := self.estimate()) is not None:
+            foreseen.refuse(self.model.scans)
         # The settings hold everything that determines the draws. A stopped run must have the same arguments.
         settings = self._settings()
         stopped = self._stopped(checkpoints.resume, settings)
@@ -241,11 +243,24 @@ class Inference:
         """Return the name of the sampler that implements the method for this kind of cells."""
         return self.model.cells.methods[self.name]
 
-    def _check_memory(self, executor: Executor) -> None:
-        """Refuse a map if its chains over hits would not fit into memory."""
-        if self.kernel == "stop-gibbs" and self.where.device == "cpu":
-            here = self.request.chains if isinstance(executor, ThreadExecutor) else 1  # elsewhere: the pilot alone
-            check_memory(self.model.grid, self.model.scans, self.model.cells.has_surfaces, here)
+    def estimate(self, log: Scans | None = None) -> Estimate | None:
+        """Estimate time and memory; None on a GPU, and for samplers of unknown cost.
+
+        ``log`` holds the scans whose trajectory `slam` infers first; their poses, and so the grid, may be far off.
+        """
+        if self.where.device != "cpu":
+            return None
+        here = self.where.executor is None or isinstance(self.where.executor, ThreadExecutor)
+        sampling = Sampling(
+            self.kernel, self.model.arrays, self.model.cells.has_surfaces, self.request.chains if here else 1,
+            self.plan, self.is_fitted, self.model.poses.unknown, self._threads_used(),
+        )  # fmt: skip
+        size = size_of(self.model.scans, self.model.grid, log)
+        if log is not None:
+            size = replace(size, cells=min(size.cells, size.touched / TOUCHED_SHARE))
+        found = estimate(self.model.scans if log is None else log, self.model.grid, size, sampling)
+        # The pilot alone runs here, the chains elsewhere: their time is not known.
+        return found if here or found is None else replace(found, processor_s=None)
 
     def _sampler(self, warmup: int) -> Sampler[Any, Any]:
         """Return the sampler of the chains."""
@@ -397,6 +412,12 @@ def slam(
         if on_progress is not None:
             on_progress(Event(stage, done, of))  # type: ignore[arg-type]
 
+    # Refuse what cannot fit into memory.
+    if not where.any_size:
+        foreseen = estimate_slam(log, resolution, prior, sensor, fast, no_odometry, schedule, where)
+        if foreseen is not None:
+            foreseen.refuse(log)
+
     # Approximate the trajectory of all scans.
     trajectory = infer_trajectory(
         log, no_odometry=no_odometry, seed=seed, threads=where.threads, device=where.device,
@@ -423,3 +444,24 @@ def slam(
         checkpoints=replace(checkpoints, save=save, preview=preview), on_progress=on_progress,
     )  # fmt: skip
     return replace(run, trajectory=trajectory)
+
+
+def estimate_slam(
+    log: Scans, resolution: float, prior: CellPrior | None, sensor: SensorModel | Literal["fit"], fast: bool | None,
+    no_odometry: bool, schedule: Schedule, where: Where,
+) -> Estimate | None:  # fmt: skip
+    """Estimate time and memory of `slam` from the poses of the log; None if they allow no map."""
+    keys = keys_by_odometry(log, no_odometry)
+    if len(log) < 2 or not np.isfinite(keys.ranges_m).any():
+        return None  # refused with its reason later
+    fast = len(keys) > SAMPLED if fast is None else fast
+    try:
+        grid = Grid.covering(keys, resolution)
+    except BadInput:  # odometry leaps, which the trajectory will mend
+        return None
+    inference = Inference.of(
+        for_map(keys, resolution) if fast else keys, grid, prior, sensor, None,
+        replace(schedule, thin=1 if schedule.thin is None else schedule.thin), 0,
+        KnownPoses() if fast else UncertainPoses(0.1, 0.1), 0.0, where,
+    )  # fmt: skip
+    return inference.estimate(log)

@@ -93,6 +93,7 @@ class Where:
             table is always built on all cores.
         device: "cpu", or a CUDA device such as "cuda:0".
         executor: object that runs the chains, such as `RayExecutor`; None: this process.
+        any_size: whether to begin a run that will not fit into memory by its estimate (`bayesmap.run.cost`).
 
     Raises:
         BadInput: less than one thread, an invalid device, or an object that is no executor.
@@ -101,6 +102,7 @@ class Where:
     threads: int | None = None
     device: str = "cpu"
     executor: Executor | None = None
+    any_size: bool = False
 
     def __post_init__(self) -> None:
         if self.threads is not None:

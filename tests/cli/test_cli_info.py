@@ -24,7 +24,8 @@ def test_info_says_what_is_in_a_recording(recording):
     assert told["suggestion"] == f"bayesmap infer {recording} --scan-topic /scan"
     text = call("info", recording).stdout
     assert "scans on /scan: 6 of 4 beams from -85.9437 to 85.9437 degrees" in text
-    assert text.endswith(f"to infer a map:\n  bayesmap infer {recording} --scan-topic /scan\n")
+    assert re.search(r"\nto infer a map \(about .* s on \d+ cores?, and .* GB of memory\):\n", text)
+    assert text.endswith(f"  bayesmap infer {recording} --scan-topic /scan\n")
 
 
 def test_the_command_that_info_suggests_works(recording, tmp_path, short):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import asdict
+from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +13,7 @@ import msgspec
 from bayesmap.cli.command import Call, as_toml, command
 from bayesmap.cli.console import counted, write_out
 from bayesmap.cli.keys import Settings, Value
+from bayesmap.cli.sizes import of_suggestion
 from bayesmap.cli.translation import LOG, need_file
 from bayesmap.errors import BadInput
 from bayesmap.version import __version__
@@ -86,7 +87,12 @@ def _log(file: str) -> dict[str, Any]:
     contents = contents_of(file)
     start, end = contents.start_s, contents.end_s
     duration = None if start is None or end is None else round(end - start, 3)
-    return {"version": __version__, **asdict(contents), "duration_s": duration, "notes": list(contents.notes)}
+    told = {field.name: getattr(contents, field.name) for field in fields(contents) if field.name != "scans"}
+    estimate = of_suggestion(contents.suggestion, contents.scans)
+    if estimate is not None and not estimate["fits"] and estimate["remedy"]:
+        told["suggestion"] += f" {estimate['remedy']}"
+    more = {"duration_s": duration, "notes": list(contents.notes), "estimate": estimate}
+    return {"version": __version__, **told, **more}
 
 
 def _lines(document: dict[str, Any]) -> list[str]:
@@ -112,7 +118,9 @@ def _lines(document: dict[str, Any]) -> list[str]:
         lines += _sensor_lines(sensor)
     lines += [f"note: {note}" for note in document["notes"]]
     if document.get("suggestion"):
-        lines += ["to infer a map:", f"  {document['suggestion']}"]
+        cost = document["estimate"]
+        lines += ["to infer a map:"] if cost is None else [f"to infer a map ({cost['words']}):"]
+        lines += [f"  {document['suggestion']}"]
     return lines
 
 

@@ -150,6 +150,7 @@ class SamplingSettings(ReadingSettings, kw_only=True, frozen=True):
         Rule(lambda x: x >= 0, "0 or a positive number of seconds"),
         Help("Seconds from one checkpoint to the next.", metavar="SECONDS"),
     ] = 30.0
+    any_size: Annotated[bool, Help("Begin a run that will not fit into memory, by its estimate.")] = False
     strict: Strict = False
 
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 import click
 
-from bayesmap.cli import translation
+from bayesmap.cli import sizes, translation
 from bayesmap.cli.command import Call, Layer, as_toml, read_file
 from bayesmap.cli.console import INTERRUPTED, PROBLEMS, SETTING_UP, Console, counted, progress, stage
 from bayesmap.cli.folder import Folder
@@ -193,6 +193,8 @@ def sample(
     # Complete the settings, and sample.
     settings = translation.with_schedule(settings, train.n_beams, grid.n_cells)
     toml = as_toml({"infer": settings})
+    if saved is None:
+        sizes.foretell(folder.console, sizes.of_infer(settings, train, grid, executor))
     with progress(folder.console, "tracing beams") as show:
 
         def on_progress(event: Event) -> None:
@@ -215,7 +217,7 @@ def sample(
             schedule=translation.schedule_of(settings),
             seed=settings.seed,
             hit_depth=settings.hit_depth or 0.0,
-            where=Where(settings.threads, settings.device, executor),
+            where=Where(settings.threads, settings.device, executor, settings.any_size),
             checkpoints=Checkpoints(saved, on_checkpoint, settings.checkpoint_every, preview=folder.preview),
             on_progress=on_progress,
         )

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from bayesmap.cli import pipeline, translation
+from bayesmap.cli import pipeline, sizes, translation
 from bayesmap.cli.command import Call, as_toml, command
 from bayesmap.cli.console import Console, progress
 from bayesmap.cli.folder import Folder
@@ -71,6 +71,11 @@ def slam(call: Call[SlamSettings], log: str, output: str | None, resume: bool, f
     _check(call.console, reading, task.settings)
     # Load the run to resume.
     saved = pipeline.load_interrupted(task.folder) if task.folder.resuming else None
+    if not task.folder.resuming:
+        estimate = sizes.of_slam(task.settings, reading.scans)
+        sizes.foretell(call.console, estimate)
+        if estimate is not None and not task.settings.any_size:
+            estimate.refuse(reading.scans)
     if force:
         shutil.rmtree(_stages(task.folder), ignore_errors=True)
     files = TrajectoryFiles(task.folder, reading, task.settings.resolution, _frame(reading, task.settings))
@@ -163,7 +168,7 @@ def _slam(task: Task[SlamSettings], reading: LogReading, saved: Run | None, file
             schedule=translation.schedule_of(settings),
             seed=settings.seed,
             hit_depth=settings.hit_depth,
-            where=Where(settings.threads, settings.device),
+            where=Where(settings.threads, settings.device, any_size=settings.any_size),
             checkpoints=Checkpoints(
                 saved, on_checkpoint, settings.checkpoint_every, _stages(folder), on_preview, files.write
             ),

@@ -41,6 +41,7 @@ class Contents:
     pose_sources: list[dict[str, Any]] = field(default_factory=list)  # topics of a recording with poses
     suggestion: str | None = None  # command that infers a map from the file
     notes: tuple[str, ...] = ()
+    scans: Scans | None = None  # the scans that the suggested command reads
 
 
 def contents_of(path: str | os.PathLike[str]) -> Contents:
@@ -67,6 +68,7 @@ def contents_of(path: str | os.PathLike[str]) -> Contents:
         end_s=None if stamps is None else float(stamps[-1]),
         topics=[{"name": kind, "count": count} for kind, count in reading.messages.items()], sensors=[sensor],
         suggestion=_command(name, sensor, skip=bool(reading.skipped)), notes=(*reading.notes, *_about_poses(reading)),
+        scans=reading.scans,
     )  # fmt: skip
 
 
@@ -89,7 +91,8 @@ def _of_recording(path: str | os.PathLike[str]) -> Contents:
     pose_sources = recording.of_type((*TF_TYPES, *POSE_TYPES))
     # Read the scans of each topic, and suggest a command for the best: with poses, then with most readings.
     scan_topics = recording.of_type(SCAN_TYPES)
-    sensors = [_sensor(recording, topic) for topic in scan_topics]
+    read: dict[str, Scans] = {}
+    sensors = [_sensor(recording, topic, read) for topic in scan_topics]
     usable = [sensor for sensor in sensors if sensor["error"] is None]
     best = max(usable, key=lambda s: (s["no_poses"] is None, s["scans"] * s["beams"]), default=None)
     types = {topic.type for topic in recording.topics.values() if topic.count}
@@ -104,12 +107,12 @@ def _of_recording(path: str | os.PathLike[str]) -> Contents:
         end_s=None if recording.end_ns is None else recording.end_ns * 1e-9, topics=topics,
         frames=FrameTree(poses.transforms).frames(), sensors=sensors,
         pose_sources=[{"name": t.name, "type": t.type, "count": t.count} for t in pose_sources], suggestion=suggestion,
-        notes=(*recording.notes, *(() if scan_topics else (nothing,))),
+        notes=(*recording.notes, *(() if scan_topics else (nothing,))), scans=read[best["topic"]] if best else None,
     )  # fmt: skip
 
 
-def _sensor(recording: Any, topic: Any) -> dict[str, Any]:
-    """Describe the scans of one topic, and the first source of poses that works for them."""
+def _sensor(recording: Any, topic: Any, read: dict[str, Scans]) -> dict[str, Any]:
+    """Describe the scans of one topic, and the first source of poses that works for them; put them into ``read``."""
     account: dict[str, Any] = {
         "topic": topic.name, "type": topic.type, "pose_topic": None, "error": None, "no_poses": None,
     }  # fmt: skip
@@ -121,6 +124,7 @@ def _sensor(recording: Any, topic: Any) -> dict[str, Any]:
         except BadInput as problem:
             first = first or problem
             continue
+        read[topic.name] = reading.scans
         sensor = {**account, "pose_topic": how.get("pose_topic"), **scans_summary(reading.scans), **_account(reading)}
         why = _reason(recording.path, first)
         if not reading.posed and first is not None:

@@ -1,4 +1,4 @@
-"""Checks before chains run: they fit into memory, and a resumed run has its original settings."""
+"""What is known before chains run: the memory of the machine, and whether a resumed run has its original settings."""
 
 from __future__ import annotations
 
@@ -14,36 +14,9 @@ from numpy.typing import NDArray
 from bayesmap.errors import BadInput
 from bayesmap.model import Model
 from bayesmap.sensors.model import RangeLimits
-from bayesmap.space.grid import Grid, outlying, why_outlying
-from bayesmap.space.scans import Scans
-
-OF_A_CELL = {True: (200, 280), False: (120, 75)}
-"""Bytes per cell of the grid, (once, per chain), for cells with surfaces (True) and without: nine tenths of the memory
-measured on maps of 2 million cells. Beams and draws need more."""
 
 GROUP_LIMITS = ("/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory/memory.limit_in_bytes")
 """Files with the memory limit of a container on Linux."""
-
-
-def check_memory(grid: Grid, scans: Scans, surfaces: bool, chains: int) -> None:
-    """Refuse a grid whose chains, which run on this machine together, do not fit into memory.
-
-    Raises:
-        BadInput: the chains take more memory than the machine has. If a few scans lie so far out that they make the
-            grid too large, the message names the worst.
-    """
-    once, each = OF_A_CELL[surfaces]
-    needed, available = grid.n_cells * (once + chains * each), memory_bytes()
-    if available is None or needed <= available:
-        return
-    nx, ny = grid.shape
-    wrong, remedy = outlying(scans), "use a coarser resolution, or fewer chains, or a smaller map"
-    if len(wrong):
-        remedy = why_outlying(scans, int(wrong[0]))
-    raise BadInput(
-        f"grid: {chains} chains of {nx} x {ny} cells take at least {needed / 1e9:.0f} GB of memory, and there are "
-        f"{available / 1e9:.0f}: {remedy}"
-    )
 
 
 def memory_bytes() -> int | None:

@@ -1,0 +1,338 @@
+"""The cost of a run, estimated before it begins: processor time, memory, and the options that make it fit.
+
+    seconds = K (warmup (chains + pilot) W + sweeps chains S) + bytes of draws F + scans T + fixed
+    bytes   = base + K R + chains (cells C + beams B + K E) + chains draws D + readings L
+
+K is the number of cells on all beams' ways, and D the size of a draw by its arrays. Each constant below names the
+measurement that it comes from. docs/scale.md compares estimates with whole runs.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from bayesmap.cells.arrays import ArraySpec
+from bayesmap.cells.binary import Independent
+from bayesmap.errors import BadInput
+from bayesmap.run.chains import FIRST_MARK, SweepPlan
+from bayesmap.run.checks import memory_bytes
+from bayesmap.space.grid import Grid, outlying, why_outlying
+from bayesmap.space.scans import Scans
+
+LONG_S = 60.0
+"""A run that takes longer is announced."""
+MUCH_MEMORY = 0.5
+"""A run that takes more than this share of the memory is announced."""
+
+
+@dataclass(frozen=True)
+class SamplerCost:
+    """The constants of a sampler: nanoseconds per incidence and sweep (None: not measured), and bytes."""
+
+    warmup_ns: float | None
+    sweep_ns: float | None
+    incidence: float  # bytes, once for all chains
+    chain_incidence: float  # bytes, per chain
+    chain_cell: float
+    chain_beam: float
+
+
+SURFACES = SamplerCost(43.0, 29.0, 16.0, 1.3, 110.0, 20.0)
+"""Times: between Intel (6.4 M incidences, 4 x (30 + 50) sweeps, 75 s in all) and five minutes of 720 beams (5.9 M, 82 s
+of chains; 212 s with 246 sweeps, so 33 ns a sweep). The pilot and settling chains take longer sweeps. Bytes:
+docs/surfaces.md, with a third of the incidences in endpoint cells."""
+REFLECTIVITIES = SamplerCost(26.0, 18.0, 8.0, 0.0, 75.0, 20.0)
+"""Times: 0.6 of surfaces (72 ms for 118 ms a sweep of Intel, docs/lab/benchmarks.md). Bytes: docs/surfaces.md."""
+WALLS = SamplerCost(7.0, 7.0, 32.0, 0.0, 11.0, 8.0)
+"""Times: 28.7 ms a settled sweep of 6.5 M incidences (docs/lab/benchmarks.md), 7.6 ns in whole runs. Bytes:
+docs/beam-table.md."""
+BLOCKS = SamplerCost(None, None, 57.0, 0.0, 11.0, 8.0)
+"""Bytes: docs/beam-table.md; times were not measured."""
+TABLE = SamplerCost(None, None, 40.0, 0.0, 32.0, 8.0)
+"""Methods without chains: the beam table and the messages of belief propagation; times were not measured."""
+
+POSES_FACTOR = 3.0
+"""Ratio of a sweep that samples poses, too: 2 to 4 (MIT CSAIL; 305 000 beams of the five minutes)."""
+MATCH_S_A_SCAN = 7.4e-3
+"""Time for the trajectory: 22 s for 3000 scans, 90 s for 12 000, of 720 beams."""
+FIXED_S, FILE_S_A_BYTE = 8.0, 40e-9
+"""Time for files and pictures: 17 to 20 s with 200 draws of 1.1 MB; with 40 draws 10 s."""
+BASE_BYTES, READING_BYTES = 390e6, 40.0
+"""Peak of runs of 3000 beams; what 2.2 M readings added to the peak of `slam`."""
+ONCE_A_CELL = 100.0
+"""Bytes per cell beside the chains. A map of 2 million cells, three beams and one draw took 101, and 107 a chain."""
+
+CELLS_A_CELL_LENGTH = 4.0 / math.pi
+"""Mean number of cells that a line of the length of a cell's edge enters, over all directions."""
+MARGIN_CELLS = 4.0
+"""Cells behind a reading that are still traced: 1.5 cells and six standard deviations of 4 cm at 10 cm."""
+MEASURED_BEAMS, TRACED_BEAMS, POINTS = 500_000, 20_000, 64
+"""Most beams that are measured, most of which touched cells are counted, and points on each of these."""
+SQUARE = 4
+"""Cells along the edge of the squares in which touched cells are counted."""
+TOUCHED_SHARE = 0.5
+"""Share of the grid's cells that beams touch in a building, at least: 0.6 in most."""
+THINNED_M = (0.1, 0.2, 0.5, 1.0)
+"""Distances between scans that are proposed."""
+
+
+@dataclass(frozen=True)
+class Size:
+    """The numbers that decide the cost of a run."""
+
+    beams: float
+    incidences: float  # cells on the ways of all beams
+    cells: float  # of the grid
+    touched: float  # cells that some beam touches
+    endpoints: float  # cells in which readings end
+    readings: float  # of the log that is in memory
+    matched: int = 0  # scans whose poses `slam` infers first
+
+    def thinned(self, share: float) -> Size:
+        """Return the size with a share of the scans. The map of `slam` is made from few scans in any case."""
+        if self.matched:
+            return replace(self, matched=round(self.matched * share), readings=self.readings * share)
+        return replace(
+            self, beams=self.beams * share, incidences=self.incidences * share, readings=self.readings * share
+        )
+
+    def coarser(self, factor: float) -> Size:
+        """Return the size with cells whose edges are longer by a factor."""
+        return replace(
+            self, incidences=self.incidences / factor, cells=self.cells / factor**2,
+            touched=self.touched / factor**2, endpoints=self.endpoints / factor,
+        )  # fmt: skip
+
+
+def size_of(scans: Scans, grid: Grid, log: Scans | None = None) -> Size:
+    """Measure scans on a grid. ``log`` holds the scans whose trajectory is inferred first, if it is."""
+    every = -(-scans.ranges_m.size // MEASURED_BEAMS) if len(scans) else 1
+    readings, scans = (scans if log is None else log).ranges_m.size, scans.select(slice(None, None, max(1, every)))
+    # Lengths of the beams on the grid, in cells; a beam without return ends at the grid's edge.
+    ranges = scans.ranges_m.ravel()
+    used = ~np.isnan(ranges)
+    start = grid.to_cells(scans.beam_starts_world()).reshape(-1, 2)[used]
+    angle = scans.beam_angles_world().ravel()[used]
+    along = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+    reading = np.where(np.isneginf(ranges[used]), scans.min_range_m, np.minimum(ranges[used], scans.max_range_m))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        to_side = np.where(along > 0, np.array(grid.shape) - start, -start) / along
+    to_edge = np.where(along == 0, np.inf, to_side).min(axis=-1)
+    length = np.clip(np.minimum(reading / grid.resolution + MARGIN_CELLS, to_edge), 0.0, None)
+    # Squares that some beams touch, and cells in which readings end.
+    some = slice(None, None, max(1, len(length) // TRACED_BEAMS))
+    points = start[some, None] + along[some, None] * (length[some, None, None] * np.linspace(0.0, 1.0, POINTS)[:, None])
+    squares = np.floor(points / SQUARE).astype(np.int64)
+    touched = len(np.unique(squares[..., 0] * (max(grid.shape) + 1) + squares[..., 1])) * SQUARE**2
+    ends = np.floor(grid.to_cells(scans.hit_points_world())).astype(np.int64)
+    endpoints = len(np.unique(ends[:, 0] * (grid.shape[1] + 1) + ends[:, 1]))
+    return Size(
+        every * len(length), every * CELLS_A_CELL_LENGTH * float(length.sum()), grid.n_cells,
+        min(touched, grid.n_cells), min(endpoints, grid.n_cells), readings, 0 if log is None else len(log),
+    )  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Sampling:
+    """What decides the cost of a run beside its size."""
+
+    sampler: str  # as `CellPrior.methods` names it
+    arrays: tuple[ArraySpec, ...]  # of a draw
+    surfaces: bool  # whether cells have surfaces
+    chains: int
+    plan: SweepPlan
+    fitted: bool  # whether a pilot fits the sensor
+    poses: bool  # whether poses are sampled
+    cores: int
+
+    @property
+    def constants(self) -> SamplerCost | None:
+        """The constants of the sampler; None for one whose cost is not known."""
+        of_stops = SURFACES if self.surfaces else REFLECTIVITIES
+        known = {"stop-gibbs": of_stops, "wall-gibbs": WALLS, "wall-blocks": BLOCKS}
+        return known.get(self.sampler, None if self.sampler == "metropolis" else TABLE)
+
+    @property
+    def draws(self) -> tuple[int, int]:
+        """The fewest and the most draws per chain."""
+        fewest = self.plan.draws if self.plan.precision is None else min(FIRST_MARK, self.plan.draws)
+        return (min(fewest, 2) if self.plan.seconds else fewest), self.plan.draws
+
+    def draw_bytes(self, size: Size) -> float:
+        """Return the size of a draw of one chain."""
+        cells = {"cell": size.cells if self.poses else size.touched, "surface_cell": size.endpoints, "scan": 0.0}
+        item = {"bits": 1 / 8, "half": 2.0}
+        return sum(
+            item.get(spec.storage, np.dtype(spec.dtype).itemsize) * cells.get(spec.dims[0], size.cells)
+            for spec in self.arrays
+        )
+
+    def memory(self, size: Size, draws: int) -> float:
+        """Return the peak of the memory in bytes."""
+        cost = self.constants
+        assert cost is not None
+        chain = cost.chain_cell * size.cells + cost.chain_beam * size.beams + cost.chain_incidence * size.incidences
+        return (
+            BASE_BYTES + ONCE_A_CELL * size.cells + cost.incidence * size.incidences + self.chains * chain
+            + self.chains * draws * self.draw_bytes(size) + READING_BYTES * size.readings
+        )  # fmt: skip
+
+    def processor_s(self, size: Size, draws: int) -> float | None:
+        """Return the processor time in seconds; None if it is not known."""
+        cost, plan = self.constants, self.plan
+        if cost is None or cost.warmup_ns is None or cost.sweep_ns is None:
+            return None
+        warmup = plan.warmup * (self.chains + self.fitted) * cost.warmup_ns
+        chains = 1e-9 * size.incidences * (warmup + draws * plan.thin * self.chains * cost.sweep_ns)
+        chains *= POSES_FACTOR if self.poses else 1.0
+        if plan.seconds is not None:
+            chains = min(chains, plan.seconds * self.cores)
+        files = FIXED_S + FILE_S_A_BYTE * self.chains * draws * self.draw_bytes(size)
+        return chains + files + MATCH_S_A_SCAN * size.matched
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """The cost of a run: least and most, since chains end when the map is known."""
+
+    memory: tuple[float, float]  # bytes
+    processor_s: tuple[float, float] | None  # None if it is not known
+    cores: int
+    available: int | None  # bytes of memory of the machine; None if not known
+    remedy: str = ""  # options of the command line that make it fit, or shorter; empty if it fits or nothing helps
+
+    @property
+    def seconds(self) -> tuple[float, float] | None:
+        """Seconds on the clock: processor time divided by the cores; None if not known."""
+        if self.processor_s is None:
+            return None
+        return self.processor_s[0] / self.cores, self.processor_s[1] / self.cores
+
+    @property
+    def is_long(self) -> bool:
+        """Whether the run may take more than `LONG_S`."""
+        return self.seconds is not None and self.seconds[1] > LONG_S
+
+    @property
+    def is_large(self) -> bool:
+        """Whether the run may take more than `MUCH_MEMORY` of the memory."""
+        return self.available is not None and self.memory[1] > MUCH_MEMORY * self.available
+
+    @property
+    def is_too_large(self) -> bool:
+        """Whether even the least that the run takes is more than the memory."""
+        return self.available is not None and self.memory[0] > self.available
+
+    def words(self) -> str:
+        """Return the estimate in words, with the remedy if the run is long or large."""
+        of = "" if self.available is None else f" of {self.available / 1e9:.0f}"
+        text = f"{_between(*self.memory, 1e9)}{of} GB of memory"
+        if self.seconds is not None:
+            unit_s, unit = (3600.0, "hours") if self.seconds[1] > 5400 else (60.0, "minutes")
+            unit_s, unit = (1.0, "s") if self.seconds[1] < 100 else (unit_s, unit)
+            text = f"{_between(*self.seconds, unit_s)} {unit} on {self.cores} core{'s' * (self.cores > 1)}, and {text}"
+        advised = (self.is_long or self.is_large) and self.remedy
+        return f"about {text}" + (f"; less with {self.remedy}" if advised else "")
+
+    def refuse(self, scans: Scans) -> None:
+        """Refuse a run that cannot fit into memory.
+
+        Raises:
+            BadInput: it takes more memory than there is. If a few scans lie so far out that they make the grid too
+                large, the message names the worst.
+        """
+        if not self.is_too_large:
+            return
+        assert self.available is not None
+        wrong = outlying(scans)
+        remedy = why_outlying(scans, int(wrong[0])) if len(wrong) else f"make it smaller with {self.remedy}"
+        raise BadInput(
+            f"memory: this takes at least {self.memory[0] / 1e9:.1f} GB, and there are {self.available / 1e9:.1f}: "
+            f"{remedy}; --any-size (in Python bm.Where(any_size=True)) begins all the same"
+        )
+
+
+def _between(low: float, high: float, unit: float) -> str:
+    """Return two numbers in a unit, with about two digits; one number if they are equal then."""
+    words = [f"{value / unit:.{0 if value >= 9.5 * unit else 1}f}" for value in (low, high)]
+    return " to ".join(dict.fromkeys(words))
+
+
+def estimate(scans: Scans, grid: Grid, size: Size, sampling: Sampling) -> Estimate | None:
+    """Estimate the cost of a run on this machine; None for a sampler whose cost is not known.
+
+    ``scans`` are those of the whole log. A run that is long or large gets a remedy that fits the cause.
+    """
+    if sampling.constants is None:
+        return None
+    plain = _estimate(size, sampling)
+    if plain.is_large:
+        return replace(plain, remedy=_smaller(scans, grid, size, sampling))
+    return replace(plain, remedy=_shorter(scans, size, sampling)) if plain.is_long else plain
+
+
+def _estimate(size: Size, sampling: Sampling) -> Estimate:
+    low, high = ((sampling.memory(size, draws), sampling.processor_s(size, draws)) for draws in sampling.draws)
+    time = None if low[1] is None or high[1] is None else (low[1], high[1])
+    return Estimate((low[0], high[0]), time, sampling.cores, memory_bytes())
+
+
+def _shorter(scans: Scans, size: Size, sampling: Sampling) -> str:
+    """Return the option that makes a run shorter: fewer scans if they are close together, else a limit."""
+    for spacing, share in _spacings(scans):
+        if share <= 0.5 and (not size.matched or MATCH_S_A_SCAN * size.matched > LONG_S * sampling.cores):
+            return f"--thin-scans {spacing:g}"
+    return "" if sampling.plan.seconds is not None else f"--seconds {LONG_S:g}"
+
+
+def _smaller(scans: Scans, grid: Grid, size: Size, sampling: Sampling) -> str:
+    """Return the options after which a run fits into `MUCH_MEMORY`, the one that fits the cause first."""
+    words: list[str] = []
+    for option, change in _changes(scans, grid, size, sampling):
+        # A second value of an option replaces the first.
+        words = [*(word for word in words if word.split()[0] != option.split()[0]), option]
+        if not _estimate(*change).is_large:
+            break
+    return " ".join(words)
+
+
+def _changes(scans: Scans, grid: Grid, size: Size, sampling: Sampling) -> Iterator[tuple[str, tuple[Size, Sampling]]]:
+    """Yield options and what the run is with them; each with those before it."""
+    # Beams that come again and again, or cells and their draws?
+    without_beams = replace(size, beams=0.0, incidences=0.0, readings=0.0)
+    of_beams = sampling.memory(size, sampling.plan.draws) - sampling.memory(without_beams, sampling.plan.draws)
+    of_cells = sampling.memory(without_beams, sampling.plan.draws) - BASE_BYTES
+    # Few hits far away make the grid large.
+    hits = scans.ranges_m[np.isfinite(scans.ranges_m)]
+    nearly_all_m = math.ceil(np.percentile(hits, 99.0)) if hits.size else math.inf
+    if of_cells > of_beams and scans.min_range_m < nearly_all_m < 0.7 * hits.max():
+        near = Grid.covering(scans.limited(nearly_all_m), grid.resolution)
+        if near.n_cells < 0.7 * size.cells:
+            share = near.n_cells / size.cells
+            size = replace(size, cells=size.cells * share, touched=size.touched * share)
+            yield f"--max-range {nearly_all_m:g}", (size, sampling)
+    if of_beams > of_cells:
+        thin = size
+        for spacing, share in _spacings(scans):
+            thin = size.thinned(share)
+            yield f"--thin-scans {spacing:g}", (thin, sampling)
+        size = thin
+    for factor in (2, 4):
+        yield f"--resolution {factor * grid.resolution:g}", (size.coarser(factor), sampling)
+    if sampling.surfaces or sampling.sampler == "stop-gibbs":
+        walls = replace(sampling, sampler="wall-gibbs", arrays=Independent.arrays, surfaces=False)
+        yield "--cells binary", (size.coarser(4), walls)
+
+
+def _spacings(scans: Scans) -> Iterator[tuple[float, float]]:
+    """Yield distances between scans, and the share of the scans that each leaves if it leaves some out."""
+    steps = np.hypot(*np.diff(scans.poses[:, :2], axis=0).T)
+    travelled = np.concatenate([[0.0], np.cumsum(steps)])
+    for spacing in THINNED_M:
+        share = len(np.unique(np.floor(travelled / spacing))) / max(len(scans), 1)
+        if share < 0.8:
+            yield spacing, share
