@@ -1,6 +1,8 @@
 """Predicted readings, log likelihoods by reading, and what arviz makes of a saved run."""
 
 import dataclasses
+import re
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -110,6 +112,13 @@ def test_two_models_are_compared_with_a_paired_error(case, run):
     assert bm.compare_scores(one, one).nats_per_beam == 0.0
     with pytest.raises(bm.BadInput, match="different beams"):
         bm.compare_scores(one, bm.score(run, case.scans))
+
+
+def test_all_random_streams_have_different_numbers():
+    """Two streams of one number would draw the same numbers from one seed, such as labels and predicted readings."""
+    texts = [path.read_text(encoding="utf-8") for path in Path(bm.__file__).parent.rglob("*.py")]
+    numbers = [int(number) for text in texts for number in re.findall(r"^STREAM_\w+ = (\d+)\b", text, re.M)]
+    assert len(numbers) == 10 == len(set(numbers))
 
 
 @pytest.mark.filterwarnings("ignore:Estimated shape parameter")

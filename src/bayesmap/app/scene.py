@@ -17,6 +17,7 @@ from bayesmap.beams.table import BeamTable
 from bayesmap.cells.binary import BinaryWalls, Independent
 from bayesmap.cells.kind import CellPrior
 from bayesmap.model import Model
+from bayesmap.samplers.sampler import STREAM_NOISE
 from bayesmap.samplers.wall_problem import WallProblem
 from bayesmap.sensors.builtin import AdditiveNoise, Gaussian
 from bayesmap.sensors.model import SensorModel
@@ -24,7 +25,6 @@ from bayesmap.sim.forward import ranges
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans, fan
 
-STREAM_NOISE = 11
 BLUR_SIGMAS = 5.0
 """A reading within this many standard deviations of the longest range counts as no return."""
 

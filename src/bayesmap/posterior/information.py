@@ -19,13 +19,11 @@ from scipy import special
 from bayesmap.errors import BadInput
 from bayesmap.posterior.prediction import Fan, draw_readings
 from bayesmap.posterior.predictor import ignored
+from bayesmap.samplers.sampler import STREAM_VIEWS
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans, as_angles, as_poses
 
 Floats = NDArray[np.float64]
-
-STREAM_VIEW = 5
-"""Number of the stream of random numbers."""
 
 SURE = 1e-4
 """Least distance of a stop probability from 0 and 1: a finite number of draws is no more precise."""
@@ -106,7 +104,7 @@ def expected_information(
     # For each pose, simulate a scan in every draw, and weight each scan in every draw of its chain.
     for i, pose in enumerate(where):
         at = np.broadcast_to(pose, (draws, 3))
-        readings = draw_readings(maps, fan, at, every, (seed, i, STREAM_VIEW))
+        readings = draw_readings(maps, fan, at, every, (seed, i, STREAM_VIEWS))
         likelihood = ScanLikelihood(
             Scans(at, fan.angles_rad, readings, limits.max_m, limits.min_m), grid, fan.sensor, hit_depth, device
         )

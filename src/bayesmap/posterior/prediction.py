@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 from bayesmap.errors import BadInput, check_count
 from bayesmap.posterior.posterior import Posterior
 from bayesmap.posterior.predictor import CENTRAL_80, PREDICTED_DRAWS, checked_levels, predictor_of
+from bayesmap.samplers.sampler import STREAM_READINGS
 from bayesmap.sensors.model import RangeLimits, SensorModel
 from bayesmap.space.scans import Scans, as_angles, asked_poses
 
@@ -23,9 +24,6 @@ if TYPE_CHECKING:
     from bayesmap.kernels.predict.density import DeviceMaps
 
 Floats = NDArray[np.float64]
-
-STREAM_READINGS = 7
-"""Number of the stream of random numbers."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -22,13 +22,17 @@ from bayesmap.model import Model
 from bayesmap.samplers.progress import SILENT, Watch
 from bayesmap.space.grid import Grid
 
-STREAM_SWEEPS = 1
-STREAM_START = 2
-STREAM_PARTICLES = 3
-STREAM_POSES = 4
-STREAM_START_POSES = 6
-STREAM_LABELS = 7
-"""Streams of random numbers: each has its own key for a seed and a chain."""
+STREAM_SWEEPS = 1  # sweeps of cells
+STREAM_START = 2  # start of cells
+STREAM_PARTICLES = 3  # maps of importance sampling
+STREAM_POSES = 4  # moves of poses
+STREAM_VIEWS = 5  # scans simulated for the expected information
+STREAM_START_POSES = 6  # start of poses
+STREAM_LABELS = 7  # start of labels
+STREAM_READINGS = 8  # readings that a run predicts
+STREAM_NOISE = 11  # readings of the page's simulated sensors
+STREAM_TYPICAL = 12  # poses of typical scans in a world that is drawn on the page
+"""Numbers of all streams of random numbers. Two streams of one number would draw the same numbers from one seed."""
 
 PILOT = 1 << 32
 """Number of the pilot chain, which fits the sensor; no other chain has this number."""

@@ -23,6 +23,7 @@ from bayesmap.localization.belief import PoseBelief
 from bayesmap.localization.filter import Scan, locate
 from bayesmap.localization.known_map import KnownMap
 from bayesmap.localization.localize import localize
+from bayesmap.samplers.sampler import STREAM_TYPICAL
 from bayesmap.sensors.builtin import Gaussian
 from bayesmap.sensors.model import RangeLimits
 from bayesmap.sim.forward import ranges
@@ -33,8 +34,8 @@ FINEST_M = 0.125
 MOST_CELLS = 1_000_000
 """The search tries the centres of cells. Cells of a drawn map are divided to this edge, if these are not too many."""
 
-TYPICAL, STREAM_TYPICAL = 100, 12
-"""The number of typical scans of a drawn world, and the random stream of their poses."""
+TYPICAL_SCANS = 100
+"""Number of typical scans of a drawn world."""
 
 MOST_POSES = 1000
 """The largest number of poses sent to the page: those with the largest weights."""
@@ -110,8 +111,8 @@ def _typical_scans(document: Document) -> Scans:
     free = np.argwhere(~document.is_wall)
     if not len(free):
         raise BadInput("the map has no free cell in which a robot could be")
-    cells = free[rng.integers(len(free), size=TYPICAL)] + rng.random((TYPICAL, 2))
-    poses = np.column_stack([np.array(grid.origin) + cells * grid.resolution, rng.uniform(-np.pi, np.pi, TYPICAL)])
+    cells = free[rng.integers(len(free), size=TYPICAL_SCANS)] + rng.random((TYPICAL_SCANS, 2))
+    poses = np.column_stack([np.array(grid.origin) + cells * grid.resolution, rng.uniform(-np.pi, np.pi, TYPICAL_SCANS)])
     angles = fan(document.angles, math.degrees(document.fov))
     exact = ranges(document.is_wall, grid, poses, angles, document.max_range)
     noisy = exact + document.noise * rng.standard_normal(exact.shape)
