@@ -29,7 +29,7 @@ from bayesmap.localization.belief import PoseBelief
 from bayesmap.localization.external_map import ASSUMED, MapLaw, external_map, fit_law
 from bayesmap.localization.known_map import KnownMap, Trust
 from bayesmap.localization.localize import follow, localize
-from bayesmap.space.planar import wrapped
+from bayesmap.space.planar import wrap_angle
 from benchmarks.located import is_right
 
 Floats = NDArray[np.float64]
@@ -178,7 +178,7 @@ def simulated(case: Case, most: int) -> tuple[Floats, bm.Grid, bm.Scans, Floats]
 def kept(belief: PoseBelief, truth: Floats) -> dict[str, Any]:
     """What is kept of an answer: whether right, how far off, how sure, and places with whether they are right."""
     error = belief.mean - truth
-    error[2] = wrapped(error[2])
+    error[2] = wrap_angle(error[2])
     return {
         "right": is_right(belief.mean, truth),
         "off_m": float(np.hypot(error[0], error[1])),

@@ -25,7 +25,7 @@ from bayesmap.poses.prior import UncertainPoses
 from bayesmap.posterior.summary import rhat
 from bayesmap.sim.building import building
 from bayesmap.sim.robot import patrol
-from bayesmap.space.planar import between, wrapped
+from bayesmap.space.planar import between, wrap_angle
 
 Floats = NDArray[np.float64]
 
@@ -101,7 +101,7 @@ def sampled(scans: bm.Scans, sensor: bm.SensorModel, seed: int) -> tuple[Posteri
         hit_depth=0.0,
     )
     off = run.poses - scans.poses
-    off[..., 2] = wrapped(off[..., 2])
+    off[..., 2] = wrap_angle(off[..., 2])
     worst = max(float(rhat(off[:, :, s, i])) for s in range(SCANS) for i in range(3))
     return Posterior(run.occupancy.ravel(), off.mean(axis=(0, 1)), off.std(axis=(0, 1))), worst
 

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from bayesmap.localization.belief import PoseBelief
 from bayesmap.localization.known_map import KnownMap
 from bayesmap.localization.localize import InitialPose, follow, localize
-from bayesmap.space.planar import between, wrapped
+from bayesmap.space.planar import between, wrap_angle
 from bayesmap.space.scans import Scans
 
 Floats = NDArray[np.float64]
@@ -20,7 +20,7 @@ RIGHT_M, RIGHT_RAD = 0.5, np.radians(10.0)
 def judged(belief: PoseBelief, truth: Floats, seconds: float) -> dict[str, Any]:
     """What is kept of an answer."""
     error = belief.mean - truth
-    error[2] = wrapped(error[2])
+    error[2] = wrap_angle(error[2])
     return {
         "right": is_right(belief.mean, truth),
         "off_m": off_m(belief.mean, truth),
@@ -67,4 +67,4 @@ def off_m(pose: Floats, truth: Floats) -> float:
 def is_right(pose: Floats, truth: Floats) -> bool:
     """Within half a metre and ten degrees."""
     error = between(truth, pose)
-    return bool(np.hypot(error[0], error[1]) < RIGHT_M and abs(wrapped(error[2])) < RIGHT_RAD)
+    return bool(np.hypot(error[0], error[1]) < RIGHT_M and abs(wrap_angle(error[2])) < RIGHT_RAD)

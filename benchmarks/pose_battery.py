@@ -27,7 +27,7 @@ from bayesmap.sim.building import building
 from bayesmap.sim.forward import simulate
 from bayesmap.sim.robot import OdometryNoise, patrol, simulate_odometry, travel_times_s
 from bayesmap.space.grid import Grid
-from bayesmap.space.planar import between, wrapped
+from bayesmap.space.planar import between, wrap_angle
 from bayesmap.space.scans import Scans
 
 Floats = NDArray[np.float64]
@@ -209,7 +209,7 @@ def drive(way: Floats, step_m: float, turn_rad: float, half_turn_at: list[float]
     step = points[np.minimum(np.arange(len(points)) + 2, len(points) - 1)] - points
     yaw = np.arctan2(step[:, 1], step[:, 0])
     yaw[-2:] = yaw[-3]
-    turns = np.concatenate([[0.0], wrapped(np.diff(yaw))])
+    turns = np.concatenate([[0.0], wrap_angle(np.diff(yaw))])
     for share in half_turn_at:
         turns[int(share * len(turns))] += 2 * np.pi
     poses, heading = [], yaw[0]
@@ -280,7 +280,7 @@ def judge(found: Trajectory, truth: Floats, seed: int = 0) -> Outcome:
     near = (np.hypot(*(truth[first] - truth[second])[:, :2].T) < NEAR_M) & (first < second)
     first, second = first[near][:PAIRS], second[near][:PAIRS]
     off = between(between(truth[first], truth[second]), between(found.poses[first], found.poses[second]))
-    off[:, 2] = wrapped(off[:, 2])
+    off[:, 2] = wrap_angle(off[:, 2])
     error = np.hypot(off[:, 0], off[:, 1])
     failed = np.flatnonzero(error > FAILED_M)
     said, outside_t = np.zeros(len(failed), np.bool_), np.ones(len(failed), np.bool_)
@@ -294,7 +294,7 @@ def judge(found: Trajectory, truth: Floats, seed: int = 0) -> Outcome:
         # The error in the frame of the first, as covariances are.
         true, mine = between(truth[a], truth[b]), between(found.poses[a], found.poses[b])
         e = mine - true
-        e[:, 2] = wrapped(e[:, 2])
+        e[:, 2] = wrap_angle(e[:, 2])
         squares = np.einsum("ni,nij,nj->n", e, inverse, e)
         outside_t &= squares >= covered_by_t_sq(dof)
         said |= squares < COVERED_SQ

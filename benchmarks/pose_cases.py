@@ -20,7 +20,7 @@ from bayesmap.sim.building import Building, building
 from bayesmap.sim.forward import simulate
 from bayesmap.sim.robot import OdometryNoise, patrol, simulate_odometry, travel_times_s
 from bayesmap.space.grid import Grid
-from bayesmap.space.planar import between, compose, wrapped
+from bayesmap.space.planar import between, compose, wrap_angle
 from bayesmap.space.scans import Scans
 from benchmarks.pose_battery import main as battery
 
@@ -87,7 +87,7 @@ def turning(path: Floats) -> Floats:
     """The path with poses in between where it turns by more than `MOST_TURN_RAD` from one scan to the next."""
     poses = [path[0]]
     for before, after in pairwise(path):
-        turn = float(wrapped(after[2] - before[2]))
+        turn = float(wrap_angle(after[2] - before[2]))
         steps = int(abs(turn) / MOST_TURN_RAD)
         poses += [np.append(before[:2], before[2] + turn * (k + 1) / (steps + 1)) for k in range(steps)]
         poses.append(after)

@@ -24,7 +24,7 @@ from bayesmap.posterior.predictor import predictor_of
 from bayesmap.posterior.scores import beam_log_scores
 from bayesmap.posterior.trajectory_scores import relation_errors
 from bayesmap.space.grid import Grid
-from bayesmap.space.planar import between, compose, wrapped
+from bayesmap.space.planar import between, compose, wrap_angle
 from bayesmap.space.scans import Scans
 from benchmarks.figure import Figure
 from benchmarks.halves import difference_scales, every_other_beam
@@ -138,7 +138,7 @@ def pairs_of(count: int, many: int = 3000) -> tuple[NDArray[np.intp], NDArray[np
 def squares(found: Floats, truth: Floats, scale: Floats) -> Floats:
     """Squared errors of relative poses by their scale matrices, (N,)."""
     error = found - truth
-    error[:, 2] = wrapped(error[:, 2])
+    error[:, 2] = wrap_angle(error[:, 2])
     return np.asarray(np.einsum("ni,nij,nj->n", error, np.linalg.inv(scale), error))
 
 

@@ -32,7 +32,7 @@ import bayesmap as bm
 from bayesmap import viz
 from bayesmap.sim.building import building
 from bayesmap.sim.robot import patrol
-from bayesmap.space.planar import between, compose, wrapped
+from bayesmap.space.planar import between, compose, wrap_angle
 from bayesmap.viz.trajectory import AFTER, BEFORE, draw_ellipses
 
 # %% [markdown]
@@ -140,7 +140,7 @@ print(f"the wheels report a metre as {1 / (1 + slope[0, 0]):.3f} m")
 # %%
 covariances = found.covariances()
 error = in_frame_of_first(found.poses) - in_frame_of_first(true_poses)
-error[:, 2] = wrapped(error[:, 2])
+error[:, 2] = wrap_angle(error[:, 2])
 widening = found.gaussian.dof / (found.gaussian.dof - 2)  # from the scale matrix of Student's t to its covariance
 relative = widening * found.relative_covariances(np.zeros(len(found), int), np.arange(len(found)))
 squares = np.einsum("si,sij,sj->s", error[1:], np.linalg.inv(relative[1:]), error[1:])
@@ -253,7 +253,7 @@ alone = [bm.localize(known, morning.select([k])) for k in range(len(morning))]
 def is_right(pose, truth):
     """Within half a metre and ten degrees."""
     error = between(truth, pose)
-    return np.hypot(*error[:2]) < 0.5 and abs(wrapped(error[2])) < np.radians(10)
+    return np.hypot(*error[:2]) < 0.5 and abs(wrap_angle(error[2])) < np.radians(10)
 
 
 right = [is_right(where.mean, pose) for where, pose in zip(alone, somewhere, strict=True)]

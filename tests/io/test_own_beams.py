@@ -10,7 +10,7 @@ import bayesmap as bm
 from bayesmap.io.live import live_scans
 from bayesmap.io.logs import describe_log
 from bayesmap.io.text.carmen import write_carmen
-from bayesmap.space.planar import wrapped
+from bayesmap.space.planar import wrap_angle
 
 FANS = {
     "counts": [(0.0, 2 * math.pi / (n - 1), n) for n in (40, 44, 41, 40, 38, 43)],
@@ -178,7 +178,7 @@ def test_degrees_are_refused(tmp_path, text, reason):
 
 def test_a_yaw_in_degrees_is_noted_and_one_in_radians_is_not(tmp_path):
     turn = 0.12 * np.arange(200) - 3.0
-    for yaw, unit in ((turn, 1.0), (wrapped(turn), 1.0), (turn, 57.3), (turn % (2 * np.pi), 57.3)):
+    for yaw, unit in ((turn, 1.0), (wrap_angle(turn), 1.0), (turn, 57.3), (turn % (2 * np.pi), 57.3)):
         poses = np.column_stack([np.zeros((200, 2)), yaw * unit])
         np.savez(tmp_path / "a.npz", poses=poses, angles_rad=[0.0, 0.1], ranges_m=np.ones((200, 2)))
         notes = describe_log(tmp_path / "a.npz").notes

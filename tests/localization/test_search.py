@@ -11,7 +11,7 @@ from bayesmap.localization.filter import Prior, Scan, approached
 from bayesmap.localization.localize import InitialPose
 from bayesmap.localization.particles import DOF, PoseMixture, draw_population, shared_out, student_draws
 from bayesmap.sensors.model import RangeLimits
-from bayesmap.space.planar import wrapped
+from bayesmap.space.planar import wrap_angle
 
 
 @pytest.fixture(scope="module")
@@ -54,7 +54,7 @@ def test_the_true_pose_is_found(room, seed):
     assert (np.diff(found.scores) <= 0).all()
     for i, pose in enumerate(found.poses):
         near = np.abs(found.poses[:i, :2] - pose[:2]).max(axis=1, initial=0) < search.APART_M
-        assert not (near & (np.abs(wrapped(found.poses[:i, 2] - pose[2])) < search.APART_RAD)).any()
+        assert not (near & (np.abs(wrap_angle(found.poses[:i, 2] - pose[2])) < search.APART_RAD)).any()
 
 
 def test_refining_never_loses_and_a_scan_without_hits_has_no_candidates(room):

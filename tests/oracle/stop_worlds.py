@@ -143,7 +143,7 @@ def copies(scans, grid, prior, sensor, count, hit_depth=0.5):
 
 def centres_of(rays):
     """Centres of the touched cells, and their edge, as the oracle takes them."""
-    return rays.grid.cell_centres_m(rays.touched), rays.grid.resolution
+    return rays.grid.centers_from_corner_m(rays.touched), rays.grid.resolution
 
 
 def draw_worlds(seed, grid, prior, sensor, worlds, *, poses=2, beams=5, limits=(0.1, 3.0), invalid=0.03):
@@ -170,7 +170,7 @@ def surfaces_of(rng, grid, stop):
     out = np.zeros((*stop.shape, 6), dtype=np.float32)
     out[..., 0] = stop
     out[..., 1:3] = (
-        grid.cell_centres_m(np.arange(grid.n_cells)) + rng.normal(0, 0.2, (*stop.shape, 2)) * grid.resolution
+        grid.centers_from_corner_m(np.arange(grid.n_cells)) + rng.normal(0, 0.2, (*stop.shape, 2)) * grid.resolution
     )
     out[..., 3], out[..., 5] = rng.uniform(0.1, 0.4, (2, *stop.shape)) * grid.resolution
     out[..., 4] = rng.normal(0, 0.1, stop.shape) * grid.resolution

@@ -19,7 +19,7 @@ from bayesmap.poses.calibration import (
     inverse_slope,
     stated_at,
 )
-from bayesmap.space.planar import between, compose, wrapped
+from bayesmap.space.planar import between, compose, wrap_angle
 
 RATES = np.array([[4e-3, 2e-3, 1e-6], [1e-3, 1e-3, 1e-6], [2e-3, 5e-3, 1e-7]])
 
@@ -162,7 +162,7 @@ def recorded():
 def ratio(scans, truth):
     first, second = (index.ravel().astype(np.int32) for index in np.indices((len(truth), len(truth))))
     near = (first < second) & (np.hypot(*(truth[first] - truth[second])[:, :2].T) < 2.0)
-    turned = near & (np.abs(wrapped(truth[first, 2] - truth[second, 2])) > np.radians(25.0))
+    turned = near & (np.abs(wrap_angle(truth[first, 2] - truth[second, 2])) > np.radians(25.0))
     return angle_step_ratio(scans, truth, first[turned], second[turned])
 
 

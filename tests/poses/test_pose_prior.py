@@ -11,7 +11,7 @@ from bayesmap.errors import BadInput
 from bayesmap.poses.graph import Factors
 from bayesmap.poses.map_scans import key_scans
 from bayesmap.poses.prior import FREE, KnownPoses, Motions, Odometry, UncertainPoses
-from bayesmap.space.planar import between, compose, wrapped
+from bayesmap.space.planar import between, compose, wrap_angle
 from bayesmap.space.scans import Scans
 
 
@@ -38,7 +38,7 @@ PRIORS = {
 def test_composing_undoes_seeing_from():
     a, b = trajectory(0, 50), trajectory(1, 50)
     np.testing.assert_allclose(compose(a, between(a, b)), b, atol=1e-12)
-    assert (np.abs(wrapped(np.linspace(-20, 20, 999))) <= np.pi).all()
+    assert (np.abs(wrap_angle(np.linspace(-20, 20, 999))) <= np.pi).all()
 
 
 @pytest.mark.parametrize("name", PRIORS)
@@ -95,7 +95,7 @@ def test_samples_of_odometry_have_its_errors():
     poses = prior.law(log).sample(np.random.default_rng(9))
     motions = between(log[:-1], log[1:])
     error = between(poses[:-1], poses[1:]) - motions
-    error[:, 2] = wrapped(error[:, 2])
+    error[:, 2] = wrap_angle(error[:, 2])
     standard = error / prior.sigmas(motions)
     for axis in range(3):
         assert scipy.stats.kstest(standard[:, axis], "norm").pvalue > 1e-4 / 3

@@ -8,7 +8,7 @@ from bayesmap.io.logs import read_log
 from bayesmap.io.text.trajectories import read_relations
 from bayesmap.poses.slam import infer_trajectory
 from bayesmap.posterior.trajectory_scores import relation_errors
-from bayesmap.space.planar import between, compose, wrapped
+from bayesmap.space.planar import between, compose, wrap_angle
 from bayesmap.space.scans import Scans
 
 
@@ -55,12 +55,12 @@ def drone_log(name):
     depth = rows[:, 19:51] / 1000.0
     ranges = depth / np.cos(zones) + np.repeat([0.02, 0.02, 0.025, 0.025], 8) * np.cos(zones)
     ranges[(depth <= 0.0) | (ranges > 3.9)] = np.nan
-    order = np.argsort(wrapped(angles))
+    order = np.argsort(wrap_angle(angles))
     odometry = compose(rows[:, 6:9], rows[:, 3:6])
     w, x, y, z = rows[:, 15:19].T
     truth = np.column_stack([rows[:, 12:14], np.arctan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y**2 + z**2))])
     stamps = np.arange(len(rows)) / 15.0 + rows[:, 1]
-    scans = Scans(odometry, wrapped(angles)[order], ranges[:, order], 4.0, min_range_m=0.02, stamps_s=stamps)
+    scans = Scans(odometry, wrap_angle(angles)[order], ranges[:, order], 4.0, min_range_m=0.02, stamps_s=stamps)
     return scans, truth, np.flatnonzero(rows[:, 2] == 0)
 
 

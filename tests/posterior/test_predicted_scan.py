@@ -98,7 +98,7 @@ def test_quantiles_of_surfaces_are_where_a_beam_crosses_them():
     rng = np.random.default_rng(4)
     states = np.zeros((2, GRID.n_cells, 6), np.float32)
     states[..., 0] = rng.beta(0.6, 1.0, (2, GRID.n_cells))
-    mean = GRID.cell_centres_m(np.arange(GRID.n_cells)) + rng.uniform(-0.2, 0.2, (GRID.n_cells, 2))
+    mean = GRID.centers_from_corner_m(np.arange(GRID.n_cells)) + rng.uniform(-0.2, 0.2, (GRID.n_cells, 2))
     shape = np.column_stack([rng.uniform(0.05, 0.2, GRID.n_cells), rng.normal(0, 0.05, GRID.n_cells)])
     states[..., 1:3], states[..., 3:5], states[..., 5] = mean, shape, 0.04  # alike in both draws: nothing is merged
     start = np.array(POSE[:2]) - GRID.origin

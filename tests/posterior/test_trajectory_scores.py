@@ -16,7 +16,7 @@ from bayesmap.io.text.trajectories import read_relations
 from bayesmap.posterior.summary import summarise_poses
 from bayesmap.posterior.trajectory_scores import LEVELS, Relations, relation_errors, score_trajectory
 from bayesmap.result import Run
-from bayesmap.space.planar import between, compose, wrapped
+from bayesmap.space.planar import between, compose, wrap_angle
 from bayesmap.space.trajectory import Trajectory
 
 SECONDS = np.arange(10.0)
@@ -163,7 +163,7 @@ def test_a_region_of_few_draws_holds_its_share_too(count):
     """Truth and draws come from one law: the truth is one more draw. False alarm: 1 run in 3000."""
     rng = np.random.default_rng(2)
     every = path() + rng.normal(size=(count + 1, len(STAMPS), 3)) * (0.02, 0.03, 0.002)
-    every[..., 2] = wrapped(every[..., 2])
+    every[..., 2] = wrap_angle(every[..., 2])
     score = score_trajectory(Trajectory.of_draws(every[1:], STAMPS), relations_of(every[0]))
     assert not score.assumed_independent
     for level in LEVELS:

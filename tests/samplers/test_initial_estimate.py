@@ -57,7 +57,11 @@ def test_counts_are_naive_counts(problem):
 def test_moments_are_those_of_the_end_points_drawn_towards_the_prior_and_widened(problem):
     rays, estimate = problem.rays, problem.estimate
     cells, hits = estimate.endpoint_cells, estimate.hits[estimate.endpoint]
-    ends, centres, spread = estimates.end_cells(rays), rays.grid.cell_centres_m(cells), 0.28 * rays.grid.resolution
+    ends, centres, spread = (
+        estimates.end_cells(rays),
+        rays.grid.centers_from_corner_m(cells),
+        0.28 * rays.grid.resolution,
+    )
     for u in np.argsort(hits)[[0, -5, -2, -1]]:
         points = rays.end_points_m()[ends == cells[u]]
         weights = np.append(np.ones(len(points)), 0.3)
@@ -100,7 +104,7 @@ def test_every_cell_of_the_grid_has_a_start_those_without_beams_from_the_prior()
     assert len(untouched) > 3000
     surfaces = prior.sample_surfaces(np.random.default_rng(4), 20_000) * grid.resolution
     for state in states:
-        away = state[untouched, 1:3] - grid.cell_centres_m(untouched)
+        away = state[untouched, 1:3] - grid.centers_from_corner_m(untouched)
         assert scipy.stats.kstest(state[untouched, 0], scipy.stats.beta(prior.a, prior.b).cdf).pvalue > 1e-6
         for drawn, expected in ((away[:, 0], surfaces[:, 0]), (state[untouched, 3], surfaces[:, 2])):
             assert scipy.stats.ks_2samp(drawn, expected).pvalue > 1e-6

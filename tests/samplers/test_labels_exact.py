@@ -175,7 +175,7 @@ def surfaces_by_importance(name):
     rng, count, grid = np.random.default_rng(31), 150_000, bm.Grid((2, 1), EDGE)
     of_labels = np.exp(log_prior_of_all((2, 1), 0.5, prior.coupling))
     solid = all_maps(2)[rng.choice(4, size=count, p=of_labels)]
-    states = draw_states(rng, prior, (grid.cell_centres_m(np.arange(2)), EDGE), (count,))
+    states = draw_states(rng, prior, (grid.centers_from_corner_m(np.arange(2)), EDGE), (count,))
     states[..., 0] = rng.beta(*prior.beta_given(solid))
     paths = paths_of(build_worlds(scans, grid, prior, BLUNT, 1).problem.rays)
     parts = [states[i : i + 50_000] for i in range(0, count, 50_000)]
@@ -208,7 +208,7 @@ def test_the_sampler_s_log_prior_is_that_of_the_formula():
     expected = []
     for chain in range(40):
         cells = state.chains.cells(chain).astype(float)
-        cells[:, 1:3] -= grid.cell_centres_m(np.arange(2))
+        cells[:, 1:3] -= grid.centers_from_corner_m(np.arange(2))
         parts = dict(zip(("mean_x", "mean_y", "l11", "l21", "l22"), cells[:, 1:].T / EDGE, strict=True))
         named = {f"surface_{part}": values.reshape(2, 1) for part, values in parts.items()}
         solid = state.chains.solid(chain).reshape(2, 1)

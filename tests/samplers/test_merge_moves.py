@@ -35,7 +35,7 @@ def wall(beams=((3, 3), (4, 10), (5, 8))):
     """Cells in a row along x, at y = 5, each with so many readings on the same line: cells, owners and end points."""
     rng = np.random.default_rng(0)
     cells = np.zeros((GRID.n_cells, 6), dtype=np.float32)
-    cells[:, 1:3] = GRID.cell_centres_m(np.arange(GRID.n_cells))
+    cells[:, 1:3] = GRID.centers_from_corner_m(np.arange(GRID.n_cells))
     cells[:, 3] = cells[:, 5] = 0.02
     owner, points = [], []
     for x, count in beams:
@@ -191,7 +191,7 @@ def test_readings_are_explained_better_than_before_and_no_surface_leaves_its_cel
     before, after, seen, look = merged
     assert not np.array_equal(before.cells, after.cells)
     assert (look(after) - seen).sum() > 0
-    away = after.cells[..., 1:3] - ROOM.cell_centres_m(np.arange(ROOM.n_cells))
+    away = after.cells[..., 1:3] - ROOM.centers_from_corner_m(np.arange(ROOM.n_cells))
     assert abs(away).max() <= 0.5 * ROOM.resolution + 1e-6
 
 

@@ -10,7 +10,7 @@ from tiers import full_but
 import bayesmap as bm
 from bayesmap.errors import BadInput
 from bayesmap.sim.robot import NEAR_M, OdometryNoise, related_pairs, simulate_odometry, travel_times_s
-from bayesmap.space.planar import between, wrapped
+from bayesmap.space.planar import between, wrap_angle
 
 ANGLES = np.linspace(0, 2 * np.pi, 36, endpoint=False)
 
@@ -108,7 +108,7 @@ def straight(metres, steps):
 
 def circle(turns, steps):
     angle = np.linspace(0, 2 * np.pi * turns, steps + 1)
-    return np.column_stack([np.sin(angle), 1 - np.cos(angle), wrapped(angle)])
+    return np.column_stack([np.sin(angle), 1 - np.cos(angle), wrap_angle(angle)])
 
 
 def ends(path, noise, runs):
@@ -135,8 +135,8 @@ def test_noise_has_the_stated_size_whatever_the_steps(steps):
     yaw = ends(straight(metres, steps), odometry(turn_per_m=0.01), 2000)[:, 2]
     assert np.std(yaw) == pytest.approx(0.01 * np.sqrt(metres), rel=0.08)
     turns = 0.5
-    spot = np.column_stack([np.zeros((steps + 1, 2)), wrapped(np.linspace(0, 2 * np.pi * turns, steps + 1))])
-    yaw = wrapped(ends(spot, odometry(turn_per_rad=0.02), 2000)[:, 2] - np.pi)
+    spot = np.column_stack([np.zeros((steps + 1, 2)), wrap_angle(np.linspace(0, 2 * np.pi * turns, steps + 1))])
+    yaw = wrap_angle(ends(spot, odometry(turn_per_rad=0.02), 2000)[:, 2] - np.pi)
     assert np.std(yaw) == pytest.approx(0.02 * np.sqrt(2 * np.pi * turns), rel=0.08)
 
 
@@ -145,7 +145,9 @@ def test_bias_adds_up_along_the_way():
     np.testing.assert_allclose(end, [10.5, 0, 0], atol=1e-9)
     assert simulate_odometry(straight(10.0, 50), odometry(drift_rad_per_m=0.02))[-1, 2] == pytest.approx(0.2)
     half = circle(0.5, 50)
-    assert wrapped(simulate_odometry(half, odometry(turn_scale=0.1))[-1, 2] - 1.1 * np.pi) == pytest.approx(0, abs=1e-9)
+    assert wrap_angle(simulate_odometry(half, odometry(turn_scale=0.1))[-1, 2] - 1.1 * np.pi) == pytest.approx(
+        0, abs=1e-9
+    )
 
 
 def test_slips_come_as_often_as_said_and_only_lengthen_the_way():

@@ -83,7 +83,7 @@ def test_composition_and_inverse_are_those_of_matrices(a, b):
 
 @pytest.mark.parametrize(("angle", "same"), [(np.pi, -np.pi), (-np.pi, -np.pi), (7.0, 7.0 - 2 * np.pi), (0.5, 0.5)])
 def test_angles_are_wrapped_into_one_turn(angle, same):
-    assert p.wrapped(np.array(angle)) == pytest.approx(same)
+    assert p.wrap_angle(np.array(angle)) == pytest.approx(same)
 
 
 def test_interpolated_poses_pass_through_the_given_ones_and_turn_the_short_way():
@@ -99,17 +99,17 @@ def test_interpolated_poses_pass_through_the_given_ones_and_turn_the_short_way()
 
 
 def test_neighbours_are_those_before_and_after_and_the_two_at_the_end_outside():
-    before, after = p.around(np.array([1.0, 2.0, 4.0]), np.array([0.0, 1.5, 2.0, 3.0, 9.0]))
+    before, after = p.bracketing_indices(np.array([1.0, 2.0, 4.0]), np.array([0.0, 1.5, 2.0, 3.0, 9.0]))
     assert before.tolist() == [0, 0, 0, 1, 1]
     assert after.tolist() == [1, 1, 1, 2, 2]
     alone = np.array([5]), np.array([1, 5, 9])
-    assert [index.tolist() for index in (*p.around(*alone), p.nearest(*alone))] == [[0, 0, 0]] * 3
+    assert [index.tolist() for index in (*p.bracketing_indices(*alone), p.nearest_index(*alone))] == [[0, 0, 0]] * 3
 
 
 @given(st.lists(st.integers(-50, 50), min_size=1, max_size=8, unique=True), st.integers(-60, 60))
 def test_the_nearest_is_the_nearest_of_all_and_of_two_the_earlier(numbers, number):
     ascending = np.sort(numbers)
-    assert p.nearest(ascending, np.array([number]))[0] == np.argmin(np.abs(ascending - number))
+    assert p.nearest_index(ascending, np.array([number]))[0] == np.argmin(np.abs(ascending - number))
 
 
 A, B = np.random.default_rng(5).normal(0.0, 2.0, (2, 20, 3))

@@ -149,7 +149,7 @@ class Surface(Reflective):
         parts = [np.ravel(cells[f"surface_{part}"]) for part in PARTS]
         out = np.stack([np.ravel(cells["reflectivity"]), *parts], axis=-1).astype(np.float32)
         out[:, 1:] *= grid.resolution
-        out[:, 1:3] += grid.cell_centres_m(np.arange(grid.n_cells))
+        out[:, 1:3] += grid.centers_from_corner_m(np.arange(grid.n_cells))
         return out
 
     def completed(self, cells: Cells, grid: Grid) -> Cells:
@@ -190,7 +190,11 @@ class Surface(Reflective):
         n = max(draws.size, 1)
         position, _ = positions_in(draws.index["cell"], cells)
         reflectivity = draws.arrays["expected"][..., position].mean(axis=(0, 1), dtype=np.float64)
-        return draws.grid.cell_centres_m(cells) + np.array(draws.grid.origin) + mean / n, second / n, reflectivity
+        return (
+            draws.grid.centers_from_corner_m(cells) + np.array(draws.grid.origin) + mean / n,
+            second / n,
+            reflectivity,
+        )
 
     def surface_writer(self, draws: Draws, cells: NDArray[np.int32]) -> Callable[[NDArray[np.float32], int, int], None]:
         """Return a function that writes the surfaces of the cells in a draw, by chain and draw, into stops, (n, 6).
@@ -199,7 +203,7 @@ class Surface(Reflective):
         are drawn from it here.
         """
         position, stored = positions_in(draws.index["surface_cell"], cells)
-        position, centre, rng = position[stored], draws.grid.cell_centres_m(cells), np.random.default_rng(0)
+        position, centre, rng = position[stored], draws.grid.centers_from_corner_m(cells), np.random.default_rng(0)
         # The pool of prior surfaces is drawn once; each draw of the map reads it from another random offset. The
         # surface of a cell does not depend on the other cells.
         pool = self.sample_surfaces(rng, FRESH_CELLS).astype(np.float32)

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
-from bayesmap.space.planar import wrapped
+from bayesmap.space.planar import wrap_angle
 from bayesmap.space.trajectory import ellipses
 
 Floats = NDArray[np.float64]
@@ -174,11 +174,11 @@ def _moments(poses: Floats, weights: Floats) -> tuple[Floats, Floats]:
     """Return mean and covariance of weighted poses; those of the yaw are about its circular mean."""
     centre = np.arctan2(weights @ np.sin(poses[:, 2]), weights @ np.cos(poses[:, 2]))
     off = poses.copy()
-    off[:, 2] = wrapped(poses[:, 2] - centre)
+    off[:, 2] = wrap_angle(poses[:, 2] - centre)
     mean = weights @ off
     error = off - mean
     covariance = np.einsum("n,ni,nj->ij", weights, error, error)
-    mean[2] = wrapped(mean[2] + centre)
+    mean[2] = wrap_angle(mean[2] + centre)
     return mean, covariance
 
 

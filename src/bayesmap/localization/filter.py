@@ -36,7 +36,7 @@ from bayesmap.localization.particles import (
 )
 from bayesmap.localization.search import FEWEST, end_points, search
 from bayesmap.sensors.model import RangeLimits
-from bayesmap.space.planar import wrapped
+from bayesmap.space.planar import wrap_angle
 
 Floats = NDArray[np.float64]
 
@@ -383,7 +383,7 @@ def distinct(places: PoseMixture) -> PoseMixture:
     kept: list[int] = []
     for i in np.argsort(-places.log_mass, kind="stable").tolist():
         off = places.means[kept] - places.means[i]
-        off[:, 2] = wrapped(off[:, 2])
+        off[:, 2] = wrap_angle(off[:, 2])
         within = np.einsum("ki,kij,kj->k", off, np.linalg.inv(places.covariances[kept]), off) < ONE_PLACE**2
         if not (within | (np.abs(off) < ALIKE).all(axis=1)).any():
             kept.append(i)

@@ -17,7 +17,7 @@ from bayesmap.localization.known_map import KnownMap, Trust
 from bayesmap.localization.particles import LEAST_SD, PoseMixture
 from bayesmap.poses.prior import Odometry
 from bayesmap.sensors.model import RangeLimits
-from bayesmap.space.planar import between, compose, rotation, wrapped
+from bayesmap.space.planar import between, compose, rotation, wrap_angle
 from bayesmap.space.scans import Scans, asked_poses, check_sigma_rad
 from bayesmap.space.trajectory import Trajectory
 
@@ -250,7 +250,7 @@ def moved(belief: PoseBelief, motion: Floats, sigmas: Floats, trust: Trust, new:
     swing[:, 1, 2] = ends[:, 0] - means[:, 0]
     turn = rotation(means[:, 2])
     noise = turn @ np.diag(sigmas**2 + LEAST_SD**2) @ np.swapaxes(turn, 1, 2)
-    ends[:, 2] = wrapped(ends[:, 2])
+    ends[:, 2] = wrap_angle(ends[:, 2])
     mass = np.log([mode.probability for mode in modes])
     components = PoseMixture(ends, swing @ covariances @ np.swapaxes(swing, 1, 2) + noise, mass)
     lost = belief.p_lost * (1.0 - new * IS_FOUND) + (1.0 - belief.p_lost) * new * GETS_LOST

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import gammaincinv, gammaln, ndtri
 
-from bayesmap.space.planar import wrapped
+from bayesmap.space.planar import wrap_angle
 
 Floats = NDArray[np.float64]
 
@@ -93,7 +93,7 @@ def draw_population(
     place = np.repeat(np.arange(len(counts)), counts)
     roots = np.linalg.cholesky(components.covariances)
     poses = components.means[place] + np.matmul(roots[place], student_draws(len(place), rng)[..., None])[..., 0]
-    poses[:, 2] = wrapped(poses[:, 2])
+    poses[:, 2] = wrap_angle(poses[:, 2])
     log_target = target(poses)
     log_weights = log_target - proposal_log_density(components, poses, counts)
     # Truncated importance sampling (Ionides 2008): no weight exceeds the mean by more than the root of their number.
@@ -125,7 +125,7 @@ def groups_of(components: PoseMixture, poses: Floats) -> NDArray[np.intp]:
     if len(components.means) == 1:
         return np.zeros(len(poses), dtype=np.intp)
     off = components.means[:, None] - components.means
-    off[..., 2] = wrapped(off[..., 2])
+    off[..., 2] = wrap_angle(off[..., 2])
     both = np.linalg.inv(components.covariances[:, None] + components.covariances)
     near = np.einsum("kli,klij,klj->kl", off, both, off) < OVERLAP**2
     near |= (np.abs(off) < SAME).all(axis=2)
@@ -141,7 +141,7 @@ def proposal_log_density(components: PoseMixture, poses: Floats, counts: NDArray
 def squared_distances(components: PoseMixture, poses: Floats) -> tuple[Floats, Floats]:
     """Return squared Mahalanobis distances of poses from each place, (P, K), and half the log determinants, (K,)."""
     off = poses - components.means[:, None]
-    off[..., 2] = wrapped(off[..., 2])
+    off[..., 2] = wrap_angle(off[..., 2])
     inverse = np.linalg.inv(components.covariances)
     squared = (np.matmul(off, inverse) * off).sum(axis=-1)
     return np.ascontiguousarray(squared.T), -0.5 * np.linalg.slogdet(inverse)[1]
@@ -182,7 +182,7 @@ def adapted(components: PoseMixture, population: Population, widen: float = 1.5)
             weights = np.exp(power * less)
         weights /= weights.sum()
         off = population.poses[own] - means[k]
-        off[:, 2] = wrapped(off[:, 2])
+        off[:, 2] = wrap_angle(off[:, 2])
         shift = weights @ off
         error = off - shift
         covariances[k] = widen * np.einsum("n,ni,nj->ij", weights, error, error) + np.diag(LEAST_SD**2)

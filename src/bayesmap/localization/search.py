@@ -23,7 +23,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.space.grid import Grid
-from bayesmap.space.planar import wrapped
+from bayesmap.space.planar import wrap_angle
 
 Floats = NDArray[np.float64]
 
@@ -228,7 +228,7 @@ def refine(field: Field, points: Floats, poses: Floats, most: int) -> Candidates
         step_m, step_rad = 0.5 * step_m, 0.5 * step_rad
     order = _apart(poses, np.argsort(-scores, kind="stable"), most, APART_M, APART_RAD)
     poses = poses[order]
-    poses[:, 2] = wrapped(poses[:, 2])
+    poses[:, 2] = wrap_angle(poses[:, 2])
     return Candidates(poses, scores[order])
 
 
@@ -280,7 +280,7 @@ def _apart(poses: Floats, order: NDArray[np.intp], most: int, apart_m: float, ap
     """Select the first poses of an order that are all apart from each other, at most ``most``."""
     ordered = poses[order]
     off = np.abs(ordered[:, None] - ordered)
-    near = (off[..., 0] < apart_m) & (off[..., 1] < apart_m) & (np.abs(wrapped(off[..., 2])) < apart_rad)
+    near = (off[..., 0] < apart_m) & (off[..., 1] < apart_m) & (np.abs(wrap_angle(off[..., 2])) < apart_rad)
     free = np.ones(len(order), dtype=np.bool_)
     kept: list[int] = []
     for k in range(len(order)):

@@ -35,7 +35,7 @@ from numpy.typing import NDArray
 from bayesmap.kernels.match.scan_refinement import Convergence, Refinement, refine_scans
 from bayesmap.poses.prior import Odometry
 from bayesmap.poses.scan_geometry import scan_geometry
-from bayesmap.space.planar import Floats, between, interpolate, wrapped, yaw_wrapped
+from bayesmap.space.planar import Floats, between, interpolate, wrap_angle, wrap_yaw
 from bayesmap.space.scans import Scans
 from bayesmap.space.time_order import elapsed_s, repeated_stamps
 
@@ -104,7 +104,7 @@ class RunningOdometry:
 
     def corrected(self, motions: Floats) -> Floats:
         """Return stated motions with the systematic error removed, (..., 3)."""
-        return yaw_wrapped(motions + motions @ self._slope.T)
+        return wrap_yaw(motions + motions @ self._slope.T)
 
     def variances(self, motions: Floats) -> Floats:
         """Return variances of x, y and yaw of each motion's remaining error, (..., 3)."""
@@ -112,9 +112,9 @@ class RunningOdometry:
 
     def learn_slope(self, stated: Floats, matched: Floats, laser_variance: Floats) -> None:
         """Learn the systematic error from a longer motion: as stated, as matched, and the matching's variance, (3,)."""
-        error = yaw_wrapped(stated - matched)
+        error = wrap_yaw(stated - matched)
         variance = self.variances(stated) + laser_variance
-        rest = yaw_wrapped(error - self._systematic @ matched)
+        rest = wrap_yaw(error - self._systematic @ matched)
         if not (rest**2 < 16.0 * variance).all():
             return
         # One weight for the three: the entries of C share a normal matrix.
@@ -126,7 +126,7 @@ class RunningOdometry:
 
     def learn_noise(self, stated: Floats, matched: Floats, laser_variance: Floats) -> None:
         """Learn the noise from a motion from scan to scan: as stated, as matched, and the matching's variance, (3,)."""
-        rest = yaw_wrapped(matched - stated - self._slope @ stated)
+        rest = wrap_yaw(matched - stated - self._slope @ stated)
         base = COMMON.sigmas(stated) ** 2
         excess = np.maximum(rest**2 - laser_variance, 0.0) / base
         keep = 1.0 - 1.0 / MEMORY
@@ -294,7 +294,7 @@ def fit_odometry(
     """
     # Errors of odometry between known scans, and the changes of velocity that a lag multiplies.
     motion = between(known[:-1], known[1:])
-    error = yaw_wrapped(between(stated[scans[:-1]], stated[scans[1:]]) - motion)
+    error = wrap_yaw(between(stated[scans[:-1]], stated[scans[1:]]) - motion)
     change = np.zeros_like(motion)
     if stamps_s is not None:
         speed, told = velocities(stated, stamps_s), ~repeated_stamps(stamps_s)[scans]
@@ -330,7 +330,7 @@ def fit_odometry(
 
 
 def _left(error: Floats, motion: Floats, change: Floats, coefficients: Floats) -> Floats:
-    return yaw_wrapped(error - motion @ coefficients[:9].reshape(3, 3).T - coefficients[9] * change)
+    return wrap_yaw(error - motion @ coefficients[:9].reshape(3, 3).T - coefficients[9] * change)
 
 
 def _over(sizes: Floats, scans: NDArray[np.intp]) -> Floats:
@@ -354,7 +354,7 @@ def angle_step_ratio(
     step = float(np.nanmedian(scans.steps_rad)) if scans.steps_rad.size else np.pi
     if np.median(scans.sweep_rad) + 1.5 * step > 2.0 * np.pi:
         return 1.0
-    turned = np.abs(wrapped(poses[source, 2] - poses[target, 2]))
+    turned = np.abs(wrap_angle(poses[source, 2] - poses[target, 2]))
     useful = np.nonzero((turned > np.radians(25.0)) & (turned < np.radians(130.0)))[0]
     if len(useful) < 20:
         return 1.0

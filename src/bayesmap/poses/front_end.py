@@ -22,7 +22,7 @@ from bayesmap.poses.graph import DOUBTFUL_SQ
 from bayesmap.poses.matcher import likelihood_grids
 from bayesmap.poses.next_scans import Elsewhere, Placed, Window, contradicts, place_anywhere, place_near, predict
 from bayesmap.poses.scan_geometry import ScanGeometry
-from bayesmap.space.planar import Floats, between, chained, yaw_wrapped
+from bayesmap.space.planar import Floats, between, chain_motions, wrap_yaw
 
 KEY_DISTANCE_M, KEY_TURN_RAD = 0.4, np.radians(20.0)  # a scan this far from the last key scan becomes a key scan
 KEY_SCORE = 0.5  # a scan with a lower score becomes a key scan, too
@@ -171,7 +171,7 @@ class _Path:
 
         A place counts as near if the wide search says so, or if the noise of odometry allows it.
         """
-        off = yaw_wrapped(between(placed.predicted[0], place.pose))
+        off = wrap_yaw(between(placed.predicted[0], place.pose))
         allowed = float((off**2 / placed.variance[0]).sum()) < DOUBTFUL_SQ
         if not (place.near or allowed) or place.score < self.usual - SLIPPED_BELOW:
             return False
@@ -235,7 +235,7 @@ class _Path:
         """Make a scan a key scan, and learn odometry's systematic error from the way to it."""
         if self.motions is not None and self.plain and not self.broken[scan]:
             before = self.keys[-1]
-            stated = chained(np.zeros(3), self.motions[before:scan])[-1]
+            stated = chain_motions(np.zeros(3), self.motions[before:scan])[-1]
             self.odometry.learn_slope(stated, between(self.poses[before], self.poses[scan]), self.left + 1e-5)
         self.plain = True
         self.keys.append(scan)
@@ -248,7 +248,7 @@ class _Path:
         backwards = None
         if self.motions is not None and np.hypot(*self.motions[span, :2].sum(axis=0)) < BACKWARDS_M:
             stated = self.odometry.corrected(self.motions[span]) * [-1.0, -1.0, 1.0]
-            backwards = chained(self.poses[self.at], stated)
+            backwards = chain_motions(self.poses[self.at], stated)
         placed = place_near(self.geometry, self.window, scans, predicted, variance, backwards, self.usual)
         wrong = placed.scores < self._poor_below()
         for k in np.nonzero(wrong)[0]:

@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from scipy import sparse
 from scipy.sparse.linalg import splu
 
-from bayesmap.space.planar import Floats, between, between_jacobians, compose, retract, yaw_wrapped
+from bayesmap.space.planar import Floats, between, between_jacobians, compose, retract, wrap_yaw
 
 COLUMNS = 16
 """Columns solved at once. With hundreds of columns BLAS starts threads for blocks that are far too small. On two cores
@@ -160,7 +160,7 @@ class Factors:
 
     def errors(self, poses: Floats) -> Floats:
         """Return the relative poses minus the measured ones, (M, 3)."""
-        return yaw_wrapped(between(poses[self.first], poses[self.second]) - self.relative)
+        return wrap_yaw(between(poses[self.first], poses[self.second]) - self.relative)
 
     def squares(self, poses: Floats) -> Floats:
         """Return the squared Mahalanobis lengths of the errors, (M,)."""

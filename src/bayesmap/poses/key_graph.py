@@ -16,7 +16,7 @@ from bayesmap.poses.matcher import LikelihoodGrids, likelihood_grids, match, sco
 from bayesmap.poses.next_scans import POINTS, TELLING
 from bayesmap.poses.rejoin import AGREE, SAME_M, SAME_RAD, Joint, consistent, rejoin
 from bayesmap.poses.scan_geometry import ScanGeometry
-from bayesmap.space.planar import Floats, between, compose, rotation, wrapped, yaw_wrapped
+from bayesmap.space.planar import Floats, between, compose, rotation, wrap_angle, wrap_yaw
 
 DEFLATION = 4.0  # divisor of the information of the front end's links, whose windows overlap
 LINK_FLOOR = np.array([0.004, 0.004, np.radians(0.12)])  # least standard deviations of a link, m and rad
@@ -121,7 +121,7 @@ def unconfirmed_links(geometry: ScanGeometry, track: Track, odometry: Factors, p
         doubtful[k] = score < usual - CONFIRMED_BELOW and (
             refused[k] or _fits_elsewhere(grid, points, step, score, usual, odometry.select(np.array([k])))
         )
-    off = yaw_wrapped(between(poses[:-1], poses[1:]) - between(track.poses[keys[:-1]], track.poses[keys[1:]]))
+    off = wrap_yaw(between(poses[:-1], poses[1:]) - between(track.poses[keys[:-1]], track.poses[keys[1:]]))
     moved = ((off / UNKNOWN) ** 2).sum(axis=1) > GUESSED_SIGMAS**2
     return np.asarray(doubtful | (_fitted_after_break(track) & moved))
 
@@ -143,9 +143,9 @@ def _fits_elsewhere(
     if not best.found[0, 0]:
         return False
     place = best.poses[0, 0]
-    error, off = yaw_wrapped(place - stated[0]), between(step, place)
+    error, off = wrap_yaw(place - stated[0]), between(step, place)
     allowed = error @ odometry.information[0] @ error < REFUSED_SIGMAS**2
-    return bool(allowed and (np.hypot(off[0], off[1]) > LEAP_M or abs(wrapped(off[2])) > LEAP_RAD))
+    return bool(allowed and (np.hypot(off[0], off[1]) > LEAP_M or abs(wrap_angle(off[2])) > LEAP_RAD))
 
 
 def poses_between_keys(
@@ -162,12 +162,12 @@ def poses_between_keys(
     result = compose(key_poses[before], between(track_poses[keys[before]], track_poses))
     # The pose of the next key if nothing had changed.
     expected = compose(key_poses[before], between(track_poses[keys[before]], track_poses[keys[after]]))
-    change = yaw_wrapped(key_poses[after] - expected)
+    change = wrap_yaw(key_poses[after] - expected)
     if broken is not None:
         change[broken[keys[after]]] = 0.0
     step = np.maximum(keys[after] - keys[before], 1)
     share = (np.arange(count) - keys[before]) / step
-    return yaw_wrapped(result + change * np.where(after > before, share, 0.0)[:, None])
+    return wrap_yaw(result + change * np.where(after > before, share, 0.0)[:, None])
 
 
 def close_loops(

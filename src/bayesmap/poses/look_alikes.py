@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.poses.graph import DOUBTFUL_SQ, Factors, quadratic, relative_covariances, solve_step
-from bayesmap.space.planar import Floats, between, retract, wrapped
+from bayesmap.space.planar import Floats, between, retract, wrap_angle
 
 PLACE_M = 5.0  # greatest distance along the path between ends of closures of one visit, and length of one place, metres
 SAME_M, SAME_RAD = 0.4, np.radians(6.0)  # greatest difference between closures that agree
@@ -129,7 +129,7 @@ def twist_squares(expected: Floats, measured: Floats, covariance: Floats) -> Flo
     """
     change = np.tile(np.eye(3), (len(expected), 1, 1))  # from steps of x, y and yaw to twists
     change[:, 0, 2], change[:, 1, 2] = expected[:, 1], -expected[:, 0]
-    yaw = wrapped(measured[:, 2] - expected[:, 2])
+    yaw = wrap_angle(measured[:, 2] - expected[:, 2])
     cosine, sine = np.cos(yaw), np.sin(yaw)
     x = measured[:, 0] - (cosine * expected[:, 0] - sine * expected[:, 1])
     y = measured[:, 1] - (sine * expected[:, 0] + cosine * expected[:, 1])

@@ -20,7 +20,7 @@ from bayesmap.kernels.match.scan_refinement import Convergence, Refinement, refi
 from bayesmap.poses.graph import Factors, Precision, relative_covariances
 from bayesmap.poses.matcher import likelihood_grids, match
 from bayesmap.poses.scan_geometry import ScanGeometry
-from bayesmap.space.planar import Floats, between, compose, transform, wrapped, yaw_wrapped
+from bayesmap.space.planar import Floats, between, compose, transform, wrap_angle, wrap_yaw
 
 GAP_M = 1000.0  # length that a break counts as: no submap reaches over it, and places on both sides may close
 SHORT = 120.0  # places that a path is divided into at least: a small loop has few places that close it
@@ -270,7 +270,7 @@ def _possible(closures: Closures, path: KeyPath, precision: Precision, most_off:
     """Return whether each closure is within ``most_off`` standard deviations of the graph's relative pose, (M,)."""
     if not len(closures):
         return np.zeros(0, np.bool_)
-    off = yaw_wrapped(closures.relative - between(path.poses[closures.first], path.poses[closures.second]))
+    off = wrap_yaw(closures.relative - between(path.poses[closures.first], path.poses[closures.second]))
     covariance = relative_covariances(precision, path.poses, closures.first, closures.second) + np.diag(BENT**2)
     squares = np.einsum("mi,mij,mj->m", off, np.linalg.inv(covariance), off)
     return np.asarray(squares < most_off**2)
@@ -301,7 +301,7 @@ def _candidates(
     sigma = np.sqrt(np.maximum(np.diagonal(covariance, axis1=1, axis2=2), 0.0))
     reach = np.minimum(SIGMAS * sigma[:, :2].max(axis=1), search.most_m) + np.minimum(0.7 * half_width_m, 8.0)
     # Two costs of a pair: the difference of poses, and the distance between the spots that the scans look at.
-    turned = np.abs(wrapped(poses[earlier, 2] - poses[later, 2]))
+    turned = np.abs(wrap_angle(poses[earlier, 2] - poses[later, 2]))
     alike = distance + 0.7 * turned
     looks_at = np.hypot(*(middles[earlier] - middles[later]).T)
     chosen: list[int] = []

@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
 from bayesmap.poses.scan_geometry import ScanGeometry
-from bayesmap.space.planar import Floats, transform, wrapped
+from bayesmap.space.planar import Floats, transform, wrap_angle
 
 
 @dataclass(frozen=True, eq=False)
@@ -158,7 +158,7 @@ def match(
     job, mode = np.nonzero(nodes[..., 0] >= 0)
     row, shift = nodes[job, mode, 0], nodes[job, mode, 1:]
     poses[job, mode, :2] = centres[job, :2] + shift * grids.resolution
-    poses[job, mode, 2] = wrapped(angles[row])
+    poses[job, mode, 2] = wrap_angle(angles[row])
     return Matches(scores, poses)
 
 

@@ -17,7 +17,7 @@ from bayesmap.kernels.match.scan_refinement import Convergence, Refinement, refi
 from bayesmap.poses.calibration import RunningOdometry
 from bayesmap.poses.matcher import LikelihoodGrids, Pull, match
 from bayesmap.poses.scan_geometry import ScanGeometry
-from bayesmap.space.planar import Floats, between, chained, compose, rotation
+from bayesmap.space.planar import Floats, between, chain_motions, compose, rotation
 from bayesmap.space.time_order import SAME_S
 
 UNUSUAL = 0.04
@@ -75,7 +75,7 @@ def predict(
         sigma = np.array([0.05 + 0.5 * min(gap, 1.0)] * 2 + [np.radians(4.0) + 0.6 * min(gap, 1.0)])
         return compose(poses[i], last * share)[None], sigma[None] ** 2
     stated = motions[i : i + len(batch)]
-    return chained(poses[i], odometry.corrected(stated)), np.cumsum(odometry.variances(stated), axis=0)
+    return chain_motions(poses[i], odometry.corrected(stated)), np.cumsum(odometry.variances(stated), axis=0)
 
 
 def place_near(

@@ -15,7 +15,7 @@ from bayesmap.poses.graph import Factors, relative_covariances
 from bayesmap.poses.log_checks import caught_up
 from bayesmap.poses.pose_gaussian import PoseGaussian
 from bayesmap.poses.scan_geometry import ScanGeometry
-from bayesmap.space.planar import Floats, between, chained, compose, rotation, yaw_wrapped
+from bayesmap.space.planar import Floats, between, chain_motions, compose, rotation, wrap_yaw
 from bayesmap.space.scans import Scans
 
 STEADY = np.diag(1.0 / np.array([0.1, 0.1, np.radians(3.0)]) ** 2)  # information of links without odometry
@@ -43,7 +43,7 @@ class StatedOdometry:
         if not (self.used and against.any()):
             return self
         motions = np.where(against[1:, None], self.motions * [-1.0, -1.0, 1.0], self.motions)
-        poses = np.vstack([self.poses[:1], chained(self.poses[0], motions)])
+        poses = np.vstack([self.poses[:1], chain_motions(self.poses[0], motions)])
         return replace(self, poses=poses, motions=motions)
 
     def first_factors(self, track: Track, poses: Floats) -> Factors:
@@ -93,7 +93,7 @@ class StatedOdometry:
         if lag_s != 0.0:
             late = stated_at(self.poses, self.stamps_s, lag_s)
             motions = between(late[:-1], late[1:])
-        corrected = yaw_wrapped(motions + motions @ slope.T)
+        corrected = wrap_yaw(motions + motions @ slope.T)
         links = composed(corrected, _steadied(variances(motions)), keys)
         return guessed(links, poses, self._lost(track))
 
@@ -159,4 +159,4 @@ def composed(motions: Floats, variances: Floats, keys: NDArray[np.intp]) -> Fact
         relative[active] = compose(relative[active], motion)
     order = np.arange(len(keys) - 1)
     information = np.asarray(np.linalg.inv(covariance + np.eye(3) * 1e-9), np.float64)
-    return Factors(order, order + 1, yaw_wrapped(relative), information)
+    return Factors(order, order + 1, wrap_yaw(relative), information)

@@ -11,7 +11,7 @@ from bayesmap.kernels.match.line_pairs import match_counts, pair_sums
 from bayesmap.kernels.match.scan_refinement import Convergence, Refinement, refine_scans
 from bayesmap.poses.alignment import ALIKE, Alignment, PointError, without_slack
 from bayesmap.poses.scan_geometry import ScanGeometry
-from bayesmap.space.planar import Floats, around, between, nearest, rotation
+from bayesmap.space.planar import Floats, between, bracketing_indices, nearest_index, rotation
 
 COMPARED = 10  # key scans that each scan is compared with
 PRIOR_SIGMA = np.array([0.03, 0.03, np.radians(1.0)])  # sigmas of a scan before its beams are used
@@ -51,8 +51,8 @@ def place_scans(
     result[keys] = key_poses
     if not len(scans):
         return Placement(result, information, explained)
-    before, after = around(keys, scans)
-    near = nearest(keys, scans)
+    before, after = bracketing_indices(keys, scans)
+    near = nearest_index(keys, scans)
     other = np.where(near == before, after, before)
     compared = []
     for k in range(len(keys)):

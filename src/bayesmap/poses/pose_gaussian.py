@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.poses.graph import ANCHOR, RIDGE, Precision, Quadratic, normal_equations, relative_covariances
-from bayesmap.space.planar import Floats, between, between_jacobians, retract, wrapped
+from bayesmap.space.planar import Floats, between, between_jacobians, retract, wrap_angle
 
 STRETCH_M, TURN_M = 4.0, 0.5
 """Length of a stretch of path whose scans see the same walls, and the length that a radian of turning counts as.
@@ -29,7 +29,7 @@ DRAWS, SEED = 64, 1  # of signs: the spread of the bends is known to an eighth o
 def bends(poses: Floats, laser: Quadratic, precision: Precision) -> Floats:
     """Compute the steps of poses (K, 3), in their own frames, under forces with random signs, (DRAWS, K, 3)."""
     steps = np.diff(poses, axis=0)
-    way = np.hypot(steps[:, 0], steps[:, 1]) + TURN_M * np.abs(wrapped(steps[:, 2]))
+    way = np.hypot(steps[:, 0], steps[:, 1]) + TURN_M * np.abs(wrap_angle(steps[:, 2]))
     along = np.concatenate([[0.0], np.cumsum(way)])
     stretch = (along / STRETCH_M).astype(np.intp)
     pairs = np.sort(np.stack([stretch[laser.first], stretch[laser.second]], axis=1), axis=1)

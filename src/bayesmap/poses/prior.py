@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
-from bayesmap.space.planar import Floats, between, compose, rotation, yaw_wrapped
+from bayesmap.space.planar import Floats, between, compose, rotation, wrap_yaw
 from bayesmap.space.scans import check_sigma_rad
 
 LOG_ROOT_TWO_PI = 0.5 * math.log(2 * math.pi)
@@ -229,7 +229,7 @@ class _Independent(PoseLaw):
     sigma: Floats
 
     def _each(self, poses: Floats) -> Floats:
-        return _normal(yaw_wrapped(poses - self.mean), self.sigma)
+        return _normal(wrap_yaw(poses - self.mean), self.sigma)
 
     def log_prob(self, poses: Floats) -> Floats:
         return np.asarray(self._each(poses).sum(axis=-1))
@@ -262,7 +262,7 @@ class _Markov(PoseLaw):
         return np.logaddexp(*self._kinds(error))
 
     def _errors(self, before: Floats, after: Floats) -> Floats:
-        return yaw_wrapped(between(before, after) - self.motions)
+        return wrap_yaw(between(before, after) - self.motions)
 
     def _kinds(self, error: Floats) -> tuple[Floats, Floats]:
         """Return log joint densities of errors: of motions without slip, and of motions with slip."""

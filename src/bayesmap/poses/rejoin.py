@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from bayesmap.kernels.match.line_pairs import Agreement, mutual_view_counts
 from bayesmap.poses.loops import Closures, Fineness, KeyPath, joined, match_submaps, no_closures
-from bayesmap.space.planar import Floats, between, compose, inverse, wrapped
+from bayesmap.space.planar import Floats, between, compose, inverse, wrap_angle
 
 NEAR_M, NEAR_PLACES = 3.0, 6  # distance and number of the nearest places of other parts that are compared
 
@@ -181,7 +181,7 @@ def _candidates(closures: Closures, islands: KeyPath, agree: int) -> Iterator[li
         # Compare motions by the positions to which they bring the keys: a turn about a far origin moves them much.
         at = compose(motions[own][:, None], poses[brought[own]][None])
         off = np.hypot(*np.moveaxis((at - at[np.arange(len(own)), np.arange(len(own))][None])[..., :2], -1, 0))
-        turn = np.abs(wrapped(motions[own][:, None, 2] - motions[own][None, :, 2]))
+        turn = np.abs(wrap_angle(motions[own][:, None, 2] - motions[own][None, :, 2]))
         same = (off < SAME_M) & (turn < SAME_RAD)
         # Each place has one vote, that of its best match.
         places, voice = np.unique(closures.second[own], return_inverse=True)

@@ -25,7 +25,7 @@ from bayesmap.poses.odometry_factors import StatedOdometry, stated_odometry
 from bayesmap.poses.placement import place_scans
 from bayesmap.poses.scan_geometry import scan_geometry
 from bayesmap.poses.trajectory import NO_ALTERNATIVES, Alternatives, Calibration, LoopClosures, Trajectory, calibrated
-from bayesmap.space.planar import Floats, between, compose, nearest, yaw_wrapped
+from bayesmap.space.planar import Floats, between, compose, nearest_index, wrap_yaw
 from bayesmap.space.scans import Scans
 from bayesmap.space.time_order import time_order
 
@@ -134,7 +134,7 @@ def infer_trajectory(
     noise = None if fit is None else fit.noise.of_scans(odometry.motions)
     return Trajectory(
         compose(report.origin, placed.poses), scans.stamps_s, keys, replace(gaussian, elsewhere=elsewhere),
-        nearest_key=nearest(keys, np.arange(len(scans))), own_covariance=placed.own_covariance(keys),
+        nearest_key=nearest_index(keys, np.arange(len(scans))), own_covariance=placed.own_covariance(keys),
         explained=explained, flagged=flag_unexplained(explained, keys),
         breaks=np.nonzero(track.broken)[0][~closed.joined[1:]], closures=_closures(closed, keys, final.poses),
         calibration=Calibration(ratio, calibrated(scans, ratio).angles_rad, fit, noise, final.sigma_m), order=order,
@@ -154,7 +154,7 @@ def alternatives_of(weighed: Weighed, keys: NDArray[np.intp], poses: Floats) -> 
     """Return the alternatives to the keys' poses, (K, 3), and the steps to them that `PoseGaussian.elsewhere` holds."""
     if not len(weighed.probabilities):
         return NO_ALTERNATIVES, None
-    steps = yaw_wrapped(between(weighed.poses[None], weighed.alternatives))
+    steps = wrap_yaw(between(weighed.poses[None], weighed.alternatives))
     first, last, probabilities = keys[weighed.first], keys[weighed.last], weighed.probabilities
     elsewhere = steps * np.sqrt(probabilities)[:, None, None]
     return Alternatives(first, last, probabilities, compose(poses[None], steps)), elsewhere

@@ -21,7 +21,7 @@ from bayesmap.cells.arrays import Draws
 from bayesmap.cells.kind import CellPrior
 from bayesmap.posterior.posterior import Posterior
 from bayesmap.run.chains import PRECISION, map_error
-from bayesmap.space.planar import wrapped
+from bayesmap.space.planar import wrap_angle
 
 Floats = NDArray[np.float64]
 
@@ -383,7 +383,7 @@ def summarise_poses(poses: Floats) -> PoseSummary:
     heading = np.arctan2(np.sin(flat[..., 2]).mean(axis=0), np.cos(flat[..., 2]).mean(axis=0))
     mean = np.concatenate([flat[..., :2].mean(axis=0), heading[:, None]], axis=-1)
     error = poses - mean
-    error[..., 2] = wrapped(error[..., 2])
+    error[..., 2] = wrap_angle(error[..., 2])
     every = error.reshape(-1, *poses.shape[2:])
     covariance = np.einsum("dsi,dsj->sij", every, every) / max(len(every) - 1, 1)
     rhat = ess = np.full(mean.shape, np.nan)

@@ -28,7 +28,16 @@ import scipy
 from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
-from bayesmap.space.planar import around, between, between_jacobians, compose, interpolate, inverse, rotation, wrapped
+from bayesmap.space.planar import (
+    between,
+    between_jacobians,
+    bracketing_indices,
+    compose,
+    interpolate,
+    inverse,
+    rotation,
+    wrap_angle,
+)
 from bayesmap.space.trajectory import LONGEST_GAP_S, RelativeLaw, Trajectory
 
 Floats = NDArray[np.float64]
@@ -126,7 +135,7 @@ def relation_errors(
 
 def _distance_to_nearest(stamps_s: Floats, at_s: Floats) -> tuple[Floats, Floats]:
     """Return how far times are from the nearest stamp, and the gap between the stamps around them, seconds, (N,)."""
-    earlier_s, later_s = (stamps_s[index] for index in around(stamps_s, at_s))
+    earlier_s, later_s = (stamps_s[index] for index in bracketing_indices(stamps_s, at_s))
     return np.minimum(np.abs(at_s - later_s), np.abs(at_s - earlier_s)), later_s - earlier_s
 
 
@@ -207,7 +216,7 @@ def _by_law(law: RelativeLaw, stamps_s: Floats, relations: Relations, errors: Fl
 
 def _nearest(stamps_s: Floats, at_s: Floats) -> NDArray[np.intp]:
     """Return the indices of the stamps that are nearest to some times."""
-    before, after = around(stamps_s, at_s)
+    before, after = bracketing_indices(stamps_s, at_s)
     return np.where(at_s - stamps_s[before] < stamps_s[after] - at_s, before, after)
 
 
@@ -220,10 +229,10 @@ def _by_draws(draws: Floats, stamps_s: Floats, relations: Relations) -> tuple[Fl
         first, second = (interpolate(stamps_s, poses, at) for at in (relations.first_s, relations.second_s))
         off[d] = compose(undo, between(first, second))
     anchor = off[0, :, 2].copy()
-    off[..., 2] = anchor + wrapped(off[..., 2] - anchor)
+    off[..., 2] = anchor + wrap_angle(off[..., 2] - anchor)
     mean = off.mean(axis=0)
     error = mean.copy()
-    error[:, 2] = wrapped(error[:, 2])
+    error[:, 2] = wrap_angle(error[:, 2])
     spread = off - mean
     covariance = np.einsum("dni,dnj->nij", spread, spread) / (count - 1) + 1e-15 * np.eye(DIMENSIONS)
     nees = np.einsum("ni,nij,nj->n", error, np.linalg.inv(covariance), error)

@@ -72,7 +72,7 @@ def initial_estimate(rays: Rays, prior: Reflective, device: str = "cpu") -> Init
     hits = np.bincount(end_cell[ended], minlength=grid.n_cells).astype(np.int32)
     ended_cells = np.flatnonzero(hits)
     index = np.searchsorted(ended_cells, end_cell[ended])
-    points, centre, of_cell = rays.end_points_m()[ended], grid.cell_centres_m(ended_cells), hits[ended_cells]
+    points, centre, of_cell = rays.end_points_m()[ended], grid.centers_from_corner_m(ended_cells), hits[ended_cells]
 
     def total(values: Floats) -> Floats:
         return np.bincount(index, values, len(ended_cells)).astype(np.float64)
@@ -172,11 +172,11 @@ def start(
     width = 1.0 / np.sqrt(estimate.hits[estimate.endpoint] + 1.0)
     fresh = prior.sample_surfaces(rng, min(cells, FRESH)) * grid.resolution
     state[:, 1:] = fresh if cells <= FRESH else fresh[rng.integers(FRESH, size=cells)]
-    state[:, 1:3] += grid.cell_centres_m(np.arange(cells))
+    state[:, 1:3] += grid.centers_from_corner_m(np.arange(cells))
     l11, l21, l22 = estimate.factor_m.T * np.exp(0.5 * width * rng.standard_normal((3, len(endpoints))))
     e1, e2 = width * rng.standard_normal((2, len(endpoints)))
     mean = estimate.mean_m + np.stack([l11 * e1, l21 * e1 + l22 * e2], axis=-1)
-    centre, half = grid.cell_centres_m(endpoints), INSIDE * 0.5 * grid.resolution
+    centre, half = grid.centers_from_corner_m(endpoints), INSIDE * 0.5 * grid.resolution
     mean = np.clip(mean, centre - half, centre + half)
     state[endpoints, 1:] = np.column_stack([mean, l11, l21, l22])
     return state

@@ -343,7 +343,9 @@ def lengthened(
     counts = [readings.count[cell] for cell in both]
     middle = (counts[0] * means[0] + counts[1] * means[1]) / (counts[0] + counts[1])
     # The axis leaves the square at the first crossing of one of its four sides.
-    sides = (grid.cell_centres_m(target) - mean)[..., None] + INSIDE * 0.5 * grid.resolution * np.array([-1.0, 1.0])
+    sides = (grid.centers_from_corner_m(target) - mean)[..., None] + INSIDE * 0.5 * grid.resolution * np.array(
+        [-1.0, 1.0]
+    )
     at = np.sort(sides / np.where(np.abs(axis) < LEVEL, LEVEL, axis)[..., None], axis=-1)
     moved = np.clip(middle, np.minimum(at[..., 0].max(axis=-1), 0.0), np.maximum(at[..., 1].min(axis=-1), 0.0))
     spread = [variance_in(readings.moments[cell], axis) + (means[i] - moved) ** 2 for i, cell in enumerate(both)]

@@ -54,7 +54,7 @@ class StopDraws:
         }
         self._cells = problem.coordinates
         surfaces = self._cells.get("surface_cell")
-        self._centres = None if surfaces is None else problem.grid.cell_centres_m(surfaces)
+        self._centres = None if surfaces is None else problem.grid.centers_from_corner_m(surfaces)
         self._solid: dict[int, NDArray[np.bool_]] = {}
 
     @cached_property

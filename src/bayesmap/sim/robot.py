@@ -20,7 +20,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from bayesmap.errors import BadInput, check_count
 from bayesmap.sim.furniture import lattice_stride, passage_m, wall_distance_m
-from bayesmap.space.planar import Floats, between, compose, interpolate, wrapped
+from bayesmap.space.planar import Floats, between, compose, interpolate, wrap_angle
 from bayesmap.space.scans import as_poses
 
 if TYPE_CHECKING:
@@ -85,10 +85,10 @@ def drive(
         rounds.append(once if len(rounds) % 2 == 0 else once[::-1] + np.array([0.0, 0.0, math.pi]))
     way = np.concatenate(rounds)
     times_s = travel_times_s(way, speed_m_per_s, turn_rad_per_s)
-    yaw = way[0, 2] + np.concatenate([[0.0], np.cumsum(wrapped(np.diff(way[:, 2])))])
+    yaw = way[0, 2] + np.concatenate([[0.0], np.cumsum(wrap_angle(np.diff(way[:, 2])))])
     at_s = np.arange(0.0, seconds, 1.0 / rate_hz)
     poses = np.column_stack([np.interp(at_s, times_s, column) for column in (way[:, 0], way[:, 1], yaw)])
-    poses[:, 2] = wrapped(poses[:, 2])
+    poses[:, 2] = wrap_angle(poses[:, 2])
     return at_s, poses
 
 
@@ -292,8 +292,8 @@ def _reported_steps(steps: Floats, noise: OdometryNoise, rng: np.random.Generato
     distance = np.hypot(steps[:, 0], steps[:, 1])
     first = np.where(distance > STANDING_M, np.arctan2(steps[:, 1], steps[:, 0]), 0.0)
     backwards = np.abs(first) > math.pi / 2  # a robot that reverses does not turn about first
-    first = np.where(backwards, wrapped(first + math.pi), first)
-    last = wrapped(steps[:, 2] - first)
+    first = np.where(backwards, wrap_angle(first + math.pi), first)
+    last = wrap_angle(steps[:, 2] - first)
     signed = np.where(backwards, -distance, distance)
 
     # Add noise to the straight and the turns.
@@ -310,7 +310,7 @@ def _reported_steps(steps: Floats, noise: OdometryNoise, rng: np.random.Generato
     slipped = slips[:, 0] < -np.expm1(-noise.slips_per_m * (distance + turned))
     reported = reported + np.where(slipped, -noise.slip_m * np.log1p(-slips[:, 1]), 0.0)
     last = last + np.where(slipped, noise.slip_rad * normals[:, 3], 0.0)
-    return np.stack([reported * np.cos(first), reported * np.sin(first), wrapped(first + last)], axis=-1)
+    return np.stack([reported * np.cos(first), reported * np.sin(first), wrap_angle(first + last)], axis=-1)
 
 
 def related_pairs(poses_world: Floats, seed: int = 0) -> tuple[NDArray[np.intp], NDArray[np.intp]]:

@@ -14,9 +14,9 @@ from bayesmap.space.scans import Scans, as_array
 
 MAX_CELLS = 100_000_000
 """Most cells of a grid; more are taken for a mistake in the units."""
-FARTHER = 20.0
+MAX_REACH_RATIO = 20.0
 """Ratio to the median reach above which the reach of a scan counts as wrong."""
-MOST = 0.1
+MAX_OUTLIER_SHARE = 0.1
 """Largest share of scans that can be wrong; if more lie far away, none is taken for wrong."""
 
 
@@ -79,8 +79,8 @@ class Grid:
         x, y = (np.arange(n) + 0.5 for n in (nx, ny))
         return np.asarray(x0 + self.resolution * x), np.asarray(y0 + self.resolution * y)
 
-    def cell_centres_m(self, cells: NDArray[np.integer]) -> NDArray[np.float64]:
-        """Return centres of cells, given flat indices ``x * ny + y``, in metres from the lower left corner, (n, 2)."""
+    def centers_from_corner_m(self, cells: NDArray[np.integer]) -> NDArray[np.float64]:
+        """Return centres of cells, given flat indices ``x * ny + y``, in metres from the grid's corner, (n, 2)."""
         ny = self.shape[1]
         return np.stack([cells // ny + 0.5, cells % ny + 0.5], axis=-1) * self.resolution
 
@@ -139,8 +139,8 @@ def _whole_cells(
     if not (math.isfinite(resolution) and resolution > 0):
         raise BadInput(f"grid: resolution must be a positive number of metres, got {resolution!r}")
     first = tuple(math.floor(v / resolution) for v in low)
-    last = tuple(math.ceil(v / resolution) for v in high)
-    return (last[0] - first[0], last[1] - first[1]), (first[0], first[1])
+    end = tuple(math.ceil(v / resolution) for v in high)
+    return (end[0] - first[0], end[1] - first[1]), (first[0], first[1])
 
 
 def _large(nx: int, ny: int) -> str:
@@ -149,14 +149,14 @@ def _large(nx: int, ny: int) -> str:
 
 
 def outlying(scans: Scans) -> NDArray[np.intp]:
-    """Select scans whose reach exceeds `FARTHER` times the median reach. Returns indices, the furthest first.
+    """Select scans whose reach exceeds `MAX_REACH_RATIO` times the median reach. Returns indices, the furthest first.
 
-    The reach is the distance of the pose from the median pose plus the longest hit. If more than the share `MOST` of
-    scans (and more than one) would be selected, none is: there is no clear majority.
+    The reach is the distance of the pose from the median pose plus the longest hit. If more than one scan, and more
+    than the share `MAX_OUTLIER_SHARE`, would be selected, none is: there is no clear majority.
     """
     reach = np.add(*_offsets_m(scans))
-    far = np.nonzero(reach > FARTHER * np.median(reach))[0]
-    if len(far) > max(1.0, MOST * len(scans)):
+    far = np.nonzero(reach > MAX_REACH_RATIO * np.median(reach))[0]
+    if len(far) > max(1.0, MAX_OUTLIER_SHARE * len(scans)):
         return np.empty(0, dtype=np.intp)
     return far[np.argsort(-reach[far], kind="stable")]
 

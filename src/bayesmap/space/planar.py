@@ -16,14 +16,14 @@ Floats = NDArray[np.float64]
 Numbers = NDArray[np.floating] | NDArray[np.integer]
 
 
-def wrapped(angle_rad: Floats) -> Floats:
+def wrap_angle(angle_rad: Floats) -> Floats:
     """Return angles in [-pi, pi)."""
     return np.asarray((angle_rad + np.pi) % (2 * np.pi) - np.pi)
 
 
-def yaw_wrapped(poses: Floats) -> Floats:
+def wrap_yaw(poses: Floats) -> Floats:
     """Return poses, or differences of poses, with yaw in [-pi, pi)."""
-    return np.concatenate([poses[..., :2], wrapped(poses[..., 2:])], axis=-1)
+    return np.concatenate([poses[..., :2], wrap_angle(poses[..., 2:])], axis=-1)
 
 
 def compose(first: Floats, then: Floats) -> Floats:
@@ -31,17 +31,17 @@ def compose(first: Floats, then: Floats) -> Floats:
     c, s = np.cos(first[..., 2]), np.sin(first[..., 2])
     x = first[..., 0] + c * then[..., 0] - s * then[..., 1]
     y = first[..., 1] + s * then[..., 0] + c * then[..., 1]
-    return np.stack([x, y, wrapped(first[..., 2] + then[..., 2])], axis=-1)
+    return np.stack([x, y, wrap_angle(first[..., 2] + then[..., 2])], axis=-1)
 
 
 def between(first: Floats, second: Floats) -> Floats:
     """Return the second pose in the frame of the first: composed with the first, it gives the second."""
     dx, dy = second[..., 0] - first[..., 0], second[..., 1] - first[..., 1]
     c, s = np.cos(first[..., 2]), np.sin(first[..., 2])
-    return np.stack([c * dx + s * dy, c * dy - s * dx, wrapped(second[..., 2] - first[..., 2])], axis=-1)
+    return np.stack([c * dx + s * dy, c * dy - s * dx, wrap_angle(second[..., 2] - first[..., 2])], axis=-1)
 
 
-def chained(start: Floats, motions: Floats) -> Floats:
+def chain_motions(start: Floats, motions: Floats) -> Floats:
     """Return the poses after each of N motions, (N, 3)."""
     poses, here = np.empty((len(motions), 3)), start
     for k, motion in enumerate(motions):
@@ -54,7 +54,7 @@ def inverse(pose: Floats) -> Floats:
     return between(pose, np.zeros(3))
 
 
-def around(ascending: Numbers, numbers: Numbers) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+def bracketing_indices(ascending: Numbers, numbers: Numbers) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
     """Return the indices in ``ascending``, (S,), before and after each of ``numbers``, (N,) each.
 
     Outside, the indices are the two at that end; a single ascending number is its own neighbour.
@@ -64,9 +64,9 @@ def around(ascending: Numbers, numbers: Numbers) -> tuple[NDArray[np.intp], NDAr
     return after - 1, np.minimum(after, last)
 
 
-def nearest(ascending: Numbers, numbers: Numbers) -> NDArray[np.intp]:
+def nearest_index(ascending: Numbers, numbers: Numbers) -> NDArray[np.intp]:
     """Return the index in ``ascending``, (S,), nearest to each of ``numbers``, (N,); of two, the first."""
-    before, after = around(ascending, numbers)
+    before, after = bracketing_indices(ascending, numbers)
     return np.where(np.abs(numbers - ascending[before]) <= np.abs(ascending[after] - numbers), before, after)
 
 

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 STEP_S = 1.0
 """Largest step back of stamps, seconds, that counts as scans logged late rather than as a clock set back."""
-MANY = 10
+MIN_SCANS_AFTER_STEP = 10
 """Fewest scans after a recognised step back of the clock; half as many on each side must overlap in time."""
 SAME_S = 1e-3
 """Stamps that are closer, in seconds, are equal: no laser sweeps so fast."""
@@ -109,16 +109,16 @@ def _step(stamps: NDArray[np.float64]) -> int | None:
         after = stamps[drop:]
         over = np.nonzero(after > latest[drop - 1])[0]
         back = after[: over[0]] if len(over) else after
-        if len(back) < MANY or latest[drop - 1] - back[0] <= STEP_S:
+        if len(back) < MIN_SCANS_AFTER_STEP or latest[drop - 1] - back[0] <= STEP_S:
             continue
         before = stamps[:drop]
-        if not (_in_order(before[-MANY:]) and _in_order(back[:MANY])):
+        if not (_in_order(before[-MIN_SCANS_AFTER_STEP:]) and _in_order(back[:MIN_SCANS_AFTER_STEP])):
             continue  # the log has no order that could be kept
         # Scans before and after the drop must overlap in time, and alternate there.
         low, high = back[0], back.max()
         among = (before > low) & (before < high)
         mixed = (back > before[among].min()) & (back < before[among].max()) if among.any() else np.zeros(1, np.bool_)
-        if min(among.sum(), mixed.sum()) >= MANY // 2 and _alternate(before[among], back[mixed]):
+        if min(among.sum(), mixed.sum()) >= MIN_SCANS_AFTER_STEP // 2 and _alternate(before[among], back[mixed]):
             return int(drop)
     return None
 

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
-from bayesmap.space.planar import around, between, compose, interpolate, inverse, rotation, wrapped
+from bayesmap.space.planar import between, bracketing_indices, compose, interpolate, inverse, rotation, wrap_angle
 from bayesmap.space.scans import as_poses, path_words
 
 SLACK_S = 0.002
@@ -131,12 +131,12 @@ class Trajectory:
         if len(flat) == 0:
             raise BadInput("trajectory: there is no draw")
         off = flat - flat[0]
-        off[..., 2] = wrapped(off[..., 2])
+        off[..., 2] = wrap_angle(off[..., 2])
         mean = off.mean(axis=0)
         error = off - mean
         covariances = np.einsum("dsi,dsj->sij", error, error) / max(len(flat) - 1, 1)
         poses = flat[0] + mean
-        poses[:, 2] = wrapped(poses[:, 2])
+        poses[:, 2] = wrap_angle(poses[:, 2])
         return cls(poses, stamps_s, covariances, flat, known_by=known_by)
 
     def at(self, at_s: Floats) -> tuple[Floats, NDArray[np.bool_]]:
@@ -154,7 +154,7 @@ class Trajectory:
         """
         poses, inside = self.at(at_s)
         assert self.stamps_s is not None
-        before, after = self.stamps_s[list(around(self.stamps_s, at_s))]
+        before, after = self.stamps_s[list(bracketing_indices(self.stamps_s, at_s))]
         near = np.minimum(np.abs(at_s - before), np.abs(at_s - after)) <= SLACK_S
         return poses, inside, near | (after - before <= LONGEST_GAP_S + SLACK_S)
 

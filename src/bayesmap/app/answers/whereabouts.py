@@ -112,7 +112,8 @@ def _typical_scans(document: Document) -> Scans:
     if not len(free):
         raise BadInput("the map has no free cell in which a robot could be")
     cells = free[rng.integers(len(free), size=TYPICAL_SCANS)] + rng.random((TYPICAL_SCANS, 2))
-    poses = np.column_stack([np.array(grid.origin) + cells * grid.resolution, rng.uniform(-np.pi, np.pi, TYPICAL_SCANS)])
+    yaw = rng.uniform(-np.pi, np.pi, TYPICAL_SCANS)
+    poses = np.column_stack([np.array(grid.origin) + cells * grid.resolution, yaw])
     angles = fan(document.angles, math.degrees(document.fov))
     exact = ranges(document.is_wall, grid, poses, angles, document.max_range)
     noisy = exact + document.noise * rng.standard_normal(exact.shape)

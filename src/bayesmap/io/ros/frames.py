@@ -19,7 +19,7 @@ from scipy.interpolate import make_interp_spline
 from scipy.spatial.transform import RigidTransform, Rotation, Slerp
 
 from bayesmap.io.ros.recording import Malformed
-from bayesmap.space.planar import Floats, around
+from bayesmap.space.planar import Floats, bracketing_indices
 
 FURTHEST_M = 1e7
 LATEST_NS = 2**62
@@ -155,7 +155,7 @@ class Chain:
         """Select the times at which a transform is interpolated over a long time and a long way."""
         result = np.zeros(np.shape(stamps_ns), dtype=bool)
         for track in (link for link in self.links if not link.constant and len(link.stamps_ns) > 1):
-            before, _ = around(track.stamps_ns, stamps_ns)
+            before, _ = bracketing_indices(track.stamps_ns, stamps_ns)
             moved = np.diff(track.motions.translation, axis=0)[before]
             long = np.diff(track.stamps_ns)[before] > longest_s * 1e9
             result |= long & (np.linalg.norm(moved, axis=-1) > furthest_m)

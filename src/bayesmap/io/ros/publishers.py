@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from bayesmap.io.ros.frames import Numbers, Samples, close
-from bayesmap.space.planar import around
+from bayesmap.space.planar import bracketing_indices
 
 SAME = 1e-4  # largest difference of equal values, in metres and radians: 1 mm at 10 m
 APART = 0.01  # largest distance between two sources of motion, in metres and radians, that counts as noise
@@ -141,7 +141,7 @@ def _off_the_way(one: Samples, other: Samples) -> tuple[Numbers, Numbers] | None
     inside = np.nonzero(track.covers(stamps))[0]
     if not len(inside):
         return None
-    before, _ = around(track.stamps_ns, stamps[inside])
+    before, _ = bracketing_indices(track.stamps_ns, stamps[inside])
     places = track.motions.translation
     step = np.linalg.norm(np.diff(places, axis=0), axis=1)[before]
     away = np.linalg.norm(np.array(other.values)[inside, :3] - track.at(stamps[inside]).translation, axis=1)

@@ -35,7 +35,7 @@ def pose_between(a: wp.vec3d, b: wp.vec3d) -> wp.vec3d:
 
 
 @wp.func
-def wrapped(angle: wp.float64) -> wp.float64:
+def wrap_angle(angle: wp.float64) -> wp.float64:
     """Wrap an angle to [-pi, pi]."""
     return wp.atan2(wp.sin(angle), wp.cos(angle))
 
@@ -119,7 +119,7 @@ def refine(
             matched += sums.matched
             seen += sums.seen
         off = x - jobs.priors[k]
-        off = wp.vec3d(off[0], off[1], wrapped(off[2]))
+        off = wp.vec3d(off[0], off[1], wrap_angle(off[2]))
         # H (H + s^2 S)^-1 H: about H if the slack S is small, and never negative.
         ridge = wp.identity(n=3, dtype=wp.float64) * wp.float64(1.0e-6)
         trusted = second * wp.inverse(second + slack * (schedule.sigma_m * schedule.sigma_m) + ridge)
@@ -141,7 +141,7 @@ def refine(
         out.totals[k, 3] = wp.float64(seen)
         if share >= 1.0 and length < STILL:
             converged = 1
-    out.pose[k] = wp.vec3d(x[0], x[1], wrapped(x[2]))
+    out.pose[k] = wp.vec3d(x[0], x[1], wrap_angle(x[2]))
     out.information[k] = information
 
 

@@ -49,7 +49,7 @@ def endpoint_cells_to_device(rays: Rays, cells: Ints, steps: Singles, device: st
     entry = entry[np.argsort(rays.cells[entry], kind="stable")]
     of_entry = rays.cells[entry]
     beam = np.searchsorted(rays.offsets, entry, side="right") - 1
-    away = rays.grid.cell_centres_m(of_entry) - rays.start_m[beam]
+    away = rays.grid.centers_from_corner_m(of_entry) - rays.start_m[beam]
     ux, uy = rays.direction[beam].astype(np.float64).T
     passing = np.stack([ux * away[:, 1] - uy * away[:, 0], ux, uy], axis=-1)
     reading = np.stack([(away * rays.direction[beam]).sum(axis=1), rays.range_m[beam]], axis=-1)
