@@ -173,21 +173,21 @@ def test_what_a_chain_keeps_up_to_date_is_what_follows_from_its_walls(method, or
         state, _ = sampler.step(state, sweeps)
         fresh = WallChains(problem.device_table, state.walls(), [0] * 20, "cpu")
         launch(derive_state, 20, [problem.device_table, fresh.states], "cpu")
-        for name in ("walls", "first", "current", "reached"):
+        for name in ("walls", "first_wall", "current", "reached"):
             kept, derived = (getattr(chains.states, name).numpy() for chains in (state.chains, fresh))
             np.testing.assert_array_equal(kept, derived, err_msg=name)
 
 
 @pytest.mark.parametrize(("method", "order"), BOTH)
 def test_what_a_chain_remembers_of_its_cells_is_true(method, order):
-    """``gain`` is what a wall in the cell adds to the log-likelihood, or the bound that it says it is."""
+    """``log_likelihood_gain`` is what a wall in the cell adds to the log-likelihood, or the bound that it says it is."""
     problem = problem_8x8()
     sampler = SAMPLERS[method][0](order, "prior")
     state = sampler.init(problem, range(3), 1)
     for _ in range(10):
         state, _ = sampler.step(state, 3)
         states = state.chains.states
-        known, gain = states.known.numpy(), states.gain.numpy()
+        known, gain = states.known.numpy(), states.log_likelihood_gain.numpy()
         for chain, walls in enumerate(state.walls() != 0):
             for c in np.flatnonzero(known[chain]):
                 put, removed = walls.copy(), walls.copy()

@@ -21,7 +21,7 @@ SIGMAS_TO_CERTAINTY = wp.constant(wp.float64(9.0))  # standard deviations past w
 INV_SQRT_2 = wp.constant(wp.float64(0.7071067811865476))
 INV_PI = wp.constant(wp.float64(0.3183098861837907))
 MOST_TERMS = wp.constant(wp.float64(16.0))  # of the finite sums in `student_below`
-STEPS = wp.constant(400)  # of the continued fraction, at most; it takes some tens
+MAX_STEPS = wp.constant(400)  # of the continued fraction; it takes some tens
 TINY = wp.constant(wp.float64(1.0e-300))  # replaces zero in Lentz's method
 CLOSE = wp.constant(wp.float64(1.0e-14))  # relative change at which the continued fraction ends
 MOST_POWER = 16
@@ -78,7 +78,7 @@ def beta_fraction(a: wp.float64, b: wp.float64, x: wp.float64) -> wp.float64:
     c = one
     d = one / not_zero(one - (a + b) * x / (a + one))
     h = d
-    for i in range(2, STEPS):
+    for i in range(2, MAX_STEPS):
         m = wp.float64(i // 2)
         term = m * (b - m) * x / ((a + m + m - one) * (a + m + m))
         if i % 2 == 1:
@@ -142,7 +142,7 @@ NOISE, MIXTURE, TABLE = (wp.constant(i) for i in range(3))
 """Kinds of laws: noise alone, the robust mixture, and the table of any other model."""
 
 FAR_SQ = wp.constant(wp.float64(81.0))  # squared standard distance past which normal noise adds nothing
-LEAST = wp.constant(wp.float64(math.exp(LOG_IMPOSSIBLE)))  # least probability of a typed reading
+MIN_PROBABILITY = wp.constant(wp.float64(math.exp(LOG_IMPOSSIBLE)))  # least probability of a typed reading
 TAIL = 1e-10  # probability of noise that cumulative probabilities leave out
 THIRD = wp.constant(wp.float64(1.0 / 3.0))
 
@@ -286,8 +286,8 @@ def stop_density(law: Any, reading_m: Any, decay: Any, distance_m: Any, variance
     free = unblocked(law, wall)
     if distance_m > law.max_m:
         if reading_m > type(reading_m)(0.0):
-            return wp.max(law.p_known * free, type(one)(LEAST))
-        return wp.max(law.p_known * blocked(law, wp.min(wall, law.min_m)), type(one)(LEAST))
+            return wp.max(law.p_known * free, type(one)(MIN_PROBABILITY))
+        return wp.max(law.p_known * blocked(law, wp.min(wall, law.min_m)), type(one)(MIN_PROBABILITY))
     hit = free * law.p_return
     scale = wp.sqrt(variance_at(law, wall, variance))
     if reading_m > type(reading_m)(0.0):  # no return
@@ -295,10 +295,10 @@ def stop_density(law: Any, reading_m: Any, decay: Any, distance_m: Any, variance
         if law.dof > type(one)(0.0) or (law.max_m - wall) * (law.max_m - wall) < type(one)(FAR_SQ) * scale * scale:
             above = noise_below(law, (wall - law.max_m) / scale)  # the noise is symmetric
         p_none = law.p_known * (free * law.p_no_return + hit * above)
-        return wp.max(p_none, type(one)(LEAST))
+        return wp.max(p_none, type(one)(MIN_PROBABILITY))
     # Too close.
     below = noise_below(law, (law.min_m - wall) / scale)
-    return wp.max(law.p_known * (blocked(law, wp.min(wall, law.min_m)) + hit * below), type(one)(LEAST))
+    return wp.max(law.p_known * (blocked(law, wp.min(wall, law.min_m)) + hit * below), type(one)(MIN_PROBABILITY))
 
 
 @wp.func
@@ -316,7 +316,7 @@ def lowest_density(law: Any, reading_m: Any):
         return type(reading_m)(0.0)
     if wp.isfinite(reading_m):
         return law.uniform
-    least = type(reading_m)(LEAST)
+    least = type(reading_m)(MIN_PROBABILITY)
     if reading_m > type(reading_m)(0.0):
         return wp.max(law.p_known * (type(reading_m)(1.0) - law.p_short) * law.p_no_return, least)
     return least

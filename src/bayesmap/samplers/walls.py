@@ -142,8 +142,9 @@ class WallSampler(ABC):
 
         problem = state.problem
         log_likelihood, log_prior, draws = run_sweeps(
-            *state.kernel, problem.device_prior, state.sites, self.order == "random", state.chains, first=state.sweep,
-            count=sweeps, kept=keep.sweeps(state.sweep, state.sweep + sweeps), beta=beta, threads=problem.threads,
+            *state.kernel, problem.device_prior, state.sites, self.order == "random", state.chains,
+            first_sweep=state.sweep, count=sweeps, kept=keep.sweeps(state.sweep, state.sweep + sweeps), beta=beta,
+            threads=problem.threads,
         )  # fmt: skip
         return replace(state, sweep=state.sweep + sweeps), Info(log_likelihood, log_prior, {"walls": draws})
 

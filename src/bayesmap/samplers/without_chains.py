@@ -106,10 +106,10 @@ def sample_importance(
 
 def _weigh(problem: WallProblem, key: int, first: int, count: int) -> Floats:
     """Compute log p(readings | map) of particles first .. first + count - 1."""
-    from bayesmap.kernels.walls.maps import log_likelihoods, weigh
+    from bayesmap.kernels.walls.maps import log_likelihoods, particle_log_weights
 
     if problem.coupling == 0.0:
-        return weigh(problem.device_table, problem.device_prior, key, first, count, problem.device)
+        return particle_log_weights(problem.device_table, problem.device_prior, key, first, count, problem.device)
     maps = _coupled_maps(problem, key, np.arange(first, first + count))
     return log_likelihoods(problem.table, pack(maps), problem.device)
 

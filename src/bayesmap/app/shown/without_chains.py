@@ -12,7 +12,7 @@ from scipy import special
 from bayesmap.app.shown.result import CHAINS, SAVED_DRAWS, Figures, Floats, Found, Result, judge_particles
 from bayesmap.beams.table import BeamTable
 from bayesmap.kernels.random import mix
-from bayesmap.kernels.walls.maps import reach_frequency, weigh
+from bayesmap.kernels.walls.maps import particle_log_weights, reach_frequency
 from bayesmap.kernels.walls.propagate import Beliefs
 from bayesmap.posterior.posterior import posterior_of_draws
 from bayesmap.result import Run
@@ -144,7 +144,9 @@ class Weighing(Found):
         began = time.perf_counter()
         n = min(self._piece, self.total - self.count)
         problem = self.problem
-        log_weights = weigh(problem.device_table, problem.device_prior, self._key, self.count, n, problem.device)
+        log_weights = particle_log_weights(
+            problem.device_table, problem.device_prior, self._key, self.count, n, problem.device
+        )
         self._log_weights[self.count : self.count + n] = log_weights
         self.count += n
         spent = time.perf_counter() - began

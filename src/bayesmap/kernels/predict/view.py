@@ -9,14 +9,14 @@ from bayesmap.kernels.device import Float64Rows, Float64s, Floats, Int32s
 from bayesmap.kernels.predict.density import DeviceMaps, Frame, MapArrays, grid_frame, line_in, stop_on_walk
 from bayesmap.kernels.random import random_bits, to_uniform
 from bayesmap.kernels.rays import Line, walk_along
-from bayesmap.kernels.walk import is_inside, walk_next
+from bayesmap.kernels.walk import Walk, is_inside, walk_next
 from bayesmap.space.grid import Grid
 
 wp.set_module_options({"enable_backward": False})
 
-CERTAIN = wp.constant(wp.float64(1.0e-6))
-"""Chance of getting so far below which a beam is not followed further."""
-NEGLIGIBLE = wp.constant(wp.float64(4.0))
+MIN_SURVIVAL = wp.constant(wp.float64(1.0e-6))
+"""Smallest chance of getting as far as a cell at which a beam is still followed."""
+INTEGRATION_SIGMAS = wp.constant(wp.float64(4.0))
 """Standard deviations from a stop within which readings are integrated."""
 
 
@@ -43,7 +43,7 @@ def draw_scan(
     spread_m: Float64s,
 ):  # fmt: skip
     """One thread per beam of a pose: draw the distance at which it stops; infinite if nowhere."""
-    # b: thread; w: walk of the beam.
+    # b: beam; w: its walk.
     b = first + wp.tid()
     line = line_of_view(frame, views, b)
     left = to_uniform(random_bits(key, wp.uint64(b)))  # the beam stops once ``survive`` is below this
@@ -85,6 +85,18 @@ def normal_below(x: wp.float64) -> wp.float64:
     return wp.float64(0.5) * wp.erfc(-x * wp.float64(0.7071067811865476))
 
 
+@wp.func
+def is_crossed(w: Walk) -> bool:
+    """Return whether the walk now touches the cell that the beam is in, not a cell at its side."""
+    return w.cell_x == w.x and w.cell_y == w.y
+
+
+@wp.func
+def exit_distance(w: Walk) -> wp.float64:
+    """Return the distance at which the beam leaves the cell that it is in, in cells."""
+    return wp.min(w.next_x, w.next_y)
+
+
 @wp.kernel
 def add_beam_information(
     first: int, frame: Frame, views: Views, occupied: Float64s, of_hit: Float64s, of_pass: Float64s,
@@ -94,7 +106,7 @@ def add_beam_information(
 
     A reading in cell k has the information C_k = f(hit, r_k) + sum_{i < k} f(pass, r_i), with f of the cells' odds r.
     The reading is in cell k with probability sum_j P(stop in j) G_kj, G_kj the probability of the noise about cell j's
-    distance inside cell k. The sum takes cells within `NEGLIGIBLE` standard deviations. Distances are in cells.
+    distance inside cell k. The sum takes cells within `INTEGRATION_SIGMAS` standard deviations. Distances are in cells.
     """
     b = first + wp.tid()
     sigma = sigma_m / frame.resolution
@@ -109,19 +121,20 @@ def add_beam_information(
     learnt = wp.float64(0.0)
     w = behind
     enter = wp.float64(0.0)
-    while w.distance <= w.end and survive > CERTAIN:
-        if w.cell_x == w.x and w.cell_y == w.y:
-            leave = wp.min(w.next_x, w.next_y)
+    while w.distance <= w.end and survive > MIN_SURVIVAL:
+        if is_crossed(w):
+            leave = exit_distance(w)
             if is_inside(w, frame.nx, frame.ny):
                 p = occupied[w.cell_x * frame.ny + w.cell_y]
                 weight = survive * p
                 survive = survive * (one - p)
                 middle = half * (enter + leave)
-                low = middle - NEGLIGIBLE * sigma
-                high = middle + NEGLIGIBLE * sigma
-                while weight > CERTAIN and wp.min(behind.next_x, behind.next_y) < low and behind.distance <= behind.end:
-                    if behind.cell_x == behind.x and behind.cell_y == behind.y:
-                        behind_enter = wp.min(behind.next_x, behind.next_y)
+                low = middle - INTEGRATION_SIGMAS * sigma
+                high = middle + INTEGRATION_SIGMAS * sigma
+                # The walk behind adds the information of passing the cells before all readings about this stop.
+                while weight > MIN_SURVIVAL and exit_distance(behind) < low and behind.distance <= behind.end:
+                    if is_crossed(behind):
+                        behind_enter = exit_distance(behind)
                         if is_inside(behind, frame.nx, frame.ny):
                             learnt += of_pass[behind.cell_x * frame.ny + behind.cell_y]
                     behind = walk_next(behind)
@@ -130,11 +143,11 @@ def add_beam_information(
                 begin = behind_enter
                 known = learnt
                 below = wp.float64(0.0)
-                if weight > CERTAIN:
+                if weight > MIN_SURVIVAL:
                     below = normal_below((begin - middle) / sigma)
-                while weight > CERTAIN and ahead.distance <= ahead.end and begin < high:
-                    if ahead.cell_x == ahead.x and ahead.cell_y == ahead.y:
-                        over = wp.min(ahead.next_x, ahead.next_y)
+                while weight > MIN_SURVIVAL and ahead.distance <= ahead.end and begin < high:
+                    if is_crossed(ahead):
+                        over = exit_distance(ahead)
                         below_over = normal_below((over - middle) / sigma)
                         if is_inside(ahead, frame.nx, frame.ny):
                             cell = ahead.cell_x * frame.ny + ahead.cell_y
@@ -146,9 +159,9 @@ def add_beam_information(
             enter = leave
         w = walk_next(w)
     # A beam that meets nothing passes every cell.
-    if survive > CERTAIN:
+    if survive > MIN_SURVIVAL:
         while behind.distance <= behind.end:
-            if is_inside(behind, frame.nx, frame.ny) and behind.cell_x == behind.x and behind.cell_y == behind.y:
+            if is_inside(behind, frame.nx, frame.ny) and is_crossed(behind):
                 learnt += of_pass[behind.cell_x * frame.ny + behind.cell_y]
             behind = walk_next(behind)
         total += survive * learnt

@@ -31,7 +31,7 @@ from bayesmap.kernels.device import Float32s, Float64Rows, Int32s, Ints, Uint8s
 from bayesmap.kernels.random import CELLS, beta_or_nothing, beta_variate, random_bits, sweep_key, to_uniform
 from bayesmap.kernels.surfaces import cell as surface
 from bayesmap.kernels.surfaces.cell import REFLECTIVITY, TRYING, Cell, PriorNumbers
-from bayesmap.kernels.surfaces.stops import CLEAR, GAIN_UNITS, LEARNS, ChainArrays
+from bayesmap.kernels.surfaces.stops import GAIN_UNITS, LEARNS, MIN_REFLECTIVITY, ChainArrays
 from bayesmap.kernels.walls.chains import draw_wall, pairs_alike, walls_less_free
 
 wp.set_module_options({"enable_backward": False})
@@ -79,7 +79,7 @@ def is_silent(sweep: int, period: int, c: int, m: wp.float32, stopped_in: int) -
     It does so in some sweeps, if it stopped no beam in this sweep and its reflectivity is too small for passing beams
     to be informative.
     """
-    return period != 0 and (sweep + c) % SILENT_EVERY == 0 and m <= CLEAR and stopped_in != sweep
+    return period != 0 and (sweep + c) % SILENT_EVERY == 0 and m <= MIN_REFLECTIVITY and stopped_in != sweep
 
 
 @wp.func
@@ -131,7 +131,7 @@ def begin_sweep(
             learns = False  # `endpoint_cells` counts its beams
         elif learns and tries(sweep, period, c):
             # If passing beams are not informative, the cell takes surfaces from the prior instead.
-            learns = cell[REFLECTIVITY] > CLEAR
+            learns = cell[REFLECTIVITY] > MIN_REFLECTIVITY
             if learns:
                 trying = FRESH
                 key = sweep_key(state.keys[chain], sweep, CELLS)

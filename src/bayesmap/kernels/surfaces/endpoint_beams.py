@@ -21,9 +21,9 @@ from bayesmap.kernels.device import Float32Rows, Int32s, Ints, Singles
 from bayesmap.kernels.sensor_law import FAR_SQ, MIXTURE, SensorLaw32
 from bayesmap.kernels.surfaces import cell as surface
 from bayesmap.kernels.surfaces.cell import CROSSING_WIDTH_SQ, L11, L21, L22, MEAN_X, MEAN_Y, REFLECTIVITY, Cell
-from bayesmap.kernels.surfaces.stops import LEAST, TracedRays, hit_law
+from bayesmap.kernels.surfaces.stops import MIN_FACTOR, TracedRays, hit_law
 
-FEWEST = wp.constant(wp.float32(1.0e-20))  # products are turned into logarithms before they underflow
+MIN_PRODUCT = wp.constant(wp.float32(1.0e-20))  # products are turned into logarithms before they underflow
 
 
 @wp.struct
@@ -105,8 +105,8 @@ def log_stops(
         ahead = endpoints.reading[e][0] + way[1] * dx + way[2] * dy
         met = surface.cross_at(offset, ahead, cell, way[1], way[2])
         p = hit_law(law, beta, endpoints.entry[e], rays.near[b], endpoints.reading[e][1], rays.decay[b], met)
-        product = product * wp.max(m * met.chance * p, LEAST)
-        if product < FEWEST or product > one / FEWEST:
+        product = product * wp.max(m * met.chance * p, MIN_FACTOR)
+        if product < MIN_PRODUCT or product > one / MIN_PRODUCT:
             total += wp.log(wp.float64(product))
             product = one
     total += wp.log(wp.float64(product))
@@ -114,16 +114,16 @@ def log_stops(
         return total
 
     product = one
-    floor = wp.max(FEWEST, wp.float32(wp.exp(least - total)))
+    floor = wp.max(MIN_PRODUCT, wp.float32(wp.exp(least - total)))
     for i in range(listed.passing_begin, listed.passing_end):
         g = crossing_probability_of(endpoints.passing[listed.entries[i]], dx, dy, cell)
-        product = product * wp.max(one - m * g, LEAST)
+        product = product * wp.max(one - m * g, MIN_FACTOR)
         if product < floor:
             total += wp.log(wp.float64(product))
             if total < least:
                 return total
             product = one
-            floor = wp.max(FEWEST, wp.float32(wp.exp(least - total)))
+            floor = wp.max(MIN_PRODUCT, wp.float32(wp.exp(least - total)))
     return total + wp.log(wp.float64(product))
 
 
@@ -359,7 +359,7 @@ def log_stops_in_lanes(
     passing_blocks = blocks_of(beams[0])
     stopped_blocks = blocks_of(beams[1])
     stopped_at = begin + stopped_blocks_at(beams[0])
-    total = wp.float64(beams[1]) * wp.log(wp.float64(wp.max(m, LEAST)) * wp.float64(law.peak))
+    total = wp.float64(beams[1]) * wp.log(wp.float64(wp.max(m, MIN_FACTOR)) * wp.float64(law.peak))
     area = l11 * l22
     per_peak = wp.float32(1.0) / law.peak
     # Stopped beams: the arithmetic of `cross_at` and `stop_density`; i: block; at: its first lane.
@@ -385,7 +385,7 @@ def log_stops_in_lanes(
             along = wp.cw_mul(along_1, along_1) + wp.cw_mul(along_2, along_2)
             variance = wp.cw_mul(Lanes(area * area) + wp.cw_mul(unsure, along), per_across)
             p = density_of(law, blocks.lanes[row, at + 4], blocks.lanes[row, at + 5], distance, variance)
-            factor = wp.max(per_peak * wp.cw_mul(chance_of(offset, body), p), Lanes(LEAST))
+            factor = wp.max(per_peak * wp.cw_mul(chance_of(offset, body), p), Lanes(MIN_FACTOR))
             counts = blocks.lanes[row, at + 6]
             product = wp.cw_mul(product, wp.cw_mul(counts, factor) + (one - counts))
             smallest = wp.min(smallest, product)
@@ -410,7 +410,7 @@ def log_stops_in_lanes(
             side_2 = l22 * vx
             side = wp.cw_mul(side_1, side_1) + wp.cw_mul(side_2, side_2)
             met = chance_of(blocks.lanes[row, place] + dy * vx - dx * vy, side)
-            passed = wp.cw_mul(passed, wp.max(one - m * met, Lanes(LEAST)))
+            passed = wp.cw_mul(passed, wp.max(one - m * met, Lanes(MIN_FACTOR)))
             lowest = wp.min(lowest, passed)
             blocks.lanes[row, begin] = passed
             blocks.lanes[row, begin + 1] = lowest

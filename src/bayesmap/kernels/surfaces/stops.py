@@ -40,13 +40,13 @@ wp.set_module_options({"enable_backward": False})
 
 GAIN_UNITS = 1 << 24  # units of `ChainArrays.gain` per nat
 TO_UNITS = wp.constant(wp.float32(GAIN_UNITS))
-LEAST = wp.constant(wp.float32(1.0e-30))  # smaller factors are raised to this before a logarithm
+MIN_FACTOR = wp.constant(wp.float32(1.0e-30))  # smaller factors are raised to this before a logarithm
 TO_UNIT_24 = wp.constant(wp.float32(1.0 / (1 << 24)))  # from 24 random bits to a number in [0, 1)
 
 FAR = wp.constant(-1)  # a stop before the near entries
 LEARNS = wp.constant(wp.float32(-1.0))  # in `ChainArrays.fixed_m`: the cell counts beams in this sweep
-CLEAR = wp.constant(wp.float32(2.0**-26))  # for smaller m, 1 - m is 1 in single precision
-NEGLIGIBLE = wp.constant(wp.float32(2.0**-26))  # relative weight below single precision
+MIN_REFLECTIVITY = wp.constant(wp.float32(2.0**-26))  # for smaller m, 1 - m is 1 in single precision
+MIN_RELATIVE_WEIGHT = wp.constant(wp.float32(2.0**-26))  # relative weight below single precision
 
 # First random counters of a sweep, one per purpose; the entry or beam is added.
 STREAM_CHOICE = wp.constant(wp.uint64(1 << 32))
@@ -148,7 +148,7 @@ def pass_by(
     row = chain * state.parts + part
     if cell[TRYING] != wp.float32(0.0):
         other = surface.crossing_probability(state.candidates[chain * state.n_cells + c], ray)
-        ratio = wp.log(wp.max(one - m * other, LEAST) / wp.max(one - m * g, LEAST))
+        ratio = wp.log(wp.max(one - m * other, MIN_FACTOR) / wp.max(one - m * g, MIN_FACTOR))
         wp.atomic_add(state.gain, row, c, wp.int64(sign) * in_units(ratio))
         return
     u = wp.float32(random_bits(key, wp.uint64(k)) >> wp.uint64(40)) * TO_UNIT_24
@@ -214,7 +214,7 @@ def draw_stops(
             k_far = rays.watched[far]
         c_far = rays.cells[k_far]
         m_far = state.fixed_m[cell_0 + c_far]
-        if m_far < wp.float32(0.0) or m_far > CLEAR:
+        if m_far < wp.float32(0.0) or m_far > MIN_REFLECTIVITY:
             cell_far = state.cells[cell_0 + c_far]
             g_far = chance_at(rays, cell_far, ray)
             free = free * (one - cell_far[0] * g_far)
@@ -227,7 +227,7 @@ def draw_stops(
     # Near entries: choose a stop by weight. A stop is skipped if its weight is below single precision beside the total,
     # which is at least the weight of the least likely stop.
     peak = tempered(laws.highest_density(law, reading), state.beta)
-    negligible = NEGLIGIBLE / peak
+    negligible = MIN_RELATIVE_WEIGHT / peak
     bound = negligible * tempered(laws.lowest_density(law, reading), state.beta)
     some_learn = int(0)
     for k_near in range(near, end):
@@ -235,7 +235,7 @@ def draw_stops(
         m_near = state.fixed_m[cell_0 + c_near]
         if m_near < wp.float32(0.0):
             some_learn = 1
-        if m_near < wp.float32(0.0) or m_near * free > bound or m_near > CLEAR:
+        if m_near < wp.float32(0.0) or m_near * free > bound or m_near > MIN_REFLECTIVITY:
             cell_near = state.cells[cell_0 + c_near]
             if cell_near[0] * free > bound:
                 met = cross_cell(rays, k_near, cell_near, ray)
@@ -248,7 +248,7 @@ def draw_stops(
                 if u * total < weight:
                     choice = k_near
                 free = free * (one - a)
-            elif cell_near[0] > CLEAR:
+            elif cell_near[0] > MIN_REFLECTIVITY:
                 free = free * (one - cell_near[0] * chance_at(rays, cell_near, ray))
             if free <= bound:
                 break  # further stops, often many behind a wall, have no weight
@@ -294,8 +294,10 @@ def draw_stops(
         wp.atomic_add(state.hits, row, c_stop, 1)
         if cell_stop[TRYING] != wp.float32(0.0):
             new = surface.cross_surface(state.candidates[chain * state.n_cells + c_stop], ray)
-            after = wp.max(new.chance * hit_law(law, state.beta, choice, near, reading, decay, new), LEAST)
-            before = wp.max(stopped.chance * hit_law(law, state.beta, choice, near, reading, decay, stopped), LEAST)
+            after = wp.max(new.chance * hit_law(law, state.beta, choice, near, reading, decay, new), MIN_FACTOR)
+            before = wp.max(
+                stopped.chance * hit_law(law, state.beta, choice, near, reading, decay, stopped), MIN_FACTOR
+            )
             wp.atomic_add(state.gain, row, c_stop, in_units(wp.log(after / before)))
 
 
@@ -324,7 +326,7 @@ def pass_lazy_cells(first: int, lazy: Uint8s, rays: TracedRays, state: ChainArra
     free = wp.float32(1.0)
     for k in range(rays.offsets[b], rays.near[b]):
         c = rays.cells[k]
-        if lazy[c] != wp.uint8(0) and state.fixed_m[cell_0 + c] > CLEAR:
+        if lazy[c] != wp.uint8(0) and state.fixed_m[cell_0 + c] > MIN_REFLECTIVITY:
             cell = state.cells[cell_0 + c]
             free = free * (wp.float32(1.0) - cell[REFLECTIVITY] * chance_at(rays, cell, ray))
     state.lazy_free[i] = free

@@ -124,7 +124,7 @@ def list_blocks(table: BeamTable, device: str) -> BlockArrays:
     return blocks
 
 
-CERTAIN = wp.constant(wp.uint64(chains.CERTAIN_LEVEL))
+CERTAIN_LEVEL = wp.constant(wp.uint64(chains.CERTAIN_LEVEL))
 IMPOSSIBLE = wp.constant(wp.float64(-1.0e300))  # log weight
 ZERO = wp.constant(wp.float64(0.0))
 
@@ -136,7 +136,7 @@ def block_weights(t: Table, blocks: BlockArrays, chain: Chain, block: int, x: in
     weights = Weights()
     for i in range(blocks.offsets[block], blocks.offsets[block + 1]):
         b = blocks.beam[i]
-        f = chain.first[b]
+        f = chain.first_wall[b]
         k = blocks.first[i]
         if f >= k:  # else a wall stands before the block
             last = blocks.last[i]
@@ -213,7 +213,7 @@ def prior_weights(blocks: BlockArrays, prior: WallPriorArrays, x: int, y: int) -
         c = cell_of_block(blocks, x, y, j)
         if c < 0 or prior.level[c] == wp.uint64(0):
             weights = weights + IMPOSSIBLE * blocks.takes[j]
-        elif prior.level[c] == CERTAIN:
+        elif prior.level[c] == CERTAIN_LEVEL:
             weights = weights + IMPOSSIBLE * (Weights(wp.float64(1.0)) - blocks.takes[j])
         else:
             weights = weights + prior.logit[c] * blocks.takes[j]
@@ -272,7 +272,7 @@ def block_sweeps(
     key = states.keys[n]
     size = sweeps.order.shape[0]
     for s in range(sweeps.count):
-        sweep = wp.uint64(sweeps.first + s)
+        sweep = wp.uint64(sweeps.first_sweep + s)
         base = sweep * wp.uint64(size) * wp.uint64(4)
         shuffle_key = random_bits(key, ~sweep)
         for i in range(size):

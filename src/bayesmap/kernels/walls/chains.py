@@ -5,10 +5,12 @@
 
 The walls alone determine the state of a chain, so only the walls are saved. The state holds
 
-- for every beam, `first`: the table entry of its first wall, or the end of its entries, and `current`: its likelihood;
+- for every beam, `first_wall`: the table entry of its first wall, or the end of its entries;
+- for every beam, `current`: the log-likelihood of its reading;
 - for every cell, `reached`: the number of beams that have no wall before it;
-- for every cell, `gain`: the log-likelihood with a wall there less the one without. By `known` it is the exact sum, a
-  bound, or unknown. If a beam's first wall moves, the gain becomes unknown in the cells that it reached or now reaches.
+- for every cell, `log_likelihood_gain`: the log-likelihood with a wall there less the one without. By `known` it is the
+  exact sum, a bound, or unknown. If a beam's first wall moves, it becomes unknown in the cells that the beam reached or
+  now reaches.
 
 Kernels of walls use these short names: t for the table, c for a cell, b for a beam, k and e for entries of the table.
 """
@@ -28,7 +30,7 @@ from bayesmap.kernels.random import cipher_bits, shuffled, to_uniform
 wp.set_module_options({"enable_backward": False})
 
 CERTAIN_LEVEL = 1 << 53  # the level of probability one
-NONE = wp.constant(wp.float64(0.0))  # coupling of independent cells
+NO_COUPLING = wp.constant(wp.float64(0.0))  # coupling of independent cells
 
 
 @wp.struct
@@ -37,7 +39,7 @@ class WallPriorArrays:
 
     level: wp.array(dtype=wp.uint64)  # probability in units of 2^-53, for draws without floating point
     logit: Float64s  # log-odds
-    gain: Float64s  # log-odds, but 0 in cells that the prior fixes
+    log_prior_gain: Float64s  # log-odds, but 0 in cells that the prior fixes
     log_all_free: wp.float64  # log prior, without pairs, of the map that has only the fixed walls
     uniform: int  # 1 if all cells have one probability
     coupling: wp.float64  # log prior that a pair of alike neighbours adds
@@ -82,7 +84,7 @@ def walls_less_free(walls: Uint8s, cell_0: int, c: int, nx: int, ny: int) -> int
 @wp.func
 def prior_log_odds(prior: WallPriorArrays, walls: Uint8s, c: int) -> wp.float64:
     """Return the prior log-odds of a wall in a cell, given its neighbours."""
-    if prior.coupling == NONE:
+    if prior.coupling == NO_COUPLING:
         return prior.logit[c]
     return prior.logit[c] + prior.coupling * wp.float64(walls_less_free(walls, 0, c, prior.nx, prior.ny))
 
@@ -90,7 +92,7 @@ def prior_log_odds(prior: WallPriorArrays, walls: Uint8s, c: int) -> wp.float64:
 @wp.func
 def draw_given_neighbours(prior: WallPriorArrays, walls: Uint8s, c: int, bits: wp.uint64) -> bool:
     """Draw whether a cell that no beam observes is a wall."""
-    if prior.coupling == NONE:
+    if prior.coupling == NO_COUPLING:
         return draw_from_prior(prior, c, bits)
     return draw_wall(prior_log_odds(prior, walls, c), to_uniform(bits))
 
@@ -113,16 +115,16 @@ def pairs_alike(walls: Uint8s, cell_0: int, begin: int, end: int, nx: int, ny: i
 def log_prior(prior: WallPriorArrays, walls: Uint8s) -> wp.float64:
     """Return log p(walls); if neighbours are coupled, up to a constant."""
     total = wp.float64(prior.log_all_free)
-    if prior.coupling != NONE:
+    if prior.coupling != NO_COUPLING:
         total += prior.coupling * wp.float64(pairs_alike(walls, 0, 0, walls.shape[0], prior.nx, prior.ny))
     if prior.uniform != 0:
         n = int(0)
         for c in range(walls.shape[0]):
             n += int(walls[c])
-        return total + wp.float64(n) * prior.gain[0]
+        return total + wp.float64(n) * prior.log_prior_gain[0]
     for c in range(walls.shape[0]):
         if walls[c] != wp.uint8(0):
-            total += prior.gain[c]
+            total += prior.log_prior_gain[c]
     return total
 
 
@@ -133,7 +135,7 @@ def wall_prior_to_device(
     fixed = (p_wall == 0) | (p_wall == 1)
     return devices.pack(
         WallPriorArrays, device, level=np.round(p_wall * CERTAIN_LEVEL).astype(np.uint64), logit=logit,
-        gain=np.where(fixed, 0.0, logit), uniform=int((p_wall == p_wall[0]).all()), coupling=coupling,
+        log_prior_gain=np.where(fixed, 0.0, logit), uniform=int((p_wall == p_wall[0]).all()), coupling=coupling,
         log_all_free=float(np.log1p(-p_wall[p_wall < 1.0]).sum()), nx=shape[0], ny=shape[1],
     )  # fmt: skip
 
@@ -156,9 +158,9 @@ class Table:
     cell_advantage: Float32s
 
 
-UNKNOWN = wp.constant(wp.uint8(0))  # `gain` has to be summed again
-BOUND = wp.constant(wp.uint8(1))  # the sum is at most `gain` for a free cell, at least `gain` for a wall
-EXACT = wp.constant(wp.uint8(2))  # the sum is `gain`
+UNKNOWN = wp.constant(wp.uint8(0))  # the gain has to be summed again
+BOUND = wp.constant(wp.uint8(1))  # the sum is at most the gain for a free cell, at least the gain for a wall
+EXACT = wp.constant(wp.uint8(2))  # the sum is the gain
 
 
 @wp.struct
@@ -166,10 +168,10 @@ class Chain:
     """The state of one chain, as described above."""
 
     walls: Uint8s  # 1 for a wall
-    first: Int32s
+    first_wall: Int32s
     current: Float32s
     reached: Int32s
-    gain: Float32s  # exact sum or bound, depending on ``known``
+    log_likelihood_gain: Float32s  # exact sum or bound, depending on ``known``
     known: Uint8s  # UNKNOWN, BOUND or EXACT
 
 
@@ -179,10 +181,10 @@ class WallChainArrays:
 
     keys: wp.array(dtype=wp.uint64)
     walls: Uint8Rows
-    first: Int32Rows
+    first_wall: Int32Rows
     current: Float32Rows
     reached: Int32Rows
-    gain: Float32Rows
+    log_likelihood_gain: Float32Rows
     known: Uint8Rows
 
 
@@ -190,7 +192,7 @@ class WallChainArrays:
 class Sweeps:
     """The sweeps to make. If ``shuffle_bits`` is positive, every sweep shuffles the order anew."""
 
-    first: int  # number of the first sweep, from 0
+    first_sweep: int  # number of the first sweep, from 0
     count: int
     order: Int32s  # sites in the order of a sweep
     shuffle_bits: wp.uint32  # see `cipher_bits`
@@ -199,9 +201,9 @@ class Sweeps:
 
 @wp.struct
 class Kept:
-    """Results of sweeps. Maps are kept after sweeps ``first``, ``first + every``, ..., counted from 1."""
+    """Results of sweeps. Maps are kept after sweeps ``first_kept``, ``first_kept + every``, ..., counted from 1."""
 
-    first: int
+    first_kept: int
     every: int
     draws: wp.array3d(dtype=wp.uint8)  # packed maps, (chains, kept, ceil(N / 8))
     log_likelihoods: Float64Rows  # after each sweep, (chains, sweeps)
@@ -221,8 +223,9 @@ def site_of(sweeps: Sweeps, i: int, shuffle_key: wp.uint64) -> int:
 def chain_of(chains: WallChainArrays, i: int) -> Chain:
     """Return the i-th chain; its arrays are views."""
     return Chain(
-        chains.walls[i], chains.first[i], chains.current[i], chains.reached[i], chains.gain[i], chains.known[i]
-    )
+        chains.walls[i], chains.first_wall[i], chains.current[i], chains.reached[i], chains.log_likelihood_gain[i],
+        chains.known[i],
+    )  # fmt: skip
 
 
 @wp.func
@@ -250,8 +253,8 @@ def move_first_wall(t: Table, chain: Chain, b: int, k: int):
     # f: entry of the first wall so far; j: entry whose cell is updated.
     start = t.offsets[b]
     end = t.offsets[b + 1]
-    f = chain.first[b]
-    chain.first[b] = k
+    f = chain.first_wall[b]
+    chain.first_wall[b] = k
     chain.current[b] = entry_loglik(t, b, k, end)
     # Cells that the beam reaches before and after: their gains change.
     nearer = wp.min(f, k)
@@ -276,7 +279,7 @@ def derive_state(chain_0: int, t: Table, chains: WallChainArrays):
         start = t.offsets[b]
         end = t.offsets[b + 1]
         k = next_wall(t, chain.walls, start, end)
-        chain.first[b] = k
+        chain.first_wall[b] = k
         chain.current[b] = entry_loglik(t, b, k, end)
         for j in range(start, wp.min(k + 1, end)):
             c = t.cells[j]
@@ -288,7 +291,7 @@ def put_wall(t: Table, chain: Chain, c: int):
     """Make a free cell a wall: the beams that passed through it now end there."""
     chain.walls[c] = wp.uint8(1)
     for i in range(t.cell_offsets[c], t.cell_offsets[c + 1]):
-        if chain.first[t.cell_beam[i]] > t.cell_entry[i]:
+        if chain.first_wall[t.cell_beam[i]] > t.cell_entry[i]:
             move_first_wall(t, chain, t.cell_beam[i], t.cell_entry[i])
 
 
@@ -299,7 +302,7 @@ def remove_wall(t: Table, chain: Chain, c: int):
     for i in range(t.cell_offsets[c], t.cell_offsets[c + 1]):
         b = t.cell_beam[i]
         e = t.cell_entry[i]
-        if chain.first[b] == e:
+        if chain.first_wall[b] == e:
             move_first_wall(t, chain, b, next_wall(t, chain.walls, e + 1, t.offsets[b + 1]))
 
 
@@ -324,10 +327,10 @@ def log_likelihood(current: Float32s) -> wp.float64:
 
 @wp.func
 def keep(kept: Kept, sweeps: Sweeps, n: int, s: int, chain: Chain, log_prior: wp.float64):
-    """Store the log densities of chain n after sweep ``sweeps.first + s``, and its map if it is kept."""
+    """Store the log densities of chain n after sweep ``sweeps.first_sweep + s``, and its map if it is kept."""
     kept.log_likelihoods[n, s] = sweeps.beta * log_likelihood(chain.current)
     kept.log_priors[n, s] = log_prior
-    past = sweeps.first + s + 1 - kept.first
+    past = sweeps.first_sweep + s + 1 - kept.first_kept
     if kept.draws.shape[1] > 0 and past >= 0 and past % kept.every == 0:
         keep_walls(chain.walls, kept.draws[n, past // kept.every])
 
@@ -349,7 +352,7 @@ class WallChains:
         of_beams, of_cells = (chains, beams), (chains, cells)
         self.states: Any = devices.pack(
             WallChainArrays, device, walls=np.array(walls, dtype=np.uint8), keys=np.array(keys, dtype=np.uint64),
-            first=of_beams, current=of_beams, reached=of_cells, gain=of_cells, known=of_cells,
+            first_wall=of_beams, current=of_beams, reached=of_cells, log_likelihood_gain=of_cells, known=of_cells,
         )  # fmt: skip
         devices.launch(derive_state, chains, [table, self.states], device)
 
@@ -360,9 +363,9 @@ class WallChains:
 
 def run_sweeps(
     kernel: Any, tables: Sequence[Any], prior: Any, order: devices.Ints, shuffle: bool, chains: WallChains, *,
-    first: int, count: int, kept: range, beta: float = 1.0, threads: int | None = None,
+    first_sweep: int, count: int, kept: range, beta: float = 1.0, threads: int | None = None,
 ) -> tuple[devices.Floats, devices.Floats, NDArray[np.uint8]]:  # fmt: skip
-    """Advance the chains in place by ``count`` sweeps of a kernel, numbered from ``first``, one chain per thread.
+    """Advance the chains in place by ``count`` sweeps of a kernel, numbered from ``first_sweep``, one chain per thread.
 
     The kernel takes ``tables`` first, then the prior. Each sweep visits the sites in the given order, or shuffles it.
     ``kept`` holds the numbers, from 1, of the sweeps whose maps are kept. ``beta`` is the inverse temperature.
@@ -373,9 +376,11 @@ def run_sweeps(
     n, cells = chains.shape
     device = chains.device
     bits = cipher_bits(len(order)) if shuffle else 0
-    sweeps = devices.pack(Sweeps, device, first=first, count=count, beta=beta, order=order, shuffle_bits=bits)
+    sweeps = devices.pack(
+        Sweeps, device, first_sweep=first_sweep, count=count, beta=beta, order=order, shuffle_bits=bits
+    )
     out = devices.pack(
-        Kept, device, first=kept.start, every=kept.step, draws=(n, len(kept), (cells + 7) // 8),
+        Kept, device, first_kept=kept.start, every=kept.step, draws=(n, len(kept), (cells + 7) // 8),
         log_likelihoods=(n, count), log_priors=(n, count),
     )  # fmt: skip
     devices.launch(kernel, n, [*tables, prior, sweeps, chains.states, out], device, threads=threads)

@@ -18,7 +18,7 @@ from bayesmap.kernels.walls.chains import BOUND, EXACT, UNKNOWN, Chain, Table, W
 
 wp.set_module_options({"enable_backward": False})
 
-CERTAIN = wp.constant(wp.float64(20.0))  # log-odds from which a bound replaces the sum
+MIN_BOUND_LOG_ODDS = wp.constant(wp.float64(20.0))  # log-odds from which a bound replaces the sum
 NO_BOUND = wp.constant(wp.float64(-1.0e300))  # below every sum: the sum is computed exactly
 
 
@@ -30,7 +30,7 @@ def wall_gain(t: Table, chain: Chain, c: int) -> wp.float64:
     for i in range(t.cell_offsets[c], t.cell_offsets[c + 1]):
         b = t.cell_beam[i]
         e = t.cell_entry[i]
-        if chain.first[b] == e:
+        if chain.first_wall[b] == e:
             end = t.offsets[b + 1]
             k = chains.next_wall(t, chain.walls, e + 1, end)
             gain += wp.float64(t.cell_loglik[i] - chains.entry_loglik(t, b, k, end))
@@ -52,9 +52,9 @@ def sum_gain(t: Table, chain: Chain, c: int, enough: wp.float64):
             known = BOUND
             break
         b = t.cell_beam[i]
-        if chain.first[b] > t.cell_entry[i]:  # the beam reaches the cell
+        if chain.first_wall[b] > t.cell_entry[i]:  # the beam reaches the cell
             gain += wp.float64(t.cell_loglik[i] - chain.current[b])
-    chain.gain[c] = wp.float32(gain)
+    chain.log_likelihood_gain[c] = wp.float32(gain)
     chain.known[c] = known
 
 
@@ -63,14 +63,14 @@ def draw_free_cell(t: Table, prior: WallPriorArrays, chain: Chain, beta: wp.floa
     """Draw whether a free cell that beams reach becomes a wall, at an inverse temperature."""
     logit = chains.prior_log_odds(prior, chain.walls, c)
     if chain.known[c] == UNKNOWN:
-        sum_gain(t, chain, c, (-CERTAIN - logit) / beta)
-    if not chains.draw_wall(logit + beta * wp.float64(chain.gain[c]), u):
+        sum_gain(t, chain, c, (-MIN_BOUND_LOG_ODDS - logit) / beta)
+    if not chains.draw_wall(logit + beta * wp.float64(chain.log_likelihood_gain[c]), u):
         return False
     if chain.known[c] == EXACT:
         return True
     # The bound allows a wall: draw again with the exact sum and the same uniform number.
     sum_gain(t, chain, c, NO_BOUND)
-    return chains.draw_wall(logit + beta * wp.float64(chain.gain[c]), u)
+    return chains.draw_wall(logit + beta * wp.float64(chain.log_likelihood_gain[c]), u)
 
 
 @wp.func
@@ -81,13 +81,13 @@ def draw_wall_cell(t: Table, prior: WallPriorArrays, chain: Chain, beta: wp.floa
         # Lower bound: each beam that ends here has its advantage over all entries behind.
         least = wp.float64(0.0)
         for i in range(t.cell_offsets[c], t.cell_offsets[c + 1]):
-            if chain.first[t.cell_beam[i]] == t.cell_entry[i]:
+            if chain.first_wall[t.cell_beam[i]] == t.cell_entry[i]:
                 least += wp.float64(t.cell_advantage[i])
-        chain.gain[c] = wp.float32(least)
+        chain.log_likelihood_gain[c] = wp.float32(least)
         chain.known[c] = BOUND
     if chain.known[c] == BOUND:
-        least = logit + beta * wp.float64(chain.gain[c])
-        if least > CERTAIN and chains.draw_wall(least, u):
+        least = logit + beta * wp.float64(chain.log_likelihood_gain[c])
+        if least > MIN_BOUND_LOG_ODDS and chains.draw_wall(least, u):
             return True
     return chains.draw_wall(logit + beta * wall_gain(t, chain, c), u)
 
@@ -103,7 +103,7 @@ def gibbs_sweeps(
     key = states.keys[n]
     size = sweeps.order.shape[0]
     for s in range(sweeps.count):
-        sweep = wp.uint64(sweeps.first + s)
+        sweep = wp.uint64(sweeps.first_sweep + s)
         base = sweep * wp.uint64(size)
         shuffle_key = random_bits(key, ~sweep)
         for i in range(size):

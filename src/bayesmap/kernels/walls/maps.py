@@ -17,11 +17,14 @@ from bayesmap.kernels.walls.chains import Table, WallPriorArrays, draw_from_prio
 
 wp.set_module_options({"enable_backward": False})
 
+DeviceTable = Any  # a `Table` on a device, from `table_to_device`
+DevicePrior = Any  # `WallPriorArrays` on a device, from `wall_prior_to_device`
+
 
 @wp.func
-def particle_wall(prior: WallPriorArrays, key: wp.uint64, particle: wp.uint64, cells: wp.uint64, c: int) -> bool:
+def particle_wall(prior: WallPriorArrays, key: wp.uint64, particle: wp.uint64, n_cells: wp.uint64, c: int) -> bool:
     """Return whether cell c is a wall in the map of a particle."""
-    return draw_from_prior(prior, c, random_bits(key, particle * cells + wp.uint64(c)))
+    return draw_from_prior(prior, c, random_bits(key, particle * n_cells + wp.uint64(c)))
 
 
 @wp.kernel
@@ -31,12 +34,12 @@ def weigh_particles(
     """One thread per particle: compute log p(readings | its map). Only cells that beams reach are drawn."""
     i = first + wp.tid()
     particle = particle_0 + wp.uint64(i)
-    cells = wp.uint64(prior.level.shape[0])
+    n_cells = wp.uint64(prior.level.shape[0])
     total = wp.float64(0.0)
     for b in range(t.no_hit.shape[0]):
         term = t.no_hit[b]
         for k in range(t.offsets[b], t.offsets[b + 1]):
-            if particle_wall(prior, key, particle, cells, t.cells[k]):
+            if particle_wall(prior, key, particle, n_cells, t.cells[k]):
                 term = t.loglik[k]
                 break
         total += wp.float64(term)
@@ -49,18 +52,20 @@ def draw_particles(
 ):
     """One thread per particle: write its whole map."""
     i = first + wp.tid()
-    cells = walls.shape[1]
-    for c in range(cells):
-        wall = particle_wall(prior, key, particles[i], wp.uint64(cells), c)
+    n_cells = walls.shape[1]
+    for c in range(n_cells):
+        wall = particle_wall(prior, key, particles[i], wp.uint64(n_cells), c)
         walls[i, c] = wp.uint8(wp.where(wall, 1, 0))
 
 
-def weigh(table: Any, prior: Any, key: int, first: int, count: int, device: str) -> Floats:
-    """Compute the log weights of particles first .. first + count - 1."""
-    return np.asarray(devices.launch(weigh_particles, count, [table, prior, key, first, (count,)], device)[0])
+def particle_log_weights(
+    table: DeviceTable, prior: DevicePrior, key: int, first_particle: int, count: int, device: str
+) -> Floats:
+    """Compute the log weights of ``count`` particles from ``first_particle`` on, (count,)."""
+    return np.asarray(devices.launch(weigh_particles, count, [table, prior, key, first_particle, (count,)], device)[0])
 
 
-def particle_maps(prior: Any, key: int, particles: NDArray[np.intp], device: str) -> NDArray[np.uint8]:
+def particle_maps(prior: DevicePrior, key: int, particles: NDArray[np.intp], device: str) -> NDArray[np.uint8]:
     """Return the maps of the given particles, (n, N)."""
     walls = (len(particles), prior.level.shape[0])
     return np.asarray(devices.launch(draw_particles, len(particles), [prior, key, particles, walls], device)[0])
