@@ -112,14 +112,14 @@ def test_cells_that_no_beam_touches_draw_reflectivities_given_their_labels_where
     sampler = StopGibbs()
     state, _ = sampler.step(sampler.init(problem, range(2), 4), 10)
     before = [state.chains.solid(chain).copy() for chain in range(2)]
-    m, solid = sampler.stops(state), np.stack(before)
+    m, solid = sampler.present_cells(state), np.stack(before)
     np.testing.assert_array_equal(solid, [state.chains.solid(chain) for chain in range(2)])
     away = ~problem.touched().ravel()
     assert scipy.stats.kstest(m[:, away][solid[:, away]], scipy.stats.beta(3.0, 0.8).cdf).pvalue > ALPHA / TESTS
     assert scipy.stats.kstest(m[:, away][~solid[:, away]], scipy.stats.beta(0.5, 1.5).cdf).pvalue > ALPHA / TESTS
-    np.testing.assert_array_equal(sampler.stops(state), m)  # the same sweep, the same numbers
+    np.testing.assert_array_equal(sampler.present_cells(state), m)  # the same sweep, the same numbers
     state, _ = sampler.step(state, 1)
-    assert (sampler.stops(state)[:, away] != m[:, away]).mean() > 0.99
+    assert (sampler.present_cells(state)[:, away] != m[:, away]).mean() > 0.99
 
 
 @KINDS

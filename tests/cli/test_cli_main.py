@@ -136,7 +136,7 @@ def test_choices_are_those_of_the_library():
 
     from bayesmap.cells.binary import Independent, Ising
     from bayesmap.cells.kinds import BUILT_IN, P_WALL
-    from bayesmap.cells.reflectivity import FEWEST_DRAWS, MOST_DRAWS, Beta
+    from bayesmap.cells.reflectivity import MAX_DRAWS, MIN_DRAWS, Beta
     from bayesmap.cells.surface import Surface
     from bayesmap.cli.keys import Cells, InferSettings, keys_of
     from bayesmap.cli.keys import Method as MethodName
@@ -162,6 +162,6 @@ def test_choices_are_those_of_the_library():
     assert labelled.describe() == Surface(coupling=0.5).describe()
     # The help says what settings are where the user sets none.
     unset = {key.name: key.help.unset for key in keys_of("infer")}
-    assert unset["draws"] == f"{FEWEST_DRAWS}, to {MOST_DRAWS} for few beams; binary {BINARY_DRAWS}"
+    assert unset["draws"] == f"{MIN_DRAWS}, to {MAX_DRAWS} for few beams; binary {BINARY_DRAWS}"
     assert unset["hit_depth"] == f"{Surface.hit_depth:g}; binary {Independent.hit_depth:g}"
     assert unset["prior"] == f"{P_WALL:g}"

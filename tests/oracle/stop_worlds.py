@@ -61,8 +61,8 @@ def side_by_side(rays, worlds):
 class Chain:
     """One chain, advanced a sweep at a time."""
 
-    def __init__(self, problem, seed, states=None, sweep=0, settle_sweeps=0):
-        self.sampler = StopGibbs(settle_sweeps)
+    def __init__(self, problem, seed, states=None, sweep=0, early_sweeps=0):
+        self.sampler = StopGibbs(early_sweeps)
         at = None if states is None else Snapshot(sweep, {"state": states[None].astype(np.float32)})
         self.state = self.sampler.init(problem, [0], seed, at)
 
@@ -112,9 +112,9 @@ class Worlds:
         out[..., 1:] /= edge
         return out
 
-    def sampler(self, seed, states=None, sweep=0, settle_sweeps=0):
+    def sampler(self, seed, states=None, sweep=0, early_sweeps=0):
         """One chain over all worlds, from the states (T, 6) or from the package's own start."""
-        return Chain(replaced(self.problem, threads=1), seed, states, sweep, settle_sweeps)
+        return Chain(replaced(self.problem, threads=1), seed, states, sweep, early_sweeps)
 
     def sweep(self, sampler, count, beta=1.0):
         """Some sweeps with nothing fitted; where the chain then stands, (T, 6)."""

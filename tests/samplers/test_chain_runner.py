@@ -180,7 +180,7 @@ def test_what_a_chain_keeps_up_to_date_is_what_follows_from_its_walls(method, or
 
 @pytest.mark.parametrize(("method", "order"), BOTH)
 def test_what_a_chain_remembers_of_its_cells_is_true(method, order):
-    """``log_likelihood_gain`` is what a wall in the cell adds to the log-likelihood, or the bound that it says it is."""
+    """``log_likelihood_gain`` is what a wall in the cell adds to the log-likelihood, or a bound."""
     problem = problem_8x8()
     sampler = SAMPLERS[method][0](order, "prior")
     state = sampler.init(problem, range(3), 1)

@@ -73,7 +73,7 @@ def test_moments_are_those_of_the_end_points_drawn_towards_the_prior_and_widened
         factor = np.array([[l11, 0.0], [l21, l22]])
         np.testing.assert_allclose(estimate.mean_m[u], mean, atol=1e-6)
         (across, along), axes = np.linalg.eigh(covariance)
-        wide = axes @ np.diag([across, along * estimates.ALONG_WALL**2]) @ axes.T
+        wide = axes @ np.diag([across, along * estimates.ALONG_WALL_SIGMAS**2]) @ axes.T
         np.testing.assert_allclose(factor @ factor.T, wide, atol=1e-7)
 
 
@@ -89,7 +89,7 @@ def test_endpoint_cells_step_in_a_frame_along_their_longer_axis_and_by_their_thi
         assert np.linalg.norm(frame) == pytest.approx(1.0, rel=1e-5)
         if along > 1.01 * across:  # a round one has no longer axis
             assert abs(frame @ axes[:, 1]) == pytest.approx(1.0, abs=1e-4)
-        assert row[2] == pytest.approx(estimates.ACROSS * np.sqrt(across / (n + 1)), rel=1e-3)
+        assert row[2] == pytest.approx(estimates.STEP_ACROSS_SIGMAS * np.sqrt(across / (n + 1)), rel=1e-3)
 
 
 def test_every_cell_of_the_grid_has_a_start_those_without_beams_from_the_prior():
@@ -99,7 +99,7 @@ def test_every_cell_of_the_grid_has_a_start_those_without_beams_from_the_prior()
     prior = bm.Surface(0.8, 1.5)
     problem = trace_stops(scans, grid, prior, SENSOR)
     rng = np.random.default_rng(3)
-    states = [estimates.start(problem.estimate, prior, problem.rays, rng) for _ in range(3)]
+    states = [estimates.draw_start_state(problem.estimate, prior, problem.rays, rng) for _ in range(3)]
     untouched = np.setdiff1d(np.arange(grid.n_cells), problem.rays.touched)
     assert len(untouched) > 3000
     surfaces = prior.sample_surfaces(np.random.default_rng(4), 20_000) * grid.resolution
@@ -114,7 +114,7 @@ def test_every_cell_of_the_grid_has_a_start_those_without_beams_from_the_prior()
 
 def test_update_periods_grow_with_the_distance_from_readings(problem, monkeypatch):
     estimate = problem.estimate
-    monkeypatch.setattr(estimates, "FEW_PASSES", 0)
+    monkeypatch.setattr(estimates, "MIN_PASSES", 0)
     where = np.stack(np.divmod(estimate.touched, problem.grid.shape[1]), axis=-1)
     nearest = np.abs(where[:, None] - where[estimate.endpoint]).max(axis=-1).min(axis=1)
     np.testing.assert_array_equal(
@@ -122,7 +122,7 @@ def test_update_periods_grow_with_the_distance_from_readings(problem, monkeypatc
     )
     # Cells that few beams pass are updated in every other sweep.
     middle, free = int(np.median(estimate.passes[~estimate.endpoint])), ~estimate.endpoint
-    monkeypatch.setattr(estimates, "FEW_PASSES", middle)
+    monkeypatch.setattr(estimates, "MIN_PASSES", middle)
     periods, few = estimates.update_periods(estimate), estimate.passes < middle
     assert (few & free).any()
     assert (~few & free).any()

@@ -88,7 +88,7 @@ def drawn(name, sweeps=120, seed=11):
 
 def cells_of(sampler, state):
     """Present cells and labels of all chains; those that no beam touches are drawn here."""
-    m = sampler.stops(state)
+    m = sampler.present_cells(state)
     return m.astype(float), np.stack([state.chains.solid(chain) for chain in range(len(m))])
 
 

@@ -80,7 +80,7 @@ def test_the_readings_of_the_fewer_go_to_the_neighbour_whose_axis_they_lie_on():
 
 
 def test_of_a_pair_only_one_gives_way_and_none_that_stops_many_or_whose_readings_lie_beside():
-    cells, owner, points = wall(((3, 5), (4, 5), (7, moves.MOST_READINGS + 1), (8, moves.MOST_READINGS + 2)))
+    cells, owner, points = wall(((3, 5), (4, 5), (7, moves.MAX_READINGS + 1), (8, moves.MAX_READINGS + 2)))
     for angle, pairs in ((0.0, [[flat(3, 5), flat(4, 5)]]), (1.0, np.zeros((0, 2)))):
         cells[flat(4, 5)] = surface(4, 5, angle)
         found = moves.readings_of(cells, owner, points, noise_of(owner), GRID)
@@ -171,8 +171,8 @@ def lengthened_by(cells, owner, points, x):
 SURFACES = {"surfaces": PRIORS["surfaces"], "labelled surfaces": LABELLED["labelled surfaces"]}
 
 
-def prepared(prior, settle_sweeps=0):
-    sampler = StopGibbs(settle_sweeps)
+def prepared(prior, early_sweeps=0):
+    sampler = StopGibbs(early_sweeps)
     return sampler, sampler.prepare(Model(scans(), ROOM, prior, TRUTH, hit_depth=0.5), "cpu")
 
 
@@ -196,7 +196,7 @@ def test_readings_are_explained_better_than_before_and_no_surface_leaves_its_cel
 
 
 def test_surfaces_are_joined_in_the_warm_up_alone():
-    after = [moves.merge_sweeps(int(moves.SETTLE_SHARE * warmup)) for warmup in range(60)]
+    after = [moves.merge_sweeps(int(moves.EARLY_SHARE * warmup)) for warmup in range(60)]
     assert [len(sweeps) for sweeps in after] == 2 * [0] + 11 * [1] + 47 * [3]
     assert [warmup for warmup, sweeps in enumerate(after) if len(set(sweeps)) < len(sweeps)] == []
     assert [warmup for warmup, sweeps in enumerate(after) if max(sweeps, default=0) > warmup] == []
@@ -224,7 +224,7 @@ def test_surfaces_are_joined_after_the_same_sweeps_however_these_are_cut(monkeyp
 
 def test_surfaces_settle_in_the_first_part_of_the_warm_up():
     sampler = sampler_of("stop-gibbs", ROOM, bm.Gibbs("radial"), 50)
-    assert sampler == StopGibbs(settle_sweeps=int(50 * moves.SETTLE_SHARE))
+    assert sampler == StopGibbs(early_sweeps=int(50 * moves.EARLY_SHARE))
     assert sampler_of("stop-gibbs", ROOM, bm.Gibbs("radial")) == StopGibbs()
 
 

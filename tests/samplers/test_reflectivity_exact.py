@@ -83,7 +83,7 @@ def test_draws_follow_the_exact_posterior(case):
 @pytest.mark.full
 def test_cells_that_hold_their_reflectivity_for_most_of_a_round_follow_it_too(monkeypatch):
     """As those do that many beams pass."""
-    monkeypatch.setattr(initial_estimate, "FEW_PASSES", 0)
+    monkeypatch.setattr(initial_estimate, "MIN_PASSES", 0)
     scans, grid, prior, law = SQUARE
     m, exact = drawn(scans, grid, prior, law, 600), exact_of(scans, grid, prior, law)
     assert p_values(m, exact).min() > ALPHA / TESTS

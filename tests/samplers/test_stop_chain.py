@@ -14,7 +14,7 @@ from bayesmap.run import runner
 from bayesmap.run.chains import SweepPlan, join
 from bayesmap.run.runner import Job, run_chains
 from bayesmap.samplers.fit import first_sensor, fit
-from bayesmap.samplers.merge_moves import SETTLE_SHARE
+from bayesmap.samplers.merge_moves import EARLY_SHARE
 from bayesmap.samplers.progress import Watch
 from bayesmap.samplers.sampler import Keep
 from bayesmap.samplers.stop_gibbs import StopGibbs
@@ -52,7 +52,7 @@ def test_chain_two_is_the_same_wherever_it_runs(kind):
     whole = infer(kind, chains=3, warmup=6, draws=4)
     prior = (PRIORS | LABELLED)[kind]
     model = Model(scans(), GRID, prior, first_sensor(prior, GRID.resolution), hit_depth=0.5)
-    sampler, parts = StopGibbs(settle_sweeps=int(SETTLE_SHARE * 6)), []
+    sampler, parts = StopGibbs(early_sweeps=int(EARLY_SHARE * 6)), []
     for chain in (0, 1, 2):
         problem = sampler.prepare(model, "cpu")
         found = fit(problem, 0, 6)

@@ -78,9 +78,9 @@ def by_importance(shape, scans, law, prior, beta=1.0, anywhere=False):
     return weighted(surface_coordinates(states, *centres), np.concatenate(log_weights))
 
 
-def drawn(shape, scans, law, prior, sweeps, seed=17, beta=1.0, settle_sweeps=0):
+def drawn(shape, scans, law, prior, sweeps, seed=17, beta=1.0, early_sweeps=0):
     worlds = copies(scans, bm.Grid(shape, EDGE), prior, law, COPIES)
-    states = worlds.split(worlds.sweep(worlds.sampler(seed, settle_sweeps=settle_sweeps), sweeps, beta))
+    states = worlds.split(worlds.sweep(worlds.sampler(seed, early_sweeps=early_sweeps), sweeps, beta))
     nx, ny = shape
     cell = np.arange(nx * ny)
     return surface_coordinates(states, np.stack([cell // ny + 0.5, cell % ny + 0.5], axis=-1), 1.0)
@@ -100,12 +100,12 @@ def test_draws_follow_the_posterior(name):
 @pytest.mark.parametrize("name", ["one cell, sharp", "two cells"])
 def test_draws_after_a_search_for_a_start_follow_it_too(name):
     case = CASES[name]
-    assert p_values(drawn(*case, sweeps=300, settle_sweeps=20), by_importance(*case)).min() > ALPHA / TESTS
+    assert p_values(drawn(*case, sweeps=300, early_sweeps=20), by_importance(*case)).min() > ALPHA / TESTS
 
 
 def test_a_cell_that_holds_its_reflectivity_for_most_of_a_round_follows_it_too(monkeypatch):
     """As one does that many beams pass."""
-    monkeypatch.setattr(initial_estimate, "FEW_PASSES", 0)
+    monkeypatch.setattr(initial_estimate, "MIN_PASSES", 0)
     case = CASES["one cell without readings"]
     assert p_values(drawn(*case, sweeps=400), by_importance(*case)).min() > ALPHA / TESTS
 

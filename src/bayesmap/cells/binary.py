@@ -184,7 +184,7 @@ class Independent(BinaryWalls):
 
 
 FIT = "fit"
-LARGEST_COUPLING = 50.0
+MAX_COUPLING = 50.0
 """Each pair of unlike neighbours then costs a factor of e^50; a larger coupling has the same effect."""
 START_SWEEPS = 50  # from a map of independent cells to the start of a chain
 
@@ -213,8 +213,8 @@ class Ising(BinaryWalls):
         if isinstance(self.coupling, str):
             if self.coupling != FIT:
                 raise BadInput(f"Ising: coupling must be a number or {FIT!r}, got {self.coupling!r}")
-        elif not (math.isfinite(self.coupling) and 0 <= self.coupling <= LARGEST_COUPLING):
-            raise BadInput(f"Ising: coupling must lie in [0, {LARGEST_COUPLING:g}], got {self.coupling}")
+        elif not (math.isfinite(self.coupling) and 0 <= self.coupling <= MAX_COUPLING):
+            raise BadInput(f"Ising: coupling must lie in [0, {MAX_COUPLING:g}], got {self.coupling}")
 
     @property
     def is_incomplete(self) -> bool:

@@ -18,31 +18,33 @@ from scipy import special
 
 from bayesmap.cells import ising_field
 from bayesmap.cells.arrays import ArraySpec, Draws
+from bayesmap.cells.binary import MAX_COUPLING
 from bayesmap.cells.kind import BATCH_BYTES, CellPrior, Cells, Floats, Words
 from bayesmap.errors import BadInput
 from bayesmap.space.grid import Grid
 
-LEAST_M, MOST_M = 1e-30, 1.0 - 1e-7
+MIN_REFLECTIVITY = 1e-30
+MAX_REFLECTIVITY = 1.0 - 1e-7
 """The range of reflectivities whose log odds single precision can hold."""
 
 CELLS_AT_ONCE = 8192  # per batch of `interval`
 
 HALF_ROUNDING = 2.0**-11  # relative error of half precision
-MOST_STOPS = 32
+MAX_STOPS = 32
 """Stopped beams that `counts_behind` tries; a cell with more is well known."""
 
-FRESH_CELLS = 1 << 16
+POOL_CELLS = 1 << 16
 """Size of the pool of states drawn from the prior; cells that no beam touched take their states from it."""
 
-FEWEST_DRAWS, MOST_DRAWS = 100, 200  # per chain, by default
-FEWEST_IN_A_ROW = 50  # fewest if every sweep is kept: a further draw then adds less
-BEAMS_OF_FEWEST = 100_000  # with this many beams or more, the default is the fewest draws
-MOST_DRAW_BYTES = 1 << 30
+MIN_DRAWS = 100  # least default number of draws per chain
+MAX_DRAWS = 200  # largest default number of draws per chain
+MIN_DRAWS_UNTHINNED = 50  # least default number if every sweep is kept: a further draw then adds less
+BEAMS_AT_MIN_DRAWS = 100_000  # with this many beams or more, the default is the least number
+MAX_DRAW_BYTES = 1 << 30
 """Most bytes of all chains' draws, if beams were to touch every cell of the grid."""
 BYTES_A_CELL = 4  # per draw: two arrays in half precision
 
-LARGEST_COUPLING = 50.0
-"""A larger coupling has the same effect, as in `bayesmap.cells.binary`."""
+POOL_SEED = 1  # of the pool of states drawn from the prior
 
 
 class KernelNumbers(NamedTuple):
@@ -93,8 +95,8 @@ class Reflective(CellPrior):
             if not (math.isfinite(value) and value > 0):
                 raise BadInput(f"{name}: {which} must be a positive number, got {value!r}")
         coupling: Any = self.coupling  # may be "fit", which only binary walls allow
-        if isinstance(coupling, str) or not (0 <= coupling <= LARGEST_COUPLING):
-            raise BadInput(f"{name}: coupling must be a number in [0, {LARGEST_COUPLING:g}], got {self.coupling!r}")
+        if isinstance(coupling, str) or not (0 <= coupling <= MAX_COUPLING):
+            raise BadInput(f"{name}: coupling must be a number in [0, {MAX_COUPLING:g}], got {self.coupling!r}")
         if self.has_labels:  # set on the instance: priors of this class without labels store none
             object.__setattr__(self, "arrays", (*type(self).arrays, ising_field.SOLID))
 
@@ -125,7 +127,7 @@ class Reflective(CellPrior):
 
     def log_prob(self, cells: Cells, grid: Grid) -> float:
         """Compute the log density of labels and of the log odds of all reflectivities, up to a constant."""
-        m = np.clip(np.asarray(cells["reflectivity"], dtype=np.float64), LEAST_M, MOST_M)
+        m = np.clip(np.asarray(cells["reflectivity"], dtype=np.float64), MIN_REFLECTIVITY, MAX_REFLECTIVITY)
         if not self.has_labels:
             return float((self.a * np.log(m) + self.b * np.log1p(-m)).sum())
         solid = np.asarray(cells["solid"]) != 0
@@ -182,10 +184,10 @@ class Reflective(CellPrior):
         predictions need more draws (docs/defaults.md), and a sweep is faster. Large grids reduce the number towards the
         minimum, to fit the draws into 1 GiB.
         """
-        fewest = FEWEST_IN_A_ROW if thin == 1 else FEWEST_DRAWS
-        affordable = BEAMS_OF_FEWEST * fewest // max(beams, 1)
-        fitting = MOST_DRAW_BYTES // (BYTES_A_CELL * cells * chains)
-        return max(fewest, min(affordable, fitting, MOST_DRAWS))
+        fewest = MIN_DRAWS_UNTHINNED if thin == 1 else MIN_DRAWS
+        affordable = BEAMS_AT_MIN_DRAWS * fewest // max(beams, 1)
+        fitting = MAX_DRAW_BYTES // (BYTES_A_CELL * cells * chains)
+        return max(fewest, min(affordable, fitting, MAX_DRAWS))
 
     def kernel_numbers(self, edge_m: float) -> KernelNumbers:
         """Return the prior's parameters for kernels, which ignore those of surfaces here."""
@@ -271,15 +273,17 @@ class Reflective(CellPrior):
     def _stops_of_draws(
         self, draws: Draws, cells: NDArray[np.int32] | None, *, drawn: bool
     ) -> Iterator[NDArray[np.float32]]:
+        """Yield the stops of each draw, (n,) or (n, 6), in batches, with drawn or with expected reflectivities."""
         cells = np.arange(draws.grid.n_cells, dtype=np.int32) if cells is None else cells
+        # Draws hold the touched cells; the others follow the prior.
         position, stored = positions_in(draws.index["cell"], cells)
-        position, stored_at = position[stored], np.flatnonzero(stored)
+        position = position[stored]
+        stored_at = np.flatnonzero(stored)
+        prior_reflectivities = self._prior_reflectivities(cells, drawn=drawn)
         reflectivities = draws.arrays["reflectivity" if drawn else "expected"]
-        rng = np.random.default_rng(1)
-        # The pools of prior states are drawn once; each draw of the map reads them from another random offset.
-        betas = [(self.a, self.b), (self.a_solid, self.b_solid)][: 1 + self.has_labels] if drawn else []
-        pools = [rng.beta(a, b, FRESH_CELLS).astype(np.float32) for a, b in betas]
-        write_surfaces, numbers = self.surface_writer(draws, cells), list(draws.numbers())
+        write_surfaces = self.surface_writer(draws, cells)
+        numbers = list(draws.numbers())
+        # Batches whose memory is limited.
         shape = (len(cells), 6) if self.has_surfaces else (len(cells),)
         at_once = max(1, BATCH_BYTES // ((32 if self.has_surfaces else 4) * max(len(cells), 1)))
         for i in range(0, len(numbers), at_once):
@@ -288,15 +292,31 @@ class Reflective(CellPrior):
                 write_surfaces(stops, chain, draw)
                 m = stops[:, 0] if self.has_surfaces else stops
                 solid = ising_field.of_draw(draws, chain, draw)[cells] if self.has_labels else None
-                if drawn:
-                    pool_index = (cells + int(rng.integers(FRESH_CELLS))) % FRESH_CELLS
-                    m[:] = pools[0][pool_index]
-                    if solid is not None:
-                        m[solid] = pools[1][pool_index[solid]]
-                else:
-                    m[:] = self.mean if solid is None else self.mean_given(solid)
+                m[:] = prior_reflectivities(solid)
                 m[stored_at] = reflectivities[chain, draw][position]
             yield batch
+
+    def _prior_reflectivities(
+        self, cells: NDArray[np.int32], *, drawn: bool
+    ) -> Callable[[NDArray[np.bool_] | None], NDArray[np.floating] | float]:
+        """Return a function that gives the cells' reflectivities by the prior, from their labels if they have labels.
+
+        They are prior means, or draws. Pools of draws are made once; each call reads them from another random offset.
+        """
+        if not drawn:
+            return lambda solid: self.mean if solid is None else self.mean_given(solid)
+        rng = np.random.default_rng(POOL_SEED)
+        betas = [(self.a, self.b), (self.a_solid, self.b_solid)][: 1 + self.has_labels]
+        pools = [rng.beta(a, b, POOL_CELLS).astype(np.float32) for a, b in betas]
+
+        def draw(solid: NDArray[np.bool_] | None) -> NDArray[np.floating]:
+            pool_index = (cells + int(rng.integers(POOL_CELLS))) % POOL_CELLS
+            m = pools[0][pool_index]
+            if solid is not None:
+                m[solid] = pools[1][pool_index[solid]]
+            return m
+
+        return draw
 
     def surface_writer(self, draws: Draws, cells: NDArray[np.int32]) -> Callable[[NDArray[np.float32], int, int], None]:
         """Return a function that writes the surfaces of the cells in a draw, by chain and draw, into stops, (n, 6)."""
@@ -346,16 +366,16 @@ def counts_behind(expected: Floats, a: Floats, b: Floats) -> tuple[Floats, Float
     """Find the least counts of stopped and of passing beams that give the expected chances (a + stopped) / (a + b + n).
 
     The number n of beams must be whole, up to the rounding of half precision: this tells the counts apart. Counts above
-    `MOST_STOPS` stopped beams are returned as that many or more.
+    `MAX_STOPS` stopped beams are returned as that many or more.
     """
     chance = np.clip(expected, HALF_ROUNDING**2, 1.0 - 0.5 * HALF_ROUNDING)
     stopped, beams = np.zeros_like(chance), np.zeros_like(chance)
     left = np.arange(len(chance))
-    for count in range(MOST_STOPS + 1):
+    for count in range(MAX_STOPS + 1):
         n = (a[left] + count) / chance[left] - (a[left] + b[left])
         whole = np.rint(n)
         fits = (np.abs(n - whole) <= HALF_ROUNDING * (n + a[left] + b[left])) & (whole >= count)
-        fits |= count == MOST_STOPS
+        fits |= count == MAX_STOPS
         stopped[left[fits]], beams[left[fits]] = count, np.maximum(whole[fits], count)
         left = left[~fits]
     return stopped, beams - stopped

@@ -17,7 +17,7 @@ from scipy import special
 
 from bayesmap.cells.arrays import ArraySpec, Draws
 from bayesmap.cells.kind import Cells, Floats, Words
-from bayesmap.cells.reflectivity import EXPECTED, FRESH_CELLS, REFLECTIVITY, KernelNumbers, Reflective, positions_in
+from bayesmap.cells.reflectivity import EXPECTED, POOL_CELLS, REFLECTIVITY, KernelNumbers, Reflective, positions_in
 from bayesmap.errors import BadInput
 from bayesmap.space.grid import Grid
 
@@ -206,11 +206,11 @@ class Surface(Reflective):
         position, centre, rng = position[stored], draws.grid.centers_from_corner_m(cells), np.random.default_rng(0)
         # The pool of prior surfaces is drawn once; each draw of the map reads it from another random offset. The
         # surface of a cell does not depend on the other cells.
-        pool = self.sample_surfaces(rng, FRESH_CELLS).astype(np.float32)
+        pool = self.sample_surfaces(rng, POOL_CELLS).astype(np.float32)
 
         def write(stops: NDArray[np.float32], chain: int, draw: int) -> None:
             surfaces = stops[:, 1:]
-            surfaces[:] = pool[(cells + int(rng.integers(FRESH_CELLS))) % FRESH_CELLS]
+            surfaces[:] = pool[(cells + int(rng.integers(POOL_CELLS))) % POOL_CELLS]
             for part, name in enumerate(PARTS):
                 surfaces[stored, part] = draws.arrays[f"surface_{name}"][chain, draw][position]
             surfaces *= draws.grid.resolution

@@ -17,22 +17,22 @@ from bayesmap.cells.kind import Floats
 from bayesmap.cells.reflectivity import Reflective
 from bayesmap.space.grid import Grid
 
-CENTRE_WEIGHT = 0.3  # weight of the prior's centre, in hits
-FREE_PERIOD, FAR_PERIOD = 8, 16
-"""Update periods, in sweeps, of cells in which no reading ends, and of cells around which no reading ends either."""
-FEW_PASSES, FEW_PERIOD = 16, 2
-"""A cell that fewer than `FEW_PASSES` beams pass has the update period `FEW_PERIOD`, in sweeps."""
-ALONG_WALL = 1.5
-"""First standard deviation of a surface along its wall, in standard deviations of its end points."""
-FRESH = 1 << 16  # most surfaces drawn from the prior; more cells than that share them
+CENTRE_WEIGHT_HITS = 0.3  # weight of the prior's centre, in hits
+FREE_PERIOD = 8  # update period, in sweeps, of cells in which no reading ends
+FAR_PERIOD = 16  # update period, in sweeps, of cells in which no reading ends, nor in the cells around them
+MIN_PASSES = 16  # a cell that fewer beams pass has the update period `FEW_PASSES_PERIOD`
+FEW_PASSES_PERIOD = 2  # in sweeps
+ALONG_WALL_SIGMAS = 1.5  # first standard deviation of a surface along its wall, in standard deviations of end points
+INSIDE_SHARE = 0.98  # share of a cell's edge within which means start
+MAX_PRIOR_SURFACES = 1 << 16  # most surfaces drawn from the prior; more cells than that share them
 LABEL_SWEEPS = 30  # sweeps of the first labels
-LOGIT_STEP = 1.0
-INSIDE = 0.98  # share of a cell's edge within which means start
-ALONG = 0.25
-SIZE = 0.5
-ACROSS = 1.5
-THICKNESS = 1.2
-"""Relative sizes of steps, `LOGIT_STEP` and the four above: a third to a half of the steps are accepted."""
+
+# Sizes of Metropolis steps: with these, a third to a half of the steps are accepted.
+STEP_LOGIT = 1.0  # of the reflectivity's logit, in its standard deviations given the counts
+STEP_ALONG_CELLS = 0.25  # of the mean along the wall, in edges of a cell
+STEP_ACROSS_SIGMAS = 1.5  # of the mean across the wall, and of the slant, in standard deviations of the posterior
+STEP_SIZE = 0.5  # of the logarithm of the length
+STEP_THICKNESS = 1.2  # of the logarithm of the thickness, in standard deviations of the posterior
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,7 +40,7 @@ class InitialEstimate:
     """Counts and moments of the readings in each of the T cells that beams touch.
 
     Readings end in U of them, the endpoint cells. Means of their end points, from the grid's corner, are shrunk towards
-    the cell's centre; covariances are shrunk towards the prior's size, and `widened`.
+    the cell's centre; covariances are shrunk towards the prior's size, then widened by `widen_along_wall`.
     """
 
     touched: NDArray[np.int32]  # flat indices of the cells, ascending, (T,)
@@ -72,24 +72,31 @@ def initial_estimate(rays: Rays, prior: Reflective, device: str = "cpu") -> Init
     hits = np.bincount(end_cell[ended], minlength=grid.n_cells).astype(np.int32)
     ended_cells = np.flatnonzero(hits)
     index = np.searchsorted(ended_cells, end_cell[ended])
-    points, centre, of_cell = rays.end_points_m()[ended], grid.centers_from_corner_m(ended_cells), hits[ended_cells]
+    points = rays.end_points_m()[ended]
+    centre = grid.centers_from_corner_m(ended_cells)
+    hits_of_cell = hits[ended_cells]
 
     def total(values: Floats) -> Floats:
         return np.bincount(index, values, len(ended_cells)).astype(np.float64)
 
     # Means and covariances, shrunk towards the prior.
-    weight = of_cell + CENTRE_WEIGHT
-    mean = np.stack([total(points[:, i]) + CENTRE_WEIGHT * centre[:, i] for i in (0, 1)], axis=-1) / weight[:, None]
-    away, off = points - mean[index], centre - mean
+    weight = hits_of_cell + CENTRE_WEIGHT_HITS
+    sums = [total(points[:, i]) + CENTRE_WEIGHT_HITS * centre[:, i] for i in (0, 1)]
+    mean = np.stack(sums, axis=-1) / weight[:, None]
+    from_mean = points - mean[index]
+    centre_from_mean = centre - mean
 
-    def second(i: int, j: int) -> Floats:
-        scatter = total(away[:, i] * away[:, j]) + CENTRE_WEIGHT * off[:, i] * off[:, j]
-        return np.asarray((scatter + (i == j) * 0.5 * (prior.first_spread * edge) ** 2) / (of_cell + 1.0))
+    def covariance(i: int, j: int) -> Floats:
+        scatter = total(from_mean[:, i] * from_mean[:, j])
+        scatter += CENTRE_WEIGHT_HITS * centre_from_mean[:, i] * centre_from_mean[:, j]
+        return np.asarray((scatter + (i == j) * 0.5 * (prior.first_spread * edge) ** 2) / (hits_of_cell + 1.0))
 
-    var_x, both, var_y = widened(second(0, 0), second(0, 1), second(1, 1))
+    var_x, both, var_y = widen_along_wall(covariance(0, 0), covariance(0, 1), covariance(1, 1))
+    # Cholesky factors; no surface is thinner than a thousandth of the edge.
     l11 = np.sqrt(var_x)
     l21 = both / l11
     l22 = np.sqrt(np.maximum(var_y - l21**2, (1e-3 * edge) ** 2))
+    # Cells far from all endpoint cells.
     around = ndimage.binary_dilation((hits > 0).reshape(grid.shape), np.ones((3, 3))).ravel()
     touched = rays.touched
     return InitialEstimate(
@@ -98,13 +105,14 @@ def initial_estimate(rays: Rays, prior: Reflective, device: str = "cpu") -> Init
     )  # fmt: skip
 
 
-def widened(var_x: Floats, both: Floats, var_y: Floats) -> tuple[Floats, Floats, Floats]:
-    """Return the covariances with `ALONG_WALL` times the standard deviation along their longer axis, as xx, xy and yy.
+def widen_along_wall(var_x: Floats, both: Floats, var_y: Floats) -> tuple[Floats, Floats, Floats]:
+    """Return the covariances, xx, xy and yy, with `ALONG_WALL_SIGMAS` times the sigma along the longer axis.
 
-    A surface that all beams of even readings along a wall meet is wider than the readings' scatter.
+    If readings are spread evenly along a wall, a surface that stops all of their beams must be wider than their
+    scatter.
     """
     angle, along = longer_axis(var_x, both, var_y)
-    more = (ALONG_WALL**2 - 1.0) * along
+    more = (ALONG_WALL_SIGMAS**2 - 1.0) * along
     cosine, sine = np.cos(angle), np.sin(angle)
     return var_x + more * cosine**2, both + more * cosine * sine, var_y + more * sine**2
 
@@ -149,12 +157,13 @@ def first_labels(
     return rough_draw(rng, log_odds.reshape(grid.shape), prior.coupling, LABEL_SWEEPS).ravel()
 
 
-def start(
+def draw_start_state(
     estimate: InitialEstimate, prior: Reflective, rays: Rays, rng: np.random.Generator,
     solid: NDArray[np.bool_] | None = None,
 ) -> NDArray[np.float32]:  # fmt: skip
     """Draw a chain's first state of all cells of the grid, (N, 6), scattered about the estimate like the posterior.
 
+    Columns are the reflectivity, the mean's x and y from the grid's corner, and the Cholesky factor's l11, l21 and l22.
     ``solid`` holds their labels, (N,), if they have any. Cells in which no reading ends take surfaces from the prior.
     Cells that no beam touches take their whole state from the prior.
     """
@@ -168,15 +177,18 @@ def start(
         state[:, 0] = rng.beta(stopped + a, passed + b)
     if not prior.has_surfaces:
         return state
+    # Surfaces of all cells, from the prior.
+    pool = prior.sample_surfaces(rng, min(cells, MAX_PRIOR_SURFACES)) * grid.resolution
+    state[:, 1:] = pool if cells <= MAX_PRIOR_SURFACES else pool[rng.integers(MAX_PRIOR_SURFACES, size=cells)]
+    state[:, 1:3] += grid.centers_from_corner_m(np.arange(cells))
+    # Surfaces of endpoint cells, about the estimate; their scatter falls with the number of readings.
     endpoints = estimate.endpoint_cells
     width = 1.0 / np.sqrt(estimate.hits[estimate.endpoint] + 1.0)
-    fresh = prior.sample_surfaces(rng, min(cells, FRESH)) * grid.resolution
-    state[:, 1:] = fresh if cells <= FRESH else fresh[rng.integers(FRESH, size=cells)]
-    state[:, 1:3] += grid.centers_from_corner_m(np.arange(cells))
     l11, l21, l22 = estimate.factor_m.T * np.exp(0.5 * width * rng.standard_normal((3, len(endpoints))))
     e1, e2 = width * rng.standard_normal((2, len(endpoints)))
     mean = estimate.mean_m + np.stack([l11 * e1, l21 * e1 + l22 * e2], axis=-1)
-    centre, half = grid.centers_from_corner_m(endpoints), INSIDE * 0.5 * grid.resolution
+    centre = grid.centers_from_corner_m(endpoints)
+    half = INSIDE_SHARE * 0.5 * grid.resolution
     mean = np.clip(mean, centre - half, centre + half)
     state[endpoints, 1:] = np.column_stack([mean, l11, l21, l22])
     return state
@@ -188,12 +200,14 @@ def update_periods(estimate: InitialEstimate) -> NDArray[np.uint8]:
     Most cells that beams cross are free, and a sweep changes little in them, above all far from all readings. A cell
     that few beams pass costs little, and may not be free: a large reflectivity would stay until its next update.
     """
-    free = np.where(estimate.passes < FEW_PASSES, FEW_PERIOD, np.where(estimate.far, FAR_PERIOD, FREE_PERIOD))
+    free = np.where(estimate.passes < MIN_PASSES, FEW_PASSES_PERIOD, np.where(estimate.far, FAR_PERIOD, FREE_PERIOD))
     return np.where(estimate.endpoint, 0, free).astype(np.uint8)
 
 
 def steps(estimate: InitialEstimate, edge_m: float) -> NDArray[np.float32]:
-    """Return frames and step sizes of the endpoint cells, (U, 8), see `bayesmap.kernels.surfaces.endpoint_cells`.
+    """Return step sizes and frames of the endpoint cells, (U, 8), see `bayesmap.kernels.surfaces.endpoint_cells`.
+
+    Columns are the steps of logit, mean along, mean across, length, slant and thickness, and the frame's cosine, sine.
 
     Steps along the wall are a share of the cell's edge; steps across it shrink with the number of readings.
     """
@@ -201,11 +215,16 @@ def steps(estimate: InitialEstimate, edge_m: float) -> NDArray[np.float32]:
     hits, passes = estimate.hits[estimate.endpoint], estimate.passes[estimate.endpoint]
     angle, along = longer_axis(l11**2, l11 * l21, l21**2 + l22**2)
     thickness = np.maximum(l11 * l22 / np.sqrt(along), 1e-3 * edge_m)  # the factor's determinant over the longer axis
-    few = 1.0 / np.sqrt(hits + 1.0)
+    posterior_scale = 1.0 / np.sqrt(hits + 1.0)
     logit = np.sqrt(1.0 / (hits + 1.0) + 1.0 / (0.5 * passes + 1.0))
-    across = ACROSS * thickness * few
-    out = np.zeros((len(few), 8), dtype=np.float32)
-    for i, size in enumerate((LOGIT_STEP * logit, ALONG * edge_m, across, SIZE, across, THICKNESS * few)):
-        out[:, i] = size
-    out[:, 6], out[:, 7] = np.cos(angle), np.sin(angle)
+    across = STEP_ACROSS_SIGMAS * thickness * posterior_scale
+    out = np.zeros((len(hits), 8), dtype=np.float32)
+    out[:, 0] = STEP_LOGIT * logit
+    out[:, 1] = STEP_ALONG_CELLS * edge_m
+    out[:, 2] = across
+    out[:, 3] = STEP_SIZE
+    out[:, 4] = across
+    out[:, 5] = STEP_THICKNESS * posterior_scale
+    out[:, 6] = np.cos(angle)
+    out[:, 7] = np.sin(angle)
     return out

@@ -28,7 +28,7 @@ from scipy import ndimage
 
 from bayesmap.cells.kind import Floats
 from bayesmap.cells.reflectivity import Reflective
-from bayesmap.samplers.initial_estimate import ALONG_WALL, INSIDE, end_cells, longer_axis
+from bayesmap.samplers.initial_estimate import ALONG_WALL_SIGMAS, INSIDE_SHARE, end_cells, longer_axis
 from bayesmap.samplers.stop_problem import StopProblem
 from bayesmap.space.grid import Grid
 
@@ -40,11 +40,11 @@ Look = Callable[["ChainMaps"], Floats]
 NUMBERS = 5  # parameters of a surface: mean and covariance
 UPDATES_ALL, UPDATES_FEW = 1 << 24, (1 << 24) + 1
 """Sweep numbers that chains do not reach: the first updates all cells, the second few."""
-SETTLE_SHARE = 0.8
+EARLY_SHARE = 0.8
 """Share of the warm-up before the first merge moves."""
 MERGED_AGAIN = 2
 """Number of further merges, each after another tenth of the sweeps before the first. By then surfaces have moved, and
-may take in others. With `SETTLE_SHARE` as above, all merges lie in the warm-up."""
+may take in others. With `EARLY_SHARE` as above, all merges lie in the warm-up."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -159,9 +159,9 @@ def covered(middles: NDArray[np.intp], half: int, shape: tuple[int, int]) -> NDA
     return out
 
 
-def merge_sweeps(settle_sweeps: int) -> list[int]:
+def merge_sweeps(early_sweeps: int) -> list[int]:
     """Return the numbers of the sweeps after which surfaces are merged, given the number before the first merge."""
-    return sorted({settle_sweeps + i * (settle_sweeps // 10) for i in range(1 + MERGED_AGAIN)} - {0})
+    return sorted({early_sweeps + i * (early_sweeps // 10) for i in range(1 + MERGED_AGAIN)} - {0})
 
 
 def merge(problem: StopProblem, chains: StopChains, beta: float) -> None:
@@ -179,10 +179,10 @@ def merge(problem: StopProblem, chains: StopChains, beta: float) -> None:
     maps.put(chains)  # the sweep updated the counts of beams, except in cells that tried a surface
 
 
-MOST_READINGS = 12  # most readings of a surface that may be merged: with more, removal is seldom better
+MAX_READINGS = 12  # most readings of a surface that may be merged: with more, removal is seldom better
 REACH = 2  # most cells, in x and in y, between a surface and the neighbour that takes it in
 CLOSE = 3.0  # most cells between a reading and the mean of the surface that explains it
-MOST_OFF = 2.5
+MAX_OFF_SIGMAS = 2.5
 """Largest RMS distance of readings from the neighbour's axis, in standard deviations of surface and noise."""
 SOLID_FROM = 0.1  # reflectivity from which a cell counts as one that stops beams
 FREE = 1e-20  # reflectivity of a cell that became free
@@ -304,10 +304,10 @@ def best_neighbours(
     """Find the cells that stop few beams, the neighbour of each whose axis lies closest to its readings, and the root
     mean square distance between them, (n,) each.
 
-    Neighbours stop as many beams or more. Cells without a neighbour within `MOST_OFF` are left out.
+    Neighbours stop as many beams or more. Cells without a neighbour within `MAX_OFF_SIGMAS` are left out.
     """
     stops = (cells[:, 0] >= SOLID_FROM) & (readings.count > 0)
-    source = np.flatnonzero(stops & (readings.count <= MOST_READINGS))
+    source = np.flatnonzero(stops & (readings.count <= MAX_READINGS))
     x, y = np.divmod(source, grid.shape[1])
     least, target = np.full(len(source), np.inf), source.copy()
     for step_x in range(-REACH, REACH + 1):
@@ -324,7 +324,7 @@ def best_neighbours(
             square /= axes.across[other] + readings.noise[source]
             better = inside & stops[other] & more & (square < least)
             least[better], target[better] = square[better], other[better]
-    close = least <= MOST_OFF**2
+    close = least <= MAX_OFF_SIGMAS**2
     return source[close], target[close], np.sqrt(least[close])
 
 
@@ -343,14 +343,13 @@ def lengthened(
     counts = [readings.count[cell] for cell in both]
     middle = (counts[0] * means[0] + counts[1] * means[1]) / (counts[0] + counts[1])
     # The axis leaves the square at the first crossing of one of its four sides.
-    sides = (grid.centers_from_corner_m(target) - mean)[..., None] + INSIDE * 0.5 * grid.resolution * np.array(
-        [-1.0, 1.0]
-    )
+    from_mean = grid.centers_from_corner_m(target) - mean
+    sides = from_mean[..., None] + INSIDE_SHARE * 0.5 * grid.resolution * np.array([-1.0, 1.0])
     at = np.sort(sides / np.where(np.abs(axis) < LEVEL, LEVEL, axis)[..., None], axis=-1)
     moved = np.clip(middle, np.minimum(at[..., 0].max(axis=-1), 0.0), np.maximum(at[..., 1].min(axis=-1), 0.0))
     spread = [variance_in(readings.moments[cell], axis) + (means[i] - moved) ** 2 for i, cell in enumerate(both)]
     scatter = (counts[0] * spread[0] + counts[1] * spread[1]) / (counts[0] + counts[1])
-    along, across, (x, y) = np.maximum(axes.along[target], ALONG_WALL**2 * scatter), axes.across[target], axis.T
+    along, across, (x, y) = np.maximum(axes.along[target], ALONG_WALL_SIGMAS**2 * scatter), axes.across[target], axis.T
     l11 = np.sqrt(along * x**2 + across * y**2)
     l21 = (along - across) * x * y / l11
     l22 = np.sqrt(along * across) / l11

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from bayesmap.cells.kind import Floats
 from bayesmap.errors import BadInput, check_count
-from bayesmap.samplers.merge_moves import SETTLE_SHARE
+from bayesmap.samplers.merge_moves import EARLY_SHARE
 from bayesmap.samplers.metropolis import Metropolis
 from bayesmap.samplers.progress import Watch
 from bayesmap.samplers.propagate import ROUNDS
@@ -145,9 +145,9 @@ def sampler_on_walls(name: str) -> WallSampler:
 
 
 def sampler_of(name: str, grid: Grid, method: Gibbs, warmup: int = 0) -> Sampler[Any, Any]:
-    """Return a Markov chain sampler. Surfaces settle and merge during ``warmup`` sweeps; with 0 they are not merged."""
+    """Return a Markov chain sampler. Surfaces merge during ``warmup`` sweeps; with 0 they are not merged."""
     if name in ON_ANY:
-        return StopGibbs(int(SETTLE_SHARE * warmup)) if name == "stop-gibbs" else ON_ANY[name]()
+        return StopGibbs(int(EARLY_SHARE * warmup)) if name == "stop-gibbs" else ON_ANY[name]()
     return ON_WALLS[name](method.order, default_start(grid) if method.start is None else method.start, method.rounds)
 
 

@@ -57,7 +57,7 @@ class MetropolisState:
     chain_ids: tuple[int, ...]
     seed: int
     sweep: int
-    statistics: Mapping[str, Floats]
+    statistics: Mapping[str, Floats]  # results of the start, by name
 
 
 @dataclass(frozen=True)
@@ -90,19 +90,22 @@ class Metropolis:
     def step(
         self, state: MetropolisState, sweeps: int, beta: float = 1.0, keep: Keep = NOTHING
     ) -> tuple[MetropolisState, Info]:
-        """Make some sweeps of all chains; a kept draw is the map after its sweep."""
+        """Make some sweeps of all chains; a kept draw is the map after its sweep.
+
+        Overwrites the maps of ``state``: use only the returned state.
+        """
         problem, chains = state.problem, len(state.maps)
         prior, sizes = problem.model.cells, {"x": problem.grid.shape[0], "y": problem.grid.shape[1]}
         kept = keep.sweeps(state.sweep, state.sweep + sweeps)
         draws = {s.name: s.empty(chains, len(kept), tuple(sizes[dim] for dim in s.dims)) for s in prior.arrays}
         log_likelihood, log_prior = np.zeros((chains, sweeps)), np.zeros((chains, sweeps))
         for chain, cells in enumerate(state.maps):
-            of_beam = problem.log_likelihoods(cells, beta, problem.rays)
+            beam_log_likelihoods = problem.log_likelihoods(cells, beta, problem.rays)
             for i in range(sweeps):
                 number = state.sweep + i
                 rng = np.random.default_rng([state.seed, state.chain_ids[chain], STREAM_SWEEPS, number])
-                of_beam = _sweep(problem, cells, of_beam, beta, rng)
-                log_likelihood[chain, i] = of_beam.sum()
+                beam_log_likelihoods = _sweep(problem, cells, beam_log_likelihoods, beta, rng)
+                log_likelihood[chain, i] = beam_log_likelihoods.sum()
                 log_prior[chain, i] = prior.log_prob(cells, problem.grid)
                 if number + 1 in kept:
                     for spec in prior.arrays:
@@ -121,8 +124,9 @@ class Metropolis:
 
 
 def _sweep(
-    problem: MetropolisProblem, cells: dict[str, NDArray[Any]], of_beam: Floats, beta: float, rng: np.random.Generator
-) -> Floats:
+    problem: MetropolisProblem, cells: dict[str, NDArray[Any]], beam_log_likelihoods: Floats, beta: float,
+    rng: np.random.Generator,
+) -> Floats:  # fmt: skip
     """Propose each cell another state, in place, and return the log-likelihoods of all beams afterwards."""
     ny = problem.grid.shape[1]
     for c, beams in enumerate(problem.beams_of):
@@ -133,11 +137,11 @@ def _sweep(
             cells[name][site] = value
         if len(beams):
             proposed = problem.log_likelihoods(cells, beta, problem.rays_of[c])
-            log_ratio += float((proposed - of_beam[beams]).sum())
+            log_ratio += float((proposed - beam_log_likelihoods[beams]).sum())
         if np.log(rng.random()) < log_ratio:
             if len(beams):
-                of_beam[beams] = proposed
+                beam_log_likelihoods[beams] = proposed
         else:
             for name, value in before.items():
                 cells[name][site] = value
-    return of_beam
+    return beam_log_likelihoods

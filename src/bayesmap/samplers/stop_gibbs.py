@@ -20,7 +20,7 @@ from bayesmap.cells.kind import Floats
 from bayesmap.cells.reflectivity import Reflective, positions_in
 from bayesmap.cells.surface import PARTS
 from bayesmap.model import Model
-from bayesmap.samplers.initial_estimate import first_labels, start, steps, update_periods
+from bayesmap.samplers.initial_estimate import draw_start_state, first_labels, steps, update_periods
 from bayesmap.samplers.merge_moves import merge, merge_sweeps
 from bayesmap.samplers.progress import SILENT, Watch
 from bayesmap.samplers.sampler import NOTHING, STREAM_LABELS, STREAM_START, STREAM_SWEEPS, Info, Keep, Snapshot
@@ -34,8 +34,7 @@ HIGHEST = float(np.nextafter(np.float16(1), np.float16(0)))
 """The largest number below 1 in half precision, 0.9995. A mean rounded to 1 would give a beam that passes the cell the
 likelihood 0; this one costs less than 0.0005 nats per beam."""
 
-
-SETTLE_STEPS = 12
+EARLY_SURFACE_STEPS = 12
 """Metropolis steps of a surface in each of the first sweeps of a chain, in which surfaces move furthest."""
 
 
@@ -138,18 +137,18 @@ class StopState:
     chains: StopChains
     keys: Sequence[int]
     sweep: int
-    statistics: Mapping[str, Floats]
+    statistics: Mapping[str, Floats]  # results of the start, by name
 
 
 @dataclass(frozen=True)
 class StopGibbs:
     """Sweeps of stops, labels, reflectivities and surfaces.
 
-    In the first ``settle_sweeps`` sweeps, surfaces take `SETTLE_STEPS` Metropolis steps instead of `STEPS`. Surfaces
-    are merged after them (`bayesmap.samplers.merge_moves.merge_sweeps`); not at all if 0.
+    In the first ``early_sweeps`` sweeps, surfaces take `EARLY_SURFACE_STEPS` Metropolis steps instead of `STEPS`.
+    Surfaces are merged after them (`bayesmap.samplers.merge_moves.merge_sweeps`); not at all if 0.
     """
 
-    settle_sweeps: int = 0
+    early_sweeps: int = 0
 
     def prepare(self, model: Model, device: str, threads: int | None = None, watch: Watch = SILENT) -> StopProblem:
         """Compile the kernels, trace the beams, and estimate where chains start."""
@@ -183,7 +182,9 @@ class StopGibbs:
 
         def states(chain: int) -> NDArray[np.float32]:
             rng = np.random.default_rng([seed, chain_ids[chain], STREAM_START])
-            state = start(problem.estimate, problem.prior, problem.rays, rng, None if solid is None else solid[chain])
+            state = draw_start_state(
+                problem.estimate, problem.prior, problem.rays, rng, None if solid is None else solid[chain]
+            )
             if "state" in stored:
                 state[kept] = stored["state"][chain]
             return state
@@ -234,10 +235,10 @@ class StopGibbs:
         )  # fmt: skip
         return replace(state, problem=problem, chains=new)
 
-    def stops(self, state: StopState) -> NDArray[np.float32]:
+    def present_cells(self, state: StopState) -> NDArray[np.float32]:
         """Return the present cells of the chains: reflectivities (C, N), or surfaces (C, N, 6).
 
-        If cells have labels, cells that no beam touches draw a reflectivity here, which sweeps do not use.
+        If cells have labels, this draws the reflectivity of untouched cells in place. Sweeps do not use it.
         """
         if state.problem.prior.has_labels and state.chains.swept:
             state.chains.draw_untouched(state.sweep)
@@ -245,15 +246,17 @@ class StopGibbs:
         return np.ascontiguousarray(cells if state.problem.prior.has_surfaces else cells[..., 0])
 
     def step(self, state: StopState, sweeps: int, beta: float = 1.0, keep: Keep = NOTHING) -> tuple[StopState, Info]:
-        """Make some sweeps of all chains."""
-        end, merging = state.sweep + sweeps, merge_sweeps(self.settle_sweeps)
+        """Make some sweeps of all chains, and merge surfaces after those that `merge_sweeps` lists."""
+        end = state.sweep + sweeps
+        merging = merge_sweeps(self.early_sweeps)
         if not state.problem.prior.has_surfaces or state.sweep >= max(merging, default=0):
             return self._sweep(state, sweeps, beta, keep)
         infos: list[Info] = []
         while not infos or state.sweep < end:
-            count = min([end, *(sweep for sweep in merging if sweep > state.sweep)]) - state.sweep
-            settling = state.sweep < self.settle_sweeps
-            state, info = self._sweep(state, count, beta, keep, SETTLE_STEPS if settling else None)
+            # Sweep up to the next merge, or to the end.
+            count = _next_merge(merging, state.sweep, end) - state.sweep
+            early = state.sweep < self.early_sweeps
+            state, info = self._sweep(state, count, beta, keep, EARLY_SURFACE_STEPS if early else None)
             infos.append(info)
             if count > 0 and state.sweep in merging:
                 merge(state.problem, state.chains, beta)
@@ -304,6 +307,11 @@ class StopGibbs:
             touched = state.problem.rays.touched
             out[0, touched], out[1, touched] = squares.stopped + squares.passed > 0, True
         return out
+
+
+def _next_merge(merging: Sequence[int], sweep: int, end: int) -> int:
+    """Return the number of sweeps after which surfaces are merged next, or ``end`` if that comes first."""
+    return min([end, *(number for number in merging if number > sweep)])
 
 
 def _of_chains(

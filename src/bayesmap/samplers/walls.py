@@ -9,7 +9,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from bayesmap.kernels.walls.chains import WallChains
 
 Start = Literal["prior", "zeros", "ones", "propagate"]
+Order = Literal["raster", "radial", "random"]
 
 WARM_START_CELLS = 10_000
 """Maps with more cells than this start from belief propagation unless told otherwise."""
@@ -57,7 +58,8 @@ def start_maps(
         one_each = maps.ndim == 3
         if maps.shape[-2:] != grid.shape or maps.ndim not in (2, 3) or (one_each and max(chains) >= len(maps)):
             raise BadInput(
-                f"infer: the start has shape {maps.shape}, expected {grid.shape}, or a map for each chain before that"
+                f"infer: the start has shape {maps.shape}, expected one map, {grid.shape}, or at least "
+                f"{max(chains) + 1} maps, {(max(chains) + 1, *grid.shape)}, one for each chain"
             )
         return np.asarray(maps[list(chains)] != 0 if one_each else np.broadcast_to(maps != 0, shape))
     if start in ("zeros", "ones"):
@@ -68,11 +70,16 @@ def start_maps(
         return prior
     assert marginals is not None, "a warm start needs marginals"
     without_beams = problem.p_wall.reshape(grid.shape) if marginals.prior is None else marginals.prior
+    # Where beams changed nothing, start at the prior draw.
     uninformed = np.abs(marginals.p_wall - without_beams) < 1e-3
     return np.where(uninformed, prior, marginals.p_wall > 0.5)
 
 
-Order = Literal["raster", "radial", "random"]
+class SweepKernel(NamedTuple):
+    """A kernel that makes sweeps, and the tables that are its first arguments."""
+
+    function: Any
+    tables: list[Any]
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,11 +88,11 @@ class WallState:
 
     problem: WallProblem
     chains: WallChains
-    kernel: tuple[Any, list[Any]]
+    kernel: SweepKernel
     sites: NDArray[np.int32]
     keys: Sequence[int]
     sweep: int
-    statistics: Mapping[str, Floats]
+    statistics: Mapping[str, Floats]  # results of the start, by name
 
     def walls(self) -> NDArray[np.uint8]:
         """Return the chains' maps, (chains, N), from which this state can be made again."""
@@ -105,7 +112,7 @@ class WallSampler(ABC):
         """Return the sites of a sweep in their order (the order "random" shuffles them in every sweep)."""
 
     @abstractmethod
-    def kernel(self, problem: WallProblem) -> tuple[Any, list[Any]]:
+    def kernel(self, problem: WallProblem) -> SweepKernel:
         """Return the sweep kernel, and its first arguments, the tables."""
 
     def prepare(self, model: Model, device: str, threads: int | None = None, watch: Watch = SILENT) -> WallProblem:
@@ -159,7 +166,7 @@ class WallSampler(ABC):
         chains = WallChains(problem.device_table, state.walls(), state.keys, problem.device)
         return replace(state, problem=problem, chains=chains, kernel=self.kernel(problem), sites=self.sites(problem))
 
-    def stops(self, state: WallState) -> NDArray[np.float32]:
+    def present_cells(self, state: WallState) -> NDArray[np.float32]:
         """Return the present stop probabilities of the chains, 0 and 1, (C, N)."""
         return state.walls().astype(np.float32)
 
@@ -205,13 +212,13 @@ class WallGibbs(WallSampler):
             return np.argsort(radial_distance(problem).ravel(), kind="stable").astype(np.int32)
         return np.arange(problem.grid.n_cells, dtype=np.int32)
 
-    def kernel(self, problem: WallProblem) -> tuple[Any, list[Any]]:
+    def kernel(self, problem: WallProblem) -> SweepKernel:
         """Return the single-site kernel and the table, which is all that it reads."""
         from bayesmap.kernels.device import load_kernels
         from bayesmap.kernels.walls.gibbs import gibbs_sweeps
 
         load_kernels(gibbs_sweeps, problem.device)
-        return gibbs_sweeps, [problem.device_table]
+        return SweepKernel(gibbs_sweeps, [problem.device_table])
 
 
 @dataclass(frozen=True, eq=False)
@@ -232,10 +239,10 @@ class WallBlocks(WallSampler):
             return np.argsort(distance.ravel(), kind="stable").astype(np.int32)
         return np.arange(columns * rows, dtype=np.int32)
 
-    def kernel(self, problem: WallProblem) -> tuple[Any, list[Any]]:
+    def kernel(self, problem: WallProblem) -> SweepKernel:
         """Return the block kernel with the table and its own list of beams by block."""
         from bayesmap.kernels.device import load_kernels
         from bayesmap.kernels.walls.block import block_sweeps, list_blocks
 
         load_kernels(block_sweeps, problem.device)
-        return block_sweeps, [problem.device_table, list_blocks(problem.table, problem.device)]
+        return SweepKernel(block_sweeps, [problem.device_table, list_blocks(problem.table, problem.device)])

@@ -166,7 +166,7 @@ class MovableSampler(Sampler[Any, Any], Protocol):
     def moved(self, state: Any, problem: Any) -> Any:
         """Return the chains with their present cells, under another problem of `retrace`."""
 
-    def stops(self, state: Any) -> NDArray[np.float32]:
+    def present_cells(self, state: Any) -> NDArray[np.float32]:
         """Return the present cells of the chains, (C, N) or (C, N, 6), see `bayesmap.cells.kind.CellPrior.stops`."""
 
 
@@ -318,7 +318,7 @@ class WithPoses:
     def _move(self, state: JointState, beta: float) -> JointState:
         """Make a round of pose steps, and trace the chains' rays at the new poses."""
         problem = state.problem
-        cells = np.concatenate([self.cells.stops(chain) for chain in state.cells])
+        cells = np.concatenate([self.cells.present_cells(chain) for chain in state.cells])
         factor = state.factor
         if not factor.any():
             factor = np.stack([
