@@ -10,7 +10,7 @@ from simulated import odometry_of, off, path_around, recording, ring, scans_of
 from bayesmap.poses.calibration import stated_motions
 from bayesmap.poses.front_end import follow
 from bayesmap.poses.loops import key_path
-from bayesmap.poses.rejoin import AGREE, rejoin
+from bayesmap.poses.rejoin import MIN_PLACES, rejoin
 from bayesmap.poses.scan_geometry import scan_geometry
 from bayesmap.poses.slam import infer_trajectory
 from bayesmap.space.planar import between, compose
@@ -170,7 +170,7 @@ def test_parts_that_too_few_places_join_stay_where_they_are():
     """Fewer places than must agree are shared: the front end's guess stands."""
     geometry, keys, right = ordinary()
     keys, poses = (array[: len(keys) // 2 - 3].copy() for array in (keys, right))
-    broken_at = len(keys) - AGREE + 1
+    broken_at = len(keys) - MIN_PLACES + 1
     poses[broken_at:] = compose(np.array([9.0, -14.0, 1.0]), poses[broken_at:])
     path = key_path(geometry, keys, poses, np.arange(len(keys)) == broken_at)
     found, joined = rejoin(path, 8.0)

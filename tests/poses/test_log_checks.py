@@ -8,7 +8,7 @@ from simulated import odometry_of, off, path_around, ring, scans_of
 import bayesmap as bm
 from bayesmap.io.logs import read_log
 from bayesmap.poses.agreement import agreement, look_like_odometry
-from bayesmap.poses.log_checks import caught_up, check_scans, doubts, frozen_stretches
+from bayesmap.poses.log_checks import check_scans, correct_late_odometry, doubts, frozen_stretches
 from bayesmap.poses.scan_geometry import scan_geometry
 from bayesmap.poses.slam import infer_trajectory
 from bayesmap.space.planar import between
@@ -109,7 +109,7 @@ def test_late_poses_are_spread_over_the_scans_that_moved(drive):
     truth, stated, angles, ranges = drive
     at = corners(truth)[:3]
     held = scans_at(late(stated, at), angles, ranges)
-    mended = caught_up(held, scan_geometry(held))
+    mended = correct_late_odometry(held, scan_geometry(held))
     off_before, off_after = (np.abs(between(stated, poses)[:, 2]).max() for poses in (held.poses, mended))
     assert off_before > np.radians(55.0)
     assert off_after < np.radians(35.0)  # the turn does not begin with the first repeated pose
@@ -127,7 +127,7 @@ def test_a_robot_that_stood_still_and_set_off_is_believed(drive):
     first = np.sort(index)[np.searchsorted(np.sort(index), np.arange(len(held)), side="right") - 1]
     noisy = np.random.default_rng(2).normal(0.0, 0.01, ranges.shape)
     stood = scans_at(held, angles, ranges[first] + noisy)
-    np.testing.assert_array_equal(caught_up(stood, scan_geometry(stood)), held)
+    np.testing.assert_array_equal(correct_late_odometry(stood, scan_geometry(stood)), held)
 
 
 def test_the_trajectory_is_right_through_late_odometry(drive):

@@ -76,7 +76,7 @@ def everywhere(grid, points, centre, half_m, half_rad, pull):
 def test_the_search_finds_what_looking_everywhere_finds(centre, pull):
     points = notched_geometry().points_of(2)
     score, poses = everywhere(0, points, np.array(centre), 0.5, 0.5, pull)
-    found = match(notched_grids(), [points], [centre], 0.5, 0.5, step_rad=STEP, least=-9.0, pull=pull)
+    found = match(notched_grids(), [points], [centre], 0.5, 0.5, step_rad=STEP, min_score=-9.0, pull=pull)
     assert found.scores[0, 0] == pytest.approx(score.max(), abs=1e-12)
     first = np.unravel_index(np.argmax(score > score.max() - 1e-12), score.shape)
     np.testing.assert_allclose(found.poses[0, 0], poses[first], atol=1e-9)
@@ -98,17 +98,17 @@ def test_the_result_does_not_depend_on_threads():
     points = [notched_geometry().points_of(k) for k in range(3)]
     centres = POSES + np.array([0.15, -0.1, 0.1])
     kwargs = {"step_rad": STEP, "modes": 2, "apart_m": 0.2}
-    one = match(replace(notched_grids(), threads=1), points, centres, 0.6, np.pi, strands=1, **kwargs)
+    one = match(replace(notched_grids(), threads=1), points, centres, 0.6, np.pi, threads_per_job=1, **kwargs)
     for threads, strands in ((2, 1), (2, 3), (4, 8)):
         grids = replace(notched_grids(), threads=threads)
-        other = match(grids, points, centres, 0.6, np.pi, strands=strands, **kwargs)
+        other = match(grids, points, centres, 0.6, np.pi, threads_per_job=strands, **kwargs)
         np.testing.assert_array_equal(one.scores, other.scores)
         np.testing.assert_array_equal(one.poses, other.poses)
 
 
 def test_scans_are_found_where_they_were_taken_and_nothing_is_where_nothing_scores():
     points = [notched_geometry().points_of(2)]
-    nothing = match(notched_grids(), points, [[50.0, 0.0, 0.0]], 0.5, 0.5, step_rad=STEP, least=0.1)
+    nothing = match(notched_grids(), points, [[50.0, 0.0, 0.0]], 0.5, 0.5, step_rad=STEP, min_score=0.1)
     assert not nothing.found.any()
     assert np.isnan(nothing.poses).all()
     found = match(notched_grids(), points, [[0.0, 0.0, 0.0]], 1.2, np.pi, step_rad=np.radians(1.0))
@@ -149,12 +149,12 @@ def test_maxima_by_numpy_are_those_of_the_kernel():
 def test_further_modes_that_score_too_little_are_not_looked_for():
     """Below the share that is asked for they are not there; above it they are what they are without it."""
     points = notched_geometry().points_of(2)
-    several = {"step_rad": STEP, "modes": 3, "apart_m": 0.3, "apart_rad": 0.32, "least": 0.1}
+    several = {"step_rad": STEP, "modes": 3, "apart_m": 0.3, "apart_rad": 0.32, "min_score": 0.1}
     whole = match(notched_grids(), [points], [np.zeros(3)], 1.0, 1.2, **several)
     ratio = whole.scores[0] / whole.scores[0, 0]
     assert ratio[1] > ratio[2] > 0.1
     for share in (ratio[1] - 1e-9, ratio[1] + 1e-9, ratio[2] - 1e-9):
-        some = match(notched_grids(), [points], [np.zeros(3)], 1.0, 1.2, share=share, **several)
+        some = match(notched_grids(), [points], [np.zeros(3)], 1.0, 1.2, min_score_ratio=share, **several)
         np.testing.assert_array_equal(some.scores[0], np.where(ratio > share, whole.scores[0], -np.inf))
 
 

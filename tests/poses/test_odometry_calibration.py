@@ -184,7 +184,7 @@ def test_noise_is_not_taken_for_wrong_angles(recorded, monkeypatch, case):
     error = noise * np.random.default_rng(seed).standard_normal(scans.ranges_m.shape)
     noisy = replace(scans, ranges_m=np.asarray(scans.ranges_m * (1.0 + error)))
     assert ratio(noisy, truth) == 1.0
-    monkeypatch.setattr(calibration, "SURE", 0.0)
+    monkeypatch.setattr(calibration, "MIN_STANDARD_ERRORS", 0.0)
     monkeypatch.setattr(calibration, "_regular", lambda factor, stated: factor)
     assert ratio(noisy, truth) != 1.0
 
@@ -203,12 +203,12 @@ def test_rates_are_the_most_probable_ones_also_at_their_bounds(seed):
         variance, nu = features @ rates, calibration.DEGREES_OF_FREEDOM
         tails = np.log1p((errors**2 + known) / (nu * variance)).sum()
         logs = np.log(rates / USUAL[0])
-        assert np.abs(logs).max() <= calibration.MOST_LOG + 1e-9
+        assert np.abs(logs).max() <= calibration.MAX_LOG + 1e-9
         prior = 0.5 * ((logs / calibration.FACTOR_SIGMA) ** 2).sum()
         return 0.5 * np.log(variance).sum() + 0.5 * calibration.CONSISTENT * (nu + 1.0) * tails + prior
 
     for axis in range(3):
         for factor in (0.99, 1.01):
             other = found * np.where(np.arange(3) == axis, factor, 1.0)
-            if np.abs(np.log(other / USUAL[0])).max() <= calibration.MOST_LOG:
+            if np.abs(np.log(other / USUAL[0])).max() <= calibration.MAX_LOG:
                 assert cost(other) > cost(found)

@@ -8,7 +8,7 @@ from tiers import latin
 from bayesmap.poses import calibration
 from bayesmap.poses import scan_geometry as geometry_module
 from bayesmap.poses.calibration import angle_step_ratio
-from bayesmap.poses.scan_geometry import LEAST_M, MOST_M, merged, range_noise_m, scan_geometry
+from bayesmap.poses.scan_geometry import MAX_NOISE_M, MIN_NOISE_M, merged, range_noise_m, scan_geometry
 from bayesmap.poses.slam import infer_trajectory
 from bayesmap.space.scans import Scans
 
@@ -53,7 +53,7 @@ def test_beams_a_degree_apart_are_left_as_they_are():
 
 def test_the_angle_between_beams_of_a_full_circle_is_their_number_s(monkeypatch):
     """The twin: half a circle, where any estimate is believed."""
-    monkeypatch.setattr(calibration, "SURE", 0.0)
+    monkeypatch.setattr(calibration, "MIN_STANDARD_ERRORS", 0.0)
     monkeypatch.setattr(calibration, "_regular", lambda factor, stated: factor)
     poses = path_around(1.0)
     pairs = np.array([[i, j] for i in range(len(poses)) for j in range(i) if i - j < 12]).T
@@ -77,13 +77,13 @@ def test_the_noise_is_found_to_an_eighth(noise_m, beams):
 
 
 def test_no_laser_is_taken_to_be_better_or_worse_than_walls_allow():
-    assert found_m(0.001) == LEAST_M
-    assert found_m(0.2) == MOST_M
+    assert found_m(0.001) == MIN_NOISE_M
+    assert found_m(0.2) == MAX_NOISE_M
 
 
 def test_scans_with_too_few_hits_tell_nothing():
-    assert range_noise_m(np.full((3, 180), np.inf), 0.0175) == LEAST_M
-    assert range_noise_m(np.full((3, 2), 1.0), 0.0175) == LEAST_M
+    assert range_noise_m(np.full((3, 180), np.inf), 0.0175) == MIN_NOISE_M
+    assert range_noise_m(np.full((3, 2), 1.0), 0.0175) == MIN_NOISE_M
 
 
 def test_noisy_scans_have_normals_too(monkeypatch):
@@ -96,7 +96,7 @@ def test_noisy_scans_have_normals_too(monkeypatch):
         return (kind == 2).sum() / (kind > 0).sum()
 
     assert share() > 0.6
-    monkeypatch.setattr(geometry_module, "range_noise_m", lambda *_: LEAST_M)
+    monkeypatch.setattr(geometry_module, "range_noise_m", lambda *_: MIN_NOISE_M)
     assert share() < 0.45
 
 
@@ -111,5 +111,5 @@ def test_a_noisy_laser_s_trajectory_is_right_and_knows_how_far(monkeypatch):
 
     right = errors()
     assert right.max() < 0.06
-    monkeypatch.setattr(geometry_module, "range_noise_m", lambda *_: LEAST_M)
+    monkeypatch.setattr(geometry_module, "range_noise_m", lambda *_: MIN_NOISE_M)
     assert np.sqrt((errors() ** 2).mean()) > 1.2 * np.sqrt((right**2).mean())

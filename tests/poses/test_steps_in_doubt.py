@@ -12,7 +12,7 @@ from bayesmap.poses.front_end import AGAIN_BELOW, _Path, follow, grid_half_width
 from bayesmap.poses.key_graph import chain_of, unconfirmed_links
 from bayesmap.poses.matcher import likelihood_grids
 from bayesmap.poses.next_scans import Elsewhere, Placed, Window, place_anywhere
-from bayesmap.poses.odometry_factors import StatedOdometry, composed
+from bayesmap.poses.odometry_factors import StatedOdometry, compose_factors
 from bayesmap.poses.scan_geometry import scan_geometry
 from bayesmap.space.planar import between, compose
 
@@ -38,7 +38,12 @@ def steps():
     """Odometry's factors between the key scans, right to the noise stated, and the poses of the keys."""
     geometry, track, _, truth = followed()
     true = between(truth[:-1], truth[1:])
-    return geometry, track, composed(true, np.tile(VARIANCE, (len(true), 1)), track.keys), track.poses[track.keys]
+    return (
+        geometry,
+        track,
+        compose_factors(true, np.tile(VARIANCE, (len(true), 1)), track.keys),
+        track.poses[track.keys],
+    )
 
 
 def test_a_step_that_neither_odometry_nor_scans_confirm_is_named(steps):

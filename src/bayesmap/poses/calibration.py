@@ -139,8 +139,9 @@ USUAL = np.array([[1e-3, 1e-3, 1e-5], [5e-4, 5e-4, 1e-5], [1e-3, 2e-3, 1e-6]])
 """Variance rates of ordinary robots: rows x, y, yaw; columns per metre, per radian, per scan."""
 
 FACTOR_SIGMA = np.log(10.0)  # prior standard deviation of the logarithm of each rate: a factor of ten either way
-TELLS, FEWEST = 0.5, 20  # a motion's matched variance is below this share of the expected one; fewest motions of a fit
-MOST_LOG = 9.0  # greatest size of the logarithm of a rate, in units of `USUAL`
+TELLING_SHARE = 0.5  # a motion is fitted if its matched variance is below this share of the expected one
+MIN_FITTED_MOTIONS = 20
+MAX_LOG = 9.0  # greatest size of the logarithm of a rate, in units of `USUAL`
 
 DEGREES_OF_FREEDOM = 4.0
 CONSISTENT = 1.2718  # 1 / E[(nu + 1) z^2 / (nu + z^2)] for a standard normal z and nu = 4
@@ -193,8 +194,8 @@ def fit_noise(
     rates = USUAL * np.maximum(1.0, expected.sum(axis=0) / np.maximum(usual.sum(axis=0), 1e-12))[:, None]
     for axis in range(3):
         # Use motions that the laser measures much more precisely than odometry.
-        tells = known_variance[:, axis] < TELLS * expected[:, axis]
-        if tells.sum() >= FEWEST:
+        tells = known_variance[:, axis] < TELLING_SHARE * expected[:, axis]
+        if tells.sum() >= MIN_FITTED_MOTIONS:
             rates[axis] = _rates(errors[tells, axis], features[tells], known_variance[tells, axis], USUAL[axis])
     return MotionNoise(rates)
 
@@ -219,7 +220,7 @@ def _rates(errors: Floats, features: Floats, known_variance: Floats, usual: Floa
         slope = (slopes[:, None] * parts).sum(axis=0) + prior / FACTOR_SIGMA
         return float(value + 0.5 * (prior**2).sum()), slope
 
-    optimum = minimize(cost, np.zeros(3), jac=True, method="L-BFGS-B", bounds=[(-MOST_LOG, MOST_LOG)] * 3)
+    optimum = minimize(cost, np.zeros(3), jac=True, method="L-BFGS-B", bounds=[(-MAX_LOG, MAX_LOG)] * 3)
     return np.asarray(usual * np.exp(optimum.x))
 
 
@@ -231,9 +232,9 @@ VELOCITY_OVER_S = 0.4  # time over which a stated velocity is averaged, seconds
 LAG_SIGMA_S, MOST_LAG_S = 0.2, 0.5  # prior standard deviation and greatest size of the lag
 PAIRS = 400  # most pairs of scans from which the angle between beams is estimated
 
-GROUPS, SURE, SURE_OF_REGULAR = 20, 4.0, 2.0
-"""Groups of the jackknife, and standard errors beyond which the angle is changed: in general, and if the new angle is
-within one standard error of a regular angle."""
+JACKKNIFE_GROUPS = 20
+MIN_STANDARD_ERRORS = 4.0  # standard errors beyond which the angle is changed
+MIN_STANDARD_ERRORS_TO_REGULAR = 2.0  # the same, if the new angle is within one standard error of a regular angle
 
 REGULAR_WITHIN = 0.005  # relative accuracy of the estimated angle between beams
 
@@ -378,14 +379,16 @@ def angle_step_ratio(
     factors = 1.0 + np.linspace(-0.0125, 0.0125, 11)
     values = np.array([residuals(float(f)) for f in factors])
     lowest = _lowest(factors, values.mean(axis=1))
-    groups = np.arange(len(useful)) % GROUPS
-    without = np.array([_lowest(factors, values[:, groups != group].mean(axis=1)) for group in range(GROUPS)])
+    groups = np.arange(len(useful)) % JACKKNIFE_GROUPS
+    without = np.array([_lowest(factors, values[:, groups != group].mean(axis=1)) for group in range(JACKKNIFE_GROUPS)])
     # The jackknife's standard error (Efron and Tibshirani 1993, ch. 11).
-    error = np.sqrt((GROUPS - 1) / GROUPS * ((without - without.mean()) ** 2).sum())
+    error = np.sqrt((JACKKNIFE_GROUPS - 1) / JACKKNIFE_GROUPS * ((without - without.mean()) ** 2).sum())
     if not abs(lowest - 1.0) <= 0.0125:
         return 1.0  # outside the range that was tried
     regular = _regular(lowest, float(np.degrees(step)))
-    sure = SURE_OF_REGULAR if regular != lowest and abs(lowest - regular) < error else SURE
+    sure = (
+        MIN_STANDARD_ERRORS_TO_REGULAR if regular != lowest and abs(lowest - regular) < error else MIN_STANDARD_ERRORS
+    )
     return regular if abs(lowest - 1.0) > sure * error else 1.0
 
 

@@ -71,12 +71,12 @@ def rematch(
         # Score each scan at its pose. The least score of -9 accepts any.
         points = [geometry.points_of(int(k), POINTS) for k in batch]
         origin = np.zeros((len(batch), 3))
-        now = match(grids, points, origin, 0.0, 0.0, least=-9.0).scores[:, 0]
+        now = match(grids, points, origin, 0.0, 0.0, min_score=-9.0).scores[:, 0]
         scores[batch] = best_scores[batch] = now
         if not search:
             continue
         # Search the narrow window, and the wide one for scans that still score badly.
-        near = match(grids, points, origin, WINDOW_M, WINDOW_RAD, least=now, pull=NEAR)
+        near = match(grids, points, origin, WINDOW_M, WINDOW_RAD, min_score=now, pull=NEAR)
         found = near.found[:, 0]
         best = np.where(found, near.scores[:, 0], now)
         place = np.where(found[:, None], near.poses[:, 0], 0.0)
@@ -84,7 +84,7 @@ def rematch(
         if len(poor):
             far = match(
                 grids, [points[k] for k in poor], origin[poor], WIDE_M, WIDE_RAD, grid_of=poor,
-                least=best[poor] + WIDE_BETTER, step_rad=np.radians(1.0),
+                min_score=best[poor] + WIDE_BETTER, step_rad=np.radians(1.0),
             )  # fmt: skip
             better = far.found[:, 0]
             best[poor[better]], place[poor[better]] = far.scores[better, 0], far.poses[better, 0]

@@ -14,7 +14,7 @@ from bayesmap.poses.look_alikes import Weighed, weigh
 from bayesmap.poses.loops import Closures, KeyPath, Search, find_closures, key_path, no_closures
 from bayesmap.poses.matcher import LikelihoodGrids, likelihood_grids, match, score_at
 from bayesmap.poses.next_scans import POINTS, TELLING
-from bayesmap.poses.rejoin import AGREE, SAME_M, SAME_RAD, Joint, consistent, rejoin
+from bayesmap.poses.rejoin import MIN_PLACES, SAME_M, SAME_RAD, Joint, consistent, rejoin
 from bayesmap.poses.scan_geometry import ScanGeometry
 from bayesmap.space.planar import Floats, between, compose, rotation, wrap_angle, wrap_yaw
 
@@ -138,7 +138,7 @@ def _fits_elsewhere(
     least = max(usual - SLIPPED_BELOW, score + max(CONFIRMED_BELOW, TELLING / max(len(points), 1)))
     best = match(
         grid, [points], stated, min(REFUSED_SIGMAS * sigma[:2].max(), WIDEST_M), min(REFUSED_SIGMAS * sigma[2], np.pi),
-        least=least, step_rad=np.radians(1.0),
+        min_score=least, step_rad=np.radians(1.0),
     )  # fmt: skip
     if not best.found[0, 0]:
         return False
@@ -193,7 +193,7 @@ def close_loops(
         begin = int(np.searchsorted(path.parts, k))
         off = between(between(guess[begin - 1], guess[begin]), between(poses[begin - 1], poses[begin]))
         right = np.hypot(off[0], off[1]) < SAME_M and abs(off[2]) < SAME_RAD
-        if right and (across & (weights > 0.5)).sum() >= AGREE:
+        if right and (across & (weights > 0.5)).sum() >= MIN_PLACES:
             known = path.parts <= k
             two = (path.parts[known] == k).astype(np.intp)
             both = KeyPath(geometry, keys[known], poses[known], path.along[known], two)

@@ -15,20 +15,22 @@ from bayesmap.poses.scan_geometry import ScanGeometry
 from bayesmap.space.planar import Floats, between, compose, interpolate
 from bayesmap.space.scans import Scans
 
-SLOWEST_S = 0.5  # median time between scans above which they cannot be matched without odometry, seconds
+MAX_GAP_S = 0.5  # median time between scans above which they cannot be matched without odometry, seconds
 TOO_SELDOM = "scans come too seldom to be followed without odometry, which takes 5 Hz or so"
 
-LONG = 10  # fewest scans at one pose in a frozen stretch: odometry that is merely slow repeats less often
+MIN_FROZEN_SCANS = 10  # fewest scans at one pose in a frozen stretch: odometry that is merely slow repeats less often
 
-MOVED_M, SHARE = 0.2, 0.3
-"""The robot has moved between two scans if more than the share of their readings differs by more than these metres.
+MOVED_M = 0.2
+MOVED_SHARE = 0.3
+"""The robot has moved between two scans if more than this share of their readings differs by more than `MOVED_M`.
 Readings of a corridor's walls do not change along it, so the share is small."""
 
-FEWEST = 8  # fewest beams with hits in both scans
-REPEATED = 1e-6  # difference in metres and radians below which stated poses are equal, in spite of rounding
-CLEARLY = 0.05  # least gain in score, from 0 to 1, of a scan at late odometry over stated odometry
-SIGMAS = 3.0  # half the window about either pose, in standard deviations of an ordinary robot's odometry
-POINTS, WIDEST_M = 200, 20.0  # most points per scan that are matched, and greatest half width of the grid, metres
+MIN_COMMON_HITS = 8  # fewest beams with hits in both scans
+EQUAL_POSE_TOLERANCE = 1e-6  # metres and radians; stated poses that differ by less are equal, in spite of rounding
+MIN_SCORE_GAIN = 0.05  # least gain in score, from 0 to 1, of a scan at late odometry over stated odometry
+WINDOW_SIGMAS = 3.0  # half the window about either pose, in standard deviations of an ordinary robot's odometry
+MAX_POINTS = 200  # most points per scan that are matched
+MAX_HALF_WIDTH_M = 20.0  # greatest half width of the grid
 
 
 def gap_s(scans: Scans) -> float:
@@ -40,7 +42,7 @@ def gap_s(scans: Scans) -> float:
 
 def scans_come_often(scans: Scans) -> bool:
     """Return whether scans come often enough to be matched without odometry. Without stamps this is assumed."""
-    return gap_s(scans) <= SLOWEST_S
+    return gap_s(scans) <= MAX_GAP_S
 
 
 def check_scans(scans: Scans, no_odometry: bool) -> None:
@@ -84,7 +86,11 @@ def doubts(scans: Scans, no_odometry: bool) -> list[str]:
 def frozen_stretches(scans: Scans) -> list[tuple[int, int]]:
     """Return first and last scan of each stretch of scans with one stated pose in which the robot moved, in order."""
     stretches = _repeated(np.asarray((np.diff(scans.poses, axis=0) == 0.0).all(axis=1)))
-    return [(first, last) for first, last in stretches if last - first + 1 >= LONG and _moved(scans, first, last)]
+    return [
+        (first, last)
+        for first, last in stretches
+        if last - first + 1 >= MIN_FROZEN_SCANS and _moved(scans, first, last)
+    ]
 
 
 def _repeated(same: NDArray[np.bool_]) -> list[tuple[int, int]]:
@@ -93,16 +99,16 @@ def _repeated(same: NDArray[np.bool_]) -> list[tuple[int, int]]:
     return [(int(first), int(last)) for first, last in edges.reshape(-1, 2)]
 
 
-def caught_up(scans: Scans, geometry: ScanGeometry) -> Floats:
+def correct_late_odometry(scans: Scans, geometry: ScanGeometry) -> Floats:
     """Return the stated poses of S scans in the order of time, (S, 3), with late odometry corrected.
 
     A busy computer of a robot writes the last known pose several times, and then the whole motion at once. This motion
     is spread evenly in time over the scans from the first of the repeated poses to the next new pose. A robot that
-    stands still and then drives off states equal numbers. The scans decide: the motion is spread only if the scan after
-    it fits clearly better to the first scan of the repeated pose than to the last.
+    really stands still before it drives off writes the same poses. So the scans decide: the motion is spread only if
+    the scan after it fits clearly better to the first scan of the repeated pose than to the last.
     """
     stated, result = scans.poses, scans.poses.copy()
-    for first, last in _repeated(np.asarray((np.abs(np.diff(stated, axis=0)) < REPEATED).all(axis=1))):
+    for first, last in _repeated(np.asarray((np.abs(np.diff(stated, axis=0)) < EQUAL_POSE_TOLERANCE).all(axis=1))):
         if last + 1 >= len(scans):
             continue
         span = np.arange(first, last + 2)
@@ -111,30 +117,31 @@ def caught_up(scans: Scans, geometry: ScanGeometry) -> Floats:
             when = span.astype(np.float64)
         whole = between(stated[first], stated[last + 1])
         spread = interpolate(when[[0, -1]], np.stack([np.zeros(3), whole]), when)[1:-1]
-        if _counted_twice(geometry, first, last, whole):
+        if _motion_began_early(geometry, first, last, whole):
             result[span[1:-1]] = compose(stated[first], spread)
     return result
 
 
-def _counted_twice(geometry: ScanGeometry, first: int, last: int, motion: Floats) -> bool:
+def _motion_began_early(geometry: ScanGeometry, first: int, last: int, motion: Floats) -> bool:
     """Check that the motion to scan ``last + 1`` began at scan ``first``, not at ``last``, by the fit of that scan."""
-    width_m = float(np.clip(np.abs(geometry.points_of(first)).max(initial=0.0) + 1.0, 2.0, WIDEST_M))
+    width_m = float(np.clip(np.abs(geometry.points_of(first)).max(initial=0.0) + 1.0, 2.0, MAX_HALF_WIDTH_M))
     grids = likelihood_grids(
         geometry, [np.array([first]), np.array([last])], [np.zeros((1, 3))] * 2, np.zeros((2, 2)), width_m,
         resolution=0.1, sigma_m=0.1,
     )  # fmt: skip
     sigma = np.sqrt(motion_variances(motion, np.ones(2)))
-    half_m, half_rad = max(0.1, SIGMAS * float(sigma[0])), max(np.radians(3.0), SIGMAS * float(sigma[2]))
-    points = [geometry.points_of(last + 1, POINTS)] * 2
-    scores = match(grids, points, np.stack([motion] * 2), half_m, half_rad, least=-9.0).scores[:, 0]
-    return bool(scores[0] > scores[1] + CLEARLY)
+    half_m = max(0.1, WINDOW_SIGMAS * float(sigma[0]))
+    half_rad = max(np.radians(3.0), WINDOW_SIGMAS * float(sigma[2]))
+    points = [geometry.points_of(last + 1, MAX_POINTS)] * 2
+    scores = match(grids, points, np.stack([motion] * 2), half_m, half_rad, min_score=-9.0).scores[:, 0]
+    return bool(scores[0] > scores[1] + MIN_SCORE_GAIN)
 
 
 def _moved(scans: Scans, first: int, last: int) -> bool:
     """Return whether most scans of a stretch's second half differ from its first scan."""
     later = range(first + (last - first + 1) // 2, last + 1)
     off = [_differences(scans, first, scan) for scan in later]
-    seen = [float(np.quantile(one, 1.0 - SHARE)) > MOVED_M for one in off if len(one) >= FEWEST]
+    seen = [float(np.quantile(each, 1.0 - MOVED_SHARE)) > MOVED_M for each in off if len(each) >= MIN_COMMON_HITS]
     return 2 * sum(seen) > len(later)
 
 

@@ -145,7 +145,7 @@ def match_submaps(
         points = [path.points_around(int(q), NARROW_M, fineness.points) for q in second[jobs]]
         best = match(
             grids, points, centres[jobs], half_m[jobs], half_rad[jobs], grid_of=np.searchsorted(batch, first[jobs]),
-            step_rad=fineness.step_rad, least=least_score, modes=MODES, share=MODE_SHARE, apart_m=0.6,
+            step_rad=fineness.step_rad, min_score=least_score, modes=MODES, min_score_ratio=MODE_SHARE, apart_m=0.6,
             apart_rad=np.radians(8.0),
         )  # fmt: skip
         job, mode = np.nonzero(best.found)

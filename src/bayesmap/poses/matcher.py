@@ -30,7 +30,7 @@ class LikelihoodGrids:
     """Likelihood grids of one shape and resolution."""
 
     pyramid: Any  # bytes on the device, (grids, levels, nx, ny); level 0 is the likelihood
-    origins: Floats  # corner of each grid, metres in the world frame, (grids, 2)
+    origins: Floats  # corner of each grid, metres in the grids' frame, (grids, 2)
     resolution: float  # width of a cell, metres
     device: str = "cpu"  # device of the pyramid
     threads: int | None = None  # number of threads that search the grids; all cores if None
@@ -48,25 +48,26 @@ def stamp_of(resolution: float, sigma_m: float) -> NDArray[np.uint8]:
 
 
 def likelihood_grids(
-    geometry: ScanGeometry, scans: Sequence[NDArray[np.intp]], poses_world: Sequence[Floats], centres: Floats,
+    geometry: ScanGeometry, scans: Sequence[NDArray[np.intp]], scan_poses: Sequence[Floats], centres: Floats,
     half_width_m: float, *, resolution: float = 0.05, sigma_m: float = 0.07, levels: int = 4,
     reuse: LikelihoodGrids | None = None,
 ) -> LikelihoodGrids:  # fmt: skip
-    """Compute square likelihood grids about their middles, (grids, 2), each from some scans at poses in its frame.
+    """Compute square likelihood grids about their middles, (grids, 2), each from scans at poses in the grids' frame.
 
     ``half_width_m`` is the distance from the middle to each side. The search bounds blocks of up to 2^(levels - 1)
     cells at once. ``reuse`` are grids of the same number, size and levels, whose memory is overwritten.
     """
-    from bayesmap.kernels.match.likelihood_grid import draw_grids
+    from bayesmap.kernels.match.likelihood_grid import render_grids
 
     cells = int(np.ceil(2.0 * half_width_m / resolution))
     offsets = np.concatenate([[0], np.cumsum([len(s) for s in scans])]).astype(np.int32)
     scan = np.concatenate([np.asarray(s, np.int32) for s in scans]) if len(scans) else np.zeros(0, np.int32)
-    poses = np.concatenate([np.reshape(p, (-1, 3)) for p in poses_world]) if len(scans) else np.zeros((0, 3))
+    poses = np.concatenate([np.reshape(p, (-1, 3)) for p in scan_poses]) if len(scans) else np.zeros((0, 3))
     origins = np.asarray(centres, np.float64).reshape(-1, 2) - half_width_m
-    pyramid = draw_grids(
-        geometry, offsets, scan, poses, origins, resolution, stamp_of(resolution, sigma_m), sigma_m, (cells, cells),
-        levels, geometry.threads, None if reuse is None else reuse.pyramid,
+    pyramid = render_grids(
+        geometry, offsets, scan, poses, origins, resolution, stamp_of(resolution, sigma_m), spacing_m=sigma_m,
+        shape=(cells, cells), levels=levels, threads=geometry.threads,
+        pyramid=None if reuse is None else reuse.pyramid,
     )  # fmt: skip
     return LikelihoodGrids(pyramid, origins, resolution, geometry.device, geometry.threads)
 
@@ -96,26 +97,26 @@ class Matches:
 def match(
     grids: LikelihoodGrids, points: Sequence[Floats], centres: Floats, half_m: Floats | float,
     half_rad: Floats | float, *, grid_of: NDArray[np.intp] | None = None, step_rad: float = np.radians(0.5),
-    least: Floats | float = 0.0, pull: Pull | None = None, modes: int = 1, share: float = 0.0, apart_m: float = 0.5,
-    apart_rad: float = np.radians(10.0), strands: int = 1,
+    min_score: Floats | float = 0.0, pull: Pull | None = None, modes: int = 1, min_score_ratio: float = 0.0,
+    apart_m: float = 0.5, apart_rad: float = np.radians(10.0), threads_per_job: int = 1,
 ) -> Matches:  # fmt: skip
     """Match points to grids, J jobs at once.
 
     Args:
         grids: all grids.
         points: points of each job in the sensor's frame, (N, 2).
-        centres: middle of each job's window, a pose in the grid's frame, (J, 3).
+        centres: middle of each job's window, a pose in the grids' frame, (J, 3).
         half_m: half the window's width, metres: one number, (J,), or (J, 2) for x and y.
         half_rad: half the range of angles: one number or (J,); pi or more is the full circle.
         grid_of: grid of each job, (J,); by default grid j for job j, or the only grid.
         step_rad: step between angles.
-        least: number or (J,) that scores must exceed. High values end searches early.
+        min_score: number or (J,) that scores must exceed. High values end searches early.
         pull: penalty for leaving the centre; by default none.
         modes: most poses per job. Each further pose is the best that is apart from all before it.
-        share: least score of a further pose, as a share of the first one's score.
+        min_score_ratio: least score of a further pose, as a share of the first one's score.
         apart_m: difference in x or in y, metres, beyond which poses are apart.
         apart_rad: difference in yaw beyond which poses are apart.
-        strands: number of threads that share one job. The result does not depend on it.
+        threads_per_job: number of threads that share one job. The result does not depend on it.
 
     Raises `BadInput` for a window's centre that is not finite.
     """
@@ -151,9 +152,9 @@ def match(
         points=flat, point_offsets=offsets, grid=np.asarray(grid_of, np.int32),
         centres=np.ascontiguousarray(centres[:, :2]), half_cells=np.round(half / grids.resolution).astype(np.int32),
         angles_rad=angles, angle_costs=costs, row_offsets=rows,
-        least=np.array(np.broadcast_to(np.asarray(least, np.float64), (jobs,))), across=np.full(jobs, across),
+        least=np.array(np.broadcast_to(np.asarray(min_score, np.float64), (jobs,))), across=np.full(jobs, across),
     )  # fmt: skip
-    scores, nodes = search_grids(grids, windows, Modes(modes, share, apart), strands, grids.threads)
+    scores, nodes = search_grids(grids, windows, Modes(modes, min_score_ratio, apart), threads_per_job, grids.threads)
     poses = np.full((jobs, modes, 3), np.nan)
     job, mode = np.nonzero(nodes[..., 0] >= 0)
     row, shift = nodes[job, mode, 0], nodes[job, mode, 1:]

@@ -93,7 +93,7 @@ def place_near(
     half_rad = np.clip(3.5 * sigma[:, 2], np.radians(1.5), np.radians(60.0))
     sigma_m, sigma_rad = float(sigma[:, :2].max()), float(sigma[:, 2].max())
     pull = Pull(max(sigma_m, 0.03), max(sigma_rad, np.radians(1.0)))
-    best = match(window.grid, points, predicted, half_m, half_rad, least=-9.0, pull=pull)
+    best = match(window.grid, points, predicted, half_m, half_rad, min_score=-9.0, pull=pull)
     start, score = best.poses[:, 0], best.scores[:, 0]
     # Try the motion backwards for scans that fit worse than usual.
     centre, turned = predicted.copy(), np.zeros(len(scans), np.bool_)
@@ -102,7 +102,7 @@ def place_near(
         doubtful_points = [points[k] for k in doubtful]
         back = match(
             window.grid, doubtful_points, backwards[doubtful], half_m[doubtful], half_rad[doubtful],
-            least=score[doubtful] + _clearly(BACKWARDS_BETTER, doubtful_points), pull=pull,
+            min_score=score[doubtful] + _clearly(BACKWARDS_BETTER, doubtful_points), pull=pull,
         )  # fmt: skip
         better = back.found[:, 0]
         start[doubtful[better]], score[doubtful[better]] = back.poses[better, 0], back.scores[better, 0]
@@ -132,7 +132,7 @@ def place_anywhere(
     points = [geometry.points_of(scan, POINTS)]
     for number, (wide_rad, gain) in enumerate(WIDER):
         wide = match(
-            window.grid, points, predicted[None], WIDE_M, wide_rad, least=score + _clearly(gain, points),
+            window.grid, points, predicted[None], WIDE_M, wide_rad, min_score=score + _clearly(gain, points),
             pull=Pull(WIDE_M, wide_rad), step_rad=np.radians(1.0),
         )  # fmt: skip
         if wide.found[0, 0]:

@@ -12,15 +12,15 @@ from bayesmap.poses.alignment import Alignment
 from bayesmap.poses.calibration import OdometryFit, fit_odometry, motion_variances, stated_at, stated_motions
 from bayesmap.poses.front_end import UNKNOWN, Track
 from bayesmap.poses.graph import Factors, relative_covariances
-from bayesmap.poses.log_checks import caught_up
+from bayesmap.poses.log_checks import correct_late_odometry
 from bayesmap.poses.pose_gaussian import PoseGaussian
 from bayesmap.poses.scan_geometry import ScanGeometry
 from bayesmap.space.planar import Floats, between, chain_motions, compose, rotation, wrap_yaw
 from bayesmap.space.scans import Scans
 
-STEADY = np.diag(1.0 / np.array([0.1, 0.1, np.radians(3.0)]) ** 2)  # information of links without odometry
-NEIGHBOURS = 7  # successive motions over which the median variance is taken
-GUESSED = np.diag(1.0 / UNKNOWN**2)  # information of an unknown motion: it keeps parts of the path from drifting away
+FRONT_END_INFORMATION = np.diag(1.0 / np.array([0.1, 0.1, np.radians(3.0)]) ** 2)  # of links without odometry
+MEDIAN_MOTIONS = 7  # successive motions over which the median variance is taken
+UNKNOWN_MOTION_INFORMATION = np.diag(1.0 / UNKNOWN**2)  # keeps the parts of a broken path from drifting away
 
 
 @dataclass(frozen=True, eq=False)
@@ -74,7 +74,8 @@ class StatedOdometry:
         """Return a Gaussian whose covariances hold the uncertainty of odometry's systematic error.
 
         This error is common to the whole path: where odometry alone knows the length of a corridor, all of the length
-        may be wrong by some per cent. ``factors`` are the last parts of the Gaussian's cost.
+        may be wrong by some per cent. ``factors`` are the odometry factors. They must be the
+        last factors of ``gaussian``.
         """
         if fit is None:
             return gaussian
@@ -89,13 +90,13 @@ class StatedOdometry:
         Over an impossible motion or a break of the path, a weak link at the keys' present poses is used instead.
         ``variances`` computes the variances of x, y and yaw of motions from scan to scan, (S - 1, 3).
         """
-        motions, keys = self.motions, track.keys
+        motions = self.motions
         if lag_s != 0.0:
             late = stated_at(self.poses, self.stamps_s, lag_s)
             motions = between(late[:-1], late[1:])
         corrected = wrap_yaw(motions + motions @ slope.T)
-        links = composed(corrected, _steadied(variances(motions)), keys)
-        return guessed(links, poses, self._lost(track))
+        links = compose_factors(corrected, _raised_to_local_median(variances(motions)), track.keys)
+        return with_unknown_motions(links, poses, self._lost(track))
 
     def _lost(self, track: Track) -> NDArray[np.bool_]:
         """Select steps between key scans that hold an impossible motion or a break of the path, (K - 1,)."""
@@ -105,7 +106,7 @@ class StatedOdometry:
 
 def stated_odometry(scans: Scans, geometry: ScanGeometry | None) -> StatedOdometry:
     """Return the odometry of scans in the order of time, with late poses corrected. Without geometry it is not used."""
-    poses = scans.poses if geometry is None else caught_up(scans, geometry)
+    poses = scans.poses if geometry is None else correct_late_odometry(scans, geometry)
     motions, impossible = stated_motions(poses, scans.stamps_s)
     return StatedOdometry(poses, scans.stamps_s, motions, impossible, geometry is not None)
 
@@ -115,29 +116,29 @@ def chain_factors(track: Track, poses: Floats) -> Factors:
     keys = track.keys
     order = np.arange(len(keys) - 1)
     relative = between(track.poses[keys[:-1]], track.poses[keys[1:]])
-    links = Factors(order, order + 1, relative, np.tile(STEADY, (len(order), 1, 1)))
-    return guessed(links, poses, track.broken[keys[1:]])
+    links = Factors(order, order + 1, relative, np.tile(FRONT_END_INFORMATION, (len(order), 1, 1)))
+    return with_unknown_motions(links, poses, track.broken[keys[1:]])
 
 
-def guessed(links: Factors, poses: Floats, where: NDArray[np.bool_]) -> Factors:
+def with_unknown_motions(links: Factors, poses: Floats, where: NDArray[np.bool_]) -> Factors:
     """Return links between key scans. Those of ``where`` are replaced by weak ones at the keys' poses, (K, 3)."""
     relative, information = links.relative.copy(), links.information.copy()
     relative[where] = between(poses[:-1][where], poses[1:][where])
-    information[where] = GUESSED
+    information[where] = UNKNOWN_MOTION_INFORMATION
     return Factors(links.first, links.second, relative, information)
 
 
-def _steadied(variances: Floats) -> Floats:
+def _raised_to_local_median(variances: Floats) -> Floats:
     """Return variances of successive motions, (N, 3), raised to at least the median of their neighbours.
 
     Noise grows with the true distance. So a motion that noise makes shorter would get too small a variance.
     """
     from scipy.ndimage import median_filter
 
-    return np.asarray(np.maximum(variances, median_filter(variances, size=(NEIGHBOURS, 1), mode="nearest")))
+    return np.asarray(np.maximum(variances, median_filter(variances, size=(MEDIAN_MOTIONS, 1), mode="nearest")))
 
 
-def composed(motions: Floats, variances: Floats, keys: NDArray[np.intp]) -> Factors:
+def compose_factors(motions: Floats, variances: Floats, keys: NDArray[np.intp]) -> Factors:
     """Return factors between successive keys, composed of corrected motions from scan to scan, (S - 1, 3).
 
     Variances of x, y and yaw of the motions, (S - 1, 3), add up along the way.

@@ -33,8 +33,9 @@ COARSE = Fineness(60, np.radians(2.0))  # refinement uses whole scans: more woul
 NEAR_SCORE, FAR_SCORE = 0.6, 0.75  # least scores of matches; with more places, chance matches score better
 CHANCE = 0.5  # a place votes with the square of its score above this
 TRIED = 6  # most relative poses of two parts that are tested against free space
-AGREE, SURELY = 3, 4  # places that must agree on the relative pose of two parts: last turn, earlier turns
-FEW = 2  # places that must agree on a rival relative pose before the last turn
+MIN_PLACES = 3  # places that must agree on the relative pose of two parts in the last turn
+MIN_PLACES_EARLIER = 4  # places that must agree on it in earlier turns
+MIN_RIVAL_PLACES = 2  # places that must agree on a rival relative pose before the last turn
 RIVAL, RIVAL_EARLY = 0.5, 0.4  # share of the best pose's votes at which a rival makes it doubtful: last turn, earlier
 SAME_M, SAME_RAD = 0.5, np.radians(6.0)  # largest difference of equal relative poses: parts are bent
 MET_M, COMPARED = 5.0, 600  # distance of compared key scans of two parts, and most pairs of them
@@ -70,7 +71,7 @@ def rejoin(path: KeyPath, half_width_m: float) -> tuple[Floats, NDArray[np.bool_
             windows = centres, half_m * every, np.pi * every
             parts.append(match_submaps(path, first, second, *windows, half_width_m, least, COARSE))
         # Join by all matches so far.
-        islands = _together(path, joined(parts), AGREE if turn == TURNS - 1 else SURELY)
+        islands = _together(path, joined(parts), MIN_PLACES if turn == TURNS - 1 else MIN_PLACES_EARLIER)
         if not islands.parts.any():
             break
     return _assembled(path, islands)
@@ -83,7 +84,7 @@ def _together(path: KeyPath, closures: Closures, agree: int) -> KeyPath:
     """
     islands = path
     while True:
-        rival = RIVAL if agree == AGREE else RIVAL_EARLY
+        rival = RIVAL if agree == MIN_PLACES else RIVAL_EARLY
         joint = _surest(_candidates(closures, islands, agree), islands, rival)
         if joint is None:
             return islands
@@ -159,7 +160,7 @@ def _different(path: KeyPath, places: NDArray[np.intp]) -> NDArray[np.intp]:
 def _queries(path: KeyPath, turn: int) -> NDArray[np.intp]:
     """Return the query places of a turn, from all parts but the longest: every `TURNS`-th of an even selection."""
     places, count = path.places(SPACING_M), int(path.parts[-1]) + 1
-    most, rank = min(QUERIES, max(2 * AGREE, QUERIES_IN_ALL // max(1, count - 1))), _longer(path)
+    most, rank = min(QUERIES, max(2 * MIN_PLACES, QUERIES_IN_ALL // max(1, count - 1))), _longer(path)
     queries = [np.empty(0, np.intp)]
     for part in np.nonzero(rank < count - 1)[0]:
         own = places[path.parts[places] == part]
@@ -197,7 +198,7 @@ def _candidates(closures: Closures, islands: KeyPath, agree: int) -> Iterator[li
                 break
             joints.append(Joint(int(earlier), int(later), motions[own[best]], float(votes[best])))
             loud[:, same[best]] = 0.0
-            least = AGREE if agree == AGREE else FEW
+            least = MIN_PLACES if agree == MIN_PLACES else MIN_RIVAL_PLACES
         yield joints
 
 

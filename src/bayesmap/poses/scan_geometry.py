@@ -12,34 +12,36 @@ from numpy.typing import NDArray
 from bayesmap.space.planar import Floats
 from bayesmap.space.scans import Scans
 
-LEAST_M, MOST_M = 0.01, 0.05
+MIN_NOISE_M = 0.01
+MAX_NOISE_M = 0.05
 """Bounds on the standard deviation of a range. Walls are rough and robots move while they scan, so no point is more
 precise than the first. With more noise than the second, neighbouring walls could not be distinguished."""
 
-SCANS, FEWEST = 300, 100  # scans from which the noise is estimated, and fewest triples of beams
+MAX_NOISE_SCANS = 300  # most scans from which the noise is estimated
+MIN_TRIPLES = 100  # fewest triples of neighbouring beams
 GAP_M, GAP_STEPS = 0.15, 3.5  # metres plus beam spacings beyond which neighbouring readings lie on different surfaces
 
 MEDIAN_OF_NORMAL = 0.6745
 
 
 def range_noise_m(ranges_m: Floats, step_rad: float) -> float:
-    """Estimate the standard deviation of ranges (S, B) in the order of angles, between `LEAST_M` and `MOST_M`.
+    """Estimate the standard deviation of ranges (S, B) in the order of angles, between `MIN_NOISE_M` and `MAX_NOISE_M`.
 
     Along a straight wall the inverse ranges of three neighbouring beams obey 1/r_1 + 1/r_3 = 2 cos(step) / r_2. The
     residual of this equation, times r_2^2, has six times the variance of a range. Its median absolute value is robust
     against corners and edges, which are few.
     """
-    sampled = ranges_m[:: max(1, len(ranges_m) // SCANS)]
+    sampled = ranges_m[:: max(1, len(ranges_m) // MAX_NOISE_SCANS)]
     before, here, after = sampled[:, :-2], sampled[:, 1:-1], sampled[:, 2:]
     with np.errstate(invalid="ignore", divide="ignore"):
         gap = GAP_M + GAP_STEPS * step_rad * here
         smooth = np.isfinite(before + here + after) & (here > 0) & (before > 0) & (after > 0)
         smooth &= (np.abs(before - here) < gap) & (np.abs(after - here) < gap)
         residual = here**2 * (1.0 / before + 1.0 / after - 2.0 * np.cos(step_rad) / here)
-    if np.count_nonzero(smooth) < FEWEST:
-        return LEAST_M
+    if np.count_nonzero(smooth) < MIN_TRIPLES:
+        return MIN_NOISE_M
     sigma = float(np.median(np.abs(residual[smooth]))) / MEDIAN_OF_NORMAL / np.sqrt(6.0)
-    return float(np.clip(sigma, LEAST_M, MOST_M))
+    return float(np.clip(sigma, MIN_NOISE_M, MAX_NOISE_M))
 
 
 REACH_M, REACH_SIGMAS = 0.12, 10.0
@@ -102,7 +104,7 @@ class ScanGeometry:
     spread: Any  # variance of the normal's angle for a unit variance of the points, 1 / m^2, (S, B)
     fans: Fans  # directions of the beams
     farthest_m: float  # range beyond which hits are left out, metres
-    noise_m: float = LEAST_M  # standard deviation of a range, estimated from the scans
+    noise_m: float = MIN_NOISE_M  # standard deviation of a range, estimated from the scans
     device: str = "cpu"  # device of the arrays
     threads: int | None = None  # number of threads for all that is computed from this geometry; all cores if None
 

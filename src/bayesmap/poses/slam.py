@@ -35,7 +35,8 @@ OnPoses = Callable[[str, Floats], None]
 Arrays = dict[str, NDArray[Any]]
 Value = TypeVar("Value")
 
-LOOKS = 60  # most reports of poses during the front end
+MAX_POSE_REPORTS = 60  # most reports of poses during the front end
+CHECKPOINT_FORMAT = 3  # part of the name of a checkpoint; another number makes older checkpoints unused
 FARTHEST_M = 30.0  # hits beyond are not matched: there beams are half a metre apart and more
 ANGLE_TOLERANCE = 0.003  # relative error of the angle between beams that is not corrected: half a degree in 180
 
@@ -69,12 +70,12 @@ def infer_trajectory(
     # Scans in the order of time, and the motions that odometry states from one to the next.
     check_scans(scans, no_odometry)
     order, scans = in_order_of_time(scans)
-    stages = Stages(checkpoint, _digest(scans, f"3 {no_odometry} {calibrate_angles} {seed}"))
+    stages = Stages(checkpoint, _digest(scans, f"{CHECKPOINT_FORMAT} {no_odometry} {calibrate_angles} {seed}"))
     report = StageReport(np.zeros(3) if no_odometry else scans.poses[0], on_progress, on_poses)
     geometry = scan_geometry(scans, farthest_m=FARTHEST_M, device=device, threads=threads)
     odometry = stated_odometry(scans, None if no_odometry else geometry)
 
-    # The front end matches every scan to those before it, and says which motions are stated the wrong way round.
+    # The front end matches every scan to earlier scans, and finds motions that are stated the wrong way round.
     def match_all() -> Track:
         callback = report.of_front_end(odometry)
         return follow(geometry, odometry.used_motions, odometry.stamps_s, odometry.impossible, callback)
@@ -102,7 +103,8 @@ def infer_trajectory(
     if abs(ratio - 1.0) <= ANGLE_TOLERANCE:
         ratio = 1.0
     if ratio != 1.0:
-        poses = poses.copy()  # beams are stretched from the first on: the middle one keeps its direction
+        # Stretching keeps the first beam's angle. Turn the pose back, so that the middle beam keeps its direction.
+        poses = poses.copy()
         poses[:, 2] -= 0.5 * (ratio - 1.0) * scans.select(keys).sweep_rad
         geometry = scan_geometry(scans.stretched(ratio), farthest_m=FARTHEST_M, device=device, threads=threads)
         alignment = replace(alignment, geometry=geometry.select(keys))
@@ -176,21 +178,21 @@ def _closures(closed: ClosedGraph, keys: NDArray[np.intp], poses: Floats) -> Loo
     return LoopClosures(keys[loops.first], keys[loops.second], loops.relative, loops.errors(poses), weights)
 
 
-def flat(value: Any, name: str = "") -> Arrays:
+def to_arrays(value: Any, name: str = "") -> Arrays:
     """Return the arrays of a dataclass by name; those of a dataclass inside it are `outer.inner`."""
     arrays: Arrays = {}
     for field in fields(value):
         inner, path = getattr(value, field.name), f"{name}{field.name}"
-        arrays |= flat(inner, f"{path}.") if is_dataclass(inner) else {path: np.asarray(inner)}
+        arrays |= to_arrays(inner, f"{path}.") if is_dataclass(inner) else {path: np.asarray(inner)}
     return arrays
 
 
-def built(kind: type[Value], arrays: Arrays, name: str = "") -> Value:
-    """Return the dataclass that `flat` took apart; KeyError where an array is missing."""
+def from_arrays(kind: type[Value], arrays: Arrays, name: str = "") -> Value:
+    """Return the dataclass that `to_arrays` took apart; KeyError where an array is missing."""
     types = get_type_hints(kind)
     return kind(
         **{
-            field.name: built(types[field.name], arrays, f"{name}{field.name}.")
+            field.name: from_arrays(types[field.name], arrays, f"{name}{field.name}.")
             if is_dataclass(types[field.name])
             else arrays[f"{name}{field.name}"]
             for field in fields(kind)  # type: ignore[arg-type]
@@ -218,13 +220,13 @@ class Stages:
         if path.exists():
             try:
                 with np.load(path, allow_pickle=False) as saved:
-                    return built(kind, {key: saved[key] for key in saved.files})
+                    return from_arrays(kind, {key: saved[key] for key in saved.files})
             except (OSError, ValueError, EOFError, KeyError):
                 pass  # damaged: computed again
-        found = compute()
-        with write_whole(path) as partial:
-            np.savez(partial, **flat(found))  # type: ignore[arg-type]
-        return found
+        result = compute()
+        with write_whole(path) as unfinished:
+            np.savez(unfinished, **to_arrays(result))  # type: ignore[arg-type]
+        return result
 
 
 @dataclass(frozen=True, eq=False)
@@ -265,7 +267,7 @@ class StageReport:
             if self.on_progress is not None:
                 self.on_progress("front end", done, count)
             if self.on_poses is not None and done >= next_look:
-                next_look = done + -(-count // LOOKS)
+                next_look = done + -(-count // MAX_POSE_REPORTS)
                 stated = odometry.poses[done - 1 :]
                 rest = between(stated[:1], stated[1:]) * (1.0 if odometry.used else 0.0)
                 known = np.concatenate([poses[:done], compose(poses[done - 1], rest)])

@@ -81,12 +81,12 @@ def next_level(first: int, level: int, pyramid: Pyramid):
         pyramid[g, level, x, y] = wp.max(low, high)
 
 
-def draw_grids(
+def render_grids(
     geometry: Any, offsets: Ints, scan: Ints, poses_world: Floats, origins: Floats, resolution: float,
     stamp: NDArray[np.uint8], spacing_m: float, shape: tuple[int, int], levels: int, threads: int | None = None,
     pyramid: Any = None,
 ) -> Any:  # fmt: skip
-    """Draw grids of scans at poses, with their pyramids: (grids, levels, nx, ny) on the device.
+    """Render grids of scans at poses, with their pyramids: (grids, levels, nx, ny) on the device.
 
     Grid g, with its corner at ``origins[g]``, contains the entries offsets[g] .. offsets[g + 1]: a scan of ``geometry``
     and its pose each. ``stamp``, an odd square, is drawn around each point; stamps of a wall lie at most ``spacing_m``
