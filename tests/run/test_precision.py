@@ -9,7 +9,7 @@ from flat_options import infer
 from scipy import stats
 
 import bayesmap as bm
-from bayesmap.run.chains import FEWEST_BATCHES, KNOWN_SHARE, StopRule, SweepPlan, map_error
+from bayesmap.run.chains import KNOWN_SHARE, MIN_BATCHES, EndRule, SweepPlan, map_error
 
 CELLS, CHAINS, DRAWS, STICKY = 4000, 4, 400, 0.8
 
@@ -40,7 +40,7 @@ def sticky_chains():
 
 def expected_error(sd):
     """The 99 % quantile of an estimate from eight batches whose mean has a standard deviation."""
-    degrees = FEWEST_BATCHES - 1
+    degrees = MIN_BATCHES - 1
     return sd * np.sqrt(stats.chi2(degrees).ppf(KNOWN_SHARE) / degrees)
 
 
@@ -143,9 +143,9 @@ def test_a_default_run_stops_early_and_a_number_of_draws_is_kept_to():
 
 
 def test_progress_expects_the_first_mark_and_then_what_the_error_asks_for():
-    rule = StopRule(SweepPlan(50, 60, 3, 0.03), lambda: 0.06)
+    rule = EndRule(SweepPlan(50, 60, 3, 0.03), lambda: 0.06)
     rule.check(20)
-    assert (rule.aim(20), rule.error, rule.reached) == (80, None, False)
+    assert (rule.expected_sweeps(20), rule.error, rule.reached) == (80, None, False)
     rule.check(80)
-    assert (rule.aim(80), rule.error, rule.reached) == (50 + 4 * 30, 0.06, False)
-    assert StopRule(SweepPlan(50, 60, 3), lambda: 0.0).aim(20) == 230
+    assert (rule.expected_sweeps(80), rule.error, rule.reached) == (50 + 4 * 30, 0.06, False)
+    assert EndRule(SweepPlan(50, 60, 3), lambda: 0.0).expected_sweeps(20) == 230

@@ -12,7 +12,7 @@ from stop_rooms import assert_same
 
 import bayesmap as bm
 from bayesmap.run import runner
-from bayesmap.run.chains import FEWEST_DRAWS
+from bayesmap.run.chains import MIN_DRAWS_PER_CHAIN
 
 MARKOV = ["gibbs", "block"]
 METHODS = [*MARKOV, "exact", "importance", "propagate"]
@@ -236,7 +236,7 @@ def test_a_limited_time_ends_the_chains_with_what_they_have(case, monkeypatch):
     short = bm.infer(case.scans, case.grid, **options, schedule=bm.Schedule(2, warmup=5, seconds=1e-3))
     assert short.finished
     draws = short.n_draws
-    assert FEWEST_DRAWS <= draws <= runner.FIRST_STEP  # those of one step
+    assert MIN_DRAWS_PER_CHAIN <= draws <= runner.FIRST_STEP  # those of one step
     warmup = short.posterior.settings["warmup"]
     assert warmup < 5  # five sweeps take longer
     whole = bm.infer(case.scans, case.grid, **options, schedule=bm.Schedule(2, warmup=warmup, draws=draws))

@@ -34,7 +34,7 @@ from bayesmap.localization.particles import (
     squared_distances,
     weighed,
 )
-from bayesmap.localization.search import FEWEST, end_points, search
+from bayesmap.localization.search import MIN_POINTS, end_points, search
 from bayesmap.sensors.model import RangeLimits
 from bayesmap.space.planar import wrap_angle
 
@@ -44,11 +44,14 @@ POINTS, SHARPER = 60, 2.0
 """End points per scan, and their weight relative to beams: their field joins all draws of the map, and is wider. They
 affect how many rounds the exact law needs, not its result."""
 
-STEPS, NEARLY = 3, 0.6
-"""Most rounds, and the power of the weights at which rounds end. Several places, which come from a search, get one
-round less."""
+MAX_APPROACHES = 3
+"""Most rounds in which places are moved. Several places, which come from a search, get one round less."""
 
-DRAWS, LEAST = 240, 24
+END_POWER = 0.6
+"""Power of the weights above which rounds end."""
+
+DRAWS_PER_ROUND = 240
+MIN_DRAWS_PER_PLACE = 24
 """Draws per round for all places together, and least draws per place."""
 
 
@@ -60,7 +63,7 @@ def approached(
     ``log_prior`` computes the log density of poses (P, 3) before the scan, (P,).
     """
     points = end_points(scan.angles_rad, scan.ranges_m, POINTS)
-    if len(points) < FEWEST:
+    if len(points) < MIN_POINTS:
         return places
     hits = int(np.isfinite(scan.ranges_m).sum())
     weight = SHARPER * known.weight_of(scan.ranges_m) * hits / len(points)
@@ -68,11 +71,11 @@ def approached(
     def target(poses: Floats) -> Floats:
         return np.asarray(log_prior(poses) + weight * known.endpoints.log_worth(points, poses))
 
-    each = max(LEAST, DRAWS // len(places.means))
-    for _ in range(STEPS if len(places.means) == 1 else STEPS - 1):
+    each = max(MIN_DRAWS_PER_PLACE, DRAWS_PER_ROUND // len(places.means))
+    for _ in range(MAX_APPROACHES if len(places.means) == 1 else MAX_APPROACHES - 1):
         places, power = adapted(places, draw_population(places, target, each, rng))
         places = places.best(len(places.means))
-        if power > NEARLY:
+        if power > END_POWER:
             break
     return places
 
@@ -83,7 +86,9 @@ CANDIDATES = 24
 ROUNDS = 5
 """Most rounds in which places are adapted, until weights are hardly tempered."""
 
-FEW, EACH, LAST = 8, 24, 32
+SELECTION_DRAWS = 8
+ROUND_DRAWS = 24
+LAST_ROUND_DRAWS = 32
 """Draws per place: to select places, for the likeliest place in a round, and for it in the last round."""
 
 THINNED = 40
@@ -156,14 +161,16 @@ def update(known: KnownMap, prior: Prior, scan: Scan, rng: np.random.Generator, 
         starts, least = approached(starts, density, known, scan, rng), known.trust.least_draws
         if len(starts.means) > 1:
             # Drop negligible places by few draws of poses, under one draw of the map.
-            starts = best(weighed(starts, draw_population(starts, target(thin, 1), FEW, rng)))
+            starts = best(weighed(starts, draw_population(starts, target(thin, 1), SELECTION_DRAWS, rng)))
         for _ in range(ROUNDS):
-            starts, power = adapted(starts, draw_population(starts, target(thin), shared_out(starts, EACH, least), rng))
+            starts, power = adapted(
+                starts, draw_population(starts, target(thin), shared_out(starts, ROUND_DRAWS, least), rng)
+            )
             starts = best(starts)
-            if power > NEARLY:
+            if power > END_POWER:
                 break
         # Draw and weight the final poses, with all beams.
-        population = draw_population(starts, target(1), shared_out(starts, LAST, least), rng)
+        population = draw_population(starts, target(1), shared_out(starts, LAST_ROUND_DRAWS, least), rng)
         group = groups_of(starts, population.poses)
         if known.trust.shared_way_m > 0.0:
             mass = _mass_before(prior, starts, int(group.max()) + 1)
@@ -372,7 +379,7 @@ def locate(known: KnownMap, scan: Scan, rng: np.random.Generator) -> PoseBelief:
     for _ in range(SETTLES):
         places, power = adapted(places, draw_population(places, target(last), SHARP_EACH, rng))
         places = distinct(places).best(KEPT)
-        if power > NEARLY:
+        if power > END_POWER:
             break
     population = draw_population(places, target(last), SHARP_LAST, rng)
     return belief_of(known, prior, scan, population, groups_of(places, population.poses))

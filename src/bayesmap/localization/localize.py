@@ -26,16 +26,16 @@ if TYPE_CHECKING:
 
 Floats = NDArray[np.float64]
 
-SURE = 0.99
+MIN_SURE_PROBABILITY = 0.99
 """Probability of the likeliest mode below which every scan is searched for in the whole map."""
 
-LEAST_ON_MAP = 1e-3
+MIN_MAP_PROBABILITY = 1e-3
 """Least probability of the map's area under a prior."""
 
 TURN_M = 0.5
 """Length of path with as much new evidence as a turn by one radian, metres."""
 
-LEAST_NEW = 0.02
+MIN_NEW_SHARE = 0.02
 """Least share of a scan's evidence that counts."""
 
 
@@ -197,10 +197,10 @@ def follow(
             way_m = float(np.hypot(motion[0], motion[1]) + TURN_M * abs(motion[2]))
             since_search_m += way_m
             if way_m < trust.shared_way_m:
-                new = max(LEAST_NEW, way_m / trust.shared_way_m)
+                new = max(MIN_NEW_SHARE, way_m / trust.shared_way_m)
             believed = moved(belief, motion, odometry.sigmas(motion), trust, new)
         # Search the whole map if the pose is uncertain, or after a long way.
-        unsure = belief is None or belief.p_lost > 0.5 or belief.modes[0].probability < SURE
+        unsure = belief is None or belief.p_lost > 0.5 or belief.modes[0].probability < MIN_SURE_PROBABILITY
         everywhere = independent or unsure or since_search_m >= trust.search_way_m
         if everywhere:
             since_search_m = 0.0
@@ -227,7 +227,7 @@ def _check(known: KnownMap, prior: InitialPose | None, odometry: Odometry) -> No
         return
     if not isinstance(prior, InitialPose):
         raise BadInput(f"localize: prior must be such as bm.InitialPose((x, y, yaw)), or None: anywhere; got {prior!r}")
-    if prior.share_in(known.grid) < LEAST_ON_MAP:
+    if prior.share_in(known.grid) < MIN_MAP_PROBABILITY:
         (x0, x1, y0, y1), (x, y) = known.grid.extent_m, np.asarray(prior.pose)[:2]
         raise BadInput(
             f"prior: ({x:g}, {y:g}) +- {prior.sigma_m:g} m lies outside the map, which is from {x0:g} to {x1:g} m in x "

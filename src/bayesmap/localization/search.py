@@ -176,7 +176,7 @@ def _surfaces(states: NDArray[np.float32], grid: Grid, known: NDArray[np.bool_])
 HEADINGS, POINTS, FINE_POINTS = 90, 48, 60
 """Headings and points of a scan in the coarse search, and points in the refinement, evenly spaced by beams."""
 
-FEWEST = 8
+MIN_POINTS = 8
 """Fewest points of a search: fewer points fit walls anywhere."""
 
 BLOCK, SQUARES = 4, 240
@@ -205,10 +205,10 @@ def end_points(angles_rad: Floats, ranges_m: Floats, most: int, furthest_m: floa
 def search(field: Field, angles_rad: Floats, ranges_m: Floats, most: int) -> Candidates:
     """Find the best poses of a scan, A angles and readings, over a whole map.
 
-    All are more than `APART_M` or `APART_RAD` from each other. A scan with fewer hits than `FEWEST` has none.
+    All are more than `APART_M` or `APART_RAD` from each other. A scan with fewer hits than `MIN_POINTS` has none.
     """
     points = end_points(angles_rad, ranges_m, POINTS)
-    coarse = _coarse_poses(field, points) if len(points) >= FEWEST else np.empty((0, 3))
+    coarse = _coarse_poses(field, points) if len(points) >= MIN_POINTS else np.empty((0, 3))
     if len(coarse) == 0:
         return Candidates(np.empty((0, 3)), np.empty(0))
     return refine(field, end_points(angles_rad, ranges_m, FINE_POINTS), coarse, most)

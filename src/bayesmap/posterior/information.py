@@ -25,7 +25,7 @@ from bayesmap.space.scans import Scans, as_angles, as_poses
 
 Floats = NDArray[np.float64]
 
-SURE = 1e-4
+MIN_STOP_PROBABILITY = 1e-4
 """Least distance of a stop probability from 0 and 1: a finite number of draws is no more precise."""
 
 
@@ -93,25 +93,31 @@ def expected_information(
     from bayesmap.kernels.predict.density import device_maps
     from bayesmap.kernels.predict.scan_likelihood import ScanLikelihood
 
-    where, draws, each = as_poses(poses), len(cells), len(cells) // chains
-    if each < 2:
-        raise BadInput(f"information: {each} draws of the map from each chain; two are the least that can differ")
-    maps, every = device_maps([cells], grid, hit_depth, device=device), np.arange(draws)
+    poses_world = as_poses(poses)
+    n_draws = len(cells)
+    draws_per_chain = n_draws // chains
+    if draws_per_chain < 2:
+        raise BadInput(
+            f"information: {draws_per_chain} draws of the map from each chain; two are the least that can differ"
+        )
+    maps = device_maps([cells], grid, hit_depth, device=device)
+    draw_index = np.arange(n_draws)
     # Pairs of draws of one chain.
-    scan = np.repeat(every, each)
-    other = np.tile(every.reshape(chains, 1, each), (1, each, 1)).ravel()
-    bounds, limits = np.empty((4, len(where))), fan.limits
+    scan = np.repeat(draw_index, draws_per_chain)
+    other = np.tile(draw_index.reshape(chains, 1, draws_per_chain), (1, draws_per_chain, 1)).ravel()
+    bounds = np.empty((4, len(poses_world)))
+    limits = fan.limits
     # For each pose, simulate a scan in every draw, and weight each scan in every draw of its chain.
-    for i, pose in enumerate(where):
-        at = np.broadcast_to(pose, (draws, 3))
-        readings = draw_readings(maps, fan, at, every, (seed, i, STREAM_VIEWS))
+    for i, pose in enumerate(poses_world):
+        at = np.broadcast_to(pose, (n_draws, 3))
+        readings = draw_readings(maps, fan, at, draw_index, (seed, i, STREAM_VIEWS))
         likelihood = ScanLikelihood(
             Scans(at, fan.angles_rad, readings, limits.max_m, limits.min_m), grid, fan.sensor, hit_depth, device
         )
         weighed = likelihood.beams(maps, np.broadcast_to(pose, (len(scan), 3)), scan, other)
-        bounds[:, i] = _bounds(weighed.reshape(chains, each, each, -1))
-        on_progress((i + 1) / len(where))
-    return InformationGain(bounds[0], bounds[1], bounds[2], bounds[3], draws)
+        bounds[:, i] = _bounds(weighed.reshape(chains, draws_per_chain, draws_per_chain, -1))
+        on_progress((i + 1) / len(poses_world))
+    return InformationGain(bounds[0], bounds[1], bounds[2], bounds[3], n_draws)
 
 
 def _bounds(weighed: Floats) -> tuple[float, float, float, float]:
@@ -120,16 +126,17 @@ def _bounds(weighed: Floats) -> tuple[float, float, float, float]:
     ``weighed`` is log p(beam b of the scan that was simulated in draw d | draw e of its chain c), (c, d, e, b).
     """
     chains, draws = weighed.shape[:2]
-    every, others = np.arange(draws), np.where(np.eye(draws, dtype=bool), -np.inf, 0.0)
+    draw_index = np.arange(draws)
+    others = np.where(np.eye(draws, dtype=bool), -np.inf, 0.0)
     whole = weighed.sum(axis=3)
-    own = whole[:, every, every]
+    own = whole[:, draw_index, draw_index]
 
     def left_out(log_p: Floats) -> Floats:
         hidden = log_p + others.reshape(draws, draws, *(1,) * (log_p.ndim - 3))
         return np.asarray(special.logsumexp(hidden, axis=2) - math.log(draws - 1))
 
     lower = own - (special.logsumexp(whole, axis=2) - math.log(draws))
-    uppers = (own - left_out(whole), (weighed[:, every, every] - left_out(weighed)).sum(axis=2))
+    uppers = (own - left_out(whole), (weighed[:, draw_index, draw_index] - left_out(weighed)).sum(axis=2))
     upper = min(uppers, key=lambda gains: float(gains.mean()))
     root = math.sqrt(chains * draws)
     return (
@@ -149,7 +156,8 @@ def beam_information(
     """
     from bayesmap.kernels.predict.view import independent_information
 
-    probability = np.clip(np.nan_to_num(occupied.ravel(), nan=0.5), SURE, 1.0 - SURE)
+    probability = np.nan_to_num(occupied.ravel(), nan=0.5)
+    probability = np.clip(probability, MIN_STOP_PROBABILITY, 1.0 - MIN_STOP_PROBABILITY)
     factor = p_right / (1.0 - p_right)
     per_beam = independent_information(
         probability, grid, as_poses(poses), as_angles(angles_rad), max_range_m,

@@ -207,11 +207,11 @@ STEPS = {
 """Edges of the graph: offset of the cell at the end, and offsets of the cells that the edge crosses or nearly touches.
 Together with the opposite edges there are sixteen directions."""
 
-SURE = 1.0 - 1e-6
+MAX_BLOCKED_PROBABILITY = 1.0 - 1e-6
 """Probability of being blocked above which a cell is not in the graph."""
 
-MOST_DANGER = -math.log1p(-SURE)
-"""`SURE` as a danger, -log(1 - probability)."""
+MAX_DANGER = -math.log1p(-MAX_BLOCKED_PROBABILITY)
+"""`MAX_BLOCKED_PROBABILITY` as a danger, -log(1 - probability)."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -289,7 +289,7 @@ def plan_route(
     if not 0 < risk < 1:
         raise BadInput(f"plan: risk must lie inside (0, 1), got {risk!r}")
     ends = [_cell_of(point, grid, blocked, name) for point, name in ((start, "start"), (goal, "goal"))]
-    danger = -np.log1p(-np.minimum(blocked, SURE))
+    danger = -np.log1p(-np.minimum(blocked, MAX_BLOCKED_PROBABILITY))
     routes: list[Route] = []
     for price in PRICES:
         cells = _cheapest(danger, price, grid.shape, ends[0], ends[1])
@@ -314,7 +314,7 @@ def _cell_of(point: Floats, grid: Grid, blocked: Floats, name: str) -> int:
     at = f"{name} ({point[0]:.2f}, {point[1]:.2f} m)"
     if not ((cell >= 0) & (cell < grid.shape)).all():
         raise BadInput(f"plan: the {at} lies outside the map")
-    if blocked[tuple(cell)] > SURE:
+    if blocked[tuple(cell)] > MAX_BLOCKED_PROBABILITY:
         raise BadInput(f"plan: at the {at} the disc touches something in every draw; move it, or take a smaller radius")
     return int(cell[0] * grid.shape[1] + cell[1])
 
@@ -327,7 +327,7 @@ def _cheapest(danger: Floats, price: float, shape: tuple[int, int], start: int, 
     nx, ny = shape
     x, y = (a.ravel() for a in np.meshgrid(np.arange(nx), np.arange(ny), indexing="ij"))
     flat = danger.ravel()
-    passable = flat < MOST_DANGER
+    passable = flat < MAX_DANGER
     # Edges cost their length, plus the price times the mean danger of the cells that they cross.
     rows, columns, costs = [], [], []
     for (dx, dy), crossed in STEPS.items():
@@ -371,5 +371,5 @@ def _cost(path: Floats, danger: Floats, grid: Grid, price: float) -> float:
         points = start + np.linspace(0, 1, n)[:, None] * (end - start)
         cell = np.clip(np.floor(grid.to_cells(points)).astype(int), 0, np.array(grid.shape) - 1)
         near = danger[cell[:, 0], cell[:, 1]]
-        total += length * (1.0 + price * float(near.mean())) if near.max() < MOST_DANGER else math.inf
+        total += length * (1.0 + price * float(near.mean())) if near.max() < MAX_DANGER else math.inf
     return total

@@ -157,7 +157,7 @@ def diagnose_cells(prior: CellPrior, draws: Draws, among: NDArray[np.bool_]) -> 
     return CellDiagnostics(worst, least, unchanged, None if unchanged is None else disagreeing, high, low, judged)
 
 
-FEWEST_DRAWS = 4
+MIN_DRAWS_PER_CHAIN = 4
 """Fewest draws of a chain with which its halves have a variance."""
 
 CHANCE_SHARE = 0.01
@@ -274,8 +274,8 @@ class Summary:
         swept = not math.isnan(self.microseconds_per_sweep)
         if self.finished and swept and math.isnan(self.rhat_log_joint):
             problems.append(
-                f"nothing can be judged: under {FEWEST_DRAWS} draws of each chain, or none that differ; draw more maps "
-                "(draws)"
+                f"nothing can be judged: under {MIN_DRAWS_PER_CHAIN} draws of each chain, or none that differ; draw "
+                "more maps (draws)"
             )
         if self.effective_sample_size < ESS_LIMIT:
             problems.append(
@@ -302,7 +302,7 @@ def summarise(posterior: Posterior) -> Summary:
     cells = CellDiagnostics(nan, nan, 0, 0, 0, 0, 0)
     if markov:
         cells = diagnose_cells(posterior.prior, posterior.draws, posterior.observed)
-    enough = draws >= FEWEST_DRAWS
+    enough = draws >= MIN_DRAWS_PER_CHAIN
     return Summary(
         rhat_log_joint=rhat(log_joint), rhat_log_likelihood=rhat(log_likelihood),
         ess_log_joint_bulk=bulk_ess(log_joint), ess_log_joint_tail=tail_ess(log_joint), rhat_max=cells.rhat_max,

@@ -15,14 +15,15 @@ from bayesmap.cells.kind import CellPrior, Floats
 from bayesmap.samplers.sampler import Info, Keep, Snapshot
 
 PRECISION = 0.03
-"""Default error of the mean map at which chains stop. On a grey map an error of 0.1 is visible, a third is not."""
+"""Default error of the mean map at which chains stop. On a grey map an error of 0.1 is visible. An error of
+0.03 is not."""
 FIRST_MARK = 10
 """Draws per chain at the first estimate of the map's error."""
-FEWEST_DRAWS = 2
+MIN_DRAWS_PER_CHAIN = 2
 """Fewest draws per chain if the time ends a run."""
-WARMUP_SHARE = 0.4
+MAX_WARMUP_SHARE = 0.4
 """Largest share of a limited time that warm-up may take."""
-FEWEST_BATCHES = 8
+MIN_BATCHES = 8
 """Fewest batches of an estimate. With one batch per chain, and few chains, estimates scatter widely."""
 KNOWN_SHARE = 0.99
 """Share of the observed cells whose error is at most the reported error. The worst cell alone is uninformative."""
@@ -35,7 +36,7 @@ class SweepPlan:
     """The plan of a chain's sweeps.
 
     Chains stop early at a Monte Carlo error of ``precision``, see `map_error`, and after ``seconds``, once each has
-    `FEWEST_DRAWS`; not if they are None.
+    `MIN_DRAWS_PER_CHAIN`; not if they are None.
     """
 
     warmup: int  # number of sweeps before the first draw
@@ -67,21 +68,22 @@ class SweepPlan:
         return tuple(marks)
 
     def shortened(self, sweep_s: float, left_s: float) -> SweepPlan:
-        """Return the plan with a warm-up of at most `WARMUP_SHARE` of the seconds left, given those of a sweep."""
-        return replace(self, warmup=min(self.warmup, max(1, int(WARMUP_SHARE * left_s / sweep_s))))
+        """Return the plan with a warm-up of at most `MAX_WARMUP_SHARE` of the seconds left, given those of a sweep."""
+        return replace(self, warmup=min(self.warmup, max(1, int(MAX_WARMUP_SHARE * left_s / sweep_s))))
 
 
-class StopRule:
-    """Decides when chains may stop before all their draws: when the map is known, or when the time is over.
+class EndRule:
+    """Decides when chains may end before all their draws: when the map is known, or when the time is over.
 
-    ``reached`` tells if they may stop. ``error`` is the latest `map_error`; None before the first mark.
+    ``reached`` tells if they may end. ``error`` is the latest `map_error`; None before the first mark.
     """
 
     def __init__(self, plan: SweepPlan, error_of_map: Callable[[], float]) -> None:
         """Start the clock. ``error_of_map`` estimates the error of the map from all draws so far."""
         self._plan, self._error_of_map, self._began = plan, error_of_map, time.monotonic()
         # Before the first estimate chains are expected to stop there.
-        self.reached, self._aim = False, next(iter(plan.marks), plan.sweeps)
+        self.reached = False
+        self._expected = next(iter(plan.marks), plan.sweeps)
         self.error: float | None = None
 
     def check(self, sweep: int) -> None:
@@ -91,18 +93,18 @@ class StopRule:
             error = self.error = self._error_of_map()
             # The error falls with the square root of the number of draws.
             more = max(1.0, (error / plan.precision) ** 2) if np.isfinite(error) else np.inf
-            self._aim = int(min(plan.warmup + more * (sweep - plan.warmup), plan.sweeps))
+            self._expected = int(min(plan.warmup + more * (sweep - plan.warmup), plan.sweeps))
             self.reached = error <= plan.precision
-        if plan.seconds is not None and sweep >= plan.warmup + FEWEST_DRAWS * plan.thin:
+        if plan.seconds is not None and sweep >= plan.warmup + MIN_DRAWS_PER_CHAIN * plan.thin:
             self.reached = self.reached or time.monotonic() - self._began >= plan.seconds
 
-    def aim(self, sweep: int) -> int:
+    def expected_sweeps(self, sweep: int) -> int:
         """Return the expected number of sweeps at the end, by the error at the last mark and by the time."""
-        aim = self._aim
+        expected = self._expected
         if self._plan.seconds is not None and sweep > 0:
             spent = max(time.monotonic() - self._began, 1e-3)
-            aim = min(aim, int(sweep * max(1.0, self._plan.seconds / spent)))
-        return max(aim, sweep)
+            expected = min(expected, int(sweep * max(1.0, self._plan.seconds / spent)))
+        return max(expected, sweep)
 
 
 @dataclass(frozen=True, eq=False)
@@ -152,7 +154,7 @@ def map_error(cells: CellPrior, draws: Draws, observed: NDArray[np.bool_]) -> fl
         The error, in units of the map's values; inf for fewer than two draws per batch, 0 without observed cells.
     """
     # The first draws are left out if batches of equal length do not cover all.
-    batches = -(-FEWEST_BATCHES // draws.chains)
+    batches = -(-MIN_BATCHES // draws.chains)
     length = draws.count // batches
     if length < 2:
         return float("inf")
@@ -194,7 +196,7 @@ def join(parts: Sequence[Chains]) -> Chains:
     )  # fmt: skip
 
 
-def some_chains(chains: Chains, which: slice) -> Chains:
+def select_chains(chains: Chains, which: slice) -> Chains:
     """Return a slice of the chains."""
     draws = replace(chains.draws, arrays={name: array[which] for name, array in chains.draws.arrays.items()})
     snapshot = Snapshot(chains.sweep, {name: array[which] for name, array in chains.snapshot.arrays.items()})
@@ -210,15 +212,15 @@ def in_sequence(parts: Sequence[Chains]) -> Chains:
 class Record:
     """The draws and traces of chains, which grow as the chains advance."""
 
-    def __init__(self, empty: Draws, schedule: SweepPlan, resume: Chains | None = None) -> None:
-        """Allocate arrays for the schedule's draws, and copy those of ``resume``; ``empty`` has the specs."""
+    def __init__(self, empty: Draws, plan: SweepPlan, resume: Chains | None = None) -> None:
+        """Allocate arrays for the plan's draws, and copy those of ``resume``; ``empty`` has the specs."""
         chains = next(iter(empty.arrays.values())).shape[0]
         self._draws = replace(
-            empty, arrays={spec.name: spec.empty(chains, schedule.draws, empty.shape_of(spec)) for spec in empty.specs}
+            empty, arrays={spec.name: spec.empty(chains, plan.draws, empty.shape_of(spec)) for spec in empty.specs}
         )
-        self._keep = schedule.keep
-        self._log_likelihood, self._log_prior = np.zeros((2, chains, schedule.draws))
-        self._warmup = np.zeros((chains, schedule.warmup))
+        self._keep = plan.keep
+        self._log_likelihood, self._log_prior = np.zeros((2, chains, plan.draws))
+        self._warmup = np.zeros((chains, plan.warmup))
         self.kept = self.warmed = 0
         if resume is not None:
             self.kept, self.warmed = resume.log_joint.shape[1], resume.warmup_log_joint.shape[1]

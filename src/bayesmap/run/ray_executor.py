@@ -20,7 +20,7 @@ from typing import Any
 
 from bayesmap.errors import BadInput, check_count
 from bayesmap.run import ray_worker
-from bayesmap.run.chains import Chains, StopRule, SweepPlan, in_sequence, join, map_error, some_chains
+from bayesmap.run.chains import Chains, EndRule, SweepPlan, in_sequence, join, map_error, select_chains
 from bayesmap.run.runner import CheckpointTimer, Job
 from bayesmap.samplers.progress import Watch
 from bayesmap.samplers.sampler import Snapshot, to_see
@@ -201,7 +201,7 @@ class _RayRun:
         }  # fmt: skip
         ids = job.chain_ids
         self.groups = [
-            Group(which, ids[which], None if resume is None else some_chains(resume, which))
+            Group(which, ids[which], None if resume is None else select_chains(resume, which))
             for which in executor.groups(len(ids), at_once)
         ]
         for group in self.groups:
@@ -212,7 +212,7 @@ class _RayRun:
         self.name = uuid.uuid4().hex
         self.shared: tuple[Any, ...] = ()
         self.trace_s = 0.0
-        self.rule = StopRule(job.schedule, self._error)
+        self.rule = EndRule(job.schedule, self._error)
 
     def remote(self, function: Callable[..., Any], **options: Any) -> Any:
         return self.ray.remote(function).options(**self.options, **options).remote
@@ -307,4 +307,6 @@ class _RayRun:
             warming = done <= self.job.schedule.warmup
             log_joint = segment.log_joint if segment.log_joint.size else segment.warmup_log_joint
             mean = float(log_joint[:, -1].mean()) if log_joint.size else None
-            self.watch.report("warm-up" if warming else "draws", done, self.rule.aim(done), mean, self.rule.error)
+            self.watch.report(
+                "warm-up" if warming else "draws", done, self.rule.expected_sweeps(done), mean, self.rule.error
+            )

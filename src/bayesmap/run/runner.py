@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 
 from bayesmap.cells.arrays import Draws
 from bayesmap.model import Model
-from bayesmap.run.chains import Chains, Record, StopRule, SweepPlan, map_error, observed_cells
+from bayesmap.run.chains import Chains, EndRule, Record, SweepPlan, map_error, observed_cells
 from bayesmap.samplers.fit import Parameters
 from bayesmap.samplers.progress import SILENT, Watch
 from bayesmap.samplers.sampler import NOTHING, PILOT, ChainState, Info, Keep, Sampler, Snapshot, to_see
@@ -185,7 +185,7 @@ def run_chains(
     def error() -> float:
         return map_error(job.model.cells, record.draws, observed_cells(observed_counts()))
 
-    rule = StopRule(schedule, error)
+    rule = EndRule(schedule, error)
     rule.check(state.sweep)  # a resumed run may stand at a mark
     # Advance step by step: record draws, look at the error, report, write checkpoints.
     checkpoints = CheckpointTimer(on_checkpoint, checkpoint_every_s)
@@ -201,7 +201,9 @@ def run_chains(
         before = state.sweep
         log_joint = float(np.mean(info.log_likelihood[:, -1] + info.log_prior[:, -1]))
         rule.check(state.sweep)
-        watch.report("warm-up" if warming else "draws", state.sweep, rule.aim(state.sweep), log_joint, rule.error)
+        watch.report(
+            "warm-up" if warming else "draws", state.sweep, rule.expected_sweeps(state.sweep), log_joint, rule.error
+        )
         checkpoints.offer(so_far, at_once=warming and state.sweep == schedule.warmup)
         began, stopped = time.perf_counter(), watch.should_stop()
     # A stop in the last step counts, too: the caller must not begin the work that follows the chains.

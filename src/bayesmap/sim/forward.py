@@ -35,8 +35,8 @@ def ranges(
     Raises:
         BadInput: shapes that do not fit, numbers that are not finite, a cap that is not positive.
     """
-    many = as_poses(poses)
-    distances = _distances(walls, grid, many, as_angles(angles_rad), max_range_m, device)
+    poses_world = as_poses(poses)
+    distances = _distances(walls, grid, poses_world, as_angles(angles_rad), max_range_m, device)
     return distances[0] if np.ndim(poses) == 1 else distances
 
 
@@ -67,12 +67,13 @@ def simulate(
         BadInput: as `ranges`, and for a pose inside a wall.
     """
     # Check the arguments.
-    many, angles = asked_poses("simulate", poses), as_angles(angles_rad)
+    poses_world = asked_poses("simulate", poses)
+    angles = as_angles(angles_rad)
     check_limits(min_range_m, max_range_m)
     seed = check_count("simulate", "seed", seed, 0)
     solid = np.asarray(walls) != 0
     _check_walls(solid, grid)
-    for scan, (x, y, _) in enumerate(many):
+    for scan, (x, y, _) in enumerate(poses_world):
         cell = grid.cell_at(x, y)
         if cell is not None and solid[cell]:
             raise BadInput(
@@ -88,11 +89,11 @@ def simulate(
     # Cast rays; with an opacity, each scan sees its own random walls. Then add noise.
     rng = np.random.default_rng(seed)
     if opacity is None:
-        distances = _distances(solid, grid, many, angles, np.inf, device)
+        distances = _distances(solid, grid, poses_world, angles, np.inf, device)
     else:
         distances = np.concatenate([
             _distances(solid & (rng.random(grid.shape) < opacity), grid, pose[None], angles, np.inf, device)
-            for pose in many
+            for pose in poses_world
         ])  # fmt: skip
     readings = sensor.sample(rng, distances, RangeLimits(min_range_m, max_range_m))
     if typed:
@@ -100,13 +101,14 @@ def simulate(
         if isinstance(sensor, AdditiveNoise):  # other sensor models produce no return themselves
             nothing |= distances > max_range_m
         readings = np.where(nothing, np.inf, readings)
-    return Scans(many, angles, readings, max_range_m=max_range_m, min_range_m=min_range_m)
+    return Scans(poses_world, angles, readings, max_range_m=max_range_m, min_range_m=min_range_m)
 
 
 def _distances(
     walls: NDArray[np.bool_], grid: Grid, poses: NDArray[np.float64], angles_rad: NDArray[np.float64],
     max_range_m: float, device: str,
 ) -> NDArray[np.float64]:  # fmt: skip
+    """Cast all beams. Returns ranges in metres, (S, A), capped at ``max_range_m``."""
     from bayesmap.kernels.walk import cast  # loads Warp
 
     _check_walls(walls, grid)
