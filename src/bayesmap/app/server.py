@@ -45,6 +45,9 @@ HEADERS = {
     "Cross-Origin-Resource-Policy": "same-origin",
     "Cache-Control": "no-store",
 }
+POLICY_VIOLATION = 1008  # code with which a WebSocket is closed (RFC 6455)
+
+# Script of the page that a wrong token gets: it tries the token that the browser kept from an earlier visit, once.
 SCRIPT = """
 const key = "bayesmap-token";
 const given = new URLSearchParams(location.search).get("token");
@@ -108,7 +111,7 @@ class Guard:
         why = self.objection(scope)
         if why is not None and scope["type"] == "websocket":
             await receive()
-            await send({"type": "websocket.close", "code": 1008, "reason": why})
+            await send({"type": "websocket.close", "code": POLICY_VIOLATION, "reason": why})
             return
 
         async def with_headers(message: Message) -> None:
@@ -121,7 +124,7 @@ class Guard:
             await send(message)
 
         answer: ASGIApp = self.app
-        if why is WRONG_TOKEN and scope.get("path") == "/":
+        if why == WRONG_TOKEN and scope.get("path") == "/":
             answer = HTMLResponse(PAGE, status_code=403)
         elif why is not None:
             answer = PlainTextResponse(f"{why}\n", status_code=403)
@@ -158,31 +161,29 @@ def _is_address(name: str) -> bool:
 
 
 def _header(scope: Scope, name: bytes) -> str:
+    """Return a header of a request; values of repeated headers are joined by commas."""
     return b",".join(value for key, value in scope["headers"] if key == name).decode("latin-1")
 
 
-MESSAGES_PER_SECOND = 200
-BURST = 400
-FLOOD = 2000
-"""A page's rate of messages, the number that it may send at once, and the excess after which it is disconnected."""
+MESSAGES_PER_SECOND = 200  # largest rate of a page's messages
+BURST_MESSAGES = 400  # number of messages that a page may send at once
+MAX_EXCESS_MESSAGES = 2000  # number of messages over the rate after which a page is disconnected
 
-HARD_LIMIT_BYTES = 4 * MAX_BYTES
+MAX_READ_BYTES = 4 * MAX_BYTES
 """A message over `MAX_BYTES` is answered by an error. Over this limit, it is not read, and the connection is closed."""
-
-POLICY_VIOLATION = 1008
 
 
 class Rate:
-    """Rate limit for messages by a token bucket: `BURST` tokens, refilled at `MESSAGES_PER_SECOND`."""
+    """Rate limit for messages by a token bucket: `BURST_MESSAGES` tokens, refilled at `MESSAGES_PER_SECOND`."""
 
     def __init__(self) -> None:
-        self._left, self._at = float(BURST), time.monotonic()
+        self._left, self._at = float(BURST_MESSAGES), time.monotonic()
         self.over = 0
 
     def allow(self) -> bool:
         """Return whether one more message is allowed now."""
         now = time.monotonic()
-        self._left = min(BURST, self._left + (now - self._at) * MESSAGES_PER_SECOND)
+        self._left = min(BURST_MESSAGES, self._left + (now - self._at) * MESSAGES_PER_SECOND)
         self._at = now
         if self._left < 1:
             self.over += 1
@@ -230,7 +231,7 @@ async def _receive(socket: WebSocket, hub: Hub, client: int) -> None:
         if not rate.allow():
             if rate.over % MESSAGES_PER_SECOND == 1:
                 hub.refuse(client, Refused("too many messages", f"send at most {MESSAGES_PER_SECOND} a second"))
-            if rate.over > FLOOD:
+            if rate.over > MAX_EXCESS_MESSAGES:
                 await socket.close(POLICY_VIOLATION, "too many messages")
                 return
             continue
@@ -246,16 +247,16 @@ def listen(host: str, port: int) -> socket.socket:
     """
     family = socket.AF_INET6 if ":" in host else socket.AF_INET
     # With TCP given explicitly, asyncio sends small messages at once. Else each waits for the last one's receipt.
-    found = socket.socket(family, socket.SOCK_STREAM, socket.IPPROTO_TCP)
-    found.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+    listener = socket.socket(family, socket.SOCK_STREAM, socket.IPPROTO_TCP)
+    listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
     try:
-        found.bind((host, port))
-        found.listen(128)
+        listener.bind((host, port))
+        listener.listen(128)
     except (OSError, OverflowError) as error:
-        found.close()
+        listener.close()
         reason = getattr(error, "strerror", None) or str(error)
         raise BadInput(f"app: cannot listen on {host}:{port} ({reason}); choose another --port, or 0 for any") from None
-    return found
+    return listener
 
 
 class _Server(uvicorn.Server):
@@ -280,10 +281,10 @@ class _Server(uvicorn.Server):
 
 
 async def _serve(
-    hub_of: Callable[[], Hub], found: socket.socket, host: str, announce: Callable[[str], None],
+    hub_of: Callable[[], Hub], listener: socket.socket, host: str, announce: Callable[[str], None],
     server_of: Callable[[uvicorn.Config, Callable[[], None]], uvicorn.Server] = _Server,
 ) -> None:  # fmt: skip
-    port = found.getsockname()[1]
+    port = listener.getsockname()[1]
     token = secrets.token_urlsafe(24)
     hub = hub_of()
     name = f"[{host}]" if ":" in host else host
@@ -293,7 +294,7 @@ async def _serve(
         config = uvicorn.Config(
             application(hub, token, host, port),
             ws="websockets-sansio",
-            ws_max_size=HARD_LIMIT_BYTES,
+            ws_max_size=MAX_READ_BYTES,
             ws_per_message_deflate=False,  # it costs more time on loopback than it saves
             lifespan="off",
             log_level="error",
@@ -301,21 +302,21 @@ async def _serve(
             server_header=False,
             timeout_graceful_shutdown=1,
         )
-        await server_of(config, lambda: announce(f"http://{shown}:{port}/?token={token}")).serve(sockets=[found])
+        await server_of(config, lambda: announce(f"http://{shown}:{port}/?token={token}")).serve(sockets=[listener])
     finally:
         hub.stop()
 
 
 def serve(
-    document: Document, *, path: str | None = None, reading: Mapping[str, Any] | None = None, host: str = "127.0.0.1",
-    port: int = 0, on_ready: Callable[[str], None],
+    document: Document, *, path: str | None = None, log_options: Mapping[str, Any] | None = None,
+    host: str = "127.0.0.1", port: int = 0, on_ready: Callable[[str], None],
 ) -> None:  # fmt: skip
     """Serve the page until Ctrl-C.
 
     Args:
         document: the document shown first, if there is no file.
         path: a saved run or a log to show.
-        reading: options of `bayesmap.read_log` for the log.
+        log_options: options of `bayesmap.read_log` for the log.
         host: the host to listen on.
         port: the port to listen on; 0 means any free port.
         on_ready: callback that gets the page's address when the server accepts requests and has a first picture.
@@ -324,7 +325,7 @@ def serve(
         BadInput: the port is taken, or the file cannot be shown.
         KeyboardInterrupt: Ctrl-C before the server is ready.
     """
-    with contextlib.closing(listen(host, port)) as found:
+    with contextlib.closing(listen(host, port)) as listener:
         ready = False
 
         def announce(address: str) -> None:
@@ -333,7 +334,7 @@ def serve(
             on_ready(address)
 
         try:
-            asyncio.run(_serve(lambda: Hub(document, path, reading), found, host, announce))
+            asyncio.run(_serve(lambda: Hub(document, path, log_options), listener, host, announce))
         except KeyboardInterrupt:
             if not ready:
                 raise

@@ -78,7 +78,7 @@ def app(
 
             webbrowser.open(address)
 
-    serve(first, path=file, reading=reading, host=host, port=port, on_ready=ready)
+    serve(first, path=file, log_options=reading, host=host, port=port, on_ready=ready)
 
 
 def _export(call: Call[AppSettings], document: Document, file: str) -> None:
@@ -87,6 +87,6 @@ def _export(call: Call[AppSettings], document: Document, file: str) -> None:
 
     target, _ = need_ending(file, ("html",), "--export")
     page = to_figure(document).encode()
-    with write_whole(target) as partial:
-        partial.write_bytes(page)
+    with write_whole(target) as unfinished:
+        unfinished.write_bytes(page)
     call.console.result({"path": str(target), "bytes": len(page)}, [target])

@@ -416,9 +416,9 @@ def infer(call: Call[InferSettings], logs: tuple[str, ...], output: str | None, 
     if resume and force:
         raise click.UsageError("--resume goes on with a run and --force replaces it: give one of them")
     # Several logs form a fleet.
-    several = logs_of(logs)
-    if several is not None:
-        infer_fleet(call, several, Path(output or "runs"), resume=resume, force=force)
+    all_logs, several = logs_of(logs)
+    if several:
+        infer_fleet(call, all_logs, Path(output or "runs"), resume=resume, force=force)
         return
     # Check what was typed.
     log = logs[0]

@@ -18,7 +18,7 @@ from bayesmap.errors import BadInput
 
 Value = bool | int | float | str | None
 
-MOST = 10**9
+MAX_WHOLE_NUMBER = 10**9
 """The largest value of any whole number, except the seed."""
 
 
@@ -411,8 +411,8 @@ def checked(key: Key, value: Any) -> Value:
     """
     if key.kind is int and isinstance(value, float) and value.is_integer():
         value = int(value)
-    if key.kind is int and isinstance(value, int) and value > MOST and key.name != "seed":
-        raise BadInput(f"{key.flag} must be {MOST:,} at most, got {value}")
+    if key.kind is int and isinstance(value, int) and value > MAX_WHOLE_NUMBER and key.name != "seed":
+        raise BadInput(f"{key.flag} must be {MAX_WHOLE_NUMBER:,} at most, got {value}")
     try:
         result: Value = msgspec.convert(value, key.annotation)
     except msgspec.ValidationError:

@@ -288,10 +288,10 @@ MAPS = (".yaml", ".yml")
 LOG = "a log or a recording of range scans"
 
 
-def need_file(file: str, wanted: str, *, runs: bool, pipes: bool = False) -> None:
+def need_file(file: str, expected: str, *, runs: bool, pipes: bool = False) -> None:
     """Refuse a path that cannot be opened, before slow modules are imported to open it.
 
-    The message asks for ``wanted`` instead. ``runs`` and ``pipes`` tell whether a saved run and a pipe are accepted.
+    The message asks for ``expected`` instead. ``runs`` and ``pipes`` tell whether a saved run and a pipe are accepted.
 
     Raises:
         BadInput: the path does not exist, is the folder of a run, or is a pipe.
@@ -299,13 +299,15 @@ def need_file(file: str, wanted: str, *, runs: bool, pipes: bool = False) -> Non
     if not pipes and (file in ("-", "/dev/stdin") or Path(file).is_fifo()):
         raise BadInput(f"{file}: a pipe, and this needs a file that can be read again; localize --follow reads pipes")
     if not Path(file).exists():
-        raise BadInput(f"{file}: no such file; give {wanted}")
+        raise BadInput(f"{file}: no such file; give {expected}")
     if (Path(file) / "run.nc").is_file():
-        raise BadInput(f"{file}: a folder; give the run.nc in it" if runs else f"{file}: a run's folder; give {wanted}")
+        raise BadInput(
+            f"{file}: a folder; give the run.nc in it" if runs else f"{file}: a run's folder; give {expected}"
+        )
 
 
-def logs_of(typed: Sequence[str]) -> list[str] | None:
-    """Return the logs of several names, of a folder, or of a pattern; None for a single log.
+def logs_of(typed: Sequence[str]) -> tuple[list[str], bool]:
+    """Return the logs that a user names, and whether they are several: many names, a folder, or a pattern.
 
     A folder stands for the logs in it, chosen by their endings, and for the folders of ROS 2 bags in it.
 
@@ -331,7 +333,7 @@ def logs_of(typed: Sequence[str]) -> list[str] | None:
             logs += map(str, inside)
         else:
             logs.append(name)
-    return logs if several else None
+    return logs, several
 
 
 def _is_log(path: Path) -> bool:

@@ -17,7 +17,7 @@ from typing import Any
 import jax
 import jax.numpy as jnp
 
-from bayesmap.gen.errors import ChoiceMapNoValueAtAddress, ShapeMismatch, show
+from bayesmap.gen.errors import ChoiceMapNoValueAtAddress, ShapeMismatch, format_address
 from bayesmap.gen.masks import Mask, overlay, same_index, where
 from bayesmap.gen.pytree import Pytree, dataclass
 from bayesmap.gen.selection import Selection
@@ -430,7 +430,7 @@ def join(left: ChoiceMap, right: ChoiceMap) -> ChoiceMap:
         case (other, Switch(idx, chms)) if jnp.ndim(idx) == 0 and not isinstance(other, Switch):
             return Switch(idx, tuple(other.mask(idx == k) | chm for k, chm in enumerate(chms)))
         case (Choice(), Static()) | (Static(), Choice()):
-            names = show(next(path for chm in (left, right) for path in chm.paths() if path))
+            names = format_address(next(path for chm in (left, right) for path in chm.paths() if path))
             raise ValueError(f"Choice and non-Choice in Or: one has a bare value where the other has a choice {names}")
     return Or(left, right)
 

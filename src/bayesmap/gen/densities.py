@@ -163,7 +163,8 @@ def _counts(value: Any) -> Any:
     return (value >= 0) & (value == jnp.floor(value))
 
 
-def _positive(value: Any, logpdf: Any) -> Any:
+def _masked_to_nonnegative(value: Any, logpdf: Any) -> Any:
+    """Return the log density, or -inf where the value is negative."""
     return jnp.where(value >= 0, logpdf, -jnp.inf)
 
 
@@ -176,7 +177,7 @@ def _categorical_logpdf(value: Any, logits: Any) -> Any:
     return jnp.where((value >= 0) & (value < k), jnp.take_along_axis(table, index, axis=-1)[..., 0], -jnp.inf)
 
 
-def _of_positive(logpdf: Callable[..., Any]) -> Callable[..., Any]:
+def _logpdf_on_positive(logpdf: Callable[..., Any]) -> Callable[..., Any]:
     """Return a log density that is -inf, with gradient 0, for values that are not positive."""
     return lambda v, *params: jnp.where(v > 0, logpdf(jnp.where(v > 0, v, 1.0), *params), -jnp.inf)
 
@@ -225,18 +226,23 @@ gamma = _named(
 )
 inverse_gamma = _named(
     "inverse_gamma", "concentration scale", lambda key, shape, a, scale: scale / jr.gamma(key, a, shape),
-    _of_positive(_inverse_gamma_logpdf),
+    _logpdf_on_positive(_inverse_gamma_logpdf),
 )  # fmt: skip
 exponential = _named(
     "exponential", "rate", lambda key, shape, rate: jr.exponential(key, shape) / rate,
-    lambda v, rate: _positive(v, jnp.log(rate) - rate * v),
+    lambda v, rate: _masked_to_nonnegative(v, jnp.log(rate) - rate * v),
 )  # fmt: skip
 poisson = _named(
-    "poisson", "rate", _real(jr.poisson), lambda v, rate: _positive(v, xlogy(v, rate) - rate - gammaln(v + 1.0)),
+    "poisson", "rate", _real(jr.poisson),
+    lambda v, rate: _masked_to_nonnegative(v, xlogy(v, rate) - rate - gammaln(v + 1.0)),
     support=_counts,
 )  # fmt: skip
 geometric = _named(
-    "geometric", _event, _real(_failures), lambda v, p, yes, no: _positive(v, yes + xlog1py(v, -p)), support=_counts
+    "geometric",
+    _event,
+    _real(_failures),
+    lambda v, p, yes, no: _masked_to_nonnegative(v, yes + xlog1py(v, -p)),
+    support=_counts,
 )
 """The number of failures before the first success."""
 binomial = _named("binomial", _binomial, _real(jr.binomial), st.binom.logpmf, support=_counts)
@@ -248,15 +254,15 @@ gumbel = _named(
 student_t = _named("student_t", "df loc scale", lambda key, shape, df, m, s: m + s * jr.t(key, df, shape), st.t.logpdf)
 log_normal = _named(
     "log_normal", "loc scale", lambda key, shape, m, s: jnp.exp(m + s * jr.normal(key, shape)),
-    _of_positive(lambda v, m, s: st.norm.logpdf(jnp.log(v), m, s) - jnp.log(v)),
+    _logpdf_on_positive(lambda v, m, s: st.norm.logpdf(jnp.log(v), m, s) - jnp.log(v)),
 )  # fmt: skip
 half_normal = _named(
     "half_normal", "scale", lambda key, shape, s: s * jnp.abs(jr.normal(key, shape)),
-    lambda v, s: _positive(v, st.norm.logpdf(v, 0.0, s) + jnp.log(2.0)),
+    lambda v, s: _masked_to_nonnegative(v, st.norm.logpdf(v, 0.0, s) + jnp.log(2.0)),
 )  # fmt: skip
 half_cauchy = _named(
     "half_cauchy", "loc scale", lambda key, shape, m, s: m + s * jnp.abs(jr.cauchy(key, shape)),
-    lambda v, m, s: _positive(v - m, st.cauchy.logpdf(v, m, s) + jnp.log(2.0)),
+    lambda v, m, s: _masked_to_nonnegative(v - m, st.cauchy.logpdf(v, m, s) + jnp.log(2.0)),
 )  # fmt: skip
 truncated_normal = _named(
     "truncated_normal", "loc scale low high", _truncated_draw,
@@ -264,7 +270,7 @@ truncated_normal = _named(
 )  # fmt: skip
 weibull = _named(
     "weibull", "concentration scale", lambda key, shape, k, s: jr.weibull_min(key, s, k, shape),
-    _of_positive(_weibull_logpdf),
+    _logpdf_on_positive(_weibull_logpdf),
 )  # fmt: skip
 chi2 = _named("chi2", "df", lambda key, shape, df: 2.0 * jr.gamma(key, df / 2, shape), st.chi2.logpdf)
 dirichlet = _named(
@@ -388,7 +394,8 @@ class DiscreteHMMConfiguration(Pytree):
         return jnp.asarray(np.where(distance <= reach, float(sigma) ** distance, far), jnp.result_type(float))
 
 
-class _Posterior(Distribution):
+@dataclass
+class DiscreteHMMPosterior(Distribution):
     """`DiscreteHMM(config, observations)`: the hidden states given the observations, both (T,) integers."""
 
     def random_weighted(self, key: PRNGKey, *args: Any) -> tuple[Score, Array]:
@@ -440,4 +447,4 @@ def sample_states(key: PRNGKey, config: DiscreteHMMConfiguration, observations: 
     return jnp.append(earlier, last)
 
 
-DiscreteHMM = dataclass(_Posterior)()
+DiscreteHMM = DiscreteHMMPosterior()

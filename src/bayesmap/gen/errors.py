@@ -1,11 +1,11 @@
-"""Errors of wrong use. Each message names the address, the value found and the value expected."""
+"""Errors of wrong use. The messages of address errors name the address, the value found and the value expected."""
 
 from typing import Any, Self
 
 from bayesmap.errors import BadInput
 
 
-def show(address: tuple[Any, ...]) -> str:
+def format_address(address: tuple[Any, ...]) -> str:
     """Return an address as a user writes it."""
     return repr(address[0] if len(address) == 1 else address)
 
@@ -21,6 +21,7 @@ class AddressError(BadInput):
     def __init__(self, address: Any, detail: str = "") -> None:
         self.address: tuple[Any, ...] = address if isinstance(address, tuple) else (address,)
         self.detail = detail
+        # The text is made by `__str__`: `under` changes the address.
         super().__init__(self.address[0] if len(self.address) == 1 else self.address)
 
     def __reduce__(self) -> Any:
@@ -31,7 +32,7 @@ class AddressError(BadInput):
         return type(self)((*prefix, *self.address), self.detail)
 
     def __str__(self) -> str:
-        return f"{self.headline} {show(self.address)}{': ' if self.detail else ''}{self.detail}"
+        return f"{self.headline} {format_address(self.address)}{': ' if self.detail else ''}{self.detail}"
 
 
 class NotAnAddress(AddressError, TypeError):
@@ -83,7 +84,7 @@ class BadArguments(BadInput, TypeError):
 
 
 class NotSupportedEditRequest(TypeError):
-    """A generative function got a request that it has no rule for."""
+    """A generative function got a request that it has no rule for: a fault of a program, not of a user's input."""
 
     def __init__(self, gen_fn: Any, request: Any) -> None:
         super().__init__(f"{type(gen_fn).__name__} has no rule for the edit request {type(request).__name__}")

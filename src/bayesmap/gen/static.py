@@ -13,7 +13,7 @@ from bayesmap.gen.choice_map import ChoiceMap
 from bayesmap.gen.closure import Handler, as_path, running
 from bayesmap.gen.diff import Change, Diff, NoChange, UnknownChange, dataflow
 from bayesmap.gen.edits import Edited, EditRequest, EmptyRequest, Regenerate, StaticRequest, Update
-from bayesmap.gen.errors import AddressError, NotSupportedEditRequest, UnknownAddress, show
+from bayesmap.gen.errors import AddressError, NotSupportedEditRequest, UnknownAddress, format_address
 from bayesmap.gen.generative_function import GenerativeFunction, Trace, in_dtypes_of
 from bayesmap.gen.pytree import dataclass, static
 from bayesmap.gen.selection import Selection
@@ -227,12 +227,12 @@ def _check_sites(paths: Iterable[Any], sites: list[StaticAddress]) -> None:
     """Raise UnknownAddress for a path that is not the address of a site."""
     for path in paths:
         if path not in sites:
-            raise UnknownAddress(path, f"its sites are {', '.join(map(show, sites))}")
+            raise UnknownAddress(path, f"its sites are {', '.join(map(format_address, sites))}")
 
 
 def _check_known(paths: Iterable[Any], visited: list[StaticAddress]) -> None:
     """Raise UnknownAddress for a path that lies at or below no site."""
-    sites = ", ".join(map(show, visited)) or "none"
+    sites = ", ".join(map(format_address, visited)) or "none"
     for path in paths:
         if path == () and () not in visited:
             raise UnknownAddress((), f"there is a function with the sites {sites}, so a bare value cannot stand for it")

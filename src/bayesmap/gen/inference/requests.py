@@ -10,7 +10,7 @@ from jax.flatten_util import ravel_pytree
 from bayesmap.gen.choice_map import ChoiceMap
 from bayesmap.gen.diff import Diff
 from bayesmap.gen.edits import DiffAnnotate, Edited, EditRequest, EmptyRequest, Update
-from bayesmap.gen.errors import BadArguments, show
+from bayesmap.gen.errors import BadArguments, format_address
 from bayesmap.gen.generative_function import GenerativeFunction, Trace
 from bayesmap.gen.pytree import dataclass, static
 from bayesmap.gen.selection import Selection
@@ -56,7 +56,9 @@ class HMC(EditRequest):
         start = choices.filter(self.selection)
         for path in start.paths():
             if not jnp.issubdtype(jnp.result_type(start[path]), jnp.floating):
-                raise TypeError(f"HMC moves real choices; {show(path)} has dtype {jnp.result_type(start[path])}")
+                raise TypeError(
+                    f"HMC moves real choices; {format_address(path)} has dtype {jnp.result_type(start[path])}"
+                )
 
         def log_density(values: ChoiceMap) -> Any:
             return current.get_gen_fn().assess(values | choices, args)[0]

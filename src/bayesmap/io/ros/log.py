@@ -25,7 +25,8 @@ from bayesmap.io.ros.recording import POSE_TYPES, TF_TYPES, TYPES, Recording, To
 
 STEP_NS = 10**9  # largest step back of stamps that counts as messages that came late
 SLACK_NS = 10**9  # longest time between the same step of the clock on different topics
-FEWEST, SETTLED = 3, 5  # fewest messages on each side of a step, and how many of them must be in order
+MIN_MESSAGES = 3  # fewest messages on each side of a step
+ORDERED_MESSAGES = 5  # number of messages on each side of a step that must be in order
 AT_ONCE = 1 << 18  # number of beams whose poses are computed at a time
 LONGEST_GAP_S, LONGEST_GAP_M = 1.0, 1.0  # a note names interpolations over more time and more distance
 LONGEST_SWEEP_S = 60.0  # longest time of a scan; a longer time is taken for damage
@@ -58,9 +59,9 @@ class _Stream:
         return [
             int(i)
             for i in self.falls()
-            if min(i, len(self.stamps) - i) >= FEWEST
-            and _in_order(self.stamps[max(0, i - SETTLED) : i])
-            and _in_order(self.stamps[i : i + SETTLED])
+            if min(i, len(self.stamps) - i) >= MIN_MESSAGES
+            and _in_order(self.stamps[max(0, i - ORDERED_MESSAGES) : i])
+            and _in_order(self.stamps[i : i + ORDERED_MESSAGES])
         ]
 
     def fall_near(self, start_ns: int, end_ns: int) -> int | None:

@@ -20,13 +20,14 @@ from bayesmap.space.planar import bracketing_indices
 SAME = 1e-4  # largest difference of equal values, in metres and radians: 1 mm at 10 m
 APART = 0.01  # largest distance between two sources of motion, in metres and radians, that counts as noise
 MUCH_SMOOTHER = 0.15  # largest ratio of the roughness of each of two publishers' motions to that of the joint one
-FEWEST, FEWEST_BETWEEN = 5, 3  # fewest samples beside their neighbours' motion: on one topic, on several
+MIN_SAMPLES = 5  # fewest samples beside their neighbours' motion on one topic
+MIN_SAMPLES_BETWEEN = 3  # fewest such samples on several topics
 
-STEADY = ((0.08, 0.35), (0.02, 0.2), (0.0, 0.1))
+MAX_CHANGE_BY_SHARE = ((0.08, 0.35), (0.02, 0.2), (0.0, 0.1))
 """Pairs: share of samples beside the motion, and largest median relative change of their offsets. In logs of one noisy
 odometry (Intel, ACES, MIT CSAIL) a hundredth of the samples is beside, and the offsets change by half and more."""
 
-STEPS = 2.0  # largest offset along the motion, in steps, that counts as a late stamp
+MAX_LATE_STEPS = 2.0  # largest offset along the motion, in steps, that counts as a late stamp
 OFTEN_AT_ONCE = 0.1  # share of repeated stamps above which samples are also checked in the order of receipt
 
 
@@ -200,13 +201,13 @@ def two_motions(stamps_ns: NDArray[np.int64], values: NDArray[np.float64], whose
     ahead = np.where(length > 0, ahead / np.where(length > 0, length, 1.0), 0.0)
 
     def beside(at: int, before: int, after: int) -> NDArray[np.float64]:
-        """Return the offset of a sample from the line between two neighbours, less `STEPS` steps along the motion."""
+        """Return a sample's offset from the line between two neighbours, less `MAX_LATE_STEPS` along the motion."""
         i, j, k = middle + at, middle + before, middle + after
         span = seconds[k] - seconds[j]
         share = np.where(span > 0, (seconds[i] - seconds[j]) / np.where(span > 0, span, 1.0), 0.5)[:, None]
         away = poses[i] - poses[j] * (1 - share) - poses[k] * share
         along = np.sum(away * ahead, axis=1, keepdims=True)
-        return np.asarray(away - np.clip(along, -STEPS * length, STEPS * length) * ahead)
+        return np.asarray(away - np.clip(along, -MAX_LATE_STEPS * length, MAX_LATE_STEPS * length) * ahead)
 
     def off(at: int, before: int, after: int) -> NDArray[np.float64]:
         return np.asarray(np.linalg.norm(beside(at, before, after), axis=1))
@@ -220,13 +221,13 @@ def two_motions(stamps_ns: NDArray[np.int64], values: NDArray[np.float64], whose
     if several:
         beyond &= (whose[middle - 1] != whose[middle]) & (whose[middle + 1] != whose[middle])
     count = int(beyond.sum())
-    if count < (FEWEST_BETWEEN if several else FEWEST):
+    if count < (MIN_SAMPLES_BETWEEN if several else MIN_SAMPLES):
         return None
     # The offsets must change slowly.
     first, second = away[beyond][:-1], away[beyond][1:]  # offsets of successive samples
     largest = np.maximum(np.linalg.norm(first, axis=1), np.linalg.norm(second, axis=1))
     change = np.minimum(np.linalg.norm(first - second, axis=1), np.linalg.norm(first + second, axis=1)) / largest
-    allowed = STEADY[0][1] if several else next(steady for share, steady in STEADY if count >= share * len(seconds))
-    if float(np.median(change)) > allowed:
+    limits = [limit for share, limit in MAX_CHANGE_BY_SHARE if several or count >= share * len(seconds)]
+    if float(np.median(change)) > limits[0]:
         return None
     return int(middle[beyond][count // 2])

@@ -19,7 +19,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any, Final, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -40,7 +40,24 @@ ROS2_BAG_VERSION: Final = 8  # version of the metadata, the last that every rele
 
 NANOSECONDS = 1_000_000_000
 
-Message = Callable[["Typestore", int], Any]  # function that makes a message from a type store, for ROS version 1 or 2
+FRAME = "map"
+OCCUPANCY_GRID = "nav_msgs/msg/OccupancyGrid"
+GRID_MAP, GRID_MAP_INFO = "grid_map_msgs/msg/GridMap", "grid_map_msgs/msg/GridMapInfo"
+PATH, POSE = "nav_msgs/msg/Path", "geometry_msgs/msg/PoseWithCovarianceStamped"
+SCAN, TRANSFORMS = "sensor_msgs/msg/LaserScan", "tf2_msgs/msg/TFMessage"
+
+IN_PLANE = np.array([0, 1, 5])  # indices of x, y and yaw among the six components of ROS covariances
+
+# Definitions of the messages of grid_map_msgs. In ROS 1 the header belongs to the info, in ROS 2 to the map.
+_HEADER = "std_msgs/Header header\n"
+_INFO = "float64 resolution\nfloat64 length_x\nfloat64 length_y\ngeometry_msgs/Pose pose\n"
+_MAP = (
+    "grid_map_msgs/GridMapInfo info\nstring[] layers\nstring[] basic_layers\nstd_msgs/Float32MultiArray[] data\n"
+    "uint16 outer_start_index\nuint16 inner_start_index\n"
+)
+
+RosVersion = Literal[1, 2]
+Message = Callable[["Typestore", RosVersion], Any]  # function that makes a message from a type store
 
 
 @dataclass(frozen=True)
@@ -75,27 +92,28 @@ def write_channels(path: str | os.PathLike[str], channels: Sequence[Channel]) ->
     from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
     ending = container_of(path)
-    ros = 1 if ending == ".bag" else 2
-    store = get_typestore(Stores.ROS1_NOETIC if ros == 1 else Stores.ROS2_HUMBLE)
+    ros_version = 1 if ending == ".bag" else 2
+    store = get_typestore(Stores.ROS1_NOETIC if ros_version == 1 else Stores.ROS2_HUMBLE)
     # The messages of the package grid_map_msgs, which rosbags lacks.
-    info, whole = (_HEADER + _INFO, _MAP) if ros == 1 else (_INFO, _HEADER + _MAP)
-    store.register(get_types_from_msg(info, GRID_MAP_INFO) | get_types_from_msg(whole, GRID_MAP))
+    info = _HEADER + _INFO if ros_version == 1 else _INFO
+    grid_map = _MAP if ros_version == 1 else _HEADER + _MAP
+    store.register(get_types_from_msg(info, GRID_MAP_INFO) | get_types_from_msg(grid_map, GRID_MAP))
     target = Path(path)
     if ending == FOLDER:
         # The bag names its file after its folder, so it is made in a folder of the right name, and moved.
-        with write_whole_folder(target, is_ros2_bag) as partial, _scratch(partial.parent) as scratch:
+        with write_whole_folder(target, is_ros2_bag) as unfinished, _scratch(unfinished.parent) as scratch:
             made = scratch / target.name
             _write_ros2(made, ".db3", channels, store)
-            os.replace(made, partial)
+            os.replace(made, unfinished)
         return target
-    with write_whole(target) as partial, _scratch(partial.parent) as scratch:
+    with write_whole(target) as unfinished, _scratch(unfinished.parent) as scratch:
         made = scratch / target.stem
         if ending == ".bag":
             _write_ros1(made, channels, store)
-            os.replace(made, partial)
+            os.replace(made, unfinished)
         else:
             _write_ros2(made, ending, channels, store)
-            os.replace(made / (made.name + ending), partial)
+            os.replace(made / (made.name + ending), unfinished)
     return target
 
 
@@ -107,11 +125,11 @@ def is_ros2_bag(folder: Path) -> bool:
     )
 
 
-def header_of(store: Typestore, ros: int, frame: str, stamp_s: float | None) -> Any:
+def header_of(store: Typestore, ros_version: RosVersion, frame: str, stamp_s: float | None) -> Any:
     """Return a std_msgs/Header, in ROS 1 with a sequence number."""
     stamp = time_of(store, stamp_s)
     header = store.types["std_msgs/msg/Header"]
-    return header(seq=0, stamp=stamp, frame_id=frame) if ros == 1 else header(stamp=stamp, frame_id=frame)
+    return header(seq=0, stamp=stamp, frame_id=frame) if ros_version == 1 else header(stamp=stamp, frame_id=frame)
 
 
 def time_of(store: Typestore, stamp_s: float | None) -> Any:
@@ -184,22 +202,6 @@ def _quality(latched: bool) -> Qos:
     )  # fmt: skip
 
 
-FRAME = "map"
-OCCUPANCY_GRID = "nav_msgs/msg/OccupancyGrid"
-GRID_MAP, GRID_MAP_INFO = "grid_map_msgs/msg/GridMap", "grid_map_msgs/msg/GridMapInfo"
-PATH, POSE = "nav_msgs/msg/Path", "geometry_msgs/msg/PoseWithCovarianceStamped"
-SCAN, TRANSFORMS = "sensor_msgs/msg/LaserScan", "tf2_msgs/msg/TFMessage"
-
-IN_PLANE = np.array([0, 1, 5])  # indices of x, y and yaw among the six components of ROS covariances
-
-_HEADER = "std_msgs/Header header\n"
-_INFO = "float64 resolution\nfloat64 length_x\nfloat64 length_y\ngeometry_msgs/Pose pose\n"
-_MAP = (
-    "grid_map_msgs/GridMapInfo info\nstring[] layers\nstring[] basic_layers\nstd_msgs/Float32MultiArray[] data\n"
-    "uint16 outer_start_index\nuint16 inner_start_index\n"
-)
-
-
 def write_occupancy_grid(
     path: str | os.PathLike[str], occupancy: ArrayLike, grid: Grid, observed: ArrayLike | None = None, *,
     stamp_s: float | None = None, **thresholds: Any,
@@ -214,13 +216,13 @@ def write_occupancy_grid(
 
     cells = in_percent(occupancy, grid, observed, **thresholds)
 
-    def message(store: Typestore, ros: int) -> Any:
+    def message(store: Typestore, ros_version: RosVersion) -> Any:
         info = store.types["nav_msgs/msg/MapMetaData"](
             map_load_time=time_of(store, stamp_s), resolution=grid.resolution, width=grid.shape[0],
             height=grid.shape[1], origin=pose_of(store, *grid.origin),
         )  # fmt: skip
         data = np.ascontiguousarray(cells.T).ravel()
-        return store.types[OCCUPANCY_GRID](header=header_of(store, ros, FRAME, stamp_s), info=info, data=data)
+        return store.types[OCCUPANCY_GRID](header=header_of(store, ros_version, FRAME, stamp_s), info=info, data=data)
 
     return write_channels(path, [Channel("/map", OCCUPANCY_GRID, [(stamp_s, message)])])
 
@@ -239,15 +241,15 @@ def write_grid_map(
     length_m = np.array(grid.shape) * grid.resolution
     x_m, y_m = (float(v) for v in np.array(grid.origin) + length_m / 2)
 
-    def message(store: Typestore, ros: int) -> Any:
+    def message(store: Typestore, ros_version: RosVersion) -> Any:
         # In ROS 1 the header belongs to the info, in ROS 2 to the map.
-        header = {"header": header_of(store, ros, FRAME, stamp_s)}
+        header = {"header": header_of(store, ros_version, FRAME, stamp_s)}
         info = store.types[GRID_MAP_INFO](
-            **(header if ros == 1 else {}), resolution=grid.resolution, length_x=float(length_m[0]),
+            **(header if ros_version == 1 else {}), resolution=grid.resolution, length_x=float(length_m[0]),
             length_y=float(length_m[1]), pose=pose_of(store, x_m, y_m),
         )  # fmt: skip
         return store.types[GRID_MAP](
-            **({} if ros == 1 else header), info=info, layers=list(checked), basic_layers=list(checked)[:1],
+            **({} if ros_version == 1 else header), info=info, layers=list(checked), basic_layers=list(checked)[:1],
             data=[_matrix(store, values) for values in checked.values()], outer_start_index=0, inner_start_index=0,
         )  # fmt: skip
 
@@ -279,20 +281,20 @@ def write_trajectory_recording(path: str | os.PathLike[str], trajectory: Traject
     stamps = np.arange(len(trajectory), dtype=np.float64) if stamps is None else stamps
     poses, times = trajectory.poses.tolist(), [float(stamp) for stamp in stamps]
 
-    def path_message(store: Typestore, ros: int) -> Any:
+    def path_message(store: Typestore, ros_version: RosVersion) -> Any:
         stamped = store.types["geometry_msgs/msg/PoseStamped"]
         listed = [
-            stamped(header=header_of(store, ros, frame, stamp), pose=pose_of(store, *pose))
+            stamped(header=header_of(store, ros_version, frame, stamp), pose=pose_of(store, *pose))
             for pose, stamp in zip(poses, times, strict=True)
         ]
-        return store.types[PATH](header=header_of(store, ros, frame, times[-1]), poses=listed)
+        return store.types[PATH](header=header_of(store, ros_version, frame, times[-1]), poses=listed)
 
-    def pose_message(at: int, store: Typestore, ros: int) -> Any:
+    def pose_message(at: int, store: Typestore, ros_version: RosVersion) -> Any:
         covariance = np.zeros((6, 6))
         covariance[np.ix_(IN_PLANE, IN_PLANE)] = trajectory.covariances[at]  # type: ignore[index]
         posed = store.types["geometry_msgs/msg/PoseWithCovariance"]
         pose = posed(pose=pose_of(store, *poses[at]), covariance=covariance.ravel())
-        return store.types[POSE](header=header_of(store, ros, frame, times[at]), pose=pose)
+        return store.types[POSE](header=header_of(store, ros_version, frame, times[at]), pose=pose)
 
     channels = [Channel("/trajectory", PATH, [(times[-1], path_message)])]
     if trajectory.covariances is not None:
@@ -317,17 +319,20 @@ def write_scans(path: str | os.PathLike[str], scans: Scans, base: ArrayLike, mou
         raise BadInput("recording: scans need stamps and one fan of beams")
     angles, stamps = scans.angles_rad, scans.stamps_s.tolist()
 
-    def transform(stamp_s: float, frames: tuple[str, str], pose: Sequence[float], store: Typestore, ros: int) -> Any:
+    def transform(
+        stamp_s: float, frames: tuple[str, str], pose: Sequence[float], store: Typestore, ros_version: RosVersion
+    ) -> Any:
         types, posed = store.types, pose_of(store, *pose)
         shift = types["geometry_msgs/msg/Vector3"](*(float(v) for v in (*pose[:2], 0.0)))
         moved = types["geometry_msgs/msg/Transform"](translation=shift, rotation=posed.orientation)
         stamped = types["geometry_msgs/msg/TransformStamped"]
-        header = header_of(store, ros, frames[0], stamp_s)
+        header = header_of(store, ros_version, frames[0], stamp_s)
         return types[TRANSFORMS](transforms=[stamped(header=header, child_frame_id=frames[1], transform=moved)])
 
-    def scan(at: int, store: Typestore, ros: int) -> Any:
+    def scan(at: int, store: Typestore, ros_version: RosVersion) -> Any:
         return store.types[SCAN](
-            header=header_of(store, ros, "laser", stamps[at]), angle_min=float(angles[0]), angle_max=float(angles[-1]),
+            header=header_of(store, ros_version, "laser", stamps[at]), angle_min=float(angles[0]),
+            angle_max=float(angles[-1]),
             angle_increment=float(angles[1] - angles[0]), time_increment=0.0, scan_time=0.0,
             range_min=float(scans.min_range_m), range_max=float(scans.max_range_m),
             ranges=scans.ranges_m[at].astype(np.float32), intensities=np.zeros(0, np.float32),

@@ -36,7 +36,7 @@ VERTICES = (b"VERTEX_SE2", b"VERTEX2")
 KNOWN = (*VERTICES, b"EDGE_SE2", b"VERTEX_SE3:QUAT", b"VERTEX_XY", b"PARAMS_SE2OFFSET", b"VERTEX_SE2_XY")
 """Words by which a g2o file is recognised."""
 FURTHEST_M = 1e7  # larger coordinates are malformed
-LEAST = 1e-3  # least information of an edge, 1 / m^2 and 1 / rad^2: other programs need invertible matrices
+MIN_INFORMATION = 1e-3  # least information of an edge, 1 / m^2 and 1 / rad^2: other programs need invertible matrices
 SAMPLED, SEED = 300, 1  # number and seed of the random pairs of key scans that measure the effect of common errors
 
 
@@ -178,7 +178,7 @@ def slam_edges(trajectory: Approximation) -> Edges:
     gaussian, keys = trajectory.gaussian, trajectory.keys
     of_student = gaussian.dof / (gaussian.dof - 2.0)
     values, vectors = np.linalg.eigh(gaussian.curvature / (of_student * _growth(gaussian)))
-    information = (vectors * np.maximum(values, LEAST)[:, None, :]) @ np.swapaxes(vectors, 1, 2)
+    information = (vectors * np.maximum(values, MIN_INFORMATION)[:, None, :]) @ np.swapaxes(vectors, 1, 2)
     # Edges from every other scan to its nearest key scan.
     others = np.setdiff1d(np.arange(len(trajectory)), keys)
     nearest = keys[trajectory.nearest_key[others]]

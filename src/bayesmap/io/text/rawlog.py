@@ -39,11 +39,12 @@ BY_ODOMETRY = 0  # MRPT's number for a motion that was estimated by wheel odomet
 
 CLASS = re.compile(rb"(?:mrpt::\w+::)?(C(?:Observation|Action|SensoryFrame|Rawlog|Pose)\w*)")
 """Pattern of the names of classes whose objects are searched for."""
-NAME, LONGEST_NAME = re.compile(rb"(?:mrpt::\w+::)?(C\w*)"), 120
+NAME = re.compile(rb"(?:mrpt::\w+::)?(C\w*)")
+MAX_NAME_BYTES = 120
 
 
-class Unknown(Exception):
-    """An object that does not follow a known layout; the text is the reason."""
+class UnreadableObject(Exception):
+    """An object that does not follow a known layout. The text is the reason, and follows the object's name."""
 
 
 @dataclass(frozen=True)
@@ -80,7 +81,7 @@ def object_at(data: bytes, at: int, names: re.Pattern[bytes]) -> Header | None:
     start = at + (1 if flagged else 4)
     length = data[at] & 0x7F if flagged else int.from_bytes(data[at:start], "little")
     end, size = start + length, 1 if flagged else 4
-    name = names.fullmatch(data, start, end) if length <= LONGEST_NAME else None
+    name = names.fullmatch(data, start, end) if length <= MAX_NAME_BYTES else None
     if name is None or end + size > len(data):
         return None
     return Header(name[1].decode(), int.from_bytes(data[end : end + size], "little"), end + size, bool(flagged))
@@ -106,7 +107,7 @@ class Reader:
         """Return the next numbers of one kind."""
         size = np.dtype(kind).itemsize * count
         if not 0 <= size <= len(self.data) - self.at:
-            raise Unknown("is cut short")
+            raise UnreadableObject("is cut short")
         values = np.frombuffer(self.data, kind, count, self.at).astype(np.float64)
         self.at += size
         return values
@@ -115,7 +116,7 @@ class Reader:
         """Return the next text."""
         (length,) = (int(v) for v in self.take("I"))
         if length > 1000:
-            raise Unknown("is damaged")
+            raise UnreadableObject("is damaged")
         word = self.data[self.at : self.at + length]
         self.at += length
         return word.decode("utf-8", "replace")
@@ -125,21 +126,23 @@ class Reader:
         header = object_at(self.data, self.at, NAME)
         if header is None or header.name not in names:
             name = "" if header is None else header.name
-            raise Unknown(f"holds {name!r} where {' or '.join(names)} is expected")
+            raise UnreadableObject(f"holds {name!r} where {' or '.join(names)} is expected")
         self.at = header.data
         return header
 
     def end(self, header: Header) -> None:
         """Check the end mark of an object within this one."""
         if header.ended and self.number("B") != END:
-            raise Unknown(f"holds a {header.name} of version {header.version} that does not end where it should")
+            raise UnreadableObject(
+                f"holds a {header.name} of version {header.version} that does not end where it should"
+            )
 
     def matrix(self) -> Floats:
         """Return the matrix in an object of a matrix class."""
         header = self.header("CMatrix", "CMatrixF", "CMatrixD")
         rows, columns = (int(v) for v in self.take("II"))
         if rows * columns > 10_000:
-            raise Unknown("is damaged")
+            raise UnreadableObject("is damaged")
         values = self.array("<f8" if header.name == "CMatrixD" else "<f4", rows * columns)
         self.end(header)
         return values.reshape(rows, columns)
@@ -148,7 +151,7 @@ class Reader:
         """Return a CPose2D."""
         header = self.header("CPose2D")
         if header.version not in (0, 1):
-            raise Unknown(f"holds a CPose2D of version {header.version}; 0 and 1 are known")
+            raise UnreadableObject(f"holds a CPose2D of version {header.version}; 0 and 1 are known")
         pose = np.array(self.take("3d" if header.version else "3f"))
         self.end(header)
         return pose
@@ -159,7 +162,7 @@ class Reader:
         if header.version in (0, 1):
             whole = self.matrix()
             if whole.shape != (4, 4):
-                raise Unknown("is damaged")
+                raise UnreadableObject("is damaged")
             position, rotation = whole[:3, 3], whole[:3, :3]
         elif header.version == 2:
             x, y, z, w, i, j, k = self.take("7d")
@@ -173,7 +176,7 @@ class Reader:
             numbers = self.array("<f8", 12)
             position, rotation = numbers[:3], numbers[3:].reshape(3, 3)
         else:
-            raise Unknown(f"holds a CPose3D of version {header.version}; 0 to 3 are known")
+            raise UnreadableObject(f"holds a CPose3D of version {header.version}; 0 to 3 are known")
         self.end(header)
         return position, rotation
 
@@ -182,19 +185,19 @@ class Reader:
         ticks = int(self.number("Q"))
         return ticks * 1e-7 - SECONDS_1601_TO_1970 if ticks else None
 
-    def finish(self, header: Header, rests: list[list[str]]) -> None:
+    def finish(self, header: Header, trailing_fields: list[list[str]]) -> None:
         """Read the last fields, whose widths some releases changed without a new version.
 
-        ``rests`` holds the alternatives of each field as struct formats; the end mark decides between them. A format
-        that starts with T (F) starts with a byte that must be 1 (0).
+        ``trailing_fields`` holds the alternatives of each field as struct formats; the end mark decides between them.
+        A format that starts with T starts with a flag, a byte, that must be 1. With F the flag must be 0.
         """
         start = self.at
-        for forms in product(*rests):
+        for forms in product(*trailing_fields):
             self.at = start
             ended = all(map(self._passed, forms)) and self.data[self.at : self.at + 1] == bytes([END])
             if ended or not header.ended:
                 return
-        raise Unknown("does not end where it should")
+        raise UnreadableObject("does not end where it should")
 
     def _passed(self, form: str) -> bool:
         """Skip a field. Returns true if its flag has the required value."""
@@ -205,10 +208,10 @@ class Reader:
 
 
 def scan_of(reader: Reader, header: Header, motions: int) -> RawScan:
-    """Return a CObservation2DRangeScan; raise `Unknown` for another version, or damage."""
+    """Return a CObservation2DRangeScan; raise `UnreadableObject` for another version, or damage."""
     version = header.version
     if not 0 <= version <= 8:
-        raise Unknown("is not known: versions 0 to 8 are read")
+        raise UnreadableObject("is not known: versions 0 to 8 are read")
     # The fields in their order, by version.
     aperture, right_to_left, max_range = reader.take("f?f")
     position, rotation = reader.pose_in_space()
@@ -216,7 +219,7 @@ def scan_of(reader: Reader, header: Header, motions: int) -> RawScan:
         reader.matrix()  # covariance of the sensor's pose
     count = int(reader.number("I"))
     if count > MAX_BEAMS:
-        raise Unknown("is damaged")
+        raise UnreadableObject("is damaged")
     ranges = reader.array("<f4", count)
     valid = reader.array("u1", count) != 0 if version >= 1 else ranges < max_range
     stamp_s, label = None, ""
@@ -228,19 +231,19 @@ def scan_of(reader: Reader, header: Header, motions: int) -> RawScan:
         reader.number("f")  # width of a beam
     if version >= 5:
         label = reader.text()
-    rests = [["d", "f"]] if version >= 5 else []  # change of pitch
+    trailing_fields = [["d", "f"]] if version >= 5 else []  # change of pitch
     if version >= 7:
-        rests.append(["F", f"T{4 * count}x"])
+        trailing_fields.append(["F", f"T{4 * count}x"])
     if version >= 8:
-        rests.append(["f", "d"])  # duration
-    reader.finish(header, rests)
+        trailing_fields.append(["f", "d"])  # duration
+    reader.finish(header, trailing_fields)
     # Angles from the aperture, and readings with codes for the invalid ones.
     sweep = (aperture if right_to_left else -aperture) * np.linspace(-0.5, 0.5, count)
     angles = sweep if count > 1 else np.zeros(count)
     if not (math.isfinite(aperture) and np.isfinite(position).all() and np.isfinite(rotation).all()):
-        raise Unknown("has a pose or an aperture that is not finite")
+        raise UnreadableObject("has a pose or an aperture that is not finite")
     if count and (fault := fan_fault(float(angles.min()), float(angles.max()))) is not None:
-        raise Unknown(f": {fault}")
+        raise UnreadableObject(f": {fault}")
     far = np.isfinite(max_range) & (ranges >= max_range - 1e-3) | np.isposinf(ranges)
     readings = np.where(valid, ranges, np.where(far, np.inf, np.where(ranges <= 0.0, ranges, np.nan)))
     yaw = math.atan2(rotation[1, 0], rotation[0, 0])
@@ -249,10 +252,13 @@ def scan_of(reader: Reader, header: Header, motions: int) -> RawScan:
 
 
 def motion_of(reader: Reader, header: Header) -> tuple[int, Floats]:
-    """Return the estimation method of a CActionRobotMovement2D, and the motion, (3,); raise `Unknown` as `scan_of`."""
+    """Return the estimation method of a CActionRobotMovement2D, and the motion, (3,).
+
+    Raises `UnreadableObject` as `scan_of`.
+    """
     version = header.version
     if not 0 <= version <= 7:
-        raise Unknown("is not known: versions 0 to 7 are read")
+        raise UnreadableObject("is not known: versions 0 to 7 are read")
     by = int(reader.number("i")) if version >= 2 else BY_ODOMETRY
     if version < 2 or by != BY_ODOMETRY:
         reader.header("CPosePDFGaussian", "CPosePDFGaussianInf")
@@ -260,32 +266,35 @@ def motion_of(reader: Reader, header: Header) -> tuple[int, Floats]:
     motion = _checked(reader.pose_in_plane())
     # Noise models, velocities and encoder ticks; old releases have floats, later ones doubles.
     if version == 2:
-        rests = [["44x"]]
+        trailing_fields = [["44x"]]
     else:
         gaussian, thrun = (5 if version == 3 else 6), (4 if version < 5 else 6)
-        rests = [["4x"], [f"{gaussian}f", f"{gaussian}d"], ["4x"], [f"{thrun}f", f"{thrun}d"]]
+        trailing_fields = [["4x"], [f"{gaussian}f", f"{gaussian}d"], ["4x"], [f"{thrun}f", f"{thrun}d"]]
     if version < 7:
-        rests += [["?2f", "?2d"], ["?2i"]]
+        trailing_fields += [["?2f", "?2d"], ["?2i"]]
     else:
-        rests += [["F", "T3d"], ["F", "T2i"]]
-    reader.finish(header, [*rests, *([["Q"]] if version >= 6 else [])])
+        trailing_fields += [["F", "T3d"], ["F", "T2i"]]
+    reader.finish(header, [*trailing_fields, *([["Q"]] if version >= 6 else [])])
     return by, motion
 
 
 def odometry_of(reader: Reader, header: Header) -> tuple[str, float | None, Floats]:
-    """Return the label, the time and the pose, (3,), of a CObservationOdometry; raise `Unknown` as `scan_of`."""
+    """Return the label, the time and the pose, (3,), of a CObservationOdometry.
+
+    Raises `UnreadableObject` as `scan_of`.
+    """
     if not 0 <= header.version <= 2:
-        raise Unknown("is not known: versions 0 to 2 are read")
+        raise UnreadableObject("is not known: versions 0 to 2 are read")
     pose = _checked(reader.pose_in_plane())
     label, stamp_s = reader.text(), reader.stamp_s()
-    rests: dict[int, list[list[str]]] = {0: [], 1: [["?2i"], ["?2f", "?2d"]], 2: [["F", "T2i"], ["F", "T3d"]]}
-    reader.finish(header, rests[header.version])
+    trailing_fields: dict[int, list[list[str]]] = {0: [], 1: [["?2i"], ["?2f", "?2d"]], 2: [["F", "T2i"], ["F", "T3d"]]}
+    reader.finish(header, trailing_fields[header.version])
     return label, stamp_s, pose
 
 
 def _checked(pose: Floats) -> Floats:
     if not (np.isfinite(pose).all() and np.abs(pose).max() < 1e7):
-        raise Unknown(f"has the pose {pose.tolist()}")
+        raise UnreadableObject(f"has the pose {pose.tolist()}")
     return pose
 
 
@@ -382,8 +391,8 @@ class _Objects:
             account.counts[header.name] += 1
             try:
                 self._take(Reader(data, header.data), header)
-            except (Unknown, struct.error) as problem:
-                reason = str(problem) if isinstance(problem, Unknown) else "is cut short"
+            except (UnreadableObject, struct.error) as problem:
+                reason = str(problem) if isinstance(problem, UnreadableObject) else "is cut short"
                 number = account.counts[header.name]
                 told = f"{header.name} (object {number} of its class, version {header.version}) {reason}"
                 if not account.options.skip_bad_lines:
