@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from bayesmap.poses.front_end import KEY_DISTANCE_M, KEY_TURN_RAD
 from bayesmap.poses.prior import FREE, Motions, PosePrior
 from bayesmap.poses.trajectory import Trajectory, calibrated
-from bayesmap.space.planar import between, compose, wrapped
+from bayesmap.space.planar import between, compose, wrap_angle
 from bayesmap.space.scans import Scans
 
 SAMPLED = 100  # most key scans whose poses are sampled with the map: chains over more do not mix
@@ -51,7 +51,7 @@ def keys_by_odometry(log: Scans, no_odometry: bool) -> Scans:
     keys = [0]
     for scan, pose in enumerate(log.poses):
         away = pose - log.poses[keys[-1]]
-        if np.hypot(away[0], away[1]) > KEY_DISTANCE_M or abs(wrapped(away[2])) > KEY_TURN_RAD:
+        if np.hypot(away[0], away[1]) > KEY_DISTANCE_M or abs(wrap_angle(away[2])) > KEY_TURN_RAD:
             keys.append(scan)
     return log.select(np.array(keys, np.intp))
 
