@@ -127,7 +127,7 @@ BAD = {
     "no such order": ({"order": "spiral"}, "order must be one of raster, radial, random, got 'spiral'"),
     "no such order of blocks": ({"method": "block", "order": "spiral"}, "order must be one of raster, radial, random"),
     "no such start": ({"start": "there"}, "start must be one of prior, zeros, ones, propagate or a map, got 'there'"),
-    "a start of another shape": ({"start": np.zeros((2, 2))}, r"start has shape \(2, 2\), expected \(3, 3\)"),
+    "a start of another shape": ({"start": np.zeros((2, 2))}, r"start has shape \(2, 2\), expected one map, \(3, 3\)"),
     "no chains": ({"chains": 0}, "chains must be a whole number of 1 or more, got 0"),
     "half a chain": ({"chains": 1.5}, "chains must be a whole number"),
     "true chains": ({"chains": True}, "chains must be a whole number"),

@@ -12,9 +12,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 from export_twins import twins
+from figure_cases import figure_cases
 from msgspec import to_builtins
 from page_driver import document, fragment
-from sampler_cases import sampler_cases
 
 from bayesmap.app.protocol.notices import LIMITS
 from bayesmap.app.protocol.wire import frame
@@ -85,7 +85,7 @@ def test_the_logic_of_the_page(npm, tmp_path):
         "fragment": fragment(document(prior=0.375)),
         "tutorial": str(ROOT / "docs/tutorial/interactive.html"),
         "twins": twins(tmp_path),
-        "samplers": sampler_cases(),
+        "samplers": figure_cases(),
     }
     (tmp_path / "library.json").write_text(json.dumps(library))
     done = npm("test", BAYESMAP_LIBRARY=str(tmp_path / "library.json"), NO_COLOR="1")

@@ -70,7 +70,7 @@ def particles_of(document):
     }
 
 
-def sampler_cases():
+def figure_cases():
     tutorial = replace(tutorial_document(), prior=0.3)
     return {
         "chains": [
