@@ -298,3 +298,12 @@ def test_raw_odometry_is_refused_unless_it_is_to_be_taken(tmp_path, short):
     assert "--poses-as-given" in refusal
     assert not (tmp_path / "run").exists()
     succeed("infer", log, "-o", tmp_path / "run", "--poses-as-given", *short)
+
+
+def test_a_yaw_in_degrees_is_refused_for_what_it_is(tmp_path):
+    turn = np.degrees(0.12 * np.arange(200) - 3.0)
+    poses = np.column_stack([np.zeros((200, 2)), turn])
+    np.savez(tmp_path / "a.npz", poses=poses, angles_rad=[0.0, 0.1], ranges_m=np.ones((200, 2)))
+    refusal = refusal_of("infer", tmp_path / "a.npz", "-o", tmp_path / "run")
+    assert "is it in degrees? Convert it to radians" in refusal
+    assert "slam" not in refusal

@@ -74,7 +74,7 @@ def infer_log(
     if reading is None:
         reading = read(folder.console, task.log, task.settings)
     if not (task.settings.poses_as_given or folder.resuming):
-        refuse_odometry(task.log, reading.scans)
+        refuse_odometry(task.log, reading)
     # Split off the scans that are held out.
     train, heldout = reading.scans.holdout(every) if every else (reading.scans, None)
     # Load the run to resume.
@@ -147,15 +147,19 @@ def read(console: Console, log: str, settings: SamplingSettings, *, without_pose
     return reading
 
 
-def refuse_odometry(log: str, scans: Scans) -> None:
-    """Refuse scans at whose poses the same walls stand in several places.
+def refuse_odometry(log: str, reading: LogReading) -> None:
+    """Refuse a log at whose poses the same walls stand in several places.
 
     Raises:
-        BadInput: the poses look like raw odometry.
+        BadInput: the poses look like raw odometry, or their yaw like degrees.
     """
+    from bayesmap.io.logs import IN_DEGREES
     from bayesmap.poses.agreement import DOUBLED, look_like_odometry
 
-    if look_like_odometry(scans):
+    for note in reading.notes:
+        if note.endswith(IN_DEGREES):
+            raise BadInput(f"{log}: {note} Convert it to radians. To take the poses as they are, add --poses-as-given")
+    if look_like_odometry(reading.scans):
         raise BadInput(
             f"{log}: {DOUBLED}, as with raw odometry; `bayesmap slam {log}` infers the trajectory, too (bayesmap info "
             "says more). To take the poses as they are, add --poses-as-given"

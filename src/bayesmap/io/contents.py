@@ -12,7 +12,7 @@ import numpy as np
 
 from bayesmap.errors import BadInput
 from bayesmap.io.log_reading import LogReading
-from bayesmap.io.logs import RECORDINGS, describe_log, format_of
+from bayesmap.io.logs import IN_DEGREES, RECORDINGS, describe_log, format_of
 from bayesmap.io.ros.recording import POSE_TYPES, SCAN_TYPES, TF_TYPES, TYPES
 from bayesmap.poses.agreement import DOUBLED, look_like_odometry
 from bayesmap.poses.log_checks import TOO_SELDOM, scans_come_often
@@ -157,6 +157,8 @@ def _about_poses(reading: LogReading) -> list[str]:
     """Return remedies for poses at which one wall appears in several places, and for scans without poses."""
     if not reading.posed:
         return [] if scans_come_often(reading.scans) else [f"{TOO_SELDOM}: give them poses"]
+    if any(note.endswith(IN_DEGREES) for note in reading.notes):
+        return ["convert the yaw to radians first, then ask again for the command that makes a map"]
     if not look_like_odometry(reading.scans):
         return []
     return [
@@ -185,6 +187,8 @@ def scans_summary(scans: Scans) -> dict[str, Any]:
 def _command(path: str, sensor: dict[str, Any], *, scan_topic: str | None = None, skip: bool = False) -> str | None:
     """Return the command that infers a map from a sensor's scans; None if none works."""
     if sensor["no_poses"] is not None and not sensor["followable"]:
+        return None
+    if any(note.endswith(IN_DEGREES) for note in sensor["notes"]):
         return None
     words = ["bayesmap", "slam" if sensor["raw_odometry"] or sensor["no_poses"] is not None else "infer", path]
     words += ["--no-odometry"] if sensor["no_poses"] is not None else []

@@ -44,6 +44,8 @@ FORMATS = (
 LINES_LOOKED_AT = 1000  # lines of a text that may decide its format
 ENDINGS = (".log", ".log.gz", ".clf", ".clf.gz", ".bag", ".g2o", ".csv", ".npz", ".rawlog")
 SAVED_RUNS = (b"\x89HDF", b"CDF")  # first bytes of netCDF files
+IN_DEGREES = "is it in degrees?"
+"""The end of the note about a yaw that looks like degrees."""
 LARGE_TURN_RAD, LARGE_TURNS, NEAR_A_TURN_DEG = 1.0, 0.05, 20.0  # of yaw in degrees: over 5 % large, or near a turn
 GMAPPING = (b"LASER_READING", b"ODO_UPDATE", b"SM_UPDATE", b"RESAMPLE")  # of GMapping's own logs, .gfs
 RECORDINGS = ("rosbag1", "rosbag2-sqlite3", "mcap", "folder")
@@ -252,7 +254,7 @@ def _degrees(reading: LogReading) -> str | None:
     scan = int(steps.argmax()) + 1
     return (
         f"the robot's yaw turns by {steps.max():.3g} from scan {scan - 1} to scan {scan}, and reaches "
-        f"{np.abs(yaw).max():.4g}: it is taken as radians; is it in degrees?"
+        f"{np.abs(yaw).max():.4g}: it is taken as radians; {IN_DEGREES}"
     )
 
 
