@@ -27,6 +27,9 @@ if TYPE_CHECKING:
     from bayesmap.result import Run
     from bayesmap.space.grid import Grid
 
+MANY_SCANS = 500
+"""Scans from which the next command to score a trajectory takes one each 0.3 m."""
+
 SHOWN = 3
 """Number of doubtful stretches of odometry that are listed."""
 
@@ -101,7 +104,9 @@ def slam(call: Call[SlamSettings], log: str, output: str | None, resume: bool, f
     task.folder.write_document(document)
     # Report.
     told, file = document["trajectory"], str(task.folder.run)
-    commands = [["app", file], ["score", log, "--trajectory", str(folder / "trajectory.tum")], ["explore", file]]
+    thin = ["--thin-scans", "0.3"] if len(reading.scans) > MANY_SCANS else []  # score makes a map of its own
+    score = ["score", log, "--trajectory", str(folder / "trajectory.tum"), *thin]
+    commands = [["app", file], score, ["explore", file]]
     pipeline.report(call.console, document, good=_good(told), doubtful=_doubtful(told), commands=commands)
     pipeline.print_result(call, document, strict=task.settings.strict)
 
