@@ -263,5 +263,5 @@ def test_starts_of_every_kind_have_a_map_for_each_chain():
         np.testing.assert_array_equal(start_maps(problem, start, [2, 0], 1), expected)
     with pytest.raises(bm.BadInput, match=r"shape \(2, 2\), expected one map, \(4, 4\)"):
         start_maps(problem, np.zeros((2, 2)), [0], 1)
-    with pytest.raises(bm.BadInput, match="a map for each chain"):
+    with pytest.raises(bm.BadInput, match="at least 4 maps"):
         start_maps(problem, prior, [3, 0], 1)

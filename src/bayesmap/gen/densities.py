@@ -8,7 +8,7 @@ import dataclasses
 import importlib
 import inspect
 import warnings
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import jax
@@ -336,23 +336,32 @@ class _ByName:
         return getattr(library, self.class_name)(*args, **kwargs)
 
 
-def _tfp(*class_names: str) -> Iterator[TfpDistribution]:
-    return (TfpDistribution(_ByName(name), name) for name in class_names)
+def _tfp(class_name: str) -> TfpDistribution:
+    return TfpDistribution(_ByName(class_name), class_name)
 
 
-beta_binomial, beta_quotient, chi, dirichlet_multinomial = _tfp(
-    "BetaBinomial", "BetaQuotient", "Chi", "DirichletMultinomial"
-)
-double_sided_maxwell, exp_gamma, exp_inverse_gamma, half_student_t = _tfp(
-    "DoublesidedMaxwell", "ExpGamma", "ExpInverseGamma", "HalfStudentT"
-)
-inverse_gaussian, kumaraswamy, lambert_w_normal, logit_normal, moyal, multinomial = _tfp(
-    "InverseGaussian", "Kumaraswamy", "LambertWNormal", "LogitNormal", "Moyal", "Multinomial"
-)
-negative_binomial, non_central_chi2, power_spherical, skellam, truncated_cauchy = _tfp(
-    "NegativeBinomial", "NoncentralChi2", "PowerSpherical", "Skellam", "TruncatedCauchy"
-)
-von_mises, von_mises_fisher, zipf = _tfp("VonMises", "VonMisesFisher", "Zipf")
+beta_binomial = _tfp("BetaBinomial")
+beta_quotient = _tfp("BetaQuotient")
+chi = _tfp("Chi")
+dirichlet_multinomial = _tfp("DirichletMultinomial")
+double_sided_maxwell = _tfp("DoublesidedMaxwell")
+exp_gamma = _tfp("ExpGamma")
+exp_inverse_gamma = _tfp("ExpInverseGamma")
+half_student_t = _tfp("HalfStudentT")
+inverse_gaussian = _tfp("InverseGaussian")
+kumaraswamy = _tfp("Kumaraswamy")
+lambert_w_normal = _tfp("LambertWNormal")
+logit_normal = _tfp("LogitNormal")
+moyal = _tfp("Moyal")
+multinomial = _tfp("Multinomial")
+negative_binomial = _tfp("NegativeBinomial")
+non_central_chi2 = _tfp("NoncentralChi2")
+power_spherical = _tfp("PowerSpherical")
+skellam = _tfp("Skellam")
+truncated_cauchy = _tfp("TruncatedCauchy")
+von_mises = _tfp("VonMises")
+von_mises_fisher = _tfp("VonMisesFisher")
+zipf = _tfp("Zipf")
 
 
 # The posterior of a discrete hidden Markov model --------------------------------------------------------
