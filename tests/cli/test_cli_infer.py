@@ -301,9 +301,11 @@ def test_raw_odometry_is_refused_unless_it_is_to_be_taken(tmp_path, short):
 
 
 def test_a_yaw_in_degrees_is_refused_for_what_it_is(tmp_path):
-    turn = np.degrees(0.12 * np.arange(200) - 3.0)
-    poses = np.column_stack([np.zeros((200, 2)), turn])
-    np.savez(tmp_path / "a.npz", poses=poses, angles_rad=[0.0, 0.1], ranges_m=np.ones((200, 2)))
+    succeed("simulate", "--world building --size 12x8 --scans 60 --angles 90 --max-range 12", "-o", tmp_path / "a.log")
+    scans = read_log(tmp_path / "a.log")
+    poses = scans.poses * [1.0, 1.0, 180.0 / np.pi]
+    np.savez(tmp_path / "a.npz", poses=poses, angles_rad=scans.angles_rad, ranges_m=scans.ranges_m)
     refusal = refusal_of("infer", tmp_path / "a.npz", "-o", tmp_path / "run")
     assert "is it in degrees? Convert it to radians" in refusal
     assert "slam" not in refusal
+    assert "convert it to radians first" in succeed("info", tmp_path / "a.npz").stdout

@@ -7,7 +7,6 @@ import pytest
 import recordings as r
 
 import bayesmap as bm
-from bayesmap.io.contents import contents_of
 from bayesmap.io.live import live_scans
 from bayesmap.io.logs import describe_log
 from bayesmap.io.text.carmen import write_carmen
@@ -184,6 +183,3 @@ def test_a_yaw_in_degrees_is_noted_and_one_in_radians_is_not(tmp_path):
         np.savez(tmp_path / "a.npz", poses=poses, angles_rad=[0.0, 0.1], ranges_m=np.ones((200, 2)))
         notes = describe_log(tmp_path / "a.npz").notes
         assert [("is it in degrees?" in note) for note in notes] == [True] * (unit != 1.0)
-        contents = contents_of(tmp_path / "a.npz")  # no command makes a map of degrees
-        assert (contents.suggestion is None) == (unit != 1.0)
-        assert any("convert the yaw to radians" in note for note in contents.notes) == (unit != 1.0)

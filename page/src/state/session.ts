@@ -201,6 +201,7 @@ export class Session {
   }
 
   private onstatus(connection: Connection) {
+    const wasConnected = this.connection.connected;
     this.connection = connection;
     if (connection.connected) {
       // on a reconnection the document goes back to the server, with what was edited meanwhile
@@ -213,7 +214,7 @@ export class Session {
       else if (this.notice) this.say(this.notice.text, this.notice.level);
       this.everConnected = true;
     } else if (this.everConnected) {
-      this.say("Connection lost", "error");
+      if (wasConnected) this.say("Connection lost", "error"); // each try to connect again comes here, too
       keep(this.portableDocument());
     }
     this.changed();

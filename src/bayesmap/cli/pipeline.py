@@ -156,10 +156,10 @@ def refuse_odometry(log: str, reading: LogReading) -> None:
     from bayesmap.io.logs import IN_DEGREES
     from bayesmap.poses.agreement import DOUBLED, look_like_odometry
 
-    for note in reading.notes:
-        if note.endswith(IN_DEGREES):
-            raise BadInput(f"{log}: {note} Convert it to radians. To take the poses as they are, add --poses-as-given")
     if look_like_odometry(reading.scans):
+        for note in reading.notes:
+            if note.endswith(IN_DEGREES):
+                raise BadInput(f"{log}: {note} Convert it to radians; --poses-as-given takes the poses as they are")
         raise BadInput(
             f"{log}: {DOUBLED}, as with raw odometry; `bayesmap slam {log}` infers the trajectory, too (bayesmap info "
             "says more). To take the poses as they are, add --poses-as-given"

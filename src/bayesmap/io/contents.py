@@ -157,14 +157,14 @@ def _about_poses(reading: LogReading) -> list[str]:
     """Return remedies for poses at which one wall appears in several places, and for scans without poses."""
     if not reading.posed:
         return [] if scans_come_often(reading.scans) else [f"{TOO_SELDOM}: give them poses"]
-    if any(note.endswith(IN_DEGREES) for note in reading.notes):
-        return ["convert the yaw to radians first, then ask again for the command that makes a map"]
     if not look_like_odometry(reading.scans):
         return []
+    degrees = any(note.endswith(IN_DEGREES) for note in reading.notes)
     return [
+        *(["if the yaw is in degrees, convert it to radians first"] if degrees else []),
         f"{DOUBLED}. If the poses are raw odometry, bayesmap slam finds better ones; if they should be right, look at "
         "the notes, at where the laser sits (--laser X,Y,DEGREES; if it is upside down, its beams sweep the other "
-        "way), and, in a recording, at --pose-topic and --fixed-frame"
+        "way), and, in a recording, at --pose-topic and --fixed-frame",
     ]
 
 
@@ -187,8 +187,6 @@ def scans_summary(scans: Scans) -> dict[str, Any]:
 def _command(path: str, sensor: dict[str, Any], *, scan_topic: str | None = None, skip: bool = False) -> str | None:
     """Return the command that infers a map from a sensor's scans; None if none works."""
     if sensor["no_poses"] is not None and not sensor["followable"]:
-        return None
-    if any(note.endswith(IN_DEGREES) for note in sensor["notes"]):
         return None
     words = ["bayesmap", "slam" if sensor["raw_odometry"] or sensor["no_poses"] is not None else "infer", path]
     words += ["--no-odometry"] if sensor["no_poses"] is not None else []

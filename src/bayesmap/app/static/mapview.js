@@ -941,28 +941,28 @@ wallsVersion&&(this.packed={version:this.wallsVersion,text:xn(qn(this.walls))}),
 effectiveDocument();return e&&(e.source.kind==="simulation"?e:{...e,walls:""})}take(){return!this.next||!this.document?!1:(this.shown=this.next,this.next=null,this.
 flicker.take(this.shown),!0)}painted(){this.counts.paints++;let{generation:e}=this.shown??this;this.latency.painted(e),e>this.reported&&!this.recorded&&this.transport.
 send({type:"painted",generation:e}),this.reported=e;for(let n of[this.decisions,this.ghost,this.evidence])n.ask()}get quantity(){return this.shown?.quantity??{kind:"\
-binary",mean:"P(wall)",value:"wall",interval:!1}}remaining_s(){return this.shown&&this.sampling?this.progress.remaining_s(this.shown):null}onstatus(e){if(this.connection=
-e,e.connected){let n=this.everConnected?this.portableDocument():this.adopt;this.pending=[],this.latency.forget(),this.bring(n),this.view.layer!=="mean"&&this.document&&
-this.act({type:"view",...this.view}),this.everConnected?this.say("Connected again"):this.notice&&this.say(this.notice.text,this.notice.level),this.everConnected=
-!0}else this.everConnected&&(this.say("Connection lost","error"),Hr(this.portableDocument()));this.changed()}receive(e,n){switch(e.type){case"welcome":this.generation=
-this.reported=-1,this.limits=e.limits,this.recorded=e.recorded,this.figure=e.figure,this.lacks=e.lacks,this.latency.forget(),this.next=null;break;case"state":this.
-receiveState(e);break;case"scan":e.generation>=this.generation&&this.receiveScan(e,n);break;case"overlay":this.overlay=n;break;case"field":this.receiveField(e,n);
-break;case"stage":this.lastStage=e;break;case"where":this.where.receive(e,n);break;case"cell":this.evidence.receive(e,n);break;case"path":case"views":this.decisions.
-receive(e,n);break;case"ghost":this.ghost.receive(e,n);break;case"beam":this.reading.receive(e);break;case"undecided":e.question==="ghost"?this.ghost.receive(e,
-n):e.question==="beam"?this.reading.receive(e):this.decisions.receive(e,n);break;case"status":this.status.say(e.text,e.level,this.acted);break;case"error":this.
-receiveRefusal(e);break;case"worker":this.worker=e.state,this.status.worker(e.state);break;case"download":this.ondownload(e.name,e.mime,n.data),this.status.say(
-`Saved ${e.name}${e.note&&`, ${e.note}`}`,"info",this.acted);break}this.changed()}receiveScan({ids:e,index:n},{pose:s,angles:o,ranges:r,exact:i,hit:a}){this.scan?.
-index!==n&&this.reading.forget(),this.scan={ids:e,index:n,pose:s,angles:o,ranges:r,exact:i,hit:a}}receiveRefusal({seq:e,text:n,remedy:s}){let o=e!==null&&e===this.
-broughtAt;o&&(this.broughtAt=null,this.act({type:"hello"}));let r=[n,s].filter(Boolean).join("; ");this.status.say(o?`The map that was brought along cannot be s\
-hown: ${r}`:r,"error",this.acted),this.pending=this.pending.filter(i=>i.seq!==e),e!==null&&this.latency.refused(e),this.rebuild()}receiveState(e){this.status.confirmed(
-e.seq),this.state=e,e.document.source.kind==="simulation"&&(this.overlay=null,nl()),this.generation=Math.max(this.generation,e.generation),this.latency.confirmed(
-e.generation,e.seq),this.pending=this.pending.filter(n=>n.seq>e.seq),this.rebuild()}receiveField(e,n){if(e.generation<this.generation){this.counts.stale++;return}
-this.generation=e.generation;let s=n.p,{trace:o,traced:r,weights:i}=n,a=this.next??this.shown,l=n.reached,c=a&&a.p.length===s.length&&a.reached.every((h,u)=>h===
-l[u])?a.reached:l;this.next={...e,p:s,trace:o,traced:r,weights:i,reached:c},this.progress.hear(this.next)}rebuild(){if(!this.state)return;let{document:e}=this.state,
-[n,s]=e.grid.shape,o=this.confirmedWalls;if((e.walls!==o.text||o.walls.length!==n*s)&&(this.confirmedWalls={text:e.walls,walls:Ht(dt(e.walls),n*s)}),this.document=
-{...e,sensors:e.sensors.map(r=>({...r}))},(this.confirmedWalls!==o||this.wallsAhead)&&(this.walls=this.confirmedWalls.walls.slice(),this.wallsVersion++,this.wallsAhead=
-!1),!this.pending.some(r=>r.type==="view")){let{layer:r,chain:i,draw:a}=this.state.view;this.view={layer:r,chain:i??0,draw:a}}for(let r of this.pending)this.foresee(
-r)}foresee(e){!this.document||!this.state||(Mh(this,e),e.type==="walls"&&(this.wallsVersion++,this.wallsAhead=!0))}};var Ah='.uplot, .uplot *, .uplot *::before, .uplot *::after {box-sizing: border-box;}.uplot {font-family: system-ui, -apple-system, "Segoe UI", Roboto, "Helveti\
+binary",mean:"P(wall)",value:"wall",interval:!1}}remaining_s(){return this.shown&&this.sampling?this.progress.remaining_s(this.shown):null}onstatus(e){let n=this.
+connection.connected;if(this.connection=e,e.connected){let s=this.everConnected?this.portableDocument():this.adopt;this.pending=[],this.latency.forget(),this.bring(
+s),this.view.layer!=="mean"&&this.document&&this.act({type:"view",...this.view}),this.everConnected?this.say("Connected again"):this.notice&&this.say(this.notice.
+text,this.notice.level),this.everConnected=!0}else this.everConnected&&(n&&this.say("Connection lost","error"),Hr(this.portableDocument()));this.changed()}receive(e,n){
+switch(e.type){case"welcome":this.generation=this.reported=-1,this.limits=e.limits,this.recorded=e.recorded,this.figure=e.figure,this.lacks=e.lacks,this.latency.
+forget(),this.next=null;break;case"state":this.receiveState(e);break;case"scan":e.generation>=this.generation&&this.receiveScan(e,n);break;case"overlay":this.overlay=
+n;break;case"field":this.receiveField(e,n);break;case"stage":this.lastStage=e;break;case"where":this.where.receive(e,n);break;case"cell":this.evidence.receive(e,
+n);break;case"path":case"views":this.decisions.receive(e,n);break;case"ghost":this.ghost.receive(e,n);break;case"beam":this.reading.receive(e);break;case"undeci\
+ded":e.question==="ghost"?this.ghost.receive(e,n):e.question==="beam"?this.reading.receive(e):this.decisions.receive(e,n);break;case"status":this.status.say(e.text,
+e.level,this.acted);break;case"error":this.receiveRefusal(e);break;case"worker":this.worker=e.state,this.status.worker(e.state);break;case"download":this.ondownload(
+e.name,e.mime,n.data),this.status.say(`Saved ${e.name}${e.note&&`, ${e.note}`}`,"info",this.acted);break}this.changed()}receiveScan({ids:e,index:n},{pose:s,angles:o,
+ranges:r,exact:i,hit:a}){this.scan?.index!==n&&this.reading.forget(),this.scan={ids:e,index:n,pose:s,angles:o,ranges:r,exact:i,hit:a}}receiveRefusal({seq:e,text:n,
+remedy:s}){let o=e!==null&&e===this.broughtAt;o&&(this.broughtAt=null,this.act({type:"hello"}));let r=[n,s].filter(Boolean).join("; ");this.status.say(o?`The ma\
+p that was brought along cannot be shown: ${r}`:r,"error",this.acted),this.pending=this.pending.filter(i=>i.seq!==e),e!==null&&this.latency.refused(e),this.rebuild()}receiveState(e){
+this.status.confirmed(e.seq),this.state=e,e.document.source.kind==="simulation"&&(this.overlay=null,nl()),this.generation=Math.max(this.generation,e.generation),
+this.latency.confirmed(e.generation,e.seq),this.pending=this.pending.filter(n=>n.seq>e.seq),this.rebuild()}receiveField(e,n){if(e.generation<this.generation){this.
+counts.stale++;return}this.generation=e.generation;let s=n.p,{trace:o,traced:r,weights:i}=n,a=this.next??this.shown,l=n.reached,c=a&&a.p.length===s.length&&a.reached.
+every((h,u)=>h===l[u])?a.reached:l;this.next={...e,p:s,trace:o,traced:r,weights:i,reached:c},this.progress.hear(this.next)}rebuild(){if(!this.state)return;let{document:e}=this.
+state,[n,s]=e.grid.shape,o=this.confirmedWalls;if((e.walls!==o.text||o.walls.length!==n*s)&&(this.confirmedWalls={text:e.walls,walls:Ht(dt(e.walls),n*s)}),this.
+document={...e,sensors:e.sensors.map(r=>({...r}))},(this.confirmedWalls!==o||this.wallsAhead)&&(this.walls=this.confirmedWalls.walls.slice(),this.wallsVersion++,
+this.wallsAhead=!1),!this.pending.some(r=>r.type==="view")){let{layer:r,chain:i,draw:a}=this.state.view;this.view={layer:r,chain:i??0,draw:a}}for(let r of this.
+pending)this.foresee(r)}foresee(e){!this.document||!this.state||(Mh(this,e),e.type==="walls"&&(this.wallsVersion++,this.wallsAhead=!0))}};var Ah='.uplot, .uplot *, .uplot *::before, .uplot *::after {box-sizing: border-box;}.uplot {font-family: system-ui, -apple-system, "Segoe UI", Roboto, "Helveti\
 ca Neue", Arial, "Noto Sans", sans-serif, "Apple Color Emoji", "Segoe UI Emoji", "Segoe UI Symbol", "Noto Color Emoji";line-height: 1.5;width: min-content;}.u-t\
 itle {text-align: center;font-size: 18px;font-weight: bold;}.u-wrap {position: relative;user-select: none;}.u-over, .u-under {position: absolute;}.u-under {over\
 flow: hidden;}.uplot canvas {display: block;position: relative;width: 100%;height: 100%;}.u-axis {position: absolute;}.u-legend {font-size: 14px;margin: auto;te\
