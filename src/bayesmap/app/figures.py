@@ -46,7 +46,7 @@ class Figure(Struct, frozen=True, kw_only=True):
     judging: Judging = Judging()
 
 
-PAGE = """<!doctype html>
+HEAD = """<!doctype html>
 <html lang="en">
 <head>
 <meta charset="utf-8">
@@ -54,7 +54,12 @@ PAGE = """<!doctype html>
 <meta name="color-scheme" content="light dark">
 <title>bayesmap</title>
 <link rel="icon" href="data:,">
-</head>
+"""
+"""The beginning of every page, up to what a page adds to its head."""
+
+PAGE = (
+    HEAD
+    + """</head>
 <body>
 <div data-bayesmap></div>
 <noscript>This page needs JavaScript.</noscript>
@@ -70,6 +75,7 @@ await import(URL.createObjectURL(new Blob([text], {{ type: "text/javascript" }})
 </body>
 </html>
 """
+)
 
 
 def static(name: str) -> str:

@@ -27,7 +27,7 @@ from starlette.routing import Route, WebSocketRoute
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
-from bayesmap.app.figures import static
+from bayesmap.app.figures import HEAD, static
 from bayesmap.app.hub import Hub, Outbox
 from bayesmap.app.protocol.document import Document, Refused
 from bayesmap.app.protocol.wire import MAX_BYTES
@@ -60,14 +60,7 @@ if (kept && kept !== given) location.replace("/?token=" + encodeURIComponent(kep
 if (location.hash) document.getElementById("link").hidden = false;
 """
 
-PAGE = f"""<!doctype html>
-<html lang="en">
-<head>
-<meta charset="utf-8">
-<meta name="viewport" content="width=device-width, initial-scale=1">
-<meta name="color-scheme" content="light dark">
-<title>bayesmap</title>
-<link rel="icon" href="data:,">
+PAGE = f"""{HEAD}\
 <style>body {{ max-width: 36em; margin: 12vh auto; padding: 0 1.5em; font: 16px/1.5 system-ui, sans-serif; }}</style>
 </head>
 <body>
