@@ -25,11 +25,8 @@ TRACED = 300
 FIRST_SWEEPS = 100
 """The number of evenly chosen points of the trace in a field, and the number of first sweeps that are all included."""
 
-LEAST_REFLECTIVITY = 0.1
-"""Surfaces with a smaller reflectivity are not drawn."""
-
-WEIGHT_BINS = 24
-"""The number of bins of a histogram of log weights."""
+LEAST_REFLECTIVITY = 0.1  # surfaces with a smaller reflectivity are not drawn
+WEIGHT_BINS = 24  # the number of bins of a histogram of log weights
 
 OnReport = Callable[[Report], None]
 

@@ -16,8 +16,7 @@ from bayesmap.app.session import Effects, Session, ToPage, refusal
 from bayesmap.app.worker import Supervisor
 from bayesmap.errors import BadInput
 
-REPLACED = (Field, Scan, State)
-"""The types of messages of which a slow page needs only the newest."""
+REPLACED = (Field, Scan, State)  # the types of messages of which a slow page needs only the newest
 
 
 class Outbox:

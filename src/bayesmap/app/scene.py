@@ -25,8 +25,7 @@ from bayesmap.sim.forward import ranges
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans, fan
 
-BLUR_SIGMAS = 5.0
-"""A reading within this many standard deviations of the longest range counts as no return."""
+BLUR_SIGMAS = 5.0  # a reading within this many standard deviations of the longest range counts as no return
 
 NEAR_SIGMAS = 13.0
 """A preview follows each beam this far past its reading. Farther stops are less than 1e-30 as likely as one at the

@@ -56,8 +56,7 @@ def as_halves(values: NDArray[np.floating]) -> NDArray[np.float16]:
     return halves
 
 
-OF_CELLS = ("cell", "surface_cell")
-"""Dimensions that index a subset of the grid's cells."""
+OF_CELLS = ("cell", "surface_cell")  # dimensions that index a subset of the grid's cells
 
 
 @dataclass(frozen=True)

@@ -283,8 +283,7 @@ class Ising(BinaryWalls):
             return np.asarray(np.log(p) - np.log1p(-p))
 
 
-LARGEST_FITTED = 4.0
-"""Largest coupling of a fit: for a map of alike cells alone, the likeliest coupling is infinite."""
+LARGEST_FITTED = 4.0  # largest coupling of a fit: for a map of alike cells alone, the likeliest coupling is infinite
 
 
 def fit_coupling(walls: ArrayLike, p_wall: ArrayLike) -> float:

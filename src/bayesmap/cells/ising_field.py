@@ -24,8 +24,7 @@ from bayesmap.cells.arrays import ArraySpec, Draws, count_walls, unpack
 from bayesmap.cells.kind import Floats
 from bayesmap.errors import BadInput
 
-MOST_SWEEPS = 4096
-"""Most sweeps from the past: if the maps have not met by then, exact draws take too long."""
+MOST_SWEEPS = 4096  # most sweeps from the past: if the maps have not met by then, exact draws take too long
 
 
 def perfect_draws(rng: np.random.Generator, logit: Floats, coupling: float, count: int) -> NDArray[np.bool_]:

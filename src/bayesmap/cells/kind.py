@@ -23,8 +23,7 @@ Floats = NDArray[np.float64]
 Cells = Mapping[str, NDArray[Any]]
 """One map: the arrays of a kind by name, each (nx, ny)."""
 
-BATCH_BYTES = 12 << 20
-"""Most bytes of one batch of stops."""
+BATCH_BYTES = 12 << 20  # most bytes of one batch of stops
 
 
 @dataclass(frozen=True)

@@ -112,8 +112,7 @@ def load_kernels(kernel: Any, device: str) -> None:
     kernel.module.load(wp.get_device(device), 1 if device == "cpu" else None)
 
 
-FEW_BEAMS = 1_000
-"""Fewer beams than this are traced before a second thread has started, which takes 0.2 ms."""
+FEW_BEAMS = 1_000  # fewer beams than this are traced before a second thread has started, which takes 0.2 ms
 
 
 def available_cores() -> int:

@@ -18,8 +18,7 @@ from bayesmap.space.scans import Scans
 
 wp.set_module_options({"enable_backward": False})
 
-BEAMS_AT_ONCE = 1 << 16
-"""Beams traced between two reports of progress."""
+BEAMS_AT_ONCE = 1 << 16  # beams traced between two reports of progress
 
 LEAST_COSINE = wp.constant(wp.float64(PARALLEL))
 

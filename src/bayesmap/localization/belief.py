@@ -15,17 +15,13 @@ from bayesmap.space.trajectory import ellipses
 
 Floats = NDArray[np.float64]
 
-NEAR_M, NEAR_RAD = 0.2, np.radians(7.0)
-"""Chains of poses with steps shorter than this belong to one mode."""
+NEAR_M, NEAR_RAD = 0.2, np.radians(7.0)  # chains of poses with steps shorter than this belong to one mode
 
 FINEST_SD = np.array([0.002, 0.002, np.radians(0.05)])
 """Least standard deviations of a mode: the number of poses tells no less."""
 
-LINKING = 0.995
-"""Share of the weight whose poses link others into modes."""
-
-LEAST_MODE = 1e-4
-"""Least probability of a mode that is listed."""
+LINKING = 0.995  # share of the weight whose poses link others into modes
+LEAST_MODE = 1e-4  # least probability of a mode that is listed
 
 
 @dataclass(frozen=True, eq=False)

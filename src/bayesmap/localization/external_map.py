@@ -59,8 +59,7 @@ MOST_SCANS, APART_M = 150, 0.3
 LIKELY, FEWEST_SCANS = 0.95, 20
 """Least probability of a scan's likeliest place with which the scan is used in the fit, and fewest scans of a fit."""
 
-USUAL_WAY_M = 3.0
-"""Length of beam for which the share of beams that meet something else is reported, metres."""
+USUAL_WAY_M = 3.0  # length of beam for which the share of beams that meet something else is reported, metres
 
 BLOCK, BEAMS = 5, 60
 """Successive scans for the fit, followed by as many scans that judge it, and beams per scan in the fit."""

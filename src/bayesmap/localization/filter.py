@@ -47,8 +47,7 @@ affect how many rounds the exact law needs, not its result."""
 MAX_APPROACHES = 3
 """Most rounds in which places are moved. Several places, which come from a search, get one round less."""
 
-END_POWER = 0.6
-"""Power of the weights above which rounds end."""
+END_POWER = 0.6  # power of the weights above which rounds end
 
 DRAWS_PER_ROUND = 240
 MIN_DRAWS_PER_PLACE = 24
@@ -83,25 +82,20 @@ def approached(
 CANDIDATES = 24
 """Most places of a search. With more, wrong places came before the right one, because the search's score matters."""
 
-ROUNDS = 5
-"""Most rounds in which places are adapted, until weights are hardly tempered."""
+ROUNDS = 5  # most rounds in which places are adapted, until weights are hardly tempered
 
 SELECTION_DRAWS = 8
 ROUND_DRAWS = 24
 LAST_ROUND_DRAWS = 32
 """Draws per place: to select places, for the likeliest place in a round, and for it in the last round."""
 
-THINNED = 40
-"""Approximate number of beams of a scan that are used before the last round."""
+THINNED = 40  # approximate number of beams of a scan that are used before the last round
 
 SEARCHED_SD = np.array([0.06, 0.06, np.radians(1.2)])
 """Standard deviations of a searched pose from the best one near it."""
 
-UNIFORM_DRAWS = 3000
-"""Poses that are drawn over the whole map if a search finds nothing."""
-
-LOST_AT_FIRST = 0.02
-"""Probability that the robot is not on the map, or the map outdated, before the first scan."""
+UNIFORM_DRAWS = 3000  # poses that are drawn over the whole map if a search finds nothing
+LOST_AT_FIRST = 0.02  # probability that the robot is not on the map, or the map outdated, before the first scan
 
 GETS_LOST, IS_FOUND = 1e-3, 0.05
 """Probability per scan that a robot on the map gets lost, and that a lost robot is back on the map."""
@@ -343,11 +337,8 @@ def _mixture_log_density(components: PoseMixture, poses: Floats) -> Floats:
 SHARP_CANDIDATES, KEPT = 32, 16
 """Most places of the search, and most places that are weighted, in a map that is known exactly."""
 
-RISES, SETTLES = 6, 4
-"""Rounds in which the power rises, and most rounds with the final power."""
-
-SHARP_EACH, SHARP_LAST = 24, 192
-"""Draws per place: in a round, and in the last round."""
+RISES, SETTLES = 6, 4  # rounds in which the power rises, and most rounds with the final power
+SHARP_EACH, SHARP_LAST = 24, 192  # draws per place: in a round, and in the last round
 
 ONE_PLACE, ALIKE = 1.0, np.array([0.02, 0.02, np.radians(1.0)])
 """Places count as one if they are nearer than the first, in standard deviations, or than the second in x, y and yaw."""

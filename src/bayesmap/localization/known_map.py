@@ -24,11 +24,8 @@ if TYPE_CHECKING:
 
 Floats = NDArray[np.float64]
 
-DRAWS = 4
-"""Draws of the map over which a scan's likelihood is averaged."""
-
-PASSABLE = 0.3
-"""Observed cells with a lower stop probability count as free: a robot may be there."""
+DRAWS = 4  # draws of the map over which a scan's likelihood is averaged
+PASSABLE = 0.3  # observed cells with a lower stop probability count as free: a robot may be there
 
 INDEPENDENT_BEAMS = 5.4
 """Number of independent readings that a scan is worth. The log-likelihood is multiplied by this number over the number
@@ -41,8 +38,7 @@ BEAMS_BETWEEN_PLACES = 2.7
 the map lacks something there or the search missed a place. The value was set on four buildings, so that probabilities
 of places are calibrated (docs/lab/localization.md)."""
 
-BINS = 60
-"""Number of range bins in the law of readings anywhere."""
+BINS = 60  # number of range bins in the law of readings anywhere
 
 
 @dataclass(frozen=True)

@@ -26,17 +26,10 @@ if TYPE_CHECKING:
 
 Floats = NDArray[np.float64]
 
-MIN_SURE_PROBABILITY = 0.99
-"""Probability of the likeliest mode below which every scan is searched for in the whole map."""
-
-MIN_MAP_PROBABILITY = 1e-3
-"""Least probability of the map's area under a prior."""
-
-TURN_M = 0.5
-"""Length of path with as much new evidence as a turn by one radian, metres."""
-
-MIN_NEW_SHARE = 0.02
-"""Least share of a scan's evidence that counts."""
+MIN_SURE_PROBABILITY = 0.99  # probability of the likeliest mode below which every scan is searched for in the whole map
+MIN_MAP_PROBABILITY = 1e-3  # least probability of the map's area under a prior
+TURN_M = 0.5  # length of path with as much new evidence as a turn by one radian, metres
+MIN_NEW_SHARE = 0.02  # least share of a scan's evidence that counts
 
 
 @dataclass(frozen=True, eq=False)

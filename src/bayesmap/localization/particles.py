@@ -31,8 +31,7 @@ OVERLAP, SAME = 2.0, np.array([0.2, 0.2, np.radians(7.0)])
 COUNTING, ENOUGH = 0.3, 16.0
 """Weights of a place's draws are tempered until this share of the draws, or this number, is effective."""
 
-NEGLIGIBLE_NATS = 15.0
-"""Difference in log mass from the greatest beyond which places are dropped."""
+NEGLIGIBLE_NATS = 15.0  # difference in log mass from the greatest beyond which places are dropped
 
 
 def log_sum(logs: Floats) -> Floats:

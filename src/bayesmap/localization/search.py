@@ -27,17 +27,13 @@ from bayesmap.space.planar import wrap_angle
 
 Floats = NDArray[np.float64]
 
-SIGMA_M = 0.12
-"""Scale of the field about an obstacle, metres: errors of map and pose that a search must tolerate."""
-
-SOLID = 0.3
-"""Stop probability from which a cell counts as a wall."""
+SIGMA_M = 0.12  # scale of the field about an obstacle, metres: errors of map and pose that a search must tolerate
+SOLID = 0.3  # stop probability from which a cell counts as a wall
 
 FLOOR = 0.01
 """Worth of a point in the open, relative to one on a wall. Field values are linear in the logarithm of the worth."""
 
-COARSE_M, TOP = 0.3, 255
-"""Width of a coarse cell, metres, and the value of a fine cell on a wall."""
+COARSE_M, TOP = 0.3, 255  # width of a coarse cell, metres, and the value of a fine cell on a wall
 
 
 @dataclass(frozen=True, eq=False)
@@ -105,14 +101,9 @@ def _blocks(values: NDArray[np.generic], stride: int, shape: tuple[int, int]) ->
     return padded.reshape(mx, stride, my, stride)
 
 
-FINE_M, MOST_CELLS = 0.025, 16_000_000
-"""Width of the cells of an `EndpointField`, metres, and greatest number of cells."""
-
-SURFACE_FLOOR = 0.02
-"""Worth of a point far from all surfaces, relative to one on a surface."""
-
-FAINT = 0.1
-"""Cells that stop beams with a lower probability have no surface in an `EndpointField`."""
+FINE_M, MOST_CELLS = 0.025, 16_000_000  # width of the cells of an `EndpointField`, metres, and greatest number of cells
+SURFACE_FLOOR = 0.02  # worth of a point far from all surfaces, relative to one on a surface
+FAINT = 0.1  # cells that stop beams with a lower probability have no surface in an `EndpointField`
 
 
 @dataclass(frozen=True, eq=False)
@@ -176,14 +167,12 @@ def _surfaces(states: NDArray[np.float32], grid: Grid, known: NDArray[np.bool_])
 HEADINGS, POINTS, FINE_POINTS = 90, 48, 60
 """Headings and points of a scan in the coarse search, and points in the refinement, evenly spaced by beams."""
 
-MIN_POINTS = 8
-"""Fewest points of a search: fewer points fit walls anywhere."""
+MIN_POINTS = 8  # fewest points of a search: fewer points fit walls anywhere
 
 BLOCK, SQUARES = 4, 240
 """Side of the squares whose best position is kept per heading, in coarse cells, and number of squares to refine."""
 
-APART_M, APART_RAD = 0.3, np.radians(8.0)
-"""Least distances between candidates: in x or y, or in yaw."""
+APART_M, APART_RAD = 0.3, np.radians(8.0)  # least distances between candidates: in x or y, or in yaw
 
 
 @dataclass(frozen=True, eq=False)

@@ -16,9 +16,7 @@ from bayesmap.space.scans import Scans
 SAMPLED = 100  # most key scans whose poses are sampled with the map: chains over more do not mix
 MANY_BEAMS, STEP_RAD = 100_000, np.radians(1.0)  # with more beams, only beams so far apart are used
 ENOUGH, LEAST_NEW = 20, 0.2  # a scan is left out if a smaller share of its hits is in cells with few hits
-
-SCANS_A_KEY = 7
-"""Scans for each key scan at 10 Hz and half a metre a second: 3000 scans had 426 key scans."""
+SCANS_A_KEY = 7  # scans for each key scan at 10 Hz and half a metre a second: 3000 scans had 426 key scans
 
 P_SLIP = 0.01
 """Probability that odometry is no evidence of a motion. In the Intel log eight motions of 891 are off by 200 to 350

@@ -145,10 +145,8 @@ def reading_law(sensor: SensorModel, limits: RangeLimits) -> ReadingLaw:
     return ReadingLaw(parameters, limits)
 
 
-LOOK = 16
-"""The number of a beam's cells that are read at once."""
-GROUP = 8
-"""The number of a cell's beams that are read at once."""
+LOOK = 16  # the number of a beam's cells that are read at once
+GROUP = 8  # the number of a cell's beams that are read at once
 
 
 @dataclasses.dataclass(frozen=True, eq=False)

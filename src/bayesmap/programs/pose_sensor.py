@@ -92,8 +92,7 @@ def first_walls(walls: Any, beams: Beams, cell: Any, active: Any) -> Any:
     return jax.lax.while_loop(lambda state: state[3].any(), walk, (cell, border, none, active))[2]
 
 
-GROUP = 8
-"""The number of beams without their wall that walk on at once."""
+GROUP = 8  # the number of beams without their wall that walk on at once
 
 
 @dataclass

@@ -46,10 +46,8 @@ SHAPES = (3.0, 5.0, 9.0, 17.0, math.inf)
 """Degrees of freedom to try, infinite for normal noise. With odd numbers, kernels need no logarithm."""
 LEAST_SCALE_M = 1e-3
 LEAST_GROWTH = 1e-6  # metres per metre
-FIRST_STEP, CLOSE = 0.1, 1e-3
-"""First step and final accuracy of the search, in logarithms of the noise's parameters."""
-LEAST_WEIGHT = 10.0
-"""Least number of readings, summed by weight, that changes the noise."""
+FIRST_STEP, CLOSE = 0.1, 1e-3  # first step and final accuracy of the search, in logarithms of the noise's parameters
+LEAST_WEIGHT = 10.0  # least number of readings, summed by weight, that changes the noise
 
 
 @dataclass(frozen=True, eq=False)
@@ -100,10 +98,8 @@ def refit_noise(noise: AdditiveNoise, residuals: StopResiduals, step: float) -> 
 
 
 BEAMS_LOOKED_AT = 40_000  # beams used in each sweep, at most about
-PILOT_SWEEPS = 40
-"""Most sweeps of the pilot of reflectivities and surfaces; a short warm-up has a shorter pilot."""
-SENSOR_SWEEPS = 30
-"""Sweeps of the pilot that fits a sensor alone."""
+PILOT_SWEEPS = 40  # most sweeps of the pilot of reflectivities and surfaces; a short warm-up has a shorter pilot
+SENSOR_SWEEPS = 30  # sweeps of the pilot that fits a sensor alone
 SPREAD_WITHOUT_SURFACE = 0.3
 """Standard deviation of stops within cells without surfaces, in edges: part of the noise that a fit starts from."""
 FIRST_SWEEP, WHOLE_UNTIL = 3, 20  # the first sweep that moves parameters, and the last that moves them all the way

@@ -40,8 +40,7 @@ Look = Callable[["ChainMaps"], Floats]
 NUMBERS = 5  # parameters of a surface: mean and covariance
 UPDATES_ALL, UPDATES_FEW = 1 << 24, (1 << 24) + 1
 """Sweep numbers that chains do not reach: the first updates all cells, the second few."""
-EARLY_SHARE = 0.8
-"""Share of the warm-up before the first merge moves."""
+EARLY_SHARE = 0.8  # share of the warm-up before the first merge moves
 MERGED_AGAIN = 2
 """Number of further merges, each after another tenth of the sweeps before the first. By then surfaces have moved, and
 may take in others. With `EARLY_SHARE` as above, all merges lie in the warm-up."""

@@ -34,8 +34,7 @@ STREAM_NOISE = 11  # readings of the page's simulated sensors
 STREAM_TYPICAL = 12  # poses of typical scans in a world that is drawn on the page
 """Numbers of all streams of random numbers. Two streams of one number would draw the same numbers from one seed."""
 
-PILOT = 1 << 32
-"""Number of the pilot chain, which fits the sensor; no other chain has this number."""
+PILOT = 1 << 32  # number of the pilot chain, which fits the sensor; no other chain has this number
 
 
 @dataclass(frozen=True)

@@ -16,8 +16,7 @@ from bayesmap.model import Model
 from bayesmap.samplers.sampler import Problem, with_cached
 from bayesmap.space.grid import Grid
 
-LOG_ODDS_OF_FIXED = 1e15
-"""Replaces infinite log-odds in cells that the prior fixes: more than any scan can outweigh."""
+LOG_ODDS_OF_FIXED = 1e15  # replaces infinite log-odds in cells that the prior fixes: more than any scan can outweigh
 
 
 @dataclass(frozen=True, eq=False)

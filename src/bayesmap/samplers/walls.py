@@ -30,8 +30,7 @@ if TYPE_CHECKING:
 Start = Literal["prior", "zeros", "ones", "propagate"]
 Order = Literal["raster", "radial", "random"]
 
-WARM_START_CELLS = 10_000
-"""Maps with more cells than this start from belief propagation unless told otherwise."""
+WARM_START_CELLS = 10_000  # maps with more cells than this start from belief propagation unless told otherwise
 
 
 def default_start(grid: Grid) -> Start:

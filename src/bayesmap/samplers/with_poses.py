@@ -43,8 +43,7 @@ if TYPE_CHECKING:
 OPTIMAL = 2.38 / np.sqrt(3.0)
 """Length of steps in three dimensions, in standard deviations (Roberts, Gelman and Gilks, 1997)."""
 
-WANTED_ACCEPTANCE = 0.35
-"""Share of accepted steps to which the sizes of steps adapt."""
+WANTED_ACCEPTANCE = 0.35  # share of accepted steps to which the sizes of steps adapt
 MOST_NATS = 2.0
 """Cap of the change of one beam's log density in a difference. If a beam slips past an edge, its density jumps, and the
 slope would be no measure of how far the pose may move."""
@@ -148,12 +147,9 @@ def proposal_factors(
     return np.asarray(OPTIMAL * np.linalg.cholesky(np.linalg.inv(information)))
 
 
-EVERY = 5
-"""Sweeps of the cells from one round of pose steps to the next."""
-STEPS = 3
-"""Steps of every pose in a round."""
-DIFFERENCE_M = 0.02
-"""Step of the differences from which slopes of the likelihood are taken: about the noise of a laser."""
+EVERY = 5  # sweeps of the cells from one round of pose steps to the next
+STEPS = 3  # steps of every pose in a round
+DIFFERENCE_M = 0.02  # step of the differences from which slopes of the likelihood are taken: about the noise of a laser
 OF_STEPS = ("pose_log_scale", "pose_factor")
 
 

@@ -12,12 +12,9 @@ from numpy.typing import ArrayLike, NDArray
 from bayesmap.errors import BadInput
 from bayesmap.space.scans import Scans, as_array
 
-MAX_CELLS = 100_000_000
-"""Most cells of a grid; more are taken for a mistake in the units."""
-MAX_REACH_RATIO = 20.0
-"""Ratio to the median reach above which the reach of a scan counts as wrong."""
-MAX_OUTLIER_SHARE = 0.1
-"""Largest share of scans that can be wrong; if more lie far away, none is taken for wrong."""
+MAX_CELLS = 100_000_000  # most cells of a grid; more are taken for a mistake in the units
+MAX_REACH_RATIO = 20.0  # ratio to the median reach above which the reach of a scan counts as wrong
+MAX_OUTLIER_SHARE = 0.1  # largest share of scans that can be wrong; if more lie far away, none is taken for wrong
 
 
 @dataclass(frozen=True)

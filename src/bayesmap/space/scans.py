@@ -14,8 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 from bayesmap.errors import BadInput
 from bayesmap.space.planar import between, compose
 
-MOST_TURNS = 1.1
-"""Largest width of a fan of beams in turns: beams may overlap a little at the end of a turn."""
+MOST_TURNS = 1.1  # largest width of a fan of beams in turns: beams may overlap a little at the end of a turn
 
 
 class ReadingKind(IntEnum):

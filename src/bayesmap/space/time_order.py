@@ -7,12 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-STEP_S = 1.0
-"""Largest step back of stamps, seconds, that counts as scans logged late rather than as a clock set back."""
+STEP_S = 1.0  # largest step back of stamps, seconds, that counts as scans logged late rather than as a clock set back
 MIN_SCANS_AFTER_STEP = 10
 """Fewest scans after a recognised step back of the clock; half as many on each side must overlap in time."""
-SAME_S = 1e-3
-"""Stamps that are closer, in seconds, are equal: no laser sweeps so fast."""
+SAME_S = 1e-3  # stamps that are closer, in seconds, are equal: no laser sweeps so fast
 TURNS = 0.7
 """Fewest changes between two groups of scans in time order, per scan of the smaller group, if the groups alternate."""
 

@@ -12,14 +12,9 @@ from bayesmap.errors import BadInput
 from bayesmap.space.planar import between, bracketing_indices, compose, interpolate, inverse, rotation, wrap_angle
 from bayesmap.space.scans import as_poses, path_words
 
-SLACK_S = 0.002
-"""Largest time outside a trajectory that counts as its end: logs are written with few digits."""
-
-LONGEST_GAP_S = 0.3
-"""Longest time between two poses that are interpolated: in seconds a robot turns corners."""
-
-FRAMES = ("base", "laser")
-"""Frames on a robot whose poses a trajectory may have."""
+SLACK_S = 0.002  # largest time outside a trajectory that counts as its end: logs are written with few digits
+LONGEST_GAP_S = 0.3  # longest time between two poses that are interpolated: in seconds a robot turns corners
+FRAMES = ("base", "laser")  # frames on a robot whose poses a trajectory may have
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]

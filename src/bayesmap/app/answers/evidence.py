@@ -28,11 +28,8 @@ MOST_BEAMS = 2000
 MOST_BEAMS_OF_STOPS = 500
 """The most beams evaluated per cell, for walls and for other kinds of cells. Each also counts for beams left out."""
 
-SILENT_NATS = 0.005
-"""A beam with a smaller log ratio counts neither for nor against."""
-
-MOST_DRAWN = 100
-"""The largest number of beams per cell that a page gets one by one: those with the largest log ratios."""
+SILENT_NATS = 0.005  # a beam with a smaller log ratio counts neither for nor against
+MOST_DRAWN = 100  # the largest number of beams per cell that a page gets one by one: those with the largest log ratios
 
 
 @dataclass(frozen=True, eq=False)

@@ -27,11 +27,8 @@ MOST_DRAWS = 32
 HELD_BYTES = 192 << 20
 """The largest number of draws over which predictions are averaged, and the memory that they may take."""
 
-FEW_DRAWS = 8
-"""The number of draws while the hand moves, since each virtual scan is soon replaced by the next."""
-
-STALE_SECONDS = 3.0
-"""While chains run, the predictor is rebuilt from their latest draws after this time."""
+FEW_DRAWS = 8  # the number of draws while the hand moves, since each virtual scan is soon replaced by the next
+STALE_SECONDS = 3.0  # while chains run, the predictor is rebuilt from their latest draws after this time
 
 NEARBY_M = 0.5
 LEAST_SHARED = 0.25

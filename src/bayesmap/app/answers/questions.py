@@ -29,11 +29,8 @@ ANSWERED_BY: Mapping[type, Literal["path", "views", "ghost", "beam"]] = {
 }  # fmt: skip
 """Questions about the posterior, and the types of the messages that answer them."""
 
-MOST_VIEWS = 400
-"""The largest number of places in the map of expected information."""
-
-PASSABLE = 0.3
-"""A sensor may stand in a cell whose probability of stopping a beam is below this."""
+MOST_VIEWS = 400  # the largest number of places in the map of expected information
+PASSABLE = 0.3  # a sensor may stand in a cell whose probability of stopping a beam is below this
 
 HEADINGS = 8
 MOST_ANGLES = 180

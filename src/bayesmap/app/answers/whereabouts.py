@@ -34,11 +34,8 @@ FINEST_M = 0.125
 MOST_CELLS = 1_000_000
 """The search tries the centres of cells. Cells of a drawn map are divided to this edge, if these are not too many."""
 
-TYPICAL_SCANS = 100
-"""Number of typical scans of a drawn world."""
-
-MOST_POSES = 1000
-"""The largest number of poses sent to the page: those with the largest weights."""
+TYPICAL_SCANS = 100  # number of typical scans of a drawn world
+MOST_POSES = 1000  # the largest number of poses sent to the page: those with the largest weights
 
 
 class Locator:

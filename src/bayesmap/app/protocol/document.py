@@ -28,15 +28,13 @@ RARE_WALLS = 0.2
 """If walls or free cells are at most this probable a priori, method "auto" means 2 x 2 blocks. Single-site moves then
 seldom leave a wrong map: a wall has to go before its neighbour can come."""
 
-SMALLEST_NOISE_M = 0.01
-"""The smallest noise of the sensor model: a density needs a width."""
+SMALLEST_NOISE_M = 0.01  # the smallest noise of the sensor model: a density needs a width
 
 SIDE = (2, 500)
 LARGEST_SIDE_OF_FILE = 4000
 """The smallest and largest number of cells per side of a drawn map, and the largest of a map from a file."""
 
-LARGEST_SIDE_OF_LOG = 1000
-"""The largest number of cells per side of a map that is inferred from a log."""
+LARGEST_SIDE_OF_LOG = 1000  # the largest number of cells per side of a map that is inferred from a log
 
 SENSORS = (1, 32)
 RESOLUTIONS_M = (0.02, 2.0)

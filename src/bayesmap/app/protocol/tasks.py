@@ -14,8 +14,7 @@ from bayesmap.app.protocol.document import Document
 from bayesmap.app.protocol.notices import AnyNotice, DrawCount, View
 from bayesmap.space.grid import Grid
 
-ALIVE_SECONDS = 1.0
-"""The time between two `Alive` signals of the worker."""
+ALIVE_SECONDS = 1.0  # the time between two `Alive` signals of the worker
 
 Mode = Literal["coarse", "preview", "live", "run", "clear"]
 Buffers = Mapping[str, NDArray[Any] | bytes]

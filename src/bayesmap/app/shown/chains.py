@@ -53,14 +53,12 @@ from bayesmap.samplers.with_poses import MovableSampler, PoseProblem, WithPoses
 POSE_CHAINS = 16
 """The number of chains if poses are uncertain. A map holds its sensors in place, so each chain stays near its start."""
 
-STEP_SECONDS = 0.015
-"""The duration of one step of the chains. The worker reads its pipe between two steps."""
+STEP_SECONDS = 0.015  # the duration of one step of the chains. The worker reads its pipe between two steps
 
 DRAW_BYTES = 128 << 20
 """The memory for the kept draws of a run. If the draws of all sweeps do not fit, they are thinned."""
 
-LOOKS = 32
-"""The number of times per run that observed cells are counted, besides sweeps 1, 2, 4 and so on."""
+LOOKS = 32  # the number of times per run that observed cells are counted, besides sweeps 1, 2, 4 and so on
 
 DIAGNOSIS_SHARE = 0.1
 """The largest share of time spent on diagnostics. Between two diagnoses, the figures of the last one are shown."""

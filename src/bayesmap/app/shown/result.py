@@ -35,8 +35,7 @@ CHAINS = 2
 SAVED_DRAWS = 500
 """The number of chains, and the number of independent draws per chain in the saved run of a method without chains."""
 
-INTERVAL_DRAWS = 60
-"""The number of draws used for credible intervals."""
+INTERVAL_DRAWS = 60  # the number of draws used for credible intervals
 
 GOOD_RHAT = 1.01
 GOOD_ESS = 400.0
@@ -46,8 +45,7 @@ BAD_ESS = 50.0
 FEWEST_SWEEPS = 200
 """With fewer sweeps, running chains get no verdict, and differences between the chains' means are not judged."""
 
-FEWEST_DIAGNOSED = 4
-"""The fewest sweeps for R-hat, which needs two draws in each half of a chain."""
+FEWEST_DIAGNOSED = 4  # the fewest sweeps for R-hat, which needs two draws in each half of a chain
 
 BAD_DIFFERENCE = 0.25
 """The largest good difference of a cell's mean between two chains: 5 standard errors of 200 draws at p = 1/2."""
@@ -59,8 +57,7 @@ METHODS = {
     "pilot": "Gibbs sampling, while the sensor is fitted", "none": "none yet: this is the prior",
     "hits": "counts of hits and passes", "counts": "counts of hits and passes",
 }  # fmt: skip
-COUNTS = ("hits", "counts")
-"""The methods in words, and those without prior and sensor."""
+COUNTS = ("hits", "counts")  # the methods in words, and those without prior and sensor
 
 
 def in_words(description: Mapping[str, Any]) -> str:

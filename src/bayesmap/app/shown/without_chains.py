@@ -28,11 +28,8 @@ from bayesmap.samplers.without_chains import (
 )
 from bayesmap.space.grid import Grid
 
-TOLERANCE = 1e-3
-"""Belief propagation has converged when no probability changes by more than this in a round."""
-
-THREADS_FROM_INCIDENCES = 200_000
-"""Smaller tables use one thread, so that the page has the other cores for painting."""
+TOLERANCE = 1e-3  # belief propagation has converged when no probability changes by more than this in a round
+THREADS_FROM_INCIDENCES = 200_000  # smaller tables use one thread, so that the page has the other cores for painting
 
 PIECE_SECONDS = 0.015
 FIRST_PIECE = 64

@@ -18,8 +18,7 @@ from bayesmap.kernels.device import Float64Rows, Float64s, Floats, Int32s, Ints,
 wp.set_module_options({"enable_backward": False})
 
 
-Pyramid = wp.array4d(dtype=wp.uint8)
-"""Likelihood grids with their maxima over blocks: (grids, levels, nx, ny)."""
+Pyramid = wp.array4d(dtype=wp.uint8)  # likelihood grids with their maxima over blocks: (grids, levels, nx, ny)
 
 
 @wp.struct

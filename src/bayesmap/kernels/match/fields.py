@@ -39,8 +39,7 @@ def field_sums(field: NDArray[np.uint8], grid: Grid, points: Floats, poses: Floa
     return np.asarray(devices.launch(sum_field, len(poses), inputs, "cpu", 1)[0])
 
 
-REACH_SDS = wp.constant(wp.float32(3.0))
-"""Standard deviations from a surface past which its density is not drawn."""
+REACH_SDS = wp.constant(wp.float32(3.0))  # standard deviations from a surface past which its density is not drawn
 
 
 @wp.kernel

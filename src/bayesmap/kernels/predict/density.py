@@ -162,8 +162,7 @@ GONE_ROBUST = wp.constant(wp.float64(1.0e-14))
 CELLS_PAST_REACH = 4.0
 """Cells past a reading's reach whose surfaces may still explain it, because they extend along the beam."""
 
-FEW_BEAMS = 5_000
-"""Fewer beams than this are done before a second thread has started."""
+FEW_BEAMS = 5_000  # fewer beams than this are done before a second thread has started
 
 
 @wp.func

@@ -43,8 +43,7 @@ TRIES_EVERY = wp.constant(4)
 """Updates per candidate of a cell in which no reading ends. It tries none if it stops almost no beam. In the other
 updates it draws its reflectivity."""
 
-SILENT_EVERY = wp.constant(3)
-"""Sweeps between two surfaces from the prior in a cell whose surface no beam observes."""
+SILENT_EVERY = wp.constant(3)  # sweeps between two surfaces from the prior in a cell whose surface no beam observes
 
 # Random counters of one cell in one sweep, part CELLS; `square_counts` defines a further one.
 PER_CELL = wp.constant(wp.uint64(1024))

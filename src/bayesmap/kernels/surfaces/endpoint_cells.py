@@ -107,11 +107,9 @@ def stepped(cell: Cell, step: Cell, key: wp.uint64, at: wp.uint64, i: int) -> Ce
     return cell
 
 
-STEPS = 6
-"""Metropolis steps of a surface in each sweep."""
+STEPS = 6  # Metropolis steps of a surface in each sweep
 NO_LEAST = wp.constant(wp.float64(-1.0e300))  # below every log joint: sums are finished
-AT_STEP = wp.constant(wp.uint64(32))
-"""Random counters per step of a cell's surface, part SURFACES."""
+AT_STEP = wp.constant(wp.uint64(32))  # random counters per step of a cell's surface, part SURFACES
 
 
 @wp.func

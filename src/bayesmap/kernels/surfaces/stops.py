@@ -311,8 +311,7 @@ def hit_law(
     return tempered(laws.stop_density(law, reading, decay, met.distance_m, met.variance), beta)
 
 
-OFTEN = 2
-"""Longest update period of watched cells, in sweeps."""
+OFTEN = 2  # longest update period of watched cells, in sweeps
 
 
 @wp.kernel
