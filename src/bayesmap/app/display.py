@@ -16,15 +16,11 @@ from bayesmap.app.scene import Scene, rays
 from bayesmap.app.shown.result import Result
 from bayesmap.space.grid import Grid
 
-FRAME_SECONDS = 0.08
-OVERLAY_SECONDS = 2.0
-"""The least time between two fields, and between two overlays of the surfaces of chains that go on."""
-
-LEVELS = 255
-TRACED = 300
-FIRST_SWEEPS = 100
-"""The number of evenly chosen points of the trace in a field, and the number of first sweeps that are all included."""
-
+FRAME_SECONDS = 0.08  # least time between two fields
+OVERLAY_SECONDS = 2.0  # least time between two overlays of the surfaces of chains that go on
+LEVELS = 255  # the number that stands for a probability of one
+TRACED = 300  # evenly chosen points of the trace in a field
+FIRST_SWEEPS = 100  # first sweeps that are all included in the trace
 LEAST_REFLECTIVITY = 0.1  # surfaces with a smaller reflectivity are not drawn
 WEIGHT_BINS = 24  # the number of bins of a histogram of log weights
 

@@ -43,9 +43,8 @@ from bayesmap.app.protocol.document import (
 from bayesmap.sim.drawing import TUTORIAL_GRID, tutorial
 from bayesmap.space.grid import Grid
 
-BUILDING_NOISE_M = 0.05
-ROOM_CELLS = 6
-"""The range noise of a new building, and the free cells around a first sensor, if there is that much room."""
+BUILDING_NOISE_M = 0.05  # range noise of a new building
+ROOM_CELLS = 6  # free cells around a first sensor, if there is that much room
 
 
 def tutorial_document(seed: int = 0) -> Document:
@@ -285,9 +284,8 @@ def with_scans_used(document: Document, scans: int | None) -> Document:
 
 From = tuple[int, AnyAction]
 T = TypeVar("T")
-DEPTH = 200
-MOST_UNPAINTED = 2
-"""The number of steps that can be undone, and the number of unpainted pictures at which the edits of a page wait."""
+DEPTH = 200  # steps that can be undone
+MOST_UNPAINTED = 2  # unpainted pictures at which the edits of a page wait
 
 
 @dataclass(frozen=True)

@@ -38,12 +38,9 @@ from bayesmap.app.sources import OpenedLog, OpenedRun
 from bayesmap.app.trajectory import LogTrajectory, Step
 from bayesmap.errors import BadInput
 
-PREVIEW_SECONDS = 0.015
-FEWEST_ROUNDS = 3
-"""The time and the rounds of belief propagation after which the first picture is shown."""
-
-PAUSE_SECONDS = 0.03
-"""The pause after a long preview, before the chains are set up: a moving hand sends its next edit in this time."""
+PREVIEW_SECONDS = 0.015  # time of belief propagation before the first picture
+FEWEST_ROUNDS = 3  # rounds of belief propagation before the first picture
+PAUSE_SECONDS = 0.03  # pause before chains are set up: a moving hand sends its next edit in this time
 
 GHOST_SECONDS, REST_SECONDS = 0.06, 0.002
 """After a virtual scan, chains rest for this time, in short sleeps, so that the next pose need not wait for a sweep."""

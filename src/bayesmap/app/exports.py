@@ -26,10 +26,9 @@ from bayesmap.app.scene import ray_buffers
 from bayesmap.app.shown.result import Result
 from bayesmap.errors import BadInput
 
-MOST_DRAWS = 1000
-MOST_DRAW_BYTES = 16 << 20
-MOST_RAYS = 2_000_000
-"""The most draws of all chains in a recording, the most bytes of them, and the most beams. All are evenly chosen."""
+MOST_DRAWS = 1000  # most draws of all chains in a recording
+MOST_DRAW_BYTES = 16 << 20  # most bytes of these draws
+MOST_RAYS = 2_000_000  # most beams in a recording; draws and beams are evenly chosen
 
 
 class RecordedDraws(Struct, frozen=True):

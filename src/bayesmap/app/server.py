@@ -161,9 +161,7 @@ def _header(scope: Scope, name: bytes) -> str:
 MESSAGES_PER_SECOND = 200  # largest rate of a page's messages
 BURST_MESSAGES = 400  # number of messages that a page may send at once
 MAX_EXCESS_MESSAGES = 2000  # number of messages over the rate after which a page is disconnected
-
-MAX_READ_BYTES = 4 * MAX_BYTES
-"""A message over `MAX_BYTES` is answered by an error. Over this limit, it is not read, and the connection is closed."""
+MAX_READ_BYTES = 4 * MAX_BYTES  # a longer message closes the connection; one over `MAX_BYTES` gets an error
 
 
 class Rate:

@@ -19,8 +19,7 @@ from bayesmap.app.protocol.document import VERSION, Document, Refused, plain
 from bayesmap.app.protocol.wire import parse_document
 
 QUESTIONS, EDITS = get_args(actions.Question), get_args(actions.Edit)
-REPLAYED = (notices.Scan, notices.Field, notices.Overlay)
-"""The types of messages whose last one is sent again to a page that connects."""
+REPLAYED = (notices.Scan, notices.Field, notices.Overlay)  # of each, the last is sent to a page that connects
 
 
 @dataclass(frozen=True)

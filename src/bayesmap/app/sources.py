@@ -36,9 +36,8 @@ from bayesmap.sensors.model import SensorModel
 from bayesmap.space.grid import Grid, bounds_m
 from bayesmap.space.scans import Scans
 
-LOG_RESOLUTION_M = 0.1
-LOG_SWEEPS = 200
-"""The size of cells and the number of sweeps with which a log is opened."""
+LOG_RESOLUTION_M = 0.1  # cell size with which a log is opened
+LOG_SWEEPS = 200  # sweeps with which a log is opened
 
 
 @dataclass(frozen=True, eq=False)

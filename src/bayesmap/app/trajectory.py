@@ -29,8 +29,7 @@ from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
 
 ASK_TO_RUN = "The poses of this log look like raw odometry: Run infers where the robot was"
-PICTURE_SECONDS, PICTURE_SHARE = 0.25, 0.1
-"""The least time between two pictures of a stage, and the share of the time that pictures may take."""
+PICTURE_SECONDS, PICTURE_SHARE = 0.25, 0.1  # least time between pictures of a stage; largest share of time for them
 
 WAIT_SECONDS = 0.02
 STAGE_TEXTS = {

@@ -184,8 +184,7 @@ class Independent(BinaryWalls):
 
 
 FIT = "fit"
-MAX_COUPLING = 50.0
-"""Each pair of unlike neighbours then costs a factor of e^50; a larger coupling has the same effect."""
+MAX_COUPLING = 50.0  # an unlike pair then costs a factor of e^50; a larger coupling has the same effect
 START_SWEEPS = 50  # from a map of independent cells to the start of a chain
 
 

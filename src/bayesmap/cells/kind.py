@@ -20,9 +20,7 @@ from bayesmap.errors import BadInput
 from bayesmap.space.grid import Grid
 
 Floats = NDArray[np.float64]
-Cells = Mapping[str, NDArray[Any]]
-"""One map: the arrays of a kind by name, each (nx, ny)."""
-
+Cells = Mapping[str, NDArray[Any]]  # one map: the arrays of a kind by name, each (nx, ny)
 BATCH_BYTES = 12 << 20  # most bytes of one batch of stops
 
 
@@ -36,8 +34,7 @@ class Words:
     value: str  # label of the map of one draw
 
 
-KINDS: dict[str, type[CellPrior]] = {}
-"""The kinds that loaded modules define, by name. Each subclass of `CellPrior` with its own ``words`` is entered."""
+KINDS: dict[str, type[CellPrior]] = {}  # kinds by name: subclasses of `CellPrior` with their own ``words``
 
 
 class CellPrior(ABC):

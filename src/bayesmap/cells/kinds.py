@@ -38,9 +38,7 @@ def prior_from(description: Mapping[str, Any]) -> CellPrior:
     return named.from_description(description)
 
 
-P_WALL = 0.2
-"""Prior wall probability: buildings are mostly free space, and unobserved cells should look unlike walls and free."""
-
+P_WALL = 0.2  # buildings are mostly free space, and unobserved cells should look unlike walls and free
 HIT_DEPTH = Independent.hit_depth  # the expected stop of a beam in a cell, as a fraction of its chord
 LASER_SIGMA_M = 0.02  # standard deviation of a reading at range 0
 LASER_SIGMA_PER_M = 0.005  # its growth per metre of range

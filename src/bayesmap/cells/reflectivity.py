@@ -23,25 +23,18 @@ from bayesmap.cells.kind import BATCH_BYTES, CellPrior, Cells, Floats, Words
 from bayesmap.errors import BadInput
 from bayesmap.space.grid import Grid
 
-MIN_REFLECTIVITY = 1e-30
-MAX_REFLECTIVITY = 1.0 - 1e-7
-"""The range of reflectivities whose log odds single precision can hold."""
-
+MIN_REFLECTIVITY = 1e-30  # least and
+MAX_REFLECTIVITY = 1.0 - 1e-7  # largest reflectivity whose log odds single precision can hold
 CELLS_AT_ONCE = 8192  # per batch of `interval`
-
 HALF_ROUNDING = 2.0**-11  # relative error of half precision
 MAX_STOPS = 32  # stopped beams that `counts_behind` tries; a cell with more is well known
-
-POOL_CELLS = 1 << 16
-"""Size of the pool of states drawn from the prior; cells that no beam touched take their states from it."""
-
+POOL_CELLS = 1 << 16  # size of the pool of prior states for cells that no beam touched
 MIN_DRAWS = 100  # least default number of draws per chain
 MAX_DRAWS = 200  # largest default number of draws per chain
 MIN_DRAWS_UNTHINNED = 50  # least default number if every sweep is kept: a further draw then adds less
 BEAMS_AT_MIN_DRAWS = 100_000  # with this many beams or more, the default is the least number
 MAX_DRAW_BYTES = 1 << 30  # most bytes of all chains' draws, if beams were to touch every cell of the grid
 BYTES_A_CELL = 4  # per draw: two arrays in half precision
-
 POOL_SEED = 1  # of the pool of states drawn from the prior
 
 

@@ -23,9 +23,7 @@ from bayesmap.space.grid import Grid
 
 MOST_SPREAD = 3.0  # largest spread in units of size_scale: beyond it, almost all prior draws are rejected
 ROUNDING = 1e-3  # edges by which rounding to half precision may move a mean out of its cell
-
-PARTS = ("mean_x", "mean_y", "l11", "l21", "l22")
-"""Parts of a surface: its mean less the cell's centre, and the Cholesky factor of its covariance, in edges."""
+PARTS = ("mean_x", "mean_y", "l11", "l21", "l22")  # mean from the cell's centre, Cholesky factor, in edges
 
 
 def _spec(part: str) -> ArraySpec:

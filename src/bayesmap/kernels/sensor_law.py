@@ -24,8 +24,7 @@ MOST_TERMS = wp.constant(wp.float64(16.0))  # of the finite sums in `student_bel
 MAX_STEPS = wp.constant(400)  # of the continued fraction; it takes some tens
 TINY = wp.constant(wp.float64(1.0e-300))  # replaces zero in Lentz's method
 CLOSE = wp.constant(wp.float64(1.0e-14))  # relative change at which the continued fraction ends
-MOST_POWER = 16
-"""Largest whole power computed by multiplication: past 31 degrees of freedom a Student-t density is nearly normal."""
+MOST_POWER = 16  # largest whole power computed by multiplication; a Student-t of more degrees is nearly normal
 
 
 @wp.func
@@ -138,9 +137,7 @@ def student_below(dof: wp.float64, log_height: wp.float64, t: wp.float64) -> wp.
     return wp.where(t > wp.float64(0.0), one - tail, tail)
 
 
-NOISE, MIXTURE, TABLE = (wp.constant(i) for i in range(3))
-"""Kinds of laws: noise alone, the robust mixture, and the table of any other model."""
-
+NOISE, MIXTURE, TABLE = (wp.constant(i) for i in range(3))  # noise alone, the robust mixture, any other model
 FAR_SQ = wp.constant(wp.float64(81.0))  # squared standard distance past which normal noise adds nothing
 MIN_PROBABILITY = wp.constant(wp.float64(math.exp(LOG_IMPOSSIBLE)))  # least probability of a typed reading
 TAIL = 1e-10  # probability of noise that cumulative probabilities leave out

@@ -10,16 +10,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
-from bayesmap.space.planar import wrap_angle
+from bayesmap.space.planar import Floats, wrap_angle
 from bayesmap.space.trajectory import ellipses
 
-Floats = NDArray[np.float64]
-
 NEAR_M, NEAR_RAD = 0.2, np.radians(7.0)  # chains of poses with steps shorter than this belong to one mode
-
-FINEST_SD = np.array([0.002, 0.002, np.radians(0.05)])
-"""Least standard deviations of a mode: the number of poses tells no less."""
-
+FINEST_SD = np.array([0.002, 0.002, np.radians(0.05)])  # least standard deviations of a mode, whatever its poses say
 LINKING = 0.995  # share of the weight whose poses link others into modes
 LEAST_MODE = 1e-4  # least probability of a mode that is listed
 

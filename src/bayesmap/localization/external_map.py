@@ -29,10 +29,8 @@ from bayesmap.posterior.baselines import Parameter, Values, maximise, sensor_of,
 from bayesmap.posterior.predictor import OnShare, ignored
 from bayesmap.sensors.model import RangeLimits
 from bayesmap.space.grid import Grid
-from bayesmap.space.planar import between
+from bayesmap.space.planar import Floats, between
 from bayesmap.space.scans import Scans
-
-Floats = NDArray[np.float64]
 
 FITTED = (
     Parameter("scale_m", 0.02, 0.5), Parameter("p_random", 0.02, 0.5, share=True),
@@ -53,22 +51,13 @@ WARY = Trust(
 )  # fmt: skip
 """Trust in a map of unknown quality."""
 
-MOST_SCANS, APART_M = 150, 0.3
-"""Most scans of the log that are located to fit the law, and their least distance along the path, metres."""
-
-LIKELY, FEWEST_SCANS = 0.95, 20
-"""Least probability of a scan's likeliest place with which the scan is used in the fit, and fewest scans of a fit."""
-
+MOST_SCANS, APART_M = 150, 0.3  # most scans that are located to fit the law, and their least distance along the path
+LIKELY, FEWEST_SCANS = 0.95, 20  # least probability of a place with which its scan fits the law; fewest such scans
 USUAL_WAY_M = 3.0  # length of beam for which the share of beams that meet something else is reported, metres
-
-BLOCK, BEAMS = 5, 60
-"""Successive scans for the fit, followed by as many scans that judge it, and beams per scan in the fit."""
-
-MOST_SEARCHES, NEAR_M = 40, 0.6
-"""Most scans that are searched for singly, and the distance of a right place, metres plus radians."""
-
-POWERS, FEWEST_SEARCHES = np.array([0.2, 0.3, 0.5, 0.7, 1.0]), 8
-"""Powers that the evidence for a place may have, and fewest searches that choose one. With fewer, the power is 0.5."""
+BLOCK, BEAMS = 5, 60  # successive scans for the fit, then as many that judge it; beams per scan in the fit
+MOST_SEARCHES, NEAR_M = 40, 0.6  # most single searches; distance of a right place, metres plus radians
+POWERS = np.array([0.2, 0.3, 0.5, 0.7, 1.0])  # powers that the evidence for a place may have
+FEWEST_SEARCHES = 8  # fewest searches that choose a power; with fewer, it is 0.5
 
 
 @dataclass(frozen=True)

@@ -36,22 +36,16 @@ from bayesmap.localization.particles import (
 )
 from bayesmap.localization.search import MIN_POINTS, end_points, search
 from bayesmap.sensors.model import RangeLimits
-from bayesmap.space.planar import wrap_angle
-
-Floats = NDArray[np.float64]
+from bayesmap.space.planar import Floats, wrap_angle
 
 POINTS, SHARPER = 60, 2.0
 """End points per scan, and their weight relative to beams: their field joins all draws of the map, and is wider. They
 affect how many rounds the exact law needs, not its result."""
 
-MAX_APPROACHES = 3
-"""Most rounds in which places are moved. Several places, which come from a search, get one round less."""
-
+MAX_APPROACHES = 3  # most rounds in which places are moved; one less for several places, which come from a search
 END_POWER = 0.6  # power of the weights above which rounds end
-
-DRAWS_PER_ROUND = 240
-MIN_DRAWS_PER_PLACE = 24
-"""Draws per round for all places together, and least draws per place."""
+DRAWS_PER_ROUND = 240  # draws per round for all places together
+MIN_DRAWS_PER_PLACE = 24  # least draws per place
 
 
 def approached(
@@ -79,26 +73,16 @@ def approached(
     return places
 
 
-CANDIDATES = 24
-"""Most places of a search. With more, wrong places came before the right one, because the search's score matters."""
-
+CANDIDATES = 24  # most places of a search: its score puts some wrong places first, and more of them with more places
 ROUNDS = 5  # most rounds in which places are adapted, until weights are hardly tempered
-
-SELECTION_DRAWS = 8
-ROUND_DRAWS = 24
-LAST_ROUND_DRAWS = 32
-"""Draws per place: to select places, for the likeliest place in a round, and for it in the last round."""
-
+SELECTION_DRAWS = 8  # draws per place to select places
+ROUND_DRAWS = 24  # draws of the likeliest place in a round
+LAST_ROUND_DRAWS = 32  # draws of the likeliest place in the last round
 THINNED = 40  # approximate number of beams of a scan that are used before the last round
-
-SEARCHED_SD = np.array([0.06, 0.06, np.radians(1.2)])
-"""Standard deviations of a searched pose from the best one near it."""
-
+SEARCHED_SD = np.array([0.06, 0.06, np.radians(1.2)])  # of a searched pose from the best one near it
 UNIFORM_DRAWS = 3000  # poses that are drawn over the whole map if a search finds nothing
 LOST_AT_FIRST = 0.02  # probability that the robot is not on the map, or the map outdated, before the first scan
-
-GETS_LOST, IS_FOUND = 1e-3, 0.05
-"""Probability per scan that a robot on the map gets lost, and that a lost robot is back on the map."""
+GETS_LOST, IS_FOUND = 1e-3, 0.05  # probability per scan that a robot on the map gets lost, and that a lost one is back
 
 
 @dataclass(frozen=True, eq=False)
@@ -334,14 +318,10 @@ def _mixture_log_density(components: PoseMixture, poses: Floats) -> Floats:
     return np.asarray(log_sum(mass - half_log_det - 1.5 * np.log(2 * np.pi) - 0.5 * squared))
 
 
-SHARP_CANDIDATES, KEPT = 32, 16
-"""Most places of the search, and most places that are weighted, in a map that is known exactly."""
-
+SHARP_CANDIDATES, KEPT = 32, 16  # most places searched for, and weighted, in a map that is known exactly
 RISES, SETTLES = 6, 4  # rounds in which the power rises, and most rounds with the final power
 SHARP_EACH, SHARP_LAST = 24, 192  # draws per place: in a round, and in the last round
-
-ONE_PLACE, ALIKE = 1.0, np.array([0.02, 0.02, np.radians(1.0)])
-"""Places count as one if they are nearer than the first, in standard deviations, or than the second in x, y and yaw."""
+ONE_PLACE, ALIKE = 1.0, np.array([0.02, 0.02, np.radians(1.0)])  # nearer places are one: sigmas; x, y, yaw
 
 
 def locate(known: KnownMap, scan: Scan, rng: np.random.Generator) -> PoseBelief:

@@ -16,13 +16,12 @@ from bayesmap.localization.particles import log_sum
 from bayesmap.localization.search import EndpointField, Field, endpoint_field, likelihood_field
 from bayesmap.sensors.builtin import BeamMixture, Gaussian, StudentT
 from bayesmap.sensors.model import RangeLimits, SensorModel
+from bayesmap.space.planar import Floats
 
 if TYPE_CHECKING:
     from bayesmap.kernels.predict.density import DeviceMaps
     from bayesmap.space.grid import Grid
     from bayesmap.space.scans import Scans
-
-Floats = NDArray[np.float64]
 
 DRAWS = 4  # draws of the map over which a scan's likelihood is averaged
 PASSABLE = 0.3  # observed cells with a lower stop probability count as free: a robot may be there

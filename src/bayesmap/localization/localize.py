@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from scipy.special import ndtr
 
 from bayesmap.errors import BadInput, check_count, near_names
@@ -17,14 +17,12 @@ from bayesmap.localization.known_map import KnownMap, Trust
 from bayesmap.localization.particles import LEAST_SD, PoseMixture
 from bayesmap.poses.prior import Odometry
 from bayesmap.sensors.model import RangeLimits
-from bayesmap.space.planar import between, compose, rotation, wrap_angle
+from bayesmap.space.planar import Floats, between, compose, rotation, wrap_angle
 from bayesmap.space.scans import Scans, asked_poses, check_sigma_rad
 from bayesmap.space.trajectory import Trajectory
 
 if TYPE_CHECKING:
     from bayesmap.space.grid import Grid
-
-Floats = NDArray[np.float64]
 
 MIN_SURE_PROBABILITY = 0.99  # probability of the likeliest mode below which every scan is searched for in the whole map
 MIN_MAP_PROBABILITY = 1e-3  # least probability of the map's area under a prior

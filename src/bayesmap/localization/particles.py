@@ -15,22 +15,14 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import gammaincinv, gammaln, ndtri
 
-from bayesmap.space.planar import wrap_angle
-
-Floats = NDArray[np.float64]
+from bayesmap.space.planar import Floats, wrap_angle
 
 DOF = 5.0
 STUDENT_CONSTANT = gammaln((DOF + 3) / 2) - gammaln(DOF / 2) - 1.5 * np.log(DOF * np.pi)
 LATTICE = 1.1673039782614187 ** -np.arange(1.0, 5.0)
-LEAST_SD = np.array([0.004, 0.004, np.radians(0.1)])
-"""Least standard deviations of a proposal."""
-
-OVERLAP, SAME = 2.0, np.array([0.2, 0.2, np.radians(7.0)])
-"""Two places are one mode if they are closer than the first, in standard deviations, or the second, in x, y and yaw."""
-
-COUNTING, ENOUGH = 0.3, 16.0
-"""Weights of a place's draws are tempered until this share of the draws, or this number, is effective."""
-
+LEAST_SD = np.array([0.004, 0.004, np.radians(0.1)])  # least standard deviations of a proposal
+OVERLAP, SAME = 2.0, np.array([0.2, 0.2, np.radians(7.0)])  # nearer places are one mode: sigmas; x, y, yaw
+COUNTING, ENOUGH = 0.3, 16.0  # weights are tempered until this share of a place's draws, or this number, is effective
 NEGLIGIBLE_NATS = 15.0  # difference in log mass from the greatest beyond which places are dropped
 
 

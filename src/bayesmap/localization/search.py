@@ -23,16 +23,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.space.grid import Grid
-from bayesmap.space.planar import wrap_angle
-
-Floats = NDArray[np.float64]
+from bayesmap.space.planar import Floats, wrap_angle
 
 SIGMA_M = 0.12  # scale of the field about an obstacle, metres: errors of map and pose that a search must tolerate
 SOLID = 0.3  # stop probability from which a cell counts as a wall
-
-FLOOR = 0.01
-"""Worth of a point in the open, relative to one on a wall. Field values are linear in the logarithm of the worth."""
-
+FLOOR = 0.01  # worth of a point in the open, relative to one on a wall; fields are linear in the logarithm of the worth
 COARSE_M, TOP = 0.3, 255  # width of a coarse cell, metres, and the value of a fine cell on a wall
 
 
@@ -164,14 +159,9 @@ def _surfaces(states: NDArray[np.float32], grid: Grid, known: NDArray[np.bool_])
     return np.asarray((cells + 0.5) * grid.resolution), np.tile([flat, 0.0, flat], (len(cells), 1)), strengths
 
 
-HEADINGS, POINTS, FINE_POINTS = 90, 48, 60
-"""Headings and points of a scan in the coarse search, and points in the refinement, evenly spaced by beams."""
-
+HEADINGS, POINTS, FINE_POINTS = 90, 48, 60  # headings and points in the coarse search, points in the refinement
 MIN_POINTS = 8  # fewest points of a search: fewer points fit walls anywhere
-
-BLOCK, SQUARES = 4, 240
-"""Side of the squares whose best position is kept per heading, in coarse cells, and number of squares to refine."""
-
+BLOCK, SQUARES = 4, 240  # side of squares that keep their best position, in coarse cells; squares to refine
 APART_M, APART_RAD = 0.3, np.radians(8.0)  # least distances between candidates: in x or y, or in yaw
 
 

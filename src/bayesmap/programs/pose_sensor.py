@@ -25,8 +25,7 @@ from bayesmap.gen.typing import Arguments, Score, Weight
 from bayesmap.programs.beam_sensor import RangeSensor, ReadingLaw, ReadingsTrace, checked_walls
 from bayesmap.space.grid import Grid
 
-LEAST_COSINE = 1e-10
-"""The least absolute direction cosine. A beam with a smaller one gets this value, and stays in its row or column."""
+LEAST_COSINE = 1e-10  # absolute direction cosines are raised to this: such beams stay in their row or column
 
 
 class Beams(NamedTuple):

@@ -42,8 +42,7 @@ from bayesmap.samplers.walls import WallSampler
 from bayesmap.sensors.builtin import AdditiveNoise, BeamMixture, Gaussian, describe, from_description, noise_with
 from bayesmap.sensors.model import RangeLimits
 
-SHAPES = (3.0, 5.0, 9.0, 17.0, math.inf)
-"""Degrees of freedom to try, infinite for normal noise. With odd numbers, kernels need no logarithm."""
+SHAPES = (3.0, 5.0, 9.0, 17.0, math.inf)  # degrees of freedom to try; odd numbers need no logarithm in kernels
 LEAST_SCALE_M = 1e-3
 LEAST_GROWTH = 1e-6  # metres per metre
 FIRST_STEP, CLOSE = 0.1, 1e-3  # first step and final accuracy of the search, in logarithms of the noise's parameters
@@ -100,15 +99,12 @@ def refit_noise(noise: AdditiveNoise, residuals: StopResiduals, step: float) -> 
 BEAMS_LOOKED_AT = 40_000  # beams used in each sweep, at most about
 PILOT_SWEEPS = 40  # most sweeps of the pilot of reflectivities and surfaces; a short warm-up has a shorter pilot
 SENSOR_SWEEPS = 30  # sweeps of the pilot that fits a sensor alone
-SPREAD_WITHOUT_SURFACE = 0.3
-"""Standard deviation of stops within cells without surfaces, in edges: part of the noise that a fit starts from."""
+SPREAD_WITHOUT_SURFACE = 0.3  # standard deviation of stops in cells without surfaces, in edges, with which a fit starts
 FIRST_SWEEP, WHOLE_UNTIL = 3, 20  # the first sweep that moves parameters, and the last that moves them all the way
 PRIOR_EVERY = 2  # sweeps from one move of the prior to the next
 LEAST_SHARE = 1e-5
-LEAST_RANDOM = 5e-4
-"""Least share of random readings: a map of few scans may explain all their readings, but not new ones."""
-PSEUDO_BEAMS = 2.0
-"""Weight of the present value of a share, in beams: a log without readings of a kind must not make its share zero."""
+LEAST_RANDOM = 5e-4  # least share of random readings: a map of few scans may explain all theirs, but not new ones
+PSEUDO_BEAMS = 2.0  # weight of a share's present value, in beams: it stays positive if a log has no such readings
 
 
 @dataclass(frozen=True)
@@ -322,8 +318,7 @@ def _likeliest_beta(
 
 COUPLING_SWEEPS = 100
 COUPLING_WHOLE_UNTIL = 40  # the last sweep in which the coupling moves all the way
-FIRST_COUPLING = 0.5
-"""Start of the pilot: below about 0.88, the coupling at which, at p = 0.5, whole regions become alike."""
+FIRST_COUPLING = 0.5  # start of the pilot; at 0.88 and p = 0.5, whole regions become alike
 
 
 def fit_coupling_to_scans(

@@ -38,12 +38,9 @@ if TYPE_CHECKING:
 Look = Callable[["ChainMaps"], Floats]
 
 NUMBERS = 5  # parameters of a surface: mean and covariance
-UPDATES_ALL, UPDATES_FEW = 1 << 24, (1 << 24) + 1
-"""Sweep numbers that chains do not reach: the first updates all cells, the second few."""
+UPDATES_ALL, UPDATES_FEW = 1 << 24, (1 << 24) + 1  # sweep numbers past all chains': all cells are updated, or few
 EARLY_SHARE = 0.8  # share of the warm-up before the first merge moves
-MERGED_AGAIN = 2
-"""Number of further merges, each after another tenth of the sweeps before the first. By then surfaces have moved, and
-may take in others. With `EARLY_SHARE` as above, all merges lie in the warm-up."""
+MERGED_AGAIN = 2  # further merges, each after a tenth of the sweeps before the first, still in the warm-up
 
 
 @dataclass(frozen=True, eq=False)
@@ -181,13 +178,11 @@ def merge(problem: StopProblem, chains: StopChains, beta: float) -> None:
 MAX_READINGS = 12  # most readings of a surface that may be merged: with more, removal is seldom better
 REACH = 2  # most cells, in x and in y, between a surface and the neighbour that takes it in
 CLOSE = 3.0  # most cells between a reading and the mean of the surface that explains it
-MAX_OFF_SIGMAS = 2.5
-"""Largest RMS distance of readings from the neighbour's axis, in standard deviations of surface and noise."""
+MAX_OFF_SIGMAS = 2.5  # most RMS distance of readings from the neighbour's axis, in sigmas of surface and noise
 SOLID_FROM = 0.1  # reflectivity from which a cell counts as one that stops beams
 FREE = 1e-20  # reflectivity of a cell that became free
 AROUND = 3  # readings within so many cells of a cell that becomes free are compared
-MERGED_NATS = 1.0
-"""Least gain of a merge. At 0 too many surfaces are merged, which sweeps then separate again; at 2 too few."""
+MERGED_NATS = 1.0  # least gain of a merge: at 0 too many are merged, and separated again by sweeps; at 2 too few
 LEVEL = 1e-9  # least component of an axis, for divisions
 MERGE_ROUNDS = 3  # most rounds of merges; five more gain nothing that held-out beams show
 

@@ -55,8 +55,7 @@ class Keep:
 
 NOTHING = Keep()
 
-MAPS_TO_SEE = 8
-"""Most draws per chain that decide which cells count as observed; they do not depend on the other chains."""
+MAPS_TO_SEE = 8  # most draws per chain that decide which cells count as observed, whatever other chains hold
 
 
 @dataclass(frozen=True, eq=False)

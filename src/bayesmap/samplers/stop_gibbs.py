@@ -34,8 +34,7 @@ HIGHEST = float(np.nextafter(np.float16(1), np.float16(0)))
 """The largest number below 1 in half precision, 0.9995. A mean rounded to 1 would give a beam that passes the cell the
 likelihood 0; this one costs less than 0.0005 nats per beam."""
 
-EARLY_SURFACE_STEPS = 12
-"""Metropolis steps of a surface in each of the first sweeps of a chain, in which surfaces move furthest."""
+EARLY_SURFACE_STEPS = 12  # Metropolis steps of a surface in each early sweep, in which surfaces move furthest
 
 
 class StopDraws:

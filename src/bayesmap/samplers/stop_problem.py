@@ -22,15 +22,10 @@ from bayesmap.sensors.model import RangeLimits, SensorModel
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
 
-CELLS_AROUND = 1.5
-SIGMAS_AROUND = 6.0
-"""Cells and standard deviations from a stop within which a reading may be its return; further away it is random."""
-
-SHARE_AROUND = 0.1
-"""Density at which the tails of Student's t are cut off, as a share of the density of a random reading."""
-
-CELLS_MOVED = 2
-"""Cells by which readings may move with the poses: draws keep surfaces within this distance of the first readings."""
+CELLS_AROUND = 1.5  # cells from a stop within which a reading may be its return; elsewhere it is random
+SIGMAS_AROUND = 6.0  # standard deviations that are added to this distance
+SHARE_AROUND = 0.1  # density at which tails of Student's t are cut off, as a share of a random reading's density
+CELLS_MOVED = 2  # cells by which readings may move with the poses: draws keep surfaces this far from first readings
 
 
 @dataclass(frozen=True, eq=False)

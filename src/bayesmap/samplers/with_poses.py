@@ -40,9 +40,7 @@ from bayesmap.space.grid import Grid
 if TYPE_CHECKING:
     from bayesmap.kernels.predict.scan_likelihood import ScanLikelihood
 
-OPTIMAL = 2.38 / np.sqrt(3.0)
-"""Length of steps in three dimensions, in standard deviations (Roberts, Gelman and Gilks, 1997)."""
-
+OPTIMAL = 2.38 / np.sqrt(3.0)  # length of steps, in standard deviations (Roberts, Gelman and Gilks, 1997)
 WANTED_ACCEPTANCE = 0.35  # share of accepted steps to which the sizes of steps adapt
 MOST_NATS = 2.0
 """Cap of the change of one beam's log density in a difference. If a beam slips past an edge, its density jumps, and the

@@ -181,8 +181,7 @@ def why_outlying(scans: Scans, scan: int) -> str:
     )
 
 
-ROUNDING = 1e-5
-"""Largest excess over the bounds that is accepted: rounding of a mean in single precision, not a caller's mistake."""
+ROUNDING = 1e-5  # largest excess over the bounds that is accepted: rounding in single precision
 
 
 def as_numbers(grid: Grid, values: ArrayLike, name: str, *, unknown: bool = False) -> NDArray[np.float64]:

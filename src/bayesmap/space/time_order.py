@@ -8,11 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 STEP_S = 1.0  # largest step back of stamps, seconds, that counts as scans logged late rather than as a clock set back
-MIN_SCANS_AFTER_STEP = 10
-"""Fewest scans after a recognised step back of the clock; half as many on each side must overlap in time."""
+MIN_SCANS_AFTER_STEP = 10  # fewest scans after a step back of the clock; half as many on each side must overlap
 SAME_S = 1e-3  # stamps that are closer, in seconds, are equal: no laser sweeps so fast
-TURNS = 0.7
-"""Fewest changes between two groups of scans in time order, per scan of the smaller group, if the groups alternate."""
+TURNS = 0.7  # fewest changes between two alternating groups of scans, per scan of the smaller
 
 
 @dataclass(frozen=True, eq=False)

@@ -24,10 +24,8 @@ from bayesmap.beams.table import BeamTable
 from bayesmap.posterior.predictor import Predictor
 from bayesmap.space.scans import Scans
 
-MOST_BEAMS = 2000
-MOST_BEAMS_OF_STOPS = 500
-"""The most beams evaluated per cell, for walls and for other kinds of cells. Each also counts for beams left out."""
-
+MOST_BEAMS = 2000  # most beams evaluated per cell for walls; each also counts for beams left out
+MOST_BEAMS_OF_STOPS = 500  # the same for other kinds of cells
 SILENT_NATS = 0.005  # a beam with a smaller log ratio counts neither for nor against
 MOST_DRAWN = 100  # the largest number of beams per cell that a page gets one by one: those with the largest log ratios
 

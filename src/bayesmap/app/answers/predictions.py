@@ -23,19 +23,13 @@ from bayesmap.posterior.predictor import CENTRAL_80, MapStates, Predictor, ScanP
 from bayesmap.sensors.model import RangeLimits
 from bayesmap.space.scans import Scans, fan
 
-MOST_DRAWS = 32
-HELD_BYTES = 192 << 20
-"""The largest number of draws over which predictions are averaged, and the memory that they may take."""
-
+MOST_DRAWS = 32  # most draws over which predictions are averaged
+HELD_BYTES = 192 << 20  # most memory of these draws
 FEW_DRAWS = 8  # the number of draws while the hand moves, since each virtual scan is soon replaced by the next
 STALE_SECONDS = 3.0  # while chains run, the predictor is rebuilt from their latest draws after this time
-
-NEARBY_M = 0.5
-LEAST_SHARED = 0.25
-"""A real scan is shown beside the virtual scan if its pose is this near and shares this part of the field of view."""
-
-NEAR_CELLS = 2.0
-"""The largest distance between a reading and the mean of the surface at which it may have ended, in cells."""
+NEARBY_M = 0.5  # a real scan is shown beside the virtual scan if its pose is this near
+LEAST_SHARED = 0.25  # and if it shares this part of the field of view
+NEAR_CELLS = 2.0  # most cells from a reading to the mean of the surface at which it may have ended
 
 
 class GhostPredictor:

@@ -31,10 +31,8 @@ ANSWERED_BY: Mapping[type, Literal["path", "views", "ghost", "beam"]] = {
 
 MOST_VIEWS = 400  # the largest number of places in the map of expected information
 PASSABLE = 0.3  # a sensor may stand in a cell whose probability of stopping a beam is below this
-
-HEADINGS = 8
-MOST_ANGLES = 180
-"""The headings tried per place, and the most beams per view, evenly chosen. Each also counts for the beams left out."""
+HEADINGS = 8  # headings tried per place
+MOST_ANGLES = 180  # most beams per view, evenly chosen; each also counts for the beams left out
 
 
 @dataclass(frozen=True, eq=False)

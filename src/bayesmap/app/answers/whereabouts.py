@@ -30,10 +30,8 @@ from bayesmap.sim.forward import ranges
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans, fan
 
-FINEST_M = 0.125
-MOST_CELLS = 1_000_000
-"""The search tries the centres of cells. Cells of a drawn map are divided to this edge, if these are not too many."""
-
+FINEST_M = 0.125  # cells of a drawn map, whose centres the search tries, are divided to this edge,
+MOST_CELLS = 1_000_000  # unless there would be more than these
 TYPICAL_SCANS = 100  # number of typical scans of a drawn world
 MOST_POSES = 1000  # the largest number of poses sent to the page: those with the largest weights
 

@@ -198,8 +198,7 @@ class CompareBeam(Action, frozen=True, tag="beam"):
 Edit: TypeAlias = ChangeSettings | Walls | AddSensor | MoveSensor | RemoveSensor | Clear | New
 """Actions that change the document. `clear` does so only for walls."""
 
-Question: TypeAlias = Inspect | FindPath | FindViews | WhereAmI | MoveGhost | CompareBeam
-"""Actions that change nothing. No state confirms them, and the answer goes to one page."""
+Question: TypeAlias = Inspect | FindPath | FindViews | WhereAmI | MoveGhost | CompareBeam  # answered to one page
 
 AnyAction: TypeAlias = (
     Hello | Edit | Undo | Redo | Run | Cancel | Live | ShowView | Painted | ShowScan | Export | Question

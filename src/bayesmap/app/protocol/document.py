@@ -21,28 +21,20 @@ from bayesmap.errors import BadInput
 from bayesmap.space.grid import Grid
 
 VERSION: Final = 1
-CHAIN_METHODS = ("gibbs", "block")
-"""Methods that are Markov chains."""
+CHAIN_METHODS = ("gibbs", "block")  # methods that are Markov chains
 
 RARE_WALLS = 0.2
 """If walls or free cells are at most this probable a priori, method "auto" means 2 x 2 blocks. Single-site moves then
 seldom leave a wrong map: a wall has to go before its neighbour can come."""
 
 SMALLEST_NOISE_M = 0.01  # the smallest noise of the sensor model: a density needs a width
-
-SIDE = (2, 500)
-LARGEST_SIDE_OF_FILE = 4000
-"""The smallest and largest number of cells per side of a drawn map, and the largest of a map from a file."""
-
+SIDE = (2, 500)  # least and most cells per side of a drawn map
+LARGEST_SIDE_OF_FILE = 4000  # most cells per side of a map from a file
 LARGEST_SIDE_OF_LOG = 1000  # the largest number of cells per side of a map that is inferred from a log
-
-SENSORS = (1, 32)
-RESOLUTIONS_M = (0.02, 2.0)
-"""The smallest and largest number of sensors, and the smallest and largest cells that a page can choose for a log."""
-
-ANY_RESOLUTION_M = (1e-3, 1e3)
-LARGEST_COORDINATE_M = 1e6
-"""The smallest and largest cells of any document, and the largest absolute coordinate."""
+SENSORS = (1, 32)  # least and most sensors
+RESOLUTIONS_M = (0.02, 2.0)  # smallest and largest cells that a page can choose for a log
+ANY_RESOLUTION_M = (1e-3, 1e3)  # smallest and largest cells of any document
+LARGEST_COORDINATE_M = 1e6  # largest absolute coordinate
 
 Kind = Literal["simulation", "run", "log"]
 Method = Literal["auto", "gibbs", "block", "propagate", "importance"]

@@ -17,8 +17,7 @@ from bayesmap.app.protocol.document import (
     bounds_of,
 )
 
-OWN_LAYERS = ("draw", "width")
-"""Layers for which each page gets its own fields. The page computes the other layers from the mean."""
+OWN_LAYERS = ("draw", "width")  # layers for which each page gets its own fields; it computes the others from the mean
 
 Pair = tuple[float, float]
 

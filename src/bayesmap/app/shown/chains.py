@@ -54,21 +54,12 @@ POSE_CHAINS = 16
 """The number of chains if poses are uncertain. A map holds its sensors in place, so each chain stays near its start."""
 
 STEP_SECONDS = 0.015  # the duration of one step of the chains. The worker reads its pipe between two steps
-
-DRAW_BYTES = 128 << 20
-"""The memory for the kept draws of a run. If the draws of all sweeps do not fit, they are thinned."""
-
+DRAW_BYTES = 128 << 20  # memory of a run's kept draws, which are thinned to fit
 LOOKS = 32  # the number of times per run that observed cells are counted, besides sweeps 1, 2, 4 and so on
-
-DIAGNOSIS_SHARE = 0.1
-"""The largest share of time spent on diagnostics. Between two diagnoses, the figures of the last one are shown."""
-
-RECENT, RECENT_BYTES = 200, 16 << 20
-"""If no draws are kept: the number of latest draws per chain in memory, and the bytes that they may take together."""
-
-SMALLEST_POSE_M = 0.001
-SMALLEST_HEADING_RAD = math.radians(0.05)
-"""If only position or heading is uncertain, the other gets this standard deviation: a density needs a width."""
+DIAGNOSIS_SHARE = 0.1  # largest share of time spent on diagnostics; the last figures are shown meanwhile
+RECENT, RECENT_BYTES = 200, 16 << 20  # latest draws per chain in memory if none are kept, and their bytes
+SMALLEST_POSE_M = 0.001  # standard deviation of a position if only headings are uncertain,
+SMALLEST_HEADING_RAD = math.radians(0.05)  # and of a heading if only positions are: a density needs a width
 
 FARTHEST_SIGMAS = 4.0
 EVENLY = (0.7548776662466927, 0.5698402909980532)

@@ -19,8 +19,7 @@ from bayesmap.posterior.baselines import P_HIT, P_MISS, hit_ratio, log_odds, log
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
 
-MOST_SCANS = 800
-"""The largest number of scans in a map along changing poses, evenly chosen: the map is computed again and again."""
+MOST_SCANS = 800  # most scans in a map along changing poses, evenly chosen: it is computed again and again
 
 
 class Counted(FixedMap):

@@ -28,27 +28,19 @@ from bayesmap.sensors.builtin import describe
 from bayesmap.sensors.model import SensorModel
 
 Floats = NDArray[np.float64]
-OneMap = tuple[NDArray[Any], int, int]
-"""A map, (nx, ny), the index of its chain and the index of its draw."""
-
-CHAINS = 2
-SAVED_DRAWS = 500
-"""The number of chains, and the number of independent draws per chain in the saved run of a method without chains."""
-
+OneMap = tuple[NDArray[Any], int, int]  # a map (nx, ny), its chain and its draw
+CHAINS = 2  # chains in the saved run of a method without chains
+SAVED_DRAWS = 500  # independent draws per chain in such a run
 INTERVAL_DRAWS = 60  # the number of draws used for credible intervals
-
-GOOD_RHAT = 1.01
-GOOD_ESS = 400.0
-"""Limits of Vehtari et al. (2021) for R-hat and effective sample size. 400 effective draws make R-hat reliable."""
+GOOD_RHAT = 1.01  # limits of Vehtari et al. (2021) for R-hat and effective sample size:
+GOOD_ESS = 400.0  # 400 effective draws make R-hat reliable
 
 BAD_ESS = 50.0
 FEWEST_SWEEPS = 200
 """With fewer sweeps, running chains get no verdict, and differences between the chains' means are not judged."""
 
 FEWEST_DIAGNOSED = 4  # the fewest sweeps for R-hat, which needs two draws in each half of a chain
-
-BAD_DIFFERENCE = 0.25
-"""The largest good difference of a cell's mean between two chains: 5 standard errors of 200 draws at p = 1/2."""
+BAD_DIFFERENCE = 0.25  # largest good difference of a cell's chain means: 5 standard errors of 200 draws at p = 1/2
 
 
 METHODS = {
@@ -57,7 +49,7 @@ METHODS = {
     "pilot": "Gibbs sampling, while the sensor is fitted", "none": "none yet: this is the prior",
     "hits": "counts of hits and passes", "counts": "counts of hits and passes",
 }  # fmt: skip
-COUNTS = ("hits", "counts")  # the methods in words, and those without prior and sensor
+COUNTS = ("hits", "counts")  # methods without prior and sensor
 
 
 def in_words(description: Mapping[str, Any]) -> str:

@@ -30,10 +30,8 @@ from bayesmap.space.grid import Grid
 
 TOLERANCE = 1e-3  # belief propagation has converged when no probability changes by more than this in a round
 THREADS_FROM_INCIDENCES = 200_000  # smaller tables use one thread, so that the page has the other cores for painting
-
-PIECE_SECONDS = 0.015
-FIRST_PIECE = 64
-"""The duration of a step of importance sampling, and the number of particles in the first step."""
+PIECE_SECONDS = 0.015  # duration of a step of importance sampling
+FIRST_PIECE = 64  # particles in the first step
 
 
 def touched(table: BeamTable) -> tuple[NDArray[np.intp], BeamTable]:

@@ -159,9 +159,7 @@ def device_maps(batches: Iterable[StopStates], grid: Grid, hit_depth: float, *, 
 # unlikely stop may be the only one that explains a reading; the mixture has a floor.
 GONE = wp.constant(wp.float64(1.0e-30))
 GONE_ROBUST = wp.constant(wp.float64(1.0e-14))
-CELLS_PAST_REACH = 4.0
-"""Cells past a reading's reach whose surfaces may still explain it, because they extend along the beam."""
-
+CELLS_PAST_REACH = 4.0  # cells past a reading's reach whose surfaces, which extend along the beam, may explain it
 FEW_BEAMS = 5_000  # fewer beams than this are done before a second thread has started
 
 

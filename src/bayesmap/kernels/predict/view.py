@@ -14,10 +14,8 @@ from bayesmap.space.grid import Grid
 
 wp.set_module_options({"enable_backward": False})
 
-MIN_SURVIVAL = wp.constant(wp.float64(1.0e-6))
-"""Smallest chance of getting as far as a cell at which a beam is still followed."""
-INTEGRATION_SIGMAS = wp.constant(wp.float64(4.0))
-"""Standard deviations from a stop within which readings are integrated."""
+MIN_SURVIVAL = wp.constant(wp.float64(1.0e-6))  # least chance of getting to a cell at which a beam is followed
+INTEGRATION_SIGMAS = wp.constant(wp.float64(4.0))  # standard deviations about a stop in which readings are integrated
 
 
 @wp.struct

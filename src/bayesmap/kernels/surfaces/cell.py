@@ -22,8 +22,7 @@ from bayesmap.kernels.device import Singles
 from bayesmap.kernels.random import PER_GAMMA, log_gamma_variate, normal
 
 CROSSING_WIDTH_SQ = wp.constant(wp.float32(2.2**2))  # w squared, see `bayesmap.beams.rays`
-DIRECTION_SQ = wp.constant(wp.float32(0.005**2))
-"""Square of omega, radians: 4 to 8 thousandths predict held-out scans best (docs/lab/surfaces.md)."""
+DIRECTION_SQ = wp.constant(wp.float32(0.005**2))  # omega squared: 4 to 8 mrad predict best (docs/lab/surfaces.md)
 
 Cell = wp.types.vector(length=8, dtype=wp.float32)
 """A cell's state: reflectivity, mean x and y (metres from the grid's corner), Cholesky factor l11, l21, l22 of Sigma,

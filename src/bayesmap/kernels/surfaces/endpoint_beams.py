@@ -128,9 +128,7 @@ def log_stops(
 
 
 WIDTH = 8
-Lanes = wp.types.vector(length=WIDTH, dtype=wp.float32)
-"""One number of each of eight beams."""
-
+Lanes = wp.types.vector(length=WIDTH, dtype=wp.float32)  # one number of each of eight beams
 OF_STOPPED = wp.constant(7)  # per stopped beam: line (3), distance of the centre, reading, decay, 1 if it counts
 OF_PASSING = wp.constant(3)  # numbers per passing beam: offset and direction at the centre
 PRODUCTS = wp.constant(2)  # lanes before the blocks: product and least product, see `log_stops_in_lanes`

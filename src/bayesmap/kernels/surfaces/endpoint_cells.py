@@ -37,9 +37,8 @@ wp.set_module_options({"enable_backward": False})
 
 COSINE, SINE = 6, 7
 SHORT = wp.constant(wp.float32(0.3))  # size of short steps, relative to the others
-LEAST_M = wp.constant(wp.float64(1.0e-30))
-MOST_M = wp.constant(wp.float64(1.0 - 1.0e-7))
-"""Range of m within which logit m takes steps: beyond it, single precision could not reverse a step."""
+LEAST_M = wp.constant(wp.float64(1.0e-30))  # range of m within which logit m takes steps:
+MOST_M = wp.constant(wp.float64(1.0 - 1.0e-7))  # beyond it, single precision could not reverse a step
 THINNEST = wp.constant(wp.float32(1.0e-12))  # least variance after rounding, square metres
 
 

@@ -44,9 +44,7 @@ wp.set_module_options({"enable_backward": False})
 
 CANDIDATES, HALF, PER_HALF = wp.constant(32), wp.constant(16), wp.constant(wp.float64(1.0 / 16.0))
 """The number of candidates, the number in each half, and one over the number in each half."""
-LOGISTIC = wp.constant(wp.float64(0.6))
-"""Scale of the logistic distribution that replaces a standard normal: it has a formula for quantiles, and longer
-tails."""
+LOGISTIC = wp.constant(wp.float64(0.6))  # scale of a logistic in place of a normal: longer tails, known quantiles
 LEAST_SPREAD = wp.constant(wp.float64(1.0e-12))  # square metres: a thinner surface counts as one point
 NEVER = wp.constant(wp.float64(-1.0e300))  # log weight of an impossible candidate
 
