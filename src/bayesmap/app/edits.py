@@ -58,10 +58,8 @@ def tutorial_document(seed: int = 0) -> Document:
 def new_document(world: World, shape: tuple[int, int], before: Document) -> Document:
     """Return a document with a new map, and the settings of the document before as far as they fit.
 
-    The sensor's longest range is twice the longer side, as in the tutorial: every beam can leave the map.
-
-    Raises:
-        Refused: the shape does not fit the world.
+    The sensor's longest range is twice the longer side, as in the tutorial: every beam can leave the map. Raises
+    Refused: the shape does not fit the world.
     """
     noise, sensor = 0.2, None
     if world == "blank":
@@ -122,10 +120,8 @@ A = TypeVar("A", bound=Action)
 
 
 def edit(document: Document, action: Edit) -> tuple[Document, str]:
-    """Return the document after an action, and a remark if only part of the action was possible.
-
-    Raises:
-        Refused: the action is not possible.
+    """Return the document after an action, and a remark if only part of the action was possible. Raises Refused: the
+    action is not possible.
     """
     if not document.simulated and not isinstance(action, ChangeSettings | New):
         raise Refused(f"{document.source.name} is a file, which cannot be edited", "begin a new map")
@@ -231,9 +227,7 @@ def merged(before: Action, after: A) -> A | None:
 
 def adopted(present: Document, brought: Document) -> Document:
     """Return the document to show: the brought simulation, or the present file with the settings of the brought one.
-
-    Raises:
-        Refused: the documents show different files, or only one of them shows a file.
+    Raises Refused: the documents show different files, or only one of them shows a file.
     """
     if brought.simulated and present.simulated:
         return brought
@@ -253,10 +247,8 @@ def adopted(present: Document, brought: Document) -> Document:
 
 
 def with_resolution(document: Document, resolution_m: float) -> Document:
-    """Return the document of a log with another cell size. The grid depends on the log and the cell size alone.
-
-    Raises:
-        Refused: the document shows no log, or the map would have too many cells.
+    """Return the document of a log with another cell size. The grid depends on the log and the cell size alone. Raises
+    Refused: the document shows no log, or the map would have too many cells.
     """
     bounds = document.source.bounds
     if document.source.kind != "log" or bounds is None:
@@ -272,10 +264,8 @@ def with_resolution(document: Document, resolution_m: float) -> Document:
 
 
 def with_scans_used(document: Document, scans: int | None) -> Document:
-    """Return the document of a log with the map of its first scans only; None means all scans.
-
-    Raises:
-        Refused: the document shows no log.
+    """Return the document of a log with the map of its first scans only; None means all scans. Raises Refused: the
+    document shows no log.
     """
     if document.source.kind != "log":
         raise Refused("only of a log some of the scans can be left out")

@@ -89,10 +89,8 @@ def one_file(kind: Literal["recording", "figure"], data: bytes) -> str:
 
 
 def to_figure(document: Document) -> str:
-    """Return a page in one file in which a drawn world can be edited and is sampled, without a server.
-
-    Raises:
-        Refused: the document shows a file, has uncertain poses, or asks for belief propagation.
+    """Return a page in one file in which a drawn world can be edited and is sampled, without a server. Raises Refused:
+    the document shows a file, has uncertain poses, or asks for belief propagation.
     """
     if not document.simulated:
         raise Refused(f"{document.source.name} is a file, and a figure shows a drawn world", "begin a new map")

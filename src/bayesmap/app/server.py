@@ -231,11 +231,7 @@ async def _receive(socket: WebSocket, hub: Hub, client: int) -> None:
 
 
 def listen(host: str, port: int) -> socket.socket:
-    """Return a listening socket. Port 0 means any free port.
-
-    Raises:
-        BadInput: the address is not available.
-    """
+    """Return a listening socket. Port 0 means any free port. Raises BadInput: the address is not available."""
     family = socket.AF_INET6 if ":" in host else socket.AF_INET
     # With TCP given explicitly, asyncio sends small messages at once. Else each waits for the last one's receipt.
     listener = socket.socket(family, socket.SOCK_STREAM, socket.IPPROTO_TCP)

@@ -298,11 +298,7 @@ class Session:
 
 
 def check_question(document: Document, question: actions.Question) -> None:
-    """Check that the cell or the beam of a question exists.
-
-    Raises:
-        Refused: it does not exist.
-    """
+    """Check that the cell or the beam of a question exists. Raises Refused: it does not exist."""
     match question:
         case actions.Inspect():
             if question.x >= document.grid.shape[0] or question.y >= document.grid.shape[1]:

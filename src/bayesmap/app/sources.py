@@ -88,11 +88,7 @@ class SavedRun(Found):
 
     @property
     def law(self) -> None:
-        """None: the scene already has the run's sensor model.
-
-        Raises:
-            BadInput: the run's sensor model is not built in.
-        """
+        """None: the scene has the run's sensor model already. Raises BadInput: this model is not built in."""
         if self.run.posterior.sensor is None:
             raise BadInput("the run's sensor model is not one of bayesmap's, so nothing can be predicted")
 
@@ -205,10 +201,8 @@ def first_beams(table: BeamTable, beams: int) -> BeamTable:
 
 
 def read_document(path: str) -> Document:
-    """Read a document that the page has exported (``.json``).
-
-    Raises:
-        BadInput: no JSON, or not a document; the message names the file.
+    """Read a document that the page has exported (``.json``). Raises BadInput: no JSON, or not a document; the message
+    names the file.
     """
     try:
         return parse_simulation(json.loads(Path(path).read_text(encoding="utf-8")))
@@ -237,11 +231,7 @@ def open_file(path: str, **reading: Any) -> OpenedRun | OpenedLog:
 
 
 def opened_run(run: Run, name: str) -> OpenedRun:
-    """Open a run that is in memory.
-
-    Raises:
-        BadInput: the map is too large for the page.
-    """
+    """Open a run that is in memory. Raises BadInput: the map is too large for the page."""
     settings, scans = run.posterior.settings, run.posterior.scans
     p = settings.get("prior", {}).get("p_wall", 0.5)
     method = settings.get("method")
@@ -260,10 +250,7 @@ def opened_run(run: Run, name: str) -> OpenedRun:
 def opened_log(scans: Scans, name: str) -> OpenedLog:
     """Open scans as a log, on cells of 10 cm, or on larger cells if a side would have more than 1000 cells.
 
-    Poses that look like raw odometry are at first treated as odometry.
-
-    Raises:
-        BadInput: the log has no scans.
+    Poses that look like raw odometry are at first treated as odometry. Raises BadInput: the log has no scans.
     """
     from bayesmap.cells.kinds import P_WALL
     from bayesmap.poses.agreement import look_like_odometry

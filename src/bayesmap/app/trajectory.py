@@ -91,10 +91,8 @@ class TrajectoryJob:
         self._stop.set()
 
     def steps(self) -> Generator[Step | Stage | Status | None, None, None]:
-        """Yield pictures and progress as they are ready, and None while there is none, until the job has ended.
-
-        Raises:
-            BadInput: as `infer_trajectory`.
+        """Yield pictures and progress as they are ready, and None while there is none, until the job has ended. Raises
+        BadInput: as `infer_trajectory`.
         """
         try:
             while True:
@@ -192,10 +190,7 @@ class LogTrajectory:
         """Yield steps and reports until the log can be mapped, and None while there is nothing new.
 
         The mode "run" infers the trajectory, unless it is known. "clear" forgets it. While it is unknown, other modes
-        show the map along the poses of the log.
-
-        Raises:
-            BadInput: as `bayesmap.poses.slam.infer_trajectory`.
+        show the map along the poses of the log. Raises BadInput: as `bayesmap.poses.slam.infer_trajectory`.
         """
         if task.mode == "clear" and self.placed is not None:
             self.placed = None

@@ -75,10 +75,8 @@ class MapWidget(anywidget.AnyWidget):
         return self._session.generation
 
     def to_html(self) -> str:
-        """Return a page in one file that shows the run.
-
-        Raises:
-            BadInput: the widget is a live page; use the page's export.
+        """Return a page in one file that shows the run. Raises BadInput: the widget is a live page; use the page's
+        export.
         """
         if self._run is None:
             raise BadInput("MapWidget: a live page is exported from the page itself")

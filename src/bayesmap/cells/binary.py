@@ -72,10 +72,8 @@ class BinaryWalls(CellPrior):
         return 0.0
 
     def probabilities(self, grid: Grid) -> Floats:
-        """Return the wall probability of every cell if its neighbours have a balance of 0, (nx, ny).
-
-        Raises:
-            BadInput: ``p_wall`` is an array of another shape than the grid's.
+        """Return the wall probability of every cell if its neighbours have a balance of 0, (nx, ny). Raises BadInput:
+        ``p_wall`` is an array of another shape than the grid's.
         """
         p = np.asarray(self.p_wall, dtype=np.float64)
         if p.ndim == 2 and p.shape != grid.shape:
@@ -222,11 +220,7 @@ class Ising(BinaryWalls):
 
     @property
     def pair_coupling(self) -> float:
-        """Log prior added by each pair of alike neighbours.
-
-        Raises:
-            BadInput: the coupling is still to be fitted.
-        """
+        """Log prior added by each pair of alike neighbours. Raises BadInput: the coupling is still to be fitted."""
         if isinstance(self.coupling, str):
             raise BadInput("Ising: the coupling is not fitted yet; infer does it, or fit_coupling, or give a number")
         return float(self.coupling)
@@ -243,10 +237,8 @@ class Ising(BinaryWalls):
         return np.asarray(perfect_draws(rng, self._logit(grid), self.pair_coupling, 1)[0])
 
     def sample_maps(self, rng: np.random.Generator, grid: Grid, count: int) -> NDArray[np.bool_]:
-        """Draw maps independently and exactly, (count, nx, ny).
-
-        Raises:
-            BadInput: so strong a coupling that exact draws take too long.
+        """Draw maps independently and exactly, (count, nx, ny). Raises BadInput: so strong a coupling that exact draws
+        take too long.
         """
         if self.pair_coupling == 0.0:
             return super().sample_maps(rng, grid, count)

@@ -30,10 +30,8 @@ MOST_SWEEPS = 4096  # most sweeps from the past: if the maps have not met by the
 def perfect_draws(rng: np.random.Generator, logit: Floats, coupling: float, count: int) -> NDArray[np.bool_]:
     """Draw maps of an Ising field of positive coupling independently and exactly, (count, nx, ny).
 
-    ``logit`` holds the log-odds of a wall at a balance of 0, (nx, ny); infinite in fixed cells.
-
-    Raises:
-        BadInput: the coupling is so strong, and the log-odds so near to zero, that the maps do not meet.
+    ``logit`` holds the log-odds of a wall at a balance of 0, (nx, ny); infinite in fixed cells. Raises BadInput: the
+    coupling is so strong, and the log-odds so near to zero, that the maps do not meet.
     """
     seeds: list[int] = []  # seed k makes the numbers of the sweeps from time -2^k to -2^(k - 1); seed 0 from -1 to 0
     out = np.empty((count, *logit.shape), dtype=np.bool_)

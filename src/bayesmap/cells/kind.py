@@ -158,10 +158,8 @@ class CellPrior(ABC):
         return total / draws.size if draws.size else np.full(draws.grid.shape, np.nan)
 
     def interval(self, draws: Draws, level: float) -> tuple[Floats, Floats]:
-        """Return the central credible interval of `map_of`: lower and upper end, (nx, ny) each.
-
-        Raises:
-            BadInput: a kind whose states have no interval.
+        """Return the central credible interval of `map_of`: lower and upper end, (nx, ny) each. Raises BadInput: a kind
+        whose states have no interval.
         """
         maps = np.stack([self.map_of(draws, chain, draw) for chain, draw in draws.numbers()]).astype(np.float64)
         lower, upper = np.quantile(maps, [0.5 * (1 - level), 0.5 * (1 + level)], axis=0)
@@ -202,9 +200,7 @@ class CellPrior(ABC):
 
     def surfaces(self, draws: Draws) -> tuple[Floats, Floats, Floats]:
         """Return mean surfaces for pictures: means (U, 2) and covariances (U, 2, 2) in metres, and reflectivities (U,).
-
-        Raises:
-            BadInput: this kind has no surfaces.
+        Raises BadInput: this kind has no surfaces.
         """
         raise BadInput(
             f"surfaces: the cells of this run are {self.words.states}, without surfaces; infer with prior=Surface(), "

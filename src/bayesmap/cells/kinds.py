@@ -26,11 +26,7 @@ _NAMED: dict[str, type[CellPrior]] = {
 
 
 def prior_from(description: Mapping[str, Any]) -> CellPrior:
-    """Return the prior of a description.
-
-    Raises:
-        BadInput: no loaded module defines the kind.
-    """
+    """Return the prior of a description. Raises BadInput: no loaded module defines the kind."""
     kind = str(description.get("kind"))
     named = _NAMED.get(kind, KINDS.get(kind))
     if named is None:

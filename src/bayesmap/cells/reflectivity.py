@@ -127,10 +127,8 @@ class Reflective(CellPrior):
         return log_density + self.coupling * ising_field.pairs_alike(solid)
 
     def sample_cells(self, rng: np.random.Generator, grid: Grid) -> dict[str, NDArray[Any]]:
-        """Draw a map.
-
-        Raises:
-            BadInput: the coupling is so strong, and the grid so large, that exact draws of the labels take too long.
+        """Draw a map. Raises BadInput: the coupling is so strong, and the grid so large, that exact draws of the labels
+        take too long.
         """
         if not self.has_labels:
             m = rng.beta(self.a, self.b, grid.shape).astype(np.float32)

@@ -66,11 +66,7 @@ def _no_stderr() -> Iterator[None]:
 
 
 def resolve(name: str = "cpu") -> str:
-    """Check a device name such as "cpu" or "cuda:0".
-
-    Raises:
-        BadInput: no such device on this machine.
-    """
+    """Check a device name such as "cpu" or "cuda:0". Raises BadInput: no such device on this machine."""
     start()
     known = [device.alias for device in wp.get_devices()]
     alias = "cuda:0" if name == "cuda" else name

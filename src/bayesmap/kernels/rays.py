@@ -220,10 +220,8 @@ def trace_rays(
     Beams with invalid readings, and beams that a scan does not have, get no entry. ``poses_world`` are other poses for
     the scans, as `bayesmap.space.scans.Scans.at` takes them. Each beam is followed for ``reach_m``, (B,), at most to
     the sensor's largest range, the default. No stop before ``near_m``, (B,), could explain its reading; 0 if None.
-    ``on_progress`` gets the beams done and all beams; each beam is followed twice.
-
-    Raises:
-        BadInput: more incidences than 32-bit indices can count.
+    ``on_progress`` gets the beams done and all beams; each beam is followed twice. Raises BadInput: more incidences
+    than 32-bit indices can count.
     """
     device = devices.resolve(device)
     scans = scans if poses_world is None else scans.at(poses_world)

@@ -108,10 +108,8 @@ class PoseBelief:
         return _moments(self.poses, self.weights)[1]
 
     def region(self, level: float = 0.95) -> Region:
-        """Return the smallest region of positions that holds a probability, all modes taken as normal.
-
-        Raises:
-            BadInput: a level outside (0, 1).
+        """Return the smallest region of positions that holds a probability, all modes taken as normal. Raises BadInput:
+        a level outside (0, 1).
         """
         if not 0 < level < 1:
             raise BadInput(f"region: level must lie inside (0, 1), got {level!r}")

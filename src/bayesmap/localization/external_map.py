@@ -89,10 +89,8 @@ def external_map(
     """Return a map of another program, ready to locate scans in.
 
     ``occupancy`` is the probability that each cell is occupied, NaN where unknown, (nx, ny), as `read_map` returns it.
-    The law is by default the assumed one. ``scans`` and ``beam_weight`` are as in `KnownMap.of_draws`.
-
-    Raises:
-        BadInput: no free cell, or no occupied one.
+    The law is by default the assumed one. ``scans`` and ``beam_weight`` are as in `KnownMap.of_draws`. Raises BadInput:
+    no free cell, or no occupied one.
     """
     law = MapLaw(ASSUMED) if law is None else law
     if not (np.nan_to_num(occupancy) > 0.5).any():

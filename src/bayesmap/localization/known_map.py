@@ -114,10 +114,8 @@ class KnownMap:
         """Return the prepared map of a run that `bayesmap.infer` or `bayesmap.load` returned.
 
         It uses ``draws`` draws, spread over chains, or all if there are fewer. ``beam_weight`` is the weight of a beam,
-        as a share of an independent reading; None for the weight by `INDEPENDENT_BEAMS`.
-
-        Raises:
-            BadInput: a run without draws, or a sensor model of the user's own.
+        as a share of an independent reading; None for the weight by `INDEPENDENT_BEAMS`. Raises BadInput: a run without
+        draws, or a sensor model of the user's own.
         """
         from bayesmap.posterior.predictor import predictor_of
 
@@ -139,9 +137,7 @@ class KnownMap:
 
         ``scans`` are typical scans, for the law of readings anywhere. ``occupancy`` is the mean probability that each
         cell stops a beam, and ``observed`` the mask of known cells, (nx, ny). Other arguments are as in `of_run`.
-
-        Raises:
-            BadInput: no free cell, or a sensor model of the user's own.
+        Raises BadInput: no free cell, or a sensor model of the user's own.
         """
         from bayesmap.kernels.predict.density import device_maps
 
@@ -253,9 +249,7 @@ def readings_anywhere(scans: Scans) -> Floats:
 
 def _compilable(sensor: SensorModel) -> SensorModel:
     """Return a mixture that kernels can compute. Pure noise gets 1 % of each outlier, so that every pose is possible.
-
-    Raises:
-        BadInput: a model of the user's own.
+    Raises BadInput: a model of the user's own.
     """
     if isinstance(sensor, Gaussian | StudentT):
         return BeamMixture(sensor, p_random=0.01, p_no_return=0.01, p_short=0.01)

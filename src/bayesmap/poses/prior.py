@@ -186,10 +186,8 @@ class Motions(PosePrior):
             raise BadInput("Motions: all standard deviations must be positive numbers")
 
     def law(self, log_poses: Floats) -> PoseLaw:
-        """Return a Markov chain of poses that starts at the log's first.
-
-        Raises:
-            BadInput: the number of scans is not the number of motions plus one.
+        """Return a Markov chain of poses that starts at the log's first. Raises BadInput: the number of scans is not
+        the number of motions plus one.
         """
         if len(log_poses) != len(self.relative) + 1:
             raise BadInput(f"Motions: {len(self.relative)} motions, but {len(log_poses)} scans")

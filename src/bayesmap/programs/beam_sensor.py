@@ -131,11 +131,7 @@ class ReadingLaw(ExactDensity):
 
 
 def reading_law(sensor: SensorModel, limits: RangeLimits) -> ReadingLaw:
-    """Return the law of a sensor model.
-
-    Raises:
-        BadInput: the sensor model has no `kernel_parameters`.
-    """
+    """Return the law of a sensor model. Raises BadInput: the sensor model has no `kernel_parameters`."""
     parameters = sensor.kernel_parameters()
     if parameters is None:
         raise BadInput(

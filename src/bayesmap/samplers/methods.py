@@ -125,10 +125,8 @@ WITHOUT_CHAINS: Mapping[str, Callable[[WallProblem, DrawRequest, Watch], Indepen
 def method_of(method: Method | str | None, known: Mapping[str, str], kind: str) -> tuple[str, Method]:
     """Return the name of a method, and the method with its options; None gives the first method of the kind of cells.
 
-    ``known`` holds the names of the kind's methods, and of their samplers.
-
-    Raises:
-        BadInput: this kind of cells has no such method.
+    ``known`` holds the names of the kind's methods, and of their samplers. Raises BadInput: this kind of cells has no
+    such method.
     """
     if method is None:
         method = next(iter(known))

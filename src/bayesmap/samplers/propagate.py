@@ -45,10 +45,8 @@ def propagate(
     of a whole region.
 
     Rounds end when no probability changes by more than ``tolerance``. ``damping`` in [0, 1) is the weight of the old
-    message in the new one, geometrically; ``beta`` is the inverse temperature of the likelihood.
-
-    Raises:
-        BadInput: rounds or damping out of range.
+    message in the new one, geometrically; ``beta`` is the inverse temperature of the likelihood. Raises BadInput:
+    rounds or damping out of range.
     """
     from bayesmap.kernels.walls.propagate import Beliefs
 

@@ -156,9 +156,7 @@ class Sampler(Protocol[P, S]):
 
     def prepare(self, model: Model, device: str, threads: int | None = None, watch: Watch = SILENT) -> P:
         """Trace the model's beams, and prepare all other data that chains share, with all cores if ``threads`` is None.
-
-        Raises:
-            BadInput: a model that this sampler cannot sample.
+        Raises BadInput: a model that this sampler cannot sample.
         """
 
     def init(

@@ -92,10 +92,8 @@ class WallProblem(Problem):
         return self.table.log_likelihood(walls) + self.prior.log_prob(walls, self.table.grid)
 
     def admit(self, walls: NDArray[np.bool_]) -> NDArray[np.bool_]:
-        """Return one map or several, (..., nx, ny), with the cells that the prior fixes set accordingly.
-
-        Raises:
-            BadInput: walls of another shape than the grid's.
+        """Return one map or several, (..., nx, ny), with the cells that the prior fixes set accordingly. Raises
+        BadInput: walls of another shape than the grid's.
         """
         shape = self.table.grid.shape
         if np.shape(walls)[-2:] != shape:
@@ -111,10 +109,8 @@ def log_odds(p_wall: Floats) -> Floats:
 
 
 def trace_walls(model: Model, device: str = "cpu", threads: int | None = None) -> WallProblem:
-    """Trace the beam table of a model of binary walls.
-
-    Raises:
-        BadInput: a prior of another kind or shape, a device that is not there, or too many incidences.
+    """Trace the beam table of a model of binary walls. Raises BadInput: a prior of another kind or shape, a device that
+    is not there, or too many incidences.
     """
     from bayesmap.kernels.device import resolve
     from bayesmap.kernels.walls.table import trace

@@ -46,10 +46,8 @@ def start_maps(
 
     The start "propagate" thresholds the marginals of belief propagation. Cells whose marginal equals the prior take a
     prior draw, independent for each chain. Chains with similar starts can agree before they have forgotten their start:
-    start from "prior" to check this. If neighbours are coupled, "prior" is approximate (`Ising.start`).
-
-    Raises:
-        BadInput: maps of another shape than the grid's, or fewer than chains.
+    start from "prior" to check this. If neighbours are coupled, "prior" is approximate (`Ising.start`). Raises
+    BadInput: maps of another shape than the grid's, or fewer than chains.
     """
     grid, shape = problem.grid, (len(chains), *problem.grid.shape)
     if not isinstance(start, str):

@@ -76,10 +76,8 @@ class Particles:
 def sample_importance(
     problem: WallProblem, particles: int, seed: int, *, beta: float = 1.0, watch: Watch = SILENT
 ) -> Particles:
-    """Draw maps from the prior and weigh them by the likelihood, at an inverse temperature.
-
-    Raises:
-        BadInput: no particles, or neighbours coupled so strongly that maps cannot be drawn.
+    """Draw maps from the prior and weigh them by the likelihood, at an inverse temperature. Raises BadInput: no
+    particles, or neighbours coupled so strongly that maps cannot be drawn.
     """
     from bayesmap.kernels.random import mix
 
@@ -164,11 +162,7 @@ class Enumeration:
 
 
 def enumerate_maps(problem: WallProblem) -> Enumeration:
-    """Compute p(map | readings) for every map, in plain NumPy.
-
-    Raises:
-        BadInput: more than `MAX_UNKNOWN` unknown cells.
-    """
+    """Compute p(map | readings) of every map, in plain NumPy. Raises BadInput: over `MAX_UNKNOWN` unknown cells."""
     table, p = problem.table, problem.p_wall
     free_to_vary = (p > 0) & (p < 1)
     # Cells that no beam touches matter if neighbours are coupled.

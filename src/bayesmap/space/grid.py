@@ -96,11 +96,9 @@ class Grid:
     def covering(cls, scans: Scans, resolution: float, margin_m: float = 0.5) -> Grid:
         """Return the smallest grid that holds every pose and every hit, with a free border of ``margin_m``, metres.
 
-        The origin is a multiple of the resolution, so that maps of two recordings of a building line up.
-
-        Raises:
-            BadInput: no scan at all, or more than `MAX_CELLS` cells. If a few scans lie so far out that they make the
-                grid too large, the message names the worst.
+        The origin is a multiple of the resolution, so that maps of two recordings of a building line up. Raises
+        BadInput: no scan at all, or more than `MAX_CELLS` cells. If a few scans lie so far out that they make the grid
+        too large, the message names the worst.
         """
         low, high = bounds_m(scans, margin_m)
         (nx, ny), _ = _whole_cells(low, high, resolution)

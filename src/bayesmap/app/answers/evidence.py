@@ -69,10 +69,8 @@ def wall_ratios(table: BeamTable, p_wall: NDArray[np.float64], cell: int) -> Bea
 
 
 def stop_ratios(result: Result, table: BeamTable, cell: int) -> BeamRatios | None:
-    """Compute each reading's log likelihood ratio, under the map against the cell emptied; None without draws.
-
-    Raises:
-        BadInput: the run's sensor model is not built in.
+    """Compute each reading's log likelihood ratio, under the map against the cell emptied; None without draws. Raises
+    BadInput: the run's sensor model is not built in.
     """
     if result.found.at_hand is None:
         return None

@@ -43,10 +43,8 @@ class GhostPredictor:
         self._draws = 0
 
     def answer(self, result: Result, question: MoveGhost, generation: int) -> tuple[GhostScan, Buffers]:
-        """Predict the scan at a pose, and find the real scan that was taken nearest.
-
-        Raises:
-            BadInput: there is nothing to predict from, or the sensor model's density does not integrate to one.
+        """Predict the scan at a pose, and find the real scan that was taken nearest. Raises BadInput: there is nothing
+        to predict from, or the sensor model's density does not integrate to one.
         """
         began = time.perf_counter()
         predictor, draws = self._ready(result, question.coarse)
@@ -94,9 +92,7 @@ class GhostPredictor:
 
 def predictor_of_result(result: Result) -> tuple[Predictor, int]:
     """Return the predictor of a result and its number of draws. Without draws it is 0, and cells count as independent.
-
-    Raises:
-        BadInput: there is nothing to predict from, or the run's sensor model is not built in.
+    Raises BadInput: there is nothing to predict from, or the run's sensor model is not built in.
     """
     scene, grid, draws, prior = result.scene, result.document.grid, result.found.at_hand, result.prior
     if isinstance(result.found, Nothing):
@@ -131,10 +127,8 @@ def nearest_scan(
 
 
 def compared_beam(result: Result, question: CompareBeam, generation: int) -> ComparedBeam:
-    """Compare a reading with its prediction.
-
-    Raises:
-        BadInput: there is nothing to predict from, or the sensor model's density does not integrate to one.
+    """Compare a reading with its prediction. Raises BadInput: there is nothing to predict from, or the sensor model's
+    density does not integrate to one.
     """
     from bayesmap.kernels.predict.density import forecast
     from bayesmap.kernels.predict.stop_mixture import mix_stops, range_quantiles

@@ -100,10 +100,8 @@ def _ratios(result: Result, table: BeamTable, cell: int) -> BeamRatios | None:
 
 
 def safe_path(result: Result, question: FindPath, generation: int) -> SafePath:
-    """Find the shortest path that is safe enough, and the probability that it is free.
-
-    Raises:
-        BadInput: there are no draws, or there is no path.
+    """Find the shortest path that is safe enough, and the probability that it is free. Raises BadInput: there are no
+    draws, or there is no path.
     """
     route = shortest_safe_path(result.maps, question.start, question.goal, question.radius, question.risk)
     free = route.free
@@ -117,10 +115,8 @@ def safe_path(result: Result, question: FindPath, generation: int) -> SafePath:
 def views(result: Result, generation: int) -> tuple[Views, Buffers]:
     """Compute the information expected from one more scan, in nats, at a lattice of free places.
 
-    The formula treats cells and beams as independent (`bayesmap.posterior.information.beam_information`).
-
-    Raises:
-        BadInput: there is no place at which a sensor could stand.
+    The formula treats cells and beams as independent (`bayesmap.posterior.information.beam_information`). Raises
+    BadInput: there is no place at which a sensor could stand.
     """
     # Candidate places, and a thinned fan of beams.
     document, mean = result.document, result.found.mean()

@@ -82,11 +82,7 @@ class Locator:
 
 
 def drawn_map(document: Document) -> KnownMap:
-    """Return the walls of a drawn world as a known map.
-
-    Raises:
-        BadInput: the world has no free cell.
-    """
+    """Return the walls of a drawn world as a known map. Raises BadInput: the world has no free cell."""
     grid, walls = document.grid, document.is_wall
     parts = max(1, math.ceil(grid.resolution / FINEST_M - 1e-9))
     parts = max(1, min(parts, math.isqrt(MOST_CELLS // grid.n_cells)))

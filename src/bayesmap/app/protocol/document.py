@@ -233,9 +233,7 @@ BOUNDS: Mapping[str, tuple[float, float]] = {
 
 def check_document(document: Document) -> None:
     """Check what depends on more than one field: sizes that belong together, sensors in free cells, a file's name.
-
-    Raises:
-        Refused: the document is not consistent.
+    Raises Refused: the document is not consistent.
     """
     grid = document.grid
     most = SIDE if document.simulated else (1, LARGEST_SIDE_OF_FILE)
@@ -261,11 +259,7 @@ def check_document(document: Document) -> None:
 
 
 def check_stand(document: Document, sensor: Sensor) -> None:
-    """Check that a sensor stands inside the grid and in a free cell.
-
-    Raises:
-        Refused: it does not.
-    """
+    """Check that a sensor stands inside the grid and in a free cell. Raises Refused: it does not."""
     cell = document.grid.cell_at(sensor.x, sensor.y)
     if cell is None:
         raise Refused(f"the sensor cannot stand outside the map, at ({sensor.x:.2f}, {sensor.y:.2f}) m")

@@ -25,10 +25,8 @@ T = TypeVar("T")
 
 
 def parse(data: str | bytes) -> AnyAction:
-    """Read a message from the page; unknown fields are left out.
-
-    Raises:
-        Refused: the message is too long, not JSON or of unknown type, or one of its values is invalid.
+    """Read a message from the page; unknown fields are left out. Raises Refused: the message is too long, not JSON or
+    of unknown type, or one of its values is invalid.
     """
     if len(data) > MAX_BYTES or (isinstance(data, str) and len(data.encode("utf-8", "replace")) > MAX_BYTES):
         raise Refused(f"a message of more than {MAX_BYTES:,} bytes", "send it in parts")
@@ -41,11 +39,7 @@ def parse(data: str | bytes) -> AnyAction:
 
 
 def check(value: object) -> AnyAction:
-    """Read a message that has been decoded to JSON values.
-
-    Raises:
-        Refused: see `parse`.
-    """
+    """Read a message that has been decoded to JSON values. Raises Refused: see `parse`."""
     if not isinstance(value, dict):
         raise Refused("a message that is not an object", "send one as in docs/app.md")
     kind = value.get("type")
@@ -66,10 +60,8 @@ def parse_document(value: object) -> Document:
     """Read a document.
 
     A document that shows a file holds no walls and no sensors, only the file's name, its grid and the settings that can
-    be changed. `bayesmap.app.edits.adopted` decides how it is used.
-
-    Raises:
-        Refused: a value is invalid; the message names its place.
+    be changed. `bayesmap.app.edits.adopted` decides how it is used. Raises Refused: a value is invalid; the message
+    names its place.
     """
     if not isinstance(value, Mapping):
         raise Refused("document: not an object", "send one as in docs/app.md")
@@ -85,11 +77,7 @@ def parse_document(value: object) -> Document:
 
 
 def parse_simulation(value: object) -> Document:
-    """Read the document of a simulation.
-
-    Raises:
-        Refused: see `parse_document`; or the document shows a file.
-    """
+    """Read the document of a simulation. Raises Refused: see `parse_document`; or the document shows a file."""
     document = parse_document(value)
     if not document.simulated:
         raise Refused(f"document: shows the file {document.source.name}", "start bayesmap app with that file")

@@ -244,11 +244,7 @@ class Stream(Found):
         return Verdict("fair" if largest <= RHAT_LIMIT else "bad", why)
 
     def as_run(self, result: Result) -> Run:
-        """Return the kept draws as a run.
-
-        Raises:
-            BadInput: no draw was kept.
-        """
+        """Return the kept draws as a run. Raises BadInput: no draw was kept."""
         if self.kept is None:
             return super().as_run(result)
         chains = self._record.chains(

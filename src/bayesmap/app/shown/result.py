@@ -174,10 +174,8 @@ class Found(ABC):
         return None
 
     def as_run(self, result: Result) -> Run:
-        """Return the estimate as a run, like that of `bayesmap.infer`.
-
-        Raises:
-            BadInput: the method has no draws, or none was kept.
+        """Return the estimate as a run, like that of `bayesmap.infer`. Raises BadInput: the method has no draws, or
+        none was kept.
         """
         raise BadInput("there are no draws to save; run inference first")
 
@@ -218,20 +216,14 @@ class Result:
 
     @property
     def law(self) -> tuple[SensorModel, float]:
-        """The sensor model and the hit depth that predict readings.
-
-        Raises:
-            BadInput: the run's sensor model is not built in.
+        """The sensor model and the hit depth that predict readings. Raises BadInput: the run's sensor model is not
+        built in.
         """
         return self.found.law or (self.scene.sensor, self.scene.hit_depth)
 
     @property
     def maps(self) -> Maps:
-        """The kept draws, or the latest draws of chains that keep none.
-
-        Raises:
-            BadInput: the method has no draws.
-        """
+        """The kept draws, or the latest draws of chains that keep none. Raises BadInput: the method has no draws."""
         if self.found.at_hand is not None:
             return Maps(self.prior, self.found.at_hand)
         raise BadInput("a path is judged by draws of the map, and there are none yet; run Gibbs")
@@ -291,10 +283,8 @@ class Result:
         return DrawCount() if kept is None else DrawCount(kept.chains, kept.count)
 
     def as_run(self) -> Run:
-        """Return the result as a run, like that of `bayesmap.infer`.
-
-        Raises:
-            BadInput: the method has no draws, or none was kept.
+        """Return the result as a run, like that of `bayesmap.infer`. Raises BadInput: the method has no draws, or none
+        was kept.
         """
         return self.found.as_run(self)
 

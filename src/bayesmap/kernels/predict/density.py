@@ -336,10 +336,8 @@ def forecast(
     """Predict the reading of every beam, traced over its whole length, under the mean over draws of the law above.
 
     The columns of the draws are the cells ``rays.touched``. In a cell without a surface, a beam stops at the share
-    ``hit_depth`` of its stretch.
-
-    Raises:
-        BadInput: no draws, or a sensor of the user's own whose probabilities do not add up to one.
+    ``hit_depth`` of its stretch. Raises BadInput: no draws, or a sensor of the user's own whose probabilities do not
+    add up to one.
     """
     log_density, (at, at_max, at_min) = _sums(rays, rays.columns, batches, sensor, hit_depth, device, True)
     z = rays.range_m

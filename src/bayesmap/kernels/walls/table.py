@@ -36,10 +36,8 @@ def trace(
     """Build the beam table of S scans of A beams: beam ``s * A + a`` of the table is beam a of scan s.
 
     A beam stops at the fraction ``hit_depth`` of its chord in a cell: 0 is the edge where it enters (the tutorial's
-    closed squares). It is followed ``reach_m`` far, (B,); by default as far as its reading depends on stops.
-
-    Raises:
-        BadInput: more incidences than 32-bit indices can count.
+    closed squares). It is followed ``reach_m`` far, (B,); by default as far as its reading depends on stops. Raises
+    BadInput: more incidences than 32-bit indices can count.
     """
     if reach_m is None:
         reach_m = sensor.reach_m(scans.ranges_m.ravel(), RangeLimits(scans.min_range_m, scans.max_range_m))
