@@ -43,14 +43,9 @@ from bayesmap.sensors.model import Floats, RangeLimits
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
 
-MAX_INCIDENCES = 2**31 - 1
-"""Indices of entries have 32 bits."""
-
-TIE = 1.0e-9
-"""Cells: a start closer than this to a grid line lies on it."""
-
-PARALLEL = 1.0e-10
-"""Direction cosines below this count as zero, as in the tutorial."""
+MAX_INCIDENCES = 2**31 - 1  # indices of entries have 32 bits
+TIE = 1.0e-9  # cells: a start closer than this to a grid line lies on it
+PARALLEL = 1.0e-10  # direction cosines below this count as zero, as in the tutorial
 
 
 @dataclass(frozen=True, eq=False)
@@ -167,8 +162,7 @@ def around_readings(scans: Scans, margin_m: float | Floats, resolution_m: float)
     return reach_m, np.where(finite, np.maximum(hits_m - margin_m - resolution_m, 0.0), 0.0)
 
 
-CROSSING_WIDTH = 2.2
-"""w above."""
+CROSSING_WIDTH = 2.2  # w above
 
 DIRECTION_RAD = 0.005
 """omega above: between 4 and 8 thousandths held-out scans are predicted best (docs/lab/surfaces.md)."""

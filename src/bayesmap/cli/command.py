@@ -24,8 +24,7 @@ from bayesmap.cli.console import VERBOSE, Console
 from bayesmap.cli.keys import SECTIONS, Key, Settings, Value, WrongValue, checked, keys_of
 from bayesmap.errors import BadInput
 
-Layer = Mapping[str, Mapping[str, Value]]
-"""Values of settings from one source, by section and key."""
+Layer = Mapping[str, Mapping[str, Value]]  # values of settings from one source, by section and key
 
 
 def read_file(path: str | Path) -> Layer:
@@ -33,8 +32,7 @@ def read_file(path: str | Path) -> Layer:
 
     Tables have the names of commands. Keys outside tables apply to all commands that have them.
 
-    Raises:
-        BadInput: an unreadable file, invalid TOML, an unknown table or key, or a value that is not allowed.
+    Raises `BadInput` for an unreadable file, invalid TOML, an unknown table or key, or a value that is not allowed.
     """
     try:
         tables = tomllib.loads(Path(path).read_text(encoding="utf-8"))
@@ -171,8 +169,7 @@ COMMON = (
 )
 
 
-FORCE = click.option("--force", is_flag=True, help="Replace existing files.")
-"""The option of commands that write files."""
+FORCE = click.option("--force", is_flag=True, help="Replace existing files.")  # the option of commands that write files
 
 
 @dataclass(frozen=True)

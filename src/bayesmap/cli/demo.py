@@ -19,10 +19,8 @@ if TYPE_CHECKING:
 BEAMS, SIGMA_M, MAX_RANGE_M = 100, 0.2, 42.0
 """The tutorial's sensor: beams per scan, noise, and a range longer than the map's diagonal."""
 
-FILM_SWEEPS = 80
-"""Sweeps in the film of a chain, one frame each."""
-COLLAPSED = 10.0
-"""Effective sample size below which importance sampling is reported as collapsed."""
+FILM_SWEEPS = 80  # sweeps in the film of a chain, one frame each
+COLLAPSED = 10.0  # effective sample size below which importance sampling is reported as collapsed
 
 
 @command("demo")

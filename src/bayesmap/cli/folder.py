@@ -121,9 +121,8 @@ class Folder:
     def check(self, *, force: bool) -> None:
         """Refuse a folder with a run, or files of its names, that the user neither replaces nor resumes; or unwritable.
 
-        Raises:
-            BadInput: the folder holds a run, or files that a run would replace, is no folder, is not writable, or has
-                a name that is not UTF-8.
+        Raises `BadInput` if the folder holds a run, or files that a run would replace, is no folder, is not writable,
+        or has a name that is not UTF-8.
         """
         try:
             str(self.path).encode()
@@ -155,8 +154,7 @@ class Folder:
     def begin(self, toml: str) -> None:
         """Save the settings of a run that has started, so that it can be resumed without typing them again.
 
-        Raises:
-            BadInput: the folder cannot be written.
+        Raises `BadInput` if the folder cannot be written.
         """
         if self.begun:
             return

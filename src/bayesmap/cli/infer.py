@@ -39,14 +39,11 @@ if TYPE_CHECKING:
     from bayesmap.api import Event
     from bayesmap.io.log_reading import LogReading
 
-SETTINGS = "fleet.toml"
-"""File beside the folders of the runs: the settings of the last fleet."""
-RETRIES = 3
-"""Number of times that a log is restarted from its last checkpoint after its worker has died."""
+SETTINGS = "fleet.toml"  # file beside the folders of the runs: the settings of the last fleet
+RETRIES = 3  # number of times that a log is restarted from its last checkpoint after its worker has died
 WAIT_S, EVENT_S, STOP_S = 0.25, 1.0, 30.0
 """Seconds between two checks of the workers, between two progress messages of a worker, and of waiting after Ctrl-C."""
-SHOWN = 3
-"""Number of logs that the progress bar names."""
+SHOWN = 3  # number of logs that the progress bar names
 
 
 @dataclass
@@ -91,8 +88,7 @@ def infer_fleet(call: Call[InferSettings], logs: list[str], output: Path, *, res
 
     ``output`` is the parent of the folders of the runs.
 
-    Raises:
-        BadInput: two logs of one name, or a cluster that cannot be reached.
+    Raises `BadInput` for two logs of one name, or a cluster that cannot be reached.
     """
     names = Counter(map(stem, logs))
     twice = next((name for name, times in names.items() if times > 1), None)

@@ -18,8 +18,7 @@ from bayesmap.cli.translation import LOG, need_file
 from bayesmap.errors import BadInput
 from bayesmap.version import __version__
 
-CUT = "cut short"
-"""Words of the notes on damaged recordings."""
+CUT = "cut short"  # words of the notes on damaged recordings
 
 
 @command(None)
@@ -50,8 +49,7 @@ def info(call: Call[Settings], file: str) -> None:
 def is_saved_run(file: str) -> bool:
     """Return whether a file has the first bytes of a saved run.
 
-    Raises:
-        BadInput: the file cannot be read.
+    Raises `BadInput` if the file cannot be read.
     """
     from bayesmap.io.logs import SAVED_RUNS
 
@@ -72,13 +70,10 @@ def _saved_run(file: str) -> dict[str, Any]:
     run = load(file)
     described = run_document(run)
     return {
-        "version": __version__,
-        "path": file,
-        "format": "bayesmap run",
+        "version": __version__, "path": file, "format": "bayesmap run",
         "run": {key: value for key, value in described.items() if key not in ("version", "peak_memory_mb")},
-        "sensors": [scans_summary(run.posterior.scans)],
-        "notes": list(run.posterior.notes),
-    }
+        "sensors": [scans_summary(run.posterior.scans)], "notes": list(run.posterior.notes),
+    }  # fmt: skip
 
 
 def _log(file: str) -> dict[str, Any]:

@@ -44,8 +44,7 @@ def prepare(call: Call[S], log: str, path: Path, *, resume: bool, force: bool, b
 
     ``begun`` are the settings to resume with if the folder holds none.
 
-    Raises:
-        BadInput: no such log, inconsistent settings, or a folder that may not be written.
+    Raises `BadInput` for no such log, inconsistent settings, or a folder that may not be written.
     """
     need_file(log, f"{LOG} (bayesmap info FILE says what is in one)", runs=False)
     folder = Folder(path, call.console, resuming=resume)
@@ -56,14 +55,10 @@ def prepare(call: Call[S], log: str, path: Path, *, resume: bool, force: bool, b
 
 
 def infer_log(
-    task: Task[InferSettings],
-    *,
-    reading: LogReading | None = None,
-    executor: Executor | None = None,
-    resume_command: str | None = None,
-    on_saved: Callable[[], None] = lambda: None,
+    task: Task[InferSettings], *, reading: LogReading | None = None, executor: Executor | None = None,
+    resume_command: str | None = None, on_saved: Callable[[], None] = lambda: None,
     on_event: Callable[[Event], None] = lambda event: None,
-) -> dict[str, Any]:
+) -> dict[str, Any]:  # fmt: skip
     """Infer one log into its folder, print a report, and return the JSON document.
 
     After Ctrl-C it prints ``resume_command``, and "finished" in the document is false. ``reading`` is the log if it has
@@ -150,8 +145,7 @@ def read(console: Console, log: str, settings: SamplingSettings, *, without_pose
 def refuse_odometry(log: str, reading: LogReading) -> None:
     """Refuse a log at whose poses the same walls stand in several places.
 
-    Raises:
-        BadInput: the poses look like raw odometry, or their yaw like degrees.
+    Raises `BadInput` if the poses look like raw odometry, or their yaw like degrees.
     """
     from bayesmap.io.logs import IN_DEGREES
     from bayesmap.poses.agreement import DOUBLED, look_like_odometry
@@ -167,14 +161,9 @@ def refuse_odometry(log: str, reading: LogReading) -> None:
 
 
 def sample(
-    task: Task[InferSettings],
-    scans: Scans,
-    train: Scans,
-    saved: Run | None,
-    executor: Executor | None,
-    on_saved: Callable[[], None],
-    on_event: Callable[[Event], None],
-) -> Run:
+    task: Task[InferSettings], scans: Scans, train: Scans, saved: Run | None, executor: Executor | None,
+    on_saved: Callable[[], None], on_event: Callable[[Event], None],
+) -> Run:  # fmt: skip
     """Infer from the training scans, with checkpoints in the folder. The grid covers ``scans``, all scans of the log.
 
     ``on_saved`` is called after each checkpoint, ``on_event`` with the progress of the run.
@@ -213,18 +202,13 @@ def sample(
             on_saved()
 
         run = infer(
-            train,
-            grid,
-            prior=translation.prior_of(settings),
-            sensor=translation.sensor_for(settings, grid.resolution),
-            method=translation.method_of(settings),
-            schedule=translation.schedule_of(settings),
-            seed=settings.seed,
+            train, grid, prior=translation.prior_of(settings), sensor=translation.sensor_for(settings, grid.resolution),
+            method=translation.method_of(settings), schedule=translation.schedule_of(settings), seed=settings.seed,
             hit_depth=settings.hit_depth or 0.0,
             where=Where(settings.threads, settings.device, executor, settings.any_size),
             checkpoints=Checkpoints(saved, on_checkpoint, settings.checkpoint_every, preview=folder.preview),
             on_progress=on_progress,
-        )
+        )  # fmt: skip
     if run.finished or run.posterior.sweep > 0 or not folder.run.exists():
         folder.begin(toml)  # otherwise no sweep is done, and an older run keeps its place
     return run

@@ -29,8 +29,7 @@ if TYPE_CHECKING:
     Draw = NDArray[Any]
     """Walls, or reflectivities in [0, 1]."""
 
-WHOLE = ("figure", "animation", "trace", "weights")
-"""Pictures that always show the whole map."""
+WHOLE = ("figure", "animation", "trace", "weights")  # pictures that always show the whole map
 
 
 @command("render")
@@ -160,8 +159,7 @@ def _beams_figure(
 def one_draw(run: Run, chain: int, draw: int) -> Draw:
     """Return a draw. Chain and draw count from 1; draw -1 is the last.
 
-    Raises:
-        BadInput: there is no such chain or draw.
+    Raises `BadInput` if there is no such chain or draw.
     """
     chains, draws = run.log_joint.shape
     if not 1 <= chain <= chains:
@@ -201,8 +199,7 @@ def truth_on(grid: Grid, path: str) -> Walls:
 def part_of(run: Run, text: str | None) -> tuple[Grid, tuple[slice, slice]]:
     """Return the grid and the slices of the part of the map in a window; the whole map for None.
 
-    Raises:
-        BadInput: a text other than four numbers or "observed", or a window outside the map.
+    Raises `BadInput` for a text other than four numbers or "observed", or a window outside the map.
     """
     from bayesmap.viz.maps import window, window_around
 

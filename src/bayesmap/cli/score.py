@@ -37,17 +37,9 @@ HEADINGS = ("map", "nats/beam", "50 %", "80 %", "95 %", "80 % width", "PIT", "Br
 @click.option("--picture", metavar="FILE", help="Draw calibration and errors: .png, .pdf or .svg.")
 @FORCE
 def score(
-    call: Call[ScoreSettings],
-    run_file: str,
-    log: str | None,
-    whole: bool,
-    compare: bool,
-    relations: str | None,
-    frame: str | None,
-    exact: bool,
-    picture: str | None,
-    force: bool,
-) -> None:
+    call: Call[ScoreSettings], run_file: str, log: str | None, whole: bool, compare: bool, relations: str | None,
+    frame: str | None, exact: bool, picture: str | None, force: bool,
+) -> None:  # fmt: skip
     r"""Score a saved run, or another program's map or trajectory, on held-out scans of LOG.
 
     \b
@@ -154,11 +146,8 @@ def _document(
     if found.rows:
         name, own = found.rows[0]
         document["heldout"] = {
-            "every": found.every or None,
-            "scans": own.scans,
-            "beams": own.beams,
-            "nats_per_beam": own.nats_per_beam,
-        }
+            "every": found.every or None, "scans": own.scans, "beams": own.beams, "nats_per_beam": own.nats_per_beam,
+        }  # fmt: skip
         document["score"] = {"map": name, **own.as_json()}
     if found.verdict is not None:
         document["verdict"] = found.verdict

@@ -156,8 +156,7 @@ class Placed:
 def placed_scans(log: str, settings: ScoreSettings, frame: str | None) -> Placed:
     """Return the scans of a log, at the log's poses or at those of ``settings.trajectory``, and their trajectory.
 
-    Raises:
-        BadInput: files that cannot be read, scans without stamps, or a trajectory of another time.
+    Raises `BadInput` for files that cannot be read, scans without stamps, or a trajectory of another time.
     """
     need_file(log, "the log that the map was made from", runs=False)
     from bayesmap.io.logs import read_log

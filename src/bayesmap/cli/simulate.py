@@ -32,15 +32,13 @@ if TYPE_CHECKING:
     from bayesmap.sensors.model import SensorModel
     from bayesmap.space.grid import Grid
 
-TURN_RAD_PER_S = 1.0
-"""Turning rate of a simulated robot, used for the time stamps."""
+TURN_RAD_PER_S = 1.0  # turning rate of a simulated robot, used for the time stamps
 
 RARE = 1e-5
 """Probability of a random reading of a simulated laser. It is small, since one far reading makes the map larger."""
 
-RATE_HZ = 10.0
-START_S = 1.7e9
-"""Scans a second, and the time stamp of the first scan, of a recording."""
+RATE_HZ = 10.0  # scans a second of a recording
+START_S = 1.7e9  # time stamp of its first scan
 
 LOG_DEFAULTS: dict[str, Any] = {"world": "tutorial", "odometry": "true", "laser": "0,0,0"}
 RECORDING_DEFAULTS: dict[str, Any] = {"world": "building", "odometry": "typical", "laser": "-0.1,0.03,180"}
@@ -149,20 +147,12 @@ def simulate(call: Call[SimulateSettings], output: str | None, poses: tuple[str,
     # Print the result.
     grid = world.grid
     document = {
-        "version": __version__,
-        "world": settings.world,
+        "version": __version__, "world": settings.world,
         "grid": {"shape": list(grid.shape), "resolution": grid.resolution, "origin": list(grid.origin)},
-        "scans": len(scans),
-        "beams": scans.n_beams,
-        "readings": scans.counts(),
-        "message": message,
-        "max_range_m": max_range_m,
-        "sensor": describe(sensor),
-        "odometry": None if noise is None else asdict(noise),
-        "laser": list(mount),
-        "seed": settings.seed,
-        "outputs": {path.name: str(path) for path in outputs},
-    }
+        "scans": len(scans), "beams": scans.n_beams, "readings": scans.counts(), "message": message,
+        "max_range_m": max_range_m, "sensor": describe(sensor), "odometry": None if noise is None else asdict(noise),
+        "laser": list(mount), "seed": settings.seed, "outputs": {path.name: str(path) for path in outputs},
+    }  # fmt: skip
     poses_are = "true poses" if noise is None else "raw odometry"
     call.console.say(
         f"{log}: {len(scans):,} scans of {len(angles)} beams ({message}, {poses_are}) in {settings.world}, "
@@ -172,12 +162,8 @@ def simulate(call: Call[SimulateSettings], output: str | None, poses: tuple[str,
 
 
 def _write_truth(
-    trajectory: Path,
-    relations: Path,
-    base: NDArray[np.float64],
-    stamps_s: NDArray[np.float64],
-    seed: int,
-) -> list[Path]:
+    trajectory: Path, relations: Path, base: NDArray[np.float64], stamps_s: NDArray[np.float64], seed: int,
+) -> list[Path]:  # fmt: skip
     """Write the true trajectory and the true relations of the base, and return their paths."""
     from bayesmap.io.text.trajectories import write_relations, write_trajectory
     from bayesmap.sim.robot import related_pairs

@@ -27,14 +27,9 @@ if TYPE_CHECKING:
     from bayesmap.result import Run
     from bayesmap.space.grid import Grid
 
-MANY_SCANS = 500
-"""Scans from which the next command to score a trajectory takes one each 0.3 m."""
-
-SHOWN = 3
-"""Number of doubtful stretches of odometry that are listed."""
-
-ALTERNATIVES_SHOWN = 5
-"""Number of alternatives to the trajectory that are described."""
+MANY_SCANS = 500  # scans from which the next command to score a trajectory takes one each 0.3 m
+SHOWN = 3  # number of doubtful stretches of odometry that are listed
+ALTERNATIVES_SHOWN = 5  # number of alternatives to the trajectory that are described
 
 
 @command("slam")
@@ -276,19 +271,15 @@ def summary(run: Run, frame: str) -> dict[str, Any]:
     sigma_m = np.sqrt(np.linalg.eigvalsh(found.covariances()[:, :2, :2])[:, 1])
     fit = found.calibration.odometry
     out: dict[str, Any] = {
-        "frame": frame,
-        "scans": len(found),
-        "key_scans": len(found.keys),
+        "frame": frame, "scans": len(found), "key_scans": len(found.keys),
         "map": {"scans": len(run.posterior.scans), "beams": run.posterior.scans.ranges_m.size},
-        "loop_closures": int((found.closures.weights > 0.5).sum()),
-        "flagged": np.nonzero(found.flagged)[0].tolist(),
-        "breaks": found.breaks.tolist(),
-        "leaps": found.leaps.tolist(),
+        "loop_closures": int((found.closures.weights > 0.5).sum()), "flagged": np.nonzero(found.flagged)[0].tolist(),
+        "breaks": found.breaks.tolist(), "leaps": found.leaps.tolist(),
         "alternatives": [_alternative(found, n) for n in range(len(found.alternatives))],
         "sigma_m": {"median": float(np.median(sigma_m)), "max": float(sigma_m.max())},
         "angle_step_ratio": found.calibration.angle_step_ratio,
         "odometry": None if fit is None else {"lag_s": fit.lag_s, "slope": fit.slope.tolist()},
-    }
+    }  # fmt: skip
     if run.posterior.draws.count and run.posterior.settings["poses"]["kind"] != "known":
         poses = run.pose_summary()
         out["sampled"] = {
@@ -313,12 +304,9 @@ def _alternative(found: Trajectory, number: int) -> dict[str, Any]:
     there = found.alternative_poses(number)
     off = between(between(found.poses[first], found.poses[last]), between(there[first], there[last]))
     return {
-        "first": int(first),
-        "last": int(last),
-        "probability": float(other.probabilities[number]),
-        "off_m": float(np.hypot(off[0], off[1])),
-        "off_degrees": float(np.degrees(np.abs(off[2]))),
-    }
+        "first": int(first), "last": int(last), "probability": float(other.probabilities[number]),
+        "off_m": float(np.hypot(off[0], off[1])), "off_degrees": float(np.degrees(np.abs(off[2]))),
+    }  # fmt: skip
 
 
 def _good(trajectory: dict[str, Any]) -> list[str]:

@@ -37,8 +37,7 @@ def numbers_of(text: str, flag: str, form: str, counts: tuple[int, ...]) -> list
 
     ``form``, such as "X,Y", names them in the error message.
 
-    Raises:
-        click.BadParameter: a count of numbers that is not in ``counts``, or a number that is not finite.
+    Raises `click.BadParameter` for a count of numbers that is not in ``counts``, or a number that is not finite.
     """
     try:
         numbers = [float(part) for part in text.split(",")]
@@ -52,8 +51,7 @@ def numbers_of(text: str, flag: str, form: str, counts: tuple[int, ...]) -> list
 def pose_of(text: str, flag: str = "--pose") -> tuple[float, float, float]:
     """Return a pose in metres and radians, from a text in metres and degrees.
 
-    Raises:
-        click.BadParameter: another text; the message names the flag.
+    Raises `click.BadParameter` for another text; the message names the flag.
     """
     x, y, degrees = numbers_of(text, flag, "X,Y,DEGREES", (3,))
     return x, y, math.radians(degrees)
@@ -70,8 +68,7 @@ _FIRST = {"gaussian": "sigma_m", "student-t": "scale_m"}
 def sensor_of(text: str) -> SensorModel | None:
     """Return the sensor model that a text describes; None for ``default``.
 
-    Raises:
-        BadInput: an unknown kind or parameter, a text that is no number, or a value that the model refuses.
+    Raises `BadInput` for an unknown kind or parameter, a text that is no number, or a value that the model refuses.
     """
     if text == "default":
         return None
@@ -125,8 +122,7 @@ TRUE_ODOMETRY = "true"
 def odometry_of(text: str) -> OdometryNoise | None:
     """Return the odometry that a text describes; None for ``true``.
 
-    Raises:
-        BadInput: an unknown word or name, or a number that is not allowed.
+    Raises `BadInput` for an unknown word or name, or a number that is not allowed.
     """
     if text == TRUE_ODOMETRY:
         return None
@@ -155,8 +151,7 @@ def _number(text: str, where: str) -> float:
 
 S = TypeVar("S", bound=SamplingSettings)
 
-BINARY_DRAWS = 100
-"""Default number of draws per chain over binary walls."""
+BINARY_DRAWS = 100  # default number of draws per chain over binary walls
 
 THREADS, RAY = "threads", "ray"
 
@@ -164,8 +159,7 @@ THREADS, RAY = "threads", "ray"
 def completed(settings: S) -> S:
     """Check the settings against the kind of cells, and fill in its hit depth.
 
-    Raises:
-        BadInput: a setting that this kind of cells does not have, or an invalid sensor.
+    Raises `BadInput` for a setting that this kind of cells does not have, or an invalid sensor.
     """
     from bayesmap.cells.kinds import BUILT_IN
 
@@ -241,8 +235,7 @@ def sensor_for(settings: SamplingSettings, resolution_m: float) -> SensorModel |
 def ray_address(executor: str) -> tuple[bool, str | None]:
     """Return whether chains run on a Ray cluster, and its address; None lets Ray find or start a cluster.
 
-    Raises:
-        BadInput: neither threads nor Ray.
+    Raises `BadInput` for neither threads nor Ray.
     """
     if executor == THREADS:
         return False, None
@@ -281,10 +274,8 @@ def reading_of(settings: ReadingSettings) -> dict[str, Any]:
     }
 
 
-RECORDED = (".db3", ".mcap", ".zstd")
-"""File endings of a ROS 2 bag."""
-MAPS = (".yaml", ".yml")
-"""File endings of map_server maps."""
+RECORDED = (".db3", ".mcap", ".zstd")  # file endings of a ROS 2 bag
+MAPS = (".yaml", ".yml")  # file endings of map_server maps
 LOG = "a log or a recording of range scans"
 
 
@@ -293,8 +284,7 @@ def need_file(file: str, expected: str, *, runs: bool, pipes: bool = False) -> N
 
     The message asks for ``expected`` instead. ``runs`` and ``pipes`` tell whether a saved run and a pipe are accepted.
 
-    Raises:
-        BadInput: the path does not exist, is the folder of a run, or is a pipe.
+    Raises `BadInput` if the path does not exist, is the folder of a run, or is a pipe.
     """
     if not pipes and (file in ("-", "/dev/stdin") or Path(file).is_fifo()):
         raise BadInput(f"{file}: a pipe, and this needs a file that can be read again; localize --follow reads pipes")
@@ -311,8 +301,7 @@ def logs_of(typed: Sequence[str]) -> tuple[list[str], bool]:
 
     A folder stands for the logs in it, chosen by their endings, and for the folders of ROS 2 bags in it.
 
-    Raises:
-        BadInput: a pattern or a folder without logs.
+    Raises `BadInput` for a pattern or a folder without logs.
     """
     logs: list[str] = []
     several = len(typed) > 1
@@ -359,8 +348,7 @@ def heldout_scans(run: Run, log: str, settings: ReadingSettings, every: int) -> 
     If ``every`` is 0, the log is another one of the same place. Otherwise it is the run's own log, and the run held out
     every ``every``-th scan.
 
-    Raises:
-        BadInput: the log cannot be read, or the run was made from some of these scans.
+    Raises `BadInput` if the log cannot be read, or the run was made from some of these scans.
     """
     need_file(log, "the log that the run was made from", runs=False)
     from bayesmap.io.logs import read_log
@@ -380,8 +368,7 @@ def heldout_scans(run: Run, log: str, settings: ReadingSettings, every: int) -> 
 def need_free(paths: Iterable[Path], force: bool, option: str = "-o") -> None:
     """Refuse to replace an older file without ``force``: the rule of all commands for all files, before slow work.
 
-    Raises:
-        BadInput: the message names the remedies, ``option`` among them.
+    Raises `BadInput`; the message names the remedies, ``option`` among them.
     """
     older = next((path for path in paths if os.path.lexists(path)), None)
     if older is not None and not force:

@@ -159,9 +159,8 @@ def export_trajectory(
     Returns:
         The paths of the files written. If covariances are known, NAME-covariances.txt is written beside NAME.tum.
 
-    Raises:
-        BadInput: another ending or format, no pose, a graph of a trajectory without covariances, or a file that cannot
-            be written.
+    Raises `BadInput` for another ending or format, no pose, a graph of a trajectory without covariances, or a file that
+    cannot be written.
     """
     ending = Path(path).suffix.lower()
     chosen = {".tum": "tum", ".g2o": "g2o"}.get(ending, "trajectory") if format is None else format
@@ -223,9 +222,8 @@ def export_run(
     Returns:
         The paths of the files written.
 
-    Raises:
-        BadInput: an unknown ending, format or mode, a mode or threshold that the format does not take, an optional
-            package that is not installed, or a file that cannot be written; the message has the remedy.
+    Raises `BadInput` for an unknown ending, format or mode, a mode or threshold that the format does not take, an
+    optional package that is not installed, or a file that cannot be written; the message has the remedy.
     """
     chosen = export_format(path, format)
     thresholds = {"mode": mode, "occupied_thresh": occupied_thresh, "free_thresh": free_thresh}

@@ -87,9 +87,8 @@ class LogReading:
     def placed(self, trajectory: Trajectory) -> LogReading:
         """Return the scans at interpolated poses of a trajectory; scans outside its times and in gaps are left out.
 
-        Raises:
-            BadInput: scans or a trajectory without stamps, no scan within its time, or poses of a base on which the
-                place of the laser is not known.
+        Raises `BadInput` for scans or a trajectory without stamps, no scan within its time, or poses of a base on which
+        the place of the laser is not known.
         """
         scans, of_laser = self.scans, trajectory.of("laser", self.scans.mount)
         if scans.stamps_s is None or of_laser.stamps_s is None:

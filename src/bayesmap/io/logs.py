@@ -44,8 +44,7 @@ FORMATS = (
 LINES_LOOKED_AT = 1000  # lines of a text that may decide its format
 ENDINGS = (".log", ".log.gz", ".clf", ".clf.gz", ".bag", ".g2o", ".csv", ".npz", ".rawlog")
 SAVED_RUNS = (b"\x89HDF", b"CDF")  # first bytes of netCDF files
-IN_DEGREES = "is it in degrees?"
-"""The end of the note about a yaw that looks like degrees."""
+IN_DEGREES = "is it in degrees?"  # the end of the note about a yaw that looks like degrees
 LARGE_TURN_RAD, LARGE_TURNS, NEAR_A_TURN_DEG = 1.0, 0.05, 20.0  # of yaw in degrees: over 5 % large, or near a turn
 GMAPPING = (b"LASER_READING", b"ODO_UPDATE", b"SM_UPDATE", b"RESAMPLE")  # of GMapping's own logs, .gfs
 RECORDINGS = ("rosbag1", "rosbag2-sqlite3", "mcap", "folder")
@@ -87,9 +86,8 @@ def read_log(
         trajectory: poses to use instead of the log's: a TUM file, or `read_trajectory`. A scan gets the pose at its
             stamp, interpolated between poses at most 0.3 s apart; other scans are left out.
 
-    Raises:
-        BadInput: a file that cannot be read, an unknown format, no scans, a malformed line or message, a topic or frame
-            that is missing or must be chosen (the message lists the choices), or a trajectory of another time.
+    Raises `BadInput` for a file that cannot be read, an unknown format, no scans, a malformed line or message, a topic
+    or frame that is missing or must be chosen (the message lists the choices), or a trajectory of another time.
     """
     return describe_log(
         path, no_return=no_return, skip_bad_lines=skip_bad_lines, max_range_m=max_range_m, scan_topic=scan_topic,

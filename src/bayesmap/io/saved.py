@@ -158,8 +158,8 @@ def _write_scans(file: Any, scans: Scans) -> Any:
 def load_saved(path: str | os.PathLike[str]) -> tuple[Posterior, Trajectory | None]:
     """Read a posterior, and its approximation of the poses, if any.
 
-    Raises:
-        BadInput: no such file; a file that is not netCDF, or no run of bayesmap's; another format; or a damaged file.
+    Raises `BadInput` for no such file; a file that is not netCDF, or no run of bayesmap's; another format; or a damaged
+    file.
     """
     path = Path(path)
     if not path.is_file():

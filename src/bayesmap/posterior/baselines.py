@@ -36,14 +36,9 @@ from bayesmap.space.scans import Scans
 
 Values = dict[str, float]
 
-LAST_CLIMB = 8.0
-"""Time of the last climb, which uses the full score, relative to a rough climb, for progress."""
-
-STEP = 2e-3
-"""Step of the numeric gradient, in logarithms or logits: above the noise of stops in single precision."""
-
-GRADIENTS, MOST_STEPS = 20, 100
-"""Usual number of gradients per climb, for progress, and most steps."""
+LAST_CLIMB = 8.0  # time of the last climb, which uses the full score, relative to a rough climb, for progress
+STEP = 2e-3  # step of the numeric gradient, in logarithms or logits: above the noise of stops in single precision
+GRADIENTS, MOST_STEPS = 20, 100  # usual number of gradients per climb, for progress, and most steps
 
 ROUGH, FINE = 1e-4, 1e-6
 """Relative gain in score at which a climb ends: from each start, and then from the best of the results."""
@@ -169,8 +164,7 @@ class Baseline:
     def stops(self, hits: Floats, passes: Floats, values: Mapping[str, float]) -> Floats:
         """Return the probabilities of ``stop``, checked: one for every cell.
 
-        Raises:
-            ValueError: another number of them, which would give cells the values of others.
+        Raises `ValueError` for another number of them, which would give cells the values of others.
         """
         probabilities = np.asarray(self.stop(hits, passes, values))
         if probabilities.shape != hits.shape:
@@ -281,8 +275,7 @@ def fit_external_map(name: str, occupancy: Floats, grid: Grid, train: Scans, on_
     ``occupancy`` is the probability that each cell is occupied, (nx, ny), NaN where unknown. ``train`` are scans that
     are not scored, at their poses in the map's frame.
 
-    Raises:
-        BadInput: shapes that do not fit, probabilities outside [0, 1], or scans that do not touch the map.
+    Raises `BadInput` for shapes that do not fit, probabilities outside [0, 1], or scans that do not touch the map.
     """
     values = np.asarray(occupancy, dtype=np.float64)
     if values.shape != grid.shape or (np.abs(np.nan_to_num(values, nan=0.5) - 0.5) > 0.5).any():

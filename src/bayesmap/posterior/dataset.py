@@ -27,8 +27,7 @@ def by_reading(posterior: Posterior, device: str = "cpu") -> NDArray[np.float32]
 
     Densities are per metre for ranges. Cells and poses are those of the draw; a reading's stop is summed out.
 
-    Raises:
-        BadInput: a run without draws, or whose sensor model is not one of bayesmap's.
+    Raises `BadInput` for a run without draws, or whose sensor model is not one of bayesmap's.
     """
     from bayesmap.kernels.predict.density import device_maps
     from bayesmap.kernels.predict.scan_likelihood import ScanLikelihood
@@ -56,8 +55,7 @@ def by_reading(posterior: Posterior, device: str = "cpu") -> NDArray[np.float32]
 def dataset_of(posterior: Posterior, with_readings: bool) -> xarray.Dataset:
     """Return draws, log densities and marginals, see `bayesmap.Run.dataset`.
 
-    Raises:
-        BadInput: xarray is not installed, or as `by_reading`.
+    Raises `BadInput` if xarray is not installed, or as `by_reading`.
     """
     try:
         import xarray

@@ -28,14 +28,12 @@ if TYPE_CHECKING:
 
 Floats = NDArray[np.float64]
 
-SEARCH_DRAWS = 60
-"""Number of draws that propose paths. All draws then judge each path."""
+SEARCH_DRAWS = 60  # Number of draws that propose paths. All draws then judge each path.
 
 INFORMATION_PAIRS = 2500
 """Default number of pairs of draws that are compared: 25 draws of each of four chains, or 50 independent draws."""
 
-REACHABLE = 0.5
-"""Least probability that the disc touches nothing at the position of a view."""
+REACHABLE = 0.5  # least probability that the disc touches nothing at the position of a view
 
 HEADINGS, FULL_CIRCLE_RAD = 8, np.radians(350.0)
 """Number of headings that are tried at each position, and field of view from which one heading is enough."""
@@ -56,8 +54,7 @@ class Drawn(Protocol):
 def path_is_free(posterior: Drawn, path: ArrayLike, radius_m: float) -> routes.FreeProbability:
     """Compute the probability that a disc can move along a path (`bayesmap.posterior.route`).
 
-    Raises:
-        BadInput: no draws, no path, a path that leaves the map, or a radius that is not positive.
+    Raises `BadInput` for no draws, no path, a path that leaves the map, or a radius that is not positive.
     """
     _need_draws(posterior, "free_probability")
     corners, grid = routes.checked_path(path), posterior.draws.grid
@@ -76,9 +73,8 @@ def shortest_safe_path(
 ) -> routes.Route:
     """Find the shortest path of a disc whose risk stays under a bound (`bayesmap.posterior.route`).
 
-    Raises:
-        BadInput: no draws; start or goal outside the map, or blocked; no path between them; a radius that is not
-            positive, or a risk outside (0, 1).
+    Raises `BadInput` for no draws; start or goal outside the map, or blocked; no path between them; a radius that is
+    not positive, or a risk outside (0, 1).
     """
     _need_draws(posterior, "plan")
     _need_radius(radius_m)
@@ -168,8 +164,7 @@ def next_views(
     positions connects with the robot's last position. The fast formula ranks all candidates. Joint draws then compare
     twice as many as needed of the best, apart from each other.
 
-    Raises:
-        BadInput: no draws, counts below 1, or no such place.
+    Raises `BadInput` for no draws, counts below 1, or no such place.
     """
     _need_draws(posterior, "explore")
     _need_radius(radius_m)

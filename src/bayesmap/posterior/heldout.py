@@ -17,8 +17,7 @@ from bayesmap.errors import BadInput
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import ReadingKind, Scans
 
-MOST_EVERY = 100
-"""Largest hold-out period that an error message suggests."""
+MOST_EVERY = 100  # largest hold-out period that an error message suggests
 
 
 class NoneHeldOut(BadInput):
@@ -133,11 +132,8 @@ FOLDS = 10
 BEAMS_WANTED = 20_000
 """Number of valid beams for a fit. With a dozen parameters, over-fitting costs about 6 / 20 000 nats per beam."""
 
-THIN = 4
-"""A rough search uses every fourth scan of a fold, or every fourth fold."""
-
-PAST_READING_M = 3.0
-"""Distance past a reading to which a beam is traced for fitting: its density is flat there."""
+THIN = 4  # a rough search uses every fourth scan of a fold, or every fourth fold
+PAST_READING_M = 3.0  # distance past a reading to which a beam is traced for fitting: its density is flat there
 
 
 @dataclass(frozen=True, eq=False)
@@ -164,8 +160,7 @@ def _fold(hits: Floats, passes: Floats, scans: Scans, grid: Grid) -> Fold:
 def make_folds(train: Scans, grid: Grid) -> list[Fold]:
     """Make interleaved folds, as many as it takes to have `BEAMS_WANTED` beams.
 
-    Raises:
-        BadInput: fewer than two training scans with valid readings.
+    Raises `BadInput` for fewer than two training scans with valid readings.
     """
     from bayesmap.kernels.counts import count_hits
 
@@ -192,8 +187,7 @@ def make_folds(train: Scans, grid: Grid) -> list[Fold]:
 def one_fold(train: Scans, grid: Grid) -> list[Fold]:
     """Make one fold for a map that does not depend on scans: about `BEAMS_WANTED` beams, and zero counts.
 
-    Raises:
-        BadInput: no training scan with a valid reading.
+    Raises `BadInput` for no training scan with a valid reading.
     """
     valid = (train.readings != ReadingKind.INVALID).sum(axis=1)
     train, valid = train.select(valid > 0), valid[valid > 0]

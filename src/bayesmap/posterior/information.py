@@ -87,8 +87,7 @@ def expected_information(
     ``cells`` holds the draws of the map, equally many of each chain, chain by chain: (D, N) stop probabilities or
     (D, N, 6) surfaces, as `bayesmap.cells.kind.CellPrior.stops`. Poses are in the world frame, (P, 3).
 
-    Raises:
-        BadInput: poses that are not valid, or fewer than two draws of a chain.
+    Raises `BadInput` for poses that are not valid, or fewer than two draws of a chain.
     """
     from bayesmap.kernels.predict.density import device_maps
     from bayesmap.kernels.predict.scan_likelihood import ScanLikelihood

@@ -73,8 +73,7 @@ class Fan:
     ) -> Fan:  # fmt: skip
         """Return the fan of the run's scans, with what is given instead.
 
-        Raises:
-            BadInput: invalid angles, a largest range that is not positive, or a sensor model that is not known.
+        Raises `BadInput` for invalid angles, a largest range that is not positive, or a sensor model that is not known.
         """
         scans, law = posterior.scans, posterior.sensor if sensor is None else sensor
         if law is None:

@@ -30,8 +30,7 @@ if TYPE_CHECKING:
 
 Floats = NDArray[np.float64]
 
-OnShare = Callable[[float], None]
-"""Called with the share of the work that is done, from 0 to 1."""
+OnShare = Callable[[float], None]  # called with the share of the work that is done, from 0 to 1
 
 
 def ignored(share: float) -> None:
@@ -104,8 +103,7 @@ def fixed_maps(stop: NDArray[np.floating]) -> Batches:
 def predictor_of(posterior: Posterior, sensor: SensorModel | None = None) -> Predictor:
     """Return the posterior's draws as a prediction under the run's own sensor model unless another is given.
 
-    Raises:
-        BadInput: the posterior has no draws, or does not know its sensor model, or cannot use the one given.
+    Raises `BadInput` if the posterior has no draws, or does not know its sensor model, or cannot use the one given.
     """
     sensor = posterior.sensor if sensor is None else sensor
     if sensor is None:
@@ -123,14 +121,9 @@ def predictor_of(posterior: Posterior, sensor: SensorModel | None = None) -> Pre
     return Predictor(posterior.grid, batches, sensor, hit_depth, posterior.draws.size)
 
 
-CENTRAL_80 = (0.1, 0.5, 0.9)
-"""Levels of the median and of the ends of the central 80 % interval."""
-
-PREDICTED_DRAWS = 200
-"""Largest number of maps that readings are drawn from."""
-
-GONE = 1e-3
-"""Probability of getting further below which a beam is no longer followed: the greatest error of a level."""
+CENTRAL_80 = (0.1, 0.5, 0.9)  # levels of the median and of the ends of the central 80 % interval
+PREDICTED_DRAWS = 200  # largest number of maps that readings are drawn from
+GONE = 1e-3  # probability of getting further below which a beam is no longer followed: the greatest error of a level
 
 
 @dataclass(frozen=True, eq=False)
@@ -146,8 +139,7 @@ class ScanPredictor:
     def of(cls, predictor: Predictor, limits: RangeLimits, device: str = "cpu") -> ScanPredictor:
         """Put a predictor's draws on a device: 4 bytes for each cell of each draw, 32 where cells have surfaces.
 
-        Raises:
-            BadInput: no draws.
+        Raises `BadInput` for no draws.
         """
         from bayesmap.kernels.predict.density import device_maps
 
@@ -172,8 +164,8 @@ class ScanPredictor:
             angles_rad: of the beams, from the sensor's heading, (A,).
             levels: probabilities inside (0, 1), rising.
 
-        Raises:
-            BadInput: levels that do not rise or lie outside (0, 1), or a sensor whose probabilities do not sum to one.
+        Raises `BadInput` for levels that do not rise or lie outside (0, 1), or a sensor whose probabilities do not sum
+        to one.
         """
         from bayesmap.kernels.predict.stop_mixture import mix_device_stops, range_quantiles
         from bayesmap.kernels.rays import trace_rays
@@ -202,8 +194,7 @@ class Residuals:
 def residuals_of(predictor: Predictor, scans: Scans, device: str = "cpu", on_progress: OnShare = ignored) -> Residuals:
     """Predict every beam of held-out scans and compare; too close and invalid readings are left out.
 
-    Raises:
-        BadInput: no beam to compare, no draw, or a sensor model that kernels do not know.
+    Raises `BadInput` for no beam to compare, no draw, or a sensor model that kernels do not know.
     """
     from bayesmap.kernels.predict.density import forecast
     from bayesmap.kernels.predict.stop_mixture import mix_stops, range_quantiles

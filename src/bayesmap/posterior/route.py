@@ -28,11 +28,8 @@ from bayesmap.space.grid import Grid
 
 Floats = NDArray[np.float64]
 
-SOLID = 0.1
-"""Stop probability below which a cell counts as free, as in maps for navigation."""
-
-REACH_CELLS = 2.5
-"""Greatest distance of any part of a surface from its cell's centre, in edges of a cell."""
+SOLID = 0.1  # stop probability below which a cell counts as free, as in maps for navigation
+REACH_CELLS = 2.5  # greatest distance of any part of a surface from its cell's centre, in edges of a cell
 
 ALONG = np.array([-2.0, -1.0, 0.0, 1.0, 2.0])
 """Points on the long axis of an ellipse at which its distance is computed, in standard deviations."""
@@ -58,8 +55,7 @@ class FreeProbability:
 def checked_path(path: ArrayLike) -> Floats:
     """Return a path as an array of points in the world frame, (P, 2).
 
-    Raises:
-        BadInput: another shape, no point, or a coordinate that is not finite.
+    Raises `BadInput` for another shape, no point, or a coordinate that is not finite.
     """
     try:
         points = np.atleast_2d(np.asarray(path, dtype=np.float64))
@@ -207,11 +203,8 @@ STEPS = {
 """Edges of the graph: offset of the cell at the end, and offsets of the cells that the edge crosses or nearly touches.
 Together with the opposite edges there are sixteen directions."""
 
-MAX_BLOCKED_PROBABILITY = 1.0 - 1e-6
-"""Probability of being blocked above which a cell is not in the graph."""
-
-MAX_DANGER = -math.log1p(-MAX_BLOCKED_PROBABILITY)
-"""`MAX_BLOCKED_PROBABILITY` as a danger, -log(1 - probability)."""
+MAX_BLOCKED_PROBABILITY = 1.0 - 1e-6  # probability of being blocked above which a cell is not in the graph
+MAX_DANGER = -math.log1p(-MAX_BLOCKED_PROBABILITY)  # `MAX_BLOCKED_PROBABILITY` as a danger, -log(1 - probability)
 
 
 @dataclass(frozen=True, eq=False)
@@ -283,8 +276,8 @@ def plan_route(
     ``blocked`` is the probability that the disc is blocked at each cell's centre, (nx, ny). ``judge`` returns the
     probability that a path is free.
 
-    Raises:
-        BadInput: start or goal outside the grid, or blocked in nearly every draw; or no path at all between them.
+    Raises `BadInput` for start or goal outside the grid, or blocked in nearly every draw; or no path at all between
+    them.
     """
     if not 0 < risk < 1:
         raise BadInput(f"plan: risk must lie inside (0, 1), got {risk!r}")

@@ -30,11 +30,8 @@ from bayesmap.space.scans import ReadingKind, Scans
 
 Floats = NDArray[np.float64]
 
-REPLICATES = 1000
-"""Replicates of the bootstrap. Standard errors are then accurate to about 2 %."""
-
-POINTS = 100
-"""Number of intervals of u at whose ends its distribution is compared to the uniform one."""
+REPLICATES = 1000  # Replicates of the bootstrap. Standard errors are then accurate to about 2 %.
+POINTS = 100  # number of intervals of u at whose ends its distribution is compared to the uniform one
 
 
 def randomised_pit(low: Floats, high: Floats, seed: int = 0) -> Floats:
@@ -150,8 +147,7 @@ def beam_log_scores(
     Densities are per metre for hits, probabilities for typed readings, in nats; NaN where a reading is invalid. They
     equal those of `score_prediction` bit for bit.
 
-    Raises:
-        BadInput: no valid reading, or no draw.
+    Raises `BadInput` for no valid reading, or no draw.
     """
     from bayesmap.kernels.predict.density import explained_within_m, log_densities
     from bayesmap.kernels.rays import trace_rays
@@ -165,8 +161,7 @@ def beam_log_scores(
     return log_densities(rays, batches, sensor, predictor.hit_depth, device=device)
 
 
-LEVELS, BINS = (0.5, 0.8, 0.95), 20
-"""Probabilities of central intervals, and bins of the histogram of u."""
+LEVELS, BINS = (0.5, 0.8, 0.95), 20  # probabilities of central intervals, and bins of the histogram of u
 
 MIX, QUANTILES, EVENTS = 0.5, 12.0, 6.0
 """Computing times of mixing a draw, of quantiles and of events, relative to the forecast of one draw, for progress."""
@@ -273,8 +268,7 @@ def score_prediction(
 
     ``seed`` is that of the randomised transform and of the bootstrap.
 
-    Raises:
-        BadInput: no valid reading, no draw, or a sensor model that kernels do not know.
+    Raises `BadInput` for no valid reading, no draw, or a sensor model that kernels do not know.
     """
     from bayesmap.kernels.predict.density import forecast
     from bayesmap.kernels.predict.stop_mixture import first_hit_events, mix_stops, range_quantiles
@@ -363,8 +357,7 @@ def compare_scores(first: Score, second: Score, *, seed: int = 0) -> ScoreDiffer
     Both models find the same beams hard, so the error of the difference is mostly far below that of either score.
     ``seed`` is that of the bootstrap over scans.
 
-    Raises:
-        BadInput: scores of different beams.
+    Raises `BadInput` for scores of different beams.
     """
     for name in ("scan_of_beam", "reading_m"):
         if not np.array_equal(getattr(first, name), getattr(second, name)):

@@ -28,8 +28,7 @@ Floats = NDArray[np.float64]
 RHAT_LIMIT, ESS_LIMIT = 1.05, 100.0
 """R-hat above which chains have not mixed, and effective sample size under which means are too noisy."""
 
-CELLS_AT_ONCE = 4096
-"""Cells whose traces are in memory at once."""
+CELLS_AT_ONCE = 4096  # cells whose traces are in memory at once
 
 
 def split_chains(values: Floats) -> Floats:
@@ -157,8 +156,7 @@ def diagnose_cells(prior: CellPrior, draws: Draws, among: NDArray[np.bool_]) -> 
     return CellDiagnostics(worst, least, unchanged, None if unchanged is None else disagreeing, high, low, judged)
 
 
-MIN_DRAWS_PER_CHAIN = 4
-"""Fewest draws of a chain with which its halves have a variance."""
+MIN_DRAWS_PER_CHAIN = 4  # fewest draws of a chain with which its halves have a variance
 
 CHANCE_SHARE = 0.01
 """Share of the cells that may be over a limit without a warning. With 50 independent draws of each of four chains, one

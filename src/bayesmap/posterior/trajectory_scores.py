@@ -42,8 +42,7 @@ from bayesmap.space.trajectory import LONGEST_GAP_S, RelativeLaw, Trajectory
 
 Floats = NDArray[np.float64]
 
-SLACK_S = 0.001
-"""A stamp this far outside the trajectory, or off a pose, still counts."""
+SLACK_S = 0.001  # a stamp this far outside the trajectory, or off a pose, still counts
 
 
 @dataclass(frozen=True, eq=False)
@@ -102,8 +101,7 @@ def relation_errors(
     The poses are those of the frame that the relations are of. ``exact`` uses only relations whose both stamps are
     those of poses. Otherwise poses are interpolated where their neighbours are at most ``longest_gap_s`` apart.
 
-    Raises:
-        BadInput: arrays that do not fit, stamps that descend, or no relation that the trajectory covers.
+    Raises `BadInput` for arrays that do not fit, stamps that descend, or no relation that the trajectory covers.
     """
     stamps_s, poses = np.asarray(stamps_s, np.float64), np.asarray(poses, np.float64)
     if stamps_s.ndim != 1 or poses.shape != (len(stamps_s), 3) or len(stamps_s) == 0:
@@ -183,8 +181,7 @@ def score_trajectory(
     ``mount`` is the frame whose relations are known, in the frame of the trajectory, (3,); None: the trajectory's own.
     ``exact`` is as in `relation_errors`.
 
-    Raises:
-        BadInput: no relation within the trajectory's time, or none near enough to its poses.
+    Raises `BadInput` for no relation within the trajectory's time, or none near enough to its poses.
     """
     moved = trajectory if mount is None else trajectory.of_frame(np.asarray(mount, dtype=np.float64))
     stamps = np.arange(len(moved), dtype=np.float64) if moved.stamps_s is None else moved.stamps_s

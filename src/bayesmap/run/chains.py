@@ -17,14 +17,10 @@ from bayesmap.samplers.sampler import Info, Keep, Snapshot
 PRECISION = 0.03
 """Default error of the mean map at which chains stop. On a grey map an error of 0.1 is visible. An error of
 0.03 is not."""
-FIRST_MARK = 10
-"""Draws per chain at the first estimate of the map's error."""
-MIN_DRAWS_PER_CHAIN = 2
-"""Fewest draws per chain if the time ends a run."""
-MAX_WARMUP_SHARE = 0.4
-"""Largest share of a limited time that warm-up may take."""
-MIN_BATCHES = 8
-"""Fewest batches of an estimate. With one batch per chain, and few chains, estimates scatter widely."""
+FIRST_MARK = 10  # draws per chain at the first estimate of the map's error
+MIN_DRAWS_PER_CHAIN = 2  # fewest draws per chain if the time ends a run
+MAX_WARMUP_SHARE = 0.4  # largest share of a limited time that warm-up may take
+MIN_BATCHES = 8  # Fewest batches of an estimate. With one batch per chain, and few chains, estimates scatter widely.
 KNOWN_SHARE = 0.99
 """Share of the observed cells whose error is at most the reported error. The worst cell alone is uninformative."""
 CELLS_AT_ONCE = 8192  # per batch of `map_error`

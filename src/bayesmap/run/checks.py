@@ -33,14 +33,9 @@ def memory_bytes() -> int | None:
     return min(sizes, default=None)
 
 
-RANDOM_STREAMS = 8
-"""Version of the assignment of random numbers: chains of another version cannot be continued."""
-
-NOT_ASKED_FOR = ("fingerprint", "threads_used", "fitted")
-"""Entries of a run's settings that are not arguments."""
-
-PROBES = 64
-"""Number of readings and of distances at which a sensor model is evaluated for the fingerprint."""
+RANDOM_STREAMS = 8  # version of the assignment of random numbers: chains of another version cannot be continued
+NOT_ASKED_FOR = ("fingerprint", "threads_used", "fitted")  # entries of a run's settings that are not arguments
+PROBES = 64  # number of readings and of distances at which a sensor model is evaluated for the fingerprint
 
 
 def fingerprint(settings: dict[str, Any], model: Model, *starts: NDArray[Any] | None) -> str:
@@ -63,8 +58,7 @@ def fingerprint(settings: dict[str, Any], model: Model, *starts: NDArray[Any] | 
 def check_same(saved: dict[str, Any], asked: dict[str, Any]) -> None:
     """Refuse to continue a run that was made with other arguments; fingerprints also cover its scans and its grid.
 
-    Raises:
-        BadInput: the settings differ; the message names the differences.
+    Raises `BadInput` if the settings differ; the message names the differences.
     """
     if saved["fingerprint"] == asked["fingerprint"]:
         return

@@ -23,10 +23,8 @@ from bayesmap.run.checks import memory_bytes
 from bayesmap.space.grid import Grid, outlying, why_outlying
 from bayesmap.space.scans import Scans
 
-LONG_S = 60.0
-"""A run that takes longer is announced."""
-MUCH_MEMORY = 0.5
-"""A run that takes more than this share of the memory is announced."""
+LONG_S = 60.0  # a run that takes longer is announced
+MUCH_MEMORY = 0.5  # a run that takes more than this share of the memory is announced
 
 
 @dataclass(frozen=True)
@@ -50,19 +48,15 @@ REFLECTIVITIES = SamplerCost(26.0, 18.0, 8.0, 0.0, 75.0, 20.0)
 WALLS = SamplerCost(7.0, 7.0, 32.0, 0.0, 11.0, 8.0)
 """Times: 28.7 ms a settled sweep of 6.5 M incidences (docs/lab/benchmarks.md), 7.6 ns in whole runs. Bytes:
 docs/beam-table.md."""
-BLOCKS = SamplerCost(None, None, 57.0, 0.0, 11.0, 8.0)
-"""Bytes: docs/beam-table.md; times were not measured."""
+BLOCKS = SamplerCost(None, None, 57.0, 0.0, 11.0, 8.0)  # bytes: docs/beam-table.md; times were not measured
 TABLE = SamplerCost(None, None, 40.0, 0.0, 32.0, 8.0)
 """Methods without chains: the beam table and the messages of belief propagation; times were not measured."""
 
-POSES_FACTOR = 3.0
-"""Ratio of a sweep that samples poses, too: 2 to 4 (MIT CSAIL; 305 000 beams of the five minutes)."""
-MATCH_S_A_SCAN = 7.4e-3
-"""Time for the trajectory: 22 s for 3000 scans, 90 s for 12 000, of 720 beams."""
+POSES_FACTOR = 3.0  # ratio of a sweep that samples poses, too: 2 to 4 (MIT CSAIL; 305 000 beams of the five minutes)
+MATCH_S_A_SCAN = 7.4e-3  # time for the trajectory: 22 s for 3000 scans, 90 s for 12 000, of 720 beams
 FIXED_S, FILE_S_A_BYTE = 8.0, 40e-9
 """Time for files and pictures: 17 to 20 s with 200 draws of 1.1 MB; with 40 draws 10 s."""
-BASE_BYTES, READING_BYTES = 390e6, 40.0
-"""Peak of runs of 3000 beams; what 2.2 M readings added to the peak of `slam`."""
+BASE_BYTES, READING_BYTES = 390e6, 40.0  # peak of runs of 3000 beams; what 2.2 M readings added to the peak of `slam`
 ONCE_A_CELL = 100.0
 """Bytes per cell beside the chains. A map of 2 million cells, three beams and one draw took 101, and 107 a chain."""
 
@@ -72,12 +66,9 @@ MARGIN_CELLS = 4.0
 """Cells behind a reading that are still traced: 1.5 cells and six standard deviations of 4 cm at 10 cm."""
 MEASURED_BEAMS, TRACED_BEAMS, POINTS = 500_000, 20_000, 64
 """Most beams that are measured, most of which touched cells are counted, and points on each of these."""
-SQUARE = 4
-"""Cells along the edge of the squares in which touched cells are counted."""
-TOUCHED_SHARE = 0.5
-"""Share of the grid's cells that beams touch in a building, at least: 0.6 in most."""
-THINNED_M = (0.1, 0.2, 0.5, 1.0)
-"""Distances between scans that are proposed."""
+SQUARE = 4  # cells along the edge of the squares in which touched cells are counted
+TOUCHED_SHARE = 0.5  # share of the grid's cells that beams touch in a building, at least: 0.6 in most
+THINNED_M = (0.1, 0.2, 0.5, 1.0)  # distances between scans that are proposed
 
 
 @dataclass(frozen=True)
@@ -241,9 +232,8 @@ class Estimate:
     def refuse(self, scans: Scans) -> None:
         """Refuse a run that cannot fit into memory.
 
-        Raises:
-            BadInput: it takes more memory than there is. If a few scans lie so far out that they make the grid too
-                large, the message names the worst.
+        Raises `BadInput` if it takes more memory than there is. If a few scans lie so far out that they make the grid
+        too large, the message names the worst.
         """
         if not self.is_too_large:
             return

@@ -32,8 +32,7 @@ def connect(address: str | None) -> Any:
 
     An existing connection is used, and stays open.
 
-    Raises:
-        BadInput: Ray is not installed, or there is no cluster at the address.
+    Raises `BadInput` if Ray is not installed, or there is no cluster at the address.
     """
     try:
         import ray
@@ -69,10 +68,8 @@ def failed(error: Exception) -> ConnectionError:
     )
 
 
-WAIT_S = 0.25
-"""Longest time between two checks whether to stop, seconds."""
-GROWTH = 16
-"""Largest ratio of the sweeps of a segment to those of the segment before."""
+WAIT_S = 0.25  # longest time between two checks whether to stop, seconds
+GROWTH = 16  # largest ratio of the sweeps of a segment to those of the segment before
 
 
 @dataclass(frozen=True)
@@ -91,8 +88,7 @@ class RayExecutor:
         segment_s: seconds of work per task, the most that is lost if a worker dies or a run is stopped.
         retries: number of times that a task is run again if its worker dies.
 
-    Raises:
-        BadInput: a number outside its range.
+    Raises `BadInput` for a number outside its range.
     """
 
     address: str | None = None

@@ -66,9 +66,8 @@ _cached: Cached | None = None
 def prepare(job: Job, version: str) -> tuple[Any, float]:
     """Prepare the job's problem. Returns the problem, and the seconds spent.
 
-    Raises:
-        BadInput: the versions of bayesmap here and in the calling process differ, or the sampler cannot sample the
-            model.
+    Raises `BadInput` if the versions of bayesmap here and in the calling process differ, or the sampler cannot sample
+    the model.
     """
     if version != __version__:
         raise BadInput(

@@ -56,10 +56,8 @@ def stop_on_interrupt() -> Iterator[Callable[[], bool]]:
 
 STEP_SECONDS = 0.25  # of work per step
 SECONDS_PER_INCIDENCE = 2e-8  # a first guess, for the first step; later steps use the measured time
-FIRST_STEP = 16
-"""Most sweeps of the first step."""
-BUFFER_BYTES = 64 << 20
-"""Most bytes of the draws of one step."""
+FIRST_STEP = 16  # most sweeps of the first step
+BUFFER_BYTES = 64 << 20  # most bytes of the draws of one step
 CHECKPOINT_SHARE = 0.05  # largest share of the time that checkpoints may take
 
 
@@ -127,8 +125,7 @@ def no_draws(model: Model, state: ChainState, chains: int) -> Draws:
     return replace(empty, arrays={spec.name: spec.empty(chains, 0, empty.shape_of(spec)) for spec in empty.specs})
 
 
-FIRST_MAP_SWEEPS = 5
-"""Sweeps of the chain that draws a first map: its walls are where they stay, but still thick."""
+FIRST_MAP_SWEEPS = 5  # sweeps of the chain that draws a first map: its walls are where they stay, but still thick
 
 
 def first_map(sampler: Sampler[Any, Any], problem: Any, model: Model, seed: int) -> tuple[Chains, float]:

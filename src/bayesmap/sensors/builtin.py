@@ -183,8 +183,7 @@ def _check_scale(model: str, name: str, scale_m: float, per_m: float) -> None:
         raise BadInput(f"{model}: growth of the noise per metre must be 0 or more, got {per_m!r}")
 
 
-FLAT_NATS = 1e-4
-"""Most nats that the noise may add to the log-likelihood past the end of a beam in the table."""
+FLAT_NATS = 1e-4  # most nats that the noise may add to the log-likelihood past the end of a beam in the table
 
 
 @dataclass(frozen=True)
@@ -198,8 +197,8 @@ class BeamMixture(SensorModel):
         p_short: probability that there is a passing object on the line of the beam.
         rate_short_per_m: rate of the exponential distance of passing objects.
 
-    Raises:
-        BadInput: a probability outside its interval (``p_random`` must be positive), or a rate that is not positive.
+    Raises `BadInput` for a probability outside its interval (``p_random`` must be positive), or a rate that is not
+    positive.
     """
 
     noise: AdditiveNoise = field(default_factory=lambda: Gaussian(0.05))
@@ -323,8 +322,7 @@ class BeamMixture(SensorModel):
 BISECTIONS = 16
 """Bisections in `BeamMixture.reach_m`: accurate to 1/65536 of the sensor's range, and rounded up to the safe side."""
 
-LOG_IMPOSSIBLE = -30.0
-"""Least log-likelihood of a typed reading, so that no single beam makes a map impossible."""
+LOG_IMPOSSIBLE = -30.0  # least log-likelihood of a typed reading, so that no single beam makes a map impossible
 
 
 KINDS: dict[str, type[Any]] = {"gaussian": Gaussian, "student-t": StudentT, "mixture": BeamMixture}
@@ -349,8 +347,7 @@ def _plain(value: Any) -> Any:
 def from_description(description: dict[str, Any]) -> SensorModel | None:
     """Return the model of a description; None for the user's own model.
 
-    Raises:
-        BadInput: a parameter that the model does not have, or a value that it refuses.
+    Raises `BadInput` for a parameter that the model does not have, or a value that it refuses.
     """
     values = dict(description)
     kind = values.pop("kind", None)

@@ -67,8 +67,7 @@ class SensorModel(ABC):
         ``spread_m`` is a further standard deviation of the stop's distance. Only the calibration in `bayesmap.score`
         needs it.
 
-        Raises:
-            BadInput: the model has no such method.
+        Raises `BadInput` if the model has no such method.
         """
         raise BadInput(f"{type(self).__name__}: no cumulative distribution; add a method cumulative() to the model")
 
@@ -77,8 +76,7 @@ class SensorModel(ABC):
         return None
 
 
-STANDARD = np.linspace(-6.0, 6.0, 97)
-"""Nodes of a stop, in standard deviations."""
+STANDARD = np.linspace(-6.0, 6.0, 97)  # nodes of a stop, in standard deviations
 
 
 def _mean_over_stops(model: SensorModel, z: Floats, d: Floats, s: Floats, limits: RangeLimits) -> Floats:

@@ -27,16 +27,11 @@ DISTANCES, SPREADS, OFFSETS, TYPED, NOWHERE = 33, 8, 193, 513, 4097
 """Numbers of nodes: of distance, spread and offset of a range; of the distance for typed readings; and of the range of
 a beam that stops nowhere."""
 
-WIDEST = 63.0
-"""The widest spread, in scales: wider spreads are clipped to it."""
-
-LOG_LEAST = -1e6
-"""Least log density at a node, in nats: minus infinity cannot be interpolated."""
-
+WIDEST = 63.0  # the widest spread, in scales: wider spreads are clipped to it
+LOG_LEAST = -1e6  # least log density at a node, in nats: minus infinity cannot be interpolated
 SAMPLES = 512  # samples per distance for the scale
 LEAST_SCALE_M = 1e-4
-SLACK = 0.05
-"""Largest distance of a sum of probabilities from one, integration errors included."""
+SLACK = 0.05  # largest distance of a sum of probabilities from one, integration errors included
 
 
 @dataclass(frozen=True, eq=False)

@@ -28,11 +28,9 @@ from bayesmap.space.grid import Grid
 ROW_DEPTH_M, CORRIDOR_M, CROSS_CORRIDOR_M, CROSS_EVERY_M = 5.2, 1.8, 1.6, 16.0
 INNER_WALL_M, MIN_ROOM_M = 0.12, 2.6  # wall thickness, least width of a room
 OUTER_WALL_M = 0.3
-MARGIN_M = 0.5
-"""Width of the open ground around the building."""
+MARGIN_M = 0.5  # width of the open ground around the building
 DOOR_M, WIDE_DOOR_M = 0.9, 1.6
-DOOR_CLEAR_M = 1.1
-"""Depth of the floor that is kept free on both sides of a door."""
+DOOR_CLEAR_M = 1.1  # depth of the floor that is kept free on both sides of a door
 SMALLEST_M = (12.0, 8.0)  # long and short side of the smallest building
 STOP_SPLITTING_M = ((3.4, 0.42), (4.6, 0.30), (6.5, 0.18), (9.5, 0.10))
 """Widths in metres with their probabilities: a piece narrower than a random one of these widths is not split."""
@@ -233,8 +231,7 @@ def building(
         The building, on a grid with half a metre of open ground around the outer wall, whose origin is the
         lower-left corner of that ground.
 
-    Raises:
-        BadInput: an argument outside its range.
+    Raises `BadInput` for an argument outside its range.
     """
     if not 0.02 <= resolution <= 0.25:
         raise BadInput(f"building: resolution must be 0.02 to 0.25 m, got {resolution!r}")

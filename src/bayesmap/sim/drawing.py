@@ -23,9 +23,8 @@ def from_text(text: str) -> NDArray[np.bool_]:
     Blank lines around the drawing, blanks at the ends of lines, and an indentation common to all lines are ignored.
     Returns walls, shape (lines, columns).
 
-    Raises:
-        BadInput: no lines, lines of different lengths, or an unknown character; the message names the line
-            (counted from 1 in the whole text) and the column.
+    Raises `BadInput` for no lines, lines of different lengths, or an unknown character; the message names the line
+    (counted from 1 in the whole text) and the column.
     """
     numbered = [(number, line.rstrip()) for number, line in enumerate(text.splitlines(), start=1)]
     drawn = [k for k, (_, line) in enumerate(numbered) if line]
@@ -60,8 +59,7 @@ def to_text(walls: ArrayLike) -> str:
     return "\n".join("".join(WALLS[0] if wall else FREE for wall in line) for line in array) + "\n"
 
 
-TUTORIAL_GRID = Grid(shape=(21, 21), resolution=1.0, origin=(-0.5, -0.5))
-"""Cell (i, j) is centred on the point (i, j)."""
+TUTORIAL_GRID = Grid(shape=(21, 21), resolution=1.0, origin=(-0.5, -0.5))  # cell (i, j) is centred on the point (i, j)
 
 DRAWING = """
 .....................

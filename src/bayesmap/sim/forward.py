@@ -32,8 +32,7 @@ def ranges(
     Returns:
         Metres, shape (A,) for a single pose of shape (3,), else (S, A).
 
-    Raises:
-        BadInput: shapes that do not fit, numbers that are not finite, a cap that is not positive.
+    Raises `BadInput` for shapes that do not fit, numbers that are not finite, a cap that is not positive.
     """
     poses_world = as_poses(poses)
     distances = _distances(walls, grid, poses_world, as_angles(angles_rad), max_range_m, device)
@@ -63,8 +62,7 @@ def simulate(
             tutorial.
         device: device that casts the rays.
 
-    Raises:
-        BadInput: as `ranges`, and for a pose inside a wall.
+    Raises `BadInput` as `ranges`, and for a pose inside a wall.
     """
     # Check the arguments.
     poses_world = asked_poses("simulate", poses)

@@ -13,18 +13,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-ROBOT_CLEARANCE_M = 0.25
-"""Smallest distance between a pose of a simulated robot and a wall."""
+ROBOT_CLEARANCE_M = 0.25  # smallest distance between a pose of a simulated robot and a wall
 
 LATTICE_M = 0.1
 """Approximate distance between nodes of the planning lattice, on every k-th cell (every cell if cells are larger)."""
 
 SOLID = 1.0  # opacity: the chance that a cell stops a beam
-LEG = 0.5
-"""Opacity of a leg, which is thinner than a cell: about half of the beams that enter its cell pass."""
-
-MAX_CUT_OFF_M2 = 0.4
-"""Largest floor that a piece may make unreachable, besides the floor under it."""
+LEG = 0.5  # opacity of a leg, which is thinner than a cell: about half of the beams that enter its cell pass
+MAX_CUT_OFF_M2 = 0.4  # largest floor that a piece may make unreachable, besides the floor under it
 
 Rectangle = tuple[float, float, float, float, float]
 """A rectangle in the room's frame: x, y, width and depth in metres, and the opacity."""

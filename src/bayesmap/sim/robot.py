@@ -28,15 +28,11 @@ if TYPE_CHECKING:
 
     from bayesmap.sim.building import Building
 
-WALL_DISLIKE = 4.0
-"""Extra cost of a path close to walls, relative to open floor: robots keep to the middle."""
-
+WALL_DISLIKE = 4.0  # extra cost of a path close to walls, relative to open floor: robots keep to the middle
 SMOOTHING_M = 0.5  # twice the standard deviation of the filter that rounds corners
 HEADING_M = 0.2  # distance over which the direction of travel is measured
-STANDING_M = 1e-9
-"""Shortest straight with a direction; a shorter step is one turn."""
-NEAR_M = 4.0
-"""Largest distance of related poses: poses further apart see different walls."""
+STANDING_M = 1e-9  # shortest straight with a direction; a shorter step is one turn
+NEAR_M = 4.0  # largest distance of related poses: poses further apart see different walls
 PAIRS_A_POSE = 3  # on average
 PATROL_POSES = 4000  # of one round of a driven building
 
@@ -52,8 +48,7 @@ def patrol(building: Building, n_scans: int, seed: int = 0) -> Floats:
         Poses in the world frame, shape (n_scans, 3): x and y in metres, yaw in radians along the direction of
         travel. No pose is within `ROBOT_CLEARANCE_M` of a wall.
 
-    Raises:
-        BadInput: ``n_scans`` below 1, or a building without floor that a robot can pass.
+    Raises `BadInput` for ``n_scans`` below 1, or a building without floor that a robot can pass.
     """
     if n_scans < 1:
         raise BadInput(f"patrol: n_scans must be at least 1, got {n_scans!r}")
@@ -208,8 +203,7 @@ class OdometryNoise:
         slip_rad: standard deviation of the reported yaw's error per slip, radians.
         lag_s: delay of the reported pose, seconds.
 
-    Raises:
-        BadInput: a number that is not finite, or is negative where it must not be.
+    Raises `BadInput` for a number that is not finite, or is negative where it must not be.
     """
 
     distance_per_m: float = 0.03
@@ -247,8 +241,7 @@ def simulate_odometry(
     Returns:
         Raw odometry, shape (S, 3), in a frame that drifts away from the world's.
 
-    Raises:
-        BadInput: shapes that do not fit, stamps that do not ascend, or a lag without stamps.
+    Raises `BadInput` for shapes that do not fit, stamps that do not ascend, or a lag without stamps.
     """
     noise = OdometryNoise() if noise is None else noise
     truth = as_poses(poses_world)

@@ -24,21 +24,15 @@ from bayesmap.space.grid import ROUNDING, Grid, as_mask, as_observed
 from bayesmap.space.scans import as_poses
 from bayesmap.viz import palette
 
-LEVELS = 128
-"""Levels of probability in a frame. Finer levels look alike, and fewer colours give smaller files."""
+LEVELS = 128  # Levels of probability in a frame. Finer levels look alike, and fewer colours give smaller files.
 
 BACKGROUND, UNOBSERVED, HATCH, TRUTH, SENSOR, FRAME = range(LEVELS, LEVELS + 6)
 """Palette indices of other colours, after the levels of probability."""
 
-TARGET_PX = 560
-"""Least length of the longer side. Cells are enlarged by the smallest whole number that reaches it."""
+TARGET_PX = 560  # Least length of the longer side. Cells are enlarged by the smallest whole number that reaches it.
 
-MARGIN_PX = 10
-CAPTION_PX = 30
-HATCH_PITCH_PX = 7
-"""Sizes in pixels: margin around the map, height of the caption, distance of hatch lines."""
-LAST_FRAME_MS = 1500
-"""Least time of the last frame: the result stays visible before the animation starts again."""
+MARGIN_PX, CAPTION_PX, HATCH_PITCH_PX = 10, 30, 7  # margin around the map, height of the caption, hatch distance
+LAST_FRAME_MS = 1500  # least time of the last frame: the result stays visible before the animation starts again
 
 
 def write_animation(

@@ -19,10 +19,8 @@ from bayesmap.viz.overlays import draw_sensor
 
 Floats = NDArray[np.float64]
 
-FOOT_IN = 0.6
-"""Height of the legend below the map, inches."""
-CIRCLE = 24
-"""Number of corners in the outline of a disc."""
+FOOT_IN = 0.6  # height of the legend below the map, inches
+CIRCLE = 24  # number of corners in the outline of a disc
 
 
 def route_figure(
@@ -31,8 +29,7 @@ def route_figure(
 ) -> Figure:  # fmt: skip
     """Draw a path, (P, 2) in the world frame, over the mean map, and the area that a disc sweeps along it.
 
-    Raises:
-        BadInput: shapes that do not fit.
+    Raises `BadInput` for shapes that do not fit.
     """
     figure, ax = maps.map_figure(grid, aspects=(0.5, 3.0), foot_in=FOOT_IN)
     image = maps.draw_probability(ax, grid, occupancy, observed)
@@ -64,8 +61,7 @@ def views_figure(
 
     ``best`` holds indices of candidates, the best first. These are drawn as numbered arrows with their nats.
 
-    Raises:
-        BadInput: shapes that do not fit.
+    Raises `BadInput` for shapes that do not fit.
     """
     figure, ax = maps.map_figure(grid, aspects=(0.5, 3.0), foot_in=FOOT_IN)
     maps.draw_probability(ax, grid, occupancy, observed)

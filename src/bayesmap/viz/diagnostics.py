@@ -15,14 +15,10 @@ from bayesmap.viz import palette
 MAX_POINTS = 4000
 """Largest number of points of a trace. Longer traces show minimum and maximum of each stretch, so spikes stay."""
 
-MAX_KEYS = 8
-"""Largest number of chains in a legend."""
-BINS = 100
-"""Number of bins of the histogram of weights."""
-TUTORIAL_RANGE = (-10_000.0, 0.0)
-"""Range of the tutorial's histogram of weights, in nats."""
-ALL = 0.9995
-"""Share of the sum of weights that rounds to all of it, in tenths of a per cent."""
+MAX_KEYS = 8  # largest number of chains in a legend
+BINS = 100  # number of bins of the histogram of weights
+TUTORIAL_RANGE = (-10_000.0, 0.0)  # range of the tutorial's histogram of weights, in nats
+ALL = 0.9995  # share of the sum of weights that rounds to all of it, in tenths of a per cent
 
 
 def draw_log_joint(ax: Axes, log_joint: ArrayLike, *, first_sweep: int = 1) -> None:
@@ -30,8 +26,7 @@ def draw_log_joint(ax: Axes, log_joint: ArrayLike, *, first_sweep: int = 1) -> N
 
     ``first_sweep`` is the number of the sweep that gave the first draw.
 
-    Raises:
-        BadInput: another shape, no draw at all, or a number that is not finite.
+    Raises `BadInput` for another shape, no draw at all, or a number that is not finite.
     """
     _draw_lines(ax, _as_traces(log_joint), first_sweep, "log joint [nats]", linewidth=0.8, alpha=0.9)
 
@@ -123,8 +118,7 @@ def draw_weights(
     Weights need not be normalised; -inf is a weight of zero. The number of weights below the histogram's
     ``range_nats`` is written in the panel. Returns the counts, (100,).
 
-    Raises:
-        BadInput: no weight at all, all of them zero, one that is NaN or +inf, or a range that is empty.
+    Raises `BadInput` for no weight at all, all of them zero, one that is NaN or +inf, or a range that is empty.
     """
     logs = normalized(log_weights)
     low, high = range_nats
@@ -168,8 +162,7 @@ def weights_figure(log_weights: ArrayLike, *, range_nats: tuple[float, float] = 
 def normalized(log_weights: ArrayLike) -> NDArray[np.float64]:
     """Return the log weights, normalised so that the weights add up to 1, shape (n,).
 
-    Raises:
-        BadInput: no weight at all, all of them zero, or one that is NaN or +inf.
+    Raises `BadInput` for no weight at all, all of them zero, or one that is NaN or +inf.
     """
     logs = as_array(log_weights, "log_weights")
     if logs.ndim != 1 or len(logs) == 0:

@@ -33,21 +33,13 @@ from bayesmap.viz import maps, overlays, palette
 from bayesmap.viz.overlays import draw_surfaces, draw_truth_outline
 
 FONT_PT = 9.0
-COARSE_CELLS = 100
-"""Largest side of a map, in cells, in which an outline of the true walls does not hide cells."""
-LEAST_STROKE_PT = 2.5
-"""Least size of a cell on the page for strokes of surfaces."""
-
-PANEL_IN = 3.4
-"""Longest side of a panel in inches."""
-TALL_IN = 5.0
-"""Height of a panel if the map is at least twice as high as wide."""
-WIDE_IN = 7.0
-"""Width of stacked panels, for a map much wider than high."""
-LEAST_SLOT_IN = 1.9
-"""Least width for a panel with its title and colour bar."""
-LETTER_IN, LINE_IN = 0.075, 0.2
-"""Width of a digit and line height of the tick labels."""
+COARSE_CELLS = 100  # largest side of a map, in cells, in which an outline of the true walls does not hide cells
+LEAST_STROKE_PT = 2.5  # least size of a cell on the page for strokes of surfaces
+PANEL_IN = 3.4  # longest side of a panel in inches
+TALL_IN = 5.0  # height of a panel if the map is at least twice as high as wide
+WIDE_IN = 7.0  # width of stacked panels, for a map much wider than high
+LEAST_SLOT_IN = 1.9  # least width for a panel with its title and colour bar
+LETTER_IN, LINE_IN = 0.075, 0.2  # width of a digit and line height of the tick labels
 LEAST_DPI, MOST_DPI = 160.0, 320.0
 
 LEFT_IN, RIGHT_IN, TOP_IN, GAP_IN = 0.46, 0.2, 0.32, 0.25
@@ -166,8 +158,8 @@ def posterior_figure(
             instead of the entropy of a wall.
         surfaces: surfaces, drawn as strokes over the mean if cells are large enough on the page.
 
-    Raises:
-        BadInput: shapes that differ from the grid's, probabilities outside [0, 1], or a truth that is not 0 or 1.
+    Raises `BadInput` for shapes that differ from the grid's, probabilities outside [0, 1], or a truth that is not 0 or
+    1.
     """
     # Choose the panels, and lay them out.
     seen = as_observed(grid, observed)
@@ -308,8 +300,7 @@ def place_legend(figure: Figure, handles: list[Artist]) -> None:
             key.set_sizes([9.0])
 
 
-NO_BAR_IN = 0.9
-"""Width that a figure saves without a colour bar."""
+NO_BAR_IN = 0.9  # width that a figure saves without a colour bar
 
 
 def panel_figure(
@@ -323,8 +314,7 @@ def panel_figure(
     not ``observed`` are hatched. ``truth``, (nx, ny), is outlined. ``label`` names the values of "mean", and of a draw
     in [0, 1].
 
-    Raises:
-        BadInput: shapes or values that do not fit.
+    Raises `BadInput` for shapes or values that do not fit.
     """
     figure, axes = maps.map_figure(grid, dpi=max(160.0, 1.1 * max(grid.shape) / maps.HEIGHT_IN))
     walls = what == "draw" and np.isin(values, (0, 1)).all()
@@ -358,8 +348,7 @@ def comparison_figure(
 ) -> Figure:
     """Draw two to four maps of one grid in the same colours, with one colour bar.
 
-    Raises:
-        BadInput: fewer than two or more than four maps, shapes that do not fit, probabilities outside [0, 1].
+    Raises `BadInput` for fewer than two or more than four maps, shapes that do not fit, probabilities outside [0, 1].
     """
     if not 2 <= len(candidates) <= 4:
         raise BadInput(f"picture: compare two to four maps, got {len(candidates)}")

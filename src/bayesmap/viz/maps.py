@@ -68,8 +68,7 @@ def window(grid: Grid, x_m: tuple[float, float], y_m: tuple[float, float]) -> tu
 
     ``x_m`` are the rectangle's left and right edge, ``y_m`` its lower and upper edge.
 
-    Raises:
-        BadInput: edges out of order or not finite, or a rectangle outside the grid.
+    Raises `BadInput` for edges out of order or not finite, or a rectangle outside the grid.
     """
     cut, origin = [], []
     for axis, (low, high) in enumerate((x_m, y_m)):
@@ -96,8 +95,7 @@ def window(grid: Grid, x_m: tuple[float, float], y_m: tuple[float, float]) -> tu
 def window_around(grid: Grid, mask: ArrayLike, margin_m: float = 1.0) -> tuple[Grid, Cut]:
     """Return the `window` around the true cells of a mask, (nx, ny), with a margin; the whole grid if none is true.
 
-    Raises:
-        BadInput: another shape than the grid's.
+    Raises `BadInput` for another shape than the grid's.
     """
     cells = as_mask(grid, mask, "mask")
     edges = []
@@ -109,8 +107,7 @@ def window_around(grid: Grid, mask: ArrayLike, margin_m: float = 1.0) -> tuple[G
     return window(grid, edges[0], edges[1])
 
 
-ALONE = 3
-"""A wall with fewer walls in the 5 x 5 cells around it, itself included, may be the end of a stray beam."""
+ALONE = 3  # a wall with fewer walls in the 5 x 5 cells around it, itself included, may be the end of a stray beam
 
 
 def window_of_walls(grid: Grid, walls: ArrayLike, points_m: ArrayLike, margin_m: float = 1.0) -> tuple[Grid, Cut]:
@@ -135,8 +132,7 @@ def draw_probability(ax: Axes, grid: Grid, occupancy: ArrayLike, observed: Array
     ``observed`` is a mask of the cells that a beam reached, (nx, ny); None: all cells. Returns the image, from 0 to 1,
     for a colour bar.
 
-    Raises:
-        BadInput: shapes that differ from the grid's, or probabilities outside [0, 1].
+    Raises `BadInput` for shapes that differ from the grid's, or probabilities outside [0, 1].
     """
     probability = as_probabilities(grid, occupancy, "occupancy")
     return _show(ax, grid, probability, as_observed(grid, observed), palette.probability_colormap(), 1.0)

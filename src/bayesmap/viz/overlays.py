@@ -31,8 +31,7 @@ MAX_ARROWS = 12
 def draw_truth_outline(ax: Axes, grid: Grid, true_walls: ArrayLike) -> LineCollection:
     """Draw the outline of the true walls (true or 1 for wall, (nx, ny)) as lines labelled "true walls".
 
-    Raises:
-        BadInput: a shape that differs from the grid's, or other numbers than 0 and 1.
+    Raises `BadInput` for a shape that differs from the grid's, or other numbers than 0 and 1.
     """
     lines = LineCollection(
         list(boundary_segments(grid, as_mask(grid, true_walls, "true_walls"))), colors=palette.TRUTH,
@@ -52,8 +51,7 @@ def draw_rays(
     than the limits, an evenly spaced part is drawn, always the same one. Points hide less than lines, so their limit is
     higher. Returns the artists, labelled "beam", "reading" and "no return", in this order, without those missing.
 
-    Raises:
-        BadInput: ``max_beams`` or ``max_readings`` below 1.
+    Raises `BadInput` for ``max_beams`` or ``max_readings`` below 1.
     """
     if max_beams < 1 or max_readings < 1:
         raise BadInput(f"picture: draw at least 1 beam and 1 reading, got {max_beams} and {max_readings}")
@@ -93,8 +91,7 @@ def draw_sensor(ax: Axes, poses: ArrayLike) -> list[Line2D]:
     ``poses`` are (S, 3) or (3,): x, y in metres and yaw in radians. Returns the marks; the first is labelled "sensor"
     or "trajectory".
 
-    Raises:
-        BadInput: another shape, no pose, or a number that is not finite.
+    Raises `BadInput` for another shape, no pose, or a number that is not finite.
     """
     where = as_poses(poses)
     if len(where) == 0:
@@ -137,11 +134,8 @@ def _arrow(yaw_rad: float) -> MarkerStyle:
     return MarkerStyle(Path(outline, closed=True), transform=Affine2D().rotate(yaw_rad))
 
 
-DEVIATIONS = 2.0
-"""Standard deviations from the mean to each end of a stroke."""
-
-FAINTEST = 0.02
-"""Least weight of a drawn surface. Fainter ones would be invisible, and most cells are free."""
+DEVIATIONS = 2.0  # standard deviations from the mean to each end of a stroke
+FAINTEST = 0.02  # Least weight of a drawn surface. Fainter ones would be invisible, and most cells are free.
 
 LEAST_WIDTH_PT, MOST_WIDTH_PT = 0.8, 2.5
 
@@ -153,8 +147,7 @@ def surface_strokes(
 
     Strokes longer than ``longest_m`` are cut.
 
-    Raises:
-        BadInput: shapes that do not fit, numbers that are not finite, or a matrix that is no covariance.
+    Raises `BadInput` for shapes that do not fit, numbers that are not finite, or a matrix that is no covariance.
     """
     means, covariances = as_array(means_world, "means_world"), as_array(covariances_m2, "covariances_m2")
     n = len(means)
@@ -182,8 +175,7 @@ def draw_surfaces(
 
     Strokes fainter than `FAINTEST` are left out. By default they have the colour of walls. The label is "surface".
 
-    Raises:
-        BadInput: shapes that do not fit, weights outside [0, 1], or what `surface_strokes` refuses.
+    Raises `BadInput` for shapes that do not fit, weights outside [0, 1], or what `surface_strokes` refuses.
     """
     strokes, alpha = surface_strokes(means_world, covariances_m2, longest_m), as_array(weights, "weights")
     if alpha.shape != (len(strokes),) or not ((alpha >= 0.0) & (alpha <= 1.0)).all():

@@ -54,8 +54,7 @@ CHAINS: Final = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9
 HATCH: Final = "//////"
 HATCH_WIDTH_PT: Final = 0.6
 
-PAD_IN: Final = 0.08
-"""Margin around the panels of a figure, inches."""
+PAD_IN: Final = 0.08  # margin around the panels of a figure, inches
 
 
 def lab_to_srgb(lab: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -24,8 +24,7 @@ if TYPE_CHECKING:
     from bayesmap.posterior.trajectory_scores import TrajectoryScore
 
 LEVELS = np.linspace(0.02, 0.98, 49)
-LEAST_EVENTS = 20
-"""Least number of events for a share to be drawn."""
+LEAST_EVENTS = 20  # least number of events for a share to be drawn
 
 Rows = Sequence[tuple[str, "Score"]]
 
@@ -74,8 +73,7 @@ def draw_reliability(ax: Axes, rows: Rows) -> None:
 def calibration_figure(rows: Rows) -> Figure:
     """Draw PIT, coverage and reliability in three panels, with one line per scored map (name and score).
 
-    Raises:
-        BadInput: no score.
+    Raises `BadInput` for no score.
     """
     if not rows:
         raise BadInput("calibration: give at least one score")
@@ -130,8 +128,7 @@ def errors_figure(score: TrajectoryScore) -> Figure:
     return figure
 
 
-FAINT = 0.3
-"""Opacity of the map below the dots."""
+FAINT = 0.3  # opacity of the map below the dots
 
 MAX_POINTS = 60_000
 """Largest number of end points. More are thinned evenly, but the worst `MAX_POINTS` / 2 are all kept."""
@@ -167,8 +164,7 @@ def surprise_scale(surprises: ArrayLike) -> Scale:
 def draw_residuals(ax: Axes, ends_world: ArrayLike, values: ArrayLike, scale: Scale) -> PathCollection:
     """Draw a dot at the end of every beam, (n, 2), coloured by its value, (n,). The worst are larger and on top.
 
-    Raises:
-        BadInput: shapes that do not fit, or a number that is not finite.
+    Raises `BadInput` for shapes that do not fit, or a number that is not finite.
     """
     ends, numbers = as_array(ends_world, "ends_world"), as_array(values, "values")
     if ends.shape != (len(numbers), 2) or numbers.ndim != 1:
@@ -199,8 +195,7 @@ def residuals_figure(
     The values, (n,), are residuals in metres, or surprises in nats with `surprise_scale`. The default scale is
     `residual_scale`.
 
-    Raises:
-        BadInput: shapes or values that do not fit.
+    Raises `BadInput` for shapes or values that do not fit.
     """
     scale = residual_scale(values) if scale is None else scale
     figure, axes = maps.map_figure(grid, aspects=(0.4, 2.5), dpi=200)

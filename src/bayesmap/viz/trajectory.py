@@ -16,8 +16,7 @@ from bayesmap.viz import maps, palette
 Floats = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
-REGION = 5.991
-"""Squared radius, in standard deviations, of the ellipse with 95 % of a normal distribution in the plane."""
+REGION = 5.991  # squared radius, in standard deviations, of the ellipse with 95 % of a normal distribution in the plane
 
 MOST_ELLIPSES = 300
 SIZE_IN = 8.0

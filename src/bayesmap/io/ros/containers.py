@@ -152,8 +152,8 @@ def open_recording(path: str | os.PathLike[str], *, salvage: bool, types: Collec
     With ``salvage`` a damaged recording is read as far as possible, and a note describes the damage. Only damage to
     messages of ``types`` counts.
 
-    Raises:
-        BadInput: a recording that is damaged (without ``salvage``), or cannot be read at all; a bag of another version.
+    Raises `BadInput` for a recording that is damaged (without ``salvage``), or cannot be read at all; a bag of another
+    version.
     """
     name = os.fspath(path)
     start = b"" if Path(path).is_dir() else first_bytes(path, 16)

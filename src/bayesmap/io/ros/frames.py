@@ -25,7 +25,6 @@ FURTHEST_M = 1e7
 LATEST_NS = 2**62
 ROUNDING = 1e-6  # largest change of a constant transform, in metres and radians
 FIXED_FRAMES = ("map", "odom", "world")  # names of fixed frames, in order of preference
-
 Numbers = tuple[float, float, float, float, float, float, float]  # translation x, y, z and rotation x, y, z, w
 
 

@@ -54,8 +54,7 @@ def from_image(image: ImageLike | Image, threshold: float = 0.5) -> NDArray[np.b
         Walls, shape (width, height), indexed ``[x, y]`` with y up: pixel (row r, column c) is
         ``walls[c, height - 1 - r]``.
 
-    Raises:
-        BadInput: a file that is no image, an array of another shape or range, a threshold outside (0, 1).
+    Raises `BadInput` for a file that is no image, an array of another shape or range, a threshold outside (0, 1).
     """
     if not 0 < threshold < 1:
         raise BadInput(f"image: threshold must lie between 0 (black) and 1 (white), got {threshold!r}")
@@ -70,8 +69,7 @@ def upright(rows: NDArray[T]) -> NDArray[T]:
 def brightness(image: ImageLike | Image) -> NDArray[np.float64]:
     """Return the brightness of every pixel, 0 (black) to 1 (white), shape (height, width), row 0 the top.
 
-    Raises:
-        BadInput: a file that is no image, or an array of another shape or range.
+    Raises `BadInput` for a file that is no image, or an array of another shape or range.
     """
     from PIL import Image as pil  # on first use: most programs never read an image
 
@@ -229,8 +227,7 @@ def read_map(path_yaml: str | os.PathLike[str]) -> tuple[NDArray[np.float64], Gr
     Returns:
         Occupancy, shape (nx, ny), in steps of 0.01, NaN where unknown; and the grid.
 
-    Raises:
-        BadInput: a file that cannot be read, a missing or wrong entry, or a map that is turned (yaw).
+    Raises `BadInput` for a file that cannot be read, a missing or wrong entry, or a map that is turned (yaw).
     """
     path = Path(path_yaml)
     entries = _read_entries(path)
@@ -271,8 +268,7 @@ def from_map_image(
     Returns:
         Walls, shape (width, height), indexed ``[x, y]``, and the grid they lie on.
 
-    Raises:
-        BadInput: as `from_image`, or thresholds that are not 0 <= free_thresh < occupied_thresh <= 1.
+    Raises `BadInput` as `from_image`, or for thresholds that are not 0 <= free_thresh < occupied_thresh <= 1.
     """
     _check_thresholds(occupied_thresh, free_thresh)
     shade = brightness(image)
@@ -298,8 +294,7 @@ def from_occupancy(
     Returns:
         Walls, shape (width, height), indexed ``[x, y]``, and the grid they lie on.
 
-    Raises:
-        BadInput: another shape, or a value outside -1..100; the message names the cell.
+    Raises `BadInput` for another shape, or a value outside -1..100; the message names the cell.
     """
     array = as_array(cells, "occupancy: cells")
     if array.ndim != 2 or array.size == 0:

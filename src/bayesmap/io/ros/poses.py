@@ -118,8 +118,8 @@ def by_transforms(
     ``trees`` are those of the preferred topics, and of all. The map is made in the named frame, or else in the best of
     `FIXED_FRAMES` above the sensor. ``chosen`` is true if the user chose the topics.
 
-    Raises:
-        BadInput: an unknown frame, a frame that is not connected with the sensor's, or a transform with two values.
+    Raises `BadInput` for an unknown frame, a frame that is not connected with the sensor's, or a transform with two
+    values.
     """
     named = None if fixed_frame is None else frame_of(fixed_frame)
     for tree in trees:

@@ -312,8 +312,7 @@ def write_scans(path: str | os.PathLike[str], scans: Scans, base: ArrayLike, mou
         base: poses of the robot's base as odometry reports them, shape (S, 3).
         mount: pose of the laser in the frame of the base.
 
-    Raises:
-        BadInput: scans without stamps, another ending, or a file that cannot be written.
+    Raises `BadInput` for scans without stamps, another ending, or a file that cannot be written.
     """
     if scans.stamps_s is None or scans.own_angles_rad is not None:
         raise BadInput("recording: scans need stamps and one fan of beams")

@@ -31,7 +31,6 @@ NANOSECONDS, RECEIVED = "nanoseconds", "received"
 LATEST_S = 1e12  # largest stamp in seconds; larger stamps are nanoseconds
 SETTINGS = ("angle_min", "angle_increment", "angles", "range_min", "range_max")
 FURTHEST_M = 1e7  # larger coordinates are malformed
-
 _SETTING = re.compile(rb"#+\s*([a-z_]+)\s*[:=,]\s*(.*)")
 _BEAM = re.compile(r"r_(\d+)")
 _ECHOED_BEAM = re.compile(r"(?:.*[./])?ranges[._\[]?(\d+)\]?")

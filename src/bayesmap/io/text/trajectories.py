@@ -117,8 +117,8 @@ def read_trajectory(path: str | os.PathLike[str], frame: str | None = None) -> T
 def read_relations(path: str | os.PathLike[str]) -> Relations:
     """Read a file of relations, plain or gzipped; # begins a comment.
 
-    Raises:
-        BadInput: a file that cannot be read, or a line that is not eight finite numbers; the message names the line.
+    Raises `BadInput` for a file that cannot be read, or a line that is not eight finite numbers; the message names the
+    line.
     """
     from bayesmap.posterior.trajectory_scores import Relations
 
