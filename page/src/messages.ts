@@ -184,7 +184,7 @@ export type Redo = {
   seq?: number;
 };
 
-/** Run the document's method for its number of sweeps or particles, and keep draws. */
+/** Run the document's method for its number of sweeps or particles. Chains on show go on from where they are. */
 export type Run = {
   type: "run";
   seq?: number;

@@ -73,6 +73,7 @@ test("a run keeps the draws that the library draws from the same readings", (con
   assert(exact.length >= 6);
   for (const { document, draws, log_likelihood, log_prior } of exact) {
     const page = new Shown({ ...document, start: "empty", sweeps: draws[0].length, burn_in: 0 });
+    page.session.act({ type: "live", on: false });
     page.session.act({ type: "run" });
     page.finish();
     assert.deepEqual(page.session.draws, { chains: 2, count: draws[0].length });
@@ -108,6 +109,20 @@ test("importance sampling shows its weights, and says that it has collapsed", ()
   assert.equal(weights!.reduce((a, b) => a + b), 500);
   assert.deepEqual([method, verdict!.level], ["importance", "bad"]);
   assert(ess! >= 1 && ess! < 50);
+});
+
+test("a run goes on from the draws of Live, at whatever sweep it is asked for", () => {
+  const settings = { sweeps: 20, burn_in: 0.2 };
+  const whole = new Shown({ ...settings, sweeps: 40 });
+  const expected = whole.finish();
+  for (const early of [true, false]) {
+    const page = new Shown(settings);
+    if (!early) page.finish();
+    page.session.act({ type: "run" });
+    const shown = page.finish();
+    assert.deepEqual([shown.total, shown.burned, page.session.draws.count], [40, 8, 40]);
+    assert.deepEqual([...shown.p], [...expected.p]);
+  }
 });
 
 test("rare walls are sampled by blocks, and without Live an edit waits for Run", () => {

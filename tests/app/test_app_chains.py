@@ -36,7 +36,7 @@ TINY = Document(
 
 def test_known_poses_are_sampled_as_known():
     scene = simulated_scene(TINY)
-    assert not chains_of_walls(scene, TINY, starts(scene.problem, TINY, None), keep=False).model.poses.unknown
+    assert not chains_of_walls(scene, TINY, starts(scene.problem, TINY, None)).model.poses.unknown
 
 
 @pytest.mark.parametrize(

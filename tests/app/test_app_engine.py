@@ -94,7 +94,7 @@ def test_a_job_is_a_preview_and_then_chains_to_their_last_sweep():
     assert fields[-1]["sweeps"] == fields[-1]["total"] == 1000
     assert 0.9 < fields[-1]["rhat"] < 1.1
     assert fields[-1]["ess"] == pytest.approx(bulk_ess(heard.engine._result.found.log_joint()[:, 100:]))
-    assert heard.all("finished")[-1]["draws"] == DrawCount(0, 0)
+    assert heard.all("finished")[-1]["draws"] == DrawCount(2, 1000)
 
 
 def test_the_same_document_gives_the_same_posterior_however_it_was_interrupted():
@@ -124,7 +124,8 @@ def test_the_burn_in_is_left_out_of_mean_diagnostics_and_saved_runs(burn_in, mod
     if mode == "run":
         (tmp_path / "run.nc").write_bytes(export(heard.engine._result, "run")[2])
         saved = bm.load(tmp_path / "run.nc")
-        np.testing.assert_allclose(buffers["p"], 255 * saved.occupancy, atol=0.5001)
+        touched = found.problem.touched()  # other cells show the prior mean, to which the mean of draws converges
+        np.testing.assert_allclose(buffers["p"][touched], 255 * saved.occupancy[touched], atol=0.5001)
         assert (saved.posterior.settings["warmup"], saved.posterior.warmup_log_joint.shape[1]) == (first, first)
         assert np.array_equal(saved.log_joint, found.log_joint()[:, first:])
 
@@ -140,12 +141,47 @@ def test_a_run_is_that_of_the_library(method):
     )  # fmt: skip
     assert header["draws"] == {"chains": 2, "count": 40}
     assert header["burned"] == 4  # a tenth is left out of the mean
-    assert np.array_equal(buffers["p"], np.rint(255 * run.draws[:, 4:].mean(axis=(0, 1))))
+    touched = heard.engine._result.found.problem.touched()
+    assert np.array_equal(buffers["p"][touched], np.rint(255 * run.draws[:, 4:].mean(axis=(0, 1)))[touched])
+    assert (buffers["p"][~touched] == 128).all()
     for chain, draw in ((0, 0), (1, 39), (0, 17)):
         header, buffers = heard.answer(View("draw", chain, draw))
         assert (header["chain"], header["draw"]) == (chain, draw)
         assert np.array_equal(buffers["p"] > 0, run.draws[chain, draw])
     assert heard.answer(View("draw", 7, 99))[0]["draw"] == 39  # past the end is the last
+
+
+@pytest.mark.parametrize("burn_in", [0.0, 0.3])
+@pytest.mark.parametrize(("most", "steps"), [(7, None), (60, None), (60, 0), (60, 4)])
+def test_run_goes_on_from_the_draws_of_live_and_of_a_run(most, steps, burn_in, monkeypatch):
+    document = replace(tutorial_document(), sweeps=20, burn_in=burn_in)
+    whole = Heard()
+    whole.infer(replace(document, sweeps=60), "live")
+    reference = whole.engine._result.found
+    monkeypatch.setattr("bayesmap.app.shown.chains.DRAW_BYTES", most * reference._draw_bytes)
+    heard = Heard()
+    heard.infer(document, "live", steps=steps)
+    for _ in range(2):
+        header, _ = heard.infer(document, "run")
+    found = heard.engine._result.found
+    assert header["sweeps"] == header["total"] == found.total >= 60
+    assert header["draws"]["count"] == found.draws.count == found.total // found.thin <= most
+    assert np.array_equal(found.log_joint()[:, :60], reference.log_joint())
+    same = found.draws.first(60 // found.thin).arrays["walls"]
+    assert np.array_equal(same, reference.draws.arrays["walls"][:, found.thin - 1 : 60 : found.thin])
+    assert header["burned"] == int(burn_in * found.total) // found.thin * found.thin
+    assert header["generation"] == 3
+    if found.thin == 1:
+        np.testing.assert_allclose(found.mean(), reference.mean(), atol=1e-12)
+
+
+def test_run_starts_anew_for_another_document_or_after_clearing():
+    heard, document = Heard(), replace(tutorial_document(), sweeps=20)
+    heard.infer(document, "live")
+    assert heard.infer(replace(document, seed=1), "run")[0]["total"] == 20
+    heard.infer(document, "live")
+    heard.infer(document, "clear")
+    assert heard.infer(document, "run")[0]["total"] == 20
 
 
 def test_cancelled_and_few_sweeps_are_kept_and_judged_once_they_are_over():
@@ -225,7 +261,7 @@ def test_many_sweeps_of_a_large_map_are_thinned_to_fit():
     scene = simulated_scene(new_document("blank", (500, 500), tutorial_document()))
     model, start = scene.model(scene.problem.prior), np.zeros((2, 500, 500), dtype=bool)
     document = replace(tutorial_document(), sweeps=6000)
-    stream = Stream(model, WallGibbs("radial", start), scene.problem, document, keep=True)
+    stream = Stream(model, WallGibbs("radial", start), scene.problem, document)
     assert (stream.thin, stream.total) == (3, 6000)
     assert stream._record._draws.arrays["walls"].nbytes <= DRAW_BYTES
 

@@ -76,7 +76,7 @@ def test_methods_without_chains_are_saved_too(method, tmp_path):
 def test_without_draws_there_is_no_run_to_save_and_an_export_waits_for_the_first_picture():
     heard = Heard()
     assert "nothing to export" in exported(heard, "run")[0]["text"]
-    heard.infer(replace(tutorial_document(), sweeps=5))
+    heard.infer(tutorial_document(), "clear")
     assert "run inference first" in exported(heard, "run")[0]["text"]
     heard.reports.clear()
     heard.infer(tutorial_document(), steps=0)

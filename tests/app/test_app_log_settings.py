@@ -253,7 +253,7 @@ def test_surfaces_of_a_log_are_counted_first_then_shown_by_the_draws_of_the_chai
     np.testing.assert_allclose((strokes[:, :2] + strokes[:, 2:4]) / 2, mean[seen], atol=1e-5)
     # the same readings are fitted once
     surfaces.reports.clear()
-    _, again = surfaces.infer(surfaces_of(log), "run")
+    _, again = surfaces.infer(surfaces_of(log), "live")
     assert [f["method"] for f in surfaces.all("field") if f["method"] != "gibbs"] == ["hits"]
     np.testing.assert_array_equal(again["p"], first["p"])
     surfaces.reports.clear()

@@ -101,6 +101,6 @@ def test_a_question_waits_for_a_picture_or_says_why_there_is_no_answer(run):
     log = opened_log(run.posterior.scans, "x.log")
     heard = Heard(log)
     heard.infer(log.document, "preview")
-    assert "Run keeps them" in heard.answer(WhereAmI())[0]["trouble"]
+    assert "run Gibbs" in heard.answer(WhereAmI())[0]["trouble"]
     heard.infer(replace(log.document, sweeps=5), "run")
     assert heard.answer(WhereAmI())[0]["trouble"] == ""

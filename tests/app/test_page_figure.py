@@ -47,9 +47,9 @@ def test_a_figure_is_sampled_in_the_page_as_it_is_drawn_in(open_page, figure):
     page.keyboard.press("Control+z")
     until(page, "s.painted.generation > 2 && s.painted.sweeps === s.document.sweeps")
     assert np.array_equal(snapshot(page)["probability"], first["probability"])  # the same document, the same picture
-    # Run keeps draws.
+    # Run goes on from the draws of Live.
     page.get_by_role("button", name="Run", exact=True).click()
-    until(page, "s.draws.count === s.document.sweeps")
+    until(page, "s.draws.count === 2 * s.document.sweeps")
     show_layer(page, "One draw")
     assert set(np.unique(show_draw(page, 14, chain=1))) <= {0, 255}
     # What only a server can do is not offered.

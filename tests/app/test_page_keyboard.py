@@ -37,7 +37,7 @@ def test_a_map_is_drawn_undone_and_inferred_by_keys_alone(open_page):
     act(page, lambda: page.keyboard.press("Space"))
     assert np.argwhere(settled(page)["walls"]).tolist() == [[9, 13]]
     act(page, lambda: page.keyboard.press("r"))
-    until(page, "!s.running && s.draws.count === 1000")
+    until(page, "!s.running && s.draws.count === 2000")
     for key, layer in (("n", "draw"), ("h", "entropy"), ("m", "mean")):
         page.keyboard.press(key)
         until(page, "s.painted.layer === argument", layer)

@@ -91,12 +91,14 @@ def test_a_damaged_link_says_so_and_the_page_works(open_page, server, damage):
 
 
 def test_what_a_run_is_exported_to_opens_again_with_all_its_draws(drawn, open_page, tmp_path):
-    run(drawn, 1000)
+    run(drawn, 2000)  # those of Live, and as many more
     here = snapshot(drawn)
     saved(drawn, "Saved run").save_as(tmp_path / "run.nc")
     loaded = bm.load(tmp_path / "run.nc")
     assert loaded.draws.shape[-2:] == (21, 21)
-    assert np.abs(loaded.occupancy - here["probability"] / 255).max() < 0.01
+    apart = np.abs(loaded.occupancy - here["probability"] / 255)
+    assert apart[here["observed"] > 0].max() < 0.01
+    assert apart.max() < 0.06  # where no beam is, the page has the prior itself
     with zipfile.ZipFile(io.BytesIO(saved(drawn, "Map for robots").path().read_bytes())) as archive:
         assert {name.rsplit(".")[-1] for name in archive.namelist()} == {"pgm", "yaml"}
     assert json.loads(saved(drawn, "Document").path().read_text()) == here["document"]

@@ -55,12 +55,13 @@ def test_where_walls_are_rare_blocks_are_the_default_and_the_tutorial_s_chains_a
     assert page.locator(".verdict").inner_text().startswith("Converged")
 
 
-def test_traces_of_all_chains_are_drawn_with_axes(page):
+def test_traces_of_all_chains_are_drawn_with_axes(open_page):
+    page = open_page(document(start="prior"))
     settled(page)
-    run(page, 1000)
+    run(page, 2000)  # those of Live, and as many more
     painted = page.evaluate("() => { const p = bayesmap.snapshot().painted; return [[...p.trace], [...p.traced]]; }")
     trace, sweeps = np.array(painted[0]).reshape(2, -1), np.array(painted[1])
-    assert (sweeps[0], sweeps[-1]) == (1, 1000)
+    assert (sweeps[0], sweeps[-1]) == (1, 2000)
     assert np.array_equal(sweeps[:100], np.arange(1, 101))
     assert np.isfinite(trace).all()
     assert not np.array_equal(trace[0], trace[1])
@@ -87,14 +88,14 @@ def test_traces_of_all_chains_are_drawn_with_axes(page):
 @pytest.mark.full
 def test_from_the_empty_map_the_first_sweeps_can_be_watched(open_page):
     page = open_page(document(start="empty", sweeps=30))
-    run(page, 30)
+    run(page, 60)
     shown = snapshot(page)
     mean, observed = shown["probability"] > 128, shown["observed"] > 0
     page.get_by_label("Speed").select_option("30")
     watch(page, "s.painted.layer === 'draw' ? s.painted.draw : -1")
     press(page, "From the first sweep")
-    until(page, "s.painted.layer === 'draw' && s.painted.draw === 29 && window.seen.includes(0)")
-    last, first = (int(((show_draw(page, draw) > 128) != mean)[observed].sum()) for draw in (29, 0))
+    until(page, "s.painted.layer === 'draw' && s.painted.draw === 59 && window.seen.includes(0)")
+    last, first = (int(((show_draw(page, draw) > 128) != mean)[observed].sum()) for draw in (59, 0))
     assert last <= first
 
 

@@ -141,7 +141,7 @@ def test_the_numbers_along_a_trace_are_whole_and_those_of_the_trace(open_page, n
     page = open_page(document(noise=noise, method="gibbs", start="prior", sweeps=1000))
     settled(page)
     page.evaluate(LABELS)
-    run(page, 1000)
+    run(page, 2000)
     trace = np.array(page.evaluate("[...bayesmap.snapshot().painted.trace]"))
     log_joint, sweeps = labels(page, "First 50")
     assert len(log_joint) > 1
@@ -150,7 +150,7 @@ def test_the_numbers_along_a_trace_are_whole_and_those_of_the_trace(open_page, n
     slack = 0.1 * np.ptp(trace) + 1
     assert all(trace.min() - slack <= number(text) <= trace.max() + slack for text in log_joint)
     assert max(map(len, log_joint)) >= (8 if noise < 0.1 else 3)
-    assert max(labels(page, "All")[1]) == 1000
+    assert max(labels(page, "All")[1]) == 2000
 
 
 BARS = """

@@ -131,12 +131,12 @@ export class Chains extends Job {
   private readonly chains: Chain[];
   private readonly blocks: Blocks | null;
   private readonly sites: Sites;
-  private readonly lookAt: Set<number>;
+  private readonly lookAt = new Set<number>();
   private readonly touched: Uint8Array;
   private readonly joint: number[][] = Array.from({ length: CHAINS }, () => []);
   private readonly kept: Uint8Array[][] = Array.from({ length: CHAINS }, () => []);
   private readonly thin: number;
-  private readonly total: number;
+  private total = 0;
   private sweep = 0;
   private present: Past;
   private past: Past[];
@@ -144,14 +144,13 @@ export class Chains extends Job {
   private diagnosed = 0;
   private diagnoseAt = 0;
 
-  constructor(document: MapDocument, problem: Problem, private readonly judging: Judging, blocks: boolean, private readonly keep: boolean) {
+  constructor(document: MapDocument, problem: Problem, private readonly judging: Judging, blocks: boolean) {
     super(document, problem);
     const { seed, start, sweeps } = document;
     this.method = blocks ? "block" : "gibbs";
     this.blocks = blocks ? listBlocks(problem) : null;
     this.sites = sitesOf(document, blocks);
-    this.thin = keep ? Math.ceil((sweeps * CHAINS * Math.ceil(this.cells / 8)) / DRAW_BYTES) : 1;
-    this.total = Math.ceil(sweeps / this.thin) * this.thin;
+    this.thin = Math.ceil((sweeps * CHAINS * Math.ceil(this.cells / 8)) / DRAW_BYTES);
     this.chains = Array.from({ length: CHAINS }, (_, n) => {
       const empty = start === "empty" && document.prior < 1;
       const walls = empty ? new Uint8Array(this.cells) : particleMap(problem, mix(seed, n, STREAM_START), 0);
@@ -159,11 +158,31 @@ export class Chains extends Job {
     });
     this.touched = new Uint8Array(this.cells);
     for (const c of problem.table.cells) this.touched[c] = 1;
-    this.lookAt = new Set([Math.floor(document.burn_in * this.total)]);
-    for (let sweep = 1; sweep <= this.total; sweep *= 2) this.lookAt.add(sweep);
-    for (let k = 1; k <= LOOKS; k++) this.lookAt.add(Math.floor((this.total * k) / LOOKS));
     this.present = { sweep: 0, sums: this.chains.map(() => new Float64Array(this.cells)), reached: new Uint32Array(this.cells), looks: 0 };
     this.past = [this.copy()];
+    this.goOn(sweeps);
+  }
+
+  /** Let the chains do more sweeps from where they are. All draws so far are kept. */
+  goOn(sweeps: number) {
+    const { lookAt, document } = this;
+    this.total = Math.ceil((this.total + sweeps) / this.thin) * this.thin;
+    lookAt.add(Math.floor(document.burn_in * this.total));
+    for (let sweep = 1; sweep <= this.total; sweep *= 2) lookAt.add(sweep);
+    for (let k = 1; k <= LOOKS; k++) lookAt.add(Math.floor((this.total * k) / LOOKS));
+    this.done = false;
+    this.diagnoseAt = 0;
+  }
+
+  /** Leave out the sweeps before this one, at which no sums were kept, by means of the kept draws. */
+  private burn(sweep: number) {
+    const first = Math.floor(sweep / this.thin);
+    const sums = this.kept.map((draws) => {
+      const sum = new Float64Array(this.cells);
+      for (const draw of draws.slice(0, first)) unpackBits(draw, this.cells).forEach((wall, c) => (sum[c] += wall));
+      return sum.map((walls) => (walls * sweep) / Math.max(1, first));
+    });
+    this.past = [{ ...this.past[0], sweep, sums }];
   }
 
   private copy(): Past {
@@ -179,10 +198,12 @@ export class Chains extends Job {
       const sums = present.sums[n];
       for (let c = 0; c < this.cells; c++) sums[c] += chain.walls[c];
       this.joint[n].push(chain.logLikelihood() + this.problem.prior.logProb(chain.walls));
-      if (this.keep && (this.sweep + 1) % this.thin === 0) this.kept[n].push(packBits(chain.walls));
+      if ((this.sweep + 1) % this.thin === 0) this.kept[n].push(packBits(chain.walls));
     });
     this.sweep++;
     this.done = this.sweep >= this.total;
+    const burned = Math.floor(document.burn_in * this.total);
+    if (this.done && burned > this.past[0].sweep && this.past.every(({ sweep }) => sweep !== burned)) this.burn(burned);
     if (!this.lookAt.has(this.sweep)) return;
     // Count the cells that beams reach, and end the burn-in at the last of these sweeps that lies within it.
     for (const chain of this.chains) for (let c = 0; c < this.cells; c++) present.reached[c] += chain.reached[c] ? 1 : 0;
@@ -203,7 +224,7 @@ export class Chains extends Job {
 
   protected mean() {
     const [first, second] = this.means();
-    return first.map((p, c) => (this.keep || this.touched[c] ? (p + second[c]) / 2 : this.document.prior));
+    return first.map((p, c) => (this.touched[c] ? (p + second[c]) / 2 : this.document.prior));
   }
 
   protected reached() {

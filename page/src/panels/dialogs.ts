@@ -18,7 +18,7 @@ const NUMBERS =
   "Shown is what the readings tell about how likely each cell is to stop a beam: what is expected (mean), one whole map that explains them (one draw), and how wide the 90 % interval is (width). The denser the hatch, the less probably a beam reaches the cell; where it is full, the prior is all there is.";
 const EDITED = "While you edit, the answer is belief propagation, which is approximate. Gibbs sampling follows, and is exact in the long run.";
 const FIGURE = "This page samples by itself: the answer is that of the chosen method after as many sweeps as are shown, and gets better as they go on.";
-const LOG = "The map is made from the scans of this log. Where its poses are raw odometry, Run first infers where the robot was; then it samples maps, and keeps them as draws.";
+const LOG = "The map is made from the scans of this log. Where its poses are raw odometry, Run first infers where the robot was; then it samples maps.";
 const RUN = "This is a saved run: its draws, and what they say together.";
 const MOUSE = "Mouse: the wheel zooms, the middle button pans.";
 const MOUSE_DRAWS = "Shift or the right button erases, and so does a click on a wall.";

@@ -53,7 +53,7 @@ function exportMenu(ui: Ui) {
     "div",
     { className: "menu", hidden: true },
     item("Picture (PNG)", "png", "all"),
-    item("Saved run (netCDF)", "run", "server", () => hasRun(session), "No draws are kept yet: Run keeps them"),
+    item("Saved run (netCDF)", "run", "server", () => hasRun(session), "There are no draws yet: chains keep them"),
     item("Map for robots (YAML and PGM)", "map", "server"),
     item("Page in one file (HTML)", "html", "server"),
     figure,

@@ -50,7 +50,7 @@ function idle({ shown, working }: Session) {
 
 function buttons(ui: Ui) {
   const { session } = ui;
-  const run = ui.button("play", "Run", () => session.act({ type: "run" }), { className: "primary", text: "Run", title: "Run (R)", when: () => session.connection.connected, why: "Not while the connection is lost" });
+  const run = ui.button("play", "Run", () => session.act({ type: "run" }), { className: "primary", text: "Run", title: "Run (R): more sweeps of the chains on show", when: () => session.connection.connected, why: "Not while the connection is lost" });
   const cancel = ui.button("close", "Cancel", () => session.act({ type: "cancel" }), {
     text: "Cancel",
     title: "Cancel (Escape)",
@@ -61,7 +61,7 @@ function buttons(ui: Ui) {
     "Live",
     () => Boolean(session.state?.live ?? true),
     (on) => session.act({ type: "live", on }),
-    "Every edit restarts the chain",
+    "Every edit restarts the chains, and Run goes on from their draws",
   );
   const element = h("div", { className: "buttons" }, run, cancel, live);
   ui.visible(element, () => !session.recorded && session.document?.source.kind !== "run");

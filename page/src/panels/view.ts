@@ -13,7 +13,7 @@ const LAYERS = [
   ["entropy", "Entropy"],
   ["width", "Width"],
 ] as const;
-const NO_DRAWS = "No draws are kept yet: Run keeps them";
+const NO_DRAWS = "There are no draws yet: chains keep them";
 /** Draws a second. */
 const SPEEDS: Record<string, string> = { "2": "2 / s", "10": "10 / s", "30": "30 / s", "1000": "fastest" };
 

@@ -90,7 +90,7 @@ export function localTransport(figure: Figure, later: (work: () => void) => void
     const method = methodOf(document, figure);
     if (mode === "clear") return new Job(document, problem);
     if (method === "importance") return new Weighing(document, problem, judging);
-    return new Chains(document, problem, judging, method === "block", mode === "run");
+    return new Chains(document, problem, judging, method === "block");
   }
 
   function restart(next: typeof mode = live ? "live" : "clear") {
@@ -127,8 +127,14 @@ export function localTransport(figure: Figure, later: (work: () => void) => void
     switch (action.type) {
       case "hello":
         return hello(action.document);
-      case "run":
-        return restart("run");
+      case "run": {
+        if (mode === "live" && working) job ??= begin();
+        const chains = job instanceof Chains ? job : null;
+        restart("run");
+        chains?.goOn(history.present.sweeps);
+        job = chains; // those of Live, or of an earlier run, go on
+        return;
+      }
       case "cancel":
         return cancel();
       case "live":

@@ -64,6 +64,8 @@ class Engine:
         self._scene: Scene | None = None
         self._scene_of: Document | None = None
         self._result: Result | None = None
+        self._before: Result | None = None  # the last result of the job before
+        self._more = 0  # sweeps that the present job's chains do besides those of its document
         self._waiting: list[Ask] = []  # questions that came before there was a result
         self._answers = Answers()
         self._fitted: tuple[Document, Fitted] | None = None  # what the last pilot fitted, and for which document
@@ -76,7 +78,11 @@ class Engine:
 
     def take(self, task: Task) -> None:
         """Answer a question, or begin another job."""
-        if isinstance(task, Infer):
+        if isinstance(task, Infer) and task.mode == "run" and self._has_live_chains_of(task.document):
+            self._task, self._more = task, self._more + task.document.sweeps
+            self._display.begin(task)
+        elif isinstance(task, Infer):
+            self._before, self._more = self._result, 0
             self._task, self._result, self._scan = task, None, task.scan
             self._display.begin(task)
             self._job = self._work(task)
@@ -92,6 +98,12 @@ class Engine:
             self._ask(task)
         elif isinstance(task, Remember) and self._log_trajectory is not None:
             self._log_trajectory.remember(task)
+
+    def _has_live_chains_of(self, document: Document) -> bool:
+        """Return whether the present job makes chains of this document, with which a run goes on."""
+        of_chains = document.sampler in CHAIN_METHODS or document.cells != "binary"
+        known = self._task is not None and self._task.mode == "live" and self._task.document == document
+        return self._job is not None and known and of_chains and not document.from_odometry
 
     def _ask(self, task: Ask) -> None:
         """Answer a question. If it needs a result and there is none yet, it waits."""
@@ -153,19 +165,25 @@ class Engine:
             self._count(document)
             self._display.finished(self._result)
             return
+        chains = self._chains_of(document) if task.mode == "run" else None
+        self._before = None
+        if chains is not None:
+            self._more = document.sweeps
+            yield from self._stream(scene, document, chains)
+            return
         self._display.overlay(nothing_yet(scene, document))
         if task.mode == "clear":
             self._result = nothing_yet(scene, document)
             self._display.frame(self._result)
             return
         if document.cells != "binary":
-            yield from self._sweep_fitted(scene, document, keep=task.mode == "run")
+            yield from self._sweep_fitted(scene, document)
             return
         self._fitted = None
         if task.mode == "run" and document.method == "importance":
             yield from self._weigh(scene, document)
         elif task.mode == "run" and document.method in CHAIN_METHODS and document.simulated:
-            yield from self._sweep(scene, document, None, keep=True)
+            yield from self._sweep(scene, document, None)
         else:
             yield from self._preview(scene, document, task)
 
@@ -180,7 +198,13 @@ class Engine:
             return
         if not quiet and self._display.elapsed_s() > PREVIEW_SECONDS / 2:
             yield from _pause(PAUSE_SECONDS)
-        yield from self._sweep(scene, document, preview, keep=task.mode == "run")
+        yield from self._sweep(scene, document, preview)
+
+    def _chains_of(self, document: Document) -> Stream | None:
+        """Return the chains of the job before, of Live or an earlier run, if they sample this document."""
+        before = self._before
+        same = before is not None and before.document == document and isinstance(before.found, Stream)
+        return before.found if same else None  # type: ignore[union-attr,return-value]
 
     def _localize(self, task: Infer) -> Generator[None, None, bool]:
         """Infer the trajectory of a log, with pictures of the stages; return whether it is known now."""
@@ -252,13 +276,13 @@ class Engine:
             if shown >= 0 or self._display.elapsed_s() > PREVIEW_SECONDS:
                 yield
 
-    def _sweep(self, scene: Scene, document: Document, preview: Preview | None, *, keep: bool) -> Iterator[None]:
+    def _sweep(self, scene: Scene, document: Document, preview: Preview | None) -> Iterator[None]:
         """Run chains of walls, with frames at intervals and one at the end."""
         begun = starts(scene.problem, document, preview)
         yield
-        yield from self._stream(scene, document, chains_of_walls(scene, document, begun, keep=keep))
+        yield from self._stream(scene, document, chains_of_walls(scene, document, begun))
 
-    def _sweep_fitted(self, scene: Scene, document: Document, *, keep: bool) -> Iterator[None]:
+    def _sweep_fitted(self, scene: Scene, document: Document) -> Iterator[None]:
         """Run chains of another kind of cells, after a pilot has fitted the sensor."""
         if not document.simulated:
             self._count(document)
@@ -273,13 +297,16 @@ class Engine:
             self._fitted = None  # free the old problem first: two may not fit in memory
             self._fitted = document, (yield from fit_by_pilot(scene, document, show))
         model, sampler, problem = self._fitted[1]
-        stream = Stream(model, sampler, problem, document, keep=keep)
+        stream = Stream(model, sampler, problem, document)
         yield from self._stream(scene, document, stream)
 
     def _stream(self, scene: Scene, document: Document, stream: Stream) -> Iterator[None]:
-        ended = stream.done
+        ended = False
         while not ended:
             yield
+            if self._more:
+                stream.go_on(self._more)
+                self._more = 0
             stream.advance()
             ended = stream.done
             self._result = Result(scene, document, document.method, stream)

@@ -143,6 +143,10 @@ class Draws:
         """Select the draws of one chain."""
         return replace(self, arrays={name: values[chain : chain + 1] for name, values in self.arrays.items()})
 
+    def first(self, count: int) -> Draws:
+        """Select the first ``count`` draws of every chain."""
+        return replace(self, arrays={name: values[:, :count] for name, values in self.arrays.items()})
+
     def after(self, count: int) -> Draws:
         """Leave out the first ``count`` draws of every chain."""
         return replace(self, arrays={name: values[:, count:] for name, values in self.arrays.items()})

@@ -239,8 +239,20 @@ class Record:
         self._log_likelihood[:, new] = info.log_likelihood[:, at]
         self._log_prior[:, new] = info.log_prior[:, at]
         for name, values in info.draws.items():
-            self._draws.arrays[name][:, new] = values
+            self._draws.arrays[name][:, new] = values if values.shape[1] == len(kept) else values[:, at]
         self.kept = new.stop
+
+    def grown(self, plan: SweepPlan) -> Record:
+        """Return this record with room for the draws of a longer plan, which may thin by a multiple of this one's."""
+        record = Record(self.draws, plan)
+        every = plan.thin // max(1, self._keep.every)
+        chosen = slice(every - 1, self.kept, every)
+        record.kept = len(range(self.kept)[chosen])
+        for name, array in record._draws.arrays.items():
+            array[:, : record.kept] = self._draws.arrays[name][:, chosen]
+        record._log_likelihood[:, : record.kept] = self._log_likelihood[:, chosen]
+        record._log_prior[:, : record.kept] = self._log_prior[:, chosen]
+        return record
 
     @property
     def draws(self) -> Draws:

@@ -142,5 +142,5 @@ def _scan_of(question: WhereAmI, result: Result, scan: int) -> tuple[Scans, int]
 
 def _inferred_map(result: Result) -> KnownMap:
     if result.found.kept is None:
-        raise BadInput("a scan is located by draws of the map, and none are kept yet; Run keeps them")
+        raise BadInput("a scan is located by draws of the map, and there are none yet; run Gibbs")
     return KnownMap.of_run(result.as_run())

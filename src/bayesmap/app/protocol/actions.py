@@ -113,7 +113,7 @@ class Redo(Action, frozen=True, tag="redo"):
 
 
 class Run(Action, frozen=True, tag="run"):
-    """Run the document's method for its number of sweeps or particles, and keep draws."""
+    """Run the document's method for its number of sweeps or particles. Chains on show go on from where they are."""
 
 
 class Cancel(Action, frozen=True, tag="cancel"):

@@ -26,7 +26,7 @@ class Infer(Struct, frozen=True):
     generation: int  # number that every report of the job repeats
     document: Document  # the document to infer from
     # "coarse": only counts of hits, for a log; "preview": only belief propagation; "live": belief propagation, then
-    # chains; "run": the document's method from the prior, with draws kept; "clear": back to the prior
+    # chains; "run": the document's method, or more sweeps of its chains if there are any; "clear": back to the prior
     mode: Mode
     scan: int = 0  # the scan whose rays are shown, for a file
 

@@ -57,7 +57,7 @@ STEP_SECONDS = 0.015  # the duration of one step of the chains. The worker reads
 DRAW_BYTES = 128 << 20  # memory of a run's kept draws, which are thinned to fit
 LOOKS = 32  # the number of times per run that observed cells are counted, besides sweeps 1, 2, 4 and so on
 DIAGNOSIS_SHARE = 0.1  # largest share of time spent on diagnostics; the last figures are shown meanwhile
-RECENT, RECENT_BYTES = 200, 16 << 20  # latest draws per chain in memory if none are kept, and their bytes
+RECENT, RECENT_BYTES = 200, 16 << 20  # draws per chain that answer questions while chains run; bytes of a pilot's
 SMALLEST_POSE_M = 0.001  # standard deviation of a position if only headings are uncertain,
 SMALLEST_HEADING_RAD = math.radians(0.05)  # and of a heading if only positions are: a density needs a width
 
@@ -81,7 +81,6 @@ class Past(NamedTuple):
     """Sums of a stream after some sweeps."""
 
     sweep: int  # number of sweeps done
-    counted: int  # number of draws in the sums
     sums: Floats  # sums of the chains' maps, (chains, nx, ny)
     observed_counts: NDArray[np.int32]  # see `Sampler.observed_counts`
 
@@ -92,49 +91,54 @@ class Stream(Found):
     Attributes:
         model: the model that is sampled.
         problem: the problem that the sampler has prepared from the model.
-        total: number of sweeps to do.
+        total: number of sweeps to do; `go_on` adds some.
         thin: number of sweeps per kept draw; 1 unless the kept draws would not fit in memory.
         n_chains: number of chains.
-        counted: number of draws of each chain, those of the burn-in included.
         shifts: shift of map and sensors at which each chain stands, (chains, 2) in cells; it never leaves it.
         sweep: number of sweeps done.
         done: whether all sweeps are done.
     """
 
-    def __init__(
-        self, model: Model, sampler: Sampler[Any, Any], problem: Problem, document: Document, *, keep: bool
-    ) -> None:
-        total, seed, self._burn_in = document.sweeps, document.seed, document.burn_in
+    def __init__(self, model: Model, sampler: Sampler[Any, Any], problem: Problem, document: Document) -> None:
+        self._burn_in = document.burn_in
         self.model: Model = model
-        self.problem, self._sampler, self.keep = problem, sampler, keep
+        self.problem, self._sampler = problem, sampler
         self.n_chains = POSE_CHAINS if model.poses.unknown else CHAINS
-        self.state = sampler.init(problem, range(self.n_chains), seed)
-        # Thin the kept draws until they fit, and round the sweeps up to a whole number of kept draws.
+        self.state = sampler.init(problem, range(self.n_chains), document.seed)
         empty = no_draws(model, self.state, self.n_chains)
-        draw_bytes = sum(spec.empty(self.n_chains, 1, empty.shape_of(spec)).nbytes for spec in empty.specs)
-        self.thin = math.ceil(total * draw_bytes / DRAW_BYTES) if keep else 1
+        self._draw_bytes = sum(spec.empty(self.n_chains, 1, empty.shape_of(spec)).nbytes for spec in empty.specs)
+        self.total, self.thin, self._record = 0, 1, Record(empty, SweepPlan(0, 0))
+        # What the steps have found so far: latest draws, sums for the means, diagnostics, counts and trace.
+        self.seconds = 0.0
+        self.shifts = np.zeros((self.n_chains, 2))
+        self._latest = empty
+        self._sums = np.zeros((self.n_chains, *model.grid.shape))
+        self._rhat = self._ess = math.nan
+        self._diagnose_at, self._diagnosed = 0.0, 0
+        self._observed_counts = np.zeros((2, *model.grid.shape), dtype=np.int32)
+        self._log_likelihood = self._log_joint = np.zeros((self.n_chains, 0))
+        # The sums after the burn-in, and after later sweeps at which a longer burn-in may end.
+        self._past = [Past(0, np.zeros_like(self._sums), self._observed_counts.copy())]
+        self.go_on(document.sweeps)
+
+    def go_on(self, count: int) -> None:
+        """Let the chains do `count` more sweeps from where they are. All draws so far are kept, if they fit."""
+        # Thin the kept draws until they fit, and round the sweeps up to a whole number of kept draws.
+        total = self.total + count
+        self.thin *= math.ceil(total * self._draw_bytes / (DRAW_BYTES * self.thin))
         self.total = math.ceil(total / self.thin) * self.thin
-        schedule = SweepPlan(0, self.total // self.thin, self.thin)
-        self._record = Record(empty, schedule if keep else SweepPlan(0, 0))
+        self._record = self._record.grown(SweepPlan(0, self.total // self.thin, self.thin))
+        more = ((0, 0), (0, self.total - self._log_joint.shape[1]))
+        self._log_joint, self._log_likelihood = np.pad(self._log_joint, more), np.pad(self._log_likelihood, more)
         # Count observed cells at fixed sweeps. The length of a step depends on the machine, but the page must not.
         doubling = (2**k for k in range(self.total.bit_length()))
         self._last_burned = int(self._burn_in * self.total) // self.thin * self.thin
         self._look_at = {*doubling, *(self.total * k // LOOKS for k in range(1, LOOKS + 1)), self._last_burned} - {0}
         self._steps = sweeps(
-            sampler, self.state, self.total, keep=schedule.keep, step_seconds=STEP_SECONDS,
-            most_kept=max(1, BUFFER_BYTES // max(draw_bytes, 1)), stops=tuple(sorted(self._look_at)),
+            self._sampler, self.state, self.total, keep=Keep(every=1), step_seconds=STEP_SECONDS,
+            most_kept=max(1, BUFFER_BYTES // max(self._draw_bytes, 1)), stops=tuple(sorted(self._look_at)),
         )  # fmt: skip
-        # What the steps have found so far: latest draws, sums for the means, diagnostics, counts and trace.
-        self.seconds, self.counted = 0.0, 0
-        self.shifts = np.zeros((self.n_chains, 2))
-        self._latest = self._recent = empty
-        self._sums = np.zeros((self.n_chains, *model.grid.shape))
-        self._rhat = self._ess = math.nan
-        self._diagnose_at, self._diagnosed = 0.0, 0
-        self._observed_counts = np.zeros((2, *model.grid.shape), dtype=np.int32)
-        self._log_joint = np.zeros((self.n_chains, self.total))
-        # The sums after the burn-in, and after later sweeps at which a longer burn-in may end.
-        self._past = [Past(0, 0, np.zeros_like(self._sums), self._observed_counts.copy())]
+        self.done, self._diagnose_at = False, 0.0
 
     def advance(self) -> None:
         """Do some sweeps: about `STEP_SECONDS` of work."""
@@ -142,24 +146,27 @@ class Stream(Found):
         self.state, info = next(self._steps)
         self.sweep = int(self.state.sweep)
         self.done = self.sweep >= self.total
-        latest = replace(self._latest, arrays=info.draws)
-        if latest.count:
-            self._latest = latest
-            self._recent = joined(self._recent, latest)
-            for chain in range(self.n_chains):
-                of_chain = replace(latest, arrays={name: a[chain : chain + 1] for name, a in info.draws.items()})
-                self._sums[chain] += self.model.cells.mean_map(of_chain) * latest.count
-            self.counted += latest.count
-        if self.keep:
-            self._record.add(info, before)
+        self._latest = replace(self._latest, arrays=info.draws)
+        for chain in range(self.n_chains):
+            self._sums[chain] += self.model.cells.mean_map(self._latest.of_chain(chain)) * self._latest.count
+        self._record.add(info, before)
+        self._log_likelihood[:, before : self.sweep] = info.log_likelihood
         self._log_joint[:, before : self.sweep] = info.log_likelihood + info.log_prior
         if self.sweep in self._look_at:
             self._observed_counts += self._sampler.observed_counts(self.state, {})
             if self.sweep <= self._last_burned:
-                self._past.append(Past(self.sweep, self.counted, self._sums.copy(), self._observed_counts.copy()))
+                self._past.append(Past(self.sweep, self._sums.copy(), self._observed_counts.copy()))
             while len(self._past) > 1 and self._past[1].sweep <= self._burn_in * self.sweep:
                 del self._past[0]
+        if self.done and self._past[0].sweep < self._last_burned:
+            self._burn(self._last_burned)
         self.seconds += time.perf_counter() - began
+
+    def _burn(self, sweep: int) -> None:
+        """Leave out the sweeps before this one, at which no sums were kept, by means of the kept draws."""
+        first = self.draws.first(sweep // self.thin)
+        maps = [self.model.cells.mean_map(first.of_chain(chain)) * sweep for chain in range(self.n_chains)]
+        self._past = [Past(sweep, np.array(maps), self._past[0].observed_counts)]
 
     @property
     def draws(self) -> Draws:
@@ -167,20 +174,20 @@ class Stream(Found):
         return self._record.draws
 
     def mean(self) -> Floats:
-        """Return the probability that a cell stops a beam, averaged over the counted draws, (nx, ny).
+        """Return the probability that a cell stops a beam, averaged over the sweeps after the burn-in, (nx, ny).
 
-        If no draws are kept and poses are known, cells that no beam touches get the exact prior mean. The mean of their
-        draws would converge to it.
+        If poses are known, cells that no beam touches get the exact prior mean. The mean of their draws would converge
+        to it.
         """
         mean = self.means().mean(axis=0)
-        if self.keep or self.model.poses.unknown:  # from other poses beams touch other cells
+        if self.model.poses.unknown:  # from other poses beams touch other cells
             return np.asarray(mean)
         return np.where(self.problem.touched(), mean, self.model.cells.mean_stop(self.model.grid))
 
     def means(self) -> Floats:
         """Return the mean map of each chain, (chains, nx, ny)."""
         burned = self._past[0]
-        return (self._sums - burned.sums) / max(1, self.counted - burned.counted)
+        return (self._sums - burned.sums) / max(1, self.sweep - burned.sweep)
 
     def reached(self) -> Floats:
         """Return the share of the draws inspected in which at least one beam observes each cell, (nx, ny)."""
@@ -188,7 +195,7 @@ class Stream(Found):
         return np.asarray(observed / np.maximum(1, inspected))
 
     def draw(self, chain: int | None, number: int | None) -> OneMap:
-        """Return one kept draw; the last one if that number does not exist, or the latest draw if none are kept."""
+        """Return one kept draw; the last one if that number does not exist, or the latest draw before the first."""
         draws, which = self.draws, min(chain or 0, self.n_chains - 1)
         if draws.count == 0:
             return self.model.cells.map_of(self._latest, which, -1), which, 0
@@ -206,9 +213,10 @@ class Stream(Found):
 
     @property
     def at_hand(self) -> Draws | None:
-        """The kept draws after the burn-in, or the latest draws if none are kept."""
-        draws = self.draws.after(self._past[0].counted) if self.draws.count else self._recent
-        return draws if draws.count else None
+        """The kept draws after the burn-in: all once the chains are done, some before; at first the latest draws."""
+        kept = self.draws.after(self._past[0].sweep // self.thin)
+        draws = kept if kept.count else self._latest
+        return None if not draws.count else draws if self.done else draws.thinned(RECENT * self.n_chains)
 
     def figures(self, over: bool) -> Figures:
         """Return the sweeps done, and the diagnostics of the chains.
@@ -253,12 +261,13 @@ class Stream(Found):
             seconds={"trace": 0.0, "warm_start": 0.0, "sampling": self.seconds},
         )  # fmt: skip
         burned = self._past[0]
+        first = burned.sweep // self.thin
         chains = replace(
-            chains, draws=chains.draws.after(burned.counted), log_likelihood=chains.log_likelihood[:, burned.counted :],
-            log_prior=chains.log_prior[:, burned.counted :], warmup_log_joint=self.log_joint()[:, : burned.sweep],
+            chains, draws=chains.draws.after(first), log_likelihood=chains.log_likelihood[:, first:],
+            log_prior=chains.log_prior[:, first:], warmup_log_joint=self.log_joint()[:, : burned.sweep],
             observed_counts=self._observed_counts - burned.observed_counts,
         )  # fmt: skip
-        count = self.total // self.thin - burned.counted
+        count = self.total // self.thin - first
         settings = result.settings_of_run(
             self.model, chains=self.n_chains, draws=count, warmup=burned.sweep, thin=self.thin
         )
@@ -294,7 +303,7 @@ def pose_starts(document: Document, chains: int) -> NDArray[np.float64]:
     return starts
 
 
-def chains_of_walls(scene: Scene, document: Document, begun: NDArray[np.bool_], *, keep: bool) -> Stream:
+def chains_of_walls(scene: Scene, document: Document, begun: NDArray[np.bool_]) -> Stream:
     """Prepare chains that start from the maps `begun`, one per chain, (chains, nx, ny).
 
     Uncertain poses are sampled together with the walls, as in `bayesmap.infer(..., poses=UncertainPoses(...))` without
@@ -306,12 +315,12 @@ def chains_of_walls(scene: Scene, document: Document, begun: NDArray[np.bool_], 
     sampler = sampler_of(name, walls.grid, Gibbs(document.order, begun))
     poses = pose_prior(document)
     if poses is None:
-        return Stream(model, sampler, walls, document, keep=keep)
+        return Stream(model, sampler, walls, document)
     model = replace(model, poses=poses)
     joint = PoseProblem(model, walls.for_any_poses(), walls.device, walls.threads)
     # 0: without warm-up, the sizes of pose steps are not adapted.
     both = WithPoses(cast(MovableSampler, sampler), 0, pose_starts(document, POSE_CHAINS))
-    stream = Stream(model, both, joint, document, keep=keep)
+    stream = Stream(model, both, joint, document)
     first = pose_starts(document, POSE_CHAINS)[:, 0, :2] - pose_starts(document, 1)[0, 0, :2]
     stream.shifts = np.rint(first / document.grid.resolution)
     return stream
