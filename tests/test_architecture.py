@@ -177,7 +177,7 @@ def test_heavy_libraries_have_a_room_each():
     assert not offenders
 
 
-KINDS_OF_CELLS = {"BinaryWalls", "Independent", "Ising", "Reflective", "Beta", "Surface"}
+KINDS_OF_CELLS = {"BinaryWalls", "Independent", "Ising", "Beta", "Surface"}
 
 
 def asked_for_a_kind(tree):

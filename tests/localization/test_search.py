@@ -9,7 +9,7 @@ from tiers import full_but
 from bayesmap.localization import search
 from bayesmap.localization.filter import Prior, Scan, approached
 from bayesmap.localization.localize import InitialPose
-from bayesmap.localization.particles import DOF, PoseMixture, draw_population, shared_out, student_draws
+from bayesmap.localization.particles import DOF, PoseMixture, student_draws
 from bayesmap.sensors.model import RangeLimits
 from bayesmap.space.planar import wrap_angle
 
@@ -133,11 +133,11 @@ def test_unequal_draws_of_places_leave_the_integral_right():
         constant = -1.5 * np.log(2 * np.pi) - 0.5 * np.log(np.diag(covariances[0])).sum()
         return np.log(np.exp(constant - 0.5 * squared) @ [0.75, 0.25])
 
-    runs = [draw_population(places, target, np.array([60, 20]), np.random.default_rng(seed)) for seed in range(12)]
+    runs = [places.draw(target, np.array([60, 20]), np.random.default_rng(seed)) for seed in range(12)]
     assert all(np.bincount(run.place).tolist() == [60, 20] for run in runs)
     assert np.mean([np.exp(run.log_evidence) for run in runs]) == pytest.approx(1.0, abs=0.05)
     assert np.mean([run.weights[run.place == 0].sum() for run in runs]) == pytest.approx(0.75, abs=0.05)
-    assert shared_out(places, 40).tolist() == [40, round(40 * np.sqrt(1 / 3))]
+    assert places.shared_out(40).tolist() == [40, round(40 * np.sqrt(1 / 3))]
 
 
 def test_a_wide_prior_is_narrowed_about_the_pose():

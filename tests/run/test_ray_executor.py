@@ -18,7 +18,7 @@ from bayesmap.run import ray_executor, ray_worker
 from bayesmap.run.chains import SweepPlan
 from bayesmap.run.runner import Job, ThreadExecutor
 from bayesmap.samplers.progress import Watch
-from bayesmap.samplers.sampler import NOTHING
+from bayesmap.samplers.sampler import Keep
 from bayesmap.samplers.walls import WallGibbs
 
 pytestmark = [
@@ -119,7 +119,7 @@ class Deadly(WallGibbs):
 
     mark: str = ""
 
-    def step(self, state, sweeps, beta=1.0, keep=NOTHING):
+    def step(self, state, sweeps, beta=1.0, keep=Keep()):
         if state.sweep > 10 and not os.path.exists(self.mark):
             with open(self.mark, "x"):
                 pass

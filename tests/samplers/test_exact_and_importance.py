@@ -84,7 +84,7 @@ def test_importance_sampling_finds_marginals_pairs_and_evidence(world):
     assert found.effective_sample_size == pytest.approx(1 / (w**2).sum())
     spread = np.sqrt(((p * weight).sum() - 1) / count)
     assert abs(found.log_evidence - case.exact.log_evidence) < 5.5 * spread + slack
-    known = case.problem().table.observed().ravel() | (world.coupling > 0)
+    known = case.problem().table.touched_map().ravel() | (world.coupling > 0)
     expected = np.where(known, w @ maps, case.problem().p_wall)
     np.testing.assert_allclose(found.occupancy().ravel(), expected, atol=1e-9)
     if world.coupling:

@@ -171,7 +171,7 @@ def test_cells_without_beams_keep_the_prior_and_fixed_cells_stay_fixed():
     scans = bm.Scans([0.5, 2.5, 0.0], [0.0, 0.1], [[1.4, 3.0]], max_range_m=5.0)
     problem = problem_of(scans, bm.Grid((6, 6)), bm.Gaussian(0.3), bm.Independent(p))
     found = propagate(problem).p_wall
-    silent = ~problem.table.observed()
+    silent = ~problem.table.touched_map()
     np.testing.assert_allclose(found[silent], p[silent], atol=1e-6)
     assert (found[0, 0], found[2, 2], found[5, 5]) == (0.0, 1.0, 1.0)
 
@@ -230,7 +230,7 @@ def test_a_warm_start_is_the_beliefs_where_they_say_something_and_the_prior_else
     maps = start_maps(problem, "propagate", range(200), 1, found)
     sure = abs(found.p_wall - 0.3) > 0.01
     assert (maps[:, sure] == (found.p_wall > 0.5)[sure]).all()
-    silent = ~problem.table.observed()
+    silent = ~problem.table.touched_map()
     assert abs(maps[:, silent].mean() - 0.3) < 5 * np.sqrt(0.21 / maps[:, silent].size)
     assert (maps[0] != maps[1]).any()
 

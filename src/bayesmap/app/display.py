@@ -28,16 +28,11 @@ OnReport = Callable[[Report], None]
 
 
 class Display:
-    """Makes the reports of one job after another.
-
-    Attributes:
-        generation: number of the present picture.
-        grid: grid on which pages show the picture.
-    """
+    """Makes the reports of one job after another."""
 
     def __init__(self, on_report: OnReport) -> None:
         self._send = on_report
-        self.generation, self.grid = -1, Grid((1, 1))
+        self.generation, self.grid = -1, Grid((1, 1))  # number and grid of the present picture
         self._views: dict[int, View] = {}  # the views of pages that get their own fields
         self._began = 0.0
         self._framed = self._overlaid = 0.0

@@ -47,11 +47,7 @@ GHOST_SECONDS, REST_SECONDS = 0.06, 0.002
 
 
 class Engine:
-    """Holds the present job and its result.
-
-    Attributes:
-        busy: whether there is work to `advance`.
-    """
+    """Holds the present job and its result."""
 
     def __init__(self, on_report: OnReport, opened: OpenedRun | OpenedLog | None = None) -> None:
         self._send = on_report
@@ -73,7 +69,7 @@ class Engine:
 
     @property
     def busy(self) -> bool:
-        """Whether a job is under way."""
+        """Whether there is work to `advance`."""
         return self._job is not None
 
     def take(self, task: Task) -> None:

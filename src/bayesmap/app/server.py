@@ -80,12 +80,6 @@ class Guard:
     """Middleware that refuses requests without the token, with an unknown Host, or with a foreign Origin.
 
     The Host is checked against foreign web pages whose own host name resolves to this machine.
-
-    Args:
-        app: the guarded application.
-        token: the token that every query must have.
-        host: the host on which the server listens.
-        port: the port on which the server listens.
     """
 
     def __init__(self, app: ASGIApp, token: str, host: str, port: int) -> None:

@@ -37,26 +37,15 @@ Steps = tuple[tuple[Document, Hashable], ...]
 
 
 class Session:
-    """One document, shown on any number of pages.
-
-    Attributes:
-        history: the document, and its states before and after.
-        generation: number of the present picture (docs/app.md).
-        live: whether edits restart the chains.
-        running: whether a run is under way.
-        working: whether the picture is still being computed.
-        draws: number of kept draws of the present result.
-        scan: index of the scan on show, for a file.
-        worker_ready: whether the worker is ready.
-    """
+    """One document, shown on any number of pages."""
 
     def __init__(self, document: Document) -> None:
-        self.history = History(document)
-        self.generation = 0
-        self.live = True
-        self.running = self.working = False
-        self.draws = notices.DrawCount()
-        self.scan = 0
+        self.history = History(document)  # the document, and its states before and after
+        self.generation = 0  # number of the present picture (docs/app.md)
+        self.live = True  # whether edits restart the chains
+        self.running = self.working = False  # a run is under way; the picture is still being computed
+        self.draws = notices.DrawCount()  # kept draws of the present result
+        self.scan = 0  # index of the scan on show, for a file
         self.worker_ready = False
         self._views: dict[int, notices.View] = {}  # the views of pages that asked for one
         self._mode: tasks.Mode = "live"

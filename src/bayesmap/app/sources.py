@@ -212,14 +212,9 @@ def read_document(path: str) -> Document:
 
 
 def open_file(path: str, **reading: Any) -> OpenedRun | OpenedLog:
-    """Open a saved run (``.nc``) or a log.
+    """Open a saved run (``.nc``) or a log, which is read with the options ``reading`` of `bayesmap.read_log`.
 
-    Args:
-        path: the file.
-        reading: options of `bayesmap.read_log` for a log.
-
-    Raises:
-        BadInput: the file does not exist, or is neither a saved run nor a log.
+    Raises BadInput: the file does not exist, or is neither a saved run nor a log.
     """
     if not Path(path).exists():
         raise BadInput(f"{path}: no such file; give a saved run (.nc) or a log of range scans")

@@ -50,12 +50,7 @@ def serve(pipe: Connection, path: str | None, reading: dict[str, Any]) -> None:
     """Do the tasks from the pipe until its other end is closed.
 
     The first report is `Unusable` if the file cannot be opened. Else it is `Ready` with the file's document, after a
-    small map has been inferred, so that all kernels are loaded.
-
-    Args:
-        pipe: the worker's end of the pipe.
-        path: the file to show, if any.
-        reading: options of `bayesmap.read_log` for this file.
+    small map has been inferred, so that all kernels are loaded. ``reading`` are options of `bayesmap.read_log`.
     """
     from bayesmap.app.engine import Engine
     from bayesmap.app.sources import open_file

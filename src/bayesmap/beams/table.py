@@ -44,7 +44,7 @@ class BeamTable:
         """Return the memory of the table itself, in bytes."""
         return sum(a.nbytes for a in (self.offsets, self.cells, self.loglik, self.no_hit))
 
-    def observed(self) -> NDArray[np.bool_]:
+    def touched_map(self) -> NDArray[np.bool_]:
         """Mark the cells that at least one beam touches, (nx, ny)."""
         seen = np.zeros(self.grid.n_cells, dtype=np.bool_)
         seen[self.cells] = True

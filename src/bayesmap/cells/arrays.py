@@ -99,19 +99,12 @@ class ArraySpec:
 
 @dataclass(frozen=True, eq=False)
 class Draws:
-    """Draws of all chains.
-
-    Attributes:
-        grid: grid of the cells.
-        specs: specifications of the arrays.
-        arrays: stored arrays by name, (chains, draws, ...), see `ArraySpec.stored`.
-        index: coordinates by dimension, int32: ascending flat indices of cells for "cell" and "surface_cell", numbers
-            for others ("scan").
-    """
+    """Draws of all chains."""
 
     grid: Grid
     specs: tuple[ArraySpec, ...]
-    arrays: Mapping[str, NDArray[Any]]
+    arrays: Mapping[str, NDArray[Any]]  # stored, by name, (chains, draws, ...), see `ArraySpec.stored`
+    # coordinates by dimension: ascending flat indices for "cell" and "surface_cell", numbers for others ("scan")
     index: Mapping[str, NDArray[np.int32]] = field(default_factory=dict)
 
     @property

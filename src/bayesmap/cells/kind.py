@@ -104,10 +104,8 @@ class CellPrior(ABC):
     ) -> tuple[dict[str, Any], float]:
         """Propose another state for one cell, for `bayesmap.samplers.metropolis`.
 
-        The default draws a state from the prior, which is right if the prior makes cells independent.
-
-        Returns:
-            The cell's new value of every array, and the log of prior ratio times proposal ratio.
+        The default draws a state from the prior, which is right if the prior makes cells independent. Returns the
+        cell's new value of every array, and the log of prior ratio times proposal ratio.
         """
         fresh = self.sample_cells(rng, Grid((1, 1), grid.resolution))
         return {name: values[0, 0] for name, values in fresh.items()}, 0.0
@@ -118,10 +116,9 @@ class CellPrior(ABC):
     def stops(self, cells: Cells, grid: Grid) -> NDArray[np.floating]:
         """Return the cells' stops, in the form that the law of stops and the predictive kernel read.
 
-        Returns:
-            Without surfaces, the probability that each cell stops a beam that comes to it, (N,); a stopped beam stops
-            at the hit depth. With surfaces, (N, 6): reflectivity, mean x and y in metres from the grid's lower left
-            corner, and the Cholesky factor l11, l21, l22 of the covariance in metres. Cell (x, y) is ``x * ny + y``.
+        Without surfaces, it is the probability that each cell stops a beam that comes to it, (N,), at the hit depth.
+        With surfaces, (N, 6): reflectivity, mean x and y in metres from the grid's lower left corner, and the Cholesky
+        factor l11, l21, l22 of the covariance in metres. Cell (x, y) is ``x * ny + y``.
         """
 
     def mean_stop(self, grid: Grid) -> Floats:

@@ -63,8 +63,21 @@ EXPECTED = ArraySpec(
 
 
 @dataclass(frozen=True)
-class Reflective(CellPrior):
-    """The base class of priors for reflectivities. `Beta` documents the attributes."""
+class Beta(CellPrior):
+    """A reflectivity in each cell; a stopped beam stops at the cell's hit depth.
+
+    At a coupling of 0, reflectivities are independent: Beta(a, b) in each cell. At a coupling above 0 each cell has a
+    label: the reflectivity is Beta(a, b) in free cells, and Beta(a_solid, b_solid) in solid cells.
+
+    Attributes:
+        a, b: pseudo-counts of stopped and of passing beams; for free cells only, if cells have labels.
+        coupling: log density added by each pair of neighbours (cells that share an edge) with the same label; at 0
+            there are no labels, and cells are independent.
+        a_solid, b_solid: pseudo-counts for solid cells, if cells have labels.
+
+    Raises:
+        BadInput: a count that is not positive, or a coupling that is no number from 0 to 50.
+    """
 
     a: float = 0.02
     b: float = 0.2
@@ -72,6 +85,8 @@ class Reflective(CellPrior):
     a_solid: float = field(default=1.0, kw_only=True)
     b_solid: float = field(default=1.0, kw_only=True)
 
+    words: ClassVar[Words] = Words("reflectivity", "reflectivities", "mean reflectivity", "reflectivity")
+    arrays: ClassVar[tuple[ArraySpec, ...]] = (REFLECTIVITY, EXPECTED)
     methods: ClassVar[Mapping[str, str]] = {"gibbs": "stop-gibbs"}
     sensor_is_fitted: ClassVar[bool] = True
     sweeps_a_draw: ClassVar[int] = 3
@@ -311,37 +326,12 @@ class Reflective(CellPrior):
         """Return a function that writes the surfaces of the cells in a draw, by chain and draw, into stops, (n, 6)."""
         return lambda stops, chain, draw: None
 
-    def _described(self) -> dict[str, Any]:
-        """Return the parameters of reflectivities, and of labels where there are labels."""
-        own = {"a": self.a, "b": self.b}
-        if self.has_labels:
-            own |= {"coupling": float(self.coupling), "a_solid": self.a_solid, "b_solid": self.b_solid}
-        return own
-
-
-@dataclass(frozen=True)
-class Beta(Reflective):
-    """A reflectivity in each cell; a stopped beam stops at the cell's hit depth.
-
-    At a coupling of 0, reflectivities are independent: Beta(a, b) in each cell. At a coupling above 0 each cell has a
-    label: the reflectivity is Beta(a, b) in free cells, and Beta(a_solid, b_solid) in solid cells.
-
-    Attributes:
-        a, b: pseudo-counts of stopped and of passing beams; for free cells only, if cells have labels.
-        coupling: log density added by each pair of neighbours (cells that share an edge) with the same label; at 0
-            there are no labels, and cells are independent.
-        a_solid, b_solid: pseudo-counts for solid cells, if cells have labels.
-
-    Raises:
-        BadInput: a count that is not positive, or a coupling that is no number from 0 to 50.
-    """
-
-    words: ClassVar[Words] = Words("reflectivity", "reflectivities", "mean reflectivity", "reflectivity")
-    arrays: ClassVar[tuple[ArraySpec, ...]] = (REFLECTIVITY, EXPECTED)
-
     def describe(self) -> dict[str, Any]:
         """Return the prior as plain JSON values."""
-        return {"kind": "beta", **self._described()}
+        described: dict[str, Any] = {"kind": "beta", "a": self.a, "b": self.b}
+        if self.has_labels:
+            described |= {"coupling": float(self.coupling), "a_solid": self.a_solid, "b_solid": self.b_solid}
+        return described
 
 
 def positions_in(stored: NDArray[np.int32], cells: NDArray[np.int32]) -> tuple[NDArray[np.intp], NDArray[np.bool_]]:

@@ -17,7 +17,7 @@ from scipy import special
 
 from bayesmap.cells.arrays import ArraySpec, Draws
 from bayesmap.cells.kind import Cells, Floats, Words
-from bayesmap.cells.reflectivity import EXPECTED, POOL_CELLS, REFLECTIVITY, KernelNumbers, Reflective, positions_in
+from bayesmap.cells.reflectivity import EXPECTED, POOL_CELLS, REFLECTIVITY, Beta, KernelNumbers, positions_in
 from bayesmap.errors import BadInput
 from bayesmap.space.grid import Grid
 
@@ -43,7 +43,7 @@ STOP_CHANCES = tuple(
 
 
 @dataclass(frozen=True)
-class Surface(Reflective):
+class Surface(Beta):
     """A reflectivity in each cell as in `Beta`, and a surface with mean mu and covariance Sigma.
 
     The prior is mu ~ N(centre, tau^2 I) inside the cell's own square, and Sigma ~ InverseWishart(nu, psi I) x
@@ -166,11 +166,8 @@ class Surface(Reflective):
         )  # fmt: skip
 
     def surfaces(self, draws: Draws) -> tuple[Floats, Floats, Floats]:
-        """Compute the posterior mean surfaces of the cells in which a reading ends.
-
-        Returns:
-            Means in the world frame in metres, (U, 2); covariances of the points in m^2, (U, 2, 2); and mean
-            reflectivities of the cells, (U,).
+        """Compute the posterior mean surfaces of the cells in which a reading ends: means in the world frame in metres,
+        (U, 2); covariances of the points in m^2, (U, 2, 2); and mean reflectivities of the cells, (U,).
         """
         edge, cells = draws.grid.resolution, draws.index["surface_cell"]
         mean, second = np.zeros((len(cells), 2)), np.zeros((len(cells), 2, 2))
@@ -218,7 +215,5 @@ class Surface(Reflective):
 
     def describe(self) -> dict[str, Any]:
         """Return the prior as plain JSON values."""
-        return {
-            "kind": "surface", **self._described(), "mean_scale": self.mean_scale, "spread": self.spread,
-            "dof": self.dof, "size_scale": self.size_scale,
-        }  # fmt: skip
+        own = {name: getattr(self, name) for name in ("mean_scale", "spread", "dof", "size_scale")}
+        return {**super().describe(), "kind": "surface", **own}

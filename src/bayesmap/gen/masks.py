@@ -115,10 +115,8 @@ class Mask(Pytree):
 
     @staticmethod
     def build(value: Any, flag: Flag = True) -> "Mask":
-        """Return a value, or the value of a Mask, with a flag. For a Mask both flags must hold.
-
-        Raises:
-            ValueError: the new flag's shape is not a prefix of the old one's.
+        """Return a value, or the value of a Mask, with a flag. For a Mask both flags must hold, and the new flag's
+        shape must be a prefix of the old one's.
         """
         if not isinstance(value, Mask):
             return Mask(value, flag)

@@ -134,11 +134,8 @@ class PoseBelief:
     def probability_in(self, area: Floats) -> float:
         """Compute the probability that the robot is on the map and in a polygon.
 
-        Args:
-            area: corners of the polygon in order, (K, 2), metres; or (x_min, x_max, y_min, y_max).
-
-        Raises:
-            BadInput: neither, or a rectangle whose first number of a pair is not below the second.
+        ``area`` holds its corners in order, (K, 2), metres; or (x_min, x_max, y_min, y_max). Anything else raises
+        `BadInput`.
         """
         corners = np.asarray(area, dtype=np.float64)
         if corners.shape == (4,):

@@ -22,18 +22,7 @@ from scipy.special import expit
 
 from bayesmap.localization.belief import PoseBelief
 from bayesmap.localization.known_map import INDEPENDENT_BEAMS, KnownMap
-from bayesmap.localization.particles import (
-    NEGLIGIBLE_NATS,
-    Population,
-    PoseMixture,
-    adapted,
-    draw_population,
-    groups_of,
-    log_sum,
-    shared_out,
-    squared_distances,
-    weighed,
-)
+from bayesmap.localization.particles import NEGLIGIBLE_NATS, Population, PoseMixture, log_sum
 from bayesmap.localization.search import MIN_POINTS, end_points, search
 from bayesmap.sensors.model import RangeLimits
 from bayesmap.space.planar import Floats, wrap_angle
@@ -66,7 +55,7 @@ def approached(
 
     each = max(MIN_DRAWS_PER_PLACE, DRAWS_PER_ROUND // len(places.means))
     for _ in range(MAX_APPROACHES if len(places.means) == 1 else MAX_APPROACHES - 1):
-        places, power = adapted(places, draw_population(places, target, each, rng))
+        places, power = places.adapted(places.draw(target, each, rng))
         places = places.best(len(places.means))
         if power > END_POWER:
             break
@@ -139,17 +128,15 @@ def update(known: KnownMap, prior: Prior, scan: Scan, rng: np.random.Generator, 
         starts, least = approached(starts, density, known, scan, rng), known.trust.least_draws
         if len(starts.means) > 1:
             # Drop negligible places by few draws of poses, under one draw of the map.
-            starts = best(weighed(starts, draw_population(starts, target(thin, 1), SELECTION_DRAWS, rng)))
+            starts = best(starts.weighed(starts.draw(target(thin, 1), SELECTION_DRAWS, rng)))
         for _ in range(ROUNDS):
-            starts, power = adapted(
-                starts, draw_population(starts, target(thin), shared_out(starts, ROUND_DRAWS, least), rng)
-            )
+            starts, power = starts.adapted(starts.draw(target(thin), starts.shared_out(ROUND_DRAWS, least), rng))
             starts = best(starts)
             if power > END_POWER:
                 break
         # Draw and weight the final poses, with all beams.
-        population = draw_population(starts, target(1), shared_out(starts, LAST_ROUND_DRAWS, least), rng)
-        group = groups_of(starts, population.poses)
+        population = starts.draw(target(1), starts.shared_out(LAST_ROUND_DRAWS, least), rng)
+        group = starts.groups_of(population.poses)
         if known.trust.shared_way_m > 0.0:
             mass = _mass_before(prior, starts, int(group.max()) + 1)
     return belief_of(known, prior, scan, population, group, mass)
@@ -277,7 +264,7 @@ def _mass_before(prior: Prior, places: PoseMixture, count: int) -> Floats:
     mass = np.full(count, 1.0 if prior.components is None else prior.uniform)
     if prior.components is not None:
         own = prior.components.log_mass - log_sum(prior.components.log_mass) + np.log1p(-prior.uniform)
-        np.add.at(mass, groups_of(places, prior.components.means), np.exp(own))
+        np.add.at(mass, places.groups_of(prior.components.means), np.exp(own))
     return mass
 
 
@@ -313,7 +300,7 @@ def _fit(
 
 def _mixture_log_density(components: PoseMixture, poses: Floats) -> Floats:
     """Compute the log density of a mixture of normal distributions with the components' masses, (P,)."""
-    squared, half_log_det = squared_distances(components, poses)
+    squared, half_log_det = components.squared_distances(poses)
     mass = components.log_mass - log_sum(components.log_mass)
     return np.asarray(log_sum(mass - half_log_det - 1.5 * np.log(2 * np.pi) - 0.5 * squared))
 
@@ -345,15 +332,15 @@ def locate(known: KnownMap, scan: Scan, rng: np.random.Generator) -> PoseBelief:
     places = _at_searched(candidates.poses)
     # Adapt the places while the power rises, then at the final power.
     for weight in np.geomspace(first, last, RISES):
-        places, _ = adapted(places, draw_population(places, target(float(weight), thin), SHARP_EACH, rng))
+        places, _ = places.adapted(places.draw(target(float(weight), thin), SHARP_EACH, rng))
         places = distinct(places).best(KEPT)
     for _ in range(SETTLES):
-        places, power = adapted(places, draw_population(places, target(last), SHARP_EACH, rng))
+        places, power = places.adapted(places.draw(target(last), SHARP_EACH, rng))
         places = distinct(places).best(KEPT)
         if power > END_POWER:
             break
-    population = draw_population(places, target(last), SHARP_LAST, rng)
-    return belief_of(known, prior, scan, population, groups_of(places, population.poses))
+    population = places.draw(target(last), SHARP_LAST, rng)
+    return belief_of(known, prior, scan, population, places.groups_of(population.poses))
 
 
 def distinct(places: PoseMixture) -> PoseMixture:

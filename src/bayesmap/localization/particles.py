@@ -52,6 +52,93 @@ class PoseMixture:
         """Return some of the places, by number."""
         return PoseMixture(self.means[places], self.covariances[places], self.log_mass[places])
 
+    def draw(
+        self, target: Callable[[Floats], Floats], each: int | NDArray[np.intp], rng: np.random.Generator
+    ) -> Population:
+        """Draw ``each`` poses from each place, one number or (K,), and weight them. Masses of places are not used.
+
+        ``target`` is the log density of poses (P, 3), not normalised, (P,).
+        """
+        counts = np.broadcast_to(each, len(self.means))
+        place = np.repeat(np.arange(len(counts)), counts)
+        roots = np.linalg.cholesky(self.covariances)
+        poses = self.means[place] + np.matmul(roots[place], student_draws(len(place), rng)[..., None])[..., 0]
+        poses[:, 2] = wrap_angle(poses[:, 2])
+        log_target = target(poses)
+        log_weights = log_target - log_sum(self._student_logs(poses) + np.log(counts / counts.sum()))
+        # Truncated importance sampling (Ionides 2008): no weight exceeds the mean by more than the root of their count.
+        most = log_sum(log_weights) - 0.5 * np.log(len(poses))
+        return Population(poses, np.minimum(log_weights, most), place, log_target)
+
+    def shared_out(self, most: int, least: float = 1 / 3) -> NDArray[np.intp]:
+        """Return the number of draws of each place, (K,): by the root of its mass, at least ``least * most``."""
+        shares = np.exp(0.5 * (self.log_mass - self.log_mass.max()))
+        return np.asarray(np.maximum(np.round(most * shares), int(most * least)), dtype=np.intp)
+
+    def groups_of(self, poses: Floats) -> NDArray[np.intp]:
+        """Label poses by place, (P,); places closer than `OVERLAP` standard deviations, or `SAME`, share a label."""
+        from scipy.sparse.csgraph import connected_components
+
+        if len(self.means) == 1:
+            return np.zeros(len(poses), dtype=np.intp)
+        off = self.means[:, None] - self.means
+        off[..., 2] = wrap_angle(off[..., 2])
+        both = np.linalg.inv(self.covariances[:, None] + self.covariances)
+        near = np.einsum("kli,klij,klj->kl", off, both, off) < OVERLAP**2
+        near |= (np.abs(off) < SAME).all(axis=2)
+        _, group = connected_components(near, directed=False)
+        return np.asarray(group[self._student_logs(poses).argmax(axis=1)], dtype=np.intp)
+
+    def squared_distances(self, poses: Floats) -> tuple[Floats, Floats]:
+        """Return squared Mahalanobis distances of poses from the places, (P, K), and half of log determinants, (K,)."""
+        off = poses - self.means[:, None]
+        off[..., 2] = wrap_angle(off[..., 2])
+        inverse = np.linalg.inv(self.covariances)
+        squared = (np.matmul(off, inverse) * off).sum(axis=-1)
+        return np.ascontiguousarray(squared.T), -0.5 * np.linalg.slogdet(inverse)[1]
+
+    def _student_logs(self, poses: Floats) -> Floats:
+        """Return the log density of each place's Student distribution, (P, K)."""
+        squared, half_log_det = self.squared_distances(poses)
+        return np.asarray(STUDENT_CONSTANT - half_log_det - 0.5 * (DOF + 3) * np.log1p(squared / DOF))
+
+    def weighed(self, population: Population) -> PoseMixture:
+        """Return the places with new masses: the sums of the weights of the draws from each."""
+        masses = [log_sum(population.log_weights[population.place == k]) for k in range(len(self.means))]
+        return PoseMixture(self.means, self.covariances, np.array(masses))
+
+    def adapted(self, population: Population, widen: float = 1.5) -> tuple[PoseMixture, float]:
+        """Return the places at the weighted moments of their draws, and the least power by which weights were tempered.
+
+        With a power of 1 the proposals are near the target. With a lower power, another round will improve them.
+        """
+        count, least = len(self.means), 1.0
+        means, covariances, log_mass = self.means.copy(), self.covariances.copy(), np.full(count, -np.inf)
+        for k in range(count):
+            own = population.place == k
+            logs = population.log_weights[own]
+            most = logs.max()
+            if not np.isfinite(most):
+                continue
+            # Temper the weights until several draws are effective: a single dominant draw has no spread.
+            power = 1.0
+            less = logs - most
+            weights = np.exp(less)
+            top = most + np.log(weights.sum())
+            while weights.sum() ** 2 < min(COUNTING * len(logs), ENOUGH) * (weights @ weights) and power > 1e-3:
+                power *= 0.8
+                weights = np.exp(power * less)
+            weights /= weights.sum()
+            off = population.poses[own] - means[k]
+            off[:, 2] = wrap_angle(off[:, 2])
+            shift = weights @ off
+            error = off - shift
+            covariances[k] = widen * np.einsum("n,ni,nj->ij", weights, error, error) + np.diag(LEAST_SD**2)
+            means[k] += shift
+            log_mass[k] = top
+            least = min(least, power)
+        return PoseMixture(means, covariances, log_mass), least
+
 
 @dataclass(frozen=True, eq=False)
 class Population:
@@ -73,25 +160,6 @@ class Population:
         return np.asarray(np.exp(self.log_weights - log_sum(self.log_weights)))
 
 
-def draw_population(
-    components: PoseMixture, target: Callable[[Floats], Floats], each: int | NDArray[np.intp], rng: np.random.Generator
-) -> Population:
-    """Draw ``each`` poses from each place, one number or (K,), and weight them. Masses of places are not used.
-
-    ``target`` is the log density of poses (P, 3), not normalised, (P,).
-    """
-    counts = np.broadcast_to(each, len(components.means))
-    place = np.repeat(np.arange(len(counts)), counts)
-    roots = np.linalg.cholesky(components.covariances)
-    poses = components.means[place] + np.matmul(roots[place], student_draws(len(place), rng)[..., None])[..., 0]
-    poses[:, 2] = wrap_angle(poses[:, 2])
-    log_target = target(poses)
-    log_weights = log_target - proposal_log_density(components, poses, counts)
-    # Truncated importance sampling (Ionides 2008): no weight exceeds the mean by more than the root of their number.
-    most = log_sum(log_weights) - 0.5 * np.log(len(poses))
-    return Population(poses, np.minimum(log_weights, most), place, log_target)
-
-
 def student_draws(count: int, rng: np.random.Generator) -> Floats:
     """Draw from the standard Student distribution in three dimensions, evenly spread, (N, 3).
 
@@ -101,83 +169,3 @@ def student_draws(count: int, rng: np.random.Generator) -> Floats:
     even = np.clip(even, 1e-12, 1.0 - 1e-12)
     stretch = np.sqrt(0.5 * DOF / gammaincinv(0.5 * DOF, even[:, 3:]))
     return np.asarray(stretch * ndtri(even[:, :3]))
-
-
-def shared_out(components: PoseMixture, most: int, least: float = 1 / 3) -> NDArray[np.intp]:
-    """Return the number of draws of each place, (K,): by the root of its mass, at least ``least`` times ``most``."""
-    shares = np.exp(0.5 * (components.log_mass - components.log_mass.max()))
-    return np.asarray(np.maximum(np.round(most * shares), int(most * least)), dtype=np.intp)
-
-
-def groups_of(components: PoseMixture, poses: Floats) -> NDArray[np.intp]:
-    """Label poses by place, (P,); places closer than `OVERLAP` standard deviations, or `SAME`, share a label."""
-    from scipy.sparse.csgraph import connected_components
-
-    if len(components.means) == 1:
-        return np.zeros(len(poses), dtype=np.intp)
-    off = components.means[:, None] - components.means
-    off[..., 2] = wrap_angle(off[..., 2])
-    both = np.linalg.inv(components.covariances[:, None] + components.covariances)
-    near = np.einsum("kli,klij,klj->kl", off, both, off) < OVERLAP**2
-    near |= (np.abs(off) < SAME).all(axis=2)
-    _, group = connected_components(near, directed=False)
-    return np.asarray(group[_student_logs(components, poses).argmax(axis=1)], dtype=np.intp)
-
-
-def proposal_log_density(components: PoseMixture, poses: Floats, counts: NDArray[np.intp]) -> Floats:
-    """Compute the log density of the mixture of Student distributions, with shares by these numbers of draws, (P,)."""
-    return np.asarray(log_sum(_student_logs(components, poses) + np.log(counts / counts.sum())))
-
-
-def squared_distances(components: PoseMixture, poses: Floats) -> tuple[Floats, Floats]:
-    """Return squared Mahalanobis distances of poses from each place, (P, K), and half the log determinants, (K,)."""
-    off = poses - components.means[:, None]
-    off[..., 2] = wrap_angle(off[..., 2])
-    inverse = np.linalg.inv(components.covariances)
-    squared = (np.matmul(off, inverse) * off).sum(axis=-1)
-    return np.ascontiguousarray(squared.T), -0.5 * np.linalg.slogdet(inverse)[1]
-
-
-def _student_logs(components: PoseMixture, poses: Floats) -> Floats:
-    """Return the log density of each place's Student distribution, (P, K)."""
-    squared, half_log_det = squared_distances(components, poses)
-    return np.asarray(STUDENT_CONSTANT - half_log_det - 0.5 * (DOF + 3) * np.log1p(squared / DOF))
-
-
-def weighed(components: PoseMixture, population: Population) -> PoseMixture:
-    """Return the places with new masses: the sums of the weights of the draws from each."""
-    masses = [log_sum(population.log_weights[population.place == k]) for k in range(len(components.means))]
-    return PoseMixture(components.means, components.covariances, np.array(masses))
-
-
-def adapted(components: PoseMixture, population: Population, widen: float = 1.5) -> tuple[PoseMixture, float]:
-    """Return the places at the weighted moments of their draws, and the least power by which weights were tempered.
-
-    With a power of 1 the proposals are near the target. With a lower power, another round will improve them.
-    """
-    count, least = len(components.means), 1.0
-    means, covariances, log_mass = components.means.copy(), components.covariances.copy(), np.full(count, -np.inf)
-    for k in range(count):
-        own = population.place == k
-        logs = population.log_weights[own]
-        most = logs.max()
-        if not np.isfinite(most):
-            continue
-        # Temper the weights until several draws are effective: a single dominant draw has no spread.
-        power = 1.0
-        less = logs - most
-        weights = np.exp(less)
-        top = most + np.log(weights.sum())
-        while weights.sum() ** 2 < min(COUNTING * len(logs), ENOUGH) * (weights @ weights) and power > 1e-3:
-            power *= 0.8
-            weights = np.exp(power * less)
-        weights /= weights.sum()
-        off = population.poses[own] - means[k]
-        off[:, 2] = wrap_angle(off[:, 2])
-        shift = weights @ off
-        error = off - shift
-        covariances[k] = widen * np.einsum("n,ni,nj->ij", weights, error, error) + np.diag(LEAST_SD**2)
-        means[k] += shift
-        log_mass[k] = top
-        least = min(least, power)
-    return PoseMixture(means, covariances, log_mass), least

@@ -25,7 +25,7 @@ from bayesmap.model import Model
 from bayesmap.run.chains import Chains, EndRule, Record, SweepPlan, map_error, observed_cells
 from bayesmap.samplers.fit import Parameters
 from bayesmap.samplers.progress import SILENT, Watch
-from bayesmap.samplers.sampler import NOTHING, PILOT, ChainState, Info, Keep, Sampler, Snapshot, to_see
+from bayesmap.samplers.sampler import PILOT, ChainState, Info, Keep, Sampler, Snapshot, to_see
 
 
 @contextlib.contextmanager
@@ -82,7 +82,7 @@ class Job:
 
 
 def sweeps(
-    sampler: Sampler[Any, Any], state: Any, until: int, *, keep: Keep = NOTHING, beta: float = 1.0,
+    sampler: Sampler[Any, Any], state: Any, until: int, *, keep: Keep = Keep(), beta: float = 1.0,
     step_seconds: float | None = None, most_kept: int | None = None, stops: tuple[int, ...] = (),
 ) -> Iterator[tuple[Any, Info]]:  # fmt: skip
     """Advance chains step by step until they have made ``until`` sweeps: yield (state, info) after each step.

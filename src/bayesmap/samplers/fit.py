@@ -32,10 +32,10 @@ from scipy import special
 from bayesmap.cells.binary import Ising, counts, likeliest
 from bayesmap.cells.kind import CellPrior, Floats
 from bayesmap.cells.kinds import prior_from
-from bayesmap.cells.reflectivity import Beta, Reflective
+from bayesmap.cells.reflectivity import Beta
 from bayesmap.model import Model
 from bayesmap.samplers.progress import SILENT, Watch
-from bayesmap.samplers.sampler import NOTHING, PILOT, Info, Keep
+from bayesmap.samplers.sampler import PILOT, Info, Keep
 from bayesmap.samplers.stop_gibbs import StopGibbs, StopState
 from bayesmap.samplers.stop_problem import StopProblem, trace_stops
 from bayesmap.samplers.walls import WallSampler
@@ -112,7 +112,7 @@ class Parameters:
     """The sensor and the prior that are fitted."""
 
     sensor: BeamMixture
-    prior: Reflective
+    prior: Beta
 
     def describe(self) -> dict[str, Any]:
         """Return both as plain JSON values."""
@@ -123,7 +123,7 @@ class Parameters:
         """Return the parameters of a description."""
         sensor = from_description(values["sensor"])
         assert isinstance(sensor, BeamMixture)
-        return cls(sensor, Reflective.of(prior_from(values["prior"]), "fitted parameters"))
+        return cls(sensor, Beta.of(prior_from(values["prior"]), "fitted parameters"))
 
 
 @dataclass(frozen=True, eq=False)
@@ -157,7 +157,7 @@ def fit(problem: StopProblem, seed: int, sweeps: int, watch: Watch = SILENT) -> 
 
 
 def pilot_sweeps(
-    problem: StopProblem, seed: int, sweeps: int, watch: Watch = SILENT, keep: Keep = NOTHING
+    problem: StopProblem, seed: int, sweeps: int, watch: Watch = SILENT, keep: Keep = Keep()
 ) -> Iterator[tuple[Parameters, Info]]:
     """Run the pilot. Yields the parameters after each sweep, and the sweep's report with its draw, if kept."""
     if sweeps == 0:
@@ -273,9 +273,9 @@ def _share(part: float, whole: float, present: float) -> float:
 
 
 def refit_prior(
-    prior: Reflective, hits: NDArray[np.int32], met: NDArray[np.int32], step: float,
+    prior: Beta, hits: NDArray[np.int32], met: NDArray[np.int32], step: float,
     solid: NDArray[np.bool_] | None = None,
-) -> Reflective:  # fmt: skip
+) -> Beta:  # fmt: skip
     """Move the Beta's counts towards those that make hits and passes likeliest, reflectivities integrated out.
 
     Cells with negative ``met`` have not counted yet and are left out. With labels, each label's Beta is fitted to the

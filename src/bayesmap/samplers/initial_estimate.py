@@ -14,7 +14,7 @@ from scipy import ndimage, special
 from bayesmap.beams.rays import Rays
 from bayesmap.cells.ising_field import rough_draw
 from bayesmap.cells.kind import Floats
-from bayesmap.cells.reflectivity import Reflective
+from bayesmap.cells.reflectivity import Beta
 from bayesmap.space.grid import Grid
 
 CENTRE_WEIGHT_HITS = 0.3  # weight of the prior's centre, in hits
@@ -61,7 +61,7 @@ class InitialEstimate:
         return self.touched[self.endpoint]
 
 
-def initial_estimate(rays: Rays, prior: Reflective, device: str = "cpu") -> InitialEstimate:
+def initial_estimate(rays: Rays, prior: Beta, device: str = "cpu") -> InitialEstimate:
     """Count hits and passes, and fit a normal distribution to each cell's end points."""
     from bayesmap.kernels.counts import count_passes
 
@@ -143,9 +143,7 @@ def counts_at_first(estimate: InitialEstimate, cells: int) -> tuple[NDArray[np.f
     return stopped, passed
 
 
-def first_labels(
-    estimate: InitialEstimate, prior: Reflective, grid: Grid, rng: np.random.Generator
-) -> NDArray[np.bool_]:
+def first_labels(estimate: InitialEstimate, prior: Beta, grid: Grid, rng: np.random.Generator) -> NDArray[np.bool_]:
     """Draw a chain's first labels of all cells of the grid, (N,), by sweeps of labels under the estimated counts.
 
     Regions that no beam observes agree slowly, and sweeps of labels alone are cheap.
@@ -158,7 +156,7 @@ def first_labels(
 
 
 def draw_start_state(
-    estimate: InitialEstimate, prior: Reflective, rays: Rays, rng: np.random.Generator,
+    estimate: InitialEstimate, prior: Beta, rays: Rays, rng: np.random.Generator,
     solid: NDArray[np.bool_] | None = None,
 ) -> NDArray[np.float32]:  # fmt: skip
     """Draw a chain's first state of all cells of the grid, (N, 6), scattered about the estimate like the posterior.

@@ -27,7 +27,7 @@ from numpy.typing import NDArray
 from scipy import ndimage
 
 from bayesmap.cells.kind import Floats
-from bayesmap.cells.reflectivity import Reflective
+from bayesmap.cells.reflectivity import Beta
 from bayesmap.samplers.initial_estimate import ALONG_WALL_SIGMAS, INSIDE_SHARE, end_cells, longer_axis
 from bayesmap.samplers.stop_problem import StopProblem
 from bayesmap.space.grid import Grid
@@ -76,7 +76,7 @@ class Changes:
         return Changes(self.middle[mask], self.where[mask], self.cells[mask], self.solid[mask])
 
 
-def evidence(chains: StopChains, chain: int, end_cell: NDArray[np.int32], prior: Reflective) -> Floats:
+def evidence(chains: StopChains, chain: int, end_cell: NDArray[np.int32], prior: Beta) -> Floats:
     """Compute the sum above over the beams whose readings end in each cell, (N,), for a chain's last sweep.
 
     ``end_cell`` is the result of `bayesmap.samplers.initial_estimate.end_cells`, (B,).

@@ -19,7 +19,7 @@ from bayesmap.beams.rays import Rays
 from bayesmap.cells.kind import Floats
 from bayesmap.model import Model, log_likelihoods
 from bayesmap.samplers.progress import SILENT, Watch
-from bayesmap.samplers.sampler import NOTHING, STREAM_START, STREAM_SWEEPS, Info, Keep, RaysProblem, Snapshot
+from bayesmap.samplers.sampler import STREAM_START, STREAM_SWEEPS, ChainState, Info, Keep, RaysProblem, Snapshot
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,15 +49,13 @@ class MetropolisProblem(RaysProblem):
 
 
 @dataclass(frozen=True, eq=False)
-class MetropolisState:
+class MetropolisState(ChainState):
     """Maps of several chains between two sweeps."""
 
     problem: MetropolisProblem
     maps: tuple[dict[str, NDArray[Any]], ...]
     chain_ids: tuple[int, ...]
     seed: int
-    sweep: int
-    statistics: Mapping[str, Floats]  # results of the start, by name
 
 
 @dataclass(frozen=True)
@@ -85,10 +83,10 @@ class Metropolis:
         else:
             starts = [{name: a[i].copy() for name, a in resume.arrays.items()} for i in range(len(chain_ids))]
         sweep = 0 if resume is None else resume.sweep
-        return MetropolisState(problem, tuple(starts), tuple(chain_ids), seed, sweep, {})
+        return MetropolisState(problem, sweep, tuple(starts), tuple(chain_ids), seed)
 
     def step(
-        self, state: MetropolisState, sweeps: int, beta: float = 1.0, keep: Keep = NOTHING
+        self, state: MetropolisState, sweeps: int, beta: float = 1.0, keep: Keep = Keep()
     ) -> tuple[MetropolisState, Info]:
         """Make some sweeps of all chains; a kept draw is the map after its sweep.
 

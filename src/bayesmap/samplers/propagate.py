@@ -55,7 +55,7 @@ def propagate(
         raise BadInput(f"propagate: damping must lie in [0, 1), got {damping!r}")
     began = time.perf_counter()
     beliefs = Beliefs(problem.table, problem.logit, problem.device, beta, problem.coupling)
-    observed = problem.table.observed().ravel()
+    observed = problem.table.touched_map().ravel()
     p_wall = special.expit(beliefs.log_odds().astype(np.float64))
     changes, mean_changes = [], []
     for number in range(rounds):

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.beams.rays import Rays
+from bayesmap.beams.table import BeamTable
 from bayesmap.cells.arrays import Draws
 from bayesmap.cells.kind import Floats
 from bayesmap.model import Model
@@ -53,8 +54,6 @@ class Keep:
         return range(first, end + 1, self.every)
 
 
-NOTHING = Keep()
-
 MAPS_TO_SEE = 8  # most draws per chain that decide which cells count as observed, whatever other chains hold
 
 
@@ -84,16 +83,23 @@ class Snapshot:
     arrays: Mapping[str, NDArray[Any]] = field(default_factory=dict)  # by name, (chains, ...)
 
 
-class Problem(Protocol):
+class Problem:
     """The result of `Sampler.prepare`: a model in the form that the sampler's kernels use."""
+
+    @property
+    def traced(self) -> Rays | BeamTable:
+        """The beams with the cells that they cross."""
+        raise NotImplementedError
 
     @property
     def grid(self) -> Grid:
         """The map's cells."""
+        return self.traced.grid
 
     @property
     def n_incidences(self) -> int:
         """The number of cells that all beams cross together: the work of a sweep."""
+        return self.traced.n_incidences
 
     @property
     def coordinates(self) -> Mapping[str, NDArray[np.int32]]:
@@ -102,6 +108,7 @@ class Problem(Protocol):
 
     def touched(self) -> NDArray[np.bool_]:
         """Mark the cells that at least one beam touches, (nx, ny); the others follow the prior."""
+        return self.traced.touched_map()
 
 
 class RaysProblem(Problem):
@@ -110,18 +117,9 @@ class RaysProblem(Problem):
     rays: Rays
 
     @property
-    def grid(self) -> Grid:
-        """The map's cells."""
-        return self.rays.grid
-
-    @property
-    def n_incidences(self) -> int:
-        """The number of cells that all beams cross together."""
-        return self.rays.n_incidences
-
-    def touched(self) -> NDArray[np.bool_]:
-        """Mark the cells that at least one beam touches, (nx, ny)."""
-        return self.rays.touched_map()
+    def traced(self) -> Rays:
+        """The rays."""
+        return self.rays
 
 
 def with_cached(changed: C, original: C, *names: str) -> C:
@@ -130,20 +128,14 @@ def with_cached(changed: C, original: C, *names: str) -> C:
     return changed
 
 
-class ChainState(Protocol):
+@dataclass(frozen=True, eq=False)
+class ChainState:
     """Several chains between two sweeps. Arrays on the device are advanced in place: do not use a state twice."""
 
-    @property
-    def sweep(self) -> int:
-        """The number of sweeps that each chain has made."""
-
-    @property
-    def problem(self) -> Problem:
-        """The problem of the chains."""
-
-    @property
-    def statistics(self) -> Mapping[str, Floats]:
-        """Further results of the start by name, such as the changes of belief propagation."""
+    problem: Any
+    sweep: int  # number of sweeps that each chain has made
+    # further results of the start by name, such as the changes of belief propagation
+    statistics: Mapping[str, Floats] = field(default_factory=dict, kw_only=True)
 
 
 C = TypeVar("C")
@@ -164,7 +156,7 @@ class Sampler(Protocol[P, S]):
     ) -> S:
         """Start chains with these numbers, or continue from a snapshot of them."""
 
-    def step(self, state: S, sweeps: int, beta: float = 1.0, keep: Keep = NOTHING) -> tuple[S, Info]:
+    def step(self, state: S, sweeps: int, beta: float = 1.0, keep: Keep = Keep()) -> tuple[S, Info]:
         """Make some sweeps of all chains. Do not use the given state afterwards.
 
         ``beta`` is the inverse temperature, the power of p(reading | stop) (of the likelihood for binary walls): 0

@@ -16,14 +16,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.cells.ising_field import SOLID
-from bayesmap.cells.kind import Floats
-from bayesmap.cells.reflectivity import Reflective, positions_in
+from bayesmap.cells.reflectivity import Beta, positions_in
 from bayesmap.cells.surface import PARTS
 from bayesmap.model import Model
 from bayesmap.samplers.initial_estimate import draw_start_state, first_labels, steps, update_periods
 from bayesmap.samplers.merge_moves import merge, merge_sweeps
 from bayesmap.samplers.progress import SILENT, Watch
-from bayesmap.samplers.sampler import NOTHING, STREAM_LABELS, STREAM_START, STREAM_SWEEPS, Info, Keep, Snapshot
+from bayesmap.samplers.sampler import STREAM_LABELS, STREAM_START, STREAM_SWEEPS, ChainState, Info, Keep, Snapshot
 from bayesmap.samplers.stop_problem import StopProblem, trace_stops
 
 if TYPE_CHECKING:
@@ -107,7 +106,7 @@ class StopDraws:
 
 
 def expected_reflectivity(
-    hits: NDArray[np.int32], met: NDArray[np.int32], prior: Reflective, drawn: NDArray[np.float16],
+    hits: NDArray[np.int32], met: NDArray[np.int32], prior: Beta, drawn: NDArray[np.float16],
     solid: NDArray[np.bool_] | None = None,
 ) -> NDArray[np.float32]:  # fmt: skip
     """Compute the mean of each cell's reflectivity given its counts, (a + hits) / (a + b + hits + met), (T,).
@@ -129,14 +128,12 @@ def expected_reflectivity(
 
 
 @dataclass(frozen=True, eq=False)
-class StopState:
+class StopState(ChainState):
     """Chains between two sweeps."""
 
     problem: StopProblem
     chains: StopChains
     keys: Sequence[int]
-    sweep: int
-    statistics: Mapping[str, Floats]  # results of the start, by name
 
 
 @dataclass(frozen=True)
@@ -153,7 +150,7 @@ class StopGibbs:
         """Compile the kernels, trace the beams, and estimate where chains start."""
         from bayesmap.kernels.surfaces.stop_chains import KERNELS, load_stop_kernels
 
-        cells = Reflective.of(model.cells, "stop-gibbs")
+        cells = Beta.of(model.cells, "stop-gibbs")
         problem = trace_stops(
             model.scans, model.grid, cells, model.sensor, hit_depth=model.hit_depth, device=device,
             threads=threads, watch=watch,
@@ -201,7 +198,7 @@ class StopGibbs:
             _plan(problem), states, keys, threads=problem.threads, counts=on_grid("counts"), solid=solid,
             observed_counts=None if observed is None else np.ascontiguousarray(observed.transpose(0, 2, 1)),
         )  # fmt: skip
-        return StopState(problem, chains, keys, resume.sweep, {})
+        return StopState(problem, resume.sweep, chains, keys)
 
     def _labels(
         self, problem: StopProblem, chain_ids: Sequence[int], seed: int, stored: Mapping[str, NDArray[Any]]
@@ -244,7 +241,7 @@ class StopGibbs:
         cells = _of_chains(state.chains.cells, state.chains)
         return np.ascontiguousarray(cells if state.problem.prior.has_surfaces else cells[..., 0])
 
-    def step(self, state: StopState, sweeps: int, beta: float = 1.0, keep: Keep = NOTHING) -> tuple[StopState, Info]:
+    def step(self, state: StopState, sweeps: int, beta: float = 1.0, keep: Keep = Keep()) -> tuple[StopState, Info]:
         """Make some sweeps of all chains, and merge surfaces after those that `merge_sweeps` lists."""
         end = state.sweep + sweeps
         merging = merge_sweeps(self.early_sweeps)

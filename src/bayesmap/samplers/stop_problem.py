@@ -12,7 +12,7 @@ from scipy import ndimage
 
 from bayesmap.beams.rays import Rays, around_readings
 from bayesmap.cells.kind import Floats
-from bayesmap.cells.reflectivity import Reflective
+from bayesmap.cells.reflectivity import Beta
 from bayesmap.errors import BadInput
 from bayesmap.samplers.initial_estimate import InitialEstimate, initial_estimate
 from bayesmap.samplers.progress import SILENT, Watch
@@ -37,7 +37,7 @@ class StopProblem(RaysProblem):
     """
 
     rays: Rays
-    prior: Reflective
+    prior: Beta
     sensor: SensorModel
     hit_depth: float = 0.5  # where in a cell without a surface a beam stops, as a fraction of its chord
     device: str = "cpu"
@@ -72,13 +72,13 @@ class StopProblem(RaysProblem):
 
         return stop_distances(self.rays, self.hit_depth, self.device)
 
-    def under(self, sensor: SensorModel, prior: Reflective) -> StopProblem:
+    def under(self, sensor: SensorModel, prior: Beta) -> StopProblem:
         """Return the rays under another sensor and another prior."""
         return with_cached(replace(self, sensor=sensor, prior=prior), self, "estimate", "distance_m")
 
 
 def trace_stops(
-    scans: Scans, grid: Grid, prior: Reflective, sensor: SensorModel, *, hit_depth: float = 0.5, device: str = "cpu",
+    scans: Scans, grid: Grid, prior: Beta, sensor: SensorModel, *, hit_depth: float = 0.5, device: str = "cpu",
     threads: int | None = None, watch: Watch = SILENT,
 ) -> StopProblem:  # fmt: skip
     """Trace the scans' rays, up to the distance at which a stop can explain the reading. Raises BadInput: a sensor that

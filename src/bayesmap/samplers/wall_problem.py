@@ -14,7 +14,6 @@ from bayesmap.cells.binary import BinaryWalls
 from bayesmap.cells.kind import Floats
 from bayesmap.model import Model
 from bayesmap.samplers.sampler import Problem, with_cached
-from bayesmap.space.grid import Grid
 
 LOG_ODDS_OF_FIXED = 1e15  # replaces infinite log-odds in cells that the prior fixes: more than any scan can outweigh
 
@@ -30,22 +29,13 @@ class WallProblem(Problem):
     threads: int | None = None  # all cores if None
 
     @property
-    def grid(self) -> Grid:
-        """The map's cells."""
-        return self.table.grid
-
-    @property
-    def n_incidences(self) -> int:
-        """The number of cells that all beams cross together."""
-        return self.table.n_incidences
+    def traced(self) -> BeamTable:
+        """The table."""
+        return self.table
 
     def for_any_poses(self) -> WallProblem:
         """Return this problem: draws of walls cover the grid already."""
         return self
-
-    def touched(self) -> NDArray[np.bool_]:
-        """Mark the cells that at least one beam touches, (nx, ny)."""
-        return self.table.observed()
 
     def under(self, prior: BinaryWalls) -> WallProblem:
         """Return the table, and its index if there is one, under another prior."""

@@ -20,7 +20,7 @@ from bayesmap.errors import BadInput
 from bayesmap.model import Model
 from bayesmap.samplers.progress import SILENT, Watch
 from bayesmap.samplers.propagate import ROUNDS, Marginals, propagate_to_start
-from bayesmap.samplers.sampler import NOTHING, STREAM_START, STREAM_SWEEPS, Info, Keep, Snapshot
+from bayesmap.samplers.sampler import STREAM_START, STREAM_SWEEPS, ChainState, Info, Keep, Snapshot
 from bayesmap.samplers.wall_problem import WallProblem, trace_walls
 from bayesmap.space.grid import Grid
 
@@ -80,7 +80,7 @@ class SweepKernel(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False)
-class WallState:
+class WallState(ChainState):
     """Chains between two sweeps."""
 
     problem: WallProblem
@@ -88,8 +88,6 @@ class WallState:
     kernel: SweepKernel
     sites: NDArray[np.int32]
     keys: Sequence[int]
-    sweep: int
-    statistics: Mapping[str, Floats]  # results of the start, by name
 
     def walls(self) -> NDArray[np.uint8]:
         """Return the chains' maps, (chains, N), from which this state can be made again."""
@@ -138,9 +136,9 @@ class WallSampler(ABC):
         keys = [mix(seed, chain, STREAM_SWEEPS) for chain in chain_ids]
         chains = WallChains(problem.device_table, maps.astype(np.uint8), keys, problem.device)
         sweep = 0 if resume is None else resume.sweep
-        return WallState(problem, chains, kernel, self.sites(problem), keys, sweep, statistics)
+        return WallState(problem, sweep, chains, kernel, self.sites(problem), keys, statistics=statistics)
 
-    def step(self, state: WallState, sweeps: int, beta: float = 1.0, keep: Keep = NOTHING) -> tuple[WallState, Info]:
+    def step(self, state: WallState, sweeps: int, beta: float = 1.0, keep: Keep = Keep()) -> tuple[WallState, Info]:
         """Make some sweeps of all chains; a kept draw is the map after its sweep."""
         from bayesmap.kernels.walls.chains import run_sweeps
 

@@ -20,14 +20,16 @@ from typing import TYPE_CHECKING, Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from bayesmap.beams.rays import Rays
+from bayesmap.beams.table import BeamTable
 from bayesmap.cells.kind import CellPrior, Floats
 from bayesmap.model import POSES, Model
 from bayesmap.poses.prior import PoseLaw
 from bayesmap.samplers.progress import SILENT, Watch
 from bayesmap.samplers.sampler import (
-    NOTHING,
     STREAM_POSES,
     STREAM_START_POSES,
+    ChainState,
     Info,
     Keep,
     Problem,
@@ -35,7 +37,6 @@ from bayesmap.samplers.sampler import (
     Snapshot,
 )
 from bayesmap.sensors.model import SensorModel
-from bayesmap.space.grid import Grid
 
 if TYPE_CHECKING:
     from bayesmap.kernels.predict.scan_likelihood import ScanLikelihood
@@ -174,18 +175,9 @@ class PoseProblem(Problem):
     threads: int | None
 
     @property
-    def grid(self) -> Grid:
-        """The map's cells."""
-        return self.model.grid
-
-    @property
-    def n_incidences(self) -> int:
-        """The number of cells that all beams cross together."""
-        return int(self.cells.n_incidences)
-
-    def touched(self) -> NDArray[np.bool_]:
-        """Mark the cells that at least one beam touches at the poses of the log, (nx, ny)."""
-        return np.asarray(self.cells.touched())
+    def traced(self) -> Rays | BeamTable:
+        """The beams at the poses of the log."""
+        return self.cells.traced  # type: ignore[no-any-return]
 
     @property
     def coordinates(self) -> Mapping[str, NDArray[np.int32]]:
@@ -217,15 +209,13 @@ class PoseProblem(Problem):
 
 
 @dataclass(frozen=True, eq=False)
-class JointState:
+class JointState(ChainState):
     """Chains between two sweeps."""
 
     problem: PoseProblem
     cells: tuple[Any, ...]  # one state of the cells' sampler per chain, each with its own rays
     poses: PoseState
     factor: Floats  # Cholesky factors of the chains' proposals, (C, S, 3, 3); zero before the first round
-    sweep: int  # number of sweeps of the cells that each chain has made
-    statistics: Mapping[str, Floats]  # always empty
 
 
 @dataclass(frozen=True, eq=False)
@@ -267,9 +257,9 @@ class WithPoses:
             return self.cells.init(at, [chain_ids[i]], seed, inner, watch)
 
         cells = tuple(self._each(problem, chain_of, len(chain_ids)))
-        return JointState(problem, cells, state, factor, sweep, {})
+        return JointState(problem, sweep, cells, state, factor)
 
-    def step(self, state: JointState, sweeps: int, beta: float = 1.0, keep: Keep = NOTHING) -> tuple[JointState, Info]:
+    def step(self, state: JointState, sweeps: int, beta: float = 1.0, keep: Keep = Keep()) -> tuple[JointState, Info]:
         """Make some sweeps of all chains, with a round of pose steps after every few."""
         end, infos, poses = state.sweep + sweeps, [], []
         while state.sweep < end:

@@ -65,7 +65,7 @@ class Particles:
         mean /= np.exp(self.log_weights[heavy]).sum()
         if self.problem.coupling != 0.0:
             return mean
-        return np.where(self.problem.table.observed(), mean, self.problem.p_wall.reshape(mean.shape))
+        return np.where(self.problem.table.touched_map(), mean, self.problem.p_wall.reshape(mean.shape))
 
     def resample(self, rng: np.random.Generator, count: int) -> NDArray[np.intp]:
         """Draw the numbers of ``count`` particles with replacement, each with its weight's probability."""
@@ -166,7 +166,7 @@ def enumerate_maps(problem: WallProblem) -> Enumeration:
     table, p = problem.table, problem.p_wall
     free_to_vary = (p > 0) & (p < 1)
     # Cells that no beam touches matter if neighbours are coupled.
-    matters = table.observed().ravel() | (problem.coupling != 0.0)
+    matters = table.touched_map().ravel() | (problem.coupling != 0.0)
     unknown = np.nonzero(matters & free_to_vary)[0]
     if len(unknown) > MAX_UNKNOWN:
         raise BadInput(

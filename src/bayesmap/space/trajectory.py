@@ -9,22 +9,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
-from bayesmap.space.planar import (
-    Floats,
-    between,
-    bracketing_indices,
-    compose,
-    interpolate,
-    inverse,
-    rotation,
-    wrap_angle,
-)
+from bayesmap.space.planar import between, bracketing_indices, compose, interpolate, inverse, rotation, wrap_angle
 from bayesmap.space.scans import as_poses, path_words
 
 SLACK_S = 0.002  # largest time outside a trajectory that counts as its end: logs are written with few digits
 LONGEST_GAP_S = 0.3  # longest time between two poses that are interpolated: in seconds a robot turns corners
 FRAMES = ("base", "laser")  # frames on a robot whose poses a trajectory may have
 
+Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
 
 

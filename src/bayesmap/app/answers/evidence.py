@@ -52,15 +52,10 @@ class Evidence:
 
 
 def wall_ratios(table: BeamTable, p_wall: NDArray[np.float64], cell: int) -> BeamRatios:
-    """Compute log p(z | wall in the cell) - log p(z | cell free) of every beam through a cell.
+    """Compute log p(z | wall in the cell) - log p(z | cell free) of every beam through a cell, given by its flat index.
 
     Both likelihoods are averaged over the cell at which the beam first meets a wall. Every other cell is a wall
-    independently, with its own probability.
-
-    Args:
-        table: the beams.
-        p_wall: probability that each cell is a wall, (N,).
-        cell: flat index of the cell.
+    independently, with its own probability ``p_wall``, (N,).
     """
     places, beams, every = _through(table, cell, MOST_BEAMS)
     pairs = zip(beams.tolist(), places[::every].tolist(), strict=True)
@@ -98,15 +93,10 @@ def summed(ratios: BeamRatios) -> Evidence:
 
 
 def strongest(ratios: BeamRatios, scans: Scans) -> dict[str, NDArray[np.float64]]:
-    """Return the beams with the largest log ratios, the strongest first.
+    """Return the beams with the largest log ratios, the strongest first. Scans are at the poses that saw the cell.
 
-    Args:
-        ratios: log ratios of beams of the scans.
-        scans: the scans, at the poses from which they saw the cell.
-
-    Returns:
-        Both ends of each beam in the world, ``start`` and ``end`` (M, 2), metres; the log ratio, ``nats`` (M,); and the
-        indices ``scan`` and ``beam``, (M,). A beam without a return ends at the sensor's longest range.
+    The buffers are both ends of each beam in the world, ``start`` and ``end`` (M, 2), metres; the log ratio, ``nats``
+    (M,); and the indices ``scan`` and ``beam``, (M,). A beam without a return ends at the sensor's longest range.
     """
     order = np.argsort(-np.abs(ratios.nats), kind="stable")[:MOST_DRAWN]
     order = order[np.abs(ratios.nats[order]) > SILENT_NATS]

@@ -48,11 +48,7 @@ class Locator:
     ) -> tuple[Whereabouts, Buffers]:
         """Find the places where a scan may have been taken, or return the reason why there is no answer.
 
-        Args:
-            question: the question, with the sensor's id in a drawn world.
-            result: the result on show.
-            scan: index of the scan on show, for a file.
-            generation: number of the present picture.
+        The question names the sensor of a drawn world; ``scan`` is the index of the scan on show, for a file.
         """
         try:
             if result is None:

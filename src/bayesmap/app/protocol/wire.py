@@ -85,15 +85,8 @@ def parse_simulation(value: object) -> Document:
 
 
 def converted(value: object, kind: type[T], place: str = "") -> T:
-    """Convert JSON values to a type of the protocol.
-
-    Args:
-        value: the values.
-        kind: the type.
-        place: name of the whole value in error messages.
-
-    Raises:
-        Refused: a value is invalid; the message names its place and the values allowed.
+    """Convert JSON values to a type of the protocol. `Refused` names the place of an invalid value, which begins with
+    ``place``, and the values allowed.
     """
     try:
         return msgspec.convert(value, kind)

@@ -86,18 +86,7 @@ class Past(NamedTuple):
 
 
 class Stream(Found):
-    """Chains of any kind of cells, advanced step by step from their start to their last sweep.
-
-    Attributes:
-        model: the model that is sampled.
-        problem: the problem that the sampler has prepared from the model.
-        total: number of sweeps to do; `go_on` adds some.
-        thin: number of sweeps per kept draw; 1 unless the kept draws would not fit in memory.
-        n_chains: number of chains.
-        shifts: shift of map and sensors at which each chain stands, (chains, 2) in cells; it never leaves it.
-        sweep: number of sweeps done.
-        done: whether all sweeps are done.
-    """
+    """Chains of any kind of cells, advanced step by step from their start to their last sweep."""
 
     def __init__(self, model: Model, sampler: Sampler[Any, Any], problem: Problem, document: Document) -> None:
         self._burn_in = document.burn_in
@@ -107,10 +96,10 @@ class Stream(Found):
         self.state = sampler.init(problem, range(self.n_chains), document.seed)
         empty = no_draws(model, self.state, self.n_chains)
         self._draw_bytes = sum(spec.empty(self.n_chains, 1, empty.shape_of(spec)).nbytes for spec in empty.specs)
-        self.total, self.thin, self._record = 0, 1, Record(empty, SweepPlan(0, 0))
+        self.total, self.thin, self._record = 0, 1, Record(empty, SweepPlan(0, 0))  # sweeps to do; sweeps per kept draw
         # What the steps have found so far: latest draws, sums for the means, diagnostics, counts and trace.
         self.seconds = 0.0
-        self.shifts = np.zeros((self.n_chains, 2))
+        self.shifts = np.zeros((self.n_chains, 2))  # cells by which map and sensors of a chain are shifted, always
         self._latest = empty
         self._sums = np.zeros((self.n_chains, *model.grid.shape))
         self._rhat = self._ess = math.nan
@@ -352,13 +341,8 @@ def starts(problem: WallProblem, document: Document, preview: Preview | None) ->
 
 
 class Pilot(Found):
-    """The chain that fits sensor and prior before the main chains begin.
-
-    Attributes:
-        model: the model under the sensor and the prior fitted so far.
-        draws: the latter half of the pilot's draws, one chain.
-        sweep: number of sweeps done.
-        total: number of sweeps to do.
+    """The chain that fits sensor and prior before the main chains begin: the model fitted in ``sweep`` of ``total``
+    sweeps, and the latter half of the draws.
     """
 
     approximate = True
@@ -399,12 +383,8 @@ Fitted = tuple[Model, Any, Any]
 
 
 def fit_by_pilot(scene: Scene, document: Document, show: Callable[[Pilot], None]) -> Generator[None, None, Fitted]:
-    """Fit sensor and prior to the readings in short steps; return the fitted model, its sampler and its problem.
-
-    Args:
-        scene: the readings.
-        document: the document, for its kind of cells and its seed.
-        show: callback that gets the pilot after every sweep.
+    """Fit sensor and prior to the readings in short steps, by the document's kind of cells and seed; ``show`` gets the
+    pilot after every sweep. Return the fitted model, its sampler and its problem.
     """
     prior = BUILT_IN[document.cells]()
     first = first_sensor(prior, document.grid.resolution)

@@ -31,11 +31,8 @@ class Counted(FixedMap):
 class HitCounts:
     """Hits and passes in the first n scans of a log, for any n. The counts for one n are updated to those for the next.
 
-    A beam without a return is left out: only the posterior can estimate how far it got.
-
-    Args:
-        scans: S scans of A beams.
-        table: the beams of these scans, traced at least to their readings. Beam ``s * A + a`` is beam a of scan s.
+    A beam without a return is left out: only the posterior can estimate how far it got. Beams of the table are traced
+    at least to their readings; beam ``s * A + a`` is beam a of scan s.
     """
 
     def __init__(self, scans: Scans, table: BeamTable) -> None:
@@ -79,12 +76,8 @@ class HitCounts:
 
 
 def coarse_map(counts: NDArray[np.int64], prior: CellPrior, p_wall: float) -> NDArray[np.float64]:
-    """Return each cell's wall probability by OctoMap, (N,); for other kinds of cells, the share of beams that stop.
-
-    Args:
-        counts: hits and passes, (2, N).
-        prior: the prior of the cells.
-        p_wall: the prior probability of a wall, used only for cells that are walls.
+    """Return each cell's wall probability by OctoMap, (N,), from hits and passes, (2, N), and the prior ``p_wall``; for
+    other kinds of cells, the share of beams that stop.
     """
     hits, passes = counts.astype(np.float64)
     a, b = getattr(prior, "a", None), getattr(prior, "b", None)

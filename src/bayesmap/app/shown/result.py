@@ -34,11 +34,8 @@ SAVED_DRAWS = 500  # independent draws per chain in such a run
 INTERVAL_DRAWS = 60  # the number of draws used for credible intervals
 GOOD_RHAT = 1.01  # limits of Vehtari et al. (2021) for R-hat and effective sample size:
 GOOD_ESS = 400.0  # 400 effective draws make R-hat reliable
-
-BAD_ESS = 50.0
-FEWEST_SWEEPS = 200
-"""With fewer sweeps, running chains get no verdict, and differences between the chains' means are not judged."""
-
+BAD_ESS = 50.0  # a smaller effective sample size is bad
+FEWEST_SWEEPS = 200  # with fewer, running chains get no verdict, and differences of their means are not judged
 FEWEST_DIAGNOSED = 4  # the fewest sweeps for R-hat, which needs two draws in each half of a chain
 BAD_DIFFERENCE = 0.25  # largest good difference of a cell's chain means: 5 standard errors of 200 draws at p = 1/2
 
@@ -87,21 +84,13 @@ class Figures:
 
 
 class Found(ABC):
-    """The estimate of one method. The defaults fit a method without draws.
+    """The estimate of one method. The defaults fit a method without draws."""
 
-    Attributes:
-        approximate: whether the mean is a quick approximation of the posterior mean.
-        model: the model that is sampled, if it differs from the scene's.
-        averaged: number of draws in the mean, if the method reports it.
-        sweep: number of sweeps that the chains have done.
-        done: whether the chains have done all their sweeps.
-    """
-
-    approximate = False
-    model: Model | None = None
-    averaged: int | None = None
-    sweep = 0
-    done = False
+    approximate = False  # whether the mean is a quick approximation of the posterior mean
+    model: Model | None = None  # the model that is sampled, if it differs from the scene's
+    averaged: int | None = None  # number of draws in the mean, if the method reports it
+    sweep = 0  # number of sweeps that the chains have done
+    done = False  # whether the chains have done all their sweeps
 
     @abstractmethod
     def mean(self) -> Floats:
@@ -303,12 +292,8 @@ class Result:
 
 
 class FixedMap(Found):
-    """A map that does not change any more.
-
-    Args:
-        mean: the probability that a cell stops a beam, (nx, ny).
-        observed: the cells that a beam reaches, (nx, ny).
-        prior: the prior of cells other than walls; None for walls.
+    """A map that does not change any more: mean stop probabilities and observed cells, (nx, ny) each, and the prior of
+    cells other than walls.
     """
 
     def __init__(self, mean: Floats, observed: NDArray[np.bool_], prior: CellPrior | None = None) -> None:

@@ -57,20 +57,15 @@ class Preview(Found):
     """Belief propagation as in `bayesmap.samplers.propagate`, one round at a time.
 
     Cells that no beam touches keep the prior exactly, so the rounds leave them out. On 500 x 500 cells with one sensor
-    they are most of the map.
-
-    Attributes:
-        cells: flat indices of the cells that beams touch, (M,).
-        table: beam table over these cells.
-        rounds: number of rounds done.
-        converged: whether the probabilities changed by less than `TOLERANCE`, or the last allowed round is done.
+    they are most of the map. Beliefs have ``converged`` when they changed by less than `TOLERANCE`, or all rounds that
+    are allowed are done.
     """
 
     approximate = True
 
     def __init__(self, problem: WallProblem) -> None:
         self.problem = problem
-        self.cells, self.table = touched(problem.table)
+        self.cells, self.table = touched(problem.table)  # cells that beams touch, and the beam table over them
         self.rounds, self._seconds = 0, 0.0
         self._threads = 1 if problem.table.n_incidences < THREADS_FROM_INCIDENCES else None
         self._p = problem.p_wall[self.cells]
@@ -120,12 +115,7 @@ class Preview(Found):
 
 
 class Weighing(Found):
-    """Importance sampling with the particles of `bayesmap.samplers.without_chains`, weighed in short steps.
-
-    Attributes:
-        total: number of particles to weigh.
-        count: number of particles weighed so far.
-    """
+    """Importance sampling with the particles of `bayesmap.samplers.without_chains`, weighed in short steps."""
 
     def __init__(self, problem: WallProblem, total: int, seed: int) -> None:
         self.problem, self.total, self.count = problem, total, 0

@@ -185,10 +185,8 @@ def first_hit_events(stops: StopMixture, sensor: SensorModel, device: str = "cpu
     """Predict, for each stretch of a beam in a cell that its reading reaches, whether the reading ends there.
 
     Let F be the beam's predictive cumulative and [a, b) the stretch. The chance is ``(F(b) - F(a)) / (1 - F(a))``. The
-    product of the probabilities of a beam's events is the probability of the cell in which its reading ends.
-
-    Returns:
-        The chances, and the outcomes, (K,) each: 1 if the reading ended there, 0 if it went on, -1 without an event.
+    product of the probabilities of a beam's events is the probability of the cell in which its reading ends. Returns
+    chances and outcomes, (K,) each: 1 if the reading ended there, 0 if it went on, -1 without an event.
     """
     device = devices.resolve(device)
     rays, size = stops.rays, len(stops.weight)

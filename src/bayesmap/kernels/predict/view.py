@@ -65,10 +65,8 @@ def draw_scan_stops(
     """Draw where the beams of a scan at each pose stop, in the map of the pose.
 
     ``draw`` is the index of each pose's map, (P,), and ``poses`` are in the world frame, (P, 3). Beams at
-    ``angles_rad`` (A,) in the sensor's frame are followed to ``longest_m``.
-
-    Returns:
-        distance in metres, infinite for a beam that meets nothing, and its standard deviation, (P, A) each.
+    ``angles_rad`` (A,) in the sensor's frame are followed to ``longest_m``. Returns distances in metres, infinite for a
+    beam that meets nothing, and their standard deviations, (P, A) each.
     """
     beams = (len(poses) * len(angles_rad),)
     views = devices.pack(Views, maps.device, poses=poses, angles=angles_rad, longest_m=longest_m)

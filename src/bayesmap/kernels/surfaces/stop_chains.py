@@ -120,10 +120,7 @@ class StopChains:
         A surface makes ``steps`` Metropolis steps in a sweep, at most 24: a cell has random counters for this many.
         With 0, cells stay. From sweep ``observing_after`` on, the cells which beams observe are counted; with surfaces
         `in_squares` counts them. The callbacks get the numbers of chain and sweep, ``after`` on the thread of the
-        sweep.
-
-        Returns:
-            log-likelihood and log prior of the cells as they were *before* each sweep, (chains, count) each.
+        sweep. Returns log-likelihood and log prior of the cells *before* each sweep, (chains, count) each.
         """
         packed = packed_prior(prior)
         law = sensor_law(sensor, self.plan.rays.limits, self.device, SensorLaw32)

@@ -368,10 +368,8 @@ def run_sweeps(
     """Advance the chains in place by ``count`` sweeps of a kernel, numbered from ``first_sweep``, one chain per thread.
 
     The kernel takes ``tables`` first, then the prior. Each sweep visits the sites in the given order, or shuffles it.
-    ``kept`` holds the numbers, from 1, of the sweeps whose maps are kept. ``beta`` is the inverse temperature.
-
-    Returns:
-        log-likelihoods and log priors after each sweep, (chains, sweeps), and the packed maps, (chains, kept, bytes).
+    ``kept`` holds the numbers, from 1, of the sweeps whose maps are kept. ``beta`` is the inverse temperature. Returns
+    log-likelihoods and log priors after each sweep, (chains, sweeps), and the packed maps, (chains, kept, bytes).
     """
     n, cells = chains.shape
     device = chains.device
