@@ -131,9 +131,8 @@ def overlay_of(result: Result) -> dict[str, NDArray[np.float32]]:
 
 
 def trace_of(log_joint: NDArray[np.float64]) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
-    """Thin a trace, (chains, n), to all of the first sweeps and evenly chosen later sweeps.
-
-    Returns the log joint at these sweeps, (chains, m), and the sweeps, counted from 1, (m,).
+    """Thin a trace, (chains, n), to all of the first sweeps and evenly chosen later sweeps. Returns the log joint at
+    these sweeps, (chains, m), and the sweeps, counted from 1, (m,).
     """
     count = log_joint.shape[1]
     later = np.linspace(1, count, min(count, TRACED)).round().astype(int) if count else np.zeros(0, dtype=int)
@@ -142,9 +141,8 @@ def trace_of(log_joint: NDArray[np.float64]) -> tuple[NDArray[np.float32], NDArr
 
 
 def histogram(log_weights: NDArray[np.float64]) -> tuple[NDArray[np.float32], float]:
-    """Count log weights in bins of equal width up to the largest.
-
-    Returns the counts, (WEIGHT_BINS,), and the lower edge of the first bin, in nats relative to the largest log weight.
+    """Count log weights in bins of equal width up to the largest. Returns the counts, (WEIGHT_BINS,), and the lower
+    edge of the first bin, in nats relative to the largest log weight.
     """
     below = log_weights - log_weights.max()
     lowest = min(-1.0, float(below[np.isfinite(below)].min()))

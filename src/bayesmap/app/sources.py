@@ -150,9 +150,8 @@ class OpenedLog:
         self._traced: Traced | None = None
 
     def on_cells(self, document: Document) -> Document:
-        """Return a document of this log on a grid of its cell size that covers what the scans saw.
-
-        If this grid is too large, use the grid on which the log is first shown.
+        """Return a document of this log on a grid of its cell size that covers what the scans saw. If this grid is too
+        large, use the grid on which the log is first shown.
         """
         own, bounds = self.document.grid, self.document.source.bounds
         if bounds is None or document.grid.resolution == own.resolution:
@@ -212,9 +211,8 @@ def read_document(path: str) -> Document:
 
 
 def open_file(path: str, **reading: Any) -> OpenedRun | OpenedLog:
-    """Open a saved run (``.nc``) or a log, which is read with the options ``reading`` of `bayesmap.read_log`.
-
-    Raises BadInput: the file does not exist, or is neither a saved run nor a log.
+    """Open a saved run (``.nc``) or a log, which is read with the options ``reading`` of `bayesmap.read_log`. Raises
+    BadInput: the file does not exist, or is neither a saved run nor a log.
     """
     if not Path(path).exists():
         raise BadInput(f"{path}: no such file; give a saved run (.nc) or a log of range scans")
@@ -243,9 +241,8 @@ def opened_run(run: Run, name: str) -> OpenedRun:
 
 
 def opened_log(scans: Scans, name: str) -> OpenedLog:
-    """Open scans as a log, on cells of 10 cm, or on larger cells if a side would have more than 1000 cells.
-
-    Poses that look like raw odometry are at first treated as odometry. Raises BadInput: the log has no scans.
+    """Open scans as a log, on cells of 10 cm, or on larger cells if a side would have more than 1000 cells. Poses that
+    look like raw odometry are at first treated as odometry. Raises BadInput: the log has no scans.
     """
     from bayesmap.cells.kinds import P_WALL
     from bayesmap.poses.agreement import look_like_odometry

@@ -61,10 +61,8 @@ OF_CELLS = ("cell", "surface_cell")  # dimensions that index a subset of the gri
 
 @dataclass(frozen=True)
 class ArraySpec:
-    """An array of a draw.
-
-    ``dims`` are the dimensions beside chain and draw: ("x", "y") for the whole grid, ("cell",) for the cells that a
-    beam touches, ("surface_cell",) for the cells in which a reading ends.
+    """An array of a draw. ``dims`` are the dimensions beside chain and draw: ("x", "y") for the whole grid, ("cell",)
+    for the cells that a beam touches, ("surface_cell",) for the cells in which a reading ends.
     """
 
     name: str  # in `Cells`, in saved runs and in `Run.dataset`
@@ -150,10 +148,8 @@ class Draws:
         return tuple(sizes[dim] if dim in sizes else len(self.index[dim]) for dim in spec.dims)
 
     def cells(self, chain: int, draw: int) -> dict[str, NDArray[Any]]:
-        """Return the arrays of one draw as values.
-
-        Arrays of cells are spread over the grid, (nx, ny), with NaN in cells that the draw does not store.
-        `bayesmap.cells.kind.CellPrior.completed` replaces NaN by a state of the prior.
+        """Return the arrays of one draw as values. Arrays of cells are spread over the grid, (nx, ny), with NaN in
+        cells that the draw does not store (`bayesmap.cells.kind.CellPrior.completed` fills them).
         """
         arrays = {}
         for spec in self.specs:

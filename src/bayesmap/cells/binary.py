@@ -302,9 +302,8 @@ def fit_coupling(walls: ArrayLike, p_wall: ArrayLike) -> float:
 
 
 def counts(maps: NDArray[np.bool_], p_wall: Floats) -> tuple[Floats, Floats, Floats, Floats]:
-    """Count cells and walls by log-odds and balance. Returns log-odds, balances, and numbers of cells and of walls.
-
-    If all cells have one probability, there are nine entries, for the balances -4 to 4. Else each cell has its own.
+    """Count cells and walls by log-odds and balance. Returns log-odds, balances, and numbers of cells and of walls. If
+    all cells have one probability, there are nine entries, for the balances -4 to 4. Else each cell has its own.
     """
     balance = walls_less_free(maps)
     p = np.broadcast_to(p_wall, maps.shape)

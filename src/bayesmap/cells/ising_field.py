@@ -74,9 +74,8 @@ def _padded(signs: NDArray[np.int8]) -> NDArray[np.int8]:
 
 
 def _levels(u: Floats, logit: Floats, coupling: float) -> NDArray[np.int8]:
-    """Return the balance of neighbours above which each cell becomes a wall, given its uniform number.
-
-    A cell is a wall if u < expit(logit + coupling * balance), that is, if balance > (logit(u) - logit) / coupling.
+    """Return the balance of neighbours above which each cell becomes a wall, given its uniform number. A cell is a wall
+    if u < expit(logit + coupling * balance), that is, if balance > (logit(u) - logit) / coupling.
     """
     with np.errstate(divide="ignore"):
         needed = np.clip((special.logit(u) - logit) / coupling, -9, 9)
@@ -125,9 +124,8 @@ def share_solid(draws: Draws) -> Floats:
 def mixture_quantiles(
     share: Floats, free: tuple[float, float], solid: tuple[float, float], tails: tuple[float, float]
 ) -> Floats:
-    """Compute quantiles of reflectivities by bisection, (len(tails), N).
-
-    ``share`` is the probability that each cell is solid, (N,); ``free`` and ``solid`` hold a and b of two Beta laws.
+    """Compute quantiles of reflectivities by bisection, (len(tails), N). ``share`` is the probability that each cell is
+    solid, (N,); ``free`` and ``solid`` hold a and b of two Beta laws.
     """
     # Cells with the same share have the same quantiles: compute them once per distinct share.
     kinds, which = np.unique(share, return_inverse=True)

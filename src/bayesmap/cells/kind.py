@@ -122,9 +122,8 @@ class CellPrior(ABC):
         """
 
     def mean_stop(self, grid: Grid) -> Floats:
-        """Return the prior mean of the probability that a cell stops a beam that meets its surface, (nx, ny).
-
-        The default estimates it from 200 prior draws; override it if it is known.
+        """Return the prior mean of the probability that a cell stops a beam that meets its surface, (nx, ny). The
+        default estimates it from 200 prior draws; override it if it is known.
         """
         rng = np.random.default_rng(0)
         maps = [self._chance(self.sample_cells(rng, grid), grid) for _ in range(200)]
@@ -136,7 +135,6 @@ class CellPrior(ABC):
 
     def completed(self, cells: Cells, grid: Grid) -> Cells:
         """Return the map with a state of the prior in the cells that are NaN because their draw does not store them.
-
         The default returns the map itself, which is right if a draw stores all cells of the grid.
         """
         return cells
@@ -171,9 +169,8 @@ class CellPrior(ABC):
         return None
 
     def width(self, draws: Draws, level: float) -> Floats:
-        """Return the width of each cell's interval, (nx, ny): the posterior's, or the evidence's where that is wider.
-
-        A prior that is nearly sure makes the posterior's interval narrow after a single beam.
+        """Return the width of each cell's interval, (nx, ny): the posterior's, or the evidence's where that is wider. A
+        prior that is nearly sure makes the posterior's interval narrow after a single beam.
         """
         posterior, evidence = self.interval(draws, level), self.evidence_interval(draws, level)
         width = posterior[1] - posterior[0]
@@ -189,9 +186,8 @@ class CellPrior(ABC):
         return self.traces(draws, cells)
 
     def constant_cells(self, draws: Draws) -> tuple[NDArray[np.bool_] | None, NDArray[np.bool_] | None]:
-        """Find the cells with one value in all draws of each chain, and in all draws of all chains, (N,) each.
-
-        Both are None if a state is a continuous number, which no two draws share.
+        """Find the cells with one value in all draws of each chain, and in all draws of all chains, (N,) each. Both are
+        None if a state is a continuous number, which no two draws share.
         """
         return None, None
 
@@ -205,9 +201,8 @@ class CellPrior(ABC):
         )
 
     def predictive_stops(self, draws: Draws, cells: NDArray[np.int32] | None = None) -> Iterator[NDArray[np.float32]]:
-        """Yield the stops of each draw in the ``cells`` (flat indices; all if None), in batches of draws.
-
-        Predictions read them: (draws, n), or (draws, n, 6) for surfaces, in the units of `stops`.
+        """Yield the stops of each draw in the ``cells`` (flat indices; all if None), in batches of draws. Predictions
+        read them: (draws, n), or (draws, n, 6) for surfaces, in the units of `stops`.
         """
         batch: list[NDArray[np.float32]] = []
         for chain, draw in draws.numbers():

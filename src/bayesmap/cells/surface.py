@@ -193,9 +193,7 @@ class Surface(Beta):
 
     def surface_writer(self, draws: Draws, cells: NDArray[np.int32]) -> Callable[[NDArray[np.float32], int, int], None]:
         """Return a function that writes the surfaces of the cells in a draw, by chain and draw, into stops, (n, 6).
-
-        Draws store the surfaces of cells in which a reading ends. Surfaces of other cells almost follow the prior, and
-        are drawn from it here.
+        Surfaces that draws do not store almost follow the prior, and are drawn from it.
         """
         position, stored = positions_in(draws.index["surface_cell"], cells)
         position, centre, rng = position[stored], draws.grid.centers_from_corner_m(cells), np.random.default_rng(0)

@@ -55,9 +55,8 @@ class Mapped(NamedTuple):
 
 
 def map_over(in_axes: InAxes, args: tuple[Any, ...], n: int | None = None) -> Mapped:
-    """Return the leaves of `args` with their mapped axes, which are given and checked as for `jax.vmap`.
-
-    None with the number `n` of elements repeats the same arguments.
+    """Return the leaves of `args` with their mapped axes, which are given and checked as for `jax.vmap`. None with the
+    number `n` of elements repeats the same arguments.
     """
     # Let `jax.vmap` check the axes; then give each leaf its axis.
     axes = tuple(in_axes) if isinstance(in_axes, list) else in_axes
@@ -112,9 +111,8 @@ def dense(chm: ChoiceMap, shape: tuple[int, ...]) -> tuple[Any, Any] | None:
 
 
 def vectorise(chm: ChoiceMap, n: int) -> ChoiceMap:
-    """Return the choice map with a leading axis of length `n` on every leaf, ready to be mapped over.
-
-    Raises ShapeMismatch for an array of another length, UnknownAddress for an index out of range.
+    """Return the choice map with a leading axis of length `n` on every leaf, ready to be mapped over. Raises
+    ShapeMismatch for an array of another length, UnknownAddress for an index out of range.
     """
     match chm:
         case Choice(Mask(value, flag)):
@@ -174,9 +172,8 @@ def _check_leading(value: Any, shape: tuple[int, ...]) -> None:
 
 
 def total(scores: Any) -> Any:
-    """Return the sum of an array of scores, shape ().
-
-    Without the barrier XLA merges this sum with the sums inside the scores into one long loop, which loses a digit.
+    """Return the sum of an array of scores, shape (). Without the barrier XLA merges this sum with the sums inside the
+    scores into one long loop, which loses a digit.
     """
     return jnp.sum(jax.lax.optimization_barrier(scores))  # type: ignore[no-untyped-call]
 
@@ -200,9 +197,8 @@ CACHE_BYTES, DEVICE_BYTES = 1 << 20, 1 << 28
 
 
 def in_chunks(fn: Callable[..., Any], *args: Any) -> Any:
-    """Return `fn(*args)`. Under `jax.vmap` run elements in chunks, so that every intermediate array is small.
-
-    XLA moves work that all elements share out of the loop over chunks. In one large batch it may repeat this work.
+    """Return `fn(*args)`. Under `jax.vmap` run elements in chunks, so that every intermediate array is small. XLA moves
+    work that all elements share out of the loop over chunks. In one large batch it may repeat this work.
     """
     leaves, treedef = jax.tree.flatten(args)
     traced = [k for k, x in enumerate(leaves) if isinstance(x, jax.core.Tracer)]

@@ -83,9 +83,8 @@ def to_device(array: np.ndarray[Any, Any], dtype: Any, device: str) -> Any:
 
 
 def pack(kind: Any, device: str, /, **values: Any) -> Any:
-    """Return a struct for kernels, with arrays of the types of its fields.
-
-    A NumPy array is put on the device. A shape, a tuple, stands for an array of zeros where the field is an array.
+    """Return a struct for kernels, with arrays of the types of its fields. A NumPy array is put on the device. A shape,
+    a tuple, stands for an array of zeros where the field is an array.
     """
     packed = kind()
     for name, value in values.items():

@@ -153,9 +153,8 @@ def first_past(line: Line, cells: Int32s, begin: int, end: int, distance_m: wp.f
 def list_cells(
     first: int, lines: Lines, reach_m: Float64s, near_m: Float64s, offsets: Int32s, cells: Int32s, near: Int32s
 ):
-    """One thread per beam: write its cells, and find the first cell that it enters at ``near_m`` or later.
-
-    Without room for cells nothing is written: at an infinite ``near_m``, ``near`` is then the number of cells.
+    """One thread per beam: write its cells, and find the first cell that it enters at ``near_m`` or later. Without room
+    for cells nothing is written: at an infinite ``near_m``, ``near`` is then the number of cells.
     """
     # b: beam; w: its walk; k: next entry.
     b = first + wp.tid()

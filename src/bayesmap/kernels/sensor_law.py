@@ -44,9 +44,8 @@ def whole_power(power: float) -> int:
 
 @wp.func
 def noise_density(law: Any, square: Any):
-    """Return the density of the standard noise of a sensor's law, at a squared distance.
-
-    Student's t with an odd number of degrees of freedom is height / (1 + square / dof)^power, without logarithms.
+    """Return the density of the standard noise of a sensor's law, at a squared distance. Student's t with an odd number
+    of degrees of freedom is height / (1 + square / dof)^power, without logarithms.
     """
     if law.power > 0:
         base = type(square)(1.0) + square / law.dof
@@ -98,9 +97,8 @@ def not_zero(x: wp.float64) -> wp.float64:
 
 @wp.func
 def student_below(dof: wp.float64, log_height: wp.float64, t: wp.float64) -> wp.float64:
-    """Return P(T <= t) for Student's t: half an incomplete beta function of (dof / 2, 1 / 2) at dof / (dof + t^2).
-
-    For whole dof it is a finite sum (Abramowitz and Stegun 26.7.3 and 26.7.4), which is ten times as fast.
+    """Return P(T <= t) for Student's t: half an incomplete beta function of (dof / 2, 1 / 2) at dof / (dof + t^2). For
+    whole dof it is a finite sum (Abramowitz and Stegun 26.7.3 and 26.7.4), which is ten times as fast.
     """
     # a: dof / 2; x: argument of the incomplete beta function; y: 1 - x.
     half = wp.float64(0.5)
@@ -268,7 +266,6 @@ def mixed_density(law: Any, reading_m: Any, decay: Any, distance_m: Any, returne
 @wp.func
 def stop_density(law: Any, reading_m: Any, decay: Any, distance_m: Any, variance: Any):
     """Return p(reading | the beam stops at about the distance): a density, or the probability of a typed reading.
-
     ``decay`` is `object_decay` of the reading. The distance is infinite if the beam stops nowhere.
     """
     # wall: the distance, at most the largest range; free: chance that no passing object blocks the beam.
@@ -367,9 +364,8 @@ def random_below(law: Any, z: Any):
 
 @wp.func
 def met_or_returned(law: Any, z: Any, decay: Any, distance_m: Any, variance: Any):
-    """Return P(reading <= z | it is not random) of the mixture: from a passing object, or from the stop.
-
-    ``decay`` is `object_decay` of z, which all stops share: a stop far behind z costs no exponential.
+    """Return P(reading <= z | it is not random) of the mixture: from a passing object, or from the stop. ``decay`` is
+    `object_decay` of z, which all stops share: a stop far behind z costs no exponential.
     """
     # met: chance of a passing object before z and before the stop; returned: chance of a return below z.
     one = type(z)(1.0)

@@ -179,10 +179,8 @@ def first_hit_ranges(
 def cast(
     walls: NDArray[Any], starts_cells: Floats, angles_rad: Floats, longest_cells: float, device: str = "cpu"
 ) -> tuple[Floats, Ints]:
-    """Compute each beam's capped distance to its first wall, in cells, and the number of cells visited, (B,) each.
-
-    Walls are non-zero elements, (nx, ny). Beams start at ``starts_cells`` in units of cells from the grid's origin, (B,
-    2).
+    """Compute each beam's capped distance to its first wall, and the number of cells visited, (B,) each. Walls are
+    non-zero elements, (nx, ny); starts and distances are in cells from the grid's origin.
     """
     device = devices.resolve(device)
     x, y = np.asarray(starts_cells).T

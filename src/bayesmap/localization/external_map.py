@@ -149,9 +149,8 @@ def fit_law(occupancy: Floats, grid: Grid, scans: Scans, seed: int = 0, on_progr
 
 
 def searched(known: KnownMap, scans: Scans, poses: Floats, seed: int) -> tuple[UsualFit, float]:
-    """Search for single scans at known poses. Returns their usual fit, and the best power of a place's evidence.
-
-    The best of `POWERS` is the one under which the right place has the highest mean log probability.
+    """Search for single scans at known poses. Returns their usual fit, and the best power of a place's evidence. The
+    best of `POWERS` is the one under which the right place has the highest mean log probability.
     """
     from bayesmap.localization.filter import Prior, Scan, update
 

@@ -41,7 +41,6 @@ def approached(
     places: PoseMixture, log_prior: Callable[[Floats], Floats], known: KnownMap, scan: Scan, rng: np.random.Generator
 ) -> PoseMixture:
     """Return places moved to where prior and end points agree, and narrowed. Too few hits leave them unchanged.
-
     ``log_prior`` computes the log density of poses (P, 3) before the scan, (P,).
     """
     points = end_points(scan.angles_rad, scan.ranges_m, POINTS)
@@ -105,9 +104,8 @@ class Prior:
 
 
 def update(known: KnownMap, prior: Prior, scan: Scan, rng: np.random.Generator, *, look_everywhere: bool) -> PoseBelief:
-    """Compute the posterior of a scan's pose.
-
-    With ``look_everywhere`` the whole map is searched. A prior without components always needs this search.
+    """Compute the posterior of a scan's pose. With ``look_everywhere`` the whole map is searched. A prior without
+    components always needs this search.
     """
 
     def target(thin: int, draws: int | None = None) -> Target:
@@ -204,10 +202,9 @@ def belief_of(
     known: KnownMap, prior: Prior, scan: Scan, population: Population, group: NDArray[np.intp] | None,
     mass_before: Floats | None = None,
 ) -> PoseBelief:  # fmt: skip
-    """Return the posterior of a population, with the probability of being lost.
-
-    ``group`` is the place of each pose, (N,), or None if poses are spread over the whole map. ``mass_before`` is each
-    place's share of the prior, (K,). It is needed if only part of the scan's evidence is new.
+    """Return the posterior of a population, with the probability of being lost. ``group`` is the place of each pose,
+    (N,), or None if poses are spread over the whole map; ``mass_before`` is each place's share of the prior, (K,), if
+    only part of the scan's evidence is new.
     """
     weights = population.weights
     if not np.isfinite(population.log_evidence):
@@ -241,9 +238,8 @@ def shared_by_places(weights: Floats, group: NDArray[np.intp], log_weights: Floa
 
 
 def shared_by_evidence(weights: Floats, group: NDArray[np.intp], mass: Floats, power: float) -> Floats:
-    """Return weights with places' shares by a power of the evidence, and the old ratios within each place.
-
-    With a power of 0 shares stay as before the scan, ``mass``, (K,); with 1 they become the sums of the weights.
+    """Return weights with places' shares by a power of the evidence, and the old ratios within each place. With a power
+    of 0 shares stay as before the scan, ``mass``, (K,); with 1 they become the sums of the weights.
     """
     own = np.bincount(group, weights, len(mass))
     with np.errstate(divide="ignore"):
@@ -284,9 +280,8 @@ def _at_power(population: Population, likelihood: Floats, power: float) -> Float
 def _fit(
     known: KnownMap, scan: Scan, population: Population, likelihood: Floats, belief: PoseBelief
 ) -> tuple[float, float]:
-    """Return the log evidence of the likeliest mode, and the log-likelihood per beam at the best pose, nats.
-
-    Beams have more weight here, because a scan tells more about whether it fits at all than about its exact pose.
+    """Return the log evidence of the likeliest mode, and the log-likelihood per beam at the best pose, nats. Beams have
+    more weight here, because a scan tells more about whether it fits at all than about its exact pose.
     """
     weight, usual = known.weight_of_fit(scan.ranges_m), known.weight_of(scan.ranges_m)
     logs = _at_power(population, likelihood, weight / usual)
@@ -312,9 +307,8 @@ ONE_PLACE, ALIKE = 1.0, np.array([0.02, 0.02, np.radians(1.0)])  # nearer places
 
 
 def locate(known: KnownMap, scan: Scan, rng: np.random.Generator) -> PoseBelief:
-    """Compute the posterior of a scan's pose anywhere on a map that is known exactly.
-
-    The map's ``beam_weight`` is the final power of the likelihood.
+    """Compute the posterior of a scan's pose anywhere on a map that is known exactly. The map's ``beam_weight`` is the
+    final power of the likelihood.
     """
     prior = Prior()
     valid = max(1, int((~np.isnan(scan.ranges_m)).sum()))

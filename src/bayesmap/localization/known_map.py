@@ -42,11 +42,8 @@ BINS = 60  # number of range bins in the law of readings anywhere
 
 @dataclass(frozen=True)
 class Trust:
-    """The trust in a map: the worth of a scan's evidence in it, and how long other places are kept.
-
-    A scan is worth a number of independent readings for the pose within a place, for choosing among places, and for
-    deciding whether the robot is on the map. Scans along ``shared_way_m`` of path share their errors: after a shorter
-    way, a scan counts by the way's share of this length.
+    """The trust in a map: the worth of a scan in independent readings, and how long other places are kept. Scans along
+    ``shared_way_m`` of path share their errors: after a shorter way, a scan counts by the way's share of it.
     """
 
     pose_readings: float = INDEPENDENT_BEAMS

@@ -162,9 +162,8 @@ def follow(
     known: KnownMap, scans: Scans | Iterable[Scans], prior: InitialPose | None = None, odometry: Odometry | None = None,
     independent: bool = False, seed: int = 0,
 ) -> Iterator[PoseBelief]:  # fmt: skip
-    """Yield the posterior of each scan, with the arguments of `localize`.
-
-    Scans may also come one at a time: each posterior is yielded before the next scan is asked for.
+    """Yield the posterior of each scan, with the arguments of `localize`. Scans may also come one at a time: each
+    posterior is yielded before the next scan is asked for.
     """
     odometry = Odometry() if odometry is None else odometry
     _check(known, prior, odometry)
@@ -227,10 +226,8 @@ def _check(known: KnownMap, prior: InitialPose | None, odometry: Odometry) -> No
 
 
 def moved(belief: PoseBelief, motion: Floats, sigmas: Floats, trust: Trust, new: float = 1.0) -> Prior:
-    """Return the prior of the pose after a motion that odometry reports, in the frame of the old pose, (3,).
-
-    ``sigmas`` are the standard deviations of the motion's error, (3,), and ``new`` is the share of the next scan's
-    evidence that is new.
+    """Return the prior of the pose after a motion that odometry reports in the frame of the old pose, (3,), with errors
+    of these ``sigmas``. ``new`` is the share of the next scan's evidence that is new.
     """
     modes = belief.places(float(np.exp(-trust.forgotten_nats)))
     means = np.array([mode.mean for mode in modes])

@@ -56,7 +56,6 @@ class PoseMixture:
         self, target: Callable[[Floats], Floats], each: int | NDArray[np.intp], rng: np.random.Generator
     ) -> Population:
         """Draw ``each`` poses from each place, one number or (K,), and weight them. Masses of places are not used.
-
         ``target`` is the log density of poses (P, 3), not normalised, (P,).
         """
         counts = np.broadcast_to(each, len(self.means))
@@ -109,7 +108,6 @@ class PoseMixture:
 
     def adapted(self, population: Population, widen: float = 1.5) -> tuple[PoseMixture, float]:
         """Return the places at the weighted moments of their draws, and the least power by which weights were tempered.
-
         With a power of 1 the proposals are near the target. With a lower power, another round will improve them.
         """
         count, least = len(self.means), 1.0
@@ -161,9 +159,8 @@ class Population:
 
 
 def student_draws(count: int, rng: np.random.Generator) -> Floats:
-    """Draw from the standard Student distribution in three dimensions, evenly spread, (N, 3).
-
-    The lattice is Roberts' (2018), powers of the root of x^5 = x + 1, shifted at random (Cranley and Patterson 1976).
+    """Draw from the standard Student distribution in three dimensions, evenly spread, (N, 3). The lattice is Roberts'
+    (2018), powers of the root of x^5 = x + 1, shifted at random (Cranley and Patterson 1976).
     """
     even = (rng.random(4) + np.arange(count)[:, None] * LATTICE) % 1.0
     even = np.clip(even, 1e-12, 1.0 - 1e-12)

@@ -52,10 +52,8 @@ def likelihood_field(
     occupancy: Floats, grid: Grid, robot_may_be: NDArray[np.bool_], unknown: NDArray[np.bool_] | None = None,
     chance: float = 0.0,
 ) -> Field:  # fmt: skip
-    """Compute the likelihood field of a map from the probability that each cell stops a beam, 0 where unknown.
-
-    ``robot_may_be`` and ``unknown`` are masks of cells, (nx, ny). ``chance`` is the probability that an unknown cell
-    stops a beam.
+    """Compute the likelihood field of a map from the probability that each cell stops a beam, 0 where unknown. Masks
+    are (nx, ny); ``chance`` is the probability that an unknown cell stops a beam.
     """
     # Fine field: maximum over shifted copies of the strengths, out to two standard deviations.
     strength = np.clip(np.nan_to_num(occupancy) / SOLID, 0.0, 1.0)
@@ -82,7 +80,6 @@ def likelihood_field(
 
 def worth_of_unknown(chance: float, sigma_m: float, resolution: float) -> float:
     """Compute the density of readings in cells that stop a beam with a probability, relative to its peak on a wall.
-
     ``sigma_m`` is the standard deviation of a reading on a wall. The result is at most 1.
     """
     return min(1.0, chance / resolution * sigma_m * math.sqrt(2.0 * math.pi))
@@ -110,7 +107,6 @@ class EndpointField:
 
     def log_worth(self, points: Floats, poses: Floats) -> Floats:
         """Return the sum of the points' log worth, relative to points far from all surfaces, at each pose, (P,), nats.
-
         Points are in the sensor's frame, (N, 2), and poses in the world frame, (P, 3).
         """
         from bayesmap.kernels.match.fields import field_sums
@@ -121,9 +117,8 @@ class EndpointField:
 def endpoint_field(
     states: NDArray[np.float32], grid: Grid, noise_m: float, unknown: NDArray[np.bool_], chance: float
 ) -> EndpointField:
-    """Compute the field of the draws of a map, as `KnownMap.of_draws` takes them.
-
-    ``noise_m`` is the standard deviation of a reading. An ``unknown`` cell stops a beam with probability ``chance``.
+    """Compute the field of the draws of a map, as `KnownMap.of_draws` takes them. ``noise_m`` is the standard deviation
+    of a reading. An ``unknown`` cell stops a beam with probability ``chance``.
     """
     from bayesmap.kernels.match.fields import spread
 
@@ -144,7 +139,6 @@ def endpoint_field(
 
 def _surfaces(states: NDArray[np.float32], grid: Grid, known: NDArray[np.bool_]) -> tuple[Floats, Floats, Floats]:
     """Return means from the grid's corner (K, 2), covariances xx, xy, yy (K, 3), metres, and strengths, of all draws.
-
     Unknown cells are left out: draws follow the prior there, and together they have surfaces almost everywhere.
     """
     chances = states[..., 0] if states.ndim == 3 else states
@@ -182,9 +176,8 @@ def end_points(angles_rad: Floats, ranges_m: Floats, most: int, furthest_m: floa
 
 
 def search(field: Field, angles_rad: Floats, ranges_m: Floats, most: int) -> Candidates:
-    """Find the best poses of a scan, A angles and readings, over a whole map.
-
-    All are more than `APART_M` or `APART_RAD` from each other. A scan with fewer hits than `MIN_POINTS` has none.
+    """Find the best poses of a scan, A angles and readings, over a whole map. All are more than `APART_M` or
+    `APART_RAD` from each other. A scan with fewer hits than `MIN_POINTS` has none.
     """
     points = end_points(angles_rad, ranges_m, POINTS)
     coarse = _coarse_poses(field, points) if len(points) >= MIN_POINTS else np.empty((0, 3))

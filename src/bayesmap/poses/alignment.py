@@ -63,9 +63,8 @@ class Alignment:
 
 
 def overlapping_pairs(geometry: ScanGeometry, poses: Floats, reach_m: float) -> Pairs:
-    """Select the partners of each of S scans at poses (S, 3): those whose walls explain most of its points.
-
-    Sensors of partners are at most ``reach_m`` apart. Some partners are near in time, the others from other visits.
+    """Select the partners of each of S scans at poses (S, 3): those whose walls explain most of its points. Sensors of
+    partners are at most ``reach_m`` apart. Some partners are near in time, the others from other visits.
     """
     from scipy.spatial import cKDTree
 
@@ -187,9 +186,8 @@ def _laser(
 
 
 def without_slack(second: Floats, slack: Floats, first: Floats, sigma_m: float) -> tuple[Floats, Floats]:
-    """Return second derivatives, (M, 3, 3), and first ones, (M, 3), without the part from errors of normals.
-
-    The minimum of the quadratic cost stays. The cost becomes flat along directions that have only slack.
+    """Return second derivatives, (M, 3, 3), and first ones, (M, 3), without the part from errors of normals. The
+    minimum of the quadratic cost stays. The cost becomes flat along directions that have only slack.
     """
     laser_information = second - SLACKS * sigma_m**2 * slack
     values, vectors = np.linalg.eigh(laser_information)
@@ -256,9 +254,8 @@ def point_error(geometry: ScanGeometry, aligned: Alignment) -> PointError:
 
 
 def with_point_error(aligned: Alignment, error: PointError) -> PoseGaussian:
-    """Return the Gaussian of aligned scans with the laser's part scaled to a measured error of points.
-
-    The approximation is a Student's t, whose covariance is dof / (dof - 2) times its scale matrix.
+    """Return the Gaussian of aligned scans with the laser's part scaled to a measured error of points. The
+    approximation is a Student's t, whose covariance is dof / (dof - 2) times its scale matrix.
     """
     gaussian = aligned.gaussian
     scale = (aligned.sigma_m / error.scatter_m) ** 2 * gaussian.dof / (gaussian.dof - 2.0) / (1.0 - COUNTED_AGAIN)

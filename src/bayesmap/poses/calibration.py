@@ -66,9 +66,8 @@ def _farthest_m(elapsed: Floats) -> Floats:
 
 
 def motion_variances(motions: Floats, ratios: Floats) -> Floats:
-    """Return variances of x, y and yaw of motions, (..., 3), whose noise is ``ratios`` times `COMMON`.
-
-    ``ratios`` are those of position and heading, (2,). A heading error half-way moves the rest of a motion sideways.
+    """Return variances of x, y and yaw of motions, (..., 3), whose noise is ``ratios`` times `COMMON`. ``ratios`` are
+    those of position and heading, (2,). A heading error half-way moves the rest of a motion sideways.
     """
     variance = (COMMON.sigmas(motions) * ratios[[0, 0, 1]]) ** 2
     lever_m = 0.5 * np.hypot(motions[..., 0], motions[..., 1])
@@ -255,9 +254,8 @@ class OdometryFit:
         return np.asarray(np.sqrt(np.diag(self.systematic_covariance)).reshape(3, 3))
 
     def shifts(self, corrected: Floats) -> Floats:
-        """Return the changes of corrected motions, (M, 3), by the standard errors of C, (9, M, 3).
-
-        The changes are independent of each other. A change dC of C changes B by -(1 + B) dC (1 + B).
+        """Return the changes of corrected motions, (M, 3), by the standard errors of C, (9, M, 3). The changes are
+        independent of each other. A change dC of C changes B by -(1 + B) dC (1 + B).
         """
         values, vectors = np.linalg.eigh(self.systematic_covariance)
         changes = (vectors * np.sqrt(np.maximum(values, 0.0))).T.reshape(9, 3, 3)
@@ -265,9 +263,8 @@ class OdometryFit:
 
 
 def stated_at(poses: Floats, stamps_s: Floats | None, lag_s: float) -> Floats:
-    """Return odometry's poses at the scans' stamps, (S, 3), if its own stamps are late by ``lag_s``.
-
-    Scans that share their stamp with others keep their poses.
+    """Return odometry's poses at the scans' stamps, (S, 3), if its own stamps are late by ``lag_s``. Scans that share
+    their stamp with others keep their poses.
     """
     if stamps_s is None or lag_s == 0.0:
         return poses

@@ -167,9 +167,8 @@ class _Path:
         return place is not None and self._slipped(scan, placed, place)
 
     def _slipped(self, scan: int, placed: Placed, place: Elsewhere) -> bool:
-        """Accept a near place if the scan fits there as usual: wheels slipped. Returns whether it is accepted.
-
-        A place counts as near if the wide search says so, or if the noise of odometry allows it.
+        """Accept a near place if the scan fits there as usual: wheels slipped. Returns whether it is accepted. A place
+        counts as near if the wide search says so, or if the noise of odometry allows it.
         """
         off = wrap_yaw(between(placed.predicted[0], place.pose))
         allowed = float((off**2 / placed.variance[0]).sum()) < DOUBTFUL_SQ
@@ -184,9 +183,8 @@ class _Path:
         return True
 
     def _leap(self, scan: int, placed: Placed, place: Elsewhere | None) -> None:
-        """Break the path before an unconfirmed scan, and go on from the pose of a wide search, or of odometry.
-
-        The break moves back over scans just before it that are badly explained, too.
+        """Break the path before an unconfirmed scan, and go on from the pose of a wide search, or of odometry. The
+        break moves back over scans just before it that are badly explained, too.
         """
         pose, score, begin = placed.predicted[0], float(placed.scores[0]), scan
         while begin - 1 > self.keys[self.begin] and self.scores[begin - 1] < self._poor_below():
@@ -256,9 +254,8 @@ class _Path:
         return placed, wrong
 
     def _doubtful(self, scan: int, placed: Placed, k: int) -> bool:
-        """Return whether a badly explained scan contradicts the key scans, fits far away, or has an uncertain pose.
-
-        If the scan fits clearly better near by, ``placed`` gets that pose.
+        """Return whether a badly explained scan contradicts the key scans, fits far away, or has an uncertain pose. If
+        the scan fits clearly better near by, ``placed`` gets that pose.
         """
         if contradicts(self.geometry, self.window, scan, placed.poses[k]):
             return True

@@ -44,9 +44,8 @@ class Precision:
         )
 
     def blocks(self, first: NDArray[np.intp], second: NDArray[np.intp], at_once: int = 400) -> Floats:
-        """Return the inverse's blocks of M pairs of poses, (M, 3, 3): rows of the first, columns of the second.
-
-        Columns are solved for ``at_once`` poses at a time. Memory grows with ``at_once`` times the number of poses.
+        """Return the inverse's blocks of M pairs of poses, (M, 3, 3): rows of the first, columns of the second. Columns
+        are solved for ``at_once`` poses at a time. Memory grows with ``at_once`` times the number of poses.
         """
         three = np.arange(3)
         result, known = self._on_pattern(3 * first[:, None, None] + three[:, None], 3 * second[:, None, None] + three)
@@ -128,7 +127,6 @@ def relative_covariances(
     precision: Precision, poses: Floats, first: NDArray[np.intp], second: NDArray[np.intp]
 ) -> Floats:
     """Compute the covariance of between(first, second) for M pairs of poses, in the first's frame, (M, 3, 3).
-
     ``precision`` is that of steps in the poses' own frames.
     """
     by_first, by_second = between_jacobians(between(poses[first], poses[second]))
@@ -211,7 +209,6 @@ def quadratic(factors: Factors, poses: Floats, weights: Floats | None = None) ->
 
 def normal_equations(count: int, parts: Sequence[Quadratic]) -> tuple[Any, Floats]:
     """Return the sparse matrix H, (3 N, 3 N) in compressed columns, and g, (3 N,), for steps in the poses' own frames.
-
     `ANCHOR` holds the first pose, and `RIDGE` is added to every pose.
     """
     # Sum blocks on the diagonal and gradients, and collect the blocks off the diagonal.

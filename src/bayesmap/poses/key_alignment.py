@@ -98,9 +98,8 @@ FAR_BELOW = 0.55  # a scan is flagged if its score is below this share of the me
 
 
 def flag_unexplained(explained: Floats, keys: NDArray[np.intp]) -> NDArray[np.bool_]:
-    """Flag scans whose scores ``explained``, (S,), are far below the median. Returns a mask, (S,).
-
-    Key scans and other scans have separate medians. A median of 0 is replaced by the median of the positive scores.
+    """Flag scans whose scores ``explained``, (S,), are far below the median. Returns a mask, (S,). Key scans and other
+    scans have separate medians. A median of 0 is replaced by the median of the positive scores.
     """
     flagged = np.zeros(len(explained), np.bool_)
     is_key = np.zeros(len(explained), np.bool_)
@@ -143,7 +142,6 @@ class KeyAlignment:
         firm: NDArray[np.bool_] | None = None,
     ) -> Alignment:  # fmt: skip
         """Align the key scans with odometry's factors, from poses (K, 3), which may be decimetres off if ``wide``.
-
         ``firm`` is the mask of odometry's links that keep their full weight, (K - 1,).
         """
         reach_m = MATCH_REACH * self.half_width_m
@@ -157,9 +155,8 @@ class KeyAlignment:
         )  # fmt: skip
 
     def improved(self, aligned: Alignment, factors: Factors) -> Rematched:
-        """Match each scan to the others, move scans that the others explain better elsewhere, and align all again.
-
-        A moved scan is put back for good if its score after the next alignment is lower than before the move.
+        """Match each scan to the others, move scans that the others explain better elsewhere, and align all again. A
+        moved scan is put back for good if its score after the next alignment is lower than before the move.
         """
         count = len(aligned.poses)
         callback = self.report(self.track, "rematch", IMPROVEMENTS + 1)
@@ -190,9 +187,8 @@ class KeyAlignment:
         return Rematched(aligned, before)
 
     def without_leaps(self, matched: Rematched, factors: Factors) -> Rematched:
-        """Align once more with firm odometry over leaps, if odometry agrees with the front end there.
-
-        A leap is a step that contradicts the front end's. The result is returned if it has fewer leaps.
+        """Align once more with firm odometry over leaps, if odometry agrees with the front end there. A leap is a step
+        that contradicts the front end's. The result is returned if it has fewer leaps.
         """
         aligned, track = matched.alignment, self.track
         leaps = contradicted_links(track, aligned.poses)

@@ -130,7 +130,6 @@ def _fits_elsewhere(
     grid: LikelihoodGrids, points: Floats, step: Floats, score: float, usual: float, odometry: Factors
 ) -> bool:
     """Check whether another place that odometry allows fits a scan as well as usual, and clearly better than a step.
-
     ``points`` are the scan's, ``step`` its pose after the step, with the score ``score``; ``usual`` is the usual score.
     """
     stated = odometry.relative
@@ -174,7 +173,6 @@ def close_loops(
     geometry: ScanGeometry, track: Track, on_progress: Callable[[int, Floats], None] | None = None
 ) -> ClosedGraph:
     """Find loop closures and solve the graph, in rounds: each round's poses set the next round's search windows.
-
     ``on_progress`` is called with the number of completed rounds and the poses of the keys, (K, 3).
     """
     keys, poses = track.keys, track.poses[track.keys]

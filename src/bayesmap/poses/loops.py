@@ -83,9 +83,8 @@ def key_path(geometry: ScanGeometry, keys: NDArray[np.intp], poses: Floats, begi
 
 
 def path_m(poses: Floats, begins: NDArray[np.bool_]) -> Floats:
-    """Return the distance of each pose along the path, metres, (S,): a radian of turning counts as half a metre.
-
-    The distance grows by `GAP_M` at each pose that begins a part of the path; ``begins`` marks them, (S,).
+    """Return the distance of each pose along the path, metres, (S,): a radian of turning counts as half a metre. The
+    distance grows by `GAP_M` at each pose that begins a part of the path; ``begins`` marks them, (S,).
     """
     step = between(poses[:-1], poses[1:])
     ways = np.hypot(step[:, 0], step[:, 1]) + 0.5 * np.abs(step[:, 2])
@@ -159,7 +158,6 @@ def _refined(
     path: KeyPath, first: NDArray[np.intp], second: NDArray[np.intp], start: Floats, scores: Floats
 ) -> Closures:
     """Refine the second's scan against the scans of the first's submap, in the first's frame, from ``start``, (M, 3).
-
     Returns the closures that stay near the start and that the views of both ends confirm.
     """
     # List the scans of all first submaps one after the other, with their poses in the first key's frame.
@@ -252,9 +250,8 @@ class Search:
 def find_closures(
     path: KeyPath, precision: Precision, half_width_m: float, search: Search, *, within_parts: bool = False
 ) -> Closures:
-    """Find closures among all key scans, or only within the parts of a broken path.
-
-    ``precision`` is that of the graph of the keys, and ``half_width_m`` is the half width of submaps' grids.
+    """Find closures among all key scans, or only within the parts of a broken path. ``precision`` is that of the graph
+    of the keys, and ``half_width_m`` is the half width of submaps' grids.
     """
     first, second, sigma = _candidates(path, precision, half_width_m, search, within_parts)
     if not len(first):

@@ -75,7 +75,6 @@ def _prior_of(found: Trajectory) -> PosePrior:
 
 def for_map(keys: Scans, resolution: float) -> Scans:
     """Select the beams of key scans, and the scans that see walls with few hits, so that cost follows the area seen.
-
     Fewer than `MANY_BEAMS` beams are used whole. Scans are chosen in the order of time, by the hits of those before.
     """
     if keys.ranges_m.size <= MANY_BEAMS:

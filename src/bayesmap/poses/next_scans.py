@@ -83,7 +83,6 @@ def place_near(
     backwards: Floats | None, usual: float,
 ) -> Placed:  # fmt: skip
     """Return N scans placed near the poses that odometry predicts, (N, 3), with variances in their own frames, (N, 3).
-
     ``backwards`` are the poses if the robot moved opposite to odometry, (N, 3). ``usual`` is the usual score.
     """
     # Search the windows that odometry allows. The least score of -9 accepts any.

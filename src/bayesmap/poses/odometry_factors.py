@@ -53,9 +53,8 @@ class StatedOdometry:
         return self._corrected(track, poses, track.slope, lambda motions: motion_variances(motions, track.noise_ratios))
 
     def fitted(self, track: Track, aligned: Alignment) -> tuple[OdometryFit | None, Factors]:
-        """Return the fit of odometry's errors to aligned key scans, and factors without these errors.
-
-        If odometry is not used, the fit is None, and the factors are the front end's.
+        """Return the fit of odometry's errors to aligned key scans, and factors without these errors. If odometry is
+        not used, the fit is None, and the factors are the front end's.
         """
         poses = aligned.poses
         if not self.used:
@@ -129,9 +128,8 @@ def with_unknown_motions(links: Factors, poses: Floats, where: NDArray[np.bool_]
 
 
 def _raised_to_local_median(variances: Floats) -> Floats:
-    """Return variances of successive motions, (N, 3), raised to at least the median of their neighbours.
-
-    Noise grows with the true distance. So a motion that noise makes shorter would get too small a variance.
+    """Return variances of successive motions, (N, 3), raised to at least the median of their neighbours. Noise grows
+    with the true distance. So a motion that noise makes shorter would get too small a variance.
     """
     from scipy.ndimage import median_filter
 
@@ -139,9 +137,8 @@ def _raised_to_local_median(variances: Floats) -> Floats:
 
 
 def compose_factors(motions: Floats, variances: Floats, keys: NDArray[np.intp]) -> Factors:
-    """Return factors between successive keys, composed of corrected motions from scan to scan, (S - 1, 3).
-
-    Variances of x, y and yaw of the motions, (S - 1, 3), add up along the way.
+    """Return factors between successive keys, composed of corrected motions from scan to scan, (S - 1, 3). Variances of
+    x, y and yaw of the motions, (S - 1, 3), add up along the way.
     """
     relative, covariance = np.zeros((len(keys) - 1, 3)), np.zeros((len(keys) - 1, 3, 3))
     # Step k adds the k-th motion after each key, for all keys at once.

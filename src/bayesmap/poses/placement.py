@@ -44,9 +44,8 @@ class Placement:
 def place_scans(
     geometry: ScanGeometry, poses: Floats, keys: NDArray[np.intp], aligned: Alignment, error: PointError
 ) -> Placement:
-    """Refine every scan against the partners of the key scan nearest to it in time; key scans keep their poses.
-
-    The S poses to start from are those of all scans, (S, 3), and ``aligned`` holds the key scans alone.
+    """Refine every scan against the partners of the key scan nearest to it in time; key scans keep their poses. The S
+    poses to start from are those of all scans, (S, 3), and ``aligned`` holds the key scans alone.
     """
     count = len(poses)
     key_poses = aligned.poses

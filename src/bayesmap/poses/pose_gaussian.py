@@ -93,9 +93,8 @@ class PoseGaussian:
         return np.concatenate([shared * np.sqrt(count / len(shared)), *(steps * np.sqrt(count) for steps in others)])
 
     def steps_by(self, changes: Floats) -> Floats:
-        """Return the steps of the poses if the last M parts measure other relative poses, (N, K, 3).
-
-        ``changes`` are those of the measured relative poses, (N, M, 3).
+        """Return the steps of the poses if the last M parts measure other relative poses, (N, K, 3). ``changes`` are
+        those of the measured relative poses, (N, M, 3).
         """
         last = slice(len(self.first) - changes.shape[1], None)
         ends, relative, curvature = (self.first[last], self.second[last]), self.relative[last], self.curvature[last]

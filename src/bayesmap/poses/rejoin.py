@@ -78,9 +78,8 @@ def rejoin(path: KeyPath, half_width_m: float) -> tuple[Floats, NDArray[np.bool_
 
 
 def _together(path: KeyPath, closures: Closures, agree: int) -> KeyPath:
-    """Return the path with parts joined to islands if ``agree`` places agree on their relative pose.
-
-    The key scans of an island have the number of its first part, and poses in that part's frame.
+    """Return the path with parts joined to islands if ``agree`` places agree on their relative pose. The key scans of
+    an island have the number of its first part, and poses in that part's frame.
     """
     islands = path
     while True:

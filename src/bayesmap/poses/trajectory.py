@@ -140,7 +140,6 @@ class Trajectory:
 
     def relative_covariances(self, first: NDArray[np.intp], second: NDArray[np.intp]) -> Floats:
         """Return scale matrices of Student's t of the relative poses of scans, in the first's frame, (N, 3, 3).
-
         Covariances are dof / (dof - 2) times as large, where dof is ``gaussian.dof``.
         """
         first, second = np.asarray(first, np.intp), np.asarray(second, np.intp)

@@ -226,10 +226,8 @@ def beam_geometry(
 
 
 class ReadingsTrace(Trace):
-    """Base of sensors' traces, whose only choice is the field `readings`.
-
-    The score is computed from the first hits when it is read. It does not drift, however many edits came before, and
-    edits do not pay for it.
+    """Base of sensors' traces, whose only choice is the field `readings`. The score is computed from the first hits
+    when it is read: it does not drift, and edits do not pay for it.
     """
 
     readings: Any
@@ -248,7 +246,6 @@ class ReadingsTrace(Trace):
 
 class RangeSensor(GenerativeFunction):
     """Base of sensors: readings in metres, at the address (), that follow `law` given the distances of the first walls.
-
     A sensor implements the four methods below, and inherits the contract.
     """
 

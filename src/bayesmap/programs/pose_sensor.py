@@ -43,9 +43,8 @@ def beams_of(start: Any, angle_rad: Any) -> Beams:
 
 
 def span(beams: Beams, low: Any, high: Any) -> tuple[Any, Any]:
-    """Return the distances at which beams enter and leave the rectangle from `low` to `high`, each (...).
-
-    A beam that leaves before it enters misses the rectangle (slab method). Distances behind the start are negative.
+    """Return the distances at which beams enter and leave the rectangle from `low` to `high`, each (...). A beam that
+    leaves before it enters misses the rectangle (slab method). Distances behind the start are negative.
     """
     to_low, to_high = (low - beams.start) / beams.direction, (high - beams.start) / beams.direction
     return jnp.minimum(to_low, to_high).max(axis=-1), jnp.maximum(to_low, to_high).min(axis=-1)
@@ -66,9 +65,8 @@ def first_cells(beams: Beams, shape: tuple[int, int]) -> tuple[Any, Any]:
 
 
 def first_walls(walls: Any, beams: Beams, cell: Any, active: Any) -> Any:
-    """Return the first wall at or behind a cell, (K, 2), of each active beam, on a map (nx, ny).
-
-    Returns flat indices x * ny + y, (K,) int32; nx * ny for a beam that meets no wall or is not active.
+    """Return the first wall at or behind a cell, (K, 2), of each active beam, on a map (nx, ny). Returns flat indices x
+    * ny + y, (K,) int32; nx * ny for a beam that meets no wall or is not active.
     """
     shape = jnp.array(jnp.shape(walls))
     nx, ny = jnp.shape(walls)

@@ -144,7 +144,6 @@ def first_sensor(prior: CellPrior, resolution_m: float) -> BeamMixture:
 
 def fit(problem: StopProblem, seed: int, sweeps: int, watch: Watch = SILENT) -> Parameters:
     """Fit sensor and prior to the scans of a problem, starting from the problem's, by ``sweeps`` sweeps of the pilot.
-
     The watch gets progress after each sweep; a stop ends the pilot, and with it the run.
     """
     assert isinstance(problem.sensor, BeamMixture)
@@ -276,10 +275,8 @@ def refit_prior(
     prior: Beta, hits: NDArray[np.int32], met: NDArray[np.int32], step: float,
     solid: NDArray[np.bool_] | None = None,
 ) -> Beta:  # fmt: skip
-    """Move the Beta's counts towards those that make hits and passes likeliest, reflectivities integrated out.
-
-    Cells with negative ``met`` have not counted yet and are left out. With labels, each label's Beta is fitted to the
-    cells that have this label; the coupling stays.
+    """Move the Beta's counts towards those that make hits and passes likeliest, reflectivities integrated out, in each
+    label's cells. Cells with negative ``met`` have not counted yet and are left out.
     """
     counted = met >= 0
     if solid is None:
@@ -322,9 +319,8 @@ FIRST_COUPLING = 0.5  # start of the pilot; at 0.88 and p = 0.5, whole regions b
 def fit_coupling_to_scans(
     model: Model, sampler: WallSampler, device: str, *, seed: int, threads: int | None = None, watch: Watch = SILENT
 ) -> Ising:
-    """Return the `Ising` prior of a model with the coupling that suits its scans; its wall probability stays.
-
-    The watch gets progress after each sweep of the pilot; a stop ends the pilot, and with it the run.
+    """Return the `Ising` prior of a model with the coupling that suits its scans; its wall probability stays. The watch
+    gets progress after each sweep of the pilot; a stop ends the pilot, and with it the run.
     """
     prior = replace(cast(Ising, model.cells), coupling=FIRST_COUPLING)
     problem = sampler.prepare(replace(model, cells=prior), device, threads, watch)

@@ -106,10 +106,8 @@ def initial_estimate(rays: Rays, prior: Beta, device: str = "cpu") -> InitialEst
 
 
 def widen_along_wall(var_x: Floats, both: Floats, var_y: Floats) -> tuple[Floats, Floats, Floats]:
-    """Return the covariances, xx, xy and yy, with `ALONG_WALL_SIGMAS` times the sigma along the longer axis.
-
-    If readings are spread evenly along a wall, a surface that stops all of their beams must be wider than their
-    scatter.
+    """Return the covariances, xx, xy and yy, with `ALONG_WALL_SIGMAS` times the sigma along the longer axis: a surface
+    that stops all beams of evenly spread readings must be wider than their scatter.
     """
     angle, along = longer_axis(var_x, both, var_y)
     more = (ALONG_WALL_SIGMAS**2 - 1.0) * along
@@ -145,7 +143,6 @@ def counts_at_first(estimate: InitialEstimate, cells: int) -> tuple[NDArray[np.f
 
 def first_labels(estimate: InitialEstimate, prior: Beta, grid: Grid, rng: np.random.Generator) -> NDArray[np.bool_]:
     """Draw a chain's first labels of all cells of the grid, (N,), by sweeps of labels under the estimated counts.
-
     Regions that no beam observes agree slowly, and sweeps of labels alone are cheap.
     """
     stopped, passed = (counts.astype(np.float64) for counts in counts_at_first(estimate, grid.n_cells))
@@ -161,9 +158,8 @@ def draw_start_state(
 ) -> NDArray[np.float32]:  # fmt: skip
     """Draw a chain's first state of all cells of the grid, (N, 6), scattered about the estimate like the posterior.
 
-    Columns are the reflectivity, the mean's x and y from the grid's corner, and the Cholesky factor's l11, l21 and l22.
-    ``solid`` holds their labels, (N,), if they have any. Cells in which no reading ends take surfaces from the prior.
-    Cells that no beam touches take their whole state from the prior.
+    Columns are the reflectivity, the mean's x and y from the grid's corner, and l11, l21 and l22. ``solid`` holds
+    labels, (N,), if any. Without readings, a cell takes its surface from the prior; without beams, its whole state.
     """
     grid, cells = rays.grid, rays.grid.n_cells
     state = np.zeros((cells, 6), dtype=np.float32)

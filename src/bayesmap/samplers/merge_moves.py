@@ -78,7 +78,6 @@ class Changes:
 
 def evidence(chains: StopChains, chain: int, end_cell: NDArray[np.int32], prior: Beta) -> Floats:
     """Compute the sum above over the beams whose readings end in each cell, (N,), for a chain's last sweep.
-
     ``end_cell`` is the result of `bayesmap.samplers.initial_estimate.end_cells`, (B,).
     """
     cells = chains.plan.rays.grid.n_cells
@@ -213,11 +212,11 @@ def merge_surfaces(
     before: Floats,
 ) -> list[int]:  # fmt: skip
     """Try for every surface that stops few beams whether a neighbour is better without it; change maps in place.
-
-    For B beams ``end_points_m`` holds the readings' end points from the grid's corner, (B, 2), not finite if there is
-    none, and ``noise`` the variances of their noise, square metres, (B,). ``owners`` has for each chain the flat index
-    of the cell that stopped each beam, -1 for none, (B,). ``before`` is the evidence of the maps, (C, nx, ny).
     Returns the number of removed surfaces of each chain.
+
+    The B beams have end points from the grid's corner, (B, 2), not finite if there is none, variances of their
+    ``noise``, square metres, and for each chain ``owners``, the flat index of the cell that stopped each, or -1.
+    ``before`` is the evidence of the maps, (C, nx, ny).
     """
     chains = zip(maps.cells, maps.solid, owners, strict=True)
     changes = [merge_moves(*chain, end_points_m, noise, grid) for chain in chains]
@@ -326,10 +325,9 @@ def lengthened(
     cells: NDArray[np.float32], readings: ExplainedReadings, axes: SurfaceAxes, source: NDArray[np.intp],
     target: NDArray[np.intp], grid: Grid,
 ) -> Floats:  # fmt: skip
-    """Lengthen the surfaces of ``target`` to reach the readings of ``source``. Returns mean, l11, l21, l22, (n, 5).
-
-    A surface moves along its axis towards the middle of both cells' readings, within its square. It becomes as long as
-    their scatter about its mean.
+    """Lengthen the surfaces of ``target`` to reach the readings of ``source``. Returns mean, l11, l21, l22, (n, 5). A
+    surface moves along its axis, within its square, to the middle of both cells' readings, and becomes as long as their
+    scatter.
     """
     mean, axis = cells[target, 1:3].astype(np.float64), axes.direction[target]
     both = source, target

@@ -60,9 +60,8 @@ class Gibbs:
 
 @dataclass(frozen=True, eq=False)
 class Block(Gibbs):
-    """Draw overlapping blocks of 2 x 2 binary cells: where walls are rare, single cells mix slowly.
-
-    The attributes are those of `Gibbs`; the order is that of the blocks.
+    """Draw overlapping blocks of 2 x 2 binary cells: where walls are rare, single cells mix slowly. The attributes are
+    those of `Gibbs`; the order is that of the blocks.
     """
 
     name: ClassVar[str] = "block"

@@ -173,9 +173,8 @@ class Sampler(Protocol[P, S]):
 
 
 def to_see(draws: Draws) -> dict[str, NDArray[Any]]:
-    """Select the draws for `Sampler.observed_counts`: `MAPS_TO_SEE` maps, evenly spread, without partial arrays.
-
-    The observed cells hardly differ from draw to draw, and all draws may be gigabytes, or on another machine.
+    """Select the draws for `Sampler.observed_counts`: `MAPS_TO_SEE` maps, evenly spread, without partial arrays. The
+    observed cells hardly differ from draw to draw, and all draws may be gigabytes, or on another machine.
     """
     selected = np.unique(np.linspace(0, draws.count - 1, MAPS_TO_SEE).astype(np.intp)) if draws.count else slice(0)
     whole = {spec.name for spec in draws.specs if spec.dims == ("x", "y")}

@@ -138,10 +138,9 @@ class StopState(ChainState):
 
 @dataclass(frozen=True)
 class StopGibbs:
-    """Sweeps of stops, labels, reflectivities and surfaces.
-
-    In the first ``early_sweeps`` sweeps, surfaces take `EARLY_SURFACE_STEPS` Metropolis steps instead of `STEPS`.
-    Surfaces are merged after them (`bayesmap.samplers.merge_moves.merge_sweeps`); not at all if 0.
+    """Sweeps of stops, labels, reflectivities and surfaces. In the first ``early_sweeps``, surfaces take
+    `EARLY_SURFACE_STEPS` Metropolis steps; then they are merged (`bayesmap.samplers.merge_moves.merge_sweeps`), not at
+    all if 0.
     """
 
     early_sweeps: int = 0
@@ -232,9 +231,8 @@ class StopGibbs:
         return replace(state, problem=problem, chains=new)
 
     def present_cells(self, state: StopState) -> NDArray[np.float32]:
-        """Return the present cells of the chains: reflectivities (C, N), or surfaces (C, N, 6).
-
-        If cells have labels, this draws the reflectivity of untouched cells in place. Sweeps do not use it.
+        """Return the present cells of the chains: reflectivities (C, N), or surfaces (C, N, 6). If cells have labels,
+        this draws the reflectivity of untouched cells in place. Sweeps do not use it.
         """
         if state.problem.prior.has_labels and state.chains.swept:
             state.chains.draw_untouched(state.sweep)

@@ -218,11 +218,8 @@ class WallGibbs(WallSampler):
 
 @dataclass(frozen=True, eq=False)
 class WallBlocks(WallSampler):
-    """Every sweep draws each of the overlapping 2 x 2 blocks once, its four cells together.
-
-    If walls are rare, single-site sampling hardly converges. A wall too near the sensor is only removed if its beams
-    meet a wall behind it, and the map behind a wall is almost empty. A block removes the wall and puts another one
-    beside or behind it in one step.
+    """Every sweep draws each of the overlapping 2 x 2 blocks once, its four cells together. A wall too near the sensor
+    moves in one step; single cells would have to remove it before its beams meet another wall.
     """
 
     def sites(self, problem: WallProblem) -> NDArray[np.int32]:

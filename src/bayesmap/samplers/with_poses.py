@@ -122,11 +122,11 @@ class PoseMetropolis:
 def proposal_factors(
     likelihood: ScanLikelihood, cells: NDArray[np.float32], poses: Floats, prior: PoseLaw, step_m: float
 ) -> Floats:
-    """Compute Cholesky factors of steps that fit each scan's posterior given the map, (S, 3, 3).
+    """Compute Cholesky factors of steps that fit each scan's posterior given one map, (1, N) or (1, N, 6). Returns (S,
+    3, 3).
 
-    The likelihood's information is estimated by the sum over beams of the outer products of their log densities'
-    gradients at the poses, (S, 3), from central differences. ``cells`` is one map, (1, N) or (1, N, 6). Steps of the
-    differences are about the sensor's noise; angles move a point at the median range by ``step_m``.
+    The likelihood's information is the sum over beams of the outer products of their log densities' gradients, from
+    central differences of ``step_m``, about the sensor's noise; angles move a point at the median range by as much.
     """
     scans = len(poses)
     ranges = np.where(np.isfinite(likelihood.scans.ranges_m), likelihood.scans.ranges_m, np.nan)

@@ -55,9 +55,8 @@ def inverse(pose: Floats) -> Floats:
 
 
 def bracketing_indices(ascending: Numbers, numbers: Numbers) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Return the indices in ``ascending``, (S,), before and after each of ``numbers``, (N,) each.
-
-    Outside, the indices are the two at that end; a single ascending number is its own neighbour.
+    """Return the indices in ``ascending``, (S,), before and after each of ``numbers``, (N,) each. Outside, the indices
+    are the two at that end; a single ascending number is its own neighbour.
     """
     last = len(ascending) - 1
     after = np.clip(np.searchsorted(ascending, numbers), 1, max(1, last))
@@ -71,9 +70,8 @@ def nearest_index(ascending: Numbers, numbers: Numbers) -> NDArray[np.intp]:
 
 
 def interpolate(stamps_s: Floats, poses: Floats, at_s: Floats) -> Floats:
-    """Return poses at times ``at_s``, (N, 3), interpolated along the relative motion between neighbours.
-
-    Outside the stamps it is the pose at that end. The stamps, (S,), ascend; of equal stamps the later pose counts.
+    """Return poses at times ``at_s``, (N, 3), interpolated along the relative motion between neighbours. Outside the
+    stamps it is the pose at that end. The stamps, (S,), ascend; of equal stamps the later pose counts.
     """
     if len(stamps_s) == 1:
         return np.repeat(poses, len(at_s), axis=0)
@@ -98,9 +96,8 @@ def transform(pose: Floats, points: Floats) -> Floats:
 
 
 def between_jacobians(relative: Floats) -> tuple[Floats, Floats]:
-    """Return the Jacobians of ``between(a, b)`` for steps of a and of b, each in its own frame: (..., 3, 3) each.
-
-    Rows are the components (x, y, yaw) of the relative pose, which is given in the frame of a.
+    """Return the Jacobians of ``between(a, b)`` for steps of a and of b, each in its own frame: (..., 3, 3) each. Rows
+    are the components (x, y, yaw) of the relative pose, which is given in the frame of a.
     """
     by_a = np.zeros((*relative.shape[:-1], 3, 3))
     by_a[..., 0, 0] = by_a[..., 1, 1] = by_a[..., 2, 2] = -1.0

@@ -266,7 +266,6 @@ def as_poses(poses: ArrayLike) -> NDArray[np.float64]:
 
 def asked_poses(asked_by: str, poses: ArrayLike) -> NDArray[np.float64]:
     """Return poses that a user stated, (P, 3); raise `BadInput` as `as_poses`, or for headings that are degrees.
-
     Headings may add up along a path, so those are refused that begin, or change at once, by over two turns.
     """
     array = as_poses(poses)
@@ -364,9 +363,8 @@ def side_by_side(
 
 
 def fan_fault(lowest_rad: float, highest_rad: float) -> str | None:
-    """Return the reason if beams cannot span these angles, or None if they can.
-
-    No sensor sees more than a turn with a few beams twice, or counts angles from more than a turn away.
+    """Return the reason if beams cannot span these angles, or None if they can. No sensor sees more than a turn with a
+    few beams twice, or counts angles from more than a turn away.
     """
     turns = (highest_rad - lowest_rad) / (2 * math.pi)
     away = 0.0 if lowest_rad <= 0 <= highest_rad else min(abs(lowest_rad), abs(highest_rad))

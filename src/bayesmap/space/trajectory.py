@@ -47,7 +47,6 @@ class RelativeLaw:
 
 def lever(yaw: Floats, mount: Floats) -> Floats:
     """Return the derivatives of relative poses of a frame at ``mount``, (3,), by those of this frame, (N, 3, 3).
-
     ``yaw`` are the turns from the first to the second poses, (N,): a turn moves the other frame sideways.
     """
     swing = np.tile(np.eye(3), (len(yaw), 1, 1))
@@ -117,9 +116,8 @@ class Trajectory:
 
     @classmethod
     def of_draws(cls, draws: Floats, stamps_s: Floats | None = None, known_by: str = "") -> Trajectory:
-        """Return the trajectory of a posterior: mean and covariance of each pose over draws.
-
-        Draws are (D, S, 3) or (chains, D, S, 3). Yaws may lie anywhere on the circle. No draw raises `BadInput`.
+        """Return the trajectory of a posterior: mean and covariance of each pose over draws. Draws are (D, S, 3) or
+        (chains, D, S, 3). Yaws may lie anywhere on the circle. No draw raises `BadInput`.
         """
         flat = np.asarray(draws, dtype=np.float64)
         flat = flat.reshape(-1, *flat.shape[-2:])
@@ -143,9 +141,8 @@ class Trajectory:
         return interpolate(self.stamps_s, self.poses, at), inside
 
     def placed(self, at_s: Floats) -> tuple[Floats, NDArray[np.bool_], NDArray[np.bool_]]:
-        """Return poses at times as `at` does, (N, 3), and two masks, (N,): times within, and times without a gap.
-
-        A gap is a time between two poses more than `LONGEST_GAP_S` apart, and more than `SLACK_S` from both.
+        """Return poses at times as `at` does, (N, 3), and two masks, (N,): times within, and times without a gap. A gap
+        is a time between two poses more than `LONGEST_GAP_S` apart, and more than `SLACK_S` from both.
         """
         poses, inside = self.at(at_s)
         assert self.stamps_s is not None

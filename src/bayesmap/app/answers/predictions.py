@@ -69,9 +69,8 @@ class GhostPredictor:
         return GhostScan(*pose, question.coarse, draws, near, milliseconds, generation=generation), buffers
 
     def _ready(self, result: Result, coarse: bool) -> tuple[ScanPredictor, int]:
-        """Return the predictor of a result and its number of draws: at most `FEW_DRAWS` if coarse.
-
-        While chains run, the predictor is rebuilt after `STALE_SECONDS`.
+        """Return the predictor of a result and its number of draws: at most `FEW_DRAWS` if coarse. While chains run,
+        the predictor is rebuilt after `STALE_SECONDS`.
         """
         found, now = result.found, time.perf_counter()
         # Cache key: the result of a method without chains, or the chains themselves. A pilot is a new object after

@@ -46,9 +46,8 @@ class Locator:
     def answer(
         self, question: WhereAmI, result: Result | None, scan: int, generation: int
     ) -> tuple[Whereabouts, Buffers]:
-        """Find the places where a scan may have been taken, or return the reason why there is no answer.
-
-        The question names the sensor of a drawn world; ``scan`` is the index of the scan on show, for a file.
+        """Find the places where a scan may have been taken, or return the reason why there is no answer. The question
+        names the sensor of a drawn world; ``scan`` is the index of the scan on show, for a file.
         """
         try:
             if result is None:

@@ -208,9 +208,8 @@ class Stream(Found):
         return None if not draws.count else draws if self.done else draws.thinned(RECENT * self.n_chains)
 
     def figures(self, over: bool) -> Figures:
-        """Return the sweeps done, and the diagnostics of the chains.
-
-        While the chains run, R-hat and effective sample size may be those of an earlier sweep.
+        """Return the sweeps done, and the diagnostics of the chains. While the chains run, R-hat and effective sample
+        size may be those of an earlier sweep.
         """
         joint, now = self.log_joint(), time.perf_counter()
         if now >= self._diagnose_at or (self.done and self._diagnosed < self.sweep):

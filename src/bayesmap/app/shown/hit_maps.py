@@ -104,9 +104,8 @@ def thinned(scans: Scans) -> Scans:
 
 
 def grown(grid: Grid, scans: Scans) -> Grid:
-    """Return the grid, enlarged by whole cells until it covers the scans.
-
-    The grid never shrinks, so that the picture does not jump with every correction of the poses.
+    """Return the grid, enlarged by whole cells until it covers the scans. The grid never shrinks, so that the picture
+    does not jump with every correction of the poses.
     """
     # The first cell and the end of the enlarged grid, in cells of the old grid. 1e-6 absorbs rounding.
     needed = Grid.covering(thinned(scans), grid.resolution, margin_m=0.0)

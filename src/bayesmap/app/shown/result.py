@@ -233,9 +233,8 @@ class Result:
 
     @cached_property
     def surfaces(self) -> tuple[NDArray[np.int32], Floats, Floats, Floats] | None:
-        """The mean surfaces: cells, means in the world frame (U, 2), covariances (U, 2, 2), reflectivities (U,).
-
-        None without draws, or if cells have no surfaces.
+        """The mean surfaces: cells, means in the world frame (U, 2), covariances (U, 2, 2), reflectivities (U,). None
+        without draws, or if cells have no surfaces.
         """
         draws = self.found.at_hand
         if draws is None or not self.prior.has_surfaces:
@@ -343,9 +342,8 @@ class Difference:
 
 
 def difference(means: Floats, among: NDArray[np.bool_]) -> Difference | None:
-    """Find the largest difference between chains' means, (chains, nx, ny), in the cells `among`, (nx, ny).
-
-    Returns None for one chain, or without cells.
+    """Find the largest difference between chains' means, (chains, nx, ny), in the cells `among`, (nx, ny). Returns None
+    for one chain, or without cells.
     """
     if len(means) < 2 or not among.any():
         return None

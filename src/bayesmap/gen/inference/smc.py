@@ -331,9 +331,8 @@ def particle_filter(
 
 
 def _streams(key: PRNGKey, k: int) -> PRNGKey:
-    """Return `k` keys of independent streams, like `jax.random.split`, but without a random draw per key.
-
-    Threefry's streams are independent for any two keys (Salmon et al. 2011), so consecutive numbers may be keys.
+    """Return `k` keys of independent streams, like `jax.random.split`, but without a random draw per key. Threefry's
+    streams are independent for any two keys (Salmon et al. 2011), so consecutive numbers may be keys.
     """
     if not jnp.issubdtype(key.dtype, jax.dtypes.prng_key) or "threefry" not in str(jax.random.key_impl(key)):
         return jax.random.split(key, k)
@@ -346,9 +345,8 @@ def _streams(key: PRNGKey, k: int) -> PRNGKey:
 def _trajectories(
     kernel: GenerativeFunction, args: Any, n: int, last: Any, traces: Any, carries: Any, y: Any, parents: Any
 ) -> ScanTrace:
-    """Return the traces of `kernel.scan(n=n)`, one per particle, from the steps' traces (n, k, ...).
-
-    Particle j of step t + 1 comes from particle `parents[t + 1, j]` of step t.
+    """Return the traces of `kernel.scan(n=n)`, one per particle, from the steps' traces (n, k, ...). Particle j of step
+    t + 1 comes from particle `parents[t + 1, j]` of step t.
     """
     k = parents.shape[1]
 

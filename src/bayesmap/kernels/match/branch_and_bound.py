@@ -166,7 +166,6 @@ def search_blocks(
     first: int, strands: int, jobs: SearchJobs, roots: Roots, pyramid: Pyramid, taken: Taken, stack: Stack, best: Best
 ):
     """One thread per strand of a job: search every ``strands``-th of its largest blocks depth first, best bound first.
-
     Strands share the best score of the job. An outdated value costs time, but does not change the result.
     """
     # t: strand; j: job; q: position in the order of blocks; mine, winner: best of the strand; depth: size of its stack.
@@ -265,7 +264,6 @@ def search_grids(
     grids: Any, windows: Windows, modes: Modes, strands: int, threads: int | None = None
 ) -> tuple[Floats, NDArray[np.int64]]:
     """Find the best poses of each job: scores (J, modes), -inf where there is none, and (row, dx, dy), (J, modes, 3).
-
     ``grids`` are `bayesmap.poses.matcher.LikelihoodGrids`; ``strands`` threads share a job.
     """
     pyramid, device = grids.pyramid, grids.device

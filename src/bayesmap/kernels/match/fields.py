@@ -29,9 +29,8 @@ def sum_field(first: int, field: Uint8Rows, points: Float32Rows, poses: Float32R
 
 
 def field_sums(field: NDArray[np.uint8], grid: Grid, points: Floats, poses: Floats) -> Ints:
-    """Sum the values of a field (nx, ny) at the points of a scan, (P,); points outside count 0.
-
-    ``points`` are in the sensor's frame, metres, (N, 2); ``poses`` in the world frame, (P, 3).
+    """Sum the values of a field (nx, ny) at the points of a scan, (P,); points outside count 0. ``points`` are in the
+    sensor's frame, metres, (N, 2); ``poses`` in the world frame, (P, 3).
     """
     devices.start()
     in_cells = np.column_stack([grid.to_cells(poses[:, :2]), poses[:, 2]])

@@ -19,9 +19,8 @@ def draw_points(
     first: int, bands: int, offsets: Int32s, scan: Int32s, pose: Vec3ds, scene: ScanArrays, spacing: wp.float32,
     origin: Vec2ds, resolution: wp.float64, stamp: Uint8Rows, pyramid: Pyramid,
 ):  # fmt: skip
-    """One thread per band of a grid: set each cell to the largest of all stamps that cover it.
-
-    If points of neighbouring beams on one surface lie further apart than ``spacing``, stamps are put in between.
+    """One thread per band of a grid: set each cell to the largest of all stamps that cover it. If points of
+    neighbouring beams on one surface lie further apart than ``spacing``, stamps are put in between.
     """
     # t: thread; g: grid; e: entry; s: its scan; p: its pose; b, c: neighbouring beams; k: stamp from b towards c.
     t = first + wp.tid()

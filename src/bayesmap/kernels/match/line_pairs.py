@@ -246,9 +246,8 @@ def pair_sums(
     geometry: Any, weights: Singles | None, source: Ints, target: Ints, relative: Floats, reach_m: float,
     scale_m: float, alike: float, stride: int = 1, threads: int | None = None,
 ) -> tuple[Floats, Floats, Floats, Floats]:  # fmt: skip
-    """Compute H (P, 3, 3), slack (P, 3, 3), g (P, 3) and totals (P, 5) of pairs of scans.
-
-    Totals are cost, weight, points matched, points within the other scan's view, and the squares of the points' forces.
+    """Compute H (P, 3, 3), slack (P, 3, 3), g (P, 3) and totals (P, 5) of pairs of scans. Totals are cost, weight,
+    points matched, points within the other scan's view, and the squares of the points' forces.
     """
     device, count = geometry.device, len(source)
     if weights is None:
@@ -295,7 +294,6 @@ def match_counts(
     stride: int = 1, threads: int | None = None,
 ) -> Singles:  # fmt: skip
     """Count the partners with which each beam is paired, (S, B); scan s has the pairs offsets[s] .. offsets[s + 1].
-
     Only every ``stride``-th beam is counted; the others have the count 0.
     """
     scans, rule = len(geometry), devices.pack(PairRule, geometry.device, reach=reach_m, scale=scale_m, alike=alike)
@@ -332,9 +330,8 @@ def compare_views(
     first: int, scene: ScanArrays, source: Int32s, target: Int32s, relative: Vec3ds, near: float, clear: float,
     counts: Int32Rows,
 ):  # fmt: skip
-    """One thread per pair: count the points of the source that match the target, that contradict it, and all points.
-
-    A point contradicts if three neighbouring beams of the target all hit something ``clear`` metres beyond it.
+    """One thread per pair: count the points of the source that match the target, that contradict it, and all points. A
+    point contradicts if three neighbouring beams of the target all hit something ``clear`` metres beyond it.
     """
     p = first + wp.tid()
     i = source[p]
@@ -384,9 +381,8 @@ class Agreement:
 def view_counts(
     geometry: Any, source: Ints, target: Ints, relative: Floats, agreement: Agreement, threads: int | None = None
 ) -> Ints:
-    """Count the points of each source: matched by the target, contradicting it, all; (P, 3).
-
-    ``relative`` holds the poses of sources in the frames of targets, (P, 3).
+    """Count the points of each source: matched by the target, contradicting it, all; (P, 3). ``relative`` holds the
+    poses of sources in the frames of targets, (P, 3).
     """
     scene, pairs = scan_arrays(geometry, max(1, geometry.beams // agreement.beams)), len(source)
     inputs = [scene, source, target, relative, agreement.near_m, agreement.clear_m, (pairs, 3)]
@@ -397,7 +393,6 @@ def mutual_view_counts(
     geometry: Any, first: Ints, second: Ints, relative: Floats, agreement: Agreement, threads: int | None = None
 ) -> Ints:
     """Sum `view_counts` of the second scans in the views of the first, and of the first in those of the second, (P, 3).
-
     ``relative`` are the poses of the second in the frames of the first, (P, 3).
     """
     counts = view_counts(geometry, second, first, relative, agreement, threads)

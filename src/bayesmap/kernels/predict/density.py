@@ -102,7 +102,6 @@ def stop_on_walk(maps: MapArrays, row: int, line: Line, w: Walk) -> wp.vec3d:
 @wp.func
 def stop_in(maps: MapArrays, row: int, column: int, line: Line, cell: int) -> wp.vec3d:
     """Return the chance that a beam which reaches a cell stops in it, and distance and variance of the stop, metres.
-
     The map is in ``row``, and has the cell in ``column``; ``cell`` is its flat index in the grid.
     """
     if maps.surfaces != 0:
@@ -121,10 +120,7 @@ def maps_to_device(states: StopStates, hit_depth: float, device: str) -> Any:
 
 @dataclass(frozen=True, eq=False)
 class DeviceMaps:
-    """Draws of whole maps on a device, for many predictions.
-
-    ``arrays`` are `MapArrays` with a column for each of the grid's cells and a row for each of the ``draws``.
-    """
+    """Draws of whole maps on a device, for many predictions: `MapArrays` with a row per draw and a column per cell."""
 
     arrays: Any
     draws: int
@@ -211,9 +207,8 @@ def add_forecasts(
     first: int, law: SensorLaw64, rays: RayArrays, columns: Int32s, maps: MapArrays, draws: int, with_cumulative: int,
     out: ForecastSums,
 ):  # fmt: skip
-    """One thread per beam: add the law of its reading under each draw of a batch to running sums.
-
-    A stop past the beam's reach gives the reading the same density as no stop.
+    """One thread per beam: add the law of its reading under each draw of a batch to running sums. A stop past the
+    beam's reach gives the reading the same density as no stop.
     """
     # b: beam; z: its reading; d: draw; k: entry; past: first entry beyond the reach; at: the reading, or its limit.
     b = first + wp.tid()

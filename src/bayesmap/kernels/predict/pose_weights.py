@@ -140,9 +140,8 @@ def scan_log_likelihoods(
     first: int, law: SensorLaw32, frame: Frame, maps: MapArrays, draws: int, in_turn: int, poses: Float64Rows,
     scan: Int32s, angle_rad: Float64s, range_m: Float64Rows, out: Float64Rows,
 ):  # fmt: skip
-    """One thread per pose and draw: sum log p(reading | map, pose) over beams.
-
-    If ``in_turn`` is positive, pose p is weighed under draw p modulo ``in_turn`` alone; else under all draws.
+    """One thread per pose and draw: sum log p(reading | map, pose) over beams. If ``in_turn`` is positive, pose p is
+    weighed under draw p modulo ``in_turn`` alone; else under all draws.
     """
     # t: thread; p: pose; d: draw; b: beam.
     t = first + wp.tid()

@@ -31,9 +31,8 @@ def beam_log_likelihoods(
     first: int, law: SensorLaw64, frame: Frame, maps: MapArrays, poses: Float64Rows, scan: Int32s, chain: Int32s,
     beams: int, mounts: Float64Rows, range_m: Float64s, out: Float64s,
 ):  # fmt: skip
-    """One thread per beam of a pose: compute log p(reading | cells, pose).
-
-    A mount is a beam's start and angle in its scan's frame; ``mounts`` has one row per angle, or one per beam.
+    """One thread per beam of a pose: compute log p(reading | cells, pose). A mount is a beam's start and angle in its
+    scan's frame; ``mounts`` has one row per angle, or one per beam.
     """
     # b: thread; row: pose; reading: beam of the scan; z: its reading; m: its mount; w: its walk.
     b = first + wp.tid()
@@ -71,10 +70,8 @@ def beam_log_likelihoods(
 
 @dataclass(frozen=True, eq=False)
 class ScanLikelihood:
-    """The likelihood of scans at any poses under any cells.
-
-    If the sensor moved during a scan, starts and angles of its beams are relative to the scan's own pose. In a cell
-    without a surface a beam stops at the part ``hit_depth`` of its chord.
+    """The likelihood of scans at any poses under any cells, which stop beams at the part ``hit_depth`` of their chords
+    unless they have surfaces. Beams keep their starts and angles relative to the scan's pose.
     """
 
     scans: Scans

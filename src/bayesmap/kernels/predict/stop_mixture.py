@@ -86,9 +86,8 @@ def mix_stops(rays: Rays, batches: Iterable[StopStates], hit_depth: float, *, de
 
 
 def mix_device_stops(rays: Rays, maps: DeviceMaps, gone: float) -> StopMixture:
-    """Average the stops of each beam over draws of all cells that are on a device already.
-
-    A beam whose chance to get to a cell is below ``gone`` counts as one that stops nowhere.
+    """Average the stops of each beam over draws of all cells that are on a device already. A beam whose chance to get
+    to a cell is below ``gone`` counts as one that stops nowhere.
     """
     return _mixed(rays, rays.cells, [(maps.arrays, maps.draws)], maps.arrays.depth, maps.device, gone)
 
@@ -143,7 +142,6 @@ def find_events(
     stopped: wp.array(dtype=wp.int8),
 ):  # fmt: skip
     """One thread per beam: compute the chance that its reading ends in each stretch that it reaches, and the outcome.
-
     ``stopped`` is -1 if the reading does not reach the stretch, or if the stretch has no length.
     """
     # b: beam; z: its reading; k: entry; before, after: cumulative probability at the stretch's two ends.
@@ -302,10 +300,8 @@ def find_quantiles(
 
 
 def range_quantiles(stops: StopMixture, levels: Floats, sensor: SensorModel, device: str = "cpu") -> Floats:
-    """Compute quantiles of each beam's reading at ascending levels, metres, (B, levels).
-
-    No return counts as +inf, too close as -inf. A sensor that is noise alone may read from minus to twice its largest
-    range.
+    """Compute quantiles of each beam's reading at ascending levels, metres, (B, levels). No return counts as +inf, too
+    close as -inf. A sensor that is noise alone may read from minus to twice its largest range.
     """
     device = devices.resolve(device)
     limits = stops.rays.limits

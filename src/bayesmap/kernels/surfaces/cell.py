@@ -162,9 +162,8 @@ def is_own(prior: PriorNumbers, centre: wp.vec2, cell: Cell) -> bool:
 
 @wp.func
 def mean_within(prior: PriorNumbers, key: wp.uint64, at: wp.uint64) -> wp.float32:
-    """Draw a coordinate of a mean, relative to the cell's centre, by rejection; takes 2 `MEAN_TRIES` counters.
-
-    Under the default prior one try in five fails. All fail once in 300 000 times; that candidate is not accepted.
+    """Draw a coordinate of a mean, relative to the cell's centre, by rejection; takes 2 `MEAN_TRIES` counters. Under
+    the default prior one try in five fails. All fail once in 300 000 times; that candidate is not accepted.
     """
     x = prior.tau_m * normal(key, at)
     for i in range(1, MEAN_TRIES):

@@ -73,10 +73,8 @@ def tries(sweep: int, period: int, c: int) -> bool:
 
 @wp.func
 def is_silent(sweep: int, period: int, c: int, m: wp.float32, stopped_in: int) -> bool:
-    """Return whether a cell in which no reading ends takes another surface from the prior at the end of a sweep.
-
-    It does so in some sweeps, if it stopped no beam in this sweep and its reflectivity is too small for passing beams
-    to be informative.
+    """Return whether a cell in which no reading ends takes another surface from the prior at the end of a sweep: in
+    some sweeps, if it stopped no beam and its reflectivity is too small for passing beams to be informative.
     """
     return period != 0 and (sweep + c) % SILENT_EVERY == 0 and m <= MIN_REFLECTIVITY and stopped_in != sweep
 
@@ -98,7 +96,6 @@ def begin_sweep(
     state: ChainArrays, log_prior: Float32s,
 ):  # fmt: skip
     """One thread per chain's cell, before a sweep: reset the counts of its beams, and draw a candidate if it tries one.
-
     ``log_prior`` of a cell is computed again if the last sweep can have changed it.
     """
     # i: thread; a: position among the active cells; c: cell of the grid; here: cell in the arrays of all chains.

@@ -85,10 +85,8 @@ def log_stops(
     law: SensorLaw32, beta: wp.float32, rays: TracedRays, endpoints: EndpointCells, listed: Listed, centre: wp.vec2,
     cell: Cell, least: wp.float64,
 ) -> wp.float64:  # fmt: skip
-    """Evaluate the formula at the top, for one surface and the listed beams.
-
-    If the sum falls below ``least``, it is returned unfinished. Stopped beams come first, because every passing beam
-    makes the sum smaller.
+    """Evaluate the formula at the top, for one surface and the listed beams. A sum below ``least`` is returned
+    unfinished: stopped beams come first, because every passing beam makes the sum smaller.
     """
     # i: position in the list; e: incidence; b: beam; product: factors since the last logarithm.
     one = wp.float32(1.0)
@@ -291,9 +289,8 @@ def put_stopped(
 def put_in_blocks(
     blocks: LaneBlocks, row: int, u: int, rays: TracedRays, endpoints: EndpointCells, listed: Listed
 ) -> int:
-    """Put a cell's listed beams into its blocks: all passing beams, and the stopped beams that lanes can compute.
-
-    Other stopped beams move to the head of their list. Returns their number.
+    """Put a cell's listed beams into its blocks: all passing beams, and the stopped beams that lanes can compute. Other
+    stopped beams move to the head of their list. Returns their number.
     """
     # Passing beams, and beams far away that fill the last block.
     passing = listed.passing_end - listed.passing_begin

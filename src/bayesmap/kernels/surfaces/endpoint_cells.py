@@ -140,9 +140,8 @@ def log_beams(
     law: SensorLaw32, beta: wp.float32, rays: TracedRays, endpoints: EndpointCells, blocks: LaneBlocks, row: int,
     u: int, listed: Listed, others: int, centre: wp.vec2, cell: Cell, least: wp.float64,
 ) -> wp.float64:  # fmt: skip
-    """Compute `log_stops` of a cell's beams: in lanes as far as possible, the rest one by one.
-
-    ``others`` is the number of stopped beams that are not in blocks, the first of their list; -1 without blocks.
+    """Compute `log_stops` of a cell's beams: in lanes as far as possible, the rest one by one. ``others`` is the number
+    of stopped beams that are not in blocks, the first of their list; -1 without blocks.
     """
     passing_end = listed.passing_end
     stopped_end = listed.stopped_end
@@ -167,9 +166,8 @@ def log_beams(
 def count_endpoint_cells(
     first: int, sweep: int, endpoints: EndpointCells, active: ActiveCells, state: ChainArrays, lists: BeamLists
 ):
-    """One thread per chain's cell in which readings end: list its incidences, and count its beams.
-
-    ``last_hits`` counts the beams that stopped, ``last_met`` the passing beams that met the surface.
+    """One thread per chain's cell in which readings end: list its incidences, and count its beams. ``last_hits`` counts
+    the beams that stopped, ``last_met`` the passing beams that met the surface.
     """
     # u: number of the endpoint cell; c: cell of the grid; here: cell in the arrays of all chains; e: incidence.
     i_cell = first + wp.tid()

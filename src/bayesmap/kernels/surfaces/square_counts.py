@@ -182,9 +182,8 @@ def count_in_squares(
 def draw_stop_chances(
     chain: int, sweep: int, prior: PriorNumbers, state: ChainArrays, squares: SquareArrays, solid: Uint8s, kept: int
 ):
-    """One thread per touched cell: draw q as above, and compute its mean (a + S) / (a + b + S + P).
-
-    If the draw is kept, ``observed_counts`` counts the draw, and whether some beam comes to the square.
+    """One thread per touched cell: draw q as above, and compute its mean (a + S) / (a + b + S + P). If the draw is
+    kept, ``observed_counts`` counts the draw, and whether some beam comes to the square.
     """
     i = wp.tid()
     c = squares.touched[i]

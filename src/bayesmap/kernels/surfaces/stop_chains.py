@@ -241,7 +241,6 @@ class StopChains:
 
     def draw_untouched(self, sweep: int) -> None:
         """Draw the reflectivities of cells that no beam touches given their labels, before the sweep with this number.
-
         Sweeps do not draw them: these cells matter only when beams may come to them.
         """
         assert self._packed is not None, "no sweep has been made"
@@ -249,10 +248,8 @@ class StopChains:
         self._launch(cell_draws.draw_untouched, size, [sweep, self._packed[1], self._known, self._state])
 
     def counted(self, chain: int) -> tuple[Ints, Ints]:
-        """Return the beams that each cell of a chain stopped, and those that met its surface and passed, (N,) each.
-
-        They are of the sweep in which the cell last drew its reflectivity; before that, met is -1. Valid until the next
-        sweep.
+        """Return the beams that each cell stopped, and those that met its surface and passed, (N,) each, of the sweep
+        in which it last drew its reflectivity; before that, met is -1. Valid until the next sweep.
         """
         return self._of(self._state.last_hits, chain), self._of(self._state.last_met, chain)
 
@@ -262,9 +259,8 @@ class StopChains:
         return self._packed is not None
 
     def in_squares(self, chain: int, sweep: int, kept: bool, solid: NDArray[np.bool_] | None = None) -> InSquares:
-        """Count the stops of a chain with surfaces in each square, after its last sweep, which has this number.
-
-        If ``kept``, `observed_counts` counts the draw. ``solid`` holds the labels before the sweep, (N,), if there are
+        """Count the stops of a chain with surfaces in each square, after its last sweep, which has this number. If
+        ``kept``, `observed_counts` counts the draw. ``solid`` holds the labels before the sweep, (N,), if there are
         any.
         """
         assert self._squares, "cells without surfaces stop beams inside their own squares"
@@ -285,7 +281,6 @@ class StopChains:
 
     def observed_counts(self, chain: int) -> Ints:
         """Return the draws in which some beam observes each cell, and those inspected, (N, 2), until the next sweep.
-
         With surfaces the kept draws are inspected, without surfaces the sweeps in which the cell has counted.
         """
         return self._of(self._state.observed_counts, chain)

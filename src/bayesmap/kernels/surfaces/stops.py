@@ -72,10 +72,8 @@ class TracedRays:
 
 
 def traced_rays_to_device(rays: Rays, distance_m: Singles | None, device: str, cells: Ints | None = None) -> Any:
-    """Put rays on a device.
-
-    ``distance_m`` is the distance of a stop at each entry, if cells have no surfaces, (K,). ``cells`` replaces the flat
-    indices of the entries' cells by other numbers, (K,).
+    """Put rays on a device, with the distance of a stop at each entry if cells have no surfaces, (K,). ``cells``
+    replaces the flat indices of the entries' cells by other numbers, (K,).
     """
     return devices.pack(
         TracedRays, device, without_surfaces=int(distance_m is not None), offsets=rays.offsets,
@@ -175,9 +173,8 @@ def decay_of_readings(first: int, law: SensorLaw32, rays: TracedRays):
 def draw_stops(
     first: int, part: int, sweep: int, lazy_updates: int, law: SensorLaw32, rays: TracedRays, state: ChainArrays
 ):
-    """One thread per chain's beam: draw where it stops, and count it in the cells.
-
-    ``lazy_updates`` is 1 in a sweep that updates lazy cells.
+    """One thread per chain's beam: draw where it stops, and count it in the cells. ``lazy_updates`` is 1 in a sweep
+    that updates lazy cells.
     """
     # i: beam in the arrays of all chains; b: beam; k: entry; c: cell of the grid; m, g, a: see above; free: T.
     i = first + wp.tid()

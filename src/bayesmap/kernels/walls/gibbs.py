@@ -40,7 +40,6 @@ def wall_gain(t: Table, chain: Chain, c: int) -> wp.float64:
 @wp.func
 def sum_gain(t: Table, chain: Chain, c: int, enough: wp.float64):
     """Store the gain of a wall in free cell c: the exact sum, or a bound as soon as the sum must stay below ``enough``.
-
     `cell_gain_bound` bounds the terms from incidence i on.
     """
     gain = wp.float64(0.0)

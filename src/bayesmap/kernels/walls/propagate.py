@@ -140,9 +140,8 @@ def neighbour_messages(
     first: int, nx: int, ny: int, coupling: wp.float64, damping: wp.float32, belief: Float32s, last: Float32Rows,
     messages: Float32Rows,
 ):  # fmt: skip
-    """One thread per cell: compute the log-odds that it receives from its neighbours, 0 where there is none.
-
-    Rows of the messages are (x - 1, x + 1, y - 1, y + 1).
+    """One thread per cell: compute the log-odds that it receives from its neighbours, 0 where there is none. Rows of
+    the messages are (x - 1, x + 1, y - 1, y + 1).
     """
     # c: receiving cell; d: sending neighbour.
     c = first + wp.tid()

@@ -74,10 +74,8 @@ def fill_likelihood(
     first: int, law: SensorLaw64, rays: RayArrays, depth: wp.float64, range_m: Float64s, loglik: Float32s,
     no_hit: Float32s,
 ):  # fmt: skip
-    """One thread per beam: compute the log-likelihood of each entry, and of no hit.
-
-    All stops before a mixture's normal noise share one likelihood, and so do all behind it; bisection finds their
-    entries.
+    """One thread per beam: compute the log-likelihood of each entry, and of no hit. All stops before a mixture's normal
+    noise share one likelihood, and so do all behind it; bisection finds their entries.
     """
     # b: beam; z: its reading; k: its entry.
     b = first + wp.tid()
@@ -147,10 +145,8 @@ def scatter_entries(
     first: int, cell_bounds: Int32s, table: Table, lowest: Float32s, advantage: Float32s, filled: Int32s,
     index: IndexArrays,
 ):  # fmt: skip
-    """One thread per range of cells: list their incidences in two passes over the table, then sum their bounds.
-
-    The first pass lists the incidences that can gain more than `GAIN`, the second pass the others. ``filled`` is the
-    next free incidence of each cell.
+    """One thread per range of cells: list their incidences, in one pass over the table those that can gain more than
+    `GAIN`, in the next the others; then sum their bounds. ``filled`` is the next free incidence of each cell.
     """
     # t: thread; c: cell; b: beam; k: entry of the table; i: incidence of the cell.
     t = first + wp.tid()
