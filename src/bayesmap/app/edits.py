@@ -14,20 +14,7 @@ import numpy as np
 from msgspec import structs
 from numpy.typing import NDArray
 
-from bayesmap.app.protocol.actions import (
-    Action,
-    AddSensor,
-    AnyAction,
-    ChangeSettings,
-    Clear,
-    Edit,
-    MoveSensor,
-    New,
-    RemoveSensor,
-    Walls,
-    World,
-    changes,
-)
+from bayesmap.app.protocol import actions
 from bayesmap.app.protocol.document import (
     FIXED_BY_FILE,
     LARGEST_SIDE_OF_LOG,
@@ -55,7 +42,7 @@ def tutorial_document(seed: int = 0) -> Document:
     )
 
 
-def new_document(world: World, shape: tuple[int, int], before: Document) -> Document:
+def new_document(world: actions.World, shape: tuple[int, int], before: Document) -> Document:
     """Return a document with a new map, and the settings of the document before as far as they fit.
 
     The sensor's longest range is twice the longer side, as in the tutorial: every beam can leave the map. Raises
@@ -116,34 +103,34 @@ def _first_sensor(walls: NDArray[np.bool_], grid: Grid) -> Sensor:
     raise Refused("new: no free cell for a sensor")
 
 
-A = TypeVar("A", bound=Action)
+A = TypeVar("A", bound=actions.Action)
 
 
-def edit(document: Document, action: Edit) -> tuple[Document, str]:
+def edit(document: Document, action: actions.Edit) -> tuple[Document, str]:
     """Return the document after an action, and a remark if only part of the action was possible. Raises Refused: the
     action is not possible.
     """
-    if not document.simulated and not isinstance(action, ChangeSettings | New):
+    if not document.simulated and not isinstance(action, actions.ChangeSettings | actions.New):
         raise Refused(f"{document.source.name} is a file, which cannot be edited", "begin a new map")
     match action:
-        case Walls():
+        case actions.Walls():
             return _walls(document, action)
-        case ChangeSettings():
+        case actions.ChangeSettings():
             return _set(document, action), ""
-        case AddSensor():
+        case actions.AddSensor():
             return _add_sensor(document, action), ""
-        case MoveSensor():
+        case actions.MoveSensor():
             return _move_sensor(document, action), ""
-        case RemoveSensor():
+        case actions.RemoveSensor():
             return _remove_sensor(document, action), ""
-        case Clear():
+        case actions.Clear():
             return document.without_walls(), ""
-        case New():
+        case actions.New():
             return new_document(action.world, action.shape, document), ""
 
 
-def _set(document: Document, action: ChangeSettings) -> Document:
-    changed = changes(action.patch)
+def _set(document: Document, action: actions.ChangeSettings) -> Document:
+    changed = actions.changes(action.patch)
     if "resolution" in changed:
         document = with_resolution(document, changed.pop("resolution"))
     if "scans_used" in changed:
@@ -155,7 +142,7 @@ def _set(document: Document, action: ChangeSettings) -> Document:
     return replace(document, **changed)
 
 
-def _walls(document: Document, action: Walls) -> tuple[Document, str]:
+def _walls(document: Document, action: actions.Walls) -> tuple[Document, str]:
     cells = np.array(action.cells)
     if (cells >= document.grid.shape).any():
         raise Refused("walls: a cell outside the map", f"the map has {document.grid.shape} cells")
@@ -168,7 +155,7 @@ def _walls(document: Document, action: Walls) -> tuple[Document, str]:
     return document.with_walls(is_wall), remark
 
 
-def _add_sensor(document: Document, action: AddSensor) -> Document:
+def _add_sensor(document: Document, action: actions.AddSensor) -> Document:
     sensors = document.sensors
     if len(sensors) >= SENSORS[1]:
         raise Refused(f"there are {len(sensors)} sensors already", "remove one first")
@@ -178,7 +165,7 @@ def _add_sensor(document: Document, action: AddSensor) -> Document:
     return replace(document, sensors=(*sensors, placed))
 
 
-def _move_sensor(document: Document, action: MoveSensor) -> Document:
+def _move_sensor(document: Document, action: actions.MoveSensor) -> Document:
     old = _sensor_of(document, action.id)
     place = {axis: value for axis in ("x", "y", "yaw") if (value := getattr(action, axis)) is not None}
     placed = replace(old, **place)
@@ -186,7 +173,7 @@ def _move_sensor(document: Document, action: MoveSensor) -> Document:
     return replace(document, sensors=tuple(placed if sensor is old else sensor for sensor in document.sensors))
 
 
-def _remove_sensor(document: Document, action: RemoveSensor) -> Document:
+def _remove_sensor(document: Document, action: actions.RemoveSensor) -> Document:
     old = _sensor_of(document, action.id)
     if len(document.sensors) <= SENSORS[0]:
         raise Refused("the last sensor cannot be removed", "add another first")
@@ -200,26 +187,26 @@ def _sensor_of(document: Document, number: int) -> Sensor:
     raise Refused(f"there is no sensor {number}")
 
 
-def gesture_of(action: Action, client: int) -> tuple[Any, ...] | None:
+def gesture_of(action: actions.Action, client: int) -> tuple[Any, ...] | None:
     """Return the stroke or drag of an action, if any: all actions of one gesture are one step of undo."""
-    if isinstance(action, Walls) and action.stroke:
-        return client, Walls, action.stroke
-    if isinstance(action, ChangeSettings) and action.drag:
-        return client, ChangeSettings, action.drag, *sorted(changes(action.patch))
-    if isinstance(action, MoveSensor) and action.drag:
-        return client, MoveSensor, action.drag, action.id
+    if isinstance(action, actions.Walls) and action.stroke:
+        return client, actions.Walls, action.stroke
+    if isinstance(action, actions.ChangeSettings) and action.drag:
+        return client, actions.ChangeSettings, action.drag, *sorted(actions.changes(action.patch))
+    if isinstance(action, actions.MoveSensor) and action.drag:
+        return client, actions.MoveSensor, action.drag, action.id
     return None
 
 
-def merged(before: Action, after: A) -> A | None:
+def merged(before: actions.Action, after: A) -> A | None:
     """Return one action that replaces two actions of one gesture; None if they cannot be merged."""
-    if isinstance(before, ChangeSettings) and isinstance(after, ChangeSettings):
-        patch = structs.replace(before.patch, **changes(after.patch))
+    if isinstance(before, actions.ChangeSettings) and isinstance(after, actions.ChangeSettings):
+        patch = structs.replace(before.patch, **actions.changes(after.patch))
         return structs.replace(after, patch=patch)
-    if isinstance(before, Walls) and isinstance(after, Walls):
+    if isinstance(before, actions.Walls) and isinstance(after, actions.Walls):
         same = (before.stroke, before.wall) == (after.stroke, after.wall)
         return structs.replace(after, cells=before.cells + after.cells) if same else None
-    if isinstance(before, MoveSensor) and isinstance(after, MoveSensor) and before.id == after.id:
+    if isinstance(before, actions.MoveSensor) and isinstance(after, actions.MoveSensor) and before.id == after.id:
         left_out = {axis: getattr(before, axis) for axis in ("x", "y", "yaw") if getattr(after, axis) is None}
         return structs.replace(after, **left_out)
     return None
@@ -272,7 +259,7 @@ def with_scans_used(document: Document, scans: int | None) -> Document:
     return replace(document, scans_used=None if scans is None or scans >= document.source.scans else scans)
 
 
-From = tuple[int, AnyAction]
+From = tuple[int, actions.AnyAction]
 T = TypeVar("T")
 DEPTH = 200  # steps that can be undone
 MOST_UNPAINTED = 2  # unpainted pictures at which the edits of a page wait
@@ -318,7 +305,7 @@ class Pace:
         self._waiting: From | None = None
         self._unpainted: dict[int, list[int]] = {}
 
-    def take(self, client: int, action: AnyAction) -> list[From]:
+    def take(self, client: int, action: actions.AnyAction) -> list[From]:
         """Accept an action; return the actions to apply now, in order."""
         if gesture_of(action, client) is None or not self._must_wait(client):
             return [*self._let_go(), (client, action)]

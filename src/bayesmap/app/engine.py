@@ -23,15 +23,7 @@ from bayesmap.app.protocol.document import CHAIN_METHODS, SETTINGS_OF_CHAINS, Do
 from bayesmap.app.protocol.notices import Status
 from bayesmap.app.protocol.tasks import Ask, Failed, Infer, Remember, Show, Task
 from bayesmap.app.scene import Scene, simulated_scene
-from bayesmap.app.shown.chains import (
-    Fitted,
-    Pilot,
-    Stream,
-    chains_of_walls,
-    fit_by_pilot,
-    pose_prior,
-    starts,
-)
+from bayesmap.app.shown.chains import Fitted, Pilot, Stream, chains_of_walls, fit_by_pilot, pose_prior, starts
 from bayesmap.app.shown.result import Result, nothing_yet
 from bayesmap.app.shown.without_chains import Preview, Weighing
 from bayesmap.app.sources import OpenedLog, OpenedRun
@@ -41,9 +33,7 @@ from bayesmap.errors import BadInput
 PREVIEW_SECONDS = 0.015  # time of belief propagation before the first picture
 FEWEST_ROUNDS = 3  # rounds of belief propagation before the first picture
 PAUSE_SECONDS = 0.03  # pause before chains are set up: a moving hand sends its next edit in this time
-
-GHOST_SECONDS, REST_SECONDS = 0.06, 0.002
-"""After a virtual scan, chains rest for this time, in short sleeps, so that the next pose need not wait for a sweep."""
+GHOST_SECONDS, REST_SECONDS = 0.06, 0.002  # how long chains rest after a virtual scan, for the next; short sleeps
 
 
 class Engine:

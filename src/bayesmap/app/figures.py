@@ -12,14 +12,7 @@ from msgspec import Struct
 
 from bayesmap.app.protocol.document import RARE_WALLS, Document, Refused, plain
 from bayesmap.app.protocol.notices import LIMITS, Limits
-from bayesmap.app.shown.result import (
-    BAD_DIFFERENCE,
-    BAD_ESS,
-    FEWEST_DIAGNOSED,
-    FEWEST_SWEEPS,
-    GOOD_ESS,
-    GOOD_RHAT,
-)
+from bayesmap.app.shown.result import BAD_DIFFERENCE, BAD_ESS, FEWEST_DIAGNOSED, FEWEST_SWEEPS, GOOD_ESS, GOOD_RHAT
 from bayesmap.posterior.summary import CHANCE_SHARE, RHAT_LIMIT
 
 

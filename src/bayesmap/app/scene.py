@@ -26,10 +26,7 @@ from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans, fan
 
 BLUR_SIGMAS = 5.0  # a reading within this many standard deviations of the longest range counts as no return
-
-NEAR_SIGMAS = 13.0
-"""A preview follows each beam this far past its reading. Farther stops are less than 1e-30 as likely as one at the
-reading, which `bayesmap.kernels.walls.propagate` takes as 0. This holds even for a reading that is three sigmas off."""
+NEAR_SIGMAS = 13.0  # how far past its reading a preview follows a beam: farther stops are 1e-30 as likely
 
 
 @dataclass(frozen=True, eq=False)

@@ -23,7 +23,7 @@ from bayesmap.app.protocol.tasks import Infer, Located, Remember
 from bayesmap.app.shown.hit_maps import Counted, counted_map, grown, scene_along
 from bayesmap.app.shown.result import Result
 from bayesmap.app.sources import OpenedLog, opened_log
-from bayesmap.poses.slam import infer_trajectory
+from bayesmap.poses.slam import in_order_of_time, infer_trajectory
 from bayesmap.poses.trajectory import Trajectory, calibrated
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
@@ -77,7 +77,7 @@ class TrajectoryJob:
         self.trajectory: Trajectory | None = None  # the trajectory, when the job has ended
         self.trouble: BaseException | None = None  # the error that ended the job instead
         self._task, self._scans, self._grid = task, scans, grid
-        self._time_order = time_order(scans)
+        self._time_order, _ = in_order_of_time(scans)
         self._steps: queue.SimpleQueue[Step | Stage | Status] = queue.SimpleQueue()
         self._stop = threading.Event()
         self._at, self._next_stage, self._drawn_stage, self._next = ("", 0, 1), 0.0, "", 0.0
@@ -147,13 +147,6 @@ class TrajectoryJob:
         self._steps.put(_step(self._task, scans, self._grid, counted_map(scans, self._grid), self._at))
         now = time.monotonic()
         self._next = now + max(PICTURE_SECONDS, (now - began) / PICTURE_SHARE)
-
-
-def time_order(scans: Scans) -> NDArray[np.intp]:
-    """Return the order of the scans in time, in which `infer_trajectory` processes them, (S,)."""
-    if scans.stamps_s is None:
-        return np.arange(len(scans))
-    return np.argsort(scans.stamps_s, kind="stable")
 
 
 def at_inferred_poses(scans: Scans, trajectory: Trajectory) -> Scans:

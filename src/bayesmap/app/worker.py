@@ -23,8 +23,7 @@ from bayesmap.app.protocol.tasks import ALIVE_SECONDS, Alive, Infer, Ready, Repo
 from bayesmap.errors import BadInput
 
 T = TypeVar("T")
-NICE = 3
-"""The niceness of the worker: the page and its server come first. At 10 other programs left it a tenth of a core."""
+NICE = 3  # niceness of the worker: page and server come first; at 10 other programs left it a tenth of a core
 
 
 class Reporter:
@@ -111,15 +110,10 @@ if __name__ == "__main__":
     main(sys.argv[1:])
 
 
-QUICK_DEATH_SECONDS = 5.0
-"""A worker that ends sooner than this is restarted after a pause. The pause grows each time, up to a limit."""
-
-LONGEST_PAUSE_SECONDS = 8.0
-SILENT_SECONDS = 15.0
-"""A worker that sends no report for this time is replaced."""
-
-SLOW_BIRTH_SECONDS = 60.0
-"""The extra time for a new worker, which may have to load Python and its libraries from a cold disk."""
+QUICK_DEATH_SECONDS = 5.0  # a worker that ends sooner is restarted after a pause
+LONGEST_PAUSE_SECONDS = 8.0  # limit of the pause, which grows each time
+SILENT_SECONDS = 15.0  # a worker that sends no report for this time is replaced
+SLOW_BIRTH_SECONDS = 60.0  # extra time of a new worker, which may load Python from a cold disk
 
 
 class Process(Protocol):

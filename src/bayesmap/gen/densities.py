@@ -125,10 +125,6 @@ def _explicit(name: str, implicit: Any, logits: Any, probs: Any) -> Any:
     return implicit if logits is None else logits
 
 
-def _binomial(total_count: Any, logits: Any = None, probs: Any = None) -> Params:
-    return total_count, *_event(logits, probs)[:1]
-
-
 def _event_batch(parameter: Any, *others: Any) -> tuple[int, ...]:
     return jnp.shape(parameter)[:-1]
 
@@ -155,10 +151,6 @@ def _failures(key: PRNGKey, p: Any, log_p: Any, log_not_p: Any, shape: tuple[int
     return jr.geometric(key, p, shape) - 1
 
 
-def _truncated_draw(key: PRNGKey, shape: tuple[int, ...], loc: Any, scale: Any, low: Any, high: Any) -> Any:
-    return loc + scale * jr.truncated_normal(key, (low - loc) / scale, (high - loc) / scale, shape)
-
-
 def _counts(value: Any) -> Any:
     return (value >= 0) & (value == jnp.floor(value))
 
@@ -180,10 +172,6 @@ def _categorical_logpdf(value: Any, logits: Any) -> Any:
 def _logpdf_on_positive(logpdf: Callable[..., Any]) -> Callable[..., Any]:
     """Return a log density that is -inf, with gradient 0, for values that are not positive."""
     return lambda v, *params: jnp.where(v > 0, logpdf(jnp.where(v > 0, v, 1.0), *params), -jnp.inf)
-
-
-def _inverse_gamma_logpdf(v: Any, a: Any, scale: Any) -> Any:
-    return a * jnp.log(scale) - gammaln(a) - (a + 1) * jnp.log(v) - scale / v
 
 
 def _weibull_logpdf(v: Any, k: Any, scale: Any) -> Any:
@@ -226,7 +214,7 @@ gamma = _named(
 )
 inverse_gamma = _named(
     "inverse_gamma", "concentration scale", lambda key, shape, a, scale: scale / jr.gamma(key, a, shape),
-    _logpdf_on_positive(_inverse_gamma_logpdf),
+    _logpdf_on_positive(lambda v, a, scale: a * jnp.log(scale) - gammaln(a) - (a + 1) * jnp.log(v) - scale / v),
 )  # fmt: skip
 exponential = _named(
     "exponential", "rate", lambda key, shape, rate: jr.exponential(key, shape) / rate,
@@ -245,7 +233,10 @@ geometric = _named(
     support=_counts,
 )
 """The number of failures before the first success."""
-binomial = _named("binomial", _binomial, _real(jr.binomial), st.binom.logpmf, support=_counts)
+binomial = _named(
+    "binomial", lambda total_count, logits=None, probs=None: (total_count, *_event(logits, probs)[:1]),
+    _real(jr.binomial), st.binom.logpmf, support=_counts,
+)  # fmt: skip
 laplace = _named("laplace", "loc scale", _scaled(jr.laplace), st.laplace.logpdf)
 cauchy = _named("cauchy", "loc scale", _scaled(jr.cauchy), st.cauchy.logpdf)
 gumbel = _named(
@@ -265,7 +256,8 @@ half_cauchy = _named(
     lambda v, m, s: _masked_to_nonnegative(v - m, st.cauchy.logpdf(v, m, s) + jnp.log(2.0)),
 )  # fmt: skip
 truncated_normal = _named(
-    "truncated_normal", "loc scale low high", _truncated_draw,
+    "truncated_normal", "loc scale low high",
+    lambda key, shape, m, s, low, high: m + s * jr.truncated_normal(key, (low - m) / s, (high - m) / s, shape),
     lambda v, m, s, low, high: st.truncnorm.logpdf(v, (low - m) / s, (high - m) / s, m, s),
 )  # fmt: skip
 weibull = _named(

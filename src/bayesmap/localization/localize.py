@@ -17,7 +17,7 @@ from bayesmap.localization.known_map import KnownMap, Trust
 from bayesmap.localization.particles import LEAST_SD, PoseMixture
 from bayesmap.poses.prior import Odometry
 from bayesmap.sensors.model import RangeLimits
-from bayesmap.space.planar import Floats, between, compose, rotation, wrap_angle
+from bayesmap.space.planar import Floats, between, compose, rotation, swing, wrap_angle
 from bayesmap.space.scans import Scans, asked_poses, check_sigma_rad
 from bayesmap.space.trajectory import Trajectory
 
@@ -233,14 +233,11 @@ def moved(belief: PoseBelief, motion: Floats, sigmas: Floats, trust: Trust, new:
     means = np.array([mode.mean for mode in modes])
     covariances = np.array([mode.covariance for mode in modes])
     ends = compose(means, motion)
-    swing = np.broadcast_to(np.eye(3), covariances.shape).copy()
-    swing[:, 0, 2] = -(ends[:, 1] - means[:, 1])
-    swing[:, 1, 2] = ends[:, 0] - means[:, 0]
-    turn = rotation(means[:, 2])
+    shift, turn = swing(np.zeros(len(means)), ends - means), rotation(means[:, 2])
     noise = turn @ np.diag(sigmas**2 + LEAST_SD**2) @ np.swapaxes(turn, 1, 2)
     ends[:, 2] = wrap_angle(ends[:, 2])
     mass = np.log([mode.probability for mode in modes])
-    components = PoseMixture(ends, swing @ covariances @ np.swapaxes(swing, 1, 2) + noise, mass)
+    components = PoseMixture(ends, shift @ covariances @ np.swapaxes(shift, 1, 2) + noise, mass)
     lost = belief.p_lost * (1.0 - new * IS_FOUND) + (1.0 - belief.p_lost) * new * GETS_LOST
     # A lost robot may return to any position.
     carried = new * trust.carried

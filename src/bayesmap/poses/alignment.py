@@ -205,10 +205,7 @@ def _number_within(groups: NDArray[np.int32]) -> NDArray[np.intp]:
     return np.arange(len(groups)) - np.repeat(at, np.diff(np.append(at, len(groups))))
 
 
-COUNTED_AGAIN = 0.1
-"""Share of the points' variance that the shared errors of pairs also contain (`bayesmap.poses.pose_gaussian.bends`).
-It is their value in simulated offices, where no errors are shared."""
-
+COUNTED_AGAIN = 0.1  # share of points' variance that shared errors of pairs contain too, as in simulated offices
 LEVER_M = 4.0  # typical distance of points from the laser, metres, for turns
 LEAST_RESPONSE, MOST_RESPONSE = 0.2, 1.0  # bounds on k; if forces hardly respond to a shift, there are too few points
 

@@ -34,11 +34,7 @@ the second. It may then contradict the key scans."""
 
 LOST_SIGMA = np.array([0.5, 0.5, np.radians(30.0)])  # sigmas of a pose beyond which a poor scan is a contradiction
 SLIPPED_BELOW = 0.15  # a wide search may move a scan to a score that is lower than usual by at most this
-
-AGAIN_BELOW = 0.1
-"""A scan whose score is lower than usual by more than this is matched again, from the pose of the scan before it.
-Odometry's errors add up over the scans of a batch, and the search window may have missed the pose."""
-
+AGAIN_BELOW = 0.1  # scans this far below the usual score are matched again, from the pose of the scan before
 LEARN_BELOW = 0.25  # odometry is not calibrated by a scan whose score is lower than usual by more than this
 BACKWARDS_M = 1.0  # longest motion that odometry may have stated with the wrong sign, metres
 PATIENCE, PATIENCE_M, PATIENCE_RAD = 10, 1.5, np.radians(90.0)  # scans, way and turn in which a fit is sought

@@ -22,10 +22,8 @@ from bayesmap.poses.matcher import LikelihoodGrids, Pull, likelihood_grids, matc
 from bayesmap.poses.scan_geometry import ScanGeometry
 from bayesmap.space.planar import Floats, between, compose
 
-WINDOW_M, WINDOW_RAD = 0.3, np.radians(6.0)
-WIDE_M, WIDE_RAD = 1.5, np.radians(40.0)
-"""Half widths, metres, and half ranges of angle, radians, of the narrow and the wide window."""
-
+WINDOW_M, WINDOW_RAD = 0.3, np.radians(6.0)  # half widths and half ranges of angle, narrow window
+WIDE_M, WIDE_RAD = 1.5, np.radians(40.0)  # and wide window
 NEAR = Pull(0.2, np.radians(5.0), 0.005)  # penalty in the narrow window for leaving the present pose
 CLEARLY_BETTER, WIDE_BETTER = 0.015, 0.12  # least gain in score, from 0 to 1, in the narrow and in the wide window
 AT_ONCE, POINTS, SIGMA_M = 24, 200, 0.06  # scans matched at once, their points, sigma of the grids, metres

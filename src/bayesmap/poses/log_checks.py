@@ -19,12 +19,8 @@ MAX_GAP_S = 0.5  # median time between scans above which they cannot be matched 
 TOO_SELDOM = "scans come too seldom to be followed without odometry, which takes 5 Hz or so"
 
 MIN_FROZEN_SCANS = 10  # fewest scans at one pose in a frozen stretch: odometry that is merely slow repeats less often
-
-MOVED_M = 0.2
-MOVED_SHARE = 0.3
-"""The robot has moved between two scans if more than this share of their readings differs by more than `MOVED_M`.
-Readings of a corridor's walls do not change along it, so the share is small."""
-
+MOVED_M = 0.2  # change of a reading, metres, that counts as one
+MOVED_SHARE = 0.3  # the robot moved if more readings change: a corridor's walls do not along it
 MIN_COMMON_HITS = 8  # fewest beams with hits in both scans
 EQUAL_POSE_TOLERANCE = 1e-6  # metres and radians; stated poses that differ by less are equal, in spite of rounding
 MIN_SCORE_GAIN = 0.05  # least gain in score, from 0 to 1, of a scan at late odometry over stated odometry

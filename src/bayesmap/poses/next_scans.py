@@ -20,16 +20,10 @@ from bayesmap.poses.scan_geometry import ScanGeometry
 from bayesmap.space.planar import Floats, between, chain_motions, compose, rotation
 from bayesmap.space.time_order import SAME_S
 
-UNUSUAL = 0.04
-"""If a scan's score is lower than usual by more than this, the robot may have gone backwards. Some odometry does not
-report that."""
-
+UNUSUAL = 0.04  # scans this far below the usual score may have gone backwards, unreported by odometry
 BACKWARDS_BETTER = 0.05  # least gain in score for going backwards: along a wall both directions fit
-
-WIDE_M = 1.0
-WIDER = ((np.radians(45.0), 0.1), (np.pi, 0.15))
-"""Half width of the wide search, metres, and its half ranges of angle, each with the least gain in score."""
-
+WIDE_M = 1.0  # half width of the wide search, metres
+WIDER = ((np.radians(45.0), 0.1), (np.pi, 0.15))  # its half ranges of angle, and the least gain in score of each
 TELLING = 6.0  # least gain in score as a number of points, for scans with few points
 POINT_SIGMA_M = 0.02  # of a point-to-line residual: the laser's noise, rough walls, a scan's own distortion
 POINTS = 200  # most points of a scan that are matched

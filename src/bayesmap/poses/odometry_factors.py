@@ -15,7 +15,7 @@ from bayesmap.poses.graph import Factors, relative_covariances
 from bayesmap.poses.log_checks import correct_late_odometry
 from bayesmap.poses.pose_gaussian import PoseGaussian
 from bayesmap.poses.scan_geometry import ScanGeometry
-from bayesmap.space.planar import Floats, between, chain_motions, compose, rotation, wrap_yaw
+from bayesmap.space.planar import Floats, between, chain_motions, compose, rotation, swing, wrap_yaw
 from bayesmap.space.scans import Scans
 
 FRONT_END_INFORMATION = np.diag(1.0 / np.array([0.1, 0.1, np.radians(3.0)]) ** 2)  # of links without odometry
@@ -32,11 +32,6 @@ class StatedOdometry:
     motions: Floats  # motions from scan to scan in the earlier one's frame, (S - 1, 3)
     impossible: NDArray[np.bool_]  # mask of motions that no robot can have made, (S - 1,)
     used: bool  # False if motions are inferred from the scans alone
-
-    @property
-    def used_motions(self) -> Floats | None:
-        """The motions, (S - 1, 3); None if they are not used."""
-        return self.motions if self.used else None
 
     def reversed_at(self, against: NDArray[np.bool_]) -> StatedOdometry:
         """Return odometry with the motions before the scans of a mask, (S,), reversed."""
@@ -148,11 +143,8 @@ def compose_factors(motions: Floats, variances: Floats, keys: NDArray[np.intp]) 
         active = np.nonzero(at < keys[1:])[0]
         motion, variance = motions[at[active]], variances[at[active]]
         turn = rotation(relative[active, 2])
-        cosine, sine = turn[:, 0, 0], turn[:, 1, 0]
-        lever = np.tile(np.eye(3), (len(active), 1, 1))  # an earlier heading error shifts this motion's end
-        lever[:, 0, 2] = -(sine * motion[:, 0] + cosine * motion[:, 1])
-        lever[:, 1, 2] = cosine * motion[:, 0] - sine * motion[:, 1]
-        covariance[active] = lever @ covariance[active] @ np.swapaxes(lever, 1, 2)
+        shift = swing(relative[active, 2], motion)  # an earlier heading error shifts this motion's end
+        covariance[active] = shift @ covariance[active] @ np.swapaxes(shift, 1, 2)
         covariance[active] += (turn * variance[:, None, :]) @ np.swapaxes(turn, 1, 2)
         relative[active] = compose(relative[active], motion)
     order = np.arange(len(keys) - 1)

@@ -15,12 +15,8 @@ from bayesmap.space.planar import Floats, between, bracketing_indices, nearest_i
 
 MAX_COMPARED = 10  # key scans that each scan is compared with
 PRIOR_SIGMA = np.array([0.03, 0.03, np.radians(1.0)])  # sigmas of a scan before its beams are used
-
-CAUTION = 2.0
-MIN_SIGMA_M = 0.005
-"""Factor on the scatter of points, and the least scatter, during refinement: the rough first steps then stay near the
-prior. The final information is computed with the points' own scatter."""
-
+CAUTION = 2.0  # factor on the scatter of points during refinement: rough first steps stay near the prior
+MIN_SIGMA_M = 0.005  # least scatter of points during refinement
 MAX_STEPS = 10  # most steps of a refinement
 REACH_M = (0.2, 0.08)  # largest distance of paired points: first step, last step
 SCALE_M = (0.1, 0.03)  # distance from which points count as outliers: first step, last step

@@ -20,9 +20,7 @@ from bayesmap.space.scans import check_sigma_rad
 
 LOG_ROOT_TWO_PI = 0.5 * math.log(2 * math.pi)
 
-FREE = np.array([1.0, 1.0, 1.0])
-"""Standard deviations, metres and radians, of a motion that odometry does not know: typical motions of robots from one
-kept scan to the next."""
+FREE = np.array([1.0, 1.0, 1.0])  # sd, m and rad, of a motion that odometry does not know: typical ones
 
 
 class PoseLaw(ABC):

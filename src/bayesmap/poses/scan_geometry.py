@@ -12,11 +12,8 @@ from numpy.typing import NDArray
 from bayesmap.space.planar import Floats
 from bayesmap.space.scans import Scans
 
-MIN_NOISE_M = 0.01
-MAX_NOISE_M = 0.05
-"""Bounds on the standard deviation of a range. Walls are rough and robots move while they scan, so no point is more
-precise than the first. With more noise than the second, neighbouring walls could not be distinguished."""
-
+MIN_NOISE_M = 0.01  # least sd of a range: walls are rough, and robots move while they scan
+MAX_NOISE_M = 0.05  # greatest: with more, neighbouring walls could not be distinguished
 MAX_NOISE_SCANS = 300  # most scans from which the noise is estimated
 MIN_TRIPLES = 100  # fewest triples of neighbouring beams
 GAP_M, GAP_STEPS = 0.15, 3.5  # metres plus beam spacings beyond which neighbouring readings lie on different surfaces

@@ -76,19 +76,13 @@ def infer_trajectory(
     odometry = stated_odometry(scans, None if no_odometry else geometry)
 
     # The front end matches every scan to earlier scans, and finds motions that are stated the wrong way round.
-    def match_all() -> Track:
-        callback = report.of_front_end(odometry)
-        return follow(geometry, odometry.used_motions, odometry.stamps_s, odometry.impossible, callback)
-
-    track = stages.get("front-end", Track, match_all)
+    stated = odometry.motions if odometry.used else None, odometry.stamps_s, odometry.impossible
+    track = stages.get("front-end", Track, lambda: follow(geometry, *stated, report.of_front_end(odometry)))
     odometry = odometry.reversed_at(track.against)
     keys = track.keys
 
     # Loops between key scans are closed.
-    def find_loops() -> ClosedGraph:
-        return close_loops(geometry, track, report.of_keys(track, "loops", 3))
-
-    closed = stages.get("loops", ClosedGraph, find_loops)
+    closed = stages.get("loops", ClosedGraph, lambda: close_loops(geometry, track, report.of_keys(track, "loops", 3)))
 
     # Key scans are aligned with all others that see the same walls.
     alignment = KeyAlignment(geometry.select(keys), track, grid_half_width(geometry), report.of_keys)
@@ -134,11 +128,13 @@ def infer_trajectory(
     explained = placed.explained.copy()
     explained[keys] = matched.scores
     noise = None if fit is None else fit.noise.of_scans(odometry.motions)
+    loops, errors = closed.closures, closed.closures.errors(final.poses)
     return Trajectory(
         compose(report.origin, placed.poses), scans.stamps_s, keys, replace(gaussian, elsewhere=elsewhere),
         nearest_key=nearest_index(keys, np.arange(len(scans))), own_covariance=placed.own_covariance(keys),
         explained=explained, flagged=flag_unexplained(explained, keys),
-        breaks=np.nonzero(track.broken)[0][~closed.joined[1:]], closures=_closures(closed, keys, final.poses),
+        breaks=np.nonzero(track.broken)[0][~closed.joined[1:]],
+        closures=LoopClosures(keys[loops.first], keys[loops.second], loops.relative, errors, closed.weighed.weights),
         calibration=Calibration(ratio, calibrated(scans, ratio).angles_rad, fit, noise, final.sigma_m), order=order,
         odometry=None if fit is None else factors, leaps=keys[1:][leaping], alternatives=alternatives,
     )  # fmt: skip
@@ -169,13 +165,6 @@ def _digest(scans: Scans, settings: str) -> str:
     for array in (scans.poses, scans.ranges_m, scans.angles_rad, scans.stamps_s, *own):
         digest.update(b"-" if array is None else np.ascontiguousarray(array).tobytes())
     return digest.hexdigest()[:16]
-
-
-def _closures(closed: ClosedGraph, keys: NDArray[np.intp], poses: Floats) -> LoopClosures:
-    """Return the loop closures with their residuals at the final poses of the keys, (K, 3)."""
-    loops = closed.closures
-    weights = closed.weighed.weights
-    return LoopClosures(keys[loops.first], keys[loops.second], loops.relative, loops.errors(poses), weights)
 
 
 def to_arrays(value: Any, name: str = "") -> Arrays:

@@ -11,7 +11,7 @@ from bayesmap.poses.calibration import OdometryFit
 from bayesmap.poses.graph import Factors
 from bayesmap.poses.pose_gaussian import PoseGaussian
 from bayesmap.poses.prior import Odometry
-from bayesmap.space.planar import Floats, between, between_jacobians, compose, retract, rotation
+from bayesmap.space.planar import Floats, between, between_jacobians, compose, retract, rotation, swing
 from bayesmap.space.scans import Scans, path_words
 
 
@@ -150,10 +150,7 @@ class Trajectory:
         # between(first, second) = in_a^-1 * between(a, b) * in_b
         turn = np.swapaxes(rotation(in_a[:, 2]), 1, 2)
         yaw = between(self.gaussian.poses[a], self.gaussian.poses[b])[:, 2]
-        lever = np.tile(np.eye(3), (len(first), 1, 1))
-        lever[:, 0, 2] = -(np.sin(yaw) * in_b[:, 0] + np.cos(yaw) * in_b[:, 1])
-        lever[:, 1, 2] = np.cos(yaw) * in_b[:, 0] - np.sin(yaw) * in_b[:, 1]
-        chain = turn @ lever
+        chain = turn @ swing(yaw, in_b)
         result = chain @ keys @ np.swapaxes(chain, 1, 2)
         by_first, by_second = between_jacobians(between(self.poses[first], self.poses[second]))
         for jacobian, scans in ((by_first, first), (by_second, second)):

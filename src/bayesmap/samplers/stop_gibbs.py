@@ -248,7 +248,7 @@ class StopGibbs:
         infos: list[Info] = []
         while not infos or state.sweep < end:
             # Sweep up to the next merge, or to the end.
-            count = _next_merge(merging, state.sweep, end) - state.sweep
+            count = min([end, *(number for number in merging if number > state.sweep)]) - state.sweep
             early = state.sweep < self.early_sweeps
             state, info = self._sweep(state, count, beta, keep, EARLY_SURFACE_STEPS if early else None)
             infos.append(info)
@@ -301,11 +301,6 @@ class StopGibbs:
             touched = state.problem.rays.touched
             out[0, touched], out[1, touched] = squares.stopped + squares.passed > 0, True
         return out
-
-
-def _next_merge(merging: Sequence[int], sweep: int, end: int) -> int:
-    """Return the number of sweeps after which surfaces are merged next, or ``end`` if that comes first."""
-    return min([end, *(number for number in merging if number > sweep)])
 
 
 def _of_chains(

@@ -116,3 +116,20 @@ def rotation(yaw_rad: Floats) -> Floats:
     matrix[..., 1, 0] = sine
     matrix[..., 2, 2] = 1.0
     return matrix
+
+
+def swing(yaw: Floats, at: Floats) -> Floats:
+    """Return the derivatives of N poses by the poses in whose frames they lie ``at``, (3,) or (N, 3), without their own
+    turn, (N, 3, 3). ``yaw`` are the yaws of the frames, (N,): a turn of a frame moves what lies in it sideways.
+    """
+    result = np.tile(np.eye(3), (len(yaw), 1, 1))
+    result[:, 0, 2] = -np.sin(yaw) * at[..., 0] - np.cos(yaw) * at[..., 1]
+    result[:, 1, 2] = np.cos(yaw) * at[..., 0] - np.sin(yaw) * at[..., 1]
+    return result
+
+
+def lever(yaw: Floats, mount: Floats) -> Floats:
+    """Return the derivatives of relative poses of a frame at ``mount``, (3,), by those of this frame, (N, 3, 3).
+    ``yaw`` are the turns from the first to the second poses, (N,).
+    """
+    return np.asarray(rotation(-mount[2]) @ swing(yaw, mount))

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
-from bayesmap.space.planar import between, bracketing_indices, compose, interpolate, inverse, rotation, wrap_angle
+from bayesmap.space.planar import between, bracketing_indices, compose, interpolate, inverse, lever, swing, wrap_angle
 from bayesmap.space.scans import as_poses, path_words
 
 SLACK_S = 0.002  # largest time outside a trajectory that counts as its end: logs are written with few digits
@@ -43,16 +43,6 @@ class RelativeLaw:
             return np.asarray(turn @ self.scales(first, second) @ np.swapaxes(turn, 1, 2))
 
         return RelativeLaw(scales, self.dof)
-
-
-def lever(yaw: Floats, mount: Floats) -> Floats:
-    """Return the derivatives of relative poses of a frame at ``mount``, (3,), by those of this frame, (N, 3, 3).
-    ``yaw`` are the turns from the first to the second poses, (N,): a turn moves the other frame sideways.
-    """
-    swing = np.tile(np.eye(3), (len(yaw), 1, 1))
-    swing[:, 0, 2] = -np.sin(yaw) * mount[0] - np.cos(yaw) * mount[1]
-    swing[:, 1, 2] = np.cos(yaw) * mount[0] - np.sin(yaw) * mount[1]
-    return np.asarray(rotation(-mount[2]) @ swing)
 
 
 @dataclass(frozen=True, eq=False)
@@ -174,8 +164,8 @@ class Trajectory:
         poses = compose(self.poses, mount)
         covariances = self.covariances
         if covariances is not None:
-            swing = lever(self.poses[:, 2], np.array([*mount[:2], 0.0]))
-            covariances = swing @ covariances @ np.swapaxes(swing, 1, 2)
+            shift = swing(self.poses[:, 2], np.asarray(mount))
+            covariances = shift @ covariances @ np.swapaxes(shift, 1, 2)
         draws = None if self.draws is None else compose(self.draws, mount)
         relative = None if self.relative is None else self.relative.of_frame(self.poses, np.asarray(mount))
         return Trajectory(poses, self.stamps_s, covariances, draws, relative, self.known_by)

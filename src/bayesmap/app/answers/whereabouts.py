@@ -71,7 +71,9 @@ class Locator:
         if document.simulated:
             key = (document.walls, document.grid, document.noise, document.max_range, document.angles, document.fov)
         if self._known is None or key != self._key:
-            self._known = drawn_map(document) if document.simulated else _inferred_map(result)
+            if result.found.kept is None and not document.simulated:
+                raise BadInput("a scan is located by draws of the map, and there are none yet; run Gibbs")
+            self._known = drawn_map(document) if document.simulated else KnownMap.of_run(result.as_run())
             self._key = key
         return self._known
 
@@ -133,9 +135,3 @@ def _scan_of(question: WhereAmI, result: Result, scan: int) -> tuple[Scans, int]
     # A beam that met nothing reads the longest range plus noise. Mark such readings as no return.
     readings = np.where(hits(scene)[[row]], one.ranges_m, np.inf)
     return replace(one, ranges_m=readings), scene.ids[row]
-
-
-def _inferred_map(result: Result) -> KnownMap:
-    if result.found.kept is None:
-        raise BadInput("a scan is located by draws of the map, and there are none yet; run Gibbs")
-    return KnownMap.of_run(result.as_run())

@@ -50,9 +50,7 @@ from bayesmap.samplers.wall_problem import WallProblem
 from bayesmap.samplers.walls import Start, start_maps
 from bayesmap.samplers.with_poses import MovableSampler, PoseProblem, WithPoses
 
-POSE_CHAINS = 16
-"""The number of chains if poses are uncertain. A map holds its sensors in place, so each chain stays near its start."""
-
+POSE_CHAINS = 16  # number of chains if poses are uncertain: a map holds its sensors, so each stays near its start
 STEP_SECONDS = 0.015  # the duration of one step of the chains. The worker reads its pipe between two steps
 DRAW_BYTES = 128 << 20  # memory of a run's kept draws, which are thinned to fit
 LOOKS = 32  # the number of times per run that observed cells are counted, besides sweeps 1, 2, 4 and so on

@@ -63,7 +63,8 @@ class HMC(EditRequest):
         def log_density(values: ChoiceMap) -> Any:
             return current.get_gen_fn().assess(values | choices, args)[0]
 
-        momentum = _standard_normal(momentum_key, start)
+        flat, unflatten = ravel_pytree(start)  # the momentum of all choices is drawn by one call, which is faster
+        momentum = unflatten(jax.random.normal(momentum_key, flat.shape, flat.dtype))
 
         def drift(tree: Any, by: Any, scale: Any) -> Any:
             return jax.tree.map(lambda x, d: x + scale * d, tree, by)
@@ -82,12 +83,6 @@ class HMC(EditRequest):
         final = drift(final, gradient, -self.eps / 2)
         new, weight, retdiff, _ = Update(position).edit(edit_key, current, Diff.no_change(args))
         return new, before + weight + _kinetic(momentum) - _kinetic(final), retdiff, self
-
-
-def _standard_normal(key: PRNGKey, like: Any) -> Any:
-    """Return a tree like `like` of independent standard normal draws, made by one call, which is faster."""
-    flat, unflatten = ravel_pytree(like)
-    return unflatten(jax.random.normal(key, flat.shape, flat.dtype))
 
 
 def _kinetic(momentum: Any) -> Any:

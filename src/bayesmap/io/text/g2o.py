@@ -24,8 +24,8 @@ from bayesmap.files import write_text
 from bayesmap.io.log_reading import Account, LogOptions, LogReading
 from bayesmap.io.text.carmen import LASERS, LaserScan, Malformed, laser_reading, parse_floats, parse_laser
 from bayesmap.io.text.lines import log_lines
-from bayesmap.space.planar import Floats, between, between_jacobians, compose, inverse, rotation
-from bayesmap.space.trajectory import Trajectory, lever
+from bayesmap.space.planar import Floats, between, between_jacobians, compose, inverse, lever, rotation
+from bayesmap.space.trajectory import Trajectory
 
 if TYPE_CHECKING:
     from bayesmap.poses.pose_gaussian import PoseGaussian
