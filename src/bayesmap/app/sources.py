@@ -67,7 +67,6 @@ class SavedRun(Found):
         self.run = run
 
     def figures(self, over: bool) -> Figures:
-        """Return the sweeps, and the diagnostics of the kept draws."""
         sweeps, joint = self.run.posterior.sweep, self.run.log_joint
         seconds = self.run.posterior.seconds["total"]
         if not joint.size:
@@ -78,12 +77,10 @@ class SavedRun(Found):
 
     @property
     def prior(self) -> CellPrior:
-        """The run's prior."""
         return self.run.posterior.prior
 
     @property
     def poses(self) -> Mapping[str, Any]:
-        """The description of the prior of the poses."""
         return self.run.posterior.settings.get("poses") or {"kind": "known"}
 
     @property
@@ -94,12 +91,10 @@ class SavedRun(Found):
 
     @property
     def kept(self) -> Draws | None:
-        """The run's draws."""
         return self.run.posterior.draws if self.run.posterior.draws.count else None
 
     @property
     def scan_poses(self) -> Floats | None:
-        """The mean poses of the scans over the draws, (S, 3), if poses were inferred."""
         if not self.run.n_draws or "poses" not in self.run.posterior.draws.arrays:
             return None
         x, y, yaw = np.moveaxis(self.run.poses, -1, 0).reshape(3, -1, len(self.run.posterior.scans))
@@ -115,11 +110,9 @@ class SavedRun(Found):
         return self.run.observed.astype(np.float64)
 
     def log_joint(self) -> Floats:
-        """Return the log joint of every kept draw, (chains, n)."""
         return self.run.log_joint
 
     def draw(self, chain: int | None, number: int | None) -> OneMap | None:
-        """Return a kept draw; the last one if that number does not exist."""
         if not self.run.n_draws:
             return None
         last = self.run.n_draws - 1
@@ -128,7 +121,6 @@ class SavedRun(Found):
         return self.run.map_of(which, index), which, index
 
     def as_run(self, result: Result) -> Run:
-        """Return the run."""
         return self.run
 
 

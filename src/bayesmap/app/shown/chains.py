@@ -177,7 +177,6 @@ class Stream(Found):
         return (self._sums - burned.sums) / max(1, self.sweep - burned.sweep)
 
     def reached(self) -> Floats:
-        """Return the share of the draws inspected in which at least one beam observes each cell, (nx, ny)."""
         observed, inspected = self._observed_counts - self._past[0].observed_counts
         return np.asarray(observed / np.maximum(1, inspected))
 
@@ -190,12 +189,10 @@ class Stream(Found):
         return self.model.cells.map_of(draws, which, number), which, number
 
     def log_joint(self) -> Floats:
-        """Return the log joint of every sweep, (chains, sweeps)."""
         return self._log_joint[:, : self.sweep]
 
     @property
     def kept(self) -> Draws | None:
-        """The kept draws, if there are any."""
         return self.draws if self.draws.count else None
 
     @property
@@ -238,7 +235,6 @@ class Stream(Found):
         return Verdict("fair" if largest <= RHAT_LIMIT else "bad", why)
 
     def as_run(self, result: Result) -> Run:
-        """Return the kept draws as a run. Raises BadInput: no draw was kept."""
         if self.kept is None:
             return super().as_run(result)
         chains = self._record.chains(
@@ -355,7 +351,6 @@ class Pilot(Found):
         return self.draws
 
     def figures(self, over: bool) -> Figures:
-        """Return the sweeps done."""
         return Figures(self.sweep, self.total)
 
     @cached_property
@@ -363,7 +358,6 @@ class Pilot(Found):
         return self.model.cells.mean_map(self.draws)
 
     def mean(self) -> Floats:
-        """Return the mean over the draws, (nx, ny)."""
         return self._mean
 
     def reached(self) -> Floats:

@@ -300,11 +300,9 @@ class FixedMap(Found):
 
     @property
     def prior(self) -> CellPrior | None:
-        """The prior of the cells on show, if it differs from the scene's."""
         return self._prior
 
     def mean(self) -> Floats:
-        """Return the probability that a cell stops a beam, (nx, ny)."""
         return self._mean
 
     def reached(self) -> Floats:

@@ -85,7 +85,6 @@ class Preview(Found):
         self.converged = self.rounds >= ROUNDS or change < TOLERANCE
 
     def mean(self) -> Floats:
-        """Return the approximate posterior wall probability of every cell, (nx, ny)."""
         p = self.problem.p_wall.copy()
         p[self.cells] = self._p
         return p.reshape(self.problem.table.grid.shape)
@@ -102,11 +101,9 @@ class Preview(Found):
         return Marginals(self.mean(), np.zeros(0), np.zeros(0), self.converged, self.converged, 0.0)
 
     def figures(self, over: bool) -> Figures:
-        """Return the rounds done."""
         return Figures(sweeps=self.rounds, seconds=self._seconds)
 
     def as_run(self, result: Result) -> Run:
-        """Return a run of independent draws from the beliefs."""
         began, document = time.perf_counter(), result.document
         request = DrawRequest(CHAINS, SAVED_DRAWS, document.seed, document.sweeps, self.rounds)
         draws = draws_by_beliefs(result.scene.problem, request, replace(self.marginals(), finished=True))
@@ -149,17 +146,14 @@ class Weighing(Found):
         )  # fmt: skip
 
     def figures(self, over: bool) -> Figures:
-        """Return the number of particles weighed, and their effective sample size."""
         ess = self.particles.effective_sample_size
         return Figures(self.count, self.total, ess, verdict=judge_particles(ess), seconds=self._seconds)
 
     @property
     def log_weights(self) -> Floats:
-        """Log weights, (n,)."""
         return self.particles.log_weights
 
     def mean(self) -> Floats:
-        """Return the posterior wall probability, (nx, ny)."""
         return self.particles.occupancy()
 
     def reached(self) -> Floats:
@@ -167,7 +161,6 @@ class Weighing(Found):
         return reach_by_means(self.problem.table, self.mean())
 
     def as_run(self, result: Result) -> Run:
-        """Return a run of particles drawn by their weights."""
         began, document = time.perf_counter(), result.document
         request = DrawRequest(CHAINS, SAVED_DRAWS, document.seed, document.sweeps, 0)
         return _run_of_draws(result, self.problem, draws_by_importance(self.problem, request, self.particles), began)
