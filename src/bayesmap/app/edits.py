@@ -107,9 +107,7 @@ A = TypeVar("A", bound=actions.Action)
 
 
 def edit(document: Document, action: actions.Edit) -> tuple[Document, str]:
-    """Return the document after an action, and a remark if only part of the action was possible. Raises Refused: the
-    action is not possible.
-    """
+    """Return the document after an action, and a remark if it was done in part. Raises Refused: it cannot be done."""
     if not document.simulated and not isinstance(action, actions.ChangeSettings | actions.New):
         raise Refused(f"{document.source.name} is a file, which cannot be edited", "begin a new map")
     match action:
@@ -251,9 +249,7 @@ def with_resolution(document: Document, resolution_m: float) -> Document:
 
 
 def with_scans_used(document: Document, scans: int | None) -> Document:
-    """Return the document of a log with the map of its first scans only; None means all scans. Raises Refused: the
-    document shows no log.
-    """
+    """Return the document of a log with the map of its first scans; None: all. Raises Refused: it shows no log."""
     if document.source.kind != "log":
         raise Refused("only of a log some of the scans can be left out")
     return replace(document, scans_used=None if scans is None or scans >= document.source.scans else scans)

@@ -68,9 +68,7 @@ def exported(question: Export, result: Result | None, client: int) -> Report:
 
 
 def export(result: Result, what: str) -> tuple[str, str, bytes]:
-    """Return the name, media type and bytes of a file: a "run", a "map", or the page as "html". Raises BadInput: the
-    result has no draws to save.
-    """
+    """Return name, media type and bytes of a "run", a "map" or the page, "html". Raises BadInput: no draws to save."""
     if what == "html":
         return "bayesmap.html", "text/html", to_html(result).encode()
     with tempfile.TemporaryDirectory(prefix="bayesmap-") as folder:

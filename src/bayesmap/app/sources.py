@@ -192,9 +192,7 @@ def first_beams(table: BeamTable, beams: int) -> BeamTable:
 
 
 def read_document(path: str) -> Document:
-    """Read a document that the page has exported (``.json``). Raises BadInput: no JSON, or not a document; the message
-    names the file.
-    """
+    """Read a document that the page has exported (``.json``). Raises BadInput: it is not one; names the file."""
     try:
         return parse_simulation(json.loads(Path(path).read_text(encoding="utf-8")))
     except (OSError, ValueError, RecursionError) as error:

@@ -104,9 +104,7 @@ class Prior:
 
 
 def update(known: KnownMap, prior: Prior, scan: Scan, rng: np.random.Generator, *, look_everywhere: bool) -> PoseBelief:
-    """Compute the posterior of a scan's pose. With ``look_everywhere`` the whole map is searched. A prior without
-    components always needs this search.
-    """
+    """Compute the posterior of a scan's pose. ``look_everywhere``, needed without components: search the whole map."""
 
     def target(thin: int, draws: int | None = None) -> Target:
         return Target(known, prior, scan, thin, known.weight_of(scan.ranges_m), draws)
@@ -307,9 +305,7 @@ ONE_PLACE, ALIKE = 1.0, np.array([0.02, 0.02, np.radians(1.0)])  # nearer places
 
 
 def locate(known: KnownMap, scan: Scan, rng: np.random.Generator) -> PoseBelief:
-    """Compute the posterior of a scan's pose anywhere on a map that is known exactly. The map's ``beam_weight`` is the
-    final power of the likelihood.
-    """
+    """Compute the posterior of a scan's pose on a map known exactly; its ``beam_weight`` is the likelihood's power."""
     prior = Prior()
     valid = max(1, int((~np.isnan(scan.ranges_m)).sum()))
     last = known.weight_of(scan.ranges_m)

@@ -184,9 +184,7 @@ def pilot_sweeps(
 def fit_sensor(
     model: Model, device: str, *, seed: int, threads: int | None = None, watch: Watch = SILENT
 ) -> BeamMixture:
-    """Fit the sensor to the model's scans, for any kind of cells, by a pilot over reflectivities. Raises BadInput: too
-    many incidences for the grid.
-    """
+    """Fit the sensor to the model's scans by a pilot over reflectivities. Raises BadInput: too many incidences."""
     prior = Beta()
     sensor = first_sensor(prior, model.grid.resolution)
     problem = trace_stops(

@@ -81,9 +81,7 @@ def trace_stops(
     scans: Scans, grid: Grid, prior: Beta, sensor: SensorModel, *, hit_depth: float = 0.5, device: str = "cpu",
     threads: int | None = None, watch: Watch = SILENT,
 ) -> StopProblem:  # fmt: skip
-    """Trace the scans' rays, up to the distance at which a stop can explain the reading. Raises BadInput: a sensor that
-    is noise alone, or too many incidences.
-    """
+    """Trace rays as far as a stop explains the reading. Raises BadInput: noise alone, or too many incidences."""
     from bayesmap.kernels.device import resolve
     from bayesmap.kernels.rays import trace_rays
 

@@ -99,9 +99,7 @@ def log_odds(p_wall: Floats) -> Floats:
 
 
 def trace_walls(model: Model, device: str = "cpu", threads: int | None = None) -> WallProblem:
-    """Trace the beam table of a model of binary walls. Raises BadInput: a prior of another kind or shape, a device that
-    is not there, or too many incidences.
-    """
+    """Trace the beam table of binary walls. Raises BadInput: another prior, no such device, or too many incidences."""
     from bayesmap.kernels.device import resolve
     from bayesmap.kernels.walls.table import trace
 

@@ -126,9 +126,7 @@ def nearest_scan(
 
 
 def compared_beam(result: Result, question: CompareBeam, generation: int) -> ComparedBeam:
-    """Compare a reading with its prediction. Raises BadInput: there is nothing to predict from, or the sensor model's
-    density does not integrate to one.
-    """
+    """Compare a reading with its prediction. Raises BadInput: none, or the sensor's density has not mass one."""
     from bayesmap.kernels.predict.density import forecast
     from bayesmap.kernels.predict.stop_mixture import mix_stops, range_quantiles
     from bayesmap.kernels.rays import trace_rays

@@ -100,9 +100,7 @@ def _ratios(result: Result, table: BeamTable, cell: int) -> BeamRatios | None:
 
 
 def safe_path(result: Result, question: FindPath, generation: int) -> SafePath:
-    """Find the shortest path that is safe enough, and the probability that it is free. Raises BadInput: there are no
-    draws, or there is no path.
-    """
+    """Find the shortest path that is safe enough, and how probably it is free. Raises BadInput: no draws or no path."""
     route = shortest_safe_path(result.maps, question.start, question.goal, question.radius, question.risk)
     free = route.free
     return SafePath(

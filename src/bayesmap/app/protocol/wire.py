@@ -85,9 +85,7 @@ def parse_simulation(value: object) -> Document:
 
 
 def converted(value: object, kind: type[T], place: str = "") -> T:
-    """Convert JSON values to a type of the protocol. `Refused` names the place of an invalid value, which begins with
-    ``place``, and the values allowed.
-    """
+    """Convert JSON values to a type of the protocol. `Refused` names an invalid value's place, under ``place``."""
     try:
         return msgspec.convert(value, kind)
     except (ValidationError, RecursionError) as error:

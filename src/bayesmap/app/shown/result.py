@@ -340,9 +340,7 @@ class Difference:
 
 
 def difference(means: Floats, among: NDArray[np.bool_]) -> Difference | None:
-    """Find the largest difference between chains' means, (chains, nx, ny), in the cells `among`, (nx, ny). Returns None
-    for one chain, or without cells.
-    """
+    """Find the largest difference between means, (chains, nx, ny), in cells `among`, (nx, ny); None without any."""
     if len(means) < 2 or not among.any():
         return None
     spread = np.where(among, means.max(axis=0) - means.min(axis=0), 0.0)

@@ -46,9 +46,7 @@ def touched(table: BeamTable) -> tuple[NDArray[np.intp], BeamTable]:
 
 
 def reach_by_means(table: BeamTable, p_wall: Floats) -> Floats:
-    """Return the share of maps in which a beam reaches each cell, (nx, ny). The maps have walls where the probability
-    of a wall exceeds 0.1, 0.3, 0.5, 0.7 and 0.9.
-    """
+    """Return the share of maps, walls with P over 0.1, 0.3 ... 0.9, in which a beam reaches a cell, (nx, ny)."""
     return reach_frequency(table, p_wall > np.arange(0.1, 1.0, 0.2)[:, None, None])
 
 

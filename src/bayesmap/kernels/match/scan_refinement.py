@@ -172,8 +172,8 @@ class Convergence:
 def refine_scans(
     geometry: Any, refinement: Refinement, convergence: Convergence, threads: int | None = None
 ) -> tuple[Floats, Floats, Floats]:
-    """Refine poses. Returns poses (J, 3), information of pairs in the world's axes (J, 3, 3), and the first four totals
-    of `pair_sums`, (J, 4).
+    """Refine poses. Returns poses (J, 3), information by pairs (J, 3, 3), world axes, and totals of `pair_sums`, (J,
+    4).
     """
     device, count = geometry.device, len(refinement.scans)
     jobs = devices.pack(RefinementArrays, device, **vars(refinement))

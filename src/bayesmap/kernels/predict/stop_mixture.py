@@ -77,9 +77,7 @@ class StopMixture:
 
 
 def mix_stops(rays: Rays, batches: Iterable[StopStates], hit_depth: float, *, device: str = "cpu") -> StopMixture:
-    """Average the stops of each beam over draws. For the arguments see `bayesmap.kernels.predict.density.forecast`.
-    Raises BadInput: no draws.
-    """
+    """Average the stops of each beam over draws; arguments as of `density.forecast`. Raises BadInput: no draws."""
     device = devices.resolve(device)
     on_device = ((density.maps_to_device(batch, hit_depth, device), len(batch)) for batch in batches)
     return _mixed(rays, rays.columns, on_device, hit_depth, device, float(LEAST_CHANCE))

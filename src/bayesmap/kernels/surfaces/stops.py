@@ -173,9 +173,7 @@ def decay_of_readings(first: int, law: SensorLaw32, rays: TracedRays):
 def draw_stops(
     first: int, part: int, sweep: int, lazy_updates: int, law: SensorLaw32, rays: TracedRays, state: ChainArrays
 ):
-    """One thread per chain's beam: draw where it stops, and count it in the cells. ``lazy_updates`` is 1 in a sweep
-    that updates lazy cells.
-    """
+    """One thread per chain's beam: draw and count its stop. ``lazy_updates`` is 1 if the sweep updates lazy cells."""
     # i: beam in the arrays of all chains; b: beam; k: entry; c: cell of the grid; m, g, a: see above; free: T.
     i = first + wp.tid()
     chain = i // state.n_beams
