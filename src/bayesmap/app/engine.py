@@ -183,7 +183,10 @@ class Engine:
             self._display.finished(self._result)
             return
         if not quiet and self._display.elapsed_s() > PREVIEW_SECONDS / 2:
-            yield from _pause(PAUSE_SECONDS)
+            until = time.perf_counter() + PAUSE_SECONDS
+            while time.perf_counter() < until:
+                time.sleep(REST_SECONDS)
+                yield
         yield from self._sweep(scene, document, preview)
 
     def _chains_of(self, document: Document) -> Stream | None:
@@ -324,10 +327,3 @@ class Engine:
         self._result = replace(self._result, over=True)
         self._display.frame(self._result)
         self._display.finished(self._result)
-
-
-def _pause(seconds: float) -> Iterator[None]:
-    until = time.perf_counter() + seconds
-    while time.perf_counter() < until:
-        time.sleep(0.002)
-        yield

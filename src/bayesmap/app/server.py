@@ -273,16 +273,10 @@ async def _serve(
     try:
         await hub.start()
         config = uvicorn.Config(
-            application(hub, token, host, port),
-            ws="websockets-sansio",
-            ws_max_size=MAX_READ_BYTES,
+            application(hub, token, host, port), ws="websockets-sansio", ws_max_size=MAX_READ_BYTES,
             ws_per_message_deflate=False,  # it costs more time on loopback than it saves
-            lifespan="off",
-            log_level="error",
-            access_log=False,
-            server_header=False,
-            timeout_graceful_shutdown=1,
-        )
+            lifespan="off", log_level="error", access_log=False, server_header=False, timeout_graceful_shutdown=1,
+        )  # fmt: skip
         await server_of(config, lambda: announce(f"http://{shown}:{port}/?token={token}")).serve(sockets=[listener])
     finally:
         hub.stop()

@@ -30,8 +30,7 @@ from bayesmap.space.scans import Scans
 
 ASK_TO_RUN = "The poses of this log look like raw odometry: Run infers where the robot was"
 PICTURE_SECONDS, PICTURE_SHARE = 0.25, 0.1  # least time between pictures of a stage; largest share of time for them
-
-WAIT_SECONDS = 0.02
+WAIT_SECONDS = 0.02  # how long to wait for a picture
 STAGE_TEXTS = {
     "reading": "Reading the scans", "front end": "Matching scan to scan", "loops": "Closing loops",
     "aligned": "Aligning the key scans", "aligned-again": "Aligning again, with odometry corrected",

@@ -200,18 +200,14 @@ categorical = _named(
 """An index into the last axis of `logits` or `probs`."""
 normal = _named("normal", "loc scale", _scaled(jr.normal), st.norm.logpdf)
 uniform = _named(
-    "uniform",
-    "low high",
-    lambda key, shape, low, high: low + (high - low) * jr.uniform(key, shape),
+    "uniform", "low high", lambda key, shape, low, high: low + (high - low) * jr.uniform(key, shape),
     lambda v, low, high: jnp.where((v >= low) & (v <= high), -jnp.log(high - low), -jnp.inf),
-)
+)  # fmt: skip
 beta = _named("beta", "concentration1 concentration0", _shaped(jr.beta), st.beta.logpdf)
 gamma = _named(
-    "gamma",
-    "concentration rate",
-    lambda key, shape, a, rate: jr.gamma(key, a, shape) / rate,
+    "gamma", "concentration rate", lambda key, shape, a, rate: jr.gamma(key, a, shape) / rate,
     lambda v, a, rate: st.gamma.logpdf(v, a, scale=1 / rate),
-)
+)  # fmt: skip
 inverse_gamma = _named(
     "inverse_gamma", "concentration scale", lambda key, shape, a, scale: scale / jr.gamma(key, a, shape),
     _logpdf_on_positive(lambda v, a, scale: a * jnp.log(scale) - gammaln(a) - (a + 1) * jnp.log(v) - scale / v),

@@ -11,8 +11,7 @@ from bayesmap.gen.pytree import Pytree, dataclass, static
 from bayesmap.gen.selection import Selection
 from bayesmap.gen.typing import PRNGKey, Weight
 
-Edited = tuple[Any, Weight, Any, "EditRequest"]
-"""(New trace, weight, return value as a tree of `Diff`, the request that would undo the edit)."""
+Edited = tuple[Any, Weight, Any, "EditRequest"]  # new trace, weight, `Diff` of the return value, request that undoes it
 
 
 def _unaltered(diffs: Any) -> Any:

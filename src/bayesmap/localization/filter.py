@@ -27,10 +27,7 @@ from bayesmap.localization.search import MIN_POINTS, end_points, search
 from bayesmap.sensors.model import RangeLimits
 from bayesmap.space.planar import Floats, wrap_angle
 
-POINTS, SHARPER = 60, 2.0
-"""End points per scan, and their weight relative to beams: their field joins all draws of the map, and is wider. They
-affect how many rounds the exact law needs, not its result."""
-
+POINTS, SHARPER = 60, 2.0  # end points per scan, their weight to beams': for the number of rounds alone
 MAX_APPROACHES = 3  # most rounds in which places are moved; one less for several places, which come from a search
 END_POWER = 0.6  # power of the weights above which rounds end
 DRAWS_PER_ROUND = 240  # draws per round for all places together

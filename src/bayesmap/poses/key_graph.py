@@ -30,10 +30,7 @@ before confirm a step if the next key scan's score is lower than usual by at mos
 
 WIDEST_M = 1.5  # greatest distance from odometry's prediction at which a scan is searched for elsewhere, metres
 BOTH_SIGMAS = 4.0  # `LEAP_SIGMAS` for steps that odometry contradicts, too
-
-GUESSED_SIGMAS = 3.0
-"""A step over a break is in doubt if it lies further than this from the front end's guess, in units of `UNKNOWN`, and
-the scan after the break fitted as well as usual at the guess."""
+GUESSED_SIGMAS = 3.0  # a step over a break is in doubt this many `UNKNOWN` off the front end's guess, if that fitted
 
 ROUNDS: tuple[Search, ...] = (
     Search(5.0, np.radians(45.0), most_off=3.0, passes=2, spacing_m=2.0),

@@ -29,10 +29,7 @@ if TYPE_CHECKING:
     from bayesmap.kernels.surfaces.square_counts import InSquares
     from bayesmap.kernels.surfaces.stop_chains import Plan, StopChains
 
-HIGHEST = float(np.nextafter(np.float16(1), np.float16(0)))
-"""The largest number below 1 in half precision, 0.9995. A mean rounded to 1 would give a beam that passes the cell the
-likelihood 0; this one costs less than 0.0005 nats per beam."""
-
+HIGHEST = float(np.nextafter(np.float16(1), np.float16(0)))  # the largest half below 1: a mean of 1 would forbid passes
 EARLY_SURFACE_STEPS = 12  # Metropolis steps of a surface in each early sweep, in which surfaces move furthest
 
 

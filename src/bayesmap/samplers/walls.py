@@ -91,7 +91,7 @@ class WallState(ChainState):
 
     def walls(self) -> NDArray[np.uint8]:
         """Return the chains' maps, (chains, N), from which this state can be made again."""
-        return self.chains.host_walls()
+        return np.array(self.chains.states.walls.numpy())
 
 
 @dataclass(frozen=True, eq=False)

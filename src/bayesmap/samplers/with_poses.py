@@ -43,9 +43,7 @@ if TYPE_CHECKING:
 
 OPTIMAL = 2.38 / np.sqrt(3.0)  # length of steps, in standard deviations (Roberts, Gelman and Gilks, 1997)
 WANTED_ACCEPTANCE = 0.35  # share of accepted steps to which the sizes of steps adapt
-MOST_NATS = 2.0
-"""Cap of the change of one beam's log density in a difference. If a beam slips past an edge, its density jumps, and the
-slope would be no measure of how far the pose may move."""
+MOST_NATS = 2.0  # cap of a beam's change in a difference: past an edge its density jumps, and slopes say nothing
 
 
 @dataclass(frozen=True, eq=False)

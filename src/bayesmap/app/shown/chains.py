@@ -58,11 +58,8 @@ DIAGNOSIS_SHARE = 0.1  # largest share of time spent on diagnostics; the last fi
 RECENT, RECENT_BYTES = 200, 16 << 20  # draws per chain that answer questions while chains run; bytes of a pilot's
 SMALLEST_POSE_M = 0.001  # standard deviation of a position if only headings are uncertain,
 SMALLEST_HEADING_RAD = math.radians(0.05)  # and of a heading if only positions are: a density needs a width
-
-FARTHEST_SIGMAS = 4.0
-EVENLY = (0.7548776662466927, 0.5698402909980532)
-"""The largest shift of a chain's start, in standard deviations, and the steps of the sequence that spreads the shifts
-evenly (the additive recurrence of Roberts, 2018)."""
+FARTHEST_SIGMAS = 4.0  # largest shift of a chain's start, in standard deviations
+EVENLY = (0.7548776662466927, 0.5698402909980532)  # spreads shifts evenly (additive recurrence, Roberts, 2018)
 
 
 def joined(before: Draws | None, after: Draws, most: int = RECENT) -> Draws:
@@ -369,8 +366,7 @@ class Pilot(Found):
         return self.model.cells.map_of(self.draws, 0, -1), 0, 0
 
 
-Fitted = tuple[Model, Any, Any]
-"""A model under the fitted sensor and prior, its sampler, and the problem that the sampler has prepared."""
+Fitted = tuple[Model, Any, Any]  # model under fitted sensor and prior, its sampler and problem
 
 
 def fit_by_pilot(scene: Scene, document: Document, show: Callable[[Pilot], None]) -> Generator[None, None, Fitted]:

@@ -35,9 +35,7 @@ StopStates = Singles
 mean x and y in metres from the grid's lower left corner, and Cholesky factor l11, l21, l22."""
 
 
-LEAST_CHANCE = 2e-3
-"""Share of beams below which a cell counts as empty when poses are weighed fast, unless the reading ended near it:
-there the beam may have met it. Elsewhere the cell would take this share from all poses alike."""
+LEAST_CHANCE = 2e-3  # cells with less count as empty in fast weighing, except near the reading: poses lose it alike
 
 
 @wp.struct

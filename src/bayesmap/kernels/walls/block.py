@@ -23,8 +23,7 @@ from bayesmap.kernels.walls.chains import Chain, Kept, Sweeps, Table, WallChainA
 wp.set_module_options({"enable_backward": False, "max_unroll": 1})  # unrolled, it takes half a minute to compile
 
 LOOK_BACK = wp.constant(8)  # entries: a beam's cells in one block lie close together, even if it runs along a line
-Weights = wp.types.vector(length=16, dtype=wp.float64)
-"""One number per state of a block; bit j of the state's number is 1 if cell j is a wall."""
+Weights = wp.types.vector(length=16, dtype=wp.float64)  # one number per state of a block; bit j: cell j is a wall
 
 
 @wp.struct

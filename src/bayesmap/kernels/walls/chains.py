@@ -356,10 +356,6 @@ class WallChains:
         )  # fmt: skip
         devices.launch(derive_state, chains, [table, self.states], device)
 
-    def host_walls(self) -> NDArray[np.uint8]:
-        """Copy the maps to main memory, (chains, N)."""
-        return np.array(self.states.walls.numpy())
-
 
 def run_sweeps(
     kernel: Any, tables: Sequence[Any], prior: Any, order: devices.Ints, shuffle: bool, chains: WallChains, *,
