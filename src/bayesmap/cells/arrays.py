@@ -20,17 +20,16 @@ LEAST_NORMAL = float(np.finfo(np.float16).smallest_normal)
 LEAST_HALF = float(np.finfo(np.float16).smallest_subnormal)
 
 
-def unpack(packed: NDArray[np.uint8], shape: tuple[int, int]) -> NDArray[np.bool_]:
-    """Return packed maps (..., ceil(N / 8)) as booleans (..., nx, ny)."""
-    cells = shape[0] * shape[1]
-    bits = np.unpackbits(packed, axis=-1, count=cells)
+def unpack(packed: NDArray[np.uint8], shape: tuple[int, ...]) -> NDArray[np.bool_]:
+    """Return packed arrays (..., ceil(N / 8)) as booleans (..., *shape), such as maps (..., nx, ny)."""
+    bits = np.unpackbits(packed, axis=-1, count=math.prod(shape))
     return bits.reshape(*packed.shape[:-1], *shape).view(np.bool_)
 
 
-def pack(walls: NDArray[np.bool_]) -> NDArray[np.uint8]:
-    """Pack maps (..., nx, ny), eight cells to a byte: (..., ceil(N / 8))."""
-    cells = walls.shape[-2] * walls.shape[-1]
-    return np.packbits(np.asarray(walls, dtype=np.bool_).reshape(*walls.shape[:-2], cells), axis=-1)
+def pack(values: NDArray[Any], dims: int = 2) -> NDArray[np.uint8]:
+    """Pack booleans of ``dims`` dimensions, such as maps (..., nx, ny), eight to a byte: (..., ceil(N / 8))."""
+    flat = (*values.shape[:-dims], math.prod(values.shape[-dims:]))
+    return np.packbits(np.asarray(values, dtype=np.bool_).reshape(flat), axis=-1)
 
 
 def count_walls(packed: NDArray[np.uint8], cells: int) -> NDArray[np.int64]:
@@ -74,19 +73,14 @@ class ArraySpec:
     def stored(self, values: NDArray[Any]) -> NDArray[Any]:
         """Return values (..., *dims) in their stored form."""
         if self.storage == "bits":
-            leading, rest = values.shape[: -len(self.dims)], values.shape[-len(self.dims) :]
-            flat = np.asarray(values, dtype=np.bool_).reshape(*leading, math.prod(rest))
-            return np.packbits(flat, axis=-1)
+            return pack(values, len(self.dims))
         if self.storage == "half":
             return as_halves(np.asarray(values))
         return np.asarray(values, dtype=self.dtype)
 
     def values(self, stored: NDArray[Any], shape: tuple[int, ...]) -> NDArray[Any]:
         """Return stored values in their plain form; ``shape`` are the sizes of the dimensions."""
-        if self.storage == "bits":
-            bits = np.unpackbits(stored, axis=-1, count=int(np.prod(shape)))
-            return bits.reshape(*stored.shape[:-1], *shape).view(np.bool_)
-        return stored
+        return unpack(stored, shape) if self.storage == "bits" else stored
 
     def empty(self, chains: int, draws: int, shape: tuple[int, ...]) -> NDArray[Any]:
         """Return zeros for draws in their stored form."""
