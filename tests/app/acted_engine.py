@@ -4,16 +4,31 @@ import json
 from dataclasses import dataclass
 from functools import cached_property
 
+import numpy as np
+
+import bayesmap as bm
 from bayesmap.app.engine import Engine
+from bayesmap.app.exports import export
 from bayesmap.app.protocol.actions import Cancel, ShowScan
+from bayesmap.app.protocol.document import Document, Sensor, packed
 from bayesmap.app.protocol.notices import Notice, View
 from bayesmap.app.protocol.tasks import Ask, Infer, Report, Show
 from bayesmap.app.protocol.wire import frame
 from bayesmap.app.shown.chains import Stream
 from bayesmap.app.sources import opened_run
+from bayesmap.space.grid import Grid
 
 PAGE = 7
 """The page that asks."""
+
+
+TINY = Document(
+    Grid((3, 3), 1.0, (-0.5, -0.5)),
+    packed(np.array([[0, 0, 1], [0, 0, 0], [1, 0, 1]], dtype=bool)),
+    (Sensor(1, 0.1, 1.2, 0.3),),
+    prior=0.3, noise=0.6, angles=12, max_range=6.0, sweeps=20_000, seed=1,
+)  # fmt: skip
+"""A world whose maps can be enumerated."""
 
 
 def header_of(message):
@@ -84,6 +99,11 @@ class Heard:
         (said,) = self.ask(question)
         assert said.report.client == PAGE
         return said.header, said.buffers
+
+    def saved_run(self, folder):
+        """The run that is saved of the result on show."""
+        (folder / "run.nc").write_bytes(export(self.engine._result, "run")[2])
+        return bm.load(folder / "run.nc")
 
     def every(self, kind):
         """Headers and buffers of all reports of a kind."""

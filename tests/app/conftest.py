@@ -4,7 +4,7 @@ import contextlib
 
 import pytest
 from building_log import room_run
-from page_driver import ARGUMENTS, CHROMIUM, DESKTOP, WAIT_SECONDS, document, listen, served, until
+from page_driver import ARGUMENTS, CHROMIUM, DESKTOP, WAIT_SECONDS, document, listen, served, until, watch_for_trouble
 from warm_worker import FORKS, Forked
 
 import bayesmap as bm
@@ -59,9 +59,7 @@ def open_page(browser):
             if heard is not None:
                 listen(page, heard)
             if quiet:
-                page.on("console", lambda message: troubles.append(message.text) if trouble(message) else None)
-                page.on("pageerror", lambda error: troubles.append(str(error)))
-                page.on("request", lambda request: None if local(request.url) else troubles.append(request.url))
+                watch_for_trouble(page, troubles)
             page.goto(where)
             until(page, "s.painted?.generation === s.generation && s.seq.confirmed === s.seq.sent")
             if not where.startswith("file:"):  # of a run's draws the server tells after its picture
@@ -79,15 +77,6 @@ def room(tmp_path_factory, browser):
     run.save(path)
     with served(path) as (address, _):
         yield run, address
-
-
-def trouble(message):
-    """Whether the console was told of an error; that a server has ended before its page is none."""
-    return message.type == "error" and "ERR_CONNECTION_REFUSED" not in message.text
-
-
-def local(url):
-    return url.startswith(("http://127.0.0.1:", "ws://127.0.0.1:", "blob:", "data:", "file:", "about:"))
 
 
 @pytest.fixture

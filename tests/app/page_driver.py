@@ -9,7 +9,6 @@ import shutil
 import threading
 import time
 import zlib
-from urllib.parse import urlsplit
 
 import numpy as np
 import pytest
@@ -88,6 +87,20 @@ END = """(beam) => {
 }"""
 """Where a beam of the scan on show ended, on the page."""
 
+WRITTEN = """() => {
+  // what is written on canvases, and where, from now on
+  window.written = [];
+  const { fillText } = CanvasRenderingContext2D.prototype;
+  CanvasRenderingContext2D.prototype.fillText = function (text, x, y, ...rest) {
+    const { a, e } = this.getTransform();
+    const wide = this.measureText(text).width;
+    const from = x - ({ right: wide, end: wide, center: wide / 2 }[this.textAlign] ?? 0);
+    window.written.push({ text, left: a * from + e, right: a * (from + wide) + e, y, align: this.textAlign,
+                          chart: Boolean(this.canvas.closest(".chart")), wide: this.canvas.width });
+    return fillText.call(this, text, x, y, ...rest);
+  };
+}"""
+
 WATCH = """
 () => {
   window.seen = [];
@@ -145,10 +158,6 @@ class Served:
     def worker(self):
         """The number of the process that computes."""
         return self._hubs[0]._supervisor.pid
-
-    @property
-    def port(self):
-        return urlsplit(self.address).port
 
     def stop(self):
         """End it as one whose machine is switched off: connections end, and nobody is told why."""
@@ -235,6 +244,22 @@ def listen(page, heard):
         heard.append(unframe(payload)[0] if isinstance(payload, bytes) else json.loads(payload))
 
     page.on("websocket", lambda socket: socket.on("framereceived", hear))
+
+
+OWN = ("http://127.0.0.1:", "ws://127.0.0.1:", "blob:", "data:", "file:", "about:")
+
+
+def watch_for_trouble(page, troubles):
+    """Add the errors of a page, and what it asks of other machines, to a list."""
+
+    def heard(message):  # that a server has ended before its page is no error
+        if message.type == "error" and "ERR_CONNECTION_REFUSED" not in message.text:
+            troubles.append(message.text)
+
+    page.on("console", heard)
+    page.on("pageerror", lambda error: troubles.append(str(error)))
+    for kind in ("request", "websocket"):
+        page.on(kind, lambda asked: None if asked.url.startswith(OWN) else troubles.append(asked.url))
 
 
 def settled(page):

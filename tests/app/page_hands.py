@@ -38,11 +38,6 @@ def slide(page, name, value):
     act(page, lambda: page.get_by_role("slider", name=name).fill(str(value)))
 
 
-def select(page, name, value):
-    """Choose a setting's value from a list, and wait for its picture."""
-    act(page, lambda: page.get_by_role("combobox", name=name).select_option(value))
-
-
 def run(page, draws=None):
     """Press Run; with a number of draws, wait until there are so many, and their mean is painted."""
     press(page, "Run")

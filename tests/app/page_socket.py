@@ -2,26 +2,15 @@
 
 import contextlib
 import json
-import os
 import signal
 import subprocess
-import sys
 import time
 from pathlib import Path
 
+from cli.shell import PATIENCE_S, start
 from websockets.sync.client import connect
 
 from bayesmap.app.protocol.wire import unframe
-
-PATIENCE_S = 180.0
-SOURCE = Path(__file__).resolve().parents[2] / "src"
-
-
-def start(*arguments):
-    """The command in a process of its own, as a terminal does: with Ctrl-C in force."""
-    command = [sys.executable, "-m", "bayesmap.cli.main", *map(str, arguments)]
-    environment = {**os.environ, "PYTHONPATH": str(SOURCE)}
-    return subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=environment)
 
 
 @contextlib.contextmanager
@@ -93,3 +82,12 @@ def children(pid):
     """Processes of a process."""
     tasks = Path(f"/proc/{pid}/task").glob("*/children")
     return [int(child) for path in tasks for child in path.read_text().split()]
+
+
+def ended(pid):
+    """Wait until a process has ended, though perhaps nobody has asked for its exit status yet."""
+    deadline = time.monotonic() + PATIENCE_S
+    status = Path(f"/proc/{pid}/status")
+    while status.exists() and "State:\tZ" not in status.read_text():
+        assert time.monotonic() < deadline, "the worker outlived its server"
+        time.sleep(0.05)

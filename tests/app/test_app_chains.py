@@ -4,13 +4,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from acted_engine import Heard
+from acted_engine import TINY, Heard
 from flat_options import infer
 
 import bayesmap as bm
 from bayesmap.app.edits import tutorial_document
-from bayesmap.app.exports import export
-from bayesmap.app.protocol.document import Document, Sensor, packed
+from bayesmap.app.protocol.document import Sensor
 from bayesmap.app.scene import simulate_document, simulated_scene
 from bayesmap.app.shown.chains import (
     POSE_CHAINS,
@@ -24,14 +23,6 @@ from bayesmap.app.shown.chains import (
 from bayesmap.kernels.walls.table import trace
 from bayesmap.samplers.wall_problem import WallProblem
 from bayesmap.samplers.without_chains import enumerate_maps
-from bayesmap.space.grid import Grid
-
-TINY = Document(
-    Grid((3, 3), 1.0, (-0.5, -0.5)),
-    packed(np.array([[0, 0, 1], [0, 0, 0], [1, 0, 1]], dtype=bool)),
-    (Sensor(1, 0.1, 1.2, 0.3),),
-    prior=0.3, noise=0.6, angles=12, max_range=6.0, sweeps=2500, seed=1,
-)  # fmt: skip
 
 
 def test_known_poses_are_sampled_as_known():
@@ -58,8 +49,7 @@ def test_a_run_is_that_of_the_library_and_saved_with_its_poses(changes, tmp_path
     assert np.array_equal(stream.draws.arrays["walls"], run.posterior.draws.arrays["walls"])
     assert np.array_equal(stream.draws.arrays["poses"], run.poses)
     assert np.array_equal(stream.log_joint(), run.log_joint)
-    (tmp_path / "run.nc").write_bytes(export(heard.engine._result, "run")[2])
-    assert np.array_equal(bm.load(tmp_path / "run.nc").poses, run.poses)
+    assert np.array_equal(heard.saved_run(tmp_path).poses, run.poses)
 
 
 @pytest.mark.full
@@ -69,7 +59,7 @@ def test_maps_are_averaged_over_the_posterior_of_the_pose():
     They are worth some 700, so that the reference's standard error is 0.02 at most; that of the chains, at 400
     effective draws, 0.025. Two of both together are 0.07; known poses, the twin, are more than four times that off.
     """
-    document = replace(TINY, noise=2.0, angles=10, pose_sigma=0.3, heading_sigma=0.3)
+    document = replace(TINY, noise=2.0, angles=10, sweeps=2500, pose_sigma=0.3, heading_sigma=0.3)
     scene = simulated_scene(document)
     rng = np.random.default_rng(5)
     evidence, maps = [], []
@@ -93,7 +83,7 @@ def test_walls_blur_as_positions_become_uncertain_by_whole_cells():
     sure = []
     for sigma_m in (0.0, 0.5, 1.0):
         heard = Heard()
-        _, buffers = heard.infer(replace(tutorial_document(), sweeps=30, pose_sigma=sigma_m))
+        _, buffers = heard.infer(replace(tutorial_document(), sweeps=20, angles=40, pose_sigma=sigma_m))
         seen = buffers["reached"] >= 128
         sure.append((buffers["p"][drawn & seen] / 255).mean())
         if sigma_m > 0:  # no picture of known poses in between
@@ -124,9 +114,12 @@ def test_methods_that_take_poses_as_known_do_so(method):
     assert np.array_equal(buffers["p"], Heard().infer(replace(document, pose_sigma=0.0), "run")[1]["p"])
 
 
-def test_chains_at_several_shifts_are_judged_at_each_and_told_what_would_help():
+def test_chains_at_several_shifts_are_judged_at_each_and_told_what_would_help(monkeypatch):
+    for module in ("chains", "result"):
+        monkeypatch.setattr(f"bayesmap.app.shown.{module}.FEWEST_SWEEPS", 40)  # sweeps of sixteen chains take long
+    document = replace(tutorial_document(), pose_sigma=1.0, sweeps=40, angles=40)
     heard = Heard()
-    header, _ = heard.infer(replace(tutorial_document(), pose_sigma=1.0, sweeps=400))
+    header, _ = heard.infer(document)
     found = heard.engine._result.found
     places = np.unique(found.shifts, axis=0)
     assert len(places) > 1
@@ -134,5 +127,5 @@ def test_chains_at_several_shifts_are_judged_at_each_and_told_what_would_help():
     assert header["rhat"] > 1.05
     assert f"chains stand at {len(places)} shifts" in verdict["why"]
     assert "another sensor or surer poses" in verdict["why"]
-    same = replace(tutorial_document(), pose_sigma=0.01, sweeps=400)
-    assert "shifts" not in (heard.infer(same)[0]["verdict"] or {"why": ""})["why"]
+    same = heard.infer(replace(document, pose_sigma=0.01))[0]
+    assert "shifts" not in (same["verdict"] or {"why": ""})["why"]

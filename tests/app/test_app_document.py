@@ -22,7 +22,7 @@ from bayesmap.app.protocol.wire import (
     seq_of,
     unframe,
 )
-from bayesmap.app.scene import simulate_document, standard_noise
+from bayesmap.app.scene import simulate_document, simulated_scene, standard_noise
 from bayesmap.sim.drawing import TUTORIAL_GRID
 from bayesmap.space.grid import Grid
 
@@ -149,6 +149,18 @@ def test_the_noise_of_a_beam_depends_on_seed_sensor_and_number_alone():
     assert np.array_equal(standard_noise(3, 1, 1000)[:10], standard_noise(3, 1, 10))
     assert not np.array_equal(standard_noise(3, 2, 10), standard_noise(3, 1, 10))
     assert not np.array_equal(standard_noise(4, 1, 10), standard_noise(3, 1, 10))
+
+
+def test_readings_spread_by_the_noise_over_the_field_of_view_or_are_exact_at_a_choice():
+    for noise in (0.2, 2.0):  # of some 80 readings within 20 m: 4 standard errors
+        document = replace(tutorial_document(), noise=noise)
+        exact_m = simulated_scene(document).exact_m.ravel()
+        off_m = simulate_document(document)[0].ranges_m.ravel() - exact_m
+        assert off_m[exact_m < 20].std() == pytest.approx(noise, rel=0.35)
+        exact = simulate_document(replace(document, readings="exact"))[0]
+        np.testing.assert_allclose(exact.ranges_m.ravel(), exact_m)
+    fan, _ = simulate_document(replace(document, angles=11, fov=np.pi / 2))
+    np.testing.assert_allclose(fan.angles_rad, np.linspace(-np.pi / 4, np.pi / 4, 11))
 
 
 @pytest.mark.parametrize(

@@ -6,14 +6,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from acted_engine import Heard
+from acted_engine import TINY, Heard
 from flat_options import infer
 
 import bayesmap as bm
 from bayesmap.app.edits import new_document, tutorial_document
-from bayesmap.app.exports import export
 from bayesmap.app.protocol.actions import Cancel, Inspect
-from bayesmap.app.protocol.document import Document, Sensor, packed
 from bayesmap.app.protocol.notices import DrawCount, View
 from bayesmap.app.scene import simulate_document, simulated_scene
 from bayesmap.app.shown.chains import DRAW_BYTES, Stream
@@ -26,14 +24,6 @@ from bayesmap.samplers.fit import PILOT_SWEEPS, first_sensor, fit
 from bayesmap.samplers.stop_gibbs import StopGibbs
 from bayesmap.samplers.walls import WallGibbs
 from bayesmap.samplers.without_chains import enumerate_maps, sample_importance
-from bayesmap.space.grid import Grid
-
-TINY = Document(
-    Grid((3, 3), 1.0, (-0.5, -0.5)),
-    packed(np.array([[0, 0, 1], [0, 0, 0], [1, 0, 1]], dtype=bool)),
-    (Sensor(1, 0.1, 1.2, 0.3),),
-    prior=0.3, noise=0.6, angles=12, max_range=6.0, sweeps=20_000, seed=1,
-)  # fmt: skip
 
 OFF = 0.03
 """More than three standard errors of a mean of effective size 3000, at worst; seeds are fixed."""
@@ -122,8 +112,7 @@ def test_the_burn_in_is_left_out_of_mean_diagnostics_and_saved_runs(burn_in, mod
     found = heard.engine._result.found
     assert header["ess"] == pytest.approx(bulk_ess(found.log_joint()[:, first:]))
     if mode == "run":
-        (tmp_path / "run.nc").write_bytes(export(heard.engine._result, "run")[2])
-        saved = bm.load(tmp_path / "run.nc")
+        saved = heard.saved_run(tmp_path)
         touched = found.problem.touched()  # other cells show the prior mean, to which the mean of draws converges
         np.testing.assert_allclose(buffers["p"][touched], 255 * saved.occupancy[touched], atol=0.5001)
         assert (saved.posterior.settings["warmup"], saved.posterior.warmup_log_joint.shape[1]) == (first, first)
@@ -285,7 +274,6 @@ def test_other_kinds_of_cells_run_on_the_page_as_in_the_library_and_are_saved(ce
     assert (header["chain"], header["draw"]) == (1, 7)
     one = found.prior.map_of(chains.draws, 1, 7).astype(np.float32)
     assert np.array_equal(drawn["p"], np.rint(np.float32(255) * one))
-    (tmp_path / "run.nc").write_bytes(export(heard.engine._result, "run")[2])
-    run = bm.load(tmp_path / "run.nc")
+    run = heard.saved_run(tmp_path)
     assert (run.posterior.kind, run.n_draws, run.posterior.sweep) == (cells, 8, 8)
     assert np.isfinite(run.log_joint).all()

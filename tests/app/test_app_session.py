@@ -68,9 +68,7 @@ def test_a_stroke_or_a_drag_is_one_step_of_undo():
     acted.act("redo")
     assert walls_of(acted)[:5, 0].all()
     acted = Acted()
-    for i in range(4):  # and so is a drag
-        acted.act("move_sensor", id=1, x=10 + 0.1 * i, y=10, drag=8)
-        acted.picture()
+    dragged(acted, 4)  # and so is a drag
     acted.act("undo")
     assert acted.session.document.sensors[0].x == 10.0
     assert not acted.state["can_undo"]
@@ -378,14 +376,7 @@ def test_undo_and_redo_walk_along_the_states_that_were(steps):
         assert bool(history.future) == (at < len(states) - 1)
 
 
-def test_a_gesture_is_one_step_that_undo_ends_and_old_states_are_forgotten():
-    history = History("empty")
-    for state in ("s1", "s2", "s3"):
-        history = history.push(state, ("stroke", 1))
-    history = history.push("other", ("stroke", 2))
-    assert history.undo().present == "s3"
-    assert history.undo().undo().present == "empty"
-    assert History(0).push(1, "g").push(2, "g").undo().push(3, "g").undo().present == 0
+def test_old_states_are_forgotten():
     history = History(0)
     for state in range(1, DEPTH + 50):
         history = history.push(state)

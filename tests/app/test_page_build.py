@@ -11,9 +11,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from export_twins import twins
-from figure_cases import figure_cases
 from msgspec import to_builtins
+from page_cases import figure_cases, twins
 from page_driver import document, fragment
 
 from bayesmap.app.protocol.notices import LIMITS

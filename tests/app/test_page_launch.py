@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from page_driver import brightness_at, colour_at, document, serious, settled, until
+from page_driver import brightness_at, centre, colour_at, document, serious, settled, until
 from page_hands import choose, enter, press, undo
 
 
@@ -27,9 +27,22 @@ def test_the_first_picture_is_the_posterior_of_the_tutorial_and_pixels_tell_what
     red, _, blue = colour_at(page, 20, 0)
     assert red - blue > 12  # warm: hatched where nothing was observed
     assert free[0] - free[2] < 6  # not warm
+    theme = page.get_by_role("button", name="Theme")
+    for name, bright in (("light", True), ("dark", False), ("automatic", True)):
+        theme.click()
+        assert theme.get_attribute("aria-label") == f"Theme: {name}"
+        assert (brightness_at(page, 10, 12) > 190) == bright
+    page.mouse.move(*centre(page, 10, 12))  # zoomed in on, a cell is even up to its corners
+    for _ in range(8):
+        page.mouse.wheel(0, -240)
+    until(page, "s.transform.scale > 80")
+    assert min(brightness_at(page, 10, 12, (off, off)) for off in (0.3, -0.3)) > 235
 
 
-@pytest.mark.parametrize("scheme", ["light", pytest.param("dark", marks=pytest.mark.full)])
+SCHEMES = pytest.mark.parametrize("scheme", ["light", pytest.param("dark", marks=pytest.mark.full)])
+
+
+@SCHEMES
 def test_axe_finds_no_serious_violation(open_page, scheme):
     page = open_page(document(), color_scheme=scheme, bypass_csp=True)
     settled(page)
@@ -40,17 +53,13 @@ def test_axe_finds_no_serious_violation(open_page, scheme):
 
 
 @pytest.mark.full
-def test_light_and_dark_follow_the_system_and_the_button(open_page):
-    page = open_page(document(), color_scheme="dark")
-    settled(page)
-    assert brightness_at(page, 10, 12) < 90
-    button = page.get_by_role("button", name="Theme")
-    button.click()
-    assert button.get_attribute("aria-label") == "Theme: light"
-    assert brightness_at(page, 10, 12) > 190  # a ray may cross it
-    button.click()
-    assert button.get_attribute("aria-label") == "Theme: dark"
-    assert brightness_at(page, 10, 12) < 90
+@SCHEMES
+def test_axe_finds_none_on_a_run_and_its_answers_either(open_page, room, scheme):
+    page = open_page(room[1], color_scheme=scheme, bypass_csp=True)
+    for tool, known in (("Where am I?", "s.where.found"), ("Look next", "s.decisions.views")):
+        choose(page, tool)
+        until(page, known)
+        assert serious(page) == []
 
 
 def test_each_page_looks_where_it_likes_and_undoes_what_it_did(open_page, page):

@@ -2,7 +2,6 @@
 
 import base64
 import contextlib
-import os
 import queue
 import time
 from pathlib import Path
@@ -11,10 +10,9 @@ import notebook_driver
 import numpy as np
 import page_driver
 import pytest
-from building_log import tutorial_run
 from page_driver import brightness_at, document, settled, snapshot, until
-from page_hands import act, choose, press_and_drag, show_draw, show_layer, undo
-from page_socket import children
+from page_hands import act, choose, press_and_drag, undo
+from page_socket import children, ended
 
 import bayesmap as bm
 
@@ -26,7 +24,6 @@ HOMES = {
     "jupyterlab": notebook_driver.jupyterlab,
 }
 LIVE = "import bayesmap as bm\nbm.MapWidget(seed=3)"
-FINISHED = "import bayesmap as bm\nbm.MapWidget(bm.load({path!r}))"
 
 
 @pytest.fixture
@@ -34,21 +31,13 @@ def show(browser, tmp_path, monkeypatch):
     """Runs a cell in a notebook and waits for the widget's picture; no errors, and no request leaves the machine."""
     monkeypatch.setattr(page_driver, "WAIT_SECONDS", notebook_driver.CELL_SECONDS)
     troubles = []
-
-    def local(address):
-        if not address.startswith(("http://127.0.0.1:", "ws://127.0.0.1:", "blob:", "data:", "about:")):
-            troubles.append(address)
-
     with contextlib.ExitStack() as stack:
         context = stack.enter_context(contextlib.closing(browser.new_context(**page_driver.DESKTOP)))
         context.set_default_timeout(1000 * notebook_driver.CELL_SECONDS)
 
         def shown(home, source):
             page = context.new_page()
-            page.on("console", lambda message: troubles.append(message.text) if message.type == "error" else None)
-            page.on("pageerror", lambda error: troubles.append(str(error)))
-            page.on("request", lambda request: local(request.url))
-            page.on("websocket", lambda opened: local(opened.url))
+            page_driver.watch_for_trouble(page, troubles)
             canvas, page.server = stack.enter_context(HOMES[home](page, tmp_path, source))
             stack.callback(page.close)  # before its server ends
             canvas.wait_for(timeout=notebook_driver.CELL_SECONDS * 1000)
@@ -69,11 +58,6 @@ def test_the_live_widget_infers_and_walls_are_drawn_on_it(show, home):
         page.get_by_role("checkbox", name=label).uncheck()
     before = settled(page)
     assert before["document"]["seed"] == 3
-    assert before["painted"]["method"] == "gibbs"
-    free, walls = before["walls"] == 0, before["walls"] == 1
-    seen, sure = before["observed"] == 1, before["probability"] / 255
-    assert sure[seen & walls].mean() > 0.7
-    assert sure[seen & free].mean() < 0.05
     assert not before["walls"][6:10, 12].any()
     assert brightness_at(page, 8, 12) > 200
 
@@ -90,43 +74,14 @@ def test_the_live_widget_infers_and_walls_are_drawn_on_it(show, home):
 
 
 @pytest.mark.full
-@pytest.mark.parametrize("home", ["marimo run", "jupyterlab"])
-def test_a_finished_run_is_shown_with_its_draws(show, home, tmp_path):
-    run = tutorial_run()
-    run.save(tmp_path / "run.nc")
-    page = show(home, FINISHED.format(path=str(tmp_path / "run.nc")))
-    until(page, "s.draws.count === 20 && s.draws.chains === 2")
-    shown = snapshot(page)
-    assert np.abs(shown["probability"] / 255 - run.occupancy).max() <= 0.5 / 255 + 1e-6
-    show_layer(page, "One draw")
-    assert np.array_equal(show_draw(page, 7, chain=1) > 0, run.draws[1, 7])
-    assert not page.get_by_role("button", name="Run", exact=True).is_visible()
-
-
-@pytest.mark.full
 def test_the_worker_ends_when_the_visitor_of_an_app_has_gone(show):
     page = show("marimo run", LIVE)
     server = page.server
-    (worker,) = (pid for pid in children(server.pid) if b"bayesmap.app.worker" in command_of(pid))
+    commands = {pid: Path(f"/proc/{pid}/cmdline").read_bytes() for pid in children(server.pid)}
+    (worker,) = (pid for pid, command in commands.items() if b"bayesmap.app.worker" in command)
     page.close()
-    deadline = time.monotonic() + notebook_driver.CELL_SECONDS
-    while runs(worker):
-        assert time.monotonic() < deadline, "the worker outlived its page"
-        time.sleep(0.1)
+    ended(worker)
     assert server.poll() is None
-
-
-def command_of(pid):
-    return Path(f"/proc/{pid}/cmdline").read_bytes()
-
-
-def runs(pid):
-    """Whether there is a process of this number."""
-    try:
-        os.kill(pid, 0)
-    except ProcessLookupError:
-        return False
-    return True
 
 
 MOUNT = """async () => {

@@ -8,8 +8,7 @@ from urllib.parse import urlsplit
 import numpy as np
 import playwright.sync_api as playwright
 import pytest
-from building_log import write_room_log
-from page_driver import NO_WALLS, centre, document, fragment, served, settled, snapshot, until
+from page_driver import NO_WALLS, document, fragment, served, settled, snapshot, until
 from page_hands import act, choose, press_and_drag, undo
 from page_socket import serving
 
@@ -72,24 +71,6 @@ def test_a_lost_socket_shows_a_banner_reconnects_and_restores_what_was_drawn_mea
     assert np.array_equal(snapshot(open_page(page.url))["walls"], after)  # the server has it too
 
 
-@pytest.mark.full
-def test_a_page_reconnects_by_itself_and_a_new_server_gets_the_document(open_page):
-    page = open_page(document(prior=0.3), quiet=False)
-    settled(page)
-    page.evaluate("""() => {
-      const send = WebSocket.prototype.send;
-      window.close_it = new Promise((done) => {
-        WebSocket.prototype.send = function (data) { this.close(); WebSocket.prototype.send = send; done(); };
-      });
-    }""")
-    page.get_by_role("radio", name="Erase").check()
-    page.mouse.click(*centre(page, 12, 4))
-    page.evaluate("close_it")
-    until(page, "s.connected && s.seq.confirmed === s.seq.sent && !s.walls[12 * 21 + 4]")
-    shown = settled(page)
-    assert shown["document"]["prior"] == 0.3
-
-
 def test_after_a_restart_on_the_same_port_the_page_goes_on_with_what_was_drawn_meanwhile(open_page, browser):
     """The command itself, killed as by a machine that is switched off."""
     with serving() as (process, address):
@@ -111,29 +92,3 @@ def test_after_a_restart_on_the_same_port_the_page_goes_on_with_what_was_drawn_m
         assert settled(page)["walls"][4:9, 8].all()
         page.reload()  # its address has the new token
         until(page, "s.connected && s.painted")
-
-
-@pytest.mark.full
-def test_a_map_drawn_offline_waits_for_a_server_without_a_file_and_outlives_its_tab(open_page, browser, tmp_path):
-    with served() as (address, server):
-        page = open_page(address + fragment(document(walls=NO_WALLS, sweeps=100_000)), quiet=False)
-        until(page, "s.painted.sweeps > 20")
-        server.stop()
-        page.get_by_role("alert").get_by_text("Connection lost").wait_for()
-        page.get_by_text("sweeps, stopped").wait_for()  # and no time is foretold
-        assert page.get_by_role("button", name="Run", exact=True).is_disabled()
-        choose(page, "Draw")
-        press_and_drag(page, [(4, 8), (8, 8)])
-        other = page.context.new_page()
-        page.close()
-    with served(write_room_log(tmp_path / "room.log"), server.port) as (address, _):
-        other.goto(address)
-        other.get_by_role("status").get_by_text("This server shows room.log, not a map that was drawn").wait_for()
-        other.goto("about:blank")
-    with served(port=server.port) as (address, _):
-        other.goto(address)
-        until(other, "s.painted && s.walls.reduce((a, b) => a + b, 0) === 5")
-        other.get_by_role("status").get_by_text("drawn here when the connection was lost").wait_for()
-        other.goto("about:blank")
-        other.goto(address)
-        until(other, "s.painted && s.status.text === 'Ready'")  # and is kept no longer
