@@ -1,11 +1,28 @@
-"""Simulated buildings with wrong maps: what is done to them, and that places in them are not sure and wrong."""
+"""Simulated logs and maps of the batteries: what went wrong once, and that what is wrong is not sure."""
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
+from bayesmap.poses.slam import infer_trajectory
 from benchmarks.external_maps import NOT_LOST, SURE, asked, case_of, simulated
+from benchmarks.pose_battery import case, judge
+
+
+@pytest.mark.full
+def test_a_weak_laser_on_a_campus_is_not_wrong_without_a_word():
+    """Fewer beams in the first alignments once put its trajectory 20 m off."""
+    log = case(52)
+    trajectory = infer_trajectory(log.scans)
+    outcome = judge(trajectory, log.truth)
+    assert outcome.median_m < 0.1
+    assert outcome.worst_m < 5.0
+    assert outcome.unannounced == 0
+    # The judge sees what nobody announced: half of the way 5 m to the side.
+    moved = trajectory.poses + np.outer(np.arange(len(log.truth)) > len(log.truth) // 2, [0.0, 5.0, 0.0])
+    assert judge(replace(trajectory, poses=moved), log.truth).unannounced > 100
 
 
 def test_a_case_is_what_its_number_says():
