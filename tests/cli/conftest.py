@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from recordings import ODOM, SCAN, laser, odometry, written
 from shell import SLAM, json_of, succeed
 
 from bayesmap.io.logs import read_log
@@ -60,35 +61,9 @@ def short():
 
 @pytest.fixture(scope="session")
 def recording(tmp_path_factory):
-    """A recording of 6 scans by one laser, with /tf and /odom, of a robot that drives along a wall."""
-    from rosbags.rosbag2 import StoragePlugin, Writer
-    from rosbags.typesys import Stores, get_typestore
-
-    store = get_typestore(Stores.ROS2_HUMBLE)
-    make = {name.rpartition("/")[2]: kind for name, kind in store.types.items()}
-    still = make["Vector3"](0.0, 0.0, 0.0)
-    ahead = make["Quaternion"](0.0, 0.0, 0.0, 1.0)
-    folder = tmp_path_factory.mktemp("recording") / "drive"
-    with Writer(folder, version=9, storage_plugin=StoragePlugin.MCAP) as bag:
-        laser, odometry = "sensor_msgs/msg/LaserScan", "nav_msgs/msg/Odometry"
-        kinds = {"/scan": laser, "/rear": laser, "/odom": odometry}
-        topics = {name: bag.add_connection(name, kind, typestore=store) for name, kind in kinds.items()}
-
-        def write(name, t, message):
-            bag.write(topics[name], t, store.serialize_cdr(message, kinds[name]))
-
-        for i in range(7):
-            t = (1000 + i) * 10**9
-            stamp = make["Time"](1000 + i, 0)
-            pose = make["PoseWithCovariance"](make["Pose"](make["Point"](float(i), 0.0, 0.0), ahead), np.zeros(36))
-            twist = make["TwistWithCovariance"](make["Twist"](still, still), np.zeros(36))
-            write("/odom", t, make["Odometry"](make["Header"](stamp, "odom"), "laser", pose, twist))
-            if i < 6:
-                stamp = make["Time"](1000 + i, 5 * 10**8)
-                ranges = np.array([2.0, 2.5, math.inf, math.nan], np.float32)
-                head = make["Header"](stamp, "laser")
-                scan = make["LaserScan"](head, -1.5, 1.5, 1.0, 0.0, 0.1, 0.1, 10.0, ranges, np.zeros(0, np.float32))
-                write("/scan", t + 1, scan)
-                if i < 2:
-                    write("/rear", t + 2, scan)
-    return folder / "drive.mcap"
+    """A recording of 6 scans by one laser, of which another topic has two, and odometry, of a robot that drives."""
+    messages = [("/odom", ODOM, i, odometry(i, i, 0.0, 0.0, child="laser")) for i in range(7)]
+    for i in range(6):
+        scan = laser(i + 0.5, [2.0, 2.5, math.inf, math.nan], [-1.5, -0.5, 0.5, 1.5], limits=(0.1, 10.0))
+        messages += [(topic, SCAN, i, scan) for topic in ("/scan", "/rear")[: 2 if i < 2 else 1]]
+    return written(tmp_path_factory.mktemp("recording"), sorted(messages, key=lambda message: message[2]))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import os
 import select
@@ -12,12 +13,14 @@ import time
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 from click.testing import CliRunner, Result
 
 from bayesmap.cli.folder import Folder
 from bayesmap.cli.group import cli
-from bayesmap.result import Run
+from bayesmap.result import Run, load
+from bayesmap.space.scans import Scans
 
 SOURCE = Path(__file__).resolve().parents[2] / "src"
 SLAM = "--chains 2 --warmup 3 --draws 4 --resolution 0.25 --max-range 7 --threads 2"
@@ -86,6 +89,29 @@ def interrupt_at_checkpoint(monkeypatch: pytest.MonkeyPatch) -> None:
         os.kill(os.getpid(), signal.SIGINT)
 
     monkeypatch.setattr(Folder, "checkpoint", checkpoint)
+
+
+def interrupt_at_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Press Ctrl-C before the first sweep of any chain."""
+    monkeypatch.setattr("bayesmap.api.stop_on_interrupt", lambda: contextlib.nullcontext(lambda: True))
+
+
+def assert_same_draws(folder: Path, other: Path) -> None:
+    """Check that the runs of two folders have equal draws."""
+    run, expected = load(folder / "run.nc"), load(other / "run.nc")
+    assert run.finished
+    for name, values in expected.posterior.draws.arrays.items():
+        np.testing.assert_array_equal(run.posterior.draws.arrays[name], values)
+
+
+def write_table(path: Path, scans: Scans) -> Path:
+    """Write scans with poses and stamps as a CSV table."""
+    angles, (*poses, stamps) = scans.angles_rad, (*scans.poses.T, scans.stamps_s)
+    head = ["stamp", "x", "y", "yaw", *(f"r_{i}" for i in range(len(angles)))]
+    rows = [f"# angle_min: {angles[0]}", f"# angle_increment: {angles[1] - angles[0]}", ",".join(head)]
+    table = np.column_stack([stamps, *poses, scans.ranges_m])
+    path.write_text("\n".join([*rows, *(",".join(map(repr, row)) for row in table.tolist())]))
+    return path
 
 
 PATIENCE_S = 300.0

@@ -8,9 +8,8 @@ import shlex
 import shutil
 import signal
 
-import numpy as np
 import pytest
-from shell import call, refusal_of, succeed
+from shell import assert_same_draws, call, refusal_of, succeed
 from tiers import full_but
 
 import bayesmap as bm
@@ -44,7 +43,6 @@ def check(result, output, alone):
     assert rows["broken.log"]["run"] is None
     assert not (output / "broken").exists()
     assert "broken.log: not a log" in result.stderr
-    expected = bm.load(alone / "run.nc")
     for name in ("east", "west"):
         document = rows[f"{name}.log"]["run"]
         assert rows[f"{name}.log"]["error"] is None
@@ -52,32 +50,31 @@ def check(result, output, alone):
         assert json.loads((output / name / "summary.json").read_text())["outputs"] == document["outputs"]
         for file in ("run.nc", "posterior.png", "map.yaml", "map.pgm", "summary.json", "config.toml"):
             assert (output / name / file).stat().st_size > 0
-        run = bm.load(output / name / "run.nc")
-        for array, values in expected.posterior.draws.arrays.items():
-            np.testing.assert_array_equal(run.posterior.draws.arrays[array], values)
+        assert_same_draws(output / name, alone)
+
+
+FLEET = ("--holdout 4 --cells binary --resolution 0.25 --chains 2 --warmup 5 --draws 8", "--no-progress")
+"""Walls, of which a worker has little to load; surfaces are drawn on a cluster in tests/run/test_ray_executor.py."""
 
 
 @pytest.fixture(scope="module")
-def alone(office, tmp_path_factory, short):
+def alone(office, tmp_path_factory):
     """The same log inferred alone, with the fleet's settings."""
     folder = tmp_path_factory.mktemp("fleet") / "alone"
-    succeed("infer", office, "-o", folder, "--holdout 4", *short)
+    succeed("infer", office, "-o", folder, *FLEET)
     return folder
 
 
-def test_a_folder_of_logs_is_inferred_and_a_broken_one_fails_alone(logs, tmp_path, alone, short):
-    output = tmp_path / "runs"
-    check(call("infer", logs, "-o", output, "--json --holdout 4", *short), output, alone)
+def test_a_folder_of_logs_is_inferred_and_a_broken_one_fails_alone(logs, tmp_path, alone):
+    check(call("infer", logs, "-o", tmp_path / "runs", "--json", *FLEET), tmp_path / "runs", alone)
 
 
-def test_on_a_cluster_too(logs, tmp_path, alone, short, cluster):
-    output = tmp_path / "runs"
-    every = "--executor ray --checkpoint-every 0"
-    check(call("infer", logs, "-o", output, "--json --holdout 4", *short, every), output, alone)
+def test_on_a_cluster_too(logs, tmp_path, alone, cluster):
+    check(call("infer", logs, "-o", tmp_path / "runs", "--json --executor ray", *FLEET), tmp_path / "runs", alone)
 
 
 @pytest.mark.full
-def test_a_log_whose_node_dies_goes_on_elsewhere(logs, tmp_path, alone, short, cluster, monkeypatch):
+def test_a_log_whose_node_dies_goes_on_elsewhere(logs, tmp_path, alone, cluster, monkeypatch):
     cluster.complete()
     keep, killed = infer.RayFleet.keep, []
 
@@ -88,19 +85,15 @@ def test_a_log_whose_node_dies_goes_on_elsewhere(logs, tmp_path, alone, short, c
             killed.append(entry)
 
     monkeypatch.setattr(infer.RayFleet, "keep", keep_and_kill)
-    output = tmp_path / "runs"
-    every = "--executor ray --checkpoint-every 0"
-    check(call("infer", logs, "-o", output, "--json --holdout 4", *short, every), output, alone)
+    every = "--json --executor ray --checkpoint-every 0"
+    check(call("infer", logs, "-o", tmp_path / "runs", every, *FLEET), tmp_path / "runs", alone)
     assert killed
 
 
 @pytest.mark.full
-def test_one_log_on_a_cluster_is_what_it_is_without(office, tmp_path, alone, short, cluster):
-    output = tmp_path / "run"
-    succeed("infer", office, "-o", output, "--holdout 4", *short, "--executor ray")
-    run, expected = bm.load(output / "run.nc"), bm.load(alone / "run.nc")
-    for array, values in expected.posterior.draws.arrays.items():
-        np.testing.assert_array_equal(run.posterior.draws.arrays[array], values)
+def test_one_log_on_a_cluster_is_what_it_is_without(office, tmp_path, alone, cluster):
+    succeed("infer", office, "-o", tmp_path / "run", *FLEET, "--executor ray")
+    assert_same_draws(tmp_path / "run", alone)
 
 
 @pytest.mark.full
@@ -155,10 +148,8 @@ def test_what_ray_prints_after_the_run_is_not_in_the_document(logs, tmp_path, sh
 
         return wrapped
 
-    if several:
-        monkeypatch.setattr(infer.Entry, "as_json", and_print(infer.Entry.as_json))
-    else:
-        monkeypatch.setattr(pipeline, "report", and_print(pipeline.report))
+    of, name = (infer.Entry, "as_json") if several else (pipeline, "report")
+    monkeypatch.setattr(of, name, and_print(getattr(of, name)))
     given = (logs / "east.log", logs / "west.log")[: 2 if several else 1]
     result = succeed("infer", *given, "-o", tmp_path / "runs", "--json", *short, "--executor ray")
     assert json.loads(result.stdout)["schema_version"] == 1
@@ -168,17 +159,12 @@ def test_what_ray_prints_after_the_run_is_not_in_the_document(logs, tmp_path, sh
 @pytest.mark.full
 def test_a_pattern_and_several_names_are_several_logs(logs, tmp_path, short):
     (logs / "broken.log").unlink()
-    result = succeed("infer", logs / "*.log", "-o", tmp_path / "runs", *short)
-    lines = result.stdout.splitlines()
-    assert lines[0].split()[:3] == ["log", "beams", "minutes"]
-    assert [line.split()[0].rpartition("/")[2] for line in lines[1:]] == ["east.log", "west.log"]
-    assert (
-        refusal_of("infer", logs / "east.log", logs / "west.log", "-o", tmp_path / "runs", *short, code=1).count(
-            "there is a run already"
-        )
-        == 2
-    )
-    succeed("infer", logs / "east.log", logs / "west.log", "-o", tmp_path / "runs", "--resume", *short)
+    heading, *rows = succeed("infer", logs / "*.log", "-o", tmp_path / "runs", *short).stdout.splitlines()
+    assert heading.split()[:3] == ["log", "beams", "minutes"]
+    assert [row.split()[0].rpartition("/")[2] for row in rows] == ["east.log", "west.log"]
+    named = ("infer", logs / "east.log", logs / "west.log", "-o", tmp_path / "runs", *short)
+    assert refusal_of(*named, code=1).count("there is a run already") == 2
+    succeed(*named, "--resume")
 
 
 def interrupt_the_first(monkeypatch, on_ray):
@@ -197,13 +183,11 @@ def interrupt_the_first(monkeypatch, on_ray):
 
 
 @pytest.mark.parametrize("executor", full_but(["threads", "ray"], "threads"))
-def test_a_resumed_fleet_begins_the_other_logs_with_its_settings(
-    logs, tmp_path, alone, short, monkeypatch, request, executor
-):
+def test_a_resumed_fleet_begins_the_other_logs_with_its_settings(logs, tmp_path, alone, monkeypatch, request, executor):
     if executor == "ray":
         request.getfixturevalue("cluster")
     output, pair = tmp_path / "runs", (logs / "east.log", logs / "west.log")
-    options = ("--holdout 4", *short, "--executor", executor, "--checkpoint-every 0")
+    options = (*FLEET, "--executor", executor, "--checkpoint-every 0")
     with monkeypatch.context() as patch:
         interrupt_the_first(patch, executor == "ray")
         stopped = call("infer", *pair, "-o", output, *options)
@@ -213,12 +197,8 @@ def test_a_resumed_fleet_begins_the_other_logs_with_its_settings(
     assert not (output / "west").exists()
     assert pipeline.settings_in(output / "fleet.toml", "infer")["infer"]["executor"] == executor
     succeed(*shlex.split(again)[1:])
-    expected = bm.load(alone / "run.nc")
     for name in ("east", "west"):
-        run = bm.load(output / name / "run.nc")
-        assert run.posterior.settings["chains"] == 2
-        for array, values in expected.posterior.draws.arrays.items():
-            np.testing.assert_array_equal(run.posterior.draws.arrays[array], values)
+        assert_same_draws(output / name, alone)
 
 
 @pytest.mark.full

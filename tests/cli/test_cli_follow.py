@@ -9,7 +9,7 @@ import time
 
 import numpy as np
 import pytest
-from shell import PATIENCE_S, Listener, call, refusal_of, start, succeed
+from shell import PATIENCE_S, Listener, call, refusal_of, start, succeed, write_table
 from tiers import full_but
 
 from bayesmap.io.logs import read_log
@@ -100,13 +100,7 @@ def test_a_reader_that_has_gone_is_the_end(office, follow, tmp_path):
 
 
 def test_a_table_is_followed_as_the_whole_of_it_is_read(office, office_run, prior, answers, tmp_path):
-    scans, table = read_log(office), tmp_path / "scans.csv"
-    angles = scans.angles_rad
-    rows = [f"# angle_min: {angles[0]}", f"# angle_increment: {angles[1] - angles[0]}"]
-    rows.append(",".join(["stamp", "x", "y", "yaw", *(f"r_{i}" for i in range(len(angles)))]))
-    for stamp, pose, ranges in zip(scans.stamps_s, scans.poses, scans.ranges_m, strict=True):
-        rows.append(",".join(repr(float(v)) for v in (stamp, *pose, *ranges)))
-    table.write_text("\n".join(rows))
+    table = write_table(tmp_path / "scans.csv", read_log(office))
     result = succeed("localize", office_run / "run.nc", table, "--follow --for 0", *prior)
     means = [json.loads(line)["mean"] for line in result.stdout.splitlines()]
     np.testing.assert_allclose(means, [json.loads(line)["mean"] for line in answers], atol=1e-3)

@@ -4,7 +4,6 @@ import json
 
 import numpy as np
 import pytest
-from data import intel_log
 from shell import call, json_of, refusal_of, succeed
 from tiers import full_but
 
@@ -32,19 +31,17 @@ OF_KIND = {
     "reflectivity": {"kind": "beta", "hit_depth": 0.5, "start": "readings", "order": None},
     "binary": {"kind": "independent", "hit_depth": 0.25, "start": "prior", "order": "radial"},
 }
-ALL = pytest.mark.parametrize("cells", full_but(list(OF_KIND), "surface", "binary"))
 
 
-@ALL
-def test_everything_is_left_in_the_folder(office, office_run, tmp_path, short, cells):
-    folder = office_run
-    if cells != "surface":
-        folder = tmp_path / "run"
-        succeed("infer", office, "-o", folder, *short, "--cells", cells)
-    assert {path.name for path in folder.iterdir()} == (WITH_SURFACES if cells == "surface" else FILES)
+@pytest.mark.parametrize("cells", full_but(list(OF_KIND), "surface", "binary"))
+def test_everything_is_left_in_the_folder_and_told_in_the_document(office, tmp_path, short, cells):
+    folder, files = tmp_path / "run", WITH_SURFACES if cells == "surface" else FILES
+    options = ("--holdout 4 --json --seed 5 --cells", cells)
+    document = json_of("infer", office, "-o", folder, *short, *options)
+    assert {path.name for path in folder.iterdir()} == files
+    assert (folder / "posterior.png").read_bytes().startswith(b"\x89PNG")
     run = bm.load(folder / "run.nc")
-    assert run.finished
-    assert run.posterior.kind == cells
+    assert (run.finished, run.posterior.kind) == (True, cells)
     occupancy, grid = read_map(folder / "map.yaml")
     assert grid == run.grid
     assert np.isnan(occupancy[~run.observed]).all()
@@ -53,14 +50,10 @@ def test_everything_is_left_in_the_folder(office, office_run, tmp_path, short, c
     evidence = run.posterior.prior.evidence_interval(run.posterior.draws, 0.9)
     seen_free = run.observed if evidence is None else run.observed & (evidence[1] < 0.5)
     np.testing.assert_array_equal(occupancy == 0, seen_free & (run.occupancy < free))
-    assert (folder / "posterior.png").read_bytes().startswith(b"\x89PNG")
-
-
-@ALL
-def test_the_document(office, tmp_path, short, cells):
-    options = ("--holdout 4 --json --seed 5 --cells", cells)
-    document = json_of("infer", office, "-o", tmp_path / "run", *short, *options)
-    assert document["cells"] == cells
+    assert json.loads((folder / "summary.json").read_text()) == document
+    assert document.keys() >= KEYS
+    assert document["outputs"].keys() == files
+    assert (document["cells"], document["finished"]) == (cells, True)
     assert {**document, "kind": document["prior"]["kind"]}.items() >= OF_KIND[cells].items()
     if cells == "binary":
         assert document["fitted"] is None
@@ -68,30 +61,23 @@ def test_the_document(office, tmp_path, short, cells):
         assert document["sensor"] == "fit"
         fitted = document["fitted"]
         assert fitted["prior"]["kind"] == document["prior"]["kind"]
-        first = first_sensor(prior_from(document["prior"]), 0.25)
-        assert fitted["sensor"] != describe(first)
-        assert fitted["sensor"] == describe(bm.load(tmp_path / "run" / "run.nc").posterior.sensor)
+        assert fitted["sensor"] != describe(first_sensor(prior_from(document["prior"]), 0.25))
+        assert fitted["sensor"] == describe(run.posterior.sensor)
         assert document["unchanged_cells"] == 0  # no two draws of a number are the same
         assert document["diagnostics"]["unchanged_cells"] is None
-        assert "unchanged" not in str(bm.load(tmp_path / "run" / "run.nc").summary())
-    assert document.keys() >= KEYS
-    assert json.loads((tmp_path / "run" / "summary.json").read_text()) == document
-    run = bm.load(tmp_path / "run" / "run.nc")
+        assert "unchanged" not in str(run.summary())
     assert document["grid"] == {"shape": list(run.grid.shape), "resolution": 0.25, "origin": list(run.grid.origin)}
     assert (document["scans"], document["beams"]) == (9, 9 * 60)
-    assert document["heldout"]["every"] == 4
-    assert document["heldout"]["beams"] == 3 * 60
-    _, heldout = bm.read_log(office).holdout(4)
-    assert document["heldout"]["nats_per_beam"] == pytest.approx(run.log_score(heldout))
+    heldout = document["heldout"]
+    assert (heldout["every"], heldout["beams"]) == (4, 3 * 60)
+    assert heldout["nats_per_beam"] == pytest.approx(run.log_score(bm.read_log(office).holdout(4)[1]))
     assert document["log_joint"]["mean"] == pytest.approx(run.log_joint.mean())
     assert document["log_joint"]["last"] == pytest.approx(run.log_joint[:, -1].mean())
     assert document["seconds"].keys() == {"trace", "warm_start", "sampling", "total", "fit"}
     assert (document["chains"], document["sweeps"], document["seed"]) == (2, 13, 5)
     assert document["log"]["skipped_lines"] == 0
     assert document["log"]["no_return_m"] == 12.0
-    assert document["outputs"].keys() == (WITH_SURFACES if cells == "surface" else FILES)
     assert document["peak_memory_mb"] > 10
-    assert document["finished"] is True
 
 
 def test_a_run_is_not_overwritten_unless_told(office, tmp_path, short):
@@ -180,15 +166,6 @@ def test_how_many_draws_a_short_log_gets_is_kept_with_the_run(office, tmp_path, 
     assert f"\ndraws = {draws} " in (tmp_path / "run" / "config.toml").read_text()
 
 
-@pytest.mark.full
-def test_the_intel_building(tmp_path):
-    options = "--resolution 0.4 --max-range 10 --chains 2 --warmup 3 --draws 6 --holdout 10 --json"
-    document = json_of("infer", intel_log("intel-corrected.log.gz"), "-o", tmp_path / "run", options)
-    assert (document["log"]["scans"], document["scans"]) == (910, 819)
-    assert document["log"]["no_return_m"] == 81.83
-    assert document["heldout"]["beams"] == 91 * 180
-
-
 @pytest.mark.parametrize("coupling", full_but(["0.7", "fit"], "fit"))
 def test_walls_whose_neighbours_are_coupled(office, tmp_path, short, coupling):
     options = ("--cells binary --coupling", coupling, "--prior 0.3 --json")
@@ -225,22 +202,6 @@ def test_labels_of_neighbours_are_coupled(office, tmp_path, short, cells):
 def test_a_log_without_a_hit_is_warned_of(office, tmp_path, short):
     result = succeed("infer", office, "-o", tmp_path / "run", *short, "--max-range 0.001")
     assert f"warning: {office}: no reading is a hit" in result.stderr
-
-
-def test_importance_sampling_is_announced_before_its_first_particles(office):
-    scans = bm.read_log(office)
-    events = []
-    bm.infer(
-        scans,
-        bm.Grid.covering(scans, 0.25),
-        prior=bm.Independent(0.2),
-        sensor=bm.Gaussian(0.1),
-        method=bm.Importance(particles=300),
-        schedule=bm.Schedule(draws=2),
-        on_progress=lambda event: events.append((event.stage, event.done, event.total)),
-    )
-    assert events[0] == ("particles", 0, 300)
-    assert events[-1] == ("particles", 300, 300)
 
 
 def test_where_the_laser_sits_is_said_and_kept_with_the_run(office, office_run, tmp_path, short):

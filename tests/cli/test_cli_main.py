@@ -2,9 +2,11 @@
 
 import os
 import re
+import shlex
 import subprocess
 import sys
 
+import numpy as np
 import pytest
 from shell import SOURCE, call, refusal_of, start
 
@@ -27,11 +29,16 @@ for arguments in [["--help"], ["--version"], *([name, "--help"] for name in sys.
 """
 
 
-def test_help_loads_nothing_heavy():
-    environment = {**os.environ, "PYTHONPATH": str(SOURCE)}
-    command = [sys.executable, "-c", HELP, *COMMANDS]
+def python(code, *arguments):
+    """Run some code in a process of its own, with exit code 0."""
+    environment, command = {**os.environ, "PYTHONPATH": str(SOURCE)}, [sys.executable, "-c", code, *arguments]
     done = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
+    return done
+
+
+def test_help_loads_nothing_heavy():
+    python(HELP, *COMMANDS)
 
 
 def test_version():
@@ -45,28 +52,17 @@ def test_every_command_is_listed_and_described():
         assert "\\b" not in call(name, "--help").stdout
 
 
-@pytest.mark.parametrize(
-    "arguments",
-    [
-        ["infre"],
-        ["infer"],
-        ["infer", "x.log", "--no-such-flag"],
-        ["infer", "x.log", "--chains", "two"],
-        ["infer", "x.log", "--method", "magic"],
-        ["infer", "x.log", "--set", "chains"],
-        ["infer", "x.log", "--set", "chians=2"],
-        ["infer", "x.log", "--resume", "--force"],
-        ["infer", ""],
-        ["infer", "x.log", "-o", ""],
-        ["infer", "x.log", "--scan-topic", ""],
-        ["demo", "-o", ""],
-        ["simulate", "-o", "scans.txt"],
-        ["simulate", "--pose", "here"],
-        ["simulate", "--pose", "nan,0,0"],
-    ],
-)
-def test_usage_errors_exit_2(arguments):
-    result = call(*arguments)
+USAGE = (
+    "infre", "infer", "infer x.log --no-such-flag", "infer x.log --chains two", "infer x.log --method magic",
+    "infer x.log --set chains", "infer x.log --set chians=2", "infer x.log --resume --force", "infer ''",
+    "infer x.log -o ''", "infer x.log --scan-topic ''", "demo -o ''", "simulate -o scans.txt", "simulate --pose here",
+    "simulate --pose nan,0,0",
+)  # fmt: skip
+
+
+@pytest.mark.parametrize("line", USAGE)
+def test_usage_errors_exit_2(line):
+    result = call(*shlex.split(line))
     assert result.exit_code == 2, result.stderr
     assert result.stdout == ""
     assert "Error" in result.stderr
@@ -76,10 +72,13 @@ def test_a_mistyped_command_gets_a_suggestion():
     assert "did you mean 'infer'" in call("infre").stderr
 
 
+LOOSE = RuntimeError("a loose wire")
+
+
 @pytest.mark.parametrize(
     ("error", "code", "message"),
     [
-        (RuntimeError("a loose wire"), 1, "unexpected RuntimeError: a loose wire; -v shows where"),
+        (LOOSE, 1, "unexpected RuntimeError: a loose wire; -v shows where"),
         (OSError(28, "No space left on device", "run.nc"), 1, "run.nc: No space left on device"),
         (PermissionError(13, "Permission denied", "x.log"), 3, "x.log: Permission denied; name another file or folder"),
         (MemoryError(), 1, "out of memory"),
@@ -88,7 +87,7 @@ def test_a_mistyped_command_gets_a_suggestion():
         (bayesmap.BadInput("two\nlines"), 3, "two lines"),
     ],
 )
-def test_failures_are_one_line(monkeypatch, office, tmp_path, error, code, message):
+def test_failures_are_one_line_and_verbose_shows_the_traceback(monkeypatch, office, tmp_path, error, code, message):
     def fail(*arguments, **options):
         raise error
 
@@ -98,16 +97,10 @@ def test_failures_are_one_line(monkeypatch, office, tmp_path, error, code, messa
     assert result.stdout == ""
     assert result.stderr.startswith("bayesmap: error: " + message)
     assert result.stderr.count("\n") == 1
-
-
-def test_verbose_shows_the_traceback(monkeypatch, office, tmp_path):
-    def fail(*arguments, **options):
-        raise RuntimeError("a loose wire")
-
-    monkeypatch.setattr(pipeline, "sample", fail)
-    result = refusal_of("infer", office, "-o", tmp_path / "run", "-v", code=1)
-    assert "Traceback" in result
-    assert result.endswith("bayesmap: error: unexpected RuntimeError: a loose wire\n")
+    if error is LOOSE:
+        verbose = refusal_of("infer", office, "-o", tmp_path / "run", "-v", code=1)
+        assert "Traceback" in verbose
+        assert verbose.endswith("bayesmap: error: unexpected RuntimeError: a loose wire\n")
 
 
 def test_a_reader_that_leaves_is_no_error():
@@ -124,11 +117,16 @@ def test_what_a_library_says_while_the_process_ends_is_no_result():
         "import atexit\nfrom bayesmap.cli.main import main\n"
         "atexit.register(lambda: print('nodes are dead'))\nmain(['config'])\n"
     )
-    environment = {**os.environ, "PYTHONPATH": str(SOURCE)}
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, env=environment, check=True)
+    done = python(code)
     assert "[demo]" in done.stdout
     assert "nodes are dead" not in done.stdout
     assert "nodes are dead" in done.stderr
+
+
+def test_peak_memory_is_that_of_this_process_not_of_the_one_that_started_it():
+    ours = np.ones(1 << 26)  # half a gigabyte
+    done = python("from bayesmap.cli.folder import peak_memory_mb; print(peak_memory_mb())")
+    assert 5 < float(done.stdout) < 200 < ours.nbytes / 1e6
 
 
 def test_choices_are_those_of_the_library():

@@ -193,20 +193,6 @@ def test_export_of_layers_in_a_recording(office_run, tmp_path):
     )
 
 
-def test_simulated_truth_is_found_again(office, office_run):
-    truth, there = read_map(office.with_name("office-truth.yaml"))
-    run = bm.load(office_run / "run.nc")
-    x, y = run.grid.centers_m()
-    i = np.floor((x - there.origin[0]) / there.resolution).astype(int)
-    j = np.floor((y - there.origin[1]) / there.resolution).astype(int)
-    inside = (i >= 0) & (i < there.shape[0]), (j >= 0) & (j < there.shape[1])
-    walls = truth[np.ix_(i[inside[0]], j[inside[1]])] > 0.5
-    found = run.occupancy[np.ix_(*inside)]
-    free = (found < 0.02) & run.observed[np.ix_(*inside)]  # elsewhere the prior speaks, which may be low too
-    assert free.sum() > 300
-    assert walls[free].mean() < 0.05
-
-
 def test_simulate_worlds_from_files(tmp_path):
     drawing = tmp_path / "room.txt"
     drawing.write_text("XXXXX\nX...X\nX...X\nXXXXX\n")

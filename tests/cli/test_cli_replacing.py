@@ -1,10 +1,9 @@
 """A run that is to be replaced stays until there is something in its place, whatever happens before."""
 
-import contextlib
 import shutil
 
 import pytest
-from shell import interrupt_at_checkpoint, refusal_of, succeed
+from shell import interrupt_at_checkpoint, interrupt_at_once, refusal_of, succeed
 from tiers import full_but
 
 import bayesmap as bm
@@ -24,7 +23,7 @@ def finished(office_run, tmp_path):
 
 def test_interrupted_before_the_first_sweep_it_is_as_it_was(office, finished, short, monkeypatch):
     before = contents(finished)
-    monkeypatch.setattr("bayesmap.api.stop_on_interrupt", lambda: contextlib.nullcontext(lambda: True))
+    interrupt_at_once(monkeypatch)
     result = refusal_of("infer", office, "-o", finished, *short, "--seed 5 --force", code=130)
     assert "interrupted before there was anything to save" in result
     assert "is as it was" in result

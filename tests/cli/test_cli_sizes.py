@@ -1,6 +1,6 @@
 """Time and memory are said before a run begins; what cannot fit is refused with the option that makes it fit."""
 
-from shell import SLAM, call, json_of, refusal_of, succeed
+from shell import call, json_of, refusal_of, succeed
 
 from bayesmap.cli.console import Console
 from bayesmap.cli.sizes import foretell, of_suggestion
@@ -26,12 +26,6 @@ def test_what_cannot_fit_is_refused_and_nothing_is_written(office, tmp_path, sho
     assert not (tmp_path / "run").exists()
     insisted = succeed("infer", office, "-o", tmp_path / "run", "--any-size --cells binary", *short)
     assert "this takes about " in insisted.stderr
-
-
-def test_slam_is_refused_before_the_trajectory(raw_log, tmp_path, monkeypatch):
-    monkeypatch.setattr(cost, "memory_bytes", lambda: SMALL)
-    assert "--any-size" in refusal_of("slam", raw_log, "-o", tmp_path / "run", SLAM)
-    assert not (tmp_path / "run").exists()
 
 
 def test_info_gives_the_cost_of_its_command_and_an_option_if_it_cannot_fit(office, monkeypatch):

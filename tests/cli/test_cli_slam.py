@@ -1,10 +1,11 @@
 """`bayesmap slam`: from a log with raw odometry to map and trajectory, stopped and resumed."""
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
-from shell import SLAM, json_of, refusal_of, succeed
+from shell import SLAM, json_of, refusal_of, succeed, write_table
 
 import bayesmap as bm
 from bayesmap.cli.console import Console
@@ -126,27 +127,10 @@ def test_what_cannot_be_inferred_is_refused(raw_log, tmp_path):
     assert "those of the base need to know where the laser sits" in refused
 
 
-def rewritten(log, target, change):
-    """The log's scans, with other poses or stamps, as a table."""
-    scans = bm.read_log(log)
-    poses, stamps = scans.poses.copy(), scans.stamps_s.copy()
-    change(poses, stamps)
-    angles = scans.angles_rad
-    head = ["stamp", "x", "y", "yaw", *(f"r_{i}" for i in range(len(angles)))]
-    rows = [f"# angle_min: {angles[0]}", f"# angle_increment: {angles[1] - angles[0]}", ",".join(head)]
-    rows += [
-        ",".join(repr(float(v)) for v in (stamp, *pose, *ranges))
-        for stamp, pose, ranges in zip(stamps, poses, scans.ranges_m, strict=True)
-    ]
-    target.write_text("\n".join(rows))
-    return target
-
-
 def test_constant_odometry_is_refused_before_anything_is_written(raw_log, tmp_path):
-    def constant(poses, stamps):
-        poses[:] = 0.0
-
-    refused = refusal_of("slam", rewritten(raw_log, tmp_path / "constant.csv", constant), "-o", tmp_path / "run")
+    scans = bm.read_log(raw_log)
+    constant = write_table(tmp_path / "constant.csv", scans.at(0 * scans.poses))
+    refused = refusal_of("slam", constant, "-o", tmp_path / "run")
     assert "odometry is constant, one pose for all scans" in refused
     assert "--no-odometry" in refused
     assert not (tmp_path / "run").exists()
@@ -154,12 +138,12 @@ def test_constant_odometry_is_refused_before_anything_is_written(raw_log, tmp_pa
 
 @pytest.mark.full
 def test_frozen_odometry_and_a_clock_that_was_set_back_are_named(raw_log, tmp_path):
-    def worse(poses, stamps):
-        poses[12:24] = poses[12]
-        stamps[:] = 0.2 * np.arange(len(stamps))
-        stamps[30:] -= 3.0
-
-    result = succeed("slam", rewritten(raw_log, tmp_path / "worse.csv", worse), "-o", tmp_path / "run", "--fast", SLAM)
+    scans = bm.read_log(raw_log)
+    poses, stamps = scans.poses.copy(), 0.2 * np.arange(len(scans))
+    poses[12:24] = poses[12]
+    stamps[30:] -= 3.0
+    worse = write_table(tmp_path / "worse.csv", replace(scans, poses=poses, stamps_s=stamps))
+    result = succeed("slam", worse, "-o", tmp_path / "run", "--fast", SLAM)
     assert "warning: odometry stands still from scan 12 to 23" in result.stderr
     assert "the clock goes back by 2.8 s at scan 30 (at 3.000 s) and stays so" in result.stderr
     stamps = np.loadtxt(tmp_path / "run" / "trajectory.tum")[:, 0]

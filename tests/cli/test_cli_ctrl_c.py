@@ -1,4 +1,4 @@
-"""Processes that are started to ignore Ctrl-C, as a script's shell starts jobs in the background."""
+"""Ctrl-C in the first moments is exit code 130 and one line; a process that was started to ignore it goes on."""
 
 import json
 import os
@@ -6,15 +6,61 @@ import signal
 import subprocess
 import sys
 import threading
-from pathlib import Path
 
 import pytest
-from shell import PATIENCE_S, Listener, start, wait_for
+from shell import PATIENCE_S, SOURCE, Listener, after, start, wait_for
+from tiers import full_but
 
 import bayesmap as bm
 from bayesmap.run.runner import stop_on_interrupt
 
 IGNORE = "import signal\nsignal.signal(signal.SIGINT, signal.SIG_IGN)"
+
+PRESS = """
+import os, signal, sys
+
+def press(event, given):
+    if event == "import" and given[0] == sys.argv[1]:
+        sys.argv[1] = ""
+        os.kill(os.getpid(), signal.SIGINT)
+
+sys.addaudithook(press)
+from bayesmap.cli.main import main
+main(sys.argv[2:])
+"""
+"""Presses Ctrl-C when a module begins to be loaded."""
+
+
+def interrupted(module, *arguments, ignoring=False):
+    """The exit code and both streams of a process that gets Ctrl-C when it loads a module."""
+    command = [sys.executable, "-c", PRESS, module, *map(str, arguments)]
+    environment = {**os.environ, "PYTHONPATH": str(SOURCE)}
+    if ignoring:
+        command = after(IGNORE, command)
+    done = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
+    return done.returncode, done.stdout, done.stderr
+
+
+FIRST = ("bayesmap.cli.group", "difflib", "click", "click.core", "bayesmap.cli.console", "bayesmap.errors")
+THEN = ("bayesmap.cli.keys", "bayesmap.cli.folder", "bayesmap.io.logs", "numpy", "bayesmap.space.scans")
+
+
+@pytest.mark.parametrize("module", full_but(FIRST, "bayesmap.cli.group", "click.core"))
+def test_while_the_command_line_is_loaded(module):
+    assert interrupted(module, "--help") == (130, "", "bayesmap: error: interrupted\n")
+
+
+@pytest.mark.parametrize("module", full_but(THEN, "bayesmap.cli.folder", "numpy"))
+def test_while_a_command_is_loaded(office, tmp_path, module):
+    told = interrupted(module, "infer", office, "-o", tmp_path / "run")
+    assert told == (130, "", "bayesmap: error: interrupted\n")
+    assert not (tmp_path / "run").exists()
+
+
+def test_a_process_that_ignores_ctrl_c_goes_on_ignoring_it():
+    code, shown, _ = interrupted("click", "--version", ignoring=True)
+    assert code == 0
+    assert shown.startswith("bayesmap, version")
 
 
 def test_an_ignored_ctrl_c_does_not_stop_a_run(office, tmp_path, short):
@@ -67,38 +113,3 @@ def test_ctrl_c_is_a_request_only_where_it_can_come():
 def _never_stopped():
     with stop_on_interrupt() as stopped:
         assert not stopped()
-
-
-PRESSED = """
-import signal
-import subprocess
-import sys
-
-def test_here():
-    try:
-        signal.raise_signal(signal.SIGINT)
-    except KeyboardInterrupt:
-        return
-    raise AssertionError("Ctrl-C was ignored")
-
-def test_in_a_child():
-    code = "import signal; signal.raise_signal(signal.SIGINT)"
-    done = subprocess.run([sys.executable, "-c", code], stderr=subprocess.DEVNULL)
-    assert done.returncode == -signal.SIGINT
-"""
-
-
-@pytest.mark.full
-@pytest.mark.parametrize("with_settings", [True, False])
-def test_tests_may_press_ctrl_c_even_where_they_were_started_to_ignore_it(tmp_path, with_settings):
-    """The second case shows what the settings of all tests (tests/conftest.py) are for."""
-    (tmp_path / "test_pressed.py").write_text(PRESSED)
-    tests = Path(__file__).parents[1]
-    if with_settings:
-        (tmp_path / "conftest.py").write_text((tests / "conftest.py").read_text())
-    run = f"{IGNORE}\nimport pytest\nraise SystemExit(pytest.main(['-q', '-p', 'no:cacheprovider']))"
-    done = subprocess.run(
-        [sys.executable, "-c", run], cwd=tmp_path, env=os.environ | {"PYTHONPATH": str(tests)}, capture_output=True,
-        text=True, check=False,
-    )  # fmt: skip
-    assert ("2 passed" if with_settings else "2 failed") in done.stdout
