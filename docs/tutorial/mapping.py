@@ -316,7 +316,7 @@ assert abs(by_numpy - by_hand) < 2.0
 # maps the weighted maps are worth. *Resampling* draws from the maps, each with a probability equal to its weight.
 
 # %%
-N_PARTICLES = 10_000
+N_PARTICLES = 2_000
 
 
 @jax.jit
@@ -337,7 +337,7 @@ assert len(set(resampled.tolist())) == 1
 
 # %% [markdown]
 # All hundred resampled maps are the same map. Would more maps help? The compiled kernels of bayesmap do this work much
-# faster, so we can afford a hundred times as many maps. `bm.infer` runs them.
+# faster, so we can afford five hundred times as many maps. `bm.infer` runs them.
 
 # %%
 problem = {"scans": scans, "grid": grid, "prior": bm.Independent(P_WALL), "sensor": bm.Gaussian(SIGMA_M)}

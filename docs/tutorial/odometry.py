@@ -118,7 +118,7 @@ run = bm.slam(
     log,
     resolution=0.1,
     fast=False,
-    schedule=bm.Schedule(chains=2, warmup=10, draws=10),
+    schedule=bm.Schedule(chains=2, warmup=5, draws=5),
     seed=1,
     on_progress=lambda event: stages.append(event.stage),
 )

@@ -7,10 +7,12 @@ A comment above a Python block says what it needs; it does not show on the page:
     <!-- example: not run, because REASON -->        compiled only
 """
 
+import importlib.util
 import re
 import shlex
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 ROOT = Path(__file__).resolve().parents[2]
 TUTORIAL = ROOT / "docs" / "tutorial"
@@ -40,6 +42,14 @@ class Example:
     text: str
     needs: str = ""
     not_run: str = ""
+
+
+def script(path: Path) -> Any:
+    """Return a script of docs/, which lies in no package, as a module."""
+    spec = importlib.util.spec_from_file_location(f"{path.parent.name}_{path.stem}", path)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
 
 
 def python_examples(page: str) -> list[Example]:

@@ -2,32 +2,17 @@
 
 import ast
 import base64
-import importlib.util
-import os
+import importlib
 import re
-import subprocess
-import sys
 import zlib
-from pathlib import Path
 
 import pytest
+from examples import TUTORIAL, script
 
 from bayesmap.app.protocol.wire import unframe
 
-ROOT = Path(__file__).parents[2]
-TUTORIAL = ROOT / "docs" / "tutorial"
 FIGURES = TUTORIAL / "figures"
-
-
-def loaded(name):
-    """A script of the tutorial, as a module."""
-    spec = importlib.util.spec_from_file_location(f"tutorial_{name}", TUTORIAL / f"{name}.py")
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
-
-
-render = loaded("render")
+render = script(TUTORIAL / "render.py")
 every_page = pytest.mark.parametrize("name", render.PAGES)
 OFTEN = ("mapping", "odometry")
 """The notebooks of the landing run; the others take half a minute or more each."""
@@ -52,16 +37,12 @@ def figures_of(name):
         for name in render.PAGES
     ],
 )
-def test_a_notebook_runs_and_draws_the_figures_of_its_page(name, tmp_path):
+def test_a_notebook_runs_and_draws_the_figures_of_its_page(name, tmp_path, monkeypatch, capsys):
     """Its cells assert what its prose says."""
-    environment = os.environ | {
-        "BAYESMAP_TUTORIAL_FIGURES": str(tmp_path),
-        "PYTHONPATH": os.pathsep.join([str(ROOT / "src"), os.environ.get("PYTHONPATH", "")]),
-    }
-    command = [sys.executable, str(TUTORIAL / f"{name}.py")]
-    done = subprocess.run(command, cwd=tmp_path, env=environment, capture_output=True, text=True, check=False)
-    assert done.returncode == 0, done.stderr
-    assert done.stderr == ""
+    monkeypatch.syspath_prepend(TUTORIAL)
+    monkeypatch.setattr(importlib.import_module("drawing"), "FIGURES", tmp_path)
+    render.execute(source_of(name), TUTORIAL / f"{name}.py")
+    assert capsys.readouterr() == ("", "")
     assert {path.name for path in tmp_path.glob("*.png")} == set(figures_of(name))
 
 
@@ -92,8 +73,8 @@ def test_the_figures_are_those_of_the_pages():
 def test_the_first_page_leads_to_all_others():
     contents = (TUTORIAL / "README.md").read_text(encoding="utf-8")
     assert re.findall(r"^\d\. \[[^]]+\]\((\w+)\.md\)", contents, re.MULTILINE) == list(render.PAGES)
-    for script in TUTORIAL.glob("*.py"):
-        assert script.stem in (*render.PAGES, "render", "drawing", "interactive")
+    for path in TUTORIAL.glob("*.py"):
+        assert path.stem in (*render.PAGES, "render", "drawing", "interactive")
 
 
 def definitions(source):
@@ -183,7 +164,7 @@ def recording(html):
 def test_the_interactive_page_is_made_by_its_script():
     """Only the recording is compared: the page carries the viewer that it was made with, and stays usable with it."""
     html = (TUTORIAL / "interactive.html").read_text(encoding="utf-8")
-    made = loaded("interactive").interactive_page().decode()
+    made = script(TUTORIAL / "interactive.py").interactive_page().decode()
     assert recording(html) == recording(made)
     draws = recording(html)[0]["draws"]
     assert draws["chains"] * draws["count"] == 1000
