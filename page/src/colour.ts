@@ -87,7 +87,7 @@ export function paletteOf(theme: Theme, layer: "value" | "entropy" | "width"): U
   for (let i = 0; i < 256; i++) {
     const doubt = layer === "entropy" ? entropyBits(i / 255) : i / 255;
     const known = layer === "value" ? probabilityRgb(theme, i / 255) : entropyRgb(doubt);
-    const unknown = mix(free, wall, layer === "value" ? i / 255 : 0);
+    const unknown = layer === "value" ? mix(free, wall, i / 255) : known; // doubt has one colour, which the legend names
     for (let share = 0; share <= 16; share++) pixels.set(mix(unknown, known, share / 16), 4 * (i + 256 * share));
   }
   return new Uint32Array(pixels.buffer);

@@ -659,6 +659,8 @@ export type Judging = {
   fewest_sweeps: number;
   fewest_diagnosed: number;
   bad_difference: number;
+  /** Limit of the misfit of maps. */
+  misfit_sigmas: number;
   /** Share of the cells in which means of chains may differ by more. */
   chance_share: number;
 };

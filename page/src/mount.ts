@@ -116,7 +116,10 @@ export function mount(element: HTMLElement, transport: Transport, { embedded = f
   ui.visible(model, () => !isRun());
   ui.visible(inference, () => !isRun());
   ui.visible(clear, () => !isRun());
+  let held = hand.tool;
   ui.each(() => {
+    if (held !== hand.tool) panel.scrollTop = 0; // there a tool's answers are
+    held = hand.tool;
     put(tools, "inert", !session.document);
     put(panel, "inert", !session.document);
   });

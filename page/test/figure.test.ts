@@ -14,7 +14,7 @@ const file = process.env.BAYESMAP_LIBRARY;
 const library = file ? JSON.parse(readFileSync(file, "utf8")) : null;
 
 const judging: Figure["judging"] = {
-  rhat_limit: 1.05, good_rhat: 1.01, good_ess: 400, bad_ess: 50, fewest_sweeps: 200, fewest_diagnosed: 4, bad_difference: 0.25, chance_share: 0.01,
+  rhat_limit: 1.05, good_rhat: 1.01, good_ess: 400, bad_ess: 50, fewest_sweeps: 200, fewest_diagnosed: 4, bad_difference: 0.25, misfit_sigmas: 4, chance_share: 0.01,
 };
 
 /** A page with a figure, whose work is done when a test says so. */

@@ -119,6 +119,23 @@ test("H shows the width where entropy would mean nothing", () => {
   assert.equal(desk.asked("view").at(-1)!.layer, "width");
 });
 
+test("Escape takes a path away, but first what runs where other tools have hidden it", () => {
+  const desk = new Desk();
+  const { decisions } = desk.session;
+  desk.field();
+  desk.hand.choose("path");
+  for (const at of [1, 2]) decisions.point({ x: at, y: 1 });
+  for (const [tool, shown] of [["evidence", false], ["draw", true], ["look", false], ["pan", true], ["ghost", false]] as const) {
+    desk.hand.choose(tool);
+    assert.equal(decisions.pathShown, shown, tool);
+  }
+  desk.key("Escape");
+  assert(decisions.start && decisions.goal);
+  desk.hand.choose("path");
+  desk.key("Escape");
+  assert.deepEqual([decisions.start, decisions.goal, decisions.path], [null, null, null]);
+});
+
 test("Escape cancels what runs, and + - 0 ? are the page's commands", () => {
   const desk = new Desk();
   desk.key("Escape");

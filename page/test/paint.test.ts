@@ -3,6 +3,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { entropyRgb, gradient, paletteOf, probabilityRgb, THEMES } from "../src/colour";
+import { Labels } from "../src/layers/text";
 import { evenSweeps, lowestSettled, shownPart } from "../src/panels/chart";
 import type { Field } from "../src/protocol";
 
@@ -35,6 +36,28 @@ test("unobserved cells are warm, and entropy is cividis from dark to bright", ()
   const width = new Uint8ClampedArray(paletteOf(THEMES.light, "width").buffer);
   assert(brightness([...width.subarray(4 * 4351, 4 * 4351 + 3)]) > brightness([...width.subarray(4 * 4224, 4 * 4224 + 3)]));
   assert.match(gradient(entropyRgb), /^linear-gradient\(90deg,rgb\(0,34,78\),.*rgb\(254,232,56\)\)$/);
+});
+
+test("doubt has one colour, whether a beam reaches the cell or not", () => {
+  const pixels = paletteOf(THEMES.light, "entropy");
+  for (const p of [0, 128, 255]) for (const share of [0, 8]) assert.equal(pixels[p + 256 * share], pixels[p + 256 * 16]);
+});
+
+test("labels stand clear of each other and inside the picture, or nowhere", () => {
+  const written: [string, number, number][] = [];
+  const context = { measureText: (text: string) => ({ width: 6 * text.length }), strokeText: () => {}, fillText: (text: string, x: number, y: number) => void written.push([text, x, y]) };
+  const labels = new Labels(context as unknown as CanvasRenderingContext2D, THEMES.light, 200, 60);
+  assert(labels.place("at the edge", 1, 30, 4));
+  assert(labels.place("beside it", 5, 30, 4));
+  assert(!labels.place("no room left here", 4, 31, 4));
+  assert(labels.place("top", 100, 3, 4) && labels.place("bottom", 160, 58, 4));
+  labels.write();
+  const boxes = written.map(([text, x, y]) => [x - 3 * text.length, x + 3 * text.length, y - 6, y + 6]);
+  assert.equal(boxes.length, 4);
+  boxes.forEach(([left, right, top, bottom], i) => {
+    assert(left >= 0 && right <= 200 && top >= 0 && bottom <= 60, written[i][0]);
+    for (const [l, r, t, b] of boxes.slice(i + 1)) assert(right <= l || left >= r || bottom <= t || top >= b, written[i][0]);
+  });
 });
 
 /** Two chains: every sweep at first, later every tenth, as the session thins them. */

@@ -272,7 +272,7 @@ test("the legend names what each tool paints, while it does", () => {
     ["as wide as the robot", () => desk.says("path", { within_risk: true }), () => session.decisions.point({ x: 1, y: 1 })],
     ["speaks against it", () => (session.evidence.hold(true), session.evidence.pin({ x: 1, y: 1 })), () => session.evidence.hold(false)],
     ["possible pose", () => (session.where.follow(true, 1), desk.says("where", { modes: [{}] })), () => session.where.follow(false, 1)],
-    ["one more scan tells 2.0 7.0 nats", () => (session.decisions.look(true), desk.says("views", {}, { pose: new Float32Array(6), nats: Float32Array.of(7, 2) })), () => session.decisions.look(false)],
+    ["one more scan tells 0 7.0 nats", () => (session.decisions.look(true), desk.says("views", {}, { pose: new Float32Array(6), nats: Float32Array.of(7, 2) })), () => session.decisions.look(false)],
     ["surface", () => desk.says("overlay", {}, { strokes: new Float32Array(5), trajectory: new Float32Array(2) }), () => desk.confirm()],
   ];
   for (const [words, come, go] of cases) {

@@ -1,11 +1,14 @@
 """Verdicts on chains and particles."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
+from acted_engine import Heard
 
-from bayesmap.app.shown.result import Difference, difference, judge_chains, judge_particles
+from bayesmap.app.edits import tutorial_document
+from bayesmap.app.shown.result import Difference, difference, judge_chains, judge_particles, misfit_of
 
 NAN = math.nan
 
@@ -20,7 +23,8 @@ NAN = math.nan
         (1.001, 20, 1000, 0.03, False, "bad", "20 effective"),
         (1.001, 900, 1000, 0.5, False, "bad", "cell (3, 4)"),
         (NAN, NAN, 1000, 0.5, False, "bad", "cell (3, 4)"),
-        (NAN, NAN, 1000, 0.0, False, None, ""),  # a log joint that never changed
+        (NAN, NAN, 1000, 0.0, False, "good", "nothing varies"),  # a log joint that never changed
+        (NAN, NAN, 1000, None, True, "fair", "nothing varies"),  # of one chain, or a saved run
         (2.0, 3, 20, None, False, None, ""),  # too early
         (2.0, 3, 20, None, True, "bad", "R-hat"),
         # of few sweeps that are over the log joint alone speaks: their means differ by chance
@@ -38,6 +42,38 @@ def test_verdicts(rhat, ess, sweeps, apart, over, level, why):
     assert (found and found.level) == level
     assert found is None or why in found.why
     assert found is None or ("(3, 4)" in found.why) == ("(3, 4)" in why)
+
+
+def test_chains_that_agree_on_maps_that_the_readings_contradict_are_not_called_converged():
+    beams, sigma_m = 50, 0.3
+    peak = -beams * math.log(sigma_m * math.sqrt(2 * math.pi))
+    true = np.random.default_rng(0).chisquare(beams, (20_000, 1))
+    assert sum(misfit_of(peak - one[None] / 2, sigma_m, beams) is not None for one in true) <= 3
+    off = misfit_of(np.full((2, 9), peak - 4 * beams / 2), sigma_m, beams)  # twice the noise
+    assert off == pytest.approx(2.0)
+    assert misfit_of(np.zeros((2, 0)), sigma_m, beams) is misfit_of(np.ones((2, 3)), sigma_m, 0) is None
+    for rhat, ess in ((1.001, 900), (NAN, NAN)):
+        found = judge_chains(rhat, ess, 1000, Difference(0.0, (0, 0), 0, 9), misfit=off)
+        assert (found.level, "readings contradict: they differ by 2 times the noise" in found.why) == ("bad", True)
+    assert "R-hat" in judge_chains(1.2, 900, 1000, None, misfit=off).why  # they do not agree
+
+
+@pytest.mark.parametrize("method", ["gibbs", "block"])
+def test_rare_walls_cell_by_cell_from_the_prior_are_seen_to_be_impossible_and_blocks_are_not(method):
+    document = replace(tutorial_document(), prior=0.05, method=method, start="prior", sweeps=250, seed=3)
+    heard = Heard()
+    verdict = heard.infer(document)[0]["verdict"]
+    stream = heard.engine._result.found
+    likelihood = stream._log_likelihood[:, stream._past[0].sweep :]
+    assert (misfit_of(likelihood, document.noise, document.angles) is None) == (method == "block")
+    assert (verdict["level"] == "bad") == (method == "gibbs")
+
+
+def test_settings_are_told_as_they_were_set():
+    heard = Heard()
+    about = dict(heard.infer(replace(tutorial_document(), prior=0.0, pose_sigma=0.2, sweeps=5))[0]["about"])
+    assert about["Prior"] == "independent: p wall 0"
+    assert about["Poses"] == "uncertain: sigma 0.2 m"
 
 
 def test_the_difference_is_the_largest_among_the_observed_cells():

@@ -134,6 +134,7 @@ export class Chains extends Job {
   private readonly lookAt = new Set<number>();
   private readonly touched: Uint8Array;
   private readonly joint: number[][] = Array.from({ length: CHAINS }, () => []);
+  private readonly likelihood: number[][] = Array.from({ length: CHAINS }, () => []);
   private readonly kept: Uint8Array[][] = Array.from({ length: CHAINS }, () => []);
   private readonly thin: number;
   private total = 0;
@@ -197,7 +198,9 @@ export class Chains extends Job {
       else chain.sweep(this.sites, this.sweep);
       const sums = present.sums[n];
       for (let c = 0; c < this.cells; c++) sums[c] += chain.walls[c];
-      this.joint[n].push(chain.logLikelihood() + this.problem.prior.logProb(chain.walls));
+      const likelihood = chain.logLikelihood();
+      this.likelihood[n].push(likelihood);
+      this.joint[n].push(likelihood + this.problem.prior.logProb(chain.walls));
       if ((this.sweep + 1) % this.thin === 0) this.kept[n].push(packBits(chain.walls));
     });
     this.sweep++;
@@ -273,13 +276,26 @@ export class Chains extends Job {
     }
     if (sweep < judging.fewest_diagnosed) return verdict("bad", `${sweep} ${sweep === 1 ? "sweep is" : "sweeps are"} too few to judge`);
     const { rhat = NaN, ess = NaN } = this.diagnosis ?? {};
-    if (!Number.isFinite(rhat) || !Number.isFinite(ess)) return null;
-    if (!(rhat <= judging.rhat_limit)) return verdict("bad", `R-hat is ${rhat.toFixed(2)}, over ${judging.rhat_limit}`);
+    if (rhat > judging.rhat_limit) return verdict("bad", `R-hat is ${rhat.toFixed(2)}, over ${judging.rhat_limit}`);
+    const misfit = this.misfit();
+    if (misfit) return verdict("bad", `the chains agree, but on maps that the readings contradict: they differ by ${+misfit.toPrecision(3)} times the noise`);
+    if (!Number.isFinite(rhat) || !Number.isFinite(ess)) return verdict("good", "nothing varies: the log joint is the same in all draws of all chains");
     if (ess < judging.bad_ess) return verdict("bad", `only ${ess.toFixed(0)} effective draws`);
     if (rhat > judging.good_rhat || ess < judging.good_ess) {
       return verdict("fair", `R-hat ${rhat.toFixed(3)} and ${ess.toFixed(0)} effective draws; ${judging.good_rhat} and ${judging.good_ess} are good`);
     }
     return verdict("good", `R-hat ${rhat.toFixed(3)}, ${ess.toFixed(0)} effective draws`);
+  }
+
+  /** How far the draws are from the readings, in standard deviations, if they contradict them: bayesmap's `misfit_of`. */
+  private misfit(): number | null {
+    const beams = this.problem.table.noHit.length;
+    const [{ sweep: burned }] = this.past;
+    const peak = -beams * Math.log(this.document.noise * Math.sqrt(2 * Math.PI));
+    const means = this.likelihood.map((row) => row.slice(burned).reduce((sum, value) => sum + value, 0) / (row.length - burned));
+    const squares = 2 * (peak - Math.min(...means));
+    const narrow = 2 / (9 * beams);
+    return squares > beams * (1 - narrow + this.judging.misfit_sigmas * Math.sqrt(narrow)) ** 3 ? Math.sqrt(squares / beams) : null;
   }
 
   /** How far the chains' means differ in the cells that beams reach in half of the draws. */

@@ -41,6 +41,7 @@ export class Hand {
   choose(tool: Tool) {
     this.tool = tool;
     this.session.decisions.look(tool === "look");
+    this.session.decisions.showPath(tool === "path" || tool === "pan" || !READING.has(tool));
     this.session.ghost.hold(tool === "ghost");
     this.session.evidence.hold(tool === "evidence");
     this.session.changed();

@@ -152,7 +152,7 @@ export function pageKey(
   else if (LAYERS[letter]) chosen.layer(letter === "h" && session.quantity.interval ? "width" : LAYERS[letter]);
   else if (COMMANDS[event.key]) chosen.command(COMMANDS[event.key]);
   else if (letter === "r" && !session.recorded) session.act({ type: "run" });
-  else if (event.key === "Escape" && session.decisions.start) session.decisions.forgetPath();
+  else if (event.key === "Escape" && session.decisions.start && session.decisions.pathShown) session.decisions.forgetPath();
   else if (event.key === "Escape" && (session.running || session.working)) session.act({ type: "cancel" });
   else return;
   event.preventDefault();

@@ -18,36 +18,39 @@ export class DecisionsLayer implements Layer {
   }
 
   shows({ session: { decisions, document } }: Scene) {
-    return Boolean(document && (decisions.start || (decisions.looking && decisions.views)));
+    return Boolean(document && ((decisions.start && decisions.pathShown) || (decisions.looking && decisions.views)));
   }
 
   paint(context: CanvasRenderingContext2D, scene: Scene) {
     const { session } = scene;
     if (!session.document) return;
+    const labels = new Labels(context, scene.look.theme, scene.view.width, scene.view.height);
+    context.save();
     clipToMap(context, scene);
-    const labels = new Labels(context, scene.look.theme, scene.view.width);
     if (session.decisions.looking) this.views(context, scene, labels);
-    this.path(context, scene, labels);
+    if (session.decisions.pathShown) this.path(context, scene, labels);
+    context.restore();
+    labels.write();
   }
 
   private views(context: CanvasRenderingContext2D, { session, view, look }: Scene, labels: Labels) {
     const { views } = session.decisions;
     const grid = session.document?.grid;
     if (!views?.nats.length || !grid) return;
-    const [low, high] = [Math.min(...views.nats), Math.max(...views.nats)];
+    const high = Math.max(...views.nats);
     const radius = clamp((0.38 * views.spacing * view.transform.scale) / grid.resolution, SMALLEST_DOT, LARGEST_DOT);
     const best = views.nats.indexOf(high);
     for (let i = 0; i < views.nats.length; i++) {
       const place = view.fromGrid(toCells({ x: views.pose[3 * i], y: views.pose[3 * i + 1] }, grid), grid.shape[1]);
       context.beginPath();
       context.arc(place.x, place.y, radius, 0, 2 * Math.PI);
-      context.fillStyle = `rgb(${entropyRgb(clamp((views.nats[i] - low) / Math.max(high - low, 1e-9), 0, 1)).map(Math.round)})`;
+      context.fillStyle = `rgb(${entropyRgb(clamp(views.nats[i] / Math.max(high, 1e-9), 0, 1)).map(Math.round)})`;
       context.fill();
       if (i !== best) continue;
       context.lineWidth = 2.5;
       context.strokeStyle = look.theme.truth;
       context.stroke();
-      labels.write(`${figure(high, 1)} nats`, place.x, place.y, radius);
+      labels.place(`${figure(high, 1)} nats`, place.x, place.y, radius);
     }
   }
 
@@ -85,7 +88,7 @@ export class DecisionsLayer implements Layer {
       const corners = path.path.length;
       const [[x0, y0], [x1, y1]] = [path.path[(corners - 1) >> 1], path.path[corners >> 1]];
       const middle = at({ x: (x0 + x1) / 2, y: (y0 + y1) / 2 });
-      labels.write(`${figure(path.length_m, 1)} m, free with probability ${figure(path.probability, 3)}`, middle.x, middle.y, 4);
-    } else if (goal && session.decisions.trouble) labels.write("no path", at(goal).x, at(goal).y, 7);
+      labels.place(`${figure(path.length_m, 1)} m, free with probability ${figure(path.probability, 3)}`, middle.x, middle.y, 4);
+    } else if (goal && session.decisions.trouble) labels.place("no path", at(goal).x, at(goal).y, 7);
   }
 }

@@ -25,26 +25,34 @@ export function write(
   context.fillText(text, x, y);
 }
 
+const HALF_LINE = 8;
+
 /** Labels that stand clear of each other: each at the first free of some places, or nowhere. */
 export class Labels {
-  private readonly taken: [number, number, number, number][] = [];
+  private readonly placed: { text: string; x: number; y: number; half: number }[] = [];
 
   constructor(
     private readonly context: CanvasRenderingContext2D,
     private readonly theme: Theme,
     private readonly width: number,
+    private readonly height: number,
   ) {}
 
-  /** Writes a label about a point that is `away` from it above or below, else to its right or left. Returns whether there was room. */
-  write(text: string, x: number, y: number, away: number) {
+  /** Finds room for a label about a point: `away` from it above or below, else to its right or left. Returns whether there is any. */
+  place(text: string, x: number, y: number, away: number) {
     this.context.font = FONT;
     const half = this.context.measureText(text).width / 2 + 2;
     const middle = Math.min(Math.max(x, half), this.width - half);
     const places = [[middle, y - away - 9], [middle, y + away + 9], [x + away + half + 4, y], [x - away - half - 4, y]];
-    const free = places.find(([px, py]) => !this.taken.some(([l, t, r, b]) => px + half > l && px - half < r && py + 8 > t && py - 8 < b));
-    if (!free) return false;
-    this.taken.push([free[0] - half, free[1] - 8, free[0] + half, free[1] + 8]);
-    write(this.context, text, free[0], free[1], this.theme, "center", true);
-    return true;
+    const inside = ([px, py]: number[]) => px - half >= 0 && px + half <= this.width && py >= HALF_LINE && py <= this.height - HALF_LINE;
+    const clear = ([px, py]: number[]) => this.placed.every((other) => Math.abs(px - other.x) >= half + other.half || Math.abs(py - other.y) >= 2 * HALF_LINE);
+    const free = places.find((place) => inside(place) && clear(place));
+    if (free) this.placed.push({ text, x: free[0], y: free[1], half });
+    return Boolean(free);
+  }
+
+  /** Writes the labels: beyond the map, too, which cuts off what else is drawn. */
+  write() {
+    for (const { text, x, y } of this.placed) write(this.context, text, x, y, this.theme, "center", true);
   }
 }

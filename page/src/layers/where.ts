@@ -29,10 +29,13 @@ export class WhereLayer implements Layer {
     const { found } = session.where;
     const grid = session.document?.grid;
     if (!found || !grid) return;
+    const labels = new Labels(context, scene.look.theme, scene.view.width, scene.view.height);
+    context.save();
     clipToMap(context, scene);
     this.cloud(context, scene, grid);
-    const labels = new Labels(context, scene.look.theme, scene.view.width);
     for (const place of found.modes) this.place(context, scene, grid, place, labels); // the likeliest first: it has the best room
+    context.restore();
+    labels.write();
   }
 
   private cloud(context: CanvasRenderingContext2D, { session, view, look }: Scene, grid: Grid) {
@@ -74,7 +77,7 @@ export class WhereLayer implements Layer {
     context.strokeStyle = look.theme.belief;
     context.lineWidth = 2;
     context.stroke();
-    labels.write(percent(place.probability), at.x, at.y, short);
+    labels.place(percent(place.probability), at.x, at.y, short);
   }
 }
 

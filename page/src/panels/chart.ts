@@ -92,7 +92,7 @@ export function traceChart(ui: Ui, theme: () => Theme) {
   ui.each(() => {
     const field = session.shown;
     const count = field?.traced?.length ? field.trace.length / field.traced.length : 0;
-    put(element, "hidden", count === 0);
+    put(element, "hidden", count === 0 && (element.hidden || !session.working)); // a trace stays until the next begins
     if (!field || !count) return;
     const of = session.document?.source.kind === "run" ? "draw" : "sweep"; // a saved run has no more
     put(caption, "textContent", `log joint by ${of}`);

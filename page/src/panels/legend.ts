@@ -35,7 +35,7 @@ const ENTRIES: Entry[] = [
   { mark: "unobserved", text: "unobserved" },
   { mark: "draw", text: "this draw", when: ({ flicker }) => Boolean(flicker.under) },
   { mark: "ghost", text: "predicted reading", when: ({ ghost, reading }) => ghost.held || reading.picked !== null, may: asked },
-  { mark: "path", text: "path, as wide as the robot", when: ({ decisions }) => Boolean(decisions.path), may: asked },
+  { mark: "path", text: "path, as wide as the robot", when: ({ decisions }) => Boolean(decisions.path && decisions.pathShown), may: asked },
 ];
 /** Of the tools Where am I? and Evidence alone: what one tool paints is never seen beside what another does. */
 const PLACES: Entry[] = [
@@ -154,7 +154,7 @@ function views(ui: Ui) {
   ui.each(() => {
     const nats = decisions.views?.nats;
     if (!nats?.length) return;
-    put(least, "textContent", figure(Math.min(...nats), 1));
+    put(least, "textContent", "0");
     put(most, "textContent", `${figure(Math.max(...nats), 1)} nats`);
   });
   return element;

@@ -46,7 +46,8 @@ export function chip(ui: Ui) {
       return put(what, "className", "chip approximate");
     }
     const other = { importance: "importance sampling", propagate: "belief propagation" }[field.method];
-    const by = field.approximate ? `approximate, ${quick(field, session.working)}` : (other ?? `${field.sweeps} sweeps`);
+    const until = session.document.method === "importance" && field.method === "propagate" ? ", until Run weighs particles" : "";
+    const by = field.approximate ? `approximate, ${quick(field, session.working)}${until}` : (other ?? `${field.sweeps} sweeps`);
     put(element, "hidden", false);
     put(what, "textContent", `${kind} \u00b7 ${by}`);
     put(what, "className", field.approximate ? "chip approximate" : "chip");

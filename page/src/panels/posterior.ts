@@ -40,8 +40,9 @@ export function posteriorPanel(ui: Ui, ...charts: HTMLElement[]) {
 }
 
 /** Where there are no sweeps to count. */
-function idle({ shown, working }: Session) {
-  if (shown?.method === "propagate") return `${shown.sweeps} rounds of belief propagation`;
+function idle({ shown, working, document }: Session) {
+  const particles = document?.method === "importance" ? "; Run weighs particles" : "";
+  if (shown?.method === "propagate") return `${shown.sweeps} rounds of belief propagation${particles}`;
   if (shown?.method === "hits") return "Counts of hits and passes";
   if (shown?.method === "counts") return "Run infers where the robot was";
   if (shown?.method === "pilot") return "Stopped while the sensor was fitted";
@@ -121,8 +122,13 @@ function verdict(ui: Ui) {
   const element = h("div", { className: "verdict" }, text, show);
   ui.each(() => {
     const found = session.shown?.verdict;
-    put(element, "hidden", !found);
-    if (!found) return;
+    if (!found) {
+      // what stands below does not jump while chains begin anew
+      put(element, "hidden", element.hidden || !session.working);
+      put(text, "textContent", "Too early to judge.");
+      return put(element, "className", "verdict early");
+    }
+    put(element, "hidden", false);
     put(text, "textContent", `${verdictNames(session)[found.level]}: ${found.why}`);
     put(element, "className", `verdict ${found.level}`);
   });

@@ -23,6 +23,8 @@ export class Decisions {
   viewTrouble = "";
   /** Counts what there is to paint anew. */
   version = 0;
+  /** Whether the path is on the map: it goes while another tool answers. */
+  pathShown = true;
   /** Whether the map of where to look next is wanted. */
   looking = false;
   private askedPath = "";
@@ -44,6 +46,11 @@ export class Decisions {
   set(change: { radius?: number; risk?: number }) {
     Object.assign(this, change);
     this.ask();
+  }
+
+  showPath(on: boolean) {
+    if (this.pathShown !== on) this.version++;
+    this.pathShown = on;
   }
 
   look(on: boolean) {
@@ -89,8 +96,10 @@ export class Decisions {
   receive(notice: SafePath | Spacing | Undecided, buffers: Buffers) {
     const text = notice.type === "undecided" ? said(notice.text) : "";
     const question = notice.type === "undecided" ? notice.question : notice.type;
-    if (question === "views") this.viewTrouble = text;
-    else this.trouble = text;
+    if (question === "views") {
+      this.viewTrouble = text;
+      this.views = null; // of the picture before
+    } else this.trouble = text;
     if (notice.type === "path") this.path = notice;
     else if (notice.type === "views" && this.looking) {
       this.views = { pose: buffers.pose as Float32Array, nats: buffers.nats as Float32Array, spacing: notice.spacing };

@@ -12,7 +12,15 @@ from msgspec import Struct
 
 from bayesmap.app.protocol.document import RARE_WALLS, Document, Refused, plain
 from bayesmap.app.protocol.notices import LIMITS, Limits
-from bayesmap.app.shown.result import BAD_DIFFERENCE, BAD_ESS, FEWEST_DIAGNOSED, FEWEST_SWEEPS, GOOD_ESS, GOOD_RHAT
+from bayesmap.app.shown.result import (
+    BAD_DIFFERENCE,
+    BAD_ESS,
+    FEWEST_DIAGNOSED,
+    FEWEST_SWEEPS,
+    GOOD_ESS,
+    GOOD_RHAT,
+    MISFIT_SIGMAS,
+)
 from bayesmap.posterior.summary import CHANCE_SHARE, RHAT_LIMIT
 
 
@@ -26,6 +34,7 @@ class Judging(Struct, frozen=True):
     fewest_sweeps: int = FEWEST_SWEEPS  # of chains that go on
     fewest_diagnosed: int = FEWEST_DIAGNOSED
     bad_difference: float = BAD_DIFFERENCE
+    misfit_sigmas: float = MISFIT_SIGMAS  # limit of the misfit of maps
     chance_share: float = CHANCE_SHARE  # share of the cells in which means of chains may differ by more
 
 

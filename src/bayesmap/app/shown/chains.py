@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Callable, Generator
+from collections.abc import Callable, Generator, Mapping
 from dataclasses import replace
 from functools import cached_property
 from typing import Any, NamedTuple, cast
@@ -30,6 +30,7 @@ from bayesmap.app.shown.result import (
     Result,
     difference,
     judge_chains,
+    misfit_of,
     rhat_and_ess,
 )
 from bayesmap.app.shown.without_chains import Preview
@@ -49,6 +50,7 @@ from bayesmap.samplers.sampler import Keep, Problem, Sampler
 from bayesmap.samplers.wall_problem import WallProblem
 from bayesmap.samplers.walls import Start, start_maps
 from bayesmap.samplers.with_poses import MovableSampler, PoseProblem, WithPoses
+from bayesmap.sensors.builtin import Gaussian
 
 POSE_CHAINS = 16  # number of chains if poses are uncertain: a map holds its sensors, so each stays near its start
 STEP_SECONDS = 0.015  # the duration of one step of the chains. The worker reads its pipe between two steps
@@ -86,6 +88,7 @@ class Stream(Found):
     def __init__(self, model: Model, sampler: Sampler[Any, Any], problem: Problem, document: Document) -> None:
         self._burn_in = document.burn_in
         self.model: Model = model
+        self.asked_poses: Mapping[str, Any] = model.poses.describe()
         self.problem, self._sampler = problem, sampler
         self.n_chains = POSE_CHAINS if model.poses.unknown else CHAINS
         self.state = sampler.init(problem, range(self.n_chains), document.seed)
@@ -153,6 +156,11 @@ class Stream(Found):
         self._past = [Past(sweep, np.array(maps), self._past[0].observed_counts)]
 
     @property
+    def poses(self) -> Mapping[str, Any]:
+        """The prior of the poses that was asked for: the model's may be a little wider, see `SMALLEST_POSE_M`."""
+        return self.asked_poses
+
+    @property
     def draws(self) -> Draws:
         """The kept draws."""
         return self._record.draws
@@ -211,7 +219,14 @@ class Stream(Found):
         last = float(joint[:, -1].mean()) if joint.shape[1] else math.nan
         apart = difference(self.means(), self.observed())
         mean = self.model.cells.words.mean
-        verdict = judge_chains(self._rhat, self._ess, self.sweep, apart, over=over or self.done, mean=mean)
+        sensor, scans = self.model.sensor, self.model.scans
+        misfit = None
+        if isinstance(sensor, Gaussian) and not self.model.poses.unknown:
+            likelihood = self._log_likelihood[:, self._past[0].sweep : self.sweep]
+            misfit = misfit_of(likelihood, sensor.sigma_m, scans.ranges_m.size)
+        verdict = judge_chains(
+            self._rhat, self._ess, self.sweep, apart, over=over or self.done, mean=mean, misfit=misfit
+        )  # fmt: skip
         verdict = self._at_shifts(verdict)
         return Figures(
             self.sweep, self.total, self._ess, self._rhat, last, verdict, self._past[0].sweep, self.seconds
@@ -302,6 +317,7 @@ def chains_of_walls(scene: Scene, document: Document, begun: NDArray[np.bool_]) 
     stream = Stream(model, both, joint, document)
     first = pose_starts(document, POSE_CHAINS)[:, 0, :2] - pose_starts(document, 1)[0, 0, :2]
     stream.shifts = np.rint(first / document.grid.resolution)
+    stream.asked_poses = {"kind": "uncertain", "sigma_m": document.pose_sigma, "sigma_rad": document.heading_sigma}
     return stream
 
 

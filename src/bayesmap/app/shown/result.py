@@ -37,6 +37,7 @@ GOOD_ESS = 400.0  # 400 effective draws make R-hat reliable
 BAD_ESS = 50.0  # a smaller effective sample size is bad
 FEWEST_SWEEPS = 200  # with fewer, running chains get no verdict, and differences of their means are not judged
 FEWEST_DIAGNOSED = 4  # the fewest sweeps for R-hat, which needs two draws in each half of a chain
+MISFIT_SIGMAS = 4.0  # the limit of a misfit in standard deviations: one of 30 000 true maps is over it
 BAD_DIFFERENCE = 0.25  # largest good difference of a cell's chain means: 5 standard errors of 200 draws at p = 1/2
 
 
@@ -56,7 +57,7 @@ def in_words(description: Mapping[str, Any]) -> str:
         unit = next((u for u in ("m", "rad") if name.endswith(f"_{u}") and not name.endswith(f"_per_{u}")), "")
         if isinstance(value, Mapping):
             parts.append(f"{name} {in_words(value)}")
-        elif name != "kind" and value not in (None, 0):
+        elif name == "p_wall" or (name != "kind" and value not in (None, 0)):
             number = f"{value:.4g}" if isinstance(value, float) else str(value)
             parts.append(f"{name.removesuffix(f'_{unit}').replace('_', ' ')} {number} {unit}".strip())
     return f"{description['kind']}: {', '.join(parts)}" if parts else str(description["kind"])
@@ -91,6 +92,7 @@ class Found(ABC):
     averaged: int | None = None  # number of draws in the mean, if the method reports it
     sweep = 0  # number of sweeps that the chains have done
     done = False  # whether the chains have done all their sweeps
+    thin = 1  # number of log joints per kept draw
 
     @abstractmethod
     def mean(self) -> Floats:
@@ -143,9 +145,8 @@ class Found(ABC):
 
     def log_joint_of_draws(self) -> Floats:
         """Return the log joint of every kept draw, (chains, n)."""
-        joint, count = self.log_joint(), 0 if self.kept is None else self.kept.count
-        every = max(1, joint.shape[1] // max(1, count))  # a thinned chain has a log joint for every sweep
-        return joint[:, every - 1 :: every][:, :count]
+        count = 0 if self.kept is None else self.kept.count
+        return self.log_joint()[:, self.thin - 1 :: self.thin][:, :count]
 
     def log_joint_of_draw(self, chain: int, number: int) -> float:
         """Return the log joint of one draw; without kept draws, that of the chain's last sweep."""
@@ -350,13 +351,14 @@ def difference(means: Floats, among: NDArray[np.bool_]) -> Difference | None:
 
 
 def judge_chains(
-    rhat: float, ess: float, sweeps: int, apart: Difference | None, *, over: bool = False, mean: str = "P(wall)"
-) -> Verdict | None:
-    """Return the verdict on chains, or None if it is too early, or if the log joint never changed.
+    rhat: float, ess: float, sweeps: int, apart: Difference | None, *, over: bool = False, mean: str = "P(wall)",
+    misfit: float | None = None,
+) -> Verdict | None:  # fmt: skip
+    """Return the verdict on chains, or None if it is too early.
 
     Chains that are over (finished, cancelled or saved) get a verdict even after few sweeps. Means of few draws differ
     by chance, so then only the log joint is judged. As in the summary of a run, one cell in a hundred may differ.
-    `mean` is the name of what differs.
+    `mean` is the name of what differs. `misfit` is that of maps that contradict the readings, see `misfit_of`.
     """
     few = sweeps < FEWEST_SWEEPS
     if few and not over:
@@ -367,16 +369,44 @@ def judge_chains(
         return Verdict("bad", f"{mean} differs by over {BAD_DIFFERENCE} between the chains {where}", apart.cell)
     if 0 < sweeps < FEWEST_DIAGNOSED:
         return Verdict("bad", f"{sweeps} {'sweep is' if sweeps == 1 else 'sweeps are'} too few to judge")
-    if not (np.isfinite(rhat) and np.isfinite(ess)):
-        return None
     if rhat > RHAT_LIMIT:
         return Verdict("bad", f"R-hat is {rhat:.2f}, over {RHAT_LIMIT}")
+    if misfit is not None:
+        why = f"the chains agree, but on maps that the readings contradict: they differ by {misfit:.3g} times the noise"
+        return Verdict("bad", why)
+    if not (np.isfinite(rhat) and np.isfinite(ess)):
+        why = "nothing varies: the log joint is the same in all draws of all chains"
+        return Verdict("fair" if apart is None else "good", why)
     if ess < BAD_ESS:
         return Verdict("bad", f"only {ess:.0f} effective draws")
     if rhat > GOOD_RHAT or ess < GOOD_ESS:
         why = f"R-hat {rhat:.3f} and {ess:.0f} effective draws; {GOOD_RHAT} and {GOOD_ESS:.0f} are good"
         return Verdict("fair", why)
     return Verdict("good", f"R-hat {rhat:.3f}, {ess:.0f} effective draws")
+
+
+def misfit_of(log_likelihood: Floats, sigma_m: float, beams: int) -> float | None:
+    """Return how far maps are from readings with normal noise, if they contradict them: a posterior predictive check.
+
+    The squared differences between readings and map, over the noise's variance, sum to a chi-squared variable if the
+    map is true. Its upper limit is approximated by Wilson and Hilferty's formula.
+
+    Args:
+        log_likelihood: that of each draw, (chains, n).
+        sigma_m: standard deviation of the noise, metres.
+        beams: number of readings.
+
+    Returns:
+        The root mean square of the differences over the noise's standard deviation, of the worst chain; None if no
+        chain is over the limit, or without draws.
+    """
+    if not beams or not log_likelihood.size:
+        return None
+    peak = -beams * math.log(sigma_m * math.sqrt(2 * math.pi))
+    squares = 2 * (peak - float(log_likelihood.mean(axis=1).min()))
+    narrow = 2 / (9 * beams)
+    limit = beams * (1 - narrow + MISFIT_SIGMAS * math.sqrt(narrow)) ** 3
+    return math.sqrt(squares / beams) if squares > limit else None
 
 
 def judge_particles(ess: float) -> Verdict:
