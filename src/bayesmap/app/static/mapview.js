@@ -1162,7 +1162,7 @@ kbd { font: inherit; font-weight: 600; }
 @media (pointer: coarse) { button, select, input[type=number], input[type=text], .segmented label { min-height: 40px; } input[type=range] { height: 34px; } .che\
 ck { min-height: 40px; } }
 @container (max-width: 1000px) { header .what { display: none; } }
-@container (max-width: 1360px) { .bar .segmented label { padding: 0 8px; gap: 4px; } .bar .segmented svg { width: 16px; } }
+@container (max-width: 1360px) { .bar .segmented label { padding: 0 6px; gap: 4px; } .bar .segmented svg { width: 16px; } }
 @container (max-width: 1260px) { .bar .segmented label:not(:has(:checked)) span { position: absolute; width: 1px; overflow: hidden; clip-path: inset(50%); } }
 @container (max-width: 900px) {
   .bar .segmented label span { position: absolute; width: 1px; overflow: hidden; clip-path: inset(50%); }
