@@ -119,6 +119,16 @@ test("H shows the width where entropy would mean nothing", () => {
   assert.equal(desk.asked("view").at(-1)!.layer, "width");
 });
 
+test("where nothing is known any more, the dots of where to look next go", () => {
+  const desk = new Desk();
+  const { decisions } = desk.session;
+  decisions.look(true);
+  desk.says("views", { spacing: 1 }, { pose: new Float32Array(3), nats: Float32Array.of(2) });
+  assert(decisions.views);
+  desk.says("undecided", { question: "views", text: "nothing is known to be free yet" }); // inference was cleared
+  assert.deepEqual([decisions.views, decisions.viewTrouble], [null, "Nothing is known to be free yet."]);
+});
+
 test("Escape takes a path away, but first what runs where other tools have hidden it", () => {
   const desk = new Desk();
   const { decisions } = desk.session;

@@ -339,12 +339,6 @@ test("why there is no path is no answer about views", () => {
   decisions.look(false);
   assert.equal(decisions.views, null);
   desk.says("views", { spacing: 1 }, views); // too late
-  desk.session.decisions.look(true);
-  desk.says("views", { spacing: 1 }, views);
-  assert(desk.session.decisions.views);
-  desk.says("undecided", { question: "views", text: "nothing is known to be free yet" }); // inference was cleared
-  assert.deepEqual([desk.session.decisions.views, desk.session.decisions.viewTrouble], [null, "Nothing is known to be free yet."]);
-  desk.session.decisions.look(false);
   assert.equal(decisions.views, null);
 });
 
