@@ -32,11 +32,16 @@ def test_before_and_after_have_a_panel_each():
 
 
 def test_ellipses_hold_95_percent_and_the_legend_says_how_much_they_are_magnified():
-    figure = figures.trajectory_figure(GRID, MAP, SEEN, POSES, COVARIANCES)
+    poses = np.repeat(POSES, 3, axis=0)
+    figure = figures.trajectory_figure(GRID, MAP, SEEN, poses, np.repeat(COVARIANCES, 3, axis=0))
     (ellipses,) = [c for c in figure.axes[0].collections if type(c).__name__ == "EllipseCollection"]
     (name,) = [label for label in labels(figure) if label.startswith("95 %")]
     magnified = float(name.rsplit("drawn ")[1].split()[0]) if "drawn" in name else 1.0
     widths, heights = ellipses.get_widths(), ellipses.get_heights()
+    places = ellipses.get_offsets()
+    gaps = np.hypot(*(places[:, None] - places).transpose(2, 0, 1)) + np.diag(np.full(len(places), np.inf))
+    assert 2 <= len(places) <= len(POSES)
+    assert gaps.min() >= widths[0]  # no two overlap
     assert widths == pytest.approx(2 * magnified * np.sqrt(5.991 * 4e-4))
     assert heights == pytest.approx(2 * magnified * np.sqrt(5.991 * 1e-4))
 
@@ -80,8 +85,10 @@ def test_a_route_is_named_and_drawn_over_the_map():
 
 def test_views_are_numbered_best_first():
     poses = np.column_stack([np.linspace(-1, 6, 8), np.full(8, 3.0), np.zeros(8)])
-    figure = views_figure(GRID, MEAN, None, poses, np.arange(8.0), [7, 2])
-    assert [text.get_text() for text in figure.axes[0].texts] == ["1: 7", "2: 2"]
+    figure = views_figure(GRID, MEAN, None, poses, np.arange(8.0), [7, 2], [31.4, 20.0])
+    assert [text.get_text() for text in figure.axes[0].texts] == ["1: 31", "2: 20"]
+    assert "best views: at most so many nats" in labels(figure)
+    assert [text.get_text() for text in figure.axes[1].get_yticklabels()] == ["tells least", "tells most"]
     assert len(figure.axes) == 2  # the map and one colour bar
     assert figure.axes[0].texts[0].xy[0] == pytest.approx(6.0)
     assert pixels(figure)
@@ -92,7 +99,7 @@ def test_a_path_that_is_none_and_candidates_without_numbers_are_refused():
         with pytest.raises(BadInput, match="path"):
             draw_route(Figure().subplots(), path, 0.3)
     with pytest.raises(BadInput, match="candidates"):
-        views_figure(GRID, MEAN, None, np.zeros((4, 3)), np.zeros(3), [])
+        views_figure(GRID, MEAN, None, np.zeros((4, 3)), np.zeros(3), [], [])
 
 
 def test_the_end_of_a_stray_beam_does_not_widen_the_picture():

@@ -135,9 +135,9 @@ def explore(call: Call[ExploreSettings], run_file: str, output: str | None, forc
     bayesmap explore runs/office/run.nc --views 1 --json | jq .views[0].pose
 
     Candidates are poses that the robot can reach. A fast formula for independent cells and beams ranks all of them. The
-    best are compared by joint draws of the map: the expected information is given as a lower and an upper bound. The
-    command prints one view per line, the best first. It warns first if the chains of the run have not converged. Draws
-    are compared within each chain.
+    best are compared by joint draws of the map, within each chain: the command prints an upper bound of the expected
+    information in nats, one view per line, the best first. The picture has the same numbers. With --json there is a
+    lower bound, too. The command warns first if the chains of the run have not converged.
     """
     settings = call.settings()
     run, target = _opened(call, run_file, output, "explore.png", force)
@@ -153,6 +153,7 @@ def explore(call: Call[ExploreSettings], run_file: str, output: str | None, forc
 
     picture = views_figure(
         run.grid, run.occupancy, run.observed, found.candidates, found.independent, found.best,
+        found.information.at_most,
     )  # fmt: skip
     write_figure(picture, target)
     if call.console.as_json:
@@ -163,7 +164,8 @@ def explore(call: Call[ExploreSettings], run_file: str, output: str | None, forc
         }  # fmt: skip
         call.console.result(document, [])
         return
-    write_out("".join(f"{_view_line(view)}\n" for view in _described_views(found)) + f"{target}\n")
+    lines = [_view_line(rank, view) for rank, view in enumerate(_described_views(found), 1)]
+    write_out("".join(f"{line}\n" for line in [*lines, target]))
 
 
 def _described_views(found: Views) -> list[dict[str, Any]]:
@@ -183,11 +185,10 @@ def _described_views(found: Views) -> list[dict[str, Any]]:
     ]
 
 
-def _view_line(view: dict[str, Any]) -> str:
+def _view_line(rank: int, view: dict[str, Any]) -> str:
     """Return a view as a line of text."""
     x, y, yaw = view["pose"]
     return (
-        f"x {x:.2f} m  y {y:.2f} m  yaw {math.degrees(yaw):.0f} degrees  "
-        f"{view['at_least_nats']:.1f} to {view['at_most_nats']:.1f} +- {view['at_most_error']:.1f} nats  "
-        f"(independent: {view['independent_nats']:.1f})"
+        f"{rank}: x {x:.2f} m  y {y:.2f} m  yaw {math.degrees(yaw):.0f} degrees  "
+        f"at most {view['at_most_nats']:.0f} +- {view['at_most_error']:.0f} nats"
     )

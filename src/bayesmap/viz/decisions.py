@@ -55,23 +55,26 @@ def draw_route(ax: Axes, path: ArrayLike, radius_m: float) -> PathPatch:
 
 def views_figure(
     grid: Grid, occupancy: ArrayLike, observed: ArrayLike | None, candidates: ArrayLike, nats: ArrayLike,
-    best: ArrayLike,
+    best: ArrayLike, best_nats: ArrayLike,
 ) -> Figure:  # fmt: skip
-    """Draw candidate views, (P, 3), over the mean map, coloured by their expected information in nats, (P,).
+    """Draw candidate views, (P, 3), over the mean map, coloured by the fast formula for their information, (P,).
 
-    ``best`` holds indices of candidates, the best first. These are drawn as numbered arrows with their nats.
+    ``best`` holds indices of candidates, the best first, (V,). They are drawn as numbered arrows with the upper bounds
+    of their information in nats, ``best_nats``, (V,). The colours have no numbers, since another formula gives them.
 
     Raises `BadInput` for shapes that do not fit.
     """
     figure, ax = maps.map_figure(grid, aspects=(0.5, 3.0), foot_in=FOOT_IN)
     maps.draw_probability(ax, grid, occupancy, observed)
     dots = draw_candidates(ax, candidates, nats)
-    figure.colorbar(dots, ax=ax, label="expected information, independent cells [nats]", shrink=0.8)
-    poses, gains = np.asarray(candidates, dtype=np.float64), np.asarray(nats, dtype=np.float64)
-    for rank, i in enumerate(np.asarray(best, dtype=np.intp).tolist(), 1):
-        draw_sensor(ax, poses[i])[0].set_label("best views" if rank == 1 else "_")
+    bar = figure.colorbar(dots, ax=ax, label="candidates, by the fast formula", shrink=0.8)
+    low, high = dots.get_clim()
+    bar.set_ticks([low, high], labels=["tells least", "tells most"])
+    poses, gains = np.asarray(candidates, dtype=np.float64), np.asarray(best_nats, dtype=np.float64)
+    for rank, (i, gain) in enumerate(zip(np.asarray(best, dtype=np.intp).tolist(), gains, strict=True), 1):
+        draw_sensor(ax, poses[i])[0].set_label("best views: at most so many nats" if rank == 1 else "_")
         ax.annotate(
-            f"{rank}: {gains[i]:.0f}",
+            f"{rank}: {gain:.0f}",
             (poses[i, 0], poses[i, 1]), xytext=(7, 7), textcoords="offset points", fontsize=8,
             fontweight="bold", color=palette.TEXT, zorder=3.8,
             bbox={"boxstyle": "round,pad=0.15", "fc": "white", "ec": "none", "alpha": 0.8},

@@ -18,7 +18,9 @@ Mask = NDArray[np.bool_]
 
 REGION = 5.991  # squared radius, in standard deviations, of the ellipse with 95 % of a normal distribution in the plane
 
-MOST_ELLIPSES = 300
+SPREAD_DRAWN = 0.006
+"""Least size of a typical standard deviation in the picture, as a share of the map's longer side."""
+
 SIZE_IN = 8.0
 BEFORE, AFTER, FLAGGED = "#c1440e", "#0b7a5b", "#d6278a"
 
@@ -64,12 +66,22 @@ def _draw_map(
 ) -> None:
     maps.draw_probability(ax, grid, occupancy, observed)
     ax.plot(poses[:, 0], poses[:, 1], color=AFTER, linewidth=0.8, label="trajectory", zorder=3)
-    shown = np.unique(np.linspace(0, len(poses) - 1, MOST_ELLIPSES).astype(int))
-    spread_m = float(np.sqrt(np.median(np.linalg.eigvalsh(covariances[shown, :2, :2])[:, 1])))
-    magnified = maps.round_number(max(1.0, 0.01 * max(grid.shape) * grid.resolution / max(spread_m, 1e-6)), up=False)
+    sigma_m = np.sqrt(np.maximum(np.linalg.eigvalsh(covariances[:, :2, :2])[:, 1], 0.0))
+    drawn_m = SPREAD_DRAWN * max(grid.shape) * grid.resolution
+    magnified = maps.round_number(max(1.0, drawn_m / max(float(np.median(sigma_m)), 1e-6)), up=False)
+    shown = _apart(poses[:, :2], np.sqrt(REGION) * sigma_m * magnified)
     draw_ellipses(ax, poses[shown, :2], covariances[shown, :2, :2], magnified)
     name = "95 % region" + (f", drawn {magnified:g} times as large" if magnified > 1 else "")
     ax.plot([], [], "o", markerfacecolor="none", markeredgecolor=AFTER, label=name)
+
+
+def _apart(centres: Floats, radii: Floats) -> list[int]:
+    """Select circles that do not overlap, the first ones of a path first: indices of ``centres``, (n, 2)."""
+    chosen: list[int] = []
+    for i, (centre, radius) in enumerate(zip(centres, radii, strict=True)):
+        if (np.hypot(*(centres[chosen] - centre).T) >= radii[chosen] + radius).all():
+            chosen.append(i)
+    return chosen
 
 
 def before_and_after_figure(
