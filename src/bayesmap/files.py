@@ -124,6 +124,15 @@ def _flush(path: Path) -> None:
         os.close(descriptor)
 
 
+def run_in(folder: str | os.PathLike[str]) -> str | None:
+    """Return which saved run to give instead of a folder, in words; None if neither it nor a folder in it has one."""
+    if (Path(folder) / "run.nc").is_file():
+        return "a folder; give the run.nc in it"
+    inside = sorted(map(str, Path(folder).glob("*/run.nc")))
+    more = f" ({len(inside) - 10:,} more)" if len(inside) > 10 else ""
+    return f"a folder of runs; give one of them: {', '.join(inside[:10])}{more}" if inside else None
+
+
 def need_ending(path: str | os.PathLike[str], endings: tuple[str, ...], kind: str) -> tuple[Path, str]:
     """Return the path, and its ending in lower case without the dot.
 

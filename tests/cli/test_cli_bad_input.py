@@ -123,7 +123,8 @@ def test_a_scan_that_is_nowhere_near_the_others_is_named(office, tmp_path):
     lines[wild] = " ".join(words)
     message = refuse("infer", log(tmp_path, "\n".join(lines) + "\n"), "-o", tmp_path / "run")
     assert re.search(
-        r"grid: covering the scans would take .* cells: scan 5 \(at .* s\) was taken at \(1e\+06, ", message
+        r"grid: covering the scans would take .* cells: scan 5 \(.* s after the first scan\) was taken at \(1e\+06, ",
+        message,
     )
     assert "correct its pose in the log or leave it out, or name the cells yourself (--grid)" in message
     assert not (tmp_path / "run").exists()
@@ -152,6 +153,15 @@ def test_missing_and_truncated_runs(office_run, tmp_path, command):
 @pytest.mark.parametrize("command", ["render", "export", "info", "app"])
 def test_a_run_s_folder_where_the_run_is_wanted(office_run, command):
     assert refuse(command, office_run) == f"bayesmap: error: {office_run}: a folder; give the run.nc in it"
+
+
+@pytest.mark.parametrize("command", ["render", "export", "info", "explore"])
+def test_a_folder_of_runs_where_a_run_is_wanted(office_run, tmp_path, command):
+    for name in ("b", "a"):
+        (tmp_path / name).mkdir()
+        (tmp_path / name / "run.nc").touch()
+    both = f"{tmp_path}/a/run.nc, {tmp_path}/b/run.nc"
+    assert refuse(command, tmp_path) == f"bayesmap: error: {tmp_path}: a folder of runs; give one of them: {both}"
 
 
 def test_a_run_where_its_log_is_wanted(office_run, tmp_path):

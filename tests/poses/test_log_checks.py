@@ -38,7 +38,7 @@ def test_a_stretch_of_frozen_odometry_is_named(path):
     frozen = scans(path, stated)
     assert frozen_stretches(frozen) == [(30, 60)]
     (doubt,) = doubts(frozen, no_odometry=False)
-    assert "stands still from scan 30 to 60 (from 6.000 to 12.000 s)" in doubt
+    assert "stands still from scan 30 to 60 (6.0 to 12.0 s after the first scan)" in doubt
     assert "--no-odometry" in doubt
     check_scans(frozen, no_odometry=False)
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from bayesmap.space.time_order import coarse_stamps_note, elapsed_s, repeated_stamps, time_order
+from bayesmap.space.time_order import coarse_stamps_note, elapsed_s, moment, repeated_stamps, since_start, time_order
 
 EVEN = np.arange(400) * 0.1
 
@@ -38,8 +38,16 @@ def test_a_clock_that_was_set_back_keeps_the_order_of_the_log(back_s):
     np.testing.assert_allclose(ordered.stamps_s, EVEN, atol=0.15)
     np.testing.assert_allclose(ordered.back_s, back_s - 0.1, atol=0.05)
     first, second = ordered.notes(stamps)
-    assert f"at scan 200 (at {stamps[200]:.3f} s) and stays so" in first
+    assert f"at scan 200 (at {moment(stamps[200])}) and stays so" in first
     assert "at scan 300" in second
+
+
+def test_stamps_are_told_as_people_tell_time():
+    told = {59.31: "59.3 s", 0.0: "0.0 s", 1.7e9 + 0.96: "2023-11-14 22:13:21.0 UTC", 1e30: f"{1e30:.1f} s"}
+    assert {stamp: moment(stamp) for stamp in told} == told
+    assert since_start(EVEN + 1.7e9, 30, 60) == " (3.0 to 6.0 s after the first scan)"
+    assert since_start(EVEN, 30) == " (3.0 s after the first scan)"
+    assert since_start(None, 30) == ""
 
 
 @pytest.mark.parametrize("scans", [30, 129, 400, 5000])

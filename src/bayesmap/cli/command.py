@@ -243,7 +243,7 @@ def _option(key: Key) -> click.Option:
     if key.kind is bool:
         return click.Option([key.flag, key.name], is_flag=True, help=key.help.text)
     shown = key.help.unset if key.default is None else f"{key.default}"
-    text = f"{key.help.text} [default: {shown}]"
+    text = key.help.text + (f" [default: {shown}]" if shown else "")
     return click.Option([key.flag, key.name], type=_click_type(key), metavar=key.help.metavar, help=text)
 
 

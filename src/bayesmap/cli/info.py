@@ -11,7 +11,7 @@ import click
 import msgspec
 
 from bayesmap.cli.command import Call, as_toml, command
-from bayesmap.cli.console import counted, write_out
+from bayesmap.cli.console import BAD_INPUT, counted, write_out
 from bayesmap.cli.keys import Settings, Value
 from bayesmap.cli.sizes import of_suggestion
 from bayesmap.cli.translation import LOG, need_file
@@ -40,10 +40,16 @@ def info(call: Call[Settings], file: str) -> None:
         call.console.result(document, [])
     else:
         write_out("\n".join(_lines(document)) + "\n")
-    if any(sensor.get("skipped") for sensor in document["sensors"]) or any(CUT in n for n in document["notes"]):
-        raise BadInput(
-            f"{file}: it is damaged in part, as said above; infer and slam read the rest with --skip-bad-lines"
+    skipped = sum(sensor.get("skipped") or 0 for sensor in document["sensors"])
+    missing = [f"malformed messages or lines ({skipped:,})"] if skipped else []
+    missing += ["what stood behind the damage"] if any(CUT in note for note in document["notes"]) else []
+    if missing:
+        read = sum(sensor["scans"] for sensor in document["sensors"] if not sensor.get("error"))
+        call.console.warn(
+            f"{file}: read in part: {counted(read, 'scan')}, without {' and '.join(missing)}; infer and slam take the "
+            "same scans with --skip-bad-lines"
         )
+        click.get_current_context().exit(BAD_INPUT)
 
 
 def is_saved_run(file: str) -> bool:
@@ -184,7 +190,7 @@ def _rest(sensor: dict[str, Any]) -> list[str]:
     """Return the number of skipped messages and the notes of a sensor as lines."""
     skipped = sensor.get("skipped")
     left_out = (
-        [f"  {skipped:,} malformed messages or lines are left out, first {sensor['first_skipped']}"] if skipped else []
+        [f"  malformed messages or lines left out: {skipped:,}, first {sensor['first_skipped']}"] if skipped else []
     )
     return left_out + [f"  note: {note}" for note in sensor.get("notes", [])]
 

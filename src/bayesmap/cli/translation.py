@@ -20,6 +20,7 @@ import msgspec
 
 from bayesmap.cli.keys import InferSettings, ReadingSettings, SamplingSettings
 from bayesmap.errors import BadInput
+from bayesmap.files import run_in
 
 if TYPE_CHECKING:
     from bayesmap.arguments import Schedule
@@ -290,10 +291,10 @@ def need_file(file: str, expected: str, *, runs: bool, pipes: bool = False) -> N
         raise BadInput(f"{file}: a pipe, and this needs a file that can be read again; localize --follow reads pipes")
     if not Path(file).exists():
         raise BadInput(f"{file}: no such file; give {expected}")
+    if runs and (inside := run_in(file)):
+        raise BadInput(f"{file}: {inside}")
     if (Path(file) / "run.nc").is_file():
-        raise BadInput(
-            f"{file}: a folder; give the run.nc in it" if runs else f"{file}: a run's folder; give {expected}"
-        )
+        raise BadInput(f"{file}: a run's folder; give {expected}")
 
 
 def logs_of(typed: Sequence[str]) -> tuple[list[str], bool]:

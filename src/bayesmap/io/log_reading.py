@@ -15,7 +15,7 @@ from bayesmap.errors import BadInput
 from bayesmap.io.returns import NoReturn, Readings, Views, classify
 from bayesmap.space.planar import Floats
 from bayesmap.space.scans import Scans
-from bayesmap.space.time_order import time_order
+from bayesmap.space.time_order import moment, time_order
 from bayesmap.space.trajectory import LONGEST_GAP_S, Trajectory
 
 Pose = tuple[float, float, float]  # x and y in metres, yaw in radians
@@ -95,11 +95,11 @@ class LogReading:
             raise BadInput(f"{self.path}: a trajectory places scans by their time, and {self.path} has no stamps")
         poses, inside, near = of_laser.placed(scans.stamps_s)
         start, end = of_laser.stamps_s[[0, -1]]
-        span = f"the trajectory reaches from {start:.3f} to {end:.3f} s"
+        span = f"the trajectory reaches from {moment(start)} to {moment(end)}"
         if not (inside & near).any():
             first, last = scans.stamps_s[[0, -1]]
             raise BadInput(
-                f"{self.path}: its scans are from {first:.3f} to {last:.3f} s, and {span}"
+                f"{self.path}: its scans are from {moment(first)} to {moment(last)}, and {span}"
                 + (f", with poses more than {LONGEST_GAP_S:g} s apart around each scan" if inside.any() else "")
                 + "; are both of one clock?"
             )

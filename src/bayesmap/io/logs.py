@@ -32,7 +32,7 @@ from bayesmap.io.text.rawlog import read_rawlog, starts_as_rawlog
 from bayesmap.io.text.trajectories import read_trajectory
 from bayesmap.space.planar import compose
 from bayesmap.space.scans import Scans
-from bayesmap.space.time_order import SAME_S, coarse_stamps_note, elapsed_s
+from bayesmap.space.time_order import SAME_S, coarse_stamps_note, elapsed_s, since_start
 from bayesmap.space.trajectory import Trajectory
 
 FORMATS = (
@@ -223,10 +223,10 @@ def _jumps(reading: LogReading) -> str | None:
     step = float(steps_m(scans.poses)[scan - 1])
     gap_s = 0.0 if scans.stamps_s is None else float(scans.stamps_s[scan] - scans.stamps_s[scan - 1])
     when = f" in {gap_s:.3g} s" if abs(gap_s) >= SAME_S else ""
-    where = "" if scans.stamps_s is None else f" (at {scans.stamps_s[scan]:.3f} s)"
+    where = since_start(scans.stamps_s, scan)
     return (
-        f"{len(jumped):,} poses jump: the first is that of scan {scan}{where}, {step:.3g} m from the one before{when}; "
-        "walls will appear twice if the poses are wrong"
+        f"{len(jumped):,} poses jump: the first is that of scan {scan}{where}, {step:.3g} m "
+        f"from the one before{when}; walls will appear twice if the poses are wrong"
     )
 
 

@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 from bayesmap.cells.arrays import ArraySpec, Draws
 from bayesmap.cells.kinds import prior_from
 from bayesmap.errors import BadInput
-from bayesmap.files import write_whole
+from bayesmap.files import run_in, write_whole
 from bayesmap.model import POSES
 from bayesmap.posterior.posterior import Posterior
 from bayesmap.samplers.sampler import Snapshot
@@ -163,7 +163,8 @@ def load_saved(path: str | os.PathLike[str]) -> tuple[Posterior, Trajectory | No
     """
     path = Path(path)
     if not path.is_file():
-        raise BadInput(f"{path}: a folder; give the run.nc in it" if path.is_dir() else f"{path}: no such file")
+        nothing = "a folder without a run; give a run.nc" if path.is_dir() else "no such file"
+        raise BadInput(f"{path}: {run_in(path) or nothing}")
     try:
         with netCDF4.Dataset(path, "r") as file:
             file.set_auto_mask(False)

@@ -14,6 +14,7 @@ from bayesmap.poses.matcher import likelihood_grids, match
 from bayesmap.poses.scan_geometry import ScanGeometry
 from bayesmap.space.planar import Floats, between, compose, interpolate
 from bayesmap.space.scans import Scans
+from bayesmap.space.time_order import since_start
 
 MAX_GAP_S = 0.5  # median time between scans above which they cannot be matched without odometry, seconds
 TOO_SELDOM = "scans come too seldom to be followed without odometry, which takes 5 Hz or so"
@@ -69,9 +70,7 @@ def doubts(scans: Scans, no_odometry: bool) -> list[str]:
         return []
     sentences = []
     for first, last in frozen_stretches(scans):
-        when = ""
-        if scans.stamps_s is not None:
-            when = f" (from {scans.stamps_s[first]:.3f} to {scans.stamps_s[last]:.3f} s)"
+        when = since_start(scans.stamps_s, first, last)
         sentences.append(
             f"odometry stands still from scan {first} to {last}{when}, but the scans see the robot move: it may have "
             "been frozen there; --no-odometry goes without"

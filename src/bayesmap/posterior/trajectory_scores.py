@@ -38,6 +38,7 @@ from bayesmap.space.planar import (
     rotation,
     wrap_angle,
 )
+from bayesmap.space.time_order import moment
 from bayesmap.space.trajectory import LONGEST_GAP_S, RelativeLaw, Trajectory
 
 Floats = NDArray[np.float64]
@@ -118,7 +119,7 @@ def relation_errors(
     if not within.any():
         raise BadInput(
             f"relations: none of the {len(relations):,} relations lies within the trajectory's time, "
-            f"{stamps_s[0]:.3f} to {stamps_s[-1]:.3f} s; are the stamps of one clock?"
+            f"{moment(stamps_s[0])} to {moment(stamps_s[-1])}; are the stamps of one clock?"
         )
     if not covered.any():
         needed = "at a pose" if exact else f"at a pose, or between two at most {longest_gap_s:g} s apart"

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from bayesmap.errors import BadInput
 from bayesmap.space.scans import Scans, as_array
+from bayesmap.space.time_order import since_start
 
 MAX_CELLS = 100_000_000  # most cells of a grid; more are taken for a mistake in the units
 MAX_REACH_RATIO = 20.0  # ratio to the median reach above which the reach of a scan counts as wrong
@@ -164,7 +165,7 @@ def _offsets_m(scans: Scans) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
 
 def why_outlying(scans: Scans, scan: int) -> str:
     """Return a description of an outlying scan's fault and the remedy, for an error message."""
-    when = "" if scans.stamps_s is None else f" (at {scans.stamps_s[scan]:.3f} s)"
+    when = since_start(scans.stamps_s, scan)
     away, longest = (offsets[scan] for offsets in _offsets_m(scans))
     if away < longest:
         beam = int(np.argmax(np.where(np.isfinite(scans.ranges_m[scan]), scans.ranges_m[scan], -np.inf)))

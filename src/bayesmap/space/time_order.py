@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from datetime import UTC, datetime
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,6 +12,23 @@ STEP_S = 1.0  # largest step back of stamps, seconds, that counts as scans logge
 MIN_SCANS_AFTER_STEP = 10  # fewest scans after a step back of the clock; half as many on each side must overlap
 SAME_S = 1e-3  # stamps that are closer, in seconds, are equal: no laser sweeps so fast
 TURNS = 0.7  # fewest changes between two alternating groups of scans, per scan of the smaller
+DATES_S = (1e8, 1e11)  # stamps between these are seconds since 1970; others count from another start
+
+
+def moment(stamp_s: float) -> str:
+    """Return a stamp in words: the date and the time of day if it counts from 1970, else seconds."""
+    if not DATES_S[0] < stamp_s < DATES_S[1]:
+        return f"{stamp_s:.1f} s"
+    tenths = round(10 * stamp_s)
+    return f"{datetime.fromtimestamp(tenths // 10, UTC):%Y-%m-%d %H:%M:%S}.{tenths % 10} UTC"
+
+
+def since_start(stamps_s: NDArray[np.float64] | None, first: int, last: int | None = None) -> str:
+    """Return the time of a scan, or those of two, counted from the log's first scan, in brackets; "" without stamps."""
+    if stamps_s is None:
+        return ""
+    times = " to ".join(f"{stamps_s[i] - stamps_s[0]:.1f}" for i in (first, last) if i is not None)
+    return f" ({times} s after the first scan)"
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,7 +49,7 @@ class TimeOrder:
     def notes(self, stamps_s: NDArray[np.float64]) -> tuple[str, ...]:
         """Return a sentence for each step of the clock, given the stamps of the log."""
         return tuple(
-            f"the clock goes back by {back:.3g} s at scan {step} (at {stamps_s[step]:.3f} s) and stays so: the log's "
+            f"the clock goes back by {back:.3g} s at scan {step} (at {moment(stamps_s[step])}) and stays so: the log's "
             "order was kept there, and stamps from there on are later than it says"
             for step, back in zip(self.steps, self.back_s, strict=True)
         )

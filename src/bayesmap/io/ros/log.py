@@ -22,6 +22,7 @@ from bayesmap.io.ros.frames import Chain, Samples, planar, upright
 from bayesmap.io.ros.messages import READABLE, Bad, LaserMessage, beams_of, of_one_frame, read_messages, scan_topic_of
 from bayesmap.io.ros.poses import PoseMessages
 from bayesmap.io.ros.recording import POSE_TYPES, TF_TYPES, TYPES, Recording, Topic
+from bayesmap.space.time_order import moment
 
 STEP_NS = 10**9  # largest step back of stamps that counts as messages that came late
 SLACK_NS = 10**9  # longest time between the same step of the clock on different topics
@@ -195,9 +196,9 @@ def read_recording(path: str | os.PathLike[str], options: LogOptions) -> LogRead
             continue
         if parts:
             account.notes.append(
-                f"the clock goes back by {run.back_ns * 1e-9:.3g} s at {run.at_ns * 1e-9:.3f} s, as when a simulation "
-                "starts again: what was received later was kept apart from what came before, and stamps from there on "
-                "are later than the recording says"
+                f"the clock goes back by {run.back_ns * 1e-9:.3g} s at {moment(run.at_ns * 1e-9)}, as when a "
+                "simulation starts again: what was received later was kept apart from what came before, and stamps "
+                "from there on are later than the recording says"
             )
         parts.append(part)
     source, sign = parts[0].source, parts[0].sign
@@ -340,11 +341,11 @@ def _left_out(
     span = source.chain.span_ns()
     if span is None:
         return [f"{source.label} does not move the sensor in the whole recording"]
-    known = f"poses by {source.label} are known from {span[0] * 1e-9:.3f} to {span[1] * 1e-9:.3f} s"
+    known = f"poses by {source.label} are known from {moment(span[0] * 1e-9)} to {moment(span[1] * 1e-9)}"
     if not inside.any():
         raise BadInput(
-            f"{name}: no scan has a pose: {known}, the scans are from {stamps[0] * 1e-9:.3f} to "
-            f"{stamps[-1] * 1e-9:.3f} s; are both by the same clock? Choose other poses with --pose-topic "
+            f"{name}: no scan has a pose: {known}, the scans are from {moment(stamps[0] * 1e-9)} to "
+            f"{moment(stamps[-1] * 1e-9)}; are both by the same clock? Choose other poses with --pose-topic "
             "or --fixed-frame"
         )
     notes = []

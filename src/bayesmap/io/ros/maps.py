@@ -207,7 +207,7 @@ def write_map(
     path_image = target.with_suffix(suffix)
     with write_whole(path_image) as temporary:
         image.save(temporary)
-    x, y = grid.origin
+    x, y = (round(v, 9) for v in grid.origin)
     entries = {
         "image": path_image.name, "mode": mode, "resolution": float(grid.resolution),
         "origin": [float(x), float(y), 0], "negate": 0, "occupied_thresh": float(occupied), "free_thresh": float(free),

@@ -16,6 +16,7 @@ from scipy.spatial.transform import Rotation
 
 from bayesmap.io.ros.frames import Numbers, Samples, close
 from bayesmap.space.planar import bracketing_indices
+from bayesmap.space.time_order import moment
 
 SAME = 1e-4  # largest difference of equal values, in metres and radians: 1 mm at 10 m
 APART = 0.01  # largest distance between two sources of motion, in metres and radians, that counts as noise
@@ -65,7 +66,7 @@ def contradiction(parent: str, child: str, parts: Sequence[Samples]) -> Contradi
         elif (swing := _to_and_fro(part)) is not None:
             at_s, away, back = swing
             text = (
-                f"{what} on {part.topic} goes to and fro between values that differ: at {at_s:.3f} s it is "
+                f"{what} on {part.topic} goes to and fro between values that differ: at {moment(at_s)} it is "
                 f"{told(away)}, and just before and after {told(back)}; it has two publishers, or the clock of the "
                 "recording started again"
             )

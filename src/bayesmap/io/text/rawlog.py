@@ -31,7 +31,7 @@ from bayesmap.io.log_reading import Account, LogOptions, LogReading, Pose, Skipp
 from bayesmap.io.text.lines import file_chunks
 from bayesmap.space.planar import Floats, compose, interpolate
 from bayesmap.space.scans import MAX_BEAMS, fan_fault, side_by_side
-from bayesmap.space.time_order import SAME_S
+from bayesmap.space.time_order import SAME_S, moment
 
 END = 0x88
 SECONDS_1601_TO_1970 = 11_644_473_600  # stamps count 100 ns from the year 1601
@@ -441,8 +441,8 @@ class _Objects:
         inside = (stamps_s >= times[0]) & (stamps_s <= times[-1])
         if not inside.all():
             self.account.notes.append(
-                f"{int((~inside).sum()):,} scans were left out: {ODOMETRY} is known from {times[0]:.3f} to "
-                f"{times[-1]:.3f} s"
+                f"{int((~inside).sum()):,} scans were left out: {ODOMETRY} is known from "
+                f"{moment(times[0])} to {moment(times[-1])}"
             )
         result = interpolate(times, poses, stamps_s)
         for pose, scan in zip(result, scans, strict=True):
