@@ -119,6 +119,13 @@ def test_without_a_terminal_a_line_per_minute_says_how_far_it_is(monkeypatch, ca
         "drawing: 50 of 110 sweeps, 120 s passed, about 180 s left",
         "drawing: 70 of 110 sweeps, 180 s passed, about 120 s left",
     ]
+    now[0] = 1000.0
+    with progress(Console(), "matching scans") as show:
+        for sweep, stage in ((10, "warm-up"), (30, "warm-up"), (40, "draws")):
+            now[0] += 60.0
+            show(Event(stage, sweep, 75, warmup=30))
+    counts = [line.split(",")[0] for line in capsys.readouterr().err.splitlines()]
+    assert counts == ["warm-up: 10 of 30 sweeps", "warm-up: 30 of 30 sweeps", "drawing: 10 of 45 sweeps"]
     for silent in (Console(quiet=True), Console(bar=False)):
         with progress(silent, "matching scans") as show:
             for _ in range(3):

@@ -119,8 +119,8 @@ def complain(text: str) -> None:
 
 
 OnProgress = Callable[["Event"], None]
-Show = Callable[[str, str, int, int, str], None]
-"""Takes the stage, the counted unit, the count, the total, and how well the map is known."""
+Show = Callable[[str, str, int, int, str, int], None]
+"""Takes the stage, the counted unit, the count, the total, how well the map is known, and the units of warm-up."""
 
 STAGES = {
     "compile": ("compiling kernels, once", "kernels"),
@@ -157,7 +157,7 @@ def progress(console: Console, begin: str) -> Iterator[OnProgress]:
     ``begin`` is shown before the first event.
     """
     with _bar(console, begin) as show:
-        yield lambda event: show(*STAGES[event.stage], event.done, event.total, _quality(event))
+        yield lambda event: show(*STAGES[event.stage], event.done, event.total, _quality(event), event.warmup)
 
 
 def _quality(event: Event) -> str:
@@ -178,7 +178,7 @@ def share(console: Console, name: str) -> Iterator[Callable[[float], None]]:
 def described_share(console: Console, begin: str) -> Iterator[Callable[[str, float], None]]:
     """Yield a function that shows the current step and the share of the work that is done."""
     with _bar(console, begin) as show:
-        yield lambda name, done: show(name, "%", round(1000 * done), 1000, "")
+        yield lambda name, done: show(name, "%", round(1000 * done), 1000, "", 0)
 
 
 SPEED_S = 600.0
@@ -187,20 +187,28 @@ LINE_S = 60.0
 """Seconds from one line of progress to the next if there is no terminal."""
 
 
+def _count(unit: str, done: int, total: int, warmup: int, of: str) -> str:
+    """Return a count in words. Warm-up and the draws after it are counted apart."""
+    if unit == "%":
+        return f"{100 * done // max(total, 1)} %"
+    if warmup:
+        done, total = (done, warmup) if done <= warmup else (done - warmup, total - warmup)
+    return f"{done:,}{of}{total:,} {unit}"
+
+
 def _lines(console: Console) -> Show:
     """Return a function that prints a line of progress every `LINE_S` seconds, with the time left in the stage."""
     began = last = time.monotonic()
     starts: dict[str, tuple[float, int]] = {}  # time and count at the first event of each stage
 
-    def show(name: str, unit: str, done: int, total: int, known: str) -> None:
+    def show(name: str, unit: str, done: int, total: int, known: str, warmup: int) -> None:
         nonlocal last
         now = time.monotonic()
         start, first = starts.setdefault(name, (now, done))
         if now - last < LINE_S or not console.bar:
             return
         last = now
-        count = f"{100 * done // max(total, 1)} %" if unit == "%" else f"{done:,} of {total:,} {unit}"
-        words = [f"{name}: {count}", f"{now - began:.0f} s passed"]
+        words = [f"{name}: {_count(unit, done, total, warmup, ' of ')}", f"{now - began:.0f} s passed"]
         if done > first:
             words.append(f"about {(now - start) * (total - done) / (done - first):.0f} s left")
         console.say(", ".join([*words, *([known] if known else [])]))
@@ -237,7 +245,7 @@ def _bar(console: Console, begin: str) -> Iterator[Show]:
         clocks: dict[tuple[str, int], TaskID] = {}
         sampling = [STAGES[stage][0] for stage in SAMPLING]
 
-        def show(name: str, unit: str, done: int, total: int, known: str) -> None:
+        def show(name: str, unit: str, done: int, total: int, known: str, warmup: int) -> None:
             nonlocal shown
             # If the precision ends the chains, the total of sweeps is an estimate that changes.
             clock = (unit, 0 if name in sampling else total)
@@ -246,8 +254,7 @@ def _bar(console: Console, begin: str) -> Iterator[Show]:
             if shown != clocks[clock]:
                 bar.update(shown, visible=False)
                 shown = clocks[clock]
-            count = f"{100 * done // max(total, 1)} %" if unit == "%" else f"{done:,}/{total:,} {unit}"
-            count += " ETA"
+            count = _count(unit, done, total, warmup, "/") + " ETA"
             bar.update(shown, description=name, completed=done, total=total, count=count, known=known, visible=True)
 
         yield show

@@ -304,5 +304,6 @@ class _RayRun:
             log_joint = segment.log_joint if segment.log_joint.size else segment.warmup_log_joint
             mean = float(log_joint[:, -1].mean()) if log_joint.size else None
             self.watch.report(
-                "warm-up" if warming else "draws", done, self.rule.expected_sweeps(done), mean, self.rule.error
-            )
+                "warm-up" if warming else "draws", done, self.rule.expected_sweeps(done), mean, self.rule.error,
+                self.job.schedule.warmup,
+            )  # fmt: skip

@@ -199,8 +199,9 @@ def run_chains(
         log_joint = float(np.mean(info.log_likelihood[:, -1] + info.log_prior[:, -1]))
         rule.check(state.sweep)
         watch.report(
-            "warm-up" if warming else "draws", state.sweep, rule.expected_sweeps(state.sweep), log_joint, rule.error
-        )
+            "warm-up" if warming else "draws", state.sweep, rule.expected_sweeps(state.sweep), log_joint, rule.error,
+            schedule.warmup,
+        )  # fmt: skip
         checkpoints.offer(so_far, at_once=warming and state.sweep == schedule.warmup)
         began, stopped = time.perf_counter(), watch.should_stop()
     # A stop in the last step counts, too: the caller must not begin the work that follows the chains.

@@ -21,6 +21,7 @@ class Event:
     total: int  # an estimate, if the error decides how long chains run
     log_joint: float | None = None  # mean over the chains
     error: float | None = None  # Monte Carlo error of the map, see `bayesmap.run.chains.map_error`
+    warmup: int = 0  # units of the total that are warm-up
 
 
 @dataclass(frozen=True)
@@ -31,11 +32,12 @@ class Watch:
     should_stop: Callable[[], bool] = lambda: False
 
     def report(
-        self, stage: Stage, done: int, total: int, log_joint: float | None = None, error: float | None = None
-    ) -> None:
+        self, stage: Stage, done: int, total: int, log_joint: float | None = None, error: float | None = None,
+        warmup: int = 0,
+    ) -> None:  # fmt: skip
         """Report the progress of a stage."""
         if self.on_progress is not None:
-            self.on_progress(Event(stage, done, total, log_joint, error))
+            self.on_progress(Event(stage, done, total, log_joint, error, warmup))
 
     def of(self, stage: Stage) -> Callable[[int, int], None]:
         """Return a callback for one stage."""
