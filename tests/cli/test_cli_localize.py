@@ -1,14 +1,17 @@
 """`localize`: answers as text, as JSON, line by line, and as trajectories."""
 
 import json
+import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
-from shell import json_of, refusal_of, succeed
+from shell import call, json_of, refusal_of, succeed
 
 from bayesmap.cli.localize import _per_cent
 from bayesmap.io.logs import read_log
 from bayesmap.io.text.trajectories import read_trajectory
+from bayesmap.space.planar import compose, inverse
 
 
 @pytest.fixture(scope="module")
@@ -49,7 +52,41 @@ def test_a_single_scan_with_a_prior(office, office_run):
     x, y, yaw = read_log(office).poses[3]
     prior = f"{x},{y},{np.degrees(yaw)},0.2,5"
     result = succeed("localize", office_run / "run.nc", office, "--scans 3:4 --prior", prior)
-    assert result.stdout.splitlines()[-1].startswith("lost, or the map outdated:")
+    first, *_, last = result.stdout.splitlines()
+    assert re.fullmatch(r"the base at scan 3 \(at \d+\.\d s\):", first)
+    assert last.startswith("lost, or the map outdated:")
+
+
+def test_poses_are_those_of_the_frame_that_is_asked_for(office, office_run, tmp_path):
+    """With the laser 2 m before the base and turned by 90 degrees, and the pose of that frame as prior."""
+    mount, scans = np.array([2.0, 0.0, np.pi / 2]), read_log(office, laser=(2.0, 0.0, np.pi / 2))
+    laser, found = scans.poses[3], {}
+    for frame, pose in (("base", compose(laser, inverse(mount))), ("laser", laser)):
+        prior = f"{pose[0]},{pose[1]},{np.degrees(pose[2])},0.2,5"
+        how = ["--scans 3:4 --laser 2,0,90 --frame", frame, f"--prior={prior}", "-o", tmp_path / f"{frame}.tum"]
+        document = json_of("localize", office_run / "run.nc", office, *how, "--json")
+        assert document["frame"] == frame
+        found[frame] = np.array(document["last"]["mean"])
+        assert read_trajectory(tmp_path / f"{frame}.tum").frame == frame
+    np.testing.assert_allclose(compose(found["base"], mount)[:2], found["laser"][:2], atol=0.05)
+
+
+def test_lost_scans_are_named_with_their_times(office, office_run, monkeypatch):
+    from bayesmap.localization import localize as module
+
+    kept = module.follow
+
+    def losing(*given, **options):
+        for number, belief in enumerate(kept(*given, **options)):
+            yield replace(belief, p_lost=0.9 if number in (0, 1, 2, 5) else 0.0)
+
+    monkeypatch.setattr(module, "follow", losing)
+    result = call("localize", office_run / "run.nc", office, "--scans 4:11 --json")
+    stamps = read_log(office).stamps_s
+    times = [f"{stamps[scan] - stamps[0]:.1f}" for scan in (4, 6, 9)]
+    assert json.loads(result.stdout)["lost_scans"] == [4, 5, 6, 9]
+    told = f"scans 4 to 6 (at {times[0]} to {times[1]} s), scan 9 (at {times[2]} s)"
+    assert f"4 of 7 scans fit nowhere on the map: lost, or the map is outdated: {told}" in result.stderr
 
 
 @pytest.fixture(scope="module")

@@ -70,7 +70,7 @@ Threads = Annotated[
 Particles = Annotated[Count, Help("Maps that the method importance draws.")]
 Strict = Annotated[bool, Help("Exit with 4 if the diagnostics find a problem.")]
 PosesOf = Annotated[
-    Frame | None, Help("Frame of the trajectory's poses.", "base, if the log says where the laser sits on it")
+    Frame | None, Help("Frame on the robot whose poses these are.", "base, if the log says where the laser sits on it")
 ]
 Radius = Annotated[Length, Help("Radius of the robot, a disc, in metres.")]
 SensorText = Annotated[str, Help("Sensor model, such as gaussian:0.2 (see above).", metavar="MODEL")]
@@ -291,6 +291,7 @@ class LocalizeSettings(ReadingSettings, kw_only=True, frozen=True):
             "5.4 / beams; which of several places: 2.7, or as fitted to MAP.yaml",
         ),
     ] = None
+    frame: PosesOf = None
     seed: Seed = 0
     device: Device = "cpu"
 

@@ -6,7 +6,8 @@ import itertools
 import json
 import math
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
+from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -34,6 +35,8 @@ IMAGES = (".pgm", ".png", ".bmp")
 ENDINGS = (".tum", ".mcap", ".bag", ".db3", ".jsonl")
 NOT_LIVE = ("scan_topic", "pose_topic", "fixed_frame", "trajectory")
 """Settings that a text which is still being written cannot have."""
+SHOWN = 5
+"""Largest number of stretches of lost scans that are named."""
 
 
 @command("localize")
@@ -78,6 +81,9 @@ def localize(
     motions between scans count. The command returns the likeliest pose with its covariance, all likely poses with
     their probabilities, and the probability of being lost: the scan comes from outside the map, or the map is outdated.
 
+    Poses, also those of --prior and --area, are those of the robot's base, if the log says where the laser sits on it,
+    and else of the laser (--frame). Scans are numbered as in the log, from 0.
+
     A map of another program (map_server YAML) has no sensor law. The command first locates scans under a cautious
     sensor law. It fits the final law to the scans located with certainty, and prints it. With --follow it keeps the
     cautious law.
@@ -99,26 +105,30 @@ def localize(
     # Locate the scans.
     interrupted = False
     if live:
-        found, interrupted = _locate_live(question, idle_s, tell)
+        located, interrupted = _locate_live(question, idle_s, tell)
     else:
-        found = _locate(question, tell if follow else None)
+        located = _locate(question, tell if follow else None)
     # Write and print the result.
-    outputs = [] if target is None else _write(target, found)
-    lost = sum(belief.p_lost > 0.5 for belief in found.beliefs)
+    found, lost = located.found, located.lost()
+    outputs = [] if target is None else _write(target, located)
     if lost:
-        call.console.warn(f"{lost:,} of {len(found):,} scans fit nowhere on the map: lost, or the map is outdated")
+        call.console.warn(
+            f"{len(lost):,} of {len(found):,} scans fit nowhere on the map: lost, or the map is outdated: "
+            f"{located.stretches(lost)}"
+        )
     if interrupted:
         click.get_current_context().exit(INTERRUPTED)
     if follow:
         return
     if call.console.as_json:
         document = {
-            "version": __version__, "run": run_file, "log": log, "scans": len(found), "lost": lost,
-            "last": _answer(found.last, corners), "outputs": {path.name: str(path) for path in outputs},
+            "version": __version__, "run": run_file, "log": log, "scans": len(found), "lost": len(lost),
+            "lost_scans": lost, "frame": found.frame, "last": _answer(found.last, corners),
+            "outputs": {path.name: str(path) for path in outputs},
         }  # fmt: skip
         call.console.result(document, outputs)
     else:
-        write_out("".join(f"{line}\n" for line in [*_lines(found, corners), *(str(path) for path in outputs)]))
+        write_out("".join(f"{line}\n" for line in [*_lines(located, corners), *(str(path) for path in outputs)]))
 
 
 @dataclass(frozen=True, eq=False)
@@ -132,13 +142,67 @@ class _Question:
     near: InitialPose | None  # prior of the first pose; None if it may be anywhere
     independent: bool  # locate each scan by itself
 
-    @property
-    def options(self) -> dict[str, Any]:
-        """Return the arguments that both ways of localization share."""
-        return {"prior": self.near, "independent": self.independent, "seed": self.call.settings().seed}
+    def options(self, mount: NDArray[np.float64] | None) -> dict[str, Any]:
+        """Return the arguments that both ways of localization share; the prior becomes that of the laser.
+
+        ``mount`` is the pose of the laser on the robot, (3,), if it is known. Without it --frame base is refused.
+        """
+        from bayesmap.space.planar import compose
+        from bayesmap.space.trajectory import step_to
+
+        near, settings = self.near, self.call.settings()
+        if step_to(settings.frame, mount, "laser")[0] == "base" and near is not None:
+            near = replace(near, pose=compose(near.pose, mount))  # type: ignore[arg-type]
+        return {"prior": near, "independent": self.independent, "seed": settings.seed}
 
 
-def _locate(question: _Question, tell: Callable[[int, PoseBelief], bool] | None) -> Localization:
+@dataclass(eq=False)
+class _Located:
+    """The posteriors of scans of a log."""
+
+    frame: str | None  # frame of the answers, as typed
+    mount: NDArray[np.float64] | None  # pose of the laser on the robot, (3,), if it is known
+    first: int  # number of the first scan in the log
+    start_s: float | None  # stamp from which times count; None without stamps
+    beliefs: list[PoseBelief] = field(default_factory=list)  # posterior of the laser's pose at each scan
+
+    def latest(self) -> tuple[int, PoseBelief]:
+        """Return the number of the latest scan and the posterior of its frame."""
+        from bayesmap.localization.localize import Localization
+
+        latest = Localization(tuple(self.beliefs[-1:])).of(self.frame, self.mount)
+        return self.first + len(self.beliefs) - 1, latest.last
+
+    @cached_property
+    def found(self) -> Localization:
+        """All posteriors of the frame; ask when all scans are located."""
+        from bayesmap.localization.localize import Localization
+
+        return Localization(tuple(self.beliefs)).of(self.frame, self.mount)
+
+    def lost(self) -> list[int]:
+        """Return the numbers of the scans that are probably lost."""
+        return [self.first + i for i, belief in enumerate(self.beliefs) if belief.p_lost > 0.5]
+
+    def name(self, first: int, last: int) -> str:
+        """Return a scan, or the scans from the first to the last, in words, with their times."""
+        count = f"scan {first}" if first == last else f"scans {first} to {last}"
+        stamps = [self.beliefs[number - self.first].stamp_s for number in (first, last)]
+        if self.start_s is None or None in stamps:
+            return count
+        times = dict.fromkeys(f"{stamp - self.start_s:.1f}" for stamp in stamps)  # type: ignore[operator]
+        return f"{count} (at {' to '.join(times)} s)"
+
+    def stretches(self, scans: list[int]) -> str:
+        """Return numbers of scans, ascending, in words; of consecutive scans the first and the last."""
+        starts = [scan for i, scan in enumerate(scans) if i == 0 or scans[i - 1] != scan - 1]
+        ends = [scan for i, scan in enumerate(scans) if i == len(scans) - 1 or scans[i + 1] != scan + 1]
+        told = [self.name(*ends) for ends in itertools.islice(zip(starts, ends, strict=True), SHOWN)]
+        more = len(starts) - len(told)
+        return ", ".join(told) + (f", and {more:,} more stretches" if more > 0 else "")
+
+
+def _locate(question: _Question, tell: Callable[[int, PoseBelief], bool] | None) -> _Located:
     """Locate the scans that a log holds now; ``tell`` is called with the posterior of each."""
     from bayesmap.io.logs import describe_log
     from bayesmap.localization.localize import localize
@@ -148,47 +212,57 @@ def _locate(question: _Question, tell: Callable[[int, PoseBelief], bool] | None)
     reading = describe_log(log, max_range_m=max_range_m, without_poses=question.independent, **options)
     for note in reading.notes:
         call.console.say(f"{log}: {note}")
-    scans = reading.scans.select(_span(question.span, len(reading.scans)))
+    span, stamps_s = _span(question.span, len(reading.scans)), reading.scans.stamps_s
+    scans, mount = reading.scans.select(span), reading.scans.mount
+    located = _Located(
+        call.settings().frame, mount, range(len(reading.scans))[span][0], None if stamps_s is None else stamps_s[0]
+    )  # fmt: skip
+    given = question.options(mount)
     known = question.map.known(call.console, scans, live=False)
     with share(call.console, "locating scans") as report:
 
         def on_belief(number: int, belief: PoseBelief) -> None:
             report((number + 1) / len(scans))
+            located.beliefs.append(belief)
             if tell is not None:
-                tell(number, belief)
+                tell(*located.latest())
 
-        return localize(known, scans, on_belief=on_belief, **question.options)
+        localize(known, scans, on_belief=on_belief, **given)
+    return located
 
 
 def _locate_live(
     question: _Question, idle_s: float | None, tell: Callable[[int, PoseBelief], bool]
-) -> tuple[Localization, bool]:
+) -> tuple[_Located, bool]:
     """Locate the scans of a log as they arrive, until the log ends, the reader closes the output, or Ctrl-C.
 
     Returns:
         All posteriors, and whether Ctrl-C ended the localization.
     """
-    from bayesmap.localization.localize import Localization, follow
+    from bayesmap.localization.localize import follow
 
     scans = scans_to_come(question, idle_s)
     question.call.console.detail(f"{question.log}: waiting for scans")
-    beliefs: list[PoseBelief] = []
+    number = _span(question.span).start or 0
+    located = _Located(question.call.settings().frame, None, number, None)
     interrupted = False
     try:
         # Prepare the map with the first scan: an external map takes the law of readings from it.
         for first in scans:
+            located.mount, located.start_s = first.mount, None if first.stamps_s is None else first.stamps_s[0]
+            options = question.options(first.mount)
             known = question.map.known(question.call.console, first, live=True)
-            for belief in follow(known, itertools.chain([first], scans), **question.options):
-                beliefs.append(belief)
-                if not tell(len(beliefs) - 1, belief):
-                    return Localization(tuple(beliefs)), False
+            for belief in follow(known, itertools.chain([first], scans), **options):
+                located.beliefs.append(belief)
+                if not tell(*located.latest()):
+                    return located, False
     except KeyboardInterrupt:
-        if not beliefs:
+        if not located.beliefs:
             raise
         interrupted = True
-    if not beliefs:
+    if not located.beliefs:
         raise BadInput(f"{question.log}: it ended without a scan")
-    return Localization(tuple(beliefs)), interrupted
+    return located, interrupted
 
 
 @dataclass(frozen=True, eq=False)
@@ -260,9 +334,10 @@ def _answer(belief: PoseBelief, corners: list[float] | None) -> dict[str, Any]:
     return answer
 
 
-def _lines(found: Localization, corners: list[float] | None) -> list[str]:
+def _lines(located: _Located, corners: list[float] | None) -> list[str]:
     """Return the posterior of the last pose as lines of text: at most five modes, lost, and the area."""
-    lines = []
+    found, last = located.found, located.first + len(located.found) - 1
+    lines = [f"the {found.frame} at {located.name(last, last)}:"]
     for mode in found.modes[:5]:
         (x, y, yaw), sd = mode.mean, [math.sqrt(v) for v in mode.covariance.diagonal()]
         lines.append(
@@ -282,15 +357,17 @@ def _per_cent(probability: float) -> str:
     return f"{100 * probability:.2g}" if probability < 0.1 else f"{100 * probability:.1f}"
 
 
-def _write(target: Path, found: Localization) -> list[Path]:
+def _write(target: Path, located: _Located) -> list[Path]:
     """Write the trajectory, or all posteriors for .jsonl, and return the paths."""
     from bayesmap.files import write_whole
     from bayesmap.io.exports import export_trajectory
 
+    found = located.found
     if target.suffix != ".jsonl":
         return list(export_trajectory(target, found.trajectory()))
     with write_whole(target) as partial:
-        rows = (json.dumps({"scan": i, **b.as_json()}, allow_nan=False) for i, b in enumerate(found.beliefs))
+        numbered = enumerate(found.beliefs, located.first)
+        rows = (json.dumps({"scan": i, **b.as_json()}, allow_nan=False) for i, b in numbered)
         partial.write_text("".join(f"{row}\n" for row in rows), encoding="ascii")
     return [target]
 

@@ -271,6 +271,11 @@ def export(call: Call[ExportSettings], run_file: str, output: str | None, force:
     of_path = run.trajectory is not None and export_format(target, kind) in TRAJECTORIES
     if np.isnan(run.occupancy).any() and not of_path:
         raise _without_draws(run_file, run)
+    if run.posterior.scans.mount is None and settings.frame is None and export_format(target, kind) in TRAJECTORIES:
+        call.console.say(
+            f"{run_file}: nothing in it says where the laser sits on the robot, as in runs of older versions: these "
+            "are poses of the laser"
+        )
     outputs = run.export(
         target, format=kind, mode=settings.mode, occupied_thresh=settings.occupied_thresh,
         free_thresh=settings.free_thresh, frame=settings.frame,

@@ -113,10 +113,9 @@ def _stages(folder: Folder) -> Path:
 
 def _frame(reading: LogReading, settings: SlamSettings) -> str:
     """Return the frame of the trajectory; refuse the base if nothing says where the laser sits on it."""
-    from bayesmap.space import trajectory
+    from bayesmap.space.trajectory import step_to
 
-    laser = trajectory.Trajectory(reading.scans.poses[:1], frame="laser")
-    return str(laser.of(settings.frame, reading.scans.mount).frame)
+    return step_to(settings.frame, reading.scans.mount, "laser")[0]
 
 
 def _check(console: Console, reading: LogReading, settings: SlamSettings) -> None:

@@ -21,10 +21,11 @@ from bayesmap.errors import BadInput
 from bayesmap.io.log_reading import Account, LogOptions, Pose
 from bayesmap.io.logs import LINES_LOOKED_AT, format_of
 from bayesmap.io.returns import decode
-from bayesmap.io.text.carmen import KNOWN, LASERS, Malformed, message_name, parse_laser
+from bayesmap.io.text.carmen import KNOWN, LASERS, RAW, Malformed, message_name, parse_laser
 from bayesmap.io.text.csv import Bad, live_rows, starts_table
 from bayesmap.io.text.g2o import KNOWN as KNOWN_G2O
 from bayesmap.io.text.lines import GZIP_MAGIC, as_utf8, split_lines
+from bayesmap.space.planar import between
 from bayesmap.space.scans import Scans
 
 STANDARD_INPUT = ("-", "/dev/stdin")
@@ -111,7 +112,11 @@ def _of_carmen(lines: Iterable[tuple[int, bytes]], bad: Bad, options: LogOptions
         ranges, _ = decode(scan.readings_m[None], stated if options.no_return is None else options.no_return)
         ranges[ranges > limit_m] = np.inf
         pose = scan.pose(options.laser)
-        yield Scans(pose[None], scan.fan.angles_rad(), ranges, limit_m, stamps_s=scan.numbers[None, 6])
+        mount = None if name in RAW else between(scan.numbers[3:6], scan.numbers[:3])
+        mount = mount if options.laser is None else np.array(options.laser)
+        yield Scans(
+            pose[None], scan.fan.angles_rad(), ranges, limit_m, stamps_s=scan.numbers[None, 6], mount=mount
+        )  # fmt: skip
 
 
 def live_lines(name: str, idle_s: float | None = None) -> Iterator[tuple[int, bytes]]:

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
-from bayesmap.space.planar import Floats, wrap_angle
+from bayesmap.space.planar import Floats, compose, wrap_angle
 from bayesmap.space.trajectory import ellipses
 
 NEAR_M, NEAR_RAD = 0.2, np.radians(7.0)  # chains of poses with steps shorter than this belong to one mode
@@ -91,6 +91,11 @@ class PoseBelief:
                 mean, covariance = _moments(self.poses[own], self.weights[own] / share)
                 modes.append(Mode(mean, covariance + np.diag(FINEST_SD**2), min(share, 1.0)))
         return tuple(sorted(modes, key=lambda mode: -mode.probability))
+
+    def of_frame(self, step: Floats) -> PoseBelief:
+        """Return the posterior of another frame on the robot, whose pose in this frame is ``step``, (3,)."""
+        label = _clusters(self.poses, self.weights) if self.mode_of is None else self.mode_of
+        return replace(self, poses=compose(self.poses, step), mode_of=label)
 
     @property
     def mean(self) -> Floats:

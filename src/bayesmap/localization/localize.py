@@ -19,7 +19,7 @@ from bayesmap.poses.prior import Odometry
 from bayesmap.sensors.model import RangeLimits
 from bayesmap.space.planar import Floats, between, compose, rotation, swing, wrap_angle
 from bayesmap.space.scans import Scans, asked_poses, check_sigma_rad
-from bayesmap.space.trajectory import Trajectory
+from bayesmap.space.trajectory import Trajectory, step_to
 
 if TYPE_CHECKING:
     from bayesmap.space.grid import Grid
@@ -72,6 +72,7 @@ class Localization:
     """Posteriors of the poses of scans. Its properties are those of the last scan."""
 
     beliefs: tuple[PoseBelief, ...]  # posterior of each scan's pose, given all scans up to it
+    frame: str = "laser"  # frame on the robot whose poses these are, "base" or "laser"
 
     def __len__(self) -> int:
         return len(self.beliefs)
@@ -120,7 +121,16 @@ class Localization:
         known = None if any(stamp is None for stamp in stamps) else np.array(stamps, dtype=np.float64)
         poses = np.array([belief.mean for belief in self.beliefs])
         covariances = np.array([belief.covariance for belief in self.beliefs])
-        return Trajectory(poses, known, covariances, frame="laser")
+        return Trajectory(poses, known, covariances, frame=self.frame)
+
+    def of(self, frame: str | None, mount: Floats | None) -> Localization:
+        """Return the posteriors of the robot's base, or of its laser, which sits at ``mount``, (3,), on the base.
+
+        ``frame`` is "base" or "laser"; the default is the base if the mount is known, and else the laser. Another frame
+        without a mount raises `BadInput`.
+        """
+        asked, step = step_to(frame, mount, self.frame)
+        return Localization(self.beliefs if step is None else tuple(b.of_frame(step) for b in self.beliefs), asked)
 
 
 @near_names

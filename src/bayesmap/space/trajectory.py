@@ -45,6 +45,26 @@ class RelativeLaw:
         return RelativeLaw(scales, self.dof)
 
 
+def step_to(frame: str | None, mount: Floats | None, own: str) -> tuple[str, Floats | None]:
+    """Return the frame of the poses that are asked for, and its pose in the frame of those at hand, (3,).
+
+    ``frame`` is one of `FRAMES`; the default is the base if ``mount`` is known, the laser's pose on it, and else the
+    laser. ``own`` is the frame of the poses at hand; if it is asked for, its pose is None. Another frame without a
+    mount raises `BadInput`.
+    """
+    asked = frame or ("laser" if mount is None else "base")
+    if asked not in FRAMES:
+        raise BadInput(f"trajectory: frame must be one of {', '.join(FRAMES)}, got {frame!r}")
+    if asked == own:
+        return asked, None
+    if mount is None:
+        raise BadInput(
+            f"trajectory: it has poses of the {own}; those of the {asked} need to know where the laser sits, which "
+            "the log does not say; give it by --laser X,Y,DEGREES (read_log: laser), when the log is read"
+        )
+    return asked, np.asarray(mount) if own == "base" else inverse(np.asarray(mount))
+
+
 @dataclass(frozen=True, eq=False)
 class Trajectory:
     """The poses over time of one frame on a robot, such as its laser's.
@@ -143,21 +163,11 @@ class Trajectory:
     def of(self, frame: str | None, mount: Floats | None) -> Trajectory:
         """Return the trajectory of the robot's base, or of its laser, which sits at ``mount``, (3,), on the base.
 
-        ``frame`` is one of `FRAMES`. The default, also of a trajectory that does not name its own frame, is the base if
-        the mount is known, and else the laser. To change the frame without a mount raises `BadInput`.
+        ``frame`` is as for `step_to`. A trajectory that does not name its own frame has the default.
         """
-        default = "laser" if mount is None else "base"
-        own, asked = self.frame or default, frame or default
-        if asked not in FRAMES:
-            raise BadInput(f"trajectory: frame must be one of {', '.join(FRAMES)}, got {frame!r}")
-        if own == asked:
-            return replace(self, frame=own)
-        if mount is None:
-            raise BadInput(
-                f"trajectory: it has poses of the {own}; those of the {asked} need to know where the laser sits, which "
-                "the log does not say; give it by --laser X,Y,DEGREES (read_log: laser), when the log is read"
-            )
-        return replace(self.of_frame(np.asarray(mount) if own == "base" else inverse(np.asarray(mount))), frame=asked)
+        own = self.frame or ("laser" if mount is None else "base")
+        asked, step = step_to(frame, mount, own)
+        return replace(self if step is None else self.of_frame(step), frame=asked)
 
     def of_frame(self, mount: Floats) -> Trajectory:
         """Return the trajectory of another frame, which lies at ``mount``, (3,), in this frame."""

@@ -239,7 +239,9 @@ def live_rows(name: str, lines: Iterable[tuple[int, bytes]], bad: Bad, options: 
             ranges = readings if silent else classify(
                 name, readings, smallest, largest, no_return=code, max_range_m=max_range_m
             ).ranges_m  # fmt: skip
-            yield Scans(poses, angles, ranges, max_range_m, smallest, stamps_s=stamps).limited(max_range_m)
+            mount = None if options.laser is None else np.array(options.laser)
+            scans = Scans(poses, angles, ranges, max_range_m, smallest, stamps_s=stamps, mount=mount)
+            yield scans.limited(max_range_m)
 
 
 def _need_poses(account: Account, table: _Table) -> None:
