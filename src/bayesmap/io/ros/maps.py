@@ -207,7 +207,8 @@ def write_map(
     path_image = target.with_suffix(suffix)
     with write_whole(path_image) as temporary:
         image.save(temporary)
-    x, y = (round(v, 9) for v in grid.origin)
+    # Without the noise of floating point: 0.3, not 0.30000000000000004.
+    x, y = (round(v, 9) if math.isclose(v, round(v, 9), rel_tol=1e-12) else v for v in grid.origin)
     entries = {
         "image": path_image.name, "mode": mode, "resolution": float(grid.resolution),
         "origin": [float(x), float(y), 0], "negate": 0, "occupied_thresh": float(occupied), "free_thresh": float(free),
