@@ -310,6 +310,27 @@ export type Limits = {
   side_of_log: [number, number];
 };
 
+/** A step of a story: a state of the page, what is seen in it, and one thing to do. */
+export type Step = {
+  title: string;
+  /** What is seen. */
+  text: string;
+  /** One thing to do. */
+  task: string;
+  /** The state. */
+  document: MapDocument;
+  /** The state once the task is done; null if only a hand can do it. */
+  solution: MapDocument | null;
+  layer: "draw" | "entropy" | "mean" | "width";
+  tool: "draw" | "erase" | "evidence" | "ghost" | "look" | "pan" | "path" | "sensor" | "where";
+};
+
+/** Steps that are told beside the map. */
+export type Story = {
+  title: string;
+  steps: Step[];
+};
+
 /** The first message of a connection. */
 export type Welcome = {
   type: "welcome";
@@ -323,6 +344,8 @@ export type Welcome = {
   figure: boolean;
   /** Layers for which a recording has no numbers. */
   lacks: ("draw" | "entropy" | "mean" | "width")[];
+  /** A story to tell beside the map. */
+  story: Story | null;
 };
 
 /** The state of the worker. */
@@ -673,6 +696,7 @@ export type Figure = {
   /** Prior of walls or free cells up to which method "auto" means blocks. */
   rare_walls: number;
   judging: Judging;
+  story: Story | null;
 };
 
 export type Action =

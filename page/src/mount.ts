@@ -34,6 +34,7 @@ import { banner, chip, foot } from "./panels/notice";
 import { posesPanel } from "./panels/poses";
 import { posteriorPanel } from "./panels/posterior";
 import { readingPanel } from "./panels/reading";
+import { storyPanel } from "./panels/story";
 import { clearPanel, inferencePanel, modelPanel, sensorPanel } from "./panels/settings";
 import { Ui } from "./panels/ui";
 import { Player, scanPanel, viewPanel } from "./panels/view";
@@ -43,6 +44,7 @@ import type { MapDocument, Transport } from "./protocol";
 import { snapshot } from "./snapshot";
 import { Session } from "./state/session";
 import type { Level } from "./state/status";
+import { linkedStep, stepFragment } from "./state/story";
 import CHARTS from "uplot/dist/uPlot.min.css";
 import STYLE from "./style.css";
 import { ThemeChoice } from "./theme";
@@ -107,6 +109,7 @@ export function mount(element: HTMLElement, transport: Transport, { embedded = f
   const dialogs = { help: helpDialog(ui), new: newDialog(ui), share: share.dialog };
   const [sensors, model, inference, clear] = [sensorPanel(ui), modelPanel(ui), inferencePanel(ui), clearPanel(ui)];
   const panels = [
+    storyPanel(ui),
     decisionsPanel(ui), wherePanel(ui), ghostPanel(ui), evidencePanel(ui), logPanel(ui), posteriorPanel(ui, traceChart(ui, dressed), weightChart(ui, dressed)),
     scanPanel(ui), readingPanel(ui), viewPanel(ui, player, shown, scale), sensors, model, posesPanel(ui), inference, clear,
   ];
@@ -135,11 +138,29 @@ export function mount(element: HTMLElement, transport: Transport, { embedded = f
     return { session, view, look: { theme: themes.theme, ...shown, hover: hand.hover, cursor: hand.cursor, selected } };
   };
 
+  // the story, if there is one: it begins with the step of the address, unless the address holds a map
+  const { telling } = session;
+  const takeUp = () => {
+    if (telling.step) hand.choose(telling.step.tool);
+  };
+  telling.onstep = (at) => {
+    takeUp();
+    if (!embedded) history.replaceState(null, "", location.pathname + location.search + stepFragment(at));
+  };
+  let begun = false;
+  function begin() {
+    begun = true;
+    const linked = embedded || adopt ? null : linkedStep(location.hash);
+    if (telling.story && linked !== null) telling.go(linked);
+    else takeUp();
+  }
+
   // painting: once a frame at most
   let shape = "";
   function draw() {
     frame = 0;
     const fresh = session.take();
+    if (session.document && !begun) begin();
     if (session.document && String(session.shape) !== shape) {
       shape = String(session.shape);
       view.fit(session.shape);
@@ -216,7 +237,9 @@ export function mount(element: HTMLElement, transport: Transport, { embedded = f
   const hash = async () => {
     if (embedded) return;
     const { document, damaged } = await takeFragment();
+    const step = linkedStep(location.hash);
     if (document) session.bring(document);
+    else if (telling.story && step !== null) telling.go(step);
     else if (damaged) session.say(DAMAGED, "error");
   };
   const listeners: [EventTarget, string, EventListener][] = [

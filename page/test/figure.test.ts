@@ -22,8 +22,8 @@ class Shown {
   readonly session: Session;
   private work: (() => void)[] = [];
 
-  constructor(document: Partial<MapDocument> = {}) {
-    const figure: Figure = { version: 1, document: aDocument(document), limits: LIMITS, rare_walls: 0.2, judging };
+  constructor(document: Partial<MapDocument> = {}, story: Figure["story"] = null) {
+    const figure: Figure = { version: 1, document: aDocument(document), limits: LIMITS, rare_walls: 0.2, judging, story };
     const transport = localTransport(figure, (work) => void this.work.push(work));
     this.session = new Session(transport, () => {});
     transport.open();

@@ -69,7 +69,7 @@ function live(document: MapDocument, draws: DrawCount, twin: Twin) {
   let view: View = { layer: "mean", chain: 0, draw: null };
   const state = () =>
     transport.onmessage({ type: "state", document, generation: 1, seq: 0, can_undo: false, can_redo: false, live: false, running: false, working: false, draws, scan: 0, view }, {});
-  transport.onmessage({ type: "welcome", version: 1, limits: LIMITS, recorded: false, figure: false, lacks: [] }, {});
+  transport.onmessage({ type: "welcome", version: 1, limits: LIMITS, recorded: false, figure: false, lacks: [], story: null }, {});
   state();
   transport.onmessage({ type: "worker", state: "ready" }, {});
   twin.first.forEach(says);

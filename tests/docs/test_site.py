@@ -1,6 +1,7 @@
 """Pages and site: links lead somewhere, every public name has its place, and nothing is loaded from the internet."""
 
 import re
+from types import SimpleNamespace
 from xml.etree import ElementTree
 
 import numpy as np
@@ -124,6 +125,15 @@ NOT_LOADED = (
 def test_what_a_page_loads_from_elsewhere_is_found(site):
     assert [len(site.loaded_from_elsewhere(text)) for text in LOADED] == [1] * len(LOADED)
     assert [site.loaded_from_elsewhere(text) for text in NOT_LOADED] == [[]] * len(NOT_LOADED)
+
+
+def test_steps_of_the_story_stand_in_place_of_pictures(site):
+    assert "data-figure>" in site.story()
+    for (name, picture), step in site.STEPS.items():
+        text = (ROOT / ("README.md" if name == "index.md" else f"docs/{name}")).read_text(encoding="utf-8")
+        shown = site.on_page_markdown(text, page=SimpleNamespace(file=SimpleNamespace(src_uri=name)))
+        assert shown.count(f'src="{"../" if "/" in name else ""}story.html#step={step}"') == 1
+        assert "\n## Install\n" in shown if picture is None else f"figures/{picture}" not in shown
 
 
 def test_the_tutorial_shows_the_live_page(site):

@@ -8,14 +8,15 @@ import type { Editor } from "./editor";
 import { READING, type Hand, type Tool } from "./hand";
 import { pick, PICKING } from "./picking";
 
-/** Whom keys are for: where a map can be drawn, where the posterior can be asked, where edits can be undone, where there is something to infer. */
-export type KeysFor = "all" | "drawn" | "asked" | "edited" | "inferred";
+/** Whom keys are for: where a map can be drawn, where the posterior can be asked, where scans are located, where edits can be undone, where there is something to infer. */
+export type KeysFor = "all" | "drawn" | "asked" | "located" | "edited" | "inferred";
 
 /** What keys do, for the help. */
 export const KEYS: readonly (readonly [string, string, KeysFor?])[] = [
   ["D, E, S", "draw, erase, sensor", "drawn"],
   ["P, G, L", "pan, path, look next", "asked"],
-  ["W, O, V", "where am I, ghost, evidence of beams", "asked"],
+  ["W", "where am I", "located"],
+  ["O, V", "ghost, evidence of beams", "asked"],
   ["arrows", "move the cursor, the sensor, the ghost or the view; with Shift by five cells"],
   ["Space", "draw or erase at the cursor; next sensor", "drawn"],
   ["Space", "at the cursor: start or goal of a path, where to look from, or the cell to ask about", "asked"],
@@ -148,7 +149,7 @@ export function pageKey(
     return;
   }
   if (typing || event.altKey) return;
-  if (TOOLS[letter] && (READING.has(TOOLS[letter]) ? session.answers || (TOOLS[letter] === "pan" && session.editable) : session.editable)) chosen.tool(TOOLS[letter]);
+  if (TOOLS[letter] && (READING.has(TOOLS[letter]) ? session.answers || (TOOLS[letter] === "where" && session.locates) || (TOOLS[letter] === "pan" && session.editable) : session.editable)) chosen.tool(TOOLS[letter]);
   else if (LAYERS[letter]) chosen.layer(letter === "h" && session.quantity.interval ? "width" : LAYERS[letter]);
   else if (COMMANDS[event.key]) chosen.command(COMMANDS[event.key]);
   else if (letter === "r" && !session.recorded) session.act({ type: "run" });

@@ -26,7 +26,7 @@ export function bar(ui: Ui) {
     TOOLS,
     () => (session.editable || !session.document || READING.has(hand.tool) ? hand.tool : "pan"),
     (tool) => hand.choose(tool),
-    (tool) => (READING.has(tool) ? session.answers : session.editable) || tool === "pan",
+    (tool) => (READING.has(tool) ? session.answers || (tool === "where" && session.locates) : session.editable) || tool === "pan",
   );
   ui.visible(tools, () => !session.recorded);
   let all = allTools();
@@ -36,7 +36,7 @@ export function bar(ui: Ui) {
   }, { text: "More" });
   ui.visible(more, () => session.answers);
   ui.each(() => {
-    const offered = TOOLS.filter(([tool]) => (READING.has(tool) ? !session.figure || tool === "pan" : !session.document || session.editable)).map(([tool]) => tool);
+    const offered = TOOLS.filter(([tool]) => (READING.has(tool) ? !session.figure || tool === "pan" || tool === "where" : !session.document || session.editable)).map(([tool]) => tool);
     const first = new Set(all ? offered : offered.slice(0, FIRST));
     TOOLS.forEach(([tool], i) => put(tools.children[i] as HTMLElement, "hidden", !first.has(tool) && !(tool === hand.tool && offered.includes(tool))));
     put(more.lastElementChild as HTMLElement, "textContent", all ? "Fewer" : "More");

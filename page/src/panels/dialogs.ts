@@ -50,6 +50,7 @@ const KEYS_OF: Record<KeysFor, (session: Session) => boolean> = {
   all: () => true,
   drawn: (session) => session.editable,
   asked: (session) => session.answers,
+  located: (session) => session.locates,
   edited: (session) => !session.recorded,
   inferred: (session) => !session.recorded && session.document?.source.kind !== "run",
 };

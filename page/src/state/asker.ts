@@ -19,6 +19,8 @@ export interface Asker {
   readonly recorded: boolean;
   /** Whether there is a server that answers questions about the posterior. */
   readonly answers: boolean;
+  /** Whether scans are located: by a server, or in the page. */
+  readonly locates: boolean;
   readonly worker: string;
   act(action: Action): void;
   /** Is called after every change of what is shown. */

@@ -14,6 +14,7 @@ import { Ghost } from "./ghost";
 import { Latency } from "./latency";
 import { Progress } from "./progress";
 import { Reading } from "./reading";
+import { Telling } from "./story";
 import { Status, type Level } from "./status";
 import { Where } from "./where";
 
@@ -55,6 +56,7 @@ export class Session {
   readonly ghost = new Ghost(this);
   readonly reading = new Reading(this);
   readonly flicker = new Flicker(this);
+  readonly telling = new Telling(this);
   readonly status = new Status();
   readonly progress = new Progress();
   readonly latency = new Latency();
@@ -92,6 +94,10 @@ export class Session {
   /** Whether there is a server that answers questions about the posterior. */
   get answers() {
     return !this.recorded && !this.figure;
+  }
+  /** Whether scans are located: by the server, or in the page. */
+  get locates() {
+    return this.answers || this.figure;
   }
   get running() {
     return this.connection.connected && Boolean(this.state?.running);
@@ -228,6 +234,7 @@ export class Session {
         this.recorded = notice.recorded;
         this.figure = notice.figure;
         this.lacks = notice.lacks;
+        this.telling.story = notice.story ?? null;
         this.latency.forget();
         this.next = null;
         break;

@@ -52,7 +52,7 @@ export class Where {
   private ask() {
     const { session } = this;
     const { shown, scan } = session;
-    if (!shown || !session.answers || session.worker !== "ready") return;
+    if (!shown || !session.locates || session.worker !== "ready") return;
     if (session.editable && shown.generation !== session.generation) return; // its picture comes first
     const draws = session.editable ? "" : `${session.draws.count} ${session.sampling}`;
     const question = `${session.generation} ${session.editable ? this.sensor : scan?.index} ${draws}`;

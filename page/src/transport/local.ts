@@ -6,13 +6,14 @@ import { fromBase64, inflate } from "../geometry/bits";
 import type { Figure } from "../messages";
 import type { Action, MapDocument, Sent, Transport, View } from "../protocol";
 import { mix, normal } from "../sampler/random";
+import { locate } from "../sampler/where";
 import { beamsOf, fan, problemOf, rangesOf } from "../sampler/world";
 import { deaf } from "./frame";
 
 const SLICE_MS = 12; // of work between two looks at the hand
 const FRAME_MS = 80; // between two pictures of chains that go on
 const STREAM_NOISE = 11;
-const QUESTIONS = new Set<Action["type"]>(["path", "views", "where", "ghost", "beam"]);
+const QUESTIONS = new Set<Action["type"]>(["path", "views", "ghost", "beam"]);
 const ELSEWHERE = "This figure has no such tool: bayesmap app has it";
 
 /** The figure in the text of a page's element. */
@@ -44,6 +45,7 @@ export function localTransport(figure: Figure, later: (work: () => void) => void
   let job: Job | null = null;
   let [waiting, closed] = [false, false];
   let [began, framed] = [0, 0];
+  let scan: { ranges: Float32Array; hit: Uint8Array } | null = null;
 
   const say = (text: string, level: "info" | "warning") => transport.onmessage({ type: "status", text, level }, {});
   const state = () =>
@@ -85,6 +87,7 @@ export function localTransport(figure: Figure, later: (work: () => void) => void
     const pose = Float64Array.from(sensors.flatMap(({ x, y, yaw }) => [x, y, yaw]));
     const single = (values: Float64Array) => Float32Array.from(values);
     const rays = { pose, angles: single(fan(document)), ranges: single(readings), exact: single(exact), hit: Uint8Array.from(exact, (range) => (range < max_range ? 1 : 0)) };
+    scan = rays;
     transport.onmessage({ type: "scan", generation, ids: sensors.map(({ id }) => id), index: null }, rays);
     const problem = problemOf(document, beams, readings);
     const method = methodOf(document, figure);
@@ -121,6 +124,20 @@ export function localTransport(figure: Figure, later: (work: () => void) => void
     if (!generation) return restart();
     state();
     picture();
+  }
+
+  /** Say where the scan of a sensor may have been taken, in the world as it is drawn. */
+  function where(id: number | null | undefined) {
+    const { sensors, angles } = history.present;
+    const row = Math.max(0, sensors.findIndex((sensor) => sensor.id === id));
+    const { x, y, yaw } = sensors[row];
+    const beams = [row * angles, (row + 1) * angles];
+    if (!scan || closed) return;
+    const { modes, pose, weight, nats_per_beam } = locate(history.present, scan.ranges.subarray(...beams), scan.hit.subarray(...beams));
+    transport.onmessage(
+      { type: "where", picture: generation, sensor: sensors[row].id, index: null, pose: [x, y, yaw], modes, p_lost: 0, nats_per_beam, trouble: "" },
+      { pose, weight },
+    );
   }
 
   function act(action: Action) {
@@ -169,7 +186,7 @@ export function localTransport(figure: Figure, later: (work: () => void) => void
   const transport: Transport = {
     ...deaf(),
     open: () => {
-      transport.onmessage({ type: "welcome", version: 1, limits, recorded: false, figure: true, lacks: [] }, {});
+      transport.onmessage({ type: "welcome", version: 1, limits, recorded: false, figure: true, lacks: [], story: figure.story }, {});
       transport.onmessage({ type: "worker", state: "ready" }, {});
       transport.onstatus({ connected: true });
     },
@@ -181,6 +198,7 @@ export function localTransport(figure: Figure, later: (work: () => void) => void
         const nothing = { beams_for: null, nats_for: null, beams_against: null, nats_against: null };
         return transport.onmessage({ type: "cell", x: action.x, y: action.y, each: false, beams, ...nothing }, {});
       }
+      if (action.type === "where") return later(() => where(action.sensor));
       if (QUESTIONS.has(action.type)) return say(ELSEWHERE, "warning");
       seq = (action as Sent).seq ?? seq;
       try {

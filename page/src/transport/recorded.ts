@@ -57,7 +57,7 @@ export function recordedTransport([recording, buffers]: [Recording, Buffers]): T
     send: (action) => {
       if (action.type === "hello") {
         const lacks: Layer[] = [...(count ? [] : ["draw" as const]), ...(buffers.width ? [] : ["width" as const])];
-        transport.onmessage({ type: "welcome", version: 1, limits: null, recorded: true, figure: false, lacks }, {});
+        transport.onmessage({ type: "welcome", version: 1, limits: null, recorded: true, figure: false, lacks, story: null }, {});
         state(action.seq);
         scan();
         if (buffers.trajectory) transport.onmessage({ type: "overlay", generation }, { strokes: buffers.strokes, trajectory: buffers.trajectory });

@@ -11,7 +11,7 @@ import msgspec
 from msgspec import Struct
 
 from bayesmap.app.protocol.document import RARE_WALLS, Document, Refused, plain
-from bayesmap.app.protocol.notices import LIMITS, Limits
+from bayesmap.app.protocol.notices import LIMITS, Limits, Story, Tool
 from bayesmap.app.shown.result import (
     BAD_DIFFERENCE,
     BAD_ESS,
@@ -46,7 +46,11 @@ class Figure(Struct, frozen=True, kw_only=True):
     limits: Limits = LIMITS
     rare_walls: float = RARE_WALLS  # prior of walls or free cells up to which method "auto" means blocks
     judging: Judging = Judging()
+    story: Story | None = None
 
+
+TOOLS: tuple[Tool, ...] = ("draw", "erase", "sensor", "pan", "where")
+"""The tools of a figure."""
 
 HEAD = """<!doctype html>
 <html lang="en">
@@ -90,17 +94,30 @@ def one_file(kind: Literal["recording", "figure"], data: bytes) -> str:
     return PAGE.format(kind=kind, data=_packed(data), module=_packed(static("mapview.js").encode()))
 
 
-def to_figure(document: Document) -> str:
-    """Return a page in one file in which a drawn world can be edited and is sampled, without a server. Raises Refused:
-    the document shows a file, has uncertain poses, or asks for belief propagation.
+def to_figure(document: Document, story: Story | None = None) -> str:
+    """Return a page in one file in which a drawn world, and the steps of a story, are edited and sampled without a
+    server. Raises Refused: a document shows a file, has uncertain poses, or asks for belief propagation; or a step
+    holds a tool that a figure lacks.
     """
+    for number, step in enumerate(story.steps if story else (), start=1):
+        try:
+            if step.tool not in TOOLS:
+                raise Refused(f"tool: a figure has no {step.tool}", f"there are: {', '.join(TOOLS)}")
+            for one in filter(None, (step.document, step.solution)):
+                _check_sampled(one)
+        except Refused as refused:
+            raise Refused(f"step {number}: {refused.text}", refused.remedy) from None
+    _check_sampled(document)
+    return one_file("figure", msgspec.json.encode(Figure(document=document, story=story), enc_hook=plain))
+
+
+def _check_sampled(document: Document) -> None:
     if not document.simulated:
         raise Refused(f"{document.source.name} is a file, and a figure shows a drawn world", "begin a new map")
     if document.pose_sigma > 0 or document.heading_sigma > 0:
         raise Refused("a figure samples maps from known poses alone", "set the uncertainty of the poses to 0")
     if document.method == "propagate":
-        raise Refused("a figure has no belief propagation", "choose another method")
-    return one_file("figure", msgspec.json.encode(Figure(document=document), enc_hook=plain))
+        raise Refused("method: a figure has no belief propagation", "choose another method")
 
 
 def _packed(data: bytes) -> str:

@@ -9,7 +9,7 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from bayesmap.app.protocol.document import Document, Refused
-from bayesmap.app.protocol.notices import AnyNotice, Field, Scan, State
+from bayesmap.app.protocol.notices import AnyNotice, Field, Scan, State, Story
 from bayesmap.app.protocol.tasks import Buffers, Failed, Report, Unusable
 from bayesmap.app.protocol.wire import frame, parse, seq_of
 from bayesmap.app.session import Effects, Session, ToPage, refusal
@@ -44,8 +44,11 @@ class Outbox:
 class Hub:
     """Connects pages and worker on one event loop, which also receives the reports of the supervisor's threads."""
 
-    def __init__(self, document: Document, path: str | None = None, reading: Mapping[str, Any] | None = None) -> None:
-        self.session = Session(document)  # the session that the pages share
+    def __init__(
+        self, document: Document, path: str | None = None, reading: Mapping[str, Any] | None = None,
+        story: Story | None = None,
+    ) -> None:  # fmt: skip
+        self.session = Session(document, story)  # the session that the pages share
         self.pictured = asyncio.Event()  # event that is set when there is a first field, or an error instead
         self._loop = asyncio.get_running_loop()
         self._supervisor = Supervisor(

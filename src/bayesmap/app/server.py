@@ -30,6 +30,7 @@ from starlette.websockets import WebSocket, WebSocketDisconnect
 from bayesmap.app.figures import HEAD, static
 from bayesmap.app.hub import Hub, Outbox
 from bayesmap.app.protocol.document import Document, Refused
+from bayesmap.app.protocol.notices import Story
 from bayesmap.app.protocol.wire import MAX_BYTES
 from bayesmap.errors import BadInput
 
@@ -284,7 +285,7 @@ async def _serve(
 
 def serve(
     document: Document, *, path: str | None = None, log_options: Mapping[str, Any] | None = None,
-    host: str = "127.0.0.1", port: int = 0, on_ready: Callable[[str], None],
+    story: Story | None = None, host: str = "127.0.0.1", port: int = 0, on_ready: Callable[[str], None],
 ) -> None:  # fmt: skip
     """Serve the page until Ctrl-C.
 
@@ -292,6 +293,7 @@ def serve(
         document: the document shown first, if there is no file.
         path: a saved run or a log to show.
         log_options: options of `bayesmap.read_log` for the log.
+        story: a story to tell beside the map.
         host: the host to listen on.
         port: the port to listen on; 0 means any free port.
         on_ready: callback that gets the page's address when the server accepts requests and has a first picture.
@@ -309,7 +311,7 @@ def serve(
             on_ready(address)
 
         try:
-            asyncio.run(_serve(lambda: Hub(document, path, log_options), listener, host, announce))
+            asyncio.run(_serve(lambda: Hub(document, path, log_options, story), listener, host, announce))
         except KeyboardInterrupt:
             if not ready:
                 raise

@@ -39,7 +39,8 @@ Steps = tuple[tuple[Document, Hashable], ...]
 class Session:
     """One document, shown on any number of pages."""
 
-    def __init__(self, document: Document) -> None:
+    def __init__(self, document: Document, story: notices.Story | None = None) -> None:
+        self._story = story  # told beside the map
         self.history = History(document)  # the document, and its states before and after
         self.generation = 0  # number of the present picture (docs/app.md)
         self.live = True  # whether edits restart the chains
@@ -81,7 +82,7 @@ class Session:
         worker = notices.Worker("ready" if self.worker_ready else "starting")
         return [
             *self._forget_view(client),
-            ToPage(notices.Welcome(VERSION, notices.LIMITS), {}, client),
+            ToPage(notices.Welcome(VERSION, notices.LIMITS, story=self._story), {}, client),
             ToPage(worker, {}, client),
         ]
 
@@ -141,7 +142,7 @@ class Session:
                 return [ToPage(notices.Download("document.json", "application/json"), {"data": data}, client)]
             case actions.Export(what="figure"):
                 download = notices.Download("figure.html", "text/html", "which samples by itself")
-                return [ToPage(download, {"data": to_figure(self.document).encode()}, client)]
+                return [ToPage(download, {"data": to_figure(self.document, self._story).encode()}, client)]
             case actions.Export():
                 return [tasks.Ask(client, action), *self._states()]
             case _:

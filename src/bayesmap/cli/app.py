@@ -15,6 +15,7 @@ from bayesmap.files import need_ending, write_whole
 
 if TYPE_CHECKING:
     from bayesmap.app.protocol.document import Document
+    from bayesmap.app.protocol.notices import Story
 
 
 @command("app")
@@ -23,9 +24,11 @@ if TYPE_CHECKING:
 @click.option("--port", type=click.IntRange(0, 65535), default=0, help="Port to listen on. [default: any free one]")
 @click.option("--no-browser", is_flag=True, help="Only print the address.")
 @click.option("--export", metavar="FILE.html", help="Write a page that samples by itself, and start no server.")
+@click.option("--story", metavar="FILE.json", help="Tell a story beside the map; 'tutorial' is ours.")
 @click.option("--seed", type=click.IntRange(0, 2**31 - 1), default=0, show_default=True, help="Seed of random numbers.")
 def app(
-    call: Call[AppSettings], file: str | None, host: str, port: int, no_browser: bool, export: str | None, seed: int
+    call: Call[AppSettings], file: str | None, host: str, port: int, no_browser: bool, export: str | None,
+    story: str | None, seed: int,
 ) -> None:  # fmt: skip
     r"""Draw walls, drag the robot, and watch the posterior live in the browser.
 
@@ -37,12 +40,16 @@ def app(
     With --export it writes one file with the drawn world, in which a reader draws walls, drags the robot and changes
     every setting, and the posterior follows: the samplers run in the reader's browser, without a server.
 
+    With --story the page tells a story in steps beside the map: in each step a state, what is seen, and one thing to
+    do. docs/stories.md describes the file. A step can be linked to: the address ends in #step=3.
+
     \b
     bayesmap app
     bayesmap app runs/office/run.nc --no-browser --port 8000
     bayesmap app office.log.gz --skip-bad-lines
     bayesmap app document.json
     bayesmap app document.json --export figure.html
+    bayesmap app --story tutorial --export story.html
     """
     reading = reading_of(call.settings())
     if file is not None:
@@ -51,10 +58,17 @@ def app(
     from bayesmap.app.edits import tutorial_document
     from bayesmap.app.server import serve
     from bayesmap.app.sources import read_document
+    from bayesmap.app.stories import read_story
 
     first = tutorial_document(seed)
     if file is not None and file.endswith(".json"):
         first, file = read_document(file), None
+    told = None
+    if story is not None:
+        if file is not None:
+            raise BadInput(f"--story: a story has its own maps, and {file} is a file; leave one of the two out")
+        told = read_story(story, first)
+        first = told.steps[0].document
 
     if export is not None:
         if file is not None:
@@ -62,7 +76,7 @@ def app(
                 f"--export: {file} is no drawn world; open it with bayesmap app, and choose Export there, "
                 "which writes a page with its draws"
             )
-        _export(call, first, export)
+        _export(call, first, told, export)
         return
 
     call.console.say("starting the worker ..." if file is None else f"opening {file} ...")
@@ -78,15 +92,15 @@ def app(
 
             webbrowser.open(address)
 
-    serve(first, path=file, log_options=reading, host=host, port=port, on_ready=ready)
+    serve(first, path=file, log_options=reading, story=told, host=host, port=port, on_ready=ready)
 
 
-def _export(call: Call[AppSettings], document: Document, file: str) -> None:
+def _export(call: Call[AppSettings], document: Document, story: Story | None, file: str) -> None:
     """Write a figure that samples by itself."""
     from bayesmap.app.figures import to_figure
 
     target, _ = need_ending(file, ("html",), "--export")
-    page = to_figure(document).encode()
+    page = to_figure(document, story).encode()
     with write_whole(target) as unfinished:
         unfinished.write_bytes(page)
     call.console.result({"path": str(target), "bytes": len(page)}, [target])

@@ -51,6 +51,28 @@ else:
 LIMITS = Limits(**_LIMITS)
 
 
+Tool = Literal["draw", "erase", "sensor", "pan", "where", "path", "evidence", "look", "ghost"]
+
+
+class Step(Struct, frozen=True, kw_only=True):
+    """A step of a story: a state of the page, what is seen in it, and one thing to do."""
+
+    title: str
+    text: str  # what is seen
+    task: str  # one thing to do
+    document: Document  # the state
+    solution: Document | None  # the state once the task is done; null if only a hand can do it
+    layer: Layer
+    tool: Tool
+
+
+class Story(Struct, frozen=True):
+    """Steps that are told beside the map."""
+
+    title: str
+    steps: list[Step]
+
+
 class Welcome(Notice, frozen=True, tag="welcome"):
     """The first message of a connection."""
 
@@ -59,6 +81,7 @@ class Welcome(Notice, frozen=True, tag="welcome"):
     recorded: bool = False  # whether the page plays a recording
     figure: bool = False  # whether the page samples by itself, without a server
     lacks: list[Layer] = []  # layers for which a recording has no numbers
+    story: Story | None = None  # a story to tell beside the map
 
 
 class Worker(Notice, frozen=True, tag="worker"):
