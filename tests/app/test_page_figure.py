@@ -1,10 +1,8 @@
 """A figure that samples without a server: one file, in which the posterior follows the hand."""
 
-import numpy as np
 import pytest
 from acted_session import Acted
 from page_driver import snapshot, until
-from page_hands import show_draw, show_layer
 
 from bayesmap.app.edits import tutorial_document
 from bayesmap.app.figures import to_figure
@@ -44,14 +42,6 @@ def test_a_figure_is_sampled_in_the_page_as_it_is_drawn_in(open_page, figure):
     shown = snapshot(page)
     assert shown["walls"][8, 10] == 1
     assert shown["probability"][8, 10] > 250
-    page.keyboard.press("Control+z")
-    until(page, "s.painted.generation > 2 && s.painted.sweeps === s.document.sweeps")
-    assert np.array_equal(snapshot(page)["probability"], first["probability"])  # the same document, the same picture
-    # Run goes on from the draws of Live.
-    page.get_by_role("button", name="Run", exact=True).click()
-    until(page, "s.draws.count === 2 * s.document.sweeps")
-    show_layer(page, "One draw")
-    assert set(np.unique(show_draw(page, 14, chain=1))) <= {0, 255}
     # What only a server can do is not offered.
     for name in ("Path", "Ghost", "Evidence"):
         assert not page.get_by_role("radio", name=name, exact=True).is_visible()

@@ -1,9 +1,9 @@
-"""A run that is to be replaced stays until there is something in its place, whatever happens before."""
+"""A run to be replaced stays until something is in its place; where files cannot grow, nothing is half-written."""
 
 import shutil
 
 import pytest
-from shell import interrupt_at_checkpoint, interrupt_at_once, refusal_of, succeed
+from shell import interrupt_at_checkpoint, interrupt_at_once, refusal_of, start, succeed
 from tiers import full_but
 
 import bayesmap as bm
@@ -115,3 +115,39 @@ def test_settings_of_a_fleet_are_not_those_of_a_log_that_was_not_in_it(office, t
     succeed("infer", office, other, "-o", output, *short, "--seed 7")
     succeed("infer", third, "-o", output / "third", *short, "--resume")
     assert bm.load(output / "third" / "run.nc").posterior.settings["seed"] == 0
+
+
+LIMIT_BYTES = 4096
+
+
+def written_on_a_full_disk(*arguments):
+    """What a command says whose files are cut short."""
+    cut = f"import resource\nresource.setrlimit(resource.RLIMIT_FSIZE, ({LIMIT_BYTES}, {LIMIT_BYTES}))"
+    process = start(*arguments, first=cut)
+    out, errors = process.communicate()
+    assert process.returncode == 1, errors
+    assert out == ""
+    assert "please report it" not in errors
+    return errors.splitlines()[-1]
+
+
+@pytest.mark.parametrize("name", full_but(["map.bag", "folder", "map.db3", "map.tif"], "folder"))
+def test_an_export_onto_a_full_disk_leaves_nothing(office_run, tmp_path, name):
+    if name == "map.tif":
+        pytest.importorskip("rasterio")
+    told = written_on_a_full_disk("export", office_run / "run.nc", "-o", tmp_path / name)
+    assert told.startswith(f"bayesmap: error: {tmp_path / name}: ")
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.full
+def test_a_picture_onto_a_full_disk_leaves_nothing(office_run, tmp_path):
+    told = written_on_a_full_disk("render", office_run / "run.nc", "-o", tmp_path / "map.png")
+    assert told == f"bayesmap: error: {tmp_path / 'map.png'}: File too large"
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_run_goes_on_without_checkpoints_and_says_in_the_end_what_could_not_be_saved(office, tmp_path, short):
+    told = written_on_a_full_disk("infer", office, "-o", tmp_path, *short)
+    assert told.startswith(f"bayesmap: error: {tmp_path / 'run.nc'}: writing failed; is the disk full?")
+    assert [path.name for path in tmp_path.iterdir()] == ["config.toml"]
