@@ -10,7 +10,6 @@ import playwright.sync_api as playwright
 import pytest
 from page_driver import NO_WALLS, document, fragment, served, settled, snapshot, until
 from page_hands import act, choose, press_and_drag, undo
-from page_socket import serving
 
 
 @pytest.mark.parametrize("ended_by", [signal.SIGKILL, pytest.param(signal.SIGSTOP, marks=pytest.mark.full)])
@@ -72,12 +71,11 @@ def test_a_lost_socket_shows_a_banner_reconnects_and_restores_what_was_drawn_mea
 
 
 def test_after_a_restart_on_the_same_port_the_page_goes_on_with_what_was_drawn_meanwhile(open_page, browser):
-    """The command itself, killed as by a machine that is switched off."""
-    with serving() as (process, address):
+    """A server that ends as one whose machine is switched off."""
+    with served() as (address, server):
         page = open_page(address + fragment(document(walls=NO_WALLS)), quiet=False)
         settled(page)
-        process.kill()
-        process.wait()
+        server.stop()
         port = urlsplit(address).port
         page.get_by_role("alert").get_by_text("Connection lost").wait_for()
         choose(page, "Draw")
