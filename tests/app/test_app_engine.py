@@ -156,7 +156,7 @@ def test_run_goes_on_from_the_draws_of_live_and_of_a_run(most, steps, burn_in, m
     assert header["sweeps"] == header["total"] == found.total >= 60
     assert header["draws"]["count"] == found.draws.count == found.total // found.thin <= most
     assert np.array_equal(found.log_joint()[:, :60], reference.log_joint())
-    same = found.draws.first(60 // found.thin).arrays["walls"]
+    same = found.draws.select(slice(60 // found.thin)).arrays["walls"]
     assert np.array_equal(same, reference.draws.arrays["walls"][:, found.thin - 1 : 60 : found.thin])
     assert header["burned"] == int(burn_in * found.total) // found.thin * found.thin
     assert header["generation"] == 3

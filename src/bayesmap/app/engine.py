@@ -33,7 +33,7 @@ from bayesmap.errors import BadInput
 PREVIEW_SECONDS = 0.015  # time of belief propagation before the first picture
 FEWEST_ROUNDS = 3  # rounds of belief propagation before the first picture
 PAUSE_SECONDS = 0.03  # pause before chains are set up: a moving hand sends its next edit in this time
-GHOST_SECONDS, REST_SECONDS = 0.06, 0.002  # how long chains rest after a virtual scan, for the next; short sleeps
+GHOST_SECONDS, REST_SECONDS = 0.06, 0.002  # rest of chains after a virtual scan, for the next one; its short sleeps
 
 
 class Engine:

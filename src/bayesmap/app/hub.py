@@ -59,11 +59,7 @@ class Hub:
         self._unusable: str | None = None
 
     async def start(self) -> None:
-        """Start the worker and wait for its first picture.
-
-        Raises:
-            BadInput: the file cannot be shown.
-        """
+        """Start the worker and wait for its first picture. Raises BadInput: the file cannot be shown."""
         self._supervisor.start()
         await self.pictured.wait()
         if self._unusable is not None:

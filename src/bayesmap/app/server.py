@@ -287,20 +287,11 @@ def serve(
     document: Document, *, path: str | None = None, log_options: Mapping[str, Any] | None = None,
     story: Story | None = None, host: str = "127.0.0.1", port: int = 0, on_ready: Callable[[str], None],
 ) -> None:  # fmt: skip
-    """Serve the page until Ctrl-C.
+    """Serve the page until Ctrl-C. ``on_ready`` gets its address when requests are accepted and a picture is there.
 
-    Args:
-        document: the document shown first, if there is no file.
-        path: a saved run or a log to show.
-        log_options: options of `bayesmap.read_log` for the log.
-        story: a story to tell beside the map.
-        host: the host to listen on.
-        port: the port to listen on; 0 means any free port.
-        on_ready: callback that gets the page's address when the server accepts requests and has a first picture.
-
-    Raises:
-        BadInput: the port is taken, or the file cannot be shown.
-        KeyboardInterrupt: Ctrl-C before the server is ready.
+    ``path`` is a saved run, or a log that `bayesmap.read_log` reads with ``log_options``; without one, ``document`` is
+    shown first. ``story`` is told beside the map. Port 0 means any free port. Raises BadInput: the port is taken, or
+    the file cannot be shown. Raises KeyboardInterrupt: Ctrl-C before the server is ready.
     """
     with contextlib.closing(listen(host, port)) as listener:
         ready = False

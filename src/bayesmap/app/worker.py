@@ -17,7 +17,7 @@ import threading
 import time
 from collections.abc import Callable, Mapping, Sequence
 from multiprocessing.connection import Connection
-from typing import Any, Protocol, TypeVar
+from typing import Any, TypeVar
 
 from bayesmap.app.protocol.tasks import ALIVE_SECONDS, Alive, Infer, Ready, Report, Task, Unusable
 from bayesmap.errors import BadInput
@@ -116,21 +116,7 @@ SILENT_SECONDS = 15.0  # a worker that sends no report for this time is replaced
 SLOW_BIRTH_SECONDS = 60.0  # extra time of a new worker, which may load Python from a cold disk
 
 
-class Process(Protocol):
-    """The interface of a worker process for its supervisor."""
-
-    @property
-    def pid(self) -> int | None:
-        """The process id."""
-
-    def kill(self) -> None:
-        """End the process."""
-
-    def wait(self) -> Any:
-        """Wait for the end of the process."""
-
-
-def start_worker(end: socket.socket, path: str | None, reading: Mapping[str, Any]) -> Process:
+def start_worker(end: socket.socket, path: str | None, reading: Mapping[str, Any]) -> subprocess.Popen[bytes]:
     """Start a worker with one end of a socket pair; it inherits nothing else of the caller."""
     command = [sys.executable, "-m", "bayesmap.app.worker", str(end.fileno())]
     command += [path, json.dumps(reading)] if path is not None else []
@@ -140,12 +126,9 @@ def start_worker(end: socket.socket, path: str | None, reading: Mapping[str, Any
 class Supervisor:
     """Keeps one worker process running.
 
-    Args:
-        on_report: called with every report, on a thread of the supervisor.
-        on_lost: called when a worker has died, before another starts.
-        path: the file that the worker opens.
-        silence_s: the time without a report after which a worker is replaced, seconds.
-        reading: options of `bayesmap.read_log` for a log.
+    ``on_report`` gets every report, on a thread of the supervisor; ``on_lost`` is called when a worker has died, before
+    another starts. The worker opens the file ``path``, a log with the options ``reading`` of `bayesmap.read_log`. It is
+    replaced after ``silence_s`` seconds without a report.
     """
 
     def __init__(
@@ -157,7 +140,7 @@ class Supervisor:
         self._tasks: queue.SimpleQueue[Task | None] = queue.SimpleQueue()
         self._stopping = threading.Event()
         self._lock = threading.Lock()
-        self._process: Process | None = None
+        self._process: subprocess.Popen[bytes] | None = None
         self._pipe: Connection | None = None
         self._heard = 0.0
 

@@ -122,19 +122,15 @@ class Draws:
         """Select at most ``most`` draws, evenly spread over every chain, but at least one of each chain."""
         each = min(self.count, max(1, most // self.chains))
         chosen = np.linspace(0, self.count - 1, each).round().astype(np.intp)
-        return replace(self, arrays={name: values[:, chosen] for name, values in self.arrays.items()})
+        return self.select(chosen)
 
     def of_chain(self, chain: int) -> Draws:
         """Select the draws of one chain."""
         return replace(self, arrays={name: values[chain : chain + 1] for name, values in self.arrays.items()})
 
-    def first(self, count: int) -> Draws:
-        """Select the first ``count`` draws of every chain."""
-        return replace(self, arrays={name: values[:, :count] for name, values in self.arrays.items()})
-
-    def after(self, count: int) -> Draws:
-        """Leave out the first ``count`` draws of every chain."""
-        return replace(self, arrays={name: values[:, count:] for name, values in self.arrays.items()})
+    def select(self, draws: slice | NDArray[np.intp]) -> Draws:
+        """Select draws of every chain."""
+        return replace(self, arrays={name: values[:, draws] for name, values in self.arrays.items()})
 
     def shape_of(self, spec: ArraySpec) -> tuple[int, ...]:
         """Return the sizes of an array's dimensions beside chain and draw."""

@@ -27,7 +27,7 @@ from bayesmap.localization.search import MIN_POINTS, end_points, search
 from bayesmap.sensors.model import RangeLimits
 from bayesmap.space.planar import Floats, wrap_angle
 
-POINTS, SHARPER = 60, 2.0  # end points per scan, their weight to beams': for the number of rounds alone
+POINTS, SHARPER = 60, 2.0  # end points per scan, their weight relative to beams'; they affect rounds, not results
 MAX_APPROACHES = 3  # most rounds in which places are moved; one less for several places, which come from a search
 END_POWER = 0.6  # power of the weights above which rounds end
 DRAWS_PER_ROUND = 240  # draws per round for all places together

@@ -27,7 +27,7 @@ from bayesmap.space.planar import Floats, between, chain_motions, wrap_yaw
 KEY_DISTANCE_M, KEY_TURN_RAD = 0.4, np.radians(20.0)  # a scan this far from the last key scan becomes a key scan
 KEY_SCORE = 0.5  # a scan with a lower score becomes a key scan, too
 WINDOW, BATCH = 12, 12  # latest key scans that a scan is matched to, and most scans matched to them at once
-POOR_SCORE, POOR_BELOW = 0.45, 0.25  # bad: a score below the greater of this, and the usual one less that
+POOR_SCORE, POOR_BELOW = 0.45, 0.25  # a score is bad below the greater of this, and the usual score less that
 LOST_SIGMA = np.array([0.5, 0.5, np.radians(30.0)])  # sigmas of a pose beyond which a poor scan is a contradiction
 SLIPPED_BELOW = 0.15  # a wide search may move a scan to a score that is lower than usual by at most this
 AGAIN_BELOW = 0.1  # scans this far below the usual score are matched again, from the pose of the scan before

@@ -245,13 +245,11 @@ def solve_step(count: int, parts: Sequence[Quadratic]) -> tuple[Floats, Precisio
 
 
 def optimise(poses: Floats, chain: Factors, loops: Factors, steps: int = 40) -> tuple[Floats, Floats]:
-    """Fit poses to a chain of factors and to loops. Some loops may be wrong.
+    """Fit poses to a chain of factors and to loops. Some loops may be wrong. Returns poses (N, 3), and the final weight
+    of each loop, from 0 to 1.
 
     Loops have Geman and McClure's cost, with weights w = (mu c^2 / (r^2 + mu c^2))^2. The cost begins nearly convex,
     and mu falls to 1 (graduated non-convexity, Yang, Antonante, Tzoumas and Carlone 2020).
-
-    Returns:
-        poses (N, 3), and the final weight of each loop, from 0 to 1.
     """
     poses = poses.copy()
     relaxed = max(1.0, 2.0 * float(loops.squares(poses).max()) / DOUBTFUL_SQ) if len(loops) else 1.0

@@ -21,7 +21,7 @@ TOO_SELDOM = "scans come too seldom to be followed without odometry, which takes
 
 MIN_FROZEN_SCANS = 10  # fewest scans at one pose in a frozen stretch: odometry that is merely slow repeats less often
 MOVED_M = 0.2  # change of a reading, metres, that counts as one
-MOVED_SHARE = 0.3  # the robot moved if more readings change: a corridor's walls do not along it
+MOVED_SHARE = 0.3  # least share of changed readings if the robot moved: few change along a corridor
 MIN_COMMON_HITS = 8  # fewest beams with hits in both scans
 EQUAL_POSE_TOLERANCE = 1e-6  # metres and radians; stated poses that differ by less are equal, in spite of rounding
 MIN_SCORE_GAIN = 0.05  # least gain in score, from 0 to 1, of a scan at late odometry over stated odometry

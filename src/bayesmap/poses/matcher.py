@@ -102,23 +102,16 @@ def match(
 ) -> Matches:  # fmt: skip
     """Match points to grids, J jobs at once.
 
-    Args:
-        grids: all grids.
-        points: points of each job in the sensor's frame, (N, 2).
-        centres: middle of each job's window, a pose in the grids' frame, (J, 3).
-        half_m: half the window's width, metres: one number, (J,), or (J, 2) for x and y.
-        half_rad: half the range of angles: one number or (J,); pi or more is the full circle.
-        grid_of: grid of each job, (J,); by default grid j for job j, or the only grid.
-        step_rad: step between angles.
-        min_score: number or (J,) that scores must exceed. High values end searches early.
-        pull: penalty for leaving the centre; by default none.
-        modes: most poses per job. Each further pose is the best that is apart from all before it.
-        min_score_ratio: least score of a further pose, as a share of the first one's score.
-        apart_m: difference in x or in y, metres, beyond which poses are apart.
-        apart_rad: difference in yaw beyond which poses are apart.
-        threads_per_job: number of threads that share one job. The result does not depend on it.
+    ``points`` are those of each job in the sensor's frame, (N, 2); ``grid_of`` its grid, (J,), by default grid j for
+    job j, or the only grid. A window's middle is a pose in the grids' frame, ``centres`` (J, 3). It reaches ``half_m``
+    metres: one number, (J,), or (J, 2) for x and y, and turns by ``half_rad``, one number or (J,), in steps of
+    ``step_rad``; pi or more is the full circle. Scores must exceed ``min_score``, a number or (J,): high values end
+    searches early. ``pull`` is the penalty for leaving the centre.
 
-    Raises `BadInput` for a window's centre that is not finite.
+    Up to ``modes`` poses per job are returned. Each further pose is the best that is apart from all before it, by more
+    than ``apart_m`` in x or in y, or ``apart_rad``, and that has at least ``min_score_ratio`` of the first one's score.
+    The result does not depend on ``threads_per_job``, which share a job. Raises `BadInput` for a window's centre that
+    is not finite.
     """
     from bayesmap.kernels.match.branch_and_bound import Modes, Windows, search_grids
 

@@ -39,7 +39,7 @@ MIN_RIVAL_PLACES = 2  # places that must agree on a rival relative pose before t
 RIVAL, RIVAL_EARLY = 0.5, 0.4  # share of the best pose's votes at which a rival makes it doubtful: last turn, earlier
 SAME_M, SAME_RAD = 0.5, np.radians(6.0)  # largest difference of equal relative poses: parts are bent
 MET_M, COMPARED = 5.0, 600  # distance of compared key scans of two parts, and most pairs of them
-SEEN, MOST_AGAINST = Agreement(near_m=0.2, clear_m=0.4, beams=60), 0.15  # of scans of two parts; largest share against
+SEEN, MOST_AGAINST = Agreement(near_m=0.2, clear_m=0.4, beams=60), 0.15  # of scans of two parts; most against
 
 
 @dataclass(frozen=True, eq=False)

@@ -41,7 +41,7 @@ def range_noise_m(ranges_m: Floats, step_rad: float) -> float:
     return float(np.clip(sigma, MIN_NOISE_M, MAX_NOISE_M))
 
 
-REACH_M, REACH_SIGMAS = 0.12, 10.0  # half the wall that a normal fits, m and sigmas of a point: with less, scans slide
+REACH_M, REACH_SIGMAS = 0.12, 10.0  # half the wall to which normals are fitted, m and sigmas: with less, scans slide
 NEAREST_M = 0.05  # range below which readings are hits on the robot itself, metres
 PAIR_SIGMAS, SCALE_SIGMAS = 6.0, 3.0  # least pairing distance and outlier scale, in sigmas of a range
 MERGED_RAD = np.radians(1.0)  # closer beams are merged to this spacing, so that points are about a cell apart

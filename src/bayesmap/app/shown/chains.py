@@ -151,7 +151,7 @@ class Stream(Found):
 
     def _burn(self, sweep: int) -> None:
         """Leave out the sweeps before this one, at which no sums were kept, by means of the kept draws."""
-        first = self.draws.first(sweep // self.thin)
+        first = self.draws.select(slice(sweep // self.thin))
         maps = [self.model.cells.mean_map(first.of_chain(chain)) * sweep for chain in range(self.n_chains)]
         self._past = [Past(sweep, np.array(maps), self._past[0].observed_counts)]
 
@@ -203,7 +203,7 @@ class Stream(Found):
     @property
     def at_hand(self) -> Draws | None:
         """The kept draws after the burn-in: all once the chains are done, some before; at first the latest draws."""
-        kept = self.draws.after(self._past[0].sweep // self.thin)
+        kept = self.draws.select(slice(self._past[0].sweep // self.thin, None))
         draws = kept if kept.count else self._latest
         return None if not draws.count else draws if self.done else draws.thinned(RECENT * self.n_chains)
 
@@ -257,7 +257,7 @@ class Stream(Found):
         burned = self._past[0]
         first = burned.sweep // self.thin
         chains = replace(
-            chains, draws=chains.draws.after(first), log_likelihood=chains.log_likelihood[:, first:],
+            chains, draws=chains.draws.select(slice(first, None)), log_likelihood=chains.log_likelihood[:, first:],
             log_prior=chains.log_prior[:, first:], warmup_log_joint=self.log_joint()[:, : burned.sweep],
             observed_counts=self._observed_counts - burned.observed_counts,
         )  # fmt: skip

@@ -35,7 +35,7 @@ StopStates = Singles
 mean x and y in metres from the grid's lower left corner, and Cholesky factor l11, l21, l22."""
 
 
-LEAST_CHANCE = 2e-3  # cells with less count as empty in fast weighing, except near the reading: poses lose it alike
+LEAST_CHANCE = 2e-3  # cells below it count as empty in fast weighing, unless near the reading: poses lose it alike
 
 
 @wp.struct

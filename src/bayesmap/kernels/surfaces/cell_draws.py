@@ -258,7 +258,7 @@ def sum_of_slices(
     other_total[chain, column] = total
 
 
-UNTOUCHED, TOUCHED, COUNTED = 0, 1, 2  # knowledge of a cell: no beam, beams, `endpoint_cells` counted its beams
+UNTOUCHED, TOUCHED, COUNTED = 0, 1, 2  # of a cell: no beam touches it; some do; `endpoint_cells` counts them
 
 HALF_LOG_TWO_PI = wp.constant(wp.float64(0.5 * math.log(2.0 * math.pi)))
 LARGE = wp.constant(wp.float64(10.0))  # argument from which Stirling's series is used
