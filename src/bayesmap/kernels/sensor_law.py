@@ -37,11 +37,6 @@ def noise_log_density(law: Any, square: Any):
     return law.log_height - half * square
 
 
-def whole_power(power: float) -> int:
-    """Return ``power``, (dof + 1) / 2, if it is a whole number of at most `MOST_POWER`, else 0."""
-    return int(power) if power == int(power) and power <= MOST_POWER else 0
-
-
 @wp.func
 def noise_density(law: Any, square: Any):
     """Return the density of the standard noise of a sensor's law, at a squared distance. Student's t with an odd number
@@ -184,7 +179,7 @@ def sensor_law(sensor: SensorModel, limits: RangeLimits, device: str, law: Any =
             setattr(packed, name, value)
     if model.dof > 0:
         half = 0.5 * (model.dof + 1)
-        packed.power = whole_power(half)
+        packed.power = int(half) if half == int(half) and half <= MOST_POWER else 0  # 0: no whole power
         packed.log_height = math.lgamma(half) - math.lgamma(0.5 * model.dof) - 0.5 * math.log(model.dof * math.pi)
     else:
         packed.log_height = -0.5 * math.log(2 * math.pi)

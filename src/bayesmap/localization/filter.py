@@ -94,7 +94,9 @@ class Prior:
         flat = np.where(known.is_free(poses), -np.log(known.free_area_m2 * 2 * np.pi), -np.inf)
         if self.components is None:
             return np.asarray(flat)
-        own = _mixture_log_density(self.components, poses) + np.log1p(-self.uniform)
+        squared, half_log_det = self.components.squared_distances(poses)
+        mass = self.components.log_mass - log_sum(self.components.log_mass)
+        own = log_sum(mass - half_log_det - 1.5 * np.log(2 * np.pi) - 0.5 * squared) + np.log1p(-self.uniform)
         if self.uniform == 0.0:
             return np.asarray(own)
         return np.asarray(np.logaddexp(own, flat + np.log(self.uniform)))
@@ -286,13 +288,6 @@ def _fit(
     evidence = float(log_sum(logs) - np.log(len(logs)))
     beams = max(1, int((~np.isnan(scan.ranges_m)).sum()))
     return evidence, float(likelihood[int(np.argmax(logs))] / usual / beams)
-
-
-def _mixture_log_density(components: PoseMixture, poses: Floats) -> Floats:
-    """Compute the log density of a mixture of normal distributions with the components' masses, (P,)."""
-    squared, half_log_det = components.squared_distances(poses)
-    mass = components.log_mass - log_sum(components.log_mass)
-    return np.asarray(log_sum(mass - half_log_det - 1.5 * np.log(2 * np.pi) - 0.5 * squared))
 
 
 SHARP_CANDIDATES, KEPT = 32, 16  # most places searched for, and weighted, in a map that is known exactly

@@ -68,8 +68,7 @@ class StatedOdometry:
         """Return a Gaussian whose covariances hold the uncertainty of odometry's systematic error.
 
         This error is common to the whole path: where odometry alone knows the length of a corridor, all of the length
-        may be wrong by some per cent. ``factors`` are the odometry factors. They must be the
-        last factors of ``gaussian``.
+        may be wrong by some per cent. ``factors`` are those of odometry, which must be the last of ``gaussian``.
         """
         if fit is None:
             return gaussian
