@@ -51,6 +51,8 @@ export type Transport = {
   onmessage: (notice: wire.Notice, buffers: Buffers) => void;
   onstatus: (connection: Connection) => void;
   open: () => void;
+  /** Reads a saved run by the server: its recording. Hears what share of the file has been sent. */
+  read?: (file: File, heard: (share: number) => void) => Promise<ArrayBuffer>;
   /** Tries again now. */
   retry?: () => void;
   close: () => void;

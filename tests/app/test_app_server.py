@@ -60,6 +60,15 @@ def get(address, path=None, **headers):
         return answer.status, answer.read().decode(), answer.headers
 
 
+def test_only_saved_runs_of_those_who_have_the_token_are_read(address):
+    parts = urlsplit(address)
+    for query, expected in ((parts.query, 415), (f"{parts.query}&name=../x.log", 415), ("name=x.nc", 403)):
+        connection = http.client.HTTPConnection(parts.hostname, parts.port, timeout=PATIENCE_S)
+        with contextlib.closing(connection):
+            connection.request("POST", f"/open?{query}", body=b"x")
+            assert connection.getresponse().status == expected
+
+
 def test_the_page_and_its_module_are_served_with_a_policy(address):
     token = urlsplit(address).query
     status, text, headers = get(address)

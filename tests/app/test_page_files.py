@@ -1,5 +1,6 @@
 """Logs and saved runs on the page: scans and draws to look through, their quantity's own words, nothing to draw on."""
 
+import base64
 import re
 
 import numpy as np
@@ -96,6 +97,40 @@ WORDS = {
     "front end": "Matching scan to scan", "loops": "Closing loops", "aligned": "Aligning the key scans",
     "placing": "Placing the other scans",
 }  # fmt: skip
+
+
+DROP = """
+([name, text]) => {
+  const bytes = Uint8Array.from(atob(text), (character) => character.charCodeAt(0));
+  const dataTransfer = new DataTransfer();
+  dataTransfer.items.add(new File([bytes], name));
+  const host = document.querySelector("[data-bayesmap]");
+  host.dispatchEvent(new DragEvent("drop", { dataTransfer, bubbles: true, cancelable: true }));
+}
+"""
+
+
+def drop(page, path):
+    page.evaluate(DROP, [path.name, base64.b64encode(path.read_bytes()).decode()])
+
+
+def test_a_dropped_run_is_shown_and_a_damaged_one_is_not(open_page, server, tmp_path):
+    page = open_page(server, quiet=False)  # the browser tells its console of what is refused
+    (tmp_path / "broken.nc").write_bytes(b"CDF not really")
+    drop(page, tmp_path / "broken.nc")
+    page.get_by_role("status").get_by_text("broken.nc cannot be shown: ").wait_for()
+    (tmp_path / "notes.txt").write_text("no map")
+    drop(page, tmp_path / "notes.txt")
+    page.get_by_role("status").get_by_text("notes.txt is not read in the page: start bayesmap app with it").wait_for()
+    run = tutorial_run()
+    run.save(tmp_path / "found.nc")
+    drop(page, tmp_path / "found.nc")
+    page.get_by_role("status").get_by_text("Reading found.nc").wait_for()
+    until(page, "s.document.source.name === 'found.nc' && s.draws.count === 20")
+    shown = snapshot(page)
+    assert np.abs(shown["probability"] / 255 - run.occupancy).max() <= 0.5 / 255 + 1e-6
+    show_layer(page, "One draw")
+    assert np.array_equal(show_draw(page, 14, chain=1) > 0, run.draws[1, 14])
 
 
 def off_m(page, log):

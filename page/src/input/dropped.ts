@@ -1,7 +1,8 @@
-// Files that are dropped onto the page: a page in one file is played, a document is shown.
+// Files that are dropped onto the page: a page in one file and a saved run are played, a document is shown.
 
-import type { Buffers, Recording } from "../protocol";
+import type { Buffers, Recording, Transport } from "../protocol";
 import type { Session } from "../state/session";
+import { unpackFrame } from "../transport/frame";
 import { readRecording } from "../transport/recorded";
 
 /** Plays a recording in the place of what is shown. */
@@ -19,8 +20,19 @@ async function read(file: File, heard: (share: number) => void) {
   return text;
 }
 
+/** Plays a saved run, which the server reads. */
+async function openRun(file: File, session: Session, readRun: NonNullable<Transport["read"]>, play: Play) {
+  try {
+    const recording = await readRun(file, (share) => session.say(share < 1 ? `Reading ${file.name}: ${Math.round(100 * share)} %` : `Reading ${file.name}: making its picture`));
+    play(unpackFrame<Recording>(recording));
+  } catch (error) {
+    session.say(`${file.name} cannot be shown: ${(error as Error).message}`, "error");
+  }
+}
+
 export async function openDropped(file: File, session: Session, play: Play | undefined) {
   const { name } = file;
+  if (name.endsWith(".nc") && session.transport.read && play) return openRun(file, session, session.transport.read, play);
   if (!/\.(html|json)$/.test(name)) return session.say(`${name} is not read in the page: start bayesmap app with it`, "warning");
   try {
     const text = await read(file, (share) => session.say(`Reading ${name}: ${Math.round(100 * share)} %`));

@@ -48,6 +48,19 @@ export function webSocketTransport(address: () => URL): Transport {
     send: (message) => {
       if (socket?.readyState === WebSocket.OPEN) socket.send(JSON.stringify(message));
     },
+    read: (file, heard) =>
+      new Promise((resolve, reject) => {
+        const url = new URL("open", address());
+        url.search = address().search;
+        url.searchParams.set("name", file.name);
+        const request = new XMLHttpRequest(); // fetch does not tell how much it has sent
+        request.open("POST", url);
+        request.responseType = "arraybuffer";
+        request.upload.onprogress = ({ loaded, total }) => heard(loaded / total);
+        request.onload = () => (request.status === 200 ? resolve(request.response) : reject(new Error(new TextDecoder().decode(request.response))));
+        request.onerror = () => reject(new Error("the connection is lost"));
+        request.send(file);
+      }),
     retry: () => {
       wait_ms = FIRST_WAIT_MS;
       if (socket?.readyState !== WebSocket.OPEN) open();

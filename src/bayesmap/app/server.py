@@ -27,6 +27,7 @@ from starlette.routing import Route, WebSocketRoute
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
+from bayesmap.app.dropped import open_dropped
 from bayesmap.app.figures import HEAD, static
 from bayesmap.app.hub import Hub, Outbox
 from bayesmap.app.protocol.document import Document, Refused
@@ -198,6 +199,7 @@ def application(hub: Hub, token: str, host: str, port: int) -> Guard:
             hub.leave(client)
 
     routes = [Route("/", page), Route("/mapview.js", module), WebSocketRoute("/socket", connect)]
+    routes.append(Route("/open", open_dropped, methods=["POST"]))
     return Guard(Starlette(routes=routes), token, host, port)
 
 
