@@ -141,12 +141,7 @@ def test_tables_that_cannot_be_used(tmp_path, change, message):
     [
         (g2o, 8, "VERTEX_SE2 3 nan 0 0 0", "line 9: VERTEX_SE2 has 6 fields"),
         (g2o, 0, "# 0", "line 2: ROBOTLASER1 does not follow a VERTEX_SE2"),
-        (
-            g2o,
-            1,
-            "ROBOTLASER1 0 -2.0 4.0 0.1 42.0 0.01 0 1 x 0" + " 0" * 12 + " h 0",
-            "line 2: ROBOTLASER1 has 'x'",
-        ),
+        (g2o, 1, "ROBOTLASER1 0 -2.0 4.0 0.1 42.0 0.01 0 1 x 0" + " 0" * 12 + " h 0", "line 2: ROBOTLASER1 has 'x'"),
         (csv, 7, "1,2,3", "line 8: the row has 3 fields where the header has 45"),
         (csv, 7, ",".join(["1"] * 20 + ["x"] * 25), "line 8: field 21 is 'x', not a number"),
         (csv, 7, ",".join(["nan"] * 45), "line 8: a number that must be finite is not"),

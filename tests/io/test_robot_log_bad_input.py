@@ -192,16 +192,8 @@ def pose(position, orientation):
         ("/scan", {"angle_min": math.nan}, "has angle_min nan"),
         ("/scan", {"angle_increment": math.inf}, "angle_increment inf"),
         ("/scan", {"angle_increment": 0.0, "angle_max": math.nan}, "but angle_increment 0 and angle_max nan"),
-        (
-            "/scan",
-            {"angle_min": -90.0, "angle_max": -50.0, "angle_increment": 1.0},
-            "6.37 turns; angles must be",
-        ),
-        (
-            "/scan",
-            {"angle_min": -90.0, "angle_increment": 0.01},
-            "over a turn away from straight ahead; angles",
-        ),
+        ("/scan", {"angle_min": -90.0, "angle_max": -50.0, "angle_increment": 1.0}, "6.37 turns; angles must be"),
+        ("/scan", {"angle_min": -90.0, "angle_increment": 0.01}, "over a turn away from straight ahead; angles"),
         ("/scan", {"header": r.header(None, "laser")}, "does not say its time"),
         ("/scan", {"header": r.header(2.0, "other")}, "in frame 'other', but most scans"),
         ("/odom", pose(r.point(math.nan, 0), r.quaternion(0.0)), "has the position (nan, 0, 0)"),
