@@ -59,15 +59,10 @@ def test_names_below_an_index_hold_whole_arrays():
     np.testing.assert_array_equal(moved.get_choices()["v"], chm["v"].at[1].set(9.0))
 
 
-@pytest.mark.parametrize(
-    ("model", "args", "constraint"),
-    [
-        (genjax.normal.repeat(n=4), (0.0, 1.0), C.v(np.zeros(3))),
-        (draw.repeat(n=4), (0.0,), C["v"].set(np.zeros(3))),
-        (step.scan(n=4), (0.0, np.zeros(4)), C["z"].set(np.zeros(3))),
-    ],
-    ids=["product", "vmap", "scan"],
-)
+@pytest.mark.parametrize(("model", "args", "constraint"), [
+    (genjax.normal.repeat(n=4), (0.0, 1.0), C.v(np.zeros(3))), (draw.repeat(n=4), (0.0,), C["v"].set(np.zeros(3))),
+    (step.scan(n=4), (0.0, np.zeros(4)), C["z"].set(np.zeros(3))),
+], ids=["product", "vmap", "scan"])  # fmt: skip
 def test_a_constraint_array_of_the_wrong_length_raises(model, args, constraint):
     """GenJAX clamps silently."""
     for use in (lambda: model.importance(jr.key(0), constraint, args), lambda: model.assess(constraint, args)):
@@ -141,19 +136,12 @@ def test_scan_returns_the_last_state_and_the_stacked_outputs():
 EMPTY = np.zeros(0, np.float32)
 
 
-@pytest.mark.parametrize(
-    ("model", "args"),
-    [
-        (genjax.normal.vmap(), (EMPTY, EMPTY)),
-        (genjax.normal.repeat(n=0), (0.0, 1.0)),
-        (genjax.normal.repeat(n=3).vmap(in_axes=(0, None)), (EMPTY, 1.0)),
-        (draw.vmap(), (EMPTY,)),
-        (draw.repeat(n=0), (0.0,)),
-        (step.scan(), (0.0, EMPTY)),
-        (walk.iterate(n=0), (0.0,)),
-        (genjax.gen(lambda: step.scan()(0.0, EMPTY) @ "steps"), ()),
-    ],
-)
+@pytest.mark.parametrize(("model", "args"), [
+    (genjax.normal.vmap(), (EMPTY, EMPTY)), (genjax.normal.repeat(n=0), (0.0, 1.0)),
+    (genjax.normal.repeat(n=3).vmap(in_axes=(0, None)), (EMPTY, 1.0)),
+    (draw.vmap(), (EMPTY,)), (draw.repeat(n=0), (0.0,)), (step.scan(), (0.0, EMPTY)), (walk.iterate(n=0), (0.0,)),
+    (genjax.gen(lambda: step.scan()(0.0, EMPTY) @ "steps"), ()),
+])  # fmt: skip
 def test_a_model_without_elements_needs_no_choices(model, args):
     trace = model.simulate(jr.key(0), args)
     assert trace.get_choices().static_is_empty()
@@ -306,15 +294,11 @@ def test_an_address_in_use_raises(addresses):
         clash.simulate(jr.key(0), ())
 
 
-@pytest.mark.parametrize(
-    "use",
-    [
-        lambda chm: nested.importance(jr.key(0), chm, (1.0,)),
-        lambda chm: nested.assess(chm | nested.simulate(jr.key(0), (1.0,)).get_choices(), (1.0,)),
-        lambda chm: nested.simulate(jr.key(0), (1.0,)).update(jr.key(0), chm),
-    ],
-    ids=["importance", "assess", "update"],
-)
+@pytest.mark.parametrize("use", [
+    lambda chm: nested.importance(jr.key(0), chm, (1.0,)),
+    lambda chm: nested.assess(chm | nested.simulate(jr.key(0), (1.0,)).get_choices(), (1.0,)),
+    lambda chm: nested.simulate(jr.key(0), (1.0,)).update(jr.key(0), chm),
+], ids=["importance", "assess", "update"])  # fmt: skip
 def test_an_address_that_the_model_lacks_raises(use):
     """GenJAX ignores it silently."""
     with pytest.raises(UnknownAddress, match="'w'"):

@@ -112,13 +112,10 @@ def test_propose_gives_choices_score_and_value():
     np.testing.assert_allclose(score, st.norm.logpdf(value), rtol=1e-6)
 
 
-@pytest.mark.parametrize(
-    ("choices", "error", "message"),
-    [
-        (C.n(), MissingAddress, r"\(\)"), (C.v(np.zeros(3)), ShapeMismatch, r"found \(3,\), expected \(\)"),
-        (C["x"].set(0.0), UnknownAddress, "'x'"),
-    ],
-)  # fmt: skip
+@pytest.mark.parametrize(("choices", "error", "message"), [
+    (C.n(), MissingAddress, r"\(\)"), (C.v(np.zeros(3)), ShapeMismatch, r"found \(3,\), expected \(\)"),
+    (C["x"].set(0.0), UnknownAddress, "'x'"),
+])  # fmt: skip
 def test_choices_that_do_not_fit_are_named(choices, error, message):
     with pytest.raises(error, match=message):
         genjax.normal.assess(choices, (0.0, 1.0))

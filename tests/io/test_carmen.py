@@ -153,17 +153,11 @@ def some_scans(beams: int, first_deg: float, step_deg: float, no_returns: int = 
     return Scans(poses, np.radians(first_deg + step_deg * np.arange(beams)), ranges, 10.0)
 
 
-@pytest.mark.parametrize(
-    ("beams", "first_deg", "step_deg", "no_returns", "kind"),
-    [
-        (180, -90, 1.0, 0, "FLASER"),
-        (361, -90, 0.5, 40, "FLASER"),
-        (180, -90, 1.0, 1, "ROBOTLASER1"),  # a single no-return would be taken for a wall far away
-        (180, -180, 2.0, 0, "ROBOTLASER1"),
-        (100, 0, 3.6, 40, "ROBOTLASER1"),
-        (2, -10, 20.0, 1, "ROBOTLASER1"),
-    ],
-)
+@pytest.mark.parametrize(("beams", "first_deg", "step_deg", "no_returns", "kind"), [
+    (180, -90, 1.0, 0, "FLASER"), (361, -90, 0.5, 40, "FLASER"),
+    (180, -90, 1.0, 1, "ROBOTLASER1"),  # a single no-return would be taken for a wall far away
+    (180, -180, 2.0, 0, "ROBOTLASER1"), (100, 0, 3.6, 40, "ROBOTLASER1"), (2, -10, 20.0, 1, "ROBOTLASER1"),
+])  # fmt: skip
 @pytest.mark.parametrize("name", ["scans.log", "scans.log.gz"])
 def test_scans_are_read_back_as_they_were_written(tmp_path, beams, first_deg, step_deg, no_returns, kind, name):
     scans = some_scans(beams, first_deg, step_deg, no_returns)

@@ -20,15 +20,12 @@ from bayesmap.space.trajectory import Trajectory
 NEEDS = {"geotiff": "rasterio", "rerun": "rerun"}
 
 
-@pytest.mark.parametrize(
-    ("path", "format"),
-    [
-        ("map.yaml", "map-server"), ("map.YML", "map-server"), ("map.bag", "occupancy-grid"),
-        ("map.mcap", "occupancy-grid"), ("map.db3", "occupancy-grid"), ("map", "occupancy-grid"),
-        ("map.d" + os.sep, "occupancy-grid"), ("map.rrd", "rerun"), ("map.tum", "tum"), ("map.tif", "geotiff"),
-        ("map.tiff", "geotiff"),
-    ],
-)  # fmt: skip
+@pytest.mark.parametrize(("path", "format"), [
+    ("map.yaml", "map-server"), ("map.YML", "map-server"), ("map.bag", "occupancy-grid"),
+    ("map.mcap", "occupancy-grid"), ("map.db3", "occupancy-grid"), ("map", "occupancy-grid"),
+    ("map.d" + os.sep, "occupancy-grid"), ("map.rrd", "rerun"), ("map.tum", "tum"), ("map.tif", "geotiff"),
+    ("map.tiff", "geotiff"),
+])  # fmt: skip
 def test_the_ending_chooses_the_format(path, format):
     assert export_format(path) == format
 

@@ -133,15 +133,12 @@ def test_a_spacing_that_is_none_is_refused(spacing):
         thinned(scans_at([(0, 0)]), spacing)
 
 
-@pytest.mark.parametrize(
-    ("x_m", "stamps", "jumped"),
-    [
-        ([0, 0.1, 0.2, 3.2, 3.3, 3.4], 0.1 * np.arange(6), [3]),  # faster than a robot
-        (np.cumsum([0.1] * 20 + [2.5] + [0.1] * 5), None, [20]),  # a long step among short ones, without any time
-        (3.0 * np.arange(9), 5.0 * np.arange(9), []),  # far apart throughout
-        ([0, 0.1, 0], np.array([0.0, 0.0, 1e-6]), []),  # a trembling pose, however close the stamps
-    ],
-)
+@pytest.mark.parametrize(("x_m", "stamps", "jumped"), [
+    ([0, 0.1, 0.2, 3.2, 3.3, 3.4], 0.1 * np.arange(6), [3]),  # faster than a robot
+    (np.cumsum([0.1] * 20 + [2.5] + [0.1] * 5), None, [20]),  # a long step among short ones, without any time
+    (3.0 * np.arange(9), 5.0 * np.arange(9), []),  # far apart throughout
+    ([0, 0.1, 0], np.array([0.0, 0.0, 1e-6]), []),  # a trembling pose, however close the stamps
+])  # fmt: skip
 def test_a_step_is_a_jump_if_it_is_too_fast_or_far_longer_than_others(x_m, stamps, jumped):
     np.testing.assert_array_equal(jumps(scans_at([(x, 0) for x in x_m], stamps)), jumped)
 

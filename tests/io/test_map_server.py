@@ -144,18 +144,15 @@ def test_raw_and_negated_maps_are_read(tmp_path):
     np.testing.assert_array_equal(read_map(tmp_path / "negated.yaml")[0][:, 0], [0, 0, np.nan, np.nan, 1])
 
 
-@pytest.mark.parametrize(
-    ("text", "says"),
-    [
-        ("resolution: 0.1\norigin: [0, 0, 0]\n", "has no 'image:'"),
-        ("image: absent.pgm\nresolution: 0.1\norigin: [0, 0, 0]\n", r"absent\.pgm: cannot be read"),
-        ("image: m.pgm\nresolution: fine\norigin: [0, 0, 0]\n", "resolution must be a number, got 'fine'"),
-        ("image: m.pgm\nresolution: 0.1\norigin: [0, 0]\n", r"origin must be \[x, y, yaw\]"),
-        ("image: m.pgm\nresolution: 0.1\norigin: [0, 0, 0.5]\n", "turned by 0.5 rad"),
-        ("image: m.pgm\nresolution: 0.1\norigin: [0, 0, 0]\nmode: fuzzy\n", "mode 'fuzzy' is not known"),
-        ("image: m.pgm\nnonsense\n", "line 2: not YAML: could not find expected ':'"),
-    ],
-)
+@pytest.mark.parametrize(("text", "says"), [
+    ("resolution: 0.1\norigin: [0, 0, 0]\n", "has no 'image:'"),
+    ("image: absent.pgm\nresolution: 0.1\norigin: [0, 0, 0]\n", r"absent\.pgm: cannot be read"),
+    ("image: m.pgm\nresolution: fine\norigin: [0, 0, 0]\n", "resolution must be a number, got 'fine'"),
+    ("image: m.pgm\nresolution: 0.1\norigin: [0, 0]\n", r"origin must be \[x, y, yaw\]"),
+    ("image: m.pgm\nresolution: 0.1\norigin: [0, 0, 0.5]\n", "turned by 0.5 rad"),
+    ("image: m.pgm\nresolution: 0.1\norigin: [0, 0, 0]\nmode: fuzzy\n", "mode 'fuzzy' is not known"),
+    ("image: m.pgm\nnonsense\n", "line 2: not YAML: could not find expected ':'"),
+])  # fmt: skip
 def test_a_bad_yaml_is_refused_with_the_reason(tmp_path, text, says):
     Image.fromarray(np.zeros((2, 2), dtype=np.uint8)).save(tmp_path / "m.pgm")
     (tmp_path / "m.yaml").write_text(text)
@@ -163,17 +160,13 @@ def test_a_bad_yaml_is_refused_with_the_reason(tmp_path, text, says):
         read_map(tmp_path / "m.yaml")
 
 
-@pytest.mark.parametrize(
-    ("change", "says"),
-    [
-        ({"occupancy": np.full((2, 3), 1.5)}, r"occupancy\[0, 0\] is 1.5"),
-        ({"occupancy": np.zeros((3, 2))}, "occupancy has shape"),
-        ({"observed": np.ones((3, 2))}, "observed has shape"),
-        ({"mode": "fuzzy"}, "mode 'fuzzy' is not known"),
-        ({"occupied_thresh": 0.1}, "free_thresh < occupied_thresh"),
-        ({"path_yaml": "map.png"}, r"must end in \.yaml"),
-    ],
-)
+@pytest.mark.parametrize(("change", "says"), [
+    ({"occupancy": np.full((2, 3), 1.5)}, r"occupancy\[0, 0\] is 1.5"),
+    ({"occupancy": np.zeros((3, 2))}, "occupancy has shape"), ({"observed": np.ones((3, 2))}, "observed has shape"),
+    ({"mode": "fuzzy"}, "mode 'fuzzy' is not known"),
+    ({"occupied_thresh": 0.1}, "free_thresh < occupied_thresh"),
+    ({"path_yaml": "map.png"}, r"must end in \.yaml"),
+])  # fmt: skip
 def test_a_map_that_cannot_be_written_leaves_no_file(tmp_path, change, says):
     arguments = {"path_yaml": "m.yaml", "occupancy": np.zeros((2, 3)), "grid": Grid((2, 3)), **change}
     arguments["path_yaml"] = tmp_path / arguments["path_yaml"]

@@ -121,32 +121,26 @@ def test_a_table_of_one_row_a_beam(tmp_path, moving):
         np.testing.assert_allclose(reading.scans.beam_poses, poses)
 
 
-@pytest.mark.parametrize(
-    ("change", "message"),
-    [
-        (("# angle_increment", "# step"), "the directions of 41 beams are not said"),
-        (("# range_max: 42.0", "# range_max: far"), "line 4: range_max must be a number"),
-        (("r_3,", "r_99,"), "must be r_0 to r_40, without gaps"),
-        (("# angle_increment: ", "# angle_increment: 0\n# "), "all 41 beams point the same"),
-    ],
-)
+@pytest.mark.parametrize(("change", "message"), [
+    (("# angle_increment", "# step"), "the directions of 41 beams are not said"),
+    (("# range_max: 42.0", "# range_max: far"), "line 4: range_max must be a number"),
+    (("r_3,", "r_99,"), "must be r_0 to r_40, without gaps"),
+    (("# angle_increment: ", "# angle_increment: 0\n# "), "all 41 beams point the same"),
+])  # fmt: skip
 def test_tables_that_cannot_be_used(tmp_path, change, message):
     path = written(tmp_path / "scans.csv", csv(simulated(TIMES)).replace(*change, 1))
     assert message in refused(path)
     assert message in refused(path, skip_bad_lines=True)
 
 
-@pytest.mark.parametrize(
-    ("text", "number", "line", "message"),
-    [
-        (g2o, 8, "VERTEX_SE2 3 nan 0 0 0", "line 9: VERTEX_SE2 has 6 fields"),
-        (g2o, 0, "# 0", "line 2: ROBOTLASER1 does not follow a VERTEX_SE2"),
-        (g2o, 1, "ROBOTLASER1 0 -2.0 4.0 0.1 42.0 0.01 0 1 x 0" + " 0" * 12 + " h 0", "line 2: ROBOTLASER1 has 'x'"),
-        (csv, 7, "1,2,3", "line 8: the row has 3 fields where the header has 45"),
-        (csv, 7, ",".join(["1"] * 20 + ["x"] * 25), "line 8: field 21 is 'x', not a number"),
-        (csv, 7, ",".join(["nan"] * 45), "line 8: a number that must be finite is not"),
-    ],
-)
+@pytest.mark.parametrize(("text", "number", "line", "message"), [
+    (g2o, 8, "VERTEX_SE2 3 nan 0 0 0", "line 9: VERTEX_SE2 has 6 fields"),
+    (g2o, 0, "# 0", "line 2: ROBOTLASER1 does not follow a VERTEX_SE2"),
+    (g2o, 1, "ROBOTLASER1 0 -2.0 4.0 0.1 42.0 0.01 0 1 x 0" + " 0" * 12 + " h 0", "line 2: ROBOTLASER1 has 'x'"),
+    (csv, 7, "1,2,3", "line 8: the row has 3 fields where the header has 45"),
+    (csv, 7, ",".join(["1"] * 20 + ["x"] * 25), "line 8: field 21 is 'x', not a number"),
+    (csv, 7, ",".join(["nan"] * 45), "line 8: a number that must be finite is not"),
+])  # fmt: skip
 def test_malformed_lines_are_named_and_left_out_on_request(tmp_path, text, number, line, message):
     lines = text(simulated(TIMES)).splitlines()
     lines[number] = line
@@ -334,16 +328,13 @@ def test_an_archive_holds_the_fields_of_scans(tmp_path):
     assert reading.max_range_origin == "readings"
 
 
-@pytest.mark.parametrize(
-    ("arrays", "message"),
-    [
-        ({"poses": np.zeros((2, 3)), "angles_rad": np.zeros(3)}, "the archive has no 'ranges_m'"),
-        ({"poses": np.zeros((2, 3)), "angles_rad": np.zeros(3), "ranges_m": np.ones((2, 4))}, "ranges_m has shape"),
-        ({"poses": np.zeros((2, 3)), "angles_rad": np.zeros(3), "ranges_m": np.full((2, 3), np.nan)}, "none of 6"),
-        ({"poses": np.array(["a"]), "angles_rad": np.zeros(3), "ranges_m": np.ones((1, 3))}, "not numbers"),
-        ({"poses": np.array([None]), "angles_rad": np.zeros(3), "ranges_m": np.ones((1, 3))}, "not a readable .npz"),
-    ],
-)
+@pytest.mark.parametrize(("arrays", "message"), [
+    ({"poses": np.zeros((2, 3)), "angles_rad": np.zeros(3)}, "the archive has no 'ranges_m'"),
+    ({"poses": np.zeros((2, 3)), "angles_rad": np.zeros(3), "ranges_m": np.ones((2, 4))}, "ranges_m has shape"),
+    ({"poses": np.zeros((2, 3)), "angles_rad": np.zeros(3), "ranges_m": np.full((2, 3), np.nan)}, "none of 6"),
+    ({"poses": np.array(["a"]), "angles_rad": np.zeros(3), "ranges_m": np.ones((1, 3))}, "not numbers"),
+    ({"poses": np.array([None]), "angles_rad": np.zeros(3), "ranges_m": np.ones((1, 3))}, "not a readable .npz"),
+])  # fmt: skip
 def test_archives_that_cannot_be_used(tmp_path, arrays, message):
     path = tmp_path / "scans.npz"
     np.savez(path, **arrays)

@@ -160,15 +160,12 @@ def test_rays_of_scans_of_unlike_length_have_poses_of_their_own(tmp_path):
     np.testing.assert_array_equal(scans.has_beam.sum(axis=1), [fan[2] for fan in fans])
 
 
-@pytest.mark.parametrize(
-    ("text", "reason"),
-    [
-        ("# angle_min: -90\n# angle_increment: 2\nx,y,yaw,r_0,r_1,r_2,r_3,r_4\n0,0,0,1,1,1,1,1\n", "1.27 turns"),
-        ("scan,x,y,yaw,angle,range\n0,0,0,0,-90,1\n0,0,0,0,90,1\n", "line 2: the scan that starts here: its beams"),
-        ("x,y,yaw,angle_min,angle_increment,r_0,r_1\n0,0,0,-90,1,1,1\n", "line 2: its beams point from -90 to -89"),
-        ("ROBOTLASER1 0 -90 180 45 80 0.01 0 5 1 1 1 1 1 0 0 0 0 0 0 0 0 0 0 0 0 1 host 1\n", "line 1: ROBOTLASER1"),
-    ],
-)
+@pytest.mark.parametrize(("text", "reason"), [
+    ("# angle_min: -90\n# angle_increment: 2\nx,y,yaw,r_0,r_1,r_2,r_3,r_4\n0,0,0,1,1,1,1,1\n", "1.27 turns"),
+    ("scan,x,y,yaw,angle,range\n0,0,0,0,-90,1\n0,0,0,0,90,1\n", "line 2: the scan that starts here: its beams"),
+    ("x,y,yaw,angle_min,angle_increment,r_0,r_1\n0,0,0,-90,1,1,1\n", "line 2: its beams point from -90 to -89"),
+    ("ROBOTLASER1 0 -90 180 45 80 0.01 0 5 1 1 1 1 1 0 0 0 0 0 0 0 0 0 0 0 0 1 host 1\n", "line 1: ROBOTLASER1"),
+])  # fmt: skip
 def test_degrees_are_refused(tmp_path, text, reason):
     (tmp_path / "log").write_text(text)
     with pytest.raises(bm.BadInput, match="angles must be in radians: are these degrees") as error:

@@ -55,13 +55,10 @@ def test_poses_between_are_interpolated_and_scans_outside_or_in_gaps_are_left_ou
     assert len(read_log(log, trajectory=theirs, thin_m=0.5)) == 2
 
 
-@pytest.mark.parametrize(
-    ("stamps", "message"),
-    [
-        (STAMPS + 1e6, "its scans are from 10.0 s to 12.0 s, and the trajectory reaches from 1000010.0 s to"),
-        (np.linspace(0.5, 20.5, 11), "with poses more than 0.3 s apart around each scan; are both of one clock"),
-    ],
-)
+@pytest.mark.parametrize(("stamps", "message"), [
+    (STAMPS + 1e6, "its scans are from 10.0 s to 12.0 s, and the trajectory reaches from 1000010.0 s to"),
+    (np.linspace(0.5, 20.5, 11), "with poses more than 0.3 s apart around each scan; are both of one clock"),
+])  # fmt: skip
 def test_a_trajectory_of_another_time_is_refused(log, tmp_path, stamps, message):
     with pytest.raises(bm.BadInput, match=message):
         read_log(log, trajectory=tum(tmp_path, BASE, stamps))

@@ -253,16 +253,13 @@ def test_readings_that_are_not_valid_are_no_return_only_at_the_maximum(tmp_path)
     np.testing.assert_array_equal(scans.ranges_m[0], row)
 
 
-@pytest.mark.parametrize(
-    ("change", "message"),
-    [
-        (lambda d: d.replace(b"DRangeScan\x07", b"DRangeScan\x63", 1), "version 99) is not known"),
-        (lambda d: d.replace(b"Movement2D\x07", b"Movement2D\x15", 1), "CActionRobotMovement2D (object 1 of"),
-        (lambda d: d.replace(b"LASER", b"LASE", 1), "does not end where it should"),
-        (lambda d: d.replace(b"CPose3D\x03", b"CPose3D\x09", 1), "CPose3D of version 9"),
-        (lambda d: d[: len(d) - 100], "is cut short"),
-    ],
-)  # fmt: skip
+@pytest.mark.parametrize(("change", "message"), [
+    (lambda d: d.replace(b"DRangeScan\x07", b"DRangeScan\x63", 1), "version 99) is not known"),
+    (lambda d: d.replace(b"Movement2D\x07", b"Movement2D\x15", 1), "CActionRobotMovement2D (object 1 of"),
+    (lambda d: d.replace(b"LASER", b"LASE", 1), "does not end where it should"),
+    (lambda d: d.replace(b"CPose3D\x03", b"CPose3D\x09", 1), "CPose3D of version 9"),
+    (lambda d: d[: len(d) - 100], "is cut short"),
+])  # fmt: skip
 def test_what_cannot_be_read_is_named_and_left_out_on_request(tmp_path, change, message):
     path = written(tmp_path / "log", change(in_frames(STYLES["MRPT 2"], known(TIMES))))
     assert message in refused(path)

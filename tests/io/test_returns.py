@@ -140,14 +140,11 @@ def test_beside_a_code_at_the_top_and_where_they_are_rare_zeros_are_invalid(shar
     assert np.isposinf(ranges).sum() == coded[1:].sum() + coded[0, zeros:].sum()
 
 
-@pytest.mark.parametrize(
-    ("given_code", "readings", "expected"),
-    [
-        (81.83, [5.0, 81.8299, 81.83, 81.91, 81.8], [5.0, np.inf, np.inf, np.inf, 81.8]),  # the precision of print
-        (-1.0, [5.0, -1.0, 0.0], [5.0, np.inf, np.inf]),  # all numbers that are no range
-        (np.inf, [5.0, 81.83, 81.83, 81.83], [5.0, 81.83, 81.83, 81.83]),  # the log has no code
-    ],
-)
+@pytest.mark.parametrize(("given_code", "readings", "expected"), [
+    (81.83, [5.0, 81.8299, 81.83, 81.91, 81.8], [5.0, np.inf, np.inf, np.inf, 81.8]),  # the precision of print
+    (-1.0, [5.0, -1.0, 0.0], [5.0, np.inf, np.inf]),  # all numbers that are no range
+    (np.inf, [5.0, 81.83, 81.83, 81.83], [5.0, 81.83, 81.83, 81.83]),  # the log has no code
+])  # fmt: skip
 def test_a_given_code_is_taken(given_code, readings, expected):
     ranges, found = decode(np.array([readings]), given=given_code)
     np.testing.assert_array_equal(ranges, [expected])

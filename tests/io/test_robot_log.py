@@ -84,20 +84,17 @@ def test_readings_counted_off_by_one_are_accepted_with_a_note(tmp_path, beams):
     assert "one beam " + ("more" if beams == 40 else "less") in reading.notes[0]
 
 
-@pytest.mark.parametrize(
-    ("first", "step", "beams", "last", "note"),
-    [
-        (-math.pi, -0.0043, 1455, math.pi, "angle_increment is negative, but angle_max lies the other way"),
-        (math.pi, 0.03, 200, -math.pi, "angle_increment is positive, but angle_max lies the other way"),
-        (-1.0, -0.05, 41, 1.0, "angle_increment is negative, but angle_max lies the other way"),
-        (-math.pi, 0.00869, 719, math.pi, "angle_max does not fit the number of readings"),
-        (-2.0, 0.1, 30, 2.0, "angle_max does not fit the number of readings"),
-        (-2.0, 0.1, 41, math.nan, "angle_max is nan"),
-        (0.0, 2 * math.pi / 450, 458, 6.3, "angle_max does not fit the number of readings"),  # beams overlap
-        (-2.0, 0.0, 41, 2.0, "angle_increment is 0; it was taken from angle_min and angle_max"),
-        (3.0, 0.1, 10, 3.9 - 2 * math.pi, None),  # the beams pass behind the sensor
-    ],
-)
+@pytest.mark.parametrize(("first", "step", "beams", "last", "note"), [
+    (-math.pi, -0.0043, 1455, math.pi, "angle_increment is negative, but angle_max lies the other way"),
+    (math.pi, 0.03, 200, -math.pi, "angle_increment is positive, but angle_max lies the other way"),
+    (-1.0, -0.05, 41, 1.0, "angle_increment is negative, but angle_max lies the other way"),
+    (-math.pi, 0.00869, 719, math.pi, "angle_max does not fit the number of readings"),
+    (-2.0, 0.1, 30, 2.0, "angle_max does not fit the number of readings"),
+    (-2.0, 0.1, 41, math.nan, "angle_max is nan"),
+    (0.0, 2 * math.pi / 450, 458, 6.3, "angle_max does not fit the number of readings"),  # beams overlap
+    (-2.0, 0.0, 41, 2.0, "angle_increment is 0; it was taken from angle_min and angle_max"),
+    (3.0, 0.1, 10, 3.9 - 2 * math.pi, None),  # the beams pass behind the sensor
+])  # fmt: skip
 def test_beams_point_where_the_message_is_defined_to_say_and_what_contradicts_it_is_noted(
     tmp_path, first, step, beams, last, note
 ):
@@ -359,15 +356,12 @@ OLD_HEADER = "=" * 80 + "\nMSG: roslib/Header\nuint32 seq\ntime stamp\nstring fr
 TF_FIELDS, TF_SUM = "geometry_msgs/TransformStamped[] transforms\n", "94810edda583a504dfda3829e70d7eec"
 
 
-@pytest.mark.parametrize(
-    "definitions",
-    [
-        {r.SCAN: (LASER_FIELDS + OLD_HEADER, LASER_SUM)},
-        {r.SCAN: (LASER_FIELDS.replace("Header", "roslib/Header", 1) + OLD_HEADER, LASER_SUM)},
-        {r.SCAN: (LASER_FIELDS, LASER_SUM)}, {r.SCAN: (LASER_FIELDS, "*")}, {r.SCAN: ("", LASER_SUM)},
-        {r.SCAN: ("<definition>lost</definition>", LASER_SUM)}, {r.TF: (TF_FIELDS, TF_SUM)}, {r.TF: ("", TF_SUM)},
-    ],
-)  # fmt: skip
+@pytest.mark.parametrize("definitions", [
+    {r.SCAN: (LASER_FIELDS + OLD_HEADER, LASER_SUM)},
+    {r.SCAN: (LASER_FIELDS.replace("Header", "roslib/Header", 1) + OLD_HEADER, LASER_SUM)},
+    {r.SCAN: (LASER_FIELDS, LASER_SUM)}, {r.SCAN: (LASER_FIELDS, "*")}, {r.SCAN: ("", LASER_SUM)},
+    {r.SCAN: ("<definition>lost</definition>", LASER_SUM)}, {r.TF: (TF_FIELDS, TF_SUM)}, {r.TF: ("", TF_SUM)},
+])  # fmt: skip
 def test_definitions_that_lack_parts_are_completed_by_those_of_ros(tmp_path, definitions):
     messages, scans = r.robot()
     reading = describe_log(r.written(tmp_path, messages, "rosbag1", definitions))

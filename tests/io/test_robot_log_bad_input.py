@@ -93,13 +93,10 @@ def test_a_packed_recording_that_breaks_off_is_read_as_far_as_it_goes_on_request
     assert "damaged" in told or "no topic" in told
 
 
-@pytest.mark.parametrize(
-    ("writer", "damage", "says"),
-    [
-        ("db3", "zeroblob(7)", "message 1 on /scan"),
-        ("db3-messages", "substr(data, 1, 40)", "LaserScan is compressed by zstd and cannot be unpacked"),
-    ],
-)
+@pytest.mark.parametrize(("writer", "damage", "says"), [
+    ("db3", "zeroblob(7)", "message 1 on /scan"),
+    ("db3-messages", "substr(data, 1, 40)", "LaserScan is compressed by zstd and cannot be unpacked"),
+])  # fmt: skip
 def test_a_damaged_row_of_a_database_is_named_and_left_out_on_request(tmp_path, writer, damage, says):
     path = r.written(tmp_path, r.robot()[0], writer)
     with sqlite3.connect(path) as database:
@@ -186,20 +183,17 @@ def pose(position, orientation):
     return {"pose": {"pose": {"position": position, "orientation": orientation}, "covariance": [0.0] * 36}}
 
 
-@pytest.mark.parametrize(
-    ("topic", "change", "reason"),
-    [
-        ("/scan", {"angle_min": math.nan}, "has angle_min nan"),
-        ("/scan", {"angle_increment": math.inf}, "angle_increment inf"),
-        ("/scan", {"angle_increment": 0.0, "angle_max": math.nan}, "but angle_increment 0 and angle_max nan"),
-        ("/scan", {"angle_min": -90.0, "angle_max": -50.0, "angle_increment": 1.0}, "6.37 turns; angles must be"),
-        ("/scan", {"angle_min": -90.0, "angle_increment": 0.01}, "over a turn away from straight ahead; angles"),
-        ("/scan", {"header": r.header(None, "laser")}, "does not say its time"),
-        ("/scan", {"header": r.header(2.0, "other")}, "in frame 'other', but most scans"),
-        ("/odom", pose(r.point(math.nan, 0), r.quaternion(0.0)), "has the position (nan, 0, 0)"),
-        ("/odom", pose(r.point(0, 0), dict.fromkeys("xyzw", 0.0)), "which is no unit quaternion"),
-    ],
-)
+@pytest.mark.parametrize(("topic", "change", "reason"), [
+    ("/scan", {"angle_min": math.nan}, "has angle_min nan"),
+    ("/scan", {"angle_increment": math.inf}, "angle_increment inf"),
+    ("/scan", {"angle_increment": 0.0, "angle_max": math.nan}, "but angle_increment 0 and angle_max nan"),
+    ("/scan", {"angle_min": -90.0, "angle_max": -50.0, "angle_increment": 1.0}, "6.37 turns; angles must be"),
+    ("/scan", {"angle_min": -90.0, "angle_increment": 0.01}, "over a turn away from straight ahead; angles"),
+    ("/scan", {"header": r.header(None, "laser")}, "does not say its time"),
+    ("/scan", {"header": r.header(2.0, "other")}, "in frame 'other', but most scans"),
+    ("/odom", pose(r.point(math.nan, 0), r.quaternion(0.0)), "has the position (nan, 0, 0)"),
+    ("/odom", pose(r.point(0, 0), dict.fromkeys("xyzw", 0.0)), "which is no unit quaternion"),
+])  # fmt: skip
 def test_a_scan_or_pose_that_cannot_be_used_is_named_and_left_out_on_request(tmp_path, topic, change, reason):
     messages, scans = replaced(change, topic, tf_poses=False, odom=True)
     path = r.written(tmp_path, messages)

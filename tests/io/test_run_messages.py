@@ -135,19 +135,16 @@ def test_the_matrices_are_labelled_as_grid_map_labels_eigens_and_ros_1_knows_the
 CELLS, MAP = (occupancy(), GRID), "floor.mcap"
 
 
-@pytest.mark.parametrize(
-    ("write", "name", "arguments", "options", "says"),
-    [
-        (write_occupancy_grid, MAP, (np.zeros((3, 5)), GRID), {}, r"has shape \(3, 5\), but the grid has \(5, 3\)"),
-        (write_occupancy_grid, MAP, CELLS, {"mode": "fuzzy"}, "use one of trinary, scale, raw"),
-        (write_occupancy_grid, "floor.txt", CELLS, {}, r"\.bag \(ROS 1\), \.mcap or \.db3 \(ROS 2\)"),
-        (write_occupancy_grid, "nowhere/floor", CELLS, {}, "cannot be written .*name a folder inside one"),
-        (write_grid_map, MAP, ({}, GRID), {}, "no layer to write"),
-        (write_grid_map, MAP, ({"": occupancy()}, GRID), {}, "needs a name"),
-        (write_grid_map, MAP, ({"mean": occupancy().T}, GRID), {}, r"layer 'mean' has shape \(3, 5\)"),
-        (write_grid_map, MAP, ({"mean": np.full(GRID.shape, np.inf)}, GRID), {}, r"layer 'mean'\[0, 0\] is inf"),
-    ],
-)
+@pytest.mark.parametrize(("write", "name", "arguments", "options", "says"), [
+    (write_occupancy_grid, MAP, (np.zeros((3, 5)), GRID), {}, r"has shape \(3, 5\), but the grid has \(5, 3\)"),
+    (write_occupancy_grid, MAP, CELLS, {"mode": "fuzzy"}, "use one of trinary, scale, raw"),
+    (write_occupancy_grid, "floor.txt", CELLS, {}, r"\.bag \(ROS 1\), \.mcap or \.db3 \(ROS 2\)"),
+    (write_occupancy_grid, "nowhere/floor", CELLS, {}, "cannot be written .*name a folder inside one"),
+    (write_grid_map, MAP, ({}, GRID), {}, "no layer to write"),
+    (write_grid_map, MAP, ({"": occupancy()}, GRID), {}, "needs a name"),
+    (write_grid_map, MAP, ({"mean": occupancy().T}, GRID), {}, r"layer 'mean' has shape \(3, 5\)"),
+    (write_grid_map, MAP, ({"mean": np.full(GRID.shape, np.inf)}, GRID), {}, r"layer 'mean'\[0, 0\] is inf"),
+])  # fmt: skip
 def test_what_cannot_be_written_leaves_no_file(tmp_path, write, name, arguments, options, says):
     with pytest.raises(BadInput, match=says):
         write(tmp_path / name, *arguments, **options)

@@ -74,15 +74,10 @@ def test_tum_of_others_is_sorted_and_read_whatever_its_quaternions_signs(tmp_pat
     np.testing.assert_allclose(back.poses[0], [0, 0, 0])
 
 
-@pytest.mark.parametrize(
-    ("content", "message"),
-    [
-        ("", "there is no pose in it"),
-        ("1 2 3\n", "line 1: a line is 8 numbers"),
-        ("1 0 0 0 0.7 0 0 0.7\n", "pose 0 is tilted"),
-        ("1 0 0 0 0 0 nan 1\n", "line 1: a line is 8 numbers"),
-    ],
-)
+@pytest.mark.parametrize(("content", "message"), [
+    ("", "there is no pose in it"), ("1 2 3\n", "line 1: a line is 8 numbers"),
+    ("1 0 0 0 0.7 0 0 0.7\n", "pose 0 is tilted"), ("1 0 0 0 0 0 nan 1\n", "line 1: a line is 8 numbers"),
+])  # fmt: skip
 def test_what_is_no_tum_trajectory(tmp_path, content, message):
     (tmp_path / "a.tum").write_text(content)
     with pytest.raises(BadInput, match=message):
@@ -197,15 +192,11 @@ def test_without_stamps_poses_are_numbered_and_the_file_says_so(tmp_path):
     assert path.read_text().startswith("# scan number (the scans have no stamps) tx ty tz qx qy qz qw\n")
 
 
-@pytest.mark.parametrize(
-    ("poses", "stamps", "says"),
-    [
-        (np.zeros((0, 3)), None, "no pose"),
-        (np.zeros((2, 3)), [1.0], r"one finite stamp a pose, \(2,\), got shape \(1,\)"),
-        (np.zeros((1, 3)), [np.nan], "one finite stamp"),
-        (np.zeros((1, 2)), None, r"expected \(S, 3\)"),
-    ],
-)
+@pytest.mark.parametrize(("poses", "stamps", "says"), [
+    (np.zeros((0, 3)), None, "no pose"),
+    (np.zeros((2, 3)), [1.0], r"one finite stamp a pose, \(2,\), got shape \(1,\)"),
+    (np.zeros((1, 3)), [np.nan], "one finite stamp"), (np.zeros((1, 2)), None, r"expected \(S, 3\)"),
+])  # fmt: skip
 def test_what_is_no_trajectory_leaves_no_file(tmp_path, poses, stamps, says):
     with pytest.raises(BadInput, match=says):
         write_trajectory(tmp_path / "poses.tum", poses, stamps)

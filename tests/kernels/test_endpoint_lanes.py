@@ -137,17 +137,10 @@ def test_a_product_too_small_for_a_number_is_taken_one_by_one():
     assert np.array_equal(whole[unknown], plain[unknown])
 
 
-@pytest.mark.parametrize(
-    ("sensor", "beta", "takes"),
-    [
-        (HARD, 1.0, 1),
-        (HARD, 0.5, 0),
-        (bm.Gaussian(0.1), 1.0, 0),
-        (TAILS, 1.0, 1),
-        (bm.BeamMixture(bm.StudentT(0.1, dof=4.0)), 1.0, 0),
-        (bm.BeamMixture(bm.StudentT(0.1, dof=33.0)), 1.0, 0),
-    ],
-)  # fmt: skip
+@pytest.mark.parametrize(("sensor", "beta", "takes"), [
+    (HARD, 1.0, 1), (HARD, 0.5, 0), (bm.Gaussian(0.1), 1.0, 0), (TAILS, 1.0, 1),
+    (bm.BeamMixture(bm.StudentT(0.1, dof=4.0)), 1.0, 0), (bm.BeamMixture(bm.StudentT(0.1, dof=33.0)), 1.0, 0),
+])  # fmt: skip
 def test_lanes_are_for_mixtures_with_normal_noise_or_few_and_odd_degrees_of_freedom(sensor, beta, takes):
     law = sensor_law(sensor, RangeLimits(0.0, 6.0), "cpu", SensorLaw32)
     out = wp.zeros(1, dtype=wp.int32)

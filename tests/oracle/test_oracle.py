@@ -12,18 +12,15 @@ import bayesmap as bm
 ONE = np.array([[False, False], [False, True]])  # a wall at [1, 2] x [1, 2]
 
 
-@pytest.mark.parametrize(
-    ("start", "angle", "distance"),
-    [
-        ((0.0, 0.0), np.pi / 4, np.sqrt(2)),  # the corner
-        ((0.0, 1.5), 0.0, 1.0),  # the left edge
-        ((0.0, 1.0), 0.0, 1.0),  # along the line on which the lower edge lies: the left edge's end
-        ((1.5, 1.5), 0.0, 0.5),  # from inside: the exit
-        ((0.0, 0.5), 0.0, np.inf),  # below
-        ((3.0, 1.5), 0.0, np.inf),  # behind
-        ((2.0, 2.0), 0.3, 0.0),  # on a corner
-    ],
-)
+@pytest.mark.parametrize(("start", "angle", "distance"), [
+    ((0.0, 0.0), np.pi / 4, np.sqrt(2)),  # the corner
+    ((0.0, 1.5), 0.0, 1.0),  # the left edge
+    ((0.0, 1.0), 0.0, 1.0),  # along the line on which the lower edge lies: the left edge's end
+    ((1.5, 1.5), 0.0, 0.5),  # from inside: the exit
+    ((0.0, 0.5), 0.0, np.inf),  # below
+    ((3.0, 1.5), 0.0, np.inf),  # behind
+    ((2.0, 2.0), 0.3, 0.0),  # on a corner
+])  # fmt: skip
 def test_the_formula_gives_the_distances_that_a_ruler_gives(start, angle, distance):
     assert distances(ONE, [start], np.array([angle]))[0] == pytest.approx(distance, abs=1e-12)
 

@@ -144,15 +144,12 @@ def test_the_first_pose_of_odometry_is_the_frame():
     assert law.log_prob(trajectory(11) + np.array([1e-3, 0, 0])) == -np.inf
 
 
-@pytest.mark.parametrize(
-    "make",
-    [
-        lambda: UncertainPoses(0.0, 0.1),
-        lambda: UncertainPoses(0.1, float("nan")),
-        lambda: Odometry(m_per_m=-1.0),
-        lambda: Motions(np.zeros((1, 3)), np.ones((1, 3)), 1.0),
-    ],
-)
+@pytest.mark.parametrize("make", [
+    lambda: UncertainPoses(0.0, 0.1),
+    lambda: UncertainPoses(0.1, float("nan")),
+    lambda: Odometry(m_per_m=-1.0),
+    lambda: Motions(np.zeros((1, 3)), np.ones((1, 3)), 1.0),
+])  # fmt: skip
 def test_senseless_numbers_are_refused(make):
     with pytest.raises(BadInput, match=r"sigma|m_per_m|p_slip"):
         make()

@@ -103,19 +103,16 @@ def test_the_typical_spread_is_that_of_the_noise():
     assert typical_sigma_m(bm.Gaussian(0.07), 10.0) == pytest.approx(0.07, rel=0.05)
 
 
-@pytest.mark.parametrize(
-    ("call", "words"),
-    [
-        (lambda run: run.free_probability([[0, 0], [99, 0]], 0.2), "outside the map"),
-        (lambda run: run.free_probability([[0, 0]], 0.0), "radius"),
-        (lambda run: run.plan([0, 0], [[1, 1], [2, 2]], 0.2), "one point each"),
-        (lambda run: run.plan([0, 0], [99, 1], 0.2), "goal .* outside"),
-        (lambda run: run.information_gain([[0, 0, 0]], draws=1), "draws"),
-        (lambda run: run.information_gain([[0, 0, 0]], max_range_m=-1.0), "max_range_m"),
-        (lambda run: next_views(run.posterior, 0, 1, 0.2), "candidates"),
-        (lambda run: next_views(run.posterior, 10, 1, 9.0), "smaller radius"),
-    ],
-)
+@pytest.mark.parametrize(("call", "words"), [
+    (lambda run: run.free_probability([[0, 0], [99, 0]], 0.2), "outside the map"),
+    (lambda run: run.free_probability([[0, 0]], 0.0), "radius"),
+    (lambda run: run.plan([0, 0], [[1, 1], [2, 2]], 0.2), "one point each"),
+    (lambda run: run.plan([0, 0], [99, 1], 0.2), "goal .* outside"),
+    (lambda run: run.information_gain([[0, 0, 0]], draws=1), "draws"),
+    (lambda run: run.information_gain([[0, 0, 0]], max_range_m=-1.0), "max_range_m"),
+    (lambda run: next_views(run.posterior, 0, 1, 0.2), "candidates"),
+    (lambda run: next_views(run.posterior, 10, 1, 9.0), "smaller radius"),
+])  # fmt: skip
 def test_impossible_decisions_are_refused(run, call, words):
     with pytest.raises(BadInput, match=words):
         call(run)

@@ -74,18 +74,15 @@ def test_another_recording_is_taken_whole(log):
     assert heldout.unseen_scans(log, other, 0, "b.log") is other
 
 
-@pytest.mark.parametrize(
-    ("train", "every", "message"),
-    [
-        (lambda log: log, 5, r"a.log: the run was made without holding scans out.*bayesmap infer --holdout 5"),
-        (lambda log: log.holdout(4)[0], 5, r"has seen \d of the 4 scans that would .*; it was made with --holdout 4"),
-        (lambda log: log.select(slice(1, 20)), 5, "the run has seen 4 of the 4 .*; other scans were held out"),
-        (lambda log: log.holdout(5)[0], 0, r"the run was made from 16 of its 20 scans; --all is for another recording"),
-        (lambda log: dataclasses.replace(log, poses=log.poses + 1), 5, "none of the run's scans is in it.*--all"),
-        (lambda log: log.holdout(5)[0], 1, "n >= 2, got 1"),
-        (lambda log: log.holdout(5)[0], 100, "20 scans are too few"),
-    ],
-)
+@pytest.mark.parametrize(("train", "every", "message"), [
+    (lambda log: log, 5, r"a.log: the run was made without holding scans out.*bayesmap infer --holdout 5"),
+    (lambda log: log.holdout(4)[0], 5, r"has seen \d of the 4 scans that would .*; it was made with --holdout 4"),
+    (lambda log: log.select(slice(1, 20)), 5, "the run has seen 4 of the 4 .*; other scans were held out"),
+    (lambda log: log.holdout(5)[0], 0, r"the run was made from 16 of its 20 scans; --all is for another recording"),
+    (lambda log: dataclasses.replace(log, poses=log.poses + 1), 5, "none of the run's scans is in it.*--all"),
+    (lambda log: log.holdout(5)[0], 1, "n >= 2, got 1"),
+    (lambda log: log.holdout(5)[0], 100, "20 scans are too few"),
+])  # fmt: skip
 def test_scans_that_were_trained_on_are_refused(log, train, every, message):
     with pytest.raises(bm.BadInput, match=message):
         heldout.unseen_scans(train(log), log, every, "a.log")

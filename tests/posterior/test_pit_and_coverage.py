@@ -62,16 +62,12 @@ def test_predictions_of_the_model_s_own_data_are_calibrated(name):
         assert abs(p - share) < 4 * np.sqrt(p * (1 - p) / found.beams)
 
 
-@pytest.mark.parametrize(
-    "change",
-    [
-        {"sensor": bm.BeamMixture(bm.Gaussian(0.09, 0.01), 0.05, 0.1, 0.1, 0.5)},
-        {"sensor": bm.BeamMixture(bm.Gaussian(0.05, 0.01), 0.05, 0.2, 0.1, 0.5)},
-        {"hit_depth": 0.8},
-        {"batches": fixed_maps(np.full((1, GRID.n_cells), 0.11))},
-    ],
-    ids=["noise too wide", "too many lost beams", "another depth", "a map of the mean"],
-)
+@pytest.mark.parametrize("change", [
+    {"sensor": bm.BeamMixture(bm.Gaussian(0.09, 0.01), 0.05, 0.1, 0.1, 0.5)},
+    {"sensor": bm.BeamMixture(bm.Gaussian(0.05, 0.01), 0.05, 0.2, 0.1, 0.5)},
+    {"hit_depth": 0.8},
+    {"batches": fixed_maps(np.full((1, GRID.n_cells), 0.11))},
+], ids=["noise too wide", "too many lost beams", "another depth", "a map of the mean"])  # fmt: skip
 def test_predictions_of_a_wrong_twin_are_not_calibrated(change):
     """Power of the test above, and what is wrong never scores better."""
     predictor, scans = drawn_from_the_model(SENSORS["mixture"], 1)

@@ -68,14 +68,11 @@ def p_values(true_sensor, sensor, options, worlds=WORLDS):
     )
 
 
-@pytest.mark.parametrize(
-    ("method", "sensor"),
-    [
-        pytest.param("gibbs", bm.Gaussian(0.4), marks=pytest.mark.full),
-        pytest.param("block", bm.BeamMixture(bm.Gaussian(0.2)), marks=pytest.mark.full),
-        ("gibbs started by belief propagation", bm.Gaussian(0.4)),
-    ],
-)
+@pytest.mark.parametrize(("method", "sensor"), [
+    pytest.param("gibbs", bm.Gaussian(0.4), marks=pytest.mark.full),
+    pytest.param("block", bm.BeamMixture(bm.Gaussian(0.2)), marks=pytest.mark.full),
+    ("gibbs started by belief propagation", bm.Gaussian(0.4)),
+])  # fmt: skip
 def test_the_truth_ranks_uniformly_among_posterior_draws(method, sensor):
     assert p_values(sensor, sensor, METHODS[method]).min() > ALPHA / (5 * len(METHODS))
 

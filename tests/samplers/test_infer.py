@@ -134,17 +134,11 @@ def test_ctrl_c_is_given_back_to_its_owner_afterwards(case):
     assert signal.getsignal(signal.SIGINT) is before
 
 
-@pytest.mark.parametrize(
-    ("change", "message"),
-    [
-        ({"scans": slice(0, 1)}, "scans or on another grid"),
-        ({"seed": 2}, r"seed \(1, now 2\)"),
-        ({"draws": 21}, r"draws \(20, now 21\)"),
-        ({"method": "block"}, r"method \('gibbs', now 'block'\)"),
-        ({"sensor": bm.Gaussian(0.6)}, "sensor"),
-        ({"prior": bm.Independent(0.31)}, "prior"),
-    ],
-)
+@pytest.mark.parametrize(("change", "message"), [
+    ({"scans": slice(0, 1)}, "scans or on another grid"), ({"seed": 2}, r"seed \(1, now 2\)"),
+    ({"draws": 21}, r"draws \(20, now 21\)"), ({"method": "block"}, r"method \('gibbs', now 'block'\)"),
+    ({"sensor": bm.Gaussian(0.6)}, "sensor"), ({"prior": bm.Independent(0.31)}, "prior"),
+])  # fmt: skip
 def test_a_run_made_with_other_arguments_is_not_resumed(case, change, message):
     options = {"method": "gibbs", "warmup": 10, "draws": 20, "seed": 1}
     saved, other = infer(case, **options), dict(change)

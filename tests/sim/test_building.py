@@ -83,14 +83,11 @@ def test_clutter_and_clear_glass_can_be_chosen():
         np.testing.assert_allclose(made.opacity[made.glass], 1 - glass_pass)
 
 
-@pytest.mark.parametrize(
-    ("arguments", "says"),
-    [
-        ({"resolution": 0.5}, "resolution"), ({"size_m": (5.0, 5.0)}, "size_m"), ({"glass_pass": 1.2}, "glass_pass"),
-        ({"size_m": (30.0, float("nan"))}, "size_m"), ({"size_m": (5000.0, 5000.0)}, "too many cells"),
-        ({"clutter": -1.0}, "clutter"),
-    ],
-)  # fmt: skip
+@pytest.mark.parametrize(("arguments", "says"), [
+    ({"resolution": 0.5}, "resolution"), ({"size_m": (5.0, 5.0)}, "size_m"), ({"glass_pass": 1.2}, "glass_pass"),
+    ({"size_m": (30.0, float("nan"))}, "size_m"), ({"size_m": (5000.0, 5000.0)}, "too many cells"),
+    ({"clutter": -1.0}, "clutter"),
+])  # fmt: skip
 def test_arguments_out_of_range_are_refused(arguments, says):
     with pytest.raises(BadInput, match=says):
         building(**arguments)

@@ -22,14 +22,11 @@ def test_drawings_are_read_back_whatever_their_blanks_and_line_ends(walls, inden
     np.testing.assert_array_equal(from_text(framed), walls)
 
 
-@pytest.mark.parametrize(
-    ("text", "place"),
-    [
-        ("...\n..\n", "line 2 has 2 cells, but line 1 has 3"), ("...\n\n...\n", "line 2 has 0 cells"),
-        ("..\n.o\n", "line 2, column 2: unknown character 'o'"), (" \n\n", "no lines"),
-        ("\n\n  .X\n  ?.", "line 4, column 3: unknown character '?'"), ("", "no lines"),
-    ],
-)  # fmt: skip
+@pytest.mark.parametrize(("text", "place"), [
+    ("...\n..\n", "line 2 has 2 cells, but line 1 has 3"), ("...\n\n...\n", "line 2 has 0 cells"),
+    ("..\n.o\n", "line 2, column 2: unknown character 'o'"), (" \n\n", "no lines"),
+    ("\n\n  .X\n  ?.", "line 4, column 3: unknown character '?'"), ("", "no lines"),
+])  # fmt: skip
 def test_a_bad_drawing_is_refused_with_its_place(text, place):
     with pytest.raises(BadInput) as error:
         from_text(text)
@@ -111,14 +108,11 @@ def test_negate_swaps_black_and_white(picture):
     np.testing.assert_array_equal(plain, negated)
 
 
-@pytest.mark.parametrize(
-    ("cells", "says"),
-    [
-        ([[0, 101]], "row 0, column 1 is 101"), ([[0], [-2]], "row 1, column 0 is -2"),
-        ([[float("nan")]], "row 0, column 0 is nan"), ([0, 100], "info.height and info.width"),
-        ([["wall"]], "array of numbers"),
-    ],
-)  # fmt: skip
+@pytest.mark.parametrize(("cells", "says"), [
+    ([[0, 101]], "row 0, column 1 is 101"), ([[0], [-2]], "row 1, column 0 is -2"),
+    ([[float("nan")]], "row 0, column 0 is nan"), ([0, 100], "info.height and info.width"),
+    ([["wall"]], "array of numbers"),
+])  # fmt: skip
 def test_a_bad_occupancy_grid_is_refused_with_its_place(cells, says):
     with pytest.raises(BadInput) as error:
         from_occupancy(cells, 0.1)

@@ -184,13 +184,10 @@ def test_stamps_follow_from_the_slower_of_way_and_turn():
     np.testing.assert_allclose(np.diff(travel_times_s(path, 0.5, np.pi)), [2.0, 0.5, 0.001])
 
 
-@pytest.mark.parametrize(
-    ("numbers", "message"),
-    [
-        ({"turn_per_m": -0.1}, "turn_per_m must be a finite number of 0 or more"),
-        ({"lag_s": np.nan}, "lag_s must be a finite number, got nan"),
-    ],
-)
+@pytest.mark.parametrize(("numbers", "message"), [
+    ({"turn_per_m": -0.1}, "turn_per_m must be a finite number of 0 or more"),
+    ({"lag_s": np.nan}, "lag_s must be a finite number, got nan"),
+])  # fmt: skip
 def test_numbers_that_make_no_sense(numbers, message):
     with pytest.raises(BadInput, match=message):
         OdometryNoise(**numbers)

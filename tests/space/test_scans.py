@@ -32,14 +32,11 @@ def test_fans_of_lasers_that_are_sold_and_of_a_full_circle():
             fan(beams, fov_deg)
 
 
-@pytest.mark.parametrize(
-    ("changed", "message"),
-    [
-        ({"stamps_s": [0.0, 1.0, np.nan, 3.0]}, "stamp of scan 2 is not finite: nan; leave stamps_s out"),
-        ({"beam_poses": np.zeros((4, 2, 3))}, r"beam_poses has shape \(4, 2, 3\), expected \(4, 3, 3\)"),
-        ({"beam_poses": np.full((4, 3, 3), np.nan)}, "pose of beam 0 of scan 0 is not finite"),
-    ],
-)
+@pytest.mark.parametrize(("changed", "message"), [
+    ({"stamps_s": [0.0, 1.0, np.nan, 3.0]}, "stamp of scan 2 is not finite: nan; leave stamps_s out"),
+    ({"beam_poses": np.zeros((4, 2, 3))}, r"beam_poses has shape \(4, 2, 3\), expected \(4, 3, 3\)"),
+    ({"beam_poses": np.full((4, 3, 3), np.nan)}, "pose of beam 0 of scan 0 is not finite"),
+])  # fmt: skip
 def test_numbers_that_do_not_fit_are_refused_by_name(changed, message):
     with pytest.raises(bm.BadInput, match=message):
         bm.Scans(np.zeros((4, 3)), [0.0, 0.5, 1.0], np.ones((4, 3)), 10.0, **changed)
