@@ -177,6 +177,14 @@ def test_heavy_libraries_have_a_room_each():
     assert not offenders
 
 
+def test_the_room_of_programs_knows_jax_and_nothing_else():
+    allowed = {"jax", "numpy", "treescope"} | sys.stdlib_module_names
+    modules = [module for path in FILES if home(path) == "gen" for _, module in imports(path)]
+    assert len(modules) > 100
+    ours = ("bayesmap.gen", "bayesmap.errors")
+    assert [m for m in modules if not m.startswith(ours) and m.split(".")[0] not in allowed] == []
+
+
 KINDS_OF_CELLS = {"BinaryWalls", "Independent", "Ising", "Beta", "Surface"}
 
 

@@ -14,7 +14,6 @@ from oracle.verdict import ALPHA, least_p_value
 from samplers.stop_rooms import GRID, LABELLED, TRUTH, assert_same, infer, scans
 
 import bayesmap as bm
-from bayesmap.cells import ising_field
 from bayesmap.cells.kinds import prior_from
 from bayesmap.kernels.surfaces.cell_draws import log_gamma
 from bayesmap.model import Model
@@ -179,14 +178,6 @@ def test_the_fit_finds_both_betas():
     np.testing.assert_allclose(fitted(solid), [0.1, 4.0, 2.0, 0.5], rtol=0.1)
     assert (abs(fitted(rng.permutation(solid)) / [0.1, 4.0, 2.0, 0.5] - 1) > 0.1).any()
     assert refit_prior(truth, hits, met - hits, 1.0, solid).coupling == 1.0
-
-
-def test_mixture_quantiles():
-    share = np.array([0.0, 0.3, 1.0, 0.3])
-    found = ising_field.mixture_quantiles(share, (0.5, 3.0), (2.0, 1.0), (0.1, 0.9))
-    np.testing.assert_allclose(found[:, 0], scipy.stats.beta(0.5, 3.0).ppf([0.1, 0.9]), rtol=1e-9)
-    np.testing.assert_allclose(found[:, 2], scipy.stats.beta(2.0, 1.0).ppf([0.1, 0.9]), rtol=1e-9)
-    assert (found[:, 1] == found[:, 3]).all()
 
 
 def test_a_model_s_log_joint_has_the_labels():

@@ -13,7 +13,6 @@ from gen_tutorial_model import walls_prior as prior
 
 import bayesmap.gen as genjax
 from bayesmap.gen import ChoiceMapBuilder as C
-from bayesmap.gen import pretty
 
 ARGS = (CENTER, PARAMS)
 # The tutorial calls genjax.categorical with positional logits, which warns here as it does in GenJAX.
@@ -132,73 +131,13 @@ def test_incremental_gibbs_keeps_the_joint_density_as_its_score(request_of, read
     np.testing.assert_allclose(trace.get_score(), assess(trace.get_choices(), ARGS)[0], rtol=1e-6)
 
 
-@pytest.mark.full
-def test_the_three_ways_to_flip_a_pixel_draw_the_same_chain(readings):
-    """The index forms that the tutorial left commented out say the same as the update of the whole map."""
-    whole, *others = (
-        incremental_sweep(request_of, jrand.key(2), start_trace(readings)).get_choices()["walls"]
-        for request_of in (whole_map_request, index_request, address_request)
-    )
-    assert all(np.array_equal(walls, whole) for walls in others)
-
-
-def importance_of(readings):
-    """Draw a trace from the prior for each key, with the weight of the readings."""
-    constraints = C["readings"].set(readings)
-    return jax.jit(jax.vmap(lambda key: full_model.importance(key, constraints, ARGS)))
-
-
 def test_importance_sampling_of_100_000_maps_stores_each_argument_once(readings):
     """At the tutorial's N nothing has the size of N x rays x map; the program is compiled, not run."""
-    lowered = importance_of(readings).lower(jrand.split(jrand.key(3), 100_000))
+    importance = jax.jit(jax.vmap(lambda key: full_model.importance(key, C["readings"].set(readings), ARGS)))
+    lowered = importance.lower(jrand.split(jrand.key(3), 100_000))
     traces, _ = lowered.out_info
     assert sum(leaf.size * leaf.dtype.itemsize for leaf in jax.tree.leaves(traces)) < 150e6
     assert lowered.compile().memory_analysis().temp_size_in_bytes < 200e6
-
-
-@pytest.mark.full
-def test_importance_weights_of_100_000_maps_collapse(readings):
-    _, log_weights = importance_of(readings)(jrand.split(jrand.key(3), 100_000))
-    log_weights = log_weights - jax.scipy.special.logsumexp(log_weights)
-    resampled = jax.vmap(lambda key: jrand.categorical(key, log_weights))(jrand.split(jrand.key(4), 100))
-    assert len(set(np.asarray(resampled).tolist())) == 1
-
-
-@pytest.mark.full
-def test_importance_in_chunks_gives_what_single_runs_give(readings):
-    keys = jrand.split(jrand.key(3), 5)
-    run = jax.jit(lambda key: full_model.importance(key, C["readings"].set(readings), ARGS))
-    traces, weights = importance_of(readings)(keys)
-    for k, key in enumerate(keys):
-        trace, weight = run(key)
-        np.testing.assert_array_equal(trace.get_choices()["walls"], traces.get_choices()["walls"][k])
-        np.testing.assert_allclose(weight, weights[k], rtol=1e-6)
-
-
-@pytest.mark.full
-def test_block_gibbs_raises_the_density_above_the_empty_map(readings):
-    """2 x 2 blocks, all sixteen patterns scored at once by a vmap over assess; the loop carries what it returns."""
-    patterns = jnp.array([[(k >> b) & 1 for b in range(4)] for k in range(16)]).reshape(16, 2, 2)
-
-    def update(key, walls, i, j):
-        choices = C["readings"].set(readings) | C["walls"].set(walls)
-
-        def with_pattern(pattern):
-            block = pattern.astype(jnp.float32)
-            return assess(choices.at["walls"].set(jax.lax.dynamic_update_slice(walls, block, (i, j))), ARGS)
-
-        scores, (candidates, _) = jax.vmap(with_pattern)(patterns)
-        return candidates[genjax.categorical.sample(key, logits=scores)]
-
-    @jax.jit
-    def sweep(key, walls):
-        n = GRID_SIZE - 1
-        keys = jrand.split(key, n * n)
-        return jax.lax.fori_loop(0, n * n, lambda k, w: update(keys[k], w, k // n, k % n), walls)
-
-    walls = sweep(jrand.key(0), jnp.zeros((GRID_SIZE, GRID_SIZE)))
-    joint = lambda w: assess(C["readings"].set(readings) | C["walls"].set(w), ARGS)[0]  # noqa: E731
-    assert joint(walls) > joint(jnp.zeros_like(walls)) + 1000
 
 
 def test_penzai_dataclasses_can_inherit_from_pytree():
@@ -213,10 +152,3 @@ def test_penzai_dataclasses_can_inherit_from_pytree():
     params = Params(prior_wall_prob=0.5, sensor_noise=0.2)
     assert jax.tree.leaves(params) == [0.2]
     assert jax.jit(lambda p: p.replace(sensor_noise=p.sensor_noise * 2))(params).prior_wall_prob == 0.5
-
-
-def test_pretty_shows_a_trace_by_address(readings):
-    pretty()
-    shown = repr(start_trace(readings))
-    assert "'walls': float32[21, 21]" in shown
-    assert "'readings': float32[100]" in shown

@@ -1,14 +1,21 @@
-"""Recordings read back without bayesmap: containers and messages each by a library that did not write them, if any."""
+"""A small map to export, and recordings read back without bayesmap, by libraries that did not write them, if any.
+
+The map has no symmetry, so that a flip, a turn or a transpose cannot pass for it.
+"""
 
 import sqlite3
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
 import yaml
 from mcap.reader import make_reader
 from mcap.records import Schema
 from mcap_ros1.decoder import DecoderFactory as Ros1
 from mcap_ros2.decoder import DecoderFactory as Ros2
+
+from bayesmap.space.grid import Grid
+from bayesmap.space.scans import Scans
 
 
 @dataclass(frozen=True)
@@ -83,3 +90,51 @@ def read_bag(path):
 
 
 READERS = {".bag": read_bag, ".mcap": read_mcap, ".db3": read_db3, "": read_folder}
+
+
+GRID = Grid(shape=(5, 3), resolution=0.25, origin=(-1.5, 2.0))
+
+
+def occupancy():
+    """Every cell differs from every other."""
+    return np.arange(15).reshape(5, 3)[::-1] / 20 + 0.01
+
+
+def observed():
+    seen = np.ones(GRID.shape, dtype=bool)
+    seen[0, 2] = seen[3, 0] = False
+    return seen
+
+
+def scans(stamps=(100.5, 101.25, 103.0)):
+    poses = np.array([[-1.4, 2.1, 0.0], [-1.0, 2.2, 0.5], [-0.5, 2.6, -3.0]])
+    ranges = np.array([[0.5, np.inf], [0.25, 0.125], [np.nan, -np.inf]])
+    return Scans(poses, np.array([0.0, 0.5]), ranges, 2.0, stamps_s=None if stamps is None else np.array(stamps))
+
+
+@dataclass(frozen=True)
+class BinaryRun:
+    """What an export needs of a run on binary walls."""
+
+    grid: Grid = GRID
+
+    @property
+    def occupancy(self):
+        return occupancy()
+
+    @property
+    def entropy(self):
+        p = occupancy()
+        return -p * np.log2(p) - (1 - p) * np.log2(1 - p)
+
+    @property
+    def observed(self):
+        return observed()
+
+
+class ReflectivityRun(BinaryRun):
+    """One whose cells hold a number, so that there are intervals."""
+
+    def interval(self, level):
+        assert level == 0.9
+        return self.occupancy / 2, (1 + self.occupancy) / 2

@@ -7,9 +7,8 @@ from typing import get_args
 
 import numpy as np
 import pytest
-from map_case import GRID, BinaryRun, ReflectivityRun, observed, occupancy, scans
 from PIL import Image
-from recorded import READERS
+from recorded import GRID, READERS, BinaryRun, ReflectivityRun, observed, occupancy, scans
 
 from bayesmap.cli.keys import Export
 from bayesmap.errors import BadInput

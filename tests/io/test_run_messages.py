@@ -2,8 +2,7 @@
 
 import numpy as np
 import pytest
-from map_case import GRID, observed, occupancy
-from recorded import READERS
+from recorded import GRID, READERS, observed, occupancy
 
 from bayesmap.errors import BadInput
 from bayesmap.io.ros.maps import in_percent

@@ -21,7 +21,6 @@ from bayesmap.cells.arrays import ArraySpec
 from bayesmap.io import saved as saved_module
 from bayesmap.io.saved import arrays_of, numbers_of
 from bayesmap.poses.trajectory import Alternatives
-from bayesmap.run import runner
 from bayesmap.space.planar import between, compose
 
 ARRAYS = ("occupancy", "observed", "log_likelihood", "log_prior", "warmup_log_joint", "log_weights")
@@ -114,38 +113,6 @@ def test_stamps_typed_readings_and_poses_of_beams_come_back(case, tmp_path):
     beam_poses = np.repeat(scans.poses[:, None] + 0.01, len(scans.angles_rad), axis=1)
     for changed in (scans, dataclasses.replace(scans, beam_poses=beam_poses)):
         saved_and_loaded(bm.infer(changed, case.grid, prior=case.prior, sensor=case.sensor, schedule=FEW), tmp_path)
-
-
-class Own(bm.Gaussian):
-    pass
-
-
-def test_a_run_with_a_sensor_of_one_s_own_comes_back_without_it(case, tmp_path):
-    run = infer(case, sensor=Own(0.4))
-    run.save(tmp_path / "run.nc")
-    loaded = bm.load(tmp_path / "run.nc")
-    assert loaded.trajectory is None
-    assert loaded.posterior.sensor is None
-    assert loaded.posterior.settings["sensor"] == {"kind": "Own"}
-    np.testing.assert_array_equal(loaded.draws, run.draws)
-
-
-@pytest.mark.parametrize("stop_at", [4, 12])
-def test_an_interrupted_run_is_saved_and_goes_on_bit_for_bit(case, stop_at, tmp_path, monkeypatch):
-    monkeypatch.setattr(runner, "STEP_SECONDS", 0.0)
-    options = {"warmup": 8, "draws": 10, "seed": 3, "checkpoint_every_s": 0.0}
-    seen = []
-    whole = infer(case, on_checkpoint=seen.append, **options)
-    part = next(run for run in seen if run.posterior.sweep == stop_at)
-    part.save(tmp_path / "part.nc")
-    loaded = bm.load(tmp_path / "part.nc")
-    assert_equal_runs(loaded, part)
-    assert not loaded.finished
-    resumed = infer(case, resume=loaded, **options)
-    for name in ("log_likelihood", "log_prior", "warmup_log_joint", "sweep", "finished"):
-        np.testing.assert_array_equal(getattr(resumed.posterior, name), getattr(whole.posterior, name), err_msg=name)
-    np.testing.assert_array_equal(resumed.draws, whole.draws)
-    np.testing.assert_array_equal(resumed.posterior.snapshot.arrays["walls"], whole.posterior.snapshot.arrays["walls"])
 
 
 def test_it_opens_in_arviz_and_so_in_xarray_with_its_coordinates_in_metres(saved):
@@ -251,15 +218,7 @@ def test_every_array_has_a_checksum(saved):
         assert [variable.name for variable in arrays if not variable.filters()["fletcher32"]] == []
 
 
-def test_another_format_is_refused_with_the_remedy(saved, tmp_path):
-    copy = damaged(saved[1], tmp_path, saved[1].read_bytes())
-    with netCDF4.Dataset(copy, "a") as file:
-        file.setncattr("format_version", 99)
-    with pytest.raises(bm.BadInput, match=r"damaged\.nc: saved by .* in format 99, and this version reads format 1"):
-        bm.load(copy)
-
-
-def test_what_is_no_saved_run_is_refused(tmp_path):
+def test_what_is_no_saved_run_is_refused(saved, tmp_path):
     with pytest.raises(bm.BadInput, match=r"nothing\.nc: no such file"):
         bm.load(tmp_path / "nothing.nc")
     (tmp_path / "text.nc").write_text("hello")
@@ -271,6 +230,11 @@ def test_what_is_no_saved_run_is_refused(tmp_path):
         bm.load(tmp_path / "other.nc")
     with pytest.raises(bm.BadInput):
         bm.load(tmp_path)
+    copy = damaged(saved[1], tmp_path, saved[1].read_bytes())
+    with netCDF4.Dataset(copy, "a") as file:
+        file.setncattr("format_version", 99)
+    with pytest.raises(bm.BadInput, match=r"damaged\.nc: saved by .* in format 99, and this version reads format 1"):
+        bm.load(copy)
 
 
 def test_a_failed_save_leaves_the_old_file_and_nothing_else(saved, tmp_path, monkeypatch):
@@ -287,9 +251,6 @@ def test_a_failed_save_leaves_the_old_file_and_nothing_else(saved, tmp_path, mon
         run.save(path)
     assert path.read_bytes() == before
     assert list(tmp_path.iterdir()) == [path]
-
-
-def test_a_folder_that_is_not_there_is_bad_input(saved, tmp_path):
     with pytest.raises(bm.BadInput, match="nowhere"):
         saved[0].save(tmp_path / "nowhere" / "run.nc")
 

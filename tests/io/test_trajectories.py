@@ -5,18 +5,16 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from map_case import scans
 from oracle.trajectories import round_way
-from recorded import READERS
+from recorded import READERS, scans
 from scipy.spatial.transform import Rotation
 
 from bayesmap.errors import BadInput
-from bayesmap.io.exports import export_run, export_trajectory, trajectory_of
+from bayesmap.io.exports import export_run, export_trajectory
 from bayesmap.io.text.g2o import Edges, chain_edges, slam_edges, write_g2o
 from bayesmap.io.text.trajectories import read_trajectory, write_relations, write_trajectory
 from bayesmap.poses.graph import Factors, Precision, normal_equations, quadratic, relative_covariances, solve_step
 from bayesmap.space.planar import between, compose, inverse
-from bayesmap.space.scans import Scans
 from bayesmap.space.trajectory import RelativeLaw, Trajectory, ellipses
 
 STAMPS = np.array([100.5, 101.25, 103.0])
@@ -162,16 +160,6 @@ def test_an_ellipse_holds_its_share():
     inside = np.einsum("ni,ij,nj->n", drawn, np.linalg.inv(covariance), drawn) < edge.mean()
     assert np.ptp(edge) < 1e-9
     assert inside.mean() == pytest.approx(0.8, abs=0.015)  # five standard errors
-
-
-def test_a_run_with_drawn_poses_exports_those():
-    scans = Scans(POSES, np.array([0.0]), np.ones((3, 1)), 2.0, stamps_s=STAMPS)
-
-    class Drawn:
-        poses = POSES + np.random.default_rng(4).normal(size=(2, 50, 3, 3)) * 0.01
-
-    assert trajectory_of(object(), scans).covariances is None
-    assert trajectory_of(Drawn(), scans).draws.shape == (100, 3, 3)
 
 
 def test_numpy_reads_stamps_and_scipy_reads_turns(tmp_path):

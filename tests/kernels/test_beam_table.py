@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 from oracle.enumeration import all_maps
 from oracle.formula import beams, distances
-from oracle.own_sensor import OwnSensor
-from oracle.worlds import make_case
+from oracle.worlds import OwnSensor, make_case
 from test_rays import GRID, random_scans
 
 import bayesmap as bm
@@ -53,13 +52,6 @@ def test_the_compiled_likelihood_equals_numpy_s(name, monkeypatch):
         np.testing.assert_allclose(compiled.no_hit, plain.no_hit, rtol=1e-6, atol=1e-6)
 
 
-def test_an_invalid_reading_has_no_entry_and_no_worth():
-    scans = bm.Scans([4.0, 0.0, 0.0], [0.0, 1.0], [[np.nan, 1.0]], max_range_m=4.0)
-    table = trace(scans, GRID, bm.Gaussian(0.1))
-    assert table.offsets[1] == 0
-    assert table.no_hit[0] == 0.0
-
-
 def test_a_robust_table_is_much_smaller_and_says_the_same():
     scans = bm.Scans([3.1, 0.1, 0.0], np.linspace(-0.5, 0.5, 50), np.full((1, 50), 0.5), max_range_m=10.0)
     robust, stiff = (trace(scans, GRID, s) for s in (bm.BeamMixture(bm.Gaussian(0.02)), bm.Gaussian(0.02)))
@@ -80,13 +72,6 @@ def test_a_map_of_another_shape_is_refused():
     table = trace(random_scans(0), GRID, bm.Gaussian(0.1))
     with pytest.raises(bm.BadInput, match=r"walls have shape \(9, 13\), but the grid is \(13, 9\)"):
         table.log_likelihood(np.zeros((9, 13)))
-
-
-def test_scans_that_never_meet_the_grid_leave_an_empty_table():
-    scans = bm.Scans([100.0, 100.0, 0.0], [0.0], [[1.0]], max_range_m=4.0)
-    table = trace(scans, GRID, bm.Gaussian(0.1))
-    assert table.n_incidences == 0
-    assert table.log_likelihood(np.ones(GRID.shape)) == pytest.approx(table.no_hit.sum())
 
 
 @pytest.mark.parametrize("name", SENSORS)

@@ -50,12 +50,6 @@ def test_through_corners_and_along_lines_at_rational_slopes(seed, shape, density
     assert assert_equal_to_the_formula(walls, np.array([[x, y]]), np.array([np.arctan2(*slope)])) == 1
 
 
-@given(seeds, shapes, densities, halves, halves, st.integers(-16, 16))
-def test_at_multiples_of_45_degrees_from_lines_and_corners(seed, shape, density, x, y, eighths):
-    walls = random_walls(seed, shape, density)
-    assert assert_equal_to_the_formula(walls, np.array([[x, y]]), np.array([eighths * np.pi / 4])) == 1
-
-
 @given(seeds, shapes, anywhere, halves, st.sampled_from([0.0, np.pi / 2, np.pi, -np.pi / 2]))
 def test_along_the_axes_from_anywhere(seed, shape, x, y, angle):
     walls = random_walls(seed, shape, 0.4)

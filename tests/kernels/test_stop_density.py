@@ -5,9 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import warp as wp
-from oracle.own_sensor import OwnSensor
 from oracle.stop_law import draw_readings, draw_states, log_likelihoods, log_prior, paths_of
 from oracle.stop_worlds import Worlds, beam_rays, centres_of, draw_worlds
+from oracle.worlds import OwnSensor
 
 import bayesmap as bm
 from bayesmap.kernels.device import Float32Rows, Float32s

@@ -4,7 +4,6 @@ False alarms: `ALPHA` = 1e-4 over this module. The kernel reads the law from a t
 """
 
 import math
-from dataclasses import dataclass
 from functools import cache
 
 import numpy as np
@@ -12,6 +11,7 @@ import pytest
 import scipy
 import warp as wp
 from oracle.verdict import ALPHA
+from oracle.worlds import OwnSensor
 from tiers import full_but
 
 import bayesmap as bm
@@ -20,7 +20,7 @@ from bayesmap.kernels.device import Float64s
 from bayesmap.kernels.random import mix
 from bayesmap.kernels.sensor_law import SensorLaw32, object_decay, sensor_law
 from bayesmap.kernels.surfaces.square_counts import stop_point_m
-from bayesmap.sensors.model import RangeLimits, SensorModel
+from bayesmap.sensors.model import RangeLimits
 
 wp.set_module_options({"enable_backward": False})
 
@@ -51,47 +51,15 @@ def draw_points(sensor, limits, reading_m, distance_m, spread_m, count, seed=0):
     return np.array(out.numpy())
 
 
-@dataclass(frozen=True)
-class Late(SensorModel):
-    """Readings that come late, by a gamma distributed delay, one in ten anywhere; more are lost from far away."""
+class Late(OwnSensor):
+    """Readings come late by a third of the noise, so that the law is not symmetric."""
 
-    delay_m: float
-
-    @property
-    def scale_m(self):
-        return self.delay_m / 3.0
-
-    def came(self, late_m):
-        """The chance that the delay is shorter: the law of the sum of three exponential ones."""
-        return scipy.special.gammainc(3.0, np.maximum(late_m, 0.0) / self.scale_m)
-
-    def lost(self, d, limits):
-        """The chance of no return, but for readings past the limit."""
-        return 0.02 + 0.1 * np.minimum(d, limits.max_m) / limits.max_m
+    def __init__(self, sigma_m):
+        super().__init__(bm.BeamMixture(bm.Gaussian(sigma_m), p_random=0.1, p_no_return=0.1, p_short=0.1))
+        self.late_m = sigma_m / 3.0
 
     def log_likelihood(self, range_m, distance_m, limits):
-        z, d = np.broadcast_arrays(np.asarray(range_m, dtype=float), np.asarray(distance_m, dtype=float))
-        there, read = np.isfinite(d), np.isfinite(z)
-        wall = np.where(there, d, 0.0)
-        comes = np.where(there, 1 - self.lost(wall, limits), 0.0)
-        late = np.maximum(np.where(read, z - wall, -1.0), 0.0) / self.scale_m
-        density = 0.9 * 0.5 * late**2 * np.exp(-late) / self.scale_m + 0.1 / (limits.max_m - limits.min_m)
-        density = np.where((z < limits.min_m) | (z > limits.max_m), 0.0, comes * density)
-        never = 1 - comes * (0.1 + 0.9 * self.came(limits.max_m - wall))
-        close = 0.9 * comes * self.came(limits.min_m - wall)
-        with np.errstate(divide="ignore"):
-            out = np.log(np.where(read, density, np.where(z > 0, never, close)))
-        return np.where(np.isnan(z), 0.0, out)
-
-    def reach_m(self, range_m, limits):
-        return np.full_like(np.asarray(range_m, dtype=float), np.inf)
-
-    def sample(self, rng, distance_m, limits):
-        d = np.asarray(distance_m, dtype=float)
-        late = d + rng.gamma(3.0, self.scale_m, d.shape)
-        reading = np.where(rng.random(d.shape) < 0.1, rng.uniform(limits.min_m, limits.max_m, d.shape), late)
-        lost = ~np.isfinite(d) | (rng.random(d.shape) < self.lost(d, limits)) | (reading > limits.max_m)
-        return np.where(lost, np.inf, np.where(reading < limits.min_m, -np.inf, reading))
+        return super().log_likelihood(range_m, distance_m + self.late_m, limits)
 
 
 def plain_law(sensor, reading_m, distance_m, spread_m, given_reading=True):
@@ -115,8 +83,8 @@ CASES = {
 
 @pytest.mark.parametrize("case", full_but(CASES, "the surface's far end", "no return"))
 def test_points_follow_the_surface_times_the_likelihood_of_the_reading(case):
-    delay_m, reading_m, distance_m, spread_m = CASES[case]
-    sensor = Late(delay_m)
+    sigma_m, reading_m, distance_m, spread_m = CASES[case]
+    sensor = Late(sigma_m)
     found = draw_points(sensor, LIMITS, reading_m, distance_m, spread_m, DRAWS)
 
     def p_value(given_reading):

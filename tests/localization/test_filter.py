@@ -1,16 +1,24 @@
-"""Modes, regions and areas of a posterior over poses; in a map that is known exactly all places are found."""
+"""The search finds what looking everywhere finds; modes, regions and areas of a posterior over poses.
+
+In a map that is known exactly all places are found, and proposals come near the posterior at little cost.
+"""
 
 from functools import cache
 
 import numpy as np
 import pytest
-from rooms import LIMITS, enumerated, known, lattice_about, offset, scan_from, walls_of
+import scipy
+from rooms import ANGLES, LIMITS, enumerated, known, lattice_about, offset, scan_from, walls_of
 from tiers import full_but
 
 from bayesmap.errors import BadInput
+from bayesmap.localization import search
 from bayesmap.localization.belief import PoseBelief
-from bayesmap.localization.filter import Scan, distinct, locate
-from bayesmap.localization.particles import PoseMixture
+from bayesmap.localization.filter import Prior, Scan, approached, distinct, locate
+from bayesmap.localization.localize import InitialPose
+from bayesmap.localization.particles import DOF, PoseMixture, student_draws
+from bayesmap.sensors.model import RangeLimits
+from bayesmap.space.planar import wrap_angle
 
 
 @cache
@@ -119,3 +127,152 @@ def test_places_that_came_together_are_one_the_heaviest():
     means = np.array([[0.0, 0.0, 0.0], [0.05, 0.0, 0.0], [1.0, 0.0, np.pi], [1.0, 0.005, -np.pi + 0.001]])
     places = PoseMixture(means, np.tile(np.diag([0.01, 0.01, 0.01]), (4, 1, 1)), np.array([1.0, 2.0, 3.0, 2.5]))
     assert np.array_equal(distinct(places).log_mass, [3.0, 2.0])
+
+
+@pytest.fixture(scope="module")
+def room():
+    walls, grid = walls_of(6.0, 4.0)
+    return walls, grid, search.likelihood_field(walls.astype(float), grid, ~walls)
+
+
+def test_the_coarse_search_scores_every_position_and_heading(room):
+    """The best of its poses is the best of the whole lattice, by the plain sum."""
+    walls, grid, field = room
+    scans = scan_from(walls, grid, np.array([2.0, 1.7, 1.0]))
+    points = search.end_points(ANGLES, scans.ranges_m[0], search.POINTS)
+    (mx, my), size = field.coarse_grid.shape, field.coarse_grid.resolution
+
+    def plain(cell, heading):
+        cos, sin = np.cos(heading), np.sin(heading)
+        i = cell[0] + np.floor((cos * points[:, 0] - sin * points[:, 1]) / size + 0.5).astype(int)
+        j = cell[1] + np.floor((sin * points[:, 0] + cos * points[:, 1]) / size + 0.5).astype(int)
+        inside = (i >= 0) & (j >= 0) & (i < mx) & (j < my)
+        return int(field.coarse[i[inside], j[inside]].sum())
+
+    headings = np.arange(search.HEADINGS) * 2 * np.pi / search.HEADINGS
+    cells = np.argwhere(field.open)
+    best = max(plain(cell, heading) for cell in cells for heading in headings)
+    found = search._coarse_poses(field, points)
+    scores = [plain(np.floor(pose[:2] / size).astype(int), pose[2]) for pose in found]
+    assert max(scores) == best
+
+
+@pytest.mark.parametrize("seed", full_but(range(5), 0, 4))
+def test_the_true_pose_is_found(room, seed):
+    walls, grid, field = room
+    rng = np.random.default_rng(seed)
+    truth = np.array([rng.uniform(0.5, 4.5), rng.uniform(0.5, 2.5), rng.uniform(-np.pi, np.pi)])
+    scans = scan_from(walls, grid, truth, seed=seed)
+    found = search.search(field, ANGLES, scans.ranges_m[0], 10)
+    off = [offset(pose, truth) for pose in found.poses]
+    assert min(metres + radians for metres, radians in off) < 0.15
+    assert (np.diff(found.scores) <= 0).all()
+    for i, pose in enumerate(found.poses):
+        near = np.abs(found.poses[:i, :2] - pose[:2]).max(axis=1, initial=0) < search.APART_M
+        assert not (near & (np.abs(wrap_angle(found.poses[:i, 2] - pose[2])) < search.APART_RAD)).any()
+
+
+def test_refining_never_loses_and_a_scan_without_hits_has_no_candidates(room):
+    walls, grid, field = room
+    assert len(search.search(field, ANGLES, np.full(len(ANGLES), np.inf), 5).poses) == 0
+    scans = scan_from(walls, grid, np.array([2.0, 1.7, 1.0]))
+    points = search.end_points(ANGLES, scans.ranges_m[0], 90)
+    start = np.array([[2.1, 1.6, 1.05]])
+    assert search.refine(field, points, start, 1).scores[0] >= field.score(points, start)[0]
+
+
+NOWHERE = (np.zeros((40, 30), dtype=bool), 0.0)
+
+
+def test_the_field_of_a_surface_is_its_widened_density():
+    _, grid = walls_of(4.0, 3.0)
+    states = np.zeros((1, grid.n_cells, 6), dtype=np.float32)
+    states[0, 20 * 30 + 10] = [0.9, 2.05, 1.07, 0.03, 0.01, 0.02]
+    field = search.endpoint_field(states, grid, 0.02, *NOWHERE)
+    assert field.grid.resolution == pytest.approx(0.025)
+    lower = np.array([[0.03, 0.0], [0.01, 0.02]])
+    covariance = lower @ lower.T + (0.02**2 + 0.25 * 0.025**2) * np.eye(2)
+    cells = np.array([[82, 42], [83, 44], [80, 41], [100, 42]])
+    off = (cells + 0.5) * 0.025 - [2.05, 1.07]
+    peak = np.exp(-0.5 * np.einsum("ni,ij,nj->n", off, np.linalg.inv(covariance), off))
+    expected = np.log(search.SURFACE_FLOOR + (1 - search.SURFACE_FLOOR) * peak)
+    scores = field.log_worth(np.zeros((1, 2)), np.column_stack([(cells + 0.5) * 0.025, np.zeros(4)])) + np.log(
+        search.SURFACE_FLOOR
+    )
+    np.testing.assert_allclose(scores, expected, atol=0.02)
+    assert scores[3] == pytest.approx(np.log(search.SURFACE_FLOOR), abs=1e-9)
+
+
+def test_the_nearer_surface_of_two_draws_counts():
+    _, grid = walls_of(4.0, 3.0)
+    states = np.zeros((2, grid.n_cells), dtype=np.float32)
+    states[0, 20 * 30 + 10] = states[1, 25 * 30 + 10] = 1.0
+    both = search.endpoint_field(states, grid, 0.02, *NOWHERE)
+    each = [search.endpoint_field(one[None], grid, 0.02, *NOWHERE) for one in states]
+    np.testing.assert_array_equal(both.values, np.maximum(each[0].values, each[1].values))
+    assert (each[0].values != each[1].values).any()
+
+
+def test_unknown_cells_are_worth_more_than_open_ones_and_less_than_walls():
+    walls, grid = walls_of(4.0, 3.0)
+    unknown = np.zeros(grid.shape, dtype=bool)
+    unknown[20:30, 12:20] = True
+    field = search.likelihood_field(walls.astype(float), grid, ~walls & ~unknown, unknown, 0.08)
+    open_, behind, wall = field.fine[10, 15], field.fine[25, 15], field.fine[0, 15]
+    assert open_ < behind < wall == search.TOP
+    assert field.coarse.max() == search.TOP
+    assert search.likelihood_field(walls.astype(float), grid, ~walls & ~unknown, unknown, 0.0).fine[25, 15] == open_
+    assert search.worth_of_unknown(0.08, 0.12, 0.1) == pytest.approx(0.08 / 0.1 * 0.12 * np.sqrt(2 * np.pi))
+    assert search.worth_of_unknown(0.5, 0.12, 0.1) == 1.0
+
+
+def test_evenly_spread_draws_have_the_student_distribution():
+    """Of each coordinate, over 600 calls that share no random number; a wrong one is told once in 10 000 alarms."""
+    rng = np.random.default_rng(0)
+    draws = np.array([student_draws(16, rng)[7] for _ in range(600)])
+    for k in range(3):
+        assert scipy.stats.kstest(draws[:, k], scipy.stats.t(DOF).cdf).pvalue > 1e-4
+    radius = (draws**2).sum(axis=1) / 3.0
+    assert scipy.stats.kstest(radius, scipy.stats.f(3, DOF).cdf).pvalue > 1e-4
+    assert scipy.stats.kstest(radius, scipy.stats.f(3, 4 * DOF).cdf).pvalue < 1e-4
+
+
+def test_unequal_draws_of_places_leave_the_integral_right():
+    """A target of two normal distributions, three quarters and one, weighed by 60 and 20 draws: twelve such runs."""
+    means = np.array([[0.0, 0.0, 0.0], [3.0, 1.0, 2.0]])
+    covariances = np.tile(np.diag([0.04, 0.04, 0.01]), (2, 1, 1))
+    places = PoseMixture(means, covariances, np.log([0.75, 0.25]))
+
+    def target(poses):
+        squared = ((poses[:, None] - means) ** 2 / np.diag(covariances[0])).sum(axis=2)
+        constant = -1.5 * np.log(2 * np.pi) - 0.5 * np.log(np.diag(covariances[0])).sum()
+        return np.log(np.exp(constant - 0.5 * squared) @ [0.75, 0.25])
+
+    runs = [places.draw(target, np.array([60, 20]), np.random.default_rng(seed)) for seed in range(12)]
+    assert all(np.bincount(run.place).tolist() == [60, 20] for run in runs)
+    assert np.mean([np.exp(run.log_evidence) for run in runs]) == pytest.approx(1.0, abs=0.05)
+    assert np.mean([run.weights[run.place == 0].sum() for run in runs]) == pytest.approx(0.75, abs=0.05)
+    assert places.shared_out(40).tolist() == [40, round(40 * np.sqrt(1 / 3))]
+
+
+def test_a_wide_prior_is_narrowed_about_the_pose():
+    walls, grid = walls_of(4.0, 3.0)
+    truth = np.array([1.52, 1.23, 0.4])
+    scans = scan_from(walls, grid, truth)
+    here = known(walls, grid, scans, beam_weight=0.3)
+    guess = InitialPose(truth + np.array([0.2, -0.15, 0.1]), 0.25, 0.15)
+    prior = Prior(guess.components(), 0.0)
+    scan = Scan(ANGLES, scans.ranges_m[0], RangeLimits(0.0, 10.0))
+    rng = np.random.default_rng(0)
+    found = approached(guess.components(), lambda poses: prior.log_density(poses, here), here, scan, rng)
+    assert len(found.means) == 1
+    np.testing.assert_array_less(np.abs(found.means[0] - truth), [0.05, 0.05, 0.03])
+    assert (np.sqrt(np.diag(found.covariances[0])) < [0.1, 0.1, 0.06]).all()
+
+
+def test_a_scan_with_few_hits_leaves_places_as_they_are():
+    walls, grid = walls_of(4.0, 3.0)
+    scans = scan_from(walls, grid, np.array([1.5, 1.2, 0.4]))
+    places = InitialPose([1.0, 1.0, 0.0]).components()
+    blind = Scan(ANGLES, np.full(len(ANGLES), np.inf), RangeLimits(0.0, 10.0))
+    assert approached(places, np.zeros_like, known(walls, grid, scans), blind, np.random.default_rng(0)) is places

@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from flat_options import infer
+from oracle.worlds import OwnSensor
 from rooms import LASER, enumerated, known, lattice_about, offset, scan_from, walls_of
 from tiers import full_but
 
@@ -16,19 +17,6 @@ from bayesmap.localization.localize import InitialPose, localize
 from bayesmap.localization.search import likelihood_field
 from bayesmap.space.planar import between, compose
 from bayesmap.space.scans import side_by_side
-
-
-class OwnSensor(bm.SensorModel):
-    """One that kernels have no formula for."""
-
-    def log_likelihood(self, range_m, distance_m, limits):
-        return -np.abs(range_m - np.minimum(distance_m, limits.max_m))
-
-    def reach_m(self, range_m, limits):
-        return np.full(np.shape(range_m), np.inf)
-
-    def sample(self, rng, distance_m, limits):
-        return distance_m
 
 
 def test_the_posterior_is_that_of_enumerated_poses():
@@ -223,7 +211,7 @@ def test_impossible_localizations_are_refused():
     with pytest.raises(bm.BadInput, match="sigma_m and sigma_rad above 0"):
         InitialPose([0, 0, 0], 0.0)
     with pytest.raises(bm.BadInput, match="Gaussian, StudentT or a BeamMixture with such noise"):
-        known(walls, grid, scans, sensor=OwnSensor())
+        known(walls, grid, scans, sensor=OwnSensor(bm.Gaussian(0.1)))
     with pytest.raises(bm.BadInput, match="no free cell"):
         known(np.ones_like(walls), grid, scans)
     sensor = bm.BeamMixture(bm.Gaussian(0.02))

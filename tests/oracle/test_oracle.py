@@ -1,13 +1,27 @@
-"""The oracle itself, against answers that were worked out by hand."""
+"""The oracle against answers worked out by hand, definitions, quadrature and its own draws.
+
+False alarms: `ALPHA` = 1e-4 over this module.
+"""
 
 import numpy as np
 import pytest
-from oracle.enumeration import all_maps, enumerate_posterior, marginals, pairs
+import scipy
+from oracle.enumeration import all_maps, enumerate_posterior, marginals, pairs, sweeps, update_sites
 from oracle.formula import distances
-from oracle.transitions import sweeps, update_sites
+from oracle.stop_law import (
+    Paths,
+    cross_surface,
+    draw_readings,
+    exact_reflectivities,
+    log_likelihoods,
+    log_prior,
+    paths_of,
+)
+from oracle.stop_worlds import draw_worlds
 from oracle.verdict import ALPHA, goodness_of_fit, least_p_value
 
 import bayesmap as bm
+from bayesmap.sensors.model import RangeLimits
 
 ONE = np.array([[False, False], [False, True]])  # a wall at [1, 2] x [1, 2]
 
@@ -68,3 +82,123 @@ def test_the_verdict_rejects_a_law_that_is_a_little_off():
     tilted = p * np.exp(0.1 * maps[:, 2])
     draws = maps[rng.choice(16, 40_000, p=tilted / tilted.sum())]
     assert least_p_value(draws, p) < ALPHA
+
+
+SENSOR = bm.BeamMixture(bm.Gaussian(0.06, 0.02), p_random=0.08, p_no_return=0.15, p_short=0.2, rate_short_per_m=0.7)
+LIMITS = RangeLimits(0.2, 2.5)
+STATES = np.array(
+    [[0.6, 0.45, 0.3, 0.10, 0.03, 0.05], [0.3, 1.10, 0.2, 0.02, -0.10, 0.15], [0.9, 1.70, 0.3, 0.15, 0.20, 0.02]]
+)
+"""Three cells of half a metre in a row."""
+
+
+def one_path(z, *, angle=0.1, start=(-0.3, 0.15)):
+    """A beam through the three cells."""
+    plain = np.array([[0.5, 1.05, 1.6]])
+    no = np.zeros((1, 3), dtype=bool)
+    direction = np.array([[np.cos(angle), np.sin(angle)]])
+    return Paths(np.arange(3)[None], ~no, plain, no, np.array([start]), direction, np.array([z]), LIMITS)
+
+
+def same_path(z):
+    """That beam as often as there are readings."""
+    beams = Paths(*(np.repeat(part, len(z), axis=0) for part in one_path(0.0)[:-1]), LIMITS)
+    return beams._replace(range_m=np.asarray(z))
+
+
+def law_at(z, plain):
+    """The density, or the probability, of each of some readings of that beam."""
+    return np.exp(log_likelihoods(same_path(z), STATES, SENSOR, plain))
+
+
+def test_a_beam_meets_a_surface_where_the_surface_s_density_along_the_beam_says():
+    """Mean and variance of the normal density on the line, by quadrature, the surface widened across the beam."""
+    start, angle = np.array([-0.3, 0.15]), 0.1
+    u = np.array([np.cos(angle), np.sin(angle)])
+    t = np.linspace(-10, 10, 200_001)
+    for state in STATES:
+        factor = np.array([[state[3], 0.0], [state[4], state[5]]])
+        across = np.outer([-u[1], u[0]], [-u[1], u[0]]) * (0.005 * (state[1:3] - start) @ u) ** 2
+        weight = scipy.stats.multivariate_normal(state[1:3], factor @ factor.T + across).pdf(start + t[:, None] * u)
+        mean = np.average(t, weights=weight)
+        _, distance, variance = cross_surface(state, start, u)
+        assert distance == pytest.approx(mean, abs=1e-6)
+        assert variance == pytest.approx(np.average((t - mean) ** 2, weights=weight), rel=1e-6)
+
+
+def test_the_gate_is_one_through_the_middle_and_a_half_at_its_width():
+    u, n = np.array([0.6, 0.8]), np.array([-0.8, 0.6])
+    state = STATES[1]
+    factor = np.array([[state[3], 0.0], [state[4], state[5]]])
+    v = np.sqrt(n @ factor @ factor.T @ n)
+    for offset, chance in ((0.0, 1.0), (2.2 * v, 0.5), (-2.2 * v, 0.5), (4.4 * v, 1 / 65), (1.1 * v, 64 / 65)):
+        assert cross_surface(state, state[1:3] - 0.7 * u - offset * n, u)[0] == pytest.approx(chance, rel=1e-9)
+
+
+@pytest.mark.parametrize("plain", [True, False])
+def test_readings_add_up_to_one(plain):
+    z = np.linspace(LIMITS.min_m, LIMITS.max_m, 20_001)
+    typed = law_at([np.inf, -np.inf], plain).sum()
+    assert np.trapezoid(law_at(z, plain), z) + typed == pytest.approx(1.0, abs=2e-4)  # the density jumps at every stop
+
+
+@pytest.mark.parametrize("plain", [True, False])
+def test_drawn_readings_follow_the_density(plain):
+    count, edges = 200_000, np.linspace(LIMITS.min_m, LIMITS.max_m, 47)
+    drawn = draw_readings(np.random.default_rng(1), same_path(np.zeros(count)), STATES, SENSOR, plain)
+    z = np.linspace(edges[0], edges[-1], 46 * 200 + 1)
+    p = law_at(z, plain)
+    mass = ((p[1:] + p[:-1]) / 2 * np.diff(z)).reshape(46, 200).sum(axis=1)
+    typed = law_at([np.inf, -np.inf], plain)
+    counts = [*np.histogram(drawn, edges)[0], np.isposinf(drawn).sum(), np.isneginf(drawn).sum()]
+    law = np.array([*mass, *typed])
+    assert goodness_of_fit(np.array(counts), law / law.sum()) > ALPHA / 2
+    tilted = law * np.where(np.arange(48) < 24, 1.06, 1.0)
+    assert goodness_of_fit(np.array(counts), tilted / tilted.sum()) < ALPHA / 2
+
+
+def test_the_prior_of_surfaces_has_the_jacobian_of_its_coordinates():
+    prior = bm.Surface(0.7, 1.3, mean_scale=0.5, spread=0.4, dof=3.5, size_scale=0.6)
+    centres = (np.array([[0.25, 0.25]]), 0.5)
+    state = STATES[0]
+
+    def sigma(log11, l21, log22):
+        l11, l22 = np.exp(log11), np.exp(log22)
+        return np.array([l11**2, l11 * l21, l21**2 + l22**2])
+
+    at, step = np.array([np.log(state[3]), state[4], np.log(state[5])]), 1e-6
+    columns = [(sigma(*(at + step * e)) - sigma(*(at - step * e))) / (2 * step) for e in np.eye(3)]
+    s11, s12, s22 = sigma(*at)
+    expected = (
+        np.log(abs(np.linalg.det(columns)))
+        + scipy.stats.invwishart(3.5, (0.4 * 0.5) ** 2 * np.eye(2)).logpdf([[s11, s12], [s12, s22]])
+        + scipy.stats.norm(0.25, 0.25).logpdf(state[1:3]).sum()
+        + scipy.stats.beta(0.7, 1.3).logpdf(0.6)
+        + np.log(0.6 * 0.4)  # d m / d logit m
+        - (s11 + s22) / (2 * 0.3**2)
+    )
+    assert log_prior(prior, state[None], centres)[0] == pytest.approx(expected, rel=1e-7)
+
+
+@pytest.mark.parametrize("prior", [bm.Beta(0.8, 1.7), bm.Beta()])
+def test_the_enumeration_of_stops_equals_quadrature_over_reflectivities(prior):
+    """Gauss-Jacobi rules are exact: the likelihood is a polynomial in every m, of a degree of at most the beams'."""
+    worlds, _ = draw_worlds(5, bm.Grid((2, 2), 0.5), bm.Beta(1, 1), SENSOR, 6, poses=2, beams=5, limits=(0.2, 2.5))
+    rays = worlds.problem.rays
+    scans = 10
+    for w in range(6):
+        beams = np.arange(w * scans, (w + 1) * scans)
+        path = paths_of(rays)
+        mine = Paths(*(part[beams] for part in path[:-1]), path.limits)
+        cells = worlds.cells()[w]
+        mine = mine._replace(cell=np.where(mine.there, np.searchsorted(cells, mine.cell), 0))
+        exact = exact_reflectivities(mine, 4, prior, SENSOR)
+        nodes, weights = scipy.special.roots_jacobi(8, prior.b - 1, prior.a - 1)
+        m = np.stack(np.meshgrid(*[(nodes + 1) / 2] * 4, indexing="ij"), axis=-1).reshape(-1, 4)
+        states = np.zeros((len(m), 4, 6))
+        states[..., 0] = m
+        p = np.exp(log_likelihoods(mine, states, SENSOR, True).sum(axis=-1))
+        p *= np.prod(np.stack(np.meshgrid(*[weights] * 4, indexing="ij")), axis=0).ravel()
+        np.testing.assert_allclose(exact.mean(), p @ m / p.sum(), rtol=1e-8)
+        np.testing.assert_allclose(exact.pairs(), (m * p[:, None]).T @ m / p.sum(), rtol=1e-8)
+        assert exact.cdf(0)(1.0)[0] == pytest.approx(1.0)

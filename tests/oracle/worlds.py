@@ -1,4 +1,4 @@
-"""Random little problems: a grid, a prior, a sensor, and scans drawn from the model itself."""
+"""Random little problems: a grid, a prior, a sensor, and scans drawn from the model; a sensor of the user's own."""
 
 from dataclasses import dataclass
 
@@ -82,3 +82,19 @@ def make_case(seed, *, shape=(4, 4), n_poses=2, prior=0.3, sensor=None, beams_pe
     exact = enumerate_posterior(scans, grid, p_wall, scorer(sensor, limits), coupling)
     prior = bm.Ising(p_wall, coupling) if coupling else bm.Independent(p_wall)
     return Case(grid, scans, prior, sensor, walls, exact)
+
+
+class OwnSensor(bm.SensorModel):
+    """Another model's law without its formulas for kernels; ``weight`` multiplies its densities, and should be 1."""
+
+    def __init__(self, law, weight=1.0):
+        self.law, self.weight = law, weight
+
+    def log_likelihood(self, range_m, distance_m, limits):
+        return self.law.log_likelihood(range_m, distance_m, limits) + np.log(self.weight)
+
+    def reach_m(self, range_m, limits):
+        return self.law.reach_m(range_m, limits)
+
+    def sample(self, rng, distance_m, limits):
+        return self.law.sample(rng, distance_m, limits)

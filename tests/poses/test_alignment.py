@@ -9,16 +9,8 @@ from simulated import path_around, ring, scans_of
 from tiers import full_but
 
 from bayesmap.kernels.match.line_pairs import pair_sums
-from bayesmap.poses.alignment import (
-    COUNTED_AGAIN,
-    Pairs,
-    PointError,
-    align,
-    overlapping_pairs,
-    point_error,
-    with_point_error,
-    without_slack,
-)
+from bayesmap.poses import alignment
+from bayesmap.poses.alignment import Pairs, PointError, align, overlapping_pairs, point_error, with_point_error
 from bayesmap.poses.graph import Factors
 from bayesmap.poses.placement import place_scans
 from bayesmap.poses.pose_gaussian import DEGREES_OF_FREEDOM
@@ -123,7 +115,7 @@ def test_along_a_corridor_there_is_only_slack():
     geometry = scan_geometry(Scans(np.zeros((40, 3)), angles, noisy, max_range_m=10.0))
     one, two = np.arange(20, dtype=np.int32), np.arange(20, 40, dtype=np.int32)
     second, slack, first, _ = pair_sums(geometry, None, one, two, np.zeros((20, 3)), 0.1, 0.05, 0.7)
-    told, gradient = without_slack(second, slack, first, 0.01)
+    told, gradient = alignment.without_slack(second, slack, first, 0.01)
     along, across = second[:, 0, 0].mean(), second[:, 1, 1].mean()
     assert along < 1e-3 * across
     assert told[:, 0, 0].mean() < 0.02 * along
@@ -183,7 +175,7 @@ def test_only_the_laser_s_part_is_scaled():
     )  # fmt: skip
     error = PointError(found.sigma_m, np.array([0.5, 0.5, 0.25]))
     scaled = with_point_error(replace(found, gaussian=by_wheels), error)
-    share = tied.dof / (tied.dof - 2.0) / (1.0 - COUNTED_AGAIN)
+    share = tied.dof / (tied.dof - 2.0) / (1.0 - alignment.COUNTED_AGAIN)
     ratio = np.array([[4.0, 4.0, 2.0], [4.0, 4.0, 2.0], [2.0, 2.0, 1.0]]) / 16.0
     assert np.allclose(scaled.curvature[:laser], share * ratio * tied.curvature)
     assert np.allclose(scaled.force[:laser], share * np.diag(ratio) * tied.force)

@@ -3,18 +3,8 @@
 import numpy as np
 import scipy
 
-from bayesmap.poses.graph import (
-    ANCHOR,
-    RIDGE,
-    Factors,
-    Precision,
-    filled_pattern,
-    normal_equations,
-    optimise,
-    quadratic,
-    relative_covariances,
-    solve_step,
-)
+from bayesmap.poses import graph
+from bayesmap.poses.graph import Factors, Precision, normal_equations, quadratic, relative_covariances, solve_step
 from bayesmap.space.planar import between, between_jacobians, compose, retract
 
 RNG = np.random.default_rng(8)
@@ -40,8 +30,8 @@ POSES = retract(TRUTH, 0.05 * RNG.normal(size=TRUTH.shape))
 
 
 def dense(parts, poses):
-    matrix, gradient = np.eye(3 * COUNT) * RIDGE, np.zeros(3 * COUNT)
-    matrix[:3, :3] += np.eye(3) * ANCHOR
+    matrix, gradient = np.eye(3 * COUNT) * graph.RIDGE, np.zeros(3 * COUNT)
+    matrix[:3, :3] += np.eye(3) * graph.ANCHOR
     for part in parts:
         for k in range(len(part)):
             i, j = part.first[k], part.second[k]
@@ -89,7 +79,7 @@ def test_the_pattern_holds_every_entry_of_the_factor():
         links = rng.random((30, 30)) < 0.06
         dense_matrix = np.where(links | links.T, 0.1 * rng.normal(), 0.0) + 5.0 * np.eye(30)
         place = rng.permutation(30)
-        begin, row = filled_pattern(scipy.sparse.csc_matrix(dense_matrix), place)
+        begin, row = graph.filled_pattern(scipy.sparse.csc_matrix(dense_matrix), place)
         moved = np.empty_like(dense_matrix)
         moved[np.ix_(place, place)] = dense_matrix
         held = np.zeros((30, 30), bool)
@@ -98,7 +88,7 @@ def test_the_pattern_holds_every_entry_of_the_factor():
 
 
 def test_the_optimum_has_no_slope():
-    poses, weights = optimise(POSES, CHAIN, LOOP)
+    poses, weights = graph.optimise(POSES, CHAIN, LOOP)
     assert (weights > 0.9).all()
     _, gradient = normal_equations(COUNT, [quadratic(CHAIN, poses), quadratic(LOOP, poses, weights)])
     _, before = normal_equations(COUNT, [quadratic(CHAIN, POSES), quadratic(LOOP, POSES)])
@@ -110,7 +100,7 @@ def test_a_wrong_loop_is_not_believed():
     both = Factors(
         *(np.concatenate([getattr(LOOP, n), getattr(wrong, n)]) for n in ("first", "second", "relative", "information"))
     )
-    poses, weights = optimise(POSES, CHAIN, both)
+    poses, weights = graph.optimise(POSES, CHAIN, both)
     assert weights[-1] < 0.01
     assert (weights[:3] > 0.5).all()
     off = between(between(TRUTH[0], TRUTH), between(poses[0], poses))

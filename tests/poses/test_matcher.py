@@ -117,17 +117,6 @@ def test_scans_are_found_where_they_were_taken_and_nothing_is_where_nothing_scor
     assert abs(off[2]) < np.radians(1.5)
 
 
-def test_a_symmetrical_room_gives_both_poses():
-    scans = room(POSES)
-    geometry = scan_geometry(scans)
-    grids = likelihood_grids(geometry, [[0, 1]], [POSES[:2]], [[0.0, 0.0]], 3.0)
-    found = match(grids, [geometry.points_of(2)], [[0.0, 0.0, 0.0]], 1.5, np.pi, step_rad=np.radians(1.0), modes=2)
-    opposite = between(found.poses[0, 0], found.poses[0, 1])
-    assert abs(abs(opposite[2]) - np.pi) < np.radians(3.0)
-    np.testing.assert_allclose(found.poses[0, 0, :2], -found.poses[0, 1, :2], atol=0.11)
-    assert found.scores[0, 1] > 0.95 * found.scores[0, 0]
-
-
 def test_a_window_about_no_pose_is_refused():
     with pytest.raises(BadInput, match="finite"):
         match(notched_grids(), [notched_geometry().points_of(2)], np.full((1, 3), np.nan), 0.5, 0.5)

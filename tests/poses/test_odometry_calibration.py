@@ -8,17 +8,7 @@ from simulated import recording
 from tiers import full_but
 
 from bayesmap.poses import calibration
-from bayesmap.poses.calibration import (
-    USUAL,
-    MotionNoise,
-    OdometryFit,
-    RunningOdometry,
-    angle_step_ratio,
-    fit_noise,
-    fit_odometry,
-    inverse_slope,
-    stated_at,
-)
+from bayesmap.poses.calibration import USUAL, MotionNoise, OdometryFit, RunningOdometry, fit_noise, fit_odometry
 from bayesmap.space.planar import between, compose, wrap_angle
 
 RATES = np.array([[4e-3, 2e-3, 1e-6], [1e-3, 1e-3, 1e-6], [2e-3, 5e-3, 1e-7]])
@@ -122,7 +112,7 @@ def test_the_correction_removes_the_systematic_error():
     wrong = np.array([[0.05, 0.0, 0.02], [0.0, 0.05, -0.1], [0.03, 0.0, -0.02]])
     motion = np.array([0.4, 0.01, 0.2])
     stated = motion + wrong @ motion
-    np.testing.assert_allclose(stated + inverse_slope(wrong) @ stated, motion, atol=1e-12)
+    np.testing.assert_allclose(stated + calibration.inverse_slope(wrong) @ stated, motion, atol=1e-12)
 
 
 def test_shifts_by_the_systematic_error_have_the_covariance_of_its_entries():
@@ -130,7 +120,7 @@ def test_shifts_by_the_systematic_error_have_the_covariance_of_its_entries():
     rng = np.random.default_rng(1)
     wrong = np.array([[0.05, 0.0, 0.02], [0.0, 0.05, -0.1], [0.03, 0.0, -0.02]])
     root = 2e-3 * rng.normal(size=(9, 9))
-    fit = OdometryFit(inverse_slope(wrong), root @ root.T, 0.0, 0.0, MotionNoise(USUAL))
+    fit = OdometryFit(calibration.inverse_slope(wrong), root @ root.T, 0.0, 0.0, MotionNoise(USUAL))
     motions = np.array([[0.4, 0.01, 0.2], [-0.1, 0.0, 1.0]])
     stated = motions @ (np.eye(3) + wrong).T
     draws = wrong + (rng.normal(size=(20_000, 9)) @ root.T).reshape(-1, 3, 3)
@@ -144,13 +134,13 @@ def test_stamps_that_repeat_tell_no_lag_and_move_no_pose():
     """Odometry that is late by 0.2 s: found by exact stamps, not by whole seconds, which would tell another."""
     times = 100.0 + 0.2 * np.arange(300)
     found = np.column_stack([np.cumsum(0.1 + 0.08 * np.sin(0.7 * times)), np.zeros(300), np.zeros(300)])
-    stated = stated_at(found, times, -0.2)
+    stated = calibration.stated_at(found, times, -0.2)
     scans, variance = np.arange(0, 300, 2), np.full((149, 3), 1e-6)
     assert fit_odometry(stated, times, found[scans], scans, variance).lag_s == pytest.approx(0.2, abs=0.03)
     assert fit_odometry(stated, np.floor(times), found[scans], scans, variance).lag_s == 0.0
     coarse = np.where(np.arange(300) < 200, times, times[200])
-    np.testing.assert_array_equal(stated_at(found, coarse, 0.1)[200:], found[200:])
-    assert (stated_at(found, coarse, 0.1)[:199, 0] > found[:199, 0]).all()
+    np.testing.assert_array_equal(calibration.stated_at(found, coarse, 0.1)[200:], found[200:])
+    assert (calibration.stated_at(found, coarse, 0.1)[:199, 0] > found[:199, 0]).all()
 
 
 @pytest.fixture(scope="module")
@@ -163,7 +153,7 @@ def ratio(scans, truth):
     first, second = (index.ravel().astype(np.int32) for index in np.indices((len(truth), len(truth))))
     near = (first < second) & (np.hypot(*(truth[first] - truth[second])[:, :2].T) < 2.0)
     turned = near & (np.abs(wrap_angle(truth[first, 2] - truth[second, 2])) > np.radians(25.0))
-    return angle_step_ratio(scans, truth, first[turned], second[turned])
+    return calibration.angle_step_ratio(scans, truth, first[turned], second[turned])
 
 
 def test_angles_that_are_stated_wrong_are_found(recorded):
@@ -171,10 +161,6 @@ def test_angles_that_are_stated_wrong_are_found(recorded):
     scans, truth = recorded
     stated = replace(scans, angles_rad=scans.angles_rad * 1.008)
     assert ratio(stated, truth) == pytest.approx(1.0 / 1.008, abs=0.0025)
-
-
-def test_right_angles_stay_as_they_are(recorded):
-    assert ratio(*recorded) == 1.0
 
 
 @pytest.mark.parametrize("case", full_but([(0.01, 2), (0.02, 0), (0.02, 2), (0.03, 1)], (0.01, 2), (0.03, 1)))

@@ -11,7 +11,7 @@ from bayesmap.errors import BadInput
 from bayesmap.poses.graph import Factors
 from bayesmap.poses.map_scans import key_scans
 from bayesmap.poses.prior import FREE, KnownPoses, Motions, Odometry, UncertainPoses
-from bayesmap.space.planar import between, compose, wrap_angle
+from bayesmap.space.planar import between, wrap_angle
 from bayesmap.space.scans import Scans
 
 
@@ -33,12 +33,6 @@ PRIORS = {
     "odometry": Odometry(0.1, 0.05, 0.04, 0.2, 0.02, 0.01),
     "slipping": Slipping(),
 }
-
-
-def test_composing_undoes_seeing_from():
-    a, b = trajectory(0, 50), trajectory(1, 50)
-    np.testing.assert_allclose(compose(a, between(a, b)), b, atol=1e-12)
-    assert (np.abs(wrap_angle(np.linspace(-20, 20, 999))) <= np.pi).all()
 
 
 @pytest.mark.parametrize("name", PRIORS)

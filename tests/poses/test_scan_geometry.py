@@ -39,9 +39,11 @@ def test_a_group_over_an_edge_keeps_one_surface_and_its_angle():
     np.testing.assert_allclose(angles[0], ANGLES.reshape(180, 4)[:, 1:].mean(axis=1))
 
 
-def test_groups_without_a_reading_stay_without():
+def test_scans_and_groups_with_too_few_hits_tell_nothing():
     assert not np.isfinite(merged(np.full((2, 720), np.inf), ANGLES, 0.05, 30.0)[0]).any()
     assert np.isnan(merged(np.full((2, 720), np.nan), ANGLES, 0.05, 30.0)[0]).all()
+    assert range_noise_m(np.full((3, 180), np.inf), 0.0175) == MIN_NOISE_M
+    assert range_noise_m(np.full((3, 2), 1.0), 0.0175) == MIN_NOISE_M
 
 
 def test_beams_a_degree_apart_are_left_as_they_are():
@@ -79,11 +81,6 @@ def test_the_noise_is_found_to_an_eighth(noise_m, beams):
 def test_no_laser_is_taken_to_be_better_or_worse_than_walls_allow():
     assert found_m(0.001) == MIN_NOISE_M
     assert found_m(0.2) == MAX_NOISE_M
-
-
-def test_scans_with_too_few_hits_tell_nothing():
-    assert range_noise_m(np.full((3, 180), np.inf), 0.0175) == MIN_NOISE_M
-    assert range_noise_m(np.full((3, 2), 1.0), 0.0175) == MIN_NOISE_M
 
 
 def test_noisy_scans_have_normals_too(monkeypatch):

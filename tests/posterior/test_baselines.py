@@ -114,15 +114,6 @@ def test_the_fit_predicts_held_out_scans_about_as_well_as_the_truth_s_own_sensor
     np.testing.assert_allclose(stop[0], baselines.hit_ratio(hits, passes, fitted.values), rtol=1e-6)
 
 
-@pytest.mark.full
-def test_clamping_costs(room, fitted):
-    grid, train, held, _ = room
-    clamped = baselines.fit_baseline(BY_NAME["log-odds, clamped"], train, grid)
-    best = score_prediction(fitted.predictor, held)
-    assert score_prediction(clamped.predictor, held).nats_per_beam < best.nats_per_beam - 0.5
-    assert baselines.sensor_of(clamped.values, None).p_random == clamped.values["p_random"]
-
-
 @pytest.fixture(scope="module")
 def seen():
     """A room in the middle of a grid of which beams touch less than a half: its map, and scans in it."""

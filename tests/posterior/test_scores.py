@@ -61,19 +61,6 @@ def test_the_log_score_is_the_log_mean_density_over_draws(case, run):
     assert run.log_score(held) == np.nanmean(found)
 
 
-def test_a_better_map_scores_better():
-    walls, pose = bm.worlds.tutorial()
-    grid, angles = bm.worlds.TUTORIAL_GRID, np.linspace(0, 2 * np.pi, 100, endpoint=False)
-    train, held = (
-        bm.simulate(walls, grid, pose, angles + turn, sensor=bm.Gaussian(0.2), max_range_m=42.0, seed=1)
-        for turn in (0.0, 0.01)
-    )
-    options = {"prior": bm.Independent(0.3), "sensor": bm.Gaussian(0.2), "method": "block", "draws": 200}
-    learnt = infer(train, grid, **options).log_score(held)
-    nothing = infer(train.select(slice(0, 0)), grid, **options).log_score(held)
-    assert learnt > nothing + 1
-
-
 @pytest.mark.parametrize("score", [bm.Run.log_score, bm.score])
 def test_scores_that_cannot_be_are_refused(case, run, score):
     posterior = run.posterior
@@ -225,15 +212,3 @@ def test_many_draws_are_taken_some_at_a_time(case, deep, monkeypatch):
     whole = bm.score(deep, case.scans).as_json()
     monkeypatch.setattr(binary, "BATCH_BYTES", 4 * 16 * 7)
     assert bm.score(deep, case.scans).as_json() == whole
-
-
-@pytest.mark.parametrize("prior", [bm.Beta(0.3, 0.5), bm.Surface()], ids=["reflectivity", "surface"])
-def test_cells_that_stop_some_beams_are_scored_alike(case, prior):
-    """Against the samplers' own log score, which is computed in single precision."""
-    deep = infer(case.scans, case.grid, prior=prior, sensor=case.sensor, chains=2, warmup=10, draws=20)
-    held = make_case(22, sensor=case.sensor, n_poses=4).scans
-    held = dataclasses.replace(held, ranges_m=np.where(np.isneginf(held.ranges_m), np.nan, held.ranges_m))
-    found = bm.score(deep, held)
-    assert found.nats_per_beam == pytest.approx(deep.log_score(held), abs=2e-3)
-    assert 0 < found.coverage[0].share.value <= found.coverage[2].share.value
-    assert bm.score(deep, held, sensor=bm.Gaussian(0.1)).nats_per_beam < found.nats_per_beam

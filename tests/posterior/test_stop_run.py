@@ -1,6 +1,5 @@
 """What users get from a run over reflectivities or surfaces is what its draws say."""
 
-from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -129,19 +128,6 @@ def test_the_log_score_is_the_log_mean_density_of_the_reference(kind):
 
 
 @KINDS
-def test_a_score_may_be_by_another_sensor_of_any_kind(kind):
-    run = run_of(kind)
-    blunt = replace(SENSOR, noise=bm.Gaussian(0.3))
-    assert run.log_score(TRAIN, sensor=SENSOR) == run.log_score(TRAIN)
-    assert run.log_score(TRAIN, sensor=blunt) != run.log_score(TRAIN)
-    for other in (bm.Gaussian(0.1), bm.BeamMixture(bm.StudentT(0.1))):
-        assert np.isfinite(run.log_score(TRAIN, sensor=other))
-        assert run.log_score(TRAIN, sensor=other) != run.log_score(TRAIN)
-    with pytest.raises(bm.BadInput, match="valid reading"):
-        run.log_score(replace(TRAIN, ranges_m=np.full(TRAIN.ranges_m.shape, np.nan)))
-
-
-@KINDS
 def test_cells_that_no_beam_of_the_run_touched_are_scored_by_the_prior(kind):
     """A run over nothing but the first column; a held-out beam through the last two."""
     scans = bm.Scans([-0.9, 1.5, np.pi / 2], [0.0], [[0.7]], max_range_m=3.0)
@@ -157,18 +143,6 @@ def test_cells_that_no_beam_of_the_run_touched_are_scored_by_the_prior(kind):
         assert score == pytest.approx(expected, abs=1e-5)
     else:
         assert -1.5 < score < 0.0
-
-
-@KINDS
-def test_the_summary_judges_reflectivities(kind):
-    summary = run_of(kind, draws=40).summary()
-    assert summary.finished
-    assert 0.98 < summary.rhat_max < 20  # a few sweeps
-    assert 1 < summary.ess_min <= 200
-    assert not summary.unchanged_cells
-    assert summary.microseconds_per_sweep > 0
-    short = run_of(kind, draws=2).summary()
-    assert np.isnan(short.rhat_max)
 
 
 def test_a_run_without_hits_has_no_surfaces_and_is_drawn():

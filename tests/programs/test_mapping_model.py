@@ -11,7 +11,7 @@ import jax.random as jr
 import numpy as np
 import pytest
 from conformance.gen_tutorial_model import CENTER, PARAMS, full_model
-from oracle.transitions import sweeps
+from oracle.enumeration import sweeps
 from oracle.verdict import ALPHA, least_p_value
 from oracle.worlds import make_case
 from programs.edits import of_case, single
@@ -210,7 +210,7 @@ def test_the_example_of_the_page_runs():
     assert model.simulate(names["key"], ()).get_choices()["readings"].shape == (100,)
 
 
-TESTS = 3  # statistical tests in this module: together they fail for one in ten thousand seeds (ALPHA)
+TESTS = 2  # statistical tests in this module: together they fail for one in ten thousand seeds (ALPHA)
 CHAINS = 20_000
 
 
@@ -255,13 +255,6 @@ def test_gibbs_by_edits_has_the_law_of_gibbs(case, chains, n):
     if n == 30:
         np.testing.assert_allclose(p, case.exact.p, atol=1e-4)
     assert least_p_value(chains(n), p) > ALPHA / TESTS
-
-
-def test_infer_has_the_same_posterior(case):
-    """Thinned by 30 sweeps, after which a chain has forgotten where it was (the test above)."""
-    schedule = bm.Schedule(chains=4, warmup=30, draws=5000, thin=30)
-    run = inferred(case, method=bm.Gibbs(order="raster"), schedule=schedule, seed=0)
-    assert least_p_value(run.draws.reshape(-1, 9), case.exact.p) > ALPHA / TESTS
 
 
 def test_any_posterior_draw_is_a_trace(case, model):

@@ -6,8 +6,7 @@ from itertools import product
 from typing import NamedTuple
 
 import numpy as np
-from oracle.enumeration import all_maps
-from oracle.transitions import block_sites, single_sites
+from oracle.enumeration import all_maps, block_sites, single_sites
 from oracle.worlds import make_case
 
 import bayesmap as bm

@@ -4,19 +4,18 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from oracle.worlds import make_case
 from sampler_cases import BOTH, SAMPLERS, model_of
 from sampler_cases import chains_of as run_of
 
 import bayesmap as bm
-from bayesmap.cells.arrays import unpack
 from bayesmap.kernels.device import launch
 from bayesmap.kernels.walls.chains import EXACT as EXACTLY
 from bayesmap.kernels.walls.chains import WallChains, derive_state
+from bayesmap.kernels.walls.table import trace
 from bayesmap.run import runner
 from bayesmap.run.chains import SweepPlan, join
 from bayesmap.samplers.progress import Watch
-from bayesmap.samplers.sampler import Keep
+from bayesmap.samplers.wall_problem import WallProblem
 
 EXACT = int(EXACTLY)
 SCHEDULE = SweepPlan(warmup=13, draws=17, thin=3)
@@ -31,9 +30,6 @@ def problem_8x8():
     poses, angles = [[1.1, 1.3, 0.2], [2.9, 2.2, 1.0]], np.linspace(0, 2 * np.pi, 40, endpoint=False)
     ranges = bm.ranges(walls, grid, poses, angles, 6.0) + rng.normal(0, 0.2, (2, 40))
     scans = bm.Scans(poses, angles, ranges, max_range_m=6.0)
-    from bayesmap.kernels.walls.table import trace
-    from bayesmap.samplers.wall_problem import WallProblem
-
     return WallProblem(table=trace(scans, grid, bm.Gaussian(0.2)), prior=bm.Independent(0.2), poses=scans.poses)
 
 
@@ -60,15 +56,6 @@ def test_one_two_and_eight_threads_give_the_same_chains(method, order):
     one = chains_of(problem, method, order, threads=1)
     for threads in (2, 8, None):
         assert_same(chains_of(problem, method, order, threads=threads), one)
-
-
-@pytest.mark.parametrize("step_seconds", [0.0, 1e-5, 1e-4, 1e-3])
-@pytest.mark.parametrize(("method", "order"), [("gibbs", "random"), ("block", "radial")])
-def test_any_cutting_into_steps_gives_the_same_chains(method, order, step_seconds, monkeypatch):
-    problem = problem_8x8()
-    whole = chains_of(problem, method, order)
-    monkeypatch.setattr(runner, "STEP_SECONDS", step_seconds)
-    assert_same(chains_of(problem, method, order), whole)
 
 
 @pytest.mark.parametrize(("method", "order"), BOTH)
@@ -130,13 +117,6 @@ def test_progress_counts_sweeps_and_tells_the_log_joint(monkeypatch):
     np.testing.assert_array_equal([p.log_joint for p in seen[15::3]], chains.log_joint.mean(axis=0))
 
 
-def test_what_is_kept_is_told_by_a_value():
-    assert list(Keep(13, 3).sweeps(0, 25)) == [16, 19, 22, 25]
-    assert list(Keep(13, 3).sweeps(16, 24)) == [19, 22]
-    assert list(Keep(13, 3).sweeps(17, 18)) == list(Keep().sweeps(0, 100)) == []
-    assert list(Keep(0, 1).sweeps(4, 7)) == [5, 6, 7]
-
-
 @pytest.mark.parametrize(("method", "order"), BOTH)
 def test_a_chain_draws_the_same_wherever_it_runs_and_whichever_others_do(method, order):
     """Chains 3 and 1 alone, joined, are chains 3 and 1 of five."""
@@ -152,16 +132,6 @@ def test_a_chain_draws_the_same_wherever_it_runs_and_whichever_others_do(method,
         np.testing.assert_array_equal(getattr(both, name), getattr(whole, name)[[3, 1]], err_msg=name)
     np.testing.assert_array_equal(packed(both), packed(whole)[[3, 1]])
     assert (packed(both)[0] != packed(both)[1]).any()
-
-
-def test_the_runner_is_an_iterator_of_states_and_infos():
-    sampler = SAMPLERS["gibbs"][0]("raster", "prior")
-    state = sampler.init(problem_8x8(), [0, 1], 3)
-    steps = list(runner.sweeps(sampler, state, 50, keep=Keep(20, 10), stops=(20,), step_seconds=1e-5))
-    assert {info.log_likelihood.shape[0] for _, info in steps} == {2}
-    sweeps = [after.sweep for after, _ in steps]
-    assert sweeps[-1] == 50
-    assert 20 in sweeps
 
 
 @pytest.mark.parametrize(("method", "order"), BOTH)
@@ -200,34 +170,3 @@ def test_what_a_chain_remembers_of_its_cells_is_true(method, order):
                     assert adds >= gain[chain, c] - close
                 else:
                     assert adds <= gain[chain, c] + close
-
-
-@pytest.mark.parametrize(("method", "order"), BOTH)
-def test_the_reported_log_joint_is_that_of_the_drawn_map(method, order):
-    """For priors of one number and of one a cell, fixed cells included."""
-    for case in (make_case(1, prior="cells", n_poses=3), make_case(2, prior=0.3)):
-        problem = case.problem()
-        sampler = SAMPLERS[method][0](order, "prior")
-        _, info = sampler.step(sampler.init(problem, range(3), 1), 20, keep=Keep(0, 1))
-        draws = unpack(info.draws["walls"], case.grid.shape)
-        for chain in range(3):
-            for draw in range(20):
-                walls = draws[chain, draw]
-                reported = info.log_likelihood[chain, draw] + info.log_prior[chain, draw]
-                assert reported == pytest.approx(problem.log_joint(walls), rel=1e-6, abs=1e-4)
-                assert info.log_prior[chain, draw] == pytest.approx(case.prior.log_prob(walls, case.grid), abs=1e-9)
-
-
-def test_radial_orders_go_outwards_from_the_nearest_sensor():
-    from oracle.transitions import block_sites, single_sites
-
-    for seed in range(20):
-        case = make_case(seed, shape=[(4, 4), (1, 6), (3, 2)][seed % 3], n_poses=1 + seed % 3)
-        problem = case.problem()
-        for method, sites in (("gibbs", single_sites), ("block", block_sites)):
-            expected = sites(case.grid.shape, "radial", case.scans.poses, case.grid)
-            found = SAMPLERS[method][0]("radial").sites(problem)
-            if method == "block":
-                rows = max(1, case.grid.shape[1] - 1)
-                found = [s // rows * case.grid.shape[1] + s % rows for s in found.tolist()]
-            np.testing.assert_array_equal(found, [cells[0] for cells in expected])

@@ -2,10 +2,8 @@
 
 import numpy as np
 import pytest
-import scipy
 from oracle.enumeration import all_maps, log_prior_of_all, marginals, number_of, pairs
 from oracle.verdict import ALPHA, goodness_of_fit, least_p_value
-from oracle.worlds import make_case
 from sampler_cases import COUPLED, NAMES, WORLDS, case_of, first, problem_of
 from tiers import full_but
 
@@ -115,21 +113,6 @@ def test_particles_are_drawn_from_the_prior():
     maps, p = all_maps(16), case.problem().p_wall
     law = np.where(maps, p, 1 - p).prod(axis=1)
     assert least_p_value(found.maps(np.arange(20_000)).reshape(-1, 16), law) > ALPHA
-
-
-def test_each_weight_is_its_map_s_likelihood():
-    case = case_of(WORLDS[0])
-    problem = case.problem()
-    found = sample_importance(problem, 500, seed=4)
-    plain = [problem.table.log_likelihood(walls) for walls in found.maps(np.arange(500))]
-    np.testing.assert_allclose(found.log_weights, plain - scipy.special.logsumexp(plain), rtol=1e-6, atol=1e-4)
-
-
-def test_the_effective_sample_size_collapses_where_readings_are_sharp():
-    sharp = make_case(5, prior=0.5, sensor=bm.Gaussian(0.02), n_poses=3)
-    wide = make_case(5, prior=0.5, sensor=bm.Gaussian(2.0), n_poses=3)
-    ess = [sample_importance(c.problem(), 10_000, seed=1).effective_sample_size for c in (sharp, wide)]
-    assert ess[0] < 100 < ess[1]
 
 
 def test_a_particle_s_weight_does_not_depend_on_the_others_and_is_tempered():

@@ -1,13 +1,16 @@
 """`bm.infer`: one door to all methods, whose answer depends on its arguments alone."""
 
+import os
 import signal
+import subprocess
+import sys
 from dataclasses import replace
 
 import numpy as np
 import pytest
 from flat_options import grouped
 from oracle.enumeration import marginals, number_of
-from oracle.worlds import make_case
+from oracle.worlds import OwnSensor, make_case
 from stop_rooms import assert_same
 
 import bayesmap as bm
@@ -46,7 +49,9 @@ def test_every_method_finds_the_exact_marginals(case, method):
 
 
 @pytest.mark.parametrize("method", METHODS)
-def test_the_log_joint_is_that_of_the_draws(case, method):
+def test_the_log_joint_is_that_of_the_draws(method):
+    """For a prior of one number a cell, some of them fixed."""
+    case = make_case(11, prior="cells", sensor=bm.Gaussian(0.5), n_poses=2)
     run = infer(case, method=method, chains=2, draws=20, particles=1000)
     expected = case.exact.log_joint[number_of(run.draws.reshape(2, 20, 16))]
     np.testing.assert_allclose(run.log_joint, expected, atol=1e-3, rtol=1e-5)
@@ -119,17 +124,15 @@ def test_checkpoints_are_runs_that_can_be_resumed_and_know_their_warm_start(case
     assert_same(infer(case, resume=seen[0], **options), whole)
 
 
-def test_belief_propagation_stopped_by_ctrl_c_is_not_finished(case):
+def test_belief_propagation_stopped_by_ctrl_c_is_not_finished_and_the_handler_is_given_back(case):
+    before = signal.getsignal(signal.SIGINT)
+
     def interrupt(event):
         signal.raise_signal(signal.SIGINT)
 
     run = infer(case, method="propagate", rounds=20, on_progress=interrupt)
     assert len(run.posterior.statistics["belief_changes"]) == 1
     assert not run.finished
-
-
-def test_ctrl_c_is_given_back_to_its_owner_afterwards(case):
-    before = signal.getsignal(signal.SIGINT)
     infer(case, draws=2)
     assert signal.getsignal(signal.SIGINT) is before
 
@@ -171,28 +174,14 @@ def test_maps_one_cell_wide_work(method, shape):
     np.testing.assert_allclose(run.occupancy.ravel(), marginals(case.exact.p, case.n), atol=0.04)
 
 
-class Sonar(bm.SensorModel):
-    """A user's own model: the Gaussian's law, written by hand, without compiled parameters."""
-
-    def log_likelihood(self, range_m, distance_m, limits):
-        reading = np.where(np.isposinf(range_m), limits.max_m, np.where(np.isneginf(range_m), limits.min_m, range_m))
-        x = (reading - np.minimum(distance_m, limits.max_m)) / 0.5
-        return np.where(np.isnan(range_m), 0.0, -0.5 * x**2 - np.log(0.5 * np.sqrt(2 * np.pi)))
-
-    def reach_m(self, range_m, limits):
-        return np.where(np.isnan(range_m), 0.0, np.inf)
-
-    def sample(self, rng, distance_m, limits):
-        return np.minimum(distance_m, limits.max_m) + 0.5 * rng.standard_normal(np.shape(distance_m))
-
-
 @pytest.mark.parametrize("method", MARKOV)
 def test_a_sensor_model_of_one_s_own_works_and_equals_the_built_in_one(case, method):
-    built_in, own = (infer(case, method=method, sensor=s, seed=7) for s in (bm.Gaussian(0.5), Sonar()))
+    law = bm.Gaussian(0.5)
+    built_in, own = (infer(case, method=method, sensor=sensor, seed=7) for sensor in (law, OwnSensor(law)))
     # the same numbers to single precision: hardly a draw differs
     assert (built_in.draws == own.draws).mean() > 0.99
     np.testing.assert_allclose(own.occupancy, built_in.occupancy, atol=0.02)
-    simulated = bm.simulate(np.zeros((4, 4)), case.grid, [0, 3, 0], [0.0] * 99, sensor=Sonar(), max_range_m=3.0)
+    simulated = bm.simulate(np.zeros((4, 4)), case.grid, [0, 3, 0], [0.0] * 99, sensor=OwnSensor(law), max_range_m=3.0)
     assert np.isfinite(simulated.ranges_m).all()
 
 
@@ -253,3 +242,45 @@ def test_scans_that_say_nothing_of_the_map_are_refused():
     nothing = bm.Scans(scans.poses, angles, np.full((1, 9), np.nan), max_range_m=9.0)
     with pytest.raises(bm.BadInput, match="all 9 readings are NaN"):
         bm.infer(nothing, grid, prior=bm.Independent(0.2), sensor=sensor)
+
+
+def test_a_sensor_of_the_user_s_own_is_known_by_its_law_and_is_given_again_to_a_loaded_run(case, tmp_path):
+    """A file holds its name alone; a run is not resumed with another sensor of the same name."""
+    blunt, sharp, saved = OwnSensor(bm.Gaussian(3.0)), OwnSensor(bm.Gaussian(0.2)), []
+    run = infer(case, sensor=sharp, warmup=5, draws=5, on_checkpoint=saved.append)
+    assert infer(case, sensor=sharp, warmup=5, draws=5, resume=saved[0]).finished
+    with pytest.raises(bm.BadInput, match="sensor"):
+        infer(case, sensor=blunt, warmup=5, draws=5, resume=saved[0])
+    run.save(tmp_path / "run.nc")
+    loaded = bm.load(tmp_path / "run.nc")
+    assert loaded.trajectory is loaded.posterior.sensor is None
+    assert loaded.posterior.settings["sensor"] == {"kind": "OwnSensor"}
+    np.testing.assert_array_equal(loaded.draws, run.draws)
+    with pytest.raises(bm.BadInput, match="sensor="):
+        loaded.log_score(case.scans)
+    assert loaded.log_score(case.scans, sensor=sharp) == run.log_score(case.scans)
+
+
+IN_CHILD = """
+import multiprocessing, warnings
+import numpy as np
+from oracle.worlds import make_case
+from test_infer import infer
+
+def occupancy(_=None):
+    return infer(make_case(11), warmup=5, draws=5, threads=2).occupancy
+
+here = occupancy()
+warnings.simplefilter("ignore")  # of threads and forks
+with multiprocessing.get_context("fork").Pool(1) as pool:
+    np.testing.assert_array_equal(pool.apply_async(occupancy).get(timeout=60), here)
+print("the same")
+"""
+
+
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="fork is the way of Linux")
+def test_a_forked_child_infers_what_its_parent_does():
+    """In a process of its own: what other tests have loaded here, such as Ray, does not survive a fork."""
+    env = os.environ | {"PYTHONPATH": os.pathsep.join([os.path.dirname(__file__), *sys.path])}
+    done = subprocess.run([sys.executable, "-c", IN_CHILD], env=env, capture_output=True, text=True, check=False)
+    assert done.stdout == "the same\n", done.stderr

@@ -12,12 +12,10 @@ import numpy as np
 import pytest
 import scipy
 from oracle.enumeration import all_maps, log_prior_of_all
-from oracle.stop_exact import exact_labels
-from oracle.stop_law import draw_states, log_likelihoods, paths_of
+from oracle.stop_law import draw_states, exact_labels, log_likelihoods, paths_of
 from oracle.stop_worlds import build_worlds
-from oracle.verdict import ALPHA, least_p_value
-from oracle.weighted import p_values as weighted_p_values
-from oracle.weighted import surface_coordinates, weighted
+from oracle.verdict import ALPHA, least_p_value, surface_coordinates, weighted
+from oracle.verdict import p_values as weighted_p_values
 from test_reflectivity_exact import scans_for, sensor
 from test_surface_exact import BLUNT, NOTHING, TWO
 from tiers import full_but

@@ -107,17 +107,6 @@ def test_a_lengthened_surface_keeps_its_line_and_its_square_and_reaches_the_read
     assert along > 0.03**2
 
 
-def test_the_one_becomes_free_and_the_other_longer():
-    cells, owner, points = wall()
-    solid = np.zeros(GRID.n_cells, dtype=bool)
-    new = moves.merge_moves(cells, solid, owner, points, noise_of(owner), GRID)
-    assert new.where.shape == (len(new.middle), 2)
-    np.testing.assert_array_equal(new.middle, np.stack(np.divmod(new.where[:, 0], GRID.shape[1]), -1))
-    np.testing.assert_array_equal(new.cells[:, 0, 0], np.float32(moves.FREE))
-    np.testing.assert_array_equal(new.cells[:, 0, 1:], cells[new.where[:, 0], 1:])
-    np.testing.assert_array_equal(new.cells[:, 1, 0], cells[new.where[:, 1], 0])
-
-
 def merged_by(maps, owner, points, worth):
     """Merge surfaces, if the removal of a cell that stops beams is worth so many nats."""
 
@@ -200,6 +189,9 @@ def test_surfaces_are_joined_in_the_warm_up_alone():
     assert [len(sweeps) for sweeps in after] == 2 * [0] + 11 * [1] + 47 * [3]
     assert [warmup for warmup, sweeps in enumerate(after) if len(set(sweeps)) < len(sweeps)] == []
     assert [warmup for warmup, sweeps in enumerate(after) if max(sweeps, default=0) > warmup] == []
+    sampler = sampler_of("stop-gibbs", ROOM, bm.Gibbs("radial"), 50)
+    assert sampler == StopGibbs(early_sweeps=int(50 * moves.EARLY_SHARE))
+    assert sampler_of("stop-gibbs", ROOM, bm.Gibbs("radial")) == StopGibbs()
 
 
 @pytest.mark.parametrize("cuts", [[30], [7, 3, 1, 1, 0, 1, 4, 13], [1] * 30])
@@ -220,12 +212,6 @@ def test_surfaces_are_joined_after_the_same_sweeps_however_these_are_cut(monkeyp
         assert info.log_likelihood.shape == info.log_prior.shape == (2, count)
     assert state.sweep == 30
     assert joined == moves.merge_sweeps(10) == [10, 11, 12]
-
-
-def test_surfaces_settle_in_the_first_part_of_the_warm_up():
-    sampler = sampler_of("stop-gibbs", ROOM, bm.Gibbs("radial"), 50)
-    assert sampler == StopGibbs(early_sweeps=int(50 * moves.EARLY_SHARE))
-    assert sampler_of("stop-gibbs", ROOM, bm.Gibbs("radial")) == StopGibbs()
 
 
 def test_a_sweep_without_steps_moves_no_surface_of_a_cell_in_which_readings_end():
@@ -321,14 +307,6 @@ def test_what_gains_stays_and_what_does_not_is_taken_back():
         np.testing.assert_allclose(maps.cells[chain, :, 0], expected, rtol=1e-6)
         np.testing.assert_array_equal(np.flatnonzero(maps.solid[chain]), np.sort(at[stays[chain]]))
     np.testing.assert_allclose(before, look(maps), atol=1e-3)
-
-
-def test_sums_over_squares_are_naive_sums():
-    values = np.random.default_rng(1).normal(size=SHAPE)
-    for half in (0, 1, 3):
-        padded = np.pad(values, half)
-        naive = [[padded[x : x + 2 * half + 1, y : y + 2 * half + 1].sum() for y in range(15)] for x in range(20)]
-        np.testing.assert_allclose(moves.sums_over_squares(values, half), naive, atol=1e-9)
 
 
 @pytest.mark.parametrize("cells", [1, 4])

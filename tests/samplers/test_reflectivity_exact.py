@@ -7,8 +7,7 @@ independent draws. False alarms: `ALPHA` = 1e-4 over this module.
 import numpy as np
 import pytest
 import scipy
-from oracle.stop_exact import exact_reflectivities
-from oracle.stop_law import Paths, paths_of
+from oracle.stop_law import Paths, exact_reflectivities, paths_of
 from oracle.stop_worlds import build_worlds, copies
 from oracle.verdict import ALPHA
 from tiers import full_but

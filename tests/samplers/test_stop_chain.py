@@ -15,10 +15,8 @@ from bayesmap.run.chains import SweepPlan, join
 from bayesmap.run.runner import Job, run_chains
 from bayesmap.samplers.fit import first_sensor, fit
 from bayesmap.samplers.merge_moves import EARLY_SHARE
-from bayesmap.samplers.progress import Watch
 from bayesmap.samplers.sampler import Keep
 from bayesmap.samplers.stop_gibbs import StopGibbs
-from bayesmap.samplers.stop_problem import trace_stops
 
 
 @pytest.fixture(autouse=True)
@@ -99,20 +97,6 @@ def test_a_run_saved_and_loaded_at_any_sweep_goes_on_bit_for_bit(tmp_path):
         assert_same(infer("surfaces", resume=bm.load(tmp_path / "part.nc")), whole)
 
 
-def test_asked_to_stop_it_stops_between_two_sweeps():
-    asked = []
-
-    def should_stop():
-        asked.append(True)
-        return len(asked) > 5
-
-    model = Model(scans(), GRID, bm.Surface(), TRUTH, hit_depth=0.5)
-    found = run_chains(Job(model, StopGibbs(), SweepPlan(3, 10), 0, (0,)), watch=Watch(should_stop=should_stop))
-    assert (found.sweep, found.finished) == (5, False)
-    assert found.draws.count == found.log_likelihood.shape[1] == 2
-    assert found.warmup_log_joint.shape == (1, 3)
-
-
 def test_progress_is_told_of_the_fit_warm_up_and_draws_to_the_last_sweep():
     events = []
     infer("reflectivities", on_progress=events.append)
@@ -120,18 +104,6 @@ def test_progress_is_told_of_the_fit_warm_up_and_draws_to_the_last_sweep():
     assert [event.done for event in counted] == [*range(1, 13), *range(1, 19)]
     assert [event.stage for event in counted] == ["fit"] * 12 + ["warm-up"] * 12 + ["draws"] * 6
     assert all(np.isfinite(event.log_joint) for event in counted)
-
-
-def test_kept_log_likelihoods_are_those_of_the_kept_draws():
-    from oracle.stop_law import log_likelihoods, paths_of
-
-    run = infer("reflectivities", sensor=TRUTH, draws=3)
-    rays = trace_stops(scans(), GRID, bm.Beta(), TRUTH).rays
-    states = np.zeros((len(rays.touched), 6))
-    for draw in range(3):
-        states[:, 0] = run.posterior.draws.arrays["reflectivity"][0, draw]  # in half precision
-        expected = log_likelihoods(paths_of(rays), states, TRUTH, True).sum()
-        assert run.posterior.log_likelihood[0, draw] == pytest.approx(expected, abs=2e-3 * scans().n_beams)
 
 
 def test_the_fewer_the_beams_the_more_draws_by_default():

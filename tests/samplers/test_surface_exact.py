@@ -12,8 +12,7 @@ import numpy as np
 import pytest
 from oracle.stop_law import draw_states, log_likelihoods, log_prior, paths_of
 from oracle.stop_worlds import build_worlds, centres_of, copies
-from oracle.verdict import ALPHA
-from oracle.weighted import p_values, surface_coordinates, weighted
+from oracle.verdict import ALPHA, p_values, surface_coordinates, weighted
 
 import bayesmap as bm
 from bayesmap.samplers import initial_estimate

@@ -16,26 +16,11 @@ from itertools import product
 
 import numpy as np
 import pytest
+import sampler_cases
 from kernels.shuffle_orders import shuffles_of_chains
-from oracle.enumeration import all_maps, log_prior_of_all
-from oracle.transitions import sweeps
+from oracle.enumeration import all_maps, log_prior_of_all, sweeps
 from oracle.verdict import ALPHA, goodness_of_fit, least_p_value
-from sampler_cases import (
-    APART,
-    BOTH,
-    COUPLED,
-    LATTICE,
-    NOISES,
-    ORDERS,
-    PRIORS,
-    SAMPLERS,
-    WORLDS,
-    case_of,
-    draw_maps,
-    first,
-    problem_of,
-    run_sweeps,
-)  # fmt: skip
+from sampler_cases import APART, BOTH, COUPLED, LATTICE, ORDERS, SAMPLERS, WORLDS, case_of, draw_maps, first, problem_of
 from tiers import kept, latin, pairs_but
 
 import bayesmap as bm
@@ -45,7 +30,9 @@ from bayesmap.model import Model
 from bayesmap.samplers.metropolis import Metropolis
 
 CHAINS, FEWER = 8_000, 2_500
-HALF = [w for w in APART if w.beams != 9 or w.robust == ((PRIORS.index(w.prior) + NOISES.index(w.noise)) % 2 == 1)]
+TURN = {world: sampler_cases.PRIORS.index(world.prior) + sampler_cases.NOISES.index(world.noise)
+        for world in APART if world.beams == 9}  # fmt: skip
+HALF = [world for world in APART if world not in TURN or world.robust == (TURN[world] % 2 == 1)]
 HOW = list(product(SAMPLERS, ("raster", "radial")))
 TESTS = len(WORLDS) * len(BOTH) + (len(HALF) + len(COUPLED)) * len(HOW) * 3 + 16 * 6 + 40
 LEVEL = ALPHA / TESTS
@@ -53,6 +40,7 @@ LONG = 40
 """Sweeps after which what is wrong has had the time to show."""
 POWER = first(prior=0.3, noise=0.5, robust=False)
 METHODS = pytest.mark.parametrize("method", SAMPLERS)
+run_sweeps = sampler_cases.run_sweeps
 
 
 def p_value_after(case, problem, method, order, count, seed, chains=CHAINS):

@@ -1,16 +1,22 @@
-"""Every sensor model is a probability law: normalised, the law of the book, and the derivative of its cumulative."""
+"""Every sensor model is a probability law, the law of the book, and draws follow it; it survives the way through JSON.
+
+Draws: chi-square over sixty bins and the two atoms, 50 000 readings each, seeds fixed. False alarms of all: 1e-4.
+"""
+
+import json
 
 import numpy as np
 import pytest
 import scipy
 from hypothesis import given
 from hypothesis import strategies as st
-from oracle.own_sensor import OwnSensor
 from oracle.stop_law import gaussian, reading_law
+from oracle.verdict import ALPHA
+from oracle.worlds import OwnSensor
 from sensor_cases import ALL, DISTANCES, LIMITS, MIXTURES, NOISES, density, integral, jumps
 
 import bayesmap as bm
-from bayesmap.sensors.builtin import FLAT_NATS
+from bayesmap.sensors.builtin import FLAT_NATS, describe, from_description
 
 
 @pytest.mark.parametrize("name", NOISES)
@@ -163,3 +169,106 @@ def test_typed_readings(name):
 def test_a_model_of_one_s_own_is_told_what_it_lacks():
     with pytest.raises(bm.BadInput, match=r"OwnSensor: no cumulative distribution; add a method cumulative\(\)"):
         OwnSensor(bm.Gaussian(0.1)).cumulative(np.zeros(1), np.zeros(1), LIMITS)
+
+
+N = 50_000
+TESTS = len(ALL) * len(DISTANCES)
+
+
+def chi_square(sensor, readings, d):
+    """P-value of readings against the density's integrals over bins, and against the atoms."""
+    atoms = np.zeros(2)
+    if isinstance(sensor, bm.BeamMixture):
+        low, high = LIMITS.min_m, LIMITS.max_m
+        atoms = np.exp(sensor.log_likelihood(np.array([np.inf, -np.inf]), np.float64(d), LIMITS))
+    else:
+        centre = min(d, LIMITS.max_m)
+        low, high = centre + np.array([-40, 40]) * float(sensor.scale_at(np.float64(centre)))
+    width = (high - low) * 0.5 ** np.arange(3, 9)
+    around = np.concatenate([[d], d - width, d + width]) if np.isfinite(d) else []
+    inside = [x for x in around if low < x < high]
+    edges = np.unique([*np.linspace(low, high, 50), *inside])
+    finite = readings[np.isfinite(readings)]
+    counts = np.histogram(finite, edges)[0]
+    p = integral(sensor, d, edges)
+    outside = [len(finite) - counts.sum(), 0.0 if isinstance(sensor, bm.BeamMixture) else max(0.0, 1 - p.sum())]
+    counts = np.concatenate([counts, [(readings == np.inf).sum(), (readings == -np.inf).sum(), outside[0]]])
+    expected = np.concatenate([p, atoms, [outside[1]]]) * len(readings)
+    assert counts[expected < 1e-4].sum() == 0, "a reading that is next to impossible"
+    rare = expected < 8
+    counts, expected = (np.append(a[~rare], a[rare].sum()) for a in (counts, expected))
+    if expected[-1] < 8:
+        counts, expected = (np.append(a[:-2], a[-2:].sum()) for a in (counts, expected))
+    return scipy.special.chdtrc(max(1, len(expected) - 1), ((counts - expected) ** 2 / expected).sum())
+
+
+@pytest.mark.parametrize("name", ALL)
+def test_readings_follow_the_density(name):
+    rng, sensor = np.random.default_rng([list(ALL).index(name), 1]), ALL[name]
+    readings = sensor.sample(rng, np.repeat(DISTANCES, N).reshape(-1, N), LIMITS)
+    p_values = {d: chi_square(sensor, some, d) for d, some in zip(DISTANCES, readings, strict=True)}
+    assert {d: p for d, p in p_values.items() if p <= ALPHA / TESTS} == {}
+
+
+TWINS = {
+    "more random readings": (bm.BeamMixture(p_random=0.065), bm.BeamMixture()),
+    "more lost": (bm.BeamMixture(p_no_return=0.03), bm.BeamMixture()),
+    "more objects": (bm.BeamMixture(p_short=0.12), bm.BeamMixture()),
+    "wider noise": (bm.Gaussian(0.22), bm.Gaussian(0.2)),
+}
+
+
+@pytest.mark.parametrize("name", TWINS)
+def test_readings_of_a_wrong_twin_are_rejected(name):
+    twin, sensor = TWINS[name]
+    readings = twin.sample(np.random.default_rng(2), np.full(N, 3.0), LIMITS)
+    assert chi_square(sensor, readings, 3.0) < ALPHA / TESTS
+
+
+@pytest.mark.parametrize("name", MIXTURES)
+def test_a_mixture_s_finite_readings_stay_within_the_limits(name):
+    readings = MIXTURES[name].sample(np.random.default_rng(3), np.linspace(0, 9, N), LIMITS)
+    finite = readings[np.isfinite(readings)]
+    assert LIMITS.min_m <= finite.min() <= finite.max() <= LIMITS.max_m
+    assert not np.isnan(readings).any()
+
+
+def test_a_description_gives_the_model_back():
+    assert {name: from_description(json.loads(json.dumps(describe(model)))) for name, model in ALL.items()} == ALL
+
+
+def test_a_model_that_is_not_ours_is_known_by_its_name_alone():
+    class Sonar(bm.Gaussian):
+        pass
+
+    assert describe(Sonar(0.1)) == {"kind": "Sonar"}
+    assert from_description({"kind": "Sonar"}) is None
+
+
+@pytest.mark.parametrize(("description", "message"), [
+    ({"kind": "gaussian", "sigma": 1.0}, r"'gaussian' has no parameter 'sigma'; it has: sigma_m, sigma_per_m"),
+    ({"kind": "mixture", "noise": {"kind": "mixture"}}, "noise is 'gaussian' or 'student-t'"),
+    ({"kind": "gaussian", "sigma_m": -1.0}, "sigma_m must be a positive number"),
+])  # fmt: skip
+def test_a_wrong_description_is_refused(description, message):
+    with pytest.raises(bm.BadInput, match=message):
+        from_description(description)
+
+
+@pytest.mark.parametrize(("make", "message"), [
+    (lambda: bm.Gaussian(0.0), "Gaussian: sigma_m must be a positive number of metres, got 0.0"),
+    (lambda: bm.Gaussian(np.inf), "sigma_m must be a positive"),
+    (lambda: bm.Gaussian(np.nan), "sigma_m must be a positive"),
+    (lambda: bm.Gaussian(0.1, -0.1), "growth of the noise per metre must be 0 or more"),
+    (lambda: bm.StudentT(0.0), "StudentT: scale_m"),
+    (lambda: bm.StudentT(0.1, 0.0), "dof must be a positive number"),
+    (lambda: bm.BeamMixture(p_random=0.0), r"p_random must lie inside \(0, 1\), got 0.0"),
+    (lambda: bm.BeamMixture(p_random=1.0), "p_random"),
+    (lambda: bm.BeamMixture(p_short=1.0), r"p_short must lie in \[0, 1\)"),
+    (lambda: bm.BeamMixture(p_no_return=-0.1), "p_no_return"),
+    (lambda: bm.BeamMixture(p_no_return=np.nan), "p_no_return"),
+    (lambda: bm.BeamMixture(rate_short_per_m=0.0), "rate_short_per_m must be positive"),
+])  # fmt: skip
+def test_parameters_outside_their_range_are_refused(make, message):
+    with pytest.raises(bm.BadInput, match=message):
+        make()
