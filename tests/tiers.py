@@ -31,8 +31,3 @@ def latin(of, *axes):
         values = [axis[place] for axis, place in zip(axes, places, strict=True)]
         found.append(pytest.param(*values, marks=[] if kept else [pytest.mark.full]))
     return found
-
-
-def kept(parameters):
-    """Return the values of those pytest parameters that the landing run keeps."""
-    return [parameter.values for parameter in parameters if not parameter.marks]

@@ -60,10 +60,15 @@ def test_starts_are_like_draws():
     assert least_p_value(none.reshape(-1, 9), law) < ALPHA / 12  # the twin: without a sweep
 
 
-def test_draws_that_would_take_forever_are_refused_with_the_remedy():
+def test_endless_draws_a_prior_without_coupling_and_programs_are_refused_with_the_remedy():
     with pytest.raises(bm.BadInput, match=r"at a coupling of 3 maps of 12 x 12 cells cannot be drawn exactly.*weaker"):
         bm.Ising(0.5, 3.0).sample(np.random.default_rng(1), bm.Grid((12, 12)))
     assert bm.Ising(0.5, 3.0).start(np.random.default_rng(1), bm.Grid((12, 12))).shape == (12, 12)
+    with pytest.raises(bm.BadInput, match=r"give the coupling, too, .* as in bm\.Ising\(0\.3, 'fit'\)"):
+        bm.Ising(0.3)
+    pytest.importorskip("jax")
+    with pytest.raises(bm.BadInput, match="mapping_model: the prior must be Independent, got Ising; use infer"):
+        bm.mapping_model(bm.Grid((2, 2)), [0.5, 0.5, 0], [0.0], bm.Ising(0.5, 1.0), bm.Gaussian(0.1), max_range_m=5.0)
 
 
 def test_the_mean_of_cells_is_not_p():
@@ -105,8 +110,7 @@ def test_runs_say_their_log_prior_and_come_back_from_files_and_go_on(p, method, 
     loaded = bm.load(tmp_path / "run.nc")
     assert isinstance(loaded.posterior.prior, bm.Ising)
     np.testing.assert_array_equal(loaded.posterior.prior.p_wall, case.prior.p_wall)
-    assert loaded.posterior.prior.coupling == 0.7
-    assert loaded.posterior.kind == "binary"
+    assert (loaded.posterior.prior.coupling, loaded.posterior.kind) == (0.7, "binary")
     np.testing.assert_array_equal(loaded.draws, run.draws)
     if method in ("gibbs", "block"):
         part = []
@@ -131,23 +135,3 @@ def test_its_runs_are_scored_drawn_exported_and_opened_on_the_page(tmp_path):
     assert result.prior is case.prior
     np.testing.assert_array_equal(result.found.mean(), run.occupancy)
     assert result.document.prior == 0.3
-
-
-def test_poses_may_be_unknown_too():
-    case = make_case(10, prior=0.3, coupling=0.7, shape=(3, 4))
-    run = infer(
-        case.scans, case.grid, prior=case.prior, sensor=case.sensor, chains=2, draws=20, warmup=10,
-        poses=bm.UncertainPoses(0.05, 0.02),
-    )  # fmt: skip
-    assert np.isfinite(run.log_joint).all()
-
-
-def test_programs_refuse_it_with_the_remedy():
-    pytest.importorskip("jax")
-    with pytest.raises(bm.BadInput, match="mapping_model: the prior must be Independent, got Ising; use infer"):
-        bm.mapping_model(bm.Grid((2, 2)), [0.5, 0.5, 0], [0.0], bm.Ising(0.5, 1.0), bm.Gaussian(0.1), max_range_m=5.0)
-
-
-def test_an_ising_prior_without_coupling_says_what_is_missing():
-    with pytest.raises(bm.BadInput, match=r"give the coupling, too, .* as in bm\.Ising\(0\.3, 'fit'\)"):
-        bm.Ising(0.3)

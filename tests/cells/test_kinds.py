@@ -12,8 +12,7 @@ PRIORS = [bm.Beta(), bm.Beta(0.5, 3.0), bm.Surface(), bm.Surface(0.1, 2, 0.3, 0.
 @pytest.mark.parametrize("prior", [*PRIORS, bm.Independent(0.2), bm.Ising(0.2, 0.75)])
 def test_a_prior_comes_back_from_its_description(prior):
     again = prior_from(prior.describe())
-    assert (type(again), vars(again)) == (type(prior), vars(prior))
-    assert repr(again) == repr(prior)
+    assert (type(again), vars(again), repr(again)) == (type(prior), vars(prior), repr(prior))
 
 
 @pytest.mark.parametrize("prior", [bm.Beta(0.5, 1.5), bm.Surface(0.5, 1.5)])
@@ -45,15 +44,11 @@ def test_parameters_that_make_no_sense_are_refused(kind, arguments, message):
         kind(**arguments)
 
 
-def test_walls_of_another_grid_and_a_coupling_that_is_not_fitted_are_refused():
+def test_walls_of_another_grid_a_coupling_not_fitted_and_surfaces_hardly_ever_small_enough_are_refused():
     with pytest.raises(bm.BadInput, match="coupling is not fitted yet"):
         bm.Ising(0.5, "fit").log_prob(np.zeros((2, 2), bool), bm.Grid((2, 2)))
     with pytest.raises(bm.BadInput, match="Ising: p_wall has shape"):
         bm.Ising(np.full((2, 3), 0.5), 1.0).probabilities(bm.Grid((2, 2)))
-
-
-def test_surfaces_that_can_hardly_be_as_small_as_they_must_are_refused():
-    """Draws are thinned out by their size: of such a prior next to none would be left."""
     with pytest.raises(bm.BadInput, match="spread must not exceed 3 times size_scale"):
         bm.Surface(spread=1.0, size_scale=0.2)
     assert bm.Surface(spread=0.9, size_scale=0.31).sample_surfaces(np.random.default_rng(1), 100).shape == (100, 5)
@@ -110,8 +105,7 @@ def test_thinned_draws_are_some_of_each_chain(run):
     assert (few.chains, few.count) == (2, 3)
     name = draws.specs[0].name
     np.testing.assert_array_equal(few.arrays[name], draws.arrays[name][:, [0, 6, 11]])
-    assert draws.thinned(1).count == 1
-    assert draws.thinned(1000).count == 12
+    assert (draws.thinned(1).count, draws.thinned(1000).count) == (1, 12)
 
 
 @pytest.mark.parametrize(("a", "b"), [(0.0213, 0.187), (0.0089, 0.0949)])
@@ -136,6 +130,5 @@ def test_a_cell_is_free_and_certain_only_if_enough_beams_passed_it(prior, tmp_pa
         occupancy, _ = read_map(tmp_path / "map.yaml")
         passed = (slice(1, 3), 0)
         assert prior.has_labels or (run.occupancy[passed] < 0.1).all()
-        assert (occupancy[passed] == 0).all() == free
-        assert np.isnan(occupancy[passed]).all() == (not free)
+        assert ((occupancy[passed] == 0).all(), np.isnan(occupancy[passed]).all()) == (free, not free)
         assert (run.posterior.prior.width(run.posterior.draws, 0.9)[passed] < 0.4).all() == certain

@@ -9,14 +9,13 @@ import numpy as np
 import pytest
 import scipy
 import warp as wp
-from oracle.enumeration import all_maps, log_prior_of_all, number_of
+from oracle.enumeration import all_maps, log_prior_of_all
 from oracle.verdict import ALPHA, least_p_value
 from samplers.stop_rooms import GRID, LABELLED, TRUTH, assert_same, infer, scans
 
 import bayesmap as bm
 from bayesmap.cells.kinds import prior_from
 from bayesmap.kernels.surfaces.cell_draws import log_gamma
-from bayesmap.model import Model
 from bayesmap.run import runner
 from bayesmap.samplers.fit import refit_prior
 from bayesmap.samplers.stop_gibbs import StopGibbs
@@ -152,14 +151,6 @@ def test_maps_and_predictions_of_cells_that_no_beam_touches_follow_their_labels(
             assert below == pytest.approx(tail, abs=1e-6) or end < 1e-15
 
 
-def test_labels_of_unseen_cells_are_as_those_about_them():
-    """Beams up to a wall of a room: what lies behind the wall, unseen, is solid more often than what lies before it."""
-    run = infer("labelled surfaces", scans(poses=30), sensor=TRUTH, warmup=40, draws=30)
-    solid = run.posterior.draws.values("solid").mean(axis=(0, 1))
-    assert solid[4:-4, 4:8].mean() < 0.1
-    assert solid[4:-4, 0].mean() > 0.3  # half of the time but for what the walls say, in large patches
-
-
 def test_the_fit_finds_both_betas():
     """40 000 cells with known labels: within a tenth; labels that are mixed up it does not."""
     rng = np.random.default_rng(8)
@@ -178,20 +169,6 @@ def test_the_fit_finds_both_betas():
     np.testing.assert_allclose(fitted(solid), [0.1, 4.0, 2.0, 0.5], rtol=0.1)
     assert (abs(fitted(rng.permutation(solid)) / [0.1, 4.0, 2.0, 0.5] - 1) > 0.1).any()
     assert refit_prior(truth, hits, met - hits, 1.0, solid).coupling == 1.0
-
-
-def test_a_model_s_log_joint_has_the_labels():
-    shape = (3, 2)
-    one = bm.Scans([0.2, 0.3, 0.1], [0.0], [[0.6]], max_range_m=2.0)
-    model = Model(one, bm.Grid(shape, 0.4), PRIOR, TRUTH)
-    rng = np.random.default_rng(4)
-    cells = PRIOR.sample_cells(rng, model.grid)
-    turned = {**cells, "solid": ~cells["solid"]}
-    change = model.log_joint(model.state(turned)) - model.log_joint(model.state(cells))
-    m = cells["reflectivity"].astype(float)
-    pairs = (scipy.stats.beta.logpdf(m, *PRIOR.beta_given(s)).sum() for s in (turned["solid"], cells["solid"]))
-    assert change == pytest.approx(next(pairs) - next(pairs), abs=1e-4)  # all pairs are alike as before
-    assert number_of(cells["solid"].ravel()) + number_of(turned["solid"].ravel()) == 63
 
 
 def test_proposals_of_the_prior_keep_it():

@@ -69,8 +69,7 @@ def run():
 
 
 def test_infer_takes_it(run):
-    assert run.posterior.kind == "glass"
-    assert run.posterior.settings["method"] == "metropolis"
+    assert (run.posterior.kind, run.posterior.settings["method"]) == ("glass", "metropolis")
     assert run.draws.shape == (2, 80, 2, 2)
     maps = np.array(list(itertools.product(range(3), repeat=4)))
     expected = law(1.0) @ np.array([0.0, 0.3, 1.0])[maps]
@@ -99,13 +98,7 @@ def test_it_is_saved_loaded_and_resumed_bit_for_bit(run, tmp_path, monkeypatch):
     np.testing.assert_array_equal(resumed.log_joint, whole.log_joint)
 
 
-def test_its_dataset_has_its_own_array(run):
-    dataset = run.dataset()
-    assert dataset["material"].dims == ("chain", "draw", "x", "y")
-    assert dataset["material"].attrs["long_name"] == "free, glass or wall"
-
-
-def test_it_is_scored(run):
+def test_it_is_scored_by_the_joint_law_and_its_dataset_has_its_own_array(run):
     """By the joint law, draw by draw."""
     held = bm.Scans([[-0.3, 0.3, 0.0], [1.2, 0.1, 2.7]], [-0.2, 0.1], [[0.6, np.inf], [1.2, 0.9]], max_range_m=2.0)
     model, draws = Model(held, GRID, Glass(), SENSOR, hit_depth=0.5), run.posterior.draws
@@ -114,6 +107,9 @@ def test_it_is_scored(run):
     )
     assert run.log_score(held) == pytest.approx(np.log(density).mean(), abs=2e-3)
     assert bm.score(run, held).nats_per_beam == pytest.approx(np.log(density).mean(), abs=2e-3)
+    dataset = run.dataset()
+    assert dataset["material"].dims == ("chain", "draw", "x", "y")
+    assert dataset["material"].attrs["long_name"] == "free, glass or wall"
 
 
 def test_it_is_drawn_and_exported(run, tmp_path):

@@ -36,10 +36,14 @@ def test_counting_walls_needs_no_unpacking(walls):
     np.testing.assert_array_equal(count_walls(pack(walls), cells), walls.reshape(-1, cells).sum(axis=0))
 
 
-def test_counting_in_batches_gives_the_same(monkeypatch):
+def test_counting_in_batches_gives_the_same_and_numbers_of_which_halves_hold_some_bits_are_numpy_s(monkeypatch):
     walls = np.random.default_rng(1).random((100, 5, 7)) < 0.3
     monkeypatch.setattr(cell_arrays, "BATCH_BITS", 100)
     np.testing.assert_array_equal(count_walls(pack(walls), 35), walls.reshape(100, -1).sum(axis=0))
+    steps = np.arange(2**12) / 2.0**26
+    values = np.concatenate([sign * steps * (1 + e) for sign in (-1, 1) for e in (-1e-9, 0, 1e-9)])
+    np.testing.assert_array_equal(as_halves(values).view(np.uint16), values.astype(np.float16).view(np.uint16))
+    assert len(np.unique(as_halves(values))) > 2000
 
 
 @given(arrays(np.uint32, st.integers(0, 50)), st.sampled_from([np.float32, np.float64]))
@@ -47,11 +51,3 @@ def test_halves_are_those_of_numpy(bits, dtype):
     values = bits.view(np.float32).astype(dtype)
     with np.errstate(all="ignore"):
         np.testing.assert_array_equal(as_halves(values).view(np.uint16), values.astype(np.float16).view(np.uint16))
-
-
-def test_numbers_of_which_halves_hold_only_some_bits_are_those_of_numpy():
-    """All halves under 2^-13, what lies between two of them, and a little beside it, of both signs."""
-    steps = np.arange(2**12) / 2.0**26
-    values = np.concatenate([sign * steps * (1 + e) for sign in (-1, 1) for e in (-1e-9, 0, 1e-9)])
-    np.testing.assert_array_equal(as_halves(values).view(np.uint16), values.astype(np.float16).view(np.uint16))
-    assert len(np.unique(as_halves(values))) > 2000

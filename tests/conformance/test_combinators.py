@@ -35,7 +35,7 @@ def agrees(trace, tolerance=1e-5):
     jax.tree.map(lambda a, b: np.testing.assert_allclose(a, b, rtol=1e-6), retval, trace.get_retval())
 
 
-def test_repeats_of_a_distribution_are_one_array_that_indices_select_from():
+def test_repeats_are_one_array_that_indices_select_from_and_names_below_an_index_hold_whole_arrays():
     trace = genjax.flip.repeat(n=4).repeat(n=3)(0.5).simulate(jr.key(0), ())
     assert (trace.get_retval().shape, trace.get_retval().dtype, trace.get_score().shape) == ((3, 4), bool, ())
     chm = trace.get_choices()
@@ -47,9 +47,6 @@ def test_repeats_of_a_distribution_are_one_array_that_indices_select_from():
     agrees(trace)
     with pytest.raises(TypeError):
         genjax.flip.repeat(3)  # its number is given by name
-
-
-def test_names_below_an_index_hold_whole_arrays():
     trace = draw.vmap(in_axes=0).simulate(jr.key(0), (jnp.arange(3.0),))
     chm = trace.get_choices()
     np.testing.assert_array_equal(chm["v"], chm[:, "v"])
@@ -70,7 +67,7 @@ def test_a_constraint_array_of_the_wrong_length_raises(model, args, constraint):
             use()
 
 
-def test_some_elements_can_be_constrained():
+def test_some_elements_can_be_constrained_and_values_keep_their_dtype():
     """The others draw what they would have drawn."""
     model, free = genjax.normal.repeat(n=4), genjax.normal.repeat(n=4)(0.0, 1.0)(jr.key(0))
     several = C[1].set(0.5) | C[jnp.array([2, 3])].set(jnp.array([1.0, 2.0]))
@@ -82,10 +79,6 @@ def test_some_elements_can_be_constrained():
         model.assess(several, (0.0, 1.0))
     with pytest.raises(UnknownAddress, match="4: there are 4 elements"):
         model.importance(jr.key(0), C[4].set(0.0), (0.0, 1.0))
-
-
-def test_values_keep_the_dtype_in_which_they_are_given():
-    """GenJAX keeps the dtype too. Given values among drawn ones are cast; GenJAX raises there."""
     model, given = genjax.flip.repeat(n=3), jnp.array([1.0, 0.0, 1.0])
     assert model.assess(C.v(given), (0.5,))[1].dtype == jnp.float32
     trace, _ = model.importance(jr.key(0), C.v(given), (0.5,))
@@ -104,7 +97,7 @@ def test_an_edit_keeps_the_dtype_of_the_trace(dtype):
         assert trace.update(jr.key(0), C.v(value))[0].get_retval().dtype == dtype
 
 
-def test_vmap_maps_the_axes_that_it_is_told_with_the_errors_of_jax():
+def test_vmap_maps_the_axes_that_it_is_told_with_jax_s_errors_and_stores_broadcast_arguments_once():
     locs = jnp.arange(6.0).reshape(2, 3)
     trace = draw.vmap(in_axes=1).vmap(in_axes=(0,)).simulate(jr.key(0), (locs[:, None, :],))
     assert trace.get_choices()["v"].shape == (2, 3, 1)
@@ -112,10 +105,6 @@ def test_vmap_maps_the_axes_that_it_is_told_with_the_errors_of_jax():
     for args, message in (((jnp.zeros(3), jnp.zeros(4)), "inconsistent sizes"), ((jnp.zeros(3),), "vmap in_axes")):
         with pytest.raises(ValueError, match=message):
             genjax.normal.vmap(in_axes=(0, 0)).simulate(jr.key(0), args)
-
-
-def test_broadcast_arguments_are_stored_once():
-    """GenJAX stores a copy per element."""
     shared = jnp.zeros((50, 50))
     model = genjax.gen(lambda table, i: genjax.normal(table[i, i], 1.0) @ "v")
     trace = model.vmap(in_axes=(None, 0)).simulate(jr.key(0), (shared, jnp.arange(40)))
@@ -159,8 +148,7 @@ def test_iterate_and_accumulate_return_every_state_the_others_the_last():
         (add.accumulate(), (0.0, jnp.arange(3.0)), add.reduce()),
     ]:
         trace = model.simulate(jr.key(0), args)
-        assert trace.get_retval().shape == (4,)
-        assert trace.get_retval()[0] == 0.0
+        assert (trace.get_retval().shape, trace.get_retval()[0]) == ((4,), 0.0)
         np.testing.assert_array_equal(trace.get_retval()[1:], trace.get_choices()["z"])
         assert last.simulate(jr.key(0), args).get_retval() == trace.get_retval()[-1]
         agrees(trace)
@@ -204,14 +192,6 @@ def test_or_else_and_switch_run_the_branch_that_is_named():
         model.importance(jr.key(0), C["w"].set(10.0), (1, (0.0,), (10.0,), (20.0,)))
 
 
-def test_the_addresses_of_a_mixture():
-    trace = genjax.mix(draw, draw).simulate(jr.key(0), (jnp.zeros(2), (0.0,), (9.0,)))
-    choices = trace.get_choices()
-    assert choices["mixture_component"] in (0, 1)
-    assert "v" in choices("component_sample")
-    agrees(trace)
-
-
 def test_arguments_and_return_values_can_be_transformed():
     trace = draw.map(lambda x: x + 100).simulate(jr.key(0), (0.0,))
     assert trace.get_retval() == draw(0.0)(jr.key(0)) + 100
@@ -247,16 +227,12 @@ def test_a_call_at_an_address_gives_its_return_value():
     np.testing.assert_allclose(trace.get_score(), sum(p.get_score() for p in parts), rtol=1e-6)
 
 
-def test_first_arguments_can_be_fixed():
+def test_first_arguments_can_be_fixed_and_a_combinator_may_come_after_them():
     """The traces of a closure know them, those of a partial application leave them out."""
     for function, known_args in ((nested(1.0), (1.0, 2.0)), (nested.partial_apply(1.0), (2.0,))):
         trace = function.simulate(jr.key(0), (2.0,))
         assert trace.get_args() == known_args
         assert trace.get_retval() == nested.simulate(jr.key(0), (1.0, 2.0)).get_retval()
-
-
-def test_a_combinator_may_come_after_the_arguments():
-    """It works on the function of the arguments that are still to come."""
     np.testing.assert_array_equal(nested(1.0, 2.0).repeat(n=3)()(jr.key(0)), nested.repeat(n=3)(1.0, 2.0)(jr.key(0)))
     trace = nested(1.0).vmap()(jnp.array([1.0, 2.0])).simulate(jr.key(0), ())
     expected = nested.vmap(in_axes=(None, 0)).simulate(jr.key(0), (1.0, jnp.array([1.0, 2.0])))
@@ -266,7 +242,7 @@ def test_a_combinator_may_come_after_the_arguments():
     np.testing.assert_allclose(new.get_score(), expected.gen_fn.assess(new.get_choices(), expected.get_args())[0])
 
 
-def test_keyword_arguments_reach_the_body():
+def test_keyword_arguments_reach_the_body_and_python_s_if_on_a_traced_one_fails_with_jax_s_error():
 
     @genjax.gen
     def caller():
@@ -276,15 +252,24 @@ def test_keyword_arguments_reach_the_body():
     assert (
         caller.simulate(jr.key(0), ()).get_score() == caller.assess(caller.simulate(jr.key(0), ()).get_choices(), ())[0]
     )
+    branching = genjax.gen(lambda x: genjax.normal(0.0, 1.0 if x > 0 else 2.0) @ "x")
+    with pytest.raises(jax.errors.TracerBoolConversionError):
+        jax.jit(branching.simulate)(jr.key(0), (1.0,))
+    assert branching.simulate(jr.key(0), (1.0,)).get_retval() == genjax.normal(0.0, 1.0)(jr.fold_in(jr.key(0), 1))
 
 
-def test_addresses_may_be_empty_or_nested():
+def test_addresses_may_be_empty_nested_or_a_mixture_s():
     bare = genjax.gen(lambda: genjax.normal(0.0, 1.0) @ ())
     trace = bare.simulate(jr.key(0), ())
     assert trace.get_choices()[()] == trace.get_retval()
     np.testing.assert_array_equal(bare.assess(C.v(trace.get_retval()), ())[0], trace.get_score())
     trace = genjax.gen(lambda: genjax.normal(0.0, 1.0) @ ("a", "b")).simulate(jr.key(0), ())
     assert trace.get_choices()("a")["b"] == trace.get_choices()["a", "b"] == trace.get_retval()
+    trace = genjax.mix(draw, draw).simulate(jr.key(0), (jnp.zeros(2), (0.0,), (9.0,)))
+    choices = trace.get_choices()
+    assert choices["mixture_component"] in (0, 1)
+    assert "v" in choices("component_sample")
+    agrees(trace)
 
 
 @pytest.mark.parametrize("addresses", [("x", ()), (("a", "b"), ("a", "b"))])
@@ -307,7 +292,7 @@ def test_an_address_that_the_model_lacks_raises(use):
         use(C["inner", "w"].set(1.0))
 
 
-def test_choices_and_requests_that_do_not_fit_are_named_in_full():
+def test_choices_and_requests_that_do_not_fit_and_sites_outside_a_body_are_named():
     with pytest.raises(MissingAddress, match=r"\('inner', 'y'\)"):
         nested.assess(C["inner", "x"].set(1.0) | C["z"].set(0.0), (1.0,))
     with pytest.raises(ShapeMismatch, match=r"\('inner', 'x'\): found \(2,\), expected \(\)"):
@@ -315,9 +300,6 @@ def test_choices_and_requests_that_do_not_fit_are_named_in_full():
     request = genjax.StaticRequest({"w": genjax.Update(C.v(1.0))})
     with pytest.raises(UnknownAddress, match="'w': its sites are 'inner', 'z'"):
         nested.simulate(jr.key(0), (1.0,)).edit(jr.key(0), request)
-
-
-def test_a_site_outside_a_body_or_inside_a_jax_transformation_raises():
     with pytest.raises(AddressError, match="body of a @gen function"):
         genjax.normal(0.0, 1.0) @ "x"
     inside = genjax.gen(lambda: jax.vmap(lambda m: genjax.normal(m, 1.0) @ "x")(jnp.zeros(3)))
@@ -325,12 +307,9 @@ def test_a_site_outside_a_body_or_inside_a_jax_transformation_raises():
         inside.simulate(jr.key(0), ())
 
 
-def test_importance_weight_is_the_density_of_what_was_constrained_given_the_rest():
+def test_importance_weighs_what_was_constrained_and_update_the_change_of_score_downstream_included():
     trace, weight = model.importance(jr.key(0), C["y"].set(0.5), (1.0,))
     np.testing.assert_allclose(weight, trace.get_subtrace("y").get_score(), rtol=1e-6)
-
-
-def test_update_weight_is_the_change_of_score_downstream_sites_included():
     trace = nested.simulate(jr.key(0), (1.0,))
     new, weight, _, discard = trace.update(jr.key(0), C["inner", "x"].set(0.25))
     np.testing.assert_allclose(weight, new.get_score() - trace.get_score(), rtol=1e-5)
@@ -340,21 +319,12 @@ def test_update_weight_is_the_change_of_score_downstream_sites_included():
     assert "z" not in discard
 
 
-def test_inline_splices_the_sites():
+def test_inline_splices_the_sites_and_a_method_can_be_a_generative_function():
     spliced = genjax.gen(lambda: model.inline(0.0) + (genjax.normal(0.0, 1.0) @ "z"))
     choices = spliced.simulate(jr.key(0), ()).get_choices()
     assert all(name in choices for name in ("x", "y", "z"))
     assert choices["x"] == model.simulate(jr.key(0), (0.0,)).get_choices()["x"]
 
-
-def test_python_if_on_a_traced_argument_fails_with_jaxs_error():
-    branching = genjax.gen(lambda x: genjax.normal(0.0, 1.0 if x > 0 else 2.0) @ "x")
-    with pytest.raises(jax.errors.TracerBoolConversionError):
-        jax.jit(branching.simulate)(jr.key(0), (1.0,))
-    assert branching.simulate(jr.key(0), (1.0,)).get_retval() == genjax.normal(0.0, 1.0)(jr.fold_in(jr.key(0), 1))
-
-
-def test_a_method_can_be_a_generative_function():
     @genjax.Pytree.dataclass
     class Walk(genjax.Pytree):
         scale: float

@@ -28,15 +28,12 @@ def test_joining_prefers_the_left_value(join):
     assert (both["x"], both["y"], both["z", "w"]) == (1.0, 2.0, 4.0)
 
 
-def test_and_filters_the_right_map_by_the_left_ones_addresses():
+def test_and_filters_the_right_map_by_the_left_ones_addresses_and_at_set_replaces():
     both = C["x"].set(1.0) & (C["x"].set(3.0) | C["y"].set(2.0))
     assert both["x"] == 3.0
     assert "y" not in both
     with pytest.raises(ValueError, match="bare value"):
         C["x"].set(1.0) | C["x", "y"].set(2.0)
-
-
-def test_at_set_replaces():
     chm = C["x"].set(jnp.zeros(3)) | C["y"].set(1.0)
     np.testing.assert_array_equal(chm.at["x"].set(jnp.ones(3))["x"], jnp.ones(3))
     np.testing.assert_array_equal(chm.at["x", 1].set(5.0)["x"], [0.0, 5.0, 0.0])
@@ -45,7 +42,7 @@ def test_at_set_replaces():
         chm.at["x"].set(jnp.ones(2))
 
 
-def test_filter_mask_selection_and_extend():
+def test_filter_mask_selection_extend_and_the_invalid_subset():
     chm = C["x"].set(1.0) | C["y", "z"].set(2.0)
     kept = chm.filter(S["y"])
     assert ("y", "z") in kept
@@ -60,16 +57,13 @@ def test_filter_mask_selection_and_extend():
     for address in ("z", ("y", "x"), "y"):
         with pytest.raises(ChoiceMapNoValueAtAddress):
             chm[address]
-
-
-def test_invalid_subset_is_what_the_model_would_never_choose():
     extras = (C["x"].set(1.0) | C["w"].set(2.0)).invalid_subset(model, (0.0,))
     assert "w" in extras
     assert "x" not in extras
     assert C["x"].set(1.0).invalid_subset(model, (0.0,)) is None
 
 
-def test_ways_to_build_a_map():
+def test_ways_to_build_a_map_which_can_hold_indices():
     expected = C["x"].set(1.0) | C["y", "z"].set(2.0)
     for chm in (C.d({"x": 1.0, "y": {"z": 2.0}}), C.kw(x=1.0, y={"z": 2.0}), ChoiceMap.d({"x": 1.0, ("y", "z"): 2.0})):
         assert jax.tree.map(float, chm) == jax.tree.map(float, expected)
@@ -77,9 +71,6 @@ def test_ways_to_build_a_map():
     assert C["a"].v(3.0)["a"] == 3.0
     assert ChoiceMap.switch(1, [C["x"].set(1.0), C["x"].set(2.0)])["x"] == 2.0
     assert C["i"].switch(jnp.array(0), [C["x"].set(1.0), C["y"].set(2.0)])["i", "x"].unmask() == 1.0
-
-
-def test_maps_can_hold_indices():
     chm = C[0, "v"].set(1.0) | C[2, "v"].set(3.0)
     assert (chm[0, "v"], chm[2, "v"]) == (1.0, 3.0)
     assert (1, "v") not in chm
@@ -97,15 +88,12 @@ def test_selections_match_everything_below_and_combine():
     outside = [(x, "y"), (x & y, "x"), (~x, ("x", "z")), (wild, ("a", "z")), (leaf, ("x", "y")), (Selection.none(), ())]
     assert all(sel[address] for sel, address in inside)
     assert not any(sel[address] for sel, address in outside)
-    assert x("x") == Selection.all()
-    assert ~~x == x
-    assert S[()] == Selection.leaf()
+    assert (x("x"), ~~x, S[()]) == (Selection.all(), x, Selection.leaf())
 
 
 def test_unmask():
     value = jnp.arange(3.0)
-    assert Mask(1.0, True).unmask() == 1.0
-    assert Mask(1.0, False).unmask() == 1.0
+    assert (Mask(1.0, True).unmask(), Mask(1.0, False).unmask()) == (1.0, 1.0)
     with genjax.do_checkify(), pytest.raises(Exception, match="flag is False"):
         Mask(1.0, False).unmask()
     assert Mask(1.0, False).unmask(default=5.0) == 5.0
@@ -134,7 +122,7 @@ def test_pytree_dataclasses_are_frozen_with_static_fields_in_the_definition():
     assert jax.jit(lambda p: jnp.zeros(p.count) + p.scale)(params).shape == (3,)
 
 
-def test_traces_pickle_and_can_be_copied():
+def test_traces_pickle_can_be_copied_and_print_as_trees():
     trace = model.simulate(jr.key(0), (1.0,))
     loaded = pickle.loads(pickle.dumps(trace))
     assert loaded.get_gen_fn() == model
@@ -142,6 +130,9 @@ def test_traces_pickle_and_can_be_copied():
     assert loaded.update(jr.key(0), C["x"].set(0.0))[0].get_choices()["x"] == 0.0
     local = genjax.gen(lambda: genjax.normal(0.0, 1.0) @ "x").simulate(jr.key(0), ())
     assert copy.deepcopy(local).get_choices()["x"] == local.get_choices()["x"]
+    trace = model.simulate(jr.key(0), (1.0,))
+    assert "'y':\n    'z': [" in repr(trace)
+    assert (repr(C["x", "y"].set(1.0)), repr(C.n())) == ("'x':\n  'y': 1.0", "(empty)")
 
 
 def test_traces_survive_jit_vmap_scan_and_cond():
@@ -149,8 +140,7 @@ def test_traces_survive_jit_vmap_scan_and_cond():
     again = jax.jit(lambda t: t)(trace)
     assert again.get_score() == trace.get_score()
     batch = jax.vmap(lambda key: model.simulate(key, (1.0,)))(jr.split(jr.key(0), 4))
-    assert batch.get_score().shape == (4,)
-    assert batch.get_choices()["y", "z"].shape == (4, 3)
+    assert (batch.get_score().shape, batch.get_choices()["y", "z"].shape) == ((4,), (4, 3))
     np.testing.assert_array_equal(batch.get_retval(), batch.get_choices()["x"])
 
     def body(t, key):
@@ -160,10 +150,3 @@ def test_traces_survive_jit_vmap_scan_and_cond():
     _, scores = jax.lax.scan(body, again, jr.split(jr.key(0), 20))
     assert jnp.all(jnp.diff(scores) >= 0)
     assert scores[-1] > scores[0]
-
-
-def test_traces_and_choice_maps_print_as_trees():
-    trace = model.simulate(jr.key(0), (1.0,))
-    assert "'y':\n    'z': [" in repr(trace)
-    assert repr(C["x", "y"].set(1.0)) == "'x':\n  'y': 1.0"
-    assert repr(C.n()) == "(empty)"

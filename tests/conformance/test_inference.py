@@ -217,8 +217,7 @@ def test_the_chain_driver_gives_draws_acceptance_and_the_last_trace():
     kernel = genjax.metropolis_hastings(Regenerate(Selection.at["mu"]))
     chain = genjax.run_chain(jr.key(0), trace, kernel, 50)
     mu = chain.draws["mu"]
-    assert mu.shape == (50,)
-    assert chain.last.get_choices()["mu"] == mu[-1]
+    assert (mu.shape, chain.last.get_choices()["mu"]) == ((50,), mu[-1])
     moved = jnp.concatenate([trace.get_choices()["mu"][None], mu])
     np.testing.assert_array_equal(jnp.diff(moved) != 0, chain.accepted)
     np.testing.assert_array_equal(genjax.run_chain(jr.key(0), trace, kernel, 20).draws["mu"], mu[:20])

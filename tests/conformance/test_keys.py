@@ -36,30 +36,24 @@ def add(state, x):
     return genjax.normal(state + x, 1.0) @ "v"
 
 
-def test_the_ith_site_uses_fold_in_of_i():
+def test_the_ith_site_uses_fold_in_of_i_and_importance_counts_constrained_ones_too():
     choices = several.simulate(jr.key(7), (0.5,)).get_choices()
     assert choices["a"] == 0.5 + jr.normal(jr.fold_in(jr.key(7), 1))
     same(choices["a"], "0x1.e88430p-1")
     same(choices["c"], "0x1.c48a52p-2")
     same(choices["d", "e"], "-0x1.75acc8p-2", "0x1.00c42ap+0", "0x1.5adf76p+1")
-
-
-def test_importance_counts_constrained_sites_too():
     constraint = C["a"].set(0.25) | C["d", "e"].set(jnp.ones(3))
     trace, weight = several.importance(jr.key(7), constraint, (0.5,))
     same(trace.get_choices()["c"], "0x1.f7620cp-3")
     np.testing.assert_allclose(weight, float.fromhex("-0x1.00cb74p+4"), rtol=1e-6)
 
 
-def test_vmap_and_repeat_split_the_key():
+def test_vmap_and_repeat_split_the_key_and_scan_chains_it():
     repeated = genjax.normal.repeat(n=3)(0.0, 1.0)(jr.key(7))
     np.testing.assert_array_equal(repeated, jax.vmap(jr.normal)(jr.split(jr.key(7), 3)))
     step = genjax.gen(lambda c, x: genjax.normal(c + x, 1.0) @ "z")
     trace = step.vmap(in_axes=(0, None)).simulate(jr.key(7), (jnp.arange(3.0), 1.0))
     same(trace.get_choices()["z"], "0x1.9f277ap+1", "0x1.4a7e8cp+0", "0x1.1d4040p+2")
-
-
-def test_scan_chains_the_key():
     step = genjax.gen(lambda c, x: (lambda z: (z, 2 * z))(genjax.normal(c + x, 1.0) @ "z"))
     draws = step.scan(n=5).simulate(jr.key(7), (0.0, jnp.arange(5.0))).get_choices()["z"]
     same(draws, "0x1.1f277ap+1", "0x1.5f6ed2p+1", "0x1.661362p+2", "0x1.23164ap+3", "0x1.be0da0p+3")

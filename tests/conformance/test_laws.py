@@ -78,7 +78,7 @@ def regenerate_at_the_site(_):
     return StaticRequest({"mu": Regenerate(Selection.all())})
 
 
-def test_regenerate_weighs_what_the_kept_choices_say():
+def test_regenerate_weighs_what_the_kept_choices_say_and_rejuvenate_the_way_back_from_new_ones():
     """Regenerated sites add no weight: it is the likelihood ratio. GenJAX adds the prior ratio."""
     trace = trace_at(0.3)
     new, weight, _, back = trace.edit(jr.key(0), Regenerate(MU))
@@ -87,9 +87,6 @@ def test_regenerate_weighs_what_the_kept_choices_say():
     np.testing.assert_allclose(weight, st.norm.logpdf(2.0, mu) - st.norm.logpdf(2.0, 0.3), rtol=1e-5)
     restored = new.edit(jr.key(0), back)[0]
     np.testing.assert_allclose(restored.get_choices()["mu"], 0.3)
-
-
-def test_rejuvenate_takes_the_way_back_from_the_new_choices():
     trace = trace_at(0.3)
     new, weight, _, _ = trace.edit(jr.key(0), rejuvenate(0.0))
     mu = new.get_choices()["mu"]
@@ -116,29 +113,22 @@ def test_moves_sample_the_posterior(request_of, size):
     is_the_posterior(from_zero(request_of, size))
 
 
-def test_hmc_of_a_discrete_choice_raises():
-    trace = genjax.gen(lambda: genjax.flip(0.5) @ "b").simulate(jr.key(0), ())
-    with pytest.raises(TypeError, match="'b' has dtype bool"):
-        trace.edit(jr.key(0), HMC(Selection.at["b"], 0.1))
-
-
-def test_a_marginal_scores_the_selected_part():
+def test_a_marginal_scores_the_selected_part_and_hmc_of_a_discrete_choice_raises():
     """GenJAX gives the complement's."""
     pair = genjax.gen(lambda: (genjax.normal(0.0, 1.0) @ "a", genjax.normal(5.0, 0.1) @ "b"))
     trace = pair.marginal(selection=Selection.at["a"]).simulate(jr.key(0), ())
     np.testing.assert_allclose(trace.get_score(), st.norm.logpdf(trace.get_choices()["a"]), rtol=1e-6)
     assert "b" not in trace.get_choices()
+    trace = genjax.gen(lambda: genjax.flip(0.5) @ "b").simulate(jr.key(0), ())
+    with pytest.raises(TypeError, match="'b' has dtype bool"):
+        trace.edit(jr.key(0), HMC(Selection.at["b"], 0.1))
 
 
-def test_a_marginal_weight_is_an_unbiased_estimate():
+def test_a_marginal_s_weight_and_the_reciprocal_scores_of_its_own_draws_are_unbiased():
     """p(y = 2) of the model by 2000 estimates of 10 particles."""
     shown = model.marginal(selection=Selection.at["y"], particles=10)
     weight = jax.jit(jax.vmap(lambda key: shown.importance(key, C["y"].set(2.0), ())[1]))
     unbiased(weight(jr.split(jr.key(0), 2000)), EVIDENCE)
-
-
-def test_a_marginals_own_draws_have_unbiased_reciprocal_scores():
-    """E[1 / score] over the hidden choice is 1 / p(y): so E[p(y) / score] = 1."""
     shown = model.marginal(selection=Selection.at["y"], particles=5)
     traces = jax.jit(jax.vmap(lambda key: shown.simulate(key, ())))(jr.split(jr.key(0), 4000))
     unbiased(st.norm.logpdf(traces.get_choices()["y"], 0.0, 2**0.5) - traces.get_score(), 0.0)

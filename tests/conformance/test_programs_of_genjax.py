@@ -26,10 +26,7 @@ def other():
     return genjax.normal(0.0, 2.0) @ "y"
 
 
-# Dtypes ------------------------------------------------------------------------------------------------
-
-
-def test_a_float_map_can_be_the_carry_of_a_loop_over_assess():
+def test_float_maps_and_counts_can_be_the_carry_of_a_loop():
     """In block Gibbs the loop's carry is the value that `assess` returns."""
     prior = genjax.flip.repeat(n=3)
 
@@ -38,8 +35,6 @@ def test_a_float_map_can_be_the_carry_of_a_loop_over_assess():
 
     assert jax.lax.fori_loop(0, 3, sweep, jnp.zeros(3)).dtype == jnp.float32
 
-
-def test_counts_can_be_carried_with_floats():
     @genjax.gen
     def births(total, _):
         return total + genjax.poisson(2.0) @ "n" + genjax.geometric(0.5) @ "g" + genjax.binomial(3.0, 0.5) @ "b", None
@@ -63,34 +58,19 @@ def test_branches_of_different_types_have_their_common_type(a, b, dtype):
         assert (result.dtype, float(result)) == (dtype, float(value))
 
 
-# Masks and structure -----------------------------------------------------------------------------------
-
-
-def test_choices_of_a_branch_that_did_not_run_are_masked():
+def test_choices_of_a_branch_that_did_not_run_are_masked_and_jit_changes_no_structure():
     trace = one.switch(other).simulate(jr.key(0), (jnp.array(0), (), ()))
     choices = trace.get_choices()
     assert choices["x"].flag
     assert not choices["y"].flag
     score, _ = one.switch(other).assess(choices, trace.get_args())
     np.testing.assert_allclose(score, trace.get_score(), rtol=1e-6)
-
-
-def test_a_program_gives_maps_of_one_structure_inside_and_outside_of_jit():
     simulate = one.mask().simulate
     inside, outside = (run(jr.key(0), (jnp.array(False),)) for run in (jax.jit(simulate), simulate))
     assert jax.tree.structure(inside) == jax.tree.structure(outside)
 
 
-def test_a_mask_over_a_vector_asks_for_vmap():
-    with pytest.raises(TypeError, match=r"\.mask\(\)\.vmap\(\)"):
-        one.mask().simulate(jr.key(0), (jnp.array([True, False]),))
-    flags = jnp.array([True, False, True])
-    trace = one.mask().vmap().simulate(jr.key(0), (flags,))
-    np.testing.assert_array_equal(trace.get_retval().flag, flags)
-    np.testing.assert_allclose(trace.get_score(), st.norm.logpdf(trace.get_retval().value)[flags].sum(), rtol=1e-6)
-
-
-def test_masks_combine_as_sets():
+def test_masks_combine_as_sets_and_over_a_vector_ask_for_vmap():
     a = Mask(jnp.array([1.0, 2.0, 3.0]), jnp.array([True, True, False]))
     b = Mask(jnp.zeros(3), jnp.array([True, False, True]))
     np.testing.assert_array_equal((a | b).value, [1.0, 2.0, 0.0])
@@ -101,9 +81,12 @@ def test_masks_combine_as_sets():
     assert Mask.maybe_mask(3.0, False) is None
     with pytest.raises(ValueError, match="different array shapes"):
         a | Mask(jnp.zeros(2), jnp.array([True, False]))
-
-
-# Edits of functions defined in a body --------------------------------------------------------------------
+    with pytest.raises(TypeError, match=r"\.mask\(\)\.vmap\(\)"):
+        one.mask().simulate(jr.key(0), (jnp.array([True, False]),))
+    flags = jnp.array([True, False, True])
+    trace = one.mask().vmap().simulate(jr.key(0), (flags,))
+    np.testing.assert_array_equal(trace.get_retval().flag, flags)
+    np.testing.assert_allclose(trace.get_score(), st.norm.logpdf(trace.get_retval().value)[flags].sum(), rtol=1e-6)
 
 
 @genjax.gen
@@ -145,19 +128,13 @@ def test_hmc_moves_a_site_that_the_body_defines():
     assert jnp.all(new.get_choices()["steps", "s"] != trace.get_choices()["steps", "s"])
 
 
-# Closures and keywords ---------------------------------------------------------------------------------
-
-
-def test_keyword_arguments_of_a_draw_overrule_those_of_the_closure():
+def test_keywords_of_a_draw_overrule_those_of_the_closure_and_functions_keep_their_name_and_text():
     model = genjax.gen(lambda x, y=1.0: genjax.normal(x, 1.0).map(lambda z: (z, y))() @ "z")
     closure = model(2.0, y=5.0)
     assert (closure(jr.key(0))[1], closure(jr.key(0), y=3.0)[1]) == (5.0, 3.0)
     trace = model.handle_kwargs().simulate(jr.key(0), ((2.0,), {"y": 4.0}))
-    assert trace.get_args() == ((2.0,), {"y": 4.0})
-    assert trace.get_retval()[1] == 4.0
+    assert (trace.get_args(), trace.get_retval()[1]) == (((2.0,), {"y": 4.0}), 4.0)
 
-
-def test_a_generative_function_keeps_its_functions_name_and_text():
     @genjax.gen
     def documented(x: float) -> float:
         """Says what it does."""
@@ -167,16 +144,10 @@ def test_a_generative_function_keeps_its_functions_name_and_text():
     assert documented.__name__ == documented.__wrapped__.__name__ == "documented"
 
 
-# Names -------------------------------------------------------------------------------------------------
-
-
-def test_a_trace_of_zeros_has_the_structure_of_a_real_one():
+def test_a_trace_of_zeros_has_a_real_one_s_structure_and_subtraces_are_found_through_switches():
     zero = one.get_zero_trace()
     assert jax.tree.structure(zero) == jax.tree.structure(one.simulate(jr.key(0), ()))
     assert (zero.get_score(), zero.get_sample()["x"]) == (0.0, 0.0)
-
-
-def test_subtraces_are_found_through_switch_and_or_else():
     model = genjax.gen(lambda: one.or_else(other)(genjax.flip(0.5) @ "b", (), ()) @ "z")
     trace = model.simulate(jr.key(0), ())
     name = "x" if trace.get_choices()["b"] else "y"
@@ -184,7 +155,7 @@ def test_subtraces_are_found_through_switch_and_or_else():
     np.testing.assert_allclose(found.get_score(), trace.get_score() - np.log(0.5), rtol=1e-6)
 
 
-def test_constants_and_sequences_of_trees():
+def test_constants_sequences_of_trees_and_choice_maps_by_builder_and_switch():
     assert jax.jit(lambda c: jnp.zeros(c.unwrap()))(genjax.Pytree.const(3)).shape == (3,)
     assert genjax.Const.unwrap(10) == 10
 
@@ -195,19 +166,20 @@ def test_constants_and_sequences_of_trees():
     points = Points(jnp.arange(3.0))
     assert (len(points), float(points[1].x), len(points + points)) == (3, 1.0, 6)
     assert [float(p.x) for p in points.prepend(Points(jnp.array(-1.0)))] == [-1.0, 0.0, 1.0, 2.0]
+    assert ChoiceMap.builder["a"].set(1.0)["a"] == 1.0
+    chm = ChoiceMap.switch(jnp.array(1), [C["x"].set(1.0), C["y"].set(2.0)]) | C["z"].set(3.0)
+    assert not chm["x"].flag
+    assert (chm["y"].unmask(), chm["z"].unmask(), chm.simplify()) == (2.0, 3.0, chm)
+    assert Selection.at["x", "y"].get_subselection("x")["y"]
 
 
-def test_marks_of_change_can_be_taken_apart_and_put_together():
+def test_marks_of_change_can_be_taken_apart_put_together_and_looked_at_by_requests():
     tree = {"a": 1, "b": [2.0]}
     marks = {"a": genjax.NoChange, "b": [genjax.UnknownChange]}
     marked = Diff.tree_diff(tree, marks)
-    assert Diff.tree_tangent(marked) == marks
-    assert marked["a"].get_primal() == 1
+    assert (Diff.tree_tangent(marked), marked["a"].get_primal()) == (marks, 1)
     assert Diff.static_check_tree_diff(marked)
     assert not Diff.static_check_tree_diff(tree)
-
-
-def test_requests_can_look_at_the_marks_of_change():
     seen = []
     trace = one.simulate(jr.key(0), ())
     Regenerate(Selection.all()).map(lambda diff: seen.append(diff) or diff).edit(jr.key(0), trace, ())
@@ -225,16 +197,6 @@ def test_masked_iteration_counts_the_steps_whose_flag_holds(flags):
     assert states.shape == (4,)
     np.testing.assert_allclose(trace.get_score(), st.norm.logpdf(states[1:], states[:-1])[flags].sum(), rtol=1e-5)
     assert walk.masked_iterate_final().simulate(jr.key(0), (0.0, flags)).get_retval() == states[-1]
-
-
-def test_choice_maps_by_builder_and_switch():
-    assert ChoiceMap.builder["a"].set(1.0)["a"] == 1.0
-    chm = ChoiceMap.switch(jnp.array(1), [C["x"].set(1.0), C["y"].set(2.0)]) | C["z"].set(3.0)
-    assert not chm["x"].flag
-    assert chm["y"].unmask() == 2.0
-    assert chm["z"].unmask() == 3.0
-    assert chm.simplify() == chm
-    assert Selection.at["x", "y"].get_subselection("x")["y"]
 
 
 @genjax.Pytree.dataclass
@@ -258,9 +220,6 @@ def test_a_users_distribution_needs_two_methods():
     np.testing.assert_allclose(weight, st.norm.logpdf(1.0, 0.0, 2.0) - trace.get_score(), rtol=1e-5)
     mixed, _ = jax.jit(lambda flag: model.importance(jr.key(0), C["v"].set(7.0).mask(flag), ()))(True)
     assert mixed.get_choices()["v"] == 7.0
-
-
-# Errors of wrong use ------------------------------------------------------------------------------------
 
 
 def mistaken():

@@ -95,25 +95,21 @@ def incremental_sweep(request_of, key, trace):
     return over_pixels(lambda i, j, t: incremental_update(request_of, keys[i, j], t, i, j), trace)
 
 
-def test_prior_draws_the_golden_map():
-    """227 walls, score -305.67792."""
+def test_prior_and_full_model_draw_the_golden_maps():
+    """227 walls, score -305.67792; 221 walls, readings sum 146.18332."""
     trace = jax.jit(prior(prior_wall_prob=0.5).simulate)(jrand.key(0), ())
     walls = trace.get_retval()
     assert (int(walls.sum()), fingerprint(walls)) == (227, "30ec82c4549b")
     np.testing.assert_allclose(trace.get_score(), -305.67792, rtol=2e-7)
+    walls, readings = full_model.simulate(jrand.key(1), ARGS).get_retval()
+    assert (int(walls.sum()), fingerprint(walls)) == (221, "c2ad6e295ff2")
+    np.testing.assert_allclose(readings.sum(), 146.18332, rtol=1e-7)
 
 
 def test_sensor_draws_the_golden_readings(readings):
     """The first readings and their sum; GenJAX 0.10.3 on the same machine agrees to the last bit."""
     np.testing.assert_allclose(readings[:4], [6.2485046, 6.2457266, 4.1215606, 3.7695596], rtol=2e-7)
     np.testing.assert_allclose(readings.sum(), 1225.6375, rtol=1e-7)
-
-
-def test_full_model_draws_the_golden_map():
-    """221 walls, readings sum 146.18332."""
-    walls, readings = full_model.simulate(jrand.key(1), ARGS).get_retval()
-    assert (int(walls.sum()), fingerprint(walls)) == (221, "c2ad6e295ff2")
-    np.testing.assert_allclose(readings.sum(), 146.18332, rtol=1e-7)
 
 
 def test_basic_gibbs_visits_the_golden_states(basic_chain):

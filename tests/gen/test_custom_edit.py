@@ -93,12 +93,25 @@ def model(p):
     return scales(cells) @ "readings"
 
 
-def test_a_users_generative_function_joins_a_larger_model():
+def test_a_user_s_generative_function_joins_a_larger_model_and_a_sweep_of_its_edits_keeps_the_score():
     trace = model.simulate(jr.key(0), (0.5,))
     score, _ = model.assess(trace.get_choices(), (0.5,))
     np.testing.assert_allclose(trace.get_score(), score, rtol=1e-6)
     constrained, weight = model.importance(jr.key(0), C["readings"].set(jnp.ones(4)), (0.5,))
     np.testing.assert_allclose(weight, constrained.get_subtrace("readings").get_score(), rtol=1e-6)
+
+    @jax.jit
+    def sweep(trace, key):
+        def step(i, trace):
+            cells = trace.get_choices()["cells"]
+            new, weight, _, _ = trace.edit(key, Update(C["cells", i].set(1.0 - cells[i])))
+            accept = jnp.log(jr.uniform(jr.fold_in(key, i))) < weight
+            return jax.lax.cond(accept, lambda: new, lambda: trace)
+
+        return jax.lax.fori_loop(0, CELLS, step, trace)
+
+    swept = sweep(trace, jr.key(0))
+    np.testing.assert_allclose(swept.get_score(), model.assess(swept.get_choices(), (0.5,))[0], rtol=1e-4)
 
 
 @pytest.mark.parametrize("traced", [False, True])
@@ -123,20 +136,3 @@ def test_a_change_of_one_element_reaches_its_edit_as_such(traced):
     new, weight, _, _ = trace.update(jr.key(0), C["cells"].set(jnp.ones(CELLS, bool)))
     assert full_recomputations != [], "any other change is recomputed"
     np.testing.assert_allclose(weight, new.get_score() - trace.get_score(), rtol=1e-5)
-
-
-def test_a_sweep_of_such_edits_keeps_the_score():
-    trace = model.simulate(jr.key(0), (0.5,))
-
-    @jax.jit
-    def sweep(trace, key):
-        def step(i, trace):
-            cells = trace.get_choices()["cells"]
-            new, weight, _, _ = trace.edit(key, Update(C["cells", i].set(1.0 - cells[i])))
-            accept = jnp.log(jr.uniform(jr.fold_in(key, i))) < weight
-            return jax.lax.cond(accept, lambda: new, lambda: trace)
-
-        return jax.lax.fori_loop(0, CELLS, step, trace)
-
-    swept = sweep(trace, jr.key(0))
-    np.testing.assert_allclose(swept.get_score(), model.assess(swept.get_choices(), (0.5,))[0], rtol=1e-4)

@@ -93,16 +93,13 @@ def test_angles_of_flaser_follow_from_the_number_of_beams(read, beams, last_deg,
     np.testing.assert_allclose(np.diff(angles), step_deg, atol=1e-9)
 
 
-def test_robotlaser_states_its_angles_and_largest_range_and_may_hold_remissions(read):
+def test_lines_state_angles_largest_range_and_the_laser_s_pose_and_its_offset_is_reported(read):
     text = robotlaser([1.0, 50.0, 51.2], (1.0, 2.0, 0.5), first=-0.2, step=0.2, max_range=50.0, remissions=(7, 8))
     reading = read(text)
     np.testing.assert_allclose(reading.scans.angles_rad, [-0.2, 0.0, 0.2], atol=1e-12)
     np.testing.assert_array_equal(reading.scans.poses, [[1.0, 2.0, 0.5]])
     np.testing.assert_array_equal(reading.scans.ranges_m, [[1.0, np.inf, np.inf]])
     assert (reading.message, reading.no_return.origin, reading.no_return_m) == ("ROBOTLASER1", "message", 50.0)
-
-
-def test_the_pose_is_the_lasers_and_its_offset_is_reported(read):
     robot, offset = np.array([2.0, 1.0, np.pi / 2]), 0.3
     laser = (2.0, 1.0 + offset, np.pi / 2)  # 0.3 m ahead of a robot that looks along +y
     reading = read(flaser([1.0, 2.0], laser, robot))
@@ -127,12 +124,9 @@ def test_gzip_is_recognised_by_content_whatever_the_name(tmp_path):
         assert len(read_carmen(tmp_path / name, LogOptions()).scans) == scans
 
 
-def test_ros_codes_keep_their_meaning(read):
+def test_codes_of_ros_keep_their_meaning_and_the_maximum_range_is_the_largest_hit_rounded_up_unless_given(read):
     scans = read(flaser(["nan", "inf", "-inf", 1.0])).scans
     assert scans.counts() == {"hit": 1, "no_return": 1, "too_close": 1, "invalid": 1}
-
-
-def test_the_maximum_range_is_the_largest_hit_rounded_up_unless_given(read):
     text = flaser([3.2, 7.01, 5.0])
     assert (read(text).scans.max_range_m, read(text).max_range_origin) == (8.0, "readings")
     limited = read(text, max_range_m=6.0)

@@ -60,7 +60,7 @@ def test_whatever_a_file_holds_it_is_read_or_refused(tmp_path_factory, content):
         read_or_refused(path, start + content)
 
 
-def test_a_missing_file_and_a_folder_are_refused_by_name(tmp_path):
+def test_a_missing_file_a_folder_and_a_saved_run_are_refused_by_name(tmp_path):
     with pytest.raises(BadInput, match=r"absent\.log: cannot be read: No such file"):
         read_log(tmp_path / "absent.log")
     with pytest.raises(BadInput, match=r"a folder, but not a ROS 2 bag's.*; give a file$"):
@@ -72,9 +72,6 @@ def test_a_missing_file_and_a_folder_are_refused_by_name(tmp_path):
     (tmp_path / "a" / "metadata.yaml").touch()  # a bag's folder
     with pytest.raises(BadInput, match=r"; give what is in it, such as .*/a$"):
         read_log(tmp_path)
-
-
-def test_a_saved_run_is_not_taken_for_a_broken_log(tmp_path):
     (tmp_path / "run.nc").write_bytes(b"\x89HDF\r\n\x1a\n" + bytes(100))
     with pytest.raises(BadInput, match=r"run\.nc: a saved run or another netCDF file, not a log; give the log"):
         read_log(tmp_path / "run.nc")
@@ -85,11 +82,9 @@ def test_the_intel_log_is_read_as_its_description_says():
     scans = reading.scans
     assert scans.ranges_m.shape == (910, 180)
     assert reading.messages == {"FLASER": 910, "ODOM": 14541, "NEFF": 910}
-    assert reading.no_return_m == 81.83
-    assert reading.no_return.origin == "found"
+    assert (reading.no_return_m, reading.no_return.origin) == (81.83, "found")
     assert scans.counts() == {"hit": 159628, "no_return": 4172, "too_close": 0, "invalid": 0}
-    assert scans.max_range_m == 26.0
-    assert scans.ranges_m.min() == 0.23
+    assert (scans.max_range_m, scans.ranges_m.min()) == (26.0, 0.23)
     np.testing.assert_allclose(np.degrees(scans.angles_rad), np.arange(-90, 90), atol=1e-9)
     assert reading.reordered > 0
     assert (np.diff(scans.stamps_s) >= 0).all()

@@ -99,14 +99,7 @@ def test_an_origin_is_written_without_the_noise_of_floating_point(tmp_path):
     assert "origin: [0.3, 0.12414815121802761, 0]" in path.read_text()
 
 
-def test_nav2_saturates_a_scaled_map_beyond_given_thresholds(tmp_path):
-    occupancy = np.array([[0.1, 0.2, 0.5, 0.8, 0.9]])
-    grid = Grid((1, 5))
-    path, _ = write_map(tmp_path / "m.yaml", occupancy, grid, mode="scale", occupied_thresh=0.75, free_thresh=0.25)
-    np.testing.assert_array_equal(nav2_reads(path)[0].T, [[0, 0, 50, 100, 100]])
-
-
-def test_the_first_row_of_the_image_is_the_top_and_unknown_cells_are_grey_205_and_not_free_for_nav2(tmp_path):
+def test_the_first_row_is_the_top_unknown_cells_are_grey_205_and_scaled_maps_saturate_beyond_thresholds(tmp_path):
     occupancy = np.zeros((3, 2))
     occupancy[0, 1] = 1.0  # low x, high y
     _, image = write_map(tmp_path / "m.yaml", occupancy, Grid((3, 2)))
@@ -115,6 +108,10 @@ def test_the_first_row_of_the_image_is_the_top_and_unknown_cells_are_grey_205_an
     path, image = write_map(tmp_path / "m.yaml", np.array([[0.1, np.nan, 0.5]]), Grid((1, 3)))
     np.testing.assert_array_equal(np.asarray(Image.open(image))[::-1, 0], [254, 205, 205])
     np.testing.assert_array_equal(nav2_reads(path)[0][:, 0], [0, -1, -1])
+    occupancy = np.array([[0.1, 0.2, 0.5, 0.8, 0.9]])
+    grid = Grid((1, 5))
+    path, _ = write_map(tmp_path / "m.yaml", occupancy, grid, mode="scale", occupied_thresh=0.75, free_thresh=0.25)
+    np.testing.assert_array_equal(nav2_reads(path)[0].T, [[0, 0, 50, 100, 100]])
 
 
 @pytest.mark.parametrize("name", ["plain.yaml", "two words.yaml", "colon: and # hash.yaml", "día.yml", "0.yaml"])
@@ -124,7 +121,7 @@ def test_any_file_name_finds_its_image(tmp_path, name):
     np.testing.assert_array_equal(read_map(tmp_path / name)[0], np.eye(2))
 
 
-def test_maps_of_other_programs_are_read(tmp_path):
+def test_maps_of_other_programs_raw_and_negated_ones_are_read(tmp_path):
     Image.fromarray(np.array([[254, 0], [205, 254]], dtype=np.uint8)).save(tmp_path / "floor 1.pgm")
     (tmp_path / "map.yaml").write_text(
         "---\n# made by map_saver\nimage: 'floor 1.pgm'  # relative\nresolution: 0.050000\n"
@@ -133,9 +130,6 @@ def test_maps_of_other_programs_are_read(tmp_path):
     cells, grid = read_map(tmp_path / "map.yaml")
     np.testing.assert_array_equal(cells, [[np.nan, 0.0], [0.0, 1.0]])
     assert grid == Grid((2, 2), 0.05, (-1.5, 2.0))
-
-
-def test_raw_and_negated_maps_are_read(tmp_path):
     Image.fromarray(np.array([[0, 37, 100, 101, 255]], dtype=np.uint8)).save(tmp_path / "m.pgm")
     head = "image: m.pgm\nresolution: 1\norigin: [0, 0, 0]\noccupied_thresh: 0.65\nfree_thresh: 0.196\n"
     (tmp_path / "raw.yaml").write_text(head + "mode: raw\nnegate: 0\n")

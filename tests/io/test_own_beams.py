@@ -74,17 +74,13 @@ def carmen(fans, kind="ROBOTLASER1"):
 
 
 @pytest.mark.parametrize("fans", FANS.values(), ids=FANS)
-def test_carmen_and_g2o(tmp_path, fans):
+def test_texts_and_arrays(tmp_path, fans):
+    angles, readings, poses, stamps = log(fans)
     (tmp_path / "a.log").write_text("".join(carmen(fans)))
     check(describe_log(tmp_path / "a.log"), fans)
-    vertices = [f"VERTEX_SE2 {i} {' '.join(map(repr, map(float, pose)))}\n" for i, pose in enumerate(log(fans)[2])]
+    vertices = [f"VERTEX_SE2 {i} {' '.join(map(repr, map(float, pose)))}\n" for i, pose in enumerate(poses)]
     (tmp_path / "a.g2o").write_text("".join(v + line for v, line in zip(vertices, carmen(fans), strict=True)))
     check(describe_log(tmp_path / "a.g2o"), fans)
-
-
-@pytest.mark.parametrize("fans", FANS.values(), ids=FANS)
-def test_tables(tmp_path, fans):
-    angles, readings, poses, stamps = log(fans)
     rows, wide = ["scan,stamp,x,y,yaw,angle,range"], max(map(len, readings))
     for i, (own, row, pose) in enumerate(zip(angles, readings, poses, strict=True)):
         start = ",".join(map(repr, map(float, [i, stamps[i], *pose])))
@@ -97,12 +93,6 @@ def test_tables(tmp_path, fans):
         rows.append(",".join(fields))
     (tmp_path / "scans.csv").write_text("\n".join(rows) + "\n")
     check(describe_log(tmp_path / "scans.csv"), fans)
-
-
-@pytest.mark.parametrize("fans", FANS.values(), ids=FANS)
-def test_arrays(tmp_path, fans):
-    angles, readings, poses, stamps = log(fans)
-    wide = max(map(len, readings))
     block = np.full((2, len(fans), wide), np.nan)
     for i, (own, row) in enumerate(zip(angles, readings, strict=True)):
         block[0, i, : len(own)], block[1, i, : len(own)] = own, row

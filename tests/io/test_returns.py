@@ -41,8 +41,7 @@ def test_rarer_codes_above_the_usual_one_are_no_return_too():
     readings, _ = a_log(81.83, 0.05, largest_m=25.0)
     readings[3, 4], readings[5, 6] = 81.91, 81.87
     ranges, found = decode(readings)
-    assert found.code_m == 81.83
-    assert found.values_m == (81.83, 81.87, 81.91)
+    assert (found.code_m, found.values_m) == (81.83, (81.83, 81.87, 81.91))
     assert np.isposinf(ranges[[3, 5], [4, 6]]).all()
 
 
@@ -54,14 +53,11 @@ def test_a_log_without_a_code_keeps_all_its_ranges(seed, largest_m):
     np.testing.assert_array_equal(ranges, readings)
 
 
-def test_a_distance_met_again_and_again_is_no_code_while_others_are_longer():
+def test_a_distance_met_again_and_again_is_no_code_while_others_are_longer_or_the_robot_stands():
     readings, _ = a_log(0.0, 0.0, largest_m=20.0)
     readings[:, 40:50] = 0.9 * readings.max()
     _, found = decode(readings)
     assert found.code_m is None
-
-
-def test_a_robot_standing_still_before_a_far_wall_makes_no_code():
     scan = np.round(np.random.default_rng(0).uniform(1, 5, 180), 2)
     scan[90:92] = 23.5  # seen through a door, by the same two beams in every scan
     _, found = decode(np.tile(scan, (200, 1)))
@@ -100,26 +96,20 @@ def test_a_robot_that_stands_or_turns_on_the_spot_before_a_far_wall_makes_no_cod
 
 
 @pytest.mark.parametrize("poses", [STANDING, SPINNING])
-def test_what_stands_out_in_one_direction_alone_is_noted(poses):
+def test_what_stands_out_in_one_direction_is_noted_and_a_code_in_many_is_found_though_the_robot_stands(poses):
     _, found = seen(a_room(metres=81.83), poses)
     assert "say --no-return 81.83" in found.notes()[0]
     assert seen(a_room(far=()), poses)[1].notes() == ()
-
-
-@pytest.mark.parametrize("poses", [STANDING, SPINNING])
-def test_a_code_in_many_directions_is_found_though_the_robot_stands(poses):
     directions = [3, 50, 51, 52, 120, 200, 201, 330]
     ranges, found = seen(a_room(far=()), poses, code=81.83, directions=directions)
-    assert found.code_m == 81.83
-    assert np.isposinf(ranges).sum() == len(directions) * len(poses)
+    assert (found.code_m, np.isposinf(ranges).sum()) == (81.83, len(directions) * len(poses))
 
 
 def test_a_single_scan_shows_its_code_if_it_is_far_above_the_rest():
     scan = np.round(np.random.default_rng(0).uniform(1, 9, (1, 180)), 2)
     scan[0, [3, 70, 120]] = 81.83
     ranges, found = decode(scan)
-    assert found.code_m == 81.83
-    assert np.isposinf(ranges).sum() == 3
+    assert (found.code_m, np.isposinf(ranges).sum()) == (81.83, 3)
 
 
 @pytest.mark.parametrize("code", [0.0, -1.0])

@@ -159,8 +159,7 @@ def test_a_transform_that_is_static_and_not_is_to_be_chosen(tmp_path, moving):
     file = r.written(tmp_path, r.merged([("/tf_static", r.TF, 0.0, r.tf(still))], messages))
     message = r.refused(file)
     assert f"the transform {'odom -> base_link' if moving else 'map -> odom'} differs between topics" in message
-    assert "/tf_static says x 1 m, y 2 m" in message
-    assert "--pose-topic: " in message
+    assert [part for part in ("/tf_static says x 1 m, y 2 m", "--pose-topic: ") if part not in message] == []
     same(describe_log(file, pose_topic="/tf").scans, scans)
 
 
@@ -173,8 +172,7 @@ def test_two_publishers_of_odometry_are_refused_with_both_values(tmp_path, late,
     file = r.written(tmp_path, r.merged(messages, others))
     message = r.refused(file)
     assert "the transform odom -> base_link on /tf goes to and fro between values that differ: at " in message
-    assert "two publishers" in message
-    assert "--pose-topic: /odom" in message
+    assert [part for part in ("two publishers", "--pose-topic: /odom") if part not in message] == []
     same(describe_log(file, pose_topic="/odom").scans, scans)
     told = contents_of(file)
     assert told.suggestion.endswith("--pose-topic /odom")

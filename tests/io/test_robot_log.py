@@ -11,7 +11,7 @@ import pytest
 import recordings as r
 
 import bayesmap as bm
-from bayesmap.io.logs import describe_log, read_log, thinned
+from bayesmap.io.logs import describe_log, read_log
 from bayesmap.io.ros.recording import zstd
 
 
@@ -232,13 +232,6 @@ def test_sonars_are_scans_of_one_beam_and_are_chosen_one_at_a_time(tmp_path):
     np.testing.assert_allclose(left.poses - [[t, 0, 0] for t in r.POSE_TIMES], [[0.1, 0.2, math.pi / 2]] * 21)
     np.testing.assert_allclose(left.ranges_m[:, 0], 2.0 + r.POSE_TIMES)
     assert right.counts()["no_return"] == 21
-
-
-def test_scans_are_thinned_by_the_distance_travelled(tmp_path):
-    messages, scans = r.robot()
-    reading = describe_log(r.written(tmp_path, messages), thin_m=0.25)
-    np.testing.assert_array_equal(reading.scans.ranges_m, thinned(scans, 0.25).ranges_m)
-    assert 1 < len(reading.scans) < reading.summary()["scans_read"] == 10
 
 
 @pytest.mark.parametrize("poses", ["odom", "tf", "tf of another frame", "tf with another mount"])

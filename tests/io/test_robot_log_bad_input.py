@@ -37,8 +37,7 @@ def test_a_truncated_recording_is_refused_and_read_as_far_as_it_goes_on_request(
     path = tmp_path / "cut"
     path.write_bytes(content[: int(len(content) * 0.75)])  # without the index at the end and a little of the data
     message = r.refused(path)
-    assert "damaged or cut short" in message
-    assert "--skip-bad-lines" in message
+    assert [part for part in ("damaged or cut short", "--skip-bad-lines") if part not in message] == []
     try:
         reading = describe_log(path, skip_bad_lines=True, pose_topic="/odom")
     except bm.BadInput:

@@ -21,12 +21,10 @@ def test_others_read_the_map_in_every_container(tmp_path, ending):
     message = found.message
     assert message.header.frame_id == "map"
     info = message.info
-    assert (info.width, info.height) == (5, 3)
-    assert info.resolution == 0.25
+    assert (info.width, info.height, info.resolution) == (5, 3, 0.25)
     assert (info.origin.position.x, info.origin.position.y, info.origin.position.z) == (-1.5, 2.0, 0.0)
     turn = info.origin.orientation
-    assert (turn.x, turn.y, turn.z, turn.w) == (0, 0, 0, 1)
-    assert len(message.data) == 15
+    assert (turn.x, turn.y, turn.z, turn.w, len(message.data)) == (0, 0, 0, 1, 15)
     for i in range(5):
         for j in range(3):
             expected = round(100 * occupancy()[i, j]) if observed()[i, j] else -1
@@ -105,15 +103,12 @@ def test_grid_map_finds_every_layer_at_every_place(tmp_path, ending):
     assert found.topic == "/grid_map"
     message, info = found.message, found.message.info
     header = info.header if ending == ".bag" else message.header
-    assert header.frame_id == "map"
-    assert found.time_ns == 12_500_000_000
-    assert info.resolution == 0.25
+    assert (header.frame_id, found.time_ns, info.resolution) == ("map", 12_500_000_000, 0.25)
     assert (info.length_x, info.length_y) == (1.25, 0.75)
     assert (info.pose.position.x, info.pose.position.y) == (-1.5 + 0.625, 2.0 + 0.375)
     assert info.pose.orientation.w == 1.0
     assert (message.outer_start_index, message.inner_start_index) == (0, 0)
-    assert list(message.layers) == list(LAYERS)
-    assert list(message.basic_layers) == ["mean"]
+    assert (list(message.layers), list(message.basic_layers)) == (list(LAYERS), ["mean"])
     xs, ys = GRID.centers_m()
     for values, layer in zip(message.data, LAYERS.values(), strict=True):
         for i, x in enumerate(xs):

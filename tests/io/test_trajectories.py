@@ -43,8 +43,7 @@ def test_recordings_hold_the_path_and_poses_with_covariances(tmp_path, ending):
     assert {f.type_name.rpartition("/")[2] for f in poses} == {"PoseWithCovarianceStamped"}
     assert len(line.poses) == len(poses) == 3
     for i, one in enumerate(poses):
-        assert one.time_ns == round(STAMPS[i] * 1e9)
-        assert one.message.header.frame_id == "map"
+        assert (one.time_ns, one.message.header.frame_id) == (round(STAMPS[i] * 1e9), "map")
         for place in (line.poses[i].pose, one.message.pose.pose):
             assert (place.position.x, place.position.y) == tuple(POSES[i, :2])
             yaw = 2 * np.arctan2(place.orientation.z, place.orientation.w)
@@ -54,13 +53,17 @@ def test_recordings_hold_the_path_and_poses_with_covariances(tmp_path, ending):
         assert np.count_nonzero(six) == 9
 
 
-def test_tum_comes_back_with_its_covariances(tmp_path):
+def test_tum_comes_back_with_its_covariances_and_those_of_another_trajectory_are_refused(tmp_path):
     written = export_trajectory(tmp_path / "walk.tum", trajectory())
     assert [path.name for path in written] == ["walk.tum", "walk-covariances.txt"]
     back = read_trajectory(tmp_path / "walk.tum")
     np.testing.assert_allclose(back.poses, POSES, atol=1e-8)
     np.testing.assert_allclose(back.stamps_s, STAMPS)
     np.testing.assert_allclose(back.covariances, covariances(), rtol=1e-8)
+    export_trajectory(tmp_path / "walk.tum", trajectory())
+    export_trajectory(tmp_path / "walk.tum", trajectory(stamps_s=STAMPS + 1, covariances=None))
+    with pytest.raises(BadInput, match="its stamps are not those of"):
+        read_trajectory(tmp_path / "walk.tum")
 
 
 def test_tum_of_others_is_sorted_and_read_whatever_its_quaternions_signs(tmp_path):
@@ -80,13 +83,6 @@ def test_what_is_no_tum_trajectory(tmp_path, content, message):
     (tmp_path / "a.tum").write_text(content)
     with pytest.raises(BadInput, match=message):
         read_trajectory(tmp_path / "a.tum")
-
-
-def test_covariances_of_another_trajectory_are_refused(tmp_path):
-    export_trajectory(tmp_path / "walk.tum", trajectory())
-    export_trajectory(tmp_path / "walk.tum", trajectory(stamps_s=STAMPS + 1, covariances=None))
-    with pytest.raises(BadInput, match="its stamps are not those of"):
-        read_trajectory(tmp_path / "walk.tum")
 
 
 def test_a_graph_says_its_steps_and_how_sure_they_are(tmp_path):
@@ -132,14 +128,7 @@ def test_graphs_that_cannot_be(tmp_path):
     assert list(tmp_path.iterdir()) == []
 
 
-def test_the_mean_of_draws_goes_round_the_circle():
-    draws = np.array([[[0.0, 0.0, np.pi - 0.1]], [[2.0, 0.0, -np.pi + 0.1]]])
-    found = Trajectory.of_draws(draws)
-    assert abs(abs(found.poses[0, 2]) - np.pi) < 1e-9
-    assert found.covariances[0, 2, 2] == pytest.approx(2 * 0.1**2)
-
-
-def test_a_mount_swings_with_its_uncertain_heading():
+def test_a_mount_swings_with_its_uncertain_heading_and_the_mean_of_draws_goes_round_the_circle():
     """The covariance of another frame is that of its draws, up to what is not linear."""
     rng = np.random.default_rng(2)
     covariance = np.diag([0.01, 0.02, 0.01]) ** 2
@@ -148,6 +137,10 @@ def test_a_mount_swings_with_its_uncertain_heading():
     moved = Trajectory(pose, covariances=covariance[None]).of_frame(mount)
     np.testing.assert_allclose(moved.covariances[0], np.cov(drawn.T), atol=4e-6)
     np.testing.assert_allclose(between(moved.poses[0], compose(pose, mount)), 0, atol=1e-12)
+    draws = np.array([[[0.0, 0.0, np.pi - 0.1]], [[2.0, 0.0, -np.pi + 0.1]]])
+    found = Trajectory.of_draws(draws)
+    assert abs(abs(found.poses[0, 2]) - np.pi) < 1e-9
+    assert found.covariances[0, 2, 2] == pytest.approx(2 * 0.1**2)
 
 
 def test_an_ellipse_holds_its_share():
@@ -162,7 +155,7 @@ def test_an_ellipse_holds_its_share():
     assert inside.mean() == pytest.approx(0.8, abs=0.015)  # five standard errors
 
 
-def test_numpy_reads_stamps_and_scipy_reads_turns(tmp_path):
+def test_numpy_reads_stamps_and_scipy_turns_and_without_stamps_poses_are_numbered(tmp_path):
     poses, stamps = scans().poses, [1421098765.123456, 1421098765.25, 1421098766.0]
     path = write_trajectory(tmp_path / "poses.tum", poses, stamps)
     rows = np.loadtxt(path)  # leaves out what follows #
@@ -172,9 +165,6 @@ def test_numpy_reads_stamps_and_scipy_reads_turns(tmp_path):
     turns = Rotation.from_quat(rows[:, 4:])  # x, y, z, w
     np.testing.assert_allclose(np.linalg.norm(rows[:, 4:], axis=1), 1.0, atol=1e-11)
     np.testing.assert_allclose(turns.as_euler("xyz"), np.column_stack([np.zeros((3, 2)), poses[:, 2]]), atol=1e-9)
-
-
-def test_without_stamps_poses_are_numbered_and_the_file_says_so(tmp_path):
     path = write_trajectory(tmp_path / "poses.tum", scans().poses)
     np.testing.assert_array_equal(np.loadtxt(path)[:, 0], [0, 1, 2])
     assert path.read_text().startswith("# scan number (the scans have no stamps) tx ty tz qx qy qz qw\n")
@@ -212,8 +202,7 @@ def test_the_graph_s_solution_and_its_covariances_are_those_of_the_run(force, tm
     """Errors that pairs have in common are in it on average: determinants are right over pairs of scans together."""
     found = round_way(force=force)
     poses, graph = written(found, tmp_path / "walk.g2o")
-    assert len(poses) == len(found)
-    assert len(graph) == len(found.gaussian.first) + 1
+    assert (len(poses), len(graph)) == (len(found), len(found.gaussian.first) + 1)
     step, _ = solve_step(len(poses), [quadratic(graph, poses)])
     assert np.abs(step).max() < 1e-6
     precision = Precision(normal_equations(len(poses), [quadratic(graph, poses)])[0])

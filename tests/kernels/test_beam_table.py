@@ -52,10 +52,13 @@ def test_the_compiled_likelihood_equals_numpy_s(name, monkeypatch):
         np.testing.assert_allclose(compiled.no_hit, plain.no_hit, rtol=1e-6, atol=1e-6)
 
 
-def test_a_robust_table_is_much_smaller_and_says_the_same():
+def test_a_robust_table_is_much_smaller_and_a_map_of_another_shape_is_refused():
     scans = bm.Scans([3.1, 0.1, 0.0], np.linspace(-0.5, 0.5, 50), np.full((1, 50), 0.5), max_range_m=10.0)
     robust, stiff = (trace(scans, GRID, s) for s in (bm.BeamMixture(bm.Gaussian(0.02)), bm.Gaussian(0.02)))
     assert robust.n_incidences < 0.5 * stiff.n_incidences
+    table = trace(random_scans(0), GRID, bm.Gaussian(0.1))
+    with pytest.raises(bm.BadInput, match=r"walls have shape \(9, 13\), but the grid is \(13, 9\)"):
+        table.log_likelihood(np.zeros((9, 13)))
 
 
 @pytest.mark.parametrize("depth", [0.25, 0.5, 1.0])
@@ -66,12 +69,6 @@ def test_hit_depth_moves_hits_into_the_cell_by_that_share_of_the_chord(depth):
     into = bm.Gaussian(0.3).log_likelihood(np.float64(1.5), (np.arange(13) + depth) * 0.25, limits)
     # the first cell is left, not entered: from inside, the hit is its exit
     np.testing.assert_allclose(table.loglik[-12:], into[1:], atol=FLOAT32)
-
-
-def test_a_map_of_another_shape_is_refused():
-    table = trace(random_scans(0), GRID, bm.Gaussian(0.1))
-    with pytest.raises(bm.BadInput, match=r"walls have shape \(9, 13\), but the grid is \(13, 9\)"):
-        table.log_likelihood(np.zeros((9, 13)))
 
 
 @pytest.mark.parametrize("name", SENSORS)

@@ -121,16 +121,13 @@ def test_eight_at_a_time_say_what_each_says(name, worse):
     assert np.all(np.abs(cut - plain)[plain > least] <= close[plain > least])
 
 
-def test_beams_without_a_lane_are_asked_one_by_one():
+def test_beams_without_a_lane_and_products_too_small_for_a_number_are_taken_one_by_one():
     plain, _, lanes, whole, _, others, stopped = weighed(HARD, 4)
     assert 0 < others.sum() < 0.1 * stopped.sum()
     mixed = (others > 0) & (others < stopped)
     assert mixed.any()
     assert np.abs(lanes - plain)[mixed].min() > 0.1
     assert np.abs(whole - plain)[mixed].max() < 1e-3
-
-
-def test_a_product_too_small_for_a_number_is_taken_one_by_one():
     plain, _, lanes, whole, *_ = weighed(SHARP, 3, 0.05)
     unknown = lanes == float(UNKNOWN)
     assert 0 < unknown.sum() < 0.2 * unknown.size

@@ -64,18 +64,7 @@ def test_beams_a_hair_off_an_axis(x, y, tilt, sign):
     assert_equal_to_the_formula(random_walls(1, (7, 7), 0.3), starts, angle)
 
 
-def test_long_beams_keep_their_precision():
-    """Two thousand grid lines, stepped over one by one, add up to less than 1e-9 cells of error."""
-    walls = np.zeros((2000, 2000), dtype=bool)
-    walls[-1, :] = walls[:, -1] = True
-    rng = np.random.default_rng(5)
-    starts, angles = rng.uniform(0, 3, (200, 2)), rng.uniform(0.001, np.pi / 2 - 0.001, 200)
-    found, _ = cast(walls, starts, angles, 1e4)
-    to_x, to_y = (1999 - starts[:, 0]) / np.cos(angles), (1999 - starts[:, 1]) / np.sin(angles)
-    np.testing.assert_allclose(found, np.minimum(to_x, to_y), atol=CELLS, rtol=0)
-
-
-def test_from_far_outside_the_grid():
+def test_long_beams_and_those_from_far_outside_keep_their_precision_and_look_no_further_than_their_hit():
     walls = random_walls(2, (8, 8), 0.3)
     rng = np.random.default_rng(6)
     aim, angles = rng.uniform(0, 8, (300, 2)), rng.uniform(-np.pi, np.pi, 300)
@@ -85,9 +74,13 @@ def test_from_far_outside_the_grid():
     found, _ = cast(walls, starts, angles, 3e4)
     assert sure.sum() > 290
     np.testing.assert_allclose(found[sure], expected[sure], atol=1e-6, rtol=0)  # 1e4 cells away, 1e-12 of them round
-
-
-def test_a_beam_looks_no_further_than_its_hit():
+    walls = np.zeros((2000, 2000), dtype=bool)
+    walls[-1, :] = walls[:, -1] = True
+    rng = np.random.default_rng(5)
+    starts, angles = rng.uniform(0, 3, (200, 2)), rng.uniform(0.001, np.pi / 2 - 0.001, 200)
+    found, _ = cast(walls, starts, angles, 1e4)
+    to_x, to_y = (1999 - starts[:, 0]) / np.cos(angles), (1999 - starts[:, 1]) / np.sin(angles)
+    np.testing.assert_allclose(found, np.minimum(to_x, to_y), atol=CELLS, rtol=0)
     walls = np.zeros((100, 1), dtype=bool)
     walls[10] = True
     _, visits = cast(walls, np.array([[0.5, 0.5]]), np.array([0.0]), 1000.0)

@@ -42,14 +42,6 @@ def assert_equal(a: Rays, b: Rays):
 
 
 @EVERYWHERE
-def test_whole_rays_do_not_depend_on_the_readings(kind):
-    scans = random_scans(1, lattice=KINDS[kind])
-    other = dataclasses.replace(scans, ranges_m=np.where(np.isnan(scans.ranges_m), np.nan, 0.2))
-    rays = trace_rays(scans, GRID)
-    assert_equal(dataclasses.replace(rays, range_m=other.ranges_m.ravel()), trace_rays(other, GRID))
-
-
-@EVERYWHERE
 def test_cells_and_where_they_are_entered_are_the_formula_s(kind):
     for seed in range(2, 6):
         scans = random_scans(seed, lattice=KINDS[kind])
@@ -100,16 +92,23 @@ def test_a_start_next_to_a_grid_line_counts_as_on_it_in_the_walk_and_in_the_stre
             np.testing.assert_allclose(stop_distances(rays, 0.5), (enter + leave) / 2, rtol=1e-6, atol=1e-9)
 
 
-def test_a_table_s_cells_are_its_rays():
+def test_a_table_s_cells_are_its_rays_and_selected_beams_are_those_beams():
     scans = random_scans(3)
     rays, table = trace_rays(scans, GRID), trace(scans, GRID, bm.Gaussian(0.1))
     np.testing.assert_array_equal(rays.offsets, table.offsets)
     np.testing.assert_array_equal(rays.cells, table.cells)
     np.testing.assert_array_equal(rays.touched, np.unique(rays.cells))
     np.testing.assert_array_equal(rays.touched[rays.columns], rays.cells)
+    rays, beams = near_readings(random_scans(3), MARGIN_M), np.array([4, 0, 4])
+    selected = rays.select(beams)
+    for mine, whole in enumerate(beams):
+        np.testing.assert_array_equal(of_beam(selected.cells, selected, mine), of_beam(rays.cells, rays, whole))
+    np.testing.assert_array_equal(selected.near - selected.offsets[:-1], (rays.near - rays.offsets[:-1])[beams])
+    np.testing.assert_array_equal(selected.direction, rays.direction[beams])
+    np.testing.assert_array_equal(selected.range_m, rays.range_m[beams])
 
 
-def test_scans_may_be_traced_alone_and_from_other_poses():
+def test_scans_may_be_traced_alone_from_other_poses_or_from_poses_of_their_beams():
     scans, there = random_scans(6), random_scans(7)
     whole = trace_rays(scans, GRID, poses_world=there.poses)
     assert_equal(whole, trace_rays(dataclasses.replace(scans, poses=there.poses), GRID))
@@ -118,9 +117,6 @@ def test_scans_may_be_traced_alone_and_from_other_poses():
         first = scan * len(scans.angles_rad)
         for b in range(alone.n_beams):
             np.testing.assert_array_equal(of_beam(alone.cells, alone, b), of_beam(whole.cells, whole, first + b))
-
-
-def test_beams_that_left_from_poses_of_their_own_are_traced_from_there():
     scans = random_scans(6, poses=1)
     moving = np.repeat(scans.poses[:, None], scans.n_beams, axis=1)
     moving[0, 1::2] += [0.4, -0.2, 0.3]
@@ -140,8 +136,7 @@ def test_beams_are_traced_some_at_a_time_to_the_same_rays(monkeypatch):
     pieces = trace_rays(scans, GRID, reach_m=reach_m, near_m=near_m, on_progress=lambda *now: told.append(now))
     assert_equal(pieces, whole)
     done = [done for done, _ in told]
-    assert done == sorted(done)
-    assert told[-1] == (whole.n_beams, whole.n_beams)
+    assert (done, told[-1]) == (sorted(done), (whole.n_beams, whole.n_beams))
 
 
 @EVERYWHERE
@@ -159,7 +154,7 @@ def test_a_ray_ends_where_no_stop_can_explain_its_reading_and_near_begins_not_fa
     assert (rays.lengths[np.isnan(scans.ranges_m.ravel())] == 0).all()
 
 
-def test_margins_may_differ_from_beam_to_beam():
+def test_margins_may_differ_from_beam_to_beam_and_end_points_are_in_metres_from_the_corner():
     scans = random_scans(8)
     margins = np.linspace(0.0, 2.0, scans.n_beams)
     rays = near_readings(scans, margins)
@@ -167,9 +162,6 @@ def test_margins_may_differ_from_beam_to_beam():
         alone = near_readings(scans, float(margins[b]))
         assert rays.lengths[b] == alone.lengths[b]
         assert rays.near[b] - rays.offsets[b] == alone.near[b] - alone.offsets[b]
-
-
-def test_end_points_are_in_metres_from_the_corner():
     scans = random_scans(3)
     ends = near_readings(scans, MARGIN_M).end_points_m()
     hit = np.isfinite(scans.ranges_m.ravel())
@@ -182,8 +174,7 @@ def test_no_valid_beam_or_none_through_the_grid_is_no_entry(readings):
     away = bm.Scans([-0.5, 1.5, np.pi], [0.0, 0.1], [readings], max_range_m=9.0)
     rays = trace_rays(away, bm.Grid((4, 3)))
     assert rays.n_incidences == len(rays.touched) == 0
-    assert rays.n_beams == 2
-    assert rays.distance_m(0.5).shape == (0,)
+    assert (rays.n_beams, rays.distance_m(0.5).shape) == (2, (0,))
     whole = near_readings(random_scans(3), np.inf)  # without a warning of readings that are too close
     assert (whole.near == whole.offsets[:-1]).all()
 
@@ -214,13 +205,3 @@ def test_hits_and_passes_are_those_of_a_slow_count(kind):
         found = count_hits(scans, GRID)
         np.testing.assert_array_equal(found[0], hits)
         np.testing.assert_array_equal(found[1], passes)
-
-
-def test_selected_beams_are_those_beams():
-    rays, beams = near_readings(random_scans(3), MARGIN_M), np.array([4, 0, 4])
-    selected = rays.select(beams)
-    for mine, whole in enumerate(beams):
-        np.testing.assert_array_equal(of_beam(selected.cells, selected, mine), of_beam(rays.cells, rays, whole))
-    np.testing.assert_array_equal(selected.near - selected.offsets[:-1], (rays.near - rays.offsets[:-1])[beams])
-    np.testing.assert_array_equal(selected.direction, rays.direction[beams])
-    np.testing.assert_array_equal(selected.range_m, rays.range_m[beams])

@@ -96,11 +96,8 @@ def test_points_follow_the_surface_times_the_likelihood_of_the_reading(case):
         assert p_value(False) < ALPHA / TESTS
 
 
-def test_a_surface_without_thickness_has_one_point():
+def test_a_surface_without_thickness_has_one_point_and_none_lies_behind_the_beam_s_start():
     assert (draw_points(Late(0.05), LIMITS, 3.0, 2.9, 0.0, 10) == np.float32(2.9)).all()
-
-
-def test_no_point_lies_behind_the_beam_s_start():
     assert draw_points(Late(0.05), LIMITS, 0.1, 0.02, 0.05, 500).min() >= 0
 
 

@@ -198,7 +198,7 @@ def test_a_candidate_s_gain_is_the_ratio_of_what_all_beams_say():
         assert (abs(expected[some]) > 0.1).any()
 
 
-def test_invalid_readings_and_empty_beams_say_nothing():
+def test_invalid_readings_and_empty_beams_say_nothing_and_draws_do_not_repeat_in_the_next_sweep():
     scans = replace(scans_of([np.nan, 0.7]), poses=np.array([[-0.1, 0.22, 3.1]]))  # looks away from the cells
     worlds = copies(scans, GRID, PRIORS["surfaces"], SENSOR, 3)
     sampler = worlds.sampler(1)
@@ -209,9 +209,6 @@ def test_invalid_readings_and_empty_beams_say_nothing():
     hits, met = sampler.counts()
     assert hits.max() == 0
     assert met.max() <= 0
-
-
-def test_draws_of_one_sweep_do_not_repeat_in_the_next():
     worlds, _ = draw_worlds(3, GRID, PRIORS["plain"], SENSOR, 50)
     sampler = worlds.sampler(1)
     seen = []

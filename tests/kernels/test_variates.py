@@ -189,13 +189,10 @@ def test_prior_surfaces_with_x_and_y_the_wrong_way_round_are_rejected():
     assert min(scipy.stats.ks_2samp(mine[name], theirs[name]).pvalue for name in mine) < ALPHA / CASES / 9
 
 
-def test_it_is_a_permutation_for_every_size():
+def test_a_shuffle_is_a_permutation_for_every_size_and_differs_from_sweep_to_sweep_and_chain_to_chain():
     for size in (*range(1, 2001), 65_535, 65_536, 65_537, 1_000_003):
         orders = shuffles(size, [size, 2**63 + size])
         np.testing.assert_array_equal(np.sort(orders, axis=1), np.tile(np.arange(size), (2, 1)))
-
-
-def test_it_differs_from_sweep_to_sweep_and_from_chain_to_chain():
     orders = [shuffles_of_chains(100, 1, 3, sweep) for sweep in range(3)]
     assert len(np.unique(np.concatenate(orders), axis=0)) == 9
 

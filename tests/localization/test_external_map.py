@@ -61,7 +61,7 @@ def test_scans_of_unlike_beams_are_searched_by_their_own(room):
     assert searched(known, own, few, 0)[0].right < usual.right - 0.1
 
 
-def test_the_fitted_law_is_that_of_the_scans(room, law):
+def test_the_fitted_law_is_that_of_the_scans_which_are_located_from_anywhere(room, law):
     """A sixth of the beams meet somebody; walls are off by 10 cm and thick, so that noise is 2 to 15 cm."""
     assert law.scans >= 20
     assert 0.08 < law.values["p_short"] + law.values["p_random"] < 0.5
@@ -69,9 +69,6 @@ def test_the_fitted_law_is_that_of_the_scans(room, law):
     assert 1.0 <= law.trust.place_readings <= law.trust.pose_readings <= 5.4
     assert 0.0 < law.usual_fit.missed < 0.5
     assert "independent readings (fitted on" in law.words()
-
-
-def test_scans_of_the_log_are_located_from_anywhere(room, law):
     occupancy, grid, moved, truth = room
     found = localize(external_map(occupancy, grid, moved, law), moved)
     off = np.array([offset(b.mean, pose)[0] for b, pose in zip(found.beliefs, truth, strict=True)])
@@ -79,12 +76,16 @@ def test_scans_of_the_log_are_located_from_anywhere(room, law):
     assert found.p_lost < 0.05
 
 
-def test_few_scans_fit_no_law(room):
+def test_few_scans_fit_no_law_and_maps_without_walls_or_free_cells_are_refused(room):
     occupancy, grid, moved, _ = room
     law = fit_law(occupancy, grid, moved.select(slice(0, 10)))
-    assert law.scans == 0
-    assert law.values == ASSUMED
+    assert (law.scans, law.values) == (0, ASSUMED)
     assert "too few scans" in law.words()
+    occupancy, grid, moved, _ = room
+    with pytest.raises(bm.BadInput, match="no occupied cell that a beam could meet"):
+        external_map(np.zeros(grid.shape), grid, moved)
+    with pytest.raises(bm.BadInput, match="no free cell"):
+        external_map(np.where(occupancy > 0.5, 1.0, np.nan), grid, moved)
 
 
 def test_a_wrong_prior_is_given_up_when_the_scans_contradict_it():
@@ -121,11 +122,3 @@ def test_places_share_by_powers_of_their_evidence():
     np.testing.assert_allclose(half[:2] / half[:2].sum(), [0.625, 0.375])
     none = shared_by_evidence(weights, group, mass, 0.0)
     np.testing.assert_allclose([none[:2].sum(), none[2:].sum()], mass)
-
-
-def test_maps_without_walls_or_free_cells_are_refused(room):
-    occupancy, grid, moved, _ = room
-    with pytest.raises(bm.BadInput, match="no occupied cell that a beam could meet"):
-        external_map(np.zeros(grid.shape), grid, moved)
-    with pytest.raises(bm.BadInput, match="no free cell"):
-        external_map(np.where(occupancy > 0.5, 1.0, np.nan), grid, moved)

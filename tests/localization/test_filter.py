@@ -32,13 +32,24 @@ def belief(p_lost=0.0, count=2000):
     return PoseBelief(poses, np.repeat([0.75 / count, 0.25 / count], count), p_lost, 1.0)
 
 
-def test_modes_are_separated_and_averaged_round_the_circle():
+def test_modes_are_separated_areas_leave_room_for_being_lost_and_json_has_every_answer():
     one, two = belief().modes
     assert (one.probability, two.probability) == pytest.approx((0.75, 0.25))
     np.testing.assert_allclose(two.mean, [5, 2, 0], atol=0.01)
     np.testing.assert_allclose(one.mean[:2], 0, atol=0.01)
     assert abs(one.mean[2]) == pytest.approx(np.pi, abs=0.01)
     np.testing.assert_allclose(np.sqrt(np.diag(one.covariance)), [0.1, 0.05, 0.02], rtol=0.05)
+    assert belief().probability_in([-1, 1, -1, 1]) == pytest.approx(0.75, abs=0.01)
+    assert belief(p_lost=0.2).probability_in([[4, 1], [6, 1], [6, 3], [4, 3]]) == pytest.approx(0.2, abs=0.01)
+    triangle = [[0.0, -1.0], [1.0, 0.0], [0.0, 1.0]]
+    assert belief().probability_in(np.array(triangle)) == pytest.approx(0.375, abs=0.02)
+    with pytest.raises(BadInput, match="give corners"):
+        belief().probability_in([1, 2, 3])
+    with pytest.raises(BadInput, match="inside"):
+        belief().region(1.0)
+    answer = belief(0.1).as_json()
+    assert (len(answer["modes"]), answer["p_lost"]) == (2, pytest.approx(0.1))
+    assert answer["region_95_m2"] > 0
 
 
 @pytest.mark.parametrize("level", [0.5, 0.8, 0.95])
@@ -50,24 +61,6 @@ def test_a_region_holds_its_share_and_no_more(level):
     if level == 0.95:  # beside a region of that share about the first alone the second's is missing
         assert region.contains([[5.0, 2.0]])[0]
         assert region.area_m2 < np.pi * 0.1 * 0.05 * 10 + np.pi * 0.05**2 * 10
-
-
-def test_the_probability_of_an_area_leaves_room_for_being_lost():
-    assert belief().probability_in([-1, 1, -1, 1]) == pytest.approx(0.75, abs=0.01)
-    assert belief(p_lost=0.2).probability_in([[4, 1], [6, 1], [6, 3], [4, 3]]) == pytest.approx(0.2, abs=0.01)
-    triangle = [[0.0, -1.0], [1.0, 0.0], [0.0, 1.0]]
-    assert belief().probability_in(np.array(triangle)) == pytest.approx(0.375, abs=0.02)
-    with pytest.raises(BadInput, match="give corners"):
-        belief().probability_in([1, 2, 3])
-    with pytest.raises(BadInput, match="inside"):
-        belief().region(1.0)
-
-
-def test_json_has_every_answer():
-    answer = belief(0.1).as_json()
-    assert len(answer["modes"]) == 2
-    assert answer["p_lost"] == pytest.approx(0.1)
-    assert answer["region_95_m2"] > 0
 
 
 def scan_of(scans):
@@ -110,17 +103,7 @@ def test_a_square_room_has_four_places_alike(seed):
         c, s = np.cos(turn), np.sin(turn)
         place = np.append(middle + np.array([[c, -s], [s, c]]) @ (np.array([1.33, 1.71]) - middle), 0.2 + turn)
         near = [mode for mode in likely if offset(mode.mean, place)[0] < 0.1 and offset(mode.mean, place)[1] < 0.1]
-        assert len(near) == 1
-        assert near[0].probability == pytest.approx(0.25, abs=0.15)
-
-
-def test_a_scan_without_hits_may_be_from_anywhere():
-    walls = np.zeros((40, 30), dtype=bool)
-    truth = np.array([1.5, 1.2, 0.4])
-    _, grid = walls_of(4.0, 3.0)
-    scans = scan_from(walls, grid, truth)
-    belief = locate(known(walls, grid, scans, beam_weight=1.0), scan_of(scans), np.random.default_rng(0))
-    assert np.sqrt(belief.covariance[0, 0]) == pytest.approx(4.0 / np.sqrt(12), rel=0.1)
+        assert (len(near), near[0].probability) == (1, pytest.approx(0.25, abs=0.15))
 
 
 def test_places_that_came_together_are_one_the_heaviest():
@@ -184,7 +167,7 @@ def test_refining_never_loses_and_a_scan_without_hits_has_no_candidates(room):
 NOWHERE = (np.zeros((40, 30), dtype=bool), 0.0)
 
 
-def test_the_field_of_a_surface_is_its_widened_density():
+def test_the_field_of_a_surface_is_its_widened_density_and_the_nearer_of_two_draws_counts():
     _, grid = walls_of(4.0, 3.0)
     states = np.zeros((1, grid.n_cells, 6), dtype=np.float32)
     states[0, 20 * 30 + 10] = [0.9, 2.05, 1.07, 0.03, 0.01, 0.02]
@@ -201,9 +184,6 @@ def test_the_field_of_a_surface_is_its_widened_density():
     )
     np.testing.assert_allclose(scores, expected, atol=0.02)
     assert scores[3] == pytest.approx(np.log(search.SURFACE_FLOOR), abs=1e-9)
-
-
-def test_the_nearer_surface_of_two_draws_counts():
     _, grid = walls_of(4.0, 3.0)
     states = np.zeros((2, grid.n_cells), dtype=np.float32)
     states[0, 20 * 30 + 10] = states[1, 25 * 30 + 10] = 1.0
@@ -255,7 +235,7 @@ def test_unequal_draws_of_places_leave_the_integral_right():
     assert places.shared_out(40).tolist() == [40, round(40 * np.sqrt(1 / 3))]
 
 
-def test_a_wide_prior_is_narrowed_about_the_pose():
+def test_a_wide_prior_is_narrowed_about_the_pose_but_by_a_scan_with_few_hits():
     walls, grid = walls_of(4.0, 3.0)
     truth = np.array([1.52, 1.23, 0.4])
     scans = scan_from(walls, grid, truth)
@@ -268,9 +248,6 @@ def test_a_wide_prior_is_narrowed_about_the_pose():
     assert len(found.means) == 1
     np.testing.assert_array_less(np.abs(found.means[0] - truth), [0.05, 0.05, 0.03])
     assert (np.sqrt(np.diag(found.covariances[0])) < [0.1, 0.1, 0.06]).all()
-
-
-def test_a_scan_with_few_hits_leaves_places_as_they_are():
     walls, grid = walls_of(4.0, 3.0)
     scans = scan_from(walls, grid, np.array([1.5, 1.2, 0.4]))
     places = InitialPose([1.0, 1.0, 0.0]).components()

@@ -162,8 +162,8 @@ def test_covariances_have_the_size_of_the_errors_for_any_noise(noise_m):
     assert noise_m < 0.04 or squares(truth, found.gaussian) > 1.8
 
 
-def test_only_the_laser_s_part_is_scaled():
-    _, _, found = aligned(0.01)
+def test_only_the_laser_s_part_is_scaled_and_scans_that_share_nothing_keep_the_residuals_error():
+    _, geometry, found = aligned(0.01)
     laser = len(found.pairs)
     tied = found.gaussian
     by_wheels = replace(
@@ -180,10 +180,6 @@ def test_only_the_laser_s_part_is_scaled():
     assert np.allclose(scaled.curvature[:laser], share * ratio * tied.curvature)
     assert np.allclose(scaled.force[:laser], share * np.diag(ratio) * tied.force)
     assert np.array_equal(scaled.curvature[laser], np.eye(3))
-
-
-def test_scans_that_share_nothing_keep_the_residuals_error():
-    _, geometry, found = aligned(0.01)
     nothing = replace(
         found, pairs=Pairs(np.empty(0, np.int32), np.empty(0, np.int32), np.zeros(len(geometry) + 1, np.int32))
     )

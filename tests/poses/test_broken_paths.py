@@ -101,25 +101,21 @@ def leapt(laps):
     return replace(recorded, poses=poses)
 
 
-def test_a_motion_that_no_robot_can_have_made_breaks_the_path():
+def test_a_motion_that_no_robot_can_have_made_breaks_the_path_and_a_long_one_over_a_long_time_does_not():
     scans = leapt(0.5)
     assert stated_motions(scans.poses, scans.stamps_s)[1][59]
     _, track = followed(scans)
     assert track.broken[60]
-
-
-@pytest.mark.full
-def test_a_path_that_such_a_motion_broke_is_put_together_again():
-    assert worst_m(infer_trajectory(leapt(1.6), threads=1).poses, uneven_recording()[1]) < 0.05
-
-
-def test_a_long_motion_over_a_long_time_is_believed():
-    """Scans are missing for a minute, odometry went on: 20 times the usual way is no reason to doubt it."""
     stamps = np.arange(100.0)
     poses = np.column_stack([np.arange(100) * 0.1 + 6.0 * (np.arange(100) >= 50), np.zeros(100), np.zeros(100)])
     stamps[50:] += 60.0
     assert not stated_motions(poses, stamps)[1].any()
     assert stated_motions(poses, None)[1][49]
+
+
+@pytest.mark.full
+def test_a_path_that_such_a_motion_broke_is_put_together_again():
+    assert worst_m(infer_trajectory(leapt(1.6), threads=1).poses, uneven_recording()[1]) < 0.05
 
 
 COARSE = {
@@ -155,7 +151,7 @@ def test_a_trajectory_from_coarse_stamps_is_as_good_as_without_stamps(kind):
     assert worst_m(found.poses, truth) < 1.5 * worst_m(without.poses, truth) + 0.01
 
 
-def test_parts_are_joined_from_any_heading_and_from_afar():
+def test_parts_are_joined_from_afar_and_where_too_few_places_join_them_stay_where_they_are():
     """The second part as the front end might leave it: moved by metres and turned."""
     geometry, keys, right = ordinary()
     broken_at, poses = len(keys) // 2, right.copy()
@@ -164,11 +160,7 @@ def test_parts_are_joined_from_any_heading_and_from_afar():
     found, joined = rejoin(path, 8.0)
     assert joined.all()
     assert worst_m(found, right) < 0.1
-
-
-def test_parts_that_too_few_places_join_stay_where_they_are():
-    """Fewer places than must agree are shared: the front end's guess stands."""
-    geometry, keys, right = ordinary()
+    # Fewer places than must agree are shared: the front end's guess stands.
     keys, poses = (array[: len(keys) // 2 - 3].copy() for array in (keys, right))
     broken_at = len(keys) - MIN_PLACES + 1
     poses[broken_at:] = compose(np.array([9.0, -14.0, 1.0]), poses[broken_at:])

@@ -76,12 +76,7 @@ def test_covariances_without_shared_errors_are_far_too_small():
     assert np.mean(alone) > 4.0
 
 
-def test_without_forces_there_are_no_bends():
-    _, gaussian = aligned(0, in_common=True)
-    assert not replace(gaussian, force=np.zeros_like(gaussian.force)).bends.any()
-
-
-def test_bends_move_relative_poses_as_they_move_poses():
+def test_bends_move_relative_poses_as_they_move_poses_and_without_forces_there_are_none():
     _, gaussian = aligned(2, in_common=True)
     first, second, small = np.array([3, 40]), np.array([70, 12]), 1e-4
     moved = [retract(gaussian.poses, small * bend) for bend in gaussian.bends]
@@ -89,6 +84,7 @@ def test_bends_move_relative_poses_as_they_move_poses():
     off = np.stack([between(poses[first], poses[second]) - now for poses in moved]) / small
     brute = np.einsum("nmi,nmj->mij", off, off) / len(off)
     np.testing.assert_allclose(bend_covariances(gaussian.bends, gaussian.poses, first, second), brute, rtol=2e-3)
+    assert not replace(gaussian, force=np.zeros_like(gaussian.force)).bends.any()
 
 
 SCALE_SIGMA, STEPS = 0.05, 20
@@ -106,16 +102,13 @@ def corridor(*, seen_m):
     return replace(gaussian, by_odometry=gaussian.steps_by(SCALE_SIGMA * relative[None, 1:])), gaussian
 
 
-def test_a_length_that_odometry_alone_knows_is_as_uncertain_as_its_scale():
+def test_a_length_that_odometry_alone_knows_is_as_uncertain_as_its_scale_and_one_that_the_laser_knows_is_not():
     found, plain = corridor(seen_m=1e3)
     added = found.relative_covariances([0, 5], [STEPS, 9]) - plain.relative_covariances([0, 5], [STEPS, 9])
     lengths = np.array([STEPS * STEP_M, 4 * STEP_M])
     np.testing.assert_allclose(added[:, 0, 0], found.scale_of_covariance * (SCALE_SIGMA * lengths) ** 2, rtol=1e-3)
     draws = replace(found, dof=1e6).draw(2000, seed=1)
     assert draws[:, STEPS, 0].std() == pytest.approx(np.hypot(SCALE_SIGMA * 10.0, 0.01 * np.sqrt(STEPS)), rel=0.08)
-
-
-def test_a_length_that_the_laser_knows_does_not_depend_on_odometrys_scale():
     found, plain = corridor(seen_m=1e-4)
     added = found.relative_covariances([0], [STEPS]) - plain.relative_covariances([0], [STEPS])
     assert added[0, 0, 0] < 1e-8
@@ -135,15 +128,7 @@ def test_covariances_hold_the_arc_on_which_a_lost_heading_puts_the_end_of_a_way(
     assert linear[0, 0] == 0.0
 
 
-def test_scans_of_nothing_are_flagged_where_they_are_most_of_all():
-    """Two thirds of the scans are explained by no other; the rest as usual, but for one."""
-    explained = np.where(np.arange(60) % 3 == 0, 0.95, 0.0)
-    explained[30] = 0.3
-    flagged = flag_unexplained(explained, np.arange(0, 60, 2))
-    np.testing.assert_array_equal(flagged, explained < 0.5)
-
-
-def test_a_scan_is_explained_by_what_several_key_scans_see_together():
+def test_a_scan_is_explained_by_several_key_scans_together_and_scans_of_nothing_are_flagged():
     """Two key scans see half of a scan's walls each: the mean of their shares was one half, and the scan was flagged.
 
     The last scan was taken elsewhere: neither explains it.
@@ -159,3 +144,7 @@ def test_a_scan_is_explained_by_what_several_key_scans_see_together():
     placed = place_scans(geometry, poses, keys, aligned, PointError(0.01, np.ones(3)))
     assert placed.explained[1] > 0.75
     assert placed.explained[3] < 0.4
+    explained = np.where(np.arange(60) % 3 == 0, 0.95, 0.0)
+    explained[30] = 0.3
+    flagged = flag_unexplained(explained, np.arange(0, 60, 2))
+    np.testing.assert_array_equal(flagged, explained < 0.5)

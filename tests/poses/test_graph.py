@@ -43,14 +43,10 @@ def dense(parts, poses):
     return matrix, gradient
 
 
-def test_a_sparse_step_equals_the_dense_one():
+def test_a_sparse_step_and_relative_covariances_equal_the_dense_ones():
     matrix, gradient = dense([CHAIN, LOOP], POSES)
     step, _ = solve_step(COUNT, [quadratic(CHAIN, POSES), quadratic(LOOP, POSES)])
     np.testing.assert_allclose(step.ravel(), -np.linalg.solve(matrix, gradient), rtol=1e-6, atol=1e-9)
-
-
-def test_relative_covariances_equal_the_dense_ones():
-    matrix, _ = dense([CHAIN, LOOP], POSES)
     covariance = np.linalg.inv(matrix)
     precision = Precision(normal_equations(COUNT, [quadratic(CHAIN, POSES), quadratic(LOOP, POSES)])[0])
     pairs = np.array([[0, 5], [3, 9], [11, 2], [4, 4], [6, 7], [0, 11]])
@@ -87,15 +83,12 @@ def test_the_pattern_holds_every_entry_of_the_factor():
         np.testing.assert_array_equal(held, np.abs(np.linalg.cholesky(moved)) > 0)
 
 
-def test_the_optimum_has_no_slope():
+def test_the_optimum_has_no_slope_and_a_wrong_loop_is_not_believed():
     poses, weights = graph.optimise(POSES, CHAIN, LOOP)
     assert (weights > 0.9).all()
     _, gradient = normal_equations(COUNT, [quadratic(CHAIN, poses), quadratic(LOOP, poses, weights)])
     _, before = normal_equations(COUNT, [quadratic(CHAIN, POSES), quadratic(LOOP, POSES)])
     assert np.abs(gradient[3:]).max() < 1e-3 * np.abs(before[3:]).max()
-
-
-def test_a_wrong_loop_is_not_believed():
     wrong = Factors(np.array([0]), np.array([6]), np.array([[9.0, 4.0, 1.0]]), np.eye(3)[None] / 0.02**2)
     both = Factors(
         *(np.concatenate([getattr(LOOP, n), getattr(wrong, n)]) for n in ("first", "second", "relative", "information"))

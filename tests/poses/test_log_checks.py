@@ -24,15 +24,12 @@ def path():
     return path_around(0.5)
 
 
-def test_constant_odometry_is_refused_with_the_remedy(path):
+def test_constant_odometry_is_refused_with_the_remedy_and_a_frozen_stretch_is_named(path):
     constant = scans(path, np.zeros_like(path))
     with pytest.raises(bm.BadInput, match=r"odometry is constant, one pose for all scans.*--no-odometry"):
         infer_trajectory(constant)
     check_scans(constant, no_odometry=True)
     assert doubts(constant, no_odometry=True) == []
-
-
-def test_a_stretch_of_frozen_odometry_is_named(path):
     stated = path.copy()
     stated[30:61] = stated[30]
     frozen = scans(path, stated)
@@ -43,16 +40,13 @@ def test_a_stretch_of_frozen_odometry_is_named(path):
     check_scans(frozen, no_odometry=False)
 
 
-def test_beams_without_return_are_left_out(path):
+def test_beams_without_return_standing_robots_and_odometry_slower_than_scans_are_not_in_doubt(path):
     blind = scans(path, np.zeros_like(path))
     blind.ranges_m[:, ::9] = np.inf
     blind.ranges_m[:, 4::9] = np.nan
     assert frozen_stretches(blind) == [(0, len(path) - 1)]
     blind.ranges_m[:, 5:] = np.inf
     assert frozen_stretches(blind) == []
-
-
-def test_a_robot_that_stands_still_and_odometry_that_comes_more_slowly_than_scans_are_not_in_doubt(path):
     rests = np.concatenate([path[:30], np.repeat(path[30:31], 40, axis=0), path[31:]])
     slow = path[np.arange(len(path)) // 5 * 5]
     assert doubts(scans(rests, rests), no_odometry=False) == doubts(scans(path, slow), no_odometry=False) == []
@@ -149,13 +143,10 @@ def round_trip():
     )
 
 
-def test_raw_odometry_is_told_from_true_poses(round_trip):
+def test_raw_odometry_is_told_from_true_poses_but_by_few_scans_or_no_hits(round_trip):
     assert look_like_odometry(round_trip.at(bm.simulate_odometry(round_trip.poses, seed=5)))
     assert not look_like_odometry(round_trip)
     assert agreement(round_trip) > 0.8
-
-
-def test_few_scans_or_no_hits_say_nothing(round_trip):
     nothing = bm.Scans(round_trip.poses, round_trip.angles_rad, np.full(round_trip.ranges_m.shape, np.inf), 15.0)
     assert agreement(round_trip.select(slice(0, 10))) is agreement(nothing) is None
 

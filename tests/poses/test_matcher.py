@@ -82,7 +82,7 @@ def test_the_search_finds_what_looking_everywhere_finds(centre, pull):
     np.testing.assert_allclose(found.poses[0, 0], poses[first], atol=1e-9)
 
 
-def test_further_modes_are_the_best_that_lie_apart():
+def test_further_modes_are_the_best_that_lie_apart_and_not_looked_for_where_they_score_too_little():
     points = notched_geometry().points_of(2)
     centre = np.array([0.0, 0.0, 0.0])
     score, poses = everywhere(0, points, centre, 0.8, 0.8, None)
@@ -92,6 +92,14 @@ def test_further_modes_are_the_best_that_lie_apart():
         assert found.scores[0, m] == pytest.approx(left.max(), abs=1e-12)
         off = np.abs(poses - found.poses[0, m])
         left[(off[..., :2] <= 0.3 + 1e-9).all(axis=-1) & (off[..., 2] <= 6 * STEP + 1e-9)] = -1
+    points = notched_geometry().points_of(2)
+    several = {"step_rad": STEP, "modes": 3, "apart_m": 0.3, "apart_rad": 0.32, "min_score": 0.1}
+    whole = match(notched_grids(), [points], [np.zeros(3)], 1.0, 1.2, **several)
+    ratio = whole.scores[0] / whole.scores[0, 0]
+    assert ratio[1] > ratio[2] > 0.1
+    for share in (ratio[1] - 1e-9, ratio[1] + 1e-9, ratio[2] - 1e-9):
+        some = match(notched_grids(), [points], [np.zeros(3)], 1.0, 1.2, min_score_ratio=share, **several)
+        np.testing.assert_array_equal(some.scores[0], np.where(ratio > share, whole.scores[0], -np.inf))
 
 
 def test_the_result_does_not_depend_on_threads():
@@ -115,9 +123,6 @@ def test_scans_are_found_where_they_were_taken_and_nothing_is_where_nothing_scor
     off = between(POSES[2], found.poses[0, 0])
     assert np.hypot(off[0], off[1]) < 0.06
     assert abs(off[2]) < np.radians(1.5)
-
-
-def test_a_window_about_no_pose_is_refused():
     with pytest.raises(BadInput, match="finite"):
         match(notched_grids(), [notched_geometry().points_of(2)], np.full((1, 3), np.nan), 0.5, 0.5)
 
@@ -133,18 +138,6 @@ def test_maxima_by_numpy_are_those_of_the_kernel():
         found = np.empty((2, 37, 21), np.uint8)
         widen(pyramid[:, 0], found, half)
         np.testing.assert_array_equal(found, on_device.numpy()[:, level])
-
-
-def test_further_modes_that_score_too_little_are_not_looked_for():
-    """Below the share that is asked for they are not there; above it they are what they are without it."""
-    points = notched_geometry().points_of(2)
-    several = {"step_rad": STEP, "modes": 3, "apart_m": 0.3, "apart_rad": 0.32, "min_score": 0.1}
-    whole = match(notched_grids(), [points], [np.zeros(3)], 1.0, 1.2, **several)
-    ratio = whole.scores[0] / whole.scores[0, 0]
-    assert ratio[1] > ratio[2] > 0.1
-    for share in (ratio[1] - 1e-9, ratio[1] + 1e-9, ratio[2] - 1e-9):
-        some = match(notched_grids(), [points], [np.zeros(3)], 1.0, 1.2, min_score_ratio=share, **several)
-        np.testing.assert_array_equal(some.scores[0], np.where(ratio > share, whole.scores[0], -np.inf))
 
 
 def wall_scan(beams, jump_m=0.0):

@@ -25,15 +25,11 @@ def errors_of(noise, ways, turns, scans, seed):
     return sigma * np.random.default_rng(seed).normal(size=sigma.shape)
 
 
-def test_variances_of_parts_add_up_to_that_of_the_whole():
+def test_variances_of_parts_and_the_noise_of_single_scans_add_up_to_that_of_the_whole():
     noise = MotionNoise(RATES)
     parts = np.array([[0.1, 0.0, 0.02], [0.2, 0.0, 0.05], [0.3, 0.0, 0.01]])
     whole = noise.variances(np.array([0.6, 0.0, 0.08])) + 2 * RATES[:, 2]
     np.testing.assert_allclose(noise.variances(parts).sum(axis=0), whole, rtol=1e-12)
-
-
-def test_the_noise_of_single_scans_has_the_same_sum():
-    """Squares that grow with each motion, as those of the exact chains' prior, over all scans."""
     rng = np.random.default_rng(3)
     motions = np.stack([rng.uniform(0, 0.2, 500), np.zeros(500), rng.normal(0, 0.1, 500)], axis=-1)
     one = MotionNoise(RATES).of_scans(motions)
@@ -108,15 +104,11 @@ def test_noise_while_driving_straight_does_not_pass_for_a_scale_of_turns():
     assert running.slope[0, 0] == pytest.approx(1 / 1.03 - 1, abs=0.01)
 
 
-def test_the_correction_removes_the_systematic_error():
+def test_the_correction_removes_the_systematic_error_and_shifts_have_the_covariance_of_its_entries():
     wrong = np.array([[0.05, 0.0, 0.02], [0.0, 0.05, -0.1], [0.03, 0.0, -0.02]])
     motion = np.array([0.4, 0.01, 0.2])
     stated = motion + wrong @ motion
     np.testing.assert_allclose(stated + calibration.inverse_slope(wrong) @ stated, motion, atol=1e-12)
-
-
-def test_shifts_by_the_systematic_error_have_the_covariance_of_its_entries():
-    """Corrected motions for draws of C scatter as the shifts say."""
     rng = np.random.default_rng(1)
     wrong = np.array([[0.05, 0.0, 0.02], [0.0, 0.05, -0.1], [0.03, 0.0, -0.02]])
     root = 2e-3 * rng.normal(size=(9, 9))

@@ -123,16 +123,11 @@ def test_a_motion_that_odometry_missed_pulls_at_no_pose():
     np.testing.assert_allclose(precision, np.diag(FREE**-2.0), atol=0.01)  # steps as long as the walls allow
 
 
-def test_known_poses_do_not_move():
+def test_known_poses_do_not_move_nor_does_the_first_of_odometry():
     log = trajectory(10)
     law = KnownPoses().law(log)
-    assert law.colours(len(log)) == ()
-    assert law.log_prob(log) == 0
-    assert law.log_prob(log + 1e-9) == -np.inf
+    assert (law.colours(len(log)), law.log_prob(log), law.log_prob(log + 1e-9)) == ((), 0, -np.inf)
     assert (law.sample(np.random.default_rng(0)) == log).all()
-
-
-def test_the_first_pose_of_odometry_is_the_frame():
     law = PRIORS["odometry"].law(trajectory(11))
     assert 0 not in np.concatenate(law.colours(6))
     assert law.log_prob(trajectory(11) + np.array([1e-3, 0, 0])) == -np.inf

@@ -22,7 +22,7 @@ def wall(distance_m, noise_m=0.0, scans=200):
     return np.where(np.abs(ANGLES) < np.radians(60.0), noisy, np.inf)
 
 
-def test_merged_points_lie_on_the_wall_with_less_noise():
+def test_merged_points_lie_on_the_wall_with_less_noise_and_over_an_edge_on_one_surface():
     ranges, angles, middles = merged(wall(3.0), ANGLES, 0.05, 30.0)
     hit = np.isfinite(ranges)
     assert middles.shape == (1, 180)
@@ -30,20 +30,18 @@ def test_merged_points_lie_on_the_wall_with_less_noise():
     ranges, angles, _ = merged(wall(3.0, 0.02), ANGLES, 0.05, 30.0)
     ahead = np.abs(middles[0]) < np.radians(10.0)
     assert (ranges * np.cos(angles))[:, ahead].std() == pytest.approx(0.01, rel=0.15)  # of four beams each
-
-
-def test_a_group_over_an_edge_keeps_one_surface_and_its_angle():
     readings = np.tile([2.0, 5.0, 5.0, 5.0], 180)[None]
     ranges, angles, _ = merged(readings, ANGLES, 0.05, 30.0)
     np.testing.assert_allclose(ranges, 5.0)
     np.testing.assert_allclose(angles[0], ANGLES.reshape(180, 4)[:, 1:].mean(axis=1))
 
 
-def test_scans_and_groups_with_too_few_hits_tell_nothing():
+def test_too_few_hits_tell_nothing_and_no_laser_is_taken_to_be_better_or_worse_than_walls_allow():
     assert not np.isfinite(merged(np.full((2, 720), np.inf), ANGLES, 0.05, 30.0)[0]).any()
     assert np.isnan(merged(np.full((2, 720), np.nan), ANGLES, 0.05, 30.0)[0]).all()
     assert range_noise_m(np.full((3, 180), np.inf), 0.0175) == MIN_NOISE_M
-    assert range_noise_m(np.full((3, 2), 1.0), 0.0175) == MIN_NOISE_M
+    assert (range_noise_m(np.full((3, 2), 1.0), 0.0175), found_m(0.001)) == (MIN_NOISE_M, MIN_NOISE_M)
+    assert found_m(0.2) == MAX_NOISE_M
 
 
 def test_beams_a_degree_apart_are_left_as_they_are():
@@ -76,11 +74,6 @@ def found_m(noise_m, beams=180):
 @pytest.mark.parametrize(("noise_m", "beams"), latin(3, [0.015, 0.03, 0.045], [90, 180, 720]))
 def test_the_noise_is_found_to_an_eighth(noise_m, beams):
     assert found_m(noise_m, beams) == pytest.approx(noise_m, rel=0.125)
-
-
-def test_no_laser_is_taken_to_be_better_or_worse_than_walls_allow():
-    assert found_m(0.001) == MIN_NOISE_M
-    assert found_m(0.2) == MAX_NOISE_M
 
 
 def test_noisy_scans_have_normals_too(monkeypatch):

@@ -68,15 +68,11 @@ def test_draws_have_the_spread_of_the_covariances(trajectory):
     np.testing.assert_array_equal(trajectory.draw(1, seed=4, first_draw=5)[0], draws[5])
 
 
-def test_without_odometry_scans_at_5_hz_are_enough():
+def test_without_odometry_scans_at_5_hz_are_enough_and_a_robot_that_stands_still_stays_where_it_is():
     recorded, _ = loop_recording()
     still = replace(recorded, poses=np.zeros((len(recorded), 3)))
     result = infer_trajectory(still, no_odometry=True, threads=2)
     assert worst_m(result.poses) < 0.1
-
-
-def test_a_robot_that_stands_still_stays_where_it_is():
-    recorded, _ = loop_recording()
     still = recorded.select(np.zeros(40, dtype=int))
     still = replace(still, stamps_s=np.arange(40.0))
     result = infer_trajectory(still, threads=1)
@@ -209,13 +205,10 @@ def driven(laps, beams=720):
     return Scans(poses, angles, ranges, max_range_m=12.0)
 
 
-def test_few_beams_are_used_whole():
-    scans = driven(1.0)
-    assert for_map(scans, 0.1) is scans
-
-
-def test_the_cost_of_the_map_follows_the_area_seen(monkeypatch):
+def test_few_beams_are_used_whole_and_then_the_cost_of_the_map_follows_the_area_seen(monkeypatch):
     """Three rounds more take hardly more beams, and every wall has been seen. The twin: no number of hits is enough."""
+    few = driven(1.0)
+    assert for_map(few, 0.1) is few
     monkeypatch.setattr(map_scans, "MANY_BEAMS", 10_000)
     monkeypatch.setattr(map_scans, "ENOUGH", 5)
     once, often = (for_map(driven(laps), 0.1) for laps in (1.0, 4.0))

@@ -93,7 +93,7 @@ def test_a_broken_path_keeps_where_the_next_scan_fitted_as_usual(steps, score, o
     np.testing.assert_allclose(link, between(expected[5], expected[6]), atol=1e-9)
 
 
-def test_a_scan_that_fits_worse_than_those_before_it_is_matched_from_there():
+def test_a_scan_that_fits_worse_is_matched_from_those_before_it_and_a_short_motion_is_no_surer():
     """Of a batch those before it are taken; the next is predicted from the last of them."""
     geometry, _, motions, _ = followed()
     path = _Path(geometry, motions, None, None)
@@ -102,6 +102,19 @@ def test_a_scan_that_fits_worse_than_those_before_it_is_matched_from_there():
     placed.scores[:] = 0.9, 0.9 - 0.5 * AGAIN_BELOW, 0.9 - 1.5 * AGAIN_BELOW
     path._take(np.arange(1, 4), placed, 3)
     assert path.at == 2
+    motions = np.tile([0.2, 0.0, 0.0], (20, 1))
+    motions[9] = 0.0
+    stated = [np.zeros(3)]
+    for motion in motions:
+        stated.append(compose(stated[-1], motion))
+    odometry = StatedOdometry(np.array(stated), None, motions, np.zeros(20, bool), True)
+    track = SimpleNamespace(keys=np.arange(21), broken=np.zeros(21, bool))
+
+    def variances(motions):
+        return 0.01 * np.abs(motions[:, :1]) * np.ones(3) + 1e-8
+
+    factors = odometry._corrected(track, odometry.poses, np.zeros((3, 3)), variances)
+    np.testing.assert_allclose(factors.information[9], factors.information[3], rtol=1e-6)
 
 
 @pytest.mark.parametrize(("points", "found"), [(None, True), (4, False)])
@@ -120,19 +133,3 @@ def test_few_points_do_not_refute_odometry(points, found):
     assert (place is not None) == found
     if place is not None:
         assert np.hypot(*between(truth[12], place.pose)[:2]) < 0.1
-
-
-def test_a_motion_that_noise_made_short_is_no_surer_than_its_neighbours():
-    motions = np.tile([0.2, 0.0, 0.0], (20, 1))
-    motions[9] = 0.0
-    stated = [np.zeros(3)]
-    for motion in motions:
-        stated.append(compose(stated[-1], motion))
-    odometry = StatedOdometry(np.array(stated), None, motions, np.zeros(20, bool), True)
-    track = SimpleNamespace(keys=np.arange(21), broken=np.zeros(21, bool))
-
-    def variances(motions):
-        return 0.01 * np.abs(motions[:, :1]) * np.ones(3) + 1e-8
-
-    factors = odometry._corrected(track, odometry.poses, np.zeros((3, 3)), variances)
-    np.testing.assert_allclose(factors.information[9], factors.information[3], rtol=1e-6)

@@ -112,17 +112,6 @@ def test_odometry_is_corrected_with_unlike_scans(fans):
 
 
 @pytest.mark.full
-@pytest.mark.parametrize("fans", [turning, alternating])
-def test_a_loop_closes_with_unlike_scans(fans):
-    scans, truth = recorded(1.2, fans, turn_bias=0.03, noise=2.0)
-    found = infer_trajectory(scans, threads=1)
-    assert np.hypot(*off(scans.poses, truth)[:, :2].T).max() > 0.5
-    assert np.hypot(*off(found.poses, truth)[:, :2].T).max() < 0.05
-    assert found.calibration.angle_step_ratio == 1.0
-    assert len(found.closures) > 0
-
-
-@pytest.mark.full
 def test_a_wrong_angle_between_beams_is_found_in_unlike_scans():
     """The log states 1 % less than the truth, in fans of two layouts."""
     truth = path_around(1.2)

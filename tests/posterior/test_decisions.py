@@ -29,7 +29,7 @@ def run(request):
     return infer(scans, grid, prior=request.param, sensor=SENSOR, chains=2, warmup=20, draws=30, seed=3)
 
 
-def test_the_robot_s_path_is_free_and_a_path_through_a_wall_is_not(run):
+def test_the_robot_s_path_is_free_one_through_a_wall_is_not_and_a_wider_robot_is_no_likelier_to_pass(run):
     way = run.posterior.scans.poses[:, :2]
     free = run.free_probability(way, 0.2)
     assert free.probability > 0.8
@@ -38,9 +38,6 @@ def test_the_robot_s_path_is_free_and_a_path_through_a_wall_is_not(run):
     through = run.free_probability([[2.5, 0.5], [4.0, 0.5]], 0.2)
     assert through.probability < 0.1
     assert through.independent < 0.1
-
-
-def test_a_wider_robot_is_never_more_likely_to_pass(run):
     path = [[0.5, 0.5], [2.0, 2.5]]
     found = [run.free_probability(path, radius).probability for radius in (0.05, 0.2, 0.5, 1.0)]
     assert found == sorted(found, reverse=True)
@@ -62,15 +59,14 @@ def test_the_draws_decide_as_they_would_by_hand(run):
 def test_a_plan_keeps_to_its_risk_and_its_ends(run):
     start, goal = [0.5, 0.5], [1.5, 2.9]
     route = run.plan(start, goal, 0.2, risk=0.3)
-    assert route.path[0].tolist() == start
-    assert route.path[-1].tolist() == goal
+    assert (route.path[0].tolist(), route.path[-1].tolist()) == (start, goal)
     assert route.within_risk == (route.free.probability >= 0.7)
     assert route.length_m >= np.hypot(1.0, 2.4) - 1e-9
     again = run.free_probability(route.path, 0.2)
     assert again.probability == route.free.probability
 
 
-def test_the_information_of_a_scan_lies_between_bounds(run):
+def test_the_information_of_a_scan_lies_between_bounds_and_is_more_round_the_corner(run):
     poses = [[0.5, 0.5, 0.0], [2.5, 3.0, 0.0]]
     told = run.information_gain(poses, ANGLES[::10], draws=30)
     assert told.draws == 30
@@ -78,10 +74,6 @@ def test_the_information_of_a_scan_lies_between_bounds(run):
     assert (told.at_least - 3 * told.at_least_error <= told.at_most + 3 * told.at_most_error).all()
     assert told.independent.shape == (2,)
     assert (told.independent > 0).all()
-
-
-def test_looking_round_the_corner_tells_more_than_looking_again(run):
-    """Beams to the right from above the wall come into the half that nobody saw; to the left all is known."""
     ahead = np.linspace(-0.6, 0.6, 12)
     told = run.information_gain([[2.8, 2.6, -0.6], [1.6, 0.5, np.pi]], ahead, draws=40)
     assert told.at_most[0] > told.at_most[1]
@@ -99,8 +91,12 @@ def test_the_best_views_can_be_reached_and_are_the_best(run):
     assert (same.candidates == views.candidates).all()
 
 
-def test_the_typical_spread_is_that_of_the_noise():
+def test_the_typical_spread_is_that_of_the_noise_and_a_run_without_draws_decides_nothing():
     assert typical_sigma_m(bm.Gaussian(0.07), 10.0) == pytest.approx(0.07, rel=0.05)
+    _, grid, scans = room()
+    run = infer(scans, grid, prior=bm.Independent(0.1), sensor=SENSOR, chains=1, warmup=1, draws=0)
+    with pytest.raises(BadInput, match="no draws"):
+        run.free_probability([[0.0, 0.0]], 0.2)
 
 
 @pytest.mark.parametrize(("call", "words"), [
@@ -116,10 +112,3 @@ def test_the_typical_spread_is_that_of_the_noise():
 def test_impossible_decisions_are_refused(run, call, words):
     with pytest.raises(BadInput, match=words):
         call(run)
-
-
-def test_a_run_without_draws_decides_nothing():
-    _, grid, scans = room()
-    run = infer(scans, grid, prior=bm.Independent(0.1), sensor=SENSOR, chains=1, warmup=1, draws=0)
-    with pytest.raises(BadInput, match="no draws"):
-        run.free_probability([[0.0, 0.0]], 0.2)

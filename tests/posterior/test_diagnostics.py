@@ -104,7 +104,7 @@ def test_the_worst_cell_is_the_one_that_arviz_finds(seed, chains, draws, monkeyp
     assert found.disagreeing >= (chains > 1)
 
 
-def test_cells_can_be_left_out():
+def test_cells_can_be_left_out_and_one_chain_is_compared_with_itself():
     walls = walls_of(1, 4, 100)
     among = np.zeros((5, 4), dtype=bool)
     among[3, 2] = True
@@ -112,9 +112,6 @@ def test_cells_can_be_left_out():
     values = walls[:, :, 3, 2].astype(float)
     assert alone.rhat_max == pytest.approx(arviz_rhat(values), rel=1e-9)
     assert alone.ess_min == pytest.approx(arviz_ess(values), rel=1e-9)
-
-
-def test_one_chain_is_compared_with_itself():
     halves = series(1, 2, 50, "apart")
     assert rhat(halves.reshape(1, 100)) > 2
     assert rhat(series(1, 1, 1000, "white")) < 1.05
@@ -145,7 +142,7 @@ def run_of(method, **options):
     return infer(scans, grid, prior=bm.Independent(0.3), sensor=noisy, method=method, **options)
 
 
-def test_a_sound_run_has_no_problems_and_prints_a_line_for_each_of_its_diagnostics():
+def test_a_sound_run_has_no_problems_a_collapsed_one_and_one_too_short_to_judge_say_so():
     summary = run_of("gibbs", draws=4000).summary()
     assert summary.problems() == []
     good, *figures = str(summary).splitlines()
@@ -155,17 +152,11 @@ def test_a_sound_run_has_no_problems_and_prints_a_line_for_each_of_its_diagnosti
         "good", "R-hat", "effective sample size of the log joint", "observed cells that changed",
     ]  # fmt: skip
     assert "R-hat compares chains with one another" in str(summary)
-
-
-def test_a_collapsed_importance_sampler_says_so():
     summary = run_of("importance", particles=3, draws=10).summary()
     assert summary.effective_sample_size <= 3
     assert any("importance" in problem for problem in summary.problems())
     assert str(summary).startswith("doubtful: importance sampling has an effective sample size of ")
     assert "use 'gibbs'" in str(summary)
-
-
-def test_a_run_too_short_to_judge_is_not_called_converged():
     summary = run_of("gibbs", draws=20, precision=0.01).summary()
     assert any("the mean map is known to" in problem for problem in summary.problems())
     assert summary.as_json()["effective_sample_size"] is None
@@ -180,7 +171,7 @@ def draws(seed, chains=4, count=500, yaw=3.1):
     return poses, covariance
 
 
-def test_moments_are_those_that_the_draws_come_from():
+def test_moments_are_those_that_the_draws_come_from_and_chains_that_disagree_have_a_large_r_hat():
     poses, covariance = draws(0)
     found = summarise_poses(poses)
     turn = (found.mean[0, 2] - 3.1 + np.pi) % (2 * np.pi) - np.pi
@@ -190,9 +181,6 @@ def test_moments_are_those_that_the_draws_come_from():
     np.testing.assert_allclose(found.sigma_m**2, np.linalg.eigvalsh(covariance[:2, :2])[1], rtol=0.1)
     assert (found.rhat < 1.02).all()
     assert (found.ess > 1000).all()
-
-
-def test_chains_that_disagree_have_a_large_r_hat():
     poses, _ = draws(1)
     poses[0, :, 1, 0] += 3.0
     found = summarise_poses(poses)

@@ -61,15 +61,12 @@ def test_scans_that_a_run_has_moved_cannot_judge_it(stamped):
         heldout.unseen_scans(moved, stamped, 0, "a.log")
 
 
-def test_the_held_out_scans_are_those_of_the_protocol(log):
+def test_the_held_out_scans_are_those_of_the_protocol_and_another_recording_is_taken_whole(log):
     train, held = log.holdout(5)
     found = heldout.unseen_scans(train, log, 5, "a.log")
     np.testing.assert_array_equal(found.ranges_m, held.ranges_m)
     thinned = train.select(slice(None, None, 2))
     assert len(heldout.unseen_scans(thinned, log, 5, "a.log")) == len(held)
-
-
-def test_another_recording_is_taken_whole(log):
     other = dataclasses.replace(log, poses=log.poses + 1.0)
     assert heldout.unseen_scans(log, other, 0, "b.log") is other
 

@@ -80,12 +80,14 @@ def test_joint_draws_give_the_information_of_enumeration():
     assert abs(exact_information(maps, np.full(6, 1 / 6), bm.Gaussian(4.0), 200_000, 2)[0] - exact) > 0.2
 
 
-def test_a_map_that_is_known_leaves_nothing_to_learn_and_one_draw_is_too_few():
+def test_a_known_map_leaves_nothing_to_learn_one_draw_is_too_few_and_the_best_views_are_apart():
     known = np.tile(np.random.default_rng(3).random(GRID.n_cells) < 0.3, (20, 1)).astype(np.float32)
     found = expected_information(known, GRID, fan(bm.Gaussian(0.2)), POSE)
     assert (found.at_least[0], found.at_most[0]) == pytest.approx((0.0, 0.0), abs=1e-9)
     with pytest.raises(BadInput, match="draws"):
         expected_information(known[:1], GRID, fan(bm.Gaussian(0.1)), POSE)
+    poses = np.array([[0.0, 0, 0], [0.1, 0, 1], [2.0, 0, 0], [5.0, 0, 0]])
+    assert best_views(np.array([4.0, 3.9, 2.0, 1.0]), poses, 2, 1.0).tolist() == [0, 2]
 
 
 def test_chains_that_differ_by_a_cell_tell_nothing_and_cells_that_change_within_chains_do():
@@ -154,8 +156,3 @@ def test_independent_cells_give_the_double_sum(seed):
     found = independent_information(occupied, GRID, poses, ANGLES, 20.0, sigma_m=0.3, hit_factor=9.0, pass_factor=1 / 9)
     plain = [[plain_fsmi(occupied, pose, angle, 0.6, 9.0, 1 / 9) for angle in ANGLES] for pose in poses]
     np.testing.assert_allclose(found, plain, rtol=1e-4, atol=1e-6)
-
-
-def test_the_best_views_are_apart():
-    poses = np.array([[0.0, 0, 0], [0.1, 0, 1], [2.0, 0, 0], [5.0, 0, 0]])
-    assert best_views(np.array([4.0, 3.9, 2.0, 1.0]), poses, 2, 1.0).tolist() == [0, 2]

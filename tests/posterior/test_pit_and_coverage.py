@@ -88,36 +88,27 @@ def test_the_transform_spreads_atoms_over_their_share():
     )
 
 
-def test_histogram_and_intervals():
+def test_histograms_intervals_scores_of_an_event_and_reliability_by_hand():
     u = np.array([0.01, 0.3, 0.5, 0.74, 0.99])
     np.testing.assert_allclose(scores.pit_histogram(u, 4), [0.2, 0.2, 0.4, 0.2])
     assert scores.pit_histogram(np.array([0.0, 1.0]), 2).tolist() == [0.5, 0.5]
     assert scores.inside(u, 0.5).tolist() == [False, True, True, True, False]
-
-
-def test_brier_and_log_loss_of_an_event():
     brier, loss = scores.binary_scores(np.array([0.2, 0.2]), np.array([True, False]))
     np.testing.assert_allclose(brier, [0.64, 0.04])
     np.testing.assert_allclose(loss, [-np.log(0.2), -np.log(0.8)])
-
-
-def test_reliability_puts_events_of_like_chance_together():
     chance = np.array([1e-5, 5e-4, 0.6, 0.8])
     rows = scores.reliability(chance, np.array([False, False, True, True]), bins=10)
     assert [n for *_, n in rows] == [2, 2]
     np.testing.assert_allclose(rows[1][:2], (0.7, 1.0))
 
 
-def test_errors_are_those_of_means_over_scans():
+def test_errors_are_those_of_means_over_scans_which_count_by_their_items():
     """Items of a scan are copies of one number: a bootstrap over items would be seven times too sure."""
     rng = np.random.default_rng(1)
     of_scan = rng.normal(size=200)
     found = scores.ScanBlocks.make(np.repeat(np.arange(200), 50)).mean(np.repeat(of_scan, 50))
     assert found.value == pytest.approx(of_scan.mean())
     assert found.error == pytest.approx(of_scan.std() / np.sqrt(200), rel=0.1)
-
-
-def test_scans_of_unequal_size_count_items_and_a_single_one_has_no_error():
     unequal = scores.ScanBlocks.make(np.array([0] * 9 + [1]))
     assert unequal.mean(np.array([1.0] * 9 + [0.0])).value == pytest.approx(0.9)
     single = scores.ScanBlocks.make(np.zeros(5, int))

@@ -35,8 +35,7 @@ def test_drawn_readings_have_the_predicted_quantiles(run):
     """The share of draws below a quantile is its level, within four standard errors."""
     pose, angles = run.posterior.scans.poses[0], np.linspace(-3, 3, 7)
     found = run.predict(np.tile(pose, (40, 1)), angles, levels=(0.2, 0.5, 0.8), draws=50)
-    assert found.draws_m.shape == (50, 40, 7)
-    assert found.quantiles_m.shape == (40, 7, 3)
+    assert (found.draws_m.shape, found.quantiles_m.shape) == ((50, 40, 7), (40, 7, 3))
     np.testing.assert_array_equal(found.quantiles_m[0], found.quantiles_m[-1])
     for level, at in zip(found.levels, found.quantiles_m[0].T, strict=True):
         # Scans of one draw share a map, so the error is that of 50 maps.
@@ -87,8 +86,7 @@ def test_log_likelihoods_by_reading_are_the_formula_s(case):
     ])  # fmt: skip
     np.testing.assert_allclose(nats.values.reshape(plain.shape), plain, atol=1e-4)
     np.testing.assert_allclose(nats.sum("reading"), found["log_likelihood"], atol=1e-3)
-    assert nats["reading_scan"].values[0] == 0
-    assert nats["reading_beam"].values[0] == 1
+    assert (nats["reading_scan"].values[0], nats["reading_beam"].values[0]) == (0, 1)
 
 
 def test_sensor_prior_and_drawn_poses_are_those_of_the_run(run):
@@ -101,8 +99,7 @@ def test_sensor_prior_and_drawn_poses_are_those_of_the_run(run):
 def test_two_models_are_compared_with_a_paired_error(case, run):
     held = make_case(22, sensor=SENSOR, n_poses=12).scans
     one, other = bm.score(run, held), bm.score(run, held, bm.BeamMixture(bm.Gaussian(0.31), p_no_return=0.1))
-    assert one.by_beam.shape == one.pit.shape
-    assert one.by_beam.mean() == one.nats_per_beam
+    assert (one.by_beam.shape, one.by_beam.mean()) == (one.pit.shape, one.nats_per_beam)
     found = bm.compare_scores(one, other)
     assert found.nats_per_beam == pytest.approx(one.nats_per_beam - other.nats_per_beam)
     assert 0 < found.error < 0.5 * one.nats_per_beam_error

@@ -42,7 +42,7 @@ def run(*draws, grid=CORRIDOR):
     )  # fmt: skip
 
 
-def test_a_wall_is_where_readings_are_measured_from():
+def test_a_wall_is_where_readings_are_measured_from_by_the_median_over_draws():
     told = []
     found = residuals_of(predictor_of(run([6])), along(6.0, 5.5, 6.5), on_progress=told.append)
     assert told == pytest.approx([1 / 3, 1.0])
@@ -50,31 +50,22 @@ def test_a_wall_is_where_readings_are_measured_from():
     np.testing.assert_allclose(found.ends_world, [[6.5, 0.5], [6.0, 0.5], [7.0, 0.5]])
     np.testing.assert_array_equal(found.beams, [0, 1, 2])
     assert found.surprise_nats[0] < found.surprise_nats[1] - 3
-
-
-def test_the_median_over_draws_decides():
     for draws, expected in (([[4], [4], [8]], 4), ([[4], [8], [8]], 8), ([[], [], [4]], 9)):
         found = residuals_of(predictor_of(run(*draws)), along(5.0))
         np.testing.assert_allclose(found.residual_m, [5.0 - expected], atol=0.1)  # noise moves a median a little
 
 
-def test_no_return_counts_as_the_largest_range_and_lies_at_the_median():
+def test_no_return_lies_at_the_median_moved_beams_end_where_each_began_and_scans_without_any_are_refused():
     scans = along(np.inf, np.inf, 4.0, np.nan, -np.inf)
     found = compare(scans, np.array([6.0, np.inf, np.inf, 6.0, 6.0]), np.arange(5.0))
     np.testing.assert_array_equal(found.beams, [0, 1, 2])
     np.testing.assert_allclose(found.residual_m, [3.0, 0.0, -5.0])
     np.testing.assert_allclose(found.ends_world[:, 0], [6.5, 9.5, 4.5])
     np.testing.assert_array_equal(found.surprise_nats, [0, -1, -2])
-
-
-def test_beams_of_a_sensor_that_moved_end_where_each_began():
     beam_poses = np.array([[[0.0, 0.0, 0.0], [1.0, 0.0, np.pi / 2]]])
     scans = Scans([[0.0, 0.0, 0.0]], [0.0, np.pi / 2], [[2.0, 3.0]], 9.0, beam_poses=beam_poses)
     found = compare(scans, np.full(2, 1.0), np.zeros(2))
     np.testing.assert_allclose(found.ends_world, [[2.0, 0.0], [-2.0, 0.0]], atol=1e-12)
-
-
-def test_scans_that_say_nothing_are_refused():
     with pytest.raises(BadInput, match="none of the scans has a hit or a no-return"):
         residuals_of(predictor_of(run([6])), along(np.nan, -np.inf))
 
@@ -105,20 +96,16 @@ def test_a_point_has_its_parts_across_and_along(turn_rad, side):
 
 def test_behind_the_wall_is_negative():
     found = surface_offset(np.zeros(2), wall(0.0), np.array([0.0, -0.05]), np.array([0.0, 3.0]))
-    assert found.across_m == pytest.approx(-0.05)
-    assert found.incidence_rad == pytest.approx(0.0)
+    assert (found.across_m, found.incidence_rad) == (pytest.approx(-0.05), pytest.approx(0.0))
 
 
-def test_parts_follow_each_other_by_their_sizes_and_have_parts():
+def test_parts_follow_each_other_by_their_sizes_and_watched_batches_are_reported_after_use():
     shares = []
     first, second, third = parts(shares.append, 1.0, 2.0, 5.0)
     inner = parts(third, 1.0, 4.0)
     for report, share in ((first, 0.5), (first, 1.0), (second, 0.5), (second, 1.0), (inner[0], 1.0), (inner[1], 1.0)):
         report(share)
     assert shares == pytest.approx([0.5 / 8, 1 / 8, 2 / 8, 3 / 8, 4 / 8, 1.0])
-
-
-def test_watched_batches_are_unchanged_and_reported_after_use():
     told = []
     batches = [np.arange(6).reshape(3, 2), np.arange(2).reshape(1, 2)]
     seen = [(batch, len(told)) for batch in watched(batches, 4, told.append)]

@@ -33,15 +33,12 @@ def test_distances_are_those_of_points_sampled_along_the_path(seed):
     np.testing.assert_allclose(routes.square_to_path_m(points, 0.5, path), plain, atol=3e-3)
 
 
-def test_no_cell_that_can_touch_the_disc_is_left_out():
+def test_no_cell_that_can_touch_the_disc_is_left_out_and_cells_without_surfaces_are_squares():
     cells = routes.cells_about(BENT, 0.3, SMALL)
     every = np.arange(SMALL.n_cells)
     near = routes.distance_to_path_m(routes.centres_world(every, SMALL), BENT) < 0.3 + 2.5 * 0.5
     assert set(every[near]) <= set(cells)
     assert len(cells) < SMALL.n_cells
-
-
-def test_cells_without_surfaces_are_in_the_way_as_squares():
     cells = routes.cells_about(BENT, 0.3, SMALL)
     rng = np.random.default_rng(0)
     stops = rng.choice([0.0, 0.05, 0.2, 1.0], size=(7, len(cells))).astype(np.float32)
@@ -60,6 +57,10 @@ def test_surfaces_block_where_they_lie_and_not_where_their_cell_is():
     for surface, radius_m, expected in ((far, 0.3, False), (near, 0.3, True), (near, 0.15, False)):
         found = routes.in_the_way([surface[None, None]], cells, SMALL, straight, radius_m)
         assert found.tolist() == [[expected]]
+    draws = np.zeros((1, GRID.n_cells, 6), dtype=np.float32)
+    draws[0, 10 * 30 + 10] = [0.9, 2.9, 2.6, 0.02, 0.0, 0.02]  # the cell's own centre is 2.625, 2.625
+    blocked = routes.blocked_probability([draws], GRID, 0.2)
+    assert (blocked[11, 10], blocked[9, 10]) == (1, 0)
 
 
 @given(st.integers(0, 10_000))
@@ -92,8 +93,7 @@ def test_the_probability_of_a_free_path_and_its_error():
     blocking = np.repeat(shut[:, None], 5, axis=1)
     found = routes.free_probability(blocking, chains=4)
     assert found.probability == 1 - shut.mean()
-    assert found.independent == pytest.approx((1 - shut.mean()) ** 5)
-    assert found.blocked.shape == (4, 500)
+    assert (found.independent, found.blocked.shape) == (pytest.approx((1 - shut.mean()) ** 5), (4, 500))
     assert found.standard_error == pytest.approx(np.sqrt(0.25 / 2000), rel=0.15)
     shut = np.repeat(np.random.default_rng(2).random(100) < 0.5, 20)
     found = routes.free_probability(shut[:, None], chains=2)
@@ -144,44 +144,12 @@ def test_a_door_that_may_be_shut_is_taken_only_if_the_risk_is_accepted(share, ri
         assert np.hypot(*(found.path - [5.125, 1.2]).T).min() < 1.5  # by the far door
 
 
-def test_the_safest_path_is_returned_if_all_are_too_risky():
+def test_the_safest_path_is_returned_if_all_are_too_risky_and_impossible_plans_are_refused():
     draws = rooms(np.arange(40) % 4 == 0)
     draws.reshape(-1, *GRID.shape)[:, 20, 2:8] = 1.0
     found = route(draws, 0.05)
     assert not found.within_risk
     assert found.free.probability == pytest.approx(0.75)
-
-
-def test_a_route_in_an_empty_hall_is_straight():
-    empty = np.zeros((4, GRID.n_cells), dtype=np.float32)
-    for seed in range(20):
-        rng = np.random.default_rng(seed)
-        start, goal = rng.uniform([1, 1], [9, 6.5], (2, 2))
-        found = route(empty, 0.01, tuple(start), tuple(goal))
-        assert found.length_m <= np.hypot(*(goal - start)) * 1.001 + 1e-6
-
-
-def test_large_walls_are_gone_round_without_cutting_corners():
-    """With cells of a metre the straight line and the diagonal past the wall's corner both touch it."""
-    grid = Grid((6, 5), 1.0, (-0.5, -0.5))
-    walls = np.zeros((8, *grid.shape), dtype=np.float32)
-    walls[:, 2, 3:] = 1.0
-    found = route(walls.reshape(8, -1), 0.05, (1.0, 3.0), (4.0, 3.0), grid, 0.25)
-    assert found.free.probability == 1.0
-    assert found.within_risk
-    assert found.length_m == pytest.approx(2 * np.sqrt(2) + 1 + 1, abs=1.01)
-
-
-def test_surfaces_block_where_they_lie():
-    """A surface that its cell holds beyond its own square blocks the square that it is in."""
-    draws = np.zeros((1, GRID.n_cells, 6), dtype=np.float32)
-    draws[0, 10 * 30 + 10] = [0.9, 2.9, 2.6, 0.02, 0.0, 0.02]  # the cell's own centre is 2.625, 2.625
-    blocked = routes.blocked_probability([draws], GRID, 0.2)
-    assert blocked[11, 10] == 1
-    assert blocked[9, 10] == 0
-
-
-def test_impossible_plans_are_refused():
     draws = rooms(np.zeros(4, dtype=bool))
     closed = draws.copy()
     closed.reshape(-1, *GRID.shape)[:, 20] = 1.0  # no door
@@ -191,3 +159,19 @@ def test_impossible_plans_are_refused():
     ):  # fmt: skip
         with pytest.raises(BadInput, match=message):
             route(maps, risk, start)
+
+
+def test_a_route_in_an_empty_hall_is_straight_and_goes_round_walls_without_cutting_corners():
+    empty = np.zeros((4, GRID.n_cells), dtype=np.float32)
+    for seed in range(20):
+        rng = np.random.default_rng(seed)
+        start, goal = rng.uniform([1, 1], [9, 6.5], (2, 2))
+        found = route(empty, 0.01, tuple(start), tuple(goal))
+        assert found.length_m <= np.hypot(*(goal - start)) * 1.001 + 1e-6
+    grid = Grid((6, 5), 1.0, (-0.5, -0.5))
+    walls = np.zeros((8, *grid.shape), dtype=np.float32)
+    walls[:, 2, 3:] = 1.0
+    found = route(walls.reshape(8, -1), 0.05, (1.0, 3.0), (4.0, 3.0), grid, 0.25)
+    assert found.free.probability == 1.0
+    assert found.within_risk
+    assert found.length_m == pytest.approx(2 * np.sqrt(2) + 1 + 1, abs=1.01)

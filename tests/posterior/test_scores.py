@@ -29,14 +29,11 @@ def run(case):
     return infer(case.scans, case.grid, prior=case.prior, sensor=case.sensor, chains=2, draws=50)
 
 
-def test_occupancy_is_the_mean_of_the_draws_if_there_are_any(run):
+def test_occupancy_is_the_mean_of_the_draws_and_entropy_is_in_bits(run):
     np.testing.assert_allclose(run.occupancy, run.draws.mean(axis=(0, 1)), atol=1e-12)
     prior, draws = run.posterior.prior, run.posterior.draws
     none = dataclasses.replace(draws, arrays={name: values[:, :0] for name, values in draws.arrays.items()})
     assert np.isnan(prior.mean_map(none)).all()
-
-
-def test_entropy_in_bits():
     p = np.array([0.0, 0.5, 1.0, 0.25])
     expected = [0.0, 1.0, 0.0, -(0.25 * np.log2(0.25) + 0.75 * np.log2(0.75))]
     np.testing.assert_allclose(entropy_bits(p), expected, atol=1e-12)
@@ -98,7 +95,7 @@ def test_observed_cells_are_those_that_beams_reach_in_half_of_the_draws():
     np.testing.assert_array_equal(run.observed.ravel(), [True, True, True, False, False, False])
 
 
-def test_the_summary_is_json_and_names_problems(run):
+def test_the_summary_is_json_names_problems_and_judges_the_map_not_single_cells_or_sums(run):
     summary = run.summary()
     assert summary is run.summary()
     text = json.dumps(summary.as_json(), allow_nan=False)
@@ -111,10 +108,6 @@ def test_the_summary_is_json_and_names_problems(run):
     problems = " / ".join(bad.problems())
     for words in ("stopped before", "known to 0.050", "not to 0.03: draw more maps", "3 cells are stuck", "of 5.0"):
         assert words in problems
-
-
-def test_a_run_is_judged_by_its_map_and_not_by_single_cells_or_sums(run):
-    """One cell in a hundred may be stuck, and R-hat of a sum over all readings says nothing of the map."""
     good = dataclasses.replace(
         run.summary(), rhat_log_joint=1.2, rhat_log_likelihood=1.2, rhat_max=1.3, ess_min=12.0, rhat_high_cells=30,
         ess_low_cells=20, disagreeing_cells=1, judged_cells=100, map_error=0.03, precision=0.03,
@@ -147,8 +140,7 @@ def test_three_beams_by_hand():
     told = []
     predictor = Predictor(GRID, fixed_maps(np.array([[0.3, 0.5]])), SENSOR, 0.0)
     found = score_prediction(predictor, scans, on_progress=told.append)
-    assert told == sorted(told)
-    assert told[-1] == pytest.approx(1.0)
+    assert (told, told[-1]) == (sorted(told), pytest.approx(1.0))
     p_none = 1.0 - below(4.0)
     density = [
         0.1 / 4 + 0.72 * (0.3 * scipy.stats.norm.pdf(r, 1.0, 0.1) + 0.35 * scipy.stats.norm.pdf(r, 2.0, 0.1))
@@ -185,28 +177,23 @@ def test_a_run_s_nats_are_its_log_score_and_errors_depend_on_the_seed_alone(case
     found = bm.score(deep, held)
     assert found.nats_per_beam == pytest.approx(deep.log_score(held), abs=2e-4)  # a robust table's flat nats
     assert found.beams == len(found.pit) == (~np.isnan(held.ranges_m)).sum()
-    assert sum(found.pit_histogram) == pytest.approx(1.0)
-    assert found.sensor["kind"] == "mixture"
+    assert (sum(found.pit_histogram), found.sensor["kind"]) == (pytest.approx(1.0), "mixture")
     assert found.hit_depth == 0.3
 
     first, again, other = (bm.score(deep, held, seed=seed).as_json() for seed in (1, 1, 2))
-    assert first == again
-    assert first["nats_per_beam"] == other["nats_per_beam"]
+    assert (first, first["nats_per_beam"]) == (again, other["nats_per_beam"])
     assert first["nats_per_beam_error"] != other["nats_per_beam_error"]
     single = json.loads(json.dumps(bm.score(deep, held.select(slice(0, 1))).as_json(), allow_nan=False))
     assert single["nats_per_beam_error"] is None
     assert [c["level"] for c in single["coverage"]] == [0.5, 0.8, 0.95]
 
 
-def test_scans_that_never_reach_the_map_have_no_events(deep):
+def test_scans_that_never_reach_the_map_have_no_events_and_many_draws_are_taken_some_at_a_time(case, deep, monkeypatch):
     away = bm.Scans([900.0, 900.0, 0.0], [0.0, 1.0], [[1.0, np.inf]], max_range_m=3.0, min_range_m=0.1)
     found = bm.score(deep, away)
     assert found.events == 0
     assert np.isnan(found.brier.value)
     assert json.dumps(found.as_json(), allow_nan=False)
-
-
-def test_many_draws_are_taken_some_at_a_time(case, deep, monkeypatch):
     from bayesmap.cells import binary
 
     whole = bm.score(deep, case.scans).as_json()

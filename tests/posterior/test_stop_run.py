@@ -40,8 +40,7 @@ def of(run, name):
 def test_draws_and_their_mean_cover_the_grid(kind):
     run = run_of(kind)
     assert isinstance(run, bm.Run)
-    assert run.draws.shape == (2, 8, 4, 3)
-    assert run.n_draws == 8
+    assert (run.draws.shape, run.n_draws) == ((2, 8, 4, 3), 8)
     drawn, expected = (of(run, name) for name in SHOWN[kind])
     expected = expected.mean(axis=(0, 1), dtype=float)
     np.testing.assert_allclose(run.occupancy.ravel()[of(run, "cell")], expected, atol=1e-12)

@@ -60,7 +60,7 @@ def test_assess_is_infer_s_log_joint(name, lattice):
     np.testing.assert_allclose(assess(maps), expected, rtol=3e-6, atol=TABLE_CUT * readings.size + 1e-4)
 
 
-def test_assess_with_a_probability_for_each_cell():
+def test_a_probability_for_each_cell_importance_weighs_by_what_is_given_and_project_divides_the_score():
     case = make_case(3, shape=(4, 4), prior="cells")
     problem, model = case.problem(), of_case(case)
     walls = np.asarray(case.walls)
@@ -68,6 +68,19 @@ def test_assess_with_a_probability_for_each_cell():
     assess = jax.jit(lambda w: model.assess(both(w, readings), ())[0])
     np.testing.assert_allclose(assess(walls), problem.log_joint(walls), rtol=1e-5)
     assert assess(np.where(np.asarray(case.prior.p_wall) == 0, True, walls)) == -np.inf
+    case = make_case(6, shape=(3, 3), prior=0.3)
+    model, readings = of_case(case), jnp.asarray(case.scans.ranges_m)
+    trace, weight = jax.jit(lambda chm: model.importance(jr.key(0), chm, ()))(C["readings"].set(readings))
+    walls = np.asarray(trace.get_choices()["walls"])
+    np.testing.assert_allclose(weight, case.problem().table.log_likelihood(walls), rtol=1e-5)
+    np.testing.assert_allclose(trace.project(jr.key(0), gen.Selection.at["readings"]), weight, rtol=1e-6)
+    np.testing.assert_allclose(
+        trace.project(jr.key(0), gen.Selection.at["walls"]), case.prior.log_prob(walls, case.grid), rtol=1e-5
+    )
+    empty, nothing = jax.jit(lambda: model.importance(jr.key(0), C.n(), ()))()
+    assert nothing == 0.0
+    assess = jax.jit(lambda chm: model.assess(chm, ())[0])
+    np.testing.assert_allclose(empty.get_score(), assess(empty.get_choices()), rtol=1e-5)
 
 
 def test_assess_is_that_of_the_tutorial_s_own_program(tutorial):
@@ -128,23 +141,7 @@ def test_it_nests_in_a_bigger_model():
     np.testing.assert_allclose(weight, new.get_score() - trace.get_score(), rtol=1e-3, atol=1e-3)
 
 
-def test_importance_weighs_by_what_is_given_and_project_divides_the_score():
-    case = make_case(6, shape=(3, 3), prior=0.3)
-    model, readings = of_case(case), jnp.asarray(case.scans.ranges_m)
-    trace, weight = jax.jit(lambda chm: model.importance(jr.key(0), chm, ()))(C["readings"].set(readings))
-    walls = np.asarray(trace.get_choices()["walls"])
-    np.testing.assert_allclose(weight, case.problem().table.log_likelihood(walls), rtol=1e-5)
-    np.testing.assert_allclose(trace.project(jr.key(0), gen.Selection.at["readings"]), weight, rtol=1e-6)
-    np.testing.assert_allclose(
-        trace.project(jr.key(0), gen.Selection.at["walls"]), case.prior.log_prob(walls, case.grid), rtol=1e-5
-    )
-    empty, nothing = jax.jit(lambda: model.importance(jr.key(0), C.n(), ()))()
-    assert nothing == 0.0
-    assess = jax.jit(lambda chm: model.assess(chm, ())[0])
-    np.testing.assert_allclose(empty.get_score(), assess(empty.get_choices()), rtol=1e-5)
-
-
-def test_a_batch_of_traces_is_a_trace():
+def test_a_batch_of_traces_is_a_trace_which_can_be_pickled_and_equal_models_are_equal():
     case = make_case(7, shape=(3, 3))
     model = of_case(case)
     batch = jax.jit(jax.vmap(lambda k: model.simulate(k, ())))(jr.split(jr.key(0), 7))
@@ -153,9 +150,6 @@ def test_a_batch_of_traces_is_a_trace():
     np.testing.assert_allclose(batch.get_score(), scores, rtol=1e-5)
     # Geometry and prior are no leaves: a batch does not repeat them.
     assert sum(leaf.size for leaf in jax.tree.leaves(batch)) <= 7 * (9 + 2 * case.scans.n_beams + 2)
-
-
-def test_equal_models_are_equal_and_a_trace_can_be_pickled():
     case = make_case(7, shape=(3, 3))
     one, two = of_case(case), of_case(case)
     assert jax.tree.structure(one) == jax.tree.structure(two)
@@ -219,10 +213,6 @@ def case():
     return make_case(21, shape=(3, 3), n_poses=2, prior=0.3)
 
 
-def inferred(case, **options):
-    return bm.infer(case.scans, case.grid, prior=case.prior, sensor=case.sensor, **options)
-
-
 @pytest.fixture(scope="module")
 def model(case):
     return of_case(case)
@@ -255,18 +245,3 @@ def test_gibbs_by_edits_has_the_law_of_gibbs(case, chains, n):
     if n == 30:
         np.testing.assert_allclose(p, case.exact.p, atol=1e-4)
     assert least_p_value(chains(n), p) > ALPHA / TESTS
-
-
-def test_any_posterior_draw_is_a_trace(case, model):
-    run = inferred(case, schedule=bm.Schedule(chains=2, warmup=5, draws=50), seed=1)
-    readings = jnp.asarray(case.scans.ranges_m)
-
-    @jax.jit
-    @jax.vmap
-    def as_trace(walls):
-        return model.importance(jr.key(0), C["walls"].set(walls) | C["readings"].set(readings), ())
-
-    traces, weights = as_trace(run.draws.reshape(-1, 3, 3))
-    np.testing.assert_array_equal(traces.get_choices()["walls"], run.draws.reshape(-1, 3, 3))
-    np.testing.assert_allclose(traces.get_score(), run.log_joint.ravel(), rtol=1e-5)
-    np.testing.assert_allclose(weights, run.log_joint.ravel(), rtol=1e-5)

@@ -132,8 +132,7 @@ def test_a_particle_s_weight_does_not_depend_on_the_others_and_is_tempered():
 
 def test_neighbouring_particles_have_no_random_number_in_common():
     """No cell of a particle is correlated with any cell of the next: 256 correlations within 5.5 / sqrt(20 000)."""
-    case = case_of(first(prior=0.5, shape=(4, 4)))
-    found = sample_importance(case.problem(), 20_000, seed=6)
+    found = sample_importance(case_of(first(prior=0.5, shape=(4, 4))).problem(), 20_000, seed=6)
     maps = found.maps(np.arange(20_000)).reshape(-1, 16) - 0.5
     correlations = 4 * maps[:-1].T @ maps[1:] / len(maps)
     assert abs(correlations).max() < 5.5 / np.sqrt(20_000)

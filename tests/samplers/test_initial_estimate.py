@@ -130,16 +130,12 @@ def test_update_periods_grow_with_the_distance_from_readings(problem, monkeypatc
     assert (periods[~few & free] > 2).all()
 
 
-def test_end_points_outside_the_grid_or_past_what_beams_touch_belong_to_no_cell():
+def test_end_points_outside_the_grid_past_what_beams_touch_or_that_did_not_return_belong_to_no_cell():
     scans = bm.Scans([-0.5, 0.5, 0.0], [0.0, 0.4], [[7.0, 1.0]], max_range_m=9.0)
     rays = beam_rays(scans, bm.Grid((3, 1)), margin_m=0.1)
     np.testing.assert_array_equal(estimates.end_cells(rays), [-1, 0])
     found = estimates.initial_estimate(rays, bm.Beta())
     np.testing.assert_array_equal(found.hits, found.touched == 0)
-
-
-def test_readings_along_the_axes_that_did_not_return_end_nowhere():
-    """Infinity times a direction of zero is not a number."""
     scans = bm.Scans([0.5, 0.5, 0.0], np.arange(4) * np.pi / 2, [[np.inf, -np.inf, np.nan, 0.3]], max_range_m=2.0)
     rays = beam_rays(scans, bm.Grid((1, 1)), margin_m=0.1)
     np.testing.assert_array_equal(estimates.end_cells(rays), [-1, -1, -1, 0])

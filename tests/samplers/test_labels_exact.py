@@ -119,13 +119,10 @@ def test_a_coupling_that_is_a_little_wrong_is_rejected(name):
         assert least(name, found, exact(name, coupling=wrong)) < ALPHA / TESTS
 
 
-def test_wrong_betas_are_rejected():
+def test_wrong_betas_and_a_conditional_that_does_not_look_at_the_cell_s_own_beams_are_rejected(monkeypatch):
     found, prior = drawn("a square"), CASES["a square"][2]
     for wrong in ({"a_solid": 1.5 * prior.a_solid}, {"b": 1.4 * prior.b}, {"a": prior.a_solid, "b": prior.b_solid}):
         assert least("a square", found, exact("a square", **wrong)) < ALPHA / TESTS
-
-
-def test_a_conditional_that_does_not_look_at_the_cell_s_own_beams_is_rejected(monkeypatch):
     monkeypatch.setattr(cell_draws, "TOUCHED", cell_draws.UNTOUCHED)
     assert least("a square", drawn.__wrapped__("a square"), exact("a square")) < ALPHA / TESTS
 

@@ -246,7 +246,7 @@ def naive_evidence(chains, chain, problem):
     return out
 
 
-def test_evidence_is_the_sum_over_the_beams_whose_readings_end_in_a_cell_and_beams_are_stopped_by_what_they_cross():
+def test_evidence_is_the_sum_over_beams_whose_readings_end_in_a_cell_and_a_look_draws_stops_and_moves_no_cell():
     sampler, problem = prepared(bm.Surface())
     state, info = sampler.step(sampler.init(problem, [0, 1], 0), 3)
     for chain in (0, 1):
@@ -258,11 +258,6 @@ def test_evidence_is_the_sum_over_the_beams_whose_readings_end_in_a_cell_and_bea
     np.testing.assert_array_equal(by >= 0, stopped)
     offsets = problem.rays.offsets
     assert all(cell in problem.rays.cells[offsets[b] : offsets[b + 1]] for b, cell in enumerate(by) if cell >= 0)
-
-
-def test_a_look_draws_the_stops_of_a_whole_sweep_and_moves_no_cell():
-    sampler, problem = prepared(bm.Surface())
-    state, _ = sampler.step(sampler.init(problem, [0, 1], 0), 3)
     maps, look = moves.ChainMaps.of(state.chains), moves.look_with(problem, state.chains, 1.0)
     seen = look(maps)
     assert np.array_equal(moves.ChainMaps.of(state.chains).cells, maps.cells)

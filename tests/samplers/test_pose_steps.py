@@ -136,21 +136,6 @@ def sampler_of(scans, walls, prior):
     return PoseMetropolis(likelihood, law, proposal_factors(likelihood, cells, scans.poses, law, 0.1)), cells
 
 
-def test_a_chain_is_the_same_whatever_its_company_and_however_its_steps_are_cut():
-    walls, scans, _ = scene(3, UncertainPoses(0.1, 0.1))
-    sampler, cells = sampler_of(scans, walls, UncertainPoses(0.1, 0.1))
-
-    def run(ids, cuts):
-        state = sampler.init(np.broadcast_to(scans.poses, (len(ids), 3, 3)), np.array(ids), 7)
-        for n in cuts:
-            state, _ = sampler.step(state, np.repeat(cells, len(ids), axis=0), n)
-        return state.poses
-
-    together = run([2, 5, 9], [6])
-    assert (together[1] == run([5], [1, 2, 3])[0]).all()
-    assert not (together[0] == together[1]).all()
-
-
 def test_warm_up_brings_the_acceptance_to_where_it_is_wanted():
     walls, scans, _ = scene(4, UncertainPoses(0.1, 0.1))
     sampler, cells = sampler_of(scans, walls, UncertainPoses(0.1, 0.1))

@@ -125,8 +125,7 @@ def test_the_fewer_the_beams_the_more_draws_by_default():
         run = bm.infer(few, GRID, prior=bm.Beta(), sensor=TRUTH, schedule=bm.Schedule(chains=1, warmup=0, **schedule))
         return run.n_draws, run.posterior.sweep
 
-    assert bm.Beta().default_draws(few.n_beams, GRID.n_cells, 1) == 200
-    assert swept() == (200, 3 * 200)
+    assert (bm.Beta().default_draws(few.n_beams, GRID.n_cells, 1), swept()) == (200, (200, 3 * 200))
     assert swept(draws=5) == (5, 5)  # who says how many draws, gets as many sweeps
     assert swept(thin=1) == (200, 200)
 

@@ -44,6 +44,9 @@ def test_an_invalid_reading_says_nothing():
     d = np.array(DISTANCES)
     found = {name: sensor.log_likelihood(np.full(len(d), np.nan), d, LIMITS) for name, sensor in ALL.items()}
     assert [name for name, values in found.items() if (values != 0.0).any()] == []
+    assert (MIXTURES["mixture"].reach_m(np.array([1.0, 2.0, 3.0]), LIMITS) < np.array([1.5, 2.5, 3.5])).all()
+    assert [name for name, noise in NOISES.items() if np.isfinite(noise.reach_m(SPAN, LIMITS)).any()] == []
+    assert [name for name, sensor in ALL.items() if sensor.reach_m(np.array([np.nan]), LIMITS)[0] != 0.0] == []
 
 
 @pytest.mark.parametrize("name", NOISES)
@@ -92,12 +95,6 @@ def test_the_likelihood_is_flat_past_the_reach(name):
             values = ALL[name].log_likelihood(np.full(len(past), z), past, LIMITS)
             beyond = ALL[name].log_likelihood(np.float64(z), np.float64(np.inf), LIMITS)
             assert abs(values - beyond).max() <= FLAT_NATS * (1 + 1e-6)
-
-
-def test_beams_of_sharp_mixtures_end_early_those_of_noise_never_and_invalid_ones_at_once():
-    assert (MIXTURES["mixture"].reach_m(np.array([1.0, 2.0, 3.0]), LIMITS) < np.array([1.5, 2.5, 3.5])).all()
-    assert [name for name, noise in NOISES.items() if np.isfinite(noise.reach_m(SPAN, LIMITS)).any()] == []
-    assert [name for name, sensor in ALL.items() if sensor.reach_m(np.array([np.nan]), LIMITS)[0] != 0.0] == []
 
 
 READINGS = np.array([0.6, 1.0, 2.9, 3.1, 4.8, np.inf, -np.inf, np.nan])
@@ -233,11 +230,9 @@ def test_a_mixture_s_finite_readings_stay_within_the_limits(name):
     assert not np.isnan(readings).any()
 
 
-def test_a_description_gives_the_model_back():
+def test_a_description_gives_the_model_back_or_the_name_alone_if_it_is_not_ours():
     assert {name: from_description(json.loads(json.dumps(describe(model)))) for name, model in ALL.items()} == ALL
 
-
-def test_a_model_that_is_not_ours_is_known_by_its_name_alone():
     class Sonar(bm.Gaussian):
         pass
 

@@ -60,10 +60,3 @@ def test_the_likelihood_that_chains_of_surfaces_report_is_the_model_s(sonar):
         beams = model.beam_log_likelihoods(model.state(cells))
         reported = float(run.posterior.log_likelihood[0, draw])
         assert reported == pytest.approx(beams.sum(), abs=0.02 * len(beams))
-
-
-def test_a_sensor_under_which_readings_are_impossible_is_refused():
-    with pytest.raises(bm.BadInput, match="a sensor under which no reading is impossible"):
-        bm.infer(
-            TRAIN, GRID, prior=bm.Surface(), sensor=bm.Gaussian(0.1), schedule=bm.Schedule(chains=1, warmup=1, draws=1)
-        )

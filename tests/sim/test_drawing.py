@@ -42,8 +42,7 @@ def test_the_tutorial_s_walls_are_indexed_as_it_indexes_them():
     assert walls.tolist() == [[character == "X" for character in line] for line in lines]  # the tutorial's own reading
     assert walls[2, 14]  # in the drawing: third line, fifteenth column
     assert not walls[14, 2]
-    assert pose.tolist() == [10.0, 10.0, 0.0]
-    assert TUTORIAL_GRID.cell_at(10.2, 9.8) == (10, 10)
+    assert (pose.tolist(), TUTORIAL_GRID.cell_at(10.2, 9.8)) == ([10.0, 10.0, 0.0], (10, 10))
     walls[:] = True
     assert not tutorial()[0].all()  # each call gives arrays of its own
 
@@ -51,15 +50,11 @@ def test_the_tutorial_s_walls_are_indexed_as_it_indexes_them():
 pictures = hnp.arrays(np.uint8, hnp.array_shapes(min_dims=2, max_dims=2, min_side=1, max_side=9))
 
 
-def test_the_top_left_of_a_picture_is_low_x_high_y():
+def test_the_top_left_of_a_picture_is_low_x_high_y_and_row_zero_of_an_occupancy_grid_the_bottom():
     image = np.full((3, 5), 255, dtype=np.uint8)  # 3 rows, 5 columns
     image[0, 0] = 0
     walls = from_image(image)
-    assert walls.shape == (5, 3)
-    assert np.argwhere(walls).tolist() == [[0, 2]]
-
-
-def test_row_zero_of_an_occupancy_grid_is_the_bottom_and_unknown_is_free_unless_asked_for():
+    assert (walls.shape, np.argwhere(walls).tolist()) == ((5, 3), [[0, 2]])
     for unknown_is_wall in (False, True):
         walls, _ = from_occupancy([[-1, 0, 100, 50, 51]], 0.1, unknown_is_wall=unknown_is_wall)
         np.testing.assert_array_equal(walls[:, 0], [unknown_is_wall, False, True, False, True])
@@ -82,7 +77,7 @@ def test_files_pil_images_and_arrays_agree(tmp_path_factory, picture):
     np.testing.assert_array_equal(from_image(np.dstack([picture] * 3)), walls)
 
 
-def test_dark_pixels_are_walls_and_transparent_ones_are_free():
+def test_dark_pixels_are_walls_transparent_ones_free_and_map_server_greys_occupied_unknown_free():
     greys = np.array([[0.0, 0.29, 0.31, 1.0]])
     np.testing.assert_array_equal(from_image(greys, threshold=0.3)[:, 0], [True, True, False, False])
     black_but_clear = np.zeros((1, 2, 4), dtype=np.uint8)
@@ -91,9 +86,6 @@ def test_dark_pixels_are_walls_and_transparent_ones_are_free():
     bits = Image.fromarray(np.array([[True, False]]))
     assert bits.mode == "1"
     np.testing.assert_array_equal(from_image(bits)[:, 0], [False, True])
-
-
-def test_map_server_greys_are_occupied_unknown_free():
     image = np.array([[0, 130, 205, 254]], dtype=np.uint8)  # darkness 1, .49, .196, .004
     walls, _ = from_map_image(image, 0.1, free_thresh=0.196)
     np.testing.assert_array_equal(walls[:, 0], [True, False, False, False])

@@ -32,14 +32,11 @@ def read(scans, scan, beam, range_m):
     return replace(scans, ranges_m=ranges)
 
 
-def test_the_furthest_comes_first_and_an_ordinary_walk_has_none(walk):
+def test_the_furthest_comes_first_and_where_none_or_many_are_far_away_nobody_is_wrong(walk):
     assert len(outlying(walk)) == 0
     assert bm.Grid.covering(walk, 0.1).n_cells < 100_000
     wrong = read(moved(moved(walk, 7, 1e6), 9, -1e9), 3, 1, 1e7)
     assert outlying(wrong).tolist() == [9, 3, 7]
-
-
-def test_where_many_are_far_away_nobody_is_wrong(walk):
     far = walk.poses.copy()
     far[::3, 0] += 1e6
     scans = replace(walk, poses=far)
@@ -86,7 +83,7 @@ def test_angles_are_wrapped_into_one_turn(angle, same):
     assert p.wrap_angle(np.array(angle)) == pytest.approx(same)
 
 
-def test_interpolated_poses_pass_through_the_given_ones_and_turn_the_short_way():
+def test_interpolated_poses_turn_the_short_way_and_neighbours_are_those_before_and_after():
     stamps = np.array([0.0, 1.0, 1.0, 3.0])
     poses = np.array([[0, 0, 3.0], [1, 0, -3.0], [1, 1, -3.0], [3, 1, -3.0]], dtype=float)
     found = p.interpolate(stamps, poses, np.array([-1.0, 0.0, 0.5, 1.0, 2.0, 9.0]))
@@ -96,12 +93,8 @@ def test_interpolated_poses_pass_through_the_given_ones_and_turn_the_short_way()
     for count in (1, 2):  # one pose holds at all times
         alone = p.interpolate(np.zeros(count), np.tile([[1.0, 2.0, 0.5]], (count, 1)), np.array([-1.0, 0.0, 1.0]))
         np.testing.assert_allclose(alone, [[1.0, 2.0, 0.5]] * 3)
-
-
-def test_neighbours_are_those_before_and_after_and_the_two_at_the_end_outside():
     before, after = p.bracketing_indices(np.array([1.0, 2.0, 4.0]), np.array([0.0, 1.5, 2.0, 3.0, 9.0]))
-    assert before.tolist() == [0, 0, 0, 1, 1]
-    assert after.tolist() == [1, 1, 1, 2, 2]
+    assert (before.tolist(), after.tolist()) == ([0, 0, 0, 1, 1], [1, 1, 1, 2, 2])
     alone = np.array([5]), np.array([1, 5, 9])
     assert [index.tolist() for index in (*p.bracketing_indices(*alone), p.nearest_index(*alone))] == [[0, 0, 0]] * 3
 
@@ -115,12 +108,9 @@ def test_the_nearest_is_the_nearest_of_all_and_of_two_the_earlier(numbers, numbe
 A, B = np.random.default_rng(5).normal(0.0, 2.0, (2, 20, 3))
 
 
-def test_points_follow_their_pose():
+def test_points_follow_their_pose_and_jacobians_equal_finite_differences():
     points = np.random.default_rng(6).normal(size=(20, 2))
     np.testing.assert_allclose(p.transform(A, p.transform(B, points)), p.transform(p.compose(A, B), points), atol=1e-12)
-
-
-def test_jacobians_of_a_relative_pose_equal_finite_differences():
     by_a, by_b = p.between_jacobians(p.between(A, B))
     for k, h in enumerate(np.eye(3) * 1e-6):
         change_a = (p.between(p.retract(A, h), B) - p.between(p.retract(A, -h), B)) / 2e-6
