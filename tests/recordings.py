@@ -29,7 +29,6 @@ POSE, POSE_COV = "geometry_msgs/msg/PoseStamped", "geometry_msgs/msg/PoseWithCov
 
 @cache
 def ros2():
-    """Return the message types of ROS 2."""
     return get_typestore(Stores.ROS2_HUMBLE)
 
 
@@ -230,7 +229,6 @@ def path_of(seconds):
 
 
 def on(poses, offset=MOUNT):
-    """Poses of something that is mounted on the robot."""
     x, y, yaw = np.moveaxis(np.asarray(poses, dtype=float), -1, 0)
     dx, dy, turn = offset
     return np.stack([x + np.cos(yaw) * dx - np.sin(yaw) * dy, y + np.sin(yaw) * dx + np.cos(yaw) * dy, yaw + turn], -1)
@@ -283,12 +281,10 @@ def robot(
 
 
 def merged(*parts):
-    """Several robots' messages in the order of receipt."""
     return sorted((message for part in parts for message in part), key=lambda message: message[2])
 
 
 def without(messages, topic):
-    """Return the messages on other topics."""
     return [m for m in messages if m[0] != topic]
 
 

@@ -12,6 +12,7 @@ from oracle.worlds import make_case, random_prior
 from tiers import pairs_but
 
 import bayesmap as bm
+from bayesmap.app.sources import opened_run
 from bayesmap.cells.ising_field import rough_draw
 
 CASES = [(0.5, 0.4, (3, 4)), (0.2, 0.9, (4, 3)), (0.05, 1.5, (3, 3)), ("cells", 1.0, (3, 4)), (0.4, 2.0, (1, 7))]
@@ -124,8 +125,6 @@ def test_runs_say_their_log_prior_and_come_back_from_files_and_go_on(p, method, 
 
 
 def test_its_runs_are_scored_drawn_exported_and_opened_on_the_page(tmp_path):
-    from bayesmap.app.sources import opened_run
-
     case = make_case(12, prior=0.3, coupling=0.6, shape=(4, 4))
     run = infer(case.scans, case.grid, prior=case.prior, sensor=case.sensor, chains=2, draws=30, warmup=5)
     assert np.isfinite(bm.score(run, case.scans).nats_per_beam)

@@ -4,7 +4,11 @@ Its draws are tested against enumeration of all maps of four cells. False alarms
 """
 
 import itertools
+import subprocess
+import sys
 from functools import cache
+from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -15,8 +19,10 @@ from tiers import full_but
 
 import bayesmap as bm
 from bayesmap.cells.kinds import prior_from
-from bayesmap.model import Model
-from bayesmap.samplers.metropolis import Metropolis
+from bayesmap.kernels.rays import trace_rays
+from bayesmap.model import Model, log_likelihoods
+from bayesmap.run import runner
+from bayesmap.samplers.metropolis import Metropolis, _sweep
 
 GRID = bm.Grid((2, 2), 0.5)
 SENSOR = bm.BeamMixture(bm.Gaussian(0.15), p_random=0.1, p_no_return=0.1, p_short=0.05)
@@ -30,9 +36,6 @@ CHAINS = 300
 @cache
 def law(beta, sensor=SENSOR):
     """The posterior of all 81 maps, (81,), by the joint law in plain NumPy, the sensor's law to the power of beta."""
-    from bayesmap.kernels.rays import trace_rays
-    from bayesmap.model import log_likelihoods
-
     prior, rays = Glass(), trace_rays(SCANS, GRID)
     maps = [{"material": np.reshape(m, (2, 2)).astype(np.int8)} for m in itertools.product(range(3), repeat=4)]
     stops = [prior.stops(cells, GRID) for cells in maps]
@@ -83,8 +86,6 @@ def test_infer_takes_it(run):
 
 
 def test_it_is_saved_loaded_and_resumed_bit_for_bit(run, tmp_path, monkeypatch):
-    from bayesmap.run import runner
-
     run.save(tmp_path / "run.nc")
     loaded = bm.load(tmp_path / "run.nc")
     assert loaded.posterior.prior == Glass() == prior_from(Glass().describe())
@@ -99,7 +100,6 @@ def test_it_is_saved_loaded_and_resumed_bit_for_bit(run, tmp_path, monkeypatch):
 
 
 def test_it_is_scored_by_the_joint_law_and_its_dataset_has_its_own_array(run):
-    """By the joint law, draw by draw."""
     held = bm.Scans([[-0.3, 0.3, 0.0], [1.2, 0.1, 2.7]], [-0.2, 0.1], [[0.6, np.inf], [1.2, 0.9]], max_range_m=2.0)
     model, draws = Model(held, GRID, Glass(), SENSOR, hit_depth=0.5), run.posterior.draws
     density = np.mean(
@@ -126,11 +126,7 @@ def test_it_is_drawn_and_exported(run, tmp_path):
         run.surfaces()
 
 
-def test_the_command_line_draws_and_describes_it(run, tmp_path):
-    import subprocess
-    import sys
-    from pathlib import Path
-
+def test_the_command_line_draws_and_describes_it_and_without_its_module_refuses_it_by_name(run, tmp_path):
     run.save(tmp_path / "run.nc")
     path = str(tmp_path / "run.nc")
     commands = [["info", path], ["render", path, "--what", "mean"], ["render", path], ["export", path]]
@@ -147,13 +143,6 @@ def test_the_command_line_draws_and_describes_it(run, tmp_path):
     done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
     assert "free, glass or wall" in done.stdout
-
-
-def test_without_its_module_it_is_refused_by_name(run, tmp_path):
-    import subprocess
-    import sys
-
-    run.save(tmp_path / "run.nc")
     script = f"import bayesmap as bm; bm.load({str(tmp_path / 'run.nc')!r})"
     done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=False)
     assert "cells of kind 'glass' are not known here" in done.stderr
@@ -162,10 +151,6 @@ def test_without_its_module_it_is_refused_by_name(run, tmp_path):
 @pytest.mark.parametrize(("log_ratio", "accepted"), [(-0.1, False), (0.0, True), (-0.01, True)])
 def test_a_proposal_is_accepted_with_the_probability_of_its_ratio(log_ratio, accepted):
     """The uniform number is e^-0.05: what enumeration of few chains cannot see of the ratio is seen here."""
-    from types import SimpleNamespace
-
-    from bayesmap.samplers.metropolis import _sweep
-
     cells = {"material": np.zeros((1, 1), dtype=np.int8)}
     kind = SimpleNamespace(propose=lambda cells, site, rng, grid: ({"material": np.int8(2)}, log_ratio))
     problem = SimpleNamespace(grid=bm.Grid((1, 1), 0.5), beams_of=[()], model=SimpleNamespace(cells=kind))

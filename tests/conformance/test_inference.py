@@ -56,14 +56,17 @@ def smoother(means, variances):
     return np.array(smoothed)
 
 
-def test_k_particle_importance_estimates_the_evidence():
+def test_k_particle_importance_estimates_the_evidence_and_moves_to_another_target():
     target = Target(model, (), C["y"].set(2.0))
     estimate = ImportanceK(target, k_particles=20).log_marginal_likelihood_estimate
+    unbiased(jax.jit(jax.vmap(estimate))(jr.split(jr.key(0), 2000)), EVIDENCE)
+    first, second = (Target(model, (), C["y"].set(y)) for y in (1.0, 2.0))
+    estimate = lambda key: ImportanceK(first, k_particles=20).log_marginal_likelihood_estimate(key, second)  # noqa: E731
     unbiased(jax.jit(jax.vmap(estimate))(jr.split(jr.key(0), 2000)), EVIDENCE)
 
 
 @pytest.mark.full
-def test_resampled_particles_are_draws_from_the_posterior():
+def test_resampled_particles_are_draws_from_the_posterior_and_an_algorithm_a_distribution_of_open_choices():
     """Posterior N(1, 1/2), within five standard errors of 5000 draws: the effective sample size is more."""
     collection = jax.jit(ImportanceK(Target(model, (), C["y"].set(2.0)), k_particles=20_000).run_smc)(jr.key(0))
     assert collection.effective_sample_size() > 5000
@@ -73,6 +76,13 @@ def test_resampled_particles_are_draws_from_the_posterior():
         after.get_log_marginal_likelihood_estimate(), collection.get_log_marginal_likelihood_estimate(), rtol=1e-5
     )
     assert after.sample_particle(jr.key(0)).get_choices()["y"] == 2.0
+    target = Target(model, (), C["y"].set(2.0))
+    algorithm = ImportanceK(target, k_particles=5000)
+    score, choices = jax.jit(algorithm.random_weighted)(jr.key(0), target)
+    expected = st.norm.logpdf(choices["mu"], 1.0, 0.5**0.5)
+    np.testing.assert_allclose(score, expected, atol=0.1)
+    assert "y" not in choices
+    np.testing.assert_allclose(jax.jit(algorithm.estimate_logpdf)(jr.key(0), choices, target), expected, atol=0.1)
 
 
 @pytest.mark.full
@@ -156,25 +166,6 @@ def test_the_filter_runs_without_inputs_if_it_knows_how_many_steps():
     np.testing.assert_allclose(estimate, 0.0, atol=1e-6)
     with pytest.raises(BadArguments, match="n="):
         genjax.particle_filter(jr.key(0), steady_walk, (0.0, None), C.n(), 4)
-
-
-def test_particles_move_to_another_target():
-    """The evidence of y = 2 from particles drawn for y = 1."""
-    first, second = (Target(model, (), C["y"].set(y)) for y in (1.0, 2.0))
-    estimate = lambda key: ImportanceK(first, k_particles=20).log_marginal_likelihood_estimate(key, second)  # noqa: E731
-    unbiased(jax.jit(jax.vmap(estimate))(jr.split(jr.key(0), 2000)), EVIDENCE)
-
-
-@pytest.mark.full
-def test_an_algorithm_is_a_distribution_of_the_open_choices():
-    """With many particles its density is the posterior N(1, 1/2)'s, of a draw and of a given value."""
-    target = Target(model, (), C["y"].set(2.0))
-    algorithm = ImportanceK(target, k_particles=5000)
-    score, choices = jax.jit(algorithm.random_weighted)(jr.key(0), target)
-    expected = st.norm.logpdf(choices["mu"], 1.0, 0.5**0.5)
-    np.testing.assert_allclose(score, expected, atol=0.1)
-    assert "y" not in choices
-    np.testing.assert_allclose(jax.jit(algorithm.estimate_logpdf)(jr.key(0), choices, target), expected, atol=0.1)
 
 
 @genjax.gen

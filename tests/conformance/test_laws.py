@@ -183,7 +183,7 @@ def test_a_switch_whose_index_stays_is_edited_in_place():
 
 
 @pytest.mark.full
-def test_regenerate_works_on_vmap_scan_and_products():
+def test_regenerate_works_on_vmap_scan_and_products_and_moves_can_be_addressed_to_a_site():
     data = jnp.array([1.0, 2.0, 3.0])
     rows = model.repeat(n=3)
     trace, _ = rows.importance(jr.key(0), C["y"].set(data), ())
@@ -192,21 +192,14 @@ def test_regenerate_works_on_vmap_scan_and_products():
     assert jnp.all(mu != old_mu)
     np.testing.assert_allclose(weight, (st.norm.logpdf(data, mu) - st.norm.logpdf(data, old_mu)).sum(), rtol=1e-5)
     np.testing.assert_array_equal(new.edit(jr.key(0), back)[0].get_choices()["mu"], old_mu)
-
     step = genjax.gen(lambda s, x: (lambda m: (m, genjax.normal(m, 1.0) @ "y"))(genjax.normal(s, 1.0) @ "mu"))
     trace, _ = step.scan(n=3).importance(jr.key(0), C["y"].set(data), (0.0, None))
     new, weight, _, _ = trace.edit(jr.key(5), Regenerate(MU))
     ratio = st.norm.logpdf(data, new.get_choices()["mu"]) - st.norm.logpdf(data, trace.get_choices()["mu"])
     np.testing.assert_allclose(weight, ratio.sum(), rtol=1e-5)
-
     flips = genjax.flip.repeat(n=50)(0.5).simulate(jr.key(0), ())
     new, weight, _, _ = flips.edit(jr.key(5), Regenerate(Selection.all()))
     assert weight == 0.0
     assert jnp.any(new.get_retval() != flips.get_retval())
-
-
-@pytest.mark.full
-def test_moves_can_be_addressed_to_a_site():
-    """HMC and Regenerate inside a StaticRequest still make Metropolis-Hastings exact."""
     is_the_posterior(from_zero(hmc_at_the_site, 0.8))
     is_the_posterior(from_zero(regenerate_at_the_site))

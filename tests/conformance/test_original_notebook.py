@@ -75,7 +75,7 @@ def run(cells, names):
             names["chains"].append(names["gibbs_chain"])
 
 
-def test_every_cell_runs_and_draws_what_it_drew_on_genjax(names):
+def test_every_cell_runs_and_draws_what_it_drew_on_genjax_and_walls_stay_floats(names):
     """The golden figures of GenJAX 0.10.3: walls of a draw from the prior, readings, the first states of Gibbs."""
     assert int(names["true_walls"].sum()) == 54
     np.testing.assert_allclose(names["observed_readings"].sum(), 1225.6375, rtol=1e-6)
@@ -84,10 +84,6 @@ def test_every_cell_runs_and_draws_what_it_drew_on_genjax(names):
     for chain in (radial, sparse, block, names["gibbs_chain_incremental"]):
         assert chain.shape == (3, 21, 21)
         assert 0 < int(chain[-1].sum()) < 21 * 21
-
-
-def test_walls_stay_the_floats_that_the_notebook_makes_them(names):
-    """The notebook's loops carry them."""
     assert all(chain.dtype == jnp.float32 for chain in names["chains"])
     assert names["gibbs_chain_incremental"].dtype == jnp.float32
     args = (names["CENTER"], names["DEFAULT_PARAMS"])

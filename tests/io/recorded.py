@@ -29,7 +29,6 @@ class Recorded:
 
 
 def read_mcap(path):
-    """MCAP by the format's own library."""
     with open(path, "rb") as file:
         reader = make_reader(file, decoder_factories=[Ros2()])
         assert reader.get_header().profile == "ros2"
@@ -43,7 +42,6 @@ def read_mcap(path):
 
 
 def read_db3(path):
-    """Sqlite by Python, messages by mcap_ros2."""
     database = sqlite3.connect(path)
     try:
         rows = database.execute(
@@ -114,8 +112,6 @@ def scans(stamps=(100.5, 101.25, 103.0)):
 
 @dataclass(frozen=True)
 class BinaryRun:
-    """What an export needs of a run on binary walls."""
-
     grid: Grid = GRID
 
     @property

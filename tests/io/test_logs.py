@@ -24,7 +24,6 @@ def expected():
 
 
 def refusal(path, **options):
-    """Return the message with which a log is refused, or an empty one."""
     try:
         describe_log(path, **options)
     except BadInput as error:

@@ -69,19 +69,16 @@ def test_toro_s_vertices_are_those_of_a_graph(tmp_path, edges):
     )
 
 
-def test_vertices_far_behind_the_first_lines_are_noted(tmp_path):
-    line = "FLASER 3 1.0 2.0 1.5 {x} 0 0 {x} 0 0 {x} host {x}\n"
-    text = "".join(line.format(x=0.1 * i) for i in range(1100))
-    reading = describe_log(written(tmp_path / "log", text + "VERTEX2 0 1 0 0\n"))
-    assert any("1 VERTEX2 lines, which were not used" in note for note in reading.notes)
-
-
-def test_a_graph_without_scans_and_gmapping_s_own_log_are_refused(tmp_path):
+def test_a_graph_without_scans_and_gmapping_s_own_log_are_refused_and_late_vertices_noted(tmp_path):
     path = written(tmp_path / "graph.g2o", "VERTEX_SE2 0 0 0 0\nEDGE_SE2 0 0 0 0 0 1 0 0 1 0 1\n")
     assert "no vertex of the graph carries a scan" in refused(path)
     text = "ODO_UPDATE 1 0 0 0 0\nLASER_READING 3 1.0 2.0 1.5 0.1\nNEFF 20\n"
     for start in ("", "NEFF 1\n", "# comment\n"):
         assert "gfs2log" in refused(written(tmp_path / "run.gfs", start + text))
+    line = "FLASER 3 1.0 2.0 1.5 {x} 0 0 {x} 0 0 {x} host {x}\n"
+    text = "".join(line.format(x=0.1 * i) for i in range(1100))
+    reading = describe_log(written(tmp_path / "log", text + "VERTEX2 0 1 0 0\n"))
+    assert any("1 VERTEX2 lines, which were not used" in note for note in reading.notes)
 
 
 def csv(scans, delimiter=","):
@@ -247,7 +244,7 @@ def test_scans_as_ros2_topic_echo_writes_them(tmp_path):
     assert "line 1: " in refused(written(tmp_path / "odd.csv", odd), without_poses=True)
 
 
-def test_a_table_with_the_names_of_a_message_s_fields(tmp_path):
+def test_a_table_with_the_names_of_a_message_s_fields_and_poses_that_are_not_needed_are_read(tmp_path):
     head = "Time,header.seq,header.stamp.secs,header.stamp.nsecs,header.frame_id,angle_min,angle_max,angle_increment"
     text = head + ",range_min,range_max,ranges_0,ranges_1,ranges_2\n"
     text += "10.5,0,10,250000000,laser,-0.5,0.5,0.5,0.1,8,1,inf,2\n10.7,1,10,450000000,laser,-0.5,0.5,0.5,0.1,8,1,2,3\n"
@@ -256,6 +253,14 @@ def test_a_table_with_the_names_of_a_message_s_fields(tmp_path):
     np.testing.assert_allclose(scans.stamps_s, [10.25, 10.45])
     np.testing.assert_array_equal(scans.ranges_m, [[1, np.inf, 2], [1, 2, 3]])
     assert (scans.min_range_m, scans.max_range_m) == (0.1, 8.0)
+    scans = simulated(TIMES)
+    reading = describe_log(written(tmp_path / "scans.csv", csv(scans)), without_poses=True)
+    assert reading.posed
+    equal(reading.scans, scans)
+    path = tmp_path / "scans.npz"
+    np.savez(path, angles_rad=ANGLES, ranges_m=scans.ranges_m)
+    assert "bayesmap slam --no-odometry" in refused(path)
+    assert not describe_log(path, without_poses=True).posed
 
 
 MOUNTED = (0.2, -0.1, 2.5)
@@ -285,7 +290,6 @@ def test_a_laser_that_sits_elsewhere_on_the_robot_than_the_log_says(tmp_path, ki
 
 
 def raw(kind="RAWLASER1"):
-    """Lines of a laser's driver, which knows nothing of poses."""
     line = "{} 0 -1.0 2.0 1.0 30.0 0.01 0 3 1.5 2.5 {} 0 {} host {}\n"
     return "".join(line.format(kind, 3.0 + i, 100.0 + 0.1 * i, 0.1 * i) for i in range(4))
 
@@ -300,17 +304,6 @@ def test_laser_lines_without_poses_are_scans_alone(tmp_path, kind):
     np.testing.assert_array_equal(reading.scans.angles_rad, [-1.0, 0.0, 1.0])
     np.testing.assert_allclose(reading.scans.stamps_s, 100.0 + 0.1 * np.arange(4))
     assert not reading.scans.poses.any()
-
-
-def test_poses_that_a_text_holds_are_read_where_none_are_needed(tmp_path):
-    scans = simulated(TIMES)
-    reading = describe_log(written(tmp_path / "scans.csv", csv(scans)), without_poses=True)
-    assert reading.posed
-    equal(reading.scans, scans)
-    path = tmp_path / "scans.npz"
-    np.savez(path, angles_rad=ANGLES, ranges_m=scans.ranges_m)
-    assert "bayesmap slam --no-odometry" in refused(path)
-    assert not describe_log(path, without_poses=True).posed
 
 
 def test_an_archive_holds_the_fields_of_scans(tmp_path):

@@ -23,7 +23,6 @@ FANS = {
 
 
 def log(fans):
-    """Angles and readings of each scan, poses and stamps."""
     angles = [first + step * np.arange(beams) for first, step, beams in fans]
     readings = [np.round(2.0 + 0.01 * i + 0.02 * np.arange(len(own)), 4) for i, own in enumerate(angles)]
     poses = np.column_stack([0.2 * np.arange(len(fans)), 0.1 * np.arange(len(fans)), 0.05 * np.arange(len(fans))])

@@ -187,16 +187,13 @@ def test_scans_between_readings_of_odometry(tmp_path, release, zipped):
     assert "4 scans were left out" in outside.notes[0]
 
 
-def test_where_stamps_repeat_the_order_of_the_log_says_where_the_robot_was(tmp_path):
+def test_where_stamps_repeat_the_log_s_order_counts_and_a_motion_by_matching_where_there_is_no_other(tmp_path):
     style, scans = STYLES["MRPT 2"], known(TIMES)
     parts = [odometry(style, pose, 100.0) + scan(style, row, 100.0)
              for pose, row in zip(path_of(TIMES), scans.ranges_m, strict=True)]  # fmt: skip
     reading = describe_log(written(tmp_path / "log", b"".join(parts)))
     same(reading.scans, scans, timed=False)
     assert any("stamps are coarse" in note for note in reading.notes)
-
-
-def test_a_motion_by_odometry_counts_and_one_by_matching_where_there_is_no_other(tmp_path):
     style, scans = STYLES["MRPT 2"], known(TIMES)
     robot = path_of(TIMES)
     steps = [between(a, b) for a, b in zip([np.zeros(3), *robot[:-1]], robot, strict=True)]
@@ -218,7 +215,7 @@ def test_a_laser_upside_down_one_that_sweeps_clockwise_and_one_on_its_side(tmp_p
     assert "tilted by 69 degrees" in refused(written(tmp_path / "side", in_frames(style, scans, roll=1.2)))
 
 
-def test_objects_of_other_classes_lie_between_and_other_lasers_are_named(tmp_path):
+def test_objects_of_other_classes_lie_between_other_lasers_are_named_and_scans_alone_are_read(tmp_path):
     style, scans = STYLES["MRPT 2"], known(TIMES)
     image = style.object("CObservationImage", 4, pose3(style, MOUNT) + bytes(range(256)) * 3)
     note = style.object("CObservationComment", 0, b"\x05\x00\x00\x00hello")
@@ -232,9 +229,6 @@ def test_objects_of_other_classes_lie_between_and_other_lasers_are_named(tmp_pat
     same(reading.scans, scans)
     assert "also holds 5 scans of the sensor 'REAR'" in reading.notes[0]
     assert (reading.messages["CObservationImage"], reading.messages["CSensoryFrame"]) == (12, 6)
-
-
-def test_scans_alone_and_a_laser_whose_place_is_typed(tmp_path):
     style, scans = STYLES["MRPT 2"], known(TIMES)
     alone = b"".join(scan(style, row, at) for row, at in zip(scans.ranges_m, scans.stamps_s, strict=True))
     path = written(tmp_path / "alone", alone)
@@ -246,11 +240,19 @@ def test_scans_alone_and_a_laser_whose_place_is_typed(tmp_path):
     np.testing.assert_allclose(moved.poses[:, :2], on(path_of(TIMES), (1.0, 0.0, 2.0))[:, :2], atol=1e-9)
 
 
-def test_readings_that_are_not_valid_are_no_return_only_at_the_maximum(tmp_path):
+def test_invalid_readings_are_no_return_only_at_the_maximum_and_logs_without_scans_or_cut_are_refused(tmp_path):
     style = STYLES["MRPT 2"]
     row = np.array([1.0, np.inf, np.nan, 2.0] + [5.0] * 37)
     scans = read_log(written(tmp_path / "log", odometry(style, (0, 0, 0), 1.0) + scan(style, row, 1.0)))
     np.testing.assert_array_equal(scans.ranges_m[0], row)
+    style, scans = STYLES["MRPT 2"], known(TIMES)
+    only = odometry(style, (0, 0, 0), 1.0)
+    assert "it holds 1 CObservationOdometry" in refused(written(tmp_path / "odometry", only))
+    whole = written(tmp_path / "log", in_frames(style, scans)).read_bytes()
+    cut = tmp_path / "cut"
+    cut.write_bytes(whole[: len(whole) * 2 // 3])
+    assert "--skip-bad-lines" in refused(cut)
+    assert 1 <= len(read_log(cut, skip_bad_lines=True)) < 6
 
 
 @pytest.mark.parametrize(("change", "message"), [
@@ -266,17 +268,6 @@ def test_what_cannot_be_read_is_named_and_left_out_on_request(tmp_path, change, 
     reading = describe_log(path, skip_bad_lines=True)
     assert len(reading.skipped) == 1
     assert len(reading.scans) == (6 if "Movement" in message else 5)
-
-
-def test_a_log_without_scans_and_a_gzip_file_that_breaks_off(tmp_path):
-    style, scans = STYLES["MRPT 2"], known(TIMES)
-    only = odometry(style, (0, 0, 0), 1.0)
-    assert "it holds 1 CObservationOdometry" in refused(written(tmp_path / "odometry", only))
-    whole = written(tmp_path / "log", in_frames(style, scans)).read_bytes()
-    cut = tmp_path / "cut"
-    cut.write_bytes(whole[: len(whole) * 2 // 3])
-    assert "--skip-bad-lines" in refused(cut)
-    assert 1 <= len(read_log(cut, skip_bad_lines=True)) < 6
 
 
 @pytest.mark.parametrize("seed", range(20))

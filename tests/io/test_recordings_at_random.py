@@ -112,8 +112,6 @@ def exact(scans, bot, frame):
 
 @dataclass(repr=False)
 class Recorded:
-    """A recording as drawn."""
-
     messages: list  # topic, type, seconds received, message
     robot: Robot  # whose scans are read
     causes: tuple[str, ...]  # one of these words must be in a refusal or note if the scans are not exact

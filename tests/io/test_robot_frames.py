@@ -180,18 +180,17 @@ def test_two_publishers_of_odometry_are_refused_with_both_values(tmp_path, late,
     assert f"poses are those of /odom: without --pose-topic, {reason}" in told.sensors[0]["notes"]
 
 
-def test_two_publishers_of_the_map_leave_the_odometry(tmp_path):
+def test_two_publishers_of_the_map_leave_the_odometry_and_two_of_poses_are_refused(tmp_path):
     messages, _ = r.robot()
     others = [("/tf", r.TF, t + 0.1, r.tf(r.transform(t + 0.1, "map", "odom", 1.0, 1.0, 0.0))) for t in r.POSE_TIMES]
     file = r.written(tmp_path, r.merged(messages, others))
     assert "map in a frame below it with --fixed-frame odom" in r.refused(file)
     assert describe_log(file, fixed_frame="odom").fixed_frame == "odom"
-
-
-def test_two_publishers_on_a_topic_of_poses_are_refused(tmp_path):
     messages, _ = r.robot(tf_poses=False, odom=True)
     others = [m for m in r.robot(tf_poses=False, odom=True, path=way(1), late=0.1)[0] if m[0] == "/odom"]
-    assert "odom -> base_link on /odom goes to and fro" in r.refused(r.written(tmp_path, r.merged(messages, others)))
+    assert "odom -> base_link on /odom goes to and fro" in r.refused(
+        r.written(tmp_path / "other", r.merged(messages, others))
+    )
 
 
 def a_track(rng, samples, noise, late_s=0.0, away=(0.0, 0.0, 0.0)):
@@ -272,18 +271,14 @@ def test_a_clock_that_starts_again_while_messages_are_on_their_way(tmp_path):
     same(reading.scans.select(np.arange(10, 20)), others)
 
 
-def test_a_run_without_poses_is_left_out_with_the_reason(tmp_path):
+def test_a_run_without_poses_is_left_out_and_a_clock_that_starts_again_for_the_recorder_too_is_refused(tmp_path):
     first, scans = run_of(1, 100.0)
     second = [m for m in run_of(2, 107.0)[0] if m[0] == "/scan"]
     reading = describe_log(r.written(tmp_path, r.merged(first, second)))
     same(reading.scans, scans)
     assert any("one run of the clock was left out: " in note for note in reading.notes)
-
-
-def test_a_clock_that_starts_again_for_the_recorder_too_is_refused_as_such(tmp_path):
-    """Recorded by the simulated clock itself, both runs are received at the same times."""
     parts = [r.robot(path=way(n), late=0.01 * n)[0] for n in (1, 2)]
-    assert "or the clock of the recording started again" in r.refused(r.written(tmp_path, r.merged(*parts)))
+    assert "or the clock of the recording started again" in r.refused(r.written(tmp_path / "other", r.merged(*parts)))
 
 
 def some(seed, count=20):

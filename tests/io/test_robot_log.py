@@ -27,7 +27,7 @@ def test_scans_and_poses_by_tf_are_those_that_were_simulated(tmp_path, writer):
     assert reading.summary()["scan_topic"] == "/scan"
 
 
-def test_the_only_topic_of_poses_is_found_without_being_named(tmp_path):
+def test_the_only_topic_of_poses_is_found_and_the_odometry_s_frame_can_be_chosen(tmp_path):
     messages, scans = r.robot(tf_poses=False, odom=True)
     path = r.written(tmp_path, messages)
     reading = describe_log(path)
@@ -36,6 +36,11 @@ def test_the_only_topic_of_poses_is_found_without_being_named(tmp_path):
     named = describe_log(path, pose_topic="/odom")
     r.same(named.scans, scans)
     assert (named.pose_source, named.notes) == ("/odom", ())
+    messages, _ = r.robot()
+    scans = read_log(r.written(tmp_path / "other", messages), fixed_frame="/odom")
+    x, y, yaw = r.path_of(r.SCAN_TIMES).T
+    expected = r.on(np.stack([y - 1.0, -x, yaw - math.pi / 2], -1))
+    np.testing.assert_allclose(scans.poses[:, :2], expected[:, :2], atol=1e-9)
 
 
 @pytest.mark.parametrize("kind", [r.POSE, r.POSE_COV])
@@ -48,14 +53,6 @@ def test_poses_of_a_body_without_a_name_are_taken_as_the_base_s(tmp_path, kind):
     reading = describe_log(r.written(tmp_path, messages), pose_topic="pose")
     r.same(reading.scans, scans)
     assert "taken as that of 'base_link'" in reading.notes[0]
-
-
-def test_the_odometry_s_frame_can_be_chosen_and_poses_are_then_in_it(tmp_path):
-    messages, _ = r.robot()
-    scans = read_log(r.written(tmp_path, messages), fixed_frame="/odom")
-    x, y, yaw = r.path_of(r.SCAN_TIMES).T
-    expected = r.on(np.stack([y - 1.0, -x, yaw - math.pi / 2], -1))
-    np.testing.assert_allclose(scans.poses[:, :2], expected[:, :2], atol=1e-9)
 
 
 def test_readings_mean_what_rep_117_says_and_older_drivers_write_range_max_for_no_return(tmp_path):
@@ -156,19 +153,7 @@ def test_de_skewing_undoes_the_sensor_s_motion_during_a_scan(tmp_path):
     assert any("nothing to de-skew" in note for note in nothing.notes)
 
 
-def test_scans_without_a_pose_at_their_time_are_left_out(tmp_path):
-    messages, scans = r.robot()
-    first, last = r.SCAN_TIMES[2], r.SCAN_TIMES[7]
-    messages = [m for m in messages if m[0] != "/tf" or first <= m[2] <= last]
-    reading = describe_log(r.written(tmp_path, messages))
-    poses = [m[2] for m in messages if m[0] == "/tf"]
-    kept = (min(poses) <= r.SCAN_TIMES) & (max(poses) >= r.SCAN_TIMES)
-    assert 0 < kept.sum() < 10
-    np.testing.assert_array_equal(reading.scans.ranges_m, scans.ranges_m[kept])
-    assert f"{(~kept).sum()} scans were left out" in reading.notes[-1]
-
-
-def test_stamps_out_of_order_are_sorted(tmp_path):
+def test_stamps_out_of_order_are_sorted_and_scans_without_a_pose_at_their_time_are_left_out(tmp_path):
     messages, scans = r.robot()
     laser = [m for m in messages if m[0] == "/scan"]
     others = r.without(messages, "/scan")
@@ -177,6 +162,15 @@ def test_stamps_out_of_order_are_sorted(tmp_path):
     r.same(reading.scans, scans)
     assert reading.reordered == 9
     assert "sorted by time" in reading.notes[0]
+    messages, scans = r.robot()
+    first, last = r.SCAN_TIMES[2], r.SCAN_TIMES[7]
+    messages = [m for m in messages if m[0] != "/tf" or first <= m[2] <= last]
+    reading = describe_log(r.written(tmp_path / "other", messages))
+    poses = [m[2] for m in messages if m[0] == "/tf"]
+    kept = (min(poses) <= r.SCAN_TIMES) & (max(poses) >= r.SCAN_TIMES)
+    assert 0 < kept.sum() < 10
+    np.testing.assert_array_equal(reading.scans.ranges_m, scans.ranges_m[kept])
+    assert f"{(~kept).sum()} scans were left out" in reading.notes[-1]
 
 
 @pytest.mark.parametrize("which", ["/scan", "both"])
@@ -194,7 +188,7 @@ def test_without_stamps_the_times_of_receipt_are_used(tmp_path, which):
     assert any("no message on /odom says its time" in note for note in reading.notes) == (which == "both")
 
 
-def test_a_scan_that_is_there_twice_counts_once(tmp_path):
+def test_a_scan_that_is_there_twice_counts_once_and_poses_that_jump_are_named(tmp_path):
     messages, _ = r.robot()
     laser = [m for m in messages if m[0] == "/scan"]
     other = ("/scan", r.SCAN, laser[3][2], {**laser[3][3], "ranges": [1.0] * 41})
@@ -202,15 +196,12 @@ def test_a_scan_that_is_there_twice_counts_once(tmp_path):
     assert len(reading.scans) == 11
     assert any("10 scans of /scan are in the recording twice" in note for note in reading.notes)
     assert any("have the time of another, but other readings" in note for note in reading.notes)
-
-
-def test_poses_that_jump_are_named(tmp_path):
     messages = []
     for i in range(20):
         x = 0.01 * i + (5.0 if i >= 12 else 0.0)
         messages.append(("/odom", r.ODOM, 0.1 * i, r.odometry(0.1 * i, x, 0, 0, child="laser")))
         messages.append(("/scan", r.SCAN, 0.1 * i, r.laser(0.1 * i, [1.0, 2.0, 3.0], np.array([-1.0, 0, 1.0]))))
-    reading = describe_log(r.written(tmp_path, messages), pose_topic="/odom")
+    reading = describe_log(r.written(tmp_path / "other", messages), pose_topic="/odom")
     assert len(reading.scans) == 20
     assert "1 poses jump: the first is that of scan 12" in reading.notes[-1]
 

@@ -110,11 +110,14 @@ def test_a_damaged_row_of_a_database_is_named_and_left_out_on_request(tmp_path, 
     assert len(describe_log(path, skip_bad_lines=True).skipped) == 1
 
 
-def test_a_folder_that_is_no_recording_is_refused(tmp_path):
+def test_a_folder_that_is_no_recording_and_topics_of_a_carmen_log_are_refused(tmp_path):
     assert "metadata.yaml" in r.refused(tmp_path)
     (tmp_path / "metadata.yaml").write_text("rosbag2_bagfile_information: [")
     r.refused(tmp_path)
     r.refused(tmp_path, skip_bad_lines=True)
+    path = tmp_path / "robot.log"
+    path.write_text("FLASER 3 1.0 2.0 1.5 0.1 0 0 0.1 0 0 1 host 1\n")
+    assert "a carmen file has no topics" in r.refused(path, scan_topic="/scan")
 
 
 def two_lasers():
@@ -165,12 +168,18 @@ def test_what_must_be_chosen_or_cannot_be_used_is_refused_with_what_is_there(tmp
     assert [part for part in parts if part not in message] == []
 
 
-def test_of_two_lasers_the_chosen_one_is_read(tmp_path):
+def test_of_two_lasers_the_chosen_one_is_read_and_a_storm_of_nan_leaves_the_other_scans(tmp_path):
     assert len(read_log(r.written(tmp_path, two_lasers()), scan_topic="/rear")) == 4
+    nothing = [math.nan] * 41
+    messages, scans = replaced({"ranges": nothing})
+    read = read_log(r.written(tmp_path / "one", messages))
+    assert np.isnan(read.ranges_m[4]).all()
+    np.testing.assert_array_equal(np.delete(read.ranges_m, 4, 0), np.delete(scans.ranges_m, 4, 0))
+    every = [(*m[:3], {**m[3], "ranges": nothing}) if m[0] == "/scan" else m for m in messages]
+    assert "none of 410 readings in 10 scans is valid" in r.refused(r.written(tmp_path / "all", every))
 
 
 def replaced(change, topic="/scan", **options):
-    """The robot's messages with the fifth of a topic changed."""
     messages, scans = r.robot(**options)
     at = [i for i, m in enumerate(messages) if m[0] == topic][4]
     messages[at] = (*messages[at][:3], {**messages[at][3], **change})
@@ -178,7 +187,6 @@ def replaced(change, topic="/scan", **options):
 
 
 def pose(position, orientation):
-    """A change of a message of odometry."""
     return {"pose": {"pose": {"position": position, "orientation": orientation}, "covariance": [0.0] * 36}}
 
 
@@ -202,22 +210,6 @@ def test_a_scan_or_pose_that_cannot_be_used_is_named_and_left_out_on_request(tmp
     left = np.delete(scans.ranges_m, 4, axis=0) if topic == "/scan" else scans.ranges_m
     np.testing.assert_array_equal(reading.scans.ranges_m, left)
     assert [str(skip) for skip in reading.skipped] == [f"message 5 on {topic}"]
-
-
-def test_a_storm_of_nan_leaves_the_other_scans_and_one_of_all_scans_is_refused(tmp_path):
-    nothing = [math.nan] * 41
-    messages, scans = replaced({"ranges": nothing})
-    read = read_log(r.written(tmp_path / "one", messages))
-    assert np.isnan(read.ranges_m[4]).all()
-    np.testing.assert_array_equal(np.delete(read.ranges_m, 4, 0), np.delete(scans.ranges_m, 4, 0))
-    every = [(*m[:3], {**m[3], "ranges": nothing}) if m[0] == "/scan" else m for m in messages]
-    assert "none of 410 readings in 10 scans is valid" in r.refused(r.written(tmp_path / "all", every))
-
-
-def test_topics_mean_nothing_to_a_carmen_log(tmp_path):
-    path = tmp_path / "robot.log"
-    path.write_text("FLASER 3 1.0 2.0 1.5 0.1 0 0 0.1 0 0 1 host 1\n")
-    assert "a carmen file has no topics" in r.refused(path, scan_topic="/scan")
 
 
 def tries(many, few, *landing):

@@ -132,6 +132,7 @@ def test_beams_without_a_lane_and_products_too_small_for_a_number_are_taken_one_
     unknown = lanes == float(UNKNOWN)
     assert 0 < unknown.sum() < 0.2 * unknown.size
     assert np.array_equal(whole[unknown], plain[unknown])
+    assert weighed(HARD, 3, 0.05)[0].sum() < weighed(HARD, 3)[0].sum() - 100
 
 
 @pytest.mark.parametrize(("sensor", "beta", "takes"), [
@@ -143,8 +144,3 @@ def test_lanes_are_for_mixtures_with_normal_noise_or_few_and_odd_degrees_of_free
     out = wp.zeros(1, dtype=wp.int32)
     wp.launch(is_for_lanes, dim=1, inputs=[law, beta, out])
     assert out.numpy()[0] == takes
-
-
-def test_a_cell_put_elsewhere_is_another_cell():
-    """What `weighed` puts on the chains reaches the kernels: the same beams, worse surfaces, less likely."""
-    assert weighed(HARD, 3, 0.05)[0].sum() < weighed(HARD, 3)[0].sum() - 100

@@ -60,7 +60,7 @@ def test_cells_that_hardly_ever_stop_a_beam_cost_all_poses_alike():
         assert less.std() < 0.01 * len(ANGLES)
 
 
-def test_poses_may_be_weighed_under_the_first_draws_or_each_under_one_draw_in_turn():
+def test_poses_are_weighed_under_first_draws_or_one_in_turn_and_sums_of_a_field_are_the_plain_formula_s():
     rng = np.random.default_rng(4)
     packed = device_maps([states("surfaces", rng)], GRID, 0.5)
     poses = np.column_stack([rng.uniform(0, 4, 7), rng.uniform(3, 6, 7), rng.uniform(-4, 4, 7)])
@@ -69,9 +69,6 @@ def test_poses_may_be_weighed_under_the_first_draws_or_each_under_one_draw_in_tu
     np.testing.assert_array_equal(scan_log_likelihood(*given, draws=2), every[:, :2])
     turns = scan_log_likelihood(*given, in_turn=True)
     np.testing.assert_array_equal(turns[:, 0], every[np.arange(7), np.arange(7) % 3])
-
-
-def test_sums_of_a_likelihood_field_at_points_are_those_of_the_plain_formula():
     rng = np.random.default_rng(0)
     field = rng.integers(0, 256, FIELD_GRID.shape).astype(np.uint8)
     points, poses = rng.uniform(-2, 2, (40, 2)), rng.uniform([-1, 0.5, -4], [2, 2.5, 4], (50, 3))

@@ -246,7 +246,7 @@ def test_scans_at_other_poses_have_the_likelihood_of_beams_traced_there(name, ki
         np.testing.assert_allclose(found.reshape(expected.shape), expected, atol=1e-5, rtol=1e-5)
 
 
-def test_beams_that_left_while_the_sensor_moved_move_with_their_scan():
+def test_beams_that_left_while_the_sensor_moved_move_with_their_scan_and_company_does_not_matter():
     scans, maps = world(5)
     rng = np.random.default_rng(0)
     drift = rng.normal(0, 0.05, (*scans.ranges_m.shape, 3))
@@ -265,9 +265,6 @@ def test_beams_that_left_while_the_sensor_moved_move_with_their_scan():
     there = replace(scans, poses=rigid(scans.poses), beam_poses=rigid(scans.beam_poses))
     found = likelihood.beams(maps, there.poses, scan, chain)
     np.testing.assert_allclose(found, predicted(there, maps[:1], bm.Gaussian(0.2))[0], atol=1e-5, rtol=1e-5)
-
-
-def test_threads_and_company_do_not_matter():
     scans, maps = world(3)
     likelihood = ScanLikelihood(scans, GRID, SENSORS["mixture"], DEPTH)
     scan = np.repeat(np.arange(len(scans)), 50)

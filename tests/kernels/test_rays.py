@@ -128,7 +128,7 @@ def test_scans_may_be_traced_alone_from_other_poses_or_from_poses_of_their_beams
         np.testing.assert_array_equal(found.start_m[b], both[b % 2].start_m[b])
 
 
-def test_beams_are_traced_some_at_a_time_to_the_same_rays(monkeypatch):
+def test_beams_are_traced_some_at_a_time_to_the_same_rays_and_too_many_incidences_are_refused(monkeypatch):
     scans, told = random_scans(3), []
     whole = near_readings(scans, MARGIN_M)
     monkeypatch.setattr("bayesmap.kernels.rays.BEAMS_AT_ONCE", 7)
@@ -137,6 +137,9 @@ def test_beams_are_traced_some_at_a_time_to_the_same_rays(monkeypatch):
     assert_equal(pieces, whole)
     done = [done for done, _ in told]
     assert (done, told[-1]) == (sorted(done), (whole.n_beams, whole.n_beams))
+    monkeypatch.setattr("bayesmap.kernels.rays.MAX_INCIDENCES", 10)
+    with pytest.raises(bm.BadInput, match=r"90 beams cross .* cells, over the limit of 10; use a coarser resolution"):
+        trace_rays(random_scans(3), GRID)
 
 
 @EVERYWHERE
@@ -177,12 +180,6 @@ def test_no_valid_beam_or_none_through_the_grid_is_no_entry(readings):
     assert (rays.n_beams, rays.distance_m(0.5).shape) == (2, (0,))
     whole = near_readings(random_scans(3), np.inf)  # without a warning of readings that are too close
     assert (whole.near == whole.offsets[:-1]).all()
-
-
-def test_too_many_incidences_are_refused(monkeypatch):
-    monkeypatch.setattr("bayesmap.kernels.rays.MAX_INCIDENCES", 10)
-    with pytest.raises(bm.BadInput, match=r"90 beams cross .* cells, over the limit of 10; use a coarser resolution"):
-        trace_rays(random_scans(3), GRID)
 
 
 @EVERYWHERE

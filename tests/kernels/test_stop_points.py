@@ -51,6 +51,7 @@ def draw_points(sensor, limits, reading_m, distance_m, spread_m, count, seed=0):
     return np.array(out.numpy())
 
 
+@cache
 class Late(OwnSensor):
     """Readings come late by a third of the noise, so that the law is not symmetric."""
 

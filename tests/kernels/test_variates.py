@@ -122,7 +122,7 @@ def draw_nearly_normal(key: wp.uint64, out: Float64s):
     out[i] = wp.float64(nearly_normal(random_bits(key, wp.uint64(i))))
 
 
-def test_nearly_normal_numbers_are_symmetric_and_have_a_normal_s_first_moments():
+def test_nearly_normal_numbers_have_a_normal_s_first_moments_and_counters_of_variates_do_not_meet():
     """The fourth moment of a sum of four uniform numbers is 2.7, not 3."""
     sample = drawn(draw_nearly_normal)
     for power, expected in ((1, 0.0), (2, 1.0), (3, 0.0), (4, 2.7)):
@@ -130,10 +130,6 @@ def test_nearly_normal_numbers_are_symmetric_and_have_a_normal_s_first_moments()
         assert abs((sample**power).mean() - expected) < 4.5 * error
     assert abs((sample**4).mean() - 3.0) > 4.5 * np.std(sample**4) / np.sqrt(COUNT)  # the twin: a normal's
     assert scipy.stats.ks_2samp(sample, -sample).pvalue > ALPHA / CASES
-
-
-def test_the_counters_of_one_variate_do_not_meet_those_of_the_next():
-    """A gamma variate reads fewer counters than are set aside: neighbours at that distance are independent."""
     logs, following = (drawn(draw_log_gamma, 0.7, offset) for offset in (0, PER_GAMMA))
     assert abs(np.corrcoef(scipy.stats.rankdata(logs), scipy.stats.rankdata(following))[0, 1]) < 4.5 / np.sqrt(COUNT)
 

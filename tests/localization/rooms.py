@@ -21,7 +21,6 @@ def walls_of(width, depth, resolution=0.1, alcove=True):
 
 
 def known(walls, grid, scans, sensor=LASER, observed=None, **options):
-    """The map as if its draws were the truth."""
     seen = np.ones(grid.shape, dtype=bool) if observed is None else observed
     return KnownMap.of_draws(
         walls.ravel()[None].astype(np.float32), grid, sensor, scans, occupancy=walls.astype(float), observed=seen,
@@ -49,6 +48,5 @@ def lattice_about(pose, half_widths, steps):
 
 
 def offset(found, truth):
-    """Metres and radians between two poses."""
     turn = (found[2] - truth[2] + np.pi) % (2 * np.pi) - np.pi
     return np.hypot(found[0] - truth[0], found[1] - truth[1]), abs(turn)

@@ -106,12 +106,6 @@ def test_a_square_room_has_four_places_alike(seed):
         assert (len(near), near[0].probability) == (1, pytest.approx(0.25, abs=0.15))
 
 
-def test_places_that_came_together_are_one_the_heaviest():
-    means = np.array([[0.0, 0.0, 0.0], [0.05, 0.0, 0.0], [1.0, 0.0, np.pi], [1.0, 0.005, -np.pi + 0.001]])
-    places = PoseMixture(means, np.tile(np.diag([0.01, 0.01, 0.01]), (4, 1, 1)), np.array([1.0, 2.0, 3.0, 2.5]))
-    assert np.array_equal(distinct(places).log_mass, [3.0, 2.0])
-
-
 @pytest.fixture(scope="module")
 def room():
     walls, grid = walls_of(6.0, 4.0)
@@ -206,7 +200,7 @@ def test_unknown_cells_are_worth_more_than_open_ones_and_less_than_walls():
     assert search.worth_of_unknown(0.5, 0.12, 0.1) == 1.0
 
 
-def test_evenly_spread_draws_have_the_student_distribution():
+def test_evenly_spread_draws_have_the_student_distribution_and_places_that_came_together_are_one():
     """Of each coordinate, over 600 calls that share no random number; a wrong one is told once in 10 000 alarms."""
     rng = np.random.default_rng(0)
     draws = np.array([student_draws(16, rng)[7] for _ in range(600)])
@@ -215,6 +209,9 @@ def test_evenly_spread_draws_have_the_student_distribution():
     radius = (draws**2).sum(axis=1) / 3.0
     assert scipy.stats.kstest(radius, scipy.stats.f(3, DOF).cdf).pvalue > 1e-4
     assert scipy.stats.kstest(radius, scipy.stats.f(3, 4 * DOF).cdf).pvalue < 1e-4
+    means = np.array([[0.0, 0.0, 0.0], [0.05, 0.0, 0.0], [1.0, 0.0, np.pi], [1.0, 0.005, -np.pi + 0.001]])
+    places = PoseMixture(means, np.tile(np.diag([0.01, 0.01, 0.01]), (4, 1, 1)), np.array([1.0, 2.0, 3.0, 2.5]))
+    assert np.array_equal(distinct(places).log_mass, [3.0, 2.0])
 
 
 def test_unequal_draws_of_places_leave_the_integral_right():

@@ -32,7 +32,6 @@ def test_the_posterior_is_that_of_enumerated_poses():
     found = [localize(here, scans, prior=InitialPose(truth, 0.1, 0.1), seed=seed).last for seed in range(24)]
     means = np.array([belief.weights @ belief.poses for belief in found])
     spreads = np.array([np.diag(belief.total_covariance) for belief in found])
-
     lattice = lattice_about(truth, 3 * sigma, 37)
     prior = -0.5 * (((lattice - truth) / sigma) ** 2).sum(axis=1)
     mean, sd = enumerated(here, lattice, scans.ranges_m[0], prior)
@@ -184,7 +183,7 @@ def test_map_uncertainty_counts():
     assert sd(here, moved) > 1.5 * max(sd(here), sd(moved))
 
 
-def test_impossible_localizations_are_refused():
+def test_impossible_localizations_are_refused_and_no_probability_exceeds_one():
     walls, grid = walls_of(4.0, 3.0)
     scans = scan_from(walls, grid, np.array([1.5, 1.2, 0.4]))
     with pytest.raises(bm.BadInput, match="sigma_m and sigma_rad above 0"):
@@ -210,10 +209,6 @@ def test_impossible_localizations_are_refused():
             bm.localize(where, given, **options)
     # One that reaches into the map is none.
     assert len(localize(here, scans, prior=InitialPose((-1.0, 1.0, 0.0), 1.0))) == 1
-
-
-def test_no_probability_exceeds_one_and_a_rectangle_has_an_inside():
-    """Ten weights of 0.1 add up to 0.9999999999999999, these to a hair more than 1."""
     weights = np.full(6, 1.0 / 6) * (1 + 4e-16)
     assert weights.sum() > 1.0
     belief = PoseBelief(np.zeros((6, 3)), weights, 0.0, 0.0)

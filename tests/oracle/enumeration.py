@@ -39,7 +39,6 @@ class Exact:
 
 
 def neighbours(shape):
-    """All pairs of cells that share an edge, by flat index."""
     places = [(x, y) for x in range(shape[0]) for y in range(shape[1])]
     return [
         (i, j)
@@ -120,7 +119,6 @@ def radial(shape, poses, grid):
 
 
 def single_sites(shape, order, poses, grid):
-    """The cells of one sweep, each in a list of its own."""
     cells = [(x, y) for x in range(shape[0]) for y in range(shape[1])]
     if order == "radial":
         away = radial(shape, poses, grid)
@@ -141,7 +139,6 @@ def block_sites(shape, order, poses, grid):
 
 
 def sweeps(p, log_joint, n, sites, count):
-    """The law after some sweeps."""
     for _ in range(count):
         for cells in sites:
             p = update_sites(p, log_joint, n, cells)

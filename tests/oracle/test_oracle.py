@@ -93,7 +93,6 @@ STATES = np.array(
 
 
 def one_path(z, *, angle=0.1, start=(-0.3, 0.15)):
-    """A beam through the three cells."""
     plain = np.array([[0.5, 1.05, 1.6]])
     no = np.zeros((1, 3), dtype=bool)
     direction = np.array([[np.cos(angle), np.sin(angle)]])
@@ -101,7 +100,6 @@ def one_path(z, *, angle=0.1, start=(-0.3, 0.15)):
 
 
 def same_path(z):
-    """That beam as often as there are readings."""
     beams = Paths(*(np.repeat(part, len(z), axis=0) for part in one_path(0.0)[:-1]), LIMITS)
     return beams._replace(range_m=np.asarray(z))
 

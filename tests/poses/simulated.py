@@ -85,3 +85,7 @@ def off(poses, truth):
     """Errors of poses relative to the first, (S, 3)."""
     mine, theirs = between(poses[:1], poses), between(truth[:1], truth)
     return between(theirs, mine)
+
+
+def worst_m(poses, truth):
+    return np.hypot(*off(poses, truth)[:, :2].T).max()

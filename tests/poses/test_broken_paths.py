@@ -5,7 +5,7 @@ from functools import cache
 
 import numpy as np
 import pytest
-from simulated import odometry_of, off, path_around, recording, ring, scans_of
+from simulated import odometry_of, off, path_around, recording, ring, scans_of, worst_m
 
 from bayesmap.poses.calibration import stated_motions
 from bayesmap.poses.front_end import follow
@@ -47,11 +47,6 @@ def ordinary():
     return geometry, track.keys, track.poses[track.keys]
 
 
-def worst_m(poses, truth):
-    error = off(poses, truth)
-    return np.hypot(error[:, 0], error[:, 1]).max()
-
-
 def carried(kept=(70, 110), to=None):
     """Scans of a robot that is carried on from where it was, while its odometry stands still."""
     recorded, driven = uneven_recording()
@@ -74,7 +69,7 @@ def test_scans_in_which_somebody_stands_before_the_laser_are_passed_over():
     assert np.hypot(*off(track.poses, driven)[44:60, :2].T).max() < 0.1
 
 
-def test_the_path_of_a_robot_that_was_carried_breaks_there_and_is_put_together_again():
+def test_a_carried_robot_s_path_breaks_there_is_put_together_again_or_the_part_is_named():
     scans, truth = carried()
     _, track = followed(scans)
     assert track.broken.sum() == 1
@@ -83,10 +78,6 @@ def test_the_path_of_a_robot_that_was_carried_breaks_there_and_is_put_together_a
     found = infer_trajectory(scans, threads=1)
     assert worst_m(found.poses, truth) < 0.05
     assert len(found.breaks) == 0, "places seen from both parts tell how they lie"
-
-
-def test_a_part_that_saw_no_place_of_the_others_is_named():
-    scans, _ = carried()
     one_lap = scans.select(slice(0, 95))  # it ends before it comes to where it was
     found = infer_trajectory(one_lap, threads=1)
     assert len(found.breaks) == 1

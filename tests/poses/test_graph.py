@@ -1,11 +1,33 @@
-"""Pose graphs: sparse against dense, loops that are wrong, covariances."""
+"""Pose graphs: sparse against dense, loops that are wrong, covariances; scans that nothing explains are flagged.
+
+Covariances hold what pairs of scans have wrong in common, and the arcs of a lost heading.
+"""
+
+from dataclasses import replace
 
 import numpy as np
+import pytest
 import scipy
+from simulated import ring, scans_of
 
 from bayesmap.poses import graph
-from bayesmap.poses.graph import Factors, Precision, normal_equations, quadratic, relative_covariances, solve_step
+from bayesmap.poses.alignment import Alignment, Pairs, PointError
+from bayesmap.poses.graph import (
+    Factors,
+    Precision,
+    Quadratic,
+    normal_equations,
+    quadratic,
+    relative_covariances,
+    solve_step,
+)
+from bayesmap.poses.key_alignment import flag_unexplained
+from bayesmap.poses.placement import place_scans
+from bayesmap.poses.pose_gaussian import STRETCH_M, PoseGaussian, bend_covariances
+from bayesmap.poses.scan_geometry import scan_geometry
+from bayesmap.poses.trajectory import with_arcs
 from bayesmap.space.planar import between, between_jacobians, compose, retract
+from bayesmap.space.scans import Scans
 
 RNG = np.random.default_rng(8)
 COUNT = 12
@@ -23,10 +45,10 @@ def factors(poses, first, second, sigma=0.02, noise=0.0):
     return Factors(first, second, relative, root @ np.swapaxes(root, 1, 2) / sigma**2)
 
 
-TRUTH = circle()
-CHAIN = factors(TRUTH, np.arange(COUNT - 1), np.arange(1, COUNT), noise=0.02)
-LOOP = factors(TRUTH, [0, 1, 2], [COUNT - 1, COUNT - 2, COUNT - 1])
-POSES = retract(TRUTH, 0.05 * RNG.normal(size=TRUTH.shape))
+CIRCLE = circle()
+CHAIN = factors(CIRCLE, np.arange(COUNT - 1), np.arange(1, COUNT), noise=0.02)
+LOOP = factors(CIRCLE, [0, 1, 2], [COUNT - 1, COUNT - 2, COUNT - 1])
+STATES = retract(CIRCLE, 0.05 * RNG.normal(size=CIRCLE.shape))
 
 
 def dense(parts, poses):
@@ -44,15 +66,15 @@ def dense(parts, poses):
 
 
 def test_a_sparse_step_and_relative_covariances_equal_the_dense_ones():
-    matrix, gradient = dense([CHAIN, LOOP], POSES)
-    step, _ = solve_step(COUNT, [quadratic(CHAIN, POSES), quadratic(LOOP, POSES)])
+    matrix, gradient = dense([CHAIN, LOOP], STATES)
+    step, _ = solve_step(COUNT, [quadratic(CHAIN, STATES), quadratic(LOOP, STATES)])
     np.testing.assert_allclose(step.ravel(), -np.linalg.solve(matrix, gradient), rtol=1e-6, atol=1e-9)
     covariance = np.linalg.inv(matrix)
-    precision = Precision(normal_equations(COUNT, [quadratic(CHAIN, POSES), quadratic(LOOP, POSES)])[0])
+    precision = Precision(normal_equations(COUNT, [quadratic(CHAIN, STATES), quadratic(LOOP, STATES)])[0])
     pairs = np.array([[0, 5], [3, 9], [11, 2], [4, 4], [6, 7], [0, 11]])
-    found = relative_covariances(precision, POSES, pairs[:, 0], pairs[:, 1])
+    found = relative_covariances(precision, STATES, pairs[:, 0], pairs[:, 1])
     for (i, j), block in zip(pairs, found, strict=True):
-        by_i, by_j = between_jacobians(between(POSES[i], POSES[j]))
+        by_i, by_j = between_jacobians(between(STATES[i], STATES[j]))
         jacobian = np.zeros((3, 3 * COUNT))
         jacobian[:, 3 * i : 3 * i + 3] += by_i
         jacobian[:, 3 * j : 3 * j + 3] += by_j
@@ -60,7 +82,7 @@ def test_a_sparse_step_and_relative_covariances_equal_the_dense_ones():
 
 
 def test_blocks_of_the_inverse_are_the_same_on_the_pattern_and_off_it():
-    matrix = normal_equations(COUNT, [quadratic(CHAIN, POSES), quadratic(LOOP, POSES)])[0]
+    matrix = normal_equations(COUNT, [quadratic(CHAIN, STATES), quadratic(LOOP, STATES)])[0]
     inverse = np.linalg.inv(matrix.toarray()).reshape(COUNT, 3, COUNT, 3)
     first, second = (a.ravel() for a in np.mgrid[:COUNT, :COUNT])
     for at_once in (2, 400):
@@ -84,17 +106,151 @@ def test_the_pattern_holds_every_entry_of_the_factor():
 
 
 def test_the_optimum_has_no_slope_and_a_wrong_loop_is_not_believed():
-    poses, weights = graph.optimise(POSES, CHAIN, LOOP)
+    poses, weights = graph.optimise(STATES, CHAIN, LOOP)
     assert (weights > 0.9).all()
     _, gradient = normal_equations(COUNT, [quadratic(CHAIN, poses), quadratic(LOOP, poses, weights)])
-    _, before = normal_equations(COUNT, [quadratic(CHAIN, POSES), quadratic(LOOP, POSES)])
+    _, before = normal_equations(COUNT, [quadratic(CHAIN, STATES), quadratic(LOOP, STATES)])
     assert np.abs(gradient[3:]).max() < 1e-3 * np.abs(before[3:]).max()
     wrong = Factors(np.array([0]), np.array([6]), np.array([[9.0, 4.0, 1.0]]), np.eye(3)[None] / 0.02**2)
     both = Factors(
         *(np.concatenate([getattr(LOOP, n), getattr(wrong, n)]) for n in ("first", "second", "relative", "information"))
     )
-    poses, weights = graph.optimise(POSES, CHAIN, both)
+    poses, weights = graph.optimise(STATES, CHAIN, both)
     assert weights[-1] < 0.01
     assert (weights[:3] > 0.5).all()
-    off = between(between(TRUTH[0], TRUTH), between(poses[0], poses))
+    off = between(between(CIRCLE[0], CIRCLE), between(poses[0], poses))
     assert np.hypot(off[:, 0], off[:, 1]).max() < 0.15
+
+
+LAPS, ON_A_LAP, NEAR_M, STEP_M = 6, 24, 2.0, 0.5
+POSES = LAPS * ON_A_LAP
+SIGMA = np.array([0.01, 0.01, 0.01])
+
+
+def way():
+    """Round and round, each pose paired with all near it: only where there are many pairs do errors in common show."""
+    angle = 2 * np.pi * np.arange(POSES) / ON_A_LAP
+    radius = STEP_M * ON_A_LAP / (2 * np.pi)
+    truth = np.column_stack([radius * np.sin(angle), -radius * np.cos(angle), angle])
+    apart = np.hypot(*np.moveaxis(truth[:, None, :2] - truth[None, :, :2], -1, 0))
+    return truth, *np.nonzero(np.triu(apart < NEAR_M, 1))
+
+
+def aligned(seed, *, in_common):
+    """Poses aligned to relative poses that err, all pairs of two stretches alike or each by itself."""
+    truth, first, second = way()
+    rng = np.random.default_rng(seed)
+    stretch = (STEP_M * np.arange(POSES) / STRETCH_M).astype(int)
+    _, cluster = np.unique(np.stack([stretch[first], stretch[second]]), axis=1, return_inverse=True)
+    cluster = cluster.ravel() if in_common else np.arange(len(first))
+    errors = SIGMA * rng.standard_normal((cluster.max() + 1, 3))[cluster]
+    measured, curvature = (
+        between(truth[first], truth[second]) + errors,
+        np.tile(np.diag(SIGMA**-2.0), (len(first), 1, 1)),
+    )
+    poses = truth
+    for _ in range(4):
+        relative = between(poses[first], poses[second])
+        part = Quadratic(first, second, relative, curvature, np.einsum("mij,mj->mi", curvature, relative - measured))
+        poses = retract(poses, solve_step(POSES, [part])[0])
+    relative = between(poses[first], poses[second])
+    force = np.einsum("mij,mj->mi", curvature, relative - measured)
+    return truth, PoseGaussian(poses, first, second, relative, curvature, force)
+
+
+def squares(truth, gaussian):
+    """Squared errors of relative poses over metres by their scale matrices, as multiples of what is expected."""
+    first, second = np.arange(0, POSES - 32, 7), np.arange(32, POSES, 7)
+    off = between(gaussian.poses[first], gaussian.poses[second]) - between(truth[first], truth[second])
+    scale = gaussian.relative_covariances(first, second)
+    return np.einsum("mi,mij,mj->m", off, np.linalg.inv(scale), off) / 3.0
+
+
+@pytest.mark.full
+@pytest.mark.parametrize(
+    ("in_common", "low", "high"), [(True, 0.5, 2.0), (False, 0.5, 1.2)], ids=["in common", "one by one"]
+)
+def test_covariances_have_the_size_of_errors(in_common, low, high):
+    """Means over 40 alignments; by their spread over seeds a false alarm has a chance under 1 in 10 000."""
+    means = [squares(*aligned(seed, in_common=in_common)).mean() for seed in range(40)]
+    assert low < np.mean(means) < high
+
+
+def test_covariances_without_shared_errors_are_far_too_small():
+    found = [aligned(seed, in_common=True) for seed in range(10)]
+    alone = [squares(truth, replace(g, force=np.zeros_like(g.force))).mean() for truth, g in found]
+    assert np.mean(alone) > 4.0
+
+
+def test_bends_move_relative_poses_as_they_move_poses_and_without_forces_there_are_none():
+    _, gaussian = aligned(2, in_common=True)
+    first, second, small = np.array([3, 40]), np.array([70, 12]), 1e-4
+    moved = [retract(gaussian.poses, small * bend) for bend in gaussian.bends]
+    now = between(gaussian.poses[first], gaussian.poses[second])
+    off = np.stack([between(poses[first], poses[second]) - now for poses in moved]) / small
+    brute = np.einsum("nmi,nmj->mij", off, off) / len(off)
+    np.testing.assert_allclose(bend_covariances(gaussian.bends, gaussian.poses, first, second), brute, rtol=2e-3)
+    assert not replace(gaussian, force=np.zeros_like(gaussian.force)).bends.any()
+
+
+SCALE_SIGMA, STEPS = 0.05, 20
+
+
+def corridor(*, seen_m):
+    """A way of 10 m along x, known by odometry alone whose scale is uncertain, and which the laser measures once."""
+    order = np.arange(STEPS)
+    poses = np.column_stack([np.arange(STEPS + 1) * STEP_M, np.zeros(STEPS + 1), np.zeros(STEPS + 1)])
+    first, second = np.append(0, order), np.append(STEPS, order + 1)
+    curvature = np.tile(np.diag([1e4, 1e4, 1e6]), (STEPS + 1, 1, 1))
+    curvature[0] = np.diag([seen_m**-2.0, 1.0, 1.0])
+    relative = between(poses[first], poses[second])
+    gaussian = PoseGaussian(poses, first, second, relative, curvature, np.zeros((STEPS + 1, 3)))
+    return replace(gaussian, by_odometry=gaussian.steps_by(SCALE_SIGMA * relative[None, 1:])), gaussian
+
+
+def test_a_length_that_odometry_alone_knows_is_as_uncertain_as_its_scale_and_one_that_the_laser_knows_is_not():
+    found, plain = corridor(seen_m=1e3)
+    added = found.relative_covariances([0, 5], [STEPS, 9]) - plain.relative_covariances([0, 5], [STEPS, 9])
+    lengths = np.array([STEPS * STEP_M, 4 * STEP_M])
+    np.testing.assert_allclose(added[:, 0, 0], found.scale_of_covariance * (SCALE_SIGMA * lengths) ** 2, rtol=1e-3)
+    draws = replace(found, dof=1e6).draw(2000, seed=1)
+    assert draws[:, STEPS, 0].std() == pytest.approx(np.hypot(SCALE_SIGMA * 10.0, 0.01 * np.sqrt(STEPS)), rel=0.08)
+    found, plain = corridor(seen_m=1e-4)
+    added = found.relative_covariances([0], [STEPS]) - plain.relative_covariances([0], [STEPS])
+    assert added[0, 0, 0] < 1e-8
+
+
+@pytest.mark.parametrize("sigma_rad", [0.02, 0.5])
+def test_covariances_hold_the_arc_on_which_a_lost_heading_puts_the_end_of_a_way(sigma_rad):
+    """8 m straight on after a heading that errs: to first order only across, by Student's t of 10 degrees."""
+    dof, way_m = 10.0, 8.0
+    turn = sigma_rad * np.random.default_rng(1).standard_t(dof, 400_000)
+    off = np.stack([-0.5 * way_m * turn**2, way_m * turn, turn], axis=1)
+    expected = off.T @ off / len(off)
+    by_heading = np.array([0.0, way_m, 1.0])
+    linear = sigma_rad**2 * np.outer(by_heading, by_heading)
+    covariance = dof / (dof - 2.0) * with_arcs(linear[None], dof)[0]
+    np.testing.assert_allclose(np.diag(covariance), np.diag(expected), rtol=0.1)
+    assert linear[0, 0] == 0.0
+
+
+def test_a_scan_is_explained_by_several_key_scans_together_and_scans_of_nothing_are_flagged():
+    """Two key scans see half of a scan's walls each: the mean of their shares was one half, and the scan was flagged.
+
+    The last scan was taken elsewhere: neither explains it.
+    """
+    poses = np.tile([1.0, 1.0, 0.4], (4, 1))
+    angles, ranges = scans_of(ring(), poses, full=True)
+    ranges[0, :90], ranges[2, 90:] = np.inf, np.inf
+    ranges[3] = scans_of(ring(), np.array([[8.0, 3.5, 2.0]]), full=True)[1]
+    geometry = scan_geometry(Scans(poses, angles, ranges, max_range_m=12.0))
+    keys, ends = np.array([0, 2]), np.array([0, 1], np.int32)
+    pairs = Pairs(ends, ends[::-1], np.arange(3, dtype=np.int32))
+    aligned = Alignment(poses[keys], pairs, 0.01, None, np.ones(2))
+    placed = place_scans(geometry, poses, keys, aligned, PointError(0.01, np.ones(3)))
+    assert placed.explained[1] > 0.75
+    assert placed.explained[3] < 0.4
+    explained = np.where(np.arange(60) % 3 == 0, 0.95, 0.0)
+    explained[30] = 0.3
+    flagged = flag_unexplained(explained, np.arange(0, 60, 2))
+    np.testing.assert_array_equal(flagged, explained < 0.5)

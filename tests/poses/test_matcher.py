@@ -85,10 +85,10 @@ def test_the_search_finds_what_looking_everywhere_finds(centre, pull):
 def test_further_modes_are_the_best_that_lie_apart_and_not_looked_for_where_they_score_too_little():
     points = notched_geometry().points_of(2)
     centre = np.array([0.0, 0.0, 0.0])
-    score, poses = everywhere(0, points, centre, 0.8, 0.8, None)
-    found = match(notched_grids(), [points], [centre], 0.8, 0.8, step_rad=STEP, modes=3, apart_m=0.3, apart_rad=0.32)
+    score, poses = everywhere(0, points, centre, 0.8, 0.7, None)
+    found = match(notched_grids(), [points], [centre], 0.8, 0.7, step_rad=STEP, modes=9, apart_m=0.3, apart_rad=0.32)
     left = score.copy()
-    for m in range(3):
+    for m in range(9):
         assert found.scores[0, m] == pytest.approx(left.max(), abs=1e-12)
         off = np.abs(poses - found.poses[0, m])
         left[(off[..., :2] <= 0.3 + 1e-9).all(axis=-1) & (off[..., 2] <= 6 * STEP + 1e-9)] = -1

@@ -1,4 +1,7 @@
-"""Maps of other mappers: computed by hand, and fitted to training scans alone as well as can be."""
+"""Only scans that a run has not seen may judge it; folds of training scans are each left out once.
+
+Maps of other mappers: computed by hand, and fitted to training scans alone as well as can be.
+"""
 
 import dataclasses
 
@@ -6,12 +9,127 @@ import numpy as np
 import pytest
 
 import bayesmap as bm
+from bayesmap.errors import BadInput
 from bayesmap.kernels.counts import count_hits
 from bayesmap.kernels.predict.density import log_densities
 from bayesmap.kernels.rays import trace_rays
-from bayesmap.posterior import baselines
+from bayesmap.posterior import baselines, heldout
+from bayesmap.posterior.baselines import hit_ratio
 from bayesmap.posterior.heldout import make_folds, together
 from bayesmap.posterior.scores import score_prediction
+
+
+@pytest.fixture
+def log():
+    rng = np.random.default_rng(1)
+    readings = rng.uniform(0.1, 5.0, (20, 8))
+    readings[3, 2:4] = [np.inf, np.nan]
+    return bm.Scans(rng.uniform(0, 5, (20, 3)), np.linspace(0, 1, 8), readings, max_range_m=6.0)
+
+
+@pytest.fixture
+def stamped(log):
+    """The same with stamps; two scans read alike."""
+    readings = log.ranges_m.copy()
+    readings[8] = readings[7]
+    return dataclasses.replace(log, ranges_m=readings, stamps_s=np.arange(20.0))
+
+
+def test_a_scan_is_known_by_its_pose_and_readings(log):
+    seen = heldout.seen_by(log.select(slice(2, 5)), log)
+    np.testing.assert_array_equal(np.flatnonzero(seen), [2, 3, 4])
+    moved = dataclasses.replace(log, poses=log.poses + 1.0)
+    assert not heldout.seen_by(log, moved).any()
+    assert not heldout.seen_by(log, dataclasses.replace(log, angles_rad=log.angles_rad + 0.1)).any()
+
+
+def test_where_scans_have_stamps_their_poses_may_be_inferred_and_moved_or_thinned_ones_cannot_judge(stamped):
+    run = dataclasses.replace(stamped, poses=stamped.poses + 1.0).select(slice(2, 8))
+    np.testing.assert_array_equal(np.flatnonzero(heldout.seen_by(run, stamped)), np.arange(2, 8))
+    assert heldout.moved_by(run, stamped)
+    assert not heldout.moved_by(stamped.select(slice(2, 8)), stamped)
+    assert not heldout.seen_by(run, dataclasses.replace(stamped, ranges_m=stamped.ranges_m + 0.01)).any()
+    assert not heldout.seen_by(run, dataclasses.replace(stamped, stamps_s=stamped.stamps_s + 0.5)).any()
+    blind = dataclasses.replace(stamped, ranges_m=np.full(stamped.ranges_m.shape, np.inf))
+    assert heldout.seen_by(blind, blind).all()
+    assert not heldout.seen_by(dataclasses.replace(blind, poses=blind.poses + 1.0), blind).any()
+    moved = dataclasses.replace(stamped, poses=stamped.poses + 1.0)
+    with pytest.raises(heldout.NoneHeldOut, match=r"a.log: the run has its scans elsewhere than this log"):
+        heldout.unseen_scans(moved.holdout(5)[0], stamped, 5, "a.log")
+    with pytest.raises(bm.BadInput, match="the run was made from 20 of its 20 scans"):
+        heldout.unseen_scans(moved, stamped, 0, "a.log")
+    run = dataclasses.replace(
+        stamped, poses=stamped.poses + 1.0, ranges_m=stamped.ranges_m[:, ::2], angles_rad=stamped.angles_rad[::2]
+    )
+    with pytest.raises(heldout.NoneHeldOut, match="elsewhere"):
+        heldout.unseen_scans(run.select(slice(2, 8)), stamped, 4, "log")
+    other = dataclasses.replace(stamped, stamps_s=stamped.stamps_s + 0.5)
+    with pytest.raises(BadInput, match="none of the run's scans"):
+        heldout.unseen_scans(run, other, 4, "log")
+
+
+def test_the_held_out_scans_are_those_of_the_protocol_and_another_recording_is_taken_whole(log):
+    train, held = log.holdout(5)
+    found = heldout.unseen_scans(train, log, 5, "a.log")
+    np.testing.assert_array_equal(found.ranges_m, held.ranges_m)
+    thinned = train.select(slice(None, None, 2))
+    assert len(heldout.unseen_scans(thinned, log, 5, "a.log")) == len(held)
+    other = dataclasses.replace(log, poses=log.poses + 1.0)
+    assert heldout.unseen_scans(log, other, 0, "b.log") is other
+
+
+@pytest.mark.parametrize(("train", "every", "message"), [
+    (lambda log: log, 5, r"a.log: the run was made without holding scans out.*bayesmap infer --holdout 5"),
+    (lambda log: log.holdout(4)[0], 5, r"has seen \d of the 4 scans that would .*; it was made with --holdout 4"),
+    (lambda log: log.select(slice(1, 20)), 5, "the run has seen 4 of the 4 .*; other scans were held out"),
+    (lambda log: log.holdout(5)[0], 0, r"the run was made from 16 of its 20 scans; --all is for another recording"),
+    (lambda log: dataclasses.replace(log, poses=log.poses + 1), 5, "none of the run's scans is in it.*--all"),
+    (lambda log: log.holdout(5)[0], 1, "n >= 2, got 1"),
+    (lambda log: log.holdout(5)[0], 100, "20 scans are too few"),
+])  # fmt: skip
+def test_scans_that_were_trained_on_are_refused(log, train, every, message):
+    with pytest.raises(bm.BadInput, match=message):
+        heldout.unseen_scans(train(log), log, every, "a.log")
+
+
+def test_folds_leave_each_scan_out_of_its_own_counts_and_too_few_scans_are_refused(room):
+    grid, train, *_ = room
+    folds = heldout.make_folds(train, grid)
+    assert len(folds) == heldout.FOLDS  # so few beams that all ways are taken
+    assert sum(len(fold.scans) for fold in folds) == len(train)
+    for fold in folds:
+        own = {pose.tobytes() for pose in fold.scans.poses}
+        others = train.select(np.array([pose.tobytes() not in own for pose in train.poses]))
+        hits, passes = count_hits(others, grid)
+        np.testing.assert_array_equal(fold.hits, hits)
+        np.testing.assert_array_equal(fold.passes, passes)
+    with pytest.raises(bm.BadInput, match="takes two scans or more"):
+        heldout.make_folds(train.select(slice(0, 1)), grid)
+    blind = dataclasses.replace(train, ranges_m=np.full(train.ranges_m.shape, np.nan))
+    with pytest.raises(bm.BadInput, match="none of the training scans has a valid reading"):
+        heldout.make_folds(blind, grid)
+    with pytest.raises(bm.BadInput, match="to fit a sensor on"):
+        heldout.one_fold(blind, grid)
+
+
+def test_together_they_are_predicted_as_each_alone(room):
+    """Each under its own counts: the same bits, and other ones under another's."""
+    grid, train, *_ = room
+    sensor = bm.BeamMixture(bm.Gaussian(0.05))
+    folds = heldout.make_folds(train, grid)[:3]
+
+    def maps(fold, of):
+        return hit_ratio(of.hits, of.passes, {"a": 0.5, "b": 0.5})[fold.rays.touched][None].astype(np.float32)
+
+    alone = [log_densities(fold.rays, [maps(fold, fold)], sensor, 0.5) for fold in folds]
+    joined = heldout.together(folds)
+    of_all = np.concatenate([maps(fold, fold) for fold in folds], axis=1)
+    found = log_densities(joined.rays, [of_all], sensor, 0.5, columns=joined.columns)
+    np.testing.assert_array_equal(found, np.concatenate(alone))
+    swapped = np.concatenate([maps(fold, of) for fold, of in zip(folds, folds[::-1], strict=True)], axis=1)
+    other = log_densities(joined.rays, [swapped], sensor, 0.5, columns=joined.columns)
+    assert (other != found).any()
+
 
 BY_NAME = {b.name: b for b in baselines.BASELINES}
 HITS, PASSES = np.array([0.0, 3.0, 1.0, 0.0]), np.array([0.0, 1.0, 9.0, 100.0])
@@ -69,7 +187,7 @@ def fitted(room):
     return baselines.fit_baseline(BY_NAME["hit ratio"], train, grid)
 
 
-def test_the_inner_score_is_the_mean_over_folds_of_whole_beams(room, fitted):
+def test_the_inner_score_is_the_mean_over_folds_of_whole_beams_and_no_change_of_a_number_is_better(room, fitted):
     """Beams are cut past their readings for fitting: the score is the same."""
     grid, train, _, _ = room
     folds, baseline = make_folds(train, grid), BY_NAME["hit ratio"]
@@ -83,12 +201,6 @@ def test_the_inner_score_is_the_mean_over_folds_of_whole_beams(room, fitted):
     found = baselines.inner_score(together(folds), baseline, dof, fitted.values)
     assert found == pytest.approx(np.concatenate(logs).mean(), abs=1e-4)
     assert found == pytest.approx(fitted.inner_nats_per_beam, abs=1e-9)
-
-
-def test_no_change_of_a_single_number_fits_better(room, fitted):
-    grid, train, _, _ = room
-    folds, baseline = make_folds(train, grid), BY_NAME["hit ratio"]
-    dof = getattr(fitted.predictor.sensor.noise, "dof", None)
     for parameter in (*baselines.SENSOR, *baseline.own):
         at = parameter.inner(fitted.values[parameter.name])
         for step in (-0.3, -0.1, 0.1, 0.3):
@@ -131,9 +243,9 @@ def fit(seen):
     return baselines.fit_external_map("true.yaml", occupancy, grid, train)
 
 
-def test_the_true_map_is_understood_and_predicts(seen, fit):
+def test_the_true_map_is_understood_and_predicts_and_maps_of_another_shape_are_refused(seen, fit):
     """It was not, while cells that beams touch were given the values of the first ones of the grid."""
-    occupancy, grid, _, held = seen
+    occupancy, grid, train, held = seen
     (stop,) = fit.predictor.batches(np.arange(grid.n_cells))
     np.testing.assert_allclose(stop[0], baselines.stop_probabilities(occupancy.ravel(), fit.values), rtol=1e-6)
     assert fit.values["stop_occupied"] > 0.3
@@ -141,6 +253,11 @@ def test_the_true_map_is_understood_and_predicts(seen, fit):
     found = score_prediction(fit.predictor, held).nats_per_beam
     assert found > 1.0
     assert found == pytest.approx(fit.inner_nats_per_beam, abs=0.2)  # what was fitted is what is scored
+    short = baselines.Baseline("short", lambda hits, passes, values: np.full(hits.size - 1, 0.1))
+    with pytest.raises(ValueError, match="short: stop gave an array of shape"):
+        baselines.fit_baseline(short, train, grid)
+    with pytest.raises(bm.BadInput, match="must be probabilities of shape"):
+        baselines.fit_external_map("turned.yaml", occupancy.T, grid, train)
 
 
 @pytest.mark.full
@@ -150,12 +267,3 @@ def test_a_map_of_another_place_predicts_far_worse(seen, fit):
     shuffled = np.random.default_rng(1).permutation(occupancy.ravel()).reshape(grid.shape)
     wrong = baselines.fit_external_map("shuffled.yaml", shuffled, grid, train)
     assert score_prediction(wrong.predictor, held).nats_per_beam < found - 1.5
-
-
-def test_maps_of_another_shape_are_refused(seen):
-    occupancy, grid, train, _ = seen
-    short = baselines.Baseline("short", lambda hits, passes, values: np.full(hits.size - 1, 0.1))
-    with pytest.raises(ValueError, match="short: stop gave an array of shape"):
-        baselines.fit_baseline(short, train, grid)
-    with pytest.raises(bm.BadInput, match="must be probabilities of shape"):
-        baselines.fit_external_map("turned.yaml", occupancy.T, grid, train)

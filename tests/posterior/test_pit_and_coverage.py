@@ -79,16 +79,13 @@ def test_predictions_of_a_wrong_twin_are_not_calibrated(change):
     assert wrong.log_loss.value > right.log_loss.value
 
 
-def test_the_transform_spreads_atoms_over_their_share():
+def test_the_transform_spreads_atoms_and_histograms_intervals_scores_and_reliability_are_right_by_hand():
     u = scores.randomised_pit(np.array([0.2, 0.7] * 5000), np.array([0.2, 0.9] * 5000), seed=3)
     assert (u[::2] == 0.2).all()
     assert scipy.stats.kstest(u[1::2], "uniform", args=(0.7, 0.2)).pvalue > ALPHA
     np.testing.assert_array_equal(
         u[:100], scores.randomised_pit(np.array([0.2, 0.7] * 5000), np.array([0.2, 0.9] * 5000), 3)[:100]
     )
-
-
-def test_histograms_intervals_scores_of_an_event_and_reliability_by_hand():
     u = np.array([0.01, 0.3, 0.5, 0.74, 0.99])
     np.testing.assert_allclose(scores.pit_histogram(u, 4), [0.2, 0.2, 0.4, 0.2])
     assert scores.pit_histogram(np.array([0.0, 1.0]), 2).tolist() == [0.5, 0.5]
@@ -102,7 +99,7 @@ def test_histograms_intervals_scores_of_an_event_and_reliability_by_hand():
     np.testing.assert_allclose(rows[1][:2], (0.7, 1.0))
 
 
-def test_errors_are_those_of_means_over_scans_which_count_by_their_items():
+def test_errors_are_those_of_means_over_scans_and_the_test_of_uniformity_respects_them_too():
     """Items of a scan are copies of one number: a bootstrap over items would be seven times too sure."""
     rng = np.random.default_rng(1)
     of_scan = rng.normal(size=200)
@@ -116,10 +113,6 @@ def test_errors_are_those_of_means_over_scans_which_count_by_their_items():
     distance, p = single.uniformity(np.linspace(0.01, 0.99, 5))
     assert np.isnan(p)
     assert 0 < distance < 0.5
-
-
-def test_the_test_of_uniformity_respects_scans():
-    """Scans with a common error each: uniform over all, and the textbook's test rejects it. The bootstrap does not."""
     rng = np.random.default_rng(2)
     u = np.clip(np.repeat((np.arange(80) + 0.5) / 80, 40) + rng.normal(0, 0.02, 3200), 0, 1)
     u = np.where(rng.random(3200) < 0.5, u, u**1.15)

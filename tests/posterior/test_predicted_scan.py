@@ -94,7 +94,7 @@ def test_quantiles_are_those_of_the_mean_over_draws():
     assert not np.allclose(found, one_draw, atol=0.05)  # another law would be noticed
 
 
-def test_quantiles_of_surfaces_are_where_a_beam_crosses_them():
+def test_quantiles_of_surfaces_are_where_a_beam_crosses_them_and_levels_must_rise_inside_zero_and_one():
     rng = np.random.default_rng(4)
     states = np.zeros((2, GRID.n_cells, 6), np.float32)
     states[..., 0] = rng.beta(0.6, 1.0, (2, GRID.n_cells))
@@ -110,9 +110,6 @@ def test_quantiles_of_surfaces_are_where_a_beam_crosses_them():
         stops = [one[cells, 0] * chance for one in states.astype(float)]
         laws.append([law(along(chances, distance, np.sqrt(variance))) for chances in stops])
     np.testing.assert_allclose(predicted(states), expected(laws), atol=OFF_M)
-
-
-def test_levels_must_rise_inside_zero_and_one_and_there_must_be_draws():
     for levels in ((), (0.5, 0.5), (0.9, 0.1), (0.0, 0.5), (0.5, 1.0)):
         with pytest.raises(BadInput, match="levels must rise"):
             predicted(stop_maps(), levels=levels)

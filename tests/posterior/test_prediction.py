@@ -61,15 +61,6 @@ def test_all_beams_of_a_drawn_scan_see_one_map(case):
     np.testing.assert_allclose(found.draws_m[1::2, 0], 5 - 0.5, atol=0.1)
 
 
-def test_impossible_predictions_are_refused(run):
-    for words, asked in {
-        "pose 0, .* outside the map": {"poses": [99.0, 0.0, 0.0]}, "levels must rise": {"levels": (0.5, 0.2)},
-        "draws": {"draws": 0}, "predict: max_range_m": {"max_range_m": -1.0},
-    }.items():  # fmt: skip
-        with pytest.raises(bm.BadInput, match=words):
-            run.predict(**{"poses": run.posterior.scans.poses[0], **asked})
-
-
 def test_log_likelihoods_by_reading_are_the_formula_s(case):
     """Reading by reading at the oracle's distances; their sum is the log likelihood of the draw."""
     readings = case.scans.ranges_m.copy()
@@ -89,11 +80,17 @@ def test_log_likelihoods_by_reading_are_the_formula_s(case):
     assert (nats["reading_scan"].values[0], nats["reading_beam"].values[0]) == (0, 1)
 
 
-def test_sensor_prior_and_drawn_poses_are_those_of_the_run(run):
+def test_sensor_prior_and_drawn_poses_are_those_of_the_run_and_impossible_predictions_are_refused(run):
     assert (run.sensor, run.prior) == (SENSOR, run.posterior.prior)
     if run.posterior.kind == "binary":  # a sweep of surfaces redraws reflectivities after its likelihood
         found = run.dataset(by_reading=True)
         np.testing.assert_allclose(found["reading_log_likelihood"].sum("reading"), found["log_likelihood"], atol=1e-2)
+    for words, asked in {
+        "pose 0, .* outside the map": {"poses": [99.0, 0.0, 0.0]}, "levels must rise": {"levels": (0.5, 0.2)},
+        "draws": {"draws": 0}, "predict: max_range_m": {"max_range_m": -1.0},
+    }.items():  # fmt: skip
+        with pytest.raises(bm.BadInput, match=words):
+            run.predict(**{"poses": run.posterior.scans.poses[0], **asked})
 
 
 def test_two_models_are_compared_with_a_paired_error(case, run):

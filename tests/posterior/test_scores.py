@@ -13,6 +13,7 @@ from oracle.formula import beams, distances
 from oracle.worlds import make_case
 
 import bayesmap as bm
+from bayesmap.cells import binary
 from bayesmap.posterior.posterior import entropy_bits
 from bayesmap.posterior.predictor import Predictor, fixed_maps, predictor_of
 from bayesmap.posterior.scores import beam_log_scores, score_prediction
@@ -151,7 +152,6 @@ def test_three_beams_by_hand():
     np.testing.assert_allclose(found.pit[:2], below(z[:2]), atol=1e-6)
     assert 1 - p_none <= found.pit[2] <= 1.0
     assert found.p_no_return == (pytest.approx(p_none, abs=1e-6), pytest.approx(1 / 3))
-
     first, second = (below(2.0) - below(1.0)) / (1 - below(1.0)), (below(3.0) - below(2.0)) / (1 - below(2.0))
     chance, happened = np.array([first, first, second, first, second]), np.array([1, 0, 1, 0, 0])
     assert found.events == 5
@@ -179,7 +179,6 @@ def test_a_run_s_nats_are_its_log_score_and_errors_depend_on_the_seed_alone(case
     assert found.beams == len(found.pit) == (~np.isnan(held.ranges_m)).sum()
     assert (sum(found.pit_histogram), found.sensor["kind"]) == (pytest.approx(1.0), "mixture")
     assert found.hit_depth == 0.3
-
     first, again, other = (bm.score(deep, held, seed=seed).as_json() for seed in (1, 1, 2))
     assert (first, first["nats_per_beam"]) == (again, other["nats_per_beam"])
     assert first["nats_per_beam_error"] != other["nats_per_beam_error"]
@@ -194,8 +193,6 @@ def test_scans_that_never_reach_the_map_have_no_events_and_many_draws_are_taken_
     assert found.events == 0
     assert np.isnan(found.brier.value)
     assert json.dumps(found.as_json(), allow_nan=False)
-    from bayesmap.cells import binary
-
     whole = bm.score(deep, case.scans).as_json()
     monkeypatch.setattr(binary, "BATCH_BYTES", 4 * 16 * 7)
     assert bm.score(deep, case.scans).as_json() == whole

@@ -42,16 +42,7 @@ def test_the_true_trajectory_has_no_error_and_one_is_what_the_second_pose_is_off
     assert summary["translation_m_std"] == pytest.approx(np.std([0.5, 0, 0]))
 
 
-def test_times_between_poses_are_interpolated_and_times_outside_do_not_count():
-    relations = Relations(np.array([0.5, -3.0]), np.array([2.0, 1.0]), np.zeros((2, 3)))
-    straight = np.column_stack([SECONDS, SECONDS * 0, SECONDS * 0])
-    result = relation_errors(SECONDS, straight, relations, longest_gap_s=1.0)
-    np.testing.assert_allclose(result.errors, [[1.5, 0.0, 0.0]])
-    np.testing.assert_array_equal(result.covered, [True, False])
-    assert result.summary()["not_covered"] == 1
-
-
-def test_nothing_is_interpolated_across_a_gap():
+def test_times_between_poses_are_interpolated_but_not_across_a_gap_or_outside():
     """The robot turns back and forth: between poses a second apart, nobody knows where it was."""
     fine_s = np.concatenate([np.arange(0.0, 3.0, 0.3), np.arange(3.0, 10.0)])  # 0.3 s apart, then 1 s
     path = np.column_stack([fine_s, 0 * fine_s, np.sin(2 * np.pi * fine_s)])
@@ -65,11 +56,16 @@ def test_nothing_is_interpolated_across_a_gap():
     exact = relation_errors(fine_s, path, relations, exact=True)
     np.testing.assert_array_equal(exact.covered, [False, True, False, False, False])
     np.testing.assert_array_equal(exact.in_gap, [True, False, True, True, False])
-
     off = Relations(FIRST + 0.4, SECOND - 0.4, TRUTH.relative)
     for strictly, where in ((False, "at a pose, or between two at most 0.3 s apart"), (True, "pose;")):
         with pytest.raises(BadInput, match=f"none of the 3 relations within .* {where}.*its poses are 1 s apart"):
             relation_errors(SECONDS, POSES, off, exact=strictly)
+    relations = Relations(np.array([0.5, -3.0]), np.array([2.0, 1.0]), np.zeros((2, 3)))
+    straight = np.column_stack([SECONDS, SECONDS * 0, SECONDS * 0])
+    result = relation_errors(SECONDS, straight, relations, longest_gap_s=1.0)
+    np.testing.assert_allclose(result.errors, [[1.5, 0.0, 0.0]])
+    np.testing.assert_array_equal(result.covered, [True, False])
+    assert result.summary()["not_covered"] == 1
 
 
 def test_a_file_of_relations_is_read_and_bad_input_is_refused(tmp_path):
@@ -224,7 +220,7 @@ def test_draws_of_chains_are_believed_if_they_have_mixed():
     assert "too alike" in unmixed.known_by
 
 
-def test_a_summary_of_poses_uses_the_approximation_until_chains_mix():
+def test_a_summary_of_poses_uses_the_approximation_until_chains_mix_in_all_poses_but_the_first():
     found = round_way()
     for between_chains, by_approximation in ((0.02, True), (0.0, False)):
         poses = chains(found, 1e-3, between_chains)
@@ -234,10 +230,6 @@ def test_a_summary_of_poses_uses_the_approximation_until_chains_mix():
         assert summary.mixed is not by_approximation
         wanted = found.covariances()[found.keys] if by_approximation else summarise_poses(poses).covariance
         np.testing.assert_array_equal(summary.covariance, wanted)
-
-
-def test_a_pose_that_never_moved_has_not_mixed_unless_it_is_the_first():
-    found = round_way()
     poses = chains(found, 1e-3, 0.0)
     assert summarise_poses(poses).mixed
     poses[:, :, 3] = poses[0, 0, 3]

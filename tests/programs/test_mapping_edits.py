@@ -106,7 +106,7 @@ def test_the_work_on_one_cell_does_not_grow_with_the_map():
     assert max(sizes) < 50 * 51
 
 
-def test_backward_requests_undo_edits(small):
+def test_backward_requests_undo_edits_those_that_change_nothing_weigh_nothing_and_indices_may_be_negative(small):
     _, trace = small
     for request in (single(3, 4, True), block(2, 5, np.array([True, False, True, True]))):
         new, weight, _, back = edit(trace, request)
@@ -115,9 +115,6 @@ def test_backward_requests_undo_edits(small):
         old, undone, _, _ = edit(new, back)
         np.testing.assert_array_equal(old.get_choices()["walls"], trace.get_choices()["walls"])
         np.testing.assert_allclose(undone, -weight, rtol=1e-5, atol=1e-4)
-
-
-def test_edits_that_change_nothing_weigh_nothing_and_negative_indices_count_from_the_end(small):
     _, trace = small
     same, weight, _, _ = edit(trace, single(3, 4, trace.get_choices()["walls"][3, 4]))
     assert weight == 0.0

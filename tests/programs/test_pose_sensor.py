@@ -72,7 +72,6 @@ def test_the_joint_is_that_of_known_poses_times_their_prior(name):
 
 @pytest.mark.parametrize("name", full_but(list(SENSORS), "mixture"))
 def test_long_chains_of_edits(name):
-    """Edits of poses, walls and blocks."""
     model, first, _ = start(name)
 
     def propose(trace, key):
@@ -90,7 +89,7 @@ def test_long_chains_of_edits(name):
     check_chain(model, first, propose, is_right, rtol=1e-4)
 
 
-def test_an_edit_of_a_pose_walks_the_beams_of_that_scan_alone():
+def test_an_edit_of_a_pose_walks_the_beams_of_that_scan_alone_and_is_undone_by_its_backward_request():
     """The other scans' ends are set to a cell that their beams do not reach, and the edit must leave them there."""
     _, trace, joint = start()
     inner = trace.get_subtrace("readings")
@@ -101,9 +100,6 @@ def test_an_edit_of_a_pose_walks_the_beams_of_that_scan_alone():
     assert (after[[0, 2, 3]] == 17).all()
     assert (after[1] != np.asarray(inner.ends[1])).any()
     weighs_the_change(weight, marked, new, joint)
-
-
-def test_an_edit_is_undone_by_its_backward_request():
     _, trace, _ = start()
     new, weight, _, back = edited(trace, at(2, jnp.array([1.0, 2.0, 0.0])))
     again, undone, _, _ = edited(new, back)
@@ -113,12 +109,17 @@ def test_an_edit_is_undone_by_its_backward_request():
 
 
 @pytest.mark.full
-def test_poses_and_walls_can_change_in_one_edit():
+def test_poses_and_walls_can_change_in_one_edit_and_a_single_pose_has_a_single_scan():
     _, trace, joint = start()
     both = StaticRequest(at(0, jnp.array([-1.2, 2.2, 0.3])).addressed | single(3, 4, True).addressed)
     for request in (both, Update(C["poses"].set(trace.get_choices()["poses"] + 0.1) | C["walls", 2, 2].set(True))):
         new, weight, _, _ = edited(trace, request)
         weighs_the_change(weight, trace, new, joint)
+    prior = gen.mv_normal_diag(jnp.array(GUESSES[0]), SIGMA)
+    model = bm.mapping_model(GRID, prior, ANGLES, bm.Independent(0.2), bm.Gaussian(0.3), max_range_m=4.0)
+    trace, weight = model.importance(jr.key(0), C["readings"].set(jnp.ones(24)), ())
+    assert trace.get_choices()["poses"].shape == (3,)
+    np.testing.assert_allclose(weight, trace.get_subtrace("readings").get_score(), rtol=1e-5)
 
 
 @gen.gen
@@ -145,15 +146,6 @@ def test_the_prior_may_be_a_motion_model():
     before, after = (t.get_subtrace("readings").ends for t in (trace, new))
     np.testing.assert_array_equal(before[np.array([0, 2, 3])], after[np.array([0, 2, 3])])
     assert (before[1] != after[1]).any()
-
-
-@pytest.mark.full
-def test_a_single_pose_has_a_single_scan():
-    prior = gen.mv_normal_diag(jnp.array(GUESSES[0]), SIGMA)
-    model = bm.mapping_model(GRID, prior, ANGLES, bm.Independent(0.2), bm.Gaussian(0.3), max_range_m=4.0)
-    trace, weight = model.importance(jr.key(0), C["readings"].set(jnp.ones(24)), ())
-    assert trace.get_choices()["poses"].shape == (3,)
-    np.testing.assert_allclose(weight, trace.get_subtrace("readings").get_score(), rtol=1e-5)
 
 
 def test_bad_input_is_named():

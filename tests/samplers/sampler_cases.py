@@ -80,7 +80,6 @@ def case_of(world):
 
 
 def first(**wanted):
-    """The first world with these properties."""
     return next(world for world in WORLDS if all(getattr(world, name) == value for name, value in wanted.items()))
 
 
@@ -99,7 +98,6 @@ def run_sweeps(problem, method, order, starts, sweeps, seed, threads=None, beta=
 
 
 def chains_of(problem, method, order, chains=5, seed=3, schedule=None, start="prior", **options):
-    """The runner's chains of a sampler."""
     job = Job(
         model_of(problem), SAMPLERS[method][0](order, start), schedule, seed, tuple(range(chains)), problem=problem
     )

@@ -62,5 +62,4 @@ def assert_same(one, other, but=()):
 
 
 def surfaces_of(posterior):
-    """The drawn surfaces, (chains, draws, U, 5), in edges."""
     return np.stack([posterior.draws.arrays[f"surface_{part}"] for part in PARTS], axis=-1)

@@ -101,13 +101,7 @@ def test_checkpoints_come_after_warm_up_and_as_often_as_asked_and_are_good_to_re
     assert_same(chains_of(problem, "block", "random", resume=seen[max(0, len(seen) - 3)]), whole)
 
 
-def test_checkpoints_take_a_twentieth_of_the_time_at_most_unless_each_step_shall_have_one():
-    assert runner.pause_after(0.5, 30.0) == 30.0
-    assert runner.pause_after(20.0, 30.0) == pytest.approx(19 * 40.0)  # what the next one may take, with more draws
-    assert runner.pause_after(20.0, 0.0) == 0.0
-
-
-def test_progress_counts_sweeps_and_tells_the_log_joint(monkeypatch):
+def test_progress_counts_sweeps_tells_the_log_joint_and_checkpoints_take_a_twentieth_of_the_time(monkeypatch):
     monkeypatch.setattr(runner, "STEP_SECONDS", 0.0)
     problem, seen = problem_8x8(), []
     chains = chains_of(problem, "gibbs", "radial", on_progress=seen.append)
@@ -115,6 +109,9 @@ def test_progress_counts_sweeps_and_tells_the_log_joint(monkeypatch):
     assert {p.total for p in seen} == {SCHEDULE.sweeps}
     assert [p.stage for p in seen] == ["warm-up"] * 13 + ["draws"] * 51
     np.testing.assert_array_equal([p.log_joint for p in seen[15::3]], chains.log_joint.mean(axis=0))
+    assert runner.pause_after(0.5, 30.0) == 30.0
+    assert runner.pause_after(20.0, 30.0) == pytest.approx(19 * 40.0)  # what the next one may take, with more draws
+    assert runner.pause_after(20.0, 0.0) == 0.0
 
 
 @pytest.mark.parametrize(("method", "order"), BOTH)

@@ -66,7 +66,6 @@ def test_maps_without_a_boundary_have_the_largest_scattered_ones_none_and_what_i
 
 @cache
 def simulated(p, coupling, poses, seed):
-    """A map drawn with a coupling, and scans of it from free cells."""
     rng = np.random.default_rng([seed, 3])
     walls = bm.Ising(p, coupling).sample(rng, GRID)
     free = np.argwhere(~walls)

@@ -91,23 +91,24 @@ def test_importance_sampling_finds_marginals_pairs_and_evidence(world):
         assert (abs(wrong - marginals(p, case.n)) > 5.5 * np.array(errors)[i == j] + slack).any()
 
 
-def test_coupled_particles_are_the_same_in_whatever_batches_they_are_drawn():
+def test_coupled_particles_are_the_same_in_any_batch_and_neighbours_have_no_random_number_in_common():
     problem = case_of(COUPLED[0]).problem()
     found = sample_importance(problem, 6000, seed=1)
     some = np.array([5999, 0, 511, 512, 17])
     np.testing.assert_array_equal(found.maps(some), found.maps(np.arange(6000))[some])
     plain = [problem.table.log_likelihood(walls) for walls in found.maps(some)]
     np.testing.assert_allclose(found.log_weights[some] - found.log_weights[0], np.subtract(plain, plain[1]), atol=1e-3)
+    found = sample_importance(case_of(first(prior=0.5, shape=(4, 4))).problem(), 20_000, seed=6)
+    maps = found.maps(np.arange(20_000)).reshape(-1, 16) - 0.5
+    correlations = 4 * maps[:-1].T @ maps[1:] / len(maps)
+    assert abs(correlations).max() < 5.5 / np.sqrt(20_000)
 
 
-def test_resampled_particles_follow_their_weights():
+def test_particles_are_drawn_from_the_prior_and_resampled_ones_follow_their_weights():
     case = case_of(WIDE[0])
     found = sample_importance(case.problem(), 300, seed=1)
     counts = np.bincount(found.resample(np.random.default_rng(2), 100_000), minlength=300)
     assert goodness_of_fit(counts, np.exp(found.log_weights)) > ALPHA
-
-
-def test_particles_are_drawn_from_the_prior():
     case = case_of(first(prior="cells", shape=(4, 4)))
     found = sample_importance(case.problem(), 20_000, seed=3)
     maps, p = all_maps(16), case.problem().p_wall
@@ -128,11 +129,3 @@ def test_a_particle_s_weight_does_not_depend_on_the_others_and_is_tempered():
         count = min(1000, len(other.log_weights))
         shift = other.log_weights[:count] - beta * few.log_weights[:count]
         np.testing.assert_allclose(shift, shift[0], atol=1e-9)
-
-
-def test_neighbouring_particles_have_no_random_number_in_common():
-    """No cell of a particle is correlated with any cell of the next: 256 correlations within 5.5 / sqrt(20 000)."""
-    found = sample_importance(case_of(first(prior=0.5, shape=(4, 4))).problem(), 20_000, seed=6)
-    maps = found.maps(np.arange(20_000)).reshape(-1, 16) - 0.5
-    correlations = 4 * maps[:-1].T @ maps[1:] / len(maps)
-    assert abs(correlations).max() < 5.5 / np.sqrt(20_000)

@@ -69,7 +69,6 @@ def exact(name, **changes):
 
 
 def swept(scans, grid, prior, law, sweeps, seed, beta=1.0, chains=CHAINS):
-    """A state of many chains."""
     problem = trace_stops(scans, grid, prior, law, hit_depth=0.5, threads=1)
     sampler = StopGibbs()
     state, _ = sampler.step(sampler.init(problem, range(chains), seed), sweeps, beta)
@@ -210,7 +209,6 @@ def test_the_sampler_s_log_prior_is_that_of_the_formula():
         expected.append(prior.log_prob({"reflectivity": cells[:, :1], "solid": solid, **named}, grid))
     _, info = sampler.step(state, 1)
     np.testing.assert_allclose(info.log_prior[:, 0], expected, rtol=1e-4, atol=1e-3)
-
     name = "some that no beam touches"
     shape, sigma_m, prior = CASES[name]
     sampler, state = swept(scans_of(name), bm.Grid(shape, EDGE), prior, sensor(sigma_m), 3, 1, chains=40)

@@ -40,7 +40,6 @@ class LatticeSteps(PoseMetropolis):
 
 
 def scene(seed, prior):
-    """Three poses in a little map, and their readings."""
     rng = np.random.default_rng(seed)
     walls = rng.random(GRID.shape) < 0.3
     poses = np.column_stack([rng.uniform(-0.5, 0.5, 3), rng.uniform(2.5, 3.5, 3), rng.uniform(-3, 3, 3)])
@@ -78,8 +77,6 @@ def exact_marginals(walls, scans, law, beta):
 
 
 class FirstStays:
-    """A law under which scan 0 stays where it is."""
-
     def __init__(self, law):
         self.law = law
 

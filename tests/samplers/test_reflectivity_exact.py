@@ -80,18 +80,7 @@ def test_draws_follow_the_exact_posterior(case):
 
 
 @pytest.mark.full
-def test_cells_that_hold_their_reflectivity_for_most_of_a_round_follow_it_too(monkeypatch):
-    """As those do that many beams pass."""
-    monkeypatch.setattr(initial_estimate, "MIN_PASSES", 0)
-    scans, grid, prior, law = SQUARE
-    m, exact = drawn(scans, grid, prior, law, 600), exact_of(scans, grid, prior, law)
-    assert p_values(m, exact).min() > ALPHA / TESTS
-    twin = exact_of(scans, grid, bm.Beta(1.0, 1.6), law)  # of another prior
-    assert p_values(m, twin).min() < ALPHA / TESTS
-
-
-@pytest.mark.full
-def test_with_the_prior_of_logs_too_whose_draws_are_mostly_nearly_nothing():
+def test_the_prior_of_logs_too_and_cells_that_hold_their_reflectivity_for_most_of_a_round_follow_it(monkeypatch):
     """Beta(0.02, 0.2): compared where half of the mass lies below what single precision holds."""
     shape, prior, law = (2, 1), bm.Beta(), sensor(0.05)
     grid, scans = bm.Grid(shape, 0.5), scans_for(shape, 21)
@@ -103,6 +92,12 @@ def test_with_the_prior_of_logs_too_whose_draws_are_mostly_nearly_nothing():
         for level in (1e-20, 1e-10, 1e-5, 1e-3, 0.1, 0.5, 0.9, 0.99):
             below = int((m[:, cell] < level).sum())
             assert scipy.stats.binomtest(below, COPIES, exact.cdf(cell)(level)[0]).pvalue > ALPHA / TESTS
+    monkeypatch.setattr(initial_estimate, "MIN_PASSES", 0)
+    scans, grid, prior, law = SQUARE
+    m, exact = drawn(scans, grid, prior, law, 600), exact_of(scans, grid, prior, law)
+    assert p_values(m, exact).min() > ALPHA / TESTS
+    twin = exact_of(scans, grid, bm.Beta(1.0, 1.6), law)  # of another prior
+    assert p_values(m, twin).min() < ALPHA / TESTS
 
 
 def test_beams_along_lines_and_through_corners():

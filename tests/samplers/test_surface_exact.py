@@ -118,17 +118,13 @@ def test_no_surface_leaves_its_cell(name):
         assert p_values(mine, by_importance(*CASES[name], anywhere=True)).min() < ALPHA / TESTS
 
 
-def test_a_cell_takes_no_surface_from_the_prior_in_a_sweep_in_which_it_stops_a_beam():
+def test_a_cell_takes_surfaces_from_the_prior_only_in_sweeps_in_which_it_stops_nothing():
     """However small its reflectivity: the twin, surfaces of which no reading says anything, is another law."""
     case = CASES["one cell as unlikely to stop a beam as a reading by chance"]
     mine = drawn(*case, sweeps=100)
     assert (mine[:, 0] < -16.6).mean() > 0.99  # logit m: those that passing beams do not tell from nothing
     blind = by_importance(*case[:2], replace(RARE, p_random=0.9), NEARLY_FREE)
     assert p_values(mine, blind).min() < ALPHA / TESTS
-
-
-def test_a_cell_that_stops_nothing_takes_its_surfaces_from_the_prior():
-    """In every third sweep, without a look at the beams; what was drawn from the prior stays so."""
     worlds = copies(NOTHING, bm.Grid((1, 1), EDGE), SMALL, BLUNT, COPIES)
     centres = centres_of(worlds.problem.rays)
     states = draw_states(np.random.default_rng(7), SMALL, centres)

@@ -100,13 +100,15 @@ def test_the_likelihood_is_flat_past_the_reach(name):
 READINGS = np.array([0.6, 1.0, 2.9, 3.1, 4.8, np.inf, -np.inf, np.nan])
 
 
-def test_a_spread_adds_to_the_noise_in_quadrature():
+def test_a_spread_adds_to_the_noise_in_quadrature_and_a_model_of_one_s_own_is_told_what_it_lacks():
     narrow, wide = (bm.BeamMixture(bm.Gaussian(s), 0.05, 0.1, 0.2, 0.4) for s in (0.3, 0.5))
     d = np.linspace(0.1, 12.0, 40)[:, None]
     density = narrow.stop_log_likelihood(READINGS, d, np.full(d.shape, 0.4), LIMITS)
     np.testing.assert_allclose(density, wide.log_likelihood(READINGS, d, LIMITS), atol=1e-12)
     below = narrow.cumulative(RANGES, np.float64(3.0), LIMITS, spread_m=0.4)
     np.testing.assert_allclose(below, wide.cumulative(RANGES, np.float64(3.0), LIMITS), rtol=1e-12)
+    with pytest.raises(bm.BadInput, match=r"OwnSensor: no cumulative distribution; add a method cumulative\(\)"):
+        OwnSensor(bm.Gaussian(0.1)).cumulative(np.zeros(1), np.zeros(1), LIMITS)
 
 
 @pytest.mark.parametrize("sigma_m", [0.5, 0.05, 0.002])
@@ -161,11 +163,6 @@ def test_typed_readings(name):
     close = sensor.cumulative(np.full(len(d), -np.inf), d, LIMITS)
     np.testing.assert_array_equal(close, sensor.cumulative(np.full(len(d), LIMITS.min_m), d, LIMITS))
     assert np.isnan(sensor.cumulative(np.full(len(d), np.nan), d, LIMITS)).all()
-
-
-def test_a_model_of_one_s_own_is_told_what_it_lacks():
-    with pytest.raises(bm.BadInput, match=r"OwnSensor: no cumulative distribution; add a method cumulative\(\)"):
-        OwnSensor(bm.Gaussian(0.1)).cumulative(np.zeros(1), np.zeros(1), LIMITS)
 
 
 N = 50_000

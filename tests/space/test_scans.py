@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 
 import bayesmap as bm
+from bayesmap.kernels.predict.scan_likelihood import ScanLikelihood
 from bayesmap.kernels.rays import trace_rays
 from bayesmap.kernels.walls.table import trace
 from bayesmap.model import Model
@@ -90,7 +91,7 @@ def log():
     return a_log()
 
 
-def test_the_beams_are_those_of_the_windows(log):
+def test_the_beams_are_those_of_the_windows_and_scans_may_have_none(log):
     _, window, logs = log
     whole, own, turned = logs["whole"], logs["own"], logs["turned"]
     assert own.ranges_m.shape == (SCANS, window.sum(axis=1).max())
@@ -109,9 +110,6 @@ def test_the_beams_are_those_of_the_windows(log):
     again = replace(whole, angles_rad=np.tile(whole.angles_rad, (SCANS, 1)))  # equal angles are those of all scans
     assert again.own_angles_rad is None
     np.testing.assert_array_equal(again.angles_rad, whole.angles_rad)
-
-
-def test_scans_without_beams_and_alone(log):
     own = log[2]["own"]
     angles, readings = own.own_angles_rad.copy(), own.ranges_m.copy()
     angles[3], readings[3] = np.nan, np.nan
@@ -168,8 +166,6 @@ def test_maps_scores_and_saved_runs_are_the_same(log, name, tmp_path):
 @pytest.mark.parametrize("name", ["own", "turned"])
 def test_poses_are_inferred_as_from_equal_scans(log, name):
     """One pose at a time, both logs under the same map: the likelihood along its neighbourhood is the same."""
-    from bayesmap.kernels.predict.scan_likelihood import ScanLikelihood
-
     grid, _, logs = log
     rng = np.random.default_rng(3)
     walls = (rng.random((1, grid.n_cells)) < 0.2).astype(np.float32)

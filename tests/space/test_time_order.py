@@ -61,13 +61,23 @@ def test_a_shuffled_log_is_sorted(scans):
 EVERY_FIFTH = 1.7e9 + 0.2 * np.arange(200)
 
 
-def test_stamps_that_are_all_different_are_exact():
+def test_stamps_that_all_differ_are_exact_a_pause_in_coarse_ones_is_one_and_only_repeated_ones_are_coarse():
     stamps = np.array([0.0, 0.2, 0.5, 9.0])
     for bound in elapsed_s(stamps):
         np.testing.assert_array_equal(bound, np.diff(stamps))
     assert not repeated_stamps(stamps).any()
     assert coarse_stamps_note(stamps) is None
     assert elapsed_s(stamps[:1])[0].shape == elapsed_s(stamps[:0])[0].shape == (0,)
+    stamps = np.floor(EVERY_FIFTH + 60.0 * (np.arange(200) >= 100))
+    least_s, most_s = elapsed_s(stamps)
+    assert 59.0 <= least_s[99] <= 60.2 <= most_s[99] <= 62.0
+    stamps = np.append(EVERY_FIFTH[:100], np.repeat(EVERY_FIFTH[99], 20))
+    least_s, most_s = elapsed_s(stamps)
+    np.testing.assert_allclose(least_s[:98], 0.2, atol=1e-6)
+    np.testing.assert_array_equal(most_s[99:], np.inf)
+    np.testing.assert_array_equal(least_s[99:], 0.0)
+    np.testing.assert_array_equal(np.nonzero(repeated_stamps(stamps))[0], np.arange(99, 120))
+    assert coarse_stamps_note(stamps).startswith("stamps are coarse: 21 of 120 scans")
 
 
 @pytest.mark.parametrize(
@@ -82,16 +92,3 @@ def test_the_true_time_lies_between_the_bounds_of_coarse_stamps(coarse):
     assert (most_s >= 0.2 - 1e-6).all()
     assert repeated_stamps(stamps).mean() > 0.9
     assert "stamps are coarse: " in coarse_stamps_note(stamps)
-
-
-def test_a_pause_in_coarse_stamps_is_still_a_pause_and_only_repeated_stamps_are_coarse():
-    stamps = np.floor(EVERY_FIFTH + 60.0 * (np.arange(200) >= 100))
-    least_s, most_s = elapsed_s(stamps)
-    assert 59.0 <= least_s[99] <= 60.2 <= most_s[99] <= 62.0
-    stamps = np.append(EVERY_FIFTH[:100], np.repeat(EVERY_FIFTH[99], 20))
-    least_s, most_s = elapsed_s(stamps)
-    np.testing.assert_allclose(least_s[:98], 0.2, atol=1e-6)
-    np.testing.assert_array_equal(most_s[99:], np.inf)
-    np.testing.assert_array_equal(least_s[99:], 0.0)
-    np.testing.assert_array_equal(np.nonzero(repeated_stamps(stamps))[0], np.arange(99, 120))
-    assert coarse_stamps_note(stamps).startswith("stamps are coarse: 21 of 120 scans")
