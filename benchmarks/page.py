@@ -127,6 +127,21 @@ def drag(page: Any, seconds: float, name: str) -> None:
     report(f"{name}: processor time a picture", shares)
 
 
+def figure(browser: Any, seconds: float) -> None:
+    """Drags the robot in a figure that samples without a server."""
+    from bayesmap.app.edits import tutorial_document
+    from bayesmap.app.figures import to_figure
+
+    page = browser.new_page(viewport={"width": 1280, "height": 860})
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder, "figure.html")
+        file.write_text(to_figure(tutorial_document()), encoding="utf-8")
+        page.goto(file.as_uri())
+        until(page, "s.painted?.sweeps === 1000")
+    drag(page, seconds, "figure without a server, 21 x 21, 100 beams")
+    page.close()
+
+
 def new_building(page: Any, width: int, height: int) -> None:
     page.get_by_role("button", name="New map").click()
     page.get_by_label("World").select_option("building")
@@ -170,6 +185,7 @@ def main() -> None:
     with served() as url, sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path=shutil.which("chromium"), args=ARGUMENTS)
         first_paint(browser, url)
+        figure(browser, options.seconds)
         page = browser.new_page(viewport={"width": 1280, "height": 860})
         page.goto(url)
         until(page, "s.painted?.sweeps === 1000")

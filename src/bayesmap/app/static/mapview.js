@@ -1091,10 +1091,11 @@ button.chip.doubt:hover:not(:disabled) { background: var(--bad); filter: brightn
 aside { grid-area: panel; overflow-y: auto; overscroll-behavior: contain; background: var(--card); border-left: 1px solid var(--line); scrollbar-width: thin; }
 section { display: grid; gap: 7px; padding: 10px 16px 12px; border-bottom: 1px solid var(--line); }
 section:last-child { border-bottom: 0; }
-.story { background: var(--tint); }
+.story { background: var(--tint); grid-template-columns: minmax(0, 1fr); }
+.story .buttons { flex-wrap: wrap; }
 .story nav { display: flex; gap: 4px; }
-.story nav a { flex: 1; max-width: 40px; padding: 3px 0; border-radius: 6px; border: 1px solid var(--control); background: var(--card); color: inherit; text-ali\
-gn: center; text-decoration: none; }
+.story nav a { flex: 1 1 0; min-width: 0; max-width: 40px; padding: 3px 0; border-radius: 6px; border: 1px solid var(--control); background: var(--card); color:\
+ inherit; text-align: center; text-decoration: none; }
 .story nav a:hover { border-color: var(--accent); }
 .story nav a[aria-current=step] { background: var(--accent); border-color: var(--accent); color: var(--on-accent); font-weight: 600; }
 .story h3 { font-size: 15px; margin-bottom: 3px; }
@@ -1252,7 +1253,7 @@ px; }
   footer > * { max-width: 100%; }
 }
 @media (prefers-reduced-motion: no-preference) { button, .segmented label { transition: background-color .12s; } }
-@media (forced-colors: active) { .segmented label:has(:checked) { outline: 2px solid Highlight; } }
+@media (forced-colors: active) { .story [aria-current=step], .segmented label:has(:checked) { outline: 2px solid Highlight; } }
 `;var Wh="bayesmap-theme",Bh={auto:"light",light:"dark",dark:"auto"},sr=class{constructor(e,n){this.app=e;this.dressed=n;let s=xg();s&&s in Bh&&(this.choice=s),this.
 media.addEventListener("change",this.listen)}theme=mo.light;media=matchMedia("(prefers-color-scheme: dark)");choice="auto";listen=()=>this.dress();dress(){let e=this.
 choice==="dark"||this.choice==="auto"&&this.media.matches,n=this.theme=e?mo.dark:mo.light;this.app.dataset.theme=e?"dark":"light";let{truth:s,ray:o,noReturn:r,sensor:i,
