@@ -294,7 +294,7 @@ def test_a_failure_on_the_way_keeps_the_old_file(tmp_path, monkeypatch):
     for name in ("floor.mcap", "floor"):
         write_occupancy_grid(tmp_path / name, occupancy(), GRID)
     before = (tmp_path / "floor.mcap").read_bytes(), (tmp_path / "floor" / "floor.db3").read_bytes()
-    monkeypatch.setattr(writer, "_write_ros2", lambda path, *rest: (path.mkdir(), 1 / 0))
+    monkeypatch.setattr(writer.Recorder, "_write", lambda self, path, channels: (path.mkdir(), 1 / 0))
     for name in ("floor.mcap", "floor"):
         with pytest.raises(ZeroDivisionError):
             write_occupancy_grid(tmp_path / name, 1 - occupancy(), GRID)

@@ -239,7 +239,6 @@ def _help(docstring: str) -> str:
 
 
 def _option(key: Key) -> click.Option:
-    """Return the flag of a setting."""
     if key.kind is bool:
         return click.Option([key.flag, key.name], is_flag=True, help=key.help.text)
     shown = key.help.unset if key.default is None else f"{key.default}"
@@ -248,7 +247,6 @@ def _option(key: Key) -> click.Option:
 
 
 def _click_type(key: Key) -> click.ParamType[Any]:
-    """Return the click type that reads a flag's value."""
     if key.choices:
         return click.Choice(key.choices) if key.kind is str else NumberOr(key.choices[0])
     return click.types.convert_type(key.kind)

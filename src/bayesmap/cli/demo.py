@@ -9,7 +9,7 @@ import click
 
 from bayesmap.cli.command import Call, command
 from bayesmap.cli.console import INTERRUPTED, PROBLEMS, Console, as_json, progress
-from bayesmap.cli.folder import run_document
+from bayesmap.cli.folder import run_document, write_utf8
 from bayesmap.cli.keys import DemoSettings
 from bayesmap.errors import BadInput
 
@@ -47,14 +47,12 @@ def demo(call: Call[DemoSettings], output: str, force: bool) -> None:
     runs = _runs(call.console, call.settings())
     with progress(call.console, "drawing pictures and a film"):
         outputs = [*_pictures(runs, folder), folder / "demo.json"]
-    main = runs["gibbs"]
     document = {
-        **run_document(main),
-        "heldout": None,
+        **run_document(runs["gibbs"]), "heldout": None,
         "runs": {name: _in_short(run) for name, run in runs.items()},
         "outputs": {path.name: str(path) for path in outputs},
-    }
-    _write_json(folder / "demo.json", document)
+    }  # fmt: skip
+    write_utf8(folder / "demo.json", as_json(document))
     _report(call.console, runs, folder)
     call.console.result(document, outputs)
     if not all(run.finished for run in runs.values()):
@@ -104,7 +102,6 @@ def _runs(console: Console, settings: DemoSettings) -> dict[str, Run]:
 
 
 def _pictures(runs: dict[str, Run], folder: Path) -> list[Path]:
-    """Write the pictures, the film, the run and its map, and return their paths."""
     import numpy as np
 
     from bayesmap.sim.drawing import tutorial
@@ -142,16 +139,7 @@ def _in_short(run: Run) -> dict[str, Any]:
     return {name: document[name] for name in (*kept, "log_evidence", "diagnostics", "problems")}
 
 
-def _write_json(path: Path, document: dict[str, Any]) -> None:
-    """Write a JSON document, whole or not at all."""
-    from bayesmap.files import write_whole
-
-    with write_whole(path) as partial:
-        partial.write_text(as_json(document), encoding="utf-8")
-
-
 def _report(console: Console, runs: dict[str, Run], folder: Path) -> None:
-    """Print the diagnostics of the three methods."""
     for name, line in (("gibbs", "single-site Gibbs, prior 0.5:  "), ("block", "2 x 2 block Gibbs, prior 0.05: ")):
         summary, posterior = runs[name].summary(), runs[name].posterior
         console.say(

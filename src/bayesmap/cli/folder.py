@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 from bayesmap.cli.console import Console, as_json, counted, progress, stage
 from bayesmap.errors import BadInput
+from bayesmap.files import write_whole
 from bayesmap.version import __version__
 
 if TYPE_CHECKING:
@@ -25,34 +26,28 @@ def run_document(run: Run) -> dict[str, Any]:
     posterior, summary = run.posterior, run.summary()
     settings, grid = posterior.settings, run.grid
     joint = run.log_joint
-    diagnostics = summary.as_json()
+    diagnostics, no_joint = summary.as_json(), {"last": None, "mean": None}
     return {
         "version": __version__,
         "grid": {"shape": list(grid.shape), "resolution": grid.resolution, "origin": list(grid.origin)},
-        **{name: posterior.counts[name] for name in ("scans", "beams", "incidences")},
-        "cells": posterior.kind,
-        "states": posterior.prior.words.states,
-        "fitted": settings.get("fitted"),
+        **{name: posterior.counts[name] for name in ("scans", "beams", "incidences")}, "cells": posterior.kind,
+        "states": posterior.prior.words.states, "fitted": settings.get("fitted"),
         **{name: settings[name] for name in ("method", "order", "prior", "sensor", "hit_depth", "start", "seed")},
         **{name: settings[name] for name in ("chains", "warmup", "thin")},
-        "draws": int(joint.shape[1]),
-        "sweeps": posterior.sweep,
-        "finished": run.finished,
+        "draws": int(joint.shape[1]), "sweeps": posterior.sweep, "finished": run.finished,
         "seconds": {name: round(value, 6) for name, value in posterior.seconds.items()},
-        "microseconds_per_sweep": diagnostics["microseconds_per_sweep"],
-        "log_joint": {
-            "last": finite(joint[:, -1].mean()) if joint.size else None,
-            "mean": finite(joint.mean()) if joint.size else None,
-        },
-        "log_evidence": finite(posterior.log_evidence),
-        "rhat_max": diagnostics["rhat_max"],
-        "ess_min": diagnostics["ess_min"],
-        "unchanged_cells": diagnostics["unchanged_cells"] or 0,
-        "diagnostics": diagnostics,
-        "good": summary.strengths(),
-        "problems": summary.problems(),
+        "log_joint": {"last": finite(joint[:, -1].mean()), "mean": finite(joint.mean())} if joint.size else no_joint,
+        "log_evidence": finite(posterior.log_evidence), "unchanged_cells": diagnostics["unchanged_cells"] or 0,
+        **{name: diagnostics[name] for name in ("microseconds_per_sweep", "rhat_max", "ess_min")},
+        "diagnostics": diagnostics, "good": summary.strengths(), "problems": summary.problems(),
         "peak_memory_mb": peak_memory_mb(),
-    }
+    }  # fmt: skip
+
+
+def write_utf8(path: Path, text: str) -> None:
+    """Write a text file, whole or not at all."""
+    with write_whole(path) as partial:
+        partial.write_text(text, encoding="utf-8")
 
 
 def work_done(document: dict[str, Any]) -> str:
@@ -149,7 +144,7 @@ class Folder:
     def wait(self, toml: str) -> None:
         """Mark an older run in the folder as to be replaced, perhaps by another process."""
         if self.run.exists() and not self.resuming:
-            self._write(self.outdated, toml)
+            write_utf8(self.outdated, toml)
 
     def begin(self, toml: str) -> None:
         """Save the settings of a run that has started, so that it can be resumed without typing them again.
@@ -162,7 +157,7 @@ class Folder:
         try:
             self.path.mkdir(parents=True, exist_ok=True)
             if self.run.exists() and not self.resuming:
-                self._write(self.outdated, toml)
+                write_utf8(self.outdated, toml)
             else:
                 self.replace()
         except OSError as error:
@@ -174,18 +169,10 @@ class Folder:
 
     def replace(self) -> None:
         """Remove the files made from an older run, since the new run takes its place."""
-        self._write(self.config, self._toml)
+        write_utf8(self.config, self._toml)
         for name in () if self._previewed else DERIVED:
             (self.path / name).unlink(missing_ok=True)
         self.outdated.unlink(missing_ok=True)
-
-    @staticmethod
-    def _write(path: Path, text: str) -> None:
-        """Write a text file, whole or not at all."""
-        from bayesmap.files import write_whole
-
-        with write_whole(path) as partial:
-            partial.write_text(text, encoding="utf-8")
 
     def save(self, run: Run, on_progress: Callable[[int, int], None] = lambda done, total: None) -> None:
         """Save the run. If it replaces an older run, remove the files made from that one."""
@@ -231,29 +218,22 @@ class Folder:
             self.console.warn(f"{self.run}: checkpoint could not be written: {error.strerror or error}")
 
     def write_products(self, run: Run) -> list[Path]:
-        """Save the run. If it has draws, also draw it and export it for nav2.
-
-        Returns:
-            The paths of the written files.
-        """
+        """Save the run; if it has draws, also draw it and export it for nav2. Returns the paths of the files."""
         with stage(self.console, "save") as report:
             self.save(run, report)
         if run.n_draws == 0 and not run.finished:
             return [self.run]
+        paths = [self.run]
         with progress(self.console, "drawing the map"):
-            return [self.run, *self.draw(run), *self._draw_surfaces(run)]
+            paths += self.draw(run)
+            if run.posterior.prior.has_surfaces and run.n_draws > 0:
+                from bayesmap.viz.figure import write_figure
+                from bayesmap.viz.overlays import surfaces_figure
 
-    def _draw_surfaces(self, run: Run) -> list[Path]:
-        """Draw the surfaces of a run, if its cells have any."""
-        if not run.posterior.prior.has_surfaces or run.n_draws == 0:
-            return []
-        from bayesmap.viz.figure import write_figure
-        from bayesmap.viz.overlays import surfaces_figure
-
-        path = self.path / "surfaces.png"
-        write_figure(surfaces_figure(run.grid, *run.surfaces(), run.observed), path)
-        return [path]
+                paths.append(self.path / "surfaces.png")
+                write_figure(surfaces_figure(run.grid, *run.surfaces(), run.observed), paths[-1])
+        return paths
 
     def write_document(self, document: dict[str, Any]) -> None:
         """Write the JSON document."""
-        self._write(self.path / "summary.json", as_json(document))
+        write_utf8(self.path / "summary.json", as_json(document))

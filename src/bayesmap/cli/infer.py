@@ -26,10 +26,11 @@ from bayesmap.cli.console import (
     SAMPLING,
     STAGES,
     Console,
+    aligned,
     described_share,
     reserve_stdout,
 )
-from bayesmap.cli.folder import Folder
+from bayesmap.cli.folder import Folder, write_utf8
 from bayesmap.cli.keys import InferSettings
 from bayesmap.cli.pipeline import Task, infer_log, prepare, read, report, settings_in, stem
 from bayesmap.cli.translation import SENSOR_HELP, executor_of, logs_of, ray_address
@@ -134,12 +135,8 @@ def infer_fleet(call: Call[InferSettings], logs: list[str], output: Path, *, res
 
 
 def _keep_settings(ready: list[Entry], output: Path, toml: str) -> None:
-    """Save the settings of the fleet, and mark older runs as to be replaced."""
-    from bayesmap.files import write_whole
-
     output.mkdir(parents=True, exist_ok=True)
-    with write_whole(output / SETTINGS) as partial:
-        partial.write_text(toml, encoding="utf-8")
+    write_utf8(output / SETTINGS, toml)
     for entry in ready:
         entry.ready.folder.wait(toml)
 
@@ -159,22 +156,17 @@ def table(entries: list[Entry]) -> Iterator[str]:
     """Yield the lines of the table: a heading, and one line per log."""
     rows = [("log", "beams", "minutes", "R-hat", "held out", "folder, or what went wrong")]
     for entry in entries:
-        if entry.document is None:
+        run = entry.document
+        if run is None:
             rows.append((entry.log, "-", "-", "-", "-", entry.error or "not finished"))
             continue
-        run = entry.document
         rhat, score = run["rhat_max"], run["heldout"]
-        rows.append(
-            (
-                entry.log, f"{run['beams']:,}", f"{run['seconds']['total'] / 60:.1f}",
-                "-" if rhat is None else f"{rhat:.2f}", "-" if not score else f"{score['nats_per_beam']:.3f}",
-                str(entry.path) + (f" ({len(entry.problems)} problems)" if entry.problems else ""),
-            )
-        )  # fmt: skip
-    widths = [max(len(row[column]) for row in rows) for column in range(5)]
-    for row in rows:
-        columns = [row[0].ljust(widths[0]), *(row[column].rjust(widths[column]) for column in range(1, 5)), row[5]]
-        yield "  ".join(columns)
+        rhat, nats = "-" if rhat is None else f"{rhat:.2f}", "-" if not score else f"{score['nats_per_beam']:.3f}"
+        path = str(entry.path) + (f" ({len(entry.problems)} problems)" if entry.problems else "")
+        rows.append((entry.log, f"{run['beams']:,}", f"{run['seconds']['total'] / 60:.1f}", rhat, nats, path))
+    *numbers, last = zip(*rows, strict=True)
+    for line, text in zip(aligned(list(zip(*numbers, strict=True))), last, strict=True):
+        yield f"{line}  {text}"
 
 
 @dataclass(frozen=True, eq=False)
@@ -283,7 +275,6 @@ class RayFleet:
         return max(1, int(self.ray.cluster_resources().get("CPU", 1)) // _threads(entry))
 
     def _begin(self, entry: Entry) -> None:
-        """Read a log, put its scans into the object store, and give it to a worker."""
         try:
             reading = read(self.console, entry.log, entry.ready.settings)
         except Exception as error:
@@ -293,7 +284,6 @@ class RayFleet:
         self._submit(entry, resuming=entry.ready.folder.resuming)
 
     def _submit(self, entry: Entry, *, resuming: bool) -> None:
-        """Start a task for a log, with the files of the run to resume."""
         task, folder, before = entry.ready, entry.ready.folder, {}
         if resuming and folder.run.exists() and not folder.outdated.exists():
             before = {path.name: path.read_bytes() for path in (folder.run, folder.config) if path.exists()}
@@ -363,7 +353,6 @@ class RayFleet:
             self._take_some()
 
     def _progress(self, done: int, total: int) -> tuple[str, float]:
-        """Return the text of the progress bar, and the share of the work that is done."""
         words, share = [f"{done} of {total} logs"], float(done)
         for entry in self.running.values():
             if (event := entry.event) is not None:
@@ -380,11 +369,9 @@ def _threads(entry: Entry) -> int:
 @command("infer")
 @click.argument("logs", metavar="LOG...", nargs=-1, required=True)
 @click.option(
-    "-o",
-    "--output",
-    metavar="DIR",
+    "-o", "--output", metavar="DIR",
     help="Folder of the run; for several logs, the parent of their folders. [default: runs/NAME-OF-LOG]",
-)
+)  # fmt: skip
 @click.option("--resume", is_flag=True, help="Resume the run in DIR, bit for bit as if it had never stopped.")
 @click.option("--force", is_flag=True, help="Replace the run in DIR.")
 def infer(call: Call[InferSettings], logs: tuple[str, ...], output: str | None, resume: bool, force: bool) -> None:

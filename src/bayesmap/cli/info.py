@@ -97,7 +97,6 @@ def _log(file: str) -> dict[str, Any]:
 
 
 def _lines(document: dict[str, Any]) -> list[str]:
-    """Return a description as lines of text."""
     lines = [f"{document['path']}: {document['format']}"]
     if document.get("duration_s") is not None:
         lines[0] += f", {document['duration_s']:,.1f} s"
@@ -126,7 +125,6 @@ def _lines(document: dict[str, Any]) -> list[str]:
 
 
 def _run_lines(run: dict[str, Any]) -> list[str]:
-    """Return grid, method and fitted parameters of a run as lines."""
     from bayesmap.cli.folder import work_done
 
     (nx, ny), resolution = run["grid"]["shape"], run["grid"]["resolution"]
@@ -146,7 +144,6 @@ def _run_lines(run: dict[str, Any]) -> list[str]:
 
 
 def _sensor_words(sensor: dict[str, Any]) -> str:
-    """Return the parameters of a beam mixture in words."""
     from bayesmap.sensors.builtin import from_description
 
     model = from_description(sensor)
@@ -160,7 +157,6 @@ def _sensor_words(sensor: dict[str, Any]) -> str:
 
 
 def _sensor_lines(sensor: dict[str, Any]) -> list[str]:
-    """Return scans, ranges and poses of a sensor as lines."""
     name = sensor.get("topic") or sensor.get("message") or "readings"
     if sensor.get("error"):
         return [f"scans on {name}: {sensor['scans']:,}, which cannot be used: {sensor['error']}"]
@@ -187,7 +183,6 @@ def _sensor_lines(sensor: dict[str, Any]) -> list[str]:
 
 
 def _rest(sensor: dict[str, Any]) -> list[str]:
-    """Return the number of skipped messages and the notes of a sensor as lines."""
     skipped = sensor.get("skipped")
     left_out = (
         [f"  malformed messages or lines left out: {skipped:,}, first {sensor['first_skipped']}"] if skipped else []

@@ -100,7 +100,6 @@ def default_name(what: str) -> str:
 
 
 def _whole_figure(run: Run, settings: RenderSettings, walls: Walls | None) -> Figure:
-    """Draw a picture of the whole run."""
     from bayesmap.viz.diagnostics import trace_figure, weights_figure
 
     if settings.what == "trace":
@@ -112,7 +111,6 @@ def _whole_figure(run: Run, settings: RenderSettings, walls: Walls | None) -> Fi
 
 
 def _panel(run: Run, settings: RenderSettings, grid: Grid, window: tuple[slice, slice], walls: Walls | None) -> Figure:
-    """Draw a single panel of a part of the map."""
     from bayesmap.viz.figure import panel_figure
     from bayesmap.viz.overlays import surfaces_figure
 

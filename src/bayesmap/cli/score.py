@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, get_args
 
 import click
 
 from bayesmap.cli.command import FORCE, Call, command
-from bayesmap.cli.console import write_out
+from bayesmap.cli.console import aligned, write_out
 from bayesmap.cli.keys import Frame, ScoreSettings
 from bayesmap.cli.scores import Scored, score_others, score_run
 from bayesmap.cli.translation import is_map, need_free
+from bayesmap.files import need_ending
 from bayesmap.version import __version__
 
 if TYPE_CHECKING:
@@ -29,10 +29,9 @@ HEADINGS = ("map", "nats/beam", "50 %", "80 %", "95 %", "80 % width", "PIT", "Br
 @click.option("--compare", is_flag=True, help="Also score hit ratios and log-odds, fitted on the same scans.")
 @click.option("--relations", metavar="FILE", help="True relative poses (Kuemmerle et al. 2009) to score poses.")
 @click.option(
-    "--frame",
-    type=click.Choice(get_args(Frame)),
+    "--frame", type=click.Choice(get_args(Frame)),
     help="Frame of --relations. [default: base, if it is known where the laser sits on it]",
-)
+)  # fmt: skip
 @click.option("--exact", is_flag=True, help="Score only relations at times of poses, not between poses.")
 @click.option("--picture", metavar="FILE", help="Draw calibration and errors: .png, .pdf or .svg.")
 @FORCE
@@ -68,8 +67,6 @@ def score(
     if frame is not None and relations is None:
         raise click.UsageError("--frame says whose --relations are known; give both")
     if picture is not None:
-        from bayesmap.files import need_ending
-
         need_ending(picture, ("png", "pdf", "svg"), "figure")  # check before minutes of computation
         need_free([Path(picture), _beside(picture)], force, "--picture")
     # Score the map.
@@ -97,7 +94,8 @@ def score(
     if scored.verdict is not None:
         write_out(f"{scored.verdict}\n")
     if scored.rows:
-        _print_table(scored.rows)
+        table = [HEADINGS, *(_cells(name, own) for name, own in scored.rows)]
+        write_out("".join(f"{line}\n" for line in aligned(table)))
     if poses is not None:
         write_out("".join(f"{line}\n" for line in lines_of(poses, whose, exact=exact, of_run=of_run)))
 
@@ -130,71 +128,38 @@ def _draw(picture: str, rows: list[tuple[str, Score]], poses: TrajectoryScore | 
 
 
 def _document(
-    path: str, log: str | None, found: Scored, poses: dict[str, Any] | None, outputs: dict[str, str]
+    path: str, log: str | None, scored: Scored, poses: dict[str, Any] | None, outputs: dict[str, str]
 ) -> dict[str, Any]:
-    """Return the JSON document of the scores."""
-    baselines = [
-        {
-            "map": name,
-            **scored.as_json(),
-            "fitted": {key: float(value) for key, value in fit.values.items()},
-            "inner_nats_per_beam": fit.inner_nats_per_beam,
-        }
-        for (name, scored), fit in zip(found.rows[1:], found.fits, strict=True)
-    ]
+    baselines = []
+    for (name, score), fit in zip(scored.rows[1:], scored.fits, strict=True):
+        fitted = {key: float(value) for key, value in fit.values.items()}
+        more = {"fitted": fitted, "inner_nats_per_beam": fit.inner_nats_per_beam}
+        baselines.append({"map": name, **score.as_json(), **more})
     document: dict[str, Any] = {"version": __version__, "run": path, "log": log}
-    if found.rows:
-        name, own = found.rows[0]
+    if scored.rows:
+        name, own = scored.rows[0]
         document["heldout"] = {
-            "every": found.every or None, "scans": own.scans, "beams": own.beams, "nats_per_beam": own.nats_per_beam,
+            "every": scored.every or None, "scans": own.scans, "beams": own.beams, "nats_per_beam": own.nats_per_beam,
         }  # fmt: skip
         document["score"] = {"map": name, **own.as_json()}
-    if found.verdict is not None:
-        document["verdict"] = found.verdict
+    if scored.verdict is not None:
+        document["verdict"] = scored.verdict
     return {**document, "baselines": baselines or None, "relations": poses, "outputs": outputs}
 
 
-def _cells(name: str, found: Score) -> tuple[str, ...]:
-    """Return a row of the table as texts."""
-    shares = [f"{100 * c.share.value:.1f}" for c in found.coverage]
-    width = next(c.median_width_m for c in found.coverage if c.level == 0.8)
-    nats = f"{found.nats_per_beam:.3f} +- {found.nats_per_beam_error:.3f}"
-    events = (f"{found.brier.value:.4f}", f"{found.log_loss.value:.4f}")
-    return (name, nats, *shares, f"{width:.3f} m", f"{found.pit_distance:.3f}", *events)
+def _cells(name: str, score: Score) -> tuple[str, ...]:
+    shares = [f"{100 * c.share.value:.1f}" for c in score.coverage]
+    width = next(c.median_width_m for c in score.coverage if c.level == 0.8)
+    nats = f"{score.nats_per_beam:.3f} +- {score.nats_per_beam_error:.3f}"
+    events = (f"{score.brier.value:.4f}", f"{score.log_loss.value:.4f}")
+    return (name, nats, *shares, f"{width:.3f} m", f"{score.pit_distance:.3f}", *events)
 
 
-def _print_table(rows: list[tuple[str, Score]]) -> None:
-    """Print the table of scores: by rich on a terminal, as plain text elsewhere."""
-    cells = [_cells(name, found) for name, found in rows]
-    if sys.stdout.isatty():
-        from rich.console import Console
-        from rich.table import Table
-
-        table = Table(*HEADINGS, caption=f"{rows[0][1].beams:,} beams of {rows[0][1].scans:,} scans")
-        for column in table.columns[1:]:
-            column.justify = "right"
-        for row in cells:
-            table.add_row(*row)
-        Console().print(table)
-        return
-    widths = [max(len(row[i]) for row in (HEADINGS, *cells)) for i in range(len(HEADINGS))]
-    for row in (HEADINGS, *cells):
-        padded = [
-            row[0].ljust(widths[0]),
-            *(cell.rjust(width) for cell, width in zip(row[1:], widths[1:], strict=True)),
-        ]
-        write_out("  ".join(padded).rstrip() + "\n")
-
-
-def lines_of(found: TrajectoryScore, frame: str, *, exact: bool, of_run: bool) -> list[str]:
-    """Return the score of poses as lines of text.
-
-    ``frame`` is the frame of the relations. ``exact`` tells whether only relations at times of poses count, ``of_run``
-    whether the poses come from a saved run: the advice on missing covariances depends on it.
-    """
+def lines_of(score: TrajectoryScore, frame: str, *, exact: bool, of_run: bool) -> list[str]:
+    """Return the score of poses as lines of text. ``frame`` is that of the relations; ``of_run``: of a saved run."""
     from bayesmap.space.trajectory import LONGEST_GAP_S
 
-    figures = found.as_json()
+    figures = score.as_json()
     missing = ""
     if figures["in_gaps"]:
         where = "not at times of poses" if exact else f"between poses over {LONGEST_GAP_S:g} s apart"
@@ -215,7 +180,7 @@ def lines_of(found: TrajectoryScore, frame: str, *, exact: bool, of_run: bool) -
             f"regions      hold {held} %, if relations are exact; "
             f"NEES {nees['mean']:.2f}, median {nees['median']:.2f} (3 is right)"
         )
-        lines += [f"by           {found.known_by}"] if found.known_by else []
+        lines += [f"by           {score.known_by}"] if score.known_by else []
     elif of_run:
         lines.append(
             "regions      unknown: the run takes its poses as known, or was saved by an earlier version, and has no "

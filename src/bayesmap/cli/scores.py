@@ -113,7 +113,6 @@ def score_others(call: Call[ScoreSettings], path: str, log: str | None, frame: s
 
 
 def _how(settings: ScoreSettings) -> dict[str, Any]:
-    """Return the arguments that all scoring functions share."""
     return {"seed": settings.seed, "device": settings.device}
 
 

@@ -164,7 +164,6 @@ def simulate(call: Call[SimulateSettings], output: str | None, poses: tuple[str,
 def _write_truth(
     trajectory: Path, relations: Path, base: NDArray[np.float64], stamps_s: NDArray[np.float64], seed: int,
 ) -> list[Path]:  # fmt: skip
-    """Write the true trajectory and the true relations of the base, and return their paths."""
     from bayesmap.io.text.trajectories import write_relations, write_trajectory
     from bayesmap.sim.robot import related_pairs
     from bayesmap.space.planar import between
@@ -229,7 +228,6 @@ def world_of(settings: SimulateSettings, poses: Sequence[str], minutes: float | 
 
 
 def _tutorial(resolution: float | None, typed: NDArray[np.float64] | None) -> World:
-    """Return the tutorial's world, scaled to the resolution."""
     from bayesmap.sim.drawing import TUTORIAL_GRID, tutorial
     from bayesmap.space.grid import Grid
 
@@ -243,7 +241,6 @@ def _tutorial(resolution: float | None, typed: NDArray[np.float64] | None) -> Wo
 
 
 def _building(settings: SimulateSettings, typed: NDArray[np.float64] | None, minutes: float | None) -> World:
-    """Return a random building, with the robot at the typed poses or on a patrol through the rooms."""
     from bayesmap.sim.building import building
     from bayesmap.sim.robot import drive, patrol
 
@@ -259,7 +256,6 @@ def _building(settings: SimulateSettings, typed: NDArray[np.float64] | None, min
 
 
 def _from_file(path: Path, resolution: float | None) -> tuple[NDArray[np.bool_], Grid]:
-    """Return walls and grid of a map_server map, a picture, or a text drawing."""
     from bayesmap.io.ros.maps import from_image
     from bayesmap.sim.drawing import from_text
     from bayesmap.space.grid import Grid

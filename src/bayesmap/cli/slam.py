@@ -107,7 +107,6 @@ def slam(call: Call[SlamSettings], log: str, output: str | None, resume: bool, f
 
 
 def _stages(folder: Folder) -> Path:
-    """Return the folder of the finished stages of the approximation."""
     return folder.path / "stages"
 
 
@@ -131,7 +130,6 @@ def _check(console: Console, reading: LogReading, settings: SlamSettings) -> Non
 
 
 def _slam(task: Task[SlamSettings], reading: LogReading, saved: Run | None, files: TrajectoryFiles) -> Run:
-    """Infer trajectory and map, with checkpoints in the folder."""
     from bayesmap.api import slam
     from bayesmap.arguments import Checkpoints, Where
 
@@ -157,22 +155,16 @@ def _slam(task: Task[SlamSettings], reading: LogReading, saved: Run | None, file
         if saved is None:
             # Save the settings before the first stage: they are needed to resume the finished stages.
             folder.begin(toml)
+        stages, every_s = _stages(folder), settings.checkpoint_every
         run = slam(
-            reading.scans,
-            resolution=settings.resolution,
-            prior=translation.prior_of(settings),
+            reading.scans, resolution=settings.resolution, prior=translation.prior_of(settings),
             sensor=translation.sensor_for(settings, settings.resolution),
-            fast=True if settings.fast else False if settings.sample_poses else None,
-            no_odometry=settings.no_odometry,
-            schedule=translation.schedule_of(settings),
-            seed=settings.seed,
-            hit_depth=settings.hit_depth,
+            fast=True if settings.fast else False if settings.sample_poses else None, no_odometry=settings.no_odometry,
+            schedule=translation.schedule_of(settings), seed=settings.seed, hit_depth=settings.hit_depth,
             where=Where(settings.threads, settings.device, any_size=settings.any_size),
-            checkpoints=Checkpoints(
-                saved, on_checkpoint, settings.checkpoint_every, _stages(folder), on_preview, files.write
-            ),
+            checkpoints=Checkpoints(saved, on_checkpoint, every_s, stages, on_preview, files.write),
             on_progress=on_progress,
-        )
+        )  # fmt: skip
         if run.finished or run.posterior.sweep > 0:
             folder.begin(toml)  # a resumed run that had finished reports no sweep
         return run
@@ -190,17 +182,17 @@ class TrajectoryFiles:
     resolution: float
     frame: str  # frame on the robot whose poses are written
     written: list[Path] = field(default_factory=list)
-    _known: Trajectory | None = field(default=None, init=False)
+    _trajectory: Trajectory | None = field(default=None, init=False)
 
-    def write(self, known: Trajectory | None = None) -> None:
+    def write(self, trajectory: Trajectory | None = None) -> None:
         """Write all files, unless that is done or must wait."""
-        self._known = self._known if known is None else known
-        if self.written or self._known is None or not self.folder.begun or self.folder.outdated.exists():
+        self._trajectory = self._trajectory if trajectory is None else trajectory
+        if self.written or self._trajectory is None or not self.folder.begun or self.folder.outdated.exists():
             return
         from bayesmap.errors import BadInput
 
         try:
-            self.written = self._write(self._known)
+            self.written = self._write(self._trajectory)
         except (OSError, BadInput) as error:
             self.folder.console.warn(f"the trajectory could not be written yet: {error}")
         else:
@@ -208,24 +200,26 @@ class TrajectoryFiles:
 
     def finish(self, run: Run) -> list[Path]:
         """Write all files that are not written yet, and draw the trajectory on the map of the run."""
-        assert self._known is not None
-        self.written = self.written or self._write(self._known)
+        assert self._trajectory is not None
+        self.written = self.written or self._write(self._trajectory)
         self.draw(run)
         return self.written
 
     def draw(self, run: Run) -> None:
         """Draw the trajectory on the map of a run, if its files are written."""
-        if self.written and self._known is not None:
-            self._draw(self._known, run.grid, run.occupancy, run.observed)
+        if self.written and self._trajectory is not None:
+            self._draw(self._trajectory, run.grid, run.occupancy, run.observed)
 
-    def _draw(self, found: Trajectory, grid: Grid, occupancy: NDArray[Any], observed: NDArray[np.bool_]) -> None:
+    def _draw(self, trajectory: Trajectory, grid: Grid, occupancy: NDArray[Any], observed: NDArray[np.bool_]) -> None:
         from bayesmap.viz.figure import write_figure
         from bayesmap.viz.trajectory import trajectory_figure
 
-        figure = trajectory_figure(grid, occupancy, observed, found.poses, found.covariances(), found.flagged)
+        figure = trajectory_figure(
+            grid, occupancy, observed, trajectory.poses, trajectory.covariances(), trajectory.flagged
+        )
         write_figure(figure, self.folder.path / "trajectory.png")
 
-    def _write(self, found: Trajectory) -> list[Path]:
+    def _write(self, trajectory: Trajectory) -> list[Path]:
         """Write all files. The map in the picture is made of the cells that the key scans hit."""
         import numpy as np
 
@@ -237,25 +231,29 @@ class TrajectoryFiles:
         from bayesmap.viz.trajectory import loops_figure, odometry_figure
 
         # Write the text files.
-        path, closures = self.folder.path, found.closures
-        moved = approximated(found).of(self.frame, self.reading.scans.mount)
+        path, closures = self.folder.path, trajectory.closures
+        moved = approximated(trajectory).of(self.frame, self.reading.scans.mount)
         texts = export_trajectory(path / "trajectory.tum", moved)
         # Draw the trajectory.
-        scans = calibrated_keys(self.reading.scans, found)
+        scans = calibrated_keys(self.reading.scans, trajectory)
         grid = Grid.covering(scans, self.resolution)
         hit = np.zeros(grid.shape, np.bool_)
         hit[tuple(np.floor(grid.to_cells(scans.hit_points_world())).astype(np.intp).T)] = True
-        self._draw(found, grid, hit.astype(float), hit)
+        self._draw(trajectory, grid, hit.astype(float), hit)
         # Draw odometry and loop closures.
-        others = [(found.alternative_poses(n), float(p)) for n, p in enumerate(found.alternatives.probabilities)]
+        others = [
+            (trajectory.alternative_poses(n), float(p)) for n, p in enumerate(trajectory.alternatives.probabilities)
+        ]
         pictures = {
             "loops.png": loops_figure(
-                found.poses, closures.first, closures.second, closures.residuals, closures.weights, others
+                trajectory.poses, closures.first, closures.second, closures.residuals, closures.weights, others
             )
         }
         if self.reading.posed:
-            raw = self.reading.scans.poses[found.order]
-            pictures["odometry.png"] = odometry_figure(compose(found.poses[0], between(raw[0], raw)), found.poses)
+            raw = self.reading.scans.poses[trajectory.order]
+            pictures["odometry.png"] = odometry_figure(
+                compose(trajectory.poses[0], between(raw[0], raw)), trajectory.poses
+            )
         for name, figure in pictures.items():
             write_figure(figure, path / name)
         return [*texts, *(path / name for name in ("trajectory.png", *pictures))]
@@ -265,43 +263,45 @@ def summary(run: Run, frame: str) -> dict[str, Any]:
     """Return the inferred trajectory in short, as JSON values; ``frame`` is that of its file."""
     import numpy as np
 
-    found = run.trajectory
-    assert found is not None
-    sigma_m = np.sqrt(np.linalg.eigvalsh(found.covariances()[:, :2, :2])[:, 1])
-    fit = found.calibration.odometry
+    trajectory = run.trajectory
+    assert trajectory is not None
+    sigma_m = np.sqrt(np.linalg.eigvalsh(trajectory.covariances()[:, :2, :2])[:, 1])
+    fit = trajectory.calibration.odometry
     out: dict[str, Any] = {
-        "frame": frame, "scans": len(found), "key_scans": len(found.keys),
+        "frame": frame, "scans": len(trajectory), "key_scans": len(trajectory.keys),
         "map": {"scans": len(run.posterior.scans), "beams": run.posterior.scans.ranges_m.size},
-        "loop_closures": int((found.closures.weights > 0.5).sum()), "flagged": np.nonzero(found.flagged)[0].tolist(),
-        "breaks": found.breaks.tolist(), "leaps": found.leaps.tolist(),
-        "alternatives": [_alternative(found, n) for n in range(len(found.alternatives))],
+        "loop_closures": int((trajectory.closures.weights > 0.5).sum()),
+        "flagged": np.flatnonzero(trajectory.flagged).tolist(),
+        "breaks": trajectory.breaks.tolist(), "leaps": trajectory.leaps.tolist(),
+        "alternatives": [_alternative(trajectory, n) for n in range(len(trajectory.alternatives))],
         "sigma_m": {"median": float(np.median(sigma_m)), "max": float(sigma_m.max())},
-        "angle_step_ratio": found.calibration.angle_step_ratio,
+        "angle_step_ratio": trajectory.calibration.angle_step_ratio,
         "odometry": None if fit is None else {"lag_s": fit.lag_s, "slope": fit.slope.tolist()},
     }  # fmt: skip
     if run.posterior.draws.count and run.posterior.settings["poses"]["kind"] != "known":
         poses = run.pose_summary()
+        # With few draws a chain may never move a pose; that pose has no R-hat.
         out["sampled"] = {
-            "sigma_m": float(np.median(poses.sigma_m)),
-            "sigma_rad": float(np.median(poses.sigma_rad)),
-            "by_approximation": poses.by_approximation,
-            "ess_min": poses.ess_min,
-            # With few draws a chain may never move a pose; that pose has no R-hat.
+            "sigma_m": float(np.median(poses.sigma_m)), "sigma_rad": float(np.median(poses.sigma_rad)),
+            "by_approximation": poses.by_approximation, "ess_min": poses.ess_min,
             "rhat_max": float(poses.rhat[np.isfinite(poses.rhat)].max(initial=1.0)),
             "unmoved": int((~np.isfinite(poses.rhat)).any(axis=-1).sum()),
-        }
+        }  # fmt: skip
     return out
 
 
-def _alternative(found: Trajectory, number: int) -> dict[str, Any]:
-    """Return an alternative as JSON values: its two scans, its probability, and the shift between them."""
+def _alternative(trajectory: Trajectory, number: int) -> dict[str, Any]:
     import numpy as np
 
     from bayesmap.space.planar import between
 
-    other, first, last = found.alternatives, found.alternatives.first[number], found.alternatives.last[number]
-    there = found.alternative_poses(number)
-    off = between(between(found.poses[first], found.poses[last]), between(there[first], there[last]))
+    other, first, last = (
+        trajectory.alternatives,
+        trajectory.alternatives.first[number],
+        trajectory.alternatives.last[number],
+    )
+    there = trajectory.alternative_poses(number)
+    off = between(between(trajectory.poses[first], trajectory.poses[last]), between(there[first], there[last]))
     return {
         "first": int(first), "last": int(last), "probability": float(other.probabilities[number]),
         "off_m": float(np.hypot(off[0], off[1])), "off_degrees": float(np.degrees(np.abs(off[2]))),

@@ -143,7 +143,6 @@ def odometry_of(text: str) -> OdometryNoise | None:
 
 
 def _number(text: str, where: str) -> float:
-    """Return the number of a text; ``where`` begins the error message."""
     try:
         return float(text)
     except ValueError:
@@ -327,7 +326,6 @@ def logs_of(typed: Sequence[str]) -> tuple[list[str], bool]:
 
 
 def _is_log(path: Path) -> bool:
-    """Return whether a path in a folder is a log, by its name."""
     from bayesmap.io.logs import ENDINGS
 
     if path.is_dir():

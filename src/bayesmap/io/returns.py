@@ -193,7 +193,6 @@ def _standing_out(readings_m: NDArray[np.float64], usable: NDArray[np.bool_]) ->
 
 
 def _count_beams(mask: NDArray[np.bool_]) -> int:
-    """Count the beams that have a reading under a mask."""
     return int(mask.any(axis=0).sum())
 
 

@@ -197,7 +197,6 @@ def _not_ours(attributes: dict[str, Any]) -> str | None:
 
 
 def _read(file: Any, header: dict[str, Any]) -> tuple[Posterior, Trajectory | None]:
-    """Return the posterior of an open file, and its trajectory."""
     constant = file["constant_data"]
 
     def named(prefix: str) -> dict[str, NDArray[Any]]:
@@ -243,7 +242,6 @@ def _optional(constant: Any, name: str) -> NDArray[np.float64] | None:
 
 
 def _scans_from(file: Any, header: dict[str, Any]) -> Scans:
-    """Return the scans that the posterior is conditioned on."""
     constant = file["constant_data"]
     return Scans(
         poses=read_array(constant["pose_world"]), angles_rad=read_array(constant["angle_rad"]),
@@ -321,7 +319,6 @@ def _need_dimensions(group: Any, dimensions: tuple[str, ...], sizes: tuple[int, 
 
 
 def _depth(draws: int, size: int) -> int:
-    """Return the number of draws that are compressed together."""
     return max(1, min(draws, CHUNK // max(size, 1)))
 
 

@@ -63,7 +63,6 @@ def _matched(train: Scans, scans: Scans) -> NDArray[np.intp]:
 
 
 def _alike(first: NDArray[np.float64], second: NDArray[np.float64]) -> bool:
-    """Return whether the beams of two scans have equal angles."""
     return first.shape == second.shape and np.allclose(first, second)
 
 

@@ -257,7 +257,6 @@ class Score:
 
 
 def _numbers(**values: float) -> dict[str, float | None]:
-    """Return the numbers by name, None where not finite."""
     return {name: float(value) if math.isfinite(value) else None for name, value in values.items()}
 
 

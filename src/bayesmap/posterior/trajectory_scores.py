@@ -213,7 +213,6 @@ def _by_law(law: RelativeLaw, stamps_s: Floats, relations: Relations, errors: Fl
 
 
 def _nearest(stamps_s: Floats, at_s: Floats) -> NDArray[np.intp]:
-    """Return the indices of the stamps that are nearest to some times."""
     before, after = bracketing_indices(stamps_s, at_s)
     return np.where(at_s - stamps_s[before] < stamps_s[after] - at_s, before, after)
 

@@ -253,7 +253,6 @@ class _RayRun:
         return replace(self.so_far(), finished=True) if self.rule.reached else self.so_far()
 
     def _error(self) -> float:
-        """Estimate the error of the map from all draws so far."""
         chains = self.so_far()
         return map_error(self.job.model.cells, chains.draws, chains.observed())
 

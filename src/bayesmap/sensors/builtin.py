@@ -340,7 +340,6 @@ def describe(sensor: SensorModel) -> dict[str, Any]:
 
 
 def _plain(value: Any) -> Any:
-    """Convert NumPy's numbers to Python's, for JSON."""
     return value.item() if isinstance(value, np.generic) else value
 
 

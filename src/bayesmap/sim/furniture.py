@@ -172,7 +172,6 @@ def _open_plan(room: RoomFloor, clutter: float) -> None:
 
 
 def _store(room: RoomFloor, clutter: float) -> None:
-    """Place shelves along both side walls, and boxes on the floor."""
     width, depth = room.size_m
     for x in (0.0, width - 0.4):
         room.place((x, 1.3, 0.4, depth - 1.3, SOLID))
@@ -207,7 +206,6 @@ def _washroom(room: RoomFloor, clutter: float) -> None:
 
 
 def _lobby(room: RoomFloor, clutter: float) -> None:
-    """Place a reception desk, armchairs and a plant."""
     width, depth = room.size_m
     room.place((width * 0.15, depth * 0.45, min(2.2, width * 0.5), 0.6, SOLID))
     for _ in range(3):
@@ -216,7 +214,6 @@ def _lobby(room: RoomFloor, clutter: float) -> None:
 
 
 def _corridor(room: RoomFloor, clutter: float) -> None:
-    """Place copiers, cabinets or plants at random, flat against a wall."""
     for _ in range(room.rng.poisson(0.12 * clutter * max(room.size_m))):
         length = room.rng.choice([0.3, 0.6, 0.8, 1.2])
         _against_wall(room, float(length), 0.4)

@@ -71,7 +71,6 @@ def trace_figure(log_joint: ArrayLike, *, first_sweep: int = 1) -> Figure:
 
 
 def _as_traces(log_joint: ArrayLike) -> NDArray[np.float64]:
-    """Check the log joint, and return it as (chain, draw)."""
     traces = np.atleast_2d(as_array(log_joint, "log_joint"))
     if traces.ndim != 2 or traces.size == 0:
         raise BadInput(f"trace: log_joint has shape {traces.shape}; give (chain, draw), with at least one draw")

@@ -250,18 +250,12 @@ def _show(
     hide: bool = True,
 ) -> AxesImage:  # fmt: skip
     """Draw an image of the cells from 0 to ``top``, hatched where unobserved; ``hide`` leaves out their values."""
+    # Enlarged cells stay sharp squares. If there are more cells than pixels, colours are averaged, so that a thin wall
+    # fades instead of vanishing.
     image = ax.imshow(
-        np.ma.array(values, mask=~observed & hide).T,
-        cmap=colors,
-        vmin=0.0,
-        vmax=top,
-        extent=grid.extent_m,
-        origin="lower",
-        # Enlarged cells stay sharp squares. If there are more cells than pixels, colours are averaged, so that a thin
-        # wall fades instead of vanishing.
-        interpolation="auto",
-        interpolation_stage="auto",
-    )
+        np.ma.array(values, mask=~observed & hide).T, cmap=colors, vmin=0.0, vmax=top, extent=grid.extent_m,
+        origin="lower", interpolation="auto", interpolation_stage="auto",
+    )  # fmt: skip
     frame_axes(ax, grid)
     if not observed.all():
         outlines = boxes(grid, ~observed)

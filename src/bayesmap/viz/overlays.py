@@ -129,7 +129,6 @@ def _rays(scans: Scans, beams: NDArray[np.intp]) -> NDArray[np.float64]:
 
 
 def _arrow(yaw_rad: float) -> MarkerStyle:
-    """Return an arrowhead that points along the yaw."""
     outline = np.array([(1.0, 0.0), (-0.75, 0.7), (-0.4, 0.0), (-0.75, -0.7), (1.0, 0.0)])
     return MarkerStyle(Path(outline, closed=True), transform=Affine2D().rotate(yaw_rad))
 

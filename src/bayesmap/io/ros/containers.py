@@ -88,8 +88,8 @@ def first_bytes(path: str | os.PathLike[str], count: int) -> bytes:
         file.seek(0)
         try:
             with UNPACKERS[kind][1](file) as unpacked:
-                return bytes(unpacked.read(count))
-        except _failures():
+                return _read(unpacked, count)
+        except NotUnpacked:
             return b""
 
 
@@ -119,15 +119,11 @@ def _at_hand(path: Path, stack: ExitStack, on_damage: raw.OnDamage) -> Path:
     return folder / "unpacked"
 
 
-def _read(unpacked: Any) -> bytes:
+def _read(unpacked: Any, count: int = AT_ONCE) -> bytes:
     try:
-        return bytes(unpacked.read(AT_ONCE))
-    except _failures() as problem:
+        return bytes(unpacked.read(count))
+    except (EOFError, OSError, ValueError, zlib.error, zstd().ZstdError) as problem:
         raise NotUnpacked(reason_of(problem)) from None
-
-
-def _failures() -> tuple[type[Exception], ...]:
-    return (EOFError, OSError, ValueError, zlib.error, zstd().ZstdError)
 
 
 def container_of(path: str | os.PathLike[str]) -> str | None:
@@ -178,7 +174,6 @@ def open_recording(path: str | os.PathLike[str], *, salvage: bool, types: Collec
 
 
 def _whole(path: str | os.PathLike[str]) -> Recording:
-    """Return a recording that is sound; raise `Damaged` for others."""
     container = container_of(path)
     files = [Path(path)]
     notes: tuple[str, ...] = ()
@@ -205,13 +200,10 @@ def _files_of(path: str | os.PathLike[str]) -> tuple[list[Path], str]:
     # Leave out a packed file whose unpacked copy lies beside it.
     names = {file.name for file in files}
     files = [file for file in files if not (file.suffix in (".zstd", ".zst") and file.stem in names)]
-    files = [file for file in files if container_of(file) is not None]
-    formats = {container_of(file) for file in files}
-    if len(formats) != 1:
+    formats = {file: container for file in files if (container := container_of(file)) is not None}
+    if len(set(formats.values())) != 1:
         raise Damaged(f"the folder has no {METADATA}, and no .db3 or .mcap files of one kind that can be read")
-    container = formats.pop()
-    assert container is not None
-    return files, container
+    return list(formats), next(iter(formats.values()))
 
 
 def _rosbags_reader(path: Path, container: str) -> Callable[[], Any]:
@@ -329,16 +321,15 @@ def _joined(path: str, container: str, parts: list[Recording], notes: tuple[str,
         for name, topic in part.topics.items():
             count = topics[name].count if name in topics else 0
             topics[name] = replace(topic, count=topic.count + count)
-    starts = [part.start_ns for part in parts if part.start_ns is not None]
-    ends = [part.end_ns for part in parts if part.end_ns is not None]
+    start_ns = min((part.start_ns for part in parts if part.start_ns is not None), default=None)
+    end_ns = max((part.end_ns for part in parts if part.end_ns is not None), default=None)
 
     def read(names: frozenset[str]) -> Iterable[Message]:
         if len(parts) == 1:
             return parts[0].read(names)
         return list(merge(*(part.read(names & part.topics.keys()) for part in parts), key=lambda m: m.received_ns))
 
-    times = min(starts, default=None), max(ends, default=None)
-    recording = Recording(path, container, dict(sorted(topics.items())), read, *times, notes)
+    recording = Recording(path, container, dict(sorted(topics.items())), read, start_ns, end_ns, notes)
     weakref.finalize(recording, stack.pop_all().close)
     return recording
 

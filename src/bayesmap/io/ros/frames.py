@@ -55,7 +55,7 @@ class Samples:
         self.received_ns.append(received_ns)
         self.values.append(values)
 
-    def part(self, which: slice) -> Samples:
+    def select(self, which: slice) -> Samples:
         """Return the poses of a slice."""
         return Samples(self.static, self.topic, self.stamps_ns[which], self.received_ns[which], self.values[which])
 

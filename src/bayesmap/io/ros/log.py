@@ -109,7 +109,7 @@ def clock_runs(scans: list[LaserMessage], poses: PoseMessages) -> list[ClockRun]
     def pieces_of(part: Samples) -> list[Samples]:
         slices = parts_of(part.stamps_ns, part.received_ns)
         constant = part.constant()
-        return [part if constant else part.part(which) for which in slices]
+        return [part if constant else part.select(which) for which in slices]
 
     # Cut every topic at the steps.
     runs = [PoseMessages() for _ in range(len(times) + 1)]

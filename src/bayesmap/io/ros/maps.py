@@ -116,7 +116,6 @@ TRINARY_FILE_THRESHOLDS = (0.65, 0.196)  # occupied and free, between the three 
 
 
 def _check_thresholds(occupied_thresh: float, free_thresh: float) -> None:
-    """Raise `BadInput` for thresholds that are not 0 <= free_thresh < occupied_thresh <= 1."""
     if not (0 <= free_thresh < occupied_thresh <= 1):
         raise BadInput(
             "map: thresholds must be 0 <= free_thresh < occupied_thresh <= 1, "
@@ -125,7 +124,6 @@ def _check_thresholds(occupied_thresh: float, free_thresh: float) -> None:
 
 
 def _thresholds(mode: str, occupied_thresh: float | None, free_thresh: float | None) -> tuple[float, float]:
-    """Return the given thresholds, or the defaults of the mode."""
     if mode not in MODES:
         raise BadInput(f"map: mode {mode!r} is not known; use one of {', '.join(MODES)}")
     occupied, free = THRESHOLDS[mode]

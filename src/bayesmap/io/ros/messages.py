@@ -215,7 +215,6 @@ def _content(store: Any, topic: Topic, data: bytes) -> Any:
 
 @cache
 def _shipped(encoding: str) -> Any:
-    """Return the definitions that ROS ships."""
     if encoding != "ros1":
         return get_typestore(Stores.ROS2_HUMBLE)
     store = get_typestore(Stores.ROS1_NOETIC)

@@ -15,11 +15,10 @@ import contextlib
 import math
 import os
 import tempfile
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Final, Literal
+from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -32,7 +31,6 @@ from bayesmap.space.trajectory import Trajectory
 
 if TYPE_CHECKING:
     from rosbags.interfaces import Qos
-    from rosbags.typesys.store import Typestore
 
 FOLDER = ""
 ENDINGS = (".bag", ".mcap", ".db3", FOLDER)
@@ -56,9 +54,6 @@ _MAP = (
     "uint16 outer_start_index\nuint16 inner_start_index\n"
 )
 
-RosVersion = Literal[1, 2]
-Message = Callable[["Typestore", RosVersion], Any]  # function that makes a message from a type store
-
 
 @dataclass(frozen=True)
 class Channel:
@@ -70,7 +65,7 @@ class Channel:
 
     topic: str
     type_name: str
-    messages: Sequence[tuple[float | None, Message]]
+    messages: Sequence[tuple[float | None, Any]]
     latched: bool = True
 
 
@@ -87,34 +82,82 @@ def container_of(path: str | os.PathLike[str]) -> str:
     return ending
 
 
-def write_channels(path: str | os.PathLike[str], channels: Sequence[Channel]) -> Path:
-    """Write topics as a recording, whole or not at all; raise `BadInput` if that is impossible."""
-    from rosbags.typesys import Stores, get_types_from_msg, get_typestore
+class Recorder:
+    """Makes ROS messages, and writes them as a recording; raises `BadInput` for another ending of the path."""
 
-    ending = container_of(path)
-    ros_version = 1 if ending == ".bag" else 2
-    store = get_typestore(Stores.ROS1_NOETIC if ros_version == 1 else Stores.ROS2_HUMBLE)
-    # The messages of the package grid_map_msgs, which rosbags lacks.
-    info = _HEADER + _INFO if ros_version == 1 else _INFO
-    grid_map = _MAP if ros_version == 1 else _HEADER + _MAP
-    store.register(get_types_from_msg(info, GRID_MAP_INFO) | get_types_from_msg(grid_map, GRID_MAP))
-    target = Path(path)
-    if ending == FOLDER:
-        # The bag names its file after its folder, so it is made in a folder of the right name, and moved.
-        with write_whole_folder(target, is_ros2_bag) as unfinished, _scratch(unfinished.parent) as scratch:
-            made = scratch / target.name
-            _write_ros2(made, ".db3", channels, store)
-            os.replace(made, unfinished)
+    def __init__(self, path: str | os.PathLike[str]) -> None:
+        from rosbags.typesys import Stores, get_types_from_msg, get_typestore
+
+        self.target, self.ending = Path(path), container_of(path)
+        self.is_ros1 = self.ending == ".bag"
+        self.store = get_typestore(Stores.ROS1_NOETIC if self.is_ros1 else Stores.ROS2_HUMBLE)
+        # The messages of the package grid_map_msgs, which rosbags lacks.
+        info, grid_map = (_HEADER + _INFO, _MAP) if self.is_ros1 else (_INFO, _HEADER + _MAP)
+        self.store.register(get_types_from_msg(info, GRID_MAP_INFO) | get_types_from_msg(grid_map, GRID_MAP))
+
+    def make(self, type_name: str, **values: Any) -> Any:
+        """Return a message, given its fields."""
+        return self.store.types[type_name](**values)
+
+    def header(self, frame: str, stamp_s: float | None) -> Any:
+        """Return a std_msgs/Header, in ROS 1 with a sequence number."""
+        sequence = {"seq": 0} if self.is_ros1 else {}
+        return self.make("std_msgs/msg/Header", **sequence, stamp=self.time(stamp_s), frame_id=frame)
+
+    def time(self, stamp_s: float | None) -> Any:
+        """Return a builtin_interfaces/Time; zero without a stamp."""
+        seconds, nanoseconds = divmod(round((stamp_s or 0.0) * NANOSECONDS), NANOSECONDS)
+        return self.make("builtin_interfaces/msg/Time", sec=seconds, nanosec=nanoseconds)
+
+    def pose(self, x_m: float, y_m: float, yaw_rad: float = 0.0) -> Any:
+        """Return a geometry_msgs/Pose in the plane."""
+        z, w = math.sin(0.5 * yaw_rad), math.cos(0.5 * yaw_rad)
+        position = self.make("geometry_msgs/msg/Point", x=x_m, y=y_m, z=0.0)
+        turn = self.make("geometry_msgs/msg/Quaternion", x=0.0, y=0.0, z=z, w=w)
+        return self.make("geometry_msgs/msg/Pose", position=position, orientation=turn)
+
+    def transform(self, stamp_s: float, frames: tuple[str, str], pose: Sequence[float]) -> Any:
+        """Return a tf2_msgs/TFMessage with one transform, from a parent frame to its child."""
+        x, y = (float(v) for v in pose[:2])
+        shift = self.make("geometry_msgs/msg/Vector3", x=x, y=y, z=0.0)
+        moved = self.make("geometry_msgs/msg/Transform", translation=shift, rotation=self.pose(*pose).orientation)
+        header, stamped = self.header(frames[0], stamp_s), "geometry_msgs/msg/TransformStamped"
+        return self.make(
+            TRANSFORMS, transforms=[self.make(stamped, header=header, child_frame_id=frames[1], transform=moved)]
+        )
+
+    def write(self, *channels: Channel) -> Path:
+        """Write topics, whole or not at all, and return the path; raise `BadInput` if that is impossible."""
+        target, ending = self.target, self.ending
+        if ending == FOLDER:
+            # The bag names its file after its folder, so it is made in a folder of the right name, and moved.
+            with write_whole_folder(target, is_ros2_bag) as unfinished, _scratch(unfinished.parent) as scratch:
+                self._write(scratch / target.name, channels)
+                os.replace(scratch / target.name, unfinished)
+            return target
+        with write_whole(target) as unfinished, _scratch(unfinished.parent) as scratch:
+            made = scratch / target.stem
+            self._write(made, channels)
+            os.replace(made if self.is_ros1 else made / (made.name + ending), unfinished)
         return target
-    with write_whole(target) as unfinished, _scratch(unfinished.parent) as scratch:
-        made = scratch / target.stem
-        if ending == ".bag":
-            _write_ros1(made, channels, store)
-            os.replace(made, unfinished)
-        else:
-            _write_ros2(made, ending, channels, store)
-            os.replace(made / (made.name + ending), unfinished)
-    return target
+
+    def _write(self, path: Path, channels: Sequence[Channel]) -> None:
+        from rosbags import rosbag1, rosbag2
+
+        plugin = rosbag2.StoragePlugin.MCAP if self.ending == ".mcap" else rosbag2.StoragePlugin.SQLITE3
+        serialize = self.store.serialize_ros1 if self.is_ros1 else self.store.serialize_cdr
+        bag: Any = (
+            rosbag1.Writer(path) if self.is_ros1
+            else rosbag2.Writer(path, version=ROS2_BAG_VERSION, storage_plugin=plugin)
+        )  # fmt: skip
+        with bag:
+            connections = []
+            for c in channels:
+                latch = {"callerid": "/bayesmap", "latching": int(c.latched)}
+                how = latch if self.is_ros1 else {"offered_qos_profiles": [_quality(c.latched)]}
+                connections.append(bag.add_connection(c.topic, c.type_name, typestore=self.store, **how))
+            for when, number, message in _in_order(channels):
+                bag.write(connections[number], when, serialize(message, channels[number].type_name))
 
 
 def is_ros2_bag(folder: Path) -> bool:
@@ -125,28 +168,6 @@ def is_ros2_bag(folder: Path) -> bool:
     )
 
 
-def header_of(store: Typestore, ros_version: RosVersion, frame: str, stamp_s: float | None) -> Any:
-    """Return a std_msgs/Header, in ROS 1 with a sequence number."""
-    stamp = time_of(store, stamp_s)
-    header = store.types["std_msgs/msg/Header"]
-    return header(seq=0, stamp=stamp, frame_id=frame) if ros_version == 1 else header(stamp=stamp, frame_id=frame)
-
-
-def time_of(store: Typestore, stamp_s: float | None) -> Any:
-    """Return a builtin_interfaces/Time; zero without a stamp."""
-    seconds, nanoseconds = divmod(round((stamp_s or 0.0) * NANOSECONDS), NANOSECONDS)
-    return store.types["builtin_interfaces/msg/Time"](sec=seconds, nanosec=nanoseconds)
-
-
-def pose_of(store: Typestore, x_m: float, y_m: float, yaw_rad: float = 0.0) -> Any:
-    """Return a geometry_msgs/Pose in the plane."""
-    types, half = store.types, 0.5 * yaw_rad
-    return types["geometry_msgs/msg/Pose"](
-        position=types["geometry_msgs/msg/Point"](x=x_m, y=y_m, z=0.0),
-        orientation=types["geometry_msgs/msg/Quaternion"](x=0.0, y=0.0, z=math.sin(half), w=math.cos(half)),
-    )
-
-
 @contextlib.contextmanager
 def _scratch(parent: Path) -> Iterator[Path]:
     """Yield a temporary folder for the writers of bags, in the file system of the result."""
@@ -154,7 +175,7 @@ def _scratch(parent: Path) -> Iterator[Path]:
         yield Path(folder)
 
 
-def _in_order(channels: Sequence[Channel]) -> list[tuple[int, int, Message]]:
+def _in_order(channels: Sequence[Channel]) -> list[tuple[int, int, Any]]:
     """Return the time in nanoseconds, the channel and the message of all messages, in time order."""
     every = [
         (max(1, round((stamp_s or 0.0) * NANOSECONDS)), number, message)
@@ -162,31 +183,6 @@ def _in_order(channels: Sequence[Channel]) -> list[tuple[int, int, Message]]:
         for stamp_s, message in channel.messages
     ]
     return sorted(every, key=lambda timed: timed[:2])
-
-
-def _write_ros1(path: Path, channels: Sequence[Channel], store: Typestore) -> None:
-    from rosbags.rosbag1 import Writer
-
-    with Writer(path) as bag:
-        connections = [
-            bag.add_connection(c.topic, c.type_name, typestore=store, callerid="/bayesmap", latching=int(c.latched))
-            for c in channels
-        ]
-        for when, number, message in _in_order(channels):
-            bag.write(connections[number], when, store.serialize_ros1(message(store, 1), channels[number].type_name))
-
-
-def _write_ros2(path: Path, ending: str, channels: Sequence[Channel], store: Typestore) -> None:
-    from rosbags.rosbag2 import StoragePlugin, Writer
-
-    plugin = StoragePlugin.MCAP if ending == ".mcap" else StoragePlugin.SQLITE3
-    with Writer(path, version=ROS2_BAG_VERSION, storage_plugin=plugin) as bag:
-        connections = [
-            bag.add_connection(c.topic, c.type_name, typestore=store, offered_qos_profiles=[_quality(c.latched)])
-            for c in channels
-        ]
-        for when, number, message in _in_order(channels):
-            bag.write(connections[number], when, store.serialize_cdr(message(store, 2), channels[number].type_name))
 
 
 def _quality(latched: bool) -> Qos:
@@ -214,17 +210,14 @@ def write_occupancy_grid(
     """
     from bayesmap.io.ros.maps import in_percent
 
-    cells = in_percent(occupancy, grid, observed, **thresholds)
-
-    def message(store: Typestore, ros_version: RosVersion) -> Any:
-        info = store.types["nav_msgs/msg/MapMetaData"](
-            map_load_time=time_of(store, stamp_s), resolution=grid.resolution, width=grid.shape[0],
-            height=grid.shape[1], origin=pose_of(store, *grid.origin),
-        )  # fmt: skip
-        data = np.ascontiguousarray(cells.T).ravel()
-        return store.types[OCCUPANCY_GRID](header=header_of(store, ros_version, FRAME, stamp_s), info=info, data=data)
-
-    return write_channels(path, [Channel("/map", OCCUPANCY_GRID, [(stamp_s, message)])])
+    cells, ros = in_percent(occupancy, grid, observed, **thresholds), Recorder(path)
+    info = ros.make(
+        "nav_msgs/msg/MapMetaData", map_load_time=ros.time(stamp_s), resolution=grid.resolution, width=grid.shape[0],
+        height=grid.shape[1], origin=ros.pose(*grid.origin),
+    )  # fmt: skip
+    data = np.ascontiguousarray(cells.T).ravel()
+    message = ros.make(OCCUPANCY_GRID, header=ros.header(FRAME, stamp_s), info=info, data=data)
+    return ros.write(Channel("/map", OCCUPANCY_GRID, [(stamp_s, message)]))
 
 
 def write_grid_map(
@@ -237,35 +230,32 @@ def write_grid_map(
 
     Raises `BadInput` for layers that do not fit, another ending, or a file that cannot be written.
     """
-    checked = as_layers(grid, layers, observed)
+    checked, ros = as_layers(grid, layers, observed), Recorder(path)
     length_m = np.array(grid.shape) * grid.resolution
     x_m, y_m = (float(v) for v in np.array(grid.origin) + length_m / 2)
-
-    def message(store: Typestore, ros_version: RosVersion) -> Any:
-        # In ROS 1 the header belongs to the info, in ROS 2 to the map.
-        header = {"header": header_of(store, ros_version, FRAME, stamp_s)}
-        info = store.types[GRID_MAP_INFO](
-            **(header if ros_version == 1 else {}), resolution=grid.resolution, length_x=float(length_m[0]),
-            length_y=float(length_m[1]), pose=pose_of(store, x_m, y_m),
-        )  # fmt: skip
-        return store.types[GRID_MAP](
-            **({} if ros_version == 1 else header), info=info, layers=list(checked), basic_layers=list(checked)[:1],
-            data=[_matrix(store, values) for values in checked.values()], outer_start_index=0, inner_start_index=0,
-        )  # fmt: skip
-
-    return write_channels(path, [Channel("/grid_map", GRID_MAP, [(stamp_s, message)])])
+    # In ROS 1 the header belongs to the info, in ROS 2 to the map.
+    header = {"header": ros.header(FRAME, stamp_s)}
+    info = ros.make(
+        GRID_MAP_INFO, **(header if ros.is_ros1 else {}), resolution=grid.resolution, length_x=float(length_m[0]),
+        length_y=float(length_m[1]), pose=ros.pose(x_m, y_m),
+    )  # fmt: skip
+    message = ros.make(
+        GRID_MAP, **({} if ros.is_ros1 else header), info=info, layers=list(checked), basic_layers=list(checked)[:1],
+        data=[_matrix(ros, values) for values in checked.values()], outer_start_index=0, inner_start_index=0,
+    )  # fmt: skip
+    return ros.write(Channel("/grid_map", GRID_MAP, [(stamp_s, message)]))
 
 
-def _matrix(store: Typestore, values: NDArray[np.float32]) -> Any:
+def _matrix(ros: Recorder, values: NDArray[np.float32]) -> Any:
     """Return a layer in Eigen's order, with the labels of grid_map."""
     rows, columns = values.shape
-    dimension = store.types["std_msgs/msg/MultiArrayDimension"]
+    sizes = (("column_index", columns, rows * columns), ("row_index", rows, rows))
     dimensions = [
-        dimension(label="column_index", size=columns, stride=rows * columns),
-        dimension(label="row_index", size=rows, stride=rows),
+        ros.make("std_msgs/msg/MultiArrayDimension", label=label, size=size, stride=stride)
+        for label, size, stride in sizes
     ]
-    layout = store.types["std_msgs/msg/MultiArrayLayout"](dim=dimensions, data_offset=0)
-    return store.types["std_msgs/msg/Float32MultiArray"](layout=layout, data=values[::-1, ::-1].ravel(order="F"))
+    layout = ros.make("std_msgs/msg/MultiArrayLayout", dim=dimensions, data_offset=0)
+    return ros.make("std_msgs/msg/Float32MultiArray", layout=layout, data=values[::-1, ::-1].ravel(order="F"))
 
 
 def write_trajectory_recording(path: str | os.PathLike[str], trajectory: Trajectory, *, frame: str = FRAME) -> Path:
@@ -277,30 +267,24 @@ def write_trajectory_recording(path: str | os.PathLike[str], trajectory: Traject
     """
     if len(trajectory) == 0:
         raise BadInput("trajectory: there is no pose to write")
-    stamps = trajectory.stamps_s
-    stamps = np.arange(len(trajectory), dtype=np.float64) if stamps is None else stamps
-    poses, times = trajectory.poses.tolist(), [float(stamp) for stamp in stamps]
-
-    def path_message(store: Typestore, ros_version: RosVersion) -> Any:
-        stamped = store.types["geometry_msgs/msg/PoseStamped"]
-        listed = [
-            stamped(header=header_of(store, ros_version, frame, stamp), pose=pose_of(store, *pose))
-            for pose, stamp in zip(poses, times, strict=True)
-        ]
-        return store.types[PATH](header=header_of(store, ros_version, frame, times[-1]), poses=listed)
-
-    def pose_message(at: int, store: Typestore, ros_version: RosVersion) -> Any:
-        covariance = np.zeros((6, 6))
-        covariance[np.ix_(IN_PLANE, IN_PLANE)] = trajectory.covariances[at]  # type: ignore[index]
-        posed = store.types["geometry_msgs/msg/PoseWithCovariance"]
-        pose = posed(pose=pose_of(store, *poses[at]), covariance=covariance.ravel())
-        return store.types[POSE](header=header_of(store, ros_version, frame, times[at]), pose=pose)
-
-    channels = [Channel("/trajectory", PATH, [(times[-1], path_message)])]
+    ros = Recorder(path)
+    stamps = np.arange(len(trajectory)) if trajectory.stamps_s is None else trajectory.stamps_s
+    times, poses = [float(stamp) for stamp in stamps], [ros.pose(*pose) for pose in trajectory.poses.tolist()]
+    listed = [
+        ros.make("geometry_msgs/msg/PoseStamped", header=ros.header(frame, stamp), pose=pose)
+        for pose, stamp in zip(poses, times, strict=True)
+    ]
+    line = ros.make(PATH, header=ros.header(frame, times[-1]), poses=listed)
+    channels = [Channel("/trajectory", PATH, [(times[-1], line)])]
     if trajectory.covariances is not None:
-        messages = [(stamp, partial(pose_message, i)) for i, stamp in enumerate(times)]
+        six = np.zeros((len(poses), 6, 6))
+        six[:, IN_PLANE[:, None], IN_PLANE] = trajectory.covariances
+        messages = []
+        for pose, stamp, covariance in zip(poses, times, six, strict=True):
+            posed = ros.make("geometry_msgs/msg/PoseWithCovariance", pose=pose, covariance=covariance.ravel())
+            messages.append((stamp, ros.make(POSE, header=ros.header(frame, stamp), pose=posed)))
         channels.append(Channel("/pose", POSE, messages, latched=False))
-    return write_channels(path, channels)
+    return ros.write(*channels)
 
 
 def write_scans(path: str | os.PathLike[str], scans: Scans, base: ArrayLike, mount: Sequence[float]) -> Path:
@@ -316,32 +300,19 @@ def write_scans(path: str | os.PathLike[str], scans: Scans, base: ArrayLike, mou
     """
     if scans.stamps_s is None or scans.own_angles_rad is not None:
         raise BadInput("recording: scans need stamps and one fan of beams")
-    angles, stamps = scans.angles_rad, scans.stamps_s.tolist()
-
-    def transform(
-        stamp_s: float, frames: tuple[str, str], pose: Sequence[float], store: Typestore, ros_version: RosVersion
-    ) -> Any:
-        types, posed = store.types, pose_of(store, *pose)
-        shift = types["geometry_msgs/msg/Vector3"](*(float(v) for v in (*pose[:2], 0.0)))
-        moved = types["geometry_msgs/msg/Transform"](translation=shift, rotation=posed.orientation)
-        stamped = types["geometry_msgs/msg/TransformStamped"]
-        header = header_of(store, ros_version, frames[0], stamp_s)
-        return types[TRANSFORMS](transforms=[stamped(header=header, child_frame_id=frames[1], transform=moved)])
-
-    def scan(at: int, store: Typestore, ros_version: RosVersion) -> Any:
-        return store.types[SCAN](
-            header=header_of(store, ros_version, "laser", stamps[at]), angle_min=float(angles[0]),
-            angle_max=float(angles[-1]),
-            angle_increment=float(angles[1] - angles[0]), time_increment=0.0, scan_time=0.0,
-            range_min=float(scans.min_range_m), range_max=float(scans.max_range_m),
-            ranges=scans.ranges_m[at].astype(np.float32), intensities=np.zeros(0, np.float32),
-        )  # fmt: skip
-
-    poses = np.asarray(base, dtype=np.float64).tolist()
-    moving = [(s, partial(transform, s, ("odom", "base_link"), p)) for s, p in zip(stamps, poses, strict=True)]
-    channels = [
-        Channel("/tf_static", TRANSFORMS, [(stamps[0], partial(transform, stamps[0], ("base_link", "laser"), mount))]),
-        Channel("/tf", TRANSFORMS, moving, latched=False),
-        Channel("/scan", SCAN, [(stamp, partial(scan, i)) for i, stamp in enumerate(stamps)], latched=False),
+    ros, angles, stamps = Recorder(path), scans.angles_rad, scans.stamps_s.tolist()
+    limits = {"range_min": float(scans.min_range_m), "range_max": float(scans.max_range_m)}
+    first, last, step = float(angles[0]), float(angles[-1]), float(angles[1] - angles[0])
+    beams = {"angle_min": first, "angle_max": last, "angle_increment": step, "time_increment": 0.0, "scan_time": 0.0}
+    rest = {**beams, **limits, "intensities": np.zeros(0, np.float32)}
+    readings = [
+        ros.make(SCAN, header=ros.header("laser", stamp), ranges=ranges.astype(np.float32), **rest)
+        for ranges, stamp in zip(scans.ranges_m, stamps, strict=True)
     ]
-    return write_channels(path, channels)
+    poses = np.asarray(base, dtype=np.float64).tolist()
+    moving = [(s, ros.transform(s, ("odom", "base_link"), pose)) for s, pose in zip(stamps, poses, strict=True)]
+    return ros.write(
+        Channel("/tf_static", TRANSFORMS, [(stamps[0], ros.transform(stamps[0], ("base_link", "laser"), mount))]),
+        Channel("/tf", TRANSFORMS, moving, latched=False),
+        Channel("/scan", SCAN, list(zip(stamps, readings, strict=True)), latched=False),
+    )

@@ -94,7 +94,6 @@ def file_chunks(path: str | os.PathLike[str], place: Callable[[], str] = str) ->
 
 
 def _chunks(file: BinaryIO) -> Iterator[bytes]:
-    """Yield the file's content in pieces of bounded size, decompressed."""
     data = file.read(CHUNK_BYTES)
     if not data.startswith(GZIP_MAGIC):
         while data:

@@ -361,7 +361,6 @@ def read_rawlog(path: str | os.PathLike[str], options: LogOptions) -> LogReading
 
 
 def _content(account: Account) -> bytes:
-    """Return the decompressed content, as far as it can be read."""
     pieces: list[bytes] = []
     try:
         pieces.extend(file_chunks(account.name))
