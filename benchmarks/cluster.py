@@ -17,7 +17,7 @@ import numpy as np
 
 import bayesmap as bm
 from bayesmap.kernels.device import available_cores
-from bayesmap.run import ray_executor, ray_worker
+from bayesmap.run import ray_executor
 
 CHAINS, REPEATS = 4, 3
 
@@ -73,7 +73,7 @@ class Spy:
 
         def spied_remote(run: Any, function: Any, **options: Any) -> Any:
             submit = remote(run, function, **options)
-            if function is not ray_worker.observed_counts:
+            if function is not ray_executor.observed_counts:
                 return submit
 
             def spied(*given: Any) -> Any:

@@ -15,8 +15,7 @@ from pathlib import Path
 import numpy as np
 
 import bayesmap as bm
-from bayesmap.posterior.decisions import next_views, typical_sigma_m
-from bayesmap.posterior.information import beam_information
+from bayesmap.posterior.decisions import beam_information, next_views, typical_sigma_m
 from bayesmap.posterior.route import centres_world, distance_to_path_m, square_to_path_m
 
 LOG = Path(os.environ.get("BAYESMAP_DATA", "../shared/data")) / "intel-corrected.log.gz"

@@ -20,7 +20,7 @@ from bayesmap.localization.known_map import KnownMap
 from bayesmap.poses.key_graph import poses_between_keys
 from bayesmap.poses.slam import infer_trajectory
 from bayesmap.poses.trajectory import Trajectory
-from bayesmap.posterior.predictor import predictor_of
+from bayesmap.posterior.prediction import predictor_of
 from bayesmap.posterior.scores import beam_log_scores
 from bayesmap.posterior.trajectory_scores import relation_errors
 from bayesmap.space.grid import Grid

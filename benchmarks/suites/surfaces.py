@@ -14,7 +14,7 @@ import numpy as np
 import bayesmap as bm
 from bayesmap.posterior.baselines import BASELINES, fit_baseline
 from bayesmap.posterior.posterior import Posterior
-from bayesmap.posterior.predictor import predictor_of
+from bayesmap.posterior.prediction import predictor_of
 from bayesmap.posterior.scores import score_prediction
 from bayesmap.result import load
 from bayesmap.samplers.fit import first_sensor, fit

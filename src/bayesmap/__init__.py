@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from bayesmap.localization.known_map import KnownMap as KnownMap
     from bayesmap.localization.localize import InitialPose as InitialPose, localize as localize
     from bayesmap.poses.prior import KnownPoses as KnownPoses, Odometry as Odometry, UncertainPoses as UncertainPoses
-    from bayesmap.posterior.information import InformationGain as InformationGain
+    from bayesmap.posterior.decisions import InformationGain as InformationGain
     from bayesmap.posterior.route import FreeProbability as FreeProbability, Route as Route
     from bayesmap.posterior.scores import compare_scores as compare_scores
     from bayesmap.programs.mapping import mapping_model as mapping_model
@@ -52,7 +52,7 @@ _NAMES = {
     "cells.surface": ("Surface",), "errors": ("BadInput",), "io.logs": ("read_log",),
     "io.text.trajectories": ("read_trajectory",), "localization.known_map": ("KnownMap",),
     "localization.localize": ("InitialPose", "localize"), "poses.prior": ("KnownPoses", "Odometry", "UncertainPoses"),
-    "posterior.information": ("InformationGain",), "posterior.route": ("FreeProbability", "Route"),
+    "posterior.decisions": ("InformationGain",), "posterior.route": ("FreeProbability", "Route"),
     "posterior.scores": ("compare_scores",),
     "programs.mapping": ("mapping_model",), "result": ("Run", "load", "score"), "run.ray_executor": ("RayExecutor",),
     "samplers.methods": ("Block", "Exact", "Gibbs", "Importance", "Propagate"),

@@ -25,8 +25,7 @@ from bayesmap.poses.map_scans import SAMPLED, for_map, key_scans, keys_by_odomet
 from bayesmap.poses.prior import KnownPoses, PosePrior, UncertainPoses
 from bayesmap.posterior.posterior import Posterior, chains_of, posterior_of_chains, posterior_of_draws
 from bayesmap.result import Run
-from bayesmap.run.chains import FIRST_MARK, Chains, SweepPlan
-from bayesmap.run.checks import RANDOM_STREAMS, check_same, fingerprint
+from bayesmap.run.chains import FIRST_MARK, RANDOM_STREAMS, Chains, SweepPlan, check_same, fingerprint
 from bayesmap.run.cost import TOUCHED_SHARE, Estimate, Sampling, estimate, size_of
 from bayesmap.run.runner import Job, ThreadExecutor, first_map, stop_on_interrupt
 from bayesmap.samplers.fit import PILOT_SWEEPS, Parameters, first_sensor, fit, fit_coupling_to_scans, fit_sensor

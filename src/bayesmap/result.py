@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput, near_names
 from bayesmap.posterior.posterior import Posterior, entropy_bits
-from bayesmap.posterior.predictor import CENTRAL_80, PREDICTED_DRAWS, predictor_of
+from bayesmap.posterior.prediction import CENTRAL_80, PREDICTED_DRAWS, predictor_of
 from bayesmap.posterior.scores import Score, beam_log_scores, score_prediction
 from bayesmap.posterior.summary import Summary, rhat, summarise
 from bayesmap.sensors.model import SensorModel
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
     from bayesmap.cells.kind import CellPrior
     from bayesmap.poses.trajectory import Trajectory
-    from bayesmap.posterior.information import InformationGain
+    from bayesmap.posterior.decisions import InformationGain
     from bayesmap.posterior.prediction import Prediction
     from bayesmap.posterior.route import FreeProbability, Route
     from bayesmap.posterior.summary import PoseSummary
@@ -301,7 +301,7 @@ class Run:
         Raises:
             BadInput: xarray is not installed; with ``by_reading``, no draws or an unknown sensor model.
         """
-        from bayesmap.posterior.dataset import dataset_of
+        from bayesmap.posterior.posterior import dataset_of
 
         return dataset_of(self.posterior, by_reading)
 

@@ -12,7 +12,7 @@ from bayesmap.app.answers.predictions import FEW_DRAWS, nearest_scan
 from bayesmap.app.edits import tutorial_document
 from bayesmap.app.exports import record
 from bayesmap.app.protocol.actions import CompareBeam, MoveGhost, ShowScan
-from bayesmap.posterior.predictor import ScanPredictor, predictor_of
+from bayesmap.posterior.prediction import ScanPredictor, predictor_of
 from bayesmap.sensors.model import RangeLimits
 from bayesmap.space.scans import side_by_side
 

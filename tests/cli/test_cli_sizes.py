@@ -3,7 +3,7 @@
 from shell import call, json_of, refusal_of, succeed
 
 from bayesmap.cli.console import Console
-from bayesmap.cli.sizes import foretell, of_suggestion
+from bayesmap.cli.pipeline import announce, cost_of_suggestion
 from bayesmap.io.logs import read_log
 from bayesmap.run import cost
 
@@ -15,7 +15,7 @@ def test_a_long_run_is_announced_with_a_shorter_one(capsys):
         (119.0, ""),
         (130.0, "this takes about 5.0 to 65 s on 2 cores, and 1.0 to 2.0 of 25 GB of memory"),
     ):
-        foretell(Console(), cost.Estimate((1e9, 2e9), (10.0, most_s), 2, 25 * 10**9, "--seconds 60"))
+        announce(Console(), cost.Estimate((1e9, 2e9), (10.0, most_s), 2, 25 * 10**9, "--seconds 60"))
         assert capsys.readouterr().err == (f"{said}; less with --seconds 60\n" if said else "")
 
 
@@ -43,6 +43,6 @@ def test_info_gives_the_cost_of_its_command_and_an_option_if_it_cannot_fit(offic
 
 def test_the_cost_of_slam_has_the_trajectory_too(raw_log):
     scans = read_log(raw_log)
-    slam, infer = (of_suggestion(f"bayesmap {command} log", scans)["seconds"] for command in ("slam", "infer"))
+    slam, infer = (cost_of_suggestion(f"bayesmap {command} log", scans)["seconds"] for command in ("slam", "infer"))
     assert slam[0] > infer[0]
-    assert of_suggestion(None, scans) is None
+    assert cost_of_suggestion(None, scans) is None

@@ -13,7 +13,7 @@ from oracle.verdict import ALPHA
 import bayesmap as bm
 from bayesmap.kernels.rays import trace_rays
 from bayesmap.posterior import scores
-from bayesmap.posterior.predictor import Predictor, fixed_maps
+from bayesmap.posterior.prediction import Predictor, fixed_maps
 from bayesmap.sensors.model import RangeLimits
 
 GRID = bm.Grid((20, 16), 0.25)

@@ -6,7 +6,7 @@ from oracle.stop_law import cross_surface
 
 import bayesmap as bm
 from bayesmap.errors import BadInput
-from bayesmap.posterior.predictor import CENTRAL_80, Predictor, ScanPredictor, fixed_maps
+from bayesmap.posterior.prediction import CENTRAL_80, Predictor, ScanPredictor, fixed_maps
 from bayesmap.sensors.model import RangeLimits
 
 GRID = bm.Grid((12, 9), 0.5, (-1.0, 2.0))

@@ -9,7 +9,7 @@ from bayesmap.cells.arrays import Draws, pack
 from bayesmap.cells.binary import Independent
 from bayesmap.errors import BadInput
 from bayesmap.posterior.posterior import Posterior
-from bayesmap.posterior.predictor import compare, parts, predictor_of, residuals_of, surface_offset, watched
+from bayesmap.posterior.prediction import compare, parts, predictor_of, residuals_of, surface_offset, watched
 from bayesmap.posterior.scores import beam_log_scores
 from bayesmap.samplers.sampler import Snapshot
 from bayesmap.sensors.builtin import BeamMixture, Gaussian

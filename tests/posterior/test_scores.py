@@ -15,7 +15,7 @@ from oracle.worlds import make_case
 import bayesmap as bm
 from bayesmap.cells import binary
 from bayesmap.posterior.posterior import entropy_bits
-from bayesmap.posterior.predictor import Predictor, fixed_maps, predictor_of
+from bayesmap.posterior.prediction import Predictor, fixed_maps, predictor_of
 from bayesmap.posterior.scores import beam_log_scores, score_prediction
 from bayesmap.sensors.model import RangeLimits
 

@@ -10,7 +10,7 @@ from samplers.stop_rooms import surfaces_of
 
 import bayesmap as bm
 from bayesmap.cells.reflectivity import quantiles_of_halves
-from bayesmap.posterior.predictor import predictor_of
+from bayesmap.posterior.prediction import predictor_of
 from bayesmap.posterior.scores import beam_log_scores
 
 GRID = bm.Grid((4, 3), 0.5, (-1.0, 2.0))

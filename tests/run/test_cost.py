@@ -7,7 +7,7 @@ import pytest
 
 import bayesmap as bm
 from bayesmap.api import Inference, estimate_slam
-from bayesmap.run import checks, cost
+from bayesmap.run import cost
 from bayesmap.run.chains import SweepPlan
 from bayesmap.run.cost import Sampling, Size, size_of
 
@@ -166,8 +166,8 @@ def test_containers_may_take_less_than_the_machine_has(monkeypatch, tmp_path):
     limit, none = tmp_path / "limit", tmp_path / "none"
     limit.write_text("12345\n")
     none.write_text("max\n")
-    assert checks.memory_bytes() is None or checks.memory_bytes() > 1 << 28
-    monkeypatch.setattr(checks, "GROUP_LIMITS", (str(none), str(tmp_path / "missing")))
-    assert checks.memory_bytes() != 12345
-    monkeypatch.setattr(checks, "GROUP_LIMITS", (str(none), str(limit)))
-    assert checks.memory_bytes() == 12345
+    assert cost.memory_bytes() is None or cost.memory_bytes() > 1 << 28
+    monkeypatch.setattr(cost, "GROUP_LIMITS", (str(none), str(tmp_path / "missing")))
+    assert cost.memory_bytes() != 12345
+    monkeypatch.setattr(cost, "GROUP_LIMITS", (str(none), str(limit)))
+    assert cost.memory_bytes() == 12345

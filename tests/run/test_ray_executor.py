@@ -14,7 +14,7 @@ from tiers import full_but
 import bayesmap as bm
 from bayesmap.model import Model
 from bayesmap.poses.prior import UncertainPoses
-from bayesmap.run import ray_executor, ray_worker
+from bayesmap.run import ray_executor
 from bayesmap.run.chains import SweepPlan
 from bayesmap.run.runner import Job, ThreadExecutor
 from bayesmap.samplers.progress import Watch
@@ -195,7 +195,7 @@ def test_a_checkpoint_does_not_send_all_draws_back(cluster, scans, kind, monkeyp
 
     def spied(self, function, **options):
         submit = remote(self, function, **options)
-        if function is not ray_worker.observed_counts:
+        if function is not ray_executor.observed_counts:
             return submit
         return lambda *given: (sent.append(given[-1]), submit(*given))[1]
 

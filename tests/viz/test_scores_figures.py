@@ -10,7 +10,7 @@ from viz_case import GRID, observed, occupancy, panel
 import bayesmap as bm
 from bayesmap import viz
 from bayesmap.errors import BadInput
-from bayesmap.posterior.predictor import Predictor, fixed_maps
+from bayesmap.posterior.prediction import Predictor, fixed_maps
 from bayesmap.posterior.scores import score_prediction
 from bayesmap.viz.diagnostics import effective_sample_size, normalized
 from bayesmap.viz.scores import MAX_POINTS, calibration_figure

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from bayesmap.errors import BadInput
 from bayesmap.space.grid import Grid
 from bayesmap.viz import trajectory as figures
-from bayesmap.viz.decisions import draw_route, route_figure, views_figure
+from bayesmap.viz.overlays import draw_route, route_figure, views_figure
 
 GRID = Grid((20, 12), 0.5, (-2.0, 1.0))
 POSES = np.column_stack([np.linspace(0.5, 3.5, 20), np.linspace(1.0, 2.0, 20), np.zeros(20)])

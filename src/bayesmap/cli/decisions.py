@@ -45,8 +45,8 @@ def plan(call: Call[PlanSettings], run_file: str, start: str, goal: str, output:
 
     with share(call.console, "looking at draws of the map") as report:
         route = shortest_safe_path(run.posterior, ends[0], ends[1], settings.radius, settings.risk, report)
-    from bayesmap.viz.decisions import route_figure
     from bayesmap.viz.figure import write_figure
+    from bayesmap.viz.overlays import route_figure
 
     picture = route_figure(
         run.grid, run.occupancy, run.observed, route.path, settings.radius,
@@ -148,8 +148,8 @@ def explore(call: Call[ExploreSettings], run_file: str, output: str | None, forc
             run.posterior, settings.candidates, settings.views, settings.radius,
             draws=settings.draws, seed=settings.seed, on_progress=report,
         )  # fmt: skip
-    from bayesmap.viz.decisions import views_figure
     from bayesmap.viz.figure import write_figure
+    from bayesmap.viz.overlays import views_figure
 
     picture = views_figure(
         run.grid, run.occupancy, run.observed, found.candidates, found.independent, found.best,

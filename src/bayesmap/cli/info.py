@@ -13,7 +13,7 @@ import msgspec
 from bayesmap.cli.command import Call, as_toml, command
 from bayesmap.cli.console import BAD_INPUT, counted, write_out
 from bayesmap.cli.keys import Settings, Value
-from bayesmap.cli.sizes import of_suggestion
+from bayesmap.cli.pipeline import cost_of_suggestion
 from bayesmap.cli.translation import LOG, need_file
 from bayesmap.errors import BadInput
 from bayesmap.version import __version__
@@ -89,7 +89,7 @@ def _log(file: str) -> dict[str, Any]:
     start, end = contents.start_s, contents.end_s
     duration = None if start is None or end is None else round(end - start, 3)
     told = {field.name: getattr(contents, field.name) for field in fields(contents) if field.name != "scans"}
-    estimate = of_suggestion(contents.suggestion, contents.scans)
+    estimate = cost_of_suggestion(contents.suggestion, contents.scans)
     if estimate is not None and not estimate["fits"] and estimate["remedy"]:
         told["suggestion"] += f" {estimate['remedy']}"
     more = {"duration_s": duration, "notes": list(contents.notes), "estimate": estimate}

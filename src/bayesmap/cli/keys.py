@@ -324,18 +324,10 @@ class ExploreSettings(Settings, kw_only=True, frozen=True):
 
 
 SECTIONS: Mapping[str, type[Settings]] = {
-    "infer": InferSettings,
-    "slam": SlamSettings,
-    "simulate": SimulateSettings,
-    "demo": DemoSettings,
-    "render": RenderSettings,
-    "export": ExportSettings,
-    "score": ScoreSettings,
-    "localize": LocalizeSettings,
-    "app": AppSettings,
-    "plan": PlanSettings,
-    "explore": ExploreSettings,
-}
+    "infer": InferSettings, "slam": SlamSettings, "simulate": SimulateSettings, "demo": DemoSettings,
+    "render": RenderSettings, "export": ExportSettings, "score": ScoreSettings, "localize": LocalizeSettings,
+    "app": AppSettings, "plan": PlanSettings, "explore": ExploreSettings,
+}  # fmt: skip
 """The tables of a configuration file: one per command."""
 
 
@@ -398,9 +390,9 @@ def _key(name: str, annotation: Any, default: Value) -> Key:
     look(annotation)
     choices = tuple(word for part in types if get_origin(part) is Literal for word in get_args(part))
     kind = next((part for part in types if isinstance(part, type)), str)
-    said = next(one for one in beside if isinstance(one, Help))
-    rule = next((one for one in beside if isinstance(one, Rule)), None)
-    return Key(name, annotation, kind, choices, default, said, rule)
+    described = next(part for part in beside if isinstance(part, Help))
+    rule = next((part for part in beside if isinstance(part, Rule)), None)
+    return Key(name, annotation, kind, choices, default, described, rule)
 
 
 def checked(key: Key, value: Any) -> Value:

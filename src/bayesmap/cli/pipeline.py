@@ -1,4 +1,4 @@
-"""Infer one log into the folder of its run: read, split, load an earlier run, sample, finish, report."""
+"""Infer one log into the folder of its run: read, split, load an earlier run, sample, finish, report; and its cost."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 import click
 
-from bayesmap.cli import sizes, translation
+from bayesmap.cli import translation
 from bayesmap.cli.command import Call, Layer, as_toml, read_file
 from bayesmap.cli.console import INTERRUPTED, PROBLEMS, SETTING_UP, Console, counted, progress, stage
 from bayesmap.cli.folder import Folder
-from bayesmap.cli.keys import InferSettings, SamplingSettings
+from bayesmap.cli.keys import InferSettings, SamplingSettings, SlamSettings
 from bayesmap.cli.translation import LOG, need_file
 from bayesmap.errors import BadInput
 
@@ -24,8 +24,67 @@ if TYPE_CHECKING:
     from bayesmap.api import Event
     from bayesmap.io.log_reading import LogReading
     from bayesmap.result import Run
+    from bayesmap.run.cost import Estimate
     from bayesmap.run.runner import Executor
+    from bayesmap.space.grid import Grid
     from bayesmap.space.scans import Scans
+
+
+def cost_of_infer(
+    settings: InferSettings, scans: Scans, grid: Grid | None = None, executor: Executor | None = None
+) -> Estimate | None:
+    """Estimate the cost of `infer`; None if it is not known."""
+    from bayesmap.api import Inference
+    from bayesmap.arguments import Where
+    from bayesmap.space.grid import Grid
+
+    grid = Grid.covering(scans, settings.resolution) if grid is None else grid
+    inference = Inference.of(
+        scans, grid, translation.prior_of(settings), translation.sensor_for(settings, grid.resolution),
+        translation.method_of(settings), translation.schedule_of(settings), settings.seed, None,
+        settings.hit_depth or 0.0, Where(settings.threads, settings.device, executor),
+    )  # fmt: skip
+    return inference.estimate()
+
+
+def cost_of_slam(settings: SlamSettings, scans: Scans) -> Estimate | None:
+    """Estimate the cost of `slam` from the poses of the log; None if it is not known."""
+    from bayesmap.api import estimate_slam
+    from bayesmap.arguments import Where
+
+    return estimate_slam(
+        scans, settings.resolution, translation.prior_of(settings),
+        translation.sensor_for(settings, settings.resolution),
+        True if settings.fast else False if settings.sample_poses else None, settings.no_odometry,
+        translation.schedule_of(settings), Where(settings.threads, settings.device),
+    )  # fmt: skip
+
+
+def announce(console: Console, estimate: Estimate | None) -> None:
+    """Print the estimate if the run is long or large."""
+    if estimate is not None and (estimate.is_long or estimate.is_large):
+        console.say(f"this takes {estimate.words()}")
+
+
+def cost_of_suggestion(suggestion: str | None, scans: Scans | None) -> dict[str, Any] | None:
+    """Return the cost of a suggested command as JSON values; None if it is not known."""
+    from bayesmap.errors import BadInput
+
+    if suggestion is None or scans is None:
+        return None
+    slam, without = suggestion.startswith("bayesmap slam"), "--no-odometry" in suggestion.split()
+    try:
+        cost = cost_of_slam(SlamSettings(no_odometry=without), scans) if slam else cost_of_infer(InferSettings(), scans)
+    except BadInput:  # the command itself says why
+        return None
+    if cost is None:
+        return None
+    return {
+        "seconds": cost.seconds, "cores": cost.cores, "memory_bytes": cost.memory,
+        "available_bytes": cost.available, "fits": not cost.is_too_large, "remedy": cost.remedy or None,
+        "words": cost.words(),
+    }  # fmt: skip
+
 
 S = TypeVar("S", bound=SamplingSettings)
 
@@ -187,7 +246,7 @@ def sample(
     settings = translation.with_schedule(settings, train.n_beams, grid.n_cells)
     toml = as_toml({"infer": settings})
     if saved is None:
-        sizes.foretell(folder.console, sizes.of_infer(settings, train, grid, executor))
+        announce(folder.console, cost_of_infer(settings, train, grid, executor))
     with progress(folder.console, "tracing beams") as show:
 
         def on_progress(event: Event) -> None:

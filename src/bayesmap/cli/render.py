@@ -144,14 +144,14 @@ def _beams_figure(
     run: Run, scans: Scans, what: str, grid: Grid, window: tuple[slice, slice], on_progress: Callable[[float], None]
 ) -> Figure:
     """Draw the end points of held-out beams over the map, coloured by residual in metres or by surprise in nats."""
-    from bayesmap.posterior.predictor import predictor_of, residuals_of
+    from bayesmap.posterior.prediction import predictor_of, residuals_of
     from bayesmap.viz.scores import residuals_figure, surprise_scale
 
-    found = residuals_of(predictor_of(run.posterior), scans, on_progress=on_progress)
-    values = found.residual_m if what == "residuals" else found.surprise_nats
+    residuals = residuals_of(predictor_of(run.posterior), scans, on_progress=on_progress)
+    values = residuals.residual_m if what == "residuals" else residuals.surprise_nats
     scale = surprise_scale(values) if what == "surprise" else None
     mean, observed = run.occupancy[window], run.observed[window]
-    return residuals_figure(grid, mean, found.ends_world, values, observed, scale=scale)
+    return residuals_figure(grid, mean, residuals.ends_world, values, observed, scale=scale)
 
 
 def one_draw(run: Run, chain: int, draw: int) -> Draw:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from bayesmap.cli import pipeline, sizes, translation
+from bayesmap.cli import pipeline, translation
 from bayesmap.cli.command import Call, as_toml, command
 from bayesmap.cli.console import Console, progress
 from bayesmap.cli.folder import Folder
@@ -70,8 +70,8 @@ def slam(call: Call[SlamSettings], log: str, output: str | None, resume: bool, f
     # Load the run to resume.
     saved = pipeline.load_interrupted(task.folder) if task.folder.resuming else None
     if not task.folder.resuming:
-        estimate = sizes.of_slam(task.settings, reading.scans)
-        sizes.foretell(call.console, estimate)
+        estimate = pipeline.cost_of_slam(task.settings, reading.scans)
+        pipeline.announce(call.console, estimate)
         if estimate is not None and not task.settings.any_size:
             estimate.refuse(reading.scans)
     if force:

@@ -11,7 +11,7 @@ import os
 from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from bayesmap.cells.kind import CellPrior
     from bayesmap.io.text.g2o import Edges
     from bayesmap.poses.trajectory import Trajectory as Approximation
+    from bayesmap.result import Run
 
 RECORDINGS = tuple(ending for ending in ENDINGS if ending != FOLDER)
 FORMATS = {
@@ -41,22 +42,6 @@ TRAJECTORIES = ("tum", "trajectory", "g2o")
 APPROXIMATION = "the Student-t approximation of all scans' poses"
 THRESHOLDED = ("map-server", "occupancy-grid")  # formats in per cent, which take a mode and thresholds
 INTERVAL = 0.9  # probability of the interval from the layer lower to upper
-
-
-class Mapped(Protocol):
-    """The attributes of a run that an export reads; a run with intervals also has ``interval(level)``.
-
-    Posterior mean, entropy and the mask of observed cells are arrays of shape (nx, ny). Intervals are (lower, upper).
-    """
-
-    @property
-    def grid(self) -> Grid: ...  # noqa: D102
-    @property
-    def occupancy(self) -> NDArray[np.float64]: ...  # noqa: D102
-    @property
-    def entropy(self) -> NDArray[np.float64]: ...  # noqa: D102
-    @property
-    def observed(self) -> NDArray[np.bool_]: ...  # noqa: D102
 
 
 def export_format(path: str | os.PathLike[str], format: str | None = None) -> str:
@@ -87,21 +72,21 @@ def existing(path: str | os.PathLike[str], format: str | None = None) -> Path | 
     Raises `BadInput` for an unknown ending or format.
     """
     target = Path(path)
-    chosen, beside = export_format(path, format), [target]
+    chosen, paths = export_format(path, format), [target]
     if chosen == "map-server":
-        beside += [target.with_suffix(ending) for ending in (".pgm", ".png")]
+        paths += [target.with_suffix(ending) for ending in (".pgm", ".png")]
     elif chosen == "tum":
         from bayesmap.io.text.trajectories import covariances_path
 
-        beside.append(covariances_path(target))
-    places = [place for place in beside if os.path.lexists(place)]
+        paths.append(covariances_path(target))
+    older = [path for path in paths if os.path.lexists(path)]
     # Nothing can be lost in an empty folder.
-    if places == [target] and target.is_dir() and not any(target.iterdir()):
+    if older == [target] and target.is_dir() and not any(target.iterdir()):
         return None
-    return places[0] if places else None
+    return older[0] if older else None
 
 
-def layers_of(run: Mapped) -> dict[str, NDArray[np.float64]]:
+def layers_of(run: Run) -> dict[str, NDArray[np.float64]]:
     """Return the layers of a run, each (nx, ny): mean, entropy, and lower and upper if cells have intervals."""
     layers = {"mean": run.occupancy, "entropy": run.entropy}
     # Not part of the protocol: runs on binary walls need not have the method, and may raise `BadInput`.
@@ -148,16 +133,11 @@ def approximated(trajectory: Approximation, known_by: str = APPROXIMATION) -> Tr
 def export_trajectory(
     path: str | os.PathLike[str], trajectory: Trajectory, *, format: str | None = None, edges: Edges | None = None
 ) -> tuple[Path, ...]:
-    """Write a trajectory in another program's format; an existing file of that name is replaced.
+    """Write a trajectory as "tum", "g2o" or "trajectory" (a recording), by the path's ending if ``format`` is None.
 
-    Args:
-        path: path with the ending .tum or .g2o, or of a recording (.bag, .mcap, .db3 or a folder).
-        trajectory: the trajectory, such as that of a map's scans or of `bayesmap.localize`.
-        format: "tum", "g2o" or "trajectory" (a recording); by the path's ending if None.
-        edges: pose graph for g2o; if None, the chain of steps (`bayesmap.io.text.g2o.chain_edges`).
-
-    Returns:
-        The paths of the files written. If covariances are known, NAME-covariances.txt is written beside NAME.tum.
+    An existing file is replaced. ``edges`` is the pose graph for g2o; if None, the chain of steps
+    (`bayesmap.io.text.g2o.chain_edges`). Returns the paths of the files written. If covariances are known,
+    NAME-covariances.txt is written beside NAME.tum.
 
     Raises `BadInput` for another ending or format, no pose, a graph of a trajectory without covariances, or a file that
     cannot be written.
@@ -200,7 +180,7 @@ def known_cells(
 
 
 def export_run(
-    path: str | os.PathLike[str], run: Mapped, scans: Scans, *, format: str | None = None, mode: str | None = None,
+    path: str | os.PathLike[str], run: Run, scans: Scans, *, format: str | None = None, mode: str | None = None,
     occupied_thresh: float | None = None, free_thresh: float | None = None, known: NDArray[np.bool_] | None = None,
     frame: str | None = None,
 ) -> tuple[Path, ...]:  # fmt: skip
@@ -259,7 +239,7 @@ def export_run(
     if chosen == "g2o" and trajectory.relative is not None:  # the trajectory is slam's approximation
         from bayesmap.io.text.g2o import slam_edges
 
-        edges = slam_edges(run.trajectory)  # type: ignore[attr-defined]
+        edges = slam_edges(run.trajectory)
         if moved.frame == "base":
             edges = edges.of_frame(inverse(np.asarray(scans.mount)))
     return export_trajectory(path, moved, format=chosen, edges=edges)

@@ -45,11 +45,10 @@ def can_be_followed(name: str) -> bool:
         if stat.S_ISFIFO(status.st_mode) or stat.S_ISCHR(status.st_mode):
             return True
         if stat.S_ISREG(status.st_mode):
-            if status.st_size == 0:
-                return True
             with open(name, "rb") as file:
-                if file.read(len(GZIP_MAGIC)) == GZIP_MAGIC:
-                    return False
+                start = file.read(len(GZIP_MAGIC))
+            if not start or start == GZIP_MAGIC:
+                return not start
     except OSError as error:
         raise BadInput(f"{name}: cannot be read: {error.strerror or error}") from None
     return format_of(name) in ("carmen", "csv")
@@ -120,11 +119,10 @@ def _of_carmen(lines: Iterable[tuple[int, bytes]], bad: Bad, options: LogOptions
 
 
 def live_lines(name: str, idle_s: float | None = None) -> Iterator[tuple[int, bytes]]:
-    """Yield the lines of a file, pipe or standard input with their numbers, from 1, as soon as each is whole.
+    """Yield the lines of a file, pipe or standard input ("-") with their numbers, from 1, as soon as each is whole.
 
-    A pipe and standard input end when their last writer closes them. A file never ends: its new lines follow, until
-    the caller stops, or until ``idle_s`` seconds have passed without new data; a last line without line end is then a
-    line. The name "-" is standard input.
+    A pipe and standard input end when their last writer closes them. A file ends after ``idle_s`` seconds without new
+    data, if it is given; a last line without line end is then a line.
 
     Raises `BadInput` for an input that cannot be read, was cut short, or has a line that is too long.
     """

@@ -64,7 +64,7 @@ def save(
 
 def _write_by_reading(posterior: Posterior, file: Any) -> None:
     """Write the log likelihood of every valid reading in every draw, as arviz's ``loo`` reads it."""
-    from bayesmap.posterior.dataset import by_reading, valid_readings
+    from bayesmap.posterior.posterior import by_reading, valid_readings
 
     group, draws = file.createGroup("log_likelihood"), posterior.draws
     for name, count in (("chain", draws.chains), ("draw", draws.count)):
@@ -201,13 +201,13 @@ def _read(file: Any, header: dict[str, Any]) -> tuple[Posterior, Trajectory | No
 
     def named(prefix: str) -> dict[str, NDArray[Any]]:
         names = [name for name in constant.variables if name.startswith(prefix)]
-        return {name.removeprefix(prefix): read_array(constant[name]) for name in names}
+        return {name.removeprefix(prefix): np.asarray(constant[name][:]) for name in names}
 
     prior = prior_from(header["prior"] | named("prior_"))
-    snapshot = Snapshot(header["sweep"], {name: read_array(v) for name, v in file["chain_state"].variables.items()})
+    snapshot = Snapshot(header["sweep"], {name: v[:] for name, v in file["chain_state"].variables.items()})
     trajectory = None
     if "trajectory" in header:
-        saved = {name: read_array(variable) for name, variable in file["trajectory"].variables.items()}
+        saved = {name: variable[:] for name, variable in file["trajectory"].variables.items()}
         trajectory = trajectory_from(saved, header["trajectory"])
     grid = Grid(tuple(header["grid"]["shape"]), header["grid"]["resolution"], tuple(header["grid"]["origin"]))
     draws, stats = file["posterior"], file["sample_stats"]
@@ -219,9 +219,9 @@ def _read(file: Any, header: dict[str, Any]) -> tuple[Posterior, Trajectory | No
     sensor = header["settings"]["sensor"] if header["sensor"] is None else header["sensor"]
     posterior = Posterior(
         scans=_scans_from(file, header), sensor=from_description(sensor), prior=prior, settings=header["settings"],
-        draws=Draws(grid, specs, arrays, index), occupancy=read_array(constant["occupancy"]),
-        observed=read_array(constant["observed"]) != 0, log_likelihood=read_array(stats["log_likelihood"]),
-        log_prior=read_array(stats["log_prior"]), warmup_log_joint=read_array(file["warmup_sample_stats"]["lp"]),
+        draws=Draws(grid, specs, arrays, index), occupancy=constant["occupancy"][:],
+        observed=constant["observed"][:] != 0, log_likelihood=stats["log_likelihood"][:],
+        log_prior=stats["log_prior"][:], warmup_log_joint=file["warmup_sample_stats"]["lp"][:],
         snapshot=snapshot, finished=header["finished"], seconds=header["seconds"], counts=header["counts"],
         log_weights=_optional(constant, "log_weight"), statistics=named("statistic_"),
         log_evidence=header["log_evidence"], notes=tuple(header["notes"]),
@@ -232,20 +232,20 @@ def _read(file: Any, header: dict[str, Any]) -> tuple[Posterior, Trajectory | No
 def _index(draws: Any, dimension: str, grid: Grid) -> NDArray[np.int32]:
     """Return the coordinates of a dimension: flat indices of cells, or numbers."""
     if dimension.endswith("cell"):
-        flat = read_array(draws[f"{dimension}_x"]) * grid.shape[1] + read_array(draws[f"{dimension}_y"])
+        flat = draws[f"{dimension}_x"][:] * grid.shape[1] + draws[f"{dimension}_y"][:]
         return np.asarray(flat, dtype=np.int32)
-    return np.asarray(read_array(draws[dimension]), dtype=np.int32)
+    return np.asarray(draws[dimension][:], dtype=np.int32)
 
 
 def _optional(constant: Any, name: str) -> NDArray[np.float64] | None:
-    return read_array(constant[name]) if name in constant.variables else None
+    return constant[name][:] if name in constant.variables else None
 
 
 def _scans_from(file: Any, header: dict[str, Any]) -> Scans:
     constant = file["constant_data"]
     return Scans(
-        poses=read_array(constant["pose_world"]), angles_rad=read_array(constant["angle_rad"]),
-        ranges_m=read_array(file["observed_data"]["range_m"]), min_range_m=header["limits"][0],
+        poses=constant["pose_world"][:], angles_rad=constant["angle_rad"][:],
+        ranges_m=file["observed_data"]["range_m"][:], min_range_m=header["limits"][0],
         max_range_m=header["limits"][1], stamps_s=_optional(constant, "stamp_s"),
         beam_poses=_optional(constant, "beam_pose_world"), own_angles_rad=_optional(constant, "own_angle_rad"),
         mount=header.get("mount"),
@@ -262,11 +262,6 @@ def write_arrays(
             name, values.dtype, dimensions, zlib=compressed, complevel=1, fletcher32=bool(dimensions)
         )
         variable[:] = values
-
-
-def read_array(variable: Any) -> NDArray[Any]:
-    """Return a variable's numbers."""
-    return np.asarray(variable[:])
 
 
 def write_draws(

@@ -26,7 +26,7 @@ from bayesmap.kernels.predict.pose_weights import scan_log_likelihood
 from bayesmap.localization.known_map import KnownMap, Trust, UsualFit
 from bayesmap.localization.particles import log_sum
 from bayesmap.posterior.baselines import Parameter, Values, maximise, sensor_of, stop_probabilities
-from bayesmap.posterior.predictor import OnShare, ignored
+from bayesmap.posterior.prediction import OnShare, ignored
 from bayesmap.sensors.model import RangeLimits
 from bayesmap.space.grid import Grid
 from bayesmap.space.planar import Floats, between

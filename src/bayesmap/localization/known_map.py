@@ -114,7 +114,7 @@ class KnownMap:
         as a share of an independent reading; None for the weight by `INDEPENDENT_BEAMS`. Raises BadInput: a run without
         draws, or a sensor model of the user's own.
         """
-        from bayesmap.posterior.predictor import predictor_of
+        from bayesmap.posterior.prediction import predictor_of
 
         predictor = predictor_of(run.posterior)
         numbers = set(np.unique(np.linspace(0, predictor.draws - 1, min(draws, predictor.draws)).astype(int)).tolist())

@@ -29,9 +29,10 @@ from numpy.typing import NDArray
 from bayesmap.cells.kinds import HIT_DEPTH, default_sensor
 from bayesmap.errors import BadInput
 from bayesmap.posterior.heldout import THIN, Fold, HeldOut, make_folds, one_fold, together
-from bayesmap.posterior.predictor import OnShare, Predictor, fixed_maps, ignored, parts
+from bayesmap.posterior.prediction import OnShare, Predictor, fixed_maps, ignored, parts
 from bayesmap.sensors.builtin import BeamMixture, noise_with
 from bayesmap.space.grid import Grid
+from bayesmap.space.planar import Floats
 from bayesmap.space.scans import Scans
 
 Values = dict[str, float]
@@ -115,8 +116,6 @@ def maximise(
     rough = [climb(rough_score, start, ROUGH, on_share) for start, on_share in zip(starts, low, strict=True)]
     return climb(score, max(rough, key=lambda result: result[1])[0], FINE, last)
 
-
-Floats = NDArray[np.float64]
 
 P_HIT, P_MISS = 0.7, 0.4
 P_LEAST, P_MOST = 0.1192, 0.971

@@ -1,32 +1,181 @@
 """Decisions from a posterior: whether a path is free, which route to take, where to look next.
 
-The functions here apply the algorithms of `bayesmap.posterior.route` and `bayesmap.posterior.information` to the draws
-of a run.
+`bayesmap.posterior.route` has the algorithms for paths. `expected_information` bounds the mutual information of a whole
+scan with the map from both sides, by joint draws: a scan is simulated in a draw and weighted in all of them.
+`beam_information` is the formula of FSMI for independent cells and beams. It is fast enough for thousands of poses. But
+it counts shared information of beams twice, and a cell that is known to stop half of the beams counts as unknown.
 """
 
 from __future__ import annotations
 
+import math
+from collections.abc import Callable
 from dataclasses import dataclass, fields, replace
 from functools import partial
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+from scipy import special
 
 from bayesmap.errors import BadInput
 from bayesmap.posterior import route as routes
-from bayesmap.posterior.information import InformationGain, beam_information, best_views, expected_information
 from bayesmap.posterior.posterior import Posterior
-from bayesmap.posterior.prediction import Fan
-from bayesmap.posterior.predictor import OnShare, ignored, parts, watched
-from bayesmap.space.scans import asked_poses
+from bayesmap.posterior.prediction import Fan, OnShare, draw_readings, ignored, parts, watched
+from bayesmap.samplers.sampler import STREAM_VIEWS
+from bayesmap.space.grid import Grid
+from bayesmap.space.planar import Floats
+from bayesmap.space.scans import Scans, as_angles, as_poses, asked_poses
 
 if TYPE_CHECKING:
     from bayesmap.cells.arrays import Draws
     from bayesmap.cells.kind import CellPrior
     from bayesmap.sensors.model import SensorModel
 
-Floats = NDArray[np.float64]
+
+MIN_STOP_PROBABILITY = 1e-4
+"""Least distance of a stop probability from 0 and 1: a finite number of draws is no more precise."""
+
+
+@dataclass(frozen=True, eq=False)
+class InformationGain:
+    """Bounds on the expected information of one more scan from each of P poses.
+
+    The information lies between two estimates, on average over draws. With many informative beams they lie apart, and
+    more draws bring them closer.
+
+    Attributes:
+        at_least: lower bound for each pose, nats, (P,); no more than the logarithm of the number of draws of a chain.
+        at_least_error: Monte Carlo standard error of the lower bound, (P,).
+        at_most: upper bound for each pose, nats, (P,).
+        at_most_error: Monte Carlo standard error of the upper bound, (P,).
+        draws: number of draws of the map that were compared.
+        independent: information by the formula for independent cells and beams, nats, (P,); None if not computed.
+    """
+
+    at_least: Floats
+    at_least_error: Floats
+    at_most: Floats
+    at_most_error: Floats
+    draws: int
+    independent: Floats | None = None
+
+    def __repr__(self) -> str:
+        """Return two or three lines: size, and the bounds for the pose with the greatest upper bound."""
+        title = f"InformationGain: {len(self.at_most):,} poses, {self.draws:,} draws of the map"
+        if not len(self.at_most):
+            return title
+        best = int(np.argmax(self.at_most))
+        low = f"{self.at_least[best]:.2f} +- {self.at_least_error[best]:.2g}"
+        high = f"{self.at_most[best]:.2f} +- {self.at_most_error[best]:.2g}"
+        return f"{title}\n  greatest for pose {best}: at least {low} nats\n  at most {high} nats"
+
+
+def expected_information(
+    cells: NDArray[np.float32], grid: Grid, fan: Fan, poses: ArrayLike, *, hit_depth: float = 0.5, chains: int = 1,
+    seed: int = 0, device: str = "cpu", on_progress: Callable[[float], None] = ignored,
+) -> InformationGain:  # fmt: skip
+    """Bound the mutual information of the map and one more scan from each pose, from joint draws of the map.
+
+    In draw d a scan z_d is simulated. With its density p(z_d | e) in each of D draws e, the means over d of
+
+        log p(z_d | d) - log (1 / D) sum_e p(z_d | e)                    all draws e, d among them
+        log p(z_d | d) - log (1 / (D - 1)) sum_{e != d} p(z_d | e)       d left out
+
+    are at most, and at least, the information, on average over draws (Foster et al., "A unified stochastic gradient
+    approach to designing Bayesian-optimal experiments", AISTATS 2020). The first is never over log D. The second is far
+    too large if every draw explains only its own scan. But beams are independent given the map. So a scan's information
+    is at most the sum over its beams, each by the second line. The smaller of the two values is the upper bound.
+
+    Draws are compared within each chain. Chains that have not mixed differ where the posterior does not, such as in
+    which of two cells a wall stands, and a scan would tell nearly all of them apart.
+
+    ``cells`` holds the draws of the map, equally many of each chain, chain by chain: (D, N) stop probabilities or
+    (D, N, 6) surfaces, as `bayesmap.cells.kind.CellPrior.stops`. Poses are in the world frame, (P, 3).
+
+    Raises `BadInput` for poses that are not valid, or fewer than two draws of a chain.
+    """
+    from bayesmap.kernels.predict.density import device_maps
+    from bayesmap.kernels.predict.scan_likelihood import ScanLikelihood
+
+    poses_world = as_poses(poses)
+    n_draws = len(cells)
+    draws_per_chain = n_draws // chains
+    if draws_per_chain < 2:
+        raise BadInput(
+            f"information: {draws_per_chain} draws of the map from each chain; two are the least that can differ"
+        )
+    maps = device_maps([cells], grid, hit_depth, device=device)
+    draw_index = np.arange(n_draws)
+    # Pairs of draws of one chain.
+    scan = np.repeat(draw_index, draws_per_chain)
+    other = np.tile(draw_index.reshape(chains, 1, draws_per_chain), (1, draws_per_chain, 1)).ravel()
+    bounds = np.empty((4, len(poses_world)))  # lower bound and its error, upper bound and its error
+    limits = fan.limits
+    # For each pose, simulate a scan in every draw, and weight each scan in every draw of its chain.
+    for i, pose in enumerate(poses_world):
+        at = np.broadcast_to(pose, (n_draws, 3))
+        readings = draw_readings(maps, fan, at, draw_index, (seed, i, STREAM_VIEWS))
+        likelihood = ScanLikelihood(
+            Scans(at, fan.angles_rad, readings, limits.max_m, limits.min_m), grid, fan.sensor, hit_depth, device
+        )
+        weighed = likelihood.beams(maps, np.broadcast_to(pose, (len(scan), 3)), scan, other)
+        bounds[:, i] = _bounds(weighed.reshape(chains, draws_per_chain, draws_per_chain, -1))
+        on_progress((i + 1) / len(poses_world))
+    return InformationGain(bounds[0], bounds[1], bounds[2], bounds[3], n_draws)
+
+
+def _bounds(weighed: Floats) -> tuple[float, float, float, float]:
+    """Return both bounds with their errors, given log p(beam b of draw d's scan | draw e of chain c), (c, d, e, b)."""
+    chains, draws = weighed.shape[:2]
+    draw_index = np.arange(draws)
+    others = np.where(np.eye(draws, dtype=bool), -np.inf, 0.0)
+    whole = weighed.sum(axis=3)
+    own = whole[:, draw_index, draw_index]
+
+    def left_out(log_p: Floats) -> Floats:
+        hidden = log_p + others.reshape(draws, draws, *(1,) * (log_p.ndim - 3))
+        return np.asarray(special.logsumexp(hidden, axis=2) - math.log(draws - 1))
+
+    lower = own - (special.logsumexp(whole, axis=2) - math.log(draws))
+    uppers = (own - left_out(whole), (weighed[:, draw_index, draw_index] - left_out(weighed)).sum(axis=2))
+    upper = min(uppers, key=lambda gains: float(gains.mean()))
+    root = math.sqrt(chains * draws)
+    return lower.mean(), lower.std(ddof=1) / root, upper.mean(), upper.std(ddof=1) / root
+
+
+def beam_information(
+    occupied: Floats, grid: Grid, poses: ArrayLike, angles_rad: ArrayLike, *, max_range_m: float, sigma_m: float,
+    p_right: float = 0.9, device: str = "cpu",
+) -> Floats:  # fmt: skip
+    """Return the sum of FSMI over a scan's beams: their information about a map of independent cells, nats, (P,).
+
+    ``occupied`` is the probability that each cell stops a beam, (nx, ny), and ``sigma_m`` the standard deviation of
+    readings. A reading is right with probability p = ``p_right``: it multiplies the odds of the cell in which it falls
+    by p / (1 - p), and those of the cells before it by (1 - p) / p.
+    """
+    from bayesmap.kernels.predict.view import independent_information
+
+    probability = np.nan_to_num(occupied.ravel(), nan=0.5)
+    probability = np.clip(probability, MIN_STOP_PROBABILITY, 1.0 - MIN_STOP_PROBABILITY)
+    factor = p_right / (1.0 - p_right)
+    per_beam = independent_information(
+        probability, grid, as_poses(poses), as_angles(angles_rad), max_range_m,
+        sigma_m=sigma_m, hit_factor=factor, pass_factor=1.0 / factor, device=device,
+    )  # fmt: skip
+    return np.asarray(per_beam.sum(axis=1))
+
+
+def best_views(nats: Floats, poses: Floats, count: int, apart_m: float) -> NDArray[np.intp]:
+    """Select the most informative poses that are not close to each other, best first: indices, at most ``count``."""
+    best: list[int] = []
+    for i in np.argsort(-nats, kind="stable"):
+        if all(math.hypot(*(poses[i, :2] - poses[j, :2])) >= apart_m for j in best):
+            best.append(int(i))
+        if len(best) == count:
+            break
+    return np.array(best, dtype=np.intp)
+
 
 SEARCH_DRAWS = 60  # Number of draws that propose paths. All draws then judge each path.
 
@@ -125,12 +274,8 @@ def independent_information(posterior: Posterior, poses: Floats, fan: Fan, devic
     maps = [posterior.occupancy]
     if posterior.has_chains and draws.chains > 1:
         maps = [posterior.prior.mean_map(draws.of_chain(chain)) for chain in range(draws.chains)]
-    nats = [
-        beam_information(
-            one, posterior.grid, poses, fan.angles_rad, max_range_m=fan.limits.max_m, sigma_m=sigma_m, device=device
-        )
-        for one in maps
-    ]
+    how: dict[str, Any] = {"max_range_m": fan.limits.max_m, "sigma_m": sigma_m, "device": device}
+    nats = [beam_information(occupied, posterior.grid, poses, fan.angles_rad, **how) for occupied in maps]
     return np.asarray(np.mean(nats, axis=0))
 
 
@@ -160,9 +305,9 @@ def next_views(
 ) -> Views:  # fmt: skip
     """Find the most informative poses among candidates that a robot can reach.
 
-    Candidates are drawn at positions where a disc is free with probability `REACHABLE`, and which a path over such
-    positions connects with the robot's last position. The fast formula ranks all candidates. Joint draws then compare
-    twice as many as needed of the best, apart from each other.
+    Candidates lie where a disc is free with probability `REACHABLE`, and a path over such positions connects them with
+    the robot's last position. The fast formula ranks all. Joint draws then compare twice as many as needed of the best,
+    apart from each other.
 
     Raises `BadInput` for no draws, counts below 1, or no such place.
     """
@@ -199,7 +344,7 @@ def _spread(posterior: Posterior, blocked: Floats, count: int, seed: int) -> Flo
     grid = posterior.grid
     open_cells = (blocked <= 1.0 - REACHABLE) & posterior.observed
     labels, areas = ndimage.label(open_cells, structure=np.ones((3, 3)))
-    if areas == 0:
+    if not areas:
         raise BadInput("explore: nowhere on the map is the disc free with probability one half; try a smaller radius")
     x, y, _ = posterior.scans.poses[-1]
     centres = np.stack(np.meshgrid(*grid.centers_m(), indexing="ij"), axis=-1) + 0.0

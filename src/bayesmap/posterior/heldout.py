@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from bayesmap.beams.rays import Rays
 from bayesmap.errors import BadInput
 from bayesmap.space.grid import Grid
+from bayesmap.space.planar import Floats
 from bayesmap.space.scans import ReadingKind, Scans
 
 MOST_EVERY = 100  # largest hold-out period that an error message suggests
@@ -122,8 +123,6 @@ def unseen_scans(train: Scans, scans: Scans, every: int, where: str) -> Scans:
         f"would score it; {hint}"
     )
 
-
-Floats = NDArray[np.float64]
 
 FOLDS = 10
 """Each fold leaves out every tenth scan, as the protocol itself does: inner and outer counts are nearly as dense."""

@@ -1,29 +1,261 @@
-"""Prediction of the readings of scans from any pose: draws from their joint law, and quantiles of each reading.
+"""Predictions of readings by draws of a map: draws and quantiles of scans from any pose, and held-out residuals.
 
-Beams of one drawn scan share a draw of the map, so draws tell how readings vary together. Quantiles are those of the
-law by which held-out readings are scored (docs/scoring.md).
+The law of one beam is that of docs/scoring.md,
+
+    p(z) = mean over draws of [sum_i w_i p(z | d_i, s_i) + w_nowhere p(z | infinity)],
+
+and its quantile of level q is the least range z with P(reading <= z) >= q. `ScanPredictor` puts the draws on a device
+once, so that the scans from many poses cost little each. Beams of one drawn scan share a draw of the map, so draws tell
+how readings vary together. Long predictions report the share of their work that is done.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
+import math
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from itertools import pairwise
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from bayesmap.errors import BadInput, check_count
 from bayesmap.posterior.posterior import Posterior
-from bayesmap.posterior.predictor import CENTRAL_80, PREDICTED_DRAWS, checked_levels, predictor_of
 from bayesmap.samplers.sampler import STREAM_READINGS
 from bayesmap.sensors.model import RangeLimits, SensorModel
-from bayesmap.space.scans import Scans, as_angles, asked_poses
+from bayesmap.space.grid import Grid
+from bayesmap.space.planar import Floats
+from bayesmap.space.scans import ReadingKind, Scans, as_angles, asked_poses
 
 if TYPE_CHECKING:
     from bayesmap.kernels.predict.density import DeviceMaps
 
-Floats = NDArray[np.float64]
+
+OnShare = Callable[[float], None]  # called with the share of the work that is done, from 0 to 1
+
+
+def ignored(share: float) -> None:
+    """Do nothing: the callback of a caller that does not follow the progress."""
+
+
+def parts(on_progress: OnShare, *sizes: float) -> list[OnShare]:
+    """Return a callback for each of successive parts of some work, called with the part's own share.
+
+    ``sizes`` say how long each part takes, in any unit.
+    """
+    ends = np.cumsum([0.0, *sizes]) / sum(sizes)
+
+    def of_part(begin: float, end: float) -> OnShare:
+        return lambda share: on_progress(begin + (end - begin) * share)
+
+    return [of_part(begin, end) for begin, end in pairwise(ends.tolist())]
+
+
+def watched(batches: Iterable[NDArray[Any]], total: int, on_progress: OnShare) -> Iterator[NDArray[Any]]:
+    """Yield the batches of draws, ``total`` in all, and report progress whenever one has been used."""
+    used = 0
+    for batch in batches:
+        yield batch
+        used += len(batch)
+        on_progress(min(used / total, 1.0))
+
+
+def checked_levels(levels: Sequence[float]) -> Floats:
+    """Return the probabilities of quantiles as an array; refuse levels that do not rise or lie outside (0, 1)."""
+    probabilities = np.asarray(levels, dtype=np.float64)
+    if probabilities.size == 0 or (np.diff([0.0, *probabilities, 1.0]) <= 0).any() or np.isnan(probabilities).any():
+        raise BadInput(f"quantiles: levels must rise and lie inside (0, 1), got {list(levels)}")
+    return probabilities
+
+
+MapStates = NDArray[np.float32]
+
+
+Batches = Callable[..., Iterator[MapStates]]
+"""Takes flat indices of cells (none: all), and yields their states in each draw, some draws at a time, each call anew:
+stop probabilities (draws, cells), or surfaces (draws, cells, 6) as in `bayesmap.kernels.predict.density`."""
+
+
+@dataclass(frozen=True, eq=False)
+class Predictor:
+    """A map, certain or not, and its prediction of readings."""
+
+    grid: Grid
+    batches: Batches  # yields the draws
+    sensor: SensorModel  # the law of a reading given where its beam stops
+    hit_depth: float  # where in a plain cell a beam stops, as a fraction of its chord
+    draws: int = 1
+
+
+def fixed_maps(stop: NDArray[np.floating]) -> Batches:
+    """Return the batches of maps that are all in memory, (draws, cells); a plug-in map is one draw."""
+
+    def batches(cells: NDArray[np.int32] | None = None) -> Iterator[MapStates]:
+        yield np.ascontiguousarray(stop if cells is None else stop[:, cells], dtype=np.float32)
+
+    return batches
+
+
+def predictor_of(posterior: Posterior, sensor: SensorModel | None = None) -> Predictor:
+    """Return the posterior's draws as a prediction under the run's own sensor model unless another is given.
+
+    Raises `BadInput` if the posterior has no draws, or does not know its sensor model, or cannot use the one given.
+    """
+    sensor = posterior.sensor if sensor is None else sensor
+    if sensor is None:
+        raise BadInput(
+            f"score: the sensor model of this run, {posterior.settings['sensor'].get('kind')!r}, is not one of "
+            "bayesmap's; pass sensor="
+        )
+    if posterior.draws.size == 0:
+        raise BadInput("score: the run has no draws yet; let it finish its warm-up")
+
+    def batches(cells: NDArray[np.int32] | None = None) -> Iterator[MapStates]:
+        return posterior.prior.predictive_stops(posterior.draws, cells)
+
+    hit_depth = float(posterior.settings["hit_depth"])
+    return Predictor(posterior.grid, batches, sensor, hit_depth, posterior.draws.size)
+
+
+CENTRAL_80 = (0.1, 0.5, 0.9)  # levels of the median and of the ends of the central 80 % interval
+PREDICTED_DRAWS = 200  # largest number of maps that readings are drawn from
+GONE = 1e-3  # probability of getting further below which a beam is no longer followed: the greatest error of a level
+
+
+@dataclass(frozen=True, eq=False)
+class ScanPredictor:
+    """Draws of a map that are ready to predict scans."""
+
+    grid: Grid
+    draws: DeviceMaps
+    sensor: SensorModel  # the law of a reading given where its beam stops
+    limits: RangeLimits  # the sensor's span
+
+    @classmethod
+    def of(cls, predictor: Predictor, limits: RangeLimits, device: str = "cpu") -> ScanPredictor:
+        """Put a predictor's draws on a device: 4 bytes for each cell of each draw, 32 where cells have surfaces.
+
+        Raises `BadInput` for no draws.
+        """
+        from bayesmap.kernels.predict.density import device_maps
+
+        draws = device_maps(predictor.batches(), predictor.grid, predictor.hit_depth, device=device)
+        return cls(predictor.grid, draws, predictor.sensor, limits)
+
+    def thinned(self, most: int) -> ScanPredictor:
+        """Return this predictor with at most ``most`` of the draws, evenly spread."""
+        return replace(self, draws=self.draws.thinned(most))
+
+    def quantiles(
+        self, pose_world: ArrayLike, angles_rad: ArrayLike, levels: Sequence[float] = CENTRAL_80
+    ) -> NDArray[np.float64]:
+        """Compute quantiles of the readings of one scan with beams at angles (A,), metres, (A, levels).
+
+        Levels rise inside (0, 1), and are met to within `GONE`. No return counts as +inf, too close as -inf, each where
+        it is an outcome of the sensor. Where draws of a cell's surface differ in where it stops the beam, its stops are
+        merged (docs/scoring.md, The common view).
+
+        Raises `BadInput` for levels that do not rise or lie outside (0, 1), or a sensor whose probabilities do not sum
+        to one.
+        """
+        from bayesmap.kernels.predict.stop_mixture import mix_device_stops, range_quantiles
+        from bayesmap.kernels.rays import trace_rays
+
+        probabilities = checked_levels(levels)
+        angles = np.asarray(angles_rad, dtype=np.float64)
+        # A reading is needed to trace a beam and has no part in its prediction.
+        unread = np.full((1, len(angles)), np.inf)
+        scan = Scans(
+            np.reshape(pose_world, (1, 3)), angles, unread, max_range_m=self.limits.max_m, min_range_m=self.limits.min_m
+        )
+        device = self.draws.device
+        law = mix_device_stops(trace_rays(scan, self.grid, device=device), self.draws, GONE)
+        return range_quantiles(law, probabilities, self.sensor, device)
+
+
+@dataclass(frozen=True, eq=False)
+class Residuals:
+    """Readings of the n beams that hit something or had no return, against their predictive laws."""
+
+    ends_world: Floats  # where a hit beam ended; for one without return, where its median was predicted, metres, (n, 2)
+    residual_m: Floats  # reading minus predicted median, metres; no return counts as the sensor's largest range, (n,)
+    surprise_nats: Floats  # minus the log predictive density of the reading, (n,)
+    beams: NDArray[np.intp]  # which of the scans' beams these are, flat, (n,)
+
+
+def residuals_of(predictor: Predictor, scans: Scans, on_progress: OnShare = ignored) -> Residuals:
+    """Predict every beam of held-out scans and compare; too close and invalid readings are left out.
+
+    Raises `BadInput` for no beam to compare, no draw, or a sensor model that kernels do not know.
+    """
+    from bayesmap.kernels.predict.density import forecast
+    from bayesmap.kernels.predict.stop_mixture import mix_stops, range_quantiles
+    from bayesmap.kernels.rays import trace_rays
+
+    if not placed(scans).size:
+        raise BadInput("residuals: none of the scans has a hit or a no-return to compare with its prediction")
+    rays = trace_rays(scans, predictor.grid)
+    sensor, depth, draws = predictor.sensor, predictor.hit_depth, predictor.draws
+    mixing, forecasting = parts(on_progress, 0.5, 1.0)
+    law = mix_stops(rays, watched(predictor.batches(rays.touched), draws, mixing), depth)
+    median_m = range_quantiles(law, np.array([0.5]), sensor)[:, 0]
+    batches = watched(predictor.batches(rays.touched), draws, forecasting)
+    prediction = forecast(rays, batches, sensor, depth)
+    return compare(scans, median_m, prediction.log_density)
+
+
+def placed(scans: Scans) -> NDArray[np.intp]:
+    """Return the flat indices of the beams that hit something or had no return."""
+    kinds = scans.readings.ravel()
+    return np.flatnonzero((kinds == ReadingKind.HIT) | (kinds == ReadingKind.NO_RETURN))
+
+
+def compare(scans: Scans, median_m: Floats, log_density: Floats) -> Residuals:
+    """Compare the readings of B beams with the medians of their predictive laws, (B,), and log densities, (B,).
+
+    A median is infinite where no return, or too close, is at the median.
+    """
+    beams = placed(scans)
+    median = np.clip(median_m[beams], scans.min_range_m, scans.max_range_m)
+    reading = np.minimum(scans.ranges_m.ravel()[beams], scans.max_range_m)
+    drawn = np.where(np.isposinf(scans.ranges_m.ravel()[beams]), median, reading)
+    angle = scans.beam_angles_world().ravel()[beams]
+    start = scans.beam_starts_world().reshape(-1, 2)[beams]
+    ends = start + drawn[:, None] * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+    return Residuals(ends, reading - median, -log_density[beams], beams)
+
+
+@dataclass(frozen=True)
+class SurfaceOffset:
+    """A point in the frame of a surface, whose normal is the direction of its least extent, towards the sensor."""
+
+    across_m: float  # along the normal from the surface's mean: positive in front of it, negative behind
+    along_m: float  # along the wall from the mean: positive to the left as the sensor sees it
+    thickness_m: float  # standard deviation of the surface across
+    length_m: float  # and along
+    incidence_rad: float  # angle at the surface's mean between the normal and the sensor, in [0, pi / 2]
+
+
+def surface_offset(mean: Floats, covariance: Floats, point: Floats, sensor: Floats) -> SurfaceOffset:
+    """Return a point (2,), such as the end of a reading, in the frame of a surface.
+
+    The surface is given by mean (2,) and covariance (2, 2) of the points where beams stop, and ``sensor`` is where the
+    beam comes from, (2,).
+    """
+    values, vectors = np.linalg.eigh(covariance)
+    normal, towards = vectors[:, 0], sensor - mean
+    if normal @ towards < 0:
+        normal = -normal
+    # The sensor looks against the normal: its left is the normal turned clockwise.
+    left = np.array([normal[1], -normal[0]])
+    away = point - mean
+    distance = float(np.hypot(*towards))
+    cosine = float(normal @ towards) / distance if distance > 0 else 1.0
+    thickness, length = np.sqrt(np.maximum(values, 0.0))
+    return SurfaceOffset(
+        float(normal @ away), float(left @ away), float(thickness), float(length), math.acos(min(1.0, cosine))
+    )
 
 
 @dataclass(frozen=True, eq=False)

@@ -25,8 +25,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from bayesmap.errors import BadInput
 from bayesmap.space.grid import Grid
-
-Floats = NDArray[np.float64]
+from bayesmap.space.planar import Floats
 
 SOLID = 0.1  # stop probability below which a cell counts as free, as in maps for navigation
 REACH_CELLS = 2.5  # greatest distance of any part of a surface from its cell's centre, in edges of a cell

@@ -23,12 +23,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
-from bayesmap.posterior.predictor import OnShare, Predictor, ignored, parts, watched
+from bayesmap.posterior.prediction import OnShare, Predictor, ignored, parts, watched
 from bayesmap.sensors.builtin import describe
 from bayesmap.sensors.model import RangeLimits
+from bayesmap.space.planar import Floats
 from bayesmap.space.scans import ReadingKind, Scans
-
-Floats = NDArray[np.float64]
 
 REPLICATES = 1000  # Replicates of the bootstrap. Standard errors are then accurate to about 2 %.
 POINTS = 100  # number of intervals of u at whose ends its distribution is compared to the uniform one

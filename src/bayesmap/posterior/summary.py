@@ -21,9 +21,7 @@ from bayesmap.cells.arrays import Draws
 from bayesmap.cells.kind import CellPrior
 from bayesmap.posterior.posterior import Posterior
 from bayesmap.run.chains import PRECISION, map_error
-from bayesmap.space.planar import wrap_angle
-
-Floats = NDArray[np.float64]
+from bayesmap.space.planar import Floats, wrap_angle
 
 RHAT_LIMIT, ESS_LIMIT = 1.05, 100.0
 """R-hat above which chains have not mixed, and effective sample size under which means are too noisy."""

@@ -29,6 +29,7 @@ from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
 from bayesmap.space.planar import (
+    Floats,
     between,
     between_jacobians,
     bracketing_indices,
@@ -40,8 +41,6 @@ from bayesmap.space.planar import (
 )
 from bayesmap.space.time_order import moment
 from bayesmap.space.trajectory import LONGEST_GAP_S, RelativeLaw, Trajectory
-
-Floats = NDArray[np.float64]
 
 SLACK_S = 0.001  # a stamp this far outside the trajectory, or off a pose, still counts
 
@@ -85,22 +84,20 @@ class RelationErrors:
 
         ``in_gaps`` of those that are not covered lie between poses too far apart, the others outside the trajectory.
         """
-        turned_deg = np.degrees(self.rotation_rad)
-        not_covered, in_gaps = int((~self.covered).sum()), int(self.in_gap.sum())
-        result: dict[str, float] = {"relations": len(self.errors), "not_covered": not_covered, "in_gaps": in_gaps}
-        for name, values in (("translation_m", self.translation_m), ("rotation_deg", turned_deg)):
+        result: dict[str, float] = {
+            "relations": len(self.errors), "not_covered": int((~self.covered).sum()), "in_gaps": int(self.in_gap.sum()),
+        }  # fmt: skip
+        for name, values in (("translation_m", self.translation_m), ("rotation_deg", np.degrees(self.rotation_rad))):
             for word, statistic in (("mean", np.mean), ("std", np.std), ("median", np.median)):
-                result[f"{name}_{word}"] = float(statistic(values)) if len(values) else float("nan")
+                result[f"{name}_{word}"] = float(statistic(values))
         return result
 
 
-def relation_errors(
-    stamps_s: Floats, poses: Floats, relations: Relations, *, exact: bool = False, longest_gap_s: float = LONGEST_GAP_S
-) -> RelationErrors:
+def relation_errors(stamps_s: Floats, poses: Floats, relations: Relations, *, exact: bool = False) -> RelationErrors:
     """Compute the errors of a trajectory by true relations, given its ascending stamps, (S,), and poses, (S, 3).
 
     The poses are those of the frame that the relations are of. ``exact`` uses only relations whose both stamps are
-    those of poses. Otherwise poses are interpolated where their neighbours are at most ``longest_gap_s`` apart.
+    those of poses. Otherwise poses are interpolated where their neighbours are at most `LONGEST_GAP_S` apart.
 
     Raises `BadInput` for arrays that do not fit, stamps that descend, or no relation that the trajectory covers.
     """
@@ -114,7 +111,7 @@ def relation_errors(
     for at_s in ends:
         within &= (at_s >= stamps_s[0] - SLACK_S) & (at_s <= stamps_s[-1] + SLACK_S)
         off_s, gap_s = _distance_to_nearest(stamps_s, at_s)
-        near &= (off_s <= SLACK_S) if exact else (off_s <= SLACK_S) | (gap_s <= longest_gap_s + SLACK_S)
+        near &= (off_s <= SLACK_S) if exact else (off_s <= SLACK_S) | (gap_s <= LONGEST_GAP_S + SLACK_S)
     covered = within & near
     if not within.any():
         raise BadInput(
@@ -122,7 +119,7 @@ def relation_errors(
             f"{moment(stamps_s[0])} to {moment(stamps_s[-1])}; are the stamps of one clock?"
         )
     if not covered.any():
-        needed = "at a pose" if exact else f"at a pose, or between two at most {longest_gap_s:g} s apart"
+        needed = "at a pose" if exact else f"at a pose, or between two at most {LONGEST_GAP_S:g} s apart"
         raise BadInput(
             f"relations: none of the {within.sum():,} relations within the trajectory's time has both of its times "
             f"{needed}; its poses are {np.median(np.diff(stamps_s)):.3g} s apart at the median: give one with more"
@@ -169,9 +166,8 @@ class TrajectoryScore:
             **figures,
             "nees": {"mean": float(self.nees.mean()), "median": float(np.median(self.nees)), "expected": DIMENSIONS},
             "coverage": [{"level": level, "share": self.coverage(level)} for level in LEVELS],
-            "assumed_independent": self.assumed_independent,
-            "known_by": self.known_by or None,
-        }
+            "assumed_independent": self.assumed_independent, "known_by": self.known_by or None,
+        }  # fmt: skip
 
 
 def score_trajectory(

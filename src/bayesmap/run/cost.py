@@ -10,8 +10,10 @@ measurement that it comes from. docs/scale.md compares estimates with whole runs
 from __future__ import annotations
 
 import math
+import os
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from pathlib import Path
 
 import numpy as np
 
@@ -19,12 +21,29 @@ from bayesmap.cells.arrays import ArraySpec
 from bayesmap.cells.binary import Independent
 from bayesmap.errors import BadInput
 from bayesmap.run.chains import FIRST_MARK, SweepPlan
-from bayesmap.run.checks import memory_bytes
 from bayesmap.space.grid import Grid, outlying, why_outlying
 from bayesmap.space.scans import Scans
 
 LONG_S = 60.0  # a run that takes longer is announced
 MUCH_MEMORY = 0.5  # a run that takes more than this share of the memory is announced
+
+
+GROUP_LIMITS = ("/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory/memory.limit_in_bytes")
+"""Files with the memory limit of a container on Linux."""
+
+
+def memory_bytes() -> int | None:
+    """Return the memory of this machine, or the limit of this container, in bytes; None if unknown."""
+    try:
+        sizes = [os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")]
+    except (AttributeError, OSError, ValueError):
+        sizes = []
+    for path in GROUP_LIMITS:
+        try:
+            sizes.append(int(Path(path).read_text()))
+        except (OSError, ValueError):
+            continue
+    return min(sizes, default=None)
 
 
 @dataclass(frozen=True)
@@ -85,11 +104,8 @@ class Size:
 
     def thinned(self, share: float) -> Size:
         """Return the size with a share of the scans. The map of `slam` is made from few scans in any case."""
-        if self.matched:
-            return replace(self, matched=round(self.matched * share), readings=self.readings * share)
-        return replace(
-            self, beams=self.beams * share, incidences=self.incidences * share, readings=self.readings * share
-        )
+        thin = replace(self, matched=round(self.matched * share), readings=self.readings * share)
+        return thin if self.matched else replace(thin, beams=self.beams * share, incidences=self.incidences * share)
 
     def coarser(self, factor: float) -> Size:
         """Return the size with cells whose edges are longer by a factor."""
@@ -115,8 +131,8 @@ def size_of(scans: Scans, grid: Grid, log: Scans | None = None) -> Size:
     to_edge = np.where(along == 0, np.inf, to_side).min(axis=-1)
     length = np.clip(np.minimum(reading / grid.resolution + MARGIN_CELLS, to_edge), 0.0, None)
     # Squares that some beams touch, and cells in which readings end.
-    some = slice(None, None, max(1, len(length) // TRACED_BEAMS))
-    points = start[some, None] + along[some, None] * (length[some, None, None] * np.linspace(0.0, 1.0, POINTS)[:, None])
+    few = slice(None, None, max(1, len(length) // TRACED_BEAMS))
+    points = start[few, None] + along[few, None] * (length[few, None, None] * np.linspace(0.0, 1.0, POINTS)[:, None])
     squares = np.floor(points / SQUARE).astype(np.int64)
     touched = len(np.unique(squares[..., 0] * (max(grid.shape) + 1) + squares[..., 1])) * SQUARE**2
     ends = np.floor(grid.to_cells(scans.hit_points_world())).astype(np.int64)
@@ -199,9 +215,8 @@ class Estimate:
     @property
     def seconds(self) -> tuple[float, float] | None:
         """Seconds on the clock: processor time divided by the cores; None if not known."""
-        if self.processor_s is None:
-            return None
-        return self.processor_s[0] / self.cores, self.processor_s[1] / self.cores
+        times = self.processor_s
+        return None if times is None else (times[0] / self.cores, times[1] / self.cores)
 
     @property
     def is_long(self) -> bool:

@@ -3,7 +3,8 @@
 The model and the traced beams go into the cluster's object store once. The chains are divided into groups, and each
 group runs in segments of a few seconds. A segment is one Ray task: it takes a snapshot of the chains, and returns the
 new draws and the next snapshot, which this process stores. If a worker or a node dies, Ray runs the lost segment again
-elsewhere. The draws are the same, because a segment depends on its arguments only.
+elsewhere. The draws are the same, because a segment depends on its arguments only. A worker process caches the problem,
+and the chains of its last segment, to save time.
 
 All groups end segments at the same numbers of sweeps, so that chains can be joined at the sweep of the slowest group.
 """
@@ -11,20 +12,120 @@ All groups end segments at the same numbers of sweeps, so that chains can be joi
 from __future__ import annotations
 
 import logging
+import time
 import uuid
 from bisect import bisect_right
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from itertools import takewhile
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from bayesmap.errors import BadInput, check_count
-from bayesmap.run import ray_worker
-from bayesmap.run.chains import Chains, EndRule, SweepPlan, in_sequence, join, map_error, select_chains
-from bayesmap.run.runner import CheckpointTimer, Job
+from bayesmap.run.chains import Chains, EndRule, Record, SweepPlan, in_sequence, join, map_error, select_chains
+from bayesmap.run.runner import CheckpointTimer, Job, no_draws, sweeps
 from bayesmap.samplers.progress import Watch
-from bayesmap.samplers.sampler import Snapshot, to_see
+from bayesmap.samplers.sampler import ChainState, Snapshot, to_see
 from bayesmap.version import __version__
+
+
+def run_segment(
+    job: Job, until: int, resume: Snapshot | None, state: ChainState | None = None
+) -> tuple[Chains, ChainState]:
+    """Run the chains of a job up to a number of sweeps. Returns the new draws of the chains, and their state.
+
+    The job has its problem prepared. ``until`` is the number of sweeps at the end; 0 only starts the chains. Observed
+    cells are counted later, by `observed_counts`. The statistics of the start are empty with ``resume``. ``state`` is
+    the state of the chains, if this process still has it from the segment before.
+    """
+    schedule, keep = job.schedule, job.schedule.keep
+    began = time.perf_counter()
+    if state is None:
+        state = job.sampler.init(job.problem, job.chain_ids, job.seed, resume)
+    assert state is not None
+    started = time.perf_counter()
+    begin, statistics = state.sweep, state.statistics if resume is None else {}
+    empty = no_draws(job.model, state, len(job.chain_ids))
+    kept = len(keep.sweeps(begin, until)) if schedule.draws else 0
+    record, before = Record(empty, SweepPlan(schedule.warmup, kept, schedule.thin)), begin
+    for advanced, info in sweeps(job.sampler, state, until, keep=keep):
+        record.add(info, before)
+        before, state = advanced.sweep, advanced
+    seconds = {"trace": 0.0, "warm_start": started - began, "sampling": time.perf_counter() - started}
+    segment = record.chains(
+        snapshot=job.sampler.snapshot(state), finished=state.sweep >= schedule.sweeps, statistics=statistics,
+        observed_counts=np.zeros((2, 0, 0), dtype=np.int32), n_incidences=state.problem.n_incidences, seconds=seconds,
+    )  # fmt: skip
+    return segment, state
+
+
+@dataclass
+class Cached:
+    """The problem of a run that this process keeps, with numbers and state of the chains of the last segment."""
+
+    run: str
+    problem: Any
+    chains: tuple[tuple[int, ...], ChainState] | None = None
+
+
+_cached: Cached | None = None
+
+
+def prepare(job: Job, version: str) -> tuple[Any, float]:
+    """Prepare the job's problem. Returns the problem, and the seconds spent.
+
+    Raises `BadInput` if the versions of bayesmap here and in the calling process differ, or the sampler cannot sample
+    the model.
+    """
+    if version != __version__:
+        raise BadInput(
+            f"RayExecutor: a worker has bayesmap {__version__}, this process {version}; install one on all nodes"
+        )
+    began = time.perf_counter()
+    return job.sampler.prepare(job.model_to_trace, job.device, job.threads), time.perf_counter() - began
+
+
+def cached(run: str, job: Job, problem: list[Any]) -> Cached:
+    """Return this process's cached problem of a run; fetch it from the object store on first use.
+
+    The reference to the problem stands in a list: Ray would fetch a bare reference for every segment.
+    """
+    global _cached  # noqa: PLW0603 -- one per process, as the worker is
+    if _cached is None or _cached.run != run:
+        import ray
+
+        prepared = ray.get(problem[0])
+        if job.parameters is not None:
+            prepared = prepared.under(job.parameters.sensor, job.parameters.prior)
+        _cached = Cached(run, prepared)
+    return _cached
+
+
+def advance(
+    run: str, job: Job, problem: list[Any], chain_ids: tuple[int, ...], until: int, resume: Snapshot | None
+) -> Chains:
+    """Run the given chains of a job up to a number of sweeps; see `run_segment`."""
+    cache = cached(run, job, problem)
+    # Use the cached chains only if they are these chains, at the sweep of the snapshot.
+    ids, state = cache.chains or ((), None)
+    cache.chains = None
+    if state is not None and (ids != chain_ids or resume is None or state.sweep != resume.sweep):
+        state = None
+    job = replace(job, problem=cache.problem, chain_ids=chain_ids)
+    segment, state = run_segment(job, until, resume, state)
+    cache.chains = (chain_ids, state)
+    return segment
+
+
+def observed_counts(
+    run: str, job: Job, problem: list[Any], chain_ids: tuple[int, ...], snapshot: Snapshot,
+    draws: Mapping[str, NDArray[Any]],
+) -> NDArray[np.int32]:  # fmt: skip
+    """Count observed cells of chains at a snapshot, see `Sampler.observed_counts`; `to_see` selects the draws."""
+    state = job.sampler.init(cached(run, job, problem).problem, chain_ids, job.seed, snapshot)
+    return job.sampler.observed_counts(state, draws)
 
 
 def connect(address: str | None) -> Any:
@@ -215,13 +316,13 @@ class _RayRun:
 
     def run(self, on_checkpoint: Callable[[Chains], None] | None, checkpoint_every_s: float) -> Chains:
         self._share()
-        advance = self.remote(ray_worker.advance)
+        submit_segment = self.remote(advance)
 
         def submit(group: Group) -> None:
             started = group.sweep >= 0
             until = self.marks.after(group.sweep) if started else 0
             resume = group.snapshots[group.sweep] if started else None
-            self.running[advance(self.name, *self.shared, group.chain_ids, until, resume)] = group
+            self.running[submit_segment(self.name, *self.shared, group.chain_ids, until, resume)] = group
 
         schedule, watch = self.job.schedule, self.watch
         last = self.sweep
@@ -264,7 +365,7 @@ class _RayRun:
     def so_far(self) -> Chains:
         """Return all chains at the sweep of the slowest group."""
         parts = [group.up_to(self.sweep) for group in self.groups]
-        count = self.remote(ray_worker.observed_counts)
+        count = self.remote(observed_counts)
         counts = [
             count(self.name, *self.shared, group.chain_ids, part.snapshot, to_see(part.draws))
             for group, part in zip(self.groups, parts, strict=True)
@@ -282,7 +383,7 @@ class _RayRun:
         job, ray, beams = self.job, self.ray, self.job.model.scans.n_beams
         model = ray.put(replace(job, threads=self.executor.cpus_per_task))
         self.watch.report("trace", 0, beams)
-        problem, seconds = self.remote(ray_worker.prepare, num_returns=2)(model, __version__)
+        problem, seconds = self.remote(prepare, num_returns=2)(model, __version__)
         self.trace_s = outcome(ray, seconds)
         self.watch.report("trace", beams, beams)
         self.shared = (model, [problem])

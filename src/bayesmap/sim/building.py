@@ -255,8 +255,7 @@ def building(
     for space in plan.spaces:
         x0, x1, y0, y1 = (float(v * resolution) for v in (space.x0, space.x1, space.y0, space.y1))
         rooms.append(Room(space.kind, (y0, y1, x0, x1) if turned else (x0, x1, y0, y1)))
-    nx, ny = walls.shape
-    return Building(Grid((nx, ny), resolution), walls, glass, opacity, tuple(rooms), glass_pass)
+    return Building(Grid(walls.shape, resolution), walls, glass, opacity, tuple(rooms), glass_pass)
 
 
 class _Construction:

@@ -43,7 +43,7 @@ def write_animation(
     """Write the draws of one chain as an animation without end, .gif or .webp, whole or not at all.
 
     Args:
-        path: path of the file.
+        path: the file.
         grid: grid of the cells.
         draws: walls, or probabilities in [0, 1], (n, nx, ny).
         running_mean: show the mean of all draws so far in place of the draws.
@@ -66,18 +66,16 @@ def write_animation(
     )
     # GIF stores hundredths of a second. Viewers round other durations in different ways.
     step_ms = 10 * max(2, round(100.0 / frames_per_second))
-    first = next(frames)
-    n = len(np.asarray(draws))
-    durations = [step_ms] * (n - 1) + [max(step_ms, LAST_FRAME_MS)]
-    film: dict[str, Any] = {"save_all": True, "duration": durations, "loop": 0}
-    buffer = io.BytesIO()
+    durations = [step_ms] * (len(np.asarray(draws)) - 1) + [max(step_ms, LAST_FRAME_MS)]
+    film: dict[str, Any] = {"format": ending, "save_all": True, "duration": durations, "loop": 0}
     if ending == "gif":
-        first.save(buffer, "GIF", append_images=frames, optimize=False, disposal=1, **film)
+        film |= {"optimize": False, "disposal": 1}
     else:
-        colors = (frame.convert("RGB") for frame in frames)
         # Lossless keeps the edges of cells sharp. The least effort is three times faster, and files are hardly larger.
-        effort = {"lossless": True, "method": 0, "quality": 0}
-        first.convert("RGB").save(buffer, "WEBP", append_images=colors, **effort, **film)
+        film |= {"lossless": True, "method": 0, "quality": 0}
+        frames = (frame.convert("RGB") for frame in frames)
+    buffer = io.BytesIO()
+    next(frames).save(buffer, append_images=frames, **film)
     with write_whole(target) as partial:
         partial.write_bytes(buffer.getvalue())
 

@@ -89,8 +89,7 @@ def _thinned(trace: NDArray[np.float64], first_sweep: int) -> tuple[NDArray[np.i
     index = np.arange(n)
     if n > MAX_POINTS:
         stretches = np.array_split(index, MAX_POINTS // 2)
-        ends = [(s[trace[s].argmin()], s[trace[s].argmax()]) for s in stretches]
-        index = np.unique(np.array([0, n - 1, *np.ravel(ends)]))
+        index = np.unique([0, n - 1, *(s[end(trace[s])] for s in stretches for end in (np.argmin, np.argmax))])
     return index + first_sweep, trace[index]
 
 

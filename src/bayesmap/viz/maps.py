@@ -35,20 +35,16 @@ def boundary_segments(grid: Grid, mask: NDArray[np.bool_]) -> NDArray[np.float64
     """
     # Edges where the mask changes, joined into runs in each direction.
     padded = np.pad(mask, 1)
-    across_x = padded[1:, 1:-1] != padded[:-1, 1:-1]  # (nx + 1, ny): edges with x constant
-    across_y = padded[1:-1, 1:] != padded[1:-1, :-1]  # (nx, ny + 1): edges with y constant
-    x, y0, y1 = _runs(across_x)
-    y, x0, x1 = _runs(across_y.T)
-    upright = np.stack([np.stack([x, y0], -1), np.stack([x, y1], -1)], axis=1)
-    level = np.stack([np.stack([x0, y], -1), np.stack([x1, y], -1)], axis=1)
-    return _to_world(grid, np.concatenate([upright, level]))
+    x, y0, y1 = _runs(padded[1:, 1:-1] != padded[:-1, 1:-1])  # (nx + 1, ny): edges with x constant
+    y, x0, x1 = _runs((padded[1:-1, 1:] != padded[1:-1, :-1]).T)  # (ny + 1, nx): edges with y constant
+    upright, level = np.array([[x, y0], [x, y1]]), np.array([[x0, y], [x1, y]])
+    return _to_world(grid, np.concatenate([upright, level], axis=-1))
 
 
 def boxes(grid: Grid, mask: NDArray[np.bool_]) -> NDArray[np.float64]:
     """Return disjoint boxes that cover the true cells, each a run along y: counter-clockwise outlines, m, (M, 5, 2)."""
     x, y0, y1 = _runs(mask)
-    corners = [(x, y0), (x + 1, y0), (x + 1, y1), (x, y1), (x, y0)]
-    return _to_world(grid, np.stack([np.stack(corner, -1) for corner in corners], axis=1))
+    return _to_world(grid, np.array([[x, y0], [x + 1, y0], [x + 1, y1], [x, y1], [x, y0]]))
 
 
 def _runs(mask: NDArray[np.bool_]) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.intp]]:
@@ -60,7 +56,8 @@ def _runs(mask: NDArray[np.bool_]) -> tuple[NDArray[np.intp], NDArray[np.intp], 
 
 
 def _to_world(grid: Grid, cells: NDArray[np.intp]) -> NDArray[np.float64]:
-    return np.asarray(np.asarray(grid.origin) + grid.resolution * cells)
+    """Return points in metres, (M, points, 2), given their cells, (points, 2, M)."""
+    return np.asarray(np.asarray(grid.origin) + grid.resolution * np.moveaxis(cells, -1, 0))
 
 
 def window(grid: Grid, x_m: tuple[float, float], y_m: tuple[float, float]) -> tuple[Grid, Cut]:
@@ -210,11 +207,8 @@ def map_figure(
 
 def round_number(value: float, *, up: bool) -> float:
     """Round a positive number up or down to 1, 2 or 5 times a power of ten."""
-    power = 10.0 ** np.floor(np.log10(value))
-    steps = [step * power for step in (1.0, 2.0, 5.0, 10.0)]
-    if up:
-        return float(next(step for step in steps if value <= step * (1 + 1e-9)))
-    return float(max(step for step in steps if step <= value * (1 + 1e-9)))
+    steps = 10.0 ** np.floor(np.log10(value)) * np.array([1.0, 2.0, 5.0, 10.0])
+    return float(steps[value <= steps * (1 + 1e-9)][0] if up else steps[steps <= value * (1 + 1e-9)][-1])
 
 
 def tick_locator(most: int) -> MaxNLocator:

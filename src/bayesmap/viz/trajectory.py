@@ -11,9 +11,9 @@ from matplotlib.figure import Figure
 from numpy.typing import ArrayLike, NDArray
 
 from bayesmap.space.grid import Grid
+from bayesmap.space.planar import Floats
 from bayesmap.viz import maps, palette
 
-Floats = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
 REGION = 5.991  # squared radius, in standard deviations, of the ellipse with 95 % of a normal distribution in the plane
@@ -46,7 +46,7 @@ def trajectory_figure(
 
     The picture leaves out the parts of the map that hold no wall but the ends of stray beams.
     """
-    grid, occupancy, observed = _inhabited(grid, occupancy, observed, poses)
+    grid, occupancy, observed = _window(grid, occupancy, observed, poses)
     figure, ax = _axes(grid.shape[1] / grid.shape[0])
     _draw_map(ax, grid, occupancy, observed, poses, covariances)
     if flagged is not None and flagged.any():
@@ -54,7 +54,7 @@ def trajectory_figure(
     return _finished(figure, ax)
 
 
-def _inhabited(grid: Grid, occupancy: ArrayLike, observed: ArrayLike, poses: Floats) -> tuple[Grid, Floats, Mask]:
+def _window(grid: Grid, occupancy: ArrayLike, observed: ArrayLike, poses: Floats) -> tuple[Grid, Floats, Mask]:
     """Return grid, occupancy and mask of observed cells of the window around walls and poses."""
     values, seen = np.asarray(occupancy, dtype=np.float64), np.asarray(observed, dtype=np.bool_)
     inner, cut = maps.window_of_walls(grid, seen & (values > 0.5), poses[:, :2])
@@ -92,7 +92,7 @@ def before_and_after_figure(
     ``raw`` and ``poses`` are (S, 3), ``covariances`` (S, 3, 3). ``ends`` are the end points of readings from the raw
     poses, (N, 2) in metres.
     """
-    grid, occupancy, observed = _inhabited(grid, occupancy, observed, poses)
+    grid, occupancy, observed = _window(grid, occupancy, observed, poses)
     height = SIZE_IN * 0.75 * grid.shape[1] / grid.shape[0] + 0.8
     figure = palette.blank_figure(1.5 * SIZE_IN, height, dpi=110)
     left, right = figure.subplots(1, 2)

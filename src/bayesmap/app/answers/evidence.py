@@ -21,7 +21,7 @@ from scipy import special
 from bayesmap.app.answers.predictions import predictor_of_result
 from bayesmap.app.shown.result import Result
 from bayesmap.beams.table import BeamTable
-from bayesmap.posterior.predictor import Predictor
+from bayesmap.posterior.prediction import Predictor
 from bayesmap.space.scans import Scans
 
 MOST_BEAMS = 2000  # most beams evaluated per cell for walls; each also counts for beams left out

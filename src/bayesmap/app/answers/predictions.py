@@ -19,7 +19,7 @@ from bayesmap.app.shown.chains import Pilot
 from bayesmap.app.shown.result import Nothing, Result
 from bayesmap.beams.rays import Rays
 from bayesmap.errors import BadInput
-from bayesmap.posterior.predictor import CENTRAL_80, MapStates, Predictor, ScanPredictor, fixed_maps, surface_offset
+from bayesmap.posterior.prediction import CENTRAL_80, MapStates, Predictor, ScanPredictor, fixed_maps, surface_offset
 from bayesmap.sensors.model import RangeLimits
 from bayesmap.space.scans import Scans, fan
 

@@ -21,8 +21,7 @@ from bayesmap.app.scene import Scene
 from bayesmap.app.shown.result import Result
 from bayesmap.beams.table import BeamTable
 from bayesmap.errors import BadInput
-from bayesmap.posterior.decisions import shortest_safe_path, typical_sigma_m
-from bayesmap.posterior.information import beam_information
+from bayesmap.posterior.decisions import beam_information, shortest_safe_path, typical_sigma_m
 
 ANSWERED_BY: Mapping[type, Literal["path", "views", "ghost", "beam"]] = {
     FindPath: "path", FindViews: "views", MoveGhost: "ghost", CompareBeam: "beam",
@@ -113,7 +112,7 @@ def safe_path(result: Result, question: FindPath, generation: int) -> SafePath:
 def views(result: Result, generation: int) -> tuple[Views, Buffers]:
     """Compute the information expected from one more scan, in nats, at a lattice of free places.
 
-    The formula treats cells and beams as independent (`bayesmap.posterior.information.beam_information`). Raises
+    The formula treats cells and beams as independent (`bayesmap.posterior.decisions.beam_information`). Raises
     BadInput: there is no place at which a sensor could stand.
     """
     # Candidate places, and a thinned fan of beams.

@@ -23,7 +23,7 @@ from bayesmap.errors import BadInput
 from bayesmap.model import Model
 from bayesmap.posterior.summary import CHANCE_SHARE, RHAT_LIMIT, bulk_ess, rhat
 from bayesmap.result import Run
-from bayesmap.run.checks import RANDOM_STREAMS
+from bayesmap.run.chains import RANDOM_STREAMS
 from bayesmap.sensors.builtin import describe
 from bayesmap.sensors.model import SensorModel
 

@@ -212,9 +212,9 @@ def read_csv(path: str | os.PathLike[str], options: LogOptions) -> LogReading:
 
 
 def live_rows(name: str, lines: Iterable[tuple[int, bytes]], bad: Bad, options: LogOptions) -> Iterator[Scans]:
-    """Yield the scans of a table with one row per scan, each as soon as its line arrives.
+    """Yield the scans of a table with one row per scan, each as soon as its line arrives. Errors are as in `read_csv`.
 
-    Raises `BadInput` for a table with one row per beam, no angles, no poses, or a malformed row that ``bad`` refuses.
+    A table with one row per beam is refused.
     """
     table, max_range_m = _Table(name, bad), options.max_range_m
     assert max_range_m is not None
@@ -231,16 +231,13 @@ def live_rows(name: str, lines: Iterable[tuple[int, bytes]], bad: Bad, options: 
         poses = poses if options.laser is None else compose(poses, np.array(options.laser))
         table.lines, table.rows = [], []
         if len(readings):
-            smallest, largest = table.limits()
-            code = options.no_return
+            limits, code = table.limits(), options.no_return
             if code is None and not np.isinf(readings).any():
-                code = largest if largest > 0 else math.inf
-            silent = np.isnan(readings).all()
-            ranges = readings if silent else classify(
-                name, readings, smallest, largest, no_return=code, max_range_m=max_range_m
-            ).ranges_m  # fmt: skip
+                code = limits[1] if limits[1] > 0 else math.inf
+            if not np.isnan(readings).all():
+                readings = classify(name, readings, *limits, no_return=code, max_range_m=max_range_m).ranges_m
             mount = None if options.laser is None else np.array(options.laser)
-            scans = Scans(poses, angles, ranges, max_range_m, smallest, stamps_s=stamps, mount=mount)
+            scans = Scans(poses, angles, readings, max_range_m, limits[0], stamps_s=stamps, mount=mount)
             yield scans.limited(max_range_m)
 
 
@@ -349,8 +346,8 @@ def _angles(name: str, settings: dict[str, list[float]], beams: int) -> Floats:
 def _one_row_a_beam(table: _Table) -> _Parts:
     key = next((column for column in ("scan", "stamp") if column in table.columns), None)
     if key is None:
-        problem = "a table of one row a beam needs a column 'scan' or 'stamp', to tell the scans apart"
-        raise BadInput(f"{table.name}: {problem}")
+        need = "a column 'scan' or 'stamp', to tell the scans apart"
+        raise BadInput(f"{table.name}: a table of one row a beam needs {need}")
     rows = _checked(table, (*POSE, "angle", key, "stamp"))
     if not len(rows):
         return np.empty((0, 3)), np.empty(0), np.empty((0, 0)), None

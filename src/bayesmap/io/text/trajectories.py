@@ -63,10 +63,7 @@ def covariances_path(path: str | os.PathLike[str]) -> Path:
 
 
 def write_covariances(path: str | os.PathLike[str], covariances: ArrayLike, stamps_s: ArrayLike | None = None) -> Path:
-    """Write the covariances of a trajectory's poses in world axes, (S, 3, 3), whole or not at all. Returns the path.
-
-    Raises `BadInput` for shapes that do not fit, numbers that are not finite, or a file that cannot be written.
-    """
+    """Write the covariances of a trajectory's poses in world axes, (S, 3, 3). Errors are as in `write_trajectory`."""
     values = np.asarray(covariances, dtype=np.float64)
     if values.ndim != 3 or values.shape[1:] != (3, 3) or len(values) == 0 or not np.isfinite(values).all():
         raise BadInput(f"trajectory: covariances must be finite, (S, 3, 3), got shape {values.shape}")
@@ -115,11 +112,7 @@ def read_trajectory(path: str | os.PathLike[str], frame: str | None = None) -> T
 
 
 def read_relations(path: str | os.PathLike[str]) -> Relations:
-    """Read a file of relations, plain or gzipped; # begins a comment.
-
-    Raises `BadInput` for a file that cannot be read, or a line that is not eight finite numbers; the message names the
-    line.
-    """
+    """Read a file of relations, plain or gzipped; # begins a comment. Errors are as in `read_table`."""
     from bayesmap.posterior.trajectory_scores import Relations
 
     table = read_table(path, 8, "t1 t2 x y z roll pitch yaw", "no relations in it")
