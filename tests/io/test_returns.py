@@ -136,7 +136,7 @@ def test_beside_a_code_at_the_top_and_where_they_are_rare_zeros_are_invalid(shar
     (np.inf, [5.0, 81.83, 81.83, 81.83], [5.0, 81.83, 81.83, 81.83]),  # the log has no code
 ])  # fmt: skip
 def test_a_given_code_is_taken(given_code, readings, expected):
-    ranges, found = decode(np.array([readings]), given=given_code)
+    ranges, found = decode(np.array([readings]), no_return=given_code)
     np.testing.assert_array_equal(ranges, [expected])
     assert found.code_m == (None if np.isinf(given_code) else given_code)
 
@@ -144,4 +144,4 @@ def test_a_given_code_is_taken(given_code, readings, expected):
 @pytest.mark.parametrize("given_code", [np.nan, -np.inf])
 def test_a_given_code_must_be_a_number(given_code):
     with pytest.raises(BadInput, match="--no-return"):
-        decode(np.ones((1, 3)), given=given_code)
+        decode(np.ones((1, 3)), no_return=given_code)

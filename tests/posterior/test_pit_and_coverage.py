@@ -94,7 +94,7 @@ def test_the_transform_spreads_atoms_and_histograms_intervals_scores_and_reliabi
     np.testing.assert_allclose(brier, [0.64, 0.04])
     np.testing.assert_allclose(loss, [-np.log(0.2), -np.log(0.8)])
     chance = np.array([1e-5, 5e-4, 0.6, 0.8])
-    rows = scores.reliability(chance, np.array([False, False, True, True]), bins=10)
+    rows = scores.reliability(chance, np.array([False, False, True, True]))
     assert [n for *_, n in rows] == [2, 2]
     np.testing.assert_allclose(rows[1][:2], (0.7, 1.0))
 

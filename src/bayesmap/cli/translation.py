@@ -249,11 +249,11 @@ def ray_address(executor: str) -> tuple[bool, str | None]:
 def executor_of(executor: str) -> Executor | None:
     """Return the executor that a setting names; None for the threads of this process."""
     on_ray, address = ray_address(executor)
-    if not on_ray:
-        return None
-    from bayesmap.run.ray_executor import RayExecutor
+    if on_ray:
+        from bayesmap.run.ray_executor import RayExecutor
 
-    return RayExecutor(address)
+        return RayExecutor(address)
+    return None
 
 
 def reading_of(settings: ReadingSettings) -> dict[str, Any]:
@@ -280,11 +280,9 @@ LOG = "a log or a recording of range scans"
 
 
 def need_file(file: str, expected: str, *, runs: bool, pipes: bool = False) -> None:
-    """Refuse a path that cannot be opened, before slow modules are imported to open it.
+    """Raise `BadInput` for a path that does not exist, a run's folder or a pipe, before slow modules are imported.
 
     The message asks for ``expected`` instead. ``runs`` and ``pipes`` tell whether a saved run and a pipe are accepted.
-
-    Raises `BadInput` if the path does not exist, is the folder of a run, or is a pipe.
     """
     if not pipes and (file in ("-", "/dev/stdin") or Path(file).is_fifo()):
         raise BadInput(f"{file}: a pipe, and this needs a file that can be read again; localize --follow reads pipes")
@@ -335,10 +333,8 @@ def _is_log(path: Path) -> bool:
 
 def _is_recording(folder: Path) -> bool:
     """Return whether a folder is one ROS 2 bag, and not a folder of logs."""
-    if (folder / "metadata.yaml").exists():
-        return True
-    recorded = [entry for entry in folder.glob("*") if entry.name.endswith(RECORDED)]
-    return len(recorded) == 1
+    recorded = sum(entry.name.endswith(RECORDED) for entry in folder.iterdir())
+    return (folder / "metadata.yaml").exists() or recorded == 1
 
 
 def heldout_scans(run: Run, log: str, settings: ReadingSettings, every: int) -> Scans:
@@ -353,9 +349,7 @@ def heldout_scans(run: Run, log: str, settings: ReadingSettings, every: int) -> 
     from bayesmap.io.logs import read_log
     from bayesmap.posterior.heldout import moved_by, unseen_scans
 
-    train = run.posterior.scans
-
-    options = reading_of(settings)
+    train, options = run.posterior.scans, reading_of(settings)
     laser = options.pop("laser")
     needed = laser if settings.trajectory is not None else None
     scans = read_log(log, max_range_m=train.max_range_m, laser=needed, **options)
@@ -365,10 +359,7 @@ def heldout_scans(run: Run, log: str, settings: ReadingSettings, every: int) -> 
 
 
 def need_free(paths: Iterable[Path], force: bool, option: str = "-o") -> None:
-    """Refuse to replace an older file without ``force``: the rule of all commands for all files, before slow work.
-
-    Raises `BadInput`; the message names the remedies, ``option`` among them.
-    """
+    """Raise `BadInput` for an older file without ``force``: the rule of all commands, before slow work."""
     older = next((path for path in paths if os.path.lexists(path)), None)
     if older is not None and not force:
         raise BadInput(f"{older}: exists already; --force replaces it, {option} takes another name")

@@ -110,26 +110,26 @@ class Views:
 
 
 def decode(
-    readings_m: NDArray[np.float64], given: float | None = None, sensor_max_m: float | None = None,
+    readings_m: NDArray[np.float64], no_return: float | None = None, sensor_max_m: float | None = None,
     views: Views | None = None,
 ) -> tuple[NDArray[np.float64], NoReturn]:  # fmt: skip
     """Replace the codes in raw readings, (S, A), by those of REP-117. Returns the ranges, and the no-return code.
 
-    Ranges are +inf for no return, and NaN for numbers that cannot be ranges. A ``given`` code of infinity means that
+    Ranges are +inf for no return, and NaN for numbers that cannot be ranges. A ``no_return`` code of infinity means that
     the log has none; if it is None, the rules of this module find the code. Readings of the maximum range that the log
     states, and larger ones, are no return, even if they are not repeated.
 
-    Raises `BadInput` if ``given`` is NaN or minus infinity.
+    Raises `BadInput` if ``no_return`` is NaN or minus infinity.
     """
-    if given is not None and (math.isnan(given) or given == -math.inf):
-        raise BadInput(f"--no-return {given}: give the log's number in metres, or inf if it has none")
+    if no_return is not None and (math.isnan(no_return) or no_return == -math.inf):
+        raise BadInput(f"--no-return {no_return}: give the log's number in metres, or inf if it has none")
     finite = np.isfinite(readings_m)
     impossible = finite & (readings_m <= 0)
     # The code: given, at the top, the stated maximum, or at the bottom.
-    code, origin, doubtful = given, "given", None
-    if given == math.inf:
+    code, origin, doubtful = no_return, "given", None
+    if no_return == math.inf:
         code = None
-    elif given is None:
+    elif no_return is None:
         code, doubtful = _code_at_top(readings_m, views)
         origin = "found"
         if sensor_max_m is not None and (code is None or sensor_max_m <= code):
@@ -146,7 +146,7 @@ def decode(
     ranges = np.where(impossible, np.nan, readings_m)
     ranges[coded] = np.inf
     values = tuple(float(v) for v in np.unique(readings_m[coded])[:10])
-    if given is None and not values and origin != "message":
+    if no_return is None and not values and origin != "message":
         code, origin = None, "none"
     return ranges, NoReturn(code, origin, values, doubtful)
 

@@ -105,10 +105,9 @@ def unseen_scans(train: Scans, scans: Scans, every: int, where: str) -> Scans:
             f"its map by; bayesmap score {where} --trajectory DIR/trajectory.tum judges a map along its path"
         )
     # Check that the run was made with this hold-out.
-    mask = np.arange(len(scans)) % every == every // 2 if every >= 2 else None
-    if mask is None or not mask.any():
+    mask = np.arange(len(scans)) % max(every, 2) == every // 2
+    if every < 2 or not mask.any():
         scans.holdout(every)  # raises the fitting message
-    assert mask is not None
     if not (mask & seen).any():
         return scans.select(mask)
     if seen.all():

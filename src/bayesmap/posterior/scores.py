@@ -124,16 +124,15 @@ class ScanBlocks:
         return distance, float((away >= distance).mean())
 
 
-def reliability(chance: Floats, happened: NDArray[np.bool_], bins: int = 10) -> list[tuple[float, float, int]]:
+def reliability(chance: Floats, happened: NDArray[np.bool_]) -> list[tuple[float, float, int]]:
     """Group events by predicted chance. Returns (mean chance, share that happened, count) for each non-empty bin.
 
     Chances of first hits are mostly small. So bins have equal widths in ``log10 chance`` from -3 to 0. The first bin
     also contains all smaller chances.
     """
-    edges = np.concatenate([[0.0], np.logspace(-3, 0, bins)])
-    at = np.clip(np.searchsorted(edges, chance, side="left") - 1, 0, bins - 1)
-    count = np.bincount(at, minlength=bins)
-    mean, share = (np.bincount(at, values, minlength=bins) for values in (chance, happened))
+    edges = np.concatenate([[0.0], np.logspace(-3, 0, 10)])
+    at = np.clip(np.searchsorted(edges, chance, side="left") - 1, 0, 9)
+    count, mean, share = (np.bincount(at, values, minlength=10) for values in (None, chance, happened))
     return [(float(m / n), float(s / n), int(n)) for m, s, n in zip(mean, share, count, strict=True) if n]
 
 

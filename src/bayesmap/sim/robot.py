@@ -38,15 +38,11 @@ PATROL_POSES = 4000  # of one round of a driven building
 
 
 def patrol(building: Building, n_scans: int, seed: int = 0) -> Floats:
-    """Simulate the poses of a robot that goes round a building and enters its rooms.
+    """Simulate the poses of a robot that goes round a building and enters its rooms, (n_scans, 3), in the world frame.
 
     The robot starts in the first corridor, and repeatedly goes to the nearest unvisited room, to a goal that ``seed``
-    decides. It takes shortest paths that prefer open floor. Scans are taken at equal distances along the path; about
-    one per metre shows every room from inside.
-
-    Returns:
-        Poses in the world frame, shape (n_scans, 3): x and y in metres, yaw in radians along the direction of
-        travel. No pose is within `ROBOT_CLEARANCE_M` of a wall.
+    decides. It takes shortest paths that prefer open floor, and looks along its way. No pose is within
+    `ROBOT_CLEARANCE_M` of a wall. Scans are taken at equal distances; about one per metre shows every room from inside.
 
     Raises `BadInput` for ``n_scans`` below 1, or a building without floor that a robot can pass.
     """
@@ -69,11 +65,7 @@ def drive(
     building: Building, seconds: float, rate_hz: float = 10.0, *, speed_m_per_s: float = 0.5,
     turn_rad_per_s: float = 1.0, seed: int = 0,
 ) -> tuple[Floats, Floats]:  # fmt: skip
-    """Simulate times and poses of a robot that goes round a building, turns about, goes back, and so on.
-
-    Returns:
-        Times in seconds from 0, shape (S,), and poses in the world frame, shape (S, 3).
-    """
+    """Simulate a robot that goes round a building and back, again and again: times from 0, (S,), and poses, (S, 3)."""
     once = patrol(building, PATROL_POSES, seed)
     rounds = [once]
     while travel_times_s(np.concatenate(rounds), speed_m_per_s, turn_rad_per_s)[-1] < seconds:

@@ -64,12 +64,11 @@ class Samples:
         """Return the poses of several topics as one."""
         if len(parts) == 1:
             return parts[0]
-        result = cls(all(part.static for part in parts), ", ".join(part.topic for part in parts))
-        for part in parts:
-            result.stamps_ns += [int(stamp) for stamp in part.times_ns()]
-            result.received_ns += part.received_ns
-            result.values += part.values
-        return result
+        return cls(
+            all(part.static for part in parts), ", ".join(part.topic for part in parts),
+            [int(stamp) for part in parts for stamp in part.times_ns()],
+            [time for part in parts for time in part.received_ns], [value for part in parts for value in part.values],
+        )  # fmt: skip
 
     @property
     def unstamped(self) -> bool:
@@ -89,8 +88,7 @@ class Samples:
         """Return the poses in time order; of several at one time, the last. The options are those of `Track`."""
         stamps = self.times_ns()
         order = np.argsort(stamps, kind="stable")
-        last = np.append(np.diff(stamps[order]) > 0, True)
-        order = order[last]
+        order = order[np.append(np.diff(stamps[order]) > 0, True)]
         values = np.array(self.values, dtype=np.float64)[order]
         motions = RigidTransform.from_components(values[:, :3], Rotation.from_quat(values[:, 3:]))
         return Track(stamps[order], motions, constant, inverted)
@@ -312,10 +310,10 @@ class Track:
             motion = self.motions[np.zeros(np.shape(stamps_ns), dtype=np.intp)]
             return motion.inv() if self.inverted else motion
         # Nanoseconds since 1970 exceed the precision of a double; those since the start of the track do not.
-        known = (self.stamps_ns - self.stamps_ns[0]).astype(np.float64)
+        nodes = (self.stamps_ns - self.stamps_ns[0]).astype(np.float64)
         at = (np.clip(stamps_ns, self.stamps_ns[0], self.stamps_ns[-1]) - self.stamps_ns[0]).astype(np.float64)
-        translation = make_interp_spline(known, self.motions.translation, k=1)(at)
-        motion = RigidTransform.from_components(translation, Slerp(known, self.motions.rotation)(at))
+        translation = make_interp_spline(nodes, self.motions.translation, k=1)(at)
+        motion = RigidTransform.from_components(translation, Slerp(nodes, self.motions.rotation)(at))
         return motion.inv() if self.inverted else motion
 
     def last(self) -> RigidTransform:

@@ -148,18 +148,18 @@ IDL_SEPARATOR = "=" * 80 + "\n"
 MAX_MESSAGE_BYTES = 1 << 28  # largest message; a larger size is taken for damage
 
 
-def scan_topic_of(recording: Recording, given: str | None) -> Topic:
+def scan_topic_of(recording: Recording, name: str | None) -> Topic:
     """Return the topic to read: the named one, or the only one of laser scans, or else of single ranges.
 
     Raises `BadInput` for no topic of scans, none of that name, or several if none was named; the message lists them.
     """
-    held = recording.of_type(SCAN_TYPES)
+    topics = recording.of_type(SCAN_TYPES)
     have = f"no topic holds {' or '.join(SCAN_TYPES)}; there are {', '.join(map(str, recording.topics.values()))}"
-    have = f"scans are on {', '.join(map(str, held))}" if held else have
-    if given is not None:
-        topic = recording.named("--scan-topic", given, SCAN_TYPES, have)
+    have = f"scans are on {', '.join(map(str, topics))}" if topics else have
+    if name is not None:
+        topic = recording.named("--scan-topic", name, SCAN_TYPES, have)
     else:
-        lasers = [topic for topic in held if topic.type == LASER_SCAN] or held
+        lasers = [topic for topic in topics if topic.type == LASER_SCAN] or topics
         if not lasers:
             raise BadInput(f"{recording.path}: {have}" + "".join(f" ({note})" for note in recording.notes))
         if len(lasers) > 1:

@@ -57,11 +57,11 @@ class PoseMessages:
         samples.add(stamp_ns, received_ns, values)
 
 
-def pose_topic_of(recording: Recording, given: str) -> Topic:
+def pose_topic_of(recording: Recording, name: str) -> Topic:
     """Return the topic of poses that the user names."""
     held = ", ".join(map(str, recording.of_type((*POSE_TYPES, *TF_TYPES))))
     have = f"poses are on {held}" if held else f"no topic holds poses ({', '.join((*POSE_TYPES, TF_TYPES[0]))})"
-    return recording.named("--pose-topic", given, (*POSE_TYPES, *TF_TYPES), have)
+    return recording.named("--pose-topic", name, (*POSE_TYPES, *TF_TYPES), have)
 
 
 def only_pose_topic(recording: Recording, scan_topic: str) -> Topic | None:

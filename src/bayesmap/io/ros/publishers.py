@@ -50,36 +50,35 @@ def contradiction(parent: str, child: str, parts: Sequence[Samples]) -> Contradi
     if len(parts) > 1:
         pair = _apart(parts)
         if pair is not None:
-            (one, first), (other, second) = pair
-            text = f"{what} differs between topics: {one} says {told(first)}, {other} says {told(second)}"
+            (topic, first), (other, second) = pair
+            text = f"{what} differs between topics: {topic} says {in_words(first)}, {other} says {in_words(second)}"
             return Contradiction(text, tuple(part.topic for part in parts))
     for part in parts:
         if part.static:
             values = _distinct(part.values)
             if len(values) > 1:
-                last = next(told(v) for v, _ in values if not differ(v, part.last()))
-                stated = " and ".join(f"{told(value)} ({count:,} x)" for value, count in values[:3])
+                last = next(in_words(v) for v, _ in values if not differ(v, part.last()))
+                stated = " and ".join(f"{in_words(value)} ({count:,} x)" for value, count in values[:3])
                 number = {2: "two", 3: "three"}.get(len(values), "many")
                 text = f"{what} has {number} values on {part.topic} that differ: {stated}; the last was used, {last} "
                 text += "(--laser X,Y,DEGREES says otherwise)"
                 return Contradiction(text, fatal=False)
         elif (swing := _to_and_fro(part)) is not None:
             at_s, away, back = swing
-            text = (
+            return Contradiction(
                 f"{what} on {part.topic} goes to and fro between values that differ: at {moment(at_s)} it is "
-                f"{told(away)}, and just before and after {told(back)}; it has two publishers, or the clock of the "
-                "recording started again"
+                f"{in_words(away)}, and just before and after {in_words(back)}; it has two publishers, or the clock "
+                "of the recording started again"
             )
-            return Contradiction(text)
     return None
 
 
-def differ(one: Numbers, other: Numbers) -> bool:
+def differ(first: Numbers, second: Numbers) -> bool:
     """Return true if two poses differ by more than `SAME`."""
-    return not close(one, other, SAME)
+    return not close(first, second, SAME)
 
 
-def told(values: Numbers) -> str:
+def in_words(values: Numbers) -> str:
     """Return a pose in words: x, y and yaw, and z, roll and pitch unless they are zero."""
     x, y, z, *quaternion = values
     # Not by SciPy, which warns if a sensor looks straight up.
@@ -98,14 +97,12 @@ def told(values: Numbers) -> str:
 
 def _distinct(values: Sequence[Numbers]) -> list[tuple[Numbers, int]]:
     """Return the distinct values with their counts, in the order of first appearance; at most ten."""
-    distinct: list[tuple[Numbers, int]] = []
+    counts: dict[Numbers, int] = {}
     for value in values:
-        at = next((i for i, (known, _) in enumerate(distinct) if not differ(known, value)), None)
-        if at is not None:
-            distinct[at] = (distinct[at][0], distinct[at][1] + 1)
-        elif len(distinct) < 10:
-            distinct.append((value, 1))
-    return distinct
+        equal = next((other for other in counts if not differ(other, value)), value)
+        if equal in counts or len(counts) < 10:
+            counts[equal] = counts.get(equal, 0) + 1
+    return list(counts.items())
 
 
 def _apart(parts: Sequence[Samples]) -> tuple[tuple[str, Numbers], tuple[str, Numbers]] | None:
@@ -137,9 +134,9 @@ def _apart(parts: Sequence[Samples]) -> tuple[tuple[str, Numbers], tuple[str, Nu
     return (moving[whose[beside]].topic, values[beside]), (moving[whose[beside - 1]].topic, values[beside - 1])
 
 
-def _off_the_way(one: Samples, other: Samples) -> tuple[Numbers, Numbers] | None:
+def _off_the_way(reference: Samples, other: Samples) -> tuple[Numbers, Numbers] | None:
     """Return two values if half of the samples of a topic are over a step away from another topic's motion."""
-    track, stamps = one.track(), other.times_ns()
+    track, stamps = reference.track(), other.times_ns()
     inside = np.nonzero(track.covers(stamps))[0]
     if not len(inside):
         return None

@@ -391,12 +391,12 @@ class _Objects:
             try:
                 self._take(Reader(data, header.data), header)
             except (UnreadableObject, struct.error) as problem:
-                reason = str(problem) if isinstance(problem, UnreadableObject) else "is cut short"
+                fault = str(problem) if isinstance(problem, UnreadableObject) else "is cut short"
                 number = account.counts[header.name]
-                told = f"{header.name} (object {number} of its class, version {header.version}) {reason}"
+                reason = f"{header.name} (object {number} of its class, version {header.version}) {fault}"
                 if not account.options.skip_bad_lines:
-                    raise BadInput(f"{account.name}: {told}; leave such objects out with --skip-bad-lines") from None
-                account.skipped.append(SkippedLine(number, told, f"{header.name} in the log"))
+                    raise BadInput(f"{account.name}: {reason}; leave such objects out with --skip-bad-lines") from None
+                account.skipped.append(SkippedLine(number, reason, f"{header.name} in the log"))
 
     def _take(self, reader: Reader, header: Header) -> None:
         if header.name == SCAN:
@@ -435,8 +435,8 @@ class _Objects:
         # By odometry: interpolate the label with most poses.
         self.source = ODOMETRY
         label = max(self.odometry, key=lambda label: len(self.odometry[label]))
-        told = sorted(self.odometry[label], key=lambda reading: reading[0])
-        times, poses = np.array([t for t, _ in told]), np.array([pose for _, pose in told])
+        in_order = sorted(self.odometry[label], key=lambda reading: reading[0])
+        times, poses = np.array([t for t, _ in in_order]), np.array([pose for _, pose in in_order])
         inside = (stamps_s >= times[0]) & (stamps_s <= times[-1])
         if not inside.all():
             self.account.notes.append(
