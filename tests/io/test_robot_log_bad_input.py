@@ -74,7 +74,7 @@ def test_empty_recordings_are_refused_and_bags_of_earlier_formats_with_the_remed
 def test_a_packed_file_that_is_no_recording_is_refused_with_the_remedy(tmp_path):
     path = tmp_path / "robot.log.zst"
     path.write_bytes(zstd().compress(b"FLASER 3 1.0 2.0 1.5 0.1 0 0 0.1 0 0 1 host 1\n" * 20))
-    assert "compressed by zstd, and it holds no recording; unpack it: zstd -d" in r.refused(path)
+    assert "compressed by zstd, and no recording; unpack it: zstd -d" in r.refused(path)
     path.write_bytes(path.read_bytes()[:9] + bytes(9))
     assert "compressed by zstd, but damaged or cut short" in r.refused(path)
 

@@ -102,7 +102,7 @@ def test_marks():
         ("a.gif", np.zeros((0, 6, 4)), {}, "chain is empty"),
         ("a.gif", np.zeros((6, 4)), {}, r"shape \(6, 4\).*one chain"),
         ("a.gif", np.zeros((3, 4, 6)), {}, r"shape \(3, 4, 6\)"),
-        ("a.gif", np.full((3, 6, 4), 2), {}, r"draw 0 has a number outside \[0, 1\]"),
+        ("a.gif", np.full((3, 6, 4), 2), {}, r"draw 0 has numbers outside \[0, 1\]"),
         ("a.gif", np.full((3, 6, 4), np.nan), {}, "draw 0"),
         ("a.gif", np.full((3, 6, 4), "x"), {}, "array of numbers"),
         ("a.mp4", chain(), {}, r"\.gif, \.webp"),

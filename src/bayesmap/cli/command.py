@@ -215,9 +215,8 @@ def command(section: str | None) -> Callable[[Callable[..., None]], click.Comman
             config, pairs = arguments.pop("config"), arguments.pop("pairs")
             quiet, verbose = arguments.pop("quiet"), arguments.pop("verbose")
             context.meta[VERBOSE] = verbose
-            console = Console(
-                quiet=quiet, verbose=verbose, as_json=arguments.pop("as_json"), bar=not arguments.pop("no_progress")
-            )
+            as_json, bar = arguments.pop("as_json"), not arguments.pop("no_progress")
+            console = Console(quiet=quiet, verbose=verbose, as_json=as_json, bar=bar)
             # Stack the sources of settings, and run the command.
             by_file = read_file(config) if config is not None else {}
             by_flags = {section: flags} if section is not None else {}

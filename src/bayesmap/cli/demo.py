@@ -36,9 +36,7 @@ def demo(call: Call[DemoSettings], output: str, force: bool) -> None:
     """
     folder = Path(output)
     if (folder / "run.nc").exists() and not (folder / "demo.json").exists() and not force:
-        raise BadInput(
-            f"{folder}: holds a run that is no demo; choose another folder with -o, or replace it with --force"
-        )
+        raise BadInput(f"{folder}: holds a run that is no demo; take another folder with -o, or replace it by --force")
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except (FileExistsError, NotADirectoryError):

@@ -129,9 +129,7 @@ def _panel(run: Run, settings: RenderSettings, grid: Grid, window: tuple[slice, 
         raise BadInput("deviation: that of binary walls; --what width shows how sure a reflectivity is")
     if what == "width":
         if not run.posterior.prior.has_interval:
-            raise BadInput(
-                "width: a wall is there or not, and has no interval; --what entropy or deviation shows how sure it is"
-            )
+            raise BadInput("width: a wall has no interval; --what entropy or deviation shows how sure it is")
         run.interval(0.9)
         shown = run.posterior.prior.width(run.posterior.draws, 0.9)[window]
     elif run.n_draws:

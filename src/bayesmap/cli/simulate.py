@@ -219,9 +219,7 @@ def world_of(settings: SimulateSettings, poses: Sequence[str], minutes: float | 
         return _building(settings, typed, minutes)
     path = Path(name)
     if not path.is_file():
-        raise BadInput(
-            f"world {name!r}: no such file; give tutorial, building, or a drawing, picture or map_server YAML"
-        )
+        raise BadInput(f"world {name!r}: no such file; give tutorial, building, a drawing, picture or map_server YAML")
     if typed is None:
         raise click.UsageError(f"where is the robot in {name}? give --pose X,Y,DEGREES, once for each scan")
     return World(*_from_file(path, resolution), typed)
@@ -271,9 +269,7 @@ def _from_file(path: Path, resolution: float | None) -> tuple[NDArray[np.bool_],
     try:
         text = path.read_text(encoding="utf-8")
     except UnicodeDecodeError:
-        raise BadInput(
-            f"{path}: neither a text drawing nor a file called {', '.join(IMAGES)} or {', '.join(MAPS)}"
-        ) from None
+        raise BadInput(f"{path}: neither a text drawing nor called {', '.join(IMAGES)} or {', '.join(MAPS)}") from None
     try:
         walls = from_text(text)
     except BadInput as problem:

@@ -236,7 +236,9 @@ def export_run(
     if chosen == "rerun":
         return (write_rerun(path, layers_of(run), grid, observed, scans=scans, trajectory=trajectory),)
     moved, edges = trajectory.of(frame, scans.mount), None
-    if chosen == "g2o" and trajectory.relative is not None:  # the trajectory is slam's approximation
+    if (
+        chosen == "g2o" and trajectory.relative is not None and run.trajectory is not None
+    ):  # the trajectory is slam's approximation
         from bayesmap.io.text.g2o import slam_edges
 
         edges = slam_edges(run.trajectory)

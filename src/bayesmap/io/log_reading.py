@@ -181,9 +181,7 @@ class Account:
         if (heights > 0).any() and (heights < 0).any():
             raise BadInput(f"{self.name}: {sensor} is upright in some scans and upside down in others")
         if (tilted := float(np.abs(heights).min())) < LEVEL:
-            self.notes.append(
-                f"{sensor} is tilted by up to {_tilt_deg(tilted):.0f} degrees; its beams were taken as level"
-            )
+            self.notes.append(f"{sensor} is tilted by up to {_tilt_deg(tilted):.0f} degrees; its beams count as level")
         if heights[0] < 0:
             self.notes.append(f"{sensor} is mounted upside down; its beams sweep the other way")
         return -1.0 if heights[0] < 0 else 1.0

@@ -165,9 +165,7 @@ def format_of(path: str | os.PathLike[str]) -> str:
         unpack = {"zstd": "zstd -d", "bzip2": "bzip2 -dk"}[packed]
         if not start:
             raise BadInput(f"{name}: compressed by {packed}, but damaged or cut short; copy it again")
-        raise BadInput(
-            f"{name}: compressed by {packed}, and it holds no recording; unpack it: {unpack} {shlex.quote(name)}"
-        )
+        raise BadInput(f"{name}: compressed by {packed}, and no recording; unpack it: {unpack} {shlex.quote(name)}")
     return "rawlog" if starts_as_rawlog(where) else _text_format(name)
 
 

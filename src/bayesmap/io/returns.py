@@ -115,9 +115,9 @@ def decode(
 ) -> tuple[NDArray[np.float64], NoReturn]:  # fmt: skip
     """Replace the codes in raw readings, (S, A), by those of REP-117. Returns the ranges, and the no-return code.
 
-    Ranges are +inf for no return, and NaN for numbers that cannot be ranges. A ``no_return`` code of infinity means that
-    the log has none; if it is None, the rules of this module find the code. Readings of the maximum range that the log
-    states, and larger ones, are no return, even if they are not repeated.
+    Ranges are +inf for no return, and NaN for numbers that cannot be ranges. If ``no_return`` is infinity, the log has
+    none; if it is None, the rules of this module find the code. Readings of the maximum range that the log states, and
+    larger ones, are no return, even if they are not repeated.
 
     Raises `BadInput` if ``no_return`` is NaN or minus infinity.
     """

@@ -178,9 +178,7 @@ def load_saved(path: str | os.PathLike[str]) -> tuple[Posterior, Trajectory | No
     except BadInput as problem:
         raise BadInput(f"{path}: {problem}") from None
     except (ArithmeticError, AttributeError, LookupError, OSError, RuntimeError, TypeError, ValueError) as error:
-        raise BadInput(
-            f"{path}: not a readable saved run; damaged or truncated? ({error}); use a backup or run again"
-        ) from None
+        raise BadInput(f"{path}: not a readable saved run; damaged or truncated? ({error}); run again") from None
     raise BadInput(f"{path}: {reason}")
 
 
@@ -258,10 +256,8 @@ def write_arrays(
     """Write arrays of the same dimensions; new dimensions get the arrays' sizes."""
     for name, values in arrays.items():
         _need_dimensions(group, dimensions, values.shape)
-        variable = group.createVariable(
-            name, values.dtype, dimensions, zlib=compressed, complevel=1, fletcher32=bool(dimensions)
-        )
-        variable[:] = values
+        how = {"zlib": compressed, "complevel": 1, "fletcher32": bool(dimensions)}
+        group.createVariable(name, values.dtype, dimensions, **how)[:] = values
 
 
 def write_draws(

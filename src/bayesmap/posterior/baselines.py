@@ -167,9 +167,7 @@ class Baseline:
         """
         probabilities = np.asarray(self.stop(hits, passes, values))
         if probabilities.shape != hits.shape:
-            raise ValueError(
-                f"{self.name}: stop gave an array of shape {probabilities.shape} for cells of shape {hits.shape}"
-            )
+            raise ValueError(f"{self.name}: stop gave shape {probabilities.shape} for cells of shape {hits.shape}")
         return probabilities
 
 

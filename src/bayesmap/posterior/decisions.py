@@ -102,9 +102,7 @@ def expected_information(
     n_draws = len(cells)
     draws_per_chain = n_draws // chains
     if draws_per_chain < 2:
-        raise BadInput(
-            f"information: {draws_per_chain} draws of the map from each chain; two are the least that can differ"
-        )
+        raise BadInput(f"information: {draws_per_chain} draws of the map from each chain; two are the fewest")
     maps = device_maps([cells], grid, hit_depth, device=device)
     draw_index = np.arange(n_draws)
     # Pairs of draws of one chain.

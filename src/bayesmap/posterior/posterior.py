@@ -168,9 +168,8 @@ def by_reading(posterior: Posterior, device: str = "cpu") -> NDArray[np.float32]
     )
     for (chain, draw), cells in zip(draws.numbers(), stops, strict=True):
         poses = scans.poses if moved is None else moved[chain, draw]
-        nats = likelihood.beams(
-            device_maps([cells], posterior.grid, depth, device=device), poses, every, np.zeros_like(every)
-        )
+        one_map = device_maps([cells], posterior.grid, depth, device=device)
+        nats = likelihood.beams(one_map, poses, every, np.zeros_like(every))
         out[chain, draw] = nats[valid]
     return out
 

@@ -166,9 +166,7 @@ class ScanPredictor:
         angles = np.asarray(angles_rad, dtype=np.float64)
         # A reading is needed to trace a beam and has no part in its prediction.
         unread = np.full((1, len(angles)), np.inf)
-        scan = Scans(
-            np.reshape(pose_world, (1, 3)), angles, unread, max_range_m=self.limits.max_m, min_range_m=self.limits.min_m
-        )
+        scan = Scans(np.reshape(pose_world, (1, 3)), angles, unread, self.limits.max_m, self.limits.min_m)
         device = self.draws.device
         law = mix_device_stops(trace_rays(scan, self.grid, device=device), self.draws, GONE)
         return range_quantiles(law, probabilities, self.sensor, device)
@@ -253,9 +251,8 @@ def surface_offset(mean: Floats, covariance: Floats, point: Floats, sensor: Floa
     distance = float(np.hypot(*towards))
     cosine = float(normal @ towards) / distance if distance > 0 else 1.0
     thickness, length = np.sqrt(np.maximum(values, 0.0))
-    return SurfaceOffset(
-        float(normal @ away), float(left @ away), float(thickness), float(length), math.acos(min(1.0, cosine))
-    )
+    across_m, along_m = float(normal @ away), float(left @ away)
+    return SurfaceOffset(across_m, along_m, float(thickness), float(length), math.acos(min(1.0, cosine)))
 
 
 @dataclass(frozen=True, eq=False)
@@ -280,9 +277,8 @@ class Prediction:
     def __repr__(self) -> str:
         """Return three lines: size, quantiles, and the share of readings without return."""
         draws, poses, beams = self.draws_m.shape
-        middle = ", ".join(
-            f"{np.median(self.quantiles_m[..., i]):.2f} m at {level:g}" for i, level in enumerate(self.levels)
-        )
+        medians = np.median(self.quantiles_m, axis=(0, 1))
+        middle = ", ".join(f"{m:.2f} m at {level:g}" for m, level in zip(medians, self.levels, strict=True))
         return (
             f"Prediction: {poses:,} poses, {beams:,} beams each, {draws:,} draws\n"
             f"  quantiles, median over beams: {middle}\n"
@@ -356,7 +352,7 @@ def predict(
             drawn.append(draw_readings(maps, fan, where, row, (seed, first + i, STREAM_READINGS)))
     # Mix the stops of all draws. A reading is needed to trace a beam and has no part in its prediction.
     unread = np.full((len(where), len(fan.angles_rad)), np.inf)
-    scans = Scans(where, fan.angles_rad, unread, max_range_m=fan.limits.max_m, min_range_m=fan.limits.min_m)
+    scans = Scans(where, fan.angles_rad, unread, fan.limits.max_m, fan.limits.min_m)
     rays = trace_rays(scans, grid, device=device)
     law = mix_stops(rays, predictor.batches(rays.touched), predictor.hit_depth, device=device)
     quantiles_m = range_quantiles(law, quantiles, fan.sensor, device).reshape(*unread.shape, -1)

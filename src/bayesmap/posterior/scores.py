@@ -280,10 +280,9 @@ def score_prediction(
     # Predict: density and transform of each reading, quantiles of its law, and chances of first hits.
     depth, draws = predictor.hit_depth, predictor.draws
     forecasting, mixing, at_quantiles, at_events = parts(on_progress, draws, MIX * draws, QUANTILES, EVENTS)
-    prediction = forecast(
-        rays, watched(predictor.batches(rays.touched), draws, forecasting), sensor, depth, device=device
-    )
-    law = mix_stops(rays, watched(predictor.batches(rays.touched), draws, mixing), depth, device=device)
+    first, second = (watched(predictor.batches(rays.touched), draws, part) for part in (forecasting, mixing))
+    prediction = forecast(rays, first, sensor, depth, device=device)
+    law = mix_stops(rays, second, depth, device=device)
     ends = sorted({0.5 - side * 0.5 * level for level in LEVELS for side in (1, -1)})
     quantiles = range_quantiles(law, np.array(ends), sensor, device)[valid]
     at_quantiles(1.0)

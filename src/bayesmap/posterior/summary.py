@@ -288,9 +288,8 @@ def summarise(posterior: Posterior) -> Summary:
     nan = float("nan")
     markov, weights = posterior.has_chains, posterior.log_weights
     # Traces without draws have no diagnostics.
-    log_joint, log_likelihood = (
-        trace if markov else trace[:, :0] for trace in (posterior.log_joint, posterior.log_likelihood)
-    )
+    kept = slice(None if markov else 0)
+    log_joint, log_likelihood = posterior.log_joint[:, kept], posterior.log_likelihood[:, kept]
     chains, draws = log_joint.shape
     sweeps = posterior.sweep * max(1, chains)
     threads = int(posterior.settings.get("threads_used", 1))
@@ -326,9 +325,8 @@ class PoseSummary:
 
     def __repr__(self) -> str:
         """Return four lines: size, standard deviations, mixing, and source."""
-        sigma_m, sigma_deg = (
-            np.nanmedian(value) if len(value) else np.nan for value in (self.sigma_m, np.degrees(self.sigma_rad))
-        )
+        sigmas = np.stack([self.sigma_m, np.degrees(self.sigma_rad)])
+        sigma_m, sigma_deg = np.nanmedian(sigmas, axis=1) if len(self.mean) else (np.nan, np.nan)
         mixing = f"largest R-hat {self.rhat_max:.3f}, least effective sample size {self.ess_min:,.0f}"
         if np.isnan(self.rhat).all():
             mixing = "not known, since no pose moved or there are too few draws"

@@ -216,9 +216,8 @@ class Record:
     def __init__(self, empty: Draws, plan: SweepPlan, resume: Chains | None = None) -> None:
         """Allocate arrays for the plan's draws, and copy those of ``resume``; ``empty`` has the specs."""
         chains = next(iter(empty.arrays.values())).shape[0]
-        self._draws = replace(
-            empty, arrays={spec.name: spec.empty(chains, plan.draws, empty.shape_of(spec)) for spec in empty.specs}
-        )
+        arrays = {spec.name: spec.empty(chains, plan.draws, empty.shape_of(spec)) for spec in empty.specs}
+        self._draws = replace(empty, arrays=arrays)
         self._keep = plan.keep
         self._log_likelihood, self._log_prior = np.zeros((2, chains, plan.draws))
         self._warmup = np.zeros((chains, plan.warmup))
@@ -308,9 +307,8 @@ def check_same(saved: dict[str, Any], asked: dict[str, Any]) -> None:
             "and scored, but not gone on with: start again"
         )
     different = difference(saved, asked)
-    raise BadInput(
-        f"resume: the saved run was made with other {different or 'scans or on another grid, or with another sensor'}"
-    )
+    different = different or "scans or on another grid, or with another sensor"
+    raise BadInput(f"resume: the saved run was made with other {different}")
 
 
 def difference(saved: dict[str, Any], asked: dict[str, Any]) -> str | None:

@@ -80,9 +80,7 @@ def prepare(job: Job, version: str) -> tuple[Any, float]:
     the model.
     """
     if version != __version__:
-        raise BadInput(
-            f"RayExecutor: a worker has bayesmap {__version__}, this process {version}; install one on all nodes"
-        )
+        raise BadInput(f"RayExecutor: a worker has bayesmap {__version__}, this process {version}; all need the same")
     began = time.perf_counter()
     return job.sampler.prepare(job.model_to_trace, job.device, job.threads), time.perf_counter() - began
 

@@ -83,9 +83,8 @@ def _tabulated(sensor: SensorModel, limits: RangeLimits) -> TabulatedLaw:
     span = 2.0 * limits.max_m
     most = float(np.arcsinh(span / scale.min()))
     offset = np.sinh(np.linspace(-most, most, OFFSETS))
-    d, s, w = (
-        np.broadcast_to(a[..., None], (SPREADS, DISTANCES, OFFSETS)) for a in (np.atleast_2d(distance), spread, width)
-    )
+    shape = (SPREADS, DISTANCES, OFFSETS)
+    d, s, w = (np.broadcast_to(a[..., None], shape) for a in (distance[None], spread, width))
     z = d + w * offset
     inside = np.clip(z, limits.min_m, limits.max_m)
     typed = _is_typed(sensor, limits)

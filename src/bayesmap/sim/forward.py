@@ -81,9 +81,7 @@ def simulate(
     if opacity is not None:
         opacity = np.asarray(opacity, dtype=np.float64)
         if opacity.shape != grid.shape or not ((opacity >= 0) & (opacity <= 1)).all():
-            raise BadInput(
-                f"simulate: opacity must be {grid.shape} numbers in [0, 1], one a cell; got shape {opacity.shape}"
-            )
+            raise BadInput(f"simulate: opacity must be {grid.shape} numbers in [0, 1], one a cell; got {opacity.shape}")
     # Cast rays; with an opacity, each scan sees its own random walls. Then add noise.
     rng = np.random.default_rng(seed)
     if opacity is None:

@@ -196,7 +196,5 @@ def _as_chain(grid: Grid, draws: ArrayLike) -> NDArray[Any]:
         raise BadInput("animation: the chain is empty; an animation needs at least one draw")
     for number, draw in enumerate(chain):
         if not (draw.min() >= -ROUNDING and draw.max() <= 1.0 + ROUNDING):  # written so that NaN fails too
-            raise BadInput(
-                f"animation: draw {number} has a number outside [0, 1]; give walls (0 or 1) or probabilities"
-            )
+            raise BadInput(f"animation: draw {number} has numbers outside [0, 1]; give walls (0 or 1) or probabilities")
     return chain

@@ -73,9 +73,7 @@ def window(grid: Grid, x_m: tuple[float, float], y_m: tuple[float, float]) -> tu
             raise BadInput(f"picture: the window's edges must be finite, and the lower first, got {low:g} to {high:g}")
         cells = grid.shape[axis]
         # Clip to the map first: infinity has no whole number.
-        first, last = (
-            min(max((edge - grid.origin[axis]) / grid.resolution, -1.0), cells + 1.0) for edge in (low, high)
-        )
+        first, last = np.clip((np.array([low, high]) - grid.origin[axis]) / grid.resolution, -1.0, cells + 1.0)
         start, stop = max(math.floor(first + 1e-9), 0), min(math.ceil(last - 1e-9), cells)
         if start >= stop:
             edges = grid.extent_m[2 * axis : 2 * axis + 2]

@@ -182,9 +182,8 @@ def draw_surfaces(
     colors = np.tile(ink, (max(int(seen.sum()), 1), 1))
     if seen.any():
         colors[:, 3] = alpha[seen]
-    lines = LineCollection(
-        list(strokes[seen]), colors=colors, linewidths=width_pt, capstyle="round", label="surface", zorder=2.5
-    )
+    lines = LineCollection(list(strokes[seen]), colors=colors, linewidths=width_pt, capstyle="round", zorder=2.5)
+    lines.set_label("surface")
     ax.add_collection(lines, autolim=False)
     return lines
 

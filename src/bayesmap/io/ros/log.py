@@ -67,9 +67,8 @@ class _Stream:
 
     def fall_near(self, start_ns: int, end_ns: int) -> int | None:
         """Return the first fall that a step of the clock between two times of receipt can explain; else None."""
-        return next(
-            (int(i) for i in self.falls() if self.received[i] >= start_ns and self.received[i - 1] <= end_ns), None
-        )
+        falls = (int(i) for i in self.falls() if self.received[i] >= start_ns and self.received[i - 1] <= end_ns)
+        return next(falls, None)
 
     def spans(self, time_ns: int) -> bool:
         """Return true if there are messages before and after a time."""
@@ -163,9 +162,7 @@ def read_recording(path: str | os.PathLike[str], options: LogOptions) -> LogRead
         if options.without_poses and on_topic != topic.name:
             return
         if not options.skip_bad_lines:
-            raise BadInput(
-                f"{name}: message {number} on {on_topic} {reason}; leave such messages out with --skip-bad-lines"
-            )
+            raise BadInput(f"{name}: message {number} on {on_topic} {reason}; leave such out with --skip-bad-lines")
         account.skipped.append(SkippedLine(number, reason, f"message on {on_topic}"))
 
     # Read the messages of scans and poses.
@@ -296,9 +293,7 @@ def _in_order_of_time(
         stamps = np.array([scan.stamp_ns for scan in scans], dtype=np.int64)
     reordered = int((stamps < np.maximum.accumulate(stamps)).sum())
     if reordered:
-        notes.append(
-            f"{reordered:,} scans of {topic} have an earlier time than one before them; all were sorted by time"
-        )
+        notes.append(f"{reordered:,} scans of {topic} have an earlier time than one before them; all were sorted")
     # Sort, and leave out repetitions.
     order = np.argsort(stamps, kind="stable")
     kept: list[int] = []

@@ -96,9 +96,7 @@ def brightness(image: ImageLike | Image) -> NDArray[np.float64]:
     top = 255.0 if array.dtype.kind in "ui" else 1.0
     values = array.astype(np.float64) / top
     if not (math.isfinite(float(values.sum())) and values.min() >= 0 and values.max() <= 1):
-        raise BadInput(
-            f"image: pixels from {array.min()} to {array.max()}; expected whole numbers 0..255, or floats 0..1"
-        )
+        raise BadInput(f"image: pixels from {array.min()} to {array.max()}; use whole numbers 0..255, or floats 0..1")
     if values.ndim == 2:
         return values
     grey = values[..., :3].mean(axis=2)

@@ -167,9 +167,7 @@ def scan_topic_of(recording: Recording, name: str | None) -> Topic:
             raise BadInput(f"{recording.path}: several topics hold scans; choose one with --scan-topic: {choices}")
         topic = lasers[0]
     if topic.encoding not in READABLE:
-        raise BadInput(
-            f"{recording.path}: {topic.name} is encoded as {topic.encoding!r}; {' and '.join(READABLE)} are read"
-        )
+        raise BadInput(f"{recording.path}: {topic.name} is in {topic.encoding!r}; {' and '.join(READABLE)} are read")
     return topic
 
 

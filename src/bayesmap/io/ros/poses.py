@@ -131,9 +131,7 @@ def by_transforms(
         if fixed is None or chain is None:
             continue
         if fixed not in tree.upwards(sensor):
-            notes.append(
-                f"the frame {fixed!r} is not over that of the scans, {sensor!r}; where it moves, so does the map"
-            )
+            notes.append(f"the frame {fixed!r} is not over that of the scans, {sensor!r}; if it moves, the map moves")
         links = tree.links(fixed, sensor)
         notes += [
             f"there is a single message of the transform {parent} -> {child}; it was taken to hold at all times"
@@ -151,9 +149,7 @@ def by_transforms(
     if named is not None:
         tree = trees[-1]
         what = "is not known" if named not in tree.frames() else f"is not connected with the scans' frame {sensor!r}"
-        raise BadInput(
-            f"{recording.path}: the frame {named!r} {what}; {_frames(tree)}; choose another with --fixed-frame"
-        )
+        raise BadInput(f"{recording.path}: the frame {named!r} {what}; {_frames(tree)}; take another by --fixed-frame")
     return None
 
 

@@ -76,9 +76,7 @@ def container_of(path: str | os.PathLike[str]) -> str:
         return FOLDER
     ending = Path(path).suffix.lower()
     if ending not in ENDINGS:
-        raise BadInput(
-            f"{path}: a recording ends in .bag (ROS 1), .mcap or .db3 (ROS 2), or is a folder without ending"
-        )
+        raise BadInput(f"{path}: a recording ends in .bag (ROS 1), .mcap or .db3 (ROS 2), or is a folder without one")
     return ending
 
 
@@ -121,10 +119,9 @@ class Recorder:
         x, y = (float(v) for v in pose[:2])
         shift = self.make("geometry_msgs/msg/Vector3", x=x, y=y, z=0.0)
         moved = self.make("geometry_msgs/msg/Transform", translation=shift, rotation=self.pose(*pose).orientation)
-        header, stamped = self.header(frames[0], stamp_s), "geometry_msgs/msg/TransformStamped"
-        return self.make(
-            TRANSFORMS, transforms=[self.make(stamped, header=header, child_frame_id=frames[1], transform=moved)]
-        )
+        named = {"header": self.header(frames[0], stamp_s), "child_frame_id": frames[1]}
+        stamped = self.make("geometry_msgs/msg/TransformStamped", **named, transform=moved)
+        return self.make(TRANSFORMS, transforms=[stamped])
 
     def write(self, *channels: Channel) -> Path:
         """Write topics, whole or not at all, and return the path; raise `BadInput` if that is impossible."""
