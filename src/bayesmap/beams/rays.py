@@ -50,10 +50,7 @@ PARALLEL = 1.0e-10  # direction cosines below this count as zero, as in the tuto
 
 @dataclass(frozen=True, eq=False)
 class Rays:
-    """B beams and the K cells that they touch, beam after beam, in the order in which they are touched.
-
-    Coordinates are metres from the grid's lower left corner.
-    """
+    """B beams and the K cells that each touches in order, metres from the grid's lower left corner."""
 
     grid: Grid  # the grid whose cells are meant
     offsets: NDArray[np.int32]  # the entries of beam b are offsets[b]:offsets[b + 1]; shape (B + 1,), int32

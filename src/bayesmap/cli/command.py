@@ -190,10 +190,7 @@ class Call(Generic[S]):
 
 
 def command(section: str | None) -> Callable[[Callable[..., None]], click.Command]:
-    """Return a decorator that makes a function a command. The function takes a `Call`, and its own arguments by name.
-
-    ``section`` is the table of the settings that become flags; None for a command without settings.
-    """
+    """Return a decorator that makes a function of a `Call` a command; ``section`` is its table of settings."""
 
     def decorate(run: Callable[..., None]) -> click.Command:
         keys = keys_of(section) if section is not None else ()

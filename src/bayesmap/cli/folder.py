@@ -147,10 +147,7 @@ class Folder:
             write_utf8(self.outdated, toml)
 
     def begin(self, toml: str) -> None:
-        """Save the settings of a run that has started, so that it can be resumed without typing them again.
-
-        Raises `BadInput` if the folder cannot be written.
-        """
+        """Save the settings of a run that has started, to resume it; raise `BadInput` if that is impossible."""
         if self.begun:
             return
         self._toml = toml
@@ -195,10 +192,7 @@ class Folder:
             self.console.say(f"a first, rough map: {self.draw(run)[0]}")
 
     def draw(self, run: Run) -> list[Path]:
-        """Draw the map of a run, and export it for nav2. Returns the paths of the files.
-
-        The picture of a single draw leaves out the uncertainty.
-        """
+        """Draw the map of a run (a single draw without uncertainty), and export it for nav2. Returns the paths."""
         from bayesmap.viz.figure import panel_figure, write_figure
 
         picture, words = self.path / "posterior.png", run.posterior.prior.words

@@ -201,10 +201,7 @@ class Mailbox:
 
 
 def work(task: Task[InferSettings], reading: LogReading, before: dict[str, bytes], mailbox: Any) -> None:
-    """Infer a log in a temporary folder of a worker, and send the folder's files after each checkpoint.
-
-    ``before`` holds the files of the run to resume, by name; it is empty for a new run.
-    """
+    """Infer a log in a worker's folder with the files ``before``, and send all files after each checkpoint."""
     import ray
 
     from bayesmap.run.runner import ThreadExecutor

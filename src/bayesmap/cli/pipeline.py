@@ -202,10 +202,7 @@ def read(console: Console, log: str, settings: SamplingSettings, *, without_pose
 
 
 def refuse_odometry(log: str, reading: LogReading) -> None:
-    """Refuse a log at whose poses the same walls stand in several places.
-
-    Raises `BadInput` if the poses look like raw odometry, or their yaw like degrees.
-    """
+    """Raise `BadInput` for poses at which walls stand in several places, as raw odometry or in degrees."""
     from bayesmap.io.logs import IN_DEGREES
     from bayesmap.poses.agreement import DOUBLED, look_like_odometry
 
@@ -223,10 +220,7 @@ def sample(
     task: Task[InferSettings], scans: Scans, train: Scans, saved: Run | None, executor: Executor | None,
     on_saved: Callable[[], None], on_event: Callable[[Event], None],
 ) -> Run:  # fmt: skip
-    """Infer from the training scans, with checkpoints in the folder. The grid covers ``scans``, all scans of the log.
-
-    ``on_saved`` is called after each checkpoint, ``on_event`` with the progress of the run.
-    """
+    """Infer from the training scans, with checkpoints in the folder. The grid covers ``scans``, the whole log."""
     from bayesmap.api import Event, infer
     from bayesmap.arguments import Checkpoints, Where
     from bayesmap.io.ros.maps import read_map
@@ -299,10 +293,7 @@ def report(
     console: Console, document: dict[str, Any], *, good: Sequence[str] = (), doubtful: Sequence[str] = (),
     commands: Sequence[Sequence[str]] = (),
 ) -> None:  # fmt: skip
-    """Print the work of a run, then what is good, what is doubtful with its remedy, and commands to give next.
-
-    ``good`` and ``doubtful`` add to what the document says.
-    """
+    """Print the work of a run, what is good, what is doubtful with its remedy, and commands to give next."""
     from bayesmap.cli.folder import work_done
 
     seconds, joint, score = document["seconds"], document["log_joint"], document["heldout"]
@@ -323,10 +314,7 @@ def report(
 def keep_interrupted(
     folder: Folder, run: Run, reading: LogReading, resume_command: str | None, known: Sequence[Path] = ()
 ) -> dict[str, Any]:
-    """Save an interrupted run and its map so far, print how to resume it, and return the JSON document.
-
-    ``known`` are files that were complete before the first sweep.
-    """
+    """Save an interrupted run, print how to resume it, and return its document. ``known``: complete files."""
     kept: list[Path] = []
     # Chains stopped before their first sweep may have an incomplete start, so they are not saved.
     if run.posterior.sweep > 0:

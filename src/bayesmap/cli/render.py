@@ -153,10 +153,7 @@ def _beams_figure(
 
 
 def one_draw(run: Run, chain: int, draw: int) -> Draw:
-    """Return a draw. Chain and draw count from 1; draw -1 is the last.
-
-    Raises `BadInput` if there is no such chain or draw.
-    """
+    """Return a draw, both numbers from 1, draw -1 the last; raise `BadInput` if it is not there."""
     chains, draws = run.log_joint.shape
     if not 1 <= chain <= chains:
         raise BadInput(f"chain {chain}: this run has chains 1 to {chains}")
@@ -193,10 +190,7 @@ def truth_on(grid: Grid, path: str) -> Walls:
 
 
 def part_of(run: Run, text: str | None) -> tuple[Grid, tuple[slice, slice]]:
-    """Return the grid and the slices of the part of the map in a window; the whole map for None.
-
-    Raises `BadInput` for a text other than four numbers or "observed", or a window outside the map.
-    """
+    """Return grid and slices of the map's part in a window (None: all); raise `BadInput` for another text."""
     from bayesmap.viz.maps import window, window_around
 
     if text is None:

@@ -85,10 +85,7 @@ def score_run(
 
 
 def score_others(call: Call[ScoreSettings], path: str, log: str | None, frame: str | None, *, compare: bool) -> Scored:
-    """Score a map of another program, or a trajectory (a TUM file) by a map inferred from it.
-
-    ``log`` has the scans that score a map, and ``frame`` is that of the returned trajectory.
-    """
+    """Score a map of another program, or a trajectory by a map inferred from it, on scans of ``log``."""
     from bayesmap.result import score
 
     settings, words = call.settings(), None
@@ -156,10 +153,7 @@ class Placed:
 
 
 def placed_scans(log: str, settings: ScoreSettings, frame: str | None) -> Placed:
-    """Return the scans of a log, at the log's poses or at those of ``settings.trajectory``, and their trajectory.
-
-    Raises `BadInput` for files that cannot be read, scans without stamps, or a trajectory of another time.
-    """
+    """Return a log's scans at its poses, or at those of ``settings.trajectory``, and their trajectory."""
     need_file(log, "the log that the map was made from", runs=False)
     from bayesmap.io.logs import read_log
     from bayesmap.space.trajectory import Trajectory

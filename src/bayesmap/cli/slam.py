@@ -172,10 +172,7 @@ def _slam(task: Task[SlamSettings], reading: LogReading, saved: Run | None, file
 
 @dataclass
 class TrajectoryFiles:
-    """The trajectory of all scans in the folder, its covariances and its pictures.
-
-    The files are written once the trajectory is known and the folder holds no older run's files.
-    """
+    """The trajectory of all scans in the folder, written once it is known and no older run is in it."""
 
     folder: Folder
     reading: LogReading

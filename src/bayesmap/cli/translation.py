@@ -50,10 +50,7 @@ def numbers_of(text: str, flag: str, form: str, counts: tuple[int, ...]) -> list
 
 
 def pose_of(text: str, flag: str = "--pose") -> tuple[float, float, float]:
-    """Return a pose in metres and radians, from a text in metres and degrees.
-
-    Raises `click.BadParameter` for another text; the message names the flag.
-    """
+    """Return a pose in metres and radians, from a text in metres and degrees; raise `click.BadParameter`."""
     x, y, degrees = numbers_of(text, flag, "X,Y,DEGREES", (3,))
     return x, y, math.radians(degrees)
 
@@ -67,10 +64,7 @@ _FIRST = {"gaussian": "sigma_m", "student-t": "scale_m"}
 
 
 def sensor_of(text: str) -> SensorModel | None:
-    """Return the sensor model that a text describes; None for ``default``.
-
-    Raises `BadInput` for an unknown kind or parameter, a text that is no number, or a value that the model refuses.
-    """
+    """Return the sensor model of a text, None for ``default``; raise `BadInput` for an invalid one."""
     if text == "default":
         return None
     from bayesmap.sensors.builtin import KINDS, from_description
@@ -121,10 +115,7 @@ TRUE_ODOMETRY = "true"
 
 
 def odometry_of(text: str) -> OdometryNoise | None:
-    """Return the odometry that a text describes; None for ``true``.
-
-    Raises `BadInput` for an unknown word or name, or a number that is not allowed.
-    """
+    """Return the odometry of a text, None for ``true``; raise `BadInput` for an invalid one."""
     if text == TRUE_ODOMETRY:
         return None
     from bayesmap.sim.robot import OdometryNoise
@@ -157,10 +148,7 @@ THREADS, RAY = "threads", "ray"
 
 
 def completed(settings: S) -> S:
-    """Check the settings against the kind of cells, and fill in its hit depth.
-
-    Raises `BadInput` for a setting that this kind of cells does not have, or an invalid sensor.
-    """
+    """Fill in the hit depth; raise `BadInput` for settings that the cells do not have, or a bad sensor."""
     from bayesmap.cells.kinds import BUILT_IN
 
     kind = BUILT_IN[settings.cells]
@@ -233,10 +221,7 @@ def sensor_for(settings: SamplingSettings, resolution_m: float) -> SensorModel |
 
 
 def ray_address(executor: str) -> tuple[bool, str | None]:
-    """Return whether chains run on a Ray cluster, and its address; None lets Ray find or start a cluster.
-
-    Raises `BadInput` for neither threads nor Ray.
-    """
+    """Return whether chains run on Ray, and its address, or raise `BadInput`; None lets Ray find a cluster."""
     if executor == THREADS:
         return False, None
     if executor == RAY:

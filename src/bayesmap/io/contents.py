@@ -45,10 +45,7 @@ class Contents:
 
 
 def contents_of(path: str | os.PathLike[str]) -> Contents:
-    """Describe a log or a recording; malformed lines and messages are counted, not refused.
-
-    Raises `BadInput` for a file that cannot be read, or a file of no known format.
-    """
+    """Describe a log or a recording, and count malformed parts; raise `BadInput` if it cannot be read."""
     if format_of(path) in RECORDINGS:
         return _of_recording(path)
     name = os.fspath(path)

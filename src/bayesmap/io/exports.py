@@ -45,10 +45,7 @@ INTERVAL = 0.9  # probability of the interval from the layer lower to upper
 
 
 def export_format(path: str | os.PathLike[str], format: str | None = None) -> str:
-    """Return the given format, or else the format of the path's ending.
-
-    Raises `BadInput` for an unknown ending or format; the message lists the known ones.
-    """
+    """Return the format, by the path's ending if None; raise `BadInput` for unknown ones."""
     if format is not None:
         if format not in FORMATS:
             raise BadInput(f"export: format {format!r} is not known; use one of {', '.join(FORMATS)}")
@@ -67,10 +64,7 @@ def export_format(path: str | os.PathLike[str], format: str | None = None) -> st
 
 
 def existing(path: str | os.PathLike[str], format: str | None = None) -> Path | None:
-    """Return a file or folder that an export to this path would replace, if there is one.
-
-    Raises `BadInput` for an unknown ending or format.
-    """
+    """Return a file or folder that an export would replace, or None; raise `BadInput` for unknown formats."""
     target = Path(path)
     chosen, paths = export_format(path, format), [target]
     if chosen == "map-server":

@@ -34,10 +34,7 @@ CHUNK_BYTES = 1 << 16  # read at a time
 
 
 def can_be_followed(name: str) -> bool:
-    """Return true if a log's scans can be read while it is written: a text, a pipe, or standard input.
-
-    Raises `BadInput` for a file that cannot be read, or a file of no known format.
-    """
+    """Return true if a log can be read while it is written: text or pipe; raise `BadInput` if unreadable."""
     if name in STANDARD_INPUT:
         return True
     try:

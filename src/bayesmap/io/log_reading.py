@@ -42,10 +42,7 @@ class LogOptions:
 
 @dataclass(frozen=True)
 class SkippedLine:
-    """A line, or a message of a recording, that was left out on request: its number, from 1, and the reason.
-
-    ``what`` names the counted items: ``"line"``, ``"message on /scan"``.
-    """
+    """A line, or message (``what``), that was left out on request: its number, from 1, and the reason."""
 
     line: int
     reason: str

@@ -135,10 +135,7 @@ def _read(path: str | os.PathLike[str], options: LogOptions) -> LogReading:
 
 
 def format_of(path: str | os.PathLike[str]) -> str:
-    """Return the format of a log by its content: one of `READERS` or of `RECORDINGS`.
-
-    Raises `BadInput` for a file that cannot be read, is empty, or has no known format.
-    """
+    """Return the format of a log by its content; raise `BadInput` if it is unreadable, empty or unknown."""
     name, where = os.fspath(path), Path(path)
     try:
         if where.is_dir():
@@ -255,10 +252,7 @@ def _degrees(reading: LogReading) -> str | None:
 
 
 def read_npz(path: str | os.PathLike[str], options: LogOptions) -> LogReading:
-    """Read scans from an .npz archive.
-
-    Raises `BadInput` for another file, an array that is missing or does not fit, or no valid reading.
-    """
+    """Read scans from an .npz archive; raise `BadInput` for an array that is missing or does not fit."""
     account = Account(os.fspath(path), "npz", options)
     name, arrays = account.name, _npz_arrays(os.fspath(path))
     posed = "poses" in arrays
@@ -355,11 +349,7 @@ def steps_m(poses: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def jumps(scans: Scans) -> NDArray[np.intp]:
-    """Find scans whose pose is too far from the pose before. Returns their indices, ascending.
-
-    A step is a jump if it is over 0.2 m and faster than 10 m/s, or over 2 m and ten times the median step. Repeated
-    stamps give no speed.
-    """
+    """Return scans over 0.2 m at over 10 m/s from the one before, or over 2 m and ten median steps, ascending."""
     if len(scans) < 2:
         return np.empty(0, dtype=np.intp)
     steps = steps_m(scans.poses)

@@ -198,10 +198,7 @@ def _count_beams(mask: NDArray[np.bool_]) -> int:
 
 @dataclass(frozen=True, eq=False)
 class Readings:
-    """Classified readings, (S, A), coded as in REP-117, with no finite number outside the sensor's limits.
-
-    ``max_range_origin`` is ``"given"``, ``"message"`` (stated in the log) or ``"readings"``.
-    """
+    """Classified readings, (S, A), coded as in REP-117, with no finite number outside the sensor's limits."""
 
     ranges_m: NDArray[np.float64]
     no_return: NoReturn

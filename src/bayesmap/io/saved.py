@@ -156,11 +156,7 @@ def _write_scans(file: Any, scans: Scans) -> Any:
 
 
 def load_saved(path: str | os.PathLike[str]) -> tuple[Posterior, Trajectory | None]:
-    """Read a posterior, and its approximation of the poses, if any.
-
-    Raises `BadInput` for no such file; a file that is not netCDF, or no run of bayesmap's; another format; or a damaged
-    file.
-    """
+    """Read a posterior, and its approximation of poses, if any; raise `BadInput` for other or damaged files."""
     path = Path(path)
     if not path.is_file():
         nothing = "a folder without a run; give a run.nc" if path.is_dir() else "no such file"
@@ -288,10 +284,7 @@ def write_draws(
 
 
 def read_draws(variable: Any, spec: ArraySpec, shape: tuple[int, ...]) -> NDArray[Any]:
-    """Return draws in their stored form.
-
-    Raises `ValueError` for sizes that do not fit the file's cells.
-    """
+    """Return draws in their stored form; raise `ValueError` for sizes that do not fit the file's cells."""
     chains, draws, *sizes = variable.shape
     if tuple(sizes) != shape:
         raise ValueError(f"{spec.name} has the sizes {sizes}, and not {shape}")

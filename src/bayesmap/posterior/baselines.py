@@ -84,11 +84,7 @@ def maximise(
     score: Callable[[Values], float], rough_score: Callable[[Values], float], parameters: Sequence[Parameter],
     starts: Sequence[Mapping[str, float]], on_progress: OnShare = ignored,
 ) -> tuple[Values, float]:  # fmt: skip
-    """Find the values of the highest score, and that score.
-
-    ``rough_score`` is a cheap approximation of the score. It is climbed from every start, and the score from the best
-    result of the rough climbs.
-    """
+    """Find the values of the highest score, and the score, from the best of rough climbs from all starts."""
 
     def values_at(point: NDArray[np.float64]) -> Values:
         return {p.name: p.outer(x) for p, x in zip(parameters, point.tolist(), strict=True)}
@@ -144,10 +140,7 @@ def log_odds_as_usual(hits: Floats, passes: Floats, values: Mapping[str, float])
 
 
 def log_odds_clamped(hits: Floats, passes: Floats, values: Mapping[str, float]) -> Floats:
-    """Compute `log_odds_as_usual`, clamped to OctoMap's interval.
-
-    OctoMap clamps after every update, so the order of hits and misses matters. Here the result is clamped once.
-    """
+    """Clamp `log_odds_as_usual` to OctoMap's interval, once and not after every update."""
     return np.clip(log_odds_as_usual(hits, passes, values), P_LEAST, P_MOST)
 
 
@@ -161,10 +154,7 @@ class Baseline:
     starts: tuple[Mapping[str, float], ...] = ({},)  # starting values of these parameters
 
     def stops(self, hits: Floats, passes: Floats, values: Mapping[str, float]) -> Floats:
-        """Return the probabilities of ``stop``, checked: one for every cell.
-
-        Raises `ValueError` for another number of them, which would give cells the values of others.
-        """
+        """Return one stop probability for each cell; raise `ValueError` for another number of them."""
         probabilities = np.asarray(self.stop(hits, passes, values))
         if probabilities.shape != hits.shape:
             raise ValueError(f"{self.name}: stop gave shape {probabilities.shape} for cells of shape {hits.shape}")
@@ -214,10 +204,7 @@ def inner_score(held_out: HeldOut, baseline: Baseline, dof: float | None, values
 def fit_baseline(
     baseline: Baseline, train: Scans, grid: Grid, folds: Sequence[Fold] | None = None, on_progress: OnShare = ignored
 ) -> Fitted:
-    """Fit a baseline's sensor, hit depth and own parameters on the training scans alone.
-
-    ``folds`` are those of `make_folds`, to share between baselines.
-    """
+    """Fit a baseline's sensor, hit depth and parameters on the training scans, or on given ``folds`` of them."""
     from bayesmap.kernels.counts import count_hits
 
     folds = make_folds(train, grid) if folds is None else folds

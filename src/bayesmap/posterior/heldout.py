@@ -155,10 +155,7 @@ def _fold(hits: Floats, passes: Floats, scans: Scans, grid: Grid) -> Fold:
 
 
 def make_folds(train: Scans, grid: Grid) -> list[Fold]:
-    """Make interleaved folds, as many as it takes to have `BEAMS_WANTED` beams.
-
-    Raises `BadInput` for fewer than two training scans with valid readings.
-    """
+    """Make interleaved folds until they have `BEAMS_WANTED` beams; raise `BadInput` for too few scans."""
     from bayesmap.kernels.counts import count_hits
 
     folds: list[Fold] = []
@@ -182,10 +179,7 @@ def make_folds(train: Scans, grid: Grid) -> list[Fold]:
 
 
 def one_fold(train: Scans, grid: Grid) -> list[Fold]:
-    """Make one fold for a map that does not depend on scans: about `BEAMS_WANTED` beams, and zero counts.
-
-    Raises `BadInput` for no training scan with a valid reading.
-    """
+    """Make one fold of about `BEAMS_WANTED` beams for a fixed map; raise `BadInput` without valid reading."""
     valid = (train.readings != ReadingKind.INVALID).sum(axis=1)
     train, valid = train.select(valid > 0), valid[valid > 0]
     if len(train) == 0:

@@ -94,11 +94,7 @@ def entropy_bits(occupancy: Floats) -> Floats:
 def posterior_of_chains(
     model: Model, chains: Chains, settings: dict[str, Any], seconds: dict[str, float], parameters: Parameters | None
 ) -> Posterior:
-    """Return the posterior of chains, finished or not.
-
-    ``parameters`` are the fitted sensor and prior under which the chains ran, if there are any. ``seconds`` are those
-    beside the chains, "total" and "fit".
-    """
+    """Return the posterior of chains, with their fitted ``parameters`` and the seconds beside them."""
     prior = model.cells if parameters is None else parameters.prior
     return Posterior(
         scans=model.scans, sensor=model.sensor if parameters is None else parameters.sensor, prior=prior,
@@ -175,10 +171,7 @@ def by_reading(posterior: Posterior, device: str = "cpu") -> NDArray[np.float32]
 
 
 def dataset_of(posterior: Posterior, with_readings: bool) -> xarray.Dataset:
-    """Return draws, log densities and marginals, see `bayesmap.Run.dataset`.
-
-    Raises `BadInput` if xarray is not installed, or as `by_reading`.
-    """
+    """Return draws, densities and marginals as xarray; raise `BadInput` as `by_reading`, or without xarray."""
     try:
         import xarray
     except ImportError:

@@ -40,10 +40,7 @@ def ignored(share: float) -> None:
 
 
 def parts(on_progress: OnShare, *sizes: float) -> list[OnShare]:
-    """Return a callback for each of successive parts of some work, called with the part's own share.
-
-    ``sizes`` say how long each part takes, in any unit.
-    """
+    """Return a callback for each part of some work, which takes the part's own share, by relative sizes."""
     ends = np.cumsum([0.0, *sizes]) / sum(sizes)
 
     def of_part(begin: float, end: float) -> OnShare:
@@ -183,10 +180,7 @@ class Residuals:
 
 
 def residuals_of(predictor: Predictor, scans: Scans, on_progress: OnShare = ignored) -> Residuals:
-    """Predict every beam of held-out scans and compare; too close and invalid readings are left out.
-
-    Raises `BadInput` for no beam to compare, no draw, or a sensor model that kernels do not know.
-    """
+    """Predict and compare all hits and no-returns of held-out scans; raise `BadInput` without any, or draws."""
     from bayesmap.kernels.predict.density import forecast
     from bayesmap.kernels.predict.stop_mixture import mix_stops, range_quantiles
     from bayesmap.kernels.rays import trace_rays
@@ -210,10 +204,7 @@ def placed(scans: Scans) -> NDArray[np.intp]:
 
 
 def compare(scans: Scans, median_m: Floats, log_density: Floats) -> Residuals:
-    """Compare the readings of B beams with the medians of their predictive laws, (B,), and log densities, (B,).
-
-    A median is infinite where no return, or too close, is at the median.
-    """
+    """Compare readings with medians of their laws, (B,), infinite where typed, and log densities, (B,)."""
     beams = placed(scans)
     median = np.clip(median_m[beams], scans.min_range_m, scans.max_range_m)
     reading = np.minimum(scans.ranges_m.ravel()[beams], scans.max_range_m)

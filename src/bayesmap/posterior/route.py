@@ -52,10 +52,7 @@ class FreeProbability:
 
 
 def checked_path(path: ArrayLike) -> Floats:
-    """Return a path as an array of points in the world frame, (P, 2).
-
-    Raises `BadInput` for another shape, no point, or a coordinate that is not finite.
-    """
+    """Return a path as points in the world frame, (P, 2); raise `BadInput` for another or no path."""
     try:
         points = np.atleast_2d(np.asarray(path, dtype=np.float64))
     except (TypeError, ValueError) as error:
@@ -237,10 +234,7 @@ def is_within_risk(free_probability: float, risk: float) -> bool:
 
 
 def blocked_probability(batches: Iterable[NDArray[np.float32]], grid: Grid, radius_m: float) -> Floats:
-    """Compute the probability that a disc about each cell's centre touches something, (nx, ny).
-
-    ``batches`` yields stops of all cells in batches of draws, as for `in_the_way`.
-    """
+    """Compute the probability that a disc at each cell's centre is blocked, (nx, ny), by batches of draws."""
     from scipy import ndimage
 
     total, draws = np.zeros(grid.shape), 0

@@ -52,10 +52,7 @@ def plain_rhat(chains: Floats) -> Floats:
 
 
 def rhat(values: Floats) -> float:
-    """Compute the rank-normalised split R-hat of one quantity, (chains, draws): the larger of bulk and folded R-hat.
-
-    NaN below four draws a chain.
-    """
+    """Compute the rank-normalised split R-hat, the larger of bulk and folded; NaN below four draws a chain."""
     if values.shape[1] < 4:
         return float("nan")
     halves = split_chains(values)

@@ -58,10 +58,7 @@ class SweepPlan:
 
     @property
     def marks(self) -> tuple[int, ...]:
-        """Numbers of sweeps at which chains may stop early.
-
-        They are fixed, so that neither the number of threads nor an interruption changes where chains end.
-        """
+        """Sweeps at which chains may stop: fixed, whatever the number of threads or interruptions."""
         marks, draws = [], FIRST_MARK
         while self.precision is not None and draws < self.draws:
             marks.append(self.warmup + draws * self.thin)
@@ -181,10 +178,7 @@ def _concatenated(parts: Sequence[Chains], axis: int) -> Chains:
 
 
 def join(parts: Sequence[Chains]) -> Chains:
-    """Join chains that ran separately, in the given order, as if they had run together.
-
-    All must have made the same number of sweeps.
-    """
+    """Join chains of equal numbers of sweeps that ran separately, in order, as if they had run together."""
     if len(parts) == 1:
         return parts[0]
     assert len({part.sweep for part in parts}) == 1, "chains of different length cannot be joined"
@@ -295,10 +289,7 @@ def fingerprint(settings: dict[str, Any], model: Model, *starts: NDArray[Any] | 
 
 
 def check_same(saved: dict[str, Any], asked: dict[str, Any]) -> None:
-    """Refuse to continue a run that was made with other arguments; fingerprints also cover its scans and its grid.
-
-    Raises `BadInput` if the settings differ; the message names the differences.
-    """
+    """Raise `BadInput` with the differences if a run was made with other arguments, scans or grid."""
     if saved["fingerprint"] == asked["fingerprint"]:
         return
     if saved.get("streams") != asked["streams"]:

@@ -245,11 +245,7 @@ class Estimate:
         return f"about {text}" + (f"; less with {self.remedy}" if advised else "")
 
     def refuse(self, scans: Scans) -> None:
-        """Refuse a run that cannot fit into memory.
-
-        Raises `BadInput` if it takes more memory than there is. If a few scans lie so far out that they make the grid
-        too large, the message names the worst.
-        """
+        """Raise `BadInput` for a run that cannot fit into memory; it names the scan that lies furthest out."""
         if not self.is_too_large:
             return
         assert self.available is not None
@@ -268,10 +264,7 @@ def _between(low: float, high: float, unit: float) -> str:
 
 
 def estimate(scans: Scans, grid: Grid, size: Size, sampling: Sampling) -> Estimate | None:
-    """Estimate the cost of a run on this machine; None for a sampler whose cost is not known.
-
-    ``scans`` are those of the whole log. A run that is long or large gets a remedy that fits the cause.
-    """
+    """Estimate the cost of a run here, with a remedy if it is long or large; None for an unknown sampler."""
     if sampling.constants is None:
         return None
     plain = _estimate(size, sampling)

@@ -74,11 +74,7 @@ _cached: Cached | None = None
 
 
 def prepare(job: Job, version: str) -> tuple[Any, float]:
-    """Prepare the job's problem. Returns the problem, and the seconds spent.
-
-    Raises `BadInput` if the versions of bayesmap here and in the calling process differ, or the sampler cannot sample
-    the model.
-    """
+    """Return the prepared problem and the seconds spent; raise `BadInput` for another version of bayesmap."""
     if version != __version__:
         raise BadInput(f"RayExecutor: a worker has bayesmap {__version__}, this process {version}; all need the same")
     began = time.perf_counter()
@@ -232,10 +228,7 @@ class RayExecutor:
 
 @dataclass
 class Marks:
-    """Numbers of sweeps at which segments end, common to all groups.
-
-    The end of warm-up, the marks of the schedule, and its end are marks.
-    """
+    """Numbers of sweeps at which segments of all groups end, with those of warm-up and of the schedule."""
 
     schedule: SweepPlan
     segment_s: float  # seconds of work between two marks

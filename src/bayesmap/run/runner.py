@@ -225,11 +225,7 @@ class CheckpointTimer:
 
 
 def pause_after(checkpoint_s: float, every_s: float) -> float:
-    """Return the seconds to the next checkpoint, given the seconds that the last one took.
-
-    The next checkpoint is assumed to take twice the time, because it has more draws to write. ``every_s`` of 0, a
-    checkpoint at every step, stays 0.
-    """
+    """Return the seconds to the next checkpoint, assumed to take twice as long; 0 stays 0, every step."""
     return max(every_s, 2 * checkpoint_s * (1 / CHECKPOINT_SHARE - 1)) if every_s > 0 else every_s
 
 

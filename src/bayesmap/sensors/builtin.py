@@ -344,10 +344,7 @@ def _plain(value: Any) -> Any:
 
 
 def from_description(description: dict[str, Any]) -> SensorModel | None:
-    """Return the model of a description; None for the user's own model.
-
-    Raises `BadInput` for a parameter that the model does not have, or a value that it refuses.
-    """
+    """Return a described model, None for the user's own; raise `BadInput` for a wrong parameter."""
     values = dict(description)
     kind = values.pop("kind", None)
     cls = KINDS.get(str(kind))

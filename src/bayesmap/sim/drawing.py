@@ -49,10 +49,7 @@ def from_text(text: str) -> NDArray[np.bool_]:
 
 
 def to_text(walls: ArrayLike) -> str:
-    """Return a drawing from which `from_text` reads these walls, shape (lines, columns).
-
-    An array that is not two-dimensional, or that is empty, raises `BadInput`.
-    """
+    """Return a drawing that `from_text` reads, of walls (lines, columns); raise `BadInput` for other shapes."""
     array = np.asarray(walls).astype(bool)
     if array.ndim != 2 or array.size == 0:
         raise BadInput(f"drawing: walls must have shape (lines, columns), got {array.shape}")

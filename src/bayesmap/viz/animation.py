@@ -84,10 +84,7 @@ def render_frames(
     grid: Grid, draws: ArrayLike, *, running_mean: bool = False, observed: ArrayLike | None = None,
     truth: ArrayLike | None = None, poses: ArrayLike | None = None, sweeps: Sequence[int] | None = None,
 ) -> Iterator[Image.Image]:  # fmt: skip
-    """Check the arguments, then return an iterator that renders the frames, as images of mode "P".
-
-    Arguments and errors are those of `write_animation`.
-    """
+    """Check the arguments of `write_animation`, and return an iterator of frames of mode "P"."""
     chain = _as_chain(grid, draws)
     labels = list(range(1, len(chain) + 1)) if sweeps is None else [int(sweep) for sweep in sweeps]
     if len(labels) != len(chain):

@@ -45,10 +45,7 @@ def draw_running_mean(ax: Axes, log_joint: ArrayLike, *, first_sweep: int = 1) -
 
 
 def trace_figure(log_joint: ArrayLike, *, first_sweep: int = 1) -> Figure:
-    """Draw the trace, the running mean and the histogram of the log joint of each chain.
-
-    Arguments and errors are those of `draw_log_joint`.
-    """
+    """Draw trace, running mean and histogram of each chain's log joint, as `draw_log_joint` takes it."""
     traces = _as_traces(log_joint)
     figure = palette.blank_figure(7.6, 4.6)
     axes = figure.subplots(2, 2, width_ratios=[4.0, 1.0], sharex="col", sharey="row")
@@ -158,10 +155,7 @@ def weights_figure(log_weights: ArrayLike, *, range_nats: tuple[float, float] = 
 
 
 def normalized(log_weights: ArrayLike) -> NDArray[np.float64]:
-    """Return the log weights, normalised so that the weights add up to 1, shape (n,).
-
-    Raises `BadInput` for no weight at all, all of them zero, or one that is NaN or +inf.
-    """
+    """Return log weights whose weights add up to 1, (n,); raise `BadInput` for none, NaN or +inf."""
     logs = as_array(log_weights, "log_weights")
     if logs.ndim != 1 or len(logs) == 0:
         raise BadInput(f"weights: log_weights has shape {logs.shape}; give one number per sample, shape (n,), n >= 1")

@@ -83,10 +83,7 @@ class Layout:
 
 
 def lay_out(grid: Grid, panels: int, *, bars: int, titled: bool) -> Layout:
-    """Arrange 1 to 4 panels of a map: in a row, four in a square, or stacked if the map is long.
-
-    The first ``bars`` panels have a colour bar.
-    """
+    """Arrange 1 to 4 panels: a row, a square, or stacked if long. The first ``bars`` have a colour bar."""
     # Columns and rows.
     nx, ny = grid.shape
     tall = ny >= 2 * nx
@@ -346,10 +343,7 @@ class Candidate:
 def comparison_figure(
     grid: Grid, candidates: Sequence[Candidate], *, label: str = "probability of wall", title: str | None = None
 ) -> Figure:
-    """Draw two to four maps of one grid in the same colours, with one colour bar.
-
-    Raises `BadInput` for fewer than two or more than four maps, shapes that do not fit, probabilities outside [0, 1].
-    """
+    """Draw two to four maps of one grid with one colour bar; raise `BadInput` for shapes that do not fit."""
     if not 2 <= len(candidates) <= 4:
         raise BadInput(f"picture: compare two to four maps, got {len(candidates)}")
     layout = lay_out(grid, len(candidates), bars=len(candidates), titled=title is not None)

@@ -29,10 +29,7 @@ Cut = tuple[slice, slice]
 
 
 def boundary_segments(grid: Grid, mask: NDArray[np.bool_]) -> NDArray[np.float64]:
-    """Return the boundary between true and false cells of a mask, (nx, ny), as segments, metres, (M, 2, 2).
-
-    Outside the grid counts as false. Edges in a row are joined into one segment.
-    """
+    """Return the boundary of a mask, (nx, ny), false outside, as joined segments, metres, (M, 2, 2)."""
     # Edges where the mask changes, joined into runs in each direction.
     padded = np.pad(mask, 1)
     x, y0, y1 = _runs(padded[1:, 1:-1] != padded[:-1, 1:-1])  # (nx + 1, ny): edges with x constant
@@ -88,10 +85,7 @@ def window(grid: Grid, x_m: tuple[float, float], y_m: tuple[float, float]) -> tu
 
 
 def window_around(grid: Grid, mask: ArrayLike, margin_m: float = 1.0) -> tuple[Grid, Cut]:
-    """Return the `window` around the true cells of a mask, (nx, ny), with a margin; the whole grid if none is true.
-
-    Raises `BadInput` for another shape than the grid's.
-    """
+    """Return the `window` around the true cells of a mask, (nx, ny), and a margin; the whole grid if none."""
     cells = as_mask(grid, mask, "mask")
     edges = []
     for axis in (0, 1):
@@ -194,10 +188,7 @@ def map_figure(
     grid: Grid, *, aspects: tuple[float, float] = (0.3, 3.0), bar_in: float = BAR_IN, foot_in: float = 0.0,
     dpi: float = 160.0,
 ) -> tuple[Figure, Axes]:  # fmt: skip
-    """Return a figure of one panel, with room in inches for a colour bar at the right and a legend at the foot.
-
-    ``aspects`` are the smallest and the largest ratio of the panel's width to its height.
-    """
+    """Return a figure of a panel whose width to height stays in ``aspects``, with room for bar and legend."""
     width_in = (HEIGHT_IN - LABELS_IN) * float(np.clip(grid.shape[0] / grid.shape[1], *aspects)) + bar_in
     figure = palette.blank_figure(width_in, HEIGHT_IN + foot_in, dpi)
     return figure, figure.subplots()

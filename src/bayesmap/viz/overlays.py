@@ -33,10 +33,7 @@ MAX_ARROWS = 12
 
 
 def draw_truth_outline(ax: Axes, grid: Grid, true_walls: ArrayLike) -> LineCollection:
-    """Draw the outline of the true walls (true or 1 for wall, (nx, ny)) as lines labelled "true walls".
-
-    Raises `BadInput` for a shape that differs from the grid's, or other numbers than 0 and 1.
-    """
+    """Draw the outline of the true walls, (nx, ny), as "true walls"; raise `BadInput` for another shape."""
     lines = LineCollection(
         list(boundary_segments(grid, as_mask(grid, true_walls, "true_walls"))), colors=palette.TRUTH,
         linewidths=1.2 if max(grid.shape) <= 100 else 0.5, capstyle="projecting", label="true walls", zorder=3.0,
@@ -220,10 +217,7 @@ def route_figure(
     grid: Grid, occupancy: ArrayLike, observed: ArrayLike | None, path: ArrayLike, radius_m: float, *, title: str = "",
     label: str = "probability of wall",
 ) -> Figure:  # fmt: skip
-    """Draw a path, (P, 2) in the world frame, over the mean map, and the area that a disc sweeps along it.
-
-    Raises `BadInput` for shapes that do not fit.
-    """
+    """Draw a path, (P, 2), over the mean map, and what a disc sweeps; raise `BadInput` for other shapes."""
     figure, ax = maps.map_figure(grid, aspects=(0.5, 3.0), foot_in=FOOT_IN)
     image = maps.draw_probability(ax, grid, occupancy, observed)
     figure.colorbar(image, ax=ax, label=label, shrink=0.8)

@@ -71,10 +71,7 @@ def draw_reliability(ax: Axes, rows: Rows) -> None:
 
 
 def calibration_figure(rows: Rows) -> Figure:
-    """Draw PIT, coverage and reliability in three panels, with one line per scored map (name and score).
-
-    Raises `BadInput` for no score.
-    """
+    """Draw PIT, coverage and reliability, a line per map (name and score); raise `BadInput` for none."""
     if not rows:
         raise BadInput("calibration: give at least one score")
     figure = palette.blank_figure(10.2, 3.7)
@@ -162,10 +159,7 @@ def surprise_scale(surprises: ArrayLike) -> Scale:
 
 
 def draw_residuals(ax: Axes, ends_world: ArrayLike, values: ArrayLike, scale: Scale) -> PathCollection:
-    """Draw a dot at the end of every beam, (n, 2), coloured by its value, (n,). The worst are larger and on top.
-
-    Raises `BadInput` for shapes that do not fit, or a number that is not finite.
-    """
+    """Draw end points, (n, 2), by value, (n,), the worst on top; raise `BadInput` for other shapes or NaN."""
     ends, numbers = as_array(ends_world, "ends_world"), as_array(values, "values")
     if ends.shape != (len(numbers), 2) or numbers.ndim != 1:
         raise BadInput(f"picture: end points have shape {ends.shape} and values {numbers.shape}; give (n, 2) and (n,)")

@@ -94,10 +94,7 @@ def first_bytes(path: str | os.PathLike[str], count: int) -> bytes:
 
 
 def _at_hand(path: Path, stack: ExitStack, on_damage: raw.OnDamage) -> Path:
-    """Return the file itself, or an unpacked copy of a compressed file, which the stack removes.
-
-    If a file cannot be unpacked to its end and ``on_damage`` returns, the copy is partial.
-    """
+    """Return the file, or a temporary unpacked copy: partial after damage, if ``on_damage`` returns."""
     with path.open("rb") as file:
         kind = compression_of(file.read(4))
         if kind is None:

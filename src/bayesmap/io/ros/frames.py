@@ -159,10 +159,7 @@ class Chain:
         return result
 
     def sensor_on_body(self) -> tuple[float, float, float] | None:
-        """Return the pose of the sensor on the body, in the plane: the product of the last constant transforms.
-
-        None if the last transform moves: then the body is not known.
-        """
+        """Return the sensor's pose on the body by the last constant transforms; None if the last moves."""
         fixed = list(takewhile(lambda link: link.constant, reversed(self.links)))
         if not fixed:
             return None

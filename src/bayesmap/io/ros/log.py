@@ -76,11 +76,7 @@ class _Stream:
 
 
 def clock_runs(scans: list[LaserMessage], poses: PoseMessages) -> list[ClockRun]:
-    """Split a recording where its clock was set back. Returns one run if it was not.
-
-    A step of the clock must show in all stamped topics that have messages before and after it. So scans that came late
-    make no step.
-    """
+    """Split a recording where its clock was set back: a step in all stamped topics, so no scan that came late."""
     # Find the steps in the topic with most of them, and check that all topics make them.
     samples = [*poses.transforms.values(), *poses.poses.values()]
     streams = [_stream([s.stamp_ns for s in scans], [s.received_ns for s in scans])]
@@ -313,10 +309,7 @@ def _in_order_of_time(
 
 
 def _ray_times(stamps: NDArray[np.int64], scans: list[LaserMessage], account: Account) -> NDArray[np.int64]:
-    """Return the time of each ray, shape (S, A); without ``deskew``, that of the first ray, (S, 1).
-
-    Missing rays of a scan get the time of its last ray.
-    """
+    """Return the time of each ray, (S, A), the last for missing rays; without ``deskew`` of the first, (S, 1)."""
     if not account.options.deskew:
         return stamps[:, None]
     beams = np.array([scan.layout.beams for scan in scans])
@@ -385,10 +378,7 @@ def _only_topic(request: _Request, options: LogOptions, poses: PoseMessages) -> 
 
 
 def _source(request: _Request, poses: PoseMessages, options: LogOptions) -> pose_sources.PoseSource:
-    """Return the source of the sensor's poses: the chosen topic, or else /tf.
-
-    The option ``laser`` gives the sensor's pose on the robot's body instead of /tf.
-    """
+    """Return the source of the sensor's poses: the chosen topic, or /tf; option ``laser`` replaces its mount."""
     recording, sensor, pose_topic, laser = request.recording, request.sensor, request.pose_topic, options.laser
     trees = pose_sources.frame_trees(poses, request.topic.name, None if pose_topic is None else pose_topic.name)
     if options.without_poses:

@@ -67,10 +67,7 @@ def upright(rows: NDArray[T]) -> NDArray[T]:
 
 
 def brightness(image: ImageLike | Image) -> NDArray[np.float64]:
-    """Return the brightness of every pixel, 0 (black) to 1 (white), shape (height, width), row 0 the top.
-
-    Raises `BadInput` for a file that is no image, or an array of another shape or range.
-    """
+    """Return each pixel's brightness, 0 to 1, (height, width), row 0 the top; raise `BadInput` for no image."""
     from PIL import Image as pil  # on first use: most programs never read an image
 
     if isinstance(image, str | os.PathLike):

@@ -130,10 +130,7 @@ def of_one_frame(topic: str, scans: list[LaserMessage], bad: Bad) -> list[LaserM
 
 
 def beams_of(scans: Sequence[LaserMessage]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return beam angles in the sensor's frame and readings (S, A) of scans.
-
-    Angles are (A,) if all scans have the same beams, else (S, A).
-    """
+    """Return angles in the sensor's frame, (A,), or (S, A) if beams differ, and readings, (S, A)."""
     first = scans[0].layout
     if all(scan.layout is first or scan.layout.equals(first) for scan in scans):
         with np.errstate(invalid="ignore"):  # readings may hold signalling NaN
@@ -149,10 +146,7 @@ MAX_MESSAGE_BYTES = 1 << 28  # largest message; a larger size is taken for damag
 
 
 def scan_topic_of(recording: Recording, name: str | None) -> Topic:
-    """Return the topic to read: the named one, or the only one of laser scans, or else of single ranges.
-
-    Raises `BadInput` for no topic of scans, none of that name, or several if none was named; the message lists them.
-    """
+    """Return the named topic, or the only one of scans, or ranges; raise `BadInput` that lists the choices."""
     topics = recording.of_type(SCAN_TYPES)
     have = f"no topic holds {' or '.join(SCAN_TYPES)}; there are {', '.join(map(str, recording.topics.values()))}"
     have = f"scans are on {', '.join(map(str, topics))}" if topics else have
@@ -172,10 +166,7 @@ def scan_topic_of(recording: Recording, name: str | None) -> Topic:
 
 
 def read_messages(recording: Recording, topics: Iterable[Topic], poses: PoseMessages, bad: Bad) -> list[LaserMessage]:
-    """Return the scans on the given topics, and add the other messages to poses; ``bad`` is called with unusable ones.
-
-    Raises `BadInput` for a recording that is damaged or cut short.
-    """
+    """Return the scans on topics, and add other messages to poses; raise `BadInput` for a damaged recording."""
     about = {topic.name: topic for topic in topics}
     scans, numbers = list[LaserMessage](), Counter[str]()
     try:

@@ -161,10 +161,7 @@ def _beside(trees: list[FrameTree], tree: FrameTree, fixed: str, sensor: str) ->
 
 
 def checked(recording: Recording, tree: FrameTree, fixed: str, sensor: str) -> list[str]:
-    """Return notes on transforms between two frames with several values.
-
-    Raises `BadInput` for values that contradict each other, if the user must choose between them.
-    """
+    """Return notes on transforms with several values; raise `BadInput` if the user must choose one."""
     notes = []
     for parent, child, parts in tree.links(fixed, sensor):
         rivals = tree.rivals.get(child, ())
@@ -194,10 +191,7 @@ def _choose(recording: Recording, topics: Iterable[str]) -> str:
 
 
 def body_of(path: str, trees: list[FrameTree], sensor: str) -> str | None:
-    """Return the frame of the robot's body that a user's mount refers to; None if /tf has none.
-
-    Raises `BadInput` for several robots, if the sensor's frame does not name its robot.
-    """
+    """Return the body's frame for a user's mount, or None; raise `BadInput` if the robot is not clear."""
     for tree in trees:
         if sensor in tree.frames() and (connected := tree.body(sensor, MOUNTS)) is not None:
             return connected
@@ -234,10 +228,7 @@ def standing_still(trees: list[FrameTree], sensor: str) -> PoseSource:
 def by_topic(
     recording: Recording, topic: Topic, messages: PoseMessages, trees: list[FrameTree], sensor: str, laser: Pose | None
 ) -> PoseSource:
-    """Return the sensor's poses from a topic of poses. Its mount on the body is the user's ``laser``, or that of /tf.
-
-    Raises `BadInput` for no pose at all, or a pose or transform with two values.
-    """
+    """Return the poses by a topic, with the user's mount or that of /tf; raise `BadInput` for none, or two values."""
     # The frame and body with most poses.
     if not messages.poses:
         raise BadInput(f"{recording.path}: {topic.name} holds no pose that can be used")

@@ -267,10 +267,7 @@ Schemas = dict[int, tuple[str, str, str]]  # name, encoding and text of each sch
 
 
 def mcap_records(path: str | os.PathLike[str], on_damage: OnDamage) -> Records:
-    """Yield the connections and messages of an MCAP file, in the order of the file.
-
-    If ``on_damage`` returns, reading continues after a damaged chunk, and an incomplete last chunk is read in part.
-    """
+    """Yield the connections and messages of an MCAP file, in order, as far as damage allows."""
     size = os.path.getsize(path)
     schemas: Schemas = {}
     with Path(path).open("rb") as file:
@@ -378,10 +375,7 @@ def _unpacked(compression: str, packed: bytes, largest: int) -> bytes:
 
 
 def sqlite_records(path: str | os.PathLike[str], on_damage: OnDamage) -> Records:
-    """Yield the connections and messages of a rosbag2 database, in the order in which they were written.
-
-    This needs no index: rosbags uses the index of a database, which a file that is cut short has lost.
-    """
+    """Yield a rosbag2 database's connections and messages as written, without its index, which damage loses."""
     import sqlite3  # only a few recordings are read this way
 
     # Immutable: a journal beside it is not replayed, so that nothing is ever written.

@@ -183,11 +183,7 @@ def is_header(line: bytes) -> bool:
 
 
 def read_csv(path: str | os.PathLike[str], options: LogOptions) -> LogReading:
-    """Read scans from a CSV table, plain or gzipped.
-
-    Raises `BadInput` for a file that cannot be read, no scan, no angles, no poses or a malformed row (unless the
-    options take them).
-    """
+    """Read scans from a CSV table, plain or gzipped; raise `BadInput` if scans, angles or poses are missing."""
     account = Account(os.fspath(path), "csv", options)
     table = _Table(account.name, account.bad)
     for number, line in log_lines(account):
@@ -212,10 +208,7 @@ def read_csv(path: str | os.PathLike[str], options: LogOptions) -> LogReading:
 
 
 def live_rows(name: str, lines: Iterable[tuple[int, bytes]], bad: Bad, options: LogOptions) -> Iterator[Scans]:
-    """Yield the scans of a table with one row per scan, each as soon as its line arrives. Errors are as in `read_csv`.
-
-    A table with one row per beam is refused.
-    """
+    """Yield the scans of a table of one row a scan as lines arrive. Errors are as in `read_csv`."""
     table, max_range_m = _Table(name, bad), options.max_range_m
     assert max_range_m is not None
     for number, line in lines:

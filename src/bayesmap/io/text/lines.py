@@ -58,10 +58,7 @@ def log_lines(account: Account) -> Iterator[tuple[int, bytes]]:
 
 
 def split_lines(name: str, pieces: Iterable[bytes]) -> Iterator[tuple[int, bytes]]:
-    """Yield the lines of a text that comes in pieces, with their numbers, each as soon as it is whole.
-
-    A line over `MAX_LINE_BYTES` raises `BadInput`.
-    """
+    """Yield numbered lines of a text that comes in pieces; raise `BadInput` over `MAX_LINE_BYTES`."""
     number, rest = 0, b""
     for piece in pieces:
         *lines, rest = (rest + piece).split(b"\n")

@@ -252,10 +252,7 @@ def scan_of(reader: Reader, header: Header, motions: int) -> RawScan:
 
 
 def motion_of(reader: Reader, header: Header) -> tuple[int, Floats]:
-    """Return the estimation method of a CActionRobotMovement2D, and the motion, (3,).
-
-    Raises `UnreadableObject` as `scan_of`.
-    """
+    """Return estimation method and motion, (3,), of a CActionRobotMovement2D. Errors are as in `scan_of`."""
     version = header.version
     if not 0 <= version <= 7:
         raise UnreadableObject("is not known: versions 0 to 7 are read")
@@ -279,10 +276,7 @@ def motion_of(reader: Reader, header: Header) -> tuple[int, Floats]:
 
 
 def odometry_of(reader: Reader, header: Header) -> tuple[str, float | None, Floats]:
-    """Return the label, the time and the pose, (3,), of a CObservationOdometry.
-
-    Raises `UnreadableObject` as `scan_of`.
-    """
+    """Return label, time and pose, (3,), of a CObservationOdometry. Errors are as in `scan_of`."""
     if not 0 <= header.version <= 2:
         raise UnreadableObject("is not known: versions 0 to 2 are read")
     pose = _checked(reader.pose_in_plane())
