@@ -10,7 +10,7 @@ from page_driver import END, centre, colour_at, document, propagated, settled, s
 from page_hands import act, choose, click, press_and_drag
 
 from bayesmap.app.answers.evidence import strongest, summed, wall_ratios
-from bayesmap.posterior.predictor import ScanPredictor, predictor_of
+from bayesmap.posterior.prediction import ScanPredictor, predictor_of
 from bayesmap.sensors.model import RangeLimits
 
 BLUE, ORANGE = (0, 114, 178), (213, 94, 0)

@@ -30,9 +30,8 @@ Layer = Mapping[str, Mapping[str, Value]]  # values of settings from one source,
 def read_file(path: str | Path) -> Layer:
     """Read the settings of a TOML file.
 
-    Tables have the names of commands. Keys outside tables apply to all commands that have them.
-
-    Raises `BadInput` for an unreadable file, invalid TOML, an unknown table or key, or a value that is not allowed.
+    Tables have the names of commands. Keys outside tables apply to all commands that have them. Raises `BadInput` for
+    an unreadable file, invalid TOML, an unknown table or key, or a value that is not allowed.
     """
     try:
         tables = tomllib.loads(Path(path).read_text(encoding="utf-8"))

@@ -85,12 +85,7 @@ class Entry:
 
 
 def infer_fleet(call: Call[InferSettings], logs: list[str], output: Path, *, resume: bool, force: bool) -> None:
-    """Infer each log into its own folder, and print a table. Exit with code 1 if a log failed.
-
-    ``output`` is the parent of the folders of the runs.
-
-    Raises `BadInput` for two logs of one name, or a cluster that cannot be reached.
-    """
+    """Infer each log into its folder under ``output``, and print a table; exit with code 1 if a log failed."""
     names = Counter(map(stem, logs))
     twice = next((name for name, times in names.items() if times > 1), None)
     if twice is not None:

@@ -99,12 +99,7 @@ class Task(Generic[S]):
 
 
 def prepare(call: Call[S], log: str, path: Path, *, resume: bool, force: bool, begun: Layer | None = None) -> Task[S]:
-    """Check the arguments for one log before anything is read or written, and return its task.
-
-    ``begun`` are the settings to resume with if the folder holds none.
-
-    Raises `BadInput` for no such log, inconsistent settings, or a folder that may not be written.
-    """
+    """Check the arguments for one log, and return its task; raise `BadInput`. ``begun``: settings to resume."""
     need_file(log, f"{LOG} (bayesmap info FILE says what is in one)", runs=False)
     folder = Folder(path, call.console, resuming=resume)
     under = (settings_of(folder, call.section) or begun) if resume else None

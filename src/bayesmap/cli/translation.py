@@ -34,12 +34,7 @@ if TYPE_CHECKING:
 
 
 def numbers_of(text: str, flag: str, form: str, counts: tuple[int, ...]) -> list[float]:
-    """Return the numbers of an option's text, separated by commas.
-
-    ``form``, such as "X,Y", names them in the error message.
-
-    Raises `click.BadParameter` for a count of numbers that is not in ``counts``, or a number that is not finite.
-    """
+    """Return an option's numbers, named by ``form``, such as "X,Y"; raise `click.BadParameter` for others."""
     try:
         numbers = [float(part) for part in text.split(",")]
     except ValueError:
@@ -282,9 +277,8 @@ def need_file(file: str, expected: str, *, runs: bool, pipes: bool = False) -> N
 def logs_of(typed: Sequence[str]) -> tuple[list[str], bool]:
     """Return the logs that a user names, and whether they are several: many names, a folder, or a pattern.
 
-    A folder stands for the logs in it, chosen by their endings, and for the folders of ROS 2 bags in it.
-
-    Raises `BadInput` for a pattern or a folder without logs.
+    A folder stands for the logs in it, chosen by their endings, and for the folders of ROS 2 bags in it. Raises
+    `BadInput` for a pattern or a folder without logs.
     """
     logs: list[str] = []
     several = len(typed) > 1

@@ -254,9 +254,8 @@ def write_geotiff(
 ) -> Path:
     """Write layers (see `as_layers`) as bands of a GeoTIFF, whole or not at all. Returns the path.
 
-    Cells that no beam reached are NaN, which is the bands' nodata value.
-
-    Raises `BadInput` if rasterio is not installed, for layers that do not fit, or a file that cannot be written.
+    Cells that no beam reached are NaN, which is the bands' nodata value. Raises `BadInput` if rasterio is not
+    installed, for layers that do not fit, or a file that cannot be written.
     """
     try:
         from rasterio.io import MemoryFile  # type: ignore[import-untyped, import-not-found, unused-ignore]
@@ -287,9 +286,8 @@ def write_rerun(
 ) -> Path:  # fmt: skip
     """Write layers (see `as_layers`) for the rerun viewer, whole or not at all. Returns the path.
 
-    Over the layers the viewer shows the scans, and the trajectory with its ellipses, or else the scans' poses.
-
-    Raises `BadInput` if rerun-sdk is not installed, for layers that do not fit, or a file that cannot be written.
+    Over the layers the viewer shows the scans, and the trajectory with its ellipses, or else the scans' poses. Raises
+    `BadInput` if rerun-sdk is not installed, for layers that do not fit, or a file that cannot be written.
     """
     try:
         import rerun as rr

@@ -324,9 +324,8 @@ READERS = {"carmen": read_carmen, "csv": read_csv, "g2o": read_g2o, "npz": read_
 def thinned(scans: Scans, spacing_m: float) -> Scans:
     """Select the first scan, and then each scan at least ``spacing_m`` of travel after the last selected one.
 
-    The distance is measured along the path through all poses; turns on the spot do not count.
-
-    Raises `BadInput` for a spacing that is negative or not finite.
+    The distance is measured along the path through all poses; turns on the spot do not count. Raises `BadInput` for a
+    spacing that is negative or not finite.
     """
     if not (math.isfinite(spacing_m) and spacing_m >= 0):
         raise BadInput(f"thin: give the metres that the robot travels from scan to scan, got {spacing_m!r}")

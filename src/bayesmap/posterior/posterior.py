@@ -144,9 +144,8 @@ def valid_readings(posterior: Posterior) -> tuple[NDArray[np.intp], NDArray[np.i
 def by_reading(posterior: Posterior, device: str = "cpu") -> NDArray[np.float32]:
     """Compute log p(reading | cells, poses) of every valid reading in every draw, nats, (chains, draws, n).
 
-    Densities are per metre for ranges. Cells and poses are those of the draw; a reading's stop is summed out.
-
-    Raises `BadInput` for a run without draws, or whose sensor model is not one of bayesmap's.
+    Densities are per metre for ranges. Cells and poses are those of the draw; a reading's stop is summed out. Raises
+    `BadInput` for a run without draws, or whose sensor model is not one of bayesmap's.
     """
     from bayesmap.kernels.predict.density import device_maps
     from bayesmap.kernels.predict.scan_likelihood import ScanLikelihood

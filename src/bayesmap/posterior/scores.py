@@ -263,9 +263,8 @@ def score_prediction(
 ) -> Score:
     """Score a prediction on scans that had no part in it.
 
-    ``seed`` is that of the randomised transform and of the bootstrap.
-
-    Raises `BadInput` for no valid reading, no draw, or a sensor model that kernels do not know.
+    ``seed`` is that of the randomised transform and of the bootstrap. Raises `BadInput` for no valid reading, no draw,
+    or a sensor model that kernels do not know.
     """
     from bayesmap.kernels.predict.density import forecast
     from bayesmap.kernels.predict.stop_mixture import first_hit_events, mix_stops, range_quantiles
@@ -351,9 +350,7 @@ def compare_scores(first: Score, second: Score, *, seed: int = 0) -> ScoreDiffer
     """Compare two scores on the same held-out beams, by the mean difference with its paired standard error.
 
     Both models find the same beams hard, so the error of the difference is mostly far below that of either score.
-    ``seed`` is that of the bootstrap over scans.
-
-    Raises `BadInput` for scores of different beams.
+    ``seed`` is that of the bootstrap over scans. Raises `BadInput` for scores of different beams.
     """
     for name in ("scan_of_beam", "reading_m"):
         if not np.array_equal(getattr(first, name), getattr(second, name)):

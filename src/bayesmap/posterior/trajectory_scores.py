@@ -176,9 +176,8 @@ def score_trajectory(
     """Score a trajectory against true relative poses, whose stamps are of the same clock.
 
     ``mount`` is the frame whose relations are known, in the frame of the trajectory, (3,); None: the trajectory's own.
-    ``exact`` is as in `relation_errors`.
-
-    Raises `BadInput` for no relation within the trajectory's time, or none near enough to its poses.
+    ``exact`` is as in `relation_errors`. Raises `BadInput` for no relation within the trajectory's time, or none near
+    enough to its poses.
     """
     moved = trajectory if mount is None else trajectory.of_frame(np.asarray(mount, dtype=np.float64))
     stamps = np.arange(len(moved), dtype=np.float64) if moved.stamps_s is None else moved.stamps_s

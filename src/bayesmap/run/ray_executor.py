@@ -125,9 +125,8 @@ def observed_counts(
 def connect(address: str | None) -> Any:
     """Return the `ray` module, connected to the cluster at an address, see `RayExecutor`.
 
-    An existing connection is used, and stays open.
-
-    Raises `BadInput` if Ray is not installed, or there is no cluster at the address.
+    An existing connection is used, and stays open. Raises `BadInput` if Ray is not installed, or there is no cluster at
+    the address.
     """
     try:
         import ray

@@ -65,9 +65,7 @@ class SensorModel(ABC):
         """Return P(reading <= range | distance), broadcast over both; too close is -inf, no return +inf.
 
         ``spread_m`` is a further standard deviation of the stop's distance. Only the calibration in `bayesmap.score`
-        needs it.
-
-        Raises `BadInput` if the model has no such method.
+        needs it. Raises `BadInput` if the model has no such method.
         """
         raise BadInput(f"{type(self).__name__}: no cumulative distribution; add a method cumulative() to the model")
 

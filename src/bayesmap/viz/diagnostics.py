@@ -24,9 +24,8 @@ ALL = 0.9995  # share of the sum of weights that rounds to all of it, in tenths 
 def draw_log_joint(ax: Axes, log_joint: ArrayLike, *, first_sweep: int = 1) -> None:
     """Draw the trace of the log joint density, nats, (chain, draw) or (draw,), a line per chain.
 
-    ``first_sweep`` is the number of the sweep that gave the first draw.
-
-    Raises `BadInput` for another shape, no draw at all, or a number that is not finite.
+    ``first_sweep`` is the number of the sweep that gave the first draw. Raises `BadInput` for another shape, no draw at
+    all, or a number that is not finite.
     """
     _draw_lines(ax, _as_traces(log_joint), first_sweep, "log joint [nats]", linewidth=0.8, alpha=0.9)
 

@@ -60,9 +60,8 @@ def _to_world(grid: Grid, cells: NDArray[np.intp]) -> NDArray[np.float64]:
 def window(grid: Grid, x_m: tuple[float, float], y_m: tuple[float, float]) -> tuple[Grid, Cut]:
     """Return the grid of the cells that a rectangle of the world touches, and the slices that cut it from (nx, ny).
 
-    ``x_m`` are the rectangle's left and right edge, ``y_m`` its lower and upper edge.
-
-    Raises `BadInput` for edges out of order or not finite, or a rectangle outside the grid.
+    ``x_m`` are the rectangle's left and right edge, ``y_m`` its lower and upper edge. Raises `BadInput` for edges out
+    of order or not finite, or a rectangle outside the grid.
     """
     cut, origin = [], []
     for axis, (low, high) in enumerate((x_m, y_m)):
@@ -70,7 +69,8 @@ def window(grid: Grid, x_m: tuple[float, float], y_m: tuple[float, float]) -> tu
             raise BadInput(f"picture: the window's edges must be finite, and the lower first, got {low:g} to {high:g}")
         cells = grid.shape[axis]
         # Clip to the map first: infinity has no whole number.
-        first, last = np.clip((np.array([low, high]) - grid.origin[axis]) / grid.resolution, -1.0, cells + 1.0)
+        least, most = grid.extent_m[2 * axis] - grid.resolution, grid.extent_m[2 * axis + 1] + grid.resolution
+        first, last = (np.clip([low, high], least, most) - grid.origin[axis]) / grid.resolution
         start, stop = max(math.floor(first + 1e-9), 0), min(math.ceil(last - 1e-9), cells)
         if start >= stop:
             edges = grid.extent_m[2 * axis : 2 * axis + 2]
@@ -119,9 +119,7 @@ def draw_probability(ax: Axes, grid: Grid, occupancy: ArrayLike, observed: Array
     """Draw the probability of wall per cell, (nx, ny): free is light, wall is dark, unobserved is hatched.
 
     ``observed`` is a mask of the cells that a beam reached, (nx, ny); None: all cells. Returns the image, from 0 to 1,
-    for a colour bar.
-
-    Raises `BadInput` for shapes that differ from the grid's, or probabilities outside [0, 1].
+    for a colour bar. Raises `BadInput` for shapes that differ from the grid's, or probabilities outside [0, 1].
     """
     probability = as_probabilities(grid, occupancy, "occupancy")
     return _show(ax, grid, probability, as_observed(grid, observed), palette.probability_colormap(), 1.0)

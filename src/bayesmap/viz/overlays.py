@@ -85,9 +85,7 @@ def draw_sensor(ax: Axes, poses: ArrayLike) -> list[Line2D]:
     """Draw the sensor as an arrow along its yaw. Many poses are drawn as a trajectory that ends in an arrow.
 
     ``poses`` are (S, 3) or (3,): x, y in metres and yaw in radians. Returns the marks; the first is labelled "sensor"
-    or "trajectory".
-
-    Raises `BadInput` for another shape, no pose, or a number that is not finite.
+    or "trajectory". Raises `BadInput` for another shape, no pose, or a number that is not finite.
     """
     where = as_poses(poses)
     if len(where) == 0:
@@ -138,9 +136,8 @@ def surface_strokes(
 ) -> NDArray[np.float64]:
     """Return both ends of the strokes of n surfaces, by means (n, 2) and covariances (n, 2, 2), metres, (n, 2, 2).
 
-    Strokes longer than ``longest_m`` are cut.
-
-    Raises `BadInput` for shapes that do not fit, numbers that are not finite, or a matrix that is no covariance.
+    Strokes longer than ``longest_m`` are cut. Raises `BadInput` for shapes that do not fit, numbers that are not
+    finite, or a matrix that is no covariance.
     """
     means, covariances = as_array(means_world, "means_world"), as_array(covariances_m2, "covariances_m2")
     n = len(means)
@@ -167,7 +164,6 @@ def draw_surfaces(
     """Draw one stroke per surface, from `surface_strokes`. Its opacity is the surface's weight in [0, 1], (n,).
 
     Strokes fainter than `FAINTEST` are left out. By default they have the colour of walls. The label is "surface".
-
     Raises `BadInput` for shapes that do not fit, weights outside [0, 1], or what `surface_strokes` refuses.
     """
     strokes, alpha = surface_strokes(means_world, covariances_m2, longest_m), as_array(weights, "weights")

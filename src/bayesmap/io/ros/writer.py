@@ -201,9 +201,8 @@ def write_occupancy_grid(
 ) -> Path:  # fmt: skip
     """Write a map as the one message of a recording, an OccupancyGrid. Returns the path.
 
-    ``occupancy``, ``grid``, ``observed`` and ``thresholds`` are those of `bayesmap.io.ros.maps.in_percent`.
-
-    Raises `BadInput` as `in_percent`, for another ending, or a file that cannot be written.
+    ``occupancy``, ``grid``, ``observed`` and ``thresholds`` are those of `bayesmap.io.ros.maps.in_percent`. Raises
+    `BadInput` as `in_percent`, for another ending, or a file that cannot be written.
     """
     from bayesmap.io.ros.maps import in_percent
 
@@ -223,9 +222,8 @@ def write_grid_map(
 ) -> Path:  # fmt: skip
     """Write layers (see `as_layers`) as the one message of a recording, a GridMap. Returns the path.
 
-    The first layer is the basic layer.
-
-    Raises `BadInput` for layers that do not fit, another ending, or a file that cannot be written.
+    The first layer is the basic layer. Raises `BadInput` for layers that do not fit, another ending, or a file that
+    cannot be written.
     """
     checked, ros = as_layers(grid, layers, observed), Recorder(path)
     length_m = np.array(grid.shape) * grid.resolution
@@ -258,9 +256,8 @@ def _matrix(ros: Recorder, values: NDArray[np.float32]) -> Any:
 def write_trajectory_recording(path: str | os.PathLike[str], trajectory: Trajectory, *, frame: str = FRAME) -> Path:
     """Write a trajectory as a recording, whole or not at all. Returns the path.
 
-    Poses without stamps get stamps 0, 1, 2 and so on, in seconds.
-
-    Raises `BadInput` for no pose, another ending, or a file that cannot be written.
+    Poses without stamps get stamps 0, 1, 2 and so on, in seconds. Raises `BadInput` for no pose, another ending, or a
+    file that cannot be written.
     """
     if len(trajectory) == 0:
         raise BadInput("trajectory: there is no pose to write")

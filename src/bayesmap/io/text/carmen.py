@@ -197,12 +197,7 @@ def _check_odometry(words: list[bytes]) -> None:
 
 
 def laser_reading(account: Account, lasers: Mapping[str, Sequence[LaserScan]]) -> tuple[LogReading, list[Fan]]:
-    """Return the reading of a log from the kind of message with most scans, and its fans, the commonest first.
-
-    ``lasers`` holds at least one scan, by kind of message, in the order of the file.
-
-    Raises `BadInput` if no reading is a range, and the largest range is not given.
-    """
+    """Return the reading of the kind of message with most scans, and its fans, the commonest first."""
     kind = max(lasers, key=lambda kind: len(lasers[kind]))
     scans = [scan for scan, _ in lasers[kind] if scan.fan.beams]
     empty = len(lasers[kind]) - len(scans)

@@ -122,9 +122,8 @@ def read_relations(path: str | os.PathLike[str]) -> Relations:
 def write_relations(path: str | os.PathLike[str], first_s: ArrayLike, second_s: ArrayLike, relative: ArrayLike) -> Path:
     """Write relations, whole or not at all; gzipped if the name ends in .gz. Returns the path.
 
-    The times of the first and the second poses are (N,). The second poses in the frames of the first are (N, 3).
-
-    Raises `BadInput` for shapes that do not fit, nothing to write, or a file that cannot be written.
+    The times of the first and the second poses are (N,). The second poses in the frames of the first are (N, 3). Raises
+    `BadInput` for shapes that do not fit, nothing to write, or a file that cannot be written.
     """
     starts, ends, poses = (np.asarray(a, dtype=np.float64) for a in (first_s, second_s, relative))
     if len(starts) == 0 or starts.shape != ends.shape or poses.shape != (len(starts), 3):
