@@ -9,7 +9,7 @@ import bayesmap as bm
 from bayesmap.errors import BadInput
 from bayesmap.kernels.predict.density import device_maps
 from bayesmap.kernels.predict.view import draw_scan_stops, independent_information
-from bayesmap.posterior.information import best_views, expected_information
+from bayesmap.posterior.decisions import best_views, expected_information
 from bayesmap.posterior.prediction import Fan
 from bayesmap.sensors.model import RangeLimits
 

@@ -16,7 +16,7 @@ from sensor_cases import ALL, LIMITS
 import bayesmap as bm
 from bayesmap.kernels import device as devices
 from bayesmap.kernels.sensor_law import SensorLaw32, SensorLaw64, cumulative, object_decay, sensor_law, stop_log_density
-from bayesmap.posterior.predictor import predictor_of
+from bayesmap.posterior.prediction import predictor_of
 from bayesmap.posterior.scores import beam_log_scores
 
 wp.set_module_options({"enable_backward": False})

@@ -55,13 +55,9 @@ def read_file(path: str | Path) -> Layer:
 
 
 def read_pairs(pairs: Iterable[str], section: str | None) -> Layer:
-    """Read the settings of ``--set key=value`` for the command's own section, or of ``--set section.key=value``.
+    """Read the settings of ``--set key=value`` for the command's section, or all if None, or of ``section.key=value``.
 
-    A command without a section, such as ``config``, applies a bare key to every section that has it.
-
-    Raises:
-        click.BadParameter: no equals sign, an unknown key, a value that cannot be read.
-        BadInput: a number that is not allowed.
+    Raises `click.BadParameter` for an unknown key or unreadable value, and `BadInput` for a number that is not allowed.
     """
     layer: dict[str, dict[str, Value]] = {}
     for pair in pairs:

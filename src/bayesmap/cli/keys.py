@@ -396,12 +396,7 @@ def _key(name: str, annotation: Any, default: Value) -> Key:
 
 
 def checked(key: Key, value: Any) -> Value:
-    """Return a value, converted to its key's type.
-
-    Raises:
-        WrongValue: the value has another type, or is not one of the choices.
-        BadInput: the value breaks its rule; the message names the flag.
-    """
+    """Return a value as its key's type; raise `WrongValue` for others, `BadInput` for a broken rule."""
     if key.kind is int and isinstance(value, float) and value.is_integer():
         value = int(value)
     if key.kind is int and isinstance(value, int) and value > MAX_WHOLE_NUMBER and key.name != "seed":

@@ -201,13 +201,10 @@ class World:
 
 
 def world_of(settings: SimulateSettings, poses: Sequence[str], minutes: float | None = None) -> World:
-    """Return the world that the settings name, with the robot at the typed poses or at the world's default poses.
+    """Return the world that the settings name, with the robot at the typed poses, or driving for ``minutes``.
 
-    With ``minutes`` the robot drives that long through a building.
-
-    Raises:
-        BadInput: a file that is no world, or an invalid size or pose.
-        click.UsageError: a file, but no pose.
+    Raises `BadInput` for a file that is no world, or an invalid size or pose, and `click.UsageError` for a file without
+    pose.
     """
     import numpy as np
 

@@ -29,7 +29,6 @@ if TYPE_CHECKING:
     from bayesmap.cells.kind import CellPrior
     from bayesmap.io.text.g2o import Edges
     from bayesmap.poses.trajectory import Trajectory as Approximation
-    from bayesmap.result import Run
 
 RECORDINGS = tuple(ending for ending in ENDINGS if ending != FOLDER)
 FORMATS = {
@@ -80,7 +79,7 @@ def existing(path: str | os.PathLike[str], format: str | None = None) -> Path | 
     return older[0] if older else None
 
 
-def layers_of(run: Run) -> dict[str, NDArray[np.float64]]:
+def layers_of(run: Any) -> dict[str, NDArray[np.float64]]:
     """Return the layers of a run, each (nx, ny): mean, entropy, and lower and upper if cells have intervals."""
     layers = {"mean": run.occupancy, "entropy": run.entropy}
     # Not part of the protocol: runs on binary walls need not have the method, and may raise `BadInput`.
@@ -174,27 +173,18 @@ def known_cells(
 
 
 def export_run(
-    path: str | os.PathLike[str], run: Run, scans: Scans, *, format: str | None = None, mode: str | None = None,
+    path: str | os.PathLike[str], run: Any, scans: Scans, *, format: str | None = None, mode: str | None = None,
     occupied_thresh: float | None = None, free_thresh: float | None = None, known: NDArray[np.bool_] | None = None,
     frame: str | None = None,
 ) -> tuple[Path, ...]:  # fmt: skip
-    """Write a run in another program's format; an existing file of that name is replaced.
+    """Write a run in another program's format, by the path's ending if ``format`` is None. Returns the paths written.
 
-    Args:
-        path: the file to write, or the folder of a ROS 2 bag.
-        run: the posterior.
-        scans: scans of the run; the stamp of the last is the map's, and their poses are the default trajectory.
-        format: one of `FORMATS`; by the path's ending if None.
-        mode: trinary, scale or raw, see `bayesmap.io.ros.maps`. If None, it is trinary for map-server, and scale, the
-            probability in per cent, for occupancy-grid. Other formats write exact numbers and take no mode.
-        occupied_thresh: threshold above which a cell is occupied; by default 0.65 in trinary, 1 in scale.
-        free_thresh: threshold below which a cell is free; by default 0.25 in trinary, 0 in scale.
-        known: cells that map-server and occupancy-grid do not call unknown, (nx, ny); by default the observed ones.
-        frame: frame on the robot whose poses a trajectory has, "base" or "laser"; by default the base, if the log said
-            where the laser sits on it.
-
-    Returns:
-        The paths of the files written.
+    An existing file is replaced. The path may be the folder of a ROS 2 bag. The stamp of the last of ``scans`` is the
+    map's, and their poses are the default trajectory. ``mode`` is trinary, scale or raw, see `bayesmap.io.ros.maps`: by
+    default trinary for map-server (a cell is occupied above 0.65, and free below 0.25), and scale, the probability in
+    per cent, for occupancy-grid. Other formats write exact numbers and take no mode. ``known`` are the cells, (nx, ny),
+    that these two do not call unknown; by default the observed ones. ``frame`` is the frame on the robot whose poses a
+    trajectory has, "base" or "laser"; by default the base, if the log said where the laser sits on it.
 
     Raises `BadInput` for an unknown ending, format or mode, a mode or threshold that the format does not take, an
     optional package that is not installed, or a file that cannot be written; the message has the remedy.

@@ -26,10 +26,7 @@ class NoneHeldOut(BadInput):
 
 
 def seen_by(train: Scans, scans: Scans) -> NDArray[np.bool_]:
-    """Return whether each scan is one of a run's scans, by stamps and readings, (S,).
-
-    A run may have inferred its poses. So poses are compared only for scans without stamps, or without a hit.
-    """
+    """Return whether each scan is a run's, (S,), by stamps and readings, and by poses where these cannot tell."""
     return _matched(train, scans) >= 0
 
 

@@ -227,11 +227,7 @@ class SurfaceOffset:
 
 
 def surface_offset(mean: Floats, covariance: Floats, point: Floats, sensor: Floats) -> SurfaceOffset:
-    """Return a point (2,), such as the end of a reading, in the frame of a surface.
-
-    The surface is given by mean (2,) and covariance (2, 2) of the points where beams stop, and ``sensor`` is where the
-    beam comes from, (2,).
-    """
+    """Return a point, (2,), in the frame of a surface of mean, (2,), and covariance, as a sensor, (2,), sees it."""
     values, vectors = np.linalg.eigh(covariance)
     normal, towards = vectors[:, 0], sensor - mean
     if normal @ towards < 0:

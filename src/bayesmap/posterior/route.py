@@ -79,10 +79,7 @@ def distance_to_path_m(points: Floats, path: Floats) -> Floats:
 
 
 def square_to_path_m(centres: Floats, edge_m: float, path: Floats) -> Floats:
-    """Compute the distance of axis-parallel squares with centres (n, 2) from a polyline, metres, (n,); 0 if they meet.
-
-    It is the least of the distances from the squares' corners and from the polyline's corners, if no segment meets one.
-    """
+    """Compute distances of axis-parallel squares about ``centres``, (n, 2), from a polyline, 0 where they meet."""
     half = 0.5 * edge_m
     corners = np.array([[-half, -half], [-half, half], [half, -half], [half, half]])
     nearest = distance_to_path_m(centres[:, None] + corners, path).min(axis=1)

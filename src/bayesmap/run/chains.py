@@ -146,10 +146,8 @@ def map_error(cells: CellPrior, draws: Draws, observed: NDArray[np.bool_]) -> fl
 
     The method is replicated batch means (Argon and Andradottir 2006). Each chain is cut into batches of successive
     draws, eight or more over all chains. The error of a mean over n batches is the standard deviation of the batch
-    means over sqrt(n). Chains that disagree make it large, so it also judges convergence.
-
-    Returns:
-        The error, in units of the map's values; inf for fewer than two draws per batch, 0 without observed cells.
+    means over sqrt(n). Chains that disagree make it large, so it also judges convergence. It is inf for fewer than two
+    draws per batch, and 0 without observed cells.
     """
     # The first draws are left out if batches of equal length do not cover all.
     batches = -(-MIN_BATCHES // draws.chains)

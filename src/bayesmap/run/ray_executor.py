@@ -82,10 +82,7 @@ def prepare(job: Job, version: str) -> tuple[Any, float]:
 
 
 def cached(run: str, job: Job, problem: list[Any]) -> Cached:
-    """Return this process's cached problem of a run; fetch it from the object store on first use.
-
-    The reference to the problem stands in a list: Ray would fetch a bare reference for every segment.
-    """
+    """Return this process's cached problem of a run; in a list, since Ray fetches a bare reference each time."""
     global _cached  # noqa: PLW0603 -- one per process, as the worker is
     if _cached is None or _cached.run != run:
         import ray
@@ -123,11 +120,7 @@ def observed_counts(
 
 
 def connect(address: str | None) -> Any:
-    """Return the `ray` module, connected to the cluster at an address, see `RayExecutor`.
-
-    An existing connection is used, and stays open. Raises `BadInput` if Ray is not installed, or there is no cluster at
-    the address.
-    """
+    """Return the `ray` module, connected to a cluster, or raise `BadInput`; an open connection is used."""
     try:
         import ray
     except ImportError:

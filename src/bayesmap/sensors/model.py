@@ -78,11 +78,7 @@ STANDARD = np.linspace(-6.0, 6.0, 97)  # nodes of a stop, in standard deviations
 
 
 def _mean_over_stops(model: SensorModel, z: Floats, d: Floats, s: Floats, limits: RangeLimits) -> Floats:
-    """Return the log of the mean of p(z | t) over t ~ N(d, s^2), t >= 0, by the midpoint rule, (n,).
-
-    A sensor may be far sharper than the spread. So there are nodes over the normal distribution, and further nodes
-    close to the reading.
-    """
+    """Return the log mean of p(z | t) over t ~ N(d, s^2), t >= 0, by a midpoint rule dense at z too, (n,)."""
     crowded = np.sinh(np.linspace(-9.0, 9.0, 122)) / math.sinh(9.0)
     near = np.where(np.isfinite(z), z, np.where(z > 0, limits.max_m, limits.min_m))
     t = np.concatenate([d + s * STANDARD[:, None], near + 12.0 * s * crowded[:, None]])

@@ -87,10 +87,7 @@ def inner_wall_cells(resolution: float) -> int:
 
 
 def _bands(rng: np.random.Generator, y0: int, y1: int, resolution: float) -> list[tuple[int, int, bool]]:
-    """Divide y0 to y1 into rows of rooms and corridors, with room depths as near as possible to `ROW_DEPTH_M`.
-
-    Returns a tuple for each row: its first cell, one past its last cell, and true for a corridor.
-    """
+    """Divide y0 to y1 into rooms about `ROW_DEPTH_M` deep and corridors: first cell, end, whether a corridor."""
     wall, corridor = inner_wall_cells(resolution), round(CORRIDOR_M / resolution)
 
     def room_cells(rows: int) -> int:
@@ -218,18 +215,10 @@ def building(
 ) -> Building:  # fmt: skip
     """Simulate an office floor: rooms along corridors, all reachable, with a closed outer wall.
 
-    The same arguments give the same building.
-
-    Args:
-        seed: seed of the random building.
-        size_m: outer width (x) and depth (y) in metres, at least 12 by 8 (or 8 by 12).
-        resolution: edge of a cell in metres, 0.02 to 0.25.
-        glass_pass: the chance that a beam passes a cell of glass, in [0, 1].
-        clutter: amount of furniture: 0 for none, 1 for usual, 2 for crowded.
-
-    Returns:
-        The building, on a grid with half a metre of open ground around the outer wall, whose origin is the
-        lower-left corner of that ground.
+    The same arguments give the same building. ``size_m`` is the outer width (x) and depth (y) in metres, at least 12 by
+    8 (or 8 by 12), and ``resolution`` the edge of a cell, 0.02 to 0.25. ``glass_pass`` is the chance that a beam passes
+    a cell of glass. ``clutter`` is the amount of furniture: 0 for none, 1 for usual, 2 for crowded. The grid has half a
+    metre of open ground around the outer wall, and its origin is the lower-left corner of that ground.
 
     Raises `BadInput` for an argument outside its range.
     """

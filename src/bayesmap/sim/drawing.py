@@ -84,9 +84,8 @@ DRAWING = """
 
 
 def tutorial() -> tuple[NDArray[np.bool_], NDArray[np.float64]]:
-    """Return the tutorial's walls and the robot's pose, on `TUTORIAL_GRID`.
+    """Return the tutorial's walls, (21, 21), line i of the drawing at x = i, and the robot's pose (10, 10, 0), (3,).
 
-    Walls have the shape (21, 21) and are indexed ``[x, y]`` (line i of the drawing is x = i). The pose (x, y, yaw) is
-    (10, 10, 0) in metres and radians, shape (3,).
+    They lie on `TUTORIAL_GRID`, in metres and radians.
     """
     return from_text(DRAWING), np.array([10.0, 10.0, 0.0])

@@ -18,21 +18,13 @@ def ranges(
 ) -> NDArray[np.float64]:  # fmt: skip
     """Compute noise-free ranges: the distance from each pose to the first wall along each beam, capped.
 
-    Cells are closed squares: a beam that touches a corner hits all cells that meet there. From inside a wall the range
-    is the distance to the exit edge. Both rules follow from the minimum distance over the edges of all wall cells.
+    Walls are true (or non-zero), shape (nx, ny). Poses are (x, y, yaw) in the world frame, shape (3,) or (S, 3), and
+    angles are those in the sensor frame, shape (A,). Cells are closed squares: a beam that touches a corner hits all
+    cells that meet there. From inside a wall the range is the distance to the exit edge. Both rules follow from the
+    minimum distance over the edges of all wall cells.
 
-    Args:
-        walls: true (or non-zero) in wall cells, shape (nx, ny).
-        grid: grid of the cells.
-        poses: (x, y, yaw) in the world frame, shape (3,) or (S, 3).
-        angles_rad: beam angles in the sensor frame, shape (A,).
-        max_range_m: largest range that is returned.
-        device: device that casts the rays.
-
-    Returns:
-        Metres, shape (A,) for a single pose of shape (3,), else (S, A).
-
-    Raises `BadInput` for shapes that do not fit, numbers that are not finite, a cap that is not positive.
+    Returns metres, at most ``max_range_m``, shape (A,) for a pose of shape (3,), else (S, A). Raises `BadInput` for
+    shapes that do not fit, numbers that are not finite, or a cap that is not positive.
     """
     poses_world = as_poses(poses)
     distances = _distances(walls, grid, poses_world, as_angles(angles_rad), max_range_m, device)
@@ -47,20 +39,11 @@ def simulate(
 ) -> Scans:  # fmt: skip
     """Draw scans from a sensor model in a known world.
 
-    Args:
-        walls: true (or non-zero) in wall cells, shape (nx, ny).
-        grid: grid of the cells.
-        poses: (x, y, yaw) in the world frame, shape (3,) or (S, 3).
-        angles_rad: beam angles in the sensor frame, shape (A,).
-        sensor: noise model of the readings.
-        max_range_m: the sensor's largest range.
-        min_range_m: the sensor's smallest range.
-        seed: seed of the noise.
-        opacity: chance that each wall cell stops the beams of a scan, shape (nx, ny); 1 if None. Glass has less.
-        typed: true to report no return, as lasers do, for a beam that meets nothing within ``max_range_m`` or reads
-            more. If false, the sensor model decides: additive noise reads the largest range plus noise, as in the
-            tutorial.
-        device: device that casts the rays.
+    Walls, poses, angles and device are as for `ranges`. ``sensor`` is the noise model of the readings, and ``seed``
+    that of the noise. Readings lie between the sensor's ``min_range_m`` and ``max_range_m``. ``opacity`` is the chance
+    that each wall cell stops the beams of a scan, shape (nx, ny); 1 if None. Glass has less. With ``typed`` a beam that
+    meets nothing within ``max_range_m``, or reads more, has no return, as lasers report. Otherwise the sensor model
+    decides: additive noise reads the largest range plus noise, as in the tutorial.
 
     Raises `BadInput` as `ranges`, and for a pose inside a wall.
     """

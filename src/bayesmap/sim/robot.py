@@ -222,16 +222,11 @@ class OdometryNoise:
 def simulate_odometry(
     poses_world: ArrayLike, noise: OdometryNoise | None = None, *, stamps_s: ArrayLike | None = None, seed: int = 0
 ) -> Floats:
-    """Simulate the poses that a robot's odometry reports along a path, from the true first pose.
+    """Simulate the poses that a robot's odometry reports along a path, (S, 3), from the true first pose.
 
-    Args:
-        poses_world: true poses of the robot's base, shape (S, 3): x, y in metres and yaw in radians.
-        noise: errors of the odometry; the defaults of `OdometryNoise` if None.
-        stamps_s: time of each pose, shape (S,), strictly ascending; needed if ``noise.lag_s`` is not 0.
-        seed: seed of the noise. The noise of a step does not depend on later steps.
-
-    Returns:
-        Raw odometry, shape (S, 3), in a frame that drifts away from the world's.
+    ``poses_world`` are the true poses of the robot's base: x, y in metres and yaw in radians. The errors are those of
+    ``noise``; the noise of a step does not depend on later steps. The result is in a frame that drifts away from the
+    world's. A lag needs ``stamps_s``, the strictly ascending time of each pose, (S,).
 
     Raises `BadInput` for shapes that do not fit, stamps that do not ascend, or a lag without stamps.
     """
@@ -254,11 +249,7 @@ def simulate_odometry(
 
 
 def travel_times_s(poses_world: ArrayLike, speed_m_per_s: float, turn_rad_per_s: float) -> Floats:
-    """Compute the times at which a robot passes the poses of its path, seconds from the first, shape (S,).
-
-    A step takes the longer of two times: its distance at full speed, and its turn at the full rate. Both must be
-    positive.
-    """
+    """Compute the seconds at which a robot passes its poses, (S,), each step at full speed or turning rate."""
     for name, value in (("speed", speed_m_per_s), ("turn rate", turn_rad_per_s)):
         if not (math.isfinite(value) and value > 0):
             raise BadInput(f"odometry: the {name} must be a positive number, got {value!r}")

@@ -40,23 +40,15 @@ def write_animation(
     observed: ArrayLike | None = None, truth: ArrayLike | None = None, poses: ArrayLike | None = None,
     sweeps: Sequence[int] | None = None, frames_per_second: float = 10.0,
 ) -> None:  # fmt: skip
-    """Write the draws of one chain as an animation without end, .gif or .webp, whole or not at all.
+    """Write the draws of one chain, (n, nx, ny), as an animation without end, .gif or .webp, whole or not at all.
 
-    Args:
-        path: the file.
-        grid: grid of the cells.
-        draws: walls, or probabilities in [0, 1], (n, nx, ny).
-        running_mean: show the mean of all draws so far in place of the draws.
-        observed: mask of the cells that a beam reached, (nx, ny); the others are hatched. None: all cells.
-        truth: the true walls, (nx, ny), outlined.
-        poses: poses x, y, yaw of the sensor, (S, 3) or (3,), each drawn as a dot.
-        sweeps: number to write under each frame; None: 1 to n.
-        frames_per_second: frame rate, at most 50, since viewers slow down faster animations.
+    Draws are walls, or probabilities in [0, 1]; ``running_mean`` shows the mean of all draws so far in place of each.
+    Cells that are not ``observed``, (nx, ny), are hatched; None: all are. The true walls, (nx, ny), are outlined, and
+    poses x, y, yaw of the sensor, (S, 3) or (3,), drawn as dots. ``sweeps`` are the numbers under the frames; None: 1
+    to n. The rate is at most 50 frames a second, since viewers slow down faster animations.
 
-    Raises:
-        BadInput: another ending, a folder that does not exist, no draw, shapes that differ from the grid's,
-            numbers outside [0, 1], or a rate out of bounds.
-        OSError: writing failed.
+    Raises `BadInput` for another ending, a missing folder, no draw, shapes that differ from the grid's, numbers outside
+    [0, 1], or a rate out of bounds, and `OSError` if writing failed.
     """
     target, ending = need_ending(path, ("gif", "webp"), "animation")
     if not 0.0 < frames_per_second <= 50.0:

@@ -107,12 +107,9 @@ def draw_weights(
     """Draw a histogram of the normalised log weights, mark the largest, and write the effective sample size above.
 
     If one sample has nearly all the weight, the effective sample size is 1: importance sampling has collapsed, as in
-    the tutorial. Counts are on a logarithmic scale, so that a single sample is visible.
-
-    Weights need not be normalised; -inf is a weight of zero. The number of weights below the histogram's
-    ``range_nats`` is written in the panel. Returns the counts, (100,).
-
-    Raises `BadInput` for no weight at all, all of them zero, one that is NaN or +inf, or a range that is empty.
+    the tutorial. Counts are on a logarithmic scale. Weights need not be normalised; -inf is a weight of zero. The
+    number of weights below the histogram's ``range_nats`` is written in the panel. Returns the counts, (100,). Raises
+    `BadInput` for no weight at all, all of them zero, one that is NaN or +inf, or a range that is empty.
     """
     logs = normalized(log_weights)
     low, high = range_nats

@@ -141,19 +141,12 @@ def posterior_figure(
 ) -> Figure:  # fmt: skip
     """Draw an overview of the posterior: the mean, its uncertainty, the readings, and one draw.
 
-    Args:
-        grid: grid of the cells.
-        occupancy: posterior probability of wall per cell, (nx, ny).
-        observed: mask of the cells that a beam reached, (nx, ny); the others are hatched. None: all cells.
-        draw: one draw of the map, walls or numbers in [0, 1], (nx, ny); None: no such panel.
-        truth: true walls, (nx, ny), outlined over the readings; if cells are large enough, or without readings, over
-            mean and draw too.
-        scans: scans with their rays, readings and poses; None: no such panel.
-        title: title over the figure.
-        label: name of the values of ``occupancy``, and of a draw of numbers.
-        width: width of the 90 % interval of each cell's reflectivity, (nx, ny), as `CellPrior.width` returns it; drawn
-            instead of the entropy of a wall.
-        surfaces: surfaces, drawn as strokes over the mean if cells are large enough on the page.
+    ``occupancy`` is the posterior probability of wall, (nx, ny), and ``label`` its name. Cells that are not
+    ``observed``, (nx, ny), are hatched; None: all are. ``draw`` is one draw of the map, walls or numbers in [0, 1],
+    (nx, ny), and ``scans`` have the rays, readings and poses; None: no such panel. True walls, (nx, ny), are outlined
+    over the readings; if cells are large enough, or without readings, over mean and draw too. ``width``, that of the 90
+    % interval of each reflectivity, (nx, ny), as `CellPrior.width` returns it, replaces the entropy of a wall. Surfaces
+    are drawn as strokes over the mean if cells are large enough on the page.
 
     Raises `BadInput` for shapes that differ from the grid's, probabilities outside [0, 1], or a truth that is not 0 or
     1.

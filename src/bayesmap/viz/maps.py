@@ -126,10 +126,7 @@ def draw_probability(ax: Axes, grid: Grid, occupancy: ArrayLike, observed: Array
 
 
 def draw_entropy(ax: Axes, grid: Grid, occupancy: ArrayLike, observed: ArrayLike | None = None) -> AxesImage:
-    """Draw the entropy of each cell in bits: 0 if wall or free is certain, 1 if both are equally likely.
-
-    Arguments and errors are those of `draw_probability`. The image is from 0 to 1 bit.
-    """
+    """Draw the entropy of each cell, 0 to 1 bit, given its probability, as `draw_probability` does."""
     from bayesmap.posterior.posterior import entropy_bits
 
     bits = entropy_bits(as_probabilities(grid, occupancy, "occupancy"))
@@ -137,19 +134,13 @@ def draw_entropy(ax: Axes, grid: Grid, occupancy: ArrayLike, observed: ArrayLike
 
 
 def draw_deviation(ax: Axes, grid: Grid, deviation: ArrayLike, observed: ArrayLike | None = None) -> AxesImage:
-    """Draw the posterior standard deviation of each cell's wall or reflectivity; 0.5 is the largest possible.
-
-    Arguments and errors are those of `draw_probability`, with a deviation in [0, 0.5] per cell, as the image has it.
-    """
+    """Draw each cell's posterior standard deviation, in [0, 0.5], as `draw_probability` draws probabilities."""
     reason = "the standard deviation of a number in [0, 1] lies in [0, 0.5]; take the square root if this is a variance"
     return _show_uncertainty(ax, grid, deviation, observed, "deviation", 0.5, reason)
 
 
 def draw_width(ax: Axes, grid: Grid, width: ArrayLike, observed: ArrayLike | None = None) -> AxesImage:
-    """Draw the width of each cell's posterior interval, such as the central 90 %: 0 is certain, 1 spans everything.
-
-    Arguments and errors are those of `draw_probability`, with the upper minus the lower bound, in [0, 1], per cell.
-    """
+    """Draw the width of each cell's posterior interval, in [0, 1], as `draw_probability` draws probabilities."""
     reason = "the bounds of a number in [0, 1] are 0 to 1 apart; give upper minus lower"
     return _show_uncertainty(ax, grid, width, observed, "width", 1.0, reason)
 
@@ -165,10 +156,7 @@ def _show_uncertainty(
 
 
 def draw_sample(ax: Axes, grid: Grid, walls: ArrayLike, observed: ArrayLike | None = None) -> AxesImage:
-    """Draw one draw of the map; cells that no beam reached are faded, since they are draws of the prior.
-
-    Arguments and errors are those of `draw_probability`, with walls, true or 1, for probabilities.
-    """
+    """Draw a draw of walls, true or 1, as `draw_probability` does; unobserved cells are faded: they are the prior's."""
     seen = as_observed(grid, observed)
     kind = np.where(seen, 0, 2) + as_mask(grid, walls, "walls")
     return _show(ax, grid, kind.astype(np.float64), seen, palette.draw_colormap(), 3.0, hide=False)

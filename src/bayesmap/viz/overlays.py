@@ -184,10 +184,7 @@ def draw_surfaces(
 def surfaces_figure(
     grid: Grid, means_world: ArrayLike, covariances_m2: ArrayLike, weights: ArrayLike, observed: ArrayLike | None = None
 ) -> Figure:
-    """Draw all surfaces of a map, and hatch the cells that no beam reached.
-
-    Arguments and errors are those of `draw_surfaces`. ``observed`` has shape (nx, ny); None: all cells.
-    """
+    """Draw all surfaces of a map, as `draw_surfaces` takes them, and hatch cells that are not ``observed``."""
     figure, axes = maps.map_figure(grid, aspects=(0.4, 2.5), bar_in=0.7, foot_in=0.35, dpi=200)
     maps.draw_sample(axes, grid, np.zeros(grid.shape, dtype=np.bool_), observed)
     # A stroke is a third of a cell thick, within limits.

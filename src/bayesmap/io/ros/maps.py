@@ -42,19 +42,14 @@ MAX_PIXELS = 100_000_000
 
 
 def from_image(image: ImageLike | Image, threshold: float = 0.5) -> NDArray[np.bool_]:
-    """Return walls for the dark pixels of a picture. Row 0 is the top, so the map looks like the picture.
+    """Return walls, (width, height), for the dark pixels of a picture, row 0 the top: the map looks like it.
 
-    Args:
-        image: path to an image file, a PIL image, or an array of shape (height, width), (height, width, 3) or
-            (height, width, 4): bool (True is bright), whole numbers 0..255, or floats 0..1. Transparent
-            pixels count as white.
-        threshold: brightness, from 0 (black) to 1 (white), below which a pixel is a wall.
+    The image is a path, a PIL image, or an array of shape (height, width), (height, width, 3) or (height, width, 4):
+    bool (True is bright), whole numbers 0..255, or floats 0..1. Transparent pixels count as white. A pixel whose
+    brightness, from 0 (black) to 1 (white), is below the threshold is a wall. Pixel (row r, column c) is ``walls[c,
+    height - 1 - r]``.
 
-    Returns:
-        Walls, shape (width, height), indexed ``[x, y]`` with y up: pixel (row r, column c) is
-        ``walls[c, height - 1 - r]``.
-
-    Raises `BadInput` for a file that is no image, an array of another shape or range, a threshold outside (0, 1).
+    Raises `BadInput` for a file that is no image, an array of another shape or range, or a threshold outside (0, 1).
     """
     if not 0 < threshold < 1:
         raise BadInput(f"image: threshold must lie between 0 (black) and 1 (white), got {threshold!r}")
@@ -155,23 +150,17 @@ def write_map(
     path_yaml: str | os.PathLike[str], occupancy: ArrayLike, grid: Grid, observed: ArrayLike | None = None, *,
     mode: str = "trinary", occupied_thresh: float | None = None, free_thresh: float | None = None,
 ) -> tuple[Path, Path]:  # fmt: skip
-    """Write a map for nav2's map_server: the YAML file, and an image beside it of the same name.
+    """Write a map for nav2's map_server: the YAML file, and an image of the same name beside it. Returns both paths.
 
-    Each file is written whole or not at all; the image comes first, so that a YAML file always has its image.
+    Each file is written whole or not at all; the image comes first, so that a YAML file always has its image. Occupancy
+    is the probability that each cell is occupied, shape (nx, ny), NaN where unknown, and ``observed`` the cells that
+    some beam reached; all by default. The modes are
 
-    Args:
-        path_yaml: the YAML file; the image gets its name with the suffix .pgm or .png.
-        occupancy: probability that each cell is occupied, shape (nx, ny), NaN where unknown.
-        grid: the grid of the map.
-        observed: cells that some beam reached, shape (nx, ny); all by default.
-        mode: ``"trinary"``: occupied above ``occupied_thresh``, free below ``free_thresh``, unknown between;
-            ``"scale"``: nav2 reads the probability in per cent; or ``"raw"``: the same, and the greys are the
-            per cents themselves, so that no rounding of greys comes between (an image viewer shows them nearly black).
-        occupied_thresh: 0.65 for trinary. For scale 1: nav2 reads all above as 100. No effect in raw.
-        free_thresh: 0.25 for trinary. For scale 0: nav2 reads all below as 0. No effect in raw.
+    - ``"trinary"``: occupied above ``occupied_thresh`` (0.65), free below ``free_thresh`` (0.25), unknown between;
+    - ``"scale"``: nav2 reads the probability in per cent; above ``occupied_thresh`` (1) 100, under ``free_thresh`` 0;
+    - ``"raw"``: the same without thresholds; greys are the per cents themselves (a viewer shows them nearly black).
 
-    Returns the paths of both. Raises `BadInput` as `in_percent`, for a path whose suffix is not .yaml or .yml, or for a
-    folder that cannot be written.
+    Raises `BadInput` as `in_percent`, for a path whose suffix is not .yaml or .yml, or a folder that cannot be written.
     """
     from PIL import Image
 
@@ -213,15 +202,10 @@ def write_map(
 
 
 def read_map(path_yaml: str | os.PathLike[str]) -> tuple[NDArray[np.float64], Grid]:
-    """Read a map as nav2's map_server does.
+    """Read a map as nav2's map_server does, by its YAML file, to which the path of the image is relative.
 
-    Args:
-        path_yaml: the YAML file; the image's path in it is relative to it.
-
-    Returns:
-        Occupancy, shape (nx, ny), in steps of 0.01, NaN where unknown; and the grid.
-
-    Raises `BadInput` for a file that cannot be read, a missing or wrong entry, or a map that is turned (yaw).
+    Returns occupancy, shape (nx, ny), in steps of 0.01, NaN where unknown; and the grid. Raises `BadInput` for a file
+    that cannot be read, a missing or wrong entry, or a map that is turned (yaw).
     """
     path = Path(path_yaml)
     entries = _read_entries(path)
@@ -248,19 +232,12 @@ def from_map_image(
     image: ImageLike | Image, resolution: float, origin: tuple[float, float] = (0.0, 0.0), *, negate: bool = False,
     occupied_thresh: float = 0.65, free_thresh: float = 0.25, unknown_is_wall: bool = False,
 ) -> tuple[NDArray[np.bool_], Grid]:  # fmt: skip
-    """Return walls and grid of a map_server image, by map_server's trinary rule.
+    """Return walls, (width, height), and grid of a map_server image, by map_server's trinary rule.
 
-    Args:
-        image: as for `from_image`; row 0 is the top.
-        resolution: metres per pixel.
-        origin: world position in metres of the image's lower-left corner.
-        negate: white is occupied and black is free, instead of the other way round.
-        occupied_thresh: shade, from 0 (white) to 1 (black), above which a pixel is occupied.
-        free_thresh: shade below which a pixel is free; pixels between the thresholds are unknown.
-        unknown_is_wall: true to return unknown cells as walls, false as free.
-
-    Returns:
-        Walls, shape (width, height), indexed ``[x, y]``, and the grid they lie on.
+    The image is as for `from_image`, ``resolution`` the metres per pixel, and ``origin`` the world position in metres
+    of the image's lower-left corner. With ``negate`` white is occupied and black is free. A pixel whose shade, from 0
+    (white) to 1 (black), is above ``occupied_thresh`` is occupied, below ``free_thresh`` free, and unknown between: a
+    wall if ``unknown_is_wall``, else free.
 
     Raises `BadInput` as `from_image`, or for thresholds that are not 0 <= free_thresh < occupied_thresh <= 1.
     """
@@ -275,18 +252,12 @@ def from_occupancy(
     cells: ArrayLike, resolution: float, origin: tuple[float, float] = (0.0, 0.0), *, threshold: float = 50,
     unknown_is_wall: bool = False,
 ) -> tuple[NDArray[np.bool_], Grid]:  # fmt: skip
-    """Return walls and grid of a ROS occupancy grid.
+    """Return walls, (width, height), indexed ``[x, y]``, and grid of a ROS occupancy grid.
 
-    Args:
-        cells: shape (height, width), values 0 (free) to 100 (occupied), -1 unknown; row 0 is the *bottom*, as
-            in ``nav_msgs/OccupancyGrid``: ``np.reshape(msg.data, (msg.info.height, msg.info.width))``.
-        resolution: metres per cell.
-        origin: world position in metres of the lower-left corner.
-        threshold: cells above this are walls.
-        unknown_is_wall: true to return unknown cells as walls, false as free.
-
-    Returns:
-        Walls, shape (width, height), indexed ``[x, y]``, and the grid they lie on.
+    Cells have shape (height, width), and values 0 (free) to 100 (occupied), -1 unknown; row 0 is the *bottom*, as in
+    ``nav_msgs/OccupancyGrid``: ``np.reshape(msg.data, (msg.info.height, msg.info.width))``. Cells above the threshold
+    are walls, and unknown ones if ``unknown_is_wall``. ``resolution`` is in metres per cell, and ``origin`` is the
+    world position in metres of the lower-left corner.
 
     Raises `BadInput` for another shape, or a value outside -1..100; the message names the cell.
     """

@@ -201,8 +201,7 @@ def write_occupancy_grid(
 ) -> Path:  # fmt: skip
     """Write a map as the one message of a recording, an OccupancyGrid. Returns the path.
 
-    ``occupancy``, ``grid``, ``observed`` and ``thresholds`` are those of `bayesmap.io.ros.maps.in_percent`. Raises
-    `BadInput` as `in_percent`, for another ending, or a file that cannot be written.
+    Arguments and errors are those of `bayesmap.io.ros.maps.in_percent` and `Recorder`.
     """
     from bayesmap.io.ros.maps import in_percent
 
@@ -220,10 +219,9 @@ def write_grid_map(
     path: str | os.PathLike[str], layers: Mapping[str, ArrayLike], grid: Grid, observed: ArrayLike | None = None, *,
     stamp_s: float | None = None,
 ) -> Path:  # fmt: skip
-    """Write layers (see `as_layers`) as the one message of a recording, a GridMap. Returns the path.
+    """Write layers (see `as_layers`), the first as the basic layer, as the one message of a recording, a GridMap.
 
-    The first layer is the basic layer. Raises `BadInput` for layers that do not fit, another ending, or a file that
-    cannot be written.
+    Raises `BadInput` for layers that do not fit, another ending, or a file that cannot be written.
     """
     checked, ros = as_layers(grid, layers, observed), Recorder(path)
     length_m = np.array(grid.shape) * grid.resolution
@@ -254,10 +252,9 @@ def _matrix(ros: Recorder, values: NDArray[np.float32]) -> Any:
 
 
 def write_trajectory_recording(path: str | os.PathLike[str], trajectory: Trajectory, *, frame: str = FRAME) -> Path:
-    """Write a trajectory as a recording, whole or not at all. Returns the path.
+    """Write a trajectory as a recording, whole or not at all; without stamps, poses get 0, 1, 2 and so on, in seconds.
 
-    Poses without stamps get stamps 0, 1, 2 and so on, in seconds. Raises `BadInput` for no pose, another ending, or a
-    file that cannot be written.
+    Raises `BadInput` for no pose, another ending, or a file that cannot be written.
     """
     if len(trajectory) == 0:
         raise BadInput("trajectory: there is no pose to write")
@@ -284,13 +281,9 @@ def write_trajectory_recording(path: str | os.PathLike[str], trajectory: Traject
 def write_scans(path: str | os.PathLike[str], scans: Scans, base: ArrayLike, mount: Sequence[float]) -> Path:
     """Write scans as a robot records them: /scan, odometry in /tf, and the laser's place in /tf_static.
 
-    Args:
-        path: the recording.
-        scans: scans of one fan of beams, with stamps of 1 ns and later.
-        base: poses of the robot's base as odometry reports them, shape (S, 3).
-        mount: pose of the laser in the frame of the base.
-
-    Raises `BadInput` for scans without stamps, another ending, or a file that cannot be written.
+    The scans have one fan of beams, and stamps of 1 ns and later. ``base`` are the poses of the robot's base as
+    odometry reports them, shape (S, 3), and ``mount`` is the pose of the laser in the frame of the base. Raises
+    `BadInput` for scans without stamps, another ending, or a file that cannot be written.
     """
     if scans.stamps_s is None or scans.own_angles_rad is not None:
         raise BadInput("recording: scans need stamps and one fan of beams")

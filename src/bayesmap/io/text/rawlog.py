@@ -49,10 +49,7 @@ class UnreadableObject(Exception):
 
 @dataclass(frozen=True)
 class Header:
-    """The header of an object: its class without namespace, the version of its layout, and the position of its data.
-
-    ``ended`` is true if `END` follows the data.
-    """
+    """An object's class without namespace, version, position of data, and whether `END` follows them."""
 
     name: str
     version: int
