@@ -194,7 +194,7 @@ def surfaces_figure(
     longest_m = 1.5 * grid.resolution
     draw_surfaces(axes, means_world, covariances_m2, weights, width_pt=width_pt, longest_m=longest_m)
     ink = tuple(palette.probability_colors(2)[1])
-    keys = [Line2D([], [], color=ink, alpha=a, linewidth=2.0, label=f"stops {a:.0%}") for a in (1.0, 0.5, 0.2)]
+    keys = [Line2D([], [], color=ink, alpha=a, linewidth=2.0, label=f"stops {100 * a:.0f} %") for a in (1.0, 0.5, 0.2)]
     figure.legend(
         handles=[*keys, maps.hatch_patch()], loc="outside lower center", ncols=4, frameon=False, fontsize=9,
         labelcolor=palette.TEXT,
