@@ -142,9 +142,9 @@ def test_what_ray_prints_after_the_run_is_not_in_the_document(logs, tmp_path, sh
     """A node that died is reported some time later, on what Python takes for standard output then."""
 
     def and_print(made):
-        def wrapped(*given):
+        def wrapped(*given, **options):
             print("(raylet) Raylet is terminated.")
-            return made(*given)
+            return made(*given, **options)
 
         return wrapped
 
