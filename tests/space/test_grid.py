@@ -50,7 +50,7 @@ def test_a_wild_pose_is_named(walk, x_m):
     with pytest.raises(bm.BadInput) as refused:
         bm.Grid.covering(moved(walk, 7, x_m), 0.1)
     message = str(refused.value)
-    assert f"scan 7 (at 7.000 s) was taken at ({x_m:.6g}, " in message
+    assert f"scan 7 (7.0 s after the first scan) was taken at ({x_m:.6g}, " in message
     assert "correct its pose in the log or leave it out" in message
     assert len(message) < 300
 
