@@ -1,7 +1,8 @@
 """Start Warp, put arrays on a device, and launch a kernel on all cores.
 
-Warp runs a CPU launch on the calling thread and releases the GIL, so `launch` runs one slice per thread. Kernels take
-the index of their first element first, and write only to their own elements: threads do not change the result.
+Warp runs a CPU launch on the calling thread and releases the GIL, so `launch` runs one slice per thread, the first on
+its own. Kernels take the index of their first element first, and write only to their own elements: threads do not
+change the result.
 """
 
 import contextlib
@@ -152,5 +153,8 @@ def launch(
         def run(i: int) -> None:
             wp.launch(kernel, dim=edges[i + 1] - edges[i], inputs=[edges[i], *arguments], device=device)
 
-        list(thread_pool(threads).map(run, range(threads)))
+        others = [thread_pool(threads - 1).submit(run, i) for i in range(1, threads)]
+        run(0)
+        for other in others:
+            other.result()
     return [a.numpy() for a, value in zip(arguments, inputs, strict=True) if isinstance(value, tuple)]

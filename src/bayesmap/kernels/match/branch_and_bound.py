@@ -18,6 +18,8 @@ from bayesmap.kernels.device import Float64Rows, Float64s, Floats, Int32s, Ints,
 wp.set_module_options({"enable_backward": False})
 
 
+FEW_POINTS = 100_000  # fewer points, at all angles of all jobs, are looked up before a second thread has started
+
 Pyramid = wp.array4d(dtype=wp.uint8)  # likelihood grids with their maxima over blocks: (grids, levels, nx, ny)
 
 
@@ -110,11 +112,12 @@ def block_bound(jobs: SearchJobs, pyramid: Pyramid, j: int, row: int, level: int
 
 
 @wp.kernel
-def turn_points(
+def bound_blocks(
     first: int, jobs: SearchJobs, job_of_row: Int32s, angle: Float64s, centre: Vec2ds, origin: Vec2ds,
-    resolution: wp.float64, points: Vec2ds,
+    resolution: wp.float64, points: Vec2ds, node_begin: Int32s, pyramid: Pyramid, roots: Roots,
 ):  # fmt: skip
-    """One thread per angle of a job: compute the cells of its points with the sensor at the window's centre."""
+    """One thread per angle of a job: compute the cells of its points, and bound the scores of the largest blocks."""
+    # The cells are those with the sensor at the window's centre.
     row = first + wp.tid()
     j = job_of_row[row]
     corner = origin[jobs.grid[j]]
@@ -127,13 +130,6 @@ def turn_points(
         x = int(wp.floor((x0 + cosine * p[0] - sine * p[1]) / resolution))
         y = int(wp.floor((y0 + sine * p[0] + cosine * p[1]) / resolution))
         jobs.cells[row, k] = wp.vec2i(x, y)
-
-
-@wp.kernel
-def bound_blocks(first: int, jobs: SearchJobs, job_of_row: Int32s, node_begin: Int32s, pyramid: Pyramid, roots: Roots):
-    """One thread per angle of a job: bound the scores of the largest blocks."""
-    row = first + wp.tid()
-    j = job_of_row[row]
     level = pyramid.shape[1] - 1
     width = 1 << level
     n = node_begin[row]
@@ -268,6 +264,8 @@ def search_grids(
     """
     pyramid, device = grids.pyramid, grids.device
     count, strands_of_all = len(windows.grid), len(windows.grid) * strands
+    looked_up = len(windows.angles_rad) * len(windows.points) / max(count, 1)
+    threads = 1 if looked_up < FEW_POINTS else threads
     jobs, roots = _prepared(grids, windows, threads)
     deepest = 4 * pyramid.shape[1] + 4  # four children a level
     taken = devices.pack(Taken, device, apart=wp.vec3i(*modes.apart))
@@ -300,21 +298,24 @@ def _prepared(grids: Any, windows: Windows, threads: int | None) -> tuple[Any, A
     count, rows = len(windows.grid), len(windows.angles_rad)
     width = 1 << (pyramid.shape[1] - 1)
     half_x, half_y = np.ascontiguousarray(windows.half_cells.T)
+    # Arrays that kernels fill whole are not zeroed first.
+    most = int(np.diff(windows.point_offsets).max(initial=1))
+    cells = wp.empty((rows, most), dtype=wp.vec2i, device=device)
     jobs = devices.pack(
         SearchJobs, device, point_begin=windows.point_offsets[:-1], point_end=windows.point_offsets[1:],
         grid=windows.grid, half_x=half_x, half_y=half_y, across=windows.across, row_cost=windows.angle_costs,
-        cells=(rows, int(np.diff(windows.point_offsets).max(initial=1))),
+        cells=cells,
     )  # fmt: skip
     job_of_row = np.repeat(np.arange(count, dtype=np.int32), np.diff(windows.row_offsets))
     blocks = np.prod(2 * windows.half_cells // width + 1, axis=1)
     node_begin = np.concatenate([[0], np.cumsum(blocks[job_of_row])])
     job_nodes = node_begin[windows.row_offsets].astype(np.int32)
-    inputs = [jobs, job_of_row, windows.angles_rad, windows.centres, grids.origins, grids.resolution, windows.points]
-    devices.launch(turn_points, rows, inputs, device, threads)
-
-    nodes = (int(node_begin[-1]),)
-    roots = devices.pack(Roots, device, bound=nodes, node=nodes)
-    devices.launch(bound_blocks, rows, [jobs, job_of_row, node_begin[:-1], pyramid, roots], device, threads)
+    nodes = int(node_begin[-1])
+    bound, node = (wp.empty(nodes, dtype=kind, device=device) for kind in (wp.float64, wp.vec3i))
+    roots = devices.pack(Roots, device, bound=bound, node=node)
+    inputs = [jobs, job_of_row, windows.angles_rad, windows.centres, grids.origins, grids.resolution, windows.points,
+              node_begin[:-1], pyramid, roots]  # fmt: skip
+    devices.launch(bound_blocks, rows, inputs, device, threads)
     bounds = roots.bound.numpy()
     if count == 1:
         order = np.argsort(-bounds, kind="stable")

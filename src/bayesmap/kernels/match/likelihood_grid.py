@@ -31,6 +31,8 @@ def draw_points(
     low = nx * band / bands
     high = nx * (band + 1) / bands
     radius = stamp.shape[0] / 2
+    peak = stamp[radius, radius]
+    unique = stamp[radius, radius + 1] < peak
     for e in range(offsets[g], offsets[g + 1]):
         s = scan[e]
         p = pose[e]
@@ -56,6 +58,10 @@ def draw_points(
                 cy = int(wp.floor((p[1] + sine * px + cosine * py - origin[g][1]) / resolution))
                 if cy < -radius or cy >= ny + radius:
                     continue
+                # A cell with the peak's value is the middle of a stamp that was drawn before.
+                if unique and cx >= low and cx < high and cy >= 0 and cy < ny:
+                    if pyramid[g, 0, cx, cy] == peak:
+                        continue
                 for x in range(wp.max(cx - radius, low), wp.min(cx + radius + 1, high)):
                     for y in range(wp.max(cy - radius, 0), wp.min(cy + radius + 1, ny)):
                         value = stamp[x - cx + radius, y - cy + radius]
@@ -94,9 +100,7 @@ def render_grids(
     grids, device = len(offsets) - 1, geometry.device
     if pyramid is None:
         pyramid = wp.empty((grids, levels, *shape), dtype=wp.uint8, device=device)
-    bands = 1 if device == "cpu" and grids > 1 else (4 if device == "cpu" else 64)
-    if device == "cpu" and threads == 1:
-        bands = 1
+    bands = 1 if device == "cpu" else 64
     inputs = [bands, offsets, scan, poses_world, scan_arrays(geometry), spacing_m, origins, resolution, stamp, pyramid]
     if device == "cpu":
         host = pyramid.numpy()
