@@ -154,6 +154,16 @@ def test_the_point_error_grows_with_the_noise_and_the_residuals_do_not():
     assert left[1] < 0.85 * left[0]
 
 
+def test_a_fifth_of_the_pairs_tells_the_point_error(monkeypatch):
+    _, geometry, found = aligned(0.04)
+    every = point_error(geometry, found)
+    monkeypatch.setattr(alignment, "ERROR_PAIRS", len(found.pairs) // 5)
+    some = point_error(geometry, found)
+    assert some.sigma_m != every.sigma_m
+    assert some.sigma_m == pytest.approx(every.sigma_m, rel=0.05)
+    assert some.response == pytest.approx(every.response, rel=0.05)
+
+
 @pytest.mark.parametrize("noise_m", [0.01, 0.04])
 def test_covariances_have_the_size_of_the_errors_for_any_noise(noise_m):
     """The twin: residuals alone claim twice too much of a noisy laser."""

@@ -206,6 +206,7 @@ def _number_within(groups: NDArray[np.int32]) -> NDArray[np.intp]:
 
 
 COUNTED_AGAIN = 0.1  # share of points' variance that shared errors of pairs contain too, as in simulated offices
+ERROR_PAIRS = 8000  # least number of pairs of scans, if there are so many, on which the error of points is measured
 LEVER_M = 4.0  # typical distance of points from the laser, metres, for turns
 LEAST_RESPONSE, MOST_RESPONSE = 0.2, 1.0  # bounds on k; if forces hardly respond to a shift, there are too few points
 
@@ -229,9 +230,11 @@ def point_error(geometry: ScanGeometry, aligned: Alignment) -> PointError:
     reach, scale = geometry.reach_m(*REACH_M)[1], geometry.scale_m(*SCALE_M)[1]
     relative = between(aligned.poses[pairs.target], aligned.poses[pairs.source])
     weights = _beam_weights(geometry, pairs, relative, reach, scale)
+    every = slice(None, None, max(1, len(pairs) // ERROR_PAIRS))
+    source, target, relative = pairs.source[every].copy(), pairs.target[every].copy(), relative[every]
 
     def sums(shift: Floats) -> tuple[Floats, Floats, Floats]:
-        moved = pairs.source, pairs.target, relative + shift
+        moved = source, target, relative + shift
         second, _, first, totals = pair_sums(geometry, weights, *moved, reach, scale, ALIKE, threads=geometry.threads)
         return second, first, totals
 
